@@ -1,0 +1,1 @@
+//! Analyses: plain functions over a system.

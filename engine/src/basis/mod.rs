@@ -1,0 +1,109 @@
+//! Bases for the displacement fields of a beam, x ∈ [0, L], clamped at the root: each a file.
+
+use std::ops::Range;
+
+/// The largest number of functions of any basis that do not vanish in one cell, and so the size of
+/// buffer that is always enough for [`Basis::eval`] is [`Basis::max_support`].
+pub type Support = Range<usize>;
+
+/// What the coefficient of a basis function is: sets its unit and its scale.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// A displacement [m] at its anchor.
+    Value,
+    /// A slope [1] at its anchor.
+    Slope,
+    /// The amplitude [m] of a shape.
+    Amplitude,
+}
+
+/// Which displacement field a basis is for: it decides what the clamp removes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Field {
+    /// Axial field: φ(0) = 0.
+    Axial,
+    /// Transverse field: φ(0) = φ′(0) = 0.
+    Transverse,
+}
+
+/// How well the functions are determined by the numbers that define them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Conditioning {
+    /// Largest condition number (1-norm) of the matrices inverted to form the basis; 1 if none is.
+    pub number: f64,
+    /// What was inverted, for people.
+    pub of: &'static str,
+}
+
+/// A finite set of functions φ_i(x) on [0, L] that satisfy the clamp at x = 0.
+///
+/// The beam is cut into cells; inside a cell every function is smooth, and the functions that do
+/// not vanish there are a contiguous range of indices (so that banded storage is natural).
+pub trait Basis: Send + Sync + std::fmt::Debug {
+    /// Number of functions.
+    fn len(&self) -> usize;
+
+    /// Whether the basis has no function at all.
+    fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Boundaries of the cells: ascending, first 0, last L [m].
+    fn cells(&self) -> &[f64];
+
+    /// Gauss points a cell needs so that products of two functions (or derivatives) and a linear
+    /// weight are integrated exactly, or to working precision where they are not polynomials.
+    fn points_per_cell(&self) -> usize;
+
+    /// The functions that do not vanish in a cell.
+    fn support(&self, cell: usize) -> Support;
+
+    /// Largest `support(cell).len()`.
+    fn max_support(&self) -> usize {
+        (0..self.cells().len().saturating_sub(1)).map(|c| self.support(c).len()).max().unwrap_or(0)
+    }
+
+    /// Derivative `derivative` (0 to 3) of the functions `support(cell)` at `x` of that cell:
+    /// `out[k]` = φ⁽ᵈ⁾ of function `support.start + k`. Returns the support.
+    fn eval(&self, cell: usize, x: f64, derivative: usize, out: &mut [f64]) -> Support;
+
+    /// Where along the beam function `i` belongs [m]: unknowns are numbered in this order.
+    fn anchor(&self, i: usize) -> f64;
+
+    /// What the coefficient of function `i` is.
+    fn role(&self, i: usize) -> Role;
+
+    /// Conditioning of the matrices behind the functions.
+    fn conditioning(&self) -> Conditioning;
+
+    /// The cell in which `x` lies (the right one at a boundary, the last one at L).
+    fn locate(&self, x: f64) -> usize {
+        let cells = self.cells();
+        let inner = &cells[1..cells.len().saturating_sub(1).max(1)];
+        inner.partition_point(|&end| end <= x)
+    }
+}
+
+/// A basis that cannot be built.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum BasisError {
+    /// The moment matrix is singular to working precision.
+    #[error(
+        "the moment matrix of {basis} is singular to working precision: condition number {number:.1e} at {place} ({parameters}); {advice}"
+    )]
+    Singular {
+        /// Basis as in a case file.
+        basis: &'static str,
+        /// Condition number.
+        number: f64,
+        /// Where, for people.
+        place: String,
+        /// The parameters in force.
+        parameters: String,
+        /// What to try.
+        advice: &'static str,
+    },
+    /// The parameters make no basis.
+    #[error("{0}")]
+    Invalid(String),
+}

@@ -1,0 +1,1 @@
+//! Case files: the only module that knows every name.

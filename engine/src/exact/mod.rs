@@ -1,0 +1,1 @@
+//! Closed forms with their sources: library code that tests and reports share.

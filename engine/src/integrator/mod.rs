@@ -1,0 +1,161 @@
+//! Time integrators: each a file, each behind the one trait [`Integrator`].
+
+use crate::system::{State, System};
+
+/// What an integrator is: for listings, reports and step control.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Info {
+    /// Name as in a case file, e.g. `radau`.
+    pub name: &'static str,
+    /// Order of convergence of the configuration.
+    pub order: usize,
+    /// Order of the embedded error estimate, for step control; `None` for fixed-step methods.
+    pub estimate_order: Option<usize>,
+    /// Whether it solves equations (and so has no stability limit of its own).
+    pub implicit: bool,
+}
+
+/// Work done so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Steps accepted.
+    pub steps: u64,
+    /// Steps attempted and thrown away (error too large or no convergence).
+    pub rejected: u64,
+    /// Newton iterations.
+    pub iterations: u64,
+    /// Evaluations of the residual.
+    pub residuals: u64,
+    /// Tangents assembled.
+    pub tangents: u64,
+    /// Factorisations.
+    pub factorizations: u64,
+    /// Forward and back substitutions.
+    pub solves: u64,
+}
+
+/// What one successful step reports.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StepReport {
+    /// Newton iterations (0 for explicit methods).
+    pub iterations: u32,
+    /// Estimated local error over the tolerance (≤ 1 is acceptable); `None` without an estimate.
+    pub error: Option<f64>,
+}
+
+/// Why a step failed. Every variant says when, how large and what to try.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum StepError {
+    /// Newton's method did not converge.
+    #[error(
+        "no convergence at t = {time:.6} s with a step of {step:.3e} s: after {iterations} iterations the increment is {size:.2e} times the tolerance, largest in the {worst}; try a smaller step"
+    )]
+    NotConverged {
+        /// Time at the start of the step [s].
+        time: f64,
+        /// Step [s].
+        step: f64,
+        /// Iterations done.
+        iterations: u32,
+        /// Scaled increment.
+        size: f64,
+        /// Label of the worst unknown.
+        worst: String,
+    },
+    /// The iteration matrix is singular.
+    #[error(
+        "singular tangent at t = {time:.6} s with a step of {step:.3e} s: relative pivot {pivot:.1e} at the {worst}"
+    )]
+    Singular {
+        /// Time at the start of the step [s].
+        time: f64,
+        /// Step [s].
+        step: f64,
+        /// Relative pivot.
+        pivot: f64,
+        /// Label of the unknown at which elimination broke down.
+        worst: String,
+    },
+    /// A number that is not finite appeared.
+    #[error(
+        "the solution is no longer finite at t = {time:.6} s with a step of {step:.3e} s (first in the {worst}); try a smaller step"
+    )]
+    NotFinite {
+        /// Time at the start of the step [s].
+        time: f64,
+        /// Step [s].
+        step: f64,
+        /// Label of the first bad unknown.
+        worst: String,
+    },
+    /// The step is beyond the stability limit of an explicit method.
+    #[error(
+        "the step {step:.6e} s is beyond the stability limit {limit:.6e} s of {method} (largest frequency {frequency:.4e} rad/s at t = {time:.3} s); use a step below {limit:.3e} s or an implicit integrator"
+    )]
+    Unstable {
+        /// Method as in a case file.
+        method: &'static str,
+        /// Time at which the frequency was found [s].
+        time: f64,
+        /// Step asked for [s].
+        step: f64,
+        /// Largest stable step [s].
+        limit: f64,
+        /// Largest angular frequency of the system [rad/s].
+        frequency: f64,
+    },
+    /// Step control drove the step below what arithmetic resolves.
+    #[error(
+        "the step fell to {step:.3e} s at t = {time:.6} s and the error is still {error:.2e} times the tolerance, largest in the {worst}; loosen the tolerance or look for a discontinuity in the motion there"
+    )]
+    StepTooSmall {
+        /// Time at the start of the step [s].
+        time: f64,
+        /// Step [s].
+        step: f64,
+        /// Scaled error (infinite when Newton's method failed).
+        error: f64,
+        /// Label of the worst unknown.
+        worst: String,
+    },
+}
+
+/// A time integrator. Its history and scratch are its own; the states are the caller's.
+///
+/// Protocol: [`start`](Integrator::start) once; then [`step`](Integrator::step) any number of times
+/// from the same state (a rejected attempt leaves the history as it was), and
+/// [`accept`](Integrator::accept) when the attempt is kept. After `accept`, and until the next
+/// `step`, [`interpolate`](Integrator::interpolate) gives the solution anywhere in the accepted step.
+/// No method but `start` and `restart` allocates.
+pub trait Integrator {
+    /// What this method is.
+    fn info(&self) -> &Info;
+
+    /// Prepares for integrating `system` from `state` with steps of about `step`; completes
+    /// `state` with consistent accelerations (and multipliers).
+    fn start(&mut self, system: &mut dyn System, state: &mut State, step: f64) -> Result<(), StepError>;
+
+    /// Attempts one step of size `h` from `from`, writing the new state to `to`.
+    fn step(
+        &mut self,
+        system: &mut dyn System,
+        from: &State,
+        h: f64,
+        to: &mut State,
+    ) -> Result<StepReport, StepError>;
+
+    /// Commits the last attempt to the history.
+    fn accept(&mut self, from: &State, to: &State);
+
+    /// The solution at time `t` inside the last accepted step, between `from` and `to`.
+    fn interpolate(&self, from: &State, to: &State, t: f64, out: &mut State);
+
+    /// Forgets the history after a discontinuity; completes `state` as [`Integrator::start`] does.
+    fn restart(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), StepError>;
+
+    /// Index of the unknown with the largest scaled error or increment in the last attempt.
+    fn worst(&self) -> usize;
+
+    /// Work done since `start`.
+    fn counters(&self) -> Counters;
+}

@@ -1,0 +1,27 @@
+//! Linear algebra of the hot loop: a bordered band matrix with its own LU, and a dense fallback.
+//!
+//! The matrices of a beam are narrow bands with a few dense rows and columns (the hub angle, and
+//! later multipliers). General sparse solvers pay for that border; here it is eliminated.
+
+mod band;
+mod bordered;
+mod dense;
+mod matrix;
+mod scalar;
+
+pub use band::Band;
+pub use bordered::Bordered;
+pub use dense::Dense;
+pub use matrix::{Matrix, Stamp, Structure};
+pub use scalar::Scalar;
+
+/// A matrix that cannot be factored: its pivot `pivot` (relative to the largest entry) is too small
+/// at unknown `index`.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("matrix is singular to working precision at unknown {index} (relative pivot {pivot:.1e})")]
+pub struct Singular {
+    /// Index of the unknown at which elimination broke down.
+    pub index: usize,
+    /// Size of the pivot over the largest entry of the matrix.
+    pub pivot: f64,
+}

@@ -1,0 +1,1 @@
+//! Files: trajectory, summary, plots. Everything is written whole or not at all.
