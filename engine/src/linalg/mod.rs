@@ -8,11 +8,13 @@ mod bordered;
 mod dense;
 mod matrix;
 mod scalar;
+#[cfg(test)]
+mod tests;
 
 pub use band::Band;
 pub use bordered::Bordered;
 pub use dense::Dense;
-pub use matrix::{Matrix, Stamp, Structure};
+pub use matrix::{Matrix, Stamp, Storage, Structure};
 pub use scalar::Scalar;
 
 /// A matrix that cannot be factored: its pivot `pivot` (relative to the largest entry) is too small

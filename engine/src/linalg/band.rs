@@ -1,0 +1,269 @@
+//! Band matrix with LU by partial pivoting.
+//!
+//! Row-wise storage: row i holds columns i − l … i + u + l (the last l for the fill that row
+//! interchanges bring), so that elimination runs along contiguous memory. Without interchanges the
+//! elimination stays within the band, and the cost is n·l·u multiplications.
+
+use super::{Scalar, Singular};
+
+/// A pivot below this share of its column is taken for nought when the border can replace it.
+const VANISHING: f64 = 1e-12;
+
+/// Square band matrix with `lower` and `upper` half-bandwidths; factored in place.
+#[derive(Clone, Debug)]
+pub struct Band<T> {
+    n: usize,
+    lower: usize,
+    upper: usize,
+    width: usize,
+    data: Vec<T>,
+    /// Row exchanged with row k at step k, minus k.
+    pivots: Vec<u32>,
+    /// 1 / U_kk.
+    inverse: Vec<T>,
+    /// Number of entries of row k of U right of the diagonal.
+    reach: Vec<u32>,
+    /// Pivots that were too small and were replaced: see [`Band::factor`].
+    deflated: Vec<(usize, f64)>,
+    /// Largest entry of each column before elimination, where deflation is asked for.
+    column_size: Vec<f64>,
+}
+
+impl<T: Scalar> Band<T> {
+    /// The n × n zero band matrix.
+    pub fn new(n: usize, lower: usize, upper: usize) -> Band<T> {
+        let lower = lower.min(n.saturating_sub(1));
+        let upper = upper.min(n.saturating_sub(1));
+        let width = 2 * lower + upper + 1;
+        Band {
+            n,
+            lower,
+            upper,
+            width,
+            data: vec![T::ZERO; n * width],
+            pivots: vec![0; n],
+            inverse: vec![T::ZERO; n],
+            reach: vec![0; n],
+            deflated: Vec::with_capacity(super::bordered::DEFLATIONS),
+            column_size: vec![0.0; n],
+        }
+    }
+
+    /// Order of the matrix.
+    pub fn order(&self) -> usize {
+        self.n
+    }
+
+    /// Half-bandwidth below the diagonal.
+    pub fn lower(&self) -> usize {
+        self.lower
+    }
+
+    /// Half-bandwidth above the diagonal.
+    pub fn upper(&self) -> usize {
+        self.upper
+    }
+
+    /// Length of a stored row, 2·lower + upper + 1.
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// All stored entries, row after row.
+    pub fn data(&self) -> &[T] {
+        &self.data
+    }
+
+    /// All stored entries, row after row, to be changed.
+    pub fn data_mut(&mut self) -> &mut [T] {
+        &mut self.data
+    }
+
+    /// Sets every entry to zero.
+    pub fn clear(&mut self) {
+        self.data.fill(T::ZERO);
+    }
+
+    /// Entry (i, j), zero outside the band.
+    pub fn get(&self, i: usize, j: usize) -> T {
+        if j + self.lower < i || j > i + self.upper {
+            return T::ZERO;
+        }
+        self.data[i * self.width + j + self.lower - i]
+    }
+
+    /// Adds `x` to entry (i, j), which must lie within the band.
+    #[inline]
+    pub fn add(&mut self, i: usize, j: usize, x: T) {
+        debug_assert!(j + self.lower >= i && j <= i + self.upper, "({i}, {j}) is outside the band");
+        self.data[i * self.width + j + self.lower - i] += x;
+    }
+
+    /// y = A x, before factoring.
+    pub fn multiply(&self, x: &[T], y: &mut [T]) {
+        y.fill(T::ZERO);
+        self.multiply_add(T::ONE, x, y);
+    }
+
+    /// y += w A x, before factoring.
+    pub fn multiply_add(&self, w: T, x: &[T], y: &mut [T]) {
+        let (l, band) = (self.lower, self.lower + self.upper + 1);
+        for (i, (row, y)) in self.data.chunks_exact(self.width).zip(y).enumerate() {
+            let first = i.saturating_sub(l);
+            let last = (i + self.upper + 1).min(self.n);
+            let mut sum = T::ZERO;
+            if i >= l && i + self.upper < self.n {
+                for (a, x) in row[..band].iter().zip(&x[i - l..i - l + band]) {
+                    sum += *a * *x;
+                }
+            } else {
+                for (a, x) in row[first + l - i..].iter().zip(&x[first..last]) {
+                    sum += *a * *x;
+                }
+            }
+            *y += w * sum;
+        }
+    }
+
+    /// LU factorisation in place with row interchanges.
+    ///
+    /// A pivot below working precision would end the elimination. When `deflate` allows it, the
+    /// pivot is replaced by the size of the matrix instead and noted in [`Band::deflated`]: the
+    /// factors are then those of A + Σ δ_k (L e_k) e_kᵀ, and the caller's border undoes the change.
+    pub fn factor(&mut self, deflate: bool) -> Result<(), Singular> {
+        match (self.lower, self.upper) {
+            (5, 5) => self.eliminate::<5>(deflate),
+            (7, 7) => self.eliminate::<7>(deflate),
+            _ => self.eliminate::<0>(deflate),
+        }
+    }
+
+    /// Elimination; `FIXED` > 0 gives the common half-bandwidths to the compiler, so that it unrolls
+    /// the innermost loop.
+    fn eliminate<const FIXED: usize>(&mut self, deflate: bool) -> Result<(), Singular> {
+        let (n, width) = (self.n, self.width);
+        let (l, u) = if FIXED > 0 { (FIXED, FIXED) } else { (self.lower, self.upper) };
+        self.deflated.clear();
+        if deflate {
+            self.measure_columns();
+        }
+        let largest = self.data.iter().map(|x| x.size()).fold(0.0, f64::max);
+        let floor = largest * f64::EPSILON * f64::EPSILON;
+        // Columns up to which earlier interchanges have filled the rows.
+        let mut filled = 0;
+        for k in 0..n {
+            let last_row = (k + l).min(n - 1);
+            let mut p = k;
+            let mut best = self.data[k * width + l].size();
+            for i in k + 1..=last_row {
+                let size = self.data[i * width + k + l - i].size();
+                if size > best {
+                    (p, best) = (i, size);
+                }
+            }
+            filled = filled.max((p + u).min(n - 1)).max(k);
+            let count = filled - k;
+            self.pivots[k] = (p - k) as u32;
+            self.reach[k] = count as u32;
+            // Judged against its own column, so that unknowns in different units do not make a sound
+            // band look singular. Written so that a NaN pivot is refused too.
+            let small = if deflate { floor.max(VANISHING * self.column_size[k]) } else { floor };
+            if !(best > small) {
+                if !deflate || !best.is_finite() || self.deflated.len() == super::bordered::DEFLATIONS {
+                    return Err(Singular { index: k, pivot: best / largest });
+                }
+                let delta = if self.column_size[k] > 0.0 { self.column_size[k] } else { 1.0 };
+                self.data[k * width + l] += T::real(delta);
+                self.deflated.push((k, delta));
+            }
+            let rows = &mut self.data[k * width..(last_row + 1) * width];
+            if p != k {
+                // Entry (k, k + j) against entry (p, k + j).
+                let (head, tail) = rows.split_at_mut((p - k) * width);
+                let start = l - (p - k);
+                head[l..l + count + 1].swap_with_slice(&mut tail[start..start + count + 1]);
+            }
+            let (pivot_row, below) = rows.split_at_mut(width);
+            let inverse = T::ONE / pivot_row[l];
+            self.inverse[k] = inverse;
+            if FIXED > 0 && count == FIXED {
+                let pivot_row = &pivot_row[l + 1..l + 1 + FIXED];
+                for (r, row) in below.chunks_exact_mut(width).enumerate() {
+                    let row = &mut row[l - 1 - r..l + FIXED - r];
+                    let factor = row[0] * inverse;
+                    row[0] = factor;
+                    for j in 0..FIXED {
+                        row[j + 1] -= factor * pivot_row[j];
+                    }
+                }
+            } else {
+                let pivot_row = &pivot_row[l + 1..l + 1 + count];
+                for (r, row) in below.chunks_exact_mut(width).enumerate() {
+                    let (first, rest) = row[l - 1 - r..].split_at_mut(1);
+                    let factor = first[0] * inverse;
+                    first[0] = factor;
+                    for (a, u) in rest.iter_mut().zip(pivot_row) {
+                        *a -= factor * *u;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn measure_columns(&mut self) {
+        self.column_size.fill(0.0);
+        for (i, row) in self.data.chunks_exact(self.width).enumerate() {
+            let first = i.saturating_sub(self.lower);
+            let last = (i + self.upper + 1).min(self.n);
+            let sizes = &mut self.column_size[first..last];
+            for (size, a) in sizes.iter_mut().zip(&row[first + self.lower - i..]) {
+                *size = size.max(a.size());
+            }
+        }
+    }
+
+    /// The pivots that [`Band::factor`] replaced, each with the amount δ that was added.
+    pub fn deflated(&self) -> &[(usize, f64)] {
+        &self.deflated
+    }
+
+    /// b ← L⁻¹ P b after factoring.
+    pub fn forward(&self, b: &mut [T]) {
+        let (l, width) = (self.lower, self.width);
+        for k in 0..self.n {
+            let p = self.pivots[k] as usize;
+            if p != 0 {
+                b.swap(k, k + p);
+            }
+            let bk = b[k];
+            let last = (k + l).min(self.n - 1);
+            let mut at = (k + 1) * width + l;
+            for x in &mut b[k + 1..last + 1] {
+                at -= 1;
+                *x -= self.data[at] * bk;
+                at += width;
+            }
+        }
+    }
+
+    /// b ← U⁻¹ b after factoring.
+    pub fn backward(&self, b: &mut [T]) {
+        let (l, width) = (self.lower, self.width);
+        for k in (0..self.n).rev() {
+            let reach = self.reach[k] as usize;
+            let row = &self.data[k * width + l + 1..k * width + l + 1 + reach];
+            let mut sum = b[k];
+            for (a, x) in row.iter().zip(&b[k + 1..k + 1 + reach]) {
+                sum -= *a * *x;
+            }
+            b[k] = sum * self.inverse[k];
+        }
+    }
+
+    /// Solves A x = b in place after [`Band::factor`].
+    pub fn solve(&self, b: &mut [T]) {
+        self.forward(b);
+        self.backward(b);
+    }
+}

@@ -1,0 +1,214 @@
+//! The matrix an integrator owns and a system fills.
+
+use super::{Bordered, Dense, Scalar, Singular};
+use num_complex::Complex64;
+
+/// Shape of a system's tangent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Structure {
+    /// Dense of the given order.
+    Dense {
+        /// Order.
+        order: usize,
+    },
+    /// Band with dense border rows and columns behind.
+    Band {
+        /// Order of the band part.
+        order: usize,
+        /// Half-bandwidth below the diagonal.
+        lower: usize,
+        /// Half-bandwidth above the diagonal.
+        upper: usize,
+        /// Number of dense rows and columns behind the band.
+        border: usize,
+    },
+}
+
+impl Structure {
+    /// A dense matrix of order `n`.
+    pub fn dense(n: usize) -> Structure {
+        Structure::Dense { order: n }
+    }
+
+    /// A band matrix of order `n` with a border.
+    pub fn band(n: usize, lower: usize, upper: usize, border: usize) -> Structure {
+        Structure::Band { order: n, lower, upper, border }
+    }
+
+    /// Order of the whole matrix.
+    pub fn order(&self) -> usize {
+        match *self {
+            Structure::Dense { order } => order,
+            Structure::Band { order, border, .. } => order + border,
+        }
+    }
+
+    /// The cheaper of the band as given and a dense matrix of the same order.
+    pub fn cheaper(self) -> Structure {
+        match self {
+            Structure::Band { order, lower, upper, border } if 2 * lower + upper + 1 >= order => {
+                Structure::dense(order + border)
+            }
+            other => other,
+        }
+    }
+}
+
+/// Numbers that identify the content of a matrix: equal stamps, equal content. A system whose tangent
+/// depends on a few numbers only stamps it with them.
+pub type Stamp = [f64; 6];
+
+/// A square matrix in the storage its [`Structure`] asks for; factored in place.
+#[derive(Clone, Debug)]
+pub struct Matrix<T = f64> {
+    storage: Storage<T>,
+    stamp: Option<Stamp>,
+    /// Stamps of the real and imaginary parts of an assigned complex matrix.
+    parts: Option<(Stamp, Stamp)>,
+    factored: bool,
+}
+
+/// The two storages.
+#[derive(Clone, Debug)]
+pub enum Storage<T> {
+    /// Dense.
+    Dense(Dense<T>),
+    /// Band with border.
+    Band(Bordered<T>),
+}
+
+impl<T: Scalar> Matrix<T> {
+    /// The zero matrix.
+    pub fn new(structure: &Structure) -> Matrix<T> {
+        let storage = match *structure {
+            Structure::Dense { order } => Storage::Dense(Dense::new(order)),
+            Structure::Band { order, lower, upper, border } => {
+                Storage::Band(Bordered::new(order, lower, upper, border))
+            }
+        };
+        Matrix { storage, stamp: None, parts: None, factored: false }
+    }
+
+    /// Order of the matrix.
+    pub fn order(&self) -> usize {
+        match &self.storage {
+            Storage::Dense(a) => a.order(),
+            Storage::Band(a) => a.order(),
+        }
+    }
+
+    /// The storage, for reading.
+    pub fn storage(&self) -> &Storage<T> {
+        &self.storage
+    }
+
+    /// The storage, for writing new content: the matrix is no longer factored, and is unstamped.
+    pub fn begin(&mut self) -> &mut Storage<T> {
+        self.factored = false;
+        self.stamp = None;
+        self.parts = None;
+        &mut self.storage
+    }
+
+    /// Sets every entry to zero.
+    pub fn clear(&mut self) {
+        match self.begin() {
+            Storage::Dense(a) => a.clear(),
+            Storage::Band(a) => a.clear(),
+        }
+    }
+
+    /// The stamp of the content, if it has one.
+    pub fn stamp(&self) -> Option<Stamp> {
+        self.stamp
+    }
+
+    /// Stamps the content.
+    pub fn set_stamp(&mut self, stamp: Option<Stamp>) {
+        self.stamp = stamp;
+    }
+
+    /// Whether the content is already what `stamp` stands for.
+    pub fn holds(&self, stamp: &Stamp) -> bool {
+        self.stamp.as_ref() == Some(stamp)
+    }
+
+    /// Whether the matrix has been factored since it was last written.
+    pub fn is_factored(&self) -> bool {
+        self.factored
+    }
+
+    /// Entry (i, j).
+    pub fn get(&self, i: usize, j: usize) -> T {
+        match &self.storage {
+            Storage::Dense(a) => a.get(i, j),
+            Storage::Band(a) => a.get(i, j),
+        }
+    }
+
+    /// Adds `x` to entry (i, j). For hot loops use the [storage](Matrix::begin) itself.
+    pub fn add(&mut self, i: usize, j: usize, x: T) {
+        self.factored = false;
+        match &mut self.storage {
+            Storage::Dense(a) => a.add(i, j, x),
+            Storage::Band(a) => a.add(i, j, x),
+        }
+    }
+
+    /// y = A x. Only before factoring.
+    pub fn multiply(&self, x: &[T], y: &mut [T]) {
+        debug_assert!(!self.factored, "the entries are overwritten by the factors");
+        match &self.storage {
+            Storage::Dense(a) => a.multiply(x, y),
+            Storage::Band(a) => a.multiply(x, y),
+        }
+    }
+
+    /// Factors in place; `false` when the content was factored already and nothing was done.
+    pub fn factor(&mut self) -> Result<bool, Singular> {
+        if self.factored {
+            return Ok(false);
+        }
+        let result = match &mut self.storage {
+            Storage::Dense(a) => a.factor(),
+            Storage::Band(a) => a.factor(),
+        };
+        if result.is_err() {
+            self.stamp = None;
+            self.parts = None;
+        }
+        result?;
+        self.factored = true;
+        Ok(true)
+    }
+
+    /// Solves A x = b in place after [`Matrix::factor`].
+    pub fn solve(&mut self, b: &mut [T]) {
+        debug_assert!(self.factored, "factor first");
+        match &mut self.storage {
+            Storage::Dense(a) => a.solve(b),
+            Storage::Band(a) => a.solve(b),
+        }
+    }
+}
+
+impl Matrix<Complex64> {
+    /// Sets the matrix to re + i·im (equal structures). When both carry the stamps of the last
+    /// assignment the content, factored or not, is left as it is.
+    pub fn assign(&mut self, re: &Matrix, im: &Matrix) {
+        let parts = re.stamp.zip(im.stamp);
+        if parts.is_some() && parts == self.parts {
+            return;
+        }
+        match (self.begin(), &re.storage, &im.storage) {
+            (Storage::Dense(a), Storage::Dense(re), Storage::Dense(im)) => {
+                for ((a, re), im) in a.data_mut().iter_mut().zip(re.data()).zip(im.data()) {
+                    *a = Complex64::new(*re, *im);
+                }
+            }
+            (Storage::Band(a), Storage::Band(re), Storage::Band(im)) => a.combine(re, im, Complex64::new),
+            _ => debug_assert!(false, "structures differ"),
+        }
+        self.parts = parts;
+    }
+}

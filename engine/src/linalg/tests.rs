@@ -1,0 +1,151 @@
+//! Band, border and deflation against the dense factorisation.
+
+use super::*;
+use num_complex::Complex64;
+
+/// A small deterministic generator of numbers in (−1, 1).
+struct Numbers(u64);
+impl Numbers {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+}
+
+/// A matrix of the structure with random entries (`diagonal` added on the diagonal) and its dense twin.
+fn random_pair(structure: &Structure, diagonal: f64, seed: u64) -> (Matrix, Matrix) {
+    let n = structure.order();
+    let mut numbers = Numbers(seed);
+    let mut a = Matrix::new(structure);
+    let mut b = Matrix::new(&Structure::dense(n));
+    let Structure::Band { order, lower, upper, .. } = *structure else { panic!("a band is asked for") };
+    for i in 0..n {
+        for j in 0..n {
+            let in_band = i < order && j < order && j + lower >= i && j <= i + upper;
+            if in_band || i >= order || j >= order {
+                let x = numbers.next() + if i == j { diagonal } else { 0.0 };
+                a.add(i, j, x);
+                b.add(i, j, x);
+            }
+        }
+    }
+    (a, b)
+}
+
+fn solve_error(mut a: Matrix, mut b: Matrix) -> f64 {
+    let n = a.order();
+    let mut numbers = Numbers(7);
+    let rhs: Vec<f64> = (0..n).map(|_| numbers.next()).collect();
+    let (mut x, mut y) = (rhs.clone(), rhs);
+    assert!(a.factor().unwrap() && !a.factor().unwrap());
+    b.factor().unwrap();
+    a.solve(&mut x);
+    b.solve(&mut y);
+    let scale = y.iter().fold(0.0, |m: f64, y| m.max(y.abs()));
+    x.iter().zip(&y).fold(0.0, |m: f64, (x, y)| m.max((x - y).abs())) / scale
+}
+
+#[test]
+fn band_and_dense_give_the_same_solution() {
+    for (n, lower, upper, border) in
+        [(33, 5, 5, 0), (40, 7, 7, 1), (12, 3, 1, 2), (9, 0, 0, 1), (25, 1, 4, 3), (6, 5, 5, 0), (1, 0, 0, 1)]
+    {
+        for (diagonal, seed) in [(0.0, 3), (4.0, 5), (0.0, 11)] {
+            let (a, b) = random_pair(&Structure::band(n, lower, upper, border), diagonal, seed);
+            let error = solve_error(a, b);
+            assert!(error < 1e-10, "n {n} bands {lower} {upper} border {border}: {error:e}");
+        }
+    }
+}
+
+#[test]
+fn multipliers_inside_the_band_survive_pivoting() {
+    // Saddle point [[2, 1], [1, 0]] blocks chained: zero diagonals at every second unknown.
+    let n = 24;
+    let structure = Structure::band(n, 3, 3, 0);
+    let (mut a, mut b) = (Matrix::new(&structure), Matrix::new(&Structure::dense(n)));
+    let mut add = |i: usize, j: usize, x: f64| {
+        a.add(i, j, x);
+        b.add(i, j, x);
+    };
+    for i in (0..n).step_by(2) {
+        add(i, i, 2.0);
+        add(i, i + 1, 1.0);
+        add(i + 1, i, 1.0);
+        if i + 2 < n {
+            add(i, i + 2, -0.9);
+            add(i + 2, i, -0.7);
+        }
+    }
+    assert!(solve_error(a, b) < 1e-12);
+}
+
+#[test]
+fn a_singular_band_held_by_its_border_is_solved() {
+    // A free chain of springs (rigid translation) whose mean the border fixes.
+    for n in [5, 30] {
+        let structure = Structure::band(n, 1, 1, 1);
+        let (mut a, mut b) = (Matrix::new(&structure), Matrix::new(&Structure::dense(n + 1)));
+        for i in 0..n {
+            for (j, x) in [(i.wrapping_sub(1), -1.0), (i, 2.0), (i + 1, -1.0)] {
+                if j < n {
+                    let x = if i == j && (i == 0 || i == n - 1) { 1.0 } else { x };
+                    a.add(i, j, 1e6 * x);
+                    b.add(i, j, 1e6 * x);
+                }
+            }
+            for m in [&mut a, &mut b] {
+                m.add(i, n, 1.0);
+                m.add(n, i, 1.0);
+            }
+        }
+        assert!(solve_error(a, b) < 1e-9);
+    }
+}
+
+#[test]
+fn a_singular_matrix_is_refused_with_its_unknown() {
+    let mut a: Matrix = Matrix::new(&Structure::band(4, 1, 1, 0));
+    for i in [0, 1, 3] {
+        a.add(i, i, 1.0);
+    }
+    assert_eq!(a.factor().unwrap_err().index, 2);
+    let mut nan: Matrix = Matrix::new(&Structure::band(3, 1, 1, 1));
+    nan.add(0, 0, f64::NAN);
+    assert!(nan.factor().is_err());
+    let mut empty: Matrix = Matrix::new(&Structure::dense(2));
+    assert_eq!(empty.factor().unwrap_err().index, 0);
+}
+
+#[test]
+fn multiplication_inverts_the_solution() {
+    let (mut a, _) = random_pair(&Structure::band(20, 2, 3, 2), 3.0, 17);
+    let x: Vec<f64> = (0..22).map(|i| (i as f64).sin()).collect();
+    let mut y = vec![0.0; 22];
+    a.multiply(&x, &mut y);
+    a.factor().unwrap();
+    a.solve(&mut y);
+    assert!(x.iter().zip(&y).all(|(x, y)| (x - y).abs() < 1e-12));
+}
+
+#[test]
+fn complex_matrix_is_assigned_from_parts_and_kept_while_their_stamps_stay() {
+    let structure = Structure::band(12, 2, 2, 1);
+    let (mut re, _) = random_pair(&structure, 3.0, 1);
+    let (mut im, _) = random_pair(&structure, 1.0, 2);
+    let mut a = Matrix::<Complex64>::new(&structure);
+    re.set_stamp(Some([1.0; 6]));
+    im.set_stamp(Some([2.0; 6]));
+    a.assign(&re, &im);
+    let x: Vec<Complex64> = (0..13).map(|i| Complex64::new((i as f64).cos(), (i as f64).sin())).collect();
+    let mut y = vec![Complex64::ZERO; 13];
+    a.multiply(&x, &mut y);
+    assert!(a.factor().unwrap());
+    a.assign(&re, &im);
+    assert!(a.is_factored(), "same stamps: the factors are kept");
+    a.solve(&mut y);
+    assert!(x.iter().zip(&y).all(|(x, y)| (x - y).norm() < 1e-12));
+    im.set_stamp(Some([3.0; 6]));
+    a.assign(&re, &im);
+    assert!(!a.is_factored());
+}
