@@ -1,5 +1,13 @@
 //! Bases for the displacement fields of a beam, x ∈ [0, L], clamped at the root: each a file.
 
+#[cfg(test)]
+pub(crate) mod checks;
+mod hermite;
+mod lagrange;
+
+pub use hermite::Hermite;
+pub use lagrange::Lagrange;
+
 use std::ops::Range;
 
 /// The largest number of functions of any basis that do not vanish in one cell, and so the size of
@@ -33,6 +41,13 @@ pub struct Conditioning {
     pub number: f64,
     /// What was inverted, for people.
     pub of: &'static str,
+}
+
+impl Conditioning {
+    /// Of a basis for which nothing is inverted.
+    pub fn none() -> Conditioning {
+        Conditioning { number: 1.0, of: "nothing" }
+    }
 }
 
 /// A finite set of functions φ_i(x) on [0, L] that satisfy the clamp at x = 0.
@@ -106,4 +121,34 @@ pub enum BasisError {
     /// The parameters make no basis.
     #[error("{0}")]
     Invalid(String),
+}
+
+/// Boundaries of `count` equal cells on [0, `length`].
+fn uniform_cells(length: f64, count: usize) -> Result<Vec<f64>, BasisError> {
+    if !(length.is_finite() && length > 0.0) {
+        return Err(BasisError::Invalid(format!(
+            "the length {length} m of the beam must be positive and finite"
+        )));
+    }
+    if count == 0 {
+        return Err(BasisError::Invalid("a beam needs at least one cell, and 0 were asked for".into()));
+    }
+    let boundary = |i| if i == count { length } else { length * (i as f64 / count as f64) };
+    Ok((0..=count).map(boundary).collect())
+}
+
+/// Whether the boundaries ascend from 0.
+fn check_cells(cells: &[f64]) -> Result<(), BasisError> {
+    if cells.len() < 2 || cells[0] != 0.0 {
+        return Err(BasisError::Invalid(
+            "the boundaries of the cells must be at least two, the first 0".into(),
+        ));
+    }
+    match cells.windows(2).find(|c| !(c[1].is_finite() && c[0] < c[1])) {
+        Some(c) => Err(BasisError::Invalid(format!(
+            "the boundaries of the cells must ascend, but {} m is followed by {} m",
+            c[0], c[1]
+        ))),
+        None => Ok(()),
+    }
 }
