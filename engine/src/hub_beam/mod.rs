@@ -1,1 +1,30 @@
-//! A flexible beam on a hub that turns about a fixed axis, in the hub's frame.
+//! A flexible beam on a rigid hub that turns about a fixed axis, in the hub's frame (P1, P3, P4).
+//!
+//! The hub has radius a and angle θ(t); the beam is clamped to it radially, x ∈ [0, L]. In the hub's frame
+//! the axis is at X = a + x + (axial displacement), Y = (transverse displacement). A [`Coupling`] says which
+//! terms of the kinematics are kept:
+//!
+//! | coupling | kept | fails when |
+//! |---|---|---|
+//! | [`zeroth`](LinearCoupling) | small displacements on a rigidly turning beam | θ̇ nears the first frequency |
+//! | [`first`](LinearCoupling) | foreshortening, to first order in the kinetic energy | deflections are no longer small |
+//! | [`exact`](ExactCoupling) | everything but shear | strains are no longer small |
+
+mod coupling;
+mod element;
+mod exact;
+mod fields;
+mod inertia;
+mod linear;
+mod station;
+mod system;
+#[cfg(test)]
+mod tests;
+
+pub use coupling::Coupling;
+pub use exact::ExactCoupling;
+pub use fields::{Fields, Point, Shapes};
+pub use inertia::{Foreshortening, Inertia};
+pub use linear::LinearCoupling;
+pub use station::{Placement, Station};
+pub use system::{Hub, HubBeam};

@@ -6,6 +6,7 @@
 mod band;
 mod bordered;
 mod dense;
+mod inertia;
 mod matrix;
 mod scalar;
 #[cfg(test)]
@@ -14,6 +15,7 @@ mod tests;
 pub use band::Band;
 pub use bordered::Bordered;
 pub use dense::Dense;
+pub use inertia::negative_pivots;
 pub use matrix::{Matrix, Stamp, Storage, Structure};
 pub use scalar::Scalar;
 

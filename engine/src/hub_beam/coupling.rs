@@ -1,0 +1,53 @@
+//! What a coupling (a kinematic model of the beam in the hub's frame) has to say.
+
+use super::fields::Fields;
+use super::inertia::Inertia;
+use super::station::{Placement, Station};
+use crate::linalg::Storage;
+use crate::profile::HubKinematics;
+use crate::system::{State, Weights};
+
+/// A kinematic model of the beam: everything that differs between `zeroth`, `first` and `exact`.
+///
+/// The hub–beam system is generic over its coupling, so these calls are static.
+pub trait Coupling {
+    /// Name as in a case file.
+    fn name(&self) -> &'static str;
+
+    /// The displacement fields.
+    fn fields(&self) -> &Fields;
+
+    /// The constant matrices: the whole model if [`Coupling::is_affine`].
+    fn inertia(&self) -> &Inertia;
+
+    /// Whether [`Coupling::inertia`] is the whole model.
+    fn is_affine(&self) -> bool;
+
+    /// Adds to `r` the forces that are not in [`Coupling::inertia`].
+    fn add_forces(&mut self, _s: &State, _hub: &HubKinematics, _r: &mut [f64]) {}
+
+    /// Adds to `out` the tangent of [`Coupling::add_forces`].
+    fn add_tangent(&mut self, _s: &State, _hub: &HubKinematics, _w: &Weights<'_>, _out: &mut Storage<f64>) {}
+
+    /// Strain energy [J].
+    fn strain(&mut self, s: &State) -> f64;
+
+    /// Kinetic energy [J] and hub torque [N·m] that are not in [`Coupling::inertia`].
+    fn extra_kinetic_and_torque(&mut self, _s: &State, _hub: &HubKinematics) -> (f64, f64) {
+        (0.0, 0.0)
+    }
+
+    /// What the section does at each of the stations, which ascend along the beam.
+    fn placements(&self, s: &State, stations: &[Station], out: &mut [Placement]);
+
+    /// `Err` when the state is beyond what the model can represent.
+    fn admissible(&mut self, s: &State) -> Result<(), String>;
+
+    /// Limits of validity worth a warning at the largest tip deflection of a run (`deflection` \[m\]).
+    fn caution(&self, deflection: f64) -> Option<String>;
+
+    /// Hub speed [rad/s] at which the model's own stiffness is exhausted, if there is one below `speed`.
+    fn critical_speed(&self, _speed: f64) -> Option<f64> {
+        None
+    }
+}

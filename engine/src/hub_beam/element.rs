@@ -1,0 +1,577 @@
+//! One Hermite element of the exact coupling: strain energy, its force and tangent, and the inertia of
+//! the section's rotation. Symbols as in [`super::exact`].
+//!
+//! Local unknowns d = (U, U′ at both nodes; V, V′ at both nodes); N, N′, N″ the four Hermite functions;
+//! L the three quadratic Lagrange functions of the strain's samples; ℓ = |p′|.
+
+use super::fields::Fields;
+use crate::profile::HubKinematics;
+use crate::quadrature::Gauss;
+use crate::section::Section;
+use crate::system::{State, Weights};
+
+/// Gauss points of the bending energy. Two integrate the energy of a straight element exactly; the third
+/// carries the fourth-order terms of large rotations.
+const POINTS: usize = 3;
+
+/// Marks an unknown that the clamp removes.
+const CLAMPED: usize = usize::MAX;
+
+/// Shape functions at the quadrature points of an element of given length: equal for equal elements.
+#[derive(Clone, Debug)]
+pub struct Rule {
+    length: f64,
+    points: [RulePoint; POINTS],
+    /// N′ in the middle of the element.
+    middle: [f64; 4],
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct RulePoint {
+    /// Place in the element, 0 to 1.
+    s: f64,
+    /// Quadrature weight \[m\].
+    weight: f64,
+    n: [f64; 4],
+    n1: [f64; 4],
+    n2: [f64; 4],
+    l: [f64; 3],
+}
+
+impl Rule {
+    /// The rule of an element of length \[m\].
+    pub fn new(length: f64) -> Rule {
+        let mut points = [RulePoint::default(); POINTS];
+        for (point, (s, weight)) in points.iter_mut().zip(Gauss::new(POINTS).on(0.0, 1.0)) {
+            let (n, n1, n2) = hermite(s, length);
+            *point = RulePoint { s, weight: weight * length, n, n1, n2, l: lagrange(s) };
+        }
+        Rule { length, points, middle: hermite(0.5, length).1 }
+    }
+}
+
+/// N, N′, N″ at s ∈ [0, 1] of an element of length h.
+fn hermite(s: f64, h: f64) -> ([f64; 4], [f64; 4], [f64; 4]) {
+    let r = 1.0 - s;
+    (
+        [(1.0 + 2.0 * s) * r * r, h * s * r * r, s * s * (3.0 - 2.0 * s), -h * s * s * r],
+        [-6.0 * s * r / h, r * (1.0 - 3.0 * s), 6.0 * s * r / h, s * (3.0 * s - 2.0)],
+        [(12.0 * s - 6.0) / (h * h), (6.0 * s - 4.0) / h, (6.0 - 12.0 * s) / (h * h), (6.0 * s - 2.0) / h],
+    )
+}
+
+/// Quadratic Lagrange functions with nodes 0, ½, 1.
+fn lagrange(s: f64) -> [f64; 3] {
+    [(1.0 - s) * (1.0 - 2.0 * s), 4.0 * s * (1.0 - s), s * (2.0 * s - 1.0)]
+}
+
+/// An element: its unknowns and its section.
+#[derive(Clone, Debug)]
+pub struct Element {
+    unknowns: [usize; 8],
+    start: f64,
+    end: f64,
+    /// ∫ EA L_i L_j dx
+    axial: [[f64; 3]; 3],
+    /// EI and ES times the quadrature weight.
+    bending: [f64; POINTS],
+    coupling: [f64; POINTS],
+    /// ρI and ρS times the quadrature weight.
+    rotary: [f64; POINTS],
+    first: [f64; POINTS],
+    has_coupling: bool,
+    has_section_inertia: bool,
+}
+
+/// Unknowns, velocities and accelerations of an element.
+#[derive(Clone, Copy, Debug)]
+pub struct Local {
+    q: [f64; 8],
+    v: [f64; 8],
+    a: [f64; 8],
+    /// X of the undeformed first node.
+    origin: f64,
+}
+
+/// Strains of an element and the forces they cause.
+struct Strains {
+    /// Unit tangents at the three samples.
+    tangent: [[f64; 2]; 3],
+    /// |p′| at the three samples.
+    stretch: [f64; 3],
+    /// ε at the three samples, and its work conjugates.
+    strain: [f64; 3],
+    axial: [f64; 3],
+    /// κ at the quadrature points, its first derivatives by X′, Y′, X″, Y″, and its conjugates.
+    curvature: [f64; POINTS],
+    gradient: [[f64; 4]; POINTS],
+    slope: [[f64; 2]; POINTS],
+    moment: [f64; POINTS],
+}
+
+#[inline(always)]
+fn dot(n: &[f64; 4], d: &[f64]) -> f64 {
+    n[0] * d[0] + n[1] * d[1] + n[2] * d[2] + n[3] * d[3]
+}
+
+impl Element {
+    /// Element `e` of the mesh `nodes`.
+    pub fn new(fields: &Fields, section: &dyn Section, nodes: &[f64], e: usize) -> Element {
+        let (start, end) = (nodes[e], nodes[e + 1]);
+        let (axial_index, transverse_index) = fields.indices();
+        // Functions of an element, the clamped ones in front of the first element missing.
+        let (a, t) = (fields.axial().support(e), fields.transverse().support(e));
+        let mut unknowns = [CLAMPED; 8];
+        unknowns[4 - a.len()..4].copy_from_slice(&axial_index[a]);
+        unknowns[8 - t.len()..8].copy_from_slice(&transverse_index[t]);
+        let mut axial = [[0.0; 3]; 3];
+        for (x, w) in Gauss::new(4).on(start, end) {
+            let l = lagrange((x - start) / (end - start));
+            let stiffness = w * section.resultants(x).axial_stiffness;
+            for i in 0..3 {
+                for j in 0..3 {
+                    axial[i][j] += stiffness * l[i] * l[j];
+                }
+            }
+        }
+        let rule = Rule::new(end - start);
+        let at = |p: &RulePoint| section.resultants(start + p.s * (end - start));
+        let coupling = rule.points.map(|p| p.weight * at(&p).coupling_stiffness);
+        let rotary = rule.points.map(|p| p.weight * at(&p).rotary_inertia);
+        let first = rule.points.map(|p| p.weight * at(&p).first_moment);
+        Element {
+            unknowns,
+            start,
+            end,
+            axial,
+            bending: rule.points.map(|p| p.weight * at(&p).bending_stiffness),
+            coupling,
+            rotary,
+            first,
+            has_coupling: coupling.iter().any(|x| *x != 0.0),
+            has_section_inertia: rotary.iter().chain(&first).any(|x| *x != 0.0),
+        }
+    }
+
+    /// Station of the far node \[m\].
+    pub fn end(&self) -> f64 {
+        self.end
+    }
+
+    /// U′ and V′ at the far node.
+    pub fn end_slopes(&self, q: &[f64]) -> (f64, f64) {
+        (q[self.unknowns[3]], q[self.unknowns[7]])
+    }
+
+    /// The element's part of a state; `radius` is the hub's.
+    #[inline]
+    pub fn gather(&self, s: &State, radius: f64) -> Local {
+        let pick = |x: &[f64]| self.unknowns.map(|i| if i == CLAMPED { 0.0 } else { x[i] });
+        let (mut v, mut a) = ([0.0; 8], [0.0; 8]);
+        if self.has_section_inertia {
+            (v, a) = (pick(&s.v), pick(&s.a));
+        }
+        Local { q: pick(&s.q), v, a, origin: radius + self.start }
+    }
+
+    /// Adds a local vector to a global one.
+    #[inline]
+    pub fn scatter(&self, local: &[f64; 8], out: &mut [f64]) {
+        for (&i, x) in self.unknowns.iter().zip(local) {
+            if i != CLAMPED {
+                out[i] += x;
+            }
+        }
+    }
+
+    /// Adds a local matrix to a global one.
+    #[inline]
+    pub fn assemble(&self, local: &[[f64; 8]; 8], mut add: impl FnMut(usize, usize, f64)) {
+        for (&i, row) in self.unknowns.iter().zip(local) {
+            if i != CLAMPED {
+                for (&j, x) in self.unknowns.iter().zip(row) {
+                    if j != CLAMPED {
+                        add(i, j, *x);
+                    }
+                }
+            }
+        }
+    }
+
+    #[inline]
+    fn strains(&self, rule: &Rule, d: &[f64; 8]) -> Strains {
+        let (du, dv) = d.split_at(4);
+        let slopes = [
+            [1.0 + du[1], dv[1]],
+            [1.0 + dot(&rule.middle, du), dot(&rule.middle, dv)],
+            [1.0 + du[3], dv[3]],
+        ];
+        let mut out = Strains {
+            tangent: [[0.0; 2]; 3],
+            stretch: [0.0; 3],
+            strain: [0.0; 3],
+            axial: [0.0; 3],
+            curvature: [0.0; POINTS],
+            gradient: [[0.0; 4]; POINTS],
+            slope: [[0.0; 2]; POINTS],
+            moment: [0.0; POINTS],
+        };
+        for (i, [x, y]) in slopes.into_iter().enumerate() {
+            let stretch = (x * x + y * y).sqrt();
+            out.stretch[i] = stretch;
+            out.tangent[i] = [x / stretch, y / stretch];
+            // |p′| − 1 without the cancellation that loses the strain of a slender beam.
+            let u = x - 1.0;
+            out.strain[i] = (u * (2.0 + u) + y * y) / (stretch + 1.0);
+        }
+        for i in 0..3 {
+            out.axial[i] = (0..3).map(|j| self.axial[i][j] * out.strain[j]).sum();
+        }
+        for (g, p) in rule.points.iter().enumerate() {
+            let (x1, y1) = (1.0 + dot(&p.n1, du), dot(&p.n1, dv));
+            let (x2, y2) = (dot(&p.n2, du), dot(&p.n2, dv));
+            let inverse = 1.0 / (x1 * x1 + y1 * y1);
+            let k = (x1 * y2 - y1 * x2) * inverse;
+            out.curvature[g] = k;
+            out.slope[g] = [x1, y1];
+            out.gradient[g] = [
+                (y2 - 2.0 * k * x1) * inverse,
+                (-x2 - 2.0 * k * y1) * inverse,
+                -y1 * inverse,
+                x1 * inverse,
+            ];
+            out.moment[g] = self.bending[g] * k;
+            if self.has_coupling {
+                let es = self.coupling[g];
+                for i in 0..3 {
+                    out.axial[i] -= es * p.l[i] * k;
+                    out.moment[g] -= es * p.l[i] * out.strain[i];
+                }
+            }
+        }
+        out
+    }
+
+    /// ½ ∫ EA ε̄² − 2 ES ε̄ κ + EI κ² dx.
+    pub fn strain_energy(&self, rule: &Rule, local: &Local) -> f64 {
+        let s = self.strains(rule, &local.q);
+        let axial: f64 = s.axial.iter().zip(&s.strain).map(|(n, e)| n * e).sum();
+        let bending: f64 = s.moment.iter().zip(&s.curvature).map(|(m, k)| m * k).sum();
+        // Both sums hold one half of the coupling term −ES ε̄ κ.
+        0.5 * (axial + bending)
+    }
+
+    /// Adds ∂U/∂d to `f`.
+    #[inline]
+    pub fn strain_force(&self, rule: &Rule, local: &Local, f: &mut [f64; 8]) {
+        let s = self.strains(rule, &local.q);
+        for c in 0..2 {
+            f[4 * c + 1] += s.axial[0] * s.tangent[0][c];
+            f[4 * c + 3] += s.axial[2] * s.tangent[2][c];
+            let middle = s.axial[1] * s.tangent[1][c];
+            for k in 0..4 {
+                f[4 * c + k] += middle * rule.middle[k];
+            }
+        }
+        for (g, p) in rule.points.iter().enumerate() {
+            let [x1, y1, x2, y2] = s.gradient[g].map(|k| k * s.moment[g]);
+            for k in 0..4 {
+                f[k] += x1 * p.n1[k] + x2 * p.n2[k];
+                f[4 + k] += y1 * p.n1[k] + y2 * p.n2[k];
+            }
+        }
+    }
+
+    /// Adds w ∂²U/∂d² to `out`.
+    #[inline]
+    pub fn strain_tangent(&self, rule: &Rule, local: &Local, w: f64, out: &mut [[f64; 8]; 8]) {
+        if w == 0.0 {
+            return;
+        }
+        let s = self.strains(rule, &local.q);
+        // ∂ε_i/∂d
+        let samples: [[f64; 4]; 3] = [[0.0, 1.0, 0.0, 0.0], rule.middle, [0.0, 0.0, 0.0, 1.0]];
+        let mut b = [[0.0; 8]; 3];
+        for i in 0..3 {
+            for k in 0..4 {
+                b[i][k] = s.tangent[i][0] * samples[i][k];
+                b[i][4 + k] = s.tangent[i][1] * samples[i][k];
+            }
+        }
+        for i in 0..3 {
+            let mut row = [0.0; 8];
+            for j in 0..3 {
+                let stiffness = w * self.axial[i][j];
+                for k in 0..8 {
+                    row[k] += stiffness * b[j][k];
+                }
+            }
+            add_outer(out, &b[i], &row);
+            // N_i ∂²ε_i: N_i n nᵀ/ℓ
+            let scale = w * s.axial[i] / s.stretch[i];
+            let mut normal = [0.0; 8];
+            for k in 0..4 {
+                normal[k] = -s.tangent[i][1] * samples[i][k];
+                normal[4 + k] = s.tangent[i][0] * samples[i][k];
+            }
+            add_outer(out, &normal.map(|x| scale * x), &normal);
+        }
+        for (g, p) in rule.points.iter().enumerate() {
+            let [x1, y1, x2, y2] = s.gradient[g];
+            let mut gradient = [0.0; 8];
+            for k in 0..4 {
+                gradient[k] = x1 * p.n1[k] + x2 * p.n2[k];
+                gradient[4 + k] = y1 * p.n1[k] + y2 * p.n2[k];
+            }
+            let stiffness = w * self.bending[g];
+            add_outer(out, &gradient.map(|x| stiffness * x), &gradient);
+            if self.has_coupling {
+                for i in 0..3 {
+                    let es = -w * self.coupling[g] * p.l[i];
+                    let scaled = b[i].map(|x| es * x);
+                    add_outer(out, &scaled, &gradient);
+                    add_outer(out, &gradient, &scaled);
+                }
+            }
+            // M ∂²κ with κ_ab = (c_ab − κ_b s_a − κ s_ab − κ_a s_b)/s, s = ℓ², c = X′Y″ − Y′X″.
+            let [sx, sy] = s.slope[g];
+            let m = w * s.moment[g] / (sx * sx + sy * sy);
+            let k0 = s.curvature[g];
+            let xx = m * (-4.0 * sx * x1 - 2.0 * k0);
+            let yy = m * (-4.0 * sy * y1 - 2.0 * k0);
+            let xy = m * (-2.0 * sx * y1 - 2.0 * sy * x1);
+            let (xx2, xy2) = (-2.0 * m * sx * x2, m * (1.0 - 2.0 * sx * y2));
+            let (yx2, yy2) = (m * (-1.0 - 2.0 * sy * x2), -2.0 * m * sy * y2);
+            for i in 0..4 {
+                for j in 0..4 {
+                    let (ii, ij, ji) = (p.n1[i] * p.n1[j], p.n1[i] * p.n2[j], p.n2[i] * p.n1[j]);
+                    out[i][j] += xx * ii + xx2 * (ij + ji);
+                    out[4 + i][4 + j] += yy * ii + yy2 * (ij + ji);
+                    let mixed = xy * ii + xy2 * ij + yx2 * ji;
+                    out[i][4 + j] += mixed;
+                    out[4 + j][i] += mixed;
+                }
+            }
+        }
+    }
+
+    /// Kinematics of the section's rotation at quadrature point `g`.
+    fn turn(&self, p: &RulePoint, local: &Local, hub: &HubKinematics, rule: &Rule) -> Turn {
+        let at = |n: &[f64; 4], d: &[f64; 8]| [dot(n, &d[..4]), dot(n, &d[4..])];
+        let [u, v] = at(&p.n, &local.q);
+        let slope = at(&p.n1, &local.q);
+        Turn::new(
+            [local.origin + p.s * rule.length + u, v],
+            [1.0 + slope[0], slope[1]],
+            [at(&p.n, &local.v), at(&p.n1, &local.v)],
+            [at(&p.n, &local.a), at(&p.n1, &local.a)],
+            hub,
+        )
+    }
+
+    /// Adds the forces of rotary inertia and first mass moment to `f`.
+    #[inline]
+    pub fn section_force(&self, rule: &Rule, local: &Local, hub: &HubKinematics, f: &mut [f64; 8]) {
+        if !self.has_section_inertia {
+            return;
+        }
+        for (g, p) in rule.points.iter().enumerate() {
+            let (on_value, on_slope) =
+                self.turn(p, local, hub, rule).force(self.rotary[g], self.first[g]);
+            for c in 0..2 {
+                for k in 0..4 {
+                    f[4 * c + k] += on_value[c] * p.n[k] + on_slope[c] * p.n1[k];
+                }
+            }
+        }
+    }
+
+    /// Adds the tangent of [`Element::section_force`] to `out`.
+    #[inline]
+    pub fn section_tangent(
+        &self,
+        rule: &Rule,
+        local: &Local,
+        hub: &HubKinematics,
+        w: &Weights<'_>,
+        out: &mut [[f64; 8]; 8],
+    ) {
+        if !self.has_section_inertia {
+            return;
+        }
+        for (g, p) in rule.points.iter().enumerate() {
+            let turn = self.turn(p, local, hub, rule);
+            for c in 0..2 {
+                let mut seed = [0.0; 2];
+                seed[c] = 1.0;
+                // A unit of p, and of p′, in direction c, with the integrator's weights.
+                for (slope, shape) in [(false, &p.n), (true, &p.n1)] {
+                    let (dv, ds) = turn.derivative(seed, slope, hub, w, self.rotary[g], self.first[g]);
+                    for r in 0..2 {
+                        for i in 0..4 {
+                            let row = dv[r] * p.n[i] + ds[r] * p.n1[i];
+                            for j in 0..4 {
+                                out[4 * r + i][4 * c + j] += row * shape[j];
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Kinetic energy and hub torque of rotary inertia and first mass moment.
+    pub fn section_kinetic_and_torque(&self, rule: &Rule, local: &Local, hub: &HubKinematics) -> (f64, f64) {
+        let mut sums = (0.0, 0.0);
+        if self.has_section_inertia {
+            for (g, p) in rule.points.iter().enumerate() {
+                let (kinetic, torque) =
+                    self.turn(p, local, hub, rule).kinetic_and_torque(self.rotary[g], self.first[g], hub);
+                sums.0 += kinetic;
+                sums.1 += torque;
+            }
+        }
+        sums
+    }
+}
+
+/// The rotation of a section: everything the inertia of its rotation needs.
+struct Turn {
+    p: [f64; 2],
+    velocity: [f64; 2],
+    /// ℓ, t, n
+    stretch: f64,
+    t: [f64; 2],
+    n: [f64; 2],
+    slope_velocity: [f64; 2],
+    slope_acceleration: [f64; 2],
+    /// φ̇, φ̈ relative to the hub; t·ṗ′
+    rate: f64,
+    rate_rate: f64,
+    along: f64,
+    /// Ω, Ω̇
+    spin: f64,
+    spin_rate: f64,
+    /// Absolute acceleration of the axis, in the hub's frame.
+    acceleration: [f64; 2],
+}
+
+fn inner(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+/// c₁ a + c₂ b
+fn sum(c1: f64, a: [f64; 2], c2: f64, b: [f64; 2]) -> [f64; 2] {
+    [c1 * a[0] + c2 * b[0], c1 * a[1] + c2 * b[1]]
+}
+
+/// p̈ + 2ωJṗ + ω̇Jp − ω²p
+fn absolute(p: [f64; 2], v: [f64; 2], a: [f64; 2], hub: &HubKinematics) -> [f64; 2] {
+    let (w, w1) = (hub.speed, hub.acceleration);
+    [
+        a[0] - 2.0 * w * v[1] - w1 * p[1] - w * w * p[0],
+        a[1] + 2.0 * w * v[0] + w1 * p[0] - w * w * p[1],
+    ]
+}
+
+impl Turn {
+    fn new(
+        p: [f64; 2],
+        slope: [f64; 2],
+        [velocity, slope_velocity]: [[f64; 2]; 2],
+        [acceleration, slope_acceleration]: [[f64; 2]; 2],
+        hub: &HubKinematics,
+    ) -> Turn {
+        let stretch = slope[0].hypot(slope[1]);
+        let t = [slope[0] / stretch, slope[1] / stretch];
+        let n = [-t[1], t[0]];
+        let rate = inner(n, slope_velocity) / stretch;
+        let along = inner(t, slope_velocity);
+        let rate_rate = (inner(n, slope_acceleration) - 2.0 * rate * along) / stretch;
+        Turn {
+            p,
+            velocity,
+            stretch,
+            t,
+            n,
+            slope_velocity,
+            slope_acceleration,
+            rate,
+            rate_rate,
+            along,
+            spin: hub.speed + rate,
+            spin_rate: hub.acceleration + rate_rate,
+            acceleration: absolute(p, velocity, acceleration, hub),
+        }
+    }
+
+    /// Forces on p and on p′.
+    fn force(&self, rotary: f64, first: f64) -> ([f64; 2], [f64; 2]) {
+        let value = sum(-first * self.spin_rate, self.t, -first * self.spin * self.spin, self.n);
+        let couple = rotary * self.spin_rate - first * inner(self.t, self.acceleration);
+        (value, sum(couple / self.stretch, self.n, 0.0, self.n))
+    }
+
+    /// Derivative of [`Turn::force`] for a unit `seed` of p (or of p′ if `slope`), moving positions,
+    /// velocities and accelerations by the weights.
+    fn derivative(
+        &self,
+        seed: [f64; 2],
+        slope: bool,
+        hub: &HubKinematics,
+        w: &Weights<'_>,
+        rotary: f64,
+        first: f64,
+    ) -> ([f64; 2], [f64; 2]) {
+        let (t, n, l) = (self.t, self.n, self.stretch);
+        let (mut dphi, mut dl, mut drate, mut drate_rate) = (0.0, 0.0, 0.0, 0.0);
+        let mut dacceleration = [0.0; 2];
+        if slope {
+            let (tangential, normal) = (inner(t, seed), inner(n, seed));
+            dphi = w.q * normal / l;
+            dl = w.q * tangential;
+            drate = (w.v * normal - self.along * dphi - self.rate * dl) / l;
+            let dalong = dphi * inner(n, self.slope_velocity) + w.v * tangential;
+            drate_rate = (w.a * normal
+                - dphi * inner(t, self.slope_acceleration)
+                - 2.0 * (drate * self.along + self.rate * dalong)
+                - self.rate_rate * dl)
+                / l;
+        } else {
+            let scaled = |c: f64| [c * seed[0], c * seed[1]];
+            dacceleration = absolute(scaled(w.q), scaled(w.v), scaled(w.a), hub);
+        }
+        let spin = self.spin;
+        let value = sum(
+            first * (-drate_rate + spin * spin * dphi),
+            t,
+            -first * (self.spin_rate * dphi + 2.0 * spin * drate),
+            n,
+        );
+        let couple = rotary * self.spin_rate - first * inner(t, self.acceleration);
+        let dcouple =
+            rotary * drate_rate - first * (dphi * inner(n, self.acceleration) + inner(t, dacceleration));
+        (value, sum((dcouple - couple * dl / l) / l, n, -couple * dphi / l, t))
+    }
+
+    /// ½ρIΩ² − ρSΩ (ṗ + ωJp)·t, and the moment of the inertia forces about the hub's axis.
+    fn kinetic_and_torque(&self, rotary: f64, first: f64, hub: &HubKinematics) -> (f64, f64) {
+        let jp = [-self.p[1], self.p[0]];
+        let kinetic = 0.5 * rotary * self.spin * self.spin
+            - first * self.spin * inner(sum(1.0, self.velocity, hub.speed, jp), self.t);
+        let (value, _) = self.force(rotary, first);
+        let torque =
+            rotary * self.spin_rate + inner(value, jp) - first * inner(self.t, self.acceleration);
+        (kinetic, torque)
+    }
+}
+
+/// out += a bᵀ
+#[inline(always)]
+fn add_outer(out: &mut [[f64; 8]; 8], a: &[f64; 8], b: &[f64; 8]) {
+    for (row, a) in out.iter_mut().zip(a) {
+        for (out, b) in row.iter_mut().zip(b) {
+            *out += a * b;
+        }
+    }
+}

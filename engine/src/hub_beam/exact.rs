@@ -1,0 +1,192 @@
+//! Coupling `exact`: the axis as a planar curve p(x) = (X, Y) in the hub's frame, any size of rotation.
+//!
+//! Both components are C¹ cubic Hermite fields, and nothing is neglected but shear:
+//!
+//! ```text
+//! ε = |p′| − 1,   κ = (X′Y″ − Y′X″)/|p′|²,   U = ½ ∫ EA ε̄² − 2 ES ε̄ κ + EI κ² dx
+//! ```
+//!
+//! κ = dφ/dx with φ the angle of the tangent. The inertia ½∫ρA |ṗ + ω Jp|² is quadratic in the unknowns and
+//! stands in [`Inertia`]; only the strain energy (and the rotary inertia, if asked for) is not.
+//!
+//! **No membrane locking.** A cubic curve cannot bend without stretching at every point, and EA ε² would
+//! punish that stretch as EA/EI·h² grows. So ε is sampled at the two nodes and the middle of each element and
+//! ε̄ is its quadratic interpolant, which leaves two constraints an element to four new unknowns (Meier, Popp
+//! & Wall 2015, doi 10.1016/j.cma.2015.02.029). A straight element keeps its exact energy: no hourglass.
+//!
+//! Rotary inertia ρI and first mass moment ρS, with t, n the unit tangent and normal, Ω = ω + φ̇ the absolute
+//! rotation rate of the section and A = p̈ + 2ωJṗ + ω̇Jp − ω²p the absolute acceleration of the axis:
+//!
+//! ```text
+//! δW = ∫ ρI Ω̇ δφ + ρS [ −(Ω̇ t + Ω² n)·δp − (t·A) δφ ] dx,    δφ = n·δp′/|p′|,   φ̇ = n·ṗ′/|p′|,
+//! φ̈ = (n·p̈′ − 2 φ̇ t·ṗ′)/|p′|
+//! ```
+
+use super::coupling::Coupling;
+use super::element::{Element, Local, Rule};
+use super::fields::Fields;
+use super::inertia::{Foreshortening, Inertia};
+use super::station::{Placement, Station};
+use crate::basis::{BasisError, Field, Hermite};
+use crate::linalg::Storage;
+use crate::profile::HubKinematics;
+use crate::section::{Resultants, Section};
+use crate::system::{State, Weights};
+
+/// Largest stretch |ε| that a linear-elastic beam is believed to have.
+const LARGEST_STRAIN: f64 = 0.5;
+
+/// Geometrically exact planar beam. See the [module documentation](self).
+#[derive(Debug)]
+pub struct ExactCoupling {
+    fields: Fields,
+    inertia: Inertia,
+    elements: Vec<Element>,
+    rule: Rule,
+    radius: f64,
+}
+
+/// A section reduced to its mass: what is quadratic for this coupling.
+#[derive(Debug)]
+struct MassOnly<'a>(&'a dyn Section);
+
+impl Section for MassOnly<'_> {
+    fn resultants(&self, x: f64) -> Resultants {
+        Resultants { mass: self.0.resultants(x).mass, ..Resultants::default() }
+    }
+}
+
+impl ExactCoupling {
+    /// A beam of `elements` equal Hermite elements on a hub of radius \[m\] and inertia [kg·m²].
+    ///
+    /// # Errors
+    /// [`BasisError`] if length or number of elements make no mesh.
+    pub fn new(
+        length: f64,
+        elements: usize,
+        section: &dyn Section,
+        radius: f64,
+        hub_inertia: f64,
+    ) -> Result<ExactCoupling, BasisError> {
+        let fields = Fields::new(
+            length,
+            Box::new(Hermite::new(length, elements, Field::Axial)?),
+            Box::new(Hermite::new(length, elements, Field::Transverse)?),
+            section.breaks(),
+        );
+        let inertia =
+            Inertia::new(&fields, &MassOnly(section), radius, hub_inertia, Foreshortening::None, 0);
+        let nodes = fields.axial().cells().to_vec();
+        let rule = Rule::new(nodes[1] - nodes[0]);
+        let elements = (0..elements).map(|e| Element::new(&fields, section, &nodes, e)).collect();
+        Ok(ExactCoupling { fields, inertia, elements, rule, radius })
+    }
+}
+
+impl Coupling for ExactCoupling {
+    fn name(&self) -> &'static str {
+        "exact"
+    }
+
+    fn fields(&self) -> &Fields {
+        &self.fields
+    }
+
+    fn inertia(&self) -> &Inertia {
+        &self.inertia
+    }
+
+    fn is_affine(&self) -> bool {
+        false
+    }
+
+    fn add_forces(&mut self, s: &State, hub: &HubKinematics, r: &mut [f64]) {
+        for element in &self.elements {
+            let local = element.gather(s, self.radius);
+            let mut force = [0.0; 8];
+            element.strain_force(&self.rule, &local, &mut force);
+            element.section_force(&self.rule, &local, hub, &mut force);
+            element.scatter(&force, r);
+        }
+    }
+
+    fn add_tangent(&mut self, s: &State, hub: &HubKinematics, w: &Weights<'_>, out: &mut Storage<f64>) {
+        for element in &self.elements {
+            let local = element.gather(s, self.radius);
+            let mut tangent = [[0.0; 8]; 8];
+            element.strain_tangent(&self.rule, &local, w.q, &mut tangent);
+            element.section_tangent(&self.rule, &local, hub, w, &mut tangent);
+            match out {
+                Storage::Dense(a) => element.assemble(&tangent, |i, j, x| a.add(i, j, x)),
+                Storage::Band(a) => {
+                    let band = a.band_mut();
+                    element.assemble(&tangent, |i, j, x| band.add(i, j, x));
+                }
+            }
+        }
+    }
+
+    fn strain(&mut self, s: &State) -> f64 {
+        let local = |e: &Element| e.gather(s, self.radius);
+        self.elements.iter().map(|e| e.strain_energy(&self.rule, &local(e))).sum()
+    }
+
+    fn extra_kinetic_and_torque(&mut self, s: &State, hub: &HubKinematics) -> (f64, f64) {
+        let (mut kinetic, mut torque) = (0.0, 0.0);
+        for element in &self.elements {
+            let local: Local = element.gather(s, self.radius);
+            let (t, m) = element.section_kinetic_and_torque(&self.rule, &local, hub);
+            kinetic += t;
+            torque += m;
+        }
+        (kinetic, torque)
+    }
+
+    fn placements(&self, s: &State, stations: &[Station], out: &mut [Placement]) {
+        // The angle of the tangent is followed from the root, so that it may pass π.
+        let (mut node, mut angle) = (0, 0.0);
+        let slope = |u: f64, v: f64| f64::atan2(v, 1.0 + u);
+        let nearest = |angle: f64, to: f64| {
+            angle + std::f64::consts::TAU * ((to - angle) / std::f64::consts::TAU).round()
+        };
+        for (station, out) in stations.iter().zip(out) {
+            while node < self.elements.len() && self.elements[node].end() <= station.point.x {
+                let (u, v) = self.elements[node].end_slopes(&s.q);
+                angle = nearest(slope(u, v), angle);
+                node += 1;
+            }
+            let [u, v, u1, v1, du, dv, du1, dv1] = station.fields(s);
+            let square = (1.0 + u1) * (1.0 + u1) + v1 * v1;
+            *out = Placement {
+                axial: u,
+                deflection: v,
+                rotation: nearest(slope(u1, v1), angle),
+                axial_velocity: du,
+                deflection_velocity: dv,
+                rotation_velocity: ((1.0 + u1) * dv1 - v1 * du1) / square,
+            };
+        }
+    }
+
+    fn admissible(&mut self, s: &State) -> Result<(), String> {
+        for element in &self.elements {
+            let (u, v) = element.end_slopes(&s.q);
+            let strain = (1.0 + u).hypot(v) - 1.0;
+            // Written so that NaN is refused too.
+            if !(strain.abs() <= LARGEST_STRAIN) {
+                return Err(format!(
+                    "the axis is stretched by {:.1} % at x = {:.3} m, beyond what a linear-elastic beam can carry \
+                     ({:.0} %): the step is likely too large, or the load",
+                    100.0 * strain,
+                    element.end(),
+                    100.0 * LARGEST_STRAIN
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    fn caution(&self, _deflection: f64) -> Option<String> {
+        None
+    }
+}

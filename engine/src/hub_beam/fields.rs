@@ -1,0 +1,229 @@
+//! The two displacement fields of a planar beam: their bases, the numbering of the unknowns along the
+//! beam, and the quadrature over both.
+
+use crate::basis::{Basis, Role};
+use crate::linalg::Structure;
+use crate::quadrature::Gauss;
+use crate::system::Label;
+
+/// Gauss points a cell gets beyond what its bases ask for when the section varies inside it.
+const EXTRA_POINTS: usize = 2;
+
+/// Axial field w₁ = Σ φx_i A_i and transverse field w₂ = Σ φy_i B_i over x ∈ [0, L].
+///
+/// The unknowns of both are numbered together in the order of their anchors along the beam, which
+/// keeps the matrices narrow bands whatever the two bases are.
+#[derive(Debug)]
+pub struct Fields {
+    length: f64,
+    axial: Box<dyn Basis>,
+    transverse: Box<dyn Basis>,
+    /// Number of the unknown of each axial function, then of each transverse one.
+    axial_index: Vec<usize>,
+    transverse_index: Vec<usize>,
+    /// Union of the cells of both bases and of the breaks of the section.
+    cells: Vec<f64>,
+    gauss: Gauss,
+    half_bandwidth: usize,
+}
+
+/// The functions of one field that do not vanish at a point, with their unknowns.
+#[derive(Clone, Debug, Default)]
+pub struct Shapes {
+    /// Number of the unknown of each function.
+    pub index: Vec<usize>,
+    /// φ, φ′, φ″ of each function at the point.
+    pub value: [Vec<f64>; 3],
+}
+
+impl Shapes {
+    /// Derivative `d` of the field with coefficients `q` at the point.
+    #[inline]
+    pub fn field(&self, d: usize, q: &[f64]) -> f64 {
+        self.index.iter().zip(&self.value[d]).map(|(&i, phi)| phi * q[i]).sum()
+    }
+}
+
+/// Both fields at one quadrature point or station.
+#[derive(Clone, Debug, Default)]
+pub struct Point {
+    /// Place [m].
+    pub x: f64,
+    /// Quadrature weight [m].
+    pub weight: f64,
+    /// Functions of the axial field.
+    pub axial: Shapes,
+    /// Functions of the transverse field.
+    pub transverse: Shapes,
+}
+
+impl Fields {
+    /// The fields on [0, `length`]; `breaks` are the stations at which the section jumps.
+    pub fn new(length: f64, axial: Box<dyn Basis>, transverse: Box<dyn Basis>, breaks: &[f64]) -> Fields {
+        let mut cells: Vec<f64> = [axial.cells(), transverse.cells(), breaks].concat();
+        cells.retain(|x| (0.0..=length).contains(x));
+        cells.sort_by(f64::total_cmp);
+        cells.dedup_by(|b, a| *b - *a <= 1e-12 * length);
+        let (na, nt) = (axial.len(), transverse.len());
+        // (anchor, field, function): a stable order along the beam.
+        let mut order: Vec<(f64, usize, usize)> = (0..na).map(|i| (axial.anchor(i), 0, i)).collect();
+        order.extend((0..nt).map(|i| (transverse.anchor(i), 1, i)));
+        order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2)));
+        let (mut axial_index, mut transverse_index) = (vec![0; na], vec![0; nt]);
+        for (number, &(_, field, i)) in order.iter().enumerate() {
+            if field == 0 { &mut axial_index } else { &mut transverse_index }[i] = number;
+        }
+        let points = axial.points_per_cell().max(transverse.points_per_cell()) + EXTRA_POINTS;
+        let mut fields = Fields {
+            length,
+            axial,
+            transverse,
+            axial_index,
+            transverse_index,
+            cells,
+            gauss: Gauss::new(points),
+            half_bandwidth: 0,
+        };
+        fields.half_bandwidth = fields.measure_bandwidth();
+        fields
+    }
+
+    fn measure_bandwidth(&self) -> usize {
+        let mut widest = 0;
+        for ends in self.cells.windows(2) {
+            let middle = 0.5 * (ends[0] + ends[1]);
+            let axial = self.axial.support(self.axial.locate(middle));
+            let transverse = self.transverse.support(self.transverse.locate(middle));
+            let numbers =
+                self.axial_index[axial].iter().chain(&self.transverse_index[transverse]).copied();
+            if let (Some(first), Some(last)) = (numbers.clone().min(), numbers.max()) {
+                widest = widest.max(last - first);
+            }
+        }
+        widest
+    }
+
+    /// Length L of the beam [m].
+    pub fn length(&self) -> f64 {
+        self.length
+    }
+
+    /// Number of unknowns of both fields.
+    pub fn len(&self) -> usize {
+        self.axial.len() + self.transverse.len()
+    }
+
+    /// Whether there is no unknown.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The axial basis.
+    pub fn axial(&self) -> &dyn Basis {
+        &*self.axial
+    }
+
+    /// The transverse basis.
+    pub fn transverse(&self) -> &dyn Basis {
+        &*self.transverse
+    }
+
+    /// Boundaries of the integration cells.
+    pub fn cells(&self) -> &[f64] {
+        &self.cells
+    }
+
+    /// The quadrature rule of a cell.
+    pub fn gauss(&self) -> &Gauss {
+        &self.gauss
+    }
+
+    /// Structure of the matrices of the fields, with `border` further unknowns behind.
+    pub fn structure(&self, border: usize) -> Structure {
+        Structure::band(self.len(), self.half_bandwidth, self.half_bandwidth, border).cheaper()
+    }
+
+    /// Numbers of the unknowns of the axial and of the transverse functions.
+    pub fn indices(&self) -> (&[usize], &[usize]) {
+        (&self.axial_index, &self.transverse_index)
+    }
+
+    /// One label for each unknown.
+    pub fn labels(&self) -> Vec<Label> {
+        let mut labels = vec![Label { name: String::new(), unit: "", scale: 1.0 }; self.len()];
+        for (basis, index, field) in
+            [(&self.axial, &self.axial_index, "axial"), (&self.transverse, &self.transverse_index, "transverse")]
+        {
+            for (i, &number) in index.iter().enumerate() {
+                let at = basis.anchor(i);
+                labels[number] = match basis.role(i) {
+                    Role::Value => Label {
+                        name: format!("{field} displacement at x = {at:.4} m"),
+                        unit: "m",
+                        scale: self.length,
+                    },
+                    Role::Slope => Label {
+                        name: format!("slope of the {field} displacement at x = {at:.4} m"),
+                        unit: "",
+                        scale: 1.0,
+                    },
+                    Role::Amplitude => Label {
+                        name: format!("amplitude of {field} shape {}", i + 1),
+                        unit: "m",
+                        scale: self.length,
+                    },
+                };
+            }
+        }
+        labels
+    }
+
+    /// Both fields at `x`, with a quadrature weight to be carried along.
+    pub fn point(&self, x: f64, weight: f64) -> Point {
+        let mut point = Point { x, weight, ..Point::default() };
+        self.fill(x, x, &mut point);
+        point
+    }
+
+    /// Fills the shapes of `point` at `x`; `inside` is a place strictly inside the same cell.
+    fn fill(&self, x: f64, inside: f64, point: &mut Point) {
+        for (basis, numbers, shapes) in [
+            (&self.axial, &self.axial_index, &mut point.axial),
+            (&self.transverse, &self.transverse_index, &mut point.transverse),
+        ] {
+            let cell = basis.locate(inside);
+            let support = basis.support(cell);
+            shapes.index.clear();
+            shapes.index.extend_from_slice(&numbers[support.clone()]);
+            for d in 0..3 {
+                shapes.value[d].resize(support.len(), 0.0);
+                basis.eval(cell, x, d, &mut shapes.value[d]);
+            }
+        }
+    }
+
+    /// Calls `f` at every quadrature point, cell after cell.
+    pub fn integrate(&self, mut f: impl FnMut(&Point)) {
+        let mut point = Point::default();
+        for ends in self.cells.windows(2) {
+            for (x, weight) in self.gauss.on(ends[0], ends[1]) {
+                (point.x, point.weight) = (x, weight);
+                self.fill(x, 0.5 * (ends[0] + ends[1]), &mut point);
+                f(&point);
+            }
+        }
+    }
+
+    /// The tail integral ∫ₓᴸ f dξ as a function of x: O(1) a call after O(n) preparation.
+    pub fn tail<'a, F: Fn(f64) -> f64 + 'a>(&'a self, f: F) -> impl Fn(f64) -> f64 + 'a {
+        let cells = &self.cells;
+        let mut beyond = vec![0.0; cells.len()];
+        for c in (0..cells.len() - 1).rev() {
+            beyond[c] = beyond[c + 1] + self.gauss.integrate(cells[c], cells[c + 1], &f);
+        }
+        move |x| {
+            let cell = cells[1..cells.len() - 1].partition_point(|&end| end <= x);
+            beyond[cell + 1] + self.gauss.integrate(x, cells[cell + 1], &f)
+        }
+    }
+}

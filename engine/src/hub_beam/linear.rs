@@ -1,0 +1,194 @@
+//! Couplings `zeroth` and `first`: small deflections, equations linear in the unknowns.
+//!
+//! `zeroth` (traditional hybrid coordinates) adds the small displacements w₁, w₂ to a rigidly turning
+//! beam. `first` also keeps, to first order, the shortening w_c = −½ ∫₀ˣ w₂′² dξ of the axis by
+//! bending, whose product with the centrifugal force is the stiffening Ω² C that the zeroth-order model
+//! lacks (Wu & Haug 1988, doi 10.1002/nme.1620260202; P1 equations 45–50). Without it the chordwise
+//! stiffness K − ω² M is exhausted when ω reaches the first natural frequency: dynamic softening.
+
+use super::coupling::Coupling;
+use super::fields::Fields;
+use super::inertia::{Foreshortening, Inertia};
+use super::station::{Placement, Station};
+use crate::linalg::{Matrix, negative_pivots};
+use crate::section::Section;
+use crate::system::State;
+
+/// Deflection over length beyond which dropping higher-order terms is no longer harmless.
+const SMALL: f64 = 0.1;
+
+/// A beam whose equations are linear in the unknowns. See the [module documentation](self).
+#[derive(Debug)]
+pub struct LinearCoupling {
+    foreshortening: Foreshortening,
+    fields: Fields,
+    inertia: Inertia,
+    /// Slopes at the quadrature points of each cell, for the foreshortening of a deflected beam.
+    slopes: Vec<SlopePoint>,
+}
+
+/// The slope w₂′ at a quadrature point, as weights of a few consecutive unknowns.
+#[derive(Debug)]
+struct SlopePoint {
+    x: f64,
+    weight: f64,
+    index: Vec<usize>,
+    slope: Vec<f64>,
+}
+
+impl LinearCoupling {
+    /// The coupling over `fields`, on a hub of radius \[m\] and inertia [kg·m²].
+    pub fn new(
+        fields: Fields,
+        section: &dyn Section,
+        radius: f64,
+        hub_inertia: f64,
+        foreshortening: Foreshortening,
+    ) -> LinearCoupling {
+        let inertia = Inertia::new(&fields, section, radius, hub_inertia, foreshortening, 0);
+        let mut slopes = Vec::new();
+        if foreshortening == Foreshortening::First {
+            fields.integrate(|p| {
+                slopes.push(SlopePoint {
+                    x: p.x,
+                    weight: p.weight,
+                    index: p.transverse.index.clone(),
+                    slope: p.transverse.value[1].clone(),
+                });
+            });
+        }
+        LinearCoupling { foreshortening, fields, inertia, slopes }
+    }
+
+    /// Whether K − ω² D is positive definite.
+    fn is_stable(&self, speed: f64) -> bool {
+        let (_, centrifugal, stiffness) = self.inertia.matrices();
+        negative_pivots(stiffness, centrifugal, -speed * speed) == 0
+    }
+
+    /// ∫ w₂′² and ∫ w₂′ẇ₂′ over [from, to], both inside one cell, by fresh quadrature.
+    fn partial(&self, s: &State, from: f64, to: f64) -> (f64, f64) {
+        let mut sums = (0.0, 0.0);
+        if to > from {
+            for (x, w) in self.fields.gauss().on(from, to) {
+                let p = self.fields.point(x, w);
+                let (slope, rate) = (p.transverse.field(1, &s.q), p.transverse.field(1, &s.v));
+                sums.0 += w * slope * slope;
+                sums.1 += w * slope * rate;
+            }
+        }
+        sums
+    }
+}
+
+impl Coupling for LinearCoupling {
+    fn name(&self) -> &'static str {
+        match self.foreshortening {
+            Foreshortening::None => "zeroth",
+            Foreshortening::First => "first",
+        }
+    }
+
+    fn fields(&self) -> &Fields {
+        &self.fields
+    }
+
+    fn inertia(&self) -> &Inertia {
+        &self.inertia
+    }
+
+    fn is_affine(&self) -> bool {
+        true
+    }
+
+    fn strain(&mut self, s: &State) -> f64 {
+        self.inertia.strain(&s.q)
+    }
+
+    fn placements(&self, s: &State, stations: &[Station], out: &mut [Placement]) {
+        let cells = self.fields.cells();
+        let points = self.fields.gauss().len();
+        // Running sums of ∫ w₂′² and ∫ w₂′ẇ₂′ up to the start of cell `cell`.
+        let (mut square, mut product, mut cell) = (0.0, 0.0, 0);
+        for (station, out) in stations.iter().zip(out) {
+            let [w1, w2, _, slope, w1_rate, w2_rate, _, slope_rate] = station.fields(s);
+            let (mut shortening, mut shortening_rate) = (0.0, 0.0);
+            if self.foreshortening == Foreshortening::First {
+                while cell + 1 < cells.len() && cells[cell + 1] <= station.point.x {
+                    for p in &self.slopes[cell * points..(cell + 1) * points] {
+                        debug_assert!(p.x < cells[cell + 1]);
+                        let at = |u: &[f64]| -> f64 { p.index.iter().zip(&p.slope).map(|(&i, n)| n * u[i]).sum() };
+                        let (slope, rate) = (at(&s.q), at(&s.v));
+                        square += p.weight * slope * slope;
+                        product += p.weight * slope * rate;
+                    }
+                    cell += 1;
+                }
+                let rest = self.partial(s, cells[cell], station.point.x);
+                shortening = -0.5 * (square + rest.0);
+                shortening_rate = -(product + rest.1);
+            }
+            *out = Placement {
+                axial: w1 + shortening,
+                deflection: w2,
+                rotation: slope,
+                axial_velocity: w1_rate + shortening_rate,
+                deflection_velocity: w2_rate,
+                rotation_velocity: slope_rate,
+            };
+        }
+    }
+
+    fn admissible(&mut self, s: &State) -> Result<(), String> {
+        let length = self.fields.length();
+        let tip = self.fields.transverse();
+        let (_, index) = self.fields.indices();
+        // Cheap and basis-free: no coefficient that is a displacement may exceed the length.
+        for (i, &number) in index.iter().enumerate() {
+            let q = s.q[number];
+            if tip.role(i) != crate::basis::Role::Slope && q.abs() > length {
+                return Err(format!(
+                    "the deflection ({:.3e} m at x = {:.3} m) exceeds the length of the beam ({length} m): \
+                     the {}-order coupling has lost its meaning",
+                    q,
+                    tip.anchor(i),
+                    self.name()
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    fn caution(&self, deflection: f64) -> Option<String> {
+        let ratio = deflection.abs() / self.fields.length();
+        (ratio > SMALL).then(|| {
+            format!(
+                "the tip deflects by {:.0} % of the length; the {}-order coupling is meant for less than {:.0} %: \
+                 compare with coupling = \"exact\"",
+                100.0 * ratio,
+                self.name(),
+                100.0 * SMALL
+            )
+        })
+    }
+
+    fn critical_speed(&self, speed: f64) -> Option<f64> {
+        if self.is_stable(speed) {
+            return None;
+        }
+        let (mut low, mut high) = (0.0, speed);
+        while high - low > 1e-9 * speed {
+            let middle = 0.5 * (low + high);
+            if self.is_stable(middle) { low = middle } else { high = middle }
+        }
+        Some(high)
+    }
+}
+
+/// The matrices of a coupling, for analyses that need them one by one.
+impl LinearCoupling {
+    /// M, D and K of the fields; see [`Inertia`].
+    pub fn matrices(&self) -> (&Matrix, &Matrix, &Matrix) {
+        self.inertia.matrices()
+    }
+}

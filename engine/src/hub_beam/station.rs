@@ -1,0 +1,55 @@
+//! Stations: where along the beam something is recorded, and what the beam does there.
+
+use super::fields::{Fields, Point};
+use crate::system::State;
+
+/// A place along the beam with the shape functions there.
+#[derive(Clone, Debug)]
+pub struct Station {
+    /// Prefix of its columns: `tip`, or `x=2.5`.
+    pub name: String,
+    /// Both fields there.
+    pub point: Point,
+}
+
+impl Station {
+    /// The station at `x` \[m\].
+    pub fn new(fields: &Fields, x: f64) -> Station {
+        let tip = x >= fields.length() * (1.0 - 1e-12);
+        let name = if tip { "tip".to_owned() } else { format!("x={x}") };
+        Station { name, point: fields.point(x, 0.0) }
+    }
+
+    /// Both displacement fields, their slopes and rates at the station.
+    #[inline]
+    pub fn fields(&self, s: &State) -> [f64; 8] {
+        let (a, b) = (&self.point.axial, &self.point.transverse);
+        [
+            a.field(0, &s.q),
+            b.field(0, &s.q),
+            a.field(1, &s.q),
+            b.field(1, &s.q),
+            a.field(0, &s.v),
+            b.field(0, &s.v),
+            a.field(1, &s.v),
+            b.field(1, &s.v),
+        ]
+    }
+}
+
+/// What the section at a station does, in the hub's frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Placement {
+    /// Axial displacement X − a − x \[m\].
+    pub axial: f64,
+    /// Transverse displacement Y \[m\].
+    pub deflection: f64,
+    /// Rotation of the section [rad].
+    pub rotation: f64,
+    /// Rate of the axial displacement [m/s].
+    pub axial_velocity: f64,
+    /// Rate of the transverse displacement [m/s].
+    pub deflection_velocity: f64,
+    /// Rate of the rotation [rad/s].
+    pub rotation_velocity: f64,
+}
