@@ -1,5 +1,13 @@
 //! Cross-sections: each a file; all give [`Resultants`] along the beam.
 
+mod graded;
+mod shape;
+mod uniform;
+
+pub use graded::{Graded, Material};
+pub use shape::Shape;
+pub use uniform::Uniform;
+
 /// Stiffness and inertia resultants of a planar section at a station. y is the height over the
 /// reference axis, in the plane of motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -16,6 +24,118 @@ pub struct Resultants {
     pub coupling_stiffness: f64,
     /// Bending stiffness EI = ∫E y² dA [N·m²].
     pub bending_stiffness: f64,
+}
+
+impl Resultants {
+    /// Whether strain and kinetic energy are positive: ρA, EA, EI > 0, ES² < EA EI, and ρS² ≤ ρA ρI.
+    ///
+    /// # Errors
+    /// [`SectionError`] names the first quantity that is out of range.
+    pub fn validate(&self) -> Result<(), SectionError> {
+        positive("mass per length ρA", "kg/m", self.mass)?;
+        positive("axial stiffness EA", "N", self.axial_stiffness)?;
+        positive("bending stiffness EI", "N·m²", self.bending_stiffness)?;
+        if !(self.rotary_inertia.is_finite() && self.rotary_inertia >= 0.0) {
+            return Err(SectionError::Quantity {
+                quantity: "rotary inertia ρI",
+                unit: "kg·m",
+                value: self.rotary_inertia,
+                needed: "zero or positive, and finite",
+            });
+        }
+        let bound = (self.axial_stiffness * self.bending_stiffness).sqrt();
+        if self.coupling_stiffness.is_nan() || self.coupling_stiffness.abs() >= bound {
+            return Err(SectionError::Indefinite {
+                quantity: "coupling stiffness ES",
+                unit: "N·m",
+                value: self.coupling_stiffness,
+                bound,
+                of: "√(EA·EI)",
+                energy: "strain",
+            });
+        }
+        let bound = (self.mass * self.rotary_inertia).sqrt();
+        if self.first_moment.is_nan() || self.first_moment.abs() > bound {
+            return Err(SectionError::Indefinite {
+                quantity: "first mass moment ρS",
+                unit: "kg",
+                value: self.first_moment,
+                bound,
+                of: "√(ρA·ρI)",
+                energy: "kinetic",
+            });
+        }
+        Ok(())
+    }
+}
+
+/// Which part of a section's inertia the beam keeps. The first moment is never kept without the rotary
+/// inertia: the kinetic energy of short waves would be negative.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Inertia {
+    /// ρA alone.
+    #[default]
+    Translation,
+    /// ρA and ρI.
+    Rotary,
+    /// ρA, ρS and ρI.
+    Full,
+}
+
+impl Inertia {
+    /// The resultants with only this part of the inertia.
+    fn of(self, mut full: Resultants) -> Resultants {
+        if self != Inertia::Full {
+            full.first_moment = 0.0;
+        }
+        if self == Inertia::Translation {
+            full.rotary_inertia = 0.0;
+        }
+        full
+    }
+}
+
+/// A quantity that makes no section.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum SectionError {
+    /// A quantity is out of its range.
+    #[error("the {quantity} is {value} {unit} and must be {needed}")]
+    Quantity {
+        /// Quantity.
+        quantity: &'static str,
+        /// Its SI unit.
+        unit: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it must be.
+        needed: &'static str,
+    },
+    /// An energy that must be positive is not.
+    #[error(
+        "the {quantity} is {value} {unit}: its magnitude must stay below {of} = {bound} {unit}, or the {energy} energy is not positive"
+    )]
+    Indefinite {
+        /// Quantity.
+        quantity: &'static str,
+        /// Its SI unit.
+        unit: &'static str,
+        /// Its value.
+        value: f64,
+        /// Largest magnitude.
+        bound: f64,
+        /// Formula of the bound.
+        of: &'static str,
+        /// Which energy.
+        energy: &'static str,
+    },
+}
+
+/// Refuses a quantity that is not positive and finite.
+fn positive(quantity: &'static str, unit: &'static str, value: f64) -> Result<(), SectionError> {
+    if value.is_finite() && value > 0.0 {
+        return Ok(());
+    }
+    Err(SectionError::Quantity { quantity, unit, value, needed: "positive and finite" })
 }
 
 /// A cross-section along the beam.

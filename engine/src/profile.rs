@@ -1,1 +1,0 @@
-//! Functions of time or of place.

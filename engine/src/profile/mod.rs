@@ -1,0 +1,170 @@
+//! Functions of time: speeds, angles and loads, with their derivatives and integral.
+
+mod expression;
+mod jet;
+mod motion;
+mod program;
+mod simple;
+mod table;
+
+pub use expression::Expression;
+pub use motion::{HubKinematics, Motion};
+pub use simple::{Constant, Ramp, SpinUp};
+pub use table::{End, Table};
+
+/// A function f of time t [s], smooth between its [`breaks`](Profile::breaks).
+pub trait Profile: Send + Sync + std::fmt::Debug {
+    /// f(t).
+    fn value(&self, t: f64) -> f64;
+
+    /// f′(t) [per s].
+    fn rate(&self, t: f64) -> f64;
+
+    /// f″(t) [per s²].
+    fn acceleration(&self, t: f64) -> f64;
+
+    /// ∫₀ᵗ f dt [times s].
+    fn integral(&self, t: f64) -> f64;
+
+    /// Times at which f, f′ or f″ jumps or kinks, ascending [s].
+    fn breaks(&self) -> &[f64] {
+        &[]
+    }
+
+    /// First and last time at which f is given [s]: a run must not leave it.
+    fn range(&self) -> (f64, f64) {
+        (f64::NEG_INFINITY, f64::INFINITY)
+    }
+}
+
+/// A profile that cannot be built, or does not cover a run.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ProfileError {
+    /// A quantity is out of its range.
+    #[error("the {quantity} is {value} and must be {needed}")]
+    Quantity {
+        /// Quantity.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it must be.
+        needed: &'static str,
+    },
+    /// The rows make no table.
+    #[error("row {row} of the table (t = {time} s, value {value}) {fault}")]
+    Row {
+        /// Row, from 1.
+        row: usize,
+        /// Its time [s].
+        time: f64,
+        /// Its value.
+        value: f64,
+        /// What is wrong with it.
+        fault: &'static str,
+    },
+    /// The table is too short.
+    #[error("the table has {rows} rows and a cubic spline needs at least 3")]
+    TooFewRows {
+        /// Number of rows.
+        rows: usize,
+    },
+    /// The text is not an expression. The byte offset says where.
+    #[error("in the expression `{text}`, column {}: {fault}", .offset + 1)]
+    Expression {
+        /// The whole text.
+        text: String,
+        /// Byte offset of the fault.
+        offset: usize,
+        /// What is wrong.
+        fault: String,
+    },
+    /// The expression is not a finite number at some time.
+    #[error(
+        "the expression `{text}` {what} is {value} at t = {time} s; it must be finite from 0 to {duration} s"
+    )]
+    NotFinite {
+        /// The whole text.
+        text: String,
+        /// Value or derivative.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+        /// Time [s].
+        time: f64,
+        /// Duration of the run [s].
+        duration: f64,
+    },
+    /// The run leaves the times at which the profile is given.
+    #[error("the profile is given from {first} s to {last} s and the run needs it from 0 s to {duration} s")]
+    OutOfRange {
+        /// First time [s].
+        first: f64,
+        /// Last time [s].
+        last: f64,
+        /// Duration of the run [s].
+        duration: f64,
+    },
+}
+
+/// Whether a profile covers a run from 0 to `duration` [s].
+///
+/// # Errors
+/// [`ProfileError::OutOfRange`] if it does not.
+pub fn covers(profile: &dyn Profile, duration: f64) -> Result<(), ProfileError> {
+    let (first, last) = profile.range();
+    if first <= 0.0 && duration <= last {
+        return Ok(());
+    }
+    Err(ProfileError::OutOfRange { first, last, duration })
+}
+
+fn finite(quantity: &'static str, value: f64) -> Result<(), ProfileError> {
+    if value.is_finite() {
+        return Ok(());
+    }
+    Err(ProfileError::Quantity { quantity, value, needed: "finite" })
+}
+
+fn positive(quantity: &'static str, value: f64) -> Result<(), ProfileError> {
+    if value.is_finite() && value > 0.0 {
+        return Ok(());
+    }
+    Err(ProfileError::Quantity { quantity, value, needed: "positive and finite" })
+}
+
+#[cfg(test)]
+mod checks {
+    use super::Profile;
+    use crate::quadrature::Gauss;
+
+    /// Derivatives against differences, and the integral against quadrature between breaks.
+    pub fn derivatives_and_integral(profile: &dyn Profile, duration: f64) {
+        let h = duration * 1e-4;
+        let mut stations = vec![0.0];
+        stations.extend(profile.breaks().iter().copied().filter(|&t| t > 0.0 && t < duration));
+        stations.push(duration);
+        let mut sum = 0.0;
+        for part in stations.windows(2) {
+            for k in 0..200 {
+                let (a, width) = (part[0], (part[1] - part[0]) / 200.0);
+                let t = a + k as f64 * width;
+                sum += Gauss::new(16).integrate(t, t + width, |t| profile.value(t));
+                let end = t + width;
+                let scale = 1.0 + profile.value(end).abs() * duration;
+                assert!((profile.integral(end) - sum).abs() < 1e-11 * scale, "integral to {end}");
+                let t = t + 0.37 * width;
+                if t - part[0] < 3.0 * h || part[1] - t < 3.0 * h {
+                    continue;
+                }
+                let slope = |f: &dyn Fn(f64) -> f64| {
+                    (f(t - 2.0 * h) - 8.0 * f(t - h) + 8.0 * f(t + h) - f(t + 2.0 * h)) / (12.0 * h)
+                };
+                let (rate, acceleration) = (slope(&|t| profile.value(t)), slope(&|t| profile.rate(t)));
+                let near = |a: f64, b: f64| (a - b).abs() < 1e-7 * (1.0 + b.abs());
+                assert!(near(profile.rate(t), rate), "rate at {t}: {} for {rate}", profile.rate(t));
+                let found = profile.acceleration(t);
+                assert!(near(found, acceleration), "acceleration at {t}: {found} for {acceleration}");
+            }
+        }
+    }
+}
