@@ -1,0 +1,132 @@
+//! Figures: panels of curves over linear or logarithmic axes, as SVG and PNG.
+//!
+//! A [`Figure`] says what to show; [`Figure::draw`] decides ranges, ticks and places. The figure of
+//! a run is [`trajectory_figure`]; anything else (a comparison of runs, a Campbell diagram, a
+//! convergence plot) is a [`Figure`] built from its own [`Panel`]s. The same figure gives the same bytes.
+
+mod axis;
+mod decimate;
+mod draw;
+mod panels;
+mod style;
+
+pub use self::draw::Drawing;
+pub use self::panels::{compare_figure, trajectory_figure};
+
+/// A grid of panels, filled row by row.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Figure {
+    /// Title above the panels.
+    pub title: Option<String>,
+    /// The panels; they are lettered (a), (b), … when there is more than one.
+    pub panels: Vec<Panel>,
+    /// Panels in a row; 0 counts as 1.
+    pub columns: usize,
+    /// Whether the panels have one horizontal axis in common: one range for all, and numbers and
+    /// label only below the lowest panel of each column.
+    pub share_x: bool,
+}
+
+/// One pair of axes with its curves.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Panel {
+    /// The horizontal axis.
+    pub x: Axis,
+    /// The vertical axis.
+    pub y: Axis,
+    /// The curves, drawn in this order; those with a name are listed in a legend.
+    pub series: Vec<Series>,
+}
+
+/// What an axis shows and how.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Axis {
+    /// Quantity and symbol, e.g. `Tip deflection w₂`.
+    pub quantity: String,
+    /// Unit, e.g. `m`; empty for a pure number. A power of ten is put before it where that is readable.
+    pub unit: String,
+    /// Linear or logarithmic.
+    pub scale: Scale,
+    /// Range to show; `None` for that of the data with a margin.
+    pub range: Option<(f64, f64)>,
+    /// Whether the range of the data is shown without a margin, as for time.
+    pub tight: bool,
+}
+
+impl Axis {
+    /// A linear axis that fits its data with a margin.
+    pub fn new(quantity: impl Into<String>, unit: impl Into<String>) -> Axis {
+        Axis { quantity: quantity.into(), unit: unit.into(), ..Axis::default() }
+    }
+
+    /// The time axis: `Time t [s]`, without margins.
+    pub fn time() -> Axis {
+        Axis { tight: true, ..Axis::new("Time t", "s") }
+    }
+
+    /// A logarithmic axis over whole decades; values that are not positive are left out.
+    pub fn logarithmic(quantity: impl Into<String>, unit: impl Into<String>) -> Axis {
+        Axis { scale: Scale::Logarithmic, ..Axis::new(quantity, unit) }
+    }
+}
+
+/// How values are laid along an axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Scale {
+    /// In proportion.
+    #[default]
+    Linear,
+    /// In proportion to their logarithm.
+    Logarithmic,
+}
+
+/// One curve: points in order, those that are not finite left out (and the curve broken there).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Series {
+    /// Name in the legend; `None` keeps it out.
+    pub name: Option<String>,
+    /// Points (x, y) in the units of the axes.
+    pub points: Vec<(f64, f64)>,
+    /// Line through the points.
+    pub line: Line,
+    /// Mark at each point; a curve with marks is not thinned out.
+    pub marker: Option<Marker>,
+    /// Which colour of the palette; `None` for the position of the series in its panel.
+    pub color: Option<usize>,
+}
+
+impl Series {
+    /// A solid line.
+    pub fn line(name: Option<&str>, points: Vec<(f64, f64)>) -> Series {
+        Series { name: name.map(String::from), points, ..Series::default() }
+    }
+}
+
+/// Line through the points of a series.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Line {
+    /// ———
+    #[default]
+    Solid,
+    /// – – –
+    Dashed,
+    /// · · ·
+    Dotted,
+    /// Marks only.
+    None,
+}
+
+/// Mark at the points of a series.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Marker {
+    /// Filled circle.
+    Circle,
+    /// Filled square.
+    Square,
+    /// Filled triangle.
+    Triangle,
+    /// Filled diamond.
+    Diamond,
+    /// Diagonal cross.
+    Cross,
+}

@@ -1,0 +1,118 @@
+//! The figures of trajectories: which columns, in which panels, under which words.
+
+use super::{Axis, Figure, Panel, Series};
+use crate::output::Trajectory;
+use crate::system::Channel;
+
+/// Columns that have a panel of their own, with the words for it.
+const SINGLE: [(&str, &str); 5] = [
+    ("tip.deflection", "Tip deflection w₂"),
+    ("tip.axial", "Tip axial displacement w₁"),
+    ("hub.speed", "Hub speed"),
+    ("hub.angle", "Hub angle θ"),
+    ("hub.torque", "Hub torque τ"),
+];
+
+/// Energies, in the order of the legend; small ones get a panel of their own.
+const ENERGIES: [(&str, &str); 4] = [
+    ("energy.kinetic", "kinetic"),
+    ("energy.strain", "strain"),
+    ("energy.gravity", "gravity"),
+    ("energy.total", "total"),
+];
+
+/// Energies below this fraction of the largest cannot be read in the same panel.
+const READABLE: f64 = 0.05;
+
+/// The usual number of panels.
+const PANELS: usize = 4;
+
+/// The figure of one run: tip deflection, tip axial displacement, hub speed and energies against time,
+/// as far as they were recorded; the first columns there are when none of them was.
+pub fn trajectory_figure(trajectory: &Trajectory, title: Option<&str>) -> Figure {
+    let names: Vec<&str> = SINGLE.iter().map(|(name, _)| *name).take(3).collect();
+    let mut panels: Vec<Panel> =
+        names.iter().filter_map(|name| panel(&[(None, trajectory)], name)).collect();
+    panels.extend(energies(trajectory));
+    for channel in trajectory.channels() {
+        let shown = names.contains(&channel.name.as_str()) || ENERGIES.iter().any(|(n, _)| *n == channel.name);
+        if panels.is_empty() || (panels.len() < 2 && !shown) {
+            panels.extend(panel(&[(None, trajectory)], &channel.name));
+        }
+    }
+    figure(panels, title)
+}
+
+/// Several runs in one figure: one panel for each of the `columns`, one curve for each run in which
+/// that column was recorded, the runs' names in the legend of the first panel.
+pub fn compare_figure(runs: &[(&str, &Trajectory)], columns: &[&str], title: Option<&str>) -> Figure {
+    let named: Vec<(Option<&str>, &Trajectory)> = runs.iter().map(|(n, t)| (Some(*n), *t)).collect();
+    let mut panels: Vec<Panel> = columns.iter().filter_map(|name| panel(&named, name)).collect();
+    for series in panels.iter_mut().skip(1).flat_map(|p| &mut p.series) {
+        series.name = None;
+    }
+    figure(panels, title)
+}
+
+fn figure(mut panels: Vec<Panel>, title: Option<&str>) -> Figure {
+    panels.truncate(PANELS.max(6));
+    let columns = if panels.len() < PANELS { 1 } else { 2 };
+    Figure { title: title.map(String::from), panels, columns, share_x: true }
+}
+
+fn panel(runs: &[(Option<&str>, &Trajectory)], name: &str) -> Option<Panel> {
+    let mut y = None;
+    let mut series = Vec::new();
+    for (number, (run, trajectory)) in runs.iter().enumerate() {
+        if let Some(i) = trajectory.index(name) {
+            y.get_or_insert_with(|| axis(&trajectory.channels()[i]));
+            series.push(Series { color: Some(number), ..Series::line(*run, points(trajectory, i)) });
+        }
+    }
+    Some(Panel { x: Axis::time(), y: y?, series })
+}
+
+fn energies(trajectory: &Trajectory) -> Vec<Panel> {
+    let size = |i: usize| {
+        let e = trajectory.extremes(i);
+        e.min.abs().max(e.max.abs())
+    };
+    let found: Vec<(usize, &str, f64, usize)> = ENERGIES
+        .iter()
+        .enumerate()
+        .filter_map(|(color, (name, word))| trajectory.index(name).map(|i| (i, *word, size(i), color)))
+        .collect();
+    let largest = found.iter().fold(0.0, |m: f64, f| m.max(f.2));
+    let (large, small): (Vec<_>, Vec<_>) = found.into_iter().partition(|f| f.2 >= READABLE * largest);
+    [large, small]
+        .into_iter()
+        .filter(|group| !group.is_empty())
+        .map(|group| {
+            let alone = group.len() == 1;
+            let quantity = if alone { capitalised(&format!("{} energy", group[0].1)) } else { "Energy".into() };
+            let series = group
+                .iter()
+                .map(|&(i, word, _, color)| Series {
+                    color: Some(color),
+                    ..Series::line((!alone).then_some(word), points(trajectory, i))
+                })
+                .collect();
+            Panel { x: Axis::time(), y: Axis::new(quantity, "J"), series }
+        })
+        .collect()
+}
+
+fn axis(channel: &Channel) -> Axis {
+    let known = SINGLE.iter().find(|(name, _)| *name == channel.name);
+    let quantity = known.map_or_else(|| capitalised(&channel.name.replace(['.', '_'], " ")), |k| k.1.into());
+    Axis::new(quantity, channel.unit)
+}
+
+fn points(trajectory: &Trajectory, index: usize) -> Vec<(f64, f64)> {
+    trajectory.times().iter().copied().zip(trajectory.values(index)).collect()
+}
+
+fn capitalised(text: &str) -> String {
+    let mut chars = text.chars();
+    chars.next().map_or_else(String::new, |c| c.to_uppercase().chain(chars).collect())
+}
