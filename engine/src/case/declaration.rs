@@ -35,9 +35,15 @@ impl Bound {
             Bound::Any => "finite".to_owned(),
             Bound::Positive => "positive".to_owned(),
             Bound::NotNegative => "zero or positive".to_owned(),
-            Bound::Between(low, high) => format!("from {low} to {high}"),
+            Bound::Between(low, high) => format!("from {} to {}", short(low), short(high)),
         }
     }
+}
+
+/// A number with at most four decimals, for messages.
+fn short(x: f64) -> f64 {
+    let rounded = (x * 1e4).round() / 1e4;
+    if rounded == 0.0 { x } else { rounded }
 }
 
 /// What a key takes.

@@ -127,7 +127,7 @@ pub(super) static KEYS: &[Key] = &[
         "beam",
         Type::Table(&[key("length", Quantity(&LENGTH, Positive), Required, "length L of the beam")]),
         Required,
-        "beam",
+        "beam itself",
     ),
     key("section", Type::Kind(&section::SEAM), Required, "cross-section"),
     key(
@@ -143,7 +143,7 @@ pub(super) static KEYS: &[Key] = &[
             key("motion", Type::Kind(&motion::SEAM), Required, "prescribed rotation of the hub"),
         ]),
         Required,
-        "hub",
+        "hub and its motion",
     ),
     key(
         "model",
@@ -154,7 +154,7 @@ pub(super) static KEYS: &[Key] = &[
             "kinematic model of the beam",
         )]),
         Default::Empty,
-        "model",
+        "model of the beam",
     ),
     key("basis", Type::Kind(&basis::SEAM), Default::Name("finite-elements"), "basis of the displacements"),
     key("initial", Type::Kind(&INITIAL), Default::Name("undeformed"), "state at the start"),
@@ -163,7 +163,7 @@ pub(super) static KEYS: &[Key] = &[
         "run",
         Type::Table(&[key("duration", Quantity(&TIME, Positive), Required, "simulated time")]),
         Required,
-        "run",
+        "extent of the run",
     ),
     key(
         "output",
@@ -182,7 +182,7 @@ pub(super) static KEYS: &[Key] = &[
             ),
         ]),
         Default::Empty,
-        "output",
+        "recording of results",
     ),
 ];
 

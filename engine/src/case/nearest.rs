@@ -3,7 +3,7 @@
 /// The candidate within a small edit distance of `written`, the nearest first in order of `candidates`.
 pub fn nearest<'c>(written: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
     let written: Vec<char> = written.chars().take(64).flat_map(char::to_lowercase).collect();
-    let limit = (written.len() / 3).max(1);
+    let limit = written.len().div_ceil(3);
     candidates
         .into_iter()
         .map(|candidate| (distance(&written, &candidate.chars().collect::<Vec<_>>()), candidate))
@@ -47,6 +47,7 @@ mod tests {
         assert_eq!(nearest("lenght", names), Some("length"));
         assert_eq!(nearest("Densty", names), Some("density"));
         assert_eq!(nearest("second_moment", names), Some("second-moment"));
+        assert_eq!(nearest("rado", ["radau", "newmark"]), Some("radau"));
         assert_eq!(nearest("banana", names), None);
         assert_eq!(nearest("", names), None);
     }

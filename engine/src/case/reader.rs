@@ -36,7 +36,8 @@ fn known(
             Some(entry) => (self::value(key, &entry.node, &path, problems), Some(entry.node.place.clone())),
             None => {
                 if key.presence == Presence::Required && !suspected.contains(&key.name) {
-                    let problem = Problem::new(&path, place.cloned(), "this key is missing");
+                    let what = if is_table(&key.takes) { "this table is missing" } else { "this key is missing" };
+                    let problem = Problem::new(&path, place.cloned(), what);
                     problems.push(problem.label(format!("`{}` belongs here", key.name)).help(advice(key)));
                 }
                 (default(key, &path, problems), None)
@@ -63,9 +64,10 @@ fn unknown<'k>(
         if keys.iter().any(|key| key.name == name) || (of.is_some() && name == "kind") {
             continue;
         }
-        let free = keys.iter().map(|key| key.name).filter(|key| !entries.iter().any(|e| e.key == *key));
+        let all = keys.iter().map(|key| key.name);
+        let free = all.clone().filter(|key| !entries.iter().any(|e| e.key == *key));
         let mut problem = Problem::new(join(path, name), Some(entry.place.clone()), "unknown key");
-        if let Some(name) = nearest(name, free) {
+        if let Some(name) = nearest(name, free).or_else(|| nearest(name, all)) {
             problem = problem.label(format!("did you mean `{name}`?"));
             suspected.push(name);
         } else if let Some((seam, kind)) = of {
@@ -86,14 +88,22 @@ fn unknown<'k>(
     suspected
 }
 
+fn is_table(takes: &Type) -> bool {
+    matches!(takes, Type::Table(_) | Type::Kind(_))
+}
+
 /// What a missing key takes.
 fn advice(key: &Key) -> String {
     let takes = match &key.takes {
         Type::Quantity(measure, _) => format!("{}, for example {}", units::article(measure), measure.examples),
-        Type::Kind(seam) => format!("a table with a kind: {}", seam.names()),
+        Type::Kind(seam) => format!("a table whose kind is one of {}", seam.names()),
+        Type::Table(keys) => {
+            let required = keys.iter().filter(|key| key.presence == Presence::Required);
+            format!("a table with {}", listed(required.map(|key| key.name)))
+        }
         other => expected(other),
     };
-    format!("`{}` is the {}; it takes {takes}", key.name, key.doc)
+    format!("`{}`, the {}, takes {takes}", key.name, key.doc)
 }
 
 /// What a type takes, in words.
@@ -262,7 +272,7 @@ fn quantity(
 }
 
 /// The place of `span` of a text inside the place of its TOML value, where the two correspond.
-fn inside(place: &Place, text: &str, span: std::ops::Range<usize>, problems: &Problems) -> Place {
+pub(super) fn inside(place: &Place, text: &str, span: std::ops::Range<usize>, problems: &Problems) -> Place {
     let written = problems.sources.get(place.source).and_then(|s| s.text.get(place.start..place.end));
     let offset = match written {
         Some(written) if written == text => 0,
