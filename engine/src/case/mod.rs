@@ -1,1 +1,161 @@
 //! Case files: the only module that knows every name.
+//!
+//! ```text
+//! text ─▶ tree (spanned TOML) ─▶ values (by the declarations, in SI) ─▶ Case ─▶ live objects
+//! ```
+//!
+//! Keys and kinds are declared once, in the language of [`declaration`]; reading, messages, the
+//! listing ([`seams`]), the JSON Schema ([`schema`]) and the resolved case ([`Reading::resolved`])
+//! follow from the declarations. All problems of a case are reported at once, as [`Problems`].
+//!
+//! To add a kind: write its code in a file of its own elsewhere, then in the file of its seam here
+//! add one entry to the table of kinds and one arm to `read`, and one arm in `build`.
+
+pub mod declaration;
+pub mod units;
+
+mod basis;
+mod integrator;
+mod layout;
+mod motion;
+mod nearest;
+mod problem;
+mod reader;
+mod resolved;
+mod schema;
+mod section;
+mod tree;
+mod values;
+
+pub use basis::{Bases, Basis, RadialBasis};
+pub use integrator::Integrator;
+pub use layout::{Case, Coupling, Hub, Initial, Output};
+pub use motion::{Motion, MotionOf};
+pub use problem::{Place, Problem, Problems, Source};
+pub use schema::schema;
+pub use section::{Section, Shape};
+
+use declaration::Seam;
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use tree::Raw;
+use values::Values;
+
+/// Largest case file that is read [bytes].
+const LARGEST: u64 = 10_000_000;
+
+/// A case that was read, with all that is known about how it was written.
+#[derive(Clone, Debug)]
+pub struct Reading {
+    /// The case, in SI.
+    pub case: Case,
+    /// The file.
+    pub file: PathBuf,
+    values: Values,
+    sources: Vec<Source>,
+}
+
+impl Reading {
+    /// The case as a file with every default filled in, in SI, that reads back as the same case.
+    pub fn resolved(&self) -> String {
+        resolved::resolved(&self.values)
+    }
+
+    /// The defaults in force: dotted path and value.
+    pub fn defaults(&self) -> Vec<(String, String)> {
+        let mut out = Vec::new();
+        self.values.defaults("", &mut out);
+        out
+    }
+
+    /// A problem with the case that was found later, when it was built: `key` is a dotted path.
+    pub fn problem(&self, key: &str, message: impl Into<String>) -> Problems {
+        let mut place = None;
+        let mut values = Some(&self.values);
+        for part in key.split('.') {
+            let Some(table) = values else { break };
+            place = table.place(part).or(place);
+            values = table.table(part).or_else(|| table.kind(part).map(|(_, values)| values));
+        }
+        Problems { sources: self.sources.clone(), list: vec![Problem::new(key, place, message)] }
+    }
+}
+
+/// Every place in a case where a kind is chosen, with the kinds.
+pub fn seams() -> &'static [&'static Seam] {
+    layout::SEAMS
+}
+
+/// Reads a case: a file, or a folder that holds a `case.toml`. Each override is `KEY=VALUE`.
+///
+/// # Errors
+/// Everything that is wrong with the file, the case in it or the overrides.
+pub fn read(path: &Path, overrides: &[String]) -> Result<Reading, Problems> {
+    let file = if path.is_dir() { path.join("case.toml") } else { path.to_owned() };
+    match load(&file) {
+        Ok(text) => parse(text, &file, overrides),
+        Err((message, help)) => {
+            let source = Source { name: file.display().to_string(), text: String::new() };
+            let mut problem = Problem::new("", None, message);
+            problem.help.extend(help);
+            Err(Problems { sources: vec![source], list: vec![problem] })
+        }
+    }
+}
+
+/// Reads a case from its text; `file` names it in messages, and paths in it are relative to its folder.
+///
+/// # Errors
+/// Everything that is wrong with the case or the overrides.
+pub fn parse(text: String, file: &Path, overrides: &[String]) -> Result<Reading, Problems> {
+    let mut problems = Problems::default();
+    problems.sources.push(Source { name: file.display().to_string(), text: text.clone() });
+    let root = tree::read(&text, overrides, &mut problems);
+    // What a broken file seems to say is not worth reporting: its syntax comes first.
+    let mut reading = None;
+    if let (true, Raw::Table(entries)) = (problems.list.is_empty(), &root.value) {
+        let mut values = reader::table(entries, None, layout::KEYS, "", &mut problems);
+        let folder = file.parent().unwrap_or(Path::new(""));
+        if let Some(case) = layout::case(&mut values, folder, &mut problems) {
+            reading = Some(Reading {
+                case,
+                file: file.to_owned(),
+                values,
+                sources: problems.sources.clone(),
+            });
+        }
+    }
+    match reading {
+        Some(reading) if problems.list.is_empty() => Ok(reading),
+        _ => {
+            problems.sort();
+            Err(problems)
+        }
+    }
+}
+
+/// The text of a file, or what is wrong with it and what to do.
+fn load(file: &Path) -> Result<String, (String, Option<String>)> {
+    let name = file.display();
+    let failed = |error: std::io::Error| {
+        let help = (error.kind() == std::io::ErrorKind::NotFound)
+            .then(|| "a case is a TOML file, or a folder that holds a case.toml".to_owned());
+        (format!("cannot read {name}: {error}"), help)
+    };
+    let metadata = std::fs::metadata(file).map_err(failed)?;
+    if !metadata.is_file() {
+        return Err((format!("{name} is not a file"), None));
+    }
+    // The size is checked on what is read: a file may grow, or have none until it is read.
+    let mut bytes = Vec::new();
+    File::open(file).and_then(|f| f.take(LARGEST + 1).read_to_end(&mut bytes)).map_err(failed)?;
+    if bytes.len() as u64 > LARGEST {
+        return Err((format!("{name} is larger than {} MB: a case file is text of a few kB", LARGEST / 1_000_000), None));
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        let line = error.as_bytes()[..at].iter().filter(|byte| **byte == b'\n').count() + 1;
+        (format!("{name} is not UTF-8 text: byte {at}, on line {line}, is not"), Some("save it as UTF-8".to_owned()))
+    })
+}

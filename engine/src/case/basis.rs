@@ -1,0 +1,170 @@
+//! The bases of a case: kinds and their keys.
+
+use super::declaration::{Bound::*, Key, Kind, Presence as Default, Presence::Required, Seam, Type, key};
+use super::values::Values;
+
+/// The bases of both fields.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bases {
+    /// Basis of the axial field.
+    pub axial: Basis,
+    /// Basis of the transverse field.
+    pub transverse: Basis,
+}
+
+/// The basis of one field.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Basis {
+    /// Finite elements: Lagrange for the axial field, cubic Hermite for the transverse one.
+    FiniteElements {
+        /// Number of equal elements.
+        elements: usize,
+        /// Degree of the axial elements, 1 or 2; the transverse ones are cubic.
+        axial_degree: usize,
+    },
+    /// Vibration modes of the beam at rest.
+    Modes {
+        /// Number of modes.
+        count: usize,
+    },
+    /// Radial point interpolation.
+    Radial(RadialBasis),
+}
+
+/// Parameters of radial point interpolation with multiquadrics (r² + (α_c d_c)²)^q.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RadialBasis {
+    /// Number of equally spaced nodes, ends included.
+    pub nodes: usize,
+    /// Shape parameter α_c.
+    pub shape: f64,
+    /// Exponent q.
+    pub exponent: f64,
+    /// Size of the support domain over the node spacing, α_s.
+    pub support: f64,
+    /// Degree of the added polynomials.
+    pub degree: usize,
+}
+
+const MOST: i64 = 100_000;
+
+const ELEMENTS: Key =
+    key("elements", Type::Integer(1, MOST), Default::Integer(10), "number of equal elements over the length");
+const AXIAL_DEGREE: Key = key(
+    "axial-degree",
+    Type::Integer(1, 2),
+    Default::Integer(1),
+    "degree of the axial elements (the exact coupling is cubic and does without it)",
+);
+const DU: &str = "Du, Zhang & Hong 2015, doi:10.6052/0459-1879-14-334";
+
+const RADIAL: Kind = Kind {
+    name: "radial",
+    summary: "radial point interpolation (RPIM) with multiquadrics",
+    source: DU,
+    keys: &[
+        key("nodes", Type::Integer(2, MOST), Default::Integer(11), "number of equally spaced nodes, ends included"),
+        key(
+            "shape",
+            Type::Number(Positive),
+            Default::Number(4.0),
+            "shape parameter α_c; 2 to 7 is accurate, above that the moment matrix becomes singular",
+        ),
+        key("exponent", Type::Number(Positive), Default::Number(1.03), "exponent q; not an integer"),
+        key(
+            "support",
+            Type::Number(Positive),
+            Default::Number(4.0),
+            "size α_s of the support domain over the node spacing",
+        ),
+        key("degree", Type::Integer(0, 5), Default::Integer(1), "degree of the added polynomials"),
+    ],
+};
+
+/// The kinds of basis for one field.
+pub(super) static FIELD: Seam = Seam {
+    name: "field basis",
+    path: "basis.axial",
+    summary: "functions for one displacement field",
+    kinds: &[
+        Kind {
+            name: "finite-elements",
+            summary: "Lagrange elements (axial) or cubic Hermite elements (transverse)",
+            source: DU,
+            keys: &[ELEMENTS, AXIAL_DEGREE],
+        },
+        Kind {
+            name: "modes",
+            summary: "vibration modes of the beam at rest (assumed modes)",
+            source: DU,
+            keys: &[key("count", Type::Integer(1, 100), Required, "number of modes")],
+        },
+        RADIAL,
+    ],
+};
+
+/// The kinds of basis.
+pub(super) static SEAM: Seam = Seam {
+    name: "basis",
+    path: "basis",
+    summary: "functions for the axial and transverse displacement",
+    kinds: &[
+        Kind {
+            name: "finite-elements",
+            summary: "Lagrange elements (axial) and cubic Hermite elements (transverse)",
+            source: DU,
+            keys: &[ELEMENTS, AXIAL_DEGREE],
+        },
+        Kind {
+            name: "modes",
+            summary: "vibration modes of the beam at rest (assumed modes)",
+            source: DU,
+            keys: &[
+                key("axial", Type::Integer(1, 100), Default::Integer(4), "number of axial modes"),
+                key("transverse", Type::Integer(1, 100), Default::Integer(4), "number of bending modes"),
+            ],
+        },
+        RADIAL,
+        Kind {
+            name: "mixed",
+            summary: "another basis for each field",
+            source: "",
+            keys: &[
+                key("axial", Type::Kind(&FIELD), Required, "basis of the axial displacement"),
+                key("transverse", Type::Kind(&FIELD), Required, "basis of the transverse displacement"),
+            ],
+        },
+    ],
+};
+
+/// Reads the bases of both fields.
+pub(super) fn read(kind: &Kind, v: &Values) -> Option<Bases> {
+    Some(match kind.name {
+        "modes" => Bases {
+            axial: Basis::Modes { count: v.count("axial")? },
+            transverse: Basis::Modes { count: v.count("transverse")? },
+        },
+        "mixed" => {
+            let (axial, transverse) = (v.kind("axial")?, v.kind("transverse")?);
+            Bases { axial: field(axial.0, axial.1)?, transverse: field(transverse.0, transverse.1)? }
+        }
+        _ => {
+            let both = field(kind, v)?;
+            Bases { axial: both.clone(), transverse: both }
+        }
+    })
+}
+
+fn field(kind: &Kind, v: &Values) -> Option<Basis> {
+    Some(match kind.name {
+        "modes" => Basis::Modes { count: v.count("count")? },
+        "radial" => Basis::Radial(RadialBasis {
+            nodes: v.count("nodes")?,
+            shape: v.number("shape")?,
+            exponent: v.number("exponent")?,
+            support: v.number("support")?,
+            degree: v.count("degree")?,
+        }),
+        _ => Basis::FiniteElements { elements: v.count("elements")?, axial_degree: v.count("axial-degree")? },
+    })
+}

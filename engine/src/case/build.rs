@@ -1,0 +1,145 @@
+//! Live objects from a validated case.
+
+use super::basis::Basis as BasisCase;
+use super::layout::{Case, Coupling, Initial};
+use super::motion::{Motion as MotionCase, MotionOf};
+use super::section::{Section as SectionCase, Shape as ShapeCase};
+use crate::basis::lagrange::Lagrange;
+use crate::basis::hermite::Hermite;
+use crate::basis::{Basis, BasisError, Field};
+use crate::hub_beam::{ExactCoupling, Fields, Foreshortening, Hub, HubBeam, LinearCoupling};
+use crate::profile::{self, Constant, Expression, Profile, ProfileError, Ramp, SpinUp, Table};
+use crate::section::{Graded, Inertia, Material, Resultants, Section, SectionError, Shape, Uniform};
+use crate::system::System;
+use std::path::Path;
+use std::sync::Arc;
+
+/// The section of a case.
+///
+/// # Errors
+/// [`SectionError`] when the quantities make no section.
+pub fn section(case: &SectionCase) -> Result<Box<dyn Section>, SectionError> {
+    let kept = |rotary| if rotary { Inertia::Rotary } else { Inertia::Translation };
+    Ok(match *case {
+        SectionCase::Uniform { modulus, density, shape, rotary_inertia } => {
+            let shape = match shape {
+                ShapeCase::General { area, second_moment } => {
+                    let section = Uniform::from_resultants(Resultants {
+                        mass: density * area,
+                        rotary_inertia: density * second_moment,
+                        axial_stiffness: modulus * area,
+                        bending_stiffness: modulus * second_moment,
+                        ..Resultants::default()
+                    })?;
+                    return Ok(Box::new(section.with_inertia(kept(rotary_inertia))));
+                }
+                ShapeCase::Rectangle { width, height } => Shape::Rectangle { width, height },
+                ShapeCase::Circle { radius } => Shape::Circle { radius },
+                ShapeCase::Tube { outer_radius, inner_radius } => Shape::Tube { outer_radius, inner_radius },
+            };
+            Box::new(Uniform::from_material(modulus, density, shape)?.with_inertia(kept(rotary_inertia)))
+        }
+        SectionCase::Resultants { mass, axial_stiffness, bending_stiffness, rotary_inertia } => {
+            Box::new(Uniform::from_resultants(Resultants {
+                mass,
+                rotary_inertia,
+                axial_stiffness,
+                bending_stiffness,
+                ..Resultants::default()
+            })?)
+        }
+        SectionCase::Graded {
+            ceramic_modulus,
+            metal_modulus,
+            ceramic_density,
+            metal_density,
+            width,
+            height,
+            exponent,
+            first_moment,
+            rotary_inertia,
+        } => {
+            let ceramic = Material { modulus: ceramic_modulus, density: ceramic_density };
+            let metal = Material { modulus: metal_modulus, density: metal_density };
+            let inertia = if first_moment { Inertia::Full } else { kept(rotary_inertia) };
+            Box::new(Graded::new(ceramic, metal, exponent, width, height)?.with_inertia(inertia))
+        }
+    })
+}
+
+/// Why a motion cannot be built.
+#[derive(Debug, thiserror::Error)]
+pub enum MotionError {
+    /// The profile is refused.
+    #[error(transparent)]
+    Profile(#[from] ProfileError),
+    /// The file of a table cannot be read.
+    #[error("{0}")]
+    File(String),
+}
+
+/// The motion of a case, checked over its duration [s].
+///
+/// # Errors
+/// [`MotionError`] when the file cannot be read, or the profile is refused or does not cover the run.
+pub fn motion(case: &MotionCase, duration: f64) -> Result<profile::Motion, MotionError> {
+    let (profile, of): (Arc<dyn Profile>, _) = match case {
+        MotionCase::SpinUp { speed, time } => (Arc::new(SpinUp::new(*speed, *time)?), MotionOf::Speed),
+        MotionCase::Constant { speed } => (Arc::new(Constant::new(*speed)?), MotionOf::Speed),
+        MotionCase::Ramp { speed, time } => (Arc::new(Ramp::new(0.0, *speed, *time)?), MotionOf::Speed),
+        MotionCase::Table { file, of } => {
+            let rows = rows(file).map_err(MotionError::File)?;
+            (Arc::new(Table::new(&rows, profile::End::default())?), *of)
+        }
+        MotionCase::Expression { formula, of } => (Arc::new(Expression::new(formula, "t", duration)?), *of),
+    };
+    let motion = match of {
+        MotionOf::Speed => profile::Motion::Speed { profile, initial_angle: 0.0 },
+        MotionOf::Angle => profile::Motion::Angle(profile),
+    };
+    motion.validate(duration)?;
+    Ok(motion)
+}
+
+/// The two columns of a CSV file; a first line of names and lines that begin with `#` are skipped.
+fn rows(file: &Path) -> Result<Vec<(f64, f64)>, String> {
+    let name = file.display();
+    if file.is_dir() {
+        return Err(format!("{name} is a folder, not a file"));
+    }
+    let reader = csv::ReaderBuilder::new()
+        .has_headers(false)
+        .comment(Some(b'#'))
+        .flexible(true)
+        .trim(csv::Trim::All)
+        .from_path(file);
+    let failed = |error: csv::Error| format!("cannot read {name}: {error}");
+    let mut rows = Vec::new();
+    for (index, record) in reader.map_err(failed)?.records().enumerate() {
+        let record = record.map_err(failed)?;
+        let number = |column: usize| record.get(column).and_then(|text| text.parse::<f64>().ok());
+        match (number(0), number(1), record.len()) {
+            (Some(time), Some(value), 2) => rows.push((time, value)),
+            (None, None, _) if index == 0 => {}
+            _ => {
+                let line = record.position().map_or(0, csv::Position::line);
+                let text = record.iter().collect::<Vec<_>>().join(",");
+                return Err(format!("line {line} of {name}, `{text}`, is not two numbers: a time in s and a value"));
+            }
+        }
+    }
+    Ok(rows)
+}
+
+/// The basis of one field of a beam of the given length [m].
+///
+/// # Errors
+/// [`BasisError`] when the parameters make no basis.
+pub fn basis(case: &BasisCase, length: f64, field: Field) -> Result<Box<dyn Basis>, BasisError> {
+    Ok(match *case {
+        BasisCase::FiniteElements { elements, axial_degree } => match field {
+            Field::Axial => Box::new(Lagrange::new(length, elements, axial_degree)?),
+            Field::Transverse => Box::new(Hermite::new(length, elements, field)?),
+        },
+    })
+}

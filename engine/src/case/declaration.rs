@@ -1,0 +1,152 @@
+//! The language in which keys and kinds are declared, each exactly once.
+//!
+//! From one declaration come the reading with its messages, the listing, the JSON Schema and the
+//! resolved case.
+
+use super::units::Measure;
+
+/// Limits of a number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Bound {
+    /// Any finite number.
+    Any,
+    /// x > 0
+    Positive,
+    /// x ≥ 0
+    NotNegative,
+    /// low ≤ x ≤ high
+    Between(f64, f64),
+}
+
+impl Bound {
+    /// Whether `x` is within the limits.
+    pub fn admits(self, x: f64) -> bool {
+        match self {
+            Bound::Any => true,
+            Bound::Positive => x > 0.0,
+            Bound::NotNegative => x >= 0.0,
+            Bound::Between(low, high) => (low..=high).contains(&x),
+        }
+    }
+
+    /// The limits in words: "positive".
+    pub fn words(self) -> String {
+        match self {
+            Bound::Any => "finite".to_owned(),
+            Bound::Positive => "positive".to_owned(),
+            Bound::NotNegative => "zero or positive".to_owned(),
+            Bound::Between(low, high) => format!("from {} to {}", short(low), short(high)),
+        }
+    }
+}
+
+/// A number with at most four decimals, for messages.
+fn short(x: f64) -> f64 {
+    let rounded = (x * 1e4).round() / 1e4;
+    if rounded == 0.0 { x } else { rounded }
+}
+
+/// What a key takes.
+#[derive(Clone, Copy, Debug)]
+pub enum Type {
+    /// A number with a dimension.
+    Quantity(&'static Measure, Bound),
+    /// A list of numbers with a dimension.
+    Quantities(&'static Measure, Bound),
+    /// A number without dimension.
+    Number(Bound),
+    /// An integer of a range, ends included.
+    Integer(i64, i64),
+    /// `true` or `false`.
+    Boolean,
+    /// Any text.
+    Text,
+    /// A path, relative to the folder of the case.
+    Path,
+    /// One of some names.
+    Choice(&'static Seam),
+    /// A table with the given keys.
+    Table(&'static [Key]),
+    /// A table whose `kind` decides which keys it has.
+    Kind(&'static Seam),
+}
+
+/// What happens when a key is left out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Presence {
+    /// It is a problem.
+    Required,
+    /// There is no value.
+    Optional,
+    /// This number.
+    Number(f64),
+    /// This integer.
+    Integer(i64),
+    /// This boolean.
+    Boolean(bool),
+    /// This name: of a choice, or of a kind with all its defaults.
+    Name(&'static str),
+    /// A table or list without entries, whose keys then take their defaults.
+    Empty,
+}
+
+/// A key of a table.
+#[derive(Debug)]
+pub struct Key {
+    /// Name, kebab-case.
+    pub name: &'static str,
+    /// What it takes.
+    pub takes: Type,
+    /// What happens when it is left out.
+    pub presence: Presence,
+    /// One line on what it means.
+    pub doc: &'static str,
+}
+
+/// Declares a key.
+pub const fn key(name: &'static str, takes: Type, presence: Presence, doc: &'static str) -> Key {
+    Key { name, takes, presence, doc }
+}
+
+/// One of the kinds of a seam.
+#[derive(Debug)]
+pub struct Kind {
+    /// Name in a case file.
+    pub name: &'static str,
+    /// One line on what it is.
+    pub summary: &'static str,
+    /// Where it comes from: authors, year, DOI; empty for what needs no source.
+    pub source: &'static str,
+    /// Its keys, besides `kind`.
+    pub keys: &'static [Key],
+}
+
+/// A place in a case where one of several kinds is chosen.
+#[derive(Debug)]
+pub struct Seam {
+    /// What is chosen, e.g. `integrator`.
+    pub name: &'static str,
+    /// Where it stands in a case, e.g. `hub.motion`.
+    pub path: &'static str,
+    /// One line on what it decides.
+    pub summary: &'static str,
+    /// The kinds.
+    pub kinds: &'static [Kind],
+}
+
+impl Seam {
+    /// The kind of this name.
+    pub fn kind(&self, name: &str) -> Option<&'static Kind> {
+        self.kinds.iter().find(|kind| kind.name == name)
+    }
+
+    /// The names of the kinds: "`a`, `b`, `c`".
+    pub fn names(&self) -> String {
+        listed(self.kinds.iter().map(|kind| kind.name))
+    }
+}
+
+/// Names between backticks, with commas.
+pub fn listed<'n>(names: impl Iterator<Item = &'n str>) -> String {
+    names.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+}

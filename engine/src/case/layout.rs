@@ -1,0 +1,272 @@
+//! The layout of a case file, and the case in SI that comes out of it.
+
+use super::basis::{self, Bases, Basis};
+use super::declaration::{Bound::*, Key, Kind, Presence as Default, Presence::*, Seam, Type, Type::Quantity, key};
+use super::integrator::{self, Integrator};
+use super::motion::{self, Motion};
+use super::problem::{Problem, Problems};
+use super::section::{self, Section};
+use super::units::{INERTIA, LENGTH, TIME};
+use super::values::{Filled, Value, Values};
+use std::path::Path;
+
+/// A validated case: everything in SI.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Case {
+    /// Title for plots and reports.
+    pub title: String,
+    /// Length L of the beam [m].
+    pub length: f64,
+    /// The cross-section.
+    pub section: Section,
+    /// The hub.
+    pub hub: Hub,
+    /// The kinematic model.
+    pub coupling: Coupling,
+    /// The bases of the two displacement fields.
+    pub bases: Bases,
+    /// The state at t = 0.
+    pub initial: Initial,
+    /// The integrator.
+    pub integrator: Integrator,
+    /// Duration of the run [s].
+    pub duration: f64,
+    /// What is recorded.
+    pub output: Output,
+}
+
+/// The hub, in SI.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Hub {
+    /// Radius a [m].
+    pub radius: f64,
+    /// Moment of inertia about the axis [kg·m²].
+    pub inertia: f64,
+    /// Its prescribed motion.
+    pub motion: Motion,
+}
+
+/// The kinematic model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coupling {
+    /// No foreshortening.
+    Zeroth,
+    /// Foreshortening to first order.
+    First,
+    /// Geometrically exact.
+    Exact,
+}
+
+/// The state at t = 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Initial {
+    /// Undeformed, moving with the hub.
+    Undeformed,
+    /// In the equilibrium of steady rotation at the initial speed of the hub.
+    SteadyRotation,
+}
+
+/// What is recorded.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Output {
+    /// Interval between records [s].
+    pub step: f64,
+    /// Stations along the beam to be recorded besides the tip [m].
+    pub stations: Vec<f64>,
+}
+
+static COUPLING: Seam = Seam {
+    name: "coupling",
+    path: "model.coupling",
+    summary: "kinematic model of the beam",
+    kinds: &[
+        Kind {
+            name: "zeroth",
+            summary: "no foreshortening: softens falsely and diverges at high speed, for comparison only",
+            source: "as compared with by Kane, Ryan & Banerjee 1987, doi:10.2514/3.20195",
+            keys: &[],
+        },
+        Kind {
+            name: "first",
+            summary: "foreshortening to first order: linear with dynamic stiffening, small deflections",
+            source: "Kane, Ryan & Banerjee 1987, doi:10.2514/3.20195",
+            keys: &[],
+        },
+        Kind {
+            name: "exact",
+            summary: "geometrically exact, without shear: any deflection",
+            source: "Simo & Vu-Quoc 1986, doi:10.1115/1.3171870",
+            keys: &[],
+        },
+    ],
+};
+
+static INITIAL: Seam = Seam {
+    name: "initial",
+    path: "initial",
+    summary: "state at the start",
+    kinds: &[
+        Kind { name: "undeformed", summary: "undeformed, moving with the hub", source: "", keys: &[] },
+        Kind {
+            name: "steady-rotation",
+            summary: "equilibrium of steady rotation at the initial speed of the hub",
+            source: "",
+            keys: &[],
+        },
+    ],
+};
+
+/// The seams, in the order of a case file.
+pub(super) static SEAMS: &[&Seam] =
+    &[&section::SEAM, &motion::SEAM, &COUPLING, &basis::SEAM, &basis::FIELD, &INITIAL, &integrator::SEAM];
+
+/// The keys of a case file.
+pub(super) static KEYS: &[Key] = &[
+    key("title", Type::Text, Default::Name(""), "title for plots and reports"),
+    key(
+        "beam",
+        Type::Table(&[key("length", Quantity(&LENGTH, Positive), Required, "length L of the beam")]),
+        Required,
+        "beam itself",
+    ),
+    key("section", Type::Kind(&section::SEAM), Required, "cross-section"),
+    key(
+        "hub",
+        Type::Table(&[
+            key("radius", Quantity(&LENGTH, NotNegative), Default::Number(0.0), "radius a, where the beam is clamped"),
+            key(
+                "inertia",
+                Quantity(&INERTIA, NotNegative),
+                Default::Number(0.0),
+                "moment of inertia of the hub about its axis",
+            ),
+            key("motion", Type::Kind(&motion::SEAM), Required, "prescribed rotation of the hub"),
+        ]),
+        Required,
+        "hub and its motion",
+    ),
+    key(
+        "model",
+        Type::Table(&[key(
+            "coupling",
+            Type::Choice(&COUPLING),
+            Default::Name("first"),
+            "kinematic model of the beam",
+        )]),
+        Default::Empty,
+        "model of the beam",
+    ),
+    key("basis", Type::Kind(&basis::SEAM), Default::Name("finite-elements"), "basis of the displacements"),
+    key("initial", Type::Kind(&INITIAL), Default::Name("undeformed"), "state at the start"),
+    key("integrator", Type::Kind(&integrator::SEAM), Default::Name("radau"), "integrator"),
+    key(
+        "run",
+        Type::Table(&[key("duration", Quantity(&TIME, Positive), Required, "simulated time")]),
+        Required,
+        "extent of the run",
+    ),
+    key(
+        "output",
+        Type::Table(&[
+            key(
+                "step",
+                Quantity(&TIME, Positive),
+                Optional,
+                "interval between records, a thousandth of the duration if left out",
+            ),
+            key(
+                "stations",
+                Type::Quantities(&LENGTH, NotNegative),
+                Default::Empty,
+                "stations along the beam, from the root, recorded besides the tip",
+            ),
+        ]),
+        Default::Empty,
+        "recording of results",
+    ),
+];
+
+/// Checks the values across their keys and makes the case; `None` only when there are problems.
+pub(super) fn case(values: &mut Values, folder: &Path, problems: &mut Problems) -> Option<Case> {
+    let run_duration = values.table("run").and_then(|run| run.number("duration"));
+    fill_output_step(values, run_duration);
+    let length = values.table("beam").and_then(|beam| beam.number("length"));
+    let coupling = values.table("model").and_then(|model| model.text("coupling")).map(|name| match name {
+        "zeroth" => Coupling::Zeroth,
+        "exact" => Coupling::Exact,
+        _ => Coupling::First,
+    });
+    let section = values.kind("section").and_then(|(kind, v)| section::read(kind, v, "section", problems));
+    let motion = values.table("hub").and_then(|hub| hub.kind("motion"));
+    let motion = motion.and_then(|(kind, v)| motion::read(kind, v, folder));
+    let bases = values.kind("basis").and_then(|(kind, v)| basis::read(kind, v));
+    let integrator = values.kind("integrator").and_then(|(kind, v)| integrator::read(kind, v));
+    let initial = values.kind("initial").map(|(kind, _)| match kind.name {
+        "steady-rotation" => Initial::SteadyRotation,
+        _ => Initial::Undeformed,
+    });
+    let output = values.table("output");
+    let stations = output.and_then(|output| output.numbers("stations")).map(<[f64]>::to_vec);
+    let output_step = output.and_then(|output| output.number("step"));
+
+    if let (Some(length), Some(stations), Some(output)) = (length, &stations, output) {
+        for station in stations.iter().filter(|station| **station > length) {
+            let message = format!("the station {station} m lies beyond the end of the beam at {length} m");
+            problems.push(Problem::new("output.stations", output.place("stations"), message));
+        }
+    }
+    if let (Some(duration), Some(step), Some(output)) = (run_duration, output_step, output)
+        && step > duration
+    {
+        let message = format!("the output step {step} s is longer than the run of {duration} s");
+        problems.push(Problem::new("output.step", output.place("step"), message));
+    }
+    if let (Some(duration), Some(step), Some((_, v))) =
+        (run_duration, integrator.as_ref().and_then(Integrator::step), values.kind("integrator"))
+        && step > duration
+    {
+        let message = format!("the step {step} s is longer than the run of {duration} s");
+        problems.push(Problem::new("integrator.step", v.place("step"), message));
+    }
+    if let (Some(Coupling::Exact), Some(bases), Some((kind, v))) = (coupling, &bases, values.kind("basis")) {
+        let elements = |basis: &Basis| match basis {
+            Basis::FiniteElements { elements, .. } => Some(*elements),
+            _ => None,
+        };
+        if elements(&bases.axial).is_none() || elements(&bases.axial) != elements(&bases.transverse) {
+            let message = format!(
+                "the exact coupling describes the whole curve of the beam by one Hermite field and cannot use the basis `{}`",
+                kind.name
+            );
+            problems.push(
+                Problem::new("basis", v.place.clone(), message)
+                    .help("write `kind = \"finite-elements\"` and the number of elements, or use the coupling `first`"),
+            );
+        }
+    }
+    let hub = values.table("hub");
+    Some(Case {
+        title: values.text("title")?.to_owned(),
+        length: length?,
+        section: section?,
+        hub: Hub { radius: hub?.number("radius")?, inertia: hub?.number("inertia")?, motion: motion? },
+        coupling: coupling?,
+        bases: bases?,
+        initial: initial?,
+        integrator: integrator?,
+        duration: run_duration?,
+        output: Output { step: output_step?, stations: stations? },
+    })
+}
+
+/// Writes the default of the output step, which depends on the duration, into the values.
+fn fill_output_step(values: &mut Values, duration: Option<f64>) {
+    let output = values.entries.iter_mut().find(|filled| filled.key.name == "output");
+    if let (Some(Filled { key, value: Value::Table(output), .. }), Some(duration)) = (output, duration)
+        && output.number("step").is_none()
+        && let Type::Table(keys) = key.takes
+        && let Some(key) = keys.iter().find(|key| key.name == "step")
+    {
+        output.entries.insert(0, Filled { key, value: Value::Number(duration / 1000.0), place: None });
+    }
+}

@@ -1,0 +1,183 @@
+//! Problems of a case: collected all at once, each with its place, and rendered for people.
+//!
+//! The one module that knows the renderer.
+
+use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+use std::fmt;
+use std::ops::Range;
+
+/// Most problems that one report shows.
+const SHOWN: usize = 50;
+
+/// A text that a case was read from: its file, or one `--set` argument.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Source {
+    /// Path of the file, or the option of the command line.
+    pub name: String,
+    /// The whole text.
+    pub text: String,
+}
+
+/// A place in one of the sources of a case.
+#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Place {
+    /// Index of the source: 0 is the file.
+    pub source: usize,
+    /// First byte of the place.
+    pub start: usize,
+    /// Byte after the last.
+    pub end: usize,
+}
+
+impl Place {
+    /// The bytes `span` of source `source`.
+    pub fn new(source: usize, span: Range<usize>) -> Place {
+        Place { source, start: span.start, end: span.end }
+    }
+}
+
+/// One thing that is wrong with a case.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Problem {
+    /// What is wrong, in one sentence.
+    pub message: String,
+    /// Dotted path of the key, empty when it belongs to no key.
+    pub key: String,
+    /// Where it was written; `None` when it concerns the file as a whole.
+    pub place: Option<Place>,
+    /// A word or two at the place.
+    pub label: String,
+    /// What to do about it: one line each.
+    pub help: Vec<String>,
+}
+
+impl Problem {
+    /// A problem with `key` at `place`.
+    pub fn new(key: impl Into<String>, place: Option<Place>, message: impl Into<String>) -> Problem {
+        Problem { message: message.into(), key: key.into(), place, ..Problem::default() }
+    }
+
+    /// Adds a few words that stand under the caret.
+    pub fn label(mut self, label: impl Into<String>) -> Problem {
+        self.label = label.into();
+        self
+    }
+
+    /// Adds a line of advice.
+    pub fn help(mut self, help: impl Into<String>) -> Problem {
+        self.help.push(help.into());
+        self
+    }
+}
+
+/// Everything that is wrong with a case, in the order of the file.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Problems {
+    /// The texts to which the places refer: the file first, then the command line.
+    pub sources: Vec<Source>,
+    /// The problems, at least one.
+    pub list: Vec<Problem>,
+}
+
+impl Problems {
+    /// Adds a problem.
+    pub fn push(&mut self, problem: Problem) {
+        self.list.push(problem);
+    }
+
+    /// Puts the problems into the order of their places; those without a place come last.
+    pub(super) fn sort(&mut self) {
+        self.list.sort_by_key(|p| (p.place.is_none(), p.place.clone()));
+    }
+
+    /// Line and column (in characters) of a problem, both from 1.
+    pub fn line_and_column(&self, problem: &Problem) -> Option<(usize, usize)> {
+        let place = problem.place.as_ref()?;
+        let source = self.sources.get(place.source)?;
+        let (start, _) = clamp(&source.text, place);
+        let before = source.text.get(..start)?;
+        let line_start = before.rfind('\n').map_or(0, |at| at + 1);
+        Some((before.matches('\n').count() + 1, before.get(line_start..)?.chars().count() + 1))
+    }
+
+    /// The report, with terminal colours if `colour`.
+    pub fn render(&self, colour: bool) -> String {
+        let renderer = if colour { Renderer::styled() } else { Renderer::plain() };
+        let mut out = String::new();
+        for problem in self.list.iter().take(SHOWN) {
+            out.push_str(&self.render_one(&renderer, problem));
+            out.push_str("\n\n");
+        }
+        let name = self.sources.first().map_or("the case", |s| s.name.as_str());
+        let count = self.list.len();
+        if count > SHOWN {
+            out.push_str(&format!("… and {} more\n\n", count - SHOWN));
+        }
+        out.push_str(&format!("{name}: {count} problem{}\n", if count == 1 { "" } else { "s" }));
+        out
+    }
+
+    fn render_one(&self, renderer: &Renderer, problem: &Problem) -> String {
+        let title = if problem.key.is_empty() {
+            problem.message.clone()
+        } else {
+            format!("{}: {}", problem.key, problem.message)
+        };
+        let mut group = Group::with_title(Level::ERROR.primary_title(title));
+        let window = problem.place.as_ref().and_then(|place| {
+            let source = self.sources.get(place.source)?;
+            window(&source.text, place).map(|window| (source, window))
+        });
+        if let Some((source, window)) = &window {
+            let mut annotation = AnnotationKind::Primary.span(window.span.clone());
+            if !problem.label.is_empty() {
+                annotation = annotation.label(problem.label.as_str());
+            }
+            group = group.element(
+                Snippet::source(window.text).path(source.name.as_str()).line_start(window.line).annotation(annotation),
+            );
+        }
+        for help in &problem.help {
+            group = group.element(Level::HELP.message(help.as_str()));
+        }
+        renderer.render(&[group])
+    }
+}
+
+impl fmt::Display for Problems {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.render(false).trim_end())
+    }
+}
+
+impl std::error::Error for Problems {}
+
+/// The line of a place, with the place as a span of it.
+struct Window<'t> {
+    text: &'t str,
+    line: usize,
+    span: Range<usize>,
+}
+
+/// The first line of the place, cut to at most some hundred bytes around it.
+fn window<'t>(text: &'t str, place: &Place) -> Option<Window<'t>> {
+    const MARGIN: usize = 200;
+    let (start, end) = clamp(text, place);
+    let line_start = text.get(..start)?.rfind('\n').map_or(0, |at| at + 1);
+    let line_end = text.get(start..)?.find('\n').map_or(text.len(), |at| start + at);
+    let from = boundary(text, line_start.max(start.saturating_sub(MARGIN)));
+    let to = boundary(text, line_end.min(start + 2 * MARGIN)).max(start);
+    let line = text.get(..line_start)?.matches('\n').count() + 1;
+    Some(Window { text: text.get(from..to)?, line, span: start - from..end.clamp(start, to) - from })
+}
+
+/// The span of a place, inside the text and on character boundaries.
+fn clamp(text: &str, place: &Place) -> (usize, usize) {
+    let start = boundary(text, place.start.min(text.len()));
+    (start, boundary(text, place.end.clamp(start, text.len())).max(start))
+}
+
+/// The last character boundary at or before `at`.
+fn boundary(text: &str, at: usize) -> usize {
+    (0..=at.min(text.len())).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0)
+}

@@ -1,0 +1,105 @@
+//! The JSON Schema (draft 2020-12) of case files, for editors.
+
+use super::declaration::{Bound, Key, Presence, Seam, Type};
+use super::layout;
+use super::units::{self, Measure};
+use serde_json::{Map, Value, json};
+
+/// A number and a unit, as far as a pattern can tell.
+const QUANTITY: &str = r"^\s*[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?\s*([A-Za-zµμ°1(].*)?$";
+
+/// The schema, as indented text that ends in a newline.
+pub fn schema() -> String {
+    let mut root = json!({
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "Flexion case",
+        "description": "A rotating flexible beam and how to integrate its motion.",
+    });
+    if let (Some(root), Value::Object(table)) = (root.as_object_mut(), table(layout::KEYS, None)) {
+        root.extend(table);
+    }
+    format!("{root:#}\n")
+}
+
+/// A table with the given keys, and `kind` if it is of a kind.
+fn table(keys: &[Key], kind: Option<&str>) -> Value {
+    let mut properties = Map::new();
+    let mut required = Vec::new();
+    if let Some(kind) = kind {
+        properties.insert("kind".to_owned(), json!({ "const": kind }));
+        required.push("kind");
+    }
+    for key in keys {
+        properties.insert(key.name.to_owned(), property(key));
+        if key.presence == Presence::Required {
+            required.push(key.name);
+        }
+    }
+    json!({ "type": "object", "properties": properties, "required": required, "additionalProperties": false })
+}
+
+fn property(key: &Key) -> Value {
+    let mut schema = takes(&key.takes);
+    let default = match key.presence {
+        Presence::Number(value) => Some(json!(value)),
+        Presence::Integer(value) => Some(json!(value)),
+        Presence::Boolean(value) => Some(json!(value)),
+        Presence::Name(name) if matches!(key.takes, Type::Kind(_)) => Some(json!({ "kind": name })),
+        Presence::Name(name) => Some(json!(name)),
+        Presence::Required | Presence::Optional | Presence::Empty => None,
+    };
+    if let Some(object) = schema.as_object_mut() {
+        object.insert("description".to_owned(), json!(key.doc));
+        object.extend(default.map(|value| ("default".to_owned(), value)));
+    }
+    schema
+}
+
+fn takes(takes: &Type) -> Value {
+    match takes {
+        Type::Quantity(measure, bound) => quantity(measure, *bound),
+        Type::Quantities(measure, bound) => json!({ "type": "array", "items": quantity(measure, *bound) }),
+        Type::Number(bound) => number(*bound),
+        Type::Integer(low, high) => json!({ "type": "integer", "minimum": low, "maximum": high }),
+        Type::Boolean => json!({ "type": "boolean" }),
+        Type::Text | Type::Path => json!({ "type": "string" }),
+        Type::Choice(seam) => {
+            let options: Vec<Value> =
+                seam.kinds.iter().map(|kind| json!({ "const": kind.name, "description": kind.summary })).collect();
+            json!({ "type": "string", "oneOf": options })
+        }
+        Type::Table(keys) => table(keys, None),
+        Type::Kind(seam) => json!({ "type": "object", "required": ["kind"], "oneOf": kinds(seam) }),
+    }
+}
+
+fn kinds(seam: &Seam) -> Vec<Value> {
+    let described = |kind: &super::declaration::Kind| {
+        let mut schema = table(kind.keys, Some(kind.name));
+        if let Some(object) = schema.as_object_mut() {
+            let source = if kind.source.is_empty() { String::new() } else { format!(". {}", kind.source) };
+            object.insert("description".to_owned(), json!(format!("{}{source}", kind.summary)));
+        }
+        schema
+    };
+    seam.kinds.iter().map(described).collect()
+}
+
+fn quantity(measure: &Measure, bound: Bound) -> Value {
+    let unit = measure.unit;
+    let examples: Vec<&str> = measure.examples.split(", ").map(|example| example.trim_matches('`')).collect();
+    json!({
+        "anyOf": [number(bound), { "type": "string", "pattern": QUANTITY }],
+        "title": format!("{} with its unit, or a number in {unit}", units::article(measure)),
+        "examples": examples,
+    })
+}
+
+fn number(bound: Bound) -> Value {
+    match bound {
+        Bound::Any => json!({ "type": "number" }),
+        Bound::Positive => json!({ "type": "number", "exclusiveMinimum": 0 }),
+        Bound::NotNegative => json!({ "type": "number", "minimum": 0 }),
+        Bound::Between(low, high) => json!({ "type": "number", "minimum": low, "maximum": high }),
+    }
+}

@@ -1,0 +1,133 @@
+//! A case as read: typed values in SI, each with the place where it was written.
+
+use super::declaration::{Key, Kind};
+use super::problem::Place;
+
+/// The value of a key.
+#[derive(Clone, Debug)]
+pub enum Value {
+    /// A quantity in SI, or a number.
+    Number(f64),
+    /// Quantities in SI.
+    Numbers(Vec<f64>),
+    /// An integer.
+    Integer(i64),
+    /// A boolean.
+    Boolean(bool),
+    /// A text, a path or the name of a choice.
+    Text(String),
+    /// A table.
+    Table(Values),
+    /// A table of a kind.
+    Kind(&'static Kind, Values),
+}
+
+/// A value and where it comes from.
+#[derive(Clone, Debug)]
+pub struct Filled {
+    /// The declaration.
+    pub key: &'static Key,
+    /// The value.
+    pub value: Value,
+    /// Where the value was written; `None` for a default.
+    pub place: Option<Place>,
+}
+
+/// The values of a table, in the order of its declaration; those with problems are missing.
+#[derive(Clone, Debug, Default)]
+pub struct Values {
+    /// Where the table was written; `None` if it was left out.
+    pub place: Option<Place>,
+    /// The values.
+    pub entries: Vec<Filled>,
+}
+
+impl Values {
+    fn get(&self, name: &str) -> Option<&Filled> {
+        self.entries.iter().find(|filled| filled.key.name == name)
+    }
+
+    /// The number of a key.
+    pub fn number(&self, name: &str) -> Option<f64> {
+        match self.get(name)?.value {
+            Value::Number(value) => Some(value),
+            _ => None,
+        }
+    }
+
+    /// The numbers of a key.
+    pub fn numbers(&self, name: &str) -> Option<&[f64]> {
+        match &self.get(name)?.value {
+            Value::Numbers(values) => Some(values),
+            _ => None,
+        }
+    }
+
+    /// The count of a key.
+    pub fn count(&self, name: &str) -> Option<usize> {
+        match self.get(name)?.value {
+            Value::Integer(value) => usize::try_from(value).ok(),
+            _ => None,
+        }
+    }
+
+    /// The boolean of a key.
+    pub fn boolean(&self, name: &str) -> Option<bool> {
+        match self.get(name)?.value {
+            Value::Boolean(value) => Some(value),
+            _ => None,
+        }
+    }
+
+    /// The text of a key.
+    pub fn text(&self, name: &str) -> Option<&str> {
+        match &self.get(name)?.value {
+            Value::Text(value) => Some(value),
+            _ => None,
+        }
+    }
+
+    /// The table of a key.
+    pub fn table(&self, name: &str) -> Option<&Values> {
+        match &self.get(name)?.value {
+            Value::Table(values) => Some(values),
+            _ => None,
+        }
+    }
+
+    /// The kind of a key and its table.
+    pub fn kind(&self, name: &str) -> Option<(&'static Kind, &Values)> {
+        match &self.get(name)?.value {
+            Value::Kind(kind, values) => Some((kind, values)),
+            _ => None,
+        }
+    }
+
+    /// Where the value of a key was written, or else the table.
+    pub fn place(&self, name: &str) -> Option<Place> {
+        self.get(name).and_then(|filled| filled.place.clone()).or_else(|| self.place.clone())
+    }
+
+    /// The defaults in force, as dotted path and value.
+    pub(super) fn defaults(&self, path: &str, out: &mut Vec<(String, String)>) {
+        for filled in &self.entries {
+            let path = join(path, filled.key.name);
+            match &filled.value {
+                Value::Table(values) => values.defaults(&path, out),
+                Value::Kind(kind, values) => {
+                    if filled.place.is_none() {
+                        out.push((join(&path, "kind"), kind.name.to_owned()));
+                    }
+                    values.defaults(&path, out);
+                }
+                _ if filled.place.is_some() => {}
+                value => out.push((path, super::resolved::written(value, &filled.key.takes, true))),
+            }
+        }
+    }
+}
+
+/// A dotted path.
+pub(super) fn join(path: &str, name: &str) -> String {
+    if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") }
+}
