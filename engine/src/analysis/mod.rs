@@ -1,1 +1,4 @@
 //! Analyses: plain functions over a system.
+
+pub mod equilibrium;
+pub mod transient;
