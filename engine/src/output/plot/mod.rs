@@ -9,6 +9,8 @@ mod decimate;
 mod draw;
 mod panels;
 mod style;
+#[cfg(test)]
+mod tests;
 
 pub use self::draw::Drawing;
 pub use self::panels::{compare_figure, trajectory_figure};

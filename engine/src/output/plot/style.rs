@@ -16,7 +16,7 @@ pub(super) const FONTS: &str = "DejaVu Sans, Helvetica, Arial, sans-serif";
 /// Width of the frame of a panel [px] when it stands alone in its row, and beside others.
 pub(super) const PANEL_WIDTH: [f64; 2] = [560.0, 350.0];
 /// Height of the frame of a panel [px] when there is one, two to a column, and more.
-pub(super) const PANEL_HEIGHT: [f64; 3] = [340.0, 210.0, 170.0];
+pub(super) const PANEL_HEIGHT: [f64; 3] = [340.0, 210.0, 180.0];
 /// Pixels of the PNG for each unit of the SVG.
 pub(super) const PNG_SCALE: f32 = 3.0;
 
@@ -47,4 +47,12 @@ pub(super) fn tick_width(text: &str) -> f64 {
         })
         .sum();
     em * f64::from(TICK_SIZE)
+}
+
+/// Size of a label [px] that has to fit along `length` [px]: smaller for a long one, never below
+/// what can be read.
+pub(super) fn label_size(text: &str, length: f64) -> u32 {
+    const MEAN_WIDTH: f64 = 0.54; // of DejaVu Sans, in em
+    let fitting = (length + SPACING) / (MEAN_WIDTH * text.chars().count().max(1) as f64);
+    (fitting as u32).clamp(8, LABEL_SIZE)
 }
