@@ -5,7 +5,7 @@ use std::sync::Arc;
 use kuva::backend::{raster::RasterBackend, svg::SvgBackend};
 use kuva::plot::legend::{LegendEntry, LegendPosition, LegendShape};
 use kuva::plot::scatter::MarkerShape;
-use kuva::plot::{LinePlot, LineStyle, ScatterPlot};
+use kuva::plot::{LinePlot, ScatterPlot};
 use kuva::render::figure::{Figure as Grid, LabelConfig, LabelStyle};
 use kuva::render::layout::{Layout, TickAlign, TickFormat};
 use kuva::render::plots::Plot;
@@ -13,6 +13,7 @@ use kuva::render::render::{Primitive, Scene};
 use kuva::render::theme::Theme;
 
 use super::axis::Resolved;
+use super::dash::dashes;
 use super::decimate::decimate;
 use super::{Figure, Line, Marker, Panel, Series, style};
 use crate::output::OutputError;
@@ -82,7 +83,7 @@ impl Figure {
         let mut grid = Grid::new(rows, columns)
             .with_spacing(style::SPACING)
             .with_padding(style::PADDING)
-            .with_plots(placed.iter().map(|p| plots(p, width)).collect())
+            .with_plots(placed.iter().map(|p| plots(p, (width, height))).collect())
             .with_layouts(
                 placed
                     .iter()
@@ -208,19 +209,25 @@ fn layout(p: &Placed<'_>, margins: &Margins, column: usize, bottom: f64, height:
     layout
 }
 
-fn plots(p: &Placed<'_>, width: f64) -> Vec<Plot> {
+/// The curves and marks of a panel whose frame has the given size [px].
+fn plots(p: &Placed<'_>, size: (f64, f64)) -> Vec<Plot> {
+    let span = |(lo, hi): (f64, f64)| hi - lo;
+    let scale = (size.0 / span(p.x.range), size.1 / span(p.y.range));
     let mut plots = Vec::new();
     for (i, series) in p.panel.series.iter().enumerate() {
         let color = style::color(series.color.unwrap_or(i));
         for piece in pieces(p, series) {
-            if let Some(line_style) = line_style(series.line) {
-                let columns = if series.marker.is_some() { usize::MAX / 8 } else { 2 * width as usize };
-                let line = LinePlot::new()
-                    .with_data(decimate(&piece, p.x.range, columns))
-                    .with_color(color)
-                    .with_stroke_width(style::LINE_WIDTH)
-                    .with_line_style(line_style);
-                plots.push(line.into());
+            // A curve with marks shows each of its points; any other is thinned to two points a pixel.
+            let columns = if series.marker.is_some() { piece.len() } else { 2 * size.0 as usize };
+            let thin = decimate(&piece, p.x.range, columns);
+            let strokes = match style::dash(series.line) {
+                Some((on, off)) => dashes(&thin, scale, on, off),
+                None if series.line == Line::None => Vec::new(),
+                None => vec![thin],
+            };
+            for stroke in strokes {
+                let line = LinePlot::new().with_data(stroke).with_color(color);
+                plots.push(line.with_stroke_width(style::LINE_WIDTH).into());
             }
             if let Some(marker) = series.marker {
                 let marks = ScatterPlot::new()
@@ -257,7 +264,7 @@ fn legend(panel: &Panel) -> Vec<LegendEntry> {
             None => LegendShape::Line,
         };
         let color = style::color(s.color.unwrap_or(i)).to_string();
-        let dasharray = line_style(s.line).and_then(|l| l.dasharray());
+        let dasharray = style::dash(s.line).map(|(on, off)| format!("{on} {off}"));
         s.name.clone().map(|label| LegendEntry { label, color, shape, dasharray })
     };
     panel.series.iter().enumerate().filter_map(entry).collect()
@@ -296,15 +303,6 @@ fn emptiest_corner(p: &Placed<'_>) -> LegendPosition {
         }
     }
     best.1
-}
-
-fn line_style(line: Line) -> Option<LineStyle> {
-    match line {
-        Line::Solid => Some(LineStyle::Solid),
-        Line::Dashed => Some(LineStyle::Dashed),
-        Line::Dotted => Some(LineStyle::Dotted),
-        Line::None => None,
-    }
 }
 
 fn shape(marker: Marker) -> MarkerShape {

@@ -5,6 +5,7 @@
 //! convergence plot) is a [`Figure`] built from its own [`Panel`]s. The same figure gives the same bytes.
 
 mod axis;
+mod dash;
 mod decimate;
 mod draw;
 mod panels;

@@ -1,5 +1,7 @@
 //! Colours, sizes and fonts of every figure, in one place.
 
+use super::Line;
+
 /// Okabe–Ito palette, distinguishable with every kind of colour vision and in print, strongest
 /// on white first (Okabe & Ito 2008, "Color Universal Design"; Wong 2011, doi:10.1038/nmeth.1618).
 pub(super) const PALETTE: [&str; 8] =
@@ -34,6 +36,15 @@ pub(super) const MARKER_SIZE: f64 = 3.6;
 /// Space between panels, and around the figure [px].
 pub(super) const SPACING: f64 = 14.0;
 pub(super) const PADDING: f64 = 8.0;
+
+/// Lengths drawn and left out [px]; `None` for a line that is not broken.
+pub(super) fn dash(line: Line) -> Option<(f64, f64)> {
+    match line {
+        Line::Dashed => Some((7.0, 4.0)),
+        Line::Dotted => Some((1.5, 3.5)),
+        Line::Solid | Line::None => None,
+    }
+}
 
 /// Width of a number set in the tick font [px] (advance widths of DejaVu Sans, in em).
 pub(super) fn tick_width(text: &str) -> f64 {

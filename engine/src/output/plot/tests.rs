@@ -105,3 +105,30 @@ fn runs_are_compared_with_one_legend() {
     let svg = figure.draw().svg();
     assert_eq!((count(&svg, "Ω = 4 rad/s"), count(&svg, "Ω = 2 rad/s")), (1, 1));
 }
+
+#[test]
+fn dashed_curves_and_marks_are_drawn_on_logarithmic_axes() {
+    let points: Vec<(f64, f64)> = (0..6).map(|i| 0.1 / 2f64.powi(i)).map(|h| (h, h.powi(5))).collect();
+    let series = |line, marker| Series { line, marker, ..Series::line(Some("radau"), points.clone()) };
+    let panel = |s| Panel {
+        x: Axis::logarithmic("Step h", "s"),
+        y: Axis::logarithmic("Tip error", "m"),
+        series: vec![s],
+    };
+    let svg = |s| Figure { panels: vec![panel(s)], ..Figure::default() }.draw().svg();
+    let (solid, dashed) = (svg(series(Line::Solid, None)), svg(series(Line::Dashed, None)));
+    assert!(count(&dashed, "<path") > count(&solid, "<path") + 20);
+    let marked = svg(series(Line::None, Some(Marker::Circle)));
+    assert!(count(&marked, "<circle") >= points.len() && marked.contains("10⁻¹²"));
+}
+
+#[test]
+fn a_dashed_curve_may_leave_a_given_range_by_any_amount() {
+    let y = Axis { range: Some((0.0, 1.0)), ..Axis::new("y", "m") };
+    let points = vec![(0.0, 0.5), (1.0, 1e200), (2.0, 0.5), (3.0, 0.6)];
+    let series = vec![Series { line: Line::Dashed, ..Series::line(None, points) }];
+    let figure = Figure { panels: vec![Panel { x: Axis::time(), y, series }], ..Figure::default() };
+    let svg = figure.draw().svg();
+    assert!(svg.len() < 100_000 && !svg.contains("NaN"), "{} bytes", svg.len());
+    assert!(figure.draw().png().is_ok());
+}
