@@ -44,7 +44,9 @@ pub enum OutputError {
         source: io::Error,
     },
     /// A figure could not be drawn.
-    #[error("cannot draw the plot: {reason}; the other files of the run are not affected, run without the plot")]
+    #[error(
+        "cannot draw the plot: {reason}; the other files are not affected, draw it again from trajectory.csv"
+    )]
     Draw {
         /// The reason of the drawing library.
         reason: String,

@@ -10,12 +10,13 @@ use super::{
 
 /// Writes the files of a run into `directory`, the summary last, and returns the status that the
 /// summary states: [`Status::Failed`] for a run that claims to have finished with a value that is
-/// not finite, else the status of `report`.
+/// not finite, else the status of `report`. A plot that cannot be drawn costs a warning in the summary,
+/// never the results.
 ///
 /// `case` is the resolved case as TOML. `figure` is the plot; `None` leaves the plots out.
 ///
 /// # Errors
-/// [`OutputError`] for whatever goes wrong on disk or in drawing; the directory then has no summary.
+/// [`OutputError`] for whatever goes wrong on disk; the directory then has no summary.
 pub fn write_run(
     directory: &Directory,
     report: &RunReport<'_>,
@@ -26,13 +27,16 @@ pub fn write_run(
     directory.write(Artifact::ResolvedCase, |f| f.write_all(resolved_case(case).as_bytes()))?;
     directory.write(Artifact::TrajectoryCsv, |f| write_csv(trajectory, f))?;
     directory.write(Artifact::TrajectoryNpz, |f| write_npz(trajectory, f))?;
+    let mut warnings = report.warnings.to_vec();
     if let Some(figure) = figure {
         let drawing = figure.draw();
         directory.write(Artifact::PlotSvg, |f| f.write_all(drawing.svg().as_bytes()))?;
-        let png = drawing.png()?;
-        directory.write(Artifact::PlotPng, |f| f.write_all(&png))?;
+        match drawing.png() {
+            Ok(png) => drop(directory.write(Artifact::PlotPng, |f| f.write_all(&png))?),
+            Err(e) => warnings.push(e.to_string()),
+        }
     }
-    let summary = Summary::of_run(report, trajectory);
+    let summary = Summary::of_run(&RunReport { warnings: &warnings, ..report.clone() }, trajectory);
     directory.write(Artifact::Summary, |f| f.write_all(summary.to_json().as_bytes()))?;
     Ok(summary.status())
 }
@@ -68,7 +72,14 @@ mod tests {
         let names: Vec<&str> = files.iter().map(|(n, _)| n.as_str()).collect();
         assert_eq!(
             names,
-            ["case.resolved.toml", "plot.png", "plot.svg", "summary.json", "trajectory.csv", "trajectory.npz"]
+            [
+                "case.resolved.toml",
+                "plot.png",
+                "plot.svg",
+                "summary.json",
+                "trajectory.csv",
+                "trajectory.npz"
+            ]
         );
     }
 

@@ -206,8 +206,17 @@ pub(super) mod tests {
         assert_eq!(
             keys,
             [
-                "status", "message", "version", "case", "duration", "end_time", "columns", "warnings",
-                "integrator", "work", "wall_time"
+                "status",
+                "message",
+                "version",
+                "case",
+                "duration",
+                "end_time",
+                "columns",
+                "warnings",
+                "integrator",
+                "work",
+                "wall_time"
             ]
         );
         assert_eq!(value["status"], "finished");
@@ -230,7 +239,12 @@ pub(super) mod tests {
         assert_eq!(summary.status(), Status::Failed);
         let value: Value = serde_json::from_str(&summary.to_json()).unwrap();
         assert_eq!(value["status"], "failed");
-        assert!(value["message"].as_str().unwrap().contains("tip.deflection is not a finite number from t = 0.5 s"));
+        assert!(
+            value["message"]
+                .as_str()
+                .unwrap()
+                .contains("tip.deflection is not a finite number from t = 0.5 s")
+        );
         assert_eq!(value["end_time"], Value::Null);
         assert_eq!(value["columns"]["tip.deflection"]["final"], Value::Null);
         assert_eq!(value["columns"]["tip.deflection"]["max"], 0.0);

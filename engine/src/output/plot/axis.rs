@@ -33,7 +33,9 @@ impl Resolved {
         let shown = |v: &f64| v.is_finite() && (axis.scale == Scale::Linear || *v > SMALLEST);
         let (lo, hi) = match axis.range {
             Some((a, b)) if shown(&a) && shown(&b) && a != b => (a.min(b), a.max(b)),
-            _ => values.filter(shown).fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v), hi.max(v))),
+            _ => values
+                .filter(shown)
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v), hi.max(v))),
         };
         let (lo, hi) = if lo > hi { (1.0, 1.0) } else { (lo.max(-LARGEST), hi.min(LARGEST)) };
         match axis.scale {
@@ -76,8 +78,8 @@ fn linear(axis: &Axis, lo: f64, hi: f64, ticks: usize) -> Resolved {
     let middle = lo / 2.0 + hi / 2.0;
     // A small variation about a large value is shown as the difference from a round number.
     let offset = if !constant && (hi - lo) < 1e-3 * size {
-        let unit = power(decade(hi - lo) + 1);
-        (middle / unit).round() * unit
+        let digits = decade(hi - lo) + 1;
+        unscaled(scaled(middle, digits).floor(), digits)
     } else {
         0.0
     };
@@ -92,7 +94,14 @@ fn linear(axis: &Axis, lo: f64, hi: f64, ticks: usize) -> Resolved {
     let margin = if axis.tight && !constant || axis.range.is_some() { 0.0 } else { 0.06 * (hi - lo) };
     let (lo, hi) = (lo - margin, hi + margin);
     let step = round_step((hi - lo) / ticks.max(1) as f64);
-    Resolved { scale: Scale::Linear, offset, exponent, range: (lo, hi), step, label: label(axis, offset, exponent) }
+    Resolved {
+        scale: Scale::Linear,
+        offset,
+        exponent,
+        range: (lo, hi),
+        step,
+        label: label(axis, offset, exponent),
+    }
 }
 
 fn logarithmic(axis: &Axis, lo: f64, hi: f64, ticks: usize) -> Resolved {
@@ -100,12 +109,14 @@ fn logarithmic(axis: &Axis, lo: f64, hi: f64, ticks: usize) -> Resolved {
     if to <= from {
         (from, to) = (from.min(to), from.min(to) + 1.0);
     }
+    // Marks on the outermost decades stand clear of the frame.
+    let margin = if axis.tight || axis.range.is_some() { 0.0 } else { 0.025 * (to - from) };
     let step = ((to - from) / (ticks.max(1) as f64 + 2.0)).ceil().max(1.0);
     Resolved {
         scale: Scale::Logarithmic,
         offset: 0.0,
         exponent: 0,
-        range: (from, to),
+        range: (from - margin, to + margin),
         step,
         label: label(axis, 0.0, 0),
     }
@@ -145,6 +156,11 @@ fn scaled(v: f64, exponent: i32) -> f64 {
     if exponent < 0 { v * power(-exponent) } else { v / power(exponent) }
 }
 
+/// s·10ⁿ, the nearest number to that decimal where s is whole.
+fn unscaled(s: f64, exponent: i32) -> f64 {
+    if exponent < 0 { s / power(-exponent) } else { s * power(exponent) }
+}
+
 /// The smallest of 1, 2, 2.5 and 5 times a power of ten that is not below `least`.
 fn round_step(least: f64) -> f64 {
     let unit = power(decade(least));
@@ -154,11 +170,12 @@ fn round_step(least: f64) -> f64 {
 
 /// Decimals that tell the multiples of `step` apart.
 fn decimals(step: f64) -> usize {
-    (0..12).find(|&n| {
-        let s = step * power(n);
-        (s - s.round()).abs() < 1e-6 * s.max(1.0) && s.round() >= 1.0
-    })
-    .unwrap_or(12) as usize
+    (0..12)
+        .find(|&n| {
+            let s = step * power(n);
+            (s - s.round()).abs() < 1e-6 * s.max(1.0) && s.round() >= 1.0
+        })
+        .unwrap_or(12) as usize
 }
 
 /// A number with a true minus sign, and no minus before zero.
@@ -197,7 +214,10 @@ mod tests {
     fn ticks_are_round_and_split_off_powers_of_ten() {
         let w = Axis::new("Deflection w₂", "m");
         let (label, ticks) = texts(&w, &[-0.4, 0.004]);
-        assert_eq!((label.as_str(), ticks.join(" ").as_str()), ("Deflection w₂ [m]", "−0.4 −0.3 −0.2 −0.1 0.0"));
+        assert_eq!(
+            (label.as_str(), ticks.join(" ").as_str()),
+            ("Deflection w₂ [m]", "−0.4 −0.3 −0.2 −0.1 0.0")
+        );
         let (label, ticks) = texts(&w, &[-4e-3, 4e-3]);
         assert_eq!(label, "Deflection w₂ [10⁻³ m]");
         assert_eq!(ticks.join(" "), "−4 −2 0 2 4");

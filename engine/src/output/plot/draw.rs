@@ -5,14 +5,15 @@ use std::sync::Arc;
 use kuva::backend::{raster::RasterBackend, svg::SvgBackend};
 use kuva::plot::legend::{LegendEntry, LegendPosition, LegendShape};
 use kuva::plot::scatter::MarkerShape;
-use kuva::plot::{LinePlot, LineStyle, ScatterPlot};
+use kuva::plot::{LinePlot, ScatterPlot};
 use kuva::render::figure::{Figure as Grid, LabelConfig, LabelStyle};
 use kuva::render::layout::{Layout, TickAlign, TickFormat};
 use kuva::render::plots::Plot;
-use kuva::render::render::Scene;
+use kuva::render::render::{Primitive, Scene};
 use kuva::render::theme::Theme;
 
 use super::axis::Resolved;
+use super::dash::dashes;
 use super::decimate::decimate;
 use super::{Figure, Line, Marker, Panel, Series, style};
 use crate::output::OutputError;
@@ -39,6 +40,23 @@ impl Drawing {
     }
 }
 
+/// Names the clip regions by their place: the library counts them over the whole process, and the
+/// same figure must give the same bytes.
+fn number_clips(scene: &mut Scene) {
+    let Scene { elements, defs, .. } = scene;
+    let ids = elements.iter_mut().filter_map(|e| match e {
+        Primitive::ClipStart { id, .. } => Some(id),
+        _ => None,
+    });
+    for (i, id) in ids.enumerate() {
+        let name = format!("frame-{i}");
+        for def in defs.iter_mut() {
+            *def = def.replace(&format!("\"{id}\""), &format!("\"{name}\""));
+        }
+        *id = name;
+    }
+}
+
 /// A panel with its axes decided.
 struct Placed<'a> {
     panel: &'a Panel,
@@ -59,17 +77,25 @@ impl Figure {
         let height = style::PANEL_HEIGHT[(rows - 1).min(2)];
         let margins = Margins::new(&placed, columns);
         let letters: Vec<String> = (0..placed.len()).map(|i| format!("({})", letter(i))).collect();
+        // All panels of a row end at the same height, labelled or not.
+        let bottoms: Vec<f64> =
+            placed.chunks(columns).map(|row| margins.bottom(row.iter().any(|p| p.x_labelled))).collect();
         let mut grid = Grid::new(rows, columns)
             .with_spacing(style::SPACING)
             .with_padding(style::PADDING)
-            .with_plots(placed.iter().map(|p| plots(p, width)).collect())
-            .with_layouts(placed.iter().enumerate().map(|(i, p)| layout(p, &margins, i % columns)).collect());
+            .with_plots(placed.iter().map(|p| plots(p, (width, height))).collect())
+            .with_layouts(
+                placed
+                    .iter()
+                    .enumerate()
+                    .map(|(i, p)| layout(p, &margins, i % columns, bottoms[i / columns], height))
+                    .collect(),
+            );
         for (column, left) in margins.left.iter().enumerate() {
             grid = grid.with_col_width(column, left + width + margins.right);
         }
-        for row in 0..rows {
-            let labelled = placed.iter().skip(row * columns).take(columns).any(|p| p.x_labelled);
-            grid = grid.with_row_height(row, margins.top + height + margins.bottom(labelled));
+        for (row, bottom) in bottoms.iter().enumerate() {
+            grid = grid.with_row_height(row, margins.top + height + bottom);
         }
         if placed.len() > 1 {
             let config = LabelConfig { style: LabelStyle::Lowercase, size: style::LABEL_SIZE, bold: true };
@@ -78,21 +104,26 @@ impl Figure {
         if let Some(title) = &self.title {
             grid = grid.with_title(title.clone()).with_title_size(style::TITLE_SIZE);
         }
-        Drawing { scene: grid.render() }
+        let mut scene = grid.render();
+        number_clips(&mut scene);
+        Drawing { scene }
     }
 
     fn place(&self, columns: usize) -> Vec<Placed<'_>> {
-        let xs = |panel: &Panel| panel.series.iter().flat_map(|s| s.points.iter().map(|p| p.0)).collect::<Vec<_>>();
+        let xs = |panel: &Panel| {
+            panel.series.iter().flat_map(|s| s.points.iter().map(|p| p.0)).collect::<Vec<_>>()
+        };
         let all: Vec<f64> = if self.share_x { self.panels.iter().flat_map(xs).collect() } else { Vec::new() };
         self.panels
             .iter()
             .enumerate()
             .map(|(i, panel)| {
-                let own = if self.share_x { all.clone() } else { xs(panel) };
+                let own = if self.share_x { Vec::new() } else { xs(panel) };
+                let shown = if self.share_x { &all } else { &own };
                 let ys = panel.series.iter().flat_map(|s| s.points.iter().map(|p| p.1));
                 Placed {
                     panel,
-                    x: Resolved::new(&panel.x, own.into_iter(), 5),
+                    x: Resolved::new(&panel.x, shown.iter().copied(), 5),
                     y: Resolved::new(&panel.y, ys, 5),
                     x_labelled: !self.share_x || i + columns >= self.panels.len(),
                 }
@@ -110,7 +141,9 @@ struct Margins {
 
 impl Margins {
     fn new(placed: &[Placed<'_>], columns: usize) -> Margins {
-        let widest = |axis: &Resolved| axis.ticks().iter().map(|&s| style::tick_width(&axis.tick(s))).fold(0.0, f64::max);
+        let widest = |axis: &Resolved| {
+            axis.ticks().iter().map(|&s| style::tick_width(&axis.tick(s))).fold(0.0, f64::max)
+        };
         let left = |column: usize| {
             let ticks = placed.iter().skip(column).step_by(columns).map(|p| widest(&p.y)).fold(0.0, f64::max);
             ticks + f64::from(style::LABEL_SIZE) * 1.2 + 24.0
@@ -121,11 +154,11 @@ impl Margins {
     }
 
     fn bottom(&self, labelled: bool) -> f64 {
-        if labelled { f64::from(style::TICK_SIZE + style::LABEL_SIZE) + 26.0 } else { 6.0 }
+        if labelled { f64::from(style::TICK_SIZE + style::LABEL_SIZE) + 19.0 } else { 6.0 }
     }
 }
 
-fn layout(p: &Placed<'_>, margins: &Margins, column: usize) -> Layout {
+fn layout(p: &Placed<'_>, margins: &Margins, column: usize, bottom: f64, height: f64) -> Layout {
     let tick = |axis: &Resolved| {
         let axis = axis.clone();
         TickFormat::Custom(Arc::new(move |s| axis.tick(s)))
@@ -150,7 +183,7 @@ fn layout(p: &Placed<'_>, margins: &Margins, column: usize) -> Layout {
         .with_y_label(p.y.label.clone())
         .with_theme(theme)
         .with_font_family(style::FONTS)
-        .with_label_size(style::LABEL_SIZE)
+        .with_label_size(style::label_size(&p.y.label, height))
         .with_tick_size(style::TICK_SIZE)
         .with_body_size(style::LEGEND_SIZE)
         .with_axis_line_width(style::FRAME_WIDTH)
@@ -160,7 +193,7 @@ fn layout(p: &Placed<'_>, margins: &Margins, column: usize) -> Layout {
         .with_grid_line_width(style::GRID_WIDTH)
         .with_box_axes()
         .with_force_margins(margins.left.get(column).copied().unwrap_or(60.0), margins.right)
-        .with_force_margins_y(margins.top, margins.bottom(p.x_labelled));
+        .with_force_margins_y(margins.top, bottom);
     if p.x_labelled {
         layout = layout.with_x_label(p.x.label.clone());
     } else {
@@ -168,24 +201,33 @@ fn layout(p: &Placed<'_>, margins: &Margins, column: usize) -> Layout {
     }
     let entries = legend(p.panel);
     if !entries.is_empty() {
-        layout = layout.with_legend_entries(entries).with_legend_position(emptiest_corner(p)).with_legend_box(true);
+        layout = layout
+            .with_legend_entries(entries)
+            .with_legend_position(emptiest_corner(p))
+            .with_legend_box(true);
     }
     layout
 }
 
-fn plots(p: &Placed<'_>, width: f64) -> Vec<Plot> {
+/// The curves and marks of a panel whose frame has the given size [px].
+fn plots(p: &Placed<'_>, size: (f64, f64)) -> Vec<Plot> {
+    let span = |(lo, hi): (f64, f64)| hi - lo;
+    let scale = (size.0 / span(p.x.range), size.1 / span(p.y.range));
     let mut plots = Vec::new();
     for (i, series) in p.panel.series.iter().enumerate() {
         let color = style::color(series.color.unwrap_or(i));
         for piece in pieces(p, series) {
-            if let Some(line_style) = line_style(series.line) {
-                let columns = if series.marker.is_some() { usize::MAX / 8 } else { 2 * width as usize };
-                let line = LinePlot::new()
-                    .with_data(decimate(&piece, p.x.range, columns))
-                    .with_color(color)
-                    .with_stroke_width(style::LINE_WIDTH)
-                    .with_line_style(line_style);
-                plots.push(line.into());
+            // A curve with marks shows each of its points; any other is thinned to two points a pixel.
+            let columns = if series.marker.is_some() { piece.len() } else { 2 * size.0 as usize };
+            let thin = decimate(&piece, p.x.range, columns);
+            let strokes = match style::dash(series.line) {
+                Some((on, off)) => dashes(&thin, scale, on, off),
+                None if series.line == Line::None => Vec::new(),
+                None => vec![thin],
+            };
+            for stroke in strokes {
+                let line = LinePlot::new().with_data(stroke).with_color(color);
+                plots.push(line.with_stroke_width(style::LINE_WIDTH).into());
             }
             if let Some(marker) = series.marker {
                 let marks = ScatterPlot::new()
@@ -222,7 +264,7 @@ fn legend(panel: &Panel) -> Vec<LegendEntry> {
             None => LegendShape::Line,
         };
         let color = style::color(s.color.unwrap_or(i)).to_string();
-        let dasharray = line_style(s.line).and_then(|l| l.dasharray());
+        let dasharray = style::dash(s.line).map(|(on, off)| format!("{on} {off}"));
         s.name.clone().map(|label| LegendEntry { label, color, shape, dasharray })
     };
     panel.series.iter().enumerate().filter_map(entry).collect()
@@ -246,7 +288,12 @@ fn emptiest_corner(p: &Placed<'_>) -> LegendPosition {
         .map(|(x, y)| (part(x, p.x.range), part(y, p.y.range)))
         .collect();
     let crowd = |right: bool, top: bool| {
-        points.iter().filter(|(x, y)| (*x > 0.6) == right && (*x < 0.4) != right && (*y > 0.55) == top && (*y < 0.45) != top).count()
+        points
+            .iter()
+            .filter(|(x, y)| {
+                (*x > 0.6) == right && (*x < 0.4) != right && (*y > 0.55) == top && (*y < 0.45) != top
+            })
+            .count()
     };
     let mut best = (usize::MAX, LegendPosition::InsideTopRight);
     for (position, right, top) in corners {
@@ -256,15 +303,6 @@ fn emptiest_corner(p: &Placed<'_>) -> LegendPosition {
         }
     }
     best.1
-}
-
-fn line_style(line: Line) -> Option<LineStyle> {
-    match line {
-        Line::Solid => Some(LineStyle::Solid),
-        Line::Dashed => Some(LineStyle::Dashed),
-        Line::Dotted => Some(LineStyle::Dotted),
-        Line::None => None,
-    }
 }
 
 fn shape(marker: Marker) -> MarkerShape {

@@ -5,10 +5,13 @@
 //! convergence plot) is a [`Figure`] built from its own [`Panel`]s. The same figure gives the same bytes.
 
 mod axis;
+mod dash;
 mod decimate;
 mod draw;
 mod panels;
 mod style;
+#[cfg(test)]
+mod tests;
 
 pub use self::draw::Drawing;
 pub use self::panels::{compare_figure, trajectory_figure};

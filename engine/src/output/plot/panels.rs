@@ -7,7 +7,7 @@ use crate::system::Channel;
 /// Columns that have a panel of their own, with the words for it.
 const SINGLE: [(&str, &str); 5] = [
     ("tip.deflection", "Tip deflection w₂"),
-    ("tip.axial", "Tip axial displacement w₁"),
+    ("tip.axial", "Axial displacement"),
     ("hub.speed", "Hub speed"),
     ("hub.angle", "Hub angle θ"),
     ("hub.torque", "Hub torque τ"),
@@ -24,20 +24,28 @@ const ENERGIES: [(&str, &str); 4] = [
 /// Energies below this fraction of the largest cannot be read in the same panel.
 const READABLE: f64 = 0.05;
 
-/// The usual number of panels.
+/// From this number on, panels stand in two columns.
 const PANELS: usize = 4;
 
 /// The figure of one run: tip deflection, tip axial displacement, hub speed and energies against time,
 /// as far as they were recorded; the first columns there are when none of them was.
 pub fn trajectory_figure(trajectory: &Trajectory, title: Option<&str>) -> Figure {
     let names: Vec<&str> = SINGLE.iter().map(|(name, _)| *name).take(3).collect();
-    let mut panels: Vec<Panel> =
-        names.iter().filter_map(|name| panel(&[(None, trajectory)], name)).collect();
+    let mut panels: Vec<Panel> = names.iter().filter_map(|name| panel(&[(None, trajectory)], name)).collect();
     panels.extend(energies(trajectory));
-    for channel in trajectory.channels() {
-        let shown = names.contains(&channel.name.as_str()) || ENERGIES.iter().any(|(n, _)| *n == channel.name);
-        if panels.is_empty() || (panels.len() < 2 && !shown) {
-            panels.extend(panel(&[(None, trajectory)], &channel.name));
+    // Two columns are filled up, and a figure without any of these shows what there is.
+    let shown = |name: &str| names.contains(&name) || ENERGIES.iter().any(|(n, _)| *n == name);
+    let known = SINGLE.iter().map(|(name, _)| *name).filter(|name| trajectory.index(name).is_some());
+    let others = trajectory.channels().iter().map(|c| c.name.as_str());
+    let mut fillers: Vec<&str> = Vec::new();
+    for name in known.chain(others) {
+        if !shown(name) && !fillers.contains(&name) {
+            fillers.push(name);
+        }
+    }
+    for name in fillers {
+        if panels.len() < 2 || (panels.len() > PANELS && panels.len() % 2 == 1) {
+            panels.extend(panel(&[(None, trajectory)], name));
         }
     }
     figure(panels, title)
@@ -54,8 +62,7 @@ pub fn compare_figure(runs: &[(&str, &Trajectory)], columns: &[&str], title: Opt
     figure(panels, title)
 }
 
-fn figure(mut panels: Vec<Panel>, title: Option<&str>) -> Figure {
-    panels.truncate(PANELS.max(6));
+fn figure(panels: Vec<Panel>, title: Option<&str>) -> Figure {
     let columns = if panels.len() < PANELS { 1 } else { 2 };
     Figure { title: title.map(String::from), panels, columns, share_x: true }
 }
@@ -89,7 +96,8 @@ fn energies(trajectory: &Trajectory) -> Vec<Panel> {
         .filter(|group| !group.is_empty())
         .map(|group| {
             let alone = group.len() == 1;
-            let quantity = if alone { capitalised(&format!("{} energy", group[0].1)) } else { "Energy".into() };
+            let quantity =
+                if alone { capitalised(&format!("{} energy", group[0].1)) } else { "Energy".into() };
             let series = group
                 .iter()
                 .map(|&(i, word, _, color)| Series {
