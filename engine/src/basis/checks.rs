@@ -139,10 +139,10 @@ pub fn quadrature_is_exact(basis: &dyn Basis, field: Field, tolerance: f64) {
 }
 
 /// Σ φᵢ cᵢ and its derivatives against the given functions, everywhere.
-pub fn reproduces<'a, const N: usize>(
+pub fn reproduces<const N: usize>(
     basis: &dyn Basis,
     coefficients: &[f64],
-    derivatives: [&'a dyn Fn(f64) -> f64; N],
+    derivatives: [&dyn Fn(f64) -> f64; N],
 ) {
     let mut out = vec![0.0; basis.max_support()];
     for c in 0..basis.cells().len() - 1 {

@@ -94,6 +94,16 @@ pub enum ProfileError {
         /// Duration of the run [s].
         duration: f64,
     },
+    /// A prescribed motion is not a finite number at some time.
+    #[error("the {quantity} is {value} at t = {time} s and must be finite all through the run")]
+    Motion {
+        /// Quantity.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+        /// Time [s].
+        time: f64,
+    },
     /// The run leaves the times at which the profile is given.
     #[error("the profile is given from {first} s to {last} s and the run needs it from 0 s to {duration} s")]
     OutOfRange {

@@ -66,7 +66,7 @@ impl Motion {
     /// Whether the motion is given, and finite, all through a run from 0 to `duration` [s].
     ///
     /// # Errors
-    /// [`ProfileError::OutOfRange`], or [`ProfileError::Quantity`] with what is not finite.
+    /// [`ProfileError::OutOfRange`], or [`ProfileError::Motion`] with what is not finite and when.
     pub fn validate(&self, duration: f64) -> Result<(), ProfileError> {
         covers(self.profile().as_ref(), duration)?;
         for t in self.samples(duration) {
@@ -76,7 +76,9 @@ impl Motion {
                 ("prescribed speed of the hub [rad/s]", hub.speed),
                 ("prescribed acceleration of the hub [rad/s²]", hub.acceleration),
             ] {
-                super::finite(quantity, value)?;
+                if !value.is_finite() {
+                    return Err(ProfileError::Motion { quantity, value, time: t });
+                }
             }
         }
         Ok(())

@@ -58,7 +58,7 @@ impl Table {
         for i in 1..table.times.len() {
             table.sums[i] = table.sums[i - 1] + table.piece_integral(i - 1, table.times[i]);
         }
-        table.origin = table.from_first(0.0);
+        table.origin = table.since_first(0.0);
         Ok(table)
     }
 
@@ -77,7 +77,7 @@ impl Table {
         s * (self.values[i] + s * (slope / 2.0 + s * (m / 6.0 + s * (n - m) / (24.0 * h))))
     }
 
-    fn from_first(&self, t: f64) -> f64 {
+    fn since_first(&self, t: f64) -> f64 {
         let i = self.piece(t).0;
         self.sums[i] + self.piece_integral(i, t)
     }
@@ -141,7 +141,7 @@ impl Profile for Table {
     }
 
     fn integral(&self, t: f64) -> f64 {
-        self.from_first(t) - self.origin
+        self.since_first(t) - self.origin
     }
 
     fn range(&self) -> (f64, f64) {

@@ -101,7 +101,8 @@ mod tests {
     #[test]
     fn area_and_second_moment_are_the_integrals_of_the_chord() {
         let circle = |r: f64| move |y: f64| 2.0 * (r * r - y * y).max(0.0).sqrt();
-        let cases: [(Shape, Box<dyn Fn(i32) -> f64>); 3] = [
+        type Moment = Box<dyn Fn(i32) -> f64>;
+        let cases: [(Shape, Moment); 3] = [
             (Shape::Rectangle { width: 0.3, height: 0.2 }, Box::new(|k| moment(0.1, k, |_| 0.3))),
             (Shape::Circle { radius: 0.2 }, Box::new(move |k| moment(0.2, k, circle(0.2)))),
             (
