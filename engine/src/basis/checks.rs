@@ -162,3 +162,63 @@ pub fn reproduces<'a, const N: usize>(
         }
     }
 }
+
+/// Relative errors of the tip deflection under a tip load and of the first bending frequency of a uniform
+/// cantilever, assembled from the basis.
+pub fn cantilever_errors(basis: &dyn Basis) -> (f64, f64) {
+    let (n, length) = (basis.len(), basis.cells()[basis.cells().len() - 1]);
+    let stiffness = gram(basis, 2, basis.points_per_cell(), |_| 1.0);
+    let mass = gram(basis, 0, basis.points_per_cell(), |_| 1.0);
+    let mut tip = vec![0.0; n];
+    let support = basis.support(basis.cells().len() - 2);
+    basis.eval(basis.cells().len() - 2, length, 0, &mut tip[support]);
+    let deflected = solve(stiffness.clone(), tip.clone());
+    let deflection: f64 = tip.iter().zip(&deflected).map(|(a, b)| a * b).sum();
+    let times = |x: &[f64]| -> Vec<f64> {
+        mass.chunks(n).map(|row| row.iter().zip(x).map(|(a, b)| a * b).sum()).collect()
+    };
+    let (mut x, mut square) = (deflected, 0.0);
+    for _ in 0..8 {
+        let load = times(&x);
+        let y = solve(stiffness.clone(), load.clone());
+        let work: f64 = y.iter().zip(&load).map(|(a, b)| a * b).sum();
+        let inertia: f64 = y.iter().zip(times(&y)).map(|(a, b)| a * b).sum();
+        square = work / inertia;
+        let size = inertia.sqrt();
+        x = y.iter().map(|y| y / size).collect();
+    }
+    let exact = crate::exact::cantilever::bending_frequency(1, 1.0, 1.0, length);
+    (deflection * 3.0 / length.powi(3) - 1.0, square.sqrt() / exact - 1.0)
+}
+
+/// Gauss elimination with row pivoting, rows and columns scaled by the diagonal.
+fn solve(mut a: Vec<f64>, b: Vec<f64>) -> Vec<f64> {
+    let n = b.len();
+    let scale: Vec<f64> = (0..n).map(|i| 1.0 / a[i * n + i].sqrt()).collect();
+    let mut x: Vec<f64> = b.iter().zip(&scale).map(|(b, s)| b * s).collect();
+    for i in 0..n {
+        for j in 0..n {
+            a[i * n + j] *= scale[i] * scale[j];
+        }
+    }
+    for c in 0..n {
+        let size = |r: usize| a[r * n + c].abs();
+        let p = (c..n).max_by(|&r, &s| size(r).total_cmp(&size(s))).unwrap();
+        for j in 0..n {
+            a.swap(p * n + j, c * n + j);
+        }
+        x.swap(p, c);
+        for r in c + 1..n {
+            let factor = a[r * n + c] / a[c * n + c];
+            for j in c..n {
+                a[r * n + j] -= factor * a[c * n + j];
+            }
+            x[r] -= factor * x[c];
+        }
+    }
+    for r in (0..n).rev() {
+        let rest: f64 = (r + 1..n).map(|j| a[r * n + j] * x[j]).sum();
+        x[r] = (x[r] - rest) / a[r * n + r];
+    }
+    x.iter().zip(&scale).map(|(x, s)| x * s).collect()
+}

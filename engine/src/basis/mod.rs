@@ -4,9 +4,13 @@
 pub(crate) mod checks;
 mod hermite;
 mod lagrange;
+mod modes;
+mod radial;
 
 pub use hermite::Hermite;
 pub use lagrange::Lagrange;
+pub use modes::Modes;
+pub use radial::{Radial, RadialParameters};
 
 use std::ops::Range;
 

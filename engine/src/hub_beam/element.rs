@@ -234,12 +234,8 @@ impl Element {
             let k = (x1 * y2 - y1 * x2) * inverse;
             out.curvature[g] = k;
             out.slope[g] = [x1, y1];
-            out.gradient[g] = [
-                (y2 - 2.0 * k * x1) * inverse,
-                (-x2 - 2.0 * k * y1) * inverse,
-                -y1 * inverse,
-                x1 * inverse,
-            ];
+            out.gradient[g] =
+                [(y2 - 2.0 * k * x1) * inverse, (-x2 - 2.0 * k * y1) * inverse, -y1 * inverse, x1 * inverse];
             out.moment[g] = self.bending[g] * k;
             if self.has_coupling {
                 let es = self.coupling[g];
@@ -376,8 +372,7 @@ impl Element {
             return;
         }
         for (g, p) in rule.points.iter().enumerate() {
-            let (on_value, on_slope) =
-                self.turn(p, local, hub, rule).force(self.rotary[g], self.first[g]);
+            let (on_value, on_slope) = self.turn(p, local, hub, rule).force(self.rotary[g], self.first[g]);
             for c in 0..2 {
                 for k in 0..4 {
                     f[4 * c + k] += on_value[c] * p.n[k] + on_slope[c] * p.n1[k];
@@ -468,10 +463,7 @@ fn sum(c1: f64, a: [f64; 2], c2: f64, b: [f64; 2]) -> [f64; 2] {
 /// p̈ + 2ωJṗ + ω̇Jp − ω²p
 fn absolute(p: [f64; 2], v: [f64; 2], a: [f64; 2], hub: &HubKinematics) -> [f64; 2] {
     let (w, w1) = (hub.speed, hub.acceleration);
-    [
-        a[0] - 2.0 * w * v[1] - w1 * p[1] - w * w * p[0],
-        a[1] + 2.0 * w * v[0] + w1 * p[0] - w * w * p[1],
-    ]
+    [a[0] - 2.0 * w * v[1] - w1 * p[1] - w * w * p[0], a[1] + 2.0 * w * v[0] + w1 * p[0] - w * w * p[1]]
 }
 
 impl Turn {
@@ -560,8 +552,7 @@ impl Turn {
         let kinetic = 0.5 * rotary * self.spin * self.spin
             - first * self.spin * inner(sum(1.0, self.velocity, hub.speed, jp), self.t);
         let (value, _) = self.force(rotary, first);
-        let torque =
-            rotary * self.spin_rate + inner(value, jp) - first * inner(self.t, self.acceleration);
+        let torque = rotary * self.spin_rate + inner(value, jp) - first * inner(self.t, self.acceleration);
         (kinetic, torque)
     }
 }

@@ -74,8 +74,7 @@ impl ExactCoupling {
             Box::new(Hermite::new(length, elements, Field::Transverse)?),
             section.breaks(),
         );
-        let inertia =
-            Inertia::new(&fields, &MassOnly(section), radius, hub_inertia, Foreshortening::None, 0);
+        let inertia = Inertia::new(&fields, &MassOnly(section), radius, hub_inertia, Foreshortening::None, 0);
         let nodes = fields.axial().cells().to_vec();
         let rule = Rule::new(nodes[1] - nodes[0]);
         let elements = (0..elements).map(|e| Element::new(&fields, section, &nodes, e)).collect();

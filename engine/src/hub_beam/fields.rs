@@ -71,7 +71,8 @@ impl Fields {
         order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2)));
         let (mut axial_index, mut transverse_index) = (vec![0; na], vec![0; nt]);
         for (number, &(_, field, i)) in order.iter().enumerate() {
-            if field == 0 { &mut axial_index } else { &mut transverse_index }[i] = number;
+            let index = if field == 0 { &mut axial_index } else { &mut transverse_index };
+            index[i] = number;
         }
         let points = axial.points_per_cell().max(transverse.points_per_cell()) + EXTRA_POINTS;
         let mut fields = Fields {
@@ -94,8 +95,7 @@ impl Fields {
             let middle = 0.5 * (ends[0] + ends[1]);
             let axial = self.axial.support(self.axial.locate(middle));
             let transverse = self.transverse.support(self.transverse.locate(middle));
-            let numbers =
-                self.axial_index[axial].iter().chain(&self.transverse_index[transverse]).copied();
+            let numbers = self.axial_index[axial].iter().chain(&self.transverse_index[transverse]).copied();
             if let (Some(first), Some(last)) = (numbers.clone().min(), numbers.max()) {
                 widest = widest.max(last - first);
             }
@@ -151,9 +151,10 @@ impl Fields {
     /// One label for each unknown.
     pub fn labels(&self) -> Vec<Label> {
         let mut labels = vec![Label { name: String::new(), unit: "", scale: 1.0 }; self.len()];
-        for (basis, index, field) in
-            [(&self.axial, &self.axial_index, "axial"), (&self.transverse, &self.transverse_index, "transverse")]
-        {
+        for (basis, index, field) in [
+            (&self.axial, &self.axial_index, "axial"),
+            (&self.transverse, &self.transverse_index, "transverse"),
+        ] {
             for (i, &number) in index.iter().enumerate() {
                 let at = basis.anchor(i);
                 labels[number] = match basis.role(i) {

@@ -15,12 +15,12 @@
 //! ```
 //!
 //! Entries, with mass ρA, first moment ρS and rotary inertia ρI of the section, φ = w₂′ and the
-//! foreshortening w_c = −½ ∫₀ˣ w₂′² dξ kept to first order (terms marked ◦; zero for the zeroth-order
-//! coupling):
+//! foreshortening w_c = −½ ∫₀ˣ w₂′² dξ kept to first order (terms marked ◦; the zeroth-order coupling
+//! leaves them out). The section itself turns rigidly, to second order in φ, in either case:
 //!
 //! ```text
 //! T ∋ ½ρA (ẇ₁² + ẇ₂²) + ½ρI φ̇² − ρS ẇ₁ φ̇
-//!   + ω [ ρA R ẇ₂ + ρI φ̇ − ρS ẇ₁ + ρA (w₁ẇ₂ − w₂ẇ₁) − ρS (φẇ₂ − φ̇w₂) − ◦ρS R φφ̇ − ◦ρS ẇ_c ]
+//!   + ω [ ρA R ẇ₂ + ρI φ̇ − ρS ẇ₁ + ρA (w₁ẇ₂ − w₂ẇ₁) − ρS (φẇ₂ − φ̇w₂) − ρS R φφ̇ − ◦ρS ẇ_c ]
 //!   + ½ω² [ ρA (R² + 2R w₁ + w₁² + w₂² + ◦2R w_c) + ρI + 2ρS (w₂ − Rφ − w₁φ) ]
 //! ```
 //!
@@ -154,8 +154,9 @@ impl Inertia {
             add_outer(&mut d, (a, 0), (a, 0), w * mass);
             add_outer(&mut d, (b, 0), (b, 0), w * mass);
             add_symmetric(&mut d, (a, 0), (b, 1), -w * s);
+            add_outer(&mut p, (b, 1), (b, 1), -w * s * r);
             if first {
-                add_outer(&mut p, (b, 1), (b, 1), w * (moment_tail(x) - s * r));
+                add_outer(&mut p, (b, 1), (b, 1), w * moment_tail(x));
                 add_outer(&mut d, (b, 1), (b, 1), -w * mass_tail(x));
             }
             add_outer(&mut k, (a, 1), (a, 1), w * ea);

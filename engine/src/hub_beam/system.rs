@@ -80,7 +80,11 @@ fn channels(stations: &[Station]) -> Vec<Channel> {
         add(format!("{name}.deflection"), "m", format!("transverse displacement {at} in the hub's frame"));
         add(format!("{name}.axial"), "m", format!("axial displacement {at} in the hub's frame"));
         add(format!("{name}.rotation"), "rad", format!("rotation of the section {at} against the hub"));
-        add(format!("{name}.deflection_velocity"), "m/s", format!("rate of the transverse displacement {at}"));
+        add(
+            format!("{name}.deflection_velocity"),
+            "m/s",
+            format!("rate of the transverse displacement {at}"),
+        );
         add(format!("{name}.axial_velocity"), "m/s", format!("rate of the axial displacement {at}"));
         add(format!("{name}.rotation_velocity"), "rad/s", format!("rate of the rotation {at}"));
     }
@@ -174,7 +178,14 @@ impl<C: Coupling> System for HubBeam<C> {
         let mut values = order
             .flat_map(|i| {
                 let p = &self.placements[i];
-                [p.deflection, p.axial, p.rotation, p.deflection_velocity, p.axial_velocity, p.rotation_velocity]
+                [
+                    p.deflection,
+                    p.axial,
+                    p.rotation,
+                    p.deflection_velocity,
+                    p.axial_velocity,
+                    p.rotation_velocity,
+                ]
             })
             .chain([
                 hub.angle,

@@ -1,4 +1,31 @@
 //! Time integrators: each a file, each behind the one trait [`Integrator`].
+//!
+//! | method | file | order (q, v) | steps | equations solved a step |
+//! |---|---|---|---|---|
+//! | [`Radau`] IIA, 3 stages | `radau.rs` | 5 | adaptive | one real and one complex system an iteration |
+//! | [`GeneralizedAlpha`]: Newmark, HHT-α, Chung–Hulbert | `generalized_alpha.rs` | 2 | fixed | one system an iteration |
+//! | [`RungeKutta`], classical | `runge_kutta.rs` | 4 | fixed | mass matrix only |
+//! | [`Adams`]–Bashforth–Moulton PECE | `adams.rs` | 4 | fixed | mass matrix only |
+
+mod acceleration;
+mod adams;
+mod failure;
+mod generalized_alpha;
+mod hermite;
+mod newton;
+mod radau;
+mod radau_coefficients;
+mod runge_kutta;
+mod stability;
+mod step_control;
+
+pub use adams::Adams;
+pub use generalized_alpha::GeneralizedAlpha;
+pub use newton::{Convergence, Progress};
+pub use radau::{Radau, Tolerance};
+pub use runge_kutta::RungeKutta;
+pub use stability::{StabilityLimit, largest_frequency};
+pub use step_control::{Law, StepControl};
 
 use crate::system::{State, System};
 
@@ -118,6 +145,34 @@ pub enum StepError {
         /// Label of the worst unknown.
         worst: String,
     },
+    /// `step` or `restart` was called before `start`.
+    #[error("{method} was asked for a step before it was started")]
+    NotStarted {
+        /// Method as in a case file.
+        method: &'static str,
+    },
+    /// The method cannot integrate this kind of system.
+    #[error("{method} cannot integrate a system with {feature}; use {instead}")]
+    Unsupported {
+        /// Method as in a case file.
+        method: &'static str,
+        /// What the system has.
+        feature: &'static str,
+        /// Method that can.
+        instead: &'static str,
+    },
+}
+
+/// A parameter outside the range in which a method is what it is said to be.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{parameter} = {value} is outside the valid range: {range}")]
+pub struct InvalidParameter {
+    /// Name of the parameter.
+    pub parameter: &'static str,
+    /// Value given.
+    pub value: f64,
+    /// Valid range, in words.
+    pub range: &'static str,
 }
 
 /// A time integrator. Its history and scratch are its own; the states are the caller's.
@@ -147,8 +202,9 @@ pub trait Integrator {
     /// Commits the last attempt to the history.
     fn accept(&mut self, from: &State, to: &State);
 
-    /// The solution at time `t` inside the last accepted step, between `from` and `to`.
-    fn interpolate(&self, from: &State, to: &State, t: f64, out: &mut State);
+    /// The solution at time `t` inside the last accepted step, between `from` and `to`. The system
+    /// lends its [`retract`](System::retract): the polynomial lives in the space of increments.
+    fn interpolate(&self, system: &dyn System, from: &State, to: &State, t: f64, out: &mut State);
 
     /// Forgets the history after a discontinuity; completes `state` as [`Integrator::start`] does.
     fn restart(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), StepError>;

@@ -1,0 +1,126 @@
+use super::super::checks;
+use super::*;
+
+fn with(shape: f64, support: f64, degree: Option<usize>) -> RadialParameters {
+    RadialParameters { nodes: 11, shape, exponent: 1.03, support, degree }
+}
+
+#[test]
+fn it_is_a_basis_of_its_field() {
+    for field in [Field::Axial, Field::Transverse] {
+        for nodes in [2, 3, 5, 11] {
+            checks::all(&Radial::new(3.7, RadialParameters::new(nodes), field).unwrap(), field);
+        }
+        for (shape, support, degree) in [(1.0, 1.5, None), (2.0, 2.5, Some(1)), (7.0, 2.5, None)] {
+            checks::all(&Radial::new(3.7, with(shape, support, degree), field).unwrap(), field);
+        }
+    }
+}
+
+#[test]
+fn it_reproduces_clamped_polynomials_of_its_degree() {
+    for shape in [2.0, 4.0, 7.0] {
+        let derivatives: [&dyn Fn(f64) -> f64; 3] =
+            [&|x| 2.0 * x * x - 0.7 * x * x * x, &|x| 4.0 * x - 2.1 * x * x, &|x| 4.0 - 4.2 * x];
+        let basis = Radial::new(3.7, with(shape, 2.5, Some(3)), Field::Transverse).unwrap();
+        let nodal: Vec<f64> = (0..basis.len())
+            .map(|i| derivatives[(basis.role(i) == Role::Slope) as usize](basis.anchor(i)))
+            .collect();
+        checks::reproduces(&basis, &nodal, derivatives);
+        let basis = Radial::new(3.7, with(shape, 2.5, Some(1)), Field::Axial).unwrap();
+        let nodal: Vec<f64> = (0..basis.len()).map(|i| 3.0 * basis.anchor(i)).collect();
+        checks::reproduces(&basis, &nodal, [&|x: f64| 3.0 * x, &|_| 3.0]);
+    }
+}
+
+#[test]
+fn values_and_slopes_at_the_nodes_are_the_unknowns() {
+    for field in [Field::Axial, Field::Transverse] {
+        let basis = Radial::new(3.7, with(5.0, 3.5, None), field).unwrap();
+        let mut out = vec![0.0; basis.max_support()];
+        for cell in 0..10 {
+            for x in [basis.cells()[cell], basis.cells()[cell + 1]] {
+                for derivative in 0..if field == Field::Axial { 1 } else { 2 } {
+                    for (i, &found) in basis.eval(cell, x, derivative, &mut out).zip(&out) {
+                        let role = if derivative == 0 { Role::Value } else { Role::Slope };
+                        let here = (basis.anchor(i) - x).abs() < 1e-12 && basis.role(i) == role;
+                        let unit = if here { 1.0 } else { 0.0 };
+                        assert!((found - unit).abs() < 1e-12, "{field:?} function {i} at {x}: {found}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Errors of a cantilever with 11 nodes, α_s = 2.5 and no polynomials, as measured; the error falls as α_c grows.
+#[test]
+fn flatter_radial_functions_bend_more_accurately_from_1_to_7() {
+    let mut last = 1.0;
+    for (shape, deflection, frequency) in
+        [(1.0, 1.2e-3, 9e-4), (2.0, 8e-6, 1e-5), (4.0, 4e-9, 1.2e-8), (7.0, 1e-10, 1e-10)]
+    {
+        let basis = Radial::new(10.0, with(shape, 2.5, None), Field::Transverse).unwrap();
+        let (d, f) = checks::cantilever_errors(&basis);
+        assert!(d.abs() < deflection && f.abs() < frequency, "α_c = {shape}: {d:.1e} {f:.1e}");
+        assert!(f > -1e-10, "a conforming field cannot vibrate below the exact frequency: {f:e}");
+        assert!(f.abs() < last);
+        last = f.abs();
+    }
+}
+
+#[test]
+fn the_defaults_beat_hermite_elements_on_the_same_nodes() {
+    let radial = Radial::new(10.0, RadialParameters::new(11), Field::Transverse).unwrap();
+    let (deflection, frequency) = checks::cantilever_errors(&radial);
+    let hermite = super::super::Hermite::new(10.0, 10, Field::Transverse).unwrap();
+    let (_, elements) = checks::cantilever_errors(&hermite);
+    assert!(deflection.abs() < 1e-10, "{deflection:e}");
+    assert!(frequency.abs() < 1e-2 * elements, "{frequency:e} against {elements:e}");
+}
+
+#[test]
+fn condition_numbers_pass_what_doubles_resolve_at_a_shape_parameter_of_7() {
+    // κ₁ ε = 1: P1's limit α_c = 7, beyond which plain double precision fails, for a support of 6 nodes.
+    let number =
+        |shape| Radial::new(10.0, with(shape, 2.5, None), Field::Transverse).unwrap().conditioning().number;
+    assert!(number(7.0) * f64::EPSILON < 1.0 && number(7.5) * f64::EPSILON > 1.0);
+}
+
+#[test]
+fn a_singular_moment_matrix_is_refused_with_its_numbers() {
+    for parameters in [
+        with(8.0, 10.0, None),
+        with(20.0, 2.5, Some(1)),
+        RadialParameters { exponent: 1.0, ..with(4.0, 2.5, None) },
+        RadialParameters { exponent: 2.0, ..with(4.0, 2.5, Some(1)) },
+    ] {
+        match Radial::new(10.0, parameters, Field::Transverse) {
+            Err(error @ BasisError::Singular { number, .. }) => {
+                assert!(number > 1e15, "{parameters:?}: {number:e}");
+                assert!(error.to_string().contains("shape"), "{error}");
+            }
+            other => panic!("{parameters:?}: {other:?}"),
+        }
+    }
+}
+
+#[test]
+fn parameters_out_of_range_are_refused() {
+    for parameters in [
+        with(0.0, 2.5, None),
+        with(f64::NAN, 2.5, None),
+        with(4.0, 0.4, None),
+        with(4.0, f64::INFINITY, None),
+        with(4.0, 0.5, Some(4)),
+        with(4.0, 0.5, Some(usize::MAX)),
+        with(1e-3, 2.5, None),
+        RadialParameters { exponent: f64::NAN, ..with(4.0, 2.5, None) },
+        RadialParameters { nodes: 100, ..with(1.0, 100.0, None) },
+        RadialParameters { nodes: 1, ..with(4.0, 2.5, None) },
+        RadialParameters { nodes: 0, ..with(4.0, 2.5, None) },
+    ] {
+        let error = Radial::new(10.0, parameters, Field::Transverse).unwrap_err();
+        assert!(matches!(error, BasisError::Invalid(_)), "{parameters:?}: {error}");
+    }
+}

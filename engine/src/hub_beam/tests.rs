@@ -1,0 +1,420 @@
+//! The equations of motion against d'Alembert's principle, finite differences and closed forms.
+
+use super::*;
+use crate::basis::{Field, Hermite, Lagrange};
+use crate::linalg::{Matrix, Structure};
+use crate::profile::{Expression, HubKinematics, Motion};
+use crate::section::{Resultants, Section};
+use crate::system::{State, System, Weights};
+use std::sync::Arc;
+
+const LENGTH: f64 = 2.0;
+const RADIUS: f64 = 0.3;
+
+/// Two rows of fibres of different mass and stiffness, which vary along the beam: every resultant is
+/// non-zero, and the equations can be written fibre by fibre.
+#[derive(Debug)]
+struct TwoFibres;
+
+impl TwoFibres {
+    /// (height, mass per length, axial stiffness) of each fibre.
+    fn fibres(x: f64) -> [(f64, f64, f64); 2] {
+        [(-0.05, 1.5 + 0.2 * x, 900.0), (0.11, 0.8 - 0.1 * x, 1300.0 + 100.0 * x)]
+    }
+}
+
+impl Section for TwoFibres {
+    fn resultants(&self, x: f64) -> Resultants {
+        let mut r = Resultants::default();
+        for (y, m, ea) in TwoFibres::fibres(x) {
+            r.mass += m;
+            r.first_moment += m * y;
+            r.rotary_inertia += m * y * y;
+            r.axial_stiffness += ea;
+            r.coupling_stiffness += ea * y;
+            r.bending_stiffness += ea * y * y;
+        }
+        r
+    }
+}
+
+fn hub() -> Hub {
+    let formula = "0.4 + 1.3*t + 0.35*t^2";
+    Hub {
+        radius: RADIUS,
+        inertia: 0.7,
+        motion: Motion::Angle(Arc::new(Expression::new(formula, "t", 10.0).unwrap())),
+    }
+}
+
+fn fields(elements: usize) -> Fields {
+    Fields::new(
+        LENGTH,
+        Box::new(Lagrange::new(LENGTH, elements, 2).unwrap()),
+        Box::new(Hermite::new(LENGTH, elements, Field::Transverse).unwrap()),
+        &[],
+    )
+}
+
+fn linear(foreshortening: Foreshortening) -> HubBeam<LinearCoupling> {
+    let coupling = LinearCoupling::new(fields(3), &TwoFibres, RADIUS, 0.7, foreshortening);
+    HubBeam::new(hub(), coupling, &[])
+}
+
+fn exact() -> HubBeam<ExactCoupling> {
+    HubBeam::new(hub(), ExactCoupling::new(LENGTH, 3, &TwoFibres, RADIUS, 0.7).unwrap(), &[])
+}
+
+/// A smooth, generic state of the given size of deformation.
+fn state(system: &dyn System, size: f64) -> State {
+    let mut s = State::zeros(system.size(), 0.6);
+    for i in 0..s.q.len() {
+        let x = i as f64;
+        s.q[i] = size * (1.3 * x + 0.2).sin();
+        s.v[i] = size * (0.7 * x + 1.0).cos();
+        s.a[i] = size * (2.1 * x + 0.5).sin();
+    }
+    s
+}
+
+fn residual(system: &mut dyn System, s: &State) -> Vec<f64> {
+    let mut r = vec![0.0; s.v.len()];
+    system.residual(s, &mut r);
+    r
+}
+
+/// Largest difference over the largest entry of `b`.
+fn relative(a: &[f64], b: &[f64]) -> f64 {
+    let scale = b.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    a.iter().zip(b).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs())) / scale
+}
+
+fn check_tangent(system: &mut dyn System, s: &State) {
+    let n = system.size().v;
+    for (wa, wv, wq) in [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (0.3, 0.5, 2.0)] {
+        let mut tangent = Matrix::new(&system.structure());
+        system.tangent(s, Weights::new(wa, wv, wq), &mut tangent);
+        let (mut analytic, mut numeric) = (Vec::new(), Vec::new());
+        for j in 0..n {
+            // Fourth-order central difference.
+            let h = 1e-3;
+            let mut column = vec![0.0; n];
+            for (c, k) in [(1.0, -2.0), (-8.0, -1.0), (8.0, 1.0), (-1.0, 2.0)] {
+                let mut moved = s.clone();
+                moved.q[j] += wq * k * h;
+                moved.v[j] += wv * k * h;
+                moved.a[j] += wa * k * h;
+                for (column, r) in column.iter_mut().zip(residual(system, &moved)) {
+                    *column += c * r / (12.0 * h);
+                }
+            }
+            analytic.extend((0..n).map(|i| tangent.get(i, j)));
+            numeric.extend(column);
+        }
+        let error = relative(&analytic, &numeric);
+        assert!(error < 1e-7, "weights {wa} {wv} {wq}: {error:e}");
+    }
+}
+
+#[test]
+fn tangents_equal_finite_differences() {
+    for size in [1e-3, 0.15] {
+        let mut systems: Vec<Box<dyn System>> = vec![
+            Box::new(linear(Foreshortening::None)),
+            Box::new(linear(Foreshortening::First)),
+            Box::new(exact()),
+        ];
+        for system in &mut systems {
+            let s = state(&**system, size);
+            check_tangent(&mut **system, &s);
+        }
+    }
+}
+
+/// Position of a fibre at height y over the point at x, in the hub's frame.
+fn fibre(p: &Placement, x: f64, y: f64) -> [f64; 2] {
+    let (sin, cos) = p.rotation.sin_cos();
+    [RADIUS + x + p.axial - y * sin, p.deflection + y * cos]
+}
+
+/// Inertia forces Σ m A·∂r/∂q and torque Σ m A·Jr of the two fibres, by finite differences of nothing but
+/// their positions; the shape functions and the foreshortening come from `placements`.
+fn inertia_forces<C: Coupling>(coupling: &C, s: &State, hub: &HubKinematics) -> (Vec<f64>, f64) {
+    let gauss = crate::quadrature::Gauss::new(8);
+    let n = s.q.len();
+    let mut stations = Vec::new();
+    let mut weights = Vec::new();
+    for ends in coupling.fields().cells().windows(2) {
+        for (x, w) in gauss.on(ends[0], ends[1]) {
+            stations.push(Station::new(coupling.fields(), x));
+            weights.push(w);
+        }
+    }
+    let positions = |q: &[f64]| -> Vec<[f64; 2]> {
+        let moved = State { q: q.to_vec(), ..s.clone() };
+        let mut p = vec![Placement::default(); stations.len()];
+        coupling.placements(&moved, &stations, &mut p);
+        let of = |(p, station): (&Placement, &Station)| {
+            let x = station.point.x;
+            TwoFibres::fibres(x).map(|(y, _, _)| fibre(p, x, y))
+        };
+        p.iter().zip(&stations).flat_map(of).collect()
+    };
+    let at = |t: f64| -> Vec<[f64; 2]> {
+        let q: Vec<f64> = (0..n).map(|i| s.q[i] + t * s.v[i] + 0.5 * t * t * s.a[i]).collect();
+        positions(&q)
+    };
+    let h = 2e-3;
+    let times = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|k| at(k * h));
+    let slopes: Vec<Vec<[f64; 2]>> = (0..n)
+        .map(|k| {
+            let d = 1e-4;
+            let moved = |c: f64| {
+                let mut q = s.q.clone();
+                q[k] += c * d;
+                positions(&q)
+            };
+            let (a, b, c, e) = (moved(-2.0), moved(-1.0), moved(1.0), moved(2.0));
+            (0..a.len())
+                .map(|i| [0, 1].map(|j| (a[i][j] - 8.0 * b[i][j] + 8.0 * c[i][j] - e[i][j]) / (12.0 * d)))
+                .collect()
+        })
+        .collect();
+    let (mut forces, mut torque) = (vec![0.0; n], 0.0);
+    for i in 0..times[0].len() {
+        let (x, w) = (stations[i / 2].point.x, weights[i / 2]);
+        let mass = w * TwoFibres::fibres(x)[i % 2].1;
+        let value = |j: usize| times.each_ref().map(|p| p[i][j]);
+        let velocity = [0, 1].map(|j| {
+            let p = value(j);
+            (p[0] - 8.0 * p[1] + 8.0 * p[3] - p[4]) / (12.0 * h)
+        });
+        let acceleration = [0, 1].map(|j| {
+            let p = value(j);
+            (-p[0] + 16.0 * p[1] - 30.0 * p[2] + 16.0 * p[3] - p[4]) / (12.0 * h * h)
+        });
+        let [px, py] = times[2][i];
+        let (om, al) = (hub.speed, hub.acceleration);
+        let ax = acceleration[0] - 2.0 * om * velocity[1] - al * py - om * om * px;
+        let ay = acceleration[1] + 2.0 * om * velocity[0] + al * px - om * om * py;
+        for k in 0..n {
+            forces[k] += mass * (ax * slopes[k][i][0] + ay * slopes[k][i][1]);
+        }
+        torque += mass * (px * ay - py * ax);
+    }
+    (forces, torque + 0.7 * hub.acceleration)
+}
+
+/// The residual without the elastic forces.
+fn without_strain(system: &mut dyn System, s: &State) -> Vec<f64> {
+    let rest = State { v: vec![0.0; s.v.len()], a: vec![0.0; s.a.len()], ..s.clone() };
+    let mut r = residual(system, s);
+    // Elastic forces are those that neither speed nor acceleration changes: finite differences of U.
+    for (k, r) in r.iter_mut().enumerate() {
+        let h = 1e-4;
+        let mut energy = |c: f64| {
+            let mut moved = rest.clone();
+            moved.q[k] += c * h;
+            system.energy(&moved).strain
+        };
+        *r -= (energy(-2.0) - 8.0 * energy(-1.0) + 8.0 * energy(1.0) - energy(2.0)) / (12.0 * h);
+    }
+    r
+}
+
+#[test]
+fn exact_coupling_obeys_dalembert_at_large_rotations() {
+    let mut system = exact();
+    let s = state(&system, 0.15);
+    let kinematics = system.hub().motion.at(s.t);
+    let (forces, torque) = inertia_forces(system.coupling(), &s, &kinematics);
+    // The element integrates rotary terms with its own rule of three points: refine until it does not matter.
+    let error = relative(&without_strain(&mut system, &s), &forces);
+    assert!(error < 2e-3, "forces {error:e}");
+    assert!((system.torque(&s) / torque - 1.0).abs() < 2e-3, "{} {torque}", system.torque(&s));
+}
+
+#[test]
+fn linear_couplings_are_the_linearised_dalembert_forces() {
+    for (foreshortening, kind) in [(Foreshortening::None, "zeroth"), (Foreshortening::First, "first")] {
+        let mut system = linear(foreshortening);
+        let kinematics = system.hub().motion.at(0.6);
+        let zero = state(&system, 0.0);
+        let rest = without_strain(&mut system, &zero);
+        let (forces0, torque0) = inertia_forces(system.coupling(), &zero, &kinematics);
+        assert!(relative(&rest, &forces0) < 1e-8, "{kind}");
+        assert!((system.torque(&zero) / torque0 - 1.0).abs() < 1e-9);
+        // (R(ε) − R(0))/ε, ε → 0 by extrapolation from ε and 2ε: the linear part of the full equations.
+        let difference = |size: f64| -> (Vec<f64>, f64) {
+            let up = inertia_forces(system.coupling(), &state(&system, size), &kinematics);
+            let down = inertia_forces(system.coupling(), &state(&system, -size), &kinematics);
+            let forces = up.0.iter().zip(&down.0).map(|(a, b)| (a - b) / (2.0 * size)).collect();
+            (forces, (up.1 - down.1) / (2.0 * size))
+        };
+        let (one, two) = (difference(1e-3), difference(2e-3));
+        let expected: Vec<f64> = one.0.iter().zip(&two.0).map(|(a, b)| (4.0 * a - b) / 3.0).collect();
+        let unit = state(&system, 1.0);
+        let full = without_strain(&mut system, &unit);
+        let linear: Vec<f64> = full.iter().zip(&rest).map(|(a, b)| a - b).collect();
+        let error = relative(&linear, &expected);
+        assert!(error < 1e-6, "{kind}: {error:e}");
+        let torque = (system.torque(&state(&system, 1e-6)) - system.torque(&state(&system, -1e-6))) / 2e-6;
+        let expected = (4.0 * one.1 - two.1) / 3.0;
+        assert!((torque - expected).abs() < 1e-5 * expected.abs(), "{kind}: torque {torque} {expected}");
+    }
+}
+
+#[test]
+fn power_of_the_drive_is_the_rate_of_the_energy() {
+    // Along any motion the equations of motion hold, d(T + U)/dt = τω: a first integral of all terms.
+    let systems: [Box<dyn System>; 3] =
+        [Box::new(linear(Foreshortening::None)), Box::new(linear(Foreshortening::First)), Box::new(exact())];
+    for mut system in systems {
+        let mut s = state(&*system, 0.05);
+        s.a.fill(0.0);
+        // a = −M⁻¹ r(q, v, 0)
+        let mut mass = Matrix::new(&system.structure());
+        system.tangent(&s, Weights::new(1.0, 0.0, 0.0), &mut mass);
+        let mut a = residual(&mut *system, &s);
+        mass.factor().unwrap();
+        mass.solve(&mut a);
+        s.a = a.iter().map(|a| -a).collect();
+        let mut energy = |t: f64| {
+            let mut moved = s.clone();
+            moved.t += t;
+            for i in 0..s.q.len() {
+                moved.q[i] += t * (s.v[i] + 0.5 * t * s.a[i]);
+                moved.v[i] += t * s.a[i];
+            }
+            system.energy(&moved).total()
+        };
+        let h = 1e-4;
+        let rate = (energy(-2.0 * h) - 8.0 * energy(-h) + 8.0 * energy(h) - energy(2.0 * h)) / (12.0 * h);
+        let power = system.power(&s);
+        assert!((rate - power).abs() < 1e-6 * rate.abs().max(1.0), "{rate} {power}");
+    }
+}
+
+/// A uniform section given by its stiffnesses.
+#[derive(Debug)]
+struct Plain(f64, f64);
+impl Section for Plain {
+    fn resultants(&self, _x: f64) -> Resultants {
+        Resultants { mass: 1.0, axial_stiffness: self.0, bending_stiffness: self.1, ..Default::default() }
+    }
+}
+
+/// Static tip displacement (axial, deflection) over L under a dead transverse tip force, with the given load
+/// P L²/EI and slenderness L/h (EA/EI = 12/h² of a rectangle).
+fn cantilever(elements: usize, load: f64, slenderness: f64) -> (f64, f64) {
+    let (length, ei) = (1.0, 1.0);
+    let ea = 12.0 * ei * slenderness * slenderness / (length * length);
+    let coupling = ExactCoupling::new(length, elements, &Plain(ea, ei), 0.0, 0.0).unwrap();
+    let still = Motion::Angle(Arc::new(crate::profile::Constant::new(0.0).unwrap()));
+    let hub = Hub { radius: 0.0, inertia: 0.0, motion: still };
+    let mut system = HubBeam::new(hub, coupling, &[]);
+    let mut s = State::zeros(system.size(), 0.0);
+    let tip = Station::new(system.coupling().fields(), length);
+    let mut tangent = Matrix::new(&system.structure());
+    for step in 1..=20 {
+        let force = load * ei / (length * length) * step as f64 / 20.0;
+        for _ in 0..30 {
+            let mut r = residual(&mut system, &s);
+            for (&i, phi) in tip.point.transverse.index.iter().zip(&tip.point.transverse.value[0]) {
+                r[i] -= force * phi;
+            }
+            system.tangent(&s, Weights::new(0.0, 0.0, 1.0), &mut tangent);
+            tangent.factor().unwrap();
+            tangent.solve(&mut r);
+            s.q.iter_mut().zip(&r).for_each(|(q, d)| *q -= d);
+            if r.iter().all(|d| d.abs() < 1e-12) {
+                break;
+            }
+        }
+    }
+    let [u, w, ..] = tip.fields(&s);
+    (u, w)
+}
+
+#[test]
+fn slender_cantilever_bends_to_the_elastica() {
+    // Closed form by elliptic integrals (Bisshopp & Drucker 1945, doi 10.1090/qam/13360).
+    for (load, w, u) in [
+        (1.0, 0.301721, 0.056433),
+        (2.0, 0.493457, 0.160642),
+        (4.0, 0.669964, 0.328941),
+        (10.0, 0.810609, 0.554996),
+    ] {
+        let (axial, deflection) = cantilever(20, load, 1e4);
+        assert!((deflection - w).abs() < 2e-6, "{load}: {deflection} {w}");
+        assert!((-axial - u).abs() < 2e-6, "{load}: {axial} {u}");
+    }
+}
+
+#[test]
+fn exact_coupling_does_not_lock_however_slender_the_beam() {
+    // P L²/EI = 10, five elements: the error stays what it is at moderate slenderness.
+    let mut errors = Vec::new();
+    for slenderness in [1e2, 1e3, 1e4] {
+        errors.push((cantilever(5, 10.0, slenderness).1 - 0.810609).abs());
+    }
+    assert!(errors.iter().all(|e| *e < 2e-3), "{errors:?}");
+    assert!((errors[2] - errors[1]).abs() < 1e-5, "{errors:?}");
+    // At L/h = 10 the axis itself stretches: compare with a fine mesh.
+    let thick = cantilever(5, 10.0, 10.0).1 - cantilever(40, 10.0, 10.0).1;
+    assert!(thick.abs() < 2e-3, "{thick}");
+}
+
+#[test]
+fn exact_coupling_converges_with_order_four_in_the_tip_displacement() {
+    let reference = cantilever(64, 4.0, 1e3).1;
+    let error = |n: usize| (cantilever(n, 4.0, 1e3).1 - reference).abs();
+    let (coarse, fine) = (error(4), error(8));
+    let order = (coarse / fine).log2();
+    assert!(order > 3.5, "errors {coarse:e} {fine:e}: order {order}");
+}
+
+#[test]
+fn band_and_dense_storage_give_the_same_increment() {
+    let mut system = exact();
+    let s = state(&system, 0.1);
+    let n = s.q.len();
+    let mut band = Matrix::new(&Structure::band(n, 7, 7, 0));
+    let mut dense = Matrix::new(&Structure::dense(n));
+    // The tangent goes through the system's own storage; copy it into both.
+    let mut own = Matrix::new(&system.structure());
+    system.tangent(&s, Weights::new(1.0, 0.1, 0.01), &mut own);
+    for i in 0..n {
+        for j in 0..n {
+            if own.get(i, j) != 0.0 {
+                band.add(i, j, own.get(i, j));
+                dense.add(i, j, own.get(i, j));
+            }
+        }
+    }
+    let rhs = residual(&mut system, &s);
+    let (mut x, mut y) = (rhs.clone(), rhs);
+    band.factor().unwrap();
+    dense.factor().unwrap();
+    band.solve(&mut x);
+    dense.solve(&mut y);
+    assert!(relative(&x, &y) < 1e-11);
+}
+
+#[test]
+fn zeroth_order_coupling_softens_at_its_first_frequency() {
+    let length = 10.0;
+    let fields = Fields::new(
+        length,
+        Box::new(Lagrange::new(length, 10, 1).unwrap()),
+        Box::new(Hermite::new(length, 10, Field::Transverse).unwrap()),
+        &[],
+    );
+    // P1's beam: ρA scaled to 1, EI/ρA = 14000/1.2.
+    let section = Plain(2.8e7 / 1.2, 1.4e4 / 1.2);
+    let coupling = LinearCoupling::new(fields, &section, 0.0, 0.0, Foreshortening::None);
+    let first = 3.516015268628 * (1.4e4f64 / 1.2).sqrt() / 100.0;
+    let critical = coupling.critical_speed(20.0).unwrap();
+    assert!((critical / first - 1.0).abs() < 1e-5, "{critical} {first}");
+    assert!(coupling.critical_speed(0.99 * first).is_none());
+}

@@ -1,0 +1,194 @@
+//! The Adams–Bashforth–Moulton pair of fourth order, PECE, explicit, fixed step.
+//!
+//! With y = (q, v), y′ = (v, a(t, q, v)) = f:
+//!
+//! ```text
+//! predict   y* = yₙ + h/24 (55 fₙ − 59 fₙ₋₁ + 37 fₙ₋₂ − 9 fₙ₋₃)
+//! evaluate  f* = f(tₙ₊₁, y*)
+//! correct   yₙ₊₁ = yₙ + h/24 (9 f* + 19 fₙ − 5 fₙ₋₁ + fₙ₋₂)
+//! evaluate  fₙ₊₁ = f(tₙ₊₁, yₙ₊₁)
+//! ```
+//!
+//! Two evaluations a step. The first three steps, and those after a restart or a change of step, are
+//! classical Runge–Kutta steps. Order: 4 in q, v, a (measured 4.0) where the configuration is a vector
+//! space.
+//!
+//! Stability. On an undamped oscillation y′ = iωy the growth factor is the largest root ρ of
+//!
+//! ```text
+//! ρ⁴ − (1 + (28 + 55·9/24 z) z/24) ρ³ − ((−5 − 59·9/24 z) z/24) ρ² − ((1 + 37·9/24 z) z/24) ρ + (9·9/24 z²/24) = 0,   z = iωh
+//! ```
+//!
+//! It exceeds 1 for every step, ln |ρ| ≈ 0.16 (ωh)⁶ at first: there is no sharp limit but a growth to be
+//! kept harmless. (At ωh = 0.93 a parasitic root takes over and the growth becomes violent.) The limit
+//! taken here is ln |ρ| = 10⁻⁴, a factor e in 10⁴ steps: ωh = 0.29989, found by bisection on the roots of
+//! the polynomial. [`StabilityLimit`] refuses larger steps. Dense output: quintic.
+//!
+//! Source: Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, section III.1
+//! (doi 10.1007/978-3-540-78862-1); Lambert, *Numerical Methods for Ordinary Differential Systems*,
+//! section 4.5 (ISBN 978-0-471-92990-1).
+
+use super::runge_kutta::Scratch;
+use super::{Counters, Info, Integrator, StabilityLimit, StepError, StepReport, hermite};
+use crate::system::{State, System};
+
+/// Name as in a case file.
+const NAME: &str = "adams";
+
+/// hω at which an undamped oscillation grows by the factor e in 10⁴ steps.
+const LIMIT: f64 = 0.299_89;
+
+/// Velocities and accelerations at one former time.
+#[derive(Debug, Default)]
+struct Slope {
+    v: Vec<f64>,
+    a: Vec<f64>,
+}
+
+/// The Adams–Bashforth–Moulton pair of order 4. See the [module documentation](self).
+#[derive(Debug)]
+pub struct Adams {
+    info: Info,
+    counters: Counters,
+    limit: Option<StabilityLimit>,
+    pending: bool,
+    /// Slopes at tₙ₋₁, tₙ₋₂, tₙ₋₃.
+    history: [Slope; 3],
+    /// How many of them are valid, and the step they are apart.
+    known: usize,
+    spacing: f64,
+    /// Step of the attempt.
+    attempt: f64,
+    increment: Vec<f64>,
+    accepted: Vec<f64>,
+    scratch: Option<Scratch>,
+}
+
+impl Adams {
+    /// The method, not yet started.
+    pub fn new() -> Adams {
+        Adams {
+            info: Info { name: NAME, order: 4, estimate_order: None, implicit: false },
+            counters: Counters::default(),
+            limit: None,
+            pending: false,
+            history: Default::default(),
+            known: 0,
+            spacing: 0.0,
+            attempt: 0.0,
+            increment: Vec::new(),
+            accepted: Vec::new(),
+            scratch: None,
+        }
+    }
+
+    /// The stability limit found by `start`.
+    pub fn stability_limit(&self) -> Option<StabilityLimit> {
+        self.limit
+    }
+}
+
+impl Default for Adams {
+    fn default() -> Adams {
+        Adams::new()
+    }
+}
+
+impl Integrator for Adams {
+    fn info(&self) -> &Info {
+        &self.info
+    }
+
+    fn start(&mut self, system: &mut dyn System, state: &mut State, step: f64) -> Result<(), StepError> {
+        let size = system.size();
+        self.counters = Counters::default();
+        self.limit = None;
+        self.increment.resize(size.v, 0.0);
+        self.accepted.resize(size.v, 0.0);
+        for slope in &mut self.history {
+            slope.v.resize(size.v, 0.0);
+            slope.a.resize(size.v, 0.0);
+        }
+        self.scratch = Some(Scratch::new(system));
+        self.restart(system, state)?;
+        let limit = StabilityLimit::find(NAME, LIMIT, system, state)?;
+        self.limit = Some(limit);
+        limit.check(step)
+    }
+
+    fn step(
+        &mut self,
+        system: &mut dyn System,
+        from: &State,
+        h: f64,
+        to: &mut State,
+    ) -> Result<StepReport, StepError> {
+        let Some(scratch) = &mut self.scratch else {
+            return Err(StepError::NotStarted { method: NAME });
+        };
+        self.counters.rejected += u64::from(self.pending);
+        self.pending = true;
+        self.attempt = h;
+        let equidistant = (h - self.spacing).abs() <= 1e-9 * h.abs();
+        if self.known < 3 || !equidistant {
+            scratch.step(system, from, h, to, &mut self.increment, &mut self.counters)?;
+            return Ok(StepReport { iterations: 0, error: None });
+        }
+        let n = from.v.len();
+        let place = (from.t, h);
+        let w = h / 24.0;
+        let [f1, f2, f3] = &self.history;
+        for i in 0..n {
+            self.increment[i] = w * (55.0 * from.v[i] - 59.0 * f1.v[i] + 37.0 * f2.v[i] - 9.0 * f3.v[i]);
+            let dv = w * (55.0 * from.a[i] - 59.0 * f1.a[i] + 37.0 * f2.a[i] - 9.0 * f3.a[i]);
+            to.v[i] = from.v[i] + dv;
+        }
+        to.t = from.t + h;
+        system.retract(&from.q, &self.increment, &mut to.q);
+        scratch.accelerations.complete(system, to, place, &mut self.counters)?;
+        for i in 0..n {
+            self.increment[i] = w * (9.0 * to.v[i] + 19.0 * from.v[i] - 5.0 * f1.v[i] + f2.v[i]);
+            to.v[i] = from.v[i] + w * (9.0 * to.a[i] + 19.0 * from.a[i] - 5.0 * f1.a[i] + f2.a[i]);
+        }
+        system.retract(&from.q, &self.increment, &mut to.q);
+        scratch.accelerations.complete(system, to, place, &mut self.counters)?;
+        Ok(StepReport { iterations: 0, error: None })
+    }
+
+    fn accept(&mut self, from: &State, _to: &State) {
+        let h = self.attempt;
+        if (h - self.spacing).abs() > 1e-9 * h.abs() {
+            self.spacing = h;
+            self.known = 0;
+        }
+        self.history.rotate_right(1);
+        self.history[0].v.copy_from_slice(&from.v);
+        self.history[0].a.copy_from_slice(&from.a);
+        self.known = (self.known + 1).min(3);
+        std::mem::swap(&mut self.increment, &mut self.accepted);
+        self.pending = false;
+        self.counters.steps += 1;
+    }
+
+    fn interpolate(&self, system: &dyn System, from: &State, to: &State, t: f64, out: &mut State) {
+        hermite::quintic(system, from, to, &self.accepted, t, out);
+    }
+
+    fn restart(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), StepError> {
+        let Some(scratch) = &mut self.scratch else {
+            return Err(StepError::NotStarted { method: NAME });
+        };
+        self.pending = false;
+        self.known = 0;
+        let place = (state.t, 0.0);
+        scratch.accelerations.complete(system, state, place, &mut self.counters)
+    }
+
+    fn worst(&self) -> usize {
+        0
+    }
+
+    fn counters(&self) -> Counters {
+        self.counters
+    }
+}

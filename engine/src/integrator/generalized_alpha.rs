@@ -1,0 +1,318 @@
+//! The generalized-α family: Newmark, HHT-α, Chung–Hulbert; second order, fixed step.
+//!
+//! ```text
+//! r(tₙ₊₁, qₙ₊₁, vₙ₊₁, q̈ₙ₊₁, λₙ₊₁) = 0,   g(tₙ₊₁, qₙ₊₁) = 0                    exactly at the end of a step
+//! (1 − αm) aₙ₊₁ + αm aₙ = (1 − αf) q̈ₙ₊₁ + αf q̈ₙ
+//! qₙ₊₁ = qₙ ⊞ d,   d = h vₙ + h² ((½ − β) aₙ + β aₙ₊₁)
+//! vₙ₊₁ = vₙ + h ((1 − γ) aₙ + γ aₙ₊₁)
+//! ```
+//!
+//! q̈ is the true acceleration, a an auxiliary one that lags behind it; with αm = αf = 0 they are the same.
+//! The unknowns of a step are q̈ₙ₊₁ and λₙ₊₁. With κ = (1 − αf)/(1 − αm) an increment Δq̈ moves v by hγκ Δq̈
+//! and q by h²βκ Δq̈, so that Newton's method solves
+//!
+//! ```text
+//! ⎡ M + hγκ C + h²βκ K   Gᵀ⎤ ⎡Δq̈⎤     ⎡ r           ⎤
+//! ⎣ G                    0 ⎦ ⎣Δλ⎦ = − ⎣ g / (h² βκ) ⎦
+//! ```
+//!
+//! whose condition does not deteriorate as h → 0: this is the scaling of index-3 equations of Bottasso,
+//! Bauchau & Cardona (2007, doi 10.1137/050638503) without a separate pass for it.
+//!
+//! Order: 2 in q, v and λ for γ = ½ + αf − αm (measured 2.00, also for index-3 constraints). Stability:
+//! unconditional on linear systems for the constructors here. Dense output: cubic in q, linear in q̈.
+//!
+//! Sources: Newmark (1959, doi 10.1061/JMCEA3.0000098); Hilber, Hughes & Taylor (1977,
+//! doi 10.1002/eqe.4290050306); Chung & Hulbert (1993, doi 10.1115/1.2900803); Arnold & Brüls (2007,
+//! doi 10.1007/s11044-007-9084-0).
+
+use super::acceleration::Accelerations;
+use super::{
+    Convergence, Counters, Info, Integrator, InvalidParameter, Progress, StepError, StepReport, failure, hermite,
+};
+use crate::linalg::Matrix;
+use crate::system::{Level, State, System, Weights};
+
+/// Iteration error, relative to the scales of the unknowns, at which Newton's method stops: far below
+/// the truncation error of a second-order method at any useful step.
+const ITERATION_TOLERANCE: f64 = 1e-10;
+
+/// The generalized-α method. See the [module documentation](self) for formulas and sources.
+#[derive(Debug)]
+pub struct GeneralizedAlpha {
+    info: Info,
+    alpha_m: f64,
+    alpha_f: f64,
+    beta: f64,
+    gamma: f64,
+    convergence: Convergence,
+    counters: Counters,
+    worst: usize,
+    pending: bool,
+    /// Auxiliary acceleration aₙ, and aₙ₊₁ of the attempt.
+    a: Vec<f64>,
+    a_next: Vec<f64>,
+    /// Increment d of the attempt, and of the accepted step.
+    d: Vec<f64>,
+    d_accepted: Vec<f64>,
+    /// 1/scale of the unknowns.
+    inverse_scale: Vec<f64>,
+    work: Option<Work>,
+}
+
+/// What `start` allocates for a system.
+#[derive(Debug)]
+struct Work {
+    tangent: Matrix,
+    rhs: Vec<f64>,
+    accelerations: Accelerations,
+    affine: bool,
+}
+
+impl GeneralizedAlpha {
+    /// Newmark's method. β = ¼, γ = ½ is the average-acceleration (trapezoidal) rule, without
+    /// dissipation; γ > ½ dissipates but reduces the order to 1.
+    ///
+    /// # Errors
+    /// Outside γ ≥ ½, 2β ≥ γ, where the method is not unconditionally stable.
+    pub fn newmark(beta: f64, gamma: f64) -> Result<GeneralizedAlpha, InvalidParameter> {
+        if !(gamma >= 0.5 && gamma.is_finite()) {
+            let range = "γ ≥ 1/2 (below, the method is unstable at every step)";
+            return Err(InvalidParameter { parameter: "gamma", value: gamma, range });
+        }
+        if !(2.0 * beta >= gamma && beta.is_finite()) {
+            let range = "β ≥ γ/2 (below, the method is only conditionally stable)";
+            return Err(InvalidParameter { parameter: "beta", value: beta, range });
+        }
+        let order = if gamma == 0.5 { 2 } else { 1 };
+        Ok(GeneralizedAlpha::new("newmark", order, 0.0, 0.0, beta, gamma))
+    }
+
+    /// HHT-α: αm = 0, αf = α, β = (1 + α)²/4, γ = ½ + α. α = 0 is the trapezoidal rule; dissipation of high
+    /// frequencies grows with α.
+    ///
+    /// # Errors
+    /// Outside 0 ≤ α ≤ 1/3.
+    pub fn hht(alpha: f64) -> Result<GeneralizedAlpha, InvalidParameter> {
+        if !(0.0..=1.0 / 3.0).contains(&alpha) {
+            let range = "0 ≤ α ≤ 1/3";
+            return Err(InvalidParameter { parameter: "alpha", value: alpha, range });
+        }
+        let beta = 0.25 * (1.0 + alpha) * (1.0 + alpha);
+        Ok(GeneralizedAlpha::new("hht", 2, 0.0, alpha, beta, 0.5 + alpha))
+    }
+
+    /// Chung & Hulbert's optimal member with spectral radius ρ∞ at infinite frequency:
+    /// αm = (2ρ∞ − 1)/(ρ∞ + 1), αf = ρ∞/(ρ∞ + 1), γ = ½ − αm + αf, β = ¼(γ + ½)². ρ∞ = 1 keeps high
+    /// frequencies, ρ∞ = 0 annihilates them in one step.
+    ///
+    /// # Errors
+    /// Outside 0 ≤ ρ∞ ≤ 1.
+    pub fn chung_hulbert(spectral_radius: f64) -> Result<GeneralizedAlpha, InvalidParameter> {
+        let rho = spectral_radius;
+        if !(0.0..=1.0).contains(&rho) {
+            let range = "0 ≤ ρ∞ ≤ 1";
+            return Err(InvalidParameter { parameter: "spectral radius", value: rho, range });
+        }
+        let (alpha_m, alpha_f) = ((2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0));
+        let gamma = 0.5 - alpha_m + alpha_f;
+        let beta = 0.25 * (gamma + 0.5) * (gamma + 0.5);
+        Ok(GeneralizedAlpha::new("generalized-alpha", 2, alpha_m, alpha_f, beta, gamma))
+    }
+
+    fn new(name: &'static str, order: usize, alpha_m: f64, alpha_f: f64, beta: f64, gamma: f64) -> Self {
+        GeneralizedAlpha {
+            info: Info { name, order, estimate_order: None, implicit: true },
+            alpha_m,
+            alpha_f,
+            beta,
+            gamma,
+            convergence: Convergence::full(ITERATION_TOLERANCE),
+            counters: Counters::default(),
+            worst: 0,
+            pending: false,
+            a: Vec::new(),
+            a_next: Vec::new(),
+            d: Vec::new(),
+            d_accepted: Vec::new(),
+            inverse_scale: Vec::new(),
+            work: None,
+        }
+    }
+
+    /// αm, αf, β, γ.
+    pub fn parameters(&self) -> [f64; 4] {
+        [self.alpha_m, self.alpha_f, self.beta, self.gamma]
+    }
+}
+
+impl Integrator for GeneralizedAlpha {
+    fn info(&self) -> &Info {
+        &self.info
+    }
+
+    fn start(&mut self, system: &mut dyn System, state: &mut State, _step: f64) -> Result<(), StepError> {
+        let size = system.size();
+        let n = size.v + size.lambda;
+        for buffer in [&mut self.a, &mut self.a_next, &mut self.d, &mut self.d_accepted] {
+            buffer.clear();
+            buffer.resize(size.v, 0.0);
+        }
+        self.inverse_scale.clear();
+        self.inverse_scale.extend(system.labels().iter().map(|label| 1.0 / label.scale));
+        self.inverse_scale.resize(n, 1.0);
+        self.work = Some(Work {
+            tangent: Matrix::new(&system.structure()),
+            rhs: vec![0.0; n],
+            accelerations: Accelerations::new(system),
+            affine: system.is_affine() && size.lambda == 0,
+        });
+        self.counters = Counters::default();
+        self.restart(system, state)
+    }
+
+    fn step(
+        &mut self,
+        system: &mut dyn System,
+        from: &State,
+        h: f64,
+        to: &mut State,
+    ) -> Result<StepReport, StepError> {
+        let Some(work) = &mut self.work else {
+            return Err(StepError::NotStarted { method: self.info.name });
+        };
+        self.counters.rejected += u64::from(self.pending);
+        self.pending = true;
+        let n = from.v.len();
+        let (alpha_m, alpha_f, beta, gamma) = (self.alpha_m, self.alpha_f, self.beta, self.gamma);
+        let kappa = (1.0 - alpha_f) / (1.0 - alpha_m);
+        let (to_v, to_q) = (h * gamma * kappa, h * h * beta * kappa);
+
+        // Predictor: the acceleration of the step before.
+        let (v_old, v_new) = (h * (1.0 - gamma), h * gamma);
+        let (d_old, d_new) = (h * h * (0.5 - beta), h * h * beta);
+        let (from_a, from_v) = (&from.a[..n], &from.v[..n]);
+        let (a, a_next, d) = (&self.a[..n], &mut self.a_next[..n], &mut self.d[..n]);
+        let (out_a, out_v) = (&mut to.a[..n], &mut to.v[..n]);
+        let lag = 1.0 / (1.0 - alpha_m);
+        for i in 0..n {
+            let next = (from_a[i] - alpha_m * a[i]) * lag;
+            a_next[i] = next;
+            out_a[i] = from_a[i];
+            out_v[i] = from_v[i] + v_old * a[i] + v_new * next;
+            d[i] = h * from_v[i] + d_old * a[i] + d_new * next;
+        }
+        to.lambda.copy_from_slice(&from.lambda);
+        to.t = from.t + h;
+        system.retract(&from.q, d, &mut to.q);
+
+        self.convergence.begin();
+        loop {
+            let (motion, constraints) = work.rhs.split_at_mut(n);
+            system.residual(to, motion);
+            if !constraints.is_empty() {
+                system.constraint(to, Level::Position, constraints);
+                for g in constraints.iter_mut() {
+                    *g /= to_q;
+                }
+            }
+            let weights =
+                Weights { q: to_q, v: to_v, a: 1.0, increment: Some(d), level: Level::Position };
+            system.tangent(to, weights, &mut work.tangent);
+            let factored =
+                work.tangent.factor().map_err(|e| failure::singular(system, from.t, h, e))?;
+            work.tangent.solve(&mut work.rhs);
+            self.counters.residuals += 1;
+            self.counters.tangents += u64::from(factored);
+            self.counters.factorizations += u64::from(factored);
+            self.counters.solves += 1;
+            self.counters.iterations += 1;
+
+            let (x, multipliers) = work.rhs.split_at(n);
+            let (out_a, out_v, scale) = (&mut to.a[..n], &mut to.v[..n], &self.inverse_scale[..n]);
+            let mut square = 0.0;
+            for i in 0..n {
+                out_a[i] -= x[i];
+                a_next[i] -= kappa * x[i];
+                out_v[i] -= to_v * x[i];
+                d[i] -= to_q * x[i];
+                let scaled = x[i] * scale[i];
+                square += scaled * scaled;
+            }
+            for (lambda, x) in to.lambda.iter_mut().zip(multipliers) {
+                *lambda -= x;
+                square += 0.0 * x; // a multiplier that is not finite must not pass unseen
+            }
+            system.retract(&from.q, d, &mut to.q);
+            let size = to_q * (square / n.max(1) as f64).sqrt();
+            if work.affine && size.is_finite() {
+                return Ok(StepReport { iterations: 1, error: None });
+            }
+            match self.convergence.judge(size) {
+                Progress::Converged => {
+                    self.worst = worst(x, scale);
+                    return Ok(StepReport { iterations: self.convergence.iterations(), error: None });
+                }
+                Progress::Continue => {}
+                Progress::Diverged => {
+                    self.worst = worst(x, scale);
+                    if !size.is_finite() {
+                        return Err(failure::not_finite(system, from.t, h, to));
+                    }
+                    return Err(StepError::NotConverged {
+                        time: from.t,
+                        step: h,
+                        iterations: self.convergence.iterations(),
+                        size: size / ITERATION_TOLERANCE,
+                        worst: failure::label(system, self.worst),
+                    });
+                }
+            }
+        }
+    }
+
+    fn accept(&mut self, _from: &State, _to: &State) {
+        std::mem::swap(&mut self.a, &mut self.a_next);
+        std::mem::swap(&mut self.d, &mut self.d_accepted);
+        self.pending = false;
+        self.counters.steps += 1;
+    }
+
+    fn interpolate(&self, system: &dyn System, from: &State, to: &State, t: f64, out: &mut State) {
+        hermite::cubic(system, from, to, &self.d_accepted, t, out);
+    }
+
+    fn restart(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), StepError> {
+        let Some(work) = &mut self.work else {
+            return Err(StepError::NotStarted { method: self.info.name });
+        };
+        self.pending = false;
+        let place = (state.t, 0.0);
+        work.accelerations.complete(system, state, place, &mut self.counters)?;
+        self.a.copy_from_slice(&state.a);
+        Ok(())
+    }
+
+    fn worst(&self) -> usize {
+        self.worst
+    }
+
+    fn counters(&self) -> Counters {
+        self.counters
+    }
+}
+
+/// Index of the largest entry of `x` in units of the scales.
+fn worst(x: &[f64], inverse_scale: &[f64]) -> usize {
+    let mut found = (0, 0.0);
+    for (i, (x, scale)) in x.iter().zip(inverse_scale).enumerate() {
+        let size = (x * scale).abs();
+        if size > found.1 || !size.is_finite() {
+            found = (i, size);
+        }
+        if !size.is_finite() {
+            break;
+        }
+    }
+    found.0
+}

@@ -1,0 +1,117 @@
+//! Convergence of Newton's method, judged in scaled norms.
+//!
+//! The size of an increment Δ is its weighted root mean square, ‖Δ‖ = (1/n Σ (Δᵢ/wᵢ)²)^½. From two
+//! sizes in a row follow the rate θ = ‖Δₖ‖/‖Δₖ₋₁‖ and the estimate of what is still missing,
+//! θ/(1 − θ)·‖Δₖ‖. Source: Hairer & Wanner, *Solving Ordinary Differential Equations II*, section IV.8
+//! (doi 10.1007/978-3-642-05221-7).
+
+/// What to do after an iteration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Progress {
+    /// The iteration error is below the tolerance.
+    Converged,
+    /// Iterate on.
+    Continue,
+    /// The iteration diverges, is too slow, or produced a number that is not finite.
+    Diverged,
+}
+
+/// Watches one Newton iteration after another.
+#[derive(Clone, Copy, Debug)]
+pub struct Convergence {
+    /// Size of the iteration error at which to stop.
+    tolerance: f64,
+    /// Below this size an increment that no longer shrinks is rounding error: converged.
+    floor: f64,
+    max_iterations: u32,
+    /// Whether the tangent is kept during the iteration, so that convergence is linear at best.
+    simplified: bool,
+    iteration: u32,
+    previous: f64,
+    rate: f64,
+    /// θ/(1 − θ), carried over from one step to the next by simplified iterations.
+    ahead: f64,
+}
+
+impl Convergence {
+    /// Full Newton iteration (a new tangent every time) to the iteration error `tolerance`: at most 20
+    /// iterations, increments may grow in the first three.
+    pub fn full(tolerance: f64) -> Convergence {
+        Convergence {
+            tolerance,
+            floor: 100.0 * tolerance,
+            max_iterations: 20,
+            simplified: false,
+            iteration: 0,
+            previous: 0.0,
+            rate: 0.0,
+            ahead: 1.0,
+        }
+    }
+
+    /// Simplified Newton iteration (one tangent) to the iteration error `tolerance`: at most
+    /// 10 iterations, given up as soon as the rate shows that they will not do. Increments below
+    /// `floor` that no longer shrink count as rounding error.
+    pub fn simplified(tolerance: f64, floor: f64) -> Convergence {
+        Convergence { tolerance, floor, max_iterations: 10, simplified: true, ..Convergence::full(tolerance) }
+    }
+
+    /// Begins the iteration of a new attempt.
+    pub fn begin(&mut self) {
+        self.iteration = 0;
+        self.rate = 0.0;
+        self.ahead = if self.simplified { self.ahead.max(f64::EPSILON).powf(0.8) } else { 1.0 };
+    }
+
+    /// Forgets the rates of former steps.
+    pub fn forget(&mut self) {
+        self.ahead = 1.0;
+    }
+
+    /// Judges the increment of size `size`.
+    pub fn judge(&mut self, size: f64) -> Progress {
+        self.iteration += 1;
+        if !size.is_finite() {
+            return Progress::Diverged;
+        }
+        if self.iteration > 1 {
+            let ratio = if self.previous > 0.0 { size / self.previous } else { 0.0 };
+            // From the third iteration on the geometric mean of two ratios, as Hairer & Wanner do.
+            let smooth = self.simplified && self.iteration > 2;
+            self.rate = if smooth { (ratio * self.rate).sqrt() } else { ratio };
+            if ratio >= 0.3 && size <= self.floor {
+                return Progress::Converged;
+            }
+            if self.rate < 0.99 {
+                self.ahead = self.rate / (1.0 - self.rate);
+                let left = self.max_iterations.saturating_sub(self.iteration) as i32;
+                let predicted = self.ahead * size * self.rate.powi(left);
+                if self.simplified && predicted > self.tolerance {
+                    return Progress::Diverged;
+                }
+            } else if self.simplified || (self.iteration > 3 && ratio >= 2.0) {
+                return Progress::Diverged;
+            } else {
+                self.ahead = f64::INFINITY;
+            }
+        }
+        self.previous = size;
+        if size == 0.0 || self.ahead * size <= self.tolerance {
+            Progress::Converged
+        } else if self.iteration >= self.max_iterations {
+            Progress::Diverged
+        } else {
+            Progress::Continue
+        }
+    }
+
+    /// Iterations of this attempt.
+    pub fn iterations(&self) -> u32 {
+        self.iteration
+    }
+
+    /// Last measured rate θ; 0 when one iteration was enough.
+    pub fn rate(&self) -> f64 {
+        self.rate
+    }
+}

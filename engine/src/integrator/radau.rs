@@ -1,0 +1,549 @@
+//! Radau IIA with three stages: fifth order, L-stable, adaptive. The default method.
+//!
+//! The collocation method is written for equations of second order, with the stage accelerations aᵢ as
+//! unknowns (A, b, c: the method's coefficients; h: step):
+//!
+//! ```text
+//! Vᵢ = v₀ + h Σ Aᵢⱼ aⱼ,   Qᵢ = q₀ ⊞ (h cᵢ v₀ + h² Σ (A²)ᵢⱼ aⱼ),   r(t₀ + cᵢh, Qᵢ, Vᵢ, aᵢ) = 0
+//! ```
+//!
+//! The last stage is the end of the step. Simplified Newton iterations, (I⊗M + hA⊗C + h²A²⊗K) Δa = −r,
+//! decouple with A = T Λ T⁻¹ into a real and a complex system of the size of the model,
+//!
+//! ```text
+//! (M + hλ C + h²λ² K) w₁ = (T⁻¹r)₁,   (M + hμ C + h²μ² K)(w₂ + i w₃) = (T⁻¹r)₂ + i (T⁻¹r)₃,   Δa = −T w
+//! ```
+//!
+//! The complex matrix is put together from the system's tangents with weights (1, h Re μ, h² Re μ²) and
+//! (0, h Im μ, h² Im μ²). Starting values extrapolate the last step's collocation polynomial. Tangents and
+//! factors are kept while the step is the same and convergence is fast.
+//!
+//! Error estimate: the embedded formula of order 3 through f(y₀), filtered by the real system, in
+//! second-order form (γ₀ = λ):
+//!
+//! ```text
+//! e_q = h² Σ (eᵀA²)ⱼ aⱼ,   e_v = h (γ₀ a₀ + Σ (eᵀA)ⱼ aⱼ)
+//! (M + hγ₀ C + h²γ₀² K) ε_v = M e_v − hγ₀ K e_q,   ε_q = e_q + hγ₀ ε_v
+//! ```
+//!
+//! filtered a second time on a first or repeated step when it exceeds the tolerance. Errors are measured
+//! by the weighted root mean square of ε_q and h ε_v with weights absolute·scaleᵢ + relative·|qᵢ|: an error of
+//! velocity counts as the displacement it makes in one step.
+//!
+//! Order: 5 in q and v (measured 5.0), 3 of the stages, on which stiff problems depend; of the error
+//! estimate 3. Stability: A- and L-stable; frequencies far above 1/h are annihilated, those below are
+//! integrated with a dissipation of O((hω)⁶). Dense output: quintic Hermite through q, v, a at both ends;
+//! measured ten times and more as accurate as the collocation polynomial. On a configuration that is not
+//! a vector space (rotations) the increments are added as if it were one within a step: order 2.
+//!
+//! Sources: Hairer & Wanner, *Solving Ordinary Differential Equations II*, sections IV.5 and IV.8
+//! (doi 10.1007/978-3-642-05221-7); Hairer & Wanner (1999, doi 10.1016/S0377-0427(99)00134-X).
+
+use super::acceleration::Accelerations;
+use super::radau_coefficients::{A, A2, C, E_Q, E_V, LAMBDA, MU, MU2, T, T_INVERSE, lagrange};
+use super::{
+    Convergence, Counters, Info, Integrator, InvalidParameter, Progress, StepError, StepReport, failure, hermite,
+};
+use crate::linalg::Matrix;
+use crate::system::{State, System, Weights};
+use num_complex::Complex64;
+
+/// Name as in a case file.
+const NAME: &str = "radau";
+
+/// Rate of convergence below which tangent and factors serve the next step too.
+const REUSE_RATE: f64 = 0.02;
+
+/// What local errors are measured against: absolute·scaleᵢ + relative·|qᵢ|.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerance {
+    /// Relative to the unknown.
+    pub relative: f64,
+    /// Relative to the scale of the unknown's label.
+    pub absolute: f64,
+}
+
+impl Tolerance {
+    /// The same relative to the unknown and to its scale.
+    pub fn uniform(tolerance: f64) -> Tolerance {
+        Tolerance { relative: tolerance, absolute: tolerance }
+    }
+}
+
+/// The 3-stage Radau IIA method. See the [module documentation](self).
+#[derive(Debug)]
+pub struct Radau {
+    info: Info,
+    tolerance: Tolerance,
+    counters: Counters,
+    convergence: Convergence,
+    worst: usize,
+    /// Whether an attempt waits for `accept`, and whether any step was accepted since (re)start.
+    pending: bool,
+    first: bool,
+    /// Step of the attempt, and of the accepted step.
+    attempt: f64,
+    accepted_step: f64,
+    work: Option<Work>,
+}
+
+/// What `start` allocates for a system.
+#[derive(Debug)]
+struct Work {
+    accelerations: Accelerations,
+    real: Matrix,
+    real_part: Matrix,
+    imaginary_part: Matrix,
+    mass: Matrix,
+    complex: Matrix<Complex64>,
+    /// Step of the factors; NaN when there are none.
+    factored_step: f64,
+    /// Whether the factors belong to the start of this step.
+    fresh: bool,
+    /// Last rate of convergence with these factors.
+    rate: f64,
+    scale: Vec<f64>,
+    inverse_weight: Vec<f64>,
+    stage: State,
+    increment: Vec<f64>,
+    /// Stage accelerations of the attempt and of the accepted step; q₁ ⊟ q₀ likewise.
+    a: [Vec<f64>; 3],
+    a_accepted: [Vec<f64>; 3],
+    end: Vec<f64>,
+    end_accepted: Vec<f64>,
+    r: [Vec<f64>; 3],
+    z: Vec<Complex64>,
+    error_q: Vec<f64>,
+    error_v: Vec<f64>,
+    /// Right-hand side of the estimate without its K e_q, M e_v.
+    source: Vec<f64>,
+    product: Vec<f64>,
+    rhs: Vec<f64>,
+}
+
+impl Radau {
+    /// The method with the given tolerance of local errors.
+    ///
+    /// # Errors
+    /// When `absolute` is not positive, `relative` is negative, or one is not finite.
+    pub fn new(tolerance: Tolerance) -> Result<Radau, InvalidParameter> {
+        let Tolerance { relative, absolute } = tolerance;
+        if !(absolute > 0.0 && absolute.is_finite()) {
+            let range = "> 0";
+            return Err(InvalidParameter { parameter: "absolute tolerance", value: absolute, range });
+        }
+        if !(relative >= 0.0 && relative.is_finite()) {
+            let range = "≥ 0";
+            return Err(InvalidParameter { parameter: "relative tolerance", value: relative, range });
+        }
+        // Iteration error κ and rounding error, in units of the tolerance.
+        let size = relative.max(absolute);
+        let floor = 100.0 * f64::EPSILON / size;
+        let kappa = size.sqrt().min(0.03).max(0.1 * floor);
+        Ok(Radau {
+            info: Info { name: NAME, order: 5, estimate_order: Some(3), implicit: true },
+            tolerance,
+            counters: Counters::default(),
+            convergence: Convergence::simplified(kappa, floor.max(kappa)),
+            worst: 0,
+            pending: false,
+            first: true,
+            attempt: 0.0,
+            accepted_step: 0.0,
+            work: None,
+        })
+    }
+
+    /// The tolerance of local errors.
+    pub fn tolerance(&self) -> Tolerance {
+        self.tolerance
+    }
+}
+
+impl Integrator for Radau {
+    fn info(&self) -> &Info {
+        &self.info
+    }
+
+    fn start(&mut self, system: &mut dyn System, state: &mut State, _step: f64) -> Result<(), StepError> {
+        if system.size().lambda > 0 {
+            let (feature, instead) = ("constraints", "generalized-alpha");
+            return Err(StepError::Unsupported { method: NAME, feature, instead });
+        }
+        self.counters = Counters::default();
+        self.work = Some(Work::new(system));
+        self.restart(system, state)
+    }
+
+    fn step(
+        &mut self,
+        system: &mut dyn System,
+        from: &State,
+        h: f64,
+        to: &mut State,
+    ) -> Result<StepReport, StepError> {
+        let Some(work) = &mut self.work else {
+            return Err(StepError::NotStarted { method: NAME });
+        };
+        let repeated = self.pending;
+        self.counters.rejected += u64::from(repeated);
+        self.pending = true;
+        self.attempt = h;
+        work.weigh(from, self.tolerance);
+        let stretch = if self.first { None } else { Some(h / self.accepted_step) };
+        if work.factored_step != h || work.rate > REUSE_RATE {
+            work.factor(system, from, h, &mut self.counters)?;
+        }
+        loop {
+            work.predict(from, stretch);
+            self.convergence.begin();
+            let (progress, size) = work.iterate(system, from, h, &mut self.convergence, &mut self.counters);
+            if progress == Progress::Converged {
+                work.rate = self.convergence.rate();
+                break;
+            }
+            self.convergence.forget();
+            if !work.fresh {
+                work.factor(system, from, h, &mut self.counters)?;
+                continue;
+            }
+            work.factored_step = f64::NAN;
+            self.worst = work.worst_increment();
+            let worst = failure::label(system, self.worst);
+            if !size.is_finite() {
+                return Err(StepError::NotFinite { time: from.t, step: h, worst });
+            }
+            let iterations = self.convergence.iterations();
+            return Err(StepError::NotConverged { time: from.t, step: h, iterations, size, worst });
+        }
+        work.finish(system, from, h, to);
+        let error = work.estimate(system, from, h, self.first || repeated, &mut self.counters);
+        self.worst = work.worst_error(h);
+        if !error.is_finite() {
+            work.factored_step = f64::NAN;
+            let worst = failure::label(system, self.worst);
+            return Err(StepError::NotFinite { time: from.t, step: h, worst });
+        }
+        Ok(StepReport { iterations: self.convergence.iterations(), error: Some(error) })
+    }
+
+    fn accept(&mut self, _from: &State, _to: &State) {
+        self.pending = false;
+        self.first = false;
+        self.accepted_step = self.attempt;
+        self.counters.steps += 1;
+        if let Some(work) = &mut self.work {
+            std::mem::swap(&mut work.a, &mut work.a_accepted);
+            std::mem::swap(&mut work.end, &mut work.end_accepted);
+            work.fresh = false;
+        }
+    }
+
+    fn interpolate(&self, system: &dyn System, from: &State, to: &State, t: f64, out: &mut State) {
+        match &self.work {
+            Some(work) => hermite::quintic(system, from, to, &work.end_accepted, t, out),
+            None => out.copy_from(to),
+        }
+    }
+
+    fn restart(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), StepError> {
+        let Some(work) = &mut self.work else {
+            return Err(StepError::NotStarted { method: NAME });
+        };
+        self.pending = false;
+        self.first = true;
+        self.convergence.forget();
+        work.factored_step = f64::NAN;
+        work.accelerations.complete(system, state, (state.t, 0.0), &mut self.counters)
+    }
+
+    fn worst(&self) -> usize {
+        self.worst
+    }
+
+    fn counters(&self) -> Counters {
+        self.counters
+    }
+}
+
+impl Work {
+    fn new(system: &dyn System) -> Work {
+        let size = system.size();
+        let n = size.v;
+        let structure = system.structure();
+        let vector = || vec![0.0; n];
+        let three = || [vector(), vector(), vector()];
+        Work {
+            accelerations: Accelerations::new(system),
+            real: Matrix::new(&structure),
+            real_part: Matrix::new(&structure),
+            imaginary_part: Matrix::new(&structure),
+            mass: Matrix::new(&structure),
+            complex: Matrix::new(&structure),
+            factored_step: f64::NAN,
+            fresh: false,
+            rate: 0.0,
+            scale: system.labels().iter().map(|label| label.scale).collect(),
+            inverse_weight: vector(),
+            stage: State::zeros(size, 0.0),
+            increment: vector(),
+            a: three(),
+            a_accepted: three(),
+            end: vector(),
+            end_accepted: vector(),
+            r: three(),
+            z: vec![Complex64::new(0.0, 0.0); n],
+            error_q: vector(),
+            error_v: vector(),
+            source: vector(),
+            product: vector(),
+            rhs: vector(),
+        }
+    }
+
+    /// Weights of the norms, 1/(absolute·scale + relative·|q|).
+    fn weigh(&mut self, from: &State, tolerance: Tolerance) {
+        // Where q has more entries than v they do not correspond, and the scale alone counts.
+        let relative = if from.q.len() == from.v.len() { tolerance.relative } else { 0.0 };
+        for (i, w) in self.inverse_weight.iter_mut().enumerate() {
+            *w = 1.0 / (tolerance.absolute * self.scale[i] + relative * from.q[i].abs());
+        }
+    }
+
+    /// Tangents at the start of the step, and their factors.
+    fn factor(
+        &mut self,
+        system: &mut dyn System,
+        from: &State,
+        h: f64,
+        counters: &mut Counters,
+    ) -> Result<(), StepError> {
+        self.factored_step = f64::NAN;
+        let h2 = h * h;
+        system.tangent(from, Weights::new(1.0, h * LAMBDA, h2 * LAMBDA * LAMBDA), &mut self.real);
+        system.tangent(from, Weights::new(1.0, h * MU[0], h2 * MU2[0]), &mut self.real_part);
+        system.tangent(from, Weights::new(0.0, h * MU[1], h2 * MU2[1]), &mut self.imaginary_part);
+        system.tangent(from, Weights::new(1.0, 0.0, 0.0), &mut self.mass);
+        self.complex.assign(&self.real_part, &self.imaginary_part);
+        let tell = |cause| failure::singular(system, from.t, h, cause);
+        let real = self.real.factor().map_err(tell)?;
+        let complex = self.complex.factor().map_err(tell)?;
+        counters.tangents += if real || complex { 4 } else { 0 };
+        counters.factorizations += u64::from(real) + u64::from(complex);
+        self.factored_step = h;
+        self.fresh = true;
+        self.rate = 0.0;
+        Ok(())
+    }
+
+    /// Starting values: the last step's polynomial, `stretch` = h/h_last on, or the acceleration at the
+    /// start.
+    fn predict(&mut self, from: &State, stretch: Option<f64>) {
+        let Some(stretch) = stretch else {
+            for a in &mut self.a {
+                a.copy_from_slice(&from.a);
+            }
+            return;
+        };
+        let [a1, a2, a3] = &self.a_accepted;
+        for (a, c) in self.a.iter_mut().zip(C) {
+            let [l1, l2, l3] = lagrange(1.0 + c * stretch);
+            for i in 0..a.len() {
+                a[i] = l1 * a1[i] + l2 * a2[i] + l3 * a3[i];
+            }
+        }
+    }
+
+    /// Simplified Newton iterations; returns the verdict and the size of the last increment.
+    fn iterate(
+        &mut self,
+        system: &mut dyn System,
+        from: &State,
+        h: f64,
+        convergence: &mut Convergence,
+        counters: &mut Counters,
+    ) -> (Progress, f64) {
+        let n = from.v.len();
+        loop {
+            for i in 0..3 {
+                self.place(system, from, h, i);
+                system.residual(&self.stage, &mut self.r[i]);
+            }
+            let [r1, r2, r3] = &self.r;
+            let [p, q, s] = &T_INVERSE;
+            for i in 0..n {
+                let (x, y, z) = (r1[i], r2[i], r3[i]);
+                self.rhs[i] = p[0] * x + p[1] * y + p[2] * z;
+                self.z[i] =
+                    Complex64::new(q[0] * x + q[1] * y + q[2] * z, s[0] * x + s[1] * y + s[2] * z);
+            }
+            self.real.solve(&mut self.rhs);
+            self.complex.solve(&mut self.z);
+            let size = self.update(h);
+            counters.iterations += 1;
+            counters.residuals += 3;
+            counters.solves += 2;
+            match convergence.judge(size) {
+                Progress::Continue => {}
+                other => return (other, size),
+            }
+        }
+    }
+
+    /// Sets the stage state to stage `i`.
+    fn place(&mut self, system: &dyn System, from: &State, h: f64, i: usize) {
+        let n = from.v.len();
+        let [a1, a2, a3] = &self.a;
+        let (a1, a2, a3) = (&a1[..n], &a2[..n], &a3[..n]);
+        let (row, row2) = (A[i].map(|x| h * x), A2[i].map(|x| h * h * x));
+        let reach = h * C[i];
+        let (v, d) = (&mut self.stage.v[..n], &mut self.increment[..n]);
+        for k in 0..n {
+            v[k] = from.v[k] + row[0] * a1[k] + row[1] * a2[k] + row[2] * a3[k];
+            d[k] = reach * from.v[k] + row2[0] * a1[k] + row2[1] * a2[k] + row2[2] * a3[k];
+        }
+        self.stage.a.copy_from_slice(&self.a[i]);
+        self.stage.t = from.t + reach;
+        system.retract(&from.q, &self.increment, &mut self.stage.q);
+    }
+
+    /// Δa = −T w, and its size through the displacements and velocities of the stages. The norms are
+    /// those of h A Δa = −T h Λ w.
+    fn update(&mut self, h: f64) -> f64 {
+        let n = self.rhs.len();
+        let h2 = h * h;
+        let [a1, a2, a3] = &mut self.a;
+        let mut square = 0.0;
+        for i in 0..n {
+            let (x, z) = (self.rhs[i], self.z[i]);
+            a1[i] -= T[0][0] * x + T[0][1] * z.re + T[0][2] * z.im;
+            a2[i] -= T[1][0] * x + T[1][1] * z.re + T[1][2] * z.im;
+            a3[i] -= T[2][0] * x + z.re;
+            // λ and μ once for the velocities, twice for the displacements.
+            let (x1, z1) = (LAMBDA * x, Complex64::new(MU[0] * z.re - MU[1] * z.im, MU[0] * z.im + MU[1] * z.re));
+            let (x2, z2) =
+                (LAMBDA * x1, Complex64::new(MU[0] * z1.re - MU[1] * z1.im, MU[0] * z1.im + MU[1] * z1.re));
+            let mut sum = 0.0;
+            for (x, z) in [(x1, z1), (x2, z2)] {
+                let d1 = T[0][0] * x + T[0][1] * z.re + T[0][2] * z.im;
+                let d2 = T[1][0] * x + T[1][1] * z.re + T[1][2] * z.im;
+                let d3 = T[2][0] * x + z.re;
+                sum += d1 * d1 + d2 * d2 + d3 * d3;
+            }
+            let w = h2 * self.inverse_weight[i];
+            square += sum * (w * w);
+        }
+        (square / (6 * n.max(1)) as f64).sqrt()
+    }
+
+    /// Writes the end of the step.
+    fn finish(&mut self, system: &dyn System, from: &State, h: f64, to: &mut State) {
+        self.place(system, from, h, 2);
+        self.end.copy_from_slice(&self.increment);
+        to.copy_from(&self.stage);
+        to.t = from.t + h;
+    }
+
+    /// Scaled error of the attempt.
+    fn estimate(
+        &mut self,
+        system: &mut dyn System,
+        from: &State,
+        h: f64,
+        filter_twice: bool,
+        counters: &mut Counters,
+    ) -> f64 {
+        let n = from.v.len();
+        let reach = h * LAMBDA;
+        // With Re = M + c₁C + k₁K and Im = c₂C + k₂K of the complex tangent,
+        // K = ((Re − M)/c₁ − Im/c₂) / (k₁/c₁ − k₂/c₂): no further tangent is needed.
+        let (c1, c2) = (h * MU[0], h * MU[1]);
+        let apart = h * h * (MU2[0] / c1 - MU2[1] / c2);
+        let [a1, a2, a3] = &self.a;
+        for i in 0..n {
+            self.error_q[i] = h * h * (E_Q[0] * a1[i] + E_Q[1] * a2[i] + E_Q[2] * a3[i]);
+            self.error_v[i] = h * (LAMBDA * from.a[i] + E_V[0] * a1[i] + E_V[1] * a2[i] + E_V[2] * a3[i]);
+        }
+        self.mass.multiply(&self.error_v, &mut self.source);
+        counters.solves += 1;
+        self.stiffness_times_error(reach / apart, c1, c2);
+        self.filter(reach);
+        let error = self.error_norm(h);
+        if !filter_twice || error < 1.0 {
+            return error.max(1e-10);
+        }
+        // Once more, through f at the estimate: M e_v′ = M e_v − γ₀ h r(q₀ ⊞ ε_q, v₀ + ε_v, a₀),
+        // e_q′ = e_q + γ₀ h ε_v = ε_q.
+        for i in 0..n {
+            self.stage.v[i] = from.v[i] + self.error_v[i];
+        }
+        self.stage.a.copy_from_slice(&from.a);
+        self.stage.t = from.t;
+        system.retract(&from.q, &self.error_q, &mut self.stage.q);
+        system.residual(&self.stage, &mut self.product);
+        counters.residuals += 1;
+        counters.solves += 1;
+        for i in 0..n {
+            self.source[i] -= reach * self.product[i];
+        }
+        self.stiffness_times_error(reach / apart, c1, c2);
+        self.filter(reach);
+        self.error_norm(h).max(1e-10)
+    }
+
+    /// `rhs` = `source` − `factor`·((Re − M)/c₁ − Im/c₂) e_q
+    fn stiffness_times_error(&mut self, factor: f64, c1: f64, c2: f64) {
+        self.rhs.copy_from_slice(&self.source);
+        let parts =
+            [(&self.real_part, factor / c1), (&self.mass, -factor / c1), (&self.imaginary_part, -factor / c2)];
+        for (matrix, weight) in parts {
+            matrix.multiply(&self.error_q, &mut self.product);
+            for (rhs, product) in self.rhs.iter_mut().zip(&self.product) {
+                *rhs -= weight * product;
+            }
+        }
+    }
+
+    /// ε_v from `rhs`, ε_q = e_q + hγ₀ ε_v.
+    fn filter(&mut self, reach: f64) {
+        self.real.solve(&mut self.rhs);
+        self.error_v.copy_from_slice(&self.rhs);
+        for (q, v) in self.error_q.iter_mut().zip(&self.error_v) {
+            *q += reach * v;
+        }
+    }
+
+    fn error_norm(&self, h: f64) -> f64 {
+        let mut square = 0.0;
+        for ((q, v), w) in self.error_q.iter().zip(&self.error_v).zip(&self.inverse_weight) {
+            square += (q * q + h * h * v * v) * (w * w);
+        }
+        (square / (2 * self.error_q.len().max(1)) as f64).sqrt()
+    }
+
+    /// Unknown with the largest scaled error.
+    fn worst_error(&self, h: f64) -> usize {
+        largest((0..self.error_q.len()).map(|i| {
+            self.inverse_weight[i] * (self.error_q[i].abs() + h * self.error_v[i].abs())
+        }))
+    }
+
+    /// Unknown with the largest scaled increment.
+    fn worst_increment(&self) -> usize {
+        largest((0..self.rhs.len()).map(|i| self.inverse_weight[i] * (self.rhs[i].abs() + self.z[i].norm())))
+    }
+}
+
+/// Index of the largest number, or of the first that is none.
+fn largest(sizes: impl Iterator<Item = f64>) -> usize {
+    let mut found = (0, 0.0);
+    for (i, size) in sizes.enumerate() {
+        if size.is_nan() {
+            return i;
+        }
+        if size > found.1 {
+            found = (i, size);
+        }
+    }
+    found.0
+}

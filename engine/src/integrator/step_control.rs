@@ -1,0 +1,211 @@
+//! The size of steps: from the error of one step to the size of the next.
+//!
+//! With e the scaled error of a step (≤ 1 is accepted), p̂ + 1 the power of h with which it decreases and
+//! S a safety factor, the next step is h·f with
+//!
+//! ```text
+//! elementary    f = S e^(−1/(p̂+1))
+//! predictive    f = min(elementary, S (hₙ/hₙ₋₁) (eₙ₋₁/eₙ²)^(1/(p̂+1)))         Gustafsson (1994)
+//! PI            f = S eₙ^(−0.7/(p̂+1)) eₙ₋₁^(0.4/(p̂+1))                          Gustafsson (1991)
+//! H211b         f = (S/eₙ)^(1/(4(p̂+1))) (S/eₙ₋₁)^(1/(4(p̂+1))) (hₙ/hₙ₋₁)^(−1/4)    Söderlind (2003)
+//! ```
+//!
+//! The predictive law sees the error growing and shortens the step before it fails; it is the default and
+//! the one for implicit methods, where S also shrinks with the number of Newton iterations.
+//! The growth of a step is limited, does not follow a rejection at once, and is not worth a new
+//! factorisation below 20 %.
+//!
+//! Sources: Hairer & Wanner, *Solving Ordinary Differential Equations II*, section IV.8
+//! (doi 10.1007/978-3-642-05221-7); Gustafsson (1994, doi 10.1145/198429.198437); Gustafsson (1991,
+//! doi 10.1145/210232.210242); Söderlind (2003, doi 10.1145/641876.641877).
+
+use crate::system::{Label, State};
+
+/// How the next step follows from the errors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Law {
+    /// Gustafsson's predictive controller.
+    Predictive,
+    /// Proportional–integral controller.
+    ProportionalIntegral,
+    /// Söderlind's digital filter H211b with b = 4.
+    Filter,
+}
+
+/// Error and size of an accepted step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Past {
+    step: f64,
+    error: f64,
+}
+
+/// Step-size control. See the [module documentation](self) for the laws.
+#[derive(Clone, Copy, Debug)]
+pub struct StepControl {
+    law: Law,
+    /// 1/(p̂ + 1)
+    exponent: f64,
+    /// Newton iterations above which the step is shortened further.
+    iterations: f64,
+    shortest: f64,
+    longest: f64,
+    next: f64,
+    past: Option<Past>,
+    rejected: bool,
+}
+
+/// Safety factor S.
+const SAFETY: f64 = 0.9;
+/// Limits of f.
+const SHRINK: f64 = 0.2;
+const GROW: f64 = 8.0;
+/// A growth below this factor is not used, so that the factors of the tangent can be.
+const DEAD_BAND: f64 = 1.2;
+/// Errors below this are taken as this.
+const NEGLIGIBLE: f64 = 1e-10;
+/// Iterations at which S is not lowered.
+const MAX_ITERATIONS: f64 = 10.0;
+
+impl StepControl {
+    /// Predictive control for an error estimate of order `estimate_order` (p̂), over runs of length `span`
+    /// [s]: steps between 1e-14 and 1 times the span, beginning with `first`.
+    pub fn new(estimate_order: usize, span: f64, first: f64) -> StepControl {
+        let longest = span.abs();
+        let shortest = 1e-14 * longest;
+        StepControl {
+            law: Law::Predictive,
+            exponent: 1.0 / (estimate_order as f64 + 1.0),
+            iterations: MAX_ITERATIONS,
+            shortest,
+            longest,
+            next: first.clamp(shortest, longest),
+            past: None,
+            rejected: false,
+        }
+    }
+
+    /// Another law.
+    pub fn with_law(mut self, law: Law) -> StepControl {
+        self.law = law;
+        self
+    }
+
+    /// Other limits of the step [s]. An upper limit keeps step control from passing over short events.
+    pub fn with_limits(mut self, shortest: f64, longest: f64) -> StepControl {
+        self.shortest = shortest;
+        self.longest = longest.max(shortest);
+        self.next = self.next.clamp(self.shortest, self.longest);
+        self
+    }
+
+    /// A first step from the state itself [s]: tol^(1/(p̂+1)) times the shortest of scale/|v|,
+    /// (scale/|a|)^½ and `span`/100, in the root mean square. Cheap and cautious; a wrong guess costs a
+    /// few steps.
+    pub fn first_step(
+        estimate_order: usize,
+        state: &State,
+        labels: &[Label],
+        tolerance: f64,
+        span: f64,
+    ) -> f64 {
+        let mean = |x: &[f64]| {
+            let sum: f64 = x.iter().zip(labels).map(|(x, label)| (x / label.scale).powi(2)).sum();
+            (sum / x.len().max(1) as f64).sqrt()
+        };
+        let (v, a) = (mean(&state.v), mean(&state.a));
+        let mut time = 0.01 * span.abs();
+        if v > 0.0 {
+            time = time.min(1.0 / v);
+        }
+        if a > 0.0 {
+            time = time.min(1.0 / a.sqrt());
+        }
+        time * tolerance.clamp(1e-14, 1.0).powf(1.0 / (estimate_order as f64 + 1.0))
+    }
+
+    /// Size of the next step [s], where `left` [s] remain to the next time that a step must end at.
+    /// A remainder just above the step is halved rather than left as a sliver.
+    pub fn propose(&self, left: f64) -> f64 {
+        let h = self.next;
+        if left <= h * (1.0 + 1e-9) {
+            left
+        } else if left < 2.0 * h && left < h * DEAD_BAND {
+            0.5 * left
+        } else {
+            h
+        }
+    }
+
+    /// The step of size `h` with scaled error `error` and `iterations` Newton iterations was kept.
+    pub fn accepted(&mut self, h: f64, error: f64, iterations: u32) {
+        let error = error.max(NEGLIGIBLE);
+        let safety = self.safety(iterations);
+        let k = self.exponent;
+        let elementary = safety * error.powf(-k);
+        let mut factor = elementary;
+        if let Some(past) = self.past {
+            let ratio = h / past.step;
+            factor = match self.law {
+                Law::Predictive => {
+                    let past_error = past.error.max(1e-2);
+                    factor.min(safety * ratio * (past_error / (error * error)).powf(k))
+                }
+                Law::ProportionalIntegral => safety * error.powf(-0.7 * k) * past.error.powf(0.4 * k),
+                Law::Filter => {
+                    ((safety / error) * (safety / past.error)).powf(0.25 * k) * ratio.powf(-0.25)
+                }
+            };
+        }
+        factor = factor.clamp(SHRINK, GROW);
+        if self.rejected {
+            factor = factor.min(1.0);
+        }
+        if (1.0..DEAD_BAND).contains(&factor) {
+            factor = 1.0;
+        }
+        // A step cut short to end at a given time says little: keep the former proposal if it was larger
+        // and the error does not speak against it.
+        let next = if h < 0.99 * self.next && factor >= 1.0 { self.next.max(h * factor) } else { h * factor };
+        self.next = next.clamp(self.shortest, self.longest);
+        self.past = Some(Past { step: h, error });
+        self.rejected = false;
+    }
+
+    /// The step of size `h` was thrown away for its scaled error `error` > 1.
+    pub fn rejected(&mut self, h: f64, error: f64, iterations: u32) {
+        // A very first step may be wrong by any factor.
+        let factor = match self.past {
+            None => 0.1,
+            Some(_) => (self.safety(iterations) * error.powf(-self.exponent)).clamp(SHRINK, 0.9),
+        };
+        self.retreat(h * factor);
+    }
+
+    /// Newton's method failed in the step of size `h`.
+    pub fn failed(&mut self, h: f64) {
+        self.retreat(0.5 * h);
+    }
+
+    /// Forgets the past at a discontinuity, and begins again with a step of size `first` at most.
+    pub fn restart(&mut self, first: f64) {
+        self.past = None;
+        self.rejected = false;
+        self.next = self.next.min(first).clamp(self.shortest, self.longest);
+    }
+
+    /// Whether a step of size `h` at time `t` is below what control or arithmetic resolves.
+    pub fn is_too_small(&self, t: f64, h: f64) -> bool {
+        h < self.shortest || h <= 4.0 * f64::EPSILON * t.abs()
+    }
+
+    fn retreat(&mut self, h: f64) {
+        // Not clamped from below: the driver must see that the step has become too small.
+        self.next = h.min(self.longest);
+        self.rejected = true;
+    }
+
+    fn safety(&self, iterations: u32) -> f64 {
+        let most = 2.0 * self.iterations + 1.0;
+        SAFETY * (most / (2.0 * self.iterations + f64::from(iterations.max(1)))).min(1.0)
+    }
+}
