@@ -40,10 +40,10 @@ pub struct RadialBasis {
     pub shape: f64,
     /// Exponent q.
     pub exponent: f64,
-    /// Size of the support domain over the node spacing, α_s.
+    /// Half width of the support domain over the node spacing, α_s.
     pub support: f64,
-    /// Degree of the added polynomials.
-    pub degree: usize,
+    /// Degree of the added polynomials; `None` adds none.
+    pub degree: Option<usize>,
 }
 
 const MOST: i64 = 100_000;
@@ -74,10 +74,10 @@ const RADIAL: Kind = Kind {
         key(
             "support",
             Type::Number(Positive),
-            Default::Number(4.0),
-            "size α_s of the support domain over the node spacing",
+            Default::Number(2.5),
+            "half width α_s of the support domain over the node spacing",
         ),
-        key("degree", Type::Integer(0, 5), Default::Integer(1), "degree of the added polynomials"),
+        key("degree", Type::Integer(-1, 9), Default::Integer(3), "degree of the added polynomials, -1 for none"),
     ],
 };
 
@@ -163,7 +163,7 @@ fn field(kind: &Kind, v: &Values) -> Option<Basis> {
             shape: v.number("shape")?,
             exponent: v.number("exponent")?,
             support: v.number("support")?,
-            degree: v.count("degree")?,
+            degree: v.integer("degree").map(|degree| usize::try_from(degree).ok())?,
         }),
         _ => Basis::FiniteElements { elements: v.count("elements")?, axial_degree: v.count("axial-degree")? },
     })

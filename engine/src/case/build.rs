@@ -1,13 +1,21 @@
 //! Live objects from a validated case.
 
-use super::basis::Basis as BasisCase;
-use super::layout::{Case, Coupling, Initial};
+use super::basis::{Basis as BasisCase, RadialBasis};
+use super::integrator::Integrator as IntegratorCase;
+use super::layout::{Case, Coupling};
 use super::motion::{Motion as MotionCase, MotionOf};
 use super::section::{Section as SectionCase, Shape as ShapeCase};
-use crate::basis::lagrange::Lagrange;
-use crate::basis::hermite::Hermite;
-use crate::basis::{Basis, BasisError, Field};
+
+
+
+
+use crate::basis::{Basis, BasisError, Field, Hermite, Lagrange, Modes, Radial, RadialParameters};
 use crate::hub_beam::{ExactCoupling, Fields, Foreshortening, Hub, HubBeam, LinearCoupling};
+
+
+
+
+use crate::integrator::{Adams, GeneralizedAlpha, Integrator, InvalidParameter, Radau, RungeKutta, Tolerance};
 use crate::profile::{self, Constant, Expression, Profile, ProfileError, Ramp, SpinUp, Table};
 use crate::section::{Graded, Inertia, Material, Resultants, Section, SectionError, Shape, Uniform};
 use crate::system::System;
@@ -141,5 +149,71 @@ pub fn basis(case: &BasisCase, length: f64, field: Field) -> Result<Box<dyn Basi
             Field::Axial => Box::new(Lagrange::new(length, elements, axial_degree)?),
             Field::Transverse => Box::new(Hermite::new(length, elements, field)?),
         },
+        BasisCase::Modes { count } => Box::new(Modes::new(length, count, field)?),
+        BasisCase::Radial(RadialBasis { nodes, shape, exponent, support, degree }) => {
+            let parameters = RadialParameters { nodes, shape, exponent, support, degree };
+            Box::new(Radial::new(length, parameters, field)?)
+        }
     })
+}
+
+/// The integrator of a case.
+///
+/// # Errors
+/// [`InvalidParameter`] when a parameter is outside the range of the method.
+pub fn integrator(case: &IntegratorCase) -> Result<Box<dyn Integrator>, InvalidParameter> {
+    Ok(match *case {
+        IntegratorCase::Radau { tolerance, absolute_tolerance, .. } => {
+            Box::new(Radau::new(Tolerance { relative: tolerance, absolute: absolute_tolerance })?)
+        }
+        IntegratorCase::Newmark { beta, gamma, .. } => Box::new(GeneralizedAlpha::newmark(beta, gamma)?),
+        IntegratorCase::Hht { alpha, .. } => Box::new(GeneralizedAlpha::hht(alpha)?),
+        IntegratorCase::GeneralizedAlpha { spectral_radius, .. } => {
+            Box::new(GeneralizedAlpha::chung_hulbert(spectral_radius)?)
+        }
+        IntegratorCase::RungeKutta4 { .. } => Box::new(RungeKutta::new()),
+        IntegratorCase::Adams4 { .. } => Box::new(Adams::new()),
+    })
+}
+
+/// A case that cannot be built although each of its values is in range.
+#[derive(Debug, thiserror::Error)]
+pub enum BuildError {
+    /// The section.
+    #[error(transparent)]
+    Section(#[from] SectionError),
+    /// The motion.
+    #[error(transparent)]
+    Motion(#[from] MotionError),
+    /// The basis.
+    #[error(transparent)]
+    Basis(#[from] BasisError),
+}
+
+/// The mechanical system of a case.
+///
+/// # Errors
+/// [`BuildError`] when a part of it is refused; a case that was read has passed these checks.
+pub fn system(case: &Case) -> Result<Box<dyn System>, BuildError> {
+    let section = section(&case.section)?;
+    let motion = motion(&case.hub.motion, case.duration)?;
+    let (length, stations) = (case.length, &case.output.stations);
+    let hub = Hub { radius: case.hub.radius, inertia: case.hub.inertia, motion };
+    let foreshortening = match case.coupling {
+        Coupling::Zeroth => Foreshortening::None,
+        Coupling::First => Foreshortening::First,
+        Coupling::Exact => {
+            let BasisCase::FiniteElements { elements, .. } = case.bases.transverse else {
+                let message = "the exact coupling needs finite elements".to_owned();
+                return Err(BasisError::Invalid(message).into());
+            };
+            let coupling = ExactCoupling::new(length, elements, section.as_ref(), hub.radius, hub.inertia)?;
+            return Ok(Box::new(HubBeam::new(hub, coupling, stations)));
+        }
+    };
+    let axial = basis(&case.bases.axial, length, Field::Axial)?;
+    let transverse = basis(&case.bases.transverse, length, Field::Transverse)?;
+    let fields = Fields::new(length, axial, transverse, section.breaks());
+    let coupling = LinearCoupling::new(fields, section.as_ref(), hub.radius, hub.inertia, foreshortening);
+    Ok(Box::new(HubBeam::new(hub, coupling, stations)))
 }

@@ -31,7 +31,7 @@ pub enum Integrator {
     Hht {
         /// Step [s].
         step: f64,
-        /// α, from −1/3 (most dissipation) to 0.
+        /// α, from 0 (no dissipation) to 1/3 (most).
         alpha: f64,
     },
     /// The generalized-α method of Chung and Hulbert.
@@ -98,7 +98,7 @@ pub(super) static SEAM: Seam = Seam {
             source: "Newmark 1959, doi:10.1061/JMCEA3.0000098",
             keys: &[
                 STEP,
-                key("beta", Type::Number(Between(0.01, 1.0)), Default::Number(0.25), "β"),
+                key("beta", Type::Number(Between(0.01, 1.0)), Default::Number(0.25), "β, at least γ/2"),
                 key("gamma", Type::Number(Between(0.5, 1.5)), Default::Number(0.5), "γ; above 1/2 it dissipates"),
             ],
         },
@@ -110,9 +110,9 @@ pub(super) static SEAM: Seam = Seam {
                 STEP,
                 key(
                     "alpha",
-                    Type::Number(Between(-1.0 / 3.0, 0.0)),
-                    Default::Number(-0.05),
-                    "α, from −1/3 (most dissipation) to 0 (none)",
+                    Type::Number(Between(0.0, 1.0 / 3.0)),
+                    Default::Number(0.05),
+                    "α, from 0 (no dissipation) to 1/3 (most)",
                 ),
             ],
         },

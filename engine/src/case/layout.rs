@@ -6,6 +6,7 @@ use super::integrator::{self, Integrator};
 use super::motion::{self, Motion};
 use super::problem::{Problem, Problems};
 use super::section::{self, Section};
+use super::trial;
 use super::units::{INERTIA, LENGTH, TIME};
 use super::values::{Filled, Value, Values};
 use std::path::Path;
@@ -199,8 +200,11 @@ pub(super) fn case(values: &mut Values, folder: &Path, problems: &mut Problems) 
     let section = values.kind("section").and_then(|(kind, v)| section::read(kind, v, "section", problems));
     let motion = values.table("hub").and_then(|hub| hub.kind("motion"));
     let motion = motion.and_then(|(kind, v)| motion::read(kind, v, folder));
+    trial::section(section.as_ref(), values, problems);
+    trial::motion(motion.as_ref(), run_duration, values, problems);
     let bases = values.kind("basis").and_then(|(kind, v)| basis::read(kind, v));
     let integrator = values.kind("integrator").and_then(|(kind, v)| integrator::read(kind, v));
+    trial::integrator(integrator.as_ref(), values, problems);
     let initial = values.kind("initial").map(|(kind, _)| match kind.name {
         "steady-rotation" => Initial::SteadyRotation,
         _ => Initial::Undeformed,
@@ -243,6 +247,8 @@ pub(super) fn case(values: &mut Values, folder: &Path, problems: &mut Problems) 
                     .help("write `kind = \"finite-elements\"` and the number of elements, or use the coupling `first`"),
             );
         }
+    } else {
+        trial::bases(bases.as_ref(), length, values, problems);
     }
     let hub = values.table("hub");
     Some(Case {

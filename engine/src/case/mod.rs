@@ -11,6 +11,7 @@
 //! To add a kind: write its code in a file of its own elsewhere, then in the file of its seam here
 //! add one entry to the table of kinds and one arm to `read`, and one arm in `build`.
 
+pub mod build;
 pub mod declaration;
 pub mod units;
 
@@ -25,6 +26,7 @@ mod resolved;
 mod schema;
 mod section;
 mod tree;
+mod trial;
 mod values;
 
 pub use basis::{Bases, Basis, RadialBasis};

@@ -6,7 +6,7 @@ use std::fmt::Write;
 
 /// Writes the whole case.
 pub(super) fn resolved(values: &Values) -> String {
-    let mut out = String::from("# The case with every default filled in, in SI units.\n");
+    let mut out = String::new();
     table(values, None, "", &mut out);
     out
 }

@@ -203,6 +203,13 @@ pub(super) fn read(kind: &Kind, v: &Values, path: &str, problems: &mut Problems)
             });
         }
         "graded" => {
+            if v.boolean("first-moment") == Some(true) && v.boolean("rotary-inertia") == Some(false) {
+                let message = "the first mass moment cannot be kept without the rotary inertia: the kinetic energy of short waves would be negative";
+                problems.push(
+                    Problem::new(join(path, "first-moment"), v.place("first-moment"), message)
+                        .help("add `rotary-inertia = true`"),
+                );
+            }
             return Some(Section::Graded {
                 ceramic_modulus: v.number("ceramic-modulus")?,
                 metal_modulus: v.number("metal-modulus")?,

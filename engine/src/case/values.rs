@@ -63,12 +63,17 @@ impl Values {
         }
     }
 
-    /// The count of a key.
-    pub fn count(&self, name: &str) -> Option<usize> {
+    /// The integer of a key.
+    pub fn integer(&self, name: &str) -> Option<i64> {
         match self.get(name)?.value {
-            Value::Integer(value) => usize::try_from(value).ok(),
+            Value::Integer(value) => Some(value),
             _ => None,
         }
+    }
+
+    /// The count of a key.
+    pub fn count(&self, name: &str) -> Option<usize> {
+        usize::try_from(self.integer(name)?).ok()
     }
 
     /// The boolean of a key.

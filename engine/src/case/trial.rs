@@ -1,0 +1,75 @@
+//! Builds the parts of a case on trial, so that what only their constructors know is reported with the
+//! other problems, at the key that it concerns.
+
+use super::basis::{Bases, Basis};
+use super::build::{self, MotionError};
+use super::integrator::Integrator;
+use super::motion::Motion;
+use super::problem::{Place, Problem, Problems};
+use super::reader::inside;
+use super::section::Section;
+use super::values::{Values, join};
+use crate::basis::Field;
+use crate::profile::ProfileError;
+
+/// Tries the section.
+pub(super) fn section(case: Option<&Section>, values: &Values, problems: &mut Problems) {
+    if let Some(Err(error)) = case.map(build::section) {
+        problems.push(Problem::new("section", values.place("section"), error.to_string()));
+    }
+}
+
+/// Tries the motion over the duration [s].
+pub(super) fn motion(case: Option<&Motion>, duration: Option<f64>, values: &Values, problems: &mut Problems) {
+    let (Some(case), Some(duration)) = (case, duration) else { return };
+    let Err(error) = build::motion(case, duration) else { return };
+    let table = values.table("hub").and_then(|hub| hub.kind("motion")).map(|(_, values)| values);
+    let key = match case {
+        Motion::Table { .. } => "file",
+        Motion::Expression { .. } => "formula",
+        _ => "kind",
+    };
+    let mut place = table.and_then(|table| table.place(key));
+    let mut message = error.to_string();
+    if let (MotionError::Profile(ProfileError::Expression { text, offset, fault }), Some(whole)) = (&error, &place) {
+        place = Some(inside(whole, text, *offset..text.len().min(offset + 1), problems));
+        message = fault.clone();
+    }
+    let problem = Problem::new(join("hub.motion", key), place, message);
+    problems.push(match &error {
+        MotionError::Profile(ProfileError::OutOfRange { .. }) => {
+            problem.help("shorten the run, or extend the table over all of it")
+        }
+        _ => problem,
+    });
+}
+
+/// Tries the bases of both fields on a beam of the given length [m].
+pub(super) fn bases(case: Option<&Bases>, length: Option<f64>, values: &Values, problems: &mut Problems) {
+    let (Some(case), Some(length), Some((_, table))) = (case, length, values.kind("basis")) else { return };
+    let mut refused = |basis: &Basis, field, key| {
+        let Err(error) = build::basis(basis, length, field) else { return None };
+        let mixed = table.kind(key).and_then(|(_, values)| values.place.clone());
+        let path = if mixed.is_some() { join("basis", key) } else { "basis".to_owned() };
+        Some(Problem::new(path, mixed.or_else(|| place_of(basis, table)), error.to_string()))
+    };
+    let axial = refused(&case.axial, Field::Axial, "axial");
+    let transverse = refused(&case.transverse, Field::Transverse, "transverse");
+    // One basis for both fields is reported once.
+    let same = axial.as_ref().zip(transverse.as_ref()).is_some_and(|(a, t)| a.place == t.place);
+    problems.list.extend(axial.into_iter().chain(transverse.filter(|_| !same)));
+}
+
+/// The key that most likely is to blame.
+fn place_of(basis: &Basis, table: &Values) -> Option<Place> {
+    table.place(if matches!(basis, Basis::Radial(_)) { "shape" } else { "kind" })
+}
+
+/// Tries the integrator.
+pub(super) fn integrator(case: Option<&Integrator>, values: &Values, problems: &mut Problems) {
+    if let Some(Err(error)) = case.map(build::integrator) {
+        let key = error.parameter.replace(' ', "-");
+        let place = values.kind("integrator").and_then(|(_, table)| table.place(&key));
+        problems.push(Problem::new(join("integrator", &key), place, error.to_string()));
+    }
+}
