@@ -4,7 +4,7 @@ use crate::integrator::{Integrator, StepControl, StepError, StepReport};
 use crate::system::{State, System};
 use std::ops::ControlFlow;
 
-/// Error order of the predictor of the first step of adaptive methods without one of their own.
+/// Shortest recording interval, over the length of the run.
 const SMALLEST_SAMPLE: f64 = 1e-9;
 
 /// What a run is asked to do.
@@ -117,6 +117,7 @@ pub fn transient(
         power: 0.0,
         initial: 0.0,
         largest_strain: 0.0,
+        uncertainty: 0.0,
         audited: !system.is_affine(),
     };
     match run.integrate(system, integrator, state, plan, observer) {
@@ -138,6 +139,8 @@ struct Run {
     /// Energy at the start, and the largest strain energy since [J].
     initial: f64,
     largest_strain: f64,
+    /// Bound of the error of the work's quadrature [J].
+    uncertainty: f64,
     /// Whether every step's energy is checked: for systems whose equations are solved iteratively, where a
     /// step too large can converge to a wrong solution. Affine systems are recorded, not policed.
     audited: bool,
@@ -156,8 +159,9 @@ impl Run {
         observer: &mut dyn Observer,
     ) -> Result<Ending, RunError> {
         let span = plan.end - state.t;
-        let failed = |system: &mut dyn System, state: &State, error: StepError| {
-            RunError::Step { error, reason: system.explain(state) }
+        let failed = |system: &mut dyn System, state: &State, error: StepError| RunError::Step {
+            error,
+            reason: system.explain(state),
         };
         // A run of no length: its state is recorded, completed.
         let uniform = plan.step.map(|h| span / (span / h - 1e-9).ceil().max(1.0));
@@ -169,9 +173,9 @@ impl Run {
         observer.sample(system, state, &self.last);
         let mut next = state.clone();
         let mut control = integrator.info().estimate_order.map(|order| {
-            let first = plan.step.unwrap_or_else(|| {
-                StepControl::first_step(order, state, system.labels(), 1e-4, span)
-            });
+            let first = plan
+                .step
+                .unwrap_or_else(|| StepControl::first_step(order, state, system.labels(), 1e-4, span));
             let control = StepControl::new(order, span, first);
             match plan.longest_step {
                 Some(longest) => control.with_limits(1e-14 * span, longest),
@@ -236,14 +240,15 @@ impl Run {
         let h = to.t - from.t;
         integrator.interpolate(system, from, to, from.t + 0.5 * h, &mut self.middle);
         let (middle, end) = (system.power(&self.middle), system.power(to));
-        self.last.work += h / 6.0 * (self.power + 4.0 * middle + end);
+        let work = h / 6.0 * (self.power + 4.0 * middle + end);
+        self.uncertainty += (work - 0.5 * h * (self.power + end)).abs();
+        self.last.work += work;
         self.power = end;
         let energy = system.energy(to);
         self.largest_strain = self.largest_strain.max(energy.strain);
         let excess = energy.total() - self.initial - self.last.work;
-        // The scale must not vanish at rest, nor forgive all while a fast hub carries much energy.
-        let scale = self.largest_strain + 1e-9 * energy.kinetic;
-        if excess > EXCESS * scale {
+        // Simpson's rule has an error of its own, which its difference from the trapezium bounds.
+        if excess > EXCESS * self.largest_strain + self.uncertainty {
             let (work, strain) = (self.last.work, energy.strain);
             return Err(RunError::Energy { time: to.t, excess, work, strain });
         }

@@ -63,7 +63,12 @@ const RADIAL: Kind = Kind {
     summary: "radial point interpolation (RPIM) with multiquadrics",
     source: DU,
     keys: &[
-        key("nodes", Type::Integer(2, MOST), Default::Integer(11), "number of equally spaced nodes, ends included"),
+        key(
+            "nodes",
+            Type::Integer(2, MOST),
+            Default::Integer(11),
+            "number of equally spaced nodes, ends included",
+        ),
         key(
             "shape",
             Type::Number(Positive),
@@ -77,7 +82,12 @@ const RADIAL: Kind = Kind {
             Default::Number(2.5),
             "half width α_s of the support domain over the node spacing",
         ),
-        key("degree", Type::Integer(-1, 9), Default::Integer(3), "degree of the added polynomials, -1 for none"),
+        key(
+            "degree",
+            Type::Integer(-1, 9),
+            Default::Integer(3),
+            "degree of the added polynomials, -1 for none",
+        ),
     ],
 };
 

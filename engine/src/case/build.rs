@@ -6,16 +6,12 @@ use super::layout::{Case, Coupling};
 use super::motion::{Motion as MotionCase, MotionOf};
 use super::section::{Section as SectionCase, Shape as ShapeCase};
 
-
-
-
 use crate::basis::{Basis, BasisError, Field, Hermite, Lagrange, Modes, Radial, RadialParameters};
 use crate::hub_beam::{ExactCoupling, Fields, Foreshortening, Hub, HubBeam, LinearCoupling};
 
-
-
-
-use crate::integrator::{Adams, GeneralizedAlpha, Integrator, InvalidParameter, Radau, RungeKutta, Tolerance};
+use crate::integrator::{
+    Adams, GeneralizedAlpha, Integrator, InvalidParameter, Radau, RungeKutta, Tolerance,
+};
 use crate::profile::{self, Constant, Expression, Profile, ProfileError, Ramp, SpinUp, Table};
 use crate::section::{Graded, Inertia, Material, Resultants, Section, SectionError, Shape, Uniform};
 use crate::system::System;
@@ -132,7 +128,9 @@ fn rows(file: &Path) -> Result<Vec<(f64, f64)>, String> {
             _ => {
                 let line = record.position().map_or(0, csv::Position::line);
                 let text = record.iter().collect::<Vec<_>>().join(",");
-                return Err(format!("line {line} of {name}, `{text}`, is not two numbers: a time in s and a value"));
+                return Err(format!(
+                    "line {line} of {name}, `{text}`, is not two numbers: a time in s and a value"
+                ));
             }
         }
     }

@@ -1,6 +1,8 @@
 //! The integrator of a case: kinds and their keys.
 
-use super::declaration::{Bound::*, Key, Kind, Presence as Default, Presence::*, Seam, Type, Type::Quantity, key};
+use super::declaration::{
+    Bound::*, Key, Kind, Presence as Default, Presence::*, Seam, Type, Type::Quantity, key,
+};
 use super::units::TIME;
 use super::values::Values;
 
@@ -99,7 +101,12 @@ pub(super) static SEAM: Seam = Seam {
             keys: &[
                 STEP,
                 key("beta", Type::Number(Between(0.01, 1.0)), Default::Number(0.25), "β, at least γ/2"),
-                key("gamma", Type::Number(Between(0.5, 1.5)), Default::Number(0.5), "γ; above 1/2 it dissipates"),
+                key(
+                    "gamma",
+                    Type::Number(Between(0.5, 1.5)),
+                    Default::Number(0.5),
+                    "γ; above 1/2 it dissipates",
+                ),
             ],
         },
         Kind {

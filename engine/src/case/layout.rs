@@ -1,7 +1,9 @@
 //! The layout of a case file, and the case in SI that comes out of it.
 
 use super::basis::{self, Bases, Basis};
-use super::declaration::{Bound::*, Key, Kind, Presence as Default, Presence::*, Seam, Type, Type::Quantity, key};
+use super::declaration::{
+    Bound::*, Key, Kind, Presence as Default, Presence::*, Seam, Type, Type::Quantity, key,
+};
 use super::integrator::{self, Integrator};
 use super::motion::{self, Motion};
 use super::problem::{Problem, Problems};
@@ -134,7 +136,12 @@ pub(super) static KEYS: &[Key] = &[
     key(
         "hub",
         Type::Table(&[
-            key("radius", Quantity(&LENGTH, NotNegative), Default::Number(0.0), "radius a, where the beam is clamped"),
+            key(
+                "radius",
+                Quantity(&LENGTH, NotNegative),
+                Default::Number(0.0),
+                "radius a, where the beam is clamped",
+            ),
             key(
                 "inertia",
                 Quantity(&INERTIA, NotNegative),
@@ -242,10 +249,9 @@ pub(super) fn case(values: &mut Values, folder: &Path, problems: &mut Problems) 
                 "the exact coupling describes the whole curve of the beam by one Hermite field and cannot use the basis `{}`",
                 kind.name
             );
-            problems.push(
-                Problem::new("basis", v.place.clone(), message)
-                    .help("write `kind = \"finite-elements\"` and the number of elements, or use the coupling `first`"),
-            );
+            problems.push(Problem::new("basis", v.place.clone(), message).help(
+                "write `kind = \"finite-elements\"` and the number of elements, or use the coupling `first`",
+            ));
         }
     } else {
         trial::bases(bases.as_ref(), length, values, problems);

@@ -120,12 +120,8 @@ pub fn parse(text: String, file: &Path, overrides: &[String]) -> Result<Reading,
         let mut values = reader::table(entries, None, layout::KEYS, "", &mut problems);
         let folder = file.parent().unwrap_or(Path::new(""));
         if let Some(case) = layout::case(&mut values, folder, &mut problems) {
-            reading = Some(Reading {
-                case,
-                file: file.to_owned(),
-                values,
-                sources: problems.sources.clone(),
-            });
+            reading =
+                Some(Reading { case, file: file.to_owned(), values, sources: problems.sources.clone() });
         }
     }
     match reading {
@@ -153,11 +149,17 @@ fn load(file: &Path) -> Result<String, (String, Option<String>)> {
     let mut bytes = Vec::new();
     File::open(file).and_then(|f| f.take(LARGEST + 1).read_to_end(&mut bytes)).map_err(failed)?;
     if bytes.len() as u64 > LARGEST {
-        return Err((format!("{name} is larger than {} MB: a case file is text of a few kB", LARGEST / 1_000_000), None));
+        return Err((
+            format!("{name} is larger than {} MB: a case file is text of a few kB", LARGEST / 1_000_000),
+            None,
+        ));
     }
     String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
         let line = error.as_bytes()[..at].iter().filter(|byte| **byte == b'\n').count() + 1;
-        (format!("{name} is not UTF-8 text: byte {at}, on line {line}, is not"), Some("save it as UTF-8".to_owned()))
+        (
+            format!("{name} is not UTF-8 text: byte {at}, on line {line}, is not"),
+            Some("save it as UTF-8".to_owned()),
+        )
     })
 }

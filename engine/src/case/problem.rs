@@ -134,7 +134,10 @@ impl Problems {
                 annotation = annotation.label(problem.label.as_str());
             }
             group = group.element(
-                Snippet::source(window.text).path(source.name.as_str()).line_start(window.line).annotation(annotation),
+                Snippet::source(window.text)
+                    .path(source.name.as_str())
+                    .line_start(window.line)
+                    .annotation(annotation),
             );
         }
         for help in &problem.help {

@@ -36,7 +36,8 @@ fn known(
             Some(entry) => (self::value(key, &entry.node, &path, problems), Some(entry.node.place.clone())),
             None => {
                 if key.presence == Presence::Required && !suspected.contains(&key.name) {
-                    let what = if is_table(&key.takes) { "this table is missing" } else { "this key is missing" };
+                    let what =
+                        if is_table(&key.takes) { "this table is missing" } else { "this key is missing" };
                     let problem = Problem::new(&path, place.cloned(), what);
                     problems.push(problem.label(format!("`{}` belongs here", key.name)).help(advice(key)));
                 }
@@ -79,7 +80,8 @@ fn unknown<'k>(
                 .collect();
             if !owners.is_empty() {
                 let owners = listed(owners.into_iter());
-                problem = problem.help(format!("`{name}` is a key of {} {owners}, not of `{}`", seam.name, kind.name));
+                problem = problem
+                    .help(format!("`{name}` is a key of {} {owners}, not of `{}`", seam.name, kind.name));
             }
         }
         let allowed = listed(of.iter().map(|_| "kind").chain(keys.iter().map(|key| key.name)));
@@ -95,7 +97,9 @@ fn is_table(takes: &Type) -> bool {
 /// What a missing key takes.
 fn advice(key: &Key) -> String {
     let takes = match &key.takes {
-        Type::Quantity(measure, _) => format!("{}, for example {}", units::article(measure), measure.examples),
+        Type::Quantity(measure, _) => {
+            format!("{}, for example {}", units::article(measure), measure.examples)
+        }
         Type::Kind(seam) => format!("a table whose kind is one of {}", seam.names()),
         Type::Table(keys) => {
             let required = keys.iter().filter(|key| key.presence == Presence::Required);
@@ -110,7 +114,12 @@ fn advice(key: &Key) -> String {
 fn expected(takes: &Type) -> String {
     match takes {
         Type::Quantity(measure, _) => {
-            format!("{}: a text such as {} or a number in {}", units::article(measure), measure.examples, measure.unit)
+            format!(
+                "{}: a text such as {} or a number in {}",
+                units::article(measure),
+                measure.examples,
+                measure.unit
+            )
         }
         Type::Quantities(measure, _) => {
             format!("a list of quantities such as {} or of numbers in {}", measure.examples, measure.unit)
@@ -180,7 +189,8 @@ fn value(key: &'static Key, node: &Node, path: &str, problems: &mut Problems) ->
         }
         (Type::Kind(seam), Raw::Table(entries)) => kind(seam, entries, &node.place, path, problems),
         (Type::Kind(seam), Raw::Text(text)) if seam.kind(text).is_some() => {
-            let problem = Problem::new(path, Some(node.place.clone()), "this key takes a table, not a name alone");
+            let problem =
+                Problem::new(path, Some(node.place.clone()), "this key takes a table, not a name alone");
             problems.push(problem.help(format!("write `{} = {{ kind = \"{text}\", … }}`", key.name)));
             None
         }
@@ -197,7 +207,8 @@ fn kind(
 ) -> Option<Value> {
     let kind_path = join(path, "kind");
     let Some(entry) = entries.iter().find(|entry| entry.key == "kind") else {
-        let problem = Problem::new(kind_path, Some(place.clone()), format!("the kind of {} is missing", seam.name));
+        let problem =
+            Problem::new(kind_path, Some(place.clone()), format!("the kind of {} is missing", seam.name));
         problems.push(problem.label("`kind` belongs here").help(format!("the kinds are {}", seam.names())));
         return None;
     };

@@ -25,7 +25,8 @@ fn table(values: &Values, kind: Option<&str>, path: &str, out: &mut String) {
             Type::Quantity(measure, _) | Type::Quantities(measure, _) => format!("  # {}", measure.unit),
             _ => String::new(),
         };
-        let _ = writeln!(out, "{} = {}{unit}", filled.key.name, written(&filled.value, &filled.key.takes, false));
+        let _ =
+            writeln!(out, "{} = {}{unit}", filled.key.name, written(&filled.value, &filled.key.takes, false));
     }
     for filled in &values.entries {
         let path = join(path, filled.key.name);

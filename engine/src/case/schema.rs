@@ -64,8 +64,11 @@ fn takes(takes: &Type) -> Value {
         Type::Boolean => json!({ "type": "boolean" }),
         Type::Text | Type::Path => json!({ "type": "string" }),
         Type::Choice(seam) => {
-            let options: Vec<Value> =
-                seam.kinds.iter().map(|kind| json!({ "const": kind.name, "description": kind.summary })).collect();
+            let options: Vec<Value> = seam
+                .kinds
+                .iter()
+                .map(|kind| json!({ "const": kind.name, "description": kind.summary }))
+                .collect();
             json!({ "type": "string", "oneOf": options })
         }
         Type::Table(keys) => table(keys, None),

@@ -1,6 +1,13 @@
 //! The section of a case: kinds and their keys.
 
-use super::declaration::{Bound::*, Key, Kind, Presence as Default, Presence::Required, Seam, Type, Type::{Boolean, Quantity}, key};
+use super::declaration::{
+    Bound::*,
+    Key, Kind, Presence as Default,
+    Presence::Required,
+    Seam, Type,
+    Type::{Boolean, Quantity},
+    key,
+};
 use super::problem::{Problem, Problems};
 use super::units::*;
 use super::values::{Values, join};
@@ -86,12 +93,8 @@ pub enum Shape {
 
 const E: Key = key("modulus", Quantity(&MODULUS, Positive), Required, "Young's modulus E");
 const RHO: Key = key("density", Quantity(&DENSITY, Positive), Required, "density ρ");
-const ROTARY: Key = key(
-    "rotary-inertia",
-    Boolean,
-    Default::Boolean(false),
-    "rotary inertia of the section, ρI, is kept",
-);
+const ROTARY: Key =
+    key("rotary-inertia", Boolean, Default::Boolean(false), "rotary inertia of the section, ρI, is kept");
 
 /// The kinds of section.
 pub(super) static SEAM: Seam = Seam {
@@ -142,7 +145,12 @@ pub(super) static SEAM: Seam = Seam {
                 E,
                 RHO,
                 key("outer-radius", Quantity(&LENGTH, Positive), Required, "outer radius"),
-                key("inner-radius", Quantity(&LENGTH, Positive), Required, "inner radius, less than the outer"),
+                key(
+                    "inner-radius",
+                    Quantity(&LENGTH, Positive),
+                    Required,
+                    "inner radius, less than the outer",
+                ),
                 ROTARY,
             ],
         },
@@ -172,8 +180,18 @@ pub(super) static SEAM: Seam = Seam {
             summary: "a rectangle graded over its height by a power law, from metal to ceramic",
             source: "E(y) = (Eh − Et)(y/h + 1/2)^N + Et and ρ(y) alike: Reddy 2000, doi:10.1002/(SICI)1097-0207(20000110/30)47:1/3<663::AID-NME787>3.0.CO;2-8",
             keys: &[
-                key("ceramic-modulus", Quantity(&MODULUS, Positive), Required, "Young's modulus Eh of the ceramic"),
-                key("metal-modulus", Quantity(&MODULUS, Positive), Required, "Young's modulus Et of the metal"),
+                key(
+                    "ceramic-modulus",
+                    Quantity(&MODULUS, Positive),
+                    Required,
+                    "Young's modulus Eh of the ceramic",
+                ),
+                key(
+                    "metal-modulus",
+                    Quantity(&MODULUS, Positive),
+                    Required,
+                    "Young's modulus Et of the metal",
+                ),
                 key("ceramic-density", Quantity(&DENSITY, Positive), Required, "density ρh of the ceramic"),
                 key("metal-density", Quantity(&DENSITY, Positive), Required, "density ρt of the metal"),
                 key("width", Quantity(&LENGTH, Positive), Required, "width b, normal to the plane of motion"),
@@ -227,7 +245,8 @@ pub(super) fn read(kind: &Kind, v: &Values, path: &str, problems: &mut Problems)
         "tube" => {
             let (outer_radius, inner_radius) = (v.number("outer-radius")?, v.number("inner-radius")?);
             if inner_radius >= outer_radius {
-                let message = format!("must be less than the outer radius {outer_radius} m, but is {inner_radius} m");
+                let message =
+                    format!("must be less than the outer radius {outer_radius} m, but is {inner_radius} m");
                 problems.push(Problem::new(join(path, "inner-radius"), v.place("inner-radius"), message));
                 return None;
             }

@@ -113,7 +113,8 @@ fn lay_over(root: &mut Node, argument: &str, problems: &mut Problems) {
     let all = Place::new(source, 0..argument.len());
     let Some(equals) = argument.find('=') else {
         problems.push(
-            Problem::new("", Some(all), "an override is KEY=VALUE").help("for example `--set section.modulus=\"30 GPa\"`"),
+            Problem::new("", Some(all), "an override is KEY=VALUE")
+                .help("for example `--set section.modulus=\"30 GPa\"`"),
         );
         return;
     };

@@ -31,7 +31,9 @@ pub(super) fn motion(case: Option<&Motion>, duration: Option<f64>, values: &Valu
     };
     let mut place = table.and_then(|table| table.place(key));
     let mut message = error.to_string();
-    if let (MotionError::Profile(ProfileError::Expression { text, offset, fault }), Some(whole)) = (&error, &place) {
+    if let (MotionError::Profile(ProfileError::Expression { text, offset, fault }), Some(whole)) =
+        (&error, &place)
+    {
         place = Some(inside(whole, text, *offset..text.len().min(offset + 1), problems));
         message = fault.clone();
     }

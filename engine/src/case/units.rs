@@ -246,7 +246,8 @@ fn number(text: &str) -> (String, i64, usize) {
             let end = at + 1 + sign + count;
             // Beyond i64 the number is zero or not finite either way.
             let limit = if bytes[at + 1] == b'-' { -1_000_000_000 } else { 1_000_000_000 };
-            let exponent = text[at + 1..end].parse::<i64>().unwrap_or(limit).clamp(-1_000_000_000, 1_000_000_000);
+            let exponent =
+                text[at + 1..end].parse::<i64>().unwrap_or(limit).clamp(-1_000_000_000, 1_000_000_000);
             return (mantissa, exponent, end);
         }
     }
@@ -391,8 +392,11 @@ impl Parser<'_> {
 /// The unit of this name, with or without a prefix; a name without prefix wins (`min` is a minute).
 fn named(name: &str) -> Option<Scale> {
     let plain = |name: &str| UNITS.iter().find(|u| u.name == name);
-    let scale =
-        |u: &Unit, shift| Scale { mantissa: u.mantissa, exponent: u.exponent + shift, dimension: u.dimension };
+    let scale = |u: &Unit, shift| Scale {
+        mantissa: u.mantissa,
+        exponent: u.exponent + shift,
+        dimension: u.dimension,
+    };
     if let Some(unit) = plain(name) {
         return Some(scale(unit, 0));
     }
@@ -487,7 +491,8 @@ mod tests {
 
     #[test]
     fn no_text_makes_the_parser_panic() {
-        let pieces = ["1", "e", "-", ".", " ", "m", "^", "²", "⁻", "/", "*", "(", ")", "°", "µ", "9", "\u{301}", "N"];
+        let pieces =
+            ["1", "e", "-", ".", " ", "m", "^", "²", "⁻", "/", "*", "(", ")", "°", "µ", "9", "\u{301}", "N"];
         let mut state = 1_u64;
         for _ in 0..20_000 {
             let mut text = String::new();

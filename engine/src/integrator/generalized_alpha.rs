@@ -28,7 +28,8 @@
 
 use super::acceleration::Accelerations;
 use super::{
-    Convergence, Counters, Info, Integrator, InvalidParameter, Progress, StepError, StepReport, failure, hermite,
+    Convergence, Counters, Info, Integrator, InvalidParameter, Progress, StepError, StepReport, failure,
+    hermite,
 };
 use crate::linalg::Matrix;
 use crate::system::{Level, State, System, Weights};
@@ -216,11 +217,9 @@ impl Integrator for GeneralizedAlpha {
                     *g /= to_q;
                 }
             }
-            let weights =
-                Weights { q: to_q, v: to_v, a: 1.0, increment: Some(d), level: Level::Position };
+            let weights = Weights { q: to_q, v: to_v, a: 1.0, increment: Some(d), level: Level::Position };
             system.tangent(to, weights, &mut work.tangent);
-            let factored =
-                work.tangent.factor().map_err(|e| failure::singular(system, from.t, h, e))?;
+            let factored = work.tangent.factor().map_err(|e| failure::singular(system, from.t, h, e))?;
             work.tangent.solve(&mut work.rhs);
             self.counters.residuals += 1;
             self.counters.tangents += u64::from(factored);

@@ -75,7 +75,11 @@ fn coefficients(h: f64, d: f64, from: &State, to: &State, i: usize) -> [f64; 3] 
     let value = d - v0 - a0;
     let slope = v1 - v0 - 2.0 * a0;
     let bend = a1 - a0;
-    [10.0 * value - 4.0 * slope + bend, -15.0 * value + 7.0 * slope - 2.0 * bend, 6.0 * value - 3.0 * slope + bend]
+    [
+        10.0 * value - 4.0 * slope + bend,
+        -15.0 * value + 7.0 * slope - 2.0 * bend,
+        6.0 * value - 3.0 * slope + bend,
+    ]
 }
 
 /// (t − t₀)/h, 1 for an empty step.

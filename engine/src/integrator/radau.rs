@@ -42,7 +42,8 @@
 use super::acceleration::Accelerations;
 use super::radau_coefficients::{A, A2, C, E_Q, E_V, LAMBDA, MU, MU2, T, T_INVERSE, lagrange};
 use super::{
-    Convergence, Counters, Info, Integrator, InvalidParameter, Progress, StepError, StepReport, failure, hermite,
+    Convergence, Counters, Info, Integrator, InvalidParameter, Progress, StepError, StepReport, failure,
+    hermite,
 };
 use crate::linalg::Matrix;
 use crate::system::{State, System, Weights};
@@ -374,8 +375,7 @@ impl Work {
             for i in 0..n {
                 let (x, y, z) = (r1[i], r2[i], r3[i]);
                 self.rhs[i] = p[0] * x + p[1] * y + p[2] * z;
-                self.z[i] =
-                    Complex64::new(q[0] * x + q[1] * y + q[2] * z, s[0] * x + s[1] * y + s[2] * z);
+                self.z[i] = Complex64::new(q[0] * x + q[1] * y + q[2] * z, s[0] * x + s[1] * y + s[2] * z);
             }
             self.real.solve(&mut self.rhs);
             self.complex.solve(&mut self.z);
@@ -420,7 +420,8 @@ impl Work {
             a2[i] -= T[1][0] * x + T[1][1] * z.re + T[1][2] * z.im;
             a3[i] -= T[2][0] * x + z.re;
             // λ and μ once for the velocities, twice for the displacements.
-            let (x1, z1) = (LAMBDA * x, Complex64::new(MU[0] * z.re - MU[1] * z.im, MU[0] * z.im + MU[1] * z.re));
+            let (x1, z1) =
+                (LAMBDA * x, Complex64::new(MU[0] * z.re - MU[1] * z.im, MU[0] * z.im + MU[1] * z.re));
             let (x2, z2) =
                 (LAMBDA * x1, Complex64::new(MU[0] * z1.re - MU[1] * z1.im, MU[0] * z1.im + MU[1] * z1.re));
             let mut sum = 0.0;
@@ -494,8 +495,11 @@ impl Work {
     /// `rhs` = `source` − `factor`·((Re − M)/c₁ − Im/c₂) e_q
     fn stiffness_times_error(&mut self, factor: f64, c1: f64, c2: f64) {
         self.rhs.copy_from_slice(&self.source);
-        let parts =
-            [(&self.real_part, factor / c1), (&self.mass, -factor / c1), (&self.imaginary_part, -factor / c2)];
+        let parts = [
+            (&self.real_part, factor / c1),
+            (&self.mass, -factor / c1),
+            (&self.imaginary_part, -factor / c2),
+        ];
         for (matrix, weight) in parts {
             matrix.multiply(&self.error_q, &mut self.product);
             for (rhs, product) in self.rhs.iter_mut().zip(&self.product) {
@@ -523,9 +527,10 @@ impl Work {
 
     /// Unknown with the largest scaled error.
     fn worst_error(&self, h: f64) -> usize {
-        largest((0..self.error_q.len()).map(|i| {
-            self.inverse_weight[i] * (self.error_q[i].abs() + h * self.error_v[i].abs())
-        }))
+        largest(
+            (0..self.error_q.len())
+                .map(|i| self.inverse_weight[i] * (self.error_q[i].abs() + h * self.error_v[i].abs())),
+        )
     }
 
     /// Unknown with the largest scaled increment.

@@ -108,7 +108,11 @@ pub fn largest_frequency(system: &mut dyn System, state: &State) -> Result<f64, 
         largest = largest_eigenvalue(&diagonal, &off);
         if !largest.is_finite() || failure::first_bad(&w).is_some() {
             let index = failure::first_bad(&w).unwrap_or(0);
-            return Err(StepError::NotFinite { time: state.t, step: 0.0, worst: failure::label(system, index) });
+            return Err(StepError::NotFinite {
+                time: state.t,
+                step: 0.0,
+                worst: failure::label(system, index),
+            });
         }
         estimates.push(largest);
         if let Some(index) = estimates.len().checked_sub(SETTLED + 1)

@@ -151,9 +151,7 @@ impl StepControl {
                     factor.min(safety * ratio * (past_error / (error * error)).powf(k))
                 }
                 Law::ProportionalIntegral => safety * error.powf(-0.7 * k) * past.error.powf(0.4 * k),
-                Law::Filter => {
-                    ((safety / error) * (safety / past.error)).powf(0.25 * k) * ratio.powf(-0.25)
-                }
+                Law::Filter => ((safety / error) * (safety / past.error)).powf(0.25 * k) * ratio.powf(-0.25),
             };
         }
         factor = factor.clamp(SHRINK, GROW);
