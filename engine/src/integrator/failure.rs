@@ -9,8 +9,11 @@ pub(super) fn label(system: &dyn System, index: usize) -> String {
     system.labels().get(index).map_or_else(|| format!("unknown {index}"), |label| label.name.clone())
 }
 
-/// The error of a matrix that cannot be factored.
+/// The error of a matrix that cannot be factored, be it singular or not finite.
 pub(super) fn singular(system: &dyn System, time: f64, step: f64, cause: Singular) -> StepError {
+    if !cause.pivot.is_finite() {
+        return StepError::NotFinite { time, step, worst: label(system, cause.index) };
+    }
     StepError::Singular { time, step, pivot: cause.pivot, worst: label(system, cause.index) }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! | method | file | order (q, v) | steps | equations solved a step |
 //! |---|---|---|---|---|
-//! | [`Radau`] IIA, 3 stages | `radau.rs` | 5 | adaptive | one real and one complex system an iteration |
+//! | [`Radau`] IIA, 3 stages | `radau/` | 5 | adaptive | one real and one complex system an iteration |
 //! | [`GeneralizedAlpha`]: Newmark, HHT-α, Chung–Hulbert | `generalized_alpha.rs` | 2 | fixed | one system an iteration |
 //! | [`RungeKutta`], classical | `runge_kutta.rs` | 4 | fixed | mass matrix only |
 //! | [`Adams`]–Bashforth–Moulton PECE | `adams.rs` | 4 | fixed | mass matrix only |
@@ -14,7 +14,6 @@ mod generalized_alpha;
 mod hermite;
 mod newton;
 mod radau;
-mod radau_coefficients;
 mod runge_kutta;
 mod stability;
 mod step_control;

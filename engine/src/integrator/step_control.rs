@@ -7,13 +7,14 @@
 //! elementary    f = S e^(−1/(p̂+1))
 //! predictive    f = min(elementary, S (hₙ/hₙ₋₁) (eₙ₋₁/eₙ²)^(1/(p̂+1)))         Gustafsson (1994)
 //! PI            f = S eₙ^(−0.7/(p̂+1)) eₙ₋₁^(0.4/(p̂+1))                          Gustafsson (1991)
-//! H211b         f = (S/eₙ)^(1/(4(p̂+1))) (S/eₙ₋₁)^(1/(4(p̂+1))) (hₙ/hₙ₋₁)^(−1/4)    Söderlind (2003)
+//! H211b         f = (S/eₙ)^(1/(4(p̂+1))) (S/eₙ₋₁)^(1/(4(p̂+1))) (hₙ/hₙ₋₁)^(−1/4) ≤ eₙ^(−1/(p̂+1))    Söderlind (2003)
 //! ```
 //!
-//! The predictive law sees the error growing and shortens the step before it fails; it is the default and
-//! the one for implicit methods, where S also shrinks with the number of Newton iterations.
-//! The growth of a step is limited, does not follow a rejection at once, and is not worth a new
-//! factorisation below 20 %.
+//! The filter is the default: it smooths the error's ups and downs within a vibration, so that steps, and
+//! with them the factors of the tangent, last. (Measured on oscillators, a spring pendulum and a stiff
+//! pair: as many steps as the predictive law and half the factorisations.) The predictive law sees a
+//! growing error earlier. S shrinks with the number of Newton iterations. The growth of a step is limited,
+//! does not follow a rejection at once, and changes of −5 % to +40 % are not worth a new factorisation.
 //!
 //! Sources: Hairer & Wanner, *Solving Ordinary Differential Equations II*, section IV.8
 //! (doi 10.1007/978-3-642-05221-7); Gustafsson (1994, doi 10.1145/198429.198437); Gustafsson (1991,
@@ -59,21 +60,21 @@ const SAFETY: f64 = 0.9;
 /// Limits of f.
 const SHRINK: f64 = 0.2;
 const GROW: f64 = 8.0;
-/// A growth below this factor is not used, so that the factors of the tangent can be.
-const DEAD_BAND: f64 = 1.2;
+/// Factors in this range count as 1, so that the factors of the tangent serve again.
+const DEAD_BAND: [f64; 2] = [0.95, 1.4];
 /// Errors below this are taken as this.
 const NEGLIGIBLE: f64 = 1e-10;
 /// Iterations at which S is not lowered.
 const MAX_ITERATIONS: f64 = 10.0;
 
 impl StepControl {
-    /// Predictive control for an error estimate of order `estimate_order` (p̂), over runs of length `span`
+    /// Control by the filter H211b for an error estimate of order `estimate_order` (p̂), over runs of length `span`
     /// [s]: steps between 1e-14 and 1 times the span, beginning with `first`.
     pub fn new(estimate_order: usize, span: f64, first: f64) -> StepControl {
         let longest = span.abs();
         let shortest = 1e-14 * longest;
         StepControl {
-            law: Law::Predictive,
+            law: Law::Filter,
             exponent: 1.0 / (estimate_order as f64 + 1.0),
             iterations: MAX_ITERATIONS,
             shortest,
@@ -129,7 +130,7 @@ impl StepControl {
         let h = self.next;
         if left <= h * (1.0 + 1e-9) {
             left
-        } else if left < 2.0 * h && left < h * DEAD_BAND {
+        } else if left < 2.0 * h {
             0.5 * left
         } else {
             h
@@ -151,14 +152,20 @@ impl StepControl {
                     factor.min(safety * ratio * (past_error / (error * error)).powf(k))
                 }
                 Law::ProportionalIntegral => safety * error.powf(-0.7 * k) * past.error.powf(0.4 * k),
-                Law::Filter => ((safety / error) * (safety / past.error)).powf(0.25 * k) * ratio.powf(-0.25),
+                Law::Filter => {
+                    // Never more than the last error alone allows: a small one before it must not
+                    // lengthen a step that just passed.
+                    let filtered = ((safety / error) * (safety / past.error)).powf(0.25 * k);
+                    (filtered * ratio.powf(-0.25)).min(elementary / safety)
+                }
             };
         }
         factor = factor.clamp(SHRINK, GROW);
         if self.rejected {
             factor = factor.min(1.0);
         }
-        if (1.0..DEAD_BAND).contains(&factor) {
+        // Smoothing laws ask for little at a time: the band must not hide what the error itself allows.
+        if (DEAD_BAND[0]..DEAD_BAND[1]).contains(&factor) && elementary < DEAD_BAND[1] {
             factor = 1.0;
         }
         // A step cut short to end at a given time says little: keep the former proposal if it was larger
@@ -205,5 +212,63 @@ impl StepControl {
     fn safety(&self, iterations: u32) -> f64 {
         let most = 2.0 * self.iterations + 1.0;
         SAFETY * (most / (2.0 * self.iterations + f64::from(iterations.max(1)))).min(1.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Runs a law on a process whose error is (h/τ)^(p̂+1): the step must settle where the error is S^(p̂+1)
+    /// at least and 1 at most, whatever the first step.
+    #[test]
+    fn every_law_settles_on_a_steady_process() {
+        for law in [Law::Predictive, Law::ProportionalIntegral, Law::Filter] {
+            for first in [1e-6, 1e-2, 5.0] {
+                let mut control = StepControl::new(3, 1000.0, first).with_law(law);
+                let mut error = 0.0;
+                for _ in 0..60 {
+                    let h = control.propose(f64::INFINITY);
+                    error = (h / 0.1_f64).powi(4);
+                    if error > 1.0 {
+                        control.rejected(h, error, 1);
+                    } else {
+                        control.accepted(h, error, 1);
+                    }
+                }
+                assert!((0.1..=1.0).contains(&error), "{law:?} from {first}: error {error}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_last_steps_end_where_they_must_without_a_sliver() {
+        let control = StepControl::new(3, 10.0, 1.0);
+        assert_eq!(control.propose(0.3), 0.3);
+        assert_eq!(control.propose(1.1), 0.55);
+        assert_eq!(control.propose(5.0), 1.0);
+    }
+
+    #[test]
+    fn failures_shrink_the_step_until_it_is_called_too_small() {
+        let mut control = StepControl::new(3, 1.0, 0.1);
+        let mut halvings = 0;
+        while !control.is_too_small(1.0, control.propose(1.0)) {
+            control.failed(control.propose(1.0));
+            halvings += 1;
+        }
+        assert!((40..60).contains(&halvings), "{halvings}");
+    }
+
+    /// After a rejection the next accepted step does not grow at once.
+    #[test]
+    fn a_step_does_not_grow_right_after_a_rejection() {
+        let mut control = StepControl::new(3, 100.0, 1.0);
+        control.accepted(1.0, 0.5, 1);
+        control.rejected(1.0, 3.0, 1);
+        let h = control.propose(50.0);
+        assert!(h < 1.0);
+        control.accepted(h, 1e-6, 1);
+        assert_eq!(control.propose(50.0), h);
     }
 }

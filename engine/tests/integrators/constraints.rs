@@ -38,7 +38,7 @@ fn generalized_alpha_is_of_order_two_under_an_index_3_constraint() {
     let (coarse, fine) = (run(400), run(800));
     for (i, what) in ["q", "v", "λ"].into_iter().enumerate() {
         let order = (coarse[i] / fine[i]).log2();
-        println!("index 3, {what}: order {order:.3}, error {:.2e}", fine[i]);
+
         assert!((order - 2.0).abs() < 0.15, "{what}: order {order} ({:e}, {:e})", coarse[i], fine[i]);
     }
 }

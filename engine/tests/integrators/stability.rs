@@ -15,7 +15,7 @@ fn the_largest_frequency_of_a_chain_is_found_from_below_within_a_thousandth() {
         let at = state(&system, &vec![0.0; n], &vec![0.0; n]);
         let found = largest_frequency(&mut system, &at).unwrap();
         let exact = 2.0 * 1e5_f64.sqrt() * (std::f64::consts::PI / (2 * n + 1) as f64).cos();
-        println!("chain of {n}: {found} of {exact}");
+
         assert!(found <= exact * (1.0 + 1e-9) && found > exact * (1.0 - 1e-3), "{n}: {found} {exact}");
     }
 }
@@ -64,7 +64,6 @@ fn runge_kutta_is_stable_up_to_two_root_two() {
 fn adams_grows_by_e_in_ten_thousand_steps_at_its_limit() {
     let at = |x: f64| amplitude(&mut Adams::new(), x * 0.29989, 10_000).ln();
     let [below, exactly, above] = [0.9, 1.0, 1.1].map(at);
-    println!("adams: growth e^{below:.3}, e^{exactly:.3}, e^{above:.3}");
     assert!((exactly - 1.0).abs() < 0.05 && below < 0.6 && above > 1.6);
     assert!(amplitude(&mut Adams::new(), 0.95, 10_000) > 1e100);
 }

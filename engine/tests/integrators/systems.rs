@@ -238,7 +238,7 @@ impl System for CartesianPendulum {
     no_output!();
 }
 
-/// y″ + 50 y = 50 cos t + … : a stiff linear oscillator about a smooth slow motion,
+/// A stiff linear oscillator about a smooth slow motion,
 /// q̈ + 2ζω q̇ + ω² (q − cos t) = 0 with ω large, beside a slow oscillator q̈₂ + q₂ = 0.
 pub struct TwoFrequencies {
     pub fast: f64,
@@ -283,7 +283,7 @@ impl System for TwoFrequencies {
     no_output!();
 }
 
-/// Bernoulli beam-like chain with five neighbours a side: a band like that of a beam of 10 elements.
+/// A chain stored with five neighbours a side: a band like that of a beam of 10 elements.
 pub fn wide_chain(n: usize) -> Chain {
     let mut chain = Chain::new(vec![0.1; n], vec![1e4; n], 0.0);
     chain.width = 5;

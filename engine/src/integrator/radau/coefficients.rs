@@ -3,6 +3,9 @@
 //! Source: Hairer & Wanner, *Solving Ordinary Differential Equations II*, table IV.5.6 and section IV.8
 //! (doi 10.1007/978-3-642-05221-7).
 
+// The constants are given to the last digit, rounding excluded.
+#![allow(clippy::excessive_precision)]
+
 /// √6
 const ROOT: f64 = 2.449_489_742_783_178;
 
@@ -52,7 +55,7 @@ pub(super) const T_INVERSE: [[f64; 3]; 3] = [
 
 /// Weights e of the stage increments in the error estimate ŷ − y = γ₀ h f(y₀) + Σ eᵢ Zᵢ.
 const E: [f64; 3] =
-    [LAMBDA / 3.0 * (-13.0 - 7.0 * ROOT), LAMBDA / 3.0 * (-13.0 + 7.0 * ROOT), LAMBDA / 3.0 * -1.0];
+    [LAMBDA / 3.0 * (-13.0 - 7.0 * ROOT), LAMBDA / 3.0 * (-13.0 + 7.0 * ROOT), -LAMBDA / 3.0];
 
 /// eᵀA: weights of the stage accelerations in the velocity's estimate, over h.
 pub(super) const E_V: [f64; 3] = row_times(E, A);

@@ -1,0 +1,234 @@
+//! Radau IIA with three stages: fifth order, L-stable, adaptive. The default method.
+//!
+//! The collocation method is written for equations of second order, with the stage accelerations aᵢ as
+//! unknowns (A, b, c: the method's coefficients; h: step):
+//!
+//! ```text
+//! Vᵢ = v₀ + h Σ Aᵢⱼ aⱼ,   Qᵢ = q₀ ⊞ (h cᵢ v₀ + h² Σ (A²)ᵢⱼ aⱼ),   r(t₀ + cᵢh, Qᵢ, Vᵢ, aᵢ) = 0
+//! ```
+//!
+//! The last stage is the end of the step. Simplified Newton iterations, (I⊗M + hA⊗C + h²A²⊗K) Δa = −r,
+//! decouple with A = T Λ T⁻¹ into a real and a complex system of the size of the model,
+//!
+//! ```text
+//! (M + hλ C + h²λ² K) w₁ = (T⁻¹r)₁,   (M + hμ C + h²μ² K)(w₂ + i w₃) = (T⁻¹r)₂ + i (T⁻¹r)₃,   Δa = −T w
+//! ```
+//!
+//! The complex matrix is put together from the system's tangents with weights (1, h Re μ, h² Re μ²) and
+//! (0, h Im μ, h² Im μ²). Starting values extrapolate the last step's collocation polynomial. Tangents and
+//! factors are kept while the step is the same and convergence is fast.
+//!
+//! Error estimate: the embedded formula of order 3 through f(y₀), filtered by the real system, in
+//! second-order form (γ₀ = λ):
+//!
+//! ```text
+//! e_q = h² Σ (eᵀA²)ⱼ aⱼ,   e_v = h (γ₀ a₀ + Σ (eᵀA)ⱼ aⱼ)
+//! (M + hγ₀ C + h²γ₀² K) ε_v = M e_v − hγ₀ K e_q,   ε_q = e_q + hγ₀ ε_v
+//! ```
+//!
+//! filtered a second time on a first or repeated step when it exceeds the tolerance. Errors are measured
+//! by the weighted root mean square of ε_q and h ε_v with weights absolute·scaleᵢ + relative·|qᵢ|: an error of
+//! velocity counts as the displacement it makes in one step.
+//!
+//! Order: 5 in q and v (measured 5.0), 3 of the stages, on which stiff problems depend; of the error
+//! estimate 3. Stability: A- and L-stable; frequencies far above 1/h are annihilated, those below are
+//! integrated with a dissipation of O((hω)⁶). Dense output: quintic Hermite through q, v, a at both ends;
+//! measured ten times and more as accurate as the collocation polynomial. On a configuration that is not
+//! a vector space (rotations) the increments are added as if it were one within a step: order 2.
+//!
+//! Sources: Hairer & Wanner, *Solving Ordinary Differential Equations II*, sections IV.5 and IV.8
+//! (doi 10.1007/978-3-642-05221-7); Hairer & Wanner (1999, doi 10.1016/S0377-0427(99)00134-X).
+
+mod coefficients;
+mod stages;
+
+use super::{
+    Convergence, Counters, Info, Integrator, InvalidParameter, Progress, StepError, StepReport, failure,
+    hermite,
+};
+use crate::system::{State, System};
+use stages::Stages;
+
+/// Name as in a case file.
+const NAME: &str = "radau";
+
+/// Rate of convergence below which tangent and factors serve the next step too.
+const REUSE_RATE: f64 = 0.02;
+
+/// What local errors are measured against: absolute·scaleᵢ + relative·|qᵢ|.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerance {
+    /// Relative to the unknown.
+    pub relative: f64,
+    /// Relative to the scale of the unknown's label.
+    pub absolute: f64,
+}
+
+impl Tolerance {
+    /// The same relative to the unknown and to its scale.
+    pub fn uniform(tolerance: f64) -> Tolerance {
+        Tolerance { relative: tolerance, absolute: tolerance }
+    }
+}
+
+/// The 3-stage Radau IIA method. See the [module documentation](self).
+#[derive(Debug)]
+pub struct Radau {
+    info: Info,
+    tolerance: Tolerance,
+    counters: Counters,
+    convergence: Convergence,
+    worst: usize,
+    /// Whether an attempt waits for `accept`, and whether any step was accepted since (re)start.
+    pending: bool,
+    first: bool,
+    /// Step of the attempt, and of the accepted step.
+    attempt: f64,
+    accepted_step: f64,
+    work: Option<Stages>,
+}
+
+impl Radau {
+    /// The method with the given tolerance of local errors.
+    ///
+    /// # Errors
+    /// When `absolute` is not positive, `relative` is negative, or one is not finite.
+    pub fn new(tolerance: Tolerance) -> Result<Radau, InvalidParameter> {
+        let Tolerance { relative, absolute } = tolerance;
+        if !(absolute > 0.0 && absolute.is_finite()) {
+            let range = "> 0";
+            return Err(InvalidParameter { parameter: "absolute tolerance", value: absolute, range });
+        }
+        if !(relative >= 0.0 && relative.is_finite()) {
+            let range = "≥ 0";
+            return Err(InvalidParameter { parameter: "relative tolerance", value: relative, range });
+        }
+        // Iteration error κ and rounding error, in units of the tolerance.
+        let size = relative.max(absolute);
+        let floor = 100.0 * f64::EPSILON / size;
+        let kappa = size.sqrt().min(0.03).max(0.1 * floor);
+        Ok(Radau {
+            info: Info { name: NAME, order: 5, estimate_order: Some(3), implicit: true },
+            tolerance,
+            counters: Counters::default(),
+            convergence: Convergence::simplified(kappa, floor.max(kappa)),
+            worst: 0,
+            pending: false,
+            first: true,
+            attempt: 0.0,
+            accepted_step: 0.0,
+            work: None,
+        })
+    }
+
+    /// The tolerance of local errors.
+    pub fn tolerance(&self) -> Tolerance {
+        self.tolerance
+    }
+}
+
+impl Integrator for Radau {
+    fn info(&self) -> &Info {
+        &self.info
+    }
+
+    fn start(&mut self, system: &mut dyn System, state: &mut State, _step: f64) -> Result<(), StepError> {
+        if system.size().lambda > 0 {
+            let (feature, instead) = ("constraints", "generalized-alpha");
+            return Err(StepError::Unsupported { method: NAME, feature, instead });
+        }
+        self.counters = Counters::default();
+        self.work = Some(Stages::new(system));
+        self.restart(system, state)
+    }
+
+    fn step(
+        &mut self,
+        system: &mut dyn System,
+        from: &State,
+        h: f64,
+        to: &mut State,
+    ) -> Result<StepReport, StepError> {
+        let Some(work) = &mut self.work else {
+            return Err(StepError::NotStarted { method: NAME });
+        };
+        let repeated = self.pending;
+        self.counters.rejected += u64::from(repeated);
+        self.pending = true;
+        self.attempt = h;
+        work.weigh(from, self.tolerance);
+        let stretch = if self.first { None } else { Some(h / self.accepted_step) };
+        if work.factored_step != h || work.rate > REUSE_RATE {
+            work.factor(system, from, h, &mut self.counters)?;
+        }
+        loop {
+            work.predict(from, stretch);
+            self.convergence.begin();
+            let (progress, size) = work.iterate(system, from, h, &mut self.convergence, &mut self.counters);
+            if progress == Progress::Converged {
+                work.rate = self.convergence.rate();
+                break;
+            }
+            self.convergence.forget();
+            if !work.fresh {
+                work.factor(system, from, h, &mut self.counters)?;
+                continue;
+            }
+            work.factored_step = f64::NAN;
+            self.worst = work.worst_increment();
+            let worst = failure::label(system, self.worst);
+            if !size.is_finite() {
+                return Err(StepError::NotFinite { time: from.t, step: h, worst });
+            }
+            let iterations = self.convergence.iterations();
+            return Err(StepError::NotConverged { time: from.t, step: h, iterations, size, worst });
+        }
+        work.finish(system, from, h, to);
+        let error = work.estimate(system, from, h, self.first || repeated, &mut self.counters);
+        self.worst = work.worst_error(h);
+        if !error.is_finite() {
+            work.factored_step = f64::NAN;
+            let worst = failure::label(system, self.worst);
+            return Err(StepError::NotFinite { time: from.t, step: h, worst });
+        }
+        Ok(StepReport { iterations: self.convergence.iterations(), error: Some(error) })
+    }
+
+    fn accept(&mut self, _from: &State, _to: &State) {
+        self.pending = false;
+        self.first = false;
+        self.accepted_step = self.attempt;
+        self.counters.steps += 1;
+        if let Some(work) = &mut self.work {
+            std::mem::swap(&mut work.a, &mut work.a_accepted);
+            std::mem::swap(&mut work.end, &mut work.end_accepted);
+            work.fresh = false;
+        }
+    }
+
+    fn interpolate(&self, system: &dyn System, from: &State, to: &State, t: f64, out: &mut State) {
+        match &self.work {
+            Some(work) => hermite::quintic(system, from, to, &work.end_accepted, t, out),
+            None => out.copy_from(to),
+        }
+    }
+
+    fn restart(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), StepError> {
+        let Some(work) = &mut self.work else {
+            return Err(StepError::NotStarted { method: NAME });
+        };
+        self.pending = false;
+        self.first = true;
+        self.convergence.forget();
+        work.factored_step = f64::NAN;
+        work.accelerations.complete(system, state, (state.t, 0.0), &mut self.counters)
+    }
+
+    fn worst(&self) -> usize {
+        self.worst
+    }
+
+    fn counters(&self) -> Counters {
+        self.counters
+    }
+}
