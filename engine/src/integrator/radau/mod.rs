@@ -33,7 +33,7 @@
 //! Order: 5 in q and v (measured 5.0), 3 of the stages, on which stiff problems depend; of the error
 //! estimate 3. Stability: A- and L-stable; frequencies far above 1/h are annihilated, those below are
 //! integrated with a dissipation of O((hω)⁶). Dense output: quintic Hermite through q, v, a at both ends;
-//! measured ten times and more as accurate as the collocation polynomial. On a configuration that is not
+//! measured four to eight times as accurate as the collocation polynomial. On a configuration that is not
 //! a vector space (rotations) the increments are added as if it were one within a step: order 2.
 //!
 //! Sources: Hairer & Wanner, *Solving Ordinary Differential Equations II*, sections IV.5 and IV.8
