@@ -54,8 +54,7 @@ pub(super) const T_INVERSE: [[f64; 3]; 3] = [
 ];
 
 /// Weights e of the stage increments in the error estimate ŷ − y = γ₀ h f(y₀) + Σ eᵢ Zᵢ.
-const E: [f64; 3] =
-    [LAMBDA / 3.0 * (-13.0 - 7.0 * ROOT), LAMBDA / 3.0 * (-13.0 + 7.0 * ROOT), -LAMBDA / 3.0];
+const E: [f64; 3] = [LAMBDA / 3.0 * (-13.0 - 7.0 * ROOT), LAMBDA / 3.0 * (-13.0 + 7.0 * ROOT), -LAMBDA / 3.0];
 
 /// eᵀA: weights of the stage accelerations in the velocity's estimate, over h.
 pub(super) const E_V: [f64; 3] = row_times(E, A);
