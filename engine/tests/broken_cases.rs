@@ -11,7 +11,9 @@ fn every_broken_case_is_refused_with_its_report() {
     let accept = std::env::var_os("FLEXION_ACCEPT").is_some();
     let mut names: Vec<String> = std::fs::read_dir(&folder)
         .unwrap()
-        .filter_map(|entry| entry.unwrap().file_name().into_string().unwrap().strip_suffix(".toml").map(String::from))
+        .filter_map(|entry| {
+            entry.unwrap().file_name().into_string().unwrap().strip_suffix(".toml").map(String::from)
+        })
         .collect();
     names.sort();
     assert!(names.len() >= 30, "{} cases", names.len());
@@ -44,7 +46,8 @@ fn refusal(text: String, folder: &Path, name: &str, overrides: &[String]) -> Opt
         Err(problems) => problems,
         Ok(_) => return None,
     };
-    let trimmed: Vec<String> = problems.render(false).lines().map(|line| line.trim_end().to_owned()).collect();
+    let trimmed: Vec<String> =
+        problems.render(false).lines().map(|line| line.trim_end().to_owned()).collect();
     Some(trimmed.join("\n").replace(&format!("{}/", folder.display()), "") + "\n")
 }
 
@@ -52,9 +55,14 @@ fn refusal(text: String, folder: &Path, name: &str, overrides: &[String]) -> Opt
 fn problems_stand_at_their_lines_and_columns() {
     let text = "[beam]\nlength = \"10 s\"\n[section]\nkind = \"circle\"\nmodulus = 1e9\ndensity = -1\nradius = \"1 cm\"\n[hub.motion]\nkind = \"constant\"\nspeed = \"4 Hz\"\n[run]\nduration = 1\n";
     let problems = flexion::case::parse(text.to_owned(), Path::new("case.toml"), &[]).unwrap_err();
-    let places: Vec<_> = problems.list.iter().map(|p| (p.key.as_str(), problems.line_and_column(p))).collect();
+    let places: Vec<_> =
+        problems.list.iter().map(|p| (p.key.as_str(), problems.line_and_column(p))).collect();
     assert_eq!(
         places,
-        [("beam.length", Some((2, 14))), ("section.density", Some((6, 11))), ("hub.motion.speed", Some((10, 12)))]
+        [
+            ("beam.length", Some((2, 14))),
+            ("section.density", Some((6, 11))),
+            ("hub.motion.speed", Some((10, 12)))
+        ]
     );
 }

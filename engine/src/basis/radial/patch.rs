@@ -60,7 +60,8 @@ impl Patch {
         let inverse = invert(&moment, n).ok_or(Fault::Singular(f64::INFINITY))?;
         let (inverse, kronecker) = refine(&moment, inverse, n);
         let condition = norm(&moment, n) * norm(&inverse, n);
-        if kronecker.is_nan() || kronecker > KRONECKER || !condition.is_finite() {
+        let sound = condition * f64::EPSILON < 1.0 && kronecker <= KRONECKER;
+        if !sound {
             return Err(Fault::Singular(condition));
         }
         for terms in [12, 16, 20, 24, 32, 48, 64] {

@@ -80,11 +80,15 @@ fn the_defaults_beat_hermite_elements_on_the_same_nodes() {
 }
 
 #[test]
-fn condition_numbers_pass_what_doubles_resolve_at_a_shape_parameter_of_7() {
-    // κ₁ ε = 1: P1's limit α_c = 7, beyond which plain double precision fails, for a support of 6 nodes.
-    let number =
-        |shape| Radial::new(10.0, with(shape, 2.5, None), Field::Transverse).unwrap().conditioning().number;
-    assert!(number(7.0) * f64::EPSILON < 1.0 && number(7.5) * f64::EPSILON > 1.0);
+fn the_moment_matrix_becomes_singular_beyond_a_shape_parameter_of_7() {
+    // P1's limit, for a support of 6 nodes, with and without polynomials.
+    for degree in [None, Some(3)] {
+        let basis = |shape| Radial::new(10.0, with(shape, 2.5, degree), Field::Transverse);
+        assert!(basis(7.0).unwrap().conditioning().number * f64::EPSILON < 1.0);
+        for shape in [7.5, 8.0, 10.0] {
+            assert!(matches!(basis(shape), Err(BasisError::Singular { .. })), "{shape} {degree:?}");
+        }
+    }
 }
 
 #[test]
