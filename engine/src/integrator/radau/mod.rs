@@ -34,7 +34,7 @@
 //! estimate 3. Stability: A- and L-stable; frequencies far above 1/h are annihilated, those below are
 //! integrated with a dissipation of O((hω)⁶). Dense output: quintic Hermite through q, v, a at both ends;
 //! measured four to eight times as accurate as the collocation polynomial. On a configuration that is not
-//! a vector space (rotations) the increments are added as if it were one within a step: order 2.
+//! a vector space (rotations) the increments are added as if it were one within a step, at the cost of order.
 //!
 //! Sources: Hairer & Wanner, *Solving Ordinary Differential Equations II*, sections IV.5 and IV.8
 //! (doi 10.1007/978-3-642-05221-7); Hairer & Wanner (1999, doi 10.1016/S0377-0427(99)00134-X).
