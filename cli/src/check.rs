@@ -1,7 +1,7 @@
 //! `flexion check`: validates a case and shows what would be run.
 
 use crate::{Outcome, case, screen};
-use flexion::case::{Case, Coupling, Problems, Reading, build};
+use flexion::case::{Case, Coupling, Live, Problems, Reading, build};
 use flexion::integrator::{Adams, Integrator, RungeKutta, StabilityLimit, StepError};
 use flexion::linalg::Structure;
 use flexion::system::{State, System};
@@ -33,7 +33,7 @@ pub fn check(arguments: &Arguments) -> Outcome {
 
 fn describe(reading: &Reading) -> Result<String, Problems> {
     let case = &reading.case;
-    let (mut system, integrator) = reading.build()?;
+    let Live { mut system, integrator } = reading.build()?;
     let mut out = String::new();
     if !case.title.is_empty() {
         out.push_str(&format!("{}\n", case.title));

@@ -3,7 +3,7 @@
 use crate::{Outcome, case, screen};
 use flexion::analysis::equilibrium::equilibrium;
 use flexion::analysis::transient::{Ending, Observer, Plan, Step, transient};
-use flexion::case::{Initial, Integrator as IntegratorCase, Reading};
+use flexion::case::{Initial, Integrator as IntegratorCase, Live, Reading};
 use flexion::linalg::Structure;
 use flexion::output::plot::trajectory_figure;
 use flexion::output::{
@@ -61,7 +61,7 @@ struct Prepared {
 
 fn prepare(reading: &Reading, output: &Path, force: bool) -> Result<Prepared, String> {
     let render = |problems: flexion::case::Problems| problems.render(screen::colour());
-    let (mut system, integrator) = reading.build().map_err(render)?;
+    let Live { mut system, integrator } = reading.build().map_err(render)?;
     let mut state = State::zeros(system.size(), 0.0);
     if reading.case.initial == Initial::SteadyRotation {
         equilibrium(system.as_mut(), &mut state)

@@ -1,5 +1,7 @@
 //! The commands as a user meets them: exit codes, messages and files.
 
+#![allow(clippy::unwrap_used)] // in helpers of tests
+
 use std::path::Path;
 use std::process::{Command, Output};
 

@@ -49,6 +49,14 @@ use values::Values;
 /// Largest case file that is read [bytes].
 const LARGEST: u64 = 10_000_000;
 
+/// The live objects of a case.
+pub struct Live {
+    /// The mechanical system.
+    pub system: Box<dyn System>,
+    /// The integrator, not yet started.
+    pub integrator: Box<dyn crate::integrator::Integrator>,
+}
+
 /// A case that was read, with all that is known about how it was written.
 #[derive(Clone, Debug)]
 pub struct Reading {
@@ -84,7 +92,7 @@ impl Reading {
     ///
     /// # Errors
     /// [`Problems`] at the key that is to blame.
-    pub fn build(&self) -> Result<(Box<dyn System>, Box<dyn crate::integrator::Integrator>), Problems> {
+    pub fn build(&self) -> Result<Live, Problems> {
         let case = &self.case;
         let mut system = build::system(case).map_err(|error| {
             let key = match &error {
@@ -104,7 +112,7 @@ impl Reading {
                 .start(system.as_mut(), &mut state, step)
                 .map_err(|error| self.problem("integrator.step", error.to_string()))?;
         }
-        Ok((system, integrator()?))
+        Ok(Live { system, integrator: integrator()? })
     }
 
     /// A problem with the case that was found later, when it was built: `key` is a dotted path.
