@@ -40,10 +40,12 @@ impl Bound {
     }
 }
 
-/// A number with at most four decimals, for messages.
-fn short(x: f64) -> f64 {
-    let rounded = (x * 1e4).round() / 1e4;
-    if rounded == 0.0 { x } else { rounded }
+/// A number with at most four decimals, for people.
+pub fn short(x: f64) -> String {
+    if x != 0.0 && !(1e-3..1e6).contains(&x.abs()) {
+        return format!("{x:e}");
+    }
+    ((x * 1e4).round() / 1e4).to_string()
 }
 
 /// What a key takes.

@@ -78,6 +78,9 @@ pub struct Output {
     pub stations: Vec<f64>,
 }
 
+/// Largest number of records of a run.
+const MOST_RECORDS: f64 = 1e7;
+
 static COUPLING: Seam = Seam {
     name: "coupling",
     path: "model.coupling",
@@ -86,7 +89,7 @@ static COUPLING: Seam = Seam {
         Kind {
             name: "zeroth",
             summary: "no foreshortening: softens falsely and diverges at high speed, for comparison only",
-            source: "as compared with by Kane, Ryan & Banerjee 1987, doi:10.2514/3.20195",
+            source: "the conventional model of Kane, Ryan & Banerjee 1987, doi:10.2514/3.20195",
             keys: &[],
         },
         Kind {
@@ -230,6 +233,15 @@ pub(super) fn case(values: &mut Values, folder: &Path, problems: &mut Problems) 
         && step > duration
     {
         let message = format!("the output step {step} s is longer than the run of {duration} s");
+        problems.push(Problem::new("output.step", output.place("step"), message));
+    }
+    if let (Some(duration), Some(step), Some(output)) = (run_duration, output_step, output)
+        && duration / step > MOST_RECORDS
+    {
+        let message = format!(
+            "the output step {step} s makes {:.1e} records in {duration} s; at most {MOST_RECORDS:.0e} are kept",
+            duration / step
+        );
         problems.push(Problem::new("output.step", output.place("step"), message));
     }
     if let (Some(duration), Some(step), Some((_, v))) =

@@ -37,6 +37,8 @@ pub use problem::{Place, Problem, Problems, Source};
 pub use schema::schema;
 pub use section::{Section, Shape};
 
+use crate::system::{State, System};
+use build::BuildError;
 use declaration::Seam;
 use std::fs::File;
 use std::io::Read;
@@ -46,6 +48,14 @@ use values::Values;
 
 /// Largest case file that is read [bytes].
 const LARGEST: u64 = 10_000_000;
+
+/// The live objects of a case.
+pub struct Live {
+    /// The mechanical system.
+    pub system: Box<dyn System>,
+    /// The integrator, not yet started.
+    pub integrator: Box<dyn crate::integrator::Integrator>,
+}
 
 /// A case that was read, with all that is known about how it was written.
 #[derive(Clone, Debug)]
@@ -69,6 +79,40 @@ impl Reading {
         let mut out = Vec::new();
         self.values.defaults("", &mut out);
         out
+    }
+
+    /// What a table of the case says, in SI and with its defaults, for a summary: `integrator`.
+    pub fn settings(&self, table: &str) -> serde_json::Map<String, serde_json::Value> {
+        let values = self.values.table(table).or_else(|| self.values.kind(table).map(|(_, values)| values));
+        values.map(values::Values::to_json).unwrap_or_default()
+    }
+
+    /// The live objects: the mechanical system and the integrator, which has passed its stability limit at
+    /// t = 0 if it is explicit.
+    ///
+    /// # Errors
+    /// [`Problems`] at the key that is to blame.
+    pub fn build(&self) -> Result<Live, Problems> {
+        let case = &self.case;
+        let mut system = build::system(case).map_err(|error| {
+            let key = match &error {
+                BuildError::Section(_) => "section",
+                BuildError::Motion(_) => "hub.motion",
+                BuildError::Basis(_) => "basis",
+            };
+            self.problem(key, error.to_string())
+        })?;
+        let integrator = || {
+            build::integrator(&case.integrator).map_err(|error| self.problem("integrator", error.to_string()))
+        };
+        let mut trial = integrator()?;
+        if let (false, Some(step)) = (trial.info().implicit, case.integrator.step()) {
+            let mut state = State::zeros(system.size(), 0.0);
+            trial
+                .start(system.as_mut(), &mut state, step)
+                .map_err(|error| self.problem("integrator.step", error.to_string()))?;
+        }
+        Ok(Live { system, integrator: integrator()? })
     }
 
     /// A problem with the case that was found later, when it was built: `key` is a dotted path.

@@ -177,8 +177,8 @@ pub(super) static SEAM: Seam = Seam {
         },
         Kind {
             name: "graded",
-            summary: "a rectangle graded over its height by a power law, from metal to ceramic",
-            source: "E(y) = (Eh − Et)(y/h + 1/2)^N + Et and ρ(y) alike: Reddy 2000, doi:10.1002/(SICI)1097-0207(20000110/30)47:1/3<663::AID-NME787>3.0.CO;2-8",
+            summary: "a rectangle graded over its height by a power law, from metal (bottom) to ceramic (top)",
+            source: "Reddy 2000, doi:10.1002/(SICI)1097-0207(20000110/30)47:1/3<663::AID-NME787>3.0.CO;2-8",
             keys: &[
                 key(
                     "ceramic-modulus",

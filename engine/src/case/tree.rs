@@ -118,16 +118,23 @@ fn lay_over(root: &mut Node, argument: &str, problems: &mut Problems) {
         );
         return;
     };
-    let (path, value) = (&argument[..equals], &argument[equals + 1..]);
+    let path = &argument[..equals];
+    let value = argument[equals + 1..].trim();
+    // Where the value begins in the argument.
+    let start = argument.len() - argument[equals + 1..].trim_start().len();
+    if path.split('.').count() > DEEPEST {
+        problems.push(Problem::new("", Some(all), format!("a key deeper than {DEEPEST} levels")));
+        return;
+    }
     let (parsed, errors) = DeValue::parse_recoverable(value);
     let mut node = if errors.is_empty() {
         convert(&parsed, source, 0, problems)
     } else {
-        Node { place: Place::default(), value: Raw::Text(value.trim().to_owned()) }
+        Node { place: Place::default(), value: Raw::Text(value.to_owned()) }
     };
-    shift(&mut node, equals + 1);
+    shift(&mut node, start);
     if !errors.is_empty() {
-        node.place = Place::new(source, equals + 1..argument.len());
+        node.place = Place::new(source, start..start + value.len());
     }
     let mut at = 0;
     let mut target = root;

@@ -49,7 +49,7 @@ pub(super) fn motion(case: Option<&Motion>, duration: Option<f64>, values: &Valu
 /// Tries the bases of both fields on a beam of the given length [m].
 pub(super) fn bases(case: Option<&Bases>, length: Option<f64>, values: &Values, problems: &mut Problems) {
     let (Some(case), Some(length), Some((_, table))) = (case, length, values.kind("basis")) else { return };
-    let mut refused = |basis: &Basis, field, key| {
+    let refused = |basis: &Basis, field, key| {
         let Err(error) = build::basis(basis, length, field) else { return None };
         let mixed = table.kind(key).and_then(|(_, values)| values.place.clone());
         let path = if mixed.is_some() { join("basis", key) } else { "basis".to_owned() };

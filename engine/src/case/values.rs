@@ -113,6 +113,22 @@ impl Values {
         self.get(name).and_then(|filled| filled.place.clone()).or_else(|| self.place.clone())
     }
 
+    /// The values of the plain keys.
+    pub(super) fn to_json(&self) -> serde_json::Map<String, serde_json::Value> {
+        let plain = |filled: &Filled| {
+            let value = match &filled.value {
+                Value::Number(value) => (*value).into(),
+                Value::Numbers(values) => values.clone().into(),
+                Value::Integer(value) => (*value).into(),
+                Value::Boolean(value) => (*value).into(),
+                Value::Text(value) => value.as_str().into(),
+                Value::Table(_) | Value::Kind(..) => return None,
+            };
+            Some((filled.key.name.to_owned(), value))
+        };
+        self.entries.iter().filter_map(plain).collect()
+    }
+
     /// The defaults in force, as dotted path and value.
     pub(super) fn defaults(&self, path: &str, out: &mut Vec<(String, String)>) {
         for filled in &self.entries {

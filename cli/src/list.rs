@@ -1,0 +1,85 @@
+//! `flexion list`: every kind with one line and its source.
+
+use crate::{Outcome, screen};
+use flexion::case::declaration::{Bound, Key, Presence, Seam, Type, short};
+
+/// What to list.
+#[derive(clap::Args)]
+#[command(after_help = "Examples:\n  flexion list\n  flexion list integrator")]
+pub struct Arguments {
+    /// Only this choice, with the keys of its kinds: section, motion, coupling, basis, initial or integrator
+    #[arg(value_name = "CHOICE")]
+    seam: Option<String>,
+}
+
+/// Lists all kinds, or those of one choice with their keys.
+pub fn list(arguments: &Arguments) -> Outcome {
+    let seams = flexion::case::seams();
+    let mut out = String::new();
+    let Some(name) = &arguments.seam else {
+        for seam in seams {
+            out.push_str(&heading(seam));
+            let row = |kind: &flexion::case::declaration::Kind| {
+                vec![kind.name.to_owned(), kind.summary.to_owned(), kind.source.to_owned()]
+            };
+            out.push_str(&screen::table(&seam.kinds.iter().map(row).collect::<Vec<_>>()));
+            out.push('\n');
+        }
+        screen::print(&out);
+        return Outcome::Finished;
+    };
+    let Some(seam) = seams.iter().find(|seam| seam.name == name || seam.path == name) else {
+        let names: Vec<&str> = seams.iter().map(|seam| seam.name).collect();
+        screen::complain(&format!(
+            "error: there is no `{name}` to list; choose one of {}\n",
+            names.join(", ")
+        ));
+        return Outcome::Rejected;
+    };
+    out.push_str(&heading(seam));
+    for kind in seam.kinds {
+        out.push_str(&format!("\n{}: {}\n", kind.name, kind.summary));
+        if !kind.source.is_empty() {
+            out.push_str(&format!("  {}\n", kind.source));
+        }
+        out.push_str(&screen::table(&kind.keys.iter().map(row).collect::<Vec<_>>()));
+    }
+    screen::print(&out);
+    Outcome::Finished
+}
+
+fn heading(seam: &Seam) -> String {
+    format!("{} ({}): {}\n", seam.name, seam.path, seam.summary)
+}
+
+fn row(key: &Key) -> Vec<String> {
+    let takes = match key.takes {
+        Type::Quantity(measure, _) => measure.unit.to_owned(),
+        Type::Quantities(measure, _) => format!("list, {}", measure.unit),
+        Type::Number(_) => "number".to_owned(),
+        Type::Integer(low, high) => format!("integer {low} … {high}"),
+        Type::Boolean => "true or false".to_owned(),
+        Type::Text => "text".to_owned(),
+        Type::Path => "path".to_owned(),
+        Type::Choice(seam) => seam.kinds.iter().map(|kind| kind.name).collect::<Vec<_>>().join(" or "),
+        Type::Table(_) => "table".to_owned(),
+        Type::Kind(seam) => format!("table: {}", seam.name),
+    };
+    let bound = match key.takes {
+        Type::Quantity(_, bound) | Type::Quantities(_, bound) | Type::Number(bound)
+            if bound != Bound::Any =>
+        {
+            format!(", {}", bound.words())
+        }
+        _ => String::new(),
+    };
+    let default = match key.presence {
+        Presence::Required => "required".to_owned(),
+        Presence::Optional | Presence::Empty => "optional".to_owned(),
+        Presence::Number(value) => format!("default {}", short(value)),
+        Presence::Integer(value) => format!("default {value}"),
+        Presence::Boolean(value) => format!("default {value}"),
+        Presence::Name(value) => format!("default {value}"),
+    };
+    vec![key.name.to_owned(), format!("{takes}{bound}"), default, key.doc.to_owned()]
+}

@@ -1,0 +1,199 @@
+//! Reading case files: what is accepted, what it means in SI, and how bad files are refused.
+
+#![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
+
+use flexion::case::{
+    Basis, Case, Coupling, Integrator, Motion, Problems, Section, Shape, parse, read, schema, seams,
+};
+use std::path::Path;
+
+const SPIN_UP: &str = r#"
+title = "spin-up"
+[beam]
+length = "10 m"
+[section]
+kind = "uniform"
+modulus = "70 GPa"
+density = "3000 kg/m^3"
+area = "4 cm^2"
+second-moment = "2e-7 m^4"
+[hub]
+motion = { kind = "spin-up", speed = "4 rad/s", time = "15 s" }
+[run]
+duration = "20 s"
+"#;
+
+fn parsed(text: &str, overrides: &[&str]) -> Result<Case, Problems> {
+    let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();
+    parse(text.to_owned(), Path::new("case.toml"), &overrides).map(|reading| reading.case)
+}
+
+#[test]
+fn a_case_is_read_in_si_with_defaults() {
+    let case = parsed(SPIN_UP, &[]).unwrap();
+    assert_eq!(case.title, "spin-up");
+    assert_eq!(case.length, 10.0);
+    let shape = Shape::General { area: 4e-4, second_moment: 2e-7 };
+    assert_eq!(
+        case.section,
+        Section::Uniform { modulus: 70e9, density: 3000.0, shape, rotary_inertia: false }
+    );
+    assert_eq!(case.hub.motion, Motion::SpinUp { speed: 4.0, time: 15.0 });
+    assert_eq!((case.hub.radius, case.hub.inertia), (0.0, 0.0));
+    assert_eq!(case.coupling, Coupling::First);
+    assert_eq!(case.bases.axial, Basis::FiniteElements { elements: 10, axial_degree: 1 });
+    assert!(matches!(case.integrator, Integrator::Radau { initial_step: None, max_step: None, .. }));
+    assert_eq!((case.duration, case.output.step), (20.0, 0.02));
+    assert!(case.output.stations.is_empty());
+}
+
+#[test]
+fn overrides_replace_values_tables_and_defaults() {
+    let overrides = [
+        "section.modulus=30 GPa",
+        "basis.elements = 20",
+        "basis.kind=finite-elements",
+        "model.coupling=exact",
+        "integrator={ kind = \"newmark\", step = \"1 ms\" }",
+        "output.stations=[\"2 m\", 5]",
+        "title=one two",
+        "title=two",
+    ];
+    let case = parsed(SPIN_UP, &overrides).unwrap();
+    assert!(matches!(case.section, Section::Uniform { modulus: 30e9, .. }));
+    assert_eq!(case.bases.transverse, Basis::FiniteElements { elements: 20, axial_degree: 1 });
+    assert_eq!(case.coupling, Coupling::Exact);
+    assert_eq!(case.integrator, Integrator::Newmark { step: 1e-3, beta: 0.25, gamma: 0.5 });
+    assert_eq!(case.output.stations, [2.0, 5.0]);
+    assert_eq!(case.title, "two");
+}
+
+/// One override for each kind of each seam.
+const KINDS: &[&str] = &[
+    "section={kind='uniform',modulus=1e9,density=1,area='1 mm^2',second-moment='3 mm^4',rotary-inertia=true}",
+    "section={kind='rectangle',modulus='1 GPa',density='1 g/cm^3',width='1 in',height='2 in'}",
+    "section={kind='circle',modulus='1 GPa',density='1 g/cm^3',radius='1 mm'}",
+    "section={kind='tube',modulus='1 GPa',density='1 g/cm^3',outer-radius='2 mm',inner-radius='1 mm'}",
+    "section={kind='resultants',mass-per-length='1.2 kg/m',axial-stiffness='28 MN',bending-stiffness='14 kN m²',rotary-inertia=6e-4}",
+    "section={kind='graded',ceramic-modulus='151 GPa',metal-modulus='70 GPa',ceramic-density=3000,metal-density=2707,width='20 mm',height='20 mm',exponent=2}",
+    "hub.motion={kind='spin-up',speed='3000 rpm',time='1 min'}",
+    "hub.motion={kind='constant',speed='-90 deg/s'}",
+    "hub.motion={kind='ramp',speed='0.1 rev/s',time=3}",
+    "hub.motion={kind='table',file='broken_cases/../motion.csv',of='angle'}",
+    "hub.motion={kind='expression',formula='4*sin(t) \"',of='speed'}",
+    "model.coupling=zeroth",
+    "model.coupling=first",
+    "model.coupling=exact",
+    "basis={kind='finite-elements',elements=3,axial-degree=2}",
+    "basis={kind='modes',axial=2,transverse=5}",
+    "basis={kind='radial',nodes=9,degree=-1}",
+    "basis={kind='mixed',axial={kind='finite-elements'},transverse={kind='modes',count=3}}",
+    "basis={kind='mixed',axial={kind='radial'},transverse={kind='finite-elements',elements=10}}",
+    "initial.kind=undeformed",
+    "initial.kind=steady-rotation",
+    "integrator={kind='radau',max-step='0.1 s'}",
+    "integrator={kind='newmark',step='3 ms'}",
+    "integrator={kind='hht',step='3 ms'}",
+    "integrator={kind='generalized-alpha',step='3 ms'}",
+    "integrator={kind='runge-kutta-4',step='1e-5 s'}",
+    "integrator={kind='adams-4',step='1e-6 s'}",
+];
+
+#[test]
+fn the_resolved_case_of_every_kind_reads_back_as_the_same_case_and_builds() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("case.toml");
+    std::fs::write(folder.path().join("motion.csv"), "# a table\nt,angle\n0,0\n1,2\n10,3\n40,5\n").unwrap();
+    for kind in KINDS {
+        let kind = kind.replace("broken_cases/../", "").replace(" \"", "");
+        let reading = parse(SPIN_UP.to_owned(), &file, std::slice::from_ref(&kind))
+            .unwrap_or_else(|e| panic!("{kind}: {e}"));
+        let again = parse(reading.resolved(), &file, &[]).unwrap_or_else(|e| panic!("{kind}: {e}"));
+        assert_eq!(again.case, reading.case, "{kind}");
+        assert_eq!(again.resolved(), reading.resolved(), "{kind}");
+        assert!(again.defaults().is_empty(), "{kind}: {:?}", again.defaults());
+        let live = reading.build().unwrap_or_else(|e| panic!("{kind}: {e}"));
+        assert!(live.system.size().v > 0 && live.integrator.info().order > 0, "{kind}");
+    }
+    for seam in seams() {
+        for kind in seam.kinds {
+            let tried =
+                |text: &&&str| text.contains(&format!("kind='{0}'", kind.name)) || text.ends_with(kind.name);
+            assert!(KINDS.iter().any(|text| tried(&text)), "{} {} is not tried", seam.name, kind.name);
+        }
+    }
+}
+
+#[test]
+fn a_name_with_quotes_and_control_characters_survives_resolution() {
+    let title = "a \"b\" \\ c\td\u{1}é\u{7f}";
+    let text = SPIN_UP.replace("title = \"spin-up\"", "title = \"a \\\"b\\\" \\\\ c\\td\\u0001é\\u007f\"");
+    let reading = parse(text, Path::new("case.toml"), &[]).unwrap();
+    assert_eq!(reading.case.title, title);
+    assert_eq!(parse(reading.resolved(), Path::new("case.toml"), &[]).unwrap().case.title, title);
+}
+
+#[test]
+fn the_schema_in_the_documentation_is_the_one_of_the_declarations() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/flexion.schema.json");
+    let committed = std::fs::read_to_string(file).unwrap();
+    assert!(committed == schema(), "run `flexion schema > docs/flexion.schema.json`");
+}
+
+#[test]
+fn an_explicit_step_beyond_stability_is_refused_at_its_key() {
+    let set = "integrator={ kind = \"runge-kutta-4\", step = \"1 ms\" }".to_owned();
+    let reading = parse(SPIN_UP.to_owned(), Path::new("case.toml"), &[set]).unwrap();
+    let problems = reading.build().map(|_| ()).unwrap_err();
+    assert_eq!(problems.list[0].key, "integrator.step");
+    assert!(problems.list[0].message.contains("stability limit"), "{problems}");
+    assert_eq!(problems.line_and_column(&problems.list[0]), Some((1, 45)));
+}
+
+fn refusal(path: &Path) -> String {
+    read(path, &[]).map(|_| ()).unwrap_err().to_string()
+}
+
+#[test]
+fn what_is_no_case_file_is_refused_with_the_reason() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    assert!(refusal(path).contains("case.toml: No such file"), "{}", refusal(path));
+    assert!(refusal(&path.join("missing.toml")).contains("or a folder that holds a case.toml"));
+    std::fs::create_dir_all(path.join("nested/case.toml")).unwrap();
+    assert!(refusal(&path.join("nested")).contains("is not a file"));
+    std::fs::write(path.join("latin.toml"), b"title = 'ok'\n# caf\xe9\n").unwrap();
+    assert!(refusal(&path.join("latin.toml")).contains("not UTF-8 text: byte 18, on line 2"));
+    let huge = std::fs::File::create(path.join("huge.toml")).unwrap();
+    huge.set_len(1 << 30).unwrap();
+    assert!(refusal(&path.join("huge.toml")).contains("larger than 10 MB"));
+    std::fs::write(path.join("case.toml"), SPIN_UP).unwrap();
+    assert_eq!(read(path, &[]).unwrap().case, parsed(SPIN_UP, &[]).unwrap());
+    if Path::new("/dev/zero").exists() {
+        assert!(refusal(Path::new("/dev/zero")).contains("is not a file"));
+    }
+}
+
+#[test]
+fn hostile_nesting_is_refused_without_exhausting_the_stack() {
+    let dotted = "a.".repeat(70) + "a";
+    let mut inline = "1".to_owned();
+    for _ in 0..70 {
+        inline = format!("{{ {dotted} = {inline} }}");
+    }
+    let key = "a.".repeat(100_000) + "a";
+    for text in [
+        format!("x = {}", "[".repeat(1_000_000)),
+        format!("x = {}", "{a=".repeat(300_000)),
+        format!("x = {inline}"),
+        format!("[{key}]\nb = 1"),
+        format!("{key} = 1"),
+        "[[a]]\n".repeat(100_000),
+        "=\n".repeat(200_000),
+    ] {
+        let problems = parsed(&text, &[]).map(|_| ()).unwrap_err();
+        assert!(problems.to_string().len() < 100_000);
+    }
+    let set = format!("{key}=1");
+    assert!(parsed(SPIN_UP, &[&set]).is_err());
+}
