@@ -9,7 +9,7 @@ use flexion::system::{State, System};
 /// The case to check.
 #[derive(clap::Args)]
 #[command(
-    after_help = "Examples:\n  flexion check verification/spin-up\n  flexion check case.toml --set basis.elements=40"
+    after_help = "Examples:\n  flexion check verification/p1_spin_up_4\n  flexion check case.toml --set basis.elements=40"
 )]
 pub struct Arguments {
     #[command(flatten)]

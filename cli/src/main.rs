@@ -6,7 +6,6 @@
 mod case;
 mod check;
 mod list;
-
 mod run;
 mod screen;
 
@@ -16,7 +15,7 @@ use std::process::ExitCode;
 /// Dynamics of rotating flexible beams.
 #[derive(Parser)]
 #[command(name = "flexion", version, arg_required_else_help = true)]
-#[command(after_help = "Example:\n  flexion run verification/spin-up --output results/spin-up")]
+#[command(after_help = "Example:\n  flexion run verification/p1_spin_up_4 --output results/p1")]
 struct Arguments {
     #[command(subcommand)]
     command: Command,

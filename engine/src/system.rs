@@ -216,4 +216,9 @@ pub trait System {
     fn explain(&mut self, _s: &State) -> Option<String> {
         None
     }
+
+    /// What the reader of a run should know about the validity of the model, from all that was recorded.
+    fn cautions(&self) -> Vec<String> {
+        Vec::new()
+    }
 }

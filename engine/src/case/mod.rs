@@ -23,6 +23,7 @@ mod nearest;
 mod problem;
 mod reader;
 mod resolved;
+mod run;
 mod schema;
 mod section;
 mod tree;
@@ -34,6 +35,7 @@ pub use integrator::Integrator;
 pub use layout::{Case, Coupling, Hub, Initial, Output};
 pub use motion::{Motion, MotionOf};
 pub use problem::{Place, Problem, Problems, Source};
+pub use run::{Prepared, Run};
 pub use schema::schema;
 pub use section::{Section, Shape};
 
@@ -48,6 +50,9 @@ use values::Values;
 
 /// Largest case file that is read [bytes].
 const LARGEST: u64 = 10_000_000;
+
+/// Intervals of a run at whose ends the step of an explicit method is held against its stability limit.
+const STABILITY_TIMES: usize = 8;
 
 /// The live objects of a case.
 pub struct Live {
@@ -87,8 +92,8 @@ impl Reading {
         values.map(values::Values::to_json).unwrap_or_default()
     }
 
-    /// The live objects: the mechanical system and the integrator, which has passed its stability limit at
-    /// t = 0 if it is explicit.
+    /// The live objects: the mechanical system and the integrator, which has passed its stability limit for
+    /// the undeformed beam at several times of the run if it is explicit.
     ///
     /// # Errors
     /// [`Problems`] at the key that is to blame.
@@ -107,10 +112,15 @@ impl Reading {
         };
         let mut trial = integrator()?;
         if let (false, Some(step)) = (trial.info().implicit, case.integrator.step()) {
-            let mut state = State::zeros(system.size(), 0.0);
-            trial
-                .start(system.as_mut(), &mut state, step)
-                .map_err(|error| self.problem("integrator.step", error.to_string()))?;
+            // The largest frequency changes with the speed of the hub.
+            let among = (0..=STABILITY_TIMES).map(|k| case.duration * k as f64 / STABILITY_TIMES as f64);
+            let within = system.breaks().iter().copied().filter(|t| *t <= case.duration);
+            for t in among.chain(within).collect::<Vec<_>>() {
+                let mut state = State::zeros(system.size(), t);
+                trial
+                    .start(system.as_mut(), &mut state, step)
+                    .map_err(|error| self.problem("integrator.step", error.to_string()))?;
+            }
         }
         Ok(Live { system, integrator: integrator()? })
     }

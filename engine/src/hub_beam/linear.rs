@@ -3,7 +3,7 @@
 //! `zeroth` (traditional hybrid coordinates) adds the small displacements w₁, w₂ to a rigidly turning
 //! beam. `first` also keeps, to first order, the shortening w_c = −½ ∫₀ˣ w₂′² dξ of the axis by
 //! bending, whose product with the centrifugal force is the stiffening Ω² C that the zeroth-order model
-//! lacks (Wu & Haug 1988, doi 10.1002/nme.1620260202; P1 equations 45–50). Without it the chordwise
+//! lacks (Kane, Ryan & Banerjee 1987, doi 10.2514/3.20195; P1 equations 45–50). Without it the chordwise
 //! stiffness K − ω² M is exhausted when ω reaches the first natural frequency: dynamic softening.
 
 use super::coupling::Coupling;

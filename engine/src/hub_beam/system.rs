@@ -28,6 +28,8 @@ pub struct HubBeam<C> {
     /// Recorded stations, ascending along the beam; the tip is the last.
     stations: Vec<Station>,
     placements: Vec<Placement>,
+    /// Largest deflection of the tip that was recorded \[m\].
+    largest_deflection: f64,
 }
 
 impl<C: Coupling> HubBeam<C> {
@@ -44,6 +46,7 @@ impl<C: Coupling> HubBeam<C> {
             channels: channels(&stations),
             placements: vec![Placement::default(); stations.len()],
             stations,
+            largest_deflection: 0.0,
             hub,
             coupling,
         }
@@ -169,6 +172,8 @@ impl<C: Coupling> System for HubBeam<C> {
 
     fn record(&mut self, s: &State, out: &mut [f64]) {
         self.coupling.placements(s, &self.stations, &mut self.placements);
+        let tip = self.placements.last().map_or(0.0, |p| p.deflection.abs());
+        self.largest_deflection = self.largest_deflection.max(tip);
         let hub = self.hub.motion.at(s.t);
         let (kinetic, torque) = self.coupling.inertia().kinetic_and_torque(s, &hub);
         let (extra_kinetic, extra_torque) = self.coupling.extra_kinetic_and_torque(s, &hub);
@@ -206,6 +211,10 @@ impl<C: Coupling> System for HubBeam<C> {
 
     fn admissible(&mut self, s: &State) -> Result<(), String> {
         self.coupling.admissible(s)
+    }
+
+    fn cautions(&self) -> Vec<String> {
+        self.coupling.caution(self.largest_deflection).into_iter().collect()
     }
 
     fn explain(&mut self, s: &State) -> Option<String> {

@@ -33,7 +33,7 @@ use super::{Counters, Info, Integrator, StabilityLimit, StepError, StepReport, h
 use crate::system::{State, System};
 
 /// Name as in a case file.
-const NAME: &str = "adams";
+const NAME: &str = "adams-4";
 
 /// hω at which an undamped oscillation grows by the factor e in 10⁴ steps.
 const LIMIT: f64 = 0.299_89;

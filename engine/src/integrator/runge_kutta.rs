@@ -24,7 +24,7 @@ use super::{Counters, Info, Integrator, StabilityLimit, StepError, StepReport, h
 use crate::system::{State, System};
 
 /// Name as in a case file.
-const NAME: &str = "runge-kutta";
+const NAME: &str = "runge-kutta-4";
 
 /// Largest stable hω on the imaginary axis, 2√2.
 const LIMIT: f64 = 2.828_427_124_746_190_3;

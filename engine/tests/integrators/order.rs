@@ -11,8 +11,8 @@ const METHODS: [(&str, Make, f64, [usize; 2]); 6] = [
     ("newmark", || Box::new(GeneralizedAlpha::newmark(0.25, 0.5).unwrap()), 2.0, [200, 400]),
     ("hht", || Box::new(GeneralizedAlpha::hht(0.2).unwrap()), 2.0, [200, 400]),
     ("chung-hulbert", || Box::new(GeneralizedAlpha::chung_hulbert(0.6).unwrap()), 2.0, [200, 400]),
-    ("runge-kutta", || Box::new(RungeKutta::new()), 4.0, [80, 160]),
-    ("adams", || Box::new(Adams::new()), 4.0, [160, 320]),
+    ("runge-kutta-4", || Box::new(RungeKutta::new()), 4.0, [80, 160]),
+    ("adams-4", || Box::new(Adams::new()), 4.0, [160, 320]),
     ("radau", || Box::new(Radau::new(Tolerance::uniform(1e-12)).unwrap()), 5.0, [32, 64]),
 ];
 

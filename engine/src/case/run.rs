@@ -1,0 +1,138 @@
+//! A case, run: from its reading to its results.
+
+use super::{Initial, Integrator as IntegratorCase, Live, Problems, Reading};
+use crate::analysis::equilibrium::equilibrium;
+use crate::analysis::transient::{Ending, Plan, transient};
+use crate::integrator::{Counters, Info};
+use crate::linalg::Structure;
+use crate::output::plot::trajectory_figure;
+use crate::output::{
+    Directory, Integration, OutputError, ProblemSize, Recorder, RunReport, Status, Trajectory, Watch,
+    write_run,
+};
+use crate::system::{State, System};
+use std::time::Instant;
+
+/// A case with all that its run needs, checked: what remains can only fail in time.
+pub struct Prepared<'a> {
+    reading: &'a Reading,
+    live: Live,
+    state: State,
+    plan: Plan,
+}
+
+/// What a run gave.
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// How it ended.
+    pub status: Status,
+    /// Why it ended early.
+    pub message: Option<String>,
+    /// What it recorded.
+    pub trajectory: Trajectory,
+    /// The last accepted step.
+    pub state: State,
+    /// What its reader should know about the validity of the model.
+    pub warnings: Vec<String>,
+    /// The integrator.
+    pub info: Info,
+    /// Work done.
+    pub counters: Counters,
+    /// Size of the equations solved in each iteration.
+    pub size: ProblemSize,
+    /// Time of computing [s]: the one figure that differs from run to run.
+    pub wall_time: f64,
+}
+
+impl Reading {
+    /// Builds the system and brings it into its initial state.
+    ///
+    /// # Errors
+    /// [`Problems`] at the key that is to blame, also when there is no equilibrium to begin with.
+    pub fn prepare(&self) -> Result<Prepared<'_>, Problems> {
+        let mut live = self.build()?;
+        let case = &self.case;
+        let mut state = State::zeros(live.system.size(), 0.0);
+        if case.initial == Initial::SteadyRotation {
+            equilibrium(live.system.as_mut(), &mut state)
+                .map_err(|error| self.problem("initial", error.to_string()))?;
+        }
+        let (step, longest_step) = match case.integrator {
+            IntegratorCase::Radau { initial_step, max_step, .. } => (initial_step, max_step),
+            _ => (case.integrator.step(), None),
+        };
+        let plan = Plan { end: case.duration, step, longest_step, sample: case.output.step };
+        Ok(Prepared { reading: self, live, state, plan })
+    }
+
+    /// Writes the results of a run of this case, the summary last.
+    ///
+    /// # Errors
+    /// [`OutputError`] for whatever goes wrong on disk or in drawing.
+    pub fn write(&self, run: &Run, directory: &Directory) -> Result<Status, OutputError> {
+        let file = self.file.file_name().map(|name| name.to_string_lossy());
+        let report = RunReport {
+            status: run.status,
+            message: run.message.as_deref(),
+            title: &self.case.title,
+            file: file.as_deref(),
+            duration: self.case.duration,
+            end_time: run.state.t,
+            warnings: &run.warnings,
+            integrator: Integration { info: &run.info, settings: self.settings("integrator") },
+            counters: run.counters,
+            size: run.size,
+            wall_time: run.wall_time,
+        };
+        let title = (!self.case.title.is_empty()).then_some(self.case.title.as_str());
+        let figure = trajectory_figure(&run.trajectory, title);
+        write_run(directory, &report, &run.trajectory, &self.resolved(), Some(&figure))
+    }
+}
+
+impl Prepared<'_> {
+    /// The case.
+    pub fn reading(&self) -> &Reading {
+        self.reading
+    }
+
+    /// Integrates to the end, or to where `watch` stops it or the integration fails: what was computed
+    /// until then is in the run.
+    pub fn run(self, watch: &mut Watch<'_>) -> Run {
+        let Prepared { live: Live { mut system, mut integrator }, mut state, plan, .. } = self;
+        let start = Instant::now();
+        let mut recorder = Recorder::new(system.as_ref(), &plan, watch);
+        let ending = transient(system.as_mut(), integrator.as_mut(), &mut state, &plan, &mut recorder);
+        let wall_time = start.elapsed().as_secs_f64();
+        let (status, message) = match ending {
+            Ending::Finished => (Status::Finished, None),
+            Ending::Stopped => {
+                (Status::Stopped, Some(format!("stopped by the user at t = {:.6} s", state.t)))
+            }
+            Ending::Failed(error) => (Status::Failed, Some(error.to_string())),
+        };
+        Run {
+            status,
+            message,
+            trajectory: recorder.into_trajectory(),
+            warnings: system.cautions(),
+            info: integrator.info().clone(),
+            counters: integrator.counters(),
+            size: size(system.as_ref()),
+            state,
+            wall_time,
+        }
+    }
+}
+
+fn size(system: &dyn System) -> ProblemSize {
+    let unknowns = system.size().v + system.size().lambda;
+    match system.structure() {
+        Structure::Dense { order } => {
+            ProblemSize { unknowns, half_bandwidth: order.saturating_sub(1), border: 0 }
+        }
+        Structure::Band { lower, upper, border, .. } => {
+            ProblemSize { unknowns, half_bandwidth: lower.max(upper), border }
+        }
+    }
+}
