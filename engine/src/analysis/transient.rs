@@ -280,7 +280,7 @@ impl Run {
         let interval = plan.sample.max(SMALLEST_SAMPLE * (plan.end - self.origin));
         let slack = 1e-9 * interval;
         loop {
-            let t = (self.origin + self.samples as f64 * interval).min(plan.end);
+            let t = (self.origin + multiple(self.samples, interval)).min(plan.end);
             if t > to.t + slack {
                 return;
             }
@@ -297,6 +297,17 @@ impl Run {
                 return;
             }
         }
+    }
+}
+
+/// k times the interval; k over a whole number where the interval is the inverse of one, so that samples
+/// every 0.02 s fall on 13.28 s and not on its neighbour.
+fn multiple(k: u64, interval: f64) -> f64 {
+    let inverse = (1.0 / interval).round();
+    if inverse >= 1.0 && (inverse * interval - 1.0).abs() < 1e-14 {
+        k as f64 / inverse
+    } else {
+        k as f64 * interval
     }
 }
 
