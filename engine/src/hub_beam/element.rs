@@ -5,6 +5,7 @@
 //! L the three quadratic Lagrange functions of the strain's samples; ℓ = |p′|.
 
 use super::fields::Fields;
+use crate::linalg::Storage;
 use crate::profile::HubKinematics;
 use crate::quadrature::Gauss;
 use crate::section::Section;
@@ -17,6 +18,10 @@ const POINTS: usize = 3;
 /// Marks an unknown that the clamp removes.
 const CLAMPED: usize = usize::MAX;
 
+/// Place of each local unknown among the eight consecutive unknowns of an element away from the clamp:
+/// U, U′, V, V′ node after node.
+const PLACE: [usize; 8] = [0, 1, 4, 5, 2, 3, 6, 7];
+
 /// Shape functions at the quadrature points of an element of given length: equal for equal elements.
 #[derive(Clone, Debug)]
 pub struct Rule {
@@ -24,6 +29,7 @@ pub struct Rule {
     points: [RulePoint; POINTS],
     /// N′ in the middle of the element.
     middle: [f64; 4],
+    middle_product: Block,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -36,6 +42,25 @@ struct RulePoint {
     n1: [f64; 4],
     n2: [f64; 4],
     l: [f64; 3],
+    /// Products of N′ and N″, by rows.
+    products: Products,
+}
+
+/// N′ᵢN′ⱼ, N′ᵢN″ⱼ, N″ᵢN′ⱼ and N″ᵢN″ⱼ at a quadrature point.
+#[derive(Clone, Copy, Debug, Default)]
+struct Products {
+    n11: Block,
+    n12: Block,
+    n21: Block,
+    n22: Block,
+}
+
+/// A block of an element's tangent: 4 × 4, by rows.
+type Block = [f64; 16];
+
+/// a bᵀ
+fn outer(a: &[f64; 4], b: &[f64; 4]) -> Block {
+    std::array::from_fn(|k| a[k / 4] * b[k % 4])
 }
 
 impl Rule {
@@ -44,9 +69,16 @@ impl Rule {
         let mut points = [RulePoint::default(); POINTS];
         for (point, (s, weight)) in points.iter_mut().zip(Gauss::new(POINTS).on(0.0, 1.0)) {
             let (n, n1, n2) = hermite(s, length);
-            *point = RulePoint { s, weight: weight * length, n, n1, n2, l: lagrange(s) };
+            let products = Products {
+                n11: outer(&n1, &n1),
+                n12: outer(&n1, &n2),
+                n21: outer(&n2, &n1),
+                n22: outer(&n2, &n2),
+            };
+            *point = RulePoint { s, weight: weight * length, n, n1, n2, l: lagrange(s), products };
         }
-        Rule { length, points, middle: hermite(0.5, length).1 }
+        let middle = hermite(0.5, length).1;
+        Rule { length, points, middle, middle_product: outer(&middle, &middle) }
     }
 }
 
@@ -69,6 +101,8 @@ fn lagrange(s: f64) -> [f64; 3] {
 #[derive(Clone, Debug)]
 pub struct Element {
     unknowns: [usize; 8],
+    /// First unknown, if the unknowns are consecutive in the order of [`PLACE`].
+    first_unknown: Option<usize>,
     start: f64,
     end: f64,
     /// ∫ EA L_i L_j dx
@@ -97,8 +131,8 @@ pub struct Local {
 struct Strains {
     /// Unit tangents at the three samples.
     tangent: [[f64; 2]; 3],
-    /// |p′| at the three samples.
-    stretch: [f64; 3],
+    /// 1/|p′| at the three samples.
+    inverse_stretch: [f64; 3],
     /// ε at the three samples, and its work conjugates.
     strain: [f64; 3],
     axial: [f64; 3],
@@ -139,8 +173,10 @@ impl Element {
         let coupling = rule.points.map(|p| p.weight * at(&p).coupling_stiffness);
         let rotary = rule.points.map(|p| p.weight * at(&p).rotary_inertia);
         let first = rule.points.map(|p| p.weight * at(&p).first_moment);
+        let first_unknown = Some(unknowns[0]).filter(|i| unknowns == PLACE.map(|p| i.wrapping_add(p)));
         Element {
             unknowns,
+            first_unknown,
             start,
             end,
             axial,
@@ -158,6 +194,11 @@ impl Element {
         self.end
     }
 
+    /// Whether the section has rotary inertia or a first mass moment here.
+    pub fn has_section_inertia(&self) -> bool {
+        self.has_section_inertia
+    }
+
     /// U′ and V′ at the far node.
     pub fn end_slopes(&self, q: &[f64]) -> (f64, f64) {
         (q[self.unknowns[3]], q[self.unknowns[7]])
@@ -166,7 +207,13 @@ impl Element {
     /// The element's part of a state; `radius` is the hub's.
     #[inline]
     pub fn gather(&self, s: &State, radius: f64) -> Local {
-        let pick = |x: &[f64]| self.unknowns.map(|i| if i == CLAMPED { 0.0 } else { x[i] });
+        let pick = |x: &[f64]| match self.first_unknown {
+            Some(first) => {
+                let x = &x[first..first + 8];
+                PLACE.map(|p| x[p])
+            }
+            None => self.unknowns.map(|i| if i == CLAMPED { 0.0 } else { x[i] }),
+        };
         let (mut v, mut a) = ([0.0; 8], [0.0; 8]);
         if self.has_section_inertia {
             (v, a) = (pick(&s.v), pick(&s.a));
@@ -177,6 +224,13 @@ impl Element {
     /// Adds a local vector to a global one.
     #[inline]
     pub fn scatter(&self, local: &[f64; 8], out: &mut [f64]) {
+        if let Some(first) = self.first_unknown {
+            let out = &mut out[first..first + 8];
+            for (p, x) in PLACE.into_iter().zip(local) {
+                out[p] += x;
+            }
+            return;
+        }
         for (&i, x) in self.unknowns.iter().zip(local) {
             if i != CLAMPED {
                 out[i] += x;
@@ -186,12 +240,23 @@ impl Element {
 
     /// Adds a local matrix to a global one.
     #[inline]
-    pub fn assemble(&self, local: &[[f64; 8]; 8], mut add: impl FnMut(usize, usize, f64)) {
+    pub fn assemble(&self, local: &[[f64; 8]; 8], out: &mut Storage<f64>) {
+        if let (Some(first), Storage::Band(out)) = (self.first_unknown, &mut *out) {
+            for (p, row) in PLACE.into_iter().zip(local) {
+                let out = out.band_mut().run_mut::<8>(first + p, first);
+                // PLACE is its own inverse.
+                for (out, p) in out.iter_mut().zip(PLACE) {
+                    *out += row[p];
+                }
+            }
+            return;
+        }
         for (&i, row) in self.unknowns.iter().zip(local) {
-            if i != CLAMPED {
-                for (&j, x) in self.unknowns.iter().zip(row) {
-                    if j != CLAMPED {
-                        add(i, j, *x);
+            for (&j, x) in self.unknowns.iter().zip(row) {
+                if i != CLAMPED && j != CLAMPED {
+                    match out {
+                        Storage::Dense(out) => out.add(i, j, *x),
+                        Storage::Band(out) => out.add(i, j, *x),
                     }
                 }
             }
@@ -208,7 +273,7 @@ impl Element {
         ];
         let mut out = Strains {
             tangent: [[0.0; 2]; 3],
-            stretch: [0.0; 3],
+            inverse_stretch: [0.0; 3],
             strain: [0.0; 3],
             axial: [0.0; 3],
             curvature: [0.0; POINTS],
@@ -218,8 +283,9 @@ impl Element {
         };
         for (i, [x, y]) in slopes.into_iter().enumerate() {
             let stretch = (x * x + y * y).sqrt();
-            out.stretch[i] = stretch;
-            out.tangent[i] = [x / stretch, y / stretch];
+            let inverse = 1.0 / stretch;
+            out.inverse_stretch[i] = inverse;
+            out.tangent[i] = [x * inverse, y * inverse];
             // |p′| − 1 without the cancellation that loses the strain of a slender beam.
             let u = x - 1.0;
             out.strain[i] = (u * (2.0 + u) + y * y) / (stretch + 1.0);
@@ -281,73 +347,111 @@ impl Element {
     /// Adds w ∂²U/∂d² to `out`.
     #[inline]
     pub fn strain_tangent(&self, rule: &Rule, local: &Local, w: f64, out: &mut [[f64; 8]; 8]) {
-        if w == 0.0 {
-            return;
-        }
         let s = self.strains(rule, &local.q);
-        // ∂ε_i/∂d
-        let samples: [[f64; 4]; 3] = [[0.0, 1.0, 0.0, 0.0], rule.middle, [0.0, 0.0, 0.0, 1.0]];
-        let mut b = [[0.0; 8]; 3];
-        for i in 0..3 {
-            for k in 0..4 {
-                b[i][k] = s.tangent[i][0] * samples[i][k];
-                b[i][4 + k] = s.tangent[i][1] * samples[i][k];
+        // The blocks ∂²U/∂U∂U, ∂²U/∂U∂V and ∂²U/∂V∂V.
+        let mut blocks = [[0.0; 16]; 3];
+        self.stretch_tangent(rule, &s, w, &mut blocks);
+        self.curvature_tangent(rule, &s, w, &mut blocks);
+        let [xx, xy, yy] = &blocks;
+        for i in 0..4 {
+            for j in 0..4 {
+                out[i][j] += xx[4 * i + j];
+                out[i][4 + j] += xy[4 * i + j];
+                out[4 + i][j] += xy[4 * j + i];
+                out[4 + i][4 + j] += yy[4 * i + j];
             }
         }
-        for i in 0..3 {
-            let mut row = [0.0; 8];
-            for j in 0..3 {
-                let stiffness = w * self.axial[i][j];
-                for k in 0..8 {
-                    row[k] += stiffness * b[j][k];
-                }
-            }
-            add_outer(out, &b[i], &row);
-            // N_i ∂²ε_i: N_i n nᵀ/ℓ
-            let scale = w * s.axial[i] / s.stretch[i];
-            let mut normal = [0.0; 8];
-            for k in 0..4 {
-                normal[k] = -s.tangent[i][1] * samples[i][k];
-                normal[4 + k] = s.tangent[i][0] * samples[i][k];
-            }
-            add_outer(out, &normal.map(|x| scale * x), &normal);
+        if self.has_coupling {
+            self.coupling_tangent(rule, &s, w, out);
         }
+    }
+
+    /// The strain's part: with pᵢ′ the slopes at the samples, U ∋ ½ Σ Aᵢⱼ εᵢ εⱼ and
+    /// ∂²U/∂pᵢ′∂pⱼ′ = Aᵢⱼ tᵢ tⱼᵀ + δᵢⱼ Nᵢ nᵢ nᵢᵀ/ℓᵢ.
+    #[inline(always)]
+    fn stretch_tangent(&self, rule: &Rule, s: &Strains, w: f64, [xx, xy, yy]: &mut [Block; 3]) {
+        // ∂²U/∂X′∂X′, ∂X′∂Y′, ∂Y′∂X′, ∂Y′∂Y′ of samples i and j.
+        let pair = |i: usize, j: usize| {
+            let (a, [tx, ty], [ux, uy]) = (w * self.axial[i][j], s.tangent[i], s.tangent[j]);
+            let n = if i == j { w * s.axial[i] * s.inverse_stretch[i] } else { 0.0 };
+            [
+                a * tx * ux + n * ty * uy,
+                a * tx * uy - n * tx * ty,
+                a * ty * ux - n * tx * ty,
+                a * ty * uy + n * tx * ux,
+            ]
+        };
+        // The middle sample depends on all four unknowns of a component,
+        let [cxx, cxy, _, cyy] = pair(1, 1);
+        for (k, product) in rule.middle_product.iter().enumerate() {
+            xx[k] += cxx * product;
+            xy[k] += cxy * product;
+            yy[k] += cyy * product;
+        }
+        // the samples at the ends on the slope there alone.
+        for (end, slope) in [(0, 1), (2, 3)] {
+            let [cxx, cxy, cyx, cyy] = pair(end, 1);
+            for (k, n) in rule.middle.iter().enumerate() {
+                xx[4 * slope + k] += cxx * n;
+                xx[4 * k + slope] += cxx * n;
+                xy[4 * slope + k] += cxy * n;
+                xy[4 * k + slope] += cyx * n;
+                yy[4 * slope + k] += cyy * n;
+                yy[4 * k + slope] += cyy * n;
+            }
+            for (other, column) in [(0, 1), (2, 3)] {
+                let [cxx, cxy, _, cyy] = pair(end, other);
+                xx[4 * slope + column] += cxx;
+                xy[4 * slope + column] += cxy;
+                yy[4 * slope + column] += cyy;
+            }
+        }
+    }
+
+    /// The curvature's part, EI κ_a κ_b + M κ_ab with a, b ∈ {X′, Y′, X″, Y″}:
+    /// κ_ab = (c_ab − κ_b s_a − κ s_ab − κ_a s_b)/s, s = ℓ², c = X′Y″ − Y′X″.
+    #[inline(always)]
+    fn curvature_tangent(&self, rule: &Rule, s: &Strains, w: f64, [xx, xy, yy]: &mut [Block; 3]) {
         for (g, p) in rule.points.iter().enumerate() {
             let [x1, y1, x2, y2] = s.gradient[g];
-            let mut gradient = [0.0; 8];
-            for k in 0..4 {
-                gradient[k] = x1 * p.n1[k] + x2 * p.n2[k];
-                gradient[4 + k] = y1 * p.n1[k] + y2 * p.n2[k];
-            }
-            let stiffness = w * self.bending[g];
-            add_outer(out, &gradient.map(|x| stiffness * x), &gradient);
-            if self.has_coupling {
-                for i in 0..3 {
-                    let es = -w * self.coupling[g] * p.l[i];
-                    let scaled = b[i].map(|x| es * x);
-                    add_outer(out, &scaled, &gradient);
-                    add_outer(out, &gradient, &scaled);
-                }
-            }
-            // M ∂²κ with κ_ab = (c_ab − κ_b s_a − κ s_ab − κ_a s_b)/s, s = ℓ², c = X′Y″ − Y′X″.
-            let [sx, sy] = s.slope[g];
+            let ([sx, sy], k0) = (s.slope[g], s.curvature[g]);
+            let ei = w * self.bending[g];
             let m = w * s.moment[g] / (sx * sx + sy * sy);
-            let k0 = s.curvature[g];
-            let xx = m * (-4.0 * sx * x1 - 2.0 * k0);
-            let yy = m * (-4.0 * sy * y1 - 2.0 * k0);
-            let xy = m * (-2.0 * sx * y1 - 2.0 * sy * x1);
-            let (xx2, xy2) = (-2.0 * m * sx * x2, m * (1.0 - 2.0 * sx * y2));
-            let (yx2, yy2) = (m * (-1.0 - 2.0 * sy * x2), -2.0 * m * sy * y2);
-            for i in 0..4 {
-                for j in 0..4 {
-                    let (ii, ij, ji) = (p.n1[i] * p.n1[j], p.n1[i] * p.n2[j], p.n2[i] * p.n1[j]);
-                    out[i][j] += xx * ii + xx2 * (ij + ji);
-                    out[4 + i][4 + j] += yy * ii + yy2 * (ij + ji);
-                    let mixed = xy * ii + xy2 * ij + yx2 * ji;
-                    out[i][4 + j] += mixed;
-                    out[4 + j][i] += mixed;
+            let x1x1 = ei * x1 * x1 - m * (4.0 * sx * x1 + 2.0 * k0);
+            let y1y1 = ei * y1 * y1 - m * (4.0 * sy * y1 + 2.0 * k0);
+            let x1y1 = ei * x1 * y1 - 2.0 * m * (sx * y1 + sy * x1);
+            let x1x2 = ei * x1 * x2 - 2.0 * m * sx * x2;
+            let y1y2 = ei * y1 * y2 - 2.0 * m * sy * y2;
+            let x1y2 = ei * x1 * y2 + m * (1.0 - 2.0 * sx * y2);
+            let x2y1 = ei * x2 * y1 - m * (1.0 + 2.0 * sy * x2);
+            let (x2x2, x2y2, y2y2) = (ei * x2 * x2, ei * x2 * y2, ei * y2 * y2);
+            let Products { n11, n12, n21, n22 } = &p.products;
+            for k in 0..16 {
+                let mixed = n12[k] + n21[k];
+                xx[k] += x1x1 * n11[k] + x1x2 * mixed + x2x2 * n22[k];
+                yy[k] += y1y1 * n11[k] + y1y2 * mixed + y2y2 * n22[k];
+                xy[k] += x1y1 * n11[k] + x1y2 * n12[k] + x2y1 * n21[k] + x2y2 * n22[k];
+            }
+        }
+    }
+
+    /// The part −ES (∂ε̄/∂d ∂κ/∂dᵀ + ∂κ/∂d ∂ε̄/∂dᵀ).
+    fn coupling_tangent(&self, rule: &Rule, s: &Strains, w: f64, out: &mut [[f64; 8]; 8]) {
+        let samples: [[f64; 4]; 3] = [[0.0, 1.0, 0.0, 0.0], rule.middle, [0.0, 0.0, 0.0, 1.0]];
+        for (g, p) in rule.points.iter().enumerate() {
+            let [x1, y1, x2, y2] = s.gradient[g];
+            let (mut strain, mut curvature) = ([0.0; 8], [0.0; 8]);
+            for k in 0..4 {
+                curvature[k] = x1 * p.n1[k] + x2 * p.n2[k];
+                curvature[4 + k] = y1 * p.n1[k] + y2 * p.n2[k];
+                for i in 0..3 {
+                    strain[k] += p.l[i] * s.tangent[i][0] * samples[i][k];
+                    strain[4 + k] += p.l[i] * s.tangent[i][1] * samples[i][k];
                 }
             }
+            let scaled = strain.map(|x| -w * self.coupling[g] * x);
+            add_outer(out, &scaled, &curvature);
+            add_outer(out, &curvature, &scaled);
         }
     }
 

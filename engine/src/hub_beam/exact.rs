@@ -110,18 +110,18 @@ impl Coupling for ExactCoupling {
     }
 
     fn add_tangent(&mut self, s: &State, hub: &HubKinematics, w: &Weights<'_>, out: &mut Storage<f64>) {
+        let constant = w.q == 0.0;
         for element in &self.elements {
+            if constant && !element.has_section_inertia() {
+                continue;
+            }
             let local = element.gather(s, self.radius);
             let mut tangent = [[0.0; 8]; 8];
-            element.strain_tangent(&self.rule, &local, w.q, &mut tangent);
-            element.section_tangent(&self.rule, &local, hub, w, &mut tangent);
-            match out {
-                Storage::Dense(a) => element.assemble(&tangent, |i, j, x| a.add(i, j, x)),
-                Storage::Band(a) => {
-                    let band = a.band_mut();
-                    element.assemble(&tangent, |i, j, x| band.add(i, j, x));
-                }
+            if !constant {
+                element.strain_tangent(&self.rule, &local, w.q, &mut tangent);
             }
+            element.section_tangent(&self.rule, &local, hub, w, &mut tangent);
+            element.assemble(&tangent, out);
         }
     }
 

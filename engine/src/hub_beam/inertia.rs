@@ -28,7 +28,8 @@
 //! matrices stay banded (the papers store the full H(x)).
 
 use super::fields::{Fields, Shapes};
-use crate::linalg::{Matrix, Storage, Structure};
+use super::product::{Padded, Rows, entries};
+use crate::linalg::{Matrix, Storage};
 use crate::profile::HubKinematics;
 use crate::section::{Resultants, Section};
 use crate::system::{State, Weights};
@@ -43,19 +44,29 @@ pub enum Foreshortening {
 }
 
 /// Constant matrices of a beam on a hub; see the [module documentation](self).
+///
+/// Most models have D close to M, and P antisymmetric or nearly so. With N = M − D and the symmetric part S
+/// of P, whose zeros are not multiplied, the equations for q are
+///
+/// ```text
+/// M (a − ω² q) + (Pᵀ − P)(ω v + ½ω̇ q) + (K + ω² N + ω̇ S) q + ω̇ s_y − ω² s_x = 0
+/// ```
 #[derive(Debug)]
 pub struct Inertia {
-    layout: Layout,
+    rows: Rows,
     /// M
     mass: Matrix,
     /// Pᵀ − P
     gyroscopic: Matrix,
     /// D
     centrifugal: Matrix,
-    /// Pᵀ
-    euler: Matrix,
-    /// K
+    /// K, and whether there is any.
     stiffness: Matrix,
+    has_stiffness: bool,
+    /// N = M − D, unless it vanishes.
+    stiffening: Option<Matrix>,
+    /// S = ½ (P + Pᵀ), unless it vanishes.
+    euler: Option<Matrix>,
     /// s_x and s_y
     axial_moment: Vec<f64>,
     transverse_moment: Vec<f64>,
@@ -63,46 +74,13 @@ pub struct Inertia {
     moment: f64,
 }
 
-/// How the rows of the stored matrices lie in memory.
-#[derive(Clone, Copy, Debug)]
-struct Layout {
-    n: usize,
-    stride: usize,
-    lower: usize,
-    upper: usize,
-    band: bool,
-}
-
-impl Layout {
-    fn of(structure: &Structure, n: usize) -> Layout {
-        match *structure {
-            Structure::Dense { order } => Layout { n, stride: order, lower: n, upper: n, band: false },
-            Structure::Band { lower, upper, .. } => {
-                let (lower, upper) = (lower.min(n.saturating_sub(1)), upper.min(n.saturating_sub(1)));
-                Layout { n, stride: 2 * lower + upper + 1, lower, upper, band: true }
-            }
-        }
-    }
-
-    /// First column of row `i`, and where its entry is stored.
-    #[inline(always)]
-    fn row(&self, i: usize) -> (usize, usize, usize) {
-        if self.band {
-            let first = i.saturating_sub(self.lower);
-            let last = (i + self.upper + 1).min(self.n);
-            (first, i * self.stride + first + self.lower - i, last - first)
-        } else {
-            (0, i * self.stride, self.n)
-        }
-    }
-}
-
-/// The entries of a matrix apart from its border.
-fn entries(matrix: &Matrix) -> &[f64] {
-    match matrix.storage() {
-        Storage::Dense(a) => a.data(),
-        Storage::Band(a) => a.band().data(),
-    }
+/// Vectors that [`Inertia`] multiplies its matrices with: scratch of the system's.
+#[derive(Clone, Debug)]
+pub struct Scratch {
+    inertial: Padded,
+    gyroscopic: Padded,
+    position: Padded,
+    scaled: Padded,
 }
 
 impl Inertia {
@@ -163,22 +141,25 @@ impl Inertia {
             add_symmetric(&mut k, (a, 1), (b, 2), -w * es);
             add_outer(&mut k, (b, 2), (b, 2), w * ei);
         });
-        let (mut euler, mut gyroscopic) = (new(), new());
-        let layout = Layout::of(&structure, n);
+        let rows = Rows::new(&structure, n);
+        let (mut gyroscopic, mut stiffening, mut euler) = (new(), new(), new());
         for i in 0..n {
-            let (start, _, len) = layout.row(i);
-            for j in start..start + len {
-                euler.add(i, j, p.get(j, i));
+            for j in rows.row(i).0 {
                 gyroscopic.add(i, j, p.get(j, i) - p.get(i, j));
+                stiffening.add(i, j, m.get(i, j) - d.get(i, j));
+                euler.add(i, j, 0.5 * (p.get(j, i) + p.get(i, j)));
             }
         }
+        let unless_zero = |a: Matrix| Some(a).filter(|a| !is_zero(a));
         Inertia {
-            layout,
+            rows,
             mass: m,
             gyroscopic,
             centrifugal: d,
-            euler,
+            has_stiffness: !is_zero(&k),
             stiffness: k,
+            stiffening: unless_zero(stiffening),
+            euler: unless_zero(euler),
             axial_moment: sx,
             transverse_moment: sy,
             moment,
@@ -187,12 +168,18 @@ impl Inertia {
 
     /// Number of unknowns of the fields.
     pub fn len(&self) -> usize {
-        self.layout.n
+        self.rows.order()
     }
 
     /// Whether there is no unknown.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
+    }
+
+    /// Scratch for the products of these matrices.
+    pub fn scratch(&self) -> Scratch {
+        let vector = || self.rows.vector();
+        Scratch { inertial: vector(), gyroscopic: vector(), position: vector(), scaled: vector() }
     }
 
     /// The mass matrix M, the matrix D of the centrifugal forces and the stiffness matrix K.
@@ -201,20 +188,33 @@ impl Inertia {
     }
 
     /// r = M a + ω (Pᵀ − P) v + (K − ω² D + ω̇ Pᵀ) q + ω̇ s_y − ω² s_x.
-    pub fn residual(&self, s: &State, hub: &HubKinematics, r: &mut [f64]) {
+    pub fn residual(&self, s: &State, hub: &HubKinematics, x: &mut Scratch, r: &mut [f64]) {
+        let n = self.len();
         let (w, w1, w2) = (hub.speed, hub.acceleration, hub.speed * hub.speed);
-        let [m, g, d, e, k] =
-            [&self.mass, &self.gyroscopic, &self.centrifugal, &self.euler, &self.stiffness].map(entries);
-        for i in 0..self.layout.n {
-            let (first, at, len) = self.layout.row(i);
-            let (m, g, d) = (&m[at..at + len], &g[at..at + len], &d[at..at + len]);
-            let (e, k) = (&e[at..at + len], &k[at..at + len]);
-            let (q, v, a) = (&s.q[first..first + len], &s.v[first..first + len], &s.a[first..first + len]);
-            let mut sum = w1 * self.transverse_moment[i] - w2 * self.axial_moment[i];
-            for j in 0..len {
-                sum += m[j] * a[j] + w * g[j] * v[j] + (k[j] - w2 * d[j] + w1 * e[j]) * q[j];
+        let (q, v, a) = (&s.q[..n], &s.v[..n], &s.a[..n]);
+        let (sx, sy, r) = (&self.axial_moment[..n], &self.transverse_moment[..n], &mut r[..n]);
+        x.inertial.fill(|i| a[i] - w2 * q[i]);
+        x.gyroscopic.fill(|i| w * v[i] + 0.5 * w1 * q[i]);
+        let inertial = (&self.mass, &x.inertial);
+        let gyroscopic = (&self.gyroscopic, &x.gyroscopic);
+        let write = |i: usize, sum: f64| r[i] = sum + w1 * sy[i] - w2 * sx[i];
+        match &self.stiffening {
+            None if !self.has_stiffness => self.rows.products([inertial, gyroscopic], write),
+            None => {
+                x.position.fill(|i| q[i]);
+                let elastic = (&self.stiffness, &x.position);
+                self.rows.products([inertial, gyroscopic, elastic], write);
             }
-            r[i] = sum;
+            Some(stiffening) => {
+                x.position.fill(|i| q[i]);
+                x.scaled.fill(|i| w2 * q[i]);
+                let elastic = (&self.stiffness, &x.position);
+                self.rows.products([inertial, gyroscopic, elastic, (stiffening, &x.scaled)], write);
+            }
+        }
+        if let Some(euler) = &self.euler {
+            x.scaled.fill(|i| w1 * q[i]);
+            self.rows.products([(euler, &x.scaled)], |i, sum| r[i] += sum);
         }
     }
 
@@ -229,62 +229,83 @@ impl Inertia {
             Storage::Dense(a) => a.data_mut(),
             Storage::Band(a) => a.band_mut().data_mut(),
         };
-        let [m, g, d, e, k] =
-            [&self.mass, &self.gyroscopic, &self.centrifugal, &self.euler, &self.stiffness].map(entries);
-        let (wa, wv, wk) = (w.a, w.v * hub.speed, w.q);
-        let (wd, we) = (-w.q * hub.speed * hub.speed, w.q * hub.acceleration);
+        let (w1, w2) = (hub.acceleration, hub.speed * hub.speed);
+        let (wm, wg) = (w.a - w.q * w2, w.v * hub.speed + 0.5 * w.q * w1);
         let n = out.len();
-        let (m, g, d, e, k) = (&m[..n], &g[..n], &d[..n], &e[..n], &k[..n]);
+        let (m, g) = (&entries(&self.mass)[..n], &entries(&self.gyroscopic)[..n]);
         for i in 0..n {
-            out[i] = wa * m[i] + wv * g[i] + wk * k[i] + wd * d[i] + we * e[i];
+            out[i] = wm * m[i] + wg * g[i];
         }
+        let mut add = |matrix: Option<&Matrix>, weight: f64| {
+            if let Some(matrix) = matrix.filter(|_| weight != 0.0) {
+                for (out, x) in out.iter_mut().zip(entries(matrix)) {
+                    *out += weight * x;
+                }
+            }
+        };
+        add(Some(&self.stiffness).filter(|_| self.has_stiffness), w.q);
+        add(self.stiffening.as_ref(), w.q * w2);
+        add(self.euler.as_ref(), w.q * w1);
     }
 
     /// Kinetic energy, and the torque τ of the equation of motion of the hub.
-    pub fn kinetic_and_torque(&self, s: &State, hub: &HubKinematics) -> (f64, f64) {
+    pub fn kinetic_and_torque(&self, s: &State, hub: &HubKinematics, x: &mut Scratch) -> (f64, f64) {
+        let n = self.len();
         let (w, w1) = (hub.speed, hub.acceleration);
-        let [m, d, e] = [&self.mass, &self.centrifugal, &self.euler].map(entries);
+        let (q, v, a) = (&s.q[..n], &s.v[..n], &s.a[..n]);
         let (mut vmv, mut qdq, mut qdv) = (0.0, 0.0, 0.0);
         let (mut vpq, mut aeq, mut vpv) = (0.0, 0.0, 0.0);
-        let (mut sxq, mut sxv, mut syv, mut sya) = (0.0, 0.0, 0.0, 0.0);
-        for i in 0..self.layout.n {
-            let (first, at, len) = self.layout.row(i);
-            let (mut mv, mut dq, mut eq, mut ev) = (0.0, 0.0, 0.0, 0.0);
-            for j in 0..len {
-                mv += m[at + j] * s.v[first + j];
-                dq += d[at + j] * s.q[first + j];
-                eq += e[at + j] * s.q[first + j];
-                ev += e[at + j] * s.v[first + j];
-            }
-            let (q, v, a) = (s.q[i], s.v[i], s.a[i]);
-            vmv += v * mv;
-            qdq += q * dq;
-            qdv += v * dq;
-            vpq += v * eq;
-            aeq += a * eq;
-            vpv += v * ev;
-            sxq += self.axial_moment[i] * q;
-            sxv += self.axial_moment[i] * v;
-            syv += self.transverse_moment[i] * v;
-            sya += self.transverse_moment[i] * a;
+        let (position, velocity) = (&mut x.position, &mut x.gyroscopic);
+        position.fill(|i| q[i]);
+        velocity.fill(|i| v[i]);
+        let (position, velocity) = (&*position, &*velocity);
+        self.rows.products([(&self.mass, velocity)], |i, sum| vmv += v[i] * sum);
+        self.rows.products([(&self.mass, position)], |i, sum| {
+            qdq += q[i] * sum;
+            qdv += v[i] * sum;
+        });
+        self.rows.products([(&self.gyroscopic, position)], |i, sum| {
+            vpq += 0.5 * v[i] * sum;
+            aeq += 0.5 * a[i] * sum;
+        });
+        if let Some(stiffening) = &self.stiffening {
+            self.rows.products([(stiffening, position)], |i, sum| {
+                qdq -= q[i] * sum;
+                qdv -= v[i] * sum;
+            });
         }
-        let moment = self.moment + 2.0 * sxq + qdq;
-        let kinetic = 0.5 * vmv + w * (syv + vpq) + 0.5 * w * w * moment;
-        let torque = w1 * moment + 2.0 * w * (sxv + qdv) + sya + aeq + vpv;
+        if let Some(euler) = &self.euler {
+            self.rows.products([(euler, position)], |i, sum| {
+                vpq += v[i] * sum;
+                aeq += a[i] * sum;
+            });
+            self.rows.products([(euler, velocity)], |i, sum| vpv += v[i] * sum);
+        }
+        let sx = |u: &[f64]| inner(&self.axial_moment, u);
+        let sy = |u: &[f64]| inner(&self.transverse_moment, u);
+        let moment = self.moment + 2.0 * sx(q) + qdq;
+        let kinetic = 0.5 * vmv + w * (sy(v) + vpq) + 0.5 * w * w * moment;
+        let torque = w1 * moment + 2.0 * w * (sx(v) + qdv) + sy(a) + aeq + vpv;
         (kinetic, torque)
     }
 
     /// ½ qᵀK q.
     pub fn strain(&self, q: &[f64]) -> f64 {
         let k = entries(&self.stiffness);
-        let mut sum = 0.0;
-        for i in 0..self.layout.n {
-            let (first, at, len) = self.layout.row(i);
-            let row: f64 = k[at..at + len].iter().zip(&q[first..first + len]).map(|(k, q)| k * q).sum();
-            sum += row * q[i];
-        }
-        0.5 * sum
+        let row = |i: usize| {
+            let (columns, at) = self.rows.row(i);
+            inner(&k[at], &q[columns])
+        };
+        (0..self.len()).map(|i| 0.5 * q[i] * row(i)).sum()
     }
+}
+
+fn is_zero(matrix: &Matrix) -> bool {
+    entries(matrix).iter().all(|x| *x == 0.0)
+}
+
+fn inner(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 fn add_vector(out: &mut [f64], shapes: &Shapes, d: usize, w: f64) {

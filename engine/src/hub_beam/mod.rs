@@ -16,6 +16,7 @@ mod exact;
 mod fields;
 mod inertia;
 mod linear;
+mod product;
 mod station;
 mod system;
 #[cfg(test)]
@@ -24,7 +25,7 @@ mod tests;
 pub use coupling::Coupling;
 pub use exact::ExactCoupling;
 pub use fields::{Fields, Point, Shapes};
-pub use inertia::{Foreshortening, Inertia};
+pub use inertia::{Foreshortening, Inertia, Scratch};
 pub use linear::LinearCoupling;
 pub use station::{Placement, Station};
 pub use system::{Hub, HubBeam};

@@ -1,10 +1,10 @@
 //! The hub–beam as a [`System`].
 
 use super::coupling::Coupling;
-use super::inertia::Inertia;
+use super::inertia::{Inertia, Scratch};
 use super::station::{Placement, Station};
 use crate::linalg::{Matrix, Structure};
-use crate::profile::Motion;
+use crate::profile::{HubKinematics, Motion};
 use crate::system::{Channel, Energy, Frame, Label, Size, State, System, Weights};
 
 /// The hub: a rigid body that turns about a fixed axis by a prescribed motion.
@@ -30,6 +30,9 @@ pub struct HubBeam<C> {
     placements: Vec<Placement>,
     /// Largest deflection of the tip that was recorded \[m\].
     largest_deflection: f64,
+    scratch: Scratch,
+    /// The time asked for last and the motion of the hub then: every step asks several times.
+    latest: (f64, HubKinematics),
 }
 
 impl<C: Coupling> HubBeam<C> {
@@ -47,6 +50,8 @@ impl<C: Coupling> HubBeam<C> {
             placements: vec![Placement::default(); stations.len()],
             stations,
             largest_deflection: 0.0,
+            scratch: coupling.inertia().scratch(),
+            latest: (0.0, hub.motion.at(0.0)),
             hub,
             coupling,
         }
@@ -64,9 +69,23 @@ impl<C: Coupling> HubBeam<C> {
 
     /// Torque that the prescribed motion needs [N·m].
     pub fn torque(&mut self, s: &State) -> f64 {
-        let hub = self.hub.motion.at(s.t);
-        let (_, torque) = self.coupling.inertia().kinetic_and_torque(s, &hub);
-        torque + self.coupling.extra_kinetic_and_torque(s, &hub).1
+        let hub = self.motion_at(s.t);
+        self.kinetic_and_torque(s, &hub).1
+    }
+
+    /// Motion of the hub at time `t`.
+    fn motion_at(&mut self, t: f64) -> HubKinematics {
+        if self.latest.0 != t {
+            self.latest = (t, self.hub.motion.at(t));
+        }
+        self.latest.1
+    }
+
+    /// Kinetic energy of beam and hub, and torque that the motion needs.
+    fn kinetic_and_torque(&mut self, s: &State, hub: &HubKinematics) -> (f64, f64) {
+        let (kinetic, torque) = self.coupling.inertia().kinetic_and_torque(s, hub, &mut self.scratch);
+        let (extra_kinetic, extra_torque) = self.coupling.extra_kinetic_and_torque(s, hub);
+        (kinetic + extra_kinetic, torque + extra_torque)
     }
 }
 
@@ -115,13 +134,13 @@ impl<C: Coupling> System for HubBeam<C> {
     }
 
     fn residual(&mut self, s: &State, r: &mut [f64]) {
-        let hub = self.hub.motion.at(s.t);
-        self.coupling.inertia().residual(s, &hub, r);
+        let hub = self.motion_at(s.t);
+        self.coupling.inertia().residual(s, &hub, &mut self.scratch, r);
         self.coupling.add_forces(s, &hub, r);
     }
 
     fn tangent(&mut self, s: &State, w: Weights<'_>, out: &mut Matrix) {
-        let hub = self.hub.motion.at(s.t);
+        let hub = self.motion_at(s.t);
         if self.coupling.is_affine() {
             let stamp = Inertia::stamp(&w, &hub);
             if !out.holds(&stamp) {
@@ -140,14 +159,13 @@ impl<C: Coupling> System for HubBeam<C> {
     }
 
     fn energy(&mut self, s: &State) -> Energy {
-        let hub = self.hub.motion.at(s.t);
-        let (kinetic, _) = self.coupling.inertia().kinetic_and_torque(s, &hub);
-        let (extra, _) = self.coupling.extra_kinetic_and_torque(s, &hub);
-        Energy { kinetic: kinetic + extra, strain: self.coupling.strain(s), gravity: 0.0 }
+        let hub = self.motion_at(s.t);
+        let (kinetic, _) = self.kinetic_and_torque(s, &hub);
+        Energy { kinetic, strain: self.coupling.strain(s), gravity: 0.0 }
     }
 
     fn power(&mut self, s: &State) -> f64 {
-        self.torque(s) * self.hub.motion.at(s.t).speed
+        self.torque(s) * self.motion_at(s.t).speed
     }
 
     fn shape(&mut self, s: &State, stations: &[f64], out: &mut [Frame]) {
@@ -174,9 +192,8 @@ impl<C: Coupling> System for HubBeam<C> {
         self.coupling.placements(s, &self.stations, &mut self.placements);
         let tip = self.placements.last().map_or(0.0, |p| p.deflection.abs());
         self.largest_deflection = self.largest_deflection.max(tip);
-        let hub = self.hub.motion.at(s.t);
-        let (kinetic, torque) = self.coupling.inertia().kinetic_and_torque(s, &hub);
-        let (extra_kinetic, extra_torque) = self.coupling.extra_kinetic_and_torque(s, &hub);
+        let hub = self.motion_at(s.t);
+        let (kinetic, torque) = self.kinetic_and_torque(s, &hub);
         let strain = self.coupling.strain(s);
         let (tip, rest) = (self.placements.len() - 1, self.placements.len());
         let order = std::iter::once(tip).chain(0..rest - 1);
@@ -192,14 +209,7 @@ impl<C: Coupling> System for HubBeam<C> {
                     p.rotation_velocity,
                 ]
             })
-            .chain([
-                hub.angle,
-                hub.speed,
-                hub.acceleration,
-                torque + extra_torque,
-                kinetic + extra_kinetic,
-                strain,
-            ]);
+            .chain([hub.angle, hub.speed, hub.acceleration, torque, kinetic, strain]);
         for out in out {
             *out = values.next().unwrap_or(f64::NAN);
         }

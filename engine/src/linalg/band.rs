@@ -99,6 +99,14 @@ impl<T: Scalar> Band<T> {
         self.data[i * self.width + j + self.lower - i] += x;
     }
 
+    /// The `N` entries of row `i` from column `first` on, which must lie within the band.
+    #[inline]
+    pub fn run_mut<const N: usize>(&mut self, i: usize, first: usize) -> &mut [T] {
+        debug_assert!(first + self.lower >= i && first + N <= i + self.upper + 1, "outside the band");
+        let at = i * self.width + first + self.lower - i;
+        &mut self.data[at..at + N]
+    }
+
     /// y = A x, before factoring.
     pub fn multiply(&self, x: &[T], y: &mut [T]) {
         y.fill(T::ZERO);
