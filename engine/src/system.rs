@@ -163,6 +163,15 @@ pub trait System {
     /// One label for each velocity, then one for each multiplier.
     fn labels(&self) -> &[Label];
 
+    /// The state at t = 0 without deformation, its accelerations still to be found.
+    fn initial(&self) -> State {
+        State::zeros(self.size(), 0.0)
+    }
+
+    /// Holds rigid motions (a hub that is free to turn) at the values they have: for an equilibrium in a frame
+    /// that moves steadily. The equation of a held unknown is that it does not change.
+    fn hold(&mut self, _held: bool) {}
+
     /// `out` = q ⊞ d: the configuration q moved by the increment d (`Size::v` entries).
     /// On a vector space, q + d.
     fn retract(&self, q: &[f64], d: &[f64], out: &mut [f64]) {

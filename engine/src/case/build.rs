@@ -196,7 +196,7 @@ pub fn system(case: &Case) -> Result<Box<dyn System>, BuildError> {
     let section = section(&case.section)?;
     let motion = motion(&case.hub.motion, case.duration)?;
     let (length, stations) = (case.length, &case.output.stations);
-    let hub = Hub { radius: case.hub.radius, inertia: case.hub.inertia, motion };
+    let hub = Hub::prescribed(case.hub.radius, case.hub.inertia, motion);
     let foreshortening = match case.coupling {
         Coupling::Zeroth => Foreshortening::None,
         Coupling::First => Foreshortening::First,
@@ -205,13 +205,13 @@ pub fn system(case: &Case) -> Result<Box<dyn System>, BuildError> {
                 let message = "the exact coupling needs finite elements".to_owned();
                 return Err(BasisError::Invalid(message).into());
             };
-            let coupling = ExactCoupling::new(length, elements, section.as_ref(), hub.radius, hub.inertia)?;
+            let coupling = ExactCoupling::new(length, elements, section.as_ref(), &hub)?;
             return Ok(Box::new(HubBeam::new(hub, coupling, stations)));
         }
     };
     let axial = basis(&case.bases.axial, length, Field::Axial)?;
     let transverse = basis(&case.bases.transverse, length, Field::Transverse)?;
     let fields = Fields::new(length, axial, transverse, section.breaks());
-    let coupling = LinearCoupling::new(fields, section.as_ref(), hub.radius, hub.inertia, foreshortening);
+    let coupling = LinearCoupling::new(fields, section.as_ref(), &hub, foreshortening);
     Ok(Box::new(HubBeam::new(hub, coupling, stations)))
 }

@@ -1,7 +1,7 @@
 //! What a coupling (a kinematic model of the beam in the hub's frame) has to say.
 
 use super::fields::Fields;
-use super::inertia::Inertia;
+use super::inertia::{Border, Inertia, Totals};
 use super::station::{Placement, Station};
 use crate::linalg::Storage;
 use crate::profile::HubKinematics;
@@ -32,10 +32,13 @@ pub trait Coupling {
     /// Strain energy [J].
     fn strain(&mut self, s: &State) -> f64;
 
-    /// Kinetic energy [J] and hub torque [N·m] that are not in [`Coupling::inertia`].
-    fn extra_kinetic_and_torque(&mut self, _s: &State, _hub: &HubKinematics) -> (f64, f64) {
-        (0.0, 0.0)
+    /// Kinetic energy, angular momentum and torque that are not in [`Coupling::inertia`].
+    fn extra_totals(&mut self, _s: &State, _hub: &HubKinematics) -> Totals {
+        Totals::default()
     }
+
+    /// Adds to the border of a free hub what is not in [`Coupling::inertia`].
+    fn add_border(&mut self, _s: &State, _hub: &HubKinematics, _w: &Weights<'_>, _out: &mut Border) {}
 
     /// What the section does at each of the stations, which ascend along the beam.
     fn placements(&self, s: &State, stations: &[Station], out: &mut [Placement]);

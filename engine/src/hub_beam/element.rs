@@ -5,6 +5,7 @@
 //! L the three quadratic Lagrange functions of the strain's samples; ℓ = |p′|.
 
 use super::fields::Fields;
+use super::inertia::Totals;
 use crate::linalg::Storage;
 use crate::profile::HubKinematics;
 use crate::quadrature::Gauss;
@@ -519,18 +520,47 @@ impl Element {
         }
     }
 
-    /// Kinetic energy and hub torque of rotary inertia and first mass moment.
-    pub fn section_kinetic_and_torque(&self, rule: &Rule, local: &Local, hub: &HubKinematics) -> (f64, f64) {
-        let mut sums = (0.0, 0.0);
+    /// Kinetic energy, angular momentum and hub torque of rotary inertia and first mass moment.
+    pub fn section_totals(&self, rule: &Rule, local: &Local, hub: &HubKinematics) -> Totals {
+        let mut sum = Totals::default();
         if self.has_section_inertia {
             for (g, p) in rule.points.iter().enumerate() {
-                let (kinetic, torque) =
-                    self.turn(p, local, hub, rule).kinetic_and_torque(self.rotary[g], self.first[g], hub);
-                sums.0 += kinetic;
-                sums.1 += torque;
+                sum = sum + self.turn(p, local, hub, rule).totals(self.rotary[g], self.first[g], hub);
             }
         }
-        sums
+        sum
+    }
+
+    /// Adds to the border of a free hub: `column` and `row` are the element's, the corner is returned.
+    pub fn section_border(
+        &self,
+        rule: &Rule,
+        local: &Local,
+        hub: &HubKinematics,
+        w: &Weights<'_>,
+        (column, row): (&mut [f64; 8], &mut [f64; 8]),
+    ) -> f64 {
+        let mut corner = 0.0;
+        if !self.has_section_inertia {
+            return corner;
+        }
+        for (g, p) in rule.points.iter().enumerate() {
+            let turn = self.turn(p, local, hub, rule);
+            let (rotary, first) = (self.rotary[g], self.first[g]);
+            let (value, slope, torque) = turn.by_hub(hub, w, rotary, first);
+            corner += torque;
+            for c in 0..2 {
+                let mut seed = [0.0; 2];
+                seed[c] = 1.0;
+                let on_value = turn.torque_derivative(seed, false, hub, w, rotary, first);
+                let on_slope = turn.torque_derivative(seed, true, hub, w, rotary, first);
+                for k in 0..4 {
+                    column[4 * c + k] += value[c] * p.n[k] + slope[c] * p.n1[k];
+                    row[4 * c + k] += on_value * p.n[k] + on_slope * p.n1[k];
+                }
+            }
+        }
+        corner
     }
 }
 
@@ -650,14 +680,62 @@ impl Turn {
         (value, sum((dcouple - couple * dl / l) / l, n, -couple * dphi / l, t))
     }
 
-    /// ½ρIΩ² − ρSΩ (ṗ + ωJp)·t, and the moment of the inertia forces about the hub's axis.
-    fn kinetic_and_torque(&self, rotary: f64, first: f64, hub: &HubKinematics) -> (f64, f64) {
+    /// Derivative of the torque of [`Turn::totals`] for a `seed` as in [`Turn::derivative`].
+    fn torque_derivative(
+        &self,
+        seed: [f64; 2],
+        slope: bool,
+        hub: &HubKinematics,
+        w: &Weights<'_>,
+        rotary: f64,
+        first: f64,
+    ) -> f64 {
         let jp = [-self.p[1], self.p[0]];
-        let kinetic = 0.5 * rotary * self.spin * self.spin
-            - first * self.spin * inner(sum(1.0, self.velocity, hub.speed, jp), self.t);
+        let (value, _) = self.derivative(seed, slope, hub, w, rotary, first);
+        let moment = inner(value, jp);
+        if slope {
+            // The couple ρIΩ̇ − ρS t·A acts on δp′ through n/ℓ: its derivative is read off there, and what
+            // the derivative of n/ℓ adds is along t.
+            let (_, on_slope) = self.derivative(seed, true, hub, w, rotary, first);
+            let couple = rotary * self.spin_rate - first * inner(self.t, self.acceleration);
+            let dl = w.q * inner(self.t, seed);
+            return moment + self.stretch * inner(on_slope, self.n) + couple * dl / self.stretch;
+        }
+        let (force, _) = self.force(rotary, first);
+        let jseed = [-w.q * seed[1], w.q * seed[0]];
+        let scaled = |c: f64| [c * seed[0], c * seed[1]];
+        let dacceleration = absolute(scaled(w.q), scaled(w.v), scaled(w.a), hub);
+        moment + inner(force, jseed) - first * inner(self.t, dacceleration)
+    }
+
+    /// Derivatives of the forces on p and p′ and of the torque by the motion of the hub, weighted.
+    fn by_hub(
+        &self,
+        hub: &HubKinematics,
+        w: &Weights<'_>,
+        rotary: f64,
+        first: f64,
+    ) -> ([f64; 2], [f64; 2], f64) {
+        let jp = [-self.p[1], self.p[0]];
+        let jv = [-self.velocity[1], self.velocity[0]];
+        let value = sum(-first * w.a, self.t, -2.0 * first * self.spin * w.v, self.n);
+        // A by ω and ω̇.
+        let dacceleration = sum(1.0, sum(w.a, jp, 2.0 * w.v, jv), -2.0 * hub.speed * w.v, self.p);
+        let couple = rotary * w.a - first * inner(self.t, dacceleration);
+        let slope = sum(couple / self.stretch, self.n, 0.0, self.n);
+        (value, slope, couple + inner(value, jp))
+    }
+
+    /// ½ρIΩ² − ρSΩ (ṗ + ωJp)·t, its derivative by ω, and the moment of the inertia forces about the hub's axis.
+    fn totals(&self, rotary: f64, first: f64, hub: &HubKinematics) -> Totals {
+        let jp = [-self.p[1], self.p[0]];
+        let along = inner(sum(1.0, self.velocity, hub.speed, jp), self.t);
         let (value, _) = self.force(rotary, first);
-        let torque = rotary * self.spin_rate + inner(value, jp) - first * inner(self.t, self.acceleration);
-        (kinetic, torque)
+        Totals {
+            kinetic: 0.5 * rotary * self.spin * self.spin - first * self.spin * along,
+            momentum: rotary * self.spin - first * (along + self.spin * inner(jp, self.t)),
+            torque: rotary * self.spin_rate + inner(value, jp) - first * inner(self.t, self.acceleration),
+        }
     }
 }
 

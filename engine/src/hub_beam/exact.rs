@@ -23,9 +23,10 @@
 //! ```
 
 use super::coupling::Coupling;
-use super::element::{Element, Local, Rule};
+use super::element::{Element, Rule};
 use super::fields::Fields;
-use super::inertia::{Foreshortening, Inertia};
+use super::hub::Hub;
+use super::inertia::{Border, Foreshortening, Inertia, Totals};
 use super::station::{Placement, Station};
 use crate::basis::{BasisError, Field, Hermite};
 use crate::linalg::Storage;
@@ -57,7 +58,7 @@ impl Section for MassOnly<'_> {
 }
 
 impl ExactCoupling {
-    /// A beam of `elements` equal Hermite elements on a hub of radius \[m\] and inertia [kg·m²].
+    /// A beam of `elements` equal Hermite elements on a hub.
     ///
     /// # Errors
     /// [`BasisError`] if length or number of elements make no mesh.
@@ -65,8 +66,7 @@ impl ExactCoupling {
         length: f64,
         elements: usize,
         section: &dyn Section,
-        radius: f64,
-        hub_inertia: f64,
+        hub: &Hub,
     ) -> Result<ExactCoupling, BasisError> {
         let fields = Fields::new(
             length,
@@ -74,11 +74,11 @@ impl ExactCoupling {
             Box::new(Hermite::new(length, elements, Field::Transverse)?),
             section.breaks(),
         );
-        let inertia = Inertia::new(&fields, &MassOnly(section), radius, hub_inertia, Foreshortening::None, 0);
+        let inertia = Inertia::new(&fields, &MassOnly(section), hub, Foreshortening::None);
         let nodes = fields.axial().cells().to_vec();
         let rule = Rule::new(nodes[1] - nodes[0]);
         let elements = (0..elements).map(|e| Element::new(&fields, section, &nodes, e)).collect();
-        Ok(ExactCoupling { fields, inertia, elements, rule, radius })
+        Ok(ExactCoupling { fields, inertia, elements, rule, radius: hub.radius })
     }
 }
 
@@ -130,15 +130,19 @@ impl Coupling for ExactCoupling {
         self.elements.iter().map(|e| e.strain_energy(&self.rule, &local(e))).sum()
     }
 
-    fn extra_kinetic_and_torque(&mut self, s: &State, hub: &HubKinematics) -> (f64, f64) {
-        let (mut kinetic, mut torque) = (0.0, 0.0);
+    fn extra_totals(&mut self, s: &State, hub: &HubKinematics) -> Totals {
+        let of = |e: &Element| e.section_totals(&self.rule, &e.gather(s, self.radius), hub);
+        self.elements.iter().map(of).fold(Totals::default(), |sum, t| sum + t)
+    }
+
+    fn add_border(&mut self, s: &State, hub: &HubKinematics, w: &Weights<'_>, out: &mut Border) {
         for element in &self.elements {
-            let local: Local = element.gather(s, self.radius);
-            let (t, m) = element.section_kinetic_and_torque(&self.rule, &local, hub);
-            kinetic += t;
-            torque += m;
+            let (mut column, mut row) = ([0.0; 8], [0.0; 8]);
+            let local = element.gather(s, self.radius);
+            out.corner += element.section_border(&self.rule, &local, hub, w, (&mut column, &mut row));
+            element.scatter(&column, &mut out.column);
+            element.scatter(&row, &mut out.row);
         }
-        (kinetic, torque)
     }
 
     fn placements(&self, s: &State, stations: &[Station], out: &mut [Placement]) {

@@ -28,6 +28,7 @@
 //! matrices stay banded (the papers store the full H(x)).
 
 use super::fields::{Fields, Shapes};
+use super::hub::Hub;
 use super::product::{Padded, Rows, entries};
 use crate::linalg::{Matrix, Storage};
 use crate::profile::HubKinematics;
@@ -74,6 +75,46 @@ pub struct Inertia {
     moment: f64,
 }
 
+/// What hub and beam have together.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Totals {
+    /// Kinetic energy T [J].
+    pub kinetic: f64,
+    /// Angular momentum about the hub's axis ∂T/∂ω [kg·m²/s].
+    pub momentum: f64,
+    /// Torque τ that the motion needs [N·m].
+    pub torque: f64,
+}
+
+impl std::ops::Add for Totals {
+    type Output = Totals;
+    fn add(self, other: Totals) -> Totals {
+        Totals {
+            kinetic: self.kinetic + other.kinetic,
+            momentum: self.momentum + other.momentum,
+            torque: self.torque + other.torque,
+        }
+    }
+}
+
+/// Row, column and corner of a free hub in the tangent.
+#[derive(Clone, Debug, Default)]
+pub struct Border {
+    /// Derivatives of the fields' equations by the hub's angle, weighted.
+    pub column: Vec<f64>,
+    /// Derivatives of the hub's equation by the fields' unknowns, weighted.
+    pub row: Vec<f64>,
+    /// Derivative of the hub's equation by the hub's angle, weighted.
+    pub corner: f64,
+}
+
+impl Border {
+    /// A border of zeros for `n` unknowns.
+    pub fn new(n: usize) -> Border {
+        Border { column: vec![0.0; n], row: vec![0.0; n], corner: 0.0 }
+    }
+}
+
 /// Vectors that [`Inertia`] multiplies its matrices with: scratch of the system's.
 #[derive(Clone, Debug)]
 pub struct Scratch {
@@ -84,17 +125,10 @@ pub struct Scratch {
 }
 
 impl Inertia {
-    /// Integrates the matrices of `fields` with hub radius a = `radius` \[m\] and hub inertia
-    /// `hub_inertia` [kg·m²]. `section` is the section as this coupling sees it.
-    pub fn new(
-        fields: &Fields,
-        section: &dyn Section,
-        radius: f64,
-        hub_inertia: f64,
-        foreshortening: Foreshortening,
-        border: usize,
-    ) -> Inertia {
-        let structure = fields.structure(border);
+    /// Integrates the matrices of `fields` on `hub`; `section` is the section as the coupling sees it.
+    pub fn new(fields: &Fields, section: &dyn Section, hub: &Hub, foreshortening: Foreshortening) -> Inertia {
+        let structure = fields.structure(hub.unknowns());
+        let radius = hub.radius;
         let first = foreshortening == Foreshortening::First;
         let mass_tail = fields.tail(|x| section.resultants(x).mass * (radius + x));
         let moment_tail = fields.tail(|x| section.resultants(x).first_moment);
@@ -102,7 +136,7 @@ impl Inertia {
         let (mut m, mut p, mut d, mut k) = (new(), new(), new(), new());
         let n = fields.len();
         let (mut sx, mut sy) = (vec![0.0; n], vec![0.0; n]);
-        let mut moment = hub_inertia;
+        let mut moment = hub.inertia;
         fields.integrate(|point| {
             let (x, w, r) = (point.x, point.weight, radius + point.x);
             let (a, b) = (&point.axial, &point.transverse);
@@ -248,8 +282,8 @@ impl Inertia {
         add(self.euler.as_ref(), w.q * w1);
     }
 
-    /// Kinetic energy, and the torque τ of the equation of motion of the hub.
-    pub fn kinetic_and_torque(&self, s: &State, hub: &HubKinematics, x: &mut Scratch) -> (f64, f64) {
+    /// Kinetic energy T, angular momentum ∂T/∂ω and the torque τ of the equation of motion of the hub.
+    pub fn totals(&self, s: &State, hub: &HubKinematics, x: &mut Scratch) -> Totals {
         let n = self.len();
         let (w, w1) = (hub.speed, hub.acceleration);
         let (q, v, a) = (&s.q[..n], &s.v[..n], &s.a[..n]);
@@ -284,9 +318,65 @@ impl Inertia {
         let sx = |u: &[f64]| inner(&self.axial_moment, u);
         let sy = |u: &[f64]| inner(&self.transverse_moment, u);
         let moment = self.moment + 2.0 * sx(q) + qdq;
-        let kinetic = 0.5 * vmv + w * (sy(v) + vpq) + 0.5 * w * w * moment;
-        let torque = w1 * moment + 2.0 * w * (sx(v) + qdv) + sy(a) + aeq + vpv;
-        (kinetic, torque)
+        let relative = sy(v) + vpq;
+        Totals {
+            kinetic: 0.5 * vmv + w * relative + 0.5 * w * w * moment,
+            momentum: w * moment + relative,
+            torque: w1 * moment + 2.0 * w * (sx(v) + qdv) + sy(a) + aeq + vpv,
+        }
+    }
+
+    /// The tangent's row and column of a free hub, and their corner: derivatives of the residual by θ, θ̇, θ̈
+    /// and of the torque by q, v, a, with the weights of the integrator.
+    ///
+    /// ```text
+    /// ∂r/∂θ̇ = (Pᵀ − P) v − 2ω (D q + s_x),   ∂r/∂θ̈ = s_y + Pᵀq
+    /// ∂τ/∂q = 2ω̇ (D q + s_x) + P a + 2ω D v,  ∂τ/∂v = 2ω (D q + s_x) + (P + Pᵀ) v,  ∂τ/∂a = s_y + Pᵀq
+    /// ∂τ/∂θ̇ = 2 (D q + s_x)·v,                ∂τ/∂θ̈ = J + 2 s_xᵀq + qᵀD q
+    /// ```
+    pub fn border(&self, s: &State, hub: &HubKinematics, w: &Weights<'_>, x: &mut Scratch, out: &mut Border) {
+        let n = self.len();
+        let (om, al) = (hub.speed, hub.acceleration);
+        let (q, v, a) = (&s.q[..n], &s.v[..n], &s.a[..n]);
+        let (sx, sy) = (&self.axial_moment, &self.transverse_moment);
+        let (mut by_speed, mut moment) = (0.0, self.moment);
+        x.position.fill(|i| q[i]);
+        x.gyroscopic.fill(|i| v[i]);
+        x.inertial.fill(|i| a[i]);
+        let (column, row) = (&mut out.column, &mut out.row);
+        // D = M − N
+        self.rows.products([(&self.mass, &x.position)], |i, mq| column[i] = mq + sx[i]);
+        if let Some(stiffening) = &self.stiffening {
+            self.rows.products([(stiffening, &x.position)], |i, nq| column[i] -= nq);
+        }
+        for i in 0..n {
+            let dq = column[i];
+            by_speed += 2.0 * dq * v[i];
+            moment += q[i] * (dq + sx[i]);
+            row[i] = (2.0 * w.q * al + 2.0 * w.v * om) * dq;
+            column[i] = -2.0 * w.v * om * dq;
+        }
+        let dv = 2.0 * w.q * om;
+        self.rows.products([(&self.mass, &x.gyroscopic)], |i, mv| row[i] += dv * mv);
+        if let Some(stiffening) = &self.stiffening {
+            self.rows.products([(stiffening, &x.gyroscopic)], |i, nv| row[i] -= dv * nv);
+        }
+        // Pᵀ = S + G/2 and P = S − G/2 with G = Pᵀ − P.
+        self.rows.products([(&self.gyroscopic, &x.gyroscopic)], |i, gv| column[i] += w.v * gv);
+        self.rows.products([(&self.gyroscopic, &x.inertial)], |i, ga| row[i] -= 0.5 * w.q * ga);
+        self.rows.products([(&self.gyroscopic, &x.position)], |i, gq| {
+            column[i] += w.a * (sy[i] + 0.5 * gq);
+            row[i] += w.a * (sy[i] + 0.5 * gq);
+        });
+        if let Some(euler) = &self.euler {
+            self.rows.products([(euler, &x.gyroscopic)], |i, sv| row[i] += 2.0 * w.v * sv);
+            self.rows.products([(euler, &x.inertial)], |i, sa| row[i] += w.q * sa);
+            self.rows.products([(euler, &x.position)], |i, sq| {
+                column[i] += w.a * sq;
+                row[i] += w.a * sq;
+            });
+        }
+        out.corner = w.v * by_speed + w.a * moment;
     }
 
     /// ½ qᵀK q.

@@ -8,6 +8,7 @@
 
 use super::coupling::Coupling;
 use super::fields::Fields;
+use super::hub::Hub;
 use super::inertia::{Foreshortening, Inertia};
 use super::station::{Placement, Station};
 use crate::linalg::{Matrix, negative_pivots};
@@ -37,15 +38,14 @@ struct SlopePoint {
 }
 
 impl LinearCoupling {
-    /// The coupling over `fields`, on a hub of radius \[m\] and inertia [kg·m²].
+    /// The coupling over `fields`, on a hub.
     pub fn new(
         fields: Fields,
         section: &dyn Section,
-        radius: f64,
-        hub_inertia: f64,
+        hub: &Hub,
         foreshortening: Foreshortening,
     ) -> LinearCoupling {
-        let inertia = Inertia::new(&fields, section, radius, hub_inertia, foreshortening, 0);
+        let inertia = Inertia::new(&fields, section, hub, foreshortening);
         let mut slopes = Vec::new();
         if foreshortening == Foreshortening::First {
             fields.integrate(|p| {

@@ -1,22 +1,12 @@
 //! The hub–beam as a [`System`].
 
 use super::coupling::Coupling;
-use super::inertia::{Inertia, Scratch};
+use super::hub::{Drive, Hub};
+use super::inertia::{Border, Inertia, Scratch, Totals};
 use super::station::{Placement, Station};
-use crate::linalg::{Matrix, Structure};
+use crate::linalg::{Matrix, Storage, Structure};
 use crate::profile::{HubKinematics, Motion};
 use crate::system::{Channel, Energy, Frame, Label, Size, State, System, Weights};
-
-/// The hub: a rigid body that turns about a fixed axis by a prescribed motion.
-#[derive(Debug)]
-pub struct Hub {
-    /// Radius a at which the beam is clamped \[m\].
-    pub radius: f64,
-    /// Moment of inertia about the axis [kg·m²].
-    pub inertia: f64,
-    /// Prescribed motion θ(t).
-    pub motion: Motion,
-}
 
 /// A flexible beam on a hub. See the [module documentation](super).
 #[derive(Debug)]
@@ -33,6 +23,11 @@ pub struct HubBeam<C> {
     scratch: Scratch,
     /// The time asked for last and the motion of the hub then: every step asks several times.
     latest: (f64, HubKinematics),
+    border: Border,
+    /// Times at which the drive loses smoothness.
+    breaks: Vec<f64>,
+    /// Whether the hub is held at its angle and speed.
+    held: bool,
 }
 
 impl<C: Coupling> HubBeam<C> {
@@ -44,14 +39,25 @@ impl<C: Coupling> HubBeam<C> {
         places.dedup();
         places.push(fields.length());
         let stations: Vec<Station> = places.iter().map(|&x| Station::new(fields, x)).collect();
+        let mut labels = fields.labels();
+        let (latest, breaks) = match &hub.drive {
+            Drive::Prescribed(motion) => ((0.0, motion.at(0.0)), motion.breaks().to_vec()),
+            Drive::Free(free) => {
+                labels.push(Label { name: "angle of the hub".to_owned(), unit: "rad", scale: 1.0 });
+                ((f64::NAN, HubKinematics::default()), free.breaks())
+            }
+        };
         HubBeam {
-            labels: fields.labels(),
+            labels,
             channels: channels(&stations),
             placements: vec![Placement::default(); stations.len()],
             stations,
             largest_deflection: 0.0,
             scratch: coupling.inertia().scratch(),
-            latest: (0.0, hub.motion.at(0.0)),
+            latest,
+            border: Border::new(fields.len()),
+            breaks,
+            held: false,
             hub,
             coupling,
         }
@@ -67,25 +73,67 @@ impl<C: Coupling> HubBeam<C> {
         &self.coupling
     }
 
-    /// Torque that the prescribed motion needs [N·m].
+    /// Torque on the hub [N·m]: what a prescribed motion needs, or what drives a free hub.
     pub fn torque(&mut self, s: &State) -> f64 {
-        let hub = self.motion_at(s.t);
-        self.kinetic_and_torque(s, &hub).1
-    }
-
-    /// Motion of the hub at time `t`.
-    fn motion_at(&mut self, t: f64) -> HubKinematics {
-        if self.latest.0 != t {
-            self.latest = (t, self.hub.motion.at(t));
+        let hub = self.kinematics(s);
+        match &self.hub.drive {
+            Drive::Prescribed(_) => self.totals(s, &hub).torque,
+            Drive::Free(free) => free.torque(&hub, s.t).value,
         }
-        self.latest.1
     }
 
-    /// Kinetic energy of beam and hub, and torque that the motion needs.
-    fn kinetic_and_torque(&mut self, s: &State, hub: &HubKinematics) -> (f64, f64) {
-        let (kinetic, torque) = self.coupling.inertia().kinetic_and_torque(s, hub, &mut self.scratch);
-        let (extra_kinetic, extra_torque) = self.coupling.extra_kinetic_and_torque(s, hub);
-        (kinetic + extra_kinetic, torque + extra_torque)
+    /// Angle, speed and acceleration of the hub.
+    fn kinematics(&mut self, s: &State) -> HubKinematics {
+        let n = self.coupling.fields().len();
+        match &self.hub.drive {
+            Drive::Free(free) if self.held => {
+                HubKinematics { angle: s.q[n], speed: free.speed, acceleration: 0.0 }
+            }
+            Drive::Free(_) => HubKinematics { angle: s.q[n], speed: s.v[n], acceleration: s.a[n] },
+            Drive::Prescribed(motion) => {
+                if self.latest.0 != s.t {
+                    self.latest = (s.t, motion.at(s.t));
+                }
+                self.latest.1
+            }
+        }
+    }
+
+    /// Kinetic energy, angular momentum and torque of beam and hub.
+    fn totals(&mut self, s: &State, hub: &HubKinematics) -> Totals {
+        self.coupling.inertia().totals(s, hub, &mut self.scratch) + self.coupling.extra_totals(s, hub)
+    }
+
+    /// Writes the border of a free hub into the tangent.
+    fn write_border(&mut self, s: &State, hub: &HubKinematics, w: &Weights<'_>, out: &mut Storage<f64>) {
+        let Drive::Free(free) = &self.hub.drive else { return };
+        let n = self.coupling.fields().len();
+        let border = &mut self.border;
+        if self.held {
+            // The hub's equation is δθ = 0.
+            border.column.fill(0.0);
+            border.row.fill(0.0);
+            border.corner = w.q;
+        } else {
+            self.coupling.inertia().border(s, hub, w, &mut self.scratch, border);
+            self.coupling.add_border(s, hub, w, border);
+            let torque = free.torque(hub, s.t);
+            border.corner -= w.q * torque.by_angle + w.v * torque.by_speed;
+        }
+        match out {
+            Storage::Dense(a) => {
+                for i in 0..n {
+                    a.set(i, n, border.column[i]);
+                    a.set(n, i, border.row[i]);
+                }
+                a.set(n, n, border.corner);
+            }
+            Storage::Band(a) => {
+                a.column_mut(0).copy_from_slice(&border.column);
+                a.row_mut(0).copy_from_slice(&border.row);
+                a.set_corner(0, 0, border.corner);
+            }
+        }
     }
 }
 
@@ -113,7 +161,9 @@ fn channels(stations: &[Station]) -> Vec<Channel> {
     add("hub.angle".into(), "rad", "angle of the hub".into());
     add("hub.speed".into(), "rad/s", "angular speed of the hub".into());
     add("hub.acceleration".into(), "rad/s^2", "angular acceleration of the hub".into());
-    add("hub.torque".into(), "N*m", "torque that the motion of the hub needs".into());
+    add("hub.torque".into(), "N*m", "torque on the hub: needed by its motion, or driving it".into());
+    let meaning = "angular momentum of beam and hub about the axis";
+    add("hub.angular_momentum".into(), "kg*m^2/s", meaning.into());
     add("energy.kinetic".into(), "J", "kinetic energy of beam and hub".into());
     add("energy.strain".into(), "J", "strain energy of the beam".into());
     channels
@@ -121,27 +171,45 @@ fn channels(stations: &[Station]) -> Vec<Channel> {
 
 impl<C: Coupling> System for HubBeam<C> {
     fn size(&self) -> Size {
-        let n = self.coupling.fields().len();
+        let n = self.coupling.fields().len() + self.hub.unknowns();
         Size { q: n, v: n, lambda: 0 }
     }
 
     fn structure(&self) -> Structure {
-        self.coupling.fields().structure(0)
+        self.coupling.fields().structure(self.hub.unknowns())
     }
 
     fn labels(&self) -> &[Label] {
         &self.labels
     }
 
+    fn initial(&self) -> State {
+        let mut state = State::zeros(self.size(), 0.0);
+        if let Drive::Free(free) = &self.hub.drive {
+            let n = self.coupling.fields().len();
+            (state.q[n], state.v[n]) = (free.angle, free.speed);
+        }
+        state
+    }
+
+    fn hold(&mut self, held: bool) {
+        self.held = held;
+    }
+
     fn residual(&mut self, s: &State, r: &mut [f64]) {
-        let hub = self.motion_at(s.t);
+        let hub = self.kinematics(s);
         self.coupling.inertia().residual(s, &hub, &mut self.scratch, r);
         self.coupling.add_forces(s, &hub, r);
+        let n = self.coupling.fields().len();
+        if let Drive::Free(free) = &self.hub.drive {
+            let applied = free.torque(&hub, s.t).value;
+            r[n] = if self.held { 0.0 } else { self.totals(s, &hub).torque - applied };
+        }
     }
 
     fn tangent(&mut self, s: &State, w: Weights<'_>, out: &mut Matrix) {
-        let hub = self.motion_at(s.t);
-        if self.coupling.is_affine() {
+        let hub = self.kinematics(s);
+        if self.is_affine() {
             let stamp = Inertia::stamp(&w, &hub);
             if !out.holds(&stamp) {
                 self.coupling.inertia().tangent(&w, &hub, out.begin());
@@ -151,21 +219,30 @@ impl<C: Coupling> System for HubBeam<C> {
             let storage = out.begin();
             self.coupling.inertia().tangent(&w, &hub, storage);
             self.coupling.add_tangent(s, &hub, &w, storage);
+            self.write_border(s, &hub, &w, storage);
         }
     }
 
     fn is_affine(&self) -> bool {
-        self.coupling.is_affine()
+        self.coupling.is_affine() && self.hub.unknowns() == 0
     }
 
     fn energy(&mut self, s: &State) -> Energy {
-        let hub = self.motion_at(s.t);
-        let (kinetic, _) = self.kinetic_and_torque(s, &hub);
-        Energy { kinetic, strain: self.coupling.strain(s), gravity: 0.0 }
+        let hub = self.kinematics(s);
+        let kinetic = self.totals(s, &hub).kinetic;
+        Energy { kinetic, strain: self.strain(s, &hub), gravity: 0.0 }
     }
 
     fn power(&mut self, s: &State) -> f64 {
-        self.torque(s) * self.motion_at(s.t).speed
+        let hub = self.kinematics(s);
+        let torque = match &self.hub.drive {
+            Drive::Prescribed(_) => self.totals(s, &hub).torque,
+            // The spring's work is in the strain energy.
+            Drive::Free(free) => {
+                free.torque(&hub, s.t).value + free.stiffness * (hub.angle - free.rest_angle)
+            }
+        };
+        torque * hub.speed
     }
 
     fn shape(&mut self, s: &State, stations: &[f64], out: &mut [Frame]) {
@@ -173,7 +250,7 @@ impl<C: Coupling> System for HubBeam<C> {
             stations.iter().map(|&x| Station::new(self.coupling.fields(), x)).collect();
         let mut placements = vec![Placement::default(); stations.len()];
         self.coupling.placements(s, &stations, &mut placements);
-        let angle = self.hub.motion.at(s.t).angle;
+        let angle = self.kinematics(s).angle;
         for ((station, p), frame) in stations.iter().zip(&placements).zip(out) {
             let x = self.hub.radius + station.point.x + p.axial;
             let (sin, cos) = angle.sin_cos();
@@ -192,9 +269,13 @@ impl<C: Coupling> System for HubBeam<C> {
         self.coupling.placements(s, &self.stations, &mut self.placements);
         let tip = self.placements.last().map_or(0.0, |p| p.deflection.abs());
         self.largest_deflection = self.largest_deflection.max(tip);
-        let hub = self.motion_at(s.t);
-        let (kinetic, torque) = self.kinetic_and_torque(s, &hub);
-        let strain = self.coupling.strain(s);
+        let hub = self.kinematics(s);
+        let totals = self.totals(s, &hub);
+        let torque = match &self.hub.drive {
+            Drive::Prescribed(_) => totals.torque,
+            Drive::Free(free) => free.torque(&hub, s.t).value,
+        };
+        let strain = self.strain(s, &hub);
         let (tip, rest) = (self.placements.len() - 1, self.placements.len());
         let order = std::iter::once(tip).chain(0..rest - 1);
         let mut values = order
@@ -209,14 +290,14 @@ impl<C: Coupling> System for HubBeam<C> {
                     p.rotation_velocity,
                 ]
             })
-            .chain([hub.angle, hub.speed, hub.acceleration, torque, kinetic, strain]);
+            .chain([hub.angle, hub.speed, hub.acceleration, torque, totals.momentum, totals.kinetic, strain]);
         for out in out {
             *out = values.next().unwrap_or(f64::NAN);
         }
     }
 
     fn breaks(&self) -> &[f64] {
-        self.hub.motion.breaks()
+        &self.breaks
     }
 
     fn admissible(&mut self, s: &State) -> Result<(), String> {
@@ -228,11 +309,16 @@ impl<C: Coupling> System for HubBeam<C> {
     }
 
     fn explain(&mut self, s: &State) -> Option<String> {
-        let speed = self.hub.motion.at(s.t).speed.abs();
+        let speed = self.kinematics(s).speed.abs();
         let critical = self.coupling.critical_speed(speed)?;
-        let passed = self.first_time_above(critical, s.t);
+        let since = match &self.hub.drive {
+            Drive::Prescribed(motion) => {
+                format!("since t = {:.3} s ", first_time_above(motion, critical, s.t))
+            }
+            Drive::Free(_) => String::new(),
+        };
         Some(format!(
-            "since t = {passed:.3} s the hub turns faster than {critical:.4} rad/s, where the stiffness K − ω²M of \
+            "{since}the hub turns faster than {critical:.4} rad/s, where the stiffness K − ω²M of \
              the {}-order coupling is exhausted (dynamic softening: it leaves out the centrifugal stiffening); \
              use coupling = \"first\" or \"exact\"",
             self.coupling.name()
@@ -241,17 +327,30 @@ impl<C: Coupling> System for HubBeam<C> {
 }
 
 impl<C: Coupling> HubBeam<C> {
-    /// First time at which the hub is faster than `speed`, found on a fine grid and then by bisection.
-    fn first_time_above(&self, speed: f64, until: f64) -> f64 {
-        let above = |t: f64| self.hub.motion.at(t).speed.abs() > speed;
-        let grid = 1000;
-        let at = |i: usize| until * i as f64 / grid as f64;
-        let hit = (0..=grid).find(|&i| above(at(i))).unwrap_or(grid);
-        let (mut low, mut high) = (at(hit.saturating_sub(1)), at(hit));
-        for _ in 0..60 {
-            let middle = 0.5 * (low + high);
-            if above(middle) { high = middle } else { low = middle }
-        }
-        high
+    /// Strain energy of the beam and of the hub's spring.
+    fn strain(&mut self, s: &State, hub: &HubKinematics) -> f64 {
+        let spring = match &self.hub.drive {
+            Drive::Prescribed(_) => 0.0,
+            Drive::Free(free) => free.spring_energy(hub.angle),
+        };
+        self.coupling.strain(s) + spring
     }
+}
+
+/// First time at which the hub is faster than `speed`, found on a fine grid and then by bisection.
+fn first_time_above(motion: &Motion, speed: f64, until: f64) -> f64 {
+    let above = |t: f64| motion.at(t).speed.abs() > speed;
+    let grid = 1000;
+    let at = |i: usize| until * i as f64 / grid as f64;
+    let hit = (0..=grid).find(|&i| above(at(i))).unwrap_or(grid);
+    let (mut low, mut high) = (at(hit.saturating_sub(1)), at(hit));
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if above(middle) {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    high
 }

@@ -40,11 +40,28 @@ impl Section for TwoFibres {
 
 fn hub() -> Hub {
     let formula = "0.4 + 1.3*t + 0.35*t^2";
-    Hub {
-        radius: RADIUS,
-        inertia: 0.7,
-        motion: Motion::Angle(Arc::new(Expression::new(formula, "t", 10.0).unwrap())),
-    }
+    Hub::prescribed(RADIUS, 0.7, Motion::Angle(Arc::new(Expression::new(formula, "t", 10.0).unwrap())))
+}
+
+/// A hub with everything that can turn it.
+fn free_hub() -> Hub {
+    let profile = |text: &str| Arc::new(Expression::new(text, "t", 10.0).unwrap());
+    let controller = Controller {
+        proportional: 3.0,
+        derivative: 0.7,
+        reference: Motion::Angle(profile("0.2*t^2")),
+        limit: f64::INFINITY,
+    };
+    let drive = Drive::Free(FreeHub {
+        angle: 0.4,
+        speed: 1.1,
+        torque: profile("2 + sin(3*t)"),
+        damping: 0.3,
+        stiffness: 4.0,
+        rest_angle: 0.1,
+        controller: Some(controller),
+    });
+    Hub { radius: RADIUS, inertia: 0.7, drive }
 }
 
 fn fields(elements: usize) -> Fields {
@@ -56,13 +73,41 @@ fn fields(elements: usize) -> Fields {
     )
 }
 
+fn linear_on(hub: Hub, foreshortening: Foreshortening) -> HubBeam<LinearCoupling> {
+    let coupling = LinearCoupling::new(fields(3), &TwoFibres, &hub, foreshortening);
+    HubBeam::new(hub, coupling, &[])
+}
+
 fn linear(foreshortening: Foreshortening) -> HubBeam<LinearCoupling> {
-    let coupling = LinearCoupling::new(fields(3), &TwoFibres, RADIUS, 0.7, foreshortening);
-    HubBeam::new(hub(), coupling, &[])
+    linear_on(hub(), foreshortening)
+}
+
+fn exact_on(hub: Hub) -> HubBeam<ExactCoupling> {
+    let coupling = ExactCoupling::new(LENGTH, 3, &TwoFibres, &hub).unwrap();
+    HubBeam::new(hub, coupling, &[])
 }
 
 fn exact() -> HubBeam<ExactCoupling> {
-    HubBeam::new(hub(), ExactCoupling::new(LENGTH, 3, &TwoFibres, RADIUS, 0.7).unwrap(), &[])
+    exact_on(hub())
+}
+
+/// Every coupling, on a hub that moves as prescribed and on one that is free.
+fn systems() -> Vec<Box<dyn System>> {
+    let mut systems: Vec<Box<dyn System>> = Vec::new();
+    for hub in [hub(), free_hub()] {
+        systems.push(Box::new(linear_on(hub.clone(), Foreshortening::None)));
+        systems.push(Box::new(linear_on(hub.clone(), Foreshortening::First)));
+        systems.push(Box::new(exact_on(hub)));
+    }
+    systems
+}
+
+/// The prescribed motion at a time.
+fn at<C: Coupling>(system: &HubBeam<C>, t: f64) -> HubKinematics {
+    match &system.hub().drive {
+        Drive::Prescribed(motion) => motion.at(t),
+        Drive::Free(_) => panic!("the hub is free"),
+    }
 }
 
 /// A smooth, generic state of the given size of deformation.
@@ -119,11 +164,7 @@ fn check_tangent(system: &mut dyn System, s: &State) {
 #[test]
 fn tangents_equal_finite_differences() {
     for size in [1e-3, 0.15] {
-        let mut systems: Vec<Box<dyn System>> = vec![
-            Box::new(linear(Foreshortening::None)),
-            Box::new(linear(Foreshortening::First)),
-            Box::new(exact()),
-        ];
+        let mut systems = systems();
         for system in &mut systems {
             let s = state(&**system, size);
             check_tangent(&mut **system, &s);
@@ -226,7 +267,7 @@ fn without_strain(system: &mut dyn System, s: &State) -> Vec<f64> {
 fn exact_coupling_obeys_dalembert_at_large_rotations() {
     let mut system = exact();
     let s = state(&system, 0.15);
-    let kinematics = system.hub().motion.at(s.t);
+    let kinematics = at(&system, s.t);
     let (forces, torque) = inertia_forces(system.coupling(), &s, &kinematics);
     // The element integrates rotary terms with its own rule of three points, the check with eight: their
     // difference at rotations of this size is what the tolerance allows.
@@ -239,7 +280,7 @@ fn exact_coupling_obeys_dalembert_at_large_rotations() {
 fn linear_couplings_are_the_linearised_dalembert_forces() {
     for (foreshortening, kind) in [(Foreshortening::None, "zeroth"), (Foreshortening::First, "first")] {
         let mut system = linear(foreshortening);
-        let kinematics = system.hub().motion.at(0.6);
+        let kinematics = at(&system, 0.6);
         let zero = state(&system, 0.0);
         let rest = without_strain(&mut system, &zero);
         let (forces0, torque0) = inertia_forces(system.coupling(), &zero, &kinematics);
@@ -268,9 +309,7 @@ fn linear_couplings_are_the_linearised_dalembert_forces() {
 #[test]
 fn power_of_the_drive_is_the_rate_of_the_energy() {
     // Along any motion the equations of motion hold, d(T + U)/dt = τω: a first integral of all terms.
-    let systems: [Box<dyn System>; 3] =
-        [Box::new(linear(Foreshortening::None)), Box::new(linear(Foreshortening::First)), Box::new(exact())];
-    for mut system in systems {
+    for mut system in systems() {
         let mut s = state(&*system, 0.05);
         s.a.fill(0.0);
         // a = −M⁻¹ r(q, v, 0)
@@ -310,9 +349,8 @@ impl Section for Plain {
 fn cantilever(elements: usize, load: f64, slenderness: f64) -> (f64, f64) {
     let (length, ei) = (1.0, 1.0);
     let ea = 12.0 * ei * slenderness * slenderness / (length * length);
-    let coupling = ExactCoupling::new(length, elements, &Plain(ea, ei), 0.0, 0.0).unwrap();
-    let still = Motion::Angle(Arc::new(crate::profile::Constant::new(0.0).unwrap()));
-    let hub = Hub { radius: 0.0, inertia: 0.0, motion: still };
+    let hub = Hub::prescribed(0.0, 0.0, Motion::Angle(Arc::new(crate::profile::Constant::new(0.0).unwrap())));
+    let coupling = ExactCoupling::new(length, elements, &Plain(ea, ei), &hub).unwrap();
     let mut system = HubBeam::new(hub, coupling, &[]);
     let mut s = State::zeros(system.size(), 0.0);
     let tip = Station::new(system.coupling().fields(), length);
@@ -413,9 +451,41 @@ fn zeroth_order_coupling_softens_at_its_first_frequency() {
     );
     // P1's beam: ρA scaled to 1, EI/ρA = 14000/1.2.
     let section = Plain(2.8e7 / 1.2, 1.4e4 / 1.2);
-    let coupling = LinearCoupling::new(fields, &section, 0.0, 0.0, Foreshortening::None);
+    let hub = Hub { radius: 0.0, inertia: 0.0, ..hub() };
+    let coupling = LinearCoupling::new(fields, &section, &hub, Foreshortening::None);
     let first = 3.516015268628 * (1.4e4f64 / 1.2).sqrt() / 100.0;
     let critical = coupling.critical_speed(20.0).unwrap();
     assert!((critical / first - 1.0).abs() < 1e-5, "{critical} {first}");
     assert!(coupling.critical_speed(0.99 * first).is_none());
+}
+
+#[test]
+fn angular_momentum_changes_by_the_torque_alone() {
+    // H = ∂T/∂ω along any motion: dH/dt is the torque that the motion needs.
+    for mut system in systems() {
+        let s = state(&*system, 0.05);
+        let n = s.q.len();
+        let channel =
+            |system: &dyn System, name: &str| system.channels().iter().position(|c| c.name == name).unwrap();
+        let momentum = channel(&*system, "hub.angular_momentum");
+        let mut row = vec![0.0; system.channels().len()];
+        let mut record = |t: f64| {
+            let mut moved = s.clone();
+            moved.t += t;
+            for i in 0..n {
+                moved.q[i] += t * (s.v[i] + 0.5 * t * s.a[i]);
+                moved.v[i] += t * s.a[i];
+            }
+            system.record(&moved, &mut row);
+            row[momentum]
+        };
+        let h = 1e-4;
+        let rate = (record(-2.0 * h) - 8.0 * record(-h) + 8.0 * record(h) - record(2.0 * h)) / (12.0 * h);
+        // A free hub's residual is the torque needed less the torque applied.
+        let torque = channel(&*system, "hub.torque");
+        system.record(&s, &mut row);
+        let free = system.labels().last().is_some_and(|l| l.name.contains("hub"));
+        let needed = row[torque] + if free { residual(&mut *system, &s)[n - 1] } else { 0.0 };
+        assert!((rate - needed).abs() < 1e-7 * needed.abs().max(1.0), "{rate} {needed}");
+    }
 }

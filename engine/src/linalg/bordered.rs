@@ -70,6 +70,11 @@ impl<T: Scalar> Bordered<T> {
         &mut self.rows[k * n..(k + 1) * n]
     }
 
+    /// Sets corner entry (i, j) of the border.
+    pub fn set_corner(&mut self, i: usize, j: usize, x: T) {
+        self.corner[i * self.border + j] = x;
+    }
+
     /// Order of the whole matrix.
     pub fn order(&self) -> usize {
         self.band.order() + self.border

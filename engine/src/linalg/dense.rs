@@ -42,6 +42,12 @@ impl<T: Scalar> Dense<T> {
         self.data[i * self.n + j]
     }
 
+    /// Sets entry (i, j).
+    #[inline]
+    pub fn set(&mut self, i: usize, j: usize, x: T) {
+        self.data[i * self.n + j] = x;
+    }
+
     /// Adds `x` to entry (i, j).
     #[inline]
     pub fn add(&mut self, i: usize, j: usize, x: T) {
