@@ -10,6 +10,7 @@ use std::ops::Range;
 
 /// Entries of a row that are summed side by side.
 const LANES: usize = 4;
+type Lanes = [f64; LANES];
 
 /// How the rows of the stored matrices lie in memory, and which part of a vector they meet.
 #[derive(Clone, Copy, Debug)]
@@ -102,7 +103,7 @@ impl Rows {
             8 => self.sums(terms, fixed::<8>, f),
             12 => self.sums(terms, fixed::<12>, f),
             16 => self.sums(terms, fixed::<16>, f),
-            _ => self.sums(terms, any, f),
+            width => self.sums(terms, |lanes, a, x| any(lanes, &a[..width], &x[..width]), f),
         }
     }
 
@@ -110,29 +111,34 @@ impl Rows {
     fn sums<const TERMS: usize>(
         &self,
         terms: [(&[f64], &[f64]); TERMS],
-        add: impl Fn(&mut [f64; LANES], &[f64], &[f64]),
+        add: impl Fn(&mut Lanes, &[f64], &[f64]),
         mut f: impl FnMut(usize, f64),
     ) {
         for i in 0..self.order {
             let (row, window) = (i * self.stride, i * self.advance);
             let mut lanes = [0.0; LANES];
             for (a, x) in terms {
-                add(&mut lanes, &a[row..row + self.width], &x[window..window + self.width]);
+                add(&mut lanes, &a[row..], &x[window..]);
             }
             f(i, (lanes[0] + lanes[2]) + (lanes[1] + lanes[3]));
         }
     }
 }
 
-/// Adds the products of `N` entries to the lanes.
+/// Adds the products of the first `N` entries to the lanes; `N` is a multiple of their number.
 #[inline(always)]
-fn fixed<const N: usize>(lanes: &mut [f64; LANES], a: &[f64], x: &[f64]) {
-    any(lanes, &a[..N], &x[..N]);
+fn fixed<const N: usize>(lanes: &mut Lanes, a: &[f64], x: &[f64]) {
+    let (Some(a), Some(x)) = (a.first_chunk::<N>(), x.first_chunk::<N>()) else { return };
+    for first in (0..N).step_by(LANES) {
+        for k in 0..LANES {
+            lanes[k] += a[first + k] * x[first + k];
+        }
+    }
 }
 
-/// Adds the products of the entries to the lanes.
+/// Adds the products of all entries to the lanes.
 #[inline(always)]
-fn any(lanes: &mut [f64; LANES], a: &[f64], x: &[f64]) {
+fn any(lanes: &mut Lanes, a: &[f64], x: &[f64]) {
     let (fours, rest) = a.as_chunks::<LANES>();
     let (x_fours, x_rest) = x.as_chunks::<LANES>();
     for (a, x) in fours.iter().zip(x_fours) {
