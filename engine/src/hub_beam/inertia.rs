@@ -29,8 +29,8 @@
 
 use super::fields::{Fields, Shapes};
 use super::hub::Hub;
-use super::product::{Padded, Rows, entries};
-use crate::linalg::{Matrix, Storage};
+use super::product::{Bundle, Vectors};
+use crate::linalg::{Matrix, Storage, Structure};
 use crate::profile::HubKinematics;
 use crate::section::{Resultants, Section};
 use crate::system::{State, Weights};
@@ -54,20 +54,16 @@ pub enum Foreshortening {
 /// ```
 #[derive(Debug)]
 pub struct Inertia {
-    rows: Rows,
+    /// M, Pᵀ − P and, unless both vanish, K and N.
+    bundle: Bundle,
+    /// S, unless it vanishes.
+    symmetric: Option<Bundle>,
     /// M
     mass: Matrix,
-    /// Pᵀ − P
-    gyroscopic: Matrix,
     /// D
     centrifugal: Matrix,
-    /// K, and whether there is any.
+    /// K
     stiffness: Matrix,
-    has_stiffness: bool,
-    /// N = M − D, unless it vanishes.
-    stiffening: Option<Matrix>,
-    /// S = ½ (P + Pᵀ), unless it vanishes.
-    euler: Option<Matrix>,
     /// s_x and s_y
     axial_moment: Vec<f64>,
     transverse_moment: Vec<f64>,
@@ -115,13 +111,11 @@ impl Border {
     }
 }
 
-/// Vectors that [`Inertia`] multiplies its matrices with: scratch of the system's.
+/// What [`Inertia`] multiplies its matrices with: scratch of the system's.
 #[derive(Clone, Debug)]
 pub struct Scratch {
-    inertial: Padded,
-    gyroscopic: Padded,
-    position: Padded,
-    scaled: Padded,
+    all: Vectors,
+    symmetric: Option<Vectors>,
 }
 
 impl Inertia {
@@ -175,25 +169,26 @@ impl Inertia {
             add_symmetric(&mut k, (a, 1), (b, 2), -w * es);
             add_outer(&mut k, (b, 2), (b, 2), w * ei);
         });
-        let rows = Rows::new(&structure, n);
-        let (mut gyroscopic, mut stiffening, mut euler) = (new(), new(), new());
+        let (mut gyroscopic, mut stiffening, mut symmetric) = (new(), new(), new());
+        let half = match structure {
+            Structure::Dense { order } => order,
+            Structure::Band { lower, upper, .. } => lower.max(upper),
+        };
         for i in 0..n {
-            for j in rows.row(i).0 {
+            for j in i.saturating_sub(half)..(i + half + 1).min(n) {
                 gyroscopic.add(i, j, p.get(j, i) - p.get(i, j));
                 stiffening.add(i, j, m.get(i, j) - d.get(i, j));
-                euler.add(i, j, 0.5 * (p.get(j, i) + p.get(i, j)));
+                symmetric.add(i, j, 0.5 * (p.get(j, i) + p.get(i, j)));
             }
         }
-        let unless_zero = |a: Matrix| Some(a).filter(|a| !is_zero(a));
+        let bundle = |matrices| Bundle::new(&structure, n, matrices);
+        let (stiff, stiffened) = (unless_zero(&k), unless_zero(&stiffening));
         Inertia {
-            rows,
+            bundle: bundle([Some(&m), Some(&gyroscopic), stiff, stiffened]),
+            symmetric: unless_zero(&symmetric).map(|s| bundle([Some(s), None, None, None])),
             mass: m,
-            gyroscopic,
             centrifugal: d,
-            has_stiffness: !is_zero(&k),
             stiffness: k,
-            stiffening: unless_zero(stiffening),
-            euler: unless_zero(euler),
             axial_moment: sx,
             transverse_moment: sy,
             moment,
@@ -202,7 +197,7 @@ impl Inertia {
 
     /// Number of unknowns of the fields.
     pub fn len(&self) -> usize {
-        self.rows.order()
+        self.bundle.order()
     }
 
     /// Whether there is no unknown.
@@ -212,8 +207,7 @@ impl Inertia {
 
     /// Scratch for the products of these matrices.
     pub fn scratch(&self) -> Scratch {
-        let vector = || self.rows.vector();
-        Scratch { inertial: vector(), gyroscopic: vector(), position: vector(), scaled: vector() }
+        Scratch { all: self.bundle.vectors(), symmetric: self.symmetric.as_ref().map(Bundle::vectors) }
     }
 
     /// The mass matrix M, the matrix D of the centrifugal forces and the stiffness matrix K.
@@ -227,28 +221,20 @@ impl Inertia {
         let (w, w1, w2) = (hub.speed, hub.acceleration, hub.speed * hub.speed);
         let (q, v, a) = (&s.q[..n], &s.v[..n], &s.a[..n]);
         let (sx, sy, r) = (&self.axial_moment[..n], &self.transverse_moment[..n], &mut r[..n]);
-        x.inertial.fill(|i| a[i] - w2 * q[i]);
-        x.gyroscopic.fill(|i| w * v[i] + 0.5 * w1 * q[i]);
-        let inertial = (&self.mass, &x.inertial);
-        let gyroscopic = (&self.gyroscopic, &x.gyroscopic);
-        let write = |i: usize, sum: f64| r[i] = sum + w1 * sy[i] - w2 * sx[i];
-        match &self.stiffening {
-            None if !self.has_stiffness => self.rows.products([inertial, gyroscopic], write),
-            None => {
-                x.position.fill(|i| q[i]);
-                let elastic = (&self.stiffness, &x.position);
-                self.rows.products([inertial, gyroscopic, elastic], write);
-            }
-            Some(stiffening) => {
-                x.position.fill(|i| q[i]);
-                x.scaled.fill(|i| w2 * q[i]);
-                let elastic = (&self.stiffness, &x.position);
-                self.rows.products([inertial, gyroscopic, elastic, (stiffening, &x.scaled)], write);
-            }
+        let Scratch { all: x, symmetric: y } = x;
+        let inertial = |i: usize| a[i] - w2 * q[i];
+        let gyroscopic = |i: usize| w * v[i] + 0.5 * w1 * q[i];
+        let constant = |i: usize| w1 * sy[i] - w2 * sx[i];
+        if self.bundle.terms() == 2 {
+            x.fill(|i| [inertial(i), gyroscopic(i)]);
+            self.bundle.products(x, |i, [m, g]| r[i] = m + g + constant(i));
+        } else {
+            x.fill(|i| [inertial(i), gyroscopic(i), q[i], w2 * q[i]]);
+            self.bundle.products(x, |i, [m, g, k, n]| r[i] = (m + k) + (g + n) + constant(i));
         }
-        if let Some(euler) = &self.euler {
-            x.scaled.fill(|i| w1 * q[i]);
-            self.rows.products([(euler, &x.scaled)], |i, sum| r[i] += sum);
+        if let Some((symmetric, y)) = self.symmetric.as_ref().zip(y.as_mut()) {
+            y.fill(|i| [w1 * q[i], 0.0]);
+            symmetric.products(y, |i, [s, _]| r[i] += s);
         }
     }
 
@@ -259,27 +245,16 @@ impl Inertia {
 
     /// Writes w.a M + w.v ω (Pᵀ − P) + w.q (K − ω² D + ω̇ Pᵀ) over the content of `out`, border aside.
     pub fn tangent(&self, w: &Weights<'_>, hub: &HubKinematics, out: &mut Storage<f64>) {
-        let out = match out {
-            Storage::Dense(a) => a.data_mut(),
-            Storage::Band(a) => a.band_mut().data_mut(),
-        };
         let (w1, w2) = (hub.acceleration, hub.speed * hub.speed);
         let (wm, wg) = (w.a - w.q * w2, w.v * hub.speed + 0.5 * w.q * w1);
-        let n = out.len();
-        let (m, g) = (&entries(&self.mass)[..n], &entries(&self.gyroscopic)[..n]);
-        for i in 0..n {
-            out[i] = wm * m[i] + wg * g[i];
+        if self.bundle.terms() == 2 {
+            self.bundle.write_sum([wm, wg], out);
+        } else {
+            self.bundle.write_sum([wm, wg, w.q, w.q * w2], out);
         }
-        let mut add = |matrix: Option<&Matrix>, weight: f64| {
-            if let Some(matrix) = matrix.filter(|_| weight != 0.0) {
-                for (out, x) in out.iter_mut().zip(entries(matrix)) {
-                    *out += weight * x;
-                }
-            }
-        };
-        add(Some(&self.stiffness).filter(|_| self.has_stiffness), w.q);
-        add(self.stiffening.as_ref(), w.q * w2);
-        add(self.euler.as_ref(), w.q * w1);
+        if let Some(symmetric) = &self.symmetric {
+            symmetric.add_sum([w.q * w1, 0.0], out);
+        }
     }
 
     /// Kinetic energy T, angular momentum ∂T/∂ω and the torque τ of the equation of motion of the hub.
@@ -289,31 +264,40 @@ impl Inertia {
         let (q, v, a) = (&s.q[..n], &s.v[..n], &s.a[..n]);
         let (mut vmv, mut qdq, mut qdv) = (0.0, 0.0, 0.0);
         let (mut vpq, mut aeq, mut vpv) = (0.0, 0.0, 0.0);
-        let (position, velocity) = (&mut x.position, &mut x.gyroscopic);
-        position.fill(|i| q[i]);
-        velocity.fill(|i| v[i]);
-        let (position, velocity) = (&*position, &*velocity);
-        self.rows.products([(&self.mass, velocity)], |i, sum| vmv += v[i] * sum);
-        self.rows.products([(&self.mass, position)], |i, sum| {
-            qdq += q[i] * sum;
-            qdv += v[i] * sum;
-        });
-        self.rows.products([(&self.gyroscopic, position)], |i, sum| {
-            vpq += 0.5 * v[i] * sum;
-            aeq += 0.5 * a[i] * sum;
-        });
-        if let Some(stiffening) = &self.stiffening {
-            self.rows.products([(stiffening, position)], |i, sum| {
-                qdq -= q[i] * sum;
-                qdv -= v[i] * sum;
+        let Scratch { all: x, symmetric: y } = x;
+        // (M v, (Pᵀ − P) q, N q)ᵢ
+        let mut products = |i: usize, [mv, gq, nq]: [f64; 3]| {
+            vmv += v[i] * mv;
+            vpq += 0.5 * v[i] * gq;
+            aeq += 0.5 * a[i] * gq;
+            qdq -= q[i] * nq;
+            qdv -= v[i] * nq;
+        };
+        if self.bundle.terms() == 2 {
+            x.fill(|i| [v[i], q[i]]);
+            self.bundle.products(x, |i, [m, g]| products(i, [m, g, 0.0]));
+            x.fill(|i| [q[i], 0.0]);
+            self.bundle.products(x, |i, [m, _]| {
+                qdq += q[i] * m;
+                qdv += v[i] * m;
+            });
+        } else {
+            x.fill(|i| [v[i], q[i], 0.0, q[i]]);
+            self.bundle.products(x, |i, [m, g, _, n]| products(i, [m, g, n]));
+            x.fill(|i| [q[i], 0.0, 0.0, 0.0]);
+            self.bundle.products(x, |i, [m, _, _, _]| {
+                qdq += q[i] * m;
+                qdv += v[i] * m;
             });
         }
-        if let Some(euler) = &self.euler {
-            self.rows.products([(euler, position)], |i, sum| {
-                vpq += v[i] * sum;
-                aeq += a[i] * sum;
+        if let Some((symmetric, y)) = self.symmetric.as_ref().zip(y.as_mut()) {
+            y.fill(|i| [q[i], 0.0]);
+            symmetric.products(y, |i, [sq, _]| {
+                vpq += v[i] * sq;
+                aeq += a[i] * sq;
             });
-            self.rows.products([(euler, velocity)], |i, sum| vpv += v[i] * sum);
+            y.fill(|i| [v[i], 0.0]);
+            symmetric.products(y, |i, [sv, _]| vpv += v[i] * sv);
         }
         let sx = |u: &[f64]| inner(&self.axial_moment, u);
         let sy = |u: &[f64]| inner(&self.transverse_moment, u);
@@ -340,58 +324,78 @@ impl Inertia {
         let (q, v, a) = (&s.q[..n], &s.v[..n], &s.a[..n]);
         let (sx, sy) = (&self.axial_moment, &self.transverse_moment);
         let (mut by_speed, mut moment) = (0.0, self.moment);
-        x.position.fill(|i| q[i]);
-        x.gyroscopic.fill(|i| v[i]);
-        x.inertial.fill(|i| a[i]);
         let (column, row) = (&mut out.column, &mut out.row);
-        // D = M − N
-        self.rows.products([(&self.mass, &x.position)], |i, mq| column[i] = mq + sx[i]);
-        if let Some(stiffening) = &self.stiffening {
-            self.rows.products([(stiffening, &x.position)], |i, nq| column[i] -= nq);
-        }
-        for i in 0..n {
-            let dq = column[i];
-            by_speed += 2.0 * dq * v[i];
-            moment += q[i] * (dq + sx[i]);
-            row[i] = (2.0 * w.q * al + 2.0 * w.v * om) * dq;
-            column[i] = -2.0 * w.v * om * dq;
-        }
+        let Scratch { all: x, symmetric: y } = x;
+        // D = M − N; Pᵀ = S + G/2 and P = S − G/2 with G = Pᵀ − P.
+        self.each(
+            x,
+            |i| [q[i], q[i], q[i]],
+            |i, [mq, gq, nq]| {
+                let dq = mq - nq + sx[i];
+                by_speed += 2.0 * dq * v[i];
+                moment += q[i] * (dq + sx[i]);
+                let euler = w.a * (sy[i] + 0.5 * gq);
+                row[i] = (2.0 * w.q * al + 2.0 * w.v * om) * dq + euler;
+                column[i] = -2.0 * w.v * om * dq + euler;
+            },
+        );
         let dv = 2.0 * w.q * om;
-        self.rows.products([(&self.mass, &x.gyroscopic)], |i, mv| row[i] += dv * mv);
-        if let Some(stiffening) = &self.stiffening {
-            self.rows.products([(stiffening, &x.gyroscopic)], |i, nv| row[i] -= dv * nv);
-        }
-        // Pᵀ = S + G/2 and P = S − G/2 with G = Pᵀ − P.
-        self.rows.products([(&self.gyroscopic, &x.gyroscopic)], |i, gv| column[i] += w.v * gv);
-        self.rows.products([(&self.gyroscopic, &x.inertial)], |i, ga| row[i] -= 0.5 * w.q * ga);
-        self.rows.products([(&self.gyroscopic, &x.position)], |i, gq| {
-            column[i] += w.a * (sy[i] + 0.5 * gq);
-            row[i] += w.a * (sy[i] + 0.5 * gq);
-        });
-        if let Some(euler) = &self.euler {
-            self.rows.products([(euler, &x.gyroscopic)], |i, sv| row[i] += 2.0 * w.v * sv);
-            self.rows.products([(euler, &x.inertial)], |i, sa| row[i] += w.q * sa);
-            self.rows.products([(euler, &x.position)], |i, sq| {
-                column[i] += w.a * sq;
-                row[i] += w.a * sq;
+        self.each(
+            x,
+            |i| [v[i], v[i], v[i]],
+            |i, [mv, gv, nv]| {
+                row[i] += dv * (mv - nv);
+                column[i] += w.v * gv;
+            },
+        );
+        self.each(x, |i| [0.0, a[i], 0.0], |i, [_, ga, _]| row[i] -= 0.5 * w.q * ga);
+        if let Some((symmetric, y)) = self.symmetric.as_ref().zip(y.as_mut()) {
+            y.fill(|i| [2.0 * w.v * v[i] + w.q * a[i], 0.0]);
+            symmetric.products(y, |i, [s, _]| row[i] += s);
+            y.fill(|i| [w.a * q[i], 0.0]);
+            symmetric.products(y, |i, [s, _]| {
+                column[i] += s;
+                row[i] += s;
             });
         }
         out.corner = w.v * by_speed + w.a * moment;
     }
 
+    /// Calls `f` with i and (M x, (Pᵀ − P) y, N z)ᵢ for vectors with the entries (x, y, z)ᵢ = `of(i)`.
+    #[inline]
+    fn each(
+        &self,
+        vectors: &mut Vectors,
+        of: impl Fn(usize) -> [f64; 3],
+        mut f: impl FnMut(usize, [f64; 3]),
+    ) {
+        if self.bundle.terms() == 2 {
+            vectors.fill(|i| {
+                let [x, y, _] = of(i);
+                [x, y]
+            });
+            self.bundle.products(vectors, |i, [m, g]| f(i, [m, g, 0.0]));
+        } else {
+            vectors.fill(|i| {
+                let [x, y, z] = of(i);
+                [x, y, 0.0, z]
+            });
+            self.bundle.products(vectors, |i, [m, g, _, n]| f(i, [m, g, n]));
+        }
+    }
+
     /// ½ qᵀK q.
     pub fn strain(&self, q: &[f64]) -> f64 {
-        let k = entries(&self.stiffness);
-        let row = |i: usize| {
-            let (columns, at) = self.rows.row(i);
-            inner(&k[at], &q[columns])
-        };
-        (0..self.len()).map(|i| 0.5 * q[i] * row(i)).sum()
+        0.5 * self.bundle.form(2, q)
     }
 }
 
-fn is_zero(matrix: &Matrix) -> bool {
-    entries(matrix).iter().all(|x| *x == 0.0)
+fn unless_zero(matrix: &Matrix) -> Option<&Matrix> {
+    let entries = match matrix.storage() {
+        Storage::Dense(a) => a.data(),
+        Storage::Band(a) => a.band().data(),
+    };
+    entries.iter().any(|x| *x != 0.0).then_some(matrix)
 }
 
 fn inner(a: &[f64], b: &[f64]) -> f64 {

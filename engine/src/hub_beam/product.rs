@@ -1,73 +1,69 @@
 //! Products of the constant matrices with vectors: the innermost loops of a linear model.
 //!
-//! Row i of a band matrix meets the entries i − l … i + u of a vector. With l zeros in front of the vector
-//! and a few behind it every row meets a full window, the first and last rows too, and the loop over a row
-//! has a length the compiler knows. Rows are read up to a multiple of four entries: what lies beyond the
-//! band is the zone of fill, which is zero in a matrix that is not factored.
+//! Four matrices, A₁ … A₄ say, are stored together, entry by entry, so that one pass over memory gives the
+//! products of all of them with as many vectors, and any weighted sum of them. Row i of a band meets the
+//! entries i − l … i + u of a vector; with l zeros in front of the vector and u behind it every row meets a
+//! full window, the first and last rows too, and loops over rows have a length the compiler knows.
 
 use crate::linalg::{Matrix, Storage, Structure};
-use std::ops::Range;
 
-/// Entries of a row that are summed side by side.
-const LANES: usize = 4;
+/// Number of matrices that are stored together, at most.
+pub(super) const TERMS: usize = 4;
 
-/// How the rows of the stored matrices lie in memory, and which part of a vector they meet.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Rows {
+/// Up to four matrices of one structure, entry by entry; `terms`, 2 or 4, are stored.
+#[derive(Clone, Debug)]
+pub(super) struct Bundle {
     order: usize,
-    /// Entries from one row to the next.
-    stride: usize,
-    /// Entries of a row within the band, and those that are read.
-    band: usize,
+    terms: usize,
+    /// Entries of a row.
     width: usize,
     /// How far the window of a row lies behind that of the row before: 1, or 0 for full rows.
     advance: usize,
-    /// Zeros in front of a vector.
+    /// Entries of a row in front of the diagonal: zeros in front of a vector.
     lead: usize,
-}
-
-/// A vector with zeros in front of it and behind it.
-#[derive(Clone, Debug)]
-pub(super) struct Padded {
-    lead: usize,
-    order: usize,
+    /// Term k of the entry at place j of row i is at (i·width + j)·terms + k.
     data: Vec<f64>,
 }
 
-impl Padded {
-    /// Sets entry i to f(i).
+/// As many vectors as a [`Bundle`] has terms, entry by entry, with zeros in front and behind.
+#[derive(Clone, Debug)]
+pub(super) struct Vectors {
+    range: std::ops::Range<usize>,
+    data: Vec<f64>,
+}
+
+impl Vectors {
+    /// Sets the entries i of all vectors to `f(i)`, of which the first terms are used.
     #[inline]
-    pub(super) fn fill(&mut self, f: impl Fn(usize) -> f64) {
-        for (i, x) in self.data[self.lead..self.lead + self.order].iter_mut().enumerate() {
+    pub(super) fn fill<const K: usize>(&mut self, f: impl Fn(usize) -> [f64; K]) {
+        let (entries, _) = self.data[self.range.clone()].as_chunks_mut::<K>();
+        for (i, x) in entries.iter_mut().enumerate() {
             *x = f(i);
         }
     }
 }
 
-/// The entries of a matrix, border aside.
-pub(super) fn entries(matrix: &Matrix) -> &[f64] {
-    match matrix.storage() {
-        Storage::Dense(a) => a.data(),
-        Storage::Band(a) => a.band().data(),
-    }
-}
-
-impl Rows {
-    /// The first `order` rows of matrices of the given structure.
-    pub(super) fn new(structure: &Structure, order: usize) -> Rows {
-        match *structure {
-            Structure::Dense { order: stride } => {
-                Rows { order, stride, band: order, width: order, advance: 0, lead: 0 }
-            }
+impl Bundle {
+    /// The first `order` rows of the matrices; zeros stand for those that are not there.
+    pub(super) fn new(structure: &Structure, order: usize, matrices: [Option<&Matrix>; TERMS]) -> Bundle {
+        let terms = if matrices[2..].iter().all(Option::is_none) { 2 } else { TERMS };
+        let most = order.saturating_sub(1);
+        let (width, advance, lead) = match *structure {
+            Structure::Dense { .. } => (order, 0, 0),
             Structure::Band { lower, upper, .. } => {
-                let most = order.saturating_sub(1);
-                let (lower, upper) = (lower.min(most), upper.min(most));
-                let (band, stride) = (lower + upper + 1, 2 * lower + upper + 1);
-                let full = band.next_multiple_of(LANES);
-                let width = if full <= stride { full } else { band };
-                Rows { order, stride, band, width, advance: 1, lead: lower }
+                (lower.min(most) + upper.min(most) + 1, 1, lower.min(most))
+            }
+        };
+        let mut data = Vec::with_capacity(order * width * terms);
+        for i in 0..order {
+            for j in 0..width {
+                let column = (advance * i + j).checked_sub(lead).filter(|column| *column < order);
+                for matrix in &matrices[..terms] {
+                    data.push(matrix.zip(column).map_or(0.0, |(a, column)| a.get(i, column)));
+                }
             }
         }
+        Bundle { order, terms, width, advance, lead, data }
     }
 
     /// Number of rows.
@@ -75,72 +71,93 @@ impl Rows {
         self.order
     }
 
-    /// Columns of row `i`, and where in the entries of a matrix they are stored.
-    pub(super) fn row(&self, i: usize) -> (Range<usize>, Range<usize>) {
-        let ahead = self.advance * i;
-        let first = ahead.saturating_sub(self.lead);
-        let last = (ahead + self.band - self.lead).min(self.order);
-        let at = i * self.stride + first + self.lead - ahead;
-        (first..last, at..at + last - first)
+    /// How many matrices are stored, 2 or 4.
+    pub(super) fn terms(&self) -> usize {
+        self.terms
     }
 
-    /// A padded vector of zeros.
-    pub(super) fn vector(&self) -> Padded {
-        let behind = if self.advance == 0 { 0 } else { self.width };
-        Padded { lead: self.lead, order: self.order, data: vec![0.0; self.lead + self.order + behind] }
+    /// Vectors of zeros to multiply with.
+    pub(super) fn vectors(&self) -> Vectors {
+        let behind = self.advance * (self.width - self.lead.min(self.width));
+        let first = self.lead * self.terms;
+        let range = first..first + self.order * self.terms;
+        let data = vec![0.0; range.end + behind * self.terms];
+        Vectors { range, data }
     }
 
-    /// Calls `f` with i and the sum over `terms` (A, x) of the products (A x)ᵢ, row after row.
+    /// Calls `f` with i and the products (Aₖ xₖ)ᵢ, row after row. `K` is the number of terms.
     #[inline]
-    pub(super) fn products<const TERMS: usize>(
-        &self,
-        terms: [(&Matrix, &Padded); TERMS],
-        f: impl FnMut(usize, f64),
-    ) {
-        let terms = terms.map(|(a, x)| (entries(a), &x.data[..]));
+    pub(super) fn products<const K: usize>(&self, x: &Vectors, f: impl FnMut(usize, [f64; K])) {
         match self.width {
-            8 => self.sums(terms, fixed::<8>, f),
-            12 => self.sums(terms, fixed::<12>, f),
-            16 => self.sums(terms, fixed::<16>, f),
-            _ => self.sums(terms, any, f),
+            11 => self.rows::<K, 11>(x, f),
+            15 => self.rows::<K, 15>(x, f),
+            _ => self.rows::<K, 0>(x, f),
         }
+    }
+
+    /// `WIDTH` is the length of a row where the compiler knows it, or 0.
+    #[inline(always)]
+    fn rows<const K: usize, const WIDTH: usize>(&self, x: &Vectors, mut f: impl FnMut(usize, [f64; K])) {
+        let width = if WIDTH > 0 { WIDTH } else { self.width };
+        let (a, _) = self.data.as_chunks::<K>();
+        let (x, _) = x.data.as_chunks::<K>();
+        for i in 0..self.order {
+            let window = &x[self.advance * i..][..width];
+            let mut sums = [0.0; K];
+            for (a, x) in a[i * width..][..width].iter().zip(window) {
+                for k in 0..K {
+                    sums[k] += a[k] * x[k];
+                }
+            }
+            f(i, sums);
+        }
+    }
+
+    /// xᵀ Aₖ x for one of the matrices; 0 for one that is not there.
+    pub(super) fn form(&self, k: usize, x: &[f64]) -> f64 {
+        if k >= self.terms {
+            return 0.0;
+        }
+        let row = |i: usize| -> f64 {
+            let first = (self.advance * i).saturating_sub(self.lead);
+            let last = (self.advance * i + self.width - self.lead).min(self.order);
+            let at = i * self.width + first + self.lead - self.advance * i;
+            let a = self.data[at * self.terms..].chunks_exact(self.terms);
+            a.zip(&x[first..last]).map(|(a, x)| a[k] * x).sum()
+        };
+        (0..self.order).map(|i| x[i] * row(i)).sum()
+    }
+
+    /// Writes Σ wₖ Aₖ over the content of `out`, border aside.
+    pub(super) fn write_sum<const K: usize>(&self, weights: [f64; K], out: &mut Storage<f64>) {
+        self.sum(weights, out, |out, x| *out = x);
+    }
+
+    /// Adds Σ wₖ Aₖ to `out`.
+    pub(super) fn add_sum<const K: usize>(&self, weights: [f64; K], out: &mut Storage<f64>) {
+        self.sum(weights, out, |out, x| *out += x);
     }
 
     #[inline(always)]
-    fn sums<const TERMS: usize>(
-        &self,
-        terms: [(&[f64], &[f64]); TERMS],
-        add: impl Fn(&mut [f64; LANES], &[f64], &[f64]),
-        mut f: impl FnMut(usize, f64),
-    ) {
-        for i in 0..self.order {
-            let (row, window) = (i * self.stride, i * self.advance);
-            let mut lanes = [0.0; LANES];
-            for (a, x) in terms {
-                add(&mut lanes, &a[row..row + self.width], &x[window..window + self.width]);
+    fn sum<const K: usize>(&self, w: [f64; K], out: &mut Storage<f64>, put: impl Fn(&mut f64, f64)) {
+        let stride = match out {
+            Storage::Dense(a) => a.order(),
+            Storage::Band(a) => a.band().width(),
+        };
+        let out = match out {
+            Storage::Dense(a) => a.data_mut(),
+            Storage::Band(a) => a.band_mut().data_mut(),
+        };
+        let (a, _) = self.data.as_chunks::<K>();
+        let rows = a.chunks_exact(self.width.max(1));
+        for (out, row) in out.chunks_exact_mut(stride.max(1)).zip(rows) {
+            // Behind the band is the zone of fill of former factors.
+            let (out, fill) = out.split_at_mut(self.width);
+            for (out, a) in out.iter_mut().zip(row) {
+                let products: [f64; K] = std::array::from_fn(|k| w[k] * a[k]);
+                put(out, products.iter().sum());
             }
-            f(i, (lanes[0] + lanes[2]) + (lanes[1] + lanes[3]));
+            fill.fill(0.0);
         }
-    }
-}
-
-/// Adds the products of `N` entries to the lanes.
-#[inline(always)]
-fn fixed<const N: usize>(lanes: &mut [f64; LANES], a: &[f64], x: &[f64]) {
-    any(lanes, &a[..N], &x[..N]);
-}
-
-/// Adds the products of the entries to the lanes.
-#[inline(always)]
-fn any(lanes: &mut [f64; LANES], a: &[f64], x: &[f64]) {
-    let (fours, rest) = a.as_chunks::<LANES>();
-    let (x_fours, x_rest) = x.as_chunks::<LANES>();
-    for (a, x) in fours.iter().zip(x_fours) {
-        for k in 0..LANES {
-            lanes[k] += a[k] * x[k];
-        }
-    }
-    for (k, (a, x)) in rest.iter().zip(x_rest).enumerate() {
-        lanes[k] += a * x;
     }
 }

@@ -1,13 +1,20 @@
-//! Band matrix with LU by partial pivoting.
+//! Band matrix with LU by threshold pivoting.
 //!
 //! Row-wise storage: row i holds columns i − l … i + u + l (the last l for the fill that row
 //! interchanges bring), so that elimination runs along contiguous memory. Without interchanges the
 //! elimination stays within the band, and the cost is n·l·u multiplications.
+//!
+//! The diagonal is the pivot as long as |aᵢₖ|² ≤ τ⁻² |aₖₖ| |aᵢᵢ| for the rows i below it, which holds for
+//! every positive definite matrix, and in whatever units the unknowns are: it bounds by 1/τ the multipliers
+//! of the matrix that is scaled to a unit diagonal. Otherwise the largest entry of the column is.
 
 use super::{Scalar, Singular};
 
 /// A pivot below this share of its column is taken for nought when the border can replace it.
 const VANISHING: f64 = 1e-12;
+
+/// Bound 1/τ² of the squared multipliers with which the diagonal is accepted as pivot.
+const GROWTH: f64 = 100.0;
 
 /// Square band matrix with `lower` and `upper` half-bandwidths; factored in place.
 #[derive(Clone, Debug)]
@@ -23,6 +30,8 @@ pub struct Band<T> {
     inverse: Vec<T>,
     /// Number of entries of row k of U right of the diagonal.
     reach: Vec<u32>,
+    /// Whether any rows were exchanged.
+    interchanged: bool,
     /// Pivots that were too small and were replaced: see [`Band::factor`].
     deflated: Vec<(usize, f64)>,
     /// Largest entry of each column before elimination, where deflation is asked for.
@@ -44,6 +53,7 @@ impl<T: Scalar> Band<T> {
             pivots: vec![0; n],
             inverse: vec![T::ZERO; n],
             reach: vec![0; n],
+            interchanged: false,
             deflated: Vec::with_capacity(super::bordered::DEFLATIONS),
             column_size: vec![0.0; n],
         }
@@ -133,49 +143,90 @@ impl<T: Scalar> Band<T> {
         }
     }
 
-    /// LU factorisation in place with row interchanges.
+    /// LU factorisation in place, with row interchanges where they are needed.
     ///
     /// A pivot below working precision would end the elimination. When `deflate` allows it, the
     /// pivot is replaced by the size of the matrix instead and noted in [`Band::deflated`]: the
     /// factors are then those of A + Σ δ_k (L e_k) e_kᵀ, and the caller's border undoes the change.
     pub fn factor(&mut self, deflate: bool) -> Result<(), Singular> {
-        match (self.lower, self.upper) {
-            (5, 5) => self.eliminate::<5>(deflate),
-            (7, 7) => self.eliminate::<7>(deflate),
-            _ => self.eliminate::<0>(deflate),
-        }
-    }
-
-    /// Elimination; `FIXED` > 0 gives the common half-bandwidths to the compiler, so that it unrolls
-    /// the innermost loop.
-    fn eliminate<const FIXED: usize>(&mut self, deflate: bool) -> Result<(), Singular> {
-        let (n, width) = (self.n, self.width);
-        let (l, u) = if FIXED > 0 { (FIXED, FIXED) } else { (self.lower, self.upper) };
         self.deflated.clear();
+        self.interchanged = false;
         if deflate {
             self.measure_columns();
         }
-        let largest = self.data.iter().map(|x| x.size()).fold(0.0, f64::max);
+        // The common bands are given to the compiler as constants: it unrolls the loops over them.
+        match (self.lower, self.upper) {
+            (3, 3) => self.eliminate::<3, 10>(deflate),
+            (5, 5) => self.eliminate::<5, 16>(deflate),
+            (7, 7) => self.eliminate::<7, 22>(deflate),
+            _ => self.eliminate_from(0, deflate),
+        }
+    }
+
+    /// Elimination with half-bandwidths `HALF` and rows of length `WIDTH` while the diagonal will do.
+    fn eliminate<const HALF: usize, const WIDTH: usize>(&mut self, deflate: bool) -> Result<(), Singular> {
+        let mut k = 0;
+        while k + HALF < self.n {
+            let small = if deflate { VANISHING * self.column_size[k] } else { 0.0 };
+            let rows = &mut self.data[k * WIDTH..(k + HALF + 1) * WIDTH];
+            let (rows, _) = rows.as_chunks_mut::<WIDTH>();
+            let Some((pivot_row, below)) = rows.split_first_mut() else { break };
+            let pivot = pivot_row[HALF];
+            let limit = GROWTH * pivot.size();
+            let mut sound = pivot.size() > small;
+            for r in 0..HALF {
+                let size = below[r][HALF - 1 - r].size();
+                sound &= size * size <= limit * below[r][HALF].size();
+            }
+            if !sound {
+                break;
+            }
+            let inverse = T::ONE / pivot;
+            self.inverse[k] = inverse;
+            self.pivots[k] = 0;
+            self.reach[k] = HALF as u32;
+            for r in 0..HALF {
+                let first = HALF - 1 - r;
+                let factor = below[r][first] * inverse;
+                below[r][first] = factor;
+                for j in 1..=HALF {
+                    below[r][first + j] -= factor * pivot_row[HALF + j];
+                }
+            }
+            k += 1;
+        }
+        self.eliminate_from(k, deflate)
+    }
+
+    /// Elimination of the columns from `start` on, with whatever pivots it takes.
+    fn eliminate_from(&mut self, start: usize, deflate: bool) -> Result<(), Singular> {
+        let (n, width, l, u) = (self.n, self.width, self.lower, self.upper);
+        let largest = self.data[start * width..].iter().map(|x| x.size()).fold(0.0, f64::max);
         let floor = largest * f64::EPSILON * f64::EPSILON;
         // Columns up to which earlier interchanges have filled the rows.
         let mut filled = 0;
-        for k in 0..n {
+        for k in start..n {
             let last_row = (k + l).min(n - 1);
-            let mut p = k;
-            let mut best = self.data[k * width + l].size();
+            let diagonal = self.data[k * width + l].size();
+            let limit = GROWTH * diagonal;
+            let (mut p, mut best, mut sound) = (k, diagonal, true);
             for i in k + 1..=last_row {
                 let size = self.data[i * width + k + l - i].size();
+                sound &= size * size <= limit * self.data[i * width + l].size();
                 if size > best {
                     (p, best) = (i, size);
                 }
+            }
+            // Judged against its own column, so that unknowns in different units do not make a sound
+            // band look singular. Written so that a NaN pivot is refused too.
+            let small = if deflate { floor.max(VANISHING * self.column_size[k]) } else { floor };
+            if sound && diagonal > small {
+                (p, best) = (k, diagonal);
             }
             filled = filled.max((p + u).min(n - 1)).max(k);
             let count = filled - k;
             self.pivots[k] = (p - k) as u32;
             self.reach[k] = count as u32;
-            // Judged against its own column, so that unknowns in different units do not make a sound
-            // band look singular. Written so that a NaN pivot is refused too.
-            let small = if deflate { floor.max(VANISHING * self.column_size[k]) } else { floor };
             if !(best > small) {
                 if !deflate || !best.is_finite() || self.deflated.len() == super::bordered::DEFLATIONS {
                     return Err(Singular { index: k, pivot: best / largest });
@@ -186,6 +237,7 @@ impl<T: Scalar> Band<T> {
             }
             let rows = &mut self.data[k * width..(last_row + 1) * width];
             if p != k {
+                self.interchanged = true;
                 // Entry (k, k + j) against entry (p, k + j).
                 let (head, tail) = rows.split_at_mut((p - k) * width);
                 let start = l - (p - k);
@@ -194,25 +246,13 @@ impl<T: Scalar> Band<T> {
             let (pivot_row, below) = rows.split_at_mut(width);
             let inverse = T::ONE / pivot_row[l];
             self.inverse[k] = inverse;
-            if FIXED > 0 && count == FIXED {
-                let pivot_row = &pivot_row[l + 1..l + 1 + FIXED];
-                for (r, row) in below.chunks_exact_mut(width).enumerate() {
-                    let row = &mut row[l - 1 - r..l + FIXED - r];
-                    let factor = row[0] * inverse;
-                    row[0] = factor;
-                    for j in 0..FIXED {
-                        row[j + 1] -= factor * pivot_row[j];
-                    }
-                }
-            } else {
-                let pivot_row = &pivot_row[l + 1..l + 1 + count];
-                for (r, row) in below.chunks_exact_mut(width).enumerate() {
-                    let (first, rest) = row[l - 1 - r..].split_at_mut(1);
-                    let factor = first[0] * inverse;
-                    first[0] = factor;
-                    for (a, u) in rest.iter_mut().zip(pivot_row) {
-                        *a -= factor * *u;
-                    }
+            let pivot_row = &pivot_row[l + 1..l + 1 + count];
+            for (r, row) in below.chunks_exact_mut(width).enumerate() {
+                let (first, rest) = row[l - 1 - r..].split_at_mut(1);
+                let factor = first[0] * inverse;
+                first[0] = factor;
+                for (a, u) in rest.iter_mut().zip(pivot_row) {
+                    *a -= factor * *u;
                 }
             }
         }
@@ -238,6 +278,37 @@ impl<T: Scalar> Band<T> {
 
     /// b ← L⁻¹ P b after factoring.
     pub fn forward(&self, b: &mut [T]) {
+        if self.interchanged {
+            return self.forward_interchanged(b);
+        }
+        match self.lower {
+            3 => self.forward_by_rows::<3>(b),
+            5 => self.forward_by_rows::<5>(b),
+            7 => self.forward_by_rows::<7>(b),
+            _ => self.forward_by_rows::<0>(b),
+        }
+    }
+
+    /// Row by row, where no rows were exchanged; `LOWER` is the half-bandwidth, or 0.
+    fn forward_by_rows<const LOWER: usize>(&self, b: &mut [T]) {
+        let l = if LOWER > 0 { LOWER } else { self.lower };
+        for (i, row) in self.data.chunks_exact(self.width).enumerate() {
+            let sum = if LOWER > 0
+                && i >= LOWER
+                && let Some(row) = row.first_chunk::<LOWER>()
+                && let Some(x) = b[i - LOWER..].first_chunk::<LOWER>()
+            {
+                forward_products(b[i], row, x)
+            } else {
+                let first = i.saturating_sub(l);
+                forward_products(b[i], &row[l + first - i..l], &b[first..i])
+            };
+            b[i] = sum;
+        }
+    }
+
+    /// Column by column, each after its interchange.
+    fn forward_interchanged(&self, b: &mut [T]) {
         let (l, width) = (self.lower, self.width);
         for k in 0..self.n {
             let p = self.pivots[k] as usize;
@@ -257,15 +328,32 @@ impl<T: Scalar> Band<T> {
 
     /// b ← U⁻¹ b after factoring.
     pub fn backward(&self, b: &mut [T]) {
+        match self.upper {
+            3 => self.backward_by_rows::<3>(b),
+            5 => self.backward_by_rows::<5>(b),
+            7 => self.backward_by_rows::<7>(b),
+            _ => self.backward_by_rows::<0>(b),
+        }
+    }
+
+    /// `UPPER` is the common reach of a row, or 0.
+    fn backward_by_rows<const UPPER: usize>(&self, b: &mut [T]) {
         let (l, width) = (self.lower, self.width);
         for k in (0..self.n).rev() {
             let reach = self.reach[k] as usize;
             let row = &self.data[k * width + l + 1..k * width + l + 1 + reach];
-            let mut sum = b[k];
-            for (a, x) in row.iter().zip(&b[k + 1..k + 1 + reach]) {
-                sum -= *a * *x;
-            }
-            b[k] = sum * self.inverse[k];
+            let (head, tail) = b.split_at_mut(k + 1);
+            let Some(x) = head.last_mut() else { return };
+            let sum = if UPPER > 0
+                && reach == UPPER
+                && let Some(row) = row.first_chunk::<UPPER>()
+                && let Some(tail) = tail.first_chunk::<UPPER>()
+            {
+                backward_products(*x, row, tail)
+            } else {
+                backward_products(*x, row, &tail[..reach])
+            };
+            *x = sum * self.inverse[k];
         }
     }
 
@@ -274,4 +362,22 @@ impl<T: Scalar> Band<T> {
         self.forward(b);
         self.backward(b);
     }
+}
+
+/// sum − Σ aⱼ xⱼ, first to last: the newest of the x, for which the sum has to wait, comes last.
+#[inline(always)]
+fn forward_products<T: Scalar>(mut sum: T, a: &[T], x: &[T]) -> T {
+    for (a, x) in a.iter().zip(x) {
+        sum -= *a * *x;
+    }
+    sum
+}
+
+/// sum − Σ aⱼ xⱼ, last to first: here the newest is the first.
+#[inline(always)]
+fn backward_products<T: Scalar>(mut sum: T, a: &[T], x: &[T]) -> T {
+    for (a, x) in a.iter().zip(x).rev() {
+        sum -= *a * *x;
+    }
+    sum
 }
