@@ -161,7 +161,7 @@ fn the_two_commands_of_the_readme_are_those_that_are_checked() {
     };
     assert!(calls(TEST), ".ci/run does not call `{TEST}`");
     assert!(calls(RUN), ".ci/run does not call `{RUN}`");
-    assert!(!calls("cargo test --release"), "a longer command is not the command");
+    assert!(!calls(&TEST[..TEST.len() - 1]), "half a word is no command");
 }
 
 #[test]
