@@ -2,6 +2,7 @@
 
 use crate::{Outcome, case, screen};
 use flexion::case::{Case, Coupling, Live, Problems, Reading, build};
+use flexion::hub_beam::Drive;
 use flexion::integrator::{Adams, Integrator, RungeKutta, StabilityLimit, StepError};
 use flexion::linalg::Structure;
 use flexion::system::{State, System};
@@ -74,7 +75,7 @@ fn beam(case: &Case) -> Vec<Vec<String>> {
             rows.push(row("rotary inertia ρI", format!("{:.6e} kg·m", r.rotary_inertia)));
         }
     }
-    if let Ok(motion) = build::motion(&case.hub.motion, case.duration) {
+    if let Ok(Drive::Prescribed(motion)) = build::drive(&case.hub.motion, case.duration) {
         rows.push(row("largest hub speed", format!("{:.6} rad/s", motion.max_speed(case.duration))));
     }
     rows

@@ -5,9 +5,12 @@ use super::integrator::Integrator as IntegratorCase;
 use super::layout::{Case, Coupling};
 use super::motion::{Motion as MotionCase, MotionOf};
 use super::section::{Section as SectionCase, Shape as ShapeCase};
+use super::torque::{Controller as ControllerCase, Free as FreeCase, Torque as TorqueCase};
 
 use crate::basis::{Basis, BasisError, Field, Hermite, Lagrange, Modes, Radial, RadialParameters};
-use crate::hub_beam::{ExactCoupling, Fields, Foreshortening, Hub, HubBeam, LinearCoupling};
+use crate::hub_beam::{
+    Controller, Drive, ExactCoupling, Fields, Foreshortening, FreeHub, Hub, HubBeam, LinearCoupling,
+};
 
 use crate::integrator::{
     Adams, GeneralizedAlpha, Integrator, InvalidParameter, Radau, RungeKutta, Tolerance,
@@ -82,11 +85,11 @@ pub enum MotionError {
     File(String),
 }
 
-/// The motion of a case, checked over its duration [s].
+/// What turns the hub of a case, checked over its duration [s].
 ///
 /// # Errors
-/// [`MotionError`] when the file cannot be read, or the profile is refused or does not cover the run.
-pub fn motion(case: &MotionCase, duration: f64) -> Result<profile::Motion, MotionError> {
+/// [`MotionError`] when a file cannot be read, or a profile is refused or does not cover the run.
+pub fn drive(case: &MotionCase, duration: f64) -> Result<Drive, MotionError> {
     let (profile, of): (Arc<dyn Profile>, _) = match case {
         MotionCase::SpinUp { speed, time } => (Arc::new(SpinUp::new(*speed, *time)?), MotionOf::Speed),
         MotionCase::Constant { speed } => (Arc::new(Constant::new(*speed)?), MotionOf::Speed),
@@ -96,13 +99,49 @@ pub fn motion(case: &MotionCase, duration: f64) -> Result<profile::Motion, Motio
             (Arc::new(Table::new(&rows, profile::End::default())?), *of)
         }
         MotionCase::Expression { formula, of } => (Arc::new(Expression::new(formula, "t", duration)?), *of),
+        MotionCase::Free(free) => return Ok(Drive::Free(free_hub(free, duration)?)),
     };
     let motion = match of {
         MotionOf::Speed => profile::Motion::Speed { profile, initial_angle: 0.0 },
         MotionOf::Angle => profile::Motion::Angle(profile),
     };
     motion.validate(duration)?;
-    Ok(motion)
+    Ok(Drive::Prescribed(motion))
+}
+
+fn free_hub(case: &FreeCase, duration: f64) -> Result<FreeHub, MotionError> {
+    let torque: Arc<dyn Profile> = match &case.torque {
+        TorqueCase::Constant { torque } => Arc::new(Constant::new(*torque)?),
+        TorqueCase::Ramp { torque, time } => Arc::new(Ramp::new(0.0, *torque, *time)?),
+        TorqueCase::Table { file } => {
+            let rows = rows(file).map_err(MotionError::File)?;
+            Arc::new(Table::new(&rows, profile::End::default())?)
+        }
+        TorqueCase::Expression { formula } => Arc::new(Expression::new(formula, "t", duration)?),
+    };
+    profile::covers(torque.as_ref(), duration)?;
+    let controller = |c: &ControllerCase| -> Result<Controller, MotionError> {
+        let way = c.target - case.angle;
+        let reference: Arc<dyn Profile> = match c.rate {
+            Some(rate) if way != 0.0 => Arc::new(Ramp::new(case.angle, c.target, (way / rate).abs())?),
+            _ => Arc::new(Constant::new(c.target)?),
+        };
+        Ok(Controller {
+            proportional: c.proportional,
+            derivative: c.derivative,
+            reference: profile::Motion::Angle(reference),
+            limit: c.limit.unwrap_or(f64::INFINITY),
+        })
+    };
+    Ok(FreeHub {
+        angle: case.angle,
+        speed: case.speed,
+        torque,
+        damping: case.damping,
+        stiffness: case.stiffness,
+        rest_angle: case.rest_angle,
+        controller: case.controller.as_ref().map(controller).transpose()?,
+    })
 }
 
 /// The two columns of a CSV file; a first line of names and lines that begin with `#` are skipped.
@@ -194,9 +233,9 @@ pub enum BuildError {
 /// [`BuildError`] when a part of it is refused; a case that was read has passed these checks.
 pub fn system(case: &Case) -> Result<Box<dyn System>, BuildError> {
     let section = section(&case.section)?;
-    let motion = motion(&case.hub.motion, case.duration)?;
+    let drive = drive(&case.hub.motion, case.duration)?;
     let (length, stations) = (case.length, &case.output.stations);
-    let hub = Hub::prescribed(case.hub.radius, case.hub.inertia, motion);
+    let hub = Hub { radius: case.hub.radius, inertia: case.hub.inertia, drive };
     let foreshortening = match case.coupling {
         Coupling::Zeroth => Foreshortening::None,
         Coupling::First => Foreshortening::First,

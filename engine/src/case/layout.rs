@@ -8,6 +8,7 @@ use super::integrator::{self, Integrator};
 use super::motion::{self, Motion};
 use super::problem::{Problem, Problems};
 use super::section::{self, Section};
+use super::torque;
 use super::trial;
 use super::units::{INERTIA, LENGTH, TIME};
 use super::values::{Filled, Value, Values};
@@ -45,7 +46,7 @@ pub struct Hub {
     pub radius: f64,
     /// Moment of inertia about the axis [kg·m²].
     pub inertia: f64,
-    /// Its prescribed motion.
+    /// Its motion: prescribed, or free.
     pub motion: Motion,
 }
 
@@ -123,8 +124,17 @@ static INITIAL: Seam = Seam {
 };
 
 /// The seams, in the order of a case file.
-pub(super) static SEAMS: &[&Seam] =
-    &[&section::SEAM, &motion::SEAM, &COUPLING, &basis::SEAM, &basis::FIELD, &INITIAL, &integrator::SEAM];
+pub(super) static SEAMS: &[&Seam] = &[
+    &section::SEAM,
+    &motion::SEAM,
+    &torque::TORQUES,
+    &torque::CONTROLLERS,
+    &COUPLING,
+    &basis::SEAM,
+    &basis::FIELD,
+    &INITIAL,
+    &integrator::SEAM,
+];
 
 /// The keys of a case file.
 pub(super) static KEYS: &[Key] = &[
@@ -151,7 +161,7 @@ pub(super) static KEYS: &[Key] = &[
                 Default::Number(0.0),
                 "moment of inertia of the hub about its axis",
             ),
-            key("motion", Type::Kind(&motion::SEAM), Required, "prescribed rotation of the hub"),
+            key("motion", Type::Kind(&motion::SEAM), Required, "rotation of the hub: prescribed, or free"),
         ]),
         Required,
         "hub and its motion",

@@ -26,6 +26,7 @@ mod resolved;
 mod run;
 mod schema;
 mod section;
+mod torque;
 mod tree;
 mod trial;
 mod values;
@@ -38,6 +39,7 @@ pub use problem::{Place, Problem, Problems, Source};
 pub use run::{Prepared, Run};
 pub use schema::schema;
 pub use section::{Section, Shape};
+pub use torque::{Controller, Free, Torque};
 
 use crate::system::{State, System};
 use build::BuildError;
@@ -116,7 +118,7 @@ impl Reading {
             let among = (0..=STABILITY_TIMES).map(|k| case.duration * k as f64 / STABILITY_TIMES as f64);
             let within = system.breaks().iter().copied().filter(|t| *t <= case.duration);
             for t in among.chain(within).collect::<Vec<_>>() {
-                let mut state = State::zeros(system.size(), t);
+                let mut state = State { t, ..system.initial() };
                 trial
                     .start(system.as_mut(), &mut state, step)
                     .map_err(|error| self.problem("integrator.step", error.to_string()))?;

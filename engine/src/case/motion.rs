@@ -1,6 +1,7 @@
-//! The prescribed motion of the hub: kinds and their keys.
+//! The motion of the hub: kinds and their keys.
 
 use super::declaration::{Bound::*, Key, Kind, Presence::Required, Seam, Type, Type::Quantity, key};
+use super::torque::{self, Free};
 use super::units::{ANGULAR_SPEED, TIME};
 use super::values::Values;
 use std::path::{Path, PathBuf};
@@ -41,6 +42,8 @@ pub enum Motion {
         /// What it gives.
         of: MotionOf,
     },
+    /// Not prescribed: the hub is turned by torques.
+    Free(Free),
 }
 
 /// Which quantity a table or a formula gives.
@@ -70,7 +73,7 @@ const GIVES: Key = key("of", Type::Choice(&OF), Required, "quantity that is give
 pub(super) static SEAM: Seam = Seam {
     name: "motion",
     path: "hub.motion",
-    summary: "prescribed rotation of the hub",
+    summary: "rotation of the hub: prescribed, or free",
     kinds: &[
         Kind {
             name: "spin-up",
@@ -102,6 +105,12 @@ pub(super) static SEAM: Seam = Seam {
             source: "",
             keys: &[key("formula", Type::Text, Required, "formula in t, in rad/s or rad"), GIVES],
         },
+        Kind {
+            name: "free",
+            summary: "free to turn, driven by torques, restrained or controlled",
+            source: "",
+            keys: torque::KEYS,
+        },
     ],
 };
 
@@ -116,6 +125,7 @@ pub(super) fn read(kind: &Kind, v: &Values, folder: &Path) -> Option<Motion> {
         "ramp" => Motion::Ramp { speed: v.number("speed")?, time: v.number("time")? },
         "table" => Motion::Table { file: folder.join(v.text("file")?), of: of()? },
         "expression" => Motion::Expression { formula: v.text("formula")?.to_owned(), of: of()? },
+        "free" => Motion::Free(torque::read(v, folder)?),
         _ => Motion::SpinUp { speed: v.number("speed")?, time: v.number("time")? },
     })
 }

@@ -52,10 +52,14 @@ impl Reading {
     pub fn prepare(&self) -> Result<Prepared<'_>, Problems> {
         let mut live = self.build()?;
         let case = &self.case;
-        let mut state = State::zeros(live.system.size(), 0.0);
+        let mut state = live.system.initial();
         if case.initial == Initial::SteadyRotation {
+            let velocity = state.v.clone();
+            live.system.hold(true);
             equilibrium(live.system.as_mut(), &mut state)
                 .map_err(|error| self.problem("initial", error.to_string()))?;
+            live.system.hold(false);
+            state.v = velocity;
         }
         let (step, longest_step) = match case.integrator {
             IntegratorCase::Radau { initial_step, max_step, .. } => (initial_step, max_step),

@@ -8,6 +8,7 @@ use super::motion::Motion;
 use super::problem::{Place, Problem, Problems};
 use super::reader::inside;
 use super::section::Section;
+use super::torque::Torque;
 use super::values::{Values, join};
 use crate::basis::Field;
 use crate::profile::ProfileError;
@@ -22,11 +23,20 @@ pub(super) fn section(case: Option<&Section>, values: &Values, problems: &mut Pr
 /// Tries the motion over the duration [s].
 pub(super) fn motion(case: Option<&Motion>, duration: Option<f64>, values: &Values, problems: &mut Problems) {
     let (Some(case), Some(duration)) = (case, duration) else { return };
-    let Err(error) = build::motion(case, duration) else { return };
-    let table = values.table("hub").and_then(|hub| hub.kind("motion")).map(|(_, values)| values);
-    let key = match case {
-        Motion::Table { .. } => "file",
-        Motion::Expression { .. } => "formula",
+    let Err(error) = build::drive(case, duration) else { return };
+    let mut table = values.table("hub").and_then(|hub| hub.kind("motion")).map(|(_, values)| values);
+    let mut path = "hub.motion";
+    let (mut file, mut formula) =
+        (matches!(case, Motion::Table { .. }), matches!(case, Motion::Expression { .. }));
+    if let Motion::Free(free) = case {
+        table = table.and_then(|free| free.kind("torque")).map(|(_, values)| values);
+        path = "hub.motion.torque";
+        file = matches!(free.torque, Torque::Table { .. });
+        formula = matches!(free.torque, Torque::Expression { .. });
+    }
+    let key = match (file, formula) {
+        (true, _) => "file",
+        (_, true) => "formula",
         _ => "kind",
     };
     let mut place = table.and_then(|table| table.place(key));
@@ -37,7 +47,7 @@ pub(super) fn motion(case: Option<&Motion>, duration: Option<f64>, values: &Valu
         place = Some(inside(whole, text, *offset..text.len().min(offset + 1), problems));
         message = fault.clone();
     }
-    let problem = Problem::new(join("hub.motion", key), place, message);
+    let problem = Problem::new(join(path, key), place, message);
     problems.push(match &error {
         MotionError::Profile(ProfileError::OutOfRange { .. }) => {
             problem.help("shorten the run, or extend the table over all of it")

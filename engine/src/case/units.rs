@@ -46,6 +46,9 @@ measures! {
     INERTIA "moment of inertia" "kg*m^2" [2, 1, 0, 0] "`9.5 kg*m^2`";
     TIME "time" "s" [0, 0, 1, 0] "`20 s`, `5 ms`, `1 min`";
     ANGLE "angle" "rad" [0, 0, 0, 1] "`90 deg`, `1.5 rad`";
+    TORQUE "torque" "N*m" [2, 1, -2, 0] "`20 N*m`, `1.5 kN*m`";
+    ANGULAR_STIFFNESS "torque per angle" "N*m/rad" [2, 1, -2, -1] "`100 N*m/rad`";
+    ANGULAR_DAMPING "torque per angular speed" "N*m*s/rad" [2, 1, -1, -1] "`5 N*m*s/rad`";
     ANGULAR_SPEED "angular speed" "rad/s" [0, 0, -1, 1] "`4 rad/s`, `3000 rpm`, `90 deg/s`";
 }
 
