@@ -167,7 +167,12 @@ fn point_interpolation_converges_with_the_degree_of_its_end_cells_and_half_an_or
         }
     };
     orders("PIM, support 0.5", [8, 16], (4.0, 4.0), 0.15, point(0.5));
-    orders("PIM, support 1.5", [8, 12], (6.5, 9.0), 0.5, point(1.5));
+    println!("PIM, support 1.5");
+    let deflection = order([8, 12], |cells| deflection_error(&*point(1.5)(cells)));
+    assert!((deflection - 6.5).abs() < 0.3, "deflection of order {deflection:.2}");
+    // 2(d − 1) + 1 = 9 is reached late, from below: 7.6 for [8, 12], 8.1 for [12, 16], 9.4 for [16, 20].
+    let frequency = order([12, 20], |cells| frequency_error(&*point(1.5)(cells)));
+    assert!((8.0..9.5).contains(&frequency), "frequency of order {frequency:.2}");
     let wide = point(2.5)(8);
     let (d, f) = (deflection_error(&*wide), frequency_error(&*wide));
     println!("PIM, support 2.5, 8 cells: {d:.1e} {f:.1e}");
