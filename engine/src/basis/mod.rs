@@ -1,15 +1,21 @@
 //! Bases for the displacement fields of a beam, x ∈ [0, L], clamped at the root: each a file.
 
+mod b_spline;
+mod bezier;
 #[cfg(test)]
 pub(crate) mod checks;
 mod hermite;
 mod lagrange;
 mod modes;
+mod polynomial;
 mod radial;
 
+pub use b_spline::BSpline;
+pub use bezier::Bezier;
 pub use hermite::Hermite;
 pub use lagrange::Lagrange;
 pub use modes::Modes;
+pub use polynomial::{Polynomial, PolynomialParameters};
 pub use radial::{Radial, RadialParameters};
 
 use std::ops::Range;
@@ -27,6 +33,8 @@ pub enum Role {
     Slope,
     /// The amplitude [m] of a shape.
     Amplitude,
+    /// The displacement [m] of a control point that stands at its anchor.
+    Control,
 }
 
 /// Which displacement field a basis is for: it decides what the clamp removes.
@@ -41,9 +49,9 @@ pub enum Field {
 /// How well the functions are determined by the numbers that define them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Conditioning {
-    /// Largest condition number (1-norm) of the matrices inverted to form the basis; 1 if none is.
+    /// Largest condition number of the matrices named by `of`; 1 if nothing is inverted.
     pub number: f64,
-    /// What was inverted, for people.
+    /// What was inverted, or must be to use the functions, for people.
     pub of: &'static str,
 }
 

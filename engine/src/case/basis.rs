@@ -29,6 +29,27 @@ pub enum Basis {
     },
     /// Radial point interpolation.
     Radial(RadialBasis),
+    /// Point interpolation with polynomials.
+    Polynomial {
+        /// Number of equally spaced nodes, ends included.
+        nodes: usize,
+        /// Half width of the support domain over the node spacing, α_s.
+        support: f64,
+    },
+    /// B-splines.
+    BSpline {
+        /// Number of equal spans.
+        elements: usize,
+        /// Degree p.
+        degree: usize,
+    },
+    /// Bézier curves.
+    Bezier {
+        /// Number of equal elements, joined smoothly.
+        elements: usize,
+        /// Degree n.
+        degree: usize,
+    },
 }
 
 /// Parameters of radial point interpolation with multiquadrics (r² + (α_c d_c)²)^q.
@@ -58,17 +79,69 @@ const AXIAL_DEGREE: Key = key(
 );
 const DU: &str = "Du, Zhang & Hong 2015, doi:10.6052/0459-1879-14-334";
 
+const NODES: Key = key(
+    "nodes",
+    Type::Integer(2, MOST),
+    Default::Integer(11),
+    "number of equally spaced nodes, ends included",
+);
+
+const POLYNOMIAL: Kind = Kind {
+    name: "polynomial",
+    summary: "meshfree point interpolation (PIM) with polynomials",
+    source: "Du & Zhang 2015, doi:10.7498/aps.64.034501",
+    keys: &[
+        NODES,
+        key(
+            "support",
+            Type::Number(Positive),
+            Default::Number(1.5),
+            "half width α_s of the support domain over the node spacing; 0.5 gives finite elements",
+        ),
+    ],
+};
+
+const B_SPLINE: Kind = Kind {
+    name: "b-spline",
+    summary: "B-splines of any degree on equal spans",
+    source: "Fan & Zhang 2012, doi:10.3901/JME.2012.23.059",
+    keys: &[
+        ELEMENTS,
+        key(
+            "degree",
+            Type::Integer(1, 15),
+            Default::Integer(3),
+            "degree p; at least 2 for the transverse field",
+        ),
+    ],
+};
+
+const BEZIER: Kind = Kind {
+    name: "bezier",
+    summary: "Bézier curve over the whole beam, or smoothly joined ones",
+    source: "Fan & Zhang 2014, doi:10.7498/aps.63.154501",
+    keys: &[
+        key(
+            "degree",
+            Type::Integer(1, 27),
+            Default::Integer(10),
+            "degree n; at least 2 for the transverse field",
+        ),
+        key(
+            "elements",
+            Type::Integer(1, MOST),
+            Default::Integer(1),
+            "number of equal elements, joined smoothly",
+        ),
+    ],
+};
+
 const RADIAL: Kind = Kind {
     name: "radial",
     summary: "radial point interpolation (RPIM) with multiquadrics",
     source: DU,
     keys: &[
-        key(
-            "nodes",
-            Type::Integer(2, MOST),
-            Default::Integer(11),
-            "number of equally spaced nodes, ends included",
-        ),
+        NODES,
         key(
             "shape",
             Type::Number(Positive),
@@ -110,6 +183,9 @@ pub(super) static FIELD: Seam = Seam {
             keys: &[key("count", Type::Integer(1, 100), Required, "number of modes")],
         },
         RADIAL,
+        POLYNOMIAL,
+        B_SPLINE,
+        BEZIER,
     ],
 };
 
@@ -135,6 +211,9 @@ pub(super) static SEAM: Seam = Seam {
             ],
         },
         RADIAL,
+        POLYNOMIAL,
+        B_SPLINE,
+        BEZIER,
         Kind {
             name: "mixed",
             summary: "another basis for each field",
@@ -175,6 +254,9 @@ fn field(kind: &Kind, v: &Values) -> Option<Basis> {
             support: v.number("support")?,
             degree: v.integer("degree").map(|degree| usize::try_from(degree).ok())?,
         }),
+        "polynomial" => Basis::Polynomial { nodes: v.count("nodes")?, support: v.number("support")? },
+        "b-spline" => Basis::BSpline { elements: v.count("elements")?, degree: v.count("degree")? },
+        "bezier" => Basis::Bezier { elements: v.count("elements")?, degree: v.count("degree")? },
         _ => Basis::FiniteElements { elements: v.count("elements")?, axial_degree: v.count("axial-degree")? },
     })
 }

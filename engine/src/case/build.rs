@@ -6,12 +6,13 @@ use super::layout::{Case, Coupling};
 use super::motion::{Motion as MotionCase, MotionOf};
 use super::section::{Section as SectionCase, Shape as ShapeCase};
 use super::torque::{Controller as ControllerCase, Free as FreeCase, Torque as TorqueCase};
-
-use crate::basis::{Basis, BasisError, Field, Hermite, Lagrange, Modes, Radial, RadialParameters};
+use crate::basis::{
+    BSpline, Basis, BasisError, Bezier, Field, Hermite, Lagrange, Modes, Polynomial, PolynomialParameters,
+    Radial, RadialParameters,
+};
 use crate::hub_beam::{
     Controller, Drive, ExactCoupling, Fields, Foreshortening, FreeHub, Hub, HubBeam, LinearCoupling,
 };
-
 use crate::integrator::{
     Adams, GeneralizedAlpha, Integrator, InvalidParameter, Radau, RungeKutta, Tolerance,
 };
@@ -191,6 +192,11 @@ pub fn basis(case: &BasisCase, length: f64, field: Field) -> Result<Box<dyn Basi
             let parameters = RadialParameters { nodes, shape, exponent, support, degree };
             Box::new(Radial::new(length, parameters, field)?)
         }
+        BasisCase::Polynomial { nodes, support } => {
+            Box::new(Polynomial::new(length, PolynomialParameters { nodes, support }, field)?)
+        }
+        BasisCase::BSpline { elements, degree } => Box::new(BSpline::new(length, elements, degree, field)?),
+        BasisCase::Bezier { elements, degree } => Box::new(Bezier::new(length, elements, degree, field)?),
     })
 }
 

@@ -74,7 +74,12 @@ pub(super) fn bases(case: Option<&Bases>, length: Option<f64>, values: &Values, 
 
 /// The key that most likely is to blame.
 fn place_of(basis: &Basis, table: &Values) -> Option<Place> {
-    table.place(if matches!(basis, Basis::Radial(_)) { "shape" } else { "kind" })
+    table.place(match basis {
+        Basis::Radial(_) => "shape",
+        Basis::Polynomial { .. } => "support",
+        Basis::BSpline { .. } | Basis::Bezier { .. } => "degree",
+        _ => "kind",
+    })
 }
 
 /// Tries the integrator.

@@ -168,6 +168,11 @@ impl Fields {
                         unit: "",
                         scale: 1.0,
                     },
+                    Role::Control => Label {
+                        name: format!("{field} displacement of the control point at x = {at:.4} m"),
+                        unit: "m",
+                        scale: self.length,
+                    },
                     Role::Amplitude => Label {
                         name: format!("amplitude of {field} shape {}", i + 1),
                         unit: "m",
