@@ -22,6 +22,7 @@ mod station;
 mod system;
 #[cfg(test)]
 mod tests;
+mod turn;
 
 pub use coupling::Coupling;
 pub use exact::ExactCoupling;
