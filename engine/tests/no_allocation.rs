@@ -2,6 +2,8 @@
 
 #![allow(unsafe_code)]
 
+#[path = "verification/run.rs"]
+mod run;
 #[path = "integrators/systems.rs"]
 mod systems;
 
@@ -105,6 +107,33 @@ fn no_step_allocates() {
     let from = state(&constrained, &[1.0, 0.0], &[0.0, 0.0]);
     let only: Vec<Box<dyn Integrator>> = vec![Box::new(GeneralizedAlpha::chung_hulbert(0.5).unwrap())];
     assert_no_allocation("pendulum with a constraint", &mut constrained, &from, 1e-2, only);
+}
+
+/// Every coupling on every basis it can use, uniform and graded, bands and dense matrices.
+#[test]
+fn no_step_of_a_hub_and_beam_allocates() {
+    let elements = "basis={kind='finite-elements',elements=8}";
+    let quadratic = "basis={kind='finite-elements',elements=2,axial-degree=2}";
+    let modes = "basis={kind='modes',axial=3,transverse=3}";
+    let radial = "basis={kind='radial',nodes=7}";
+    let mixed = "basis={kind='mixed',axial={kind='radial',nodes=7},transverse={kind='modes',count=2}}";
+    let linear = [elements, quadratic, modes, radial, mixed];
+    let couplings: [(&str, &[&str]); 3] =
+        [("zeroth", &linear), ("first", &linear), ("exact", &[elements, "basis.elements=2"])];
+    for folder in ["p1_spin_up_4", "p3_n2_spin_up_4"] {
+        for (coupling, bases) in couplings {
+            for basis in bases {
+                let rotary = "section.rotary-inertia=true";
+                // It turns from the start, so that the steps have something to do.
+                let motion = "hub.motion={kind='constant',speed='40 rad/s'}";
+                let overrides = [&format!("model.coupling={coupling}"), *basis, motion, rotary];
+                let what = format!("{folder} {overrides:?}");
+                let mut live = run::case(folder, &overrides).unwrap().build().unwrap();
+                let from = State::zeros(live.system.size(), 0.0);
+                assert_no_allocation(&what, live.system.as_mut(), &from, 2e-6, integrators());
+            }
+        }
+    }
 }
 
 /// The counter itself counts.
