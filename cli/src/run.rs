@@ -57,6 +57,9 @@ pub fn run(arguments: &Arguments) -> Outcome {
         Ok(status) => finish(status, &run, &directory),
         Err(error) => {
             screen::complain(&format!("error: {error}\n"));
+            if let Some(path) = directory.salvage() {
+                screen::complain(&format!("What was written until then is kept in {}.\n", path.display()));
+            }
             Outcome::Incomplete
         }
     }

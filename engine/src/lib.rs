@@ -17,3 +17,5 @@ pub mod profile;
 pub mod quadrature;
 pub mod section;
 pub mod system;
+
+mod nearest;

@@ -77,10 +77,16 @@ pub struct Output {
     pub step: f64,
     /// Stations along the beam to be recorded besides the tip [m].
     pub stations: Vec<f64>,
+    /// Interval between shapes of the beam for ParaView [s]; `None` writes none.
+    pub vtk: Option<f64>,
 }
 
 /// Largest number of records of a run.
 const MOST_RECORDS: f64 = 1e7;
+
+/// Shapes of a run if nothing else is said, and largest number.
+const SHAPES: f64 = 200.0;
+const MOST_SHAPES: f64 = 1e4;
 
 static COUPLING: Seam = Seam {
     name: "coupling",
@@ -201,6 +207,18 @@ pub(super) static KEYS: &[Key] = &[
                 Default::Empty,
                 "stations along the beam, from the root, recorded besides the tip",
             ),
+            key(
+                "vtk",
+                Type::Boolean,
+                Default::Boolean(false),
+                "the shape of the beam is written too, for ParaView: beam.pvd",
+            ),
+            key(
+                "vtk-step",
+                Quantity(&TIME, Positive),
+                Optional,
+                "interval between shapes, rounded to records, 200 shapes if left out",
+            ),
         ]),
         Default::Empty,
         "recording of results",
@@ -254,6 +272,23 @@ pub(super) fn case(values: &mut Values, folder: &Path, problems: &mut Problems) 
         );
         problems.push(Problem::new("output.step", output.place("step"), message));
     }
+    let vtk = output.filter(|output| output.boolean("vtk") == Some(true));
+    let vtk = vtk.zip(run_duration).map(|(output, duration)| {
+        let interval = output.number("vtk-step").unwrap_or(duration / SHAPES);
+        let mut refuse = |message| {
+            problems.push(Problem::new("output.vtk-step", output.place("vtk-step"), message));
+        };
+        if interval > duration {
+            refuse(format!("the interval {interval} s between shapes is longer than the run of {duration} s"));
+        }
+        if duration / interval > MOST_SHAPES {
+            let shapes = duration / interval;
+            refuse(format!(
+                "the interval {interval} s makes {shapes:.1e} shapes in {duration} s; at most {MOST_SHAPES:.0e} are kept"
+            ));
+        }
+        interval
+    });
     if let (Some(duration), Some(step), Some((_, v))) =
         (run_duration, integrator.as_ref().and_then(Integrator::step), values.kind("integrator"))
         && step > duration
@@ -289,7 +324,7 @@ pub(super) fn case(values: &mut Values, folder: &Path, problems: &mut Problems) 
         initial: initial?,
         integrator: integrator?,
         duration: run_duration?,
-        output: Output { step: output_step?, stations: stations? },
+        output: Output { step: output_step?, stations: stations?, vtk },
     })
 }
 

@@ -19,7 +19,6 @@ mod basis;
 mod integrator;
 mod layout;
 mod motion;
-mod nearest;
 mod problem;
 mod reader;
 mod resolved;
@@ -78,7 +77,12 @@ pub struct Reading {
 impl Reading {
     /// The case as a file with every default filled in, in SI, that reads back as the same case.
     pub fn resolved(&self) -> String {
-        resolved::resolved(&self.values)
+        resolved::resolved(&self.values, None)
+    }
+
+    /// As [`Reading::resolved`], for a place where the table of the motion, if there is one, is called `name`.
+    pub fn resolved_with_table(&self, name: &str) -> String {
+        resolved::resolved(&self.values, Some(name))
     }
 
     /// The defaults in force: dotted path and value.

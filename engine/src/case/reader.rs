@@ -1,11 +1,11 @@
 //! Reads the raw tree by the declarations: every problem is collected, nothing stops at the first.
 
 use super::declaration::{Bound, Key, Kind, Presence, Seam, Type, listed};
-use super::nearest::nearest;
 use super::problem::{Place, Problem, Problems};
 use super::tree::{Entry, Node, Raw};
 use super::units::{self, Measure};
 use super::values::{Filled, Value, Values, join};
+use crate::nearest::nearest;
 
 /// Reads a table with the given keys.
 pub(super) fn table(

@@ -4,15 +4,15 @@ use super::declaration::Type;
 use super::values::{Value, Values, join};
 use std::fmt::Write;
 
-/// Writes the whole case.
-pub(super) fn resolved(values: &Values) -> String {
+/// Writes the whole case, with `file` in place of every path if there is one.
+pub(super) fn resolved(values: &Values, file: Option<&str>) -> String {
     let mut out = String::new();
-    table(values, None, "", &mut out);
+    table(values, None, "", file, &mut out);
     out
 }
 
 /// The plain keys first, then the tables.
-fn table(values: &Values, kind: Option<&str>, path: &str, out: &mut String) {
+fn table(values: &Values, kind: Option<&str>, path: &str, file: Option<&str>, out: &mut String) {
     if !path.is_empty() {
         let _ = writeln!(out, "\n[{path}]");
     }
@@ -25,14 +25,17 @@ fn table(values: &Values, kind: Option<&str>, path: &str, out: &mut String) {
             Type::Quantity(measure, _) | Type::Quantities(measure, _) => format!("  # {}", measure.unit),
             _ => String::new(),
         };
-        let _ =
-            writeln!(out, "{} = {}{unit}", filled.key.name, written(&filled.value, &filled.key.takes, false));
+        let value = match (filled.key.takes, file) {
+            (Type::Path, Some(file)) => quoted(file),
+            _ => written(&filled.value, &filled.key.takes, false),
+        };
+        let _ = writeln!(out, "{} = {value}{unit}", filled.key.name);
     }
     for filled in &values.entries {
         let path = join(path, filled.key.name);
         match &filled.value {
-            Value::Table(values) => table(values, None, &path, out),
-            Value::Kind(kind, values) => table(values, Some(kind.name), &path, out),
+            Value::Table(values) => table(values, None, &path, file, out),
+            Value::Kind(kind, values) => table(values, Some(kind.name), &path, file, out),
             _ => {}
         }
     }

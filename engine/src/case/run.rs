@@ -1,17 +1,20 @@
 //! A case, run: from its reading to its results.
 
-use super::{Initial, Integrator as IntegratorCase, Live, Problems, Reading};
+use super::{Initial, Integrator as IntegratorCase, Live, Motion, Problems, Reading};
 use crate::analysis::equilibrium::equilibrium;
 use crate::analysis::transient::{Ending, Plan, transient};
 use crate::integrator::{Counters, Info};
 use crate::linalg::Structure;
 use crate::output::plot::trajectory_figure;
 use crate::output::{
-    Directory, Integration, OutputError, ProblemSize, Recorder, RunReport, Status, Trajectory, Watch,
-    write_run,
+    Artifact, Attachments, Directory, Integration, OutputError, ProblemSize, Recorder, RunReport, Shapes,
+    Status, Trajectory, Watch, write_run,
 };
 use crate::system::{State, System};
 use std::time::Instant;
+
+/// Length over height of a beam drawn without knowing its height.
+const SLENDERNESS: f64 = 50.0;
 
 /// A case with all that its run needs, checked: what remains can only fail in time.
 pub struct Prepared<'a> {
@@ -19,6 +22,8 @@ pub struct Prepared<'a> {
     live: Live,
     state: State,
     plan: Plan,
+    motion_table: Option<Vec<u8>>,
+    shapes: Option<Shapes>,
 }
 
 /// What a run gave.
@@ -30,6 +35,10 @@ pub struct Run {
     pub message: Option<String>,
     /// What it recorded.
     pub trajectory: Trajectory,
+    /// The shapes of the beam, if the case asks for them.
+    pub shapes: Option<Shapes>,
+    /// The table that the motion was taken from, byte for byte.
+    pub motion_table: Option<Vec<u8>>,
     /// The last accepted step.
     pub state: State,
     /// What its reader should know about the validity of the model.
@@ -66,10 +75,27 @@ impl Reading {
             _ => (case.integrator.step(), None),
         };
         let plan = Plan { end: case.duration, step, longest_step, sample: case.output.step };
-        Ok(Prepared { reading: self, live, state, plan })
+        let motion_table = match &case.hub.motion {
+            Motion::Table { file, .. } => {
+                let failed = |error| format!("cannot read {}: {error}", file.display());
+                let bytes = std::fs::read(file).map_err(failed);
+                Some(bytes.map_err(|message| self.problem("hub.motion.file", message))?)
+            }
+            _ => None,
+        };
+        Ok(Prepared { reading: self, live, state, plan, motion_table, shapes: self.shapes() })
     }
 
-    /// Writes the results of a run of this case, the summary last.
+    /// Room for the shapes, if the case asks for them.
+    fn shapes(&self) -> Option<Shapes> {
+        let case = &self.case;
+        let interval = case.output.vtk?;
+        let every = (interval / case.output.step).round().max(1.0) as usize;
+        let height = case.section.height().unwrap_or(case.length / SLENDERNESS);
+        Some(Shapes::new(case.length, &case.output.stations, height, every))
+    }
+
+    /// Writes the results of a run of this case and publishes them.
     ///
     /// # Errors
     /// [`OutputError`] for whatever goes wrong on disk or in drawing.
@@ -90,7 +116,13 @@ impl Reading {
         };
         let title = (!self.case.title.is_empty()).then_some(self.case.title.as_str());
         let figure = trajectory_figure(&run.trajectory, title);
-        write_run(directory, &report, &run.trajectory, &self.resolved(), Some(&figure))
+        let attachments = Attachments {
+            figure: Some(&figure),
+            motion_table: run.motion_table.as_deref(),
+            shapes: run.shapes.as_ref(),
+        };
+        let case = self.resolved_with_table(&Artifact::MotionTable.file_name());
+        write_run(directory, &report, &run.trajectory, &case, attachments)
     }
 }
 
@@ -103,11 +135,16 @@ impl Prepared<'_> {
     /// Integrates to the end, or to where `watch` stops it or the integration fails: what was computed
     /// until then is in the run.
     pub fn run(self, watch: &mut Watch<'_>) -> Run {
-        let Prepared { live: Live { mut system, mut integrator }, mut state, plan, .. } = self;
+        let Prepared { live, mut state, plan, motion_table, shapes, .. } = self;
+        let Live { mut system, mut integrator } = live;
         let start = Instant::now();
-        let mut recorder = Recorder::new(system.as_ref(), &plan, watch);
+        let mut recorder = Recorder::new(system.as_ref(), &plan, watch).with_shapes(shapes);
         let ending = transient(system.as_mut(), integrator.as_mut(), &mut state, &plan, &mut recorder);
         let wall_time = start.elapsed().as_secs_f64();
+        let (trajectory, mut shapes) = recorder.into_parts();
+        if let (Ending::Finished, Some(shapes)) = (&ending, &mut shapes) {
+            shapes.finish(system.as_mut(), &state);
+        }
         let (status, message) = match ending {
             Ending::Finished => (Status::Finished, None),
             Ending::Stopped => {
@@ -118,7 +155,9 @@ impl Prepared<'_> {
         Run {
             status,
             message,
-            trajectory: recorder.into_trajectory(),
+            trajectory,
+            shapes,
+            motion_table,
             warnings: system.cautions(),
             info: integrator.info().clone(),
             counters: integrator.counters(),

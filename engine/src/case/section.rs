@@ -60,6 +60,19 @@ pub enum Section {
     },
 }
 
+impl Section {
+    /// Height in the plane of motion \[m\]; `None` when only resultants are known.
+    pub fn height(&self) -> Option<f64> {
+        match *self {
+            Section::Uniform { shape: Shape::Rectangle { height, .. }, .. }
+            | Section::Graded { height, .. } => Some(height),
+            Section::Uniform { shape: Shape::Circle { radius }, .. } => Some(2.0 * radius),
+            Section::Uniform { shape: Shape::Tube { outer_radius, .. }, .. } => Some(2.0 * outer_radius),
+            Section::Uniform { shape: Shape::General { .. }, .. } | Section::Resultants { .. } => None,
+        }
+    }
+}
+
 /// The shape of a uniform section, in SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {

@@ -1,166 +1,65 @@
-//! The directory of a run: each file is written whole, and the summary last.
+//! The directory of results: all files appear together, when they are whole.
 
-use std::fs::{self, File};
-use std::io::{self, BufWriter, ErrorKind, Write as _};
+use std::fs::{self, File, TryLockError};
+use std::io::{self, BufWriter, Write as _};
 use std::path::{Path, PathBuf};
 
-/// Why results could not be written. Every message says where, why and what to try.
-#[derive(Debug, thiserror::Error)]
-pub enum OutputError {
-    /// The path of the directory is taken by something else.
-    #[error("{} is a file, not a directory; choose another output directory", path.display())]
-    NotADirectory {
-        /// The path asked for.
-        path: PathBuf,
-    },
-    /// The directory holds the results of a former run.
-    #[error(
-        "{} already holds the results of a run (summary.json); choose another output directory or replace them with --force",
-        path.display()
-    )]
-    HoldsResults {
-        /// The directory.
-        path: PathBuf,
-    },
-    /// The directory holds something else.
-    #[error(
-        "{} is not empty (it holds {found}); choose another output directory or write into it with --force",
-        path.display()
-    )]
-    NotEmpty {
-        /// The directory.
-        path: PathBuf,
-        /// Name of one of the things found in it.
-        found: String,
-    },
-    /// The operating system refused.
-    #[error("cannot {action} {}: {source}; {}", path.display(), advice(source))]
-    Io {
-        /// What was being done, e.g. `write`.
-        action: &'static str,
-        /// To which file or directory.
-        path: PathBuf,
-        /// The system's reason.
-        source: io::Error,
-    },
-    /// A figure could not be drawn.
-    #[error(
-        "cannot draw the plot: {reason}; the other files are not affected, draw it again from trajectory.csv"
-    )]
-    Draw {
-        /// The reason of the drawing library.
-        reason: String,
-    },
-}
+use super::OutputError;
+use super::artifact::Artifact;
+use super::staging::{self, NEW};
 
-impl OutputError {
-    fn io(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> OutputError {
-        move |source| OutputError::Io { action, path: path.to_path_buf(), source }
-    }
-}
-
-/// What to try when the system refuses.
-fn advice(error: &io::Error) -> &'static str {
-    match error.kind() {
-        ErrorKind::PermissionDenied => {
-            "choose a directory you may write to, or ask its owner for the permission"
-        }
-        ErrorKind::ReadOnlyFilesystem => "this file system is read-only: choose a directory on another one",
-        ErrorKind::StorageFull => {
-            "the disk is full: make room, choose a directory on another disk, or record less often"
-        }
-        ErrorKind::QuotaExceeded => {
-            "the disk quota is used up: make room, choose a directory on another disk, or record less often"
-        }
-        ErrorKind::FileTooLarge => "record less often or for a shorter time",
-        ErrorKind::NotADirectory | ErrorKind::AlreadyExists => {
-            "part of the path is a file: choose another output directory"
-        }
-        ErrorKind::InvalidFilename => "choose a shorter or simpler name",
-        ErrorKind::NotFound => "check the path; it cannot be made or was removed during the run",
-        _ => "check the path and the disk, or choose another output directory",
-    }
-}
-
-/// The files that results are made of. Their names belong to the program: `--force` replaces them
-/// and no other file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Artifact {
-    /// `summary.json`: its presence says that the directory is complete.
-    Summary,
-    /// `case.resolved.toml`.
-    ResolvedCase,
-    /// `trajectory.csv`.
-    TrajectoryCsv,
-    /// `trajectory.npz`.
-    TrajectoryNpz,
-    /// `plot.svg`.
-    PlotSvg,
-    /// `plot.png`.
-    PlotPng,
-}
-
-impl Artifact {
-    /// All of them, the summary first: the order in which they are removed.
-    pub const ALL: [Artifact; 6] = [
-        Artifact::Summary,
-        Artifact::ResolvedCase,
-        Artifact::TrajectoryCsv,
-        Artifact::TrajectoryNpz,
-        Artifact::PlotSvg,
-        Artifact::PlotPng,
-    ];
-
-    /// The file's name.
-    pub fn file_name(self) -> &'static str {
-        match self {
-            Artifact::Summary => "summary.json",
-            Artifact::ResolvedCase => "case.resolved.toml",
-            Artifact::TrajectoryCsv => "trajectory.csv",
-            Artifact::TrajectoryNpz => "trajectory.npz",
-            Artifact::PlotSvg => "plot.svg",
-            Artifact::PlotPng => "plot.png",
-        }
-    }
-}
-
-/// A directory known to be writable, empty of former results, that a run will fill.
+/// A directory known to be writable that a run or a comparison will fill.
 ///
-/// It is complete if and only if it holds `summary.json`: the summary is written last, and removed
-/// first when former results are replaced. A run that dies in between leaves no summary.
+/// Files are written into a hidden folder of it, and moved to their names by [`Directory::publish`] when all of
+/// them are whole: former results stay as they are until then, whatever ends the run. A directory is complete
+/// if and only if it holds its closing file, `summary.json` or `compare.json`, which is moved last (and removed
+/// first when former results are replaced). A move that is interrupted is finished by the next run, and what an
+/// interrupted run had begun to write is removed by it.
+///
+/// As long as the value lives no other run can take the same directory, where the file system has locks.
 #[derive(Debug)]
 pub struct Directory {
     path: PathBuf,
+    own: &'static [Artifact],
+    /// Holds the lock.
+    _lock: Option<File>,
 }
 
 impl Directory {
-    /// Makes the directory (with its parents) or takes an empty one, and checks that it can be
-    /// written to: call it before a long run. With `force` a directory that is not empty is taken
-    /// too; the files of a former run are removed, the summary first, and other files are left alone.
+    /// Makes the directory of a run (with its parents) or takes an empty one, and checks that it can be
+    /// written to: call it before a long run. With `force` a directory that is not empty is taken too; the
+    /// files of a former run will be replaced in the end, and other files are left alone.
     ///
     /// # Errors
-    /// [`OutputError::NotADirectory`], [`OutputError::HoldsResults`] and [`OutputError::NotEmpty`]
-    /// as their names say; [`OutputError::Io`] when the system refuses.
+    /// [`OutputError::NotADirectory`], [`OutputError::HoldsResults`], [`OutputError::NotEmpty`] and
+    /// [`OutputError::Busy`] as their names say; [`OutputError::Io`] when the system refuses.
     pub fn create(path: impl AsRef<Path>, force: bool) -> Result<Directory, OutputError> {
-        let path = path.as_ref().to_path_buf();
+        Directory::take(path.as_ref(), force, Artifact::RUN)
+    }
+
+    /// As [`Directory::create`], for the files of a comparison.
+    ///
+    /// # Errors
+    /// Those of [`Directory::create`].
+    pub fn for_comparison(path: impl AsRef<Path>, force: bool) -> Result<Directory, OutputError> {
+        Directory::take(path.as_ref(), force, Artifact::COMPARISON)
+    }
+
+    fn take(path: &Path, force: bool, own: &'static [Artifact]) -> Result<Directory, OutputError> {
+        let path = path.to_path_buf();
         if path.exists() && !path.is_dir() {
             return Err(OutputError::NotADirectory { path });
         }
         fs::create_dir_all(&path).map_err(OutputError::io("make the directory", &path))?;
-        let directory = Directory { path };
+        let lock = lock(&path)?;
+        let directory = Directory { path, own, _lock: lock };
+        let path = &directory.path;
+        staging::recover(path).map_err(OutputError::io("finish the interrupted replacement in", path))?;
         if !force {
             directory.refuse_contents()?;
         }
-        directory.probe()?;
-        for artifact in Artifact::ALL {
-            let file = directory.file(artifact);
-            match fs::remove_file(&file) {
-                Err(e) if e.kind() != ErrorKind::NotFound => {
-                    return Err(OutputError::io("remove the former", &file)(e));
-                }
-                _ => {}
-            }
-        }
+        let probed = staging::clear(path).and_then(|()| directory.probe());
+        probed.map_err(OutputError::io("write to", path))?;
         Ok(directory)
     }
 
@@ -169,13 +68,13 @@ impl Directory {
         &self.path
     }
 
-    /// Path of one of its files, written or not.
+    /// Path of one of its files when it is published, written or not.
     pub fn file(&self, artifact: Artifact) -> PathBuf {
-        self.path.join(artifact.file_name())
+        self.path.join(&*artifact.file_name())
     }
 
-    /// Writes one file: `fill` writes to a temporary file in this directory, which is brought to
-    /// disk and only then given its name. When anything fails no file of that name is left half-written.
+    /// Writes one file whole, not yet under its name: [`Directory::publish`] moves it there. When anything
+    /// fails nothing is left of it.
     ///
     /// # Errors
     /// [`OutputError::Io`] with the system's reason.
@@ -183,23 +82,48 @@ impl Directory {
         &self,
         artifact: Artifact,
         fill: impl FnOnce(&mut BufWriter<&mut File>) -> io::Result<()>,
-    ) -> Result<PathBuf, OutputError> {
-        let target = self.file(artifact);
-        let mut temporary = self.temporary().map_err(OutputError::io("write", &target))?;
-        let mut buffered = BufWriter::new(temporary.as_file_mut());
-        let written = fill(&mut buffered).and_then(|()| buffered.flush());
-        // Without this the buffer would try to write once more when it is dropped.
-        drop(buffered.into_parts());
-        written
-            .and_then(|()| temporary.as_file().sync_all())
-            .and_then(|()| temporary.persist(&target).map(drop).map_err(|e| e.error))
-            .map_err(OutputError::io("write", &target))?;
-        self.sync();
-        Ok(target)
+    ) -> Result<(), OutputError> {
+        let staged = self.path.join(NEW).join(&*artifact.file_name());
+        let attempt = || {
+            // A directory that has gone is not made again: its owner removed it.
+            fs::metadata(&self.path)?;
+            staged.parent().map_or(Ok(()), fs::create_dir_all)?;
+            let mut file = File::create(&staged)?;
+            let mut buffered = BufWriter::new(&mut file);
+            let written = fill(&mut buffered).and_then(|()| buffered.flush());
+            // Without this the buffer would try to write once more when it is dropped.
+            drop(buffered.into_parts());
+            written.and_then(|()| file.sync_all())
+        };
+        attempt().map_err(|error| {
+            let _ = fs::remove_file(&staged);
+            OutputError::io("write", &self.file(artifact))(error)
+        })
+    }
+
+    /// Brings all that was written under its names, in place of former results.
+    ///
+    /// # Errors
+    /// [`OutputError::Io`] with the system's reason; the next run into this directory finishes the work.
+    pub fn publish(&self) -> Result<(), OutputError> {
+        staging::publish(&self.path).map_err(OutputError::io("move the results into", &self.path))
+    }
+
+    /// Saves what was written whole before something failed, and says where it is: under its names, without
+    /// the closing file, if there are no former results, or else in a folder beside them that the next run
+    /// removes. `None` when nothing was written.
+    pub fn salvage(&self) -> Option<PathBuf> {
+        let staged = self.path.join(NEW);
+        if !staging::holds_files(&staged) {
+            let _ = staging::clear(&self.path);
+            return None;
+        }
+        let former = self.own.iter().any(|artifact| self.file(*artifact).exists());
+        if !former && staging::place(&self.path).is_ok() { Some(self.path.clone()) } else { Some(staged) }
     }
 
     fn refuse_contents(&self) -> Result<(), OutputError> {
-        if self.file(Artifact::Summary).exists() {
+        if [Artifact::Summary, Artifact::CompareJson].iter().any(|closing| self.file(*closing).exists()) {
             return Err(OutputError::HoldsResults { path: self.path.clone() });
         }
         let mut names = Vec::new();
@@ -207,51 +131,58 @@ impl Directory {
             let entry = entry.map_err(OutputError::io("read the directory", &self.path))?;
             names.push(entry.file_name().to_string_lossy().into_owned());
         }
-        match names.into_iter().min() {
+        match names.into_iter().filter(|name| name != NEW).min() {
             Some(found) => Err(OutputError::NotEmpty { path: self.path.clone(), found }),
             None => Ok(()),
         }
     }
 
     /// Writes and removes a small file: permissions, read-only and full disks show only so.
-    fn probe(&self) -> Result<(), OutputError> {
+    fn probe(&self) -> io::Result<()> {
+        let folder = self.path.join(NEW);
+        fs::create_dir(&folder)?;
         let attempt = || {
-            let mut file = self.temporary()?;
+            let mut file = File::create(folder.join("probe"))?;
             file.write_all(&[0; 4096])?;
-            file.as_file().sync_all()?;
-            file.close()
+            file.sync_all()
         };
-        attempt().map_err(OutputError::io("write to", &self.path))
+        let attempt = attempt();
+        attempt.and(staging::clear(&self.path))
     }
+}
 
-    fn temporary(&self) -> io::Result<tempfile::NamedTempFile> {
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(".flexion-").suffix(".part");
-        // Readable as any other file the user makes, not only by the owner: the umask applies.
-        #[cfg(unix)]
-        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        builder.tempfile_in(&self.path)
-    }
-
-    /// Brings the new name to disk where the system can; some file systems cannot, and the file is whole anyway.
-    fn sync(&self) {
-        if cfg!(unix)
-            && let Ok(directory) = File::open(&self.path)
-        {
-            let _ = directory.sync_all();
-        }
+/// Takes the lock of the directory; a file system without locks gives none.
+fn lock(path: &Path) -> Result<Option<File>, OutputError> {
+    // Only on Unix can a directory be opened as a file.
+    let Some(file) = cfg!(unix).then(|| File::open(path).ok()).flatten() else { return Ok(None) };
+    match file.try_lock() {
+        Ok(()) => Ok(Some(file)),
+        Err(TryLockError::WouldBlock) => Err(OutputError::Busy { path: path.to_path_buf() }),
+        Err(TryLockError::Error(_)) => Ok(None),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::io::ErrorKind;
 
     fn names(path: &Path) -> Vec<String> {
         let mut names: Vec<String> =
             fs::read_dir(path).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
         names.sort();
         names
+    }
+
+    /// A directory of former results with a file of the user.
+    fn former() -> tempfile::TempDir {
+        let dir = tempfile::tempdir().unwrap();
+        fs::create_dir(dir.path().join("vtk")).unwrap();
+        for a in Artifact::RUN.iter().copied().chain((0..3).map(Artifact::Shape)) {
+            fs::write(dir.path().join(&*a.file_name()), "old").unwrap();
+        }
+        fs::write(dir.path().join("notes.txt"), "mine").unwrap();
+        dir
     }
 
     #[test]
@@ -285,33 +216,83 @@ mod tests {
         let e = Directory::create(dir.path(), false).unwrap_err();
         assert!(matches!(&e, OutputError::NotEmpty { found, .. } if found == "notes.txt"), "{e}");
         fs::write(dir.path().join("summary.json"), "{}").unwrap();
-        let e = Directory::create(dir.path(), false).unwrap_err();
-        assert!(matches!(e, OutputError::HoldsResults { .. }), "{e}");
-        assert!(e.to_string().contains("--force"));
-    }
-
-    #[test]
-    fn force_removes_every_file_of_the_former_run_and_no_other() {
-        let dir = tempfile::tempdir().unwrap();
-        for a in Artifact::ALL {
-            fs::write(dir.path().join(a.file_name()), "old").unwrap();
+        for refused in [Directory::create(dir.path(), false), Directory::for_comparison(dir.path(), false)] {
+            let e = refused.unwrap_err();
+            assert!(matches!(e, OutputError::HoldsResults { .. }), "{e}");
+            assert!(e.to_string().contains("--force"));
         }
-        fs::write(dir.path().join("notes.txt"), "mine").unwrap();
-        Directory::create(dir.path(), true).unwrap();
-        assert_eq!(names(dir.path()), ["notes.txt"]);
     }
 
     #[test]
-    fn a_failed_write_leaves_neither_the_file_nor_its_temporary() {
+    fn former_results_stay_until_the_new_ones_are_published_and_then_go_as_a_whole() {
+        let dir = former();
+        let before = names(dir.path());
+        let out = Directory::create(dir.path(), true).unwrap();
+        assert_eq!(names(dir.path()), before);
+        out.write(Artifact::Summary, |f| f.write_all(b"new")).unwrap();
+        out.write(Artifact::Shape(1), |f| f.write_all(b"new")).unwrap();
+        assert_eq!(fs::read_to_string(out.file(Artifact::Summary)).unwrap(), "old");
+        assert_eq!(fs::read_to_string(out.file(Artifact::Shape(1))).unwrap(), "old");
+        out.publish().unwrap();
+        assert_eq!(names(dir.path()), ["notes.txt", "summary.json", "vtk"]);
+        assert_eq!(names(&dir.path().join("vtk")), ["frame_00001.vtu"]);
+        assert_eq!(fs::read_to_string(out.file(Artifact::Summary)).unwrap(), "new");
+        assert_eq!(fs::read_to_string(out.file(Artifact::Shape(1))).unwrap(), "new");
+    }
+
+    #[test]
+    fn a_comparison_replaces_no_file_of_a_run() {
+        let dir = former();
+        let out = Directory::for_comparison(dir.path(), true).unwrap();
+        out.write(Artifact::CompareJson, |f| f.write_all(b"{}")).unwrap();
+        out.publish().unwrap();
+        assert_eq!(names(dir.path()).len(), Artifact::RUN.len() + 3);
+        assert_eq!(fs::read_to_string(out.file(Artifact::Summary)).unwrap(), "old");
+    }
+
+    #[test]
+    fn what_a_killed_run_had_begun_is_removed_by_the_next_and_the_former_results_are_not() {
+        let dir = former();
+        let killed = Directory::create(dir.path(), true).unwrap();
+        killed.write(Artifact::TrajectoryCsv, |f| f.write_all(b"half")).unwrap();
+        drop(killed);
+        let next = Directory::create(dir.path(), true).unwrap();
+        assert!(!dir.path().join(NEW).exists());
+        assert_eq!(fs::read_to_string(next.file(Artifact::TrajectoryCsv)).unwrap(), "old");
+        // A leftover alone does not make a directory that is not empty.
+        let fresh = tempfile::tempdir().unwrap();
+        fs::create_dir(fresh.path().join(NEW)).unwrap();
+        fs::write(fresh.path().join(NEW).join("trajectory.csv"), "half").unwrap();
+        drop(Directory::create(fresh.path(), false).unwrap());
+        assert_eq!(names(fresh.path()), Vec::<String>::new());
+    }
+
+    #[test]
+    fn a_failed_write_leaves_nothing_of_the_file() {
         let dir = tempfile::tempdir().unwrap();
         let out = Directory::create(dir.path(), false).unwrap();
         let full = || io::Error::from(ErrorKind::StorageFull);
         let e = out.write(Artifact::TrajectoryCsv, |f| f.write_all(b"half a li").and(Err(full())));
         let e = e.unwrap_err().to_string();
         assert!(e.contains("trajectory.csv") && e.contains("make room"), "{e}");
+        assert_eq!(out.salvage(), None);
         assert_eq!(names(dir.path()), Vec::<String>::new());
+    }
+
+    #[test]
+    fn what_was_whole_before_a_failure_is_saved_without_the_closing_file() {
+        let dir = tempfile::tempdir().unwrap();
+        let out = Directory::create(dir.path(), false).unwrap();
         out.write(Artifact::TrajectoryCsv, |f| f.write_all(b"whole")).unwrap();
-        assert_eq!(fs::read_to_string(out.file(Artifact::TrajectoryCsv)).unwrap(), "whole");
+        assert_eq!(out.salvage().as_deref(), Some(dir.path()));
+        assert_eq!(names(dir.path()), ["trajectory.csv"]);
+        // Beside former results it goes into a folder of its own.
+        let dir = former();
+        let out = Directory::create(dir.path(), true).unwrap();
+        out.write(Artifact::TrajectoryCsv, |f| f.write_all(b"whole")).unwrap();
+        let saved = out.salvage().unwrap();
+        assert_eq!(fs::read_to_string(saved.join("trajectory.csv")).unwrap(), "whole");
+        assert_eq!(fs::read_to_string(out.file(Artifact::TrajectoryCsv)).unwrap(), "old");
     }
 
     #[test]
@@ -335,13 +316,25 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
+    fn a_directory_is_filled_by_one_run_at_a_time() {
+        let dir = tempfile::tempdir().unwrap();
+        let first = Directory::create(dir.path(), false).unwrap();
+        let e = Directory::create(dir.path(), true).unwrap_err();
+        assert!(matches!(e, OutputError::Busy { .. }), "{e}");
+        drop(first);
+        Directory::create(dir.path(), true).unwrap();
+    }
+
+    #[cfg(unix)]
+    #[test]
     fn files_are_as_readable_as_any_other_file() {
         use std::os::unix::fs::PermissionsExt;
         let dir = tempfile::tempdir().unwrap();
         let out = Directory::create(dir.path(), false).unwrap();
-        let written = out.write(Artifact::Summary, |f| f.write_all(b"{}")).unwrap();
+        out.write(Artifact::Summary, |f| f.write_all(b"{}")).unwrap();
+        out.publish().unwrap();
         fs::write(dir.path().join("plain"), "").unwrap();
         let mode = |p: &Path| fs::metadata(p).unwrap().permissions().mode();
-        assert_eq!(mode(&written), mode(&dir.path().join("plain")));
+        assert_eq!(mode(&out.file(Artifact::Summary)), mode(&dir.path().join("plain")));
     }
 }

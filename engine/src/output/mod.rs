@@ -3,21 +3,34 @@
 //! [`Directory`] owns the files of one run; [`write_run`] fills it. The other items turn a
 //! [`Trajectory`] into one format each and know nothing of directories.
 
+mod artifact;
+mod compare;
 mod csv;
 mod directory;
+mod error;
 mod npz;
 pub mod plot;
 mod provenance;
 mod recorder;
+mod results;
 mod run;
+mod shapes;
+mod staging;
 mod summary;
 mod trajectory;
+mod vtk;
 
-pub use self::csv::write_csv;
-pub use self::directory::{Artifact, Directory, OutputError};
+pub use self::artifact::Artifact;
+pub use self::compare::{Comparison, Difference, compare, compare_csv, compare_json};
+pub use self::csv::{read_csv, write_csv};
+pub use self::directory::Directory;
+pub use self::error::{OutputError, ResultsError};
 pub use self::npz::write_npz;
 pub use self::provenance::resolved_case;
 pub use self::recorder::{Recorder, Watch};
-pub use self::run::write_run;
+pub use self::results::{Results, select};
+pub use self::run::{Attachments, write_run};
+pub use self::shapes::{Shape, Shapes};
 pub use self::summary::{Integration, ProblemSize, RunReport, Status, Summary, VERSION};
 pub use self::trajectory::{Extremes, Trajectory};
+pub use self::vtk::{write_pvd, write_vtu};

@@ -1,6 +1,6 @@
 //! An observer that records a run.
 
-use super::Trajectory;
+use super::{Shapes, Trajectory};
 use crate::analysis::transient::{Observer, Plan, Step};
 use crate::system::{Channel, State, System};
 use std::ops::ControlFlow;
@@ -12,6 +12,7 @@ pub type Watch<'a> = dyn FnMut(&State) -> ControlFlow<()> + 'a;
 /// the iterations it took.
 pub struct Recorder<'a> {
     trajectory: Trajectory,
+    shapes: Option<Shapes>,
     watch: &'a mut Watch<'a>,
 }
 
@@ -27,12 +28,17 @@ impl<'a> Recorder<'a> {
         add("step.iterations", "", "Newton iterations of that step");
         let mut trajectory = Trajectory::new(channels);
         trajectory.reserve((plan.end / plan.sample).min(1e7) as usize + 2);
-        Recorder { trajectory, watch }
+        Recorder { trajectory, shapes: None, watch }
+    }
+
+    /// The recorder, taking shapes too.
+    pub fn with_shapes(self, shapes: Option<Shapes>) -> Recorder<'a> {
+        Recorder { shapes, ..self }
     }
 
     /// What was recorded.
-    pub fn into_trajectory(self) -> Trajectory {
-        self.trajectory
+    pub fn into_parts(self) -> (Trajectory, Option<Shapes>) {
+        (self.trajectory, self.shapes)
     }
 }
 
@@ -43,6 +49,9 @@ impl Observer for Recorder<'_> {
             system.record(state, own);
             common.copy_from_slice(&[system.energy(state).total(), step.size, f64::from(step.iterations)]);
         });
+        if let Some(shapes) = &mut self.shapes {
+            shapes.sample(system, state);
+        }
     }
 
     fn step(&mut self, state: &State) -> ControlFlow<()> {

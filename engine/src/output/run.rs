@@ -4,40 +4,61 @@ use std::io::Write;
 
 use super::plot::Figure;
 use super::{
-    Artifact, Directory, OutputError, RunReport, Status, Summary, Trajectory, resolved_case, write_csv,
-    write_npz,
+    Artifact, Directory, OutputError, RunReport, Shapes, Status, Summary, Trajectory, resolved_case,
+    write_csv, write_npz, write_pvd, write_vtu,
 };
 
-/// Writes the files of a run into `directory`, the summary last, and returns the status that the
+/// What not every run has.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Attachments<'a> {
+    /// The plot.
+    pub figure: Option<&'a Figure>,
+    /// The table that the motion was taken from, byte for byte.
+    pub motion_table: Option<&'a [u8]>,
+    /// The shapes of the beam.
+    pub shapes: Option<&'a Shapes>,
+}
+
+/// Writes the files of a run into `directory`, publishes them, and returns the status that the
 /// summary states: [`Status::Failed`] for a run that claims to have finished with a value that is
 /// not finite, else the status of `report`. A plot that cannot be drawn costs a warning in the summary,
 /// never the results.
 ///
-/// `case` is the resolved case as TOML. `figure` is the plot; `None` leaves the plots out.
+/// `case` is the resolved case as TOML.
 ///
 /// # Errors
-/// [`OutputError`] for whatever goes wrong on disk; the directory then has no summary.
+/// [`OutputError`] for whatever goes wrong on disk; former results are then still in place.
 pub fn write_run(
     directory: &Directory,
     report: &RunReport<'_>,
     trajectory: &Trajectory,
     case: &str,
-    figure: Option<&Figure>,
+    attachments: Attachments<'_>,
 ) -> Result<Status, OutputError> {
     directory.write(Artifact::ResolvedCase, |f| f.write_all(resolved_case(case).as_bytes()))?;
+    if let Some(table) = attachments.motion_table {
+        directory.write(Artifact::MotionTable, |f| f.write_all(table))?;
+    }
     directory.write(Artifact::TrajectoryCsv, |f| write_csv(trajectory, f))?;
     directory.write(Artifact::TrajectoryNpz, |f| write_npz(trajectory, f))?;
     let mut warnings = report.warnings.to_vec();
-    if let Some(figure) = figure {
+    if let Some(figure) = attachments.figure {
         let drawing = figure.draw();
         directory.write(Artifact::PlotSvg, |f| f.write_all(drawing.svg().as_bytes()))?;
         match drawing.png() {
-            Ok(png) => drop(directory.write(Artifact::PlotPng, |f| f.write_all(&png))?),
+            Ok(png) => directory.write(Artifact::PlotPng, |f| f.write_all(&png))?,
             Err(e) => warnings.push(e.to_string()),
         }
     }
+    if let Some(shapes) = attachments.shapes {
+        for (number, shape) in (0..).zip(shapes.iter()) {
+            directory.write(Artifact::Shape(number), |f| write_vtu(&shape, f))?;
+        }
+        directory.write(Artifact::ShapeSeries, |f| write_pvd(shapes.times(), f))?;
+    }
     let summary = Summary::of_run(&RunReport { warnings: &warnings, ..report.clone() }, trajectory);
     directory.write(Artifact::Summary, |f| f.write_all(summary.to_json().as_bytes()))?;
+    directory.publish()?;
     Ok(summary.status())
 }
 
@@ -48,12 +69,16 @@ mod tests {
     use crate::output::summary::tests::report;
     use crate::output::trajectory::tests::sample;
 
+    fn with_figure(figure: &Figure) -> Attachments<'_> {
+        Attachments { figure: Some(figure), ..Attachments::default() }
+    }
+
     fn files(status: Status) -> Vec<(String, Vec<u8>)> {
         let dir = tempfile::tempdir().unwrap();
         let out = Directory::create(dir.path(), false).unwrap();
         let t = sample();
         let figure = trajectory_figure(&t, None);
-        let stated = write_run(&out, &RunReport { status, ..report() }, &t, "a = 1\n", Some(&figure));
+        let stated = write_run(&out, &RunReport { status, ..report() }, &t, "a = 1\n", with_figure(&figure));
         assert_eq!(stated.unwrap(), status);
         let mut files: Vec<_> = std::fs::read_dir(dir.path())
             .unwrap()

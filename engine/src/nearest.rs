@@ -1,7 +1,7 @@
 //! The nearest valid name to a misspelt one.
 
 /// The candidate within a small edit distance of `written`, the nearest first in order of `candidates`.
-pub fn nearest<'c>(written: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
+pub(crate) fn nearest<'c>(written: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
     let written: Vec<char> = written.chars().take(64).flat_map(char::to_lowercase).collect();
     let limit = written.len().div_ceil(3);
     candidates

@@ -1,0 +1,100 @@
+//! The files that results are made of.
+
+use std::borrow::Cow;
+
+/// The files that results are made of. Their names belong to the program: `--force` replaces them
+/// and no other file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Artifact {
+    /// `summary.json`: its presence says that the directory is complete.
+    Summary,
+    /// `case.resolved.toml`.
+    ResolvedCase,
+    /// `motion.csv`: the table that the case takes its motion from.
+    MotionTable,
+    /// `trajectory.csv`.
+    TrajectoryCsv,
+    /// `trajectory.npz`.
+    TrajectoryNpz,
+    /// `plot.svg`.
+    PlotSvg,
+    /// `plot.png`.
+    PlotPng,
+    /// `beam.pvd`: the times of the shapes, for ParaView.
+    ShapeSeries,
+    /// `vtk/frame_00000.vtu` and so on: the shape of the beam at one time.
+    Shape(u32),
+    /// `compare.json`.
+    CompareJson,
+    /// `compare.csv`.
+    CompareCsv,
+    /// `compare.svg`.
+    CompareSvg,
+    /// `compare.png`.
+    ComparePng,
+}
+
+/// Folder of the shapes.
+pub(super) const SHAPES: &str = "vtk";
+
+impl Artifact {
+    /// The files of a run of which there is one; the first closes the directory.
+    pub const RUN: &'static [Artifact] = &[
+        Artifact::Summary,
+        Artifact::ResolvedCase,
+        Artifact::MotionTable,
+        Artifact::TrajectoryCsv,
+        Artifact::TrajectoryNpz,
+        Artifact::PlotSvg,
+        Artifact::PlotPng,
+        Artifact::ShapeSeries,
+    ];
+
+    /// The files of a comparison; the first closes the directory.
+    pub const COMPARISON: &'static [Artifact] =
+        &[Artifact::CompareJson, Artifact::CompareCsv, Artifact::CompareSvg, Artifact::ComparePng];
+
+    /// The file's name, relative to the directory, with `/` between folder and file.
+    pub fn file_name(self) -> Cow<'static, str> {
+        match self {
+            Artifact::Summary => "summary.json".into(),
+            Artifact::ResolvedCase => "case.resolved.toml".into(),
+            Artifact::MotionTable => "motion.csv".into(),
+            Artifact::TrajectoryCsv => "trajectory.csv".into(),
+            Artifact::TrajectoryNpz => "trajectory.npz".into(),
+            Artifact::PlotSvg => "plot.svg".into(),
+            Artifact::PlotPng => "plot.png".into(),
+            Artifact::ShapeSeries => "beam.pvd".into(),
+            Artifact::Shape(number) => format!("{SHAPES}/frame_{number:05}.vtu").into(),
+            Artifact::CompareJson => "compare.json".into(),
+            Artifact::CompareCsv => "compare.csv".into(),
+            Artifact::CompareSvg => "compare.svg".into(),
+            Artifact::ComparePng => "compare.png".into(),
+        }
+    }
+
+    /// Whether a file of this name in the folder of the shapes is one of them.
+    pub(super) fn is_shape(name: &str) -> bool {
+        name.strip_prefix("frame_")
+            .and_then(|rest| rest.strip_suffix(".vtu"))
+            .is_some_and(|digits| digits.len() >= 5 && digits.bytes().all(|b| b.is_ascii_digit()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_names_of_shapes_are_recognised_and_no_other() {
+        for number in [0, 7, 99_999, 123_456] {
+            let name = Artifact::Shape(number).file_name();
+            assert!(Artifact::is_shape(name.strip_prefix("vtk/").unwrap()), "{name}");
+        }
+        for name in
+            ["frame_.vtu", "frame_00001.vtu.bak", "my_frame_00001.vtu", "frame_0000a.vtu", "notes.txt"]
+        {
+            assert!(!Artifact::is_shape(name), "{name}");
+        }
+    }
+}

@@ -1,0 +1,147 @@
+//! Why results could not be written or read.
+
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
+
+/// Why results could not be written. Every message says where, why and what to try.
+#[derive(Debug, thiserror::Error)]
+pub enum OutputError {
+    /// The path of the directory is taken by something else.
+    #[error("{} is a file, not a directory; choose another output directory", path.display())]
+    NotADirectory {
+        /// The path asked for.
+        path: PathBuf,
+    },
+    /// The directory holds the results of a former run.
+    #[error(
+        "{} already holds the results of a run (summary.json); choose another output directory or replace them with --force",
+        path.display()
+    )]
+    HoldsResults {
+        /// The directory.
+        path: PathBuf,
+    },
+    /// The directory holds something else.
+    #[error(
+        "{} is not empty (it holds {found}); choose another output directory or write into it with --force",
+        path.display()
+    )]
+    NotEmpty {
+        /// The directory.
+        path: PathBuf,
+        /// Name of one of the things found in it.
+        found: String,
+    },
+    /// Another program is writing into the directory.
+    #[error(
+        "another run is writing its results into {}; wait for its end or choose another output directory",
+        path.display()
+    )]
+    Busy {
+        /// The directory.
+        path: PathBuf,
+    },
+    /// The operating system refused.
+    #[error("cannot {action} {}: {source}; {}", path.display(), advice(source))]
+    Io {
+        /// What was being done, e.g. `write`.
+        action: &'static str,
+        /// To which file or directory.
+        path: PathBuf,
+        /// The system's reason.
+        source: io::Error,
+    },
+    /// A figure could not be drawn.
+    #[error(
+        "cannot draw the plot: {reason}; the other files are not affected, draw it again from trajectory.csv"
+    )]
+    Draw {
+        /// The reason of the drawing library.
+        reason: String,
+    },
+}
+
+impl OutputError {
+    pub(super) fn io(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> OutputError {
+        move |source| OutputError::Io { action, path: path.to_path_buf(), source }
+    }
+}
+
+/// What to try when the system refuses.
+fn advice(error: &io::Error) -> &'static str {
+    match error.kind() {
+        ErrorKind::PermissionDenied => {
+            "choose a directory you may write to, or ask its owner for the permission"
+        }
+        ErrorKind::ReadOnlyFilesystem => "this file system is read-only: choose a directory on another one",
+        ErrorKind::StorageFull => {
+            "the disk is full: make room, choose a directory on another disk, or record less often"
+        }
+        ErrorKind::QuotaExceeded => {
+            "the disk quota is used up: make room, choose a directory on another disk, or record less often"
+        }
+        ErrorKind::FileTooLarge => "record less often or for a shorter time",
+        ErrorKind::NotADirectory | ErrorKind::AlreadyExists => {
+            "part of the path is a file: choose another output directory"
+        }
+        ErrorKind::InvalidFilename => "choose a shorter or simpler name",
+        ErrorKind::NotFound => "check the path; it cannot be made or was removed during the run",
+        _ => "check the path and the disk, or choose another output directory",
+    }
+}
+
+/// Why results could not be read or compared.
+#[derive(Debug, thiserror::Error)]
+pub enum ResultsError {
+    /// There is no trajectory.
+    #[error(
+        "{} holds no trajectory.csv; give the directory of a run, or a CSV file whose first column is `time [s]`",
+        path.display()
+    )]
+    Missing {
+        /// Where it was looked for.
+        path: PathBuf,
+    },
+    /// The file cannot be read.
+    #[error("cannot read {}: {reason}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// No column matches.
+    #[error("no column of {of} is called `{pattern}`{}; there are {there}", hint(nearest))]
+    NoColumn {
+        /// What was asked for.
+        pattern: String,
+        /// Which results were searched.
+        of: String,
+        /// The name that was perhaps meant.
+        nearest: Option<String>,
+        /// The names there are.
+        there: String,
+    },
+    /// Something is no pattern.
+    #[error("`{pattern}` is no pattern for columns ({reason}); write for example `tip.*`")]
+    Pattern {
+        /// What was asked for.
+        pattern: String,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// Nothing can be compared.
+    #[error("{first} and {second} cannot be compared: {reason}")]
+    Incomparable {
+        /// Name of the first.
+        first: String,
+        /// Name of the second.
+        second: String,
+        /// Why.
+        reason: String,
+    },
+}
+
+fn hint(nearest: &Option<String>) -> String {
+    nearest.as_ref().map(|name| format!(", did you mean `{name}`?")).unwrap_or_default()
+}
