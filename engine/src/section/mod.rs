@@ -1,11 +1,17 @@
 //! Cross-sections: each a file; all give [`Resultants`] along the beam.
 
 mod graded;
+mod piecewise;
 mod shape;
+mod table;
+mod tapered;
 mod uniform;
 
 pub use graded::{Graded, Material};
+pub use piecewise::{Piecewise, Segment};
 pub use shape::Shape;
+pub use table::{Interpolation, Table};
+pub use tapered::Tapered;
 pub use uniform::Uniform;
 
 /// Stiffness and inertia resultants of a planar section at a station. y is the height over the
@@ -96,7 +102,7 @@ impl Inertia {
 }
 
 /// A quantity that makes no section.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SectionError {
     /// A quantity is out of its range.
     #[error("the {quantity} is {value} {unit} and must be {needed}")]
@@ -128,6 +134,9 @@ pub enum SectionError {
         /// Which energy.
         energy: &'static str,
     },
+    /// The parts do not make a section of the beam.
+    #[error("{0}")]
+    Invalid(String),
 }
 
 /// Refuses a quantity that is not positive and finite.
