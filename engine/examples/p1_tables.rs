@@ -26,7 +26,7 @@ fn row(name: &str, folder: &str, overrides: &[&str]) -> Row {
     let run = case(folder, &[overrides, &[OUTPUT]].concat())
         .and_then(|reading| integrate(&reading))
         .map_err(|problems| in_short(&problems.list[0].message));
-    let result = run.and_then(|run: Run| match run.failure() {
+    let result = run.and_then(|run: Run| match run.failure {
         Some(message) => Err(in_short(&message)),
         None => {
             let (minimum, time) = run.extreme(TIP, -1.0, WHOLE);

@@ -14,7 +14,7 @@ const EXACT_IN_TIME: &str = "integrator={kind='radau',tolerance=1e-10,absolute-t
 
 fn quick(folder: &str, overrides: &[&str]) -> Run {
     let run = run(folder, &[&QUICK[..], overrides].concat());
-    assert_eq!(run.failure(), None, "{overrides:?}");
+    assert_eq!(run.failure, None, "{overrides:?}");
     run
 }
 

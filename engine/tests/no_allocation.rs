@@ -129,7 +129,7 @@ fn no_step_of_a_hub_and_beam_allocates() {
                 let overrides = [&format!("model.coupling={coupling}"), *basis, motion, rotary];
                 let what = format!("{folder} {overrides:?}");
                 let mut live = run::case(folder, &overrides).unwrap().build().unwrap();
-                let from = State::zeros(live.system.size(), 0.0);
+                let from = live.system.initial();
                 assert_no_allocation(&what, live.system.as_mut(), &from, 2e-6, integrators());
             }
         }

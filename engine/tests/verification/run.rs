@@ -3,11 +3,11 @@
 #![allow(dead_code)] // each test binary uses its part
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-use flexion::analysis::equilibrium::equilibrium;
 use flexion::analysis::transient::{Ending, Observer, Plan, Step, transient};
-use flexion::case::{Initial, Integrator, Live, Problems, Reading, read};
-use flexion::output::Trajectory;
+use flexion::case::{Problems, Reading, read};
+use flexion::output::{Status, Trajectory};
 use flexion::system::{State, System};
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 /// The folder of verification cases.
@@ -15,9 +15,9 @@ pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../verification")
 }
 
-/// A run: how it ended, when, and what it recorded.
+/// A run: why it failed, if it did, when it ended, and what it recorded.
 pub struct Run {
-    pub ending: Ending,
+    pub failure: Option<String>,
     pub end: f64,
     pub trajectory: Trajectory,
     pub steps: u64,
@@ -31,14 +31,6 @@ pub struct Span {
 }
 
 impl Run {
-    /// The message of a run that failed.
-    pub fn failure(&self) -> Option<String> {
-        match &self.ending {
-            Ending::Failed(error) => Some(error.to_string()),
-            _ => None,
-        }
-    }
-
     /// The values of a column.
     pub fn column(&self, name: &str) -> Vec<f64> {
         self.trajectory.column(name).unwrap_or_else(|| panic!("no column {name}"))
@@ -81,31 +73,34 @@ pub fn run(folder: &str, overrides: &[&str]) -> Run {
     integrate(&reading).unwrap_or_else(|e| panic!("{}: {e}", what()))
 }
 
-/// Builds and runs a case.
+/// Builds and runs a case, as the program does.
 pub fn integrate(reading: &Reading) -> Result<Run, Problems> {
-    let Live { mut system, mut integrator } = reading.build()?;
-    integrate_system(reading, system.as_mut(), integrator.as_mut())
+    let run = reading.prepare()?.run(&mut |_| ControlFlow::Continue(()));
+    let failure = (run.status != Status::Finished).then(|| run.message.unwrap());
+    Ok(Run { failure, end: run.state.t, trajectory: run.trajectory, steps: run.counters.steps })
 }
 
-/// Runs a case with a given system and integrator.
+/// Runs a case with a given system and integrator, from its initial state.
 pub fn integrate_system(
     reading: &Reading,
     system: &mut dyn System,
     integrator: &mut dyn flexion::integrator::Integrator,
-) -> Result<Run, Problems> {
+) -> Run {
     let case = &reading.case;
-    let mut state = State::zeros(system.size(), 0.0);
-    if case.initial == Initial::SteadyRotation {
-        equilibrium(system, &mut state).map_err(|e| reading.problem("initial", e.to_string()))?;
-    }
-    let (step, longest_step) = match case.integrator {
-        Integrator::Radau { initial_step, max_step, .. } => (initial_step, max_step),
-        _ => (case.integrator.step(), None),
+    let mut state = system.initial();
+    let plan = Plan {
+        end: case.duration,
+        step: case.integrator.step(),
+        longest_step: None,
+        sample: case.output.step,
     };
-    let plan = Plan { end: case.duration, step, longest_step, sample: case.output.step };
     let mut record = Record(Trajectory::new(system.channels().to_vec()));
     let ending = transient(system, integrator, &mut state, &plan, &mut record);
-    Ok(Run { ending, end: state.t, trajectory: record.0, steps: integrator.counters().steps })
+    let failure = match ending {
+        Ending::Failed(error) => Some(error.to_string()),
+        _ => None,
+    };
+    Run { failure, end: state.t, trajectory: record.0, steps: integrator.counters().steps }
 }
 
 struct Record(Trajectory);
