@@ -80,7 +80,7 @@ impl Expected {
                 peak = peak.max(expected.abs());
                 rows += 1;
                 let off = (column[row] - expected).abs();
-                if !(off <= worst.0) {
+                if off.is_nan() || off > worst.0 {
                     worst = (off, time);
                 }
             }
