@@ -25,6 +25,7 @@ mod resolved;
 mod run;
 mod schema;
 mod section;
+mod template;
 mod tree;
 mod trial;
 mod values;
@@ -37,6 +38,7 @@ pub use problem::{Place, Problem, Problems, Source};
 pub use run::{Prepared, Run};
 pub use schema::schema;
 pub use section::{Section, Shape};
+pub use template::{TEMPLATES, Template};
 
 use crate::system::{State, System};
 use build::BuildError;
