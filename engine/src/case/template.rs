@@ -81,7 +81,7 @@ exponent = 2.0
         text: r#"
 title = "Large deflection of a soft beam"
 beam = { length = "8 m" }
-section = { kind = "uniform", modulus = "2 GPa", density = "3000 kg/m^3", area = "4 cm^2", second-moment = "2e-7 m^4" }
+section = { kind = "uniform", modulus = "10 GPa", density = "3000 kg/m^3", area = "4 cm^2", second-moment = "2e-7 m^4" }
 hub = { motion = { kind = "spin-up", speed = "4 rad/s", time = "4 s" } }
 model = { coupling = "exact" }
 basis = { kind = "finite-elements", elements = 16 }
