@@ -25,6 +25,7 @@ mod resolved;
 mod run;
 mod schema;
 mod section;
+mod template;
 mod torque;
 mod tree;
 mod trial;
@@ -38,6 +39,7 @@ pub use problem::{Place, Problem, Problems, Source};
 pub use run::{Prepared, Run};
 pub use schema::schema;
 pub use section::{Section, Shape};
+pub use template::{TEMPLATES, Template};
 pub use torque::{Controller, Free, Torque};
 
 use crate::system::{State, System};
