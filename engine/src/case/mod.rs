@@ -26,6 +26,7 @@ mod resolved;
 mod run;
 mod schema;
 mod section;
+mod section_file;
 mod tree;
 mod trial;
 mod values;
@@ -37,7 +38,7 @@ pub use motion::{Motion, MotionOf};
 pub use problem::{Place, Problem, Problems, Source};
 pub use run::{Prepared, Run};
 pub use schema::schema;
-pub use section::{Section, Shape};
+pub use section::{Interpolation, Section, Segment, Shape};
 
 use crate::system::{State, System};
 use build::BuildError;
