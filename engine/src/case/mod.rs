@@ -25,6 +25,7 @@ mod resolved;
 mod run;
 mod schema;
 mod section;
+mod section_file;
 mod template;
 mod torque;
 mod tree;
@@ -38,7 +39,7 @@ pub use motion::{Motion, MotionOf};
 pub use problem::{Place, Problem, Problems, Source};
 pub use run::{Prepared, Run};
 pub use schema::schema;
-pub use section::{Section, Shape};
+pub use section::{Interpolation, Section, Segment, Shape};
 pub use template::{TEMPLATES, Template};
 pub use torque::{Controller, Free, Torque};
 
