@@ -18,7 +18,14 @@ pub struct Selection {
 impl Selection {
     /// Reads the case; what is wrong with it goes to standard error.
     pub fn read(&self) -> Option<Reading> {
-        match flexion::case::read(&self.case, &self.set) {
+        self.read_with(&[])
+    }
+
+    /// As [`Selection::read`], with further changes after those of the user.
+    pub fn read_with(&self, further: &[&str]) -> Option<Reading> {
+        let set: Vec<String> =
+            self.set.iter().cloned().chain(further.iter().map(|s| (*s).to_owned())).collect();
+        match flexion::case::read(&self.case, &set) {
             Ok(reading) => Some(reading),
             Err(problems) => {
                 screen::complain(&problems.render(screen::colour()));

@@ -1,11 +1,16 @@
 //! `flexion`: runs, checks and describes cases.
 //!
 //! Exit codes: 0 finished; 1 the case or the command line is rejected; 2 a run failed or was stopped, and what
-//! it had computed is kept.
+//! it had computed is kept, or runs differ by more than the tolerance.
 
 mod case;
 mod check;
+mod compare;
+mod completions;
 mod list;
+mod man;
+mod new;
+mod plot;
 mod run;
 mod screen;
 
@@ -15,7 +20,13 @@ use std::process::ExitCode;
 /// Dynamics of rotating flexible beams.
 #[derive(Parser)]
 #[command(name = "flexion", version, arg_required_else_help = true)]
-#[command(after_help = "Example:\n  flexion run verification/p1_spin_up_4 --output results/p1")]
+#[command(after_help = "Examples:
+  flexion new spin-up --output case.toml
+  flexion check case.toml
+  flexion run case.toml --output results/spin-up
+  flexion plot results/spin-up --columns 'tip.*' --output tip.svg
+
+Exit codes: 0 finished, 1 case or command line rejected, 2 a run failed or was stopped, or runs differ too much.")]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -23,15 +34,25 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
+    /// Write a commented case file to begin with
+    New(new::Arguments),
     /// Run a case and write its trajectory, summary and plot
     Run(run::Arguments),
     /// Validate a case and show what would be run
     Check(check::Arguments),
+    /// Show how far runs are apart
+    Compare(compare::Arguments),
+    /// Plot columns of one or several runs
+    Plot(plot::Arguments),
     /// List the kinds of section, motion, coupling, basis and integrator
     List(list::Arguments),
     /// Print the JSON Schema of case files, for editors
     #[command(after_help = "Example:\n  flexion schema > docs/flexion.schema.json")]
     Schema,
+    /// Print the completions for a shell
+    Completions(completions::Arguments),
+    /// Print the manual page, or write one for every command
+    Man(man::Arguments),
 }
 
 /// How a command ends.
@@ -40,7 +61,7 @@ enum Outcome {
     Finished,
     /// The case or the command line is wrong.
     Rejected,
-    /// A run ended early; what was computed is kept.
+    /// A run ended early, and what was computed is kept; or runs differ too much.
     Incomplete,
 }
 
@@ -56,6 +77,11 @@ fn main() -> ExitCode {
     };
     let outcome = match arguments.command {
         Command::Run(arguments) => run::run(&arguments),
+        Command::New(arguments) => new::new(&arguments),
+        Command::Compare(arguments) => compare::compare(&arguments),
+        Command::Plot(arguments) => plot::plot(&arguments),
+        Command::Completions(arguments) => completions::completions(&arguments),
+        Command::Man(arguments) => man::man(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         Command::List(arguments) => list::list(&arguments),
         Command::Schema => {

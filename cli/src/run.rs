@@ -14,6 +14,7 @@ use std::time::{Duration, Instant};
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   flexion run verification/p1_spin_up_4
+  flexion run case.toml --vtk --output results/film
   flexion run case.toml --set section.modulus=\"30 GPa\" --output results/soft --force
 
 Exit codes: 0 finished, 1 case rejected, 2 stopped or failed (what was computed is kept).")]
@@ -23,6 +24,9 @@ pub struct Arguments {
     /// Directory of the results [default: results/<name of the case>]
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
+    /// Write the shape of the beam for ParaView too, as `--set output.vtk=true`
+    #[arg(long)]
+    vtk: bool,
     /// Replace the results of a former run
     #[arg(long)]
     force: bool,
@@ -33,7 +37,8 @@ const TICKS: f64 = 1000.0;
 
 /// Runs a case.
 pub fn run(arguments: &Arguments) -> Outcome {
-    let Some(reading) = arguments.case.read() else { return Outcome::Rejected };
+    let set: &[&str] = if arguments.vtk { &["output.vtk=true"] } else { &[] };
+    let Some(reading) = arguments.case.read_with(set) else { return Outcome::Rejected };
     let output = arguments.output.clone().unwrap_or_else(|| Path::new("results").join(arguments.case.name()));
     // The case is checked, and the directory tried, before anything is computed.
     let prepared = match reading.prepare() {
@@ -74,7 +79,11 @@ fn finish(status: Status, run: &Run, directory: &Directory) -> Outcome {
     out.push_str(&extremes(trajectory));
     out.push('\n');
     let place = |what: &str, artifact| vec![what.to_owned(), directory.file(artifact).display().to_string()];
-    out.push_str(&screen::table(&[place("summary", Artifact::Summary), place("plot", Artifact::PlotSvg)]));
+    let mut places = vec![place("summary", Artifact::Summary), place("plot", Artifact::PlotSvg)];
+    if run.shapes.is_some() {
+        places.push(place("shapes", Artifact::ShapeSeries));
+    }
+    out.push_str(&screen::table(&places));
     screen::print(&out);
     for warning in &run.warnings {
         screen::complain(&format!("warning: {warning}\n"));

@@ -148,11 +148,198 @@ fn check_list_schema_and_help_print_what_they_say() {
         (&["check", "--help"], "Examples:"),
         (&["list", "--help"], "Examples:"),
         (&["schema", "--help"], "Example:"),
-        (&["--help"], "Example:"),
+        (&["--help"], "Examples:"),
         (&["--version"], "flexion"),
     ] {
         let output = flexion(folder.path(), arguments);
         assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", text(&output.stderr));
         assert!(text(&output.stdout).contains(expected), "{arguments:?}: {}", text(&output.stdout));
+    }
+}
+
+#[test]
+fn every_template_is_listed_and_passes_the_check() {
+    let folder = folder();
+    let list = text(&flexion(folder.path(), &["new", "--list"]).stdout);
+    let names: Vec<&str> = list.lines().filter_map(|line| line.split_whitespace().next()).collect();
+    assert!(names.contains(&"spin-up") && names.contains(&"exact-large-deflection"), "{list}");
+    for name in names {
+        let file = format!("made/{name}.toml");
+        assert_eq!(flexion(folder.path(), &["new", name, "-o", &file]).status.code(), Some(0));
+        let checked = flexion(folder.path(), &["check", &file]);
+        assert_eq!(checked.status.code(), Some(0), "{name}: {}", text(&checked.stderr));
+        let printed = flexion(folder.path(), &["new", name]);
+        assert_eq!(printed.stdout, std::fs::read(folder.path().join(&file)).unwrap());
+        let again = flexion(folder.path(), &["new", name, "-o", &file]);
+        assert_eq!(again.status.code(), Some(1));
+        assert!(text(&again.stderr).contains("--force"));
+    }
+    let unknown = flexion(folder.path(), &["new", "helicopter"]);
+    assert_eq!(unknown.status.code(), Some(1));
+    assert!(text(&unknown.stderr).contains("spin-up"), "{}", text(&unknown.stderr));
+}
+
+#[test]
+fn runs_are_compared_and_a_tolerance_decides_the_exit_code() {
+    let folder = folder();
+    let run = |arguments: &[&str]| {
+        let output = flexion(folder.path(), &[&["run", "spin-up"], arguments].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    };
+    run(&["-o", "fine"]);
+    run(&["-o", "same"]);
+    run(&[
+        "-o",
+        "coarse",
+        "--set",
+        "basis={kind='finite-elements',elements=3}",
+        "--set",
+        "output.step=30 ms",
+    ]);
+    let same = flexion(folder.path(), &["compare", "fine", "same", "--tolerance", "0"]);
+    assert_eq!(same.status.code(), Some(0), "{}", text(&same.stderr));
+    assert!(text(&same.stdout).contains("the same in both"));
+    let compare = ["compare", "fine", "coarse", "same", "--columns", "tip.*,hub.torque", "-o", "differences"];
+    let compared = flexion(folder.path(), &[&compare[..], &["--tolerance", "0.05"]].concat());
+    assert_eq!(compared.status.code(), Some(0), "{}", text(&compared.stderr));
+    assert!(text(&compared.stdout).contains("interpolated by cubics"));
+    for file in ["compare.json", "compare.csv", "compare.svg", "compare.png"] {
+        assert!(folder.path().join("differences").join(file).is_file(), "{file}");
+    }
+    let read = || std::fs::read_to_string(folder.path().join("differences/compare.csv")).unwrap();
+    assert_eq!(read().lines().count(), 1 + 2 * 7, "six columns of the tip and one of the hub, for two runs");
+    assert!(!read().contains("energy"));
+    let (before, force) = (read(), [&compare[..], &["--force", "--tolerance", "1e-9"]].concat());
+    assert_eq!(flexion(folder.path(), &compare).status.code(), Some(1), "without --force it stays");
+    let beyond = flexion(folder.path(), &force);
+    assert_eq!(beyond.status.code(), Some(2));
+    assert!(text(&beyond.stderr).contains("coarse: tip.deflection differs by"), "{}", text(&beyond.stderr));
+    assert_eq!(read(), before, "the same comparison gives the same bytes");
+    for (arguments, message) in [
+        (&["compare", "fine"][..], "RUN"),
+        (&["compare", "fine", "nowhere"], "holds no trajectory.csv"),
+        (&["compare", "fine", "same", "--columns", "tip.defelction"], "did you mean `tip.deflection`?"),
+        (&["compare", "fine", "same", "--tolerance=-1"], "zero or positive"),
+        (&["compare", "fine", "spin-up/case.toml"], "case.toml"),
+    ] {
+        let output = flexion(folder.path(), arguments);
+        assert_eq!(output.status.code(), Some(1), "{arguments:?}");
+        assert!(text(&output.stderr).contains(message), "{arguments:?}: {}", text(&output.stderr));
+    }
+}
+
+#[test]
+fn results_are_plotted_as_svg_and_png() {
+    let folder = folder();
+    for (name, elements) in [("a", "basis={kind='modes'}"), ("b", "basis={kind='radial'}")] {
+        assert_eq!(
+            flexion(folder.path(), &["run", "spin-up", "-o", name, "--set", elements]).status.code(),
+            Some(0)
+        );
+    }
+    let read = |name: &str| std::fs::read(folder.path().join(name)).unwrap();
+    let plot = |arguments: &[&str]| {
+        let output = flexion(folder.path(), &[&["plot"], arguments].concat());
+        (output.status.code(), text(&output.stderr))
+    };
+    assert_eq!(
+        plot(&["a", "b", "-c", "tip.*", "--title", "Meshes", "-o", "tip.svg"]),
+        (Some(0), String::new())
+    );
+    let svg = String::from_utf8(read("tip.svg")).unwrap();
+    assert!(svg.contains("Meshes") && svg.contains("(f)") && !svg.contains("(g)"), "six panels");
+    assert_eq!(plot(&["a", "-o", "figures/a.png"]), (Some(0), String::new()));
+    assert!(read("figures/a.png").starts_with(b"\x89PNG"));
+    let (code, message) = plot(&["a", "-o", "figures/a.png"]);
+    assert!(code == Some(1) && message.contains("--force"), "{message}");
+    let (code, message) = plot(&["a", "--columns", "tip.defelction", "-o", "x.svg"]);
+    assert!(code == Some(1) && message.contains("did you mean `tip.deflection`?"), "{message}");
+    let (code, message) = plot(&["a", "-o", "x.pdf"]);
+    assert!(code == Some(1) && message.contains(".svg or .png"), "{message}");
+    // Results that broke off are plotted, with a word of caution.
+    std::fs::remove_file(folder.path().join("b/summary.json")).unwrap();
+    let (code, message) = plot(&["b", "-o", "b.svg"]);
+    assert!(code == Some(0) && message.contains("incomplete"), "{message}");
+}
+
+#[test]
+fn shapes_are_written_when_asked_for() {
+    let folder = folder();
+    let output =
+        flexion(folder.path(), &["run", "spin-up", "--vtk", "--set", "output.vtk-step=1 s", "-o", "out"]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert!(text(&output.stdout).contains("out/beam.pvd"));
+    let collection = std::fs::read_to_string(folder.path().join("out/beam.pvd")).unwrap();
+    assert_eq!(collection.matches("<DataSet").count(), 21);
+    assert_eq!(std::fs::read_dir(folder.path().join("out/vtk")).unwrap().count(), 21);
+    // The next run does not ask for them: they go with the former results.
+    assert_eq!(flexion(folder.path(), &["run", "spin-up", "-o", "out", "--force"]).status.code(), Some(0));
+    assert!(!folder.path().join("out/beam.pvd").exists() && !folder.path().join("out/vtk").exists());
+}
+
+#[cfg(unix)]
+#[test]
+fn a_killed_run_leaves_the_former_results_and_the_next_run_works() {
+    let folder = folder();
+    assert_eq!(flexion(folder.path(), &["run", "spin-up", "-o", "out"]).status.code(), Some(0));
+    let content = || {
+        let mut files: Vec<_> = std::fs::read_dir(folder.path().join("out"))
+            .unwrap()
+            .map(|entry| entry.unwrap().path())
+            .map(|path| (path.clone(), std::fs::read(path).unwrap()))
+            .collect();
+        files.sort();
+        files
+    };
+    let before = content();
+    let start = || {
+        Command::new(env!("CARGO_BIN_EXE_flexion"))
+            .args(["run", "spin-up", "-o", "out", "--force", "--set", "integrator.step=0.1 us"])
+            .current_dir(folder.path())
+            .stdout(std::process::Stdio::null())
+            .spawn()
+            .unwrap()
+    };
+    let mut run = start();
+    std::thread::sleep(std::time::Duration::from_millis(700));
+    // A second run cannot take the same directory meanwhile.
+    let second = flexion(folder.path(), &["run", "spin-up", "-o", "out", "--force"]);
+    assert_eq!(second.status.code(), Some(1));
+    assert!(text(&second.stderr).contains("another run"), "{}", text(&second.stderr));
+    run.kill().unwrap();
+    run.wait().unwrap();
+    assert!(content() == before);
+    assert_eq!(flexion(folder.path(), &["run", "spin-up", "-o", "out", "--force"]).status.code(), Some(0));
+    assert_eq!(content().len(), before.len());
+}
+
+#[test]
+fn completions_and_manual_pages_name_every_command() {
+    let folder = folder();
+    let help = text(&flexion(folder.path(), &["--help"]).stdout);
+    let commands: Vec<&str> = help
+        .lines()
+        .skip_while(|line| *line != "Commands:")
+        .skip(1)
+        .take_while(|line| !line.is_empty())
+        .filter_map(|line| line.split_whitespace().next())
+        .filter(|name| *name != "help")
+        .collect();
+    assert!(commands.contains(&"compare") && commands.len() >= 9, "{commands:?}");
+    for shell in ["bash", "zsh", "fish", "powershell"] {
+        let output = flexion(folder.path(), &["completions", shell]);
+        assert_eq!(output.status.code(), Some(0));
+        for command in &commands {
+            assert!(text(&output.stdout).contains(command), "{shell}: {command}");
+        }
+    }
+    let page = text(&flexion(folder.path(), &["man"]).stdout);
+    assert!(page.contains(".TH flexion 1"), "{}", &page[..200]);
+    assert_eq!(flexion(folder.path(), &["man", "--output", "man1"]).status.code(), Some(0));
+    for command in commands {
+        let page = std::fs::read_to_string(folder.path().join(format!("man1/flexion-{command}.1"))).unwrap();
+        assert!(page.contains(".SH SYNOPSIS"), "{command}");
+        let help = text(&flexion(folder.path(), &[command, "--help"]).stdout);
+        assert!(help.contains("Example"), "{command} --help has an example");
     }
 }

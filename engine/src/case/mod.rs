@@ -25,6 +25,8 @@ mod resolved;
 mod run;
 mod schema;
 mod section;
+mod section_file;
+mod template;
 mod torque;
 mod tree;
 mod trial;
@@ -37,7 +39,8 @@ pub use motion::{Motion, MotionOf};
 pub use problem::{Place, Problem, Problems, Source};
 pub use run::{Prepared, Run};
 pub use schema::schema;
-pub use section::{Section, Shape};
+pub use section::{Interpolation, Section, Segment, Shape};
+pub use template::{TEMPLATES, Template};
 pub use torque::{Controller, Free, Torque};
 
 use crate::system::{State, System};

@@ -187,7 +187,7 @@ fn value(key: &'static Key, node: &Node, path: &str, problems: &mut Problems) ->
         (Type::Table(keys), Raw::Table(entries)) => {
             Some(Value::Table(table(entries, Some(node.place.clone()), keys, path, problems)))
         }
-        (Type::Kind(seam), Raw::Table(entries)) => kind(seam, entries, &node.place, path, problems),
+        (Type::Kind(seam), Raw::Table(entries)) => kind(seam, key, entries, &node.place, path, problems),
         (Type::Kind(seam), Raw::Text(text)) if seam.kind(text).is_some() => {
             let problem =
                 Problem::new(path, Some(node.place.clone()), "this key takes a table, not a name alone");
@@ -200,6 +200,7 @@ fn value(key: &'static Key, node: &Node, path: &str, problems: &mut Problems) ->
 
 fn kind(
     seam: &'static Seam,
+    key: &'static Key,
     entries: &[Entry],
     place: &Place,
     path: &str,
@@ -207,6 +208,12 @@ fn kind(
 ) -> Option<Value> {
     let kind_path = join(path, "kind");
     let Some(entry) = entries.iter().find(|entry| entry.key == "kind") else {
+        // A table that only changes some keys of the default kind.
+        if let Presence::Name(name) = key.presence
+            && let Some(kind) = seam.kind(name)
+        {
+            return Some(of_kind(seam, kind, entries, place, path, problems));
+        }
         let problem =
             Problem::new(kind_path, Some(place.clone()), format!("the kind of {} is missing", seam.name));
         problems.push(problem.label("`kind` belongs here").help(format!("the kinds are {}", seam.names())));
@@ -219,9 +226,20 @@ fn kind(
         return None;
     };
     let kind = chosen(seam, name, &entry.node.place, &kind_path, problems)?;
+    Some(of_kind(seam, kind, entries, place, path, problems))
+}
+
+fn of_kind(
+    seam: &'static Seam,
+    kind: &'static Kind,
+    entries: &[Entry],
+    place: &Place,
+    path: &str,
+    problems: &mut Problems,
+) -> Value {
     let suspected = unknown(entries, kind.keys, path, Some((seam, kind)), problems);
     let entries = known(entries, Some(place), kind.keys, path, &suspected, problems);
-    Some(Value::Kind(kind, Values { place: Some(place.clone()), entries }))
+    Value::Kind(kind, Values { place: Some(place.clone()), entries })
 }
 
 fn chosen(

@@ -15,19 +15,21 @@ pub fn schema() -> String {
         "title": "Flexion case",
         "description": "A rotating flexible beam and how to integrate its motion.",
     });
-    if let (Some(root), Value::Object(table)) = (root.as_object_mut(), table(layout::KEYS, None)) {
+    if let (Some(root), Value::Object(table)) = (root.as_object_mut(), table(layout::KEYS, None, false)) {
         root.extend(table);
     }
     format!("{root:#}\n")
 }
 
-/// A table with the given keys, and `kind` if it is of a kind.
-fn table(keys: &[Key], kind: Option<&str>) -> Value {
+/// A table with the given keys, and `kind` if it is of a kind, which may be left out of the `default` one.
+fn table(keys: &[Key], kind: Option<&str>, default: bool) -> Value {
     let mut properties = Map::new();
     let mut required = Vec::new();
     if let Some(kind) = kind {
         properties.insert("kind".to_owned(), json!({ "const": kind }));
-        required.push("kind");
+        if !default {
+            required.push("kind");
+        }
     }
     for key in keys {
         properties.insert(key.name.to_owned(), property(key));
@@ -39,7 +41,11 @@ fn table(keys: &[Key], kind: Option<&str>) -> Value {
 }
 
 fn property(key: &Key) -> Value {
-    let mut schema = takes(&key.takes);
+    let kind = match key.presence {
+        Presence::Name(name) => name,
+        _ => "",
+    };
+    let mut schema = takes(&key.takes, kind);
     let default = match key.presence {
         Presence::Number(value) => Some(json!(value)),
         Presence::Integer(value) => Some(json!(value)),
@@ -55,7 +61,8 @@ fn property(key: &Key) -> Value {
     schema
 }
 
-fn takes(takes: &Type) -> Value {
+/// What a type takes; `default` is the kind that a table without `kind` is of, if any.
+fn takes(takes: &Type, default: &str) -> Value {
     match takes {
         Type::Quantity(measure, bound) => quantity(measure, *bound),
         Type::Quantities(measure, bound) => json!({ "type": "array", "items": quantity(measure, *bound) }),
@@ -71,14 +78,14 @@ fn takes(takes: &Type) -> Value {
                 .collect();
             json!({ "type": "string", "oneOf": options })
         }
-        Type::Table(keys) => table(keys, None),
-        Type::Kind(seam) => json!({ "type": "object", "required": ["kind"], "oneOf": kinds(seam) }),
+        Type::Table(keys) => table(keys, None, false),
+        Type::Kind(seam) => json!({ "type": "object", "oneOf": kinds(seam, default) }),
     }
 }
 
-fn kinds(seam: &Seam) -> Vec<Value> {
+fn kinds(seam: &Seam, default: &str) -> Vec<Value> {
     let described = |kind: &super::declaration::Kind| {
-        let mut schema = table(kind.keys, Some(kind.name));
+        let mut schema = table(kind.keys, Some(kind.name), kind.name == default);
         if let Some(object) = schema.as_object_mut() {
             let source = if kind.source.is_empty() { String::new() } else { format!(". {}", kind.source) };
             object.insert("description".to_owned(), json!(format!("{}{source}", kind.summary)));

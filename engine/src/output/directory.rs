@@ -151,6 +151,28 @@ impl Directory {
     }
 }
 
+/// Writes a single file whole or not at all, replacing what is there: under a hidden name beside it first.
+///
+/// # Errors
+/// [`OutputError::Io`] with the system's reason.
+pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
+    let attempt = || {
+        let Some(name) = path.file_name() else { return Err(io::ErrorKind::InvalidFilename.into()) };
+        if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+            fs::create_dir_all(folder)?;
+        }
+        let hidden = path.with_file_name(format!(".{}.flexion-new", name.to_string_lossy()));
+        let written = File::create(&hidden)
+            .and_then(|mut file| file.write_all(bytes).and_then(|()| file.sync_all()))
+            .and_then(|()| fs::rename(&hidden, path));
+        if written.is_err() {
+            let _ = fs::remove_file(&hidden);
+        }
+        written
+    };
+    attempt().map_err(OutputError::io("write", path))
+}
+
 /// Takes the lock of the directory; a file system without locks gives none.
 fn lock(path: &Path) -> Result<Option<File>, OutputError> {
     // Only on Unix can a directory be opened as a file.

@@ -23,7 +23,7 @@ mod vtk;
 pub use self::artifact::Artifact;
 pub use self::compare::{Comparison, Difference, compare, compare_csv, compare_json};
 pub use self::csv::{read_csv, write_csv};
-pub use self::directory::Directory;
+pub use self::directory::{Directory, write_file};
 pub use self::error::{OutputError, ResultsError};
 pub use self::npz::write_npz;
 pub use self::provenance::resolved_case;

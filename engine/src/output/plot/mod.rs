@@ -14,7 +14,7 @@ mod style;
 mod tests;
 
 pub use self::draw::Drawing;
-pub use self::panels::{compare_figure, trajectory_figure};
+pub use self::panels::{compare_figure, difference_figure, trajectory_figure};
 
 /// A grid of panels, filled row by row.
 #[derive(Clone, Debug, Default, PartialEq)]

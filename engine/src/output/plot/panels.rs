@@ -1,7 +1,7 @@
 //! The figures of trajectories: which columns, in which panels, under which words.
 
-use super::{Axis, Figure, Panel, Series};
-use crate::output::Trajectory;
+use super::{Axis, Figure, Line, Panel, Series};
+use crate::output::{Comparison, Results, Trajectory};
 use crate::system::Channel;
 
 /// Columns that have a panel of their own, with the words for it.
@@ -62,6 +62,36 @@ pub fn compare_figure(runs: &[(&str, &Trajectory)], columns: &[&str], title: Opt
     figure(panels, title)
 }
 
+/// Runs and their differences from the first: for each of the `columns` a panel with all runs and, beside it, one
+/// with the differences, in the colours of the runs.
+pub fn difference_figure(
+    runs: &[Results],
+    comparisons: &[Comparison],
+    columns: &[&str],
+    title: Option<&str>,
+) -> Figure {
+    let named: Vec<(Option<&str>, &Trajectory)> =
+        runs.iter().map(|run| (Some(run.name.as_str()), &run.trajectory)).collect();
+    let differences: Vec<(Option<&str>, &Trajectory)> =
+        comparisons.iter().map(|c| (Some(c.second.as_str()), &c.trajectory)).collect();
+    let mut panels = Vec::new();
+    for name in columns {
+        let (Some(mut values), Some(mut apart)) = (panel(&named, name), panel(&differences, name)) else {
+            continue;
+        };
+        apart.y.quantity = format!("Δ {}", apart.y.quantity);
+        // The first run has no difference: colours and dashes are those of the others.
+        for (series, number) in apart.series.iter_mut().zip(1..) {
+            (series.color, series.line, series.name) = (Some(number), Line::Solid, None);
+        }
+        if !panels.is_empty() {
+            values.series.iter_mut().for_each(|series| series.name = None);
+        }
+        panels.extend([values, apart]);
+    }
+    Figure { title: title.map(String::from), panels, columns: 2, share_x: true }
+}
+
 fn figure(panels: Vec<Panel>, title: Option<&str>) -> Figure {
     let columns = if panels.len() < PANELS { 1 } else { 2 };
     Figure { title: title.map(String::from), panels, columns, share_x: true }
@@ -73,7 +103,9 @@ fn panel(runs: &[(Option<&str>, &Trajectory)], name: &str) -> Option<Panel> {
     for (number, (run, trajectory)) in runs.iter().enumerate() {
         if let Some(i) = trajectory.index(name) {
             y.get_or_insert_with(|| axis(&trajectory.channels()[i]));
-            series.push(Series { color: Some(number), ..Series::line(*run, points(trajectory, i)) });
+            // A later run that covers an earlier one lets it be seen through its gaps.
+            let line = [Line::Solid, Line::Dashed, Line::Dotted][number % 3];
+            series.push(Series { color: Some(number), line, ..Series::line(*run, points(trajectory, i)) });
         }
     }
     Some(Panel { x: Axis::time(), y: y?, series })

@@ -1,0 +1,172 @@
+//! `flexion compare`: how far runs are apart.
+
+use crate::{Outcome, screen};
+use flexion::output::plot::difference_figure;
+use flexion::output::{
+    Artifact, Comparison, Directory, OutputError, Results, ResultsError, compare as compare_two, compare_csv,
+    compare_json, select,
+};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// The runs to compare.
+#[derive(clap::Args)]
+#[command(after_help = "Examples:
+  flexion compare results/fine results/coarse
+  flexion compare results/fine results/coarse --columns 'tip.*' --tolerance 1e-3 --output results/differences
+
+The runs are compared at the times of the first, REFERENCE. A run recorded at other times is interpolated there by
+cubics: name the run recorded most finely last, or record at the same times.
+
+Exit codes: 0 compared, 1 command line rejected, 2 a difference exceeds the tolerance.")]
+pub struct Arguments {
+    /// Directory of the results, or CSV file, that the others are compared with
+    #[arg(value_name = "REFERENCE")]
+    reference: PathBuf,
+    /// Directories of results, or CSV files
+    #[arg(value_name = "RUN", required = true)]
+    runs: Vec<PathBuf>,
+    /// Columns, e.g. tip.deflection,tip.axial or 'tip.*' [default: all in common but step.*]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    columns: Vec<String>,
+    /// Largest difference admitted, relative to the peak of REFERENCE; beyond it the exit code is 2
+    #[arg(long, value_name = "X", value_parser = tolerance)]
+    tolerance: Option<f64>,
+    /// Directory for compare.json, compare.csv and the plots of runs and differences
+    #[arg(long, short, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Replace a former comparison in that directory
+    #[arg(long, requires = "output")]
+    force: bool,
+}
+
+/// Columns that are drawn when none are asked for.
+const DRAWN: [&str; 2] = ["tip.deflection", "tip.axial"];
+/// Most columns that are drawn.
+const MOST_DRAWN: usize = 6;
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value >= 0.0 => Ok(value),
+        _ => Err("it is a number, zero or positive, e.g. 1e-3".to_owned()),
+    }
+}
+
+/// Compares runs.
+pub fn compare(arguments: &Arguments) -> Outcome {
+    let (results, comparisons) = match compared(arguments) {
+        Ok(compared) => compared,
+        Err(error) => {
+            screen::complain(&format!("error: {error}\n"));
+            return Outcome::Rejected;
+        }
+    };
+    let mut out = String::new();
+    for comparison in &comparisons {
+        out.push_str(&described(comparison));
+        out.push('\n');
+    }
+    screen::print(&out);
+    for caution in results.iter().filter_map(|results| results.caution.as_ref()) {
+        screen::complain(&format!("warning: {caution}\n"));
+    }
+    if let Some(path) = &arguments.output {
+        match write(path, arguments, &results, &comparisons) {
+            Ok(text) => screen::print(&text),
+            Err(error) => {
+                screen::complain(&format!("error: {error}\n"));
+                return Outcome::Rejected;
+            }
+        }
+    }
+    let Some(tolerance) = arguments.tolerance else { return Outcome::Finished };
+    let mut beyond = false;
+    for comparison in &comparisons {
+        for what in comparison.beyond(tolerance) {
+            screen::complain(&format!("error: {}: {what}\n", comparison.second));
+            beyond = true;
+        }
+    }
+    if beyond { Outcome::Incomplete } else { Outcome::Finished }
+}
+
+fn compared(arguments: &Arguments) -> Result<(Vec<Results>, Vec<Comparison>), ResultsError> {
+    let paths: Vec<PathBuf> = std::iter::once(&arguments.reference).chain(&arguments.runs).cloned().collect();
+    let results = Results::read_all(&paths)?;
+    let mut comparisons = Vec::new();
+    if let Some((reference, runs)) = results.split_first() {
+        for run in runs {
+            let names = reference.trajectory.channels().iter().map(|c| c.name.as_str());
+            let common: Vec<&str> = names.filter(|name| run.trajectory.index(name).is_some()).collect();
+            let columns = if arguments.columns.is_empty() {
+                common.into_iter().filter(|name| !name.starts_with("step.")).collect()
+            } else {
+                let of = format!("both {} and {}", reference.name, run.name);
+                select(&common, &arguments.columns, &of)?
+            };
+            comparisons.push(compare_two(reference, run, &columns)?);
+        }
+    }
+    Ok((results, comparisons))
+}
+
+/// The table of one comparison.
+fn described(c: &Comparison) -> String {
+    let times = c.trajectory.len();
+    let how = if c.interpolated { "interpolated by cubics" } else { "the same in both" };
+    let mut out = format!(
+        "{} against {}: {times} times from {} to {} s, {how}\n\n",
+        c.second, c.first, c.span.0, c.span.1
+    );
+    let head = ["", "unit", "max |Δ|", "at t [s]", "RMS", "peak", "relative"];
+    let mut rows = vec![head.map(str::to_owned).to_vec()];
+    for d in &c.differences {
+        let unit = if d.unit.is_empty() { "1" } else { d.unit };
+        let mut row = vec![d.column.clone(), unit.to_owned()];
+        row.extend([format!("{:.4e}", d.max), format!("{:.4}", d.at)]);
+        row.extend([d.rms, d.peak, d.relative].map(|y| format!("{y:.4e}")));
+        rows.push(row);
+    }
+    out.push_str(&screen::table(&rows));
+    for (name, columns) in [(&c.first, &c.only_first), (&c.second, &c.only_second)] {
+        if !columns.is_empty() {
+            out.push_str(&format!("\nonly in {name}: {}\n", columns.join(", ")));
+        }
+    }
+    if !c.covers {
+        out.push_str(&format!("\n{} does not have all times of {}\n", c.second, c.first));
+    }
+    out
+}
+
+/// Writes the files and says where they are.
+fn write(
+    path: &Path,
+    arguments: &Arguments,
+    results: &[Results],
+    comparisons: &[Comparison],
+) -> Result<String, OutputError> {
+    let directory = Directory::for_comparison(path, arguments.force)?;
+    let compared =
+        comparisons.first().map(|c| &c.differences).into_iter().flatten().map(|d| d.column.as_str());
+    let mut drawn: Vec<&str> =
+        compared.clone().filter(|name| !arguments.columns.is_empty() || DRAWN.contains(name)).collect();
+    if drawn.is_empty() {
+        drawn = compared.collect();
+    }
+    drawn.truncate(MOST_DRAWN);
+    let mut warning = String::new();
+    let drawing = difference_figure(results, comparisons, &drawn, None).draw();
+    directory.write(Artifact::CompareCsv, |f| compare_csv(comparisons, f))?;
+    directory.write(Artifact::CompareSvg, |f| f.write_all(drawing.svg().as_bytes()))?;
+    match drawing.png() {
+        Ok(png) => directory.write(Artifact::ComparePng, |f| f.write_all(&png))?,
+        Err(error) => warning = format!("warning: {error}\n"),
+    }
+    let json = compare_json(comparisons, arguments.tolerance);
+    directory.write(Artifact::CompareJson, |f| f.write_all(json.as_bytes()))?;
+    directory.publish()?;
+    screen::complain(&warning);
+    let place = |what: &str, artifact| vec![what.to_owned(), directory.file(artifact).display().to_string()];
+    Ok(screen::table(&[place("figures", Artifact::CompareJson), place("plot", Artifact::CompareSvg)]))
+}

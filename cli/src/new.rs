@@ -1,0 +1,60 @@
+//! `flexion new`: a commented case file to begin with.
+
+use crate::{Outcome, screen};
+use flexion::case::TEMPLATES;
+use flexion::output::write_file;
+use std::path::PathBuf;
+
+/// The template.
+#[derive(clap::Args)]
+#[command(after_help = "Examples:
+  flexion new --list
+  flexion new spin-up --output case.toml
+  flexion new exact-large-deflection | less")]
+pub struct Arguments {
+    /// Name of a template; --list shows them
+    #[arg(value_name = "TEMPLATE", required_unless_present = "list")]
+    template: Option<String>,
+    /// File to write; without it the case is printed
+    #[arg(long, short, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// List the templates
+    #[arg(long, conflicts_with_all = ["template", "output"])]
+    list: bool,
+    /// Replace a file that exists
+    #[arg(long)]
+    force: bool,
+}
+
+/// Prints or writes a template, or lists them.
+pub fn new(arguments: &Arguments) -> Outcome {
+    match text(arguments) {
+        Ok(text) => {
+            screen::print(&text);
+            Outcome::Finished
+        }
+        Err(message) => {
+            screen::complain(&format!("error: {message}\n"));
+            Outcome::Rejected
+        }
+    }
+}
+
+fn text(arguments: &Arguments) -> Result<String, String> {
+    let Some(name) = &arguments.template else {
+        let rows = TEMPLATES.iter().map(|t| vec![t.name.to_owned(), t.summary.to_owned()]);
+        return Ok(screen::table(&rows.collect::<Vec<_>>()));
+    };
+    let Some(template) = TEMPLATES.iter().find(|template| template.name == name) else {
+        let names: Vec<&str> = TEMPLATES.iter().map(|template| template.name).collect();
+        return Err(format!("there is no template `{name}`; choose one of {}", names.join(", ")));
+    };
+    let text = template.render().map_err(|problems| problems.render(false))?;
+    let Some(file) = &arguments.output else { return Ok(text) };
+    if file.exists() && !arguments.force {
+        let name = file.display();
+        return Err(format!("{name} exists; choose another name or replace it with --force"));
+    }
+    write_file(file, text.as_bytes()).map_err(|error| error.to_string())?;
+    Ok(format!("  case  {}\n", file.display()))
+}

@@ -1,0 +1,144 @@
+//! The resolved case among the results repeats the run, byte for byte, whatever kinds it is made of.
+
+#![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
+
+use flexion::case::{Reading, read, seams};
+use flexion::output::{Artifact, Directory, Status};
+use std::collections::BTreeSet;
+use std::fs;
+use std::ops::ControlFlow;
+use std::path::Path;
+
+const BASE: &str = r#"
+title = "repeated"
+[beam]
+length = "2 m"
+[section]
+kind = "rectangle"
+modulus = "70 GPa"
+density = "2700 kg/m^3"
+width = "20 mm"
+height = "20 mm"
+[hub]
+motion = { kind = "spin-up", speed = "4 rad/s", time = "0.1 s" }
+[integrator]
+kind = "newmark"
+step = "1 ms"
+[run]
+duration = "0.05 s"
+[output]
+step = "5 ms"
+"#;
+
+const TABLE: &str = "# measured\ntime,speed\n0, 0\n0.02, 0.3\n0.05,1.1\n0.1, 4\n";
+
+/// Changes to the base case, which together use every kind there is.
+const VARIATIONS: &[&str] = &[
+    "title=base",
+    "section={kind='uniform', modulus='7 GPa', density=2700, area='4 cm^2', second-moment='2e-8 m^4', rotary-inertia=true}",
+    "section={kind='circle', modulus='70 GPa', density=2700, radius='1 cm'}",
+    "section={kind='tube', modulus='70 GPa', density=2700, outer-radius='2 cm', inner-radius='1 cm'}",
+    "section={kind='resultants', mass-per-length=1.0, axial-stiffness=2.8e7, bending-stiffness=930.0}",
+    "section={kind='graded', ceramic-modulus='151 GPa', metal-modulus='70 GPa', ceramic-density=3000, metal-density=2707, width='2 cm', height='2 cm', exponent=1.5}",
+    "hub.motion={kind='constant', speed='4 rad/s'}",
+    "hub.motion={kind='ramp', speed='4 rad/s', time='0.1 s'}",
+    "hub.motion={kind='table', file='tables/measured.csv', of='speed'}",
+    "hub.motion={kind='table', file='tables/measured.csv', of='angle'}",
+    "hub.motion={kind='expression', formula='sin(t)^2', of='angle'}",
+    "hub.motion={kind='expression', formula='3*t', of='speed'}",
+    "model.coupling=zeroth",
+    "model.coupling=first",
+    "model.coupling=exact",
+    "basis={kind='finite-elements', elements=7}",
+    "basis={kind='modes', axial=2}",
+    "basis={kind='radial'}",
+    "basis={kind='mixed', axial={kind='modes', count=2}, transverse={kind='radial'}}",
+    "basis={kind='mixed', axial={kind='radial'}, transverse={kind='finite-elements'}}",
+    "initial.kind=steady-rotation",
+    "initial.kind=undeformed",
+    "integrator={kind='radau'}",
+    "integrator={kind='hht', step='1 ms'}",
+    "integrator={kind='generalized-alpha', step='1 ms'}",
+    "integrator={kind='runge-kutta-4', step='1 us'}",
+    "integrator={kind='adams-4', step='1 us'}",
+    "output.stations=[0.1, '150 cm']",
+    "output={step='2 ms', vtk=true, vtk-step='7 ms'}",
+];
+
+fn run(case: &Path, set: &[&str], output: &Path) -> Reading {
+    let set: Vec<String> = set.iter().map(|text| (*text).to_owned()).collect();
+    let reading = read(case, &set).unwrap_or_else(|problems| panic!("{}", problems.render(false)));
+    let prepared = reading.prepare().unwrap_or_else(|problems| panic!("{}", problems.render(false)));
+    let directory = Directory::create(output, true).unwrap();
+    let run = prepared.run(&mut |_| ControlFlow::Continue(()));
+    assert_eq!(reading.write(&run, &directory).unwrap(), Status::Finished, "{set:?}: {:?}", run.message);
+    reading
+}
+
+/// All files with their bytes, but the summary, which names the case and the time of computing.
+fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let mut all = Vec::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let entry = entry.unwrap();
+        let name = entry.file_name().into_string().unwrap();
+        if entry.path().is_dir() {
+            all.extend(
+                files(&entry.path()).into_iter().map(|(file, bytes)| (format!("{name}/{file}"), bytes)),
+            );
+        } else if name != Artifact::Summary.file_name() {
+            all.push((name, fs::read(entry.path()).unwrap()));
+        }
+    }
+    all.sort();
+    all
+}
+
+#[test]
+fn a_run_is_repeated_byte_for_byte_from_the_resolved_case_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = folder.path().join("case.toml");
+    fs::write(&case, BASE).unwrap();
+    let (first, second) = (folder.path().join("first"), folder.path().join("elsewhere/second"));
+    for variation in VARIATIONS {
+        // What the case refers to is there for the first run only.
+        fs::create_dir(folder.path().join("tables")).unwrap();
+        fs::write(folder.path().join("tables/measured.csv"), TABLE).unwrap();
+        run(&case, &[variation], &first);
+        fs::remove_dir_all(folder.path().join("tables")).unwrap();
+        run(&first.join("case.resolved.toml"), &[], &second);
+        let (a, b) = (files(&first), files(&second));
+        let names = |files: &[(String, Vec<u8>)]| files.iter().map(|f| f.0.clone()).collect::<Vec<_>>();
+        assert_eq!(names(&a), names(&b), "{variation}");
+        for ((name, a), (_, b)) in a.iter().zip(&b) {
+            assert!(a == b, "{variation}: {name} differs");
+        }
+        assert_eq!(variation.contains("measured.csv"), names(&a).contains(&"motion.csv".to_owned()));
+        assert_eq!(variation.contains("vtk=true"), names(&a).contains(&"beam.pvd".to_owned()));
+        if variation.contains("measured.csv") {
+            // In its own place, too: the table is replaced by itself.
+            run(&first.join("case.resolved.toml"), &[], &first);
+            assert!(files(&first) == b, "{variation} in place");
+        }
+    }
+}
+
+#[test]
+fn every_kind_is_repeated() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = folder.path().join("case.toml");
+    fs::write(&case, BASE).unwrap();
+    fs::create_dir(folder.path().join("tables")).unwrap();
+    fs::write(folder.path().join("tables/measured.csv"), TABLE).unwrap();
+    let mut used = BTreeSet::new();
+    for variation in VARIATIONS {
+        let reading = read(&case, &[(*variation).to_owned()]).unwrap();
+        for line in reading.resolved().lines() {
+            used.extend(line.split('"').nth(1).map(str::to_owned));
+        }
+    }
+    for seam in seams() {
+        for kind in seam.kinds {
+            assert!(used.contains(kind.name), "no variation uses the {} `{}`", seam.name, kind.name);
+        }
+    }
+}
