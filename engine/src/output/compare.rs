@@ -4,6 +4,7 @@ use std::io::{self, Write};
 
 use serde_json::{Map, Value, json};
 
+use super::csv::io_error;
 use super::{Results, ResultsError, Trajectory};
 use crate::system::Channel;
 
@@ -247,6 +248,10 @@ pub fn compare_json(comparisons: &[Comparison], tolerance: Option<f64>) -> Strin
 /// # Errors
 /// Whatever `to` returns.
 pub fn compare_csv(comparisons: &[Comparison], to: impl Write) -> io::Result<()> {
+    write(comparisons, to).map_err(io_error)
+}
+
+fn write(comparisons: &[Comparison], to: impl Write) -> ::csv::Result<()> {
     let mut csv = ::csv::Writer::from_writer(to);
     csv.write_record(["reference", "run", "column", "unit", "max", "time [s]", "rms", "peak", "relative"])?;
     for c in comparisons {
@@ -265,7 +270,7 @@ pub fn compare_csv(comparisons: &[Comparison], to: impl Write) -> io::Result<()>
             ])?;
         }
     }
-    csv.flush()
+    Ok(csv.flush()?)
 }
 
 #[cfg(test)]
