@@ -147,6 +147,19 @@ fn write(
     comparisons: &[Comparison],
 ) -> Result<String, OutputError> {
     let directory = Directory::for_comparison(path, arguments.force)?;
+    let written = fill(&directory, arguments, results, comparisons);
+    if written.is_err() {
+        directory.discard();
+    }
+    written
+}
+
+fn fill(
+    directory: &Directory,
+    arguments: &Arguments,
+    results: &[Results],
+    comparisons: &[Comparison],
+) -> Result<String, OutputError> {
     let compared =
         comparisons.first().map(|c| &c.differences).into_iter().flatten().map(|d| d.column.as_str());
     let mut drawn: Vec<&str> =

@@ -1,9 +1,11 @@
 //! How far two runs are apart.
 
+use std::cmp::Ordering;
 use std::io::{self, Write};
 
 use serde_json::{Map, Value, json};
 
+use super::csv::io_error;
 use super::{Results, ResultsError, Trajectory};
 use crate::system::Channel;
 
@@ -66,7 +68,7 @@ impl Comparison {
         for d in &self.differences {
             if let Some(t) = d.not_finite {
                 out.push(format!("{} is not a finite number at t = {t} s", d.column));
-            } else if !(d.relative <= tolerance) {
+            } else if d.relative.is_nan() || d.relative > tolerance {
                 let relative = d.relative;
                 out.push(format!("{} differs by {relative:.3e} of its peak at t = {} s", d.column, d.at));
             }
@@ -90,7 +92,9 @@ pub fn compare(first: &Results, second: &Results, columns: &[&str]) -> Result<Co
     };
     for run in [first, second] {
         let times = run.trajectory.times();
-        if let Some(pair) = times.windows(2).find(|pair| !(pair[0] < pair[1])) {
+        if let Some(pair) =
+            times.windows(2).find(|pair| pair[0].partial_cmp(&pair[1]) != Some(Ordering::Less))
+        {
             return Err(refuse(format!("the times of {} do not ascend after t = {} s", run.name, pair[0])));
         }
     }
@@ -158,8 +162,7 @@ fn difference(channel: &Channel, times: &[f64], a: &[f64], d: &[f64]) -> Differe
             not_finite = not_finite.or(Some(t));
             continue;
         }
-        // The negated comparison lets the first value in.
-        if !(d.abs() <= max) {
+        if max.is_nan() || d.abs() > max {
             (max, at) = (d.abs(), t);
         }
         peak = peak.max(y.abs());
@@ -247,6 +250,10 @@ pub fn compare_json(comparisons: &[Comparison], tolerance: Option<f64>) -> Strin
 /// # Errors
 /// Whatever `to` returns.
 pub fn compare_csv(comparisons: &[Comparison], to: impl Write) -> io::Result<()> {
+    write(comparisons, to).map_err(io_error)
+}
+
+fn write(comparisons: &[Comparison], to: impl Write) -> ::csv::Result<()> {
     let mut csv = ::csv::Writer::from_writer(to);
     csv.write_record(["reference", "run", "column", "unit", "max", "time [s]", "rms", "peak", "relative"])?;
     for c in comparisons {
@@ -265,7 +272,7 @@ pub fn compare_csv(comparisons: &[Comparison], to: impl Write) -> io::Result<()>
             ])?;
         }
     }
-    csv.flush()
+    Ok(csv.flush()?)
 }
 
 #[cfg(test)]

@@ -15,6 +15,18 @@ use crate::system::Channel;
 /// # Errors
 /// Whatever `to` returns.
 pub fn write_csv(trajectory: &Trajectory, to: impl Write) -> io::Result<()> {
+    write(trajectory, to).map_err(io_error)
+}
+
+/// The system's own error where there is one: what to try depends on it.
+pub(super) fn io_error(error: ::csv::Error) -> io::Error {
+    match error.into_kind() {
+        ::csv::ErrorKind::Io(error) => error,
+        other => io::Error::other(format!("{other:?}")),
+    }
+}
+
+fn write(trajectory: &Trajectory, to: impl Write) -> ::csv::Result<()> {
     let mut csv = ::csv::Writer::from_writer(to);
     csv.write_field("time [s]")?;
     for c in trajectory.channels() {
@@ -32,7 +44,7 @@ pub fn write_csv(trajectory: &Trajectory, to: impl Write) -> io::Result<()> {
         }
         csv.write_record(None::<&[u8]>)?;
     }
-    csv.flush()
+    Ok(csv.flush()?)
 }
 
 /// Reads what [`write_csv`] wrote, to the same bits; channels come back without their meaning. Lines that begin
@@ -171,5 +183,24 @@ mod tests {
             let error = read_csv(text.as_bytes()).unwrap_err();
             assert!(error.contains(fault), "{text:?}: {error}");
         }
+    }
+
+    #[test]
+    fn a_full_disk_is_reported_as_such() {
+        struct Full;
+        impl Write for Full {
+            fn write(&mut self, _: &[u8]) -> io::Result<usize> {
+                Err(io::ErrorKind::StorageFull.into())
+            }
+            fn flush(&mut self) -> io::Result<()> {
+                Ok(())
+            }
+        }
+        let mut t = sample();
+        for i in 5..5000 {
+            t.push(f64::from(i), |_| {});
+        }
+        assert_eq!(write_csv(&t, Full).unwrap_err().kind(), io::ErrorKind::StorageFull);
+        assert_eq!(write_csv(&sample(), Full).unwrap_err().kind(), io::ErrorKind::StorageFull);
     }
 }

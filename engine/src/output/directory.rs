@@ -111,15 +111,21 @@ impl Directory {
 
     /// Saves what was written whole before something failed, and says where it is: under its names, without
     /// the closing file, if there are no former results, or else in a folder beside them that the next run
-    /// removes. `None` when nothing was written.
+    /// removes. `None` when nothing was written that is worth it: no trajectory.
     pub fn salvage(&self) -> Option<PathBuf> {
         let staged = self.path.join(NEW);
-        if !staging::holds_files(&staged) {
-            let _ = staging::clear(&self.path);
+        let results = [Artifact::TrajectoryNpz, Artifact::TrajectoryCsv];
+        if !results.iter().any(|artifact| staged.join(&*artifact.file_name()).exists()) {
+            self.discard();
             return None;
         }
         let former = self.own.iter().any(|artifact| self.file(*artifact).exists());
         if !former && staging::place(&self.path).is_ok() { Some(self.path.clone()) } else { Some(staged) }
+    }
+
+    /// Removes what was written and not published.
+    pub fn discard(&self) {
+        let _ = staging::clear(&self.path);
     }
 
     fn refuse_contents(&self) -> Result<(), OutputError> {

@@ -39,8 +39,9 @@ pub fn write_run(
     if let Some(table) = attachments.motion_table {
         directory.write(Artifact::MotionTable, |f| f.write_all(table))?;
     }
-    directory.write(Artifact::TrajectoryCsv, |f| write_csv(trajectory, f))?;
+    // The smaller one first: it may still fit on a disk that is nearly full.
     directory.write(Artifact::TrajectoryNpz, |f| write_npz(trajectory, f))?;
+    directory.write(Artifact::TrajectoryCsv, |f| write_csv(trajectory, f))?;
     let mut warnings = report.warnings.to_vec();
     if let Some(figure) = attachments.figure {
         let drawing = figure.draw();

@@ -60,11 +60,6 @@ pub(super) fn clear(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Whether there is any file in the folder.
-pub(super) fn holds_files(folder: &Path) -> bool {
-    files(folder).is_ok_and(|files| !files.is_empty())
-}
-
 /// The file of that name as a reader should see it: the new one while files are being moved.
 pub(super) fn current(path: &Path, artifact: Artifact) -> PathBuf {
     let name = artifact.file_name();
