@@ -63,7 +63,7 @@ fn row(name: &str, text: String) -> Vec<String> {
 /// Resultants at the root and the largest speed.
 fn beam(case: &Case) -> Vec<Vec<String>> {
     let mut rows = vec![row("length", format!("{} m", case.length))];
-    if let Ok(section) = build::section(&case.section) {
+    if let Ok(section) = build::section(&case.section, case.length) {
         let r = section.resultants(0.0);
         rows.push(row("mass per length ρA", format!("{:.6} kg/m", r.mass)));
         rows.push(row("axial stiffness EA", format!("{:.6e} N", r.axial_stiffness)));

@@ -76,6 +76,11 @@ const KINDS: &[&str] = &[
     "section={kind='tube',modulus='1 GPa',density='1 g/cm^3',outer-radius='2 mm',inner-radius='1 mm'}",
     "section={kind='resultants',mass-per-length='1.2 kg/m',axial-stiffness='28 MN',bending-stiffness='14 kN m²',rotary-inertia=6e-4}",
     "section={kind='graded',ceramic-modulus='151 GPa',metal-modulus='70 GPa',ceramic-density=3000,metal-density=2707,width='20 mm',height='20 mm',exponent=2}",
+    "section={kind='tapered-rectangle',modulus=1e9,density=1,root-width='2 cm',tip-width='1 cm',root-height='3 cm',tip-height='5 mm'}",
+    "section={kind='tapered-circle',modulus=1e9,density=1,root-radius='2 cm',tip-radius='1 cm',rotary-inertia=true}",
+    "section={kind='tapered-tube',modulus=1e9,density=1,root-outer-radius='2 cm',root-inner-radius='1 cm',tip-outer-radius='9 mm',tip-inner-radius='8 mm'}",
+    "section={kind='piecewise',ends=['4 m',10],modulus=[1e9,'2 GPa'],density=[1,2],area=['1 cm^2','2 cm^2'],second-moment=[1e-8,2e-8]}",
+    "section={kind='table',file='broken_cases/../section.csv',interpolation='cubic'}",
     "hub.motion={kind='spin-up',speed='3000 rpm',time='1 min'}",
     "hub.motion={kind='constant',speed='-90 deg/s'}",
     "hub.motion={kind='ramp',speed='0.1 rev/s',time=3}",
@@ -109,6 +114,9 @@ fn the_resolved_case_of_every_kind_reads_back_as_the_same_case_and_builds() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("case.toml");
     std::fs::write(folder.path().join("motion.csv"), "# a table\nt,angle\n0,0\n1,2\n10,3\n40,5\n").unwrap();
+    let sections =
+        "# SI\nx, EI, mass, EA, rotary-inertia\n0, 3, 1, 1e6, 0\n6, 2, 0.5, 1e6, 0\n10, 1, 0.5, 1e6, 0\n";
+    std::fs::write(folder.path().join("section.csv"), sections).unwrap();
     for kind in KINDS {
         let kind = kind.replace("broken_cases/../", "").replace(" \"", "");
         let reading = parse(SPIN_UP.to_owned(), &file, std::slice::from_ref(&kind))

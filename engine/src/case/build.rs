@@ -4,7 +4,8 @@ use super::basis::{Basis as BasisCase, RadialBasis};
 use super::integrator::Integrator as IntegratorCase;
 use super::layout::{Case, Coupling};
 use super::motion::{Motion as MotionCase, MotionOf};
-use super::section::{Section as SectionCase, Shape as ShapeCase};
+use super::section::{Interpolation as InterpolationCase, Section as SectionCase, Shape as ShapeCase};
+use super::section_file;
 use super::torque::{Controller as ControllerCase, Free as FreeCase, Torque as TorqueCase};
 use crate::basis::{
     BSpline, Basis, BasisError, Bezier, Field, Hermite, Lagrange, Modes, Polynomial, PolynomialParameters,
@@ -17,35 +18,52 @@ use crate::integrator::{
     Adams, GeneralizedAlpha, Integrator, InvalidParameter, Radau, RungeKutta, Tolerance,
 };
 use crate::profile::{self, Constant, Expression, Profile, ProfileError, Ramp, SpinUp, Table};
-use crate::section::{Graded, Inertia, Material, Resultants, Section, SectionError, Shape, Uniform};
+use crate::section::{
+    self, Graded, Inertia, Interpolation, Material, Piecewise, Resultants, Section, SectionError, Segment,
+    Shape, Tapered, Uniform,
+};
 use crate::system::System;
 use std::path::Path;
 use std::sync::Arc;
 
-/// The section of a case.
+/// The section of a case, on a beam of the given length [m].
 ///
 /// # Errors
-/// [`SectionError`] when the quantities make no section.
-pub fn section(case: &SectionCase) -> Result<Box<dyn Section>, SectionError> {
+/// [`SectionError`] when the quantities make no section, or its file cannot be read.
+pub fn section(case: &SectionCase, length: f64) -> Result<Box<dyn Section>, SectionError> {
     let kept = |rotary| if rotary { Inertia::Rotary } else { Inertia::Translation };
     Ok(match *case {
-        SectionCase::Uniform { modulus, density, shape, rotary_inertia } => {
-            let shape = match shape {
-                ShapeCase::General { area, second_moment } => {
-                    let section = Uniform::from_resultants(Resultants {
-                        mass: density * area,
-                        rotary_inertia: density * second_moment,
-                        axial_stiffness: modulus * area,
-                        bending_stiffness: modulus * second_moment,
-                        ..Resultants::default()
-                    })?;
-                    return Ok(Box::new(section.with_inertia(kept(rotary_inertia))));
-                }
-                ShapeCase::Rectangle { width, height } => Shape::Rectangle { width, height },
-                ShapeCase::Circle { radius } => Shape::Circle { radius },
-                ShapeCase::Tube { outer_radius, inner_radius } => Shape::Tube { outer_radius, inner_radius },
+        SectionCase::Uniform {
+            modulus,
+            density,
+            shape: ShapeCase::General { area, second_moment },
+            rotary_inertia,
+        } => Box::new(general(modulus, density, area, second_moment)?.with_inertia(kept(rotary_inertia))),
+        SectionCase::Uniform { modulus, density, shape: dimensions, rotary_inertia } => {
+            let section = Uniform::from_material(modulus, density, shape(dimensions)?)?;
+            Box::new(section.with_inertia(kept(rotary_inertia)))
+        }
+        SectionCase::Tapered { modulus, density, root, tip, rotary_inertia } => {
+            let section = Tapered::new(modulus, density, length, shape(root)?, shape(tip)?)?;
+            Box::new(section.with_inertia(kept(rotary_inertia)))
+        }
+        SectionCase::Piecewise { ref segments, rotary_inertia } => {
+            let segments: Result<_, SectionError> = segments
+                .iter()
+                .map(|s| {
+                    let section = general(s.modulus, s.density, s.area, s.second_moment)?;
+                    Ok(Segment { end: s.end, section: section.with_inertia(kept(rotary_inertia)) })
+                })
+                .collect();
+            Box::new(Piecewise::new(length, segments?)?)
+        }
+        SectionCase::Table { ref file, interpolation } => {
+            let rows = section_file::rows(file).map_err(SectionError::Invalid)?;
+            let interpolation = match interpolation {
+                InterpolationCase::Linear => Interpolation::Linear,
+                InterpolationCase::Cubic => Interpolation::Cubic,
             };
-            Box::new(Uniform::from_material(modulus, density, shape)?.with_inertia(kept(rotary_inertia)))
+            Box::new(section::Table::new(length, &rows, interpolation)?)
         }
         SectionCase::Resultants { mass, axial_stiffness, bending_stiffness, rotary_inertia } => {
             Box::new(Uniform::from_resultants(Resultants {
@@ -71,6 +89,30 @@ pub fn section(case: &SectionCase) -> Result<Box<dyn Section>, SectionError> {
             let metal = Material { modulus: metal_modulus, density: metal_density };
             let inertia = if first_moment { Inertia::Full } else { kept(rotary_inertia) };
             Box::new(Graded::new(ceramic, metal, exponent, width, height)?.with_inertia(inertia))
+        }
+    })
+}
+
+/// A homogeneous section of given area and second moment, with all inertia.
+fn general(modulus: f64, density: f64, area: f64, second_moment: f64) -> Result<Uniform, SectionError> {
+    Uniform::from_resultants(Resultants {
+        mass: density * area,
+        rotary_inertia: density * second_moment,
+        axial_stiffness: modulus * area,
+        bending_stiffness: modulus * second_moment,
+        ..Resultants::default()
+    })
+}
+
+/// A shape given by its dimensions.
+fn shape(case: ShapeCase) -> Result<Shape, SectionError> {
+    Ok(match case {
+        ShapeCase::Rectangle { width, height } => Shape::Rectangle { width, height },
+        ShapeCase::Circle { radius } => Shape::Circle { radius },
+        ShapeCase::Tube { outer_radius, inner_radius } => Shape::Tube { outer_radius, inner_radius },
+        ShapeCase::General { .. } => {
+            let message = "area and second moment alone give no dimensions to taper";
+            return Err(SectionError::Invalid(message.to_owned()));
         }
     })
 }
@@ -219,6 +261,20 @@ pub fn integrator(case: &IntegratorCase) -> Result<Box<dyn Integrator>, InvalidP
     })
 }
 
+/// Why a section cannot be cut into so many equal elements of smooth curvature, if it cannot.
+pub(super) fn jump_inside_element(section: &dyn Section, length: f64, elements: usize) -> Option<String> {
+    let off = |jump: &&f64| {
+        let nodes = *jump / length * elements as f64;
+        (nodes - nodes.round()).abs() > 1e-6
+    };
+    section.jumps().iter().find(off).map(|jump| {
+        format!(
+            "the section jumps at {jump} m, inside one of the {elements} equal elements of {} m; with the exact coupling elements must end at the jumps",
+            length / elements as f64
+        )
+    })
+}
+
 /// A case that cannot be built although each of its values is in range.
 #[derive(Debug, thiserror::Error)]
 pub enum BuildError {
@@ -238,7 +294,7 @@ pub enum BuildError {
 /// # Errors
 /// [`BuildError`] when a part of it is refused; a case that was read has passed these checks.
 pub fn system(case: &Case) -> Result<Box<dyn System>, BuildError> {
-    let section = section(&case.section)?;
+    let section = section(&case.section, case.length)?;
     let drive = drive(&case.hub.motion, case.duration)?;
     let (length, stations) = (case.length, &case.output.stations);
     let hub = Hub { radius: case.hub.radius, inertia: case.hub.inertia, drive };
@@ -250,6 +306,9 @@ pub fn system(case: &Case) -> Result<Box<dyn System>, BuildError> {
                 let message = "the exact coupling needs finite elements".to_owned();
                 return Err(BasisError::Invalid(message).into());
             };
+            if let Some(jump) = jump_inside_element(section.as_ref(), length, elements) {
+                return Err(SectionError::Invalid(jump).into());
+            }
             let coupling = ExactCoupling::new(length, elements, section.as_ref(), &hub)?;
             return Ok(Box::new(HubBeam::new(hub, coupling, stations)));
         }

@@ -235,12 +235,17 @@ pub(super) fn case(values: &mut Values, folder: &Path, problems: &mut Problems) 
         "exact" => Coupling::Exact,
         _ => Coupling::First,
     });
-    let section = values.kind("section").and_then(|(kind, v)| section::read(kind, v, "section", problems));
+    let section =
+        values.kind("section").and_then(|(kind, v)| section::read(kind, v, "section", folder, problems));
     let motion = values.table("hub").and_then(|hub| hub.kind("motion"));
     let motion = motion.and_then(|(kind, v)| motion::read(kind, v, folder));
-    trial::section(section.as_ref(), values, problems);
     trial::motion(motion.as_ref(), run_duration, values, problems);
     let bases = values.kind("basis").and_then(|(kind, v)| basis::read(kind, v));
+    let exact_elements = match (coupling, bases.as_ref().map(|bases| &bases.transverse)) {
+        (Some(Coupling::Exact), Some(Basis::FiniteElements { elements, .. })) => Some(*elements),
+        _ => None,
+    };
+    trial::section(section.as_ref(), length, exact_elements, values, problems);
     let integrator = values.kind("integrator").and_then(|(kind, v)| integrator::read(kind, v));
     trial::integrator(integrator.as_ref(), values, problems);
     let initial = values.kind("initial").map(|(kind, _)| match kind.name {

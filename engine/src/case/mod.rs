@@ -25,6 +25,7 @@ mod resolved;
 mod run;
 mod schema;
 mod section;
+mod section_file;
 mod torque;
 mod tree;
 mod trial;
@@ -37,7 +38,7 @@ pub use motion::{Motion, MotionOf};
 pub use problem::{Place, Problem, Problems, Source};
 pub use run::{Prepared, Run};
 pub use schema::schema;
-pub use section::{Section, Shape};
+pub use section::{Interpolation, Section, Segment, Shape};
 pub use torque::{Controller, Free, Torque};
 
 use crate::system::{State, System};

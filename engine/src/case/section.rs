@@ -5,12 +5,13 @@ use super::declaration::{
     Key, Kind, Presence as Default,
     Presence::Required,
     Seam, Type,
-    Type::{Boolean, Quantity},
+    Type::{Boolean, Quantities, Quantity},
     key,
 };
 use super::problem::{Problem, Problems};
 use super::units::*;
 use super::values::{Values, join};
+use std::path::{Path, PathBuf};
 
 /// The cross-section of the beam, in SI.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,22 +59,77 @@ pub enum Section {
         /// Whether ρI is kept.
         rotary_inertia: bool,
     },
+    /// One material; dimensions linear between root and tip.
+    Tapered {
+        /// Young's modulus E [Pa].
+        modulus: f64,
+        /// Density ρ [kg/m³].
+        density: f64,
+        /// The shape at the root.
+        root: Shape,
+        /// The shape at the tip, of the same kind.
+        tip: Shape,
+        /// Whether ρI of the section is kept.
+        rotary_inertia: bool,
+    },
+    /// Uniform between jumps.
+    Piecewise {
+        /// Segments from the root.
+        segments: Vec<Segment>,
+        /// Whether ρI of the section is kept.
+        rotary_inertia: bool,
+    },
+    /// Resultants in a file.
+    Table {
+        /// CSV file with named columns.
+        file: PathBuf,
+        /// Between the rows.
+        interpolation: Interpolation,
+    },
 }
 
 impl Section {
-    /// Height in the plane of motion \[m\]; `None` when only resultants are known.
+    /// Height in the plane of motion \[m\], at the root if it tapers; `None` when only resultants are known.
     pub fn height(&self) -> Option<f64> {
-        match *self {
-            Section::Uniform { shape: Shape::Rectangle { height, .. }, .. }
-            | Section::Graded { height, .. } => Some(height),
-            Section::Uniform { shape: Shape::Circle { radius }, .. } => Some(2.0 * radius),
-            Section::Uniform { shape: Shape::Tube { outer_radius, .. }, .. } => Some(2.0 * outer_radius),
-            Section::Uniform { shape: Shape::General { .. }, .. } | Section::Resultants { .. } => None,
+        let shape = match *self {
+            Section::Graded { height, .. } => return Some(height),
+            Section::Uniform { shape, .. } | Section::Tapered { root: shape, .. } => shape,
+            Section::Resultants { .. } | Section::Piecewise { .. } | Section::Table { .. } => return None,
+        };
+        match shape {
+            Shape::Rectangle { height, .. } => Some(height),
+            Shape::Circle { radius } => Some(2.0 * radius),
+            Shape::Tube { outer_radius, .. } => Some(2.0 * outer_radius),
+            Shape::General { .. } => None,
         }
     }
 }
 
-/// The shape of a uniform section, in SI.
+/// A part of a beam that is uniform, in SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Segment {
+    /// Station at which it ends [m].
+    pub end: f64,
+    /// Young's modulus E [Pa].
+    pub modulus: f64,
+    /// Density ρ [kg/m³].
+    pub density: f64,
+    /// A [m²].
+    pub area: f64,
+    /// I [m⁴].
+    pub second_moment: f64,
+}
+
+/// How values between the rows of a table are found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Interpolation {
+    /// Straight lines.
+    Linear,
+    /// Monotone cubics.
+    Cubic,
+}
+
+/// The shape of a section, in SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {
     /// Area A [m²] and second moment I [m⁴] given directly.
@@ -108,6 +164,25 @@ const E: Key = key("modulus", Quantity(&MODULUS, Positive), Required, "Young's m
 const RHO: Key = key("density", Quantity(&DENSITY, Positive), Required, "density ρ");
 const ROTARY: Key =
     key("rotary-inertia", Boolean, Default::Boolean(false), "rotary inertia of the section, ρI, is kept");
+
+const fn dimension(name: &'static str, doc: &'static str) -> Key {
+    key(name, Quantity(&LENGTH, Positive), Required, doc)
+}
+
+pub(super) static INTERPOLATION: Seam = Seam {
+    name: "interpolation",
+    path: "section.interpolation",
+    summary: "values between the rows of a table",
+    kinds: &[
+        Kind { name: "linear", summary: "straight lines", source: "", keys: &[] },
+        Kind {
+            name: "cubic",
+            summary: "monotone cubics, with continuous slopes",
+            source: "Fritsch & Butland 1984, doi:10.1137/0905021",
+            keys: &[],
+        },
+    ],
+};
 
 /// The kinds of section.
 pub(super) static SEAM: Seam = Seam {
@@ -219,11 +294,94 @@ pub(super) static SEAM: Seam = Seam {
                 ROTARY,
             ],
         },
+        Kind {
+            name: "tapered-rectangle",
+            summary: "one material; a rectangle whose width and height change linearly from root to tip",
+            source: "",
+            keys: &[
+                E,
+                RHO,
+                dimension("root-width", "width at the root, normal to the plane of motion"),
+                dimension("tip-width", "width at the tip"),
+                dimension("root-height", "height at the root, in the plane of motion"),
+                dimension("tip-height", "height at the tip"),
+                ROTARY,
+            ],
+        },
+        Kind {
+            name: "tapered-circle",
+            summary: "one material; a full circle whose radius changes linearly from root to tip",
+            source: "",
+            keys: &[
+                E,
+                RHO,
+                dimension("root-radius", "radius at the root"),
+                dimension("tip-radius", "radius at the tip"),
+                ROTARY,
+            ],
+        },
+        Kind {
+            name: "tapered-tube",
+            summary: "one material; a circular tube whose radii change linearly from root to tip",
+            source: "",
+            keys: &[
+                E,
+                RHO,
+                dimension("root-outer-radius", "outer radius at the root"),
+                dimension("root-inner-radius", "inner radius at the root, less than the outer"),
+                dimension("tip-outer-radius", "outer radius at the tip"),
+                dimension("tip-inner-radius", "inner radius at the tip, less than the outer"),
+                ROTARY,
+            ],
+        },
+        Kind {
+            name: "piecewise",
+            summary: "uniform segments from the root to the tip: one entry a segment in every list",
+            source: "",
+            keys: &[
+                key("ends", Quantities(&LENGTH, Positive), Required, "stations at which the segments end"),
+                key("modulus", Quantities(&MODULUS, Positive), Required, "Young's moduli E"),
+                key("density", Quantities(&DENSITY, Positive), Required, "densities ρ"),
+                key("area", Quantities(&AREA, Positive), Required, "areas A"),
+                key(
+                    "second-moment",
+                    Quantities(&SECOND_MOMENT, Positive),
+                    Required,
+                    "second moments of area I for bending in the plane of motion",
+                ),
+                ROTARY,
+            ],
+        },
+        Kind {
+            name: "table",
+            summary: "mass and stiffnesses tabulated along the beam",
+            source: "",
+            keys: &[
+                key(
+                    "file",
+                    Type::Path,
+                    Required,
+                    "CSV file in SI whose first line names the columns x, mass, EA, EI and, if wanted, ES, first-moment, rotary-inertia",
+                ),
+                key(
+                    "interpolation",
+                    Type::Choice(&INTERPOLATION),
+                    Default::Name("linear"),
+                    "values between the rows",
+                ),
+            ],
+        },
     ],
 };
 
 /// Reads the section and checks it across its keys.
-pub(super) fn read(kind: &Kind, v: &Values, path: &str, problems: &mut Problems) -> Option<Section> {
+pub(super) fn read(
+    kind: &Kind,
+    v: &Values,
+    path: &str,
+    folder: &Path,
+    problems: &mut Problems,
+) -> Option<Section> {
     let shape = match kind.name {
         "resultants" => {
             return Some(Section::Resultants {
@@ -253,6 +411,23 @@ pub(super) fn read(kind: &Kind, v: &Values, path: &str, problems: &mut Problems)
                 rotary_inertia: v.boolean("rotary-inertia")?,
             });
         }
+        "tapered-rectangle" | "tapered-circle" | "tapered-tube" => {
+            return Some(Section::Tapered {
+                modulus: v.number("modulus")?,
+                density: v.number("density")?,
+                root: tapered(kind, v, "root")?,
+                tip: tapered(kind, v, "tip")?,
+                rotary_inertia: v.boolean("rotary-inertia")?,
+            });
+        }
+        "piecewise" => return piecewise(v, path, problems),
+        "table" => {
+            let interpolation = match v.text("interpolation")? {
+                "cubic" => Interpolation::Cubic,
+                _ => Interpolation::Linear,
+            };
+            return Some(Section::Table { file: folder.join(v.text("file")?), interpolation });
+        }
         "rectangle" => Shape::Rectangle { width: v.number("width")?, height: v.number("height")? },
         "circle" => Shape::Circle { radius: v.number("radius")? },
         "tube" => {
@@ -273,4 +448,44 @@ pub(super) fn read(kind: &Kind, v: &Values, path: &str, problems: &mut Problems)
         shape,
         rotary_inertia: v.boolean("rotary-inertia")?,
     })
+}
+
+/// The shape of a tapered section at its `end`: `root` or `tip`.
+fn tapered(kind: &Kind, v: &Values, end: &str) -> Option<Shape> {
+    let at = |name: &str| v.number(&format!("{end}-{name}"));
+    Some(match kind.name {
+        "tapered-rectangle" => Shape::Rectangle { width: at("width")?, height: at("height")? },
+        "tapered-circle" => Shape::Circle { radius: at("radius")? },
+        _ => Shape::Tube { outer_radius: at("outer-radius")?, inner_radius: at("inner-radius")? },
+    })
+}
+
+/// Segments from lists of equal length.
+fn piecewise(v: &Values, path: &str, problems: &mut Problems) -> Option<Section> {
+    let ends = v.numbers("ends")?;
+    let mut uneven = false;
+    let mut list = |name: &str| {
+        let list = v.numbers(name)?;
+        if list.len() != ends.len() {
+            let message = format!("has {} entries for the {} segments in `ends`", list.len(), ends.len());
+            problems.push(Problem::new(join(path, name), v.place(name), message));
+            uneven = true;
+        }
+        Some(list)
+    };
+    let (modulus, density) = (list("modulus"), list("density"));
+    let (area, second_moment) = (list("area"), list("second-moment"));
+    let (modulus, density, area, second_moment) = (modulus?, density?, area?, second_moment?);
+    if uneven {
+        return None;
+    }
+    let segment = |i: usize| Segment {
+        end: ends[i],
+        modulus: modulus[i],
+        density: density[i],
+        area: area[i],
+        second_moment: second_moment[i],
+    };
+    let segments = (0..ends.len()).map(segment).collect();
+    Some(Section::Piecewise { segments, rotary_inertia: v.boolean("rotary-inertia")? })
 }

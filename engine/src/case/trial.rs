@@ -13,11 +13,30 @@ use super::values::{Values, join};
 use crate::basis::Field;
 use crate::profile::ProfileError;
 
-/// Tries the section.
-pub(super) fn section(case: Option<&Section>, values: &Values, problems: &mut Problems) {
-    if let Some(Err(error)) = case.map(build::section) {
-        problems.push(Problem::new("section", values.place("section"), error.to_string()));
-    }
+/// Tries the section on a beam of the given length [m], and cut into `elements` of the exact coupling.
+pub(super) fn section(
+    case: Option<&Section>,
+    length: Option<f64>,
+    elements: Option<usize>,
+    values: &Values,
+    problems: &mut Problems,
+) {
+    let (Some(case), Some(length)) = (case, length) else { return };
+    let message = match build::section(case, length) {
+        Err(error) => Some(error.to_string()),
+        Ok(section) => elements.and_then(|n| build::jump_inside_element(section.as_ref(), length, n)),
+    };
+    let Some(message) = message else { return };
+    let key = match case {
+        Section::Piecewise { .. } => "ends",
+        Section::Table { .. } => "file",
+        _ => {
+            problems.push(Problem::new("section", values.place("section"), message));
+            return;
+        }
+    };
+    let place = values.kind("section").and_then(|(_, table)| table.place(key));
+    problems.push(Problem::new(join("section", key), place, message));
 }
 
 /// Tries the motion over the duration [s].

@@ -157,6 +157,11 @@ pub trait Section: Send + Sync + std::fmt::Debug {
         &[]
     }
 
+    /// Those of the breaks at which the resultants jump: an element whose curvature is smooth must end there.
+    fn jumps(&self) -> &[f64] {
+        &[]
+    }
+
     /// Heights of the lower and upper fibre [m] where the section knows its shape.
     fn fibres(&self, _x: f64) -> Option<(f64, f64)> {
         None

@@ -59,6 +59,10 @@ impl Section for Piecewise {
         &self.breaks
     }
 
+    fn jumps(&self) -> &[f64] {
+        &self.breaks
+    }
+
     fn fibres(&self, x: f64) -> Option<(f64, f64)> {
         self.at(x).and_then(|segment| segment.section.fibres(x))
     }

@@ -36,6 +36,7 @@ pub struct Table {
     /// Slopes at the start and at the end of each interval; empty for straight lines.
     slopes: Vec<[[f64; 6]; 2]>,
     breaks: Vec<f64>,
+    jumps: Vec<f64>,
 }
 
 impl Table {
@@ -79,8 +80,9 @@ impl Table {
             Interpolation::Cubic => monotone(&stations, &values),
         };
         let mut breaks: Vec<f64> = stations.iter().copied().filter(|&x| 0.0 < x && x < length).collect();
+        let jumps = breaks.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[0]).collect();
         breaks.dedup();
-        let table = Table { stations, values, slopes, breaks };
+        let table = Table { stations, values, slopes, breaks, jumps };
         // Straight lines between two positive definite rows are positive definite; cubics need not be.
         if interpolation == Interpolation::Cubic {
             for ends in table.stations.windows(2) {
@@ -173,6 +175,10 @@ impl Section for Table {
     fn breaks(&self) -> &[f64] {
         &self.breaks
     }
+
+    fn jumps(&self) -> &[f64] {
+        &self.jumps
+    }
 }
 
 #[cfg(test)]
@@ -209,7 +215,7 @@ mod tests {
         let rows = [row(0.0, 1.0), row(1.0, 3.0), row(1.0, 5.0), row(2.0, 6.0), row(3.0, 7.0), row(3.0, 9.0)];
         for interpolation in [Interpolation::Linear, Interpolation::Cubic] {
             let table = Table::new(3.0, &rows, interpolation).unwrap();
-            assert_eq!(table.breaks(), [1.0, 2.0]);
+            assert_eq!((table.breaks(), table.jumps()), (&[1.0, 2.0][..], &[1.0][..]));
             for (x, size) in [(1.0 - 1e-12, 3.0), (1.0, 5.0), (1.5, 5.5), (2.5, 6.5), (3.0, 7.0)] {
                 let found = table.resultants(x).mass;
                 assert!((found - size).abs() < 1e-10, "{interpolation:?} {x}: {found}");
