@@ -1,3 +1,5 @@
 //! Closed forms with their sources: library code that tests and reports share.
 
+mod bessel;
 pub mod cantilever;
+pub mod taper;
