@@ -89,18 +89,18 @@ pub enum Section {
 }
 
 impl Section {
-    /// Height at the root in the plane of motion \[m\]; `None` when only resultants are known.
+    /// Height in the plane of motion \[m\], at the root if it tapers; `None` when only resultants are known.
     pub fn height(&self) -> Option<f64> {
-        let of = |shape: &Shape| match *shape {
+        let shape = match *self {
+            Section::Graded { height, .. } => return Some(height),
+            Section::Uniform { shape, .. } | Section::Tapered { root: shape, .. } => shape,
+            Section::Resultants { .. } | Section::Piecewise { .. } | Section::Table { .. } => return None,
+        };
+        match shape {
             Shape::Rectangle { height, .. } => Some(height),
             Shape::Circle { radius } => Some(2.0 * radius),
             Shape::Tube { outer_radius, .. } => Some(2.0 * outer_radius),
             Shape::General { .. } => None,
-        };
-        match self {
-            Section::Graded { height, .. } => Some(*height),
-            Section::Uniform { shape, .. } | Section::Tapered { root: shape, .. } => of(shape),
-            Section::Resultants { .. } | Section::Piecewise { .. } | Section::Table { .. } => None,
         }
     }
 }
