@@ -58,14 +58,14 @@ pub struct Run {
 }
 
 impl Run {
-    /// The run from the middle of the spin-up on, where everything changes from step to step.
+    /// The run, a second after its start from rest.
     pub fn new(coupling: &str, elements: usize, integrator_name: &str) -> Run {
         let mut system = system(coupling, elements);
         let mut integrator = integrator(integrator_name);
-        let mut from = State::zeros(system.size(), 5.0);
+        let mut from = State::zeros(system.size(), 0.0);
         integrator.start(&mut *system, &mut from, STEP).unwrap();
         let mut run = Run { system, integrator, to: from.clone(), from };
-        run.steps(20);
+        run.steps(200);
         run
     }
 
