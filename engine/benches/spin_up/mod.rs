@@ -3,7 +3,7 @@
 #![allow(missing_docs, clippy::unwrap_used, dead_code)]
 
 use flexion::basis::{Field, Hermite, Lagrange};
-use flexion::hub_beam::{ExactCoupling, Fields, Foreshortening, Hub, HubBeam, LinearCoupling};
+use flexion::hub_beam::{Drive, ExactCoupling, Fields, Foreshortening, Hub, HubBeam, LinearCoupling};
 use flexion::integrator::{GeneralizedAlpha, Integrator, Radau, Tolerance};
 use flexion::linalg::Matrix;
 use flexion::profile::{Motion, SpinUp};
@@ -27,9 +27,13 @@ pub fn system(coupling: &str, elements: usize) -> Box<dyn System> {
         Resultants { mass: 1.2, axial_stiffness: 2.8e7, bending_stiffness: 1.4e4, ..Default::default() };
     let section = Uniform::from_resultants(resultants).unwrap();
     let profile = Arc::new(SpinUp::new(4.0, 15.0).unwrap());
-    let hub = Hub { radius: 0.0, inertia: 0.0, motion: Motion::Speed { profile, initial_angle: 0.0 } };
+    let hub = Hub {
+        radius: 0.0,
+        inertia: 0.0,
+        drive: Drive::Prescribed(Motion::Speed { profile, initial_angle: 0.0 }),
+    };
     if coupling == "exact" {
-        let coupling = ExactCoupling::new(LENGTH, elements, &section, 0.0, 0.0).unwrap();
+        let coupling = ExactCoupling::new(LENGTH, elements, &section, &hub).unwrap();
         return Box::new(HubBeam::new(hub, coupling, &[]));
     }
     let fields = Fields::new(
@@ -38,7 +42,7 @@ pub fn system(coupling: &str, elements: usize) -> Box<dyn System> {
         Box::new(Hermite::new(LENGTH, elements, Field::Transverse).unwrap()),
         &[],
     );
-    let coupling = LinearCoupling::new(fields, &section, 0.0, 0.0, Foreshortening::First);
+    let coupling = LinearCoupling::new(fields, &section, &hub, Foreshortening::First);
     Box::new(HubBeam::new(hub, coupling, &[]))
 }
 
