@@ -132,7 +132,8 @@ impl Coupling for ExactCoupling {
 
     fn extra_totals(&mut self, s: &State, hub: &HubKinematics) -> Totals {
         let of = |e: &Element| e.section_totals(&self.rule, &e.gather(s, self.radius), hub);
-        self.elements.iter().map(of).fold(Totals::default(), |sum, t| sum + t)
+        let turning = self.elements.iter().filter(|e| e.has_section_inertia());
+        turning.map(of).fold(Totals::default(), |sum, t| sum + t)
     }
 
     fn add_border(&mut self, s: &State, hub: &HubKinematics, w: &Weights<'_>, out: &mut Border) {

@@ -182,10 +182,10 @@ impl Inertia {
             }
         }
         let bundle = |matrices| Bundle::new(&structure, n, matrices);
-        let (stiff, stiffened) = (unless_zero(&k), unless_zero(&stiffening));
+        let (stiff, stiffened) = (unless_zero(&k, 0.0), unless_zero(&stiffening, largest(&m)));
         Inertia {
             bundle: bundle([Some(&m), Some(&gyroscopic), stiff, stiffened]),
-            symmetric: unless_zero(&symmetric).map(|s| bundle([Some(s), None, None, None])),
+            symmetric: unless_zero(&symmetric, largest(&p)).map(|s| bundle([Some(s), Some(s), None, None])),
             mass: m,
             centrifugal: d,
             stiffness: k,
@@ -222,19 +222,15 @@ impl Inertia {
         let (q, v, a) = (&s.q[..n], &s.v[..n], &s.a[..n]);
         let (sx, sy, r) = (&self.axial_moment[..n], &self.transverse_moment[..n], &mut r[..n]);
         let Scratch { all: x, symmetric: y } = x;
-        let inertial = |i: usize| a[i] - w2 * q[i];
-        let gyroscopic = |i: usize| w * v[i] + 0.5 * w1 * q[i];
         let constant = |i: usize| w1 * sy[i] - w2 * sx[i];
-        if self.bundle.terms() == 2 {
-            x.fill(|i| [inertial(i), gyroscopic(i)]);
-            self.bundle.products(x, |i, [m, g]| r[i] = m + g + constant(i));
-        } else {
-            x.fill(|i| [inertial(i), gyroscopic(i), q[i], w2 * q[i]]);
-            self.bundle.products(x, |i, [m, g, k, n]| r[i] = (m + k) + (g + n) + constant(i));
-        }
+        x.set(0, |i| a[i] - w2 * q[i]);
+        x.set(1, |i| w * v[i] + 0.5 * w1 * q[i]);
+        x.set(2, |i| q[i]);
+        x.set(3, |i| w2 * q[i]);
+        self.bundle.products(x, |i, [m, g, k, n]| r[i] = (m + k) + (g + n) + constant(i));
         if let Some((symmetric, y)) = self.symmetric.as_ref().zip(y.as_mut()) {
-            y.fill(|i| [w1 * q[i], 0.0]);
-            symmetric.products(y, |i, [s, _]| r[i] += s);
+            y.set(0, |i| w1 * q[i]);
+            symmetric.products(y, |i, [s, ..]| r[i] += s);
         }
     }
 
@@ -247,13 +243,9 @@ impl Inertia {
     pub fn tangent(&self, w: &Weights<'_>, hub: &HubKinematics, out: &mut Storage<f64>) {
         let (w1, w2) = (hub.acceleration, hub.speed * hub.speed);
         let (wm, wg) = (w.a - w.q * w2, w.v * hub.speed + 0.5 * w.q * w1);
-        if self.bundle.terms() == 2 {
-            self.bundle.write_sum([wm, wg], out);
-        } else {
-            self.bundle.write_sum([wm, wg, w.q, w.q * w2], out);
-        }
+        self.bundle.write_sum([wm, wg, w.q, w.q * w2], out);
         if let Some(symmetric) = &self.symmetric {
-            symmetric.add_sum([w.q * w1, 0.0], out);
+            symmetric.add_sum([w.q * w1, 0.0, 0.0, 0.0], out);
         }
     }
 
@@ -265,39 +257,29 @@ impl Inertia {
         let (mut vmv, mut qdq, mut qdv) = (0.0, 0.0, 0.0);
         let (mut vpq, mut aeq, mut vpv) = (0.0, 0.0, 0.0);
         let Scratch { all: x, symmetric: y } = x;
-        // (M v, (Pᵀ − P) q, N q)ᵢ
-        let mut products = |i: usize, [mv, gq, nq]: [f64; 3]| {
+        x.set(0, |i| v[i]);
+        x.set(1, |i| q[i]);
+        x.set(3, |i| q[i]);
+        self.bundle.products(x, |i, [mv, gq, _, nq]| {
             vmv += v[i] * mv;
             vpq += 0.5 * v[i] * gq;
             aeq += 0.5 * a[i] * gq;
             qdq -= q[i] * nq;
             qdv -= v[i] * nq;
-        };
-        if self.bundle.terms() == 2 {
-            x.fill(|i| [v[i], q[i]]);
-            self.bundle.products(x, |i, [m, g]| products(i, [m, g, 0.0]));
-            x.fill(|i| [q[i], 0.0]);
-            self.bundle.products(x, |i, [m, _]| {
-                qdq += q[i] * m;
-                qdv += v[i] * m;
-            });
-        } else {
-            x.fill(|i| [v[i], q[i], 0.0, q[i]]);
-            self.bundle.products(x, |i, [m, g, _, n]| products(i, [m, g, n]));
-            x.fill(|i| [q[i], 0.0, 0.0, 0.0]);
-            self.bundle.products(x, |i, [m, _, _, _]| {
-                qdq += q[i] * m;
-                qdv += v[i] * m;
-            });
-        }
+        });
+        x.set(0, |i| q[i]);
+        self.bundle.products(x, |i, [mq, ..]| {
+            qdq += q[i] * mq;
+            qdv += v[i] * mq;
+        });
         if let Some((symmetric, y)) = self.symmetric.as_ref().zip(y.as_mut()) {
-            y.fill(|i| [q[i], 0.0]);
-            symmetric.products(y, |i, [sq, _]| {
+            y.set(0, |i| q[i]);
+            y.set(1, |i| v[i]);
+            symmetric.products(y, |i, [sq, sv, ..]| {
                 vpq += v[i] * sq;
                 aeq += a[i] * sq;
+                vpv += v[i] * sv;
             });
-            y.fill(|i| [v[i], 0.0]);
-            symmetric.products(y, |i, [sv, _]| vpv += v[i] * sv);
         }
         let sx = |u: &[f64]| inner(&self.axial_moment, u);
         let sy = |u: &[f64]| inner(&self.transverse_moment, u);
@@ -350,10 +332,10 @@ impl Inertia {
         );
         self.each(x, |i| [0.0, a[i], 0.0], |i, [_, ga, _]| row[i] -= 0.5 * w.q * ga);
         if let Some((symmetric, y)) = self.symmetric.as_ref().zip(y.as_mut()) {
-            y.fill(|i| [2.0 * w.v * v[i] + w.q * a[i], 0.0]);
-            symmetric.products(y, |i, [s, _]| row[i] += s);
-            y.fill(|i| [w.a * q[i], 0.0]);
-            symmetric.products(y, |i, [s, _]| {
+            y.set(0, |i| 2.0 * w.v * v[i] + w.q * a[i]);
+            symmetric.products(y, |i, [s, ..]| row[i] += s);
+            y.set(0, |i| w.a * q[i]);
+            symmetric.products(y, |i, [s, ..]| {
                 column[i] += s;
                 row[i] += s;
             });
@@ -369,19 +351,10 @@ impl Inertia {
         of: impl Fn(usize) -> [f64; 3],
         mut f: impl FnMut(usize, [f64; 3]),
     ) {
-        if self.bundle.terms() == 2 {
-            vectors.fill(|i| {
-                let [x, y, _] = of(i);
-                [x, y]
-            });
-            self.bundle.products(vectors, |i, [m, g]| f(i, [m, g, 0.0]));
-        } else {
-            vectors.fill(|i| {
-                let [x, y, z] = of(i);
-                [x, y, 0.0, z]
-            });
-            self.bundle.products(vectors, |i, [m, g, _, n]| f(i, [m, g, n]));
+        for (term, vector) in [(0, 0), (1, 1), (3, 2)] {
+            vectors.set(term, |i| of(i)[vector]);
         }
+        self.bundle.products(vectors, |i, [m, g, _, n]| f(i, [m, g, n]));
     }
 
     /// ½ qᵀK q.
@@ -390,12 +363,18 @@ impl Inertia {
     }
 }
 
-fn unless_zero(matrix: &Matrix) -> Option<&Matrix> {
+/// `matrix`, unless it is the rounding error of numbers of the given size.
+fn unless_zero(matrix: &Matrix, size: f64) -> Option<&Matrix> {
+    (largest(matrix) > 1e-13 * size).then_some(matrix)
+}
+
+/// Largest entry, border aside.
+fn largest(matrix: &Matrix) -> f64 {
     let entries = match matrix.storage() {
         Storage::Dense(a) => a.data(),
         Storage::Band(a) => a.band().data(),
     };
-    entries.iter().any(|x| *x != 0.0).then_some(matrix)
+    entries.iter().fold(0.0, |m, x| x.abs().max(m))
 }
 
 fn inner(a: &[f64], b: &[f64]) -> f64 {

@@ -28,17 +28,25 @@ pub(super) struct Bundle {
 /// As many vectors as a [`Bundle`] has terms, entry by entry, with zeros in front and behind.
 #[derive(Clone, Debug)]
 pub(super) struct Vectors {
+    terms: usize,
     range: std::ops::Range<usize>,
     data: Vec<f64>,
 }
 
 impl Vectors {
-    /// Sets the entries i of all vectors to `f(i)`, of which the first terms are used.
+    /// Sets entry i of vector `k` to `f(i)`; nothing happens if there is no such term.
     #[inline]
-    pub(super) fn fill<const K: usize>(&mut self, f: impl Fn(usize) -> [f64; K]) {
-        let (entries, _) = self.data[self.range.clone()].as_chunks_mut::<K>();
-        for (i, x) in entries.iter_mut().enumerate() {
-            *x = f(i);
+    pub(super) fn set(&mut self, k: usize, f: impl Fn(usize) -> f64) {
+        let terms = self.terms;
+        let entries = &mut self.data[self.range.clone()];
+        if terms == TERMS && k < TERMS {
+            for (i, x) in entries.as_chunks_mut::<TERMS>().0.iter_mut().enumerate() {
+                x[k] = f(i);
+            }
+        } else if k < 2 {
+            for (i, x) in entries.as_chunks_mut::<2>().0.iter_mut().enumerate() {
+                x[k] = f(i);
+            }
         }
     }
 }
@@ -71,45 +79,48 @@ impl Bundle {
         self.order
     }
 
-    /// How many matrices are stored, 2 or 4.
-    pub(super) fn terms(&self) -> usize {
-        self.terms
-    }
-
     /// Vectors of zeros to multiply with.
     pub(super) fn vectors(&self) -> Vectors {
         let behind = self.advance * (self.width - self.lead.min(self.width));
         let first = self.lead * self.terms;
         let range = first..first + self.order * self.terms;
         let data = vec![0.0; range.end + behind * self.terms];
-        Vectors { range, data }
+        Vectors { terms: self.terms, range, data }
     }
 
-    /// Calls `f` with i and the products (Aₖ xₖ)ᵢ, row after row. `K` is the number of terms.
+    /// Calls `f` with i and the products (Aₖ xₖ)ᵢ, row after row; zero for terms that are not stored.
     #[inline]
-    pub(super) fn products<const K: usize>(&self, x: &Vectors, f: impl FnMut(usize, [f64; K])) {
-        match self.width {
-            11 => self.rows::<K, 11>(x, f),
-            15 => self.rows::<K, 15>(x, f),
-            _ => self.rows::<K, 0>(x, f),
+    pub(super) fn products(&self, x: &Vectors, mut f: impl FnMut(usize, [f64; TERMS])) {
+        let pairs = |[a, b, c, d]: [f64; TERMS]| [a + c, b + d, 0.0, 0.0];
+        // Rows of the common lengths: Hermite functions with linear or Hermite ones for the other field.
+        match (self.terms, self.width) {
+            (TERMS, 11) => self.rows::<{ TERMS * 11 }>(x, f),
+            (TERMS, 15) => self.rows::<{ TERMS * 15 }>(x, f),
+            (TERMS, _) => self.rows::<0>(x, f),
+            (_, 15) => self.rows::<{ 2 * 15 }>(x, |i, lanes| f(i, pairs(lanes))),
+            _ => self.rows::<0>(x, |i, lanes| f(i, pairs(lanes))),
         }
     }
 
-    /// `WIDTH` is the length of a row where the compiler knows it, or 0.
+    /// Sums each row by four lanes, which belong to the terms in turn. `LENGTH` is the number of entries of
+    /// a row where the compiler knows it, or 0.
     #[inline(always)]
-    fn rows<const K: usize, const WIDTH: usize>(&self, x: &Vectors, mut f: impl FnMut(usize, [f64; K])) {
-        let width = if WIDTH > 0 { WIDTH } else { self.width };
-        let (a, _) = self.data.as_chunks::<K>();
-        let (x, _) = x.data.as_chunks::<K>();
-        for i in 0..self.order {
-            let window = &x[self.advance * i..][..width];
-            let mut sums = [0.0; K];
-            for (a, x) in a[i * width..][..width].iter().zip(window) {
-                for k in 0..K {
-                    sums[k] += a[k] * x[k];
+    fn rows<const LENGTH: usize>(&self, x: &Vectors, mut f: impl FnMut(usize, [f64; TERMS])) {
+        let length = if LENGTH > 0 { LENGTH } else { self.width * self.terms };
+        let advance = self.advance * self.terms;
+        for (i, row) in self.data.chunks_exact(length.max(1)).enumerate() {
+            let mut lanes = [0.0; TERMS];
+            let (a, a_rest) = row.as_chunks::<TERMS>();
+            let (x, x_rest) = x.data[i * advance..][..length].as_chunks::<TERMS>();
+            for (a, x) in a.iter().zip(x) {
+                for k in 0..TERMS {
+                    lanes[k] += a[k] * x[k];
                 }
             }
-            f(i, sums);
+            for (k, (a, x)) in a_rest.iter().zip(x_rest).enumerate() {
+                lanes[k] += a * x;
+            }
+            f(i, lanes);
         }
     }
 
@@ -129,17 +140,17 @@ impl Bundle {
     }
 
     /// Writes Σ wₖ Aₖ over the content of `out`, border aside.
-    pub(super) fn write_sum<const K: usize>(&self, weights: [f64; K], out: &mut Storage<f64>) {
+    pub(super) fn write_sum(&self, weights: [f64; TERMS], out: &mut Storage<f64>) {
         self.sum(weights, out, |out, x| *out = x);
     }
 
     /// Adds Σ wₖ Aₖ to `out`.
-    pub(super) fn add_sum<const K: usize>(&self, weights: [f64; K], out: &mut Storage<f64>) {
+    pub(super) fn add_sum(&self, weights: [f64; TERMS], out: &mut Storage<f64>) {
         self.sum(weights, out, |out, x| *out += x);
     }
 
     #[inline(always)]
-    fn sum<const K: usize>(&self, w: [f64; K], out: &mut Storage<f64>, put: impl Fn(&mut f64, f64)) {
+    fn sum(&self, w: [f64; TERMS], out: &mut Storage<f64>, put: impl Fn(&mut f64, f64)) {
         let stride = match out {
             Storage::Dense(a) => a.order(),
             Storage::Band(a) => a.band().width(),
@@ -148,14 +159,18 @@ impl Bundle {
             Storage::Dense(a) => a.data_mut(),
             Storage::Band(a) => a.band_mut().data_mut(),
         };
-        let (a, _) = self.data.as_chunks::<K>();
-        let rows = a.chunks_exact(self.width.max(1));
+        let rows = self.data.chunks_exact((self.width * self.terms).max(1));
         for (out, row) in out.chunks_exact_mut(stride.max(1)).zip(rows) {
             // Behind the band is the zone of fill of former factors.
             let (out, fill) = out.split_at_mut(self.width);
-            for (out, a) in out.iter_mut().zip(row) {
-                let products: [f64; K] = std::array::from_fn(|k| w[k] * a[k]);
-                put(out, products.iter().sum());
+            if self.terms == TERMS {
+                for (out, a) in out.iter_mut().zip(row.as_chunks::<TERMS>().0) {
+                    put(out, (w[0] * a[0] + w[2] * a[2]) + (w[1] * a[1] + w[3] * a[3]));
+                }
+            } else {
+                for (out, a) in out.iter_mut().zip(row.as_chunks::<2>().0) {
+                    put(out, w[0] * a[0] + w[1] * a[1]);
+                }
             }
             fill.fill(0.0);
         }

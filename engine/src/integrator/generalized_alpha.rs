@@ -19,6 +19,11 @@
 //! whose condition does not deteriorate as h → 0: this is the scaling of index-3 equations of Bottasso,
 //! Bauchau & Cardona (2007, doi 10.1137/050638503) without a separate pass for it.
 //!
+//! The tangent and its factors are kept from step to step as long as the iteration converges fast with them
+//! (its rate θ is known, see [`Convergence`]); an affine system, whose tangent changes with the hub's speed
+//! only, needs one iteration a step either way. Systems with constraints get a new tangent every iteration.
+//! The predictor continues the accelerations of the last two steps linearly.
+//!
 //! Order: 2 in q, v and λ for γ = ½ + αf − αm (measured 2.00, also for index-3 constraints). Stability:
 //! unconditional on linear systems for the constructors here. Dense output: cubic in q, linear in q̈.
 //!
@@ -38,6 +43,12 @@ use crate::system::{Level, State, System, Weights};
 /// the truncation error of a second-order method at any useful step.
 const ITERATION_TOLERANCE: f64 = 1e-10;
 
+/// The same where the tangent is kept and the iteration converges linearly.
+const KEPT_TOLERANCE: f64 = 1e-12;
+
+/// Rate of convergence above which a kept tangent is renewed at the next step.
+const REUSE_RATE: f64 = 1e-2;
+
 /// The generalized-α method. See the [module documentation](self) for formulas and sources.
 #[derive(Debug)]
 pub struct GeneralizedAlpha {
@@ -46,10 +57,15 @@ pub struct GeneralizedAlpha {
     alpha_f: f64,
     beta: f64,
     gamma: f64,
-    convergence: Convergence,
+    /// Of full Newton iterations, and of those with a kept tangent.
+    full: Convergence,
+    kept: Convergence,
     counters: Counters,
     worst: usize,
     pending: bool,
+    /// Acceleration q̈ at the start of the last accepted step, once there was one.
+    before: Vec<f64>,
+    started: bool,
     /// Auxiliary acceleration aₙ, and aₙ₊₁ of the attempt.
     a: Vec<f64>,
     a_next: Vec<f64>,
@@ -58,7 +74,7 @@ pub struct GeneralizedAlpha {
     d_accepted: Vec<f64>,
     /// 1/scale of the unknowns.
     inverse_scale: Vec<f64>,
-    work: Option<Work>,
+    work: Option<Box<Work>>,
 }
 
 /// What `start` allocates for a system.
@@ -68,6 +84,11 @@ struct Work {
     rhs: Vec<f64>,
     accelerations: Accelerations,
     affine: bool,
+    /// Whether factors may be kept; the weights (of v and q) that the present ones belong to, NaN without.
+    keeps: bool,
+    kept: [f64; 2],
+    /// Whether the tangent of an affine system was found unchanged: asking for it then costs nothing.
+    steady: bool,
 }
 
 impl GeneralizedAlpha {
@@ -128,10 +149,13 @@ impl GeneralizedAlpha {
             alpha_f,
             beta,
             gamma,
-            convergence: Convergence::full(ITERATION_TOLERANCE),
+            full: Convergence::full(ITERATION_TOLERANCE),
+            kept: Convergence::kept(KEPT_TOLERANCE, ITERATION_TOLERANCE),
             counters: Counters::default(),
             worst: 0,
             pending: false,
+            before: Vec::new(),
+            started: false,
             a: Vec::new(),
             a_next: Vec::new(),
             d: Vec::new(),
@@ -145,6 +169,135 @@ impl GeneralizedAlpha {
     pub fn parameters(&self) -> [f64; 4] {
         [self.alpha_m, self.alpha_f, self.beta, self.gamma]
     }
+
+    /// κ = (1 − αf)/(1 − αm), by which an increment of q̈ moves the auxiliary acceleration.
+    fn kappa(&self) -> f64 {
+        (1.0 - self.alpha_f) / (1.0 - self.alpha_m)
+    }
+
+    /// Starting values of the step: the accelerations of the last two steps, continued.
+    fn predict(&mut self, system: &dyn System, from: &State, h: f64, to: &mut State) {
+        let n = from.v.len();
+        let (alpha_m, beta, gamma, kappa) = (self.alpha_m, self.beta, self.gamma, self.kappa());
+        let (v_old, v_new) = (h * (1.0 - gamma), h * gamma);
+        let (d_old, d_new) = (h * h * (0.5 - beta), h * h * beta);
+        let (from_a, from_v, before) = (&from.a[..n], &from.v[..n], &self.before[..n]);
+        let trend = if self.started { 1.0 } else { 0.0 };
+        let (a, a_next, d) = (&self.a[..n], &mut self.a_next[..n], &mut self.d[..n]);
+        let (out_a, out_v) = (&mut to.a[..n], &mut to.v[..n]);
+        let lag = 1.0 / (1.0 - alpha_m);
+        for i in 0..n {
+            let change = trend * (from_a[i] - before[i]);
+            let next = (from_a[i] - alpha_m * a[i]) * lag + kappa * change;
+            a_next[i] = next;
+            out_a[i] = from_a[i] + change;
+            out_v[i] = from_v[i] + v_old * a[i] + v_new * next;
+            d[i] = h * from_v[i] + d_old * a[i] + d_new * next;
+        }
+        to.lambda.copy_from_slice(&from.lambda);
+        to.t = from.t + h;
+        system.retract(&from.q, d, &mut to.q);
+    }
+
+    /// Solves the equations of a step.
+    fn solve(
+        &mut self,
+        work: &mut Work,
+        system: &mut dyn System,
+        from: &State,
+        h: f64,
+        to: &mut State,
+    ) -> Result<StepReport, StepError> {
+        let n = from.v.len();
+        let kappa = self.kappa();
+        let (to_v, to_q) = (h * self.gamma * kappa, h * h * self.beta * kappa);
+
+        // Whether every iteration has a tangent of its own, and whether the next one needs a new tangent.
+        let mut full = !work.keeps;
+        let mut renew = full || work.steady || work.kept != [to_v, to_q] || self.kept.rate() > REUSE_RATE;
+        'attempt: loop {
+            self.predict(system, from, h, to);
+            let convergence = if full { &mut self.full } else { &mut self.kept };
+            if renew {
+                convergence.forget();
+            }
+            convergence.begin();
+            let (a_next, d) = (&mut self.a_next[..n], &mut self.d[..n]);
+            let mut fresh = false;
+            loop {
+                let (motion, constraints) = work.rhs.split_at_mut(n);
+                system.residual(to, motion);
+                if !constraints.is_empty() {
+                    system.constraint(to, Level::Position, constraints);
+                    for g in constraints.iter_mut() {
+                        *g /= to_q;
+                    }
+                }
+                if renew {
+                    let weights =
+                        Weights { q: to_q, v: to_v, a: 1.0, increment: Some(d), level: Level::Position };
+                    system.tangent(to, weights, &mut work.tangent);
+                    let factored =
+                        work.tangent.factor().map_err(|e| failure::singular(system, from.t, h, e))?;
+                    self.counters.tangents += u64::from(factored);
+                    self.counters.factorizations += u64::from(factored);
+                    work.steady = work.affine && (!factored || work.kept != [to_v, to_q]);
+                    work.kept = [to_v, to_q];
+                    (fresh, renew) = (true, full);
+                }
+                work.tangent.solve(&mut work.rhs);
+                self.counters.residuals += 1;
+                self.counters.solves += 1;
+                self.counters.iterations += 1;
+
+                let (x, multipliers) = work.rhs.split_at(n);
+                let (out_a, out_v, scale) = (&mut to.a[..n], &mut to.v[..n], &self.inverse_scale[..n]);
+                let mut square = 0.0;
+                for i in 0..n {
+                    out_a[i] -= x[i];
+                    a_next[i] -= kappa * x[i];
+                    out_v[i] -= to_v * x[i];
+                    d[i] -= to_q * x[i];
+                    let scaled = x[i] * scale[i];
+                    square += scaled * scaled;
+                }
+                for (lambda, x) in to.lambda.iter_mut().zip(multipliers) {
+                    *lambda -= x;
+                    square += 0.0 * x; // a multiplier that is not finite must not pass unseen
+                }
+                system.retract(&from.q, d, &mut to.q);
+                let size = to_q * (square / n.max(1) as f64).sqrt();
+                if work.affine && fresh && size.is_finite() {
+                    return Ok(StepReport { iterations: 1, error: None });
+                }
+                match convergence.judge(size) {
+                    Progress::Converged => {
+                        self.worst = worst(x, scale);
+                        return Ok(StepReport { iterations: convergence.iterations(), error: None });
+                    }
+                    Progress::Continue => {}
+                    Progress::Diverged if !full => {
+                        (full, renew) = (true, true);
+                        continue 'attempt;
+                    }
+                    Progress::Diverged => {
+                        self.worst = worst(x, scale);
+                        work.kept = [f64::NAN; 2];
+                        if !size.is_finite() {
+                            return Err(failure::not_finite(system, from.t, h, to));
+                        }
+                        return Err(StepError::NotConverged {
+                            time: from.t,
+                            step: h,
+                            iterations: convergence.iterations(),
+                            size: size / ITERATION_TOLERANCE,
+                            worst: failure::label(system, self.worst),
+                        });
+                    }
+                }
+            }
+        }
+    }
 }
 
 impl Integrator for GeneralizedAlpha {
@@ -155,19 +308,22 @@ impl Integrator for GeneralizedAlpha {
     fn start(&mut self, system: &mut dyn System, state: &mut State, _step: f64) -> Result<(), StepError> {
         let size = system.size();
         let n = size.v + size.lambda;
-        for buffer in [&mut self.a, &mut self.a_next, &mut self.d, &mut self.d_accepted] {
+        for buffer in [&mut self.before, &mut self.a, &mut self.a_next, &mut self.d, &mut self.d_accepted] {
             buffer.clear();
             buffer.resize(size.v, 0.0);
         }
         self.inverse_scale.clear();
         self.inverse_scale.extend(system.labels().iter().map(|label| 1.0 / label.scale));
         self.inverse_scale.resize(n, 1.0);
-        self.work = Some(Work {
+        self.work = Some(Box::new(Work {
             tangent: Matrix::new(&system.structure()),
             rhs: vec![0.0; n],
             accelerations: Accelerations::new(system),
             affine: system.is_affine() && size.lambda == 0,
-        });
+            keeps: size.lambda == 0,
+            kept: [f64::NAN; 2],
+            steady: false,
+        }));
         self.counters = Counters::default();
         self.restart(system, state)
     }
@@ -179,98 +335,19 @@ impl Integrator for GeneralizedAlpha {
         h: f64,
         to: &mut State,
     ) -> Result<StepReport, StepError> {
-        let Some(work) = &mut self.work else {
+        let Some(mut work) = self.work.take() else {
             return Err(StepError::NotStarted { method: self.info.name });
         };
         self.counters.rejected += u64::from(self.pending);
         self.pending = true;
-        let n = from.v.len();
-        let (alpha_m, alpha_f, beta, gamma) = (self.alpha_m, self.alpha_f, self.beta, self.gamma);
-        let kappa = (1.0 - alpha_f) / (1.0 - alpha_m);
-        let (to_v, to_q) = (h * gamma * kappa, h * h * beta * kappa);
-
-        // Predictor: the acceleration of the step before.
-        let (v_old, v_new) = (h * (1.0 - gamma), h * gamma);
-        let (d_old, d_new) = (h * h * (0.5 - beta), h * h * beta);
-        let (from_a, from_v) = (&from.a[..n], &from.v[..n]);
-        let (a, a_next, d) = (&self.a[..n], &mut self.a_next[..n], &mut self.d[..n]);
-        let (out_a, out_v) = (&mut to.a[..n], &mut to.v[..n]);
-        let lag = 1.0 / (1.0 - alpha_m);
-        for i in 0..n {
-            let next = (from_a[i] - alpha_m * a[i]) * lag;
-            a_next[i] = next;
-            out_a[i] = from_a[i];
-            out_v[i] = from_v[i] + v_old * a[i] + v_new * next;
-            d[i] = h * from_v[i] + d_old * a[i] + d_new * next;
-        }
-        to.lambda.copy_from_slice(&from.lambda);
-        to.t = from.t + h;
-        system.retract(&from.q, d, &mut to.q);
-
-        self.convergence.begin();
-        loop {
-            let (motion, constraints) = work.rhs.split_at_mut(n);
-            system.residual(to, motion);
-            if !constraints.is_empty() {
-                system.constraint(to, Level::Position, constraints);
-                for g in constraints.iter_mut() {
-                    *g /= to_q;
-                }
-            }
-            let weights = Weights { q: to_q, v: to_v, a: 1.0, increment: Some(d), level: Level::Position };
-            system.tangent(to, weights, &mut work.tangent);
-            let factored = work.tangent.factor().map_err(|e| failure::singular(system, from.t, h, e))?;
-            work.tangent.solve(&mut work.rhs);
-            self.counters.residuals += 1;
-            self.counters.tangents += u64::from(factored);
-            self.counters.factorizations += u64::from(factored);
-            self.counters.solves += 1;
-            self.counters.iterations += 1;
-
-            let (x, multipliers) = work.rhs.split_at(n);
-            let (out_a, out_v, scale) = (&mut to.a[..n], &mut to.v[..n], &self.inverse_scale[..n]);
-            let mut square = 0.0;
-            for i in 0..n {
-                out_a[i] -= x[i];
-                a_next[i] -= kappa * x[i];
-                out_v[i] -= to_v * x[i];
-                d[i] -= to_q * x[i];
-                let scaled = x[i] * scale[i];
-                square += scaled * scaled;
-            }
-            for (lambda, x) in to.lambda.iter_mut().zip(multipliers) {
-                *lambda -= x;
-                square += 0.0 * x; // a multiplier that is not finite must not pass unseen
-            }
-            system.retract(&from.q, d, &mut to.q);
-            let size = to_q * (square / n.max(1) as f64).sqrt();
-            if work.affine && size.is_finite() {
-                return Ok(StepReport { iterations: 1, error: None });
-            }
-            match self.convergence.judge(size) {
-                Progress::Converged => {
-                    self.worst = worst(x, scale);
-                    return Ok(StepReport { iterations: self.convergence.iterations(), error: None });
-                }
-                Progress::Continue => {}
-                Progress::Diverged => {
-                    self.worst = worst(x, scale);
-                    if !size.is_finite() {
-                        return Err(failure::not_finite(system, from.t, h, to));
-                    }
-                    return Err(StepError::NotConverged {
-                        time: from.t,
-                        step: h,
-                        iterations: self.convergence.iterations(),
-                        size: size / ITERATION_TOLERANCE,
-                        worst: failure::label(system, self.worst),
-                    });
-                }
-            }
-        }
+        let result = self.solve(&mut work, system, from, h, to);
+        self.work = Some(work);
+        result
     }
 
-    fn accept(&mut self, _from: &State, _to: &State) {
+    fn accept(&mut self, from: &State, _to: &State) {
+        self.before.copy_from_slice(&from.a);
+        self.started = true;
         std::mem::swap(&mut self.a, &mut self.a_next);
         std::mem::swap(&mut self.d, &mut self.d_accepted);
         self.pending = false;
@@ -286,6 +363,9 @@ impl Integrator for GeneralizedAlpha {
             return Err(StepError::NotStarted { method: self.info.name });
         };
         self.pending = false;
+        self.started = false;
+        self.kept.forget();
+        work.kept = [f64::NAN; 2];
         let place = (state.t, 0.0);
         work.accelerations.complete(system, state, place, &mut self.counters)?;
         self.a.copy_from_slice(&state.a);

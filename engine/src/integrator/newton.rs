@@ -31,6 +31,8 @@ pub struct Convergence {
     rate: f64,
     /// θ/(1 − θ), carried over from one step to the next by simplified iterations.
     ahead: f64,
+    /// Power with which `ahead` < 1 fades from step to step.
+    memory: f64,
 }
 
 impl Convergence {
@@ -46,6 +48,7 @@ impl Convergence {
             previous: 0.0,
             rate: 0.0,
             ahead: 1.0,
+            memory: 0.8,
         }
     }
 
@@ -56,11 +59,17 @@ impl Convergence {
         Convergence { tolerance, floor, max_iterations: 10, simplified: true, ..Convergence::full(tolerance) }
     }
 
+    /// Like [`Convergence::simplified`], for a tangent that is kept over many equal steps: what was learnt
+    /// about the rate is forgotten more slowly.
+    pub fn kept(tolerance: f64, floor: f64) -> Convergence {
+        Convergence { memory: 0.95, ..Convergence::simplified(tolerance, floor) }
+    }
+
     /// Begins the iteration of a new attempt.
     pub fn begin(&mut self) {
         self.iteration = 0;
         self.rate = 0.0;
-        self.ahead = if self.simplified { self.ahead.max(f64::EPSILON).powf(0.8) } else { 1.0 };
+        self.ahead = if self.simplified { self.ahead.max(f64::EPSILON).powf(self.memory) } else { 1.0 };
     }
 
     /// Forgets the rates of former steps.

@@ -1,0 +1,20 @@
+#!/bin/sh
+# Instructions per step, by the difference of two runs under valgrind: free of the noise of other work on the
+# machine, and without set-up. Needs valgrind; `benches/count.sh [elements ...]`.
+set -eu
+cd "$(dirname "$0")/.."
+binary=$(cargo bench --bench count --no-run 2>&1 | sed -n 's/.*(\(.*\/count-[0-9a-f]*\)).*/\1/p')
+instructions() {
+    valgrind --tool=callgrind --callgrind-out-file=/dev/null "$binary" "$@" 2>&1 |
+        sed -n 's/.*Collected : //p'
+}
+steps=100
+echo "coupling,integrator,elements,instructions per step"
+for elements in "${@:-10}"; do
+    for what in "solver none" "first newmark" "exact newmark" "first radau" "exact radau"; do
+        set -- $what
+        once=$(instructions "$1" "$2" "$elements" $steps)
+        twice=$(instructions "$1" "$2" "$elements" $((2 * steps)))
+        echo "$1,$2,$elements,$(((twice - once) / steps))"
+    done
+done

@@ -1,0 +1,95 @@
+//! The benchmarks' case: a slender beam on a hub spun up to 4 rad/s in 15 s (Wu & Haug 1988,
+//! doi 10.1002/nme.1620260202), with any number of elements.
+#![allow(missing_docs, clippy::unwrap_used, dead_code)]
+
+use flexion::basis::{Field, Hermite, Lagrange};
+use flexion::hub_beam::{Drive, ExactCoupling, Fields, Foreshortening, Hub, HubBeam, LinearCoupling};
+use flexion::integrator::{GeneralizedAlpha, Integrator, Radau, Tolerance};
+use flexion::linalg::Matrix;
+use flexion::profile::{Motion, SpinUp};
+use flexion::section::{Resultants, Uniform};
+use flexion::system::{State, System, Weights};
+use std::sync::Arc;
+
+/// Step of the fixed-step runs [s].
+pub const STEP: f64 = 0.005;
+
+/// Length of the beam [m].
+const LENGTH: f64 = 10.0;
+
+/// Numbers of elements: ten, doubled up to ten thousand.
+pub fn sizes() -> impl Iterator<Item = usize> {
+    (0..=10).map(|k| 10 << k)
+}
+
+pub fn system(coupling: &str, elements: usize) -> Box<dyn System> {
+    let resultants =
+        Resultants { mass: 1.2, axial_stiffness: 2.8e7, bending_stiffness: 1.4e4, ..Default::default() };
+    let section = Uniform::from_resultants(resultants).unwrap();
+    let profile = Arc::new(SpinUp::new(4.0, 15.0).unwrap());
+    let hub = Hub {
+        radius: 0.0,
+        inertia: 0.0,
+        drive: Drive::Prescribed(Motion::Speed { profile, initial_angle: 0.0 }),
+    };
+    if coupling == "exact" {
+        let coupling = ExactCoupling::new(LENGTH, elements, &section, &hub).unwrap();
+        return Box::new(HubBeam::new(hub, coupling, &[]));
+    }
+    let fields = Fields::new(
+        LENGTH,
+        Box::new(Lagrange::new(LENGTH, elements, 1).unwrap()),
+        Box::new(Hermite::new(LENGTH, elements, Field::Transverse).unwrap()),
+        &[],
+    );
+    let coupling = LinearCoupling::new(fields, &section, &hub, Foreshortening::First);
+    Box::new(HubBeam::new(hub, coupling, &[]))
+}
+
+pub fn integrator(name: &str) -> Box<dyn Integrator> {
+    match name {
+        "radau" => Box::new(Radau::new(Tolerance { relative: 1e-6, absolute: 1e-8 }).unwrap()),
+        _ => Box::new(GeneralizedAlpha::newmark(0.25, 0.5).unwrap()),
+    }
+}
+
+/// A run that can be continued step by step.
+pub struct Run {
+    pub system: Box<dyn System>,
+    pub integrator: Box<dyn Integrator>,
+    pub from: State,
+    to: State,
+}
+
+impl Run {
+    /// The run, a second after its start from rest.
+    pub fn new(coupling: &str, elements: usize, integrator_name: &str) -> Run {
+        let mut system = system(coupling, elements);
+        let mut integrator = integrator(integrator_name);
+        let mut from = State::zeros(system.size(), 0.0);
+        integrator.start(&mut *system, &mut from, STEP).unwrap();
+        let mut run = Run { system, integrator, to: from.clone(), from };
+        run.steps(200);
+        run
+    }
+
+    /// `count` accepted steps of the fixed size.
+    pub fn steps(&mut self, count: usize) {
+        for _ in 0..count {
+            self.integrator.step(&mut *self.system, &self.from, STEP, &mut self.to).unwrap();
+            self.integrator.accept(&self.from, &self.to);
+            std::mem::swap(&mut self.from, &mut self.to);
+        }
+    }
+}
+
+/// The tangent of a step of the first-order beam and a right-hand side: what a step's equations are.
+pub fn equations(elements: usize) -> (Matrix, Vec<f64>) {
+    let mut system = system("first", elements);
+    let state = State::zeros(system.size(), 5.0);
+    let mut tangent = Matrix::new(&system.structure());
+    system.tangent(&state, Weights::new(1.0, 0.5 * STEP, 0.25 * STEP * STEP), &mut tangent);
+    let mut rhs = vec![0.0; state.v.len()];
+    system.residual(&state, &mut rhs);
+    (tangent, rhs)
+}
