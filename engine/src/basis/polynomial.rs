@@ -176,8 +176,7 @@ impl Polynomial {
             let index = known.unwrap_or(patches.len());
             if known.is_none() {
                 let patch = Patch::new(positions, per_node);
-                // Written so that NaN is refused too.
-                if !(patch.condition * f64::EPSILON < 1.0) {
+                if patch.condition.is_nan() || patch.condition * f64::EPSILON >= 1.0 {
                     return Err(BasisError::Singular {
                         basis: "polynomial",
                         number: patch.condition,

@@ -36,7 +36,7 @@ impl Piecewise {
             }
             start = segment.end;
         }
-        if !((start - length).abs() <= 1e-9 * length) {
+        if length.is_nan() || (start - length).abs() > 1e-9 * length {
             return Err(SectionError::Invalid(format!(
                 "the last segment ends at {start} m and must end with the beam, at {length} m"
             )));
