@@ -3,6 +3,8 @@
 //! A line `# set: KEY=VALUE` of a case stands for `--set KEY=VALUE`. After a deliberate change of a
 //! message, `FLEXION_ACCEPT=1 cargo test --test broken_cases` rewrites the reports: read the diff.
 
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // in helpers of tests
+
 use std::path::Path;
 
 #[test]

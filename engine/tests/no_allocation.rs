@@ -1,5 +1,6 @@
 //! No integrator allocates in a step, an acceptance or an interpolation.
 
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // in helpers of tests
 #![allow(unsafe_code)]
 
 #[path = "verification/run.rs"]

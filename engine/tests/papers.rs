@@ -103,7 +103,7 @@ fn the_zeroth_order_coupling_diverges_on_every_basis_and_says_why() {
                 "{folder} {basis}: {critical}, {message}"
             );
             for part in ["dynamic softening", "\"first\""] {
-                assert!(message.contains(&part), "{folder} {basis}: `{part}` is not in: {message}");
+                assert!(message.contains(part), "{folder} {basis}: `{part}` is not in: {message}");
             }
             // What was computed is kept, and finite.
             assert!(run.end > 4.0 && run.trajectory.first_not_finite().is_none());
@@ -245,8 +245,10 @@ fn band_and_dense_storage_give_the_same_run() {
                 .into();
             let (a, b) = (runs[0].column(TIP), runs[1].column(TIP));
             let off = a.iter().zip(&b).fold(0.0_f64, |worst, (a, b)| worst.max((a - b).abs()));
-            // Rounding, which changes the steps of `radau` a little.
-            let allowed = if integrator.contains("radau") { 1e-7 } else { 1e-9 };
+            // Rounding, which changes the steps of `radau` a little. Kept tangents leave 1e-14 of the scales a
+            // step, which 1600 steps of an undamped beam sum up to 2e-9 m (ten times the tolerance, three
+            // times the difference).
+            let allowed = if integrator.contains("radau") { 1e-7 } else { 1e-8 };
             assert!(off < allowed, "{folder} {integrator}: {off:.1e} m");
         }
     }

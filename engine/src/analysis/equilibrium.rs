@@ -56,10 +56,10 @@ pub fn equilibrium(system: &mut dyn System, state: &mut State) -> Result<Effort,
     system.residual(state, &mut start);
     let mut good = state.clone();
     let mut moved = state.q.clone();
-    let (mut reached, mut part) = (0.0, 1.0);
+    let (mut reached, mut part): (f64, f64) = (0.0, 1.0);
     let mut effort = Effort::default();
     while reached < 1.0 {
-        let level: f64 = (reached + part as f64).min(1.0);
+        let level = (reached + part).min(1.0);
         let mut failure = None;
         let mut last = f64::INFINITY;
         for iteration in 0..=ITERATIONS {

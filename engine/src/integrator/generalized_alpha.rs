@@ -44,7 +44,7 @@ use crate::system::{Level, State, System, Weights};
 const ITERATION_TOLERANCE: f64 = 1e-10;
 
 /// The same where the tangent is kept and the iteration converges linearly.
-const KEPT_TOLERANCE: f64 = 1e-12;
+const KEPT_TOLERANCE: f64 = 1e-14;
 
 /// Rate of convergence above which a kept tangent is renewed at the next step.
 const REUSE_RATE: f64 = 1e-2;

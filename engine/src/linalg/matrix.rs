@@ -70,6 +70,7 @@ pub struct Matrix<T = f64> {
 
 /// The two storages.
 #[derive(Clone, Debug)]
+#[allow(clippy::large_enum_variant)] // one a matrix, never in a collection
 pub enum Storage<T> {
     /// Dense.
     Dense(Dense<T>),

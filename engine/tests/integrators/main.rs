@@ -1,5 +1,7 @@
 //! What each integrator promises: order, stability, dissipation, dense output, messages.
 
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // in helpers of tests
+
 mod adaptive;
 mod constraints;
 mod drive;
