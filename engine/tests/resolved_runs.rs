@@ -32,6 +32,8 @@ step = "5 ms"
 
 const TABLE: &str = "# measured\ntime,speed\n0, 0\n0.02, 0.3\n0.05,1.1\n0.1, 4\n";
 
+const SECTION: &str = "x,mass,EA,EI\n0,1.1,2.8e7,930\n1,1.0,2.6e7,900\n2,0.8,2.1e7,700\n";
+
 /// Changes to the base case, which together use every kind there is.
 const VARIATIONS: &[&str] = &[
     "title=base",
@@ -40,6 +42,16 @@ const VARIATIONS: &[&str] = &[
     "section={kind='tube', modulus='70 GPa', density=2700, outer-radius='2 cm', inner-radius='1 cm'}",
     "section={kind='resultants', mass-per-length=1.0, axial-stiffness=2.8e7, bending-stiffness=930.0}",
     "section={kind='graded', ceramic-modulus='151 GPa', metal-modulus='70 GPa', ceramic-density=3000, metal-density=2707, width='2 cm', height='2 cm', exponent=1.5}",
+    "section={kind='tapered-rectangle', modulus='70 GPa', density=2700, root-width='2 cm', tip-width='1 cm', root-height='3 cm', tip-height='1 cm'}",
+    "section={kind='tapered-circle', modulus='70 GPa', density=2700, root-radius='2 cm', tip-radius='1 cm'}",
+    "section={kind='tapered-tube', modulus='70 GPa', density=2700, root-outer-radius='2 cm', root-inner-radius='1 cm', tip-outer-radius='15 mm', tip-inner-radius='1 cm'}",
+    "section={kind='piecewise', ends=[1, 2], modulus=['70 GPa', '60 GPa'], density=[2700, 2600], area=['4 cm^2', '3 cm^2'], second-moment=['2e-8 m^4', '1e-8 m^4']}",
+    "section={kind='table', file='tables/section.csv', interpolation='linear'}",
+    "section={kind='table', file='tables/section.csv', interpolation='cubic'}",
+    "hub={inertia=5, motion={kind='free', torque={kind='constant', torque=3}}}",
+    "hub={inertia=5, motion={kind='free', torque={kind='ramp', torque=3, time='0.02 s'}, controller={kind='pd', proportional=3, derivative=1, target='0.1 rad'}}}",
+    "hub={inertia=5, motion={kind='free', torque={kind='table', file='tables/measured.csv'}, controller={kind='none'}}}",
+    "hub={inertia=5, motion={kind='free', torque={kind='expression', formula='2*sin(t)'}}}",
     "hub.motion={kind='constant', speed='4 rad/s'}",
     "hub.motion={kind='ramp', speed='4 rad/s', time='0.1 s'}",
     "hub.motion={kind='table', file='tables/measured.csv', of='speed'}",
@@ -52,6 +64,9 @@ const VARIATIONS: &[&str] = &[
     "basis={kind='finite-elements', elements=7}",
     "basis={kind='modes', axial=2}",
     "basis={kind='radial'}",
+    "basis={kind='polynomial'}",
+    "basis={kind='b-spline'}",
+    "basis={kind='bezier'}",
     "basis={kind='mixed', axial={kind='modes', count=2}, transverse={kind='radial'}}",
     "basis={kind='mixed', axial={kind='radial'}, transverse={kind='finite-elements'}}",
     "initial.kind=steady-rotation",
@@ -103,6 +118,7 @@ fn a_run_is_repeated_byte_for_byte_from_the_resolved_case_alone() {
         // What the case refers to is there for the first run only.
         fs::create_dir(folder.path().join("tables")).unwrap();
         fs::write(folder.path().join("tables/measured.csv"), TABLE).unwrap();
+        fs::write(folder.path().join("tables/section.csv"), SECTION).unwrap();
         run(&case, &[variation], &first);
         fs::remove_dir_all(folder.path().join("tables")).unwrap();
         run(&first.join("case.resolved.toml"), &[], &second);
@@ -112,9 +128,11 @@ fn a_run_is_repeated_byte_for_byte_from_the_resolved_case_alone() {
         for ((name, a), (_, b)) in a.iter().zip(&b) {
             assert!(a == b, "{variation}: {name} differs");
         }
-        assert_eq!(variation.contains("measured.csv"), names(&a).contains(&"motion.csv".to_owned()));
+        let copies =
+            ["motion.csv", "torque.csv", "section.csv"].map(|copy| names(&a).contains(&copy.to_owned()));
+        assert_eq!(variation.contains("tables/"), copies.contains(&true), "{variation}");
         assert_eq!(variation.contains("vtk=true"), names(&a).contains(&"beam.pvd".to_owned()));
-        if variation.contains("measured.csv") {
+        if variation.contains("tables/") {
             // In its own place, too: the table is replaced by itself.
             run(&first.join("case.resolved.toml"), &[], &first);
             assert!(files(&first) == b, "{variation} in place");
@@ -129,6 +147,7 @@ fn every_kind_is_repeated() {
     fs::write(&case, BASE).unwrap();
     fs::create_dir(folder.path().join("tables")).unwrap();
     fs::write(folder.path().join("tables/measured.csv"), TABLE).unwrap();
+    fs::write(folder.path().join("tables/section.csv"), SECTION).unwrap();
     let mut used = BTreeSet::new();
     for variation in VARIATIONS {
         let reading = read(&case, &[(*variation).to_owned()]).unwrap();

@@ -80,12 +80,21 @@ pub struct Reading {
 impl Reading {
     /// The case as a file with every default filled in, in SI, that reads back as the same case.
     pub fn resolved(&self) -> String {
-        resolved::resolved(&self.values, None)
+        resolved::resolved(&self.values, false)
     }
 
-    /// As [`Reading::resolved`], for a place where the table of the motion, if there is one, is called `name`.
-    pub fn resolved_with_table(&self, name: &str) -> String {
-        resolved::resolved(&self.values, Some(name))
+    /// As [`Reading::resolved`], beside copies of the tables that the case names: `motion.csv`, `torque.csv` and
+    /// `section.csv`.
+    pub fn resolved_with_copies(&self) -> String {
+        resolved::resolved(&self.values, true)
+    }
+
+    /// The tables that the case names: dotted path of the key and file.
+    fn tables(&self) -> Vec<(String, PathBuf)> {
+        let folder = self.file.parent().unwrap_or(Path::new(""));
+        let mut found = Vec::new();
+        resolved::paths(&self.values, "", &mut found);
+        found.into_iter().map(|(key, file)| (key, folder.join(file))).collect()
     }
 
     /// The defaults in force: dotted path and value.

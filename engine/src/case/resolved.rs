@@ -2,17 +2,18 @@
 
 use super::declaration::Type;
 use super::values::{Value, Values, join};
+use crate::output::Artifact;
 use std::fmt::Write;
 
-/// Writes the whole case, with `file` in place of every path if there is one.
-pub(super) fn resolved(values: &Values, file: Option<&str>) -> String {
+/// Writes the whole case, with the names of `copies` among the results in place of paths if they are meant.
+pub(super) fn resolved(values: &Values, copies: bool) -> String {
     let mut out = String::new();
-    table(values, None, "", file, &mut out);
+    table(values, None, "", copies, &mut out);
     out
 }
 
 /// The plain keys first, then the tables.
-fn table(values: &Values, kind: Option<&str>, path: &str, file: Option<&str>, out: &mut String) {
+fn table(values: &Values, kind: Option<&str>, path: &str, copies: bool, out: &mut String) {
     if !path.is_empty() {
         let _ = writeln!(out, "\n[{path}]");
     }
@@ -25,8 +26,8 @@ fn table(values: &Values, kind: Option<&str>, path: &str, file: Option<&str>, ou
             Type::Quantity(measure, _) | Type::Quantities(measure, _) => format!("  # {}", measure.unit),
             _ => String::new(),
         };
-        let value = match (filled.key.takes, file) {
-            (Type::Path, Some(file)) => quoted(file),
+        let value = match (filled.key.takes, copy(path)) {
+            (Type::Path, Some(artifact)) if copies => quoted(&artifact.file_name()),
             _ => written(&filled.value, &filled.key.takes, false),
         };
         let _ = writeln!(out, "{} = {value}{unit}", filled.key.name);
@@ -34,8 +35,26 @@ fn table(values: &Values, kind: Option<&str>, path: &str, file: Option<&str>, ou
     for filled in &values.entries {
         let path = join(path, filled.key.name);
         match &filled.value {
-            Value::Table(values) => table(values, None, &path, file, out),
-            Value::Kind(kind, values) => table(values, Some(kind.name), &path, file, out),
+            Value::Table(values) => table(values, None, &path, copies, out),
+            Value::Kind(kind, values) => table(values, Some(kind.name), &path, copies, out),
+            _ => {}
+        }
+    }
+}
+
+/// The copy, among the results, of the file named in the table at `path`.
+pub(super) fn copy(path: &str) -> Option<Artifact> {
+    Artifact::table(path.rsplit('.').next().unwrap_or(path))
+}
+
+/// The paths in a case: dotted path of the table and what is written there.
+pub(super) fn paths(values: &Values, path: &str, out: &mut Vec<(String, String)>) {
+    for filled in &values.entries {
+        match (&filled.value, filled.key.takes) {
+            (Value::Text(text), Type::Path) => out.push((path.to_owned(), text.clone())),
+            (Value::Table(values) | Value::Kind(_, values), _) => {
+                paths(values, &join(path, filled.key.name), out);
+            }
             _ => {}
         }
     }

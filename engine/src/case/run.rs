@@ -1,6 +1,6 @@
 //! A case, run: from its reading to its results.
 
-use super::{Initial, Integrator as IntegratorCase, Live, Motion, Problems, Reading};
+use super::{Initial, Integrator as IntegratorCase, Live, Problems, Reading, resolved};
 use crate::analysis::equilibrium::equilibrium;
 use crate::analysis::transient::{Ending, Plan, transient};
 use crate::integrator::{Counters, Info};
@@ -22,7 +22,7 @@ pub struct Prepared<'a> {
     live: Live,
     state: State,
     plan: Plan,
-    motion_table: Option<Vec<u8>>,
+    tables: Vec<(Artifact, Vec<u8>)>,
     shapes: Option<Shapes>,
 }
 
@@ -37,8 +37,8 @@ pub struct Run {
     pub trajectory: Trajectory,
     /// The shapes of the beam, if the case asks for them.
     pub shapes: Option<Shapes>,
-    /// The table that the motion was taken from, byte for byte.
-    pub motion_table: Option<Vec<u8>>,
+    /// The tables that the case names, byte for byte, under their names among the results.
+    pub tables: Vec<(Artifact, Vec<u8>)>,
     /// The last accepted step.
     pub state: State,
     /// What its reader should know about the validity of the model.
@@ -75,15 +75,14 @@ impl Reading {
             _ => (case.integrator.step(), None),
         };
         let plan = Plan { end: case.duration, step, longest_step, sample: case.output.step };
-        let motion_table = match &case.hub.motion {
-            Motion::Table { file, .. } => {
-                let failed = |error| format!("cannot read {}: {error}", file.display());
-                let bytes = std::fs::read(file).map_err(failed);
-                Some(bytes.map_err(|message| self.problem("hub.motion.file", message))?)
+        let mut tables = Vec::new();
+        for (key, file) in self.tables() {
+            let failed = |error| self.problem(&key, format!("cannot read {}: {error}", file.display()));
+            if let Some(artifact) = resolved::copy(&key) {
+                tables.push((artifact, std::fs::read(&file).map_err(failed)?));
             }
-            _ => None,
-        };
-        Ok(Prepared { reading: self, live, state, plan, motion_table, shapes: self.shapes() })
+        }
+        Ok(Prepared { reading: self, live, state, plan, tables, shapes: self.shapes() })
     }
 
     /// Room for the shapes, if the case asks for them.
@@ -116,12 +115,9 @@ impl Reading {
         };
         let title = (!self.case.title.is_empty()).then_some(self.case.title.as_str());
         let figure = trajectory_figure(&run.trajectory, title);
-        let attachments = Attachments {
-            figure: Some(&figure),
-            motion_table: run.motion_table.as_deref(),
-            shapes: run.shapes.as_ref(),
-        };
-        let case = self.resolved_with_table(&Artifact::MotionTable.file_name());
+        let attachments =
+            Attachments { figure: Some(&figure), tables: &run.tables, shapes: run.shapes.as_ref() };
+        let case = self.resolved_with_copies();
         write_run(directory, &report, &run.trajectory, &case, attachments)
     }
 }
@@ -135,7 +131,7 @@ impl Prepared<'_> {
     /// Integrates to the end, or to where `watch` stops it or the integration fails: what was computed
     /// until then is in the run.
     pub fn run(self, watch: &mut Watch<'_>) -> Run {
-        let Prepared { live, mut state, plan, motion_table, shapes, .. } = self;
+        let Prepared { live, mut state, plan, tables, shapes, .. } = self;
         let Live { mut system, mut integrator } = live;
         let start = Instant::now();
         let mut recorder = Recorder::new(system.as_ref(), &plan, watch).with_shapes(shapes);
@@ -157,7 +153,7 @@ impl Prepared<'_> {
             message,
             trajectory,
             shapes,
-            motion_table,
+            tables,
             warnings: system.cautions(),
             info: integrator.info().clone(),
             counters: integrator.counters(),

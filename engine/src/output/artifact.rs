@@ -10,8 +10,12 @@ pub enum Artifact {
     Summary,
     /// `case.resolved.toml`.
     ResolvedCase,
-    /// `motion.csv`: the table that the case takes its motion from.
+    /// `motion.csv`: the table that the case takes the motion of the hub from.
     MotionTable,
+    /// `torque.csv`: the table that the case takes the torque on the hub from.
+    TorqueTable,
+    /// `section.csv`: the table that the case takes its section from.
+    SectionTable,
     /// `trajectory.csv`.
     TrajectoryCsv,
     /// `trajectory.npz`.
@@ -43,6 +47,8 @@ impl Artifact {
         Artifact::Summary,
         Artifact::ResolvedCase,
         Artifact::MotionTable,
+        Artifact::TorqueTable,
+        Artifact::SectionTable,
         Artifact::TrajectoryCsv,
         Artifact::TrajectoryNpz,
         Artifact::PlotSvg,
@@ -54,12 +60,24 @@ impl Artifact {
     pub const COMPARISON: &'static [Artifact] =
         &[Artifact::CompareJson, Artifact::CompareCsv, Artifact::CompareSvg, Artifact::ComparePng];
 
+    /// The copy of a table that a case names in its table `key`: `motion`, `torque` or `section`.
+    pub fn table(key: &str) -> Option<Artifact> {
+        match key {
+            "motion" => Some(Artifact::MotionTable),
+            "torque" => Some(Artifact::TorqueTable),
+            "section" => Some(Artifact::SectionTable),
+            _ => None,
+        }
+    }
+
     /// The file's name, relative to the directory, with `/` between folder and file.
     pub fn file_name(self) -> Cow<'static, str> {
         match self {
             Artifact::Summary => "summary.json".into(),
             Artifact::ResolvedCase => "case.resolved.toml".into(),
             Artifact::MotionTable => "motion.csv".into(),
+            Artifact::TorqueTable => "torque.csv".into(),
+            Artifact::SectionTable => "section.csv".into(),
             Artifact::TrajectoryCsv => "trajectory.csv".into(),
             Artifact::TrajectoryNpz => "trajectory.npz".into(),
             Artifact::PlotSvg => "plot.svg".into(),

@@ -13,8 +13,8 @@ use super::{
 pub struct Attachments<'a> {
     /// The plot.
     pub figure: Option<&'a Figure>,
-    /// The table that the motion was taken from, byte for byte.
-    pub motion_table: Option<&'a [u8]>,
+    /// The tables that the case names, byte for byte.
+    pub tables: &'a [(Artifact, Vec<u8>)],
     /// The shapes of the beam.
     pub shapes: Option<&'a Shapes>,
 }
@@ -36,8 +36,8 @@ pub fn write_run(
     attachments: Attachments<'_>,
 ) -> Result<Status, OutputError> {
     directory.write(Artifact::ResolvedCase, |f| f.write_all(resolved_case(case).as_bytes()))?;
-    if let Some(table) = attachments.motion_table {
-        directory.write(Artifact::MotionTable, |f| f.write_all(table))?;
+    for (artifact, bytes) in attachments.tables {
+        directory.write(*artifact, |f| f.write_all(bytes))?;
     }
     // The smaller one first: it may still fit on a disk that is nearly full.
     directory.write(Artifact::TrajectoryNpz, |f| write_npz(trajectory, f))?;
