@@ -1,6 +1,6 @@
 //! Orders of convergence of the bases, measured on a uniform cantilever against closed forms.
 
-#![allow(clippy::unwrap_used)] // in helpers of tests
+#![allow(clippy::unwrap_used, clippy::print_stdout)] // in helpers of tests
 
 use flexion::basis::{
     BSpline, Basis, Bezier, Field, Hermite, Polynomial, PolynomialParameters, Radial, RadialParameters,

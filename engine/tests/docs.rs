@@ -7,7 +7,7 @@ use std::path::{Component, Path, PathBuf};
 
 /// What the README promises, to be found word for word in `.ci/run`.
 const TEST: &str = "cargo test --release --workspace";
-const RUN: &str = "cargo run --release -- run verification/p1_spin_up_4 --force";
+const RUN: &str = "cargo run --release -- run --force verification/p1_spin_up_4";
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().to_owned()
