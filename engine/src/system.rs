@@ -202,6 +202,11 @@ pub trait System {
     /// Power of everything that is not in [`System::energy`]: drives, loads and dampers [W].
     fn power(&mut self, s: &State) -> f64;
 
+    /// [`System::energy`] and [`System::power`] of one state, for systems in which they share their work.
+    fn energy_and_power(&mut self, s: &State) -> (Energy, f64) {
+        (self.energy(s), self.power(s))
+    }
+
     /// Frames of the sections at the given stations (arc lengths from the root, in metres).
     fn shape(&mut self, s: &State, stations: &[f64], out: &mut [Frame]);
 

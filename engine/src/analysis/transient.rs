@@ -1,5 +1,6 @@
 //! Motion in time: drives a system with an integrator from a state to an end time.
 
+use super::audit::Audit;
 use crate::integrator::{Integrator, StepControl, StepError, StepReport};
 use crate::system::{State, System};
 use std::ops::ControlFlow;
@@ -28,8 +29,6 @@ pub struct Step {
     pub size: f64,
     /// Newton iterations of that step.
     pub iterations: u32,
-    /// Work of drives and loads since the start [J].
-    pub work: f64,
 }
 
 /// Someone who watches a run: records, reports progress, stops it.
@@ -109,18 +108,7 @@ pub fn transient(
     plan: &Plan,
     observer: &mut dyn Observer,
 ) -> Ending {
-    let mut run = Run {
-        origin: state.t,
-        samples: 1,
-        last: Step::default(),
-        middle: state.clone(),
-        power: 0.0,
-        initial: 0.0,
-        largest_strain: 0.0,
-        uncertainty: 0.0,
-        steps: 0,
-        audited: !system.is_affine(),
-    };
+    let mut run = Run { origin: state.t, samples: 1, last: Step::default(), middle: state.clone() };
     match run.integrate(system, integrator, state, plan, observer) {
         Ok(ending) => ending,
         Err(error) => Ending::Failed(error),
@@ -135,24 +123,7 @@ struct Run {
     last: Step,
     /// Dense output.
     middle: State,
-    /// Power at the last accepted step [W].
-    power: f64,
-    /// Energy at the start, and the largest strain energy since [J].
-    initial: f64,
-    largest_strain: f64,
-    /// Bound of the error of the work's quadrature [J].
-    uncertainty: f64,
-    /// Steps accounted.
-    steps: u64,
-    /// Whether every step's energy is checked: for systems whose equations are solved iteratively, where a
-    /// step too large can converge to a wrong solution. Affine systems are recorded, not policed.
-    audited: bool,
 }
-
-/// Excess energy, over the largest strain energy of the run, beyond which a run is stopped.
-const EXCESS: f64 = 0.5;
-/// Steps at the start of a run whose energy is not judged.
-const UNJUDGED: u64 = 20;
 
 impl Run {
     fn integrate(
@@ -173,8 +144,9 @@ impl Run {
         if let Err(error) = integrator.start(system, state, uniform.unwrap_or(span)) {
             return Err(failed(system, state, error));
         }
-        self.power = system.power(state);
-        self.initial = system.energy(state).total();
+        // Step control sees what an audit would; affine systems cannot converge to a wrong solution.
+        let fixed = integrator.info().estimate_order.is_none();
+        let mut audit = (fixed && !system.is_affine()).then(|| Audit::new(system, state));
         observer.sample(system, state, &self.last);
         let mut next = state.clone();
         let mut control = integrator.info().estimate_order.map(|order| {
@@ -207,13 +179,15 @@ impl Run {
                 Some(control) => adapt(system, integrator, state, &mut next, plan.end, control)
                     .map_err(|error| failed(system, state, error))?,
             };
-            self.last = Step { size: h, iterations: report.iterations, work: self.last.work };
+            self.last = Step { size: h, iterations: report.iterations };
             if let Err(what) = system.admissible(&next) {
                 let reason = system.explain(&next);
                 return Err(RunError::Inadmissible { time: next.t, what, reason });
             }
             integrator.accept(state, &next);
-            self.account(system, integrator, state, &next)?;
+            if let Some(audit) = &mut audit {
+                audit.enter(system, h, &next)?;
+            }
             self.show(system, integrator, state, &next, plan, observer);
             std::mem::swap(state, &mut next);
             if observer.step(state).is_break() && state.t < plan.end {
@@ -229,42 +203,6 @@ impl Run {
             }
         }
         Ok(Ending::Finished)
-    }
-
-    /// Adds the work of a step, by Simpson's rule, and checks the balance of energy.
-    fn account(
-        &mut self,
-        system: &mut dyn System,
-        integrator: &dyn Integrator,
-        from: &State,
-        to: &State,
-    ) -> Result<(), RunError> {
-        if !self.audited {
-            return Ok(());
-        }
-        let h = to.t - from.t;
-        integrator.interpolate(system, from, to, from.t + 0.5 * h, &mut self.middle);
-        let (middle, end) = (system.power(&self.middle), system.power(to));
-        let work = h / 6.0 * (self.power + 4.0 * middle + end);
-        self.uncertainty += (work - 0.5 * h * (self.power + end)).abs();
-        self.last.work += work;
-        self.power = end;
-        let energy = system.energy(to);
-        self.largest_strain = self.largest_strain.max(energy.strain);
-        let excess = energy.total() - self.initial - self.last.work;
-        // A motion that starts smoothly has energy and work that vanish like high powers of t: in the first
-        // steps their quadrature is no measure. They set the level that later steps are held against.
-        self.steps += 1;
-        if self.steps <= UNJUDGED {
-            self.initial += excess;
-            return Ok(());
-        }
-        // Simpson's rule has an error of its own, which its difference from the trapezium bounds.
-        if excess > EXCESS * self.largest_strain + self.uncertainty {
-            let (work, strain) = (self.last.work, energy.strain);
-            return Err(RunError::Energy { time: to.t, excess, work, strain });
-        }
-        Ok(())
     }
 
     /// Shows the observer the samples in the step.

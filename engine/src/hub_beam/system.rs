@@ -228,21 +228,25 @@ impl<C: Coupling> System for HubBeam<C> {
     }
 
     fn energy(&mut self, s: &State) -> Energy {
-        let hub = self.kinematics(s);
-        let kinetic = self.totals(s, &hub).kinetic;
-        Energy { kinetic, strain: self.strain(s, &hub), gravity: 0.0 }
+        self.energy_and_power(s).0
     }
 
     fn power(&mut self, s: &State) -> f64 {
+        self.energy_and_power(s).1
+    }
+
+    fn energy_and_power(&mut self, s: &State) -> (Energy, f64) {
         let hub = self.kinematics(s);
+        let totals = self.totals(s, &hub);
         let torque = match &self.hub.drive {
-            Drive::Prescribed(_) => self.totals(s, &hub).torque,
+            Drive::Prescribed(_) => totals.torque,
             // The spring's work is in the strain energy.
             Drive::Free(free) => {
                 free.torque(&hub, s.t).value + free.stiffness * (hub.angle - free.rest_angle)
             }
         };
-        torque * hub.speed
+        let energy = Energy { kinetic: totals.kinetic, strain: self.strain(s, &hub), gravity: 0.0 };
+        (energy, torque * hub.speed)
     }
 
     fn shape(&mut self, s: &State, stations: &[f64], out: &mut [Frame]) {

@@ -1,0 +1,72 @@
+//! The balance of energy of a run, step by step.
+//!
+//! Where the equations of a step are solved iteratively and the step is not controlled, a step too large can
+//! converge to a wrong solution that gains energy from nowhere. The audit compares E(t) − E(0) with the work
+//! ∫P dt of everything outside the energy, and stops a run that gains far more than it was given.
+
+use super::transient::RunError;
+use crate::system::{State, System};
+
+/// Excess energy, over the largest strain energy of the run, beyond which a run is stopped.
+const EXCESS: f64 = 0.5;
+/// Steps at the start of a run whose energy is not judged.
+const UNJUDGED: u64 = 20;
+
+/// The books of one run with equal steps.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Audit {
+    steps: u64,
+    /// Power at the last two steps [W].
+    power: [f64; 2],
+    /// Work since the start, and a bound of the error of its quadrature [J].
+    work: f64,
+    uncertainty: f64,
+    /// Energy at the start, and the largest strain energy since [J].
+    initial: f64,
+    largest_strain: f64,
+}
+
+impl Audit {
+    /// Opens the books at the start of a run.
+    pub(super) fn new(system: &mut dyn System, state: &State) -> Audit {
+        let (energy, power) = system.energy_and_power(state);
+        Audit {
+            steps: 0,
+            power: [0.0, power],
+            work: 0.0,
+            uncertainty: 0.0,
+            initial: energy.total(),
+            largest_strain: energy.strain,
+        }
+    }
+
+    /// Enters a step of size `h` that ended at `to`; two steps at a time are judged.
+    ///
+    /// # Errors
+    /// [`RunError::Energy`] when the energy has grown by more than the drive has put in.
+    pub(super) fn enter(&mut self, system: &mut dyn System, h: f64, to: &State) -> Result<(), RunError> {
+        self.steps += 1;
+        let (energy, power) = system.energy_and_power(to);
+        self.largest_strain = self.largest_strain.max(energy.strain);
+        let [first, middle] = self.power;
+        self.power = [middle, power];
+        if self.steps % 2 == 1 {
+            return Ok(());
+        }
+        // Simpson's rule; its difference from the trapezium bounds its error.
+        let work = h / 3.0 * (first + 4.0 * middle + power);
+        self.uncertainty += (work - 0.5 * h * (first + 2.0 * middle + power)).abs();
+        self.work += work;
+        let excess = energy.total() - self.initial - self.work;
+        // A motion that starts smoothly has energy and work that vanish like high powers of t: in the first
+        // steps their quadrature is no measure. They set the level that later steps are held against.
+        if self.steps <= UNJUDGED {
+            self.initial += excess;
+            return Ok(());
+        }
+        if excess > EXCESS * self.largest_strain + self.uncertainty {
+            return Err(RunError::Energy { time: to.t, excess, work: self.work, strain: energy.strain });
+        }
+        Ok(())
+    }
+}
