@@ -49,8 +49,10 @@ pub struct Run {
     pub counters: Counters,
     /// Size of the equations solved in each iteration.
     pub size: ProblemSize,
-    /// Time of computing [s]: the one figure that differs from run to run.
+    /// Time of computing [s]. It and `cpu_time` are the figures that differ from run to run.
     pub wall_time: f64,
+    /// Time of computing of the processor [s], where the system tells it.
+    pub cpu_time: Option<f64>,
 }
 
 impl Reading {
@@ -112,6 +114,7 @@ impl Reading {
             counters: run.counters,
             size: run.size,
             wall_time: run.wall_time,
+            cpu_time: run.cpu_time,
         };
         let title = (!self.case.title.is_empty()).then_some(self.case.title.as_str());
         let figure = trajectory_figure(&run.trajectory, title);
@@ -133,10 +136,11 @@ impl Prepared<'_> {
     pub fn run(self, watch: &mut Watch<'_>) -> Run {
         let Prepared { live, mut state, plan, tables, shapes, .. } = self;
         let Live { mut system, mut integrator } = live;
-        let start = Instant::now();
+        let (start, cpu_start) = (Instant::now(), processor_time());
         let mut recorder = Recorder::new(system.as_ref(), &plan, watch).with_shapes(shapes);
         let ending = transient(system.as_mut(), integrator.as_mut(), &mut state, &plan, &mut recorder);
         let wall_time = start.elapsed().as_secs_f64();
+        let cpu_time = processor_time().zip(cpu_start).map(|(end, start)| end - start);
         let (trajectory, mut shapes) = recorder.into_parts();
         if let (Ending::Finished, Some(shapes)) = (&ending, &mut shapes) {
             shapes.finish(system.as_mut(), &state);
@@ -160,8 +164,22 @@ impl Prepared<'_> {
             size: size(system.as_ref()),
             state,
             wall_time,
+            cpu_time,
         }
     }
+}
+
+/// Processor time of this thread [s].
+#[cfg(unix)]
+fn processor_time() -> Option<f64> {
+    let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
+    Some(time.tv_sec as f64 + 1e-9 * time.tv_nsec as f64)
+}
+
+/// Unknown on this system.
+#[cfg(not(unix))]
+fn processor_time() -> Option<f64> {
+    None
 }
 
 fn size(system: &dyn System) -> ProblemSize {

@@ -76,6 +76,8 @@ pub struct RunReport<'a> {
     pub size: ProblemSize,
     /// Wall-clock time of the run [s]: the one entry that differs between two runs of one case.
     pub wall_time: f64,
+    /// Time of computing of the processor [s], where the system tells it.
+    pub cpu_time: Option<f64>,
 }
 
 /// A summary: keys in the order in which they were added, no number that is not finite (`null` instead).
@@ -139,6 +141,7 @@ impl Summary {
             }),
         );
         s.insert("wall_time", report.wall_time);
+        s.insert("cpu_time", report.cpu_time);
         s
     }
 
@@ -195,6 +198,7 @@ pub(super) mod tests {
             counters: Counters { steps: 400, ..Counters::default() },
             size: ProblemSize { unknowns: 33, half_bandwidth: 5, border: 1 },
             wall_time: 0.25,
+            cpu_time: None,
         }
     }
 
@@ -216,7 +220,8 @@ pub(super) mod tests {
                 "warnings",
                 "integrator",
                 "work",
-                "wall_time"
+                "wall_time",
+                "cpu_time"
             ]
         );
         assert_eq!(value["status"], "finished");
