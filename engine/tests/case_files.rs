@@ -217,3 +217,32 @@ fn hostile_nesting_is_refused_without_exhausting_the_stack() {
     let set = format!("{key}=1");
     assert!(parsed(SPIN_UP, &[&set]).is_err());
 }
+
+/// The default integrator must not pass over an event of the motion that is short against the run.
+#[test]
+fn a_short_event_of_the_motion_is_not_passed_over() {
+    let tip = |overrides: &[&str]| {
+        let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();
+        let reading = parse(SPIN_UP.to_owned(), Path::new("case.toml"), &overrides).unwrap();
+        let run = reading.prepare().unwrap().run(&mut |_| std::ops::ControlFlow::Continue(()));
+        run.trajectory.column("tip.deflection").unwrap().iter().fold(0.0, |m: f64, x| m.max(x.abs()))
+    };
+    let event = "hub.motion={kind='expression',of='speed',formula='exp(-((t-10)/0.05)^2)'}";
+    let small = tip(&[event, "integrator={kind='newmark',step='1 ms'}"]);
+    let adaptive = tip(&[event]);
+    assert!(small > 0.5 && (adaptive / small - 1.0).abs() < 1e-2, "{adaptive} {small}");
+}
+
+/// A station a rounding error before the tip is the tip.
+#[test]
+fn a_station_at_the_tip_is_not_recorded_twice() {
+    let reading = parse(
+        SPIN_UP.to_owned(),
+        Path::new("case.toml"),
+        &["output.stations=[\"9.999999999999999 m\", 5]".to_owned()],
+    );
+    let live = reading.unwrap().build().unwrap();
+    let names: Vec<&str> = live.system.channels().iter().map(|c| c.name.as_str()).collect();
+    assert_eq!(names.iter().filter(|name| **name == "tip.deflection").count(), 1);
+    assert!(names.contains(&"x=5.deflection"));
+}

@@ -36,7 +36,8 @@ fn the_iterations_of_a_step_do_not_grow_with_the_elements() {
             let counters = spin_up::Run::new(coupling, elements, integrator).integrator.counters();
             let what = format!("{coupling}, {integrator}, {elements} elements: {counters:?}");
             assert!(counters.iterations <= 4 * counters.steps, "{what}");
-            assert!(counters.factorizations <= counters.steps, "{what}");
+            // One a step at most, and the mass matrix at the start.
+            assert!(counters.factorizations <= counters.steps + 1, "{what}");
         }
     }
 }

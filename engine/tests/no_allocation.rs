@@ -131,7 +131,20 @@ fn no_step_of_a_hub_and_beam_allocates() {
                 let what = format!("{folder} {overrides:?}");
                 let mut live = run::case(folder, &overrides).unwrap().build().unwrap();
                 let from = live.system.initial();
-                assert_no_allocation(&what, live.system.as_mut(), &from, 2e-6, integrators());
+                assert_no_allocation(&what, live.system.as_mut(), &from, 5e-7, integrators());
+                let free = "hub.motion={kind='free',speed='40 rad/s',damping=1,stiffness=2,\
+                            controller={kind='pd',proportional=3,derivative=1,target='1 rad'}}";
+                let overrides =
+                    [&format!("model.coupling={coupling}"), *basis, free, rotary, "hub.inertia=5"];
+                let mut live = run::case(folder, &overrides).unwrap().build().unwrap();
+                let from = live.system.initial();
+                assert_no_allocation(
+                    &format!("{what} free"),
+                    live.system.as_mut(),
+                    &from,
+                    1e-6,
+                    integrators(),
+                );
             }
         }
     }

@@ -150,7 +150,7 @@ const INTEGRATORS: [&str; 6] = [
     "integrator={kind='hht',step='5 ms'}",
     "integrator={kind='generalized-alpha',step='5 ms'}",
     "integrator={kind='runge-kutta-4',step='0.5 ms'}",
-    "integrator={kind='adams-4',step='0.05 ms'}",
+    "integrator={kind='adams-4',step='0.02 ms'}",
 ];
 /// A beam with few unknowns, whose explicit steps are not too short.
 const COARSE: [&str; 3] = ["basis.elements=3", "run.duration=2", "hub.motion.time=2"];

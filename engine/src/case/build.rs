@@ -193,6 +193,9 @@ fn rows(file: &Path) -> Result<Vec<(f64, f64)>, String> {
     if file.is_dir() {
         return Err(format!("{name} is a folder, not a file"));
     }
+    if file.exists() && !file.is_file() {
+        return Err(format!("{name} is not a regular file"));
+    }
     let reader = csv::ReaderBuilder::new()
         .has_headers(false)
         .comment(Some(b'#'))

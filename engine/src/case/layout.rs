@@ -81,6 +81,9 @@ pub struct Output {
     pub vtk: Option<f64>,
 }
 
+/// Largest number of fixed steps of a run.
+const MOST_STEPS: f64 = 1e10;
+
 /// Largest number of records of a run.
 const MOST_RECORDS: f64 = 1e7;
 
@@ -299,6 +302,16 @@ pub(super) fn case(values: &mut Values, folder: &Path, problems: &mut Problems) 
         && step > duration
     {
         let message = format!("the step {step} s is longer than the run of {duration} s");
+        problems.push(Problem::new("integrator.step", v.place("step"), message));
+    }
+    if let (Some(duration), Some(step), Some((_, v))) =
+        (run_duration, integrator.as_ref().and_then(Integrator::step), values.kind("integrator"))
+        && duration / step > MOST_STEPS
+    {
+        let message = format!(
+            "the step {step:e} s makes {:.1e} steps in {duration} s; at most {MOST_STEPS:.0e} can be run",
+            duration / step
+        );
         problems.push(Problem::new("integrator.step", v.place("step"), message));
     }
     if let (Some(Coupling::Exact), Some(bases), Some((kind, v))) = (coupling, &bases, values.kind("basis")) {

@@ -11,12 +11,16 @@ use super::fields::Fields;
 use super::hub::Hub;
 use super::inertia::{Foreshortening, Inertia};
 use super::station::{Placement, Station};
+use crate::basis::Role;
 use crate::linalg::{Matrix, negative_pivots};
 use crate::section::Section;
 use crate::system::State;
 
 /// Deflection over length beyond which dropping higher-order terms is no longer harmless.
 const SMALL: f64 = 0.1;
+
+/// Axial stretch over length beyond which no linear-elastic beam follows.
+const LARGEST_STRETCH: f64 = 0.5;
 
 /// A beam whose equations are linear in the unknowns. See the [module documentation](self).
 #[derive(Debug)]
@@ -26,6 +30,8 @@ pub struct LinearCoupling {
     inertia: Inertia,
     /// Slopes at the quadrature points of each cell, for the foreshortening of a deflected beam.
     slopes: Vec<SlopePoint>,
+    /// Unknowns that are displacements, and what they may not exceed \[m\].
+    bounds: Vec<(usize, f64)>,
 }
 
 /// The slope w₂′ at a quadrature point, as weights of a few consecutive unknowns.
@@ -57,7 +63,16 @@ impl LinearCoupling {
                 });
             });
         }
-        LinearCoupling { foreshortening, fields, inertia, slopes }
+        let (axial, transverse) = fields.indices();
+        let length = fields.length();
+        let mut bounds = Vec::new();
+        for (basis, index, bound) in
+            [(fields.transverse(), transverse, length), (fields.axial(), axial, LARGEST_STRETCH * length)]
+        {
+            let values = index.iter().enumerate().filter(|(i, _)| basis.role(*i) != Role::Slope);
+            bounds.extend(values.map(|(_, &number)| (number, bound)));
+        }
+        LinearCoupling { foreshortening, fields, inertia, slopes, bounds }
     }
 
     /// Whether K − ω² D is positive definite.
@@ -142,22 +157,23 @@ impl Coupling for LinearCoupling {
 
     fn admissible(&mut self, s: &State) -> Result<(), String> {
         let length = self.fields.length();
-        let tip = self.fields.transverse();
-        let (_, index) = self.fields.indices();
-        // Cheap and basis-free: no coefficient that is a displacement may exceed the length.
-        for (i, &number) in index.iter().enumerate() {
-            let q = s.q[number];
-            if tip.role(i) != crate::basis::Role::Slope && q.abs() > length {
-                return Err(format!(
-                    "the deflection ({:.3e} m at x = {:.3} m) exceeds the length of the beam ({length} m): \
-                     the {}-order coupling has lost its meaning",
-                    q,
-                    tip.anchor(i),
-                    self.name()
-                ));
+        // Cheap and basis-free: no coefficient that is a displacement may exceed its bound.
+        let beyond = |&(number, bound): &(usize, f64)| !(s.q[number].abs() <= bound);
+        let Some(&(number, bound)) = self.bounds.iter().find(|bound| beyond(bound)) else { return Ok(()) };
+        let (axial, transverse) = self.fields.indices();
+        let (what, at) = match transverse.iter().position(|&i| i == number) {
+            Some(i) => ("deflection", self.fields.transverse().anchor(i)),
+            None => {
+                let i = axial.iter().position(|&i| i == number).unwrap_or(0);
+                ("axial displacement", self.fields.axial().anchor(i))
             }
-        }
-        Ok(())
+        };
+        Err(format!(
+            "the {what} ({:.3e} m at x = {at:.3} m) exceeds {bound} m on a beam of {length} m: the {}-order coupling has \
+             lost its meaning",
+            s.q[number],
+            self.name()
+        ))
     }
 
     fn caution(&self, deflection: f64) -> Option<String> {

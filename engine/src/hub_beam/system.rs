@@ -34,7 +34,8 @@ impl<C: Coupling> HubBeam<C> {
     /// The system; `stations` \[m\] are recorded besides the tip.
     pub fn new(hub: Hub, coupling: C, stations: &[f64]) -> HubBeam<C> {
         let fields = coupling.fields();
-        let mut places: Vec<f64> = stations.iter().copied().filter(|x| *x < fields.length()).collect();
+        let mut places: Vec<f64> =
+            stations.iter().copied().filter(|x| *x < fields.length() * (1.0 - 1e-12)).collect();
         places.sort_by(f64::total_cmp);
         places.dedup();
         places.push(fields.length());
@@ -321,12 +322,17 @@ impl<C: Coupling> System for HubBeam<C> {
             }
             Drive::Free(_) => String::new(),
         };
-        Some(format!(
-            "{since}the hub turns faster than {critical:.4} rad/s, where the stiffness K − ω²M of \
-             the {}-order coupling is exhausted (dynamic softening: it leaves out the centrifugal stiffening); \
-             use coupling = \"first\" or \"exact\"",
-            self.coupling.name()
-        ))
+        let why = match self.coupling.name() {
+            "zeroth" => {
+                "the stiffness K − ω²M of the zeroth-order coupling is exhausted (dynamic softening: it leaves out the \
+                 centrifugal stiffening); use coupling = \"first\" or \"exact\""
+            }
+            _ => {
+                "the centrifugal force outgrows the stiffness of the beam, centrifugal stiffening included: no beam so \
+                 soft turns so fast; check the modulus, the section and the speed, and their units"
+            }
+        };
+        Some(format!("{since}the hub turns faster than {critical:.4} rad/s, where {why}"))
     }
 }
 

@@ -20,8 +20,8 @@
 //! Bauchau & Cardona (2007, doi 10.1137/050638503) without a separate pass for it.
 //!
 //! The tangent and its factors are kept from step to step as long as the iteration converges fast with them
-//! (its rate θ is known, see [`Convergence`]); an affine system, whose tangent changes with the hub's speed
-//! only, needs one iteration a step either way. Systems with constraints get a new tangent every iteration.
+//! (its rate θ is known, see [`Convergence`]). An affine system gets the tangent of every step, unless it is
+//! stamped as unchanged, and takes exactly one iteration. Systems with constraints get a new tangent every iteration.
 //! The predictor continues the accelerations of the last two steps linearly.
 //!
 //! Order: 2 in q, v and λ for γ = ½ + αf − αm (measured 2.00, also for index-3 constraints). Stability:
@@ -87,8 +87,6 @@ struct Work {
     /// Whether factors may be kept; the weights (of v and q) that the present ones belong to, NaN without.
     keeps: bool,
     kept: [f64; 2],
-    /// Whether the tangent of an affine system was found unchanged: asking for it then costs nothing.
-    steady: bool,
 }
 
 impl GeneralizedAlpha {
@@ -214,7 +212,7 @@ impl GeneralizedAlpha {
 
         // Whether every iteration has a tangent of its own, and whether the next one needs a new tangent.
         let mut full = !work.keeps;
-        let mut renew = full || work.steady || work.kept != [to_v, to_q] || self.kept.rate() > REUSE_RATE;
+        let mut renew = full || work.affine || work.kept != [to_v, to_q] || self.kept.rate() > REUSE_RATE;
         'attempt: loop {
             self.predict(system, from, h, to);
             let convergence = if full { &mut self.full } else { &mut self.kept };
@@ -241,7 +239,6 @@ impl GeneralizedAlpha {
                         work.tangent.factor().map_err(|e| failure::singular(system, from.t, h, e))?;
                     self.counters.tangents += u64::from(factored);
                     self.counters.factorizations += u64::from(factored);
-                    work.steady = work.affine && (!factored || work.kept != [to_v, to_q]);
                     work.kept = [to_v, to_q];
                     (fresh, renew) = (true, full);
                 }
@@ -322,7 +319,6 @@ impl Integrator for GeneralizedAlpha {
             affine: system.is_affine() && size.lambda == 0,
             keeps: size.lambda == 0,
             kept: [f64::NAN; 2],
-            steady: false,
         }));
         self.counters = Counters::default();
         self.restart(system, state)

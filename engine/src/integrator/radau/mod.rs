@@ -53,7 +53,7 @@ use stages::Stages;
 const NAME: &str = "radau";
 
 /// Rate of convergence below which tangent and factors serve the next step too.
-const REUSE_RATE: f64 = 0.02;
+const REUSE_RATE: f64 = 0.1;
 
 /// What local errors are measured against: absolute·scaleᵢ + relative·|qᵢ|.
 #[derive(Clone, Copy, Debug, PartialEq)]
