@@ -135,13 +135,18 @@ fn stability(system: &mut dyn System, t: f64) -> Vec<Vec<String>> {
     let limit = |started: Result<(), StepError>, limit: Option<StabilityLimit>| {
         let at = format!("t = {t} s");
         match (started, limit) {
-            (Ok(()), Some(limit)) => {
+            (Ok(()), Some(limit)) if limit.step.is_finite() => {
                 let text =
                     format!("{:.4e} s at {at} (largest frequency {:.4e} rad/s)", limit.step, limit.frequency);
                 row(&format!("stable step, {}", limit.method), text)
             }
             (Err(error), _) => row("stable step", format!("none at {at}: {error}")),
-            (Ok(()), None) => row("stable step", format!("any at {at}")),
+            (Ok(()), _) => row(
+                "stable step",
+                format!(
+                    "unknown at {at}: no frequency above zero, the centrifugal force outgrows the stiffness"
+                ),
+            ),
         }
     };
     let started = runge_kutta.start(system, &mut state, f64::MIN_POSITIVE);

@@ -9,8 +9,8 @@ const SINGLE: [(&str, &str); 5] = [
     ("tip.deflection", "Tip deflection w₂"),
     ("tip.axial", "Axial displacement"),
     ("hub.speed", "Hub speed"),
-    ("hub.angle", "Hub angle θ"),
     ("hub.torque", "Hub torque τ"),
+    ("hub.angle", "Hub angle θ"),
 ];
 
 /// Energies, in the order of the legend; small ones get a panel of their own.
