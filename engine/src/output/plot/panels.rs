@@ -14,12 +14,8 @@ const SINGLE: [(&str, &str); 5] = [
 ];
 
 /// Energies, in the order of the legend; small ones get a panel of their own.
-const ENERGIES: [(&str, &str); 4] = [
-    ("energy.kinetic", "kinetic"),
-    ("energy.strain", "strain"),
-    ("energy.gravity", "gravity"),
-    ("energy.total", "total"),
-];
+const ENERGIES: [(&str, &str); 3] =
+    [("energy.kinetic", "kinetic"), ("energy.strain", "strain"), ("energy.gravity", "gravity")];
 
 /// Energies below this fraction of the largest cannot be read in the same panel.
 const READABLE: f64 = 0.05;
