@@ -117,8 +117,11 @@ fn no_step_of_a_hub_and_beam_allocates() {
     let quadratic = "basis={kind='finite-elements',elements=2,axial-degree=2}";
     let modes = "basis={kind='modes',axial=3,transverse=3}";
     let radial = "basis={kind='radial',nodes=7}";
+    let polynomial = "basis={kind='polynomial',nodes=9}";
+    let splines = "basis={kind='b-spline',elements=6,degree=3}";
+    let bezier = "basis={kind='bezier',elements=2,degree=4}";
     let mixed = "basis={kind='mixed',axial={kind='radial',nodes=7},transverse={kind='modes',count=2}}";
-    let linear = [elements, quadratic, modes, radial, mixed];
+    let linear = [elements, quadratic, modes, radial, polynomial, splines, bezier, mixed];
     let couplings: [(&str, &[&str]); 3] =
         [("zeroth", &linear), ("first", &linear), ("exact", &[elements, "basis.elements=2"])];
     for folder in ["p1_spin_up_4", "p3_n2_spin_up_4"] {

@@ -67,7 +67,7 @@ pub struct RadialBasis {
     pub degree: Option<usize>,
 }
 
-const MOST: i64 = 100_000;
+const MOST: i64 = 1_000_000;
 
 const ELEMENTS: Key =
     key("elements", Type::Integer(1, MOST), Default::Integer(10), "number of equal elements over the length");

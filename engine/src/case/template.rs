@@ -53,6 +53,24 @@ output = { step = "5 ms", stations = ["1 m"] }
 "#,
     },
     Template {
+        name: "free-hub",
+        summary: "an arm on a hub that a controller turns to a target angle",
+        text: r#"
+title = "A flexible arm turned by a controller"
+beam = { length = "1 m" }
+section = { kind = "rectangle", modulus = "70 GPa", density = "2700 kg/m^3", width = "20 mm", height = "2 mm" }
+model = { coupling = "first" }
+basis = { kind = "finite-elements", elements = 10 }
+integrator = { kind = "radau", tolerance = 1e-6 }
+run = { duration = "5 s" }
+output = { step = "0.01 s" }
+[hub]
+radius = "50 mm"
+inertia = "0.05 kg*m^2"
+motion = { kind = "free", damping = "0.01 N*m*s/rad", controller = { kind = "pd", proportional = "2 N*m/rad", derivative = "0.6 N*m*s/rad", target = "60 deg", rate = "1 rad/s", limit = "1 N*m" } }
+"#,
+    },
+    Template {
         name: "graded",
         summary: "a beam graded over its height from metal to ceramic, spun up on a hub",
         text: r#"
