@@ -5,6 +5,7 @@
 //! `rad/s` are angular speeds and `Hz` is not. Decimal units shift the exponent of the number before
 //! it is read, so that `"70 GPa"` is exactly the number `70e9`.
 
+use crate::nearest::nearest;
 use std::ops::Range;
 
 /// Exponents of length, mass, time and angle.
@@ -354,7 +355,7 @@ impl Parser<'_> {
                 }
                 self.at += length;
                 let name = &rest[..length];
-                named(name).ok_or_else(|| (start..self.at, format!("unknown unit `{name}`")))?
+                named(name).ok_or_else(|| (start..self.at, unknown(name)))?
             }
         };
         Ok((scale, self.power()?))
@@ -389,6 +390,23 @@ impl Parser<'_> {
             Ok(power) if (-9..=9).contains(&power) && power != 0 => Ok(power),
             _ => Err((start..self.at, "a power is an integer from 1 to 9, or negative".to_owned())),
         }
+    }
+}
+
+/// That there is no unit of this name, and the one that was likely meant.
+fn unknown(name: &str) -> String {
+    let prefixed = UNITS.iter().filter(|unit| unit.prefixes);
+    let prefixed =
+        prefixed.flat_map(|u| PREFIXES.iter().map(move |(prefix, _)| format!("{prefix}{}", u.name)));
+    let names: Vec<String> = UNITS.iter().map(|unit| unit.name.to_owned()).chain(prefixed).collect();
+    // Most often only a letter is of the wrong size: `Gpa`, `KG`.
+    let same = names.iter().find(|known| known.to_lowercase() == name.to_lowercase());
+    // A single letter is near to every other one.
+    let near = || nearest(name, names.iter().map(String::as_str)).filter(|_| name.chars().nth(1).is_some());
+    let meant = same.map(String::as_str).or_else(near);
+    match meant {
+        Some(meant) => format!("unknown unit `{name}`; did you mean `{meant}`?"),
+        None => format!("unknown unit `{name}`"),
     }
 }
 

@@ -72,7 +72,9 @@ fn a_wrong_unit_is_named_where_it_stands() {
         ("5 m/", &LENGTH, 4..4, "expected a unit"),
         ("5 (m", &LENGTH, 2..4, "not closed"),
         ("5 m)", &LENGTH, 3..4, "expected a unit"),
-        ("5 fft", &LENGTH, 2..5, "unknown unit `fft`"),
+        ("5 fft", &LENGTH, 2..5, "unknown unit `fft`; did you mean `ft`?"),
+        ("5 MM", &LENGTH, 2..4, "did you mean `Mm`?"),
+        ("5 kilogram", &LENGTH, 2..10, "unknown unit `kilogram`"),
         ("5 m^9^9", &LENGTH, 5..6, "expected a unit"),
     ] {
         let error = parse(text, measure).unwrap_err();
