@@ -188,7 +188,7 @@ fn size(system: &dyn System) -> ProblemSize {
         Structure::Dense { order } => {
             ProblemSize { unknowns, half_bandwidth: order.saturating_sub(1), border: 0 }
         }
-        Structure::Band { lower, upper, border, .. } => {
+        Structure::Band { lower, upper, border, .. } | Structure::Condensed { lower, upper, border, .. } => {
             ProblemSize { unknowns, half_bandwidth: lower.max(upper), border }
         }
     }

@@ -3,11 +3,11 @@
 use super::fields::Fields;
 use super::inertia::{Border, Inertia, Totals};
 use super::station::{Placement, Station};
-use crate::linalg::Storage;
+use crate::linalg::{Storage, Structure};
 use crate::profile::HubKinematics;
 use crate::system::{State, Weights};
 
-/// A kinematic model of the beam: everything that differs between `zeroth`, `first` and `exact`.
+/// A kinematic model of the beam: everything that differs between `zeroth`, `first`, `high` and `exact`.
 ///
 /// The hub–beam system is generic over its coupling, so these calls are static.
 pub trait Coupling {
@@ -19,6 +19,11 @@ pub trait Coupling {
 
     /// The constant matrices: the whole model if [`Coupling::is_affine`].
     fn inertia(&self) -> &Inertia;
+
+    /// Structure of the tangent, with `border` unknowns of a hub behind.
+    fn structure(&self, border: usize) -> Structure {
+        self.fields().structure(border)
+    }
 
     /// Whether [`Coupling::inertia`] is the whole model.
     fn is_affine(&self) -> bool;

@@ -259,6 +259,7 @@ impl Element {
                     match out {
                         Storage::Dense(out) => out.add(i, j, *x),
                         Storage::Band(out) => out.add(i, j, *x),
+                        Storage::Condensed(out) => out.add(i, j, *x),
                     }
                 }
             }

@@ -172,7 +172,9 @@ impl Inertia {
         let (mut gyroscopic, mut stiffening, mut symmetric) = (new(), new(), new());
         let half = match structure {
             Structure::Dense { order } => order,
-            Structure::Band { lower, upper, .. } => lower.max(upper),
+            Structure::Band { lower, upper, .. } | Structure::Condensed { lower, upper, .. } => {
+                lower.max(upper)
+            }
         };
         for i in 0..n {
             for j in i.saturating_sub(half)..(i + half + 1).min(n) {
@@ -373,6 +375,7 @@ fn largest(matrix: &Matrix) -> f64 {
     let entries = match matrix.storage() {
         Storage::Dense(a) => a.data(),
         Storage::Band(a) => a.band().data(),
+        Storage::Condensed(a) => a.whole().band().data(),
     };
     entries.iter().fold(0.0, |m, x| x.abs().max(m))
 }

@@ -25,6 +25,7 @@ const LARGEST_STRETCH: f64 = 0.5;
 /// A beam whose equations are linear in the unknowns. See the [module documentation](self).
 #[derive(Debug)]
 pub struct LinearCoupling {
+    name: &'static str,
     foreshortening: Foreshortening,
     fields: Fields,
     inertia: Inertia,
@@ -72,7 +73,16 @@ impl LinearCoupling {
             let values = index.iter().enumerate().filter(|(i, _)| basis.role(*i) != Role::Slope);
             bounds.extend(values.map(|(_, &number)| (number, bound)));
         }
-        LinearCoupling { foreshortening, fields, inertia, slopes, bounds }
+        let name = match foreshortening {
+            Foreshortening::None => "zeroth",
+            Foreshortening::First => "first",
+        };
+        LinearCoupling { name, foreshortening, fields, inertia, slopes, bounds }
+    }
+
+    /// The coupling as the linear part of another one, by whose name its messages call it.
+    pub(super) fn named(self, name: &'static str) -> LinearCoupling {
+        LinearCoupling { name, ..self }
     }
 
     /// Whether K − ω² D is positive definite.
@@ -98,10 +108,7 @@ impl LinearCoupling {
 
 impl Coupling for LinearCoupling {
     fn name(&self) -> &'static str {
-        match self.foreshortening {
-            Foreshortening::None => "zeroth",
-            Foreshortening::First => "first",
-        }
+        self.name
     }
 
     fn fields(&self) -> &Fields {

@@ -8,12 +8,14 @@
 //! |---|---|---|
 //! | [`zeroth`](LinearCoupling) | small displacements on a rigidly turning beam | θ̇ nears the first frequency |
 //! | [`first`](LinearCoupling) | foreshortening, to first order in the kinetic energy | deflections are no longer small |
+//! | [`high`](HighCoupling) | the same foreshortening, to every order in the kinetic energy | the same |
 //! | [`exact`](ExactCoupling) | everything but shear | strains are no longer small |
 
 mod coupling;
 mod element;
 mod exact;
 mod fields;
+mod high;
 mod hub;
 mod inertia;
 mod linear;
@@ -27,6 +29,7 @@ mod turn;
 pub use coupling::Coupling;
 pub use exact::ExactCoupling;
 pub use fields::{Fields, Point, Shapes};
+pub use high::HighCoupling;
 pub use hub::{Controller, Drive, FreeHub, Hub, Torque};
 pub use inertia::{Border, Foreshortening, Inertia, Scratch, Totals};
 pub use linear::LinearCoupling;

@@ -58,7 +58,7 @@ impl Bundle {
         let most = order.saturating_sub(1);
         let (width, advance, lead) = match *structure {
             Structure::Dense { .. } => (order, 0, 0),
-            Structure::Band { lower, upper, .. } => {
+            Structure::Band { lower, upper, .. } | Structure::Condensed { lower, upper, .. } => {
                 (lower.min(most) + upper.min(most) + 1, 1, lower.min(most))
             }
         };
@@ -141,12 +141,50 @@ impl Bundle {
 
     /// Writes Σ wₖ Aₖ over the content of `out`, border aside.
     pub(super) fn write_sum(&self, weights: [f64; TERMS], out: &mut Storage<f64>) {
-        self.sum(weights, out, |out, x| *out = x);
+        if self.fits(out) {
+            return self.sum(weights, out, |out, x| *out = x);
+        }
+        match out {
+            Storage::Dense(a) => a.clear(),
+            Storage::Band(a) => a.clear(),
+            Storage::Condensed(a) => a.clear(),
+        }
+        self.scatter_sum(weights, out);
     }
 
     /// Adds Σ wₖ Aₖ to `out`.
     pub(super) fn add_sum(&self, weights: [f64; TERMS], out: &mut Storage<f64>) {
-        self.sum(weights, out, |out, x| *out += x);
+        if self.fits(out) {
+            return self.sum(weights, out, |out, x| *out += x);
+        }
+        self.scatter_sum(weights, out);
+    }
+
+    /// Whether the rows lie in `out` as they lie here.
+    fn fits(&self, out: &Storage<f64>) -> bool {
+        match out {
+            Storage::Dense(_) => self.advance == 0,
+            Storage::Band(_) => self.advance == 1,
+            Storage::Condensed(_) => false,
+        }
+    }
+
+    /// Adds Σ wₖ Aₖ to a storage of another kind, entry by entry.
+    fn scatter_sum(&self, w: [f64; TERMS], out: &mut Storage<f64>) {
+        for (i, row) in self.data.chunks_exact((self.width * self.terms).max(1)).enumerate() {
+            for (j, a) in row.chunks_exact(self.terms).enumerate() {
+                let Some(column) = (self.advance * i + j).checked_sub(self.lead) else { continue };
+                // What is zero in all of them may lie outside the band of `out`.
+                if column < self.order && a.iter().any(|a| *a != 0.0) {
+                    let x = a.iter().zip(&w).map(|(a, w)| a * w).sum();
+                    match out {
+                        Storage::Dense(out) => out.add(i, column, x),
+                        Storage::Band(out) => out.add(i, column, x),
+                        Storage::Condensed(out) => out.add(i, column, x),
+                    }
+                }
+            }
+        }
     }
 
     #[inline(always)]
@@ -154,10 +192,12 @@ impl Bundle {
         let stride = match out {
             Storage::Dense(a) => a.order(),
             Storage::Band(a) => a.band().width(),
+            Storage::Condensed(_) => return,
         };
         let out = match out {
             Storage::Dense(a) => a.data_mut(),
             Storage::Band(a) => a.band_mut().data_mut(),
+            Storage::Condensed(_) => return,
         };
         let rows = self.data.chunks_exact((self.width * self.terms).max(1));
         for (out, row) in out.chunks_exact_mut(stride.max(1)).zip(rows) {

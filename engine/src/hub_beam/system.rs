@@ -134,6 +134,7 @@ impl<C: Coupling> HubBeam<C> {
                 a.row_mut(0).copy_from_slice(&border.row);
                 a.set_corner(0, 0, border.corner);
             }
+            Storage::Condensed(a) => a.set_border(0, &border.column, &border.row, border.corner),
         }
     }
 }
@@ -177,7 +178,7 @@ impl<C: Coupling> System for HubBeam<C> {
     }
 
     fn structure(&self) -> Structure {
-        self.coupling.fields().structure(self.hub.unknowns())
+        self.coupling.structure(self.hub.unknowns())
     }
 
     fn labels(&self) -> &[Label] {

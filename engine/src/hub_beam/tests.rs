@@ -8,17 +8,17 @@ use crate::section::{Resultants, Section};
 use crate::system::{State, System, Weights};
 use std::sync::Arc;
 
-const LENGTH: f64 = 2.0;
-const RADIUS: f64 = 0.3;
+pub(super) const LENGTH: f64 = 2.0;
+pub(super) const RADIUS: f64 = 0.3;
 
 /// Two rows of fibres of different mass and stiffness, which vary along the beam: every resultant is
 /// non-zero, and the equations can be written fibre by fibre.
 #[derive(Debug)]
-struct TwoFibres;
+pub(super) struct TwoFibres;
 
 impl TwoFibres {
     /// (height, mass per length, axial stiffness) of each fibre.
-    fn fibres(x: f64) -> [(f64, f64, f64); 2] {
+    pub(super) fn fibres(x: f64) -> [(f64, f64, f64); 2] {
         [(-0.05, 1.5 + 0.2 * x, 900.0), (0.11, 0.8 - 0.1 * x, 1300.0 + 100.0 * x)]
     }
 }
@@ -38,13 +38,13 @@ impl Section for TwoFibres {
     }
 }
 
-fn hub() -> Hub {
+pub(super) fn hub() -> Hub {
     let formula = "0.4 + 1.3*t + 0.35*t^2";
     Hub::prescribed(RADIUS, 0.7, Motion::Angle(Arc::new(Expression::new(formula, "t", 10.0).unwrap())))
 }
 
 /// A hub with everything that can turn it.
-fn free_hub() -> Hub {
+pub(super) fn free_hub() -> Hub {
     let profile = |text: &str| Arc::new(Expression::new(text, "t", 10.0).unwrap());
     let controller = Controller {
         proportional: 3.0,
@@ -97,6 +97,8 @@ fn systems() -> Vec<Box<dyn System>> {
     for hub in [hub(), free_hub()] {
         systems.push(Box::new(linear_on(hub.clone(), Foreshortening::None)));
         systems.push(Box::new(linear_on(hub.clone(), Foreshortening::First)));
+        let high = HighCoupling::new(fields(3), &TwoFibres, &hub);
+        systems.push(Box::new(HubBeam::new(hub.clone(), high, &[])));
         systems.push(Box::new(exact_on(hub)));
     }
     systems
@@ -111,7 +113,7 @@ fn at<C: Coupling>(system: &HubBeam<C>, t: f64) -> HubKinematics {
 }
 
 /// A smooth, generic state of the given size of deformation.
-fn state(system: &dyn System, size: f64) -> State {
+pub(super) fn state(system: &dyn System, size: f64) -> State {
     let mut s = State::zeros(system.size(), 0.6);
     for i in 0..s.q.len() {
         let x = i as f64;
@@ -122,19 +124,19 @@ fn state(system: &dyn System, size: f64) -> State {
     s
 }
 
-fn residual(system: &mut dyn System, s: &State) -> Vec<f64> {
+pub(super) fn residual(system: &mut dyn System, s: &State) -> Vec<f64> {
     let mut r = vec![0.0; s.v.len()];
     system.residual(s, &mut r);
     r
 }
 
 /// Largest difference over the largest entry of `b`.
-fn relative(a: &[f64], b: &[f64]) -> f64 {
+pub(super) fn relative(a: &[f64], b: &[f64]) -> f64 {
     let scale = b.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
     a.iter().zip(b).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs())) / scale
 }
 
-fn check_tangent(system: &mut dyn System, s: &State) {
+pub(super) fn check_tangent(system: &mut dyn System, s: &State) {
     let n = system.size().v;
     for (wa, wv, wq) in [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (0.3, 0.5, 2.0)] {
         let mut tangent = Matrix::new(&system.structure());
@@ -352,7 +354,7 @@ fn power_of_the_drive_is_the_rate_of_the_energy() {
             }
             system.energy(&moved).total()
         };
-        let h = 1e-4;
+        let h = 2e-5;
         let rate = (energy(-2.0 * h) - 8.0 * energy(-h) + 8.0 * energy(h) - energy(2.0 * h)) / (12.0 * h);
         let power = system.power(&s);
         assert!((rate - power).abs() < 1e-6 * rate.abs().max(1.0), "{rate} {power}");

@@ -109,6 +109,25 @@ impl<T: Scalar> Band<T> {
         self.data[i * self.width + j + self.lower - i] += x;
     }
 
+    /// Sets entry (i, j), which must lie within the band.
+    #[inline]
+    pub fn set(&mut self, i: usize, j: usize, x: T) {
+        debug_assert!(j + self.lower >= i && j <= i + self.upper, "({i}, {j}) is outside the band");
+        self.data[i * self.width + j + self.lower - i] = x;
+    }
+
+    /// Row i times x, before factoring.
+    pub fn row_times(&self, i: usize, x: &[T]) -> T {
+        let first = i.saturating_sub(self.lower);
+        let last = (i + self.upper + 1).min(self.n);
+        let row = &self.data[i * self.width + first + self.lower - i..];
+        let mut sum = T::ZERO;
+        for (a, x) in row.iter().zip(&x[first..last]) {
+            sum += *a * *x;
+        }
+        sum
+    }
+
     /// The `N` entries of row `i` from column `first` on, which must lie within the band.
     #[inline]
     pub fn run_mut<const N: usize>(&mut self, i: usize, first: usize) -> &mut [T] {
@@ -159,6 +178,7 @@ impl<T: Scalar> Band<T> {
             (3, 3) => self.eliminate::<3, 10>(deflate),
             (5, 5) => self.eliminate::<5, 16>(deflate),
             (7, 7) => self.eliminate::<7, 22>(deflate),
+            (9, 9) => self.eliminate::<9, 28>(deflate),
             _ => self.eliminate_from(0, deflate),
         }
     }
@@ -285,6 +305,7 @@ impl<T: Scalar> Band<T> {
             3 => self.forward_by_rows::<3>(b),
             5 => self.forward_by_rows::<5>(b),
             7 => self.forward_by_rows::<7>(b),
+            9 => self.forward_by_rows::<9>(b),
             _ => self.forward_by_rows::<0>(b),
         }
     }
@@ -332,6 +353,7 @@ impl<T: Scalar> Band<T> {
             3 => self.backward_by_rows::<3>(b),
             5 => self.backward_by_rows::<5>(b),
             7 => self.backward_by_rows::<7>(b),
+            9 => self.backward_by_rows::<9>(b),
             _ => self.backward_by_rows::<0>(b),
         }
     }

@@ -7,7 +7,7 @@ use super::Matrix;
 pub fn negative_pivots(a: &Matrix, b: &Matrix, w: f64) -> usize {
     let n = a.order();
     let half = match a.storage() {
-        super::Storage::Dense(_) => n.saturating_sub(1),
+        super::Storage::Dense(_) | super::Storage::Condensed(_) => n.saturating_sub(1),
         super::Storage::Band(m) => m.band().upper(),
     };
     // Rows of the upper triangle of the last `half` pivots, as a ring.

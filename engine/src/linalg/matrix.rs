@@ -1,10 +1,11 @@
 //! The matrix an integrator owns and a system fills.
 
-use super::{Bordered, Dense, Scalar, Singular};
+use super::{Bordered, Condensed, Dense, Places, Scalar, Singular};
 use num_complex::Complex64;
+use std::sync::Arc;
 
 /// Shape of a system's tangent.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Structure {
     /// Dense of the given order.
     Dense {
@@ -15,6 +16,17 @@ pub enum Structure {
     Band {
         /// Order of the band part.
         order: usize,
+        /// Half-bandwidth below the diagonal.
+        lower: usize,
+        /// Half-bandwidth above the diagonal.
+        upper: usize,
+        /// Number of dense rows and columns behind the band.
+        border: usize,
+    },
+    /// Band with hidden unknowns and dense border rows and columns behind: see [`Condensed`].
+    Condensed {
+        /// Places of visible and hidden unknowns in the band.
+        places: Arc<Places>,
         /// Half-bandwidth below the diagonal.
         lower: usize,
         /// Half-bandwidth above the diagonal.
@@ -35,11 +47,12 @@ impl Structure {
         Structure::Band { order: n, lower, upper, border }
     }
 
-    /// Order of the whole matrix.
+    /// Order of the whole matrix, hidden unknowns aside.
     pub fn order(&self) -> usize {
-        match *self {
-            Structure::Dense { order } => order,
+        match self {
+            Structure::Dense { order } => *order,
             Structure::Band { order, border, .. } => order + border,
+            Structure::Condensed { places, border, .. } => places.visible.len() + border,
         }
     }
 
@@ -48,6 +61,12 @@ impl Structure {
         match self {
             Structure::Band { order, lower, upper, border } if 2 * lower + upper + 1 >= order => {
                 Structure::dense(order + border)
+            }
+            // Factors cost N·lower·upper with hidden unknowns, n³/3 without.
+            Structure::Condensed { ref places, lower, upper, border }
+                if 3 * places.len() * lower * upper >= places.visible.len().pow(3) =>
+            {
+                Structure::dense(places.visible.len() + border)
             }
             other => other,
         }
@@ -68,7 +87,7 @@ pub struct Matrix<T = f64> {
     factored: bool,
 }
 
-/// The two storages.
+/// The storages.
 #[derive(Clone, Debug)]
 #[allow(clippy::large_enum_variant)] // one a matrix, never in a collection
 pub enum Storage<T> {
@@ -76,6 +95,8 @@ pub enum Storage<T> {
     Dense(Dense<T>),
     /// Band with border.
     Band(Bordered<T>),
+    /// Band with hidden unknowns and border.
+    Condensed(Condensed<T>),
 }
 
 impl<T: Scalar> Matrix<T> {
@@ -86,6 +107,9 @@ impl<T: Scalar> Matrix<T> {
             Structure::Band { order, lower, upper, border } => {
                 Storage::Band(Bordered::new(order, lower, upper, border))
             }
+            Structure::Condensed { ref places, lower, upper, border } => {
+                Storage::Condensed(Condensed::new(places.clone(), lower, upper, border))
+            }
         };
         Matrix { storage, stamp: None, parts: None, factored: false }
     }
@@ -95,6 +119,7 @@ impl<T: Scalar> Matrix<T> {
         match &self.storage {
             Storage::Dense(a) => a.order(),
             Storage::Band(a) => a.order(),
+            Storage::Condensed(a) => a.order(),
         }
     }
 
@@ -116,6 +141,7 @@ impl<T: Scalar> Matrix<T> {
         match self.begin() {
             Storage::Dense(a) => a.clear(),
             Storage::Band(a) => a.clear(),
+            Storage::Condensed(a) => a.clear(),
         }
     }
 
@@ -139,11 +165,12 @@ impl<T: Scalar> Matrix<T> {
         self.factored
     }
 
-    /// Entry (i, j).
+    /// Entry (i, j). With hidden unknowns O(n) a call, and only before factoring.
     pub fn get(&self, i: usize, j: usize) -> T {
         match &self.storage {
             Storage::Dense(a) => a.get(i, j),
             Storage::Band(a) => a.get(i, j),
+            Storage::Condensed(a) => a.get(i, j),
         }
     }
 
@@ -153,6 +180,7 @@ impl<T: Scalar> Matrix<T> {
         match &mut self.storage {
             Storage::Dense(a) => a.add(i, j, x),
             Storage::Band(a) => a.add(i, j, x),
+            Storage::Condensed(a) => a.add(i, j, x),
         }
     }
 
@@ -162,6 +190,7 @@ impl<T: Scalar> Matrix<T> {
         match &self.storage {
             Storage::Dense(a) => a.multiply(x, y),
             Storage::Band(a) => a.multiply(x, y),
+            Storage::Condensed(a) => a.multiply(x, y),
         }
     }
 
@@ -173,6 +202,7 @@ impl<T: Scalar> Matrix<T> {
         let result = match &mut self.storage {
             Storage::Dense(a) => a.factor(),
             Storage::Band(a) => a.factor(),
+            Storage::Condensed(a) => a.factor(),
         };
         if result.is_err() {
             self.stamp = None;
@@ -189,6 +219,7 @@ impl<T: Scalar> Matrix<T> {
         match &mut self.storage {
             Storage::Dense(a) => a.solve(b),
             Storage::Band(a) => a.solve(b),
+            Storage::Condensed(a) => a.solve(b),
         }
     }
 }
@@ -208,6 +239,9 @@ impl Matrix<Complex64> {
                 }
             }
             (Storage::Band(a), Storage::Band(re), Storage::Band(im)) => a.combine(re, im, Complex64::new),
+            (Storage::Condensed(a), Storage::Condensed(re), Storage::Condensed(im)) => {
+                a.combine(re, im, Complex64::new);
+            }
             _ => debug_assert!(false, "structures differ"),
         }
         self.parts = parts;

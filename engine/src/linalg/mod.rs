@@ -5,6 +5,7 @@
 
 mod band;
 mod bordered;
+mod condensed;
 mod dense;
 mod inertia;
 mod matrix;
@@ -14,6 +15,7 @@ mod tests;
 
 pub use band::Band;
 pub use bordered::Bordered;
+pub use condensed::{Condensed, Places};
 pub use dense::Dense;
 pub use inertia::negative_pivots;
 pub use matrix::{Matrix, Stamp, Storage, Structure};

@@ -1,0 +1,168 @@
+//! Coupling `high`: the foreshortening kept to every order in the kinetic energy.
+//!
+//! The kinematics are those of the first-order coupling, X = R + w₁ + w_c, Y = w₂, R = a + x,
+//! w_c = −½ ∫₀ˣ w₂′² dξ; but nothing of ½∫ρA [(Ẋ − ωY)² + (Ẏ + ωX)²] dx is dropped (P3 equations 28–36). The
+//! part that is quadratic in the unknowns stands in [`Inertia`]; what is beyond it is
+//!
+//! ```text
+//! T − T_first = ∫ρA [ ẇ₁ẇ_c + ½ẇ_c² + ω (w_c ẇ₂ − w₂ ẇ_c) + ½ω² (2w₁w_c + w_c²) ] dx
+//! ```
+//!
+//! and its forces, with α = Ẍ − ω̇Y − 2ωẎ − ω²(X − R) and its tail N = ∫ₓᴸ ρA α dξ,
+//!
+//! ```text
+//! on w₁    ∫ρA (ẅ_c − ω²w_c) φx dx
+//! on w₂    ∫ρA (ω̇ w_c + 2ω ẇ_c) φy dx − ∫ N w₂′ φy′ dx
+//! on θ     ∫ρA [ ω̇ (2w₁w_c + w_c²) + 2ω (ẇ₁w_c + w₁ẇ_c + w_cẇ_c) + w_cẅ₂ − w₂ẅ_c ] dx
+//! ```
+//!
+//! w_c and its rates are running sums over the quadrature points from the root to the tip, N is one from the
+//! tip to the root: O(n). The tangent is full, but it too is made of running sums: see [`tangent`]. Rotary
+//! inertia ρI and first mass moment ρS are kept to second order, as in the first-order coupling.
+
+mod sums;
+mod tangent;
+#[cfg(test)]
+mod tests;
+
+use super::coupling::Coupling;
+use super::fields::Fields;
+use super::hub::Hub;
+use super::inertia::{Border, Foreshortening, Inertia, Totals};
+use super::linear::LinearCoupling;
+use super::station::{Placement, Station};
+use crate::linalg::{Storage, Structure};
+use crate::profile::HubKinematics;
+use crate::section::Section;
+use crate::system::{State, Weights};
+use sums::{Point, Sums};
+use tangent::Tangent;
+
+/// A beam with the foreshortening to every order. See the [module documentation](self).
+#[derive(Debug)]
+pub struct HighCoupling {
+    /// The part that is quadratic in the unknowns.
+    linear: LinearCoupling,
+    sums: Sums,
+    tangent: Tangent,
+}
+
+impl HighCoupling {
+    /// The coupling over `fields`, on a hub.
+    pub fn new(fields: Fields, section: &dyn Section, hub: &Hub) -> HighCoupling {
+        let sums = Sums::new(&fields, section);
+        let tangent = Tangent::new(&fields, &sums);
+        let linear = LinearCoupling::new(fields, section, hub, Foreshortening::First).named("high");
+        HighCoupling { linear, sums, tangent }
+    }
+}
+
+/// α: the axial acceleration of the axis without the −ω²R that [`Inertia`] has.
+fn axial_acceleration(p: &Point, hub: &HubKinematics) -> f64 {
+    let (om, al) = (hub.speed, hub.acceleration);
+    (p.w1[2] + p.wc[2]) - al * p.w2[0] - 2.0 * om * p.w2[1] - om * om * (p.w1[0] + p.wc[0])
+}
+
+impl Coupling for HighCoupling {
+    fn name(&self) -> &'static str {
+        "high"
+    }
+
+    fn fields(&self) -> &Fields {
+        self.linear.fields()
+    }
+
+    fn inertia(&self) -> &Inertia {
+        self.linear.inertia()
+    }
+
+    fn is_affine(&self) -> bool {
+        false
+    }
+
+    fn structure(&self, border: usize) -> Structure {
+        self.tangent.structure(border)
+    }
+
+    fn add_forces(&mut self, s: &State, hub: &HubKinematics, r: &mut [f64]) {
+        let (om, al) = (hub.speed, hub.acceleration);
+        self.sums.follow(s);
+        self.sums.scatter(r, |p| {
+            let on_axial = p.wc[2] - om * om * p.wc[0];
+            let on_transverse = al * p.wc[0] + 2.0 * om * p.wc[1];
+            ([on_axial, on_transverse], [axial_acceleration(p, hub)])
+        });
+    }
+
+    fn add_tangent(&mut self, s: &State, hub: &HubKinematics, w: &Weights<'_>, out: &mut Storage<f64>) {
+        self.sums.follow(s);
+        self.tangent.add(&self.sums, hub, w, out);
+    }
+
+    fn strain(&mut self, s: &State) -> f64 {
+        self.linear.strain(s)
+    }
+
+    fn extra_totals(&mut self, s: &State, hub: &HubKinematics) -> Totals {
+        let (om, al) = (hub.speed, hub.acceleration);
+        self.sums.follow(s);
+        let mut totals = Totals::default();
+        self.sums.each(|m, Point { w1, w2, wc }| {
+            let moment = (2.0 * w1[0] + wc[0]) * wc[0];
+            let relative = wc[0] * w2[1] - w2[0] * wc[1];
+            let rate = w1[1] * wc[0] + (w1[0] + wc[0]) * wc[1];
+            totals.kinetic += m * ((w1[1] + 0.5 * wc[1]) * wc[1] + om * relative + 0.5 * om * om * moment);
+            totals.momentum += m * (relative + om * moment);
+            totals.torque += m * (al * moment + 2.0 * om * rate + wc[0] * w2[2] - w2[0] * wc[2]);
+        });
+        totals
+    }
+
+    fn add_border(&mut self, s: &State, hub: &HubKinematics, w: &Weights<'_>, out: &mut Border) {
+        let (om, al) = (hub.speed, hub.acceleration);
+        self.sums.follow(s);
+        // The forces by ω and ω̇.
+        self.sums.scatter(&mut out.column, |p| {
+            let on_axial = -2.0 * om * w.v * p.wc[0];
+            let on_transverse = w.a * p.wc[0] + 2.0 * w.v * p.wc[1];
+            let axial = -w.a * p.w2[0] - 2.0 * w.v * p.w2[1] - 2.0 * om * w.v * (p.w1[0] + p.wc[0]);
+            ([on_axial, on_transverse], [axial])
+        });
+        // The torque by w₁, w₂ and by w_c, ẇ_c, ẅ_c, whose increments are −∫ w₂′δw₂′, −∫ ẇ₂′δw₂′ + w₂′δẇ₂′,
+        // −∫ ẅ₂′δw₂′ + 2ẇ₂′δẇ₂′ + w₂′δẅ₂′.
+        self.sums.scatter(&mut out.row, |Point { w1, w2, wc }| {
+            let by_axial = 2.0 * w.q * (al * wc[0] + om * wc[1]) + 2.0 * w.v * om * wc[0];
+            let by_transverse = w.a * wc[0] - w.q * wc[2];
+            let by_place = 2.0 * (al * (w1[0] + wc[0]) + om * (w1[1] + wc[1])) + w2[2];
+            let by_speed = 2.0 * om * (w1[0] + wc[0]);
+            let by_acceleration = -w2[0];
+            let tails = [
+                w.q * by_place + w.v * by_speed + w.a * by_acceleration,
+                w.q * by_speed + 2.0 * w.v * by_acceleration,
+                w.q * by_acceleration,
+            ];
+            ([by_axial, by_transverse], tails)
+        });
+        let corner = &mut out.corner;
+        self.sums.each(|m, Point { w1, wc, .. }| {
+            let rate = w1[1] * wc[0] + (w1[0] + wc[0]) * wc[1];
+            *corner += m * (2.0 * w.v * rate + w.a * (2.0 * w1[0] + wc[0]) * wc[0]);
+        });
+    }
+
+    fn placements(&self, s: &State, stations: &[Station], out: &mut [Placement]) {
+        self.linear.placements(s, stations, out);
+    }
+
+    fn admissible(&mut self, s: &State) -> Result<(), String> {
+        self.linear.admissible(s)
+    }
+
+    fn caution(&self, deflection: f64) -> Option<String> {
+        self.linear.caution(deflection)
+    }
+
+    fn critical_speed(&self, speed: f64) -> Option<f64> {
+        self.linear.critical_speed(speed)
+    }
+}

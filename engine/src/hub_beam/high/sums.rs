@@ -1,0 +1,248 @@
+//! Running sums over the quadrature points of a beam: the foreshortening w_c from the root to the tip, tails
+//! of axial forces from the tip to the root.
+//!
+//! Inside a cell of length h the integral up to a point is that of the polynomial through the values at the
+//! Gauss points, ∫₀^{ξ_g} f dx = h Σ_k S_gk f_k. Tails use the transposed rule, so that the forces are exactly
+//! the derivatives of the kinetic energy that these sums define.
+
+use crate::hub_beam::fields::{Fields, Shapes};
+use crate::quadrature::Gauss;
+use crate::section::Section;
+use crate::system::State;
+
+/// Value, velocity and acceleration.
+pub type Rates = [f64; 3];
+
+/// The axis at a point.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Point {
+    /// Axial stretch w₁ \[m\] and its rates.
+    pub w1: Rates,
+    /// Deflection w₂ \[m\] and its rates.
+    pub w2: Rates,
+    /// Foreshortening w_c \[m\] and its rates.
+    pub wc: Rates,
+}
+
+/// A cell: unknowns and shapes at its points, by rows.
+#[derive(Clone, Debug)]
+pub struct Cell {
+    /// Length h \[m\].
+    pub length: f64,
+    /// Unknowns of the axial and of the transverse functions.
+    pub axial: Vec<usize>,
+    /// Unknowns of the transverse functions.
+    pub transverse: Vec<usize>,
+    /// ρA times the quadrature weight [kg] at each point.
+    pub mass: Vec<f64>,
+    /// φx, φy and φy′ at each point.
+    pub phi_x: Vec<f64>,
+    /// φy at each point.
+    pub phi_y: Vec<f64>,
+    /// φy′ at each point.
+    pub slope: Vec<f64>,
+}
+
+/// The points of a beam and what the running sums give there.
+#[derive(Clone, Debug)]
+pub struct Sums {
+    /// Points of a cell.
+    pub points: usize,
+    /// S by rows, for a cell of unit length.
+    pub partial: Vec<f64>,
+    /// Quadrature weights of a cell of unit length.
+    pub weights: Vec<f64>,
+    /// The cells, root first.
+    pub cells: Vec<Cell>,
+    /// The axis at every point.
+    pub at: Vec<Point>,
+    /// w₂′ and its rates at every point.
+    pub slope: Vec<Rates>,
+    /// Tails at the points of a cell, times the quadrature weight.
+    tension: Vec<Rates>,
+}
+
+/// S_gk = ∫₀^{ξ_g} ℓ_k dξ on the unit cell with Lagrange's polynomials ℓ_k of the Gauss points, through
+/// ℓ_k(z) = w_k Σ_l (2l + 1)/2 P_l(z_k) P_l(z) and ∫₋₁ᶻ P_l = (P_{l+1} − P_{l−1})/(2l + 1), z = 2ξ − 1.
+fn partial_integrals(gauss: &Gauss) -> Vec<f64> {
+    let n = gauss.len();
+    let nodes: Vec<(f64, f64)> = gauss.on(-1.0, 1.0).collect();
+    let legendre = |z: f64| {
+        let mut p = vec![1.0, z];
+        for l in 1..n {
+            let l = l as f64;
+            let next = ((2.0 * l + 1.0) * z * p[p.len() - 1] - l * p[p.len() - 2]) / (l + 1.0);
+            p.push(next);
+        }
+        p
+    };
+    let values: Vec<Vec<f64>> = nodes.iter().map(|&(z, _)| legendre(z)).collect();
+    let mut out = Vec::with_capacity(n * n);
+    for (g, &(z, _)) in nodes.iter().enumerate() {
+        for (k, &(_, w)) in nodes.iter().enumerate() {
+            let mut sum = z + 1.0;
+            for l in 1..n {
+                sum += values[k][l] * (values[g][l + 1] - values[g][l - 1]);
+            }
+            // Half for ℓ_k, half for the unit cell.
+            out.push(0.25 * w * sum);
+        }
+    }
+    out
+}
+
+impl Sums {
+    /// The points of `fields` with the mass of `section`.
+    pub fn new(fields: &Fields, section: &dyn Section) -> Sums {
+        let gauss = fields.gauss();
+        let points = gauss.len();
+        let mut cells: Vec<Cell> = Vec::with_capacity(fields.cells().len());
+        let mut count = 0;
+        let copy = |shapes: &Shapes, d: usize, out: &mut Vec<f64>| out.extend_from_slice(&shapes.value[d]);
+        fields.integrate(|p| {
+            if count % points == 0 {
+                let ends = &fields.cells()[cells.len()..];
+                cells.push(Cell {
+                    length: ends[1] - ends[0],
+                    axial: p.axial.index.clone(),
+                    transverse: p.transverse.index.clone(),
+                    mass: Vec::with_capacity(points),
+                    phi_x: Vec::new(),
+                    phi_y: Vec::new(),
+                    slope: Vec::new(),
+                });
+            }
+            count += 1;
+            let Some(cell) = cells.last_mut() else { return };
+            cell.mass.push(p.weight * section.resultants(p.x).mass);
+            copy(&p.axial, 0, &mut cell.phi_x);
+            copy(&p.transverse, 0, &mut cell.phi_y);
+            copy(&p.transverse, 1, &mut cell.slope);
+        });
+        Sums {
+            points,
+            partial: partial_integrals(gauss),
+            weights: gauss.on(0.0, 1.0).map(|(_, w)| w).collect(),
+            at: vec![Point::default(); cells.len() * points],
+            slope: vec![[0.0; 3]; cells.len() * points],
+            tension: vec![[0.0; 3]; points],
+            cells,
+        }
+    }
+
+    /// Follows the axis of a state from the root to the tip.
+    pub fn follow(&mut self, s: &State) {
+        let p = self.points;
+        // w_c and its rates at the start of the cell.
+        let mut start = [0.0; 3];
+        let cells = self.cells.iter().zip(self.at.chunks_exact_mut(p)).zip(self.slope.chunks_exact_mut(p));
+        for ((cell, at), slope) in cells {
+            let (na, nt) = (cell.axial.len(), cell.transverse.len());
+            at.fill(Point::default());
+            slope.fill([0.0; 3]);
+            for (j, &number) in cell.axial.iter().enumerate() {
+                let x = [s.q[number], s.v[number], s.a[number]];
+                for (at, phi) in at.iter_mut().zip(cell.phi_x.chunks_exact(na)) {
+                    add(&mut at.w1, phi[j], x);
+                }
+            }
+            for (j, &number) in cell.transverse.iter().enumerate() {
+                let x = [s.q[number], s.v[number], s.a[number]];
+                let shapes = cell.phi_y.chunks_exact(nt).zip(cell.slope.chunks_exact(nt));
+                for ((at, slope), (phi, phi1)) in at.iter_mut().zip(slope.iter_mut()).zip(shapes) {
+                    add(&mut at.w2, phi[j], x);
+                    add(slope, phi1[j], x);
+                }
+            }
+            for at in at.iter_mut() {
+                at.wc = start;
+            }
+            for (k, [u, v, a]) in slope.iter().enumerate() {
+                let shortening = [-0.5 * u * u, -u * v, -(v * v + u * a)];
+                for (at, partial) in at.iter_mut().zip(self.partial.chunks_exact(p)) {
+                    add(&mut at.wc, cell.length * partial[k], shortening);
+                }
+                add(&mut start, cell.length * self.weights[k], shortening);
+            }
+        }
+    }
+
+    /// Calls `f` with the mass [kg] and the axis of every point.
+    pub fn each(&self, mut f: impl FnMut(f64, &Point)) {
+        for (cell, at) in self.cells.iter().zip(self.at.chunks_exact(self.points)) {
+            for (m, at) in cell.mass.iter().zip(at) {
+                f(*m, at);
+            }
+        }
+    }
+
+    /// Adds to `r` the forces of accelerations `of`(point) = ([on w₁, on w₂], [along the axis, by N]):
+    /// Σ m a₁ φx, Σ m a₂ φy, and −∫ (N₀ w₂′ + N₁ ẇ₂′ + …) φy′ with the tails N of the last ones.
+    pub fn scatter<const N: usize>(&mut self, r: &mut [f64], of: impl Fn(&Point) -> ([f64; 2], [f64; N])) {
+        let p = self.points;
+        // Tails at the end of the cell.
+        let mut beyond = [0.0; N];
+        for (c, cell) in self.cells.iter().enumerate().rev() {
+            let (na, nt) = (cell.axial.len(), cell.transverse.len());
+            let (at, slope) = (&self.at[c * p..(c + 1) * p], &self.slope[c * p..(c + 1) * p]);
+            for (tension, weight) in self.tension.iter_mut().zip(&self.weights) {
+                for (tension, beyond) in tension.iter_mut().zip(beyond) {
+                    *tension = weight * beyond;
+                }
+            }
+            for (g, (&m, at)) in cell.mass.iter().zip(at).enumerate() {
+                let (on, along) = of(at);
+                for (&i, phi) in cell.axial.iter().zip(&cell.phi_x[g * na..]) {
+                    r[i] += m * on[0] * phi;
+                }
+                for (&i, phi) in cell.transverse.iter().zip(&cell.phi_y[g * nt..]) {
+                    r[i] += m * on[1] * phi;
+                }
+                let along = along.map(|x| m * x);
+                for (tension, partial) in self.tension.iter_mut().zip(&self.partial[g * p..(g + 1) * p]) {
+                    for (tension, along) in tension.iter_mut().zip(along) {
+                        *tension += partial * along;
+                    }
+                }
+                for (beyond, along) in beyond.iter_mut().zip(along) {
+                    *beyond += along;
+                }
+            }
+            for (k, (tension, slope)) in self.tension.iter().zip(slope).enumerate() {
+                let force: f64 = tension.iter().zip(slope).take(N).map(|(n, slope)| n * slope).sum();
+                let force = -cell.length * force;
+                for (&i, phi) in cell.transverse.iter().zip(&cell.slope[k * nt..]) {
+                    r[i] += force * phi;
+                }
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn add(out: &mut Rates, w: f64, x: Rates) {
+    for (out, x) in out.iter_mut().zip(x) {
+        *out += w * x;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn partial_integrals_of_polynomials_are_exact() {
+        for n in [1, 2, 6, 13, 30] {
+            let gauss = Gauss::new(n);
+            let s = partial_integrals(&gauss);
+            let nodes: Vec<f64> = gauss.on(0.0, 1.0).map(|(x, _)| x).collect();
+            for degree in 0..n {
+                for (g, x) in nodes.iter().enumerate() {
+                    let sum: f64 = (0..n).map(|k| s[g * n + k] * nodes[k].powi(degree as i32)).sum();
+                    let exact = x.powi(degree as i32 + 1) / (degree as f64 + 1.0);
+                    assert!((sum - exact).abs() < 1e-14, "{n} points, degree {degree}: {sum} {exact}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,275 @@
+//! The high-order coupling against an energy written down apart from it, finite differences and itself.
+
+use super::HighCoupling;
+use crate::basis::{
+    BSpline, Basis, Bezier, Field, Hermite, Lagrange, Modes, Polynomial, PolynomialParameters, Radial,
+    RadialParameters,
+};
+use crate::hub_beam::tests::{
+    LENGTH, RADIUS, TwoFibres, check_tangent, free_hub, hub, relative, residual, state,
+};
+use crate::hub_beam::{Coupling, Drive, Fields, Foreshortening, Hub, HubBeam, LinearCoupling};
+use crate::linalg::{Dense, Matrix, Structure};
+use crate::quadrature::Gauss;
+use crate::section::{Resultants, Section};
+use crate::system::{State, System, Weights};
+use num_complex::Complex64;
+
+/// ρA of the two fibres and nothing else.
+#[derive(Debug)]
+struct Mass;
+
+impl Section for Mass {
+    fn resultants(&self, x: f64) -> Resultants {
+        let mass = TwoFibres::fibres(x).iter().map(|f| f.1).sum();
+        Resultants { mass, axial_stiffness: 2200.0, bending_stiffness: 17.0, ..Resultants::default() }
+    }
+}
+
+fn elements(count: usize, degree: usize) -> Fields {
+    Fields::new(
+        LENGTH,
+        Box::new(Lagrange::new(LENGTH, count, degree).unwrap()),
+        Box::new(Hermite::new(LENGTH, count, Field::Transverse).unwrap()),
+        &[],
+    )
+}
+
+fn high(fields: Fields, section: &dyn Section, hub: Hub) -> HubBeam<HighCoupling> {
+    let coupling = HighCoupling::new(fields, section, &hub);
+    HubBeam::new(hub, coupling, &[])
+}
+
+/// Every basis, by itself and with breaks of the section that cut its cells.
+fn fields_of_every_basis() -> Vec<Fields> {
+    let both = |of: &dyn Fn(Field) -> Box<dyn Basis>| [of(Field::Axial), of(Field::Transverse)];
+    let polynomial = PolynomialParameters { nodes: 6, support: 1.5 };
+    let pairs = [
+        both(&|field| Box::new(Modes::new(LENGTH, 3, field).unwrap())),
+        both(&|field| Box::new(Radial::new(LENGTH, RadialParameters::new(6), field).unwrap())),
+        both(&|field| Box::new(Polynomial::new(LENGTH, polynomial, field).unwrap())),
+        both(&|field| Box::new(BSpline::new(LENGTH, 24, 3, field).unwrap())),
+        both(&|field| Box::new(Bezier::new(LENGTH, 1, 6, field).unwrap())),
+        both(&|field| Box::new(Bezier::new(LENGTH, 12, 4, field).unwrap())),
+    ];
+    let mut all: Vec<Fields> = pairs
+        .into_iter()
+        .map(|[axial, transverse]| Fields::new(LENGTH, axial, transverse, &[0.31 * LENGTH]))
+        .collect();
+    all.push(elements(12, 1));
+    all.push(elements(3, 2));
+    all.push(elements(14, 2));
+    all
+}
+
+/// T of a beam without thickness: ½∫ρA[(Ẋ − ωY)² + (Ẏ + ωX)²] with w_c summed afresh from the root to each point.
+fn kinetic_energy(fields: &Fields, s: &State, speed: f64) -> f64 {
+    let gauss = Gauss::new(14);
+    let cells = fields.cells();
+    let mut total = 0.5 * 0.7 * speed * speed;
+    for (c, ends) in cells.windows(2).enumerate() {
+        for (x, weight) in gauss.on(ends[0], ends[1]) {
+            let (mut place, mut rate) = (0.0, 0.0);
+            let mut boundaries: Vec<f64> = cells[..=c].to_vec();
+            boundaries.push(x);
+            for piece in boundaries.windows(2) {
+                for (y, w) in gauss.on(piece[0], piece[1]) {
+                    let b = fields.point(y, w).transverse;
+                    place -= 0.5 * w * b.field(1, &s.q).powi(2);
+                    rate -= w * b.field(1, &s.q) * b.field(1, &s.v);
+                }
+            }
+            let point = fields.point(x, weight);
+            let (a, b) = (point.axial, point.transverse);
+            let (px, py) = (RADIUS + x + a.field(0, &s.q) + place, b.field(0, &s.q));
+            let (vx, vy) = (a.field(0, &s.v) + rate, b.field(0, &s.v));
+            let mass: f64 = Mass.resultants(x).mass;
+            total += 0.5 * weight * mass * ((vx - speed * py).powi(2) + (vy + speed * px).powi(2));
+        }
+    }
+    total
+}
+
+/// d/dt ∂T/∂v − ∂T/∂q by nothing but values of T, along the motion q + v t + ½ a t².
+fn lagrange(fields: &Fields, s: &State, speed: f64, acceleration: f64) -> Vec<f64> {
+    let n = fields.len();
+    let moved = |t: f64| {
+        let mut out = s.clone();
+        for i in 0..n {
+            out.q[i] += t * (s.v[i] + 0.5 * t * s.a[i]);
+            out.v[i] += t * s.a[i];
+        }
+        (out, speed + acceleration * t)
+    };
+    let stencil = [(1.0, -2.0), (-8.0, -1.0), (8.0, 1.0), (-1.0, 2.0)];
+    let (h, d) = (2e-3, 1e-2);
+    (0..n)
+        .map(|k| {
+            let momentum = |t: f64| -> f64 {
+                let (at, speed) = moved(t);
+                let value = |c: f64| {
+                    let mut at = at.clone();
+                    at.v[k] += c * d;
+                    kinetic_energy(fields, &at, speed)
+                };
+                // T is quadratic in v: the central difference is exact.
+                (value(1.0) - value(-1.0)) / (2.0 * d)
+            };
+            let by_place = |c: f64| {
+                let mut at = s.clone();
+                at.q[k] += c * h;
+                kinetic_energy(fields, &at, speed)
+            };
+            let rate: f64 = stencil.iter().map(|(c, t)| c * momentum(t * h) / (12.0 * h)).sum();
+            let slope: f64 = stencil.iter().map(|(c, t)| c * by_place(*t) / (12.0 * h)).sum();
+            rate - slope
+        })
+        .collect()
+}
+
+#[test]
+fn forces_are_lagranges_of_an_energy_with_nothing_dropped() {
+    let hub = hub();
+    let Drive::Prescribed(motion) = &hub.drive else { panic!("prescribed") };
+    for fields in [
+        || elements(3, 2),
+        || {
+            let basis = |field| Box::new(BSpline::new(LENGTH, 3, 3, field).unwrap());
+            Fields::new(LENGTH, basis(Field::Axial), basis(Field::Transverse), &[])
+        },
+    ] {
+        let mut system = high(fields(), &Mass, hub.clone());
+        let s = state(&system, 0.3);
+        let at = motion.at(s.t);
+        let strain: Vec<f64> = {
+            let (_, _, stiffness) = system.coupling().inertia().matrices();
+            let mut product = vec![0.0; s.q.len()];
+            stiffness.multiply(&s.q, &mut product);
+            product
+        };
+        let forces: Vec<f64> = residual(&mut system, &s).iter().zip(&strain).map(|(r, k)| r - k).collect();
+        let expected = lagrange(&fields(), &s, at.speed, at.acceleration);
+        let error = relative(&forces, &expected);
+        assert!(error < 1e-8, "{error:e}");
+        // And they are not those of the first order.
+        let coupling = LinearCoupling::new(fields(), &Mass, &hub, Foreshortening::First);
+        let mut first = HubBeam::new(hub.clone(), coupling, &[]);
+        let forces: Vec<f64> = residual(&mut first, &s).iter().zip(&strain).map(|(r, k)| r - k).collect();
+        assert!(relative(&forces, &expected) > 1e-2);
+        let kinetic = kinetic_energy(&fields(), &s, at.speed);
+        assert!((system.energy(&s).kinetic / kinetic - 1.0).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn tangents_equal_finite_differences_on_every_basis() {
+    // The free hub's equations hold those of the prescribed one.
+    let mut hidden = 0;
+    for fields in fields_of_every_basis() {
+        let mut system = high(fields, &TwoFibres, free_hub());
+        hidden += usize::from(matches!(system.structure(), Structure::Condensed { .. }));
+        let s = state(&system, 0.1);
+        check_tangent(&mut system, &s);
+    }
+    assert!(hidden >= 3, "{hidden}");
+}
+
+/// The tangent written into the storage of the given structure.
+fn tangent(system: &mut dyn System, s: &State, w: Weights<'_>, structure: &Structure) -> Matrix {
+    let mut matrix = Matrix::new(structure);
+    system.tangent(s, w, &mut matrix);
+    matrix
+}
+
+#[test]
+fn hidden_unknowns_change_no_solution_and_no_product() {
+    for hub in [hub(), free_hub()] {
+        for fields in [elements(12, 1), elements(30, 2)] {
+            let mut system = high(fields, &TwoFibres, hub.clone());
+            let s = state(&system, 0.02);
+            let n = s.q.len();
+            let own = system.structure();
+            assert!(matches!(own, Structure::Condensed { .. }));
+            let weights = |i: usize| [Weights::new(1.0, 1e-2, 1e-4), Weights::new(0.3, -0.02, 3e-4)][i];
+            let hidden = [0, 1].map(|i| tangent(&mut system, &s, weights(i), &own));
+            let full = hidden.each_ref().map(|a| {
+                let mut full = Dense::new(n);
+                let (mut unit, mut column) = (vec![0.0; n], vec![0.0; n]);
+                for j in 0..n {
+                    unit[j] = 1.0;
+                    a.multiply(&unit, &mut column);
+                    unit[j] = 0.0;
+                    for (i, x) in column.iter().enumerate() {
+                        full.set(i, j, *x);
+                    }
+                }
+                full
+            });
+            let b = residual(&mut system, &s);
+            let (mut x, mut y) = (b.clone(), b.clone());
+            let (mut a, mut f) = (hidden[0].clone(), full[0].clone());
+            a.factor().unwrap();
+            a.solve(&mut x);
+            f.factor().unwrap();
+            f.solve(&mut y);
+            assert!(relative(&x, &y) < 1e-11, "{:e}", relative(&x, &y));
+            // Radau's complex combination.
+            let mut complex = Matrix::<Complex64>::new(&own);
+            complex.assign(&hidden[0], &hidden[1]);
+            let mut dense = Dense::<Complex64>::new(n);
+            for i in 0..n {
+                for j in 0..n {
+                    dense.set(i, j, Complex64::new(full[0].get(i, j), full[1].get(i, j)));
+                }
+            }
+            let mut x: Vec<Complex64> = b.iter().map(|b| Complex64::new(*b, 1.0 - b)).collect();
+            let mut y = x.clone();
+            complex.factor().unwrap();
+            complex.solve(&mut x);
+            dense.factor().unwrap();
+            dense.solve(&mut y);
+            let parts = |x: &[Complex64]| x.iter().flat_map(|x| [x.re, x.im]).collect::<Vec<f64>>();
+            assert!(relative(&parts(&x), &parts(&y)) < 1e-11);
+        }
+    }
+}
+
+#[test]
+fn small_deflections_are_those_of_the_first_order() {
+    let coupling = LinearCoupling::new(elements(4, 1), &TwoFibres, &hub(), Foreshortening::First);
+    let mut first = HubBeam::new(hub(), coupling, &[]);
+    let mut high = high(elements(4, 1), &TwoFibres, hub());
+    let difference = |first: &mut dyn System, high: &mut dyn System, size: f64| {
+        let s = state(high, size);
+        let (a, b) = (residual(first, &s), residual(high, &s));
+        a.iter().zip(&b).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()))
+    };
+    let (one, two) = (difference(&mut first, &mut high, 1e-3), difference(&mut first, &mut high, 2e-3));
+    // What is beyond the first order is quadratic in the unknowns.
+    assert!((two / one - 4.0).abs() < 0.05, "{one:e} {two:e}");
+}
+
+/// A band of hidden unknowns whose diagonal would be no pivot is solved all the same.
+#[test]
+fn pivots_are_interchanged_where_the_units_ask_for_it() {
+    #[derive(Debug)]
+    struct Heavy;
+    impl Section for Heavy {
+        fn resultants(&self, _x: f64) -> Resultants {
+            Resultants { mass: 1e9, axial_stiffness: 1e14, bending_stiffness: 1e9, ..Default::default() }
+        }
+    }
+    let mut system = high(elements(16, 1), &Heavy, hub());
+    let s = state(&system, 0.2);
+    let n = s.q.len();
+    let own = system.structure();
+    for w in [Weights::new(1.0, 0.1, 1e-2), Weights::new(0.0, 0.0, 1.0)] {
+        let mut a = tangent(&mut system, &s, w, &own);
+        let x: Vec<f64> = (0..n).map(|i| (1.7 * i as f64).sin()).collect();
+        let mut b = vec![0.0; n];
+        a.multiply(&x, &mut b);
+        a.factor().unwrap();
+        a.solve(&mut b);
+        assert!(relative(&b, &x) < 1e-7, "{:e}", relative(&b, &x));
+    }
+}
