@@ -32,7 +32,7 @@ impl Audit {
         let (energy, power) = system.energy_and_power(state);
         Audit {
             steps: 0,
-            power: [0.0, power],
+            power: [0.0, power.total()],
             work: 0.0,
             uncertainty: 0.0,
             initial: energy.total(),
@@ -47,6 +47,7 @@ impl Audit {
     pub(super) fn enter(&mut self, system: &mut dyn System, h: f64, to: &State) -> Result<(), RunError> {
         self.steps += 1;
         let (energy, power) = system.energy_and_power(to);
+        let power = power.total();
         self.largest_strain = self.largest_strain.max(energy.strain);
         let [first, middle] = self.power;
         self.power = [middle, power];
