@@ -40,6 +40,20 @@ impl Audit {
         }
     }
 
+    /// The books as numbers, for a checkpoint.
+    pub(super) fn memory(&self) -> [f64; 7] {
+        let [first, middle] = self.power;
+        let steps = self.steps as f64;
+        [steps, first, middle, self.work, self.uncertainty, self.initial, self.largest_strain]
+    }
+
+    /// Takes up the [memory](Audit::memory) of another run.
+    pub(super) fn recall(&mut self, memory: [f64; 7]) {
+        let [steps, first, middle, work, uncertainty, initial, largest_strain] = memory;
+        let power = [first, middle];
+        *self = Audit { steps: steps as u64, power, work, uncertainty, initial, largest_strain };
+    }
+
     /// Enters a step of size `h` that ended at `to`; two steps at a time are judged.
     ///
     /// # Errors
