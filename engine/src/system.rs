@@ -132,6 +132,24 @@ impl Energy {
     }
 }
 
+/// Power of everything that is not in [`Energy`], in watts: d(T + U + V)/dt = [`Power::total`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Power {
+    /// Power of what moves the system: prescribed motions, motors.
+    pub drive: f64,
+    /// Power of the loads, gravity aside.
+    pub loads: f64,
+    /// Power lost in dampers (≥ 0).
+    pub dissipated: f64,
+}
+
+impl Power {
+    /// Rate of the total energy: drive + loads − dissipated.
+    pub fn total(&self) -> f64 {
+        self.drive + self.loads - self.dissipated
+    }
+}
+
 /// A section frame: where a station is and how it is turned.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Frame {
@@ -199,11 +217,11 @@ pub trait System {
     /// Kinetic, strain and gravity energy.
     fn energy(&mut self, s: &State) -> Energy;
 
-    /// Power of everything that is not in [`System::energy`]: drives, loads and dampers [W].
-    fn power(&mut self, s: &State) -> f64;
+    /// Power of everything that is not in [`System::energy`]: drives, loads and dampers.
+    fn power(&mut self, s: &State) -> Power;
 
     /// [`System::energy`] and [`System::power`] of one state, for systems in which they share their work.
-    fn energy_and_power(&mut self, s: &State) -> (Energy, f64) {
+    fn energy_and_power(&mut self, s: &State) -> (Energy, Power) {
         (self.energy(s), self.power(s))
     }
 

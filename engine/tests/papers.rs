@@ -8,7 +8,7 @@ mod run;
 use flexion::integrator::Integrator;
 use flexion::linalg::{Matrix, Structure};
 use flexion::output::write_csv;
-use flexion::system::{Channel, Energy, Frame, Label, Size, State, System, Weights};
+use flexion::system::{Channel, Energy, Frame, Label, Power, Size, State, System, Weights};
 use run::{Run, Span, case, integrate_system, run};
 
 const TIP: &str = "tip.deflection";
@@ -208,7 +208,7 @@ impl System for Dense {
     fn energy(&mut self, s: &State) -> Energy {
         self.0.energy(s)
     }
-    fn power(&mut self, s: &State) -> f64 {
+    fn power(&mut self, s: &State) -> Power {
         self.0.power(s)
     }
     fn shape(&mut self, s: &State, stations: &[f64], out: &mut [Frame]) {

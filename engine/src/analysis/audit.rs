@@ -32,12 +32,26 @@ impl Audit {
         let (energy, power) = system.energy_and_power(state);
         Audit {
             steps: 0,
-            power: [0.0, power],
+            power: [0.0, power.total()],
             work: 0.0,
             uncertainty: 0.0,
             initial: energy.total(),
             largest_strain: energy.strain,
         }
+    }
+
+    /// The books as numbers, for a checkpoint.
+    pub(super) fn memory(&self) -> [f64; 7] {
+        let [first, middle] = self.power;
+        let steps = self.steps as f64;
+        [steps, first, middle, self.work, self.uncertainty, self.initial, self.largest_strain]
+    }
+
+    /// Takes up the [memory](Audit::memory) of another run.
+    pub(super) fn recall(&mut self, memory: [f64; 7]) {
+        let [steps, first, middle, work, uncertainty, initial, largest_strain] = memory;
+        let power = [first, middle];
+        *self = Audit { steps: steps as u64, power, work, uncertainty, initial, largest_strain };
     }
 
     /// Enters a step of size `h` that ended at `to`; two steps at a time are judged.
@@ -47,6 +61,7 @@ impl Audit {
     pub(super) fn enter(&mut self, system: &mut dyn System, h: f64, to: &State) -> Result<(), RunError> {
         self.steps += 1;
         let (energy, power) = system.energy_and_power(to);
+        let power = power.total();
         self.largest_strain = self.largest_strain.max(energy.strain);
         let [first, middle] = self.power;
         self.power = [middle, power];

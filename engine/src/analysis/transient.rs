@@ -1,7 +1,7 @@
 //! Motion in time: drives a system with an integrator from a state to an end time.
 
 use super::audit::Audit;
-use crate::integrator::{Integrator, StepControl, StepError, StepReport};
+use crate::integrator::{Checkpoint, Integrator, NotResumed, StepControl, StepError, StepReport};
 use crate::system::{State, System};
 use std::ops::ControlFlow;
 
@@ -75,6 +75,9 @@ pub enum RunError {
         /// What the model knows about it.
         reason: Option<String>,
     },
+    /// The history of an earlier run could not be taken up.
+    #[error("the run cannot go on: {0}")]
+    NotResumed(#[from] NotResumed),
     /// The energy does not balance.
     #[error(
         "the run broke down at t = {time:.4} s: the energy has grown by {excess:.3e} J more than the drive has put in \
@@ -109,11 +112,47 @@ pub fn transient(
     plan: &Plan,
     observer: &mut dyn Observer,
 ) -> Ending {
-    let mut run = Run { origin: state.t, samples: 1, last: Step::default(), middle: state.clone() };
-    match run.integrate(system, integrator, state, plan, observer) {
-        Ok(ending) => ending,
+    let mut run = Run::new(state);
+    match run.begin(system, integrator, state, plan, observer) {
+        Ok(()) => run.go_on(system, integrator, state, plan, observer),
         Err(error) => Ending::Failed(error),
     }
+}
+
+/// As [`transient`], and gives a checkpoint of the last accepted step, from which [`resume`] goes on.
+pub fn transient_to_checkpoint(
+    system: &mut dyn System,
+    integrator: &mut dyn Integrator,
+    state: &mut State,
+    plan: &Plan,
+    observer: &mut dyn Observer,
+) -> (Ending, Checkpoint) {
+    let mut run = Run::new(state);
+    let ending = match run.begin(system, integrator, state, plan, observer) {
+        Ok(()) => run.go_on(system, integrator, state, plan, observer),
+        Err(error) => Ending::Failed(error),
+    };
+    (ending, run.checkpoint(integrator, state, plan.sample))
+}
+
+/// Goes on from a checkpoint of a run of the same system with the same integrator, of which `state` receives the
+/// state: steps, samples and counters are bit by bit those of a run that has never stopped, if the plan is the same.
+/// The state of the checkpoint itself is not shown to the observer.
+///
+/// # Errors
+/// [`NotResumed`] when the checkpoint is not one of such a run, or a fixed step would change by the new end.
+pub fn resume(
+    system: &mut dyn System,
+    integrator: &mut dyn Integrator,
+    from: &Checkpoint,
+    state: &mut State,
+    plan: &Plan,
+    observer: &mut dyn Observer,
+) -> Result<(Ending, Checkpoint), NotResumed> {
+    let mut run = Run::new(state);
+    run.resume(system, integrator, from, state, plan)?;
+    let ending = run.go_on(system, integrator, state, plan, observer);
+    Ok((ending, run.checkpoint(integrator, state, plan.sample)))
 }
 
 /// The moving parts of one run.
@@ -122,35 +161,130 @@ struct Run {
     /// Number of samples shown.
     samples: u64,
     last: Step,
+    /// Steps taken, and the size of fixed steps [s].
+    count: u64,
+    uniform: Option<f64>,
+    control: Option<StepControl>,
+    audit: Option<Audit>,
     /// Dense output.
     middle: State,
 }
 
 impl Run {
-    fn integrate(
+    fn new(state: &State) -> Run {
+        Run {
+            origin: state.t,
+            samples: 1,
+            last: Step::default(),
+            count: 0,
+            uniform: None,
+            control: None,
+            audit: None,
+            middle: state.clone(),
+        }
+    }
+
+    /// Prepares the run, and shows its start.
+    fn begin(
         &mut self,
         system: &mut dyn System,
         integrator: &mut dyn Integrator,
         state: &mut State,
         plan: &Plan,
         observer: &mut dyn Observer,
-    ) -> Result<Ending, RunError> {
-        let span = plan.end - state.t;
-        let failed = |system: &mut dyn System, state: &State, error: StepError| RunError::Step {
-            error,
-            reason: system.explain(state),
-        };
-        // A run of no length: its state is recorded, completed.
-        let uniform = plan.step.map(|h| span / (span / h - 1e-9).ceil().max(1.0));
-        if let Err(error) = integrator.start(system, state, uniform.unwrap_or(span)) {
+    ) -> Result<(), RunError> {
+        self.plan(plan);
+        let step = self.uniform.unwrap_or(plan.end - self.origin);
+        if let Err(error) = integrator.start(system, state, step) {
             return Err(failed(system, state, error));
         }
+        self.supervise(system, integrator, state, plan);
+        observer.sample(system, state, &self.last);
+        Ok(())
+    }
+
+    /// Takes up a run where a checkpoint was made.
+    fn resume(
+        &mut self,
+        system: &mut dyn System,
+        integrator: &mut dyn Integrator,
+        from: &Checkpoint,
+        state: &mut State,
+        plan: &Plan,
+    ) -> Result<(), NotResumed> {
+        from.fill_state("", state)?;
+        let [origin, samples, count, uniform] = from.numbers("run")?;
+        (self.origin, self.samples, self.count) = (origin, samples as u64, count as u64);
+        let [size, iterations] = from.numbers("last")?;
+        self.last = Step { size, iterations: iterations as u32 };
+        let [sample] = from.numbers("sample")?;
+        if sample != plan.sample {
+            let before = (state.t - origin) / plan.sample;
+            self.samples = (before + 1e-9).floor().max(0.0) as u64 + 1;
+        }
+        self.plan(plan);
+        if let Some(step) = &mut self.uniform {
+            if (*step - uniform).abs() > 1e-12 * uniform {
+                let message = format!(
+                    "the run was made with steps of {uniform} s, and until {} s steps would be {step} s: give the step \
+                     and a duration that is a multiple of it",
+                    plan.end
+                );
+                return Err(NotResumed::Failed(message));
+            }
+            *step = uniform;
+            state.t = origin + count * uniform;
+        }
+        let step = self.uniform.unwrap_or(plan.end - origin);
+        let started = integrator.start(system, &mut state.clone(), step);
+        started.map_err(|error| NotResumed::Failed(error.to_string()))?;
+        self.supervise(system, integrator, state, plan);
+        if let Some(control) = &mut self.control {
+            control.recall(from.numbers("control")?);
+        }
+        if let Some(audit) = &mut self.audit {
+            audit.recall(from.numbers("audit")?);
+        }
+        integrator.resume(system, from)
+    }
+
+    /// What [`Run::resume`] needs.
+    fn checkpoint(&self, integrator: &dyn Integrator, state: &State, sample: f64) -> Checkpoint {
+        let mut out = Checkpoint::default();
+        out.put_state("", state);
+        let (samples, count) = (self.samples as f64, self.count as f64);
+        out.put("run", &[self.origin, samples, count, self.uniform.unwrap_or(0.0)]);
+        out.put("sample", &[sample]);
+        out.put("last", &[self.last.size, f64::from(self.last.iterations)]);
+        if let Some(control) = &self.control {
+            out.put("control", &control.memory());
+        }
+        if let Some(audit) = &self.audit {
+            out.put("audit", &audit.memory());
+        }
+        integrator.save(&mut out);
+        out
+    }
+
+    /// The fewest equal steps not longer than the one asked for.
+    fn plan(&mut self, plan: &Plan) {
+        let span = plan.end - self.origin;
+        self.uniform = plan.step.map(|h| span / (span / h - 1e-9).ceil().max(1.0));
+    }
+
+    /// Step control or audit.
+    fn supervise(
+        &mut self,
+        system: &mut dyn System,
+        integrator: &dyn Integrator,
+        state: &State,
+        plan: &Plan,
+    ) {
+        let span = plan.end - self.origin;
         // Step control sees what an audit would; implicit steps of affine systems cannot go wrong by converging.
         let (fixed, implicit) = (integrator.info().estimate_order.is_none(), integrator.info().implicit);
-        let mut audit = (fixed && !(implicit && system.is_affine())).then(|| Audit::new(system, state));
-        observer.sample(system, state, &self.last);
-        let mut next = state.clone();
-        let mut control = integrator.info().estimate_order.map(|order| {
+        self.audit = (fixed && !(implicit && system.is_affine())).then(|| Audit::new(system, state));
+        self.control = integrator.info().estimate_order.map(|order| {
             let first = plan
                 .step
                 .unwrap_or_else(|| StepControl::first_step(order, state, system.labels(), 1e-4, span));
@@ -160,14 +294,38 @@ impl Run {
             let longest = plan.longest_step.unwrap_or((2.0 * plan.sample).min(0.01 * span));
             control.with_limits(1e-14 * span, longest)
         });
-        let mut count: u64 = 0;
+    }
+
+    /// Integrates to the end.
+    fn go_on(
+        &mut self,
+        system: &mut dyn System,
+        integrator: &mut dyn Integrator,
+        state: &mut State,
+        plan: &Plan,
+        observer: &mut dyn Observer,
+    ) -> Ending {
+        match self.integrate(system, integrator, state, plan, observer) {
+            Ok(ending) => ending,
+            Err(error) => Ending::Failed(error),
+        }
+    }
+
+    fn integrate(
+        &mut self,
+        system: &mut dyn System,
+        integrator: &mut dyn Integrator,
+        state: &mut State,
+        plan: &Plan,
+        observer: &mut dyn Observer,
+    ) -> Result<Ending, RunError> {
+        let mut next = state.clone();
         while state.t < plan.end {
-            let (h, report) = match &mut control {
+            let (h, report) = match &mut self.control {
                 None => {
                     // Step ends are multiples, not sums: no drift, and the last one is the end itself.
-                    count += 1;
-                    let h = uniform.unwrap_or(span);
-                    let end = self.origin + count as f64 * h;
+                    let h = self.uniform.unwrap_or(plan.end - self.origin);
+                    let end = self.origin + (self.count + 1) as f64 * h;
                     let end = if end >= plan.end - 1e-9 * h { plan.end } else { end };
                     match integrator.step(system, state, h, &mut next) {
                         Ok(report) => {
@@ -186,21 +344,22 @@ impl Run {
                 return Err(RunError::Inadmissible { time: next.t, what, reason });
             }
             integrator.accept(state, &next);
-            if let Some(audit) = &mut audit {
+            self.count += 1;
+            if let Some(audit) = &mut self.audit {
                 audit.enter(system, h, &next)?;
             }
             self.show(system, integrator, state, &next, plan, observer);
             std::mem::swap(state, &mut next);
-            if observer.step(state).is_break() && state.t < plan.end {
-                return Ok(Ending::Stopped);
-            }
-            if let Some(control) = &mut control
+            if let Some(control) = &mut self.control
                 && at_break(system, state.t)
             {
                 control.restart(h);
                 if let Err(error) = integrator.restart(system, state) {
                     return Err(failed(system, state, error));
                 }
+            }
+            if observer.step(state).is_break() && state.t < plan.end {
+                return Ok(Ending::Stopped);
             }
         }
         Ok(Ending::Finished)
@@ -231,7 +390,8 @@ impl Run {
             // The very multiple, not a sum of steps that comes close to it.
             self.middle.t = t;
             observer.sample(system, &self.middle, &self.last);
-            self.samples += 1;
+            // An end that is no multiple is not counted: a run that goes on records the next multiple.
+            self.samples += u64::from(self.origin + multiple(self.samples, interval) <= plan.end + slack);
             if t >= plan.end {
                 return;
             }
@@ -248,6 +408,10 @@ fn multiple(k: u64, interval: f64) -> f64 {
     } else {
         k as f64 * interval
     }
+}
+
+fn failed(system: &mut dyn System, state: &State, error: StepError) -> RunError {
+    RunError::Step { error, reason: system.explain(state) }
 }
 
 fn at_break(system: &dyn System, t: f64) -> bool {

@@ -8,11 +8,12 @@ use super::integrator::{self, Integrator};
 use super::motion::{self, Motion};
 use super::problem::{Problem, Problems};
 use super::section::{self, Section};
+use super::restart;
 use super::torque;
 use super::trial;
 use super::units::{INERTIA, LENGTH, TIME};
 use super::values::{Filled, Value, Values};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A validated case: everything in SI.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,12 +63,17 @@ pub enum Coupling {
 }
 
 /// The state at t = 0.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Initial {
     /// Undeformed, moving with the hub.
     Undeformed,
     /// In the equilibrium of steady rotation at the initial speed of the hub.
     SteadyRotation,
+    /// The last state of an earlier run of the same model, whose time goes on.
+    Restart {
+        /// `state.npz` of that run.
+        file: PathBuf,
+    },
 }
 
 /// What is recorded.
@@ -128,6 +134,17 @@ static INITIAL: Seam = Seam {
             summary: "equilibrium of steady rotation at the initial speed of the hub",
             source: "",
             keys: &[],
+        },
+        Kind {
+            name: "restart",
+            summary: "last state of an earlier run of the same model, whose time goes on",
+            source: "",
+            keys: &[key(
+                "file",
+                Type::Path,
+                Required,
+                "state.npz of the earlier run, or the folder of its results",
+            )],
         },
     ],
 };
@@ -251,9 +268,12 @@ pub(super) fn case(values: &mut Values, folder: &Path, problems: &mut Problems) 
     trial::section(section.as_ref(), length, exact_elements, values, problems);
     let integrator = values.kind("integrator").and_then(|(kind, v)| integrator::read(kind, v));
     trial::integrator(integrator.as_ref(), values, problems);
-    let initial = values.kind("initial").map(|(kind, _)| match kind.name {
-        "steady-rotation" => Initial::SteadyRotation,
-        _ => Initial::Undeformed,
+    let initial = values.kind("initial").and_then(|(kind, v)| {
+        Some(match kind.name {
+            "steady-rotation" => Initial::SteadyRotation,
+            "restart" => Initial::Restart { file: restart::state_file(&folder.join(v.text("file")?)) },
+            _ => Initial::Undeformed,
+        })
     });
     let output = values.table("output");
     let stations = output.and_then(|output| output.numbers("stations")).map(<[f64]>::to_vec);

@@ -22,6 +22,7 @@ mod motion;
 mod problem;
 mod reader;
 mod resolved;
+mod restart;
 mod run;
 mod schema;
 mod section;
@@ -94,7 +95,7 @@ impl Reading {
         let folder = self.file.parent().unwrap_or(Path::new(""));
         let mut found = Vec::new();
         resolved::paths(&self.values, "", &mut found);
-        found.into_iter().map(|(key, file)| (key, folder.join(file))).collect()
+        found.into_iter().map(|(key, file)| (key, restart::state_file(&folder.join(file)))).collect()
     }
 
     /// The defaults in force: dotted path and value.

@@ -60,6 +60,21 @@ pub(super) fn paths(values: &Values, path: &str, out: &mut Vec<(String, String)>
     }
 }
 
+/// Every value with its dotted path.
+pub(super) fn flat(values: &Values, path: &str, out: &mut Vec<(String, String)>) {
+    for filled in &values.entries {
+        let path = join(path, filled.key.name);
+        match &filled.value {
+            Value::Table(values) => flat(values, &path, out),
+            Value::Kind(kind, values) => {
+                out.push((join(&path, "kind"), kind.name.to_owned()));
+                flat(values, &path, out);
+            }
+            value => out.push((path, written(value, &filled.key.takes, true))),
+        }
+    }
+}
+
 /// A value as TOML, with its unit if `unit`.
 pub(super) fn written(value: &Value, takes: &Type, unit: bool) -> String {
     let text = match value {

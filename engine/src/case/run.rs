@@ -1,9 +1,10 @@
 //! A case, run: from its reading to its results.
 
+use super::restart::Restart;
 use super::{Initial, Integrator as IntegratorCase, Live, Problems, Reading, resolved};
 use crate::analysis::equilibrium::equilibrium;
-use crate::analysis::transient::{Ending, Plan, transient};
-use crate::integrator::{Counters, Info};
+use crate::analysis::transient::{Ending, Plan, resume, transient_to_checkpoint};
+use crate::integrator::{Checkpoint, Counters, Info};
 use crate::linalg::Structure;
 use crate::output::plot::trajectory_figure;
 use crate::output::{
@@ -24,6 +25,8 @@ pub struct Prepared<'a> {
     plan: Plan,
     tables: Vec<(Artifact, Vec<u8>)>,
     shapes: Option<Shapes>,
+    /// The history of the earlier run that this one goes on with.
+    history: Option<Checkpoint>,
 }
 
 /// What a run gave.
@@ -41,6 +44,8 @@ pub struct Run {
     pub tables: Vec<(Artifact, Vec<u8>)>,
     /// The last accepted step.
     pub state: State,
+    /// The same with all that a run needs to go on from it.
+    pub checkpoint: Checkpoint,
     /// What its reader should know about the validity of the model.
     pub warnings: Vec<String>,
     /// The integrator.
@@ -64,6 +69,11 @@ impl Reading {
         let mut live = self.build()?;
         let case = &self.case;
         let mut state = live.system.initial();
+        let mut history = None;
+        if let Initial::Restart { file } = &case.initial {
+            let restart = Restart::read(self, file)?;
+            history = restart.begin(self, &mut state)?;
+        }
         if case.initial == Initial::SteadyRotation {
             let velocity = state.v.clone();
             live.system.hold(true);
@@ -84,7 +94,7 @@ impl Reading {
                 tables.push((artifact, std::fs::read(&file).map_err(failed)?));
             }
         }
-        Ok(Prepared { reading: self, live, state, plan, tables, shapes: self.shapes() })
+        Ok(Prepared { reading: self, live, state, plan, tables, shapes: self.shapes(), history })
     }
 
     /// Room for the shapes, if the case asks for them.
@@ -116,10 +126,16 @@ impl Reading {
             wall_time: run.wall_time,
             cpu_time: run.cpu_time,
         };
+        let identity = self.identity();
         let title = (!self.case.title.is_empty()).then_some(self.case.title.as_str());
         let figure = trajectory_figure(&run.trajectory, title);
         let attachments =
-            Attachments { figure: Some(&figure), tables: &run.tables, shapes: run.shapes.as_ref() };
+            Attachments {
+                figure: Some(&figure),
+                tables: &run.tables,
+                state: Some((&run.checkpoint, &identity)),
+                shapes: run.shapes.as_ref(),
+            };
         let case = self.resolved_with_copies();
         write_run(directory, &report, &run.trajectory, &case, attachments)
     }
@@ -134,11 +150,16 @@ impl Prepared<'_> {
     /// Integrates to the end, or to where `watch` stops it or the integration fails: what was computed
     /// until then is in the run.
     pub fn run(self, watch: &mut Watch<'_>) -> Run {
-        let Prepared { live, mut state, plan, tables, shapes, .. } = self;
+        let Prepared { live, mut state, plan, tables, shapes, history, .. } = self;
         let Live { mut system, mut integrator } = live;
         let (start, cpu_start) = (Instant::now(), processor_time());
         let mut recorder = Recorder::new(system.as_ref(), &plan, watch).with_shapes(shapes);
-        let ending = transient(system.as_mut(), integrator.as_mut(), &mut state, &plan, &mut recorder);
+        let parts = (system.as_mut(), integrator.as_mut());
+        let (ending, checkpoint) = match &history {
+            None => transient_to_checkpoint(parts.0, parts.1, &mut state, &plan, &mut recorder),
+            Some(history) => resume(parts.0, parts.1, history, &mut state, &plan, &mut recorder)
+                .unwrap_or_else(|error| (Ending::Failed(error.into()), history.clone())),
+        };
         let wall_time = start.elapsed().as_secs_f64();
         let cpu_time = processor_time().zip(cpu_start).map(|(end, start)| end - start);
         let (trajectory, mut shapes) = recorder.into_parts();
@@ -163,6 +184,7 @@ impl Prepared<'_> {
             counters: integrator.counters(),
             size: size(system.as_ref()),
             state,
+            checkpoint,
             wall_time,
             cpu_time,
         }

@@ -108,6 +108,11 @@ impl FreeHub {
         }
     }
 
+    /// What motor and controller give of [`FreeHub::torque`] [N·m]: all but spring and damper.
+    pub fn driving_torque(&self, hub: &HubKinematics, t: f64) -> f64 {
+        self.torque.value(t) + self.controller.as_ref().map_or(0.0, |c| c.torque(hub, t).value)
+    }
+
     /// Energy of the spring [J].
     pub fn spring_energy(&self, angle: f64) -> f64 {
         0.5 * self.stiffness * (angle - self.rest_angle).powi(2)

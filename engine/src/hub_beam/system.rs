@@ -6,7 +6,7 @@ use super::inertia::{Border, Inertia, Scratch, Totals};
 use super::station::{Placement, Station};
 use crate::linalg::{Matrix, Storage, Structure};
 use crate::profile::{HubKinematics, Motion};
-use crate::system::{Channel, Energy, Frame, Label, Size, State, System, Weights};
+use crate::system::{Channel, Energy, Frame, Label, Power, Size, State, System, Weights};
 
 /// A flexible beam on a hub. See the [module documentation](super).
 #[derive(Debug)]
@@ -233,22 +233,23 @@ impl<C: Coupling> System for HubBeam<C> {
         self.energy_and_power(s).0
     }
 
-    fn power(&mut self, s: &State) -> f64 {
+    fn power(&mut self, s: &State) -> Power {
         self.energy_and_power(s).1
     }
 
-    fn energy_and_power(&mut self, s: &State) -> (Energy, f64) {
+    fn energy_and_power(&mut self, s: &State) -> (Energy, Power) {
         let hub = self.kinematics(s);
         let totals = self.totals(s, &hub);
-        let torque = match &self.hub.drive {
-            Drive::Prescribed(_) => totals.torque,
-            // The spring's work is in the strain energy.
+        let mut power = Power::default();
+        match &self.hub.drive {
+            Drive::Prescribed(_) => power.drive = totals.torque * hub.speed,
             Drive::Free(free) => {
-                free.torque(&hub, s.t).value + free.stiffness * (hub.angle - free.rest_angle)
+                power.drive = free.driving_torque(&hub, s.t) * hub.speed;
+                power.dissipated = free.damping * hub.speed * hub.speed;
             }
-        };
+        }
         let energy = Energy { kinetic: totals.kinetic, strain: self.strain(s, &hub), gravity: 0.0 };
-        (energy, torque * hub.speed)
+        (energy, power)
     }
 
     fn shape(&mut self, s: &State, stations: &[f64], out: &mut [Frame]) {

@@ -29,7 +29,7 @@
 //! section 4.5 (ISBN 978-0-471-92990-1).
 
 use super::runge_kutta::Scratch;
-use super::{Counters, Info, Integrator, StabilityLimit, StepError, StepReport, hermite};
+use super::{Checkpoint, Counters, Info, Integrator, NotResumed, StabilityLimit, StepError, StepReport, hermite};
 use crate::system::{State, System};
 
 /// Name as in a case file.
@@ -37,6 +37,9 @@ const NAME: &str = "adams-4";
 
 /// hω at which an undamped oscillation grows by the factor e in 10⁷ steps.
 const LIMIT: f64 = 0.0925;
+
+/// Names of the slopes in a checkpoint.
+const HISTORY: [[&str; 2]; 3] = [["v.1", "a.1"], ["v.2", "a.2"], ["v.3", "a.3"]];
 
 /// Velocities and accelerations at one former time.
 #[derive(Debug, Default)]
@@ -182,6 +185,26 @@ impl Integrator for Adams {
         self.known = 0;
         let place = (state.t, 0.0);
         scratch.accelerations.complete(system, state, place, &mut self.counters)
+    }
+
+    fn save(&self, out: &mut Checkpoint) {
+        out.put("counters", &self.counters.to_numbers());
+        out.put("known", &[self.known as f64, self.spacing]);
+        for (slope, [v, a]) in self.history.iter().zip(HISTORY) {
+            out.put(v, &slope.v);
+            out.put(a, &slope.a);
+        }
+    }
+
+    fn resume(&mut self, _system: &mut dyn System, from: &Checkpoint) -> Result<(), NotResumed> {
+        self.counters = Counters::from_numbers(from.numbers("counters")?);
+        let [known, spacing] = from.numbers("known")?;
+        (self.known, self.spacing) = (known as usize, spacing);
+        for (slope, [v, a]) in self.history.iter_mut().zip(HISTORY) {
+            from.fill(v, &mut slope.v)?;
+            from.fill(a, &mut slope.a)?;
+        }
+        Ok(())
     }
 
     fn worst(&self) -> usize {

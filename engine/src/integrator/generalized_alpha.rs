@@ -33,7 +33,7 @@
 
 use super::acceleration::Accelerations;
 use super::{
-    Convergence, Counters, Info, Integrator, InvalidParameter, Progress, StepError, StepReport, failure,
+    Checkpoint, Convergence, Counters, Info, Integrator, InvalidParameter, NotResumed, Progress, StepError, StepReport, failure,
     hermite,
 };
 use crate::linalg::Matrix;
@@ -87,6 +87,9 @@ struct Work {
     /// Whether factors may be kept; the weights (of v and q) that the present ones belong to, NaN without.
     keeps: bool,
     kept: [f64; 2],
+    /// Where the kept tangent was formed: state and increment.
+    place: State,
+    increment: Vec<f64>,
 }
 
 impl GeneralizedAlpha {
@@ -240,6 +243,10 @@ impl GeneralizedAlpha {
                     self.counters.tangents += u64::from(factored);
                     self.counters.factorizations += u64::from(factored);
                     work.kept = [to_v, to_q];
+                    if factored {
+                        work.place.copy_from(to);
+                        work.increment.copy_from_slice(d);
+                    }
                     (fresh, renew) = (true, full);
                 }
                 work.tangent.solve(&mut work.rhs);
@@ -319,6 +326,8 @@ impl Integrator for GeneralizedAlpha {
             affine: system.is_affine() && size.lambda == 0,
             keeps: size.lambda == 0,
             kept: [f64::NAN; 2],
+            place: State::zeros(size, state.t),
+            increment: vec![0.0; size.v],
         }));
         self.counters = Counters::default();
         self.restart(system, state)
@@ -365,6 +374,44 @@ impl Integrator for GeneralizedAlpha {
         let place = (state.t, 0.0);
         work.accelerations.complete(system, state, place, &mut self.counters)?;
         self.a.copy_from_slice(&state.a);
+        Ok(())
+    }
+
+    fn save(&self, out: &mut Checkpoint) {
+        out.put("counters", &self.counters.to_numbers());
+        out.put("auxiliary", &self.a);
+        out.put("before", &self.before);
+        out.put("started", &[f64::from(u8::from(self.started))]);
+        out.put("convergence", &[self.kept.memory(), self.kept.rate()]);
+        if let Some(work) = &self.work {
+            out.put("tangent.weights", &work.kept);
+            out.put_state("tangent.", &work.place);
+            out.put("tangent.increment", &work.increment);
+        }
+    }
+
+    fn resume(&mut self, system: &mut dyn System, from: &Checkpoint) -> Result<(), NotResumed> {
+        let Some(work) = &mut self.work else {
+            return Err(NotResumed::Failed(format!("{} was not started", self.info.name)));
+        };
+        from.fill("auxiliary", &mut self.a)?;
+        from.fill("before", &mut self.before)?;
+        let [started] = from.numbers("started")?;
+        self.started = started != 0.0;
+        let [ahead, rate] = from.numbers("convergence")?;
+        self.kept.recall(ahead, rate);
+        work.kept = from.numbers("tangent.weights")?;
+        from.fill_state("tangent.", &mut work.place)?;
+        from.fill("tangent.increment", &mut work.increment)?;
+        let [v, q] = work.kept;
+        if work.keeps && v.is_finite() && q.is_finite() {
+            // The same tangent at the same place has the same factors.
+            let weights =
+                Weights { q, v, a: 1.0, increment: Some(&work.increment), level: Level::Position };
+            system.tangent(&work.place, weights, &mut work.tangent);
+            work.tangent.factor().map_err(|e| NotResumed::Failed(format!("{}: {e}", self.info.name)))?;
+        }
+        self.counters = Counters::from_numbers(from.numbers("counters")?);
         Ok(())
     }
 

@@ -9,6 +9,7 @@
 
 mod acceleration;
 mod adams;
+mod checkpoint;
 mod failure;
 mod generalized_alpha;
 mod hermite;
@@ -19,6 +20,7 @@ mod stability;
 mod step_control;
 
 pub use adams::Adams;
+pub use checkpoint::{Checkpoint, NotResumed};
 pub use generalized_alpha::GeneralizedAlpha;
 pub use newton::{Convergence, Progress};
 pub use radau::{Radau, Tolerance};
@@ -207,6 +209,16 @@ pub trait Integrator {
 
     /// Forgets the history after a discontinuity; completes `state` as [`Integrator::start`] does.
     fn restart(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), StepError>;
+
+    /// Adds to `out` all that later steps depend on besides the state.
+    fn save(&self, out: &mut Checkpoint);
+
+    /// Takes up the history that [`Integrator::save`] wrote, after a [`start`](Integrator::start): the next steps are
+    /// bit by bit those that would have followed.
+    ///
+    /// # Errors
+    /// [`NotResumed`] when the history is not one of this method and this system.
+    fn resume(&mut self, system: &mut dyn System, from: &Checkpoint) -> Result<(), NotResumed>;
 
     /// Index of the unknown with the largest scaled error or increment in the last attempt.
     fn worst(&self) -> usize;

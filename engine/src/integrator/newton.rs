@@ -32,7 +32,7 @@ pub struct Convergence {
     /// θ/(1 − θ), carried over from one step to the next by simplified iterations.
     ahead: f64,
     /// Power with which `ahead` < 1 fades from step to step.
-    memory: f64,
+    fading: f64,
 }
 
 impl Convergence {
@@ -48,7 +48,7 @@ impl Convergence {
             previous: 0.0,
             rate: 0.0,
             ahead: 1.0,
-            memory: 0.8,
+            fading: 0.8,
         }
     }
 
@@ -62,14 +62,14 @@ impl Convergence {
     /// Like [`Convergence::simplified`], for a tangent that is kept over many equal steps: what was learnt
     /// about the rate is forgotten more slowly.
     pub fn kept(tolerance: f64, floor: f64) -> Convergence {
-        Convergence { memory: 0.95, ..Convergence::simplified(tolerance, floor) }
+        Convergence { fading: 0.95, ..Convergence::simplified(tolerance, floor) }
     }
 
     /// Begins the iteration of a new attempt.
     pub fn begin(&mut self) {
         self.iteration = 0;
         self.rate = 0.0;
-        self.ahead = if self.simplified { self.ahead.max(f64::EPSILON).powf(self.memory) } else { 1.0 };
+        self.ahead = if self.simplified { self.ahead.max(f64::EPSILON).powf(self.fading) } else { 1.0 };
     }
 
     /// Forgets the rates of former steps.
@@ -112,6 +112,16 @@ impl Convergence {
         } else {
             Progress::Continue
         }
+    }
+
+    /// What later attempts depend on.
+    pub(super) fn memory(&self) -> f64 {
+        self.ahead
+    }
+
+    /// Takes up the [memory](Convergence::memory) of another run.
+    pub(super) fn recall(&mut self, ahead: f64, rate: f64) {
+        (self.ahead, self.rate) = (ahead, rate);
     }
 
     /// Iterations of this attempt.

@@ -20,7 +20,7 @@
 //! (doi 10.1007/978-3-540-78862-1).
 
 use super::acceleration::Accelerations;
-use super::{Counters, Info, Integrator, StabilityLimit, StepError, StepReport, hermite};
+use super::{Checkpoint, Counters, Info, Integrator, NotResumed, StabilityLimit, StepError, StepReport, hermite};
 use crate::system::{State, System};
 
 /// Name as in a case file.
@@ -186,6 +186,15 @@ impl Integrator for RungeKutta {
         self.pending = false;
         let place = (state.t, 0.0);
         scratch.accelerations.complete(system, state, place, &mut self.counters)
+    }
+
+    fn save(&self, out: &mut Checkpoint) {
+        out.put("counters", &self.counters.to_numbers());
+    }
+
+    fn resume(&mut self, _system: &mut dyn System, from: &Checkpoint) -> Result<(), NotResumed> {
+        self.counters = Counters::from_numbers(from.numbers("counters")?);
+        Ok(())
     }
 
     fn worst(&self) -> usize {

@@ -191,6 +191,20 @@ impl StepControl {
         self.retreat(0.5 * h);
     }
 
+    /// What the next steps depend on, for a [`Checkpoint`](super::Checkpoint): the next step, step and error of the
+    /// last one (NaN before the first), and whether it was rejected.
+    pub fn memory(&self) -> [f64; 4] {
+        let past = self.past.unwrap_or(Past { step: f64::NAN, error: f64::NAN });
+        [self.next, past.step, past.error, f64::from(u8::from(self.rejected))]
+    }
+
+    /// Takes up the [memory](StepControl::memory) of another run.
+    pub fn recall(&mut self, [next, step, error, rejected]: [f64; 4]) {
+        self.next = next;
+        self.past = (!step.is_nan()).then_some(Past { step, error });
+        self.rejected = rejected != 0.0;
+    }
+
     /// Forgets the past at a discontinuity, and begins again with a step of size `first` at most.
     pub fn restart(&mut self, first: f64) {
         self.past = None;

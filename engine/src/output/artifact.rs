@@ -16,6 +16,10 @@ pub enum Artifact {
     TorqueTable,
     /// `section.csv`: the table that the case takes its section from.
     SectionTable,
+    /// `initial.npz`: the state that the run began with, if the case takes it from a file.
+    InitialState,
+    /// `state.npz`: the last accepted step, from which a run can go on.
+    State,
     /// `trajectory.csv`.
     TrajectoryCsv,
     /// `trajectory.npz`.
@@ -49,6 +53,8 @@ impl Artifact {
         Artifact::MotionTable,
         Artifact::TorqueTable,
         Artifact::SectionTable,
+        Artifact::InitialState,
+        Artifact::State,
         Artifact::TrajectoryCsv,
         Artifact::TrajectoryNpz,
         Artifact::PlotSvg,
@@ -60,12 +66,13 @@ impl Artifact {
     pub const COMPARISON: &'static [Artifact] =
         &[Artifact::CompareJson, Artifact::CompareCsv, Artifact::CompareSvg, Artifact::ComparePng];
 
-    /// The copy of a table that a case names in its table `key`: `motion`, `torque` or `section`.
+    /// The copy of a file that a case names in its table `key`: `motion`, `torque`, `section` or `initial`.
     pub fn table(key: &str) -> Option<Artifact> {
         match key {
             "motion" => Some(Artifact::MotionTable),
             "torque" => Some(Artifact::TorqueTable),
             "section" => Some(Artifact::SectionTable),
+            "initial" => Some(Artifact::InitialState),
             _ => None,
         }
     }
@@ -78,6 +85,8 @@ impl Artifact {
             Artifact::MotionTable => "motion.csv".into(),
             Artifact::TorqueTable => "torque.csv".into(),
             Artifact::SectionTable => "section.csv".into(),
+            Artifact::InitialState => "initial.npz".into(),
+            Artifact::State => "state.npz".into(),
             Artifact::TrajectoryCsv => "trajectory.csv".into(),
             Artifact::TrajectoryNpz => "trajectory.npz".into(),
             Artifact::PlotSvg => "plot.svg".into(),

@@ -24,14 +24,15 @@ pub fn write_npz(trajectory: &Trajectory, to: impl Write + Seek) -> io::Result<(
     archive.finish()?.flush()
 }
 
-fn write_array<W: Write + Seek>(
+/// Writes one array of the archive.
+pub(super) fn write_array<T: npyz::AutoSerialize, W: Write + Seek>(
     archive: &mut ZipWriter<W>,
     name: &str,
     len: usize,
-    values: impl Iterator<Item = f64>,
+    values: impl Iterator<Item = T>,
 ) -> io::Result<()> {
     // The header of an array takes 128 bytes; beyond 4 GiB an entry needs the 64-bit format.
-    let bytes = (len as u64).saturating_mul(8).saturating_add(128);
+    let bytes = (len as u64).saturating_mul(size_of::<T>() as u64).saturating_add(128);
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Stored)
         .last_modified_time(DateTime::default())
@@ -40,7 +41,7 @@ fn write_array<W: Write + Seek>(
     archive.start_file(format!("{name}.npy"), options)?;
     let shape = [len as u64];
     let mut array =
-        npyz::WriteOptions::<f64>::new().default_dtype().shape(&shape).writer(archive).begin_nd()?;
+        npyz::WriteOptions::<T>::new().default_dtype().shape(&shape).writer(archive).begin_nd()?;
     array.extend(values)?;
     array.finish()
 }

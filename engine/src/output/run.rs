@@ -3,10 +3,12 @@
 use std::io::Write;
 
 use super::plot::Figure;
+use super::state_file::write_state;
 use super::{
     Artifact, Directory, OutputError, RunReport, Shapes, Status, Summary, Trajectory, resolved_case,
     write_csv, write_npz, write_pvd, write_vtu,
 };
+use crate::integrator::Checkpoint;
 
 /// What not every run has.
 #[derive(Clone, Copy, Debug, Default)]
@@ -15,6 +17,8 @@ pub struct Attachments<'a> {
     pub figure: Option<&'a Figure>,
     /// The tables that the case names, byte for byte.
     pub tables: &'a [(Artifact, Vec<u8>)],
+    /// The last accepted step, and the text that says what it belongs to.
+    pub state: Option<(&'a Checkpoint, &'a str)>,
     /// The shapes of the beam.
     pub shapes: Option<&'a Shapes>,
 }
@@ -38,6 +42,9 @@ pub fn write_run(
     directory.write(Artifact::ResolvedCase, |f| f.write_all(resolved_case(case).as_bytes()))?;
     for (artifact, bytes) in attachments.tables {
         directory.write(*artifact, |f| f.write_all(bytes))?;
+    }
+    if let Some((checkpoint, text)) = attachments.state {
+        directory.write(Artifact::State, |f| write_state(checkpoint, text, f))?;
     }
     // The smaller one first: it may still fit on a disk that is nearly full.
     directory.write(Artifact::TrajectoryNpz, |f| write_npz(trajectory, f))?;

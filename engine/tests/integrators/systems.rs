@@ -3,7 +3,7 @@
 #![allow(dead_code)]
 
 use flexion::linalg::{Matrix, Structure};
-use flexion::system::{Channel, Energy, Frame, Label, Level, Size, State, System, Weights};
+use flexion::system::{Channel, Energy, Frame, Label, Level, Power, Size, State, System, Weights};
 
 /// Implements what these systems do not need.
 macro_rules! no_output {
@@ -11,8 +11,8 @@ macro_rules! no_output {
         fn labels(&self) -> &[Label] {
             &self.labels
         }
-        fn power(&mut self, _s: &State) -> f64 {
-            0.0
+        fn power(&mut self, _s: &State) -> Power {
+            Power::default()
         }
         fn shape(&mut self, _s: &State, _stations: &[f64], _out: &mut [Frame]) {}
         fn channels(&self) -> &[Channel] {

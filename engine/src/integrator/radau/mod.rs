@@ -43,7 +43,7 @@ mod coefficients;
 mod stages;
 
 use super::{
-    Convergence, Counters, Info, Integrator, InvalidParameter, Progress, StepError, StepReport, failure,
+    Checkpoint, Convergence, Counters, Info, Integrator, InvalidParameter, NotResumed, Progress, StepError, StepReport, failure,
     hermite,
 };
 use crate::system::{State, System};
@@ -51,6 +51,9 @@ use stages::Stages;
 
 /// Name as in a case file.
 const NAME: &str = "radau";
+
+/// Names of the stages' accelerations in a checkpoint.
+const STAGES: [&str; 3] = ["stage.1", "stage.2", "stage.3"];
 
 /// Rate of convergence below which tangent and factors serve the next step too.
 const REUSE_RATE: f64 = 0.1;
@@ -222,6 +225,43 @@ impl Integrator for Radau {
         self.convergence.forget();
         work.factored_step = f64::NAN;
         work.accelerations.complete(system, state, (state.t, 0.0), &mut self.counters)
+    }
+
+    fn save(&self, out: &mut Checkpoint) {
+        out.put("counters", &self.counters.to_numbers());
+        out.put("first", &[f64::from(u8::from(self.first)), self.accepted_step]);
+        out.put("convergence", &[self.convergence.memory(), self.convergence.rate()]);
+        if let Some(work) = &self.work {
+            for (a, name) in work.a_accepted.iter().zip(STAGES) {
+                out.put(name, a);
+            }
+            out.put("factors", &[work.factored_step, work.rate]);
+            out.put_state("factors.", &work.place);
+        }
+    }
+
+    fn resume(&mut self, system: &mut dyn System, from: &Checkpoint) -> Result<(), NotResumed> {
+        let Some(work) = &mut self.work else {
+            return Err(NotResumed::Failed(format!("{NAME} was not started")));
+        };
+        let [first, accepted] = from.numbers("first")?;
+        (self.first, self.accepted_step) = (first != 0.0, accepted);
+        for (a, name) in work.a_accepted.iter_mut().zip(STAGES) {
+            from.fill(name, a)?;
+        }
+        let [step, rate] = from.numbers("factors")?;
+        if step.is_finite() {
+            // The same tangents at the same place have the same factors.
+            let mut place = work.place.clone();
+            from.fill_state("factors.", &mut place)?;
+            let factored = work.factor(system, &place, step, &mut self.counters);
+            factored.map_err(|error| NotResumed::Failed(error.to_string()))?;
+            (work.rate, work.fresh) = (rate, false);
+        }
+        let [ahead, rate] = from.numbers("convergence")?;
+        self.convergence.recall(ahead, rate);
+        self.counters = Counters::from_numbers(from.numbers("counters")?);
+        Ok(())
     }
 
     fn worst(&self) -> usize {

@@ -19,6 +19,8 @@ pub(super) struct Stages {
     complex: Matrix<Complex64>,
     /// Step of the factors; NaN when there are none.
     pub(super) factored_step: f64,
+    /// Where the tangents were formed.
+    pub(super) place: State,
     /// Whether the factors belong to the start of this step.
     pub(super) fresh: bool,
     /// Last rate of convergence with these factors.
@@ -57,6 +59,7 @@ impl Stages {
             mass: Matrix::new(&structure),
             complex: Matrix::new(&structure),
             factored_step: f64::NAN,
+            place: State::zeros(size, 0.0),
             fresh: false,
             rate: 0.0,
             scale: system.labels().iter().map(|label| label.scale).collect(),
@@ -106,6 +109,7 @@ impl Stages {
         let complex = self.complex.factor().map_err(tell)?;
         counters.tangents += if real || complex { 4 } else { 0 };
         counters.factorizations += u64::from(real) + u64::from(complex);
+        self.place.copy_from(from);
         self.factored_step = h;
         self.fresh = true;
         self.rate = 0.0;

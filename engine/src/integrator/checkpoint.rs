@@ -1,0 +1,125 @@
+//! What a run remembers, as named lists of numbers: enough to go on as if it had never stopped.
+
+/// Named lists of numbers, in the order in which they were put.
+///
+/// A run that goes on from a checkpoint takes the very steps it would have taken without it, bit by bit: counts are
+/// kept as numbers too, exact up to 2⁵³.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Checkpoint {
+    entries: Vec<(String, Vec<f64>)>,
+}
+
+/// A checkpoint from which a run cannot go on.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum NotResumed {
+    /// A list is missing.
+    #[error("the stored state lacks `{0}`: it was written by another method or another version of the program")]
+    Missing(String),
+    /// A list has another length than the model or the method needs.
+    #[error("the stored `{name}` has {found} entries, and {needed} are needed")]
+    Length {
+        /// Name of the list.
+        name: String,
+        /// Its length.
+        found: usize,
+        /// Length needed.
+        needed: usize,
+    },
+    /// The method cannot take up its history again.
+    #[error("{0}")]
+    Failed(String),
+}
+
+impl Checkpoint {
+    /// Adds a list, or replaces it in its place.
+    pub fn put(&mut self, name: &str, values: &[f64]) {
+        match self.entries.iter_mut().find(|(known, _)| known == name) {
+            Some((_, old)) => *old = values.to_vec(),
+            None => self.entries.push((name.to_owned(), values.to_vec())),
+        }
+    }
+
+    /// The lists with their names.
+    pub fn entries(&self) -> impl Iterator<Item = (&str, &[f64])> {
+        self.entries.iter().map(|(name, values)| (name.as_str(), values.as_slice()))
+    }
+
+    /// The list called `name`.
+    ///
+    /// # Errors
+    /// [`NotResumed::Missing`].
+    pub fn list(&self, name: &str) -> Result<&[f64], NotResumed> {
+        let found = self.entries.iter().find(|(known, _)| known == name);
+        found.map(|(_, values)| values.as_slice()).ok_or_else(|| NotResumed::Missing(name.to_owned()))
+    }
+
+    /// The list called `name`, of N numbers.
+    ///
+    /// # Errors
+    /// [`NotResumed::Missing`] and [`NotResumed::Length`].
+    pub fn numbers<const N: usize>(&self, name: &str) -> Result<[f64; N], NotResumed> {
+        let list = self.list(name)?;
+        list.try_into().map_err(|_| NotResumed::Length {
+            name: name.to_owned(),
+            found: list.len(),
+            needed: N,
+        })
+    }
+
+    /// Copies the list called `name` into `out`, whose length it must have.
+    ///
+    /// # Errors
+    /// [`NotResumed::Missing`] and [`NotResumed::Length`].
+    pub fn fill(&self, name: &str, out: &mut [f64]) -> Result<(), NotResumed> {
+        let list = self.list(name)?;
+        if list.len() != out.len() {
+            let (name, found, needed) = (name.to_owned(), list.len(), out.len());
+            return Err(NotResumed::Length { name, found, needed });
+        }
+        out.copy_from_slice(list);
+        Ok(())
+    }
+
+    /// Adds t, q, v, a and λ of a state under names that begin with `prefix`.
+    pub fn put_state(&mut self, prefix: &str, state: &crate::system::State) {
+        self.put(&format!("{prefix}time"), &[state.t]);
+        for (name, list) in [("q", &state.q), ("v", &state.v), ("a", &state.a), ("lambda", &state.lambda)] {
+            self.put(&format!("{prefix}{name}"), list);
+        }
+    }
+
+    /// Reads what [`Checkpoint::put_state`] wrote into a state of the same sizes.
+    ///
+    /// # Errors
+    /// [`NotResumed::Missing`] and [`NotResumed::Length`].
+    pub fn fill_state(&self, prefix: &str, state: &mut crate::system::State) -> Result<(), NotResumed> {
+        [state.t] = self.numbers(&format!("{prefix}time"))?;
+        self.fill(&format!("{prefix}q"), &mut state.q)?;
+        self.fill(&format!("{prefix}v"), &mut state.v)?;
+        self.fill(&format!("{prefix}a"), &mut state.a)?;
+        self.fill(&format!("{prefix}lambda"), &mut state.lambda)
+    }
+}
+
+impl super::Counters {
+    /// As numbers, for a [`Checkpoint`].
+    pub(super) fn to_numbers(self) -> [f64; 7] {
+        let all = [
+            self.steps,
+            self.rejected,
+            self.iterations,
+            self.residuals,
+            self.tangents,
+            self.factorizations,
+            self.solves,
+        ];
+        all.map(|count| count as f64)
+    }
+
+    /// From the numbers of a [`Checkpoint`].
+    pub(super) fn from_numbers(numbers: [f64; 7]) -> super::Counters {
+        let [steps, rejected, iterations, residuals, tangents, factorizations, solves] =
+            numbers.map(|count| count as u64);
+        super::Counters { steps, rejected, iterations, residuals, tangents, factorizations, solves }
+    }
+}
