@@ -1,7 +1,7 @@
 //! `flexion run`: integrates a case and writes its results.
 
 use crate::{Outcome, case, screen};
-use flexion::case::Run;
+use flexion::case::{Errors, Run, units};
 use flexion::output::{Artifact, Directory, Status, Trajectory};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::ops::ControlFlow;
@@ -27,6 +27,12 @@ pub struct Arguments {
     /// Write the shape of the beam for ParaView too, as `--set output.vtk=true`
     #[arg(long)]
     vtk: bool,
+    /// Stop after the step that reaches this time, e.g. "2 s"; `initial.kind = "restart"` goes on from there
+    #[arg(long, value_name = "TIME", value_parser = time)]
+    until: Option<f64>,
+    /// Estimate the error of every column, by runs with finer meshes and steps
+    #[arg(long)]
+    error: bool,
     /// Replace the results of a former run
     #[arg(long)]
     force: bool,
@@ -56,7 +62,21 @@ pub fn run(arguments: &Arguments) -> Outcome {
         }
     };
     let mut progress = Progress::new(reading.case.duration);
-    let run = prepared.run(&mut |state| progress.show(state.t));
+    let until = arguments.until.unwrap_or(f64::INFINITY);
+    let mut run = prepared.run(&mut |state| {
+        if state.t >= until { ControlFlow::Break(()) } else { progress.show(state.t) }
+    });
+    if arguments.error {
+        match reading.estimate_errors(&run, &mut |state| progress.show(state.t)) {
+            Ok(errors) => run.errors = Some(errors),
+            Err(problems) => {
+                progress.finish();
+                screen::complain(&problems.render(screen::colour()));
+                directory.discard();
+                return Outcome::Rejected;
+            }
+        }
+    }
     progress.finish();
     match reading.write(&run, &directory) {
         Ok(status) => finish(status, &run, &directory),
@@ -78,6 +98,10 @@ fn finish(status: Status, run: &Run, directory: &Directory) -> Outcome {
     let mut out = format!("{} at t = {end} s after {wall_time:.3} s of computing\n\n", status.word());
     out.push_str(&extremes(trajectory));
     out.push('\n');
+    if let Some(errors) = &run.errors {
+        out.push_str(&error_table(errors));
+        out.push('\n');
+    }
     let place = |what: &str, artifact| vec![what.to_owned(), directory.file(artifact).display().to_string()];
     let mut places = vec![place("summary", Artifact::Summary), place("plot", Artifact::PlotSvg)];
     if run.shapes.is_some() {
@@ -85,7 +109,8 @@ fn finish(status: Status, run: &Run, directory: &Directory) -> Outcome {
     }
     out.push_str(&screen::table(&places));
     screen::print(&out);
-    for warning in &run.warnings {
+    let estimates = run.errors.iter().flat_map(|errors| &errors.warnings);
+    for warning in run.warnings.iter().chain(estimates) {
         screen::complain(&format!("warning: {warning}\n"));
     }
     if status == Status::Finished {
@@ -122,6 +147,23 @@ fn extremes(trajectory: &Trajectory) -> String {
         rows.push(row);
     }
     screen::table(&rows)
+}
+
+/// Estimated errors of what is recorded at the tip and the hub.
+fn error_table(errors: &Errors) -> String {
+    let head = ["", "error of mesh and steps", "difference to the exact coupling"];
+    let mut rows = vec![head.iter().map(|cell| (*cell).to_owned()).collect::<Vec<_>>()];
+    let shown = |name: &str| name.starts_with("tip.") || name.starts_with("hub.");
+    for error in errors.columns.iter().filter(|error| shown(&error.column)) {
+        let model = error.model.map_or("-".to_owned(), |model| format!("{model:.1e}"));
+        rows.push(vec![error.column.clone(), format!("{:.1e}", error.discretization), model]);
+    }
+    screen::table(&rows)
+}
+
+/// A time with its unit, or in seconds.
+fn time(text: &str) -> Result<f64, String> {
+    text.parse().or_else(|_| units::parse(text, &units::TIME).map_err(|error| error.message))
 }
 
 /// Shows how far a run is, and stops it on Ctrl-C.

@@ -101,6 +101,8 @@ const KINDS: &[&str] = &[
     "basis={kind='mixed',axial={kind='radial'},transverse={kind='finite-elements',elements=10}}",
     "initial.kind=undeformed",
     "initial.kind=steady-rotation",
+    "initial.kind=static",
+    "initial={kind='restart',file='state.npz'}",
     "hub.motion={kind='free',angle='10 deg',speed='1 rad/s',damping='0.1 N*m*s/rad',stiffness=2,rest-angle=0.1}",
     "hub.motion={kind='free',torque={kind='constant',torque='3 N*m'}}",
     "hub.motion={kind='free',torque={kind='ramp',torque='3 N*m',time='2 s'},controller={kind='none'}}",

@@ -71,6 +71,9 @@ const VARIATIONS: &[&str] = &[
     "basis={kind='mixed', axial={kind='radial'}, transverse={kind='finite-elements'}}",
     "initial.kind=steady-rotation",
     "initial.kind=undeformed",
+    "initial.kind=static",
+    "initial={kind='restart', file='tables/state.npz'}",
+    "initial={kind='restart', file='tables'}",
     "integrator={kind='radau'}",
     "integrator={kind='hht', step='1 ms'}",
     "integrator={kind='generalized-alpha', step='1 ms'}",
@@ -113,12 +116,15 @@ fn a_run_is_repeated_byte_for_byte_from_the_resolved_case_alone() {
     let folder = tempfile::tempdir().unwrap();
     let case = folder.path().join("case.toml");
     fs::write(&case, BASE).unwrap();
+    let earlier = folder.path().join("earlier");
+    run(&case, &["run.duration='20 ms'"], &earlier);
     let (first, second) = (folder.path().join("first"), folder.path().join("elsewhere/second"));
     for variation in VARIATIONS {
         // What the case refers to is there for the first run only.
         fs::create_dir(folder.path().join("tables")).unwrap();
         fs::write(folder.path().join("tables/measured.csv"), TABLE).unwrap();
         fs::write(folder.path().join("tables/section.csv"), SECTION).unwrap();
+        fs::copy(earlier.join("state.npz"), folder.path().join("tables/state.npz")).unwrap();
         run(&case, &[variation], &first);
         fs::remove_dir_all(folder.path().join("tables")).unwrap();
         run(&first.join("case.resolved.toml"), &[], &second);
@@ -128,9 +134,9 @@ fn a_run_is_repeated_byte_for_byte_from_the_resolved_case_alone() {
         for ((name, a), (_, b)) in a.iter().zip(&b) {
             assert!(a == b, "{variation}: {name} differs");
         }
-        let copies =
-            ["motion.csv", "torque.csv", "section.csv"].map(|copy| names(&a).contains(&copy.to_owned()));
-        assert_eq!(variation.contains("tables/"), copies.contains(&true), "{variation}");
+        let copies = ["motion.csv", "torque.csv", "section.csv", "initial.npz"]
+            .map(|copy| names(&a).contains(&copy.to_owned()));
+        assert_eq!(variation.contains("tables"), copies.contains(&true), "{variation}");
         assert_eq!(variation.contains("vtk=true"), names(&a).contains(&"beam.pvd".to_owned()));
         if variation.contains("tables/") {
             // In its own place, too: the table is replaced by itself.

@@ -2,4 +2,7 @@
 
 mod audit;
 pub mod equilibrium;
+mod ledger;
 pub mod transient;
+
+pub use ledger::Books;

@@ -1,6 +1,7 @@
 //! Motion in time: drives a system with an integrator from a state to an end time.
 
 use super::audit::Audit;
+use super::ledger::{Books, Ledger};
 use crate::integrator::{Checkpoint, Integrator, NotResumed, StepControl, StepError, StepReport};
 use crate::system::{State, System};
 use std::ops::ControlFlow;
@@ -30,10 +31,17 @@ pub struct Step {
     pub size: f64,
     /// Newton iterations of that step.
     pub iterations: u32,
+    /// The books of energy until this state, if the observer [wants them](Observer::wants_books).
+    pub books: Option<Books>,
 }
 
 /// Someone who watches a run: records, reports progress, stops it.
 pub trait Observer {
+    /// Whether work and losses are to be integrated along the run: one to three evaluations of the power a step.
+    fn wants_books(&self) -> bool {
+        false
+    }
+
     /// A state at a time to be recorded.
     fn sample(&mut self, system: &mut dyn System, state: &State, step: &Step);
 
@@ -150,7 +158,7 @@ pub fn resume(
     observer: &mut dyn Observer,
 ) -> Result<(Ending, Checkpoint), NotResumed> {
     let mut run = Run::new(state);
-    run.resume(system, integrator, from, state, plan)?;
+    run.resume(system, integrator, from, state, plan, observer)?;
     let ending = run.go_on(system, integrator, state, plan, observer);
     Ok((ending, run.checkpoint(integrator, state, plan.sample)))
 }
@@ -166,6 +174,7 @@ struct Run {
     uniform: Option<f64>,
     control: Option<StepControl>,
     audit: Option<Audit>,
+    ledger: Option<Ledger>,
     /// Dense output.
     middle: State,
 }
@@ -180,6 +189,7 @@ impl Run {
             uniform: None,
             control: None,
             audit: None,
+            ledger: None,
             middle: state.clone(),
         }
     }
@@ -199,7 +209,10 @@ impl Run {
             return Err(failed(system, state, error));
         }
         self.supervise(system, integrator, state, plan);
-        observer.sample(system, state, &self.last);
+        let order = integrator.info().order;
+        self.ledger = observer.wants_books().then(|| Ledger::new(system, order, state));
+        let books = self.ledger.as_ref().map(Ledger::books);
+        observer.sample(system, state, &Step { books, ..self.last });
         Ok(())
     }
 
@@ -211,12 +224,13 @@ impl Run {
         from: &Checkpoint,
         state: &mut State,
         plan: &Plan,
+        observer: &dyn Observer,
     ) -> Result<(), NotResumed> {
         from.fill_state("", state)?;
         let [origin, samples, count, uniform] = from.numbers("run")?;
         (self.origin, self.samples, self.count) = (origin, samples as u64, count as u64);
         let [size, iterations] = from.numbers("last")?;
-        self.last = Step { size, iterations: iterations as u32 };
+        self.last = Step { size, iterations: iterations as u32, books: None };
         let [sample] = from.numbers("sample")?;
         if sample != plan.sample {
             let before = (state.t - origin) / plan.sample;
@@ -245,6 +259,11 @@ impl Run {
         if let Some(audit) = &mut self.audit {
             audit.recall(from.numbers("audit")?);
         }
+        if observer.wants_books() {
+            let mut ledger = Ledger::new(system, integrator.info().order, state);
+            ledger.recall(from)?;
+            self.ledger = Some(ledger);
+        }
         integrator.resume(system, from)
     }
 
@@ -261,6 +280,9 @@ impl Run {
         }
         if let Some(audit) = &self.audit {
             out.put("audit", &audit.memory());
+        }
+        if let Some(ledger) = &self.ledger {
+            ledger.save(&mut out);
         }
         integrator.save(&mut out);
         out
@@ -338,7 +360,7 @@ impl Run {
                 Some(control) => adapt(system, integrator, state, &mut next, plan.end, control)
                     .map_err(|error| failed(system, state, error))?,
             };
-            self.last = Step { size: h, iterations: report.iterations };
+            self.last = Step { size: h, iterations: report.iterations, books: None };
             if let Err(what) = system.admissible(&next) {
                 let reason = system.explain(&next);
                 return Err(RunError::Inadmissible { time: next.t, what, reason });
@@ -348,7 +370,13 @@ impl Run {
             if let Some(audit) = &mut self.audit {
                 audit.enter(system, h, &next)?;
             }
+            if let Some(ledger) = &mut self.ledger {
+                ledger.enter(system, integrator, (state, &next));
+            }
             self.show(system, integrator, state, &next, plan, observer);
+            if let Some(ledger) = &mut self.ledger {
+                ledger.close();
+            }
             std::mem::swap(state, &mut next);
             if let Some(control) = &mut self.control
                 && at_break(system, state.t)
@@ -382,14 +410,19 @@ impl Run {
             if t > to.t + slack {
                 return;
             }
+            let mut books = None;
             if t >= to.t - slack {
                 self.middle.copy_from(to);
+                books = self.ledger.as_ref().map(Ledger::end);
             } else {
                 integrator.interpolate(system, from, to, t, &mut self.middle);
+                if let Some(ledger) = &mut self.ledger {
+                    books = Some(ledger.until(system, integrator, (from, to), &self.middle));
+                }
             }
             // The very multiple, not a sum of steps that comes close to it.
             self.middle.t = t;
-            observer.sample(system, &self.middle, &self.last);
+            observer.sample(system, &self.middle, &Step { books, ..self.last });
             // An end that is no multiple is not counted: a run that goes on records the next multiple.
             self.samples += u64::from(self.origin + multiple(self.samples, interval) <= plan.end + slack);
             if t >= plan.end {

@@ -69,6 +69,8 @@ pub enum Initial {
     Undeformed,
     /// In the equilibrium of steady rotation at the initial speed of the hub.
     SteadyRotation,
+    /// In static equilibrium under the loads at t = 0, the hub held.
+    Static,
     /// The last state of an earlier run of the same model, whose time goes on.
     Restart {
         /// `state.npz` of that run.
@@ -83,6 +85,8 @@ pub struct Output {
     pub step: f64,
     /// Stations along the beam to be recorded besides the tip [m].
     pub stations: Vec<f64>,
+    /// Whether work, losses and the balance of energy are recorded.
+    pub energy_balance: bool,
     /// Interval between shapes of the beam for ParaView [s]; `None` writes none.
     pub vtk: Option<f64>,
 }
@@ -132,6 +136,12 @@ static INITIAL: Seam = Seam {
         Kind {
             name: "steady-rotation",
             summary: "equilibrium of steady rotation at the initial speed of the hub",
+            source: "",
+            keys: &[],
+        },
+        Kind {
+            name: "static",
+            summary: "static equilibrium under the loads of the start, the hub at rest and held",
             source: "",
             keys: &[],
         },
@@ -228,6 +238,12 @@ pub(super) static KEYS: &[Key] = &[
                 "stations along the beam, from the root, recorded besides the tip",
             ),
             key(
+                "energy-balance",
+                Type::Boolean,
+                Default::Boolean(true),
+                "work, losses and the balance of energy are recorded, for an evaluation or more of the power a step",
+            ),
+            key(
                 "vtk",
                 Type::Boolean,
                 Default::Boolean(false),
@@ -271,12 +287,14 @@ pub(super) fn case(values: &mut Values, folder: &Path, problems: &mut Problems) 
     let initial = values.kind("initial").and_then(|(kind, v)| {
         Some(match kind.name {
             "steady-rotation" => Initial::SteadyRotation,
+            "static" => Initial::Static,
             "restart" => Initial::Restart { file: restart::state_file(&folder.join(v.text("file")?)) },
             _ => Initial::Undeformed,
         })
     });
     let output = values.table("output");
     let stations = output.and_then(|output| output.numbers("stations")).map(<[f64]>::to_vec);
+    let energy_balance = output.and_then(|output| output.boolean("energy-balance"));
     let output_step = output.and_then(|output| output.number("step"));
 
     if let (Some(length), Some(stations), Some(output)) = (length, &stations, output) {
@@ -362,7 +380,7 @@ pub(super) fn case(values: &mut Values, folder: &Path, problems: &mut Problems) 
         initial: initial?,
         integrator: integrator?,
         duration: run_duration?,
-        output: Output { step: output_step?, stations: stations?, vtk },
+        output: Output { step: output_step?, stations: stations?, energy_balance: energy_balance?, vtk },
     })
 }
 

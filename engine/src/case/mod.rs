@@ -13,6 +13,7 @@
 
 pub mod build;
 pub mod declaration;
+mod error;
 pub mod units;
 
 mod basis;
@@ -34,6 +35,7 @@ mod trial;
 mod values;
 
 pub use basis::{Bases, Basis, RadialBasis};
+pub use error::{ColumnError, Errors};
 pub use integrator::Integrator;
 pub use layout::{Case, Coupling, Hub, Initial, Output};
 pub use motion::{Motion, MotionOf};

@@ -67,13 +67,14 @@ impl Restart {
         let (checkpoint, identity) = read_state(BufReader::new(opened))
             .map_err(|reason| refuse(format!("{} is not the state of a run: {reason}", file.display())))?;
         let (here, there) = (reading.identity(), identity);
+        let defaults: Vec<String> = reading.defaults().into_iter().map(|(key, _)| key).collect();
         let differ = |integrator: bool| {
             let of = |text: &str| -> Vec<(String, String)> {
                 let lines = text.lines().filter_map(|line| line.split_once(" = "));
                 let wanted = lines.filter(|(key, _)| key.starts_with("integrator.") == integrator);
                 wanted.map(|(key, value)| (key.to_owned(), value.to_owned())).collect()
             };
-            differences(&of(&there), &of(&here))
+            differences(&of(&there), &of(&here), &defaults)
         };
         let different = differ(false);
         if !different.is_empty() {
@@ -108,8 +109,9 @@ impl Restart {
     }
 }
 
-/// The first keys that differ, with both values.
-fn differences(there: &[(String, String)], here: &[(String, String)]) -> Vec<String> {
+/// The first keys that differ, with both values. A key that the state does not know and that has its default makes no
+/// other model: a later version may know more.
+fn differences(there: &[(String, String)], here: &[(String, String)], defaults: &[String]) -> Vec<String> {
     let value = |list: &[(String, String)], key: &str| {
         list.iter().find(|(known, _)| known == key).map_or("nothing".to_owned(), |(_, value)| value.clone())
     };
@@ -117,6 +119,9 @@ fn differences(there: &[(String, String)], here: &[(String, String)]) -> Vec<Str
     let mut out = Vec::new();
     for (key, _) in keys {
         let (old, new) = (value(there, key), value(here, key));
+        if old == "nothing" && defaults.contains(key) {
+            continue;
+        }
         if old != new && out.len() < 3 {
             out.push(format!("`{key}` was {old} and is {new}"));
         }

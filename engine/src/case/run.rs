@@ -1,7 +1,7 @@
 //! A case, run: from its reading to its results.
 
 use super::restart::Restart;
-use super::{Initial, Integrator as IntegratorCase, Live, Problems, Reading, resolved};
+use super::{Errors, Initial, Integrator as IntegratorCase, Live, Problems, Reading, resolved};
 use crate::analysis::equilibrium::equilibrium;
 use crate::analysis::transient::{Ending, Plan, resume, transient_to_checkpoint};
 use crate::integrator::{Checkpoint, Counters, Info};
@@ -46,6 +46,8 @@ pub struct Run {
     pub state: State,
     /// The same with all that a run needs to go on from it.
     pub checkpoint: Checkpoint,
+    /// Estimated errors, once someone has [estimated them](Reading::estimate_errors).
+    pub errors: Option<Errors>,
     /// What its reader should know about the validity of the model.
     pub warnings: Vec<String>,
     /// The integrator.
@@ -74,7 +76,19 @@ impl Reading {
             let restart = Restart::read(self, file)?;
             history = restart.begin(self, &mut state)?;
         }
-        if case.initial == Initial::SteadyRotation {
+        if case.initial == Initial::Static {
+            let mut row = vec![0.0; live.system.channels().len()];
+            live.system.record(&state, &mut row);
+            let speed = live.system.channels().iter().position(|c| c.name == "hub.speed").map(|i| row[i]);
+            if let Some(speed) = speed.filter(|speed| *speed != 0.0) {
+                let message = format!(
+                    "the hub turns at {speed} rad/s at the start, and a turning beam is not in static equilibrium: use \
+                     `steady-rotation`"
+                );
+                return Err(self.problem("initial.kind", message));
+            }
+        }
+        if matches!(case.initial, Initial::SteadyRotation | Initial::Static) {
             let velocity = state.v.clone();
             live.system.hold(true);
             equilibrium(live.system.as_mut(), &mut state)
@@ -112,6 +126,8 @@ impl Reading {
     /// [`OutputError`] for whatever goes wrong on disk or in drawing.
     pub fn write(&self, run: &Run, directory: &Directory) -> Result<Status, OutputError> {
         let file = self.file.file_name().map(|name| name.to_string_lossy());
+        let estimated = run.errors.iter().flat_map(|errors| &errors.columns);
+        let errors: Vec<_> = estimated.map(|e| (e.column.clone(), e.discretization, e.model)).collect();
         let report = RunReport {
             status: run.status,
             message: run.message.as_deref(),
@@ -121,6 +137,7 @@ impl Reading {
             end_time: run.state.t,
             warnings: &run.warnings,
             integrator: Integration { info: &run.info, settings: self.settings("integrator") },
+            errors: &errors,
             counters: run.counters,
             size: run.size,
             wall_time: run.wall_time,
@@ -149,10 +166,11 @@ impl Prepared<'_> {
     /// Integrates to the end, or to where `watch` stops it or the integration fails: what was computed
     /// until then is in the run.
     pub fn run(self, watch: &mut Watch<'_>) -> Run {
-        let Prepared { live, mut state, plan, tables, shapes, history, .. } = self;
+        let Prepared { reading, live, mut state, plan, tables, shapes, history } = self;
+        let books = reading.case.output.energy_balance;
         let Live { mut system, mut integrator } = live;
         let (start, cpu_start) = (Instant::now(), processor_time());
-        let mut recorder = Recorder::new(system.as_ref(), &plan, watch).with_shapes(shapes);
+        let mut recorder = Recorder::new(system.as_ref(), &plan, books, watch).with_shapes(shapes);
         let parts = (system.as_mut(), integrator.as_mut());
         let (ending, checkpoint) = match &history {
             None => transient_to_checkpoint(parts.0, parts.1, &mut state, &plan, &mut recorder),
@@ -184,6 +202,7 @@ impl Prepared<'_> {
             size: size(system.as_ref()),
             state,
             checkpoint,
+            errors: None,
             wall_time,
             cpu_time,
         }

@@ -70,6 +70,8 @@ pub struct RunReport<'a> {
     pub warnings: &'a [String],
     /// The integrator.
     pub integrator: Integration<'a>,
+    /// Estimated errors: name of a column, error of the discretization and of the model.
+    pub errors: &'a [(String, f64, Option<f64>)],
     /// Work done.
     pub counters: Counters,
     /// Size of the equations.
@@ -116,7 +118,10 @@ impl Summary {
         let mut s = Summary::new(status, message.as_deref(), report.title, report.file);
         s.insert("duration", report.duration);
         s.insert("end_time", report.end_time);
-        s.insert("columns", columns(trajectory));
+        s.insert("columns", columns(trajectory, report.errors));
+        if let Some(energy) = imbalance(trajectory) {
+            s.insert("energy", energy);
+        }
         s.insert("warnings", report.warnings);
         let info = report.integrator.info;
         let mut integrator = Map::new();
@@ -166,12 +171,33 @@ impl Summary {
     }
 }
 
-fn columns(trajectory: &Trajectory) -> Map<String, Value> {
+/// The balance of energy: its largest and last value, and both over the largest energy or work of the run.
+fn imbalance(trajectory: &Trajectory) -> Option<Value> {
+    let balance = trajectory.extremes(trajectory.index("energy.balance")?);
+    let sizes = trajectory.channels().iter().enumerate().filter(|(_, c)| c.name.starts_with("energy."));
+    let size = |i: usize| {
+        let e = trajectory.extremes(i);
+        e.min.abs().max(e.max.abs())
+    };
+    let largest = sizes.map(|(i, _)| size(i)).fold(0.0, f64::max);
+    let max = balance.min.abs().max(balance.max.abs());
+    let over = |x: f64| if largest > 0.0 { x / largest } else { 0.0 };
+    Some(json!({
+        "largest": largest,
+        "imbalance": { "max": max, "final": balance.last },
+        "relative_imbalance": { "max": over(max), "final": over(balance.last) },
+    }))
+}
+
+fn columns(trajectory: &Trajectory, errors: &[(String, f64, Option<f64>)]) -> Map<String, Value> {
     let entry = |(i, c): (usize, &crate::system::Channel)| {
         let e = trajectory.extremes(i);
-        let value = json!({
+        let mut value = json!({
             "min": e.min, "t_min": e.t_min, "max": e.max, "t_max": e.t_max, "final": e.last, "unit": c.unit,
         });
+        if let Some((_, discretization, model)) = errors.iter().find(|(name, ..)| *name == c.name) {
+            value["error"] = json!({ "discretization": discretization, "model": model });
+        }
         (c.name.clone(), value)
     };
     trajectory.channels().iter().enumerate().map(entry).collect()
@@ -195,6 +221,7 @@ pub(super) mod tests {
             end_time: 4.0,
             warnings: &[],
             integrator: Integration { info: &RADAU, settings },
+            errors: &[],
             counters: Counters { steps: 400, ..Counters::default() },
             size: ProblemSize { unknowns: 33, half_bandwidth: 5, border: 1 },
             wall_time: 0.25,
