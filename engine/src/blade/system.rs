@@ -8,7 +8,7 @@ use super::model::{BladeError, Model, Setting, StrainEnergy};
 use super::tension::Tension;
 use crate::linalg::{Matrix, Storage, Structure};
 use crate::section::BladeSection;
-use crate::system::{Channel, Energy, Frame, Label, Size, State, System, Weights};
+use crate::system::{Channel, Energy, Frame, Label, Power, Size, State, System, Weights};
 
 /// A rotating blade. See the [module documentation](super).
 ///
@@ -224,8 +224,8 @@ impl System for Blade {
         Energy { kinetic, strain, gravity: 0.0 }
     }
 
-    fn power(&mut self, _s: &State) -> f64 {
-        0.0
+    fn power(&mut self, _s: &State) -> Power {
+        Power::default()
     }
 
     fn shape(&mut self, s: &State, stations: &[f64], out: &mut [Frame]) {

@@ -7,8 +7,8 @@ use super::declaration::{
 use super::integrator::{self, Integrator};
 use super::motion::{self, Motion};
 use super::problem::{Problem, Problems};
-use super::section::{self, Section};
 use super::restart;
+use super::section::{self, Section};
 use super::torque;
 use super::trial;
 use super::units::{INERTIA, LENGTH, TIME};

@@ -129,13 +129,12 @@ impl Reading {
         let identity = self.identity();
         let title = (!self.case.title.is_empty()).then_some(self.case.title.as_str());
         let figure = trajectory_figure(&run.trajectory, title);
-        let attachments =
-            Attachments {
-                figure: Some(&figure),
-                tables: &run.tables,
-                state: Some((&run.checkpoint, &identity)),
-                shapes: run.shapes.as_ref(),
-            };
+        let attachments = Attachments {
+            figure: Some(&figure),
+            tables: &run.tables,
+            state: Some((&run.checkpoint, &identity)),
+            shapes: run.shapes.as_ref(),
+        };
         let case = self.resolved_with_copies();
         write_run(directory, &report, &run.trajectory, &case, attachments)
     }

@@ -29,7 +29,9 @@
 //! section 4.5 (ISBN 978-0-471-92990-1).
 
 use super::runge_kutta::Scratch;
-use super::{Checkpoint, Counters, Info, Integrator, NotResumed, StabilityLimit, StepError, StepReport, hermite};
+use super::{
+    Checkpoint, Counters, Info, Integrator, NotResumed, StabilityLimit, StepError, StepReport, hermite,
+};
 use crate::system::{State, System};
 
 /// Name as in a case file.

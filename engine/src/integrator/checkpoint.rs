@@ -13,7 +13,9 @@ pub struct Checkpoint {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NotResumed {
     /// A list is missing.
-    #[error("the stored state lacks `{0}`: it was written by another method or another version of the program")]
+    #[error(
+        "the stored state lacks `{0}`: it was written by another method or another version of the program"
+    )]
     Missing(String),
     /// A list has another length than the model or the method needs.
     #[error("the stored `{name}` has {found} entries, and {needed} are needed")]

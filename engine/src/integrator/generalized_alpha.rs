@@ -33,8 +33,8 @@
 
 use super::acceleration::Accelerations;
 use super::{
-    Checkpoint, Convergence, Counters, Info, Integrator, InvalidParameter, NotResumed, Progress, StepError, StepReport, failure,
-    hermite,
+    Checkpoint, Convergence, Counters, Info, Integrator, InvalidParameter, NotResumed, Progress, StepError,
+    StepReport, failure, hermite,
 };
 use crate::linalg::Matrix;
 use crate::system::{Level, State, System, Weights};
@@ -406,8 +406,7 @@ impl Integrator for GeneralizedAlpha {
         let [v, q] = work.kept;
         if work.keeps && v.is_finite() && q.is_finite() {
             // The same tangent at the same place has the same factors.
-            let weights =
-                Weights { q, v, a: 1.0, increment: Some(&work.increment), level: Level::Position };
+            let weights = Weights { q, v, a: 1.0, increment: Some(&work.increment), level: Level::Position };
             system.tangent(&work.place, weights, &mut work.tangent);
             work.tangent.factor().map_err(|e| NotResumed::Failed(format!("{}: {e}", self.info.name)))?;
         }

@@ -20,7 +20,9 @@
 //! (doi 10.1007/978-3-540-78862-1).
 
 use super::acceleration::Accelerations;
-use super::{Checkpoint, Counters, Info, Integrator, NotResumed, StabilityLimit, StepError, StepReport, hermite};
+use super::{
+    Checkpoint, Counters, Info, Integrator, NotResumed, StabilityLimit, StepError, StepReport, hermite,
+};
 use crate::system::{State, System};
 
 /// Name as in a case file.

@@ -43,8 +43,8 @@ mod coefficients;
 mod stages;
 
 use super::{
-    Checkpoint, Convergence, Counters, Info, Integrator, InvalidParameter, NotResumed, Progress, StepError, StepReport, failure,
-    hermite,
+    Checkpoint, Convergence, Counters, Info, Integrator, InvalidParameter, NotResumed, Progress, StepError,
+    StepReport, failure, hermite,
 };
 use crate::system::{State, System};
 use stages::Stages;

@@ -1,235 +1,8 @@
-//! Derivatives against an energy that is coded apart from the model, and frequencies against published ones.
+//! Force, stiffness and inertia against energies that are coded apart from the model.
 
-use super::mesh::Component;
 use super::*;
-use crate::linalg::Matrix;
 use crate::quadrature::Gauss;
-use crate::section::{BladeResultants, BladeSection};
-use crate::system::{State, System, Weights};
-
-/// Vibration problem of a blade in dense matrices: M, C, K, rows of the given unknowns.
-pub fn matrices(blade: &mut Blade, keep: impl Fn(Component) -> bool) -> [Vec<Vec<f64>>; 3] {
-    let numbers: Vec<usize> = (0..blade.size().v).filter(|&i| keep(blade.components()[i])).collect();
-    [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)].map(|(a, v, q)| {
-        let mut matrix = Matrix::new(&blade.structure());
-        blade.tangent(&State::zeros(blade.size(), 0.0), Weights::new(a, v, q), &mut matrix);
-        numbers.iter().map(|&i| numbers.iter().map(|&j| matrix.get(i, j)).collect()).collect()
-    })
-}
-
-/// Lower Cholesky factor.
-fn cholesky(a: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let n = a.len();
-    let mut l = vec![vec![0.0; n]; n];
-    for j in 0..n {
-        for i in j..n {
-            let sum: f64 = (0..j).map(|k| l[i][k] * l[j][k]).sum();
-            l[i][j] = if i == j { (a[i][i] - sum).sqrt() } else { (a[i][j] - sum) / l[j][j] };
-        }
-    }
-    assert!(l.iter().flatten().all(|x| x.is_finite()), "not positive definite");
-    l
-}
-
-/// L⁻¹ A L⁻ᵀ
-fn reduced(l: &[Vec<f64>], a: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let forward = |b: &[Vec<f64>]| -> Vec<Vec<f64>> {
-        // Rows of the result solve L x = columns of b.
-        let n = l.len();
-        let mut out = vec![vec![0.0; n]; n];
-        for c in 0..n {
-            for i in 0..n {
-                let sum: f64 = (0..i).map(|k| l[i][k] * out[c][k]).sum();
-                out[c][i] = (b[i][c] - sum) / l[i][i];
-            }
-        }
-        out
-    };
-    forward(&forward(a))
-}
-
-/// Eigenvalues of a symmetric matrix by Jacobi's rotations, ascending.
-fn eigenvalues(mut a: Vec<Vec<f64>>) -> Vec<f64> {
-    let n = a.len();
-    for _ in 0..60 {
-        let off: f64 = (0..n).flat_map(|i| (0..i).map(move |j| (i, j))).map(|(i, j)| a[i][j] * a[i][j]).sum();
-        let diagonal: f64 = (0..n).map(|i| a[i][i] * a[i][i]).sum();
-        if off <= 1e-30 * diagonal {
-            break;
-        }
-        for p in 0..n {
-            for q in p + 1..n {
-                if a[p][q].abs() <= 1e-18 * (a[p][p] * a[q][q]).abs().sqrt() {
-                    continue;
-                }
-                let theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
-                let t = theta.signum() / (theta.abs() + theta.hypot(1.0));
-                let c = 1.0 / t.hypot(1.0);
-                let s = t * c;
-                for k in 0..n {
-                    let (x, y) = (a[k][p], a[k][q]);
-                    (a[k][p], a[k][q]) = (c * x - s * y, s * x + c * y);
-                }
-                let (upper, lower) = a.split_at_mut(q);
-                for (x, y) in upper[p].iter_mut().zip(lower[0].iter_mut()) {
-                    (*x, *y) = (c * *x - s * *y, s * *x + c * *y);
-                }
-            }
-        }
-    }
-    let mut values: Vec<f64> = (0..n).map(|i| a[i][i]).collect();
-    values.sort_by(f64::total_cmp);
-    values
-}
-
-/// Natural frequencies [rad/s] without gyroscopic terms.
-pub fn frequencies(blade: &mut Blade, keep: impl Fn(Component) -> bool) -> Vec<f64> {
-    let [m, _, k] = matrices(blade, keep);
-    // 1/ω² of the pair exchanged: the lowest frequencies are then the largest eigenvalues, and precise.
-    let values = eigenvalues(reduced(&cholesky(&k), &m));
-    values.iter().rev().map(|x| 1.0 / x.sqrt()).collect()
-}
-
-/// Natural frequencies [rad/s] with gyroscopic terms: of the antisymmetric W = L⁻¹ [−C −K; K 0] L⁻ᵀ with
-/// L Lᵀ = diag(M, K), whose inverse has the eigenvalues ±i/ω.
-pub fn gyroscopic_frequencies(blade: &mut Blade, keep: impl Fn(Component) -> bool) -> Vec<f64> {
-    let [m, c, k] = matrices(blade, keep);
-    // W⁻¹ in the metric of K: ω²M x − iωC x = K x. With K = L Lᵀ, A = L⁻¹ M L⁻ᵀ, B = L⁻¹ C L⁻ᵀ and A = R Rᵀ
-    // the matrix [B R; −Rᵀ 0] is antisymmetric with eigenvalues ±i/ω.
-    let l = cholesky(&k);
-    let (a, b) = (reduced(&l, &m), reduced(&l, &c));
-    let r = cholesky(&a);
-    let n = r.len();
-    let mut w = vec![vec![0.0; 2 * n]; 2 * n];
-    for i in 0..n {
-        for j in 0..n {
-            w[i][j] = b[i][j];
-            w[i][n + j] = r[i][j];
-            w[n + j][i] = -r[i][j];
-        }
-    }
-    let square = (0..2 * n)
-        .map(|i| (0..2 * n).map(|j| (0..2 * n).map(|k| w[k][i] * w[k][j]).sum()).collect())
-        .collect();
-    eigenvalues(square).iter().rev().step_by(2).map(|x| 1.0 / x.sqrt()).collect()
-}
-
-fn flapwise(component: Component) -> bool {
-    component == Component::Flapwise
-}
-
-fn chordwise(component: Component) -> bool {
-    component == Component::Chordwise
-}
-
-/// ρA = EI = L = 1: γ is the speed itself.
-fn unit() -> BladeResultants {
-    BladeResultants {
-        mass: 1.0,
-        axial_stiffness: 1e4,
-        flap_stiffness: 1.0,
-        chord_stiffness: 1.0,
-        ..BladeResultants::default()
-    }
-}
-
-fn linear() -> Model {
-    Model {
-        strain_energy: StrainEnergy::Linear,
-        gyroscopic: false,
-        rotary_inertia: false,
-        torsion: false,
-        tension_torsion: false,
-    }
-}
-
-fn setting() -> Setting {
-    Setting { length: 1.0, ..Setting::default() }
-}
-
-/// Flapwise frequencies of a uniform beam, hub radius 0, γ = Ω√(ρAL⁴/EI): A. D. Wright, C. E. Smith, R. W. Thresher &
-/// J. L. C. Wang, *J. Appl. Mech.* 49 (1982) 197–202, doi:10.1115/1.3161966.
-const WRIGHT: [(f64, [f64; 3]); 10] = [
-    (0.0, [3.516, 22.035, 61.697]),
-    (1.0, [3.682, 22.181, 61.842]),
-    (2.0, [4.137, 22.615, 62.273]),
-    (3.0, [4.797, 23.320, 62.985]),
-    (4.0, [5.585, 24.273, 63.967]),
-    (5.0, [6.450, 25.446, 65.205]),
-    (6.0, [7.360, 26.809, 66.684]),
-    (8.0, [9.257, 29.995, 70.293]),
-    (10.0, [11.202, 33.640, 74.649]),
-    (12.0, [13.170, 37.603, 79.615]),
-];
-
-#[test]
-fn flapwise_frequencies_are_those_of_wright_to_the_last_digit() {
-    let mut blade = Blade::new(setting(), &unit(), linear(), 48).unwrap();
-    for (gamma, published) in WRIGHT {
-        blade.set_speed(gamma).unwrap();
-        let found = frequencies(&mut blade, flapwise);
-        for (found, published) in found.into_iter().zip(published) {
-            assert!((found - published).abs() < 6e-4, "γ = {gamma}: {found:.5} for {published}");
-        }
-    }
-}
-
-#[test]
-fn chordwise_and_flapwise_frequencies_differ_by_the_square_of_the_speed() {
-    for radius in [0.0, 1.0, 5.0] {
-        let setting = Setting { hub_radius: radius, ..setting() };
-        let mut blade = Blade::new(setting, &unit(), linear(), 8).unwrap();
-        blade.set_speed(7.0).unwrap();
-        let flap = frequencies(&mut blade, flapwise);
-        let chord = frequencies(&mut blade, chordwise);
-        for (flap, chord) in flap.into_iter().zip(chord).take(5) {
-            let difference = (flap * flap - chord * chord) / 49.0 - 1.0;
-            assert!(difference.abs() < 1e-10 * (flap * flap / 49.0).max(1.0), "{radius}: {difference:e}");
-        }
-    }
-}
-
-#[test]
-fn chordwise_frequencies_with_gyroscopic_coupling_are_the_published_ones() {
-    // S. Hamza-cherif & A. Houmat 2004: slenderness √(AL²/I) = 70, hub radius 0, first chordwise frequency.
-    let section = BladeResultants { axial_stiffness: 4900.0, ..unit() };
-    let model = Model { gyroscopic: true, ..linear() };
-    let mut blade = Blade::new(setting(), &section, model, 30).unwrap();
-    for (gamma, published, digit) in [
-        (2.0, 3.6195, 1e-4),
-        (4.0, 3.888, 1e-3),
-        (6.0, 4.2393, 1e-4),
-        (8.0, 4.6105, 1e-4),
-        (10.0, 4.97, 1e-2),
-        (50.0, 7.3362, 1e-4),
-    ] {
-        blade.set_speed(gamma).unwrap();
-        let in_plane = |c| matches!(c, Component::Axial | Component::Chordwise);
-        let found = gyroscopic_frequencies(&mut blade, in_plane)[0];
-        println!("γ = {gamma}: {found:.5} for {published}");
-        assert!((found - published).abs() < 5.0 * digit, "γ = {gamma}: {found:.5} for {published}");
-    }
-}
-
-#[test]
-fn torsional_frequencies_are_those_of_the_closed_form() {
-    // GJ φ″ = (i_c + i_f) φ̈ + (i_c − i_f) Ω² φ: ω² = ω₀² + Ω² (i_c − i_f)/(i_c + i_f).
-    let section =
-        BladeResultants { torsional_stiffness: 3.0, flap_inertia: 0.002, chord_inertia: 0.03, ..unit() };
-    for energy in [StrainEnergy::Linear, StrainEnergy::Exact] {
-        let model = Model { torsion: true, rotary_inertia: true, strain_energy: energy, ..linear() };
-        let mut blade = Blade::new(setting(), &section, model, 20).unwrap();
-        for speed in [0.0, 9.0] {
-            blade.set_speed(speed).unwrap();
-            let found = frequencies(&mut blade, |c| c == Component::Torsion);
-            for (k, found) in found.into_iter().take(3).enumerate() {
-                let rest = (k as f64 + 0.5) * std::f64::consts::PI * (3.0_f64 / 0.032).sqrt();
-                let expected = (rest * rest + speed * speed * 0.028 / 0.032).sqrt();
-                assert!((found / expected - 1.0).abs() < 2e-5, "{speed} {k}: {found} for {expected}");
-            }
-        }
-    }
-}
+use crate::section::BladeSection;
 
 /// A blade with everything: twist, taper, both inertias.
 #[derive(Debug)]
@@ -479,19 +252,24 @@ fn a_steady_state_carries_its_own_centrifugal_force() {
 }
 
 #[test]
-fn what_makes_no_blade_is_refused_with_the_reason() {
-    let section = unit();
-    for (setting, model, says) in [
-        (Setting { length: 0.0, ..setting() }, linear(), "positive length"),
-        (Setting { precone: 0.1, ..setting() }, linear(), "precone"),
-        (Setting { hub_radius: -1.0, ..setting() }, linear(), "hub radius"),
-        (setting(), Model { torsion: true, ..linear() }, "torsional stiffness"),
-    ] {
-        let message = Blade::new(setting, &section, model, 4).unwrap_err().to_string();
-        assert!(message.contains(says), "{message}");
+fn vibrations_keep_their_energy_and_the_shape_turns_with_the_hub() {
+    let mut blade = Blade::new(general(), &General, Model::default(), 4).unwrap();
+    blade.set_speed(2.0).unwrap();
+    let [_, c, _] = matrices(&mut blade, |_| true);
+    for (i, row) in c.iter().enumerate() {
+        for (j, entry) in row.iter().enumerate() {
+            assert!((entry + c[j][i]).abs() < 1e-13, "{i} {j}");
+        }
     }
-    let mut soft = Blade::new(setting(), &section, Model { torsion: false, ..Model::default() }, 8).unwrap();
-    let message = soft.set_speed(500.0).unwrap_err().to_string();
-    assert!(message.contains("no steady state at 500 rad/s"), "{message}");
-    soft.set_speed(5.0).unwrap();
+    let mut frames = [crate::system::Frame::default(); 2];
+    let mut state = State::zeros(blade.size(), 0.0);
+    blade.shape(&state, &[0.0, 1.0], &mut frames);
+    let setting = general();
+    let root = [setting.hub_radius * setting.precone.cos(), 0.0, setting.hub_radius * setting.precone.sin()];
+    assert!((0..3).all(|k| (frames[0].position[k] - root[k]).abs() < 1e-14));
+    let tip = frames[1].position;
+    state.t = std::f64::consts::PI / 4.0;
+    blade.shape(&state, &[0.0, 1.0], &mut frames);
+    let turned = [-tip[1], tip[0], tip[2]];
+    assert!((0..3).all(|k| (frames[1].position[k] - turned[k]).abs() < 1e-14));
 }
