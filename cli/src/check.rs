@@ -91,7 +91,9 @@ fn equations(system: &dyn System, integrator: &dyn Integrator) -> Vec<Vec<String
         Structure::Condensed { places, lower, upper, border } => {
             let (visible, hidden) = (places.visible.len(), places.hidden.len());
             let width = lower.max(upper);
-            format!("band, order {visible} and {hidden} running sums, half-bandwidth {width}, border {border}")
+            format!(
+                "band, order {visible} and {hidden} running sums, half-bandwidth {width}, border {border}"
+            )
         }
     };
     let info = integrator.info();

@@ -7,6 +7,7 @@
 
 pub mod analysis;
 pub mod basis;
+pub mod blade;
 pub mod case;
 pub mod exact;
 pub mod hub_beam;

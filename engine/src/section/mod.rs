@@ -1,5 +1,6 @@
 //! Cross-sections: each a file; all give [`Resultants`] along the beam.
 
+mod blade;
 mod graded;
 mod piecewise;
 mod shape;
@@ -7,6 +8,9 @@ mod table;
 mod tapered;
 mod uniform;
 
+pub use blade::{
+    BladeResultants, BladeSection, BladeTable, HomogeneousBlade, PlanarBlade, Twisted, torsion_constant,
+};
 pub use graded::{Graded, Material};
 pub use piecewise::{Piecewise, Segment};
 pub use shape::Shape;

@@ -1,0 +1,204 @@
+//! Matrices of a blade about its steady state, and the iteration that finds the state.
+
+use super::element::{Functions, Local, Rotation, add_inertia};
+use super::mesh::{CLAMPED, Element, LOCAL, Mesh, hermite, quadratic};
+use super::model::{Model, Setting, StrainEnergy, Terms};
+use super::tension::Tension;
+use crate::linalg::Matrix;
+
+/// Iterations of Newton's method before a speed is approached in smaller increments.
+const ITERATIONS: usize = 25;
+
+/// Increment, over the scale of its unknown, at which the next one is below rounding.
+const SMALL: f64 = 1e-8;
+
+/// Smallest increment of the speed, over the speed.
+const FINEST: f64 = 1.0 / 256.0;
+
+/// The parts of a blade's model that do not change with the speed, and its matrices at one speed.
+#[derive(Clone, Debug)]
+pub struct Matrices {
+    mesh: Mesh,
+    setting: Setting,
+    model: Model,
+    tension: Tension,
+    /// M about the steady state.
+    pub mass: Matrix,
+    /// C about the steady state.
+    pub gyroscopic: Matrix,
+    /// K about the steady state.
+    pub stiffness: Matrix,
+    /// ∂(U − T₀)/∂q at the state last assembled.
+    force: Vec<f64>,
+}
+
+impl Matrices {
+    /// Matrices of zeros.
+    pub fn new(mesh: Mesh, setting: Setting, model: Model, tension: Tension) -> Matrices {
+        let matrix = Matrix::new(&mesh.structure());
+        let force = vec![0.0; mesh.len()];
+        Matrices {
+            mass: matrix.clone(),
+            gyroscopic: matrix.clone(),
+            stiffness: matrix,
+            force,
+            mesh,
+            setting,
+            model,
+            tension,
+        }
+    }
+
+    /// The mesh.
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    /// Assembles force and matrices at the speed and the state `q` of the exact model; a straight blade is
+    /// straight.
+    pub fn assemble(&mut self, speed: f64, q: &[f64]) {
+        let (sin, cos) = self.setting.precone.sin_cos();
+        let rotation = Rotation {
+            vector: [speed * sin, 0.0, speed * cos],
+            hub_radius: self.setting.hub_radius,
+            pitch: self.setting.pitch,
+        };
+        self.force.fill(0.0);
+        for matrix in [&mut self.mass, &mut self.gyroscopic, &mut self.stiffness] {
+            matrix.clear();
+        }
+        let elements = self.mesh.elements.len();
+        for (number, (element, tension)) in self.mesh.elements.iter().zip(&self.tension.at).enumerate() {
+            let mut local = Local::new();
+            let at = element.gather(q);
+            match self.model.strain_energy {
+                StrainEnergy::Exact => {
+                    element.add_exact_strain(&at, rotation.pitch, &self.model, &mut local);
+                }
+                StrainEnergy::Linear | StrainEnergy::Coupled(_) => {
+                    let terms = match self.model.strain_energy {
+                        StrainEnergy::Coupled(terms) => terms,
+                        _ => Terms::NONE,
+                    };
+                    let square = speed * speed;
+                    element.add_straight_strain(
+                        rotation.pitch,
+                        square,
+                        tension,
+                        terms,
+                        &self.model,
+                        &mut local,
+                    );
+                }
+            }
+            self.add_masses(element, number + 1 == elements, &rotation, &at, &mut local);
+            for (i, &row) in element.unknowns.iter().enumerate().filter(|(_, row)| **row != CLAMPED) {
+                self.force[row] += local.force[i];
+                for (j, &column) in element.unknowns.iter().enumerate().filter(|(_, c)| **c != CLAMPED) {
+                    self.mass.add(row, column, local.mass[i][j]);
+                    self.stiffness.add(row, column, local.stiffness[i][j]);
+                    if self.model.gyroscopic {
+                        self.gyroscopic.add(row, column, local.gyroscopic[i][j]);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Adds the inertia of an element, and of the body at the tip to the last one.
+    fn add_masses(
+        &self,
+        element: &Element,
+        last: bool,
+        rotation: &Rotation,
+        at: &[f64; LOCAL],
+        out: &mut Local,
+    ) {
+        for point in &element.points {
+            let (s, w) = (&point.section, point.weight);
+            let inertia = (w * s.mass, [0.0, w * s.chord_inertia, w * s.flap_inertia]);
+            let angle = rotation.pitch + s.twist;
+            add_inertia(&Functions::of(point), point.x, angle, inertia, rotation, &self.model, at, out);
+        }
+        let tip = self.setting.tip;
+        if last && (tip.mass > 0.0 || tip.inertia > 0.0) {
+            let h = element.ends[1] - element.ends[0];
+            let f = Functions { n: hermite(1.0, h), m: quadratic(1.0, h) };
+            // Second moments P along the axes give moments of inertia 2P about them.
+            let inertia = (tip.mass, [0.5 * tip.inertia; 3]);
+            add_inertia(&f, element.ends[1], rotation.pitch, inertia, rotation, &self.model, at, out);
+        }
+    }
+
+    /// Moves `q` from the steady state at speed `from` to the one at `to`, assembled; the largest speed reached
+    /// if there is none.
+    pub fn follow(&mut self, from: f64, to: f64, q: &mut Vec<f64>) -> Result<(), f64> {
+        if self.model.strain_energy != StrainEnergy::Exact {
+            self.assemble(to, q);
+            return Ok(());
+        }
+        let (mut reached, mut part) = (from, to - from);
+        let mut trial = q.clone();
+        loop {
+            let goal = if (to - reached).abs() <= part.abs() * (1.0 + 1e-9) { to } else { reached + part };
+            trial.copy_from_slice(q);
+            if self.newton(goal, &mut trial) {
+                q.copy_from_slice(&trial);
+                reached = goal;
+                if goal == to {
+                    return Ok(());
+                }
+            } else {
+                part *= 0.5;
+                if part.abs() < FINEST * (to - from).abs() || part == 0.0 {
+                    return Err(reached);
+                }
+            }
+        }
+    }
+
+    /// Newton's method at one speed; leaves the matrices of the state it finds.
+    fn newton(&mut self, speed: f64, q: &mut [f64]) -> bool {
+        let mut solver = self.stiffness.clone();
+        for _ in 0..ITERATIONS {
+            self.assemble(speed, q);
+            solver.clone_from(&self.stiffness);
+            let mut step: Vec<f64> = self.force.iter().map(|f| -f).collect();
+            if solver.factor().is_err() {
+                return false;
+            }
+            solver.solve(&mut step);
+            let size = step
+                .iter()
+                .zip(&self.mesh.labels)
+                .fold(0.0_f64, |most, (d, l)| most.max((d / l.scale).abs()));
+            // Written so that NaN is refused too.
+            if !(size < 10.0) {
+                return false;
+            }
+            // A turn of more than half a radian in one iteration leaves the tangent's reach.
+            let factor = (0.5 / size).min(1.0);
+            for (q, d) in q.iter_mut().zip(&step) {
+                *q += factor * d;
+            }
+            if size < SMALL {
+                self.assemble(speed, q);
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Strain energy of the exact model at `q`, for tests of its derivatives.
+    #[cfg(test)]
+    pub fn strain_energy(&self, q: &[f64]) -> f64 {
+        let of = |e: &Element| e.exact_energy(&e.gather(q), self.setting.pitch, &self.model);
+        self.mesh.elements.iter().map(of).sum()
+    }
+
+    /// ∂(U − T₀)/∂q as last assembled.
+    #[cfg(test)]
+    pub fn force(&self) -> &[f64] {
+        &self.force
+    }
+}

@@ -1,0 +1,67 @@
+//! Strain energy of a blade that stays straight, to second order in the vibration: `linear` and `coupled`.
+//!
+//! With the foreshortening in the kinetic energy, w₁ the stretch, e = w₁′ = N₀/EA its steady value and θ the
+//! angle of the section, per length
+//!
+//! ```text
+//! ½EA u′² + ½f (EI_c κ₂² + EI_f κ₃²) + ½(N − EA g)(v′² + w′²) + ½GJ φ′² [+ ½(EI_c + EI_f)(e φ′² + 2θ′ u′φ′)]
+//! κ₂ = v″ cos θ + w″ sin θ,   κ₃ = w″ cos θ − v″ sin θ,   f = 1 (+ 3e) (+ 3e²/2),   g = 0 (+ e²) (+ e³/2)
+//! ```
+//!
+//! The terms in round brackets are those of [`Terms`](super::Terms), the one in square brackets the share of
+//! the tension in the torsion. N is the tension of the unstretched blade, or of the stretched one.
+
+use super::element::{Functions, Local, add_energy};
+use super::jet::Jet;
+use super::mesh::Element;
+use super::model::{Model, Terms};
+use crate::section::BladeResultants;
+
+/// Energy per length at a point: `tension` holds N₀ and N.
+fn energy(section: &BladeResultants, pitch: f64, tension: (f64, f64), terms: Terms, model: &Model) -> Jet<8> {
+    let square = |v: usize, a: f64, w: usize, b: f64, factor: f64| {
+        let e = Jet::<8>::variable(0.0, v).scaled(a) + Jet::variable(0.0, w).scaled(b);
+        (e * e).scaled(0.5 * factor)
+    };
+    let on = |kept: bool, term: f64| if kept { term } else { 0.0 };
+    let ea = section.axial_stiffness;
+    let e = tension.0 / ea;
+    let f = 1.0 + on(terms.bending_first, 3.0 * e) + on(terms.bending_second, 1.5 * e * e);
+    let g = on(terms.axial_first, e * e) + on(terms.axial_second, 0.5 * e * e * e);
+    let (sin, cos) = (pitch + section.twist).sin_cos();
+    let mut sum = square(0, 1.0, 0, 0.0, ea)
+        + square(4, cos, 5, sin, f * section.chord_stiffness)
+        + square(4, -sin, 5, cos, f * section.flap_stiffness)
+        + square(1, 1.0, 1, 0.0, tension.1 - ea * g)
+        + square(2, 1.0, 2, 0.0, tension.1 - ea * g);
+    if model.torsion {
+        sum = sum + square(7, 1.0, 7, 0.0, section.torsional_stiffness);
+        if model.tension_torsion {
+            let polar = section.chord_stiffness + section.flap_stiffness;
+            let both = Jet::variable(0.0, 0) * Jet::variable(0.0, 7);
+            sum = sum + square(7, 1.0, 7, 0.0, polar * e) + both.scaled(polar * section.twist_rate);
+        }
+    }
+    sum
+}
+
+impl Element {
+    /// Adds the stiffness of the straight blade at the speed whose square is `square`; `tension` holds C and D
+    /// at the points of the element.
+    pub fn add_straight_strain(
+        &self,
+        pitch: f64,
+        square: f64,
+        tension: &[(f64, f64)],
+        terms: Terms,
+        model: &Model,
+        out: &mut Local,
+    ) {
+        for (point, (c, d)) in self.points.iter().zip(tension) {
+            let base = square * c;
+            let full = if terms.stretched_inertia { base + square * square * d } else { base };
+            let energy = energy(&point.section, pitch, (base, full), terms, model);
+            add_energy(&Functions::of(point), point.weight, &energy, out);
+        }
+    }
+}

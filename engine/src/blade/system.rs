@@ -1,0 +1,276 @@
+//! The blade as a [`System`]: small vibrations about its steady state.
+
+use super::frame::axes;
+use super::jet::Jet;
+use super::matrices::Matrices;
+use super::mesh::{Component, Mesh, hermite, quadratic};
+use super::model::{BladeError, Model, Setting, StrainEnergy};
+use super::tension::Tension;
+use crate::linalg::{Matrix, Storage, Structure};
+use crate::section::BladeSection;
+use crate::system::{Channel, Energy, Frame, Label, Power, Size, State, System, Weights};
+
+/// A rotating blade. See the [module documentation](super).
+///
+/// Unknowns are the deviations from the steady state, which is q = 0: r = M a + C v + K q, with the matrices of
+/// the present speed. C is antisymmetric, so that ½vᵀMv + ½qᵀKq is kept.
+#[derive(Clone, Debug)]
+pub struct Blade {
+    matrices: Matrices,
+    setting: Setting,
+    speed: f64,
+    steady: Vec<f64>,
+    scratch: Vec<f64>,
+    channels: Vec<Channel>,
+}
+
+impl Blade {
+    /// A blade of `elements` equal elements, at rest.
+    ///
+    /// # Errors
+    /// [`BladeError::Invalid`] if setting, section and model make no blade: torsion without torsional stiffness or
+    /// polar inertia; precone of a blade that stays straight; a length, radius or mass out of range.
+    pub fn new(
+        setting: Setting,
+        section: &dyn BladeSection,
+        model: Model,
+        elements: usize,
+    ) -> Result<Blade, BladeError> {
+        let invalid = |message: &str| Err(BladeError::Invalid(message.to_owned()));
+        let ranges = [setting.hub_radius, setting.tip.mass, setting.tip.inertia];
+        if ranges.iter().any(|x| !(x.is_finite() && *x >= 0.0)) {
+            return invalid(
+                "hub radius, mass and moment of inertia of the tip must be zero or positive, and finite",
+            );
+        }
+        if !(setting.precone.abs() < std::f64::consts::FRAC_PI_2 && setting.pitch.is_finite()) {
+            return invalid("the precone must be less than 90° and the pitch finite");
+        }
+        if setting.precone != 0.0 && model.strain_energy != StrainEnergy::Exact {
+            return invalid(
+                "a blade with precone is bent by its rotation: only the strain energy `exact` finds its steady state",
+            );
+        }
+        let mesh = Mesh::new(&setting, elements, section, model.torsion)?;
+        let stiff = |p: &super::mesh::Point| p.section.has_torsion();
+        if model.torsion && !mesh.elements.iter().flat_map(|e| &e.points).all(stiff) {
+            return invalid(
+                "torsion needs a torsional stiffness GJ and a polar inertia everywhere; give them, or leave torsion out",
+            );
+        }
+        let tension = Tension::new(&mesh, section, &setting);
+        let size = mesh.len();
+        let mut blade = Blade {
+            channels: channels(&mesh),
+            matrices: Matrices::new(mesh, setting, model, tension),
+            setting,
+            speed: 0.0,
+            steady: vec![0.0; size],
+            scratch: vec![0.0; size],
+        };
+        blade.set_speed(0.0)?;
+        Ok(blade)
+    }
+
+    /// Speed of rotation Ω [rad/s].
+    pub fn speed(&self) -> f64 {
+        self.speed
+    }
+
+    /// Sets the speed of rotation Ω [rad/s]: finds the steady state, from the present one, and the matrices about
+    /// it. Unknowns then measure from the new state.
+    ///
+    /// # Errors
+    /// [`BladeError::NoSteadyState`]; the blade is then left as it was.
+    pub fn set_speed(&mut self, speed: f64) -> Result<(), BladeError> {
+        let former = self.speed;
+        let mut state = self.steady.clone();
+        match self.matrices.follow(former, speed, &mut state) {
+            Ok(()) => {
+                (self.speed, self.steady) = (speed, state);
+                Ok(())
+            }
+            Err(reached) => {
+                self.matrices.assemble(former, &self.steady);
+                Err(BladeError::NoSteadyState { speed, reached })
+            }
+        }
+    }
+
+    /// The steady state: displacements from the undeformed blade, in the order of the unknowns.
+    pub fn steady(&self) -> &[f64] {
+        &self.steady
+    }
+
+    /// Which field each unknown belongs to.
+    pub fn components(&self) -> &[Component] {
+        &self.matrices.mesh().components
+    }
+
+    /// Displacements u, v, w [m], their slopes and torsion φ at station x [m] of the given unknowns.
+    pub fn displacement(&self, q: &[f64], x: f64) -> ([f64; 3], [f64; 3], f64) {
+        let elements = &self.matrices.mesh().elements;
+        let last = elements.len() - 1;
+        let number = elements[..last].partition_point(|e| e.ends[1] <= x);
+        let element = &elements[number];
+        let h = element.ends[1] - element.ends[0];
+        let s = ((x - element.ends[0]) / h).clamp(0.0, 1.0);
+        let (n, m, local) = (hermite(s, h), quadratic(s, h), element.gather(q));
+        let field = |d: usize| std::array::from_fn(|f| (0..4).map(|k| n[d][k] * local[4 * f + k]).sum());
+        (field(0), field(1), (0..3).map(|k| m[0][k] * local[12 + k]).sum())
+    }
+
+    #[cfg(test)]
+    pub(super) fn matrices(&mut self) -> &mut Matrices {
+        &mut self.matrices
+    }
+
+    /// y = A x with A one of the matrices.
+    fn product(matrix: &Matrix, x: &[f64], y: &mut [f64]) {
+        matrix.multiply(x, y);
+    }
+
+    /// ½ xᵀ A x
+    fn quadratic(&mut self, which: fn(&Matrices) -> &Matrix, x: &[f64]) -> f64 {
+        Blade::product(which(&self.matrices), x, &mut self.scratch);
+        0.5 * x.iter().zip(&self.scratch).map(|(x, y)| x * y).sum::<f64>()
+    }
+}
+
+/// Recorded quantities: the tip's vibration.
+fn channels(mesh: &Mesh) -> Vec<Channel> {
+    let mut all = vec![
+        ("tip.axial", "m", "axial displacement of the tip from the steady state"),
+        ("tip.chordwise", "m", "displacement of the tip in the direction of motion, from the steady state"),
+        (
+            "tip.flapwise",
+            "m",
+            "displacement of the tip towards the vector of rotation, from the steady state",
+        ),
+    ];
+    if mesh.components.contains(&Component::Torsion) {
+        all.push(("tip.torsion", "rad", "torsion of the tip from the steady state"));
+    }
+    all.push(("energy.kinetic", "J", "½vᵀMv of the vibration"));
+    all.push(("energy.strain", "J", "½qᵀKq of the vibration, centrifugal work included"));
+    let channel = |(name, unit, meaning): (&str, &'static str, &str)| Channel {
+        name: name.to_owned(),
+        unit,
+        meaning: meaning.to_owned(),
+    };
+    all.into_iter().map(channel).collect()
+}
+
+impl System for Blade {
+    fn size(&self) -> Size {
+        Size { q: self.steady.len(), v: self.steady.len(), lambda: 0 }
+    }
+
+    fn structure(&self) -> Structure {
+        self.matrices.mesh().structure()
+    }
+
+    fn labels(&self) -> &[Label] {
+        &self.matrices.mesh().labels
+    }
+
+    fn residual(&mut self, s: &State, r: &mut [f64]) {
+        let Blade { matrices, scratch, .. } = self;
+        Blade::product(&matrices.mass, &s.a, r);
+        for (matrix, x) in [(&matrices.gyroscopic, &s.v), (&matrices.stiffness, &s.q)] {
+            Blade::product(matrix, x, scratch);
+            for (r, y) in r.iter_mut().zip(scratch.iter()) {
+                *r += y;
+            }
+        }
+    }
+
+    fn tangent(&mut self, _s: &State, w: Weights<'_>, out: &mut Matrix) {
+        // The last number keeps the stamp from being taken for that of another kind of system.
+        let stamp = [w.a, w.v, w.q, self.speed, 0.0, f64::INFINITY];
+        if out.holds(&stamp) {
+            return;
+        }
+        out.clear();
+        let m = &self.matrices;
+        for (weight, matrix) in [(w.a, &m.mass), (w.v, &m.gyroscopic), (w.q, &m.stiffness)] {
+            if weight == 0.0 {
+                continue;
+            }
+            match (out.begin(), matrix.storage()) {
+                (Storage::Dense(out), Storage::Dense(part)) => {
+                    for (out, part) in out.data_mut().iter_mut().zip(part.data()) {
+                        *out += weight * part;
+                    }
+                }
+                (Storage::Band(out), Storage::Band(part)) => {
+                    for (out, part) in out.band_mut().data_mut().iter_mut().zip(part.band().data()) {
+                        *out += weight * part;
+                    }
+                }
+                _ => debug_assert!(false, "structures differ"),
+            }
+        }
+        out.set_stamp(Some(stamp));
+    }
+
+    fn is_affine(&self) -> bool {
+        true
+    }
+
+    fn energy(&mut self, s: &State) -> Energy {
+        let kinetic = self.quadratic(|m| &m.mass, &s.v);
+        let strain = self.quadratic(|m| &m.stiffness, &s.q);
+        Energy { kinetic, strain, gravity: 0.0 }
+    }
+
+    fn power(&mut self, _s: &State) -> Power {
+        Power::default()
+    }
+
+    fn shape(&mut self, s: &State, stations: &[f64], out: &mut [Frame]) {
+        let whole: Vec<f64> = self.steady.iter().zip(&s.q).map(|(a, b)| a + b).collect();
+        let (sin, cos) = self.setting.precone.sin_cos();
+        let (sin_turn, cos_turn) = (self.speed * s.t).sin_cos();
+        // From the blade's frame through the hub's frame to the inertial frame.
+        let inertial = |r: [f64; 3]| {
+            let hub = [cos * r[0] - sin * r[2], r[1], sin * r[0] + cos * r[2]];
+            [cos_turn * hub[0] - sin_turn * hub[1], sin_turn * hub[0] + cos_turn * hub[1], hub[2]]
+        };
+        for (&x, frame) in stations.iter().zip(out) {
+            let (u, slope, torsion) = self.displacement(&whole, x);
+            let variables = [1.0 + slope[0], slope[1], slope[2]].map(Jet::<1>::constant);
+            let twist = self.twist(x);
+            let axes = axes(&variables, &Jet::constant(self.setting.pitch + twist + torsion));
+            frame.position = inertial([self.setting.hub_radius + x + u[0], u[1], u[2]]);
+            let columns = axes.map(|axis| inertial([axis[0].x, axis[1].x, axis[2].x]));
+            frame.rotation = std::array::from_fn(|i| std::array::from_fn(|k| columns[k][i]));
+        }
+    }
+
+    fn channels(&self) -> &[Channel] {
+        &self.channels
+    }
+
+    fn record(&mut self, s: &State, out: &mut [f64]) {
+        let (u, _, torsion) = self.displacement(&s.q, self.setting.length);
+        let energy = self.energy(s);
+        let with_torsion = self.components().contains(&Component::Torsion);
+        let tail = [torsion, energy.kinetic, energy.strain];
+        let values = u.iter().chain(&tail[usize::from(!with_torsion)..]);
+        for (out, value) in out.iter_mut().zip(values) {
+            *out = *value;
+        }
+    }
+}
+
+impl Blade {
+    /// Twist of the section at x [m], from the quadrature points of its element.
+    fn twist(&self, x: f64) -> f64 {
+        let elements = &self.matrices.mesh().elements;
+        let last = elements.len() - 1;
+        let points = &elements[elements[..last].partition_point(|e| e.ends[1] <= x)].points;
+        let near = points.iter().min_by(|a, b| (a.x - x).abs().total_cmp(&(b.x - x).abs()));
+        near.map_or(0.0, |p| p.section.twist + p.section.twist_rate * (x - p.x))
+    }
+}

@@ -1,0 +1,60 @@
+//! The steady tension of a straight blade, and its steady stretch.
+//!
+//! ```text
+//! N(x) = Ω² [C(x) + Ω² D(x)],   C = ∫ₓᴸ ρA (a + ξ) dξ + m (a + L),   D = ∫ₓᴸ ρA W dξ + m W(L)
+//! w₁(x) = Ω² W(x),              W = ∫₀ˣ C/EA dξ
+//! ```
+//!
+//! m is the mass at the tip. C is the tension of the unstretched blade, D what its stretch adds.
+
+use super::mesh::Mesh;
+use super::model::Setting;
+use crate::quadrature::Gauss;
+use crate::section::BladeSection;
+
+/// C and D at every quadrature point, element after element.
+#[derive(Clone, Debug)]
+pub struct Tension {
+    /// C and D [kg·m, kg·m·s²].
+    pub at: Vec<Vec<(f64, f64)>>,
+}
+
+impl Tension {
+    /// Integrates over the blade, piece by piece between the breaks of the section.
+    pub fn new(mesh: &Mesh, section: &dyn BladeSection, setting: &Setting) -> Tension {
+        let (a, length, tip) = (setting.hub_radius, setting.length, setting.tip.mass);
+        let mut cuts: Vec<f64> = mesh.elements.iter().flat_map(|e| e.ends).collect();
+        cuts.extend(section.breaks().iter().copied().filter(|&x| x > 0.0 && x < length));
+        cuts.sort_by(f64::total_cmp);
+        cuts.dedup();
+        let gauss = Gauss::new(5);
+        let pieces = cuts.len() - 1;
+        let piece = |x: f64| cuts[1..pieces].partition_point(|&end| end <= x);
+        let force = |x: f64| section.resultants(x).mass * (a + x);
+        let mut c = vec![0.0; pieces + 1];
+        c[pieces] = tip * (a + length);
+        for i in (0..pieces).rev() {
+            c[i] = c[i + 1] + gauss.integrate(cuts[i], cuts[i + 1], force);
+        }
+        let c_at = |i: usize, x: f64| c[i + 1] + gauss.integrate(x, cuts[i + 1], force);
+        let stretch = |i: usize, x: f64| c_at(i, x) / section.resultants(x).axial_stiffness;
+        let mut w = vec![0.0; pieces + 1];
+        for i in 0..pieces {
+            w[i + 1] = w[i] + gauss.integrate(cuts[i], cuts[i + 1], |x| stretch(i, x));
+        }
+        let more = |i: usize, x: f64| {
+            section.resultants(x).mass * (w[i] + gauss.integrate(cuts[i], x, |y| stretch(i, y)))
+        };
+        let mut d = vec![0.0; pieces + 1];
+        d[pieces] = tip * w[pieces];
+        for i in (0..pieces).rev() {
+            d[i] = d[i + 1] + gauss.integrate(cuts[i], cuts[i + 1], |x| more(i, x));
+        }
+        let at = |x: f64| {
+            let i = piece(x);
+            (c_at(i, x), d[i + 1] + gauss.integrate(x, cuts[i + 1], |y| more(i, y)))
+        };
+        let of = |points: &[super::mesh::Point]| points.iter().map(|p| at(p.x)).collect();
+        Tension { at: mesh.elements.iter().map(|e| of(&e.points)).collect() }
+    }
+}

@@ -1,0 +1,374 @@
+//! Sections of a blade: stiffness and inertia for extension, bending in two planes and torsion.
+
+use super::{Section, SectionError, Shape, positive};
+use std::f64::consts::PI;
+
+/// Stiffness and inertia per length of a blade at a station, about its principal axes: η along the chord (at no
+/// twist the direction of motion), ζ normal to it (at no twist along the axis of rotation). Centre of mass and
+/// shear centre lie on the axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BladeResultants {
+    /// Mass per length ρA [kg/m].
+    pub mass: f64,
+    /// Axial stiffness EA [N].
+    pub axial_stiffness: f64,
+    /// Stiffness against bending in the direction of ζ, ∫E ζ² dA [N·m²].
+    pub flap_stiffness: f64,
+    /// Stiffness against bending in the direction of η, ∫E η² dA [N·m²].
+    pub chord_stiffness: f64,
+    /// Torsional stiffness GJ [N·m²]; 0 where it is not known.
+    pub torsional_stiffness: f64,
+    /// ∫ρ ζ² dA [kg·m].
+    pub flap_inertia: f64,
+    /// ∫ρ η² dA [kg·m].
+    pub chord_inertia: f64,
+    /// Angle θ of η from the direction of motion, about the axis towards the tip [rad].
+    pub twist: f64,
+    /// dθ/dx [rad/m].
+    pub twist_rate: f64,
+}
+
+impl BladeResultants {
+    /// Whether the energies are positive: ρA, EA and both EI > 0, GJ and inertias ≥ 0, all finite.
+    ///
+    /// # Errors
+    /// [`SectionError`] names the first quantity that is out of range.
+    pub fn validate(&self) -> Result<(), SectionError> {
+        positive("mass per length ρA", "kg/m", self.mass)?;
+        positive("axial stiffness EA", "N", self.axial_stiffness)?;
+        positive("flapwise bending stiffness", "N·m²", self.flap_stiffness)?;
+        positive("chordwise bending stiffness", "N·m²", self.chord_stiffness)?;
+        for (quantity, unit, value) in [
+            ("torsional stiffness GJ", "N·m²", self.torsional_stiffness),
+            ("flapwise rotary inertia", "kg·m", self.flap_inertia),
+            ("chordwise rotary inertia", "kg·m", self.chord_inertia),
+        ] {
+            if !(value.is_finite() && value >= 0.0) {
+                let needed = "zero or positive, and finite";
+                return Err(SectionError::Quantity { quantity, unit, value, needed });
+            }
+        }
+        if !self.twist.is_finite() {
+            return Err(SectionError::Quantity {
+                quantity: "twist",
+                unit: "rad",
+                value: self.twist,
+                needed: "finite",
+            });
+        }
+        Ok(())
+    }
+
+    /// Whether there is what torsion needs: GJ and a polar inertia.
+    pub fn has_torsion(&self) -> bool {
+        self.torsional_stiffness > 0.0 && self.flap_inertia + self.chord_inertia > 0.0
+    }
+}
+
+/// The sections of a blade.
+pub trait BladeSection: Send + Sync + std::fmt::Debug {
+    /// Resultants at station `x` [m].
+    fn resultants(&self, x: f64) -> BladeResultants;
+
+    /// Stations inside (0, L) at which the resultants jump or kink, ascending.
+    fn breaks(&self) -> &[f64] {
+        &[]
+    }
+
+    /// Those of the breaks at which the resultants jump.
+    fn jumps(&self) -> &[f64] {
+        &[]
+    }
+}
+
+/// The same resultants all along the blade.
+impl BladeSection for BladeResultants {
+    fn resultants(&self, _x: f64) -> BladeResultants {
+        *self
+    }
+}
+
+/// Torsion constant of a shape [m⁴]: GJ = G times it.
+///
+/// Of a rectangle with sides a ≥ b, J = a b³/3 (1 − 192/π⁵ b/a Σ tanh(nπa/2b)/n⁵), n = 1, 3, 5 …; of a circle
+/// and of a tube its polar second moment of area. Source: S. P. Timoshenko & J. N. Goodier, *Theory of
+/// Elasticity*, 3rd ed. (1970), §109.
+pub fn torsion_constant(shape: &Shape) -> f64 {
+    match *shape {
+        Shape::Rectangle { width, height } => {
+            let (a, b) = (width.max(height), width.min(height));
+            let term = |n: f64| (n * PI * a / (2.0 * b)).tanh() / n.powi(5);
+            let sum: f64 = (0..200).rev().map(|k| term(2.0 * f64::from(k) + 1.0)).sum();
+            a * b.powi(3) / 3.0 * (1.0 - 192.0 / PI.powi(5) * b / a * sum)
+        }
+        Shape::Circle { .. } | Shape::Tube { .. } => 2.0 * shape.second_moment(),
+    }
+}
+
+/// A homogeneous blade: a shape at every station, of one material.
+#[derive(Debug)]
+pub struct HomogeneousBlade<F> {
+    modulus: f64,
+    density: f64,
+    shear_modulus: f64,
+    shape: F,
+}
+
+impl<F: Fn(f64) -> Shape + Send + Sync> HomogeneousBlade<F> {
+    /// A blade of Young's modulus E [Pa], density ρ [kg/m³] and Poisson's ratio ν whose shape at x [m] is
+    /// `shape(x)`; width across, height in the plane of motion. G = E/(2(1 + ν)).
+    ///
+    /// # Errors
+    /// [`SectionError`] if E or ρ is not positive and finite, or ν not between −1 and 0.5.
+    pub fn new(
+        modulus: f64,
+        density: f64,
+        poisson_ratio: f64,
+        shape: F,
+    ) -> Result<HomogeneousBlade<F>, SectionError> {
+        positive("Young's modulus", "Pa", modulus)?;
+        positive("density", "kg/m³", density)?;
+        if !(poisson_ratio > -1.0 && poisson_ratio <= 0.5) {
+            return Err(SectionError::Quantity {
+                quantity: "Poisson's ratio",
+                unit: "",
+                value: poisson_ratio,
+                needed: "more than −1 and at most 0.5",
+            });
+        }
+        let shear_modulus = modulus / (2.0 * (1.0 + poisson_ratio));
+        Ok(HomogeneousBlade { modulus, density, shear_modulus, shape })
+    }
+}
+
+impl<F: Fn(f64) -> Shape + Send + Sync> BladeSection for HomogeneousBlade<F>
+where
+    HomogeneousBlade<F>: std::fmt::Debug,
+{
+    fn resultants(&self, x: f64) -> BladeResultants {
+        let shape = (self.shape)(x);
+        let area = shape.area();
+        let chord = shape.second_moment();
+        let flap = match shape {
+            Shape::Rectangle { width, height } => height * width.powi(3) / 12.0,
+            Shape::Circle { .. } | Shape::Tube { .. } => chord,
+        };
+        BladeResultants {
+            mass: self.density * area,
+            axial_stiffness: self.modulus * area,
+            flap_stiffness: self.modulus * flap,
+            chord_stiffness: self.modulus * chord,
+            torsional_stiffness: self.shear_modulus * torsion_constant(&shape),
+            flap_inertia: self.density * flap,
+            chord_inertia: self.density * chord,
+            twist: 0.0,
+            twist_rate: 0.0,
+        }
+    }
+}
+
+/// A planar section as a blade that bends in both planes with the same stiffness: all that its resultants say.
+#[derive(Debug)]
+pub struct PlanarBlade(pub Box<dyn Section>);
+
+impl BladeSection for PlanarBlade {
+    fn resultants(&self, x: f64) -> BladeResultants {
+        let r = self.0.resultants(x);
+        BladeResultants {
+            mass: r.mass,
+            axial_stiffness: r.axial_stiffness,
+            flap_stiffness: r.bending_stiffness,
+            chord_stiffness: r.bending_stiffness,
+            flap_inertia: r.rotary_inertia,
+            chord_inertia: r.rotary_inertia,
+            ..BladeResultants::default()
+        }
+    }
+
+    fn breaks(&self) -> &[f64] {
+        self.0.breaks()
+    }
+
+    fn jumps(&self) -> &[f64] {
+        self.0.jumps()
+    }
+}
+
+/// A blade with a twist that grows linearly from the root: θ(x) + rate · x.
+#[derive(Debug)]
+pub struct Twisted {
+    /// The blade.
+    pub blade: Box<dyn BladeSection>,
+    /// Rate of the twist added [rad/m].
+    pub rate: f64,
+}
+
+impl BladeSection for Twisted {
+    fn resultants(&self, x: f64) -> BladeResultants {
+        let r = self.blade.resultants(x);
+        BladeResultants { twist: r.twist + self.rate * x, twist_rate: r.twist_rate + self.rate, ..r }
+    }
+
+    fn breaks(&self) -> &[f64] {
+        self.blade.breaks()
+    }
+
+    fn jumps(&self) -> &[f64] {
+        self.blade.jumps()
+    }
+}
+
+/// A blade tabulated along its span, straight lines between the rows; two rows at one station make a jump.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BladeTable {
+    rows: Vec<(f64, BladeResultants)>,
+    breaks: Vec<f64>,
+    jumps: Vec<f64>,
+}
+
+impl BladeTable {
+    /// The blade through rows (x [m], resultants) over the given length [m]; `twist_rate` of a row is not read.
+    ///
+    /// # Errors
+    /// [`SectionError::Invalid`] names the row if there are fewer than two, if stations do not ascend (three
+    /// rows at one station are refused too) or do not cover the blade, or if a row makes no section.
+    pub fn new(length: f64, rows: &[(f64, BladeResultants)]) -> Result<BladeTable, SectionError> {
+        let invalid = |message: String| Err(SectionError::Invalid(message));
+        for (i, (x, row)) in rows.iter().enumerate() {
+            if let Some(before) = i.checked_sub(1).map(|j| rows[j].0)
+                && !(*x >= before)
+            {
+                return invalid(format!(
+                    "row {} of the blade's table, at x = {x} m, comes after {before} m; stations must ascend: sort the rows",
+                    i + 1
+                ));
+            }
+            if i > 1 && rows[i - 2].0 == *x {
+                return invalid(format!(
+                    "rows {} to {} of the blade's table are all at x = {x} m; two rows at one station make a jump, more are refused",
+                    i - 1,
+                    i + 1
+                ));
+            }
+            if !x.is_finite() {
+                return invalid(format!("row {} of the blade's table is at x = {x} m", i + 1));
+            }
+            if let Err(error) = row.validate() {
+                return invalid(format!("row {} of the blade's table, at x = {x} m: {error}", i + 1));
+            }
+        }
+        let (Some((first, _)), Some((last, _)), true) = (rows.first(), rows.last(), rows.len() > 1) else {
+            return invalid(format!("the blade's table needs at least two rows and has {}", rows.len()));
+        };
+        if !(first.abs() <= 1e-6 * length && (last - length).abs() <= 1e-6 * length) {
+            return invalid(format!(
+                "the blade's table runs from {first} m to {last} m and must cover the blade from 0 to {length} m"
+            ));
+        }
+        let mut breaks: Vec<f64> = rows
+            .iter()
+            .map(|row| row.0)
+            .filter(|&x| x > 1e-6 * length && x < (1.0 - 1e-6) * length)
+            .collect();
+        let jumps = breaks.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[0]).collect();
+        breaks.dedup();
+        Ok(BladeTable { rows: rows.to_vec(), breaks, jumps })
+    }
+}
+
+impl BladeSection for BladeTable {
+    fn resultants(&self, x: f64) -> BladeResultants {
+        let last = self.rows.len() - 2;
+        let mut i = self.rows[1..=last].partition_point(|row| row.0 <= x);
+        while i > 0 && self.rows[i + 1].0 == self.rows[i].0 {
+            i -= 1;
+        }
+        let ((start, a), (end, b)) = (&self.rows[i], &self.rows[i + 1]);
+        let h = end - start;
+        let s = if h > 0.0 { ((x - start) / h).clamp(0.0, 1.0) } else { 1.0 };
+        let line = |a: f64, b: f64| a + s * (b - a);
+        BladeResultants {
+            mass: line(a.mass, b.mass),
+            axial_stiffness: line(a.axial_stiffness, b.axial_stiffness),
+            flap_stiffness: line(a.flap_stiffness, b.flap_stiffness),
+            chord_stiffness: line(a.chord_stiffness, b.chord_stiffness),
+            torsional_stiffness: line(a.torsional_stiffness, b.torsional_stiffness),
+            flap_inertia: line(a.flap_inertia, b.flap_inertia),
+            chord_inertia: line(a.chord_inertia, b.chord_inertia),
+            twist: line(a.twist, b.twist),
+            twist_rate: if h > 0.0 { (b.twist - a.twist) / h } else { 0.0 },
+        }
+    }
+
+    fn breaks(&self) -> &[f64] {
+        &self.breaks
+    }
+
+    fn jumps(&self) -> &[f64] {
+        &self.jumps
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn torsion_constants_are_those_of_the_handbook() {
+        // Timoshenko & Goodier, table of k₁ in J = k₁ (2a)³(2b) for sides in the ratios 1, 1.5, 2, 10.
+        for (ratio, k) in [(1.0, 0.1406), (1.5, 0.196), (2.0, 0.229), (10.0, 0.312)] {
+            let j = torsion_constant(&Shape::Rectangle { width: 1.0, height: ratio });
+            assert!((j / ratio - k).abs() < 6e-4, "{ratio}: {}", j / ratio);
+        }
+        let circle = torsion_constant(&Shape::Circle { radius: 2.0 });
+        assert!((circle - PI * 16.0 / 2.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn tables_that_make_no_blade_are_refused_by_row() {
+        let good = BladeResultants {
+            mass: 1.0,
+            axial_stiffness: 1.0,
+            flap_stiffness: 1.0,
+            chord_stiffness: 1.0,
+            ..BladeResultants::default()
+        };
+        for (rows, says) in [
+            (vec![], "at least two rows and has 0"),
+            (vec![(0.0, good)], "at least two rows"),
+            (vec![(0.0, good), (2.0, good), (1.0, good), (3.0, good)], "row 3"),
+            (vec![(0.0, good), (1.0, good), (1.0, good), (1.0, good), (3.0, good)], "rows 2 to 4"),
+            (vec![(0.0, good), (2.0, good)], "cover the blade"),
+            (vec![(0.0, good), (f64::NAN, good), (3.0, good)], "row 2"),
+            (vec![(0.0, good), (3.0, BladeResultants { flap_stiffness: 0.0, ..good })], "flapwise bending"),
+        ] {
+            let message = BladeTable::new(3.0, &rows).unwrap_err().to_string();
+            assert!(message.contains(says), "{message}");
+        }
+    }
+
+    #[test]
+    fn rows_are_joined_by_straight_lines_and_jumps_are_kept() {
+        let row = |x: f64, mass: f64, twist: f64| {
+            let r = BladeResultants {
+                mass,
+                axial_stiffness: 1.0,
+                flap_stiffness: 1.0,
+                chord_stiffness: 1.0,
+                twist,
+                ..BladeResultants::default()
+            };
+            (x, r)
+        };
+        let table = BladeTable::new(
+            3.0,
+            &[row(0.0, 1.0, 0.0), row(1.0, 2.0, 0.4), row(1.0, 5.0, 0.4), row(3.0, 3.0, 0.0)],
+        )
+        .unwrap();
+        assert_eq!((table.breaks(), table.jumps()), (&[1.0][..], &[1.0][..]));
+        for (x, mass, rate) in [(0.5, 1.5, 0.4), (1.0, 5.0, -0.2), (2.0, 4.0, -0.2), (3.0, 3.0, -0.2)] {
+            let found = table.resultants(x);
+            assert!((found.mass - mass).abs() < 1e-14 && (found.twist_rate - rate).abs() < 1e-14, "{x}");
+        }
+    }
+}
