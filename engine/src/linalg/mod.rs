@@ -6,6 +6,8 @@
 mod band;
 mod bordered;
 mod dense;
+mod double;
+pub mod eigen;
 mod inertia;
 mod matrix;
 mod scalar;
@@ -15,7 +17,8 @@ mod tests;
 pub use band::Band;
 pub use bordered::Bordered;
 pub use dense::Dense;
-pub use inertia::negative_pivots;
+pub use double::Double;
+pub use inertia::{negative_pivots, negative_pivots_of};
 pub use matrix::{Matrix, Stamp, Storage, Structure};
 pub use scalar::Scalar;
 
