@@ -114,6 +114,23 @@ pub struct Label {
     pub scale: f64,
 }
 
+/// What an unknown moves: for the shares of a mode.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Direction {
+    /// The beam along its axis.
+    Axial,
+    /// The beam across, in the plane of rotation (lead–lag).
+    Chord,
+    /// The beam across, out of the plane of rotation.
+    Flap,
+    /// The section about the axis.
+    Torsion,
+    /// The hub.
+    Hub,
+    /// Something else, or several of these.
+    Other,
+}
+
 /// Energies of a state, in joules.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Energy {
@@ -208,6 +225,32 @@ pub trait System {
     /// content is discarded. A system may leave a factored `out` as it is when it recognises, by the
     /// matrix's [stamp](crate::linalg::Matrix::stamp), that it already holds the very same tangent.
     fn tangent(&mut self, s: &State, w: Weights<'_>, out: &mut Matrix);
+
+    /// Turns the hub at a steady speed [rad/s] from now on, whatever drove it: a prescribed motion is replaced, a hub
+    /// that is free gets it as the speed of its [initial](System::initial) and [held](System::hold) state.
+    /// `false` for a system that does not turn, which stays as it is.
+    fn turn_steadily(&mut self, _speed: f64) -> bool {
+        false
+    }
+
+    /// ∂r/∂q with the strains apart: K = `rest` + Σ w b bᵀ. `visit` is given for each term the numbers of the
+    /// unknowns, the entries of b there, and w. `false`, and nothing done, for a model that does not know.
+    ///
+    /// The condition number of the stiffness of n bending elements grows like n⁴: the sum loses the lowest
+    /// frequencies when it is stored in doubles, but not its terms.
+    fn stiffness_terms(
+        &mut self,
+        _s: &State,
+        _rest: &mut Matrix,
+        _visit: &mut dyn FnMut(&[usize], &[f64], f64),
+    ) -> bool {
+        false
+    }
+
+    /// What unknown `i` (a velocity) moves.
+    fn direction(&self, _i: usize) -> Direction {
+        Direction::Other
+    }
 
     /// Whether r is affine in (q, v, a) at fixed t: Newton then needs one iteration.
     fn is_affine(&self) -> bool {

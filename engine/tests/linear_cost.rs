@@ -11,6 +11,7 @@ fn stored(matrix: &Matrix) -> usize {
     match matrix.storage() {
         Storage::Dense(a) => a.data().len(),
         Storage::Band(a) => a.band().data().len(),
+        Storage::Condensed(a) => a.whole().band().data().len(),
     }
 }
 

@@ -1,8 +1,13 @@
 //! Analyses: plain functions over a system.
 
 mod audit;
+pub mod campbell;
 pub mod equilibrium;
 mod ledger;
+pub mod modes;
+pub mod rotation;
+mod stiffness;
+mod tracking;
 pub mod transient;
 
 pub use ledger::Books;

@@ -34,6 +34,12 @@ pub trait Coupling {
     /// Adds to `out` the tangent of [`Coupling::add_forces`].
     fn add_tangent(&mut self, _s: &State, _hub: &HubKinematics, _w: &Weights<'_>, _out: &mut Storage<f64>) {}
 
+    /// Gives `visit` the terms w b bᵀ of the strain energy in the tangent of [`Coupling::inertia`]: unknowns, entries
+    /// of b, w. `false` where the strain energy is not there or not quadratic.
+    fn strain_terms(&self, _visit: &mut dyn FnMut(&[usize], &[f64], f64)) -> bool {
+        false
+    }
+
     /// Strain energy [J].
     fn strain(&mut self, s: &State) -> f64;
 

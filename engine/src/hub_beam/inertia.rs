@@ -251,6 +251,15 @@ impl Inertia {
         }
     }
 
+    /// Writes −ω² D + ω̇ Pᵀ over the content of `out`, border aside: ∂r/∂q without K.
+    pub fn tangent_without_strain(&self, hub: &HubKinematics, out: &mut Storage<f64>) {
+        let (w1, w2) = (hub.acceleration, hub.speed * hub.speed);
+        self.bundle.write_sum([-w2, 0.5 * w1, 0.0, w2], out);
+        if let Some(symmetric) = &self.symmetric {
+            symmetric.add_sum([w1, 0.0, 0.0, 0.0], out);
+        }
+    }
+
     /// Kinetic energy T, angular momentum ∂T/∂ω and the torque τ of the equation of motion of the hub.
     pub fn totals(&self, s: &State, hub: &HubKinematics, x: &mut Scratch) -> Totals {
         let n = self.len();

@@ -31,6 +31,8 @@ pub struct LinearCoupling {
     inertia: Inertia,
     /// Slopes at the quadrature points of each cell, for the foreshortening of a deflected beam.
     slopes: Vec<SlopePoint>,
+    /// Stiffness at the quadrature points.
+    strains: Vec<StrainPoint>,
     /// Unknowns that are displacements, and what they may not exceed \[m\].
     bounds: Vec<(usize, f64)>,
 }
@@ -42,6 +44,18 @@ struct SlopePoint {
     weight: f64,
     index: Vec<usize>,
     slope: Vec<f64>,
+}
+
+/// ½∫ (EA w₁′² − 2 ES w₁′w₂″ + EI w₂″²) dx at a quadrature point as the sum of two squares,
+/// ½ stretch (w₁′ − offset w₂″)² + ½ bending w₂″².
+#[derive(Clone, Copy, Debug)]
+struct StrainPoint {
+    /// EA times the weight.
+    stretch: f64,
+    /// ES/EA
+    offset: f64,
+    /// EI − ES²/EA times the weight.
+    bending: f64,
 }
 
 impl LinearCoupling {
@@ -64,6 +78,16 @@ impl LinearCoupling {
                 });
             });
         }
+        let mut strains = Vec::new();
+        fields.integrate(|p| {
+            let r = section.resultants(p.x);
+            let offset = r.coupling_stiffness / r.axial_stiffness;
+            strains.push(StrainPoint {
+                stretch: p.weight * r.axial_stiffness,
+                offset,
+                bending: p.weight * (r.bending_stiffness - offset * r.coupling_stiffness),
+            });
+        });
         let (axial, transverse) = fields.indices();
         let length = fields.length();
         let mut bounds = Vec::new();
@@ -77,7 +101,7 @@ impl LinearCoupling {
             Foreshortening::None => "zeroth",
             Foreshortening::First => "first",
         };
-        LinearCoupling { name, foreshortening, fields, inertia, slopes, bounds }
+        LinearCoupling { name, foreshortening, fields, inertia, slopes, strains, bounds }
     }
 
     /// The coupling as the linear part of another one, by whose name its messages call it.
@@ -120,6 +144,25 @@ impl Coupling for LinearCoupling {
     }
 
     fn is_affine(&self) -> bool {
+        true
+    }
+
+    fn strain_terms(&self, visit: &mut dyn FnMut(&[usize], &[f64], f64)) -> bool {
+        let mut strains = self.strains.iter();
+        let (mut index, mut stretch) = (Vec::new(), Vec::new());
+        self.fields.integrate(|p| {
+            let Some(strain) = strains.next() else { return };
+            index.clear();
+            stretch.clear();
+            index.extend_from_slice(&p.axial.index);
+            stretch.extend_from_slice(&p.axial.value[1]);
+            if strain.offset != 0.0 {
+                index.extend_from_slice(&p.transverse.index);
+                stretch.extend(p.transverse.value[2].iter().map(|phi| -strain.offset * phi));
+            }
+            visit(&index, &stretch, strain.stretch);
+            visit(&p.transverse.index, &p.transverse.value[2], strain.bending);
+        });
         true
     }
 

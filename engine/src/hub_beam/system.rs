@@ -5,8 +5,9 @@ use super::hub::{Drive, Hub};
 use super::inertia::{Border, Inertia, Scratch, Totals};
 use super::station::{Placement, Station};
 use crate::linalg::{Matrix, Storage, Structure};
-use crate::profile::{HubKinematics, Motion};
-use crate::system::{Channel, Energy, Frame, Label, Power, Size, State, System, Weights};
+use crate::profile::{Constant, HubKinematics, Motion};
+use crate::system::{Channel, Direction, Energy, Frame, Label, Power, Size, State, System, Weights};
+use std::sync::Arc;
 
 /// A flexible beam on a hub. See the [module documentation](super).
 #[derive(Debug)]
@@ -222,6 +223,47 @@ impl<C: Coupling> System for HubBeam<C> {
             self.coupling.inertia().tangent(&w, &hub, storage);
             self.coupling.add_tangent(s, &hub, &w, storage);
             self.write_border(s, &hub, &w, storage);
+        }
+    }
+
+    fn turn_steadily(&mut self, speed: f64) -> bool {
+        let Ok(profile) = Constant::new(speed) else { return false };
+        match &mut self.hub.drive {
+            Drive::Free(free) => free.speed = speed,
+            drive => {
+                *drive = Drive::Prescribed(Motion::Speed { profile: Arc::new(profile), initial_angle: 0.0 })
+            }
+        }
+        self.latest.0 = f64::NAN;
+        self.breaks.clear();
+        true
+    }
+
+    fn stiffness_terms(
+        &mut self,
+        s: &State,
+        rest: &mut Matrix,
+        visit: &mut dyn FnMut(&[usize], &[f64], f64),
+    ) -> bool {
+        if !self.coupling.strain_terms(visit) {
+            return false;
+        }
+        let (hub, w) = (self.kinematics(s), Weights::new(0.0, 0.0, 1.0));
+        let storage = rest.begin();
+        self.coupling.inertia().tangent_without_strain(&hub, storage);
+        self.coupling.add_tangent(s, &hub, &w, storage);
+        self.write_border(s, &hub, &w, storage);
+        true
+    }
+
+    fn direction(&self, i: usize) -> Direction {
+        let fields = self.coupling.fields();
+        if i >= fields.len() {
+            Direction::Hub
+        } else if fields.indices().0.binary_search(&i).is_ok() {
+            Direction::Axial
+        } else {
+            Direction::Chord
         }
     }
 

@@ -56,6 +56,14 @@ impl Structure {
         }
     }
 
+    /// The structure without hidden unknowns: dense in their place.
+    pub fn explicit(&self) -> Structure {
+        match self {
+            Structure::Condensed { .. } => Structure::dense(self.order()),
+            other => other.clone(),
+        }
+    }
+
     /// The cheaper of the band as given and a dense matrix of the same order.
     pub fn cheaper(self) -> Structure {
         match self {
@@ -121,6 +129,23 @@ impl<T: Scalar> Matrix<T> {
             Storage::Band(a) => a.order(),
             Storage::Condensed(a) => a.order(),
         }
+    }
+
+    /// The matrix without hidden unknowns, which are eliminated: O(n²) for those that have any. Before factoring.
+    pub fn explicit(self) -> Matrix<T> {
+        let Storage::Condensed(a) = &self.storage else { return self };
+        let n = a.order();
+        let mut dense = Matrix::new(&Structure::dense(n));
+        let (mut unit, mut column) = (vec![T::ZERO; n], vec![T::ZERO; n]);
+        for j in 0..n {
+            unit[j] = T::ONE;
+            a.multiply(&unit, &mut column);
+            unit[j] = T::ZERO;
+            for (i, x) in column.iter().enumerate() {
+                dense.add(i, j, *x);
+            }
+        }
+        dense
     }
 
     /// The storage, for reading.

@@ -7,6 +7,8 @@ mod band;
 mod bordered;
 mod condensed;
 mod dense;
+mod double;
+pub mod eigen;
 mod inertia;
 mod matrix;
 mod scalar;
@@ -17,7 +19,8 @@ pub use band::Band;
 pub use bordered::Bordered;
 pub use condensed::{Condensed, Places};
 pub use dense::Dense;
-pub use inertia::negative_pivots;
+pub use double::Double;
+pub use inertia::{negative_pivots, negative_pivots_of};
 pub use matrix::{Matrix, Stamp, Storage, Structure};
 pub use scalar::Scalar;
 

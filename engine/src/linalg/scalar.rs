@@ -1,10 +1,10 @@
-//! The two scalars a matrix of this program holds.
+//! The scalars a matrix of this program holds.
 
 use num_complex::Complex64;
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
-/// A real or complex double.
+/// A real or complex double, or a real [`Double`](super::Double) of 106 bits.
 pub trait Scalar:
     Copy
     + Debug

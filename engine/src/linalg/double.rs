@@ -3,11 +3,12 @@
 //! Sources: T. J. Dekker, *Numer. Math.* 18 (1971) 224–242, doi:10.1007/BF01397083; Y. Hida, X. S. Li &
 //! D. H. Bailey, *Proc. ARITH-15* (2001) 155–162, doi:10.1109/ARITH.2001.930115.
 
-use std::ops::{Add, Div, Mul, Neg, Sub};
+use super::Scalar;
+use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
 /// high + low, |low| ≤ ½ ulp(high).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Double {
+pub struct Double {
     high: f64,
     low: f64,
 }
@@ -15,13 +16,18 @@ pub(super) struct Double {
 const LN_2: Double = Double { high: std::f64::consts::LN_2, low: 2.319_046_813_846_299_6e-17 };
 
 impl Double {
+    /// 0
     pub const ZERO: Double = Double { high: 0.0, low: 0.0 };
+    /// 1
     pub const ONE: Double = Double { high: 1.0, low: 0.0 };
 
+    /// The nearest double.
+    #[inline(always)]
     pub fn value(self) -> f64 {
         self.high + self.low
     }
 
+    /// |x|
     pub fn abs(self) -> Double {
         if self.high < 0.0 { -self } else { self }
     }
@@ -65,6 +71,7 @@ impl From<f64> for Double {
 }
 
 /// a + b exactly.
+#[inline(always)]
 fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let part = sum - a;
@@ -72,6 +79,7 @@ fn two_sum(a: f64, b: f64) -> (f64, f64) {
 }
 
 /// a + b exactly, |a| ≥ |b|.
+#[inline(always)]
 fn quick_sum(a: f64, b: f64) -> Double {
     let high = a + b;
     Double { high, low: b - (high - a) }
@@ -79,6 +87,7 @@ fn quick_sum(a: f64, b: f64) -> Double {
 
 impl Add for Double {
     type Output = Double;
+    #[inline]
     fn add(self, o: Double) -> Double {
         let (sum, error) = two_sum(self.high, o.high);
         let (low, rest) = two_sum(self.low, o.low);
@@ -89,6 +98,7 @@ impl Add for Double {
 
 impl Neg for Double {
     type Output = Double;
+    #[inline]
     fn neg(self) -> Double {
         Double { high: -self.high, low: -self.low }
     }
@@ -96,6 +106,7 @@ impl Neg for Double {
 
 impl Sub for Double {
     type Output = Double;
+    #[inline]
     fn sub(self, o: Double) -> Double {
         self + -o
     }
@@ -103,6 +114,7 @@ impl Sub for Double {
 
 impl Mul for Double {
     type Output = Double;
+    #[inline]
     fn mul(self, o: Double) -> Double {
         let product = self.high * o.high;
         let error = self.high.mul_add(o.high, -product);
@@ -112,12 +124,47 @@ impl Mul for Double {
 
 impl Div for Double {
     type Output = Double;
+    #[inline]
     fn div(self, o: Double) -> Double {
         let first = self.high / o.high;
         let rest = self - o * first.into();
         let second = rest.high / o.high;
         let third = (rest - o * second.into()).high / o.high;
         quick_sum(first, second) + third.into()
+    }
+}
+
+impl AddAssign for Double {
+    #[inline]
+    fn add_assign(&mut self, o: Double) {
+        *self = *self + o;
+    }
+}
+
+impl SubAssign for Double {
+    #[inline]
+    fn sub_assign(&mut self, o: Double) {
+        *self = *self - o;
+    }
+}
+
+impl MulAssign for Double {
+    #[inline]
+    fn mul_assign(&mut self, o: Double) {
+        *self = *self * o;
+    }
+}
+
+impl Scalar for Double {
+    const ZERO: Double = Double::ZERO;
+    const ONE: Double = Double::ONE;
+    #[inline(always)]
+    fn size(self) -> f64 {
+        self.high.abs()
+    }
+    #[inline(always)]
+    fn real(x: f64) -> Double {
+        x.into()
     }
 }
 

@@ -1,0 +1,363 @@
+//! Modes of vibration about an equilibrium.
+//!
+//! With M, C, K = ∂r/∂a, ∂r/∂v, ∂r/∂q of a [`System`] at the equilibrium, the modes are the solutions
+//! δq = x e^{λt} of (λ² M + λ C + K) x = 0: angular frequency ω = |Im λ|, damping ratio ζ = −Re λ/|λ|. Everything goes
+//! through the tangent, so every model has modes; how they are found is told in [`eigen`](crate::linalg::eigen).
+
+use super::stiffness::{stiffness, tangent};
+use crate::linalg::eigen::{EigenError, Kind, Pair, Pencil, each};
+use crate::linalg::{Matrix, Singular};
+use crate::system::{Direction, Frame, State, System, Weights};
+use num_complex::Complex64;
+
+/// Residual above which a mode is refused.
+const RESIDUAL: f64 = 1e-7;
+/// A rigid motion has |λ| below this part of the lowest frequency of the held system.
+const RIGID: f64 = 1e-4;
+
+/// One mode.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mode {
+    /// Eigenvalue λ [1/s], Im λ ≥ 0.
+    pub eigenvalue: Complex64,
+    /// Eigenvector x in the velocities of the system: modal mass xᴴ M x = 1, its largest entry (over the scale of its
+    /// label) real and positive.
+    pub vector: Vec<Complex64>,
+    /// |Q(σ)⁻¹ Q(λ) x| / |x|, with Q(λ) = λ² M + λ C + K: error of the pair, seen through the inverse.
+    pub residual: f64,
+    /// Bound of the relative error of the frequency by the rounding of the entries of K in doubles, ½ ε |x|ᵀ|K||x| / |λ|².
+    /// It matters for fine meshes in models that do not give the [terms](System::stiffness_terms) of K.
+    pub rounding: f64,
+    /// Shares of the modal mass.
+    pub shares: Shares,
+    /// Displacements along the beam.
+    pub shape: Shape,
+    /// Number of nodes: places between root and tip at which the largest displacement changes its sign.
+    pub nodes: usize,
+}
+
+impl Mode {
+    /// Angular frequency ω = |Im λ| [rad/s]; zero for a motion that only grows or decays.
+    pub fn frequency(&self) -> f64 {
+        self.eigenvalue.im.abs()
+    }
+
+    /// Damping ratio ζ = −Re λ/|λ|: positive decays, negative grows.
+    pub fn damping_ratio(&self) -> f64 {
+        let size = self.eigenvalue.norm();
+        if size == 0.0 || self.eigenvalue.re == 0.0 { 0.0 } else { -self.eigenvalue.re / size }
+    }
+}
+
+/// Shares of the modal mass by what moves, Re(x_gᴴ (M x)_g) / xᴴ M x: their sum is one.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Shares {
+    /// Along the axis.
+    pub axial: f64,
+    /// Across, in the plane of rotation.
+    pub chord: f64,
+    /// Across, out of the plane of rotation.
+    pub flap: f64,
+    /// About the axis.
+    pub torsion: f64,
+    /// The hub.
+    pub hub: f64,
+    /// What the model does not tell apart.
+    pub other: f64,
+}
+
+impl Shares {
+    /// Names and values.
+    pub fn named(&self) -> [(&'static str, f64); 6] {
+        [
+            ("axial", self.axial),
+            ("chord", self.chord),
+            ("flap", self.flap),
+            ("torsion", self.torsion),
+            ("hub", self.hub),
+            ("other", self.other),
+        ]
+    }
+
+    /// Name of the largest share.
+    pub fn dominant(&self) -> &'static str {
+        let best = |a: (&'static str, f64), b: (&'static str, f64)| if b.1 > a.1 { b } else { a };
+        self.named().into_iter().fold(("other", f64::NEG_INFINITY), best).0
+    }
+
+    fn of(&mut self, direction: Direction) -> &mut f64 {
+        match direction {
+            Direction::Axial => &mut self.axial,
+            Direction::Chord => &mut self.chord,
+            Direction::Flap => &mut self.flap,
+            Direction::Torsion => &mut self.torsion,
+            Direction::Hub => &mut self.hub,
+            Direction::Other => &mut self.other,
+        }
+    }
+}
+
+/// Displacements of the stations in a mode, in the axes of the equilibrium's sections (tangent, then the two
+/// others), the largest of them 1.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Shape {
+    /// Displacement of each station along the section's axes.
+    pub displacement: Vec<[Complex64; 3]>,
+}
+
+/// Modes of a state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Modes {
+    /// The modes, ascending in |λ|.
+    pub modes: Vec<Mode>,
+    /// What the matrices are.
+    pub kind: Kind,
+    /// Number of modes up to the last one as the inertia of K − ω² M + iω C counts them, where it can be
+    /// counted: equal to the number of modes, or one was missed.
+    pub counted: Option<usize>,
+}
+
+/// Why there are no modes.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum NoModes {
+    /// More were asked for than there are.
+    #[error(
+        "{asked} modes were asked for, but the system has {there} unknowns; refine the basis or ask for fewer"
+    )]
+    TooMany {
+        /// Number asked for.
+        asked: usize,
+        /// Number of unknowns.
+        there: usize,
+    },
+    /// The system has constraints.
+    #[error("the system has {0} constraints; modes are computed for systems without")]
+    Constrained(usize),
+    /// The eigenproblem was not solved.
+    #[error("the eigenproblem was not solved: {0}")]
+    Eigen(#[from] EigenError),
+    /// A pair is not what it should be.
+    #[error(
+        "mode {number} at {frequency:.6} rad/s has a residual of {residual:.1e}, more than {RESIDUAL:.0e}; the matrices are too ill-conditioned, coarsen the basis"
+    )]
+    Inaccurate {
+        /// Number of the mode, from 1.
+        number: usize,
+        /// Its frequency [rad/s].
+        frequency: f64,
+        /// Its residual.
+        residual: f64,
+    },
+    /// The count of frequencies found more.
+    #[error(
+        "{counted} modes lie below {frequency:.6} rad/s, but {found} were found; ask for a few more modes"
+    )]
+    Missed {
+        /// Number by the inertia.
+        counted: usize,
+        /// Number found.
+        found: usize,
+        /// Bound of frequency [rad/s].
+        frequency: f64,
+    },
+}
+
+/// The `count` modes of smallest |λ| of `system` about `state`, with their shapes at `stations` [m].
+///
+/// The state is taken for an equilibrium as it stands: bring it there by
+/// [`equilibrium`](super::equilibrium::equilibrium) or [`rotate`](super::rotation::rotate). With the hub
+/// [held](System::hold) the modes are those of a beam on a hub that keeps its motion; a hub that is free has
+/// the rigid motion as a mode of frequency zero.
+///
+/// # Errors
+/// [`NoModes`]; a mode whose residual is large, or a mode that was missed, is an error and no result.
+pub fn modes(
+    system: &mut dyn System,
+    state: &State,
+    count: usize,
+    stations: &[f64],
+) -> Result<Modes, NoModes> {
+    let size = system.size();
+    if size.lambda > 0 {
+        return Err(NoModes::Constrained(size.lambda));
+    }
+    if count > size.v {
+        return Err(NoModes::TooMany { asked: count, there: size.v });
+    }
+    let mut tangent = |a: f64, v: f64, q: f64| tangent(system, state, Weights::new(a, v, q));
+    let (mass, damping, rounded) = (tangent(1.0, 0.0, 0.0), tangent(0.0, 1.0, 0.0), tangent(0.0, 0.0, 1.0));
+    let (wide, in_terms) = stiffness(system, state);
+    let mut rigid = 0.0;
+    let pencil = Pencil::new(mass.clone(), damping.clone(), wide.clone(), 0.0);
+    let mut pencil = match pencil {
+        // Rigid motions: the lowest frequency without them sets a shift.
+        Err(EigenError::Singular(singular)) => {
+            let lowest = held_frequency(system, state, singular)?;
+            rigid = RIGID * lowest;
+            Pencil::new(mass, damping, wide, 0.3 * lowest)?
+        }
+        other => other?,
+    };
+    let pairs = pencil.pairs(count)?;
+    let (mut modes, mut counted) = (Vec::with_capacity(count), None);
+    let scale: Vec<f64> = system.labels().iter().map(|l| l.scale).collect();
+    for pair in pairs.into_iter().take(count) {
+        let number = modes.len() + 1;
+        let mode =
+            mode(system, state, &pencil, (!in_terms).then_some(&rounded), pair, (&scale, rigid), stations);
+        // Written so that NaN is refused too. A defective rigid motion is known to half the digits.
+        if !(mode.residual <= RESIDUAL) && mode.eigenvalue.norm() > 0.0 {
+            let frequency = mode.eigenvalue.norm();
+            return Err(NoModes::Inaccurate { number, frequency, residual: mode.residual });
+        }
+        modes.push(mode);
+    }
+    let steady = modes.iter().all(|m: &Mode| m.eigenvalue.re == 0.0 && m.eigenvalue.im > 0.0);
+    if let Some(last) = modes.last().filter(|_| steady) {
+        // Just below the last, so that copies of it that were not asked for do not count.
+        let limit = last.frequency() * (1.0 - 1e-7);
+        let found = modes.iter().filter(|m| m.frequency() < limit).count();
+        let below = pencil.count_below(limit);
+        if let Some(counted) = below.filter(|&counted| counted != found) {
+            return Err(NoModes::Missed { counted, found, frequency: limit });
+        }
+        counted = below.map(|_| modes.len());
+    }
+    Ok(Modes { modes, kind: pencil.kind(), counted })
+}
+
+/// Lowest frequency of the system with its rigid motions held.
+fn held_frequency(system: &mut dyn System, state: &State, singular: Singular) -> Result<f64, NoModes> {
+    system.hold(true);
+    let mass = tangent(system, state, Weights::new(1.0, 0.0, 0.0));
+    let structure = system.structure().explicit();
+    let (wide, _) = stiffness(system, state);
+    system.hold(false);
+    let pencil = Pencil::new(mass, Matrix::new(&structure), wide, 0.0);
+    let pair = pencil.and_then(|mut pencil| pencil.pairs(1));
+    match pair.as_ref().map(|pairs| pairs.first()) {
+        Ok(Some(pair)) => Ok(pair.value.norm()),
+        _ => Err(EigenError::Singular(singular).into()),
+    }
+}
+
+/// A mode from its eigenpair.
+fn mode(
+    system: &mut dyn System,
+    state: &State,
+    pencil: &Pencil,
+    rounded: Option<&Matrix>,
+    pair: Pair,
+    (scale, rigid): (&[f64], f64),
+    stations: &[f64],
+) -> Mode {
+    let Pair { value: mut eigenvalue, mut vector, residual } = pair;
+    let n = vector.len();
+    if eigenvalue.norm() < rigid {
+        eigenvalue = Complex64::ZERO;
+    }
+    let parts = |x: &[Complex64]| -> [Vec<f64>; 2] {
+        [x.iter().map(|x| x.re).collect(), x.iter().map(|x| x.im).collect()]
+    };
+    // Phase by the largest entry, size by the modal mass.
+    let size = |i: usize| vector[i].norm() / scale[i];
+    let largest = (0..n).fold(0, |best, i| if size(i) > size(best) * (1.0 + 1e-9) { i } else { best });
+    let phase = vector.get(largest).map_or(Complex64::ONE, |x| x.conj() / x.norm());
+    vector.iter_mut().for_each(|x| *x *= phase);
+    let mut shares = Shares::default();
+    let mut mass = 0.0;
+    let mut mx = vec![0.0; n];
+    for part in &parts(&vector) {
+        pencil.mass().multiply(part, &mut mx);
+        for (i, (x, mx)) in part.iter().zip(&mx).enumerate() {
+            *shares.of(system.direction(i)) += x * mx;
+            mass += x * mx;
+        }
+    }
+    let root = mass.abs().sqrt();
+    if root > 0.0 {
+        vector.iter_mut().for_each(|x| *x /= root);
+        for share in [
+            &mut shares.axial,
+            &mut shares.chord,
+            &mut shares.flap,
+            &mut shares.torsion,
+            &mut shares.hub,
+            &mut shares.other,
+        ] {
+            *share /= mass;
+        }
+    }
+    let mut energy = 0.0;
+    if let Some(rounded) = rounded {
+        each(rounded, |i, j| energy += vector[i].norm() * rounded.get(i, j).abs() * vector[j].norm());
+    }
+    let square = eigenvalue.norm_sqr();
+    let rounding = if square > 0.0 { 0.5 * f64::EPSILON * energy / square } else { 0.0 };
+    let shape = shape(system, state, &vector, scale, stations);
+    let nodes = nodes(&shape);
+    Mode { eigenvalue, vector, residual, rounding, shares, shape, nodes }
+}
+
+/// Displacements of the stations: central differences of the frames.
+fn shape(system: &mut dyn System, state: &State, x: &[Complex64], scale: &[f64], stations: &[f64]) -> Shape {
+    let count = stations.len();
+    let largest = x.iter().zip(scale).map(|(x, s)| x.norm() / s).fold(0.0, f64::max);
+    let mut displacement = vec![[Complex64::ZERO; 3]; count];
+    if largest == 0.0 || count == 0 {
+        return Shape { displacement };
+    }
+    let frames = |system: &mut dyn System, d: &[f64]| {
+        let mut moved = state.clone();
+        system.retract(&state.q, d, &mut moved.q);
+        let mut frames = vec![Frame::default(); count];
+        system.shape(&moved, stations, &mut frames);
+        frames
+    };
+    let still = frames(system, &vec![0.0; x.len()]);
+    let step = 1e-5 / largest;
+    for (part, unit) in [(0, Complex64::ONE), (1, Complex64::I)] {
+        let d: Vec<f64> = x.iter().map(|x| step * if part == 0 { x.re } else { x.im }).collect();
+        if d.iter().all(|d| *d == 0.0) {
+            continue;
+        }
+        let ahead = frames(system, &d);
+        let behind = frames(system, &d.iter().map(|d| -d).collect::<Vec<f64>>());
+        for (k, out) in displacement.iter_mut().enumerate() {
+            for (axis, out) in out.iter_mut().enumerate() {
+                let along: f64 = (0..3)
+                    .map(|c| still[k].rotation[c][axis] * (ahead[k].position[c] - behind[k].position[c]))
+                    .sum();
+                *out += unit * along;
+            }
+        }
+    }
+    let size = displacement.iter().flatten().map(|u| u.norm()).fold(0.0, f64::max);
+    if size > 0.0 {
+        displacement.iter_mut().flatten().for_each(|u| *u /= size);
+    }
+    Shape { displacement }
+}
+
+/// Changes of sign of the component that is largest, at the phase at which it is.
+fn nodes(shape: &Shape) -> usize {
+    let peak = |axis: usize| {
+        let sizes = shape.displacement.iter().map(|u| u[axis]);
+        sizes.fold(Complex64::ZERO, |best, u| if u.norm() > best.norm() { u } else { best })
+    };
+    let peaks = [peak(0), peak(1), peak(2)];
+    let axis = (0..3).fold(0, |best, axis| if peaks[axis].norm() > peaks[best].norm() { axis } else { best });
+    if peaks[axis] == Complex64::ZERO {
+        return 0;
+    }
+    let phase = peaks[axis].conj() / peaks[axis].norm();
+    let values = shape.displacement.iter().map(|u| (u[axis] * phase).re);
+    let (mut sign, mut count) = (0.0, 0);
+    for u in values.filter(|u| u.abs() > 1e-4) {
+        if sign * u < 0.0 {
+            count += 1;
+        }
+        sign = u;
+    }
+    count
+}

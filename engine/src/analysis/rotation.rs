@@ -1,0 +1,138 @@
+//! Steady rotation: the equilibrium in the frame of a hub that turns at a constant speed.
+
+use super::equilibrium::{Effort, NoEquilibrium, equilibrium};
+use super::stiffness::stiffness;
+use crate::linalg::eigen::negative_eigenvalues;
+use crate::system::{State, System};
+
+/// Smallest part of the way to a speed by which continuation goes on.
+const SMALLEST: f64 = 1e-4;
+/// Relative accuracy of the speed at which an equilibrium ends.
+const ACCURACY: f64 = 1e-6;
+
+/// Why a beam cannot be brought to a speed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum NoRotation {
+    /// The system does not turn.
+    #[error("the system has no hub that could be turned steadily")]
+    DoesNotTurn,
+    /// There is no equilibrium.
+    #[error(
+        "there is no steady rotation at {asked} rad/s: followed up to {reached:.6} rad/s, and beyond {source}"
+    )]
+    Lost {
+        /// Speed asked for [rad/s].
+        asked: f64,
+        /// Speed reached [rad/s].
+        reached: f64,
+        /// What happened beyond.
+        source: NoEquilibrium,
+    },
+    /// The equilibrium is unstable.
+    #[error(
+        "the steady rotation at {asked} rad/s is buckled: stable up to {reached:.6} rad/s, and beyond its stiffness has \
+         {negative} negative eigenvalue(s){why}"
+    )]
+    Buckled {
+        /// Speed asked for [rad/s].
+        asked: f64,
+        /// Speed up to which it is stable [rad/s].
+        reached: f64,
+        /// Number of negative eigenvalues of the stiffness at the speed asked for.
+        negative: usize,
+        /// What the model knows about it, with a colon in front.
+        why: String,
+    },
+}
+
+impl NoRotation {
+    /// The speed that was reached [rad/s].
+    pub fn reached(&self) -> f64 {
+        match self {
+            NoRotation::DoesNotTurn => 0.0,
+            NoRotation::Lost { reached, .. } | NoRotation::Buckled { reached, .. } => *reached,
+        }
+    }
+}
+
+/// Brings `state` from the steady rotation at the speed `from` [rad/s], which it holds (the undeformed beam does
+/// for `from` = 0 without loads), to that at `to`. On return the system [turns steadily](System::turn_steadily)
+/// at `to` with its hub held, and v = a = 0.
+///
+/// The equilibrium r(q, 0, 0; Ω) = 0 is followed in Ω: the speed is raised by parts that grow and shrink as
+/// Newton's method converges.
+///
+/// # Errors
+/// [`NoRotation`] when the equilibrium ends on the way, or is unstable at the speed asked for.
+pub fn rotate(system: &mut dyn System, state: &mut State, from: f64, to: f64) -> Result<Effort, NoRotation> {
+    system.hold(true);
+    let mut good = state.clone();
+    let (mut reached, mut part) = (0.0, 1.0);
+    let mut effort = Effort::default();
+    let speed = |share: f64| if share >= 1.0 { to } else { from + share * (to - from) };
+    while reached < 1.0 {
+        let next = f64::min(reached + part, 1.0);
+        if !system.turn_steadily(speed(next)) {
+            return Err(NoRotation::DoesNotTurn);
+        }
+        match equilibrium(system, state) {
+            Ok(spent) => {
+                effort.levels += spent.levels;
+                effort.iterations += spent.iterations;
+                good.copy_from(state);
+                reached = next;
+                part *= 2.0;
+            }
+            Err(source) => {
+                state.copy_from(&good);
+                part = 0.25 * (next - reached);
+                if part < SMALLEST {
+                    let reached = speed(reached);
+                    system.turn_steadily(reached);
+                    return Err(NoRotation::Lost { asked: to, reached, source });
+                }
+            }
+        }
+    }
+    Ok(effort)
+}
+
+/// As [`rotate`], and refuses an equilibrium whose stiffness is not positive definite.
+///
+/// # Errors
+/// [`NoRotation`], with the speed up to which the rotation is stable.
+pub fn rotate_stably(
+    system: &mut dyn System,
+    state: &mut State,
+    from: f64,
+    to: f64,
+) -> Result<Effort, NoRotation> {
+    let start = state.clone();
+    let effort = rotate(system, state, from, to)?;
+    let negative = negative_stiffness(system, state);
+    if negative == 0 {
+        return Ok(effort);
+    }
+    let why = system.explain(state).map_or_else(String::new, |why| format!(": {why}"));
+    // Where it is lost, by bisection.
+    let (mut low, mut high) = (from, to);
+    let mut at = start;
+    while (high - low).abs() > ACCURACY * high.abs().max(low.abs()) {
+        let middle = 0.5 * (low + high);
+        let mut next = at.clone();
+        if rotate(system, &mut next, low, middle).is_ok() && negative_stiffness(system, &next) == 0 {
+            low = middle;
+            at = next;
+        } else {
+            high = middle;
+        }
+    }
+    system.turn_steadily(low);
+    state.copy_from(&at);
+    Err(NoRotation::Buckled { asked: to, reached: low, negative, why })
+}
+
+/// Number of negative eigenvalues of a symmetric stiffness ∂r/∂q; zero if it is not symmetric or has a border.
+pub fn negative_stiffness(system: &mut dyn System, state: &State) -> usize {
+    negative_eigenvalues(&stiffness(system, state).0).unwrap_or(0)
+}

@@ -1,0 +1,147 @@
+//! The inverses whose largest eigenvalues are wanted. Each knows its inner product through the dual of a vector.
+
+use super::Pencil;
+use super::pencil::dot;
+
+/// A linear operator with an inner product ⟨z, z′⟩ = z · dual(z′).
+pub(super) trait Operator {
+    /// Length of its vectors.
+    fn len(&self) -> usize;
+
+    /// w = A z, and the dual of w.
+    fn apply(&mut self, z: &[f64], dual: &[f64], w: &mut [f64], dual_w: &mut [f64]);
+
+    /// A vector to start from made from `r`, smoothed by the inverse, and its dual.
+    fn start(&mut self, r: &[f64], z: &mut [f64], dual: &mut [f64]);
+}
+
+/// x ↦ K⁻¹ M x with the dual M x.
+pub(super) struct Symmetric<'a>(pub &'a mut Pencil);
+
+impl Operator for Symmetric<'_> {
+    fn len(&self) -> usize {
+        self.0.order()
+    }
+
+    fn apply(&mut self, _z: &[f64], dual: &[f64], w: &mut [f64], dual_w: &mut [f64]) {
+        w.copy_from_slice(dual);
+        self.0.solve(w);
+        self.0.mass().multiply(w, dual_w);
+    }
+
+    fn start(&mut self, r: &[f64], z: &mut [f64], dual: &mut [f64]) {
+        self.0.mass().multiply(r, z);
+        self.0.solve(z);
+        self.0.mass().multiply(z, dual);
+    }
+}
+
+/// (x, y) ↦ (−K⁻¹(C x + M y), x) with the dual (K x, M y).
+pub(super) struct Gyroscopic<'a>(pub &'a mut Pencil);
+
+impl Operator for Gyroscopic<'_> {
+    fn len(&self) -> usize {
+        2 * self.0.order()
+    }
+
+    fn apply(&mut self, z: &[f64], dual: &[f64], w: &mut [f64], dual_w: &mut [f64]) {
+        let n = self.0.order();
+        let (wx, wy) = w.split_at_mut(n);
+        let (kx, my) = dual_w.split_at_mut(n);
+        self.0.damping().multiply(&z[..n], kx);
+        for (f, my) in kx.iter_mut().zip(&dual[n..]) {
+            *f = -*f - my;
+        }
+        wx.copy_from_slice(kx);
+        self.0.solve(wx);
+        wy.copy_from_slice(&z[..n]);
+        self.0.mass().multiply(wy, my);
+    }
+
+    fn start(&mut self, r: &[f64], z: &mut [f64], dual: &mut [f64]) {
+        let n = self.0.order();
+        for half in [0..n, n..2 * n] {
+            self.0.mass().multiply(&r[half.clone()], &mut dual[half.clone()]);
+            z[half.clone()].copy_from_slice(&dual[half.clone()]);
+            self.0.solve(&mut z[half]);
+        }
+        let mut my = vec![0.0; n];
+        self.0.mass().multiply(&z[n..], &mut my);
+        dual[n..].copy_from_slice(&my);
+    }
+}
+
+/// (x, y) ↦ (w, x + σ w) with Q(σ) w = −(C x + M (σ x + y)), and the dual (s² M x, M y).
+pub(super) struct General<'a> {
+    pencil: &'a mut Pencil,
+    /// s², about the square of the lowest frequency: makes both halves of a vector comparable.
+    scale: f64,
+}
+
+impl<'a> General<'a> {
+    pub(super) fn new(pencil: &'a mut Pencil) -> General<'a> {
+        let n = pencil.order();
+        let (mut x, mut mx) = (noise(n, 7), vec![0.0; n]);
+        let mut scale = 1.0;
+        for _ in 0..3 {
+            pencil.mass().multiply(&x, &mut mx);
+            let before = dot(&x, &mx);
+            x.copy_from_slice(&mx);
+            pencil.solve(&mut x);
+            pencil.mass().multiply(&x, &mut mx);
+            scale = (before / dot(&x, &mx)).sqrt();
+        }
+        General { pencil, scale: if scale.is_finite() && scale > 0.0 { scale } else { 1.0 } }
+    }
+
+    fn duals(&self, w: &[f64], dual: &mut [f64]) {
+        let n = self.pencil.order();
+        let (dual_x, dual_y) = dual.split_at_mut(n);
+        self.pencil.mass().multiply(&w[..n], dual_x);
+        dual_x.iter_mut().for_each(|x| *x *= self.scale);
+        self.pencil.mass().multiply(&w[n..], dual_y);
+    }
+}
+
+impl Operator for General<'_> {
+    fn len(&self) -> usize {
+        2 * self.pencil.order()
+    }
+
+    fn apply(&mut self, z: &[f64], dual: &[f64], w: &mut [f64], dual_w: &mut [f64]) {
+        let n = self.pencil.order();
+        let shift = self.pencil.shift();
+        let (wx, wy) = w.split_at_mut(n);
+        self.pencil.damping().multiply(&z[..n], wx);
+        for (i, f) in wx.iter_mut().enumerate() {
+            *f = -(*f + shift / self.scale * dual[i] + dual[n + i]);
+        }
+        self.pencil.solve(wx);
+        for ((wy, wx), x) in wy.iter_mut().zip(wx.iter()).zip(&z[..n]) {
+            *wy = x + shift * wx;
+        }
+        self.duals(w, dual_w);
+    }
+
+    fn start(&mut self, r: &[f64], z: &mut [f64], dual: &mut [f64]) {
+        let n = self.pencil.order();
+        for half in [0..n, n..2 * n] {
+            self.pencil.mass().multiply(&r[half.clone()], &mut z[half.clone()]);
+            self.pencil.solve(&mut z[half]);
+        }
+        let s = self.scale.sqrt();
+        z[n..].iter_mut().for_each(|y| *y *= s);
+        self.duals(z, dual);
+    }
+}
+
+/// Numbers in [−1, 1] that look random and are always the same.
+pub(super) fn noise(n: usize, seed: u64) -> Vec<f64> {
+    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(0x1234_5678_9abc_def1);
+    (0..n)
+        .map(|_| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        })
+        .collect()
+}

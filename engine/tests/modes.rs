@@ -1,0 +1,132 @@
+//! Modes against published values and closed forms.
+
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs)]
+
+use flexion::analysis::modes::{Mode, Modes, modes};
+use flexion::analysis::rotation::{NoRotation, rotate_stably};
+use flexion::basis::{Basis, Field, Hermite, Lagrange};
+use flexion::hub_beam::{ExactCoupling, Fields, Foreshortening, Hub, HubBeam, LinearCoupling};
+use flexion::linalg::eigen::Kind;
+use flexion::profile::{Constant, Motion};
+use flexion::section::{Resultants, Uniform};
+use flexion::system::{State, System};
+use std::sync::Arc;
+
+/// Roots of cos x cosh x = −1, squared.
+const CANTILEVER: [f64; 4] = [3.516015268500612, 22.034491564668223, 61.69721441178178, 120.90191605230585];
+
+/// A beam with L = ρA = EI = 1 and EA = slenderness².
+fn section(slenderness: f64) -> Uniform {
+    let axial_stiffness = slenderness * slenderness;
+    Uniform::from_resultants(Resultants {
+        mass: 1.0,
+        axial_stiffness,
+        bending_stiffness: 1.0,
+        ..Resultants::default()
+    })
+    .unwrap()
+}
+
+fn hub(radius: f64) -> Hub {
+    let profile = Arc::new(Constant::new(0.0).unwrap());
+    Hub::prescribed(radius, 0.0, Motion::Speed { profile, initial_angle: 0.0 })
+}
+
+fn first(elements: usize, slenderness: f64, radius: f64) -> Box<dyn System> {
+    beam(elements, slenderness, radius, Foreshortening::First)
+}
+
+fn beam(elements: usize, slenderness: f64, radius: f64, foreshortening: Foreshortening) -> Box<dyn System> {
+    let axial: Box<dyn Basis> = Box::new(Lagrange::new(1.0, elements, 1).unwrap());
+    let transverse: Box<dyn Basis> = Box::new(Hermite::new(1.0, elements, Field::Transverse).unwrap());
+    let fields = Fields::new(1.0, axial, transverse, &[]);
+    let hub = hub(radius);
+    let coupling = LinearCoupling::new(fields, &section(slenderness), &hub, foreshortening);
+    Box::new(HubBeam::new(hub, coupling, &[]))
+}
+
+fn exact(elements: usize, slenderness: f64, radius: f64) -> Box<dyn System> {
+    let hub = hub(radius);
+    let coupling = ExactCoupling::new(1.0, elements, &section(slenderness), &hub).unwrap();
+    Box::new(HubBeam::new(hub, coupling, &[]))
+}
+
+fn stations() -> Vec<f64> {
+    (0..=200).map(|i| f64::from(i) / 200.0).collect()
+}
+
+fn at(system: &mut dyn System, speed: f64, count: usize) -> Modes {
+    let mut state = State::zeros(system.size(), 0.0);
+    rotate_stably(system, &mut state, 0.0, speed).unwrap();
+    modes(system, &state, count, &stations()).unwrap()
+}
+
+fn frequencies(modes: &Modes) -> Vec<f64> {
+    modes.modes.iter().map(Mode::frequency).collect()
+}
+
+#[test]
+fn a_cantilever_at_rest_has_the_frequencies_and_nodes_of_the_textbook() {
+    let modes = at(first(80, 1000.0, 0.0).as_mut(), 0.0, 4);
+    assert_eq!((modes.kind, modes.counted), (Kind::Symmetric, Some(4)));
+    for (number, (mode, expected)) in modes.modes.iter().zip(CANTILEVER).enumerate() {
+        assert!((mode.frequency() / expected - 1.0).abs() < 3e-7, "{} for {expected}", mode.frequency());
+        assert_eq!((mode.nodes, mode.shares.dominant()), (number, "chord"));
+        assert!(mode.residual < 1e-12 && mode.damping_ratio() == 0.0);
+    }
+}
+
+#[test]
+fn hermite_elements_give_frequencies_to_order_four() {
+    let error = |n| frequencies(&at(first(n, 1000.0, 0.0).as_mut(), 0.0, 2))[1] / CANTILEVER[1] - 1.0;
+    for n in [8, 16, 32] {
+        let order = (error(n) / error(2 * n)).log2();
+        assert!((order - 4.0).abs() < 0.05, "order {order} from {n} elements");
+    }
+}
+
+#[test]
+fn the_first_frequency_is_right_at_ten_thousand_elements() {
+    // At rest, where it is known, and turning, against a mesh on which doubles would do.
+    let first_at = |n, speed| frequencies(&at(first(n, 1000.0, 0.0).as_mut(), speed, 1))[0];
+    assert!((first_at(10_000, 0.0) / CANTILEVER[0] - 1.0).abs() < 1e-10);
+    assert!((first_at(10_000, 3.0) / first_at(200, 3.0) - 1.0).abs() < 1e-10);
+}
+
+#[test]
+fn chordwise_frequencies_with_gyroscopic_forces_are_those_of_the_literature() {
+    // Hamza-cherif & Houmat 2004: slenderness 70, no hub.
+    let published = [(2.0, 3.6195), (4.0, 3.888), (6.0, 4.2393), (8.0, 4.6105), (10.0, 4.97), (50.0, 7.3362)];
+    for (speed, expected) in published {
+        let modes = at(first(40, 70.0, 0.0).as_mut(), speed, 4);
+        assert_eq!((modes.kind, modes.counted), (Kind::Gyroscopic, Some(4)));
+        let found = modes.modes[0].frequency();
+        assert!((found / expected - 1.0).abs() < 2e-4, "{found} for {expected} at {speed}");
+    }
+}
+
+#[test]
+fn the_exact_beam_agrees_with_the_first_coupling_while_its_stretch_is_small() {
+    // The stretch is of the order of (speed/slenderness)².
+    for (slenderness, tolerance) in [(70.0, 6e-3), (700.0, 6e-5)] {
+        let one = at(first(40, slenderness, 0.1).as_mut(), 10.0, 3);
+        let other = at(exact(40, slenderness, 0.1).as_mut(), 10.0, 3);
+        for (a, b) in frequencies(&one).iter().zip(frequencies(&other)) {
+            assert!((a / b - 1.0).abs() < tolerance, "{a} and {b} at slenderness {slenderness}");
+        }
+    }
+}
+
+#[test]
+fn a_beam_without_centrifugal_stiffening_buckles_at_its_first_frequency() {
+    let mut system = beam(20, 1000.0, 0.0, Foreshortening::None);
+    let mut state = State::zeros(system.size(), 0.0);
+    let Err(NoRotation::Buckled { reached, negative, .. }) =
+        rotate_stably(system.as_mut(), &mut state, 0.0, 5.0)
+    else {
+        panic!("it turns steadily at 5 rad/s");
+    };
+    assert_eq!(negative, 1);
+    // The axial stretch is not coupled to the deflection: K − Ω²M is exhausted at Ω = ω₁.
+    assert!((reached / CANTILEVER[0] - 1.0).abs() < 1e-5, "{reached}");
+}
