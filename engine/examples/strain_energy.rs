@@ -68,7 +68,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ),
         (
             "EA terms and stretched inertia",
-            StrainEnergy::Coupled(Terms { axial_first: true, axial_second: true, stretched_inertia: true, ..none }),
+            StrainEnergy::Coupled(Terms {
+                axial_first: true,
+                axial_second: true,
+                stretched_inertia: true,
+                ..none
+            }),
             Line::Dashed,
         ),
     ];
