@@ -1,7 +1,9 @@
 //! What a coupling (a kinematic model of the beam in the hub's frame) has to say.
 
+use super::damping::Damping;
 use super::fields::Fields;
 use super::inertia::{Border, Inertia, Totals};
+use super::load::Kinematics;
 use super::station::{Placement, Station};
 use crate::linalg::{Storage, Structure};
 use crate::profile::HubKinematics;
@@ -50,6 +52,19 @@ pub trait Coupling {
 
     /// Adds to the border of a free hub what is not in [`Coupling::inertia`].
     fn add_border(&mut self, _s: &State, _hub: &HubKinematics, _w: &Weights<'_>, _out: &mut Border) {}
+
+    /// How loads see the axis.
+    fn kinematics(&self) -> Kinematics {
+        Kinematics::Foreshortened
+    }
+
+    /// Damps the deformation of the beam.
+    fn damp(&mut self, damping: Damping);
+
+    /// Power that [`Coupling::damp`] takes \[W\].
+    fn dissipated(&mut self, s: &State) -> f64 {
+        self.inertia().dissipated(&s.v)
+    }
 
     /// What the section does at each of the stations, which ascend along the beam.
     fn placements(&self, s: &State, stations: &[Station], out: &mut [Placement]);

@@ -15,7 +15,7 @@ use crate::system::{State, Weights};
 
 /// Gauss points of the bending energy. Two integrate the energy of a straight element exactly; the third
 /// carries the fourth-order terms of large rotations.
-const POINTS: usize = 3;
+pub(super) const POINTS: usize = 3;
 
 /// Marks an unknown that the clamp removes.
 const CLAMPED: usize = usize::MAX;
@@ -82,6 +82,16 @@ impl Rule {
         let middle = hermite(0.5, length).1;
         Rule { length, points, middle, middle_product: outer(&middle, &middle) }
     }
+
+    /// N′ in the middle of the element.
+    pub(super) fn middle(&self) -> [f64; 4] {
+        self.middle
+    }
+
+    /// N′ and N″ at quadrature point `g`.
+    pub(super) fn slopes(&self, g: usize) -> ([f64; 4], [f64; 4]) {
+        (self.points[g].n1, self.points[g].n2)
+    }
 }
 
 /// N, N′, N″ at s ∈ [0, 1] of an element of length h.
@@ -117,6 +127,8 @@ pub struct Element {
     first: [f64; POINTS],
     has_coupling: bool,
     has_section_inertia: bool,
+    /// Whether forces depend on the rates of the strains.
+    is_viscous: bool,
 }
 
 /// Unknowns, velocities and accelerations of an element.
@@ -143,6 +155,16 @@ struct Strains {
     gradient: [[f64; 4]; POINTS],
     slope: [[f64; 2]; POINTS],
     moment: [f64; POINTS],
+}
+
+impl Local {
+    pub(super) fn q(&self) -> &[f64; 8] {
+        &self.q
+    }
+
+    pub(super) fn v(&self) -> &[f64; 8] {
+        &self.v
+    }
 }
 
 #[inline(always)]
@@ -188,7 +210,29 @@ impl Element {
             first,
             has_coupling: coupling.iter().any(|x| *x != 0.0),
             has_section_inertia: rotary.iter().chain(&first).any(|x| *x != 0.0),
+            is_viscous: false,
         }
+    }
+
+    /// Says whether velocities are needed for damping.
+    pub fn set_viscous(&mut self, viscous: bool) {
+        self.is_viscous = viscous;
+    }
+
+    /// The work conjugates S e of strains (ε at the samples, κ at the quadrature points).
+    pub(super) fn conjugates(&self, rule: &Rule, e: &[f64; 3 + POINTS]) -> [f64; 3 + POINTS] {
+        let mut out = [0.0; 3 + POINTS];
+        for i in 0..3 {
+            out[i] = (0..3).map(|j| self.axial[i][j] * e[j]).sum();
+        }
+        for (g, p) in rule.points.iter().enumerate() {
+            out[3 + g] += self.bending[g] * e[3 + g];
+            for i in 0..3 {
+                out[i] -= self.coupling[g] * p.l[i] * e[3 + g];
+                out[3 + g] -= self.coupling[g] * p.l[i] * e[i];
+            }
+        }
+        out
     }
 
     /// Station of the far node \[m\].
@@ -217,7 +261,7 @@ impl Element {
             None => self.unknowns.map(|i| if i == CLAMPED { 0.0 } else { x[i] }),
         };
         let (mut v, mut a) = ([0.0; 8], [0.0; 8]);
-        if self.has_section_inertia {
+        if self.has_section_inertia || self.is_viscous {
             (v, a) = (pick(&s.v), pick(&s.a));
         }
         Local { q: pick(&s.q), v, a, origin: radius + self.start }

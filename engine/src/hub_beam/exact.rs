@@ -23,15 +23,18 @@
 //! ```
 
 use super::coupling::Coupling;
+use super::damping::Damping;
 use super::element::{Element, Rule};
 use super::fields::Fields;
 use super::hub::Hub;
 use super::inertia::{Border, Foreshortening, Inertia, Totals};
+use super::load::Kinematics;
+use super::lumped::LumpedTurn;
 use super::station::{Placement, Station};
 use crate::basis::{BasisError, Field, Hermite};
 use crate::linalg::Storage;
 use crate::profile::HubKinematics;
-use crate::section::{Resultants, Section};
+use crate::section::{Mass, Resultants, Section};
 use crate::system::{State, Weights};
 
 /// Largest stretch |ε| that a linear-elastic beam is believed to have.
@@ -45,15 +48,32 @@ pub struct ExactCoupling {
     elements: Vec<Element>,
     rule: Rule,
     radius: f64,
+    lumped: Vec<LumpedTurn>,
+    /// Damping in proportion to the stiffness, η \[s\].
+    viscosity: f64,
 }
 
 /// A section reduced to its mass: what is quadratic for this coupling.
 #[derive(Debug)]
-struct MassOnly<'a>(&'a dyn Section);
+struct MassOnly<'a> {
+    section: &'a dyn Section,
+    masses: Vec<Mass>,
+}
+
+impl<'a> MassOnly<'a> {
+    fn new(section: &'a dyn Section) -> MassOnly<'a> {
+        let masses = section.masses().iter().map(|m| Mass { inertia: 0.0, ..*m }).collect();
+        MassOnly { section, masses }
+    }
+}
 
 impl Section for MassOnly<'_> {
     fn resultants(&self, x: f64) -> Resultants {
-        Resultants { mass: self.0.resultants(x).mass, ..Resultants::default() }
+        Resultants { mass: self.section.resultants(x).mass, ..Resultants::default() }
+    }
+
+    fn masses(&self) -> &[Mass] {
+        &self.masses
     }
 }
 
@@ -74,11 +94,13 @@ impl ExactCoupling {
             Box::new(Hermite::new(length, elements, Field::Transverse)?),
             section.breaks(),
         );
-        let inertia = Inertia::new(&fields, &MassOnly(section), hub, Foreshortening::None);
+        let inertia = Inertia::new(&fields, &MassOnly::new(section), hub, Foreshortening::None);
         let nodes = fields.axial().cells().to_vec();
         let rule = Rule::new(nodes[1] - nodes[0]);
         let elements = (0..elements).map(|e| Element::new(&fields, section, &nodes, e)).collect();
-        Ok(ExactCoupling { fields, inertia, elements, rule, radius: hub.radius })
+        let lumped = LumpedTurn::of(&fields, section.masses(), hub.radius);
+        let radius = hub.radius;
+        Ok(ExactCoupling { fields, inertia, elements, rule, radius, lumped, viscosity: 0.0 })
     }
 }
 
@@ -105,14 +127,21 @@ impl Coupling for ExactCoupling {
             let mut force = [0.0; 8];
             element.strain_force(&self.rule, &local, &mut force);
             element.section_force(&self.rule, &local, hub, &mut force);
+            if self.viscosity > 0.0 {
+                element.viscous_force(&self.rule, &local, self.viscosity, &mut force);
+            }
             element.scatter(&force, r);
+        }
+        for mass in &self.lumped {
+            mass.add_forces(s, hub, r);
         }
     }
 
     fn add_tangent(&mut self, s: &State, hub: &HubKinematics, w: &Weights<'_>, out: &mut Storage<f64>) {
         let constant = w.q == 0.0;
+        let viscous = self.viscosity > 0.0 && (w.q != 0.0 || w.v != 0.0);
         for element in &self.elements {
-            if constant && !element.has_section_inertia() {
+            if constant && !viscous && !element.has_section_inertia() {
                 continue;
             }
             let local = element.gather(s, self.radius);
@@ -121,7 +150,13 @@ impl Coupling for ExactCoupling {
                 element.strain_tangent(&self.rule, &local, w.q, &mut tangent);
             }
             element.section_tangent(&self.rule, &local, hub, w, &mut tangent);
+            if viscous {
+                element.viscous_tangent(&self.rule, &local, self.viscosity, w, &mut tangent);
+            }
             element.assemble(&tangent, out);
+        }
+        for mass in &self.lumped {
+            mass.add_tangent(s, hub, w, out);
         }
     }
 
@@ -133,7 +168,8 @@ impl Coupling for ExactCoupling {
     fn extra_totals(&mut self, s: &State, hub: &HubKinematics) -> Totals {
         let of = |e: &Element| e.section_totals(&self.rule, &e.gather(s, self.radius), hub);
         let turning = self.elements.iter().filter(|e| e.has_section_inertia());
-        turning.map(of).fold(Totals::default(), |sum, t| sum + t)
+        let lumped = self.lumped.iter().map(|mass| mass.totals(s, hub));
+        turning.map(of).chain(lumped).fold(Totals::default(), |sum, t| sum + t)
     }
 
     fn add_border(&mut self, s: &State, hub: &HubKinematics, w: &Weights<'_>, out: &mut Border) {
@@ -144,6 +180,30 @@ impl Coupling for ExactCoupling {
             element.scatter(&column, &mut out.column);
             element.scatter(&row, &mut out.row);
         }
+        for mass in &self.lumped {
+            mass.add_border(s, hub, w, out);
+        }
+    }
+
+    fn kinematics(&self) -> Kinematics {
+        Kinematics::Curve
+    }
+
+    fn damp(&mut self, damping: Damping) {
+        self.inertia.damp(damping);
+        self.viscosity = damping.stiffness;
+        for element in &mut self.elements {
+            element.set_viscous(damping.stiffness > 0.0);
+        }
+    }
+
+    fn dissipated(&mut self, s: &State) -> f64 {
+        let mut power = self.inertia.dissipated(&s.v);
+        if self.viscosity > 0.0 {
+            let of = |e: &Element| e.viscous_power(&self.rule, &e.gather(s, self.radius), self.viscosity);
+            power += self.elements.iter().map(of).sum::<f64>();
+        }
+        power
     }
 
     fn placements(&self, s: &State, stations: &[Station], out: &mut [Placement]) {

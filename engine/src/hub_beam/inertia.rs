@@ -24,10 +24,14 @@
 //!   + ½ω² [ ρA (R² + 2R w₁ + w₁² + w₂² + ◦2R w_c) + ρI + 2ρS (w₂ − Rφ − w₁φ) ]
 //! ```
 //!
+//! A lumped mass is a point of the quadrature with ρA → m, ρI → j and no ρS. [`Damping`] adds β M v and η K v to the
+//! forces: those of the dissipation function ½ vᵀ(βM + ηK) v, which rigid rotation leaves at zero.
+//!
 //! Integrals of w_c are turned round: ∫ f(x) w_c dx = −½ ∫ F(ξ) w₂′² dξ with F(ξ) = ∫_ξᴸ f dx, so the
 //! matrices stay banded (the papers store the full H(x)).
 
-use super::fields::{Fields, Shapes};
+use super::damping::Damping;
+use super::fields::{Fields, Point, Shapes};
 use super::hub::Hub;
 use super::product::{Bundle, Vectors};
 use crate::linalg::{Matrix, Storage, Structure};
@@ -69,6 +73,7 @@ pub struct Inertia {
     transverse_moment: Vec<f64>,
     /// J, hub included [kg·m²].
     moment: f64,
+    damping: Damping,
 }
 
 /// What hub and beam have together.
@@ -124,14 +129,19 @@ impl Inertia {
         let structure = fields.structure(hub.unknowns());
         let radius = hub.radius;
         let first = foreshortening == Foreshortening::First;
-        let mass_tail = fields.tail(|x| section.resultants(x).mass * (radius + x));
+        let masses = section.masses();
+        let spread = fields.tail(|x| section.resultants(x).mass * (radius + x));
+        let mass_tail = |x: f64| {
+            let beyond = masses.iter().filter(|m| m.station > x);
+            spread(x) + beyond.map(|m| m.mass * (radius + m.station)).sum::<f64>()
+        };
         let moment_tail = fields.tail(|x| section.resultants(x).first_moment);
         let new = || Matrix::new(&structure);
         let (mut m, mut p, mut d, mut k) = (new(), new(), new(), new());
         let n = fields.len();
         let (mut sx, mut sy) = (vec![0.0; n], vec![0.0; n]);
         let mut moment = hub.inertia;
-        fields.integrate(|point| {
+        let mut add = |point: &Point, resultants: Resultants, lumped: bool| {
             let (x, w, r) = (point.x, point.weight, radius + point.x);
             let (a, b) = (&point.axial, &point.transverse);
             let Resultants {
@@ -141,7 +151,7 @@ impl Inertia {
                 axial_stiffness: ea,
                 coupling_stiffness: es,
                 bending_stiffness: ei,
-            } = section.resultants(x);
+            } = resultants;
             moment += w * (mass * r * r + i);
             add_vector(&mut sx, a, 0, w * mass * r);
             add_vector(&mut sx, b, 0, w * s);
@@ -161,14 +171,19 @@ impl Inertia {
             add_outer(&mut d, (b, 0), (b, 0), w * mass);
             add_symmetric(&mut d, (a, 0), (b, 1), -w * s);
             add_outer(&mut p, (b, 1), (b, 1), -w * s * r);
-            if first {
+            if first && !lumped {
                 add_outer(&mut p, (b, 1), (b, 1), w * moment_tail(x));
                 add_outer(&mut d, (b, 1), (b, 1), -w * mass_tail(x));
             }
             add_outer(&mut k, (a, 1), (a, 1), w * ea);
             add_symmetric(&mut k, (a, 1), (b, 2), -w * es);
             add_outer(&mut k, (b, 2), (b, 2), w * ei);
-        });
+        };
+        fields.integrate(|point| add(point, section.resultants(point.x), false));
+        for m in masses {
+            let resultants = Resultants { mass: m.mass, rotary_inertia: m.inertia, ..Resultants::default() };
+            add(&fields.point(m.station, 1.0), resultants, true);
+        }
         let (mut gyroscopic, mut stiffening, mut symmetric) = (new(), new(), new());
         let half = match structure {
             Structure::Dense { order } => order,
@@ -194,7 +209,20 @@ impl Inertia {
             axial_moment: sx,
             transverse_moment: sy,
             moment,
+            damping: Damping::default(),
         }
+    }
+
+    /// Adds the forces β M v + η K v.
+    pub fn damp(&mut self, damping: Damping) {
+        self.damping = damping;
+    }
+
+    /// Power that [`Inertia::damp`] takes, vᵀ(βM + ηK) v \[W\].
+    pub fn dissipated(&self, v: &[f64]) -> f64 {
+        let Damping { mass, stiffness } = self.damping;
+        let form = |factor: f64, term| if factor > 0.0 { factor * self.bundle.form(term, v) } else { 0.0 };
+        form(mass, 0) + form(stiffness, 2)
     }
 
     /// Number of unknowns of the fields.
@@ -217,7 +245,7 @@ impl Inertia {
         (&self.mass, &self.centrifugal, &self.stiffness)
     }
 
-    /// r = M a + ω (Pᵀ − P) v + (K − ω² D + ω̇ Pᵀ) q + ω̇ s_y − ω² s_x.
+    /// r = M (a + β v) + ω (Pᵀ − P) v + (K − ω² D + ω̇ Pᵀ) q + η K v + ω̇ s_y − ω² s_x.
     pub fn residual(&self, s: &State, hub: &HubKinematics, x: &mut Scratch, r: &mut [f64]) {
         let n = self.len();
         let (w, w1, w2) = (hub.speed, hub.acceleration, hub.speed * hub.speed);
@@ -225,9 +253,15 @@ impl Inertia {
         let (sx, sy, r) = (&self.axial_moment[..n], &self.transverse_moment[..n], &mut r[..n]);
         let Scratch { all: x, symmetric: y } = x;
         let constant = |i: usize| w1 * sy[i] - w2 * sx[i];
-        x.set(0, |i| a[i] - w2 * q[i]);
+        if self.damping.is_none() {
+            x.set(0, |i| a[i] - w2 * q[i]);
+            x.set(2, |i| q[i]);
+        } else {
+            let Damping { mass, stiffness } = self.damping;
+            x.set(0, |i| a[i] + mass * v[i] - w2 * q[i]);
+            x.set(2, |i| q[i] + stiffness * v[i]);
+        }
         x.set(1, |i| w * v[i] + 0.5 * w1 * q[i]);
-        x.set(2, |i| q[i]);
         x.set(3, |i| w2 * q[i]);
         self.bundle.products(x, |i, [m, g, k, n]| r[i] = (m + k) + (g + n) + constant(i));
         if let Some((symmetric, y)) = self.symmetric.as_ref().zip(y.as_mut()) {
@@ -236,16 +270,20 @@ impl Inertia {
         }
     }
 
-    /// The stamp of the tangent with weights `w` at a hub speed and acceleration.
-    pub fn stamp(w: &Weights<'_>, hub: &HubKinematics) -> [f64; 6] {
+    /// The stamp of the tangent with weights `w` at a hub speed and acceleration; its last entry is free for others.
+    pub fn stamp(&self, w: &Weights<'_>, hub: &HubKinematics) -> [f64; 6] {
+        if !self.damping.is_none() {
+            return [w.a, w.v, w.q, hub.speed, hub.acceleration, 0.0];
+        }
         [w.a, w.v * hub.speed, w.q, w.q * hub.speed * hub.speed, w.q * hub.acceleration, 0.0]
     }
 
-    /// Writes w.a M + w.v ω (Pᵀ − P) + w.q (K − ω² D + ω̇ Pᵀ) over the content of `out`, border aside.
+    /// Writes (w.a + β w.v) M + w.v (ω (Pᵀ − P) + η K) + w.q (K − ω² D + ω̇ Pᵀ) over the content of `out`, border aside.
     pub fn tangent(&self, w: &Weights<'_>, hub: &HubKinematics, out: &mut Storage<f64>) {
         let (w1, w2) = (hub.acceleration, hub.speed * hub.speed);
         let (wm, wg) = (w.a - w.q * w2, w.v * hub.speed + 0.5 * w.q * w1);
-        self.bundle.write_sum([wm, wg, w.q, w.q * w2], out);
+        let Damping { mass, stiffness } = self.damping;
+        self.bundle.write_sum([wm + mass * w.v, wg, w.q + stiffness * w.v, w.q * w2], out);
         if let Some(symmetric) = &self.symmetric {
             symmetric.add_sum([w.q * w1, 0.0, 0.0, 0.0], out);
         }

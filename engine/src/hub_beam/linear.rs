@@ -7,9 +7,11 @@
 //! stiffness K − ω² M is exhausted when ω reaches the first natural frequency: dynamic softening.
 
 use super::coupling::Coupling;
+use super::damping::Damping;
 use super::fields::Fields;
 use super::hub::Hub;
 use super::inertia::{Foreshortening, Inertia};
+use super::load::Kinematics;
 use super::station::{Placement, Station};
 use crate::basis::Role;
 use crate::linalg::{Matrix, negative_pivots};
@@ -168,6 +170,17 @@ impl Coupling for LinearCoupling {
 
     fn strain(&mut self, s: &State) -> f64 {
         self.inertia.strain(&s.q)
+    }
+
+    fn kinematics(&self) -> Kinematics {
+        match self.foreshortening {
+            Foreshortening::None => Kinematics::Straight,
+            Foreshortening::First => Kinematics::Foreshortened,
+        }
+    }
+
+    fn damp(&mut self, damping: Damping) {
+        self.inertia.damp(damping);
     }
 
     fn placements(&self, s: &State, stations: &[Station], out: &mut [Placement]) {

@@ -12,6 +12,7 @@
 //! | [`exact`](ExactCoupling) | everything but shear | strains are no longer small |
 
 mod coupling;
+mod damping;
 mod element;
 mod exact;
 mod fields;
@@ -19,14 +20,18 @@ mod high;
 mod hub;
 mod inertia;
 mod linear;
+pub mod load;
+mod lumped;
 mod product;
 mod station;
 mod system;
 #[cfg(test)]
 mod tests;
 mod turn;
+mod viscous;
 
 pub use coupling::Coupling;
+pub use damping::Damping;
 pub use exact::ExactCoupling;
 pub use fields::{Fields, Point, Shapes};
 pub use high::HighCoupling;

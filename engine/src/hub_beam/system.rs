@@ -1,11 +1,14 @@
 //! The hub–beam as a [`System`].
 
 use super::coupling::Coupling;
+use super::damping::Damping;
 use super::hub::{Drive, Hub};
-use super::inertia::{Border, Inertia, Scratch, Totals};
+use super::inertia::{Border, Scratch, Totals};
+use super::load::{Load, Loads, Site};
 use super::station::{Placement, Station};
 use crate::linalg::{Matrix, Storage, Structure};
 use crate::profile::{Constant, HubKinematics, Motion};
+use crate::section::Section;
 use crate::system::{Channel, Direction, Energy, Frame, Label, Power, Size, State, System, Weights};
 use std::sync::Arc;
 
@@ -29,6 +32,8 @@ pub struct HubBeam<C> {
     breaks: Vec<f64>,
     /// Whether the hub is held at its angle and speed.
     held: bool,
+    loads: Loads,
+    damped: bool,
 }
 
 impl<C: Coupling> HubBeam<C> {
@@ -60,9 +65,42 @@ impl<C: Coupling> HubBeam<C> {
             border: Border::new(fields.len()),
             breaks,
             held: false,
+            loads: Loads::default(),
+            damped: false,
             hub,
             coupling,
         }
+    }
+
+    /// The same system under `loads`; `section` is the one the coupling was made of.
+    pub fn with_loads(mut self, section: &dyn Section, loads: &[&dyn Load]) -> HubBeam<C> {
+        let site = Site {
+            fields: self.coupling.fields(),
+            kinematics: self.coupling.kinematics(),
+            section,
+            radius: self.hub.radius,
+            border: self.hub.unknowns(),
+        };
+        self.loads = Loads::new(&site, loads);
+        self.breaks.extend(self.loads.breaks());
+        self.breaks.sort_by(f64::total_cmp);
+        self.breaks.dedup();
+        if self.loads.has_gravity() {
+            let meaning = "potential energy of gravity on the beam, zero at the height of the axis";
+            self.channels.push(Channel {
+                name: "energy.gravity".to_owned(),
+                unit: "J",
+                meaning: meaning.to_owned(),
+            });
+        }
+        self
+    }
+
+    /// The same system with damping of the beam.
+    pub fn with_damping(mut self, damping: Damping) -> HubBeam<C> {
+        self.coupling.damp(damping);
+        self.damped = !damping.is_none();
+        self
     }
 
     /// The hub.
@@ -79,7 +117,7 @@ impl<C: Coupling> HubBeam<C> {
     pub fn torque(&mut self, s: &State) -> f64 {
         let hub = self.kinematics(s);
         match &self.hub.drive {
-            Drive::Prescribed(_) => self.totals(s, &hub).torque,
+            Drive::Prescribed(_) => self.totals(s, &hub).torque - self.loads.torque(s, &hub),
             Drive::Free(free) => free.torque(&hub, s.t).value,
         }
     }
@@ -119,6 +157,7 @@ impl<C: Coupling> HubBeam<C> {
         } else {
             self.coupling.inertia().border(s, hub, w, &mut self.scratch, border);
             self.coupling.add_border(s, hub, w, border);
+            self.loads.subtract_border(s, hub, w, border);
             let torque = free.torque(hub, s.t);
             border.corner -= w.q * torque.by_angle + w.v * torque.by_speed;
         }
@@ -203,9 +242,10 @@ impl<C: Coupling> System for HubBeam<C> {
         let hub = self.kinematics(s);
         self.coupling.inertia().residual(s, &hub, &mut self.scratch, r);
         self.coupling.add_forces(s, &hub, r);
+        self.loads.subtract_forces(s, &hub, r);
         let n = self.coupling.fields().len();
         if let Drive::Free(free) = &self.hub.drive {
-            let applied = free.torque(&hub, s.t).value;
+            let applied = free.torque(&hub, s.t).value + self.loads.torque(s, &hub);
             r[n] = if self.held { 0.0 } else { self.totals(s, &hub).torque - applied };
         }
     }
@@ -213,15 +253,19 @@ impl<C: Coupling> System for HubBeam<C> {
     fn tangent(&mut self, s: &State, w: Weights<'_>, out: &mut Matrix) {
         let hub = self.kinematics(s);
         if self.is_affine() {
-            let stamp = Inertia::stamp(&w, &hub);
+            let mut stamp = self.coupling.inertia().stamp(&w, &hub);
+            stamp[5] = if w.q == 0.0 { 0.0 } else { self.loads.stamp(s, &hub) };
             if !out.holds(&stamp) {
-                self.coupling.inertia().tangent(&w, &hub, out.begin());
+                let storage = out.begin();
+                self.coupling.inertia().tangent(&w, &hub, storage);
+                self.loads.subtract_tangent(s, &hub, &w, storage);
                 out.set_stamp(Some(stamp));
             }
         } else {
             let storage = out.begin();
             self.coupling.inertia().tangent(&w, &hub, storage);
             self.coupling.add_tangent(s, &hub, &w, storage);
+            self.loads.subtract_tangent(s, &hub, &w, storage);
             self.write_border(s, &hub, &w, storage);
         }
     }
@@ -284,13 +328,20 @@ impl<C: Coupling> System for HubBeam<C> {
         let totals = self.totals(s, &hub);
         let mut power = Power::default();
         match &self.hub.drive {
-            Drive::Prescribed(_) => power.drive = totals.torque * hub.speed,
+            Drive::Prescribed(_) => {
+                power.drive = (totals.torque - self.loads.torque(s, &hub)) * hub.speed;
+            }
             Drive::Free(free) => {
                 power.drive = free.driving_torque(&hub, s.t) * hub.speed;
                 power.dissipated = free.damping * hub.speed * hub.speed;
             }
         }
-        let energy = Energy { kinetic: totals.kinetic, strain: self.strain(s, &hub), gravity: 0.0 };
+        power.loads = self.loads.power(s, &hub);
+        if self.damped {
+            power.dissipated += self.coupling.dissipated(s);
+        }
+        let gravity = self.loads.gravity(s, &hub);
+        let energy = Energy { kinetic: totals.kinetic, strain: self.strain(s, &hub), gravity };
         (energy, power)
     }
 
@@ -321,10 +372,11 @@ impl<C: Coupling> System for HubBeam<C> {
         let hub = self.kinematics(s);
         let totals = self.totals(s, &hub);
         let torque = match &self.hub.drive {
-            Drive::Prescribed(_) => totals.torque,
+            Drive::Prescribed(_) => totals.torque - self.loads.torque(s, &hub),
             Drive::Free(free) => free.torque(&hub, s.t).value,
         };
         let strain = self.strain(s, &hub);
+        let gravity = self.loads.has_gravity().then(|| self.loads.gravity(s, &hub));
         let (tip, rest) = (self.placements.len() - 1, self.placements.len());
         let order = std::iter::once(tip).chain(0..rest - 1);
         let mut values = order
@@ -339,7 +391,8 @@ impl<C: Coupling> System for HubBeam<C> {
                     p.rotation_velocity,
                 ]
             })
-            .chain([hub.angle, hub.speed, hub.acceleration, torque, totals.momentum, totals.kinetic, strain]);
+            .chain([hub.angle, hub.speed, hub.acceleration, torque, totals.momentum, totals.kinetic, strain])
+            .chain(gravity);
         for out in out {
             *out = values.next().unwrap_or(f64::NAN);
         }

@@ -4,7 +4,7 @@ use super::*;
 use crate::basis::{Field, Hermite, Lagrange};
 use crate::linalg::{Matrix, Structure};
 use crate::profile::{Expression, HubKinematics, Motion};
-use crate::section::{Resultants, Section};
+use crate::section::{Mass, Resultants, Section};
 use crate::system::{State, System, Weights};
 use std::sync::Arc;
 
@@ -105,7 +105,7 @@ fn systems() -> Vec<Box<dyn System>> {
 }
 
 /// The prescribed motion at a time.
-fn at<C: Coupling>(system: &HubBeam<C>, t: f64) -> HubKinematics {
+pub(super) fn at<C: Coupling>(system: &HubBeam<C>, t: f64) -> HubKinematics {
     match &system.hub().drive {
         Drive::Prescribed(motion) => motion.at(t),
         Drive::Free(_) => panic!("the hub is free"),
@@ -199,14 +199,19 @@ fn tangents_equal_finite_differences() {
 }
 
 /// Position of a fibre at height y over the point at x, in the hub's frame.
-fn fibre(p: &Placement, x: f64, y: f64) -> [f64; 2] {
+pub(super) fn fibre(p: &Placement, x: f64, y: f64) -> [f64; 2] {
     let (sin, cos) = p.rotation.sin_cos();
     [RADIUS + x + p.axial - y * sin, p.deflection + y * cos]
 }
 
 /// Inertia forces Σ m A·∂r/∂q and torque Σ m A·Jr of the two fibres, by finite differences of nothing but
 /// their positions; the shape functions and the foreshortening come from `placements`.
-fn inertia_forces<C: Coupling>(coupling: &C, s: &State, hub: &HubKinematics) -> (Vec<f64>, f64) {
+pub(super) fn inertia_forces<C: Coupling>(
+    coupling: &C,
+    s: &State,
+    hub: &HubKinematics,
+    masses: &[Mass],
+) -> (Vec<f64>, f64) {
     let gauss = crate::quadrature::Gauss::new(8);
     let n = s.q.len();
     let mut stations = Vec::new();
@@ -217,15 +222,30 @@ fn inertia_forces<C: Coupling>(coupling: &C, s: &State, hub: &HubKinematics) -> 
             weights.push(w);
         }
     }
+    // A body is two particles at the distance √(j/m) from the axis.
+    let spread = stations.len();
+    for m in masses {
+        stations.push(Station::new(coupling.fields(), m.station));
+        weights.push(1.0);
+    }
+    let particles = |station: usize| match station.checked_sub(spread) {
+        Some(i) => {
+            let y = (masses[i].inertia / masses[i].mass).sqrt();
+            [(-y, 0.5 * masses[i].mass), (y, 0.5 * masses[i].mass)]
+        }
+        None => TwoFibres::fibres(stations[station].point.x).map(|(y, m, _)| (y, m)),
+    };
     let positions = |q: &[f64]| -> Vec<[f64; 2]> {
         let moved = State { q: q.to_vec(), ..s.clone() };
         let mut p = vec![Placement::default(); stations.len()];
-        coupling.placements(&moved, &stations, &mut p);
-        let of = |(p, station): (&Placement, &Station)| {
-            let x = station.point.x;
-            TwoFibres::fibres(x).map(|(y, _, _)| fibre(p, x, y))
-        };
-        p.iter().zip(&stations).flat_map(of).collect()
+        let mut order: Vec<usize> = (0..stations.len()).collect();
+        order.sort_by(|a, b| stations[*a].point.x.total_cmp(&stations[*b].point.x));
+        let sorted: Vec<Station> = order.iter().map(|&i| stations[i].clone()).collect();
+        let mut found = p.clone();
+        coupling.placements(&moved, &sorted, &mut found);
+        order.iter().zip(found).for_each(|(&i, found)| p[i] = found);
+        let of = |i: usize| particles(i).map(|(y, _)| fibre(&p[i], stations[i].point.x, y));
+        (0..stations.len()).flat_map(of).collect()
     };
     let at = |t: f64| -> Vec<[f64; 2]> {
         let q: Vec<f64> = (0..n).map(|i| s.q[i] + t * s.v[i] + 0.5 * t * t * s.a[i]).collect();
@@ -249,8 +269,7 @@ fn inertia_forces<C: Coupling>(coupling: &C, s: &State, hub: &HubKinematics) -> 
         .collect();
     let (mut forces, mut torque) = (vec![0.0; n], 0.0);
     for i in 0..times[0].len() {
-        let (x, w) = (stations[i / 2].point.x, weights[i / 2]);
-        let mass = w * TwoFibres::fibres(x)[i % 2].1;
+        let mass = weights[i / 2] * particles(i / 2)[i % 2].1;
         let value = |j: usize| times.each_ref().map(|p| p[i][j]);
         let velocity = [0, 1].map(|j| {
             let p = value(j);
@@ -273,7 +292,7 @@ fn inertia_forces<C: Coupling>(coupling: &C, s: &State, hub: &HubKinematics) -> 
 }
 
 /// The residual without the elastic forces.
-fn without_strain(system: &mut dyn System, s: &State) -> Vec<f64> {
+pub(super) fn without_strain(system: &mut dyn System, s: &State) -> Vec<f64> {
     let rest = State { v: vec![0.0; s.v.len()], a: vec![0.0; s.a.len()], ..s.clone() };
     let mut r = residual(system, s);
     // Elastic forces are those that neither speed nor acceleration changes: finite differences of U.
@@ -294,7 +313,7 @@ fn exact_coupling_obeys_dalembert_at_large_rotations() {
     let mut system = exact();
     let s = state(&system, 0.15);
     let kinematics = at(&system, s.t);
-    let (forces, torque) = inertia_forces(system.coupling(), &s, &kinematics);
+    let (forces, torque) = inertia_forces(system.coupling(), &s, &kinematics, &[]);
     // The element integrates rotary terms with its own rule of three points, the check with eight: their
     // difference at rotations of this size is what the tolerance allows.
     let error = relative(&without_strain(&mut system, &s), &forces);
@@ -309,13 +328,13 @@ fn linear_couplings_are_the_linearised_dalembert_forces() {
         let kinematics = at(&system, 0.6);
         let zero = state(&system, 0.0);
         let rest = without_strain(&mut system, &zero);
-        let (forces0, torque0) = inertia_forces(system.coupling(), &zero, &kinematics);
+        let (forces0, torque0) = inertia_forces(system.coupling(), &zero, &kinematics, &[]);
         assert!(relative(&rest, &forces0) < 1e-8, "{kind}");
         assert!((system.torque(&zero) / torque0 - 1.0).abs() < 1e-9);
         // (R(ε) − R(0))/ε, ε → 0 by extrapolation from ε and 2ε: the linear part of the full equations.
         let difference = |size: f64| -> (Vec<f64>, f64) {
-            let up = inertia_forces(system.coupling(), &state(&system, size), &kinematics);
-            let down = inertia_forces(system.coupling(), &state(&system, -size), &kinematics);
+            let up = inertia_forces(system.coupling(), &state(&system, size), &kinematics, &[]);
+            let down = inertia_forces(system.coupling(), &state(&system, -size), &kinematics, &[]);
             let forces = up.0.iter().zip(&down.0).map(|(a, b)| (a - b) / (2.0 * size)).collect();
             (forces, (up.1 - down.1) / (2.0 * size))
         };
@@ -334,31 +353,35 @@ fn linear_couplings_are_the_linearised_dalembert_forces() {
 
 #[test]
 fn power_of_the_drive_is_the_rate_of_the_energy() {
-    // Along any motion the equations of motion hold, d(T + U)/dt = τω: a first integral of all terms.
     for mut system in systems() {
-        let mut s = state(&*system, 0.05);
-        s.a.fill(0.0);
-        // a = −M⁻¹ r(q, v, 0)
-        let mut mass = Matrix::new(&system.structure());
-        system.tangent(&s, Weights::new(1.0, 0.0, 0.0), &mut mass);
-        let mut a = residual(&mut *system, &s);
-        mass.factor().unwrap();
-        mass.solve(&mut a);
-        s.a = a.iter().map(|a| -a).collect();
-        let mut energy = |t: f64| {
-            let mut moved = s.clone();
-            moved.t += t;
-            for i in 0..s.q.len() {
-                moved.q[i] += t * (s.v[i] + 0.5 * t * s.a[i]);
-                moved.v[i] += t * s.a[i];
-            }
-            system.energy(&moved).total()
-        };
-        let h = 2e-5;
-        let rate = (energy(-2.0 * h) - 8.0 * energy(-h) + 8.0 * energy(h) - energy(2.0 * h)) / (12.0 * h);
-        let power = system.power(&s).total();
-        assert!((rate - power).abs() < 1e-6 * rate.abs().max(1.0), "{rate} {power}");
+        check_power(&mut *system);
     }
+}
+
+/// Along any motion the equations of motion hold, d(T + U + V)/dt is the power: a first integral of all terms.
+pub(super) fn check_power(system: &mut dyn System) {
+    let mut s = state(system, 0.05);
+    s.a.fill(0.0);
+    // a = −M⁻¹ r(q, v, 0)
+    let mut mass = Matrix::new(&system.structure());
+    system.tangent(&s, Weights::new(1.0, 0.0, 0.0), &mut mass);
+    let mut a = residual(system, &s);
+    mass.factor().unwrap();
+    mass.solve(&mut a);
+    s.a = a.iter().map(|a| -a).collect();
+    let mut energy = |t: f64| {
+        let mut moved = s.clone();
+        moved.t += t;
+        for i in 0..s.q.len() {
+            moved.q[i] += t * (s.v[i] + 0.5 * t * s.a[i]);
+            moved.v[i] += t * s.a[i];
+        }
+        system.energy(&moved).total()
+    };
+    let h = 2e-5;
+    let rate = (energy(-2.0 * h) - 8.0 * energy(-h) + 8.0 * energy(h) - energy(2.0 * h)) / (12.0 * h);
+    let power = system.power(&s).total();
+    assert!((rate - power).abs() < 1e-6 * rate.abs().max(1.0), "{rate} {power}");
 }
 
 /// A uniform section given by its stiffnesses.

@@ -107,6 +107,18 @@ pub enum Storage<T> {
     Condensed(Condensed<T>),
 }
 
+impl<T: Scalar> Storage<T> {
+    /// Adds to entry (i, j), which the structure must hold.
+    #[inline]
+    pub fn add(&mut self, i: usize, j: usize, x: T) {
+        match self {
+            Storage::Dense(a) => a.add(i, j, x),
+            Storage::Band(a) => a.add(i, j, x),
+            Storage::Condensed(a) => a.add(i, j, x),
+        }
+    }
+}
+
 impl<T: Scalar> Matrix<T> {
     /// The zero matrix.
     pub fn new(structure: &Structure) -> Matrix<T> {
@@ -202,11 +214,7 @@ impl<T: Scalar> Matrix<T> {
     /// Adds `x` to entry (i, j). For hot loops use the [storage](Matrix::begin) itself.
     pub fn add(&mut self, i: usize, j: usize, x: T) {
         self.factored = false;
-        match &mut self.storage {
-            Storage::Dense(a) => a.add(i, j, x),
-            Storage::Band(a) => a.add(i, j, x),
-            Storage::Condensed(a) => a.add(i, j, x),
-        }
+        self.storage.add(i, j, x);
     }
 
     /// y = A x. Only before factoring.

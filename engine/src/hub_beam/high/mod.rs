@@ -26,6 +26,7 @@ mod tangent;
 mod tests;
 
 use super::coupling::Coupling;
+use super::damping::Damping;
 use super::fields::Fields;
 use super::hub::Hub;
 use super::inertia::{Border, Foreshortening, Inertia, Totals};
@@ -148,6 +149,10 @@ impl Coupling for HighCoupling {
             let rate = w1[1] * wc[0] + (w1[0] + wc[0]) * wc[1];
             *corner += m * (2.0 * w.v * rate + w.a * (2.0 * w1[0] + wc[0]) * wc[0]);
         });
+    }
+
+    fn damp(&mut self, damping: Damping) {
+        self.linear.damp(damping);
     }
 
     fn placements(&self, s: &State, stations: &[Station], out: &mut [Placement]) {

@@ -1,0 +1,56 @@
+//! Gravity on the beam and on the masses it carries; the hub turns about its centre of mass and feels none.
+//!
+//! ```text
+//! V = −∫ ρA g·r + ρS g·n dx,   n the normal of the section;   without foreshortening etc. see the parent module
+//! ```
+//!
+//! In the couplings with small deflections the section turns to second order in φ = w₂′,
+//! n = (−φ, 1 − ½φ²): C_x ∋ −∫ρS φ dx, C_y ∋ ∫ρS (1 − ½φ²) dx.
+
+use super::group::Group;
+use super::site::{Share, add_outer, add_vector};
+use super::{Axes, Kinematics, Load, Site};
+use crate::linalg::Matrix;
+
+/// Uniform gravity in the plane of motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gravity {
+    /// Acceleration g [m/s²].
+    pub acceleration: f64,
+    /// Angle of its direction against the inertial x axis, counterclockwise \[rad\]: −π/2 is down.
+    pub direction: f64,
+}
+
+impl Load for Gravity {
+    fn group(&self, site: &Site<'_>) -> Group {
+        let (sin, cos) = self.direction.sin_cos();
+        let force = [self.acceleration * cos, self.acceleration * sin];
+        let section = site.section;
+        let points: Vec<(f64, f64)> = section.masses().iter().map(|m| (m.station, m.mass)).collect();
+        let share = Share { density: &|x| section.resultants(x).mass, points: &points };
+        let mut group = site.group(&share, force, Axes::Dead, None);
+        group.set_gravity();
+        let moment = Share { density: &|x| section.resultants(x).first_moment, points: &[] };
+        let mut across = Matrix::new(&site.structure());
+        let mut eccentric = false;
+        moment.each(site.fields, |point, p| {
+            eccentric = true;
+            if site.kinematics == Kinematics::Curve {
+                group.push_eccentric(point, p, site.radius);
+                return;
+            }
+            group.offset += p;
+            add_vector(&mut group.along, &point.transverse, 1, -p);
+            add_outer(&mut across, (&point.transverse, 1), (&point.transverse, 1), -p);
+        });
+        if eccentric && site.kinematics != Kinematics::Curve {
+            let shortened = site.kinematics == Kinematics::Foreshortened;
+            let mut along = Matrix::new(&site.structure());
+            if shortened {
+                site.add_tail(&mut along, &share);
+            }
+            group.stiffen(&site.structure(), shortened.then_some(&along), Some(&across), None);
+        }
+        group
+    }
+}

@@ -1,0 +1,241 @@
+//! A load made ready: the moments of its share of force over the shape functions.
+//!
+//! With g_x, g_y the vectors and G_x, G_y the symmetric matrices of C (see [`super`]),
+//!
+//! ```text
+//! C_x = c_x + g_xᵀq + ½ qᵀG_x q,   C_y = c_y + g_yᵀq + ½ qᵀG_y q
+//! Q_q = f [ d_x (g_x + G_x q) + d_y (g_y + G_y q) + N q ],  Q_θ = f [ d_y C_x − d_x C_y + hᵀq ]
+//! ```
+//!
+//! N = ∫p (−F_y Φ_x + F_x Φ_y) Φ_y′ᵀ dx and h = ∫p (a + x) F_x Φ_y′ dx are a follower's change of direction, to first
+//! order; both vanish for other forces. Couples have Q_q = f m, Q_θ = f M. What acts on the sections of a curve
+//! stands in [`OnSection`](super::on_section::OnSection).
+
+use super::on_section::{Nature, OnSection};
+use super::{Amplitude, Axes};
+use crate::hub_beam::fields::Point;
+use crate::hub_beam::inertia::Border;
+use crate::hub_beam::product::{Bundle, Vectors};
+use crate::linalg::{Matrix, Storage, Structure};
+use crate::profile::HubKinematics;
+use crate::system::State;
+
+/// One load, ready to be evaluated. See the [module documentation](self).
+#[derive(Debug)]
+pub struct Group {
+    force: [f64; 2],
+    axes: Axes,
+    amplitude: Amplitude,
+    gravity: bool,
+    /// c_x and c_y
+    pub(super) arm: f64,
+    pub(super) offset: f64,
+    /// g_x and g_y
+    pub(super) along: Vec<f64>,
+    pub(super) across: Vec<f64>,
+    /// h
+    pub(super) lever: Vec<f64>,
+    /// m and M
+    pub(super) turning: Vec<f64>,
+    pub(super) couple: f64,
+    /// G_x, G_y and N, if one of them is there.
+    stiffness: Option<(Bundle, Vectors)>,
+    sections: Vec<OnSection>,
+}
+
+/// Components of a force at one time: f d, f d′ = f ∂d/∂θ, and f.
+pub(super) struct Now {
+    pub d: [f64; 2],
+    pub by_angle: [f64; 2],
+    pub factor: f64,
+}
+
+impl Group {
+    /// A load of force `force` for `n` unknowns that acts nowhere yet.
+    pub(super) fn new(n: usize, force: [f64; 2], axes: Axes, amplitude: Amplitude) -> Group {
+        let zero = || vec![0.0; n];
+        Group {
+            force,
+            axes,
+            amplitude,
+            gravity: false,
+            arm: 0.0,
+            offset: 0.0,
+            along: zero(),
+            across: zero(),
+            lever: zero(),
+            turning: zero(),
+            couple: 0.0,
+            stiffness: None,
+            sections: Vec::new(),
+        }
+    }
+
+    /// Sets G_x, G_y and N.
+    pub(super) fn stiffen(
+        &mut self,
+        structure: &Structure,
+        along: Option<&Matrix>,
+        across: Option<&Matrix>,
+        follower: Option<&Matrix>,
+    ) {
+        self.stiffness = (along.is_some() || across.is_some() || follower.is_some()).then(|| {
+            let bundle = Bundle::new(structure, self.along.len(), [along, across, follower, None]);
+            let vectors = bundle.vectors();
+            (bundle, vectors)
+        });
+    }
+
+    /// A share `p` of a follower at a place of a curve.
+    pub(super) fn push_follower(&mut self, point: &Point, p: f64, radius: f64) {
+        self.sections.push(OnSection::new(point, Nature::Follower, p, radius));
+    }
+
+    /// A couple on the section at a place of a curve.
+    pub(super) fn push_couple(&mut self, point: &Point, moment: f64, radius: f64) {
+        self.sections.push(OnSection::new(point, Nature::Couple, moment, radius));
+    }
+
+    /// A force that acts off the axis: first moment `p` about it.
+    pub(super) fn push_eccentric(&mut self, point: &Point, p: f64, radius: f64) {
+        self.sections.push(OnSection::new(point, Nature::Eccentric, p, radius));
+    }
+
+    /// Its work is kept as potential energy.
+    pub(super) fn set_gravity(&mut self) {
+        self.gravity = true;
+    }
+
+    pub(super) fn is_gravity(&self) -> bool {
+        self.gravity
+    }
+
+    pub(super) fn is_stiff(&self) -> bool {
+        self.stiffness.is_some()
+    }
+
+    pub(super) fn varies(&self) -> bool {
+        self.amplitude.is_some()
+    }
+
+    pub(super) fn axes(&self) -> Axes {
+        self.axes
+    }
+
+    pub(super) fn breaks(&self) -> &[f64] {
+        self.amplitude.as_ref().map_or(&[], |f| f.breaks())
+    }
+
+    fn now(&self, t: f64, hub: &HubKinematics) -> Now {
+        let factor = self.amplitude.as_ref().map_or(1.0, |f| f.value(t));
+        let [x, y] = self.force.map(|c| factor * c);
+        if self.axes == Axes::Dead {
+            let (sin, cos) = hub.angle.sin_cos();
+            let d = [x * cos + y * sin, y * cos - x * sin];
+            return Now { d, by_angle: [d[1], -d[0]], factor };
+        }
+        Now { d: [x, y], by_angle: [0.0; 2], factor }
+    }
+
+    /// Sets the vectors that [`Bundle::products`] multiplies.
+    fn prepare(&mut self, q: &[f64], d: [f64; 2], factor: f64) {
+        if let Some((_, x)) = &mut self.stiffness {
+            x.set(0, |i| d[0] * q[i]);
+            x.set(1, |i| d[1] * q[i]);
+            x.set(2, |i| factor * q[i]);
+        }
+    }
+
+    /// out += c Q_q
+    pub(super) fn add_force(&mut self, s: &State, hub: &HubKinematics, c: f64, out: &mut [f64]) {
+        let now = self.now(s.t, hub);
+        let d = now.d.map(|d| c * d);
+        let m = c * now.factor;
+        for (i, out) in out.iter_mut().enumerate().take(self.along.len()) {
+            *out += d[0] * self.along[i] + d[1] * self.across[i] + m * self.turning[i];
+        }
+        self.prepare(&s.q, d, m);
+        if let Some((bundle, x)) = &self.stiffness {
+            bundle.products(x, |i, [gx, gy, n, _]| out[i] += gx + gy + n);
+        }
+        for section in &self.sections {
+            section.add_force(s, &now, c, out);
+        }
+    }
+
+    /// out += c ∂Q_q/∂q
+    pub(super) fn add_tangent(&self, s: &State, hub: &HubKinematics, c: f64, out: &mut Storage<f64>) {
+        if self.stiffness.is_none() && self.sections.is_empty() {
+            return;
+        }
+        let now = self.now(s.t, hub);
+        if let Some((bundle, _)) = &self.stiffness {
+            bundle.add_sum([c * now.d[0], c * now.d[1], c * now.factor, 0.0], out);
+        }
+        for section in &self.sections {
+            section.add_tangent(s, &now, c, out);
+        }
+    }
+
+    /// C_x and C_y.
+    fn moments(&mut self, q: &[f64]) -> [f64; 2] {
+        let n = self.along.len();
+        let inner = |a: &[f64]| a.iter().zip(&q[..n]).map(|(a, b)| a * b).sum::<f64>();
+        let mut c = [self.arm + inner(&self.along), self.offset + inner(&self.across)];
+        self.prepare(q, [1.0; 2], 0.0);
+        if let Some((bundle, x)) = &self.stiffness {
+            bundle.products(x, |i, [gx, gy, ..]| {
+                c[0] += 0.5 * q[i] * gx;
+                c[1] += 0.5 * q[i] * gy;
+            });
+        }
+        c
+    }
+
+    /// Q_θ
+    pub(super) fn torque(&mut self, s: &State, hub: &HubKinematics) -> f64 {
+        let now = self.now(s.t, hub);
+        let [x, y] = self.moments(&s.q);
+        let lever: f64 = self.lever.iter().zip(&s.q).map(|(h, q)| h * q).sum();
+        let sections: f64 = self.sections.iter().map(|section| section.torque(s, &now)).sum();
+        now.d[1] * x - now.d[0] * y + now.factor * (lever + self.couple) + sections
+    }
+
+    /// −f d·C for gravity, 0 for other loads.
+    pub(super) fn potential(&mut self, s: &State, hub: &HubKinematics) -> f64 {
+        if !self.gravity {
+            return 0.0;
+        }
+        let now = self.now(s.t, hub);
+        let [x, y] = self.moments(&s.q);
+        let sections: f64 = self.sections.iter().map(|section| section.potential(s, &now)).sum();
+        sections - now.d[0] * x - now.d[1] * y
+    }
+
+    /// Adds c times the derivatives of Q_q by θ and of Q_θ by q and θ.
+    pub(super) fn add_border(&mut self, s: &State, hub: &HubKinematics, c: f64, out: &mut Border) {
+        let now = self.now(s.t, hub);
+        let dead = if self.axes == Axes::Dead { 1.0 } else { 0.0 };
+        // Q_θ by q: as the force with the components (d_y, −d_x), whatever the axes.
+        let across = [c * now.d[1], -c * now.d[0]];
+        for i in 0..self.along.len() {
+            let turned = across[0] * self.along[i] + across[1] * self.across[i];
+            out.column[i] += dead * turned;
+            out.row[i] += turned + c * now.factor * self.lever[i];
+        }
+        self.prepare(&s.q, across, 0.0);
+        if let Some((bundle, x)) = &self.stiffness {
+            bundle.products(x, |i, [gx, gy, ..]| {
+                out.column[i] += dead * (gx + gy);
+                out.row[i] += gx + gy;
+            });
+        }
+        if dead != 0.0 {
+            let [x, y] = self.moments(&s.q);
+            out.corner -= c * (now.d[0] * x + now.d[1] * y);
+        }
+        for section in &self.sections {
+            section.add_border(s, &now, c, out);
+        }
+    }
+}

@@ -1,0 +1,421 @@
+//! Loads against virtual work, potentials and finite differences.
+
+use super::*;
+use crate::hub_beam::tests::{
+    LENGTH, RADIUS, TwoFibres, at, check_power, check_tangent, fibre, free_hub, hub, inertia_forces,
+    relative, residual, state, without_strain,
+};
+use crate::hub_beam::{
+    Coupling, Damping, ExactCoupling, Foreshortening, Hub, HubBeam, LinearCoupling, Placement, Station,
+};
+use crate::profile::Expression;
+use crate::section::{Laden, Mass, Section};
+use crate::system::System;
+
+const FORCE: [f64; 2] = [-3.0, 5.0];
+/// A station inside the second of three cells, which it cuts.
+const STATION: f64 = 0.45 * LENGTH;
+
+fn profile(text: &str) -> Amplitude {
+    Some(Arc::new(Expression::new(text, "t", 10.0).unwrap()))
+}
+
+fn force(axes: Axes, station: f64) -> Force {
+    Force { station, force: FORCE, axes, amplitude: profile("1 + t^2") }
+}
+
+fn distributed(axes: Axes) -> DistributedForce {
+    DistributedForce {
+        force: FORCE,
+        axes,
+        distribution: profile("1 + 0.5*t"),
+        range: (0.2 * LENGTH, STATION),
+        amplitude: None,
+    }
+}
+
+const GRAVITY: Gravity = Gravity { acceleration: 9.81, direction: -1.2 };
+const AXES: [Axes; 3] = [Axes::Dead, Axes::Hub, Axes::Follower];
+
+/// One load of each kind and axes.
+fn loads() -> Vec<Box<dyn Load>> {
+    let mut loads: Vec<Box<dyn Load>> = vec![
+        Box::new(GRAVITY),
+        Box::new(Couple { station: STATION, couple: 2.0, amplitude: profile("cos(t)") }),
+    ];
+    for axes in AXES {
+        loads.push(Box::new(force(axes, LENGTH)));
+        loads.push(Box::new(force(axes, STATION)));
+        loads.push(Box::new(distributed(axes)));
+    }
+    loads
+}
+
+fn masses() -> Vec<Mass> {
+    vec![
+        Mass { station: STATION, mass: 0.7, inertia: 0.02 },
+        Mass { station: LENGTH, mass: 0.4, inertia: 0.05 },
+    ]
+}
+
+fn section(masses: Vec<Mass>) -> Laden {
+    Laden::new(Box::new(TwoFibres), masses, &distributed(Axes::Dead).stations())
+}
+
+fn linear(hub: Hub, section: &dyn Section, foreshortening: Foreshortening) -> HubBeam<LinearCoupling> {
+    let axial = Box::new(crate::basis::Lagrange::new(LENGTH, 3, 2).unwrap());
+    let transverse =
+        Box::new(crate::basis::Hermite::new(LENGTH, 3, crate::basis::Field::Transverse).unwrap());
+    let fields = crate::hub_beam::Fields::new(LENGTH, axial, transverse, section.breaks());
+    let coupling = LinearCoupling::new(fields, section, &hub, foreshortening);
+    HubBeam::new(hub, coupling, &[])
+}
+
+fn exact(hub: Hub, section: &dyn Section) -> HubBeam<ExactCoupling> {
+    let coupling = ExactCoupling::new(LENGTH, 3, section, &hub).unwrap();
+    HubBeam::new(hub, coupling, &[])
+}
+
+/// Every coupling on both hubs, with the given loads, masses and damping.
+fn systems(loads: &[&dyn Load], masses: &[Mass], damping: Damping) -> Vec<Box<dyn System>> {
+    let section = section(masses.to_vec());
+    let mut systems: Vec<Box<dyn System>> = Vec::new();
+    for hub in [hub(), free_hub()] {
+        for foreshortening in [Foreshortening::None, Foreshortening::First] {
+            let system = linear(hub.clone(), &section, foreshortening);
+            systems.push(Box::new(system.with_loads(&section, loads).with_damping(damping)));
+        }
+        let system = exact(hub, &section);
+        systems.push(Box::new(system.with_loads(&section, loads).with_damping(damping)));
+    }
+    systems
+}
+
+#[test]
+fn tangents_of_every_load_equal_finite_differences() {
+    for load in loads() {
+        for mut system in systems(&[&*load], &[], Damping::default()) {
+            let s = state(&*system, 0.15);
+            check_tangent(&mut *system, &s);
+        }
+    }
+}
+
+#[test]
+fn tangents_of_masses_and_damping_equal_finite_differences() {
+    let damped = Damping { mass: 0.3, stiffness: 0.02 };
+    for (masses, damping) in [(masses(), Damping::default()), (vec![], damped), (masses(), damped)] {
+        for mut system in systems(&[&GRAVITY], &masses, damping) {
+            let s = state(&*system, 0.15);
+            check_tangent(&mut *system, &s);
+        }
+    }
+}
+
+#[test]
+fn a_stamped_tangent_is_never_taken_for_another() {
+    // The same matrix is asked for at other times, angles and weights: it must be written anew.
+    let damping = Damping { mass: 0.3, stiffness: 0.02 };
+    for load in loads() {
+        let build = || systems(&[&*load], &[], damping);
+        for (mut kept, mut fresh) in build().into_iter().zip(build()) {
+            let mut matrix = crate::linalg::Matrix::new(&kept.structure());
+            for (t, w) in [(0.2, (1.0, 0.5, 0.2)), (0.7, (1.0, 0.5, 0.2)), (0.7, (1.0, 0.4, 0.2))] {
+                let s = State { t, ..state(&*kept, 0.1) };
+                let w = Weights::new(w.0, w.1, w.2);
+                kept.tangent(&s, w, &mut matrix);
+                let mut other = crate::linalg::Matrix::new(&fresh.structure());
+                fresh.tangent(&s, w, &mut other);
+                let n = matrix.order();
+                let all = (0..n * n).map(|k| (k / n, k % n));
+                assert!(all.clone().all(|(i, j)| matrix.get(i, j) == other.get(i, j)), "{load:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn energy_changes_by_the_power_of_loads_drives_and_dampers() {
+    let damping = Damping { mass: 0.3, stiffness: 0.02 };
+    for load in loads() {
+        for mut system in systems(&[&*load], &masses(), damping) {
+            check_power(&mut *system);
+        }
+    }
+}
+
+/// Placement at `x` of the beam with unknowns `q`.
+fn placement<C: Coupling>(coupling: &C, q: &[f64], x: f64) -> Placement {
+    let mut out = [Placement::default()];
+    let s = State { q: q.to_vec(), v: vec![0.0; q.len()], a: vec![0.0; q.len()], ..State::default() };
+    coupling.placements(&s, &[Station::new(coupling.fields(), x)], &mut out);
+    out[0]
+}
+
+/// Σ F·∂r/∂q and torque of forces at stations, by finite differences of nothing but placements.
+fn virtual_work<C: Coupling>(
+    coupling: &C,
+    q: &[f64],
+    angle: f64,
+    axes: Axes,
+    shares: &[(f64, f64)],
+) -> (Vec<f64>, f64) {
+    let (mut forces, mut torque) = (vec![0.0; q.len()], 0.0);
+    for &(x, share) in shares {
+        let here = placement(coupling, q, x);
+        let turn = match axes {
+            Axes::Dead => -angle,
+            Axes::Hub => 0.0,
+            Axes::Follower => here.rotation,
+        };
+        let (sin, cos) = turn.sin_cos();
+        let f = [FORCE[0] * cos - FORCE[1] * sin, FORCE[0] * sin + FORCE[1] * cos].map(|f| share * f);
+        torque += (RADIUS + x + here.axial) * f[1] - here.deflection * f[0];
+        for (k, force) in forces.iter_mut().enumerate() {
+            let h = 1e-3;
+            for (c, by) in [(1.0, -2.0), (-8.0, -1.0), (8.0, 1.0), (-1.0, 2.0)] {
+                let mut moved = q.to_vec();
+                moved[k] += by * h;
+                let p = placement(coupling, &moved, x);
+                *force += c * (f[0] * p.axial + f[1] * p.deflection) / (12.0 * h);
+            }
+        }
+    }
+    (forces, torque)
+}
+
+/// Forces and torque that `load` adds to a system.
+fn added<C: Coupling>(
+    build: &dyn Fn() -> HubBeam<C>,
+    section: &dyn Section,
+    load: &dyn Load,
+    s: &State,
+) -> (Vec<f64>, f64) {
+    let (mut without, mut with) = (build(), build().with_loads(section, &[load]));
+    let r = residual(&mut without, s);
+    let forces = r.iter().zip(residual(&mut with, s)).map(|(a, b)| a - b).collect();
+    (forces, without.torque(s) - with.torque(s))
+}
+
+/// The shares of a force per length, by Gauss's rule of its range.
+fn shares(load: &DistributedForce, cells: &[f64]) -> Vec<(f64, f64)> {
+    let gauss = crate::quadrature::Gauss::new(8);
+    let mut shares = Vec::new();
+    for ends in cells.windows(2).filter(|c| c[0] >= load.range.0 && c[1] <= load.range.1) {
+        shares.extend(gauss.on(ends[0], ends[1]).map(|(x, w)| (x, w * (1.0 + 0.5 * x))));
+    }
+    shares
+}
+
+#[test]
+fn forces_and_torque_are_those_of_virtual_work_at_large_rotations() {
+    let section = section(vec![]);
+    let build = || exact(hub(), &section);
+    let system = build();
+    let s = state(&system, 0.15);
+    let angle = at(&system, s.t).angle;
+    for axes in AXES {
+        let factor = 1.0 + s.t * s.t;
+        for station in [STATION, LENGTH] {
+            let expected = virtual_work(system.coupling(), &s.q, angle, axes, &[(station, factor)]);
+            let found = added(&build, &section, &force(axes, station), &s);
+            assert!(relative(&found.0, &expected.0) < 1e-8, "{axes:?}");
+            assert!((found.1 - expected.1).abs() < 1e-9 * expected.1.abs(), "{axes:?}");
+        }
+        let load = distributed(axes);
+        let expected = virtual_work(
+            system.coupling(),
+            &s.q,
+            angle,
+            axes,
+            &shares(&load, system.coupling().fields().cells()),
+        );
+        let found = added(&build, &section, &load, &s);
+        // The direction of a follower is no polynomial: its quadrature has fewer points than the check's.
+        let tolerance = if axes == Axes::Follower { 1e-4 } else { 1e-8 };
+        assert!(relative(&found.0, &expected.0) < tolerance, "{axes:?} {}", relative(&found.0, &expected.0));
+        assert!((found.1 - expected.1).abs() < tolerance * expected.1.abs(), "{axes:?}");
+    }
+}
+
+#[test]
+fn linear_couplings_have_the_linearised_forces_of_virtual_work() {
+    let section = section(vec![]);
+    for foreshortening in [Foreshortening::None, Foreshortening::First] {
+        let build = || linear(hub(), &section, foreshortening);
+        let system = build();
+        let angle = at(&system, 0.6).angle;
+        let cells = system.coupling().fields().cells().to_vec();
+        for axes in AXES {
+            let spread = distributed(axes);
+            let point = force(axes, STATION);
+            let list: [(&dyn Load, Vec<(f64, f64)>); 2] =
+                [(&spread, shares(&spread, &cells)), (&point, vec![(STATION, 1.36)])];
+            for (load, shares) in list {
+                // The odd part is the linear one, to second order in the size.
+                let size = 1e-4;
+                let both = [1.0, -1.0].map(|sign| {
+                    let s = state(&system, sign * size);
+                    (
+                        virtual_work(system.coupling(), &s.q, angle, axes, &shares),
+                        added(&build, &section, load, &s),
+                    )
+                });
+                let odd = |a: &[f64], b: &[f64]| -> Vec<f64> {
+                    a.iter().zip(b).map(|(a, b)| (a - b) / (2.0 * size)).collect()
+                };
+                let expected = odd(&both[0].0.0, &both[1].0.0);
+                let found = odd(&both[0].1.0, &both[1].1.0);
+                let largest = expected.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+                let error = found.iter().zip(&expected).fold(0.0f64, |m, (a, b)| m.max((a - b).abs()));
+                assert!(error <= 1e-6 * largest.max(1.0), "{axes:?} {foreshortening:?}: {error:e} {largest}");
+                let torque = (both[0].0.1 - both[1].0.1, both[0].1.1 - both[1].1.1);
+                assert!((torque.0 - torque.1).abs() < 1e-6 * torque.0.abs(), "{axes:?} {torque:?}");
+                // The even part at rest.
+                let zero = state(&system, 0.0);
+                let expected = virtual_work(system.coupling(), &zero.q, angle, axes, &shares);
+                let found = added(&build, &section, load, &zero);
+                assert!(relative(&found.0, &expected.0) < 1e-8);
+                assert!((found.1 - expected.1).abs() < 1e-9 * expected.1.abs());
+            }
+        }
+    }
+}
+
+/// V of the fibres and masses of a beam, written particle by particle.
+fn potential<C: Coupling>(coupling: &C, q: &[f64], angle: f64, masses: &[Mass]) -> f64 {
+    let (sin, cos) = (GRAVITY.direction - angle).sin_cos();
+    let mut sum = 0.0;
+    let mut particle = |x: f64, y: f64, m: f64| {
+        let p = fibre(&placement(coupling, q, x), x, y);
+        sum -= m * GRAVITY.acceleration * (p[0] * cos + p[1] * sin);
+    };
+    for ends in coupling.fields().cells().windows(2) {
+        for (x, w) in coupling.fields().gauss().on(ends[0], ends[1]) {
+            for (y, m, _) in TwoFibres::fibres(x) {
+                particle(x, y, w * m);
+            }
+        }
+    }
+    for m in masses {
+        particle(m.station, 0.0, m.mass);
+    }
+    sum
+}
+
+/// −∂V/∂q and −∂V/∂θ by finite differences.
+fn gradient<C: Coupling>(coupling: &C, q: &[f64], angle: f64, masses: &[Mass]) -> (Vec<f64>, f64) {
+    let h = 1e-3;
+    let along = |f: &dyn Fn(f64) -> f64| -(f(-2.0 * h) - 8.0 * f(-h) + 8.0 * f(h) - f(2.0 * h)) / (12.0 * h);
+    let forces = (0..q.len())
+        .map(|k| {
+            along(&|d| {
+                let mut moved = q.to_vec();
+                moved[k] += d;
+                potential(coupling, &moved, angle, masses)
+            })
+        })
+        .collect();
+    (forces, along(&|d| potential(coupling, q, angle + d, masses)))
+}
+
+#[test]
+fn gravity_is_the_gradient_of_the_height_of_all_particles() {
+    let section = section(masses());
+    let build = || exact(hub(), &section);
+    let system = build();
+    let s = state(&system, 0.15);
+    let angle = at(&system, s.t).angle;
+    let expected = gradient(system.coupling(), &s.q, angle, &masses());
+    let found = added(&build, &section, &GRAVITY, &s);
+    assert!(relative(&found.0, &expected.0) < 1e-8, "{}", relative(&found.0, &expected.0));
+    assert!((found.1 - expected.1).abs() < 1e-8 * expected.1.abs());
+    let energy = build().with_loads(&section, &[&GRAVITY]).energy(&s).gravity;
+    let expected = potential(system.coupling(), &s.q, angle, &masses());
+    assert!((energy - expected).abs() < 1e-12 * expected.abs(), "{energy} {expected}");
+
+    for foreshortening in [Foreshortening::None, Foreshortening::First] {
+        let build = || linear(hub(), &section, foreshortening);
+        let system = build();
+        let size = 1e-4;
+        let both = [1.0, -1.0].map(|sign| {
+            let s = state(&system, sign * size);
+            (gradient(system.coupling(), &s.q, angle, &masses()), added(&build, &section, &GRAVITY, &s))
+        });
+        let odd = |a: &[f64], b: &[f64]| -> Vec<f64> {
+            a.iter().zip(b).map(|(a, b)| (a - b) / (2.0 * size)).collect()
+        };
+        let expected = odd(&both[0].0.0, &both[1].0.0);
+        let found = odd(&both[0].1.0, &both[1].1.0);
+        let error = relative(&found, &expected);
+        assert!(error < 1e-5, "{foreshortening:?}: {error:e}");
+        let even =
+            |a: &[f64], b: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(a, b)| 0.5 * (a + b)).collect() };
+        let error = relative(&even(&both[0].1.0, &both[1].1.0), &even(&both[0].0.0, &both[1].0.0));
+        assert!(error < 1e-6, "{foreshortening:?}: {error:e}");
+        let torque = (both[0].0.1 - both[1].0.1, both[0].1.1 - both[1].1.1);
+        assert!((torque.0 - torque.1).abs() < 1e-6 * torque.0.abs(), "{torque:?}");
+    }
+}
+
+#[test]
+fn masses_obey_dalembert() {
+    let section = section(masses());
+    let mut system = exact(hub(), &section);
+    let s = state(&system, 0.15);
+    let kinematics = at(&system, s.t);
+    let (forces, torque) = inertia_forces(system.coupling(), &s, &kinematics, &masses());
+    // As without masses: the element's rule of three points against the check's eight.
+    let error = relative(&without_strain(&mut system, &s), &forces);
+    assert!(error < 2e-3, "forces {error:e}");
+    assert!((system.torque(&s) / torque - 1.0).abs() < 2e-3);
+    // The masses alone, free of that difference.
+    let plain = self::section(vec![]);
+    let mut bare = exact(hub(), &plain);
+    let own: Vec<f64> =
+        residual(&mut system, &s).iter().zip(residual(&mut bare, &s)).map(|(a, b)| a - b).collect();
+    let (all, all_torque) = inertia_forces(system.coupling(), &s, &kinematics, &masses());
+    let (none, none_torque) = inertia_forces(bare.coupling(), &s, &kinematics, &[]);
+    let expected: Vec<f64> = all.iter().zip(&none).map(|(a, b)| a - b).collect();
+    assert!(relative(&own, &expected) < 1e-6, "{:e}", relative(&own, &expected));
+    let (own, expected) = (system.torque(&s) - bare.torque(&s), all_torque - none_torque);
+    assert!((own / expected - 1.0).abs() < 1e-6, "{own} {expected}");
+
+    for foreshortening in [Foreshortening::None, Foreshortening::First] {
+        let mut system = linear(hub(), &section, foreshortening);
+        let size = 1e-3;
+        let mut odd: [Vec<f64>; 2] = [vec![], vec![]];
+        for sign in [1.0, -1.0] {
+            let s = state(&system, sign * size);
+            let expected = inertia_forces(system.coupling(), &s, &kinematics, &masses()).0;
+            let found = without_strain(&mut system, &s);
+            for (odd, new) in odd.iter_mut().zip([expected, found]) {
+                odd.resize(new.len(), 0.0);
+                odd.iter_mut().zip(new).for_each(|(odd, x)| *odd += sign * x / (2.0 * size));
+            }
+        }
+        let error = relative(&odd[1], &odd[0]);
+        // Of second order in the size.
+        assert!(error < 1e-5, "{foreshortening:?} {error:e}");
+    }
+}
+
+#[test]
+fn dissipation_is_that_of_the_rates_of_strain() {
+    // From rest, U = ½ t² ėᵀSė + …: η ėᵀSė is the second derivative of the strain energy there.
+    let section = section(vec![]);
+    let eta = 0.1;
+    let mut system = exact(hub(), &section).with_damping(Damping { mass: 0.0, stiffness: eta });
+    let s = state(&system, 0.15);
+    let mut energy = |t: f64| {
+        let moved = State { q: s.v.iter().map(|v| t * v).collect(), ..s.clone() };
+        system.energy(&moved).strain
+    };
+    let h = 1e-3;
+    let second = (-energy(-2.0 * h) + 16.0 * energy(-h) - 30.0 * energy(0.0) + 16.0 * energy(h)
+        - energy(2.0 * h))
+        / (12.0 * h * h);
+    let rest = State { q: vec![0.0; s.q.len()], ..s.clone() };
+    let dissipated = system.power(&rest).dissipated;
+    assert!((dissipated / (eta * second) - 1.0).abs() < 1e-8, "{dissipated} {second}");
+}
