@@ -88,6 +88,7 @@ const KINDS: &[&str] = &[
     "hub.motion={kind='expression',formula='4*sin(t) \"',of='speed'}",
     "model.coupling=zeroth",
     "model.coupling=first",
+    "model.coupling=high",
     "model.coupling=exact",
     "basis={kind='finite-elements',elements=3,axial-degree=2}",
     "basis={kind='modes',axial=2,transverse=5}",

@@ -60,6 +60,7 @@ const VARIATIONS: &[&str] = &[
     "hub.motion={kind='expression', formula='3*t', of='speed'}",
     "model.coupling=zeroth",
     "model.coupling=first",
+    "model.coupling=high",
     "model.coupling=exact",
     "basis={kind='finite-elements', elements=7}",
     "basis={kind='modes', axial=2}",

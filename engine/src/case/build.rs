@@ -12,7 +12,8 @@ use crate::basis::{
     Radial, RadialParameters,
 };
 use crate::hub_beam::{
-    Controller, Drive, ExactCoupling, Fields, Foreshortening, FreeHub, Hub, HubBeam, LinearCoupling,
+    Controller, Drive, ExactCoupling, Fields, Foreshortening, FreeHub, HighCoupling, Hub, HubBeam,
+    LinearCoupling,
 };
 use crate::integrator::{
     Adams, GeneralizedAlpha, Integrator, InvalidParameter, Radau, RungeKutta, Tolerance,
@@ -303,7 +304,7 @@ pub fn system(case: &Case) -> Result<Box<dyn System>, BuildError> {
     let hub = Hub { radius: case.hub.radius, inertia: case.hub.inertia, drive };
     let foreshortening = match case.coupling {
         Coupling::Zeroth => Foreshortening::None,
-        Coupling::First => Foreshortening::First,
+        Coupling::First | Coupling::High => Foreshortening::First,
         Coupling::Exact => {
             let BasisCase::FiniteElements { elements, .. } = case.bases.transverse else {
                 let message = "the exact coupling needs finite elements".to_owned();
@@ -319,6 +320,10 @@ pub fn system(case: &Case) -> Result<Box<dyn System>, BuildError> {
     let axial = basis(&case.bases.axial, length, Field::Axial)?;
     let transverse = basis(&case.bases.transverse, length, Field::Transverse)?;
     let fields = Fields::new(length, axial, transverse, section.breaks());
+    if case.coupling == Coupling::High {
+        let coupling = HighCoupling::new(fields, section.as_ref(), &hub);
+        return Ok(Box::new(HubBeam::new(hub, coupling, stations)));
+    }
     let coupling = LinearCoupling::new(fields, section.as_ref(), &hub, foreshortening);
     Ok(Box::new(HubBeam::new(hub, coupling, stations)))
 }

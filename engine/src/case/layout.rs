@@ -58,6 +58,8 @@ pub enum Coupling {
     Zeroth,
     /// Foreshortening to first order.
     First,
+    /// Foreshortening to every order in the kinetic energy.
+    High,
     /// Geometrically exact.
     Exact,
 }
@@ -116,6 +118,12 @@ static COUPLING: Seam = Seam {
             name: "first",
             summary: "foreshortening to first order: linear with dynamic stiffening, small deflections",
             source: "Kane, Ryan & Banerjee 1987, doi:10.2514/3.20195",
+            keys: &[],
+        },
+        Kind {
+            name: "high",
+            summary: "foreshortening to every order in the kinetic energy: nonlinear, moderate deflections",
+            source: "Li, Zhang & Hong 2013, Journal of Mechanical Engineering 49(13) 77–84",
             keys: &[],
         },
         Kind {
@@ -268,6 +276,7 @@ pub(super) fn case(values: &mut Values, folder: &Path, problems: &mut Problems) 
     let length = values.table("beam").and_then(|beam| beam.number("length"));
     let coupling = values.table("model").and_then(|model| model.text("coupling")).map(|name| match name {
         "zeroth" => Coupling::Zeroth,
+        "high" => Coupling::High,
         "exact" => Coupling::Exact,
         _ => Coupling::First,
     });
