@@ -4,25 +4,26 @@
 //! N = EA ε − ES κ,   M = EI κ − ES ε,   Q = −dM/dx;      ε(y) = ε − y κ
 //! ```
 //!
-//! ε and κ are derivatives of the displacements, and in an element they are less accurate than these by one and two
-//! orders, but not everywhere: the second derivative of cubic elements is better by an order at the two Gauss points
-//! of each, where the first polynomial that it cannot represent vanishes, and so is the first derivative of elements of
-//! degree p at their p Gauss points (Barlow 1976, doi 10.1002/nme.1620100202). N and M are taken there, and the cubic
-//! through the four points next to the station gives their values and −Q. The strain of the exact coupling is taken at
-//! nodes and midpoints, where its energy samples it. N and M go on where a section jumps; ε and κ at the
-//! station follow from them by the section there. Measured for the cantilever: M of order 4, Q of order 3. A station
-//! next to a point load, where Q jumps, has the order of κ. Other bases are smooth, and the cubic is laid through
-//! their values close around the station, within a hundredth of the length.
+//! ε and κ are derivatives of the displacements, and at most places of an element they are less accurate than these by
+//! one and two orders. But the equations of equilibrium hold when they are tested with the second derivatives of the
+//! cubic functions, which are all linear polynomials of an element: in each element EI κ − ES ε has the mean and the
+//! first moment of the true M. (Of N, the first p moments are right in elements of degree p, for the same reason.) The
+//! cubic that has these moments in the elements next to the station, two for M, is M to order 4 there; −Q is its slope, of
+//! order 3. The strain of the exact coupling is taken at nodes and midpoints, where its energy samples it, and the cubic laid
+//! through four of them. N and M go on where a section jumps; ε and κ at the station follow from them by the section
+//! there. Within two elements of a point load, where Q jumps, the order is less. Other bases are smooth, and the cubic is
+//! laid through their values close around the station, within a hundredth of the length.
 //!
 //! Q leaves out the rotary inertia of the section; ε(y) is the strain of the fibre at height y of a section that stays plane.
 
 use super::coupling::Coupling;
 use super::fields::{Fields, Point};
+use crate::linalg::{Matrix, Structure};
 use crate::quadrature::Gauss;
 use crate::section::{Resultants, Section};
 use crate::system::{Channel, State};
 
-/// Points through which a polynomial is laid.
+/// Coefficients of the polynomials, and Gauss points of an element.
 const POINTS: usize = 4;
 
 /// Half width, over the length, of the window in which smooth functions are looked at.
@@ -33,9 +34,9 @@ const WINDOW: f64 = 0.005;
 pub enum Sampling {
     /// Close around the station.
     Station,
-    /// In elements: the stretch at this many Gauss points of each, the curvature at two.
+    /// In elements, by moments: this many of N in each, two of M.
     Elements(usize),
-    /// In elements: the stretch at nodes and midpoints, the curvature at two Gauss points.
+    /// In elements: the stretch at nodes and midpoints, two moments of M.
     Curve,
 }
 
@@ -78,40 +79,35 @@ impl SectionForces {
         heights: &[f64],
     ) -> SectionForces {
         let nodes = fields.transverse().cells();
-        let gauss = |count: usize| -> Vec<f64> {
-            let rule = Gauss::new(count);
-            nodes.windows(2).flat_map(|e| rule.on(e[0], e[1]).map(|(x, _)| x).collect::<Vec<_>>()).collect()
+        let sample = |at: Vec<(f64, f64, f64)>| -> Vec<Sample> {
+            let make = |(x, value, slope)| {
+                let point = fields.point(x, 0.0);
+                Sample { point, section: section.resultants(x), value, slope }
+            };
+            at.into_iter().map(make).collect()
         };
-        let middles = || nodes.windows(2).map(|e| 0.5 * (e[0] + e[1]));
-        let (axial, bending) = match sampling {
-            Sampling::Station => (Vec::new(), Vec::new()),
-            Sampling::Elements(count) => (gauss(count), gauss(2)),
-            Sampling::Curve => {
-                let mut all: Vec<f64> = nodes.iter().copied().chain(middles()).collect();
-                all.sort_by(f64::total_cmp);
-                (all, gauss(2))
-            }
+        let around = |x: f64| through(&around(x, fields.length()), x);
+        let halves: Vec<f64> = {
+            let middles = nodes.windows(2).map(|e| 0.5 * (e[0] + e[1]));
+            let mut all: Vec<f64> = nodes.iter().copied().chain(middles).collect();
+            all.sort_by(f64::total_cmp);
+            all
         };
-        let sample = |among: &[f64], x: f64| -> Vec<Sample> {
-            let chosen = nearest(among, x);
-            let at = if chosen.is_empty() { around(x, fields.length()) } else { chosen };
-            let weights = at.iter().enumerate().map(|(i, _)| lagrange(&at, i, x));
-            at.iter()
-                .zip(weights)
-                .map(|(&at, (value, slope))| Sample {
-                    point: fields.point(at, 0.0),
-                    section: section.resultants(at),
-                    value,
-                    slope,
-                })
-                .collect()
+        let axial = |x: f64| match sampling {
+            Sampling::Station => around(x),
+            Sampling::Elements(count) => by_moments(nodes, count, x),
+            Sampling::Curve => through(&nearest(&halves, x), x),
+        };
+        let bending = |x: f64| match sampling {
+            Sampling::Station => around(x),
+            Sampling::Elements(_) | Sampling::Curve => by_moments(nodes, 2, x),
         };
         let stations = places
             .iter()
             .map(|(name, x)| Forces {
                 name: name.clone(),
-                axial: sample(&axial, *x),
-                bending: sample(&bending, *x),
+                axial: sample(axial(*x)),
+                bending: sample(bending(*x)),
                 section: section.resultants(*x),
             })
             .collect();
@@ -202,6 +198,63 @@ fn nearest(among: &[f64], x: f64) -> Vec<f64> {
     let after = among.partition_point(|at| *at < x);
     let first = after.saturating_sub(POINTS / 2).min(among.len().saturating_sub(POINTS));
     among[first..among.len().min(first + POINTS)].to_vec()
+}
+
+/// Points, with their weights in value and slope at `x` of the polynomial through them.
+fn through(at: &[f64], x: f64) -> Vec<(f64, f64, f64)> {
+    at.iter()
+        .enumerate()
+        .map(|(i, place)| {
+            let (value, slope) = lagrange(at, i, x);
+            (*place, value, slope)
+        })
+        .collect()
+}
+
+/// Gauss points of the elements next to `x`, with their weights in value and slope at `x` of the cubic whose first `count`
+/// moments in each element are those of the function.
+///
+/// With ξ = (y − x)/H, P = Σ c_k ξᵏ and Legendre's polynomials ℓ_m of an element e the conditions are
+/// Σ_k c_k ∫_e ξᵏ ℓ_m = Σ_g w_g ℓ_m(g) f(g): A c = B f. The weights of P(x) = c₀ are Bᵀ A⁻ᵀ e₀, those of P′(x) = c₁/H likewise.
+fn by_moments(nodes: &[f64], count: usize, x: f64) -> Vec<(f64, f64, f64)> {
+    let elements = nodes.len() - 1;
+    let wanted = POINTS.div_ceil(count).min(elements);
+    let node = (0..nodes.len()).min_by(|a, b| (nodes[*a] - x).abs().total_cmp(&(nodes[*b] - x).abs()));
+    let first = node.unwrap_or(0).saturating_sub(wanted / 2).min(elements - wanted);
+    let patch = &nodes[first..=first + wanted];
+    let size = patch[wanted] - patch[0];
+    let order = wanted * count;
+    let gauss = Gauss::new(POINTS);
+    let legendre = |m: usize, s: f64| [1.0, s, 1.5 * s * s - 0.5, 2.5 * s * s * s - 1.5 * s][m.min(3)];
+    let mut transposed = Matrix::new(&Structure::dense(order));
+    let mut tests = Vec::new();
+    for (e, ends) in patch.windows(2).enumerate() {
+        let (middle, half) = (0.5 * (ends[0] + ends[1]), 0.5 * (ends[1] - ends[0]));
+        for (y, w) in gauss.on(ends[0], ends[1]) {
+            let test: Vec<f64> = (0..count).map(|m| w / half * legendre(m, (y - middle) / half)).collect();
+            for (m, test) in test.iter().enumerate() {
+                for k in 0..order {
+                    transposed.add(k, e * count + m, test * ((y - x) / size).powi(k as i32));
+                }
+            }
+            tests.push((y, e, test));
+        }
+    }
+    let (mut value, mut slope) = (vec![0.0; order], vec![0.0; order]);
+    value[0] = 1.0;
+    if let Some(slope) = slope.get_mut(1) {
+        *slope = 1.0 / size;
+    }
+    if transposed.factor().is_err() {
+        // Not for ascending nodes.
+        return through(&[x], x);
+    }
+    transposed.solve(&mut value);
+    transposed.solve(&mut slope);
+    let weigh = |solved: &[f64], e: usize, test: &[f64]| -> f64 {
+        test.iter().enumerate().map(|(m, test)| test * solved[e * count + m]).sum()
+    };
+    tests.iter().map(|(y, e, test)| (*y, weigh(&value, *e, test), weigh(&slope, *e, test))).collect()
 }
 
 /// Value and derivative at `x` of the Lagrange polynomial of point `i`.
