@@ -82,6 +82,7 @@ const VARIATIONS: &[&str] = &[
     "integrator={kind='adams-4', step='1 us'}",
     "output.stations=[0.1, '150 cm']",
     "output={step='2 ms', vtk=true, vtk-step='7 ms'}",
+    "output={stations=[0, 1], section-forces=true, strain-heights=['0.01', '-5 mm'], energy-balance=false}",
 ];
 
 fn run(case: &Path, set: &[&str], output: &Path) -> Reading {

@@ -12,8 +12,8 @@ use crate::basis::{
     Radial, RadialParameters,
 };
 use crate::hub_beam::{
-    Controller, Drive, ExactCoupling, Fields, Foreshortening, FreeHub, HighCoupling, Hub, HubBeam,
-    LinearCoupling,
+    Controller, Coupling as HubCoupling, Drive, ExactCoupling, Fields, Foreshortening, FreeHub, HighCoupling,
+    Hub, HubBeam, LinearCoupling, Sampling,
 };
 use crate::integrator::{
     Adams, GeneralizedAlpha, Integrator, InvalidParameter, Radau, RungeKutta, Tolerance,
@@ -314,7 +314,7 @@ pub fn system(case: &Case) -> Result<Box<dyn System>, BuildError> {
                 return Err(SectionError::Invalid(jump).into());
             }
             let coupling = ExactCoupling::new(length, elements, section.as_ref(), &hub)?;
-            return Ok(Box::new(HubBeam::new(hub, coupling, stations)));
+            return Ok(record(HubBeam::new(hub, coupling, stations), case, section.as_ref()));
         }
     };
     let axial = basis(&case.bases.axial, length, Field::Axial)?;
@@ -322,8 +322,30 @@ pub fn system(case: &Case) -> Result<Box<dyn System>, BuildError> {
     let fields = Fields::new(length, axial, transverse, section.breaks());
     if case.coupling == Coupling::High {
         let coupling = HighCoupling::new(fields, section.as_ref(), &hub);
-        return Ok(Box::new(HubBeam::new(hub, coupling, stations)));
+        return Ok(record(HubBeam::new(hub, coupling, stations), case, section.as_ref()));
     }
     let coupling = LinearCoupling::new(fields, section.as_ref(), &hub, foreshortening);
-    Ok(Box::new(HubBeam::new(hub, coupling, stations)))
+    Ok(record(HubBeam::new(hub, coupling, stations), case, section.as_ref()))
+}
+
+/// The system with the section forces and strains that the case wants recorded.
+fn record<C: HubCoupling + 'static>(
+    system: HubBeam<C>,
+    case: &Case,
+    section: &dyn Section,
+) -> Box<dyn System> {
+    let output = &case.output;
+    if !output.section_forces && output.strain_heights.is_empty() {
+        return Box::new(system);
+    }
+    let sampling = match (case.coupling, &case.bases.axial, &case.bases.transverse) {
+        (Coupling::Exact, ..) => Sampling::Curve,
+        (
+            _,
+            BasisCase::FiniteElements { elements, axial_degree },
+            BasisCase::FiniteElements { elements: transverse, .. },
+        ) if elements == transverse => Sampling::Elements(*axial_degree),
+        _ => Sampling::Station,
+    };
+    Box::new(system.with_section_forces(section, sampling, output.section_forces, &output.strain_heights))
 }

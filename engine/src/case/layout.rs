@@ -87,6 +87,10 @@ pub struct Output {
     pub step: f64,
     /// Stations along the beam to be recorded besides the tip [m].
     pub stations: Vec<f64>,
+    /// Whether axial, shear force and bending moment are recorded at the stations.
+    pub section_forces: bool,
+    /// Heights over the axis at which the strain is recorded at the stations [m].
+    pub strain_heights: Vec<f64>,
     /// Whether work, losses and the balance of energy are recorded.
     pub energy_balance: bool,
     /// Interval between shapes of the beam for ParaView [s]; `None` writes none.
@@ -246,6 +250,18 @@ pub(super) static KEYS: &[Key] = &[
                 "stations along the beam, from the root, recorded besides the tip",
             ),
             key(
+                "section-forces",
+                Type::Boolean,
+                Default::Boolean(false),
+                "axial force, shear force and bending moment are recorded at the stations",
+            ),
+            key(
+                "strain-heights",
+                Type::Quantities(&LENGTH, Any),
+                Default::Empty,
+                "heights over the axis at which the strain is recorded at the stations",
+            ),
+            key(
                 "energy-balance",
                 Type::Boolean,
                 Default::Boolean(true),
@@ -303,6 +319,8 @@ pub(super) fn case(values: &mut Values, folder: &Path, problems: &mut Problems) 
     });
     let output = values.table("output");
     let stations = output.and_then(|output| output.numbers("stations")).map(<[f64]>::to_vec);
+    let section_forces = output.and_then(|output| output.boolean("section-forces"));
+    let strain_heights = output.and_then(|output| output.numbers("strain-heights")).map(<[f64]>::to_vec);
     let energy_balance = output.and_then(|output| output.boolean("energy-balance"));
     let output_step = output.and_then(|output| output.number("step"));
 
@@ -389,7 +407,14 @@ pub(super) fn case(values: &mut Values, folder: &Path, problems: &mut Problems) 
         initial: initial?,
         integrator: integrator?,
         duration: run_duration?,
-        output: Output { step: output_step?, stations: stations?, energy_balance: energy_balance?, vtk },
+        output: Output {
+            step: output_step?,
+            stations: stations?,
+            section_forces: section_forces?,
+            strain_heights: strain_heights?,
+            energy_balance: energy_balance?,
+            vtk,
+        },
     })
 }
 

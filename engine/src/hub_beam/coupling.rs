@@ -1,7 +1,7 @@
 //! What a coupling (a kinematic model of the beam in the hub's frame) has to say.
 
 use super::damping::Damping;
-use super::fields::Fields;
+use super::fields::{Fields, Point};
 use super::inertia::{Border, Inertia, Totals};
 use super::load::Kinematics;
 use super::station::{Placement, Station};
@@ -68,6 +68,11 @@ pub trait Coupling {
 
     /// What the section does at each of the stations, which ascend along the beam.
     fn placements(&self, s: &State, stations: &[Station], out: &mut [Placement]);
+
+    /// Stretch ε of the axis and curvature κ at a point: w₁′ and w₂″ of small deflections.
+    fn strains(&self, s: &State, point: &Point) -> (f64, f64) {
+        (point.axial.field(1, &s.q), point.transverse.field(2, &s.q))
+    }
 
     /// `Err` when the state is beyond what the model can represent.
     fn admissible(&mut self, s: &State) -> Result<(), String>;

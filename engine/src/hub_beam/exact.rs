@@ -25,7 +25,7 @@
 use super::coupling::Coupling;
 use super::damping::Damping;
 use super::element::{Element, Rule};
-use super::fields::Fields;
+use super::fields::{Fields, Point};
 use super::hub::Hub;
 use super::inertia::{Border, Foreshortening, Inertia, Totals};
 use super::load::Kinematics;
@@ -230,6 +230,15 @@ impl Coupling for ExactCoupling {
                 rotation_velocity: ((1.0 + u1) * dv1 - v1 * du1) / square,
             };
         }
+    }
+
+    fn strains(&self, s: &State, point: &Point) -> (f64, f64) {
+        let (u, v) = (&point.axial, &point.transverse);
+        let (u1, y1) = (u.field(1, &s.q), v.field(1, &s.q));
+        let (x2, y2) = (u.field(2, &s.q), v.field(2, &s.q));
+        let x1 = 1.0 + u1;
+        let square = x1 * x1 + y1 * y1;
+        ((u1 * (2.0 + u1) + y1 * y1) / (square.sqrt() + 1.0), (x1 * y2 - y1 * x2) / square)
     }
 
     fn admissible(&mut self, s: &State) -> Result<(), String> {

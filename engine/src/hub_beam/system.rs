@@ -5,6 +5,7 @@ use super::damping::Damping;
 use super::hub::{Drive, Hub};
 use super::inertia::{Border, Scratch, Totals};
 use super::load::{Load, Loads, Site};
+use super::section_forces::{Sampling, SectionForces};
 use super::station::{Placement, Station};
 use crate::linalg::{Matrix, Storage, Structure};
 use crate::profile::{Constant, HubKinematics, Motion};
@@ -34,6 +35,8 @@ pub struct HubBeam<C> {
     held: bool,
     loads: Loads,
     damped: bool,
+    /// Forces in the sections at the stations, recorded last.
+    section_forces: SectionForces,
 }
 
 impl<C: Coupling> HubBeam<C> {
@@ -67,6 +70,7 @@ impl<C: Coupling> HubBeam<C> {
             held: false,
             loads: Loads::default(),
             damped: false,
+            section_forces: SectionForces::default(),
             hub,
             coupling,
         }
@@ -100,6 +104,26 @@ impl<C: Coupling> HubBeam<C> {
     pub fn with_damping(mut self, damping: Damping) -> HubBeam<C> {
         self.coupling.damp(damping);
         self.damped = !damping.is_none();
+        self
+    }
+
+    /// The same system, recording at its stations the section forces, if `forces`, and the strains at `heights` \[m\];
+    /// `section` is the one the coupling was made of. What else is recorded must be known before.
+    pub fn with_section_forces(
+        mut self,
+        section: &dyn Section,
+        sampling: Sampling,
+        forces: bool,
+        heights: &[f64],
+    ) -> HubBeam<C> {
+        // The tip first, as for the displacements.
+        let (tip, rest) = (self.stations.len() - 1, self.stations.len() - 1);
+        let order = std::iter::once(tip).chain(0..rest);
+        let places: Vec<(String, f64)> =
+            order.map(|i| (self.stations[i].name.clone(), self.stations[i].point.x)).collect();
+        let fields = self.coupling.fields();
+        self.section_forces = SectionForces::new(fields, section, sampling, &places, forces, heights);
+        self.channels.extend(self.section_forces.channels());
         self
     }
 
@@ -366,6 +390,9 @@ impl<C: Coupling> System for HubBeam<C> {
     }
 
     fn record(&mut self, s: &State, out: &mut [f64]) {
+        let recovered = self.section_forces.len().min(out.len());
+        let (out, sections) = out.split_at_mut(out.len() - recovered);
+        self.section_forces.record(&self.coupling, s, sections);
         self.coupling.placements(s, &self.stations, &mut self.placements);
         let tip = self.placements.last().map_or(0.0, |p| p.deflection.abs());
         self.largest_deflection = self.largest_deflection.max(tip);
