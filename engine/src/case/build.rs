@@ -3,6 +3,7 @@
 use super::basis::{Basis as BasisCase, RadialBasis};
 use super::integrator::Integrator as IntegratorCase;
 use super::layout::{Case, Coupling};
+use super::load_build;
 use super::motion::{Motion as MotionCase, MotionOf};
 use super::section::{Interpolation as InterpolationCase, Section as SectionCase, Shape as ShapeCase};
 use super::section_file;
@@ -12,7 +13,8 @@ use crate::basis::{
     Radial, RadialParameters,
 };
 use crate::hub_beam::{
-    Controller, Drive, ExactCoupling, Fields, Foreshortening, FreeHub, Hub, HubBeam, LinearCoupling,
+    Controller, Coupling as HubCoupling, Drive, ExactCoupling, Fields, Foreshortening, FreeHub, Hub, HubBeam,
+    LinearCoupling,
 };
 use crate::integrator::{
     Adams, GeneralizedAlpha, Integrator, InvalidParameter, Radau, RungeKutta, Tolerance,
@@ -290,6 +292,9 @@ pub enum BuildError {
     /// The basis.
     #[error(transparent)]
     Basis(#[from] BasisError),
+    /// A load.
+    #[error(transparent)]
+    Load(#[from] ProfileError),
 }
 
 /// The mechanical system of a case.
@@ -297,7 +302,7 @@ pub enum BuildError {
 /// # Errors
 /// [`BuildError`] when a part of it is refused; a case that was read has passed these checks.
 pub fn system(case: &Case) -> Result<Box<dyn System>, BuildError> {
-    let section = section(&case.section, case.length)?;
+    let section = load_build::laden(section(&case.section, case.length)?, case)?;
     let drive = drive(&case.hub.motion, case.duration)?;
     let (length, stations) = (case.length, &case.output.stations);
     let hub = Hub { radius: case.hub.radius, inertia: case.hub.inertia, drive };
@@ -313,12 +318,24 @@ pub fn system(case: &Case) -> Result<Box<dyn System>, BuildError> {
                 return Err(SectionError::Invalid(jump).into());
             }
             let coupling = ExactCoupling::new(length, elements, section.as_ref(), &hub)?;
-            return Ok(Box::new(HubBeam::new(hub, coupling, stations)));
+            return loaded(HubBeam::new(hub, coupling, stations), section.as_ref(), case);
         }
     };
     let axial = basis(&case.bases.axial, length, Field::Axial)?;
     let transverse = basis(&case.bases.transverse, length, Field::Transverse)?;
     let fields = Fields::new(length, axial, transverse, section.breaks());
     let coupling = LinearCoupling::new(fields, section.as_ref(), &hub, foreshortening);
-    Ok(Box::new(HubBeam::new(hub, coupling, stations)))
+    loaded(HubBeam::new(hub, coupling, stations), section.as_ref(), case)
+}
+
+/// A system under the loads and with the damping of a case.
+fn loaded<C: HubCoupling + 'static>(
+    system: HubBeam<C>,
+    section: &dyn Section,
+    case: &Case,
+) -> Result<Box<dyn System>, BuildError> {
+    let loads = load_build::loads(case)?;
+    let loads: Vec<_> = loads.iter().map(|load| load.as_ref()).collect();
+    let system = if loads.is_empty() { system } else { system.with_loads(section, &loads) };
+    Ok(Box::new(system.with_damping(case.loads.damping)))
 }
