@@ -104,10 +104,6 @@ impl Coupling for HighCoupling {
         self.linear.strain(s)
     }
 
-    fn damp(&mut self, damping: Damping) {
-        self.linear.damp(damping);
-    }
-
     fn extra_totals(&mut self, s: &State, hub: &HubKinematics) -> Totals {
         let (om, al) = (hub.speed, hub.acceleration);
         self.sums.follow(s);
