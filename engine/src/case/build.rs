@@ -3,6 +3,7 @@
 use super::basis::{Basis as BasisCase, RadialBasis};
 use super::integrator::Integrator as IntegratorCase;
 use super::layout::{Case, Coupling};
+use super::load_build;
 use super::motion::{Motion as MotionCase, MotionOf};
 use super::section::{Interpolation as InterpolationCase, Section as SectionCase, Shape as ShapeCase};
 use super::section_file;
@@ -291,6 +292,9 @@ pub enum BuildError {
     /// The basis.
     #[error(transparent)]
     Basis(#[from] BasisError),
+    /// A load.
+    #[error(transparent)]
+    Load(#[from] ProfileError),
 }
 
 /// The mechanical system of a case.
@@ -298,7 +302,7 @@ pub enum BuildError {
 /// # Errors
 /// [`BuildError`] when a part of it is refused; a case that was read has passed these checks.
 pub fn system(case: &Case) -> Result<Box<dyn System>, BuildError> {
-    let section = section(&case.section, case.length)?;
+    let section = load_build::laden(section(&case.section, case.length)?, case)?;
     let drive = drive(&case.hub.motion, case.duration)?;
     let (length, stations) = (case.length, &case.output.stations);
     let hub = Hub { radius: case.hub.radius, inertia: case.hub.inertia, drive };
@@ -314,7 +318,7 @@ pub fn system(case: &Case) -> Result<Box<dyn System>, BuildError> {
                 return Err(SectionError::Invalid(jump).into());
             }
             let coupling = ExactCoupling::new(length, elements, section.as_ref(), &hub)?;
-            return Ok(record(HubBeam::new(hub, coupling, stations), case, section.as_ref()));
+            return finished(HubBeam::new(hub, coupling, stations), section.as_ref(), case);
         }
     };
     let axial = basis(&case.bases.axial, length, Field::Axial)?;
@@ -322,21 +326,26 @@ pub fn system(case: &Case) -> Result<Box<dyn System>, BuildError> {
     let fields = Fields::new(length, axial, transverse, section.breaks());
     if case.coupling == Coupling::High {
         let coupling = HighCoupling::new(fields, section.as_ref(), &hub);
-        return Ok(record(HubBeam::new(hub, coupling, stations), case, section.as_ref()));
+        return finished(HubBeam::new(hub, coupling, stations), section.as_ref(), case);
     }
     let coupling = LinearCoupling::new(fields, section.as_ref(), &hub, foreshortening);
-    Ok(record(HubBeam::new(hub, coupling, stations), case, section.as_ref()))
+    finished(HubBeam::new(hub, coupling, stations), section.as_ref(), case)
 }
 
-/// The system with the section forces and strains that the case wants recorded.
-fn record<C: HubCoupling + 'static>(
+/// A system under the loads and with the damping of a case, and with the section forces and strains that it wants
+/// recorded.
+fn finished<C: HubCoupling + 'static>(
     system: HubBeam<C>,
-    case: &Case,
     section: &dyn Section,
-) -> Box<dyn System> {
+    case: &Case,
+) -> Result<Box<dyn System>, BuildError> {
+    let loads = load_build::loads(case)?;
+    let loads: Vec<_> = loads.iter().map(|load| load.as_ref()).collect();
+    let system = if loads.is_empty() { system } else { system.with_loads(section, &loads) };
+    let system = system.with_damping(case.loads.damping);
     let output = &case.output;
     if !output.section_forces && output.strain_heights.is_empty() {
-        return Box::new(system);
+        return Ok(Box::new(system));
     }
     let sampling = match (case.coupling, &case.bases.axial, &case.bases.transverse) {
         (Coupling::Exact, ..) => Sampling::Curve,
@@ -347,5 +356,5 @@ fn record<C: HubCoupling + 'static>(
         ) if elements == transverse => Sampling::Elements(*axial_degree),
         _ => Sampling::Station,
     };
-    Box::new(system.with_section_forces(section, sampling, output.section_forces, &output.strain_heights))
+    Ok(Box::new(system.with_section_forces(section, sampling, output.section_forces, &output.strain_heights)))
 }

@@ -5,6 +5,8 @@ use super::declaration::{
     Bound::*, Key, Kind, Presence as Default, Presence::*, Seam, Type, Type::Quantity, key,
 };
 use super::integrator::{self, Integrator};
+use super::load_trial;
+use super::loads::{self, Loads};
 use super::motion::{self, Motion};
 use super::problem::{Problem, Problems};
 use super::restart;
@@ -30,6 +32,8 @@ pub struct Case {
     pub coupling: Coupling,
     /// The bases of the two displacement fields.
     pub bases: Bases,
+    /// What acts on the beam and what it carries.
+    pub loads: Loads,
     /// The state at t = 0.
     pub initial: Initial,
     /// The integrator.
@@ -177,6 +181,9 @@ pub(super) static SEAMS: &[&Seam] = &[
     &motion::SEAM,
     &torque::TORQUES,
     &torque::CONTROLLERS,
+    &loads::AXES,
+    &loads::AMPLITUDE,
+    &loads::DISTRIBUTION,
     &COUPLING,
     &basis::SEAM,
     &basis::FIELD,
@@ -226,6 +233,12 @@ pub(super) static KEYS: &[Key] = &[
         "model of the beam",
     ),
     key("basis", Type::Kind(&basis::SEAM), Default::Name("finite-elements"), "basis of the displacements"),
+    loads::GRAVITY,
+    loads::MASSES,
+    loads::FORCES,
+    loads::COUPLES,
+    loads::DISTRIBUTED,
+    loads::DAMPING,
     key("initial", Type::Kind(&INITIAL), Default::Name("undeformed"), "state at the start"),
     key("integrator", Type::Kind(&integrator::SEAM), Default::Name("radau"), "integrator"),
     key(
@@ -309,6 +322,8 @@ pub(super) fn case(values: &mut Values, folder: &Path, problems: &mut Problems) 
     trial::section(section.as_ref(), length, exact_elements, values, problems);
     let integrator = values.kind("integrator").and_then(|(kind, v)| integrator::read(kind, v));
     trial::integrator(integrator.as_ref(), values, problems);
+    let loads = loads::read(values);
+    load_trial::loads(&loads, (length, run_duration), integrator.as_ref(), values, problems);
     let initial = values.kind("initial").and_then(|(kind, v)| {
         Some(match kind.name {
             "steady-rotation" => Initial::SteadyRotation,
@@ -404,6 +419,7 @@ pub(super) fn case(values: &mut Values, folder: &Path, problems: &mut Problems) 
         hub: Hub { radius: hub?.number("radius")?, inertia: hub?.number("inertia")?, motion: motion? },
         coupling: coupling?,
         bases: bases?,
+        loads,
         initial: initial?,
         integrator: integrator?,
         duration: run_duration?,

@@ -19,6 +19,9 @@ pub mod units;
 mod basis;
 mod integrator;
 mod layout;
+mod load_build;
+mod load_trial;
+pub mod loads;
 mod motion;
 mod problem;
 mod reader;
@@ -125,6 +128,7 @@ impl Reading {
                 BuildError::Section(_) => "section",
                 BuildError::Motion(_) => "hub.motion",
                 BuildError::Basis(_) => "basis",
+                BuildError::Load(_) => "force",
             };
             self.problem(key, error.to_string())
         })?;

@@ -50,6 +50,12 @@ measures! {
     TORQUE "torque" "N*m" [2, 1, -2, 0] "`20 N*m`, `1.5 kN*m`";
     ANGULAR_STIFFNESS "torque per angle" "N*m/rad" [2, 1, -2, -1] "`100 N*m/rad`";
     ANGULAR_DAMPING "torque per angular speed" "N*m*s/rad" [2, 1, -1, -1] "`5 N*m*s/rad`";
+    FORCE "force" "N" [1, 1, -2, 0] "`10 N`, `2 kN`, `5 lbf`";
+    FORCE_PER_LENGTH "force per length" "N/m" [0, 1, -2, 0] "`10 N/m`, `2 kN/m`";
+    MASS "mass" "kg" [0, 1, 0, 0] "`2 kg`, `300 g`";
+    ACCELERATION "acceleration" "m/s^2" [1, 0, -2, 0] "`9.81 m/s^2`";
+    RATE "rate" "1/s" [0, 0, -1, 0] "`0.2 1/s`";
+    FACTOR "factor" "1" [0, 0, 0, 0] "`1`, `0.5`";
     ANGULAR_SPEED "angular speed" "rad/s" [0, 0, -1, 1] "`4 rad/s`, `3000 rpm`, `90 deg/s`";
 }
 

@@ -69,6 +69,10 @@ impl Coupling for HighCoupling {
         "high"
     }
 
+    fn strain_terms(&self, visit: &mut dyn FnMut(&[usize], &[f64], f64)) -> bool {
+        self.linear.strain_terms(visit)
+    }
+
     fn fields(&self) -> &Fields {
         self.linear.fields()
     }
