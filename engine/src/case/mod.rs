@@ -17,6 +17,8 @@ mod error;
 pub mod units;
 
 mod basis;
+mod blade;
+mod blade_file;
 mod integrator;
 mod layout;
 mod motion;
@@ -36,6 +38,8 @@ mod values;
 
 pub use basis::{Bases, Basis, RadialBasis};
 pub use error::{ColumnError, Errors};
+pub use blade::{Blade, StrainEnergy};
+pub use blade_file::BladeFormat;
 pub use integrator::Integrator;
 pub use layout::{Case, Coupling, Hub, Initial, Output};
 pub use motion::{Motion, MotionOf};
@@ -125,6 +129,7 @@ impl Reading {
                 BuildError::Section(_) => "section",
                 BuildError::Motion(_) => "hub.motion",
                 BuildError::Basis(_) => "basis",
+                BuildError::Blade(_) => "blade",
             };
             self.problem(key, error.to_string())
         })?;

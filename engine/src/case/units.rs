@@ -38,6 +38,7 @@ measures! {
     SECOND_MOMENT "second moment of area" "m^4" [4, 0, 0, 0] "`2e-7 m^4`, `20 cm^4`";
     MODULUS "modulus" "Pa" [-1, 1, -2, 0] "`70 GPa`, `210e9 Pa`";
     DENSITY "density" "kg/m^3" [-3, 1, 0, 0] "`3000 kg/m^3`, `2.7 g/cm^3`";
+    MASS "mass" "kg" [0, 1, 0, 0] "`5 kg`, `300 g`";
     MASS_PER_LENGTH "mass per length" "kg/m" [-1, 1, 0, 0] "`1.2 kg/m`, `350 g/m`";
     FIRST_MASS_MOMENT "first mass moment per length" "kg" [0, 1, 0, 0] "`0.01 kg`";
     ROTARY_INERTIA "rotary inertia per length" "kg*m" [1, 1, 0, 0] "`6e-4 kg*m`";
