@@ -3,15 +3,14 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
 
-use flexion::analysis::equilibrium;
-use flexion::basis::Basis as _;
+use flexion::analysis::equilibrium::equilibrium;
 use flexion::blade::{Blade, Component, Model, Setting, StrainEnergy};
 use flexion::case::{build, parse};
 use flexion::hub_beam::{Coupling as _, Drive, ExactCoupling, Hub, HubBeam};
 use flexion::linalg::{Matrix, negative_pivots};
 use flexion::profile::{Constant, Motion};
 use flexion::quadrature::Gauss;
-use flexion::section::{BladeResultants, Resultants, Section as _, Uniform};
+use flexion::section::{BladeResultants, Resultants, Uniform};
 use flexion::system::{State, System, Weights};
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -59,7 +58,8 @@ fn nrel() -> flexion::case::Reading {
 #[test]
 fn the_nrel_blade_has_its_published_mass() {
     // J. Jonkman, S. Butterfield, W. Musial & G. Scott, NREL/TP-500-38060 (2009), table 2-2: 17 740 kg,
-    // 363 231 kg·m and 11 776 047 kg·m² about the root.
+    // 363 231 kg·m and 11 776 047 kg·m² about the root: what the report's program integrates with its own, coarser
+    // stations. Straight lines between the rows give 0.7 % less mass.
     let section = build::section(&nrel().case.section, 61.5).unwrap();
     let mut cuts = vec![0.0];
     cuts.extend(section.breaks());
@@ -68,20 +68,25 @@ fn the_nrel_blade_has_its_published_mass() {
     for (power, published) in [(0, 17_740.0), (1, 363_231.0), (2, 11_776_047.0)] {
         let mass = |x: f64| section.resultants(x).mass * x.powi(power);
         let found: f64 = cuts.windows(2).map(|c| gauss.integrate(c[0], c[1], mass)).sum();
-        assert!((found / published - 1.0_f64).abs() < 3e-3, "{power}: {found} for {published}");
+        assert!((found / published - 1.0_f64).abs() < 1e-2, "{power}: {found} for {published}");
     }
 }
 
 #[test]
 fn the_nrel_blade_has_its_published_frequencies() {
     // The same report, table 9-1, of the parked turbine by FAST: first collective flap 0.6993 Hz, first
-    // asymmetric edgewise 1.0793 and 1.0898 Hz, second collective flap 2.0205 Hz. These are of the blades on their
-    // turbine, whose hub gives way in edgewise motion: an isolated blade is held to 2 %.
+    // asymmetric edgewise 1.0793 and 1.0898 Hz, second collective flap 2.0205 Hz: of blades in three assumed modes on a
+    // turbine that gives way. An isolated blade is held to 5 %, and to 1e-4 to the frequencies of 1500 lumped masses
+    // on the flexibilities of the twisted blade, in a program apart from this one.
     let mut blade = build::blade(&nrel().case).unwrap().unwrap();
     for (number, published) in [(1, 0.6993), (2, 1.0845), (3, 2.0205)] {
         let found = frequency(&mut blade, number);
         println!("mode {number}: {found:.4} Hz at rest, published {published} Hz");
-        assert!((found / published - 1.0_f64).abs() < 0.02, "mode {number}: {found} for {published}");
+        assert!((found / published - 1.0_f64).abs() < 0.05, "mode {number}: {found} for {published}");
+    }
+    for (i, lumped) in [0.677699, 1.086436, 1.954316, 4.009036, 4.555737].into_iter().enumerate() {
+        let found = frequency(&mut blade, i + 1);
+        assert!((found / lumped - 1.0_f64).abs() < 1e-4, "mode {}: {found} for {lumped}", i + 1);
     }
     let at_rest = frequency(&mut blade, 1);
     blade.set_speed(12.1 * TAU / 60.0).unwrap();
