@@ -37,9 +37,9 @@ mod trial;
 mod values;
 
 pub use basis::{Bases, Basis, RadialBasis};
-pub use error::{ColumnError, Errors};
 pub use blade::{Blade, StrainEnergy};
 pub use blade_file::BladeFormat;
+pub use error::{ColumnError, Errors};
 pub use integrator::Integrator;
 pub use layout::{Case, Coupling, Hub, Initial, Output};
 pub use motion::{Motion, MotionOf};
