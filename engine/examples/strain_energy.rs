@@ -110,7 +110,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     let figure = Figure { title: None, panels, columns: 2, share_x: false };
     let drawing = figure.draw();
-    std::fs::write(format!("{folder}/strain_energy.svg"), drawing.svg())?;
     std::fs::write(format!("{folder}/strain_energy.png"), drawing.png()?)?;
     Ok(())
 }
