@@ -4,6 +4,8 @@
 #![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
 
 use flexion::analysis::equilibrium::equilibrium;
+use flexion::analysis::modes::modes;
+use flexion::analysis::rotation::{rotate, rotate_stably};
 use flexion::blade::{Blade, Component, Model, Setting, StrainEnergy};
 use flexion::case::{build, parse};
 use flexion::hub_beam::{Coupling as _, Drive, ExactCoupling, Hub, HubBeam};
@@ -152,4 +154,36 @@ fn in_the_plane_of_rotation_the_exact_blade_is_the_exact_hub_beam() {
             }
         }
     }
+}
+
+#[test]
+fn modes_are_found_through_the_seam_and_say_which_way_they_swing() {
+    let section = BladeResultants {
+        mass: 1.0,
+        axial_stiffness: 4900.0,
+        flap_stiffness: 1.0,
+        chord_stiffness: 2.0,
+        ..BladeResultants::default()
+    };
+    let setting = Setting { length: 1.0, ..Setting::default() };
+    let model = Model { torsion: false, strain_energy: StrainEnergy::Linear, ..Model::default() };
+    let mut blade = Blade::new(setting, &section, model, 30).unwrap();
+    let mut state = State::zeros(blade.size(), 0.0);
+    rotate_stably(&mut blade, &mut state, 0.0, 6.0).unwrap();
+    let found = modes(&mut blade, &state, 4, &[0.5, 1.0]).unwrap();
+    // Flapwise γ = 6: Wright et al. 1982.
+    let flap: Vec<f64> = found.modes.iter().filter(|m| m.shares.flap > 0.5).map(|m| m.frequency()).collect();
+    assert!((flap[0] - 7.360).abs() < 6e-4 && (flap[1] - 26.809).abs() < 6e-4, "{flap:?}");
+    for mode in &found.modes {
+        assert!(mode.shares.flap > 1.0 - 1e-9 || mode.shares.flap < 1e-9, "{:?}", mode.shares);
+        assert!(mode.damping_ratio().abs() < 1e-9);
+    }
+    // A soft blade cannot be held at a speed at which its strain would be infinite.
+    let exact = Model { strain_energy: StrainEnergy::Exact, ..model };
+    let mut soft = Blade::new(setting, &section, exact, 10).unwrap();
+    let mut state = State::zeros(soft.size(), 0.0);
+    let error = rotate(&mut soft, &mut state, 0.0, 300.0).unwrap_err();
+    // x + w₁ = sin(βx)/(β cos β), β = Ω √(ρA/EA): at β = π/2 the stretch is infinite.
+    let limit = std::f64::consts::FRAC_PI_2 * 70.0;
+    assert!((error.reached() / limit - 1.0).abs() < 0.1, "{error}");
 }
