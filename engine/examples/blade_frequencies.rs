@@ -3,6 +3,8 @@
 //!
 //! `cargo run --release --example blade_frequencies -- CASE COUNT SPEED…`, speeds in rad/s
 
+#![allow(clippy::print_stdout)] // what it is for
+
 use flexion::case::{build, read};
 use flexion::linalg::{Matrix, negative_pivots};
 use flexion::system::{State, System, Weights};

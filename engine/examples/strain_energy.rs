@@ -3,6 +3,8 @@
 //!
 //! `cargo run --release --example strain_energy [FOLDER]`
 
+#![allow(clippy::print_stdout)] // what it is for
+
 use flexion::blade::{Blade, BladeError, Model, Setting, StrainEnergy, Terms};
 use flexion::linalg::{Matrix, negative_pivots};
 use flexion::output::plot::{Axis, Figure, Line, Panel, Series};

@@ -143,7 +143,7 @@ fn keyword(text: &str, key: &str, name: &str) -> Result<Option<f64>, String> {
 /// The number of stations that a file announces.
 fn stations(text: &str, key: &str, name: &str) -> Result<usize, String> {
     match keyword(text, key, name)? {
-        Some(count) if count >= 2.0 && count <= 1e6 && count.fract() == 0.0 => Ok(count as usize),
+        Some(count) if (2.0..=1e6).contains(&count) && count.fract() == 0.0 => Ok(count as usize),
         Some(count) => Err(format!("{name} says `{key}` = {count}: a blade needs at least two stations")),
         None => Err(format!("{name} has no line with `{key}`, the number of stations")),
     }

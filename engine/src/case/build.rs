@@ -208,6 +208,17 @@ pub fn blade(case: &Case) -> Result<Option<Blade>, BuildError> {
     case.blade.as_ref().map(build).transpose()
 }
 
+/// What vibrates about a steady rotation: the blade of a case, or its hub–beam if it has no `[blade]`.
+///
+/// # Errors
+/// As [`blade`] and [`system`].
+pub fn vibrating(case: &Case) -> Result<Box<dyn System>, BuildError> {
+    match blade(case)? {
+        Some(blade) => Ok(Box::new(blade)),
+        None => system(case),
+    }
+}
+
 /// Why a motion cannot be built.
 #[derive(Debug, thiserror::Error)]
 pub enum MotionError {
