@@ -167,7 +167,7 @@ fn elastodyn(text: &str, name: &str, length: f64) -> Result<Vec<(f64, BladeResul
     let mut rows = Vec::new();
     // The line of units stands between.
     for (number, line) in lines.skip(1).take(count) {
-        if line.trim_start().starts_with('-') && line.contains("----") {
+        if line.trim_start().starts_with("---") {
             break;
         }
         let row = numbers(line, number, name)?;
