@@ -34,6 +34,23 @@ const TABLE: &str = "# measured\ntime,speed\n0, 0\n0.02, 0.3\n0.05,1.1\n0.1, 4\n
 
 const SECTION: &str = "x,mass,EA,EI\n0,1.1,2.8e7,930\n1,1.0,2.6e7,900\n2,0.8,2.1e7,700\n";
 
+const BLADE: &str = "x,mass,EA,EI-flap,EI-chord,twist\n0,1.1,2.8e7,930,1200,0.1\n2,0.8,2.1e7,700,800,0\n";
+
+const ELASTODYN: &str = "--- blade\n2 NBlInpSt\nBlFract StrcTwst BMassDen FlpStff EdgStff\n(-) (deg) (kg/m) (Nm^2) (Nm^2)\n0 5 1.1 930 1200\n1 0 0.8 700 800\n";
+
+/// A BeamDyn file of two equal stations.
+fn beamdyn() -> String {
+    let matrix = |entries: [f64; 6]| {
+        let row = |i: usize| {
+            (0..6).map(|j| format!("{} ", if i == j { entries[i] } else { 0.0 })).collect::<String>()
+        };
+        (0..6).map(|i| row(i) + "\n").collect::<String>() + "\n"
+    };
+    let station =
+        matrix([1e6, 1e6, 2.8e7, 1200.0, 930.0, 500.0]) + &matrix([1.1, 1.1, 1.1, 0.01, 0.01, 0.02]);
+    format!("--- blade\n2 station_total\n--- Distributed Properties\n0.0\n{station}1.0\n{station}")
+}
+
 /// Changes to the base case, which together use every kind there is.
 const VARIATIONS: &[&str] = &[
     "title=base",
@@ -48,6 +65,12 @@ const VARIATIONS: &[&str] = &[
     "section={kind='piecewise', ends=[1, 2], modulus=['70 GPa', '60 GPa'], density=[2700, 2600], area=['4 cm^2', '3 cm^2'], second-moment=['2e-8 m^4', '1e-8 m^4']}",
     "section={kind='table', file='tables/section.csv', interpolation='linear'}",
     "section={kind='table', file='tables/section.csv', interpolation='cubic'}",
+    "section={kind='blade', file='tables/blade.csv'}",
+    "section={kind='blade', file='tables/blade_elastodyn.dat', format='elastodyn'}",
+    "section={kind='blade', file='tables/blade_beamdyn.dat', format='beamdyn'}",
+    "blade={pitch='5 deg', twist='-20 deg', strain-energy='linear', tip-mass='10 g'}",
+    "blade.strain-energy=coupled",
+    "blade={precone='2 deg', strain-energy='exact', torsion=false}",
     "hub={inertia=5, motion={kind='free', torque={kind='constant', torque=3}}}",
     "hub={inertia=5, motion={kind='free', torque={kind='ramp', torque=3, time='0.02 s'}, controller={kind='pd', proportional=3, derivative=1, target='0.1 rad'}}}",
     "hub={inertia=5, motion={kind='free', torque={kind='table', file='tables/measured.csv'}, controller={kind='none'}}}",
@@ -130,6 +153,9 @@ fn a_run_is_repeated_byte_for_byte_from_the_resolved_case_alone() {
         fs::write(folder.path().join("tables/measured.csv"), TABLE).unwrap();
         fs::write(folder.path().join("tables/section.csv"), SECTION).unwrap();
         fs::copy(earlier.join("state.npz"), folder.path().join("tables/state.npz")).unwrap();
+        fs::write(folder.path().join("tables/blade.csv"), BLADE).unwrap();
+        fs::write(folder.path().join("tables/blade_elastodyn.dat"), ELASTODYN).unwrap();
+        fs::write(folder.path().join("tables/blade_beamdyn.dat"), beamdyn()).unwrap();
         run(&case, &[variation], &first);
         fs::remove_dir_all(folder.path().join("tables")).unwrap();
         run(&first.join("case.resolved.toml"), &[], &second);
@@ -159,6 +185,9 @@ fn every_kind_is_repeated() {
     fs::create_dir(folder.path().join("tables")).unwrap();
     fs::write(folder.path().join("tables/measured.csv"), TABLE).unwrap();
     fs::write(folder.path().join("tables/section.csv"), SECTION).unwrap();
+    fs::write(folder.path().join("tables/blade.csv"), BLADE).unwrap();
+    fs::write(folder.path().join("tables/blade_elastodyn.dat"), ELASTODYN).unwrap();
+    fs::write(folder.path().join("tables/blade_beamdyn.dat"), beamdyn()).unwrap();
     let mut used = BTreeSet::new();
     for variation in VARIATIONS {
         let reading = read(&case, &[(*variation).to_owned()]).unwrap();

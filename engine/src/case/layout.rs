@@ -1,6 +1,7 @@
 //! The layout of a case file, and the case in SI that comes out of it.
 
 use super::basis::{self, Bases, Basis};
+use super::blade::{self, Blade};
 use super::declaration::{
     Bound::*, Key, Kind, Presence as Default, Presence::*, Seam, Type, Type::Quantity, key,
 };
@@ -28,6 +29,8 @@ pub struct Case {
     pub section: Section,
     /// The hub.
     pub hub: Hub,
+    /// What makes the beam a blade; `None` for a beam in the plane of rotation.
+    pub blade: Option<Blade>,
     /// The kinematic model.
     pub coupling: Coupling,
     /// The bases of the two displacement fields.
@@ -184,6 +187,7 @@ pub(super) static SEAMS: &[&Seam] = &[
     &loads::AXES,
     &loads::AMPLITUDE,
     &loads::DISTRIBUTION,
+    &blade::STRAIN_ENERGY,
     &COUPLING,
     &basis::SEAM,
     &basis::FIELD,
@@ -220,6 +224,12 @@ pub(super) static KEYS: &[Key] = &[
         ]),
         Required,
         "hub and its motion",
+    ),
+    key(
+        "blade",
+        Type::Table(blade::KEYS),
+        Optional,
+        "makes the beam a blade, which also bends out of the plane and twists",
     ),
     key(
         "model",
@@ -411,12 +421,18 @@ pub(super) fn case(values: &mut Values, folder: &Path, problems: &mut Problems) 
     } else {
         trial::bases(bases.as_ref(), length, values, problems);
     }
+    let blade = values.table("blade").map(blade::read);
+    trial::blade(blade.as_ref().and_then(Option::as_ref), section.as_ref(), length, values, problems);
     let hub = values.table("hub");
     Some(Case {
         title: values.text("title")?.to_owned(),
         length: length?,
         section: section?,
         hub: Hub { radius: hub?.number("radius")?, inertia: hub?.number("inertia")?, motion: motion? },
+        blade: match blade {
+            Some(blade) => Some(blade?),
+            None => None,
+        },
         coupling: coupling?,
         bases: bases?,
         loads,
