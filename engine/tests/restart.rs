@@ -100,7 +100,7 @@ fn a_stopped_run_goes_on_as_if_it_had_never_stopped() {
             let mut set = model.to_vec();
             set.push(integrator);
             if integrator.contains("runge") {
-                set.push("run.duration=0.15 s");
+                set.extend(["run.duration=0.15 s", "output.step=2 ms"]);
             }
             if integrator.contains("adams") {
                 set.extend(["run.duration=0.01 s", "output.step=0.1 ms"]);
