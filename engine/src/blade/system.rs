@@ -8,7 +8,7 @@ use super::model::{BladeError, Model, Setting, StrainEnergy};
 use super::tension::Tension;
 use crate::linalg::{Matrix, Storage, Structure};
 use crate::section::BladeSection;
-use crate::system::{Channel, Energy, Frame, Label, Power, Size, State, System, Weights};
+use crate::system::{Channel, Direction, Energy, Frame, Label, Power, Size, State, System, Weights};
 
 /// A rotating blade. See the [module documentation](super).
 ///
@@ -212,6 +212,20 @@ impl System for Blade {
             }
         }
         out.set_stamp(Some(stamp));
+    }
+
+    fn turn_steadily(&mut self, speed: f64) -> bool {
+        self.set_speed(speed).is_ok()
+    }
+
+    fn direction(&self, i: usize) -> Direction {
+        match self.components().get(i) {
+            Some(Component::Axial) => Direction::Axial,
+            Some(Component::Chordwise) => Direction::Chord,
+            Some(Component::Flapwise) => Direction::Flap,
+            Some(Component::Torsion) => Direction::Torsion,
+            None => Direction::Other,
+        }
     }
 
     fn is_affine(&self) -> bool {
