@@ -90,7 +90,8 @@ fn the_first_frequency_is_right_at_ten_thousand_elements() {
     // At rest, where it is known, and turning, against a mesh on which doubles would do.
     let first_at = |n, speed| frequencies(&at(first(n, 1000.0, 0.0).as_mut(), speed, 1))[0];
     assert!((first_at(10_000, 0.0) / CANTILEVER[0] - 1.0).abs() < 1e-10);
-    assert!((first_at(10_000, 3.0) / first_at(200, 3.0) - 1.0).abs() < 1e-10);
+    // The centrifugal stiffness is stored in doubles: ε n² of rounding.
+    assert!((first_at(10_000, 3.0) / first_at(200, 3.0) - 1.0).abs() < f64::EPSILON * 1e8);
 }
 
 #[test]
