@@ -441,10 +441,10 @@ impl<C: Coupling> System for HubBeam<C> {
         let speed = self.kinematics(s).speed.abs();
         let critical = self.coupling.critical_speed(speed)?;
         let since = match &self.hub.drive {
-            Drive::Prescribed(motion) => {
+            Drive::Prescribed(motion) if s.t > 0.0 => {
                 format!("since t = {:.3} s ", first_time_above(motion, critical, s.t))
             }
-            Drive::Free(_) => String::new(),
+            _ => String::new(),
         };
         let why = match self.coupling.name() {
             "zeroth" => {

@@ -18,9 +18,13 @@ pub fn modes_figure(modes: &Modes, stations: &[f64], unit: &Frequencies, title: 
         series: shape(mode, stations),
     };
     let mut panels: Vec<Panel> = modes.modes.iter().take(MOST).enumerate().map(panel).collect();
-    // The names of the curves once.
-    for panel in panels.iter_mut().skip(1) {
-        panel.series.iter_mut().for_each(|series| series.name = None);
+    // The name of a curve once.
+    let mut named = Vec::new();
+    for series in panels.iter_mut().flat_map(|panel| &mut panel.series) {
+        if named.contains(&series.color) {
+            series.name = None;
+        }
+        named.push(series.color);
     }
     Figure { title: title.map(String::from), columns: panels.len().min(2), share_x: true, panels }
 }
@@ -42,7 +46,8 @@ fn shape(mode: &Mode, stations: &[f64]) -> Vec<Series> {
         color: Some(axis),
         ..Series::default()
     };
-    (0..3).map(curve).collect()
+    let moves = |series: &Series| series.points.iter().any(|p| p.1.abs() > 1e-6);
+    (0..3).map(curve).filter(moves).collect()
 }
 
 /// Frequencies against the speed, with the lines of whole revolutions and their crossings marked.
