@@ -320,6 +320,7 @@ impl<C: Coupling> System for HubBeam<C> {
         let storage = rest.begin();
         self.coupling.inertia().tangent_without_strain(&hub, storage);
         self.coupling.add_tangent(s, &hub, &w, storage);
+        self.loads.subtract_tangent(s, &hub, &w, storage);
         self.write_border(s, &hub, &w, storage);
         true
     }
