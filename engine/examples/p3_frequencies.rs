@@ -13,7 +13,7 @@ use std::path::Path;
 
 const SPEEDS: [f64; 9] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 10.0, 20.0, 50.0];
 const EXPONENTS: [f64; 6] = [0.0, 0.5, 1.0, 2.0, 5.0, 10.0];
-const MODES: &str = "basis={kind='modes',count=4}";
+const MODES: &str = "basis={kind='modes',axial=4,transverse=4}";
 const ELEMENTS: &str = "basis={kind='finite-elements',elements=10,axial-degree=2}";
 
 /// τ = (12 ρt L⁴ / (Et h²))^½ of P3's beam: metal 70 GPa, 2707 kg/m³, L = 5 m, h = 20 mm.
