@@ -7,7 +7,7 @@ use super::load::Kinematics;
 use super::station::{Placement, Station};
 use crate::linalg::{Storage, Structure};
 use crate::profile::HubKinematics;
-use crate::system::{State, Weights};
+use crate::system::{State, VisitTerm, Weights};
 
 /// A kinematic model of the beam: everything that differs between `zeroth`, `first`, `high` and `exact`.
 ///
@@ -38,7 +38,7 @@ pub trait Coupling {
 
     /// Gives `visit` the terms w b bᵀ of the strain energy in the tangent of [`Coupling::inertia`]: unknowns, entries
     /// of b, w. `false` where the strain energy is not there or not quadratic.
-    fn strain_terms(&self, _visit: &mut dyn FnMut(&[usize], &[f64], f64)) -> bool {
+    fn strain_terms(&self, _visit: &mut VisitTerm<'_>) -> bool {
         false
     }
 

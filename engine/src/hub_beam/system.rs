@@ -10,7 +10,9 @@ use super::station::{Placement, Station};
 use crate::linalg::{Matrix, Storage, Structure};
 use crate::profile::{Constant, HubKinematics, Motion};
 use crate::section::Section;
-use crate::system::{Channel, Direction, Energy, Frame, Label, Power, Size, State, System, Weights};
+use crate::system::{
+    Channel, Direction, Energy, Frame, Label, Power, Size, State, System, VisitTerm, Weights,
+};
 use std::sync::Arc;
 
 /// A flexible beam on a hub. See the [module documentation](super).
@@ -307,12 +309,7 @@ impl<C: Coupling> System for HubBeam<C> {
         true
     }
 
-    fn stiffness_terms(
-        &mut self,
-        s: &State,
-        rest: &mut Matrix,
-        visit: &mut dyn FnMut(&[usize], &[f64], f64),
-    ) -> bool {
+    fn stiffness_terms(&mut self, s: &State, rest: &mut Matrix, visit: &mut VisitTerm<'_>) -> bool {
         if !self.coupling.strain_terms(visit) {
             return false;
         }

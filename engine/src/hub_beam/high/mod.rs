@@ -69,7 +69,7 @@ impl Coupling for HighCoupling {
         "high"
     }
 
-    fn strain_terms(&self, visit: &mut dyn FnMut(&[usize], &[f64], f64)) -> bool {
+    fn strain_terms(&self, visit: &mut crate::system::VisitTerm<'_>) -> bool {
         self.linear.strain_terms(visit)
     }
 
