@@ -24,12 +24,13 @@
 
 use super::coupling::Coupling;
 use super::damping::Damping;
-use super::element::{Element, Rule};
+use super::element::Element;
 use super::fields::{Fields, Point};
 use super::hub::Hub;
 use super::inertia::{Border, Foreshortening, Inertia, Totals};
 use super::load::Kinematics;
 use super::lumped::LumpedTurn;
+use super::rule::Rule;
 use super::station::{Placement, Station};
 use crate::basis::{BasisError, Field, Hermite};
 use crate::linalg::Storage;

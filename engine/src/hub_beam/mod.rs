@@ -23,6 +23,7 @@ mod linear;
 pub mod load;
 mod lumped;
 mod product;
+mod rule;
 mod section_forces;
 mod station;
 mod system;
