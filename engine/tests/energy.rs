@@ -89,6 +89,47 @@ fn the_balance_of_energy_closes_to_the_order_of_the_method() {
     }
 }
 
+/// Loads of every frame, a lumped mass, gravity and damping of the beam: what they do is in the books.
+const LOADED: &[&str] = &[
+    "gravity={acceleration='9.81 m/s^2',direction='-90 deg'}",
+    "mass=[{station='2 m',mass='300 g',inertia=2e-3},{station=1,mass=0.2}]",
+    "force=[{station='2 m',force=[2,30],frame='follower',amplitude={kind='expression',formula='sin(7*t)^2'}},{station=1,force=[0,-9],frame='dead',amplitude={kind='expression',formula='sin(5*t)^2'}}]",
+    "couple=[{station='1.5 m',couple='3 N*m',amplitude={kind='expression',formula='sin(6*t)'}}]",
+    "distributed-load=[{force=[0,4],frame='hub',amplitude={kind='expression',formula='sin(4*t)'}}]",
+    "damping={mass-proportional='0.5 1/s',stiffness-proportional='0.1 ms'}",
+];
+
+#[test]
+fn the_balance_closes_with_loads_masses_gravity_and_damping() {
+    for drive in ["hub.radius=0.1", FREE] {
+        for coupling in ["model.coupling=first", "model.coupling=exact"] {
+            let with = |more: &[&str]| {
+                let mut set = vec![drive, coupling, "run.duration=0.4", "initial.kind=undeformed"];
+                set.extend(["basis={kind='finite-elements',elements=2}"]);
+                set.extend(LOADED);
+                set.extend(more);
+                run(&set)
+            };
+            let fine = with(&["integrator={kind='radau',tolerance=1e-9,absolute-tolerance=1e-10}"]);
+            let done =
+                ["energy.loads", "energy.dissipated", "energy.drive"].map(|column| largest(&fine, column));
+            let off = largest(&fine, "energy.balance");
+            eprintln!("{drive} {coupling}: {done:?}, off by {off:.2e}");
+            assert!(done.iter().all(|work| *work > 0.05), "{done:?}");
+            assert!(off < 1e-8, "{drive} {coupling}: {off:.2e} of {done:?}");
+            let off = |step: &str| {
+                largest(
+                    &with(&[&format!("integrator={{kind='generalized-alpha',step='{step}'}}")]),
+                    "energy.balance",
+                )
+            };
+            let order = (off("2 ms") / off("1 ms")).log2();
+            eprintln!("order {order:.2}");
+            assert!((order - 2.0).abs() < 0.35, "{drive} {coupling}: order {order}");
+        }
+    }
+}
+
 /// A free hub slowed by its damper alone: what it loses is what the damper takes.
 #[test]
 fn a_damper_takes_the_energy_of_a_free_hub() {

@@ -5,7 +5,7 @@
 //! ∫P dt of everything outside the energy, and stops a run that gains far more than it was given.
 
 use super::transient::RunError;
-use crate::system::{State, System};
+use crate::system::{Power, State, System};
 
 /// Excess energy, over the largest strain energy of the run, beyond which a run is stopped.
 const EXCESS: f64 = 0.5;
@@ -54,19 +54,19 @@ impl Audit {
         *self = Audit { steps: steps as u64, power, work, uncertainty, initial, largest_strain };
     }
 
-    /// Enters a step of size `h` that ended at `to`; two steps at a time are judged.
+    /// Enters a step of size `h` that ended at `to`, and gives the power there; two steps at a time are judged.
     ///
     /// # Errors
     /// [`RunError::Energy`] when the energy has grown by more than the drive has put in.
-    pub(super) fn enter(&mut self, system: &mut dyn System, h: f64, to: &State) -> Result<(), RunError> {
+    pub(super) fn enter(&mut self, system: &mut dyn System, h: f64, to: &State) -> Result<Power, RunError> {
         self.steps += 1;
-        let (energy, power) = system.energy_and_power(to);
-        let power = power.total();
+        let (energy, at_end) = system.energy_and_power(to);
+        let power = at_end.total();
         self.largest_strain = self.largest_strain.max(energy.strain);
         let [first, middle] = self.power;
         self.power = [middle, power];
         if self.steps % 2 == 1 {
-            return Ok(());
+            return Ok(at_end);
         }
         // Simpson's rule; its difference from the trapezium bounds its error.
         let work = h / 3.0 * (first + 4.0 * middle + power);
@@ -77,11 +77,11 @@ impl Audit {
         // steps their quadrature is no measure. They set the level that later steps are held against.
         if self.steps <= UNJUDGED {
             self.initial += excess;
-            return Ok(());
+            return Ok(at_end);
         }
         if excess > EXCESS * self.largest_strain + self.uncertainty {
             return Err(RunError::Energy { time: to.t, excess, work: self.work, strain: energy.strain });
         }
-        Ok(())
+        Ok(at_end)
     }
 }

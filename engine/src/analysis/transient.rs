@@ -37,7 +37,7 @@ pub struct Step {
 
 /// Someone who watches a run: records, reports progress, stops it.
 pub trait Observer {
-    /// Whether work and losses are to be integrated along the run: one to three evaluations of the power a step.
+    /// Whether work and losses are to be integrated along the run: one to three evaluations of the power a step, whatever is recorded.
     fn wants_books(&self) -> bool {
         false
     }
@@ -367,11 +367,12 @@ impl Run {
             }
             integrator.accept(state, &next);
             self.count += 1;
-            if let Some(audit) = &mut self.audit {
-                audit.enter(system, h, &next)?;
-            }
+            let power = match &mut self.audit {
+                Some(audit) => Some(audit.enter(system, h, &next)?),
+                None => None,
+            };
             if let Some(ledger) = &mut self.ledger {
-                ledger.enter(system, integrator, (state, &next));
+                ledger.enter(system, integrator, (state, &next), power);
             }
             self.show(system, integrator, state, &next, plan, observer);
             if let Some(ledger) = &mut self.ledger {
@@ -416,8 +417,8 @@ impl Run {
                 books = self.ledger.as_ref().map(Ledger::end);
             } else {
                 integrator.interpolate(system, from, to, t, &mut self.middle);
-                if let Some(ledger) = &mut self.ledger {
-                    books = Some(ledger.until(system, integrator, (from, to), &self.middle));
+                if let Some(ledger) = &self.ledger {
+                    books = Some(ledger.until((from, to), t));
                 }
             }
             // The very multiple, not a sum of steps that comes close to it.

@@ -50,6 +50,11 @@ pub trait Coupling {
         Totals::default()
     }
 
+    /// The torque of [`Coupling::extra_totals`].
+    fn extra_torque(&mut self, s: &State, hub: &HubKinematics) -> f64 {
+        self.extra_totals(s, hub).torque
+    }
+
     /// Adds to the border of a free hub what is not in [`Coupling::inertia`].
     fn add_border(&mut self, _s: &State, _hub: &HubKinematics, _w: &Weights<'_>, _out: &mut Border) {}
 

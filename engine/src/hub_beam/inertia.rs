@@ -62,6 +62,8 @@ pub struct Inertia {
     bundle: Bundle,
     /// S, unless it vanishes.
     symmetric: Option<Bundle>,
+    /// D and Pᵀ − P, for the torque.
+    torque: Bundle,
     /// M
     mass: Matrix,
     /// D
@@ -121,6 +123,7 @@ impl Border {
 pub struct Scratch {
     all: Vectors,
     symmetric: Option<Vectors>,
+    torque: Vectors,
 }
 
 impl Inertia {
@@ -203,6 +206,7 @@ impl Inertia {
         Inertia {
             bundle: bundle([Some(&m), Some(&gyroscopic), stiff, stiffened]),
             symmetric: unless_zero(&symmetric, largest(&p)).map(|s| bundle([Some(s), Some(s), None, None])),
+            torque: bundle([Some(&d), Some(&gyroscopic), None, None]),
             mass: m,
             centrifugal: d,
             stiffness: k,
@@ -237,7 +241,11 @@ impl Inertia {
 
     /// Scratch for the products of these matrices.
     pub fn scratch(&self) -> Scratch {
-        Scratch { all: self.bundle.vectors(), symmetric: self.symmetric.as_ref().map(Bundle::vectors) }
+        Scratch {
+            all: self.bundle.vectors(),
+            symmetric: self.symmetric.as_ref().map(Bundle::vectors),
+            torque: self.torque.vectors(),
+        }
     }
 
     /// The mass matrix M, the matrix D of the centrifugal forces and the stiffness matrix K.
@@ -251,7 +259,7 @@ impl Inertia {
         let (w, w1, w2) = (hub.speed, hub.acceleration, hub.speed * hub.speed);
         let (q, v, a) = (&s.q[..n], &s.v[..n], &s.a[..n]);
         let (sx, sy, r) = (&self.axial_moment[..n], &self.transverse_moment[..n], &mut r[..n]);
-        let Scratch { all: x, symmetric: y } = x;
+        let Scratch { all: x, symmetric: y, .. } = x;
         let constant = |i: usize| w1 * sy[i] - w2 * sx[i];
         if self.damping.is_none() {
             x.set(0, |i| a[i] - w2 * q[i]);
@@ -305,7 +313,7 @@ impl Inertia {
         let (q, v, a) = (&s.q[..n], &s.v[..n], &s.a[..n]);
         let (mut vmv, mut qdq, mut qdv) = (0.0, 0.0, 0.0);
         let (mut vpq, mut aeq, mut vpv) = (0.0, 0.0, 0.0);
-        let Scratch { all: x, symmetric: y } = x;
+        let Scratch { all: x, symmetric: y, .. } = x;
         x.set(0, |i| v[i]);
         x.set(1, |i| q[i]);
         x.set(3, |i| q[i]);
@@ -341,6 +349,32 @@ impl Inertia {
         }
     }
 
+    /// The torque τ of [`Inertia::totals`] alone, for a fourth of the work: with y = ω̇ q + 2ω v,
+    ///
+    /// ```text
+    /// τ = ω̇ J + s_xᵀ(y + ω̇ q) + yᵀD q + s_yᵀa + qᵀP a + vᵀP v
+    /// ```
+    pub fn torque(&self, s: &State, hub: &HubKinematics, x: &mut Scratch) -> f64 {
+        let n = self.len();
+        let (w2, w1) = (2.0 * hub.speed, hub.acceleration);
+        let (q, v, a) = (&s.q[..n], &s.v[..n], &s.a[..n]);
+        let (sx, sy) = (&self.axial_moment[..n], &self.transverse_moment[..n]);
+        let Scratch { symmetric, torque: x, .. } = x;
+        x.set(0, |i| q[i]);
+        x.set(1, |i| 0.5 * q[i]);
+        let mut torque = w1 * self.moment;
+        self.torque.products(x, |i, [dq, gq, ..]| {
+            let y = w1 * q[i] + w2 * v[i];
+            torque += y * (dq + sx[i]) + w1 * (q[i] * sx[i]) + a[i] * (gq + sy[i]);
+        });
+        if let Some((matrix, y)) = self.symmetric.as_ref().zip(symmetric.as_mut()) {
+            y.set(0, |i| q[i]);
+            y.set(1, |i| v[i]);
+            matrix.products(y, |i, [sq, sv, ..]| torque += a[i] * sq + v[i] * sv);
+        }
+        torque
+    }
+
     /// The tangent's row and column of a free hub, and their corner: derivatives of the residual by θ, θ̇, θ̈
     /// and of the torque by q, v, a, with the weights of the integrator.
     ///
@@ -356,7 +390,7 @@ impl Inertia {
         let (sx, sy) = (&self.axial_moment, &self.transverse_moment);
         let (mut by_speed, mut moment) = (0.0, self.moment);
         let (column, row) = (&mut out.column, &mut out.row);
-        let Scratch { all: x, symmetric: y } = x;
+        let Scratch { all: x, symmetric: y, .. } = x;
         // D = M − N; Pᵀ = S + G/2 and P = S − G/2 with G = Pᵀ − P.
         self.each(
             x,

@@ -97,6 +97,7 @@ impl Bundle {
             (TERMS, 11) => self.rows::<{ TERMS * 11 }>(x, f),
             (TERMS, 15) => self.rows::<{ TERMS * 15 }>(x, f),
             (TERMS, _) => self.rows::<0>(x, f),
+            (_, 11) => self.rows::<{ 2 * 11 }>(x, |i, lanes| f(i, pairs(lanes))),
             (_, 15) => self.rows::<{ 2 * 15 }>(x, |i, lanes| f(i, pairs(lanes))),
             _ => self.rows::<0>(x, |i, lanes| f(i, pairs(lanes))),
         }

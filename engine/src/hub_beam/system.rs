@@ -143,9 +143,35 @@ impl<C: Coupling> HubBeam<C> {
     pub fn torque(&mut self, s: &State) -> f64 {
         let hub = self.kinematics(s);
         match &self.hub.drive {
-            Drive::Prescribed(_) => self.totals(s, &hub).torque - self.loads.torque(s, &hub),
+            Drive::Prescribed(_) => self.reaction(s, &hub) - self.loads.torque(s, &hub),
             Drive::Free(free) => free.torque(&hub, s.t).value,
         }
+    }
+
+    /// Torque of [`HubBeam::totals`].
+    fn reaction(&mut self, s: &State, hub: &HubKinematics) -> f64 {
+        self.coupling.inertia().torque(s, hub, &mut self.scratch) + self.coupling.extra_torque(s, hub)
+    }
+
+    /// Power of drive, loads and dampers; `reaction` is the torque of [`HubBeam::totals`], where it is known.
+    fn power_with(&mut self, s: &State, hub: &HubKinematics, reaction: Option<f64>) -> Power {
+        let mut power = Power { loads: self.loads.power(s, hub), ..Power::default() };
+        match &self.hub.drive {
+            // A hub at rest takes no power, whatever holds it.
+            Drive::Prescribed(_) if hub.speed == 0.0 => {}
+            Drive::Prescribed(_) => {
+                let torque = reaction.unwrap_or_else(|| self.reaction(s, hub));
+                power.drive = (torque - self.loads.torque(s, hub)) * hub.speed;
+            }
+            Drive::Free(free) => {
+                power.drive = free.driving_torque(hub, s.t) * hub.speed;
+                power.dissipated = free.damping * hub.speed * hub.speed;
+            }
+        }
+        if self.damped {
+            power.dissipated += self.coupling.dissipated(s);
+        }
+        power
     }
 
     /// Angle, speed and acceleration of the hub.
@@ -338,33 +364,21 @@ impl<C: Coupling> System for HubBeam<C> {
     }
 
     fn energy(&mut self, s: &State) -> Energy {
-        self.energy_and_power(s).0
+        let hub = self.kinematics(s);
+        let kinetic = self.totals(s, &hub).kinetic;
+        Energy { kinetic, strain: self.strain(s, &hub), gravity: self.loads.gravity(s, &hub) }
     }
 
     fn power(&mut self, s: &State) -> Power {
-        self.energy_and_power(s).1
+        let hub = self.kinematics(s);
+        self.power_with(s, &hub, None)
     }
 
     fn energy_and_power(&mut self, s: &State) -> (Energy, Power) {
         let hub = self.kinematics(s);
         let totals = self.totals(s, &hub);
-        let mut power = Power::default();
-        match &self.hub.drive {
-            Drive::Prescribed(_) => {
-                power.drive = (totals.torque - self.loads.torque(s, &hub)) * hub.speed;
-            }
-            Drive::Free(free) => {
-                power.drive = free.driving_torque(&hub, s.t) * hub.speed;
-                power.dissipated = free.damping * hub.speed * hub.speed;
-            }
-        }
-        power.loads = self.loads.power(s, &hub);
-        if self.damped {
-            power.dissipated += self.coupling.dissipated(s);
-        }
-        let gravity = self.loads.gravity(s, &hub);
-        let energy = Energy { kinetic: totals.kinetic, strain: self.strain(s, &hub), gravity };
-        (energy, power)
+        let (strain, gravity) = (self.strain(s, &hub), self.loads.gravity(s, &hub));
+        (Energy { kinetic: totals.kinetic, strain, gravity }, self.power_with(s, &hub, Some(totals.torque)))
     }
 
     fn shape(&mut self, s: &State, stations: &[f64], out: &mut [Frame]) {

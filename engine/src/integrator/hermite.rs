@@ -51,35 +51,43 @@ pub(super) fn quintic(
 ) {
     let h = to.t - from.t;
     let s = fraction(from, to, t);
+    let [value, slope, bend] = quintic_weights(s);
+    let (by_time, by_square) = if h > 0.0 { (1.0 / h, 1.0 / (h * h)) } else { (0.0, 0.0) };
+    // In the order of the weights: increment, then v and a of both ends.
+    let sum = |w: &[f64; 5], scale: f64, i: usize| {
+        let (speeds, accelerations) = (w[1] * from.v[i] + w[2] * to.v[i], w[3] * from.a[i] + w[4] * to.a[i]);
+        scale * (w[0] * increment[i] + h * (speeds + h * accelerations))
+    };
     for i in 0..increment.len() {
-        let [c3, c4, c5] = coefficients(h, increment[i], from, to, i);
-        let (v0, a0) = (h * from.v[i], 0.5 * h * h * from.a[i]);
-        out.a[i] = s * (v0 + s * (a0 + s * (c3 + s * (c4 + s * c5))));
-        let slope = v0 + s * (2.0 * a0 + s * (3.0 * c3 + s * (4.0 * c4 + s * 5.0 * c5)));
-        out.v[i] = if h > 0.0 { slope / h } else { to.v[i] };
+        // The acceleration's slot holds the increment until the configuration is retracted.
+        out.a[i] = sum(&value, 1.0, i);
+        out.v[i] = sum(&slope, by_time, i);
     }
     system.retract(&from.q, &out.a, &mut out.q);
     for i in 0..increment.len() {
-        let [c3, c4, c5] = coefficients(h, increment[i], from, to, i);
-        let bend = s * (6.0 * c3 + s * (12.0 * c4 + s * 20.0 * c5));
-        out.a[i] = if h > 0.0 { from.a[i] + bend / (h * h) } else { to.a[i] };
+        out.a[i] = sum(&bend, by_square, i);
+    }
+    if h <= 0.0 {
+        out.v.copy_from_slice(&to.v);
+        out.a.copy_from_slice(&to.a);
     }
     finish(from, to, s, t, out);
 }
 
-/// Coefficients of s³, s⁴, s⁵.
-fn coefficients(h: f64, d: f64, from: &State, to: &State, i: usize) -> [f64; 3] {
-    let (v0, v1) = (h * from.v[i], h * to.v[i]);
-    let (a0, a1) = (0.5 * h * h * from.a[i], 0.5 * h * h * to.a[i]);
-    // Remainders of value, slope and half bend at s = 1 once the first three coefficients are taken.
-    let value = d - v0 - a0;
-    let slope = v1 - v0 - 2.0 * a0;
-    let bend = a1 - a0;
-    [
-        10.0 * value - 4.0 * slope + bend,
-        -15.0 * value + 7.0 * slope - 2.0 * bend,
-        6.0 * value - 3.0 * slope + bend,
-    ]
+/// Values, first and second derivatives at s of the quintics that take, one each and of the others nothing, the value
+/// at 1, the slopes at 0 and 1, and the second derivatives at 0 and 1.
+fn quintic_weights(s: f64) -> [[f64; 5]; 3] {
+    // Coefficients of s³, s⁴, s⁵, and those of s and s².
+    const HIGH: [[f64; 3]; 5] =
+        [[10.0, -15.0, 6.0], [-6.0, 8.0, -3.0], [-4.0, 7.0, -3.0], [-1.5, 1.5, -0.5], [0.5, -1.0, 0.5]];
+    const LOW: [[f64; 2]; 5] = [[0.0; 2], [1.0, 0.0], [0.0; 2], [0.0, 0.5], [0.0; 2]];
+    let mut weights = [[0.0; 5]; 3];
+    for (k, ([c3, c4, c5], [c1, c2])) in HIGH.into_iter().zip(LOW).enumerate() {
+        weights[0][k] = s * (c1 + s * (c2 + s * (c3 + s * (c4 + s * c5))));
+        weights[1][k] = c1 + s * (2.0 * c2 + s * (3.0 * c3 + s * (4.0 * c4 + s * 5.0 * c5)));
+        weights[2][k] = 2.0 * c2 + s * (6.0 * c3 + s * (12.0 * c4 + s * 20.0 * c5));
+    }
+    weights
 }
 
 /// (t − t₀)/h, 1 for an empty step.

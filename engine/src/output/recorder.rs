@@ -14,6 +14,8 @@ pub struct Recorder<'a> {
     trajectory: Trajectory,
     shapes: Option<Shapes>,
     books: bool,
+    /// Where the system records its kinetic, strain and gravity energy.
+    energies: Vec<usize>,
     watch: &'a mut Watch<'a>,
 }
 
@@ -40,7 +42,9 @@ impl<'a> Recorder<'a> {
         add("step.iterations", "", "Newton iterations of that step");
         let mut trajectory = Trajectory::new(channels);
         trajectory.reserve((plan.end / plan.sample).min(1e7) as usize + 2);
-        Recorder { trajectory, shapes: None, books, watch }
+        let place = |kind: &str| system.channels().iter().position(|c| c.name == format!("energy.{kind}"));
+        let energies = ["kinetic", "strain", "gravity"].into_iter().filter_map(place).collect();
+        Recorder { trajectory, shapes: None, books, energies, watch }
     }
 
     /// The recorder, taking shapes too.
@@ -63,7 +67,10 @@ impl Observer for Recorder<'_> {
         self.trajectory.push(state.t, |row| {
             let (own, common) = row.split_at_mut(system.channels().len());
             system.record(state, own);
-            let total = system.energy(state).total();
+            let total = match self.energies.as_slice() {
+                [] => system.energy(state).total(),
+                recorded => recorded.iter().map(|&i| own[i]).sum(),
+            };
             let books = step.books.filter(|_| self.books);
             let kept = books.map(|b| [b.drive, b.loads, b.dissipated, b.balance(total)]);
             let steps = [step.size, f64::from(step.iterations)];

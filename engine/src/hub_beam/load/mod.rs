@@ -133,6 +133,9 @@ impl Loads {
     /// Power of the loads, gravity aside \[W\].
     pub fn power(&mut self, s: &State, hub: &HubKinematics) -> f64 {
         let mut power = 0.0;
+        if self.groups.iter().all(Group::is_gravity) {
+            return power;
+        }
         self.force.fill(0.0);
         for group in self.groups.iter_mut().filter(|g| !g.is_gravity()) {
             group.add_force(s, hub, 1.0, &mut self.force);
