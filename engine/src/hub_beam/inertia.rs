@@ -124,6 +124,8 @@ pub struct Scratch {
     all: Vectors,
     symmetric: Option<Vectors>,
     torque: Vectors,
+    /// D q and ½ (Pᵀ − P) q, for the torque.
+    products: Vec<[f64; 2]>,
 }
 
 impl Inertia {
@@ -245,6 +247,7 @@ impl Inertia {
             all: self.bundle.vectors(),
             symmetric: self.symmetric.as_ref().map(Bundle::vectors),
             torque: self.torque.vectors(),
+            products: vec![[0.0; 2]; self.len()],
         }
     }
 
@@ -359,14 +362,17 @@ impl Inertia {
         let (w2, w1) = (2.0 * hub.speed, hub.acceleration);
         let (q, v, a) = (&s.q[..n], &s.v[..n], &s.a[..n]);
         let (sx, sy) = (&self.axial_moment[..n], &self.transverse_moment[..n]);
-        let Scratch { symmetric, torque: x, .. } = x;
+        let Scratch { symmetric, torque: x, products, .. } = x;
+        let products = &mut products[..n];
         x.set(0, |i| q[i]);
         x.set(1, |i| 0.5 * q[i]);
-        let mut torque = w1 * self.moment;
-        self.torque.products(x, |i, [dq, gq, ..]| {
-            let y = w1 * q[i] + w2 * v[i];
-            torque += y * (dq + sx[i]) + w1 * (q[i] * sx[i]) + a[i] * (gq + sy[i]);
-        });
+        self.torque.products(x, |i, [dq, gq, ..]| products[i] = [dq, gq]);
+        let (mut torque, mut of_accelerations) = (w1 * self.moment, 0.0);
+        for (i, [dq, gq]) in products.iter().enumerate() {
+            torque += (w1 * q[i] + w2 * v[i]) * (dq + sx[i]) + w1 * (q[i] * sx[i]);
+            of_accelerations += a[i] * (gq + sy[i]);
+        }
+        torque += of_accelerations;
         if let Some((matrix, y)) = self.symmetric.as_ref().zip(symmetric.as_mut()) {
             y.set(0, |i| q[i]);
             y.set(1, |i| v[i]);
