@@ -159,7 +159,7 @@ impl Expected {
             self.known("modes", table, MODES);
             let (speed, tolerance) = (number(table, "speed"), number(table, "tolerance"));
             let expected: Vec<f64> = table["frequencies"].as_array().unwrap().iter().map(value).collect();
-            let mut system = build::system(&case).unwrap();
+            let mut system = build::vibrating(&case).unwrap();
             let mut state = State::zeros(system.size(), 0.0);
             rotate_stably(system.as_mut(), &mut state, 0.0, speed).unwrap();
             let found = modes(system.as_mut(), &state, expected.len(), &[]).unwrap().modes;
