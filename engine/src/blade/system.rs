@@ -8,7 +8,9 @@ use super::model::{BladeError, Model, Setting, StrainEnergy};
 use super::tension::Tension;
 use crate::linalg::{Matrix, Storage, Structure};
 use crate::section::BladeSection;
-use crate::system::{Channel, Direction, Energy, Frame, Label, Power, Size, State, System, Weights};
+use crate::system::{
+    Channel, Direction, Energy, Frame, Label, Power, Size, State, System, VisitTerm, Weights,
+};
 
 /// A rotating blade. See the [module documentation](super).
 ///
@@ -224,6 +226,14 @@ impl System for Blade {
 
     fn turn_steadily(&mut self, speed: f64) -> bool {
         self.lost = self.set_speed(speed).err();
+        true
+    }
+
+    fn stiffness_terms(&mut self, _s: &State, rest: &mut Matrix, visit: &mut VisitTerm<'_>) -> bool {
+        if self.lost.is_some() {
+            return false;
+        }
+        self.matrices.visit_strain(self.speed, &self.steady, rest, visit);
         true
     }
 
