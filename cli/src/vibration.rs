@@ -56,6 +56,11 @@ impl Options {
         if !self.free_hub {
             return Ok(HubState::Held);
         }
+        if case.blade.is_some() {
+            return Err("--free-hub is for a beam in the plane of rotation, but the case has a [blade]: its hub keeps its \
+                        speed; leave one of the two out"
+                .to_owned());
+        }
         match build::drive(&case.hub.motion, case.duration) {
             Ok(Drive::Free(_)) => Ok(HubState::Free),
             _ => Err("--free-hub needs a case whose hub is free: its hub.motion is prescribed".to_owned()),
@@ -63,9 +68,9 @@ impl Options {
     }
 }
 
-/// The system of a case, for modes.
+/// What vibrates in a case: its blade, or else its hub–beam.
 pub fn system(case: &Case) -> Result<Box<dyn System>, String> {
-    build::system(case).map_err(|error| error.to_string())
+    build::vibrating(case).map_err(|error| error.to_string())
 }
 
 /// Stations of the shapes: two hundred equal parts.

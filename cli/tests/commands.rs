@@ -175,6 +175,93 @@ fn modes_and_campbell_write_whole_results_and_refuse_what_cannot_be() {
     }
 }
 
+/// A blade in `blade/case.toml`, twisted and with torsion, and stations of another one that are not sorted.
+fn blade() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let case = r#"
+title = "blade"
+[beam]
+length = "10 m"
+[section]
+kind = "blade"
+file = "stations.csv"
+format = "csv"
+[hub]
+radius = "1 m"
+motion = { kind = "constant", speed = "4 rad/s" }
+[blade]
+elements = 12
+twist = "30 deg"
+[integrator]
+kind = "radau"
+[run]
+duration = "1 s"
+"#;
+    let head = "x, mass, EA, EI-flap, EI-chord, GJ, inertia-flap, inertia-chord\n";
+    let row = |x: u32| format!("{x}, 10, 1e7, 1e4, 4e4, 5e3, 0.1, 0.4\n");
+    let write = |name: &str, text: String| {
+        std::fs::create_dir_all(folder.path().join("blade")).unwrap();
+        std::fs::write(folder.path().join("blade").join(name), text).unwrap();
+    };
+    write("case.toml", case.to_owned());
+    write("stations.csv", format!("{head}{}{}", row(0), row(10)));
+    write("unsorted.csv", format!("{head}{}{}{}{}", row(0), row(6), row(4), row(10)));
+    write("empty.csv", head.to_owned());
+    write("short.csv", format!("{head}{}{}", row(0), row(0)));
+    folder
+}
+
+#[test]
+fn modes_of_a_blade_say_how_it_moves_and_what_is_wrong_with_it() {
+    let folder = blade();
+    let output = flexion(
+        folder.path(),
+        &["modes", "blade", "--speed", "4", "--count", "40", "--unit", "Hz", "-o", "out"],
+    );
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    for word in ["flap", "chord", "torsion", "axial", "Hz", "None is missing"] {
+        assert!(text(&output.stdout).contains(word), "{word}: {}", text(&output.stdout));
+    }
+    let common = ["campbell", "blade", "--speeds", "0:120:13", "--modes", "4", "--unit", "rpm"];
+    for (threads, to) in [("1", "one"), ("2", "two")] {
+        let output = flexion(folder.path(), &[&common[..], &["--threads", threads, "-o", to]].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        assert!(text(&output.stdout).contains("4Ω"), "{}", text(&output.stdout));
+    }
+    for file in ["campbell.json", "campbell.csv", "campbell.npz", "campbell.svg", "campbell.png"] {
+        let read = |of: &str| std::fs::read(folder.path().join(of).join(file)).unwrap();
+        assert!(read("one") == read("two"), "{file} depends on the number of threads");
+    }
+    let figure = std::fs::read_to_string(folder.path().join("one/campbell.svg")).unwrap();
+    for word in ["1 flap", "2 chord", "1Ω", "4Ω", "[rpm]", "crossings"] {
+        assert!(figure.contains(word), "{word}");
+    }
+    for (arguments, expected) in [
+        (&["modes", "blade", "--count", "500"][..], &["500 modes", "unknowns"][..]),
+        // Ω L √(ρA/EA) > π/2: the strain would be infinite.
+        (&["modes", "blade", "--speed", "300"], &["300 rad/s", "too soft"]),
+        (&["modes", "blade", "--free-hub"], &["[blade]"]),
+        (
+            &["modes", "blade", "--set", "section.file=unsorted.csv"],
+            &["section.file", "unsorted.csv", "4 m", "6 m"],
+        ),
+        (&["modes", "blade", "--set", "section.file=empty.csv"], &["section.file", "empty.csv"]),
+        (&["modes", "blade", "--set", "section.file=short.csv"], &["section.file"]),
+        (
+            &["campbell", "blade", "--speeds", "0:1:3", "--set", "blade.axial-first=false"],
+            &["blade.axial-first", "coupled"],
+        ),
+    ] {
+        let output = flexion(folder.path(), arguments);
+        assert_eq!(output.status.code(), Some(1), "{arguments:?}");
+        for word in expected {
+            assert!(text(&output.stderr).contains(word), "{arguments:?}: {}", text(&output.stderr));
+        }
+    }
+    let diverged = flexion(folder.path(), &["campbell", "blade", "--speeds", "0:300:4", "-o", "soft"]);
+    assert_eq!(diverged.status.code(), Some(2), "{}", text(&diverged.stderr));
+}
+
 #[test]
 fn check_list_schema_and_help_print_what_they_say() {
     let folder = folder();

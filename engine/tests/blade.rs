@@ -57,46 +57,92 @@ fn nrel() -> flexion::case::Reading {
     parse(NREL.to_owned(), &folder, &[]).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
-#[test]
-fn the_nrel_blade_has_its_published_mass() {
-    // J. Jonkman, S. Butterfield, W. Musial & G. Scott, NREL/TP-500-38060 (2009), table 2-2: 17 740 kg,
-    // 363 231 kg·m and 11 776 047 kg·m² about the root: what the report's program integrates with its own, coarser
-    // stations. Straight lines between the rows give 0.7 % less mass.
+/// ∫ρA xⁿ dx by straight lines between the rows.
+fn moment(power: i32) -> f64 {
     let section = build::section(&nrel().case.section, 61.5).unwrap();
     let mut cuts = vec![0.0];
     cuts.extend(section.breaks());
     cuts.push(61.5);
     let gauss = Gauss::new(3);
-    for (power, published) in [(0, 17_740.0), (1, 363_231.0), (2, 11_776_047.0)] {
-        let mass = |x: f64| section.resultants(x).mass * x.powi(power);
-        let found: f64 = cuts.windows(2).map(|c| gauss.integrate(c[0], c[1], mass)).sum();
-        assert!((found / published - 1.0_f64).abs() < 1e-2, "{power}: {found} for {published}");
+    let mass = |x: f64| section.resultants(x).mass * x.powi(power);
+    cuts.windows(2).map(|c| gauss.integrate(c[0], c[1], mass)).sum()
+}
+
+#[test]
+fn the_nrel_blade_has_its_published_mass() {
+    // J. Jonkman, S. Butterfield, W. Musial & G. Scott, NREL/TP-500-38060 (2009), table 2-2: 17 740 kg, 363 231 kg·m and
+    // 11 776 047 kg·m² about the root. The factor 1.04536 of the file makes the mass right as FAST sums it: over the 17
+    // elements of table 3-1, each with the density in its middle, the rows joined by straight lines.
+    let section = build::section(&nrel().case.section, 61.5).unwrap();
+    let ends = [vec![41.0 / 15.0; 3], vec![4.1; 11], vec![41.0 / 15.0; 3]].concat();
+    let (mut sums, mut from) = ([0.0; 3], 0.0);
+    for length in ends {
+        let middle: f64 = from + 0.5 * length;
+        for (power, sum) in sums.iter_mut().enumerate() {
+            *sum += length * section.resultants(middle).mass * middle.powi(power as i32);
+        }
+        from += length;
+    }
+    // The published figures are whole numbers and the factor has six digits: 5e-6 of each.
+    for (found, published) in sums.into_iter().zip([17_740.0, 363_231.0, 11_776_047.0]) {
+        assert!((found / published - 1.0_f64).abs() < 5e-6, "{found} for {published}");
+    }
+    // The same lines integrated without error have 0.74 %, 0.52 % and 0.68 % less: that is the blade of this model, whose
+    // frequencies are higher by half of that.
+    for (power, found, less) in [(0, sums[0], 0.739e-2), (1, sums[1], 0.517e-2), (2, sums[2], 0.681e-2)] {
+        let share = 1.0 - moment(power) / found;
+        assert!((share - less).abs() < 1e-5, "{power}: {share}");
     }
 }
 
 #[test]
-fn the_nrel_blade_has_its_published_frequencies() {
-    // The same report, table 9-1, of the parked turbine by FAST: first collective flap 0.6993 Hz, first
-    // asymmetric edgewise 1.0793 and 1.0898 Hz, second collective flap 2.0205 Hz: of blades in three assumed modes on a
-    // turbine that gives way. An isolated blade is held to 5 %, and to 1e-4 to the frequencies of 1500 lumped masses
-    // on the flexibilities of the twisted blade, in a program apart from this one.
+fn the_nrel_blade_has_the_frequencies_of_lumped_masses_and_lies_among_those_of_its_rotor() {
+    // The same report, table 9-1, FAST: a rotor at rest with its generator locked has three modes for each of the
+    // blade, which tower and drive train move apart: asymmetric 0.6664 and 0.6675, collective 0.6993 Hz flapwise,
+    // asymmetric 1.0793 and 1.0898 Hz edgewise; 1.9223, 1.9337 and 2.0205 Hz second flapwise. The blade on a root
+    // that does not move lies among its three.
     let mut blade = build::blade(&nrel().case).unwrap().unwrap();
-    for (number, published) in [(1, 0.6993), (2, 1.0845), (3, 2.0205)] {
+    for (number, lowest, highest) in [(1, 0.6664, 0.6993), (2, 1.0793, 1.0898), (3, 1.9223, 2.0205)] {
         let found = frequency(&mut blade, number);
-        println!("mode {number}: {found:.4} Hz at rest, published {published} Hz");
-        assert!((found / published - 1.0_f64).abs() < 0.05, "mode {number}: {found} for {published}");
+        assert!((lowest..highest).contains(&found), "mode {number}: {found}");
     }
+    // 1500 lumped masses on the flexibilities of the twisted blade, in a program apart from this one.
     for (i, lumped) in [0.677699, 1.086436, 1.954316, 4.009036, 4.555737].into_iter().enumerate() {
         let found = frequency(&mut blade, i + 1);
-        assert!((found / lumped - 1.0_f64).abs() < 1e-4, "mode {}: {found} for {lumped}", i + 1);
+        assert!((found / lumped - 1.0).abs() < 1e-4, "mode {}: {found} for {lumped}", i + 1);
     }
     let at_rest = frequency(&mut blade, 1);
     blade.set_speed(12.1 * TAU / 60.0).unwrap();
     let rated = frequency(&mut blade, 1);
-    println!("mode 1 at 12.1 rpm: {rated:.4} Hz");
     // Southwell: ω² = ω₀² + B Ω², with B from 1 to 2 for a flapwise mode.
     let factor = (rated * rated - at_rest * at_rest) / (12.1_f64 / 60.0).powi(2);
     assert!((1.0..2.0).contains(&factor), "{factor}");
+}
+
+#[test]
+fn the_nrel_blade_moves_in_the_shapes_that_elastodyn_is_given() {
+    // Coefficients of x², …, x⁶ in the blade file of OpenFAST's regression tests (NRELOffshrBsline5MW_Blade.dat),
+    // found by NREL with another program: first and second flapwise, first edgewise, one at the tip.
+    let published = [
+        (0, 2, [0.0622, 1.7254, -3.2452, 4.7131, -2.2555], 0.01),
+        (1, 1, [0.3627, 2.5337, -3.5772, 2.376, -0.6952], 0.015),
+        (2, 2, [-0.5809, 1.2067, -15.5349, 29.7347, -13.8255], 0.05),
+    ];
+    let mut blade = build::blade(&nrel().case).unwrap().unwrap();
+    let mut state = State::zeros(blade.size(), 0.0);
+    rotate_stably(&mut blade, &mut state, 0.0, 12.1 * TAU / 60.0).unwrap();
+    let found = modes(&mut blade, &state, 3, &[]).unwrap().modes;
+    for (mode, axis, coefficients, tolerance) in published {
+        let q: Vec<f64> = found[mode].vector.iter().map(|x| x.re).collect();
+        let tip = blade.displacement(&q, 61.5).0[axis];
+        for i in 1..20 {
+            let s = f64::from(i) / 20.0;
+            let shape = blade.displacement(&q, 61.5 * s).0[axis] / tip;
+            let polynomial = coefficients.iter().rev().fold(0.0, |sum, c| sum * s + c) * s * s;
+            println!("{mode} {s}: {shape:.4} {polynomial:.4}");
+            assert!((shape - polynomial).abs() < tolerance, "mode {mode} at {s}: {shape} for {polynomial}");
+        }
+    }
 }
 
 #[test]

@@ -84,7 +84,7 @@ const KINDS: &[&str] = &[
     "section={kind='blade',file='broken_cases/../blade.csv'}",
     "blade={pitch='3 deg',precone='-2 deg',twist=0.1,tip-mass='1 kg',tip-inertia='2 kg*m^2',torsion=false}",
     "blade.strain-energy=linear",
-    "blade.strain-energy=coupled",
+    "blade={strain-energy='coupled',bending-first=false,axial-second=false}",
     "blade={strain-energy='exact',elements=3,gyroscopic=false,rotary-inertia=false,poisson-ratio=0.2}",
     "hub.motion={kind='spin-up',speed='3000 rpm',time='1 min'}",
     "hub.motion={kind='constant',speed='-90 deg/s'}",

@@ -69,7 +69,7 @@ const VARIATIONS: &[&str] = &[
     "section={kind='blade', file='tables/blade_elastodyn.dat', format='elastodyn'}",
     "section={kind='blade', file='tables/blade_beamdyn.dat', format='beamdyn'}",
     "blade={pitch='5 deg', twist='-20 deg', strain-energy='linear', tip-mass='10 g'}",
-    "blade.strain-energy=coupled",
+    "blade={strain-energy='coupled',bending-second=false,stretched-inertia=false}",
     "blade={precone='2 deg', strain-energy='exact', torsion=false}",
     "hub={inertia=5, motion={kind='free', torque={kind='constant', torque=3}}}",
     "hub={inertia=5, motion={kind='free', torque={kind='ramp', torque=3, time='0.02 s'}, controller={kind='pd', proportional=3, derivative=1, target='0.1 rad'}}}",

@@ -193,7 +193,7 @@ pub fn add_inertia(
 }
 
 /// Energy of bending and torsion per length at a point of the exact model, without that of the axial strain.
-fn exact_energy(
+pub fn exact_energy(
     f: &Functions,
     pitch: f64,
     section: &BladeResultants,
@@ -248,7 +248,7 @@ impl Element {
     }
 
     /// ε = |r′| − 1, the stretch |r′|, the unit tangent and N′ at both nodes and the middle.
-    fn samples(&self, q: &[f64; LOCAL]) -> [(f64, f64, [f64; 3], [f64; 4]); 3] {
+    pub fn samples(&self, q: &[f64; LOCAL]) -> [(f64, f64, [f64; 3], [f64; 4]); 3] {
         SAMPLES.map(|s| {
             let n = hermite(s, self.ends[1] - self.ends[0])[1];
             let slope: [f64; 3] = std::array::from_fn(|f| (0..4).map(|k| n[k] * q[4 * f + k]).sum());

@@ -2,9 +2,10 @@
 
 use super::element::{Functions, Local, Rotation, add_inertia};
 use super::mesh::{CLAMPED, Element, LOCAL, Mesh, hermite, quadratic};
-use super::model::{Model, Setting, StrainEnergy, Terms};
+use super::model::{Model, Setting, StrainEnergy};
 use super::tension::Tension;
 use crate::linalg::Matrix;
+use crate::system::VisitTerm;
 
 /// Iterations of Newton's method before a speed is approached in smaller increments.
 const ITERATIONS: usize = 25;
@@ -57,12 +58,7 @@ impl Matrices {
     /// Assembles force and matrices at the speed and the state `q` of the exact model; a straight blade is
     /// straight.
     pub fn assemble(&mut self, speed: f64, q: &[f64]) {
-        let (sin, cos) = self.setting.precone.sin_cos();
-        let rotation = Rotation {
-            vector: [speed * sin, 0.0, speed * cos],
-            hub_radius: self.setting.hub_radius,
-            pitch: self.setting.pitch,
-        };
+        let rotation = self.rotation(speed);
         self.force.fill(0.0);
         for matrix in [&mut self.mass, &mut self.gyroscopic, &mut self.stiffness] {
             matrix.clear();
@@ -71,24 +67,11 @@ impl Matrices {
         for (number, (element, tension)) in self.mesh.elements.iter().zip(&self.tension.at).enumerate() {
             let mut local = Local::new();
             let at = element.gather(q);
-            match self.model.strain_energy {
-                StrainEnergy::Exact => {
-                    element.add_exact_strain(&at, rotation.pitch, &self.model, &mut local);
-                }
-                StrainEnergy::Linear | StrainEnergy::Coupled(_) => {
-                    let terms = match self.model.strain_energy {
-                        StrainEnergy::Coupled(terms) => terms,
-                        _ => Terms::NONE,
-                    };
-                    let square = speed * speed;
-                    element.add_straight_strain(
-                        rotation.pitch,
-                        square,
-                        tension,
-                        terms,
-                        &self.model,
-                        &mut local,
-                    );
+            let (pitch, model) = (rotation.pitch, &self.model);
+            match self.model.strain_energy.terms() {
+                None => element.add_exact_strain(&at, pitch, model, &mut local),
+                Some(terms) => {
+                    element.add_straight_strain(pitch, speed * speed, tension, terms, model, &mut local);
                 }
             }
             self.add_masses(element, number + 1 == elements, &rotation, &at, &mut local);
@@ -127,6 +110,38 @@ impl Matrices {
             // Second moments P along the axes give moments of inertia 2P about them.
             let inertia = (tip.mass, [0.5 * tip.inertia; 3]);
             add_inertia(&f, element.ends[1], rotation.pitch, inertia, rotation, &self.model, at, out);
+        }
+    }
+
+    /// The stiffness at `q` and `speed` with the strains apart: `rest` + Σ w b bᵀ.
+    pub fn visit_strain(&self, speed: f64, q: &[f64], rest: &mut Matrix, visit: &mut VisitTerm<'_>) {
+        let (rotation, square) = (self.rotation(speed), speed * speed);
+        rest.clear();
+        let elements = self.mesh.elements.len();
+        for (number, (element, tension)) in self.mesh.elements.iter().zip(&self.tension.at).enumerate() {
+            let at = element.gather(q);
+            let (pitch, model) = (rotation.pitch, &self.model);
+            match self.model.strain_energy.terms() {
+                None => element.visit_exact(&at, pitch, model, visit),
+                Some(terms) => element.visit_straight(pitch, square, tension, terms, model, visit),
+            }
+            let mut local = Local::new();
+            self.add_masses(element, number + 1 == elements, &rotation, &at, &mut local);
+            for (i, &row) in element.unknowns.iter().enumerate().filter(|(_, row)| **row != CLAMPED) {
+                for (j, &column) in element.unknowns.iter().enumerate().filter(|(_, c)| **c != CLAMPED) {
+                    rest.add(row, column, local.stiffness[i][j]);
+                }
+            }
+        }
+    }
+
+    /// The rotation at a speed.
+    fn rotation(&self, speed: f64) -> Rotation {
+        let (sin, cos) = self.setting.precone.sin_cos();
+        Rotation {
+            vector: [speed * sin, 0.0, speed * cos],
+            hub_radius: self.setting.hub_radius,
+            pitch: self.setting.pitch,
         }
     }
 

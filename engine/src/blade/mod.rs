@@ -22,6 +22,7 @@ mod model;
 mod straight;
 mod system;
 mod tension;
+mod terms;
 #[cfg(test)]
 mod tests;
 

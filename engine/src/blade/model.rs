@@ -64,6 +64,17 @@ pub enum StrainEnergy {
     Exact,
 }
 
+impl StrainEnergy {
+    /// The terms about the straight blade; `None` for the exact energy.
+    pub(super) fn terms(self) -> Option<Terms> {
+        match self {
+            StrainEnergy::Linear => Some(Terms::NONE),
+            StrainEnergy::Coupled(terms) => Some(terms),
+            StrainEnergy::Exact => None,
+        }
+    }
+}
+
 /// Terms of the Green strain, w₁′ being the steady stretch: Zhao & Wu 2015, doi:10.6052/0459-1879-14-207.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Terms {

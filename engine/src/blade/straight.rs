@@ -18,7 +18,13 @@ use super::model::{Model, Terms};
 use crate::section::BladeResultants;
 
 /// Energy per length at a point: `tension` holds N₀ and N.
-fn energy(section: &BladeResultants, pitch: f64, tension: (f64, f64), terms: Terms, model: &Model) -> Jet<8> {
+pub fn energy(
+    section: &BladeResultants,
+    pitch: f64,
+    tension: (f64, f64),
+    terms: Terms,
+    model: &Model,
+) -> Jet<8> {
     let square = |v: usize, a: f64, w: usize, b: f64, factor: f64| {
         let e = Jet::<8>::variable(0.0, v).scaled(a) + Jet::variable(0.0, w).scaled(b);
         (e * e).scaled(0.5 * factor)

@@ -8,7 +8,9 @@ use super::model::{BladeError, Model, Setting, StrainEnergy};
 use super::tension::Tension;
 use crate::linalg::{Matrix, Storage, Structure};
 use crate::section::BladeSection;
-use crate::system::{Channel, Direction, Energy, Frame, Label, Power, Size, State, System, Weights};
+use crate::system::{
+    Channel, Direction, Energy, Frame, Label, Power, Size, State, System, VisitTerm, Weights,
+};
 
 /// A rotating blade. See the [module documentation](super).
 ///
@@ -223,7 +225,22 @@ impl System for Blade {
     }
 
     fn turn_steadily(&mut self, speed: f64) -> bool {
+        // From the undeformed blade, so that the state does not depend on the speeds before.
+        let former = (self.speed, std::mem::replace(&mut self.steady, vec![0.0; self.scratch.len()]));
+        self.speed = 0.0;
         self.lost = self.set_speed(speed).err();
+        if self.lost.is_some() {
+            (self.speed, self.steady) = former;
+            self.matrices.assemble(self.speed, &self.steady);
+        }
+        true
+    }
+
+    fn stiffness_terms(&mut self, _s: &State, rest: &mut Matrix, visit: &mut VisitTerm<'_>) -> bool {
+        if self.lost.is_some() {
+            return false;
+        }
+        self.matrices.visit_strain(self.speed, &self.steady, rest, visit);
         true
     }
 

@@ -5,6 +5,7 @@ use super::declaration::{
 };
 use super::units::{ANGLE, INERTIA, MASS};
 use super::values::Values;
+use crate::blade::Terms;
 
 /// The blade, in SI.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,8 +39,8 @@ pub struct Blade {
 pub enum StrainEnergy {
     /// Quadratic in stretch and curvature.
     Linear,
-    /// With the coupling terms of the Green strain.
-    Coupled,
+    /// With the coupling terms of the Green strain that are chosen.
+    Coupled(Terms),
     /// Geometrically exact.
     Exact,
 }
@@ -70,6 +71,10 @@ pub(super) static STRAIN_ENERGY: Seam = Seam {
     ],
 };
 
+/// Keys of the terms of the strain energy `coupled`, e being the steady stretch w₁′.
+pub(super) static TERMS: [&str; 5] =
+    ["bending-first", "bending-second", "axial-first", "axial-second", "stretched-inertia"];
+
 /// The keys of `[blade]`.
 pub(super) static KEYS: &[Key] = &[
     key(
@@ -98,6 +103,16 @@ pub(super) static KEYS: &[Key] = &[
         "moment of inertia of the body at the tip, the same about every axis",
     ),
     key("strain-energy", Type::Choice(&STRAIN_ENERGY), Default::Name("exact"), "strain energy"),
+    key(TERMS[0], Type::Boolean, Optional, "of `coupled`, the term 3e of EI w″²; kept if left out"),
+    key(TERMS[1], Type::Boolean, Optional, "of `coupled`, the term (3/2)e² of EI w″²; kept if left out"),
+    key(TERMS[2], Type::Boolean, Optional, "of `coupled`, the term −e² of EA w′²; kept if left out"),
+    key(TERMS[3], Type::Boolean, Optional, "of `coupled`, the term −½e³ of EA w′²; kept if left out"),
+    key(
+        TERMS[4],
+        Type::Boolean,
+        Optional,
+        "of `coupled`, the centrifugal force of the stretched blade; kept if left out",
+    ),
     key("gyroscopic", Type::Boolean, Default::Boolean(true), "gyroscopic (Coriolis) terms are kept"),
     key(
         "rotary-inertia",
@@ -117,6 +132,7 @@ pub(super) static KEYS: &[Key] = &[
 
 /// Reads the blade.
 pub(super) fn read(v: &Values) -> Option<Blade> {
+    let kept = |term: usize| v.boolean(TERMS[term]).unwrap_or(true);
     Some(Blade {
         pitch: v.number("pitch")?,
         precone: v.number("precone")?,
@@ -125,7 +141,13 @@ pub(super) fn read(v: &Values) -> Option<Blade> {
         tip_inertia: v.number("tip-inertia")?,
         strain_energy: match v.text("strain-energy")? {
             "linear" => StrainEnergy::Linear,
-            "coupled" => StrainEnergy::Coupled,
+            "coupled" => StrainEnergy::Coupled(Terms {
+                bending_first: kept(0),
+                bending_second: kept(1),
+                axial_first: kept(2),
+                axial_second: kept(3),
+                stretched_inertia: kept(4),
+            }),
             _ => StrainEnergy::Exact,
         },
         gyroscopic: v.boolean("gyroscopic")?,

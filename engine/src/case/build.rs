@@ -14,7 +14,7 @@ use crate::basis::{
     BSpline, Basis, BasisError, Bezier, Field, Hermite, Lagrange, Modes, Polynomial, PolynomialParameters,
     Radial, RadialParameters,
 };
-use crate::blade::{Blade, BladeError, Model, Setting, StrainEnergy, Terms, Tip};
+use crate::blade::{Blade, BladeError, Model, Setting, StrainEnergy, Tip};
 use crate::hub_beam::{
     Controller, Coupling as HubCoupling, Drive, ExactCoupling, Fields, Foreshortening, FreeHub, HighCoupling,
     Hub, HubBeam, LinearCoupling, Sampling,
@@ -182,7 +182,7 @@ pub(super) fn blade_of(
     let model = Model {
         strain_energy: match case.strain_energy {
             StrainEnergyCase::Linear => StrainEnergy::Linear,
-            StrainEnergyCase::Coupled => StrainEnergy::Coupled(Terms::ALL),
+            StrainEnergyCase::Coupled(terms) => StrainEnergy::Coupled(terms),
             StrainEnergyCase::Exact => StrainEnergy::Exact,
         },
         gyroscopic: case.gyroscopic,

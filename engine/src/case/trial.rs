@@ -2,7 +2,7 @@
 //! other problems, at the key that it concerns.
 
 use super::basis::{Bases, Basis};
-use super::blade::Blade;
+use super::blade::{Blade, StrainEnergy, TERMS};
 use super::build::{self, MotionError};
 use super::integrator::Integrator;
 use super::motion::Motion;
@@ -49,6 +49,15 @@ pub(super) fn blade(
     problems: &mut Problems,
 ) {
     let (Some(case), Some(section), Some(length)) = (case, section, length) else { return };
+    if let (Some(table), false) =
+        (values.table("blade"), matches!(case.strain_energy, StrainEnergy::Coupled(_)))
+    {
+        for term in TERMS.into_iter().filter(|term| table.boolean(term).is_some()) {
+            let message = "a term of the strain energy `coupled`, which the blade does not have; write \
+                           `strain-energy = \"coupled\"`, or leave the term out";
+            problems.push(Problem::new(join("blade", term), table.place(term), message));
+        }
+    }
     // What is wrong with the section is reported there.
     if build::section(section, length).is_err() {
         return;

@@ -10,7 +10,9 @@ use toml::{Table, Value};
 
 /// The keys of `expected.toml`, and of the tables in it.
 const KEYS: &[&str] = &["reference", "until", "columns", "figures", "failure", "same", "modes"];
-const MODES: &[&str] = &["speed", "frequencies", "tolerance"];
+const MODES: &[&str] = &["speed", "frequencies", "tolerance", "moves"];
+/// Modes among which those that move one way are looked for, to each that is expected.
+const AMONG: usize = 4;
 const FIGURE: &[&str] = &["column", "of", "from", "to", "value", "tolerance"];
 
 /// One thing that was compared: what, how far it is off, how far it may be.
@@ -159,10 +161,14 @@ impl Expected {
             self.known("modes", table, MODES);
             let (speed, tolerance) = (number(table, "speed"), number(table, "tolerance"));
             let expected: Vec<f64> = table["frequencies"].as_array().unwrap().iter().map(value).collect();
-            let mut system = build::system(&case).unwrap();
+            let mut system = build::vibrating(&case).unwrap();
             let mut state = State::zeros(system.size(), 0.0);
             rotate_stably(system.as_mut(), &mut state, 0.0, speed).unwrap();
-            let found = modes(system.as_mut(), &state, expected.len(), &[]).unwrap().modes;
+            let moves = table.get("moves").map(|moves| moves.as_str().unwrap());
+            let count = expected.len() * moves.map_or(1, |_| AMONG);
+            let mut found = modes(system.as_mut(), &state, count, &[]).unwrap().modes;
+            found.retain(|mode| moves.is_none_or(|moves| mode.shares.dominant() == moves));
+            assert!(found.len() >= expected.len(), "{}: {moves:?} modes are missing", self.folder);
             for (number, (mode, expected)) in found.iter().zip(expected).enumerate() {
                 let frequency = mode.frequency();
                 all.push(Comparison {

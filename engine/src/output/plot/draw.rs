@@ -6,6 +6,7 @@ use kuva::backend::{raster::RasterBackend, svg::SvgBackend};
 use kuva::plot::legend::{LegendEntry, LegendPosition, LegendShape};
 use kuva::plot::scatter::MarkerShape;
 use kuva::plot::{LinePlot, ScatterPlot};
+use kuva::render::annotations::TextAnnotation;
 use kuva::render::figure::{Figure as Grid, LabelConfig, LabelStyle};
 use kuva::render::layout::{Layout, TickAlign, TickFormat};
 use kuva::render::plots::Plot;
@@ -199,6 +200,10 @@ fn layout(p: &Placed<'_>, margins: &Margins, column: usize, bottom: f64, height:
     } else {
         layout.suppress_x_ticks = true;
     }
+    for (x, y, words) in words(p, height) {
+        let text = TextAnnotation::new(words, x, y).with_color(style::INK).with_font_size(style::LEGEND_SIZE);
+        layout = layout.with_annotation(text);
+    }
     let entries = legend(p.panel);
     if !entries.is_empty() {
         layout = layout
@@ -255,6 +260,25 @@ fn pieces(p: &Placed<'_>, series: &Series) -> Vec<Vec<(f64, f64)>> {
         .filter(|piece| !piece.is_empty())
         .map(|piece| piece.iter().flatten().copied().collect())
         .collect()
+}
+
+/// The words of a panel whose frame has the given height [px], in mapped numbers; of two that would overlap, the first.
+fn words<'a>(p: &Placed<'a>, height: f64) -> Vec<(f64, f64, &'a str)> {
+    let part = |v: f64, (lo, hi): (f64, f64)| (v - lo) / (hi - lo);
+    let line = 1.1 * f64::from(style::LEGEND_SIZE) / height;
+    let mut out: Vec<(f64, f64, &'a str)> = Vec::new();
+    for words in &p.panel.words {
+        let Some((x, y)) = p.x.map(words.point.0).zip(p.y.map(words.point.1)) else { continue };
+        let (u, v) = (part(x, p.x.range), part(y, p.y.range));
+        let inside = (0.0..=1.0).contains(&u) && (0.0..=1.0 - line).contains(&v);
+        let overlap = |&(a, b, _): &(f64, f64, &str)| {
+            (part(a, p.x.range) - u).abs() < 0.1 && (part(b, p.y.range) - v).abs() < line
+        };
+        if inside && !out.iter().any(overlap) {
+            out.push((x, y, &words.text));
+        }
+    }
+    out
 }
 
 fn legend(panel: &Panel) -> Vec<LegendEntry> {

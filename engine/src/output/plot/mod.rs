@@ -41,6 +41,17 @@ pub struct Panel {
     pub y: Axis,
     /// The curves, drawn in this order; those with a name are listed in a legend.
     pub series: Vec<Series>,
+    /// Words written just above points of the panel, those that would overlap left out.
+    pub words: Vec<Words>,
+}
+
+/// Words in a panel.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Words {
+    /// Point (x, y) in the units of the axes, above which they stand in the middle.
+    pub point: (f64, f64),
+    /// The words.
+    pub text: String,
 }
 
 /// What an axis shows and how.

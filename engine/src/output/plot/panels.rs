@@ -104,7 +104,7 @@ fn panel(runs: &[(Option<&str>, &Trajectory)], name: &str) -> Option<Panel> {
             series.push(Series { color: Some(number), line, ..Series::line(*run, points(trajectory, i)) });
         }
     }
-    Some(Panel { x: Axis::time(), y: y?, series })
+    Some(Panel { x: Axis::time(), y: y?, series, words: Vec::new() })
 }
 
 fn energies(trajectory: &Trajectory) -> Vec<Panel> {
@@ -133,7 +133,7 @@ fn energies(trajectory: &Trajectory) -> Vec<Panel> {
                     ..Series::line((!alone).then_some(word), points(trajectory, i))
                 })
                 .collect();
-            Panel { x: Axis::time(), y: Axis::new(quantity, "J"), series }
+            Panel { x: Axis::time(), y: Axis::new(quantity, "J"), series, words: Vec::new() }
         })
         .collect()
 }

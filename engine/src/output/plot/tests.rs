@@ -78,8 +78,12 @@ fn numbers_of_any_size_can_be_drawn() {
             (0..1000).map(|i| (f64::from(i), if i % 2 == 0 { a } else { b })).collect();
         for scale in [Scale::Linear, Scale::Logarithmic] {
             let axis = Axis { scale, ..Axis::new("y", "m") };
-            let panel =
-                Panel { x: Axis::time(), y: axis, series: vec![Series::line(Some("y"), points.clone())] };
+            let panel = Panel {
+                x: Axis::time(),
+                y: axis,
+                series: vec![Series::line(Some("y"), points.clone())],
+                ..Panel::default()
+            };
             let figure = Figure { panels: vec![panel], ..Figure::default() };
             let drawing = figure.draw();
             let svg = drawing.svg();
@@ -114,6 +118,7 @@ fn dashed_curves_and_marks_are_drawn_on_logarithmic_axes() {
         x: Axis::logarithmic("Step h", "s"),
         y: Axis::logarithmic("Tip error", "m"),
         series: vec![s],
+        ..Panel::default()
     };
     let svg = |s| Figure { panels: vec![panel(s)], ..Figure::default() }.draw().svg();
     let (solid, dashed) = (svg(series(Line::Solid, None)), svg(series(Line::Dashed, None)));
@@ -127,7 +132,10 @@ fn a_dashed_curve_may_leave_a_given_range_by_any_amount() {
     let y = Axis { range: Some((0.0, 1.0)), ..Axis::new("y", "m") };
     let points = vec![(0.0, 0.5), (1.0, 1e200), (2.0, 0.5), (3.0, 0.6)];
     let series = vec![Series { line: Line::Dashed, ..Series::line(None, points) }];
-    let figure = Figure { panels: vec![Panel { x: Axis::time(), y, series }], ..Figure::default() };
+    let figure = Figure {
+        panels: vec![Panel { x: Axis::time(), y, series, ..Panel::default() }],
+        ..Figure::default()
+    };
     let svg = figure.draw().svg();
     assert!(svg.len() < 100_000 && !svg.contains("NaN"), "{} bytes", svg.len());
     assert!(figure.draw().png().is_ok());

@@ -1,6 +1,6 @@
 //! Figures of modes and of Campbell diagrams.
 
-use super::{Axis, Figure, Line, Marker, Panel, Series};
+use super::{Axis, Figure, Line, Marker, Panel, Series, Words};
 use crate::analysis::campbell::Campbell;
 use crate::analysis::modes::{Mode, Modes};
 use crate::output::Frequencies;
@@ -16,6 +16,7 @@ pub fn modes_figure(modes: &Modes, stations: &[f64], unit: &Frequencies, title: 
         x: Axis { tight: true, ..Axis::new("Station x", "m") },
         y: Axis::new(format!("Mode {}: {}", number + 1, unit.text(mode.frequency())), ""),
         series: shape(mode, stations),
+        words: Vec::new(),
     };
     let mut panels: Vec<Panel> = modes.modes.iter().take(MOST).enumerate().map(panel).collect();
     // The name of a curve once.
@@ -57,19 +58,32 @@ pub fn campbell_figure(
     unit: &Frequencies,
     title: Option<&str>,
 ) -> Figure {
-    let mut series = Vec::new();
+    let (mut series, mut words) = (Vec::new(), Vec::new());
     let mut top: f64 = 0.0;
+    let last = campbell.speeds.last().copied().unwrap_or(0.0) * unit.factor;
     for (number, branch) in campbell.branches.iter().enumerate() {
         let points: Vec<(f64, f64)> =
             branch.points.iter().map(|p| (p.speed * unit.factor, p.mode.frequency() * unit.factor)).collect();
         top = points.iter().map(|p| p.1).fold(top, f64::max);
+        // Where the lines of whole revolutions are furthest: near the vertical axis.
+        let near =
+            points.iter().min_by(|a, b| (a.0 - 0.12 * last).abs().total_cmp(&(b.0 - 0.12 * last).abs()));
+        if let (Some(first), Some(&point)) = (branch.points.first(), near) {
+            let text = format!("{} {}", number + 1, first.mode.shares.dominant());
+            words.push(Words { point, text });
+        }
         series.push(Series { color: Some(number), ..Series::line(None, points) });
     }
-    let last = campbell.speeds.last().copied().unwrap_or(0.0) * unit.factor;
     for k in 1..=revolutions {
         let end = last.min(top / f64::from(k));
         let points = vec![(0.0, 0.0), (end, f64::from(k) * end)];
-        let name = (k == 1).then(|| format!("ω = kΩ, k = 1 … {revolutions}"));
+        let name = (k == 1).then(|| match revolutions {
+            1 => "ω = Ω".to_owned(),
+            _ => format!("ω = kΩ, k = 1 … {revolutions}"),
+        });
+        // At the end of the line, a little inside the frame.
+        let inside = end.min(0.97 * last);
+        words.push(Words { point: (inside, f64::from(k) * inside), text: format!("{k}Ω") });
         series.push(Series { name, points, line: Line::Dotted, color: Some(7), ..Series::default() });
     }
     let crossings: Vec<(f64, f64)> = campbell
@@ -88,8 +102,12 @@ pub fn campbell_figure(
     }
     let panel = Panel {
         x: Axis { tight: true, ..Axis::new("Speed Ω", unit.name) },
-        y: Axis::new("Frequency ω", unit.name),
+        y: Axis {
+            range: Some((0.0, if top > 0.0 { 1.06 * top } else { 1.0 })),
+            ..Axis::new("Frequency ω", unit.name)
+        },
         series,
+        words,
     };
     Figure { title: title.map(String::from), panels: vec![panel], columns: 1, share_x: false }
 }
