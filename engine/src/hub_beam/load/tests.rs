@@ -6,7 +6,8 @@ use crate::hub_beam::tests::{
     relative, residual, state, without_strain,
 };
 use crate::hub_beam::{
-    Coupling, Damping, ExactCoupling, Foreshortening, Hub, HubBeam, LinearCoupling, Placement, Station,
+    Coupling, Damping, ExactCoupling, Foreshortening, HighCoupling, Hub, HubBeam, LinearCoupling, Placement,
+    Station,
 };
 use crate::profile::Expression;
 use crate::section::{Laden, Mass, Section};
@@ -71,6 +72,16 @@ fn linear(hub: Hub, section: &dyn Section, foreshortening: Foreshortening) -> Hu
     HubBeam::new(hub, coupling, &[])
 }
 
+fn high(hub: Hub, section: &dyn Section) -> HubBeam<HighCoupling> {
+    // Enough elements for the band with hidden unknowns.
+    let axial = Box::new(crate::basis::Lagrange::new(LENGTH, 12, 1).unwrap());
+    let transverse =
+        Box::new(crate::basis::Hermite::new(LENGTH, 12, crate::basis::Field::Transverse).unwrap());
+    let fields = crate::hub_beam::Fields::new(LENGTH, axial, transverse, section.breaks());
+    let coupling = HighCoupling::new(fields, section, &hub);
+    HubBeam::new(hub, coupling, &[])
+}
+
 fn exact(hub: Hub, section: &dyn Section) -> HubBeam<ExactCoupling> {
     let coupling = ExactCoupling::new(LENGTH, 3, section, &hub).unwrap();
     HubBeam::new(hub, coupling, &[])
@@ -85,6 +96,9 @@ fn systems(loads: &[&dyn Load], masses: &[Mass], damping: Damping) -> Vec<Box<dy
             let system = linear(hub.clone(), &section, foreshortening);
             systems.push(Box::new(system.with_loads(&section, loads).with_damping(damping)));
         }
+        let system = high(hub.clone(), &section);
+        assert!(matches!(system.structure(), crate::linalg::Structure::Condensed { .. }));
+        systems.push(Box::new(system.with_loads(&section, loads).with_damping(damping)));
         let system = exact(hub, &section);
         systems.push(Box::new(system.with_loads(&section, loads).with_damping(damping)));
     }
