@@ -141,11 +141,17 @@ impl Tangent {
         };
         tangent.half_bandwidth = tangent.measure(sums);
         if matches!(tangent.structure(0), Structure::Dense { .. }) {
-            tangent.rows = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
-            tangent.steps = vec![0.0; n * cells];
-            tangent.ends = vec![0.0; nt * cells];
+            tangent.make_rows(cells);
         }
         tangent
+    }
+
+    /// Scratch for a dense matrix: from the start where that is the structure, else when an analysis asks for one.
+    fn make_rows(&mut self, cells: usize) {
+        let n = self.places.visible.len();
+        self.rows = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
+        self.steps = vec![0.0; n * cells];
+        self.ends = vec![0.0; self.block.by_n.len() * cells];
     }
 
     /// Largest distance of two unknowns of which one stands in the equation of the other.
@@ -203,7 +209,12 @@ impl Tangent {
         }
         match out {
             Storage::Condensed(out) => self.add_condensed(sums, hub, w, out),
-            Storage::Dense(out) => self.add_dense(sums, hub, w, out),
+            Storage::Dense(out) => {
+                if self.steps.is_empty() {
+                    self.make_rows(sums.cells.len());
+                }
+                self.add_dense(sums, hub, w, out);
+            }
             Storage::Band(_) => debug_assert!(false, "no structure of this tangent"),
         }
     }

@@ -279,6 +279,23 @@ fn hidden_unknowns_change_no_solution_and_no_product() {
 }
 
 #[test]
+fn a_dense_matrix_holds_what_the_one_with_hidden_unknowns_does() {
+    for hub in [hub(), free_hub()] {
+        let mut system = high(elements(30, 2), &TwoFibres, hub);
+        let s = state(&system, 0.02);
+        let own = system.structure();
+        assert!(matches!(own, Structure::Condensed { .. }));
+        let w = || Weights::new(0.3, -0.02, 3e-4);
+        let hidden = tangent(&mut system, &s, w(), &own).explicit();
+        let dense = tangent(&mut system, &s, w(), &own.explicit());
+        let n = s.q.len();
+        let all = |a: &Matrix| (0..n * n).map(|k| a.get(k / n, k % n)).collect::<Vec<f64>>();
+        let (hidden, dense) = (all(&hidden), all(&dense));
+        assert!(relative(&dense, &hidden) < 1e-12, "{:e}", relative(&dense, &hidden));
+    }
+}
+
+#[test]
 fn small_deflections_are_those_of_the_first_order() {
     let coupling = LinearCoupling::new(elements(4, 1), &TwoFibres, &hub(), Foreshortening::First);
     let mut first = HubBeam::new(hub(), coupling, &[]);
