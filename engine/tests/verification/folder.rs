@@ -10,7 +10,7 @@ use toml::{Table, Value};
 
 /// The keys of `expected.toml`, and of the tables in it.
 const KEYS: &[&str] = &["reference", "until", "columns", "figures", "failure", "same", "modes"];
-const MODES: &[&str] = &["speed", "frequencies", "tolerance"];
+const MODES: &[&str] = &["speed", "free-hub", "frequencies", "tolerance"];
 const FIGURE: &[&str] = &["column", "of", "from", "to", "value", "tolerance"];
 
 /// One thing that was compared: what, how far it is off, how far it may be.
@@ -162,6 +162,9 @@ impl Expected {
             let mut system = build::system(&case).unwrap();
             let mut state = State::zeros(system.size(), 0.0);
             rotate_stably(system.as_mut(), &mut state, 0.0, speed).unwrap();
+            if table.get("free-hub").is_some_and(|free| free.as_bool().unwrap()) {
+                system.hold(false);
+            }
             let found = modes(system.as_mut(), &state, expected.len(), &[]).unwrap().modes;
             for (number, (mode, expected)) in found.iter().zip(expected).enumerate() {
                 let frequency = mode.frequency();
