@@ -210,6 +210,10 @@ pub trait System {
     /// that moves steadily. The equation of a held unknown is that it does not change.
     fn hold(&mut self, _held: bool) {}
 
+    /// Applies `part` of the loads from now on, 0 … 1: an equilibrium is followed as they grow. Nothing to do for a
+    /// system that carries none.
+    fn load(&mut self, _part: f64) {}
+
     /// `out` = q ⊞ d: the configuration q moved by the increment d (`Size::v` entries).
     /// On a vector space, q + d.
     fn retract(&self, q: &[f64], d: &[f64], out: &mut [f64]) {

@@ -39,9 +39,10 @@ pub struct Effort {
 /// Brings `state` to equilibrium at its time, beginning from the configuration it has: q such that
 /// r(t, q, 0, 0) = 0. On return v = a = 0.
 ///
-/// The equilibrium is followed from the given configuration: with r₀ its residual, the levels
-/// r(q) = (1 − s) r₀ are solved for s from 0 to 1, the increment of s growing and shrinking as Newton's
-/// method converges.
+/// The equilibrium is followed from the given configuration as the loads grow: with r_s the residual under the part s
+/// of them and r₀ that without loads in the given configuration, the levels r_s(q) = (1 − s) r₀ are solved for s from
+/// 0 to 1, the increment of s growing and shrinking as Newton's method converges. A follower or a couple turns with
+/// its section all the way.
 ///
 /// # Errors
 /// [`NoEquilibrium`] when the iteration breaks down however small the increments are: a limit point, or a
@@ -53,6 +54,7 @@ pub fn equilibrium(system: &mut dyn System, state: &mut State) -> Result<Effort,
     let scale: Vec<f64> = system.labels().iter().map(|l| l.scale).collect();
     let mut tangent = Matrix::new(&system.structure());
     let (mut start, mut r) = (vec![0.0; n], vec![0.0; n]);
+    system.load(0.0);
     system.residual(state, &mut start);
     let mut good = state.clone();
     let mut moved = state.q.clone();
@@ -60,6 +62,7 @@ pub fn equilibrium(system: &mut dyn System, state: &mut State) -> Result<Effort,
     let mut effort = Effort::default();
     while reached < 1.0 {
         let level = (reached + part).min(1.0);
+        system.load(level);
         let mut failure = None;
         let mut last = f64::INFINITY;
         for iteration in 0..=ITERATIONS {
@@ -104,6 +107,7 @@ pub fn equilibrium(system: &mut dyn System, state: &mut State) -> Result<Effort,
                 state.copy_from(&good);
                 part = 0.25 * (level - reached);
                 if part < SMALLEST {
+                    system.load(1.0);
                     let worst = system.labels().get(worst).map_or("model", |l| &l.name).to_owned();
                     return Err(NoEquilibrium { time: state.t, reached, what, worst });
                 }

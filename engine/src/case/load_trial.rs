@@ -76,11 +76,6 @@ pub(super) fn loads(
         let key = if matches!(load.distribution, Distribution::Table(_)) { "stations" } else { "formula" };
         report(v, ("distributed-load", number), ("distribution", key), error.to_string(), problems);
     }
-    let coupling = values.table("model").and_then(|model| model.text("coupling"));
-    if coupling == Some("high") && !loads.masses.is_empty() {
-        let message = "the high-order coupling knows no lumped masses: use `first` or `exact`";
-        problems.push(Problem::new("mass", values.place("mass"), message));
-    }
     let explicit = matches!(integrator, Some(Integrator::RungeKutta4 { .. } | Integrator::Adams4 { .. }));
     if explicit && loads.damping.stiffness > 0.0 {
         let message = "damping in proportion to the stiffness overdamps the shortest waves, and no explicit method \

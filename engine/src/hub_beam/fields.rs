@@ -191,6 +191,14 @@ impl Fields {
         point
     }
 
+    /// Both fields at the end of cell `cell`, by the functions of that cell.
+    pub fn cell_end(&self, cell: usize) -> Point {
+        let (start, end) = (self.cells[cell], self.cells[cell + 1]);
+        let mut point = Point { x: end, ..Point::default() };
+        self.fill(end, 0.5 * (start + end), &mut point);
+        point
+    }
+
     /// Fills the shapes of `point` at `x`; `inside` is a place strictly inside the same cell.
     fn fill(&self, x: f64, inside: f64, point: &mut Point) {
         for (basis, numbers, shapes) in [

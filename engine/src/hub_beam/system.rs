@@ -290,6 +290,10 @@ impl<C: Coupling> System for HubBeam<C> {
         self.held = held;
     }
 
+    fn load(&mut self, part: f64) {
+        self.loads.set_part(part);
+    }
+
     fn residual(&mut self, s: &State, r: &mut [f64]) {
         let hub = self.kinematics(s);
         self.coupling.inertia().residual(s, &hub, &mut self.scratch, r);

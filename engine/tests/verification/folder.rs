@@ -10,7 +10,7 @@ use toml::{Table, Value};
 
 /// The keys of `expected.toml`, and of the tables in it.
 const KEYS: &[&str] = &["reference", "until", "columns", "figures", "failure", "same", "modes"];
-const MODES: &[&str] = &["speed", "frequencies", "tolerance", "moves"];
+const MODES: &[&str] = &["speed", "free-hub", "frequencies", "tolerance", "moves"];
 /// Modes among which those that move one way are looked for, to each that is expected.
 const AMONG: usize = 4;
 const FIGURE: &[&str] = &["column", "of", "from", "to", "value", "tolerance"];
@@ -164,6 +164,9 @@ impl Expected {
             let mut system = build::vibrating(&case).unwrap();
             let mut state = State::zeros(system.size(), 0.0);
             rotate_stably(system.as_mut(), &mut state, 0.0, speed).unwrap();
+            if table.get("free-hub").is_some_and(|free| free.as_bool().unwrap()) {
+                system.hold(false);
+            }
             let moves = table.get("moves").map(|moves| moves.as_str().unwrap());
             let count = expected.len() * moves.map_or(1, |_| AMONG);
             let mut found = modes(system.as_mut(), &state, count, &[]).unwrap().modes;

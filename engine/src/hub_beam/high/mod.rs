@@ -17,8 +17,9 @@
 //! ```
 //!
 //! w_c and its rates are running sums over the quadrature points from the root to the tip, N is one from the
-//! tip to the root: O(n). The tangent is full, but it too is made of running sums: see [`tangent`]. Rotary
-//! inertia ρI, first mass moment ρS and lumped masses are kept to second order, as in the first-order coupling.
+//! tip to the root: O(n). The tangent is full, but it too is made of running sums: see [`tangent`]. A lumped
+//! mass is a point of ∫ρA … dx. Rotary inertia ρI and first mass moment ρS are kept to second order, as in the
+//! first-order coupling.
 
 mod sums;
 mod tangent;

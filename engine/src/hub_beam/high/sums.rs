@@ -4,6 +4,9 @@
 //! Inside a cell of length h the integral up to a point is that of the polynomial through the values at the
 //! Gauss points, ∫₀^{ξ_g} f dx = h Σ_k S_gk f_k. Tails use the transposed rule, so that the forces are exactly
 //! the derivatives of the kinetic energy that these sums define.
+//!
+//! A lumped mass stands at the end of a cell, which is one more point of it for the mass and none for the slope: the
+//! sum up to there is that over the whole cell, and its axial force enters the tails as a jump.
 
 use crate::hub_beam::fields::{Fields, Shapes};
 use crate::quadrature::Gauss;
@@ -33,11 +36,11 @@ pub struct Cell {
     pub axial: Vec<usize>,
     /// Unknowns of the transverse functions.
     pub transverse: Vec<usize>,
-    /// ρA times the quadrature weight [kg] at each point.
+    /// ρA times the quadrature weight [kg] at each point, then the lumped mass at the end of the cell if there is one.
     pub mass: Vec<f64>,
-    /// φx, φy and φy′ at each point.
+    /// φx at each place of mass.
     pub phi_x: Vec<f64>,
-    /// φy at each point.
+    /// φy at each place of mass.
     pub phi_y: Vec<f64>,
     /// φy′ at each point.
     pub slope: Vec<f64>,
@@ -48,13 +51,15 @@ pub struct Cell {
 pub struct Sums {
     /// Points of a cell.
     pub points: usize,
-    /// S by rows, for a cell of unit length.
+    /// Places of a cell in `at`: its points and, where the beam carries lumped masses, its end.
+    pub rows: usize,
+    /// S by rows, for a cell of unit length; the last row, for its end, holds the weights.
     pub partial: Vec<f64>,
     /// Quadrature weights of a cell of unit length.
     pub weights: Vec<f64>,
     /// The cells, root first.
     pub cells: Vec<Cell>,
-    /// The axis at every point.
+    /// The axis at every place of mass.
     pub at: Vec<Point>,
     /// w₂′ and its rates at every point.
     pub slope: Vec<Rates>,
@@ -92,7 +97,7 @@ fn partial_integrals(gauss: &Gauss) -> Vec<f64> {
 }
 
 impl Sums {
-    /// The points of `fields` with the mass of `section`.
+    /// The points of `fields` with the mass of `section`; cells of the fields end at its lumped masses.
     pub fn new(fields: &Fields, section: &dyn Section) -> Sums {
         let gauss = fields.gauss();
         let points = gauss.len();
@@ -119,11 +124,27 @@ impl Sums {
             copy(&p.transverse, 0, &mut cell.phi_y);
             copy(&p.transverse, 1, &mut cell.slope);
         });
+        let lumped = section.masses();
+        for (c, cell) in cells.iter_mut().enumerate() {
+            let end = fields.cell_end(c);
+            let here = lumped.iter().filter(|m| (m.station - end.x).abs() <= 1e-12 * fields.length());
+            let mass: f64 = here.map(|m| m.mass).sum();
+            if mass != 0.0 {
+                cell.mass.push(mass);
+                copy(&end.axial, 0, &mut cell.phi_x);
+                copy(&end.transverse, 0, &mut cell.phi_y);
+            }
+        }
+        let rows = points + usize::from(!lumped.is_empty());
+        let weights: Vec<f64> = gauss.on(0.0, 1.0).map(|(_, w)| w).collect();
+        let mut partial = partial_integrals(gauss);
+        partial.extend_from_slice(&weights);
         Sums {
             points,
-            partial: partial_integrals(gauss),
-            weights: gauss.on(0.0, 1.0).map(|(_, w)| w).collect(),
-            at: vec![Point::default(); cells.len() * points],
+            rows,
+            partial,
+            weights,
+            at: vec![Point::default(); cells.len() * rows],
             slope: vec![[0.0; 3]; cells.len() * points],
             tension: vec![[0.0; 3]; points],
             cells,
@@ -135,7 +156,8 @@ impl Sums {
         let p = self.points;
         // w_c and its rates at the start of the cell.
         let mut start = [0.0; 3];
-        let cells = self.cells.iter().zip(self.at.chunks_exact_mut(p)).zip(self.slope.chunks_exact_mut(p));
+        let places = self.at.chunks_exact_mut(self.rows);
+        let cells = self.cells.iter().zip(places).zip(self.slope.chunks_exact_mut(p));
         for ((cell, at), slope) in cells {
             let (na, nt) = (cell.axial.len(), cell.transverse.len());
             at.fill(Point::default());
@@ -148,10 +170,11 @@ impl Sums {
             }
             for (j, &number) in cell.transverse.iter().enumerate() {
                 let x = [s.q[number], s.v[number], s.a[number]];
-                let shapes = cell.phi_y.chunks_exact(nt).zip(cell.slope.chunks_exact(nt));
-                for ((at, slope), (phi, phi1)) in at.iter_mut().zip(slope.iter_mut()).zip(shapes) {
+                for (at, phi) in at.iter_mut().zip(cell.phi_y.chunks_exact(nt)) {
                     add(&mut at.w2, phi[j], x);
-                    add(slope, phi1[j], x);
+                }
+                for (slope, phi) in slope.iter_mut().zip(cell.slope.chunks_exact(nt)) {
+                    add(slope, phi[j], x);
                 }
             }
             for at in at.iter_mut() {
@@ -167,13 +190,18 @@ impl Sums {
         }
     }
 
-    /// Calls `f` with the mass [kg] and the axis of every point.
+    /// Calls `f` with the mass [kg] and the axis of every place of mass.
     pub fn each(&self, mut f: impl FnMut(f64, &Point)) {
-        for (cell, at) in self.cells.iter().zip(self.at.chunks_exact(self.points)) {
+        for (cell, at) in self.cells.iter().zip(self.at.chunks_exact(self.rows)) {
             for (m, at) in cell.mass.iter().zip(at) {
                 f(*m, at);
             }
         }
+    }
+
+    /// The axis at the places of mass of cell `c`, and perhaps at its end.
+    pub fn of_cell(&self, c: usize) -> &[Point] {
+        &self.at[c * self.rows..(c + 1) * self.rows]
     }
 
     /// Adds to `r` the forces of accelerations `of`(point) = ([on w₁, on w₂], [along the axis, by N]):
@@ -184,7 +212,8 @@ impl Sums {
         let mut beyond = [0.0; N];
         for (c, cell) in self.cells.iter().enumerate().rev() {
             let (na, nt) = (cell.axial.len(), cell.transverse.len());
-            let (at, slope) = (&self.at[c * p..(c + 1) * p], &self.slope[c * p..(c + 1) * p]);
+            let at = &self.at[c * self.rows..(c + 1) * self.rows];
+            let slope = &self.slope[c * p..(c + 1) * p];
             for (tension, weight) in self.tension.iter_mut().zip(&self.weights) {
                 for (tension, beyond) in tension.iter_mut().zip(beyond) {
                     *tension = weight * beyond;

@@ -66,7 +66,7 @@ struct Block {
     tension: Vec<f64>,
     /// g₁ and g₂ at the points.
     g: [Vec<f64>; 2],
-    /// z₁ and z₂ at the points by the transverse unknowns (points × functions); z₁ with the rest of δα.
+    /// z₁ and z₂ at the masses by the transverse unknowns (places × functions); z₁ with the rest of δα.
     z: [Vec<f64>; 2],
     /// Σ_k S_gk h σ_k φ′_k: what an axial force at a point does on the transverse unknowns.
     lever: Vec<f64>,
@@ -127,7 +127,7 @@ impl Tangent {
         let mean = (total / cells as f64).sqrt();
         let most = |f: fn(&Cell) -> &Vec<usize>| sums.cells.iter().map(|c| f(c).len()).max().unwrap_or(0);
         let (na, nt) = (most(|c| &c.axial), most(|c| &c.transverse));
-        let block = Block::new(sums.points, na, nt);
+        let block = Block::new(sums, na, nt);
         let mut tangent = Tangent {
             hidden,
             places,
@@ -141,11 +141,17 @@ impl Tangent {
         };
         tangent.half_bandwidth = tangent.measure(sums);
         if matches!(tangent.structure(0), Structure::Dense { .. }) {
-            tangent.rows = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
-            tangent.steps = vec![0.0; n * cells];
-            tangent.ends = vec![0.0; nt * cells];
+            tangent.make_rows(cells);
         }
         tangent
+    }
+
+    /// Scratch for a dense matrix: from the start where that is the structure, else when an analysis asks for one.
+    fn make_rows(&mut self, cells: usize) {
+        let n = self.places.visible.len();
+        self.rows = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
+        self.steps = vec![0.0; n * cells];
+        self.ends = vec![0.0; self.block.by_n.len() * cells];
     }
 
     /// Largest distance of two unknowns of which one stands in the equation of the other.
@@ -194,12 +200,21 @@ impl Tangent {
         let mut tail = 0.0;
         for (c, cell) in sums.cells.iter().enumerate().rev() {
             self.tails[c] = tail;
-            let at = &sums.at[c * sums.points..(c + 1) * sums.points];
-            tail += cell.mass.iter().zip(at).map(|(m, at)| m * axial_acceleration(at, hub)).sum::<f64>();
+            tail += cell
+                .mass
+                .iter()
+                .zip(sums.of_cell(c))
+                .map(|(m, at)| m * axial_acceleration(at, hub))
+                .sum::<f64>();
         }
         match out {
             Storage::Condensed(out) => self.add_condensed(sums, hub, w, out),
-            Storage::Dense(out) => self.add_dense(sums, hub, w, out),
+            Storage::Dense(out) => {
+                if self.steps.is_empty() {
+                    self.make_rows(sums.cells.len());
+                }
+                self.add_dense(sums, hub, w, out);
+            }
             Storage::Band(_) => debug_assert!(false, "no structure of this tangent"),
         }
     }
@@ -316,14 +331,15 @@ impl Tangent {
 }
 
 impl Block {
-    /// Scratch for cells of so many points, axial and transverse functions.
-    fn new(points: usize, na: usize, nt: usize) -> Block {
+    /// Scratch for the cells of `sums`, of so many axial and transverse functions at most.
+    fn new(sums: &Sums, na: usize, nt: usize) -> Block {
         let zeros = |n: usize| vec![0.0; n];
+        let (points, rows) = (sums.points, sums.rows);
         Block {
             tension: zeros(points),
             g: [zeros(points), zeros(points)],
-            z: [zeros(points * nt), zeros(points * nt)],
-            lever: zeros(points * nt),
+            z: [zeros(rows * nt), zeros(rows * nt)],
+            lever: zeros(rows * nt),
             axial_by_z: zeros(na),
             by_z: [zeros(nt), zeros(nt)],
             by_n: zeros(nt),
@@ -366,7 +382,7 @@ impl Block {
         self.clear();
         let p = sums.points;
         let cell = &sums.cells[c];
-        let (at, slope) = (&sums.at[c * p..(c + 1) * p], &sums.slope[c * p..(c + 1) * p]);
+        let (at, slope) = (sums.of_cell(c), &sums.slope[c * p..(c + 1) * p]);
         let (na, nt) = (cell.axial.len(), cell.transverse.len());
         let (om, al, h) = (hub.speed, hub.acceleration, cell.length);
         let (inertial, coriolis) = (w.a - w.q * om * om, w.q * al + 2.0 * w.v * om);
@@ -376,8 +392,7 @@ impl Block {
             self.tension[k] = sums.weights[k] * tail;
         }
         self.mass = cell.mass.iter().sum();
-        for g in 0..p {
-            let m = cell.mass[g];
+        for (g, &m) in cell.mass.iter().enumerate() {
             let force = m * axial_acceleration(&at[g], hub);
             let partial = &sums.partial[g * p..(g + 1) * p];
             let range = g * nt..(g + 1) * nt;

@@ -6,12 +6,12 @@ use crate::basis::{
     RadialParameters,
 };
 use crate::hub_beam::tests::{
-    LENGTH, RADIUS, TwoFibres, check_tangent, free_hub, hub, relative, residual, state,
+    LENGTH, RADIUS, TwoFibres, check_power, check_tangent, free_hub, hub, relative, residual, state,
 };
 use crate::hub_beam::{Coupling, Drive, Fields, Foreshortening, Hub, HubBeam, LinearCoupling};
 use crate::linalg::{Dense, Matrix, Structure};
 use crate::quadrature::Gauss;
-use crate::section::{Resultants, Section};
+use crate::section::{Laden, Mass as Lump, Resultants, Section};
 use crate::system::{State, System, Weights};
 use num_complex::Complex64;
 
@@ -62,36 +62,43 @@ fn fields_of_every_basis() -> Vec<Fields> {
     all
 }
 
-/// T of a beam without thickness: ½∫ρA[(Ẋ − ωY)² + (Ẏ + ωX)²] with w_c summed afresh from the root to each point.
-fn kinetic_energy(fields: &Fields, s: &State, speed: f64) -> f64 {
+/// T of a beam without thickness: ½∫ρA[(Ẋ − ωY)² + (Ẏ + ωX)²] with w_c summed afresh from the root to each point, and
+/// of masses on it that turn with w₂′.
+fn kinetic_energy(fields: &Fields, masses: &[Lump], s: &State, speed: f64) -> f64 {
     let gauss = Gauss::new(14);
     let cells = fields.cells();
-    let mut total = 0.5 * 0.7 * speed * speed;
-    for (c, ends) in cells.windows(2).enumerate() {
-        for (x, weight) in gauss.on(ends[0], ends[1]) {
-            let (mut place, mut rate) = (0.0, 0.0);
-            let mut boundaries: Vec<f64> = cells[..=c].to_vec();
-            boundaries.push(x);
-            for piece in boundaries.windows(2) {
-                for (y, w) in gauss.on(piece[0], piece[1]) {
-                    let b = fields.point(y, w).transverse;
-                    place -= 0.5 * w * b.field(1, &s.q).powi(2);
-                    rate -= w * b.field(1, &s.q) * b.field(1, &s.v);
-                }
+    let particle = |x: f64, mass: f64| {
+        let (mut place, mut rate) = (0.0, 0.0);
+        let mut boundaries: Vec<f64> = cells.iter().copied().filter(|end| *end < x).collect();
+        boundaries.push(x);
+        for piece in boundaries.windows(2) {
+            for (y, w) in gauss.on(piece[0], piece[1]) {
+                let b = fields.point(y, w).transverse;
+                place -= 0.5 * w * b.field(1, &s.q).powi(2);
+                rate -= w * b.field(1, &s.q) * b.field(1, &s.v);
             }
-            let point = fields.point(x, weight);
-            let (a, b) = (point.axial, point.transverse);
-            let (px, py) = (RADIUS + x + a.field(0, &s.q) + place, b.field(0, &s.q));
-            let (vx, vy) = (a.field(0, &s.v) + rate, b.field(0, &s.v));
-            let mass: f64 = Mass.resultants(x).mass;
-            total += 0.5 * weight * mass * ((vx - speed * py).powi(2) + (vy + speed * px).powi(2));
         }
+        let point = fields.point(x, mass);
+        let (a, b) = (point.axial, point.transverse);
+        let (px, py) = (RADIUS + x + a.field(0, &s.q) + place, b.field(0, &s.q));
+        let (vx, vy) = (a.field(0, &s.v) + rate, b.field(0, &s.v));
+        0.5 * mass * ((vx - speed * py).powi(2) + (vy + speed * px).powi(2))
+    };
+    let mut total = 0.5 * 0.7 * speed * speed;
+    for ends in cells.windows(2) {
+        for (x, weight) in gauss.on(ends[0], ends[1]) {
+            total += particle(x, weight * Mass.resultants(x).mass);
+        }
+    }
+    for m in masses {
+        let turn = fields.point(m.station, 1.0).transverse.field(1, &s.v) + speed;
+        total += particle(m.station, m.mass) + 0.5 * m.inertia * turn * turn;
     }
     total
 }
 
 /// d/dt ∂T/∂v − ∂T/∂q by nothing but values of T, along the motion q + v t + ½ a t².
-fn lagrange(fields: &Fields, s: &State, speed: f64, acceleration: f64) -> Vec<f64> {
+fn lagrange(fields: &Fields, masses: &[Lump], s: &State, speed: f64, acceleration: f64) -> Vec<f64> {
     let n = fields.len();
     let moved = |t: f64| {
         let mut out = s.clone();
@@ -110,7 +117,7 @@ fn lagrange(fields: &Fields, s: &State, speed: f64, acceleration: f64) -> Vec<f6
                 let value = |c: f64| {
                     let mut at = at.clone();
                     at.v[k] += c * d;
-                    kinetic_energy(fields, &at, speed)
+                    kinetic_energy(fields, masses, &at, speed)
                 };
                 // T is quadratic in v: the central difference is exact.
                 (value(1.0) - value(-1.0)) / (2.0 * d)
@@ -118,7 +125,7 @@ fn lagrange(fields: &Fields, s: &State, speed: f64, acceleration: f64) -> Vec<f6
             let by_place = |c: f64| {
                 let mut at = s.clone();
                 at.q[k] += c * h;
-                kinetic_energy(fields, &at, speed)
+                kinetic_energy(fields, masses, &at, speed)
             };
             let rate: f64 = stencil.iter().map(|(c, t)| c * momentum(t * h) / (12.0 * h)).sum();
             let slope: f64 = stencil.iter().map(|(c, t)| c * by_place(*t) / (12.0 * h)).sum();
@@ -127,18 +134,33 @@ fn lagrange(fields: &Fields, s: &State, speed: f64, acceleration: f64) -> Vec<f6
         .collect()
 }
 
+/// Inside the second of three elements, at the end of it, and at the tip.
+const MASSES: [Lump; 3] = [
+    Lump { station: 0.45 * LENGTH, mass: 0.7, inertia: 0.02 },
+    Lump { station: 2.0 / 3.0 * LENGTH, mass: 0.3, inertia: 0.0 },
+    Lump { station: LENGTH, mass: 0.4, inertia: 0.05 },
+];
+
+fn laden(section: impl Section + 'static) -> Laden {
+    Laden::new(Box::new(section), MASSES.to_vec(), &[])
+}
+
 #[test]
 fn forces_are_lagranges_of_an_energy_with_nothing_dropped() {
     let hub = hub();
     let Drive::Prescribed(motion) = &hub.drive else { panic!("prescribed") };
-    for fields in [
-        || elements(3, 2),
-        || {
-            let basis = |field| Box::new(BSpline::new(LENGTH, 3, 3, field).unwrap());
-            Fields::new(LENGTH, basis(Field::Axial), basis(Field::Transverse), &[])
-        },
-    ] {
-        let mut system = high(fields(), &Mass, hub.clone());
+    let bare = Laden::new(Box::new(Mass), vec![], &[]);
+    let elements = |field| -> Box<dyn Basis> {
+        match field {
+            Field::Axial => Box::new(Lagrange::new(LENGTH, 3, 2).unwrap()),
+            Field::Transverse => Box::new(Hermite::new(LENGTH, 3, field).unwrap()),
+        }
+    };
+    let splines = |field| -> Box<dyn Basis> { Box::new(BSpline::new(LENGTH, 3, 3, field).unwrap()) };
+    let bases: [&dyn Fn(Field) -> Box<dyn Basis>; 2] = [&elements, &splines];
+    for (section, basis) in [&bare, &laden(Mass)].into_iter().flat_map(|s| bases.map(|b| (s, b))) {
+        let fields = || Fields::new(LENGTH, basis(Field::Axial), basis(Field::Transverse), section.breaks());
+        let mut system = high(fields(), section, hub.clone());
         let s = state(&system, 0.3);
         let at = motion.at(s.t);
         let strain: Vec<f64> = {
@@ -148,15 +170,15 @@ fn forces_are_lagranges_of_an_energy_with_nothing_dropped() {
             product
         };
         let forces: Vec<f64> = residual(&mut system, &s).iter().zip(&strain).map(|(r, k)| r - k).collect();
-        let expected = lagrange(&fields(), &s, at.speed, at.acceleration);
+        let expected = lagrange(&fields(), section.masses(), &s, at.speed, at.acceleration);
         let error = relative(&forces, &expected);
         assert!(error < 1e-8, "{error:e}");
         // And they are not those of the first order.
-        let coupling = LinearCoupling::new(fields(), &Mass, &hub, Foreshortening::First);
+        let coupling = LinearCoupling::new(fields(), section, &hub, Foreshortening::First);
         let mut first = HubBeam::new(hub.clone(), coupling, &[]);
         let forces: Vec<f64> = residual(&mut first, &s).iter().zip(&strain).map(|(r, k)| r - k).collect();
         assert!(relative(&forces, &expected) > 1e-2);
-        let kinetic = kinetic_energy(&fields(), &s, at.speed);
+        let kinetic = kinetic_energy(&fields(), section.masses(), &s, at.speed);
         assert!((system.energy(&s).kinetic / kinetic - 1.0).abs() < 1e-12);
     }
 }
@@ -172,6 +194,28 @@ fn tangents_equal_finite_differences_on_every_basis() {
         check_tangent(&mut system, &s);
     }
     assert!(hidden >= 3, "{hidden}");
+}
+
+#[test]
+fn tangents_with_lumped_masses_equal_finite_differences() {
+    let section = laden(TwoFibres);
+    let both = |of: &dyn Fn(Field) -> Box<dyn Basis>| {
+        Fields::new(LENGTH, of(Field::Axial), of(Field::Transverse), section.breaks())
+    };
+    let modes = both(&|field| Box::new(Modes::new(LENGTH, 3, field).unwrap()));
+    let elements = both(&|field| match field {
+        Field::Axial => Box::new(Lagrange::new(LENGTH, 14, 1).unwrap()),
+        Field::Transverse => Box::new(Hermite::new(LENGTH, 14, field).unwrap()),
+    });
+    for (fields, condensed) in [(modes, false), (elements, true)] {
+        let mut system = high(fields, &section, free_hub());
+        assert_eq!(matches!(system.structure(), Structure::Condensed { .. }), condensed);
+        let s = state(&system, 0.1);
+        check_tangent(&mut system, &s);
+        if !condensed {
+            check_power(&mut system);
+        }
+    }
 }
 
 /// The tangent written into the storage of the given structure.
@@ -231,6 +275,23 @@ fn hidden_unknowns_change_no_solution_and_no_product() {
             let parts = |x: &[Complex64]| x.iter().flat_map(|x| [x.re, x.im]).collect::<Vec<f64>>();
             assert!(relative(&parts(&x), &parts(&y)) < 1e-11);
         }
+    }
+}
+
+#[test]
+fn a_dense_matrix_holds_what_the_one_with_hidden_unknowns_does() {
+    for hub in [hub(), free_hub()] {
+        let mut system = high(elements(30, 2), &TwoFibres, hub);
+        let s = state(&system, 0.02);
+        let own = system.structure();
+        assert!(matches!(own, Structure::Condensed { .. }));
+        let w = || Weights::new(0.3, -0.02, 3e-4);
+        let hidden = tangent(&mut system, &s, w(), &own).explicit();
+        let dense = tangent(&mut system, &s, w(), &own.explicit());
+        let n = s.q.len();
+        let all = |a: &Matrix| (0..n * n).map(|k| a.get(k / n, k % n)).collect::<Vec<f64>>();
+        let (hidden, dense) = (all(&hidden), all(&dense));
+        assert!(relative(&dense, &hidden) < 1e-12, "{:e}", relative(&dense, &hidden));
     }
 }
 

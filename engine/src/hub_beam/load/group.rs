@@ -27,6 +27,8 @@ pub struct Group {
     axes: Axes,
     amplitude: Amplitude,
     gravity: bool,
+    /// Part of the load that is applied.
+    part: f64,
     /// c_x and c_y
     pub(super) arm: f64,
     pub(super) offset: f64,
@@ -59,6 +61,7 @@ impl Group {
             axes,
             amplitude,
             gravity: false,
+            part: 1.0,
             arm: 0.0,
             offset: 0.0,
             along: zero(),
@@ -106,6 +109,10 @@ impl Group {
         self.gravity = true;
     }
 
+    pub(super) fn set_part(&mut self, part: f64) {
+        self.part = part;
+    }
+
     pub(super) fn is_gravity(&self) -> bool {
         self.gravity
     }
@@ -127,7 +134,7 @@ impl Group {
     }
 
     fn now(&self, t: f64, hub: &HubKinematics) -> Now {
-        let factor = self.amplitude.as_ref().map_or(1.0, |f| f.value(t));
+        let factor = self.part * self.amplitude.as_ref().map_or(1.0, |f| f.value(t));
         let [x, y] = self.force.map(|c| factor * c);
         if self.axes == Axes::Dead {
             let (sin, cos) = hub.angle.sin_cos();

@@ -66,6 +66,8 @@ pub trait Load: std::fmt::Debug {
 pub struct Loads {
     groups: Vec<Group>,
     breaks: Vec<f64>,
+    /// What is not there of the loads: 0 but while an equilibrium is followed.
+    missing: f64,
     /// Forces, for their power.
     force: Vec<f64>,
 }
@@ -77,7 +79,7 @@ impl Loads {
         let mut breaks: Vec<f64> = groups.iter().flat_map(|g| g.breaks().iter().copied()).collect();
         breaks.sort_by(f64::total_cmp);
         breaks.dedup();
-        Loads { groups, breaks, force: vec![0.0; site.fields.len()] }
+        Loads { groups, breaks, missing: 0.0, force: vec![0.0; site.fields.len()] }
     }
 
     /// Whether there is no load.
@@ -88,6 +90,12 @@ impl Loads {
     /// Whether gravity is among them.
     pub fn has_gravity(&self) -> bool {
         self.groups.iter().any(|g| g.is_gravity())
+    }
+
+    /// Applies a part of the loads, 0 … 1, from now on.
+    pub fn set_part(&mut self, part: f64) {
+        self.missing = 1.0 - part;
+        self.groups.iter_mut().for_each(|group| group.set_part(part));
     }
 
     /// Times at which an amplitude loses smoothness, ascending.
@@ -148,7 +156,10 @@ impl Loads {
     /// prescribed.
     pub fn stamp(&self, s: &State, hub: &HubKinematics) -> f64 {
         let stiff = || self.groups.iter().filter(|g| g.is_stiff());
-        if stiff().any(Group::varies) {
+        if self.missing != 0.0 {
+            // No number: a tangent with part of the loads is never taken for another.
+            f64::NAN
+        } else if stiff().any(Group::varies) {
             s.t
         } else if stiff().any(|g| g.axes() == Axes::Dead) {
             hub.angle

@@ -6,7 +6,8 @@ use crate::hub_beam::tests::{
     relative, residual, state, without_strain,
 };
 use crate::hub_beam::{
-    Coupling, Damping, ExactCoupling, Foreshortening, Hub, HubBeam, LinearCoupling, Placement, Station,
+    Coupling, Damping, ExactCoupling, Foreshortening, HighCoupling, Hub, HubBeam, LinearCoupling, Placement,
+    Station,
 };
 use crate::profile::Expression;
 use crate::section::{Laden, Mass, Section};
@@ -71,6 +72,15 @@ fn linear(hub: Hub, section: &dyn Section, foreshortening: Foreshortening) -> Hu
     HubBeam::new(hub, coupling, &[])
 }
 
+fn high(hub: Hub, section: &dyn Section, elements: usize) -> HubBeam<HighCoupling> {
+    let axial = Box::new(crate::basis::Lagrange::new(LENGTH, elements, 1).unwrap());
+    let transverse =
+        Box::new(crate::basis::Hermite::new(LENGTH, elements, crate::basis::Field::Transverse).unwrap());
+    let fields = crate::hub_beam::Fields::new(LENGTH, axial, transverse, section.breaks());
+    let coupling = HighCoupling::new(fields, section, &hub);
+    HubBeam::new(hub, coupling, &[])
+}
+
 fn exact(hub: Hub, section: &dyn Section) -> HubBeam<ExactCoupling> {
     let coupling = ExactCoupling::new(LENGTH, 3, section, &hub).unwrap();
     HubBeam::new(hub, coupling, &[])
@@ -85,6 +95,8 @@ fn systems(loads: &[&dyn Load], masses: &[Mass], damping: Damping) -> Vec<Box<dy
             let system = linear(hub.clone(), &section, foreshortening);
             systems.push(Box::new(system.with_loads(&section, loads).with_damping(damping)));
         }
+        let system = high(hub.clone(), &section, 3);
+        systems.push(Box::new(system.with_loads(&section, loads).with_damping(damping)));
         let system = exact(hub, &section);
         systems.push(Box::new(system.with_loads(&section, loads).with_damping(damping)));
     }
@@ -97,6 +109,14 @@ fn tangents_of_every_load_equal_finite_differences() {
         for mut system in systems(&[&*load], &[], Damping::default()) {
             let s = state(&*system, 0.15);
             check_tangent(&mut *system, &s);
+        }
+        // A matrix with hidden unknowns.
+        let section = section(masses());
+        for hub in [hub(), free_hub()] {
+            let mut system = high(hub, &section, 12).with_loads(&section, &[&*load]);
+            assert!(matches!(system.structure(), crate::linalg::Structure::Condensed { .. }));
+            let s = state(&system, 0.15);
+            check_tangent(&mut system, &s);
         }
     }
 }
