@@ -47,6 +47,13 @@ const ITERATION_TOLERANCE: f64 = 1e-10;
 /// The same where the tangent is kept and the iteration converges linearly.
 const KEPT_TOLERANCE: f64 = 1e-14;
 
+/// The same as a share of the first increment, which is the error of the prediction and three to six times the local
+/// error of a step; but [`LOOSEST`] at most.
+const SHARE: f64 = 1e-3;
+
+/// See [`SHARE`].
+const LOOSEST: f64 = 1e-12;
+
 /// Largest size of increments that are taken for rounding errors when they suddenly stop shrinking.
 const NOISE: f64 = 1e-7;
 
@@ -128,6 +135,8 @@ struct Work {
     place: State,
     increment: Vec<f64>,
     wear: Wear,
+    /// Whether the tangent of an affine system is, as far as known, the same at all times.
+    constant: bool,
 }
 
 impl GeneralizedAlpha {
@@ -189,7 +198,9 @@ impl GeneralizedAlpha {
             beta,
             gamma,
             full: Convergence::full(ITERATION_TOLERANCE),
-            kept: Convergence::kept(KEPT_TOLERANCE, ITERATION_TOLERANCE).with_noise(NOISE),
+            kept: Convergence::kept(KEPT_TOLERANCE, ITERATION_TOLERANCE)
+                .relative_to_first(SHARE, LOOSEST)
+                .with_noise(NOISE),
             counters: Counters::default(),
             worst: 0,
             pending: false,
@@ -253,7 +264,7 @@ impl GeneralizedAlpha {
 
         // Whether every iteration has a tangent of its own, and whether the next one needs a new tangent.
         let mut full = !work.keeps;
-        let mut renew = full || work.kept != [to_v, to_q] || work.wear.due;
+        let mut renew = full || work.kept != [to_v, to_q] || work.wear.due || work.constant;
         'attempt: loop {
             self.predict(system, from, h, to);
             let convergence = if full { &mut self.full } else { &mut self.kept };
@@ -281,6 +292,8 @@ impl GeneralizedAlpha {
                         work.tangent.factor().map_err(|e| failure::singular(system, from.t, h, e))?;
                     self.counters.tangents += u64::from(factored);
                     self.counters.factorizations += u64::from(factored);
+                    // The first tangent is the only one until a second one is another.
+                    work.constant = work.affine && (!factored || work.kept != [to_v, to_q]);
                     work.kept = [to_v, to_q];
                     if factored {
                         work.place.copy_from(to);
@@ -315,14 +328,12 @@ impl GeneralizedAlpha {
                 let progress = convergence.judge(size);
                 let iterations = convergence.iterations();
                 if exact && size.is_finite() {
-                    if made && iterations == 1 {
+                    if made && !work.constant && iterations == 1 {
                         continue;
                     }
                     // What is left by an exact solution is rounding error.
-                    if iterations == 1 {
-                        self.kept.learn_rate(0.0)
-                    } else {
-                        self.kept.learn_rounding(size)
+                    if iterations > 1 {
+                        self.kept.learn_rounding(size);
                     }
                     work.wear.count(iterations);
                     return Ok(StepReport { iterations, error: None });
@@ -383,6 +394,7 @@ impl Integrator for GeneralizedAlpha {
             place: State::zeros(size, state.t),
             increment: vec![0.0; size.v],
             wear: Wear::default(),
+            constant: false,
         }));
         self.counters = Counters::default();
         self.restart(system, state)
@@ -441,6 +453,7 @@ impl Integrator for GeneralizedAlpha {
         if let Some(work) = &self.work {
             out.put("tangent.weights", &work.kept);
             out.put("tangent.wear", &work.wear.to_numbers());
+            out.put("tangent.constant", &[f64::from(u8::from(work.constant))]);
             out.put_state("tangent.", &work.place);
             out.put("tangent.increment", &work.increment);
         }
@@ -457,6 +470,8 @@ impl Integrator for GeneralizedAlpha {
         self.kept.recall(from.numbers("convergence")?);
         work.kept = from.numbers("tangent.weights")?;
         work.wear = Wear::from_numbers(from.numbers("tangent.wear")?);
+        let [constant] = from.numbers("tangent.constant")?;
+        work.constant = constant != 0.0;
         from.fill_state("tangent.", &mut work.place)?;
         from.fill("tangent.increment", &mut work.increment)?;
         let [v, q] = work.kept;

@@ -59,7 +59,7 @@ const STAGES: [&str; 3] = ["stage.1", "stage.2", "stage.3"];
 const REUSE_RATE: f64 = 0.1;
 
 /// Largest size of increments, in units of the tolerance, that are taken for rounding errors when they stop
-/// shrinking.
+/// shrinking: of affine systems, whose iteration does not become slow by anything else.
 const NOISE: f64 = 1.0;
 
 /// What local errors are measured against: absolute·scaleᵢ + relative·|qᵢ|.
@@ -118,7 +118,7 @@ impl Radau {
             info: Info { name: NAME, order: 5, estimate_order: Some(3), implicit: true },
             tolerance,
             counters: Counters::default(),
-            convergence: Convergence::simplified(kappa, floor.max(kappa)).with_noise(NOISE),
+            convergence: Convergence::simplified(kappa, floor.max(kappa)),
             worst: 0,
             pending: false,
             first: true,
@@ -145,6 +145,7 @@ impl Integrator for Radau {
             return Err(StepError::Unsupported { method: NAME, feature, instead });
         }
         self.counters = Counters::default();
+        self.convergence = self.convergence.with_noise(if system.is_affine() { NOISE } else { 0.0 });
         self.work = Some(Stages::new(system));
         self.restart(system, state)
     }
