@@ -323,7 +323,7 @@ def arguments():
     parser.add_argument("--flexion", help="path of the flexion binary; without it only Exudyn is measured")
     parser.add_argument("--case", help="case file of the spin-up with exact coupling")
     parser.add_argument("--command", default="{binary} run {case} --output {dir}", help="how a case is run (%(default)s)")
-    parser.add_argument("--elements-key", default="beam.elements", help="key of the number of elements (%(default)s)")
+    parser.add_argument("--elements-key", default="basis.elements", help="key of the number of elements (%(default)s)")
     parser.add_argument("--step-key", default="integrator.step", help="key of the step (%(default)s)")
     parser.add_argument("--step-value", default="{step:.12g}", help="how the step in s is written (%(default)s)")
     parser.add_argument("--as-written", action="store_true", help="run the case as it is, without a sweep")
@@ -331,6 +331,7 @@ def arguments():
     parser.add_argument("--worst", type=float, default=2e-3, help="tip error [m] above which a run is left out")
     parser.add_argument("--levels", type=float, nargs="+", default=[1e-3, 5e-4, 2e-4, 1e-4, 7.3e-5, 5e-5, 2e-5, 1e-5])
     parser.add_argument("--kinds", nargs="+", choices=list(ELEMENTS), default=list(ELEMENTS))
+    parser.add_argument("--steps", nargs="+", type=int, default=list(STEPS), help="numbers of fixed steps to try")
     parser.add_argument("--quick", action="store_true", help="a few runs only, to see that everything works")
     parser.add_argument("--reference", default=HERE / "reference.csv")
     parser.add_argument("--out", default=HERE / "results", help="folder of the JSON and CSV tables")
@@ -347,7 +348,7 @@ def main():
     sys.path.insert(0, str(HERE))
     options = arguments()
     reference = Reference(options.reference)
-    steps = (2000, 4000) if options.quick else STEPS
+    steps = (2000, 4000) if options.quick else options.steps
     newton = NEWTON[:1] if options.quick else NEWTON
     runs = [
         Exudyn(kind, elements, count, modified, tolerance)

@@ -47,13 +47,6 @@ const ITERATION_TOLERANCE: f64 = 1e-10;
 /// The same where the tangent is kept and the iteration converges linearly.
 const KEPT_TOLERANCE: f64 = 1e-14;
 
-/// The same as a share of the first increment, which is the error of the prediction and three to six times the local
-/// error of a step; but [`LOOSEST`] at most.
-const SHARE: f64 = 1e-3;
-
-/// See [`SHARE`].
-const LOOSEST: f64 = 1e-12;
-
 /// Largest size of increments that are taken for rounding errors when they suddenly stop shrinking.
 const NOISE: f64 = 1e-7;
 
@@ -198,9 +191,7 @@ impl GeneralizedAlpha {
             beta,
             gamma,
             full: Convergence::full(ITERATION_TOLERANCE),
-            kept: Convergence::kept(KEPT_TOLERANCE, ITERATION_TOLERANCE)
-                .relative_to_first(SHARE, LOOSEST)
-                .with_noise(NOISE),
+            kept: Convergence::kept(KEPT_TOLERANCE, ITERATION_TOLERANCE).with_noise(NOISE),
             counters: Counters::default(),
             worst: 0,
             pending: false,

@@ -41,11 +41,6 @@ pub struct Convergence {
     ahead: f64,
     /// Power with which `ahead` < 1 fades from step to step.
     fading: f64,
-    /// Share of the first increment that the iteration error may be, and what that is at most.
-    share: f64,
-    loosest: f64,
-    /// What the iteration error of this attempt may be.
-    allowed: f64,
     /// Size of increments that are rounding errors, as far as known.
     rounding: f64,
     /// Largest size of increments that are taken for rounding errors when their shrinking comes to a sudden end.
@@ -74,9 +69,6 @@ impl Convergence {
             rate: 0.0,
             ahead: 1.0,
             fading: 0.8,
-            share: 0.0,
-            loosest: 0.0,
-            allowed: tolerance,
             rounding: 0.0,
             noise: 0.0,
         }
@@ -93,13 +85,6 @@ impl Convergence {
     /// about the rate is forgotten more slowly.
     pub fn kept(tolerance: f64, floor: f64) -> Convergence {
         Convergence { fading: 0.95, ..Convergence::simplified(tolerance, floor) }
-    }
-
-    /// The same, satisfied with an iteration error that is the given share of the first increment: where
-    /// that increment measures the error of the method. Never with more than `loosest`: what grows from step to
-    /// step, because the tangent is wrong in its direction, grows relative to itself.
-    pub fn relative_to_first(self, share: f64, loosest: f64) -> Convergence {
-        Convergence { share, loosest, ..self }
     }
 
     /// The same, which takes increments up to the size `noise` for rounding errors when they suddenly
@@ -130,10 +115,8 @@ impl Convergence {
         }
         // An old tangent may be wrong in just the direction that grows: rounding is left to new ones.
         let noise = if self.fresh { self.noise } else { 0.0 };
-        if self.iteration == 1 {
-            let shared = (self.share * size).min(self.loosest);
-            self.allowed = self.tolerance.max(shared).max(self.rounding);
-        } else {
+        let allowed = self.tolerance.max(self.rounding);
+        if self.iteration > 1 {
             let ratio = if self.previous > 0.0 { size / self.previous } else { 0.0 };
             if self.stalls(ratio, size, noise) {
                 if self.fresh && self.simplified {
@@ -150,7 +133,7 @@ impl Convergence {
                 self.ahead = self.rate / (1.0 - self.rate);
                 let left = self.max_iterations.saturating_sub(self.iteration) as i32;
                 let predicted = self.ahead * size * self.rate.powi(left);
-                if self.simplified && predicted > self.allowed && size > noise {
+                if self.simplified && predicted > allowed && size > noise {
                     return Progress::Diverged;
                 }
             } else if (self.simplified && size > noise) || (self.iteration > 3 && ratio >= 2.0) {
@@ -160,7 +143,7 @@ impl Convergence {
             }
         }
         (self.earlier, self.previous) = (self.previous, size);
-        if size == 0.0 || self.ahead * size <= self.allowed {
+        if size == 0.0 || self.ahead * size <= allowed {
             Progress::Converged
         } else if self.iteration >= self.max_iterations {
             Progress::Diverged
