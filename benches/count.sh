@@ -11,7 +11,8 @@ instructions() {
 steps=100
 echo "coupling,integrator,elements,instructions per step"
 for elements in "${@:-10}"; do
-    for what in "solver none" "first newmark" "exact newmark" "first radau" "exact radau"; do
+    for what in "solver none" "first newmark" "exact newmark" "first radau" "exact radau" \
+        "first-free newmark" "exact-free newmark" "first-free radau" "exact-free radau"; do
         set -- $what
         once=$(instructions "$1" "$2" "$elements" $steps)
         twice=$(instructions "$1" "$2" "$elements" $((2 * steps)))

@@ -43,13 +43,23 @@ def enter_environment():
 
 STEPS = (1000, 1600, 2000, 3000, 4000, 6000, 8000, 12000, 16000)  # every output time 0.1 s is a step
 NEWTON = ((True, 1e-4), (True, 1e-6), (False, 1e-2), (False, 1e-6))  # modified?, relative tolerance
-ELEMENTS = {"ancf": (4, 6, 8, 10, 16), "ge2": (10, 20, 40), "ge3": (3, 4, 5, 8, 12)}
+FULL_NEWTON = (False, 1e-8)  # Exudyn's own: a new tangent every iteration, its default relative tolerance
+ELEMENTS = {
+    "ancf": (4, 6, 8, 10, 16),
+    "ancf-full": (4, 6, 8, 10, 16),
+    "ge2": (10, 20, 40),
+    "ge3": (3, 4, 5, 8, 12),
+}
 FLEXION_ELEMENTS = (4, 6, 8, 10, 16)
+RADAU_ELEMENTS = (3, 4, 5, 6, 8, 10)
+RADAU_TOLERANCES = (1e-2, 1e-3, 3e-4, 1e-4, 1e-5, 1e-6)
 NAMES = {
-    "ancf": "Exudyn ANCFCable2D",
+    "ancf": "Exudyn ANCFCable2D, tuned Newton",
+    "ancf-full": "Exudyn ANCFCable2D, full Newton",
     "ge2": "Exudyn GeometricallyExactBeam2D, 2 nodes",
     "ge3": "Exudyn GeometricallyExactBeam2D, 3 nodes",
-    "flexion": "Flexion, exact coupling",
+    "flexion": "Flexion, exact coupling, Newmark",
+    "radau": "Flexion, exact coupling, Radau",
 }
 
 
@@ -107,7 +117,7 @@ class Exudyn:
 
         try:
             wall, cpu, t, _, transverse = exudyn_model.run(
-                self.kind, self.elements, self.steps, self.modified, self.tolerance
+                self.kind.removesuffix("-full"), self.elements, self.steps, self.modified, self.tolerance
             )
         except (RuntimeError, ValueError, ArithmeticError) as error:
             raise Failed(str(error)) from error
@@ -117,12 +127,13 @@ class Exudyn:
 class Flexion:
     """One configuration of Flexion: a case file with its number of elements and its step replaced."""
 
-    kind = "flexion"
-
-    def __init__(self, options, elements, steps):
-        self.options, self.elements, self.steps = options, elements, steps
+    def __init__(self, options, elements, steps, tolerance=None):
+        self.options, self.elements, self.steps, self.tolerance = options, elements, steps, tolerance
+        self.kind = "radau" if tolerance else "flexion"
 
     def label(self):
+        if self.tolerance:
+            return f"{self.elements} elements, tolerance {self.tolerance:g}"
         return f"{self.elements or 'as written'} elements, {self.steps or 'as written'} steps"
 
     def run(self, reference):
@@ -131,7 +142,9 @@ class Flexion:
         text = pathlib.Path(options.case).read_text()
         if self.elements:
             text = replace_key(text, options.elements_key, str(self.elements))
-        if self.steps:
+        if self.tolerance:
+            text = with_integrator(text, self.tolerance)
+        elif self.steps:
             text = replace_key(text, options.step_key, options.step_value.format(step=20.0 / self.steps))
         with tempfile.TemporaryDirectory() as folder:
             case, out = pathlib.Path(folder, "case.toml"), pathlib.Path(folder, "out")
@@ -168,6 +181,15 @@ def replace_key(text, key, value):
     if not found:
         raise SystemExit(f"compare.py: the case has no key `{key}`; name it with --elements-key or --step-key")
     return "\n".join(lines) + "\n"
+
+
+def with_integrator(text, tolerance):
+    """The TOML text with the adaptive method in place of the one it names."""
+    lines = ["[integrator]", 'kind = "radau"', f"tolerance = {tolerance:g}"]
+    made, found = re.subn(r"(?ms)^\[integrator\]\n.*?(?=^\[|\Z)", "\n".join(lines) + "\n\n", text)
+    if not found:
+        raise SystemExit("compare.py: the case has no table [integrator]")
+    return made
 
 
 # --- measuring -------------------------------------------------------------------------------------------------------
@@ -247,12 +269,13 @@ def equal_error(rows, levels):
     for level in levels:
         line = {"error": level}
         for clock in ("wall", "cpu"):
-            own = time_at(rows, "flexion", level, clock)
+            own = {kind: time_at(rows, kind, level, clock) for kind in ("flexion", "radau")}
             for kind in NAMES:
                 taken = time_at(rows, kind, level, clock)
                 line[f"{kind}_{clock}"] = taken
-                if kind != "flexion":
-                    line[f"{kind}_{clock}_ratio"] = taken / own if taken and own else None
+                if kind not in own:
+                    for mine, time in own.items():
+                        line[f"{kind}_{clock}_to_{mine}"] = taken / time if taken and time else None
         out.append(line)
     return out
 
@@ -273,13 +296,16 @@ def show(rows, failed, levels):
         if len(reasons) > 2:
             print(f"  {NAMES[kind]}: {len(reasons) - 2} more")
     for clock in ("wall", "cpu"):
-        print(f"\n{clock} time [ms] at equal tip error (ratio to Flexion)")
+        print(f"\n{clock} time [ms] at equal tip error (ratios to Flexion with Newmark and with Radau)")
         print(f"{'tip error [m]':>14}" + "".join(f"{kind:>20}" for kind in NAMES))
         for line in levels:
             cells = []
             for kind in NAMES:
-                taken, ratio = line[f"{kind}_{clock}"], line.get(f"{kind}_{clock}_ratio")
-                cell = number(taken and taken * 1e3, "{:.1f}") + (f" ({ratio:.2f})" if ratio else "")
+                taken = line[f"{kind}_{clock}"]
+                ratios = [line.get(f"{kind}_{clock}_to_{mine}") for mine in ("flexion", "radau")]
+                cell = number(taken and taken * 1e3, "{:.1f}")
+                if kind not in ("flexion", "radau"):
+                    cell += " (" + ", ".join(number(r, "{:.0f}") for r in ratios) + ")"
                 cells.append(f"{cell:>20}")
             print(f"{line['error']:14.1e}" + "".join(cells))
 
@@ -297,7 +323,7 @@ def arguments():
     parser.add_argument("--flexion", help="path of the flexion binary; without it only Exudyn is measured")
     parser.add_argument("--case", help="case file of the spin-up with exact coupling")
     parser.add_argument("--command", default="{binary} run {case} --output {dir}", help="how a case is run (%(default)s)")
-    parser.add_argument("--elements-key", default="beam.elements", help="key of the number of elements (%(default)s)")
+    parser.add_argument("--elements-key", default="basis.elements", help="key of the number of elements (%(default)s)")
     parser.add_argument("--step-key", default="integrator.step", help="key of the step (%(default)s)")
     parser.add_argument("--step-value", default="{step:.12g}", help="how the step in s is written (%(default)s)")
     parser.add_argument("--as-written", action="store_true", help="run the case as it is, without a sweep")
@@ -305,6 +331,7 @@ def arguments():
     parser.add_argument("--worst", type=float, default=2e-3, help="tip error [m] above which a run is left out")
     parser.add_argument("--levels", type=float, nargs="+", default=[1e-3, 5e-4, 2e-4, 1e-4, 7.3e-5, 5e-5, 2e-5, 1e-5])
     parser.add_argument("--kinds", nargs="+", choices=list(ELEMENTS), default=list(ELEMENTS))
+    parser.add_argument("--steps", nargs="+", type=int, default=list(STEPS), help="numbers of fixed steps to try")
     parser.add_argument("--quick", action="store_true", help="a few runs only, to see that everything works")
     parser.add_argument("--reference", default=HERE / "reference.csv")
     parser.add_argument("--out", default=HERE / "results", help="folder of the JSON and CSV tables")
@@ -321,20 +348,22 @@ def main():
     sys.path.insert(0, str(HERE))
     options = arguments()
     reference = Reference(options.reference)
-    steps = (2000, 4000) if options.quick else STEPS
+    steps = (2000, 4000) if options.quick else options.steps
     newton = NEWTON[:1] if options.quick else NEWTON
     runs = [
         Exudyn(kind, elements, count, modified, tolerance)
         for kind in options.kinds
         for elements in (ELEMENTS[kind][1:2] if options.quick else ELEMENTS[kind])
         for count in steps
-        for modified, tolerance in newton
+        for modified, tolerance in ((FULL_NEWTON,) if kind.endswith("-full") else newton)
     ]
     if options.flexion and options.as_written:
         runs.append(Flexion(options, None, None))
     elif options.flexion:
         counts = (6,) if options.quick else FLEXION_ELEMENTS
         runs += [Flexion(options, elements, count) for elements in counts for count in steps]
+        counts, tolerances = ((4,), (1e-4,)) if options.quick else (RADAU_ELEMENTS, RADAU_TOLERANCES)
+        runs += [Flexion(options, elements, None, tolerance) for elements in counts for tolerance in tolerances]
     done = iter(range(1, len(runs) + options.repetitions + 1))
     total = len(runs) + options.repetitions
 

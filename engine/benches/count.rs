@@ -26,5 +26,6 @@ fn main() {
         let mut run = spin_up::Run::new(coupling, elements, integrator);
         run.steps(steps);
         black_box(&run.from);
+        eprintln!("{:?}", run.integrator.counters());
     }
 }

@@ -4,11 +4,11 @@
 
 use flexion::basis::{Field, Hermite, Lagrange};
 use flexion::hub_beam::{
-    Drive, ExactCoupling, Fields, Foreshortening, HighCoupling, Hub, HubBeam, LinearCoupling,
+    Drive, ExactCoupling, Fields, Foreshortening, FreeHub, HighCoupling, Hub, HubBeam, LinearCoupling,
 };
 use flexion::integrator::{GeneralizedAlpha, Integrator, Radau, Tolerance};
 use flexion::linalg::Matrix;
-use flexion::profile::{Motion, SpinUp};
+use flexion::profile::{Expression, Motion, SpinUp};
 use flexion::section::{Resultants, Uniform};
 use flexion::system::{State, System, Weights};
 use std::sync::Arc;
@@ -24,17 +24,29 @@ pub fn sizes() -> impl Iterator<Item = usize> {
     (0..=10).map(|k| 10 << k)
 }
 
+/// The system of a coupling; `first-free` and `exact-free` are turned by a torque, that of the rigid beam.
 pub fn system(coupling: &str, elements: usize) -> Box<dyn System> {
     let resultants =
         Resultants { mass: 1.2, axial_stiffness: 2.8e7, bending_stiffness: 1.4e4, ..Default::default() };
     let section = Uniform::from_resultants(resultants).unwrap();
     let profile = Arc::new(SpinUp::new(4.0, 15.0).unwrap());
-    let hub = Hub {
-        radius: 0.0,
-        inertia: 0.0,
-        drive: Drive::Prescribed(Motion::Speed { profile, initial_angle: 0.0 }),
+    let drive = if coupling.ends_with("-free") {
+        let moment = 100.0 + resultants.mass * LENGTH.powi(3) / 3.0;
+        let torque = format!("{moment} * 4 / 15 * (1 - cos(2 * pi * t / 15))");
+        Drive::Free(FreeHub {
+            angle: 0.0,
+            speed: 0.0,
+            torque: Arc::new(Expression::new(&torque, "t", 15.0).unwrap()),
+            damping: 0.0,
+            stiffness: 0.0,
+            rest_angle: 0.0,
+            controller: None,
+        })
+    } else {
+        Drive::Prescribed(Motion::Speed { profile, initial_angle: 0.0 })
     };
-    if coupling == "exact" {
+    let hub = Hub { radius: 0.0, inertia: if coupling.ends_with("-free") { 100.0 } else { 0.0 }, drive };
+    if coupling.starts_with("exact") {
         let coupling = ExactCoupling::new(LENGTH, elements, &section, &hub).unwrap();
         return Box::new(HubBeam::new(hub, coupling, &[]));
     }
@@ -72,7 +84,7 @@ impl Run {
     pub fn new(coupling: &str, elements: usize, integrator_name: &str) -> Run {
         let mut system = system(coupling, elements);
         let mut integrator = integrator(integrator_name);
-        let mut from = State::zeros(system.size(), 0.0);
+        let mut from = system.initial();
         integrator.start(&mut *system, &mut from, STEP).unwrap();
         let mut run = Run { system, integrator, to: from.clone(), from };
         run.steps(200);

@@ -122,6 +122,7 @@ impl Border {
 #[derive(Clone, Debug)]
 pub struct Scratch {
     all: Vectors,
+    pair: Vectors,
     symmetric: Option<Vectors>,
     torque: Vectors,
     /// D q and ½ (Pᵀ − P) q, for the torque.
@@ -245,6 +246,7 @@ impl Inertia {
     pub fn scratch(&self) -> Scratch {
         Scratch {
             all: self.bundle.vectors(),
+            pair: self.bundle.pair(),
             symmetric: self.symmetric.as_ref().map(Bundle::vectors),
             torque: self.torque.vectors(),
             products: vec![[0.0; 2]; self.len()],
@@ -279,6 +281,45 @@ impl Inertia {
             y.set(0, |i| w1 * q[i]);
             symmetric.products(y, |i, [s, ..]| r[i] += s);
         }
+    }
+
+    /// [`Inertia::residual`] for a hub that is free to turn: also returns the torque of [`Inertia::totals`], with
+    /// which it shares its products.
+    pub fn residual_and_torque(&self, s: &State, hub: &HubKinematics, x: &mut Scratch, r: &mut [f64]) -> f64 {
+        let n = self.len();
+        let (w, w1, w2) = (hub.speed, hub.acceleration, hub.speed * hub.speed);
+        let (q, v, a) = (&s.q[..n], &s.v[..n], &s.a[..n]);
+        let (sx, sy, r) = (&self.axial_moment[..n], &self.transverse_moment[..n], &mut r[..n]);
+        let Scratch { all: x, pair, symmetric: y } = x;
+        for term in 0..4 {
+            x.set(term, |i| q[i]);
+        }
+        let Damping { mass, stiffness } = self.damping;
+        if self.damping.is_none() {
+            pair.set(0, |i| a[i]);
+        } else {
+            pair.set(0, |i| a[i] + mass * v[i]);
+            x.set(2, |i| q[i] + stiffness * v[i]);
+        }
+        pair.set(1, |i| v[i]);
+        let (mut qdq, mut qdv, mut aeq, mut vpv) = (0.0, 0.0, 0.0, 0.0);
+        self.bundle.products_and_pair(x, pair, |i, [mq, gq, kq, nq], [ma, gv]| {
+            let dq = mq - nq;
+            qdq += q[i] * (dq + 2.0 * sx[i]);
+            qdv += v[i] * (dq + sx[i]);
+            aeq += a[i] * (0.5 * gq + sy[i]);
+            r[i] = (ma + kq) + (w * gv + 0.5 * w1 * gq) + (w1 * sy[i] - w2 * (dq + sx[i]));
+        });
+        if let Some((symmetric, y)) = self.symmetric.as_ref().zip(y.as_mut()) {
+            y.set(0, |i| q[i]);
+            y.set(1, |i| v[i]);
+            symmetric.products(y, |i, [sq, sv, ..]| {
+                r[i] += w1 * sq;
+                aeq += a[i] * sq;
+                vpv += v[i] * sv;
+            });
+        }
+        w1 * (self.moment + qdq) + 2.0 * w * qdv + aeq + vpv
     }
 
     /// The stamp of the tangent with weights `w` at a hub speed and acceleration; its last entry is free for others.

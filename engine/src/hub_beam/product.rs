@@ -81,11 +81,20 @@ impl Bundle {
 
     /// Vectors of zeros to multiply with.
     pub(super) fn vectors(&self) -> Vectors {
+        self.vectors_of(self.terms)
+    }
+
+    /// Two vectors of zeros, to multiply with the first two matrices.
+    pub(super) fn pair(&self) -> Vectors {
+        self.vectors_of(2)
+    }
+
+    fn vectors_of(&self, terms: usize) -> Vectors {
         let behind = self.advance * (self.width - self.lead.min(self.width));
-        let first = self.lead * self.terms;
-        let range = first..first + self.order * self.terms;
-        let data = vec![0.0; range.end + behind * self.terms];
-        Vectors { terms: self.terms, range, data }
+        let first = self.lead * terms;
+        let range = first..first + self.order * terms;
+        let data = vec![0.0; range.end + behind * terms];
+        Vectors { terms, range, data }
     }
 
     /// Calls `f` with i and the products (Aₖ xₖ)ᵢ, row after row; zero for terms that are not stored.
@@ -122,6 +131,81 @@ impl Bundle {
                 lanes[k] += a * x;
             }
             f(i, lanes);
+        }
+    }
+
+    /// Calls `f` with i, the products (Aₖ xₖ)ᵢ as [`Bundle::products`] does, and (A₁ y₁)ᵢ, (A₂ y₂)ᵢ: one pass over
+    /// the matrices for both.
+    #[inline]
+    pub(super) fn products_and_pair(
+        &self,
+        x: &Vectors,
+        y: &Vectors,
+        mut f: impl FnMut(usize, [f64; TERMS], [f64; 2]),
+    ) {
+        let pair = |[a, b, c, d]: [f64; TERMS]| [a + c, b + d];
+        let four = |lanes: [f64; TERMS]| [lanes[0] + lanes[2], lanes[1] + lanes[3], 0.0, 0.0];
+        match (self.terms, self.width) {
+            (TERMS, 11) => self.rows_and_pair::<11>(x, y, f),
+            (TERMS, 15) => self.rows_and_pair::<15>(x, y, f),
+            (TERMS, _) => self.rows_and_pair::<0>(x, y, f),
+            (_, 15) => self.both_pairs::<{ 2 * 15 }>(x, y, |i, x, y| f(i, four(x), pair(y))),
+            _ => self.both_pairs::<0>(x, y, |i, x, y| f(i, four(x), pair(y))),
+        }
+    }
+
+    /// [`Bundle::products_and_pair`] for four terms; `WIDTH` is that of a row, or 0.
+    #[inline(always)]
+    fn rows_and_pair<const WIDTH: usize>(
+        &self,
+        x: &Vectors,
+        y: &Vectors,
+        mut f: impl FnMut(usize, [f64; TERMS], [f64; 2]),
+    ) {
+        let width = if WIDTH > 0 { WIDTH } else { self.width };
+        for (i, row) in self.data.chunks_exact((width * TERMS).max(1)).enumerate() {
+            let at = i * self.advance;
+            let x = x.data[at * TERMS..][..width * TERMS].as_chunks::<TERMS>().0;
+            let y = y.data[at * 2..][..width * 2].as_chunks::<2>().0;
+            let (mut four, mut two) = ([0.0; TERMS], [0.0; 2]);
+            for ((a, x), y) in row.as_chunks::<TERMS>().0.iter().zip(x).zip(y) {
+                for k in 0..TERMS {
+                    four[k] += a[k] * x[k];
+                }
+                for k in 0..2 {
+                    two[k] += a[k] * y[k];
+                }
+            }
+            f(i, four, two);
+        }
+    }
+
+    /// [`Bundle::products_and_pair`] for two terms, summed by four lanes as [`Bundle::rows`] does.
+    #[inline(always)]
+    fn both_pairs<const LENGTH: usize>(
+        &self,
+        x: &Vectors,
+        y: &Vectors,
+        mut f: impl FnMut(usize, [f64; TERMS], [f64; TERMS]),
+    ) {
+        let length = if LENGTH > 0 { LENGTH } else { self.width * self.terms };
+        let advance = self.advance * self.terms;
+        for (i, row) in self.data.chunks_exact(length.max(1)).enumerate() {
+            let (mut of_x, mut of_y) = ([0.0; TERMS], [0.0; TERMS]);
+            let (a, a_rest) = row.as_chunks::<TERMS>();
+            let (x, x_rest) = x.data[i * advance..][..length].as_chunks::<TERMS>();
+            let (y, y_rest) = y.data[i * advance..][..length].as_chunks::<TERMS>();
+            for ((a, x), y) in a.iter().zip(x).zip(y) {
+                for k in 0..TERMS {
+                    of_x[k] += a[k] * x[k];
+                    of_y[k] += a[k] * y[k];
+                }
+            }
+            for (k, ((a, x), y)) in a_rest.iter().zip(x_rest).zip(y_rest).enumerate() {
+                of_x[k] += a * x;
+                of_y[k] += a * y;
+            }
+            f(i, of_x, of_y);
         }
     }
 

@@ -296,14 +296,21 @@ impl<C: Coupling> System for HubBeam<C> {
 
     fn residual(&mut self, s: &State, r: &mut [f64]) {
         let hub = self.kinematics(s);
-        self.coupling.inertia().residual(s, &hub, &mut self.scratch, r);
+        let n = self.coupling.fields().len();
+        match &self.hub.drive {
+            Drive::Free(free) if !self.held => {
+                let inertia = self.coupling.inertia();
+                let torque = inertia.residual_and_torque(s, &hub, &mut self.scratch, r);
+                let applied = free.torque(&hub, s.t).value + self.loads.torque(s, &hub);
+                r[n] = torque + self.coupling.extra_totals(s, &hub).torque - applied;
+            }
+            _ => {
+                self.coupling.inertia().residual(s, &hub, &mut self.scratch, r);
+                r[n..].fill(0.0);
+            }
+        }
         self.coupling.add_forces(s, &hub, r);
         self.loads.subtract_forces(s, &hub, r);
-        let n = self.coupling.fields().len();
-        if let Drive::Free(free) = &self.hub.drive {
-            let applied = free.torque(&hub, s.t).value + self.loads.torque(s, &hub);
-            r[n] = if self.held { 0.0 } else { self.totals(s, &hub).torque - applied };
-        }
     }
 
     fn tangent(&mut self, s: &State, w: Weights<'_>, out: &mut Matrix) {

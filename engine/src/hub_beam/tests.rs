@@ -538,3 +538,29 @@ fn angular_momentum_changes_by_the_torque_alone() {
         assert!((rate - needed).abs() < 1e-7 * needed.abs().max(1.0), "{rate} {needed}");
     }
 }
+
+/// A free hub's forces on the beam share their products with its torque; those of a prescribed hub stand alone.
+#[test]
+fn the_beam_does_not_feel_whether_its_hub_is_free_or_prescribed() {
+    let damping = Damping { mass: 0.7, stiffness: 0.02 };
+    let hub_motion = at(&exact(), 0.6);
+    let systems = |hub: Hub| -> [Box<dyn System>; 5] {
+        let first = || linear_on(hub.clone(), Foreshortening::First);
+        [
+            Box::new(linear_on(hub.clone(), Foreshortening::None)),
+            Box::new(first()),
+            Box::new(first().with_damping(damping)),
+            Box::new(exact_on(hub.clone())),
+            Box::new(exact_on(hub.clone()).with_damping(damping)),
+        ]
+    };
+    for (mut free, mut prescribed) in systems(free_hub()).into_iter().zip(systems(hub())) {
+        let alone = state(prescribed.as_ref(), 0.1);
+        let mut s = state(free.as_ref(), 0.1);
+        let n = alone.q.len();
+        (s.q[n], s.v[n], s.a[n]) = (hub_motion.angle, hub_motion.speed, hub_motion.acceleration);
+        let forces = residual(free.as_mut(), &s);
+        let expected = residual(prescribed.as_mut(), &alone);
+        assert!(relative(&forces[..n], &expected) < 1e-13, "{:e}", relative(&forces[..n], &expected));
+    }
+}

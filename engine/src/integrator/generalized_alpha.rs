@@ -19,9 +19,10 @@
 //! whose condition does not deteriorate as h → 0: this is the scaling of index-3 equations of Bottasso,
 //! Bauchau & Cardona (2007, doi 10.1137/050638503) without a separate pass for it.
 //!
-//! The tangent and its factors are kept from step to step as long as the iteration converges fast with them
-//! (its rate θ is known, see [`Convergence`]). An affine system gets the tangent of every step, unless it is
-//! stamped as unchanged, and takes exactly one iteration. Systems with constraints get a new tangent every iteration.
+//! The tangent and its factors are kept from step to step until the iterations that their age costs are dearer than
+//! new ones: see [`Wear`]. An affine system is solved exactly by one iteration with the tangent of its step; a second
+//! one then shows the size of rounding errors, below which no later step iterates (see [`Convergence`]). Systems
+//! with constraints get a new tangent every iteration.
 //! The predictor continues the accelerations of the last two steps linearly.
 //!
 //! Order: 2 in q, v and λ for γ = ½ + αf − αm (measured 2.00, also for index-3 constraints). Stability:
@@ -46,8 +47,44 @@ const ITERATION_TOLERANCE: f64 = 1e-10;
 /// The same where the tangent is kept and the iteration converges linearly.
 const KEPT_TOLERANCE: f64 = 1e-14;
 
-/// Rate of convergence above which a kept tangent is renewed at the next step.
-const REUSE_RATE: f64 = 1e-2;
+/// Largest size of increments that are taken for rounding errors when they suddenly stop shrinking.
+const NOISE: f64 = 1e-7;
+
+/// Cost of a tangent and its factors, in iterations.
+const RENEWAL: f64 = 2.0;
+
+/// What kept factors have cost in iterations.
+///
+/// Their price grows with their age, their renewal costs [`RENEWAL`] at once. The cheapest age to renew them at is
+/// that at which the next step would cost more than the average step of their life so far, renewal included.
+#[derive(Clone, Copy, Debug, Default)]
+struct Wear {
+    spent: f64,
+    steps: f64,
+    due: bool,
+}
+
+impl Wear {
+    /// Factors were made.
+    fn renew(&mut self) {
+        *self = Wear { spent: RENEWAL, steps: 0.0, due: false };
+    }
+
+    /// A step took so many iterations.
+    fn count(&mut self, iterations: u32) {
+        self.spent += f64::from(iterations);
+        self.steps += 1.0;
+        self.due = f64::from(iterations) * self.steps > self.spent;
+    }
+
+    fn to_numbers(self) -> [f64; 3] {
+        [self.spent, self.steps, f64::from(u8::from(self.due))]
+    }
+
+    fn from_numbers([spent, steps, due]: [f64; 3]) -> Wear {
+        Wear { spent, steps, due: due != 0.0 }
+    }
+}
 
 /// The generalized-α method. See the [module documentation](self) for formulas and sources.
 #[derive(Debug)]
@@ -90,6 +127,9 @@ struct Work {
     /// Where the kept tangent was formed: state and increment.
     place: State,
     increment: Vec<f64>,
+    wear: Wear,
+    /// Whether the tangent of an affine system is, as far as known, the same at all times.
+    constant: bool,
 }
 
 impl GeneralizedAlpha {
@@ -151,7 +191,7 @@ impl GeneralizedAlpha {
             beta,
             gamma,
             full: Convergence::full(ITERATION_TOLERANCE),
-            kept: Convergence::kept(KEPT_TOLERANCE, ITERATION_TOLERANCE),
+            kept: Convergence::kept(KEPT_TOLERANCE, ITERATION_TOLERANCE).with_noise(NOISE),
             counters: Counters::default(),
             worst: 0,
             pending: false,
@@ -215,16 +255,17 @@ impl GeneralizedAlpha {
 
         // Whether every iteration has a tangent of its own, and whether the next one needs a new tangent.
         let mut full = !work.keeps;
-        let mut renew = full || work.affine || work.kept != [to_v, to_q] || self.kept.rate() > REUSE_RATE;
+        let mut renew = full || work.kept != [to_v, to_q] || work.wear.due || work.constant;
         'attempt: loop {
             self.predict(system, from, h, to);
             let convergence = if full { &mut self.full } else { &mut self.kept };
             if renew {
                 convergence.forget();
             }
-            convergence.begin();
+            convergence.begin(renew);
             let (a_next, d) = (&mut self.a_next[..n], &mut self.d[..n]);
-            let mut fresh = false;
+            // Whether the tangent is that of this step, and whether it was made for it.
+            let (mut exact, mut made) = (false, false);
             loop {
                 let (motion, constraints) = work.rhs.split_at_mut(n);
                 system.residual(to, motion);
@@ -242,12 +283,16 @@ impl GeneralizedAlpha {
                         work.tangent.factor().map_err(|e| failure::singular(system, from.t, h, e))?;
                     self.counters.tangents += u64::from(factored);
                     self.counters.factorizations += u64::from(factored);
+                    // The first tangent is the only one until a second one is another.
+                    work.constant = work.affine && (!factored || work.kept != [to_v, to_q]);
                     work.kept = [to_v, to_q];
                     if factored {
                         work.place.copy_from(to);
                         work.increment.copy_from_slice(d);
                     }
-                    (fresh, renew) = (true, full);
+                    work.wear.renew();
+                    (exact, made) = (work.affine, factored);
+                    renew = full && !exact;
                 }
                 work.tangent.solve(&mut work.rhs);
                 self.counters.residuals += 1;
@@ -271,13 +316,24 @@ impl GeneralizedAlpha {
                 }
                 system.retract(&from.q, d, &mut to.q);
                 let size = to_q * (square / n.max(1) as f64).sqrt();
-                if work.affine && fresh && size.is_finite() {
-                    return Ok(StepReport { iterations: 1, error: None });
+                let progress = convergence.judge(size);
+                let iterations = convergence.iterations();
+                if exact && size.is_finite() {
+                    if made && !work.constant && iterations == 1 {
+                        continue;
+                    }
+                    // What is left by an exact solution is rounding error.
+                    if iterations > 1 {
+                        self.kept.learn_rounding(size);
+                    }
+                    work.wear.count(iterations);
+                    return Ok(StepReport { iterations, error: None });
                 }
-                match convergence.judge(size) {
+                match progress {
                     Progress::Converged => {
                         self.worst = worst(x, scale);
-                        return Ok(StepReport { iterations: convergence.iterations(), error: None });
+                        work.wear.count(iterations);
+                        return Ok(StepReport { iterations, error: None });
                     }
                     Progress::Continue => {}
                     Progress::Diverged if !full => {
@@ -328,6 +384,8 @@ impl Integrator for GeneralizedAlpha {
             kept: [f64::NAN; 2],
             place: State::zeros(size, state.t),
             increment: vec![0.0; size.v],
+            wear: Wear::default(),
+            constant: false,
         }));
         self.counters = Counters::default();
         self.restart(system, state)
@@ -382,9 +440,11 @@ impl Integrator for GeneralizedAlpha {
         out.put("auxiliary", &self.a);
         out.put("before", &self.before);
         out.put("started", &[f64::from(u8::from(self.started))]);
-        out.put("convergence", &[self.kept.memory(), self.kept.rate()]);
+        out.put("convergence", &self.kept.memory());
         if let Some(work) = &self.work {
             out.put("tangent.weights", &work.kept);
+            out.put("tangent.wear", &work.wear.to_numbers());
+            out.put("tangent.constant", &[f64::from(u8::from(work.constant))]);
             out.put_state("tangent.", &work.place);
             out.put("tangent.increment", &work.increment);
         }
@@ -398,9 +458,11 @@ impl Integrator for GeneralizedAlpha {
         from.fill("before", &mut self.before)?;
         let [started] = from.numbers("started")?;
         self.started = started != 0.0;
-        let [ahead, rate] = from.numbers("convergence")?;
-        self.kept.recall(ahead, rate);
+        self.kept.recall(from.numbers("convergence")?);
         work.kept = from.numbers("tangent.weights")?;
+        work.wear = Wear::from_numbers(from.numbers("tangent.wear")?);
+        let [constant] = from.numbers("tangent.constant")?;
+        work.constant = constant != 0.0;
         from.fill_state("tangent.", &mut work.place)?;
         from.fill("tangent.increment", &mut work.increment)?;
         let [v, q] = work.kept;

@@ -58,6 +58,10 @@ const STAGES: [&str; 3] = ["stage.1", "stage.2", "stage.3"];
 /// Rate of convergence below which tangent and factors serve the next step too.
 const REUSE_RATE: f64 = 0.1;
 
+/// Largest size of increments, in units of the tolerance, that are taken for rounding errors when they stop
+/// shrinking: of affine systems, whose iteration does not become slow by anything else.
+const NOISE: f64 = 1.0;
+
 /// What local errors are measured against: absolute·scaleᵢ + relative·|qᵢ|.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
@@ -141,6 +145,7 @@ impl Integrator for Radau {
             return Err(StepError::Unsupported { method: NAME, feature, instead });
         }
         self.counters = Counters::default();
+        self.convergence = self.convergence.with_noise(if system.is_affine() { NOISE } else { 0.0 });
         self.work = Some(Stages::new(system));
         self.restart(system, state)
     }
@@ -166,7 +171,7 @@ impl Integrator for Radau {
         }
         loop {
             work.predict(from, stretch);
-            self.convergence.begin();
+            self.convergence.begin(work.fresh);
             let (progress, size) = work.iterate(system, from, h, &mut self.convergence, &mut self.counters);
             if progress == Progress::Converged {
                 work.rate = self.convergence.rate();
@@ -230,7 +235,7 @@ impl Integrator for Radau {
     fn save(&self, out: &mut Checkpoint) {
         out.put("counters", &self.counters.to_numbers());
         out.put("first", &[f64::from(u8::from(self.first)), self.accepted_step]);
-        out.put("convergence", &[self.convergence.memory(), self.convergence.rate()]);
+        out.put("convergence", &self.convergence.memory());
         if let Some(work) = &self.work {
             for (a, name) in work.a_accepted.iter().zip(STAGES) {
                 out.put(name, a);
@@ -258,8 +263,7 @@ impl Integrator for Radau {
             factored.map_err(|error| NotResumed::Failed(error.to_string()))?;
             (work.rate, work.fresh) = (rate, false);
         }
-        let [ahead, rate] = from.numbers("convergence")?;
-        self.convergence.recall(ahead, rate);
+        self.convergence.recall(from.numbers("convergence")?);
         self.counters = Counters::from_numbers(from.numbers("counters")?);
         Ok(())
     }
