@@ -290,7 +290,7 @@ impl Inertia {
         let (w, w1, w2) = (hub.speed, hub.acceleration, hub.speed * hub.speed);
         let (q, v, a) = (&s.q[..n], &s.v[..n], &s.a[..n]);
         let (sx, sy, r) = (&self.axial_moment[..n], &self.transverse_moment[..n], &mut r[..n]);
-        let Scratch { all: x, pair, symmetric: y } = x;
+        let Scratch { all: x, pair, symmetric: y, .. } = x;
         for term in 0..4 {
             x.set(term, |i| q[i]);
         }
