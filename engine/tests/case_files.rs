@@ -156,7 +156,7 @@ fn the_resolved_case_of_every_kind_reads_back_as_the_same_case_and_builds() {
     for seam in seams() {
         for kind in seam.kinds {
             let tried =
-                |text: &&&str| text.contains(&format!("kind='{0}'", kind.name)) || text.ends_with(kind.name);
+                |text: &&&str| text.contains(&format!("='{0}'", kind.name)) || text.ends_with(kind.name);
             assert!(KINDS.iter().any(|text| tried(&text)), "{} {} is not tried", seam.name, kind.name);
         }
     }

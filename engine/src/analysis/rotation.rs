@@ -18,7 +18,7 @@ pub enum NoRotation {
     DoesNotTurn,
     /// There is no equilibrium.
     #[error(
-        "there is no steady rotation at {asked} rad/s: followed up to {reached:.6} rad/s, and beyond {source}"
+        "there is no steady rotation at {asked} rad/s: followed up to {reached:.6} rad/s, and beyond {source}{why}"
     )]
     Lost {
         /// Speed asked for [rad/s].
@@ -27,6 +27,8 @@ pub enum NoRotation {
         reached: f64,
         /// What happened beyond.
         source: NoEquilibrium,
+        /// What the model knows about it, with a colon in front.
+        why: String,
     },
     /// The equilibrium is unstable.
     #[error(
@@ -88,8 +90,9 @@ pub fn rotate(system: &mut dyn System, state: &mut State, from: f64, to: f64) ->
                 part = 0.25 * (next - reached);
                 if part < SMALLEST {
                     let reached = speed(reached);
+                    let why = system.explain(state).map_or_else(String::new, |why| format!(": {why}"));
                     system.turn_steadily(reached);
-                    return Err(NoRotation::Lost { asked: to, reached, source });
+                    return Err(NoRotation::Lost { asked: to, reached, source, why });
                 }
             }
         }

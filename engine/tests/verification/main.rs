@@ -55,23 +55,32 @@ fn every_folder_explains_its_case() {
     }
 }
 
-/// Text at a dotted path of a resolved case.
-fn at<'t>(table: &'t toml::Table, path: &str) -> Option<&'t str> {
-    let mut value = None;
-    let mut table = Some(table);
-    for part in path.split('.') {
-        value = table?.get(part);
-        table = value.and_then(toml::Value::as_table);
+/// Texts at a dotted path of a resolved case, in all tables of a list.
+fn at<'t>(value: &'t toml::Value, path: &str) -> Vec<&'t str> {
+    match value {
+        toml::Value::Array(items) => items.iter().flat_map(|item| at(item, path)).collect(),
+        toml::Value::String(text) if path.is_empty() => vec![text],
+        _ => {
+            let (first, rest) = path.split_once('.').unwrap_or((path, ""));
+            value.get(first).map_or(Vec::new(), |value| at(value, rest))
+        }
     }
-    value?.as_str()
 }
 
 /// Whether a case uses a kind of the seam at `path`.
 fn uses(reading: &Reading, path: &str, kind: &str) -> bool {
-    let resolved: toml::Table = reading.resolved().parse().unwrap();
-    let chosen = |path: &str| at(&resolved, path).or_else(|| at(&resolved, &format!("{path}.kind")));
-    // Both fields of a mixed basis are chosen from the same kinds.
-    chosen(path) == Some(kind) || (path == "basis.axial" && chosen("basis.transverse") == Some(kind))
+    let resolved = toml::Value::Table(reading.resolved().parse().unwrap());
+    let chosen = |path: &str| {
+        at(&resolved, path).contains(&kind) || at(&resolved, &format!("{path}.kind")).contains(&kind)
+    };
+    // Both fields of a mixed basis are chosen from the same kinds, and so are loads of all sorts.
+    let others: &[&str] = match path {
+        "basis.axial" => &["basis.transverse"],
+        "force.frame" => &["distributed-load.frame"],
+        "force.amplitude" => &["couple.amplitude", "distributed-load.amplitude"],
+        _ => &[],
+    };
+    chosen(path) || others.iter().any(|path| chosen(path))
 }
 
 #[test]
