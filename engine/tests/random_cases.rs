@@ -140,15 +140,27 @@ struct Tally {
     without_estimate: usize,
 }
 
+impl Tally {
+    /// A case that is refused: only for what no key alone can tell.
+    fn refuse(&mut self, problems: &Problems, text: &str) -> Result<(), String> {
+        self.refused += 1;
+        let known = |message: &str| message.contains("stability limit") || message.contains("singular");
+        match problems.list.iter().find(|problem| !known(&problem.message)) {
+            Some(problem) => Err(format!("refused: {}: {}\n{text}", problem.key, problem.message)),
+            None => Ok(()),
+        }
+    }
+}
+
 /// Runs one case; `Err` says what it got wrong silently.
 fn judge(text: &str, length: f64, tally: &mut Tally) -> Result<(), String> {
-    let Ok(reading) = read(text, &[]) else {
-        tally.refused += 1;
-        return Ok(());
+    let reading = match read(text, &[]) {
+        Ok(reading) => reading,
+        Err(problems) => return tally.refuse(&problems, text),
     };
-    let Ok(run_of_case) = run(&reading) else {
-        tally.refused += 1;
-        return Ok(());
+    let run_of_case = match run(&reading) {
+        Ok(run) => run,
+        Err(problems) => return tally.refuse(&problems, text),
     };
     if run_of_case.status != Status::Finished {
         tally.failed += 1;
