@@ -63,6 +63,7 @@ fn row(key: &Key) -> Vec<String> {
         Type::Path => "path".to_owned(),
         Type::Choice(seam) => seam.kinds.iter().map(|kind| kind.name).collect::<Vec<_>>().join(" or "),
         Type::Table(_) => "table".to_owned(),
+        Type::Tables(_) => "tables".to_owned(),
         Type::Kind(seam) => format!("table: {}", seam.name),
     };
     let bound = match key.takes {

@@ -3,16 +3,19 @@
 //! Exit codes: 0 finished; 1 the case or the command line is rejected; 2 a run failed or was stopped, and what
 //! it had computed is kept, or runs differ by more than the tolerance.
 
+mod campbell;
 mod case;
 mod check;
 mod compare;
 mod completions;
 mod list;
 mod man;
+mod modes;
 mod new;
 mod plot;
 mod run;
 mod screen;
+mod vibration;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -42,6 +45,10 @@ enum Command {
     Check(check::Arguments),
     /// Show how far runs are apart
     Compare(compare::Arguments),
+    /// Find the modes of vibration at a speed of rotation
+    Modes(modes::Arguments),
+    /// Follow the modes of vibration over a range of speeds
+    Campbell(campbell::Arguments),
     /// Plot columns of one or several runs
     Plot(plot::Arguments),
     /// List the kinds of section, motion, coupling, basis and integrator
@@ -79,6 +86,8 @@ fn main() -> ExitCode {
         Command::Run(arguments) => run::run(&arguments),
         Command::New(arguments) => new::new(&arguments),
         Command::Compare(arguments) => compare::compare(&arguments),
+        Command::Modes(arguments) => modes::modes(&arguments),
+        Command::Campbell(arguments) => campbell::campbell(&arguments),
         Command::Plot(arguments) => plot::plot(&arguments),
         Command::Completions(arguments) => completions::completions(&arguments),
         Command::Man(arguments) => man::man(&arguments),

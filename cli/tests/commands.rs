@@ -135,6 +135,47 @@ fn an_interrupt_stops_the_run_with_2_and_keeps_what_it_computed() {
 }
 
 #[test]
+fn modes_and_campbell_write_whole_results_and_refuse_what_cannot_be() {
+    let folder = folder();
+    let output = flexion(folder.path(), &["modes", "spin-up", "--speed", "4", "--count", "4", "-o", "modes"]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert!(text(&output.stdout).contains("None is missing"), "{}", text(&output.stdout));
+    for file in ["modes.json", "modes.csv", "modes.npz", "modes.svg", "modes.png", "case.resolved.toml"] {
+        assert!(folder.path().join("modes").join(file).exists(), "{file}");
+    }
+    let campbell = |more: &[&str]| {
+        let common = ["campbell", "spin-up", "--speeds", "0:6:7", "--modes", "3"];
+        flexion(folder.path(), &[&common[..], more].concat())
+    };
+    for (threads, to) in [("1", "one"), ("2", "two")] {
+        let output = campbell(&["--threads", threads, "-o", to]);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    }
+    for file in ["campbell.json", "campbell.csv", "campbell.npz", "campbell.svg"] {
+        let read = |of: &str| std::fs::read(folder.path().join(of).join(file)).unwrap();
+        assert!(read("one") == read("two"), "{file} depends on the number of threads");
+    }
+    assert_eq!(campbell(&["-o", "one"]).status.code(), Some(1));
+    assert_eq!(campbell(&["-o", "one", "--force"]).status.code(), Some(0));
+    let buckled = campbell(&["--set", "model.coupling=zeroth", "-o", "zeroth"]);
+    assert_eq!(buckled.status.code(), Some(2), "{}", text(&buckled.stderr));
+    assert!(text(&buckled.stderr).contains("stable up to"), "{}", text(&buckled.stderr));
+    for (arguments, expected) in [
+        (&["modes", "spin-up", "--count", "500"][..], "unknowns"),
+        (&["modes", "spin-up", "--speed", "-1"], "positive"),
+        (&["modes", "spin-up", "--speed", "6", "--set", "model.coupling=zeroth"], "buckled"),
+        (&["modes", "spin-up", "--free-hub"], "hub is free"),
+        (&["campbell", "spin-up", "--speeds", "5:1:3"], "ascend"),
+        (&["campbell", "spin-up", "--speeds", "0:1:1"], "from 2"),
+        (&["campbell", "spin-up"], "--speeds"),
+    ] {
+        let output = flexion(folder.path(), arguments);
+        assert_eq!(output.status.code(), Some(1), "{arguments:?}");
+        assert!(text(&output.stderr).contains(expected), "{arguments:?}: {}", text(&output.stderr));
+    }
+}
+
+#[test]
 fn check_list_schema_and_help_print_what_they_say() {
     let folder = folder();
     for (arguments, expected) in [

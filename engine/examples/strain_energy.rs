@@ -3,6 +3,8 @@
 //!
 //! `cargo run --release --example strain_energy [FOLDER]`
 
+#![allow(clippy::print_stdout)] // what it is for
+
 use flexion::blade::{Blade, BladeError, Model, Setting, StrainEnergy, Terms};
 use flexion::linalg::{Matrix, negative_pivots};
 use flexion::output::plot::{Axis, Figure, Line, Panel, Series};
@@ -50,7 +52,7 @@ fn frequency(slenderness: f64, strain_energy: StrainEnergy, speed: f64) -> Resul
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let folder = std::env::args().nth(1).unwrap_or_else(|| "docs/images".to_owned());
+    let folder = std::env::args().nth(1).unwrap_or_else(|| "docs/src/theory".to_owned());
     let none = Terms::NONE;
     let options = [
         ("exact", StrainEnergy::Exact, Line::Solid),
@@ -79,10 +81,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     ];
     let mut panels = Vec::new();
     // Slenderness and largest strain at the root, ½(Ω L)² ρ/E.
-    for (slenderness, largest) in [(100.0, 0.002), (20.0, 0.08)] {
+    for (slenderness, largest, range) in [(100.0, 0.002, (-0.06, 0.18)), (20.0, 0.08, (-3.0, 3.0))] {
         let mut panel = Panel {
-            x: Axis { tight: true, ..Axis::new("Strain at the root ½ρΩ²L²/E", "%") },
-            y: Axis::new("First flapwise frequency over `linear` − 1", "%"),
+            x: Axis { tight: true, ..Axis::new("Strain at the root ε₀", "%") },
+            y: Axis { range: Some(range), ..Axis::new("ω₁ over that of linear, less one", "%") },
             series: Vec::new(),
         };
         println!("slenderness {slenderness}: strain, γ, then ω₁ by {:?}", options.map(|o| o.0));
@@ -101,14 +103,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 println!("{:.4} {speed:.3} | {}", strain, row.join(" | "));
             }
         }
+        // One legend for both panels.
+        let named = panels.is_empty();
         for ((name, _, line), points) in options.iter().zip(curves) {
-            panel.series.push(Series { line: *line, ..Series::line(Some(name), points) });
+            panel.series.push(Series { line: *line, ..Series::line(named.then_some(*name), points) });
         }
         panels.push(panel);
     }
     let figure = Figure { title: None, panels, columns: 2, share_x: false };
     let drawing = figure.draw();
-    std::fs::write(format!("{folder}/strain_energy.svg"), drawing.svg())?;
     std::fs::write(format!("{folder}/strain_energy.png"), drawing.png()?)?;
     Ok(())
 }

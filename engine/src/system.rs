@@ -187,6 +187,9 @@ pub struct Channel {
     pub meaning: String,
 }
 
+/// Receives the terms w b bᵀ of a matrix: numbers of the unknowns, entries of b there, and w.
+pub type VisitTerm<'a> = dyn FnMut(&[usize], &[f64], f64) + 'a;
+
 /// A mechanical model. See the [module documentation](self) for the equations.
 pub trait System {
     /// Numbers of coordinates, velocities and multipliers.
@@ -238,12 +241,7 @@ pub trait System {
     ///
     /// The condition number of the stiffness of n bending elements grows like n⁴: the sum loses the lowest
     /// frequencies when it is stored in doubles, but not its terms.
-    fn stiffness_terms(
-        &mut self,
-        _s: &State,
-        _rest: &mut Matrix,
-        _visit: &mut dyn FnMut(&[usize], &[f64], f64),
-    ) -> bool {
+    fn stiffness_terms(&mut self, _s: &State, _rest: &mut Matrix, _visit: &mut VisitTerm<'_>) -> bool {
         false
     }
 

@@ -81,6 +81,11 @@ const KINDS: &[&str] = &[
     "section={kind='tapered-tube',modulus=1e9,density=1,root-outer-radius='2 cm',root-inner-radius='1 cm',tip-outer-radius='9 mm',tip-inner-radius='8 mm'}",
     "section={kind='piecewise',ends=['4 m',10],modulus=[1e9,'2 GPa'],density=[1,2],area=['1 cm^2','2 cm^2'],second-moment=[1e-8,2e-8]}",
     "section={kind='table',file='broken_cases/../section.csv',interpolation='cubic'}",
+    "section={kind='blade',file='broken_cases/../blade.csv'}",
+    "blade={pitch='3 deg',precone='-2 deg',twist=0.1,tip-mass='1 kg',tip-inertia='2 kg*m^2',torsion=false}",
+    "blade.strain-energy=linear",
+    "blade.strain-energy=coupled",
+    "blade={strain-energy='exact',elements=3,gyroscopic=false,rotary-inertia=false,poisson-ratio=0.2}",
     "hub.motion={kind='spin-up',speed='3000 rpm',time='1 min'}",
     "hub.motion={kind='constant',speed='-90 deg/s'}",
     "hub.motion={kind='ramp',speed='0.1 rev/s',time=3}",
@@ -88,6 +93,7 @@ const KINDS: &[&str] = &[
     "hub.motion={kind='expression',formula='4*sin(t) \"',of='speed'}",
     "model.coupling=zeroth",
     "model.coupling=first",
+    "model.coupling=high",
     "model.coupling=exact",
     "basis={kind='finite-elements',elements=3,axial-degree=2}",
     "basis={kind='modes',axial=2,transverse=5}",
@@ -109,6 +115,14 @@ const KINDS: &[&str] = &[
     "hub.motion={kind='free',torque={kind='table',file='motion.csv'}}",
     "hub.motion={kind='free',torque={kind='expression',formula='2*sin(t)'}}",
     "hub.motion={kind='free',controller={kind='pd',proportional=20,derivative=4,target='90 deg',rate='60 deg/s',limit=9}}",
+    "gravity={acceleration='9.81 m/s^2',direction='-90 deg'}",
+    "mass=[{station='10 m',mass='300 g',inertia=2e-3},{station=5,mass=1}]",
+    "force=[{station='10 m',force=['1 N',2],frame='dead'},{station=3,force=[1,0],frame='hub',amplitude={kind='constant'}}]",
+    "force=[{station=10,force=[1,2],frame='follower',amplitude={kind='ramp',time='2 s'}}]",
+    "couple=[{station=10,couple='3 N*m',amplitude={kind='table',times=[0,'10 s',30],factors=[0,1,0.5]}}]",
+    "distributed-load=[{force=['0 N/m','-2 N/m'],from=1,to='5 m',distribution={kind='uniform'},amplitude={kind='expression',formula='sin(t)'}}]",
+    "distributed-load=[{force=[0,1],distribution={kind='table',stations=[0,4,10],factors=[1,2,0]}},{force=[0,1],frame='hub',distribution={kind='expression',formula='x^2'}}]",
+    "damping={mass-proportional='0.2 1/s',stiffness-proportional='1 ms'}",
     "integrator={kind='radau',max-step='0.1 s'}",
     "integrator.tolerance=1e-8",
     "integrator={kind='newmark',step='3 ms'}",
@@ -126,6 +140,8 @@ fn the_resolved_case_of_every_kind_reads_back_as_the_same_case_and_builds() {
     let sections =
         "# SI\nx, EI, mass, EA, rotary-inertia\n0, 3, 1, 1e6, 0\n6, 2, 0.5, 1e6, 0\n10, 1, 0.5, 1e6, 0\n";
     std::fs::write(folder.path().join("section.csv"), sections).unwrap();
+    let blade = "x, mass, EA, EI-flap, EI-chord, twist\n0, 3, 1e6, 2, 4, 0.1\n10, 1, 1e6, 1, 2, 0\n";
+    std::fs::write(folder.path().join("blade.csv"), blade).unwrap();
     for kind in KINDS {
         let kind = kind.replace("broken_cases/../", "").replace(" \"", "");
         let reading = parse(SPIN_UP.to_owned(), &file, std::slice::from_ref(&kind))

@@ -59,22 +59,22 @@ fn the_balance_of_energy_closes_to_the_order_of_the_method() {
     let cases: &[(&str, f64, f64)] = &[
         ("newmark", 4e-3, 2.0),
         ("generalized-alpha", 4e-3, 2.0),
-        ("runge-kutta-4", 2e-4, 4.0),
-        ("adams-4", 2e-5, 4.0),
+        ("runge-kutta-4", 1e-3, 4.0),
+        ("adams-4", 6e-5, 4.0),
     ];
     for drive in ["hub.radius=0.1", FREE] {
         for &(method, step, order) in cases {
-            // Adams' stability limit leaves errors near rounding; the axial mode sets both limits.
+            // Before 0.5 s, when the reference of the controller stops and the torque jumps. The axial vibration limits
+            // explicit steps so much that their errors are near rounding.
             let imbalance = |step: f64| {
                 let integrator = format!("integrator={{kind='{method}',step={step}}}");
-                largest(&run(&[drive, &integrator, "run.duration=0.6"]), "energy.balance")
+                largest(&run(&[drive, &integrator, "run.duration=0.4"]), "energy.balance")
             };
             let (coarse, fine) = (imbalance(step), imbalance(0.5 * step));
             let measured = (coarse / fine).log2();
             eprintln!("{method}: {coarse:.3e} {fine:.3e} order {measured:.2}");
-            let energy = 1e-12 * 100.0;
             assert!(
-                fine < energy || (measured - order).abs() < 0.35 || measured > order,
+                fine < 1e-10 || (measured - order).abs() < 0.35 || measured > order,
                 "{method}: {coarse:.3e} {fine:.3e}: {measured}"
             );
         }

@@ -17,11 +17,13 @@ fn stored(matrix: &Matrix) -> usize {
 
 #[test]
 fn the_tangent_takes_memory_in_proportion_to_the_elements() {
-    for coupling in ["first", "exact"] {
+    for coupling in ["first", "high", "exact"] {
         let size = |n: usize| stored(&Matrix::new(&spin_up::system(coupling, n).structure()));
         let sizes: Vec<usize> = spin_up::sizes().map(size).collect();
         for pair in sizes.windows(2) {
-            assert!(pair[1] <= 2 * pair[0], "{coupling}: {sizes:?}");
+            // `high` has hidden unknowns at the boundaries between elements, one less than there are elements.
+            let hidden = if coupling == "high" { pair[0] / 10 } else { 0 };
+            assert!(pair[1] <= 2 * pair[0] + hidden, "{coupling}: {sizes:?}");
         }
     }
 }
@@ -31,7 +33,7 @@ fn the_tangent_takes_memory_in_proportion_to_the_elements() {
 #[test]
 fn the_iterations_of_a_step_do_not_grow_with_the_elements() {
     for (coupling, integrator) in
-        [("first", "newmark"), ("exact", "newmark"), ("first", "radau"), ("exact", "radau")]
+        ["first", "high", "exact"].into_iter().flat_map(|c| [(c, "newmark"), (c, "radau")])
     {
         for elements in [10, 40, 160] {
             let counters = spin_up::Run::new(coupling, elements, integrator).integrator.counters();

@@ -122,8 +122,14 @@ fn no_step_of_a_hub_and_beam_allocates() {
     let bezier = "basis={kind='bezier',elements=2,degree=4}";
     let mixed = "basis={kind='mixed',axial={kind='radial',nodes=7},transverse={kind='modes',count=2}}";
     let linear = [elements, quadratic, modes, radial, polynomial, splines, bezier, mixed];
-    let couplings: [(&str, &[&str]); 3] =
-        [("zeroth", &linear), ("first", &linear), ("exact", &[elements, "basis.elements=2"])];
+    let many = "basis={kind='finite-elements',elements=20}";
+    let high = [many, quadratic, modes, radial, polynomial, splines, bezier, mixed];
+    let couplings: [(&str, &[&str]); 4] = [
+        ("zeroth", &linear),
+        ("first", &linear),
+        ("high", &high),
+        ("exact", &[elements, "basis.elements=2"]),
+    ];
     for folder in ["p1_spin_up_4", "p3_n2_spin_up_4"] {
         for (coupling, bases) in couplings {
             for basis in bases {

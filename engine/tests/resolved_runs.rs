@@ -34,6 +34,23 @@ const TABLE: &str = "# measured\ntime,speed\n0, 0\n0.02, 0.3\n0.05,1.1\n0.1, 4\n
 
 const SECTION: &str = "x,mass,EA,EI\n0,1.1,2.8e7,930\n1,1.0,2.6e7,900\n2,0.8,2.1e7,700\n";
 
+const BLADE: &str = "x,mass,EA,EI-flap,EI-chord,twist\n0,1.1,2.8e7,930,1200,0.1\n2,0.8,2.1e7,700,800,0\n";
+
+const ELASTODYN: &str = "--- blade\n2 NBlInpSt\nBlFract StrcTwst BMassDen FlpStff EdgStff\n(-) (deg) (kg/m) (Nm^2) (Nm^2)\n0 5 1.1 930 1200\n1 0 0.8 700 800\n";
+
+/// A BeamDyn file of two equal stations.
+fn beamdyn() -> String {
+    let matrix = |entries: [f64; 6]| {
+        let row = |i: usize| {
+            (0..6).map(|j| format!("{} ", if i == j { entries[i] } else { 0.0 })).collect::<String>()
+        };
+        (0..6).map(|i| row(i) + "\n").collect::<String>() + "\n"
+    };
+    let station =
+        matrix([1e6, 1e6, 2.8e7, 1200.0, 930.0, 500.0]) + &matrix([1.1, 1.1, 1.1, 0.01, 0.01, 0.02]);
+    format!("--- blade\n2 station_total\n--- Distributed Properties\n0.0\n{station}1.0\n{station}")
+}
+
 /// Changes to the base case, which together use every kind there is.
 const VARIATIONS: &[&str] = &[
     "title=base",
@@ -48,10 +65,19 @@ const VARIATIONS: &[&str] = &[
     "section={kind='piecewise', ends=[1, 2], modulus=['70 GPa', '60 GPa'], density=[2700, 2600], area=['4 cm^2', '3 cm^2'], second-moment=['2e-8 m^4', '1e-8 m^4']}",
     "section={kind='table', file='tables/section.csv', interpolation='linear'}",
     "section={kind='table', file='tables/section.csv', interpolation='cubic'}",
+    "section={kind='blade', file='tables/blade.csv'}",
+    "section={kind='blade', file='tables/blade_elastodyn.dat', format='elastodyn'}",
+    "section={kind='blade', file='tables/blade_beamdyn.dat', format='beamdyn'}",
+    "blade={pitch='5 deg', twist='-20 deg', strain-energy='linear', tip-mass='10 g'}",
+    "blade.strain-energy=coupled",
+    "blade={precone='2 deg', strain-energy='exact', torsion=false}",
     "hub={inertia=5, motion={kind='free', torque={kind='constant', torque=3}}}",
     "hub={inertia=5, motion={kind='free', torque={kind='ramp', torque=3, time='0.02 s'}, controller={kind='pd', proportional=3, derivative=1, target='0.1 rad'}}}",
     "hub={inertia=5, motion={kind='free', torque={kind='table', file='tables/measured.csv'}, controller={kind='none'}}}",
     "hub={inertia=5, motion={kind='free', torque={kind='expression', formula='2*sin(t)'}}}",
+    "force=[{station=2, force=[0, 3], frame='dead', amplitude={kind='constant'}}, {station=1, force=[0, 3], frame='hub', amplitude={kind='ramp', time=0.1}}, {station=1, force=[0, 3], frame='follower', amplitude={kind='table', times=[0, 0.02, 0.05], factors=[0, 1, 2]}}]",
+    "couple=[{station=2, couple=1, amplitude={kind='expression', formula='sin(t)'}}]",
+    "distributed-load=[{force=[0, 3], distribution={kind='uniform'}}, {force=[0, 3], distribution={kind='table', stations=[0, 1, 2], factors=[0, 1, 0]}}, {force=[1, 0], distribution={kind='expression', formula='x'}}]",
     "hub.motion={kind='constant', speed='4 rad/s'}",
     "hub.motion={kind='ramp', speed='4 rad/s', time='0.1 s'}",
     "hub.motion={kind='table', file='tables/measured.csv', of='speed'}",
@@ -60,6 +86,7 @@ const VARIATIONS: &[&str] = &[
     "hub.motion={kind='expression', formula='3*t', of='speed'}",
     "model.coupling=zeroth",
     "model.coupling=first",
+    "model.coupling=high",
     "model.coupling=exact",
     "basis={kind='finite-elements', elements=7}",
     "basis={kind='modes', axial=2}",
@@ -81,6 +108,7 @@ const VARIATIONS: &[&str] = &[
     "integrator={kind='adams-4', step='1 us'}",
     "output.stations=[0.1, '150 cm']",
     "output={step='2 ms', vtk=true, vtk-step='7 ms'}",
+    "output={stations=[0, 1], section-forces=true, strain-heights=['0.01', '-5 mm'], energy-balance=false}",
 ];
 
 fn run(case: &Path, set: &[&str], output: &Path) -> Reading {
@@ -125,6 +153,9 @@ fn a_run_is_repeated_byte_for_byte_from_the_resolved_case_alone() {
         fs::write(folder.path().join("tables/measured.csv"), TABLE).unwrap();
         fs::write(folder.path().join("tables/section.csv"), SECTION).unwrap();
         fs::copy(earlier.join("state.npz"), folder.path().join("tables/state.npz")).unwrap();
+        fs::write(folder.path().join("tables/blade.csv"), BLADE).unwrap();
+        fs::write(folder.path().join("tables/blade_elastodyn.dat"), ELASTODYN).unwrap();
+        fs::write(folder.path().join("tables/blade_beamdyn.dat"), beamdyn()).unwrap();
         run(&case, &[variation], &first);
         fs::remove_dir_all(folder.path().join("tables")).unwrap();
         run(&first.join("case.resolved.toml"), &[], &second);
@@ -154,6 +185,9 @@ fn every_kind_is_repeated() {
     fs::create_dir(folder.path().join("tables")).unwrap();
     fs::write(folder.path().join("tables/measured.csv"), TABLE).unwrap();
     fs::write(folder.path().join("tables/section.csv"), SECTION).unwrap();
+    fs::write(folder.path().join("tables/blade.csv"), BLADE).unwrap();
+    fs::write(folder.path().join("tables/blade_elastodyn.dat"), ELASTODYN).unwrap();
+    fs::write(folder.path().join("tables/blade_beamdyn.dat"), beamdyn()).unwrap();
     let mut used = BTreeSet::new();
     for variation in VARIATIONS {
         let reading = read(&case, &[(*variation).to_owned()]).unwrap();

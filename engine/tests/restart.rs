@@ -73,11 +73,19 @@ fn bits(numbers: impl IntoIterator<Item = f64>) -> Vec<u64> {
 /// Compares what the run recorded after `since` with the continued one.
 fn assert_same(whole: &Run, parts: &Run, since: f64, what: &str) {
     let rows = |run: &Run| -> Vec<Vec<u64>> {
-        let after = run.trajectory.rows().filter(|(t, _)| *t > since);
+        // A row at the very end of the first part, but for rounding, belongs to that part.
+        let after = run.trajectory.rows().filter(|(t, _)| *t > since * (1.0 + 1e-12));
         after.map(|(t, row)| bits(std::iter::once(t).chain(row.iter().copied()))).collect()
     };
     assert!(rows(whole).len() > 10, "{what}: nothing to compare");
-    assert!(rows(whole) == rows(parts), "{what}: the rows differ");
+    for (a, b) in rows(whole).iter().zip(&rows(parts)) {
+        for (k, (a, b)) in a.iter().zip(b).enumerate() {
+            let name = k.checked_sub(1).map_or("t", |k| &whole.trajectory.channels()[k].name);
+            let (x, y) = (f64::from_bits(*a), f64::from_bits(*b));
+            assert!(a == b, "{what}: {name} differs: {x:e} and {y:e}");
+        }
+    }
+    assert_eq!(rows(whole).len(), rows(parts).len(), "{what}: numbers of rows");
     assert_eq!(parts.trajectory.len(), rows(parts).len(), "{what}: rows before the start");
     assert_eq!(whole.counters, parts.counters, "{what}");
     assert!(
@@ -100,7 +108,7 @@ fn a_stopped_run_goes_on_as_if_it_had_never_stopped() {
             let mut set = model.to_vec();
             set.push(integrator);
             if integrator.contains("runge") {
-                set.push("run.duration=0.15 s");
+                set.extend(["run.duration=0.15 s", "output.step=2 ms"]);
             }
             if integrator.contains("adams") {
                 set.extend(["run.duration=0.01 s", "output.step=0.1 ms"]);

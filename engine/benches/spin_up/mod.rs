@@ -3,7 +3,9 @@
 #![allow(missing_docs, clippy::unwrap_used, dead_code)]
 
 use flexion::basis::{Field, Hermite, Lagrange};
-use flexion::hub_beam::{Drive, ExactCoupling, Fields, Foreshortening, Hub, HubBeam, LinearCoupling};
+use flexion::hub_beam::{
+    Drive, ExactCoupling, Fields, Foreshortening, HighCoupling, Hub, HubBeam, LinearCoupling,
+};
 use flexion::integrator::{GeneralizedAlpha, Integrator, Radau, Tolerance};
 use flexion::linalg::Matrix;
 use flexion::profile::{Motion, SpinUp};
@@ -42,6 +44,10 @@ pub fn system(coupling: &str, elements: usize) -> Box<dyn System> {
         Box::new(Hermite::new(LENGTH, elements, Field::Transverse).unwrap()),
         &[],
     );
+    if coupling == "high" {
+        let coupling = HighCoupling::new(fields, &section, &hub);
+        return Box::new(HubBeam::new(hub, coupling, &[]));
+    }
     let coupling = LinearCoupling::new(fields, &section, &hub, Foreshortening::First);
     Box::new(HubBeam::new(hub, coupling, &[]))
 }

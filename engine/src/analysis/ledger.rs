@@ -140,6 +140,7 @@ impl Ledger {
         self.books = Books { initial, drive, loads, dissipated };
         let [drive, loads, dissipated] = from.numbers("power")?;
         self.power = Power { drive, loads, dissipated };
+        self.end = (self.books, self.power);
         Ok(())
     }
 }

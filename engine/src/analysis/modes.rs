@@ -198,17 +198,25 @@ pub fn modes(
         }
         other => other?,
     };
-    let pairs = pencil.pairs(count)?;
+    // A rigid motion that neither moves nor stops is an eigenvalue twice: as a place and as a speed.
+    let pairs = pencil.pairs(if rigid > 0.0 { (count + 1).min(size.v) } else { count })?;
     let (mut modes, mut counted) = (Vec::with_capacity(count), None);
     let scale: Vec<f64> = system.labels().iter().map(|l| l.scale).collect();
-    for pair in pairs.into_iter().take(count) {
+    for pair in pairs {
         let number = modes.len() + 1;
+        if number > count {
+            break;
+        }
         let mode =
             mode(system, state, &pencil, (!in_terms).then_some(&rounded), pair, (&scale, rigid), stations);
         // Written so that NaN is refused too. A defective rigid motion is known to half the digits.
         if !(mode.residual <= RESIDUAL) && mode.eigenvalue.norm() > 0.0 {
             let frequency = mode.eigenvalue.norm();
             return Err(NoModes::Inaccurate { number, frequency, residual: mode.residual });
+        }
+        let again = |m: &Mode| m.eigenvalue == Complex64::ZERO && parallel(&m.vector, &mode.vector);
+        if mode.eigenvalue == Complex64::ZERO && modes.iter().any(again) {
+            continue;
         }
         modes.push(mode);
     }
@@ -224,6 +232,14 @@ pub fn modes(
         counted = below.map(|_| modes.len());
     }
     Ok(Modes { modes, kind: pencil.kind(), counted })
+}
+
+/// Whether two vectors are multiples of each other.
+fn parallel(x: &[Complex64], y: &[Complex64]) -> bool {
+    let inner = |a: &[Complex64], b: &[Complex64]| {
+        a.iter().zip(b).map(|(a, b)| a.conj() * b).sum::<Complex64>().norm()
+    };
+    inner(x, y) > (1.0 - 1e-6) * (inner(x, x) * inner(y, y)).sqrt()
 }
 
 /// Lowest frequency of the system with its rigid motions held.

@@ -234,6 +234,7 @@ impl Element {
     }
 
     /// Strain energy of the exact model.
+    #[cfg(test)]
     pub fn exact_energy(&self, q: &[f64; LOCAL], pitch: f64, model: &Model) -> f64 {
         let at = |p: &Point| p.weight * exact_energy(&Functions::of(p), pitch, &p.section, model, q).x;
         let strain = self.samples(q).map(|(strain, ..)| strain);

@@ -132,13 +132,13 @@ impl Matrices {
 
     /// Moves `q` from the steady state at speed `from` to the one at `to`, assembled; the largest speed reached
     /// if there is none.
-    pub fn follow(&mut self, from: f64, to: f64, q: &mut Vec<f64>) -> Result<(), f64> {
+    pub fn follow(&mut self, from: f64, to: f64, q: &mut [f64]) -> Result<(), f64> {
         if self.model.strain_energy != StrainEnergy::Exact {
             self.assemble(to, q);
             return Ok(());
         }
         let (mut reached, mut part) = (from, to - from);
-        let mut trial = q.clone();
+        let mut trial = q.to_vec();
         loop {
             let goal = if (to - reached).abs() <= part.abs() * (1.0 + 1e-9) { to } else { reached + part };
             trial.copy_from_slice(q);

@@ -8,7 +8,7 @@ use super::model::{BladeError, Model, Setting, StrainEnergy};
 use super::tension::Tension;
 use crate::linalg::{Matrix, Storage, Structure};
 use crate::section::BladeSection;
-use crate::system::{Channel, Energy, Frame, Label, Power, Size, State, System, Weights};
+use crate::system::{Channel, Direction, Energy, Frame, Label, Power, Size, State, System, Weights};
 
 /// A rotating blade. See the [module documentation](super).
 ///
@@ -20,6 +20,8 @@ pub struct Blade {
     setting: Setting,
     speed: f64,
     steady: Vec<f64>,
+    /// The speed asked for at which no steady state was found, if it was the last one asked for.
+    lost: Option<BladeError>,
     scratch: Vec<f64>,
     channels: Vec<Channel>,
 }
@@ -66,6 +68,7 @@ impl Blade {
             setting,
             speed: 0.0,
             steady: vec![0.0; size],
+            lost: None,
             scratch: vec![0.0; size],
         };
         blade.set_speed(0.0)?;
@@ -175,6 +178,11 @@ impl System for Blade {
     }
 
     fn residual(&mut self, s: &State, r: &mut [f64]) {
+        if self.lost.is_some() {
+            // There is no equilibrium to be found.
+            r.fill(f64::NAN);
+            return;
+        }
         let Blade { matrices, scratch, .. } = self;
         Blade::product(&matrices.mass, &s.a, r);
         for (matrix, x) in [(&matrices.gyroscopic, &s.v), (&matrices.stiffness, &s.q)] {
@@ -212,6 +220,25 @@ impl System for Blade {
             }
         }
         out.set_stamp(Some(stamp));
+    }
+
+    fn turn_steadily(&mut self, speed: f64) -> bool {
+        self.lost = self.set_speed(speed).err();
+        true
+    }
+
+    fn direction(&self, i: usize) -> Direction {
+        match self.components().get(i) {
+            Some(Component::Axial) => Direction::Axial,
+            Some(Component::Chordwise) => Direction::Chord,
+            Some(Component::Flapwise) => Direction::Flap,
+            Some(Component::Torsion) => Direction::Torsion,
+            None => Direction::Other,
+        }
+    }
+
+    fn explain(&mut self, _s: &State) -> Option<String> {
+        self.lost.as_ref().map(BladeError::to_string)
     }
 
     fn is_affine(&self) -> bool {

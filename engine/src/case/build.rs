@@ -1,8 +1,11 @@
 //! Live objects from a validated case.
 
 use super::basis::{Basis as BasisCase, RadialBasis};
+use super::blade::{Blade as BladeCase, StrainEnergy as StrainEnergyCase};
+use super::blade_file;
 use super::integrator::Integrator as IntegratorCase;
 use super::layout::{Case, Coupling};
+use super::load_build;
 use super::motion::{Motion as MotionCase, MotionOf};
 use super::section::{Interpolation as InterpolationCase, Section as SectionCase, Shape as ShapeCase};
 use super::section_file;
@@ -11,16 +14,18 @@ use crate::basis::{
     BSpline, Basis, BasisError, Bezier, Field, Hermite, Lagrange, Modes, Polynomial, PolynomialParameters,
     Radial, RadialParameters,
 };
+use crate::blade::{Blade, BladeError, Model, Setting, StrainEnergy, Terms, Tip};
 use crate::hub_beam::{
-    Controller, Drive, ExactCoupling, Fields, Foreshortening, FreeHub, Hub, HubBeam, LinearCoupling,
+    Controller, Coupling as HubCoupling, Drive, ExactCoupling, Fields, Foreshortening, FreeHub, HighCoupling,
+    Hub, HubBeam, LinearCoupling, Sampling,
 };
 use crate::integrator::{
     Adams, GeneralizedAlpha, Integrator, InvalidParameter, Radau, RungeKutta, Tolerance,
 };
 use crate::profile::{self, Constant, Expression, Profile, ProfileError, Ramp, SpinUp, Table};
 use crate::section::{
-    self, Graded, Inertia, Interpolation, Material, Piecewise, Resultants, Section, SectionError, Segment,
-    Shape, Tapered, Uniform,
+    self, BladeSection, Graded, HomogeneousBlade, Inertia, Interpolation, Material, Piecewise, PlanarBlade,
+    Resultants, Section, SectionError, Segment, Shape, Tapered, Uniform,
 };
 use crate::system::System;
 use std::path::Path;
@@ -64,6 +69,10 @@ pub fn section(case: &SectionCase, length: f64) -> Result<Box<dyn Section>, Sect
                 InterpolationCase::Cubic => Interpolation::Cubic,
             };
             Box::new(section::Table::new(length, &rows, interpolation)?)
+        }
+        SectionCase::Blade { ref file, format } => {
+            let rows = blade_file::rows(file, format, length).map_err(SectionError::Invalid)?;
+            Box::new(section::Guided(section::BladeTable::new(length, &rows)?))
         }
         SectionCase::Resultants { mass, axial_stiffness, bending_stiffness, rotary_inertia } => {
             Box::new(Uniform::from_resultants(Resultants {
@@ -115,6 +124,100 @@ fn shape(case: ShapeCase) -> Result<Shape, SectionError> {
             return Err(SectionError::Invalid(message.to_owned()));
         }
     })
+}
+
+/// The section of a case as that of a blade of the given length [m]: with both stiffnesses where its shape is
+/// known, with equal ones where only those of the plane are.
+fn blade_section(
+    case: &SectionCase,
+    length: f64,
+    poisson_ratio: f64,
+) -> Result<Box<dyn BladeSection>, SectionError> {
+    let homogeneous =
+        |modulus, density, root: Shape, tip: Shape| -> Result<Box<dyn BladeSection>, SectionError> {
+            let along = Tapered::new(modulus, density, length, root, tip)?;
+            Ok(Box::new(HomogeneousBlade::new(modulus, density, poisson_ratio, move |x| along.shape(x))?))
+        };
+    Ok(match *case {
+        SectionCase::Blade { ref file, format } => {
+            let rows = blade_file::rows(file, format, length).map_err(SectionError::Invalid)?;
+            Box::new(section::BladeTable::new(length, &rows)?)
+        }
+        SectionCase::Uniform {
+            modulus,
+            density,
+            shape:
+                dimensions @ (ShapeCase::Rectangle { .. } | ShapeCase::Circle { .. } | ShapeCase::Tube { .. }),
+            ..
+        } => homogeneous(modulus, density, shape(dimensions)?, shape(dimensions)?)?,
+        SectionCase::Tapered { modulus, density, root, tip, .. } => {
+            homogeneous(modulus, density, shape(root)?, shape(tip)?)?
+        }
+        SectionCase::Graded { .. } => {
+            let message =
+                "a graded section bends and stretches together, which the blade leaves out".to_owned();
+            return Err(SectionError::Invalid(message));
+        }
+        SectionCase::Uniform { .. }
+        | SectionCase::Piecewise { .. }
+        | SectionCase::Table { .. }
+        | SectionCase::Resultants { .. } => Box::new(PlanarBlade(section(case, length)?)),
+    })
+}
+
+/// A blade with the section of a case, on a beam of the given length [m] and a hub of the given radius [m],
+/// at rest.
+pub(super) fn blade_of(
+    case: &BladeCase,
+    section: &SectionCase,
+    length: f64,
+    hub_radius: f64,
+) -> Result<Blade, BuildError> {
+    let blade = blade_section(section, length, case.poisson_ratio)?;
+    let blade = section::Twisted { blade, rate: case.twist / length };
+    // A section that says enough does so everywhere: at both ends and at every break.
+    let mut stations = vec![0.0, length];
+    stations.extend(blade.breaks());
+    let known = stations.iter().all(|&x| blade.resultants(x).has_torsion());
+    let model = Model {
+        strain_energy: match case.strain_energy {
+            StrainEnergyCase::Linear => StrainEnergy::Linear,
+            StrainEnergyCase::Coupled => StrainEnergy::Coupled(Terms::ALL),
+            StrainEnergyCase::Exact => StrainEnergy::Exact,
+        },
+        gyroscopic: case.gyroscopic,
+        rotary_inertia: case.rotary_inertia,
+        torsion: case.torsion.unwrap_or(known),
+        tension_torsion: true,
+    };
+    let setting = Setting {
+        length,
+        hub_radius,
+        precone: case.precone,
+        pitch: case.pitch,
+        tip: Tip { mass: case.tip_mass, inertia: case.tip_inertia },
+    };
+    Ok(Blade::new(setting, &blade, model, case.elements)?)
+}
+
+/// The blade of a case, at rest: `None` if the case has no `[blade]`.
+///
+/// # Errors
+/// [`BuildError`] when section or setting make no blade.
+pub fn blade(case: &Case) -> Result<Option<Blade>, BuildError> {
+    let build = |blade| blade_of(blade, &case.section, case.length, case.hub.radius);
+    case.blade.as_ref().map(build).transpose()
+}
+
+/// What vibrates about a steady rotation: the blade of a case, or its hub–beam if it has no `[blade]`.
+///
+/// # Errors
+/// As [`blade`] and [`system`].
+pub fn vibrating(case: &Case) -> Result<Box<dyn System>, BuildError> {
+    match blade(case)? {
+        Some(blade) => Ok(Box::new(blade)),
+        None => system(case),
+    }
 }
 
 /// Why a motion cannot be built.
@@ -290,6 +393,12 @@ pub enum BuildError {
     /// The basis.
     #[error(transparent)]
     Basis(#[from] BasisError),
+    /// A load.
+    #[error(transparent)]
+    Load(#[from] ProfileError),
+    /// The blade.
+    #[error(transparent)]
+    Blade(#[from] BladeError),
 }
 
 /// The mechanical system of a case.
@@ -297,13 +406,13 @@ pub enum BuildError {
 /// # Errors
 /// [`BuildError`] when a part of it is refused; a case that was read has passed these checks.
 pub fn system(case: &Case) -> Result<Box<dyn System>, BuildError> {
-    let section = section(&case.section, case.length)?;
+    let section = load_build::laden(section(&case.section, case.length)?, case)?;
     let drive = drive(&case.hub.motion, case.duration)?;
     let (length, stations) = (case.length, &case.output.stations);
     let hub = Hub { radius: case.hub.radius, inertia: case.hub.inertia, drive };
     let foreshortening = match case.coupling {
         Coupling::Zeroth => Foreshortening::None,
-        Coupling::First => Foreshortening::First,
+        Coupling::First | Coupling::High => Foreshortening::First,
         Coupling::Exact => {
             let BasisCase::FiniteElements { elements, .. } = case.bases.transverse else {
                 let message = "the exact coupling needs finite elements".to_owned();
@@ -313,12 +422,43 @@ pub fn system(case: &Case) -> Result<Box<dyn System>, BuildError> {
                 return Err(SectionError::Invalid(jump).into());
             }
             let coupling = ExactCoupling::new(length, elements, section.as_ref(), &hub)?;
-            return Ok(Box::new(HubBeam::new(hub, coupling, stations)));
+            return finished(HubBeam::new(hub, coupling, stations), section.as_ref(), case);
         }
     };
     let axial = basis(&case.bases.axial, length, Field::Axial)?;
     let transverse = basis(&case.bases.transverse, length, Field::Transverse)?;
     let fields = Fields::new(length, axial, transverse, section.breaks());
+    if case.coupling == Coupling::High {
+        let coupling = HighCoupling::new(fields, section.as_ref(), &hub);
+        return finished(HubBeam::new(hub, coupling, stations), section.as_ref(), case);
+    }
     let coupling = LinearCoupling::new(fields, section.as_ref(), &hub, foreshortening);
-    Ok(Box::new(HubBeam::new(hub, coupling, stations)))
+    finished(HubBeam::new(hub, coupling, stations), section.as_ref(), case)
+}
+
+/// A system under the loads and with the damping of a case, and with the section forces and strains that it wants
+/// recorded.
+fn finished<C: HubCoupling + 'static>(
+    system: HubBeam<C>,
+    section: &dyn Section,
+    case: &Case,
+) -> Result<Box<dyn System>, BuildError> {
+    let loads = load_build::loads(case)?;
+    let loads: Vec<_> = loads.iter().map(|load| load.as_ref()).collect();
+    let system = if loads.is_empty() { system } else { system.with_loads(section, &loads) };
+    let system = system.with_damping(case.loads.damping);
+    let output = &case.output;
+    if !output.section_forces && output.strain_heights.is_empty() {
+        return Ok(Box::new(system));
+    }
+    let sampling = match (case.coupling, &case.bases.axial, &case.bases.transverse) {
+        (Coupling::Exact, ..) => Sampling::Curve,
+        (
+            _,
+            BasisCase::FiniteElements { elements, axial_degree },
+            BasisCase::FiniteElements { elements: transverse, .. },
+        ) if elements == transverse => Sampling::Elements(*axial_degree),
+        _ => Sampling::Station,
+    };
+    Ok(Box::new(system.with_section_forces(section, sampling, output.section_forces, &output.strain_heights)))
 }

@@ -69,6 +69,8 @@ pub enum Type {
     Choice(&'static Seam),
     /// A table with the given keys.
     Table(&'static [Key]),
+    /// A list of tables with the given keys: `[[force]]`.
+    Tables(&'static [Key]),
     /// A table whose `kind` decides which keys it has.
     Kind(&'static Seam),
 }

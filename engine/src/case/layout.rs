@@ -1,10 +1,13 @@
 //! The layout of a case file, and the case in SI that comes out of it.
 
 use super::basis::{self, Bases, Basis};
+use super::blade::{self, Blade};
 use super::declaration::{
     Bound::*, Key, Kind, Presence as Default, Presence::*, Seam, Type, Type::Quantity, key,
 };
 use super::integrator::{self, Integrator};
+use super::load_trial;
+use super::loads::{self, Loads};
 use super::motion::{self, Motion};
 use super::problem::{Problem, Problems};
 use super::restart;
@@ -26,10 +29,14 @@ pub struct Case {
     pub section: Section,
     /// The hub.
     pub hub: Hub,
+    /// What makes the beam a blade; `None` for a beam in the plane of rotation.
+    pub blade: Option<Blade>,
     /// The kinematic model.
     pub coupling: Coupling,
     /// The bases of the two displacement fields.
     pub bases: Bases,
+    /// What acts on the beam and what it carries.
+    pub loads: Loads,
     /// The state at t = 0.
     pub initial: Initial,
     /// The integrator.
@@ -58,6 +65,8 @@ pub enum Coupling {
     Zeroth,
     /// Foreshortening to first order.
     First,
+    /// Foreshortening to every order in the kinetic energy.
+    High,
     /// Geometrically exact.
     Exact,
 }
@@ -85,6 +94,10 @@ pub struct Output {
     pub step: f64,
     /// Stations along the beam to be recorded besides the tip [m].
     pub stations: Vec<f64>,
+    /// Whether axial, shear force and bending moment are recorded at the stations.
+    pub section_forces: bool,
+    /// Heights over the axis at which the strain is recorded at the stations [m].
+    pub strain_heights: Vec<f64>,
     /// Whether work, losses and the balance of energy are recorded.
     pub energy_balance: bool,
     /// Interval between shapes of the beam for ParaView [s]; `None` writes none.
@@ -116,6 +129,12 @@ static COUPLING: Seam = Seam {
             name: "first",
             summary: "foreshortening to first order: linear with dynamic stiffening, small deflections",
             source: "Kane, Ryan & Banerjee 1987, doi:10.2514/3.20195",
+            keys: &[],
+        },
+        Kind {
+            name: "high",
+            summary: "foreshortening to every order in the kinetic energy: nonlinear, moderate deflections",
+            source: "Li, Zhang & Hong 2013, Journal of Mechanical Engineering 49(13) 77–84",
             keys: &[],
         },
         Kind {
@@ -165,6 +184,10 @@ pub(super) static SEAMS: &[&Seam] = &[
     &motion::SEAM,
     &torque::TORQUES,
     &torque::CONTROLLERS,
+    &loads::AXES,
+    &loads::AMPLITUDE,
+    &loads::DISTRIBUTION,
+    &blade::STRAIN_ENERGY,
     &COUPLING,
     &basis::SEAM,
     &basis::FIELD,
@@ -203,6 +226,12 @@ pub(super) static KEYS: &[Key] = &[
         "hub and its motion",
     ),
     key(
+        "blade",
+        Type::Table(blade::KEYS),
+        Optional,
+        "makes the beam a blade, which also bends out of the plane and twists",
+    ),
+    key(
         "model",
         Type::Table(&[key(
             "coupling",
@@ -214,6 +243,12 @@ pub(super) static KEYS: &[Key] = &[
         "model of the beam",
     ),
     key("basis", Type::Kind(&basis::SEAM), Default::Name("finite-elements"), "basis of the displacements"),
+    loads::GRAVITY,
+    loads::MASSES,
+    loads::FORCES,
+    loads::COUPLES,
+    loads::DISTRIBUTED,
+    loads::DAMPING,
     key("initial", Type::Kind(&INITIAL), Default::Name("undeformed"), "state at the start"),
     key("integrator", Type::Kind(&integrator::SEAM), Default::Name("radau"), "integrator"),
     key(
@@ -236,6 +271,18 @@ pub(super) static KEYS: &[Key] = &[
                 Type::Quantities(&LENGTH, NotNegative),
                 Default::Empty,
                 "stations along the beam, from the root, recorded besides the tip",
+            ),
+            key(
+                "section-forces",
+                Type::Boolean,
+                Default::Boolean(false),
+                "axial force, shear force and bending moment are recorded at the stations",
+            ),
+            key(
+                "strain-heights",
+                Type::Quantities(&LENGTH, Any),
+                Default::Empty,
+                "heights over the axis at which the strain is recorded at the stations",
             ),
             key(
                 "energy-balance",
@@ -268,6 +315,7 @@ pub(super) fn case(values: &mut Values, folder: &Path, problems: &mut Problems) 
     let length = values.table("beam").and_then(|beam| beam.number("length"));
     let coupling = values.table("model").and_then(|model| model.text("coupling")).map(|name| match name {
         "zeroth" => Coupling::Zeroth,
+        "high" => Coupling::High,
         "exact" => Coupling::Exact,
         _ => Coupling::First,
     });
@@ -284,6 +332,8 @@ pub(super) fn case(values: &mut Values, folder: &Path, problems: &mut Problems) 
     trial::section(section.as_ref(), length, exact_elements, values, problems);
     let integrator = values.kind("integrator").and_then(|(kind, v)| integrator::read(kind, v));
     trial::integrator(integrator.as_ref(), values, problems);
+    let loads = loads::read(values);
+    load_trial::loads(&loads, (length, run_duration), integrator.as_ref(), values, problems);
     let initial = values.kind("initial").and_then(|(kind, v)| {
         Some(match kind.name {
             "steady-rotation" => Initial::SteadyRotation,
@@ -294,6 +344,8 @@ pub(super) fn case(values: &mut Values, folder: &Path, problems: &mut Problems) 
     });
     let output = values.table("output");
     let stations = output.and_then(|output| output.numbers("stations")).map(<[f64]>::to_vec);
+    let section_forces = output.and_then(|output| output.boolean("section-forces"));
+    let strain_heights = output.and_then(|output| output.numbers("strain-heights")).map(<[f64]>::to_vec);
     let energy_balance = output.and_then(|output| output.boolean("energy-balance"));
     let output_step = output.and_then(|output| output.number("step"));
 
@@ -369,18 +421,32 @@ pub(super) fn case(values: &mut Values, folder: &Path, problems: &mut Problems) 
     } else {
         trial::bases(bases.as_ref(), length, values, problems);
     }
+    let blade = values.table("blade").map(blade::read);
+    trial::blade(blade.as_ref().and_then(Option::as_ref), section.as_ref(), length, values, problems);
     let hub = values.table("hub");
     Some(Case {
         title: values.text("title")?.to_owned(),
         length: length?,
         section: section?,
         hub: Hub { radius: hub?.number("radius")?, inertia: hub?.number("inertia")?, motion: motion? },
+        blade: match blade {
+            Some(blade) => Some(blade?),
+            None => None,
+        },
         coupling: coupling?,
         bases: bases?,
+        loads,
         initial: initial?,
         integrator: integrator?,
         duration: run_duration?,
-        output: Output { step: output_step?, stations: stations?, energy_balance: energy_balance?, vtk },
+        output: Output {
+            step: output_step?,
+            stations: stations?,
+            section_forces: section_forces?,
+            strain_heights: strain_heights?,
+            energy_balance: energy_balance?,
+            vtk,
+        },
     })
 }
 

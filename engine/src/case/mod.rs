@@ -17,8 +17,13 @@ mod error;
 pub mod units;
 
 mod basis;
+mod blade;
+mod blade_file;
 mod integrator;
 mod layout;
+mod load_build;
+mod load_trial;
+pub mod loads;
 mod motion;
 mod problem;
 mod reader;
@@ -35,6 +40,8 @@ mod trial;
 mod values;
 
 pub use basis::{Bases, Basis, RadialBasis};
+pub use blade::{Blade, StrainEnergy};
+pub use blade_file::BladeFormat;
 pub use error::{ColumnError, Errors};
 pub use integrator::Integrator;
 pub use layout::{Case, Coupling, Hub, Initial, Output};
@@ -125,6 +132,8 @@ impl Reading {
                 BuildError::Section(_) => "section",
                 BuildError::Motion(_) => "hub.motion",
                 BuildError::Basis(_) => "basis",
+                BuildError::Load(_) => "force",
+                BuildError::Blade(_) => "blade",
             };
             self.problem(key, error.to_string())
         })?;

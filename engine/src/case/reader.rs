@@ -4,7 +4,7 @@ use super::declaration::{Bound, Key, Kind, Presence, Seam, Type, listed};
 use super::problem::{Place, Problem, Problems};
 use super::tree::{Entry, Node, Raw};
 use super::units::{self, Measure};
-use super::values::{Filled, Value, Values, join};
+use super::values::{Filled, Value, Values, item, join};
 use crate::nearest::nearest;
 
 /// Reads a table with the given keys.
@@ -131,6 +131,7 @@ fn expected(takes: &Type) -> String {
         Type::Path => "the path of a file, relative to the folder of the case".to_owned(),
         Type::Choice(seam) => format!("one of {}", seam.names()),
         Type::Table(_) => "a table".to_owned(),
+        Type::Tables(_) => "a list of tables, each under a heading in double brackets".to_owned(),
         Type::Kind(_) => "a table with a `kind`".to_owned(),
     }
 }
@@ -186,6 +187,22 @@ fn value(key: &'static Key, node: &Node, path: &str, problems: &mut Problems) ->
         }
         (Type::Table(keys), Raw::Table(entries)) => {
             Some(Value::Table(table(entries, Some(node.place.clone()), keys, path, problems)))
+        }
+        (Type::Tables(keys), Raw::List(items)) => {
+            let mut list = Vec::with_capacity(items.len());
+            for (number, node) in items.iter().enumerate() {
+                let path = item(path, number);
+                match &node.value {
+                    Raw::Table(entries) => {
+                        list.push(table(entries, Some(node.place.clone()), keys, &path, problems));
+                    }
+                    other => {
+                        let message = format!("{} is not a table", other.describe());
+                        problems.push(Problem::new(&path, Some(node.place.clone()), message));
+                    }
+                }
+            }
+            Some(Value::Tables(list))
         }
         (Type::Kind(seam), Raw::Table(entries)) => kind(seam, key, entries, &node.place, path, problems),
         (Type::Kind(seam), Raw::Text(text)) if seam.kind(text).is_some() => {
@@ -273,6 +290,7 @@ fn default(key: &'static Key, path: &str, problems: &mut Problems) -> Option<Val
         }
         (Presence::Name(name), _) => Some(Value::Text(name.to_owned())),
         (Presence::Empty, Type::Table(keys)) => Some(Value::Table(table(&[], None, keys, path, problems))),
+        (Presence::Empty, Type::Tables(_)) => Some(Value::Tables(Vec::new())),
         (Presence::Empty, _) => Some(Value::Numbers(Vec::new())),
     }
 }

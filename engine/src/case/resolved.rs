@@ -1,7 +1,7 @@
 //! The resolved case: every key with its value in SI, defaults included, as a TOML file.
 
 use super::declaration::Type;
-use super::values::{Value, Values, join};
+use super::values::{Value, Values, item, join};
 use crate::output::Artifact;
 use std::fmt::Write;
 
@@ -17,10 +17,15 @@ fn table(values: &Values, kind: Option<&str>, path: &str, copies: bool, out: &mu
     if !path.is_empty() {
         let _ = writeln!(out, "\n[{path}]");
     }
+    entries(values, kind, path, copies, out);
+}
+
+/// What stands under the heading of a table.
+fn entries(values: &Values, kind: Option<&str>, path: &str, copies: bool, out: &mut String) {
     if let Some(kind) = kind {
         let _ = writeln!(out, "kind = {}", quoted(kind));
     }
-    let nested = |value: &Value| matches!(value, Value::Table(_) | Value::Kind(..));
+    let nested = |value: &Value| matches!(value, Value::Table(_) | Value::Tables(_) | Value::Kind(..));
     for filled in values.entries.iter().filter(|filled| !nested(&filled.value)) {
         let unit = match filled.key.takes {
             Type::Quantity(measure, _) | Type::Quantities(measure, _) => format!("  # {}", measure.unit),
@@ -36,6 +41,12 @@ fn table(values: &Values, kind: Option<&str>, path: &str, copies: bool, out: &mu
         let path = join(path, filled.key.name);
         match &filled.value {
             Value::Table(values) => table(values, None, &path, copies, out),
+            Value::Tables(list) => {
+                for values in list {
+                    let _ = writeln!(out, "\n[[{path}]]");
+                    entries(values, None, &path, copies, out);
+                }
+            }
             Value::Kind(kind, values) => table(values, Some(kind.name), &path, copies, out),
             _ => {}
         }
@@ -66,6 +77,11 @@ pub(super) fn flat(values: &Values, path: &str, out: &mut Vec<(String, String)>)
         let path = join(path, filled.key.name);
         match &filled.value {
             Value::Table(values) => flat(values, &path, out),
+            Value::Tables(list) => {
+                for (number, values) in list.iter().enumerate() {
+                    flat(values, &item(&path, number), out);
+                }
+            }
             Value::Kind(kind, values) => {
                 out.push((join(&path, "kind"), kind.name.to_owned()));
                 flat(values, &path, out);
@@ -85,7 +101,7 @@ pub(super) fn written(value: &Value, takes: &Type, unit: bool) -> String {
         Value::Integer(value) => value.to_string(),
         Value::Boolean(value) => value.to_string(),
         Value::Text(value) => quoted(value),
-        Value::Table(_) | Value::Kind(..) => String::new(),
+        Value::Table(_) | Value::Tables(_) | Value::Kind(..) => String::new(),
     };
     match takes {
         Type::Quantity(measure, _) if unit => format!("{text} {}", measure.unit),

@@ -79,6 +79,7 @@ fn takes(takes: &Type, default: &str) -> Value {
             json!({ "type": "string", "oneOf": options })
         }
         Type::Table(keys) => table(keys, None, false),
+        Type::Tables(keys) => json!({ "type": "array", "items": table(keys, None, false) }),
         Type::Kind(seam) => json!({ "type": "object", "oneOf": kinds(seam, default) }),
     }
 }

@@ -1,5 +1,6 @@
 //! The section of a case: kinds and their keys.
 
+use super::blade_file::BladeFormat;
 use super::declaration::{
     Bound::*,
     Key, Kind, Presence as Default,
@@ -86,6 +87,13 @@ pub enum Section {
         /// Between the rows.
         interpolation: Interpolation,
     },
+    /// Properties of a blade in a file.
+    Blade {
+        /// The file.
+        file: PathBuf,
+        /// Its format.
+        format: BladeFormat,
+    },
 }
 
 impl Section {
@@ -94,7 +102,10 @@ impl Section {
         let shape = match *self {
             Section::Graded { height, .. } => return Some(height),
             Section::Uniform { shape, .. } | Section::Tapered { root: shape, .. } => shape,
-            Section::Resultants { .. } | Section::Piecewise { .. } | Section::Table { .. } => return None,
+            Section::Resultants { .. }
+            | Section::Piecewise { .. }
+            | Section::Table { .. }
+            | Section::Blade { .. } => return None,
         };
         match shape {
             Shape::Rectangle { height, .. } => Some(height),
@@ -179,6 +190,32 @@ pub(super) static INTERPOLATION: Seam = Seam {
             name: "cubic",
             summary: "monotone cubics, with continuous slopes",
             source: "Fritsch & Butland 1984, doi:10.1137/0905021",
+            keys: &[],
+        },
+    ],
+};
+
+pub(super) static FORMAT: Seam = Seam {
+    name: "format",
+    path: "section.format",
+    summary: "format of a blade's file",
+    kinds: &[
+        Kind {
+            name: "csv",
+            summary: "SI, first line x, mass, EA, EI-flap, EI-chord and, if wanted, GJ, inertia-flap, inertia-chord, twist",
+            source: "",
+            keys: &[],
+        },
+        Kind {
+            name: "elastodyn",
+            summary: "blade input file of ElastoDyn; without axial stiffness, one of slenderness 100 is taken",
+            source: "OpenFAST",
+            keys: &[],
+        },
+        Kind {
+            name: "beamdyn",
+            summary: "blade input file of BeamDyn; offsets of the mass centre are left out",
+            source: "OpenFAST",
             keys: &[],
         },
     ],
@@ -371,6 +408,15 @@ pub(super) static SEAM: Seam = Seam {
                 ),
             ],
         },
+        Kind {
+            name: "blade",
+            summary: "properties of a blade for bending in two planes and torsion, tabulated along its span",
+            source: "",
+            keys: &[
+                key("file", Type::Path, Required, "file of the properties"),
+                key("format", Type::Choice(&FORMAT), Default::Name("csv"), "format of the file"),
+            ],
+        },
     ],
 };
 
@@ -427,6 +473,14 @@ pub(super) fn read(
                 _ => Interpolation::Linear,
             };
             return Some(Section::Table { file: folder.join(v.text("file")?), interpolation });
+        }
+        "blade" => {
+            let format = match v.text("format")? {
+                "elastodyn" => BladeFormat::ElastoDyn,
+                "beamdyn" => BladeFormat::BeamDyn,
+                _ => BladeFormat::Csv,
+            };
+            return Some(Section::Blade { file: folder.join(v.text("file")?), format });
         }
         "rectangle" => Shape::Rectangle { width: v.number("width")?, height: v.number("height")? },
         "circle" => Shape::Circle { radius: v.number("radius")? },

@@ -219,6 +219,9 @@ impl Writer {
         }
         for key in keys.iter().filter(|key| nested(key)) {
             let Some(Filled { value, place, .. }) = filled(key) else { continue };
+            if matches!(value, Value::Tables(_)) {
+                continue;
+            }
             let path = join(path, key.name);
             let mark = if place.is_some() { "" } else { "#" };
             let choice = match key.takes {
@@ -238,7 +241,7 @@ impl Writer {
 }
 
 fn nested(key: &Key) -> bool {
-    matches!(key.takes, Type::Table(_) | Type::Kind(_))
+    matches!(key.takes, Type::Table(_) | Type::Tables(_) | Type::Kind(_))
 }
 
 /// What a key means, its unit and limits, and what it can be chosen from.

@@ -2,6 +2,7 @@
 //! other problems, at the key that it concerns.
 
 use super::basis::{Bases, Basis};
+use super::blade::Blade;
 use super::build::{self, MotionError};
 use super::integrator::Integrator;
 use super::motion::Motion;
@@ -29,7 +30,7 @@ pub(super) fn section(
     let Some(message) = message else { return };
     let key = match case {
         Section::Piecewise { .. } => "ends",
-        Section::Table { .. } => "file",
+        Section::Table { .. } | Section::Blade { .. } => "file",
         _ => {
             problems.push(Problem::new("section", values.place("section"), message));
             return;
@@ -37,6 +38,24 @@ pub(super) fn section(
     };
     let place = values.kind("section").and_then(|(_, table)| table.place(key));
     problems.push(Problem::new(join("section", key), place, message));
+}
+
+/// Tries the blade at rest.
+pub(super) fn blade(
+    case: Option<&Blade>,
+    section: Option<&Section>,
+    length: Option<f64>,
+    values: &Values,
+    problems: &mut Problems,
+) {
+    let (Some(case), Some(section), Some(length)) = (case, section, length) else { return };
+    // What is wrong with the section is reported there.
+    if build::section(section, length).is_err() {
+        return;
+    }
+    if let Err(error) = build::blade_of(case, section, length, 0.0) {
+        problems.push(Problem::new("blade", values.place("blade"), error.to_string()));
+    }
 }
 
 /// Tries the motion over the duration [s].

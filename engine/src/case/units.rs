@@ -38,6 +38,7 @@ measures! {
     SECOND_MOMENT "second moment of area" "m^4" [4, 0, 0, 0] "`2e-7 m^4`, `20 cm^4`";
     MODULUS "modulus" "Pa" [-1, 1, -2, 0] "`70 GPa`, `210e9 Pa`";
     DENSITY "density" "kg/m^3" [-3, 1, 0, 0] "`3000 kg/m^3`, `2.7 g/cm^3`";
+    MASS "mass" "kg" [0, 1, 0, 0] "`5 kg`, `300 g`";
     MASS_PER_LENGTH "mass per length" "kg/m" [-1, 1, 0, 0] "`1.2 kg/m`, `350 g/m`";
     FIRST_MASS_MOMENT "first mass moment per length" "kg" [0, 1, 0, 0] "`0.01 kg`";
     ROTARY_INERTIA "rotary inertia per length" "kg*m" [1, 1, 0, 0] "`6e-4 kg*m`";
@@ -50,6 +51,11 @@ measures! {
     TORQUE "torque" "N*m" [2, 1, -2, 0] "`20 N*m`, `1.5 kN*m`";
     ANGULAR_STIFFNESS "torque per angle" "N*m/rad" [2, 1, -2, -1] "`100 N*m/rad`";
     ANGULAR_DAMPING "torque per angular speed" "N*m*s/rad" [2, 1, -1, -1] "`5 N*m*s/rad`";
+    FORCE "force" "N" [1, 1, -2, 0] "`10 N`, `2 kN`, `5 lbf`";
+    FORCE_PER_LENGTH "force per length" "N/m" [0, 1, -2, 0] "`10 N/m`, `2 kN/m`";
+    ACCELERATION "acceleration" "m/s^2" [1, 0, -2, 0] "`9.81 m/s^2`";
+    RATE "rate" "1/s" [0, 0, -1, 0] "`0.2 1/s`";
+    FACTOR "factor" "1" [0, 0, 0, 0] "`1`, `0.5`";
     ANGULAR_SPEED "angular speed" "rad/s" [0, 0, -1, 1] "`4 rad/s`, `3000 rpm`, `90 deg/s`";
 }
 

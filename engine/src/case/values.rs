@@ -18,6 +18,8 @@ pub enum Value {
     Text(String),
     /// A table.
     Table(Values),
+    /// A list of tables.
+    Tables(Vec<Values>),
     /// A table of a kind.
     Kind(&'static Kind, Values),
 }
@@ -100,6 +102,14 @@ impl Values {
         }
     }
 
+    /// The tables of a list.
+    pub fn tables(&self, name: &str) -> &[Values] {
+        match self.get(name).map(|filled| &filled.value) {
+            Some(Value::Tables(values)) => values,
+            _ => &[],
+        }
+    }
+
     /// The kind of a key and its table.
     pub fn kind(&self, name: &str) -> Option<(&'static Kind, &Values)> {
         match &self.get(name)?.value {
@@ -122,7 +132,7 @@ impl Values {
                 Value::Integer(value) => (*value).into(),
                 Value::Boolean(value) => (*value).into(),
                 Value::Text(value) => value.as_str().into(),
-                Value::Table(_) | Value::Kind(..) => return None,
+                Value::Table(_) | Value::Tables(_) | Value::Kind(..) => return None,
             };
             Some((filled.key.name.to_owned(), value))
         };
@@ -135,6 +145,11 @@ impl Values {
             let path = join(path, filled.key.name);
             match &filled.value {
                 Value::Table(values) => values.defaults(&path, out),
+                Value::Tables(list) => {
+                    for (number, values) in list.iter().enumerate() {
+                        values.defaults(&item(&path, number), out);
+                    }
+                }
                 Value::Kind(kind, values) => {
                     if filled.place.is_none() {
                         out.push((join(&path, "kind"), kind.name.to_owned()));
@@ -151,4 +166,9 @@ impl Values {
 /// A dotted path.
 pub(super) fn join(path: &str, name: &str) -> String {
     if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") }
+}
+
+/// The path of table `number`, from 0, of a list.
+pub(super) fn item(path: &str, number: usize) -> String {
+    format!("{path}[{}]", number + 1)
 }

@@ -1,13 +1,13 @@
 //! What a coupling (a kinematic model of the beam in the hub's frame) has to say.
 
 use super::damping::Damping;
-use super::fields::Fields;
+use super::fields::{Fields, Point};
 use super::inertia::{Border, Inertia, Totals};
 use super::load::Kinematics;
 use super::station::{Placement, Station};
 use crate::linalg::{Storage, Structure};
 use crate::profile::HubKinematics;
-use crate::system::{State, Weights};
+use crate::system::{State, VisitTerm, Weights};
 
 /// A kinematic model of the beam: everything that differs between `zeroth`, `first`, `high` and `exact`.
 ///
@@ -38,7 +38,7 @@ pub trait Coupling {
 
     /// Gives `visit` the terms w b bᵀ of the strain energy in the tangent of [`Coupling::inertia`]: unknowns, entries
     /// of b, w. `false` where the strain energy is not there or not quadratic.
-    fn strain_terms(&self, _visit: &mut dyn FnMut(&[usize], &[f64], f64)) -> bool {
+    fn strain_terms(&self, _visit: &mut VisitTerm<'_>) -> bool {
         false
     }
 
@@ -68,6 +68,11 @@ pub trait Coupling {
 
     /// What the section does at each of the stations, which ascend along the beam.
     fn placements(&self, s: &State, stations: &[Station], out: &mut [Placement]);
+
+    /// Stretch ε of the axis and curvature κ at a point: w₁′ and w₂″ of small deflections.
+    fn strains(&self, s: &State, point: &Point) -> (f64, f64) {
+        (point.axial.field(1, &s.q), point.transverse.field(2, &s.q))
+    }
 
     /// `Err` when the state is beyond what the model can represent.
     fn admissible(&mut self, s: &State) -> Result<(), String>;

@@ -6,6 +6,8 @@
 
 use super::fields::Fields;
 use super::inertia::Totals;
+
+use super::rule::{Block, POINTS, Products, Rule, RulePoint, lagrange};
 use super::turn::Turn;
 use crate::linalg::Storage;
 use crate::profile::HubKinematics;
@@ -13,101 +15,12 @@ use crate::quadrature::Gauss;
 use crate::section::Section;
 use crate::system::{State, Weights};
 
-/// Gauss points of the bending energy. Two integrate the energy of a straight element exactly; the third
-/// carries the fourth-order terms of large rotations.
-pub(super) const POINTS: usize = 3;
-
 /// Marks an unknown that the clamp removes.
 const CLAMPED: usize = usize::MAX;
 
 /// Place of each local unknown among the eight consecutive unknowns of an element away from the clamp:
 /// U, U′, V, V′ node after node.
 const PLACE: [usize; 8] = [0, 1, 4, 5, 2, 3, 6, 7];
-
-/// Shape functions at the quadrature points of an element of given length: equal for equal elements.
-#[derive(Clone, Debug)]
-pub struct Rule {
-    length: f64,
-    points: [RulePoint; POINTS],
-    /// N′ in the middle of the element.
-    middle: [f64; 4],
-    middle_product: Block,
-}
-
-#[derive(Clone, Copy, Debug, Default)]
-struct RulePoint {
-    /// Place in the element, 0 to 1.
-    s: f64,
-    /// Quadrature weight \[m\].
-    weight: f64,
-    n: [f64; 4],
-    n1: [f64; 4],
-    n2: [f64; 4],
-    l: [f64; 3],
-    /// Products of N′ and N″, by rows.
-    products: Products,
-}
-
-/// N′ᵢN′ⱼ, N′ᵢN″ⱼ, N″ᵢN′ⱼ and N″ᵢN″ⱼ at a quadrature point.
-#[derive(Clone, Copy, Debug, Default)]
-struct Products {
-    n11: Block,
-    n12: Block,
-    n21: Block,
-    n22: Block,
-}
-
-/// A block of an element's tangent: 4 × 4, by rows.
-type Block = [f64; 16];
-
-/// a bᵀ
-fn outer(a: &[f64; 4], b: &[f64; 4]) -> Block {
-    std::array::from_fn(|k| a[k / 4] * b[k % 4])
-}
-
-impl Rule {
-    /// The rule of an element of length \[m\].
-    pub fn new(length: f64) -> Rule {
-        let mut points = [RulePoint::default(); POINTS];
-        for (point, (s, weight)) in points.iter_mut().zip(Gauss::new(POINTS).on(0.0, 1.0)) {
-            let (n, n1, n2) = hermite(s, length);
-            let products = Products {
-                n11: outer(&n1, &n1),
-                n12: outer(&n1, &n2),
-                n21: outer(&n2, &n1),
-                n22: outer(&n2, &n2),
-            };
-            *point = RulePoint { s, weight: weight * length, n, n1, n2, l: lagrange(s), products };
-        }
-        let middle = hermite(0.5, length).1;
-        Rule { length, points, middle, middle_product: outer(&middle, &middle) }
-    }
-
-    /// N′ in the middle of the element.
-    pub(super) fn middle(&self) -> [f64; 4] {
-        self.middle
-    }
-
-    /// N′ and N″ at quadrature point `g`.
-    pub(super) fn slopes(&self, g: usize) -> ([f64; 4], [f64; 4]) {
-        (self.points[g].n1, self.points[g].n2)
-    }
-}
-
-/// N, N′, N″ at s ∈ [0, 1] of an element of length h.
-fn hermite(s: f64, h: f64) -> ([f64; 4], [f64; 4], [f64; 4]) {
-    let r = 1.0 - s;
-    (
-        [(1.0 + 2.0 * s) * r * r, h * s * r * r, s * s * (3.0 - 2.0 * s), -h * s * s * r],
-        [-6.0 * s * r / h, r * (1.0 - 3.0 * s), 6.0 * s * r / h, s * (3.0 * s - 2.0)],
-        [(12.0 * s - 6.0) / (h * h), (6.0 * s - 4.0) / h, (6.0 - 12.0 * s) / (h * h), (6.0 * s - 2.0) / h],
-    )
-}
-
-/// Quadratic Lagrange functions with nodes 0, ½, 1.
-fn lagrange(s: f64) -> [f64; 3] {
-    [(1.0 - s) * (1.0 - 2.0 * s), 4.0 * s * (1.0 - s), s * (2.0 * s - 1.0)]
-}
 
 /// An element: its unknowns and its section.
 #[derive(Clone, Debug)]

@@ -24,12 +24,13 @@
 
 use super::coupling::Coupling;
 use super::damping::Damping;
-use super::element::{Element, Rule};
-use super::fields::Fields;
+use super::element::Element;
+use super::fields::{Fields, Point};
 use super::hub::Hub;
 use super::inertia::{Border, Foreshortening, Inertia, Totals};
 use super::load::Kinematics;
 use super::lumped::LumpedTurn;
+use super::rule::Rule;
 use super::station::{Placement, Station};
 use crate::basis::{BasisError, Field, Hermite};
 use crate::linalg::Storage;
@@ -230,6 +231,15 @@ impl Coupling for ExactCoupling {
                 rotation_velocity: ((1.0 + u1) * dv1 - v1 * du1) / square,
             };
         }
+    }
+
+    fn strains(&self, s: &State, point: &Point) -> (f64, f64) {
+        let (u, v) = (&point.axial, &point.transverse);
+        let (u1, y1) = (u.field(1, &s.q), v.field(1, &s.q));
+        let (x2, y2) = (u.field(2, &s.q), v.field(2, &s.q));
+        let x1 = 1.0 + u1;
+        let square = x1 * x1 + y1 * y1;
+        ((u1 * (2.0 + u1) + y1 * y1) / (square.sqrt() + 1.0), (x1 * y2 - y1 * x2) / square)
     }
 
     fn admissible(&mut self, s: &State) -> Result<(), String> {

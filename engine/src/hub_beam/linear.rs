@@ -16,7 +16,7 @@ use super::station::{Placement, Station};
 use crate::basis::Role;
 use crate::linalg::{Matrix, negative_pivots};
 use crate::section::Section;
-use crate::system::State;
+use crate::system::{State, VisitTerm};
 
 /// Deflection over length beyond which dropping higher-order terms is no longer harmless.
 const SMALL: f64 = 0.1;
@@ -149,7 +149,7 @@ impl Coupling for LinearCoupling {
         true
     }
 
-    fn strain_terms(&self, visit: &mut dyn FnMut(&[usize], &[f64], f64)) -> bool {
+    fn strain_terms(&self, visit: &mut VisitTerm<'_>) -> bool {
         let mut strains = self.strains.iter();
         let (mut index, mut stretch) = (Vec::new(), Vec::new());
         self.fields.integrate(|p| {

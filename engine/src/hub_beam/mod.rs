@@ -23,6 +23,8 @@ mod linear;
 pub mod load;
 mod lumped;
 mod product;
+mod rule;
+mod section_forces;
 mod station;
 mod system;
 #[cfg(test)]
@@ -38,5 +40,6 @@ pub use high::HighCoupling;
 pub use hub::{Controller, Drive, FreeHub, Hub, Torque};
 pub use inertia::{Border, Foreshortening, Inertia, Scratch, Totals};
 pub use linear::LinearCoupling;
+pub use section_forces::{Sampling, SectionForces};
 pub use station::{Placement, Station};
 pub use system::HubBeam;

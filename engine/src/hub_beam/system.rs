@@ -5,11 +5,14 @@ use super::damping::Damping;
 use super::hub::{Drive, Hub};
 use super::inertia::{Border, Scratch, Totals};
 use super::load::{Load, Loads, Site};
+use super::section_forces::{Sampling, SectionForces};
 use super::station::{Placement, Station};
 use crate::linalg::{Matrix, Storage, Structure};
 use crate::profile::{Constant, HubKinematics, Motion};
 use crate::section::Section;
-use crate::system::{Channel, Direction, Energy, Frame, Label, Power, Size, State, System, Weights};
+use crate::system::{
+    Channel, Direction, Energy, Frame, Label, Power, Size, State, System, VisitTerm, Weights,
+};
 use std::sync::Arc;
 
 /// A flexible beam on a hub. See the [module documentation](super).
@@ -34,6 +37,8 @@ pub struct HubBeam<C> {
     held: bool,
     loads: Loads,
     damped: bool,
+    /// Forces in the sections at the stations, recorded last.
+    section_forces: SectionForces,
 }
 
 impl<C: Coupling> HubBeam<C> {
@@ -67,6 +72,7 @@ impl<C: Coupling> HubBeam<C> {
             held: false,
             loads: Loads::default(),
             damped: false,
+            section_forces: SectionForces::default(),
             hub,
             coupling,
         }
@@ -100,6 +106,26 @@ impl<C: Coupling> HubBeam<C> {
     pub fn with_damping(mut self, damping: Damping) -> HubBeam<C> {
         self.coupling.damp(damping);
         self.damped = !damping.is_none();
+        self
+    }
+
+    /// The same system, recording at its stations the section forces, if `forces`, and the strains at `heights` \[m\];
+    /// `section` is the one the coupling was made of. What else is recorded must be known before.
+    pub fn with_section_forces(
+        mut self,
+        section: &dyn Section,
+        sampling: Sampling,
+        forces: bool,
+        heights: &[f64],
+    ) -> HubBeam<C> {
+        // The tip first, as for the displacements.
+        let (tip, rest) = (self.stations.len() - 1, self.stations.len() - 1);
+        let order = std::iter::once(tip).chain(0..rest);
+        let places: Vec<(String, f64)> =
+            order.map(|i| (self.stations[i].name.clone(), self.stations[i].point.x)).collect();
+        let fields = self.coupling.fields();
+        self.section_forces = SectionForces::new(fields, section, sampling, &places, forces, heights);
+        self.channels.extend(self.section_forces.channels());
         self
     }
 
@@ -283,12 +309,7 @@ impl<C: Coupling> System for HubBeam<C> {
         true
     }
 
-    fn stiffness_terms(
-        &mut self,
-        s: &State,
-        rest: &mut Matrix,
-        visit: &mut dyn FnMut(&[usize], &[f64], f64),
-    ) -> bool {
+    fn stiffness_terms(&mut self, s: &State, rest: &mut Matrix, visit: &mut VisitTerm<'_>) -> bool {
         if !self.coupling.strain_terms(visit) {
             return false;
         }
@@ -296,6 +317,7 @@ impl<C: Coupling> System for HubBeam<C> {
         let storage = rest.begin();
         self.coupling.inertia().tangent_without_strain(&hub, storage);
         self.coupling.add_tangent(s, &hub, &w, storage);
+        self.loads.subtract_tangent(s, &hub, &w, storage);
         self.write_border(s, &hub, &w, storage);
         true
     }
@@ -366,6 +388,9 @@ impl<C: Coupling> System for HubBeam<C> {
     }
 
     fn record(&mut self, s: &State, out: &mut [f64]) {
+        let recovered = self.section_forces.len().min(out.len());
+        let (out, sections) = out.split_at_mut(out.len() - recovered);
+        self.section_forces.record(&self.coupling, s, sections);
         self.coupling.placements(s, &self.stations, &mut self.placements);
         let tip = self.placements.last().map_or(0.0, |p| p.deflection.abs());
         self.largest_deflection = self.largest_deflection.max(tip);
@@ -414,10 +439,10 @@ impl<C: Coupling> System for HubBeam<C> {
         let speed = self.kinematics(s).speed.abs();
         let critical = self.coupling.critical_speed(speed)?;
         let since = match &self.hub.drive {
-            Drive::Prescribed(motion) => {
+            Drive::Prescribed(motion) if s.t > 0.0 => {
                 format!("since t = {:.3} s ", first_time_above(motion, critical, s.t))
             }
-            Drive::Free(_) => String::new(),
+            _ => String::new(),
         };
         let why = match self.coupling.name() {
             "zeroth" => {

@@ -9,7 +9,8 @@
 //!
 //! ε̇ and κ̇ are those of the curve: a rigid rotation of a deformed beam dissipates nothing.
 
-use super::element::{Element, Local, POINTS, Rule};
+use super::element::{Element, Local};
+use super::rule::{POINTS, Rule};
 use crate::system::Weights;
 
 /// Strains of an element: three of the axis, then the curvatures.

@@ -49,7 +49,7 @@ impl Double {
         let (mut sum, mut term) = (r, r);
         for n in 2..19 {
             term = term * r / (n as f64).into();
-            sum = sum + term;
+            sum += term;
         }
         for _ in 0..3 {
             sum = sum + sum + sum * sum;

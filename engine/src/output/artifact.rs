@@ -40,6 +40,26 @@ pub enum Artifact {
     CompareSvg,
     /// `compare.png`.
     ComparePng,
+    /// `modes.json`.
+    ModesJson,
+    /// `modes.csv`.
+    ModesCsv,
+    /// `modes.npz`.
+    ModesNpz,
+    /// `modes.svg`.
+    ModesSvg,
+    /// `modes.png`.
+    ModesPng,
+    /// `campbell.json`.
+    CampbellJson,
+    /// `campbell.csv`.
+    CampbellCsv,
+    /// `campbell.npz`.
+    CampbellNpz,
+    /// `campbell.svg`.
+    CampbellSvg,
+    /// `campbell.png`.
+    CampbellPng,
 }
 
 /// Folder of the shapes.
@@ -65,6 +85,30 @@ impl Artifact {
     /// The files of a comparison; the first closes the directory.
     pub const COMPARISON: &'static [Artifact] =
         &[Artifact::CompareJson, Artifact::CompareCsv, Artifact::CompareSvg, Artifact::ComparePng];
+
+    /// The files of modes of vibration; the first closes the directory.
+    pub const MODES: &'static [Artifact] = &[
+        Artifact::ModesJson,
+        Artifact::ResolvedCase,
+        Artifact::ModesCsv,
+        Artifact::ModesNpz,
+        Artifact::ModesSvg,
+        Artifact::ModesPng,
+    ];
+
+    /// The files of a Campbell diagram; the first closes the directory.
+    pub const CAMPBELL: &'static [Artifact] = &[
+        Artifact::CampbellJson,
+        Artifact::ResolvedCase,
+        Artifact::CampbellCsv,
+        Artifact::CampbellNpz,
+        Artifact::CampbellSvg,
+        Artifact::CampbellPng,
+    ];
+
+    /// The files of each kind of result; the first of each closes its directory.
+    pub(super) const SETS: [&'static [Artifact]; 4] =
+        [Artifact::RUN, Artifact::COMPARISON, Artifact::MODES, Artifact::CAMPBELL];
 
     /// The copy of a file that a case names in its table `key`: `motion`, `torque`, `section` or `initial`.
     pub fn table(key: &str) -> Option<Artifact> {
@@ -97,6 +141,16 @@ impl Artifact {
             Artifact::CompareCsv => "compare.csv".into(),
             Artifact::CompareSvg => "compare.svg".into(),
             Artifact::ComparePng => "compare.png".into(),
+            Artifact::ModesJson => "modes.json".into(),
+            Artifact::ModesCsv => "modes.csv".into(),
+            Artifact::ModesNpz => "modes.npz".into(),
+            Artifact::ModesSvg => "modes.svg".into(),
+            Artifact::ModesPng => "modes.png".into(),
+            Artifact::CampbellJson => "campbell.json".into(),
+            Artifact::CampbellCsv => "campbell.csv".into(),
+            Artifact::CampbellNpz => "campbell.npz".into(),
+            Artifact::CampbellSvg => "campbell.svg".into(),
+            Artifact::CampbellPng => "campbell.png".into(),
         }
     }
 

@@ -45,6 +45,22 @@ impl Directory {
         Directory::take(path.as_ref(), force, Artifact::COMPARISON)
     }
 
+    /// As [`Directory::create`], for modes of vibration.
+    ///
+    /// # Errors
+    /// Those of [`Directory::create`].
+    pub fn for_modes(path: impl AsRef<Path>, force: bool) -> Result<Directory, OutputError> {
+        Directory::take(path.as_ref(), force, Artifact::MODES)
+    }
+
+    /// As [`Directory::create`], for a Campbell diagram.
+    ///
+    /// # Errors
+    /// Those of [`Directory::create`].
+    pub fn for_campbell(path: impl AsRef<Path>, force: bool) -> Result<Directory, OutputError> {
+        Directory::take(path.as_ref(), force, Artifact::CAMPBELL)
+    }
+
     fn take(path: &Path, force: bool, own: &'static [Artifact]) -> Result<Directory, OutputError> {
         let path = path.to_path_buf();
         if path.exists() && !path.is_dir() {
@@ -129,7 +145,7 @@ impl Directory {
     }
 
     fn refuse_contents(&self) -> Result<(), OutputError> {
-        if [Artifact::Summary, Artifact::CompareJson].iter().any(|closing| self.file(*closing).exists()) {
+        if Artifact::SETS.iter().filter_map(|set| set.first()).any(|closing| self.file(*closing).exists()) {
             return Err(OutputError::HoldsResults { path: self.path.clone() });
         }
         let mut names = Vec::new();

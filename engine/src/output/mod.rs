@@ -19,6 +19,7 @@ mod staging;
 mod state_file;
 mod summary;
 mod trajectory;
+mod vibration;
 mod vtk;
 
 pub use self::artifact::Artifact;
@@ -35,4 +36,5 @@ pub use self::shapes::{Shape, Shapes};
 pub use self::state_file::{read_state, write_state};
 pub use self::summary::{Integration, ProblemSize, RunReport, Status, Summary, VERSION};
 pub use self::trajectory::{Extremes, Trajectory};
+pub use self::vibration::{Frequencies, write_campbell, write_modes};
 pub use self::vtk::{write_pvd, write_vtu};

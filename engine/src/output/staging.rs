@@ -69,8 +69,8 @@ pub(super) fn current(path: &Path, artifact: Artifact) -> PathBuf {
 
 /// Removes the files of the former results, the closing one first and those that have no successor after it.
 fn remove_former(path: &Path, complete: &Path) -> io::Result<()> {
-    let comparison = complete.join(&*Artifact::CompareJson.file_name()).exists();
-    let own = if comparison { Artifact::COMPARISON } else { Artifact::RUN };
+    let closed = |set: &&&[Artifact]| set.first().is_some_and(|a| complete.join(&*a.file_name()).exists());
+    let own = Artifact::SETS.iter().find(closed).copied().unwrap_or(Artifact::RUN);
     for (i, artifact) in own.iter().enumerate() {
         let name = artifact.file_name();
         if i == 0 || !complete.join(&*name).exists() {
@@ -78,7 +78,7 @@ fn remove_former(path: &Path, complete: &Path) -> io::Result<()> {
         }
     }
     let shapes = path.join(SHAPES);
-    if !comparison && shapes.is_dir() {
+    if own.contains(&Artifact::ShapeSeries) && shapes.is_dir() {
         for entry in fs::read_dir(&shapes)? {
             let name = entry?.file_name();
             let is_shape = name.to_str().is_some_and(Artifact::is_shape);
@@ -112,7 +112,7 @@ fn files(folder: &Path) -> io::Result<Vec<PathBuf>> {
         }
     }
     let closing = |file: &Path| {
-        [Artifact::Summary, Artifact::CompareJson].iter().any(|a| file == Path::new(&*a.file_name()))
+        Artifact::SETS.iter().filter_map(|set| set.first()).any(|a| file == Path::new(&*a.file_name()))
     };
     found.sort_by(|a, b| closing(a).cmp(&closing(b)).then_with(|| a.cmp(b)));
     Ok(found)

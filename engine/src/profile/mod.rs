@@ -3,12 +3,14 @@
 mod expression;
 mod jet;
 mod motion;
+mod polyline;
 mod program;
 mod simple;
 mod table;
 
 pub use expression::Expression;
 pub use motion::{HubKinematics, Motion};
+pub use polyline::Polyline;
 pub use simple::{Constant, Ramp, SpinUp};
 pub use table::{End, Table};
 

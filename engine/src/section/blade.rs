@@ -1,6 +1,6 @@
 //! Sections of a blade: stiffness and inertia for extension, bending in two planes and torsion.
 
-use super::{Section, SectionError, Shape, positive};
+use super::{Resultants, Section, SectionError, Shape, positive};
 use std::f64::consts::PI;
 
 /// Stiffness and inertia per length of a blade at a station, about its principal axes: η along the chord (at no
@@ -106,7 +106,6 @@ pub fn torsion_constant(shape: &Shape) -> f64 {
 }
 
 /// A homogeneous blade: a shape at every station, of one material.
-#[derive(Debug)]
 pub struct HomogeneousBlade<F> {
     modulus: f64,
     density: f64,
@@ -141,10 +140,17 @@ impl<F: Fn(f64) -> Shape + Send + Sync> HomogeneousBlade<F> {
     }
 }
 
-impl<F: Fn(f64) -> Shape + Send + Sync> BladeSection for HomogeneousBlade<F>
-where
-    HomogeneousBlade<F>: std::fmt::Debug,
-{
+impl<F> std::fmt::Debug for HomogeneousBlade<F> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("HomogeneousBlade")
+            .field("modulus", &self.modulus)
+            .field("density", &self.density)
+            .field("shear_modulus", &self.shear_modulus)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<F: Fn(f64) -> Shape + Send + Sync> BladeSection for HomogeneousBlade<F> {
     fn resultants(&self, x: f64) -> BladeResultants {
         let shape = (self.shape)(x);
         let area = shape.area();
@@ -182,6 +188,33 @@ impl BladeSection for PlanarBlade {
             flap_inertia: r.rotary_inertia,
             chord_inertia: r.rotary_inertia,
             ..BladeResultants::default()
+        }
+    }
+
+    fn breaks(&self) -> &[f64] {
+        self.0.breaks()
+    }
+
+    fn jumps(&self) -> &[f64] {
+        self.0.jumps()
+    }
+}
+
+/// A blade that is guided in the plane of rotation, as a planar section: EI = EI_c cos²θ + EI_f sin²θ.
+#[derive(Debug)]
+pub struct Guided<B>(pub B);
+
+impl<B: BladeSection> Section for Guided<B> {
+    fn resultants(&self, x: f64) -> Resultants {
+        let r = self.0.resultants(x);
+        let (sin, cos) = r.twist.sin_cos();
+        let in_plane = |chord: f64, flap: f64| chord * cos * cos + flap * sin * sin;
+        Resultants {
+            mass: r.mass,
+            rotary_inertia: in_plane(r.chord_inertia, r.flap_inertia),
+            axial_stiffness: r.axial_stiffness,
+            bending_stiffness: in_plane(r.chord_stiffness, r.flap_stiffness),
+            ..Resultants::default()
         }
     }
 

@@ -10,7 +10,8 @@ mod tapered;
 mod uniform;
 
 pub use blade::{
-    BladeResultants, BladeSection, BladeTable, HomogeneousBlade, PlanarBlade, Twisted, torsion_constant,
+    BladeResultants, BladeSection, BladeTable, Guided, HomogeneousBlade, PlanarBlade, Twisted,
+    torsion_constant,
 };
 pub use graded::{Graded, Material};
 pub use laden::{Laden, Mass};

@@ -1,11 +1,16 @@
 //! What a folder of `verification` says its run is held to: `expected.toml` and `reference.csv`.
 
-use crate::run::{Run, Span, root};
+use crate::run::{Run, Span, case, root};
+use flexion::analysis::modes::modes;
+use flexion::analysis::rotation::rotate_stably;
+use flexion::case::build;
+use flexion::system::State;
 use std::path::Path;
 use toml::{Table, Value};
 
 /// The keys of `expected.toml`, and of the tables in it.
-const KEYS: &[&str] = &["reference", "until", "columns", "figures", "failure", "same"];
+const KEYS: &[&str] = &["reference", "until", "columns", "figures", "failure", "same", "modes"];
+const MODES: &[&str] = &["speed", "frequencies", "tolerance"];
 const FIGURE: &[&str] = &["column", "of", "from", "to", "value", "tolerance"];
 
 /// One thing that was compared: what, how far it is off, how far it may be.
@@ -39,6 +44,7 @@ impl Expected {
         self.columns(run, &mut all);
         self.figures(run, &mut all);
         self.same(run, other, &mut all);
+        self.modes(&mut all);
         assert!(!all.is_empty(), "{}: nothing is compared", self.folder);
         all
     }
@@ -128,8 +134,8 @@ impl Expected {
         let folder = same["as"].as_str().unwrap();
         let other = other(folder);
         assert_eq!(run.trajectory.times(), other.trajectory.times(), "{}", self.folder);
-        // All of the motion; `step.` tells of the integrator.
-        let motion = |name: &str| !name.starts_with("step.");
+        // All of the motion; `step.` tells of the integrator, and the balance of energy is the error of the run.
+        let motion = |name: &str| !name.starts_with("step.") && name != "energy.balance";
         let channels = run.trajectory.channels().iter().enumerate();
         for (index, channel) in channels.filter(|(_, channel)| motion(&channel.name)) {
             let e = other.trajectory.extremes(index);
@@ -142,6 +148,30 @@ impl Expected {
                 tolerance: number(same, "tolerance"),
                 note: String::new(),
             });
+        }
+    }
+
+    /// Lowest frequencies at steady speeds, relative.
+    fn modes(&self, all: &mut Vec<Comparison>) {
+        let Some(speeds) = self.table.get("modes").map(|m| m.as_array().unwrap()) else { return };
+        let case = case(&self.folder, &[]).unwrap().case;
+        for table in speeds.iter().map(|table| table.as_table().unwrap()) {
+            self.known("modes", table, MODES);
+            let (speed, tolerance) = (number(table, "speed"), number(table, "tolerance"));
+            let expected: Vec<f64> = table["frequencies"].as_array().unwrap().iter().map(value).collect();
+            let mut system = build::system(&case).unwrap();
+            let mut state = State::zeros(system.size(), 0.0);
+            rotate_stably(system.as_mut(), &mut state, 0.0, speed).unwrap();
+            let found = modes(system.as_mut(), &state, expected.len(), &[]).unwrap().modes;
+            for (number, (mode, expected)) in found.iter().zip(expected).enumerate() {
+                let frequency = mode.frequency();
+                all.push(Comparison {
+                    what: format!("frequency {} at {speed} rad/s, relative", number + 1),
+                    off: (frequency / expected - 1.0).abs(),
+                    tolerance,
+                    note: format!("{frequency:.8}, expected {expected}"),
+                });
+            }
         }
     }
 

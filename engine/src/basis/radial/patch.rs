@@ -225,7 +225,7 @@ fn invert(a: &[Double], n: usize) -> Option<Vec<Double>> {
         }
         let scale = Double::ONE / work[column * width + column];
         for j in column..width {
-            work[column * width + j] = work[column * width + j] * scale;
+            work[column * width + j] *= scale;
         }
         for row in (0..n).filter(|&row| row != column) {
             let factor = work[row * width + column];

@@ -18,7 +18,7 @@
 //!
 //! w_c and its rates are running sums over the quadrature points from the root to the tip, N is one from the
 //! tip to the root: O(n). The tangent is full, but it too is made of running sums: see [`tangent`]. Rotary
-//! inertia ρI and first mass moment ρS are kept to second order, as in the first-order coupling.
+//! inertia ρI, first mass moment ρS and lumped masses are kept to second order, as in the first-order coupling.
 
 mod sums;
 mod tangent;
@@ -67,6 +67,10 @@ fn axial_acceleration(p: &Point, hub: &HubKinematics) -> f64 {
 impl Coupling for HighCoupling {
     fn name(&self) -> &'static str {
         "high"
+    }
+
+    fn strain_terms(&self, visit: &mut crate::system::VisitTerm<'_>) -> bool {
+        self.linear.strain_terms(visit)
     }
 
     fn fields(&self) -> &Fields {

@@ -249,7 +249,8 @@ fn linear_couplings_have_the_linearised_forces_of_virtual_work() {
         for axes in AXES {
             let spread = distributed(axes);
             let point = force(axes, STATION);
-            let list: [(&dyn Load, Vec<(f64, f64)>); 2] =
+            type Shares = Vec<(f64, f64)>;
+            let list: [(&dyn Load, Shares); 2] =
                 [(&spread, shares(&spread, &cells)), (&point, vec![(STATION, 1.36)])];
             for (load, shares) in list {
                 // The odd part is the linear one, to second order in the size.

@@ -12,9 +12,11 @@ mod panels;
 mod style;
 #[cfg(test)]
 mod tests;
+mod vibration;
 
 pub use self::draw::Drawing;
 pub use self::panels::{compare_figure, difference_figure, trajectory_figure};
+pub use self::vibration::{campbell_figure, modes_figure};
 
 /// A grid of panels, filled row by row.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -1,0 +1,184 @@
+//! `flexion campbell`: modes of vibration over a range of speeds.
+
+use crate::vibration::{self, Options, complain, stations, title};
+use crate::{Outcome, case, screen};
+use flexion::analysis::campbell::{Campbell, Instability, NoCampbell, Plan, campbell as follow};
+use flexion::case::Reading;
+use flexion::output::{Artifact, Directory, Frequencies, write_campbell};
+use indicatif::{ProgressBar, ProgressStyle};
+use std::path::{Path, PathBuf};
+
+/// The case and the speeds.
+#[derive(clap::Args)]
+#[command(after_help = "Examples:
+  flexion campbell verification/p1_spin_up_4 --speeds 0:20:41 --modes 4
+  flexion campbell case.toml --speeds 0:600:100 --unit rpm --revolutions 6 --output results/campbell
+
+Speeds are written FROM:TO:NUMBER, ends included, or FROM:TO for 51 of them. The motion of the case is replaced by steady
+rotation at each speed; the hub keeps its speed unless --free-hub is given. Modes are followed by their shapes
+through crossings and veerings; speeds are inserted where a shape changes fast.
+
+Exit codes: 0 finished, 1 case or command line rejected, 2 the beam buckles within the range, and what lies below is kept.")]
+pub struct Arguments {
+    #[command(flatten)]
+    case: case::Selection,
+    /// Range of speeds, e.g. 0:50:100
+    #[arg(long, value_name = "FROM:TO:NUMBER", value_parser = range)]
+    speeds: Range,
+    /// Number of modes, the lowest at the first speed
+    #[arg(long, value_name = "N", default_value = "6", value_parser = vibration::count)]
+    modes: usize,
+    /// Lines ω = kΩ to cross, for k from 1 to this number
+    #[arg(long, value_name = "K", default_value_t = 4)]
+    revolutions: u32,
+    #[command(flatten)]
+    options: Options,
+    /// Directory for campbell.json, .csv, .npz and the diagram [default: results/NAME-campbell]
+    #[arg(long, short, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Replace former results in that directory
+    #[arg(long)]
+    force: bool,
+    /// Number of threads [default: one for each processor]; the results do not depend on it
+    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
+    threads: usize,
+}
+
+/// Speeds from, to, how many.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Range {
+    from: f64,
+    to: f64,
+    count: usize,
+}
+
+/// Most speeds of a diagram.
+const MOST: usize = 100_000;
+
+fn range(text: &str) -> Result<Range, String> {
+    let parts: Vec<&str> = text.split(':').collect();
+    let number = |part: &str| part.trim().parse::<f64>().map_err(|_| format!("`{part}` is no number"));
+    let (from, to, count) = match parts[..] {
+        [from, to] => (number(from)?, number(to)?, 51),
+        [from, to, count] => {
+            let whole = count.trim().parse::<usize>();
+            (number(from)?, number(to)?, whole.map_err(|_| format!("`{count}` is no number of speeds"))?)
+        }
+        _ => return Err("write FROM:TO:NUMBER, e.g. 0:50:100".to_owned()),
+    };
+    if !(from.is_finite() && to.is_finite() && 0.0 <= from && from < to) {
+        return Err(format!("speeds ascend from at least zero, but {from} is followed by {to}"));
+    }
+    if !(2..=MOST).contains(&count) {
+        return Err(format!("there are from 2 to {MOST} speeds, not {count}"));
+    }
+    Ok(Range { from, to, count })
+}
+
+/// Follows the modes of a case.
+pub fn campbell(arguments: &Arguments) -> Outcome {
+    let Some(reading) = arguments.case.read() else { return Outcome::Rejected };
+    match followed(arguments, &reading) {
+        Ok((text, whole)) => {
+            screen::print(&text);
+            if whole { Outcome::Finished } else { Outcome::Incomplete }
+        }
+        Err(message) => {
+            complain(&message);
+            Outcome::Rejected
+        }
+    }
+}
+
+fn followed(arguments: &Arguments, reading: &Reading) -> Result<(String, bool), String> {
+    let case = &reading.case;
+    let unit = arguments.options.frequencies(case)?;
+    let Range { from, to, count } = arguments.speeds;
+    let at = |i: usize| if i + 1 == count { to } else { from + (to - from) * i as f64 / (count - 1) as f64 };
+    let plan = Plan {
+        speeds: (0..count).map(|i| at(i) / unit.factor).collect(),
+        count: arguments.modes,
+        stations: stations(case),
+        hub: arguments.options.hub(case)?,
+        revolutions: arguments.revolutions,
+        threads: arguments.threads,
+    };
+    let named = format!("{}-campbell", arguments.case.name());
+    let output = arguments.output.clone().unwrap_or_else(|| Path::new("results").join(named));
+    // One system is built before the directory is touched.
+    vibration::system(case)?;
+    let directory = Directory::for_campbell(&output, arguments.force).map_err(|error| error.to_string())?;
+    let bar = ProgressBar::new(count as u64);
+    if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos}/{len} speeds  {eta} left") {
+        bar.set_style(style);
+    }
+    let progress = |done: usize| {
+        bar.set_position(done as u64);
+        true
+    };
+    let diagram = follow(&|| vibration::system(case), &plan, &progress);
+    bar.finish_and_clear();
+    let diagram = diagram.map_err(|error: NoCampbell| {
+        directory.discard();
+        error.to_string()
+    })?;
+    let resolved = reading.resolved();
+    let written = write_campbell(&directory, &diagram, plan.revolutions, &unit, &resolved, title(reading));
+    written.map_err(|error| {
+        directory.discard();
+        error.to_string()
+    })?;
+    let mut whole = true;
+    for instability in &diagram.instabilities {
+        match instability {
+            Instability::Divergence { reason, .. } => {
+                whole = false;
+                screen::complain(&format!("error: {reason}\nWhat lies below is kept.\n"));
+            }
+            Instability::Flutter { branch, from, to } => screen::complain(&format!(
+                "warning: the damping of mode {} becomes negative between {} and {}\n",
+                branch + 1,
+                unit.text(*from),
+                unit.text(*to)
+            )),
+        }
+    }
+    Ok((described(&diagram, &unit, &directory), whole))
+}
+
+/// Modes at both ends, crossings, and places of the files.
+fn described(diagram: &Campbell, unit: &Frequencies, directory: &Directory) -> String {
+    let mut out = format!("{} modes at {} speeds\n\n", diagram.branches.len(), diagram.speeds.len());
+    let mut rows =
+        vec![["mode", "first", "last", "followed to", "moves at first"].map(str::to_owned).to_vec()];
+    for (number, branch) in diagram.branches.iter().enumerate() {
+        if let (Some(first), Some(last)) = (branch.points.first(), branch.points.last()) {
+            rows.push(vec![
+                format!("{}", number + 1),
+                unit.text(first.mode.frequency()),
+                unit.text(last.mode.frequency()),
+                unit.text(last.speed),
+                first.mode.shares.dominant().to_owned(),
+            ]);
+        }
+    }
+    out.push_str(&screen::table(&rows));
+    if !diagram.crossings.is_empty() {
+        out.push_str("\ncrossings of mode and revolutions\n");
+        let rows: Vec<Vec<String>> = diagram
+            .crossings
+            .iter()
+            .map(|c| {
+                vec![format!("mode {}", c.branch + 1), format!("{}Ω", c.revolutions), unit.text(c.speed)]
+            })
+            .collect();
+        out.push_str(&screen::table(&rows));
+    }
+    let place = |what: &str, artifact| vec![what.to_owned(), directory.file(artifact).display().to_string()];
+    out.push('\n');
+    out.push_str(&screen::table(&[
+        place("curves", Artifact::CampbellCsv),
+        place("diagram", Artifact::CampbellSvg),
+    ]));
+    out
+}

@@ -1,0 +1,145 @@
+//! `flexion modes`: modes of vibration at one speed.
+
+use crate::vibration::{self, Options, complain, stations, title};
+use crate::{Outcome, case, screen};
+use flexion::analysis::campbell::HubState;
+use flexion::analysis::modes::{Mode, Modes, modes as find};
+use flexion::analysis::rotation::rotate_stably;
+use flexion::case::Reading;
+use flexion::output::{Artifact, Directory, Frequencies, write_modes};
+use flexion::system::State;
+use std::path::PathBuf;
+
+/// The case, the speed, and how many modes.
+#[derive(clap::Args)]
+#[command(after_help = "Examples:
+  flexion modes verification/p1_spin_up_4 --speed 4 --count 6
+  flexion modes case.toml --speed 300 --unit rpm --output results/modes
+
+The motion of the case is replaced by a steady rotation at the speed; the modes are those of small vibrations about its
+equilibrium. The hub keeps its speed unless --free-hub is given.
+
+Exit codes: 0 finished, 1 case or command line rejected, or no stable rotation at the speed.")]
+pub struct Arguments {
+    #[command(flatten)]
+    case: case::Selection,
+    /// Speed of rotation
+    #[arg(long, value_name = "SPEED", default_value_t = 0.0, allow_negative_numbers = true)]
+    speed: f64,
+    /// Number of modes, the lowest
+    #[arg(long, value_name = "N", default_value = "10", value_parser = vibration::count)]
+    count: usize,
+    #[command(flatten)]
+    options: Options,
+    /// Directory for modes.json, .csv, .npz and the pictures of the shapes
+    #[arg(long, short, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Replace former results in that directory
+    #[arg(long, requires = "output")]
+    force: bool,
+}
+
+/// Finds and writes modes.
+pub fn modes(arguments: &Arguments) -> Outcome {
+    let Some(reading) = arguments.case.read() else { return Outcome::Rejected };
+    match found(arguments, &reading) {
+        Ok(text) => {
+            screen::print(&text);
+            Outcome::Finished
+        }
+        Err(message) => {
+            complain(&message);
+            Outcome::Rejected
+        }
+    }
+}
+
+fn found(arguments: &Arguments, reading: &Reading) -> Result<String, String> {
+    let case = &reading.case;
+    let unit = arguments.options.frequencies(case)?;
+    let speed = arguments.speed / unit.factor;
+    if !(speed.is_finite() && speed >= 0.0) {
+        return Err(format!("the speed is {} and must be zero or positive", arguments.speed));
+    }
+    let hub = arguments.options.hub(case)?;
+    let directory = arguments.output.as_ref().map(|path| Directory::for_modes(path, arguments.force));
+    let directory = directory.transpose().map_err(|error| error.to_string())?;
+    let modes = compute(arguments, reading, speed, hub)?;
+    let mut out = described(&modes, &unit, speed, hub);
+    for (number, mode) in modes.modes.iter().enumerate().filter(|(_, mode)| mode.rounding > 1e-6) {
+        screen::complain(&format!(
+            "warning: the frequency of mode {} may be off by {:.1e} by rounding: the mesh is too fine for this coupling; \
+             use fewer elements\n",
+            number + 1,
+            mode.rounding
+        ));
+    }
+    if let Some(directory) = directory {
+        let resolved = reading.resolved();
+        let written =
+            write_modes(&directory, (&modes, speed), &stations(case), &unit, &resolved, title(reading));
+        written.map_err(|error| {
+            directory.discard();
+            error.to_string()
+        })?;
+        out.push('\n');
+        out.push_str(&places(&directory));
+    }
+    Ok(out)
+}
+
+fn compute(arguments: &Arguments, reading: &Reading, speed: f64, hub: HubState) -> Result<Modes, String> {
+    let mut system = vibration::system(&reading.case)?;
+    let mut state = State::zeros(system.size(), 0.0);
+    rotate_stably(system.as_mut(), &mut state, 0.0, speed).map_err(|error| error.to_string())?;
+    if hub == HubState::Free {
+        system.hold(false);
+        state.v = system.initial().v;
+    }
+    find(system.as_mut(), &state, arguments.count, &stations(&reading.case))
+        .map_err(|error| error.to_string())
+}
+
+/// The table of modes.
+fn described(modes: &Modes, unit: &Frequencies, speed: f64, hub: HubState) -> String {
+    let hub = if hub == HubState::Free { "free hub" } else { "hub that keeps its speed" };
+    let mut out = format!("{} modes at {}, {hub}\n\n", modes.modes.len(), unit.text(speed));
+    let head = [
+        "mode",
+        if unit.name.is_empty() { "frequency" } else { unit.name },
+        "damping",
+        "nodes",
+        "moves",
+        "residual",
+    ];
+    let mut rows = vec![head.map(str::to_owned).to_vec()];
+    for (number, mode) in modes.modes.iter().enumerate() {
+        rows.push(vec![
+            format!("{}", number + 1),
+            format!("{:.6}", mode.frequency() * unit.factor),
+            format!("{:.4e}", mode.damping_ratio()),
+            mode.nodes.to_string(),
+            moves(mode),
+            format!("{:.0e}", mode.residual),
+        ]);
+    }
+    out.push_str(&screen::table(&rows));
+    if modes.counted.is_some() {
+        out.push_str("\nNone is missing among them, by the inertia of the stiffness.\n");
+    }
+    out
+}
+
+/// Shares above one in a hundred.
+fn moves(mode: &Mode) -> String {
+    let mut shares: Vec<(&str, f64)> = mode.shares.named().into_iter().filter(|s| s.1.abs() > 0.01).collect();
+    shares.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let words: Vec<String> =
+        shares.iter().map(|(name, share)| format!("{name} {:.0} %", 100.0 * share)).collect();
+    words.join(", ")
+}
+
+fn places(directory: &Directory) -> String {
+    let place = |what: &str, artifact| vec![what.to_owned(), directory.file(artifact).display().to_string()];
+    screen::table(&[place("modes", Artifact::ModesCsv), place("shapes", Artifact::ModesSvg)])
+}

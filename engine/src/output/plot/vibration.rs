@@ -1,0 +1,95 @@
+//! Figures of modes and of Campbell diagrams.
+
+use super::{Axis, Figure, Line, Marker, Panel, Series};
+use crate::analysis::campbell::Campbell;
+use crate::analysis::modes::{Mode, Modes};
+use crate::output::Frequencies;
+use num_complex::Complex64;
+
+/// Most modes that are drawn.
+const MOST: usize = 12;
+
+/// The shapes of modes: one panel each, the displacements of the stations along the axes of the sections at
+/// the phase at which the largest is real.
+pub fn modes_figure(modes: &Modes, stations: &[f64], unit: &Frequencies, title: Option<&str>) -> Figure {
+    let panel = |(number, mode): (usize, &Mode)| Panel {
+        x: Axis { tight: true, ..Axis::new("Station x", "m") },
+        y: Axis::new(format!("Mode {}: {}", number + 1, unit.text(mode.frequency())), ""),
+        series: shape(mode, stations),
+    };
+    let mut panels: Vec<Panel> = modes.modes.iter().take(MOST).enumerate().map(panel).collect();
+    // The name of a curve once.
+    let mut named = Vec::new();
+    for series in panels.iter_mut().flat_map(|panel| &mut panel.series) {
+        if named.contains(&series.color) {
+            series.name = None;
+        }
+        named.push(series.color);
+    }
+    Figure { title: title.map(String::from), columns: panels.len().min(2), share_x: true, panels }
+}
+
+fn shape(mode: &Mode, stations: &[f64]) -> Vec<Series> {
+    let all = mode.shape.displacement.iter().flatten();
+    let peak = all.fold(Complex64::ZERO, |best, u| if u.norm() > best.norm() { *u } else { best });
+    let phase = if peak == Complex64::ZERO { Complex64::ONE } else { peak.conj() / peak.norm() };
+    let names = ["along the tangent", "along the second axis", "along the third axis"];
+    let lines = [Line::Dashed, Line::Solid, Line::Dotted];
+    let curve = |axis: usize| Series {
+        points: stations
+            .iter()
+            .zip(&mode.shape.displacement)
+            .map(|(x, u)| (*x, (u[axis] * phase).re))
+            .collect(),
+        name: Some(names[axis].to_owned()),
+        line: lines[axis],
+        color: Some(axis),
+        ..Series::default()
+    };
+    let moves = |series: &Series| series.points.iter().any(|p| p.1.abs() > 1e-6);
+    (0..3).map(curve).filter(moves).collect()
+}
+
+/// Frequencies against the speed, with the lines of whole revolutions and their crossings marked.
+pub fn campbell_figure(
+    campbell: &Campbell,
+    revolutions: u32,
+    unit: &Frequencies,
+    title: Option<&str>,
+) -> Figure {
+    let mut series = Vec::new();
+    let mut top: f64 = 0.0;
+    for (number, branch) in campbell.branches.iter().enumerate() {
+        let points: Vec<(f64, f64)> =
+            branch.points.iter().map(|p| (p.speed * unit.factor, p.mode.frequency() * unit.factor)).collect();
+        top = points.iter().map(|p| p.1).fold(top, f64::max);
+        series.push(Series { color: Some(number), ..Series::line(None, points) });
+    }
+    let last = campbell.speeds.last().copied().unwrap_or(0.0) * unit.factor;
+    for k in 1..=revolutions {
+        let end = last.min(top / f64::from(k));
+        let points = vec![(0.0, 0.0), (end, f64::from(k) * end)];
+        let name = (k == 1).then(|| format!("ω = kΩ, k = 1 … {revolutions}"));
+        series.push(Series { name, points, line: Line::Dotted, color: Some(7), ..Series::default() });
+    }
+    let crossings: Vec<(f64, f64)> = campbell
+        .crossings
+        .iter()
+        .map(|c| (c.speed * unit.factor, f64::from(c.revolutions) * c.speed * unit.factor))
+        .collect();
+    if !crossings.is_empty() {
+        series.push(Series {
+            name: Some("crossings".to_owned()),
+            points: crossings,
+            line: Line::None,
+            marker: Some(Marker::Circle),
+            color: Some(1),
+        });
+    }
+    let panel = Panel {
+        x: Axis { tight: true, ..Axis::new("Speed Ω", unit.name) },
+        y: Axis::new("Frequency ω", unit.name),
+        series,
+    };
+    Figure { title: title.map(String::from), panels: vec![panel], columns: 1, share_x: false }
+}

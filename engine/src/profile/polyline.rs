@@ -1,0 +1,101 @@
+//! Profiles through the rows of a table by straight lines.
+
+use super::{Profile, ProfileError};
+
+/// Straight lines between rows (x, f), constant before the first and behind the last. Every row is a break.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Polyline {
+    places: Vec<f64>,
+    values: Vec<f64>,
+    /// ∫ from the first row to each row.
+    sums: Vec<f64>,
+}
+
+impl Polyline {
+    /// The lines through at least one row, with strictly ascending finite places.
+    ///
+    /// # Errors
+    /// [`ProfileError::Row`] or [`ProfileError::TooFewRows`].
+    pub fn new(rows: &[(f64, f64)]) -> Result<Polyline, ProfileError> {
+        if rows.is_empty() {
+            return Err(ProfileError::TooFewRows { rows: 0 });
+        }
+        for (i, &(time, value)) in rows.iter().enumerate() {
+            let fault = if !time.is_finite() || !value.is_finite() {
+                "is not finite"
+            } else if i > 0 && time <= rows[i - 1].0 {
+                "must lie behind the row before it"
+            } else {
+                continue;
+            };
+            return Err(ProfileError::Row { row: i + 1, time, value, fault });
+        }
+        let (places, values): (Vec<f64>, Vec<f64>) = rows.iter().copied().unzip();
+        let mut sums = vec![0.0; places.len()];
+        for i in 1..places.len() {
+            sums[i] = sums[i - 1] + 0.5 * (values[i - 1] + values[i]) * (places[i] - places[i - 1]);
+        }
+        Ok(Polyline { places, values, sums })
+    }
+
+    /// Number of rows at or before x.
+    fn passed(&self, x: f64) -> usize {
+        self.places.partition_point(|p| *p <= x)
+    }
+
+    fn slope(&self, i: usize) -> f64 {
+        (self.values[i + 1] - self.values[i]) / (self.places[i + 1] - self.places[i])
+    }
+
+    /// ∫ from the first row to x.
+    fn since_first(&self, x: f64) -> f64 {
+        match self.passed(x) {
+            0 => self.values[0] * (x - self.places[0]),
+            i => self.sums[i - 1] + 0.5 * (self.values[i - 1] + self.value(x)) * (x - self.places[i - 1]),
+        }
+    }
+}
+
+impl Profile for Polyline {
+    fn value(&self, x: f64) -> f64 {
+        match self.passed(x) {
+            0 => self.values[0],
+            i if i == self.places.len() => self.values[i - 1],
+            i => self.values[i - 1] + self.slope(i - 1) * (x - self.places[i - 1]),
+        }
+    }
+
+    fn rate(&self, x: f64) -> f64 {
+        match self.passed(x) {
+            0 => 0.0,
+            i if i == self.places.len() => 0.0,
+            i => self.slope(i - 1),
+        }
+    }
+
+    fn acceleration(&self, _x: f64) -> f64 {
+        0.0
+    }
+
+    fn integral(&self, x: f64) -> f64 {
+        self.since_first(x) - self.since_first(0.0)
+    }
+
+    fn breaks(&self) -> &[f64] {
+        &self.places
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::checks;
+    use super::*;
+
+    #[test]
+    fn lines_meet_their_rows_and_derivatives_belong_to_the_values() {
+        let line = Polyline::new(&[(0.5, 1.0), (1.0, 3.0), (2.0, -1.0)]).unwrap();
+        assert_eq!([0.0, 0.5, 0.75, 1.5, 2.0, 9.0].map(|x| line.value(x)), [1.0, 1.0, 2.0, 1.0, -1.0, -1.0]);
+        checks::derivatives_and_integral(&line, 3.0);
+        assert!(Polyline::new(&[(0.0, 1.0), (0.0, 2.0)]).is_err() && Polyline::new(&[]).is_err());
+    }
+}

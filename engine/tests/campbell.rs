@@ -1,0 +1,102 @@
+//! Campbell diagrams: modes followed by their shapes.
+
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs)]
+
+use flexion::analysis::campbell::{Campbell, HubState, Instability, NoCampbell, Plan, campbell};
+use flexion::basis::{Field, Hermite, Lagrange};
+use flexion::hub_beam::{Fields, Foreshortening, Hub, HubBeam, LinearCoupling};
+use flexion::profile::{Constant, Motion};
+use flexion::section::{Resultants, Uniform};
+use flexion::system::System;
+use std::sync::Arc;
+
+/// L = ρA = EI = 1, EA = slenderness².
+fn beam(slenderness: f64, foreshortening: Foreshortening) -> Result<Box<dyn System>, String> {
+    let resultants = Resultants {
+        mass: 1.0,
+        axial_stiffness: slenderness * slenderness,
+        bending_stiffness: 1.0,
+        ..Resultants::default()
+    };
+    let section = Uniform::from_resultants(resultants).unwrap();
+    let profile = Arc::new(Constant::new(0.0).unwrap());
+    let hub = Hub::prescribed(0.0, 0.0, Motion::Speed { profile, initial_angle: 0.0 });
+    let axial = Box::new(Lagrange::new(1.0, 20, 1).unwrap());
+    let transverse = Box::new(Hermite::new(1.0, 20, Field::Transverse).unwrap());
+    let fields = Fields::new(1.0, axial, transverse, &[]);
+    let coupling = LinearCoupling::new(fields, &section, &hub, foreshortening);
+    Ok(Box::new(HubBeam::new(hub, coupling, &[])))
+}
+
+fn plan(to: f64, number: u32, count: usize) -> Plan {
+    Plan {
+        speeds: (0..number).map(|i| to * f64::from(i) / f64::from(number - 1)).collect(),
+        count,
+        stations: vec![0.0, 0.25, 0.5, 0.75, 1.0],
+        hub: HubState::Held,
+        revolutions: 4,
+        threads: 1,
+    }
+}
+
+fn diagram(slenderness: f64, plan: &Plan) -> Campbell {
+    campbell(&|| beam(slenderness, Foreshortening::First), plan, &|_| true).unwrap()
+}
+
+#[test]
+fn the_number_of_threads_changes_nothing() {
+    let plan = plan(20.0, 41, 4);
+    let alone = diagram(70.0, &plan);
+    assert_eq!(alone, diagram(70.0, &Plan { threads: 3, ..plan.clone() }));
+    assert_eq!(alone.branches.len(), 4);
+    assert!(alone.branches.iter().all(|b| b.points.len() == alone.speeds.len()));
+}
+
+#[test]
+fn a_branch_keeps_its_shape_where_frequencies_come_close() {
+    // The first axial mode, at π/2 · slenderness = 110 at rest, is met by the bending modes from below: the curves veer.
+    let diagram = diagram(70.0, &plan(40.0, 21, 4));
+    for branch in &diagram.branches {
+        for pair in branch.points.windows(2) {
+            assert!(pair[1].assurance > 0.6, "assurance {} at {}", pair[1].assurance, pair[1].speed);
+            let jump = pair[1].mode.frequency() / pair[0].mode.frequency() - 1.0;
+            assert!(jump.abs() < 0.25, "a jump by {jump} at {}", pair[1].speed);
+        }
+    }
+}
+
+#[test]
+fn crossings_lie_on_the_lines_of_whole_revolutions() {
+    let diagram = diagram(1000.0, &plan(20.0, 101, 2));
+    let second: Vec<_> = diagram.crossings.iter().filter(|c| c.branch == 1).collect();
+    assert!(second.iter().any(|c| c.revolutions == 4), "{second:?}");
+    for c in &diagram.crossings {
+        let points = &diagram.branches[c.branch].points;
+        let after = points.partition_point(|p| p.speed < c.speed);
+        let (a, b) = (&points[after - 1], &points[after]);
+        let share = (c.speed - a.speed) / (b.speed - a.speed);
+        let frequency = a.mode.frequency() + share * (b.mode.frequency() - a.mode.frequency());
+        assert!((frequency / (f64::from(c.revolutions) * c.speed) - 1.0).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn a_diagram_ends_where_the_beam_buckles_and_says_so() {
+    let plan = plan(10.0, 21, 2);
+    let diagram = campbell(&|| beam(1000.0, Foreshortening::None), &plan, &|_| true).unwrap();
+    let [Instability::Divergence { speed, .. }] = diagram.instabilities[..] else {
+        panic!("{:?}", diagram.instabilities);
+    };
+    // K − Ω²M is exhausted at the first natural frequency.
+    assert!((speed / 3.516015268500612 - 1.0).abs() < 1e-5, "{speed}");
+    assert_eq!(diagram.speeds.last(), Some(&3.5));
+}
+
+#[test]
+fn speeds_that_make_no_axis_are_refused() {
+    for speeds in [vec![], vec![1.0], vec![2.0, 1.0], vec![-1.0, 1.0], vec![0.0, f64::NAN]] {
+        let plan = Plan { speeds, ..plan(1.0, 2, 1) };
+        let result = campbell(&|| beam(70.0, Foreshortening::First), &plan, &|_| true);
+        assert_eq!(result, Err(NoCampbell::Speeds));
+    }
+}
