@@ -30,6 +30,50 @@ fn pick<'a>(random: &mut Rng, among: &[&'a str]) -> &'a str {
     among[random.usize(..among.len())]
 }
 
+/// Loads that would bend the beam statically by up to a third of its length, and damping; of a uniform beam, `mass` is
+/// per length and `bending` the stiffness.
+fn loads(random: &mut Rng, text: &mut String, length: f64, mass: f64, bending: f64, duration: f64) {
+    // The force at the tip that bends it by its length.
+    let force = 3.0 * bending / (length * length);
+    let size = |random: &mut Rng, reference: f64| reference * scale(random, 1e-3..0.3);
+    if random.u8(..3) == 0 {
+        let acceleration = size(random, force / (mass * length)).min(9.81);
+        let _ = writeln!(text, "[gravity]\nacceleration = {acceleration}");
+    }
+    let frame = pick(random, &["dead", "hub", "follower"]);
+    let amplitude = match random.u8(..3) {
+        0 => "{ kind = \"constant\" }".to_owned(),
+        1 => format!(
+            "{{ kind = \"expression\", formula = \"sin({}*t)\" }}",
+            between(random, 1.0..12.0) / duration
+        ),
+        _ => format!("{{ kind = \"expression\", formula = \"1 - exp(-{}*t)\" }}", 3.0 / duration),
+    };
+    if random.u8(..3) == 0 {
+        let (along, across) = (size(random, force), size(random, force));
+        let _ = writeln!(
+            text,
+            "[[force]]\nstation = {}\nforce = [{}, {across}]\nframe = \"{frame}\"\namplitude = {amplitude}",
+            length * between(random, 0.3..1.0),
+            0.3 * along,
+        );
+    }
+    if random.u8(..4) == 0 {
+        let couple = size(random, force * length);
+        let _ = writeln!(text, "[[couple]]\nstation = {length}\ncouple = {couple}\namplitude = {amplitude}");
+    }
+    if random.u8(..4) == 0 {
+        let across = size(random, force / length);
+        let _ = writeln!(
+            text,
+            "[[distributed-load]]\nforce = [0, {across}]\nframe = \"{frame}\"\namplitude = {amplitude}"
+        );
+    }
+    if random.u8(..4) == 0 {
+        let _ = writeln!(text, "[damping]\nmass-proportional = {}", scale(random, 0.01..3.0) / duration);
+    }
+}
+
 /// A valid case, and the length of its beam.
 fn case(random: &mut Rng) -> (String, f64) {
     let length = scale(random, 0.3..20.0);
@@ -52,8 +96,8 @@ fn case(random: &mut Rng) -> (String, f64) {
         ),
         "tapered" => writeln!(
             text,
-            "[section]\nkind = \"tapered-rectangle\"\nmodulus = {modulus}\ndensity = {density}\n{plate}\ntip-width = {}\n\
-             tip-height = {}",
+            "[section]\nkind = \"tapered-rectangle\"\nmodulus = {modulus}\ndensity = {density}\nroot-width = {width}\n\
+             root-height = {height}\ntip-width = {}\ntip-height = {}",
             width * between(random, 0.4..1.0),
             height * between(random, 0.4..1.0),
         ),
@@ -66,7 +110,8 @@ fn case(random: &mut Rng) -> (String, f64) {
     // First natural frequency of the uniform beam, and the period.
     let frequency = 3.516 * (bending / (mass * length.powi(4))).sqrt();
     let period = std::f64::consts::TAU / frequency;
-    let duration = period * between(random, 1.0..5.0);
+    let duration = period * between(random, 0.5..3.0);
+    loads(random, &mut text, length, mass, bending, duration);
     let _ = writeln!(text, "[hub]\nradius = {}", length * between(random, 0.0..0.5));
     let inertia = mass * length.powi(3) / 3.0;
     let _ = match random.u8(..4) {
@@ -169,8 +214,8 @@ fn judge(text: &str, length: f64, tally: &mut Tally) -> Result<(), String> {
     let errors = reading.estimate_errors(&run_of_case, &mut |_| ControlFlow::Continue(())).unwrap();
     let finest = [
         "model.coupling=exact",
-        "basis={kind='finite-elements',elements=40}",
-        "integrator={kind='radau',tolerance=1e-10,absolute-tolerance=1e-12}",
+        "basis={kind='finite-elements',elements=32}",
+        "integrator={kind='radau',tolerance=1e-9,absolute-tolerance=1e-11}",
     ];
     let reference = read(text, &finest).ok().and_then(|reading| run(&reading).ok());
     let Some(reference) = reference.filter(|run| run.status == Status::Finished) else {
