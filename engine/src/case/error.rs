@@ -21,6 +21,8 @@ use crate::output::{Status, Trajectory, Watch};
 const TIGHT: f64 = 1e-9;
 /// Smallest tolerance that is asked of `radau`.
 const TIGHTEST: f64 = 1e-13;
+/// Elements of the companion with the exact coupling where the run has no elements.
+const ELEMENTS: usize = 24;
 /// Safety factors S.
 const SAFETY: f64 = 2.0;
 const SAFETY_OF_MODES: f64 = 4.0;
@@ -65,16 +67,15 @@ impl Reading {
         let is_elements = |basis: &Basis| matches!(basis, Basis::FiniteElements { .. });
         let case = &self.case;
         if case.coupling != Coupling::Exact {
-            if is_elements(&case.bases.axial) && case.bases.axial == case.bases.transverse {
-                let mut reading = finer.clone();
-                reading.case.coupling = Coupling::Exact;
-                exact = Some(reading.prepare()?.run(watch));
-            } else {
-                warnings.push(
-                    "the difference to the exact coupling is not estimated: it needs finite elements"
-                        .to_owned(),
-                );
+            let mut reading = finer.clone();
+            reading.case.coupling = Coupling::Exact;
+            let bases = &mut reading.case.bases;
+            if !(is_elements(&bases.axial) && bases.axial == bases.transverse) {
+                // The exact coupling has a mesh of its own; its error is then part of the difference.
+                let elements = Basis::FiniteElements { elements: ELEMENTS, axial_degree: 1 };
+                (bases.axial, bases.transverse) = (elements.clone(), elements);
             }
+            exact = Some(reading.prepare()?.run(watch));
         }
         for (what, companion) in [("finer", Some(&fine)), ("exact", exact.as_ref())] {
             if let Some(message) = companion.filter(|c| c.status != Status::Finished).map(|c| &c.message) {
