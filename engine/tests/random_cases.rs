@@ -1,5 +1,6 @@
 //! Cases at random: what a run reports as its error holds against a finer run of the exact coupling, or the run ends
-//! with an error. `FLEXION_RANDOM_CASES=500` runs that many instead of a few; `FLEXION_RANDOM_SEED` starts elsewhere.
+//! with an error. `FLEXION_RANDOM_CASES=500` runs that many instead of a few; `FLEXION_RANDOM_FIRST`
+//! begins with a later one, and `FLEXION_RANDOM_SEED` draws others.
 
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)] // in helpers of tests
 
@@ -248,8 +249,9 @@ fn a_run_is_right_within_its_reported_error_or_ends_with_an_error() {
     let number = |name: &str| std::env::var(name).ok().and_then(|text| text.parse::<u64>().ok());
     let (count, seed) = (number("FLEXION_RANDOM_CASES"), number("FLEXION_RANDOM_SEED").unwrap_or(1));
     let count = count.map_or(CASES, |count| count as usize);
+    let first = number("FLEXION_RANDOM_FIRST").unwrap_or(0) as usize;
     let (mut tally, mut wrong) = (Tally::default(), Vec::new());
-    for k in 0..count {
+    for k in first..first + count {
         let mut random = Rng::with_seed(seed.wrapping_mul(1_000_003).wrapping_add(k as u64));
         let (text, length) = case(&mut random);
         let begun = std::time::Instant::now();
