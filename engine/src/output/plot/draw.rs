@@ -311,13 +311,12 @@ fn emptiest_corner(p: &Placed<'_>) -> LegendPosition {
         .flatten()
         .map(|(x, y)| (part(x, p.x.range), part(y, p.y.range)))
         .collect();
+    // The box of the legend grows with its entries.
+    let entries = p.panel.series.iter().filter(|s| s.name.is_some()).count();
+    let reach = (0.1 + 0.11 * entries as f64).min(0.5);
     let crowd = |right: bool, top: bool| {
-        points
-            .iter()
-            .filter(|(x, y)| {
-                (*x > 0.6) == right && (*x < 0.4) != right && (*y > 0.55) == top && (*y < 0.45) != top
-            })
-            .count()
+        let inside = |s: f64, far: bool, reach: f64| if far { s > 1.0 - reach } else { s < reach };
+        points.iter().filter(|(x, y)| inside(*x, right, 0.4) && inside(*y, top, reach)).count()
     };
     let mut best = (usize::MAX, LegendPosition::InsideTopRight);
     for (position, right, top) in corners {

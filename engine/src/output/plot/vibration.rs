@@ -34,7 +34,7 @@ fn shape(mode: &Mode, stations: &[f64]) -> Vec<Series> {
     let all = mode.shape.displacement.iter().flatten();
     let peak = all.fold(Complex64::ZERO, |best, u| if u.norm() > best.norm() { *u } else { best });
     let phase = if peak == Complex64::ZERO { Complex64::ONE } else { peak.conj() / peak.norm() };
-    let names = ["along the tangent", "along the second axis", "along the third axis"];
+    let names = ["axial", "chordwise", "flapwise"];
     let lines = [Line::Dashed, Line::Solid, Line::Dotted];
     let curve = |axis: usize| Series {
         points: stations
