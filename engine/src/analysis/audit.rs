@@ -1,4 +1,4 @@
-//! The balance of energy of a run, step by step.
+//! The balance of energy of a run.
 //!
 //! Where the equations of a step are solved iteratively and the step is not controlled, a step too large can
 //! converge to a wrong solution that gains energy from nowhere. The audit compares E(t) − E(0) with the work
@@ -14,12 +14,14 @@ const EXCESS: f64 = 0.5;
 const SWING: f64 = 0.05;
 /// Steps at the start of a run whose energy is not judged.
 const UNJUDGED: u64 = 20;
+/// Steps from one entry to the next: energy and power cost as much as an iteration, and what goes wrong grows.
+const INTERVAL: u64 = 4;
 
 /// The books of one run with equal steps.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Audit {
     steps: u64,
-    /// Power at the last two steps [W].
+    /// Power at the last two entries [W].
     power: [f64; 2],
     /// Work since the start, and a bound of the error of its quadrature [J].
     work: f64,
@@ -60,12 +62,22 @@ impl Audit {
         *self = Audit { steps: steps as u64, power, work, uncertainty, initial, largest_strain, gravity };
     }
 
-    /// Enters a step of size `h` that ended at `to`, and gives the power there; two steps at a time are judged.
+    /// Counts a step of size `h` that ended at `to`, enters every fourth and judges every eighth. Gives the power at
+    /// `to` where it was needed.
     ///
     /// # Errors
     /// [`RunError::Energy`] when the energy has grown by more than the drive has put in.
-    pub(super) fn enter(&mut self, system: &mut dyn System, h: f64, to: &State) -> Result<Power, RunError> {
+    pub(super) fn enter(
+        &mut self,
+        system: &mut dyn System,
+        h: f64,
+        to: &State,
+    ) -> Result<Option<Power>, RunError> {
         self.steps += 1;
+        if !self.steps.is_multiple_of(INTERVAL) {
+            return Ok(None);
+        }
+        let h = INTERVAL as f64 * h;
         let (energy, at_end) = system.energy_and_power(to);
         let power = at_end.total();
         self.largest_strain = self.largest_strain.max(energy.strain);
@@ -74,8 +86,8 @@ impl Audit {
         let swing = *high - *low;
         let [first, middle] = self.power;
         self.power = [middle, power];
-        if self.steps % 2 == 1 {
-            return Ok(at_end);
+        if !self.steps.is_multiple_of(2 * INTERVAL) {
+            return Ok(Some(at_end));
         }
         // Simpson's rule; its difference from the trapezium bounds its error.
         let work = h / 3.0 * (first + 4.0 * middle + power);
@@ -86,11 +98,11 @@ impl Audit {
         // steps their quadrature is no measure. They set the level that later steps are held against.
         if self.steps <= UNJUDGED {
             self.initial += excess;
-            return Ok(at_end);
+            return Ok(Some(at_end));
         }
         if excess > EXCESS * self.largest_strain + SWING * swing + self.uncertainty {
             return Err(RunError::Energy { time: to.t, excess, work: self.work, strain: energy.strain });
         }
-        Ok(at_end)
+        Ok(Some(at_end))
     }
 }

@@ -368,7 +368,7 @@ impl Run {
             integrator.accept(state, &next);
             self.count += 1;
             let power = match &mut self.audit {
-                Some(audit) => Some(audit.enter(system, h, &next)?),
+                Some(audit) => audit.enter(system, h, &next)?,
                 None => None,
             };
             if let Some(ledger) = &mut self.ledger {
