@@ -13,7 +13,7 @@
 //! The trait is object-safe and every virtual call is made at system level: never inside a
 //! loop over elements, where it would cost more than the element.
 
-use crate::linalg::{Matrix, Structure};
+use crate::linalg::{Matrix, Scalar, Structure};
 
 /// Time, configuration, velocity, acceleration and multipliers of a system: the caller's memory.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -187,6 +187,53 @@ pub struct Channel {
     pub meaning: String,
 }
 
+/// How the sections turn from one state to another: rotations of pairs of unknowns, which are the components of
+/// a vector in the plane.
+#[derive(Clone, Debug, Default)]
+pub struct Turns {
+    pairs: Vec<Turned>,
+}
+
+/// A pair of unknowns and the cosine and sine of its rotation.
+#[derive(Clone, Copy, Debug)]
+struct Turned {
+    unknowns: [usize; 2],
+    cos: f64,
+    sin: f64,
+}
+
+impl Turns {
+    /// No rotations, with room for those of `n` unknowns.
+    pub fn with_room(n: usize) -> Turns {
+        Turns { pairs: Vec::with_capacity(n / 2) }
+    }
+
+    /// Forgets all rotations.
+    pub fn clear(&mut self) {
+        self.pairs.clear();
+    }
+
+    /// Turns the vector with the components `unknowns` by the angle with this cosine and sine.
+    #[inline]
+    pub fn push(&mut self, unknowns: [usize; 2], cos: f64, sin: f64) {
+        self.pairs.push(Turned { unknowns, cos, sin });
+    }
+
+    /// x ← R x
+    pub fn turn<T: Scalar>(&self, x: &mut [T]) {
+        for &Turned { unknowns: [i, j], cos, sin } in &self.pairs {
+            (x[i], x[j]) = (x[i].times(cos) - x[j].times(sin), x[i].times(sin) + x[j].times(cos));
+        }
+    }
+
+    /// x ← Rᵀ x
+    pub fn turn_back<T: Scalar>(&self, x: &mut [T]) {
+        for &Turned { unknowns: [i, j], cos, sin } in &self.pairs {
+            (x[i], x[j]) = (x[i].times(cos) + x[j].times(sin), x[j].times(cos) - x[i].times(sin));
+        }
+    }
+}
+
 /// Receives the terms w b bᵀ of a matrix: numbers of the unknowns, entries of b there, and w.
 pub type VisitTerm<'a> = dyn FnMut(&[usize], &[f64], f64) + 'a;
 
@@ -232,6 +279,13 @@ pub trait System {
     /// content is discarded. A system may leave a factored `out` as it is when it recognises, by the
     /// matrix's [stamp](crate::linalg::Matrix::stamp), that it already holds the very same tangent.
     fn tangent(&mut self, s: &State, w: Weights<'_>, out: &mut Matrix);
+
+    /// Writes how the sections turn from `before` to `now`: with the rotations R, ∂r/∂q(now) is near R ∂r/∂q(before) Rᵀ
+    /// though the stretching stiffness of a slender beam outweighs all others. Nothing for a system whose stiffness
+    /// does not turn with the sections.
+    fn turns(&self, _before: &State, _now: &State, out: &mut Turns) {
+        out.clear();
+    }
 
     /// Turns the hub at a steady speed [rad/s] from now on, whatever drove it: a prescribed motion is replaced, a hub
     /// that is free gets it as the speed of its [initial](System::initial) and [held](System::hold) state.

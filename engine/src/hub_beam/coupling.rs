@@ -7,7 +7,7 @@ use super::load::Kinematics;
 use super::station::{Placement, Station};
 use crate::linalg::{Storage, Structure};
 use crate::profile::HubKinematics;
-use crate::system::{State, VisitTerm, Weights};
+use crate::system::{State, Turns, VisitTerm, Weights};
 
 /// A kinematic model of the beam: everything that differs between `zeroth`, `first`, `high` and `exact`.
 ///
@@ -35,6 +35,11 @@ pub trait Coupling {
 
     /// Adds to `out` the tangent of [`Coupling::add_forces`].
     fn add_tangent(&mut self, _s: &State, _hub: &HubKinematics, _w: &Weights<'_>, _out: &mut Storage<f64>) {}
+
+    /// Writes how the sections turn from one state to another: see [`System::turns`](crate::system::System::turns).
+    fn turns(&self, _before: &State, _now: &State, out: &mut Turns) {
+        out.clear();
+    }
 
     /// Gives `visit` the terms w b bᵀ of the strain energy in the tangent of [`Coupling::inertia`]: unknowns, entries
     /// of b, w. `false` where the strain energy is not there or not quadratic.

@@ -13,7 +13,7 @@ use crate::linalg::Storage;
 use crate::profile::HubKinematics;
 use crate::quadrature::Gauss;
 use crate::section::Section;
-use crate::system::{State, Weights};
+use crate::system::{State, Turns, Weights};
 
 /// Marks an unknown that the clamp removes.
 const CLAMPED: usize = usize::MAX;
@@ -161,6 +161,21 @@ impl Element {
     /// U′ and V′ at the far node.
     pub fn end_slopes(&self, q: &[f64]) -> (f64, f64) {
         (q[self.unknowns[3]], q[self.unknowns[7]])
+    }
+
+    /// The rotation of the far node from `before` to `now`, which turns its displacement and its slope.
+    #[inline]
+    pub fn end_turn(&self, before: &[f64], now: &[f64], out: &mut Turns) {
+        let slopes = |q| {
+            let (u, v) = self.end_slopes(q);
+            (1.0 + u, v)
+        };
+        let ((x, y), (x1, y1)) = (slopes(before), slopes(now));
+        let (along, across) = (x * x1 + y * y1, x * y1 - y * x1);
+        let scale = 1.0 / (along * along + across * across).sqrt();
+        let [_, _, u, du, _, _, v, dv] = self.unknowns;
+        out.push([u, v], along * scale, across * scale);
+        out.push([du, dv], along * scale, across * scale);
     }
 
     /// The element's part of a state; `radius` is the hub's.

@@ -36,7 +36,7 @@ use crate::basis::{BasisError, Field, Hermite};
 use crate::linalg::Storage;
 use crate::profile::HubKinematics;
 use crate::section::{Mass, Resultants, Section};
-use crate::system::{State, Weights};
+use crate::system::{State, Turns, Weights};
 
 /// Largest stretch |ε| that a linear-elastic beam is believed to have.
 const LARGEST_STRAIN: f64 = 0.5;
@@ -158,6 +158,13 @@ impl Coupling for ExactCoupling {
         }
         for mass in &self.lumped {
             mass.add_tangent(s, hub, w, out);
+        }
+    }
+
+    fn turns(&self, before: &State, now: &State, out: &mut Turns) {
+        out.clear();
+        for element in &self.elements {
+            element.end_turn(&before.q, &now.q, out);
         }
     }
 

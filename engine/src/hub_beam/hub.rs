@@ -14,6 +14,32 @@ pub struct Hub {
     pub drive: Drive,
 }
 
+/// The motion of the hub at the times asked for last: a step asks for its few times again and again.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Recent {
+    entries: [(f64, HubKinematics); 4],
+    oldest: usize,
+}
+
+impl Recent {
+    /// Nothing yet.
+    pub(super) fn new() -> Recent {
+        Recent { entries: [(f64::NAN, HubKinematics::default()); 4], oldest: 0 }
+    }
+
+    /// `motion` at time `t`, looked up or worked out.
+    #[inline]
+    pub(super) fn at(&mut self, motion: &Motion, t: f64) -> HubKinematics {
+        if let Some((_, hub)) = self.entries.iter().find(|(time, _)| *time == t) {
+            return *hub;
+        }
+        let hub = motion.at(t);
+        self.entries[self.oldest] = (t, hub);
+        self.oldest = (self.oldest + 1) % self.entries.len();
+        hub
+    }
+}
+
 /// What turns the hub.
 #[derive(Clone, Debug)]
 pub enum Drive {

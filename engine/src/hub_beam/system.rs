@@ -2,7 +2,7 @@
 
 use super::coupling::Coupling;
 use super::damping::Damping;
-use super::hub::{Drive, Hub};
+use super::hub::{Drive, Hub, Recent};
 use super::inertia::{Border, Scratch, Totals};
 use super::load::{Load, Loads, Site};
 use super::section_forces::{Sampling, SectionForces};
@@ -11,7 +11,7 @@ use crate::linalg::{Matrix, Storage, Structure};
 use crate::profile::{Constant, HubKinematics, Motion};
 use crate::section::Section;
 use crate::system::{
-    Channel, Direction, Energy, Frame, Label, Power, Size, State, System, VisitTerm, Weights,
+    Channel, Direction, Energy, Frame, Label, Power, Size, State, System, Turns, VisitTerm, Weights,
 };
 use std::sync::Arc;
 
@@ -28,8 +28,7 @@ pub struct HubBeam<C> {
     /// Largest deflection of the tip that was recorded \[m\].
     largest_deflection: f64,
     scratch: Scratch,
-    /// The time asked for last and the motion of the hub then: every step asks several times.
-    latest: (f64, HubKinematics),
+    recent: Recent,
     border: Border,
     /// Times at which the drive loses smoothness.
     breaks: Vec<f64>,
@@ -52,11 +51,11 @@ impl<C: Coupling> HubBeam<C> {
         places.push(fields.length());
         let stations: Vec<Station> = places.iter().map(|&x| Station::new(fields, x)).collect();
         let mut labels = fields.labels();
-        let (latest, breaks) = match &hub.drive {
-            Drive::Prescribed(motion) => ((0.0, motion.at(0.0)), motion.breaks().to_vec()),
+        let breaks = match &hub.drive {
+            Drive::Prescribed(motion) => motion.breaks().to_vec(),
             Drive::Free(free) => {
                 labels.push(Label { name: "angle of the hub".to_owned(), unit: "rad", scale: 1.0 });
-                ((f64::NAN, HubKinematics::default()), free.breaks())
+                free.breaks()
             }
         };
         HubBeam {
@@ -66,7 +65,7 @@ impl<C: Coupling> HubBeam<C> {
             stations,
             largest_deflection: 0.0,
             scratch: coupling.inertia().scratch(),
-            latest,
+            recent: Recent::new(),
             border: Border::new(fields.len()),
             breaks,
             held: false,
@@ -182,12 +181,7 @@ impl<C: Coupling> HubBeam<C> {
                 HubKinematics { angle: s.q[n], speed: free.speed, acceleration: 0.0 }
             }
             Drive::Free(_) => HubKinematics { angle: s.q[n], speed: s.v[n], acceleration: s.a[n] },
-            Drive::Prescribed(motion) => {
-                if self.latest.0 != s.t {
-                    self.latest = (s.t, motion.at(s.t));
-                }
-                self.latest.1
-            }
+            Drive::Prescribed(motion) => self.recent.at(motion, s.t),
         }
     }
 
@@ -333,6 +327,10 @@ impl<C: Coupling> System for HubBeam<C> {
         }
     }
 
+    fn turns(&self, before: &State, now: &State, out: &mut Turns) {
+        self.coupling.turns(before, now, out);
+    }
+
     fn turn_steadily(&mut self, speed: f64) -> bool {
         let Ok(profile) = Constant::new(speed) else { return false };
         match &mut self.hub.drive {
@@ -341,7 +339,7 @@ impl<C: Coupling> System for HubBeam<C> {
                 *drive = Drive::Prescribed(Motion::Speed { profile: Arc::new(profile), initial_angle: 0.0 })
             }
         }
-        self.latest.0 = f64::NAN;
+        self.recent = Recent::new();
         self.breaks.clear();
         true
     }

@@ -20,7 +20,8 @@
 //! Bauchau & Cardona (2007, doi 10.1137/050638503) without a separate pass for it.
 //!
 //! The tangent and its factors are kept from step to step until the iterations that their age costs are dearer than
-//! new ones: see [`Wear`]. An affine system is solved exactly by one iteration with the tangent of its step; a second
+//! new ones: see [`Wear`]; until then it is carried along with the turning sections (see [`System::turns`]), without which
+//! the stretching stiffness of a slender beam points in wrong directions soon. An affine system is solved exactly by one iteration with the tangent of its step; a second
 //! one then shows the size of rounding errors, below which no later step iterates (see [`Convergence`]). Systems
 //! with constraints get a new tangent every iteration.
 //! The predictor continues the accelerations of the last two steps linearly.
@@ -38,14 +39,14 @@ use super::{
     StepReport, failure, hermite,
 };
 use crate::linalg::Matrix;
-use crate::system::{Level, State, System, Weights};
+use crate::system::{Level, State, System, Turns, Weights};
 
 /// Iteration error, relative to the scales of the unknowns, at which Newton's method stops: far below
 /// the truncation error of a second-order method at any useful step.
 const ITERATION_TOLERANCE: f64 = 1e-10;
 
 /// The same where the tangent is kept and the iteration converges linearly.
-const KEPT_TOLERANCE: f64 = 1e-14;
+const KEPT_TOLERANCE: f64 = 1e-12;
 
 /// Largest size of increments that are taken for rounding errors when they suddenly stop shrinking.
 const NOISE: f64 = 1e-7;
@@ -127,6 +128,8 @@ struct Work {
     /// Where the kept tangent was formed: state and increment.
     place: State,
     increment: Vec<f64>,
+    /// How the sections have turned since.
+    turns: Turns,
     wear: Wear,
     /// Whether the tangent of an affine system is, as far as known, the same at all times.
     constant: bool,
@@ -261,6 +264,9 @@ impl GeneralizedAlpha {
             let convergence = if full { &mut self.full } else { &mut self.kept };
             if renew {
                 convergence.forget();
+                work.turns.clear();
+            } else {
+                system.turns(&work.place, to, &mut work.turns);
             }
             convergence.begin(renew);
             let (a_next, d) = (&mut self.a_next[..n], &mut self.d[..n]);
@@ -294,7 +300,9 @@ impl GeneralizedAlpha {
                     (exact, made) = (work.affine, factored);
                     renew = full && !exact;
                 }
+                work.turns.turn_back(&mut work.rhs);
                 work.tangent.solve(&mut work.rhs);
+                work.turns.turn(&mut work.rhs);
                 self.counters.residuals += 1;
                 self.counters.solves += 1;
                 self.counters.iterations += 1;
@@ -384,6 +392,7 @@ impl Integrator for GeneralizedAlpha {
             kept: [f64::NAN; 2],
             place: State::zeros(size, state.t),
             increment: vec![0.0; size.v],
+            turns: Turns::with_room(size.v),
             wear: Wear::default(),
             constant: false,
         }));

@@ -111,17 +111,12 @@ impl<T: Scalar> Bordered<T> {
         }
     }
 
-    /// Replaces the content by f(re, im) of two real matrices of the same structure.
-    pub(super) fn combine(&mut self, re: &Bordered<f64>, im: &Bordered<f64>, f: impl Fn(f64, f64) -> T) {
-        let pairs = |out: &mut [T], re: &[f64], im: &[f64]| {
-            for ((out, re), im) in out.iter_mut().zip(re).zip(im) {
-                *out = f(*re, *im);
-            }
-        };
-        pairs(self.band.data_mut(), re.band.data(), im.band.data());
-        pairs(&mut self.columns, &re.columns, &im.columns);
-        pairs(&mut self.rows, &re.rows, &im.rows);
-        pairs(&mut self.corner, &re.corner, &im.corner);
+    /// Replaces the content by Σ wₖ Aₖ of real matrices of the same structure.
+    pub(super) fn combine(&mut self, terms: [&Bordered<f64>; 3], weights: [T; 3]) {
+        super::weighted_sum(self.band.data_mut(), terms.map(|a| a.band.data()), weights);
+        super::weighted_sum(&mut self.columns, terms.map(|a| &a.columns[..]), weights);
+        super::weighted_sum(&mut self.rows, terms.map(|a| &a.rows[..]), weights);
+        super::weighted_sum(&mut self.corner, terms.map(|a| &a.corner[..]), weights);
     }
 
     /// y = A x, before factoring.

@@ -170,11 +170,11 @@ impl<T: Scalar> Condensed<T> {
         border.copy_from_slice(&all[self.places.len()..]);
     }
 
-    /// Replaces the content by f(re, im) of two real matrices of the same structure: V and R by f, H and S,
-    /// which both have in common, as they are.
-    pub(super) fn combine(&mut self, re: &Condensed<f64>, im: &Condensed<f64>, f: impl Fn(f64, f64) -> T) {
-        self.whole.combine(&re.whole, &im.whole, f);
-        let band = re.whole.band();
+    /// Replaces the content by Σ wₖ Aₖ of real matrices of the same structure: V and R by their sums, H and S,
+    /// which all have in common, as they are.
+    pub(super) fn combine(&mut self, terms: [&Condensed<f64>; 3], weights: [T; 3]) {
+        self.whole.combine(terms.map(|a| &a.whole), weights);
+        let band = terms[0].whole.band();
         let (lower, upper, n) = (band.lower(), band.upper(), band.order());
         for &j in &self.places.hidden {
             for i in j.saturating_sub(upper)..(j + lower + 1).min(n) {

@@ -166,6 +166,10 @@ impl Scalar for Double {
     fn real(x: f64) -> Double {
         x.into()
     }
+    #[inline(always)]
+    fn times(self, x: f64) -> Double {
+        self * Double::real(x)
+    }
 }
 
 #[cfg(test)]

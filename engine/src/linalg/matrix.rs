@@ -1,7 +1,6 @@
 //! The matrix an integrator owns and a system fills.
 
 use super::{Bordered, Condensed, Dense, Places, Scalar, Singular};
-use num_complex::Complex64;
 use std::sync::Arc;
 
 /// Shape of a system's tangent.
@@ -67,7 +66,7 @@ impl Structure {
     /// The cheaper of the band as given and a dense matrix of the same order.
     pub fn cheaper(self) -> Structure {
         match self {
-            Structure::Band { order, lower, upper, border } if 2 * lower + upper + 1 >= order => {
+            Structure::Band { order, lower, upper, border } if lower + upper + 1 >= order => {
                 Structure::dense(order + border)
             }
             // Factors cost N·lower·upper with hidden unknowns, n³/3 without.
@@ -90,8 +89,8 @@ pub type Stamp = [f64; 6];
 pub struct Matrix<T = f64> {
     storage: Storage<T>,
     stamp: Option<Stamp>,
-    /// Stamps of the real and imaginary parts of an assigned complex matrix.
-    parts: Option<(Stamp, Stamp)>,
+    /// Stamps of the terms of a combination, and their weights.
+    source: Option<([Stamp; 3], [T; 3])>,
     factored: bool,
 }
 
@@ -131,7 +130,7 @@ impl<T: Scalar> Matrix<T> {
                 Storage::Condensed(Condensed::new(places.clone(), lower, upper, border))
             }
         };
-        Matrix { storage, stamp: None, parts: None, factored: false }
+        Matrix { storage, stamp: None, source: None, factored: false }
     }
 
     /// Order of the matrix.
@@ -169,7 +168,7 @@ impl<T: Scalar> Matrix<T> {
     pub fn begin(&mut self) -> &mut Storage<T> {
         self.factored = false;
         self.stamp = None;
-        self.parts = None;
+        self.source = None;
         &mut self.storage
     }
 
@@ -239,7 +238,7 @@ impl<T: Scalar> Matrix<T> {
         };
         if result.is_err() {
             self.stamp = None;
-            self.parts = None;
+            self.source = None;
         }
         result?;
         self.factored = true;
@@ -257,26 +256,40 @@ impl<T: Scalar> Matrix<T> {
     }
 }
 
-impl Matrix<Complex64> {
-    /// Sets the matrix to re + i·im (equal structures). When both carry the stamps of the last
-    /// assignment the content, factored or not, is left as it is.
-    pub fn assign(&mut self, re: &Matrix, im: &Matrix) {
-        let parts = re.stamp.zip(im.stamp);
-        if parts.is_some() && parts == self.parts {
+impl<T: Scalar> Matrix<T> {
+    /// Sets the matrix to Σ wₖ Aₖ (equal structures). When the terms carry the stamps of the last combination and
+    /// the weights are the same the content, factored or not, is left as it is.
+    pub fn combine(&mut self, terms: [&Matrix; 3], weights: [T; 3]) {
+        let source = match terms.map(|a| a.stamp) {
+            [Some(a), Some(b), Some(c)] => Some(([a, b, c], weights)),
+            _ => None,
+        };
+        if source.is_some() && source == self.source {
             return;
         }
-        match (self.begin(), &re.storage, &im.storage) {
-            (Storage::Dense(a), Storage::Dense(re), Storage::Dense(im)) => {
-                for ((a, re), im) in a.data_mut().iter_mut().zip(re.data()).zip(im.data()) {
-                    *a = Complex64::new(*re, *im);
-                }
+        match (self.begin(), terms.map(|a| &a.storage)) {
+            (Storage::Dense(out), [Storage::Dense(a), Storage::Dense(b), Storage::Dense(c)]) => {
+                weighted_sum(out.data_mut(), [a, b, c].map(|a| a.data()), weights);
             }
-            (Storage::Band(a), Storage::Band(re), Storage::Band(im)) => a.combine(re, im, Complex64::new),
-            (Storage::Condensed(a), Storage::Condensed(re), Storage::Condensed(im)) => {
-                a.combine(re, im, Complex64::new);
+            (Storage::Band(out), [Storage::Band(a), Storage::Band(b), Storage::Band(c)]) => {
+                out.combine([a, b, c], weights);
+            }
+            (
+                Storage::Condensed(out),
+                [Storage::Condensed(a), Storage::Condensed(b), Storage::Condensed(c)],
+            ) => {
+                out.combine([a, b, c], weights);
             }
             _ => debug_assert!(false, "structures differ"),
         }
-        self.parts = parts;
+        self.source = source;
+    }
+}
+
+/// `out` = Σ wₖ aₖ, entry by entry.
+pub(super) fn weighted_sum<T: Scalar>(out: &mut [T], terms: [&[f64]; 3], weights: [T; 3]) {
+    let [a, b, c] = terms;
+    for (((out, a), b), c) in out.iter_mut().zip(a).zip(b).zip(c) {
+        *out = weights[0].times(*a) + (weights[1].times(*b) + weights[2].times(*c));
     }
 }

@@ -27,6 +27,8 @@ pub trait Scalar:
     fn size(self) -> f64;
     /// The real number `x`.
     fn real(x: f64) -> Self;
+    /// The number times the real number `x`.
+    fn times(self, x: f64) -> Self;
 }
 
 impl Scalar for f64 {
@@ -40,6 +42,10 @@ impl Scalar for f64 {
     fn real(x: f64) -> f64 {
         x
     }
+    #[inline(always)]
+    fn times(self, x: f64) -> f64 {
+        self * x
+    }
 }
 
 impl Scalar for Complex64 {
@@ -52,5 +58,9 @@ impl Scalar for Complex64 {
     #[inline(always)]
     fn real(x: f64) -> Complex64 {
         Complex64::new(x, 0.0)
+    }
+    #[inline(always)]
+    fn times(self, x: f64) -> Complex64 {
+        Complex64::new(self.re * x, self.im * x)
     }
 }

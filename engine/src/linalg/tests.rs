@@ -129,23 +129,32 @@ fn multiplication_inverts_the_solution() {
 }
 
 #[test]
-fn complex_matrix_is_assigned_from_parts_and_kept_while_their_stamps_stay() {
+fn combination_is_kept_while_the_stamps_of_its_terms_and_the_weights_stay() {
     let structure = Structure::band(12, 2, 2, 1);
-    let (mut re, _) = random_pair(&structure, 3.0, 1);
-    let (mut im, _) = random_pair(&structure, 1.0, 2);
-    let mut a = Matrix::<Complex64>::new(&structure);
-    re.set_stamp(Some([1.0; 6]));
-    im.set_stamp(Some([2.0; 6]));
-    a.assign(&re, &im);
+    let [mut a, mut b, mut c] =
+        [(3.0, 1), (1.0, 2), (2.0, 3)].map(|(d, seed)| random_pair(&structure, d, seed).0);
+    for (k, term) in [&mut a, &mut b, &mut c].into_iter().enumerate() {
+        term.set_stamp(Some([k as f64; 6]));
+    }
+    let weights = [Complex64::ONE, Complex64::new(0.3, 0.4), Complex64::new(-0.1, 0.2)];
+    let mut sum = Matrix::<Complex64>::new(&structure);
+    sum.combine([&a, &b, &c], weights);
+    for (i, j) in [(0, 0), (3, 4), (5, 3), (12, 7), (2, 12), (12, 12)] {
+        let expected: Complex64 = [&a, &b, &c].iter().zip(weights).map(|(a, w)| w * a.get(i, j)).sum();
+        assert!((sum.get(i, j) - expected).norm() < 1e-14);
+    }
     let x: Vec<Complex64> = (0..13).map(|i| Complex64::new((i as f64).cos(), (i as f64).sin())).collect();
     let mut y = vec![Complex64::ZERO; 13];
-    a.multiply(&x, &mut y);
-    assert!(a.factor().unwrap());
-    a.assign(&re, &im);
-    assert!(a.is_factored(), "same stamps: the factors are kept");
-    a.solve(&mut y);
+    sum.multiply(&x, &mut y);
+    assert!(sum.factor().unwrap());
+    sum.combine([&a, &b, &c], weights);
+    assert!(sum.is_factored(), "the same stamps and weights: the factors are kept");
+    sum.solve(&mut y);
     assert!(x.iter().zip(&y).all(|(x, y)| (x - y).norm() < 1e-12));
-    im.set_stamp(Some([3.0; 6]));
-    a.assign(&re, &im);
-    assert!(!a.is_factored());
+    sum.combine([&a, &b, &c], [weights[0], weights[1], Complex64::ONE]);
+    assert!(!sum.is_factored(), "another weight");
+    sum.factor().unwrap();
+    b.set_stamp(Some([3.0; 6]));
+    sum.combine([&a, &b, &c], [weights[0], weights[1], Complex64::ONE]);
+    assert!(!sum.is_factored(), "another term");
 }

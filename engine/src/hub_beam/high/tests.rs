@@ -259,7 +259,9 @@ fn hidden_unknowns_change_no_solution_and_no_product() {
             assert!(relative(&x, &y) < 1e-11, "{:e}", relative(&x, &y));
             // Radau's complex combination.
             let mut complex = Matrix::<Complex64>::new(&own);
-            complex.assign(&hidden[0], &hidden[1]);
+            let none = Matrix::new(&own);
+            let weights = [Complex64::ONE, Complex64::I, Complex64::ZERO];
+            complex.combine([&hidden[0], &hidden[1], &none], weights);
             let mut dense = Dense::<Complex64>::new(n);
             for i in 0..n {
                 for j in 0..n {

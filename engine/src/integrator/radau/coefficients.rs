@@ -22,6 +22,16 @@ pub(super) const A: [[f64; 3]; 3] = [
 /// A².
 pub(super) const A2: [[f64; 3]; 3] = square(A);
 
+/// A⁻¹.
+pub(super) const A_INVERSE: [[f64; 3]; 3] = [
+    [3.224_744_871_391_589, 1.167_840_084_690_405_5, -0.253_197_264_742_180_83],
+    [-3.567_840_084_690_405_5, 0.775_255_128_608_410_95, 1.053_197_264_742_180_8],
+    [5.531_972_647_421_808_3, -7.531_972_647_421_808_3, 5.0],
+];
+
+/// A⁻².
+pub(super) const A2_INVERSE: [[f64; 3]; 3] = square(A_INVERSE);
+
 /// Real eigenvalue of A⁻¹; λ = γ₀ = 1/γ is that of A.
 const GAMMA: f64 = 3.637_834_252_744_495_7;
 /// Complex eigenvalues α ± iβ of A⁻¹.
@@ -34,9 +44,6 @@ pub(super) const LAMBDA: f64 = 1.0 / GAMMA;
 /// μ = 1/(α + iβ), the complex eigenvalue of A: real and imaginary parts.
 pub(super) const MU: [f64; 2] =
     [ALPHA / (ALPHA * ALPHA + BETA * BETA), -BETA / (ALPHA * ALPHA + BETA * BETA)];
-
-/// μ²: real and imaginary parts.
-pub(super) const MU2: [f64; 2] = [MU[0] * MU[0] - MU[1] * MU[1], 2.0 * MU[0] * MU[1]];
 
 /// T, with A = T Λ T⁻¹, Λ = diag(λ, [μ]), [μ] = ⎡Re μ  −Im μ⎤
 ///                                               ⎣Im μ   Re μ⎦.
@@ -108,6 +115,13 @@ mod tests {
         let lambda = [[LAMBDA, 0.0, 0.0], [0.0, MU[0], -MU[1]], [0.0, MU[1], MU[0]]];
         assert_close(product(product(T, lambda), T_INVERSE), A);
         assert_close(product(T, T_INVERSE), [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
+    }
+
+    #[test]
+    fn the_inverses_are_those_of_the_coefficients() {
+        let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        assert_close(product(A, A_INVERSE), identity);
+        assert_close(product(A2, A2_INVERSE), identity);
     }
 
     /// B(5): Σ bᵢ cᵢᵏ⁻¹ = 1/k, k ≤ 5, and C(3): Σ aᵢⱼ cⱼᵏ⁻¹ = cᵢᵏ/k, k ≤ 3.

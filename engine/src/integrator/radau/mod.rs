@@ -7,16 +7,19 @@
 //! Vᵢ = v₀ + h Σ Aᵢⱼ aⱼ,   Qᵢ = q₀ ⊞ (h cᵢ v₀ + h² Σ (A²)ᵢⱼ aⱼ),   r(t₀ + cᵢh, Qᵢ, Vᵢ, aᵢ) = 0
 //! ```
 //!
-//! The last stage is the end of the step. Simplified Newton iterations, (I⊗M + hA⊗C + h²A²⊗K) Δa = −r,
-//! decouple with A = T Λ T⁻¹ into a real and a complex system of the size of the model,
+//! The last stage is the end of the step. Simplified Newton iterations for ΔQ = h²A² Δa,
+//! ((hA)⁻²⊗M + (hA)⁻¹⊗C + I⊗K) ΔQ = −r, decouple with A = T Λ T⁻¹ into a real and a complex system of the size of the
+//! model,
 //!
 //! ```text
-//! (M + hλ C + h²λ² K) w₁ = (T⁻¹r)₁,   (M + hμ C + h²μ² K)(w₂ + i w₃) = (T⁻¹r)₂ + i (T⁻¹r)₃,   Δa = −T w
+//! (M + hλ C + h²λ² K) w₁ = h²λ² (T⁻¹r)₁,   (M + hμ C + h²μ² K)(w₂ + i w₃) = h²μ² ((T⁻¹r)₂ + i (T⁻¹r)₃),   ΔQ = −T w
 //! ```
 //!
-//! The complex matrix is put together from the system's tangents with weights (1, h Re μ, h² Re μ²) and
-//! (0, h Im μ, h² Im μ²). Starting values extrapolate the last step's collocation polynomial. Tangents and
-//! factors are kept while the step is the same and convergence is fast.
+//! K, which the stretching stiffness of a slender beam dominates, is carried along with the turning sections (see
+//! [`System::turns`]): in the frames that have turned with each stage, K of the start serves them all.
+//!
+//! Starting values extrapolate the last step's collocation polynomial. The tangents M, C and K are kept while
+//! convergence is fast, their factors while the step is the same too.
 //!
 //! Error estimate: the embedded formula of order 3 through f(y₀), filtered by the real system, in
 //! second-order form (γ₀ = λ):
@@ -55,8 +58,13 @@ const NAME: &str = "radau";
 /// Names of the stages' accelerations in a checkpoint.
 const STAGES: [&str; 3] = ["stage.1", "stage.2", "stage.3"];
 
-/// Rate of convergence below which tangent and factors serve the next step too.
+/// Rate of convergence below which the tangents serve the next step too.
 const REUSE_RATE: f64 = 0.1;
+
+/// Largest iteration error in units of the tolerance, and relative to the scales of the unknowns. An error that is small
+/// beside a displacement is large as a stretch of the axis: it would make axial vibrations that short steps then follow.
+const LARGEST_KAPPA: f64 = 1e-2;
+const LARGEST_ITERATION_ERROR: f64 = 1e-5;
 
 /// Largest size of increments, in units of the tolerance, that are taken for rounding errors when they stop
 /// shrinking: of affine systems, whose iteration does not become slow by anything else.
@@ -113,7 +121,7 @@ impl Radau {
         // Iteration error κ and rounding error, in units of the tolerance.
         let size = relative.max(absolute);
         let floor = 100.0 * f64::EPSILON / size;
-        let kappa = size.sqrt().min(0.03).max(0.1 * floor);
+        let kappa = size.sqrt().min(LARGEST_KAPPA).min(LARGEST_ITERATION_ERROR / size).max(0.1 * floor);
         Ok(Radau {
             info: Info { name: NAME, order: 5, estimate_order: Some(3), implicit: true },
             tolerance,
@@ -166,10 +174,14 @@ impl Integrator for Radau {
         self.attempt = h;
         work.weigh(from, self.tolerance);
         let stretch = if self.first { None } else { Some(h / self.accepted_step) };
-        if work.factored_step != h || work.rate > REUSE_RATE {
-            work.factor(system, from, h, &mut self.counters)?;
+        if work.rate > REUSE_RATE {
+            work.form(system, from, &mut self.counters);
         }
+        work.carry(system, from);
         loop {
+            if work.factored_step != h {
+                work.factor(system, from, h, &mut self.counters)?;
+            }
             work.predict(from, stretch);
             self.convergence.begin(work.fresh);
             let (progress, size) = work.iterate(system, from, h, &mut self.convergence, &mut self.counters);
@@ -179,10 +191,9 @@ impl Integrator for Radau {
             }
             self.convergence.forget();
             if !work.fresh {
-                work.factor(system, from, h, &mut self.counters)?;
+                work.form(system, from, &mut self.counters);
                 continue;
             }
-            work.factored_step = f64::NAN;
             self.worst = work.worst_increment();
             let worst = failure::label(system, self.worst);
             if !size.is_finite() {
@@ -195,7 +206,6 @@ impl Integrator for Radau {
         let error = work.estimate(system, from, h, self.first || repeated, &mut self.counters);
         self.worst = work.worst_error(h);
         if !error.is_finite() {
-            work.factored_step = f64::NAN;
             let worst = failure::label(system, self.worst);
             return Err(StepError::NotFinite { time: from.t, step: h, worst });
         }
@@ -228,7 +238,7 @@ impl Integrator for Radau {
         self.pending = false;
         self.first = true;
         self.convergence.forget();
-        work.factored_step = f64::NAN;
+        work.rate = f64::INFINITY;
         work.accelerations.complete(system, state, (state.t, 0.0), &mut self.counters)
     }
 
@@ -259,6 +269,7 @@ impl Integrator for Radau {
             // The same tangents at the same place have the same factors.
             let mut place = work.place.clone();
             from.fill_state("factors.", &mut place)?;
+            work.form(system, &place, &mut self.counters);
             let factored = work.factor(system, &place, step, &mut self.counters);
             factored.map_err(|error| NotResumed::Failed(error.to_string()))?;
             (work.rate, work.fresh) = (rate, false);

@@ -3,27 +3,30 @@
 use super::super::acceleration::Accelerations;
 use super::super::{Convergence, Counters, Progress, StepError, failure};
 use super::Tolerance;
-use super::coefficients::{A, A2, C, E_Q, E_V, LAMBDA, MU, MU2, T, T_INVERSE, lagrange};
+use super::coefficients::{A, A_INVERSE, A2, A2_INVERSE, C, E_Q, E_V, LAMBDA, MU, T, T_INVERSE, lagrange};
 use crate::linalg::Matrix;
-use crate::system::{State, System, Weights};
+use crate::system::{State, System, Turns, Weights};
 use num_complex::Complex64;
 
 /// Unknowns, matrices and buffers of a step: what `start` allocates for a system.
 #[derive(Debug)]
 pub(super) struct Stages {
     pub(super) accelerations: Accelerations,
-    real: Matrix,
-    real_part: Matrix,
-    imaginary_part: Matrix,
+    /// M, C and K, and how the sections have turned since: at the start of the step and at the stages.
     mass: Matrix,
+    damping: Matrix,
+    stiffness: Matrix,
+    turns: Turns,
+    stage_turns: [Turns; 3],
+    real: Matrix,
     complex: Matrix<Complex64>,
     /// Step of the factors; NaN when there are none.
     pub(super) factored_step: f64,
     /// Where the tangents were formed.
     pub(super) place: State,
-    /// Whether the factors belong to the start of this step.
+    /// Whether the tangents belong to the start of this step.
     pub(super) fresh: bool,
-    /// Last rate of convergence with these factors.
+    /// Last rate of convergence with these tangents; infinite when there are none.
     pub(super) rate: f64,
     scale: Vec<f64>,
     inverse_weight: Vec<f64>,
@@ -41,6 +44,7 @@ pub(super) struct Stages {
     /// Right-hand side of the estimate without its K e_q, M e_v.
     source: Vec<f64>,
     product: Vec<f64>,
+    turned: Vec<f64>,
     rhs: Vec<f64>,
 }
 
@@ -53,15 +57,17 @@ impl Stages {
         let three = || [vector(), vector(), vector()];
         Stages {
             accelerations: Accelerations::new(system),
-            real: Matrix::new(&structure),
-            real_part: Matrix::new(&structure),
-            imaginary_part: Matrix::new(&structure),
             mass: Matrix::new(&structure),
+            damping: Matrix::new(&structure),
+            stiffness: Matrix::new(&structure),
+            turns: Turns::with_room(n),
+            stage_turns: [(); 3].map(|()| Turns::with_room(n)),
+            real: Matrix::new(&structure),
             complex: Matrix::new(&structure),
             factored_step: f64::NAN,
             place: State::zeros(size, 0.0),
             fresh: false,
-            rate: 0.0,
+            rate: f64::INFINITY,
             scale: system.labels().iter().map(|label| label.scale).collect(),
             inverse_weight: vector(),
             stage: State::zeros(size, 0.0),
@@ -76,6 +82,7 @@ impl Stages {
             error_v: vector(),
             source: vector(),
             product: vector(),
+            turned: vector(),
             rhs: vector(),
         }
     }
@@ -89,30 +96,44 @@ impl Stages {
         }
     }
 
-    /// Tangents at the start of the step, and their factors.
+    /// Forms the tangents at the start of the step.
+    pub(super) fn form(&mut self, system: &mut dyn System, from: &State, counters: &mut Counters) {
+        system.tangent(from, Weights::new(1.0, 0.0, 0.0), &mut self.mass);
+        system.tangent(from, Weights::new(0.0, 1.0, 0.0), &mut self.damping);
+        system.tangent(from, Weights::new(0.0, 0.0, 1.0), &mut self.stiffness);
+        counters.tangents += 3;
+        self.place.copy_from(from);
+        self.turns.clear();
+        self.factored_step = f64::NAN;
+        self.fresh = true;
+        self.rate = 0.0;
+    }
+
+    /// Carries tangents of a former step along with the sections.
+    pub(super) fn carry(&mut self, system: &dyn System, from: &State) {
+        if !self.fresh {
+            system.turns(&self.place, from, &mut self.turns);
+        }
+    }
+
+    /// Factors of the tangents for steps of size `h`.
     pub(super) fn factor(
         &mut self,
-        system: &mut dyn System,
+        system: &dyn System,
         from: &State,
         h: f64,
         counters: &mut Counters,
     ) -> Result<(), StepError> {
         self.factored_step = f64::NAN;
-        let h2 = h * h;
-        system.tangent(from, Weights::new(1.0, h * LAMBDA, h2 * LAMBDA * LAMBDA), &mut self.real);
-        system.tangent(from, Weights::new(1.0, h * MU[0], h2 * MU2[0]), &mut self.real_part);
-        system.tangent(from, Weights::new(0.0, h * MU[1], h2 * MU2[1]), &mut self.imaginary_part);
-        system.tangent(from, Weights::new(1.0, 0.0, 0.0), &mut self.mass);
-        self.complex.assign(&self.real_part, &self.imaginary_part);
+        let terms = [&self.mass, &self.damping, &self.stiffness];
+        let (reach, mu) = (h * LAMBDA, Complex64::new(h * MU[0], h * MU[1]));
+        self.real.combine(terms, [1.0, reach, reach * reach]);
+        self.complex.combine(terms, [Complex64::ONE, mu, mu * mu]);
         let tell = |cause| failure::singular(system, from.t, h, cause);
         let real = self.real.factor().map_err(tell)?;
         let complex = self.complex.factor().map_err(tell)?;
-        counters.tangents += if real || complex { 4 } else { 0 };
         counters.factorizations += u64::from(real) + u64::from(complex);
-        self.place.copy_from(from);
         self.factored_step = h;
-        self.fresh = true;
-        self.rate = 0.0;
         Ok(())
     }
 
@@ -144,17 +165,25 @@ impl Stages {
         counters: &mut Counters,
     ) -> (Progress, f64) {
         let n = from.v.len();
+        let (reach, mu) = (h * LAMBDA, Complex64::new(h * MU[0], h * MU[1]));
+        let (reach, mu) = (reach * reach, mu * mu);
         loop {
             for i in 0..3 {
                 self.place(system, from, h, i);
+                if convergence.iterations() == 0 {
+                    system.turns(&self.place, &self.stage, &mut self.stage_turns[i]);
+                }
                 system.residual(&self.stage, &mut self.r[i]);
+                self.stage_turns[i].turn_back(&mut self.r[i]);
             }
             let [r1, r2, r3] = &self.r;
+            let (r1, r2, r3) = (&r1[..n], &r2[..n], &r3[..n]);
             let [p, q, s] = &T_INVERSE;
             for i in 0..n {
                 let (x, y, z) = (r1[i], r2[i], r3[i]);
-                self.rhs[i] = p[0] * x + p[1] * y + p[2] * z;
-                self.z[i] = Complex64::new(q[0] * x + q[1] * y + q[2] * z, s[0] * x + s[1] * y + s[2] * z);
+                self.rhs[i] = reach * (p[0] * x + p[1] * y + p[2] * z);
+                self.z[i] =
+                    mu * Complex64::new(q[0] * x + q[1] * y + q[2] * z, s[0] * x + s[1] * y + s[2] * z);
             }
             self.real.solve(&mut self.rhs);
             self.complex.solve(&mut self.z);
@@ -167,6 +196,13 @@ impl Stages {
                 other => return (other, size),
             }
         }
+    }
+
+    /// Solves the real system for `rhs`.
+    fn solve_real(&mut self) {
+        self.turns.turn_back(&mut self.rhs);
+        self.real.solve(&mut self.rhs);
+        self.turns.turn(&mut self.rhs);
     }
 
     /// Sets the stage state to stage `i`.
@@ -186,32 +222,33 @@ impl Stages {
         system.retract(&from.q, &self.increment, &mut self.stage.q);
     }
 
-    /// Δa = −T w, and its size through the displacements and velocities of the stages. The norms are
-    /// those of h A Δa = −T h Λ w.
+    /// ΔQ = −T w, turned with its stage, and Δa = (hA)⁻² ΔQ; gives the size of ΔQ and of h ΔV = A⁻¹ ΔQ.
     fn update(&mut self, h: f64) -> f64 {
         let n = self.rhs.len();
-        let h2 = h * h;
+        let [d1, d2, d3] = &mut self.r;
+        for i in 0..n {
+            let (x, z) = (self.rhs[i], self.z[i]);
+            d1[i] = T[0][0] * x + T[0][1] * z.re + T[0][2] * z.im;
+            d2[i] = T[1][0] * x + T[1][1] * z.re + T[1][2] * z.im;
+            d3[i] = T[2][0] * x + z.re;
+        }
+        for (d, turns) in [&mut *d1, &mut *d2, &mut *d3].into_iter().zip(&self.stage_turns) {
+            turns.turn(d);
+        }
+        let rows =
+            |a: &[[f64; 3]; 3], d: [f64; 3]| a.map(|row| row[0] * d[0] + row[1] * d[1] + row[2] * d[2]);
+        let squares = |d: [f64; 3]| d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+        let inverse = 1.0 / (h * h);
         let [a1, a2, a3] = &mut self.a;
         let mut square = 0.0;
         for i in 0..n {
-            let (x, z) = (self.rhs[i], self.z[i]);
-            a1[i] -= T[0][0] * x + T[0][1] * z.re + T[0][2] * z.im;
-            a2[i] -= T[1][0] * x + T[1][1] * z.re + T[1][2] * z.im;
-            a3[i] -= T[2][0] * x + z.re;
-            // λ and μ once for the velocities, twice for the displacements.
-            let (x1, z1) =
-                (LAMBDA * x, Complex64::new(MU[0] * z.re - MU[1] * z.im, MU[0] * z.im + MU[1] * z.re));
-            let (x2, z2) =
-                (LAMBDA * x1, Complex64::new(MU[0] * z1.re - MU[1] * z1.im, MU[0] * z1.im + MU[1] * z1.re));
-            let mut sum = 0.0;
-            for (x, z) in [(x1, z1), (x2, z2)] {
-                let d1 = T[0][0] * x + T[0][1] * z.re + T[0][2] * z.im;
-                let d2 = T[1][0] * x + T[1][1] * z.re + T[1][2] * z.im;
-                let d3 = T[2][0] * x + z.re;
-                sum += d1 * d1 + d2 * d2 + d3 * d3;
-            }
-            let w = h2 * self.inverse_weight[i];
-            square += sum * (w * w);
+            let d = [d1[i], d2[i], d3[i]];
+            let [x, y, z] = rows(&A2_INVERSE, d);
+            a1[i] -= inverse * x;
+            a2[i] -= inverse * y;
+            a3[i] -= inverse * z;
+            let w = self.inverse_weight[i];
+            square += (squares(d) + squares(rows(&A_INVERSE, d))) * (w * w);
         }
         (square / (6 * n.max(1)) as f64).sqrt()
     }
@@ -235,10 +272,6 @@ impl Stages {
     ) -> f64 {
         let n = from.v.len();
         let reach = h * LAMBDA;
-        // With Re = M + c₁C + k₁K and Im = c₂C + k₂K of the complex tangent,
-        // K = ((Re − M)/c₁ − Im/c₂) / (k₁/c₁ − k₂/c₂): no further tangent is needed.
-        let (c1, c2) = (h * MU[0], h * MU[1]);
-        let apart = h * h * (MU2[0] / c1 - MU2[1] / c2);
         let [a1, a2, a3] = &self.a;
         for i in 0..n {
             self.error_q[i] = h * h * (E_Q[0] * a1[i] + E_Q[1] * a2[i] + E_Q[2] * a3[i]);
@@ -246,7 +279,7 @@ impl Stages {
         }
         self.mass.multiply(&self.error_v, &mut self.source);
         counters.solves += 1;
-        self.stiffness_times_error(reach / apart, c1, c2);
+        self.subtract_stiffness_times_error(reach);
         self.filter(reach);
         let error = self.error_norm(h);
         if !filter_twice || error < 1.0 {
@@ -266,30 +299,25 @@ impl Stages {
         for i in 0..n {
             self.source[i] -= reach * self.product[i];
         }
-        self.stiffness_times_error(reach / apart, c1, c2);
+        self.subtract_stiffness_times_error(reach);
         self.filter(reach);
         self.error_norm(h).max(1e-10)
     }
 
-    /// `rhs` = `source` − `factor`·((Re − M)/c₁ − Im/c₂) e_q
-    fn stiffness_times_error(&mut self, factor: f64, c1: f64, c2: f64) {
-        self.rhs.copy_from_slice(&self.source);
-        let parts = [
-            (&self.real_part, factor / c1),
-            (&self.mass, -factor / c1),
-            (&self.imaginary_part, -factor / c2),
-        ];
-        for (matrix, weight) in parts {
-            matrix.multiply(&self.error_q, &mut self.product);
-            for (rhs, product) in self.rhs.iter_mut().zip(&self.product) {
-                *rhs -= weight * product;
-            }
+    /// `rhs` = `source` − `reach`·K e_q
+    fn subtract_stiffness_times_error(&mut self, reach: f64) {
+        self.turned.copy_from_slice(&self.error_q);
+        self.turns.turn_back(&mut self.turned);
+        self.stiffness.multiply(&self.turned, &mut self.product);
+        self.turns.turn(&mut self.product);
+        for ((rhs, source), product) in self.rhs.iter_mut().zip(&self.source).zip(&self.product) {
+            *rhs = source - reach * product;
         }
     }
 
     /// ε_v from `rhs`, ε_q = e_q + hγ₀ ε_v.
     fn filter(&mut self, reach: f64) {
-        self.real.solve(&mut self.rhs);
+        self.solve_real();
         self.error_v.copy_from_slice(&self.rhs);
         for (q, v) in self.error_q.iter_mut().zip(&self.error_v) {
             *q += reach * v;
