@@ -13,8 +13,10 @@ use super::hub::Hub;
 use super::inertia::{Foreshortening, Inertia};
 use super::load::Kinematics;
 use super::station::{Placement, Station};
+use super::strain_terms::{FINE, StrainTerms};
 use crate::basis::Role;
 use crate::linalg::{Matrix, negative_pivots};
+use crate::profile::HubKinematics;
 use crate::section::Section;
 use crate::system::{State, VisitTerm};
 
@@ -35,6 +37,9 @@ pub struct LinearCoupling {
     slopes: Vec<SlopePoint>,
     /// Stiffness at the quadrature points.
     strains: Vec<StrainPoint>,
+    /// The strain energy term by term, on fine meshes, and the damping in proportion to the stiffness, η \[s\].
+    terms: Option<StrainTerms>,
+    viscosity: f64,
     /// Unknowns that are displacements, and what they may not exceed \[m\].
     bounds: Vec<(usize, f64)>,
 }
@@ -103,7 +108,43 @@ impl LinearCoupling {
             Foreshortening::None => "zeroth",
             Foreshortening::First => "first",
         };
-        LinearCoupling { name, foreshortening, fields, inertia, slopes, strains, bounds }
+        let fine = fields.cells().len() > FINE;
+        let (terms, viscosity) = (None, 0.0);
+        let mut coupling = LinearCoupling {
+            name,
+            foreshortening,
+            fields,
+            inertia,
+            slopes,
+            strains,
+            terms,
+            viscosity,
+            bounds,
+        };
+        if fine {
+            coupling.terms = Some(StrainTerms::new(|visit| coupling.visit_terms(visit)));
+            coupling.inertia.leave_strain_apart();
+        }
+        coupling
+    }
+
+    /// Gives `visit` the terms of the strain energy.
+    fn visit_terms(&self, visit: &mut VisitTerm<'_>) {
+        let mut strains = self.strains.iter();
+        let (mut index, mut stretch) = (Vec::new(), Vec::new());
+        self.fields.integrate(|p| {
+            let Some(strain) = strains.next() else { return };
+            index.clear();
+            stretch.clear();
+            index.extend_from_slice(&p.axial.index);
+            stretch.extend_from_slice(&p.axial.value[1]);
+            if strain.offset != 0.0 {
+                index.extend_from_slice(&p.transverse.index);
+                stretch.extend(p.transverse.value[2].iter().map(|phi| -strain.offset * phi));
+            }
+            visit(&index, &stretch, strain.stretch);
+            visit(&p.transverse.index, &p.transverse.value[2], strain.bending);
+        });
     }
 
     /// The coupling as the linear part of another one, by whose name its messages call it.
@@ -149,27 +190,19 @@ impl Coupling for LinearCoupling {
         true
     }
 
+    fn add_forces(&mut self, s: &State, _hub: &HubKinematics, r: &mut [f64]) {
+        if let Some(terms) = &self.terms {
+            terms.add_forces(&s.q, &s.v, self.viscosity, r);
+        }
+    }
+
     fn strain_terms(&self, visit: &mut VisitTerm<'_>) -> bool {
-        let mut strains = self.strains.iter();
-        let (mut index, mut stretch) = (Vec::new(), Vec::new());
-        self.fields.integrate(|p| {
-            let Some(strain) = strains.next() else { return };
-            index.clear();
-            stretch.clear();
-            index.extend_from_slice(&p.axial.index);
-            stretch.extend_from_slice(&p.axial.value[1]);
-            if strain.offset != 0.0 {
-                index.extend_from_slice(&p.transverse.index);
-                stretch.extend(p.transverse.value[2].iter().map(|phi| -strain.offset * phi));
-            }
-            visit(&index, &stretch, strain.stretch);
-            visit(&p.transverse.index, &p.transverse.value[2], strain.bending);
-        });
+        self.visit_terms(visit);
         true
     }
 
     fn strain(&mut self, s: &State) -> f64 {
-        self.inertia.strain(&s.q)
+        self.terms.as_ref().map_or_else(|| self.inertia.strain(&s.q), |terms| terms.energy(&s.q))
     }
 
     fn kinematics(&self) -> Kinematics {
@@ -181,6 +214,7 @@ impl Coupling for LinearCoupling {
 
     fn damp(&mut self, damping: Damping) {
         self.inertia.damp(damping);
+        self.viscosity = damping.stiffness;
     }
 
     fn placements(&self, s: &State, stations: &[Station], out: &mut [Placement]) {

@@ -92,6 +92,7 @@ impl Coupling for HighCoupling {
 
     fn add_forces(&mut self, s: &State, hub: &HubKinematics, r: &mut [f64]) {
         let (om, al) = (hub.speed, hub.acceleration);
+        self.linear.add_forces(s, hub, r);
         self.sums.follow(s);
         self.sums.scatter(r, |p| {
             let on_axial = p.wc[2] - om * om * p.wc[0];
