@@ -72,7 +72,7 @@ impl Expression {
         let gauss = Gauss::new(POINTS);
         let mut sums = vec![0.0; grid.len()];
         for i in 1..grid.len() {
-            sums[i] = sums[i - 1] + gauss.integrate(grid[i - 1], grid[i], |t| program.eval(t).0.value);
+            sums[i] = sums[i - 1] + gauss.integrate(grid[i - 1], grid[i], |t| program.value(t));
         }
         Ok(Expression { program, breaks, grid, sums, gauss })
     }
@@ -97,7 +97,7 @@ fn first_change(program: &Program, from: f64, to: f64, branch: u64) -> Option<f6
 
 impl Profile for Expression {
     fn value(&self, t: f64) -> f64 {
-        self.program.eval(t).0.value
+        self.program.value(t)
     }
 
     fn rate(&self, t: f64) -> f64 {
@@ -125,6 +125,27 @@ mod tests {
 
     fn value(text: &str, t: f64) -> f64 {
         Expression::new(text, "t", 10.0).unwrap_or_else(|e| panic!("{e}")).value(t)
+    }
+
+    #[test]
+    fn a_value_alone_is_that_of_value_and_derivatives_together() {
+        let names = "sin cos tan asin acos atan sinh cosh tanh exp ln log10 sqrt abs sign step floor";
+        let mut texts: Vec<String> =
+            names.split(' ').map(|name| format!("3*pi/4*{name}(t/10) + 2^(1+1)")).collect();
+        texts.extend(
+            ["min(t, 2) - max(2, t^2)", "if(t < 1 + 1, t^t, (-t)^3)", "(2 <= 1) + (1 > 0)*t"]
+                .map(String::from),
+        );
+        for text in texts {
+            let program = Program::parse(&text, "t").unwrap();
+            for t in [0.1, 0.5, 2.0, 7.0] {
+                let (alone, together) = (program.value(t), program.eval(t).0.value);
+                assert!(
+                    (alone - together).abs() <= 4.0 * f64::EPSILON * alone.abs(),
+                    "{text}: {alone} {together}"
+                );
+            }
+        }
     }
 
     #[test]

@@ -12,21 +12,87 @@ pub(super) struct Jet {
     pub bend: f64,
 }
 
-impl Jet {
-    pub fn constant(value: f64) -> Jet {
+/// What a formula can be evaluated with: numbers alone, or with derivatives.
+pub(super) trait Number:
+    Copy
+    + Default
+    + Neg<Output = Self>
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+{
+    fn constant(value: f64) -> Self;
+    fn variable(value: f64) -> Self;
+    fn value(self) -> f64;
+    fn pow(self, exponent: Self) -> Self;
+    fn apply(self, function: Smooth) -> Self;
+}
+
+/// A smooth function of numbers and of jets.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Smooth {
+    pub number: fn(f64) -> f64,
+    pub jet: fn(Jet) -> Jet,
+}
+
+impl Number for f64 {
+    fn constant(value: f64) -> f64 {
+        value
+    }
+
+    fn variable(value: f64) -> f64 {
+        value
+    }
+
+    fn value(self) -> f64 {
+        self
+    }
+
+    fn pow(self, exponent: f64) -> f64 {
+        self.powf(exponent)
+    }
+
+    fn apply(self, function: Smooth) -> f64 {
+        (function.number)(self)
+    }
+}
+
+impl Number for Jet {
+    fn constant(value: f64) -> Jet {
         Jet { value, rate: 0.0, bend: 0.0 }
     }
 
-    pub fn variable(value: f64) -> Jet {
+    fn variable(value: f64) -> Jet {
         Jet { value, rate: 1.0, bend: 0.0 }
     }
 
+    fn value(self) -> f64 {
+        self.value
+    }
+
+    /// A constant exponent leaves negative bases possible.
+    fn pow(self, exponent: Jet) -> Jet {
+        if !exponent.is_constant() {
+            return (exponent * self.ln()).exp();
+        }
+        let (x, n) = (self.value, exponent.value);
+        let term = |factor: f64, power: f64| if factor == 0.0 { 0.0 } else { factor * x.powf(power) };
+        self.chain(x.powf(n), term(n, n - 1.0), term(n * (n - 1.0), n - 2.0))
+    }
+
+    fn apply(self, function: Smooth) -> Jet {
+        (function.jet)(self)
+    }
+}
+
+impl Jet {
     fn is_constant(self) -> bool {
         self.rate == 0.0 && self.bend == 0.0
     }
 
     /// g of this jet from g, g′ and g″ at its value. A constant stays one where g′ is infinite.
-    pub fn apply(self, g: f64, slope: f64, bend: f64) -> Jet {
+    pub fn chain(self, g: f64, slope: f64, bend: f64) -> Jet {
         if self.is_constant() {
             return Jet::constant(g);
         }
@@ -36,24 +102,24 @@ impl Jet {
 
     pub fn sin(self) -> Jet {
         let (s, c) = self.value.sin_cos();
-        self.apply(s, c, -s)
+        self.chain(s, c, -s)
     }
 
     pub fn cos(self) -> Jet {
         let (s, c) = self.value.sin_cos();
-        self.apply(c, -s, -c)
+        self.chain(c, -s, -c)
     }
 
     pub fn tan(self) -> Jet {
         let y = self.value.tan();
         let slope = 1.0 + y * y;
-        self.apply(y, slope, 2.0 * y * slope)
+        self.chain(y, slope, 2.0 * y * slope)
     }
 
     pub fn asin(self) -> Jet {
         let x = self.value;
         let slope = 1.0 / ((1.0 - x) * (1.0 + x)).sqrt();
-        self.apply(x.asin(), slope, x * slope.powi(3))
+        self.chain(x.asin(), slope, x * slope.powi(3))
     }
 
     pub fn acos(self) -> Jet {
@@ -63,53 +129,43 @@ impl Jet {
 
     pub fn atan(self) -> Jet {
         let slope = 1.0 / (1.0 + self.value * self.value);
-        self.apply(self.value.atan(), slope, -2.0 * self.value * slope * slope)
+        self.chain(self.value.atan(), slope, -2.0 * self.value * slope * slope)
     }
 
     pub fn sinh(self) -> Jet {
         let (s, c) = (self.value.sinh(), self.value.cosh());
-        self.apply(s, c, s)
+        self.chain(s, c, s)
     }
 
     pub fn cosh(self) -> Jet {
         let (s, c) = (self.value.sinh(), self.value.cosh());
-        self.apply(c, s, c)
+        self.chain(c, s, c)
     }
 
     pub fn tanh(self) -> Jet {
         let y = self.value.tanh();
         let slope = (1.0 - y) * (1.0 + y);
-        self.apply(y, slope, -2.0 * y * slope)
+        self.chain(y, slope, -2.0 * y * slope)
     }
 
     pub fn exp(self) -> Jet {
         let y = self.value.exp();
-        self.apply(y, y, y)
+        self.chain(y, y, y)
     }
 
     pub fn ln(self) -> Jet {
         let slope = 1.0 / self.value;
-        self.apply(self.value.ln(), slope, -slope * slope)
+        self.chain(self.value.ln(), slope, -slope * slope)
     }
 
     pub fn log10(self) -> Jet {
         let slope = std::f64::consts::LOG10_E / self.value;
-        self.apply(self.value.log10(), slope, -slope / self.value)
+        self.chain(self.value.log10(), slope, -slope / self.value)
     }
 
     pub fn sqrt(self) -> Jet {
         let y = self.value.sqrt();
-        self.apply(y, 0.5 / y, -0.25 / (y * self.value))
-    }
-
-    /// self ^ exponent; a constant exponent leaves negative bases possible.
-    pub fn pow(self, exponent: Jet) -> Jet {
-        if !exponent.is_constant() {
-            return (exponent * self.ln()).exp();
-        }
-        let (x, n) = (self.value, exponent.value);
-        let term = |factor: f64, power: f64| if factor == 0.0 { 0.0 } else { factor * x.powf(power) };
-        self.apply(x.powf(n), term(n, n - 1.0), term(n * (n - 1.0), n - 2.0))
+        self.chain(y, 0.5 / y, -0.25 / (y * self.value))
     }
 }
 

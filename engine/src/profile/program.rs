@@ -12,7 +12,7 @@
 //! ```
 
 use super::ProfileError;
-use super::jet::Jet;
+use super::jet::{Jet, Number, Smooth};
 
 /// Most values that may wait on the stack.
 const DEPTH: usize = 48;
@@ -21,7 +21,7 @@ const DEPTH: usize = 48;
 enum Op {
     Number(f64),
     Variable,
-    Smooth(fn(Jet) -> Jet),
+    Smooth(Smooth),
     Neg,
     Add,
     Sub,
@@ -42,24 +42,56 @@ enum Op {
     If,
 }
 
+impl Op {
+    /// Number of values it takes from the stack.
+    fn arguments(&self) -> usize {
+        match self {
+            Op::Number(_) | Op::Variable => 0,
+            Op::If => 3,
+            Op::Smooth(_) | Op::Neg | Op::Abs | Op::Sign | Op::Step | Op::Floor => 1,
+            _ => 2,
+        }
+    }
+}
+
+/// The operations with those on numbers alone carried out.
+fn folded(ops: Vec<Op>) -> Vec<Op> {
+    let mut out: Vec<Op> = Vec::with_capacity(ops.len());
+    for op in ops {
+        let arguments = op.arguments();
+        out.push(op);
+        let first = out.len() - 1 - arguments;
+        let constant = out[first..first + arguments].iter().all(|a| matches!(a, Op::Number(_)));
+        if arguments > 0 && constant && !matches!(op, Op::Swap) {
+            let value = Program { ops: out.split_off(first) }.value(0.0);
+            out.push(Op::Number(value));
+        }
+    }
+    out
+}
+
 const CONSTANTS: [(&str, f64); 3] =
     [("pi", std::f64::consts::PI), ("tau", std::f64::consts::TAU), ("e", std::f64::consts::E)];
 
+const fn smooth(number: fn(f64) -> f64, jet: fn(Jet) -> Jet) -> Op {
+    Op::Smooth(Smooth { number, jet })
+}
+
 /// Name, number of arguments, operation.
 const FUNCTIONS: [(&str, usize, Op); 20] = [
-    ("sin", 1, Op::Smooth(Jet::sin)),
-    ("cos", 1, Op::Smooth(Jet::cos)),
-    ("tan", 1, Op::Smooth(Jet::tan)),
-    ("asin", 1, Op::Smooth(Jet::asin)),
-    ("acos", 1, Op::Smooth(Jet::acos)),
-    ("atan", 1, Op::Smooth(Jet::atan)),
-    ("sinh", 1, Op::Smooth(Jet::sinh)),
-    ("cosh", 1, Op::Smooth(Jet::cosh)),
-    ("tanh", 1, Op::Smooth(Jet::tanh)),
-    ("exp", 1, Op::Smooth(Jet::exp)),
-    ("ln", 1, Op::Smooth(Jet::ln)),
-    ("log10", 1, Op::Smooth(Jet::log10)),
-    ("sqrt", 1, Op::Smooth(Jet::sqrt)),
+    ("sin", 1, smooth(f64::sin, Jet::sin)),
+    ("cos", 1, smooth(f64::cos, Jet::cos)),
+    ("tan", 1, smooth(f64::tan, Jet::tan)),
+    ("asin", 1, smooth(f64::asin, Jet::asin)),
+    ("acos", 1, smooth(f64::acos, Jet::acos)),
+    ("atan", 1, smooth(f64::atan, Jet::atan)),
+    ("sinh", 1, smooth(f64::sinh, Jet::sinh)),
+    ("cosh", 1, smooth(f64::cosh, Jet::cosh)),
+    ("tanh", 1, smooth(f64::tanh, Jet::tanh)),
+    ("exp", 1, smooth(f64::exp, Jet::exp)),
+    ("ln", 1, smooth(f64::ln, Jet::ln)),
+    ("log10", 1, smooth(f64::log10, Jet::log10)),
+    ("sqrt", 1, smooth(f64::sqrt, Jet::sqrt)),
     ("abs", 1, Op::Abs),
     ("sign", 1, Op::Sign),
     ("step", 1, Op::Step),
@@ -88,7 +120,7 @@ impl Program {
             Ok(()) if program.depth() > DEPTH => {
                 format!("more than {DEPTH} values wait on each other; split it")
             }
-            Ok(()) => return Ok(program),
+            Ok(()) => return Ok(Program { ops: folded(program.ops) }),
             Err(fault) => fault,
         };
         Err(ProfileError::Expression { text: text.into(), offset: parser.at, fault })
@@ -111,26 +143,30 @@ impl Program {
         most
     }
 
+    /// Value at `x`.
+    pub fn value(&self, x: f64) -> f64 {
+        self.run(x, |_| {})
+    }
+
     /// Value and derivatives at `x`, and a number that changes when any comparison, sign, floor, minimum
     /// or maximum is decided differently.
     pub fn eval(&self, x: f64) -> (Jet, u64) {
-        let mut stack = [Jet::default(); DEPTH];
-        let (mut top, mut branch) = (0_usize, 0xcbf2_9ce4_8422_2325_u64);
-        let mut decide = |what: u64| branch = (branch ^ what).wrapping_mul(0x0000_0100_0000_01b3);
+        let mut branch = 0xcbf2_9ce4_8422_2325_u64;
+        let jet = self.run(x, |what: u64| branch = (branch ^ what).wrapping_mul(0x0000_0100_0000_01b3));
+        (jet, branch)
+    }
+
+    fn run<N: Number>(&self, x: f64, mut decide: impl FnMut(u64)) -> N {
+        let mut stack = [N::default(); DEPTH];
+        let mut top = 0_usize;
         for op in &self.ops {
-            let arguments = match op {
-                Op::Number(_) | Op::Variable => 0,
-                Op::If => 3,
-                Op::Smooth(_) | Op::Neg | Op::Abs | Op::Sign | Op::Step | Op::Floor => 1,
-                _ => 2,
-            };
-            let base = top - arguments;
+            let base = top - op.arguments();
             let a = stack[base];
             let b = stack[(base + 1).min(DEPTH - 1)];
             let result = match *op {
-                Op::Number(value) => Jet::constant(value),
-                Op::Variable => Jet::variable(x),
-                Op::Smooth(function) => function(a),
+                Op::Number(value) => N::constant(value),
+                Op::Variable => N::variable(x),
+                Op::Smooth(function) => a.apply(function),
                 Op::Neg => -a,
                 Op::Add => a + b,
                 Op::Sub => a - b,
@@ -142,43 +178,43 @@ impl Program {
                     continue;
                 }
                 Op::Less { or_equal } => {
-                    let holds = if or_equal { a.value <= b.value } else { a.value < b.value };
+                    let holds = if or_equal { a.value() <= b.value() } else { a.value() < b.value() };
                     decide(holds.into());
-                    Jet::constant(holds.into())
+                    N::constant(holds.into())
                 }
                 Op::Abs => {
-                    decide((a.value < 0.0).into());
-                    if a.value < 0.0 { -a } else { a }
+                    decide((a.value() < 0.0).into());
+                    if a.value() < 0.0 { -a } else { a }
                 }
                 Op::Sign => {
-                    decide((a.value < 0.0).into());
-                    Jet::constant(if a.value < 0.0 { -1.0 } else { 1.0 })
+                    decide((a.value() < 0.0).into());
+                    N::constant(if a.value() < 0.0 { -1.0 } else { 1.0 })
                 }
                 Op::Step => {
-                    decide((a.value < 0.0).into());
-                    Jet::constant(if a.value < 0.0 { 0.0 } else { 1.0 })
+                    decide((a.value() < 0.0).into());
+                    N::constant(if a.value() < 0.0 { 0.0 } else { 1.0 })
                 }
                 Op::Floor => {
-                    decide(a.value.floor().to_bits());
-                    Jet::constant(a.value.floor())
+                    decide(a.value().floor().to_bits());
+                    N::constant(a.value().floor())
                 }
                 Op::Min => {
-                    decide((b.value < a.value).into());
-                    if b.value < a.value { b } else { a }
+                    decide((b.value() < a.value()).into());
+                    if b.value() < a.value() { b } else { a }
                 }
                 Op::Max => {
-                    decide((b.value > a.value).into());
-                    if b.value > a.value { b } else { a }
+                    decide((b.value() > a.value()).into());
+                    if b.value() > a.value() { b } else { a }
                 }
                 Op::If => {
-                    decide((a.value != 0.0).into());
-                    if a.value != 0.0 { b } else { stack[base + 2] }
+                    decide((a.value() != 0.0).into());
+                    if a.value() != 0.0 { b } else { stack[base + 2] }
                 }
             };
             stack[base] = result;
             top = base + 1;
         }
-        (stack[0], branch)
+        stack[0]
     }
 }
 
