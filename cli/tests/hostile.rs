@@ -211,7 +211,7 @@ fn files_that_may_not_grow_end_with_2_and_the_former_results_stay() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_full_disk_ends_with_2_and_the_former_results_stay() {
+fn a_full_disk_ends_with_2_a_read_only_one_with_1_and_the_former_results_stay() {
     let folder = folder();
     // A disk that holds two sets of small results and not a large one, in a name space of its own.
     let script = r#"
@@ -223,6 +223,8 @@ fn a_full_disk_ends_with_2_and_the_former_results_stay() {
         diff -r disk/out before >&2 || exit 71
         ls -A disk/out | grep '^\.' >&2 && exit 72
         "$1" run case.toml -o disk/out --force --set "$set" >/dev/null || exit 73
+        mount -o remount,ro disk || exit $code
+        "$1" run case.toml -o disk/out --force 2>>message; [ $? = 1 ] || exit 74
         exit $code
     "#;
     let spaces = ["unshare", "--user", "--map-root-user", "--mount", "sh", "-c", script, "sh"];
@@ -236,12 +238,13 @@ fn a_full_disk_ends_with_2_and_the_former_results_stay() {
         return;
     };
     let message = std::fs::read_to_string(folder.path().join("message")).unwrap_or_default();
-    if message.is_empty() && !matches!(output.status.code(), Some(70..=73)) {
+    if message.is_empty() && !matches!(output.status.code(), Some(70..=74)) {
         println!("left out: no file system can be mounted here: {}", text(&output.stderr));
         return;
     }
     assert_eq!(output.status.code(), Some(2), "{message}{}", text(&output.stderr));
     assert!(message.contains("disk/out") && message.contains("make room"), "{message}");
+    assert!(message.contains("this file system is read-only"), "{message}");
 }
 
 #[cfg(target_os = "linux")]

@@ -19,7 +19,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
 /// Cases of a usual run of the tests.
-const CASES: u64 = 12;
+const CASES: u64 = 40;
 
 /// What is compared, with the size below which nobody asks, in lengths of the beam or in radians.
 const COLUMNS: &[(&str, f64)] =
@@ -161,7 +161,7 @@ fn judge(drawn: &Drawn) -> (Verdict, String) {
     if !errors.warnings.is_empty() {
         return (Verdict::NotEstimated, errors.warnings.join("; "));
     }
-    let (mut beyond, mut largest) = (Vec::new(), 0.0_f64);
+    let mut beyond = Vec::new();
     for (k, finest) in REFERENCES.iter().enumerate() {
         let begun = Instant::now();
         let reference = match read(text, finest).and_then(|reading| run(&reading)) {
@@ -174,7 +174,7 @@ fn judge(drawn: &Drawn) -> (Verdict, String) {
             Status::Failed => return (Verdict::NoReference, reference.message.unwrap_or_default()),
         }
         beyond.clear();
-        largest = 0.0;
+        let mut largest = 0.0_f64;
         for (column, negligible) in COLUMNS {
             let Some(error) = errors.columns.iter().find(|error| error.column == *column) else { continue };
             let exact = reading.case.coupling == Coupling::Exact;
