@@ -7,14 +7,16 @@
 //!
 //! y is a column of the run; y_f the same of a companion with twice the elements (functions, nodes) and a more
 //! accurate integration; y_x of one that has the exact coupling as well, y_c of a third with half the elements of it
-//! and a less accurate integration: y_x − y_c covers the error of y_x, which need not be less than that of y_f. With errors of the mesh that fall like hᵖ the
-//! difference y − y_f is (1 − 2⁻ᵖ) of the error of y: S = 2 covers every order p ≥ 1, with half as much again in reserve
-//! for p ≥ 2. Vibration modes converge more slowly than that when the beam turns fast: S = 4. Half the step would not
-//! serve where vibrations are hardly resolved, for errors do not fall like hᵖ there. So `radau` runs all companions: those of
-//! its own runs with a tenth of their tolerance, which makes the error 18 times smaller (h ∼ tol^(1/4), error ∼ h⁵), or
-//! 6 times where only the stages' order counts (error ∼ h³). Those of fixed steps have the tolerances 10⁻⁵, 10⁻⁷ and 10⁻⁹ in turn,
-//! until two of them differ by half of what the run differs from the second: a coarse step needs no
-//! fine companion, which would follow every wave that the mesh can carry.
+//! and a less accurate integration: y_x − y_c covers the error of y_x, which need not be less than that of y_f. With
+//! errors of the mesh that fall like hᵖ the difference y − y_f is (1 − 2⁻ᵖ) of the error of y: S = 2 covers every order
+//! p ≥ 1, with half as much again in reserve for p ≥ 2. Vibration modes converge more slowly than that when the beam
+//! turns fast: S = 4.
+//!
+//! Half the step would not serve where vibrations are hardly resolved, for errors do not fall like hᵖ there. So `radau`
+//! runs all companions: those of its own runs with a tenth of their tolerance, which makes the error 18 times smaller
+//! (h ∼ tol^(1/4), error ∼ h⁵), or 6 times where only the stages' order counts (error ∼ h³). Those of fixed steps have
+//! the tolerances 10⁻⁵, 10⁻⁷ and 10⁻⁹ in turn, until two of them differ by half of what the run differs from the
+//! second: a coarse step needs no fine companion, which would follow every wave that the mesh can carry.
 //!
 //! An estimate, not a bound: a mesh or a step so coarse that the run and its companion miss the same thing shows
 //! nothing.
