@@ -68,7 +68,7 @@ enum Outcome {
     Finished,
     /// The case or the command line is wrong.
     Rejected,
-    /// A run ended early, and what was computed is kept; or runs differ too much.
+    /// A run ended early, and what was computed is kept; or runs differ too much; or not all could be printed.
     Incomplete,
 }
 
@@ -99,6 +99,7 @@ fn main() -> ExitCode {
         }
     };
     ExitCode::from(match outcome {
+        Outcome::Finished if screen::lost() => 2,
         Outcome::Finished => 0,
         Outcome::Rejected => 1,
         Outcome::Incomplete => 2,

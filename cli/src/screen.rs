@@ -1,11 +1,29 @@
 //! Writing to the terminal or to a pipe.
 
-use std::io::{IsTerminal, Write};
+use std::io::{ErrorKind, IsTerminal, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Writes to standard output; a reader that has gone away is no error.
+/// Whether something could not be written to standard output.
+static LOST: AtomicBool = AtomicBool::new(false);
+
+/// Writes to standard output; a reader that has gone away is no error. What cannot be written for another reason is
+/// complained about once, and [`lost`] tells of it.
 pub fn print(text: &str) {
     let mut out = std::io::stdout().lock();
-    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe && !LOST.swap(true, Ordering::Relaxed) => {
+            complain(&format!(
+                "error: cannot write to standard output: {error}; what was to be printed is incomplete: make room \
+                 where it is redirected to, or redirect it elsewhere\n"
+            ));
+        }
+        _ => {}
+    }
+}
+
+/// Whether something that was [printed](print) is lost.
+pub fn lost() -> bool {
+    LOST.load(Ordering::Relaxed)
 }
 
 /// Writes to standard error.

@@ -196,7 +196,7 @@ fn refusal(path: &Path) -> String {
 fn what_is_no_case_file_is_refused_with_the_reason() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path();
-    assert!(refusal(path).contains("case.toml: No such file"), "{}", refusal(path));
+    assert!(refusal(path).contains("holds no case.toml"), "{}", refusal(path));
     assert!(refusal(&path.join("missing.toml")).contains("or a folder that holds a case.toml"));
     std::fs::create_dir_all(path.join("nested/case.toml")).unwrap();
     assert!(refusal(&path.join("nested")).contains("is not a file"));

@@ -2,6 +2,7 @@
 
 use super::declaration::{Bound::*, Key, Kind, Presence as Default, Presence::Required, Seam, Type, key};
 use super::values::Values;
+use crate::basis::Field;
 
 /// The bases of both fields.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,6 +51,37 @@ pub enum Basis {
         /// Degree n.
         degree: usize,
     },
+}
+
+impl Bases {
+    /// Entries in the band of a tangent, about: a function that is not zero on a part s of the beam shares it with
+    /// s n of all n functions.
+    pub fn entries(&self) -> f64 {
+        let (axial, transverse) =
+            (self.axial.extent(Field::Axial), self.transverse.extent(Field::Transverse));
+        let functions = axial.0 + transverse.0;
+        functions * (functions * axial.1.max(transverse.1)).min(functions)
+    }
+}
+
+impl Basis {
+    /// Number of functions, about, and the part of the beam on which each of them is not zero.
+    fn extent(&self, field: Field) -> (f64, f64) {
+        match *self {
+            Basis::FiniteElements { elements, axial_degree } => {
+                let each = if field == Field::Axial { axial_degree } else { 2 };
+                ((elements * each) as f64, 2.0 / elements as f64)
+            }
+            Basis::Modes { count } => (count as f64, 1.0),
+            Basis::Radial(RadialBasis { nodes, support, .. }) | Basis::Polynomial { nodes, support } => {
+                (2.0 * nodes as f64, 2.0 * (support + 1.0) / nodes as f64)
+            }
+            Basis::BSpline { elements, degree } => {
+                ((elements + degree) as f64, (degree + 1) as f64 / elements as f64)
+            }
+            Basis::Bezier { elements, degree } => ((elements * degree) as f64, 2.0 / elements as f64),
+        }
+    }
 }
 
 /// Parameters of radial point interpolation with multiquadrics (r² + (α_c d_c)²)^q.

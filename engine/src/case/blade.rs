@@ -127,7 +127,7 @@ pub(super) static KEYS: &[Key] = &[
         Default::Number(0.3),
         "Poisson's ratio, for the torsional stiffness of a section of one material",
     ),
-    key("elements", Type::Integer(1, 1_000_000), Default::Integer(40), "number of equal elements"),
+    key("elements", Type::Integer(1, 100_000), Default::Integer(40), "number of equal elements"),
 ];
 
 /// Reads the blade.

@@ -19,6 +19,7 @@ pub mod units;
 mod basis;
 mod blade;
 mod blade_file;
+mod elsewhere;
 mod integrator;
 mod layout;
 mod load_build;
@@ -220,14 +221,23 @@ pub fn parse(text: String, file: &Path, overrides: &[String]) -> Result<Reading,
 /// The text of a file, or what is wrong with it and what to do.
 fn load(file: &Path) -> Result<String, (String, Option<String>)> {
     let name = file.display();
+    let help = || Some("a case is a TOML file, or a folder that holds a case.toml".to_owned());
     let failed = |error: std::io::Error| {
-        let help = (error.kind() == std::io::ErrorKind::NotFound)
-            .then(|| "a case is a TOML file, or a folder that holds a case.toml".to_owned());
-        (format!("cannot read {name}: {error}"), help)
+        let folder = file.parent().filter(|folder| file.ends_with("case.toml") && folder.is_dir());
+        match (error.kind() == std::io::ErrorKind::NotFound, folder) {
+            (true, Some(folder)) if !folder.as_os_str().is_empty() => {
+                (format!("the folder {} holds no case.toml", folder.display()), help())
+            }
+            (true, _) => (format!("cannot read {name}: {error}"), help()),
+            (false, _) => (format!("cannot read {name}: {error}"), None),
+        }
     };
     let metadata = std::fs::metadata(file).map_err(failed)?;
+    if metadata.is_dir() {
+        return Err((format!("{name} is not a file but a folder"), help()));
+    }
     if !metadata.is_file() {
-        return Err((format!("{name} is not a file"), None));
+        return Err((format!("{name} is not a file but a pipe or a device"), help()));
     }
     // The size is checked on what is read: a file may grow, or have none until it is read.
     let mut bytes = Vec::new();

@@ -9,6 +9,20 @@ use std::ops::Range;
 /// Most problems that one report shows.
 const SHOWN: usize = 50;
 
+/// Characters that are shown of a message or an advice, and of a key: they may quote what was written, however long.
+const LONGEST: usize = 1500;
+const LONGEST_KEY: usize = 200;
+
+/// The text, or its beginning and its end if it is long.
+fn shortened(text: String, longest: usize) -> String {
+    if text.len() <= longest || text.chars().count() <= longest {
+        return text;
+    }
+    let (head, tail) = (longest * 2 / 3, longest / 3);
+    let end = text.char_indices().rev().nth(tail.saturating_sub(1)).map_or(0, |(at, _)| at);
+    text.chars().take(head).chain(" … ".chars()).chain(text[end..].chars()).collect()
+}
+
 /// A text that a case was read from: its file, or one `--set` argument.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Source {
@@ -54,7 +68,8 @@ pub struct Problem {
 impl Problem {
     /// A problem with `key` at `place`.
     pub fn new(key: impl Into<String>, place: Option<Place>, message: impl Into<String>) -> Problem {
-        Problem { message: message.into(), key: key.into(), place, ..Problem::default() }
+        let (message, key) = (shortened(message.into(), LONGEST), shortened(key.into(), LONGEST_KEY));
+        Problem { message, key, place, ..Problem::default() }
     }
 
     /// Adds a few words that stand under the caret.
@@ -65,7 +80,7 @@ impl Problem {
 
     /// Adds a line of advice.
     pub fn help(mut self, help: impl Into<String>) -> Problem {
-        self.help.push(help.into());
+        self.help.push(shortened(help.into(), LONGEST));
         self
     }
 }

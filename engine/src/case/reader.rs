@@ -1,6 +1,7 @@
 //! Reads the raw tree by the declarations: every problem is collected, nothing stops at the first.
 
 use super::declaration::{Bound, Key, Kind, Presence, Seam, Type, listed};
+use super::elsewhere;
 use super::problem::{Place, Problem, Problems};
 use super::tree::{Entry, Node, Raw};
 use super::units::{self, Measure};
@@ -82,7 +83,15 @@ fn unknown<'k>(
                 let owners = listed(owners.into_iter());
                 problem = problem
                     .help(format!("`{name}` is a key of {} {owners}, not of `{}`", seam.name, kind.name));
+                let laid_over = |entry: &&Entry| entry.key == "kind" && entry.node.place.source != 0;
+                if entry.place.source == 0 && entries.iter().any(|entry| laid_over(&entry)) {
+                    problem = problem.help(elsewhere::replacement(seam, kind, path, name));
+                }
+            } else if let Some(advice) = elsewhere::advice(name, path) {
+                problem = problem.help(advice);
             }
+        } else if let Some(advice) = elsewhere::advice(name, path) {
+            problem = problem.help(advice);
         }
         let allowed = listed(of.iter().map(|_| "kind").chain(keys.iter().map(|key| key.name)));
         problems.push(problem.help(format!("the keys here are {allowed}")));
@@ -130,8 +139,11 @@ fn expected(takes: &Type) -> String {
         Type::Text => "a text".to_owned(),
         Type::Path => "the path of a file, relative to the folder of the case".to_owned(),
         Type::Choice(seam) => format!("one of {}", seam.names()),
-        Type::Table(_) => "a table".to_owned(),
-        Type::Tables(_) => "a list of tables, each under a heading in double brackets".to_owned(),
+        Type::Table(keys) => format!("a table: its keys are {}", listed(keys.iter().map(|key| key.name))),
+        Type::Tables(keys) => format!(
+            "a list of tables, each under a heading in double brackets: their keys are {}",
+            listed(keys.iter().map(|key| key.name))
+        ),
         Type::Kind(_) => "a table with a `kind`".to_owned(),
     }
 }
@@ -198,7 +210,8 @@ fn value(key: &'static Key, node: &Node, path: &str, problems: &mut Problems) ->
                     }
                     other => {
                         let message = format!("{} is not a table", other.describe());
-                        problems.push(Problem::new(&path, Some(node.place.clone()), message));
+                        let problem = Problem::new(&path, Some(node.place.clone()), message);
+                        problems.push(problem.help(format!("`{}` takes {}", key.name, expected(&key.takes))));
                     }
                 }
             }

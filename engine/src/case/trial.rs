@@ -14,6 +14,9 @@ use super::values::{Values, join};
 use crate::basis::Field;
 use crate::profile::ProfileError;
 
+/// Largest matrices of a run: with its dozens of them it takes some 10 GB.
+const MOST_ENTRIES: f64 = 5e7;
+
 /// Tries the section on a beam of the given length [m], and cut into `elements` of the exact coupling.
 pub(super) fn section(
     case: Option<&Section>,
@@ -106,6 +109,15 @@ pub(super) fn motion(case: Option<&Motion>, duration: Option<f64>, values: &Valu
 /// Tries the bases of both fields on a beam of the given length [m].
 pub(super) fn bases(case: Option<&Bases>, length: Option<f64>, values: &Values, problems: &mut Problems) {
     let (Some(case), Some(length), Some((_, table))) = (case, length, values.kind("basis")) else { return };
+    let entries = case.entries();
+    if entries > MOST_ENTRIES {
+        let message = format!(
+            "a matrix of this basis has about {entries:.0e} entries, and a run needs some dozen of that size; at most \
+             {MOST_ENTRIES:.0e} are tried: take fewer or narrower functions"
+        );
+        problems.push(Problem::new("basis", values.place("basis"), message));
+        return;
+    }
     let refused = |basis: &Basis, field, key| {
         let Err(error) = build::basis(basis, length, field) else { return None };
         let mixed = table.kind(key).and_then(|(_, values)| values.place.clone());

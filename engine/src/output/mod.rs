@@ -3,6 +3,7 @@
 //! [`Directory`] owns the files of one run; [`write_run`] fills it. The other items turn a
 //! [`Trajectory`] into one format each and know nothing of directories.
 
+mod archive;
 mod artifact;
 mod compare;
 mod csv;

@@ -6,7 +6,7 @@ use npyz::WriterBuilder;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
-use super::Trajectory;
+use super::{Trajectory, archive};
 
 /// Writes a trajectory as a NumPy archive (NEP 1): one array of f64, shape (rows,), for each column,
 /// named `time` [s] and then by the channel, e.g. `numpy.load(path)["tip.deflection"]`.
@@ -16,12 +16,12 @@ use super::Trajectory;
 /// # Errors
 /// Whatever `to` returns; two channels of one name.
 pub fn write_npz(trajectory: &Trajectory, to: impl Write + Seek) -> io::Result<()> {
-    let mut archive = ZipWriter::new(to);
+    let mut archive = archive::archive(to);
     write_array(&mut archive, "time", trajectory.len(), trajectory.times().iter().copied())?;
     for (i, c) in trajectory.channels().iter().enumerate() {
         write_array(&mut archive, &c.name, trajectory.len(), trajectory.values(i))?;
     }
-    archive.finish()?.flush()
+    archive::finish(archive)
 }
 
 /// Writes one array of the archive.

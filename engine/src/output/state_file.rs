@@ -2,8 +2,9 @@
 
 use std::io::{self, Read, Seek, Write};
 
-use zip::{ZipArchive, ZipWriter};
+use zip::ZipArchive;
 
+use super::archive;
 use super::npz::write_array;
 use crate::integrator::Checkpoint;
 
@@ -19,12 +20,12 @@ const LARGEST: u64 = 1 << 32;
 /// # Errors
 /// Whatever `to` returns.
 pub fn write_state(checkpoint: &Checkpoint, text: &str, to: impl Write + Seek) -> io::Result<()> {
-    let mut archive = ZipWriter::new(to);
+    let mut archive = archive::archive(to);
     for (name, values) in checkpoint.entries() {
         write_array(&mut archive, name, values.len(), values.iter().copied())?;
     }
     write_array(&mut archive, MODEL, text.len(), text.bytes())?;
-    archive.finish()?.flush()
+    archive::finish(archive)
 }
 
 /// Reads what [`write_state`] wrote: the checkpoint and the text.

@@ -1,5 +1,6 @@
 //! Files of modes and of Campbell diagrams.
 
+use super::archive::{self, Latched};
 use super::npz::write_array;
 use super::plot::{Figure, campbell_figure, modes_figure};
 use super::{Artifact, Directory, OutputError, VERSION, resolved_case};
@@ -73,7 +74,7 @@ pub fn write_modes(
         Ok(())
     })?;
     directory.write(Artifact::ModesNpz, |f| {
-        let mut archive = ZipWriter::new(f);
+        let mut archive = archive::archive(f);
         let all = &modes.modes;
         column(&mut archive, "frequency", all.iter().map(|m| m.frequency() * unit.factor))?;
         column(&mut archive, "damping_ratio", all.iter().map(Mode::damping_ratio))?;
@@ -86,7 +87,7 @@ pub fn write_modes(
                 column(&mut archive, &of(&format!("{name}.imaginary")), u.map(|u| u.im))?;
             }
         }
-        archive.finish()?.flush()
+        archive::finish(archive)
     })?;
     let warnings = draw(
         directory,
@@ -141,7 +142,7 @@ pub fn write_campbell(
         Ok(())
     })?;
     directory.write(Artifact::CampbellNpz, |f| {
-        let mut archive = ZipWriter::new(f);
+        let mut archive = archive::archive(f);
         column(&mut archive, "speed", campbell.speeds.iter().map(|s| s * unit.factor))?;
         for branch in 0..count {
             let name = |of: &str| format!("mode{}.{of}", branch + 1);
@@ -149,7 +150,7 @@ pub fn write_campbell(
             column(&mut archive, &name("frequency"), speeds.clone().map(|&s| frequency(branch, s)))?;
             column(&mut archive, &name("damping_ratio"), speeds.map(|&s| damping(branch, s)))?;
         }
-        archive.finish()?.flush()
+        archive::finish(archive)
     })?;
     let figure = campbell_figure(campbell, revolutions, unit, title);
     let warnings = draw(directory, &figure, [Artifact::CampbellSvg, Artifact::CampbellPng])?;
@@ -207,7 +208,7 @@ fn mode_json(m: &Mode, unit: &Frequencies) -> Value {
 }
 
 fn column(
-    archive: &mut ZipWriter<&mut BufWriter<&mut File>>,
+    archive: &mut ZipWriter<Latched<&mut BufWriter<&mut File>>>,
     name: &str,
     values: impl Iterator<Item = f64> + Clone,
 ) -> io::Result<()> {

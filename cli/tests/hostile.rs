@@ -1,0 +1,310 @@
+//! Hostile conditions: nothing is lost, nothing is half-written, and the message says what to do.
+
+#![allow(clippy::unwrap_used)] // in helpers of tests
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+const SPIN_UP: &str = r#"
+title = "spin-up"
+[beam]
+length = "10 m"
+[section]
+kind = "uniform"
+modulus = "70 GPa"
+density = "3000 kg/m^3"
+area = "4 cm^2"
+second-moment = "2e-7 m^4"
+[hub]
+motion = { kind = "spin-up", speed = "4 rad/s", time = "15 s" }
+[basis]
+kind = "finite-elements"
+elements = 10
+[run]
+duration = "20 s"
+[output]
+step = "10 ms"
+"#;
+
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("case.toml"), SPIN_UP).unwrap();
+    folder
+}
+
+fn flexion(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_flexion")).args(arguments).current_dir(folder).output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+/// Exit code and message of a command that is refused quickly, without a panic.
+fn refused(folder: &Path, arguments: &[&str]) -> String {
+    let begun = Instant::now();
+    let output = flexion(folder, arguments);
+    let message = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{arguments:?}: {message}");
+    assert!(!message.contains("panicked") && message.len() < 20_000, "{arguments:?}: {message}");
+    assert!(begun.elapsed() < Duration::from_secs(60), "{arguments:?} took {:?}", begun.elapsed());
+    message
+}
+
+/// The visible files of a folder and what is in them.
+fn content(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+    let mut files: Vec<_> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.is_file())
+        .map(|path| (path.clone(), std::fs::read(&path).unwrap()))
+        .collect();
+    files.sort();
+    files
+}
+
+#[test]
+fn enormous_numbers_and_files_are_refused_with_their_place() {
+    let folder = folder();
+    let file = std::fs::File::create(folder.path().join("gigabyte.toml")).unwrap();
+    file.set_len(1 << 30).unwrap();
+    let message = refused(folder.path(), &["run", "gigabyte.toml"]);
+    assert!(message.contains("larger than 10 MB") && message.contains("a few kB"), "{message}");
+    // Close to the largest file that is read.
+    let digits = "9".repeat(9_000_000);
+    for (name, number, expected) in [
+        ("integer.toml", digits.clone(), "beam.length"),
+        ("text.toml", format!("\"{digits} m\""), "too large"),
+        ("unit.toml", format!("\"1 {}\"", "m".repeat(9_000_000)), "unit"),
+        ("exponent.toml", format!("1e{digits}"), "finite"),
+        ("key.toml", format!("1\n{} = 2", "m".repeat(9_000_000)), "unknown key"),
+        ("brackets.toml", "[".repeat(9_000_000), "TOML"),
+    ] {
+        let case = SPIN_UP.replace("length = \"10 m\"", &format!("length = {number}"));
+        std::fs::write(folder.path().join(name), case).unwrap();
+        let message = refused(folder.path(), &["check", name]);
+        assert!(message.contains(expected), "{name}: {message}");
+    }
+    // Whatever a run would need more memory for than there is.
+    for (set, expected) in [
+        ("output.step=1e-12", "records"),
+        ("integrator={kind='newmark',step=1e-30}", "steps"),
+        ("basis={kind='bezier',degree=20,elements=1000000}", "entries"),
+        ("basis={kind='b-spline',degree=15,elements=1000000}", "entries"),
+        (
+            "basis={kind='mixed',axial={kind='modes',count=100},transverse={kind='finite-elements',elements=1000000}}",
+            "entries",
+        ),
+        ("basis.elements=1000000000000", "from 1 to"),
+    ] {
+        let message = refused(folder.path(), &["check", "case.toml", "--set", set]);
+        assert!(message.contains(expected), "{set}: {message}");
+    }
+}
+
+#[test]
+fn what_is_no_case_is_refused_with_what_a_case_is() {
+    let folder = folder();
+    std::fs::create_dir_all(folder.path().join("empty")).unwrap();
+    std::fs::create_dir_all(folder.path().join("nested/case.toml")).unwrap();
+    std::fs::write(folder.path().join("picture.toml"), b"\x89PNG\r\n\x1a\n\0\0").unwrap();
+    for (case, expected) in [
+        ("empty", "the folder empty holds no case.toml"),
+        ("nested", "not a file but a folder"),
+        ("nested/case.toml", "holds no case.toml"),
+        ("missing.toml", "a folder that holds a case.toml"),
+        ("picture.toml", "not UTF-8"),
+    ] {
+        let message = refused(folder.path(), &["run", case]);
+        assert!(message.contains(expected), "{case}: {message}");
+    }
+    assert!(!folder.path().join("results").exists());
+}
+
+#[test]
+fn an_output_that_cannot_be_is_refused_before_anything_is_computed() {
+    let folder = folder();
+    std::fs::write(folder.path().join("taken"), "mine").unwrap();
+    // Too long to be computed: the refusal must come before.
+    let run = |output: &str| {
+        let set = "integrator={kind='newmark',step='0.1 us'}";
+        refused(folder.path(), &["run", "case.toml", "--force", "--set", set, "--output", output])
+    };
+    assert!(run("taken").contains("choose another output directory"));
+    assert!(run("taken/below").contains("part of the path is a file"));
+    let name = "x".repeat(300);
+    assert!(run(&name).contains("choose a shorter"), "{}", run(&name));
+    assert_eq!(std::fs::read_to_string(folder.path().join("taken")).unwrap(), "mine");
+    // Parents that are missing are made.
+    let output = flexion(folder.path(), &["run", "case.toml", "--output", "some/where/new"]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert!(folder.path().join("some/where/new/summary.json").is_file());
+    let output = flexion(folder.path(), &["plot", "some/where/new", "--output", "other/place/a.svg"]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    for (output, expected) in [("taken/a.svg", "part of the path is a file"), ("some", "svg")] {
+        let message = refused(folder.path(), &["plot", "some/where/new", "--force", "--output", output]);
+        assert!(message.contains(expected), "{output}: {message}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_read_only_directory_is_refused_before_anything_is_computed() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = folder();
+    let locked = folder.path().join("locked");
+    std::fs::create_dir(&locked).unwrap();
+    let permit = |mode| std::fs::set_permissions(&locked, std::fs::Permissions::from_mode(mode)).unwrap();
+    permit(0o555);
+    if std::fs::write(locked.join("probe"), "").is_ok() {
+        println!("left out: permissions do not bind this user");
+    } else {
+        for output in ["locked", "locked/below"] {
+            let message = refused(folder.path(), &["run", "case.toml", "--output", output]);
+            assert!(message.contains("locked") && message.contains("may write"), "{message}");
+        }
+    }
+    permit(0o755);
+    // Nobody can make files there.
+    if cfg!(target_os = "linux") {
+        let message = refused(folder.path(), &["run", "case.toml", "--output", "/proc/flexion"]);
+        assert!(message.contains("/proc/flexion") && message.contains("check the path"), "{message}");
+    }
+}
+
+/// Runs a script by `sh` with the program as `$1`.
+#[cfg(unix)]
+fn shell(folder: &Path, script: &str) -> Output {
+    Command::new("sh")
+        .args(["-c", script, "sh", env!("CARGO_BIN_EXE_flexion")])
+        .current_dir(folder)
+        .output()
+        .unwrap()
+}
+
+#[cfg(unix)]
+#[test]
+fn files_that_may_not_grow_end_with_2_and_the_former_results_stay() {
+    let folder = folder();
+    assert_eq!(flexion(folder.path(), &["run", "case.toml", "-o", "out"]).status.code(), Some(0));
+    let before = content(&folder.path().join("out"));
+    // 64 kB at most in any file, where the trajectory takes more.
+    let limited = |output: &str| {
+        shell(
+            folder.path(),
+            &format!("trap '' XFSZ; ulimit -f 128; exec \"$1\" run case.toml -o {output} --force"),
+        )
+    };
+    for output in ["out", "fresh"] {
+        let run = limited(output);
+        let message = text(&run.stderr);
+        assert_eq!(run.status.code(), Some(2), "{message}");
+        assert!(message.contains("trajectory") && message.contains("record less often"), "{message}");
+    }
+    assert!(content(&folder.path().join("out")) == before);
+    assert_eq!(content(&folder.path().join("fresh")), []);
+    assert_eq!(flexion(folder.path(), &["run", "case.toml", "-o", "out", "--force"]).status.code(), Some(0));
+    let names = |files: &[(PathBuf, Vec<u8>)]| files.iter().map(|file| file.0.clone()).collect::<Vec<_>>();
+    assert_eq!(names(&content(&folder.path().join("out"))), names(&before));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_ends_with_2_a_read_only_one_with_1_and_the_former_results_stay() {
+    let folder = folder();
+    // A disk that holds two sets of small results and not a large one, in a name space of its own.
+    let script = r#"
+        mkdir disk && mount -t tmpfs -o size=4m tmpfs disk 2>/dev/null || { echo "cannot mount"; exit 77; }
+        set='output.step=20 ms'
+        "$1" run case.toml -o disk/out --set "$set" >/dev/null || exit 70
+        cp -r disk/out before
+        "$1" run case.toml -o disk/out --force --set 'output.step=1 ms' 2>message; code=$?
+        diff -r disk/out before >&2 || exit 71
+        ls -A disk/out | grep '^\.' >&2 && exit 72
+        "$1" run case.toml -o disk/out --force --set "$set" >/dev/null || exit 73
+        mount -o remount,ro disk || exit $code
+        "$1" run case.toml -o disk/out --force 2>>message; [ $? = 1 ] || exit 74
+        exit $code
+    "#;
+    let spaces = ["unshare", "--user", "--map-root-user", "--mount", "sh", "-c", script, "sh"];
+    let output = Command::new(spaces[0])
+        .args(&spaces[1..])
+        .arg(env!("CARGO_BIN_EXE_flexion"))
+        .current_dir(folder.path())
+        .output();
+    let Ok(output) = output else {
+        println!("left out: there is no `unshare`");
+        return;
+    };
+    let message = std::fs::read_to_string(folder.path().join("message")).unwrap_or_default();
+    if message.is_empty() && !matches!(output.status.code(), Some(70..=74)) {
+        println!("left out: no file system can be mounted here: {}", text(&output.stderr));
+        return;
+    }
+    assert_eq!(output.status.code(), Some(2), "{message}{}", text(&output.stderr));
+    assert!(message.contains("disk/out") && message.contains("make room"), "{message}");
+    assert!(message.contains("this file system is read-only"), "{message}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn what_cannot_be_printed_is_no_success() {
+    let folder = folder();
+    for arguments in ["list", "schema", "new spin-up", "check case.toml", "man", "completions bash"] {
+        let output = shell(folder.path(), &format!("exec \"$1\" {arguments} >/dev/full"));
+        let message = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments}: {message}");
+        assert!(
+            message.contains("standard output") && message.contains("make room"),
+            "{arguments}: {message}"
+        );
+    }
+    // A reader that has seen enough is no error.
+    let output = shell(folder.path(), "\"$1\" schema | head -n 1; \"$1\" list | head -n 1");
+    assert!(output.status.success() && output.stderr.is_empty(), "{}", text(&output.stderr));
+}
+
+#[cfg(unix)]
+#[test]
+fn results_of_a_run_that_is_killed_at_any_moment_are_the_former_or_the_new_ones() {
+    let folder = folder();
+    let out = folder.path().join("out");
+    let run = |seconds: u32| {
+        let step = format!("output.step={} ms", 10 * seconds);
+        let mut command = Command::new(env!("CARGO_BIN_EXE_flexion"));
+        command.args(["run", "case.toml", "-o", "out", "--force", "--set", &step]);
+        command.current_dir(folder.path()).stdout(Stdio::null()).stderr(Stdio::null());
+        command
+    };
+    // Results of either kind, as they should be; timings differ from run to run.
+    let steady = |files: Vec<(PathBuf, Vec<u8>)>| -> Vec<(PathBuf, Vec<u8>)> {
+        files.into_iter().filter(|(path, _)| !path.ends_with("summary.json")).collect()
+    };
+    let begun = Instant::now();
+    assert!(run(2).status().unwrap().success());
+    let whole = begun.elapsed();
+    let second = steady(content(&out));
+    assert!(run(1).status().unwrap().success());
+    let first = steady(content(&out));
+    let kills: u32 = 24;
+    let mut replaced = 0;
+    for k in 0..kills {
+        let mut killed = run(2).spawn().unwrap();
+        std::thread::sleep(whole * (k + 1) / kills);
+        killed.kill().unwrap();
+        killed.wait().unwrap();
+        // Where a summary is, the results are whole: the former, or the new. Where files were just being moved,
+        // every command finishes that first.
+        if out.join("summary.json").exists() {
+            let found = steady(content(&out));
+            assert!(found == first || found == second, "killed after {k} of {kills} parts of a run");
+            replaced += u32::from(found == second);
+        }
+        let compared = flexion(folder.path(), &["compare", "out", "out", "--tolerance", "0"]);
+        assert_eq!(compared.status.code(), Some(0), "{k}: {}", text(&compared.stderr));
+        assert!(run(1).status().unwrap().success(), "the run after one that was killed");
+        assert!(steady(content(&out)) == first, "{k}");
+    }
+    println!("{replaced} of {kills} runs had replaced the results when they were killed");
+}
