@@ -85,7 +85,7 @@ impl Shares {
         self.named().into_iter().fold(("other", f64::NEG_INFINITY), best).0
     }
 
-    fn of(&mut self, direction: Direction) -> &mut f64 {
+    pub(super) fn of(&mut self, direction: Direction) -> &mut f64 {
         match direction {
             Direction::Axial => &mut self.axial,
             Direction::Chord => &mut self.chord,
@@ -310,9 +310,22 @@ fn mode(
     }
     let square = eigenvalue.norm_sqr();
     let rounding = if square > 0.0 { 0.5 * f64::EPSILON * energy / square } else { 0.0 };
-    let shape = shape(system, state, &vector, scale, stations);
-    let nodes = nodes(&shape);
-    Mode { eigenvalue, vector, residual, rounding, shares, shape, nodes }
+    let mut mode =
+        Mode { eigenvalue, vector, residual, rounding, shares, shape: Shape::default(), nodes: 0 };
+    describe(&mut mode, system, state, scale, stations);
+    mode
+}
+
+/// Gives a mode its displacements at the stations and its nodes.
+pub(super) fn describe(
+    mode: &mut Mode,
+    system: &mut dyn System,
+    state: &State,
+    scale: &[f64],
+    stations: &[f64],
+) {
+    mode.shape = shape(system, state, &mode.vector, scale, stations);
+    mode.nodes = nodes(&mode.shape);
 }
 
 /// Displacements of the stations: central differences of the frames.

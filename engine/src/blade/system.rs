@@ -225,13 +225,19 @@ impl System for Blade {
     }
 
     fn turn_steadily(&mut self, speed: f64) -> bool {
-        // From the undeformed blade, so that the state does not depend on the speeds before.
-        let former = (self.speed, std::mem::replace(&mut self.steady, vec![0.0; self.scratch.len()]));
-        self.speed = 0.0;
+        if self.lost.is_none() && self.speed == speed {
+            return true;
+        }
+        // From the present state, and if that leads nowhere from the undeformed blade.
         self.lost = self.set_speed(speed).err();
         if self.lost.is_some() {
-            (self.speed, self.steady) = former;
-            self.matrices.assemble(self.speed, &self.steady);
+            let former = (self.speed, std::mem::replace(&mut self.steady, vec![0.0; self.scratch.len()]));
+            self.speed = 0.0;
+            self.lost = self.set_speed(speed).err();
+            if self.lost.is_some() {
+                (self.speed, self.steady) = former;
+                self.matrices.assemble(self.speed, &self.steady);
+            }
         }
         true
     }
