@@ -117,8 +117,6 @@ fn followed(arguments: &Arguments, reading: &Reading) -> Result<(String, bool), 
     let named = format!("{}-campbell", arguments.case.name());
     let output = arguments.output.clone().unwrap_or_else(|| Path::new("results").join(named));
     let (steady, cautions) = vibration::without_loads_in_space(case);
-    // One system is built before the directory is touched.
-    vibration::system(&steady)?;
     let directory = Directory::for_campbell(&output, arguments.force).map_err(|error| error.to_string())?;
     let bar = ProgressBar::new(plan.speeds.len() as u64);
     if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos}/{len} speeds  {eta} left") {

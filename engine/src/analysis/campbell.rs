@@ -167,7 +167,8 @@ pub fn campbell(
     }
     let mut solved = Vec::with_capacity(speeds.len());
     let mut ended = None;
-    for result in solve_all(build, plan, progress)? {
+    let (results, mut worker) = solve_all(build, plan, progress)?;
+    for result in results {
         match result {
             Ok(one) => solved.push(one),
             Err(NoCampbell::Rotation(NoRotation::DoesNotTurn)) => return Err(NoRotation::DoesNotTurn.into()),
@@ -182,7 +183,6 @@ pub fn campbell(
         Some(reason) if solved.is_empty() => return Err(reason.into()),
         _ => {}
     }
-    let mut worker = Worker::new(build, plan)?;
     let (solved, matches) = refine(&mut worker, solved)?;
     let mut branches = follow(&solved, &matches, plan.count);
     let crossings = crossings(&mut worker, &solved, &branches, plan.revolutions);
@@ -200,12 +200,12 @@ pub fn campbell(
 
 type Results = Vec<Result<Solved, NoCampbell>>;
 
-/// The modes at all speeds, up to the first failure in each block.
-fn solve_all(
+/// The modes at all speeds, up to the first failure in each block, and one of those who found them.
+fn solve_all<'a>(
     build: &Build<'_>,
-    plan: &Plan,
+    plan: &'a Plan,
     progress: &(dyn Fn(usize) -> bool + Sync),
-) -> Result<Results, NoCampbell> {
+) -> Result<(Results, Worker<'a>), NoCampbell> {
     let blocks: Vec<&[f64]> = plan.speeds.chunks(BLOCK).collect();
     let threads = match plan.threads {
         0 => std::thread::available_parallelism().map_or(1, usize::from),
@@ -215,8 +215,7 @@ fn solve_all(
     // Nothing is computed beyond a block in which the rotation ends.
     let end = AtomicUsize::new(usize::MAX);
     let results: Vec<Mutex<Results>> = blocks.iter().map(|_| Mutex::new(Vec::new())).collect();
-    let work = || -> Result<(), NoCampbell> {
-        let mut worker = Worker::new(build, plan)?;
+    let work = |worker: &mut Worker<'_>| -> Result<(), NoCampbell> {
         loop {
             let number = next.fetch_add(1, Ordering::Relaxed);
             let (Some(block), Some(slot)) = (blocks.get(number), results.get(number)) else { return Ok(()) };
@@ -250,15 +249,18 @@ fn solve_all(
             }
         }
     };
+    let mut worker = Worker::new(build, plan)?;
+    let helper = || work(&mut Worker::new(build, plan)?);
     std::thread::scope(|scope| {
-        let others: Vec<_> = (1..threads.min(blocks.len())).map(|_| scope.spawn(work)).collect();
-        let mut outcome = work();
+        let others: Vec<_> = (1..threads.min(blocks.len())).map(|_| scope.spawn(helper)).collect();
+        let mut outcome = work(&mut worker);
         for other in others {
             outcome = outcome.and(other.join().unwrap_or(Err(NoCampbell::Stopped)));
         }
         outcome
     })?;
-    Ok(results.into_iter().flat_map(|slot| slot.into_inner().unwrap_or_default()).collect())
+    let results = results.into_iter().flat_map(|slot| slot.into_inner().unwrap_or_default()).collect();
+    Ok((results, worker))
 }
 
 /// Inserts speeds where a shape changes too much from one to the next; with the matches of each speed with the next.

@@ -18,17 +18,22 @@
 //! Source: A. Ruhe, *SIAM J. Numer. Anal.* 10 (1973) 674–689, doi:10.1137/0710059 (Newton's method on the vector,
 //! the Rayleigh functional).
 
-use super::modes::{Mode, Shares};
-use crate::linalg::{Band, Hermitian, Matrix, Storage};
+use super::modes::{Mode, RESIDUAL, Shares};
+use super::stiffness::stiffness;
+use crate::linalg::{Band, Double, Hermitian, Matrix, Storage};
 use crate::system::{Direction, State, System, Weights};
 use num_complex::Complex64;
 
 /// Iterations for a mode.
 const ITERATIONS: usize = 6;
-/// Residual of a pair that is accepted, besides its rounding.
-const RESIDUAL: f64 = 1e-9;
-/// Largest bound of the relative error of a frequency by the rounding of K in doubles.
+/// Residual of a pair that is accepted at once.
+const CONVERGED: f64 = 1e-8;
+/// Relative change of a frequency at which rounding lets it come no closer.
+const STANDING: f64 = 1e-12;
+/// Bound of the relative error of a frequency by the rounding of K in doubles beyond which it is corrected.
 const ROUNDING: f64 = 1e-8;
+/// That bound beyond which the vector is not good enough either.
+const ROUGH: f64 = 1e-5;
 /// Relative size at which an entry counts as zero.
 const NOUGHT: f64 = 1e-12;
 /// How far below the highest mode, relatively, others are counted.
@@ -152,6 +157,7 @@ impl Follower {
         for (origin, start) in starts.iter().enumerate() {
             found.push(self.mode(start, gyroscopic, origin)?);
         }
+        self.correct(system, state, &mut found);
         found.sort_by(|a, b| a.mode.frequency().total_cmp(&b.mode.frequency()));
         if found.iter().enumerate().any(|(i, f)| found[i + 1..].iter().any(|g| f.is_again(g))) {
             return None;
@@ -176,7 +182,33 @@ impl Follower {
         start: &[Complex64],
     ) -> Option<Found> {
         let gyroscopic = self.prepare(system, state)?;
-        self.mode(start, gyroscopic, 0)
+        let mut found = [self.mode(start, gyroscopic, 0)?];
+        self.correct(system, state, &mut found);
+        let [found] = found;
+        Some(found)
+    }
+
+    /// Frequencies that the rounding of K may have moved, from x* K x with K in wide numbers: right to the square of the
+    /// error of the vector. Nothing is to be gained where the model does not give the terms of K.
+    fn correct(&self, system: &mut dyn System, state: &State, found: &mut [Found]) {
+        if found.iter().all(|f| f.mode.rounding <= ROUNDING) {
+            return;
+        }
+        let (wide, true) = stiffness(system, state) else { return };
+        let Storage::Band(wide) = wide.storage() else { return };
+        let Some(c) = band(&self.damping) else { return };
+        for f in found.iter_mut().filter(|f| f.mode.rounding > ROUNDING) {
+            let part = |of: fn(&Complex64) -> f64| f.mode.vector[..self.band].iter().map(of).collect::<Vec<f64>>();
+            let x = [part(|z| z.re), part(|z| z.im)];
+            let energy = wide_energy(wide.band(), &x[0]) + wide_energy(wide.band(), &x[1]);
+            let mut cx = x.clone();
+            multiply(c, &x, &mut cx, false);
+            let frequency = root(-inner(&x, &cx).im, energy.value());
+            if frequency.is_finite() {
+                f.mode.eigenvalue.im = frequency;
+                f.mode.rounding = 0.0;
+            }
+        }
     }
 
     /// Takes the matrices of a state; whether there are gyroscopic forces. `None` for a system that is not
@@ -233,8 +265,9 @@ impl Follower {
             }
             let rounding = self.rounding(frequency)?;
             let residual = self.residual(frequency);
-            if residual <= RESIDUAL + 10.0 * rounding {
-                return (rounding <= ROUNDING)
+            let standing = (frequency / before - 1.0).abs() <= STANDING;
+            if residual <= CONVERGED || (standing && residual <= RESIDUAL) {
+                return (rounding <= ROUGH)
                     .then(|| self.found(frequency, residual, rounding, origin, start.len()));
             }
         }
@@ -270,7 +303,7 @@ impl Follower {
             cx.iter_mut().flatten().for_each(|x| *x = 0.0);
             0.0
         };
-        let root = 0.5 * (turning + (turning * turning + 4.0 * energy).sqrt());
+        let root = root(turning, energy);
         (root > 0.0 && root.is_finite()).then_some(root)
     }
 
@@ -340,6 +373,26 @@ impl Follower {
         };
         Found { mode, massed: turned(mx), origin }
     }
+}
+
+/// The positive ω with k + c ω − ω² = 0.
+fn root(c: f64, k: f64) -> f64 {
+    0.5 * (c + (c * c + 4.0 * k).sqrt())
+}
+
+/// xᵀ K x
+fn wide_energy(k: &Band<Double>, x: &[f64]) -> Double {
+    let (width, lower) = (k.width(), k.lower());
+    let mut energy = Double::ZERO;
+    for (i, row) in k.data().chunks_exact(width).enumerate() {
+        let reach = k.upper().min(x.len() - 1 - i);
+        let mut sum = row[lower] * (0.5 * x[i]).into();
+        for (a, x) in row[lower + 1..lower + 1 + reach].iter().zip(&x[i + 1..]) {
+            sum += *a * (*x).into();
+        }
+        energy += sum * (2.0 * x[i]).into();
+    }
+    energy
 }
 
 /// Sizes of the symmetric and of the antisymmetric part of a band, as their largest entries.

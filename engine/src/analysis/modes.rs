@@ -11,7 +11,7 @@ use crate::system::{Direction, Frame, State, System, Weights};
 use num_complex::Complex64;
 
 /// Residual above which a mode is refused.
-const RESIDUAL: f64 = 1e-7;
+pub(super) const RESIDUAL: f64 = 1e-7;
 /// A rigid motion has |λ| below this part of the lowest frequency of the held system.
 const RIGID: f64 = 1e-4;
 
