@@ -183,6 +183,7 @@ pub fn campbell(
         Some(reason) if solved.is_empty() => return Err(reason.into()),
         _ => {}
     }
+    worker.rest();
     let (solved, matches) = refine(&mut worker, solved)?;
     let mut branches = follow(&solved, &matches, plan.count);
     let crossings = crossings(&mut worker, &solved, &branches, plan.revolutions);

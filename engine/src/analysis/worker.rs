@@ -51,8 +51,9 @@ impl<'a> Worker<'a> {
         self.plan
     }
 
-    /// Begins anew from rest.
+    /// Begins anew from rest, whatever went before: the same speeds then give the same bytes.
     pub(super) fn rest(&mut self) {
+        self.system.turn_steadily(0.0);
         self.state = State::zeros(self.system.size(), 0.0);
         self.speed = 0.0;
     }
