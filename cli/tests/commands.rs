@@ -178,7 +178,8 @@ fn modes_and_campbell_write_whole_results_and_refuse_what_cannot_be() {
         assert!((a - b).abs() < 1e-9 * a.abs(), "{a} {b}");
     }
     // What is fixed in space turns against the hub: said, and left out.
-    let heavy = flexion(folder.path(), &["modes", "spin-up", "--speed", "4", "--set", "gravity.acceleration=9.81"]);
+    let heavy =
+        flexion(folder.path(), &["modes", "spin-up", "--speed", "4", "--set", "gravity.acceleration=9.81"]);
     let light = flexion(folder.path(), &["modes", "spin-up", "--speed", "4"]);
     assert!(text(&heavy.stderr).contains("without gravity"), "{}", text(&heavy.stderr));
     assert_eq!(text(&heavy.stdout), text(&light.stdout));

@@ -133,14 +133,7 @@ impl Follower {
             factor: Hermitian::new(order, half),
             directions: (0..n).map(|i| system.direction(i)).collect(),
             scale: system.labels().iter().map(|l| l.scale).collect(),
-            work: Work {
-                x: pair(),
-                mx: pair(),
-                cx: pair(),
-                kx: pair(),
-                r: pair(),
-                mr: vec![0.0; order],
-            },
+            work: Work { x: pair(), mx: pair(), cx: pair(), kx: pair(), r: pair(), mr: vec![0.0; order] },
         })
     }
 
@@ -198,7 +191,8 @@ impl Follower {
         let Storage::Band(wide) = wide.storage() else { return };
         let Some(c) = band(&self.damping) else { return };
         for f in found.iter_mut().filter(|f| f.mode.rounding > ROUNDING) {
-            let part = |of: fn(&Complex64) -> f64| f.mode.vector[..self.band].iter().map(of).collect::<Vec<f64>>();
+            let part =
+                |of: fn(&Complex64) -> f64| f.mode.vector[..self.band].iter().map(of).collect::<Vec<f64>>();
             let x = [part(|z| z.re), part(|z| z.im)];
             let energy = wide_energy(wide.band(), &x[0]) + wide_energy(wide.band(), &x[1]);
             let mut cx = x.clone();

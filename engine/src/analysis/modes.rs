@@ -115,6 +115,8 @@ pub struct Modes {
     /// Number of modes up to the last one as the inertia of K − ω² M + iω C counts them, where it can be
     /// counted: equal to the number of modes, or one was missed.
     pub counted: Option<usize>,
+    /// Number of solutions with the factored matrix that it took: their cost is linear in the unknowns.
+    pub solutions: usize,
 }
 
 /// Why there are no modes.
@@ -231,7 +233,7 @@ pub fn modes(
         }
         counted = below.map(|_| modes.len());
     }
-    Ok(Modes { modes, kind: pencil.kind(), counted })
+    Ok(Modes { modes, kind: pencil.kind(), counted, solutions: pencil.solutions() })
 }
 
 /// Whether two vectors are multiples of each other.
@@ -310,8 +312,7 @@ fn mode(
     }
     let square = eigenvalue.norm_sqr();
     let rounding = if square > 0.0 { 0.5 * f64::EPSILON * energy / square } else { 0.0 };
-    let mut mode =
-        Mode { eigenvalue, vector, residual, rounding, shares, shape: Shape::default(), nodes: 0 };
+    let mut mode = Mode { eigenvalue, vector, residual, rounding, shares, shape: Shape::default(), nodes: 0 };
     describe(&mut mode, system, state, scale, stations);
     mode
 }

@@ -28,6 +28,7 @@ pub struct Pencil {
     shift: f64,
     kind: Kind,
     wide: Vec<Double>,
+    solutions: usize,
 }
 
 /// Relative size at which an entry counts as zero.
@@ -62,6 +63,7 @@ impl Pencil {
             shift,
             kind: Kind::General,
             wide: vec![Double::ZERO; n],
+            solutions: 0,
         };
         pencil.kind = pencil.find_kind();
         Ok(pencil)
@@ -92,8 +94,14 @@ impl Pencil {
         self.kind
     }
 
+    /// Number of solutions with Q(σ) so far, each O(n).
+    pub fn solutions(&self) -> usize {
+        self.solutions
+    }
+
     /// b ← Q(σ)⁻¹ b, right to the rounding of the result.
     pub fn solve(&mut self, b: &mut [f64]) {
+        self.solutions += 1;
         for (wide, b) in self.wide.iter_mut().zip(b.iter()) {
             *wide = (*b).into();
         }
