@@ -21,7 +21,7 @@ fn stations() -> Vec<[f64; 4]> {
 
 /// EA, GJ and the polar moments of mass, which the table of ElastoDyn leaves out, as of a thin box.
 fn more([_, mass, flap, edge]: [f64; 4]) -> [f64; 4] {
-    [10.0 * flap.max(edge), 0.4 * (flap * edge).sqrt(), mass * 0.05, mass * 0.2]
+    [10.0 * flap.max(edge), 0.1 * (flap * edge).sqrt(), mass * 0.3, mass * 0.7]
 }
 
 fn elastodyn() -> String {
