@@ -23,7 +23,8 @@ pub struct Mode {
     /// Eigenvector x in the velocities of the system: modal mass xᴴ M x = 1, its largest entry (over the scale of its
     /// label) real and positive.
     pub vector: Vec<Complex64>,
-    /// |Q(σ)⁻¹ Q(λ) x| / |x|, with Q(λ) = λ² M + λ C + K: error of the pair, seen through the inverse.
+    /// |Q(σ)⁻¹ Q(λ) x| / |x|, with Q(λ) = λ² M + λ C + K: error of the pair, seen through the inverse; next to a divergence,
+    /// where K⁻¹ = Q(0)⁻¹ grows, that of Q(|λ|).
     pub residual: f64,
     /// Bound of the relative error of the frequency by the rounding of the entries of K in doubles, ½ ε |x|ᵀ|K||x| / |λ|².
     /// It matters for fine meshes in models that do not give the [terms](System::stiffness_terms) of K.
@@ -209,8 +210,11 @@ pub fn modes(
         if number > count {
             break;
         }
-        let mode =
+        let mut mode =
             mode(system, state, &pencil, (!in_terms).then_some(&rounded), pair, (&scale, rigid), stations);
+        if !(mode.residual <= RESIDUAL) && mode.eigenvalue.norm() > 0.0 {
+            mode.residual = pencil.residual_at_its_size(mode.eigenvalue, &mode.vector);
+        }
         // Written so that NaN is refused too. A defective rigid motion is known to half the digits.
         if !(mode.residual <= RESIDUAL) && mode.eigenvalue.norm() > 0.0 {
             let frequency = mode.eigenvalue.norm();

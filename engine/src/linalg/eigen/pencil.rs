@@ -242,6 +242,14 @@ impl Pencil {
             .collect())
     }
 
+    /// The residual of a pair seen through Q(|λ|) in the place of Q(σ). Where K is nearly singular, K⁻¹ magnifies by (λ/λ₁)²
+    /// what rounding leaves of the lowest mode in the others; the inverse of K + |λ|C + |λ|²M magnifies nothing. O(n).
+    pub fn residual_at_its_size(&self, value: Complex64, vector: &[Complex64]) -> f64 {
+        let [mass, damping] = [self.mass.clone(), self.damping.clone()];
+        let shifted = Pencil::new(mass, damping, self.stiffness.clone(), value.norm());
+        shifted.map_or(f64::NAN, |mut pencil| pencil.residual(value, vector))
+    }
+
     /// |x + Q(σ)⁻¹ (λ − σ)((λ + σ) M + C) x| / |x|, since Q(λ) = Q(σ) + (λ − σ)((λ + σ) M + C).
     fn residual(&mut self, value: Complex64, x: &[Complex64]) -> f64 {
         let n = x.len();
