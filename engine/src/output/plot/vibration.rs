@@ -100,9 +100,15 @@ pub fn campbell_figure(
             color: Some(1),
         });
     }
-    series.extend(instabilities(campbell, top, unit));
+    let marks = instabilities(campbell, top, unit);
+    // A line at the end of the curves stands clear of the frame.
+    let first = campbell.speeds.first().copied().unwrap_or(0.0) * unit.factor;
+    let begin = if revolutions > 0 { 0.0 } else { first };
+    let furthest = marks.iter().flat_map(|s| &s.points).map(|p| p.0).fold(last, f64::max);
+    let range = (furthest > last).then(|| (begin, begin + 1.04 * (furthest - begin)));
+    series.extend(marks);
     let panel = Panel {
-        x: Axis { tight: true, ..Axis::new("Speed Ω", unit.name) },
+        x: Axis { tight: true, range, ..Axis::new("Speed Ω", unit.name) },
         y: Axis {
             range: Some((0.0, if top > 0.0 { 1.06 * top } else { 1.0 })),
             ..Axis::new("Frequency ω", unit.name)
