@@ -19,3 +19,10 @@ for elements in "${@:-10}"; do
         echo "$1,$2,$elements,$(((twice - once) / steps))"
     done
 done
+# Ten modes of forty elements at one speed, and a speed of their Campbell diagram.
+for what in "first modes" "exact modes" "first campbell" "exact campbell"; do
+    set -- $what
+    once=$(instructions "$1" "$2" 40 $steps)
+    twice=$(instructions "$1" "$2" 40 $((2 * steps)))
+    echo "$1,$2,40,$(((twice - once) / steps))"
+done

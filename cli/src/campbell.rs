@@ -1,6 +1,6 @@
 //! `flexion campbell`: modes of vibration over a range of speeds.
 
-use crate::vibration::{self, Options, complain, stations, title};
+use crate::vibration::{self, Options, Speed, complain, speed, stations, title};
 use crate::{Outcome, case, screen};
 use flexion::analysis::campbell::{Campbell, Instability, NoCampbell, Plan, campbell as follow};
 use flexion::case::Reading;
@@ -13,16 +13,19 @@ use std::path::{Path, PathBuf};
 #[command(after_help = "Examples:
   flexion campbell verification/p1_spin_up_4 --speeds 0:20:41 --modes 4
   flexion campbell case.toml --speeds 0:600:100 --unit rpm --revolutions 6 --output results/campbell
+  flexion campbell case.toml --speeds '0 rpm:20 rpm:100' --unit Hz
 
-Speeds are written FROM:TO:NUMBER, ends included, or FROM:TO for 51 of them. The motion of the case is replaced by steady
+Speeds are written FROM:TO:NUMBER, ends included, or FROM:TO for 51 of them, in the unit of --unit or with units of their
+own. The motion of the case is replaced by steady
 rotation at each speed; the hub keeps its speed unless --free-hub is given. Modes are followed by their shapes
 through crossings and veerings; speeds are inserted where a shape changes fast.
 
-Exit codes: 0 finished, 1 case or command line rejected, 2 the beam buckles within the range, and what lies below is kept.")]
+Exit codes: 0 finished, 1 case or command line rejected, 2 no steady rotation was found within the range,
+and what lies below is kept. A divergence or a flutter within the range is a result.")]
 pub struct Arguments {
     #[command(flatten)]
     case: case::Selection,
-    /// Range of speeds, e.g. 0:50:100
+    /// Range of speeds, e.g. 0:50:100 or '0 rpm:20 rpm:100'
     #[arg(long, value_name = "FROM:TO:NUMBER", value_parser = range)]
     speeds: Range,
     /// Number of modes, the lowest at the first speed
@@ -47,8 +50,8 @@ pub struct Arguments {
 /// Speeds from, to, how many.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
-    from: f64,
-    to: f64,
+    from: Speed,
+    to: Speed,
     count: usize,
 }
 
@@ -57,22 +60,32 @@ const MOST: usize = 100_000;
 
 fn range(text: &str) -> Result<Range, String> {
     let parts: Vec<&str> = text.split(':').collect();
-    let number = |part: &str| part.trim().parse::<f64>().map_err(|_| format!("`{part}` is no number"));
     let (from, to, count) = match parts[..] {
-        [from, to] => (number(from)?, number(to)?, 51),
+        [from, to] => (speed(from)?, speed(to)?, 51),
         [from, to, count] => {
             let whole = count.trim().parse::<usize>();
-            (number(from)?, number(to)?, whole.map_err(|_| format!("`{count}` is no number of speeds"))?)
+            (speed(from)?, speed(to)?, whole.map_err(|_| format!("`{count}` is no number of speeds"))?)
         }
         _ => return Err("write FROM:TO:NUMBER, e.g. 0:50:100".to_owned()),
     };
-    if !(from.is_finite() && to.is_finite() && 0.0 <= from && from < to) {
-        return Err(format!("speeds ascend from at least zero, but {from} is followed by {to}"));
-    }
     if !(2..=MOST).contains(&count) {
         return Err(format!("there are from 2 to {MOST} speeds, not {count}"));
     }
     Ok(Range { from, to, count })
+}
+
+impl Range {
+    /// The speeds [rad/s].
+    fn speeds(&self, unit: &Frequencies) -> Result<Vec<f64>, String> {
+        let (from, to) = (self.from.in_radians(unit), self.to.in_radians(unit));
+        if !(from.is_finite() && to.is_finite() && 0.0 <= from && from < to) {
+            let (from, to) = (unit.text(from), unit.text(to));
+            return Err(format!("speeds ascend from at least zero, but {from} is followed by {to}"));
+        }
+        let last = self.count - 1;
+        let at = |i: usize| if i == last { to } else { from + (to - from) * i as f64 / last as f64 };
+        Ok((0..self.count).map(at).collect())
+    }
 }
 
 /// Follows the modes of a case.
@@ -93,10 +106,8 @@ pub fn campbell(arguments: &Arguments) -> Outcome {
 fn followed(arguments: &Arguments, reading: &Reading) -> Result<(String, bool), String> {
     let case = &reading.case;
     let unit = arguments.options.frequencies(case)?;
-    let Range { from, to, count } = arguments.speeds;
-    let at = |i: usize| if i + 1 == count { to } else { from + (to - from) * i as f64 / (count - 1) as f64 };
     let plan = Plan {
-        speeds: (0..count).map(|i| at(i) / unit.factor).collect(),
+        speeds: arguments.speeds.speeds(&unit)?,
         count: arguments.modes,
         stations: stations(case),
         hub: arguments.options.hub(case)?,
@@ -105,10 +116,9 @@ fn followed(arguments: &Arguments, reading: &Reading) -> Result<(String, bool), 
     };
     let named = format!("{}-campbell", arguments.case.name());
     let output = arguments.output.clone().unwrap_or_else(|| Path::new("results").join(named));
-    // One system is built before the directory is touched.
-    vibration::system(case)?;
+    let (steady, cautions) = vibration::without_loads_in_space(case);
     let directory = Directory::for_campbell(&output, arguments.force).map_err(|error| error.to_string())?;
-    let bar = ProgressBar::new(count as u64);
+    let bar = ProgressBar::new(plan.speeds.len() as u64);
     if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos}/{len} speeds  {eta} left") {
         bar.set_style(style);
     }
@@ -116,22 +126,28 @@ fn followed(arguments: &Arguments, reading: &Reading) -> Result<(String, bool), 
         bar.set_position(done as u64);
         true
     };
-    let diagram = follow(&|| vibration::system(case), &plan, &progress);
+    let diagram = follow(&|| vibration::system(&steady), &plan, &progress);
     bar.finish_and_clear();
     let diagram = diagram.map_err(|error: NoCampbell| {
         directory.discard();
         error.to_string()
     })?;
     let resolved = reading.resolved();
-    let written = write_campbell(&directory, &diagram, plan.revolutions, &unit, &resolved, title(reading));
+    let written =
+        write_campbell(&directory, &diagram, plan.revolutions, &unit, &resolved, title(reading), &cautions);
     written.map_err(|error| {
         directory.discard();
         error.to_string()
     })?;
     let mut whole = true;
+    cautions.iter().for_each(|caution| screen::complain(&format!("warning: {caution}\n")));
     for instability in &diagram.instabilities {
         match instability {
-            Instability::Divergence { reason, .. } => {
+            Instability::Divergence { speed, reason } => screen::complain(&format!(
+                "warning: divergence at {}: {reason}\nThe diagram ends there.\n",
+                unit.text(*speed)
+            )),
+            Instability::Lost { reason, .. } => {
                 whole = false;
                 screen::complain(&format!("error: {reason}\nWhat lies below is kept.\n"));
             }

@@ -1,11 +1,11 @@
 //! `flexion modes`: modes of vibration at one speed.
 
-use crate::vibration::{self, Options, complain, stations, title};
+use crate::vibration::{self, Options, Speed, complain, stations, title};
 use crate::{Outcome, case, screen};
 use flexion::analysis::campbell::HubState;
 use flexion::analysis::modes::{Mode, Modes, modes as find};
 use flexion::analysis::rotation::rotate_stably;
-use flexion::case::Reading;
+use flexion::case::{Case, Reading};
 use flexion::output::{Artifact, Directory, Frequencies, write_modes};
 use flexion::system::State;
 use std::path::PathBuf;
@@ -15,6 +15,7 @@ use std::path::PathBuf;
 #[command(after_help = "Examples:
   flexion modes verification/p1_spin_up_4 --speed 4 --count 6
   flexion modes case.toml --speed 300 --unit rpm --output results/modes
+  flexion modes case.toml --speed '12.1 rpm' --unit Hz
 
 The motion of the case is replaced by a steady rotation at the speed; the modes are those of small vibrations about its
 equilibrium. The hub keeps its speed unless --free-hub is given.
@@ -23,9 +24,9 @@ Exit codes: 0 finished, 1 case or command line rejected, or no stable rotation a
 pub struct Arguments {
     #[command(flatten)]
     case: case::Selection,
-    /// Speed of rotation
-    #[arg(long, value_name = "SPEED", default_value_t = 0.0, allow_negative_numbers = true)]
-    speed: f64,
+    /// Speed of rotation, a number of the unit or with a unit of its own: '12.1 rpm'
+    #[arg(long, value_name = "SPEED", default_value = "0", value_parser = vibration::speed, allow_negative_numbers = true)]
+    speed: Speed,
     /// Number of modes, the lowest
     #[arg(long, value_name = "N", default_value = "10", value_parser = vibration::count)]
     count: usize,
@@ -57,14 +58,17 @@ pub fn modes(arguments: &Arguments) -> Outcome {
 fn found(arguments: &Arguments, reading: &Reading) -> Result<String, String> {
     let case = &reading.case;
     let unit = arguments.options.frequencies(case)?;
-    let speed = arguments.speed / unit.factor;
+    let speed = arguments.speed.in_radians(&unit);
     if !(speed.is_finite() && speed >= 0.0) {
-        return Err(format!("the speed is {} and must be zero or positive", arguments.speed));
+        return Err(format!("the speed is {} and must be zero or positive", unit.text(speed)));
     }
     let hub = arguments.options.hub(case)?;
     let directory = arguments.output.as_ref().map(|path| Directory::for_modes(path, arguments.force));
     let directory = directory.transpose().map_err(|error| error.to_string())?;
-    let modes = compute(arguments, reading, speed, hub)?;
+    let (steady, cautions) =
+        if speed > 0.0 { vibration::without_loads_in_space(case) } else { (case.clone(), Vec::new()) };
+    let modes = compute(arguments, &steady, speed, hub)?;
+    cautions.iter().for_each(|caution| screen::complain(&format!("warning: {caution}\n")));
     let mut out = described(&modes, &unit, speed, hub);
     for (number, mode) in modes.modes.iter().enumerate().filter(|(_, mode)| mode.rounding > 1e-6) {
         screen::complain(&format!(
@@ -76,8 +80,15 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<String, String> {
     }
     if let Some(directory) = directory {
         let resolved = reading.resolved();
-        let written =
-            write_modes(&directory, (&modes, speed), &stations(case), &unit, &resolved, title(reading));
+        let written = write_modes(
+            &directory,
+            (&modes, speed),
+            &stations(case),
+            &unit,
+            &resolved,
+            title(reading),
+            &cautions,
+        );
         written.map_err(|error| {
             directory.discard();
             error.to_string()
@@ -88,16 +99,15 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<String, String> {
     Ok(out)
 }
 
-fn compute(arguments: &Arguments, reading: &Reading, speed: f64, hub: HubState) -> Result<Modes, String> {
-    let mut system = vibration::system(&reading.case)?;
+fn compute(arguments: &Arguments, case: &Case, speed: f64, hub: HubState) -> Result<Modes, String> {
+    let mut system = vibration::system(case)?;
     let mut state = State::zeros(system.size(), 0.0);
     rotate_stably(system.as_mut(), &mut state, 0.0, speed).map_err(|error| error.to_string())?;
     if hub == HubState::Free {
         system.hold(false);
         state.v = system.initial().v;
     }
-    find(system.as_mut(), &state, arguments.count, &stations(&reading.case))
-        .map_err(|error| error.to_string())
+    find(system.as_mut(), &state, arguments.count, &stations(case)).map_err(|error| error.to_string())
 }
 
 /// The table of modes.

@@ -2,7 +2,8 @@
 
 use crate::screen;
 use flexion::analysis::campbell::HubState;
-use flexion::case::{Case, Reading, build};
+use flexion::case::loads::Axes;
+use flexion::case::{Case, Reading, build, units};
 use flexion::hub_beam::Drive;
 use flexion::output::Frequencies;
 use flexion::system::System;
@@ -71,6 +72,62 @@ impl Options {
 /// What vibrates in a case: its blade, or else its hub–beam.
 pub fn system(case: &Case) -> Result<Box<dyn System>, String> {
     build::vibrating(case).map_err(|error| error.to_string())
+}
+
+/// The case without the loads that are fixed in space, and what is to be said about it. Seen from a hub that turns they
+/// change with every revolution: there are no modes about a state that is not steady. Their mean over a
+/// revolution is zero, and about that mean the modes are.
+pub fn without_loads_in_space(case: &Case) -> (Case, Vec<String>) {
+    let mut case = case.clone();
+    let loads = &mut case.loads;
+    let mut left_out = Vec::new();
+    if loads.gravity.take().is_some() {
+        left_out.push("gravity");
+    }
+    let before = loads.forces.len() + loads.distributed.len();
+    loads.forces.retain(|f| f.axes != Axes::Dead);
+    loads.distributed.retain(|d| d.axes != Axes::Dead);
+    if loads.forces.len() + loads.distributed.len() < before {
+        left_out.push("forces of fixed direction");
+    }
+    let caution = format!(
+        "without {}: seen from a hub that turns it changes with every revolution, a state that is not steady has no modes, \
+         and its mean over a revolution is zero",
+        left_out.join(" and ")
+    );
+    let cautions = if left_out.is_empty() { Vec::new() } else { vec![caution] };
+    (case, cautions)
+}
+
+/// A speed as written: `12.1 rpm`, or a number of the unit chosen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Speed {
+    /// A number of the unit chosen.
+    Plain(f64),
+    /// rad/s
+    Radians(f64),
+}
+
+impl Speed {
+    /// The speed in rad/s.
+    pub fn in_radians(self, unit: &Frequencies) -> f64 {
+        match self {
+            Speed::Plain(x) => x / unit.factor,
+            Speed::Radians(x) => x,
+        }
+    }
+}
+
+/// A speed from the command line.
+pub fn speed(text: &str) -> Result<Speed, String> {
+    let text = text.trim();
+    if let Ok(x) = text.parse::<f64>() {
+        return Ok(Speed::Plain(x));
+    }
+    match units::parse(text, &units::ANGULAR_SPEED) {
+        Ok(x) => Ok(Speed::Radians(x)),
+        Err(error) => Err(format!("`{text}` is no speed: {}; {}", error.message, error.help)),
+    }
 }
 
 /// Stations of the shapes: two hundred equal parts.

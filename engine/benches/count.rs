@@ -1,9 +1,13 @@
 //! `count COUPLING INTEGRATOR ELEMENTS STEPS`: so many steps of the spin-up, for `benches/count.sh`.
-//! With COUPLING = `solver`, so many factorisations and solutions.
+//! With COUPLING = `solver`, so many factorisations and solutions. With INTEGRATOR = `modes`, so often the ten lowest modes at
+//! 4 rad/s; with `campbell`, so many speeds up to that of a diagram of ten modes, on one thread.
 #![allow(missing_docs, clippy::unwrap_used)]
 
 mod spin_up;
 
+use flexion::analysis::campbell::{HubState, Plan, campbell};
+use flexion::analysis::modes::modes;
+use flexion::analysis::rotation::rotate;
 use std::hint::black_box;
 
 /// Twice the steps of `benches/count.sh`.
@@ -22,6 +26,23 @@ fn main() {
             a.solve(x);
         }
         black_box(copies);
+    } else if integrator == "modes" {
+        let mut system = spin_up::system(coupling, elements);
+        let mut state = system.initial();
+        rotate(system.as_mut(), &mut state, 0.0, 4.0).unwrap();
+        for _ in 0..steps {
+            black_box(modes(system.as_mut(), &state, 10, &[]).unwrap());
+        }
+    } else if integrator == "campbell" {
+        let plan = Plan {
+            speeds: (0..steps).map(|i| 4.0 * (i + 1) as f64 / steps as f64).collect(),
+            count: 10,
+            stations: Vec::new(),
+            hub: HubState::Held,
+            revolutions: 4,
+            threads: 1,
+        };
+        black_box(campbell(&|| Ok(spin_up::system(coupling, elements)), &plan, &|_| true).unwrap());
     } else {
         let mut run = spin_up::Run::new(coupling, elements, integrator);
         run.steps(steps);

@@ -1,9 +1,11 @@
 //! The cost of a step is linear in the number of elements: by counts, not by the clock.
-#![allow(missing_docs, clippy::unwrap_used)]
+#![allow(missing_docs, clippy::unwrap_used, clippy::print_stdout)]
 
 #[path = "../benches/spin_up/mod.rs"]
 mod spin_up;
 
+use flexion::analysis::modes::modes;
+use flexion::analysis::rotation::rotate;
 use flexion::basis::{Field, Hermite, Lagrange};
 use flexion::hub_beam::{Fields, Foreshortening, Hub, HubBeam, LinearCoupling};
 use flexion::integrator::{GeneralizedAlpha, Integrator};
@@ -49,6 +51,25 @@ fn the_iterations_of_a_step_do_not_grow_with_the_elements() {
             // One a step at most, and the mass matrix at the start.
             assert!(counters.factorizations <= counters.steps + 1, "{what}");
         }
+    }
+}
+
+/// The stiffness is a band and each solution linear in the elements: so is the cost of modes if the number of solutions
+/// does not grow with them. At rest the problem is symmetric, in rotation gyroscopic.
+#[test]
+fn the_solutions_that_ten_modes_take_do_not_grow_with_the_elements() {
+    for speed in [0.0, 4.0] {
+        let solutions = |elements: usize| {
+            let mut system = spin_up::system("first", elements);
+            let mut state = system.initial();
+            rotate(system.as_mut(), &mut state, 0.0, speed).unwrap();
+            let found = modes(system.as_mut(), &state, 10, &[]).unwrap();
+            assert_eq!(found.counted, Some(10), "{elements} elements at {speed} rad/s");
+            found.solutions
+        };
+        let counts = [50, 200, 800, 3200].map(solutions);
+        println!("{counts:?} solutions at {speed} rad/s");
+        assert!(counts.iter().all(|c| *c <= counts[0] + 4), "{counts:?}");
     }
 }
 

@@ -5,22 +5,21 @@
 //! cross and bend where they veer. Where a shape changes too much between two speeds, speeds are
 //! inserted until it does not.
 //!
-//! Speeds are cut into blocks of fixed length that threads share; within a block the equilibrium of the last speed
-//! begins the next. The result does not depend on the number of threads.
+//! Speeds are cut into blocks of fixed length that threads share; within a block the equilibrium and the modes of
+//! the last speeds begin the next, which the inertia of the system checks.
+//! The result does not depend on the number of threads.
 
-use super::modes::{Mode, Modes, NoModes, modes};
-use super::rotation::{NoRotation, rotate_stably};
-use super::stiffness::tangent;
-use super::tracking::{Tracker, match_shapes};
-use crate::linalg::Matrix;
-use crate::system::{State, System, Weights};
+use super::crossings::crossings;
+use super::modes::{Mode, NoModes};
+use super::rotation::NoRotation;
+use super::tracking::{Match, Tracker, match_shapes};
+use super::worker::{Solved, Worker};
+use crate::system::System;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// Speeds in a block.
-const BLOCK: usize = 8;
-/// Modes computed beyond those asked for, so that curves may cross the last one.
-const SPARE: usize = 4;
+const BLOCK: usize = 25;
 /// Halvings of an interval of speed in which a shape changes too much.
 const HALVINGS: u32 = 8;
 /// Damping ratio below which a motion grows.
@@ -33,7 +32,7 @@ pub struct Plan {
     pub speeds: Vec<f64>,
     /// Number of modes, the lowest at the first speed.
     pub count: usize,
-    /// Stations of the shapes \[m\].
+    /// Stations of the shapes \[m\], which the modes at the ends of a branch get.
     pub stations: Vec<f64>,
     /// Whether the hub keeps its speed, or is free to turn about it.
     pub hub: HubState,
@@ -93,9 +92,16 @@ pub enum Instability {
         /// First unstable speed.
         to: f64,
     },
-    /// The stiffness is exhausted at a speed: ω = 0 there, no steady rotation beyond.
+    /// The stiffness is exhausted at a speed: ω = 0 there, the steady rotation beyond is unstable.
     Divergence {
-        /// The critical speed [rad/s].
+        /// The critical speed [rad/s], to six digits.
+        speed: f64,
+        /// The whole story.
+        reason: String,
+    },
+    /// No steady rotation was found beyond a speed.
+    Lost {
+        /// Speed up to which it was followed [rad/s].
         speed: f64,
         /// The whole story.
         reason: String,
@@ -143,19 +149,11 @@ pub enum NoCampbell {
 /// Builds the system of the diagram, once a thread.
 pub type Build<'a> = dyn Fn() -> Result<Box<dyn System>, String> + Sync + 'a;
 
-/// Modes at one speed, with what the next one begins with.
-#[derive(Clone, Debug)]
-pub(super) struct Solved {
-    pub speed: f64,
-    pub modes: Modes,
-    pub mass: Matrix,
-    pub equilibrium: State,
-}
-
 /// Computes the diagram. `progress` is told how many of the speeds are done, and may break off by `false`.
 ///
 /// # Errors
-/// [`NoCampbell`]. A divergence beyond the first speed is no error: the diagram ends there and says so.
+/// [`NoCampbell`]. A divergence, or the end of steady rotation, beyond the first speed is no error: the diagram ends there and
+/// says so.
 pub fn campbell(
     build: &Build<'_>,
     plan: &Plan,
@@ -169,7 +167,8 @@ pub fn campbell(
     }
     let mut solved = Vec::with_capacity(speeds.len());
     let mut ended = None;
-    for result in solve_all(build, plan, progress)? {
+    let (results, mut worker) = solve_all(build, plan, progress)?;
+    for result in results {
         match result {
             Ok(one) => solved.push(one),
             Err(NoCampbell::Rotation(NoRotation::DoesNotTurn)) => return Err(NoRotation::DoesNotTurn.into()),
@@ -184,162 +183,126 @@ pub fn campbell(
         Some(reason) if solved.is_empty() => return Err(reason.into()),
         _ => {}
     }
-    let mut worker = Worker::new(build, plan)?;
-    let solved = refine(&mut worker, solved)?;
-    let branches = follow(&solved, plan.count);
-    let crossings = crossings(&branches, plan.revolutions);
+    worker.rest();
+    let (solved, matches) = refine(&mut worker, solved)?;
+    let mut branches = follow(&solved, &matches, plan.count);
+    let crossings = crossings(&mut worker, &solved, &branches, plan.revolutions);
+    worker.describe_ends(&solved, &mut branches);
     let mut instabilities = flutter(&branches);
-    if let Some(reason) = ended {
-        instabilities.push(Instability::Divergence { speed: reason.reached(), reason: reason.to_string() });
+    if let Some(ended) = ended {
+        let (speed, reason) = (ended.reached(), ended.to_string());
+        instabilities.push(match ended {
+            NoRotation::Buckled { .. } => Instability::Divergence { speed, reason },
+            _ => Instability::Lost { speed, reason },
+        });
     }
     Ok(Campbell { speeds: solved.iter().map(|s| s.speed).collect(), branches, crossings, instabilities })
 }
 
-/// A system of its own and its last equilibrium.
-struct Worker<'a> {
-    system: Box<dyn System>,
-    plan: &'a Plan,
-    state: State,
-    speed: f64,
-}
-
-impl<'a> Worker<'a> {
-    fn new(build: &Build<'_>, plan: &'a Plan) -> Result<Worker<'a>, NoCampbell> {
-        let system = build().map_err(NoCampbell::Build)?;
-        let state = State::zeros(system.size(), 0.0);
-        Ok(Worker { system, plan, state, speed: 0.0 })
-    }
-
-    /// Begins anew from rest.
-    fn rest(&mut self) {
-        self.state = State::zeros(self.system.size(), 0.0);
-        self.speed = 0.0;
-    }
-
-    fn solve(&mut self, speed: f64) -> Result<Solved, NoCampbell> {
-        let system = self.system.as_mut();
-        rotate_stably(system, &mut self.state, self.speed, speed)?;
-        self.speed = speed;
-        let mut state = self.state.clone();
-        if self.plan.hub == HubState::Free {
-            system.hold(false);
-            state.v = system.initial().v;
-        }
-        let count = (self.plan.count + SPARE).min(system.size().v);
-        let modes = modes(system, &state, count, &self.plan.stations)
-            .map_err(|source| NoCampbell::Modes { speed, source })?;
-        let mass = tangent(system, &state, Weights::new(1.0, 0.0, 0.0));
-        system.hold(true);
-        Ok(Solved { speed, modes, mass, equilibrium: self.state.clone() })
-    }
-}
-
 type Results = Vec<Result<Solved, NoCampbell>>;
 
-/// The modes at all speeds, up to the first failure in each block.
-fn solve_all(
+/// The modes at all speeds, up to the first failure in each block, and one of those who found them.
+fn solve_all<'a>(
     build: &Build<'_>,
-    plan: &Plan,
+    plan: &'a Plan,
     progress: &(dyn Fn(usize) -> bool + Sync),
-) -> Result<Results, NoCampbell> {
+) -> Result<(Results, Worker<'a>), NoCampbell> {
     let blocks: Vec<&[f64]> = plan.speeds.chunks(BLOCK).collect();
     let threads = match plan.threads {
         0 => std::thread::available_parallelism().map_or(1, usize::from),
         n => n,
     };
     let (next, done, stop) = (AtomicUsize::new(0), AtomicUsize::new(0), AtomicBool::new(false));
+    // Nothing is computed beyond a block in which the rotation ends.
+    let end = AtomicUsize::new(usize::MAX);
     let results: Vec<Mutex<Results>> = blocks.iter().map(|_| Mutex::new(Vec::new())).collect();
-    let work = || -> Result<(), NoCampbell> {
-        let mut worker = Worker::new(build, plan)?;
+    let work = |worker: &mut Worker<'_>| -> Result<(), NoCampbell> {
         loop {
             let number = next.fetch_add(1, Ordering::Relaxed);
             let (Some(block), Some(slot)) = (blocks.get(number), results.get(number)) else { return Ok(()) };
+            if end.load(Ordering::Relaxed) < number {
+                continue;
+            }
             worker.rest();
-            let mut out = Vec::with_capacity(block.len());
+            let mut out: Vec<Solved> = Vec::with_capacity(block.len());
+            let mut failure = None;
             for &speed in *block {
                 if stop.load(Ordering::Relaxed) {
                     return Err(NoCampbell::Stopped);
                 }
-                let result = worker.solve(speed);
-                let failed = result.is_err();
-                out.push(result);
+                let last = &out[out.len().saturating_sub(2)..];
+                let result = worker.solve(speed, last);
                 if !progress(1 + done.fetch_add(1, Ordering::Relaxed)) {
                     stop.store(true, Ordering::Relaxed);
                 }
-                if failed {
-                    break;
+                match result {
+                    Ok(solved) => out.push(solved),
+                    Err(why) => {
+                        failure = Some(Err(why));
+                        end.fetch_min(number, Ordering::Relaxed);
+                        break;
+                    }
                 }
             }
+            let out = out.into_iter().map(Ok).chain(failure).collect();
             if let Ok(mut slot) = slot.lock() {
                 *slot = out;
             }
         }
     };
+    let mut worker = Worker::new(build, plan)?;
+    let helper = || work(&mut Worker::new(build, plan)?);
     std::thread::scope(|scope| {
-        let others: Vec<_> = (1..threads.min(blocks.len())).map(|_| scope.spawn(work)).collect();
-        let mut outcome = work();
+        let others: Vec<_> = (1..threads.min(blocks.len())).map(|_| scope.spawn(helper)).collect();
+        let mut outcome = work(&mut worker);
         for other in others {
             outcome = outcome.and(other.join().unwrap_or(Err(NoCampbell::Stopped)));
         }
         outcome
     })?;
-    Ok(results.into_iter().flat_map(|slot| slot.into_inner().unwrap_or_default()).collect())
+    let results = results.into_iter().flat_map(|slot| slot.into_inner().unwrap_or_default()).collect();
+    Ok((results, worker))
 }
 
-/// Inserts speeds where a shape changes too much from one to the next.
-fn refine(worker: &mut Worker<'_>, solved: Vec<Solved>) -> Result<Vec<Solved>, NoCampbell> {
-    let count = worker.plan.count;
+/// Inserts speeds where a shape changes too much from one to the next; with the matches of each speed with the next.
+fn refine(
+    worker: &mut Worker<'_>,
+    solved: Vec<Solved>,
+) -> Result<(Vec<Solved>, Vec<Vec<Match>>), NoCampbell> {
+    let count = worker.plan().count;
     let mut out: Vec<Solved> = Vec::with_capacity(solved.len());
+    let mut all = Vec::with_capacity(solved.len());
     for next in solved {
-        if let Some(before) = out.last() {
-            let smallest = (next.speed - before.speed) * 0.5_f64.powi(HALVINGS as i32);
-            // Speeds still to be passed, the nearest last.
-            let mut ahead = vec![next];
-            while let (Some(from), Some(to)) = (out.last(), ahead.last()) {
-                let clear = match_shapes(from, to, count).iter().all(|m| m.is_clear());
-                if clear || to.speed - from.speed <= 1.5 * smallest {
-                    out.extend(ahead.pop());
-                } else {
-                    worker.state.copy_from(&from.equilibrium);
-                    worker.speed = from.speed;
-                    let middle = worker.solve(0.5 * (from.speed + to.speed))?;
-                    ahead.push(middle);
-                }
-            }
-        } else {
+        let Some(before) = out.last() else {
             out.push(next);
+            continue;
+        };
+        let smallest = (next.speed - before.speed) * 0.5_f64.powi(HALVINGS as i32);
+        // Speeds still to be passed, the nearest last.
+        let mut ahead = vec![next];
+        while let (Some(from), Some(to)) = (out.last(), ahead.last()) {
+            let matches = match_shapes(from, to);
+            let clear = matches.iter().take(count).all(|m| m.is_clear());
+            if clear || to.speed - from.speed <= 1.5 * smallest {
+                all.push(matches);
+                out.extend(ahead.pop());
+            } else {
+                let middle = 0.5 * (from.speed + to.speed);
+                worker.go_to(from);
+                ahead.push(worker.solve(middle, std::slice::from_ref(from))?);
+            }
         }
     }
-    Ok(out)
+    Ok((out, all))
 }
 
 /// The branches that begin as the lowest `count` modes.
-fn follow(solved: &[Solved], count: usize) -> Vec<Branch> {
+fn follow(solved: &[Solved], matches: &[Vec<Match>], count: usize) -> Vec<Branch> {
     let mut tracker = Tracker::new(solved.first(), count);
-    for pair in solved.windows(2) {
-        tracker.step(&pair[0], &pair[1]);
+    for (to, matches) in solved.iter().skip(1).zip(matches) {
+        tracker.step(matches, to);
     }
     tracker.branches
-}
-
-/// Crossings with ω = k Ω, between speeds by inverse interpolation of ω − k Ω.
-fn crossings(branches: &[Branch], revolutions: u32) -> Vec<Crossing> {
-    let mut out = Vec::new();
-    for (branch, b) in branches.iter().enumerate() {
-        for k in 1..=revolutions {
-            let above = |p: &Point| p.mode.frequency() - f64::from(k) * p.speed;
-            for w in b.points.windows(2) {
-                let (a, c) = (above(&w[0]), above(&w[1]));
-                // At rest the lines all begin: a rigid motion crosses none of them there.
-                if (a > 0.0) != (c > 0.0) && w[0].mode.frequency().max(w[1].mode.frequency()) > 0.0 {
-                    let speed = w[0].speed + (w[1].speed - w[0].speed) * a / (a - c);
-                    out.push(Crossing { branch, revolutions: k, speed });
-                }
-            }
-        }
-    }
-    out.sort_by(|a, b| a.speed.total_cmp(&b.speed));
-    out
 }
 
 /// Branches whose damping becomes negative.

@@ -70,6 +70,9 @@ pub fn equilibrium(system: &mut dyn System, state: &mut State) -> Result<Effort,
             for (r, start) in r.iter_mut().zip(&start) {
                 *r -= (1.0 - level) * start;
             }
+            if r.iter().all(|r| *r == 0.0) {
+                break;
+            }
             system.tangent(state, Weights::new(0.0, 0.0, 1.0), &mut tangent);
             if let Err(singular) = tangent.factor() {
                 failure = Some((singular.to_string(), singular.index));

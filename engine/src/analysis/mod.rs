@@ -2,12 +2,15 @@
 
 mod audit;
 pub mod campbell;
+mod crossings;
 pub mod equilibrium;
+mod follow;
 mod ledger;
 pub mod modes;
 pub mod rotation;
 mod stiffness;
 mod tracking;
 pub mod transient;
+mod worker;
 
 pub use ledger::Books;

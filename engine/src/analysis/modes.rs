@@ -11,7 +11,7 @@ use crate::system::{Direction, Frame, State, System, Weights};
 use num_complex::Complex64;
 
 /// Residual above which a mode is refused.
-const RESIDUAL: f64 = 1e-7;
+pub(super) const RESIDUAL: f64 = 1e-7;
 /// A rigid motion has |λ| below this part of the lowest frequency of the held system.
 const RIGID: f64 = 1e-4;
 
@@ -23,7 +23,8 @@ pub struct Mode {
     /// Eigenvector x in the velocities of the system: modal mass xᴴ M x = 1, its largest entry (over the scale of its
     /// label) real and positive.
     pub vector: Vec<Complex64>,
-    /// |Q(σ)⁻¹ Q(λ) x| / |x|, with Q(λ) = λ² M + λ C + K: error of the pair, seen through the inverse.
+    /// |Q(σ)⁻¹ Q(λ) x| / |x|, with Q(λ) = λ² M + λ C + K: error of the pair, seen through the inverse; next to a divergence,
+    /// where K⁻¹ = Q(0)⁻¹ grows, that of Q(|λ|).
     pub residual: f64,
     /// Bound of the relative error of the frequency by the rounding of the entries of K in doubles, ½ ε |x|ᵀ|K||x| / |λ|².
     /// It matters for fine meshes in models that do not give the [terms](System::stiffness_terms) of K.
@@ -85,7 +86,7 @@ impl Shares {
         self.named().into_iter().fold(("other", f64::NEG_INFINITY), best).0
     }
 
-    fn of(&mut self, direction: Direction) -> &mut f64 {
+    pub(super) fn of(&mut self, direction: Direction) -> &mut f64 {
         match direction {
             Direction::Axial => &mut self.axial,
             Direction::Chord => &mut self.chord,
@@ -115,6 +116,8 @@ pub struct Modes {
     /// Number of modes up to the last one as the inertia of K − ω² M + iω C counts them, where it can be
     /// counted: equal to the number of modes, or one was missed.
     pub counted: Option<usize>,
+    /// Number of solutions with the factored matrix that it took: their cost is linear in the unknowns.
+    pub solutions: usize,
 }
 
 /// Why there are no modes.
@@ -207,8 +210,11 @@ pub fn modes(
         if number > count {
             break;
         }
-        let mode =
+        let mut mode =
             mode(system, state, &pencil, (!in_terms).then_some(&rounded), pair, (&scale, rigid), stations);
+        if !(mode.residual <= RESIDUAL) && mode.eigenvalue.norm() > 0.0 {
+            mode.residual = pencil.residual_at_its_size(mode.eigenvalue, &mode.vector);
+        }
         // Written so that NaN is refused too. A defective rigid motion is known to half the digits.
         if !(mode.residual <= RESIDUAL) && mode.eigenvalue.norm() > 0.0 {
             let frequency = mode.eigenvalue.norm();
@@ -231,7 +237,7 @@ pub fn modes(
         }
         counted = below.map(|_| modes.len());
     }
-    Ok(Modes { modes, kind: pencil.kind(), counted })
+    Ok(Modes { modes, kind: pencil.kind(), counted, solutions: pencil.solutions() })
 }
 
 /// Whether two vectors are multiples of each other.
@@ -310,9 +316,21 @@ fn mode(
     }
     let square = eigenvalue.norm_sqr();
     let rounding = if square > 0.0 { 0.5 * f64::EPSILON * energy / square } else { 0.0 };
-    let shape = shape(system, state, &vector, scale, stations);
-    let nodes = nodes(&shape);
-    Mode { eigenvalue, vector, residual, rounding, shares, shape, nodes }
+    let mut mode = Mode { eigenvalue, vector, residual, rounding, shares, shape: Shape::default(), nodes: 0 };
+    describe(&mut mode, system, state, scale, stations);
+    mode
+}
+
+/// Gives a mode its displacements at the stations and its nodes.
+pub(super) fn describe(
+    mode: &mut Mode,
+    system: &mut dyn System,
+    state: &State,
+    scale: &[f64],
+    stations: &[f64],
+) {
+    mode.shape = shape(system, state, &mode.vector, scale, stations);
+    mode.nodes = nodes(&mode.shape);
 }
 
 /// Displacements of the stations: central differences of the frames.

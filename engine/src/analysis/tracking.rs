@@ -1,10 +1,13 @@
 //! Following modes by their shapes.
 
-use super::campbell::{Branch, Point, Solved};
-use num_complex::Complex64;
+use super::campbell::{Branch, Point};
+use super::follow::assurance;
+use super::worker::Solved;
 
 /// Assurance above which two shapes are taken for one mode.
 const CLEAR: f64 = 0.6;
+/// Assurance above which no other shape can be more like.
+const ORDERED: f64 = 0.9;
 
 /// The mode at the next speed that continues a mode.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,17 +26,16 @@ impl Match {
     }
 }
 
-/// For each of the lowest `count` modes at one speed, its continuation at the next: largest assurance first.
-pub(super) fn match_shapes(from: &Solved, to: &Solved, count: usize) -> Vec<Match> {
+/// For each mode at one speed, its continuation at the next: largest assurance first.
+pub(super) fn match_shapes(from: &Solved, to: &Solved) -> Vec<Match> {
     let pairs = assurances(from, to);
-    let n = from.modes.modes.len();
-    let mut matches = assign(&pairs, n, to.modes.modes.len());
-    let last = to.modes.modes.last().map_or(0.0, |m| m.eigenvalue.norm());
-    for (m, mode) in matches.iter_mut().zip(&from.modes.modes) {
+    let n = from.modes.len();
+    let mut matches = assign(&pairs, n, to.modes.len());
+    let last = to.modes.last().map_or(0.0, |m| m.eigenvalue.norm());
+    for (m, mode) in matches.iter_mut().zip(&from.modes) {
         // A mode that was within one part in ten of the last one may have left.
         m.edge = mode.eigenvalue.norm() > 0.9 * last;
     }
-    matches.truncate(count.min(n));
     matches
 }
 
@@ -52,30 +54,25 @@ fn assign(pairs: &[Vec<f64>], rows: usize, columns: usize) -> Vec<Match> {
     matches
 }
 
-/// |xᴴ M y|² of all pairs; the vectors have modal mass 1.
+/// Assurances of all pairs; the vectors have modal mass 1. Where the modes follow each other in the same order, which shows
+/// by the first look, the others are left at zero: a mode is like one other at most.
 fn assurances(from: &Solved, to: &Solved) -> Vec<Vec<f64>> {
-    let n = to.mass.order();
-    let (mut part, mut product) = (vec![0.0; n], vec![0.0; n]);
-    let mut times = |z: &[Complex64]| {
-        let mut out = vec![Complex64::ZERO; n];
-        for (of, unit) in [(0, Complex64::ONE), (1, Complex64::I)] {
-            for (p, z) in part.iter_mut().zip(z) {
-                *p = if of == 0 { z.re } else { z.im };
-            }
-            to.mass.multiply(&part, &mut product);
-            for (out, p) in out.iter_mut().zip(&product) {
-                *out += unit * p;
+    let (rows, columns) = (from.modes.len(), to.modes.len());
+    let of = |i: usize, j: usize| assurance(&from.modes[i].vector, &to.massed[j]);
+    let mut pairs = vec![vec![0.0; columns]; rows];
+    let mut in_order = true;
+    for k in 0..rows.min(columns) {
+        pairs[k][k] = of(k, k);
+        in_order &= pairs[k][k] > ORDERED;
+    }
+    if !in_order {
+        for (i, row) in pairs.iter_mut().enumerate() {
+            for (j, entry) in row.iter_mut().enumerate().filter(|(j, _)| *j != i) {
+                *entry = of(i, j);
             }
         }
-        out
-    };
-    let massed: Vec<Vec<Complex64>> = to.modes.modes.iter().map(|m| times(&m.vector)).collect();
-    let of = |x: &[Complex64]| {
-        let inner =
-            |y: &Vec<Complex64>| x.iter().zip(y).map(|(x, y)| x.conj() * y).sum::<Complex64>().norm_sqr();
-        massed.iter().map(inner).collect::<Vec<f64>>()
-    };
-    from.modes.modes.iter().map(|m| of(&m.vector)).collect()
+    }
+    pairs
 }
 
 /// Branches that grow speed by speed.
@@ -87,7 +84,7 @@ pub(super) struct Tracker {
 
 impl Tracker {
     pub(super) fn new(first: Option<&Solved>, count: usize) -> Tracker {
-        let modes = first.map_or(&[][..], |s| &s.modes.modes);
+        let modes = first.map_or(&[][..], |s| &s.modes);
         let speed = first.map_or(0.0, |s| s.speed);
         let branch =
             |mode: &_| Branch { points: vec![Point { speed, mode: Clone::clone(mode), assurance: 1.0 }] };
@@ -95,8 +92,8 @@ impl Tracker {
         Tracker { at: (0..branches.len()).map(Some).collect(), branches }
     }
 
-    pub(super) fn step(&mut self, from: &Solved, to: &Solved) {
-        let matches = match_shapes(from, to, from.modes.modes.len());
+    /// Goes on to the next speed by the matches of the modes.
+    pub(super) fn step(&mut self, matches: &[Match], to: &Solved) {
         for (branch, at) in self.branches.iter_mut().zip(&mut self.at) {
             let next = at.and_then(|at| matches.get(at)).and_then(|m| {
                 let lost = m.edge && m.assurance < CLEAR;
@@ -104,7 +101,7 @@ impl Tracker {
             });
             *at = next.map(|(to, _)| to);
             if let Some((number, assurance)) = next {
-                let mode = to.modes.modes[number].clone();
+                let mode = to.modes[number].clone();
                 branch.points.push(Point { speed: to.speed, mode, assurance });
             }
         }

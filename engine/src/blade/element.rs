@@ -15,7 +15,7 @@
 //!
 //! where d_i = ∂d/∂q_i. Propeller moment and spin softening are in the second derivatives of T₀.
 
-use super::frame::{axes, strains};
+use super::frame::{Tangent, axes, strains};
 use super::jet::Jet;
 use super::mesh::{Element, LOCAL, Point, SAMPLES, hermite};
 use super::model::Model;
@@ -202,11 +202,12 @@ pub fn exact_energy(
 ) -> Jet<8> {
     let (slope, bend) = (f.field(q, 1), f.field(q, 2));
     let shift = [1.0, 0.0, 0.0];
-    let r1 = std::array::from_fn(|k| Jet::variable(shift[k] + slope[k], k));
+    // Functions of three variables are cheaper than of eight.
+    let r1 = std::array::from_fn(|k| Jet::<3>::variable(shift[k] + slope[k], k));
     let r2 = std::array::from_fn(|k| Jet::variable(bend[k], 3 + k));
     let angle = Jet::variable(pitch + section.twist + f.torsion(q, 0), 6);
     let rate = Jet::variable(f.torsion(q, 1), 7);
-    let e = strains(&r1, &r2, &angle, &rate);
+    let e = strains(&Tangent::new(&r1).among(), &r2, &angle, &rate);
     let [chord, flap] = e.curvature;
     let mut energy = (chord * chord).scaled(0.5 * section.chord_stiffness)
         + (flap * flap).scaled(0.5 * section.flap_stiffness);

@@ -59,25 +59,53 @@ pub struct Strains<const N: usize> {
     pub twist: Jet<N>,
 }
 
-/// Strains at slopes r′ and their derivatives r″, the angle ψ and the derivative φ′.
+/// What the strains need of the slopes r′ = (x, y, z), functions of these three numbers only.
+#[derive(Clone, Copy, Debug)]
+pub struct Tangent<const N: usize> {
+    stretch: Jet<N>,
+    /// 1/λ
+    inverse: Jet<N>,
+    t: Vector<N>,
+    /// t₂/(1 + t₁), t₃/(1 + t₁)
+    lean: [Jet<N>; 2],
+}
+
+impl<const N: usize> Tangent<N> {
+    /// At slopes r′.
+    pub fn new(slope: &Vector<N>) -> Tangent<N> {
+        let (stretch, t) = unit(slope);
+        let turn = (Jet::constant(1.0) + t[0]).inverse();
+        Tangent { stretch, inverse: stretch.inverse(), t, lean: [t[1] * turn, t[2] * turn] }
+    }
+
+    /// The same as a function of more variables, of which its own are the first.
+    pub fn among<const M: usize>(&self) -> Tangent<M> {
+        Tangent {
+            stretch: self.stretch.among(),
+            inverse: self.inverse.among(),
+            t: self.t.map(|t| t.among()),
+            lean: self.lean.map(|lean| lean.among()),
+        }
+    }
+}
+
+/// Strains at a tangent and derivatives r″ of the slopes, the angle ψ and the derivative φ′.
 pub fn strains<const N: usize>(
-    slope: &Vector<N>,
+    tangent: &Tangent<N>,
     bend: &Vector<N>,
     angle: &Jet<N>,
     twist: &Jet<N>,
 ) -> Strains<N> {
-    let (stretch, t) = unit(slope);
-    let inverse = stretch.inverse();
+    let Tangent { stretch, inverse, t, lean } = *tangent;
     let along = t[0] * bend[0] + t[1] * bend[1] + t[2] * bend[2];
     let rate: Vector<N> = std::array::from_fn(|k| (bend[k] - t[k] * along) * inverse);
-    let turn = (Jet::constant(1.0) + t[0]).inverse();
-    let n = rate[1] - t[1] * turn * rate[0];
-    let b = rate[2] - t[2] * turn * rate[0];
+    let n = rate[1] - lean[0] * rate[0];
+    let b = rate[2] - lean[1] * rate[0];
     let (sin, cos) = angle.sin_cos();
     Strains {
         stretch,
         curvature: [cos * n + sin * b, cos * b - sin * n],
-        twist: *twist + (t[2] * rate[1] - t[1] * rate[2]) * turn,
+        twist: *twist + lean[1] * rate[1] - lean[0] * rate[2],
     }
 }
 
@@ -125,7 +153,7 @@ mod tests {
         let (slope, angle) = curve(x);
         let bend: [f64; 3] = std::array::from_fn(|i| (curve(x + d).0[i] - curve(x - d).0[i]) / (2.0 * d));
         let found = strains::<1>(
-            &slope.map(Jet::constant),
+            &Tangent::new(&slope.map(Jet::constant)),
             &bend.map(Jet::constant),
             &Jet::constant(angle),
             &Jet::constant(0.9 + 0.6 * x),

@@ -33,6 +33,16 @@ impl<const N: usize> Jet<N> {
         jet
     }
 
+    /// The same number as a function of more variables, of which its own are the first.
+    pub fn among<const M: usize>(&self) -> Jet<M> {
+        let mut out = Jet::constant(self.x);
+        out.g[..N].copy_from_slice(&self.g);
+        for (to, from) in out.h.iter_mut().zip(&self.h) {
+            to[..N].copy_from_slice(from);
+        }
+        out
+    }
+
     /// f(self) from f and its first two derivatives.
     fn chain(&self, f: f64, f1: f64, f2: f64) -> Jet<N> {
         let mut out = Jet::constant(f);

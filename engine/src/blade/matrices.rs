@@ -13,6 +13,9 @@ const ITERATIONS: usize = 25;
 /// Increment, over the scale of its unknown, at which the next one is below rounding.
 const SMALL: f64 = 1e-8;
 
+/// Increment at which the matrices are those of the state already.
+const TINY: f64 = 1e-15;
+
 /// Smallest increment of the speed, over the speed.
 const FINEST: f64 = 1.0 / 256.0;
 
@@ -172,6 +175,12 @@ impl Matrices {
         }
     }
 
+    /// Moves `q`, which is near the steady state at a speed, to it, assembled; `false` if it is not so near, or there is
+    /// nothing to be found.
+    pub fn settle(&mut self, speed: f64, q: &mut [f64]) -> bool {
+        self.model.strain_energy == StrainEnergy::Exact && self.newton(speed, q)
+    }
+
     /// Newton's method at one speed; leaves the matrices of the state it finds.
     fn newton(&mut self, speed: f64, q: &mut [f64]) -> bool {
         let mut solver = self.stiffness.clone();
@@ -195,6 +204,9 @@ impl Matrices {
             let factor = (0.5 / size).min(1.0);
             for (q, d) in q.iter_mut().zip(&step) {
                 *q += factor * d;
+            }
+            if size < TINY {
+                return true;
             }
             if size < SMALL {
                 self.assemble(speed, q);

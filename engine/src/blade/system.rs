@@ -22,6 +22,8 @@ pub struct Blade {
     setting: Setting,
     speed: f64,
     steady: Vec<f64>,
+    /// The speed before the present one and its steady state.
+    earlier: Option<(f64, Vec<f64>)>,
     /// The speed asked for at which no steady state was found, if it was the last one asked for.
     lost: Option<BladeError>,
     scratch: Vec<f64>,
@@ -70,6 +72,7 @@ impl Blade {
             setting,
             speed: 0.0,
             steady: vec![0.0; size],
+            earlier: None,
             lost: None,
             scratch: vec![0.0; size],
         };
@@ -89,10 +92,16 @@ impl Blade {
     /// [`BladeError::NoSteadyState`]; the blade is then left as it was.
     pub fn set_speed(&mut self, speed: f64) -> Result<(), BladeError> {
         let former = self.speed;
-        let mut state = self.steady.clone();
-        match self.matrices.follow(former, speed, &mut state) {
+        let mut state = self.guess(speed).unwrap_or_default();
+        let mut found = Ok(());
+        if state.is_empty() || !self.matrices.settle(speed, &mut state) {
+            state.clone_from(&self.steady);
+            found = self.matrices.follow(former, speed, &mut state);
+        }
+        match found {
             Ok(()) => {
-                (self.speed, self.steady) = (speed, state);
+                self.earlier = Some((former, std::mem::replace(&mut self.steady, state)));
+                self.speed = speed;
                 Ok(())
             }
             Err(reached) => {
@@ -100,6 +109,21 @@ impl Blade {
                 Err(BladeError::NoSteadyState { speed, reached })
             }
         }
+    }
+
+    /// Forgets all states but that at rest.
+    fn undeform(&mut self) {
+        self.steady.fill(0.0);
+        self.earlier = None;
+        self.speed = 0.0;
+    }
+
+    /// The steady state at a speed extrapolated from the last two, which is linear in Ω² while it is small.
+    fn guess(&self, speed: f64) -> Option<Vec<f64>> {
+        let (earlier, former) = self.earlier.as_ref()?;
+        let part = (speed * speed - self.speed * self.speed) / (self.speed * self.speed - earlier * earlier);
+        let extrapolate = |(now, before): (&f64, &f64)| now + part * (now - before);
+        (part.abs() <= 2.0).then(|| self.steady.iter().zip(former).map(extrapolate).collect())
     }
 
     /// The steady state: displacements from the undeformed blade, in the order of the unknowns.
@@ -225,13 +249,23 @@ impl System for Blade {
     }
 
     fn turn_steadily(&mut self, speed: f64) -> bool {
-        // From the undeformed blade, so that the state does not depend on the speeds before.
-        let former = (self.speed, std::mem::replace(&mut self.steady, vec![0.0; self.scratch.len()]));
-        self.speed = 0.0;
+        // At rest the blade is undeformed, whatever went before.
+        if speed == 0.0 {
+            self.undeform();
+        }
+        if self.lost.is_none() && self.speed == speed && speed != 0.0 {
+            return true;
+        }
+        // From the present state, and if that leads nowhere from the undeformed blade.
         self.lost = self.set_speed(speed).err();
         if self.lost.is_some() {
-            (self.speed, self.steady) = former;
-            self.matrices.assemble(self.speed, &self.steady);
+            let former = (self.speed, self.steady.clone());
+            self.undeform();
+            self.lost = self.set_speed(speed).err();
+            if self.lost.is_some() {
+                (self.speed, self.steady) = former;
+                self.matrices.assemble(self.speed, &self.steady);
+            }
         }
         true
     }

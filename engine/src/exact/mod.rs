@@ -2,4 +2,5 @@
 
 mod bessel;
 pub mod cantilever;
+pub mod rotating;
 pub mod taper;

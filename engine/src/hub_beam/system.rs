@@ -24,6 +24,8 @@ pub struct HubBeam<C> {
     channels: Vec<Channel>,
     /// Recorded stations, ascending along the beam; the tip is the last.
     stations: Vec<Station>,
+    /// Stations that were last asked for by [`System::shape`].
+    shown: Vec<Station>,
     placements: Vec<Placement>,
     /// Largest deflection of the tip that was recorded \[m\].
     largest_deflection: f64,
@@ -63,6 +65,7 @@ impl<C: Coupling> HubBeam<C> {
             channels: channels(&stations),
             placements: vec![Placement::default(); stations.len()],
             stations,
+            shown: Vec::new(),
             largest_deflection: 0.0,
             scratch: coupling.inertia().scratch(),
             recent: Recent::new(),
@@ -391,11 +394,14 @@ impl<C: Coupling> System for HubBeam<C> {
     }
 
     fn shape(&mut self, s: &State, stations: &[f64], out: &mut [Frame]) {
-        let stations: Vec<Station> =
-            stations.iter().map(|&x| Station::new(self.coupling.fields(), x)).collect();
-        let mut placements = vec![Placement::default(); stations.len()];
-        self.coupling.placements(s, &stations, &mut placements);
+        // The same stations are asked for again and again.
+        if !self.shown.iter().map(|s| &s.point.x).eq(stations) {
+            self.shown = stations.iter().map(|&x| Station::new(self.coupling.fields(), x)).collect();
+        }
         let angle = self.kinematics(s).angle;
+        let stations = &self.shown;
+        let mut placements = vec![Placement::default(); stations.len()];
+        self.coupling.placements(s, stations, &mut placements);
         for ((station, p), frame) in stations.iter().zip(&placements).zip(out) {
             let x = self.hub.radius + station.point.x + p.axial;
             let (sin, cos) = angle.sin_cos();

@@ -43,7 +43,8 @@ impl Frequencies {
     }
 }
 
-/// Writes and publishes the files of modes at a speed [rad/s]. `case` is the resolved case.
+/// Writes and publishes the files of modes at a speed [rad/s]. `case` is the resolved case; `cautions` are kept with
+/// the warnings.
 ///
 /// # Errors
 /// [`OutputError`] for whatever goes wrong on disk.
@@ -54,6 +55,7 @@ pub fn write_modes(
     unit: &Frequencies,
     case: &str,
     title: Option<&str>,
+    cautions: &[String],
 ) -> Result<(), OutputError> {
     directory.write(Artifact::ResolvedCase, |f| f.write_all(resolved_case(case).as_bytes()))?;
     directory.write(Artifact::ModesCsv, |f| {
@@ -89,11 +91,12 @@ pub fn write_modes(
         }
         archive::finish(archive)
     })?;
-    let warnings = draw(
+    let mut warnings = cautions.to_vec();
+    warnings.extend(draw(
         directory,
         &modes_figure(modes, stations, unit, title),
         [Artifact::ModesSvg, Artifact::ModesPng],
-    )?;
+    )?);
     let list: Vec<Value> = modes.modes.iter().map(|m| mode_json(m, unit)).collect();
     let summary = json!({
         "version": VERSION,
@@ -106,7 +109,7 @@ pub fn write_modes(
     close(directory, Artifact::ModesJson, &summary)
 }
 
-/// Writes and publishes the files of a Campbell diagram.
+/// Writes and publishes the files of a Campbell diagram; `case` and `cautions` as of [`write_modes`].
 ///
 /// # Errors
 /// [`OutputError`] for whatever goes wrong on disk.
@@ -117,6 +120,7 @@ pub fn write_campbell(
     unit: &Frequencies,
     case: &str,
     title: Option<&str>,
+    cautions: &[String],
 ) -> Result<(), OutputError> {
     directory.write(Artifact::ResolvedCase, |f| f.write_all(resolved_case(case).as_bytes()))?;
     let at = |branch: usize, speed: f64| {
@@ -153,7 +157,8 @@ pub fn write_campbell(
         archive::finish(archive)
     })?;
     let figure = campbell_figure(campbell, revolutions, unit, title);
-    let warnings = draw(directory, &figure, [Artifact::CampbellSvg, Artifact::CampbellPng])?;
+    let mut warnings = cautions.to_vec();
+    warnings.extend(draw(directory, &figure, [Artifact::CampbellSvg, Artifact::CampbellPng])?);
     let crossings: Vec<Value> = campbell
         .crossings
         .iter()
@@ -170,6 +175,9 @@ pub fn write_campbell(
             }),
             Instability::Divergence { speed, reason } => {
                 json!({ "kind": "divergence", "speed": speed * unit.factor, "reason": reason })
+            }
+            Instability::Lost { speed, reason } => {
+                json!({ "kind": "no steady rotation", "speed": speed * unit.factor, "reason": reason })
             }
         })
         .collect();

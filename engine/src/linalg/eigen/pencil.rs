@@ -28,6 +28,7 @@ pub struct Pencil {
     shift: f64,
     kind: Kind,
     wide: Vec<Double>,
+    solutions: usize,
 }
 
 /// Relative size at which an entry counts as zero.
@@ -62,6 +63,7 @@ impl Pencil {
             shift,
             kind: Kind::General,
             wide: vec![Double::ZERO; n],
+            solutions: 0,
         };
         pencil.kind = pencil.find_kind();
         Ok(pencil)
@@ -92,8 +94,14 @@ impl Pencil {
         self.kind
     }
 
+    /// Number of solutions with Q(σ) so far, each O(n).
+    pub fn solutions(&self) -> usize {
+        self.solutions
+    }
+
     /// b ← Q(σ)⁻¹ b, right to the rounding of the result.
     pub fn solve(&mut self, b: &mut [f64]) {
+        self.solutions += 1;
         for (wide, b) in self.wide.iter_mut().zip(b.iter()) {
             *wide = (*b).into();
         }
@@ -232,6 +240,14 @@ impl Pencil {
                 (value, z)
             })
             .collect())
+    }
+
+    /// The residual of a pair seen through Q(|λ|) in the place of Q(σ). Where K is nearly singular, K⁻¹ magnifies by (λ/λ₁)²
+    /// what rounding leaves of the lowest mode in the others; the inverse of K + |λ|C + |λ|²M magnifies nothing. O(n).
+    pub fn residual_at_its_size(&self, value: Complex64, vector: &[Complex64]) -> f64 {
+        let [mass, damping] = [self.mass.clone(), self.damping.clone()];
+        let shifted = Pencil::new(mass, damping, self.stiffness.clone(), value.norm());
+        shifted.map_or(f64::NAN, |mut pencil| pencil.residual(value, vector))
     }
 
     /// |x + Q(σ)⁻¹ (λ − σ)((λ + σ) M + C) x| / |x|, since Q(λ) = Q(σ) + (λ − σ)((λ + σ) M + C).

@@ -208,7 +208,7 @@ fn layout(p: &Placed<'_>, margins: &Margins, column: usize, bottom: f64, height:
     if !entries.is_empty() {
         layout = layout
             .with_legend_entries(entries)
-            .with_legend_position(emptiest_corner(p))
+            .with_legend_position(emptiest_corner(p, height))
             .with_legend_box(true);
     }
     layout
@@ -294,8 +294,9 @@ fn legend(panel: &Panel) -> Vec<LegendEntry> {
     panel.series.iter().enumerate().filter_map(entry).collect()
 }
 
-/// The corner of the panel through which the fewest points pass.
-fn emptiest_corner(p: &Placed<'_>) -> LegendPosition {
+/// The corner of the panel through which the fewest points pass; a word counts as some.
+fn emptiest_corner(p: &Placed<'_>, height: f64) -> LegendPosition {
+    const WORD: usize = 10;
     let corners = [
         (LegendPosition::InsideTopRight, true, true),
         (LegendPosition::InsideBottomRight, true, false),
@@ -309,6 +310,7 @@ fn emptiest_corner(p: &Placed<'_>) -> LegendPosition {
         .iter()
         .flat_map(|s| pieces(p, s))
         .flatten()
+        .chain(words(p, height).into_iter().flat_map(|(x, y, _)| [(x, y); WORD]))
         .map(|(x, y)| (part(x, p.x.range), part(y, p.y.range)))
         .collect();
     // The box of the legend grows with its entries.

@@ -1,7 +1,7 @@
 //! Figures of modes and of Campbell diagrams.
 
 use super::{Axis, Figure, Line, Marker, Panel, Series, Words};
-use crate::analysis::campbell::Campbell;
+use crate::analysis::campbell::{Campbell, Instability};
 use crate::analysis::modes::{Mode, Modes};
 use crate::output::Frequencies;
 use num_complex::Complex64;
@@ -51,7 +51,7 @@ fn shape(mode: &Mode, stations: &[f64]) -> Vec<Series> {
     (0..3).map(curve).filter(moves).collect()
 }
 
-/// Frequencies against the speed, with the lines of whole revolutions and their crossings marked.
+/// Frequencies against the speed, with the lines of whole revolutions, their crossings and the instabilities marked.
 pub fn campbell_figure(
     campbell: &Campbell,
     revolutions: u32,
@@ -100,8 +100,15 @@ pub fn campbell_figure(
             color: Some(1),
         });
     }
+    let marks = instabilities(campbell, top, unit);
+    // A line at the end of the curves stands clear of the frame.
+    let first = campbell.speeds.first().copied().unwrap_or(0.0) * unit.factor;
+    let begin = if revolutions > 0 { 0.0 } else { first };
+    let furthest = marks.iter().flat_map(|s| &s.points).map(|p| p.0).fold(last, f64::max);
+    let range = (furthest > last).then(|| (begin, begin + 1.04 * (furthest - begin)));
+    series.extend(marks);
     let panel = Panel {
-        x: Axis { tight: true, ..Axis::new("Speed Ω", unit.name) },
+        x: Axis { tight: true, range, ..Axis::new("Speed Ω", unit.name) },
         y: Axis {
             range: Some((0.0, if top > 0.0 { 1.06 * top } else { 1.0 })),
             ..Axis::new("Frequency ω", unit.name)
@@ -110,4 +117,39 @@ pub fn campbell_figure(
         words,
     };
     Figure { title: title.map(String::from), panels: vec![panel], columns: 1, share_x: false }
+}
+
+/// A line where steady rotation becomes unstable or ends, up to `top`, and marks where a damping becomes negative.
+fn instabilities(campbell: &Campbell, top: f64, unit: &Frequencies) -> Vec<Series> {
+    let (mut series, mut flutter) = (Vec::new(), Vec::new());
+    for instability in &campbell.instabilities {
+        let (speed, name) = match instability {
+            Instability::Divergence { speed, .. } => (speed, "divergence"),
+            Instability::Lost { speed, .. } => (speed, "end of steady rotation"),
+            Instability::Flutter { branch, to, .. } => {
+                let points = campbell.branches.get(*branch).map_or(&[][..], |b| &b.points);
+                let at = points.iter().find(|p| p.speed == *to);
+                flutter.extend(at.map(|p| (to * unit.factor, p.mode.frequency() * unit.factor)));
+                continue;
+            }
+        };
+        let speed = speed * unit.factor;
+        series.push(Series {
+            name: Some(name.to_owned()),
+            points: vec![(speed, 0.0), (speed, 1.06 * top)],
+            line: Line::Dashed,
+            color: Some(6),
+            ..Series::default()
+        });
+    }
+    if !flutter.is_empty() {
+        series.push(Series {
+            name: Some("negative damping".to_owned()),
+            points: flutter,
+            line: Line::None,
+            marker: Some(Marker::Triangle),
+            color: Some(6),
+        });
+    }
+    series
 }

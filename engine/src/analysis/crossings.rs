@@ -1,0 +1,81 @@
+//! Crossings of the modes with the lines of whole revolutions.
+//!
+//! Between two speeds of the diagram f(Ω) = ω(Ω) − k Ω changes its sign. Its zero is enclosed by regula falsi with
+//! halved ordinates (Illinois), with the mode computed anew at each speed.
+//!
+//! Source: M. Dowell & P. Jarratt, *BIT* 11 (1971) 168–174, doi:10.1007/BF01934364.
+
+use super::campbell::{Branch, Crossing, Point};
+use super::follow::assurance;
+use super::worker::{Solved, Worker, blend};
+
+/// Relative accuracy of a speed.
+const ACCURACY: f64 = 1e-9;
+/// Modes computed for a crossing.
+const EVALUATIONS: usize = 30;
+
+/// All crossings, ascending in the speed. Where the mode cannot be computed alone, the place is interpolated.
+pub(super) fn crossings(
+    worker: &mut Worker<'_>,
+    solved: &[Solved],
+    branches: &[Branch],
+    revolutions: u32,
+) -> Vec<Crossing> {
+    let mut out = Vec::new();
+    for (branch, b) in branches.iter().enumerate() {
+        for k in 1..=revolutions {
+            for (w, at) in b.points.windows(2).zip(solved) {
+                let (a, c) = (above(&w[0], k), above(&w[1], k));
+                // At rest the lines all begin: a rigid motion crosses none of them there.
+                if (a > 0.0) != (c > 0.0) && w[0].mode.frequency().max(w[1].mode.frequency()) > 0.0 {
+                    let speed = located(worker, at, [&w[0], &w[1]], k)
+                        .unwrap_or_else(|| w[0].speed + (w[1].speed - w[0].speed) * a / (a - c));
+                    out.push(Crossing { branch, revolutions: k, speed });
+                }
+            }
+        }
+    }
+    out.sort_by(|a, b| a.speed.total_cmp(&b.speed));
+    out
+}
+
+/// ω − k Ω
+fn above(point: &Point, k: u32) -> f64 {
+    point.mode.frequency() - f64::from(k) * point.speed
+}
+
+/// The speed at which a mode crosses a line between two points of its branch, of which the first is among those `at`.
+fn located(worker: &mut Worker<'_>, at: &Solved, ends: [&Point; 2], k: u32) -> Option<f64> {
+    let x = &ends[0].mode.vector;
+    let mx = at.massed.iter().zip(&at.modes).find(|(_, m)| m.vector == *x).map(|(mx, _)| mx)?;
+    let mut low = (ends[0].speed, above(ends[0], k));
+    let mut high = (ends[1].speed, above(ends[1], k));
+    let mut last_side = 0;
+    for _ in 0..EVALUATIONS {
+        let speed = low.0 - low.1 * (high.0 - low.0) / (high.1 - low.1);
+        let part = (speed - ends[0].speed) / (ends[1].speed - ends[0].speed);
+        let near = blend(x, mx, &ends[1].mode.vector, part)?;
+        let found = worker.mode_near(speed, at, &near)?;
+        if assurance(&near, &found.massed) < 0.8 {
+            return None;
+        }
+        let value = found.mode.frequency() - f64::from(k) * speed;
+        if value.abs() <= ACCURACY * f64::from(k) * speed || high.0 - low.0 <= ACCURACY * high.0 {
+            return Some(speed);
+        }
+        if (value > 0.0) == (low.1 > 0.0) {
+            low = (speed, value);
+            if last_side == -1 {
+                high.1 *= 0.5;
+            }
+            last_side = -1;
+        } else {
+            high = (speed, value);
+            if last_side == 1 {
+                low.1 *= 0.5;
+            }
+            last_side = 1;
+        }
+    }
+    None
+}
