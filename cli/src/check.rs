@@ -1,7 +1,7 @@
 //! `flexion check`: validates a case and shows what would be run.
 
 use crate::{Outcome, case, screen};
-use flexion::case::{Case, Coupling, Live, Problems, Reading, build};
+use flexion::case::{Case, Coupling, Initial, Live, Problems, Reading, build};
 use flexion::hub_beam::Drive;
 use flexion::integrator::{Adams, Integrator, RungeKutta, StabilityLimit, StepError};
 use flexion::linalg::Structure;
@@ -35,6 +35,9 @@ pub fn check(arguments: &Arguments) -> Outcome {
 fn describe(reading: &Reading) -> Result<String, Problems> {
     let case = &reading.case;
     let Live { mut system, integrator } = reading.build()?;
+    if !matches!(case.initial, Initial::Undeformed | Initial::Restart { .. }) {
+        reading.prepare()?;
+    }
     let mut out = String::new();
     if !case.title.is_empty() {
         out.push_str(&format!("{}\n", case.title));

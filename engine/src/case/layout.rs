@@ -5,18 +5,18 @@ use super::blade::{self, Blade};
 use super::declaration::{
     Bound::*, Key, Kind, Presence as Default, Presence::*, Seam, Type, Type::Quantity, key,
 };
+use super::initial::{self, Initial};
 use super::integrator::{self, Integrator};
 use super::load_trial;
 use super::loads::{self, Loads};
 use super::motion::{self, Motion};
 use super::problem::{Problem, Problems};
-use super::restart;
 use super::section::{self, Section};
 use super::torque;
 use super::trial;
 use super::units::{INERTIA, LENGTH, TIME};
 use super::values::{Filled, Value, Values};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// A validated case: everything in SI.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,22 +69,6 @@ pub enum Coupling {
     High,
     /// Geometrically exact.
     Exact,
-}
-
-/// The state at t = 0.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Initial {
-    /// Undeformed, moving with the hub.
-    Undeformed,
-    /// In the equilibrium of steady rotation at the initial speed of the hub.
-    SteadyRotation,
-    /// In static equilibrium under the loads at t = 0, the hub held.
-    Static,
-    /// The last state of an earlier run of the same model, whose time goes on.
-    Restart {
-        /// `state.npz` of that run.
-        file: PathBuf,
-    },
 }
 
 /// What is recorded.
@@ -146,38 +130,6 @@ static COUPLING: Seam = Seam {
     ],
 };
 
-static INITIAL: Seam = Seam {
-    name: "initial",
-    path: "initial",
-    summary: "state at the start",
-    kinds: &[
-        Kind { name: "undeformed", summary: "undeformed, moving with the hub", source: "", keys: &[] },
-        Kind {
-            name: "steady-rotation",
-            summary: "equilibrium of steady rotation at the initial speed of the hub",
-            source: "",
-            keys: &[],
-        },
-        Kind {
-            name: "static",
-            summary: "static equilibrium under the loads of the start, the hub at rest and held",
-            source: "",
-            keys: &[],
-        },
-        Kind {
-            name: "restart",
-            summary: "last state of an earlier run of the same model, whose time goes on",
-            source: "",
-            keys: &[key(
-                "file",
-                Type::Path,
-                Required,
-                "state.npz of the earlier run, or the folder of its results",
-            )],
-        },
-    ],
-};
-
 /// The seams, in the order of a case file.
 pub(super) static SEAMS: &[&Seam] = &[
     &section::SEAM,
@@ -191,7 +143,7 @@ pub(super) static SEAMS: &[&Seam] = &[
     &COUPLING,
     &basis::SEAM,
     &basis::FIELD,
-    &INITIAL,
+    &initial::SEAM,
     &integrator::SEAM,
 ];
 
@@ -249,7 +201,7 @@ pub(super) static KEYS: &[Key] = &[
     loads::COUPLES,
     loads::DISTRIBUTED,
     loads::DAMPING,
-    key("initial", Type::Kind(&INITIAL), Default::Name("undeformed"), "state at the start"),
+    key("initial", Type::Kind(&initial::SEAM), Default::Name("undeformed"), "state at the start"),
     key("integrator", Type::Kind(&integrator::SEAM), Default::Name("radau"), "integrator"),
     key(
         "run",
@@ -334,14 +286,7 @@ pub(super) fn case(values: &mut Values, folder: &Path, problems: &mut Problems) 
     trial::integrator(integrator.as_ref(), values, problems);
     let loads = loads::read(values);
     load_trial::loads(&loads, (length, run_duration), integrator.as_ref(), values, problems);
-    let initial = values.kind("initial").and_then(|(kind, v)| {
-        Some(match kind.name {
-            "steady-rotation" => Initial::SteadyRotation,
-            "static" => Initial::Static,
-            "restart" => Initial::Restart { file: restart::state_file(&folder.join(v.text("file")?)) },
-            _ => Initial::Undeformed,
-        })
-    });
+    let initial = values.kind("initial").and_then(|(kind, v)| initial::read(kind, v, folder, problems));
     let output = values.table("output");
     let stations = output.and_then(|output| output.numbers("stations")).map(<[f64]>::to_vec);
     let section_forces = output.and_then(|output| output.boolean("section-forces"));
