@@ -95,7 +95,7 @@ pub(super) fn read(kind: &Kind, values: &Values, folder: &Path, problems: &mut P
 fn vibrations(values: &Values, problems: &mut Problems) -> Option<Vec<Vibration>> {
     let (amplitudes, velocities) = (values.numbers("amplitudes")?, values.numbers("velocities")?);
     let mut refuse = |key: &str, message: String| {
-        problems.push(Problem::new(&format!("initial.{key}"), values.place(key), message));
+        problems.push(Problem::new(format!("initial.{key}"), values.place(key), message));
     };
     match (amplitudes.len(), velocities.len()) {
         (0, 0) => {
