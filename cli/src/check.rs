@@ -48,6 +48,7 @@ fn describe(reading: &Reading) -> Result<String, Problems> {
     for t in [0.0, case.duration] {
         rows.extend(stability(system.as_mut(), t));
     }
+    rows.extend(system.cautions().into_iter().map(|caution| row("caution", caution)));
     out.push_str(&screen::table(&rows));
     let defaults = reading.defaults();
     if !defaults.is_empty() {

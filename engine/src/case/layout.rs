@@ -91,6 +91,9 @@ pub struct Output {
 /// Largest number of fixed steps of a run.
 const MOST_STEPS: f64 = 1e10;
 
+/// Interval between records of a run without duration, which has one [s].
+const ONE: f64 = 1.0;
+
 /// Largest number of records of a run.
 const MOST_RECORDS: f64 = 1e7;
 
@@ -205,7 +208,12 @@ pub(super) static KEYS: &[Key] = &[
     key("integrator", Type::Kind(&integrator::SEAM), Default::Name("radau"), "integrator"),
     key(
         "run",
-        Type::Table(&[key("duration", Quantity(&TIME, Positive), Required, "simulated time")]),
+        Type::Table(&[key(
+            "duration",
+            Quantity(&TIME, NotNegative),
+            Required,
+            "simulated time; 0 for the initial state alone",
+        )]),
         Required,
         "extent of the run",
     ),
@@ -302,6 +310,7 @@ pub(super) fn case(values: &mut Values, folder: &Path, problems: &mut Problems) 
     }
     if let (Some(duration), Some(step), Some(output)) = (run_duration, output_step, output)
         && step > duration
+        && duration > 0.0
     {
         let message = format!("the output step {step} s is longer than the run of {duration} s");
         problems.push(Problem::new("output.step", output.place("step"), message));
@@ -317,11 +326,11 @@ pub(super) fn case(values: &mut Values, folder: &Path, problems: &mut Problems) 
     }
     let vtk = output.filter(|output| output.boolean("vtk") == Some(true));
     let vtk = vtk.zip(run_duration).map(|(output, duration)| {
-        let interval = output.number("vtk-step").unwrap_or(duration / SHAPES);
+        let interval = output.number("vtk-step").unwrap_or(if duration > 0.0 { duration / SHAPES } else { ONE });
         let mut refuse = |message| {
             problems.push(Problem::new("output.vtk-step", output.place("vtk-step"), message));
         };
-        if interval > duration {
+        if interval > duration && duration > 0.0 {
             refuse(format!("the interval {interval} s between shapes is longer than the run of {duration} s"));
         }
         if duration / interval > MOST_SHAPES {
@@ -335,6 +344,7 @@ pub(super) fn case(values: &mut Values, folder: &Path, problems: &mut Problems) 
     if let (Some(duration), Some(step), Some((_, v))) =
         (run_duration, integrator.as_ref().and_then(Integrator::step), values.kind("integrator"))
         && step > duration
+        && duration > 0.0
     {
         let message = format!("the step {step} s is longer than the run of {duration} s");
         problems.push(Problem::new("integrator.step", v.place("step"), message));
@@ -403,6 +413,7 @@ fn fill_output_step(values: &mut Values, duration: Option<f64>) {
         && let Type::Table(keys) = key.takes
         && let Some(key) = keys.iter().find(|key| key.name == "step")
     {
-        output.entries.insert(0, Filled { key, value: Value::Number(duration / 1000.0), place: None });
+        let step = if duration > 0.0 { duration / 1000.0 } else { ONE };
+        output.entries.insert(0, Filled { key, value: Value::Number(step), place: None });
     }
 }

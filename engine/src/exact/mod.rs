@@ -2,4 +2,5 @@
 
 mod bessel;
 pub mod cantilever;
+pub mod pendulum;
 pub mod taper;
