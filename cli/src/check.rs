@@ -1,7 +1,7 @@
 //! `flexion check`: validates a case and shows what would be run.
 
 use crate::{Outcome, case, screen};
-use flexion::case::{Case, Coupling, Live, Problems, Reading, build};
+use flexion::case::{Case, Coupling, Initial, Live, Problems, Reading, build};
 use flexion::hub_beam::Drive;
 use flexion::integrator::{Adams, Integrator, RungeKutta, StabilityLimit, StepError};
 use flexion::linalg::Structure;
@@ -35,6 +35,9 @@ pub fn check(arguments: &Arguments) -> Outcome {
 fn describe(reading: &Reading) -> Result<String, Problems> {
     let case = &reading.case;
     let Live { mut system, integrator } = reading.build()?;
+    if !matches!(case.initial, Initial::Undeformed | Initial::Restart { .. }) {
+        reading.prepare()?;
+    }
     let mut out = String::new();
     if !case.title.is_empty() {
         out.push_str(&format!("{}\n", case.title));
@@ -45,6 +48,7 @@ fn describe(reading: &Reading) -> Result<String, Problems> {
     for t in [0.0, case.duration] {
         rows.extend(stability(system.as_mut(), t));
     }
+    rows.extend(system.cautions().into_iter().map(|caution| row("caution", caution)));
     out.push_str(&screen::table(&rows));
     let defaults = reading.defaults();
     if !defaults.is_empty() {

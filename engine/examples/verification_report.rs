@@ -19,7 +19,8 @@ add a folder: the test finds it, and asks for a folder for every kind that a cas
 
 This page is written by `cargo run --release --example verification_report`. *Off* is the largest difference from the
 reference: over the largest size of the column for a history (*/ its peak*), in the unit of the column for a figure.
-The tables of P1 and P3 are on [a page of their own](verification_tables.md).
+The tables of P1 and P3 are on [a page of their own](verification_tables.md), and their transients in every basis and coupling
+on [another](basis_coupling_tables.md).
 
 | case | what is compared | off | allowed |
 |---|---|---|---|";

@@ -109,6 +109,7 @@ const KINDS: &[&str] = &[
     "initial.kind=steady-rotation",
     "initial.kind=static",
     "initial={kind='restart',file='state.npz'}",
+    "initial={kind='modes',amplitudes=['10 mm',0],velocities=[0,'2 m/s']}",
     "hub.motion={kind='free',angle='10 deg',speed='1 rad/s',damping='0.1 N*m*s/rad',stiffness=2,rest-angle=0.1}",
     "hub.motion={kind='free',torque={kind='constant',torque='3 N*m'}}",
     "hub.motion={kind='free',torque={kind='ramp',torque='3 N*m',time='2 s'},controller={kind='none'}}",

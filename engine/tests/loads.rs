@@ -88,3 +88,26 @@ fn a_pendulum_too_stiff_to_bend_may_swing_in_rough_steps() {
         }
     }
 }
+
+/// A static equilibrium alone: one record, and files and figure like those of any run.
+#[test]
+fn a_run_without_duration_is_its_initial_state() {
+    for integrator in ["radau", "newmark", "runge-kutta-4"] {
+        let step = if integrator == "radau" { "" } else { ",step='100 ns'" };
+        let integrator = format!("{{kind='{integrator}'{step}}}");
+        let set = ["run.duration=0".to_owned(), format!("integrator={integrator}"), "output={}".to_owned()];
+        let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("../verification/elastica_tip_force");
+        let reading = flexion::case::read(&case, &set).unwrap_or_else(|p| panic!("{}", p.render(false)));
+        let run = reading.prepare().unwrap().run(&mut |_| ControlFlow::Continue(()));
+        assert_eq!(run.status, Status::Finished, "{:?}", run.message);
+        assert_eq!(run.trajectory.times(), [0.0]);
+        assert!((run.trajectory.column("tip.deflection").unwrap()[0] - 0.810_609_69).abs() < 2e-6);
+        let folder = tempfile::tempdir().unwrap();
+        let directory = flexion::output::Directory::create(&folder.path().join("results"), false).unwrap();
+        reading.write(&run, &directory).unwrap();
+        let figure = std::fs::read_to_string(folder.path().join("results/plot.svg")).unwrap();
+        assert!(figure.contains("circle"), "a single point is drawn as a mark");
+        let again = flexion::case::read(&folder.path().join("results/case.resolved.toml"), &[]);
+        assert_eq!(again.unwrap().case.duration, 0.0);
+    }
+}

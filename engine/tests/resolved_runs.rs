@@ -99,6 +99,8 @@ const VARIATIONS: &[&str] = &[
     "initial.kind=steady-rotation",
     "initial.kind=undeformed",
     "initial.kind=static",
+    "initial={kind='modes', amplitudes=['1 mm', 0.001]}",
+    "initial={kind='modes', amplitudes=[0, '1 mm'], velocities=['3 mm/s', 0]}",
     "initial={kind='restart', file='tables/state.npz'}",
     "initial={kind='restart', file='tables'}",
     "integrator={kind='radau'}",

@@ -9,6 +9,7 @@ mod ledger;
 pub mod modes;
 pub mod rotation;
 mod stiffness;
+pub mod superposition;
 mod tracking;
 pub mod transient;
 mod worker;

@@ -231,6 +231,12 @@ pub enum MotionError {
     File(String),
 }
 
+/// Time [s] over which a formula must have values in a run of the given duration [s]: of a run without one, its start and what
+/// follows at once.
+pub(super) fn known_for(duration: f64) -> f64 {
+    if duration > 0.0 { duration } else { 1e-3 }
+}
+
 /// What turns the hub of a case, checked over its duration [s].
 ///
 /// # Errors
@@ -244,7 +250,9 @@ pub fn drive(case: &MotionCase, duration: f64) -> Result<Drive, MotionError> {
             let rows = rows(file).map_err(MotionError::File)?;
             (Arc::new(Table::new(&rows, profile::End::default())?), *of)
         }
-        MotionCase::Expression { formula, of } => (Arc::new(Expression::new(formula, "t", duration)?), *of),
+        MotionCase::Expression { formula, of } => {
+            (Arc::new(Expression::new(formula, "t", known_for(duration))?), *of)
+        }
         MotionCase::Free(free) => return Ok(Drive::Free(free_hub(free, duration)?)),
     };
     let motion = match of {
@@ -263,7 +271,7 @@ fn free_hub(case: &FreeCase, duration: f64) -> Result<FreeHub, MotionError> {
             let rows = rows(file).map_err(MotionError::File)?;
             Arc::new(Table::new(&rows, profile::End::default())?)
         }
-        TorqueCase::Expression { formula } => Arc::new(Expression::new(formula, "t", duration)?),
+        TorqueCase::Expression { formula } => Arc::new(Expression::new(formula, "t", known_for(duration))?),
     };
     profile::covers(torque.as_ref(), duration)?;
     let controller = |c: &ControllerCase| -> Result<Controller, MotionError> {

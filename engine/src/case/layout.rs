@@ -5,18 +5,18 @@ use super::blade::{self, Blade};
 use super::declaration::{
     Bound::*, Key, Kind, Presence as Default, Presence::*, Seam, Type, Type::Quantity, key,
 };
+use super::initial::{self, Initial};
 use super::integrator::{self, Integrator};
 use super::load_trial;
 use super::loads::{self, Loads};
 use super::motion::{self, Motion};
 use super::problem::{Problem, Problems};
-use super::restart;
 use super::section::{self, Section};
 use super::torque;
 use super::trial;
 use super::units::{INERTIA, LENGTH, TIME};
 use super::values::{Filled, Value, Values};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// A validated case: everything in SI.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,22 +71,6 @@ pub enum Coupling {
     Exact,
 }
 
-/// The state at t = 0.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Initial {
-    /// Undeformed, moving with the hub.
-    Undeformed,
-    /// In the equilibrium of steady rotation at the initial speed of the hub.
-    SteadyRotation,
-    /// In static equilibrium under the loads at t = 0, the hub held.
-    Static,
-    /// The last state of an earlier run of the same model, whose time goes on.
-    Restart {
-        /// `state.npz` of that run.
-        file: PathBuf,
-    },
-}
-
 /// What is recorded.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Output {
@@ -106,6 +90,9 @@ pub struct Output {
 
 /// Largest number of fixed steps of a run.
 const MOST_STEPS: f64 = 1e10;
+
+/// Interval between records of a run without duration, which has one [s].
+const ONE: f64 = 1.0;
 
 /// Largest number of records of a run.
 const MOST_RECORDS: f64 = 1e7;
@@ -146,38 +133,6 @@ static COUPLING: Seam = Seam {
     ],
 };
 
-static INITIAL: Seam = Seam {
-    name: "initial",
-    path: "initial",
-    summary: "state at the start",
-    kinds: &[
-        Kind { name: "undeformed", summary: "undeformed, moving with the hub", source: "", keys: &[] },
-        Kind {
-            name: "steady-rotation",
-            summary: "equilibrium of steady rotation at the initial speed of the hub",
-            source: "",
-            keys: &[],
-        },
-        Kind {
-            name: "static",
-            summary: "static equilibrium under the loads of the start, the hub at rest and held",
-            source: "",
-            keys: &[],
-        },
-        Kind {
-            name: "restart",
-            summary: "last state of an earlier run of the same model, whose time goes on",
-            source: "",
-            keys: &[key(
-                "file",
-                Type::Path,
-                Required,
-                "state.npz of the earlier run, or the folder of its results",
-            )],
-        },
-    ],
-};
-
 /// The seams, in the order of a case file.
 pub(super) static SEAMS: &[&Seam] = &[
     &section::SEAM,
@@ -191,7 +146,7 @@ pub(super) static SEAMS: &[&Seam] = &[
     &COUPLING,
     &basis::SEAM,
     &basis::FIELD,
-    &INITIAL,
+    &initial::SEAM,
     &integrator::SEAM,
 ];
 
@@ -249,11 +204,16 @@ pub(super) static KEYS: &[Key] = &[
     loads::COUPLES,
     loads::DISTRIBUTED,
     loads::DAMPING,
-    key("initial", Type::Kind(&INITIAL), Default::Name("undeformed"), "state at the start"),
+    key("initial", Type::Kind(&initial::SEAM), Default::Name("undeformed"), "state at the start"),
     key("integrator", Type::Kind(&integrator::SEAM), Default::Name("radau"), "integrator"),
     key(
         "run",
-        Type::Table(&[key("duration", Quantity(&TIME, Positive), Required, "simulated time")]),
+        Type::Table(&[key(
+            "duration",
+            Quantity(&TIME, NotNegative),
+            Required,
+            "simulated time; 0 for the initial state alone",
+        )]),
         Required,
         "extent of the run",
     ),
@@ -334,14 +294,7 @@ pub(super) fn case(values: &mut Values, folder: &Path, problems: &mut Problems) 
     trial::integrator(integrator.as_ref(), values, problems);
     let loads = loads::read(values);
     load_trial::loads(&loads, (length, run_duration), integrator.as_ref(), values, problems);
-    let initial = values.kind("initial").and_then(|(kind, v)| {
-        Some(match kind.name {
-            "steady-rotation" => Initial::SteadyRotation,
-            "static" => Initial::Static,
-            "restart" => Initial::Restart { file: restart::state_file(&folder.join(v.text("file")?)) },
-            _ => Initial::Undeformed,
-        })
-    });
+    let initial = values.kind("initial").and_then(|(kind, v)| initial::read(kind, v, folder, problems));
     let output = values.table("output");
     let stations = output.and_then(|output| output.numbers("stations")).map(<[f64]>::to_vec);
     let section_forces = output.and_then(|output| output.boolean("section-forces"));
@@ -357,6 +310,7 @@ pub(super) fn case(values: &mut Values, folder: &Path, problems: &mut Problems) 
     }
     if let (Some(duration), Some(step), Some(output)) = (run_duration, output_step, output)
         && step > duration
+        && duration > 0.0
     {
         let message = format!("the output step {step} s is longer than the run of {duration} s");
         problems.push(Problem::new("output.step", output.place("step"), message));
@@ -372,11 +326,11 @@ pub(super) fn case(values: &mut Values, folder: &Path, problems: &mut Problems) 
     }
     let vtk = output.filter(|output| output.boolean("vtk") == Some(true));
     let vtk = vtk.zip(run_duration).map(|(output, duration)| {
-        let interval = output.number("vtk-step").unwrap_or(duration / SHAPES);
+        let interval = output.number("vtk-step").unwrap_or(if duration > 0.0 { duration / SHAPES } else { ONE });
         let mut refuse = |message| {
             problems.push(Problem::new("output.vtk-step", output.place("vtk-step"), message));
         };
-        if interval > duration {
+        if interval > duration && duration > 0.0 {
             refuse(format!("the interval {interval} s between shapes is longer than the run of {duration} s"));
         }
         if duration / interval > MOST_SHAPES {
@@ -390,6 +344,7 @@ pub(super) fn case(values: &mut Values, folder: &Path, problems: &mut Problems) 
     if let (Some(duration), Some(step), Some((_, v))) =
         (run_duration, integrator.as_ref().and_then(Integrator::step), values.kind("integrator"))
         && step > duration
+        && duration > 0.0
     {
         let message = format!("the step {step} s is longer than the run of {duration} s");
         problems.push(Problem::new("integrator.step", v.place("step"), message));
@@ -458,6 +413,7 @@ fn fill_output_step(values: &mut Values, duration: Option<f64>) {
         && let Type::Table(keys) = key.takes
         && let Some(key) = keys.iter().find(|key| key.name == "step")
     {
-        output.entries.insert(0, Filled { key, value: Value::Number(duration / 1000.0), place: None });
+        let step = if duration > 0.0 { duration / 1000.0 } else { ONE };
+        output.entries.insert(0, Filled { key, value: Value::Number(step), place: None });
     }
 }

@@ -1,5 +1,6 @@
 //! Live loads from a validated case.
 
+use super::build;
 use super::layout::Case;
 use super::loads::{Amplitude, Distribution, Loads};
 use crate::hub_beam::load::{Couple, DistributedForce, Force, Load};
@@ -16,7 +17,9 @@ pub fn amplitude(case: &Amplitude, duration: f64) -> Result<Option<Arc<dyn Profi
         Amplitude::Constant => return Ok(None),
         Amplitude::Ramp { time } => Arc::new(Ramp::new(0.0, 1.0, *time)?),
         Amplitude::Table(rows) => Arc::new(Table::new(rows, End::default())?),
-        Amplitude::Expression(formula) => Arc::new(Expression::new(formula, "t", duration)?),
+        Amplitude::Expression(formula) => {
+            Arc::new(Expression::new(formula, "t", build::known_for(duration))?)
+        }
     };
     covers(profile.as_ref(), duration)?;
     Ok(Some(profile))

@@ -3,6 +3,7 @@
 use super::restart::Restart;
 use super::{Errors, Initial, Integrator as IntegratorCase, Live, Problems, Reading, resolved};
 use crate::analysis::equilibrium::equilibrium;
+use crate::analysis::superposition::superpose;
 use crate::analysis::transient::{Ending, Plan, resume, transient_to_checkpoint};
 use crate::integrator::{Checkpoint, Counters, Info};
 use crate::linalg::Structure;
@@ -88,13 +89,25 @@ impl Reading {
                 return Err(self.problem("initial.kind", message));
             }
         }
-        if matches!(case.initial, Initial::SteadyRotation | Initial::Static) {
+        if matches!(case.initial, Initial::SteadyRotation | Initial::Static | Initial::Modes { .. }) {
             let velocity = state.v.clone();
             live.system.hold(true);
             equilibrium(live.system.as_mut(), &mut state)
                 .map_err(|error| self.problem("initial", error.to_string()))?;
             live.system.hold(false);
             state.v = velocity;
+        }
+        if let Initial::Modes { vibrations } = &case.initial {
+            let tip = ["tip.deflection", "tip.axial"];
+            let place = |name| live.system.channels().iter().position(|channel| channel.name == name);
+            let recorded: Vec<usize> = tip.into_iter().filter_map(place).collect();
+            superpose(live.system.as_mut(), &mut state, vibrations, &recorded).map_err(|error| {
+                // At the list that was written.
+                let written = |key: &str| self.defaults().iter().all(|(name, _)| name != key);
+                let keys = ["initial.amplitudes", "initial.velocities"];
+                let key = keys.into_iter().find(|key| written(key)).unwrap_or("initial");
+                self.problem(key, error.to_string())
+            })?;
         }
         let (step, longest_step) = match case.integrator {
             IntegratorCase::Radau { initial_step, max_step, .. } => (initial_step, max_step),

@@ -56,6 +56,7 @@ measures! {
     ACCELERATION "acceleration" "m/s^2" [1, 0, -2, 0] "`9.81 m/s^2`";
     RATE "rate" "1/s" [0, 0, -1, 0] "`0.2 1/s`";
     FACTOR "factor" "1" [0, 0, 0, 0] "`1`, `0.5`";
+    VELOCITY "velocity" "m/s" [1, 0, -1, 0] "`2 m/s`, `30 mm/s`";
     ANGULAR_SPEED "angular speed" "rad/s" [0, 0, -1, 1] "`4 rad/s`, `3000 rpm`, `90 deg/s`";
 }
 

@@ -2,5 +2,6 @@
 
 mod bessel;
 pub mod cantilever;
+pub mod pendulum;
 pub mod rotating;
 pub mod taper;

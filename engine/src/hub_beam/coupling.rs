@@ -84,6 +84,11 @@ pub trait Coupling {
         (point.axial.field(1, &s.q), point.transverse.field(2, &s.q))
     }
 
+    /// Whether the kinetic energy is positive however far the beam is bent, on a hub that is free too.
+    fn has_positive_kinetic_energy(&self) -> bool {
+        true
+    }
+
     /// `Err` when the state is beyond what the model can represent.
     fn admissible(&mut self, s: &State) -> Result<(), String>;
 

@@ -273,6 +273,10 @@ impl Coupling for LinearCoupling {
         ))
     }
 
+    fn has_positive_kinetic_energy(&self) -> bool {
+        self.foreshortening == Foreshortening::None
+    }
+
     fn caution(&self, deflection: f64) -> Option<String> {
         let ratio = deflection.abs() / self.fields.length();
         (ratio > SMALL).then(|| {

@@ -22,6 +22,7 @@ mod inertia;
 mod linear;
 pub mod load;
 mod lumped;
+mod positive;
 mod product;
 mod rule;
 mod section_forces;

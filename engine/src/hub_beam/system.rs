@@ -5,6 +5,7 @@ use super::damping::Damping;
 use super::hub::{Drive, Hub, Recent};
 use super::inertia::{Border, Scratch, Totals};
 use super::load::{Load, Loads, Site};
+use super::positive::HubInertia;
 use super::section_forces::{Sampling, SectionForces};
 use super::station::{Placement, Station};
 use crate::linalg::{Matrix, Storage, Structure};
@@ -40,7 +41,16 @@ pub struct HubBeam<C> {
     damped: bool,
     /// Forces in the sections at the stations, recorded last.
     section_forces: SectionForces,
+    /// Watches the inertia of a free hub, where a coupling may lose it.
+    hub_inertia: Option<HubInertia>,
+    /// Part of the inertia of hub and beam that a hub has whose beam gives way, where it is watched and small.
+    small_share: Option<f64>,
 }
+
+/// Part of the inertia of hub and beam below which a hub that may lose its own is worth a caution.
+const SMALL_SHARE: f64 = 0.01;
+/// Part of the inertia of a free hub below which a run that fails does so for the want of it.
+const VANISHING: f64 = 0.2;
 
 impl<C: Coupling> HubBeam<C> {
     /// The system; `stations` \[m\] are recorded besides the tip.
@@ -60,14 +70,22 @@ impl<C: Coupling> HubBeam<C> {
                 free.breaks()
             }
         };
+        let mut scratch = coupling.inertia().scratch();
+        let watched = matches!(hub.drive, Drive::Free(_)) && !coupling.has_positive_kinetic_energy();
+        let mut hub_inertia = watched
+            .then(|| HubInertia::new(coupling.inertia(), &coupling.structure(0), &mut scratch, hub.inertia))
+            .flatten();
+        let share = hub_inertia.as_mut().map(|watch| watch.share(coupling.inertia(), &mut scratch));
         HubBeam {
+            hub_inertia,
+            small_share: share.filter(|share| *share < SMALL_SHARE),
             labels,
             channels: channels(&stations),
             placements: vec![Placement::default(); stations.len()],
             stations,
             shown: Vec::new(),
             largest_deflection: 0.0,
-            scratch: coupling.inertia().scratch(),
+            scratch,
             recent: Recent::new(),
             border: Border::new(fields.len()),
             breaks,
@@ -457,14 +475,26 @@ impl<C: Coupling> System for HubBeam<C> {
     }
 
     fn admissible(&mut self, s: &State) -> Result<(), String> {
-        self.coupling.admissible(s)
+        self.coupling.admissible(s)?;
+        self.lost_inertia(s, 0.0).map_or(Ok(()), Err)
     }
 
     fn cautions(&self) -> Vec<String> {
-        self.coupling.caution(self.largest_deflection).into_iter().collect()
+        let share = self.small_share.map(|share| {
+            format!(
+                "the hub is free and, with the beam giving way, has {share:.1e} of the inertia of hub and beam: the \
+                 {}-order coupling keeps its kinetic energy positive only while foreshortening takes less than that, and \
+                 stops the run beyond; give the hub more inertia, or use coupling = \"high\" or \"exact\"",
+                self.coupling.name()
+            )
+        });
+        share.into_iter().chain(self.coupling.caution(self.largest_deflection)).collect()
     }
 
     fn explain(&mut self, s: &State) -> Option<String> {
+        if let Some(lost) = self.lost_inertia(s, VANISHING) {
+            return Some(lost);
+        }
         let speed = self.kinematics(s).speed.abs();
         let critical = self.coupling.critical_speed(speed)?;
         let since = match &self.hub.drive {
@@ -488,6 +518,21 @@ impl<C: Coupling> System for HubBeam<C> {
 }
 
 impl<C: Coupling> HubBeam<C> {
+    /// What to say where a free hub has at most this part of its inertia left.
+    fn lost_inertia(&mut self, s: &State, part: f64) -> Option<String> {
+        if self.held {
+            return None;
+        }
+        let watch = self.hub_inertia.as_mut()?;
+        let (left, start) = watch.at_most(part, (self.coupling.inertia(), &mut self.scratch), s)?;
+        Some(format!(
+            "the {}-order coupling is losing its positive kinetic energy: with the beam giving way, the free hub has an \
+             inertia of {left:.2e} kg·m² left of {start:.2e}, the rest is taken by the foreshortening; give the hub more \
+             inertia, or use coupling = \"high\" or \"exact\"",
+            self.coupling.name()
+        ))
+    }
+
     /// Strain energy of the beam and of the hub's spring.
     fn strain(&mut self, s: &State, hub: &HubKinematics) -> f64 {
         let spring = match &self.hub.drive {

@@ -114,7 +114,9 @@ pub struct Series {
 impl Series {
     /// A solid line.
     pub fn line(name: Option<&str>, points: Vec<(f64, f64)>) -> Series {
-        Series { name: name.map(String::from), points, ..Series::default() }
+        // A single point would leave no line.
+        let marker = (points.len() == 1).then_some(Marker::Circle);
+        Series { name: name.map(String::from), points, marker, ..Series::default() }
     }
 }
 

@@ -1,0 +1,191 @@
+//! Modes of vibration superposed on an equilibrium, as the state with which a motion begins.
+//!
+//! About an equilibrium every free vibration of small amplitude is a sum of [`modes`],
+//!
+//! ```text
+//! δq(t) = Re Σ c x e^{λt}
+//! ```
+//!
+//! With x scaled so that a recorded displacement moves by one, the displacement A and the velocity V of that
+//! quantity in a mode at t = 0 are Re c = A and Re λc = V, so that
+//!
+//! ```text
+//! c = A + i (A Re λ − V) / Im λ
+//! ```
+
+use super::modes::{Mode, NoModes, modes};
+use super::rotation::negative_stiffness;
+use super::stiffness::tangent;
+use crate::system::{Direction, State, System, Weights};
+use num_complex::Complex64;
+
+/// Step of the differences of recorded displacements, in scales of the unknowns.
+const DIFFERENCE: f64 = 1e-5;
+/// A mode that moves the recorded displacement by less than this part of its largest unknown (both over their scales)
+/// cannot be told by it.
+const STILL: f64 = 1e-6;
+/// Largest distance from the equilibrium of a hub that is free, as acceleration over ω².
+const UNBALANCED: f64 = 1e-9;
+
+/// What one mode does at t = 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Vibration {
+    /// Displacement A of the recorded quantity that the mode moves most.
+    pub displacement: f64,
+    /// Its velocity V.
+    pub velocity: f64,
+}
+
+impl Vibration {
+    fn is_still(&self) -> bool {
+        self.displacement == 0.0 && self.velocity == 0.0
+    }
+}
+
+/// Why modes cannot be superposed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum NoSuperposition {
+    /// There are no such modes.
+    #[error(transparent)]
+    Modes(#[from] NoModes),
+    /// A mode is a rigid motion.
+    #[error(
+        "mode {0} is the rigid motion of the free hub, which does not vibrate: give it 0, and the hub its angle and \
+         speed in `hub.motion`"
+    )]
+    Rigid(usize),
+    /// A mode does not vibrate.
+    #[error(
+        "mode {number} does not vibrate, it {what} like exp({rate:.6} t): displacement and velocity cannot both be \
+         chosen; give it 0, or {advice}"
+    )]
+    Aperiodic {
+        /// Number of the mode, from 1.
+        number: usize,
+        /// Its rate λ [1/s].
+        rate: f64,
+        /// What it does.
+        what: &'static str,
+        /// What to change.
+        advice: &'static str,
+    },
+    /// The tip does not tell the amplitude.
+    #[error(
+        "mode {0} does not move the tip in the frame of the hub, which is to tell its amplitude; give it 0"
+    )]
+    Still(usize),
+    /// The free hub is not in equilibrium.
+    #[error(
+        "the free hub is not in equilibrium where it begins, so that there is nothing to vibrate about: a torque of \
+         {torque:.6e} N·m is left and turns it with {acceleration:.6e} rad/s²; begin at an angle at which torques, \
+         loads and restraints balance, and without what drives or brakes the hub"
+    )]
+    Unbalanced {
+        /// Torque that is left [N·m].
+        torque: f64,
+        /// Acceleration of the hub by it, the beam rigid [rad/s²].
+        acceleration: f64,
+    },
+}
+
+/// Adds vibrations to `state`, the equilibrium of `system` as it stands: one for each of the modes of smallest |λ|, in
+/// their order. `recorded` are the numbers of the [channels](System::channels) one of which, that which the mode moves
+/// most, is the displacement of a [`Vibration`]. Returns the modes.
+///
+/// Valid for vibrations that are small: of a nonlinear model the state is right to first order in them.
+///
+/// # Errors
+/// [`NoSuperposition`], when there are not so many modes, or a mode that is given something does not vibrate.
+pub fn superpose(
+    system: &mut dyn System,
+    state: &mut State,
+    vibrations: &[Vibration],
+    recorded: &[usize],
+) -> Result<Vec<Mode>, NoSuperposition> {
+    let found = modes(system, state, vibrations.len(), &[])?.modes;
+    balanced(system, state, &found)?;
+    let n = state.v.len();
+    let (mut displacement, mut velocity) = (vec![0.0; n], vec![0.0; n]);
+    let moving = vibrations.iter().zip(&found).enumerate().filter(|(_, (wanted, _))| !wanted.is_still());
+    for (index, (wanted, mode)) in moving {
+        let number = index + 1;
+        let rate = mode.eigenvalue;
+        if rate == Complex64::ZERO {
+            return Err(NoSuperposition::Rigid(number));
+        }
+        if rate.im == 0.0 {
+            // About a saddle such modes come in pairs, ±λ.
+            let stable = rate.re < 0.0 && negative_stiffness(system, state) == 0;
+            let what = if rate.re < 0.0 { "decays" } else { "grows" };
+            let advice = if stable {
+                "lower the damping"
+            } else {
+                "begin about an equilibrium that is stable: this one is not"
+            };
+            return Err(NoSuperposition::Aperiodic { number, rate: rate.re, what, advice });
+        }
+        let unit =
+            Complex64::ONE / moved(system, state, mode, recorded).ok_or(NoSuperposition::Still(number))?;
+        let amplitude =
+            Complex64::new(wanted.displacement, (wanted.displacement * rate.re - wanted.velocity) / rate.im);
+        for (i, x) in mode.vector.iter().enumerate() {
+            let part = amplitude * unit * x;
+            displacement[i] += part.re;
+            velocity[i] += (part * rate).re;
+        }
+    }
+    let from = state.q.clone();
+    system.retract(&from, &displacement, &mut state.q);
+    for (v, rate) in state.v.iter_mut().zip(&velocity) {
+        *v += rate;
+    }
+    Ok(found)
+}
+
+/// How far the recorded quantity that the mode moves most moves with it: `None` if none does.
+fn moved(system: &mut dyn System, state: &State, mode: &Mode, recorded: &[usize]) -> Option<Complex64> {
+    let scale: Vec<f64> = system.labels().iter().map(|l| l.scale).collect();
+    let largest = mode.vector.iter().zip(&scale).map(|(x, s)| x.norm() / s).fold(0.0, f64::max);
+    let step = DIFFERENCE / largest;
+    let count = system.channels().len();
+    let mut row = |direction: &[f64]| {
+        let mut at = state.clone();
+        system.retract(&state.q, direction, &mut at.q);
+        let mut row = vec![0.0; count];
+        system.record(&at, &mut row);
+        row
+    };
+    let mut out = vec![Complex64::ZERO; recorded.len()];
+    for unit in [Complex64::ONE, Complex64::I] {
+        let part = |x: &Complex64| if unit == Complex64::ONE { x.re } else { x.im };
+        let ahead: Vec<f64> = mode.vector.iter().map(|x| step * part(x)).collect();
+        let behind: Vec<f64> = ahead.iter().map(|d| -d).collect();
+        let (ahead, behind) = (row(&ahead), row(&behind));
+        for (out, &channel) in out.iter_mut().zip(recorded) {
+            *out += unit * (0.5 * (ahead[channel] - behind[channel]) / step);
+        }
+    }
+    // Displacements are measured by the scale of those of the beam.
+    let length = scale.iter().copied().fold(0.0, f64::max);
+    let best = out.into_iter().fold(Complex64::ZERO, |best, u| if u.norm() > best.norm() { u } else { best });
+    (best.norm() > STILL * largest * length).then_some(best)
+}
+
+/// Whether the equation of a free hub holds too: with the hub held, an equilibrium says nothing about it.
+fn balanced(system: &mut dyn System, state: &State, found: &[Mode]) -> Result<(), NoSuperposition> {
+    let Some(hub) = (0..state.v.len()).find(|&i| system.direction(i) == Direction::Hub) else {
+        return Ok(());
+    };
+    let mut still = state.clone();
+    still.a.fill(0.0);
+    let mut r = vec![0.0; state.v.len()];
+    system.residual(&still, &mut r);
+    let inertia = tangent(system, state, Weights::new(1.0, 0.0, 0.0)).get(hub, hub);
+    let (torque, acceleration) = (-r[hub], -r[hub] / inertia);
+    let frequencies = found.iter().map(|mode| mode.eigenvalue.norm()).filter(|size| *size > 0.0);
+    let lowest = frequencies.fold(f64::INFINITY, f64::min);
+    if acceleration.abs() <= UNBALANCED * lowest * lowest {
+        return Ok(());
+    }
+    Err(NoSuperposition::Unbalanced { torque, acceleration })
+}
