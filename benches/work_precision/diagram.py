@@ -74,7 +74,7 @@ def measure(flexion, coupling, integrator, repeat, reference, elements=ELEMENTS)
 
 def runs(coupling, quick):
     for tolerance in TOLERANCES[1:5] if quick else TOLERANCES:
-        yield "radau", tolerance, f"{{kind='radau',tolerance={tolerance:g},absolute-tolerance={tolerance / 1e3:g}}}"
+        yield "radau", tolerance, f"{{kind='radau',tolerance={tolerance:g},absolute-tolerance={tolerance / 1e2:g}}}"
     for kind in FIXED:
         for step in STEPS[1:4] if quick else STEPS:
             yield kind, step, f"{{kind='{kind}',step={step:g}}}"
