@@ -69,7 +69,7 @@ fn angular_momentum_and_energy_stay_without_torque() {
     for coupling in COUPLINGS {
         let model = format!("model.coupling={coupling}");
         for integrator in [
-            "integrator={kind='radau',tolerance=1e-11,absolute-tolerance=1e-13}",
+            "integrator={kind='radau',tolerance=1e-12,absolute-tolerance=1e-14}",
             "integrator={kind='runge-kutta-4',step='0.5 ms'}",
         ] {
             let run = run(&[&model, integrator]);
