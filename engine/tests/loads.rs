@@ -103,7 +103,7 @@ fn a_run_without_duration_is_its_initial_state() {
         assert_eq!(run.trajectory.times(), [0.0]);
         assert!((run.trajectory.column("tip.deflection").unwrap()[0] - 0.810_609_69).abs() < 2e-6);
         let folder = tempfile::tempdir().unwrap();
-        let directory = flexion::output::Directory::create(&folder.path().join("results"), false).unwrap();
+        let directory = flexion::output::Directory::create(folder.path().join("results"), false).unwrap();
         reading.write(&run, &directory).unwrap();
         let figure = std::fs::read_to_string(folder.path().join("results/plot.svg")).unwrap();
         assert!(figure.contains("circle"), "a single point is drawn as a mark");
