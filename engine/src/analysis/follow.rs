@@ -76,6 +76,8 @@ pub(super) struct Follower {
     shifted: Hermitian,
     /// K, factored.
     factor: Hermitian,
+    /// K + ω² M, factored.
+    sized: Hermitian,
     directions: Vec<Direction>,
     scale: Vec<f64>,
     work: Work,
@@ -131,6 +133,7 @@ impl Follower {
             band: order,
             shifted: Hermitian::new(order, half),
             factor: Hermitian::new(order, half),
+            sized: Hermitian::new(order, half),
             directions: (0..n).map(|i| system.direction(i)).collect(),
             scale: system.labels().iter().map(|l| l.scale).collect(),
             work: Work { x: pair(), mx: pair(), cx: pair(), kx: pair(), r: pair(), mr: vec![0.0; order] },
@@ -258,7 +261,10 @@ impl Follower {
                 continue;
             }
             let rounding = self.rounding(frequency)?;
-            let residual = self.residual(frequency);
+            let mut residual = residual(&self.factor, &self.mass, &mut self.work, frequency, 0.0);
+            if !(residual <= CONVERGED) {
+                residual = self.residual_at_its_size(frequency)?;
+            }
             let standing = (frequency / before - 1.0).abs() <= STANDING;
             if residual <= CONVERGED || (standing && residual <= RESIDUAL) {
                 return (rounding <= ROUGH)
@@ -316,26 +322,13 @@ impl Follower {
         Some(0.5 * f64::EPSILON * energy / (frequency * frequency))
     }
 
-    /// |K⁻¹ Q(ω) x| / |x| in the norm of M, with K⁻¹ Q(ω) x = x + K⁻¹ (iω C − ω² M) x.
-    fn residual(&mut self, frequency: f64) -> f64 {
-        let Work { x, mx, cx, r, mr, .. } = &mut self.work;
+    /// The residual through K + ω² M: where the lowest mode is soft against ω, K⁻¹ magnifies what rounding leaves of it.
+    fn residual_at_its_size(&mut self, frequency: f64) -> Option<f64> {
+        let (m, c, k) = (band(&self.mass)?, band(&self.damping)?, band(&self.stiffness)?);
         let square = frequency * frequency;
-        for i in 0..x[0].len() {
-            r[0][i] = -square * mx[0][i] - frequency * cx[1][i];
-            r[1][i] = -square * mx[1][i] + frequency * cx[0][i];
-        }
-        let [re, im] = r;
-        self.factor.solve(re, im);
-        let mut off = 0.0;
-        for part in 0..2 {
-            r[part].iter_mut().zip(&x[part]).for_each(|(r, x)| *r += x);
-            match band(&self.mass) {
-                Some(m) => m.multiply(&r[part], mr),
-                None => return f64::NAN,
-            }
-            off += r[part].iter().zip(mr.iter()).map(|(r, m)| r * m).sum::<f64>();
-        }
-        off.abs().sqrt()
+        self.sized.assign(k, (square, m), (0.0, c));
+        self.sized.factor()?;
+        Some(residual(&self.sized, &self.mass, &mut self.work, frequency, square))
     }
 
     /// The mode x has become, its largest entry real and positive.
@@ -367,6 +360,26 @@ impl Follower {
         };
         Found { mode, massed: turned(mx), origin }
     }
+}
+
+/// |P⁻¹ Q(ω) x| / |x| in the norm of M, with P = K + w M factored and P⁻¹ Q(ω) x = x + P⁻¹ (iω C − (ω² + w) M) x.
+fn residual(factor: &Hermitian, mass: &Matrix, work: &mut Work, frequency: f64, w: f64) -> f64 {
+    let Some(mass) = band(mass) else { return f64::NAN };
+    let Work { x, mx, cx, r, mr, .. } = work;
+    let square = frequency * frequency + w;
+    for i in 0..x[0].len() {
+        r[0][i] = -square * mx[0][i] - frequency * cx[1][i];
+        r[1][i] = -square * mx[1][i] + frequency * cx[0][i];
+    }
+    let [re, im] = r;
+    factor.solve(re, im);
+    let mut off = 0.0;
+    for part in 0..2 {
+        r[part].iter_mut().zip(&x[part]).for_each(|(r, x)| *r += x);
+        mass.multiply(&r[part], mr);
+        off += r[part].iter().zip(mr.iter()).map(|(r, m)| r * m).sum::<f64>();
+    }
+    off.abs().sqrt()
 }
 
 /// The positive ω with k + c ω − ω² = 0.

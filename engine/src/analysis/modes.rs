@@ -23,8 +23,8 @@ pub struct Mode {
     /// Eigenvector x in the velocities of the system: modal mass xᴴ M x = 1, its largest entry (over the scale of its
     /// label) real and positive.
     pub vector: Vec<Complex64>,
-    /// |Q(σ)⁻¹ Q(λ) x| / |x|, with Q(λ) = λ² M + λ C + K: error of the pair, seen through the inverse; next to a divergence,
-    /// where K⁻¹ = Q(0)⁻¹ grows, that of Q(|λ|).
+    /// |Q(σ)⁻¹ Q(λ) x| / |x|, with Q(λ) = λ² M + λ C + K: error of the pair, seen through the inverse. Where the lowest
+    /// mode is so soft against λ that K⁻¹ magnifies rounding errors along it, through Q(|λ|) or K + |λ|² M.
     pub residual: f64,
     /// Bound of the relative error of the frequency by the rounding of the entries of K in doubles, ½ ε |x|ᵀ|K||x| / |λ|².
     /// It matters for fine meshes in models that do not give the [terms](System::stiffness_terms) of K.

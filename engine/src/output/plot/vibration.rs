@@ -105,7 +105,7 @@ pub fn campbell_figure(
     let first = campbell.speeds.first().copied().unwrap_or(0.0) * unit.factor;
     let begin = if revolutions > 0 { 0.0 } else { first };
     let furthest = marks.iter().flat_map(|s| &s.points).map(|p| p.0).fold(last, f64::max);
-    let range = (furthest > last).then(|| (begin, begin + 1.04 * (furthest - begin)));
+    let range = (furthest > last).then_some((begin, begin + 1.04 * (furthest - begin)));
     series.extend(marks);
     let panel = Panel {
         x: Axis { tight: true, range, ..Axis::new("Speed Ω", unit.name) },
