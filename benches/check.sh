@@ -1,5 +1,6 @@
 #!/bin/sh
-# Holds the instructions of a step, of ten modes and of a speed of a Campbell diagram to benches/instructions.txt: fails where one is dearer by more than 2 %.
+# Holds the instructions of a step, of ten modes and of a speed of a Campbell diagram to benches/instructions.txt: fails
+# where one is dearer by more than 2 %.
 # Counted under valgrind, so free of the noise of other work on the machine, but not of the compiler: with another
 # compiler than the one the file names the counts are shown and not judged. `benches/check.sh --accept` writes
 # the file anew.
