@@ -248,7 +248,7 @@ fn band_and_dense_storage_give_the_same_run() {
                 .into();
             let (a, b) = (runs[0].column(TIP), runs[1].column(TIP));
             let off = a.iter().zip(&b).fold(0.0_f64, |worst, (a, b)| worst.max((a - b).abs()));
-            // Rounding, which changes the steps of `radau` a little. Kept tangents leave up to 1e-12 of the scales a
+            // Rounding, which changes the steps of `radau` a little. Kept tangents leave up to 1e-13 of the scales a
             // step, which 1600 steps of an undamped beam sum up to 2e-9 m (ten times the tolerance, three
             // times the difference).
             let allowed = if integrator.contains("radau") { 1e-7 } else { 1e-8 };
