@@ -37,9 +37,9 @@ EXPLICIT = {("runge-kutta-4", "first"): 4e-5, ("adams-4", "first"): 2.7e-6}
 
 # Milliseconds of processor time of Exudyn at equal error, as docs/src/speed.md has them (exact coupling).
 EXUDYN = {
-    "Exudyn, ANCF cable, full Newton": [(2e-4, 61.7), (7.3e-5, 81.8), (2e-5, 129.5), (1e-5, 193.3)],
-    "Exudyn, ANCF cable, tuned beyond": [(2e-4, 65.9), (7.3e-5, 72.6), (2e-5, 106.5), (1e-5, 129.6)],
-    "Exudyn, GE2D with 3 nodes, tuned beyond": [(2e-4, 32.1), (7.3e-5, 44.9), (2e-5, 113.7)],
+    "Exudyn, ANCF cable, full Newton": [(2e-4, 62.0), (7.3e-5, 82.3), (2e-5, 130.1), (1e-5, 193.2)],
+    "Exudyn, ANCF cable, tuned beyond": [(2e-4, 61.2), (7.3e-5, 73.3), (2e-5, 106.7), (1e-5, 130.1)],
+    "Exudyn, GE2D with 3 nodes, tuned beyond": [(2e-4, 32.0), (7.3e-5, 44.6), (2e-5, 114.2)],
 }
 
 
