@@ -3,7 +3,7 @@
 //! One column of doubles that are never null for each channel, named as in the other files, after the column
 //! `time`; units and meanings stand in the metadata of the file. The values are stored plain, without
 //! compression and without dictionaries: every reader knows this encoding, and the digits of computed doubles
-//! hardly compress.
+//! compress by 20 to 30 % at best.
 //!
 //! Format: <https://parquet.apache.org/docs/file-format/>.
 

@@ -75,23 +75,23 @@ fn encode(shapes: &Shapes) -> Result<Vec<u8>, Error> {
         .group_attribute("VTKHDF/Steps", AttributeBuilder::scalar("NSteps", steps as i64)?);
     let mut add = |dataset: DatasetBuilder| file = std::mem::take(&mut file).dataset(dataset);
 
-    // One part, whose sizes hold at every time.
-    add(list("NumberOfPoints", &[points as i64])?);
-    add(list("NumberOfCells", &[ends.len() as i64])?);
-    add(list("NumberOfConnectivityIds", &[connectivity.len() as i64])?);
-    add(table("Points", 3, &arrays.points)?);
-    add(list("Connectivity", &connectivity)?);
-    add(list("Offsets", &offsets)?);
-    add(list("Types", &vec![QUAD; ends.len()])?);
-    add(table("PointData/displacement", 3, &arrays.displacement)?);
-    add(list("PointData/deflection", &arrays.deflection)?);
-    add(list("PointData/axial", &arrays.axial)?);
-    add(list("PointData/rotation", &arrays.rotation)?);
-    add(list("PointData/arc_length", &arc_length)?);
+    // One part, whose sizes hold at every time. Arrays are given away, to be held once.
+    add(list("NumberOfPoints", [points as i64])?);
+    add(list("NumberOfCells", [ends.len() as i64])?);
+    add(list("NumberOfConnectivityIds", [connectivity.len() as i64])?);
+    add(table("Points", 3, arrays.points)?);
+    add(list("Connectivity", connectivity)?);
+    add(list("Offsets", offsets)?);
+    add(list("Types", vec![QUAD; ends.len()])?);
+    add(table("PointData/displacement", 3, arrays.displacement)?);
+    add(list("PointData/deflection", arrays.deflection)?);
+    add(list("PointData/axial", arrays.axial)?);
+    add(list("PointData/rotation", arrays.rotation)?);
+    add(list("PointData/arc_length", arc_length)?);
 
     add(list("Steps/Values", times)?);
     add(list("Steps/PartOffsets", &fixed)?);
-    add(list("Steps/NumberOfParts", &vec![1_i64; steps])?);
+    add(list("Steps/NumberOfParts", vec![1_i64; steps])?);
     add(list("Steps/PointOffsets", &moving)?);
     add(table("Steps/CellOffsets", 1, &fixed)?);
     add(table("Steps/ConnectivityIdOffsets", 1, &fixed)?);
@@ -102,7 +102,7 @@ fn encode(shapes: &Shapes) -> Result<Vec<u8>, Error> {
     file.into_plan()?.encode(WriteOptions::default())
 }
 
-/// A text of fixed length: VTK takes no other.
+/// A text of fixed length in ASCII, as in the examples of the format.
 fn text(name: &str, value: &str) -> AttributeBuilder {
     let kind = Datatype::String {
         size: StringSize::Fixed(value.len() as u32),
@@ -113,15 +113,42 @@ fn text(name: &str, value: &str) -> AttributeBuilder {
 }
 
 /// A dataset of one dimension in the group of VTK.
-fn list<T: H5WriteElement>(name: &str, values: &[T]) -> Result<DatasetBuilder, Error> {
+fn list<T: H5WriteElement>(name: &str, values: impl AsRef<[T]>) -> Result<DatasetBuilder, Error> {
+    let values = values.as_ref();
     dataset(name, vec![values.len() as u64], values)
 }
 
 /// A dataset of rows of `width` values in the group of VTK.
-fn table<T: H5WriteElement>(name: &str, width: usize, values: &[T]) -> Result<DatasetBuilder, Error> {
+fn table<T: H5WriteElement>(
+    name: &str,
+    width: usize,
+    values: impl AsRef<[T]>,
+) -> Result<DatasetBuilder, Error> {
+    let values = values.as_ref();
     dataset(name, vec![(values.len() / width) as u64, width as u64], values)
 }
 
 fn dataset<T: H5WriteElement>(name: &str, shape: Vec<u64>, values: &[T]) -> Result<DatasetBuilder, Error> {
     DatasetBuilder::typed_data(format!("VTKHDF/{name}"), shape, values)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::ErrorKind;
+
+    #[test]
+    fn shapes_that_were_never_taken_are_a_file_without_times_and_always_the_same() {
+        let shapes = Shapes::new(1.0, &[0.3], 0.1, 1);
+        let bytes = encode(&shapes).unwrap();
+        assert!(bytes.starts_with(b"\x89HDF\r\n\x1a\n"));
+        assert!(bytes == encode(&shapes).unwrap());
+    }
+
+    #[test]
+    fn a_full_disk_is_reported_as_such() {
+        let shapes = Shapes::new(1.0, &[], 0.1, 1);
+        let mut small = [0; 100];
+        assert_eq!(write_vtkhdf(&shapes, &mut small[..]).unwrap_err().kind(), ErrorKind::WriteZero);
+    }
 }
