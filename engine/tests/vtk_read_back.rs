@@ -9,6 +9,7 @@ use flexion::output::{Directory, Status};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
 /// Largest difference, over the length of the beam or in rad: rounding.
@@ -82,6 +83,24 @@ fn points_and_arrays_of_every_frame_are_those_of_the_trajectory() {
     assert!(worst < TOLERANCE, "{worst:.1e}");
 }
 
+#[cfg(feature = "vtkhdf")]
+#[test]
+fn the_points_of_all_times_follow_one_another_in_one_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let (out, _) = results(folder.path());
+    let file = std::fs::read(out.join("beam.vtkhdf")).unwrap();
+    assert!(file.starts_with(b"\x89HDF\r\n\x1a\n"));
+    for name in ["Points", "displacement", "deflection", "axial", "rotation"] {
+        let mut expected = Vec::new();
+        for frame in 0..7 {
+            let text = std::fs::read_to_string(out.join(format!("vtk/frame_{frame:05}.vtu"))).unwrap();
+            let grid = roxmltree::Document::parse(&text).unwrap();
+            expected.extend(numbers(&grid, name).into_iter().flat_map(f64::to_le_bytes));
+        }
+        assert!((0..file.len()).any(|at| file[at..].starts_with(&expected)), "{name}");
+    }
+}
+
 /// Runs a command to its end, or kills it when it takes longer than `patience`; its output goes to `log`.
 fn finish(command: &mut Command, log: &Path, patience: Duration) -> Result<(), String> {
     let file = std::fs::File::create(log).map_err(|e| e.to_string())?;
@@ -135,10 +154,11 @@ fn python(logs: &Path) -> Result<PathBuf, String> {
 }
 
 /// Says `VTK: …` with what was compared, or why it was left out: a machine without Python or network has no VTK.
-#[test]
-fn vtk_itself_reads_the_shapes() {
+fn hold_against(script: &str) {
+    // The environment is made by one test at a time.
+    static FOUND: OnceLock<Result<PathBuf, String>> = OnceLock::new();
     let folder = tempfile::tempdir().unwrap();
-    let python = match python(folder.path()) {
+    let python = match FOUND.get_or_init(|| python(folder.path())) {
         Ok(python) => python,
         Err(reason) => {
             eprintln!("VTK: left out, {reason}");
@@ -146,10 +166,21 @@ fn vtk_itself_reads_the_shapes() {
         }
     };
     let (out, _) = results(folder.path());
-    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/vtk/read_back.py");
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/vtk").join(script);
     let log = folder.path().join("read");
     let read = finish(Command::new(python).arg(script).arg(&out), &log, PATIENCE);
     let said = std::fs::read_to_string(&log).unwrap();
     assert!(read.is_ok(), "{read:?}: {said}");
     eprintln!("VTK: {}", said.trim());
+}
+
+#[test]
+fn vtk_itself_reads_the_shapes() {
+    hold_against("read_back.py");
+}
+
+#[cfg(feature = "vtkhdf")]
+#[test]
+fn vtk_itself_reads_all_times_from_one_file() {
+    hold_against("read_back_hdf.py");
 }

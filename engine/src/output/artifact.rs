@@ -24,6 +24,8 @@ pub enum Artifact {
     TrajectoryCsv,
     /// `trajectory.npz`.
     TrajectoryNpz,
+    /// `trajectory.parquet`: written with the feature `parquet`.
+    TrajectoryParquet,
     /// `plot.svg`.
     PlotSvg,
     /// `plot.png`.
@@ -32,6 +34,8 @@ pub enum Artifact {
     ShapeSeries,
     /// `vtk/frame_00000.vtu` and so on: the shape of the beam at one time.
     Shape(u32),
+    /// `beam.vtkhdf`: the shapes of all times in one file, written with the feature `vtkhdf`.
+    ShapeHdf,
     /// `compare.json`.
     CompareJson,
     /// `compare.csv`.
@@ -77,9 +81,11 @@ impl Artifact {
         Artifact::State,
         Artifact::TrajectoryCsv,
         Artifact::TrajectoryNpz,
+        Artifact::TrajectoryParquet,
         Artifact::PlotSvg,
         Artifact::PlotPng,
         Artifact::ShapeSeries,
+        Artifact::ShapeHdf,
     ];
 
     /// The files of a comparison; the first closes the directory.
@@ -133,9 +139,11 @@ impl Artifact {
             Artifact::State => "state.npz".into(),
             Artifact::TrajectoryCsv => "trajectory.csv".into(),
             Artifact::TrajectoryNpz => "trajectory.npz".into(),
+            Artifact::TrajectoryParquet => "trajectory.parquet".into(),
             Artifact::PlotSvg => "plot.svg".into(),
             Artifact::PlotPng => "plot.png".into(),
             Artifact::ShapeSeries => "beam.pvd".into(),
+            Artifact::ShapeHdf => "beam.vtkhdf".into(),
             Artifact::Shape(number) => format!("{SHAPES}/frame_{number:05}.vtu").into(),
             Artifact::CompareJson => "compare.json".into(),
             Artifact::CompareCsv => "compare.csv".into(),

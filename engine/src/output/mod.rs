@@ -10,6 +10,8 @@ mod csv;
 mod directory;
 mod error;
 mod npz;
+#[cfg(feature = "parquet")]
+mod parquet;
 pub mod plot;
 mod provenance;
 mod recorder;
@@ -22,6 +24,8 @@ mod summary;
 mod trajectory;
 mod vibration;
 mod vtk;
+#[cfg(feature = "vtkhdf")]
+mod vtkhdf;
 
 pub use self::artifact::Artifact;
 pub use self::compare::{Comparison, Difference, compare, compare_csv, compare_json};
@@ -29,6 +33,8 @@ pub use self::csv::{read_csv, write_csv};
 pub use self::directory::{Directory, write_file};
 pub use self::error::{OutputError, ResultsError};
 pub use self::npz::write_npz;
+#[cfg(feature = "parquet")]
+pub use self::parquet::write_parquet;
 pub use self::provenance::resolved_case;
 pub use self::recorder::{Recorder, Watch};
 pub use self::results::{Results, select};
@@ -39,3 +45,5 @@ pub use self::summary::{Integration, ProblemSize, RunReport, Status, Summary, VE
 pub use self::trajectory::{Extremes, Trajectory};
 pub use self::vibration::{Frequencies, write_campbell, write_modes};
 pub use self::vtk::{write_pvd, write_vtu};
+#[cfg(feature = "vtkhdf")]
+pub use self::vtkhdf::write_vtkhdf;

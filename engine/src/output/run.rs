@@ -49,6 +49,8 @@ pub fn write_run(
     // The smaller one first: it may still fit on a disk that is nearly full.
     directory.write(Artifact::TrajectoryNpz, |f| write_npz(trajectory, f))?;
     directory.write(Artifact::TrajectoryCsv, |f| write_csv(trajectory, f))?;
+    #[cfg(feature = "parquet")]
+    directory.write(Artifact::TrajectoryParquet, |f| super::write_parquet(trajectory, f))?;
     let mut warnings = report.warnings.to_vec();
     if let Some(figure) = attachments.figure {
         let drawing = figure.draw();
@@ -63,6 +65,8 @@ pub fn write_run(
             directory.write(Artifact::Shape(number), |f| write_vtu(&shape, f))?;
         }
         directory.write(Artifact::ShapeSeries, |f| write_pvd(shapes.times(), f))?;
+        #[cfg(feature = "vtkhdf")]
+        directory.write(Artifact::ShapeHdf, |f| super::write_vtkhdf(shapes, f))?;
     }
     let summary = Summary::of_run(&RunReport { warnings: &warnings, ..report.clone() }, trajectory);
     directory.write(Artifact::Summary, |f| f.write_all(summary.to_json().as_bytes()))?;
@@ -100,20 +104,19 @@ mod tests {
     }
 
     #[test]
-    fn a_run_leaves_its_six_files_and_nothing_else() {
+    fn a_run_leaves_its_files_and_nothing_else() {
         let files = files(Status::Stopped);
         let names: Vec<&str> = files.iter().map(|(n, _)| n.as_str()).collect();
-        assert_eq!(
-            names,
-            [
-                "case.resolved.toml",
-                "plot.png",
-                "plot.svg",
-                "summary.json",
-                "trajectory.csv",
-                "trajectory.npz"
-            ]
-        );
+        let mut expected = vec![
+            "case.resolved.toml",
+            "plot.png",
+            "plot.svg",
+            "summary.json",
+            "trajectory.csv",
+            "trajectory.npz",
+        ];
+        expected.extend(cfg!(feature = "parquet").then_some("trajectory.parquet"));
+        assert_eq!(names, expected);
     }
 
     #[test]

@@ -24,7 +24,7 @@ use super::shapes::Shape;
 use crate::system::Frame;
 
 /// Number of VTK's quadrilateral.
-const QUAD: u8 = 9;
+pub(super) const QUAD: u8 = 9;
 
 /// Writes the shape at one time as a VTK unstructured grid (`.vtu`).
 ///
@@ -83,11 +83,11 @@ pub fn write_pvd(times: &[f64], mut to: impl Write) -> io::Result<()> {
 
 /// How a section has moved against the root.
 #[derive(Clone, Copy, Debug, Default)]
-struct Relative {
-    displacement: [f64; 3],
-    axial: f64,
-    deflection: f64,
-    rotation: f64,
+pub(super) struct Relative {
+    pub(super) displacement: [f64; 3],
+    pub(super) axial: f64,
+    pub(super) deflection: f64,
+    pub(super) rotation: f64,
 }
 
 /// Columns of a rotation matrix: the axes of the section.
@@ -99,7 +99,7 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-fn relative(shape: &Shape<'_>) -> Vec<Relative> {
+pub(super) fn relative(shape: &Shape<'_>) -> Vec<Relative> {
     let Some(root) = shape.frames.first() else { return Vec::new() };
     let (tangent, normal) = (axis(root, 0), axis(root, 1));
     let first = shape.stations.first().copied().unwrap_or(0.0);
@@ -121,14 +121,14 @@ fn relative(shape: &Shape<'_>) -> Vec<Relative> {
 }
 
 /// Lower fibre, axis and upper fibre of a section.
-fn fibres(frame: &Frame, height: f64) -> [[f64; 3]; 3] {
+pub(super) fn fibres(frame: &Frame, height: f64) -> [[f64; 3]; 3] {
     let normal = axis(frame, 1);
     let at = |s: f64| std::array::from_fn(|i| frame.position[i] + s * height * normal[i]);
     [at(-0.5), frame.position, at(0.5)]
 }
 
 /// Corners of the quadrilaterals, counterclockwise, and where each one ends in the list.
-fn quads(sections: usize) -> (Vec<i32>, Vec<i32>) {
+pub(super) fn quads(sections: usize) -> (Vec<i32>, Vec<i32>) {
     let mut corners = Vec::new();
     for i in (0..sections.saturating_sub(1) as i32).map(|i| 3 * i) {
         corners.extend([i, i + 3, i + 4, i + 1]);
