@@ -90,9 +90,8 @@ pub fn campbell_figure(
             _ => format!("ω = kΩ, k = 1 … {revolutions}"),
         });
         // At the end of the line: beside it, or below the upper edge of the frame.
-        let text = if k == 1 { "Ω".to_owned() } else { format!("{k}Ω") };
         let beside = f64::from(k) * furthest <= top;
-        words.push(Words { points: vec![(end, f64::from(k) * end)], text, beside });
+        words.push(Words { points: vec![(end, f64::from(k) * end)], text: format!("{k}Ω"), beside });
         series.push(Series { name, points, line: Line::Dotted, color: Some(7), ..Series::default() });
     }
     let crossings: Vec<(f64, f64)> = campbell
