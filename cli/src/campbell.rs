@@ -15,10 +15,10 @@ use std::path::{Path, PathBuf};
   flexion campbell case.toml --speeds 0:600:100 --unit rpm --revolutions 6 --output results/campbell
   flexion campbell case.toml --speeds '0 rpm:20 rpm:100' --unit Hz
 
-Speeds are written FROM:TO:NUMBER, ends included, or FROM:TO for 51 of them, in the unit of --unit or with units of their
-own. The motion of the case is replaced by steady
-rotation at each speed; the hub keeps its speed unless --free-hub is given. Modes are followed by their shapes
-through crossings and veerings; speeds are inserted where a shape changes fast.
+Speeds are written FROM:TO:NUMBER, ends included, or FROM:TO for 51 of them, in the unit of --unit or with units of
+their own. The motion of the case is replaced by steady rotation at each speed; the hub keeps its speed unless
+--free-hub is given. Modes are followed by their shapes through crossings and veerings; speeds are inserted where a
+shape changes fast.
 
 Exit codes: 0 finished, 1 case or command line rejected, 2 no steady rotation was found within the range,
 and what lies below is kept. A divergence or a flutter within the range is a result.")]

@@ -7,7 +7,7 @@ use flexion::case::declaration::{Bound, Key, Presence, Seam, Type, short};
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  flexion list\n  flexion list integrator")]
 pub struct Arguments {
-    /// Only this choice, with the keys of its kinds: section, motion, coupling, basis, initial or integrator
+    /// Only this choice, with the keys of its kinds: e.g. section, motion, basis, initial, integrator
     #[arg(value_name = "CHOICE")]
     seam: Option<String>,
 }

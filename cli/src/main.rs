@@ -51,7 +51,7 @@ enum Command {
     Campbell(campbell::Arguments),
     /// Plot columns of one or several runs
     Plot(plot::Arguments),
-    /// List the kinds of section, motion, coupling, basis and integrator
+    /// List all kinds that a case may choose, with their keys
     List(list::Arguments),
     /// Print the JSON Schema of case files, for editors
     #[command(after_help = "Example:\n  flexion schema > docs/flexion.schema.json")]

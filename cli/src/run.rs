@@ -99,7 +99,7 @@ fn finish(status: Status, run: &Run, directory: &Directory) -> Outcome {
     out.push_str(&extremes(trajectory));
     out.push('\n');
     if let Some(errors) = &run.errors {
-        out.push_str(&error_table(errors));
+        out.push_str(&error_table(errors, trajectory));
         out.push('\n');
     }
     let place = |what: &str, artifact| vec![what.to_owned(), directory.file(artifact).display().to_string()];
@@ -150,13 +150,20 @@ fn extremes(trajectory: &Trajectory) -> String {
 }
 
 /// Estimated errors of what is recorded at the tip and the hub.
-fn error_table(errors: &Errors) -> String {
-    let head = ["", "error of mesh and steps", "difference to the exact coupling"];
+fn error_table(errors: &Errors, trajectory: &Trajectory) -> String {
+    let head = ["", "unit", "error of mesh and steps", "difference to the exact coupling"];
     let mut rows = vec![head.iter().map(|cell| (*cell).to_owned()).collect::<Vec<_>>()];
     let shown = |name: &str| name.starts_with("tip.") || name.starts_with("hub.");
     for error in errors.columns.iter().filter(|error| shown(&error.column)) {
         let model = error.model.map_or("-".to_owned(), |model| format!("{model:.1e}"));
-        rows.push(vec![error.column.clone(), format!("{:.1e}", error.discretization), model]);
+        let unit = trajectory.index(&error.column).map_or("", |index| trajectory.channels()[index].unit);
+        let unit = if unit.is_empty() { "1" } else { unit };
+        rows.push(vec![
+            error.column.clone(),
+            unit.to_owned(),
+            format!("{:.1e}", error.discretization),
+            model,
+        ]);
     }
     screen::table(&rows)
 }

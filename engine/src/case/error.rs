@@ -222,12 +222,33 @@ fn largest_difference(a: &Trajectory, b: &Trajectory, column: &str) -> Option<(f
     let pairs = a.values(a.index(column)?).zip(b.values(b.index(column)?));
     let mut largest = (0.0_f64, 0.0_f64);
     for (x, y) in pairs {
-        // NaN is not hidden.
+        // NaN is not hidden, neither here nor by a later row.
         let difference = (x - y).abs();
-        if !(difference <= largest.0) {
+        if !(difference <= largest.0 || largest.0.is_nan()) {
             largest.0 = difference;
         }
         largest.1 = largest.1.max(y.abs());
     }
     Some(largest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::system::Channel;
+
+    fn column(values: [f64; 3]) -> Trajectory {
+        let mut out = Trajectory::new(vec![Channel { name: "y".into(), unit: "m", meaning: String::new() }]);
+        for (i, value) in values.into_iter().enumerate() {
+            out.push(i as f64, |row| row[0] = value);
+        }
+        out
+    }
+
+    #[test]
+    fn a_difference_that_is_no_number_is_told_whatever_follows_it() {
+        let (a, b) = (column([0.0, f64::NAN, 3.0]), column([0.0, 1.0, 2.0]));
+        assert!(largest_difference(&a, &b, "y").unwrap().0.is_nan());
+        assert_eq!(largest_difference(&b, &column([0.0, 0.5, 2.25]), "y"), Some((0.5, 2.25)));
+    }
 }

@@ -63,7 +63,10 @@ impl Restart {
     /// At `initial.file`, when the file is none or its model differs: with the first keys that do.
     pub(super) fn read(reading: &Reading, file: &Path) -> Result<Restart, Problems> {
         let refuse = |message: String| reading.problem("initial.file", message);
-        let opened = File::open(file).map_err(|e| refuse(format!("cannot read {}: {e}", file.display())))?;
+        let opened = File::open(file).map_err(|e| {
+            let hint = "a path begins at the folder of the case, unless it is absolute";
+            refuse(format!("cannot read {}: {e}; {hint}", file.display()))
+        })?;
         let (checkpoint, identity) = read_state(BufReader::new(opened))
             .map_err(|reason| refuse(format!("{} is not the state of a run: {reason}", file.display())))?;
         let (here, there) = (reading.identity(), identity);

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use kuva::backend::{raster::RasterBackend, svg::SvgBackend};
-use kuva::plot::legend::{LegendEntry, LegendPosition, LegendShape};
+use kuva::plot::legend::{LegendEntry, LegendShape};
 use kuva::plot::scatter::MarkerShape;
 use kuva::plot::{LinePlot, ScatterPlot};
 use kuva::render::annotations::TextAnnotation;
@@ -16,6 +16,7 @@ use kuva::render::theme::Theme;
 use super::axis::Resolved;
 use super::dash::dashes;
 use super::decimate::decimate;
+use super::room::Room;
 use super::{Figure, Line, Marker, Panel, Series, style};
 use crate::output::OutputError;
 
@@ -59,10 +60,10 @@ fn number_clips(scene: &mut Scene) {
 }
 
 /// A panel with its axes decided.
-struct Placed<'a> {
-    panel: &'a Panel,
-    x: Resolved,
-    y: Resolved,
+pub(super) struct Placed<'a> {
+    pub(super) panel: &'a Panel,
+    pub(super) x: Resolved,
+    pub(super) y: Resolved,
     /// Whether numbers and label stand below it.
     x_labelled: bool,
 }
@@ -89,7 +90,7 @@ impl Figure {
                 placed
                     .iter()
                     .enumerate()
-                    .map(|(i, p)| layout(p, &margins, i % columns, bottoms[i / columns], height))
+                    .map(|(i, p)| layout(p, &margins, i % columns, bottoms[i / columns], (width, height)))
                     .collect(),
             );
         for (column, left) in margins.left.iter().enumerate() {
@@ -159,7 +160,7 @@ impl Margins {
     }
 }
 
-fn layout(p: &Placed<'_>, margins: &Margins, column: usize, bottom: f64, height: f64) -> Layout {
+fn layout(p: &Placed<'_>, margins: &Margins, column: usize, bottom: f64, size: (f64, f64)) -> Layout {
     let tick = |axis: &Resolved| {
         let axis = axis.clone();
         TickFormat::Custom(Arc::new(move |s| axis.tick(s)))
@@ -184,7 +185,7 @@ fn layout(p: &Placed<'_>, margins: &Margins, column: usize, bottom: f64, height:
         .with_y_label(p.y.label.clone())
         .with_theme(theme)
         .with_font_family(style::FONTS)
-        .with_label_size(style::label_size(&p.y.label, height))
+        .with_label_size(style::label_size(&p.y.label, size.1))
         .with_tick_size(style::TICK_SIZE)
         .with_body_size(style::LEGEND_SIZE)
         .with_axis_line_width(style::FRAME_WIDTH)
@@ -200,16 +201,16 @@ fn layout(p: &Placed<'_>, margins: &Margins, column: usize, bottom: f64, height:
     } else {
         layout.suppress_x_ticks = true;
     }
-    for (x, y, words) in words(p, height) {
+    let mut room = Room::new(p, size);
+    for (x, y, words) in room.words(p) {
         let text = TextAnnotation::new(words, x, y).with_color(style::INK).with_font_size(style::LEGEND_SIZE);
         layout = layout.with_annotation(text);
     }
     let entries = legend(p.panel);
     if !entries.is_empty() {
-        layout = layout
-            .with_legend_entries(entries)
-            .with_legend_position(emptiest_corner(p, height))
-            .with_legend_box(true);
+        let names: Vec<&str> = entries.iter().map(|entry| entry.label.as_str()).collect();
+        let position = room.legend(p, &names);
+        layout = layout.with_legend_entries(entries).with_legend_position(position).with_legend_box(true);
     }
     layout
 }
@@ -221,7 +222,7 @@ fn plots(p: &Placed<'_>, size: (f64, f64)) -> Vec<Plot> {
     let mut plots = Vec::new();
     for (i, series) in p.panel.series.iter().enumerate() {
         let color = style::color(series.color.unwrap_or(i));
-        for piece in pieces(p, series) {
+        for piece in p.pieces(series) {
             // A curve with marks shows each of its points; any other is thinned to two points a pixel.
             let columns = if series.marker.is_some() { piece.len() } else { 2 * size.0 as usize };
             let thin = decimate(&piece, p.x.range, columns);
@@ -251,34 +252,17 @@ fn plots(p: &Placed<'_>, size: (f64, f64)) -> Vec<Plot> {
     plots
 }
 
-/// The unbroken pieces of a curve, in mapped numbers.
-fn pieces(p: &Placed<'_>, series: &Series) -> Vec<Vec<(f64, f64)>> {
-    let mapped: Vec<Option<(f64, f64)>> =
-        series.points.iter().map(|&(x, y)| p.x.map(x).zip(p.y.map(y))).collect();
-    mapped
-        .split(Option::is_none)
-        .filter(|piece| !piece.is_empty())
-        .map(|piece| piece.iter().flatten().copied().collect())
-        .collect()
-}
-
-/// The words of a panel whose frame has the given height [px], in mapped numbers; of two that would overlap, the first.
-fn words<'a>(p: &Placed<'a>, height: f64) -> Vec<(f64, f64, &'a str)> {
-    let part = |v: f64, (lo, hi): (f64, f64)| (v - lo) / (hi - lo);
-    let line = 1.1 * f64::from(style::LEGEND_SIZE) / height;
-    let mut out: Vec<(f64, f64, &'a str)> = Vec::new();
-    for words in &p.panel.words {
-        let Some((x, y)) = p.x.map(words.point.0).zip(p.y.map(words.point.1)) else { continue };
-        let (u, v) = (part(x, p.x.range), part(y, p.y.range));
-        let inside = (0.0..=1.0).contains(&u) && (0.0..=1.0 - line).contains(&v);
-        let overlap = |&(a, b, _): &(f64, f64, &str)| {
-            (part(a, p.x.range) - u).abs() < 0.1 && (part(b, p.y.range) - v).abs() < line
-        };
-        if inside && !out.iter().any(overlap) {
-            out.push((x, y, &words.text));
-        }
+impl Placed<'_> {
+    /// The unbroken pieces of a curve, in mapped numbers.
+    pub(super) fn pieces(&self, series: &Series) -> Vec<Vec<(f64, f64)>> {
+        let mapped: Vec<Option<(f64, f64)>> =
+            series.points.iter().map(|&(x, y)| self.x.map(x).zip(self.y.map(y))).collect();
+        mapped
+            .split(Option::is_none)
+            .filter(|piece| !piece.is_empty())
+            .map(|piece| piece.iter().flatten().copied().collect())
+            .collect()
     }
-    out
 }
 
 fn legend(panel: &Panel) -> Vec<LegendEntry> {
@@ -292,42 +276,6 @@ fn legend(panel: &Panel) -> Vec<LegendEntry> {
         s.name.clone().map(|label| LegendEntry { label, color, shape, dasharray })
     };
     panel.series.iter().enumerate().filter_map(entry).collect()
-}
-
-/// The corner of the panel through which the fewest points pass; a word counts as some.
-fn emptiest_corner(p: &Placed<'_>, height: f64) -> LegendPosition {
-    const WORD: usize = 10;
-    let corners = [
-        (LegendPosition::InsideTopRight, true, true),
-        (LegendPosition::InsideBottomRight, true, false),
-        (LegendPosition::InsideTopLeft, false, true),
-        (LegendPosition::InsideBottomLeft, false, false),
-    ];
-    let part = |s: f64, (lo, hi): (f64, f64)| (s - lo) / (hi - lo);
-    let points: Vec<(f64, f64)> = p
-        .panel
-        .series
-        .iter()
-        .flat_map(|s| pieces(p, s))
-        .flatten()
-        .chain(words(p, height).into_iter().flat_map(|(x, y, _)| [(x, y); WORD]))
-        .map(|(x, y)| (part(x, p.x.range), part(y, p.y.range)))
-        .collect();
-    // The box of the legend grows with its entries.
-    let entries = p.panel.series.iter().filter(|s| s.name.is_some()).count();
-    let reach = (0.1 + 0.11 * entries as f64).min(0.5);
-    let crowd = |right: bool, top: bool| {
-        let inside = |s: f64, far: bool, reach: f64| if far { s > 1.0 - reach } else { s < reach };
-        points.iter().filter(|(x, y)| inside(*x, right, 0.4) && inside(*y, top, reach)).count()
-    };
-    let mut best = (usize::MAX, LegendPosition::InsideTopRight);
-    for (position, right, top) in corners {
-        let count = crowd(right, top);
-        if count < best.0 {
-            best = (count, position);
-        }
-    }
-    best.1
 }
 
 fn shape(marker: Marker) -> MarkerShape {

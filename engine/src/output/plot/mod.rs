@@ -9,6 +9,7 @@ mod dash;
 mod decimate;
 mod draw;
 mod panels;
+mod room;
 mod style;
 #[cfg(test)]
 mod tests;
@@ -41,17 +42,19 @@ pub struct Panel {
     pub y: Axis,
     /// The curves, drawn in this order; those with a name are listed in a legend.
     pub series: Vec<Series>,
-    /// Words written just above points of the panel, those that would overlap left out.
+    /// Words written at points of the panel, those that would overlap left out.
     pub words: Vec<Words>,
 }
 
 /// Words in a panel.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Words {
-    /// Point (x, y) in the units of the axes, above which they stand in the middle.
-    pub point: (f64, f64),
+    /// Points (x, y) in the units of the axes, at the first of which they stand that is clear of curves.
+    pub points: Vec<(f64, f64)>,
     /// The words.
     pub text: String,
+    /// Whether they stand to the right of the point instead of above it.
+    pub beside: bool,
 }
 
 /// What an axis shows and how.

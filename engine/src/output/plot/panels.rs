@@ -5,12 +5,16 @@ use crate::output::{Comparison, Results, Trajectory};
 use crate::system::Channel;
 
 /// Columns that have a panel of their own, with the words for it.
-const SINGLE: [(&str, &str); 5] = [
+const SINGLE: [(&str, &str); 9] = [
     ("tip.deflection", "Tip deflection w₂"),
     ("tip.axial", "Axial displacement"),
     ("hub.speed", "Hub speed"),
     ("hub.torque", "Hub torque τ"),
     ("hub.angle", "Hub angle θ"),
+    ("energy.kinetic", "Kinetic energy"),
+    ("energy.strain", "Strain energy"),
+    ("energy.gravity", "Energy of gravity"),
+    ("energy.total", "Total energy"),
 ];
 
 /// Energies, in the order of the legend; small ones get a panel of their own.
@@ -141,7 +145,7 @@ fn energies(trajectory: &Trajectory) -> Vec<Panel> {
 fn axis(channel: &Channel) -> Axis {
     let known = SINGLE.iter().find(|(name, _)| *name == channel.name);
     let quantity = known.map_or_else(|| capitalised(&channel.name.replace(['.', '_'], " ")), |k| k.1.into());
-    Axis::new(quantity, channel.unit)
+    Axis::new(quantity, channel.unit.replace('*', "·"))
 }
 
 fn points(trajectory: &Trajectory, index: usize) -> Vec<(f64, f64)> {

@@ -60,6 +60,11 @@ pub(super) fn tick_width(text: &str) -> f64 {
     em * f64::from(TICK_SIZE)
 }
 
+/// Width of words set in the font of legends [px], rather too wide.
+pub(super) fn word_width(text: &str) -> f64 {
+    0.6 * f64::from(LEGEND_SIZE) * text.chars().count() as f64
+}
+
 /// Size of a label [px] that has to fit along `length` [px]: smaller for a long one, never below
 /// what can be read.
 pub(super) fn label_size(text: &str, length: f64) -> u32 {

@@ -140,3 +140,32 @@ fn a_dashed_curve_may_leave_a_given_range_by_any_amount() {
     assert!(svg.len() < 100_000 && !svg.contains("NaN"), "{} bytes", svg.len());
     assert!(figure.draw().png().is_ok());
 }
+
+/// Height at which words stand in a figure [px from above].
+fn height_of(svg: &str, words: &str) -> Option<f64> {
+    let before = svg.split(&format!(">{words}<")).next().filter(|before| before.len() < svg.len())?;
+    let tag = &before[before.rfind("<text")?..];
+    tag.split(" y=\"").nth(1)?.split('"').next()?.parse().ok()
+}
+
+#[test]
+fn the_legend_and_words_stand_clear_of_curves_that_pass_all_corners() {
+    // Two points a curve: it is the line that counts, not its points.
+    let level = |y: f64| vec![(0.0, y), (1.0, y)];
+    let series = vec![
+        Series::line(Some("lower"), level(0.05)),
+        Series::line(Some("upper"), level(0.95)),
+        Series::line(None, vec![(0.1, 0.5), (0.3, 0.56)]),
+    ];
+    let word = |x: f64| Words { points: vec![(x, 0.5), (0.8, 0.5)], text: "name".into(), beside: false };
+    let axis = || Axis { range: Some((0.0, 1.0)), ..Axis::new("y", "m") };
+    let panel = Panel { x: axis(), y: axis(), series, words: vec![word(0.2), word(0.8)] };
+    let svg = Figure { panels: vec![panel], ..Figure::default() }.draw().svg();
+    // The frame is 340 px high: the curves pass 17 px within its edges.
+    for name in ["lower", "upper"] {
+        let y = height_of(&svg, name).unwrap();
+        assert!((45.0..335.0).contains(&y), "{name} at {y}");
+    }
+    // The first is not put on the slope; the second would cover the first.
+    assert_eq!(count(&svg, ">name<"), 1);
+}

@@ -9,6 +9,9 @@ use num_complex::Complex64;
 /// Most modes that are drawn.
 const MOST: usize = 12;
 
+/// Where along its curve a mode may be named, over the range of speeds: the first place that is clear is taken.
+const NAMED: [f64; 9] = [0.12, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9];
+
 /// The shapes of modes: one panel each, the displacements of the stations along the axes of the sections at
 /// the phase at which the largest is real.
 pub fn modes_figure(modes: &Modes, stations: &[f64], unit: &Frequencies, title: Option<&str>) -> Figure {
@@ -65,25 +68,30 @@ pub fn campbell_figure(
         let points: Vec<(f64, f64)> =
             branch.points.iter().map(|p| (p.speed * unit.factor, p.mode.frequency() * unit.factor)).collect();
         top = points.iter().map(|p| p.1).fold(top, f64::max);
-        // Where the lines of whole revolutions are furthest: near the vertical axis.
-        let near =
-            points.iter().min_by(|a, b| (a.0 - 0.12 * last).abs().total_cmp(&(b.0 - 0.12 * last).abs()));
-        if let (Some(first), Some(&point)) = (branch.points.first(), near) {
+        // Where the lines of whole revolutions are furthest, if there is room: near the vertical axis.
+        let near = |x: f64| points.iter().min_by(|a, b| (a.0 - x).abs().total_cmp(&(b.0 - x).abs())).copied();
+        if let Some(first) = branch.points.first() {
             let text = format!("{} {}", number + 1, first.mode.shares.dominant());
-            words.push(Words { point, text });
+            let points = NAMED.iter().filter_map(|part| near(part * last)).collect();
+            words.push(Words { points, text, beside: false });
         }
         series.push(Series { color: Some(number), ..Series::line(None, points) });
     }
+    // A line at the end of the curves stands clear of the frame, and words beside their ends have room.
+    let marks = instabilities(campbell, top, unit);
+    let first = campbell.speeds.first().copied().unwrap_or(0.0) * unit.factor;
+    let begin = if revolutions > 0 { 0.0 } else { first };
+    let furthest = marks.iter().flat_map(|s| &s.points).map(|p| p.0).fold(last, f64::max);
     for k in 1..=revolutions {
-        let end = last.min(top / f64::from(k));
+        let end = furthest.min(top / f64::from(k));
         let points = vec![(0.0, 0.0), (end, f64::from(k) * end)];
         let name = (k == 1).then(|| match revolutions {
             1 => "ω = Ω".to_owned(),
             _ => format!("ω = kΩ, k = 1 … {revolutions}"),
         });
-        // At the end of the line, a little inside the frame.
-        let inside = end.min(0.97 * last);
-        words.push(Words { point: (inside, f64::from(k) * inside), text: format!("{k}Ω") });
+        // At the end of the line: beside it, or below the upper edge of the frame.
+        let beside = f64::from(k) * furthest <= top;
+        words.push(Words { points: vec![(end, f64::from(k) * end)], text: format!("{k}Ω"), beside });
         series.push(Series { name, points, line: Line::Dotted, color: Some(7), ..Series::default() });
     }
     let crossings: Vec<(f64, f64)> = campbell
@@ -100,12 +108,8 @@ pub fn campbell_figure(
             color: Some(1),
         });
     }
-    let marks = instabilities(campbell, top, unit);
-    // A line at the end of the curves stands clear of the frame.
-    let first = campbell.speeds.first().copied().unwrap_or(0.0) * unit.factor;
-    let begin = if revolutions > 0 { 0.0 } else { first };
-    let furthest = marks.iter().flat_map(|s| &s.points).map(|p| p.0).fold(last, f64::max);
-    let range = (furthest > last).then_some((begin, begin + 1.04 * (furthest - begin)));
+    let room = if words.iter().any(|words| words.beside) { 1.06 } else { 1.04 };
+    let range = (room > 1.05 || furthest > last).then_some((begin, begin + room * (furthest - begin)));
     series.extend(marks);
     let panel = Panel {
         x: Axis { tight: true, range, ..Axis::new("Speed Ω", unit.name) },
