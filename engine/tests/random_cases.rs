@@ -19,7 +19,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
 /// Cases of a usual run of the tests.
-const CASES: u64 = 40;
+const CASES: u64 = 100;
 
 /// What is compared, with the size below which nobody asks, in lengths of the beam or in radians.
 const COLUMNS: &[(&str, f64)] =
