@@ -302,9 +302,7 @@ impl Inertia {
         let (q, v, a) = (&s.q[..n], &s.v[..n], &s.a[..n]);
         let (sx, sy, r) = (&self.axial_moment[..n], &self.transverse_moment[..n], &mut r[..n]);
         let Scratch { all: x, pair, symmetric: y, .. } = x;
-        for term in 0..4 {
-            x.set(term, |i| q[i]);
-        }
+        x.set_all(|i| q[i]);
         let Damping { mass, stiffness } = self.damping;
         if self.damping.is_none() {
             pair.set(0, |i| a[i]);

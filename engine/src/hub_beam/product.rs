@@ -49,6 +49,22 @@ impl Vectors {
             }
         }
     }
+
+    /// Sets entry i of all vectors to `f(i)`.
+    #[inline]
+    pub(super) fn set_all(&mut self, f: impl Fn(usize) -> f64) {
+        let terms = self.terms;
+        let entries = &mut self.data[self.range.clone()];
+        if terms == TERMS {
+            for (i, x) in entries.as_chunks_mut::<TERMS>().0.iter_mut().enumerate() {
+                *x = [f(i); TERMS];
+            }
+        } else {
+            for (i, x) in entries.as_chunks_mut::<2>().0.iter_mut().enumerate() {
+                *x = [f(i); 2];
+            }
+        }
+    }
 }
 
 impl Bundle {
