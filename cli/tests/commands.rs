@@ -2,22 +2,13 @@
 
 #![allow(clippy::unwrap_used)] // in helpers of tests
 
-use std::path::Path;
-use std::process::{Command, Output};
+mod program;
 
-const SPIN_UP: &str = r#"
-title = "spin-up"
-[beam]
-length = "10 m"
-[section]
-kind = "uniform"
-modulus = "70 GPa"
-density = "3000 kg/m^3"
-area = "4 cm^2"
-second-moment = "2e-7 m^4"
-[hub]
-motion = { kind = "spin-up", speed = "4 rad/s", time = "15 s" }
-[integrator]
+use program::{SPIN_UP, flexion, text};
+use std::process::Command;
+
+/// What follows the beam.
+const REST: &str = r#"[integrator]
 kind = "newmark"
 step = "5 ms"
 [run]
@@ -30,16 +21,8 @@ step = "10 ms"
 fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     std::fs::create_dir(folder.path().join("spin-up")).unwrap();
-    std::fs::write(folder.path().join("spin-up/case.toml"), SPIN_UP).unwrap();
+    std::fs::write(folder.path().join("spin-up/case.toml"), [SPIN_UP, REST].concat()).unwrap();
     folder
-}
-
-fn flexion(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_flexion")).args(arguments).current_dir(folder).output().unwrap()
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
 }
 
 #[test]

@@ -2,23 +2,15 @@
 
 #![allow(clippy::unwrap_used)] // in helpers of tests
 
+mod program;
+
+use program::{SPIN_UP, flexion, text};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
-const SPIN_UP: &str = r#"
-title = "spin-up"
-[beam]
-length = "10 m"
-[section]
-kind = "uniform"
-modulus = "70 GPa"
-density = "3000 kg/m^3"
-area = "4 cm^2"
-second-moment = "2e-7 m^4"
-[hub]
-motion = { kind = "spin-up", speed = "4 rad/s", time = "15 s" }
-[basis]
+/// What follows the beam.
+const REST: &str = r#"[basis]
 kind = "finite-elements"
 elements = 10
 [run]
@@ -29,16 +21,8 @@ step = "10 ms"
 
 fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("case.toml"), SPIN_UP).unwrap();
+    std::fs::write(folder.path().join("case.toml"), [SPIN_UP, REST].concat()).unwrap();
     folder
-}
-
-fn flexion(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_flexion")).args(arguments).current_dir(folder).output().unwrap()
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
 }
 
 /// Exit code and message of a command that is refused quickly, without a panic.
@@ -81,7 +65,7 @@ fn enormous_numbers_and_files_are_refused_with_their_place() {
         ("key.toml", format!("1\n{} = 2", "m".repeat(9_000_000)), "unknown key"),
         ("brackets.toml", "[".repeat(9_000_000), "TOML"),
     ] {
-        let case = SPIN_UP.replace("length = \"10 m\"", &format!("length = {number}"));
+        let case = [SPIN_UP, REST].concat().replace("length = \"10 m\"", &format!("length = {number}"));
         std::fs::write(folder.path().join(name), case).unwrap();
         let message = refused(folder.path(), &["check", name]);
         assert!(message.contains(expected), "{name}: {message}");

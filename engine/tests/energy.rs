@@ -2,21 +2,13 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
 
-use flexion::case::{Reading, Run, parse};
-use flexion::output::Status;
-use std::ops::ControlFlow;
-use std::path::Path;
+mod written;
 
-const BASE: &str = r#"
-title = "balance"
-[beam]
-length = "2 m"
-[section]
-kind = "rectangle"
-modulus = "7 GPa"
-density = "2700 kg/m^3"
-width = "20 mm"
-height = "20 mm"
+use flexion::case::{Reading, Run};
+use std::ops::ControlFlow;
+use written::SQUARE_BAR;
+
+const REST: &str = r#"
 [hub]
 radius = 0.1
 motion = { kind = "expression", of = "speed", formula = "5*sin(3*t)^2" }
@@ -32,19 +24,12 @@ duration = "1 s"
 step = "0.05 s"
 "#;
 
-fn reading(set: &[&str]) -> Reading {
-    let set: Vec<String> = set.iter().map(|text| (*text).to_owned()).collect();
-    parse(BASE.to_owned(), Path::new("case.toml"), &set).unwrap_or_else(|p| panic!("{}", p.render(false)))
+fn run(set: &[&str]) -> Run {
+    written::finished(&reading(set))
 }
 
-fn run(set: &[&str]) -> Run {
-    let reading = reading(set);
-    let run = reading
-        .prepare()
-        .unwrap_or_else(|p| panic!("{}", p.render(false)))
-        .run(&mut |_| ControlFlow::Continue(()));
-    assert_eq!(run.status, Status::Finished, "{set:?}: {:?}", run.message);
-    run
+fn reading(set: &[&str]) -> Reading {
+    written::reading(&[SQUARE_BAR, REST].concat(), set)
 }
 
 fn largest(run: &Run, column: &str) -> f64 {

@@ -2,23 +2,15 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
 
+mod written;
+
 use flexion::analysis::modes::{Mode, modes};
 use flexion::analysis::rotation::rotate;
-use flexion::case::{Reading, Run, build, parse};
-use flexion::output::Status;
+use flexion::case::{Reading, Run, build};
 use flexion::system::State;
-use std::ops::ControlFlow;
-use std::path::Path;
+use written::SQUARE_BAR;
 
-const BASE: &str = r#"
-[beam]
-length = "2 m"
-[section]
-kind = "rectangle"
-modulus = "7 GPa"
-density = "2700 kg/m^3"
-width = "20 mm"
-height = "20 mm"
+const REST: &str = r#"
 [hub]
 radius = 0.1
 motion = { kind = "constant", speed = "6 rad/s" }
@@ -39,16 +31,11 @@ energy-balance = false
 "#;
 
 fn reading(set: &[&str]) -> Reading {
-    let set: Vec<String> = set.iter().map(|text| (*text).to_owned()).collect();
-    parse(BASE.to_owned(), Path::new("case.toml"), &set).unwrap_or_else(|p| panic!("{}", p.render(false)))
+    written::reading(&[SQUARE_BAR, REST].concat(), set)
 }
 
 fn run(set: &[&str]) -> Run {
-    let reading = reading(set);
-    let prepared = reading.prepare().unwrap_or_else(|p| panic!("{set:?}: {}", p.render(false)));
-    let run = prepared.run(&mut |_| ControlFlow::Continue(()));
-    assert_eq!(run.status, Status::Finished, "{set:?}: {:?}", run.message);
-    run
+    written::finished(&reading(set))
 }
 
 fn refusal(set: &[&str]) -> String {

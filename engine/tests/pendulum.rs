@@ -2,11 +2,11 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
 
-use flexion::case::{Run, parse};
+mod written;
+
+use flexion::case::Run;
 use flexion::exact::pendulum::rod_angle;
 use flexion::output::Status;
-use std::ops::ControlFlow;
-use std::path::Path;
 
 /// The beam of Guo, Zhang & Chen 2017, doi:10.7498/aps.66.164501.
 const BASE: &str = r#"
@@ -42,14 +42,7 @@ const ANGLES: [f64; 2] = [45.0, 0.0];
 fn run(coupling: &str, degrees: f64, set: &[&str]) -> Run {
     let model = format!("model.coupling={coupling}");
     let angle = format!("hub.motion.angle='{degrees} deg'");
-    let set: Vec<String> =
-        [&[model.as_str(), &angle], set].concat().iter().map(|s| (*s).to_owned()).collect();
-    let reading = parse(BASE.to_owned(), Path::new("case.toml"), &set)
-        .unwrap_or_else(|p| panic!("{set:?}: {}", p.render(false)));
-    let prepared = reading.prepare().unwrap_or_else(|p| panic!("{set:?}: {}", p.render(false)));
-    let run = prepared.run(&mut |_| ControlFlow::Continue(()));
-    assert_eq!(run.status, Status::Finished, "{set:?}: {:?}", run.message);
-    run
+    written::finished(&written::reading(BASE, &[&[model.as_str(), &angle], set].concat()))
 }
 
 /// Largest difference of a column.
@@ -122,9 +115,7 @@ fn a_pendulum_that_loses_its_kinetic_energy_ends_with_the_reason() {
             integrator,
             "basis.elements=10",
         ];
-        let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-        let reading = parse(BASE.to_owned(), Path::new("case.toml"), &set).unwrap();
-        let run = reading.prepare().unwrap().run(&mut |_| ControlFlow::Continue(()));
+        let run = written::outcome(&written::reading(BASE, &set));
         assert_eq!(run.status, Status::Failed);
         let message = run.message.unwrap();
         assert!(message.contains("losing its positive kinetic energy"), "{integrator}: {message}");

@@ -2,10 +2,11 @@
 
 #![allow(clippy::unwrap_used)] // in helpers of tests
 
-use flexion::case::{Errors, Reading, Run, parse};
+mod written;
+
+use flexion::case::{Errors, Reading, Run};
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
-use std::path::Path;
 
 const LENGTH: f64 = 2.0;
 const MASS: f64 = 1.5;
@@ -50,13 +51,12 @@ fn deflection(t: f64) -> f64 {
 }
 
 fn read(overrides: &[&str]) -> Reading {
-    let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();
-    parse(CASE.to_owned(), Path::new("case.toml"), &overrides).unwrap()
+    written::reading(CASE, overrides)
 }
 
 /// The run, its errors, and the steps of the companions.
 fn run(reading: &Reading) -> (Run, Errors, u64) {
-    let run = reading.prepare().unwrap().run(&mut |_| ControlFlow::Continue(()));
+    let run = written::outcome(reading);
     let mut steps = 0;
     let errors = reading.estimate_errors(&run, &mut |_| {
         steps += 1;
@@ -118,6 +118,6 @@ fn a_coarse_run_has_no_fine_companions() {
     let finest = "integrator={kind='radau',tolerance=1e-9,absolute-tolerance=1e-9}";
     let finer = "basis={kind='polynomial',nodes=25}";
     let fine = read(&["run.duration=0.3", finer, finest]);
-    let fine = fine.prepare().unwrap().run(&mut |_| ControlFlow::Continue(())).counters.steps;
+    let fine = written::outcome(&fine).counters.steps;
     assert!(2 * steps < fine, "{steps} steps of companions, {fine} of one with the tightest tolerance");
 }

@@ -2,21 +2,14 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
 
-use flexion::case::{Reading, Run, read};
+mod written;
+
+use flexion::case::{Reading, Run};
 use flexion::output::{Directory, Status};
 use std::ops::ControlFlow;
-use std::path::Path;
+use written::{SQUARE_BAR, reading_of as reading};
 
-const BASE: &str = r#"
-title = "continued"
-[beam]
-length = "2 m"
-[section]
-kind = "rectangle"
-modulus = "7 GPa"
-density = "2700 kg/m^3"
-width = "20 mm"
-height = "20 mm"
+const REST: &str = r#"
 [hub]
 inertia = 5
 motion = { kind = "spin-up", speed = "8 rad/s", time = "0.3 s" }
@@ -52,11 +45,6 @@ const MODELS: &[&[&str]] = &[
         "hub.motion={kind='free',torque={kind='constant',torque='20 N*m'}}",
     ],
 ];
-
-fn reading(case: &Path, set: &[&str]) -> Reading {
-    let set: Vec<String> = set.iter().map(|text| (*text).to_owned()).collect();
-    read(case, &set).unwrap_or_else(|problems| panic!("{}", problems.render(false)))
-}
 
 /// Runs until the first step that ends at `until` or later.
 fn run(reading: &Reading, until: f64) -> Run {
@@ -102,7 +90,7 @@ fn assert_same(whole: &Run, parts: &Run, since: f64, what: &str) {
 fn a_stopped_run_goes_on_as_if_it_had_never_stopped() {
     let folder = tempfile::tempdir().unwrap();
     let case = folder.path().join("case.toml");
-    std::fs::write(&case, BASE).unwrap();
+    std::fs::write(&case, [SQUARE_BAR, REST].concat()).unwrap();
     for model in MODELS {
         for integrator in INTEGRATORS {
             let mut set = model.to_vec();
@@ -146,7 +134,7 @@ fn a_stopped_run_goes_on_as_if_it_had_never_stopped() {
 fn a_finished_run_is_prolonged_by_the_same_steps() {
     let folder = tempfile::tempdir().unwrap();
     let case = folder.path().join("case.toml");
-    std::fs::write(&case, BASE).unwrap();
+    std::fs::write(&case, [SQUARE_BAR, REST].concat()).unwrap();
     for set in [
         ["integrator={kind='newmark',step='2 ms'}", "model.coupling=exact"],
         ["integrator={kind='runge-kutta-4',step='10 us'}", "model.coupling=first"],
@@ -168,7 +156,7 @@ fn a_finished_run_is_prolonged_by_the_same_steps() {
 fn another_model_is_refused_and_another_integrator_begins_anew() {
     let folder = tempfile::tempdir().unwrap();
     let case = folder.path().join("case.toml");
-    std::fs::write(&case, BASE).unwrap();
+    std::fs::write(&case, [SQUARE_BAR, REST].concat()).unwrap();
     let first = reading(&case, &[]);
     let run_there = run(&first, 0.2);
     let directory = Directory::create(folder.path().join("first"), true).unwrap();

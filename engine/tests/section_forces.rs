@@ -2,9 +2,9 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
 
-use flexion::case::parse;
+mod written;
+
 use std::ops::ControlFlow;
-use std::path::Path;
 
 /// A beam in the static equilibrium of a hub that sets off with ω̇ = 0.01 rad/s²: under the load −ρA ω̇ x.
 const SETTING_OFF: &str = r#"
@@ -35,9 +35,7 @@ const ACCELERATION: f64 = 0.01;
 
 /// The columns at t = 0.
 fn first_row(set: &[&str]) -> impl Fn(&str) -> f64 + use<> {
-    let set: Vec<String> = set.iter().map(|text| (*text).to_owned()).collect();
-    let reading = parse(SETTING_OFF.to_owned(), Path::new("case.toml"), &set);
-    let reading = reading.unwrap_or_else(|p| panic!("{}", p.render(false)));
+    let reading = written::reading(SETTING_OFF, set);
     let prepared = reading.prepare().unwrap_or_else(|p| panic!("{}", p.render(false)));
     let run = prepared.run(&mut |_| ControlFlow::Break(()));
     move |name: &str| run.trajectory.column(name).unwrap_or_else(|| panic!("no column {name}"))[0]

@@ -2,10 +2,10 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
 
-use flexion::case::{Run, read};
-use flexion::output::Status;
+mod written;
+
+use flexion::case::Run;
 use std::fmt::Write;
-use std::ops::ControlFlow;
 use std::path::Path;
 
 /// A beam so soft that it swings by a fifth of its length, on a hub that is free to turn.
@@ -38,12 +38,7 @@ const COUPLINGS: [&str; 3] = ["first", "high", "exact"];
 fn run_in(folder: &Path, set: &[&str]) -> Run {
     let file = folder.join("case.toml");
     std::fs::write(&file, BASE).unwrap();
-    let set: Vec<String> = set.iter().map(|text| (*text).to_owned()).collect();
-    let reading = read(&file, &set).unwrap_or_else(|p| panic!("{set:?}: {}", p.render(false)));
-    let prepared = reading.prepare().unwrap_or_else(|p| panic!("{set:?}: {}", p.render(false)));
-    let run = prepared.run(&mut |_| ControlFlow::Continue(()));
-    assert_eq!(run.status, Status::Finished, "{set:?}: {:?}", run.message);
-    run
+    written::finished(&written::reading_of(&file, set))
 }
 
 fn run(set: &[&str]) -> Run {

@@ -13,18 +13,12 @@
 
 use super::element::{Functions, Local, add_energy};
 use super::jet::Jet;
-use super::mesh::Element;
+use super::mesh::{Element, Point};
 use super::model::{Model, Terms};
 use crate::section::BladeResultants;
 
 /// Energy per length at a point: `tension` holds N₀ and N.
-pub fn energy(
-    section: &BladeResultants,
-    pitch: f64,
-    tension: (f64, f64),
-    terms: Terms,
-    model: &Model,
-) -> Jet<8> {
+fn energy(section: &BladeResultants, pitch: f64, tension: (f64, f64), terms: Terms, model: &Model) -> Jet<8> {
     let square = |v: usize, a: f64, w: usize, b: f64, factor: f64| {
         let e = Jet::<8>::variable(0.0, v).scaled(a) + Jet::variable(0.0, w).scaled(b);
         (e * e).scaled(0.5 * factor)
@@ -52,8 +46,25 @@ pub fn energy(
 }
 
 impl Element {
-    /// Adds the stiffness of the straight blade at the speed whose square is `square`; `tension` holds C and D
-    /// at the points of the element.
+    /// The points of the element and the energy per length there, at the speed whose square is `square`; `tension` holds
+    /// C and D at the points.
+    pub(super) fn straight_energies<'a>(
+        &'a self,
+        pitch: f64,
+        square: f64,
+        tension: &'a [(f64, f64)],
+        terms: Terms,
+        model: &'a Model,
+    ) -> impl Iterator<Item = (&'a Point, Jet<8>)> {
+        self.points.iter().zip(tension).map(move |(point, (c, d))| {
+            let base = square * c;
+            let full = if terms.stretched_inertia { base + square * square * d } else { base };
+            (point, energy(&point.section, pitch, (base, full), terms, model))
+        })
+    }
+
+    /// Adds the stiffness of the straight blade; arguments as of
+    /// [`straight_energies`](Element::straight_energies).
     pub fn add_straight_strain(
         &self,
         pitch: f64,
@@ -63,10 +74,7 @@ impl Element {
         model: &Model,
         out: &mut Local,
     ) {
-        for (point, (c, d)) in self.points.iter().zip(tension) {
-            let base = square * c;
-            let full = if terms.stretched_inertia { base + square * square * d } else { base };
-            let energy = energy(&point.section, pitch, (base, full), terms, model);
+        for (point, energy) in self.straight_energies(pitch, square, tension, terms, model) {
             add_energy(&Functions::of(point), point.weight, &energy, out);
         }
     }

@@ -13,7 +13,6 @@
 use super::element::{Functions, exact_energy};
 use super::mesh::{CLAMPED, Element, LOCAL, SAMPLES, hermite, quadratic};
 use super::model::{Model, Terms};
-use super::straight::energy;
 use crate::system::VisitTerm;
 
 /// Functions of the element's unknowns.
@@ -97,7 +96,7 @@ impl Element {
     }
 
     /// The terms of the strain energy of the straight blade; arguments as of
-    /// [`add_straight_strain`](Element::add_straight_strain).
+    /// [`straight_energies`](Element::straight_energies).
     pub fn visit_straight(
         &self,
         pitch: f64,
@@ -107,11 +106,9 @@ impl Element {
         model: &Model,
         visit: &mut VisitTerm<'_>,
     ) {
-        for (point, (c, d)) in self.points.iter().zip(tension) {
-            let base = square * c;
-            let full = if terms.stretched_inertia { base + square * square * d } else { base };
-            let h = energy(&point.section, pitch, (base, full), terms, model).h;
-            self.visit_form(&rows(&Functions::of(point)), |v, w| h[v][w], point.weight, visit);
+        for (point, energy) in self.straight_energies(pitch, square, tension, terms, model) {
+            let form = |v: usize, w: usize| energy.h[v][w];
+            self.visit_form(&rows(&Functions::of(point)), form, point.weight, visit);
         }
     }
 }
