@@ -3,8 +3,8 @@
 use crate::vibration::{self, Options, Speed, complain, speed, stations, title};
 use crate::{Outcome, case, screen};
 use flexion::analysis::campbell::{Campbell, Instability, NoCampbell, Plan, campbell as follow};
-use flexion::case::Reading;
-use flexion::output::{Artifact, Directory, Frequencies, write_campbell};
+use flexion_case::Reading;
+use flexion_results::{Artifact, Directory, Frequencies, write_campbell};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::{Path, PathBuf};
 

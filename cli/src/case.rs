@@ -1,7 +1,7 @@
 //! The argument that names a case, and reading it.
 
 use crate::screen;
-use flexion::case::Reading;
+use flexion_case::Reading;
 use std::path::PathBuf;
 
 /// A case and changes to it.
@@ -25,7 +25,7 @@ impl Selection {
     pub fn read_with(&self, further: &[&str]) -> Option<Reading> {
         let set: Vec<String> =
             self.set.iter().cloned().chain(further.iter().map(|s| (*s).to_owned())).collect();
-        match flexion::case::read(&self.case, &set) {
+        match flexion_case::read(&self.case, &set) {
             Ok(reading) => Some(reading),
             Err(problems) => {
                 screen::complain(&problems.render(screen::colour()));

@@ -1,11 +1,11 @@
 //! `flexion check`: validates a case and shows what would be run.
 
 use crate::{Outcome, case, screen};
-use flexion::case::{Case, Coupling, Initial, Live, Problems, Reading, build};
 use flexion::hub_beam::Drive;
 use flexion::integrator::{Adams, Integrator, RungeKutta, StabilityLimit, StepError};
 use flexion::linalg::Structure;
 use flexion::system::{State, System};
+use flexion_case::{Case, Coupling, Initial, Live, Problems, Reading, build};
 
 /// The case to check.
 #[derive(clap::Args)]

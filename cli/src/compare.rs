@@ -1,8 +1,8 @@
 //! `flexion compare`: how far runs are apart.
 
 use crate::{Outcome, screen};
-use flexion::output::plot::difference_figure;
-use flexion::output::{
+use flexion_results::plot::difference_figure;
+use flexion_results::{
     Artifact, Comparison, Directory, OutputError, Results, ResultsError, compare as compare_two, compare_csv,
     compare_json, select,
 };

@@ -1,7 +1,7 @@
 //! `flexion list`: every kind with one line and its source.
 
 use crate::{Outcome, screen};
-use flexion::case::declaration::{Bound, Key, Presence, Seam, Type, short};
+use flexion_case::declaration::{Bound, Key, Presence, Seam, Type, short};
 
 /// What to list.
 #[derive(clap::Args)]
@@ -14,12 +14,12 @@ pub struct Arguments {
 
 /// Lists all kinds, or those of one choice with their keys.
 pub fn list(arguments: &Arguments) -> Outcome {
-    let seams = flexion::case::seams();
+    let seams = flexion_case::seams();
     let mut out = String::new();
     let Some(name) = &arguments.seam else {
         for seam in seams {
             out.push_str(&heading(seam));
-            let row = |kind: &flexion::case::declaration::Kind| {
+            let row = |kind: &flexion_case::declaration::Kind| {
                 vec![kind.name.to_owned(), kind.summary.to_owned(), kind.source.to_owned()]
             };
             out.push_str(&screen::table(&seam.kinds.iter().map(row).collect::<Vec<_>>()));

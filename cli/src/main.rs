@@ -94,7 +94,7 @@ fn main() -> ExitCode {
         Command::Check(arguments) => check::check(&arguments),
         Command::List(arguments) => list::list(&arguments),
         Command::Schema => {
-            screen::print(&flexion::case::schema());
+            screen::print(&flexion_case::schema());
             Outcome::Finished
         }
     };

@@ -3,7 +3,7 @@
 use crate::{Outcome, screen};
 use clap::CommandFactory;
 use clap_mangen::Man;
-use flexion::output::write_file;
+use flexion_results::write_file;
 use std::path::PathBuf;
 
 /// Where the pages go.

@@ -5,9 +5,9 @@ use crate::{Outcome, case, screen};
 use flexion::analysis::campbell::HubState;
 use flexion::analysis::modes::{Mode, Modes, modes as find};
 use flexion::analysis::rotation::rotate_stably;
-use flexion::case::{Case, Reading};
-use flexion::output::{Artifact, Directory, Frequencies, write_modes};
 use flexion::system::State;
+use flexion_case::{Case, Reading};
+use flexion_results::{Artifact, Directory, Frequencies, write_modes};
 use std::path::PathBuf;
 
 /// The case, the speed, and how many modes.

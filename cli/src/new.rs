@@ -1,8 +1,8 @@
 //! `flexion new`: a commented case file to begin with.
 
 use crate::{Outcome, screen};
-use flexion::case::TEMPLATES;
-use flexion::output::write_file;
+use flexion_case::TEMPLATES;
+use flexion_results::write_file;
 use std::path::PathBuf;
 
 /// The template.

@@ -1,8 +1,8 @@
 //! `flexion plot`: results of one or several runs in one figure.
 
 use crate::{Outcome, screen};
-use flexion::output::plot::{Figure, compare_figure, trajectory_figure};
-use flexion::output::{Results, ResultsError, Trajectory, select, write_file};
+use flexion_results::plot::{Figure, compare_figure, trajectory_figure};
+use flexion_results::{Results, ResultsError, Trajectory, select, write_file};
 use std::path::PathBuf;
 
 /// The results to plot.

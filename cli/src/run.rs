@@ -1,8 +1,8 @@
 //! `flexion run`: integrates a case and writes its results.
 
 use crate::{Outcome, case, screen};
-use flexion::case::{Errors, Run, units};
-use flexion::output::{Artifact, Directory, Status, Trajectory};
+use flexion_case::{Errors, Run, units};
+use flexion_results::{Artifact, Directory, Status, Trajectory};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};

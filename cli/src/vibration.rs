@@ -2,11 +2,11 @@
 
 use crate::screen;
 use flexion::analysis::campbell::HubState;
-use flexion::case::loads::Axes;
-use flexion::case::{Case, Reading, build, units};
 use flexion::hub_beam::Drive;
-use flexion::output::Frequencies;
 use flexion::system::System;
+use flexion_case::loads::Axes;
+use flexion_case::{Case, Reading, build, units};
+use flexion_results::Frequencies;
 
 /// Units of frequencies and speeds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]

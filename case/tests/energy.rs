@@ -1,0 +1,179 @@
+//! The balance of energy of a run closes to the order of its method.
+
+#![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
+
+mod written;
+
+use flexion_case::{Reading, Run};
+use std::ops::ControlFlow;
+use written::SQUARE_BAR;
+
+const REST: &str = r#"
+[hub]
+radius = 0.1
+motion = { kind = "expression", of = "speed", formula = "5*sin(3*t)^2" }
+[basis]
+kind = "modes"
+axial = 1
+transverse = 1
+[initial]
+kind = "steady-rotation"
+[run]
+duration = "1 s"
+[output]
+step = "0.05 s"
+"#;
+
+fn run(set: &[&str]) -> Run {
+    written::finished(&reading(set))
+}
+
+fn reading(set: &[&str]) -> Reading {
+    written::reading(&[SQUARE_BAR, REST].concat(), set)
+}
+
+fn largest(run: &Run, column: &str) -> f64 {
+    run.trajectory.column(column).unwrap().iter().fold(0.0, |m: f64, x| m.max(x.abs()))
+}
+
+/// A free hub with motor, damper, spring and controller: every kind of power there is.
+const FREE: &str = "hub={radius=0.1,inertia=2,motion={kind='free',damping=1.5,stiffness=4,torque={kind='expression',formula='9*sin(5*t)'},controller={kind='pd',proportional=20,derivative=2,target='1 rad',rate='2 rad/s'}}}";
+
+#[test]
+fn the_balance_of_energy_closes_to_the_order_of_the_method() {
+    let cases: &[(&str, f64, f64)] = &[
+        ("newmark", 4e-3, 2.0),
+        ("generalized-alpha", 4e-3, 2.0),
+        ("runge-kutta-4", 1e-3, 4.0),
+        ("adams-4", 6e-5, 4.0),
+    ];
+    for drive in ["hub.radius=0.1", FREE] {
+        for &(method, step, order) in cases {
+            // Before 0.5 s, when the reference of the controller stops and the torque jumps. The axial vibration limits
+            // explicit steps so much that their errors are near rounding.
+            let imbalance = |step: f64| {
+                let integrator = format!("integrator={{kind='{method}',step={step}}}");
+                largest(&run(&[drive, &integrator, "run.duration=0.4"]), "energy.balance")
+            };
+            let (coarse, fine) = (imbalance(step), imbalance(0.5 * step));
+            let measured = (coarse / fine).log2();
+            eprintln!("{method}: {coarse:.3e} {fine:.3e} order {measured:.2}");
+            assert!(
+                fine < 1e-10 || (measured - order).abs() < 0.35 || measured > order,
+                "{method}: {coarse:.3e} {fine:.3e}: {measured}"
+            );
+        }
+        let imbalance = |tolerance: &str| {
+            let set =
+                format!("integrator={{kind='radau',tolerance={tolerance},absolute-tolerance={tolerance}}}");
+            largest(&run(&[drive, &set]), "energy.balance")
+        };
+        let (coarse, fine) = (imbalance("1e-6"), imbalance("1e-9"));
+        eprintln!("radau: {coarse:.3e} {fine:.3e}");
+        assert!(fine < 1e-2 * coarse && fine < 1e-5, "{coarse:.3e} {fine:.3e}");
+    }
+}
+
+/// Loads of every frame, a lumped mass, gravity and damping of the beam: what they do is in the books.
+const LOADED: &[&str] = &[
+    "gravity={acceleration='9.81 m/s^2',direction='-90 deg'}",
+    "mass=[{station='2 m',mass='300 g',inertia=2e-3},{station=1,mass=0.2}]",
+    "force=[{station='2 m',force=[2,30],frame='follower',amplitude={kind='expression',formula='sin(7*t)^2'}},{station=1,force=[0,-9],frame='dead',amplitude={kind='expression',formula='sin(5*t)^2'}}]",
+    "couple=[{station='1.5 m',couple='3 N*m',amplitude={kind='expression',formula='sin(6*t)'}}]",
+    "distributed-load=[{force=[0,4],frame='hub',amplitude={kind='expression',formula='sin(4*t)'}}]",
+    "damping={mass-proportional='0.5 1/s',stiffness-proportional='0.1 ms'}",
+];
+
+#[test]
+fn the_balance_closes_with_loads_masses_gravity_and_damping() {
+    for drive in ["hub.radius=0.1", FREE] {
+        for coupling in ["model.coupling=first", "model.coupling=exact"] {
+            let with = |more: &[&str]| {
+                let mut set = vec![drive, coupling, "run.duration=0.4", "initial.kind=undeformed"];
+                set.extend(["basis={kind='finite-elements',elements=2}"]);
+                set.extend(LOADED);
+                set.extend(more);
+                run(&set)
+            };
+            let fine = with(&["integrator={kind='radau',tolerance=1e-9,absolute-tolerance=1e-10}"]);
+            let done =
+                ["energy.loads", "energy.dissipated", "energy.drive"].map(|column| largest(&fine, column));
+            let off = largest(&fine, "energy.balance");
+            eprintln!("{drive} {coupling}: {done:?}, off by {off:.2e}");
+            assert!(done.iter().all(|work| *work > 0.05), "{done:?}");
+            assert!(off < 1e-8, "{drive} {coupling}: {off:.2e} of {done:?}");
+            let off = |step: &str| {
+                largest(
+                    &with(&[&format!("integrator={{kind='generalized-alpha',step='{step}'}}")]),
+                    "energy.balance",
+                )
+            };
+            let order = (off("2 ms") / off("1 ms")).log2();
+            eprintln!("order {order:.2}");
+            assert!((order - 2.0).abs() < 0.35, "{drive} {coupling}: order {order}");
+        }
+    }
+}
+
+/// A free hub slowed by its damper alone: what it loses is what the damper takes.
+#[test]
+fn a_damper_takes_the_energy_of_a_free_hub() {
+    let hub = "hub={inertia=50,motion={kind='free',speed=2,damping=30}}";
+    let run =
+        run(&[hub, "initial.kind=undeformed", "integrator={kind='radau',tolerance=1e-9}", "run.duration=5"]);
+    let (lost, total) =
+        (run.trajectory.column("energy.dissipated").unwrap(), run.trajectory.column("energy.total").unwrap());
+    let (first, last) = (total[0], total[total.len() - 1]);
+    assert!(last < 0.1 * first);
+    assert!((lost[lost.len() - 1] - (first - last)).abs() < 1e-6 * first);
+    assert_eq!(largest(&run, "energy.drive"), 0.0);
+}
+
+#[test]
+fn the_books_may_be_left_out() {
+    let without = run(&["output.energy-balance=false"]);
+    let with = run(&[]);
+    assert!(without.trajectory.index("energy.balance").is_none());
+    assert_eq!(without.trajectory.column("tip.deflection"), with.trajectory.column("tip.deflection"));
+    assert_eq!(without.counters, with.counters);
+}
+
+/// The estimate covers the difference to a run with eight times the elements and a far tighter tolerance.
+#[test]
+fn the_true_error_lies_within_the_reported_one() {
+    let elements = |n: usize| format!("basis={{kind='finite-elements',elements={n}}}");
+    let sets: &[&[&str]] = &[
+        &["integrator={kind='radau',tolerance=1e-4,absolute-tolerance=1e-6}"],
+        &["integrator={kind='newmark',step='5 ms'}"],
+        &["integrator={kind='hht',step='2 ms',alpha=0.1}", "model.coupling=exact"],
+        &["integrator={kind='generalized-alpha',step='5 ms'}", FREE, "initial.kind=undeformed"],
+        &["integrator={kind='runge-kutta-4',step='10 us'}", "run.duration=0.1", "output.step=0.01"],
+    ];
+    for set in sets {
+        let coarse = elements(3);
+        let mut coarse_set = set.to_vec();
+        coarse_set.insert(0, &coarse);
+        let reading = reading(&coarse_set);
+        let run_here = run(&coarse_set);
+        let errors = reading.estimate_errors(&run_here, &mut |_| ControlFlow::Continue(())).unwrap();
+        let fine = elements(24);
+        let mut fine_set = set.to_vec();
+        fine_set
+            .extend([fine.as_str(), "integrator={kind='radau',tolerance=1e-10,absolute-tolerance=1e-11}"]);
+        let truth = run(&fine_set);
+        assert_eq!(errors.columns.len() + 2, run_here.trajectory.channels().len());
+        for error in &errors.columns {
+            let pairs = run_here.trajectory.column(&error.column).unwrap();
+            let exact = truth.trajectory.column(&error.column).unwrap();
+            let off = pairs.iter().zip(&exact).fold(0.0, |m: f64, (x, y)| m.max((x - y).abs()));
+            assert!(
+                off <= error.discretization,
+                "{set:?} {}: {off:.3e} of {:.3e}",
+                error.column,
+                error.discretization
+            );
+        }
+        let model = errors.columns.iter().find(|e| e.column == "tip.deflection").unwrap().model;
+        assert_eq!(model.is_some(), !set.contains(&"model.coupling=exact"));
+    }
+}

@@ -1,0 +1,168 @@
+//! No integrator allocates in a step, an acceptance or an interpolation.
+
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // in helpers of tests
+#![allow(unsafe_code)]
+
+#[path = "verification/run.rs"]
+mod run;
+#[path = "../../mechanics/tests/integrators/systems.rs"]
+mod systems;
+
+use flexion::integrator::{Adams, GeneralizedAlpha, Integrator, Radau, RungeKutta, StepControl, Tolerance};
+use flexion::system::{State, System};
+use std::alloc::{GlobalAlloc, Layout, System as Heap};
+use std::cell::Cell;
+use systems::{CartesianPendulum, Chain, SpringPendulum, state, wide_chain};
+
+/// Counts the allocations of the thread.
+struct Counting;
+
+thread_local! {
+    static ALLOCATIONS: Cell<u64> = const { Cell::new(0) };
+}
+
+fn count() {
+    let _ = ALLOCATIONS.try_with(|n| n.set(n.get() + 1));
+}
+
+// SAFETY: every call is passed on unchanged to the system's allocator.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        count();
+        unsafe { Heap.alloc(layout) }
+    }
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        unsafe { Heap.dealloc(pointer, layout) }
+    }
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        count();
+        unsafe { Heap.realloc(pointer, layout, size) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+/// Every integrator, for systems without constraints.
+fn integrators() -> Vec<Box<dyn Integrator>> {
+    vec![
+        Box::new(GeneralizedAlpha::newmark(0.25, 0.5).unwrap()),
+        Box::new(GeneralizedAlpha::hht(0.1).unwrap()),
+        Box::new(GeneralizedAlpha::chung_hulbert(0.5).unwrap()),
+        Box::new(RungeKutta::new()),
+        Box::new(Adams::new()),
+        Box::new(Radau::new(Tolerance::uniform(1e-6)).unwrap()),
+    ]
+}
+
+/// Steps `system` 20 times with each of `integrators` and asserts that nothing is allocated, from the
+/// first step on, repeated attempts and changes of step included.
+fn assert_no_allocation(
+    what: &str,
+    system: &mut dyn System,
+    from: &State,
+    h: f64,
+    integrators: Vec<Box<dyn Integrator>>,
+) {
+    for mut integrator in integrators {
+        let mut from = from.clone();
+        integrator.start(system, &mut from, h).unwrap();
+        let (mut to, mut inside) = (from.clone(), from.clone());
+        let mut control = StepControl::new(3, 1.0, h);
+        let before = ALLOCATIONS.with(Cell::get);
+        let mut failures = 0;
+        for k in 0..20 {
+            let h = if k == 10 { 0.5 * h } else { h };
+            failures += u32::from(integrator.step(system, &from, 0.7 * h, &mut to).is_err());
+            control.rejected(0.7 * h, 2.0, 1);
+            match integrator.step(system, &from, h, &mut to) {
+                Ok(report) => control.accepted(h, report.error.unwrap_or(0.5), report.iterations),
+                Err(_) => failures += 1,
+            }
+            integrator.accept(&from, &to);
+            integrator.interpolate(system, &from, &to, from.t + 0.5 * h, &mut inside);
+            std::mem::swap(&mut from, &mut to);
+        }
+        let after = ALLOCATIONS.with(Cell::get);
+        let name = integrator.info().name;
+        assert_eq!(failures, 0, "{what} with {name}: steps failed");
+        assert_eq!(after - before, 0, "{what} with {name}: allocations in 20 steps");
+    }
+}
+
+#[test]
+fn no_step_allocates() {
+    let mut chain = wide_chain(30);
+    let from = state(&chain, &[0.01; 30], &[0.0; 30]);
+    assert_no_allocation("chain", &mut chain, &from, 1e-4, integrators());
+
+    let mut oscillator = Chain::oscillator(1.0, 0.1);
+    let from = state(&oscillator, &[1.0], &[0.0]);
+    assert_no_allocation("oscillator", &mut oscillator, &from, 1e-2, integrators());
+
+    let mut pendulum = SpringPendulum::new(9.0);
+    let from = state(&pendulum, &[0.1, 1.2], &[0.0, 0.0]);
+    assert_no_allocation("spring pendulum", &mut pendulum, &from, 1e-2, integrators());
+
+    let mut constrained = CartesianPendulum::new();
+    let from = state(&constrained, &[1.0, 0.0], &[0.0, 0.0]);
+    let only: Vec<Box<dyn Integrator>> = vec![Box::new(GeneralizedAlpha::chung_hulbert(0.5).unwrap())];
+    assert_no_allocation("pendulum with a constraint", &mut constrained, &from, 1e-2, only);
+}
+
+/// Every coupling on every basis it can use, uniform and graded, bands and dense matrices.
+#[test]
+fn no_step_of_a_hub_and_beam_allocates() {
+    let elements = "basis={kind='finite-elements',elements=8}";
+    let quadratic = "basis={kind='finite-elements',elements=2,axial-degree=2}";
+    let modes = "basis={kind='modes',axial=3,transverse=3}";
+    let radial = "basis={kind='radial',nodes=7}";
+    let polynomial = "basis={kind='polynomial',nodes=9}";
+    let splines = "basis={kind='b-spline',elements=6,degree=3}";
+    let bezier = "basis={kind='bezier',elements=2,degree=4}";
+    let mixed = "basis={kind='mixed',axial={kind='radial',nodes=7},transverse={kind='modes',count=2}}";
+    let linear = [elements, quadratic, modes, radial, polynomial, splines, bezier, mixed];
+    let many = "basis={kind='finite-elements',elements=20}";
+    let high = [many, quadratic, modes, radial, polynomial, splines, bezier, mixed];
+    let couplings: [(&str, &[&str]); 4] = [
+        ("zeroth", &linear),
+        ("first", &linear),
+        ("high", &high),
+        ("exact", &[elements, "basis.elements=2"]),
+    ];
+    for folder in ["p1_spin_up_4", "p3_n2_spin_up_4"] {
+        for (coupling, bases) in couplings {
+            for basis in bases {
+                let rotary = "section.rotary-inertia=true";
+                // It turns from the start, so that the steps have something to do.
+                let motion = "hub.motion={kind='constant',speed='40 rad/s'}";
+                let overrides = [&format!("model.coupling={coupling}"), *basis, motion, rotary];
+                let what = format!("{folder} {overrides:?}");
+                let mut live = run::case(folder, &overrides).unwrap().build().unwrap();
+                let from = live.system.initial();
+                assert_no_allocation(&what, live.system.as_mut(), &from, 5e-7, integrators());
+                let free = "hub.motion={kind='free',speed='40 rad/s',damping=1,stiffness=2,\
+                            controller={kind='pd',proportional=3,derivative=1,target='1 rad'}}";
+                let overrides =
+                    [&format!("model.coupling={coupling}"), *basis, free, rotary, "hub.inertia=5"];
+                let mut live = run::case(folder, &overrides).unwrap().build().unwrap();
+                let from = live.system.initial();
+                assert_no_allocation(
+                    &format!("{what} free"),
+                    live.system.as_mut(),
+                    &from,
+                    1e-6,
+                    integrators(),
+                );
+            }
+        }
+    }
+}
+
+/// The counter itself counts.
+#[test]
+fn the_counter_sees_an_allocation() {
+    let before = ALLOCATIONS.with(Cell::get);
+    let boxed = std::hint::black_box(Box::new(1.0));
+    assert!(ALLOCATIONS.with(Cell::get) > before && *boxed == 1.0);
+}

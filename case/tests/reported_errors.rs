@@ -1,0 +1,123 @@
+//! The error that a run reports of itself, against the error it has.
+
+#![allow(clippy::unwrap_used)] // in helpers of tests
+
+mod written;
+
+use flexion_case::{Errors, Reading, Run};
+use std::f64::consts::PI;
+use std::ops::ControlFlow;
+
+const LENGTH: f64 = 2.0;
+const MASS: f64 = 1.5;
+const BENDING: f64 = 40.0;
+const FORCE: f64 = 0.4;
+
+/// A cantilever whose hub stands still, with a force at its tip that sets in at once.
+const CASE: &str = "
+[beam]
+length = 2
+[section]
+kind = 'resultants'
+mass-per-length = 1.5
+axial-stiffness = 1e5
+bending-stiffness = 40
+[hub]
+motion = { kind = 'constant', speed = 0 }
+[[force]]
+station = 2
+force = [0, 0.4]
+[run]
+duration = 0.8
+[output]
+step = 0.01
+";
+
+/// Its deflection at the tip: Σ 4F/(ρA L ωₙ²) (1 − cos ωₙt) with ωₙ = λₙ² √(EI/(ρA L⁴)) and cos λₙ cosh λₙ = −1, for a
+/// mode of norm ∫φ² dx = L has φ(L)² = 4.
+fn deflection(t: f64) -> f64 {
+    (1..400)
+        .map(|n| {
+            let mut root = (f64::from(n) - 0.5) * PI;
+            for _ in 0..20 {
+                // cos λ + 1/cosh λ = 0
+                let inverse = 1.0 / root.cosh();
+                root += (root.cos() + inverse) / (root.sin() + inverse * root.tanh());
+            }
+            let frequency = root * root * (BENDING / (MASS * LENGTH.powi(4))).sqrt();
+            4.0 * FORCE / (MASS * LENGTH * frequency * frequency) * (1.0 - (frequency * t).cos())
+        })
+        .sum()
+}
+
+fn read(overrides: &[&str]) -> Reading {
+    written::reading(CASE, overrides)
+}
+
+/// The run, its errors, and the steps of the companions.
+fn run(reading: &Reading) -> (Run, Errors, u64) {
+    let run = written::outcome(reading);
+    let mut steps = 0;
+    let errors = reading.estimate_errors(&run, &mut |_| {
+        steps += 1;
+        ControlFlow::Continue(())
+    });
+    (run, errors.unwrap(), steps)
+}
+
+#[test]
+fn the_reported_error_of_a_loaded_beam_covers_its_error_and_is_of_its_size() {
+    let settled = 4.0 * FORCE * LENGTH.powi(3) / BENDING / 12.0;
+    assert!((deflection(0.0)).abs() < 1e-15 && deflection(1.0) < 2.0 * settled);
+    let bases = [
+        "{kind='finite-elements',elements=2}",
+        "{kind='finite-elements',elements=8}",
+        "{kind='b-spline',elements=5,degree=4}",
+        "{kind='polynomial',nodes=7}",
+        "{kind='bezier',degree=6}",
+        "{kind='modes',axial=1,transverse=2}",
+    ];
+    let integrators = [
+        "{kind='radau',tolerance=1e-3}",
+        "{kind='radau'}",
+        "{kind='newmark',step=0.02}",
+        "{kind='newmark',step=0.001}",
+        "{kind='hht',alpha=0.2,step=0.005}",
+        "{kind='generalized-alpha',spectral-radius=0.3,step=0.01}",
+        "{kind='runge-kutta-4',step=1e-4}",
+    ];
+    for (i, basis) in bases.into_iter().enumerate() {
+        // Every integrator with half of the bases.
+        for integrator in integrators.into_iter().skip(i % 2).step_by(2) {
+            let (basis, integrator) = (format!("basis={basis}"), format!("integrator={integrator}"));
+            let (run, errors, _) = run(&read(&[&basis, &integrator]));
+            let reported = errors.columns.iter().find(|e| e.column == "tip.deflection").unwrap();
+            let computed = run.trajectory.column("tip.deflection").unwrap();
+            let times = run.trajectory.times();
+            let error =
+                times.iter().zip(&computed).map(|(t, w)| (w - deflection(*t)).abs()).fold(0.0, f64::max);
+            // The first coupling is exact here but for the deflection's being finite: the discretization alone.
+            let reported = reported.discretization;
+            assert!(error <= reported, "{basis} {integrator}: off by {error:e}, reported {reported:e}");
+            // S = 2 or 4 times the difference to something better: of the size of the error.
+            assert!(
+                reported < 8.0 * error + 1e-9,
+                "{basis} {integrator}: off by {error:e}, reported {reported:e}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_coarse_run_has_no_fine_companions() {
+    // Six steps; 13 nodes carry waves a thousand times as fast.
+    let basis = "basis={kind='polynomial',nodes=13}";
+    let coarse = read(&["run.duration=0.3", basis, "integrator={kind='hht',step=0.05}"]);
+    let (_, errors, steps) = run(&coarse);
+    assert!(errors.warnings.is_empty(), "{:?}", errors.warnings);
+    let finest = "integrator={kind='radau',tolerance=1e-9,absolute-tolerance=1e-9}";
+    let finer = "basis={kind='polynomial',nodes=25}";
+    let fine = read(&["run.duration=0.3", finer, finest]);
+    let fine = written::outcome(&fine).counters.steps;
+    assert!(2 * steps < fine, "{steps} steps of companions, {fine} of one with the tightest tolerance");
+}

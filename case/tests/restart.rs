@@ -1,0 +1,205 @@
+//! A run that goes on from the state of an earlier one is, bit by bit, the run that has never stopped.
+
+#![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
+
+mod written;
+
+use flexion_case::{Reading, Run};
+use flexion_results::{Directory, Status};
+use std::ops::ControlFlow;
+use written::{SQUARE_BAR, reading_of as reading};
+
+const REST: &str = r#"
+[hub]
+inertia = 5
+motion = { kind = "spin-up", speed = "8 rad/s", time = "0.3 s" }
+[basis]
+elements = 4
+[integrator]
+kind = "radau"
+[run]
+duration = "0.5 s"
+[output]
+step = "7 ms"
+"#;
+
+const INTEGRATORS: &[&str] = &[
+    "integrator={kind='radau'}",
+    "integrator={kind='radau',tolerance=1e-3,absolute-tolerance=1e-5}",
+    "integrator={kind='newmark',step='2 ms'}",
+    "integrator={kind='hht',step='3 ms',alpha=0.1}",
+    "integrator={kind='generalized-alpha',step='2 ms'}",
+    "integrator={kind='runge-kutta-4',step='10 us'}",
+    "integrator={kind='adams-4',step='1 us'}",
+];
+
+const MODELS: &[&[&str]] = &[
+    &[],
+    &["model.coupling=exact"],
+    &[
+        "hub.motion={kind='free',torque={kind='ramp',torque='20 N*m',time='0.1 s'},controller={kind='pd',proportional=30,derivative=4,target='1 rad',rate='3 rad/s',limit=9}}",
+    ],
+    &[
+        "model.coupling=exact",
+        "section.rotary-inertia=true",
+        "hub.motion={kind='free',torque={kind='constant',torque='20 N*m'}}",
+    ],
+];
+
+/// Runs until the first step that ends at `until` or later.
+fn run(reading: &Reading, until: f64) -> Run {
+    let prepared = reading.prepare().unwrap_or_else(|problems| panic!("{}", problems.render(false)));
+    prepared.run(&mut |state| {
+        if state.t >= until { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    })
+}
+
+fn bits(numbers: impl IntoIterator<Item = f64>) -> Vec<u64> {
+    numbers.into_iter().map(f64::to_bits).collect()
+}
+
+/// Compares what the run recorded after `since` with the continued one.
+fn assert_same(whole: &Run, parts: &Run, since: f64, what: &str) {
+    let rows = |run: &Run| -> Vec<Vec<u64>> {
+        // A row at the very end of the first part, but for rounding, belongs to that part.
+        let after = run.trajectory.rows().filter(|(t, _)| *t > since * (1.0 + 1e-12));
+        after.map(|(t, row)| bits(std::iter::once(t).chain(row.iter().copied()))).collect()
+    };
+    assert!(rows(whole).len() > 10, "{what}: nothing to compare");
+    for (a, b) in rows(whole).iter().zip(&rows(parts)) {
+        for (k, (a, b)) in a.iter().zip(b).enumerate() {
+            let name = k.checked_sub(1).map_or("t", |k| &whole.trajectory.channels()[k].name);
+            let (x, y) = (f64::from_bits(*a), f64::from_bits(*b));
+            assert!(a == b, "{what}: {name} differs: {x:e} and {y:e}");
+        }
+    }
+    assert_eq!(rows(whole).len(), rows(parts).len(), "{what}: numbers of rows");
+    assert_eq!(parts.trajectory.len(), rows(parts).len(), "{what}: rows before the start");
+    assert_eq!(whole.counters, parts.counters, "{what}");
+    assert!(
+        whole
+            .checkpoint
+            .entries()
+            .zip(parts.checkpoint.entries())
+            .all(|((a, x), (b, y))| { a == b && bits(x.iter().copied()) == bits(y.iter().copied()) }),
+        "{what}: the last states differ"
+    );
+}
+
+#[test]
+fn a_stopped_run_goes_on_as_if_it_had_never_stopped() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = folder.path().join("case.toml");
+    std::fs::write(&case, [SQUARE_BAR, REST].concat()).unwrap();
+    for model in MODELS {
+        for integrator in INTEGRATORS {
+            let mut set = model.to_vec();
+            set.push(integrator);
+            if integrator.contains("runge") {
+                set.extend(["run.duration=0.15 s", "output.step=2 ms"]);
+            }
+            if integrator.contains("adams") {
+                set.extend(["run.duration=0.01 s", "output.step=0.1 ms"]);
+            }
+            let what = format!("{set:?}");
+            let whole = reading(&case, &set);
+            let duration = whole.case.duration;
+            let complete = run(&whole, f64::INFINITY);
+            assert_eq!(complete.status, Status::Finished, "{what}: {:?}", complete.message);
+            let first = run(&whole, 0.43 * duration);
+            assert_eq!(first.status, Status::Stopped, "{what}");
+            let results = folder.path().join("first");
+            let directory = Directory::create(&results, true).unwrap();
+            whole.write(&first, &directory).unwrap();
+            drop(directory);
+            // In two pieces, the second one from the copy of the state among the results.
+            set.push("initial={kind='restart',file='first'}");
+            let second = run(&reading(&case, &set), 0.71 * duration);
+            let results = folder.path().join("second");
+            let directory = Directory::create(&results, true).unwrap();
+            reading(&case, &set).write(&second, &directory).unwrap();
+            drop(directory);
+            assert!(results.join("initial.npz").exists());
+            set.pop();
+            set.push("initial={kind='restart',file='second/state.npz'}");
+            let third = run(&reading(&case, &set), f64::INFINITY);
+            assert_eq!(third.status, Status::Finished, "{what}: {:?}", third.message);
+            assert_same(&complete, &third, second.state.t, &what);
+        }
+    }
+}
+
+/// With fixed steps a run may also be prolonged.
+#[test]
+fn a_finished_run_is_prolonged_by_the_same_steps() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = folder.path().join("case.toml");
+    std::fs::write(&case, [SQUARE_BAR, REST].concat()).unwrap();
+    for set in [
+        ["integrator={kind='newmark',step='2 ms'}", "model.coupling=exact"],
+        ["integrator={kind='runge-kutta-4',step='10 us'}", "model.coupling=first"],
+    ] {
+        let short = reading(&case, &[set[0], set[1], "run.duration=0.25"]);
+        let first = run(&short, f64::INFINITY);
+        let directory = Directory::create(folder.path().join("short"), true).unwrap();
+        short.write(&first, &directory).unwrap();
+        drop(directory);
+        let complete = run(&reading(&case, &set), f64::INFINITY);
+        let prolonged =
+            run(&reading(&case, &[set[0], set[1], "initial={kind='restart',file='short'}"]), f64::INFINITY);
+        assert_eq!(prolonged.status, Status::Finished, "{:?}", prolonged.message);
+        assert_same(&complete, &prolonged, 0.25, set[0]);
+    }
+}
+
+#[test]
+fn another_model_is_refused_and_another_integrator_begins_anew() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = folder.path().join("case.toml");
+    std::fs::write(&case, [SQUARE_BAR, REST].concat()).unwrap();
+    let first = reading(&case, &[]);
+    let run_there = run(&first, 0.2);
+    let directory = Directory::create(folder.path().join("first"), true).unwrap();
+    first.write(&run_there, &directory).unwrap();
+    drop(directory);
+    let from = "initial={kind='restart',file='first'}";
+    for (change, reason) in [
+        ("section.modulus=6 GPa", "`section.modulus` was 7"),
+        ("basis.elements=5", "`basis.elements` was 4 and is 5"),
+        ("hub.motion={kind='constant',speed=8}", "`hub.motion.kind` was spin-up and is constant"),
+        ("model.coupling=exact", "`model.coupling` was \"first\" and is \"exact\""),
+        ("run.duration=0.1", "the earlier run ended at t = 0.2"),
+    ] {
+        let problems = reading(&case, &[from, change, "output.step=1 ms"]).prepare().map(|_| ()).unwrap_err();
+        let text = problems.to_string();
+        assert!(text.contains(reason), "{change}: {text}");
+    }
+    for broken in ["case.toml", "missing.npz"] {
+        let from = format!("initial={{kind='restart',file='{broken}'}}");
+        let problems = reading(&case, &[&from]).prepare().map(|_| ()).unwrap_err();
+        assert!(problems.to_string().contains(broken), "{problems}");
+    }
+    // Another method starts there, and goes the same way.
+    let other = run(&reading(&case, &[from, "integrator={kind='newmark',step='0.1 ms'}"]), f64::INFINITY);
+    assert_eq!(other.status, Status::Finished, "{:?}", other.message);
+    let complete = run(&first, f64::INFINITY);
+    let last = |run: &Run| *run.trajectory.column("tip.deflection").unwrap().last().unwrap();
+    assert!(
+        (last(&other) - last(&complete)).abs() < 1e-4 * last(&complete).abs().max(1e-2),
+        "{} {}",
+        last(&other),
+        last(&complete)
+    );
+    // A step that the new duration would change.
+    let set = ["integrator={kind='newmark',step='2 ms'}"];
+    let fixed = run(&reading(&case, &set), 0.2);
+    let directory = Directory::create(folder.path().join("fixed"), true).unwrap();
+    reading(&case, &set).write(&fixed, &directory).unwrap();
+    drop(directory);
+    let uneven = run(
+        &reading(&case, &[set[0], "initial={kind='restart',file='fixed'}", "run.duration=0.6011"]),
+        f64::INFINITY,
+    );
+    assert_eq!(uneven.status, Status::Failed);
+    assert!(uneven.message.as_ref().is_some_and(|m| m.contains("multiple")), "{:?}", uneven.message);
+}

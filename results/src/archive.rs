@@ -1,0 +1,129 @@
+//! Archives of arrays whose failure is told once, by the error that is returned.
+//!
+//! The library of archives finishes one that is dropped unfinished, and prints on standard error what goes wrong then:
+//! on a full disk, the same error again, in words of its own. Behind a failure everything is swallowed here.
+
+use std::io::{self, Seek, SeekFrom, Write};
+use zip::ZipWriter;
+
+/// A writer that fails once, and swallows what is written after that.
+pub(super) struct Latched<W> {
+    to: W,
+    failed: bool,
+    /// Place and end of what was written or swallowed [bytes].
+    place: u64,
+    end: u64,
+}
+
+/// A new archive.
+pub(super) fn archive<W: Write + Seek>(to: W) -> ZipWriter<Latched<W>> {
+    ZipWriter::new(Latched { to, failed: false, place: 0, end: 0 })
+}
+
+/// Completes the archive.
+///
+/// # Errors
+/// What the writer says, or that it failed before.
+pub(super) fn finish<W: Write + Seek>(archive: ZipWriter<Latched<W>>) -> io::Result<()> {
+    let mut latched = archive.finish()?;
+    if latched.failed {
+        return Err(io::Error::other("the archive is incomplete"));
+    }
+    latched.flush()
+}
+
+impl<W> Latched<W> {
+    fn attempt<T>(&mut self, swallowed: T, act: impl FnOnce(&mut W) -> io::Result<T>) -> io::Result<T> {
+        if self.failed {
+            return Ok(swallowed);
+        }
+        let result = act(&mut self.to);
+        self.failed = matches!(&result, Err(error) if error.kind() != io::ErrorKind::Interrupted);
+        result
+    }
+}
+
+impl<W: Write> Write for Latched<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let count = self.attempt(bytes.len(), |to| to.write(bytes))?;
+        self.place += count as u64;
+        self.end = self.end.max(self.place);
+        Ok(count)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.attempt((), W::flush)
+    }
+}
+
+impl<W: Seek> Seek for Latched<W> {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        let swallowed = match to {
+            SeekFrom::Start(place) => place,
+            SeekFrom::Current(by) => self.place.saturating_add_signed(by),
+            SeekFrom::End(by) => self.end.saturating_add_signed(by),
+        };
+        self.place = self.attempt(swallowed, |inner| inner.seek(to))?;
+        Ok(self.place)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::npz::write_array;
+    use std::cell::Cell;
+    use std::io::Cursor;
+
+    /// A disk with room for some bytes, which counts how often it said that it is full.
+    struct Disk<'a> {
+        file: Cursor<Vec<u8>>,
+        room: u64,
+        refusals: &'a Cell<usize>,
+    }
+
+    impl Write for Disk<'_> {
+        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+            if self.file.position() + bytes.len() as u64 > self.room {
+                self.refusals.set(self.refusals.get() + 1);
+                return Err(io::ErrorKind::StorageFull.into());
+            }
+            self.file.write(bytes)
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    impl Seek for Disk<'_> {
+        fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+            self.file.seek(to)
+        }
+    }
+
+    #[test]
+    fn a_disk_that_is_full_at_any_byte_is_told_once() {
+        let attempt = |room| {
+            let refusals = Cell::new(0);
+            let mut zip = archive(Disk { file: Cursor::new(Vec::new()), room, refusals: &refusals });
+            let outcome = ["a", "b"]
+                .iter()
+                .try_for_each(|name| write_array(&mut zip, name, 30, (0..30).map(f64::from)));
+            let outcome = match outcome {
+                Ok(()) => finish(zip),
+                Err(error) => {
+                    drop(zip);
+                    Err(error)
+                }
+            };
+            (outcome, refusals.get())
+        };
+        let whole = (0..4000).find(|room| attempt(*room).0.is_ok()).unwrap();
+        assert!(whole > 2 * 30 * 8, "{whole}");
+        for room in 0..whole {
+            let (outcome, refusals) = attempt(room);
+            assert_eq!((outcome.unwrap_err().kind(), refusals), (io::ErrorKind::StorageFull, 1), "{room}");
+        }
+    }
+}

@@ -1,0 +1,51 @@
+//! Files: trajectory, summary, plots. Everything is written whole or not at all.
+//!
+//! [`Directory`] owns the files of one run; [`write_run`] fills it. The other items turn a
+//! [`Trajectory`] into one format each and know nothing of directories.
+
+mod archive;
+mod artifact;
+mod compare;
+mod csv;
+mod directory;
+mod error;
+mod nearest;
+mod npz;
+#[cfg(feature = "parquet")]
+mod parquet;
+pub mod plot;
+mod provenance;
+mod recorder;
+mod results;
+mod run;
+mod shapes;
+mod staging;
+mod state_file;
+mod summary;
+mod trajectory;
+mod vibration;
+mod vtk;
+#[cfg(feature = "vtkhdf")]
+mod vtkhdf;
+
+pub use self::artifact::Artifact;
+pub use self::compare::{Comparison, Difference, compare, compare_csv, compare_json};
+pub use self::csv::{read_csv, write_csv};
+pub use self::directory::{Directory, write_file};
+pub use self::error::{OutputError, ResultsError};
+pub use self::nearest::nearest;
+pub use self::npz::write_npz;
+#[cfg(feature = "parquet")]
+pub use self::parquet::write_parquet;
+pub use self::provenance::resolved_case;
+pub use self::recorder::{Recorder, Watch};
+pub use self::results::{Results, select};
+pub use self::run::{Attachments, write_run};
+pub use self::shapes::{Shape, Shapes};
+pub use self::state_file::{read_state, write_state};
+pub use self::summary::{Integration, ProblemSize, RunReport, Status, Summary, VERSION};
+pub use self::trajectory::{Extremes, Trajectory};
+pub use self::vibration::{Frequencies, write_campbell, write_modes};
+pub use self::vtk::{write_pvd, write_vtu};
+#[cfg(feature = "vtkhdf")]
+pub use self::vtkhdf::write_vtkhdf;

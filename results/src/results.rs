@@ -1,0 +1,172 @@
+//! Results of former runs, read from their files.
+
+use std::fs::File;
+use std::io::BufReader;
+use std::path::{Path, PathBuf};
+
+use super::artifact::Artifact;
+use super::csv::read_csv;
+use super::staging::current;
+use super::{ResultsError, Trajectory};
+use crate::nearest::nearest;
+
+/// What a run left behind.
+#[derive(Clone, Debug)]
+pub struct Results {
+    /// Name for tables and legends: the directory, or the file without extension.
+    pub name: String,
+    /// Where it was read from.
+    pub path: PathBuf,
+    /// What was recorded.
+    pub trajectory: Trajectory,
+    /// What its reader should know: that the run did not finish.
+    pub caution: Option<String>,
+}
+
+impl Results {
+    /// Reads a directory of results, or a file of comma-separated values whose first column is `time [s]`.
+    ///
+    /// # Errors
+    /// [`ResultsError::Missing`] and [`ResultsError::Unreadable`].
+    pub fn read(path: &Path) -> Result<Results, ResultsError> {
+        let file = if path.is_dir() { current(path, Artifact::TrajectoryCsv) } else { path.to_path_buf() };
+        if !file.is_file() {
+            return Err(ResultsError::Missing { path: path.to_path_buf() });
+        }
+        let unreadable = |reason: String| ResultsError::Unreadable { path: file.clone(), reason };
+        let opened = File::open(&file).map_err(|error| unreadable(error.to_string()))?;
+        let trajectory = read_csv(BufReader::new(opened)).map_err(unreadable)?;
+        let caution = path.is_dir().then(|| caution(path)).flatten();
+        Ok(Results { name: name(path), path: path.to_path_buf(), trajectory, caution })
+    }
+
+    /// Reads several, and makes their names differ: by the folders above, or by a number.
+    ///
+    /// # Errors
+    /// Those of [`Results::read`].
+    pub fn read_all(paths: &[PathBuf]) -> Result<Vec<Results>, ResultsError> {
+        let mut all = paths.iter().map(|path| Results::read(path)).collect::<Result<Vec<_>, _>>()?;
+        let twice = |all: &[Results], name: &str| all.iter().filter(|r| r.name == name).count() > 1;
+        let longer: Vec<String> = all
+            .iter()
+            .map(|r| if twice(&all, &r.name) { r.path.display().to_string() } else { r.name.clone() })
+            .collect();
+        for (results, name) in all.iter_mut().zip(longer) {
+            results.name = name;
+        }
+        for i in 1..all.len() {
+            if all[..i].iter().any(|r| r.name == all[i].name) {
+                all[i].name = format!("{} ({})", all[i].name, i + 1);
+            }
+        }
+        Ok(all)
+    }
+}
+
+fn name(path: &Path) -> String {
+    let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
+    let last = if path.is_dir() { absolute.file_name() } else { absolute.file_stem() };
+    last.map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned())
+}
+
+/// What the summary of a run says against relying on it.
+fn caution(path: &Path) -> Option<String> {
+    let summary = current(path, Artifact::Summary);
+    let Ok(text) = std::fs::read_to_string(&summary) else {
+        return Some(format!("{} has no summary.json: the results may be incomplete", path.display()));
+    };
+    let value: serde_json::Value = serde_json::from_str(&text).unwrap_or_default();
+    match value["status"].as_str() {
+        Some("finished") => None,
+        Some(status) => {
+            let message = value["message"].as_str().map(|m| format!(": {m}")).unwrap_or_default();
+            Some(format!("the run in {} {status}{message}", path.display()))
+        }
+        None => Some(format!("{} is not the summary of a run", summary.display())),
+    }
+}
+
+/// The columns whose names match one of the patterns, in the order of the patterns and then of the columns, each
+/// once. `*` stands for any text, `?` for any character, `[ab]` for one of some.
+///
+/// # Errors
+/// [`ResultsError::Pattern`], and [`ResultsError::NoColumn`] for a pattern that matches nothing; `of` says in
+/// what was searched.
+pub fn select<'n>(columns: &[&'n str], patterns: &[String], of: &str) -> Result<Vec<&'n str>, ResultsError> {
+    let mut selected: Vec<&str> = Vec::new();
+    for pattern in patterns {
+        let compiled = glob::Pattern::new(pattern).map_err(|error| ResultsError::Pattern {
+            pattern: pattern.clone(),
+            reason: error.msg.to_owned(),
+        })?;
+        let mut matched = false;
+        for name in columns.iter().filter(|name| **name == pattern || compiled.matches(name)) {
+            matched = true;
+            if !selected.contains(name) {
+                selected.push(name);
+            }
+        }
+        if !matched {
+            return Err(ResultsError::NoColumn {
+                pattern: pattern.clone(),
+                of: of.to_owned(),
+                nearest: nearest(pattern, columns.iter().copied()).map(str::to_owned),
+                there: columns.join(", "),
+            });
+        }
+    }
+    Ok(selected)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::trajectory::tests::sample;
+    use crate::write_csv;
+
+    fn chosen(patterns: &[&str]) -> Result<Vec<&'static str>, String> {
+        let columns = ["tip.deflection", "tip.axial", "x=2.5.axial", "hub.speed"];
+        let patterns: Vec<String> = patterns.iter().map(|p| (*p).to_owned()).collect();
+        select(&columns, &patterns, "the runs").map_err(|e| e.to_string())
+    }
+
+    #[test]
+    fn columns_are_selected_by_name_and_pattern_in_the_order_asked_for() {
+        assert_eq!(chosen(&["hub.speed", "tip.*"]).unwrap(), ["hub.speed", "tip.deflection", "tip.axial"]);
+        assert_eq!(chosen(&["*.axial", "tip.*"]).unwrap(), ["tip.axial", "x=2.5.axial", "tip.deflection"]);
+        let error = chosen(&["tip.defelction"]).unwrap_err();
+        assert!(error.contains("did you mean `tip.deflection`?") && error.contains("hub.speed"), "{error}");
+        assert!(chosen(&["nose.*"]).unwrap_err().contains("no column of the runs is called `nose.*`"));
+        assert!(chosen(&["tip.***"]).unwrap_err().contains("no pattern"));
+    }
+
+    #[test]
+    fn results_are_read_from_a_directory_or_a_file_and_their_names_differ() {
+        let dir = tempfile::tempdir().unwrap();
+        let make = |name: &str, summary: Option<&str>| {
+            let path = dir.path().join(name);
+            std::fs::create_dir_all(&path).unwrap();
+            let mut csv = Vec::new();
+            write_csv(&sample(), &mut csv).unwrap();
+            std::fs::write(path.join("trajectory.csv"), csv).unwrap();
+            if let Some(summary) = summary {
+                std::fs::write(path.join("summary.json"), summary).unwrap();
+            }
+            path
+        };
+        let good = make("a/run", Some(r#"{"status":"finished"}"#));
+        let bad = make("b/run", Some(r#"{"status":"failed","message":"it broke"}"#));
+        let open = make("open", None);
+        let paths = [good.clone(), bad, open, good.join("trajectory.csv"), good];
+        let all = Results::read_all(&paths).unwrap();
+        let names: std::collections::BTreeSet<&str> = all.iter().map(|r| r.name.as_str()).collect();
+        assert_eq!(names.len(), 5, "{names:?}");
+        assert!(names.contains("open") && names.contains("trajectory"));
+        assert_eq!(all[0].trajectory.column("hub.speed"), sample().column("hub.speed"));
+        assert_eq!(all[0].caution, None);
+        assert!(all[1].caution.as_ref().unwrap().ends_with("failed: it broke"));
+        assert!(all[2].caution.as_ref().unwrap().contains("incomplete"));
+        let error = Results::read(&dir.path().join("c")).unwrap_err().to_string();
+        assert!(error.contains("holds no trajectory.csv"), "{error}");
+    }
+}

@@ -1,0 +1,126 @@
+//! All files of one run, in the order that makes an interrupted write recognisable.
+
+use std::io::Write;
+
+use super::plot::Figure;
+use super::state_file::write_state;
+use super::{
+    Artifact, Directory, OutputError, RunReport, Shapes, Status, Summary, Trajectory, resolved_case,
+    write_csv, write_npz, write_pvd, write_vtu,
+};
+use flexion::integrator::Checkpoint;
+
+/// What not every run has.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Attachments<'a> {
+    /// The plot.
+    pub figure: Option<&'a Figure>,
+    /// The tables that the case names, byte for byte.
+    pub tables: &'a [(Artifact, Vec<u8>)],
+    /// The last accepted step, and the text that says what it belongs to.
+    pub state: Option<(&'a Checkpoint, &'a str)>,
+    /// The shapes of the beam.
+    pub shapes: Option<&'a Shapes>,
+}
+
+/// Writes the files of a run into `directory`, publishes them, and returns the status that the
+/// summary states: [`Status::Failed`] for a run that claims to have finished with a value that is
+/// not finite, else the status of `report`. A plot that cannot be drawn costs a warning in the summary,
+/// never the results.
+///
+/// `case` is the resolved case as TOML.
+///
+/// # Errors
+/// [`OutputError`] for whatever goes wrong on disk; former results are then still in place.
+pub fn write_run(
+    directory: &Directory,
+    report: &RunReport<'_>,
+    trajectory: &Trajectory,
+    case: &str,
+    attachments: Attachments<'_>,
+) -> Result<Status, OutputError> {
+    directory.write(Artifact::ResolvedCase, |f| f.write_all(resolved_case(case).as_bytes()))?;
+    for (artifact, bytes) in attachments.tables {
+        directory.write(*artifact, |f| f.write_all(bytes))?;
+    }
+    if let Some((checkpoint, text)) = attachments.state {
+        directory.write(Artifact::State, |f| write_state(checkpoint, text, f))?;
+    }
+    // The smaller one first: it may still fit on a disk that is nearly full.
+    directory.write(Artifact::TrajectoryNpz, |f| write_npz(trajectory, f))?;
+    directory.write(Artifact::TrajectoryCsv, |f| write_csv(trajectory, f))?;
+    #[cfg(feature = "parquet")]
+    directory.write(Artifact::TrajectoryParquet, |f| super::write_parquet(trajectory, f))?;
+    let mut warnings = report.warnings.to_vec();
+    if let Some(figure) = attachments.figure {
+        let drawing = figure.draw();
+        directory.write(Artifact::PlotSvg, |f| f.write_all(drawing.svg().as_bytes()))?;
+        match drawing.png() {
+            Ok(png) => directory.write(Artifact::PlotPng, |f| f.write_all(&png))?,
+            Err(e) => warnings.push(e.to_string()),
+        }
+    }
+    if let Some(shapes) = attachments.shapes {
+        for (number, shape) in (0..).zip(shapes.iter()) {
+            directory.write(Artifact::Shape(number), |f| write_vtu(&shape, f))?;
+        }
+        directory.write(Artifact::ShapeSeries, |f| write_pvd(shapes.times(), f))?;
+        #[cfg(feature = "vtkhdf")]
+        directory.write(Artifact::ShapeHdf, |f| super::write_vtkhdf(shapes, f))?;
+    }
+    let summary = Summary::of_run(&RunReport { warnings: &warnings, ..report.clone() }, trajectory);
+    directory.write(Artifact::Summary, |f| f.write_all(summary.to_json().as_bytes()))?;
+    directory.publish()?;
+    Ok(summary.status())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plot::trajectory_figure;
+    use crate::summary::tests::report;
+    use crate::trajectory::tests::sample;
+
+    fn with_figure(figure: &Figure) -> Attachments<'_> {
+        Attachments { figure: Some(figure), ..Attachments::default() }
+    }
+
+    fn files(status: Status) -> Vec<(String, Vec<u8>)> {
+        let dir = tempfile::tempdir().unwrap();
+        let out = Directory::create(dir.path(), false).unwrap();
+        let t = sample();
+        let figure = trajectory_figure(&t, None);
+        let stated = write_run(&out, &RunReport { status, ..report() }, &t, "a = 1\n", with_figure(&figure));
+        assert_eq!(stated.unwrap(), status);
+        let mut files: Vec<_> = std::fs::read_dir(dir.path())
+            .unwrap()
+            .map(|e| {
+                let e = e.unwrap();
+                (e.file_name().into_string().unwrap(), std::fs::read(e.path()).unwrap())
+            })
+            .collect();
+        files.sort();
+        files
+    }
+
+    #[test]
+    fn a_run_leaves_its_files_and_nothing_else() {
+        let files = files(Status::Stopped);
+        let names: Vec<&str> = files.iter().map(|(n, _)| n.as_str()).collect();
+        let mut expected = vec![
+            "case.resolved.toml",
+            "plot.png",
+            "plot.svg",
+            "summary.json",
+            "trajectory.csv",
+            "trajectory.npz",
+        ];
+        expected.extend(cfg!(feature = "parquet").then_some("trajectory.parquet"));
+        assert_eq!(names, expected);
+    }
+
+    #[test]
+    fn the_same_run_gives_the_same_bytes() {
+        assert!(files(Status::Finished) == files(Status::Finished));
+    }
+}

@@ -1,0 +1,105 @@
+//! `state.npz`: the last accepted step of a run, from which it can go on.
+
+use std::io::{self, Read, Seek, Write};
+
+use zip::ZipArchive;
+
+use super::archive;
+use super::npz::write_array;
+use flexion::integrator::Checkpoint;
+
+/// Name of the text that says which model the state belongs to, and which integrator.
+const MODEL: &str = "model";
+
+/// Largest list that is read [bytes].
+const LARGEST: u64 = 1 << 32;
+
+/// Writes a checkpoint as a NumPy archive: one array of f64 for each list, and one of bytes, `model`, with the `text`
+/// that says what it belongs to. The same checkpoint gives the same bytes.
+///
+/// # Errors
+/// Whatever `to` returns.
+pub fn write_state(checkpoint: &Checkpoint, text: &str, to: impl Write + Seek) -> io::Result<()> {
+    let mut archive = archive::archive(to);
+    for (name, values) in checkpoint.entries() {
+        write_array(&mut archive, name, values.len(), values.iter().copied())?;
+    }
+    write_array(&mut archive, MODEL, text.len(), text.bytes())?;
+    archive::finish(archive)
+}
+
+/// Reads what [`write_state`] wrote: the checkpoint and the text.
+///
+/// # Errors
+/// What is wrong with the file, for people.
+pub fn read_state(from: impl Read + Seek) -> Result<(Checkpoint, String), String> {
+    let mut archive = ZipArchive::new(from).map_err(|error| format!("it is no NumPy archive ({error})"))?;
+    let (mut checkpoint, mut text) = (Checkpoint::default(), None);
+    for i in 0..archive.len() {
+        let entry = archive.by_index(i).map_err(|error| error.to_string())?;
+        let file = entry.name().map_err(|error| error.to_string())?.into_owned();
+        let Some(name) = file.strip_suffix(".npy") else {
+            return Err(format!("it holds `{file}`, which is no array"));
+        };
+        let size = entry.size();
+        let broken = |error: &dyn std::fmt::Display| format!("its array `{name}` cannot be read ({error})");
+        if size > LARGEST {
+            return Err(broken(&"it is too large"));
+        }
+        let array = npyz::NpyFile::new(entry).map_err(|error| broken(&error))?;
+        let width = if name == MODEL { 1 } else { 8 };
+        if array.shape().iter().try_fold(width, |n: u64, k| n.checked_mul(*k)).is_none_or(|n| n > size) {
+            return Err(broken(&"it is cut short"));
+        }
+        if name == MODEL {
+            let bytes = array.into_vec::<u8>().map_err(|error| broken(&error))?;
+            text = Some(String::from_utf8(bytes).map_err(|error| broken(&error))?);
+        } else {
+            checkpoint.put(name, &array.into_vec::<f64>().map_err(|error| broken(&error))?);
+        }
+    }
+    let text = text.ok_or("it does not say which model it belongs to")?;
+    Ok((checkpoint, text))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::Cursor;
+
+    fn sample() -> Vec<u8> {
+        let mut checkpoint = Checkpoint::default();
+        checkpoint.put("q", &[1.0, f64::NAN, -0.0, 5e-324]);
+        checkpoint.put("lambda", &[]);
+        let mut out = Cursor::new(Vec::new());
+        write_state(&checkpoint, "beam.length = 1.0\n", &mut out).unwrap();
+        out.into_inner()
+    }
+
+    #[test]
+    fn a_state_reads_back_bit_by_bit() {
+        let (checkpoint, text) = read_state(Cursor::new(sample())).unwrap();
+        let bits = |x: &[f64]| x.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+        assert_eq!(bits(checkpoint.list("q").unwrap()), bits(&[1.0, f64::NAN, -0.0, 5e-324]));
+        assert_eq!(checkpoint.list("lambda").unwrap(), [0.0; 0]);
+        assert_eq!(text, "beam.length = 1.0\n");
+        assert!(sample() == sample());
+    }
+
+    #[test]
+    fn what_is_no_state_is_refused_with_the_reason() {
+        let whole = sample();
+        for cut in [0, 10, whole.len() / 2, whole.len() - 1] {
+            assert!(read_state(Cursor::new(&whole[..cut])).is_err(), "{cut}");
+        }
+        for i in (0..whole.len()).step_by(7) {
+            let mut changed = whole.clone();
+            changed[i] ^= 0x55;
+            let _ = read_state(Cursor::new(changed)); // an error or a value, never a panic
+        }
+        let mut other = Cursor::new(Vec::new());
+        super::super::write_npz(&crate::trajectory::tests::sample(), &mut other).unwrap();
+        let reason = read_state(Cursor::new(other.into_inner())).unwrap_err();
+        assert!(reason.contains("which model"), "{reason}");
+    }
+}

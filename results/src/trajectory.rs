@@ -1,0 +1,176 @@
+//! What a run recorded: one row of channel values for each recorded time.
+
+use flexion::system::Channel;
+
+/// Recorded times and, for each, one value of every channel.
+///
+/// Row i holds the values at `times()[i]`; rows are stored one after another.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Trajectory {
+    channels: Vec<Channel>,
+    times: Vec<f64>,
+    rows: Vec<f64>,
+}
+
+/// Smallest, largest and last value of one channel, over the values that are finite numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extremes {
+    /// Smallest value, in the channel's unit; NaN when no value is finite.
+    pub min: f64,
+    /// Time at which `min` first occurs [s].
+    pub t_min: f64,
+    /// Largest value, in the channel's unit; NaN when no value is finite.
+    pub max: f64,
+    /// Time at which `max` first occurs [s].
+    pub t_max: f64,
+    /// Last recorded value, finite or not; NaN when nothing was recorded.
+    pub last: f64,
+    /// Time of the first value that is not finite [s], if there is one.
+    pub not_finite: Option<f64>,
+}
+
+impl Trajectory {
+    /// An empty trajectory of the given channels, whose names must differ from one another and
+    /// from `time`, the name of the first column in files.
+    pub fn new(channels: Vec<Channel>) -> Trajectory {
+        Trajectory { channels, times: Vec::new(), rows: Vec::new() }
+    }
+
+    /// Makes room for `rows` more rows, so that recording them allocates nothing.
+    pub fn reserve(&mut self, rows: usize) {
+        self.times.reserve(rows);
+        self.rows.reserve(rows.saturating_mul(self.channels.len()));
+    }
+
+    /// Appends a row at time `t` [s]: `write` receives the row, zeroed, one entry for each channel,
+    /// e.g. `trajectory.push(state.t, |row| system.record(&state, row))`.
+    pub fn push(&mut self, t: f64, write: impl FnOnce(&mut [f64])) {
+        let start = self.rows.len();
+        self.times.push(t);
+        self.rows.resize(start + self.channels.len(), 0.0);
+        write(&mut self.rows[start..]);
+    }
+
+    /// The recorded channels, in column order.
+    pub fn channels(&self) -> &[Channel] {
+        &self.channels
+    }
+
+    /// The recorded times [s].
+    pub fn times(&self) -> &[f64] {
+        &self.times
+    }
+
+    /// Number of rows.
+    pub fn len(&self) -> usize {
+        self.times.len()
+    }
+
+    /// Whether nothing was recorded.
+    pub fn is_empty(&self) -> bool {
+        self.times.is_empty()
+    }
+
+    /// The rows with their times, in the order in which they were recorded.
+    pub fn rows(&self) -> impl Iterator<Item = (f64, &[f64])> {
+        let width = self.channels.len();
+        self.times.iter().enumerate().map(move |(i, &t)| (t, &self.rows[i * width..(i + 1) * width]))
+    }
+
+    /// Index of the channel called `name`.
+    pub fn index(&self, name: &str) -> Option<usize> {
+        self.channels.iter().position(|c| c.name == name)
+    }
+
+    /// Values of the channel at `index`, in time order; nothing for an index out of range.
+    pub fn values(&self, index: usize) -> impl Iterator<Item = f64> {
+        let width = self.channels.len();
+        let taken = if index < width { self.len() } else { 0 };
+        self.rows.iter().skip(index).step_by(width.max(1)).take(taken).copied()
+    }
+
+    /// Values of the channel called `name`, or `None` when there is none of that name.
+    pub fn column(&self, name: &str) -> Option<Vec<f64>> {
+        self.index(name).map(|i| self.values(i).collect())
+    }
+
+    /// Extremes of the channel at `index`; the first of equal values counts.
+    pub fn extremes(&self, index: usize) -> Extremes {
+        let nan = f64::NAN;
+        let mut e = Extremes { min: nan, t_min: nan, max: nan, t_max: nan, last: nan, not_finite: None };
+        for (&t, y) in self.times.iter().zip(self.values(index)) {
+            e.last = y;
+            if !y.is_finite() {
+                e.not_finite = e.not_finite.or(Some(t));
+                continue;
+            }
+            // A comparison with NaN is false: the negated form lets the first value in.
+            if e.min.is_nan() || y < e.min {
+                (e.min, e.t_min) = (y, t);
+            }
+            if e.max.is_nan() || y > e.max {
+                (e.max, e.t_max) = (y, t);
+            }
+        }
+        e
+    }
+
+    /// The channel and time of the first value that is not a finite number, if there is one.
+    pub fn first_not_finite(&self) -> Option<(&Channel, f64)> {
+        self.rows().find_map(|(t, row)| {
+            let i = row.iter().position(|y| !y.is_finite())?;
+            self.channels.get(i).map(|c| (c, t))
+        })
+    }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+
+    pub(crate) fn channel(name: &str, unit: &'static str) -> Channel {
+        Channel { name: name.into(), unit, meaning: format!("the {name}") }
+    }
+
+    /// Two channels: a cosine with its lowest point at t = 2 s, and a constant.
+    pub(crate) fn sample() -> Trajectory {
+        let mut t = Trajectory::new(vec![channel("tip.deflection", "m"), channel("hub.speed", "rad/s")]);
+        for i in 0..=4 {
+            let time = f64::from(i);
+            t.push(time, |row| {
+                row.copy_from_slice(&[(std::f64::consts::FRAC_PI_2 * time).cos(), 4.0]);
+            });
+        }
+        t
+    }
+
+    #[test]
+    fn columns_are_what_was_recorded_row_by_row() {
+        let t = sample();
+        assert_eq!(t.len(), 5);
+        assert_eq!(t.column("hub.speed"), Some(vec![4.0; 5]));
+        assert_eq!(t.column("nothing"), None);
+        assert_eq!(t.rows().nth(2).map(|(time, row)| (time, row[0], row[1])), Some((2.0, -1.0, 4.0)));
+        assert_eq!(t.values(2).count(), 0);
+    }
+
+    #[test]
+    fn extremes_of_a_cosine_are_its_crests_and_the_first_of_equals_counts() {
+        let e = sample().extremes(0);
+        assert_eq!((e.min, e.t_min, e.max, e.t_max, e.last), (-1.0, 2.0, 1.0, 0.0, 1.0));
+        let e = sample().extremes(1);
+        assert_eq!((e.t_min, e.t_max, e.not_finite), (0.0, 0.0, None));
+    }
+
+    #[test]
+    fn extremes_skip_what_is_not_finite_and_say_where_it_began() {
+        let mut t = Trajectory::new(vec![channel("a", "m")]);
+        for (time, y) in [(0.0, 1.0), (1.0, f64::NAN), (2.0, f64::INFINITY)] {
+            t.push(time, |row| row[0] = y);
+        }
+        let e = t.extremes(0);
+        assert_eq!((e.min, e.max, e.last, e.not_finite), (1.0, 1.0, f64::INFINITY, Some(1.0)));
+        assert_eq!(t.first_not_finite().map(|(c, t)| (c.name.as_str(), t)), Some(("a", 1.0)));
+        assert!(Trajectory::new(vec![channel("a", "m")]).extremes(0).min.is_nan());
+    }
+}
