@@ -8,6 +8,7 @@
 pub mod analysis;
 pub mod basis;
 pub mod blade;
+pub mod contact;
 pub mod exact;
 pub mod hub_beam;
 pub mod integrator;

@@ -1,7 +1,7 @@
 //! Equilibrium in the system's own frame: r(t, q, 0, 0) = 0 by Newton's method with continuation.
 
 use crate::linalg::Matrix;
-use crate::system::{State, System, Weights};
+use crate::system::{Parameter, State, System, Weights};
 
 /// Newton iterations allowed at one load level.
 const ITERATIONS: u32 = 25;
@@ -51,10 +51,10 @@ pub fn equilibrium(system: &mut dyn System, state: &mut State) -> Result<Effort,
     let n = state.v.len();
     state.v.fill(0.0);
     state.a.fill(0.0);
-    let scale: Vec<f64> = system.labels().iter().map(|l| l.scale).collect();
-    let mut tangent = Matrix::new(&system.structure());
+    let scale = system.scales().to_vec();
+    let mut tangent = Matrix::new(&system.structure(0));
     let (mut start, mut r) = (vec![0.0; n], vec![0.0; n]);
-    system.load(0.0);
+    apply(system, 0.0);
     system.residual(state, &mut start);
     let mut good = state.clone();
     let mut moved = state.q.clone();
@@ -62,7 +62,7 @@ pub fn equilibrium(system: &mut dyn System, state: &mut State) -> Result<Effort,
     let mut effort = Effort::default();
     while reached < 1.0 {
         let level = (reached + part).min(1.0);
-        system.load(level);
+        apply(system, level);
         let mut failure = None;
         let mut last = f64::INFINITY;
         for iteration in 0..=ITERATIONS {
@@ -110,14 +110,19 @@ pub fn equilibrium(system: &mut dyn System, state: &mut State) -> Result<Effort,
                 state.copy_from(&good);
                 part = 0.25 * (level - reached);
                 if part < SMALLEST {
-                    system.load(1.0);
-                    let worst = system.labels().get(worst).map_or("model", |l| &l.name).to_owned();
+                    apply(system, 1.0);
+                    let worst = system.unknown(worst);
                     return Err(NoEquilibrium { time: state.t, reached, what, worst });
                 }
             }
         }
     }
     Ok(effort)
+}
+
+/// Applies a part of the loads; a model without loads has none to follow.
+fn apply(system: &mut dyn System, part: f64) {
+    let _ = system.set(Parameter::LoadFactor, part);
 }
 
 /// Index and scaled size of the largest increment (a NaN counts as largest).

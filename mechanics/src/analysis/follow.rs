@@ -119,7 +119,7 @@ fn multiply(a: &Band<f64>, x: &[Vec<f64>; 2], y: &mut [Vec<f64>; 2], is_real: bo
 impl Follower {
     /// For a system whose matrices are bands; `None` for others.
     pub(super) fn new(system: &dyn System) -> Option<Follower> {
-        let matrix = Matrix::new(&system.structure());
+        let matrix = Matrix::new(&system.structure(0));
         let (order, half) = match matrix.storage() {
             Storage::Band(a) if a.band().lower() == a.band().upper() => (a.band().order(), a.band().upper()),
             _ => return None,
@@ -135,7 +135,7 @@ impl Follower {
             factor: Hermitian::new(order, half),
             sized: Hermitian::new(order, half),
             directions: (0..n).map(|i| system.direction(i)).collect(),
-            scale: system.labels().iter().map(|l| l.scale).collect(),
+            scale: system.scales().to_vec(),
             work: Work { x: pair(), mx: pair(), cx: pair(), kx: pair(), r: pair(), mr: vec![0.0; order] },
         })
     }

@@ -1,11 +1,10 @@
 //! Analyses: plain functions over a system.
 
-mod audit;
 pub mod campbell;
 mod crossings;
+mod energy_balance;
 pub mod equilibrium;
 mod follow;
-mod ledger;
 pub mod modes;
 pub mod rotation;
 mod stiffness;
@@ -14,4 +13,4 @@ mod tracking;
 pub mod transient;
 mod worker;
 
-pub use ledger::Books;
+pub use energy_balance::EnergyBalance;

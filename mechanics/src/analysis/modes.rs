@@ -204,7 +204,7 @@ pub fn modes(
     // A rigid motion that neither moves nor stops is an eigenvalue twice: as a place and as a speed.
     let pairs = pencil.pairs(if rigid > 0.0 { (count + 1).min(size.v) } else { count })?;
     let (mut modes, mut counted) = (Vec::with_capacity(count), None);
-    let scale: Vec<f64> = system.labels().iter().map(|l| l.scale).collect();
+    let scale: Vec<f64> = system.scales().to_vec();
     for pair in pairs {
         let number = modes.len() + 1;
         if number > count {
@@ -252,7 +252,7 @@ fn parallel(x: &[Complex64], y: &[Complex64]) -> bool {
 fn held_frequency(system: &mut dyn System, state: &State, singular: Singular) -> Result<f64, NoModes> {
     system.hold(true);
     let mass = tangent(system, state, Weights::new(1.0, 0.0, 0.0));
-    let structure = system.structure().explicit();
+    let structure = system.structure(0).explicit();
     let (wide, _) = stiffness(system, state);
     system.hold(false);
     let pencil = Pencil::new(mass, Matrix::new(&structure), wide, 0.0);
@@ -345,7 +345,7 @@ fn shape(system: &mut dyn System, state: &State, x: &[Complex64], scale: &[f64],
         let mut moved = state.clone();
         system.retract(&state.q, d, &mut moved.q);
         let mut frames = vec![Frame::default(); count];
-        system.shape(&moved, stations, &mut frames);
+        system.frames(0, &moved, stations, &mut frames);
         frames
     };
     let still = frames(system, &vec![0.0; x.len()]);

@@ -3,7 +3,7 @@
 use super::equilibrium::{Effort, NoEquilibrium, equilibrium};
 use super::stiffness::stiffness;
 use crate::linalg::eigen::negative_eigenvalues;
-use crate::system::{State, System};
+use crate::system::{NotSet, Parameter, State, System};
 
 /// Smallest part of the way to a speed by which continuation goes on.
 const SMALLEST: f64 = 1e-4;
@@ -58,8 +58,8 @@ impl NoRotation {
 }
 
 /// Brings `state` from the steady rotation at the speed `from` [rad/s], which it holds (the undeformed beam does
-/// for `from` = 0 without loads), to that at `to`. On return the system [turns steadily](System::turn_steadily)
-/// at `to` with its hub held, and v = a = 0.
+/// for `from` = 0 without loads), to that at `to`. On return the system turns steadily at `to`
+/// with its hub held, and v = a = 0.
 ///
 /// The equilibrium r(q, 0, 0; Ω) = 0 is followed in Ω: the speed is raised by parts that grow and shrink as
 /// Newton's method converges.
@@ -74,10 +74,15 @@ pub fn rotate(system: &mut dyn System, state: &mut State, from: f64, to: f64) ->
     let speed = |share: f64| if share >= 1.0 { to } else { from + share * (to - from) };
     while reached < 1.0 {
         let next = f64::min(reached + part, 1.0);
-        if !system.turn_steadily(speed(next)) {
-            return Err(NoRotation::DoesNotTurn);
-        }
-        match equilibrium(system, state) {
+        let set = match system.set(Parameter::Speed, speed(next)) {
+            Ok(()) => Ok(()),
+            Err(NotSet::Unknown(_)) => return Err(NoRotation::DoesNotTurn),
+            Err(NotSet::Lost(what)) => {
+                let worst = "steady state".to_owned();
+                Err(NoEquilibrium { time: state.t, reached: 0.0, what, worst })
+            }
+        };
+        match set.and_then(|()| equilibrium(system, state)) {
             Ok(spent) => {
                 effort.levels += spent.levels;
                 effort.iterations += spent.iterations;
@@ -91,7 +96,7 @@ pub fn rotate(system: &mut dyn System, state: &mut State, from: f64, to: f64) ->
                 if part < SMALLEST {
                     let reached = speed(reached);
                     let why = system.explain(state).map_or_else(String::new, |why| format!(": {why}"));
-                    system.turn_steadily(reached);
+                    let _ = system.set(Parameter::Speed, reached);
                     return Err(NoRotation::Lost { asked: to, reached, source, why });
                 }
             }
@@ -130,7 +135,7 @@ pub fn rotate_stably(
             high = middle;
         }
     }
-    system.turn_steadily(low);
+    let _ = system.set(Parameter::Speed, low);
     state.copy_from(&at);
     Err(NoRotation::Buckled { asked: to, reached: low, negative, why })
 }

@@ -144,7 +144,7 @@ pub fn superpose(
 
 /// How far the recorded quantity that the mode moves most moves with it: `None` if none does.
 fn moved(system: &mut dyn System, state: &State, mode: &Mode, recorded: &[usize]) -> Option<Complex64> {
-    let scale: Vec<f64> = system.labels().iter().map(|l| l.scale).collect();
+    let scale: Vec<f64> = system.scales().to_vec();
     let largest = mode.vector.iter().zip(&scale).map(|(x, s)| x.norm() / s).fold(0.0, f64::max);
     let step = DIFFERENCE / largest;
     let count = system.channels().len();

@@ -6,7 +6,7 @@ use super::modes::{Mode, describe, modes};
 use super::rotation::{negative_stiffness, rotate, rotate_stably};
 use super::stiffness::tangent;
 use crate::linalg::Matrix;
-use crate::system::{State, System, Weights};
+use crate::system::{Parameter, State, System, Weights};
 use num_complex::Complex64;
 
 /// Modes computed beyond those asked for, so that curves may cross the last one.
@@ -38,8 +38,8 @@ pub(super) struct Worker<'a> {
 impl<'a> Worker<'a> {
     pub(super) fn new(build: &Build<'_>, plan: &'a Plan) -> Result<Worker<'a>, NoCampbell> {
         let system = build().map_err(NoCampbell::Build)?;
-        let state = State::zeros(system.size(), 0.0);
-        let scale = system.labels().iter().map(|l| l.scale).collect();
+        let state = system.initial();
+        let scale = system.scales().to_vec();
         let follower = match plan.hub {
             HubState::Held => Follower::new(system.as_ref()),
             HubState::Free => None,
@@ -53,8 +53,9 @@ impl<'a> Worker<'a> {
 
     /// Begins anew from rest, whatever went before: the same speeds then give the same bytes.
     pub(super) fn rest(&mut self) {
-        self.system.turn_steadily(0.0);
-        self.state = State::zeros(self.system.size(), 0.0);
+        self.system.release();
+        let _ = self.system.set(Parameter::Speed, 0.0);
+        self.state = self.system.initial();
         self.speed = 0.0;
     }
 
@@ -118,7 +119,7 @@ impl<'a> Worker<'a> {
             let mut here = ends.filter(|(_, p)| p.speed == at.speed).map(|(_, p)| p).peekable();
             if here.peek().is_some() {
                 self.system.hold(true);
-                self.system.turn_steadily(at.speed);
+                let _ = self.system.set(Parameter::Speed, at.speed);
                 for point in here {
                     let system = self.system.as_mut();
                     describe(&mut point.mode, system, &at.equilibrium, &self.scale, &self.plan.stations);

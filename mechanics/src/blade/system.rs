@@ -1,4 +1,4 @@
-//! The blade as a [`System`]: small vibrations about its steady state.
+//! The blade as a [`System`](crate::system::System): small vibrations about its steady state.
 
 use super::frame::axes;
 use super::jet::Jet;
@@ -9,7 +9,8 @@ use super::tension::Tension;
 use crate::linalg::{Matrix, Storage, Structure};
 use crate::section::BladeSection;
 use crate::system::{
-    Channel, Direction, Energy, Frame, Label, Power, Size, State, System, VisitTerm, Weights,
+    Channel, Direction, Dynamics, Energy, Events, Frame, NotSet, Observed, Parameter, Size, State, Steady,
+    VisitTerm, Weights,
 };
 
 /// A rotating blade. See the [module documentation](super).
@@ -24,8 +25,7 @@ pub struct Blade {
     steady: Vec<f64>,
     /// The speed before the present one and its steady state.
     earlier: Option<(f64, Vec<f64>)>,
-    /// The speed asked for at which no steady state was found, if it was the last one asked for.
-    lost: Option<BladeError>,
+    scales: Vec<f64>,
     scratch: Vec<f64>,
     channels: Vec<Channel>,
 }
@@ -68,12 +68,12 @@ impl Blade {
         let size = mesh.len();
         let mut blade = Blade {
             channels: channels(&mesh),
+            scales: mesh.labels.iter().map(|label| label.scale).collect(),
             matrices: Matrices::new(mesh, setting, model, tension),
             setting,
             speed: 0.0,
             steady: vec![0.0; size],
             earlier: None,
-            lost: None,
             scratch: vec![0.0; size],
         };
         blade.set_speed(0.0)?;
@@ -190,25 +190,29 @@ fn channels(mesh: &Mesh) -> Vec<Channel> {
     all.into_iter().map(channel).collect()
 }
 
-impl System for Blade {
+impl Dynamics for Blade {
     fn size(&self) -> Size {
         Size { q: self.steady.len(), v: self.steady.len(), lambda: 0 }
     }
 
-    fn structure(&self) -> Structure {
+    fn structure(&self, _multipliers: usize) -> Structure {
         self.matrices.mesh().structure()
     }
 
-    fn labels(&self) -> &[Label] {
-        &self.matrices.mesh().labels
+    fn scales(&self) -> &[f64] {
+        &self.scales
+    }
+
+    fn unknown(&self, i: usize) -> String {
+        let labels = &self.matrices.mesh().labels;
+        labels.get(i).map_or_else(|| format!("unknown {i}"), |label| label.name.clone())
+    }
+
+    fn is_affine(&self) -> bool {
+        true
     }
 
     fn residual(&mut self, s: &State, r: &mut [f64]) {
-        if self.lost.is_some() {
-            // There is no equilibrium to be found.
-            r.fill(f64::NAN);
-            return;
-        }
         let Blade { matrices, scratch, .. } = self;
         Blade::product(&matrices.mass, &s.a, r);
         for (matrix, x) in [(&matrices.gyroscopic, &s.v), (&matrices.stiffness, &s.q)] {
@@ -248,35 +252,41 @@ impl System for Blade {
         out.set_stamp(Some(stamp));
     }
 
-    fn turn_steadily(&mut self, speed: f64) -> bool {
+    fn stiffness_terms(&mut self, _s: &State, rest: &mut Matrix, visit: &mut VisitTerm<'_>) -> bool {
+        self.matrices.visit_strain(self.speed, &self.steady, rest, visit);
+        true
+    }
+}
+
+impl Events for Blade {}
+
+impl Steady for Blade {
+    fn set(&mut self, parameter: Parameter, speed: f64) -> Result<(), NotSet> {
+        if parameter != Parameter::Speed {
+            return Ok(());
+        }
         // At rest the blade is undeformed, whatever went before.
         if speed == 0.0 {
             self.undeform();
         }
-        if self.lost.is_none() && self.speed == speed && speed != 0.0 {
-            return true;
+        if self.speed == speed && speed != 0.0 {
+            return Ok(());
         }
         // From the present state, and if that leads nowhere from the undeformed blade.
-        self.lost = self.set_speed(speed).err();
-        if self.lost.is_some() {
-            let former = (self.speed, self.steady.clone());
-            self.undeform();
-            self.lost = self.set_speed(speed).err();
-            if self.lost.is_some() {
-                (self.speed, self.steady) = former;
-                self.matrices.assemble(self.speed, &self.steady);
-            }
+        if self.set_speed(speed).is_ok() {
+            return Ok(());
         }
-        true
+        let former = (self.speed, self.steady.clone());
+        self.undeform();
+        self.set_speed(speed).map_err(|error| {
+            (self.speed, self.steady) = former;
+            self.matrices.assemble(self.speed, &self.steady);
+            NotSet::Lost(error.to_string())
+        })
     }
+}
 
-    fn stiffness_terms(&mut self, _s: &State, rest: &mut Matrix, visit: &mut VisitTerm<'_>) -> bool {
-        if self.lost.is_some() {
-            return false;
-        }
-        self.matrices.visit_strain(self.speed, &self.steady, rest, visit);
-        true
-    }
+impl Observed for Blade {
 
     fn direction(&self, i: usize) -> Direction {
         match self.components().get(i) {
@@ -288,25 +298,13 @@ impl System for Blade {
         }
     }
 
-    fn explain(&mut self, _s: &State) -> Option<String> {
-        self.lost.as_ref().map(BladeError::to_string)
-    }
-
-    fn is_affine(&self) -> bool {
-        true
-    }
-
     fn energy(&mut self, s: &State) -> Energy {
         let kinetic = self.quadratic(|m| &m.mass, &s.v);
         let strain = self.quadratic(|m| &m.stiffness, &s.q);
-        Energy { kinetic, strain, gravity: 0.0 }
+        Energy { kinetic, strain, ..Energy::default() }
     }
 
-    fn power(&mut self, _s: &State) -> Power {
-        Power::default()
-    }
-
-    fn shape(&mut self, s: &State, stations: &[f64], out: &mut [Frame]) {
+    fn frames(&mut self, _body: usize, s: &State, stations: &[f64], out: &mut [Frame]) {
         let whole: Vec<f64> = self.steady.iter().zip(&s.q).map(|(a, b)| a + b).collect();
         let (sin, cos) = self.setting.precone.sin_cos();
         let (sin_turn, cos_turn) = (self.speed * s.t).sin_cos();

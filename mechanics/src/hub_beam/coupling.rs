@@ -7,12 +7,12 @@ use super::load::Kinematics;
 use super::station::{Placement, Station};
 use crate::linalg::{Storage, Structure};
 use crate::profile::HubKinematics;
-use crate::system::{State, Turns, VisitTerm, Weights};
+use crate::system::{State, Corotation, VisitTerm, Weights};
 
 /// A kinematic model of the beam: everything that differs between `zeroth`, `first`, `high` and `exact`.
 ///
 /// The hub–beam system is generic over its coupling, so these calls are static.
-pub trait Coupling {
+pub trait Coupling: Send {
     /// Name as in a case file.
     fn name(&self) -> &'static str;
 
@@ -36,8 +36,8 @@ pub trait Coupling {
     /// Adds to `out` the tangent of [`Coupling::add_forces`].
     fn add_tangent(&mut self, _s: &State, _hub: &HubKinematics, _w: &Weights<'_>, _out: &mut Storage<f64>) {}
 
-    /// Writes how the sections turn from one state to another: see [`System::turns`](crate::system::System::turns).
-    fn turns(&self, _before: &State, _now: &State, out: &mut Turns) {
+    /// Writes how the sections turn from one state to another: see [`Dynamics::corotate`](crate::system::Dynamics::corotate).
+    fn corotate(&self, _before: &State, _now: &State, out: &mut Corotation) {
         out.clear();
     }
 

@@ -13,7 +13,7 @@ use crate::linalg::Storage;
 use crate::profile::HubKinematics;
 use crate::quadrature::Gauss;
 use crate::section::Section;
-use crate::system::{State, Turns, Weights};
+use crate::system::{State, Corotation, Weights};
 
 /// Marks an unknown that the clamp removes.
 const CLAMPED: usize = usize::MAX;
@@ -165,7 +165,7 @@ impl Element {
 
     /// The rotation of the far node from `before` to `now`, which turns its displacement and its slope.
     #[inline]
-    pub fn end_turn(&self, before: &[f64], now: &[f64], out: &mut Turns) {
+    pub fn end_turn(&self, before: &[f64], now: &[f64], out: &mut Corotation) {
         let slopes = |q| {
             let (u, v) = self.end_slopes(q);
             (1.0 + u, v)

@@ -36,7 +36,7 @@ use crate::basis::{BasisError, Field, Hermite};
 use crate::linalg::Storage;
 use crate::profile::HubKinematics;
 use crate::section::{Mass, Resultants, Section};
-use crate::system::{State, Turns, Weights};
+use crate::system::{State, Corotation, Weights};
 
 /// Largest stretch |ε| that a linear-elastic beam is believed to have.
 const LARGEST_STRAIN: f64 = 0.5;
@@ -161,7 +161,7 @@ impl Coupling for ExactCoupling {
         }
     }
 
-    fn turns(&self, before: &State, now: &State, out: &mut Turns) {
+    fn corotate(&self, before: &State, now: &State, out: &mut Corotation) {
         out.clear();
         for element in &self.elements {
             element.end_turn(&before.q, &now.q, out);

@@ -1,6 +1,7 @@
 //! The hub: a rigid body that turns about a fixed axis, by a prescribed motion or under torques.
 
-use crate::profile::{HubKinematics, Motion, Profile};
+use crate::profile::{HubKinematics, Motion, Profile, jumping_derivative};
+use crate::system::{Break, Jump};
 use std::sync::Arc;
 
 /// The hub.
@@ -144,12 +145,23 @@ impl FreeHub {
         0.5 * self.stiffness * (angle - self.rest_angle).powi(2)
     }
 
-    /// Times at which torque or reference lose smoothness.
-    pub fn breaks(&self) -> Vec<f64> {
-        let mut breaks = self.torque.breaks().to_vec();
-        breaks.extend(self.controller.iter().flat_map(|c| c.reference.breaks()));
-        breaks.sort_by(f64::total_cmp);
-        breaks.dedup();
-        breaks
+    /// Times at which torque or reference are not smooth.
+    pub fn breaks(&self) -> Vec<Break> {
+        let torque = self.torque.breaks().iter().map(|&time| Break {
+            time,
+            jump: force_jump(jumping_derivative(self.torque.as_ref(), time)),
+        });
+        let reference = self.controller.iter().flat_map(|controller| {
+            let reference = &controller.reference;
+            reference.breaks().iter().map(|&time| {
+                Break { time, jump: force_jump(reference.jumping_derivative(time)) }
+            })
+        });
+        torque.chain(reference).collect()
     }
+}
+
+/// What jumps in the motion where the derivative `k` of a force jumps.
+pub(super) fn force_jump(k: usize) -> Jump {
+    [Jump::Acceleration, Jump::Slope, Jump::Curvature][k.min(2)]
 }

@@ -1,4 +1,4 @@
-//! The hub–beam as a [`System`].
+//! The hub–beam as a [`System`](crate::system::System).
 
 use super::coupling::Coupling;
 use super::damping::Damping;
@@ -9,12 +9,12 @@ use super::positive::HubInertia;
 use super::section_forces::{Sampling, SectionForces};
 use super::station::{Placement, Station};
 use crate::linalg::{Matrix, Storage, Structure};
-use crate::profile::{Constant, HubKinematics, Motion};
+use crate::profile::{HubKinematics, Motion};
 use crate::section::Section;
 use crate::system::{
-    Channel, Direction, Energy, Frame, Label, Power, Size, State, System, Turns, VisitTerm, Weights,
+    Break, Channel, Corotation, Direction, Dynamics, Energy, Events, Frame, Jump, Label, NotSet, Observed, Parameter,
+    Power, Size, State, Steady, VisitTerm, Weights, ordered,
 };
-use std::sync::Arc;
 
 /// A flexible beam on a hub. See the [module documentation](super).
 #[derive(Debug)]
@@ -22,20 +22,20 @@ pub struct HubBeam<C> {
     hub: Hub,
     coupling: C,
     labels: Vec<Label>,
+    scales: Vec<f64>,
     channels: Vec<Channel>,
     /// Recorded stations, ascending along the beam; the tip is the last.
     stations: Vec<Station>,
-    /// Stations that were last asked for by [`System::shape`].
+    /// Stations that were last asked for by [`Observed::frames`].
     shown: Vec<Station>,
     placements: Vec<Placement>,
-    /// Largest deflection of the tip that was recorded \[m\].
-    largest_deflection: f64,
     scratch: Scratch,
     recent: Recent,
     border: Border,
-    /// Times at which the drive loses smoothness.
-    breaks: Vec<f64>,
-    /// Whether the hub is held at its angle and speed.
+    /// Times at which drive and loads are not smooth.
+    breaks: Vec<Break>,
+    /// Speed of a steady rotation in the place of the drive's [rad/s], and whether the hub is held.
+    steady: Option<f64>,
     held: bool,
     loads: Loads,
     damped: bool,
@@ -64,10 +64,10 @@ impl<C: Coupling> HubBeam<C> {
         let stations: Vec<Station> = places.iter().map(|&x| Station::new(fields, x)).collect();
         let mut labels = fields.labels();
         let breaks = match &hub.drive {
-            Drive::Prescribed(motion) => motion.breaks().to_vec(),
+            Drive::Prescribed(motion) => motion_breaks(motion),
             Drive::Free(free) => {
                 labels.push(Label { name: "angle of the hub".to_owned(), unit: "rad", scale: 1.0 });
-                free.breaks()
+                ordered(free.breaks())
             }
         };
         let mut scratch = coupling.inertia().scratch();
@@ -79,16 +79,17 @@ impl<C: Coupling> HubBeam<C> {
         HubBeam {
             hub_inertia,
             small_share: share.filter(|share| *share < SMALL_SHARE),
+            scales: labels.iter().map(|label| label.scale).collect(),
             labels,
             channels: channels(&stations),
             placements: vec![Placement::default(); stations.len()],
             stations,
             shown: Vec::new(),
-            largest_deflection: 0.0,
             scratch,
             recent: Recent::new(),
             border: Border::new(fields.len()),
             breaks,
+            steady: None,
             held: false,
             loads: Loads::default(),
             damped: false,
@@ -109,8 +110,7 @@ impl<C: Coupling> HubBeam<C> {
         };
         self.loads = Loads::new(&site, loads);
         self.breaks.extend(self.loads.breaks());
-        self.breaks.sort_by(f64::total_cmp);
-        self.breaks.dedup();
+        self.breaks = ordered(std::mem::take(&mut self.breaks));
         if self.loads.has_gravity() {
             let meaning = "potential energy of gravity on the beam, zero at the height of the axis";
             self.channels.push(Channel {
@@ -164,7 +164,7 @@ impl<C: Coupling> HubBeam<C> {
         let hub = self.kinematics(s);
         match &self.hub.drive {
             Drive::Prescribed(_) => self.reaction(s, &hub) - self.loads.torque(s, &hub),
-            Drive::Free(free) => free.torque(&hub, s.t).value,
+            Drive::Free(free) => free.torque(&hub, s.time()).value,
         }
     }
 
@@ -184,7 +184,7 @@ impl<C: Coupling> HubBeam<C> {
                 power.drive = (torque - self.loads.torque(s, hub)) * hub.speed;
             }
             Drive::Free(free) => {
-                power.drive = free.driving_torque(hub, s.t) * hub.speed;
+                power.drive = free.driving_torque(hub, s.time()) * hub.speed;
                 power.dissipated = free.damping * hub.speed * hub.speed;
             }
         }
@@ -197,18 +197,28 @@ impl<C: Coupling> HubBeam<C> {
     /// Angle, speed and acceleration of the hub.
     fn kinematics(&mut self, s: &State) -> HubKinematics {
         let n = self.coupling.fields().len();
-        match &self.hub.drive {
-            Drive::Free(free) if self.held => {
-                HubKinematics { angle: s.q[n], speed: free.speed, acceleration: 0.0 }
+        match (&self.hub.drive, self.steady) {
+            (Drive::Free(free), steady) if self.held => {
+                let speed = steady.unwrap_or(free.speed);
+                HubKinematics { angle: s.q[n], speed, acceleration: 0.0 }
             }
-            Drive::Free(_) => HubKinematics { angle: s.q[n], speed: s.v[n], acceleration: s.a[n] },
-            Drive::Prescribed(motion) => self.recent.at(motion, s.t),
+            (Drive::Free(_), _) => HubKinematics { angle: s.q[n], speed: s.v[n], acceleration: s.a[n] },
+            (Drive::Prescribed(_), Some(speed)) => {
+                HubKinematics { angle: speed * s.t, speed, acceleration: 0.0 }
+            }
+            (Drive::Prescribed(motion), None) => self.recent.at(motion, s.time()),
         }
     }
 
     /// Kinetic energy, angular momentum and torque of beam and hub.
     fn totals(&mut self, s: &State, hub: &HubKinematics) -> Totals {
         self.coupling.inertia().totals(s, hub, &mut self.scratch) + self.coupling.extra_totals(s, hub)
+    }
+
+    /// Residual of the beam alone, without loads.
+    fn beam_forces(&mut self, s: &State, hub: &HubKinematics, r: &mut [f64]) {
+        self.coupling.inertia().residual(s, hub, &mut self.scratch, r);
+        self.coupling.add_forces(s, hub, r);
     }
 
     /// Writes the border of a free hub into the tangent.
@@ -225,7 +235,7 @@ impl<C: Coupling> HubBeam<C> {
             self.coupling.inertia().border(s, hub, w, &mut self.scratch, border);
             self.coupling.add_border(s, hub, w, border);
             self.loads.subtract_border(s, hub, w, border);
-            let torque = free.torque(hub, s.t);
+            let torque = free.torque(hub, s.time());
             border.corner -= w.q * torque.by_angle + w.v * torque.by_speed;
         }
         match out {
@@ -278,35 +288,42 @@ fn channels(stations: &[Station]) -> Vec<Channel> {
     channels
 }
 
-impl<C: Coupling> System for HubBeam<C> {
+/// The breaks of a prescribed motion: a speed that jumps is an impulse.
+fn motion_breaks(motion: &Motion) -> Vec<Break> {
+    let kinds = [Jump::Velocity, Jump::Acceleration, Jump::Slope, Jump::Curvature];
+    let jump = |time| kinds[motion.jumping_derivative(time).min(3)];
+    ordered(motion.breaks().iter().map(|&time| Break { time, jump: jump(time) }).collect())
+}
+
+impl<C: Coupling> Dynamics for HubBeam<C> {
     fn size(&self) -> Size {
         let n = self.coupling.fields().len() + self.hub.unknowns();
         Size { q: n, v: n, lambda: 0 }
     }
 
-    fn structure(&self) -> Structure {
+    fn structure(&self, _multipliers: usize) -> Structure {
         self.coupling.structure(self.hub.unknowns())
     }
 
-    fn labels(&self) -> &[Label] {
-        &self.labels
+    fn scales(&self) -> &[f64] {
+        &self.scales
+    }
+
+    fn unknown(&self, i: usize) -> String {
+        self.labels.get(i).map_or_else(|| format!("unknown {i}"), |label| label.name.clone())
     }
 
     fn initial(&self) -> State {
         let mut state = State::zeros(self.size(), 0.0);
         if let Drive::Free(free) = &self.hub.drive {
             let n = self.coupling.fields().len();
-            (state.q[n], state.v[n]) = (free.angle, free.speed);
+            (state.q[n], state.v[n]) = (free.angle, self.steady.unwrap_or(free.speed));
         }
         state
     }
 
-    fn hold(&mut self, held: bool) {
-        self.held = held;
-    }
-
-    fn load(&mut self, part: f64) {
-        self.loads.set_part(part);
+    fn is_affine(&self) -> bool {
+        self.coupling.is_affine() && self.hub.unknowns() == 0
     }
 
     fn residual(&mut self, s: &State, r: &mut [f64]) {
@@ -316,7 +333,7 @@ impl<C: Coupling> System for HubBeam<C> {
             Drive::Free(free) if !self.held => {
                 let inertia = self.coupling.inertia();
                 let torque = inertia.residual_and_torque(s, &hub, &mut self.scratch, r);
-                let applied = free.torque(&hub, s.t).value + self.loads.torque(s, &hub);
+                let applied = free.torque(&hub, s.time()).value + self.loads.torque(s, &hub);
                 r[n] = torque + self.coupling.extra_totals(s, &hub).torque - applied;
             }
             _ => {
@@ -348,21 +365,8 @@ impl<C: Coupling> System for HubBeam<C> {
         }
     }
 
-    fn turns(&self, before: &State, now: &State, out: &mut Turns) {
-        self.coupling.turns(before, now, out);
-    }
-
-    fn turn_steadily(&mut self, speed: f64) -> bool {
-        let Ok(profile) = Constant::new(speed) else { return false };
-        match &mut self.hub.drive {
-            Drive::Free(free) => free.speed = speed,
-            drive => {
-                *drive = Drive::Prescribed(Motion::Speed { profile: Arc::new(profile), initial_angle: 0.0 })
-            }
-        }
-        self.recent = Recent::new();
-        self.breaks.clear();
-        true
+    fn corotate(&self, before: &State, now: &State, out: &mut Corotation) {
+        self.coupling.corotate(before, now, out);
     }
 
     fn stiffness_terms(&mut self, s: &State, rest: &mut Matrix, visit: &mut VisitTerm<'_>) -> bool {
@@ -377,7 +381,55 @@ impl<C: Coupling> System for HubBeam<C> {
         self.write_border(s, &hub, &w, storage);
         true
     }
+}
 
+impl<C: Coupling> Events for HubBeam<C> {
+    fn breaks(&self) -> &[Break] {
+        &self.breaks
+    }
+
+    /// M Δv = −m_θ Δω with m_θ = ∂²T/∂q̇∂θ̇, the part of the residual that θ̈ makes.
+    fn impulse(&mut self, s: &State, p: &mut [f64]) -> bool {
+        let Drive::Prescribed(motion) = &self.hub.drive else { return false };
+        let (before, after) = (motion.at(s.t.next_down()).speed, motion.at(s.t).speed);
+        let hub = HubKinematics { acceleration: 0.0, ..self.kinematics(s) };
+        let mut without = vec![0.0; p.len()];
+        self.beam_forces(s, &hub, &mut without);
+        self.beam_forces(s, &HubKinematics { acceleration: 1.0, ..hub }, p);
+        for (p, without) in p.iter_mut().zip(&without) {
+            *p = -(after - before) * (*p - without);
+        }
+        after != before
+    }
+
+    /// ½ (ω⁺ + ω⁻) times the change of angular momentum.
+    fn impulse_work(&mut self, before: &State, after: &State) -> f64 {
+        let (first, last) = (self.kinematics(before), self.kinematics(after));
+        let change = self.totals(after, &last).momentum - self.totals(before, &first).momentum;
+        0.5 * (first.speed + last.speed) * change
+    }
+}
+
+impl<C: Coupling> Steady for HubBeam<C> {
+    fn set(&mut self, parameter: Parameter, value: f64) -> Result<(), NotSet> {
+        match parameter {
+            Parameter::Speed => self.steady = Some(value),
+            Parameter::LoadFactor => self.loads.set_part(value),
+        }
+        Ok(())
+    }
+
+    fn hold(&mut self, held: bool) {
+        self.held = held;
+    }
+
+    fn release(&mut self) {
+        (self.steady, self.held) = (None, false);
+        self.loads.set_part(1.0);
+    }
+}
+
+impl<C: Coupling> Observed for HubBeam<C> {
     fn direction(&self, i: usize) -> Direction {
         let fields = self.coupling.fields();
         if i >= fields.len() {
@@ -389,14 +441,10 @@ impl<C: Coupling> System for HubBeam<C> {
         }
     }
 
-    fn is_affine(&self) -> bool {
-        self.coupling.is_affine() && self.hub.unknowns() == 0
-    }
-
     fn energy(&mut self, s: &State) -> Energy {
         let hub = self.kinematics(s);
         let kinetic = self.totals(s, &hub).kinetic;
-        Energy { kinetic, strain: self.strain(s, &hub), gravity: self.loads.gravity(s, &hub) }
+        Energy { kinetic, strain: self.strain(s, &hub), gravity: self.loads.gravity(s, &hub), contact: 0.0 }
     }
 
     fn power(&mut self, s: &State) -> Power {
@@ -408,10 +456,11 @@ impl<C: Coupling> System for HubBeam<C> {
         let hub = self.kinematics(s);
         let totals = self.totals(s, &hub);
         let (strain, gravity) = (self.strain(s, &hub), self.loads.gravity(s, &hub));
-        (Energy { kinetic: totals.kinetic, strain, gravity }, self.power_with(s, &hub, Some(totals.torque)))
+        let energy = Energy { kinetic: totals.kinetic, strain, gravity, contact: 0.0 };
+        (energy, self.power_with(s, &hub, Some(totals.torque)))
     }
 
-    fn shape(&mut self, s: &State, stations: &[f64], out: &mut [Frame]) {
+    fn frames(&mut self, _body: usize, s: &State, stations: &[f64], out: &mut [Frame]) {
         // The same stations are asked for again and again.
         if !self.shown.iter().map(|s| &s.point.x).eq(stations) {
             self.shown = stations.iter().map(|&x| Station::new(self.coupling.fields(), x)).collect();
@@ -439,13 +488,11 @@ impl<C: Coupling> System for HubBeam<C> {
         let (out, sections) = out.split_at_mut(out.len() - recovered);
         self.section_forces.record(&self.coupling, s, sections);
         self.coupling.placements(s, &self.stations, &mut self.placements);
-        let tip = self.placements.last().map_or(0.0, |p| p.deflection.abs());
-        self.largest_deflection = self.largest_deflection.max(tip);
         let hub = self.kinematics(s);
         let totals = self.totals(s, &hub);
         let torque = match &self.hub.drive {
             Drive::Prescribed(_) => totals.torque - self.loads.torque(s, &hub),
-            Drive::Free(free) => free.torque(&hub, s.t).value,
+            Drive::Free(free) => free.torque(&hub, s.time()).value,
         };
         let strain = self.strain(s, &hub);
         let gravity = self.loads.has_gravity().then(|| self.loads.gravity(s, &hub));
@@ -470,16 +517,12 @@ impl<C: Coupling> System for HubBeam<C> {
         }
     }
 
-    fn breaks(&self) -> &[f64] {
-        &self.breaks
-    }
-
     fn admissible(&mut self, s: &State) -> Result<(), String> {
         self.coupling.admissible(s)?;
         self.lost_inertia(s, 0.0).map_or(Ok(()), Err)
     }
 
-    fn cautions(&self) -> Vec<String> {
+    fn cautions(&self, peaks: &[f64]) -> Vec<String> {
         let share = self.small_share.map(|share| {
             format!(
                 "the hub is free and, with the beam giving way, has {share:.1e} of the inertia of hub and beam: the \
@@ -488,7 +531,7 @@ impl<C: Coupling> System for HubBeam<C> {
                 self.coupling.name()
             )
         });
-        share.into_iter().chain(self.coupling.caution(self.largest_deflection)).collect()
+        share.into_iter().chain(self.coupling.caution(peaks.first().copied().unwrap_or(0.0))).collect()
     }
 
     fn explain(&mut self, s: &State) -> Option<String> {
@@ -498,7 +541,7 @@ impl<C: Coupling> System for HubBeam<C> {
         let speed = self.kinematics(s).speed.abs();
         let critical = self.coupling.critical_speed(speed)?;
         let since = match &self.hub.drive {
-            Drive::Prescribed(motion) if s.t > 0.0 => {
+            Drive::Prescribed(motion) if s.t > 0.0 && self.steady.is_none() => {
                 format!("since t = {:.3} s ", first_time_above(motion, critical, s.t))
             }
             _ => String::new(),

@@ -10,8 +10,8 @@
 //! ```
 //!
 //! Two evaluations a step. The first three steps, and those after a restart or a change of step, are
-//! classical Runge–Kutta steps. Order: 4 in q, v, a (measured 4.0) where the configuration is a vector
-//! space.
+//! classical Runge–Kutta steps. Order: 4 in q, v, a (measured 4.0) on a vector space; a system with
+//! rotations is refused, and one with constraints too unless [Baumgarte's constants](Adams::with_baumgarte) are given.
 //!
 //! Stability. On an undamped oscillation y′ = iωy the growth factor is the largest root ρ of
 //!
@@ -32,7 +32,7 @@ use super::runge_kutta::Scratch;
 use super::{
     Checkpoint, Counters, Info, Integrator, NotResumed, StabilityLimit, StepError, StepReport, hermite,
 };
-use crate::system::{State, System};
+use crate::system::{Dynamics, RowWeights, Side, State};
 
 /// Name as in a case file.
 const NAME: &str = "adams-4";
@@ -56,6 +56,7 @@ pub struct Adams {
     info: Info,
     counters: Counters,
     limit: Option<StabilityLimit>,
+    baumgarte: Option<RowWeights>,
     pending: bool,
     /// Slopes at tₙ₋₁, tₙ₋₂, tₙ₋₃.
     history: [Slope; 3],
@@ -76,6 +77,7 @@ impl Adams {
             info: Info { name: NAME, order: 4, estimate_order: None, implicit: false },
             counters: Counters::default(),
             limit: None,
+            baumgarte: None,
             pending: false,
             history: Default::default(),
             known: 0,
@@ -85,6 +87,11 @@ impl Adams {
             accepted: Vec::new(),
             scratch: None,
         }
+    }
+
+    /// The same method, with constraints stabilized by Baumgarte's constants δ and ε [1/s].
+    pub fn with_baumgarte(self, delta: f64, epsilon: f64) -> Adams {
+        Adams { baumgarte: Some(RowWeights::baumgarte(delta, epsilon)), ..self }
     }
 
     /// The stability limit found by `start`.
@@ -104,7 +111,7 @@ impl Integrator for Adams {
         &self.info
     }
 
-    fn start(&mut self, system: &mut dyn System, state: &mut State, step: f64) -> Result<(), StepError> {
+    fn start(&mut self, system: &mut dyn Dynamics, state: &mut State, step: f64) -> Result<(), StepError> {
         let size = system.size();
         self.counters = Counters::default();
         self.limit = None;
@@ -114,7 +121,11 @@ impl Integrator for Adams {
             slope.v.resize(size.v, 0.0);
             slope.a.resize(size.v, 0.0);
         }
-        self.scratch = Some(Scratch::new(system));
+        if !system.is_vector_space() {
+            let (feature, instead) = ("rotations, whose increments do not add up", "runge-kutta-4");
+            return Err(StepError::Unsupported { method: NAME, feature, instead });
+        }
+        self.scratch = Some(Scratch::new(NAME, system, state, self.baumgarte)?);
         self.restart(system, state)?;
         let limit = StabilityLimit::find(NAME, LIMIT, system, state)?;
         self.limit = Some(limit);
@@ -123,7 +134,7 @@ impl Integrator for Adams {
 
     fn step(
         &mut self,
-        system: &mut dyn System,
+        system: &mut dyn Dynamics,
         from: &State,
         h: f64,
         to: &mut State,
@@ -148,7 +159,7 @@ impl Integrator for Adams {
             let dv = w * (55.0 * from.a[i] - 59.0 * f1.a[i] + 37.0 * f2.a[i] - 9.0 * f3.a[i]);
             to.v[i] = from.v[i] + dv;
         }
-        to.t = from.t + h;
+        to.mode.copy_from_slice(&from.mode);
         system.retract(&from.q, &self.increment, &mut to.q);
         scratch.accelerations.complete(system, to, place, &mut self.counters)?;
         for i in 0..n {
@@ -175,16 +186,17 @@ impl Integrator for Adams {
         self.counters.steps += 1;
     }
 
-    fn interpolate(&self, system: &dyn System, from: &State, to: &State, t: f64, out: &mut State) {
+    fn interpolate(&self, system: &dyn Dynamics, from: &State, to: &State, t: f64, out: &mut State) {
         hermite::quintic(system, from, to, &self.accepted, t, out);
     }
 
-    fn restart(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), StepError> {
+    fn restart(&mut self, system: &mut dyn Dynamics, state: &mut State) -> Result<(), StepError> {
         let Some(scratch) = &mut self.scratch else {
             return Err(StepError::NotStarted { method: NAME });
         };
         self.pending = false;
         self.known = 0;
+        state.side = Side::Right;
         let place = (state.t, 0.0);
         scratch.accelerations.complete(system, state, place, &mut self.counters)
     }
@@ -198,7 +210,7 @@ impl Integrator for Adams {
         }
     }
 
-    fn resume(&mut self, _system: &mut dyn System, from: &Checkpoint) -> Result<(), NotResumed> {
+    fn resume(&mut self, _system: &mut dyn Dynamics, from: &Checkpoint) -> Result<(), NotResumed> {
         self.counters = Counters::from_numbers(from.numbers("counters")?);
         let [known, spacing] = from.numbers("known")?;
         (self.known, self.spacing) = (known as usize, spacing);

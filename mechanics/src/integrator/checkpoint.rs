@@ -1,5 +1,7 @@
 //! What a run remembers, as named lists of numbers: enough to go on as if it had never stopped.
 
+use crate::system::{Mode, Side, State};
+
 /// Named lists of numbers, in the order in which they were put.
 ///
 /// A run that goes on from a checkpoint takes the very steps it would have taken without it, bit by bit: counts are
@@ -83,8 +85,11 @@ impl Checkpoint {
     }
 
     /// Adds t, q, v, a and λ of a state under names that begin with `prefix`.
-    pub fn put_state(&mut self, prefix: &str, state: &crate::system::State) {
-        self.put(&format!("{prefix}time"), &[state.t]);
+    pub fn put_state(&mut self, prefix: &str, state: &State) {
+        let left = f64::from(u8::from(state.side == Side::Left));
+        self.put(&format!("{prefix}time"), &[state.t, left]);
+        let mode: Vec<f64> = state.mode.iter().map(|mode| f64::from(*mode as u8)).collect();
+        self.put(&format!("{prefix}mode"), &mode);
         for (name, list) in [("q", &state.q), ("v", &state.v), ("a", &state.a), ("lambda", &state.lambda)] {
             self.put(&format!("{prefix}{name}"), list);
         }
@@ -94,8 +99,12 @@ impl Checkpoint {
     ///
     /// # Errors
     /// [`NotResumed::Missing`] and [`NotResumed::Length`].
-    pub fn fill_state(&self, prefix: &str, state: &mut crate::system::State) -> Result<(), NotResumed> {
-        [state.t] = self.numbers(&format!("{prefix}time"))?;
+    pub fn fill_state(&self, prefix: &str, state: &mut State) -> Result<(), NotResumed> {
+        let [time, left] = self.numbers(&format!("{prefix}time"))?;
+        (state.t, state.side) = (time, if left != 0.0 { Side::Left } else { Side::Right });
+        let mut mode = vec![0.0; state.mode.len()];
+        self.fill(&format!("{prefix}mode"), &mut mode)?;
+        state.mode = mode.into_iter().map(Mode::from_number).collect();
         self.fill(&format!("{prefix}q"), &mut state.q)?;
         self.fill(&format!("{prefix}v"), &mut state.v)?;
         self.fill(&format!("{prefix}a"), &mut state.a)?;

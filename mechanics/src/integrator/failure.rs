@@ -1,20 +1,16 @@
-//! How failures of a step are told: with the label of the unknown to blame.
+//! Errors of a step, with the name of the unknown that shows them.
 
 use super::StepError;
 use crate::linalg::Singular;
-use crate::system::{State, System};
-
-/// Name of unknown `index`.
-pub(super) fn label(system: &dyn System, index: usize) -> String {
-    system.labels().get(index).map_or_else(|| format!("unknown {index}"), |label| label.name.clone())
-}
+use crate::system::{Dynamics, State};
 
 /// The error of a matrix that cannot be factored, be it singular or not finite.
-pub(super) fn singular(system: &dyn System, time: f64, step: f64, cause: Singular) -> StepError {
+pub(super) fn singular(system: &dyn Dynamics, time: f64, step: f64, cause: Singular) -> StepError {
+    let worst = system.unknown(cause.index);
     if !cause.pivot.is_finite() {
-        return StepError::NotFinite { time, step, worst: label(system, cause.index) };
+        return StepError::NotFinite { time, step, worst };
     }
-    StepError::Singular { time, step, pivot: cause.pivot, worst: label(system, cause.index) }
+    StepError::Singular { time, step, pivot: cause.pivot, worst }
 }
 
 /// Index of the first entry of `x` that is not finite.
@@ -23,12 +19,12 @@ pub(super) fn first_bad(x: &[f64]) -> Option<usize> {
 }
 
 /// The error of a state that is not finite, from which `step` was taken at `time`.
-pub(super) fn not_finite(system: &dyn System, time: f64, step: f64, state: &State) -> StepError {
+pub(super) fn not_finite(system: &dyn Dynamics, time: f64, step: f64, state: &State) -> StepError {
     let velocities = state.v.len();
     let index = first_bad(&state.a)
         .or_else(|| first_bad(&state.v))
         .or_else(|| first_bad(&state.q))
         .or_else(|| first_bad(&state.lambda).map(|i| i + velocities))
         .unwrap_or(0);
-    StepError::NotFinite { time, step, worst: label(system, index) }
+    StepError::NotFinite { time, step, worst: system.unknown(index) }
 }

@@ -12,35 +12,46 @@
 //! and q by h²βκ Δq̈, so that Newton's method solves
 //!
 //! ```text
-//! ⎡ M + hγκ C + h²βκ K   Gᵀ⎤ ⎡Δq̈⎤     ⎡ r           ⎤
-//! ⎣ G                    0 ⎦ ⎣Δλ⎦ = − ⎣ g / (h² βκ) ⎦
+//! ⎡ M + hγκ C + h²βκ K   −Gᵀ⎤ ⎡Δq̈⎤     ⎡ r           ⎤
+//! ⎣ G                     0 ⎦ ⎣Δλ⎦ = − ⎣ g / (h² βκ) ⎦
 //! ```
 //!
 //! whose condition does not deteriorate as h → 0: this is the scaling of index-3 equations of Bottasso,
 //! Bauchau & Cardona (2007, doi 10.1137/050638503) without a separate pass for it.
 //!
-//! The tangent and its factors are kept from step to step until the iterations that their age costs are dearer than
-//! new ones: see [`Wear`]; until then it is carried along with the turning sections (see [`System::turns`]), without which
-//! the stretching stiffness of a slender beam points in wrong directions soon. An affine system is solved exactly by one iteration with the tangent of its step; a second
-//! one then shows the size of rounding errors, below which no later step iterates (see [`Convergence`]). Systems
-//! with constraints get a new tangent every iteration.
+//! In the [stabilized](GeneralizedAlpha::stabilized) form of index 2 (Gear, Gupta & Leimkuhler), d = … + h Gₙᵀ μ with a
+//! second multiplier μ for every row, and ġ(tₙ₊₁, qₙ₊₁, vₙ₊₁) = 0 holds beside g = 0:
+//!
+//! ```text
+//! ⎡ M + hγκ C + h²βκ K   −Gᵀ   hK Gₙᵀ          ⎤ ⎡Δq̈⎤     ⎡ r          ⎤
+//! ⎢ G                     0    G Gₙᵀ / (hβκ)   ⎥ ⎢Δλ⎥ = − ⎢ g / (h²βκ) ⎥
+//! ⎣ G                     0    0               ⎦ ⎣Δμ⎦     ⎣ ġ / (hγκ)  ⎦
+//! ```
+//!
+//! The tangent and its factors are kept from step to step while they converge in two iterations; they are carried along
+//! with the sections as these rotate (see [`Dynamics::corotate`]), without which the axial stiffness of a slender beam
+//! soon points in wrong directions. An affine system is solved exactly by one iteration with the tangent of its step.
+//! Systems with constraints get a new tangent every iteration.
 //! The predictor is q̈ₙ₊₁ = q̈ₙ + q̈ₙ₋₁ − q̈ₙ₋₂: exact for accelerations linear in time, and for those that change their
 //! sign from step to step, as vibrations far too fast for the step do for ever in a method without dissipation.
 //!
-//! Order: 2 in q, v and λ for γ = ½ + αf − αm (measured 2.00, also for index-3 constraints). Stability:
-//! unconditional on linear systems for the constructors here. Dense output: cubic in q, linear in q̈.
+//! Order: 2 in q, v and λ for γ = ½ + αf − αm (measured 2.00, also for constraints of index 3 and in the stabilized
+//! form, and on rotations). Stability: unconditional on linear systems for the constructors here. Dense output: cubic
+//! in q, linear in q̈.
 //!
 //! Sources: Newmark (1959, doi 10.1061/JMCEA3.0000098); Hilber, Hughes & Taylor (1977,
 //! doi 10.1002/eqe.4290050306); Chung & Hulbert (1993, doi 10.1115/1.2900803); Arnold & Brüls (2007,
-//! doi 10.1007/s11044-007-9084-0).
+//! doi 10.1007/s11044-007-9084-0); Gear, Gupta & Leimkuhler (1985, doi 10.1016/0377-0427(85)90008-1); Arnold, Brüls &
+//! Cardona (2015, doi 10.1007/s00211-014-0633-1).
 
 use super::acceleration::Accelerations;
+use super::rows::Rows;
 use super::{
     Checkpoint, Convergence, Counters, Info, Integrator, InvalidParameter, NotResumed, Progress, StepError,
     StepReport, failure, hermite,
 };
 use crate::linalg::Matrix;
-use crate::system::{Level, State, System, Turns, Weights};
+use crate::system::{Corotation, Dynamics, RowWeights, Set, Side, State, Weights, is_active};
 
 /// Iteration error, relative to the scales of the unknowns, at which Newton's method stops: far below
 /// the truncation error of a second-order method at any useful step.
@@ -50,44 +61,11 @@ const ITERATION_TOLERANCE: f64 = 1e-10;
 /// much: its error would not fall with the square of the step.
 const KEPT_TOLERANCE: f64 = 1e-13;
 
-/// Largest size of increments that are taken for rounding errors when they suddenly stop shrinking.
+/// Largest size of increments that may be rounding errors.
 const NOISE: f64 = 1e-7;
 
-/// Cost of a tangent and its factors, in iterations.
-const RENEWAL: f64 = 2.0;
-
-/// What kept factors have cost in iterations.
-///
-/// Their price grows with their age, their renewal costs [`RENEWAL`] at once. The cheapest age to renew them at is
-/// that at which the next step would cost more than the average step of their life so far, renewal included.
-#[derive(Clone, Copy, Debug, Default)]
-struct Wear {
-    spent: f64,
-    steps: f64,
-    due: bool,
-}
-
-impl Wear {
-    /// Factors were made.
-    fn renew(&mut self) {
-        *self = Wear { spent: RENEWAL, steps: 0.0, due: false };
-    }
-
-    /// A step took so many iterations.
-    fn count(&mut self, iterations: u32) {
-        self.spent += f64::from(iterations);
-        self.steps += 1.0;
-        self.due = f64::from(iterations) * self.steps > self.spent;
-    }
-
-    fn to_numbers(self) -> [f64; 3] {
-        [self.spent, self.steps, f64::from(u8::from(self.due))]
-    }
-
-    fn from_numbers([spent, steps, due]: [f64; 3]) -> Wear {
-        Wear { spent, steps, due: due != 0.0 }
-    }
-}
+/// Iterations beyond which a kept tangent is renewed in the next step.
+const PATIENCE: u32 = 2;
 
 /// The generalized-α method. See the [module documentation](self) for formulas and sources.
 #[derive(Debug)]
@@ -97,6 +75,7 @@ pub struct GeneralizedAlpha {
     alpha_f: f64,
     beta: f64,
     gamma: f64,
+    stabilized: bool,
     /// Of full Newton iterations, and of those with a kept tangent.
     full: Convergence,
     kept: Convergence,
@@ -125,18 +104,88 @@ struct Work {
     tangent: Matrix,
     rhs: Vec<f64>,
     accelerations: Accelerations,
+    rows: Rows,
+    /// Multipliers μ of the stabilized form, K, and K Gₙᵀ row by row.
+    mu: Vec<f64>,
+    stiffness: Option<Matrix>,
+    column: [Vec<f64>; 2],
     affine: bool,
     /// Whether factors may be kept; the weights (of v and q) that the present ones belong to, NaN without.
     keeps: bool,
     kept: [f64; 2],
-    /// Where the kept tangent was formed: state and increment.
+    /// Where the kept tangent was assembled: state and increment.
     place: State,
     increment: Vec<f64>,
-    /// How the sections have turned since.
-    turns: Turns,
-    wear: Wear,
-    /// Whether the tangent of an affine system is, as far as known, the same at all times.
-    constant: bool,
+    corotation: Corotation,
+    /// Whether the tangent is renewed in the next step.
+    renew: bool,
+}
+
+impl Work {
+    /// Assembles and factors the tangent at `to`.
+    fn assemble(
+        &mut self,
+        system: &mut dyn Dynamics,
+        to: &State,
+        d: &[f64],
+        h: f64,
+        [to_v, to_q]: [f64; 2],
+    ) -> Result<bool, crate::linalg::Singular> {
+        let n = d.len();
+        system.tangent(to, Weights { q: to_q, v: to_v, a: 1.0, increment: Some(d) }, &mut self.tangent);
+        if !self.rows.is_empty() {
+            self.rows.add_border(system, to, n, &mut self.tangent);
+            self.stabilize(system, to, d, h, [to_v, to_q]);
+        }
+        self.tangent.factor()
+    }
+
+    /// Adds the rows and columns of μ, where the form is stabilized.
+    fn stabilize(
+        &mut self,
+        system: &mut dyn Dynamics,
+        to: &State,
+        d: &[f64],
+        h: f64,
+        [_, to_q]: [f64; 2],
+    ) {
+        let Some(stiffness) = &mut self.stiffness else { return };
+        let (n, m) = (d.len(), self.rows.len());
+        system.tangent(to, Weights { q: 1.0, v: 0.0, a: 0.0, increment: Some(d) }, stiffness);
+        let (rows, tangent, [unit, product]) = (&self.rows, &mut self.tangent, &mut self.column);
+        for k in 0..m {
+            let active = has_mu(rows.sets()[k], to, k);
+            if !active {
+                tangent.add(n + m + k, n + m + k, 1.0);
+                continue;
+            }
+            unit.fill(0.0);
+            for &(_, j, x) in rows.stored().iter().filter(|(row, ..)| *row == k) {
+                unit[j] = x;
+            }
+            stiffness.multiply(&unit[..n], &mut product[..n]);
+            for (i, x) in product[..n].iter().enumerate().filter(|(_, x)| **x != 0.0) {
+                tangent.add(i, n + m + k, h * x);
+            }
+            system.jacobian(to, &mut |row, velocities, entries| {
+                let mut projected = 0.0;
+                for (&j, &x) in velocities.iter().zip(entries) {
+                    projected += x * unit[j];
+                    if row == k {
+                        tangent.add(n + m + k, j, x);
+                    }
+                }
+                if has_mu(rows.sets()[row], to, row) && projected != 0.0 {
+                    tangent.add(n + row, n + m + k, h * projected / to_q);
+                }
+            });
+        }
+    }
+}
+
+/// Whether a row has a multiplier μ: its position is imposed.
+fn has_mu(set: Set, s: &State, row: usize) -> bool {
+    is_active(set, s.mode[row]) && !matches!(set, Set::Friction { .. })
 }
 
 impl GeneralizedAlpha {
@@ -197,8 +246,9 @@ impl GeneralizedAlpha {
             alpha_f,
             beta,
             gamma,
-            full: Convergence::full(ITERATION_TOLERANCE),
-            kept: Convergence::kept(KEPT_TOLERANCE, ITERATION_TOLERANCE).with_noise(NOISE),
+            stabilized: false,
+            full: Convergence::full(ITERATION_TOLERANCE, 0.0),
+            kept: Convergence::kept(KEPT_TOLERANCE, NOISE),
             counters: Counters::default(),
             worst: 0,
             pending: false,
@@ -214,6 +264,11 @@ impl GeneralizedAlpha {
         }
     }
 
+    /// The same method on the stabilized form of index 2, in which ġ = 0 holds beside g = 0.
+    pub fn stabilized(self) -> GeneralizedAlpha {
+        GeneralizedAlpha { stabilized: true, ..self }
+    }
+
     /// αm, αf, β, γ.
     pub fn parameters(&self) -> [f64; 4] {
         [self.alpha_m, self.alpha_f, self.beta, self.gamma]
@@ -225,7 +280,7 @@ impl GeneralizedAlpha {
     }
 
     /// Starting values of the step: the accelerations of the last three steps, continued.
-    fn predict(&mut self, system: &dyn System, from: &State, h: f64, to: &mut State) {
+    fn predict(&mut self, system: &dyn Dynamics, from: &State, h: f64, to: &mut State) {
         let n = from.v.len();
         let (alpha_m, beta, gamma, kappa) = (self.alpha_m, self.beta, self.gamma, self.kappa());
         let (v_old, v_new) = (h * (1.0 - gamma), h * gamma);
@@ -249,132 +304,191 @@ impl GeneralizedAlpha {
             d[i] = h * from_v[i] + d_old * a[i] + d_new * next;
         }
         to.lambda.copy_from_slice(&from.lambda);
-        to.t = from.t + h;
+        to.mode.copy_from_slice(&from.mode);
         system.retract(&from.q, d, &mut to.q);
     }
 
-    /// Solves the equations of a step.
+    /// Solves the equations of a step: with the kept tangent, and where that does not converge with new ones.
     fn solve(
         &mut self,
         work: &mut Work,
-        system: &mut dyn System,
+        system: &mut dyn Dynamics,
         from: &State,
         h: f64,
         to: &mut State,
     ) -> Result<StepReport, StepError> {
-        let n = from.v.len();
         let kappa = self.kappa();
-        let (to_v, to_q) = (h * self.gamma * kappa, h * h * self.beta * kappa);
+        let to = (to, [h * self.gamma * kappa, h * h * self.beta * kappa]);
+        if !work.rows.is_empty() && work.stiffness.is_some() {
+            work.rows.store_jacobian(system, from);
+        }
+        let renew = work.renew || work.kept != to.1;
+        if work.keeps && !renew && self.iterate(work, system, from, h, (to.0, to.1), false)? {
+            return Ok(self.report(work, false));
+        }
+        if work.keeps && self.iterate(work, system, from, h, (to.0, to.1), true)? {
+            return Ok(self.report(work, false));
+        }
+        self.iterate_fully(work, system, from, h, to)?;
+        Ok(self.report(work, true))
+    }
 
-        // Whether every iteration has a tangent of its own, and whether the next one needs a new tangent.
-        let mut full = !work.keeps;
-        let mut renew = full || work.kept != [to_v, to_q] || work.wear.due || work.constant;
-        'attempt: loop {
-            self.predict(system, from, h, to);
-            let convergence = if full { &mut self.full } else { &mut self.kept };
-            if renew {
-                convergence.forget();
-                work.turns.clear();
-            } else {
-                system.turns(&work.place, to, &mut work.turns);
+    fn report(&self, work: &mut Work, full: bool) -> StepReport {
+        let iterations = if full { self.full.iterations() } else { self.kept.iterations() };
+        work.renew = full || iterations > PATIENCE;
+        StepReport { iterations, error: None }
+    }
+
+    /// Simplified Newton iterations with one tangent, kept or made at the start of the step if `renew`; whether they
+    /// converged.
+    fn iterate(
+        &mut self,
+        work: &mut Work,
+        system: &mut dyn Dynamics,
+        from: &State,
+        h: f64,
+        (to, weights): (&mut State, [f64; 2]),
+        renew: bool,
+    ) -> Result<bool, StepError> {
+        self.predict(system, from, h, to);
+        if renew {
+            self.kept.forget();
+            work.corotation.clear();
+        } else {
+            system.corotate(&work.place, to, &mut work.corotation);
+        }
+        self.kept.begin(renew);
+        loop {
+            system.residual(to, &mut work.rhs);
+            if renew && self.kept.iterations() == 0 {
+                self.renew(work, system, from, h, (to, weights))?;
             }
-            convergence.begin(renew);
-            let (a_next, d) = (&mut self.a_next[..n], &mut self.d[..n]);
-            // Whether the tangent is that of this step, and whether it was made for it.
-            let (mut exact, mut made) = (false, false);
-            loop {
-                let (motion, constraints) = work.rhs.split_at_mut(n);
-                system.residual(to, motion);
-                if !constraints.is_empty() {
-                    system.constraint(to, Level::Position, constraints);
-                    for g in constraints.iter_mut() {
-                        *g /= to_q;
-                    }
-                }
-                if renew {
-                    let weights =
-                        Weights { q: to_q, v: to_v, a: 1.0, increment: Some(d), level: Level::Position };
-                    system.tangent(to, weights, &mut work.tangent);
-                    let factored =
-                        work.tangent.factor().map_err(|e| failure::singular(system, from.t, h, e))?;
-                    self.counters.tangents += u64::from(factored);
-                    self.counters.factorizations += u64::from(factored);
-                    // The first tangent is the only one until a second one is another.
-                    work.constant = work.affine && (!factored || work.kept != [to_v, to_q]);
-                    work.kept = [to_v, to_q];
-                    if factored {
-                        work.place.copy_from(to);
-                        work.increment.copy_from_slice(d);
-                    }
-                    work.wear.renew();
-                    (exact, made) = (work.affine, factored);
-                    renew = full && !exact;
-                }
-                work.turns.turn_back(&mut work.rhs);
-                work.tangent.solve(&mut work.rhs);
-                work.turns.turn(&mut work.rhs);
-                self.counters.residuals += 1;
-                self.counters.solves += 1;
-                self.counters.iterations += 1;
+            work.corotation.rotate_back(&mut work.rhs);
+            work.tangent.solve(&mut work.rhs);
+            work.corotation.rotate(&mut work.rhs);
+            let size = self.update(work, system, from, h, (to, weights));
+            let progress = self.kept.judge(size);
+            let exact = renew && work.affine && size.is_finite();
+            if exact || progress == Progress::Converged {
+                return Ok(true);
+            }
+            if progress == Progress::Diverged {
+                return Ok(false);
+            }
+        }
+    }
 
-                let (x, multipliers) = work.rhs.split_at(n);
-                let (out_a, out_v, scale) = (&mut to.a[..n], &mut to.v[..n], &self.inverse_scale[..n]);
-                let mut square = 0.0;
-                for i in 0..n {
-                    out_a[i] -= x[i];
-                    a_next[i] -= kappa * x[i];
-                    out_v[i] -= to_v * x[i];
-                    d[i] -= to_q * x[i];
-                    let scaled = x[i] * scale[i];
-                    square += scaled * scaled;
+    /// Newton iterations with a new tangent each.
+    fn iterate_fully(
+        &mut self,
+        work: &mut Work,
+        system: &mut dyn Dynamics,
+        from: &State,
+        h: f64,
+        (to, weights): (&mut State, [f64; 2]),
+    ) -> Result<(), StepError> {
+        let (n, m) = (from.v.len(), work.rows.len());
+        self.predict(system, from, h, to);
+        work.mu.fill(0.0);
+        self.full.begin(true);
+        loop {
+            let (motion, rows) = work.rhs.split_at_mut(n);
+            system.residual(to, motion);
+            let [to_v, to_q] = weights;
+            let (positions, velocities) = rows.split_at_mut(m);
+            work.rows.positions(system, to, [to_q, to_v], positions);
+            if !velocities.is_empty() {
+                system.constraint(to, RowWeights::VELOCITY, velocities);
+                for (k, rate) in velocities.iter_mut().enumerate() {
+                    *rate = if has_mu(work.rows.sets()[k], to, k) { *rate / to_v } else { work.mu[k] };
                 }
-                for (lambda, x) in to.lambda.iter_mut().zip(multipliers) {
-                    *lambda -= x;
-                    square += 0.0 * x; // a multiplier that is not finite must not pass unseen
-                }
-                system.retract(&from.q, d, &mut to.q);
-                let size = to_q * (square / n.max(1) as f64).sqrt();
-                let progress = convergence.judge(size);
-                let iterations = convergence.iterations();
-                if exact && size.is_finite() {
-                    if made && !work.constant && iterations == 1 {
-                        continue;
+            }
+            self.renew(work, system, from, h, (to, weights))?;
+            work.tangent.solve(&mut work.rhs);
+            let size = self.update(work, system, from, h, (to, weights));
+            match self.full.judge(size) {
+                Progress::Converged => return Ok(()),
+                Progress::Continue => {}
+                Progress::Diverged => {
+                    work.kept = [f64::NAN; 2];
+                    if !size.is_finite() {
+                        return Err(failure::not_finite(system, from.t, h, to));
                     }
-                    // What is left by an exact solution is rounding error.
-                    if iterations > 1 {
-                        self.kept.learn_rounding(size);
-                    }
-                    work.wear.count(iterations);
-                    return Ok(StepReport { iterations, error: None });
-                }
-                match progress {
-                    Progress::Converged => {
-                        self.worst = worst(x, scale);
-                        work.wear.count(iterations);
-                        return Ok(StepReport { iterations, error: None });
-                    }
-                    Progress::Continue => {}
-                    Progress::Diverged if !full => {
-                        (full, renew) = (true, true);
-                        continue 'attempt;
-                    }
-                    Progress::Diverged => {
-                        self.worst = worst(x, scale);
-                        work.kept = [f64::NAN; 2];
-                        if !size.is_finite() {
-                            return Err(failure::not_finite(system, from.t, h, to));
-                        }
-                        return Err(StepError::NotConverged {
-                            time: from.t,
-                            step: h,
-                            iterations: convergence.iterations(),
-                            size: size / ITERATION_TOLERANCE,
-                            worst: failure::label(system, self.worst),
-                        });
-                    }
+                    self.worst = worst(&work.rhs[..n], &self.inverse_scale);
+                    return Err(StepError::NotConverged {
+                        time: from.t,
+                        step: h,
+                        iterations: self.full.iterations(),
+                        size: size / ITERATION_TOLERANCE,
+                        worst: system.unknown(self.worst),
+                    });
                 }
             }
         }
+    }
+
+    /// A new tangent at `to`, factored.
+    fn renew(
+        &mut self,
+        work: &mut Work,
+        system: &mut dyn Dynamics,
+        from: &State,
+        h: f64,
+        (to, weights): (&State, [f64; 2]),
+    ) -> Result<(), StepError> {
+        let factored = work
+            .assemble(system, to, &self.d, h, weights)
+            .map_err(|cause| failure::singular(system, from.t, h, cause))?;
+        self.counters.tangents += u64::from(factored);
+        self.counters.factorizations += u64::from(factored);
+        work.kept = weights;
+        if factored && work.keeps {
+            work.place.copy_from(to);
+            work.increment.copy_from_slice(&self.d);
+        }
+        Ok(())
+    }
+
+    /// Subtracts the solution in `work.rhs` from the unknowns; gives the size of the increment of q.
+    fn update(
+        &mut self,
+        work: &mut Work,
+        system: &dyn Dynamics,
+        from: &State,
+        h: f64,
+        (to, [to_v, to_q]): (&mut State, [f64; 2]),
+    ) -> f64 {
+        self.counters.residuals += 1;
+        self.counters.solves += 1;
+        self.counters.iterations += 1;
+        let (n, kappa) = (from.v.len(), self.kappa());
+        let (x, multipliers) = work.rhs.split_at(n);
+        let (a_next, d) = (&mut self.a_next[..n], &mut self.d[..n]);
+        let (out_a, out_v, scale) = (&mut to.a[..n], &mut to.v[..n], &self.inverse_scale[..n]);
+        let mut square = 0.0;
+        for i in 0..n {
+            out_a[i] -= x[i];
+            a_next[i] -= kappa * x[i];
+            out_v[i] -= to_v * x[i];
+            d[i] -= to_q * x[i];
+            let scaled = x[i] * scale[i];
+            square += scaled * scaled;
+        }
+        let mut finite = true;
+        let (lambda, mu) = multipliers.split_at(to.lambda.len());
+        for (lambda, x) in to.lambda.iter_mut().zip(lambda) {
+            *lambda -= x;
+            finite &= x.is_finite();
+        }
+        if !mu.is_empty() {
+            for (mu, x) in work.mu.iter_mut().zip(mu) {
+                *mu -= x;
+                finite &= x.is_finite();
+            }
+            work.rows.add_transposed(-h, mu, d);
+        }
+        system.retract(&from.q, d, &mut to.q);
+        if finite { to_q * (square / n.max(1) as f64).sqrt() } else { f64::NAN }
     }
 }
 
@@ -383,9 +497,8 @@ impl Integrator for GeneralizedAlpha {
         &self.info
     }
 
-    fn start(&mut self, system: &mut dyn System, state: &mut State, _step: f64) -> Result<(), StepError> {
+    fn start(&mut self, system: &mut dyn Dynamics, state: &mut State, _step: f64) -> Result<(), StepError> {
         let size = system.size();
-        let n = size.v + size.lambda;
         for buffer in [
             &mut self.before,
             &mut self.earlier,
@@ -398,20 +511,24 @@ impl Integrator for GeneralizedAlpha {
             buffer.resize(size.v, 0.0);
         }
         self.inverse_scale.clear();
-        self.inverse_scale.extend(system.labels().iter().map(|label| 1.0 / label.scale));
-        self.inverse_scale.resize(n, 1.0);
+        self.inverse_scale.extend(system.scales().iter().map(|scale| 1.0 / scale));
+        let multipliers = if self.stabilized { 2 } else { 1 };
+        let stabilized = self.stabilized && size.lambda > 0;
         self.work = Some(Box::new(Work {
-            tangent: Matrix::new(&system.structure()),
-            rhs: vec![0.0; n],
-            accelerations: Accelerations::new(system),
+            tangent: Matrix::new(&system.structure(multipliers)),
+            rhs: vec![0.0; size.v + multipliers * size.lambda],
+            accelerations: Accelerations::new(system, state, RowWeights::ACCELERATION),
+            rows: Rows::new(system, state),
+            mu: vec![0.0; size.lambda],
+            stiffness: stabilized.then(|| Matrix::new(&system.structure(0))),
+            column: [(); 2].map(|()| vec![0.0; size.v]),
             affine: system.is_affine() && size.lambda == 0,
             keeps: size.lambda == 0,
             kept: [f64::NAN; 2],
             place: State::zeros(size, state.t),
             increment: vec![0.0; size.v],
-            turns: Turns::with_room(size.v),
-            wear: Wear::default(),
-            constant: false,
+            corotation: Corotation::with_capacity(size.v),
+            renew: true,
         }));
         self.counters = Counters::default();
         self.restart(system, state)
@@ -419,7 +536,7 @@ impl Integrator for GeneralizedAlpha {
 
     fn step(
         &mut self,
-        system: &mut dyn System,
+        system: &mut dyn Dynamics,
         from: &State,
         h: f64,
         to: &mut State,
@@ -444,18 +561,20 @@ impl Integrator for GeneralizedAlpha {
         self.counters.steps += 1;
     }
 
-    fn interpolate(&self, system: &dyn System, from: &State, to: &State, t: f64, out: &mut State) {
+    fn interpolate(&self, system: &dyn Dynamics, from: &State, to: &State, t: f64, out: &mut State) {
         hermite::cubic(system, from, to, &self.d_accepted, t, out);
     }
 
-    fn restart(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), StepError> {
+    fn restart(&mut self, system: &mut dyn Dynamics, state: &mut State) -> Result<(), StepError> {
         let Some(work) = &mut self.work else {
             return Err(StepError::NotStarted { method: self.info.name });
         };
         self.pending = false;
         self.history = 0;
         self.kept.forget();
+        work.renew = true;
         work.kept = [f64::NAN; 2];
+        state.side = Side::Right;
         let place = (state.t, 0.0);
         work.accelerations.complete(system, state, place, &mut self.counters)?;
         self.a.copy_from_slice(&state.a);
@@ -471,14 +590,13 @@ impl Integrator for GeneralizedAlpha {
         out.put("convergence", &self.kept.memory());
         if let Some(work) = &self.work {
             out.put("tangent.weights", &work.kept);
-            out.put("tangent.wear", &work.wear.to_numbers());
-            out.put("tangent.constant", &[f64::from(u8::from(work.constant))]);
+            out.put("tangent.renew", &[f64::from(u8::from(work.renew))]);
             out.put_state("tangent.", &work.place);
             out.put("tangent.increment", &work.increment);
         }
     }
 
-    fn resume(&mut self, system: &mut dyn System, from: &Checkpoint) -> Result<(), NotResumed> {
+    fn resume(&mut self, system: &mut dyn Dynamics, from: &Checkpoint) -> Result<(), NotResumed> {
         let Some(work) = &mut self.work else {
             return Err(NotResumed::Failed(format!("{} was not started", self.info.name)));
         };
@@ -489,15 +607,14 @@ impl Integrator for GeneralizedAlpha {
         self.history = history as u8;
         self.kept.recall(from.numbers("convergence")?);
         work.kept = from.numbers("tangent.weights")?;
-        work.wear = Wear::from_numbers(from.numbers("tangent.wear")?);
-        let [constant] = from.numbers("tangent.constant")?;
-        work.constant = constant != 0.0;
+        let [renew] = from.numbers("tangent.renew")?;
+        work.renew = renew != 0.0;
         from.fill_state("tangent.", &mut work.place)?;
         from.fill("tangent.increment", &mut work.increment)?;
         let [v, q] = work.kept;
         if work.keeps && v.is_finite() && q.is_finite() {
             // The same tangent at the same place has the same factors.
-            let weights = Weights { q, v, a: 1.0, increment: Some(&work.increment), level: Level::Position };
+            let weights = Weights { q, v, a: 1.0, increment: Some(&work.increment) };
             system.tangent(&work.place, weights, &mut work.tangent);
             work.tangent.factor().map_err(|e| NotResumed::Failed(format!("{}: {e}", self.info.name)))?;
         }
@@ -516,15 +633,7 @@ impl Integrator for GeneralizedAlpha {
 
 /// Index of the largest entry of `x` in units of the scales.
 fn worst(x: &[f64], inverse_scale: &[f64]) -> usize {
-    let mut found = (0, 0.0);
-    for (i, (x, scale)) in x.iter().zip(inverse_scale).enumerate() {
-        let size = (x * scale).abs();
-        if size > found.1 || !size.is_finite() {
-            found = (i, size);
-        }
-        if !size.is_finite() {
-            break;
-        }
-    }
-    found.0
+    let sizes = x.iter().zip(inverse_scale).map(|(x, scale)| (x * scale).abs());
+    let largest = sizes.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
+    largest.map_or(0, |(i, _)| i)
 }

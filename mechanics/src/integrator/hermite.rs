@@ -7,14 +7,15 @@
 //! q(t) = q₀ ⊞ d(s),   v = d′/h,   a linear       (cubic: matches q and v)
 //! ```
 //!
-//! On a vector space the interpolation errors are O(h⁶), O(h⁵), O(h⁴) of q, v, a for the quintic and
+//! Off a vector space (rotations) the slope of d at the end is ḋ₁ = T(D)⁻¹ v₁, and v is the cubic through v and a of
+//! both ends. On a vector space the interpolation errors are O(h⁶), O(h⁵), O(h⁴) of q, v, a for the quintic and
 //! O(h⁴), O(h³), O(h²) for the cubic.
 
-use crate::system::{State, System};
+use crate::system::{Dynamics, Side, State};
 
 /// Writes the cubic through q and v of both ends; `increment` is D.
 pub(super) fn cubic(
-    system: &dyn System,
+    system: &dyn Dynamics,
     from: &State,
     to: &State,
     increment: &[f64],
@@ -27,13 +28,22 @@ pub(super) fn cubic(
     let (p, dp) = (s * s * (3.0 - 2.0 * s), 6.0 * s * (1.0 - s));
     let (p0, dp0) = (s * (1.0 - s) * (1.0 - s), (1.0 - s) * (1.0 - 3.0 * s));
     let (p1, dp1) = (s * s * (s - 1.0), s * (3.0 * s - 2.0));
+    let flat = system.is_vector_space();
+    if flat {
+        out.v.copy_from_slice(&to.v);
+    } else {
+        system.rate(increment, &to.v, &mut out.v);
+    }
     for i in 0..increment.len() {
-        let (d, v0, v1) = (increment[i], from.v[i], to.v[i]);
+        let (d, v0, v1) = (increment[i], from.v[i], out.v[i]);
         // The acceleration's slot holds the increment until the configuration is retracted.
         out.a[i] = d * p + h * (v0 * p0 + v1 * p1);
         out.v[i] = if h > 0.0 { d * dp / h + v0 * dp0 + v1 * dp1 } else { v1 };
     }
     system.retract(&from.q, &out.a, &mut out.q);
+    if !flat {
+        velocities(from, to, h, s, out);
+    }
     for i in 0..increment.len() {
         out.a[i] = from.a[i] + s * (to.a[i] - from.a[i]);
     }
@@ -42,13 +52,16 @@ pub(super) fn cubic(
 
 /// Writes the quintic through q, v and a of both ends; `increment` is D.
 pub(super) fn quintic(
-    system: &dyn System,
+    system: &dyn Dynamics,
     from: &State,
     to: &State,
     increment: &[f64],
     t: f64,
     out: &mut State,
 ) {
+    if !system.is_vector_space() {
+        return cubic(system, from, to, increment, t, out);
+    }
     let h = to.t - from.t;
     let s = fraction(from, to, t);
     let [value, slope, bend] = quintic_weights(s);
@@ -96,10 +109,20 @@ fn fraction(from: &State, to: &State, t: f64) -> f64 {
     if h > 0.0 { (t - from.t) / h } else { 1.0 }
 }
 
-/// Multipliers (linear) and time.
+/// The cubic through v and a of both ends.
+fn velocities(from: &State, to: &State, h: f64, s: f64, out: &mut State) {
+    let (p, p0, p1) = (s * s * (3.0 - 2.0 * s), s * (1.0 - s) * (1.0 - s), s * s * (s - 1.0));
+    for i in 0..out.v.len() {
+        let change = to.v[i] - from.v[i];
+        out.v[i] = from.v[i] + change * p + h * (from.a[i] * p0 + to.a[i] * p1);
+    }
+}
+
+/// Multipliers (linear), modes and time.
 fn finish(from: &State, to: &State, s: f64, t: f64, out: &mut State) {
     for i in 0..out.lambda.len() {
         out.lambda[i] = from.lambda[i] + s * (to.lambda[i] - from.lambda[i]);
     }
-    out.t = t;
+    out.mode.copy_from_slice(&from.mode);
+    (out.t, out.side) = (t, Side::Right);
 }

@@ -15,6 +15,7 @@ mod generalized_alpha;
 mod hermite;
 mod newton;
 mod radau;
+mod rows;
 mod runge_kutta;
 mod stability;
 mod step_control;
@@ -28,7 +29,7 @@ pub use runge_kutta::RungeKutta;
 pub use stability::{StabilityLimit, largest_frequency};
 pub use step_control::{Law, StepControl};
 
-use crate::system::{State, System};
+use crate::system::{Dynamics, State};
 
 /// What an integrator is: for listings, reports and step control.
 #[derive(Clone, Debug, PartialEq)]
@@ -183,18 +184,19 @@ pub struct InvalidParameter {
 /// [`accept`](Integrator::accept) when the attempt is kept. After `accept`, and until the next
 /// `step`, [`interpolate`](Integrator::interpolate) gives the solution anywhere in the accepted step.
 /// No method but `start` and `restart` allocates.
-pub trait Integrator {
+pub trait Integrator: Send {
     /// What this method is.
     fn info(&self) -> &Info;
 
     /// Prepares for integrating `system` from `state` with steps of about `step`; completes
     /// `state` with consistent accelerations (and multipliers).
-    fn start(&mut self, system: &mut dyn System, state: &mut State, step: f64) -> Result<(), StepError>;
+    fn start(&mut self, system: &mut dyn Dynamics, state: &mut State, step: f64) -> Result<(), StepError>;
 
-    /// Attempts one step of size `h` from `from`, writing the new state to `to`.
+    /// Attempts one step of size `h` from `from`, writing the new state to `to`, whose time and side are given: they say
+    /// where the step ends, and which limit is meant there.
     fn step(
         &mut self,
-        system: &mut dyn System,
+        system: &mut dyn Dynamics,
         from: &State,
         h: f64,
         to: &mut State,
@@ -204,11 +206,12 @@ pub trait Integrator {
     fn accept(&mut self, from: &State, to: &State);
 
     /// The solution at time `t` inside the last accepted step, between `from` and `to`. The system
-    /// lends its [`retract`](System::retract): the polynomial lives in the space of increments.
-    fn interpolate(&self, system: &dyn System, from: &State, to: &State, t: f64, out: &mut State);
+    /// lends its [`retract`](Dynamics::retract): the polynomial lives in the space of increments.
+    fn interpolate(&self, system: &dyn Dynamics, from: &State, to: &State, t: f64, out: &mut State);
 
-    /// Forgets the history after a discontinuity; completes `state` as [`Integrator::start`] does.
-    fn restart(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), StepError>;
+    /// Forgets the history after a discontinuity; completes `state`, from now on its right limit, as
+    /// [`Integrator::start`] does.
+    fn restart(&mut self, system: &mut dyn Dynamics, state: &mut State) -> Result<(), StepError>;
 
     /// Adds to `out` all that later steps depend on besides the state.
     fn save(&self, out: &mut Checkpoint);
@@ -218,7 +221,7 @@ pub trait Integrator {
     ///
     /// # Errors
     /// [`NotResumed`] when the history is not one of this method and this system.
-    fn resume(&mut self, system: &mut dyn System, from: &Checkpoint) -> Result<(), NotResumed>;
+    fn resume(&mut self, system: &mut dyn Dynamics, from: &Checkpoint) -> Result<(), NotResumed>;
 
     /// Index of the unknown with the largest scaled error or increment in the last attempt.
     fn worst(&self) -> usize;

@@ -7,11 +7,15 @@
 //! a₂ = a(tₙ + h/2, q₂, v₂)           v₃ = vₙ + h/2 a₂     q₃ = qₙ ⊞ h/2 v₂
 //! a₃ = a(tₙ + h/2, q₃, v₃)           v₄ = vₙ + h a₃       q₄ = qₙ ⊞ h v₃
 //! a₄ = a(tₙ + h, q₄, v₄)
-//! vₙ₊₁ = vₙ + h/6 (a₁ + 2a₂ + 2a₃ + a₄),   qₙ₊₁ = qₙ ⊞ (h vₙ + h²/6 (a₁ + a₂ + a₃))
+//! vₙ₊₁ = vₙ + h/6 (a₁ + 2a₂ + 2a₃ + a₄),   qₙ₊₁ = qₙ ⊞ h/6 (vₙ + 2v₂ + 2v₃ + v₄)
 //! ```
 //!
+//! On a configuration that is not a vector space (rotations), increments from qₙ are integrated with their rates
+//! ḋ = T(d)⁻¹ v in the place of v (Munthe-Kaas). Constraints take Baumgarte's form g̈ + 2δ ġ + ε² g = 0, with the
+//! constants given to [`RungeKutta::with_baumgarte`]; without them a system with constraints is refused.
+//!
 //! a(tₙ₊₁, qₙ₊₁, vₙ₊₁) is evaluated at the end of a step and serves as a₁ of the next: four evaluations a
-//! step. Order: 4 in q, v, a (measured 4.0) where the configuration is a vector space. Stability: undamped
+//! step. Order: 4 in q, v, a (measured 4.0, also on rotations). Stability: undamped
 //! frequencies up to hω = 2√2, where it dissipates; [`StabilityLimit`] refuses larger steps. Heavy damping
 //! lowers the limit (real eigenvalues of the first-order form must stay above −2.785/h).
 //! Dense output: quintic.
@@ -23,7 +27,7 @@ use super::acceleration::Accelerations;
 use super::{
     Checkpoint, Counters, Info, Integrator, NotResumed, StabilityLimit, StepError, StepReport, hermite,
 };
-use crate::system::{State, System};
+use crate::system::{Dynamics, RowWeights, Side, State};
 
 /// Name as in a case file.
 const NAME: &str = "runge-kutta-4";
@@ -37,6 +41,7 @@ pub struct RungeKutta {
     info: Info,
     counters: Counters,
     limit: Option<StabilityLimit>,
+    baumgarte: Option<RowWeights>,
     pending: bool,
     increment: Vec<f64>,
     accepted: Vec<f64>,
@@ -48,30 +53,45 @@ pub struct RungeKutta {
 pub(super) struct Scratch {
     pub(super) accelerations: Accelerations,
     stage: State,
-    /// v₂, then v₃.
-    velocity: Vec<f64>,
-    /// Weighted sums of the stage accelerations for v and q.
+    flat: bool,
+    /// Rate ḋ of the increment at the stage.
+    rate: Vec<f64>,
+    /// Weighted sums of the stages' accelerations and rates.
     sum_v: Vec<f64>,
-    sum_q: Vec<f64>,
+    sum_d: Vec<f64>,
 }
 
 impl Scratch {
     /// Allocates for `system`.
-    pub(super) fn new(system: &dyn System) -> Scratch {
+    ///
+    /// # Errors
+    /// [`StepError::Unsupported`] for constraints without Baumgarte's constants.
+    pub(super) fn new(
+        method: &'static str,
+        system: &mut dyn Dynamics,
+        state: &State,
+        baumgarte: Option<RowWeights>,
+    ) -> Result<Scratch, StepError> {
         let size = system.size();
-        Scratch {
-            accelerations: Accelerations::new(system),
-            stage: State::zeros(size, 0.0),
-            velocity: vec![0.0; size.v],
-            sum_v: vec![0.0; size.v],
-            sum_q: vec![0.0; size.v],
+        if size.lambda > 0 && baumgarte.is_none() {
+            let (feature, instead) = ("constraints", "Baumgarte's constants, generalized-alpha or radau");
+            return Err(StepError::Unsupported { method, feature, instead });
         }
+        let weights = baumgarte.unwrap_or(RowWeights::ACCELERATION);
+        Ok(Scratch {
+            accelerations: Accelerations::new(system, state, weights),
+            stage: State::zeros(size, 0.0),
+            flat: system.is_vector_space(),
+            rate: vec![0.0; size.v],
+            sum_v: vec![0.0; size.v],
+            sum_d: vec![0.0; size.v],
+        })
     }
 
-    /// One step of size `h`; `increment` receives qₙ₊₁ ⊟ qₙ.
+    /// One step of size `h` to the time of `to`; `increment` receives qₙ₊₁ ⊟ qₙ.
     pub(super) fn step(
         &mut self,
-        system: &mut dyn System,
+        system: &mut dyn Dynamics,
         from: &State,
         h: f64,
         to: &mut State,
@@ -80,32 +100,37 @@ impl Scratch {
     ) -> Result<(), StepError> {
         let n = from.v.len();
         let place = (from.t, h);
-        self.sum_v.copy_from_slice(&from.a);
-        self.sum_q.copy_from_slice(&from.a);
-        self.velocity.copy_from_slice(&from.v);
+        self.stage.mode.copy_from_slice(&from.mode);
         self.stage.a.copy_from_slice(&from.a);
-        // (c, weight of the stage in v, and in q) of stages 2, 3, 4.
-        for (c, weight_v, weight_q) in [(0.5, 2.0, 1.0), (0.5, 2.0, 1.0), (1.0, 1.0, 0.0)] {
+        self.rate.copy_from_slice(&from.v);
+        self.sum_v.copy_from_slice(&from.a);
+        self.sum_d.copy_from_slice(&from.v);
+        // Part of the step and weight of the stages 2, 3, 4.
+        for (c, weight) in [(0.5, 2.0), (0.5, 2.0), (1.0, 1.0)] {
             let step = c * h;
             for i in 0..n {
-                let v = from.v[i] + step * self.stage.a[i];
-                increment[i] = step * self.velocity[i];
-                self.velocity[i] = v;
-                self.stage.v[i] = v;
+                self.stage.v[i] = from.v[i] + step * self.stage.a[i];
+                increment[i] = step * self.rate[i];
             }
-            self.stage.t = from.t + step;
+            (self.stage.t, self.stage.side) =
+                if c < 1.0 { (from.t + step, Side::Right) } else { (to.t, to.side) };
             system.retract(&from.q, increment, &mut self.stage.q);
             self.accelerations.complete(system, &mut self.stage, place, counters)?;
+            if self.flat {
+                self.rate.copy_from_slice(&self.stage.v);
+            } else {
+                system.rate(increment, &self.stage.v, &mut self.rate);
+            }
             for i in 0..n {
-                self.sum_v[i] += weight_v * self.stage.a[i];
-                self.sum_q[i] += weight_q * self.stage.a[i];
+                self.sum_v[i] += weight * self.stage.a[i];
+                self.sum_d[i] += weight * self.rate[i];
             }
         }
         for i in 0..n {
             to.v[i] = from.v[i] + h / 6.0 * self.sum_v[i];
-            increment[i] = h * from.v[i] + h * h / 6.0 * self.sum_q[i];
+            increment[i] = h / 6.0 * self.sum_d[i];
         }
-        to.t = from.t + h;
+        to.mode.copy_from_slice(&from.mode);
         system.retract(&from.q, increment, &mut to.q);
         self.accelerations.complete(system, to, place, counters)
     }
@@ -118,11 +143,17 @@ impl RungeKutta {
             info: Info { name: NAME, order: 4, estimate_order: None, implicit: false },
             counters: Counters::default(),
             limit: None,
+            baumgarte: None,
             pending: false,
             increment: Vec::new(),
             accepted: Vec::new(),
             scratch: None,
         }
+    }
+
+    /// The same method, with constraints stabilized by Baumgarte's constants δ and ε [1/s].
+    pub fn with_baumgarte(self, delta: f64, epsilon: f64) -> RungeKutta {
+        RungeKutta { baumgarte: Some(RowWeights::baumgarte(delta, epsilon)), ..self }
     }
 
     /// The stability limit found by `start`.
@@ -142,13 +173,13 @@ impl Integrator for RungeKutta {
         &self.info
     }
 
-    fn start(&mut self, system: &mut dyn System, state: &mut State, step: f64) -> Result<(), StepError> {
+    fn start(&mut self, system: &mut dyn Dynamics, state: &mut State, step: f64) -> Result<(), StepError> {
         let size = system.size();
         self.counters = Counters::default();
         self.increment.resize(size.v, 0.0);
         self.accepted.resize(size.v, 0.0);
         self.limit = None;
-        self.scratch = Some(Scratch::new(system));
+        self.scratch = Some(Scratch::new(NAME, system, state, self.baumgarte)?);
         self.restart(system, state)?;
         let limit = StabilityLimit::find(NAME, LIMIT, system, state)?;
         self.limit = Some(limit);
@@ -157,7 +188,7 @@ impl Integrator for RungeKutta {
 
     fn step(
         &mut self,
-        system: &mut dyn System,
+        system: &mut dyn Dynamics,
         from: &State,
         h: f64,
         to: &mut State,
@@ -177,15 +208,16 @@ impl Integrator for RungeKutta {
         self.counters.steps += 1;
     }
 
-    fn interpolate(&self, system: &dyn System, from: &State, to: &State, t: f64, out: &mut State) {
+    fn interpolate(&self, system: &dyn Dynamics, from: &State, to: &State, t: f64, out: &mut State) {
         hermite::quintic(system, from, to, &self.accepted, t, out);
     }
 
-    fn restart(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), StepError> {
+    fn restart(&mut self, system: &mut dyn Dynamics, state: &mut State) -> Result<(), StepError> {
         let Some(scratch) = &mut self.scratch else {
             return Err(StepError::NotStarted { method: NAME });
         };
         self.pending = false;
+        state.side = Side::Right;
         let place = (state.t, 0.0);
         scratch.accelerations.complete(system, state, place, &mut self.counters)
     }
@@ -194,7 +226,7 @@ impl Integrator for RungeKutta {
         out.put("counters", &self.counters.to_numbers());
     }
 
-    fn resume(&mut self, _system: &mut dyn System, from: &Checkpoint) -> Result<(), NotResumed> {
+    fn resume(&mut self, _system: &mut dyn Dynamics, from: &Checkpoint) -> Result<(), NotResumed> {
         self.counters = Counters::from_numbers(from.numbers("counters")?);
         Ok(())
     }

@@ -1,8 +1,9 @@
 //! Stability limits of explicit methods from the largest frequency of a system.
 
+use super::rows::Rows;
 use super::{StepError, failure};
 use crate::linalg::Matrix;
-use crate::system::{Level, State, System, Weights};
+use crate::system::{Dynamics, State, Weights};
 
 /// The limit is put below the exact one by this much, for the frequency is found from below.
 const MARGIN: f64 = 1.005;
@@ -35,7 +36,7 @@ impl StabilityLimit {
     pub fn find(
         method: &'static str,
         limit: f64,
-        system: &mut dyn System,
+        system: &mut dyn Dynamics,
         state: &State,
     ) -> Result<StabilityLimit, StepError> {
         let frequency = largest_frequency(system, state)?;
@@ -69,7 +70,7 @@ impl StabilityLimit {
 /// finite.
 ///
 /// Source: Parlett, *The Symmetric Eigenvalue Problem*, chapter 13 (doi 10.1137/1.9781611971163).
-pub fn largest_frequency(system: &mut dyn System, state: &State) -> Result<f64, StepError> {
+pub fn largest_frequency(system: &mut dyn Dynamics, state: &State) -> Result<f64, StepError> {
     let n = state.v.len();
     let mut pencil = Pencil::new(system, state)?;
     let mut basis: Vec<Vec<f64>> = Vec::new();
@@ -111,7 +112,7 @@ pub fn largest_frequency(system: &mut dyn System, state: &State) -> Result<f64, 
             return Err(StepError::NotFinite {
                 time: state.t,
                 step: 0.0,
-                worst: failure::label(system, index),
+                worst: system.unknown(index),
             });
         }
         estimates.push(largest);
@@ -135,14 +136,15 @@ struct Pencil {
 }
 
 impl Pencil {
-    fn new(system: &mut dyn System, state: &State) -> Result<Pencil, StepError> {
-        let structure = system.structure();
-        let weights = |a, q| Weights { q, v: 0.0, a, increment: None, level: Level::Acceleration };
+    fn new(system: &mut dyn Dynamics, state: &State) -> Result<Pencil, StepError> {
+        let structure = system.structure(1);
+        let weights = |a, q| Weights::new(a, 0.0, q);
         let mut matrices = [0, 1, 2].map(|_| Matrix::new(&structure));
         for (matrix, (a, q)) in matrices.iter_mut().zip([(1.0, 0.0), (1.0, 0.0), (0.0, 1.0)]) {
             system.tangent(state, weights(a, q), matrix);
         }
         let [mut factored, mass, stiffness] = matrices;
+        Rows::new(system, state).add_border(system, state, state.v.len(), &mut factored);
         factored.factor().map_err(|e| failure::singular(system, state.t, 0.0, e))?;
         let order = state.v.len() + state.lambda.len();
         let (padded, image) = (vec![0.0; order], vec![0.0; order]);

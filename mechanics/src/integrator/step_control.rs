@@ -20,7 +20,7 @@
 //! (doi 10.1007/978-3-642-05221-7); Gustafsson (1994, doi 10.1145/198429.198437); Gustafsson (1991,
 //! doi 10.1145/210232.210242); Söderlind (2003, doi 10.1145/641876.641877).
 
-use crate::system::{Label, State};
+use crate::system::State;
 
 /// How the next step follows from the errors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -105,12 +105,12 @@ impl StepControl {
     pub fn first_step(
         estimate_order: usize,
         state: &State,
-        labels: &[Label],
+        scales: &[f64],
         tolerance: f64,
         span: f64,
     ) -> f64 {
         let mean = |x: &[f64]| {
-            let sum: f64 = x.iter().zip(labels).map(|(x, label)| (x / label.scale).powi(2)).sum();
+            let sum: f64 = x.iter().zip(scales).map(|(x, scale)| (x / scale).powi(2)).sum();
             (sum / x.len().max(1) as f64).sqrt()
         };
         let (v, a) = (mean(&state.v), mean(&state.a));

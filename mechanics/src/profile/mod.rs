@@ -39,6 +39,25 @@ pub trait Profile: Send + Sync + std::fmt::Debug {
     }
 }
 
+/// The lowest derivative of a profile that jumps at time `t` \[s\]: 0 for f itself, 1 for f′, 2 for f″, 3 if none of them
+/// does. Limits are compared to rounding: to 10⁻⁹ of what is found near t.
+pub fn jumping_derivative(profile: &dyn Profile, t: f64) -> usize {
+    let (first, last) = profile.range();
+    let derivative = |k: usize, t: f64| match k {
+        0 => profile.value(t),
+        1 => profile.rate(t),
+        _ => profile.acceleration(t),
+    };
+    (0..3)
+        .find(|&k| {
+            let jump = (derivative(k, t) - derivative(k, t.next_down())).abs();
+            let near = [1e-6, 1e-3, 0.1].into_iter().flat_map(|d| [t - d * (1.0 + t.abs()), t + d * (1.0 + t.abs())]);
+            let scale = near.map(|t| derivative(k, t.clamp(first, last)).abs()).fold(0.0, f64::max);
+            !(jump <= 1e-9 * scale)
+        })
+        .unwrap_or(3)
+}
+
 /// A profile that cannot be built, or does not cover a run.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ProfileError {
@@ -105,6 +124,14 @@ pub enum ProfileError {
         value: f64,
         /// Time [s].
         time: f64,
+    },
+    /// A prescribed angle jumps.
+    #[error("the angle of the hub jumps by {size} rad at t = {time} s, which no motion does: prescribe the speed, or a continuous angle")]
+    AngleJumps {
+        /// Time \[s\].
+        time: f64,
+        /// Size of the jump [rad].
+        size: f64,
     },
     /// The run leaves the times at which the profile is given.
     #[error("the profile is given from {first} s to {last} s and the run needs it from 0 s to {duration} s")]

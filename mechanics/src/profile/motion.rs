@@ -1,6 +1,6 @@
 //! Prescribed motion of the hub: its angle, speed and acceleration from one profile.
 
-use super::{Profile, ProfileError, covers};
+use super::{Profile, ProfileError, covers, jumping_derivative};
 use std::sync::Arc;
 
 /// Angle, speed and acceleration of the hub at one time.
@@ -66,9 +66,18 @@ impl Motion {
     /// Whether the motion is given, and finite, all through a run from 0 to `duration` [s].
     ///
     /// # Errors
-    /// [`ProfileError::OutOfRange`], or [`ProfileError::Motion`] with what is not finite and when.
+    /// [`ProfileError::OutOfRange`], [`ProfileError::Motion`] with what is not finite and when, or
+    /// [`ProfileError::AngleJumps`].
     pub fn validate(&self, duration: f64) -> Result<(), ProfileError> {
         covers(self.profile().as_ref(), duration)?;
+        if let Motion::Angle(profile) = self {
+            for &time in profile.breaks().iter().filter(|t| (0.0..=duration).contains(*t)) {
+                if jumping_derivative(profile.as_ref(), time) == 0 {
+                    let size = profile.value(time) - profile.value(time.next_down());
+                    return Err(ProfileError::AngleJumps { time, size });
+                }
+            }
+        }
         for t in self.samples(duration) {
             let hub = self.at(t);
             for (quantity, value) in [
@@ -82,6 +91,14 @@ impl Motion {
             }
         }
         Ok(())
+    }
+
+    /// The lowest derivative of the speed that jumps at a break at time `t` \[s\].
+    pub fn jumping_derivative(&self, t: f64) -> usize {
+        match self {
+            Motion::Speed { profile, .. } => jumping_derivative(profile.as_ref(), t),
+            Motion::Angle(profile) => jumping_derivative(profile.as_ref(), t).saturating_sub(1),
+        }
     }
 
     fn profile(&self) -> &Arc<dyn Profile> {

@@ -17,8 +17,9 @@ use crate::hub_beam::fields::Point;
 use crate::hub_beam::inertia::Border;
 use crate::hub_beam::product::{Bundle, Vectors};
 use crate::linalg::{Matrix, Storage, Structure};
-use crate::profile::HubKinematics;
-use crate::system::State;
+use crate::hub_beam::hub::force_jump;
+use crate::profile::{HubKinematics, jumping_derivative};
+use crate::system::{Break, State};
 
 /// One load, ready to be evaluated. See the [module documentation](self).
 #[derive(Debug)]
@@ -129,8 +130,10 @@ impl Group {
         self.axes
     }
 
-    pub(super) fn breaks(&self) -> &[f64] {
-        self.amplitude.as_ref().map_or(&[], |f| f.breaks())
+    pub(super) fn breaks(&self) -> Vec<Break> {
+        let Some(amplitude) = &self.amplitude else { return Vec::new() };
+        let jump = |time| force_jump(jumping_derivative(amplitude.as_ref(), time));
+        amplitude.breaks().iter().map(|&time| Break { time, jump: jump(time) }).collect()
     }
 
     fn now(&self, t: f64, hub: &HubKinematics) -> Now {
@@ -155,7 +158,7 @@ impl Group {
 
     /// out += c Q_q
     pub(super) fn add_force(&mut self, s: &State, hub: &HubKinematics, c: f64, out: &mut [f64]) {
-        let now = self.now(s.t, hub);
+        let now = self.now(s.time(), hub);
         let d = now.d.map(|d| c * d);
         let m = c * now.factor;
         for (i, out) in out.iter_mut().enumerate().take(self.along.len()) {
@@ -175,7 +178,7 @@ impl Group {
         if self.stiffness.is_none() && self.sections.is_empty() {
             return;
         }
-        let now = self.now(s.t, hub);
+        let now = self.now(s.time(), hub);
         if let Some((bundle, _)) = &self.stiffness {
             bundle.add_sum([c * now.d[0], c * now.d[1], c * now.factor, 0.0], out);
         }
@@ -201,7 +204,7 @@ impl Group {
 
     /// Q_θ
     pub(super) fn torque(&mut self, s: &State, hub: &HubKinematics) -> f64 {
-        let now = self.now(s.t, hub);
+        let now = self.now(s.time(), hub);
         let [x, y] = self.moments(&s.q);
         let lever: f64 = self.lever.iter().zip(&s.q).map(|(h, q)| h * q).sum();
         let sections: f64 = self.sections.iter().map(|section| section.torque(s, &now)).sum();
@@ -213,7 +216,7 @@ impl Group {
         if !self.gravity {
             return 0.0;
         }
-        let now = self.now(s.t, hub);
+        let now = self.now(s.time(), hub);
         let [x, y] = self.moments(&s.q);
         let sections: f64 = self.sections.iter().map(|section| section.potential(s, &now)).sum();
         sections - now.d[0] * x - now.d[1] * y
@@ -221,7 +224,7 @@ impl Group {
 
     /// Adds c times the derivatives of Q_q by θ and of Q_θ by q and θ.
     pub(super) fn add_border(&mut self, s: &State, hub: &HubKinematics, c: f64, out: &mut Border) {
-        let now = self.now(s.t, hub);
+        let now = self.now(s.time(), hub);
         let dead = if self.axes == Axes::Dead { 1.0 } else { 0.0 };
         // Q_θ by q: as the force with the components (d_y, −d_x), whatever the axes.
         let across = [c * now.d[1], -c * now.d[0]];

@@ -37,7 +37,7 @@ pub use site::{Kinematics, Site};
 use super::inertia::Border;
 use crate::linalg::Storage;
 use crate::profile::{HubKinematics, Profile};
-use crate::system::{State, Weights};
+use crate::system::{Break, State, Weights};
 use group::Group;
 use std::sync::Arc;
 
@@ -65,7 +65,7 @@ pub trait Load: std::fmt::Debug {
 #[derive(Debug, Default)]
 pub struct Loads {
     groups: Vec<Group>,
-    breaks: Vec<f64>,
+    breaks: Vec<Break>,
     /// What is not there of the loads: 0 but while an equilibrium is followed.
     missing: f64,
     /// Forces, for their power.
@@ -76,9 +76,7 @@ impl Loads {
     /// Loads on the beam at `site`.
     pub fn new(site: &Site<'_>, loads: &[&dyn Load]) -> Loads {
         let groups: Vec<Group> = loads.iter().map(|load| load.group(site)).collect();
-        let mut breaks: Vec<f64> = groups.iter().flat_map(|g| g.breaks().iter().copied()).collect();
-        breaks.sort_by(f64::total_cmp);
-        breaks.dedup();
+        let breaks = groups.iter().flat_map(Group::breaks).collect();
         Loads { groups, breaks, missing: 0.0, force: vec![0.0; site.fields.len()] }
     }
 
@@ -98,8 +96,8 @@ impl Loads {
         self.groups.iter_mut().for_each(|group| group.set_part(part));
     }
 
-    /// Times at which an amplitude loses smoothness, ascending.
-    pub fn breaks(&self) -> &[f64] {
+    /// Times at which an amplitude is not smooth.
+    pub fn breaks(&self) -> &[Break] {
         &self.breaks
     }
 
@@ -160,7 +158,7 @@ impl Loads {
             // No number: a tangent with part of the loads is never taken for another.
             f64::NAN
         } else if stiff().any(Group::varies) {
-            s.t
+            s.time()
         } else if stiff().any(|g| g.axes() == Axes::Dead) {
             hub.angle
         } else {

@@ -15,8 +15,8 @@
 //! (M + hλ C + h²λ² K) w₁ = h²λ² (T⁻¹r)₁,   (M + hμ C + h²μ² K)(w₂ + i w₃) = h²μ² ((T⁻¹r)₂ + i (T⁻¹r)₃),   ΔQ = −T w
 //! ```
 //!
-//! K, which the stretching stiffness of a slender beam dominates, is carried along with the turning sections (see
-//! [`System::turns`]): in the frames that have turned with each stage, K of the start serves them all.
+//! K, which the ratioing stiffness of a slender beam dominates, is carried along with the turning sections (see
+//! [`Dynamics::corotate`]): in the frames that have turned with each stage, K of the start serves them all.
 //!
 //! Starting values extrapolate the last step's collocation polynomial. The tangents M, C and K are kept while
 //! convergence is fast, their factors while the step is the same too.
@@ -33,11 +33,14 @@
 //! by the weighted root mean square of ε_q and h ε_v with weights absolute·scaleᵢ + relative·|qᵢ|: an error of
 //! velocity counts as the displacement it makes in one step.
 //!
+//! Constraints are imposed in the form of index 2, ġ(Qᵢ, Vᵢ) = 0 with a multiplier in every stage, which adds to both
+//! systems the rows G and the columns −Gᵀ; the end of the step is then projected onto g = 0 and ġ = 0. On a
+//! configuration that is not a vector space (rotations) the increments obey Dᵢ = h Σ Aᵢⱼ Ḋⱼ, Ḋ = T(D)⁻¹ V.
+//!
 //! Order: 5 in q and v (measured 5.0), 3 of the stages, on which stiff problems depend; of the error
 //! estimate 3. Stability: A- and L-stable; frequencies far above 1/h are annihilated, those below are
 //! integrated with a dissipation of O((hω)⁶). Dense output: quintic Hermite through q, v, a at both ends;
-//! measured four to eight times as accurate as the collocation polynomial. On a configuration that is not
-//! a vector space (rotations) the increments are added as if it were one within a step, at the cost of order.
+//! measured four to eight times as accurate as the collocation polynomial.
 //!
 //! Sources: Hairer & Wanner, *Solving Ordinary Differential Equations II*, sections IV.5 and IV.8
 //! (doi 10.1007/978-3-642-05221-7); Hairer & Wanner (1999, doi 10.1016/S0377-0427(99)00134-X).
@@ -47,9 +50,9 @@ mod stages;
 
 use super::{
     Checkpoint, Convergence, Counters, Info, Integrator, InvalidParameter, NotResumed, Progress, StepError,
-    StepReport, failure, hermite,
+    StepReport, hermite,
 };
-use crate::system::{State, System};
+use crate::system::{Dynamics, Side, State};
 use stages::Stages;
 
 /// Name as in a case file.
@@ -62,13 +65,9 @@ const STAGES: [&str; 3] = ["stage.1", "stage.2", "stage.3"];
 const REUSE_RATE: f64 = 0.1;
 
 /// Largest iteration error in units of the tolerance, and relative to the scales of the unknowns. An error that is small
-/// beside a displacement is large as a stretch of the axis: it would make axial vibrations that short steps then follow.
+/// beside a displacement is large as a ratio of the axis: it would make axial vibrations that short steps then follow.
 const LARGEST_KAPPA: f64 = 1e-2;
 const LARGEST_ITERATION_ERROR: f64 = 1e-5;
-
-/// Largest size of increments, in units of the tolerance, that are taken for rounding errors when they stop
-/// shrinking: of affine systems, whose iteration does not become slow by anything else.
-const NOISE: f64 = 1.0;
 
 /// What local errors are measured against: absolute·scaleᵢ + relative·|qᵢ|.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -147,20 +146,19 @@ impl Integrator for Radau {
         &self.info
     }
 
-    fn start(&mut self, system: &mut dyn System, state: &mut State, _step: f64) -> Result<(), StepError> {
-        if system.size().lambda > 0 {
-            let (feature, instead) = ("constraints", "generalized-alpha");
-            return Err(StepError::Unsupported { method: NAME, feature, instead });
-        }
+    fn start(&mut self, system: &mut dyn Dynamics, state: &mut State, _step: f64) -> Result<(), StepError> {
         self.counters = Counters::default();
-        self.convergence = self.convergence.with_noise(if system.is_affine() { NOISE } else { 0.0 });
-        self.work = Some(Stages::new(system));
+        if system.is_affine() {
+            // The iteration of an affine system does not become slow by anything but rounding.
+            self.convergence = self.convergence.with_noise(1.0);
+        }
+        self.work = Some(Stages::new(system, state));
         self.restart(system, state)
     }
 
     fn step(
         &mut self,
-        system: &mut dyn System,
+        system: &mut dyn Dynamics,
         from: &State,
         h: f64,
         to: &mut State,
@@ -172,30 +170,30 @@ impl Integrator for Radau {
         self.counters.rejected += u64::from(repeated);
         self.pending = true;
         self.attempt = h;
-        work.weigh(from, self.tolerance);
-        let stretch = if self.first { None } else { Some(h / self.accepted_step) };
+        work.set_error_weights(from, self.tolerance);
+        let ratio = if self.first { None } else { Some(h / self.accepted_step) };
         if work.rate > REUSE_RATE {
-            work.form(system, from, &mut self.counters);
+            work.assemble(system, from, &mut self.counters);
         }
-        work.carry(system, from);
+        work.corotate(system, from);
         loop {
             if work.factored_step != h {
                 work.factor(system, from, h, &mut self.counters)?;
             }
-            work.predict(from, stretch);
+            work.predict(from, ratio);
             self.convergence.begin(work.fresh);
-            let (progress, size) = work.iterate(system, from, h, &mut self.convergence, &mut self.counters);
+            let (progress, size) = work.iterate(system, (from, to), h, &mut self.convergence, &mut self.counters);
             if progress == Progress::Converged {
                 work.rate = self.convergence.rate();
                 break;
             }
             self.convergence.forget();
             if !work.fresh {
-                work.form(system, from, &mut self.counters);
+                work.assemble(system, from, &mut self.counters);
                 continue;
             }
             self.worst = work.worst_increment();
-            let worst = failure::label(system, self.worst);
+            let worst = system.unknown(self.worst);
             if !size.is_finite() {
                 return Err(StepError::NotFinite { time: from.t, step: h, worst });
             }
@@ -206,7 +204,7 @@ impl Integrator for Radau {
         let error = work.estimate(system, from, h, self.first || repeated, &mut self.counters);
         self.worst = work.worst_error(h);
         if !error.is_finite() {
-            let worst = failure::label(system, self.worst);
+            let worst = system.unknown(self.worst);
             return Err(StepError::NotFinite { time: from.t, step: h, worst });
         }
         Ok(StepReport { iterations: self.convergence.iterations(), error: Some(error) })
@@ -224,14 +222,14 @@ impl Integrator for Radau {
         }
     }
 
-    fn interpolate(&self, system: &dyn System, from: &State, to: &State, t: f64, out: &mut State) {
+    fn interpolate(&self, system: &dyn Dynamics, from: &State, to: &State, t: f64, out: &mut State) {
         match &self.work {
             Some(work) => hermite::quintic(system, from, to, &work.end_accepted, t, out),
             None => out.copy_from(to),
         }
     }
 
-    fn restart(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), StepError> {
+    fn restart(&mut self, system: &mut dyn Dynamics, state: &mut State) -> Result<(), StepError> {
         let Some(work) = &mut self.work else {
             return Err(StepError::NotStarted { method: NAME });
         };
@@ -239,6 +237,7 @@ impl Integrator for Radau {
         self.first = true;
         self.convergence.forget();
         work.rate = f64::INFINITY;
+        state.side = Side::Right;
         work.accelerations.complete(system, state, (state.t, 0.0), &mut self.counters)
     }
 
@@ -255,7 +254,7 @@ impl Integrator for Radau {
         }
     }
 
-    fn resume(&mut self, system: &mut dyn System, from: &Checkpoint) -> Result<(), NotResumed> {
+    fn resume(&mut self, system: &mut dyn Dynamics, from: &Checkpoint) -> Result<(), NotResumed> {
         let Some(work) = &mut self.work else {
             return Err(NotResumed::Failed(format!("{NAME} was not started")));
         };
@@ -269,7 +268,7 @@ impl Integrator for Radau {
             // The same tangents at the same place have the same factors.
             let mut place = work.place.clone();
             from.fill_state("factors.", &mut place)?;
-            work.form(system, &place, &mut self.counters);
+            work.assemble(system, &place, &mut self.counters);
             let factored = work.factor(system, &place, step, &mut self.counters);
             factored.map_err(|error| NotResumed::Failed(error.to_string()))?;
             (work.rate, work.fresh) = (rate, false);

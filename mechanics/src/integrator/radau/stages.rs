@@ -1,28 +1,33 @@
 //! The stages of one Radau step: starting values, iteration, end, error estimate.
 
 use super::super::acceleration::Accelerations;
+use super::super::rows::Rows;
 use super::super::{Convergence, Counters, Progress, StepError, failure};
 use super::Tolerance;
 use super::coefficients::{A, A_INVERSE, A2, A2_INVERSE, C, E_Q, E_V, LAMBDA, MU, T, T_INVERSE, lagrange};
 use crate::linalg::Matrix;
-use crate::system::{State, System, Turns, Weights};
+use crate::system::{Corotation, Dynamics, RowWeights, Set, Side, State, Weights, is_active};
 use num_complex::Complex64;
 
 /// Unknowns, matrices and buffers of a step: what `start` allocates for a system.
 #[derive(Debug)]
 pub(super) struct Stages {
     pub(super) accelerations: Accelerations,
-    /// M, C and K, and how the sections have turned since: at the start of the step and at the stages.
+    rows: Rows,
+    flat: bool,
+    /// Rates ḋ of the stages' increments, where the configuration is no vector space.
+    rates: [Vec<f64>; 3],
+    /// M, C and K, and how the sections have rotated since: at the start of the step and at the stages.
     mass: Matrix,
     damping: Matrix,
     stiffness: Matrix,
-    turns: Turns,
-    stage_turns: [Turns; 3],
+    corotation: Corotation,
+    stage_corotation: [Corotation; 3],
     real: Matrix,
     complex: Matrix<Complex64>,
     /// Step of the factors; NaN when there are none.
     pub(super) factored_step: f64,
-    /// Where the tangents were formed.
+    /// Where the tangents were assembled.
     pub(super) place: State,
     /// Whether the tangents belong to the start of this step.
     pub(super) fresh: bool,
@@ -44,51 +49,54 @@ pub(super) struct Stages {
     /// Right-hand side of the estimate without its K e_q, M e_v.
     source: Vec<f64>,
     product: Vec<f64>,
-    turned: Vec<f64>,
+    rotated: Vec<f64>,
     rhs: Vec<f64>,
 }
 
 impl Stages {
-    pub(super) fn new(system: &dyn System) -> Stages {
+    pub(super) fn new(system: &mut dyn Dynamics, state: &State) -> Stages {
         let size = system.size();
-        let n = size.v;
-        let structure = system.structure();
+        let n = size.v + size.lambda;
+        let structure = system.structure(1);
         let vector = || vec![0.0; n];
         let three = || [vector(), vector(), vector()];
         Stages {
-            accelerations: Accelerations::new(system),
+            accelerations: Accelerations::new(system, state, RowWeights::ACCELERATION),
+            rows: Rows::new(system, state),
+            flat: system.is_vector_space(),
+            rates: three(),
             mass: Matrix::new(&structure),
             damping: Matrix::new(&structure),
             stiffness: Matrix::new(&structure),
-            turns: Turns::with_room(n),
-            stage_turns: [(); 3].map(|()| Turns::with_room(n)),
+            corotation: Corotation::with_capacity(n),
+            stage_corotation: [(); 3].map(|()| Corotation::with_capacity(n)),
             real: Matrix::new(&structure),
             complex: Matrix::new(&structure),
             factored_step: f64::NAN,
             place: State::zeros(size, 0.0),
             fresh: false,
             rate: f64::INFINITY,
-            scale: system.labels().iter().map(|label| label.scale).collect(),
-            inverse_weight: vector(),
+            scale: system.scales().to_vec(),
+            inverse_weight: vec![0.0; size.v],
             stage: State::zeros(size, 0.0),
-            increment: vector(),
+            increment: vec![0.0; size.v],
             a: three(),
             a_accepted: three(),
-            end: vector(),
-            end_accepted: vector(),
+            end: vec![0.0; size.v],
+            end_accepted: vec![0.0; size.v],
             r: three(),
             z: vec![Complex64::new(0.0, 0.0); n],
             error_q: vector(),
             error_v: vector(),
             source: vector(),
             product: vector(),
-            turned: vector(),
+            rotated: vector(),
             rhs: vector(),
         }
     }
 
     /// Weights of the norms, 1/(absolute·scale + relative·|q|).
-    pub(super) fn weigh(&mut self, from: &State, tolerance: Tolerance) {
+    pub(super) fn set_error_weights(&mut self, from: &State, tolerance: Tolerance) {
         // Where q has more entries than v they do not correspond, and the scale alone counts.
         let relative = if from.q.len() == from.v.len() { tolerance.relative } else { 0.0 };
         for (i, w) in self.inverse_weight.iter_mut().enumerate() {
@@ -96,61 +104,79 @@ impl Stages {
         }
     }
 
-    /// Forms the tangents at the start of the step.
-    pub(super) fn form(&mut self, system: &mut dyn System, from: &State, counters: &mut Counters) {
+    /// Assembles the tangents at the start of the step.
+    pub(super) fn assemble(&mut self, system: &mut dyn Dynamics, from: &State, counters: &mut Counters) {
         system.tangent(from, Weights::new(1.0, 0.0, 0.0), &mut self.mass);
         system.tangent(from, Weights::new(0.0, 1.0, 0.0), &mut self.damping);
         system.tangent(from, Weights::new(0.0, 0.0, 1.0), &mut self.stiffness);
         counters.tangents += 3;
         self.place.copy_from(from);
-        self.turns.clear();
+        self.corotation.clear();
         self.factored_step = f64::NAN;
         self.fresh = true;
         self.rate = 0.0;
     }
 
-    /// Carries tangents of a former step along with the sections.
-    pub(super) fn carry(&mut self, system: &dyn System, from: &State) {
+    /// Rotates tangents of a former step with the sections.
+    pub(super) fn corotate(&mut self, system: &dyn Dynamics, from: &State) {
         if !self.fresh {
-            system.turns(&self.place, from, &mut self.turns);
+            system.corotate(&self.place, from, &mut self.corotation);
         }
     }
 
     /// Factors of the tangents for steps of size `h`.
     pub(super) fn factor(
         &mut self,
-        system: &dyn System,
+        system: &mut dyn Dynamics,
         from: &State,
         h: f64,
         counters: &mut Counters,
     ) -> Result<(), StepError> {
         self.factored_step = f64::NAN;
         let terms = [&self.mass, &self.damping, &self.stiffness];
-        let (reach, mu) = (h * LAMBDA, Complex64::new(h * MU[0], h * MU[1]));
-        self.real.combine(terms, [1.0, reach, reach * reach]);
+        let (h_gamma, mu) = (h * LAMBDA, Complex64::new(h * MU[0], h * MU[1]));
+        self.real.combine(terms, [1.0, h_gamma, h_gamma * h_gamma]);
         self.complex.combine(terms, [Complex64::ONE, mu, mu * mu]);
-        let tell = |cause| failure::singular(system, from.t, h, cause);
-        let real = self.real.factor().map_err(tell)?;
-        let complex = self.complex.factor().map_err(tell)?;
+        if !self.rows.is_empty() {
+            let n = from.v.len();
+            self.rows.add_border(system, &self.place, n, &mut self.real);
+            self.rows.add_border(system, &self.place, n, &mut self.complex);
+        }
+        let error = |cause| failure::singular(system, from.t, h, cause);
+        let real = self.real.factor().map_err(error)?;
+        let complex = self.complex.factor().map_err(error)?;
         counters.factorizations += u64::from(real) + u64::from(complex);
         self.factored_step = h;
         Ok(())
     }
 
-    /// Starting values: the last step's polynomial, `stretch` = h/h_last on, or the acceleration at the
+    /// Starting values: the last step's polynomial, `ratio` = h/h_last on, or the acceleration at the
     /// start.
-    pub(super) fn predict(&mut self, from: &State, stretch: Option<f64>) {
-        let Some(stretch) = stretch else {
-            for a in &mut self.a {
+    pub(super) fn predict(&mut self, from: &State, ratio: Option<f64>) {
+        let Some(ratio) = ratio else {
+            for x in &mut self.a {
+                let (a, lambda) = x.split_at_mut(from.a.len());
                 a.copy_from_slice(&from.a);
+                lambda.copy_from_slice(&from.lambda);
             }
+            self.start_rates(from);
             return;
         };
         let [a1, a2, a3] = &self.a_accepted;
         for (a, c) in self.a.iter_mut().zip(C) {
-            let [l1, l2, l3] = lagrange(1.0 + c * stretch);
+            let [l1, l2, l3] = lagrange(1.0 + c * ratio);
             for i in 0..a.len() {
                 a[i] = l1 * a1[i] + l2 * a2[i] + l3 * a3[i];
+            }
+        }
+        self.start_rates(from);
+    }
+
+    /// Rates of the increments, as on a vector space at first.
+    fn start_rates(&mut self, from: &State) {
+        if !self.flat {
+            for rate in &mut self.rates {
+                rate[..from.v.len()].copy_from_slice(&from.v);
             }
         }
     }
@@ -158,30 +184,35 @@ impl Stages {
     /// Simplified Newton iterations; returns the verdict and the size of the last increment.
     pub(super) fn iterate(
         &mut self,
-        system: &mut dyn System,
-        from: &State,
+        system: &mut dyn Dynamics,
+        (from, to): (&State, &State),
         h: f64,
         convergence: &mut Convergence,
         counters: &mut Counters,
     ) -> (Progress, f64) {
-        let n = from.v.len();
-        let (reach, mu) = (h * LAMBDA, Complex64::new(h * MU[0], h * MU[1]));
-        let (reach, mu) = (reach * reach, mu * mu);
+        let n = from.v.len() + from.lambda.len();
+        let (h_gamma, mu) = (h * LAMBDA, Complex64::new(h * MU[0], h * MU[1]));
+        let (h_gamma, mu) = (h_gamma * h_gamma, mu * mu);
         loop {
             for i in 0..3 {
-                self.place(system, from, h, i);
+                self.set_stage(system, (from, to), h, i);
                 if convergence.iterations() == 0 {
-                    system.turns(&self.place, &self.stage, &mut self.stage_turns[i]);
+                    system.corotate(&self.place, &self.stage, &mut self.stage_corotation[i]);
                 }
-                system.residual(&self.stage, &mut self.r[i]);
-                self.stage_turns[i].turn_back(&mut self.r[i]);
+                let (motion, rows) = self.r[i].split_at_mut(from.v.len());
+                system.residual(&self.stage, motion);
+                self.stage_corotation[i].rotate_back(motion);
+                if !rows.is_empty() {
+                    self.rows.weighted(system, &self.stage, RowWeights::VELOCITY, 1.0, rows);
+                }
             }
+            self.mix_rows(from, h);
             let [r1, r2, r3] = &self.r;
             let (r1, r2, r3) = (&r1[..n], &r2[..n], &r3[..n]);
             let [p, q, s] = &T_INVERSE;
             for i in 0..n {
                 let (x, y, z) = (r1[i], r2[i], r3[i]);
-                self.rhs[i] = reach * (p[0] * x + p[1] * y + p[2] * z);
+                self.rhs[i] = h_gamma * (p[0] * x + p[1] * y + p[2] * z);
                 self.z[i] =
                     mu * Complex64::new(q[0] * x + q[1] * y + q[2] * z, s[0] * x + s[1] * y + s[2] * z);
             }
@@ -200,29 +231,53 @@ impl Stages {
 
     /// Solves the real system for `rhs`.
     fn solve_real(&mut self) {
-        self.turns.turn_back(&mut self.rhs);
+        self.corotation.rotate_back(&mut self.rhs);
         self.real.solve(&mut self.rhs);
-        self.turns.turn(&mut self.rhs);
+        self.corotation.rotate(&mut self.rhs);
     }
 
-    /// Sets the stage state to stage `i`.
-    fn place(&mut self, system: &dyn System, from: &State, h: f64, i: usize) {
+    /// Writes (hA)⁻¹ ġ of the three stages in the place of ġ, for the rows that impose it.
+    fn mix_rows(&mut self, from: &State, h: f64) {
+        let n = from.v.len();
+        for (k, set) in self.rows.sets().iter().enumerate() {
+            if is_active(*set, from.mode[k]) {
+                let rates = [0, 1, 2].map(|i| self.r[i][n + k]);
+                for (r, row) in self.r.iter_mut().zip(A_INVERSE) {
+                    r[n + k] = (row[0] * rates[0] + row[1] * rates[1] + row[2] * rates[2]) / h;
+                }
+            }
+        }
+    }
+
+    /// Sets the stage state to stage `i`. Off a vector space Dᵢ = h Σ Aᵢⱼ Ḋⱼ, with the rates of the last iteration.
+    fn set_stage(&mut self, system: &dyn Dynamics, (from, to): (&State, &State), h: f64, i: usize) {
         let n = from.v.len();
         let [a1, a2, a3] = &self.a;
         let (a1, a2, a3) = (&a1[..n], &a2[..n], &a3[..n]);
         let (row, row2) = (A[i].map(|x| h * x), A2[i].map(|x| h * h * x));
-        let reach = h * C[i];
+        let h_gamma = h * C[i];
         let (v, d) = (&mut self.stage.v[..n], &mut self.increment[..n]);
         for k in 0..n {
             v[k] = from.v[k] + row[0] * a1[k] + row[1] * a2[k] + row[2] * a3[k];
-            d[k] = reach * from.v[k] + row2[0] * a1[k] + row2[1] * a2[k] + row2[2] * a3[k];
+            d[k] = h_gamma * from.v[k] + row2[0] * a1[k] + row2[1] * a2[k] + row2[2] * a3[k];
         }
-        self.stage.a.copy_from_slice(&self.a[i]);
-        self.stage.t = from.t + reach;
+        if !self.flat {
+            system.rate(&self.increment, &self.stage.v, &mut self.rates[i][..n]);
+            for k in 0..n {
+                self.increment[k] = (0..3).map(|j| row[j] * self.rates[j][k]).sum();
+            }
+        }
+        let (a, lambda) = self.a[i].split_at(n);
+        self.stage.a.copy_from_slice(a);
+        self.stage.lambda.copy_from_slice(lambda);
+        self.stage.mode.copy_from_slice(&from.mode);
+        // The last stage is the end of the step, with its side.
+        (self.stage.t, self.stage.side) =
+            if i == 2 { (to.t, to.side) } else { (from.t + h_gamma, Side::Right) };
         system.retract(&from.q, &self.increment, &mut self.stage.q);
     }
 
-    /// ΔQ = −T w, turned with its stage, and Δa = (hA)⁻² ΔQ; gives the size of ΔQ and of h ΔV = A⁻¹ ΔQ.
+    /// ΔQ = −T w, rotated with its stage, and Δa = (hA)⁻² ΔQ; gives the size of ΔQ and of h ΔV = A⁻¹ ΔQ.
     fn update(&mut self, h: f64) -> f64 {
         let n = self.rhs.len();
         let [d1, d2, d3] = &mut self.r;
@@ -232,8 +287,8 @@ impl Stages {
             d2[i] = T[1][0] * x + T[1][1] * z.re + T[1][2] * z.im;
             d3[i] = T[2][0] * x + z.re;
         }
-        for (d, turns) in [&mut *d1, &mut *d2, &mut *d3].into_iter().zip(&self.stage_turns) {
-            turns.turn(d);
+        for (d, corotation) in [&mut *d1, &mut *d2, &mut *d3].into_iter().zip(&self.stage_corotation) {
+            corotation.rotate(d);
         }
         let rows =
             |a: &[[f64; 3]; 3], d: [f64; 3]| a.map(|row| row[0] * d[0] + row[1] * d[1] + row[2] * d[2]);
@@ -241,7 +296,15 @@ impl Stages {
         let inverse = 1.0 / (h * h);
         let [a1, a2, a3] = &mut self.a;
         let mut square = 0.0;
-        for i in 0..n {
+        let velocities = self.inverse_weight.len();
+        for i in velocities..n {
+            let [x, y, z] = rows(&A2_INVERSE, [d1[i], d2[i], d3[i]]).map(|x| inverse * x);
+            a1[i] -= x;
+            a2[i] -= y;
+            a3[i] -= z;
+            square += 0.0 * (x + y + z); // a multiplier that is not finite is found
+        }
+        for i in 0..velocities {
             let d = [d1[i], d2[i], d3[i]];
             let [x, y, z] = rows(&A2_INVERSE, d);
             a1[i] -= inverse * x;
@@ -250,28 +313,57 @@ impl Stages {
             let w = self.inverse_weight[i];
             square += (squares(d) + squares(rows(&A_INVERSE, d))) * (w * w);
         }
-        (square / (6 * n.max(1)) as f64).sqrt()
+        (square / (6 * velocities.max(1)) as f64).sqrt()
     }
 
-    /// Writes the end of the step.
-    pub(super) fn finish(&mut self, system: &dyn System, from: &State, h: f64, to: &mut State) {
-        self.place(system, from, h, 2);
-        self.end.copy_from_slice(&self.increment);
+    /// Writes the end of the step, and projects it onto the constraints.
+    pub(super) fn finish(&mut self, system: &mut dyn Dynamics, from: &State, h: f64, to: &mut State) {
+        self.set_stage(system, (from, to), h, 2);
         to.copy_from(&self.stage);
-        to.t = from.t + h;
+        if !self.rows.is_empty() {
+            self.project(system, from, to);
+        }
+        self.end.copy_from_slice(&self.increment);
+    }
+
+    /// q ← q ⊞ δ and v ← v + ν with G δ = −g, G ν = −ġ, of least size in the norm of the real matrix.
+    fn project(&mut self, system: &mut dyn Dynamics, from: &State, to: &mut State) {
+        let n = from.v.len();
+        for (weights, rounds) in [(RowWeights::POSITION, 2), (RowWeights::VELOCITY, 2)] {
+            let position = weights == RowWeights::POSITION;
+            for _ in 0..rounds {
+                let (motion, rows) = self.rhs.split_at_mut(n);
+                motion.fill(0.0);
+                system.constraint(to, weights, rows);
+                for (k, set) in self.rows.sets().iter().enumerate() {
+                    let friction = matches!(set, Set::Friction { .. });
+                    if !is_active(*set, to.mode[k]) || (position && friction) {
+                        rows[k] = 0.0;
+                    }
+                }
+                self.real.solve(&mut self.rhs);
+                let x = &self.rhs[..n];
+                if position {
+                    self.increment.iter_mut().zip(x).for_each(|(d, x)| *d -= x);
+                    system.retract(&from.q, &self.increment, &mut to.q);
+                } else {
+                    to.v.iter_mut().zip(x).for_each(|(v, x)| *v -= x);
+                }
+            }
+        }
     }
 
     /// Scaled error of the attempt.
     pub(super) fn estimate(
         &mut self,
-        system: &mut dyn System,
+        system: &mut dyn Dynamics,
         from: &State,
         h: f64,
         filter_twice: bool,
         counters: &mut Counters,
     ) -> f64 {
         let n = from.v.len();
-        let reach = h * LAMBDA;
+        let h_gamma = h * LAMBDA;
         let [a1, a2, a3] = &self.a;
         for i in 0..n {
             self.error_q[i] = h * h * (E_Q[0] * a1[i] + E_Q[1] * a2[i] + E_Q[2] * a3[i]);
@@ -279,8 +371,8 @@ impl Stages {
         }
         self.mass.multiply(&self.error_v, &mut self.source);
         counters.solves += 1;
-        self.subtract_stiffness_times_error(reach);
-        self.filter(reach);
+        self.subtract_stiffness_times_error(h_gamma);
+        self.filter(h_gamma);
         let error = self.error_norm(h);
         if !filter_twice || error < 1.0 {
             return error.max(1e-10);
@@ -291,36 +383,37 @@ impl Stages {
             self.stage.v[i] = from.v[i] + self.error_v[i];
         }
         self.stage.a.copy_from_slice(&from.a);
-        self.stage.t = from.t;
-        system.retract(&from.q, &self.error_q, &mut self.stage.q);
-        system.residual(&self.stage, &mut self.product);
+        (self.stage.t, self.stage.side) = (from.t, from.side);
+        self.stage.lambda.copy_from_slice(&from.lambda);
+        system.retract(&from.q, &self.error_q[..n], &mut self.stage.q);
+        system.residual(&self.stage, &mut self.product[..n]);
         counters.residuals += 1;
         counters.solves += 1;
         for i in 0..n {
-            self.source[i] -= reach * self.product[i];
+            self.source[i] -= h_gamma * self.product[i];
         }
-        self.subtract_stiffness_times_error(reach);
-        self.filter(reach);
+        self.subtract_stiffness_times_error(h_gamma);
+        self.filter(h_gamma);
         self.error_norm(h).max(1e-10)
     }
 
-    /// `rhs` = `source` − `reach`·K e_q
-    fn subtract_stiffness_times_error(&mut self, reach: f64) {
-        self.turned.copy_from_slice(&self.error_q);
-        self.turns.turn_back(&mut self.turned);
-        self.stiffness.multiply(&self.turned, &mut self.product);
-        self.turns.turn(&mut self.product);
+    /// `rhs` = `source` − `h_gamma`·K e_q
+    fn subtract_stiffness_times_error(&mut self, h_gamma: f64) {
+        self.rotated.copy_from_slice(&self.error_q);
+        self.corotation.rotate_back(&mut self.rotated);
+        self.stiffness.multiply(&self.rotated, &mut self.product);
+        self.corotation.rotate(&mut self.product);
         for ((rhs, source), product) in self.rhs.iter_mut().zip(&self.source).zip(&self.product) {
-            *rhs = source - reach * product;
+            *rhs = source - h_gamma * product;
         }
     }
 
     /// ε_v from `rhs`, ε_q = e_q + hγ₀ ε_v.
-    fn filter(&mut self, reach: f64) {
+    fn filter(&mut self, h_gamma: f64) {
         self.solve_real();
         self.error_v.copy_from_slice(&self.rhs);
         for (q, v) in self.error_q.iter_mut().zip(&self.error_v) {
-            *q += reach * v;
+            *q += h_gamma * v;
         }
     }
 
@@ -329,20 +422,20 @@ impl Stages {
         for ((q, v), w) in self.error_q.iter().zip(&self.error_v).zip(&self.inverse_weight) {
             square += (q * q + h * h * v * v) * (w * w);
         }
-        (square / (2 * self.error_q.len().max(1)) as f64).sqrt()
+        (square / (2 * self.inverse_weight.len().max(1)) as f64).sqrt()
     }
 
     /// Unknown with the largest scaled error.
     pub(super) fn worst_error(&self, h: f64) -> usize {
         largest(
-            (0..self.error_q.len())
+            (0..self.inverse_weight.len())
                 .map(|i| self.inverse_weight[i] * (self.error_q[i].abs() + h * self.error_v[i].abs())),
         )
     }
 
     /// Unknown with the largest scaled increment.
     pub(super) fn worst_increment(&self) -> usize {
-        largest((0..self.rhs.len()).map(|i| self.inverse_weight[i] * (self.rhs[i].abs() + self.z[i].norm())))
+        largest((0..self.inverse_weight.len()).map(|i| self.inverse_weight[i] * (self.rhs[i].abs() + self.z[i].norm())))
     }
 }
 

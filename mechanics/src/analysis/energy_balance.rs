@@ -1,0 +1,258 @@
+//! The energy balance of a run: work of drives and loads, energy lost in dampers and contacts.
+//!
+//! ```text
+//! W_d(t) = ∫ P_d dt,   W_l(t) = ∫ P_l dt,   D(t) = ∫ P_D dt,   D_c(t) = ∫ P_c dt
+//! imbalance = E − E(0) − W_d − W_l + D + D_c,   E = T + U + V + C
+//! ```
+//!
+//! Impulses add to W_d and D_c at once: a prescribed velocity that jumps, a moving obstacle, an impact.
+//!
+//! In each step the power is taken at two or three times, as a polynomial of time between them, and the polynomial is
+//! integrated: to the end of the step, and at no further cost to every recorded time inside it. With s from 0 to 1,
+//!
+//! | order of the method | s | order of the integral | evaluations of the power a step |
+//! |---|---|---|---|
+//! | up to 2 | 0, 1 (trapezium) | 2 | 1 |
+//! | 3, 4 | 0, ½, 1 (Simpson) | 4 | 2 |
+//! | 5 | 0 (of no weight at the end), (4 ∓ √6)/10, 1 (Radau) | 5 | 3 |
+//!
+//! Between the times the dense output is used. The power at the start is that at the end of the step before, or that
+//! behind a jump; the end of a step takes the left limit. The balance closes to the order of the method (tested), and
+//! what is left is the error of the run: its truncation, and the numerical dissipation of methods that have some.
+
+use crate::integrator::{Checkpoint, Integrator, NotResumed};
+use crate::system::{Energy, Power, State, System};
+
+/// What has been done to a system and lost by it since the start, in joules.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct EnergyBalance {
+    /// Total energy at the start.
+    pub initial: f64,
+    /// Work of what moves the system.
+    pub drive: f64,
+    /// Work of the loads, gravity aside.
+    pub loads: f64,
+    /// Energy lost in dampers.
+    pub dissipated: f64,
+    /// Energy lost in contacts.
+    pub contact: f64,
+}
+
+impl EnergyBalance {
+    /// What a total energy `total` has more than it should: 0 for an exact solution.
+    pub fn imbalance(&self, total: f64) -> f64 {
+        total - self.initial - self.drive - self.loads + self.dissipated + self.contact
+    }
+
+    fn add(&mut self, weight: f64, power: &Power) {
+        self.drive += weight * power.drive;
+        self.loads += weight * power.loads;
+        self.dissipated += weight * power.dissipated;
+        self.contact += weight * power.contact;
+    }
+}
+
+/// Most times in a step at which the power is taken.
+const MOST: usize = 4;
+const TRAPEZIUM: &[f64] = &[0.0, 1.0];
+const SIMPSON: &[f64] = &[0.0, 0.5, 1.0];
+/// 0, (4 − √6)/10, (4 + √6)/10, 1
+const RADAU: &[f64; MOST] = &[0.0, 0.155_051_025_721_682_2, 0.644_948_974_278_317_8, 1.0];
+
+/// ∫₀ˢ of the polynomials that are 1 at one of the `nodes` and 0 at the others.
+fn weights(nodes: &[f64], s: f64) -> [f64; MOST] {
+    let mut weights = [0.0; MOST];
+    for (i, (weight, own)) in weights.iter_mut().zip(nodes).enumerate() {
+        // Coefficients from the constant on.
+        let mut polynomial = [1.0, 0.0, 0.0, 0.0];
+        for (_, other) in nodes.iter().enumerate().filter(|(j, _)| *j != i) {
+            let scale = 1.0 / (own - other);
+            for k in (0..MOST).rev() {
+                let below = if k > 0 { polynomial[k - 1] } else { 0.0 };
+                polynomial[k] = scale * (below - other * polynomial[k]);
+            }
+        }
+        let [c0, c1, c2, c3] = polynomial;
+        *weight = s * (c0 + s * (c1 / 2.0 + s * (c2 / 3.0 + s * c3 / 4.0)));
+    }
+    weights
+}
+
+/// Largest gain of energy beyond the work done that a run may show without a warning, over the largest strain energy.
+const EXCESS: f64 = 0.5;
+/// The same over the energy that gravity has exchanged: a pendulum too stiff to bend has next to no strain energy, but
+/// the truncation error of its swing.
+const SWING: f64 = 0.05;
+/// The same over the energy that has passed through the system, below which a gain is rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// Integrates the energy balance along a run.
+#[derive(Clone, Debug)]
+pub(super) struct Integral {
+    order: usize,
+    /// At the last accepted step, and the power there.
+    balance: EnergyBalance,
+    power: Power,
+    /// At the end of the step that was entered; the power there.
+    end: (EnergyBalance, Power),
+    /// Times in the step that was entered, as fractions of it, and the power there.
+    nodes: &'static [f64],
+    powers: [Power; MOST],
+    gain: Gain,
+    /// Dense output.
+    middle: State,
+}
+
+/// What decides whether a run has gained energy from nowhere.
+#[derive(Clone, Copy, Debug, Default)]
+struct Gain {
+    largest: f64,
+    strain: f64,
+    gravity: [f64; 2],
+    kinetic: f64,
+}
+
+impl Gain {
+    fn enter(&mut self, energy: &Energy, imbalance: f64) {
+        self.largest = self.largest.max(imbalance);
+        self.strain = self.strain.max(energy.strain + energy.contact);
+        self.kinetic = self.kinetic.max(energy.kinetic);
+        let [low, high] = self.gravity;
+        self.gravity = [low.min(energy.gravity), high.max(energy.gravity)];
+    }
+
+    fn beyond_bounds(&self) -> Option<f64> {
+        let swing = self.gravity[1] - self.gravity[0];
+        let bound = EXCESS * self.strain + SWING * swing + ROUNDING * self.kinetic;
+        (self.largest > bound).then_some(self.largest)
+    }
+}
+
+impl Integral {
+    /// Begins at the start of a run with a method of the given order.
+    pub(super) fn new(system: &mut dyn System, order: usize, state: &State) -> Integral {
+        let (energy, power) = system.energy_and_power(state);
+        let balance = EnergyBalance { initial: energy.total(), ..EnergyBalance::default() };
+        let (nodes, powers) = (TRAPEZIUM, [power; MOST]);
+        let gain = Gain { gravity: [energy.gravity; 2], ..Gain::default() };
+        Integral { order, balance, power, end: (balance, power), nodes, powers, gain, middle: state.clone() }
+    }
+
+    /// At the last accepted step.
+    pub(super) fn balance(&self) -> EnergyBalance {
+        self.balance
+    }
+
+    /// At the end of the step that was entered.
+    pub(super) fn end(&self) -> EnergyBalance {
+        self.end.0
+    }
+
+    /// The energy \[J\] that the run has gained beyond the work done, where it is more than its steps explain.
+    pub(super) fn gain(&self) -> Option<f64> {
+        self.gain.beyond_bounds()
+    }
+
+    /// At time `t`, inside the step from `from` to `to` that was entered.
+    pub(super) fn until(&self, (from, to): (&State, &State), t: f64) -> EnergyBalance {
+        let h = to.t - from.t;
+        let mut balance = self.balance;
+        if h > 0.0 {
+            let weights = weights(self.nodes, (t - from.t) / h);
+            for (weight, power) in weights.iter().zip(&self.powers).take(self.nodes.len()) {
+                balance.add(h * weight, power);
+            }
+        }
+        balance
+    }
+
+    /// Enters the accepted step from `from` to `to`.
+    pub(super) fn enter(
+        &mut self,
+        system: &mut dyn System,
+        integrator: &dyn Integrator,
+        (from, to): (&State, &State),
+    ) {
+        self.nodes = match self.order {
+            0..=2 => TRAPEZIUM,
+            3..=4 => SIMPSON,
+            _ => RADAU,
+        };
+        let (energy, at_end) = system.energy_and_power(to);
+        for (s, at) in self.nodes.iter().zip(&mut self.powers) {
+            *at = if *s == 0.0 {
+                self.power
+            } else if *s == 1.0 {
+                at_end
+            } else {
+                integrator.interpolate(system, from, to, from.t + s * (to.t - from.t), &mut self.middle);
+                system.power(&self.middle)
+            };
+        }
+        self.end = (self.until((from, to), to.t), at_end);
+        self.gain.enter(&energy, self.end.0.imbalance(energy.total()));
+    }
+
+    /// Ends the step: the next one begins at its end.
+    pub(super) fn close(&mut self) {
+        (self.balance, self.power) = self.end;
+    }
+
+    /// Adds the work and the loss of an impulse.
+    pub(super) fn add_impulse(&mut self, work: f64, lost: f64) {
+        self.balance.drive += work;
+        self.balance.contact += lost;
+    }
+
+    /// Takes the power behind a jump.
+    pub(super) fn restart(&mut self, system: &mut dyn System, state: &State) {
+        self.power = system.power(state);
+        self.end = (self.balance, self.power);
+    }
+
+    /// Adds the balance to a checkpoint.
+    pub(super) fn save(&self, out: &mut Checkpoint) {
+        let EnergyBalance { initial, drive, loads, dissipated, contact } = self.balance;
+        out.put("energy.balance", &[initial, drive, loads, dissipated, contact]);
+        let Power { drive, loads, dissipated, contact } = self.power;
+        out.put("energy.power", &[drive, loads, dissipated, contact]);
+        let Gain { largest, strain, gravity: [low, high], kinetic } = self.gain;
+        out.put("energy.gain", &[largest, strain, low, high, kinetic]);
+    }
+
+    /// Continues the balance of an earlier run, if it kept one.
+    pub(super) fn recall(&mut self, from: &Checkpoint) -> Result<(), NotResumed> {
+        if from.list("energy.balance").is_err() {
+            return Ok(());
+        }
+        let [initial, drive, loads, dissipated, contact] = from.numbers("energy.balance")?;
+        self.balance = EnergyBalance { initial, drive, loads, dissipated, contact };
+        let [drive, loads, dissipated, contact] = from.numbers("energy.power")?;
+        self.power = Power { drive, loads, dissipated, contact };
+        let [largest, strain, low, high, kinetic] = from.numbers("energy.gain")?;
+        self.gain = Gain { largest, strain, gravity: [low, high], kinetic };
+        self.end = (self.balance, self.power);
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Monomials up to one degree below the order, to the end of the step; and up to the number of nodes inside it.
+    #[test]
+    fn the_rules_have_their_orders() {
+        for (nodes, order) in [(TRAPEZIUM, 2), (SIMPSON, 4), (RADAU, 5), (&RADAU[1..], 5)] {
+            for (s, exact) in [(1.0, order), (0.3, nodes.len())] {
+                for k in 0..exact {
+                    let weights = weights(nodes, s);
+                    let sum: f64 = nodes.iter().zip(weights).map(|(x, w)| w * x.powi(k as i32)).sum();
+                    let integral = f64::powi(s, k as i32 + 1) / (k as f64 + 1.0);
+                    assert!((sum - integral).abs() < 1e-15, "{nodes:?} {s} {k}: {sum} {integral}");
+                }
+            }
+        }
+        assert!(weights(RADAU, 1.0)[0].abs() < 1e-15);
+    }
+}

@@ -1,0 +1,261 @@
+//! Events inside a step: found by their indicators, located by stepping again.
+//!
+//! An indicator φ is positive while nothing happens:
+//!
+//! | row | mode | φ |
+//! |---|---|---|
+//! | contact | open | gap g |
+//! | contact | closed | force λ |
+//! | friction | sticks | μ λₙ − ∣λ∣ |
+//! | friction | slips | ±ġ |
+//! | of the model | | φ, with the sign it has at the start of the step |
+//!
+//! A gap that is positive at both ends of a step may have been negative inside: where it first falls and then rises, the
+//! cubic through g and ġ at both ends says where it is least, and a step to that time decides. The time of an event is
+//! refined by steps from the same state until φ vanishes to rounding.
+
+use super::RunError;
+use crate::integrator::Integrator;
+use crate::system::{Mode, RowWeights, Set, Side, State, System};
+
+/// Gap at which a contact touches, over the length of the system.
+pub(super) const TOUCHING: f64 = 1e-13;
+/// Size of a force or sliding velocity that counts as zero, over the largest in the step.
+const VANISHING: f64 = 1e-12;
+/// Least scale of an indicator: a number that is zero to rounding whatever its unit.
+const SMALLEST: f64 = 1e-30;
+/// Part of a step below which an event happens at its start.
+const SHORTEST: f64 = 1e-9;
+/// Attempts to refine the time of an event.
+const ATTEMPTS: usize = 200;
+
+/// Indicators of a system, with their values at both ends of a step.
+#[derive(Debug)]
+pub(super) struct Locator {
+    sets: Vec<Set>,
+    /// Number of the model's own indicators.
+    own: usize,
+    /// Length of the system \[m\].
+    pub(super) length: f64,
+    start: Values,
+    end: Values,
+    signs: Vec<f64>,
+    trial: State,
+}
+
+/// g, ġ, indicators, and the scale of each indicator.
+#[derive(Clone, Debug, Default)]
+struct Values {
+    gap: Vec<f64>,
+    rate: Vec<f64>,
+    indicator: Vec<f64>,
+    zero: Vec<f64>,
+}
+
+impl Values {
+    fn new(rows: usize, own: usize) -> Values {
+        let zeros = |n| vec![0.0; n];
+        Values { gap: zeros(rows), rate: zeros(rows), indicator: zeros(rows + own), zero: zeros(rows + own) }
+    }
+
+    fn evaluate(&mut self, system: &mut dyn System, s: &State, sets: &[Set], length: f64) {
+        let m = sets.len();
+        system.constraint(s, RowWeights::POSITION, &mut self.gap);
+        system.constraint(s, RowWeights::VELOCITY, &mut self.rate);
+        let largest = |x: &[f64]| x.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        let (force, rate) = (VANISHING * largest(&s.lambda), VANISHING * largest(&s.v).max(largest(&self.rate)));
+        for (i, set) in sets.iter().enumerate() {
+            let (value, zero) = match (*set, s.mode[i]) {
+                (Set::Free, _) => (f64::INFINITY, 0.0),
+                (Set::Unilateral { .. }, Mode::Open) => (self.gap[i], TOUCHING * length),
+                (Set::Unilateral { .. }, _) => (s.lambda[i], force),
+                (Set::Friction { .. }, Mode::Open) => (f64::INFINITY, 0.0),
+                (Set::Friction { coefficient, normal }, Mode::Closed) => {
+                    (coefficient * s.lambda[normal] - s.lambda[i].abs(), force)
+                }
+                (Set::Friction { .. }, Mode::SlipForward) => (self.rate[i], rate),
+                (Set::Friction { .. }, Mode::SlipBackward) => (-self.rate[i], rate),
+            };
+            (self.indicator[i], self.zero[i]) = (value, zero);
+        }
+        system.indicate(s, &mut self.indicator[m..]);
+    }
+}
+
+impl Locator {
+    /// `None` for a system without contacts and indicators.
+    pub(super) fn new(system: &dyn System, state: &State) -> Option<Locator> {
+        let sets = system.rows().to_vec();
+        let own = system.indicators();
+        if own == 0 && sets.iter().all(|set| *set == Set::Free) {
+            return None;
+        }
+        let length = system.scales().iter().fold(0.0_f64, |m, x| m.max(*x));
+        let values = || Values::new(sets.len(), own);
+        let (start, end, signs) = (values(), values(), vec![1.0; own]);
+        Some(Locator { own, length, start, end, signs, trial: state.clone(), sets })
+    }
+
+    /// Looks for events in the step of size `h` from `from` to `to`, which was attempted. Where there is one, `to` becomes
+    /// the state at the first of them; gives the size of that step, and whether an event is at its end.
+    pub(super) fn locate(
+        &mut self,
+        system: &mut dyn System,
+        integrator: &mut dyn Integrator,
+        from: &State,
+        h: f64,
+        to: &mut State,
+    ) -> Result<(f64, bool), RunError> {
+        self.begin(system, from);
+        let whole = (to.t, to.side);
+        let mut value = self.value(system, to);
+        let (mut low, mut high) = (0.0, h);
+        if value > 0.0 {
+            let Some(dip) = self.dip(h) else { return Ok((h, false)) };
+            self.retry(system, integrator, from, dip)?;
+            let at_dip = self.trial_value(system);
+            if at_dip > 0.0 {
+                // The step as it was.
+                to.copy_from(from);
+                (to.t, to.side) = whole;
+                integrator.step(system, from, h, to).map_err(|error| super::failed(system, from, error))?;
+                return Ok((h, false));
+            }
+            (high, value) = (dip, at_dip);
+        }
+        // A time at which nothing has happened yet.
+        let mut below = self.least(&self.start);
+        let start_is_clear = below > 1.0;
+        if !start_is_clear {
+            let mut size = high;
+            loop {
+                size *= 0.5;
+                self.retry(system, integrator, from, size)?;
+                let found = self.trial_value(system);
+                if found > 1.0 {
+                    (low, below) = (size, found);
+                    break;
+                }
+                if found > 0.0 || size < SHORTEST * h {
+                    // It happens at once.
+                    to.copy_from(&self.trial);
+                    return Ok((size, true));
+                }
+                (high, value) = (size, found);
+            }
+        }
+        // Illinois' variant of the false position.
+        let (mut weight_low, mut weight_high) = (below, value);
+        let mut last = 0;
+        let mut size = high;
+        for _ in 0..ATTEMPTS {
+            let secant = low + (high - low) * weight_low / (weight_low - weight_high);
+            size = if secant > low && secant < high { secant } else { 0.5 * (low + high) };
+            if size <= low || size >= high {
+                size = high;
+            }
+            self.retry(system, integrator, from, size)?;
+            let found = self.trial_value(system);
+            if self.vanishes() || size == high || (high - low) <= 2.0 * f64::EPSILON * (from.t.abs() + high) {
+                break;
+            }
+            if found > 0.0 {
+                (low, weight_low) = (size, found);
+                if last == 1 {
+                    weight_high *= 0.5;
+                }
+                last = 1;
+            } else {
+                (high, weight_high) = (size, found);
+                if last == -1 {
+                    weight_low *= 0.5;
+                }
+                last = -1;
+            }
+        }
+        to.copy_from(&self.trial);
+        Ok((size, true))
+    }
+
+    /// Numbers of the model's indicators that are not positive at the end of the step located last.
+    pub(super) fn fired(&self) -> Vec<usize> {
+        let m = self.sets.len();
+        (0..self.own).filter(|k| self.signs[*k] * self.end.indicator[m + k] <= 0.0).collect()
+    }
+
+    fn begin(&mut self, system: &mut dyn System, from: &State) {
+        self.start.evaluate(system, from, &self.sets, self.length);
+        let m = self.sets.len();
+        for (sign, x) in self.signs.iter_mut().zip(&self.start.indicator[m..]) {
+            *sign = if *x < 0.0 { -1.0 } else { 1.0 };
+        }
+    }
+
+    /// The least indicator at `s`, scaled.
+    fn value(&mut self, system: &mut dyn System, s: &State) -> f64 {
+        self.end.evaluate(system, s, &self.sets, self.length);
+        self.least(&self.end)
+    }
+
+    fn trial_value(&mut self, system: &mut dyn System) -> f64 {
+        self.end.evaluate(system, &self.trial, &self.sets, self.length);
+        self.least(&self.end)
+    }
+
+    fn least(&self, values: &Values) -> f64 {
+        let m = self.sets.len();
+        let rows = values.indicator[..m].iter().zip(&values.zero).map(|(x, zero)| {
+            if x.is_finite() { x / zero.max(SMALLEST) } else { f64::MAX }
+        });
+        let own = values.indicator[m..].iter().zip(&self.signs).map(|(x, sign)| sign * x);
+        rows.chain(own).fold(f64::MAX, f64::min)
+    }
+
+    /// Whether the least indicator at the trial is zero to rounding.
+    fn vanishes(&self) -> bool {
+        let m = self.sets.len();
+        let least = self.least(&self.end);
+        if self.end.indicator[m..].iter().zip(&self.signs).any(|(x, sign)| sign * x == least) {
+            return least == 0.0;
+        }
+        least.abs() <= 1.0
+    }
+
+    /// One step of size `size`.
+    fn retry(
+        &mut self,
+        system: &mut dyn System,
+        integrator: &mut dyn Integrator,
+        from: &State,
+        size: f64,
+    ) -> Result<(), RunError> {
+        self.trial.copy_from(from);
+        (self.trial.t, self.trial.side) = (from.t + size, Side::Right);
+        let done = integrator.step(system, from, size, &mut self.trial);
+        done.map(|_| ()).map_err(|error| super::failed(system, from, error))
+    }
+
+    /// Where in the step an open gap is least and may be negative, if it falls at the start and rises at the end.
+    fn dip(&self, h: f64) -> Option<f64> {
+        let mut found: Option<f64> = None;
+        for (i, set) in self.sets.iter().enumerate() {
+            let open = matches!(set, Set::Unilateral { .. }) && self.start.indicator[i] == self.start.gap[i];
+            let (g0, g1) = (self.start.gap[i], self.end.gap[i]);
+            let (v0, v1) = (h * self.start.rate[i], h * self.end.rate[i]);
+            if !open || v0 >= 0.0 || v1 <= 0.0 {
+                continue;
+            }
+            // g(s) = g0 + v0 s + c s² + d s³, g′ = 0
+            let (c, d) = (3.0 * (g1 - g0) - 2.0 * v0 - v1, 2.0 * (g0 - g1) + v0 + v1);
+            let root = (c * c - 3.0 * d * v0).max(0.0).sqrt();
+            let s = -v0 / (c + root);
+            let least = g0 + s * (v0 + s * (c + s * d));
+            // The cubic may be wrong by some part of the way the gap moves.
+            let margin = 0.1 * (v0.abs() + v1.abs());
+            if s > 0.0 && s < 1.0 && least < margin.min(0.5 * g0.min(g1)) && least < 0.02 * margin {
+                found = Some(found.map_or(s * h, |x| x.min(s * h)));
+            }
+        }
+        found
+    }
+}

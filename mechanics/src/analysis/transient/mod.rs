@@ -1,0 +1,742 @@
+//! Motion in time: drives a system with an integrator from a state to an end time.
+//!
+//! Steps end at the known [breaks](crate::system::Events::breaks) that a method can see, and at events: the closing step
+//! takes the left limit of what jumps there, and the method restarts from the right one. A method with step control sees
+//! every break, one with fixed steps those of velocities and accelerations, for a kink costs it less than its own error.
+
+mod locate;
+mod stretch;
+
+use super::energy_balance::{EnergyBalance, Integral};
+use crate::contact::{ImpactError, ImpactMap};
+use crate::integrator::{Checkpoint, Integrator, NotResumed, StepControl, StepError, StepReport};
+use crate::system::{Crossing, Jump, RowWeights, Set, Side, State, System};
+use locate::{Locator, TOUCHING};
+use std::ops::ControlFlow;
+use stretch::Stretch;
+
+/// Shortest recording interval, over the length of the run.
+const SMALLEST_SAMPLE: f64 = 1e-9;
+/// Closing speed, over the largest met in the run, below which an impact is taken without restitution.
+const RESTING: f64 = 1e-5;
+/// Events in a row with next to no time between them at which a run ends.
+const MOST_EVENTS: usize = 1000;
+
+/// What a run is asked to do.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// End of the run [s].
+    pub end: f64,
+    /// Step of a fixed-step method [s]: each stretch between breaks is divided into the
+    /// fewest equal steps not longer than it.
+    /// For an adaptive method, its first step; `None` lets the method choose.
+    pub step: Option<f64>,
+    /// Longest step of an adaptive method [s]; `None` for two recording intervals, or a hundredth of the run if
+    /// that is shorter.
+    pub longest_step: Option<f64>,
+    /// Interval of recording [s]; the end is recorded too.
+    pub sample: f64,
+}
+
+/// What an observer learns besides the state.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Step {
+    /// Size of the step that ended at or covers this state \[s\]; 0 at the start.
+    pub size: f64,
+    /// Newton iterations of that step.
+    pub iterations: u32,
+    /// The energy balance until this state, if the observer [wants it](Observer::wants_energy_balance).
+    pub balance: Option<EnergyBalance>,
+}
+
+/// Something that happened at one time of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Event {
+    /// Time \[s\].
+    pub time: f64,
+    /// What happened.
+    pub kind: EventKind,
+}
+
+/// What happened at an event.
+#[derive(Clone, Debug, PartialEq)]
+pub enum EventKind {
+    /// A prescribed velocity jumped; with the work \[J\] of what enforces it.
+    Jump {
+        /// Work \[J\].
+        work: f64,
+    },
+    /// Contacts closed with an impulse.
+    Impact {
+        /// Impulse of each row [N·s].
+        impulses: Vec<f64>,
+        /// Energy lost \[J\].
+        lost: f64,
+    },
+    /// Contacts opened, closed without impulse, began to slip or to stick.
+    Switch,
+    /// An indicator of the model changed its sign.
+    Crossing,
+}
+
+/// Observes a run: records, reports progress, stops it.
+pub trait Observer {
+    /// Whether the energy balance is integrated along the run: one to three evaluations of the power a step.
+    fn wants_energy_balance(&self) -> bool {
+        false
+    }
+
+    /// A state at a time to be recorded.
+    fn sample(&mut self, system: &mut dyn System, state: &State, step: &Step);
+
+    /// An accepted step ended at `state`; `Break` stops the run there.
+    fn step(&mut self, _state: &State) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+
+    /// An event.
+    fn event(&mut self, _event: &Event) {}
+
+    /// The run has gained the energy `excess` \[J\] beyond the work done on it: its steps are too large for its method.
+    fn gained_energy(&mut self, _excess: f64) {}
+}
+
+/// How a run ended.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Ending {
+    /// At its end time.
+    Finished,
+    /// An observer stopped it.
+    Stopped,
+    /// It could not go on.
+    Failed(RunError),
+}
+
+/// Why a run could not go on.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RunError {
+    /// The integrator gave up.
+    #[error("{error}{}", because(.reason))]
+    Step {
+        /// What the integrator says.
+        error: StepError,
+        /// What the model knows about it.
+        reason: Option<String>,
+    },
+    /// The model left its range.
+    #[error("the run broke down at t = {time:.4} s: {what}{}", because(.reason))]
+    Inadmissible {
+        /// Time [s].
+        time: f64,
+        /// What is out of range.
+        what: String,
+        /// What the model knows about it.
+        reason: Option<String>,
+    },
+    /// The history of an earlier run could not be taken up.
+    #[error("the run cannot go on: {0}")]
+    NotResumed(#[from] NotResumed),
+    /// Contacts have no solution.
+    #[error("the contacts cannot be resolved at t = {time:.6} s: {cause}")]
+    Contact {
+        /// Time \[s\].
+        time: f64,
+        /// Why.
+        cause: ImpactError,
+    },
+    /// Events accumulate.
+    #[error("{count} events follow each other at t = {time:.9} s with no time between them: the contacts chatter; give them less restitution or use a continuous contact force")]
+    Chatter {
+        /// Time \[s\].
+        time: f64,
+        /// Events.
+        count: usize,
+    },
+    /// The model ended the run.
+    #[error("the run was ended at t = {time:.6} s: {reason}")]
+    Ended {
+        /// Time \[s\].
+        time: f64,
+        /// Why.
+        reason: String,
+    },
+}
+
+fn because(reason: &Option<String>) -> String {
+    reason.as_ref().map(|r| format!("; {r}")).unwrap_or_default()
+}
+
+/// Integrates `system` from `state`, which is left at the last accepted step, and shows the observer the
+/// start, every multiple of the recording interval, and the end.
+///
+/// A run that fails or is stopped has shown everything up to its last accepted step.
+pub fn transient(
+    system: &mut dyn System,
+    integrator: &mut dyn Integrator,
+    state: &mut State,
+    plan: &Plan,
+    observer: &mut dyn Observer,
+) -> Ending {
+    transient_to_checkpoint(system, integrator, state, plan, observer).0
+}
+
+/// As [`transient`], and gives a checkpoint of the last accepted step, from which [`resume`] goes on.
+pub fn transient_to_checkpoint(
+    system: &mut dyn System,
+    integrator: &mut dyn Integrator,
+    state: &mut State,
+    plan: &Plan,
+    observer: &mut dyn Observer,
+) -> (Ending, Checkpoint) {
+    let mut run = Run::new(system, state);
+    let ending = match run.begin(system, integrator, state, plan, observer) {
+        Ok(()) => run.go_on(system, integrator, state, plan, observer),
+        Err(error) => Ending::Failed(error),
+    };
+    (ending, run.checkpoint(integrator, state, plan.sample))
+}
+
+/// Goes on from a checkpoint of a run of the same system with the same integrator, of which `state` receives the
+/// state: steps, samples and counters are bit by bit those of a run that has never stopped, if the plan is the same.
+/// The state of the checkpoint itself is not shown to the observer.
+///
+/// # Errors
+/// [`NotResumed`] when the checkpoint is not one of such a run, or a fixed step would change by the new end.
+pub fn resume(
+    system: &mut dyn System,
+    integrator: &mut dyn Integrator,
+    from: &Checkpoint,
+    state: &mut State,
+    plan: &Plan,
+    observer: &mut dyn Observer,
+) -> Result<(Ending, Checkpoint), NotResumed> {
+    let mut run = Run::new(system, state);
+    run.resume(system, integrator, from, state, plan, observer)?;
+    let ending = run.go_on(system, integrator, state, plan, observer);
+    Ok((ending, run.checkpoint(integrator, state, plan.sample)))
+}
+
+/// The moving parts of one run.
+struct Run {
+    origin: f64,
+    /// Number of samples shown.
+    samples: u64,
+    last: Step,
+    /// Steps of a fixed-step method until the next break.
+    stretch: Option<Stretch>,
+    control: Option<StepControl>,
+    balance: Option<Integral>,
+    contacts: Option<Contacts>,
+    /// Impulse of a prescribed velocity.
+    impulse: Vec<f64>,
+    /// Dense output.
+    middle: State,
+}
+
+/// What a run needs for contacts and events.
+struct Contacts {
+    locator: Locator,
+    map: ImpactMap,
+    /// Largest closing speed so far [m/s].
+    fastest: f64,
+    rates: Vec<f64>,
+    /// Events in a row, and when the first of them was.
+    events: (usize, f64),
+}
+
+impl Run {
+    fn new(system: &dyn System, state: &State) -> Run {
+        let contacts = Locator::new(system, state).map(|locator| Contacts {
+            locator,
+            map: ImpactMap::new(system),
+            fastest: 0.0,
+            rates: vec![0.0; state.lambda.len()],
+            events: (0, state.t),
+        });
+        Run {
+            origin: state.t,
+            samples: 1,
+            last: Step::default(),
+            stretch: None,
+            control: None,
+            balance: None,
+            contacts,
+            impulse: vec![0.0; state.v.len()],
+            middle: state.clone(),
+        }
+    }
+
+    /// Prepares the run, and shows its start.
+    fn begin(
+        &mut self,
+        system: &mut dyn System,
+        integrator: &mut dyn Integrator,
+        state: &mut State,
+        plan: &Plan,
+        observer: &mut dyn Observer,
+    ) -> Result<(), RunError> {
+        if let Some(contacts) = &mut self.contacts {
+            contacts.settle(system, state)?;
+        }
+        self.stretch = plan.step.filter(|_| is_fixed(integrator)).map(|h| {
+            let stop = next_break(system, integrator, state.t, plan.end);
+            Stretch::new(state.t, stop, h)
+        });
+        let step = self.stretch.map_or(plan.end - self.origin, |stretch| stretch.step);
+        if let Err(error) = integrator.start(system, state, step) {
+            return Err(failed(system, state, error));
+        }
+        self.set_control(system, integrator, state, plan);
+        let order = integrator.info().order;
+        self.balance = observer.wants_energy_balance().then(|| Integral::new(system, order, state));
+        let balance = self.balance.as_ref().map(Integral::balance);
+        observer.sample(system, state, &Step { balance, ..self.last });
+        Ok(())
+    }
+
+    /// Takes up a run where a checkpoint was made.
+    fn resume(
+        &mut self,
+        system: &mut dyn System,
+        integrator: &mut dyn Integrator,
+        from: &Checkpoint,
+        state: &mut State,
+        plan: &Plan,
+        observer: &dyn Observer,
+    ) -> Result<(), NotResumed> {
+        from.fill_state("", state)?;
+        let [origin, samples] = from.numbers("run")?;
+        (self.origin, self.samples) = (origin, samples as u64);
+        let [size, iterations] = from.numbers("last")?;
+        self.last = Step { size, iterations: iterations as u32, balance: None };
+        let [sample] = from.numbers("sample")?;
+        if sample != plan.sample {
+            let before = (state.t - origin) / plan.sample;
+            self.samples = (before + 1e-9).floor().max(0.0) as u64 + 1;
+        }
+        if let Some(asked) = plan.step.filter(|_| is_fixed(integrator)) {
+            let stretch = from.numbers("stretch")?;
+            let stop = next_break(system, integrator, state.t, plan.end);
+            let (stretch, at) = Stretch::recall(stretch, stop, asked).map_err(|[before, now]| {
+                NotResumed::Failed(format!(
+                    "the run was made with steps of {before} s, and until {} s steps would be {now} s: give the step \
+                     and a duration that is a multiple of it",
+                    plan.end
+                ))
+            })?;
+            // Where the run ended inside a step, that step goes on.
+            if (state.t - at).abs() <= 1e-9 * stretch.step {
+                state.t = at;
+            }
+            self.stretch = Some(stretch);
+        }
+        let step = self.stretch.map_or(plan.end - origin, |stretch| stretch.step);
+        let started = integrator.start(system, &mut state.clone(), step);
+        started.map_err(|error| NotResumed::Failed(error.to_string()))?;
+        self.set_control(system, integrator, state, plan);
+        if let Some(control) = &mut self.control {
+            control.recall(from.numbers("control")?);
+        }
+        if let Some(contacts) = &mut self.contacts {
+            [contacts.fastest] = from.numbers("contacts")?;
+        }
+        if observer.wants_energy_balance() {
+            let mut balance = Integral::new(system, integrator.info().order, state);
+            balance.recall(from)?;
+            self.balance = Some(balance);
+        }
+        integrator.resume(system, from)
+    }
+
+    /// What [`Run::resume`] needs.
+    fn checkpoint(&self, integrator: &dyn Integrator, state: &State, sample: f64) -> Checkpoint {
+        let mut out = Checkpoint::default();
+        out.put_state("", state);
+        out.put("run", &[self.origin, self.samples as f64]);
+        out.put("sample", &[sample]);
+        out.put("last", &[self.last.size, f64::from(self.last.iterations)]);
+        if let Some(stretch) = &self.stretch {
+            out.put("stretch", &stretch.memory());
+        }
+        if let Some(control) = &self.control {
+            out.put("control", &control.memory());
+        }
+        if let Some(contacts) = &self.contacts {
+            out.put("contacts", &[contacts.fastest]);
+        }
+        if let Some(balance) = &self.balance {
+            balance.save(&mut out);
+        }
+        integrator.save(&mut out);
+        out
+    }
+
+    fn set_control(
+        &mut self,
+        system: &mut dyn System,
+        integrator: &dyn Integrator,
+        state: &State,
+        plan: &Plan,
+    ) {
+        let span = plan.end - self.origin;
+        self.control = integrator.info().estimate_order.map(|order| {
+            let first = plan
+                .step
+                .unwrap_or_else(|| StepControl::first_step(order, state, system.scales(), 1e-4, span));
+            let control = StepControl::new(order, span, first);
+            // A drive that is quiet shows an error estimate nothing of an event that its step passes over. What
+            // the recorded columns can show must not be missed.
+            let longest = plan.longest_step.unwrap_or((2.0 * plan.sample).min(0.01 * span));
+            control.with_limits(1e-14 * span, longest)
+        });
+    }
+
+    /// Integrates to the end.
+    fn go_on(
+        &mut self,
+        system: &mut dyn System,
+        integrator: &mut dyn Integrator,
+        state: &mut State,
+        plan: &Plan,
+        observer: &mut dyn Observer,
+    ) -> Ending {
+        let ending = self.integrate(system, integrator, state, plan, observer);
+        if let Some(excess) = self.balance.as_ref().and_then(Integral::gain) {
+            observer.gained_energy(excess);
+        }
+        ending.unwrap_or_else(Ending::Failed)
+    }
+
+    fn integrate(
+        &mut self,
+        system: &mut dyn System,
+        integrator: &mut dyn Integrator,
+        state: &mut State,
+        plan: &Plan,
+        observer: &mut dyn Observer,
+    ) -> Result<Ending, RunError> {
+        let mut next = state.clone();
+        while state.t < plan.end {
+            let stop = stop(system, integrator, state.t, plan.end);
+            let (mut h, report) = self.attempt(system, integrator, state, &mut next, stop, plan)?;
+            let planned = next.t;
+            let mut event = false;
+            if let Some(contacts) = &mut self.contacts {
+                (h, event) = contacts.locator.locate(system, integrator, state, h, &mut next)?;
+            }
+            self.last = Step { size: h, iterations: report.iterations, balance: None };
+            if let Err(what) = system.admissible(&next) {
+                let reason = system.explain(&next);
+                return Err(RunError::Inadmissible { time: next.t, what, reason });
+            }
+            integrator.accept(state, &next);
+            if let Some(stretch) = self.stretch.as_mut().filter(|_| next.t == planned) {
+                stretch.advance();
+            }
+            if let Some(balance) = &mut self.balance {
+                balance.enter(system, integrator, (state, &next));
+            }
+            self.show(system, integrator, state, &next, plan, observer);
+            if let Some(balance) = &mut self.balance {
+                balance.close();
+            }
+            std::mem::swap(state, &mut next);
+            let at_break = jump_at(system, integrator, state.t);
+            if event || at_break.is_some() {
+                self.cross(system, integrator, state, at_break, event, observer)?;
+                if let Some(control) = &mut self.control {
+                    control.restart(h);
+                }
+                if at_break.is_some() && state.t < plan.end
+                    && let (Some(stretch), Some(asked)) = (&mut self.stretch, plan.step)
+                {
+                    *stretch = Stretch::new(state.t, next_break(system, integrator, state.t, plan.end), asked);
+                }
+            }
+            if observer.step(state).is_break() && state.t < plan.end {
+                return Ok(Ending::Stopped);
+            }
+        }
+        Ok(Ending::Finished)
+    }
+
+    /// Attempts the next step.
+    fn attempt(
+        &mut self,
+        system: &mut dyn System,
+        integrator: &mut dyn Integrator,
+        state: &State,
+        next: &mut State,
+        (stop, side): (f64, Side),
+        plan: &Plan,
+    ) -> Result<(f64, StepReport), RunError> {
+        if let Some(control) = &mut self.control {
+            return adapt(system, integrator, state, next, (stop, side), control)
+                .map_err(|error| failed(system, state, error));
+        }
+        let (h, end) = match &self.stretch {
+            // A step that an event has shortened goes on to where it would have ended.
+            Some(stretch) if stretch.next() - state.t < 0.999_999 * stretch.step => {
+                (stretch.next() - state.t, stretch.next())
+            }
+            Some(stretch) => (stretch.step, stretch.next()),
+            None => (plan.end - state.t, plan.end),
+        };
+        (next.t, next.side) = (end, if end == stop { side } else { Side::Right });
+        let report = integrator.step(system, state, h, next);
+        Ok((h, report.map_err(|error| failed(system, state, error))?))
+    }
+
+    /// What happens at a break or an event at `state`, and the restart behind it.
+    fn cross(
+        &mut self,
+        system: &mut dyn System,
+        integrator: &mut dyn Integrator,
+        state: &mut State,
+        at_break: Option<Jump>,
+        event: bool,
+        observer: &mut dyn Observer,
+    ) -> Result<(), RunError> {
+        let before = state.clone();
+        state.side = Side::Right;
+        let mut happened = Vec::new();
+        let mut jump = at_break == Some(Jump::Velocity);
+        if event && let Some(contacts) = &self.contacts {
+            let fired = contacts.locator.fired();
+            if !fired.is_empty() {
+                happened.push(EventKind::Crossing);
+                match system.cross(&fired, state) {
+                    Crossing::Continue | Crossing::Restart => {}
+                    Crossing::Jump => jump = true,
+                    Crossing::Stop(reason) => return Err(RunError::Ended { time: state.t, reason }),
+                }
+            }
+        }
+        self.impulse.fill(0.0);
+        let jump = jump && system.impulse(&before, &mut self.impulse);
+        let (mut work, mut lost) = (0.0, 0.0);
+        if event || jump {
+            let mut fallback;
+            let contacts = match &mut self.contacts {
+                Some(contacts) => contacts,
+                None => {
+                    fallback = ImpactMap::new(system);
+                    let impact = fallback.strike(system, state, &self.impulse, 0.0, 0.0);
+                    impact.map_err(|cause| RunError::Contact { time: state.t, cause })?;
+                    work = system.impulse_work(&before, state);
+                    happened.push(EventKind::Jump { work });
+                    return self.restart(system, integrator, state, (work, lost), happened, observer);
+                }
+            };
+            if event {
+                contacts.count_event(state.t)?;
+            }
+            let impact = contacts.strike(system, state, &self.impulse)?;
+            if jump {
+                work += system.impulse_work(&before, state);
+                happened.push(EventKind::Jump { work });
+            }
+            work += impact.work;
+            lost = impact.lost;
+            happened.push(if impact.impulses.iter().any(|x| *x != 0.0) {
+                EventKind::Impact { impulses: impact.impulses, lost }
+            } else {
+                EventKind::Switch
+            });
+        }
+        self.restart(system, integrator, state, (work, lost), happened, observer)
+    }
+
+    fn restart(
+        &mut self,
+        system: &mut dyn System,
+        integrator: &mut dyn Integrator,
+        state: &mut State,
+        (work, lost): (f64, f64),
+        happened: Vec<EventKind>,
+        observer: &mut dyn Observer,
+    ) -> Result<(), RunError> {
+        for kind in happened {
+            observer.event(&Event { time: state.t, kind });
+        }
+        integrator.restart(system, state).map_err(|error| failed(system, state, error))?;
+        if let Some(balance) = &mut self.balance {
+            balance.add_impulse(work, lost);
+            balance.restart(system, state);
+        }
+        Ok(())
+    }
+
+    /// Shows the observer the samples in the step.
+    fn show(
+        &mut self,
+        system: &mut dyn System,
+        integrator: &dyn Integrator,
+        from: &State,
+        to: &State,
+        plan: &Plan,
+        observer: &mut dyn Observer,
+    ) {
+        let interval = plan.sample.max(SMALLEST_SAMPLE * (plan.end - self.origin));
+        let slack = 1e-9 * interval;
+        loop {
+            let t = (self.origin + multiple(self.samples, interval)).min(plan.end);
+            if t > to.t + slack {
+                return;
+            }
+            let mut balance = None;
+            if t >= to.t - slack {
+                self.middle.copy_from(to);
+                balance = self.balance.as_ref().map(Integral::end);
+            } else {
+                integrator.interpolate(system, from, to, t, &mut self.middle);
+                if let Some(integral) = &self.balance {
+                    balance = Some(integral.until((from, to), t));
+                }
+            }
+            // The very multiple, not a sum of steps that comes close to it.
+            self.middle.t = t;
+            observer.sample(system, &self.middle, &Step { balance, ..self.last });
+            // An end that is no multiple is not counted: a run that goes on records the next multiple.
+            self.samples += u64::from(self.origin + multiple(self.samples, interval) <= plan.end + slack);
+            if t >= plan.end {
+                return;
+            }
+        }
+    }
+}
+
+impl Contacts {
+    fn settle(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), RunError> {
+        let touching = 100.0 * TOUCHING * self.locator.length;
+        let settled = self.map.settle(system, state, touching);
+        settled.map_err(|cause| RunError::Contact { time: state.t, cause })
+    }
+
+    /// The impact at `state` with the impulse `p`: without restitution where it is slow.
+    fn strike(
+        &mut self,
+        system: &mut dyn System,
+        state: &mut State,
+        p: &[f64],
+    ) -> Result<crate::contact::Impact, RunError> {
+        let touching = 100.0 * TOUCHING * self.locator.length;
+        system.constraint(state, RowWeights::VELOCITY, &mut self.rates);
+        for (set, rate) in system.rows().iter().zip(&self.rates) {
+            if matches!(set, Set::Unilateral { .. }) {
+                self.fastest = self.fastest.max(-rate);
+            }
+        }
+        let struck = self.map.strike(system, state, p, touching, RESTING * self.fastest);
+        struck.map_err(|cause| RunError::Contact { time: state.t, cause })
+    }
+
+    fn count_event(&mut self, time: f64) -> Result<(), RunError> {
+        let (count, since) = &mut self.events;
+        if time - *since > 1e-9 * time.abs() {
+            (*count, *since) = (0, time);
+        }
+        *count += 1;
+        if *count > MOST_EVENTS { Err(RunError::Chatter { time, count: *count }) } else { Ok(()) }
+    }
+}
+
+/// k times the interval; k over a whole number where the interval is the inverse of one, so that samples
+/// every 0.02 s fall on 13.28 s and not on its neighbour.
+fn multiple(k: u64, interval: f64) -> f64 {
+    let inverse = (1.0 / interval).round();
+    if inverse >= 1.0 && (inverse * interval - 1.0).abs() < 1e-14 {
+        k as f64 / inverse
+    } else {
+        k as f64 * interval
+    }
+}
+
+fn failed(system: &mut dyn System, state: &State, error: StepError) -> RunError {
+    RunError::Step { error, reason: system.explain(state) }
+}
+
+fn is_fixed(integrator: &dyn Integrator) -> bool {
+    integrator.info().estimate_order.is_none()
+}
+
+/// Whether steps of this method end at a jump.
+fn sees(integrator: &dyn Integrator, jump: Jump) -> bool {
+    !is_fixed(integrator) || jump <= Jump::Acceleration
+}
+
+/// The first break after `t` that the method sees, or the end of the run.
+fn next_break(system: &dyn System, integrator: &dyn Integrator, t: f64, end: f64) -> f64 {
+    let breaks = system.breaks();
+    let later = &breaks[breaks.partition_point(|b| b.time <= t)..];
+    let found = later.iter().find(|b| sees(integrator, b.jump));
+    found.map_or(end, |b| b.time.min(end))
+}
+
+/// Where a step after `t` must end, and the side of that time: the left one of a break.
+fn stop(system: &dyn System, integrator: &dyn Integrator, t: f64, end: f64) -> (f64, Side) {
+    let stop = next_break(system, integrator, t, end);
+    let side = if jump_at(system, integrator, stop).is_some() { Side::Left } else { Side::Right };
+    (stop, side)
+}
+
+/// What jumps at `t`, if the method sees it.
+fn jump_at(system: &dyn System, integrator: &dyn Integrator, t: f64) -> Option<Jump> {
+    let breaks = system.breaks();
+    let at = breaks.get(breaks.partition_point(|b| b.time < t))?;
+    (at.time == t && sees(integrator, at.jump)).then_some(at.jump)
+}
+
+/// Attempts steps under step control until one is good.
+fn adapt(
+    system: &mut dyn System,
+    integrator: &mut dyn Integrator,
+    state: &State,
+    next: &mut State,
+    (stop, side): (f64, Side),
+    control: &mut StepControl,
+) -> Result<(f64, StepReport), StepError> {
+    loop {
+        let left = stop - state.t;
+        let h = control.propose(left);
+        let lands = h == left;
+        (next.t, next.side) = if lands { (stop, side) } else { (state.t + h, Side::Right) };
+        match integrator.step(system, state, h, next) {
+            Ok(report) => {
+                let error = report.error.unwrap_or(0.0);
+                if error <= 1.0 {
+                    control.accepted(h, error, report.iterations);
+                    return Ok((h, report));
+                }
+                control.rejected(h, error, report.iterations);
+                give_up(system, integrator, control, (state.t, left), error)?;
+            }
+            Err(
+                error @ (StepError::NotConverged { .. }
+                | StepError::NotFinite { .. }
+                | StepError::Singular { .. }),
+            ) => {
+                control.failed(h);
+                if control.is_too_small(state.t, control.propose(left)) {
+                    return Err(error);
+                }
+            }
+            Err(error) => return Err(error),
+        }
+    }
+}
+
+fn give_up(
+    system: &dyn System,
+    integrator: &dyn Integrator,
+    control: &StepControl,
+    (time, left): (f64, f64),
+    error: f64,
+) -> Result<(), StepError> {
+    let step = control.propose(left);
+    if !control.is_too_small(time, step) {
+        return Ok(());
+    }
+    let worst = system.unknown(integrator.worst());
+    Err(StepError::StepTooSmall { time, step, error, worst })
+}

@@ -1,0 +1,317 @@
+//! Impacts: the velocities behind an impulse, and the modes of the rows then.
+//!
+//! All rows that are at g = 0 take part at once. With u = ġ, W = G M⁻¹ Gᵀ on the motions that joints allow, and p the
+//! impulse of a prescribed velocity that jumps,
+//!
+//! ```text
+//! M (v⁺ − v⁻) = p + Gᵀ Λ,     u⁺ = u⁻ + G (v⁺ − v⁻),     u⁺ + e u⁻ ⟂ Λ in the set of each row (Newton)
+//! ```
+//!
+//! The contacts give the energy ½ Λᵀ(Gv⁺ + Gv⁻) to the system: −½ Λᵀ(u⁺ + u⁻) is lost, and what moving obstacles give is
+//! −Λᵀ ∂g/∂t. Behind the impact the same problem for accelerations, g̈ ⟂ λ, says which contacts stay closed.
+//!
+//! A node without mass is given its part of ε K, ε → 0: it is stopped without an impulse.
+
+use super::cone::{Law, Unresolved, solve};
+use crate::linalg::{Matrix, Singular};
+use crate::system::{Dynamics, Mode, RowWeights, Set, State, Weights};
+
+/// Velocity after an impact, over the largest before it, below which a contact counts as closed.
+const RESTING: f64 = 1e-12;
+/// Weight of K beside a singular M, in units of the ratio of their largest entries.
+const REGULARIZATION: f64 = 1e-12;
+
+/// What an impact did.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Impact {
+    /// Impulse of every row [N·s, N·m·s].
+    pub impulses: Vec<f64>,
+    /// Energy lost in the contacts \[J\].
+    pub lost: f64,
+    /// Work of moving obstacles \[J\].
+    pub work: f64,
+}
+
+/// Why an impact has no solution.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ImpactError {
+    /// The mass matrix, with the joints, is singular.
+    #[error("the mass matrix is singular at the {unknown}: {cause}")]
+    Singular {
+        /// Name of the unknown.
+        unknown: String,
+        /// Where elimination broke down.
+        cause: Singular,
+    },
+    /// The contacts were not resolved.
+    #[error(transparent)]
+    Unresolved(#[from] Unresolved),
+}
+
+/// Solves impacts of a system; allocates when it is made.
+#[derive(Debug)]
+pub struct ImpactMap {
+    sets: Vec<Set>,
+    matrix: Matrix,
+    stiffness: Matrix,
+    /// Jacobian, row by row.
+    jacobian: Vec<f64>,
+    /// K⁻¹ Gᵀ of each row that takes part.
+    images: Vec<f64>,
+    rhs: Vec<f64>,
+    rates: Vec<f64>,
+    velocities: usize,
+}
+
+/// The rows that take part in a problem, with their laws.
+struct Part {
+    rows: Vec<usize>,
+    laws: Vec<Law>,
+}
+
+impl ImpactMap {
+    /// For `system`.
+    pub fn new(system: &dyn Dynamics) -> ImpactMap {
+        let size = system.size();
+        let (n, m) = (size.v, size.lambda);
+        ImpactMap {
+            sets: system.rows().to_vec(),
+            matrix: Matrix::new(&system.structure(1)),
+            stiffness: Matrix::new(&system.structure(0)),
+            jacobian: vec![0.0; n * m],
+            images: vec![0.0; m * (n + m)],
+            rhs: vec![0.0; n + m],
+            rates: vec![0.0; m],
+            velocities: n,
+        }
+    }
+
+    /// Changes the velocities of `state` by the impulse `p` and those of all rows with g ≤ `touching`, and [sets the modes](ImpactMap::settle)
+    /// of the rows. Contacts that close more slowly than `resting` have no restitution.
+    ///
+    /// # Errors
+    /// [`ImpactError`].
+    pub fn strike(
+        &mut self,
+        system: &mut dyn Dynamics,
+        state: &mut State,
+        p: &[f64],
+        touching: f64,
+        resting: f64,
+    ) -> Result<Impact, ImpactError> {
+        self.factor(system, state)?;
+        let n = self.velocities;
+        let mut gaps = vec![0.0; self.sets.len()];
+        system.constraint(state, RowWeights::POSITION, &mut gaps);
+        let part = self.part(|i| gaps[i] <= touching, |_| None);
+        system.constraint(state, RowWeights::VELOCITY, &mut self.rates);
+        let before = self.rates.clone();
+        // The change of velocity by p, with the joints.
+        let mut change = vec![0.0; n];
+        self.respond(p, |_| 0.0, &mut change);
+        let w = self.delassus(&part);
+        // u⁺ + e u⁻ = b + W Λ; e counts for contacts that close, and friction takes the sliding velocity itself.
+        let target = |i: usize| match self.sets[i] {
+            Set::Unilateral { restitution } if before[i] < -resting => restitution * before[i],
+            _ => 0.0,
+        };
+        let b: Vec<f64> =
+            part.rows.iter().map(|&i| before[i] + target(i) + self.along(i, &change)).collect();
+        let mut impulses = vec![0.0; part.rows.len()];
+        solve(&part.laws, &w, &b, &mut impulses)?;
+        self.add_images(&part, &impulses, &mut change);
+        let mut impact = Impact { impulses: vec![0.0; self.sets.len()], ..Impact::default() };
+        for (&i, x) in part.rows.iter().zip(&impulses) {
+            impact.impulses[i] = *x;
+            let after = before[i] + self.along(i, &change);
+            let moving = before[i] - self.along(i, &state.v);
+            impact.lost -= 0.5 * x * (after + before[i]);
+            impact.work -= x * moving;
+        }
+        state.v.iter_mut().zip(&change).for_each(|(v, dv)| *v += dv);
+        self.settle(system, state, touching)?;
+        Ok(impact)
+    }
+
+    /// Sets the mode of every contact by the accelerations at `state`: those that touch and do not separate are closed if
+    /// they carry force, and stick or slip.
+    ///
+    /// # Errors
+    /// [`ImpactError`].
+    pub fn settle(
+        &mut self,
+        system: &mut dyn Dynamics,
+        state: &mut State,
+        touching: f64,
+    ) -> Result<(), ImpactError> {
+        self.factor(system, state)?;
+        let n = self.velocities;
+        let m = self.sets.len();
+        let (mut gaps, mut rates, mut bends) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
+        system.constraint(state, RowWeights::POSITION, &mut gaps);
+        system.constraint(state, RowWeights::VELOCITY, &mut rates);
+        let largest = rates.iter().chain(&state.v).fold(0.0_f64, |x, v| x.max(v.abs()));
+        let resting = RESTING * largest;
+        let slip = |i: usize| match self.sets[i] {
+            Set::Friction { coefficient, .. } if rates[i].abs() > resting => {
+                Some(coefficient.copysign(rates[i]))
+            }
+            _ => None,
+        };
+        let slips: Vec<Option<f64>> = (0..m).map(slip).collect();
+        let part = self.part(|i| gaps[i] <= touching && rates[i] <= resting, |i| slips[i]);
+        // Accelerations without contact forces.
+        state.a.fill(0.0);
+        for (lambda, set) in state.lambda.iter_mut().zip(&self.sets) {
+            if *set != Set::Free {
+                *lambda = 0.0;
+            }
+        }
+        let mut force = vec![0.0; n];
+        system.residual(state, &mut force);
+        force.iter_mut().for_each(|r| *r = -*r);
+        system.constraint(state, RowWeights::ACCELERATION, &mut bends);
+        let free = bends.clone();
+        let mut a = vec![0.0; n];
+        self.respond(&force, |i| free[i], &mut a);
+        let w = self.delassus(&part);
+        let b: Vec<f64> = part.rows.iter().map(|&i| bends[i] + self.along(i, &a)).collect();
+        let mut forces = vec![0.0; part.rows.len()];
+        solve(&part.laws, &w, &b, &mut forces)?;
+        for (mode, set) in state.mode.iter_mut().zip(&self.sets) {
+            *mode = if *set == Set::Free { Mode::Closed } else { Mode::Open };
+        }
+        for (k, &i) in part.rows.iter().enumerate() {
+            state.mode[i] = match part.laws[k] {
+                Law::Unilateral if forces[k] > 0.0 => Mode::Closed,
+                Law::Unilateral => Mode::Open,
+                Law::Slip { slope, .. } if slope > 0.0 => Mode::SlipForward,
+                Law::Slip { .. } => Mode::SlipBackward,
+                Law::Friction { coefficient, normal } => {
+                    let limit = coefficient * forces[normal];
+                    if forces[k].abs() < limit || limit == 0.0 {
+                        Mode::Closed
+                    } else if forces[k] < 0.0 {
+                        Mode::SlipForward
+                    } else {
+                        Mode::SlipBackward
+                    }
+                }
+            };
+        }
+        // Friction of a contact that is open is open too.
+        for (i, set) in self.sets.iter().enumerate() {
+            if let Set::Friction { normal, .. } = set
+                && state.mode[*normal] == Mode::Open
+            {
+                state.mode[i] = Mode::Open;
+            }
+        }
+        Ok(())
+    }
+
+    /// The contacts that `takes_part`, with their friction; `slip` gives ±μ of friction that slips.
+    fn part(&self, takes_part: impl Fn(usize) -> bool, slip: impl Fn(usize) -> Option<f64>) -> Part {
+        let mut part = Part { rows: Vec::new(), laws: Vec::new() };
+        for (i, set) in self.sets.iter().enumerate() {
+            if matches!(set, Set::Unilateral { .. }) && takes_part(i) {
+                part.rows.push(i);
+                part.laws.push(Law::Unilateral);
+            }
+        }
+        for (i, set) in self.sets.iter().enumerate() {
+            if let Set::Friction { coefficient, normal } = *set
+                && let Some(normal) = part.rows.iter().position(|&row| row == normal)
+            {
+                part.rows.push(i);
+                part.laws.push(match slip(i) {
+                    Some(slope) => Law::Slip { slope, normal },
+                    None => Law::Friction { coefficient, normal },
+                });
+            }
+        }
+        part
+    }
+
+    /// Factors M with the joints, and stores the jacobian.
+    fn factor(&mut self, system: &mut dyn Dynamics, state: &State) -> Result<(), ImpactError> {
+        let (n, sets) = (self.velocities, &self.sets);
+        self.jacobian.fill(0.0);
+        let jacobian = &mut self.jacobian;
+        system.jacobian(state, &mut |row, velocities, entries| {
+            for (&j, &x) in velocities.iter().zip(entries) {
+                jacobian[row * n + j] += x;
+            }
+        });
+        let mut weight = 0.0;
+        loop {
+            system.tangent(state, Weights::new(1.0, 0.0, weight), &mut self.matrix);
+            for (i, set) in sets.iter().enumerate() {
+                if *set == Set::Free {
+                    for j in (0..n).filter(|j| self.jacobian[i * n + j] != 0.0) {
+                        self.matrix.add(j, n + i, -self.jacobian[i * n + j]);
+                        self.matrix.add(n + i, j, self.jacobian[i * n + j]);
+                    }
+                } else {
+                    self.matrix.add(n + i, n + i, 1.0);
+                }
+            }
+            match self.matrix.factor() {
+                Ok(_) => return Ok(()),
+                Err(cause) if weight > 0.0 || !cause.pivot.is_finite() => {
+                    return Err(ImpactError::Singular { unknown: system.unknown(cause.index), cause });
+                }
+                Err(_) => {
+                    let largest =
+                        |matrix: &Matrix| (0..n).fold(0.0_f64, |x, i| x.max(matrix.get(i, i).abs()));
+                    system.tangent(state, Weights::new(0.0, 0.0, 1.0), &mut self.stiffness);
+                    system.tangent(state, Weights::new(1.0, 0.0, 0.0), &mut self.matrix);
+                    weight = REGULARIZATION * largest(&self.matrix)
+                        / largest(&self.stiffness).max(f64::MIN_POSITIVE);
+                }
+            }
+        }
+    }
+
+    /// x of M x = f + Gᵀ λ with G x = −g of the joints.
+    fn respond(&mut self, f: &[f64], g: impl Fn(usize) -> f64, x: &mut [f64]) {
+        let n = self.velocities;
+        self.rhs[..n].copy_from_slice(f);
+        for (i, set) in self.sets.iter().enumerate() {
+            self.rhs[n + i] = if *set == Set::Free { -g(i) } else { 0.0 };
+        }
+        self.matrix.solve(&mut self.rhs);
+        x.copy_from_slice(&self.rhs[..n]);
+    }
+
+    /// W of the rows that take part, by rows; keeps M⁻¹ Gᵀ.
+    fn delassus(&mut self, part: &Part) -> Vec<f64> {
+        let (n, m) = (self.velocities, part.rows.len());
+        let mut w = vec![0.0; m * m];
+        let mut x = vec![0.0; n];
+        for (k, &i) in part.rows.iter().enumerate() {
+            let row = self.jacobian[i * n..(i + 1) * n].to_vec();
+            self.respond(&row, |_| 0.0, &mut x);
+            self.images[k * n..(k + 1) * n].copy_from_slice(&x);
+            for (l, &j) in part.rows.iter().enumerate() {
+                w[l * m + k] = self.along(j, &x);
+            }
+        }
+        w
+    }
+
+    /// Row `i` of the jacobian times x.
+    fn along(&self, i: usize, x: &[f64]) -> f64 {
+        let n = self.velocities;
+        self.jacobian[i * n..(i + 1) * n].iter().zip(x).map(|(g, x)| g * x).sum()
+    }
+
+    fn add_images(&self, part: &Part, impulses: &[f64], x: &mut [f64]) {
+        let n = self.velocities;
+        for k in 0..part.rows.len() {
+            for (x, image) in x.iter_mut().zip(&self.images[k * n..(k + 1) * n]) {
+                *x += impulses[k] * image;
+            }
+        }
+    }
+}

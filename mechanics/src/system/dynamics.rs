@@ -1,0 +1,130 @@
+//! What an integrator sees of a model.
+
+use super::{Corotation, RowWeights, Set, Size, State};
+use crate::linalg::{Matrix, Structure};
+
+/// Scalar weights of the tangent w.a M + w.v C + w.q K.
+#[derive(Clone, Copy, Debug)]
+pub struct Weights<'a> {
+    /// Weight of K = ∂r/∂q.
+    pub q: f64,
+    /// Weight of C = ∂r/∂v.
+    pub v: f64,
+    /// Weight of M = ∂r/∂a.
+    pub a: f64,
+    /// The increment since the last step at which the configuration is retracted, for systems
+    /// whose configuration is not a vector space; `None` where it is zero or irrelevant.
+    pub increment: Option<&'a [f64]>,
+}
+
+impl Weights<'_> {
+    /// Weights without an increment.
+    pub fn new(a: f64, v: f64, q: f64) -> Weights<'static> {
+        Weights { q, v, a, increment: None }
+    }
+}
+
+/// Receives the terms w b bᵀ of a matrix: numbers of the unknowns, entries of b there, and w.
+pub type VisitTerm<'a> = dyn FnMut(&[usize], &[f64], f64) + 'a;
+
+/// Receives a row of the jacobian G: its number, the numbers of the velocities, and the entries there.
+pub type VisitRow<'a> = dyn FnMut(usize, &[usize], &[f64]) + 'a;
+
+/// The equations of motion of a model, as an integrator needs them. See the [module documentation](super).
+pub trait Dynamics: Send {
+    /// Numbers of coordinates, velocities and multipliers.
+    fn size(&self) -> Size;
+
+    /// Structure of the matrix of the unknowns (v), (v, λ) or (v, λ, μ) with no, one or two multipliers a row. The
+    /// default is that of a dense matrix.
+    fn structure(&self, multipliers: usize) -> Structure {
+        let size = self.size();
+        Structure::dense(size.v + multipliers * size.lambda)
+    }
+
+    /// The size (> 0) by which errors and increments of each velocity's unknown are measured: `Size::v` entries, a
+    /// length in metres for displacements, 1 for angles and slopes.
+    fn scales(&self) -> &[f64];
+
+    /// Name of unknown `i` for messages: a velocity, or behind them a multiplier.
+    fn unknown(&self, i: usize) -> String {
+        format!("unknown {i}")
+    }
+
+    /// The state at t = 0 without deformation, its accelerations still to be found.
+    fn initial(&self) -> State {
+        State::zeros(self.size(), 0.0)
+    }
+
+    /// Whether r is affine in (q, v, a) at fixed t: Newton's method then needs one iteration.
+    fn is_affine(&self) -> bool {
+        false
+    }
+
+    /// Whether the configuration is a vector space, q ⊞ d = q + d.
+    fn is_vector_space(&self) -> bool {
+        true
+    }
+
+    /// `out` = q ⊞ d: the configuration q moved by the increment d (`Size::v` entries).
+    fn retract(&self, q: &[f64], d: &[f64], out: &mut [f64]) {
+        for ((out, q), d) in out.iter_mut().zip(q).zip(d) {
+            *out = q + d;
+        }
+    }
+
+    /// `d` = `to` ⊟ `from`: the increment with `from` ⊞ d = `to`.
+    fn difference(&self, from: &[f64], to: &[f64], d: &mut [f64]) {
+        for ((d, from), to) in d.iter_mut().zip(from).zip(to) {
+            *d = to - from;
+        }
+    }
+
+    /// `out` = ḋ, the rate of the increment d in q₀ ⊞ d(t) where the velocity is v: ḋ = T(d)⁻¹ v. On a vector space v.
+    fn rate(&self, _d: &[f64], v: &[f64], out: &mut [f64]) {
+        out.copy_from_slice(v);
+    }
+
+    /// `r` = M a − f − Gᵀ λ, `Size::v` entries.
+    fn residual(&mut self, s: &State, r: &mut [f64]);
+
+    /// Writes c₀ g + c₁ ġ + c₂ g̈ of every row, active or not, `Size::lambda` entries.
+    fn constraint(&mut self, _s: &State, _c: RowWeights, _g: &mut [f64]) {}
+
+    /// The set of each multiplier.
+    fn rows(&self) -> &[Set] {
+        &[]
+    }
+
+    /// Shows the rows of the jacobian G = ∂g/∂q, in the sense that ġ = G v + ∂g/∂t.
+    fn jacobian(&mut self, _s: &State, _visit: &mut VisitRow<'_>) {}
+
+    /// Writes w.a ∂r/∂a + w.v ∂r/∂v + w.q ∂r/∂q into the part of `out` that belongs to the velocities; its former
+    /// content is discarded and the rest is zero. A model without rows may leave a factored `out` as it is when it
+    /// recognises, by the matrix's [stamp](crate::linalg::Matrix::stamp), that it already holds the very same tangent.
+    fn tangent(&mut self, s: &State, w: Weights<'_>, out: &mut Matrix);
+
+    /// Writes how the sections rotate from `before` to `now`: with the rotations R, ∂r/∂q(now) is near
+    /// R ∂r/∂q(before) Rᵀ though the axial stiffness of a slender beam outweighs all others. Nothing for a system whose
+    /// stiffness does not rotate with its sections.
+    fn corotate(&self, _before: &State, _now: &State, out: &mut Corotation) {
+        out.clear();
+    }
+
+    /// ∂r/∂q with the strains apart: K = `rest` + Σ w b bᵀ. `visit` is given for each term the numbers of the
+    /// unknowns, the entries of b there, and w. `false`, and nothing done, for a model that does not know.
+    fn stiffness_terms(&mut self, _s: &State, _rest: &mut Matrix, _visit: &mut super::VisitTerm<'_>) -> bool {
+        false
+    }
+}
+
+/// Name, unit and scale of one unknown.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Label {
+    /// What it is and where, e.g. `deflection at x = 4 m`.
+    pub name: String,
+    /// SI unit, empty for pure numbers.
+    pub unit: &'static str,
+    /// Size by which errors and increments of this unknown are measured (> 0).
+    pub scale: f64,
+}

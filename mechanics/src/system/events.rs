@@ -1,0 +1,77 @@
+//! What happens at single times: jumps that are known before, and events that are found.
+
+use super::State;
+
+/// What jumps at a [`Break`]. A smoother function counts as greater.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Jump {
+    /// A velocity, as by a prescribed speed that jumps: an impulse acts.
+    Velocity,
+    /// An acceleration, as by a force that jumps.
+    Acceleration,
+    /// The first derivative of an acceleration.
+    Slope,
+    /// The second derivative of an acceleration.
+    Curvature,
+}
+
+/// A time that is known before the run and at which the motion is not smooth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Break {
+    /// Time \[s\].
+    pub time: f64,
+    /// What jumps there.
+    pub jump: Jump,
+}
+
+/// Sorts breaks by time and joins those of one time to the roughest of them.
+pub fn ordered(mut breaks: Vec<Break>) -> Vec<Break> {
+    breaks.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.jump.cmp(&b.jump)));
+    breaks.dedup_by_key(|b| b.time);
+    breaks
+}
+
+/// How a run goes on after an event.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Crossing {
+    /// As if nothing had happened.
+    Continue,
+    /// From this state with new accelerations: a force jumps.
+    Restart,
+    /// With velocities changed by the [impulse](Events::impulse) at this time.
+    Jump,
+    /// Not at all, for the reason given.
+    Stop(String),
+}
+
+/// The single times of a model. Contacts are no events of the model: a driver finds them from the rows.
+pub trait Events {
+    /// Known times at which the motion is not smooth, ascending.
+    fn breaks(&self) -> &[Break] {
+        &[]
+    }
+
+    /// Writes the impulse p [N·s, N·m·s] that acts at the time of `s` by a jump of a prescribed velocity; `s` is the
+    /// state before it: M Δv = p + Gᵀ Λ. `false` where there is none.
+    fn impulse(&mut self, _s: &State, _p: &mut [f64]) -> bool {
+        false
+    }
+
+    /// Work \[J\] of what enforces the jump of velocity between the states before and after it.
+    fn impulse_work(&mut self, _before: &State, _after: &State) -> f64 {
+        0.0
+    }
+
+    /// Number of indicators.
+    fn indicators(&self) -> usize {
+        0
+    }
+
+    /// Writes the indicators: an event is found where one of them changes its sign.
+    fn indicate(&mut self, _s: &State, _out: &mut [f64]) {}
+
+    /// What follows when the indicators `fired` have changed their sign at `s`.
+    fn cross(&mut self, _fired: &[usize], _s: &mut State) -> Crossing {
+        Crossing::Continue
+    }
+}

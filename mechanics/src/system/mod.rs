@@ -1,0 +1,44 @@
+//! The seam: what a mechanical model shows to integrators and analyses.
+//!
+//! A model has the equations of motion
+//!
+//! ```text
+//! r(t, q, v, a, λ) = M(q) a − f(t, q, v) − G(q)ᵀ λ = 0,     g(t, q) = 0 or g ≥ 0 ⟂ λ ≥ 0,     q̇ = v,  v̇ = a
+//! ```
+//!
+//! and shows four faces, each to those who need it:
+//!
+//! | trait | used by | content |
+//! |---|---|---|
+//! | [`Dynamics`] | integrators | residual, tangent, constraints, the space of configurations |
+//! | [`Events`] | drivers of a run | known breaks, impulses, indicators |
+//! | [`Steady`] | equilibria, modes | parameters that are followed |
+//! | [`Observed`] | recording, energy balance | channels, energies, shapes, limits |
+//!
+//! An integrator never sees M, C or K: it hands over three scalar [`Weights`] and the model writes the one weighted
+//! tangent `w.a ∂r/∂a + w.v ∂r/∂v + w.q ∂r/∂q`. Constraints are imposed by the integrator: it hands over three
+//! [`RowWeights`] for g, ġ and g̈, so that the forms of index 3, 2 and 1 and Baumgarte's are one formula.
+//!
+//! The traits are object-safe and every virtual call is made at the level of the system: never inside a loop over
+//! elements, where it would cost more than the element.
+
+mod corotation;
+mod dynamics;
+mod events;
+mod observed;
+mod rows;
+mod state;
+mod steady;
+
+pub use corotation::Corotation;
+pub use dynamics::{Dynamics, Label, VisitRow, VisitTerm, Weights};
+pub use events::{Break, Crossing, Events, Jump, ordered};
+pub use observed::{Channel, Direction, Energy, Frame, Observed, Power};
+pub use rows::{RowWeights, Set, is_active, replace_inactive, slip};
+pub use state::{Mode, Side, Size, State};
+pub use steady::{NotSet, Parameter, Steady};
+
+/// A whole model: all that an analysis may ask for.
+pub trait System: Dynamics + Events + Steady + Observed {}
+
+impl<T: Dynamics + Events + Steady + Observed + ?Sized> System for T {}

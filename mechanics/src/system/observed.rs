@@ -1,0 +1,130 @@
+//! What is observed of a model: recorded quantities, energies, shapes.
+
+use super::State;
+
+/// What an unknown moves: for the shares of a mode.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Direction {
+    /// The beam along its axis.
+    Axial,
+    /// The beam across, in the plane of rotation (lead–lag).
+    Chord,
+    /// The beam across, out of the plane of rotation.
+    Flap,
+    /// The section about the axis.
+    Torsion,
+    /// The hub.
+    Hub,
+    /// Something else, or several of these.
+    Other,
+}
+
+/// Energies of a state, in joules.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Energy {
+    /// Kinetic energy T, hub included.
+    pub kinetic: f64,
+    /// Strain energy U.
+    pub strain: f64,
+    /// Potential energy of gravity V.
+    pub gravity: f64,
+    /// Energy stored in contacts C.
+    pub contact: f64,
+}
+
+impl Energy {
+    /// Total mechanical energy T + U + V + C.
+    pub fn total(&self) -> f64 {
+        self.kinetic + self.strain + self.gravity + self.contact
+    }
+}
+
+/// Power of everything that is not in [`Energy`], in watts: d(T + U + V + C)/dt = [`Power::total`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Power {
+    /// Power of what moves the system: prescribed motions, motors.
+    pub drive: f64,
+    /// Power of the loads, gravity aside.
+    pub loads: f64,
+    /// Power lost in dampers (≥ 0).
+    pub dissipated: f64,
+    /// Power lost in contacts: friction and damping (≥ 0).
+    pub contact: f64,
+}
+
+impl Power {
+    /// Rate of the total energy: drive + loads − dissipated − contact.
+    pub fn total(&self) -> f64 {
+        self.drive + self.loads - self.dissipated - self.contact
+    }
+}
+
+/// A section frame: where a station is and how its axes point.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Frame {
+    /// Position in the inertial frame \[m\].
+    pub position: [f64; 3],
+    /// Rotation matrix whose columns are the section's axes (tangent first) in the inertial frame.
+    pub rotation: [[f64; 3]; 3],
+}
+
+/// One recorded quantity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Channel {
+    /// Column name, e.g. `tip.deflection`.
+    pub name: String,
+    /// SI unit, e.g. `m`.
+    pub unit: &'static str,
+    /// One line for people: what it is.
+    pub meaning: String,
+}
+
+/// What a model shows of itself. Nothing here changes what a run computes: work memory at most is written.
+pub trait Observed {
+    /// Kinetic, strain, gravity and contact energy.
+    fn energy(&mut self, _s: &State) -> Energy {
+        Energy::default()
+    }
+
+    /// Power of everything that is not in [`Observed::energy`].
+    fn power(&mut self, _s: &State) -> Power {
+        Power::default()
+    }
+
+    /// [`Observed::energy`] and [`Observed::power`] of one state, for systems in which they share their work.
+    fn energy_and_power(&mut self, s: &State) -> (Energy, Power) {
+        (self.energy(s), self.power(s))
+    }
+
+    /// Frames of the sections of body `body` at the given stations (arc lengths from its root, in metres).
+    fn frames(&mut self, _body: usize, _s: &State, _stations: &[f64], _out: &mut [Frame]) {}
+
+    /// The recorded quantities, in the order in which [`Observed::record`] writes them.
+    fn channels(&self) -> &[Channel] {
+        &[]
+    }
+
+    /// Writes one value for each channel.
+    fn record(&mut self, _s: &State, _out: &mut [f64]) {}
+
+    /// What unknown `i` (a velocity) moves.
+    fn direction(&self, _i: usize) -> Direction {
+        Direction::Other
+    }
+
+    /// `Err` when the state has left what the model can represent, with the reason.
+    fn admissible(&mut self, _s: &State) -> Result<(), String> {
+        Ok(())
+    }
+
+    /// What the model knows about why a run may break down at this state, for messages.
+    fn explain(&mut self, _s: &State) -> Option<String> {
+        None
+    }
+
+    /// Limits of the model that the reader of a run should know. `peaks` is the largest absolute value of each channel
+    /// in the run; without a run it is empty.
+    fn cautions(&self, _peaks: &[f64]) -> Vec<String> {
+        Vec::new()
+    }
+}

@@ -1,0 +1,43 @@
+//! Parameters that an analysis follows: the speed of a steady rotation, a part of the loads.
+
+/// A parameter of a model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Parameter {
+    /// Angular speed Ω [rad/s] with which the frame of the model turns steadily.
+    Speed,
+    /// Part of the loads that acts, 0 … 1.
+    LoadFactor,
+}
+
+/// Why a parameter does not take a value.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum NotSet {
+    /// The model has no such parameter.
+    #[error("the model has no {0}")]
+    Unknown(&'static str),
+    /// There is no steady state at this value.
+    #[error("{0}")]
+    Lost(String),
+}
+
+/// A model seen from a frame that turns steadily, where a steady rotation is v = a = 0.
+pub trait Steady {
+    /// Sets a parameter until [`release`](Steady::release). With [`Parameter::Speed`] the frame turns steadily at this
+    /// speed in the place of whatever drives it.
+    ///
+    /// # Errors
+    /// [`NotSet`]; the model stays as it was.
+    fn set(&mut self, parameter: Parameter, _value: f64) -> Result<(), NotSet> {
+        Err(NotSet::Unknown(match parameter {
+            Parameter::Speed => "frame that could turn steadily",
+            Parameter::LoadFactor => "loads",
+        }))
+    }
+
+    /// Holds rigid motions at the values they have in the turning frame, or lets them go: the equation of a held
+    /// unknown is that it does not change.
+    fn hold(&mut self, _held: bool) {}
+
+    /// Gives the model back its own motion, all of its loads, and its rigid motions.
+    fn release(&mut self) {}
+}
