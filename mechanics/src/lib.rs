@@ -17,3 +17,4 @@ pub mod profile;
 pub mod quadrature;
 pub mod section;
 pub mod system;
+pub mod verify;

@@ -3,6 +3,7 @@
 //! Given W (symmetric, positive semidefinite, m × m) and b, find u = b + W Λ with, row by row,
 //!
 //! ```text
+//! free         u = 0
 //! unilateral   u ≥ 0,  Λ ≥ 0,  u Λ = 0
 //! friction     |Λ| ≤ μ Λₙ,  u = 0 where |Λ| < μ Λₙ,  u opposite to Λ where |Λ| = μ Λₙ
 //! slip         Λ = −s Λₙ
@@ -17,6 +18,8 @@
 /// What a row is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Law {
+    /// u = 0
+    Free,
     /// u ≥ 0 ⟂ Λ ≥ 0
     Unilateral,
     /// |Λ| ≤ μ Λₙ
@@ -82,6 +85,7 @@ pub fn solve(laws: &[Law], w: &[f64], b: &[f64], lambda: &mut [f64]) -> Result<u
                 }
             }
             match laws[i] {
+                Law::Free => {}
                 Law::Unilateral => lambda[i] = lambda[i].max(0.0),
                 Law::Slip { slope, normal } => lambda[i] = -slope * lambda[normal],
                 Law::Friction { coefficient, normal } => {

@@ -10,7 +10,8 @@
 //! The contacts give the energy ½ Λᵀ(Gv⁺ + Gv⁻) to the system: −½ Λᵀ(u⁺ + u⁻) is lost, and what moving obstacles give is
 //! −Λᵀ ∂g/∂t. Behind the impact the same problem for accelerations, g̈ ⟂ λ, says which contacts stay closed.
 //!
-//! A node without mass is given its part of ε K, ε → 0: it is stopped without an impulse.
+//! A node without mass is given its part of ε K, ε → 0. While no force holds it, its velocity is that of equilibrium,
+//! (M + εK) v = M v⁻, and it is stopped without an impulse.
 
 use super::cone::{Law, Unresolved, solve};
 use crate::linalg::{Matrix, Singular};
@@ -61,6 +62,8 @@ pub struct ImpactMap {
     rhs: Vec<f64>,
     rates: Vec<f64>,
     velocities: usize,
+    /// ε, where M is singular.
+    weight: f64,
 }
 
 /// The rows that take part in a problem, with their laws.
@@ -83,11 +86,12 @@ impl ImpactMap {
             rhs: vec![0.0; n + m],
             rates: vec![0.0; m],
             velocities: n,
+            weight: 0.0,
         }
     }
 
     /// Changes the velocities of `state` by the impulse `p` and those of all rows with g ≤ `touching`, and [sets the modes](ImpactMap::settle)
-    /// of the rows. Contacts that close more slowly than `resting` have no restitution.
+    /// of the rows. Contacts that close more slowly than `resting` have no restitution; forces up to `weak` hold nothing.
     ///
     /// # Errors
     /// [`ImpactError`].
@@ -96,11 +100,17 @@ impl ImpactMap {
         system: &mut dyn Dynamics,
         state: &mut State,
         p: &[f64],
-        touching: f64,
-        resting: f64,
+        [touching, resting, weak]: [f64; 3],
     ) -> Result<Impact, ImpactError> {
         self.factor(system, state)?;
         let n = self.velocities;
+        if self.weight > 0.0 && state.lambda.iter().zip(&self.sets).all(|(x, set)| *set == Set::Free || *x <= weak) {
+            let (mut force, mut change) = (vec![0.0; n], vec![0.0; n]);
+            self.stiffness.multiply(&state.v, &mut force);
+            force.iter_mut().for_each(|f| *f *= -self.weight);
+            self.respond(&force, |_| 0.0, &mut change);
+            state.v.iter_mut().zip(&change).for_each(|(v, x)| *v += x);
+        }
         let mut gaps = vec![0.0; self.sets.len()];
         system.constraint(state, RowWeights::POSITION, &mut gaps);
         let part = self.part(|i| gaps[i] <= touching, |_| None);
@@ -129,12 +139,14 @@ impl ImpactMap {
             impact.work -= x * moving;
         }
         state.v.iter_mut().zip(&change).for_each(|(v, dv)| *v += dv);
-        self.settle(system, state, touching)?;
+        let struck: Vec<bool> = before.iter().map(|rate| *rate < -resting).collect();
+        self.settle(system, state, touching, &struck)?;
         Ok(impact)
     }
 
     /// Sets the mode of every contact by the accelerations at `state`: those that touch and do not separate are closed if
-    /// they carry force, and stick or slip.
+    /// they carry force, and stick or slip. Those that carry none and do not separate either are closed if they were
+    /// `struck`.
     ///
     /// # Errors
     /// [`ImpactError`].
@@ -143,6 +155,7 @@ impl ImpactMap {
         system: &mut dyn Dynamics,
         state: &mut State,
         touching: f64,
+        struck: &[bool],
     ) -> Result<(), ImpactError> {
         self.factor(system, state)?;
         let n = self.velocities;
@@ -176,6 +189,7 @@ impl ImpactMap {
         self.respond(&force, |i| free[i], &mut a);
         let w = self.delassus(&part);
         let b: Vec<f64> = part.rows.iter().map(|&i| bends[i] + self.along(i, &a)).collect();
+        let largest_bend = a.iter().chain(&bends).fold(0.0_f64, |x, a| x.max(a.abs()));
         let mut forces = vec![0.0; part.rows.len()];
         solve(&part.laws, &w, &b, &mut forces)?;
         for (mode, set) in state.mode.iter_mut().zip(&self.sets) {
@@ -183,7 +197,9 @@ impl ImpactMap {
         }
         for (k, &i) in part.rows.iter().enumerate() {
             state.mode[i] = match part.laws[k] {
+                Law::Free => Mode::Closed,
                 Law::Unilateral if forces[k] > 0.0 => Mode::Closed,
+                Law::Unilateral if struck.get(i) == Some(&true) && b[k] <= RESTING * largest_bend => Mode::Closed,
                 Law::Unilateral => Mode::Open,
                 Law::Slip { slope, .. } if slope > 0.0 => Mode::SlipForward,
                 Law::Slip { .. } => Mode::SlipBackward,
@@ -243,9 +259,11 @@ impl ImpactMap {
                 jacobian[row * n + j] += x;
             }
         });
-        let mut weight = 0.0;
         loop {
-            system.tangent(state, Weights::new(1.0, 0.0, weight), &mut self.matrix);
+            if self.weight > 0.0 {
+                system.tangent(state, Weights::new(0.0, 0.0, 1.0), &mut self.stiffness);
+            }
+            system.tangent(state, Weights::new(1.0, 0.0, self.weight), &mut self.matrix);
             for (i, set) in sets.iter().enumerate() {
                 if *set == Set::Free {
                     for j in (0..n).filter(|j| self.jacobian[i * n + j] != 0.0) {
@@ -258,7 +276,7 @@ impl ImpactMap {
             }
             match self.matrix.factor() {
                 Ok(_) => return Ok(()),
-                Err(cause) if weight > 0.0 || !cause.pivot.is_finite() => {
+                Err(cause) if self.weight > 0.0 || !cause.pivot.is_finite() => {
                     return Err(ImpactError::Singular { unknown: system.unknown(cause.index), cause });
                 }
                 Err(_) => {
@@ -266,7 +284,7 @@ impl ImpactMap {
                         |matrix: &Matrix| (0..n).fold(0.0_f64, |x, i| x.max(matrix.get(i, i).abs()));
                     system.tangent(state, Weights::new(0.0, 0.0, 1.0), &mut self.stiffness);
                     system.tangent(state, Weights::new(1.0, 0.0, 0.0), &mut self.matrix);
-                    weight = REGULARIZATION * largest(&self.matrix)
+                    self.weight = REGULARIZATION * largest(&self.matrix)
                         / largest(&self.stiffness).max(f64::MIN_POSITIVE);
                 }
             }

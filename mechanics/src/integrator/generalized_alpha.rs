@@ -119,6 +119,9 @@ struct Work {
     corotation: Corotation,
     /// Whether the tangent is renewed in the next step.
     renew: bool,
+    /// Renewals since the start, and whether the last one found the tangent of an affine system unchanged.
+    renewals: u32,
+    constant: bool,
 }
 
 impl Work {
@@ -335,7 +338,9 @@ impl GeneralizedAlpha {
 
     fn report(&self, work: &mut Work, full: bool) -> StepReport {
         let iterations = if full { self.full.iterations() } else { self.kept.iterations() };
-        work.renew = full || iterations > PATIENCE;
+        // To renew a constant tangent costs nothing, and makes the step exact.
+        let free = work.affine && (work.constant || work.renewals == 1);
+        work.renew = full || iterations > PATIENCE || free;
         StepReport { iterations, error: None }
     }
 
@@ -442,6 +447,8 @@ impl GeneralizedAlpha {
         self.counters.tangents += u64::from(factored);
         self.counters.factorizations += u64::from(factored);
         work.kept = weights;
+        work.renewals += 1;
+        work.constant = !factored;
         if factored && work.keeps {
             work.place.copy_from(to);
             work.increment.copy_from_slice(&self.d);
@@ -529,6 +536,8 @@ impl Integrator for GeneralizedAlpha {
             increment: vec![0.0; size.v],
             corotation: Corotation::with_capacity(size.v),
             renew: true,
+            renewals: 0,
+            constant: false,
         }));
         self.counters = Counters::default();
         self.restart(system, state)
@@ -572,7 +581,7 @@ impl Integrator for GeneralizedAlpha {
         self.pending = false;
         self.history = 0;
         self.kept.forget();
-        work.renew = true;
+        (work.renew, work.renewals) = (true, 0);
         work.kept = [f64::NAN; 2];
         state.side = Side::Right;
         let place = (state.t, 0.0);
@@ -590,7 +599,8 @@ impl Integrator for GeneralizedAlpha {
         out.put("convergence", &self.kept.memory());
         if let Some(work) = &self.work {
             out.put("tangent.weights", &work.kept);
-            out.put("tangent.renew", &[f64::from(u8::from(work.renew))]);
+            let flags = [work.renew, work.constant].map(|flag| f64::from(u8::from(flag)));
+            out.put("tangent.renewals", &[flags[0], flags[1], f64::from(work.renewals)]);
             out.put_state("tangent.", &work.place);
             out.put("tangent.increment", &work.increment);
         }
@@ -607,8 +617,8 @@ impl Integrator for GeneralizedAlpha {
         self.history = history as u8;
         self.kept.recall(from.numbers("convergence")?);
         work.kept = from.numbers("tangent.weights")?;
-        let [renew] = from.numbers("tangent.renew")?;
-        work.renew = renew != 0.0;
+        let [renew, constant, renewals] = from.numbers("tangent.renewals")?;
+        (work.renew, work.constant, work.renewals) = (renew != 0.0, constant != 0.0, renewals as u32);
         from.fill_state("tangent.", &mut work.place)?;
         from.fill("tangent.increment", &mut work.increment)?;
         let [v, q] = work.kept;

@@ -5,6 +5,7 @@
 //! | [`Radau`] IIA, 3 stages | `radau/` | 5 | adaptive | one real and one complex system an iteration |
 //! | [`GeneralizedAlpha`]: Newmark, HHT-α, Chung–Hulbert | `generalized_alpha.rs` | 2 | fixed | one system an iteration |
 //! | [`RungeKutta`], classical | `runge_kutta.rs` | 4 | fixed | mass matrix only |
+//! | [`MoreauJean`], nonsmooth | `moreau_jean.rs` | 1 | fixed | one system an iteration, and one a contact |
 //! | [`Adams`]–Bashforth–Moulton PECE | `adams.rs` | 4 | fixed | mass matrix only |
 
 mod acceleration;
@@ -13,6 +14,7 @@ mod checkpoint;
 mod failure;
 mod generalized_alpha;
 mod hermite;
+mod moreau_jean;
 mod newton;
 mod radau;
 mod rows;
@@ -23,6 +25,7 @@ mod step_control;
 pub use adams::Adams;
 pub use checkpoint::{Checkpoint, NotResumed};
 pub use generalized_alpha::GeneralizedAlpha;
+pub use moreau_jean::MoreauJean;
 pub use newton::{Convergence, Progress};
 pub use radau::{Radau, Tolerance};
 pub use runge_kutta::RungeKutta;
@@ -146,6 +149,16 @@ pub enum StepError {
         error: f64,
         /// Label of the worst unknown.
         worst: String,
+    },
+    /// The impulses of contacts in a step were not found.
+    #[error("at t = {time:.6} s with a step of {step:.3e} s {cause}")]
+    Contacts {
+        /// Time at the start of the step [s].
+        time: f64,
+        /// Step [s].
+        step: f64,
+        /// Why.
+        cause: crate::contact::Unresolved,
     },
     /// `step` or `restart` was called before `start`.
     #[error("{method} was asked for a step before it was started")]

@@ -3,9 +3,9 @@
 use crate::drive::adaptive;
 use crate::systems::{Chain, Pendulum, SpringPendulum, TwoFrequencies, state, wide_chain};
 use flexion::integrator::{Counters, Integrator, Radau, Tolerance};
-use flexion::system::{State, System};
+use flexion::system::{Dynamics, State};
 
-fn run(system: &mut dyn System, from: &State, end: f64, tolerance: f64) -> (State, Counters) {
+fn run(system: &mut dyn Dynamics, from: &State, end: f64, tolerance: f64) -> (State, Counters) {
     let mut method = Radau::new(Tolerance::uniform(tolerance)).unwrap();
     let last = adaptive(&mut method, system, from.clone(), end, tolerance, |_, _, _, _| {}).unwrap();
     (last, method.counters())

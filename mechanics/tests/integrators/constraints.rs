@@ -1,55 +1,101 @@
-//! Index-3 constraints through the generalized-α method.
+//! Constraints in every form: index 3, stabilized index 2, index 2, Baumgarte.
 
 use crate::drive::fixed;
 use crate::systems::{CartesianPendulum, Pendulum, state};
-use flexion::integrator::{GeneralizedAlpha, Integrator, Radau, StepError, Tolerance};
-use flexion::system::System;
+use flexion::integrator::{Adams, GeneralizedAlpha, Integrator, Radau, RungeKutta, StepError, Tolerance};
+use flexion::system::{Dynamics, RowWeights};
 
-/// The pendulum in Cartesian coordinates against the same pendulum by its angle (Radau, tight).
-#[test]
-fn generalized_alpha_is_of_order_two_under_an_index_3_constraint() {
-    let end = 4.0;
-    let angle = {
-        let mut system = Pendulum::new();
-        let from = state(&system, &[1.5], &[0.2]);
-        let mut radau = Radau::new(Tolerance::uniform(1e-13)).unwrap();
-        fixed(&mut radau, &mut system, from, end, 400, |_, _, _, _| {}).unwrap()
-    };
+/// End of the runs \[s\].
+const END: f64 = 4.0;
+
+/// The pendulum by its angle (Radau, tight): position, velocity and multiplier of the same pendulum in Cartesian
+/// coordinates. a = λ q − (0, 1) and q·a = −v²: λ = y − v².
+fn exact() -> [Vec<f64>; 3] {
+    let mut system = Pendulum::new();
+    let from = state(&system, &[1.5], &[0.2]);
+    let mut radau = Radau::new(Tolerance::uniform(1e-13)).unwrap();
+    let angle = fixed(&mut radau, &mut system, from, END, 400, |_, _, _, _| {}).unwrap();
     let (phi, rate): (f64, f64) = (angle.q[0], angle.v[0]);
-    let exact_q = [phi.sin(), -phi.cos()];
-    let exact_v = [rate * phi.cos(), rate * phi.sin()];
-    // a + λ q + (0, 1) = 0 and q·a = −v²: λ = v² − y.
-    let exact_lambda = rate * rate + phi.cos();
-    let run = |steps| {
-        let mut system = CartesianPendulum::new();
-        let (s, c) = 1.5_f64.sin_cos();
-        let from = state(&system, &[s, -c], &[0.2 * c, 0.2 * s]);
-        let mut method = GeneralizedAlpha::chung_hulbert(0.6).unwrap();
-        let mut drift: f64 = 0.0;
-        let last = fixed(&mut method, &mut system, from, end, steps, |_, _, _, to| {
-            drift = drift.max((to.q[0].hypot(to.q[1]) - 1.0).abs());
-        })
-        .unwrap();
-        assert!(drift < 1e-9, "the rod's length drifts by {drift:e}");
-        assert!(method.counters().iterations <= 4 * steps as u64, "{:?}", method.counters());
-        let far = |x: &[f64], y: &[f64]| (x[0] - y[0]).hypot(x[1] - y[1]);
-        [far(&last.q, &exact_q), far(&last.v, &exact_v), (last.lambda[0] - exact_lambda).abs()]
-    };
-    let (coarse, fine) = (run(400), run(800));
-    for (i, what) in ["q", "v", "λ"].into_iter().enumerate() {
-        let order = (coarse[i] / fine[i]).log2();
+    let q = vec![phi.sin(), -phi.cos()];
+    let v = vec![rate * phi.cos(), rate * phi.sin()];
+    [q, v, vec![-phi.cos() - rate * rate]]
+}
 
-        assert!((order - 2.0).abs() < 0.15, "{what}: order {order} ({:e}, {:e})", coarse[i], fine[i]);
+/// Errors of q, v and λ at the end, and the largest |g| and |ġ| of a run in `steps` steps.
+fn run(method: &mut dyn Integrator, steps: usize, exact: &[Vec<f64>; 3]) -> ([f64; 3], [f64; 2]) {
+    let mut system = CartesianPendulum::new();
+    let (s, c) = 1.5_f64.sin_cos();
+    let from = state(&system, &[s, -c], &[0.2 * c, 0.2 * s]);
+    let mut violation = [0.0_f64; 2];
+    let last = fixed(method, &mut system, from, END, steps, |_, system, _, to| {
+        for (worst, weights) in violation.iter_mut().zip([RowWeights::POSITION, RowWeights::VELOCITY]) {
+            let mut g = [0.0];
+            system.constraint(to, weights, &mut g);
+            *worst = worst.max(g[0].abs());
+        }
+    })
+    .unwrap();
+    let far = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| (x - y).powi(2)).sum::<f64>().sqrt();
+    ([far(&last.q, &exact[0]), far(&last.v, &exact[1]), far(&last.lambda, &exact[2])], violation)
+}
+
+fn has_order(make: impl Fn() -> Box<dyn Integrator>, steps: usize, order: f64, tolerance: f64) -> [f64; 2] {
+    let exact = exact();
+    let (coarse, _) = run(make().as_mut(), steps, &exact);
+    let (fine, violation) = run(make().as_mut(), 2 * steps, &exact);
+    for (i, what) in ["q", "v", "λ"].into_iter().enumerate() {
+        let found = (coarse[i] / fine[i]).log2();
+        assert!(found > order - tolerance, "{what}: order {found} ({:e}, {:e})", coarse[i], fine[i]);
+    }
+    violation
+}
+
+#[test]
+fn generalized_alpha_is_of_order_two_at_index_3_and_keeps_the_position() {
+    let make = || Box::new(GeneralizedAlpha::chung_hulbert(0.6).unwrap()) as Box<dyn Integrator>;
+    let [position, velocity] = has_order(make, 400, 2.0, 0.15);
+    assert!(position < 1e-9 && velocity > 1e-7, "{position:e} {velocity:e}");
+}
+
+#[test]
+fn the_stabilized_form_keeps_position_and_velocity_at_order_two() {
+    for make in [|| GeneralizedAlpha::chung_hulbert(0.6).unwrap(), || GeneralizedAlpha::hht(0.1).unwrap()] {
+        let [position, velocity] = has_order(|| Box::new(make().stabilized()), 400, 2.0, 0.15);
+        assert!(position < 1e-9 && velocity < 1e-8, "{position:e} {velocity:e}");
     }
 }
 
 #[test]
-fn radau_says_that_it_cannot_take_constraints() {
-    let mut system = CartesianPendulum::new();
-    let mut from = state(&system, &[1.0, 0.0], &[0.0, 0.0]);
-    assert_eq!(system.size().lambda, 1);
-    let mut method = Radau::new(Tolerance::uniform(1e-6)).unwrap();
-    let error = method.start(&mut system, &mut from, 0.0).unwrap_err();
-    assert!(matches!(error, StepError::Unsupported { .. }));
-    assert!(error.to_string().contains("generalized-alpha"));
+fn radau_is_of_order_five_at_index_2_and_keeps_position_and_velocity() {
+    let make = || Box::new(Radau::new(Tolerance::uniform(1e-9)).unwrap()) as Box<dyn Integrator>;
+    let exact = exact();
+    let (coarse, _) = run(make().as_mut(), 80, &exact);
+    let (fine, [position, velocity]) = run(make().as_mut(), 160, &exact);
+    for i in 0..2 {
+        let order = (coarse[i] / fine[i]).log2();
+        assert!(order > 4.5, "order {order} ({:e}, {:e})", coarse[i], fine[i]);
+    }
+    // λ is that of a stage: of order 3.
+    let order = (coarse[2] / fine[2]).log2();
+    assert!(order > 2.5, "λ: order {order} ({:e}, {:e})", coarse[2], fine[2]);
+    assert!(position < 1e-12 && velocity < 1e-12, "{position:e} {velocity:e}");
+}
+
+#[test]
+fn explicit_methods_take_constraints_by_baumgarte_or_refuse_them() {
+    let runge_kutta = || Box::new(RungeKutta::new().with_baumgarte(10.0, 20.0)) as Box<dyn Integrator>;
+    let adams = || Box::new(Adams::new().with_baumgarte(10.0, 20.0)) as Box<dyn Integrator>;
+    for make in [runge_kutta, adams] {
+        let [position, _] = has_order(make, 200, 4.0, 0.6);
+        assert!(position < 1e-5, "{position:e}");
+    }
+    let methods: [Box<dyn Integrator>; 2] = [Box::new(RungeKutta::new()), Box::new(Adams::new())];
+    for mut method in methods {
+        let mut system = CartesianPendulum::new();
+        let mut from = state(&system, &[1.0, 0.0], &[0.0, 0.0]);
+        assert_eq!(system.size().lambda, 1);
+        let error = method.start(&mut system, &mut from, 0.01).unwrap_err();
+        assert!(matches!(error, StepError::Unsupported { .. }));
+        assert!(error.to_string().contains("Baumgarte"), "{error}");
+    }
 }

@@ -3,21 +3,22 @@
 #![allow(dead_code)]
 
 use flexion::integrator::{Integrator, StepControl, StepError};
-use flexion::system::{State, System};
+use flexion::system::{Dynamics, State};
 
 /// `steps` equal steps to `end`; the callback sees (integrator, system, from, to) of each.
 pub fn fixed(
     integrator: &mut dyn Integrator,
-    system: &mut dyn System,
+    system: &mut dyn Dynamics,
     mut from: State,
     end: f64,
     steps: usize,
-    mut each: impl FnMut(&dyn Integrator, &mut dyn System, &State, &State),
+    mut each: impl FnMut(&dyn Integrator, &mut dyn Dynamics, &State, &State),
 ) -> Result<State, StepError> {
     let h = end / steps as f64;
     integrator.start(system, &mut from, h)?;
     let mut to = from.clone();
     for _ in 0..steps {
+        to.t = from.t + h;
         integrator.step(system, &from, h, &mut to)?;
         integrator.accept(&from, &to);
         each(integrator, system, &from, &to);
@@ -29,20 +30,21 @@ pub fn fixed(
 /// Adaptive run to `end`.
 pub fn adaptive(
     integrator: &mut dyn Integrator,
-    system: &mut dyn System,
+    system: &mut dyn Dynamics,
     mut from: State,
     end: f64,
     tolerance: f64,
-    mut each: impl FnMut(&dyn Integrator, &mut dyn System, &State, &State),
+    mut each: impl FnMut(&dyn Integrator, &mut dyn Dynamics, &State, &State),
 ) -> Result<State, StepError> {
     let order = integrator.info().estimate_order.unwrap_or(1);
     integrator.start(system, &mut from, 0.0)?;
-    let first = StepControl::first_step(order, &from, system.labels(), tolerance, end);
+    let first = StepControl::first_step(order, &from, system.scales(), tolerance, end);
     let mut control = StepControl::new(order, end, first);
     let mut to = from.clone();
     while from.t < end * (1.0 - 1e-12) {
         let h = control.propose(end - from.t);
         assert!(!control.is_too_small(from.t, h), "the step fell to {h} at {}", from.t);
+        to.t = from.t + h;
         match integrator.step(system, &from, h, &mut to) {
             Ok(report) => {
                 let error = report.error.unwrap_or(0.0);

@@ -5,6 +5,8 @@
 mod adaptive;
 mod constraints;
 mod drive;
+mod multibody;
 mod order;
+mod seam;
 mod stability;
 mod systems;

@@ -3,7 +3,7 @@
 use crate::drive::fixed;
 use crate::systems::{Chain, Pendulum, SpringPendulum, state};
 use flexion::integrator::{Adams, GeneralizedAlpha, Integrator, Radau, RungeKutta, Tolerance};
-use flexion::system::{State, System};
+use flexion::system::{Dynamics, State};
 
 type Make = fn() -> Box<dyn Integrator>;
 
@@ -19,7 +19,7 @@ const METHODS: [(&str, Make, f64, [usize; 2]); 6] = [
 /// Largest errors of q and v at the ends of steps, and of q within them, against `exact`.
 fn errors(
     make: Make,
-    system: &mut dyn System,
+    system: &mut dyn Dynamics,
     from: &State,
     end: f64,
     steps: usize,
@@ -45,7 +45,7 @@ fn errors(
 
 fn assert_orders(
     what: &str,
-    system: &mut dyn System,
+    system: &mut dyn Dynamics,
     from: &State,
     end: f64,
     exact: &dyn Fn(f64) -> (Vec<f64>, Vec<f64>),

@@ -5,7 +5,7 @@ use crate::systems::{CartesianPendulum, Chain, Pendulum, state, wide_chain};
 use flexion::integrator::{
     Adams, GeneralizedAlpha, Integrator, Radau, RungeKutta, StepError, Tolerance, largest_frequency,
 };
-use flexion::system::{State, System};
+use flexion::system::{Dynamics, Observed, State};
 
 /// A chain of n equal masses and springs, free at the end: ω = 2 √(k/m) cos(π/(2n+1)).
 #[test]
@@ -26,7 +26,7 @@ fn the_largest_frequency_respects_constraints() {
     let mut system = CartesianPendulum::new();
     let mut at = state(&system, &[0.0, -1.0], &[0.0, 0.0]);
     GeneralizedAlpha::hht(0.1).unwrap().start(&mut system, &mut at, 0.1).unwrap();
-    assert!((at.lambda[0] - 1.0).abs() < 1e-14);
+    assert!((at.lambda[0] + 1.0).abs() < 1e-14);
     let found = largest_frequency(&mut system, &at).unwrap();
     assert!((found - 1.0).abs() < 1e-12, "{found}");
 }
@@ -119,7 +119,7 @@ fn a_state_that_is_not_finite_is_an_error_of_every_method() {
     ];
     for mut method in methods {
         for nonlinear in [false, true] {
-            let mut system: Box<dyn System> =
+            let mut system: Box<dyn Dynamics> =
                 if nonlinear { Box::new(Pendulum::new()) } else { Box::new(Chain::oscillator(1.0, 0.0)) };
             let mut from = state(&*system, &[1.0], &[0.0]);
             method.start(&mut *system, &mut from, 0.05).unwrap();

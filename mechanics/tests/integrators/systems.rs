@@ -3,28 +3,17 @@
 #![allow(dead_code)]
 
 use flexion::linalg::{Matrix, Structure};
-use flexion::system::{Channel, Energy, Frame, Label, Level, Power, Size, State, System, Weights};
+use flexion::system::{
+    Dynamics, Energy, Events, Observed, RowWeights, Set, Size, State, Steady, VisitRow, Weights,
+};
 
-/// Implements what these systems do not need.
-macro_rules! no_output {
-    () => {
-        fn labels(&self) -> &[Label] {
-            &self.labels
-        }
-        fn power(&mut self, _s: &State) -> Power {
-            Power::default()
-        }
-        fn shape(&mut self, _s: &State, _stations: &[f64], _out: &mut [Frame]) {}
-        fn channels(&self) -> &[Channel] {
-            &[]
-        }
-        fn record(&mut self, _s: &State, _out: &mut [f64]) {}
+/// The faces of a model that these systems leave as they are.
+macro_rules! plain {
+    ($($system:ty),*) => {
+        $(impl Events for $system {} impl Steady for $system {})*
     };
 }
-
-fn labels(n: usize) -> Vec<Label> {
-    (0..n).map(|i| Label { name: format!("unknown {i}"), unit: "m", scale: 1.0 }).collect()
-}
+plain!(Chain, SpringPendulum, Pendulum, CartesianPendulum, TwoFrequencies);
 
 /// m q̈ + c q̇ + k q = sin(Ω t), a chain or a single mass, in a band; constant matrices, stamped.
 pub struct Chain {
@@ -35,13 +24,13 @@ pub struct Chain {
     /// Amplitude and angular frequency of a force on the last mass.
     pub force: (f64, f64),
     pub width: usize,
-    labels: Vec<Label>,
+    scales: Vec<f64>,
 }
 
 impl Chain {
     pub fn new(masses: Vec<f64>, springs: Vec<f64>, damping: f64) -> Chain {
-        let labels = labels(masses.len());
-        Chain { masses, springs, damping, force: (0.0, 0.0), width: 1, labels }
+        let scales = vec![1.0; masses.len()];
+        Chain { masses, springs, damping, force: (0.0, 0.0), width: 1, scales }
     }
 
     /// One mass: q̈ + c q̇ + ω² q = f sin Ωt.
@@ -62,11 +51,14 @@ impl Chain {
     }
 }
 
-impl System for Chain {
+impl Dynamics for Chain {
+    fn scales(&self) -> &[f64] {
+        &self.scales
+    }
     fn size(&self) -> Size {
         Size { q: self.masses.len(), v: self.masses.len(), lambda: 0 }
     }
-    fn structure(&self) -> Structure {
+    fn structure(&self, _multipliers: usize) -> Structure {
         Structure::band(self.masses.len(), self.width, self.width, 0)
     }
     fn residual(&mut self, s: &State, r: &mut [f64]) {
@@ -96,14 +88,16 @@ impl System for Chain {
     fn is_affine(&self) -> bool {
         true
     }
+}
+
+impl Observed for Chain {
     fn energy(&mut self, s: &State) -> Energy {
         let kinetic = (0..s.v.len()).map(|i| 0.5 * self.masses[i] * s.v[i] * s.v[i]).sum();
         let mut force = vec![0.0; s.q.len()];
         self.stretch_force(&s.q, &mut force);
         let strain = 0.5 * s.q.iter().zip(&force).map(|(q, f)| q * f).sum::<f64>();
-        Energy { kinetic, strain, gravity: 0.0 }
+        Energy { kinetic, strain, ..Energy::default() }
     }
-    no_output!();
 }
 
 /// Two coupled nonlinear coordinates with a configuration-dependent mass and a gyroscopic force: the
@@ -113,20 +107,23 @@ pub struct SpringPendulum {
     pub length: f64,
     pub stiffness: f64,
     pub gravity: f64,
-    labels: Vec<Label>,
+    scales: Vec<f64>,
 }
 
 impl SpringPendulum {
     pub fn new(stiffness: f64) -> SpringPendulum {
-        SpringPendulum { length: 1.0, stiffness, gravity: 1.0, labels: labels(2) }
+        SpringPendulum { length: 1.0, stiffness, gravity: 1.0, scales: vec![1.0; 2] }
     }
 }
 
-impl System for SpringPendulum {
+impl Dynamics for SpringPendulum {
+    fn scales(&self) -> &[f64] {
+        &self.scales
+    }
     fn size(&self) -> Size {
         Size { q: 2, v: 2, lambda: 0 }
     }
-    fn structure(&self) -> Structure {
+    fn structure(&self, _multipliers: usize) -> Structure {
         Structure::dense(2)
     }
     fn residual(&mut self, s: &State, r: &mut [f64]) {
@@ -143,25 +140,28 @@ impl System for SpringPendulum {
         out.add(1, 0, 2.0 * w.v * l * s.v[1] + w.q * (2.0 * l * s.a[1] + 2.0 * s.v[0] * s.v[1] + g * sin));
         out.add(1, 1, w.a * l * l + 2.0 * w.v * l * s.v[0] + w.q * g * l * cos);
     }
+}
+
+impl Observed for SpringPendulum {
     fn energy(&mut self, s: &State) -> Energy {
         let l = self.length + s.q[0];
         Energy {
             kinetic: 0.5 * (s.v[0] * s.v[0] + l * l * s.v[1] * s.v[1]),
             strain: 0.5 * self.stiffness * s.q[0] * s.q[0],
             gravity: -self.gravity * l * s.q[1].cos(),
+            ..Energy::default()
         }
     }
-    no_output!();
 }
 
 /// Mathematical pendulum φ̈ + sin φ = 0, by its angle.
 pub struct Pendulum {
-    labels: Vec<Label>,
+    scales: Vec<f64>,
 }
 
 impl Pendulum {
     pub fn new() -> Pendulum {
-        Pendulum { labels: labels(1) }
+        Pendulum { scales: vec![1.0; 1] }
     }
 
     /// Period of the swing of amplitude `phi`: 2π / agm(1, cos φ/2).
@@ -174,11 +174,14 @@ impl Pendulum {
     }
 }
 
-impl System for Pendulum {
+impl Dynamics for Pendulum {
+    fn scales(&self) -> &[f64] {
+        &self.scales
+    }
     fn size(&self) -> Size {
         Size { q: 1, v: 1, lambda: 0 }
     }
-    fn structure(&self) -> Structure {
+    fn structure(&self, _multipliers: usize) -> Structure {
         Structure::dense(1)
     }
     fn residual(&mut self, s: &State, r: &mut [f64]) {
@@ -188,54 +191,62 @@ impl System for Pendulum {
         out.clear();
         out.add(0, 0, w.a + w.q * s.q[0].cos());
     }
+}
+
+impl Observed for Pendulum {
     fn energy(&mut self, s: &State) -> Energy {
-        Energy { kinetic: 0.5 * s.v[0] * s.v[0], strain: 0.0, gravity: -s.q[0].cos() }
+        Energy { kinetic: 0.5 * s.v[0] * s.v[0], gravity: -s.q[0].cos(), ..Energy::default() }
     }
-    no_output!();
 }
 
 /// The same pendulum by Cartesian coordinates of its unit mass: q = (x, y), g = ½(x² + y² − 1) = 0.
 pub struct CartesianPendulum {
-    labels: Vec<Label>,
+    scales: Vec<f64>,
 }
 
 impl CartesianPendulum {
     pub fn new() -> CartesianPendulum {
-        CartesianPendulum { labels: labels(3) }
+        CartesianPendulum { scales: vec![1.0; 2] }
     }
 }
 
-impl System for CartesianPendulum {
+impl Dynamics for CartesianPendulum {
+    fn scales(&self) -> &[f64] {
+        &self.scales
+    }
     fn size(&self) -> Size {
         Size { q: 2, v: 2, lambda: 1 }
     }
-    fn structure(&self) -> Structure {
-        Structure::dense(3)
-    }
     fn residual(&mut self, s: &State, r: &mut [f64]) {
-        r[0] = s.a[0] + s.q[0] * s.lambda[0];
-        r[1] = s.a[1] + s.q[1] * s.lambda[0] + 1.0;
+        r[0] = s.a[0] - s.q[0] * s.lambda[0];
+        r[1] = s.a[1] - s.q[1] * s.lambda[0] + 1.0;
     }
-    fn constraint(&mut self, s: &State, level: Level, g: &mut [f64]) {
+    fn constraint(&mut self, s: &State, c: RowWeights, g: &mut [f64]) {
         let dot = |x: &[f64], y: &[f64]| x[0] * y[0] + x[1] * y[1];
-        g[0] = match level {
-            Level::Position => 0.5 * (dot(&s.q, &s.q) - 1.0),
-            Level::Velocity => dot(&s.q, &s.v),
-            Level::Acceleration => dot(&s.q, &s.a) + dot(&s.v, &s.v),
-        };
+        g[0] = c.combine(
+            0.5 * (dot(&s.q, &s.q) - 1.0),
+            dot(&s.q, &s.v),
+            dot(&s.q, &s.a) + dot(&s.v, &s.v),
+        );
+    }
+    fn rows(&self) -> &[Set] {
+        &[Set::Free]
+    }
+    fn jacobian(&mut self, s: &State, visit: &mut VisitRow<'_>) {
+        visit(0, &[0, 1], &s.q);
     }
     fn tangent(&mut self, s: &State, w: Weights<'_>, out: &mut Matrix) {
         out.clear();
         for i in 0..2 {
-            out.add(i, i, w.a + w.q * s.lambda[0]);
-            out.add(i, 2, s.q[i]);
-            out.add(2, i, s.q[i]);
+            out.add(i, i, w.a - w.q * s.lambda[0]);
         }
     }
+}
+
+impl Observed for CartesianPendulum {
     fn energy(&mut self, s: &State) -> Energy {
-        Energy { kinetic: 0.5 * (s.v[0] * s.v[0] + s.v[1] * s.v[1]), strain: 0.0, gravity: s.q[1] }
+        Energy { kinetic: 0.5 * (s.v[0] * s.v[0] + s.v[1] * s.v[1]), gravity: s.q[1], ..Energy::default() }
     }
-    no_output!();
 }
 
 /// A stiff linear oscillator about a smooth slow motion,
@@ -243,20 +254,23 @@ impl System for CartesianPendulum {
 pub struct TwoFrequencies {
     pub fast: f64,
     pub ratio: f64,
-    labels: Vec<Label>,
+    scales: Vec<f64>,
 }
 
 impl TwoFrequencies {
     pub fn new(fast: f64, ratio: f64) -> TwoFrequencies {
-        TwoFrequencies { fast, ratio, labels: labels(2) }
+        TwoFrequencies { fast, ratio, scales: vec![1.0; 2] }
     }
 }
 
-impl System for TwoFrequencies {
+impl Dynamics for TwoFrequencies {
+    fn scales(&self) -> &[f64] {
+        &self.scales
+    }
     fn size(&self) -> Size {
         Size { q: 2, v: 2, lambda: 0 }
     }
-    fn structure(&self) -> Structure {
+    fn structure(&self, _multipliers: usize) -> Structure {
         Structure::band(2, 0, 0, 0)
     }
     fn residual(&mut self, s: &State, r: &mut [f64]) {
@@ -277,10 +291,12 @@ impl System for TwoFrequencies {
     fn is_affine(&self) -> bool {
         true
     }
+}
+
+impl Observed for TwoFrequencies {
     fn energy(&mut self, _s: &State) -> Energy {
         Energy::default()
     }
-    no_output!();
 }
 
 /// A chain stored with five neighbours a side: a band like that of a beam of 10 elements.
@@ -291,7 +307,7 @@ pub fn wide_chain(n: usize) -> Chain {
 }
 
 /// A state of the system at t = 0.
-pub fn state(system: &dyn System, q: &[f64], v: &[f64]) -> State {
+pub fn state(system: &dyn Dynamics, q: &[f64], v: &[f64]) -> State {
     let mut state = State::zeros(system.size(), 0.0);
     state.q.copy_from_slice(q);
     state.v.copy_from_slice(v);

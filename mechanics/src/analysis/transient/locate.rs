@@ -37,6 +37,8 @@ pub(super) struct Locator {
     own: usize,
     /// Length of the system \[m\].
     pub(super) length: f64,
+    /// Largest multiplier of the run so far.
+    pub(super) strongest: f64,
     start: Values,
     end: Values,
     signs: Vec<f64>,
@@ -58,12 +60,12 @@ impl Values {
         Values { gap: zeros(rows), rate: zeros(rows), indicator: zeros(rows + own), zero: zeros(rows + own) }
     }
 
-    fn evaluate(&mut self, system: &mut dyn System, s: &State, sets: &[Set], length: f64) {
+    fn evaluate(&mut self, system: &mut dyn System, s: &State, sets: &[Set], [length, strongest]: [f64; 2]) {
         let m = sets.len();
         system.constraint(s, RowWeights::POSITION, &mut self.gap);
         system.constraint(s, RowWeights::VELOCITY, &mut self.rate);
         let largest = |x: &[f64]| x.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-        let (force, rate) = (VANISHING * largest(&s.lambda), VANISHING * largest(&s.v).max(largest(&self.rate)));
+        let (force, rate) = (VANISHING * strongest, VANISHING * largest(&s.v).max(largest(&self.rate)));
         for (i, set) in sets.iter().enumerate() {
             let (value, zero) = match (*set, s.mode[i]) {
                 (Set::Free, _) => (f64::INFINITY, 0.0),
@@ -93,7 +95,7 @@ impl Locator {
         let length = system.scales().iter().fold(0.0_f64, |m, x| m.max(*x));
         let values = || Values::new(sets.len(), own);
         let (start, end, signs) = (values(), values(), vec![1.0; own]);
-        Some(Locator { own, length, start, end, signs, trial: state.clone(), sets })
+        Some(Locator { own, length, strongest: 0.0, start, end, signs, trial: state.clone(), sets })
     }
 
     /// Looks for events in the step of size `h` from `from` to `to`, which was attempted. Where there is one, `to` becomes
@@ -106,6 +108,8 @@ impl Locator {
         h: f64,
         to: &mut State,
     ) -> Result<(f64, bool), RunError> {
+        let largest = from.lambda.iter().chain(&to.lambda).fold(0.0_f64, |m, x| m.max(x.abs()));
+        self.strongest = self.strongest.max(largest);
         self.begin(system, from);
         let whole = (to.t, to.side);
         let mut value = self.value(system, to);
@@ -184,7 +188,7 @@ impl Locator {
     }
 
     fn begin(&mut self, system: &mut dyn System, from: &State) {
-        self.start.evaluate(system, from, &self.sets, self.length);
+        self.start.evaluate(system, from, &self.sets, [self.length, self.strongest]);
         let m = self.sets.len();
         for (sign, x) in self.signs.iter_mut().zip(&self.start.indicator[m..]) {
             *sign = if *x < 0.0 { -1.0 } else { 1.0 };
@@ -193,12 +197,12 @@ impl Locator {
 
     /// The least indicator at `s`, scaled.
     fn value(&mut self, system: &mut dyn System, s: &State) -> f64 {
-        self.end.evaluate(system, s, &self.sets, self.length);
+        self.end.evaluate(system, s, &self.sets, [self.length, self.strongest]);
         self.least(&self.end)
     }
 
     fn trial_value(&mut self, system: &mut dyn System) -> f64 {
-        self.end.evaluate(system, &self.trial, &self.sets, self.length);
+        self.end.evaluate(system, &self.trial, &self.sets, [self.length, self.strongest]);
         self.least(&self.end)
     }
 

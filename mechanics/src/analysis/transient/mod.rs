@@ -338,7 +338,7 @@ impl Run {
             control.recall(from.numbers("control")?);
         }
         if let Some(contacts) = &mut self.contacts {
-            [contacts.fastest] = from.numbers("contacts")?;
+            [contacts.fastest, contacts.locator.strongest] = from.numbers("contacts")?;
         }
         if observer.wants_energy_balance() {
             let mut balance = Integral::new(system, integrator.info().order, state);
@@ -362,7 +362,7 @@ impl Run {
             out.put("control", &control.memory());
         }
         if let Some(contacts) = &self.contacts {
-            out.put("contacts", &[contacts.fastest]);
+            out.put("contacts", &[contacts.fastest, contacts.locator.strongest]);
         }
         if let Some(balance) = &self.balance {
             balance.save(&mut out);
@@ -521,7 +521,7 @@ impl Run {
                 Some(contacts) => contacts,
                 None => {
                     fallback = ImpactMap::new(system);
-                    let impact = fallback.strike(system, state, &self.impulse, 0.0, 0.0);
+                    let impact = fallback.strike(system, state, &self.impulse, [0.0; 3]);
                     impact.map_err(|cause| RunError::Contact { time: state.t, cause })?;
                     work = system.impulse_work(&before, state);
                     happened.push(EventKind::Jump { work });
@@ -609,7 +609,7 @@ impl Run {
 impl Contacts {
     fn settle(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), RunError> {
         let touching = 100.0 * TOUCHING * self.locator.length;
-        let settled = self.map.settle(system, state, touching);
+        let settled = self.map.settle(system, state, touching, &[]);
         settled.map_err(|cause| RunError::Contact { time: state.t, cause })
     }
 
@@ -627,7 +627,9 @@ impl Contacts {
                 self.fastest = self.fastest.max(-rate);
             }
         }
-        let struck = self.map.strike(system, state, p, touching, RESTING * self.fastest);
+        let weak = 1e-9 * self.locator.strongest;
+        let bounds = [touching, RESTING * self.fastest, weak];
+        let struck = self.map.strike(system, state, p, bounds);
         struck.map_err(|cause| RunError::Contact { time: state.t, cause })
     }
 

@@ -180,7 +180,7 @@ impl Integrator for Radau {
             if work.factored_step != h {
                 work.factor(system, from, h, &mut self.counters)?;
             }
-            work.predict(from, ratio);
+            work.predict(from, h, ratio);
             self.convergence.begin(work.fresh);
             let (progress, size) = work.iterate(system, (from, to), h, &mut self.convergence, &mut self.counters);
             if progress == Progress::Converged {

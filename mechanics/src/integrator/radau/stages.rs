@@ -15,8 +15,11 @@ pub(super) struct Stages {
     pub(super) accelerations: Accelerations,
     rows: Rows,
     flat: bool,
-    /// Rates ḋ of the stages' increments, where the configuration is no vector space.
+    /// Increments D of the stages, their rates Ḋ, and the scaled square of their last change, where the configuration is
+    /// no vector space.
+    increments: [Vec<f64>; 3],
     rates: [Vec<f64>; 3],
+    shift: f64,
     /// M, C and K, and how the sections have rotated since: at the start of the step and at the stages.
     mass: Matrix,
     damping: Matrix,
@@ -64,7 +67,9 @@ impl Stages {
             accelerations: Accelerations::new(system, state, RowWeights::ACCELERATION),
             rows: Rows::new(system, state),
             flat: system.is_vector_space(),
+            increments: three(),
             rates: three(),
+            shift: 0.0,
             mass: Matrix::new(&structure),
             damping: Matrix::new(&structure),
             stiffness: Matrix::new(&structure),
@@ -152,14 +157,14 @@ impl Stages {
 
     /// Starting values: the last step's polynomial, `ratio` = h/h_last on, or the acceleration at the
     /// start.
-    pub(super) fn predict(&mut self, from: &State, ratio: Option<f64>) {
+    pub(super) fn predict(&mut self, from: &State, h: f64, ratio: Option<f64>) {
         let Some(ratio) = ratio else {
             for x in &mut self.a {
                 let (a, lambda) = x.split_at_mut(from.a.len());
                 a.copy_from_slice(&from.a);
                 lambda.copy_from_slice(&from.lambda);
             }
-            self.start_rates(from);
+            self.start_rates(from, h);
             return;
         };
         let [a1, a2, a3] = &self.a_accepted;
@@ -169,14 +174,16 @@ impl Stages {
                 a[i] = l1 * a1[i] + l2 * a2[i] + l3 * a3[i];
             }
         }
-        self.start_rates(from);
+        self.start_rates(from, h);
     }
 
-    /// Rates of the increments, as on a vector space at first.
-    fn start_rates(&mut self, from: &State) {
+    /// Increments and their rates, as on a vector space at first.
+    fn start_rates(&mut self, from: &State, h: f64) {
         if !self.flat {
-            for rate in &mut self.rates {
-                rate[..from.v.len()].copy_from_slice(&from.v);
+            for ((rate, increment), c) in self.rates.iter_mut().zip(&mut self.increments).zip(C) {
+                for i in 0..from.v.len() {
+                    (rate[i], increment[i]) = (from.v[i], c * h * from.v[i]);
+                }
             }
         }
     }
@@ -194,6 +201,7 @@ impl Stages {
         let (h_gamma, mu) = (h * LAMBDA, Complex64::new(h * MU[0], h * MU[1]));
         let (h_gamma, mu) = (h_gamma * h_gamma, mu * mu);
         loop {
+            self.shift = 0.0;
             for i in 0..3 {
                 self.set_stage(system, (from, to), h, i);
                 if convergence.iterations() == 0 {
@@ -262,9 +270,11 @@ impl Stages {
             d[k] = h_gamma * from.v[k] + row2[0] * a1[k] + row2[1] * a2[k] + row2[2] * a3[k];
         }
         if !self.flat {
-            system.rate(&self.increment, &self.stage.v, &mut self.rates[i][..n]);
+            system.rate(&self.increments[i][..n], &self.stage.v, &mut self.rates[i][..n]);
             for k in 0..n {
-                self.increment[k] = (0..3).map(|j| row[j] * self.rates[j][k]).sum();
+                let d: f64 = (0..3).map(|j| row[j] * self.rates[j][k]).sum();
+                self.shift += ((d - self.increments[i][k]) * self.inverse_weight[k]).powi(2);
+                (self.increment[k], self.increments[i][k]) = (d, d);
             }
         }
         let (a, lambda) = self.a[i].split_at(n);
@@ -290,12 +300,17 @@ impl Stages {
         for (d, corotation) in [&mut *d1, &mut *d2, &mut *d3].into_iter().zip(&self.stage_corotation) {
             corotation.rotate(d);
         }
+        if !self.flat {
+            for (increment, d) in self.increments.iter_mut().zip([&*d1, &*d2, &*d3]) {
+                increment.iter_mut().zip(d).for_each(|(x, d)| *x -= d);
+            }
+        }
         let rows =
             |a: &[[f64; 3]; 3], d: [f64; 3]| a.map(|row| row[0] * d[0] + row[1] * d[1] + row[2] * d[2]);
         let squares = |d: [f64; 3]| d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
         let inverse = 1.0 / (h * h);
         let [a1, a2, a3] = &mut self.a;
-        let mut square = 0.0;
+        let mut square = self.shift;
         let velocities = self.inverse_weight.len();
         for i in velocities..n {
             let [x, y, z] = rows(&A2_INVERSE, [d1[i], d2[i], d3[i]]).map(|x| inverse * x);
