@@ -117,7 +117,8 @@ fn followed(arguments: &Arguments, reading: &Reading) -> Result<(String, bool), 
     let named = format!("{}-campbell", arguments.case.name());
     let output = arguments.output.clone().unwrap_or_else(|| Path::new("results").join(named));
     let (steady, cautions) = vibration::without_loads_in_space(case);
-    let directory = Directory::for_campbell(&output, arguments.force).map_err(|error| error.to_string())?;
+    let directory = Directory::create_for(Artifact::CAMPBELL, &output, arguments.force)
+        .map_err(|error| error.to_string())?;
     let bar = ProgressBar::new(plan.speeds.len() as u64);
     if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos}/{len} speeds  {eta} left") {
         bar.set_style(style);

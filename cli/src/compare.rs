@@ -146,7 +146,7 @@ fn write(
     results: &[Results],
     comparisons: &[Comparison],
 ) -> Result<String, OutputError> {
-    let directory = Directory::for_comparison(path, arguments.force)?;
+    let directory = Directory::create_for(Artifact::COMPARISON, path, arguments.force)?;
     let written = fill(&directory, arguments, results, comparisons);
     if written.is_err() {
         directory.discard();

@@ -63,7 +63,8 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<String, String> {
         return Err(format!("the speed is {} and must be zero or positive", unit.text(speed)));
     }
     let hub = arguments.options.hub(case)?;
-    let directory = arguments.output.as_ref().map(|path| Directory::for_modes(path, arguments.force));
+    let directory =
+        arguments.output.as_ref().map(|path| Directory::create_for(Artifact::MODES, path, arguments.force));
     let directory = directory.transpose().map_err(|error| error.to_string())?;
     let (steady, cautions) =
         if speed > 0.0 { vibration::without_loads_in_space(case) } else { (case.clone(), Vec::new()) };
