@@ -1,6 +1,7 @@
 //! `flexion compare`: how far runs are apart.
 
 use crate::{Outcome, screen};
+use flexion::system::Role;
 use flexion_results::plot::difference_figure;
 use flexion_results::{
     Artifact, Comparison, Directory, OutputError, Results, ResultsError, compare as compare_two, compare_csv,
@@ -40,8 +41,8 @@ pub struct Arguments {
     force: bool,
 }
 
-/// Columns that are drawn when none are asked for.
-const DRAWN: [&str; 2] = ["tip.deflection", "tip.axial"];
+/// Most primary columns that are drawn when none are asked for.
+const USUAL: usize = 2;
 /// Most columns that are drawn.
 const MOST_DRAWN: usize = 6;
 
@@ -96,11 +97,12 @@ fn compared(arguments: &Arguments) -> Result<(Vec<Results>, Vec<Comparison>), Re
     let mut comparisons = Vec::new();
     if let Some((reference, runs)) = results.split_first() {
         for run in runs {
-            let names = reference.trajectory.channels().iter().map(|c| c.name.as_str());
-            let common: Vec<&str> = names.filter(|name| run.trajectory.index(name).is_some()).collect();
+            let channels = reference.trajectory.channels().iter();
+            let common = channels.filter(|c| run.trajectory.index(&c.name).is_some());
             let columns = if arguments.columns.is_empty() {
-                common.into_iter().filter(|name| !name.starts_with("step.")).collect()
+                common.filter(|c| c.role != Role::Integration).map(|c| c.name.as_str()).collect()
             } else {
+                let common: Vec<&str> = common.map(|c| c.name.as_str()).collect();
                 let of = format!("both {} and {}", reference.name, run.name);
                 select(&common, &arguments.columns, &of)?
             };
@@ -160,14 +162,12 @@ fn fill(
     results: &[Results],
     comparisons: &[Comparison],
 ) -> Result<String, OutputError> {
-    let compared =
-        comparisons.first().map(|c| &c.differences).into_iter().flatten().map(|d| d.column.as_str());
-    let mut drawn: Vec<&str> =
-        compared.clone().filter(|name| !arguments.columns.is_empty() || DRAWN.contains(name)).collect();
-    if drawn.is_empty() {
-        drawn = compared.collect();
+    let compared = comparisons.first().map_or(&[][..], |c| c.trajectory.channels());
+    let mut drawn: Vec<_> = compared.iter().filter(|c| c.role == Role::Primary).take(USUAL).collect();
+    if drawn.is_empty() || !arguments.columns.is_empty() {
+        drawn = compared.iter().take(MOST_DRAWN).collect();
     }
-    drawn.truncate(MOST_DRAWN);
+    let drawn: Vec<&str> = drawn.into_iter().map(|c| c.name.as_str()).collect();
     let mut warning = String::new();
     let drawing = difference_figure(results, comparisons, &drawn, None).draw();
     directory.write(Artifact::CompareCsv, |f| compare_csv(comparisons, f))?;

@@ -1,6 +1,7 @@
 //! `flexion run`: integrates a case and writes its results.
 
 use crate::{Outcome, case, screen};
+use flexion::system::{Channel, Role};
 use flexion_case::{Errors, Run, units};
 use flexion_results::{Artifact, Directory, Status, Trajectory};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -125,12 +126,17 @@ fn finish(status: Status, run: &Run, directory: &Directory) -> Outcome {
     Outcome::Incomplete
 }
 
-/// Smallest, largest and last value of what is recorded at the tip and the hub.
+/// Whether a column is printed after a run.
+fn is_printed(channel: &Channel) -> bool {
+    matches!(channel.role, Role::Primary | Role::Secondary)
+}
+
+/// Smallest, largest and last value of the columns that most readers look for.
 fn extremes(trajectory: &Trajectory) -> String {
     let head = ["", "unit", "min", "at t [s]", "max", "at t [s]", "last"];
     let mut rows = vec![head.iter().map(|cell| (*cell).to_owned()).collect::<Vec<_>>()];
     for (index, channel) in trajectory.channels().iter().enumerate() {
-        if !(channel.name.starts_with("tip.") || channel.name.starts_with("hub.")) {
+        if !is_printed(channel) {
             continue;
         }
         let e = trajectory.extremes(index);
@@ -149,15 +155,15 @@ fn extremes(trajectory: &Trajectory) -> String {
     screen::table(&rows)
 }
 
-/// Estimated errors of what is recorded at the tip and the hub.
+/// Estimated errors of the same columns.
 fn error_table(errors: &Errors, trajectory: &Trajectory) -> String {
     let head = ["", "unit", "error of mesh and steps", "difference to the exact coupling"];
     let mut rows = vec![head.iter().map(|cell| (*cell).to_owned()).collect::<Vec<_>>()];
-    let shown = |name: &str| name.starts_with("tip.") || name.starts_with("hub.");
-    for error in errors.columns.iter().filter(|error| shown(&error.column)) {
+    for error in &errors.columns {
+        let channel = trajectory.channels().iter().find(|channel| channel.name == error.column);
+        let Some(channel) = channel.filter(|channel| is_printed(channel)) else { continue };
         let model = error.model.map_or("-".to_owned(), |model| format!("{model:.1e}"));
-        let unit = trajectory.index(&error.column).map_or("", |index| trajectory.channels()[index].unit);
-        let unit = if unit.is_empty() { "1" } else { unit };
+        let unit = if channel.unit.is_empty() { "1" } else { channel.unit };
         rows.push(vec![
             error.column.clone(),
             unit.to_owned(),

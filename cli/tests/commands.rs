@@ -384,6 +384,9 @@ fn results_are_plotted_as_svg_and_png() {
         plot(&["a", "b", "-c", "tip.*", "--title", "Meshes", "-o", "tip.svg"]),
         (Some(0), String::new())
     );
+    // In the files columns have names only, and yet the figure is that of the run.
+    assert_eq!(plot(&["a", "--title", "spin-up", "-o", "a.svg"]), (Some(0), String::new()));
+    assert!(read("a.svg") == read("a/plot.svg"));
     let svg = String::from_utf8(read("tip.svg")).unwrap();
     assert!(svg.contains("Meshes") && svg.contains("(f)") && !svg.contains("(g)"), "six panels");
     assert_eq!(plot(&["a", "-o", "figures/a.png"]), (Some(0), String::new()));

@@ -95,7 +95,7 @@ fn note(column: &str, what: &str, text: &str) -> KeyValue {
 mod tests {
     use super::*;
     use crate::trajectory::tests::{channel, sample};
-    use flexion::system::Channel;
+    use flexion::system::{Channel, Role};
     use parquet::file::reader::{FileReader, SerializedFileReader};
     use parquet::record::Field;
     use std::fs::File;
@@ -148,7 +148,7 @@ mod tests {
     #[test]
     fn columns_carry_names_units_and_meanings() {
         let t = Trajectory::new(vec![
-            Channel { name: "x=2.5.w".into(), unit: "m", meaning: "deflection".into() },
+            Channel { name: "x=2.5.w".into(), unit: "m", meaning: "deflection".into(), role: Role::Detail },
             channel("share", ""),
         ]);
         let file = open(&bytes(&t, GROUP));

@@ -4,6 +4,7 @@ use serde_json::{Map, Value, json};
 
 use super::Trajectory;
 use flexion::integrator::{Counters, Info};
+use flexion::system::Role;
 
 /// Version of the program, as stated in every summary.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
@@ -173,14 +174,11 @@ impl Summary {
 
 /// The balance of energy: its largest and last value, and both over the largest energy or work of the run.
 fn imbalance(trajectory: &Trajectory) -> Option<Value> {
-    let balance = trajectory.extremes(trajectory.index("energy.balance")?);
-    let sizes = trajectory.channels().iter().enumerate().filter(|(_, c)| c.name.starts_with("energy."));
-    let size = |i: usize| {
-        let e = trajectory.extremes(i);
-        e.min.abs().max(e.max.abs())
-    };
-    let largest = sizes.map(|(i, _)| size(i)).fold(0.0, f64::max);
-    let max = balance.min.abs().max(balance.max.abs());
+    let balance = trajectory.extremes(trajectory.with_role(Role::Imbalance).next()?);
+    let energies =
+        [Role::Energy, Role::Work, Role::Imbalance].into_iter().flat_map(|r| trajectory.with_role(r));
+    let largest = energies.map(|i| trajectory.extremes(i).largest()).fold(0.0, f64::max);
+    let max = balance.largest();
     let over = |x: f64| if largest > 0.0 { x / largest } else { 0.0 };
     Some(json!({
         "largest": largest,

@@ -1,6 +1,6 @@
 //! What a run recorded: one row of channel values for each recorded time.
 
-use flexion::system::Channel;
+use flexion::system::{Channel, Role};
 
 /// Recorded times and, for each, one value of every channel.
 ///
@@ -27,6 +27,13 @@ pub struct Extremes {
     pub last: f64,
     /// Time of the first value that is not finite [s], if there is one.
     pub not_finite: Option<f64>,
+}
+
+impl Extremes {
+    /// Largest absolute value; NaN when no value is finite.
+    pub fn largest(&self) -> f64 {
+        self.min.abs().max(self.max.abs())
+    }
 }
 
 impl Trajectory {
@@ -82,6 +89,11 @@ impl Trajectory {
         self.channels.iter().position(|c| c.name == name)
     }
 
+    /// Indices of the channels with this role.
+    pub fn with_role(&self, role: Role) -> impl Iterator<Item = usize> {
+        self.channels.iter().enumerate().filter(move |(_, c)| c.role == role).map(|(i, _)| i)
+    }
+
     /// Values of the channel at `index`, in time order; nothing for an index out of range.
     pub fn values(&self, index: usize) -> impl Iterator<Item = f64> {
         let width = self.channels.len();
@@ -129,7 +141,7 @@ pub(super) mod tests {
     use super::*;
 
     pub(crate) fn channel(name: &str, unit: &'static str) -> Channel {
-        Channel { name: name.into(), unit, meaning: format!("the {name}") }
+        Channel { name: name.into(), unit, meaning: format!("the {name}"), role: Role::Detail }
     }
 
     /// Two channels: a cosine with its lowest point at t = 2 s, and a constant.
