@@ -8,7 +8,7 @@ use flexion_results::{
     compare_json, select,
 };
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// The runs to compare.
 #[derive(clap::Args)]
@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 The runs are compared at the times of the first, REFERENCE. A run recorded at other times is interpolated there by
 cubics: name the run recorded most finely last, or record at the same times.
 
-Exit codes: 0 compared, 1 command line rejected, 2 a difference exceeds the tolerance.")]
+Exit codes: 0 compared, 1 command line rejected, 2 a difference exceeds the tolerance, or the files could not be written.")]
 pub struct Arguments {
     /// Directory of the results, or CSV file, that the others are compared with
     #[arg(value_name = "REFERENCE")]
@@ -30,7 +30,7 @@ pub struct Arguments {
     /// Columns, e.g. tip.deflection,tip.axial or 'tip.*' [default: all in common but step.*]
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     columns: Vec<String>,
-    /// Largest difference admitted, relative to the peak of REFERENCE; beyond it the exit code is 2
+    /// Largest difference allowed, relative to the peak of REFERENCE; beyond it the exit code is 2
     #[arg(long, value_name = "X", value_parser = tolerance)]
     tolerance: Option<f64>,
     /// Directory for compare.json, compare.csv and the plots of runs and differences
@@ -58,7 +58,7 @@ pub fn compare(arguments: &Arguments) -> Outcome {
     let (results, comparisons) = match compared(arguments) {
         Ok(compared) => compared,
         Err(error) => {
-            screen::complain(&format!("error: {error}\n"));
+            screen::report(&format!("error: {error}\n"));
             return Outcome::Rejected;
         }
     };
@@ -69,22 +69,27 @@ pub fn compare(arguments: &Arguments) -> Outcome {
     }
     screen::print(&out);
     for caution in results.iter().filter_map(|results| results.caution.as_ref()) {
-        screen::complain(&format!("warning: {caution}\n"));
+        screen::report(&format!("warning: {caution}\n"));
     }
     if let Some(path) = &arguments.output {
-        match write(path, arguments, &results, &comparisons) {
-            Ok(text) => screen::print(&text),
+        let directory = match Directory::create_for(Artifact::COMPARISON, path, arguments.force) {
+            Ok(directory) => directory,
             Err(error) => {
-                screen::complain(&format!("error: {error}\n"));
+                screen::report(&format!("error: {error}\n"));
                 return Outcome::Rejected;
             }
+        };
+        let written = fill(&directory, arguments, &results, &comparisons);
+        let files = [("figures", Artifact::CompareJson), ("plot", Artifact::CompareSvg)];
+        if !screen::files(&directory, written, &files) {
+            return Outcome::Incomplete;
         }
     }
     let Some(tolerance) = arguments.tolerance else { return Outcome::Finished };
     let mut beyond = false;
     for comparison in &comparisons {
         for what in comparison.beyond(tolerance) {
-            screen::complain(&format!("error: {}: {what}\n", comparison.second));
+            screen::report(&format!("error: {}: {what}\n", comparison.second));
             beyond = true;
         }
     }
@@ -141,27 +146,13 @@ fn described(c: &Comparison) -> String {
     out
 }
 
-/// Writes the files and says where they are.
-fn write(
-    path: &Path,
-    arguments: &Arguments,
-    results: &[Results],
-    comparisons: &[Comparison],
-) -> Result<String, OutputError> {
-    let directory = Directory::create_for(Artifact::COMPARISON, path, arguments.force)?;
-    let written = fill(&directory, arguments, results, comparisons);
-    if written.is_err() {
-        directory.discard();
-    }
-    written
-}
-
+/// Writes the files.
 fn fill(
     directory: &Directory,
     arguments: &Arguments,
     results: &[Results],
     comparisons: &[Comparison],
-) -> Result<String, OutputError> {
+) -> Result<(), OutputError> {
     let compared = comparisons.first().map_or(&[][..], |c| c.trajectory.channels());
     let mut drawn: Vec<_> = compared.iter().filter(|c| c.role == Role::Primary).take(USUAL).collect();
     if drawn.is_empty() || !arguments.columns.is_empty() {
@@ -179,7 +170,6 @@ fn fill(
     let json = compare_json(comparisons, arguments.tolerance);
     directory.write(Artifact::CompareJson, |f| f.write_all(json.as_bytes()))?;
     directory.publish()?;
-    screen::complain(&warning);
-    let place = |what: &str, artifact| vec![what.to_owned(), directory.file(artifact).display().to_string()];
-    Ok(screen::table(&[place("figures", Artifact::CompareJson), place("plot", Artifact::CompareSvg)]))
+    screen::report(&warning);
+    Ok(())
 }

@@ -42,7 +42,7 @@ pub fn plot(arguments: &Arguments) -> Outcome {
             Outcome::Finished
         }
         Err(message) => {
-            screen::complain(&format!("error: {message}\n"));
+            screen::report(&format!("error: {message}\n"));
             Outcome::Rejected
         }
     }
@@ -68,7 +68,7 @@ fn plotted(arguments: &Arguments) -> Result<(), String> {
         if png { drawing.png().map_err(|error| error.to_string())? } else { drawing.svg().into_bytes() };
     write_file(&arguments.output, &bytes).map_err(|error| error.to_string())?;
     for caution in results.iter().filter_map(|results| results.caution.as_ref()) {
-        screen::complain(&format!("warning: {caution}\n"));
+        screen::report(&format!("warning: {caution}\n"));
     }
     Ok(())
 }
@@ -107,7 +107,7 @@ fn figure(results: &[Results], arguments: &Arguments) -> Result<Figure, String> 
     Ok(compare_figure(&runs, &columns, title))
 }
 
-/// The columns of one run: nothing to tell apart, and so no legend.
+/// The columns of one run, without a legend.
 fn single(trajectory: &Trajectory, columns: &[&str]) -> Figure {
     let mut figure = compare_figure(&[("", trajectory)], columns, None);
     for series in figure.panels.iter_mut().flat_map(|panel| &mut panel.series) {

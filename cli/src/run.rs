@@ -51,14 +51,14 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let prepared = match reading.prepare() {
         Ok(prepared) => prepared,
         Err(problems) => {
-            screen::complain(&problems.render(screen::colour()));
+            screen::report(&problems.render(screen::colour()));
             return Outcome::Rejected;
         }
     };
     let directory = match Directory::create(&output, arguments.force) {
         Ok(directory) => directory,
         Err(error) => {
-            screen::complain(&format!("error: {error}\n"));
+            screen::report(&format!("error: {error}\n"));
             return Outcome::Rejected;
         }
     };
@@ -72,7 +72,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
             Ok(errors) => run.errors = Some(errors),
             Err(problems) => {
                 progress.finish();
-                screen::complain(&problems.render(screen::colour()));
+                screen::report(&problems.render(screen::colour()));
                 directory.discard();
                 return Outcome::Rejected;
             }
@@ -82,9 +82,9 @@ pub fn run(arguments: &Arguments) -> Outcome {
     match reading.write(&run, &directory) {
         Ok(status) => finish(status, &run, &directory),
         Err(error) => {
-            screen::complain(&format!("error: {error}\n"));
+            screen::report(&format!("error: {error}\n"));
             if let Some(path) = directory.salvage() {
-                screen::complain(&format!("What was written until then is kept in {}.\n", path.display()));
+                screen::report(&format!("What was written until then is kept in {}.\n", path.display()));
             }
             Outcome::Incomplete
         }
@@ -96,23 +96,20 @@ fn finish(status: Status, run: &Run, directory: &Directory) -> Outcome {
     let trajectory = &run.trajectory;
     let wall_time = run.wall_time;
     let end = format!("{:.6}", trajectory.times().last().copied().unwrap_or(0.0));
-    let mut out = format!("{} at t = {end} s after {wall_time:.3} s of computing\n\n", status.word());
+    let mut out = format!("{} at t = {end} s in {wall_time:.3} s of wall time\n\n", status.word());
     out.push_str(&extremes(trajectory));
     out.push('\n');
     if let Some(errors) = &run.errors {
         out.push_str(&error_table(errors, trajectory));
         out.push('\n');
     }
-    let place = |what: &str, artifact| vec![what.to_owned(), directory.file(artifact).display().to_string()];
-    let mut places = vec![place("summary", Artifact::Summary), place("plot", Artifact::PlotSvg)];
-    if run.shapes.is_some() {
-        places.push(place("shapes", Artifact::ShapeSeries));
-    }
-    out.push_str(&screen::table(&places));
     screen::print(&out);
+    let mut files = vec![("summary", Artifact::Summary), ("plot", Artifact::PlotSvg)];
+    files.extend(run.shapes.is_some().then_some(("shapes", Artifact::ShapeSeries)));
+    screen::files(directory, Ok(()), &files);
     let estimates = run.errors.iter().flat_map(|errors| &errors.warnings);
     for warning in run.warnings.iter().chain(estimates) {
-        screen::complain(&format!("warning: {warning}\n"));
+        screen::report(&format!("warning: {warning}\n"));
     }
     if status == Status::Finished {
         return Outcome::Finished;
@@ -122,7 +119,7 @@ fn finish(status: Status, run: &Run, directory: &Directory) -> Outcome {
         (None, Some((channel, t))) => format!("{} is not finite at t = {t} s", channel.name),
         (None, None) => status.word().to_owned(),
     };
-    screen::complain(&format!("error: {reason}\nWhat was computed until t = {end} s is kept.\n"));
+    screen::report(&format!("error: {reason}\nWhat was computed until t = {end} s is kept.\n"));
     Outcome::Incomplete
 }
 

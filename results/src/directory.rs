@@ -288,7 +288,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_whole_before_a_failure_is_saved_without_the_closing_file() {
+    fn files_written_before_a_failure_are_saved() {
         let dir = tempfile::tempdir().unwrap();
         let out = Directory::create(dir.path(), false).unwrap();
         out.write(Artifact::TrajectoryCsv, |f| f.write_all(b"whole")).unwrap();
@@ -304,7 +304,7 @@ mod tests {
     }
 
     #[test]
-    fn a_directory_that_vanishes_during_the_run_is_an_error_with_its_path() {
+    fn a_directory_removed_during_the_run_is_an_error() {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("gone");
         let out = Directory::create(&path, false).unwrap();

@@ -191,9 +191,9 @@ mod tests {
         for i in 5..50_000 {
             t.push(f64::from(i), |_| {});
         }
-        for room in [0, 100, 10_000, 1_000_000] {
-            let error = write_parquet(&t, Full(room)).unwrap_err();
-            assert_eq!(error.kind(), io::ErrorKind::StorageFull, "{room}: {error}");
+        for capacity in [0, 100, 10_000, 1_000_000] {
+            let error = write_parquet(&t, Full(capacity)).unwrap_err();
+            assert_eq!(error.kind(), io::ErrorKind::StorageFull, "{capacity}: {error}");
         }
     }
 }

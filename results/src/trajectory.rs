@@ -43,7 +43,7 @@ impl Trajectory {
         Trajectory { channels, times: Vec::new(), rows: Vec::new() }
     }
 
-    /// Makes room for `rows` more rows, so that recording them allocates nothing.
+    /// Reserves memory for `rows` more rows, so that recording them allocates nothing.
     pub fn reserve(&mut self, rows: usize) {
         self.times.reserve(rows);
         self.rows.reserve(rows.saturating_mul(self.channels.len()));
@@ -167,7 +167,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn extremes_of_a_cosine_are_its_crests_and_the_first_of_equals_counts() {
+    fn extremes_of_a_cosine_are_the_first_of_its_equal_crests() {
         let e = sample().extremes(0);
         assert_eq!((e.min, e.t_min, e.max, e.t_max, e.last), (-1.0, 2.0, 1.0, 0.0, 1.0));
         let e = sample().extremes(1);

@@ -167,7 +167,7 @@ fn height_of(svg: &str, words: &str) -> Option<f64> {
 }
 
 #[test]
-fn the_legend_and_words_stand_clear_of_curves_that_pass_all_corners() {
+fn the_legend_and_words_are_clear_of_curves() {
     // Two points a curve: it is the line that counts, not its points.
     let level = |y: f64| vec![(0.0, y), (1.0, y)];
     let series = vec![
