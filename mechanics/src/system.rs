@@ -203,7 +203,7 @@ pub enum Role {
     Energy,
     /// The total energy, work, or a loss [J].
     Work,
-    /// Total energy beyond that of the start and the work [J]: zero if exact.
+    /// Error of the energy balance, E(t) − E(0) − work + losses [J]: zero if exact.
     Imbalance,
     /// Describes the time integration, not the motion.
     Integration,

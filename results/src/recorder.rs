@@ -34,7 +34,7 @@ impl<'a> Recorder<'a> {
             add(Role::Work, "energy.drive", "J", "work of what moves the hub since the start");
             add(Role::Work, "energy.loads", "J", "work of the loads since the start, gravity aside");
             add(Role::Work, "energy.dissipated", "J", "energy lost in dampers since the start");
-            let meaning = "total energy beyond that of the start and the work, losses added: 0 if exact";
+            let meaning = "error of the energy balance, E(t) − E(0) − work + losses: zero if exact";
             add(Role::Imbalance, "energy.balance", "J", meaning);
         }
         add(Role::Integration, "step.size", "s", "size of the time step that covers this time");
