@@ -238,7 +238,7 @@ mod tests {
     use flexion::system::Channel;
 
     fn column(values: [f64; 3]) -> Trajectory {
-        let mut out = Trajectory::new(vec![Channel { name: "y".into(), unit: "m", meaning: String::new() }]);
+        let mut out = Trajectory::new(vec![Channel { name: "y".into(), unit: "m", ..Channel::default() }]);
         for (i, value) in values.into_iter().enumerate() {
             out.push(i as f64, |row| row[0] = value);
         }

@@ -1,4 +1,4 @@
-//! The shapes for ParaView say what the trajectory says: read here as XML, and by VTK itself where Python can have it.
+//! The shapes for ParaView agree with the trajectory, read here as XML; `.ci/run` reads them with VTK itself.
 
 #![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
 
@@ -8,16 +8,9 @@ use flexion_case::{Run, read};
 use flexion_results::{Directory, Status};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
-use std::sync::OnceLock;
-use std::time::{Duration, Instant};
 
 /// Largest difference, over the length of the beam or in rad: rounding.
 const TOLERANCE: f64 = 1e-12;
-/// How long Python may take to fetch VTK.
-const PATIENCE: Duration = Duration::from_secs(45);
-/// Python with VTK and NumPy, if one is at hand.
-const PYTHON: &str = "FLEXION_VTK_PYTHON";
 
 /// A beam that bends by more than half its length while it turns.
 fn results(folder: &Path) -> (PathBuf, Run) {
@@ -99,88 +92,4 @@ fn the_points_of_all_times_follow_one_another_in_one_file() {
         }
         assert!((0..file.len()).any(|at| file[at..].starts_with(&expected)), "{name}");
     }
-}
-
-/// Runs a command to its end, or kills it when it takes longer than `patience`; its output goes to `log`.
-fn finish(command: &mut Command, log: &Path, patience: Duration) -> Result<(), String> {
-    let file = std::fs::File::create(log).map_err(|e| e.to_string())?;
-    let errors = file.try_clone().map_err(|e| e.to_string())?;
-    let mut child = command
-        .stdin(Stdio::null())
-        .stdout(file)
-        .stderr(errors)
-        .spawn()
-        .map_err(|e| format!("{command:?}: {e}"))?;
-    let start = Instant::now();
-    loop {
-        match child.try_wait().map_err(|e| e.to_string())? {
-            Some(status) if status.success() => return Ok(()),
-            Some(status) => {
-                let said = std::fs::read_to_string(log).unwrap_or_default();
-                return Err(format!("{status}: {}", said.lines().last().unwrap_or_default()));
-            }
-            None if start.elapsed() > patience => {
-                let _ = child.kill();
-                let _ = child.wait();
-                return Err(format!("not ready after {} s", patience.as_secs()));
-            }
-            None => std::thread::sleep(Duration::from_millis(100)),
-        }
-    }
-}
-
-/// Python with VTK: that of the environment, or one of a virtual environment that is made once beside the build.
-fn python(logs: &Path) -> Result<PathBuf, String> {
-    if let Some(given) = std::env::var_os(PYTHON) {
-        return Ok(given.into());
-    }
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("vtk-python");
-    let python = folder.join("bin/python");
-    let has_vtk = |python: &Path| {
-        let import = "import vtkmodules.vtkIOXML, vtkmodules.vtkFiltersVerdict, numpy";
-        finish(Command::new(python).args(["-c", import]), &logs.join("import"), PATIENCE)
-    };
-    if has_vtk(&python).is_ok() {
-        return Ok(python);
-    }
-    let venv = ["-m", "venv", "--clear"];
-    finish(Command::new("python3").args(venv).arg(&folder), &logs.join("venv"), PATIENCE)
-        .map_err(|e| format!("no virtual environment of Python: {e}"))?;
-    let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "vtk", "numpy"];
-    finish(Command::new(&python).args(install), &logs.join("pip"), PATIENCE)
-        .map_err(|e| format!("VTK cannot be installed: {e}"))?;
-    has_vtk(&python).map_err(|e| format!("VTK cannot be imported: {e}"))?;
-    Ok(python)
-}
-
-/// Says `VTK: …` with what was compared, or why it was left out: a machine without Python or network has no VTK.
-fn hold_against(script: &str) {
-    // The environment is made by one test at a time.
-    static FOUND: OnceLock<Result<PathBuf, String>> = OnceLock::new();
-    let folder = tempfile::tempdir().unwrap();
-    let python = match FOUND.get_or_init(|| python(folder.path())) {
-        Ok(python) => python,
-        Err(reason) => {
-            eprintln!("VTK: left out, {reason}");
-            return;
-        }
-    };
-    let (out, _) = results(folder.path());
-    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/vtk").join(script);
-    let log = folder.path().join("read");
-    let read = finish(Command::new(python).arg(script).arg(&out), &log, PATIENCE);
-    let said = std::fs::read_to_string(&log).unwrap();
-    assert!(read.is_ok(), "{read:?}: {said}");
-    eprintln!("VTK: {}", said.trim());
-}
-
-#[test]
-fn vtk_itself_reads_the_shapes() {
-    hold_against("read_back.py");
-}
-
-#[cfg(feature = "vtkhdf")]
-#[test]
-fn vtk_itself_reads_all_times_from_one_file() {
-    hold_against("read_back_hdf.py");
 }

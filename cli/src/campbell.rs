@@ -1,6 +1,6 @@
 //! `flexion campbell`: modes of vibration over a range of speeds.
 
-use crate::vibration::{self, Options, Speed, complain, speed, stations, title};
+use crate::vibration::{self, Options, Speed, report, speed, stations, title};
 use crate::{Outcome, case, screen};
 use flexion::analysis::campbell::{Campbell, Instability, NoCampbell, Plan, campbell as follow};
 use flexion_case::Reading;
@@ -21,7 +21,7 @@ their own. The motion of the case is replaced by steady rotation at each speed; 
 shape changes fast.
 
 Exit codes: 0 finished, 1 case or command line rejected, 2 no steady rotation was found within the range,
-and what lies below is kept. A divergence or a flutter within the range is a result.")]
+and what lies below is kept, or the files could not be written. A divergence or a flutter within the range is a result.")]
 pub struct Arguments {
     #[command(flatten)]
     case: case::Selection,
@@ -92,18 +92,17 @@ impl Range {
 pub fn campbell(arguments: &Arguments) -> Outcome {
     let Some(reading) = arguments.case.read() else { return Outcome::Rejected };
     match followed(arguments, &reading) {
-        Ok((text, whole)) => {
-            screen::print(&text);
-            if whole { Outcome::Finished } else { Outcome::Incomplete }
-        }
+        Ok(true) => Outcome::Finished,
+        Ok(false) => Outcome::Incomplete,
         Err(message) => {
-            complain(&message);
+            report(&message);
             Outcome::Rejected
         }
     }
 }
 
-fn followed(arguments: &Arguments, reading: &Reading) -> Result<(String, bool), String> {
+/// Whether the diagram is whole, and written.
+fn followed(arguments: &Arguments, reading: &Reading) -> Result<bool, String> {
     let case = &reading.case;
     let unit = arguments.options.frequencies(case)?;
     let plan = Plan {
@@ -117,7 +116,8 @@ fn followed(arguments: &Arguments, reading: &Reading) -> Result<(String, bool), 
     let named = format!("{}-campbell", arguments.case.name());
     let output = arguments.output.clone().unwrap_or_else(|| Path::new("results").join(named));
     let (steady, cautions) = vibration::without_loads_in_space(case);
-    let directory = Directory::for_campbell(&output, arguments.force).map_err(|error| error.to_string())?;
+    let directory = Directory::create_for(Artifact::CAMPBELL, &output, arguments.force)
+        .map_err(|error| error.to_string())?;
     let bar = ProgressBar::new(plan.speeds.len() as u64);
     if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos}/{len} speeds  {eta} left") {
         bar.set_style(style);
@@ -135,23 +135,21 @@ fn followed(arguments: &Arguments, reading: &Reading) -> Result<(String, bool), 
     let resolved = reading.resolved();
     let written =
         write_campbell(&directory, &diagram, plan.revolutions, &unit, &resolved, title(reading), &cautions);
-    written.map_err(|error| {
-        directory.discard();
-        error.to_string()
-    })?;
-    let mut whole = true;
-    cautions.iter().for_each(|caution| screen::complain(&format!("warning: {caution}\n")));
+    screen::print(&described(&diagram, &unit));
+    let files = [("curves", Artifact::CampbellCsv), ("diagram", Artifact::CampbellSvg)];
+    let mut whole = screen::files(&directory, written, &files);
+    cautions.iter().for_each(|caution| screen::report(&format!("warning: {caution}\n")));
     for instability in &diagram.instabilities {
         match instability {
-            Instability::Divergence { speed, reason } => screen::complain(&format!(
+            Instability::Divergence { speed, reason } => screen::report(&format!(
                 "warning: divergence at {}: {reason}\nThe diagram ends there.\n",
                 unit.text(*speed)
             )),
             Instability::Lost { reason, .. } => {
                 whole = false;
-                screen::complain(&format!("error: {reason}\nWhat lies below is kept.\n"));
+                screen::report(&format!("error: {reason}\nWhat lies below is kept.\n"));
             }
-            Instability::Flutter { branch, from, to } => screen::complain(&format!(
+            Instability::Flutter { branch, from, to } => screen::report(&format!(
                 "warning: the damping of mode {} becomes negative between {} and {}\n",
                 branch + 1,
                 unit.text(*from),
@@ -159,11 +157,11 @@ fn followed(arguments: &Arguments, reading: &Reading) -> Result<(String, bool), 
             )),
         }
     }
-    Ok((described(&diagram, &unit, &directory), whole))
+    Ok(whole)
 }
 
-/// Modes at both ends, crossings, and places of the files.
-fn described(diagram: &Campbell, unit: &Frequencies, directory: &Directory) -> String {
+/// Modes at both ends, and crossings.
+fn described(diagram: &Campbell, unit: &Frequencies) -> String {
     let mut out = format!("{} modes at {} speeds\n\n", diagram.branches.len(), diagram.speeds.len());
     let mut rows =
         vec![["mode", "first", "last", "followed to", "moves at first"].map(str::to_owned).to_vec()];
@@ -190,11 +188,6 @@ fn described(diagram: &Campbell, unit: &Frequencies, directory: &Directory) -> S
             .collect();
         out.push_str(&screen::table(&rows));
     }
-    let place = |what: &str, artifact| vec![what.to_owned(), directory.file(artifact).display().to_string()];
     out.push('\n');
-    out.push_str(&screen::table(&[
-        place("curves", Artifact::CampbellCsv),
-        place("diagram", Artifact::CampbellSvg),
-    ]));
     out
 }

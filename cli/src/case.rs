@@ -28,7 +28,7 @@ impl Selection {
         match flexion_case::read(&self.case, &set) {
             Ok(reading) => Some(reading),
             Err(problems) => {
-                screen::complain(&problems.render(screen::colour()));
+                screen::report(&problems.render(screen::colour()));
                 None
             }
         }

@@ -26,7 +26,7 @@ pub fn check(arguments: &Arguments) -> Outcome {
             Outcome::Finished
         }
         Err(problems) => {
-            screen::complain(&problems.render(screen::colour()));
+            screen::report(&problems.render(screen::colour()));
             Outcome::Rejected
         }
     }

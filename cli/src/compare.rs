@@ -1,13 +1,14 @@
 //! `flexion compare`: how far runs are apart.
 
 use crate::{Outcome, screen};
+use flexion::system::Role;
 use flexion_results::plot::difference_figure;
 use flexion_results::{
     Artifact, Comparison, Directory, OutputError, Results, ResultsError, compare as compare_two, compare_csv,
     compare_json, select,
 };
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// The runs to compare.
 #[derive(clap::Args)]
@@ -18,7 +19,7 @@ use std::path::{Path, PathBuf};
 The runs are compared at the times of the first, REFERENCE. A run recorded at other times is interpolated there by
 cubics: name the run recorded most finely last, or record at the same times.
 
-Exit codes: 0 compared, 1 command line rejected, 2 a difference exceeds the tolerance.")]
+Exit codes: 0 compared, 1 command line rejected, 2 a difference exceeds the tolerance, or the files could not be written.")]
 pub struct Arguments {
     /// Directory of the results, or CSV file, that the others are compared with
     #[arg(value_name = "REFERENCE")]
@@ -29,7 +30,7 @@ pub struct Arguments {
     /// Columns, e.g. tip.deflection,tip.axial or 'tip.*' [default: all in common but step.*]
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     columns: Vec<String>,
-    /// Largest difference admitted, relative to the peak of REFERENCE; beyond it the exit code is 2
+    /// Largest difference allowed, relative to the peak of REFERENCE; beyond it the exit code is 2
     #[arg(long, value_name = "X", value_parser = tolerance)]
     tolerance: Option<f64>,
     /// Directory for compare.json, compare.csv and the plots of runs and differences
@@ -40,8 +41,8 @@ pub struct Arguments {
     force: bool,
 }
 
-/// Columns that are drawn when none are asked for.
-const DRAWN: [&str; 2] = ["tip.deflection", "tip.axial"];
+/// Most primary columns that are drawn when none are asked for.
+const USUAL: usize = 2;
 /// Most columns that are drawn.
 const MOST_DRAWN: usize = 6;
 
@@ -57,7 +58,7 @@ pub fn compare(arguments: &Arguments) -> Outcome {
     let (results, comparisons) = match compared(arguments) {
         Ok(compared) => compared,
         Err(error) => {
-            screen::complain(&format!("error: {error}\n"));
+            screen::report(&format!("error: {error}\n"));
             return Outcome::Rejected;
         }
     };
@@ -68,22 +69,27 @@ pub fn compare(arguments: &Arguments) -> Outcome {
     }
     screen::print(&out);
     for caution in results.iter().filter_map(|results| results.caution.as_ref()) {
-        screen::complain(&format!("warning: {caution}\n"));
+        screen::report(&format!("warning: {caution}\n"));
     }
     if let Some(path) = &arguments.output {
-        match write(path, arguments, &results, &comparisons) {
-            Ok(text) => screen::print(&text),
+        let directory = match Directory::create_for(Artifact::COMPARISON, path, arguments.force) {
+            Ok(directory) => directory,
             Err(error) => {
-                screen::complain(&format!("error: {error}\n"));
+                screen::report(&format!("error: {error}\n"));
                 return Outcome::Rejected;
             }
+        };
+        let written = fill(&directory, arguments, &results, &comparisons);
+        let files = [("figures", Artifact::CompareJson), ("plot", Artifact::CompareSvg)];
+        if !screen::files(&directory, written, &files) {
+            return Outcome::Incomplete;
         }
     }
     let Some(tolerance) = arguments.tolerance else { return Outcome::Finished };
     let mut beyond = false;
     for comparison in &comparisons {
         for what in comparison.beyond(tolerance) {
-            screen::complain(&format!("error: {}: {what}\n", comparison.second));
+            screen::report(&format!("error: {}: {what}\n", comparison.second));
             beyond = true;
         }
     }
@@ -96,11 +102,12 @@ fn compared(arguments: &Arguments) -> Result<(Vec<Results>, Vec<Comparison>), Re
     let mut comparisons = Vec::new();
     if let Some((reference, runs)) = results.split_first() {
         for run in runs {
-            let names = reference.trajectory.channels().iter().map(|c| c.name.as_str());
-            let common: Vec<&str> = names.filter(|name| run.trajectory.index(name).is_some()).collect();
+            let channels = reference.trajectory.channels().iter();
+            let common = channels.filter(|c| run.trajectory.index(&c.name).is_some());
             let columns = if arguments.columns.is_empty() {
-                common.into_iter().filter(|name| !name.starts_with("step.")).collect()
+                common.filter(|c| c.role != Role::Integration).map(|c| c.name.as_str()).collect()
             } else {
+                let common: Vec<&str> = common.map(|c| c.name.as_str()).collect();
                 let of = format!("both {} and {}", reference.name, run.name);
                 select(&common, &arguments.columns, &of)?
             };
@@ -139,35 +146,19 @@ fn described(c: &Comparison) -> String {
     out
 }
 
-/// Writes the files and says where they are.
-fn write(
-    path: &Path,
-    arguments: &Arguments,
-    results: &[Results],
-    comparisons: &[Comparison],
-) -> Result<String, OutputError> {
-    let directory = Directory::for_comparison(path, arguments.force)?;
-    let written = fill(&directory, arguments, results, comparisons);
-    if written.is_err() {
-        directory.discard();
-    }
-    written
-}
-
+/// Writes the files.
 fn fill(
     directory: &Directory,
     arguments: &Arguments,
     results: &[Results],
     comparisons: &[Comparison],
-) -> Result<String, OutputError> {
-    let compared =
-        comparisons.first().map(|c| &c.differences).into_iter().flatten().map(|d| d.column.as_str());
-    let mut drawn: Vec<&str> =
-        compared.clone().filter(|name| !arguments.columns.is_empty() || DRAWN.contains(name)).collect();
-    if drawn.is_empty() {
-        drawn = compared.collect();
+) -> Result<(), OutputError> {
+    let compared = comparisons.first().map_or(&[][..], |c| c.trajectory.channels());
+    let mut drawn: Vec<_> = compared.iter().filter(|c| c.role == Role::Primary).take(USUAL).collect();
+    if drawn.is_empty() || !arguments.columns.is_empty() {
+        drawn = compared.iter().take(MOST_DRAWN).collect();
     }
-    drawn.truncate(MOST_DRAWN);
+    let drawn: Vec<&str> = drawn.into_iter().map(|c| c.name.as_str()).collect();
     let mut warning = String::new();
     let drawing = difference_figure(results, comparisons, &drawn, None).draw();
     directory.write(Artifact::CompareCsv, |f| compare_csv(comparisons, f))?;
@@ -179,7 +170,6 @@ fn fill(
     let json = compare_json(comparisons, arguments.tolerance);
     directory.write(Artifact::CompareJson, |f| f.write_all(json.as_bytes()))?;
     directory.publish()?;
-    screen::complain(&warning);
-    let place = |what: &str, artifact| vec![what.to_owned(), directory.file(artifact).display().to_string()];
-    Ok(screen::table(&[place("figures", Artifact::CompareJson), place("plot", Artifact::CompareSvg)]))
+    screen::report(&warning);
+    Ok(())
 }

@@ -30,10 +30,7 @@ pub fn list(arguments: &Arguments) -> Outcome {
     };
     let Some(seam) = seams.iter().find(|seam| seam.name == name || seam.path == name) else {
         let names: Vec<&str> = seams.iter().map(|seam| seam.name).collect();
-        screen::complain(&format!(
-            "error: there is no `{name}` to list; choose one of {}\n",
-            names.join(", ")
-        ));
+        screen::report(&format!("error: there is no `{name}` to list; choose one of {}\n", names.join(", ")));
         return Outcome::Rejected;
     };
     out.push_str(&heading(seam));

@@ -1,7 +1,7 @@
 //! `flexion`: runs, checks and describes cases.
 //!
 //! Exit codes: 0 finished; 1 the case or the command line is rejected; 2 a run failed or was stopped, and what
-//! it had computed is kept, or runs differ by more than the tolerance.
+//! it had computed is kept, or runs differ by more than the tolerance, or not all could be written.
 
 mod campbell;
 mod case;
@@ -29,7 +29,8 @@ use std::process::ExitCode;
   flexion run case.toml --output results/spin-up
   flexion plot results/spin-up --columns 'tip.*' --output tip.svg
 
-Exit codes: 0 finished, 1 case or command line rejected, 2 a run failed or was stopped, or runs differ too much.")]
+Exit codes: 0 finished, 1 case or command line rejected, 2 a run failed or was stopped, runs differ too much, or not all
+could be written.")]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -68,7 +69,7 @@ enum Outcome {
     Finished,
     /// The case or the command line is wrong.
     Rejected,
-    /// A run ended early, and what was computed is kept; or runs differ too much; or not all could be printed.
+    /// A run ended early, and what was computed is kept; or runs differ too much; or not all could be written.
     Incomplete,
 }
 
@@ -99,7 +100,7 @@ fn main() -> ExitCode {
         }
     };
     ExitCode::from(match outcome {
-        Outcome::Finished if screen::lost() => 2,
+        Outcome::Finished if screen::incomplete() => 2,
         Outcome::Finished => 0,
         Outcome::Rejected => 1,
         Outcome::Incomplete => 2,

@@ -25,7 +25,7 @@ pub fn man(arguments: &Arguments) -> Outcome {
             Outcome::Finished
         }
         Err(message) => {
-            screen::complain(&format!("error: {message}\n"));
+            screen::report(&format!("error: {message}\n"));
             Outcome::Rejected
         }
     }

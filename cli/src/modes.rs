@@ -1,6 +1,6 @@
 //! `flexion modes`: modes of vibration at one speed.
 
-use crate::vibration::{self, Options, Speed, complain, stations, title};
+use crate::vibration::{self, Options, Speed, report, stations, title};
 use crate::{Outcome, case, screen};
 use flexion::analysis::campbell::HubState;
 use flexion::analysis::modes::{Mode, Modes, modes as find};
@@ -20,7 +20,8 @@ use std::path::PathBuf;
 The motion of the case is replaced by a steady rotation at the speed; the modes are those of small vibrations about its
 equilibrium. The hub keeps its speed unless --free-hub is given.
 
-Exit codes: 0 finished, 1 case or command line rejected, or no stable rotation at the speed.")]
+Exit codes: 0 finished, 1 case or command line rejected, or no stable rotation at the speed, 2 the files could not be
+written.")]
 pub struct Arguments {
     #[command(flatten)]
     case: case::Selection,
@@ -43,19 +44,13 @@ pub struct Arguments {
 /// Finds and writes modes.
 pub fn modes(arguments: &Arguments) -> Outcome {
     let Some(reading) = arguments.case.read() else { return Outcome::Rejected };
-    match found(arguments, &reading) {
-        Ok(text) => {
-            screen::print(&text);
-            Outcome::Finished
-        }
-        Err(message) => {
-            complain(&message);
-            Outcome::Rejected
-        }
-    }
+    found(arguments, &reading).unwrap_or_else(|message| {
+        report(&message);
+        Outcome::Rejected
+    })
 }
 
-fn found(arguments: &Arguments, reading: &Reading) -> Result<String, String> {
+fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
     let case = &reading.case;
     let unit = arguments.options.frequencies(case)?;
     let speed = arguments.speed.in_radians(&unit);
@@ -63,40 +58,31 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<String, String> {
         return Err(format!("the speed is {} and must be zero or positive", unit.text(speed)));
     }
     let hub = arguments.options.hub(case)?;
-    let directory = arguments.output.as_ref().map(|path| Directory::for_modes(path, arguments.force));
+    let directory =
+        arguments.output.as_ref().map(|path| Directory::create_for(Artifact::MODES, path, arguments.force));
     let directory = directory.transpose().map_err(|error| error.to_string())?;
     let (steady, cautions) =
         if speed > 0.0 { vibration::without_loads_in_space(case) } else { (case.clone(), Vec::new()) };
     let modes = compute(arguments, &steady, speed, hub)?;
-    cautions.iter().for_each(|caution| screen::complain(&format!("warning: {caution}\n")));
-    let mut out = described(&modes, &unit, speed, hub);
+    cautions.iter().for_each(|caution| screen::report(&format!("warning: {caution}\n")));
+    let out = described(&modes, &unit, speed, hub);
     for (number, mode) in modes.modes.iter().enumerate().filter(|(_, mode)| mode.rounding > 1e-6) {
-        screen::complain(&format!(
+        screen::report(&format!(
             "warning: the frequency of mode {} may be off by {:.1e} by rounding: the mesh is too fine for this coupling; \
              use fewer elements\n",
             number + 1,
             mode.rounding
         ));
     }
-    if let Some(directory) = directory {
-        let resolved = reading.resolved();
-        let written = write_modes(
-            &directory,
-            (&modes, speed),
-            &stations(case),
-            &unit,
-            &resolved,
-            title(reading),
-            &cautions,
-        );
-        written.map_err(|error| {
-            directory.discard();
-            error.to_string()
-        })?;
-        out.push('\n');
-        out.push_str(&places(&directory));
-    }
-    Ok(out)
+    screen::print(&out);
+    let Some(directory) = directory else { return Ok(Outcome::Finished) };
+    let (resolved, stations) = (reading.resolved(), stations(case));
+    let written =
+        write_modes(&directory, (&modes, speed), &stations, &unit, &resolved, title(reading), &cautions);
+    screen::print("\n");
+    let files = [("modes", Artifact::ModesCsv), ("shapes", Artifact::ModesSvg)];
+    let whole = screen::files(&directory, written, &files);
+    Ok(if whole { Outcome::Finished } else { Outcome::Incomplete })
 }
 
 fn compute(arguments: &Arguments, case: &Case, speed: f64, hub: HubState) -> Result<Modes, String> {
@@ -147,9 +133,4 @@ fn moves(mode: &Mode) -> String {
     let words: Vec<String> =
         shares.iter().map(|(name, share)| format!("{name} {:.0} %", 100.0 * share)).collect();
     words.join(", ")
-}
-
-fn places(directory: &Directory) -> String {
-    let place = |what: &str, artifact| vec![what.to_owned(), directory.file(artifact).display().to_string()];
-    screen::table(&[place("modes", Artifact::ModesCsv), place("shapes", Artifact::ModesSvg)])
 }

@@ -34,7 +34,7 @@ pub fn new(arguments: &Arguments) -> Outcome {
             Outcome::Finished
         }
         Err(message) => {
-            screen::complain(&format!("error: {message}\n"));
+            screen::report(&format!("error: {message}\n"));
             Outcome::Rejected
         }
     }

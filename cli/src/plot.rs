@@ -1,6 +1,7 @@
 //! `flexion plot`: results of one or several runs in one figure.
 
 use crate::{Outcome, screen};
+use flexion::system::Role;
 use flexion_results::plot::{Figure, compare_figure, trajectory_figure};
 use flexion_results::{Results, ResultsError, Trajectory, select, write_file};
 use std::path::PathBuf;
@@ -28,8 +29,8 @@ pub struct Arguments {
     force: bool,
 }
 
-/// Columns of several runs when none are asked for.
-const USUAL: [&str; 4] = ["tip.deflection", "tip.axial", "hub.speed", "energy.strain"];
+/// Most columns of several runs when none are asked for.
+const USUAL: usize = 4;
 /// Most panels of a figure.
 const MOST: usize = 24;
 
@@ -41,7 +42,7 @@ pub fn plot(arguments: &Arguments) -> Outcome {
             Outcome::Finished
         }
         Err(message) => {
-            screen::complain(&format!("error: {message}\n"));
+            screen::report(&format!("error: {message}\n"));
             Outcome::Rejected
         }
     }
@@ -67,7 +68,7 @@ fn plotted(arguments: &Arguments) -> Result<(), String> {
         if png { drawing.png().map_err(|error| error.to_string())? } else { drawing.svg().into_bytes() };
     write_file(&arguments.output, &bytes).map_err(|error| error.to_string())?;
     for caution in results.iter().filter_map(|results| results.caution.as_ref()) {
-        screen::complain(&format!("warning: {caution}\n"));
+        screen::report(&format!("warning: {caution}\n"));
     }
     Ok(())
 }
@@ -79,15 +80,17 @@ fn figure(results: &[Results], arguments: &Arguments) -> Result<Figure, String> 
     }
     // The columns of all runs, each once, those of the first run first.
     let mut names: Vec<&str> = Vec::new();
+    let mut usual: Vec<&str> = Vec::new();
     for channel in results.iter().flat_map(|r| r.trajectory.channels()) {
         if !names.contains(&channel.name.as_str()) {
             names.push(&channel.name);
+            usual.extend((channel.role == Role::Primary).then_some(channel.name.as_str()));
         }
     }
     let of = if results.len() == 1 { "these results" } else { "any of these results" };
     let columns = if arguments.columns.is_empty() {
-        let usual: Vec<&str> = USUAL.into_iter().filter(|name| names.contains(name)).collect();
-        if usual.is_empty() { names.into_iter().take(USUAL.len()).collect() } else { usual }
+        let columns = if usual.is_empty() { names } else { usual };
+        columns.into_iter().take(USUAL).collect()
     } else {
         select(&names, &arguments.columns, of).map_err(|error: ResultsError| error.to_string())?
     };
@@ -104,7 +107,7 @@ fn figure(results: &[Results], arguments: &Arguments) -> Result<Figure, String> 
     Ok(compare_figure(&runs, &columns, title))
 }
 
-/// The columns of one run: nothing to tell apart, and so no legend.
+/// The columns of one run, without a legend.
 fn single(trajectory: &Trajectory, columns: &[&str]) -> Figure {
     let mut figure = compare_figure(&[("", trajectory)], columns, None);
     for series in figure.panels.iter_mut().flat_map(|panel| &mut panel.series) {

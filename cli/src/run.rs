@@ -1,6 +1,7 @@
 //! `flexion run`: integrates a case and writes its results.
 
 use crate::{Outcome, case, screen};
+use flexion::system::{Channel, Role};
 use flexion_case::{Errors, Run, units};
 use flexion_results::{Artifact, Directory, Status, Trajectory};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -50,14 +51,14 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let prepared = match reading.prepare() {
         Ok(prepared) => prepared,
         Err(problems) => {
-            screen::complain(&problems.render(screen::colour()));
+            screen::report(&problems.render(screen::colour()));
             return Outcome::Rejected;
         }
     };
     let directory = match Directory::create(&output, arguments.force) {
         Ok(directory) => directory,
         Err(error) => {
-            screen::complain(&format!("error: {error}\n"));
+            screen::report(&format!("error: {error}\n"));
             return Outcome::Rejected;
         }
     };
@@ -71,7 +72,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
             Ok(errors) => run.errors = Some(errors),
             Err(problems) => {
                 progress.finish();
-                screen::complain(&problems.render(screen::colour()));
+                screen::report(&problems.render(screen::colour()));
                 directory.discard();
                 return Outcome::Rejected;
             }
@@ -81,9 +82,9 @@ pub fn run(arguments: &Arguments) -> Outcome {
     match reading.write(&run, &directory) {
         Ok(status) => finish(status, &run, &directory),
         Err(error) => {
-            screen::complain(&format!("error: {error}\n"));
+            screen::report(&format!("error: {error}\n"));
             if let Some(path) = directory.salvage() {
-                screen::complain(&format!("What was written until then is kept in {}.\n", path.display()));
+                screen::report(&format!("What was written until then is kept in {}.\n", path.display()));
             }
             Outcome::Incomplete
         }
@@ -95,23 +96,20 @@ fn finish(status: Status, run: &Run, directory: &Directory) -> Outcome {
     let trajectory = &run.trajectory;
     let wall_time = run.wall_time;
     let end = format!("{:.6}", trajectory.times().last().copied().unwrap_or(0.0));
-    let mut out = format!("{} at t = {end} s after {wall_time:.3} s of computing\n\n", status.word());
+    let mut out = format!("{} at t = {end} s in {wall_time:.3} s of wall time\n\n", status.word());
     out.push_str(&extremes(trajectory));
     out.push('\n');
     if let Some(errors) = &run.errors {
         out.push_str(&error_table(errors, trajectory));
         out.push('\n');
     }
-    let place = |what: &str, artifact| vec![what.to_owned(), directory.file(artifact).display().to_string()];
-    let mut places = vec![place("summary", Artifact::Summary), place("plot", Artifact::PlotSvg)];
-    if run.shapes.is_some() {
-        places.push(place("shapes", Artifact::ShapeSeries));
-    }
-    out.push_str(&screen::table(&places));
     screen::print(&out);
+    let mut files = vec![("summary", Artifact::Summary), ("plot", Artifact::PlotSvg)];
+    files.extend(run.shapes.is_some().then_some(("shapes", Artifact::ShapeSeries)));
+    screen::files(directory, Ok(()), &files);
     let estimates = run.errors.iter().flat_map(|errors| &errors.warnings);
     for warning in run.warnings.iter().chain(estimates) {
-        screen::complain(&format!("warning: {warning}\n"));
+        screen::report(&format!("warning: {warning}\n"));
     }
     if status == Status::Finished {
         return Outcome::Finished;
@@ -121,16 +119,21 @@ fn finish(status: Status, run: &Run, directory: &Directory) -> Outcome {
         (None, Some((channel, t))) => format!("{} is not finite at t = {t} s", channel.name),
         (None, None) => status.word().to_owned(),
     };
-    screen::complain(&format!("error: {reason}\nWhat was computed until t = {end} s is kept.\n"));
+    screen::report(&format!("error: {reason}\nWhat was computed until t = {end} s is kept.\n"));
     Outcome::Incomplete
 }
 
-/// Smallest, largest and last value of what is recorded at the tip and the hub.
+/// Whether a column is printed after a run.
+fn is_printed(channel: &Channel) -> bool {
+    matches!(channel.role, Role::Primary | Role::Secondary)
+}
+
+/// Smallest, largest and last value of the columns that most readers look for.
 fn extremes(trajectory: &Trajectory) -> String {
     let head = ["", "unit", "min", "at t [s]", "max", "at t [s]", "last"];
     let mut rows = vec![head.iter().map(|cell| (*cell).to_owned()).collect::<Vec<_>>()];
     for (index, channel) in trajectory.channels().iter().enumerate() {
-        if !(channel.name.starts_with("tip.") || channel.name.starts_with("hub.")) {
+        if !is_printed(channel) {
             continue;
         }
         let e = trajectory.extremes(index);
@@ -149,15 +152,15 @@ fn extremes(trajectory: &Trajectory) -> String {
     screen::table(&rows)
 }
 
-/// Estimated errors of what is recorded at the tip and the hub.
+/// Estimated errors of the same columns.
 fn error_table(errors: &Errors, trajectory: &Trajectory) -> String {
     let head = ["", "unit", "error of mesh and steps", "difference to the exact coupling"];
     let mut rows = vec![head.iter().map(|cell| (*cell).to_owned()).collect::<Vec<_>>()];
-    let shown = |name: &str| name.starts_with("tip.") || name.starts_with("hub.");
-    for error in errors.columns.iter().filter(|error| shown(&error.column)) {
+    for error in &errors.columns {
+        let channel = trajectory.channels().iter().find(|channel| channel.name == error.column);
+        let Some(channel) = channel.filter(|channel| is_printed(channel)) else { continue };
         let model = error.model.map_or("-".to_owned(), |model| format!("{model:.1e}"));
-        let unit = trajectory.index(&error.column).map_or("", |index| trajectory.channels()[index].unit);
-        let unit = if unit.is_empty() { "1" } else { unit };
+        let unit = if channel.unit.is_empty() { "1" } else { channel.unit };
         rows.push(vec![
             error.column.clone(),
             unit.to_owned(),

@@ -1,19 +1,20 @@
 //! Writing to the terminal or to a pipe.
 
+use flexion_results::{Artifact, Directory, OutputError};
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Whether something could not be written to standard output.
-static LOST: AtomicBool = AtomicBool::new(false);
+static INCOMPLETE: AtomicBool = AtomicBool::new(false);
 
-/// Writes to standard output; a reader that has gone away is no error. What cannot be written for another reason is
-/// complained about once, and [`lost`] tells of it.
+/// Writes to standard output; a closed pipe is no error. Any other failure is reported once, and [`incomplete`] is true
+/// from then on.
 pub fn print(text: &str) {
     let mut out = std::io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe && !LOST.swap(true, Ordering::Relaxed) => {
-            complain(&format!(
-                "error: cannot write to standard output: {error}; what was to be printed is incomplete: make room \
+        Err(error) if error.kind() != ErrorKind::BrokenPipe && !INCOMPLETE.swap(true, Ordering::Relaxed) => {
+            report(&format!(
+                "error: cannot write to standard output: {error}; the printed text is incomplete: make room \
                  where it is redirected to, or redirect it elsewhere\n"
             ));
         }
@@ -21,15 +22,33 @@ pub fn print(text: &str) {
     }
 }
 
-/// Whether something that was [printed](print) is lost.
-pub fn lost() -> bool {
-    LOST.load(Ordering::Relaxed)
+/// Whether something could not be [printed](print).
+pub fn incomplete() -> bool {
+    INCOMPLETE.load(Ordering::Relaxed)
 }
 
 /// Writes to standard error.
-pub fn complain(text: &str) {
+pub fn report(text: &str) {
     let mut out = std::io::stderr().lock();
     let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+}
+
+/// Prints where the files of results are, or reports why they could not be written and removes them: whether they are
+/// there.
+pub fn files(directory: &Directory, written: Result<(), OutputError>, files: &[(&str, Artifact)]) -> bool {
+    match &written {
+        Ok(()) => {
+            let place = |(what, artifact): &(&str, Artifact)| {
+                vec![(*what).to_owned(), directory.file(*artifact).display().to_string()]
+            };
+            print(&table(&files.iter().map(place).collect::<Vec<_>>()));
+        }
+        Err(error) => {
+            directory.discard();
+            report(&format!("error: {error}\n"));
+        }
+    }
+    written.is_ok()
 }
 
 /// Whether messages on standard error may use colours: a terminal, and no `NO_COLOR`.

@@ -74,9 +74,9 @@ pub fn system(case: &Case) -> Result<Box<dyn System>, String> {
     build::vibrating(case).map_err(|error| error.to_string())
 }
 
-/// The case without the loads that are fixed in space, and what is to be said about it. Seen from a hub that turns they
-/// change with every revolution: there are no modes about a state that is not steady. Their mean over a
-/// revolution is zero, and about that mean the modes are.
+/// The case without the loads that are fixed in space, and a warning that names them. In the frame of a turning hub these
+/// loads are periodic, and there is no steady state to linearize about. Their mean over a revolution is zero: the modes
+/// are those about this mean.
 pub fn without_loads_in_space(case: &Case) -> (Case, Vec<String>) {
     let mut case = case.clone();
     let loads = &mut case.loads;
@@ -140,9 +140,9 @@ pub fn title(reading: &Reading) -> Option<&str> {
     Some(reading.case.title.as_str()).filter(|title| !title.is_empty())
 }
 
-/// Says what is wrong.
-pub fn complain(message: &str) {
-    screen::complain(&format!("error: {message}\n"));
+/// Reports an error.
+pub fn report(message: &str) {
+    screen::report(&format!("error: {message}\n"));
 }
 
 /// A number of modes.

@@ -1,4 +1,4 @@
-//! Hostile conditions: nothing is lost, nothing is half-written, and the message says what to do.
+//! Full disks, killed runs, wrong files: nothing is lost or half-written, and the message says what to do.
 
 #![allow(clippy::unwrap_used)] // in helpers of tests
 
@@ -88,7 +88,7 @@ fn enormous_numbers_and_files_are_refused_with_their_place() {
 }
 
 #[test]
-fn what_is_no_case_is_refused_with_what_a_case_is() {
+fn a_path_without_a_case_is_refused() {
     let folder = folder();
     std::fs::create_dir_all(folder.path().join("empty")).unwrap();
     std::fs::create_dir_all(folder.path().join("nested/case.toml")).unwrap();
@@ -150,7 +150,7 @@ fn a_read_only_directory_is_refused_before_anything_is_computed() {
         }
     }
     permit(0o755);
-    // Nobody can make files there.
+    // No user can make files there.
     if cfg!(target_os = "linux") {
         let message = refused(folder.path(), &["run", "case.toml", "--output", "/proc/flexion"]);
         assert!(message.contains("/proc/flexion") && message.contains("check the path"), "{message}");
@@ -188,6 +188,15 @@ fn files_that_may_not_grow_end_with_2_and_the_former_results_stay() {
     }
     assert!(content(&folder.path().join("out")) == before);
     assert_eq!(content(&folder.path().join("fresh")), []);
+    // 8 kB at most: what was computed is printed at least.
+    for command in ["modes case.toml --speed 1", "campbell case.toml --speeds 0:4:3", "compare out out"] {
+        let run =
+            shell(folder.path(), &format!("trap '' XFSZ; ulimit -f 16; exec \"$1\" {command} -o fresh"));
+        let message = text(&run.stderr);
+        assert_eq!(run.status.code(), Some(2), "{command}: {message}");
+        assert!(message.contains("cannot write") && !run.stdout.is_empty(), "{command}: {message}");
+        assert_eq!(content(&folder.path().join("fresh")), [], "{command}");
+    }
     assert_eq!(flexion(folder.path(), &["run", "case.toml", "-o", "out", "--force"]).status.code(), Some(0));
     let names = |files: &[(PathBuf, Vec<u8>)]| files.iter().map(|file| file.0.clone()).collect::<Vec<_>>();
     assert_eq!(names(&content(&folder.path().join("out"))), names(&before));
@@ -195,7 +204,7 @@ fn files_that_may_not_grow_end_with_2_and_the_former_results_stay() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_full_disk_ends_with_2_a_read_only_one_with_1_and_the_former_results_stay() {
+fn on_a_full_or_read_only_disk_the_former_results_stay() {
     let folder = folder();
     // A disk that holds two sets of small results and not a large one, in a name space of its own.
     let script = r#"
@@ -233,7 +242,7 @@ fn a_full_disk_ends_with_2_a_read_only_one_with_1_and_the_former_results_stay() 
 
 #[cfg(target_os = "linux")]
 #[test]
-fn what_cannot_be_printed_is_no_success() {
+fn an_output_that_cannot_be_printed_is_an_error() {
     let folder = folder();
     for arguments in ["list", "schema", "new spin-up", "check case.toml", "man", "completions bash"] {
         let output = shell(folder.path(), &format!("exec \"$1\" {arguments} >/dev/full"));
@@ -244,14 +253,14 @@ fn what_cannot_be_printed_is_no_success() {
             "{arguments}: {message}"
         );
     }
-    // A reader that has seen enough is no error.
+    // A closed pipe is no error.
     let output = shell(folder.path(), "\"$1\" schema | head -n 1; \"$1\" list | head -n 1");
     assert!(output.status.success() && output.stderr.is_empty(), "{}", text(&output.stderr));
 }
 
 #[cfg(unix)]
 #[test]
-fn results_of_a_run_that_is_killed_at_any_moment_are_the_former_or_the_new_ones() {
+fn a_run_killed_at_any_moment_leaves_the_former_or_the_new_results() {
     let folder = folder();
     let out = folder.path().join("out");
     let run = |seconds: u32| {

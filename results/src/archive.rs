@@ -1,16 +1,16 @@
-//! Archives of arrays whose failure is told once, by the error that is returned.
+//! Archives of arrays that report a failure once, by the error that is returned.
 //!
-//! The library of archives finishes one that is dropped unfinished, and prints on standard error what goes wrong then:
-//! on a full disk, the same error again, in words of its own. Behind a failure everything is swallowed here.
+//! The library for archives completes an archive that is dropped, and prints an error of that on standard error: on a
+//! full disk, the same error again. Here what follows a failure is discarded, so that there is no second error.
 
 use std::io::{self, Seek, SeekFrom, Write};
 use zip::ZipWriter;
 
-/// A writer that fails once, and swallows what is written after that.
+/// A writer that fails once, and discards what is written after that.
 pub(super) struct Latched<W> {
     to: W,
     failed: bool,
-    /// Place and end of what was written or swallowed [bytes].
+    /// Place and end of what was written or discarded [bytes].
     place: u64,
     end: u64,
 }
@@ -23,7 +23,7 @@ pub(super) fn archive<W: Write + Seek>(to: W) -> ZipWriter<Latched<W>> {
 /// Completes the archive.
 ///
 /// # Errors
-/// What the writer says, or that it failed before.
+/// The error of the writer, or that it failed before.
 pub(super) fn finish<W: Write + Seek>(archive: ZipWriter<Latched<W>>) -> io::Result<()> {
     let mut latched = archive.finish()?;
     if latched.failed {
@@ -33,9 +33,9 @@ pub(super) fn finish<W: Write + Seek>(archive: ZipWriter<Latched<W>>) -> io::Res
 }
 
 impl<W> Latched<W> {
-    fn attempt<T>(&mut self, swallowed: T, act: impl FnOnce(&mut W) -> io::Result<T>) -> io::Result<T> {
+    fn attempt<T>(&mut self, discarded: T, act: impl FnOnce(&mut W) -> io::Result<T>) -> io::Result<T> {
         if self.failed {
-            return Ok(swallowed);
+            return Ok(discarded);
         }
         let result = act(&mut self.to);
         self.failed = matches!(&result, Err(error) if error.kind() != io::ErrorKind::Interrupted);
@@ -58,12 +58,12 @@ impl<W: Write> Write for Latched<W> {
 
 impl<W: Seek> Seek for Latched<W> {
     fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
-        let swallowed = match to {
+        let discarded = match to {
             SeekFrom::Start(place) => place,
             SeekFrom::Current(by) => self.place.saturating_add_signed(by),
             SeekFrom::End(by) => self.end.saturating_add_signed(by),
         };
-        self.place = self.attempt(swallowed, |inner| inner.seek(to))?;
+        self.place = self.attempt(discarded, |inner| inner.seek(to))?;
         Ok(self.place)
     }
 }
@@ -75,16 +75,16 @@ mod tests {
     use std::cell::Cell;
     use std::io::Cursor;
 
-    /// A disk with room for some bytes, which counts how often it said that it is full.
+    /// A disk of limited capacity, which counts the writes it refuses.
     struct Disk<'a> {
         file: Cursor<Vec<u8>>,
-        room: u64,
+        capacity: u64,
         refusals: &'a Cell<usize>,
     }
 
     impl Write for Disk<'_> {
         fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-            if self.file.position() + bytes.len() as u64 > self.room {
+            if self.file.position() + bytes.len() as u64 > self.capacity {
                 self.refusals.set(self.refusals.get() + 1);
                 return Err(io::ErrorKind::StorageFull.into());
             }
@@ -103,10 +103,10 @@ mod tests {
     }
 
     #[test]
-    fn a_disk_that_is_full_at_any_byte_is_told_once() {
-        let attempt = |room| {
+    fn a_disk_that_is_full_at_any_byte_is_reported_once() {
+        let attempt = |capacity| {
             let refusals = Cell::new(0);
-            let mut zip = archive(Disk { file: Cursor::new(Vec::new()), room, refusals: &refusals });
+            let mut zip = archive(Disk { file: Cursor::new(Vec::new()), capacity, refusals: &refusals });
             let outcome = ["a", "b"]
                 .iter()
                 .try_for_each(|name| write_array(&mut zip, name, 30, (0..30).map(f64::from)));
@@ -119,11 +119,15 @@ mod tests {
             };
             (outcome, refusals.get())
         };
-        let whole = (0..4000).find(|room| attempt(*room).0.is_ok()).unwrap();
+        let whole = (0..4000).find(|capacity| attempt(*capacity).0.is_ok()).unwrap();
         assert!(whole > 2 * 30 * 8, "{whole}");
-        for room in 0..whole {
-            let (outcome, refusals) = attempt(room);
-            assert_eq!((outcome.unwrap_err().kind(), refusals), (io::ErrorKind::StorageFull, 1), "{room}");
+        for capacity in 0..whole {
+            let (outcome, refusals) = attempt(capacity);
+            assert_eq!(
+                (outcome.unwrap_err().kind(), refusals),
+                (io::ErrorKind::StorageFull, 1),
+                "{capacity}"
+            );
         }
     }
 }

@@ -58,7 +58,7 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// What lies beyond a relative tolerance: columns, and a second run that ends before the first.
+    /// What exceeds a relative tolerance: columns, and a second run that ends before the first.
     pub fn beyond(&self, tolerance: f64) -> Vec<String> {
         let mut out = Vec::new();
         if !self.covers {
@@ -329,7 +329,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_that_ends_early_is_compared_as_far_as_it_goes_and_lies_beyond_any_tolerance() {
+    fn a_run_that_ends_early_exceeds_any_tolerance() {
         let a = results("a", &grid(100, 1.0), &[("w", &|t| t)]);
         let b = results("b", &grid(50, 0.5), &[("w", &|t| t)]);
         let c = compare(&a, &b, &["w"]).unwrap();

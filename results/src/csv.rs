@@ -6,7 +6,7 @@ use std::io::{self, Read, Write};
 use std::sync::{Mutex, PoisonError};
 
 use super::Trajectory;
-use flexion::system::Channel;
+use flexion::system::{Channel, Role};
 
 /// Writes a trajectory as comma-separated values: a header `time [s],tip.deflection [m],…` (a pure
 /// number has no brackets), then the rows. Every number is the shortest text that reads back as the
@@ -67,6 +67,7 @@ pub fn read_csv(from: impl Read) -> Result<Trajectory, String> {
         name: name.to_owned(),
         unit: lasting(unit),
         meaning: String::new(),
+        role: role(name),
     };
     let mut trajectory = Trajectory::new(names.map(channel).collect());
     for (index, channel) in trajectory.channels().iter().enumerate() {
@@ -91,6 +92,20 @@ pub fn read_csv(from: impl Read) -> Result<Trajectory, String> {
         }
     }
     Ok(trajectory)
+}
+
+/// The role of a column of a file, in which channels have names only: for figures and tables.
+pub(super) fn role(name: &str) -> Role {
+    match name.split_once('.') {
+        Some(("tip", "deflection" | "axial" | "chordwise" | "flapwise" | "torsion")) => Role::Primary,
+        Some(("hub", "speed" | "torque")) => Role::Primary,
+        Some(("tip" | "hub", _)) => Role::Secondary,
+        Some(("energy", "balance")) => Role::Imbalance,
+        Some(("energy", "total" | "drive" | "loads" | "dissipated")) => Role::Work,
+        Some(("energy", _)) => Role::Energy,
+        Some(("step", _)) => Role::Integration,
+        _ => Role::Detail,
+    }
 }
 
 /// Name and unit of a column.

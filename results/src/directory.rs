@@ -8,13 +8,13 @@ use super::OutputError;
 use super::artifact::Artifact;
 use super::staging::{self, NEW};
 
-/// A directory known to be writable that a run or a comparison will fill.
+/// A directory known to be writable that results of one kind will fill.
 ///
 /// Files are written into a hidden folder of it, and moved to their names by [`Directory::publish`] when all of
 /// them are whole: former results stay as they are until then, whatever ends the run. A directory is complete
-/// if and only if it holds its closing file, `summary.json` or `compare.json`, which is moved last (and removed
-/// first when former results are replaced). A move that is interrupted is finished by the next run, and what an
-/// interrupted run had begun to write is removed by it.
+/// if and only if it holds its closing file (`summary.json`, `compare.json`, `modes.json` or `campbell.json`), which
+/// is moved last and removed first. The next run finishes a move that was interrupted, and removes what an
+/// interrupted run had begun to write.
 ///
 /// As long as the value lives no other run can take the same directory, where the file system has locks.
 #[derive(Debug)]
@@ -26,57 +26,38 @@ pub struct Directory {
 }
 
 impl Directory {
-    /// Makes the directory of a run (with its parents) or takes an empty one, and checks that it can be
-    /// written to: call it before a long run. With `force` a directory that is not empty is taken too; the
-    /// files of a former run will be replaced in the end, and other files are left alone.
+    /// [`Directory::create_for`] a run.
+    ///
+    /// # Errors
+    /// Those of [`Directory::create_for`].
+    pub fn create(path: impl AsRef<Path>, force: bool) -> Result<Directory, OutputError> {
+        Directory::create_for(Artifact::RUN, path, force)
+    }
+
+    /// Makes the directory of one kind of results, e.g. [`Artifact::MODES`], with its parents, or takes an empty
+    /// one, and checks that it can be written to: call it before a long run. With `force` a directory that is not
+    /// empty is taken too; former files of this kind will be replaced in the end, and other files are left alone.
     ///
     /// # Errors
     /// [`OutputError::NotADirectory`], [`OutputError::HoldsResults`], [`OutputError::NotEmpty`] and
     /// [`OutputError::Busy`] as their names say; [`OutputError::Io`] when the system refuses.
-    pub fn create(path: impl AsRef<Path>, force: bool) -> Result<Directory, OutputError> {
-        Directory::take(path.as_ref(), force, Artifact::RUN)
-    }
-
-    /// As [`Directory::create`], for the files of a comparison.
-    ///
-    /// # Errors
-    /// Those of [`Directory::create`].
-    pub fn for_comparison(path: impl AsRef<Path>, force: bool) -> Result<Directory, OutputError> {
-        Directory::take(path.as_ref(), force, Artifact::COMPARISON)
-    }
-
-    /// As [`Directory::create`], for modes of vibration.
-    ///
-    /// # Errors
-    /// Those of [`Directory::create`].
-    pub fn for_modes(path: impl AsRef<Path>, force: bool) -> Result<Directory, OutputError> {
-        Directory::take(path.as_ref(), force, Artifact::MODES)
-    }
-
-    /// As [`Directory::create`], for a Campbell diagram.
-    ///
-    /// # Errors
-    /// Those of [`Directory::create`].
-    pub fn for_campbell(path: impl AsRef<Path>, force: bool) -> Result<Directory, OutputError> {
-        Directory::take(path.as_ref(), force, Artifact::CAMPBELL)
-    }
-
-    fn take(path: &Path, force: bool, own: &'static [Artifact]) -> Result<Directory, OutputError> {
-        let path = path.to_path_buf();
+    pub fn create_for(
+        own: &'static [Artifact],
+        path: impl AsRef<Path>,
+        force: bool,
+    ) -> Result<Directory, OutputError> {
+        let path = path.as_ref().to_path_buf();
         if path.exists() && !path.is_dir() {
             return Err(OutputError::NotADirectory { path });
         }
         fs::create_dir_all(&path).map_err(OutputError::io("make the directory", &path))?;
         let lock = lock(&path)?;
-        let directory = Directory { path, own, _lock: lock };
-        let path = &directory.path;
-        staging::recover(path).map_err(OutputError::io("finish the interrupted replacement in", path))?;
+        staging::recover(&path).map_err(OutputError::io("finish the interrupted replacement in", &path))?;
         if !force {
-            directory.refuse_contents()?;
+            refuse_contents(&path)?;
         }
-        let probed = staging::clear(path).and_then(|()| directory.probe());
-        probed.map_err(OutputError::io("write to", path))?;
-        Ok(directory)
+        staging::clear(&path).and_then(|()| probe(&path)).map_err(OutputError::io("write to", &path))?;
+        Ok(Directory { path, own, _lock: lock })
     }
 
     /// Where it is, as it was asked for.
@@ -127,11 +108,11 @@ impl Directory {
 
     /// Saves what was written whole before something failed, and says where it is: under its names, without
     /// the closing file, if there are no former results, or else in a folder beside them that the next run
-    /// removes. `None` when nothing was written that is worth it: no trajectory.
+    /// removes. `None` when no trajectory was written.
     pub fn salvage(&self) -> Option<PathBuf> {
         let staged = self.path.join(NEW);
-        let results = [Artifact::TrajectoryNpz, Artifact::TrajectoryCsv];
-        if !results.iter().any(|artifact| staged.join(&*artifact.file_name()).exists()) {
+        let trajectories = [Artifact::TrajectoryNpz, Artifact::TrajectoryCsv];
+        if !trajectories.iter().any(|artifact| staged.join(&*artifact.file_name()).exists()) {
             self.discard();
             return None;
         }
@@ -143,34 +124,34 @@ impl Directory {
     pub fn discard(&self) {
         let _ = staging::clear(&self.path);
     }
+}
 
-    fn refuse_contents(&self) -> Result<(), OutputError> {
-        if Artifact::SETS.iter().filter_map(|set| set.first()).any(|closing| self.file(*closing).exists()) {
-            return Err(OutputError::HoldsResults { path: self.path.clone() });
-        }
-        let mut names = Vec::new();
-        for entry in fs::read_dir(&self.path).map_err(OutputError::io("read the directory", &self.path))? {
-            let entry = entry.map_err(OutputError::io("read the directory", &self.path))?;
-            names.push(entry.file_name().to_string_lossy().into_owned());
-        }
-        match names.into_iter().filter(|name| name != NEW).min() {
-            Some(found) => Err(OutputError::NotEmpty { path: self.path.clone(), found }),
-            None => Ok(()),
-        }
+/// Refuses a directory that holds results or anything else but what an interrupted run had begun to write.
+fn refuse_contents(path: &Path) -> Result<(), OutputError> {
+    if Artifact::closing().any(|closing| path.join(&*closing.file_name()).exists()) {
+        return Err(OutputError::HoldsResults { path: path.to_path_buf() });
     }
+    let entries = fs::read_dir(path).and_then(Iterator::collect::<io::Result<Vec<_>>>);
+    let entries = entries.map_err(OutputError::io("read the directory", path))?;
+    let names = entries.into_iter().map(|entry| entry.file_name().to_string_lossy().into_owned());
+    match names.filter(|name| name != NEW).min() {
+        Some(found) => Err(OutputError::NotEmpty { path: path.to_path_buf(), found }),
+        None => Ok(()),
+    }
+}
 
-    /// Writes and removes a small file: permissions, read-only and full disks show only so.
-    fn probe(&self) -> io::Result<()> {
-        let folder = self.path.join(NEW);
-        fs::create_dir(&folder)?;
-        let attempt = || {
-            let mut file = File::create(folder.join("probe"))?;
-            file.write_all(&[0; 4096])?;
-            file.sync_all()
-        };
-        let attempt = attempt();
-        attempt.and(staging::clear(&self.path))
-    }
+/// Writes and removes a small file: permissions, read-only and full disks show only so.
+fn probe(path: &Path) -> io::Result<()> {
+    let folder = path.join(NEW);
+    fs::create_dir(&folder)?;
+    let written = write_whole(&folder.join("probe"), &[0; 4096]);
+    written.and(staging::clear(path))
+}
+
+fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let mut file = File::create(path)?;
+    file.write_all(bytes)?;
+    file.sync_all()
 }
 
 /// Writes a single file whole or not at all, replacing what is there: under a hidden name beside it first.
@@ -180,13 +161,9 @@ impl Directory {
 pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     let attempt = || {
         let Some(name) = path.file_name() else { return Err(io::ErrorKind::InvalidFilename.into()) };
-        if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
-            fs::create_dir_all(folder)?;
-        }
+        path.parent().map_or(Ok(()), fs::create_dir_all)?;
         let hidden = path.with_file_name(format!(".{}.flexion-new", name.to_string_lossy()));
-        let written = File::create(&hidden)
-            .and_then(|mut file| file.write_all(bytes).and_then(|()| file.sync_all()))
-            .and_then(|()| fs::rename(&hidden, path));
+        let written = write_whole(&hidden, bytes).and_then(|()| fs::rename(&hidden, path));
         if written.is_err() {
             let _ = fs::remove_file(&hidden);
         }
@@ -198,7 +175,7 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
 /// Takes the lock of the directory; a file system without locks gives none.
 fn lock(path: &Path) -> Result<Option<File>, OutputError> {
     // Only on Unix can a directory be opened as a file.
-    let Some(file) = cfg!(unix).then(|| File::open(path).ok()).flatten() else { return Ok(None) };
+    let Ok(file) = File::open(path) else { return Ok(None) };
     match file.try_lock() {
         Ok(()) => Ok(Some(file)),
         Err(TryLockError::WouldBlock) => Err(OutputError::Busy { path: path.to_path_buf() }),
@@ -209,7 +186,6 @@ fn lock(path: &Path) -> Result<Option<File>, OutputError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::io::ErrorKind;
 
     fn names(path: &Path) -> Vec<String> {
         let mut names: Vec<String> =
@@ -239,28 +215,16 @@ mod tests {
     }
 
     #[test]
-    fn a_path_taken_by_a_file_is_refused_even_with_force() {
-        let dir = tempfile::tempdir().unwrap();
-        let path = dir.path().join("taken");
-        fs::write(&path, "mine").unwrap();
-        for force in [false, true] {
-            let e = Directory::create(&path, force).unwrap_err();
-            assert!(matches!(e, OutputError::NotADirectory { .. }), "{e}");
-            assert!(e.to_string().contains("taken"));
-            let e = Directory::create(path.join("below"), force).unwrap_err().to_string();
-            assert!(e.contains("below") && e.contains("part of the path is a file"), "{e}");
-        }
-        assert_eq!(fs::read_to_string(&path).unwrap(), "mine");
-    }
-
-    #[test]
     fn results_and_other_files_are_refused_without_force() {
         let dir = tempfile::tempdir().unwrap();
         fs::write(dir.path().join("notes.txt"), "mine").unwrap();
         let e = Directory::create(dir.path(), false).unwrap_err();
         assert!(matches!(&e, OutputError::NotEmpty { found, .. } if found == "notes.txt"), "{e}");
         fs::write(dir.path().join("summary.json"), "{}").unwrap();
-        for refused in [Directory::create(dir.path(), false), Directory::for_comparison(dir.path(), false)] {
+        for refused in [
+            Directory::create(dir.path(), false),
+            Directory::create_for(Artifact::COMPARISON, dir.path(), false),
+        ] {
             let e = refused.unwrap_err();
             assert!(matches!(e, OutputError::HoldsResults { .. }), "{e}");
             assert!(e.to_string().contains("--force"));
@@ -268,7 +232,7 @@ mod tests {
     }
 
     #[test]
-    fn former_results_stay_until_the_new_ones_are_published_and_then_go_as_a_whole() {
+    fn former_results_stay_until_the_new_ones_are_published() {
         let dir = former();
         let before = names(dir.path());
         let out = Directory::create(dir.path(), true).unwrap();
@@ -287,7 +251,7 @@ mod tests {
     #[test]
     fn a_comparison_replaces_no_file_of_a_run() {
         let dir = former();
-        let out = Directory::for_comparison(dir.path(), true).unwrap();
+        let out = Directory::create_for(Artifact::COMPARISON, dir.path(), true).unwrap();
         out.write(Artifact::CompareJson, |f| f.write_all(b"{}")).unwrap();
         out.publish().unwrap();
         assert_eq!(names(dir.path()).len(), Artifact::RUN.len() + 3);
@@ -295,7 +259,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_killed_run_had_begun_is_removed_by_the_next_and_the_former_results_are_not() {
+    fn the_next_run_removes_only_what_a_killed_one_had_begun() {
         let dir = former();
         let killed = Directory::create(dir.path(), true).unwrap();
         killed.write(Artifact::TrajectoryCsv, |f| f.write_all(b"half")).unwrap();
@@ -315,7 +279,7 @@ mod tests {
     fn a_failed_write_leaves_nothing_of_the_file() {
         let dir = tempfile::tempdir().unwrap();
         let out = Directory::create(dir.path(), false).unwrap();
-        let full = || io::Error::from(ErrorKind::StorageFull);
+        let full = || io::Error::from(io::ErrorKind::StorageFull);
         let e = out.write(Artifact::TrajectoryCsv, |f| f.write_all(b"half a li").and(Err(full())));
         let e = e.unwrap_err().to_string();
         assert!(e.contains("trajectory.csv") && e.contains("make room"), "{e}");
@@ -324,7 +288,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_whole_before_a_failure_is_saved_without_the_closing_file() {
+    fn files_written_before_a_failure_are_saved() {
         let dir = tempfile::tempdir().unwrap();
         let out = Directory::create(dir.path(), false).unwrap();
         out.write(Artifact::TrajectoryCsv, |f| f.write_all(b"whole")).unwrap();
@@ -340,22 +304,13 @@ mod tests {
     }
 
     #[test]
-    fn a_directory_that_vanishes_during_the_run_is_an_error_with_its_path() {
+    fn a_directory_removed_during_the_run_is_an_error() {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("gone");
         let out = Directory::create(&path, false).unwrap();
         fs::remove_dir(&path).unwrap();
         let e = out.write(Artifact::Summary, |_| Ok(())).unwrap_err().to_string();
         assert!(e.contains("gone") && e.contains("removed during the run"), "{e}");
-    }
-
-    #[cfg(target_os = "linux")]
-    #[test]
-    fn a_file_system_that_takes_no_files_is_found_before_the_run() {
-        for path in ["/proc", "/proc/flexion"] {
-            let e = Directory::create(path, true).unwrap_err();
-            assert!(matches!(e, OutputError::Io { .. }) && e.to_string().contains("/proc"), "{e}");
-        }
     }
 
     #[cfg(unix)]
@@ -367,18 +322,5 @@ mod tests {
         assert!(matches!(e, OutputError::Busy { .. }), "{e}");
         drop(first);
         Directory::create(dir.path(), true).unwrap();
-    }
-
-    #[cfg(unix)]
-    #[test]
-    fn files_are_as_readable_as_any_other_file() {
-        use std::os::unix::fs::PermissionsExt;
-        let dir = tempfile::tempdir().unwrap();
-        let out = Directory::create(dir.path(), false).unwrap();
-        out.write(Artifact::Summary, |f| f.write_all(b"{}")).unwrap();
-        out.publish().unwrap();
-        fs::write(dir.path().join("plain"), "").unwrap();
-        let mode = |p: &Path| fs::metadata(p).unwrap().permissions().mode();
-        assert_eq!(mode(&out.file(Artifact::Summary)), mode(&dir.path().join("plain")));
     }
 }

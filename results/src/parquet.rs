@@ -95,7 +95,7 @@ fn note(column: &str, what: &str, text: &str) -> KeyValue {
 mod tests {
     use super::*;
     use crate::trajectory::tests::{channel, sample};
-    use flexion::system::Channel;
+    use flexion::system::{Channel, Role};
     use parquet::file::reader::{FileReader, SerializedFileReader};
     use parquet::record::Field;
     use std::fs::File;
@@ -148,7 +148,7 @@ mod tests {
     #[test]
     fn columns_carry_names_units_and_meanings() {
         let t = Trajectory::new(vec![
-            Channel { name: "x=2.5.w".into(), unit: "m", meaning: "deflection".into() },
+            Channel { name: "x=2.5.w".into(), unit: "m", meaning: "deflection".into(), role: Role::Detail },
             channel("share", ""),
         ]);
         let file = open(&bytes(&t, GROUP));
@@ -191,9 +191,9 @@ mod tests {
         for i in 5..50_000 {
             t.push(f64::from(i), |_| {});
         }
-        for room in [0, 100, 10_000, 1_000_000] {
-            let error = write_parquet(&t, Full(room)).unwrap_err();
-            assert_eq!(error.kind(), io::ErrorKind::StorageFull, "{room}: {error}");
+        for capacity in [0, 100, 10_000, 1_000_000] {
+            let error = write_parquet(&t, Full(capacity)).unwrap_err();
+            assert_eq!(error.kind(), io::ErrorKind::StorageFull, "{capacity}: {error}");
         }
     }
 }

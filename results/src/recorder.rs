@@ -2,7 +2,7 @@
 
 use super::{Shapes, Trajectory};
 use flexion::analysis::transient::{Observer, Plan, Step};
-use flexion::system::{Channel, State, System};
+use flexion::system::{Channel, Role, State, System};
 use std::ops::ControlFlow;
 
 /// Called after every accepted step; `Break` stops the run.
@@ -13,38 +13,35 @@ pub type Watch<'a> = dyn FnMut(&State) -> ControlFlow<()> + 'a;
 pub struct Recorder<'a> {
     trajectory: Trajectory,
     shapes: Option<Shapes>,
-    books: bool,
-    /// Where the system records its kinetic, strain and gravity energy.
+    balance: bool,
+    /// Channels of the system that are parts of the total energy.
     energies: Vec<usize>,
     watch: &'a mut Watch<'a>,
 }
 
 impl<'a> Recorder<'a> {
-    /// A recorder for runs of `system` by `plan`, with someone to be told of every step.
-    /// `books` asks for work, losses and the balance of energy too.
-    pub fn new(system: &dyn System, plan: &Plan, books: bool, watch: &'a mut Watch<'a>) -> Recorder<'a> {
+    /// A recorder for runs of `system` by `plan` that calls `watch` after every step.
+    /// `balance` asks for work, losses and the energy balance too.
+    pub fn new(system: &dyn System, plan: &Plan, balance: bool, watch: &'a mut Watch<'a>) -> Recorder<'a> {
         let mut channels = system.channels().to_vec();
-        let mut add = |name: &str, unit, meaning: &str| {
-            channels.push(Channel { name: name.to_owned(), unit, meaning: meaning.to_owned() });
+        let parts = channels.iter().enumerate().filter(|(_, c)| c.role == Role::Energy);
+        let energies = parts.map(|(i, _)| i).collect();
+        let mut add = |role, name: &str, unit, meaning: &str| {
+            channels.push(Channel { name: name.to_owned(), unit, meaning: meaning.to_owned(), role });
         };
-        add("energy.total", "J", "kinetic, strain and gravity energy");
-        if books {
-            add("energy.drive", "J", "work of what moves the hub since the start");
-            add("energy.loads", "J", "work of the loads since the start, gravity aside");
-            add("energy.dissipated", "J", "energy lost in dampers since the start");
-            add(
-                "energy.balance",
-                "J",
-                "total energy beyond that of the start and the work, losses added: 0 if exact",
-            );
+        add(Role::Work, "energy.total", "J", "kinetic, strain and gravity energy");
+        if balance {
+            add(Role::Work, "energy.drive", "J", "work of what moves the hub since the start");
+            add(Role::Work, "energy.loads", "J", "work of the loads since the start, gravity aside");
+            add(Role::Work, "energy.dissipated", "J", "energy lost in dampers since the start");
+            let meaning = "error of the energy balance, E(t) − E(0) − work + losses: zero if exact";
+            add(Role::Imbalance, "energy.balance", "J", meaning);
         }
-        add("step.size", "s", "size of the time step that covers this time");
-        add("step.iterations", "", "Newton iterations of that step");
+        add(Role::Integration, "step.size", "s", "size of the time step that covers this time");
+        add(Role::Integration, "step.iterations", "", "Newton iterations of that step");
         let mut trajectory = Trajectory::new(channels);
         trajectory.reserve((plan.end / plan.sample).min(1e7) as usize + 2);
-        let place = |kind: &str| system.channels().iter().position(|c| c.name == format!("energy.{kind}"));
-        let energies = ["kinetic", "strain", "gravity"].into_iter().filter_map(place).collect();
-        Recorder { trajectory, shapes: None, books, energies, watch }
+        Recorder { trajectory, shapes: None, balance, energies, watch }
     }
 
     /// The recorder, taking shapes too.
@@ -60,7 +57,7 @@ impl<'a> Recorder<'a> {
 
 impl Observer for Recorder<'_> {
     fn wants_books(&self) -> bool {
-        self.books
+        self.balance
     }
 
     fn sample(&mut self, system: &mut dyn System, state: &State, step: &Step) {
@@ -71,10 +68,10 @@ impl Observer for Recorder<'_> {
                 [] => system.energy(state).total(),
                 recorded => recorded.iter().map(|&i| own[i]).sum(),
             };
-            let books = step.books.filter(|_| self.books);
-            let kept = books.map(|b| [b.drive, b.loads, b.dissipated, b.balance(total)]);
+            let balance = step.books.filter(|_| self.balance);
+            let work = balance.map(|b| [b.drive, b.loads, b.dissipated, b.balance(total)]);
             let steps = [step.size, f64::from(step.iterations)];
-            let values = std::iter::once(total).chain(kept.into_iter().flatten()).chain(steps);
+            let values = std::iter::once(total).chain(work.into_iter().flatten()).chain(steps);
             for (out, value) in common.iter_mut().zip(values) {
                 *out = value;
             }

@@ -19,7 +19,7 @@ pub struct Results {
     pub path: PathBuf,
     /// What was recorded.
     pub trajectory: Trajectory,
-    /// What its reader should know: that the run did not finish.
+    /// Warning for the reader: that the run did not finish.
     pub caution: Option<String>,
 }
 
@@ -40,7 +40,7 @@ impl Results {
         Ok(Results { name: name(path), path: path.to_path_buf(), trajectory, caution })
     }
 
-    /// Reads several, and makes their names differ: by the folders above, or by a number.
+    /// Reads several, and makes their names unique: by their paths, or by a number.
     ///
     /// # Errors
     /// Those of [`Results::read`].
@@ -69,7 +69,7 @@ fn name(path: &Path) -> String {
     last.map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned())
 }
 
-/// What the summary of a run says against relying on it.
+/// The warning that follows from the summary of a run.
 fn caution(path: &Path) -> Option<String> {
     let summary = current(path, Artifact::Summary);
     let Ok(text) = std::fs::read_to_string(&summary) else {
@@ -131,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn columns_are_selected_by_name_and_pattern_in_the_order_asked_for() {
+    fn columns_are_selected_by_name_and_pattern() {
         assert_eq!(chosen(&["hub.speed", "tip.*"]).unwrap(), ["hub.speed", "tip.deflection", "tip.axial"]);
         assert_eq!(chosen(&["*.axial", "tip.*"]).unwrap(), ["tip.axial", "x=2.5.axial", "tip.deflection"]);
         let error = chosen(&["tip.defelction"]).unwrap_err();
@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn results_are_read_from_a_directory_or_a_file_and_their_names_differ() {
+    fn results_of_directories_and_files_have_unique_names() {
         let dir = tempfile::tempdir().unwrap();
         let make = |name: &str, summary: Option<&str>| {
             let path = dir.path().join(name);

@@ -25,8 +25,8 @@ pub struct Attachments<'a> {
 
 /// Writes the files of a run into `directory`, publishes them, and returns the status that the
 /// summary states: [`Status::Failed`] for a run that claims to have finished with a value that is
-/// not finite, else the status of `report`. A plot that cannot be drawn costs a warning in the summary,
-/// never the results.
+/// not finite, else the status of `report`. A plot that cannot be drawn is a warning in
+/// the summary.
 ///
 /// `case` is the resolved case as TOML.
 ///

@@ -40,7 +40,7 @@ impl Shapes {
         Shapes { stations: all, height, every: every.max(1), ..Shapes::default() }
     }
 
-    /// Told of every recorded state: takes those whose turn it is.
+    /// Call it with every recorded state: it takes the shape of every `every`-th of them.
     pub fn sample(&mut self, system: &mut dyn System, state: &State) {
         if self.seen.is_multiple_of(self.every) {
             self.push(system, state);

@@ -1,9 +1,8 @@
-//! How the files of a directory of results change places, so that a process killed at any moment loses neither
-//! the former results nor the new ones.
+//! How new results take the place of former ones, so that a process killed at any moment loses neither.
 //!
 //! New files are written into the hidden folder [`NEW`]. When all are whole it is renamed to [`COMPLETE`]: from
-//! here on the new results count. Then the former files that have no successor are removed, the closing file
-//! first, the folder is renamed to [`MOVING`] and its files are moved to their names, the closing file last.
+//! here on the new results count. Then the former closing file and the former files without a successor are
+//! removed, the folder is renamed to [`MOVING`], and its files are moved to their names, the closing file last.
 //! The name of the folder thus says what remains to be done, and [`recover`] does it.
 
 use std::fs::{self, File};
@@ -15,14 +14,15 @@ use super::artifact::{Artifact, SHAPES};
 /// Files being written.
 pub(super) const NEW: &str = ".flexion-new";
 /// Files that are whole, former ones still in place.
-pub(super) const COMPLETE: &str = ".flexion-complete";
+const COMPLETE: &str = ".flexion-complete";
 /// Files being moved, former ones gone.
-pub(super) const MOVING: &str = ".flexion-moving";
+const MOVING: &str = ".flexion-moving";
 
 /// Makes the new files the results.
 pub(super) fn publish(path: &Path) -> io::Result<()> {
     fs::rename(path.join(NEW), path.join(COMPLETE))?;
-    sync(path);
+    // Not every system can bring a folder to disk; the files are there anyway.
+    let _ = File::open(path).and_then(|folder| folder.sync_all());
     recover(path)
 }
 
@@ -36,18 +36,26 @@ pub(super) fn place(path: &Path) -> io::Result<()> {
 pub(super) fn recover(path: &Path) -> io::Result<()> {
     let (complete, moving) = (path.join(COMPLETE), path.join(MOVING));
     if complete.is_dir() {
-        remove_former(path, &complete)?;
+        let closes =
+            |set: &&&[Artifact]| set.first().is_some_and(|a| complete.join(&*a.file_name()).exists());
+        let own = Artifact::SETS.iter().find(closes).copied().unwrap_or(Artifact::RUN);
+        let closing = own.first().map(|artifact| PathBuf::from(&*artifact.file_name()));
+        for file in held(path, own)?.into_iter().rev() {
+            if !complete.join(&file).exists() || closing.as_ref() == Some(&file) {
+                fs::remove_file(path.join(file))?;
+            }
+        }
+        // Only if nothing else is in it.
+        let _ = fs::remove_dir(path.join(SHAPES));
         fs::rename(&complete, &moving)?;
-        sync(path);
     }
     if moving.is_dir() {
-        for file in files(&moving)? {
+        for file in held(&moving, &Artifact::SETS.concat())? {
             let target = path.join(&file);
             target.parent().map_or(Ok(()), fs::create_dir_all)?;
             fs::rename(moving.join(&file), target)?;
         }
         fs::remove_dir_all(&moving)?;
-        sync(path);
     }
     Ok(())
 }
@@ -67,72 +75,28 @@ pub(super) fn current(path: &Path, artifact: Artifact) -> PathBuf {
     hidden.into_iter().find(|file| file.is_file()).unwrap_or_else(|| path.join(&*name))
 }
 
-/// Removes the files of the former results, the closing one first and those that have no successor after it.
-fn remove_former(path: &Path, complete: &Path) -> io::Result<()> {
-    let closed = |set: &&&[Artifact]| set.first().is_some_and(|a| complete.join(&*a.file_name()).exists());
-    let own = Artifact::SETS.iter().find(closed).copied().unwrap_or(Artifact::RUN);
-    for (i, artifact) in own.iter().enumerate() {
-        let name = artifact.file_name();
-        if i == 0 || !complete.join(&*name).exists() {
-            remove(&path.join(&*name))?;
-        }
-    }
-    let shapes = path.join(SHAPES);
-    if own.contains(&Artifact::ShapeSeries) && shapes.is_dir() {
-        for entry in fs::read_dir(&shapes)? {
-            let name = entry?.file_name();
-            let is_shape = name.to_str().is_some_and(Artifact::is_shape);
-            if is_shape && !complete.join(SHAPES).join(&name).exists() {
-                remove(&shapes.join(&name))?;
-            }
-        }
-        // Only if nothing else is in it.
-        let _ = fs::remove_dir(&shapes);
-    }
-    Ok(())
-}
-
-fn remove(file: &Path) -> io::Result<()> {
-    match fs::remove_file(file) {
-        Err(error) if error.kind() != ErrorKind::NotFound => Err(error),
-        _ => Ok(()),
-    }
-}
-
-/// The files in a folder and its folders, relative to it, in order of their names, a closing file last.
-fn files(folder: &Path) -> io::Result<Vec<PathBuf>> {
+/// The files of `set` and their shapes that a folder holds, relative to it, the closing file last.
+fn held(folder: &Path, set: &[Artifact]) -> io::Result<Vec<PathBuf>> {
     let mut found = Vec::new();
-    for entry in fs::read_dir(folder)? {
-        let entry = entry?;
-        let name = PathBuf::from(entry.file_name());
-        if entry.file_type()?.is_dir() {
-            found.extend(files(&entry.path())?.into_iter().map(|file| name.join(file)));
-        } else {
-            found.push(name);
+    let shapes = folder.join(SHAPES);
+    if set.contains(&Artifact::ShapeSeries) && shapes.is_dir() {
+        for entry in fs::read_dir(shapes)? {
+            let name = entry?.file_name();
+            found
+                .extend(name.to_str().is_some_and(Artifact::is_shape).then(|| Path::new(SHAPES).join(&name)));
         }
     }
-    let closing = |file: &Path| {
-        Artifact::SETS.iter().filter_map(|set| set.first()).any(|a| file == Path::new(&*a.file_name()))
-    };
-    found.sort_by(|a, b| closing(a).cmp(&closing(b)).then_with(|| a.cmp(b)));
+    let names = set.iter().rev().map(|artifact| PathBuf::from(&*artifact.file_name()));
+    found.extend(names.filter(|name| folder.join(name).is_file()));
     Ok(found)
-}
-
-/// Brings the new names to disk where the system can; some file systems cannot, and the files are whole anyway.
-fn sync(path: &Path) {
-    if cfg!(unix)
-        && let Ok(directory) = File::open(path)
-    {
-        let _ = directory.sync_all();
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const FILES: [&str; 4] = ["case.resolved.toml", "trajectory.csv", "vtk/frame_00000.vtu", "summary.json"];
-    /// What only the former results had.
+    const FILES: [&str; 4] = ["vtk/frame_00000.vtu", "trajectory.csv", "case.resolved.toml", "summary.json"];
+    /// What only the former results have, in the order of removal after their summary.
     const STALE: [&str; 3] = ["plot.svg", "beam.pvd", "vtk/frame_00001.vtu"];
 
     fn write(folder: &Path, name: &str, text: &str) {
@@ -140,54 +104,38 @@ mod tests {
         fs::write(folder.join(name), text).unwrap();
     }
 
-    fn content(path: &Path) -> Vec<(String, String)> {
-        let pair = |f: PathBuf| (f.to_string_lossy().into_owned(), fs::read_to_string(path.join(f)).unwrap());
-        files(path).unwrap().into_iter().map(pair).collect()
-    }
-
-    fn expected() -> Vec<(String, String)> {
-        let mut all: Vec<_> = FILES.iter().map(|n| ((*n).to_owned(), "new".to_owned())).collect();
-        all.insert(1, ("notes.txt".to_owned(), "mine".to_owned()));
-        all
+    /// Results whose replacement was killed after so many removals or moves, beside a file of the user.
+    fn interrupted(folder: &str, removed: usize, moved: usize) -> tempfile::TempDir {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path();
+        write(path, "notes.txt", "mine");
+        for (i, name) in ["summary.json"].iter().chain(&STALE).chain(&FILES[..3]).enumerate() {
+            if i >= removed {
+                write(path, name, "old");
+            }
+        }
+        fs::create_dir(path.join(folder)).unwrap();
+        for (i, name) in FILES.iter().enumerate() {
+            write(&if i < moved { path.to_owned() } else { path.join(folder) }, name, "new");
+        }
+        dir
     }
 
     #[test]
-    fn a_replacement_killed_at_any_moment_is_finished_by_the_next_run() {
-        // Killed after `removed` former files (the closing one first) were removed, before the first move …
-        for removed in 0..=STALE.len() + 1 {
-            let dir = tempfile::tempdir().unwrap();
+    fn a_killed_replacement_is_finished_by_the_next_run() {
+        let removals = (0..=4).map(|removed| (COMPLETE, removed, 0));
+        for (folder, removed, moved) in removals.chain((0..=4).map(|moved| (MOVING, 4, moved))) {
+            let dir = interrupted(folder, removed, moved);
             let path = dir.path();
-            write(path, "notes.txt", "mine");
-            for name in FILES.iter().chain(&STALE) {
-                write(path, name, "old");
-            }
-            for name in FILES {
-                write(&path.join(COMPLETE), name, "new");
-            }
-            for name in std::iter::once(&"summary.json").chain(&STALE).take(removed) {
-                fs::remove_file(path.join(name)).unwrap();
-            }
             // A reader sees the new results already.
             assert_eq!(fs::read_to_string(current(path, Artifact::TrajectoryCsv)).unwrap(), "new");
             recover(path).unwrap();
-            assert_eq!(content(path), expected(), "{removed} removed");
-        }
-        // … or after `moved` new files were moved.
-        for moved in 0..=FILES.len() {
-            let dir = tempfile::tempdir().unwrap();
-            let path = dir.path();
-            write(path, "notes.txt", "mine");
-            for (i, name) in FILES.iter().enumerate() {
-                if i >= moved && *name != "summary.json" {
-                    write(path, name, "old");
-                }
-                let folder = if i < moved { path.to_owned() } else { path.join(MOVING) };
-                write(&folder, name, "new");
+            for name in FILES {
+                assert_eq!(fs::read_to_string(path.join(name)).unwrap(), "new", "{folder} {removed} {moved}");
             }
-            fs::create_dir_all(path.join(MOVING)).unwrap();
-            assert_eq!(fs::read_to_string(current(path, Artifact::TrajectoryCsv)).unwrap(), "new");
-            recover(path).unwrap();
-            assert_eq!(content(path), expected(), "{moved} moved");
+            assert_eq!(fs::read_to_string(path.join("notes.txt")).unwrap(), "mine");
+            assert_eq!(fs::read_dir(path).unwrap().count(), 5, "{folder} {removed} {moved}");
+            assert_eq!(fs::read_dir(path.join("vtk")).unwrap().count(), 1, "{folder} {removed} {moved}");
         }
     }
 
@@ -197,7 +145,6 @@ mod tests {
         write(dir.path(), "summary.json", "old");
         write(dir.path(), ".flexion-new/summary.json", "half");
         recover(dir.path()).unwrap();
-        assert_eq!(fs::read_to_string(dir.path().join("summary.json")).unwrap(), "old");
         assert_eq!(fs::read_to_string(current(dir.path(), Artifact::Summary)).unwrap(), "old");
     }
 }

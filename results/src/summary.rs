@@ -4,6 +4,7 @@ use serde_json::{Map, Value, json};
 
 use super::Trajectory;
 use flexion::integrator::{Counters, Info};
+use flexion::system::Role;
 
 /// Version of the program, as stated in every summary.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
@@ -13,7 +14,7 @@ pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 pub enum Status {
     /// It reached its end.
     Finished,
-    /// Someone or something asked it to stop before its end; what is there is right.
+    /// It was stopped before its end; what was recorded until then is valid.
     Stopped,
     /// It could not go on.
     Failed,
@@ -41,7 +42,7 @@ pub struct ProblemSize {
     pub border: usize,
 }
 
-/// The integrator of a run and what it was told.
+/// The integrator of a run and its settings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Integration<'a> {
     /// What it is.
@@ -76,9 +77,9 @@ pub struct RunReport<'a> {
     pub counters: Counters,
     /// Size of the equations.
     pub size: ProblemSize,
-    /// Wall-clock time of the run [s]: the one entry that differs between two runs of one case.
+    /// Wall time of the run [s]; it and the processor time are the entries that differ between two runs of one case.
     pub wall_time: f64,
-    /// Time of computing of the processor [s], where the system tells it.
+    /// Processor time of the run [s], where the system reports it.
     pub cpu_time: Option<f64>,
 }
 
@@ -171,16 +172,13 @@ impl Summary {
     }
 }
 
-/// The balance of energy: its largest and last value, and both over the largest energy or work of the run.
+/// The energy balance: its largest and last value, and both over the largest energy or work of the run.
 fn imbalance(trajectory: &Trajectory) -> Option<Value> {
-    let balance = trajectory.extremes(trajectory.index("energy.balance")?);
-    let sizes = trajectory.channels().iter().enumerate().filter(|(_, c)| c.name.starts_with("energy."));
-    let size = |i: usize| {
-        let e = trajectory.extremes(i);
-        e.min.abs().max(e.max.abs())
-    };
-    let largest = sizes.map(|(i, _)| size(i)).fold(0.0, f64::max);
-    let max = balance.min.abs().max(balance.max.abs());
+    let balance = trajectory.extremes(trajectory.with_role(Role::Imbalance).next()?);
+    let energies =
+        [Role::Energy, Role::Work, Role::Imbalance].into_iter().flat_map(|r| trajectory.with_role(r));
+    let largest = energies.map(|i| trajectory.extremes(i).largest()).fold(0.0, f64::max);
+    let max = balance.largest();
     let over = |x: f64| if largest > 0.0 { x / largest } else { 0.0 };
     Some(json!({
         "largest": largest,
@@ -230,7 +228,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn keys_come_in_the_documented_order_and_values_are_those_of_the_run() {
+    fn keys_are_in_the_documented_order_with_the_values_of_the_run() {
         let json = Summary::of_run(&report(), &sample()).to_json();
         let value: Value = serde_json::from_str(&json).unwrap();
         let keys: Vec<&str> = value.as_object().unwrap().keys().map(String::as_str).collect();

@@ -1,6 +1,6 @@
 //! What a run recorded: one row of channel values for each recorded time.
 
-use flexion::system::Channel;
+use flexion::system::{Channel, Role};
 
 /// Recorded times and, for each, one value of every channel.
 ///
@@ -29,6 +29,13 @@ pub struct Extremes {
     pub not_finite: Option<f64>,
 }
 
+impl Extremes {
+    /// Largest absolute value; NaN when no value is finite.
+    pub fn largest(&self) -> f64 {
+        self.min.abs().max(self.max.abs())
+    }
+}
+
 impl Trajectory {
     /// An empty trajectory of the given channels, whose names must differ from one another and
     /// from `time`, the name of the first column in files.
@@ -36,7 +43,7 @@ impl Trajectory {
         Trajectory { channels, times: Vec::new(), rows: Vec::new() }
     }
 
-    /// Makes room for `rows` more rows, so that recording them allocates nothing.
+    /// Reserves memory for `rows` more rows, so that recording them allocates nothing.
     pub fn reserve(&mut self, rows: usize) {
         self.times.reserve(rows);
         self.rows.reserve(rows.saturating_mul(self.channels.len()));
@@ -80,6 +87,11 @@ impl Trajectory {
     /// Index of the channel called `name`.
     pub fn index(&self, name: &str) -> Option<usize> {
         self.channels.iter().position(|c| c.name == name)
+    }
+
+    /// Indices of the channels with this role.
+    pub fn with_role(&self, role: Role) -> impl Iterator<Item = usize> {
+        self.channels.iter().enumerate().filter(move |(_, c)| c.role == role).map(|(i, _)| i)
     }
 
     /// Values of the channel at `index`, in time order; nothing for an index out of range.
@@ -129,7 +141,7 @@ pub(super) mod tests {
     use super::*;
 
     pub(crate) fn channel(name: &str, unit: &'static str) -> Channel {
-        Channel { name: name.into(), unit, meaning: format!("the {name}") }
+        Channel { name: name.into(), unit, meaning: format!("the {name}"), role: Role::Detail }
     }
 
     /// Two channels: a cosine with its lowest point at t = 2 s, and a constant.
@@ -155,7 +167,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn extremes_of_a_cosine_are_its_crests_and_the_first_of_equals_counts() {
+    fn extremes_of_a_cosine_are_the_first_of_its_equal_crests() {
         let e = sample().extremes(0);
         assert_eq!((e.min, e.t_min, e.max, e.t_max, e.last), (-1.0, 2.0, 1.0, 0.0, 1.0));
         let e = sample().extremes(1);

@@ -3,8 +3,8 @@
 //! The strip of [`super::write_vtu`], with the same points, cells and arrays, at all times: an unstructured grid
 //! of VTKHDF 2.0 whose cells and arc lengths are stored once, and whose points and other arrays follow one
 //! another from time to time. The file is plain HDF5, open to h5py and MATLAB: `/VTKHDF/Steps/Values` holds the
-//! times [s], and the rows from `/VTKHDF/Steps/PointOffsets` of a time on those of its points in
-//! `/VTKHDF/Points` and `/VTKHDF/PointData`.
+//! times [s]; `/VTKHDF/Steps/PointOffsets` holds the first row of each time in `/VTKHDF/Points` and
+//! `/VTKHDF/PointData`.
 //!
 //! Format: <https://docs.vtk.org/en/latest/vtk_file_formats/vtkhdf_file_format/vtkhdf_specifications.html>.
 
@@ -138,7 +138,7 @@ mod tests {
     use std::io::ErrorKind;
 
     #[test]
-    fn shapes_that_were_never_taken_are_a_file_without_times_and_always_the_same() {
+    fn no_shapes_are_a_file_without_times() {
         let shapes = Shapes::new(1.0, &[0.3], 0.1, 1);
         let bytes = encode(&shapes).unwrap();
         assert!(bytes.starts_with(b"\x89HDF\r\n\x1a\n"));

@@ -9,7 +9,7 @@ use super::tension::Tension;
 use crate::linalg::{Matrix, Storage, Structure};
 use crate::section::BladeSection;
 use crate::system::{
-    Channel, Direction, Dynamics, Energy, Events, Frame, NotSet, Observed, Parameter, Size, State, Steady,
+    Channel, Direction, Dynamics, Energy, Events, Frame, NotSet, Observed, Parameter, Role, Size, State, Steady,
     VisitTerm, Weights,
 };
 
@@ -169,23 +169,30 @@ impl Blade {
 /// Recorded quantities: the tip's vibration.
 fn channels(mesh: &Mesh) -> Vec<Channel> {
     let mut all = vec![
-        ("tip.axial", "m", "axial displacement of the tip from the steady state"),
-        ("tip.chordwise", "m", "displacement of the tip in the direction of motion, from the steady state"),
+        (Role::Primary, "tip.axial", "m", "axial displacement of the tip from the steady state"),
         (
+            Role::Primary,
+            "tip.chordwise",
+            "m",
+            "displacement of the tip in the direction of motion, from the steady state",
+        ),
+        (
+            Role::Primary,
             "tip.flapwise",
             "m",
-            "displacement of the tip towards the vector of rotation, from the steady state",
+            "displacement of the tip along the angular velocity, from the steady state",
         ),
     ];
     if mesh.components.contains(&Component::Torsion) {
-        all.push(("tip.torsion", "rad", "torsion of the tip from the steady state"));
+        all.push((Role::Primary, "tip.torsion", "rad", "torsion of the tip from the steady state"));
     }
-    all.push(("energy.kinetic", "J", "½vᵀMv of the vibration"));
-    all.push(("energy.strain", "J", "½qᵀKq of the vibration, centrifugal work included"));
-    let channel = |(name, unit, meaning): (&str, &'static str, &str)| Channel {
+    all.push((Role::Energy, "energy.kinetic", "J", "½vᵀMv of the vibration"));
+    all.push((Role::Energy, "energy.strain", "J", "½qᵀKq of the vibration, centrifugal work included"));
+    let channel = |(role, name, unit, meaning): (Role, &str, &'static str, &str)| Channel {
         name: name.to_owned(),
         unit,
         meaning: meaning.to_owned(),
+        role,
     };
     all.into_iter().map(channel).collect()
 }

@@ -21,7 +21,7 @@ use super::fields::{Fields, Point};
 use crate::linalg::{Matrix, Structure};
 use crate::quadrature::Gauss;
 use crate::section::{Resultants, Section};
-use crate::system::{Channel, State};
+use crate::system::{Channel, Role, State};
 
 /// Coefficients of the polynomials, and Gauss points of an element.
 const POINTS: usize = 4;
@@ -130,8 +130,9 @@ impl SectionForces {
         let mut channels = Vec::new();
         for station in &self.stations {
             let name = &station.name;
+            let role = if name == "tip" { Role::Secondary } else { Role::Detail };
             let mut add = |column: String, unit: &'static str, meaning: &str| {
-                channels.push(Channel { name: column, unit, meaning: format!("{meaning} at {name}") });
+                channels.push(Channel { name: column, unit, meaning: format!("{meaning} at {name}"), role });
             };
             if self.forces {
                 add(format!("{name}.axial_force"), "N", "axial force N");

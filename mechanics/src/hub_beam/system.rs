@@ -13,7 +13,7 @@ use crate::profile::{HubKinematics, Motion};
 use crate::section::Section;
 use crate::system::{
     Break, Channel, Corotation, Direction, Dynamics, Energy, Events, Frame, Jump, Label, NotSet, Observed, Parameter,
-    Power, Size, State, Steady, VisitTerm, Weights, ordered,
+    Power, Role, Size, State, Steady, VisitTerm, Weights, ordered,
 };
 
 /// A flexible beam on a hub. See the [module documentation](super).
@@ -117,6 +117,7 @@ impl<C: Coupling> HubBeam<C> {
                 name: "energy.gravity".to_owned(),
                 unit: "J",
                 meaning: meaning.to_owned(),
+                role: Role::Energy,
             });
         }
         self
@@ -259,32 +260,35 @@ impl<C: Coupling> HubBeam<C> {
 /// The recorded quantities, in the order of [`HubBeam::record`].
 fn channels(stations: &[Station]) -> Vec<Channel> {
     let mut channels = Vec::new();
-    let mut add = |name: String, unit: &'static str, meaning: String| {
-        channels.push(Channel { name, unit, meaning });
+    let mut add = |role, name: String, unit: &'static str, meaning: String| {
+        channels.push(Channel { name, unit, meaning, role });
     };
     // The tip first: it is what most people look for.
     for station in stations.iter().rev().take(1).chain(&stations[..stations.len() - 1]) {
         let (name, x) = (&station.name, station.point.x);
-        let at = if name == "tip" { "of the tip".to_owned() } else { format!("at x = {x} m") };
-        add(format!("{name}.deflection"), "m", format!("transverse displacement {at} in the hub's frame"));
-        add(format!("{name}.axial"), "m", format!("axial displacement {at} in the hub's frame"));
-        add(format!("{name}.rotation"), "rad", format!("rotation of the section {at} against the hub"));
-        add(
-            format!("{name}.deflection_velocity"),
-            "m/s",
-            format!("rate of the transverse displacement {at}"),
-        );
-        add(format!("{name}.axial_velocity"), "m/s", format!("rate of the axial displacement {at}"));
-        add(format!("{name}.rotation_velocity"), "rad/s", format!("rate of the rotation {at}"));
+        let (displacement, other, at) = match name.as_str() {
+            "tip" => (Role::Primary, Role::Secondary, "of the tip".to_owned()),
+            _ => (Role::Detail, Role::Detail, format!("at x = {x} m")),
+        };
+        let mut add = |role, quantity: &str, unit, meaning: String| {
+            add(role, format!("{name}.{quantity}"), unit, meaning);
+        };
+        add(displacement, "deflection", "m", format!("transverse displacement {at} in the hub's frame"));
+        add(displacement, "axial", "m", format!("axial displacement {at} in the hub's frame"));
+        add(other, "rotation", "rad", format!("rotation of the section {at} against the hub"));
+        add(other, "deflection_velocity", "m/s", format!("rate of the transverse displacement {at}"));
+        add(other, "axial_velocity", "m/s", format!("rate of the axial displacement {at}"));
+        add(other, "rotation_velocity", "rad/s", format!("rate of the rotation {at}"));
     }
-    add("hub.angle".into(), "rad", "angle of the hub".into());
-    add("hub.speed".into(), "rad/s", "angular speed of the hub".into());
-    add("hub.acceleration".into(), "rad/s^2", "angular acceleration of the hub".into());
-    add("hub.torque".into(), "N*m", "torque on the hub: needed by its motion, or driving it".into());
+    let mut add = |role, name: &str, unit, meaning: &str| add(role, name.into(), unit, meaning.into());
+    add(Role::Secondary, "hub.angle", "rad", "angle of the hub");
+    add(Role::Primary, "hub.speed", "rad/s", "angular speed of the hub");
+    add(Role::Secondary, "hub.acceleration", "rad/s^2", "angular acceleration of the hub");
+    add(Role::Primary, "hub.torque", "N*m", "torque on the hub: needed by its motion, or driving it");
     let meaning = "angular momentum of beam and hub about the axis";
-    add("hub.angular_momentum".into(), "kg*m^2/s", meaning.into());
-    add("energy.kinetic".into(), "J", "kinetic energy of beam and hub".into());
-    add("energy.strain".into(), "J", "strain energy of the beam".into());
+    add(Role::Secondary, "hub.angular_momentum", "kg*m^2/s", meaning);
+    add(Role::Energy, "energy.kinetic", "J", "kinetic energy of beam and hub");
+    add(Role::Energy, "energy.strain", "J", "strain energy of the beam");
     channels
 }
 

@@ -69,7 +69,7 @@ pub struct Frame {
 }
 
 /// One recorded quantity.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Channel {
     /// Column name, e.g. `tip.deflection`.
     pub name: String,
@@ -77,6 +77,28 @@ pub struct Channel {
     pub unit: &'static str,
     /// One line for people: what it is.
     pub meaning: String,
+    /// What it is to its readers.
+    pub role: Role,
+}
+
+/// What a recorded quantity is to its readers: which are added up, drawn and printed follows from this, not from names.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Role {
+    /// One of the few that most readers look for: drawn in the figure of a run, and printed after it.
+    Primary,
+    /// Printed after a run.
+    Secondary,
+    /// Only recorded, e.g. at a station.
+    #[default]
+    Detail,
+    /// A part of the total energy [J]: all parts together are [`Energy::total`].
+    Energy,
+    /// The total energy, work, or a loss [J].
+    Work,
+    /// Error of the energy balance, E(t) − E(0) − work + losses [J]: zero if exact.
+    Imbalance,
+    /// Describes the time integration, not the motion.
+    Integration,
 }
 
 /// What a model shows of itself. Nothing here changes what a run computes: work memory at most is written.

@@ -151,7 +151,7 @@ fn power(exponent: i32) -> f64 {
     10f64.powi(exponent)
 }
 
-/// v/10ⁿ with no more rounding than need be.
+/// v/10ⁿ by exact powers of ten where these exist.
 fn scaled(v: f64, exponent: i32) -> f64 {
     if exponent < 0 { v * power(-exponent) } else { v / power(exponent) }
 }
@@ -161,14 +161,14 @@ fn unscaled(s: f64, exponent: i32) -> f64 {
     if exponent < 0 { s / power(-exponent) } else { s * power(exponent) }
 }
 
-/// The smallest of 1, 2, 2.5 and 5 times a power of ten that is not below `least`.
+/// The smallest number not below `least` that is 1, 2, 2.5 or 5 times a power of ten.
 fn round_step(least: f64) -> f64 {
     let unit = power(decade(least));
     let factor = [1.0, 2.0, 2.5, 5.0, 10.0].into_iter().find(|f| f * unit >= least * (1.0 - 1e-9));
     factor.unwrap_or(10.0) * unit
 }
 
-/// Decimals that tell the multiples of `step` apart.
+/// Decimals by which the multiples of `step` differ.
 fn decimals(step: f64) -> usize {
     (0..12)
         .find(|&n| {
@@ -257,7 +257,7 @@ mod tests {
     }
 
     #[test]
-    fn a_logarithmic_axis_spans_whole_decades_and_leaves_out_what_has_no_logarithm() {
+    fn a_logarithmic_axis_spans_whole_decades() {
         let axis = Axis::logarithmic("Error", "m");
         let (label, ticks) = texts(&axis, &[3e-14, 2e-9, 0.0, -1.0]);
         assert_eq!(label, "Error [m]");

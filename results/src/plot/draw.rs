@@ -14,9 +14,9 @@ use kuva::render::render::{Primitive, Scene};
 use kuva::render::theme::Theme;
 
 use super::axis::Resolved;
+use super::coverage::Coverage;
 use super::dash::dashes;
 use super::decimate::decimate;
-use super::room::Room;
 use super::{Figure, Line, Marker, Panel, Series, style};
 use crate::OutputError;
 
@@ -112,26 +112,22 @@ impl Figure {
     }
 
     fn place(&self, columns: usize) -> Vec<Placed<'_>> {
-        let xs = |panel: &Panel| {
-            panel.series.iter().flat_map(|s| s.points.iter().map(|p| p.0)).collect::<Vec<_>>()
+        let place = |(i, panel)| {
+            let own = std::slice::from_ref(panel);
+            let shown = if self.share_x { &self.panels[..] } else { own };
+            Placed {
+                panel,
+                x: Resolved::new(&panel.x, points(shown).map(|p| p.0), 5),
+                y: Resolved::new(&panel.y, points(own).map(|p| p.1), 5),
+                x_labelled: !self.share_x || i + columns >= self.panels.len(),
+            }
         };
-        let all: Vec<f64> = if self.share_x { self.panels.iter().flat_map(xs).collect() } else { Vec::new() };
-        self.panels
-            .iter()
-            .enumerate()
-            .map(|(i, panel)| {
-                let own = if self.share_x { Vec::new() } else { xs(panel) };
-                let shown = if self.share_x { &all } else { &own };
-                let ys = panel.series.iter().flat_map(|s| s.points.iter().map(|p| p.1));
-                Placed {
-                    panel,
-                    x: Resolved::new(&panel.x, shown.iter().copied(), 5),
-                    y: Resolved::new(&panel.y, ys, 5),
-                    x_labelled: !self.share_x || i + columns >= self.panels.len(),
-                }
-            })
-            .collect()
+        self.panels.iter().enumerate().map(place).collect()
     }
+}
+
+fn points(panels: &[Panel]) -> impl Iterator<Item = &(f64, f64)> {
+    panels.iter().flat_map(|panel| &panel.series).flat_map(|series| &series.points)
 }
 
 /// Space around the frames [px], the same for all panels of a column so that frames align.
@@ -201,15 +197,15 @@ fn layout(p: &Placed<'_>, margins: &Margins, column: usize, bottom: f64, size: (
     } else {
         layout.suppress_x_ticks = true;
     }
-    let mut room = Room::new(p, size);
-    for (x, y, words) in room.words(p) {
+    let mut coverage = Coverage::new(p, size);
+    for (x, y, words) in coverage.place_words() {
         let text = TextAnnotation::new(words, x, y).with_color(style::INK).with_font_size(style::LEGEND_SIZE);
         layout = layout.with_annotation(text);
     }
     let entries = legend(p.panel);
     if !entries.is_empty() {
         let names: Vec<&str> = entries.iter().map(|entry| entry.label.as_str()).collect();
-        let position = room.legend(p, &names);
+        let position = coverage.place_legend(&names);
         layout = layout.with_legend_entries(entries).with_legend_position(position).with_legend_box(true);
     }
     layout

@@ -5,11 +5,11 @@
 //! convergence plot) is a [`Figure`] built from its own [`Panel`]s. The same figure gives the same bytes.
 
 mod axis;
+mod coverage;
 mod dash;
 mod decimate;
 mod draw;
 mod panels;
-mod room;
 mod style;
 #[cfg(test)]
 mod tests;

@@ -2,10 +2,10 @@
 
 use super::{Axis, Figure, Line, Panel, Series};
 use crate::{Comparison, Results, Trajectory};
-use flexion::system::Channel;
+use flexion::system::{Channel, Role};
 
-/// Columns that have a panel of their own, with the words for it.
-const SINGLE: [(&str, &str); 9] = [
+/// Quantities of axes that are not the name of their column; nothing else depends on these names.
+const QUANTITIES: [(&str, &str); 9] = [
     ("tip.deflection", "Tip deflection w₂"),
     ("tip.axial", "Axial displacement"),
     ("hub.speed", "Hub speed"),
@@ -17,9 +17,8 @@ const SINGLE: [(&str, &str); 9] = [
     ("energy.total", "Total energy"),
 ];
 
-/// Energies, in the order of the legend; small ones get a panel of their own.
-const ENERGIES: [(&str, &str); 3] =
-    [("energy.kinetic", "kinetic"), ("energy.strain", "strain"), ("energy.gravity", "gravity")];
+/// Primary columns that the figure of a run shows in any case; further ones fill its last row.
+const SHOWN: usize = 3;
 
 /// Energies below this fraction of the largest cannot be read in the same panel.
 const READABLE: f64 = 0.05;
@@ -27,25 +26,17 @@ const READABLE: f64 = 0.05;
 /// From this number on, panels stand in two columns.
 const PANELS: usize = 4;
 
-/// The figure of one run: tip deflection, tip axial displacement, hub speed and energies against time,
-/// as far as they were recorded; the first columns there are when none of them was.
+/// The figure of one run against time: the first primary columns and the parts of the energy; the first columns
+/// there are where there are none of these.
 pub fn trajectory_figure(trajectory: &Trajectory, title: Option<&str>) -> Figure {
-    let names: Vec<&str> = SINGLE.iter().map(|(name, _)| *name).take(3).collect();
-    let mut panels: Vec<Panel> = names.iter().filter_map(|name| panel(&[(None, trajectory)], name)).collect();
+    let all = |role| trajectory.with_role(role);
+    let panel = |i: usize| panel(&[(None, trajectory)], &trajectory.channels()[i].name);
+    let mut panels: Vec<Panel> = all(Role::Primary).take(SHOWN).filter_map(panel).collect();
     panels.extend(energies(trajectory));
-    // Two columns are filled up, and a figure without any of these shows what there is.
-    let shown = |name: &str| names.contains(&name) || ENERGIES.iter().any(|(n, _)| *n == name);
-    let known = SINGLE.iter().map(|(name, _)| *name).filter(|name| trajectory.index(name).is_some());
-    let others = trajectory.channels().iter().map(|c| c.name.as_str());
-    let mut fillers: Vec<&str> = Vec::new();
-    for name in known.chain(others) {
-        if !shown(name) && !fillers.contains(&name) {
-            fillers.push(name);
-        }
-    }
-    for name in fillers {
+    let others = [Role::Secondary, Role::Work, Role::Detail, Role::Imbalance, Role::Integration];
+    for i in all(Role::Primary).skip(SHOWN).chain(others.into_iter().flat_map(all)) {
         if panels.len() < 2 || (panels.len() > PANELS && panels.len() % 2 == 1) {
-            panels.extend(panel(&[(None, trajectory)], name));
+            panels.extend(panel(i));
         }
     }
     figure(panels, title)
@@ -111,39 +102,29 @@ fn panel(runs: &[(Option<&str>, &Trajectory)], name: &str) -> Option<Panel> {
     Some(Panel { x: Axis::time(), y: y?, series, words: Vec::new() })
 }
 
+/// The parts of the energy: in one panel, or in two where some are small.
 fn energies(trajectory: &Trajectory) -> Vec<Panel> {
-    let size = |i: usize| {
-        let e = trajectory.extremes(i);
-        e.min.abs().max(e.max.abs())
+    let found: Vec<(usize, f64)> =
+        trajectory.with_role(Role::Energy).map(|i| (i, trajectory.extremes(i).largest())).collect();
+    let readable = READABLE * found.iter().fold(0.0, |m: f64, (_, size)| m.max(*size));
+    let colored = found.into_iter().enumerate();
+    let (large, small): (Vec<_>, Vec<_>) = colored.partition(|(_, (_, size))| *size >= readable);
+    let panel = |group: Vec<(usize, (usize, f64))>| {
+        let y = match group.as_slice() {
+            [(_, (i, _))] => axis(&trajectory.channels()[*i]),
+            _ => Axis::new("Energy", "J"),
+        };
+        let curve = |(color, (i, _)): &(usize, (usize, f64))| {
+            let name = trajectory.channels()[*i].name.rsplit('.').next().filter(|_| group.len() > 1);
+            Series { color: Some(*color), ..Series::line(name, points(trajectory, *i)) }
+        };
+        Panel { x: Axis::time(), y, series: group.iter().map(curve).collect(), words: Vec::new() }
     };
-    let found: Vec<(usize, &str, f64, usize)> = ENERGIES
-        .iter()
-        .enumerate()
-        .filter_map(|(color, (name, word))| trajectory.index(name).map(|i| (i, *word, size(i), color)))
-        .collect();
-    let largest = found.iter().fold(0.0, |m: f64, f| m.max(f.2));
-    let (large, small): (Vec<_>, Vec<_>) = found.into_iter().partition(|f| f.2 >= READABLE * largest);
-    [large, small]
-        .into_iter()
-        .filter(|group| !group.is_empty())
-        .map(|group| {
-            let alone = group.len() == 1;
-            let quantity =
-                if alone { capitalised(&format!("{} energy", group[0].1)) } else { "Energy".into() };
-            let series = group
-                .iter()
-                .map(|&(i, word, _, color)| Series {
-                    color: Some(color),
-                    ..Series::line((!alone).then_some(word), points(trajectory, i))
-                })
-                .collect();
-            Panel { x: Axis::time(), y: Axis::new(quantity, "J"), series, words: Vec::new() }
-        })
-        .collect()
+    [large, small].into_iter().filter(|group| !group.is_empty()).map(panel).collect()
 }
 
 fn axis(channel: &Channel) -> Axis {
-    let known = SINGLE.iter().find(|(name, _)| *name == channel.name);
+    let known = QUANTITIES.iter().find(|(name, _)| *name == channel.name);
     let quantity = known.map_or_else(|| capitalised(&channel.name.replace(['.', '_'], " ")), |k| k.1.into());
     Axis::new(quantity, channel.unit.replace('*', "·"))
 }

@@ -60,7 +60,7 @@ pub(super) fn tick_width(text: &str) -> f64 {
     em * f64::from(TICK_SIZE)
 }
 
-/// Width of words set in the font of legends [px], rather too wide.
+/// Width of words set in the font of legends [px]: an upper estimate.
 pub(super) fn word_width(text: &str) -> f64 {
     0.6 * f64::from(LEGEND_SIZE) * text.chars().count() as f64
 }

@@ -2,10 +2,11 @@
 
 use super::*;
 use crate::Trajectory;
+use crate::csv::role;
 use flexion::system::Channel;
 
 fn channel(name: &str, unit: &'static str) -> Channel {
-    Channel { name: name.into(), unit, meaning: String::new() }
+    Channel { name: name.into(), unit, role: role(name), ..Channel::default() }
 }
 
 /// A spin-up to `speed` in 15 s: a dip of the tip to about −0.4 m and a small vibration afterwards.
@@ -49,10 +50,27 @@ fn a_run_is_shown_in_lettered_panels_that_share_the_time_axis() {
     assert!(svg.contains("DejaVu Sans") && svg.contains("sans-serif"));
 }
 
+/// Heights of the highest and lowest point of the curves [px from above].
+fn heights(svg: &str) -> [f64; 2] {
+    let paths = svg.split("<path d=\"").skip(1).filter_map(|rest| rest.split('"').next());
+    let heights = paths.flat_map(|path| path.split_whitespace().skip(2).step_by(3));
+    heights.map(|y| y.parse::<f64>().unwrap()).fold([f64::MAX, f64::MIN], |[a, b], y| [a.min(y), b.max(y)])
+}
+
 #[test]
 fn a_million_rows_give_a_small_file_with_the_same_extremes() {
-    let svg = trajectory_figure(&spin_up(4.0, 1_000_000), None).draw().svg();
+    const ROWS: u32 = 1_000_000;
+    let svg = trajectory_figure(&spin_up(4.0, ROWS as usize), None).draw().svg();
     assert!(svg.len() < 1_000_000, "{} bytes", svg.len());
+    // One row goes up and one down, which the second figure shows alone.
+    let y = |i: u32| [(123_456, 7.0), (654_321, -3.0)].iter().find(|(row, _)| *row == i).map_or(0.0, |s| s.1);
+    let heights_of = |rows: &mut dyn Iterator<Item = u32>| {
+        let mut t = Trajectory::new(vec![channel("tip.deflection", "m")]);
+        rows.for_each(|i| t.push(f64::from(i), |row| row[0] = y(i)));
+        heights(&trajectory_figure(&t, None).draw().svg())
+    };
+    let (all, few) = (heights_of(&mut (0..=ROWS)), heights_of(&mut [0, 123_456, 654_321, ROWS].into_iter()));
+    assert!(all[1] - all[0] > 200.0 && (all[0] - few[0]).abs() < 0.01 && (all[1] - few[1]).abs() < 0.01);
 }
 
 #[test]
@@ -149,7 +167,7 @@ fn height_of(svg: &str, words: &str) -> Option<f64> {
 }
 
 #[test]
-fn the_legend_and_words_stand_clear_of_curves_that_pass_all_corners() {
+fn the_legend_and_words_are_clear_of_curves() {
     // Two points a curve: it is the line that counts, not its points.
     let level = |y: f64| vec![(0.0, y), (1.0, y)];
     let series = vec![

@@ -68,7 +68,7 @@ pub fn campbell_figure(
         let points: Vec<(f64, f64)> =
             branch.points.iter().map(|p| (p.speed * unit.factor, p.mode.frequency() * unit.factor)).collect();
         top = points.iter().map(|p| p.1).fold(top, f64::max);
-        // Where the lines of whole revolutions are furthest, if there is room: near the vertical axis.
+        // Where the lines of whole revolutions are furthest, if that is free: near the vertical axis.
         let near = |x: f64| points.iter().min_by(|a, b| (a.0 - x).abs().total_cmp(&(b.0 - x).abs())).copied();
         if let Some(first) = branch.points.first() {
             let text = format!("{} {}", number + 1, first.mode.shares.dominant());
@@ -77,7 +77,7 @@ pub fn campbell_figure(
         }
         series.push(Series { color: Some(number), ..Series::line(None, points) });
     }
-    // A line at the end of the curves stands clear of the frame, and words beside their ends have room.
+    // A line at the end of the curves is clear of the frame, and words beside their ends fit into it.
     let marks = instabilities(campbell, top, unit);
     let first = campbell.speeds.first().copied().unwrap_or(0.0) * unit.factor;
     let begin = if revolutions > 0 { 0.0 } else { first };
@@ -108,8 +108,9 @@ pub fn campbell_figure(
             color: Some(1),
         });
     }
-    let room = if words.iter().any(|words| words.beside) { 1.06 } else { 1.04 };
-    let range = (room > 1.05 || furthest > last).then_some((begin, begin + room * (furthest - begin)));
+    let extension = if words.iter().any(|words| words.beside) { 1.06 } else { 1.04 };
+    let range =
+        (extension > 1.05 || furthest > last).then_some((begin, begin + extension * (furthest - begin)));
     series.extend(marks);
     let panel = Panel {
         x: Axis { tight: true, range, ..Axis::new("Speed Ω", unit.name) },

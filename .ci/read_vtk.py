@@ -1,7 +1,7 @@
-"""Reads the shapes of a run with VTK itself and holds them against the columns of its trajectory.
+"""Reads the shapes of a run with VTK itself and compares them with the columns of its trajectory.
 
     pip install vtk numpy
-    python read_back.py RESULTS
+    python read_vtk.py RESULTS
 
 RESULTS is the directory of a run with `[output] vtk = true`. Every frame named in beam.pvd must be read
 without an error, consist of valid quadrilaterals, and at the tip and at each recorded station its point data

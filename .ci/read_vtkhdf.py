@@ -1,7 +1,7 @@
-"""Reads beam.vtkhdf with VTK itself and holds it against the frames of beam.pvd.
+"""Reads beam.vtkhdf with VTK itself and compares it with the frames of beam.pvd.
 
     pip install vtk numpy
-    python read_back_hdf.py RESULTS
+    python read_vtkhdf.py RESULTS
 
 RESULTS is the directory of a run with `[output] vtk = true` by a program built with the feature `vtkhdf`. At every
 time the grid must have the points, the cells and the point data of the frame (.vtu), bit for bit. Exits with 1 if
@@ -58,7 +58,7 @@ def main(results):
     if list(times) != [float(data_set.get("timestep")) for data_set in sets]:
         sys.exit(f"times are {times}")
     values = 0
-    # Not in order, as somebody moves the slider of time.
+    # Not in order, as when a user moves the time slider.
     for step in sorted(range(len(sets)), key=lambda i: (i % 3, i)):
         reader.UpdateTimeStep(times[step])
         frame = vtkXMLUnstructuredGridReader()
