@@ -1,7 +1,7 @@
 //! Index-3 constraints through the generalized-α method.
 
-use crate::drive::fixed;
-use crate::systems::{CartesianPendulum, Pendulum, state};
+use super::drive::fixed;
+use super::systems::{CartesianPendulum, Pendulum, state};
 use flexion::integrator::{GeneralizedAlpha, Integrator, Radau, StepError, Tolerance};
 use flexion::system::System;
 
