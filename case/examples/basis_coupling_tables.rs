@@ -19,11 +19,11 @@ const CASES: [(&str, &str); 9] = [
     ("p1_spin_up_20", "P1: Ω = 20 rad/s, E = 70 GPa"),
     ("p1_spin_up_20_at_30_gpa", "P1: Ω = 20 rad/s, E = 30 GPa"),
     ("p1_spin_up_4_at_5_gpa", "P1: Ω = 4 rad/s, E = 5 GPa"),
-    ("p3_n0_spin_up_4", "P3: N = 0, Ω = 4 rad/s"),
-    ("p3_n2_spin_up_4", "P3: N = 2, Ω = 4 rad/s"),
-    ("p3_n2_spin_up_10", "P3: N = 2, Ω = 10 rad/s"),
-    ("p3_n2_spin_up_20", "P3: N = 2, Ω = 20 rad/s"),
-    ("p3_n0_tenth_modulus_spin_up_10", "P3: N = 0, ceramic modulus 15.1 GPa, Ω = 10 rad/s"),
+    ("p3_spin_up/n0", "P3: N = 0, Ω = 4 rad/s"),
+    ("p3_spin_up", "P3: N = 2, Ω = 4 rad/s"),
+    ("p3_spin_up/at_10_rad_s", "P3: N = 2, Ω = 10 rad/s"),
+    ("p3_spin_up/at_20_rad_s", "P3: N = 2, Ω = 20 rad/s"),
+    ("p3_spin_up/soft_ceramic", "P3: N = 0, ceramic modulus 15.1 GPa, Ω = 10 rad/s"),
 ];
 
 const BASES: [(&str, &str); 6] = [

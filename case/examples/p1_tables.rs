@@ -171,10 +171,10 @@ fn main() {
     }
     println!("\n## P3: graded beam, first-order coupling\n");
     for (folder, what) in [
-        ("p3_n2_spin_up_4", "N = 2, Ω = 4 rad/s"),
-        ("p3_n2_spin_up_10", "N = 2, Ω = 10 rad/s"),
-        ("p3_n2_spin_up_20", "N = 2, Ω = 20 rad/s"),
-        ("p3_n0_tenth_modulus_spin_up_10", "N = 0, ceramic modulus 15.1 GPa, Ω = 10 rad/s"),
+        ("p3_spin_up", "N = 2, Ω = 4 rad/s"),
+        ("p3_spin_up/at_10_rad_s", "N = 2, Ω = 10 rad/s"),
+        ("p3_spin_up/at_20_rad_s", "N = 2, Ω = 20 rad/s"),
+        ("p3_spin_up/soft_ceramic", "N = 0, ceramic modulus 15.1 GPa, Ω = 10 rad/s"),
     ] {
         println!("### {what}\n");
         table(&bases(folder), 1);
@@ -185,7 +185,7 @@ fn main() {
     );
     for exponent in ["0", "0.5", "1", "2", "5"] {
         let basis = "basis={kind='finite-elements',elements=10,axial-degree=2}";
-        let run = run::run("p3_n2_spin_up_4", &[&format!("section.exponent={exponent}"), basis, OUTPUT]);
+        let run = run::run("p3_spin_up", &[&format!("section.exponent={exponent}"), basis, OUTPUT]);
         let (minimum, time) = run.extreme(TIP, -1.0, WHOLE);
         let (top, bottom) = (run.extreme(TIP, 1.0, AFTER).0, run.extreme(TIP, -1.0, AFTER).0);
         println!(

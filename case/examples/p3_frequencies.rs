@@ -22,7 +22,7 @@ fn unit_of_time() -> f64 {
 }
 
 fn system(exponent: f64, basis: &str) -> Box<dyn System> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../verification/p3_n05_spin_up_4");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../verification/p3_spin_up");
     let overrides = [format!("section.exponent={exponent}"), basis.to_owned()];
     build::system(&read(&folder, &overrides).unwrap().case).unwrap()
 }

@@ -2,10 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-#[path = "verification/run.rs"]
-mod run;
-
-use run::{Run, run};
+use crate::verification::run::{Run, run};
 
 /// A spin-up of P1's beam to 4 rad/s in a third of the time, which bends it more.
 const QUICK: [&str; 3] = ["run.duration=6", "hub.motion.time=5", "output.step=0.1"];
@@ -45,7 +42,7 @@ fn meshes(folder: &str, axial_degree: Option<u32>, sizes: &[u32], column: &str) 
 
 #[test]
 fn the_tip_deflection_of_cubic_elements_converges_with_the_fourth_power_of_their_size() {
-    for folder in ["p1_spin_up_4", "p1_spin_up_4_exact"] {
+    for folder in ["p1_spin_up_4", "p1_spin_up_4/exact"] {
         let errors = meshes(folder, None, &[5, 10, 20], "tip.deflection");
         let order = order(&errors);
         eprintln!("{folder}: {errors:?}: order {order:.2}");
@@ -65,7 +62,7 @@ fn the_stretch_converges_with_the_square_of_the_size_of_linear_elements_and_the_
     for (degree, expected) in [(1, 2.0), (2, 4.0)] {
         let error = |n: u32| {
             let basis = format!("basis={{kind='finite-elements',elements={n},axial-degree={degree}}}");
-            let run = run("steady_rotation_first", &[&soft[..], &[&basis]].concat());
+            let run = run("steady_rotation/first", &[&soft[..], &[&basis]].concat());
             (run.column("tip.axial")[0] - stretch).abs()
         };
         let errors = [2, 4, 8].map(error);
@@ -125,7 +122,7 @@ fn steps(folder: &str, basis: &str, kind: &str, h: f64) -> Vec<f64> {
 
 #[test]
 fn implicit_methods_converge_with_the_square_of_the_step() {
-    for (folder, h) in [("p1_spin_up_4", 0.02), ("p1_spin_up_4_exact", 0.01)] {
+    for (folder, h) in [("p1_spin_up_4", 0.02), ("p1_spin_up_4/exact", 0.01)] {
         for kind in ["'newmark'", "'hht',alpha=0.1", "'generalized-alpha',spectral-radius=0.5"] {
             let errors = steps(folder, "basis.elements=6", kind, h);
             let order = order(&errors);
@@ -158,7 +155,7 @@ fn explicit_methods_converge_with_the_fourth_power_of_the_step() {
 
 #[test]
 fn the_error_of_radau_follows_its_tolerance() {
-    for folder in ["p1_spin_up_4", "p1_spin_up_4_exact"] {
+    for folder in ["p1_spin_up_4", "p1_spin_up_4/exact"] {
         let reference = quick(folder, &[EXACT_IN_TIME]);
         let error = |tolerance: f64| {
             let set = format!(

@@ -2,11 +2,9 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
 
-mod written;
-
+use crate::written::{self, SQUARE_BAR};
 use flexion_case::{Reading, Run};
 use std::ops::ControlFlow;
-use written::SQUARE_BAR;
 
 const REST: &str = r#"
 [hub]
@@ -41,27 +39,26 @@ const FREE: &str = "hub={radius=0.1,inertia=2,motion={kind='free',damping=1.5,st
 
 #[test]
 fn the_balance_of_energy_closes_to_the_order_of_the_method() {
+    // Soft along its axis, so that stable steps are long enough for errors to stand out of rounding.
+    let soft = "section={kind='resultants',mass-per-length=1.08,axial-stiffness=2e3,bending-stiffness=93}";
     let cases: &[(&str, f64, f64)] = &[
         ("newmark", 4e-3, 2.0),
         ("generalized-alpha", 4e-3, 2.0),
-        ("runge-kutta-4", 1e-3, 4.0),
-        ("adams-4", 6e-5, 4.0),
+        ("runge-kutta-4", 4e-3, 4.0),
+        ("adams-4", 2e-3, 4.0),
     ];
     for drive in ["hub.radius=0.1", FREE] {
         for &(method, step, order) in cases {
-            // Before 0.5 s, when the reference of the controller stops and the torque jumps. The axial vibration limits
-            // explicit steps so much that their errors are near rounding.
+            // Before 0.5 s, when the reference of the controller stops and the torque jumps.
             let imbalance = |step: f64| {
                 let integrator = format!("integrator={{kind='{method}',step={step}}}");
-                largest(&run(&[drive, &integrator, "run.duration=0.4"]), "energy.balance")
+                largest(&run(&[drive, soft, &integrator, "run.duration=0.4"]), "energy.balance")
             };
             let (coarse, fine) = (imbalance(step), imbalance(0.5 * step));
             let measured = (coarse / fine).log2();
             eprintln!("{method}: {coarse:.3e} {fine:.3e} order {measured:.2}");
-            assert!(
-                fine < 1e-10 || (measured - order).abs() < 0.35 || measured > order,
-                "{method}: {coarse:.3e} {fine:.3e}: {measured}"
-            );
+            // Energy may close faster than the motion converges.
+            assert!(measured > order - 0.35, "{method}: {coarse:.3e} {fine:.3e}: {measured}");
         }
         let imbalance = |tolerance: &str| {
             let set =
@@ -74,7 +71,7 @@ fn the_balance_of_energy_closes_to_the_order_of_the_method() {
     }
 }
 
-/// Loads of every frame, a lumped mass, gravity and damping of the beam: what they do is in the books.
+/// Loads of every frame, a lumped mass, gravity and damping of the beam: their work is in the energy balance.
 const LOADED: &[&str] = &[
     "gravity={acceleration='9.81 m/s^2',direction='-90 deg'}",
     "mass=[{station='2 m',mass='300 g',inertia=2e-3},{station=1,mass=0.2}]",
@@ -130,7 +127,7 @@ fn a_damper_takes_the_energy_of_a_free_hub() {
 }
 
 #[test]
-fn the_books_may_be_left_out() {
+fn the_energy_balance_may_be_left_out() {
     let without = run(&["output.energy-balance=false"]);
     let with = run(&[]);
     assert!(without.trajectory.index("energy.balance").is_none());

@@ -2,13 +2,11 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
 
-mod written;
-
+use crate::written::{self, SQUARE_BAR};
 use flexion::analysis::modes::{Mode, modes};
 use flexion::analysis::rotation::rotate;
 use flexion::system::State;
 use flexion_case::{Reading, Run, build};
-use written::SQUARE_BAR;
 
 const REST: &str = r#"
 [hub]

@@ -130,7 +130,7 @@ fn no_step_of_a_hub_and_beam_allocates() {
         ("high", &high),
         ("exact", &[elements, "basis.elements=2"]),
     ];
-    for folder in ["p1_spin_up_4", "p3_n2_spin_up_4"] {
+    for folder in ["p1_spin_up_4", "p3_spin_up"] {
         for (coupling, bases) in couplings {
             for basis in bases {
                 let rotary = "section.rotary-inertia=true";

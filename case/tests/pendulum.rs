@@ -2,8 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
 
-mod written;
-
+use crate::written;
 use flexion::exact::pendulum::rod_angle;
 use flexion_case::Run;
 use flexion_results::Status;

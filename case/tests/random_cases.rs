@@ -4,7 +4,6 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)] // in helpers of tests
 
-#[path = "random_cases/draw.rs"]
 mod draw;
 
 use draw::Drawn;

@@ -2,8 +2,7 @@
 
 #![allow(clippy::unwrap_used)] // in helpers of tests
 
-mod written;
-
+use crate::written;
 use flexion_case::{Errors, Reading, Run};
 use std::f64::consts::PI;
 use std::ops::ControlFlow;

@@ -2,12 +2,10 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
 
-mod written;
-
+use crate::written::{SQUARE_BAR, reading_of as reading};
 use flexion_case::{Reading, Run};
 use flexion_results::{Directory, Status};
 use std::ops::ControlFlow;
-use written::{SQUARE_BAR, reading_of as reading};
 
 const REST: &str = r#"
 [hub]

@@ -2,8 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
 
-mod written;
-
+use crate::written;
 use std::ops::ControlFlow;
 
 /// A beam in the static equilibrium of a hub that sets off with ω̇ = 0.01 rad/s²: under the load −ρA ω̇ x.

@@ -2,8 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
 
-mod written;
-
+use crate::written;
 use flexion_case::Run;
 use std::fmt::Write;
 use std::path::Path;

@@ -1,9 +1,7 @@
 //! First integrals of the high-order coupling over long runs.
 #![allow(missing_docs, clippy::unwrap_used)]
 
-#[path = "integrators/drive.rs"]
-mod drive;
-
+use super::integrators::drive;
 use flexion::basis::{Field, Modes};
 use flexion::hub_beam::{Coupling, Drive, Fields, FreeHub, HighCoupling, Hub, HubBeam};
 use flexion::integrator::RungeKutta;

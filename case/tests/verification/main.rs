@@ -1,57 +1,70 @@
-//! Every folder of `verification` is run and held to what its `expected.toml` says.
+//! Every case of `verification` and every variant of one is a test of its own: it is run and held to what the
+//! `expected.toml` of its folder says. `cargo test --release --test verification p1_spin_up_4` runs those whose name
+//! contains the word; `-- --nocapture` shows what was measured.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-mod folder;
+mod expected;
 mod run;
 
+use expected::Expected;
 use flexion_case::{Reading, seams};
-use folder::Expected;
+use libtest_mimic::{Arguments, Failed, Trial};
+use run::Variant;
 use std::fmt::Write;
 
-fn folders() -> Vec<String> {
-    let mut folders: Vec<String> = std::fs::read_dir(run::root())
-        .unwrap()
-        .filter_map(|entry| entry.ok().filter(|entry| entry.path().is_dir()))
-        .map(|entry| entry.file_name().into_string().unwrap())
+fn main() {
+    let arguments = Arguments::from_args();
+    let show = arguments.nocapture;
+    let mut tests: Vec<Trial> = run::all()
+        .into_iter()
+        .map(|variant| Trial::test(variant.name.clone(), move || agrees(&variant, show)))
         .collect();
-    folders.sort();
-    assert!(folders.len() > 30, "{} folders", folders.len());
-    folders
-}
-
-/// Set the variable `VERIFICATION` to a part of a folder's name to run some of them, and run with
-/// `--nocapture` to see what was measured.
-#[test]
-fn every_case_agrees_with_its_reference() {
-    let only = std::env::var("VERIFICATION").unwrap_or_default();
-    let (mut report, mut wrong) = (String::new(), 0);
-    for folder in folders().iter().filter(|folder| folder.contains(&only)) {
-        let start = std::time::Instant::now();
-        let run = run::run(folder, &[]);
-        let steps = run.steps;
-        let _ = writeln!(report, "{folder}: {steps} steps, {:.0} ms", start.elapsed().as_secs_f64() * 1e3);
-        for c in Expected::read(folder).compare(&run, |other| run::run(other, &[])) {
-            let good = c.off <= c.tolerance;
-            wrong += u32::from(!good);
-            let verdict = if good { "  " } else { "✗ " };
-            let (what, off, tolerance, note) = (c.what, c.off, c.tolerance, c.note);
-            let _ = writeln!(report, "{verdict}{what}: off by {off:.2e} of {tolerance:.0e} ({note})");
-        }
+    for (name, test) in [
+        ("every_folder_explains_its_case", every_folder_explains_its_case as fn()),
+        ("every_kind_that_a_case_may_choose_is_verified", every_kind_that_a_case_may_choose_is_verified),
+    ] {
+        tests.push(Trial::test(name, move || {
+            test();
+            Ok(())
+        }));
     }
-    eprintln!("{report}");
-    assert_eq!(wrong, 0, "{wrong} comparisons failed:\n{report}");
+    libtest_mimic::run(&arguments, tests).exit();
 }
 
-#[test]
+fn agrees(variant: &Variant, show: bool) -> Result<(), Failed> {
+    let start = std::time::Instant::now();
+    let run = run::run(&variant.name, &[]);
+    let time = start.elapsed().as_secs_f64();
+    let mut report = format!("{}: {} steps, {time:.2} s\n", variant.name, run.steps);
+    let comparisons = Expected::new(variant).compare(&run);
+    for c in &comparisons {
+        let verdict = if c.good() { "  " } else { "✗ " };
+        let (what, off, tolerance, note) = (&c.what, c.off, c.tolerance, &c.note);
+        let _ = writeln!(report, "{verdict}{what}: off by {off:.2e} of {tolerance:.0e} ({note})");
+    }
+    if show {
+        eprint!("{report}");
+    }
+    if comparisons.iter().all(expected::Comparison::good) { Ok(()) } else { Err(report.into()) }
+}
+
 fn every_folder_explains_its_case() {
-    for folder in folders() {
-        let readme = std::fs::read_to_string(run::root().join(&folder).join("README.md")).unwrap();
-        let lines = readme.lines().count();
-        assert!(readme.starts_with("# "), "{folder}: README.md has no title");
-        assert!((3..=30).contains(&lines), "{folder}: README.md has {lines} lines");
-        let reading = run::case(&folder, &[]).unwrap();
+    let all = run::all();
+    assert!(all.len() > 90, "{} variants", all.len());
+    for variant in &all {
+        let Variant { name, folder, .. } = variant;
+        let readme = std::fs::read_to_string(run::root().join(folder).join("README.md")).unwrap();
+        assert!(
+            readme.starts_with("# ") && readme.lines().count() >= 3,
+            "{folder}: README.md says too little"
+        );
+        let reading = run::case(name, &[]).unwrap();
         assert!(!reading.case.title.is_empty(), "{folder}: the case has no title");
+        // It names each variant.
+        if let Some((_, short)) = name.split_once('/') {
+            assert!(readme.contains(&format!("`{short}`")), "{folder}: README.md does not name `{short}`");
+        }
     }
 }
 
@@ -83,13 +96,12 @@ fn uses(reading: &Reading, path: &str, kind: &str) -> bool {
     chosen(path) || others.iter().any(|path| chosen(path))
 }
 
-#[test]
 fn every_kind_that_a_case_may_choose_is_verified() {
-    let readings: Vec<Reading> = folders().iter().map(|folder| run::case(folder, &[]).unwrap()).collect();
+    let readings: Vec<Reading> = run::all().iter().map(|v| run::case(&v.name, &[]).unwrap()).collect();
     for seam in seams() {
         for kind in seam.kinds {
             let used = readings.iter().any(|reading| uses(reading, seam.path, kind.name));
-            assert!(used, "no folder of verification uses the {} `{}`", seam.name, kind.name);
+            assert!(used, "no case of verification uses the {} `{}`", seam.name, kind.name);
         }
     }
 }

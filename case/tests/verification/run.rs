@@ -1,18 +1,59 @@
-//! Runs the cases of the folder `verification`, as the program does.
+//! Runs the cases of the folder `verification` and their variants, as the program does.
 
 #![allow(dead_code)] // each test binary uses its part
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-use flexion::analysis::transient::{Ending, Observer, Plan, Step, transient};
-use flexion::system::{State, System};
 use flexion_case::{Problems, Reading, read};
 use flexion_results::{Status, Trajectory};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
+use toml::{Table, Value};
 
 /// The folder of verification cases.
 pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../verification")
+}
+
+/// A case of a folder, as it stands or changed.
+pub struct Variant {
+    /// `FOLDER`, or `FOLDER/VARIANT`.
+    pub name: String,
+    pub folder: String,
+    /// Title, where it differs from that of the case.
+    pub title: Option<String>,
+    /// What follows `--set` when it is run by hand.
+    pub set: Vec<String>,
+    /// What its run is held to.
+    pub expected: Table,
+}
+
+/// The case of a folder as it stands, then its variants.
+pub fn variants(folder: &str) -> Vec<Variant> {
+    let path = root().join(folder).join("expected.toml");
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    let mut table: Table = text.parse().unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    let others = table.remove("variant").map_or(Vec::new(), |others| others.as_array().unwrap().clone());
+    let text = |value: Value| value.as_str().unwrap().to_owned();
+    let base =
+        Variant { name: folder.into(), folder: folder.into(), title: None, set: vec![], expected: table };
+    let other = |value: Value| {
+        let mut expected = value.as_table().unwrap().clone();
+        let mut take = |key: &str| expected.remove(key).unwrap_or_else(|| panic!("{folder}: no `{key}`"));
+        let name = format!("{folder}/{}", text(take("name")));
+        let (title, set) = (Some(text(take("title"))), take("set").as_array().unwrap().clone());
+        let set = set.into_iter().map(text).collect();
+        Variant { name, folder: folder.into(), title, set, expected }
+    };
+    std::iter::once(base).chain(others.into_iter().map(other)).collect()
+}
+
+/// Every variant of every folder.
+pub fn all() -> Vec<Variant> {
+    let entries = std::fs::read_dir(root()).unwrap().map(|entry| entry.unwrap());
+    let folders = entries.filter(|entry| entry.path().join("case.toml").exists());
+    let mut folders: Vec<String> = folders.map(|entry| entry.file_name().into_string().unwrap()).collect();
+    folders.sort();
+    folders.iter().flat_map(|folder| variants(folder)).collect()
 }
 
 /// A run: why it failed, if it did, when it ended, and what it recorded.
@@ -60,16 +101,19 @@ impl Run {
     }
 }
 
-/// Reads the case of a folder with overrides `KEY=VALUE`.
-pub fn case(folder: &str, overrides: &[&str]) -> Result<Reading, Problems> {
-    let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();
-    read(&root().join(folder), &overrides)
+/// Reads the case `FOLDER` or `FOLDER/VARIANT` with overrides `KEY=VALUE`.
+pub fn case(name: &str, overrides: &[&str]) -> Result<Reading, Problems> {
+    let folder = name.split('/').next().unwrap();
+    let variant = variants(folder).into_iter().find(|variant| variant.name == name);
+    let mut set = variant.unwrap_or_else(|| panic!("no case {name}")).set;
+    set.extend(overrides.iter().map(|text| (*text).to_owned()));
+    read(&root().join(folder), &set)
 }
 
-/// Reads, builds and runs the case of a folder.
-pub fn run(folder: &str, overrides: &[&str]) -> Run {
-    let what = || format!("{folder} {overrides:?}");
-    let reading = case(folder, overrides).unwrap_or_else(|e| panic!("{}: {e}", what()));
+/// Reads, builds and runs such a case.
+pub fn run(name: &str, overrides: &[&str]) -> Run {
+    let what = || format!("{name} {overrides:?}");
+    let reading = case(name, overrides).unwrap_or_else(|e| panic!("{}: {e}", what()));
     integrate(&reading).unwrap_or_else(|e| panic!("{}: {e}", what()))
 }
 
@@ -78,35 +122,4 @@ pub fn integrate(reading: &Reading) -> Result<Run, Problems> {
     let run = reading.prepare()?.run(&mut |_| ControlFlow::Continue(()));
     let failure = (run.status != Status::Finished).then(|| run.message.unwrap());
     Ok(Run { failure, end: run.state.t, trajectory: run.trajectory, steps: run.counters.steps })
-}
-
-/// Runs a case with a given system and integrator, from its initial state.
-pub fn integrate_system(
-    reading: &Reading,
-    system: &mut dyn System,
-    integrator: &mut dyn flexion::integrator::Integrator,
-) -> Run {
-    let case = &reading.case;
-    let mut state = system.initial();
-    let plan = Plan {
-        end: case.duration,
-        step: case.integrator.step(),
-        longest_step: None,
-        sample: case.output.step,
-    };
-    let mut record = Record(Trajectory::new(system.channels().to_vec()));
-    let ending = transient(system, integrator, &mut state, &plan, &mut record);
-    let failure = match ending {
-        Ending::Failed(error) => Some(error.to_string()),
-        _ => None,
-    };
-    Run { failure, end: state.t, trajectory: record.0, steps: integrator.counters().steps }
-}
-
-struct Record(Trajectory);
-
-impl Observer for Record {
-    fn sample(&mut self, system: &mut dyn System, state: &State, _step: &Step) {
-        self.0.push(state.t, |row| system.record(state, row));
-    }
 }

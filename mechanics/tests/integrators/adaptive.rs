@@ -1,7 +1,7 @@
 //! Adaptive runs of Radau: tolerance proportionality, stiffness, work, reproducibility.
 
-use crate::drive::adaptive;
-use crate::systems::{Chain, Pendulum, SpringPendulum, TwoFrequencies, state, wide_chain};
+use super::drive::adaptive;
+use super::systems::{Chain, Pendulum, SpringPendulum, TwoFrequencies, state, wide_chain};
 use flexion::integrator::{Counters, Integrator, Radau, Tolerance};
 use flexion::system::{Dynamics, State};
 

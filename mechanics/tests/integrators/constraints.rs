@@ -1,7 +1,7 @@
 //! Constraints in every form: index 3, stabilized index 2, index 2, Baumgarte.
 
-use crate::drive::fixed;
-use crate::systems::{CartesianPendulum, Pendulum, state};
+use super::drive::fixed;
+use super::systems::{CartesianPendulum, Pendulum, state};
 use flexion::integrator::{Adams, GeneralizedAlpha, Integrator, Radau, RungeKutta, StepError, Tolerance};
 use flexion::system::{Dynamics, RowWeights};
 

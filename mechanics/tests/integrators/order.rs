@@ -1,7 +1,7 @@
 //! Orders of convergence, of the solution and of dense output.
 
-use crate::drive::fixed;
-use crate::systems::{Chain, Pendulum, SpringPendulum, state};
+use super::drive::fixed;
+use super::systems::{Chain, Pendulum, SpringPendulum, state};
 use flexion::integrator::{Adams, GeneralizedAlpha, Integrator, Radau, RungeKutta, Tolerance};
 use flexion::system::{Dynamics, State};
 

@@ -1,7 +1,7 @@
 //! The five small systems through event-driven and nonsmooth drivers, against closed forms.
 
-use crate::drive::fixed;
-use crate::multibody::{BallOnMovingWall, BallsOnWall, FourBar, GRAVITY, HeavyTop, MasslessNode};
+use super::drive::fixed;
+use super::multibody::{BallOnMovingWall, BallsOnWall, FourBar, GRAVITY, HeavyTop, MasslessNode};
 use flexion::analysis::transient::{Ending, Event, EventKind, Observer, Plan, Step, transient};
 use flexion::integrator::{GeneralizedAlpha, Integrator, MoreauJean, Radau, RungeKutta, Tolerance};
 use flexion::system::{Dynamics, Mode, Observed, State, System};
@@ -212,8 +212,8 @@ fn the_closed_four_bar_swings_like_its_pendulum() {
     // θ″ = −ω² sin θ against the pendulum by its angle, in its own time.
     let (theta, end) = (0.8, 1.5);
     let angle = {
-        let mut pendulum = crate::systems::Pendulum::new();
-        let from = crate::systems::state(&pendulum, &[theta], &[0.0]);
+        let mut pendulum = super::systems::Pendulum::new();
+        let from = super::systems::state(&pendulum, &[theta], &[0.0]);
         let mut method = Radau::new(Tolerance::uniform(1e-13)).unwrap();
         fixed(&mut method, &mut pendulum, from, end * square.sqrt(), 800, |_, _, _, _| {}).unwrap().q[0]
     };

@@ -1,7 +1,7 @@
 //! Stability limits, dissipation, conservation, and what is said when a run breaks down.
 
-use crate::drive::fixed;
-use crate::systems::{CartesianPendulum, Chain, Pendulum, state, wide_chain};
+use super::drive::fixed;
+use super::systems::{CartesianPendulum, Chain, Pendulum, state, wide_chain};
 use flexion::integrator::{
     Adams, GeneralizedAlpha, Integrator, Radau, RungeKutta, StepError, Tolerance, largest_frequency,
 };

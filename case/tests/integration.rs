@@ -1,0 +1,38 @@
+//! Cases as a whole, from the file to the results. `verification` and `no_allocation` are programs of their own.
+
+mod beamdyn;
+mod blade;
+mod broken_cases;
+mod case_files;
+mod convergence;
+mod docs;
+mod energy;
+mod frequency_orders;
+mod fuzz;
+mod loads;
+mod modal_release;
+mod papers;
+mod pendulum;
+mod random_cases;
+mod reported_errors;
+mod resolved_runs;
+mod restart;
+mod section_forces;
+mod twenty_seconds;
+mod verification {
+    pub mod run;
+}
+mod vtk_read_back;
+mod written;
+
+/// Cargo does not look for tests beside this file.
+#[test]
+fn no_file_of_tests_is_left_out() {
+    let tests = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
+    for entry in std::fs::read_dir(tests).unwrap() {
+        let file = entry.unwrap().file_name().into_string().unwrap();
+        let Some(name) = file.strip_suffix(".rs") else { continue };
+        let other = ["integration", "no_allocation"].contains(&name);
+        assert!(other || include_str!("integration.rs").contains(&format!("\nmod {name};")), "{file}");
+    }
+}

@@ -1,0 +1,12 @@
+//! What each integrator promises: order, stability, dissipation, dense output, messages.
+
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // in helpers of tests
+
+mod adaptive;
+mod constraints;
+pub mod drive;
+mod multibody;
+mod order;
+mod seam;
+mod stability;
+mod systems;
