@@ -215,9 +215,9 @@ impl Element {
     /// Adds a local matrix to a global one.
     #[inline]
     pub fn assemble(&self, local: &[[f64; 8]; 8], out: &mut Storage<f64>) {
-        if let (Some(first), Storage::Band(out)) = (self.first_unknown, &mut *out) {
+        if let Some(first) = self.first_unknown {
             for (p, row) in PLACE.into_iter().zip(local) {
-                let out = out.band_mut().run_mut::<8>(first + p, first);
+                let out = out.run_mut::<8>(first + p, first);
                 // PLACE is its own inverse.
                 for (out, p) in out.iter_mut().zip(PLACE) {
                     *out += row[p];
@@ -228,11 +228,7 @@ impl Element {
         for (&i, row) in self.unknowns.iter().zip(local) {
             for (&j, x) in self.unknowns.iter().zip(row) {
                 if i != CLAMPED && j != CLAMPED {
-                    match out {
-                        Storage::Dense(out) => out.add(i, j, *x),
-                        Storage::Band(out) => out.add(i, j, *x),
-                        Storage::Condensed(out) => out.add(i, j, *x),
-                    }
+                    out.add(i, j, *x);
                 }
             }
         }

@@ -34,7 +34,7 @@ use super::damping::Damping;
 use super::fields::{Fields, Point, Shapes};
 use super::hub::Hub;
 use super::product::{Bundle, Vectors};
-use crate::linalg::{Matrix, Storage, Structure};
+use crate::linalg::{Matrix, Storage};
 use crate::profile::HubKinematics;
 use crate::section::{Resultants, Section};
 use crate::system::{State, Weights};
@@ -193,12 +193,7 @@ impl Inertia {
             add(&fields.point(m.station, 1.0), resultants, true);
         }
         let (mut gyroscopic, mut stiffening, mut symmetric) = (new(), new(), new());
-        let half = match structure {
-            Structure::Dense { order } => order,
-            Structure::Band { lower, upper, .. } | Structure::Condensed { lower, upper, .. } => {
-                lower.max(upper)
-            }
-        };
+        let half = structure.half_bandwidth();
         for i in 0..n {
             for j in i.saturating_sub(half)..(i + half + 1).min(n) {
                 gyroscopic.add(i, j, p.get(j, i) - p.get(i, j));
@@ -512,12 +507,7 @@ fn unless_zero(matrix: &Matrix, size: f64) -> Option<&Matrix> {
 
 /// Largest entry, border aside.
 fn largest(matrix: &Matrix) -> f64 {
-    let entries = match matrix.storage() {
-        Storage::Dense(a) => a.data(),
-        Storage::Band(a) => a.band().data(),
-        Storage::Condensed(a) => a.whole().band().data(),
-    };
-    entries.iter().fold(0.0, |m, x| x.abs().max(m))
+    matrix.storage().entries().iter().fold(0.0, |m, x| x.abs().max(m))
 }
 
 fn inner(a: &[f64], b: &[f64]) -> f64 {

@@ -74,7 +74,7 @@ impl Bundle {
         let most = order.saturating_sub(1);
         let (width, advance, lead) = match *structure {
             Structure::Dense { .. } => (order, 0, 0),
-            Structure::Band { lower, upper, .. } | Structure::Condensed { lower, upper, .. } => {
+            Structure::Band { lower, upper, .. } => {
                 (lower.min(most) + upper.min(most) + 1, 1, lower.min(most))
             }
         };
@@ -245,11 +245,7 @@ impl Bundle {
         if self.fits(out) {
             return self.sum(weights, out, |out, x| *out = x);
         }
-        match out {
-            Storage::Dense(a) => a.clear(),
-            Storage::Band(a) => a.clear(),
-            Storage::Condensed(a) => a.clear(),
-        }
+        out.clear();
         self.scatter_sum(weights, out);
     }
 
@@ -263,11 +259,7 @@ impl Bundle {
 
     /// Whether the rows lie in `out` as they lie here.
     fn fits(&self, out: &Storage<f64>) -> bool {
-        match out {
-            Storage::Dense(_) => self.advance == 0,
-            Storage::Band(_) => self.advance == 1,
-            Storage::Condensed(_) => false,
-        }
+        out.is_dense() == (self.advance == 0)
     }
 
     /// Adds Σ wₖ Aₖ to a storage of another kind, entry by entry.
@@ -278,11 +270,7 @@ impl Bundle {
                 // What is zero in all of them may lie outside the band of `out`.
                 if column < self.order && a.iter().any(|a| *a != 0.0) {
                     let x = a.iter().zip(&w).map(|(a, w)| a * w).sum();
-                    match out {
-                        Storage::Dense(out) => out.add(i, column, x),
-                        Storage::Band(out) => out.add(i, column, x),
-                        Storage::Condensed(out) => out.add(i, column, x),
-                    }
+                    out.add(i, column, x);
                 }
             }
         }
@@ -290,18 +278,8 @@ impl Bundle {
 
     #[inline(always)]
     fn sum(&self, w: [f64; TERMS], out: &mut Storage<f64>, put: impl Fn(&mut f64, f64)) {
-        let stride = match out {
-            Storage::Dense(a) => a.order(),
-            Storage::Band(a) => a.band().width(),
-            Storage::Condensed(_) => return,
-        };
-        let out = match out {
-            Storage::Dense(a) => a.data_mut(),
-            Storage::Band(a) => a.band_mut().data_mut(),
-            Storage::Condensed(_) => return,
-        };
         let rows = self.data.chunks_exact((self.width * self.terms).max(1));
-        for (out, row) in out.chunks_exact_mut(stride.max(1)).zip(rows) {
+        for (out, row) in out.rows_mut().zip(rows) {
             // Behind the band is the zone of fill of former factors.
             let (out, fill) = out.split_at_mut(self.width);
             if self.terms == TERMS {

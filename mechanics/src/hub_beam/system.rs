@@ -214,7 +214,6 @@ impl<C: Coupling> HubBeam<C> {
     /// Writes the border of a free hub into the tangent.
     fn write_border(&mut self, s: &State, hub: &HubKinematics, w: &Weights<'_>, out: &mut Storage<f64>) {
         let Drive::Free(free) = &self.hub.drive else { return };
-        let n = self.coupling.fields().len();
         let border = &mut self.border;
         if self.held {
             // The hub's equation is δθ = 0.
@@ -228,21 +227,7 @@ impl<C: Coupling> HubBeam<C> {
             let torque = free.torque(hub, s.t);
             border.corner -= w.q * torque.by_angle + w.v * torque.by_speed;
         }
-        match out {
-            Storage::Dense(a) => {
-                for i in 0..n {
-                    a.set(i, n, border.column[i]);
-                    a.set(n, i, border.row[i]);
-                }
-                a.set(n, n, border.corner);
-            }
-            Storage::Band(a) => {
-                a.column_mut(0).copy_from_slice(&border.column);
-                a.row_mut(0).copy_from_slice(&border.row);
-                a.set_corner(0, 0, border.corner);
-            }
-            Storage::Condensed(a) => a.set_border(0, &border.column, &border.row, border.corner),
-        }
+        out.set_border(0, &border.column, &border.row, border.corner);
     }
 }
 
