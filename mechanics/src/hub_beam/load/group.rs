@@ -15,7 +15,7 @@ use super::on_section::{Nature, OnSection};
 use super::{Amplitude, Axes};
 use crate::hub_beam::fields::Point;
 use crate::hub_beam::inertia::Border;
-use crate::hub_beam::product::{Bundle, Vectors};
+use crate::hub_beam::product::{Bundle, Entry, Vectors};
 use crate::linalg::{Matrix, Storage, Structure};
 use crate::profile::HubKinematics;
 use crate::system::State;
@@ -41,7 +41,7 @@ pub struct Group {
     pub(super) turning: Vec<f64>,
     pub(super) couple: f64,
     /// G_x, G_y and N, if one of them is there.
-    stiffness: Option<(Bundle, Vectors)>,
+    stiffness: Option<(Bundle, Vectors, Vec<Entry>)>,
     sections: Vec<OnSection>,
 }
 
@@ -85,7 +85,7 @@ impl Group {
         self.stiffness = (along.is_some() || across.is_some() || follower.is_some()).then(|| {
             let bundle = Bundle::new(structure, self.along.len(), [along, across, follower, None]);
             let vectors = bundle.vectors();
-            (bundle, vectors)
+            (bundle, vectors, vec![[0.0; 4]; self.along.len()])
         });
     }
 
@@ -144,13 +144,12 @@ impl Group {
         Now { d: [x, y], by_angle: [0.0; 2], factor }
     }
 
-    /// Sets the vectors that [`Bundle::products`] multiplies.
-    fn prepare(&mut self, q: &[f64], d: [f64; 2], factor: f64) {
-        if let Some((_, x)) = &mut self.stiffness {
-            x.set(0, |i| d[0] * q[i]);
-            x.set(1, |i| d[1] * q[i]);
-            x.set(2, |i| factor * q[i]);
-        }
+    /// d_x G_x q, d_y G_y q and f N q, row after row; nothing if there are no such matrices.
+    fn products(&mut self, q: &[f64], d: [f64; 2], factor: f64) -> &[Entry] {
+        let Some((bundle, x, products)) = &mut self.stiffness else { return &[] };
+        x.set(|i| [d[0] * q[i], d[1] * q[i], factor * q[i], 0.0]);
+        bundle.products(x, products);
+        products
     }
 
     /// out += c Q_q
@@ -161,9 +160,8 @@ impl Group {
         for (i, out) in out.iter_mut().enumerate().take(self.along.len()) {
             *out += d[0] * self.along[i] + d[1] * self.across[i] + m * self.turning[i];
         }
-        self.prepare(&s.q, d, m);
-        if let Some((bundle, x)) = &self.stiffness {
-            bundle.products(x, |i, [gx, gy, n, _]| out[i] += gx + gy + n);
+        for (out, [gx, gy, n, _]) in out.iter_mut().zip(self.products(&s.q, d, m)) {
+            *out += gx + gy + n;
         }
         for section in &self.sections {
             section.add_force(s, &now, c, out);
@@ -176,7 +174,7 @@ impl Group {
             return;
         }
         let now = self.now(s.t, hub);
-        if let Some((bundle, _)) = &self.stiffness {
+        if let Some((bundle, ..)) = &self.stiffness {
             bundle.add_sum([c * now.d[0], c * now.d[1], c * now.factor, 0.0], out);
         }
         for section in &self.sections {
@@ -189,12 +187,9 @@ impl Group {
         let n = self.along.len();
         let inner = |a: &[f64]| a.iter().zip(&q[..n]).map(|(a, b)| a * b).sum::<f64>();
         let mut c = [self.arm + inner(&self.along), self.offset + inner(&self.across)];
-        self.prepare(q, [1.0; 2], 0.0);
-        if let Some((bundle, x)) = &self.stiffness {
-            bundle.products(x, |i, [gx, gy, ..]| {
-                c[0] += 0.5 * q[i] * gx;
-                c[1] += 0.5 * q[i] * gy;
-            });
+        for (q, [gx, gy, ..]) in q.iter().zip(self.products(q, [1.0; 2], 0.0)) {
+            c[0] += 0.5 * q * gx;
+            c[1] += 0.5 * q * gy;
         }
         c
     }
@@ -230,12 +225,9 @@ impl Group {
             out.column[i] += dead * turned;
             out.row[i] += turned + c * now.factor * self.lever[i];
         }
-        self.prepare(&s.q, across, 0.0);
-        if let Some((bundle, x)) = &self.stiffness {
-            bundle.products(x, |i, [gx, gy, ..]| {
-                out.column[i] += dead * (gx + gy);
-                out.row[i] += gx + gy;
-            });
+        for (i, [gx, gy, ..]) in self.products(&s.q, across, 0.0).iter().enumerate() {
+            out.column[i] += dead * (gx + gy);
+            out.row[i] += gx + gy;
         }
         if dead != 0.0 {
             let [x, y] = self.moments(&s.q);
