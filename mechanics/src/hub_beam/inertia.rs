@@ -31,7 +31,7 @@
 //! matrices stay banded (the papers store the full H(x)).
 
 use super::damping::Damping;
-use super::fields::{Fields, Point, Shapes};
+use super::fields::{Fields, Point, Shapes, add_outer, add_vector};
 use super::hub::Hub;
 use super::product::{Bundle, Entry, Vectors};
 use crate::linalg::{Matrix, Storage};
@@ -454,24 +454,6 @@ fn unless_zero(matrix: &Matrix, size: f64) -> Option<&Matrix> {
 /// Largest entry, border aside.
 fn largest(matrix: &Matrix) -> f64 {
     matrix.storage().entries().iter().fold(0.0, |m, x| x.abs().max(m))
-}
-
-fn add_vector(out: &mut [f64], shapes: &Shapes, d: usize, w: f64) {
-    for (&i, phi) in shapes.index.iter().zip(&shapes.value[d]) {
-        out[i] += w * phi;
-    }
-}
-
-/// out += w φ⁽ᵈ⁾ ψ⁽ᵉ⁾ᵀ
-fn add_outer(out: &mut Matrix, row: (&Shapes, usize), column: (&Shapes, usize), w: f64) {
-    if w == 0.0 {
-        return;
-    }
-    for (&i, phi) in row.0.index.iter().zip(&row.0.value[row.1]) {
-        for (&j, psi) in column.0.index.iter().zip(&column.0.value[column.1]) {
-            out.add(i, j, w * phi * psi);
-        }
-    }
 }
 
 /// out += w (φ⁽ᵈ⁾ ψ⁽ᵉ⁾ᵀ + ψ⁽ᵉ⁾ φ⁽ᵈ⁾ᵀ)

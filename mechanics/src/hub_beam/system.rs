@@ -43,7 +43,7 @@ pub struct HubBeam<C> {
     section_forces: SectionForces,
     /// Watches the inertia of a free hub, where a coupling may lose it.
     hub_inertia: Option<HubInertia>,
-    /// Part of the inertia of hub and beam that a hub has whose beam gives way, where it is watched and small.
+    /// Effective inertia of the released hub over the inertia of hub and beam, where it is watched and small.
     small_share: Option<f64>,
 }
 
@@ -467,7 +467,7 @@ impl<C: Coupling> System for HubBeam<C> {
     fn cautions(&self) -> Vec<String> {
         let share = self.small_share.map(|share| {
             format!(
-                "the hub is free and, with the beam giving way, has {share:.1e} of the inertia of hub and beam: the \
+                "the effective inertia of the free hub is {share:.1e} of the inertia of hub and beam: the \
                  {}-order coupling keeps its kinetic energy positive only while foreshortening takes less than that, and \
                  stops the run beyond; give the hub more inertia, or use coupling = \"high\" or \"exact\"",
                 self.coupling.name()
@@ -511,8 +511,8 @@ impl<C: Coupling> HubBeam<C> {
         let watch = self.hub_inertia.as_mut()?;
         let (left, start) = watch.at_most(part, (self.coupling.inertia(), &mut self.scratch), s)?;
         Some(format!(
-            "the {}-order coupling is losing its positive kinetic energy: with the beam giving way, the free hub has an \
-             inertia of {left:.2e} kg·m² left of {start:.2e}, the rest is taken by the foreshortening; give the hub more \
+            "the {}-order coupling is losing its positive kinetic energy: the effective inertia of the free \
+             hub has fallen from {start:.2e} to {left:.2e} kg·m² by the foreshortening; give the hub more \
              inertia, or use coupling = \"high\" or \"exact\"",
             self.coupling.name()
         ))
