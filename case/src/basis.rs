@@ -65,6 +65,15 @@ impl Bases {
 }
 
 impl Basis {
+    /// The key that sets the number of functions.
+    pub(super) fn size_key(&self) -> &'static str {
+        match self {
+            Basis::FiniteElements { .. } | Basis::BSpline { .. } | Basis::Bezier { .. } => "elements",
+            Basis::Modes { .. } => "count",
+            Basis::Radial(_) | Basis::Polynomial { .. } => "nodes",
+        }
+    }
+
     /// Number of functions, about, and the part of the beam on which each of them is not zero.
     fn extent(&self, field: Field) -> (f64, f64) {
         match *self {

@@ -437,7 +437,7 @@ pub fn system(case: &Case) -> Result<Box<dyn System>, BuildError> {
     let transverse = basis(&case.bases.transverse, length, Field::Transverse)?;
     let fields = Fields::new(length, axial, transverse, section.breaks());
     if case.coupling == Coupling::High {
-        let coupling = HighCoupling::new(fields, section.as_ref(), &hub);
+        let coupling = HighCoupling::new(fields, section.as_ref(), &hub)?;
         return finished(HubBeam::new(hub, coupling, stations), section.as_ref(), case);
     }
     let coupling = LinearCoupling::new(fields, section.as_ref(), &hub, foreshortening);

@@ -374,7 +374,7 @@ pub(super) fn case(values: &mut Values, folder: &Path, problems: &mut Problems) 
             ));
         }
     } else {
-        trial::bases(bases.as_ref(), length, values, problems);
+        trial::bases(bases.as_ref(), coupling, length, values, problems);
     }
     let blade = values.table("blade").map(blade::read);
     trial::blade(blade.as_ref().and_then(Option::as_ref), section.as_ref(), length, values, problems);

@@ -237,12 +237,7 @@ fn processor_time() -> Option<f64> {
 
 fn size(system: &dyn System) -> ProblemSize {
     let unknowns = system.size().v + system.size().lambda;
-    match system.structure() {
-        Structure::Dense { order } => {
-            ProblemSize { unknowns, half_bandwidth: order.saturating_sub(1), border: 0 }
-        }
-        Structure::Band { lower, upper, border, .. } | Structure::Condensed { lower, upper, border, .. } => {
-            ProblemSize { unknowns, half_bandwidth: lower.max(upper), border }
-        }
-    }
+    let structure = system.structure();
+    let border = if let Structure::Band { border, .. } = structure { border } else { 0 };
+    ProblemSize { unknowns, half_bandwidth: structure.half_bandwidth(), border }
 }

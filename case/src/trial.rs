@@ -5,6 +5,7 @@ use super::basis::{Bases, Basis};
 use super::blade::{Blade, StrainEnergy, TERMS};
 use super::build::{self, MotionError};
 use super::integrator::Integrator;
+use super::layout::Coupling;
 use super::motion::Motion;
 use super::problem::{Place, Problem, Problems};
 use super::reader::inside;
@@ -12,6 +13,7 @@ use super::section::Section;
 use super::torque::Torque;
 use super::values::{Values, join};
 use flexion::basis::Field;
+use flexion::hub_beam::HighCoupling;
 use flexion::profile::ProfileError;
 
 /// Largest matrices of a run: with its dozens of them it takes some 10 GB.
@@ -107,7 +109,13 @@ pub(super) fn motion(case: Option<&Motion>, duration: Option<f64>, values: &Valu
 }
 
 /// Tries the bases of both fields on a beam of the given length [m].
-pub(super) fn bases(case: Option<&Bases>, length: Option<f64>, values: &Values, problems: &mut Problems) {
+pub(super) fn bases(
+    case: Option<&Bases>,
+    coupling: Option<Coupling>,
+    length: Option<f64>,
+    values: &Values,
+    problems: &mut Problems,
+) {
     let (Some(case), Some(length), Some((_, table))) = (case, length, values.kind("basis")) else { return };
     let entries = case.entries();
     if entries > MOST_ENTRIES {
@@ -119,10 +127,18 @@ pub(super) fn bases(case: Option<&Bases>, length: Option<f64>, values: &Values, 
         return;
     }
     let refused = |basis: &Basis, field, key| {
-        let Err(error) = build::basis(basis, length, field) else { return None };
-        let mixed = table.kind(key).and_then(|(_, values)| values.place.clone());
+        let mixed = table.kind(key).map(|(_, values)| values);
         let path = if mixed.is_some() { join("basis", key) } else { "basis".to_owned() };
-        Some(Problem::new(path, mixed.or_else(|| place_of(basis, table)), error.to_string()))
+        let built = match build::basis(basis, length, field) {
+            Err(error) => {
+                let place = mixed.and_then(|values| values.place.clone());
+                return Some(Problem::new(path, place.or_else(|| place_of(basis, table)), error.to_string()));
+            }
+            Ok(built) => built,
+        };
+        let error = (coupling == Some(Coupling::High)).then(|| HighCoupling::validate(built.as_ref()).err());
+        let place = mixed.unwrap_or(table).place(basis.size_key());
+        Some(Problem::new(join(&path, basis.size_key()), place, error.flatten()?.to_string()))
     };
     let axial = refused(&case.axial, Field::Axial, "axial");
     let transverse = refused(&case.transverse, Field::Transverse, "transverse");

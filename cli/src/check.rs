@@ -92,13 +92,6 @@ fn equations(system: &dyn System, integrator: &dyn Integrator) -> Vec<Vec<String
         Structure::Band { order, lower, upper, border } => {
             format!("band, order {order}, half-bandwidth {}, border {border}", lower.max(upper))
         }
-        Structure::Condensed { places, lower, upper, border } => {
-            let (visible, hidden) = (places.visible.len(), places.hidden.len());
-            let width = lower.max(upper);
-            format!(
-                "band, order {visible} and {hidden} running sums, half-bandwidth {width}, border {border}"
-            )
-        }
     };
     let info = integrator.info();
     let kind = if info.implicit { "implicit" } else { "explicit" };

@@ -33,7 +33,7 @@ fn system() -> HubBeam<HighCoupling> {
         Box::new(Modes::new(LENGTH, 2, Field::Transverse).unwrap()),
         &[],
     );
-    let coupling = HighCoupling::new(fields, &section, &hub);
+    let coupling = HighCoupling::new(fields, &section, &hub).unwrap();
     HubBeam::new(hub, coupling, &[])
 }
 

@@ -57,7 +57,7 @@ pub fn system(coupling: &str, elements: usize) -> Box<dyn System> {
         &[],
     );
     if coupling == "high" {
-        let coupling = HighCoupling::new(fields, &section, &hub);
+        let coupling = HighCoupling::new(fields, &section, &hub).unwrap();
         return Box::new(HubBeam::new(hub, coupling, &[]));
     }
     let coupling = LinearCoupling::new(fields, &section, &hub, Foreshortening::First);

@@ -252,7 +252,7 @@ fn parallel(x: &[Complex64], y: &[Complex64]) -> bool {
 fn held_frequency(system: &mut dyn System, state: &State, singular: Singular) -> Result<f64, NoModes> {
     system.hold(true);
     let mass = tangent(system, state, Weights::new(1.0, 0.0, 0.0));
-    let structure = system.structure(0).explicit();
+    let structure = system.structure(0);
     let (wide, _) = stiffness(system, state);
     system.hold(false);
     let pencil = Pencil::new(mass, Matrix::new(&structure), wide, 0.0);

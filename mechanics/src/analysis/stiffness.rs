@@ -7,7 +7,7 @@ use crate::system::{State, System, Weights};
 /// K = ∂r/∂q at a state, and whether it was summed from the [terms](System::stiffness_terms) of the strains, so
 /// that no digit of its lowest eigenvalues is lost however fine the mesh.
 pub fn stiffness(system: &mut dyn System, state: &State) -> (Matrix<Double>, bool) {
-    let structure = system.structure(0).explicit();
+    let structure = system.structure(0);
     let mut rest = Matrix::new(&structure);
     let mut wide = Matrix::<Double>::new(&structure);
     let in_terms = system.stiffness_terms(state, &mut rest, &mut |index, b, w| {
@@ -26,9 +26,9 @@ pub fn stiffness(system: &mut dyn System, state: &State) -> (Matrix<Double>, boo
     (wide, true)
 }
 
-/// A tangent of the system, hidden unknowns eliminated.
+/// A tangent of the system.
 pub fn tangent(system: &mut dyn System, state: &State, weights: Weights<'_>) -> Matrix {
     let mut matrix = Matrix::new(&system.structure(0));
     system.tangent(state, weights, &mut matrix);
-    matrix.explicit()
+    matrix
 }

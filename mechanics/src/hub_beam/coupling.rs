@@ -79,7 +79,7 @@ pub trait Coupling: Send {
     /// What the section does at each of the stations, which ascend along the beam.
     fn placements(&self, s: &State, stations: &[Station], out: &mut [Placement]);
 
-    /// Stretch ε of the axis and curvature κ at a point: w₁′ and w₂″ of small deflections.
+    /// Axial strain ε and curvature κ at a point: w₁′ and w₂″ of small deflections.
     fn strains(&self, s: &State, point: &Point) -> (f64, f64) {
         (point.axial.field(1, &s.q), point.transverse.field(2, &s.q))
     }

@@ -8,7 +8,7 @@ use super::fields::Fields;
 use super::inertia::Totals;
 
 use super::rule::{Block, POINTS, Products, Rule, RulePoint, lagrange};
-use super::turn::Turn;
+use super::section_rotation::SectionRotation;
 use crate::linalg::Storage;
 use crate::profile::HubKinematics;
 use crate::quadrature::Gauss;
@@ -215,9 +215,9 @@ impl Element {
     /// Adds a local matrix to a global one.
     #[inline]
     pub fn assemble(&self, local: &[[f64; 8]; 8], out: &mut Storage<f64>) {
-        if let (Some(first), Storage::Band(out)) = (self.first_unknown, &mut *out) {
+        if let Some(first) = self.first_unknown {
             for (p, row) in PLACE.into_iter().zip(local) {
-                let out = out.band_mut().run_mut::<8>(first + p, first);
+                let out = out.run_mut::<8>(first + p, first);
                 // PLACE is its own inverse.
                 for (out, p) in out.iter_mut().zip(PLACE) {
                     *out += row[p];
@@ -228,11 +228,7 @@ impl Element {
         for (&i, row) in self.unknowns.iter().zip(local) {
             for (&j, x) in self.unknowns.iter().zip(row) {
                 if i != CLAMPED && j != CLAMPED {
-                    match out {
-                        Storage::Dense(out) => out.add(i, j, *x),
-                        Storage::Band(out) => out.add(i, j, *x),
-                        Storage::Condensed(out) => out.add(i, j, *x),
-                    }
+                    out.add(i, j, *x);
                 }
             }
         }
@@ -325,7 +321,7 @@ impl Element {
         let s = self.strains(rule, &local.q);
         // The blocks ∂²U/∂U∂U, ∂²U/∂U∂V and ∂²U/∂V∂V.
         let mut blocks = [[0.0; 16]; 3];
-        self.stretch_tangent(rule, &s, w, &mut blocks);
+        self.axial_tangent(rule, &s, w, &mut blocks);
         self.curvature_tangent(rule, &s, w, &mut blocks);
         let [xx, xy, yy] = &blocks;
         for i in 0..4 {
@@ -344,7 +340,7 @@ impl Element {
     /// The strain's part: with pᵢ′ the slopes at the samples, U ∋ ½ Σ Aᵢⱼ εᵢ εⱼ and
     /// ∂²U/∂pᵢ′∂pⱼ′ = Aᵢⱼ tᵢ tⱼᵀ + δᵢⱼ Nᵢ nᵢ nᵢᵀ/ℓᵢ.
     #[inline(always)]
-    fn stretch_tangent(&self, rule: &Rule, s: &Strains, w: f64, [xx, xy, yy]: &mut [Block; 3]) {
+    fn axial_tangent(&self, rule: &Rule, s: &Strains, w: f64, [xx, xy, yy]: &mut [Block; 3]) {
         // ∂²U/∂X′∂X′, ∂X′∂Y′, ∂Y′∂X′, ∂Y′∂Y′ of samples i and j.
         let pair = |i: usize, j: usize| {
             let (a, [tx, ty], [ux, uy]) = (w * self.axial[i][j], s.tangent[i], s.tangent[j]);
@@ -431,11 +427,11 @@ impl Element {
     }
 
     /// Kinematics of the section's rotation at quadrature point `g`.
-    fn turn(&self, p: &RulePoint, local: &Local, hub: &HubKinematics, rule: &Rule) -> Turn {
+    fn rotation(&self, p: &RulePoint, local: &Local, hub: &HubKinematics, rule: &Rule) -> SectionRotation {
         let at = |n: &[f64; 4], d: &[f64; 8]| [dot(n, &d[..4]), dot(n, &d[4..])];
         let [u, v] = at(&p.n, &local.q);
         let slope = at(&p.n1, &local.q);
-        Turn::new(
+        SectionRotation::new(
             [local.origin + p.s * rule.length + u, v],
             [1.0 + slope[0], slope[1]],
             [at(&p.n, &local.v), at(&p.n1, &local.v)],
@@ -451,7 +447,8 @@ impl Element {
             return;
         }
         for (g, p) in rule.points.iter().enumerate() {
-            let (on_value, on_slope) = self.turn(p, local, hub, rule).force(self.rotary[g], self.first[g]);
+            let (on_value, on_slope) =
+                self.rotation(p, local, hub, rule).force(self.rotary[g], self.first[g]);
             for c in 0..2 {
                 for k in 0..4 {
                     f[4 * c + k] += on_value[c] * p.n[k] + on_slope[c] * p.n1[k];
@@ -474,13 +471,13 @@ impl Element {
             return;
         }
         for (g, p) in rule.points.iter().enumerate() {
-            let turn = self.turn(p, local, hub, rule);
+            let rotation = self.rotation(p, local, hub, rule);
             for c in 0..2 {
                 let mut seed = [0.0; 2];
                 seed[c] = 1.0;
                 // A unit of p, and of p′, in direction c, with the integrator's weights.
                 for (slope, shape) in [(false, &p.n), (true, &p.n1)] {
-                    let (dv, ds) = turn.derivative(seed, slope, hub, w, self.rotary[g], self.first[g]);
+                    let (dv, ds) = rotation.derivative(seed, slope, hub, w, self.rotary[g], self.first[g]);
                     for r in 0..2 {
                         for i in 0..4 {
                             let row = dv[r] * p.n[i] + ds[r] * p.n1[i];
@@ -499,7 +496,7 @@ impl Element {
         let mut sum = Totals::default();
         if self.has_section_inertia {
             for (g, p) in rule.points.iter().enumerate() {
-                sum = sum + self.turn(p, local, hub, rule).totals(self.rotary[g], self.first[g], hub);
+                sum = sum + self.rotation(p, local, hub, rule).totals(self.rotary[g], self.first[g], hub);
             }
         }
         sum
@@ -519,15 +516,15 @@ impl Element {
             return corner;
         }
         for (g, p) in rule.points.iter().enumerate() {
-            let turn = self.turn(p, local, hub, rule);
+            let rotation = self.rotation(p, local, hub, rule);
             let (rotary, first) = (self.rotary[g], self.first[g]);
-            let (value, slope, torque) = turn.by_hub(hub, w, rotary, first);
+            let (value, slope, torque) = rotation.by_hub(hub, w, rotary, first);
             corner += torque;
             for c in 0..2 {
                 let mut seed = [0.0; 2];
                 seed[c] = 1.0;
-                let on_value = turn.torque_derivative(seed, false, hub, w, rotary, first);
-                let on_slope = turn.torque_derivative(seed, true, hub, w, rotary, first);
+                let on_value = rotation.torque_derivative(seed, false, hub, w, rotary, first);
+                let on_slope = rotation.torque_derivative(seed, true, hub, w, rotary, first);
                 for k in 0..4 {
                     column[4 * c + k] += value[c] * p.n[k] + slope[c] * p.n1[k];
                     row[4 * c + k] += on_value * p.n[k] + on_slope * p.n1[k];

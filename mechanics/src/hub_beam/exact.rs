@@ -9,8 +9,8 @@
 //! κ = dφ/dx with φ the angle of the tangent. The inertia ½∫ρA |ṗ + ω Jp|² is quadratic in the unknowns and
 //! stands in [`Inertia`]; only the strain energy (and the rotary inertia, if asked for) is not.
 //!
-//! **No membrane locking.** A cubic curve cannot bend without stretching at every point, and EA ε² would
-//! punish that stretch as EA/EI·h² grows. So ε is sampled at the two nodes and the middle of each element and
+//! **No membrane locking.** A cubic curve cannot bend without axial strain at every point, and its energy EA ε² grows with
+//! EA/EI·h². So ε is sampled at the two nodes and the middle of each element and
 //! ε̄ is its quadratic interpolant, which leaves two constraints an element to four new unknowns (Meier, Popp
 //! & Wall 2015, doi 10.1016/j.cma.2015.02.029). A straight element keeps its exact energy: no hourglass.
 //!
@@ -29,7 +29,7 @@ use super::fields::{Fields, Point};
 use super::hub::Hub;
 use super::inertia::{Border, Foreshortening, Inertia, Totals};
 use super::load::Kinematics;
-use super::lumped::LumpedTurn;
+use super::lumped::LumpedRotation;
 use super::rule::Rule;
 use super::station::{Placement, Station};
 use crate::basis::{BasisError, Field, Hermite};
@@ -38,7 +38,7 @@ use crate::profile::HubKinematics;
 use crate::section::{Mass, Resultants, Section};
 use crate::system::{State, Corotation, Weights};
 
-/// Largest stretch |ε| that a linear-elastic beam is believed to have.
+/// Largest axial strain |ε| that a linear-elastic beam is believed to have.
 const LARGEST_STRAIN: f64 = 0.5;
 
 /// Geometrically exact planar beam. See the [module documentation](self).
@@ -49,7 +49,7 @@ pub struct ExactCoupling {
     elements: Vec<Element>,
     rule: Rule,
     radius: f64,
-    lumped: Vec<LumpedTurn>,
+    lumped: Vec<LumpedRotation>,
     /// Damping in proportion to the stiffness, η \[s\].
     viscosity: f64,
 }
@@ -99,7 +99,7 @@ impl ExactCoupling {
         let nodes = fields.axial().cells().to_vec();
         let rule = Rule::new(nodes[1] - nodes[0]);
         let elements = (0..elements).map(|e| Element::new(&fields, section, &nodes, e)).collect();
-        let lumped = LumpedTurn::of(&fields, section.masses(), hub.radius);
+        let lumped = LumpedRotation::of(&fields, section.masses(), hub.radius);
         let radius = hub.radius;
         Ok(ExactCoupling { fields, inertia, elements, rule, radius, lumped, viscosity: 0.0 })
     }

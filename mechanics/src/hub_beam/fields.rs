@@ -2,7 +2,7 @@
 //! beam, and the quadrature over both.
 
 use crate::basis::{Basis, Role};
-use crate::linalg::Structure;
+use crate::linalg::{Matrix, Structure};
 use crate::quadrature::Gauss;
 use crate::system::Label;
 
@@ -238,6 +238,25 @@ impl Fields {
         move |x| {
             let cell = cells[1..cells.len() - 1].partition_point(|&end| end <= x);
             beyond[cell + 1] + self.gauss.integrate(x, cells[cell + 1], &f)
+        }
+    }
+}
+
+/// out += w φ⁽ᵈ⁾
+pub fn add_vector(out: &mut [f64], shapes: &Shapes, d: usize, w: f64) {
+    for (&i, phi) in shapes.index.iter().zip(&shapes.value[d]) {
+        out[i] += w * phi;
+    }
+}
+
+/// out += w φ⁽ᵈ⁾ ψ⁽ᵉ⁾ᵀ
+pub fn add_outer(out: &mut Matrix, row: (&Shapes, usize), column: (&Shapes, usize), w: f64) {
+    if w == 0.0 {
+        return;
+    }
+    for (&i, phi) in row.0.index.iter().zip(&row.0.value[row.1]) {
+        for (&j, psi) in column.0.index.iter().zip(&column.0.value[column.1]) {
+            out.add(i, j, w * phi * psi);
         }
     }
 }

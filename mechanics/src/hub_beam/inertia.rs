@@ -31,10 +31,10 @@
 //! matrices stay banded (the papers store the full H(x)).
 
 use super::damping::Damping;
-use super::fields::{Fields, Point, Shapes};
+use super::fields::{Fields, Point, Shapes, add_outer, add_vector};
 use super::hub::Hub;
-use super::product::{Bundle, Vectors};
-use crate::linalg::{Matrix, Storage, Structure};
+use super::product::{Bundle, Entry, Vectors};
+use crate::linalg::{Matrix, Storage};
 use crate::profile::HubKinematics;
 use crate::section::{Resultants, Section};
 use crate::system::{State, Weights};
@@ -62,8 +62,6 @@ pub struct Inertia {
     bundle: Bundle,
     /// S, unless it vanishes.
     symmetric: Option<Bundle>,
-    /// D and Pᵀ − P, for the torque.
-    torque: Bundle,
     /// M
     mass: Matrix,
     /// D
@@ -123,12 +121,32 @@ impl Border {
 /// What [`Inertia`] multiplies its matrices with: scratch of the system's.
 #[derive(Clone, Debug)]
 pub struct Scratch {
-    all: Vectors,
-    pair: Vectors,
+    vectors: [Vectors; 2],
     symmetric: Option<Vectors>,
-    torque: Vectors,
-    /// D q and ½ (Pᵀ − P) q, for the torque.
-    products: Vec<[f64; 2]>,
+    /// Their products, row after row.
+    products: [Vec<Entry>; 2],
+    /// S q and S v; empty where S vanishes.
+    of_symmetric: Vec<[f64; 2]>,
+}
+
+/// Sums over the unknowns that the equation of motion of the hub takes, with d = D q + s_x and e = Pᵀq + s_y.
+#[derive(Clone, Copy, Debug, Default)]
+struct HubSums {
+    /// J + qᵀ(d + s_x), the moment of inertia.
+    moment: f64,
+    /// vᵀe, the angular momentum about the axis relative to the hub.
+    relative: f64,
+    /// vᵀd
+    coriolis: f64,
+    /// aᵀe + vᵀS v
+    rest: f64,
+}
+
+impl HubSums {
+    /// τ
+    fn torque(&self, hub: &HubKinematics) -> f64 {
+        hub.acceleration * self.moment + 2.0 * hub.speed * self.coriolis + self.rest
+    }
 }
 
 impl Inertia {
@@ -193,12 +211,7 @@ impl Inertia {
             add(&fields.point(m.station, 1.0), resultants, true);
         }
         let (mut gyroscopic, mut stiffening, mut symmetric) = (new(), new(), new());
-        let half = match structure {
-            Structure::Dense { order } => order,
-            Structure::Band { lower, upper, .. } | Structure::Condensed { lower, upper, .. } => {
-                lower.max(upper)
-            }
-        };
+        let half = structure.half_bandwidth();
         for i in 0..n {
             for j in i.saturating_sub(half)..(i + half + 1).min(n) {
                 gyroscopic.add(i, j, p.get(j, i) - p.get(i, j));
@@ -207,11 +220,10 @@ impl Inertia {
             }
         }
         let bundle = |matrices| Bundle::new(&structure, n, matrices);
-        let (stiff, stiffened) = (unless_zero(&k, 0.0), unless_zero(&stiffening, largest(&m)));
+        let (elastic, stiffened) = (unless_zero(&k, 0.0), unless_zero(&stiffening, largest(&m)));
         Inertia {
-            bundle: bundle([Some(&m), Some(&gyroscopic), stiff, stiffened]),
+            bundle: bundle([Some(&m), Some(&gyroscopic), elastic, stiffened]),
             symmetric: unless_zero(&symmetric, largest(&p)).map(|s| bundle([Some(s), Some(s), None, None])),
-            torque: bundle([Some(&d), Some(&gyroscopic), None, None]),
             mass: m,
             centrifugal: d,
             stiffness: k,
@@ -253,11 +265,10 @@ impl Inertia {
     /// Scratch for the products of these matrices.
     pub fn scratch(&self) -> Scratch {
         Scratch {
-            all: self.bundle.vectors(),
-            pair: self.bundle.pair(),
+            vectors: [self.bundle.vectors(), self.bundle.vectors()],
+            products: [vec![[0.0; 4]; self.len()], vec![[0.0; 4]; self.len()]],
             symmetric: self.symmetric.as_ref().map(Bundle::vectors),
-            torque: self.torque.vectors(),
-            products: vec![[0.0; 2]; self.len()],
+            of_symmetric: self.symmetric.as_ref().map_or(Vec::new(), |_| vec![[0.0; 2]; self.len()]),
         }
     }
 
@@ -266,72 +277,46 @@ impl Inertia {
         (&self.mass, &self.centrifugal, &self.stiffness)
     }
 
-    /// r = M (a + β v) + ω (Pᵀ − P) v + (K − ω² D + ω̇ Pᵀ) q + η K v + ω̇ s_y − ω² s_x.
+    /// r = M (a + β v) + ω (Pᵀ − P) v + (K − ω² D + ω̇ Pᵀ) q + η K v + ω̇ s_y − ω² s_x: for a hub whose motion is known,
+    /// one product a matrix.
     pub fn residual(&self, s: &State, hub: &HubKinematics, x: &mut Scratch, r: &mut [f64]) {
         let n = self.len();
         let (w, w1, w2) = (hub.speed, hub.acceleration, hub.speed * hub.speed);
         let (q, v, a) = (&s.q[..n], &s.v[..n], &s.a[..n]);
         let (sx, sy, r) = (&self.axial_moment[..n], &self.transverse_moment[..n], &mut r[..n]);
-        let Scratch { all: x, symmetric: y, .. } = x;
-        let constant = |i: usize| w1 * sy[i] - w2 * sx[i];
-        if self.damping.is_none() {
-            x.set(0, |i| a[i] - w2 * q[i]);
-            x.set(2, |i| q[i]);
-        } else {
-            let Damping { mass, stiffness } = self.damping;
-            x.set(0, |i| a[i] + mass * v[i] - w2 * q[i]);
-            x.set(2, |i| q[i] + stiffness * v[i]);
+        let Damping { mass, stiffness } = self.damping;
+        let elastic = if self.strain_apart { 0.0 } else { 1.0 };
+        x.vectors[0].set(|i| {
+            let (q, v) = (q[i], v[i]);
+            [a[i] + mass * v - w2 * q, w * v + 0.5 * w1 * q, elastic * (q + stiffness * v), w2 * q]
+        });
+        self.bundle.products(&x.vectors[0], &mut x.products[0]);
+        for (i, [m, g, k, n]) in x.products[0].iter().enumerate() {
+            r[i] = (m + k) + (g + n) + (w1 * sy[i] - w2 * sx[i]);
         }
-        if self.strain_apart {
-            x.set(2, |_| 0.0);
-        }
-        x.set(1, |i| w * v[i] + 0.5 * w1 * q[i]);
-        x.set(3, |i| w2 * q[i]);
-        self.bundle.products(x, |i, [m, g, k, n]| r[i] = (m + k) + (g + n) + constant(i));
-        if let Some((symmetric, y)) = self.symmetric.as_ref().zip(y.as_mut()) {
-            y.set(0, |i| w1 * q[i]);
-            symmetric.products(y, |i, [s, ..]| r[i] += s);
+        if let Some((symmetric, y)) = self.symmetric.as_ref().zip(x.symmetric.as_mut()) {
+            y.set(|i| [w1 * q[i], 0.0, 0.0, 0.0]);
+            symmetric.products(y, &mut x.products[0]);
+            r.iter_mut().zip(&x.products[0]).for_each(|(r, [s, ..])| *r += s);
         }
     }
 
     /// [`Inertia::residual`] for a hub that is free to turn: also returns the torque of [`Inertia::totals`], with
     /// which it shares its products.
+    ///
+    /// ```text
+    /// r = M (a + β v) + ω (Pᵀ − P) v + K (q + η v) + ω̇ e − ω² d,   d = D q + s_x,   e = Pᵀq + s_y
+    /// ```
     pub fn residual_and_torque(&self, s: &State, hub: &HubKinematics, x: &mut Scratch, r: &mut [f64]) -> f64 {
         let n = self.len();
         let (w, w1, w2) = (hub.speed, hub.acceleration, hub.speed * hub.speed);
-        let (q, v, a) = (&s.q[..n], &s.v[..n], &s.a[..n]);
-        let (sx, sy, r) = (&self.axial_moment[..n], &self.transverse_moment[..n], &mut r[..n]);
-        let Scratch { all: x, pair, symmetric: y, .. } = x;
-        x.set_all(|i| q[i]);
-        let Damping { mass, stiffness } = self.damping;
-        if self.damping.is_none() {
-            pair.set(0, |i| a[i]);
-        } else {
-            pair.set(0, |i| a[i] + mass * v[i]);
-            x.set(2, |i| q[i] + stiffness * v[i]);
-        }
-        if self.strain_apart {
-            x.set(2, |_| 0.0);
-        }
-        pair.set(1, |i| v[i]);
-        let (mut qdq, mut qdv, mut aeq, mut vpv) = (0.0, 0.0, 0.0, 0.0);
-        self.bundle.products_and_pair(x, pair, |i, [mq, gq, kq, nq], [ma, gv]| {
-            let dq = mq - nq;
-            qdq += q[i] * (dq + 2.0 * sx[i]);
-            qdv += v[i] * (dq + sx[i]);
-            aeq += a[i] * (0.5 * gq + sy[i]);
-            r[i] = (ma + kq) + (w * gv + 0.5 * w1 * gq) + (w1 * sy[i] - w2 * (dq + sx[i]));
+        let (v, a, r) = (&s.v[..n], &s.a[..n], &mut r[..n]);
+        let Damping { mass, .. } = self.damping;
+        x.vectors[1].set(|i| [a[i] + mass * v[i], v[i], 0.0, 0.0]);
+        let sums = self.each(s, x, true, |i, [d, e, k], [ma, gv, ..]| {
+            r[i] = (ma + k) + w * gv + (w1 * e - w2 * d);
         });
-        if let Some((symmetric, y)) = self.symmetric.as_ref().zip(y.as_mut()) {
-            y.set(0, |i| q[i]);
-            y.set(1, |i| v[i]);
-            symmetric.products(y, |i, [sq, sv, ..]| {
-                r[i] += w1 * sq;
-                aeq += a[i] * sq;
-                vpv += v[i] * sv;
-            });
-        }
-        w1 * (self.moment + qdq) + 2.0 * w * qdv + aeq + vpv
+        sums.torque(hub)
     }
 
     /// The stamp of the tangent with weights `w` at a hub speed and acceleration; its last entry is free for others.
@@ -364,139 +349,95 @@ impl Inertia {
 
     /// Kinetic energy T, angular momentum ∂T/∂ω and the torque τ of the equation of motion of the hub.
     pub fn totals(&self, s: &State, hub: &HubKinematics, x: &mut Scratch) -> Totals {
-        let n = self.len();
-        let (w, w1) = (hub.speed, hub.acceleration);
-        let (q, v, a) = (&s.q[..n], &s.v[..n], &s.a[..n]);
-        let (mut vmv, mut qdq, mut qdv) = (0.0, 0.0, 0.0);
-        let (mut vpq, mut aeq, mut vpv) = (0.0, 0.0, 0.0);
-        let Scratch { all: x, symmetric: y, .. } = x;
-        x.set(0, |i| v[i]);
-        x.set(1, |i| q[i]);
-        x.set(3, |i| q[i]);
-        self.bundle.products(x, |i, [mv, gq, _, nq]| {
-            vmv += v[i] * mv;
-            vpq += 0.5 * v[i] * gq;
-            aeq += 0.5 * a[i] * gq;
-            qdq -= q[i] * nq;
-            qdv -= v[i] * nq;
-        });
-        x.set(0, |i| q[i]);
-        self.bundle.products(x, |i, [mq, ..]| {
-            qdq += q[i] * mq;
-            qdv += v[i] * mq;
-        });
-        if let Some((symmetric, y)) = self.symmetric.as_ref().zip(y.as_mut()) {
-            y.set(0, |i| q[i]);
-            y.set(1, |i| v[i]);
-            symmetric.products(y, |i, [sq, sv, ..]| {
-                vpq += v[i] * sq;
-                aeq += a[i] * sq;
-                vpv += v[i] * sv;
-            });
-        }
-        let sx = |u: &[f64]| inner(&self.axial_moment, u);
-        let sy = |u: &[f64]| inner(&self.transverse_moment, u);
-        let moment = self.moment + 2.0 * sx(q) + qdq;
-        let relative = sy(v) + vpq;
+        let w = hub.speed;
+        let sums = self.each(s, x, false, |_, _, _| {});
+        let HubSums { moment, relative, .. } = sums;
         Totals {
-            kinetic: 0.5 * vmv + w * relative + 0.5 * w * w * moment,
+            kinetic: 0.5 * self.bundle.form(0, &s.v[..self.len()]) + w * relative + 0.5 * w * w * moment,
             momentum: w * moment + relative,
-            torque: w1 * moment + 2.0 * w * (sx(v) + qdv) + sy(a) + aeq + vpv,
+            torque: sums.torque(hub),
         }
     }
 
-    /// The torque τ of [`Inertia::totals`] alone, for a fourth of the work: with y = ω̇ q + 2ω v,
-    ///
-    /// ```text
-    /// τ = ω̇ J + s_xᵀ(y + ω̇ q) + yᵀD q + s_yᵀa + qᵀP a + vᵀP v
-    /// ```
+    /// The torque τ of [`Inertia::totals`] alone.
     pub fn torque(&self, s: &State, hub: &HubKinematics, x: &mut Scratch) -> f64 {
-        let n = self.len();
-        let (w2, w1) = (2.0 * hub.speed, hub.acceleration);
-        let (q, v, a) = (&s.q[..n], &s.v[..n], &s.a[..n]);
-        let (sx, sy) = (&self.axial_moment[..n], &self.transverse_moment[..n]);
-        let Scratch { symmetric, torque: x, products, .. } = x;
-        let products = &mut products[..n];
-        x.set(0, |i| q[i]);
-        x.set(1, |i| 0.5 * q[i]);
-        self.torque.products(x, |i, [dq, gq, ..]| products[i] = [dq, gq]);
-        let (mut torque, mut of_accelerations) = (w1 * self.moment, 0.0);
-        for (i, [dq, gq]) in products.iter().enumerate() {
-            torque += (w1 * q[i] + w2 * v[i]) * (dq + sx[i]) + w1 * (q[i] * sx[i]);
-            of_accelerations += a[i] * (gq + sy[i]);
-        }
-        torque += of_accelerations;
-        if let Some((matrix, y)) = self.symmetric.as_ref().zip(symmetric.as_mut()) {
-            y.set(0, |i| q[i]);
-            y.set(1, |i| v[i]);
-            matrix.products(y, |i, [sq, sv, ..]| torque += a[i] * sq + v[i] * sv);
-        }
-        torque
+        self.each(s, x, false, |_, _, _| {}).torque(hub)
     }
 
     /// The tangent's row and column of a free hub, and their corner: derivatives of the residual by θ, θ̇, θ̈
     /// and of the torque by q, v, a, with the weights of the integrator.
     ///
     /// ```text
-    /// ∂r/∂θ̇ = (Pᵀ − P) v − 2ω (D q + s_x),   ∂r/∂θ̈ = s_y + Pᵀq
-    /// ∂τ/∂q = 2ω̇ (D q + s_x) + P a + 2ω D v,  ∂τ/∂v = 2ω (D q + s_x) + (P + Pᵀ) v,  ∂τ/∂a = s_y + Pᵀq
-    /// ∂τ/∂θ̇ = 2 (D q + s_x)·v,                ∂τ/∂θ̈ = J + 2 s_xᵀq + qᵀD q
+    /// ∂r/∂θ̇ = (Pᵀ − P) v − 2ω d,           ∂r/∂θ̈ = e
+    /// ∂τ/∂q = 2ω̇ d + P a + 2ω D v,          ∂τ/∂v = 2ω d + (P + Pᵀ) v,     ∂τ/∂a = e
+    /// ∂τ/∂θ̇ = 2 dᵀv,                        ∂τ/∂θ̈ = J + 2 s_xᵀq + qᵀD q
     /// ```
     pub fn border(&self, s: &State, hub: &HubKinematics, w: &Weights<'_>, x: &mut Scratch, out: &mut Border) {
         let n = self.len();
         let (om, al) = (hub.speed, hub.acceleration);
-        let (q, v, a) = (&s.q[..n], &s.v[..n], &s.a[..n]);
-        let (sx, sy) = (&self.axial_moment, &self.transverse_moment);
-        let (mut by_speed, mut moment) = (0.0, self.moment);
+        let (v, a) = (&s.v[..n], &s.a[..n]);
         let (column, row) = (&mut out.column, &mut out.row);
-        let Scratch { all: x, symmetric: y, .. } = x;
-        // D = M − N; Pᵀ = S + G/2 and P = S − G/2 with G = Pᵀ − P.
-        self.each(
-            x,
-            |i| [q[i], q[i], q[i]],
-            |i, [mq, gq, nq]| {
-                let dq = mq - nq + sx[i];
-                by_speed += 2.0 * dq * v[i];
-                moment += q[i] * (dq + sx[i]);
-                let euler = w.a * (sy[i] + 0.5 * gq);
-                row[i] = (2.0 * w.q * al + 2.0 * w.v * om) * dq + euler;
-                column[i] = -2.0 * w.v * om * dq + euler;
-            },
-        );
-        let dv = 2.0 * w.q * om;
-        self.each(
-            x,
-            |i| [v[i], v[i], v[i]],
-            |i, [mv, gv, nv]| {
-                row[i] += dv * (mv - nv);
-                column[i] += w.v * gv;
-            },
-        );
-        self.each(x, |i| [0.0, a[i], 0.0], |i, [_, ga, _]| row[i] -= 0.5 * w.q * ga);
-        if let Some((symmetric, y)) = self.symmetric.as_ref().zip(y.as_mut()) {
-            y.set(0, |i| 2.0 * w.v * v[i] + w.q * a[i]);
-            symmetric.products(y, |i, [s, ..]| row[i] += s);
-            y.set(0, |i| w.a * q[i]);
-            symmetric.products(y, |i, [s, ..]| {
-                column[i] += s;
-                row[i] += s;
-            });
+        // D = M − N; P = S − G/2 with G = Pᵀ − P.
+        x.vectors[1].set(|i| [v[i]; 4]);
+        let sums = self.each(s, x, true, |i, [d, e, _], [mv, gv, _, nv]| {
+            column[i] = w.v * (gv - 2.0 * om * d) + w.a * e;
+            row[i] = 2.0 * (w.q * al + w.v * om) * d + w.a * e + 2.0 * w.q * om * (mv - nv);
+        });
+        x.vectors[1].set(|i| [0.0, a[i], 0.0, 0.0]);
+        self.bundle.products(&x.vectors[1], &mut x.products[0]);
+        row.iter_mut().zip(&x.products[0]).for_each(|(row, [_, ga, ..])| *row -= 0.5 * w.q * ga);
+        if let Some((symmetric, y)) = self.symmetric.as_ref().zip(x.symmetric.as_mut()) {
+            y.set(|i| [2.0 * w.v * v[i] + w.q * a[i], 0.0, 0.0, 0.0]);
+            symmetric.products(y, &mut x.products[0]);
+            row.iter_mut().zip(&x.products[0]).for_each(|(row, [s, ..])| *row += s);
         }
-        out.corner = w.v * by_speed + w.a * moment;
+        out.corner = 2.0 * w.v * sums.coriolis + w.a * sums.moment;
     }
 
-    /// Calls `f` with i and (M x, (Pᵀ − P) y, N z)ᵢ for vectors with the entries (x, y, z)ᵢ = `of(i)`.
-    #[inline]
+    /// Sets the first of the vectors to q, that of K to q + η v, and the products with S.
+    fn prepare(&self, s: &State, x: &mut Scratch) {
+        let n = self.len();
+        let (q, v) = (&s.q[..n], &s.v[..n]);
+        let elastic = if self.strain_apart { 0.0 } else { 1.0 };
+        x.vectors[0].set(|i| [q[i], q[i], elastic * (q[i] + self.damping.stiffness * v[i]), q[i]]);
+        if let Some((symmetric, y)) = self.symmetric.as_ref().zip(x.symmetric.as_mut()) {
+            y.set(|i| [q[i], v[i], 0.0, 0.0]);
+            symmetric.products(y, &mut x.products[0]);
+            x.of_symmetric.iter_mut().zip(&x.products[0]).for_each(|(out, [sq, sv, ..])| *out = [*sq, *sv]);
+        }
+    }
+
+    /// The sums of a state. Calls `f` with i, (d, e, K (q + η v))ᵢ, and the products of M, Pᵀ − P, K and N with the
+    /// second of the vectors, if they are to be `multiplied`.
+    #[inline(always)]
     fn each(
         &self,
-        vectors: &mut Vectors,
-        of: impl Fn(usize) -> [f64; 3],
-        mut f: impl FnMut(usize, [f64; 3]),
-    ) {
-        for (term, vector) in [(0, 0), (1, 1), (3, 2)] {
-            vectors.set(term, |i| of(i)[vector]);
+        s: &State,
+        x: &mut Scratch,
+        multiplied: bool,
+        mut f: impl FnMut(usize, [f64; 3], Entry),
+    ) -> HubSums {
+        self.prepare(s, x);
+        for (vectors, products) in x.vectors.iter().zip(&mut x.products).take(1 + usize::from(multiplied)) {
+            self.bundle.products(vectors, products);
         }
-        self.bundle.products(vectors, |i, [m, g, _, n]| f(i, [m, g, n]));
+        let n = self.len();
+        let (q, v, a) = (&s.q[..n], &s.v[..n], &s.a[..n]);
+        let (sx, sy) = (&self.axial_moment[..n], &self.transverse_moment[..n]);
+        let [of_q, of_others] = &x.products;
+        let (of_q, of_others) = (&of_q[..n], &of_others[..n]);
+        let mut sums = HubSums { moment: self.moment, ..HubSums::default() };
+        for i in 0..n {
+            let [mq, gq, kq, nq] = of_q[i];
+            let [sq, sv] = x.of_symmetric.get(i).copied().unwrap_or_default();
+            let (d, e) = (mq - nq + sx[i], 0.5 * gq + sq + sy[i]);
+            sums.moment += q[i] * (d + sx[i]);
+            sums.relative += v[i] * e;
+            sums.coriolis += v[i] * d;
+            sums.rest += a[i] * e + v[i] * sv;
+            f(i, [d, e, kq], of_others[i]);
+        }
+        sums
     }
 
     /// ½ qᵀK q.
@@ -512,34 +453,7 @@ fn unless_zero(matrix: &Matrix, size: f64) -> Option<&Matrix> {
 
 /// Largest entry, border aside.
 fn largest(matrix: &Matrix) -> f64 {
-    let entries = match matrix.storage() {
-        Storage::Dense(a) => a.data(),
-        Storage::Band(a) => a.band().data(),
-        Storage::Condensed(a) => a.whole().band().data(),
-    };
-    entries.iter().fold(0.0, |m, x| x.abs().max(m))
-}
-
-fn inner(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-fn add_vector(out: &mut [f64], shapes: &Shapes, d: usize, w: f64) {
-    for (&i, phi) in shapes.index.iter().zip(&shapes.value[d]) {
-        out[i] += w * phi;
-    }
-}
-
-/// out += w φ⁽ᵈ⁾ ψ⁽ᵉ⁾ᵀ
-fn add_outer(out: &mut Matrix, row: (&Shapes, usize), column: (&Shapes, usize), w: f64) {
-    if w == 0.0 {
-        return;
-    }
-    for (&i, phi) in row.0.index.iter().zip(&row.0.value[row.1]) {
-        for (&j, psi) in column.0.index.iter().zip(&column.0.value[column.1]) {
-            out.add(i, j, w * phi * psi);
-        }
-    }
+    matrix.storage().entries().iter().fold(0.0, |m, x| x.abs().max(m))
 }
 
 /// out += w (φ⁽ᵈ⁾ ψ⁽ᵉ⁾ᵀ + ψ⁽ᵉ⁾ φ⁽ᵈ⁾ᵀ)

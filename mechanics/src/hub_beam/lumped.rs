@@ -1,8 +1,8 @@
-//! Rotary inertia of lumped masses on the exact coupling: a [`Turn`] at each mass.
+//! Rotary inertia of lumped masses on the exact coupling: a [`SectionRotation`] at each mass.
 
 use super::fields::{Fields, Point};
 use super::inertia::{Border, Totals};
-use super::turn::Turn;
+use super::section_rotation::SectionRotation;
 use crate::linalg::Storage;
 use crate::profile::HubKinematics;
 use crate::section::Mass;
@@ -10,19 +10,19 @@ use crate::system::{State, Weights};
 
 /// The rotary inertia j of a mass on the axis.
 #[derive(Debug)]
-pub struct LumpedTurn {
+pub struct LumpedRotation {
     inertia: f64,
     /// a + x
     origin: f64,
     point: Point,
 }
 
-impl LumpedTurn {
+impl LumpedRotation {
     /// Those of `masses` that have rotary inertia; `radius` is the hub's \[m\].
-    pub fn of(fields: &Fields, masses: &[Mass], radius: f64) -> Vec<LumpedTurn> {
-        let turning = masses.iter().filter(|m| m.inertia != 0.0);
-        turning
-            .map(|m| LumpedTurn {
+    pub fn of(fields: &Fields, masses: &[Mass], radius: f64) -> Vec<LumpedRotation> {
+        let rotating = masses.iter().filter(|m| m.inertia != 0.0);
+        rotating
+            .map(|m| LumpedRotation {
                 inertia: m.inertia,
                 origin: radius + m.station,
                 point: fields.point(m.station, 1.0),
@@ -30,12 +30,12 @@ impl LumpedTurn {
             .collect()
     }
 
-    fn turn(&self, s: &State, hub: &HubKinematics) -> Turn {
+    fn rotation(&self, s: &State, hub: &HubKinematics) -> SectionRotation {
         let (x, y) = (&self.point.axial, &self.point.transverse);
         let at = |d: usize, u: &[f64]| [x.field(d, u), y.field(d, u)];
         let [u, v] = at(0, &s.q);
         let [u1, v1] = at(1, &s.q);
-        Turn::new(
+        SectionRotation::new(
             [self.origin + u, v],
             [1.0 + u1, v1],
             [at(0, &s.v), at(1, &s.v)],
@@ -46,7 +46,7 @@ impl LumpedTurn {
 
     /// Adds the forces to `r`.
     pub fn add_forces(&self, s: &State, hub: &HubKinematics, r: &mut [f64]) {
-        let (_, on_slope) = self.turn(s, hub).force(self.inertia, 0.0);
+        let (_, on_slope) = self.rotation(s, hub).force(self.inertia, 0.0);
         self.scatter(on_slope, r);
     }
 
@@ -59,12 +59,12 @@ impl LumpedTurn {
         }
     }
 
-    /// Adds the tangent of [`LumpedTurn::add_forces`] to `out`.
+    /// Adds the tangent of [`LumpedRotation::add_forces`] to `out`.
     pub fn add_tangent(&self, s: &State, hub: &HubKinematics, w: &Weights<'_>, out: &mut Storage<f64>) {
-        let turn = self.turn(s, hub);
+        let rotation = self.rotation(s, hub);
         let shapes = [&self.point.axial, &self.point.transverse];
         for (c, columns) in shapes.iter().enumerate() {
-            let (_, by) = turn.derivative(unit(c), true, hub, w, self.inertia, 0.0);
+            let (_, by) = rotation.derivative(unit(c), true, hub, w, self.inertia, 0.0);
             for (rows, by) in shapes.iter().zip(by) {
                 for (&i, row) in rows.index.iter().zip(&rows.value[1]) {
                     for (&j, column) in columns.index.iter().zip(&columns.value[1]) {
@@ -77,16 +77,16 @@ impl LumpedTurn {
 
     /// Kinetic energy, angular momentum and torque.
     pub fn totals(&self, s: &State, hub: &HubKinematics) -> Totals {
-        self.turn(s, hub).totals(self.inertia, 0.0, hub)
+        self.rotation(s, hub).totals(self.inertia, 0.0, hub)
     }
 
     /// Adds to the border of a free hub.
     pub fn add_border(&self, s: &State, hub: &HubKinematics, w: &Weights<'_>, out: &mut Border) {
-        let turn = self.turn(s, hub);
-        let (_, slope, torque) = turn.by_hub(hub, w, self.inertia, 0.0);
+        let rotation = self.rotation(s, hub);
+        let (_, slope, torque) = rotation.by_hub(hub, w, self.inertia, 0.0);
         self.scatter(slope, &mut out.column);
         out.corner += torque;
-        let row = [0, 1].map(|c| turn.torque_derivative(unit(c), true, hub, w, self.inertia, 0.0));
+        let row = [0, 1].map(|c| rotation.torque_derivative(unit(c), true, hub, w, self.inertia, 0.0));
         self.scatter(row, &mut out.row);
     }
 }

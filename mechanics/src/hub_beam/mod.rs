@@ -26,12 +26,13 @@ mod positive;
 mod product;
 mod rule;
 mod section_forces;
+mod section_rotation;
 mod station;
 mod strain_terms;
 mod system;
 #[cfg(test)]
 mod tests;
-mod turn;
+
 mod viscous;
 
 pub use coupling::Coupling;

@@ -1,6 +1,6 @@
 //! Whether the kinetic energy of a beam on a free hub is still positive.
 //!
-//! The hub, with the beam giving way as it likes, has the inertia
+//! The effective inertia of the released hub, on which no torque of the beam acts, is the Schur complement
 //!
 //! ```text
 //! J_e(q) = J_θθ(q) − m(q)ᵀ M⁻¹ m(q),      M v·v/2 + θ̇ m·v + J_θθ θ̇²/2 = T

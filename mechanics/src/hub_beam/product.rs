@@ -1,19 +1,22 @@
 //! Products of the constant matrices with vectors: the innermost loops of a linear model.
 //!
-//! Four matrices, A₁ … A₄ say, are stored together, entry by entry, so that one pass over memory gives the
-//! products of all of them with as many vectors, and any weighted sum of them. Row i of a band meets the
-//! entries i − l … i + u of a vector; with l zeros in front of the vector and u behind it every row meets a
-//! full window, the first and last rows too, and loops over rows have a length the compiler knows.
+//! Four matrices A₁ … A₄ are stored together, entry by entry, so that one pass over memory gives the products of all of
+//! them with as many vectors, and any weighted sum of them. Row i of a band meets the entries i − l … i + u of a vector;
+//! with l zeros in front of the vector and u behind it every row meets a full window, the first and last rows too.
 
 use crate::linalg::{Matrix, Storage, Structure};
 
-/// Number of matrices that are stored together, at most.
-pub(super) const TERMS: usize = 4;
+/// Number of matrices that are stored together.
+const TERMS: usize = 4;
 
-/// Up to four matrices of one structure, entry by entry; `terms`, 2 or 4, are stored.
+/// An entry of each of the matrices or vectors.
+pub(super) type Entry = [f64; TERMS];
+
+/// Up to four matrices of one structure, entry by entry; the first two alone are stored if the others are not there.
 #[derive(Clone, Debug)]
 pub(super) struct Bundle {
     order: usize,
+    /// Matrices that are stored: 2 or 4.
     terms: usize,
     /// Entries of a row.
     width: usize,
@@ -25,7 +28,7 @@ pub(super) struct Bundle {
     data: Vec<f64>,
 }
 
-/// As many vectors as a [`Bundle`] has terms, entry by entry, with zeros in front and behind.
+/// As many vectors to multiply with a [`Bundle`], entry by entry, with zeros in front and behind.
 #[derive(Clone, Debug)]
 pub(super) struct Vectors {
     terms: usize,
@@ -34,34 +37,16 @@ pub(super) struct Vectors {
 }
 
 impl Vectors {
-    /// Sets entry i of vector `k` to `f(i)`; nothing happens if there is no such term.
+    /// Sets entry i of the vectors to `of(i)`.
     #[inline]
-    pub(super) fn set(&mut self, k: usize, f: impl Fn(usize) -> f64) {
-        let terms = self.terms;
+    pub(super) fn set(&mut self, of: impl Fn(usize) -> Entry) {
         let entries = &mut self.data[self.range.clone()];
-        if terms == TERMS && k < TERMS {
-            for (i, x) in entries.as_chunks_mut::<TERMS>().0.iter_mut().enumerate() {
-                x[k] = f(i);
-            }
-        } else if k < 2 {
-            for (i, x) in entries.as_chunks_mut::<2>().0.iter_mut().enumerate() {
-                x[k] = f(i);
-            }
-        }
-    }
-
-    /// Sets entry i of all vectors to `f(i)`.
-    #[inline]
-    pub(super) fn set_all(&mut self, f: impl Fn(usize) -> f64) {
-        let terms = self.terms;
-        let entries = &mut self.data[self.range.clone()];
-        if terms == TERMS {
-            for (i, x) in entries.as_chunks_mut::<TERMS>().0.iter_mut().enumerate() {
-                *x = [f(i); TERMS];
-            }
+        if self.terms == TERMS {
+            entries.as_chunks_mut::<TERMS>().0.iter_mut().enumerate().for_each(|(i, x)| *x = of(i));
         } else {
             for (i, x) in entries.as_chunks_mut::<2>().0.iter_mut().enumerate() {
-                *x = [f(i); 2];
+                let [a, b, ..] = of(i);
+                *x = [a, b];
             }
         }
     }
@@ -70,24 +55,29 @@ impl Vectors {
 impl Bundle {
     /// The first `order` rows of the matrices; zeros stand for those that are not there.
     pub(super) fn new(structure: &Structure, order: usize, matrices: [Option<&Matrix>; TERMS]) -> Bundle {
-        let terms = if matrices[2..].iter().all(Option::is_none) { 2 } else { TERMS };
         let most = order.saturating_sub(1);
         let (width, advance, lead) = match *structure {
             Structure::Dense { .. } => (order, 0, 0),
-            Structure::Band { lower, upper, .. } | Structure::Condensed { lower, upper, .. } => {
+            Structure::Band { lower, upper, .. } => {
                 (lower.min(most) + upper.min(most) + 1, 1, lower.min(most))
             }
         };
-        let mut data = Vec::with_capacity(order * width * terms);
+        let terms = if matrices[2].is_none() && matrices[3].is_none() { 2 } else { TERMS };
+        let data = Vec::with_capacity(order * width * terms);
+        let mut bundle = Bundle { order, terms, width, advance, lead, data };
         for i in 0..order {
             for j in 0..width {
-                let column = (advance * i + j).checked_sub(lead).filter(|column| *column < order);
-                for matrix in &matrices[..terms] {
-                    data.push(matrix.zip(column).map_or(0.0, |(a, column)| a.get(i, column)));
-                }
+                let column = bundle.column(i, j);
+                let entry = |a: &Option<&Matrix>| a.zip(column).map_or(0.0, |(a, column)| a.get(i, column));
+                bundle.data.extend(matrices[..terms].iter().map(entry));
             }
         }
-        Bundle { order, terms, width, advance, lead, data }
+        bundle
+    }
+
+    /// Column of the entry at place `j` of row `i`, if it is one of the matrix.
+    fn column(&self, i: usize, j: usize) -> Option<usize> {
+        (self.advance * i + j).checked_sub(self.lead).filter(|column| *column < self.order)
     }
 
     /// Number of rows.
@@ -97,164 +87,69 @@ impl Bundle {
 
     /// Vectors of zeros to multiply with.
     pub(super) fn vectors(&self) -> Vectors {
-        self.vectors_of(self.terms)
-    }
-
-    /// Two vectors of zeros, to multiply with the first two matrices.
-    pub(super) fn pair(&self) -> Vectors {
-        self.vectors_of(2)
-    }
-
-    fn vectors_of(&self, terms: usize) -> Vectors {
+        let terms = self.terms;
+        let range = self.lead * terms..(self.lead + self.order) * terms;
         let behind = self.advance * (self.width - self.lead.min(self.width));
-        let first = self.lead * terms;
-        let range = first..first + self.order * terms;
-        let data = vec![0.0; range.end + behind * terms];
-        Vectors { terms, range, data }
+        Vectors { terms, data: vec![0.0; range.end + behind * terms], range }
     }
 
-    /// Calls `f` with i and the products (Aₖ xₖ)ᵢ, row after row; zero for terms that are not stored.
-    #[inline]
-    pub(super) fn products(&self, x: &Vectors, mut f: impl FnMut(usize, [f64; TERMS])) {
-        let pairs = |[a, b, c, d]: [f64; TERMS]| [a + c, b + d, 0.0, 0.0];
-        // Rows of the common lengths: Hermite functions with linear or Hermite ones for the other field.
+    fn rows(&self) -> impl Iterator<Item = &[f64]> {
+        self.data.chunks_exact((self.width * self.terms).max(1))
+    }
+
+    /// Writes the products (Aₖ xₖ)ᵢ, row after row; zero for terms that are not stored.
+    pub(super) fn products(&self, x: &Vectors, out: &mut [Entry]) {
         match (self.terms, self.width) {
-            (TERMS, 11) => self.rows::<{ TERMS * 11 }>(x, f),
-            (TERMS, 15) => self.rows::<{ TERMS * 15 }>(x, f),
-            (TERMS, _) => self.rows::<0>(x, f),
-            (_, 11) => self.rows::<{ 2 * 11 }>(x, |i, lanes| f(i, pairs(lanes))),
-            (_, 15) => self.rows::<{ 2 * 15 }>(x, |i, lanes| f(i, pairs(lanes))),
-            _ => self.rows::<0>(x, |i, lanes| f(i, pairs(lanes))),
+            // Hermite functions with linear ones, and with Hermite ones.
+            (TERMS, 11) => self.sums::<TERMS, 11>(x, out),
+            (2, 15) => self.sums::<2, 15>(x, out),
+            (TERMS, _) => self.sums::<TERMS, 0>(x, out),
+            _ => self.sums::<2, 0>(x, out),
         }
     }
 
-    /// Sums each row by four lanes, which belong to the terms in turn. `LENGTH` is the number of entries of
-    /// a row where the compiler knows it, or 0.
+    /// [`Bundle::products`] of `T` terms; `W` is the width of a row where the compiler knows it, or 0.
     #[inline(always)]
-    fn rows<const LENGTH: usize>(&self, x: &Vectors, mut f: impl FnMut(usize, [f64; TERMS])) {
-        let length = if LENGTH > 0 { LENGTH } else { self.width * self.terms };
-        let advance = self.advance * self.terms;
-        for (i, row) in self.data.chunks_exact(length.max(1)).enumerate() {
-            let mut lanes = [0.0; TERMS];
-            let (a, a_rest) = row.as_chunks::<TERMS>();
-            let (x, x_rest) = x.data[i * advance..][..length].as_chunks::<TERMS>();
-            for (a, x) in a.iter().zip(x) {
-                for k in 0..TERMS {
-                    lanes[k] += a[k] * x[k];
+    fn sums<const T: usize, const W: usize>(&self, x: &Vectors, out: &mut [Entry]) {
+        let length = T * if W > 0 { W } else { self.width };
+        for (i, out) in out.iter_mut().enumerate() {
+            let row = self.data[i * length..][..length].as_chunks::<T>().0;
+            let x = x.data[i * self.advance * T..][..length].as_chunks::<T>().0;
+            let mut sum = [0.0; T];
+            for (a, x) in row.iter().zip(x) {
+                for k in 0..T {
+                    sum[k] += a[k] * x[k];
                 }
             }
-            for (k, (a, x)) in a_rest.iter().zip(x_rest).enumerate() {
-                lanes[k] += a * x;
-            }
-            f(i, lanes);
+            *out = std::array::from_fn(|k| if k < T { sum[k] } else { 0.0 });
         }
     }
 
-    /// Calls `f` with i, the products (Aₖ xₖ)ᵢ as [`Bundle::products`] does, and (A₁ y₁)ᵢ, (A₂ y₂)ᵢ: one pass over
-    /// the matrices for both.
-    #[inline]
-    pub(super) fn products_and_pair(
-        &self,
-        x: &Vectors,
-        y: &Vectors,
-        mut f: impl FnMut(usize, [f64; TERMS], [f64; 2]),
-    ) {
-        let pair = |[a, b, c, d]: [f64; TERMS]| [a + c, b + d];
-        let four = |lanes: [f64; TERMS]| [lanes[0] + lanes[2], lanes[1] + lanes[3], 0.0, 0.0];
-        match (self.terms, self.width) {
-            (TERMS, 11) => self.rows_and_pair::<11>(x, y, f),
-            (TERMS, 15) => self.rows_and_pair::<15>(x, y, f),
-            (TERMS, _) => self.rows_and_pair::<0>(x, y, f),
-            (_, 15) => self.both_pairs::<{ 2 * 15 }>(x, y, |i, x, y| f(i, four(x), pair(y))),
-            _ => self.both_pairs::<0>(x, y, |i, x, y| f(i, four(x), pair(y))),
-        }
-    }
-
-    /// [`Bundle::products_and_pair`] for four terms; `WIDTH` is that of a row, or 0.
-    #[inline(always)]
-    fn rows_and_pair<const WIDTH: usize>(
-        &self,
-        x: &Vectors,
-        y: &Vectors,
-        mut f: impl FnMut(usize, [f64; TERMS], [f64; 2]),
-    ) {
-        let width = if WIDTH > 0 { WIDTH } else { self.width };
-        for (i, row) in self.data.chunks_exact((width * TERMS).max(1)).enumerate() {
-            let at = i * self.advance;
-            let x = x.data[at * TERMS..][..width * TERMS].as_chunks::<TERMS>().0;
-            let y = y.data[at * 2..][..width * 2].as_chunks::<2>().0;
-            let (mut four, mut two) = ([0.0; TERMS], [0.0; 2]);
-            for ((a, x), y) in row.as_chunks::<TERMS>().0.iter().zip(x).zip(y) {
-                for k in 0..TERMS {
-                    four[k] += a[k] * x[k];
-                }
-                for k in 0..2 {
-                    two[k] += a[k] * y[k];
-                }
-            }
-            f(i, four, two);
-        }
-    }
-
-    /// [`Bundle::products_and_pair`] for two terms, summed by four lanes as [`Bundle::rows`] does.
-    #[inline(always)]
-    fn both_pairs<const LENGTH: usize>(
-        &self,
-        x: &Vectors,
-        y: &Vectors,
-        mut f: impl FnMut(usize, [f64; TERMS], [f64; TERMS]),
-    ) {
-        let length = if LENGTH > 0 { LENGTH } else { self.width * self.terms };
-        let advance = self.advance * self.terms;
-        for (i, row) in self.data.chunks_exact(length.max(1)).enumerate() {
-            let (mut of_x, mut of_y) = ([0.0; TERMS], [0.0; TERMS]);
-            let (a, a_rest) = row.as_chunks::<TERMS>();
-            let (x, x_rest) = x.data[i * advance..][..length].as_chunks::<TERMS>();
-            let (y, y_rest) = y.data[i * advance..][..length].as_chunks::<TERMS>();
-            for ((a, x), y) in a.iter().zip(x).zip(y) {
-                for k in 0..TERMS {
-                    of_x[k] += a[k] * x[k];
-                    of_y[k] += a[k] * y[k];
-                }
-            }
-            for (k, ((a, x), y)) in a_rest.iter().zip(x_rest).zip(y_rest).enumerate() {
-                of_x[k] += a * x;
-                of_y[k] += a * y;
-            }
-            f(i, of_x, of_y);
-        }
-    }
-
-    /// xᵀ Aₖ x for one of the matrices; 0 for one that is not there.
+    /// xᵀ Aₖ x for one of the matrices.
     pub(super) fn form(&self, k: usize, x: &[f64]) -> f64 {
         if k >= self.terms {
             return 0.0;
         }
-        let row = |i: usize| -> f64 {
+        let row = |(i, row): (usize, &[f64])| -> f64 {
             let first = (self.advance * i).saturating_sub(self.lead);
-            let last = (self.advance * i + self.width - self.lead).min(self.order);
-            let at = i * self.width + first + self.lead - self.advance * i;
-            let a = self.data[at * self.terms..].chunks_exact(self.terms);
-            a.zip(&x[first..last]).map(|(a, x)| a[k] * x).sum()
+            let skipped = first + self.lead - self.advance * i;
+            let row = row[skipped * self.terms..].chunks_exact(self.terms);
+            x[i] * row.zip(&x[first..self.order]).map(|(a, x)| a[k] * x).sum::<f64>()
         };
-        (0..self.order).map(|i| x[i] * row(i)).sum()
+        self.rows().enumerate().map(row).sum()
     }
 
     /// Writes Σ wₖ Aₖ over the content of `out`, border aside.
-    pub(super) fn write_sum(&self, weights: [f64; TERMS], out: &mut Storage<f64>) {
+    pub(super) fn write_sum(&self, weights: Entry, out: &mut Storage<f64>) {
         if self.fits(out) {
             return self.sum(weights, out, |out, x| *out = x);
         }
-        match out {
-            Storage::Dense(a) => a.clear(),
-            Storage::Band(a) => a.clear(),
-            Storage::Condensed(a) => a.clear(),
-        }
+        out.clear();
         self.scatter_sum(weights, out);
     }
 
     /// Adds Σ wₖ Aₖ to `out`.
-    pub(super) fn add_sum(&self, weights: [f64; TERMS], out: &mut Storage<f64>) {
+    pub(super) fn add_sum(&self, weights: Entry, out: &mut Storage<f64>) {
         if self.fits(out) {
             return self.sum(weights, out, |out, x| *out += x);
         }
@@ -263,45 +158,24 @@ impl Bundle {
 
     /// Whether the rows lie in `out` as they lie here.
     fn fits(&self, out: &Storage<f64>) -> bool {
-        match out {
-            Storage::Dense(_) => self.advance == 0,
-            Storage::Band(_) => self.advance == 1,
-            Storage::Condensed(_) => false,
-        }
+        out.is_dense() == (self.advance == 0)
     }
 
     /// Adds Σ wₖ Aₖ to a storage of another kind, entry by entry.
-    fn scatter_sum(&self, w: [f64; TERMS], out: &mut Storage<f64>) {
-        for (i, row) in self.data.chunks_exact((self.width * self.terms).max(1)).enumerate() {
+    fn scatter_sum(&self, w: Entry, out: &mut Storage<f64>) {
+        for (i, row) in self.rows().enumerate() {
             for (j, a) in row.chunks_exact(self.terms).enumerate() {
-                let Some(column) = (self.advance * i + j).checked_sub(self.lead) else { continue };
                 // What is zero in all of them may lie outside the band of `out`.
-                if column < self.order && a.iter().any(|a| *a != 0.0) {
-                    let x = a.iter().zip(&w).map(|(a, w)| a * w).sum();
-                    match out {
-                        Storage::Dense(out) => out.add(i, column, x),
-                        Storage::Band(out) => out.add(i, column, x),
-                        Storage::Condensed(out) => out.add(i, column, x),
-                    }
+                if let Some(column) = self.column(i, j).filter(|_| a.iter().any(|a| *a != 0.0)) {
+                    out.add(i, column, a.iter().zip(w).map(|(a, w)| a * w).sum());
                 }
             }
         }
     }
 
     #[inline(always)]
-    fn sum(&self, w: [f64; TERMS], out: &mut Storage<f64>, put: impl Fn(&mut f64, f64)) {
-        let stride = match out {
-            Storage::Dense(a) => a.order(),
-            Storage::Band(a) => a.band().width(),
-            Storage::Condensed(_) => return,
-        };
-        let out = match out {
-            Storage::Dense(a) => a.data_mut(),
-            Storage::Band(a) => a.band_mut().data_mut(),
-            Storage::Condensed(_) => return,
-        };
-        let rows = self.data.chunks_exact((self.width * self.terms).max(1));
-        for (out, row) in out.chunks_exact_mut(stride.max(1)).zip(rows) {
+    fn sum(&self, w: Entry, out: &mut Storage<f64>, put: impl Fn(&mut f64, f64)) {
+        for (out, row) in out.rows_mut().zip(self.rows()) {
             // Behind the band is the zone of fill of former factors.
             let (out, fill) = out.split_at_mut(self.width);
             if self.terms == TERMS {

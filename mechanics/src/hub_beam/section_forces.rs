@@ -4,15 +4,25 @@
 //! N = EA ε − ES κ,   M = EI κ − ES ε,   Q = −dM/dx;      ε(y) = ε − y κ
 //! ```
 //!
-//! ε and κ are derivatives of the displacements, and at most places of an element they are less accurate than these by
-//! one and two orders. But the equations of equilibrium hold when they are tested with the second derivatives of the
-//! cubic functions, which are all linear polynomials of an element: in each element EI κ − ES ε has the mean and the
-//! first moment of the true M. (Of N, the first p moments are right in elements of degree p, for the same reason.) The
-//! cubic that has these moments in the elements next to the station, two for M, is M to order 4 there; −Q is its slope, of
-//! order 3. The strain of the exact coupling is taken at nodes and midpoints, where its energy samples it, and the cubic laid
-//! through four of them. N and M go on where a section jumps; ε and κ at the station follow from them by the section
-//! there. Within two elements of a point load, where Q jumps, the order is less. Other bases are smooth, and the cubic is
-//! laid through their values close around the station, within a hundredth of the length.
+//! ε and κ are derivatives of the displacements and less accurate than these by one and two orders at most places of an
+//! element. Equilibrium, tested with w₂″ and w₁′ of the shape functions, gives moments of M and N in each element e: with
+//! cubic transverse functions and axial ones of degree p,
+//!
+//! ```text
+//! ∫ₑ (EI κ − ES ε) xᵏ dx = ∫ₑ M xᵏ dx,  k = 0, 1;      ∫ₑ (EA ε − ES κ) xᵏ dx = ∫ₑ N xᵏ dx,  k = 0 … p − 1
+//! ```
+//!
+//! The recovered M̃ is the cubic with these moments in the two elements next to the station, Q̃ its slope, and the strains
+//! there follow from the stiffness of the section:
+//!
+//! ```text
+//! M̃ − M = O(h⁴),   Q̃ = −dM̃/dx = Q + O(h³);      ⎡ EA  −ES⎤ ⎡ε⎤   ⎡N⎤
+//!                                                  ⎣−ES   EI⎦ ⎣κ⎦ = ⎣M⎦
+//! ```
+//!
+//! For the exact coupling ε is the cubic through four of the samples of ε at nodes and midpoints. Within two elements of a
+//! point load, where Q jumps, the order is lower. Other bases are smooth: the cubic passes through their values within a
+//! hundredth of the length around the station.
 //!
 //! Q leaves out the rotary inertia of the section; ε(y) is the strain of the fibre at height y of a section that stays plane.
 

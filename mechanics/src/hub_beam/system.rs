@@ -43,7 +43,7 @@ pub struct HubBeam<C> {
     section_forces: SectionForces,
     /// Watches the inertia of a free hub, where a coupling may lose it.
     hub_inertia: Option<HubInertia>,
-    /// Part of the inertia of hub and beam that a hub has whose beam gives way, where it is watched and small.
+    /// Effective inertia of the released hub over the inertia of hub and beam, where it is watched and small.
     small_share: Option<f64>,
 }
 
@@ -225,7 +225,6 @@ impl<C: Coupling> HubBeam<C> {
     /// Writes the border of a free hub into the tangent.
     fn write_border(&mut self, s: &State, hub: &HubKinematics, w: &Weights<'_>, out: &mut Storage<f64>) {
         let Drive::Free(free) = &self.hub.drive else { return };
-        let n = self.coupling.fields().len();
         let border = &mut self.border;
         if self.held {
             // The hub's equation is δθ = 0.
@@ -239,21 +238,7 @@ impl<C: Coupling> HubBeam<C> {
             let torque = free.torque(hub, s.time());
             border.corner -= w.q * torque.by_angle + w.v * torque.by_speed;
         }
-        match out {
-            Storage::Dense(a) => {
-                for i in 0..n {
-                    a.set(i, n, border.column[i]);
-                    a.set(n, i, border.row[i]);
-                }
-                a.set(n, n, border.corner);
-            }
-            Storage::Band(a) => {
-                a.column_mut(0).copy_from_slice(&border.column);
-                a.row_mut(0).copy_from_slice(&border.row);
-                a.set_corner(0, 0, border.corner);
-            }
-            Storage::Condensed(a) => a.set_border(0, &border.column, &border.row, border.corner),
-        }
+        out.set_border(0, &border.column, &border.row, border.corner);
     }
 }
 
@@ -529,7 +514,7 @@ impl<C: Coupling> Observed for HubBeam<C> {
     fn cautions(&self, peaks: &[f64]) -> Vec<String> {
         let share = self.small_share.map(|share| {
             format!(
-                "the hub is free and, with the beam giving way, has {share:.1e} of the inertia of hub and beam: the \
+                "the effective inertia of the free hub is {share:.1e} of the inertia of hub and beam: the \
                  {}-order coupling keeps its kinetic energy positive only while foreshortening takes less than that, and \
                  stops the run beyond; give the hub more inertia, or use coupling = \"high\" or \"exact\"",
                 self.coupling.name()
@@ -573,8 +558,8 @@ impl<C: Coupling> HubBeam<C> {
         let watch = self.hub_inertia.as_mut()?;
         let (left, start) = watch.at_most(part, (self.coupling.inertia(), &mut self.scratch), s)?;
         Some(format!(
-            "the {}-order coupling is losing its positive kinetic energy: with the beam giving way, the free hub has an \
-             inertia of {left:.2e} kg·m² left of {start:.2e}, the rest is taken by the foreshortening; give the hub more \
+            "the {}-order coupling is losing its positive kinetic energy: the effective inertia of the free \
+             hub has fallen from {start:.2e} to {left:.2e} kg·m² by the foreshortening; give the hub more \
              inertia, or use coupling = \"high\" or \"exact\"",
             self.coupling.name()
         ))

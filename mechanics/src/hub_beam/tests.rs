@@ -97,7 +97,7 @@ fn systems() -> Vec<Box<dyn System>> {
     for hub in [hub(), free_hub()] {
         systems.push(Box::new(linear_on(hub.clone(), Foreshortening::None)));
         systems.push(Box::new(linear_on(hub.clone(), Foreshortening::First)));
-        let high = HighCoupling::new(fields(3), &TwoFibres, &hub);
+        let high = HighCoupling::new(fields(3), &TwoFibres, &hub).unwrap();
         systems.push(Box::new(HubBeam::new(hub.clone(), high, &[])));
         systems.push(Box::new(exact_on(hub)));
     }

@@ -16,13 +16,13 @@ use crate::system::Weights;
 /// Strains of an element: three of the axis, then the curvatures.
 const STRAINS: usize = 3 + POINTS;
 
-/// One strain with its derivatives by the local unknowns: value aside, B_k and H_k ḋ, and what H_k is made of.
+/// One strain with its derivatives by the local unknowns: value aside, B_k and H_k ḋ.
 #[derive(Clone, Copy, Debug)]
 struct Strain {
     /// B_k
     gradient: [f64; 8],
     /// H_k ḋ
-    turned: [f64; 8],
+    hessian_rate: [f64; 8],
     /// ė_k
     rate: f64,
 }
@@ -31,7 +31,7 @@ struct Strain {
 type Hessian = [[f64; 4]; 4];
 
 /// ε = |p′| − 1: gradient and Hessian by (X′, Y′).
-fn stretch(x: f64, y: f64) -> ([f64; 4], Hessian) {
+fn axial_strain(x: f64, y: f64) -> ([f64; 4], Hessian) {
     let l = x.hypot(y);
     let (tx, ty) = (x / l, y / l);
     let mut h = [[0.0; 4]; 4];
@@ -119,11 +119,11 @@ impl Element {
             let mut z = rows[k].arguments(local.q());
             z[0] += 1.0;
             let rates = rows[k].arguments(local.v());
-            let (g, h) = if k < 3 { stretch(z[0], z[1]) } else { curvature(z) };
-            let turned = h.map(|row| row.iter().zip(&rates).map(|(h, r)| h * r).sum());
-            let mut strain = Strain { gradient: [0.0; 8], turned: [0.0; 8], rate: 0.0 };
+            let (g, h) = if k < 3 { axial_strain(z[0], z[1]) } else { curvature(z) };
+            let hessian_rate = h.map(|row| row.iter().zip(&rates).map(|(h, r)| h * r).sum());
+            let mut strain = Strain { gradient: [0.0; 8], hessian_rate: [0.0; 8], rate: 0.0 };
             rows[k].spread(&g, &mut strain.gradient);
-            rows[k].spread(&turned, &mut strain.turned);
+            rows[k].spread(&hessian_rate, &mut strain.hessian_rate);
             strain.rate = g.iter().zip(&rates).map(|(g, r)| g * r).sum();
             hessians[k] = h;
             strain
@@ -155,7 +155,7 @@ impl Element {
         let stress = self.conjugates(rule, &strains.map(|s| s.rate));
         for j in 0..8 {
             // Derivatives of the rates by unknown j, weighted.
-            let by = strains.map(|s| w.v * s.gradient[j] + w.q * s.turned[j]);
+            let by = strains.map(|s| w.v * s.gradient[j] + w.q * s.hessian_rate[j]);
             for (strain, stress) in strains.iter().zip(self.conjugates(rule, &by)) {
                 for (row, b) in out.iter_mut().zip(&strain.gradient) {
                     row[j] += eta * stress * b;

@@ -116,18 +116,6 @@ impl<T: Scalar> Band<T> {
         self.data[i * self.width + j + self.lower - i] = x;
     }
 
-    /// Row i times x, before factoring.
-    pub fn row_times(&self, i: usize, x: &[T]) -> T {
-        let first = i.saturating_sub(self.lower);
-        let last = (i + self.upper + 1).min(self.n);
-        let row = &self.data[i * self.width + first + self.lower - i..];
-        let mut sum = T::ZERO;
-        for (a, x) in row.iter().zip(&x[first..last]) {
-            sum += *a * *x;
-        }
-        sum
-    }
-
     /// The `N` entries of row `i` from column `first` on, which must lie within the band.
     #[inline]
     pub fn run_mut<const N: usize>(&mut self, i: usize, first: usize) -> &mut [T] {

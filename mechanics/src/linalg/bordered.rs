@@ -142,24 +142,6 @@ impl<T: Scalar> Bordered<T> {
         }
     }
 
-    /// Row i times x, before factoring.
-    pub fn row_times(&self, i: usize, x: &[T]) -> T {
-        let n = self.band.order();
-        let (head, tail) = x.split_at(n);
-        let mut sum = T::ZERO;
-        let mut add = |a: T, x: T| sum += a * x;
-        if let Some(k) = i.checked_sub(n) {
-            self.rows[k * n..(k + 1) * n].iter().zip(head).for_each(|(a, x)| add(*a, *x));
-            self.corner[k * self.border..(k + 1) * self.border]
-                .iter()
-                .zip(tail)
-                .for_each(|(a, x)| add(*a, *x));
-            return sum;
-        }
-        tail.iter().enumerate().for_each(|(k, x)| add(self.columns[k * n + i], *x));
-        sum + self.band.row_times(i, head)
-    }
-
     /// Factors in place.
     pub fn factor(&mut self) -> Result<(), Singular> {
         let n = self.band.order();

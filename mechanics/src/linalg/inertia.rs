@@ -6,7 +6,7 @@ use super::{Matrix, Scalar};
 /// the signs of the pivots of its LDLᵀ factorisation without interchanges: O(n·b²) for half-bandwidth b.
 pub fn negative_pivots(a: &Matrix, b: &Matrix, w: f64) -> usize {
     let half = match a.storage() {
-        super::Storage::Dense(_) | super::Storage::Condensed(_) => a.order().saturating_sub(1),
+        super::Storage::Dense(_) => a.order().saturating_sub(1),
         super::Storage::Band(m) => m.band().upper(),
     };
     negative_pivots_of(a.order(), half, |i, j| a.get(i, j) + w * b.get(i, j), |x| x < 0.0)

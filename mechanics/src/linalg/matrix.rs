@@ -1,7 +1,6 @@
 //! The matrix an integrator owns and a system fills.
 
-use super::{Bordered, Condensed, Dense, Places, Scalar, Singular};
-use std::sync::Arc;
+use super::{Bordered, Dense, Scalar, Singular};
 
 /// Shape of a system's tangent.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -22,17 +21,6 @@ pub enum Structure {
         /// Number of dense rows and columns behind the band.
         border: usize,
     },
-    /// Band with hidden unknowns and dense border rows and columns behind: see [`Condensed`].
-    Condensed {
-        /// Places of visible and hidden unknowns in the band.
-        places: Arc<Places>,
-        /// Half-bandwidth below the diagonal.
-        lower: usize,
-        /// Half-bandwidth above the diagonal.
-        upper: usize,
-        /// Number of dense rows and columns behind the band.
-        border: usize,
-    },
 }
 
 impl Structure {
@@ -46,20 +34,19 @@ impl Structure {
         Structure::Band { order: n, lower, upper, border }
     }
 
-    /// Order of the whole matrix, hidden unknowns aside.
+    /// Order of the whole matrix.
     pub fn order(&self) -> usize {
         match self {
             Structure::Dense { order } => *order,
             Structure::Band { order, border, .. } => order + border,
-            Structure::Condensed { places, border, .. } => places.visible.len() + border,
         }
     }
 
-    /// The structure without hidden unknowns: dense in their place.
-    pub fn explicit(&self) -> Structure {
-        match self {
-            Structure::Condensed { .. } => Structure::dense(self.order()),
-            other => other.clone(),
+    /// Larger half-bandwidth of the part without border.
+    pub fn half_bandwidth(&self) -> usize {
+        match *self {
+            Structure::Dense { order } => order.saturating_sub(1),
+            Structure::Band { lower, upper, .. } => lower.max(upper),
         }
     }
 
@@ -68,12 +55,6 @@ impl Structure {
         match self {
             Structure::Band { order, lower, upper, border } if lower + upper + 1 >= order => {
                 Structure::dense(order + border)
-            }
-            // Factors cost N·lower·upper with hidden unknowns, n³/3 without.
-            Structure::Condensed { ref places, lower, upper, border }
-                if 3 * places.len() * lower * upper >= places.visible.len().pow(3) =>
-            {
-                Structure::dense(places.visible.len() + border)
             }
             other => other,
         }
@@ -102,8 +83,6 @@ pub enum Storage<T> {
     Dense(Dense<T>),
     /// Band with border.
     Band(Bordered<T>),
-    /// Band with hidden unknowns and border.
-    Condensed(Condensed<T>),
 }
 
 impl<T: Scalar> Storage<T> {
@@ -113,8 +92,81 @@ impl<T: Scalar> Storage<T> {
         match self {
             Storage::Dense(a) => a.add(i, j, x),
             Storage::Band(a) => a.add(i, j, x),
-            Storage::Condensed(a) => a.add(i, j, x),
         }
+    }
+
+    /// The `N` entries of row `i` from column `first` on, which the structure must hold, border aside.
+    #[inline]
+    pub fn run_mut<const N: usize>(&mut self, i: usize, first: usize) -> &mut [T] {
+        match self {
+            Storage::Dense(a) => {
+                let at = i * a.order() + first;
+                &mut a.data_mut()[at..at + N]
+            }
+            Storage::Band(a) => a.band_mut().run_mut::<N>(i, first),
+        }
+    }
+
+    /// Adds w times `row` to row i, from column 0 on; the structure must hold what is not zero.
+    pub fn add_row(&mut self, i: usize, w: T, row: &[T]) {
+        match self {
+            Storage::Dense(a) => {
+                let at = i * a.order();
+                a.data_mut()[at..at + row.len()].iter_mut().zip(row).for_each(|(a, x)| *a += w * *x);
+            }
+            Storage::Band(a) => {
+                row.iter().enumerate().filter(|(_, x)| **x != T::ZERO).for_each(|(j, x)| a.add(i, j, w * *x));
+            }
+        }
+    }
+
+    /// Sets column, row and corner of border unknown `k`, which stands behind all others but the border's.
+    pub fn set_border(&mut self, k: usize, column: &[T], row: &[T], corner: T) {
+        match self {
+            Storage::Dense(a) => {
+                let border = column.len() + k;
+                for (i, (column, row)) in column.iter().zip(row).enumerate() {
+                    a.set(i, border, *column);
+                    a.set(border, i, *row);
+                }
+                a.set(border, border, corner);
+            }
+            Storage::Band(a) => {
+                a.column_mut(k).copy_from_slice(column);
+                a.row_mut(k).copy_from_slice(row);
+                a.set_corner(k, k, corner);
+            }
+        }
+    }
+
+    /// Sets every entry to zero.
+    pub fn clear(&mut self) {
+        match self {
+            Storage::Dense(a) => a.clear(),
+            Storage::Band(a) => a.clear(),
+        }
+    }
+
+    /// Whether all entries are stored.
+    pub fn is_dense(&self) -> bool {
+        matches!(self, Storage::Dense(_))
+    }
+
+    /// The stored entries, row after row: of a band without its border, but with its zone of fill.
+    pub fn entries(&self) -> &[T] {
+        match self {
+            Storage::Dense(a) => a.data(),
+            Storage::Band(a) => a.band().data(),
+        }
+    }
+
+    /// The rows of [`Storage::entries`], to be changed.
+    pub fn rows_mut(&mut self) -> std::slice::ChunksExactMut<'_, T> {
+        let (width, data) = match self {
+            Storage::Dense(a) => (a.order(), a.data_mut()),
+            Storage::Band(a) => (a.band().width(), a.band_mut().data_mut()),
+        };
+        data.chunks_exact_mut(width.max(1))
     }
 }
 
@@ -126,9 +178,6 @@ impl<T: Scalar> Matrix<T> {
             Structure::Band { order, lower, upper, border } => {
                 Storage::Band(Bordered::new(order, lower, upper, border))
             }
-            Structure::Condensed { ref places, lower, upper, border } => {
-                Storage::Condensed(Condensed::new(places.clone(), lower, upper, border))
-            }
         };
         Matrix { storage, stamp: None, source: None, factored: false }
     }
@@ -138,25 +187,7 @@ impl<T: Scalar> Matrix<T> {
         match &self.storage {
             Storage::Dense(a) => a.order(),
             Storage::Band(a) => a.order(),
-            Storage::Condensed(a) => a.order(),
         }
-    }
-
-    /// The matrix without hidden unknowns, which are eliminated: O(n²) for those that have any. Before factoring.
-    pub fn explicit(self) -> Matrix<T> {
-        let Storage::Condensed(a) = &self.storage else { return self };
-        let n = a.order();
-        let mut dense = Matrix::new(&Structure::dense(n));
-        let (mut unit, mut column) = (vec![T::ZERO; n], vec![T::ZERO; n]);
-        for j in 0..n {
-            unit[j] = T::ONE;
-            a.multiply(&unit, &mut column);
-            unit[j] = T::ZERO;
-            for (i, x) in column.iter().enumerate() {
-                dense.add(i, j, *x);
-            }
-        }
-        dense
     }
 
     /// The storage, for reading.
@@ -174,11 +205,7 @@ impl<T: Scalar> Matrix<T> {
 
     /// Sets every entry to zero.
     pub fn clear(&mut self) {
-        match self.begin() {
-            Storage::Dense(a) => a.clear(),
-            Storage::Band(a) => a.clear(),
-            Storage::Condensed(a) => a.clear(),
-        }
+        self.begin().clear();
     }
 
     /// The stamp of the content, if it has one.
@@ -201,12 +228,11 @@ impl<T: Scalar> Matrix<T> {
         self.factored
     }
 
-    /// Entry (i, j). With hidden unknowns O(n) a call, and only before factoring.
+    /// Entry (i, j).
     pub fn get(&self, i: usize, j: usize) -> T {
         match &self.storage {
             Storage::Dense(a) => a.get(i, j),
             Storage::Band(a) => a.get(i, j),
-            Storage::Condensed(a) => a.get(i, j),
         }
     }
 
@@ -222,7 +248,6 @@ impl<T: Scalar> Matrix<T> {
         match &self.storage {
             Storage::Dense(a) => a.multiply(x, y),
             Storage::Band(a) => a.multiply(x, y),
-            Storage::Condensed(a) => a.multiply(x, y),
         }
     }
 
@@ -234,7 +259,6 @@ impl<T: Scalar> Matrix<T> {
         let result = match &mut self.storage {
             Storage::Dense(a) => a.factor(),
             Storage::Band(a) => a.factor(),
-            Storage::Condensed(a) => a.factor(),
         };
         if result.is_err() {
             self.stamp = None;
@@ -251,7 +275,6 @@ impl<T: Scalar> Matrix<T> {
         match &mut self.storage {
             Storage::Dense(a) => a.solve(b),
             Storage::Band(a) => a.solve(b),
-            Storage::Condensed(a) => a.solve(b),
         }
     }
 }
@@ -272,12 +295,6 @@ impl<T: Scalar> Matrix<T> {
                 weighted_sum(out.data_mut(), [a, b, c].map(|a| a.data()), weights);
             }
             (Storage::Band(out), [Storage::Band(a), Storage::Band(b), Storage::Band(c)]) => {
-                out.combine([a, b, c], weights);
-            }
-            (
-                Storage::Condensed(out),
-                [Storage::Condensed(a), Storage::Condensed(b), Storage::Condensed(c)],
-            ) => {
                 out.combine([a, b, c], weights);
             }
             _ => debug_assert!(false, "structures differ"),

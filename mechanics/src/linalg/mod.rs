@@ -5,7 +5,6 @@
 
 mod band;
 mod bordered;
-mod condensed;
 mod dense;
 mod double;
 pub mod eigen;
@@ -18,7 +17,6 @@ mod tests;
 
 pub use band::Band;
 pub use bordered::Bordered;
-pub use condensed::{Condensed, Places};
 pub use dense::Dense;
 pub use double::Double;
 pub use hermitian::Hermitian;

@@ -17,9 +17,8 @@
 //! ```
 //!
 //! w_c and its rates are running sums over the quadrature points from the root to the tip, N is one from the
-//! tip to the root: O(n). The tangent is full, but it too is made of running sums: see [`tangent`]. A lumped
-//! mass is a point of ∫ρA … dx. Rotary inertia ρI and first mass moment ρS are kept to second order, as in the
-//! first-order coupling.
+//! tip to the root: the forces take O(n). The [`tangent`] is full. A lumped mass is a point of ∫ρA … dx. Rotary
+//! inertia ρI and first mass moment ρS are kept to second order, as in the first-order coupling.
 
 mod sums;
 mod tangent;
@@ -33,12 +32,16 @@ use super::hub::Hub;
 use super::inertia::{Border, Foreshortening, Inertia, Totals};
 use super::linear::LinearCoupling;
 use super::station::{Placement, Station};
+use crate::basis::{Basis, BasisError};
 use crate::linalg::{Storage, Structure};
 use crate::profile::HubKinematics;
 use crate::section::Section;
 use crate::system::{State, Weights};
 use sums::{Point, Sums};
 use tangent::Tangent;
+
+/// Largest number of elements or cells of a basis: the full tangent of 300 has about a million entries.
+pub const MOST_ELEMENTS: usize = 300;
 
 /// A beam with the foreshortening to every order. See the [module documentation](self).
 #[derive(Debug)]
@@ -51,11 +54,31 @@ pub struct HighCoupling {
 
 impl HighCoupling {
     /// The coupling over `fields`, on a hub.
-    pub fn new(fields: Fields, section: &dyn Section, hub: &Hub) -> HighCoupling {
+    ///
+    /// # Errors
+    /// [`BasisError`] if a basis has more than [`MOST_ELEMENTS`].
+    pub fn new(fields: Fields, section: &dyn Section, hub: &Hub) -> Result<HighCoupling, BasisError> {
+        HighCoupling::validate(fields.axial())?;
+        HighCoupling::validate(fields.transverse())?;
         let sums = Sums::new(&fields, section);
-        let tangent = Tangent::new(&fields, &sums);
+        let tangent = Tangent::new(fields.len());
         let linear = LinearCoupling::new(fields, section, hub, Foreshortening::First).named("high");
-        HighCoupling { linear, sums, tangent }
+        Ok(HighCoupling { linear, sums, tangent })
+    }
+
+    /// Whether a basis has few enough elements for a full tangent.
+    ///
+    /// # Errors
+    /// [`BasisError`] if it has more than [`MOST_ELEMENTS`].
+    pub fn validate(basis: &dyn Basis) -> Result<(), BasisError> {
+        let elements = basis.cells().len().saturating_sub(1);
+        if elements <= MOST_ELEMENTS {
+            return Ok(());
+        }
+        Err(BasisError::Invalid(format!(
+            "the basis has {elements} elements; the coupling `high` has a full tangent matrix and takes at most \
+             {MOST_ELEMENTS}: take fewer, or the coupling `first` or `exact`"
+        )))
     }
 }
 
@@ -87,7 +110,7 @@ impl Coupling for HighCoupling {
     }
 
     fn structure(&self, border: usize) -> Structure {
-        self.tangent.structure(border)
+        Structure::dense(self.fields().len() + border)
     }
 
     fn add_forces(&mut self, s: &State, hub: &HubKinematics, r: &mut [f64]) {
@@ -103,7 +126,7 @@ impl Coupling for HighCoupling {
 
     fn add_tangent(&mut self, s: &State, hub: &HubKinematics, w: &Weights<'_>, out: &mut Storage<f64>) {
         self.sums.follow(s);
-        self.tangent.add(&self.sums, hub, w, out);
+        self.tangent.add(&mut self.sums, hub, w, out);
     }
 
     fn strain(&mut self, s: &State) -> f64 {

@@ -19,7 +19,7 @@ pub type Rates = [f64; 3];
 /// The axis at a point.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Point {
-    /// Axial stretch w₁ \[m\] and its rates.
+    /// Axial displacement w₁ \[m\] and its rates.
     pub w1: Rates,
     /// Deflection w₂ \[m\] and its rates.
     pub w2: Rates,
@@ -199,36 +199,38 @@ impl Sums {
         }
     }
 
-    /// The axis at the places of mass of cell `c`, and perhaps at its end.
-    pub fn of_cell(&self, c: usize) -> &[Point] {
-        &self.at[c * self.rows..(c + 1) * self.rows]
+    /// Adds to `y` the part of cell `c` in ∂w_c/∂qᵢ = −∫ w₂′ φy′ᵢ and its rates, with the quadrature weights `partial` of
+    /// a cell of unit length.
+    pub fn add_derivatives(&self, c: usize, partial: &[f64], y: &mut [Rates]) {
+        let cell = &self.cells[c];
+        let shapes = cell.slope.chunks_exact(cell.transverse.len().max(1));
+        for ((s, slope), phi) in partial.iter().zip(&self.slope[c * self.points..]).zip(shapes) {
+            for (&i, phi) in cell.transverse.iter().zip(phi) {
+                add(&mut y[i], -cell.length * s * phi, *slope);
+            }
+        }
     }
 
-    /// Adds to `r` the forces of accelerations `of`(point) = ([on w₁, on w₂], [along the axis, by N]):
-    /// Σ m a₁ φx, Σ m a₂ φy, and −∫ (N₀ w₂′ + N₁ ẇ₂′ + …) φy′ with the tails N of the last ones.
-    pub fn scatter<const N: usize>(&mut self, r: &mut [f64], of: impl Fn(&Point) -> ([f64; 2], [f64; N])) {
+    /// Calls `f` with every cell, its slopes, and the tails ∫ₓᴸ dm `along` at its points times the quadrature weights of a
+    /// cell of unit length; from the tip to the root.
+    pub fn tails<const N: usize>(
+        &mut self,
+        along: impl Fn(&Point) -> [f64; N],
+        mut f: impl FnMut(&Cell, &[Rates], &[Rates]),
+    ) {
         let p = self.points;
         // Tails at the end of the cell.
         let mut beyond = [0.0; N];
         for (c, cell) in self.cells.iter().enumerate().rev() {
-            let (na, nt) = (cell.axial.len(), cell.transverse.len());
-            let at = &self.at[c * self.rows..(c + 1) * self.rows];
-            let slope = &self.slope[c * p..(c + 1) * p];
             for (tension, weight) in self.tension.iter_mut().zip(&self.weights) {
                 for (tension, beyond) in tension.iter_mut().zip(beyond) {
                     *tension = weight * beyond;
                 }
             }
-            for (g, (&m, at)) in cell.mass.iter().zip(at).enumerate() {
-                let (on, along) = of(at);
-                for (&i, phi) in cell.axial.iter().zip(&cell.phi_x[g * na..]) {
-                    r[i] += m * on[0] * phi;
-                }
-                for (&i, phi) in cell.transverse.iter().zip(&cell.phi_y[g * nt..]) {
-                    r[i] += m * on[1] * phi;
-                }
-                let along = along.map(|x| m * x);
-                for (tension, partial) in self.tension.iter_mut().zip(&self.partial[g * p..(g + 1) * p]) {
+            let at = &self.at[c * self.rows..(c + 1) * self.rows];
+            for ((m, at), partial) in cell.mass.iter().zip(at).zip(self.partial.chunks_exact(p)) {
+                let along = along(at).map(|x| m * x);
+                for (tension, partial) in self.tension.iter_mut().zip(partial) {
                     for (tension, along) in tension.iter_mut().zip(along) {
                         *tension += partial * along;
                     }
@@ -237,14 +239,37 @@ impl Sums {
                     *beyond += along;
                 }
             }
-            for (k, (tension, slope)) in self.tension.iter().zip(slope).enumerate() {
-                let force: f64 = tension.iter().zip(slope).take(N).map(|(n, slope)| n * slope).sum();
-                let force = -cell.length * force;
-                for (&i, phi) in cell.transverse.iter().zip(&cell.slope[k * nt..]) {
-                    r[i] += force * phi;
+            f(cell, &self.slope[c * p..(c + 1) * p], &self.tension);
+        }
+    }
+
+    /// Adds to `r` the forces of accelerations `of`(point) = ([on w₁, on w₂], [along the axis, by N]):
+    /// Σ m a₁ φx, Σ m a₂ φy, and −∫ (N₀ w₂′ + N₁ ẇ₂′ + …) φy′ with the tails N of the last ones.
+    pub fn scatter<const N: usize>(&mut self, r: &mut [f64], of: impl Fn(&Point) -> ([f64; 2], [f64; N])) {
+        for (cell, at) in self.cells.iter().zip(self.at.chunks_exact(self.rows)) {
+            let (na, nt) = (cell.axial.len(), cell.transverse.len());
+            for (g, (&m, at)) in cell.mass.iter().zip(at).enumerate() {
+                let (on, _) = of(at);
+                for (&i, phi) in cell.axial.iter().zip(&cell.phi_x[g * na..]) {
+                    r[i] += m * on[0] * phi;
+                }
+                for (&i, phi) in cell.transverse.iter().zip(&cell.phi_y[g * nt..]) {
+                    r[i] += m * on[1] * phi;
                 }
             }
         }
+        self.tails(
+            |at| of(at).1,
+            |cell, slope, tension| {
+                let shapes = cell.slope.chunks_exact(cell.transverse.len().max(1));
+                for ((tension, slope), phi) in tension.iter().zip(slope).zip(shapes) {
+                    let force: f64 = tension.iter().zip(slope).take(N).map(|(n, slope)| n * slope).sum();
+                    for (&i, phi) in cell.transverse.iter().zip(phi) {
+                        r[i] -= cell.length * force * phi;
+                    }
+                }
+            },
+        );
     }
 }
 

@@ -1,8 +1,8 @@
 //! A couple on a section.
 
 use super::group::Group;
-use super::site::add_vector;
 use super::{Amplitude, Axes, Kinematics, Load, Site};
+use crate::hub_beam::fields::add_vector;
 
 /// A couple f(t) M about the normal of the plane of motion, on the section at one station. In the plane it does the
 /// work f M δ(θ + φ), φ the rotation of the section, whether it is thought of as dead or as following.
@@ -23,8 +23,8 @@ impl Load for Couple {
         if site.kinematics == Kinematics::Curve {
             group.push_couple(&point, self.couple, site.radius);
         } else {
-            add_vector(&mut group.turning, &point.transverse, 1, self.couple);
-            group.couple = self.couple;
+            add_vector(&mut group.m, &point.transverse, 1, self.couple);
+            group.moment = self.couple;
         }
         group
     }

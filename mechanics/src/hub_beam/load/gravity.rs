@@ -8,8 +8,9 @@
 //! n = (−φ, 1 − ½φ²): C_x ∋ −∫ρS φ dx, C_y ∋ ∫ρS (1 − ½φ²) dx.
 
 use super::group::Group;
-use super::site::{Share, add_outer, add_vector};
+use super::site::Share;
 use super::{Axes, Kinematics, Load, Site};
+use crate::hub_beam::fields::{add_outer, add_vector};
 use crate::linalg::Matrix;
 
 /// Uniform gravity in the plane of motion.
@@ -39,8 +40,8 @@ impl Load for Gravity {
                 group.push_eccentric(point, p, site.radius);
                 return;
             }
-            group.offset += p;
-            add_vector(&mut group.along, &point.transverse, 1, -p);
+            group.c_y += p;
+            add_vector(&mut group.g_x, &point.transverse, 1, -p);
             add_outer(&mut across, (&point.transverse, 1), (&point.transverse, 1), -p);
         });
         if eccentric && site.kinematics != Kinematics::Curve {

@@ -15,7 +15,7 @@ use super::on_section::{Nature, OnSection};
 use super::{Amplitude, Axes};
 use crate::hub_beam::fields::Point;
 use crate::hub_beam::inertia::Border;
-use crate::hub_beam::product::{Bundle, Vectors};
+use crate::hub_beam::product::{Bundle, Entry, Vectors};
 use crate::linalg::{Matrix, Storage, Structure};
 use crate::hub_beam::hub::force_jump;
 use crate::profile::{HubKinematics, jumping_derivative};
@@ -31,18 +31,18 @@ pub struct Group {
     /// Part of the load that is applied.
     part: f64,
     /// c_x and c_y
-    pub(super) arm: f64,
-    pub(super) offset: f64,
+    pub(super) c_x: f64,
+    pub(super) c_y: f64,
     /// g_x and g_y
-    pub(super) along: Vec<f64>,
-    pub(super) across: Vec<f64>,
+    pub(super) g_x: Vec<f64>,
+    pub(super) g_y: Vec<f64>,
     /// h
-    pub(super) lever: Vec<f64>,
-    /// m and M
-    pub(super) turning: Vec<f64>,
-    pub(super) couple: f64,
+    pub(super) h: Vec<f64>,
+    /// m and M \[N·m\]
+    pub(super) m: Vec<f64>,
+    pub(super) moment: f64,
     /// G_x, G_y and N, if one of them is there.
-    stiffness: Option<(Bundle, Vectors)>,
+    stiffness: Option<(Bundle, Vectors, Vec<Entry>)>,
     sections: Vec<OnSection>,
 }
 
@@ -63,13 +63,13 @@ impl Group {
             amplitude,
             gravity: false,
             part: 1.0,
-            arm: 0.0,
-            offset: 0.0,
-            along: zero(),
-            across: zero(),
-            lever: zero(),
-            turning: zero(),
-            couple: 0.0,
+            c_x: 0.0,
+            c_y: 0.0,
+            g_x: zero(),
+            g_y: zero(),
+            h: zero(),
+            m: zero(),
+            moment: 0.0,
             stiffness: None,
             sections: Vec::new(),
         }
@@ -79,14 +79,14 @@ impl Group {
     pub(super) fn stiffen(
         &mut self,
         structure: &Structure,
-        along: Option<&Matrix>,
-        across: Option<&Matrix>,
+        g_x: Option<&Matrix>,
+        g_y: Option<&Matrix>,
         follower: Option<&Matrix>,
     ) {
-        self.stiffness = (along.is_some() || across.is_some() || follower.is_some()).then(|| {
-            let bundle = Bundle::new(structure, self.along.len(), [along, across, follower, None]);
+        self.stiffness = (g_x.is_some() || g_y.is_some() || follower.is_some()).then(|| {
+            let bundle = Bundle::new(structure, self.g_x.len(), [g_x, g_y, follower, None]);
             let vectors = bundle.vectors();
-            (bundle, vectors)
+            (bundle, vectors, vec![[0.0; 4]; self.g_x.len()])
         });
     }
 
@@ -147,13 +147,12 @@ impl Group {
         Now { d: [x, y], by_angle: [0.0; 2], factor }
     }
 
-    /// Sets the vectors that [`Bundle::products`] multiplies.
-    fn prepare(&mut self, q: &[f64], d: [f64; 2], factor: f64) {
-        if let Some((_, x)) = &mut self.stiffness {
-            x.set(0, |i| d[0] * q[i]);
-            x.set(1, |i| d[1] * q[i]);
-            x.set(2, |i| factor * q[i]);
-        }
+    /// d_x G_x q, d_y G_y q and f N q, row after row; nothing if there are no such matrices.
+    fn products(&mut self, q: &[f64], d: [f64; 2], factor: f64) -> &[Entry] {
+        let Some((bundle, x, products)) = &mut self.stiffness else { return &[] };
+        x.set(|i| [d[0] * q[i], d[1] * q[i], factor * q[i], 0.0]);
+        bundle.products(x, products);
+        products
     }
 
     /// out += c Q_q
@@ -161,12 +160,11 @@ impl Group {
         let now = self.now(s.time(), hub);
         let d = now.d.map(|d| c * d);
         let m = c * now.factor;
-        for (i, out) in out.iter_mut().enumerate().take(self.along.len()) {
-            *out += d[0] * self.along[i] + d[1] * self.across[i] + m * self.turning[i];
+        for (i, out) in out.iter_mut().enumerate().take(self.g_x.len()) {
+            *out += d[0] * self.g_x[i] + d[1] * self.g_y[i] + m * self.m[i];
         }
-        self.prepare(&s.q, d, m);
-        if let Some((bundle, x)) = &self.stiffness {
-            bundle.products(x, |i, [gx, gy, n, _]| out[i] += gx + gy + n);
+        for (out, [gx, gy, n, _]) in out.iter_mut().zip(self.products(&s.q, d, m)) {
+            *out += gx + gy + n;
         }
         for section in &self.sections {
             section.add_force(s, &now, c, out);
@@ -179,7 +177,7 @@ impl Group {
             return;
         }
         let now = self.now(s.time(), hub);
-        if let Some((bundle, _)) = &self.stiffness {
+        if let Some((bundle, ..)) = &self.stiffness {
             bundle.add_sum([c * now.d[0], c * now.d[1], c * now.factor, 0.0], out);
         }
         for section in &self.sections {
@@ -189,15 +187,12 @@ impl Group {
 
     /// C_x and C_y.
     fn moments(&mut self, q: &[f64]) -> [f64; 2] {
-        let n = self.along.len();
+        let n = self.g_x.len();
         let inner = |a: &[f64]| a.iter().zip(&q[..n]).map(|(a, b)| a * b).sum::<f64>();
-        let mut c = [self.arm + inner(&self.along), self.offset + inner(&self.across)];
-        self.prepare(q, [1.0; 2], 0.0);
-        if let Some((bundle, x)) = &self.stiffness {
-            bundle.products(x, |i, [gx, gy, ..]| {
-                c[0] += 0.5 * q[i] * gx;
-                c[1] += 0.5 * q[i] * gy;
-            });
+        let mut c = [self.c_x + inner(&self.g_x), self.c_y + inner(&self.g_y)];
+        for (q, [gx, gy, ..]) in q.iter().zip(self.products(q, [1.0; 2], 0.0)) {
+            c[0] += 0.5 * q * gx;
+            c[1] += 0.5 * q * gy;
         }
         c
     }
@@ -206,9 +201,9 @@ impl Group {
     pub(super) fn torque(&mut self, s: &State, hub: &HubKinematics) -> f64 {
         let now = self.now(s.time(), hub);
         let [x, y] = self.moments(&s.q);
-        let lever: f64 = self.lever.iter().zip(&s.q).map(|(h, q)| h * q).sum();
+        let follower: f64 = self.h.iter().zip(&s.q).map(|(h, q)| h * q).sum();
         let sections: f64 = self.sections.iter().map(|section| section.torque(s, &now)).sum();
-        now.d[1] * x - now.d[0] * y + now.factor * (lever + self.couple) + sections
+        now.d[1] * x - now.d[0] * y + now.factor * (follower + self.moment) + sections
     }
 
     /// −f d·C for gravity, 0 for other loads.
@@ -227,18 +222,15 @@ impl Group {
         let now = self.now(s.time(), hub);
         let dead = if self.axes == Axes::Dead { 1.0 } else { 0.0 };
         // Q_θ by q: as the force with the components (d_y, −d_x), whatever the axes.
-        let across = [c * now.d[1], -c * now.d[0]];
-        for i in 0..self.along.len() {
-            let turned = across[0] * self.along[i] + across[1] * self.across[i];
-            out.column[i] += dead * turned;
-            out.row[i] += turned + c * now.factor * self.lever[i];
+        let normal = [c * now.d[1], -c * now.d[0]];
+        for i in 0..self.g_x.len() {
+            let rotated = normal[0] * self.g_x[i] + normal[1] * self.g_y[i];
+            out.column[i] += dead * rotated;
+            out.row[i] += rotated + c * now.factor * self.h[i];
         }
-        self.prepare(&s.q, across, 0.0);
-        if let Some((bundle, x)) = &self.stiffness {
-            bundle.products(x, |i, [gx, gy, ..]| {
-                out.column[i] += dead * (gx + gy);
-                out.row[i] += gx + gy;
-            });
+        for (i, [gx, gy, ..]) in self.products(&s.q, normal, 0.0).iter().enumerate() {
+            out.column[i] += dead * (gx + gy);
+            out.row[i] += gx + gy;
         }
         if dead != 0.0 {
             let [x, y] = self.moments(&s.q);

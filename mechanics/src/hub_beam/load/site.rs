@@ -2,7 +2,7 @@
 
 use super::group::Group;
 use super::{Amplitude, Axes};
-use crate::hub_beam::fields::{Fields, Point, Shapes};
+use crate::hub_beam::fields::{Fields, Point, add_outer, add_vector};
 use crate::linalg::{Matrix, Structure};
 use crate::section::Section;
 
@@ -77,14 +77,14 @@ impl Site<'_> {
         let (mut along, mut follower) = (new(), new());
         share.each(fields, |point, p| {
             let r = self.radius + point.x;
-            group.arm += p * r;
-            add_vector(&mut group.along, &point.axial, 0, p);
-            add_vector(&mut group.across, &point.transverse, 0, p);
+            group.c_x += p * r;
+            add_vector(&mut group.g_x, &point.axial, 0, p);
+            add_vector(&mut group.g_y, &point.transverse, 0, p);
             if axes == Axes::Follower {
                 // (F_x, F_y) turned by φ = w₂′: (−φ F_y, φ F_x).
                 add_outer(&mut follower, (&point.axial, 0), (&point.transverse, 1), -p * force[1]);
                 add_outer(&mut follower, (&point.transverse, 0), (&point.transverse, 1), p * force[0]);
-                add_vector(&mut group.lever, &point.transverse, 1, p * r * force[0]);
+                add_vector(&mut group.h, &point.transverse, 1, p * r * force[0]);
             }
         });
         let shortened = self.kinematics == Kinematics::Foreshortened;
@@ -105,24 +105,5 @@ impl Site<'_> {
             let tail = point.weight * (spread(point.x) + beyond);
             add_outer(out, (&point.transverse, 1), (&point.transverse, 1), -tail);
         });
-    }
-}
-
-/// out += w φ⁽ᵈ⁾
-pub(super) fn add_vector(out: &mut [f64], shapes: &Shapes, d: usize, w: f64) {
-    for (&i, phi) in shapes.index.iter().zip(&shapes.value[d]) {
-        out[i] += w * phi;
-    }
-}
-
-/// out += w φ⁽ᵈ⁾ ψ⁽ᵉ⁾ᵀ
-pub(super) fn add_outer(out: &mut Matrix, row: (&Shapes, usize), column: (&Shapes, usize), w: f64) {
-    if w == 0.0 {
-        return;
-    }
-    for (&i, phi) in row.0.index.iter().zip(&row.0.value[row.1]) {
-        for (&j, psi) in column.0.index.iter().zip(&column.0.value[column.1]) {
-            out.add(i, j, w * phi * psi);
-        }
     }
 }

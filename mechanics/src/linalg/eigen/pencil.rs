@@ -305,7 +305,7 @@ impl Parts {
 pub fn each(matrix: &Matrix, mut f: impl FnMut(usize, usize)) {
     let n = matrix.order();
     match matrix.storage() {
-        Storage::Dense(_) | Storage::Condensed(_) => (0..n * n).for_each(|k| f(k / n, k % n)),
+        Storage::Dense(_) => (0..n * n).for_each(|k| f(k / n, k % n)),
         Storage::Band(a) => {
             let (band, lower, upper) = (a.band().order(), a.band().lower(), a.band().upper());
             for i in 0..n {
@@ -321,7 +321,6 @@ pub fn each(matrix: &Matrix, mut f: impl FnMut(usize, usize)) {
 fn half_bandwidth(matrix: &Matrix<Double>) -> Option<usize> {
     match matrix.storage() {
         Storage::Dense(a) => Some(a.order().saturating_sub(1)),
-        Storage::Condensed(_) => None,
         Storage::Band(a) => (a.order() == a.band().order()).then(|| a.band().upper().max(a.band().lower())),
     }
 }

@@ -7,7 +7,7 @@ use crate::profile::HubKinematics;
 use crate::system::Weights;
 
 /// The rotation of a section: everything the inertia of its rotation needs.
-pub struct Turn {
+pub struct SectionRotation {
     p: [f64; 2],
     velocity: [f64; 2],
     /// ℓ, t, n
@@ -42,7 +42,7 @@ fn absolute(p: [f64; 2], v: [f64; 2], a: [f64; 2], hub: &HubKinematics) -> [f64;
     [a[0] - 2.0 * w * v[1] - w1 * p[1] - w * w * p[0], a[1] + 2.0 * w * v[0] + w1 * p[0] - w * w * p[1]]
 }
 
-impl Turn {
+impl SectionRotation {
     /// The rotation at a place p with slope p′, their rates and their accelerations.
     pub fn new(
         p: [f64; 2],
@@ -50,14 +50,14 @@ impl Turn {
         [velocity, slope_velocity]: [[f64; 2]; 2],
         [acceleration, slope_acceleration]: [[f64; 2]; 2],
         hub: &HubKinematics,
-    ) -> Turn {
+    ) -> SectionRotation {
         let stretch = slope[0].hypot(slope[1]);
         let t = [slope[0] / stretch, slope[1] / stretch];
         let n = [-t[1], t[0]];
         let rate = inner(n, slope_velocity) / stretch;
         let along = inner(t, slope_velocity);
         let rate_rate = (inner(n, slope_acceleration) - 2.0 * rate * along) / stretch;
-        Turn {
+        SectionRotation {
             p,
             velocity,
             stretch,
@@ -81,7 +81,7 @@ impl Turn {
         (value, sum(couple / self.stretch, self.n, 0.0, self.n))
     }
 
-    /// Derivative of [`Turn::force`] for a unit `seed` of p (or of p′ if `slope`), moving positions,
+    /// Derivative of [`SectionRotation::force`] for a unit `seed` of p (or of p′ if `slope`), moving positions,
     /// velocities and accelerations by the weights.
     pub fn derivative(
         &self,
@@ -123,7 +123,7 @@ impl Turn {
         (value, sum((dcouple - couple * dl / l) / l, n, -couple * dphi / l, t))
     }
 
-    /// Derivative of the torque of [`Turn::totals`] for a `seed` as in [`Turn::derivative`].
+    /// Derivative of the torque of [`SectionRotation::totals`] for a `seed` as in [`SectionRotation::derivative`].
     pub fn torque_derivative(
         &self,
         seed: [f64; 2],
