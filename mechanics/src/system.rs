@@ -234,9 +234,6 @@ impl Turns {
     }
 }
 
-/// Receives the terms w b bᵀ of a matrix: numbers of the unknowns, entries of b there, and w.
-pub type VisitTerm<'a> = dyn FnMut(&[usize], &[f64], f64) + 'a;
-
 /// A mechanical model. See the [module documentation](self) for the equations.
 pub trait System {
     /// Numbers of coordinates, velocities and multipliers.
@@ -294,13 +291,13 @@ pub trait System {
         false
     }
 
-    /// ∂r/∂q with the strains apart: K = `rest` + Σ w b bᵀ. `visit` is given for each term the numbers of the
-    /// unknowns, the entries of b there, and w. `false`, and nothing done, for a model that does not know.
+    /// xᵀ (∂r/∂q) x of each of the vectors, the strain energy summed strain by strain, Σ w (bᵀx)². `None` for a model that
+    /// has its stiffness as a matrix only.
     ///
-    /// The condition number of the stiffness of n bending elements grows like n⁴: the sum loses the lowest
-    /// frequencies when it is stored in doubles, but not its terms.
-    fn stiffness_terms(&mut self, _s: &State, _rest: &mut Matrix, _visit: &mut VisitTerm<'_>) -> bool {
-        false
+    /// The condition number of the stiffness of n bending elements grows like n⁴: its entries, rounded to doubles, lose
+    /// the lowest frequencies, but not the strains, which lose n²ε.
+    fn stiffness_forms(&mut self, _s: &State, _vectors: &[Vec<f64>]) -> Option<Vec<f64>> {
+        None
     }
 
     /// What unknown `i` (a velocity) moves.

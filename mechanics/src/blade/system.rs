@@ -8,9 +8,7 @@ use super::model::{BladeError, Model, Setting, StrainEnergy};
 use super::tension::Tension;
 use crate::linalg::{Matrix, Storage, Structure};
 use crate::section::BladeSection;
-use crate::system::{
-    Channel, Direction, Energy, Frame, Label, Power, Size, State, System, VisitTerm, Weights,
-};
+use crate::system::{Channel, Direction, Energy, Frame, Label, Power, Size, State, System, Weights};
 
 /// A rotating blade. See the [module documentation](super).
 ///
@@ -270,12 +268,8 @@ impl System for Blade {
         true
     }
 
-    fn stiffness_terms(&mut self, _s: &State, rest: &mut Matrix, visit: &mut VisitTerm<'_>) -> bool {
-        if self.lost.is_some() {
-            return false;
-        }
-        self.matrices.visit_strain(self.speed, &self.steady, rest, visit);
-        true
+    fn stiffness_forms(&mut self, _s: &State, vectors: &[Vec<f64>]) -> Option<Vec<f64>> {
+        self.lost.is_none().then(|| self.matrices.stiffness_forms(self.speed, &self.steady, vectors))
     }
 
     fn direction(&self, i: usize) -> Direction {

@@ -76,8 +76,6 @@ pub struct Inertia {
     /// J, hub included [kg·m²].
     moment: f64,
     damping: Damping,
-    /// Whether the forces K (q + η v) are added by somebody else.
-    strain_apart: bool,
 }
 
 /// What hub and beam have together.
@@ -219,18 +217,12 @@ impl Inertia {
             transverse_moment: sy,
             moment,
             damping: Damping::default(),
-            strain_apart: false,
         }
     }
 
     /// Adds the forces β M v + η K v.
     pub fn damp(&mut self, damping: Damping) {
         self.damping = damping;
-    }
-
-    /// Leaves the forces K (q + η v) out of the residual from now on, not K out of the tangent.
-    pub fn leave_strain_apart(&mut self) {
-        self.strain_apart = true;
     }
 
     /// Power that [`Inertia::damp`] takes, vᵀ(βM + ηK) v \[W\].
@@ -282,9 +274,6 @@ impl Inertia {
             x.set(0, |i| a[i] + mass * v[i] - w2 * q[i]);
             x.set(2, |i| q[i] + stiffness * v[i]);
         }
-        if self.strain_apart {
-            x.set(2, |_| 0.0);
-        }
         x.set(1, |i| w * v[i] + 0.5 * w1 * q[i]);
         x.set(3, |i| w2 * q[i]);
         self.bundle.products(x, |i, [m, g, k, n]| r[i] = (m + k) + (g + n) + constant(i));
@@ -309,9 +298,6 @@ impl Inertia {
         } else {
             pair.set(0, |i| a[i] + mass * v[i]);
             x.set(2, |i| q[i] + stiffness * v[i]);
-        }
-        if self.strain_apart {
-            x.set(2, |_| 0.0);
         }
         pair.set(1, |i| v[i]);
         let (mut qdq, mut qdv, mut aeq, mut vpv) = (0.0, 0.0, 0.0, 0.0);

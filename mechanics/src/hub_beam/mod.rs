@@ -27,7 +27,6 @@ mod product;
 mod rule;
 mod section_forces;
 mod station;
-mod strain_terms;
 mod system;
 #[cfg(test)]
 mod tests;
