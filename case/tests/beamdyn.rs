@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
-use flexion::analysis::campbell::{Campbell, HubState, Plan, campbell};
+use flexion::analysis::campbell::{Campbell, HubState, Plan};
 use flexion_case::{build, parse};
 use std::f64::consts::TAU;
 use std::fmt::Write;
@@ -81,14 +81,19 @@ fn diagram(format: &str, text: &str) -> Campbell {
     let reading =
         parse(case, &folder.path().join("case.toml"), &[]).unwrap_or_else(|problems| panic!("{problems}"));
     let plan = Plan {
-        speeds: (0..=10).map(|i| 0.2 * f64::from(i)).collect(),
+        speeds: (0..=40).map(|i| 0.05 * f64::from(i)).collect(),
         count: 8,
         stations: vec![0.0, 30.75, 61.5],
         hub: HubState::Held,
         revolutions: 6,
-        threads: 1,
     };
-    campbell(&|| build::vibrating(&reading.case).map_err(|e| e.to_string()), &plan, &|_| true).unwrap()
+    let on = |threads| {
+        let build = || build::vibrating(&reading.case).map_err(|e| e.to_string());
+        flexion_case::campbell(&build, &plan, threads, &|_| true).unwrap()
+    };
+    let alone = on(1);
+    assert_eq!(alone, on(3), "the number of threads changes nothing");
+    alone
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use crate::vibration::{self, Options, Speed, report, speed, stations, title};
 use crate::{Outcome, case, screen};
-use flexion::analysis::campbell::{Campbell, Instability, NoCampbell, Plan, campbell as follow};
+use flexion::analysis::campbell::{Campbell, Instability, NoCampbell, Plan};
 use flexion_case::Reading;
 use flexion_results::{Artifact, Directory, Frequencies, write_campbell};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -88,10 +88,10 @@ impl Range {
     }
 }
 
-/// Follows the modes of a case.
+/// Computes the diagram of a case.
 pub fn campbell(arguments: &Arguments) -> Outcome {
     let Some(reading) = arguments.case.read() else { return Outcome::Rejected };
-    match followed(arguments, &reading) {
+    match diagram(arguments, &reading) {
         Ok(true) => Outcome::Finished,
         Ok(false) => Outcome::Incomplete,
         Err(message) => {
@@ -102,7 +102,7 @@ pub fn campbell(arguments: &Arguments) -> Outcome {
 }
 
 /// Whether the diagram is whole, and written.
-fn followed(arguments: &Arguments, reading: &Reading) -> Result<bool, String> {
+fn diagram(arguments: &Arguments, reading: &Reading) -> Result<bool, String> {
     let case = &reading.case;
     let unit = arguments.options.frequencies(case)?;
     let plan = Plan {
@@ -111,7 +111,6 @@ fn followed(arguments: &Arguments, reading: &Reading) -> Result<bool, String> {
         stations: stations(case),
         hub: arguments.options.hub(case)?,
         revolutions: arguments.revolutions,
-        threads: arguments.threads,
     };
     let named = format!("{}-campbell", arguments.case.name());
     let output = arguments.output.clone().unwrap_or_else(|| Path::new("results").join(named));
@@ -126,7 +125,7 @@ fn followed(arguments: &Arguments, reading: &Reading) -> Result<bool, String> {
         bar.set_position(done as u64);
         true
     };
-    let diagram = follow(&|| vibration::system(&steady), &plan, &progress);
+    let diagram = flexion_case::campbell(&|| vibration::system(&steady), &plan, arguments.threads, &progress);
     bar.finish_and_clear();
     let diagram = diagram.map_err(|error: NoCampbell| {
         directory.discard();
@@ -163,8 +162,7 @@ fn followed(arguments: &Arguments, reading: &Reading) -> Result<bool, String> {
 /// Modes at both ends, and crossings.
 fn described(diagram: &Campbell, unit: &Frequencies) -> String {
     let mut out = format!("{} modes at {} speeds\n\n", diagram.branches.len(), diagram.speeds.len());
-    let mut rows =
-        vec![["mode", "first", "last", "followed to", "moves at first"].map(str::to_owned).to_vec()];
+    let mut rows = vec![["mode", "first", "last", "up to", "moves at first"].map(str::to_owned).to_vec()];
     for (number, branch) in diagram.branches.iter().enumerate() {
         if let (Some(first), Some(last)) = (branch.points.first(), branch.points.last()) {
             rows.push(vec![

@@ -40,9 +40,8 @@ fn main() {
             stations: Vec::new(),
             hub: HubState::Held,
             revolutions: 4,
-            threads: 1,
         };
-        black_box(campbell(&|| Ok(spin_up::system(coupling, elements)), &plan, &|_| true).unwrap());
+        black_box(campbell(spin_up::system(coupling, elements), &plan, |_| true).unwrap());
     } else {
         let mut run = spin_up::Run::new(coupling, elements, integrator);
         run.steps(steps);

@@ -1,8 +1,10 @@
-//! Campbell diagrams: modes followed by their shapes.
+//! Campbell diagrams: modes joined by their shapes.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs)]
 
-use flexion::analysis::campbell::{Campbell, HubState, Instability, NoCampbell, Plan, campbell};
+use flexion::analysis::campbell::{
+    Campbell, HubState, Instability, NoCampbell, Plan, Speeds, assemble, campbell,
+};
 use flexion::analysis::modes::modes;
 use flexion::analysis::rotation::rotate;
 use flexion::basis::{Field, Hermite, Lagrange};
@@ -13,7 +15,7 @@ use flexion::system::{State, System};
 use std::sync::Arc;
 
 /// L = ρA = EI = 1, EA = slenderness².
-fn beam(slenderness: f64, foreshortening: Foreshortening) -> Result<Box<dyn System>, String> {
+fn beam(slenderness: f64, foreshortening: Foreshortening) -> Box<dyn System> {
     let resultants = Resultants {
         mass: 1.0,
         axial_stiffness: slenderness * slenderness,
@@ -27,7 +29,7 @@ fn beam(slenderness: f64, foreshortening: Foreshortening) -> Result<Box<dyn Syst
     let transverse = Box::new(Hermite::new(1.0, 20, Field::Transverse).unwrap());
     let fields = Fields::new(1.0, axial, transverse, &[]);
     let coupling = LinearCoupling::new(fields, &section, &hub, foreshortening);
-    Ok(Box::new(HubBeam::new(hub, coupling, &[])))
+    Box::new(HubBeam::new(hub, coupling, &[]))
 }
 
 fn plan(to: f64, number: u32, count: usize) -> Plan {
@@ -37,21 +39,26 @@ fn plan(to: f64, number: u32, count: usize) -> Plan {
         stations: vec![0.0, 0.25, 0.5, 0.75, 1.0],
         hub: HubState::Held,
         revolutions: 4,
-        threads: 1,
     }
 }
 
 fn diagram(slenderness: f64, plan: &Plan) -> Campbell {
-    campbell(&|| beam(slenderness, Foreshortening::First), plan, &|_| true).unwrap()
+    campbell(beam(slenderness, Foreshortening::First), plan, |_| true).unwrap()
 }
 
 #[test]
-fn the_number_of_threads_changes_nothing() {
-    let plan = plan(20.0, 41, 4);
+fn blocks_computed_apart_and_in_any_order_make_the_same_diagram() {
+    let plan = plan(20.0, 60, 4);
     let alone = diagram(70.0, &plan);
-    assert_eq!(alone, diagram(70.0, &Plan { threads: 3, ..plan.clone() }));
+    let speeds = || Speeds::new(beam(70.0, Foreshortening::First), &plan).unwrap();
+    let (mut one, mut other) = (speeds(), speeds());
+    assert_eq!(Speeds::blocks(&plan), 3);
+    let last = one.block(2, || true).unwrap();
+    let blocks = vec![one.block(0, || true).unwrap(), other.block(1, || true).unwrap(), last];
+    assert_eq!(alone, assemble(&mut other, blocks).unwrap());
     assert_eq!(alone.branches.len(), 4);
     assert!(alone.branches.iter().all(|b| b.points.len() == alone.speeds.len()));
+    assert_eq!(one.block(1, || false).unwrap_err(), NoCampbell::Stopped);
 }
 
 #[test]
@@ -69,7 +76,7 @@ fn a_branch_keeps_its_shape_where_frequencies_come_close() {
 
 /// Modes found anew at a speed, from rest.
 fn anew(slenderness: f64, speed: f64, count: usize) -> Vec<f64> {
-    let mut system = beam(slenderness, Foreshortening::First).unwrap();
+    let mut system = beam(slenderness, Foreshortening::First);
     let mut state = State::zeros(system.size(), 0.0);
     rotate(system.as_mut(), &mut state, 0.0, speed).unwrap();
     let modes = modes(system.as_mut(), &state, count, &[]).unwrap();
@@ -93,22 +100,22 @@ fn at_a_crossing_a_mode_has_a_whole_number_of_vibrations_a_revolution() {
     }
 }
 
-/// Following by Rayleigh quotients and the Krylov spaces that begin anew have the equations in common, and nothing else.
-/// A beam whose axial modes lie among the bending modes, at speeds at which they cross.
+/// A beam whose axial modes lie among the bending modes, at speeds at which they cross: Krylov spaces that begin with the
+/// modes of the last speed against those that begin with a random vector.
 #[test]
-fn modes_that_are_followed_are_those_found_anew_and_none_is_missing() {
+fn the_modes_of_a_diagram_are_those_of_each_speed_alone_and_none_is_missing() {
     for slenderness in [20.0, 70.0, 1000.0] {
         let diagram = diagram(slenderness, &plan(12.0, 31, 6));
         for speed in diagram.speeds.iter().step_by(6) {
-            let mut followed: Vec<f64> = Vec::new();
+            let mut joined: Vec<f64> = Vec::new();
             for branch in &diagram.branches {
                 let point = branch.points.iter().find(|p| p.speed == *speed).unwrap();
                 assert!(point.mode.residual < 1e-7);
-                followed.push(point.mode.frequency());
+                joined.push(point.mode.frequency());
             }
-            followed.sort_by(f64::total_cmp);
+            joined.sort_by(f64::total_cmp);
             // No crossing leads out of the first six at these speeds.
-            for (a, b) in followed.iter().zip(anew(slenderness, *speed, 6)) {
+            for (a, b) in joined.iter().zip(anew(slenderness, *speed, 6)) {
                 assert!((a / b - 1.0).abs() < 1e-8, "{a} and {b} at {speed}, slenderness {slenderness}");
             }
         }
@@ -118,7 +125,7 @@ fn modes_that_are_followed_are_those_found_anew_and_none_is_missing() {
 #[test]
 fn a_diagram_ends_where_the_beam_buckles_and_says_so() {
     let plan = plan(10.0, 21, 2);
-    let diagram = campbell(&|| beam(1000.0, Foreshortening::None), &plan, &|_| true).unwrap();
+    let diagram = campbell(beam(1000.0, Foreshortening::None), &plan, |_| true).unwrap();
     let [Instability::Divergence { speed, .. }] = diagram.instabilities[..] else {
         panic!("{:?}", diagram.instabilities);
     };
@@ -133,7 +140,7 @@ fn modes_are_found_right_up_to_a_divergence() {
     let critical = 3.516015268500612;
     let speeds = vec![3.0, 3.4, 3.51, 3.515, critical * (1.0 - 1e-5), 4.0];
     let plan = Plan { speeds: speeds.clone(), ..plan(1.0, 2, 6) };
-    let diagram = campbell(&|| beam(1000.0, Foreshortening::None), &plan, &|_| true).unwrap();
+    let diagram = campbell(beam(1000.0, Foreshortening::None), &plan, |_| true).unwrap();
     assert_eq!(diagram.speeds.last(), Some(&speeds[4]));
     assert!(matches!(diagram.instabilities[..], [Instability::Divergence { .. }]));
     // ω₁² of the beam at rest less Ω². Of ω₁² twenty elements miss (βh)⁴/720 = 10⁻⁷, half a percent of the difference.
@@ -145,7 +152,7 @@ fn modes_are_found_right_up_to_a_divergence() {
 fn speeds_that_make_no_axis_are_refused() {
     for speeds in [vec![], vec![1.0], vec![2.0, 1.0], vec![-1.0, 1.0], vec![0.0, f64::NAN]] {
         let plan = Plan { speeds, ..plan(1.0, 2, 1) };
-        let result = campbell(&|| beam(70.0, Foreshortening::First), &plan, &|_| true);
+        let result = campbell(beam(70.0, Foreshortening::First), &plan, |_| true);
         assert_eq!(result, Err(NoCampbell::Speeds));
     }
 }

@@ -1,25 +1,22 @@
 //! Campbell diagram: the modes of a steadily turning system as functions of its speed.
 //!
-//! Modes are followed by their shapes, never by their order: from one speed to the next the pairs with the
+//! Modes are joined by their shapes, never by their order: from one speed to the next the pairs with the
 //! largest assurance |xᴴ M y|² / (xᴴ M x · yᴴ M y) belong together, so that curves pass through each other where they
 //! cross and bend where they veer. Where a shape changes too much between two speeds, speeds are
 //! inserted until it does not.
 //!
-//! Speeds are cut into blocks of fixed length that threads share; within a block the equilibrium and the modes of
-//! the last speeds begin the next, which the inertia of the system checks.
-//! The result does not depend on the number of threads.
+//! Speeds are cut into [blocks](Speeds::block) of fixed length, each of which begins at rest and may be computed by a system
+//! of its own, in parallel; within a block the equilibrium and the modes of the last speed begin the next.
 
 use super::crossings::crossings;
 use super::modes::{Mode, NoModes};
 use super::rotation::NoRotation;
 use super::tracking::{Match, Tracker, match_shapes};
-use super::worker::{Solved, Worker};
 use crate::system::System;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-/// Speeds in a block.
-const BLOCK: usize = 25;
+use super::speeds::Solved;
+pub use super::speeds::Speeds;
+
 /// Halvings of an interval of speed in which a shape changes too much.
 const HALVINGS: u32 = 8;
 /// Damping ratio below which a motion grows.
@@ -38,8 +35,6 @@ pub struct Plan {
     pub hub: HubState,
     /// Lines ω = k Ω whose crossings are looked for, from 1 to this k.
     pub revolutions: u32,
-    /// Number of threads; 0 for as many as the machine has.
-    pub threads: usize,
 }
 
 /// What the hub does while the beam vibrates.
@@ -96,14 +91,14 @@ pub enum Instability {
     Divergence {
         /// The critical speed [rad/s], to six digits.
         speed: f64,
-        /// The whole story.
+        /// The message.
         reason: String,
     },
     /// No steady rotation was found beyond a speed.
     Lost {
-        /// Speed up to which it was followed [rad/s].
+        /// Speed that was reached [rad/s].
         speed: f64,
-        /// The whole story.
+        /// The message.
         reason: String,
     },
 }
@@ -146,48 +141,72 @@ pub enum NoCampbell {
     Stopped,
 }
 
-/// Builds the system of the diagram, once a thread.
-pub type Build<'a> = dyn Fn() -> Result<Box<dyn System>, String> + Sync + 'a;
+/// The modes at the speeds of a block, up to the first failure.
+#[derive(Debug)]
+pub struct Block {
+    pub(super) solved: Vec<Solved>,
+    pub(super) failure: Option<NoCampbell>,
+}
 
-/// Computes the diagram. `progress` is told how many of the speeds are done, and may break off by `false`.
+impl Block {
+    /// Whether it ends before its last speed: what lies beyond is not in the diagram.
+    pub fn ends(&self) -> bool {
+        self.failure.is_some()
+    }
+}
+
+/// Computes the diagram of a system. `progress` is called with the number of speeds that are done, and stops by `false`.
 ///
 /// # Errors
 /// [`NoCampbell`]. A divergence, or the end of steady rotation, beyond the first speed is no error: the diagram ends there and
 /// says so.
 pub fn campbell(
-    build: &Build<'_>,
+    system: Box<dyn System>,
     plan: &Plan,
-    progress: &(dyn Fn(usize) -> bool + Sync),
+    mut progress: impl FnMut(usize) -> bool,
 ) -> Result<Campbell, NoCampbell> {
-    let speeds = &plan.speeds;
-    let ascending =
-        speeds.windows(2).all(|w| w[0] < w[1]) && speeds.iter().all(|s| s.is_finite() && *s >= 0.0);
-    if speeds.len() < 2 || !ascending {
-        return Err(NoCampbell::Speeds);
-    }
-    let mut solved = Vec::with_capacity(speeds.len());
-    let mut ended = None;
-    let (results, mut worker) = solve_all(build, plan, progress)?;
-    for result in results {
-        match result {
-            Ok(one) => solved.push(one),
-            Err(NoCampbell::Rotation(NoRotation::DoesNotTurn)) => return Err(NoRotation::DoesNotTurn.into()),
-            Err(NoCampbell::Rotation(reason)) => {
-                ended = Some(reason);
-                break;
-            }
-            Err(other) => return Err(other),
+    let mut speeds = Speeds::new(system, plan)?;
+    let (mut blocks, mut done) = (Vec::new(), 0);
+    for number in 0..Speeds::blocks(plan) {
+        let block = speeds.block(number, || {
+            done += 1;
+            progress(done)
+        })?;
+        let ends = block.ends();
+        blocks.push(block);
+        if ends {
+            break;
         }
+    }
+    assemble(&mut speeds, blocks)
+}
+
+/// The diagram of the blocks in their order, up to the first that ends; `system` computes what is needed in between.
+///
+/// # Errors
+/// As [`campbell`].
+pub fn assemble(system: &mut Speeds<'_>, blocks: Vec<Block>) -> Result<Campbell, NoCampbell> {
+    let plan = system.plan();
+    let mut solved = Vec::with_capacity(plan.speeds.len());
+    let mut ended = None;
+    for block in blocks {
+        solved.extend(block.solved);
+        match block.failure {
+            None => continue,
+            Some(NoCampbell::Rotation(reason)) if reason != NoRotation::DoesNotTurn => ended = Some(reason),
+            Some(failure) => return Err(failure),
+        }
+        break;
     }
     match ended {
         Some(reason) if solved.is_empty() => return Err(reason.into()),
         _ => {}
     }
-    worker.rest();
-    let (solved, matches) = refine(&mut worker, solved)?;
-    let mut branches = follow(&solved, &matches, plan.count);
-    let crossings = crossings(&mut worker, &solved, &branches, plan.revolutions);
-    worker.describe_ends(&solved, &mut branches);
+    system.rest();
+    let (solved, matches) = refine(system, solved)?;
+    let mut branches = join(&solved, &matches, plan.count);
+    let crossings = crossings(system, &solved, &branches, plan.revolutions);
+    system.describe_ends(&solved, &mut branches);
     let mut instabilities = flutter(&branches);
     if let Some(ended) = ended {
         let (speed, reason) = (ended.reached(), ended.to_string());
@@ -199,77 +218,12 @@ pub fn campbell(
     Ok(Campbell { speeds: solved.iter().map(|s| s.speed).collect(), branches, crossings, instabilities })
 }
 
-type Results = Vec<Result<Solved, NoCampbell>>;
-
-/// The modes at all speeds, up to the first failure in each block, and one of those who found them.
-fn solve_all<'a>(
-    build: &Build<'_>,
-    plan: &'a Plan,
-    progress: &(dyn Fn(usize) -> bool + Sync),
-) -> Result<(Results, Worker<'a>), NoCampbell> {
-    let blocks: Vec<&[f64]> = plan.speeds.chunks(BLOCK).collect();
-    let threads = match plan.threads {
-        0 => std::thread::available_parallelism().map_or(1, usize::from),
-        n => n,
-    };
-    let (next, done, stop) = (AtomicUsize::new(0), AtomicUsize::new(0), AtomicBool::new(false));
-    // Nothing is computed beyond a block in which the rotation ends.
-    let end = AtomicUsize::new(usize::MAX);
-    let results: Vec<Mutex<Results>> = blocks.iter().map(|_| Mutex::new(Vec::new())).collect();
-    let work = |worker: &mut Worker<'_>| -> Result<(), NoCampbell> {
-        loop {
-            let number = next.fetch_add(1, Ordering::Relaxed);
-            let (Some(block), Some(slot)) = (blocks.get(number), results.get(number)) else { return Ok(()) };
-            if end.load(Ordering::Relaxed) < number {
-                continue;
-            }
-            worker.rest();
-            let mut out: Vec<Solved> = Vec::with_capacity(block.len());
-            let mut failure = None;
-            for &speed in *block {
-                if stop.load(Ordering::Relaxed) {
-                    return Err(NoCampbell::Stopped);
-                }
-                let last = &out[out.len().saturating_sub(2)..];
-                let result = worker.solve(speed, last);
-                if !progress(1 + done.fetch_add(1, Ordering::Relaxed)) {
-                    stop.store(true, Ordering::Relaxed);
-                }
-                match result {
-                    Ok(solved) => out.push(solved),
-                    Err(why) => {
-                        failure = Some(Err(why));
-                        end.fetch_min(number, Ordering::Relaxed);
-                        break;
-                    }
-                }
-            }
-            let out = out.into_iter().map(Ok).chain(failure).collect();
-            if let Ok(mut slot) = slot.lock() {
-                *slot = out;
-            }
-        }
-    };
-    let mut worker = Worker::new(build, plan)?;
-    let helper = || work(&mut Worker::new(build, plan)?);
-    std::thread::scope(|scope| {
-        let others: Vec<_> = (1..threads.min(blocks.len())).map(|_| scope.spawn(helper)).collect();
-        let mut outcome = work(&mut worker);
-        for other in others {
-            outcome = outcome.and(other.join().unwrap_or(Err(NoCampbell::Stopped)));
-        }
-        outcome
-    })?;
-    let results = results.into_iter().flat_map(|slot| slot.into_inner().unwrap_or_default()).collect();
-    Ok((results, worker))
-}
-
 /// Inserts speeds where a shape changes too much from one to the next; with the matches of each speed with the next.
 fn refine(
-    worker: &mut Worker<'_>,
+    system: &mut Speeds<'_>,
     solved: Vec<Solved>,
 ) -> Result<(Vec<Solved>, Vec<Vec<Match>>), NoCampbell> {
-    let count = worker.plan().count;
+    let count = system.plan().count;
     let mut out: Vec<Solved> = Vec::with_capacity(solved.len());
     let mut all = Vec::with_capacity(solved.len());
     for next in solved {
@@ -288,8 +242,7 @@ fn refine(
                 out.extend(ahead.pop());
             } else {
                 let middle = 0.5 * (from.speed + to.speed);
-                worker.go_to(from);
-                ahead.push(worker.solve(middle, std::slice::from_ref(from))?);
+                ahead.push(system.between(middle, from)?);
             }
         }
     }
@@ -297,7 +250,7 @@ fn refine(
 }
 
 /// The branches that begin as the lowest `count` modes.
-fn follow(solved: &[Solved], matches: &[Vec<Match>], count: usize) -> Vec<Branch> {
+fn join(solved: &[Solved], matches: &[Vec<Match>], count: usize) -> Vec<Branch> {
     let mut tracker = Tracker::new(solved.first(), count);
     for (to, matches) in solved.iter().skip(1).zip(matches) {
         tracker.step(matches, to);

@@ -1,22 +1,22 @@
 //! Crossings of the modes with the lines of whole revolutions.
 //!
 //! Between two speeds of the diagram f(Ω) = ω(Ω) − k Ω changes its sign. Its zero is enclosed by regula falsi with
-//! halved ordinates (Illinois), with the mode computed anew at each speed.
+//! halved ordinates (Illinois), with the modes computed at each speed.
 //!
 //! Source: M. Dowell & P. Jarratt, *BIT* 11 (1971) 168–174, doi:10.1007/BF01934364.
 
 use super::campbell::{Branch, Crossing, Point};
-use super::follow::assurance;
-use super::worker::{Solved, Worker, blend};
+use super::speeds::{Solved, Speeds};
+use num_complex::Complex64;
 
 /// Relative accuracy of a speed.
 const ACCURACY: f64 = 1e-9;
 /// Modes computed for a crossing.
 const EVALUATIONS: usize = 30;
 
-/// All crossings, ascending in the speed. Where the mode cannot be computed alone, the place is interpolated.
+/// All crossings, ascending in the speed. Where the mode cannot be identified in between, the place is interpolated.
 pub(super) fn crossings(
-    worker: &mut Worker<'_>,
+    system: &mut Speeds<'_>,
     solved: &[Solved],
     branches: &[Branch],
     revolutions: u32,
@@ -28,7 +28,7 @@ pub(super) fn crossings(
                 let (a, c) = (above(&w[0], k), above(&w[1], k));
                 // At rest the lines all begin: a rigid motion crosses none of them there.
                 if (a > 0.0) != (c > 0.0) && w[0].mode.frequency().max(w[1].mode.frequency()) > 0.0 {
-                    let speed = located(worker, at, [&w[0], &w[1]], k)
+                    let speed = located(system, at, [&w[0], &w[1]], k)
                         .unwrap_or_else(|| w[0].speed + (w[1].speed - w[0].speed) * a / (a - c));
                     out.push(Crossing { branch, revolutions: k, speed });
                 }
@@ -45,9 +45,10 @@ fn above(point: &Point, k: u32) -> f64 {
 }
 
 /// The speed at which a mode crosses a line between two points of its branch, of which the first is among those `at`.
-fn located(worker: &mut Worker<'_>, at: &Solved, ends: [&Point; 2], k: u32) -> Option<f64> {
+fn located(system: &mut Speeds<'_>, at: &Solved, ends: [&Point; 2], k: u32) -> Option<f64> {
     let x = &ends[0].mode.vector;
-    let mx = at.massed.iter().zip(&at.modes).find(|(_, m)| m.vector == *x).map(|(mx, _)| mx)?;
+    let number = at.modes.iter().position(|m| m.vector == *x)?;
+    let mx = at.massed.get(number)?;
     let mut low = (ends[0].speed, above(ends[0], k));
     let mut high = (ends[1].speed, above(ends[1], k));
     let mut last_side = 0;
@@ -55,11 +56,12 @@ fn located(worker: &mut Worker<'_>, at: &Solved, ends: [&Point; 2], k: u32) -> O
         let speed = low.0 - low.1 * (high.0 - low.0) / (high.1 - low.1);
         let part = (speed - ends[0].speed) / (ends[1].speed - ends[0].speed);
         let near = blend(x, mx, &ends[1].mode.vector, part)?;
-        let found = worker.mode_near(speed, at, &near)?;
-        if assurance(&near, &found.massed) < 0.8 {
+        // Some modes beyond it, so that it may cross them.
+        let (mode, likeness) = system.mode_like(speed, at, number + 2, &near)?;
+        if likeness < 0.8 {
             return None;
         }
-        let value = found.mode.frequency() - f64::from(k) * speed;
+        let value = mode.frequency() - f64::from(k) * speed;
         if value.abs() <= ACCURACY * f64::from(k) * speed || high.0 - low.0 <= ACCURACY * high.0 {
             return Some(speed);
         }
@@ -78,4 +80,15 @@ fn located(worker: &mut Worker<'_>, at: &Solved, ends: [&Point; 2], k: u32) -> O
         }
     }
     None
+}
+
+/// x + part (y − x), y turned to the phase of x; `None` if they are not much alike.
+fn blend(x: &[Complex64], mx: &[Complex64], y: &[Complex64], part: f64) -> Option<Vec<Complex64>> {
+    let alike: Complex64 = mx.iter().zip(y).map(|(mx, y)| mx.conj() * y).sum();
+    let size = alike.norm();
+    if !(size > 0.8) {
+        return None;
+    }
+    let turn = alike.conj() / size * part;
+    Some(x.iter().zip(y).map(|(x, y)| x * (1.0 - part) + turn * y).collect())
 }

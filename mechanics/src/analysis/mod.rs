@@ -4,13 +4,12 @@ pub mod campbell;
 mod crossings;
 mod energy_balance;
 pub mod equilibrium;
-mod follow;
 pub mod modes;
 pub mod rotation;
+mod speeds;
 mod stiffness;
 pub mod superposition;
 mod tracking;
 pub mod transient;
-mod worker;
 
 pub use energy_balance::EnergyBalance;

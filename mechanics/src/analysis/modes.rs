@@ -4,14 +4,14 @@
 //! δq = x e^{λt} of (λ² M + λ C + K) x = 0: angular frequency ω = |Im λ|, damping ratio ζ = −Re λ/|λ|. Everything goes
 //! through the tangent, so every model has modes; how they are found is told in [`eigen`](crate::linalg::eigen).
 
-use super::stiffness::{stiffness, tangent};
-use crate::linalg::eigen::{EigenError, Kind, Pair, Pencil, each};
+use super::stiffness::{damping, mass, stiffness};
+use crate::linalg::eigen::{EigenError, Kind, Pair, Pencil};
 use crate::linalg::{Matrix, Singular};
-use crate::system::{Direction, Frame, State, System, Weights};
+use crate::system::{Direction, Frame, State, System};
 use num_complex::Complex64;
 
-/// Residual above which a mode is refused.
-pub(super) const RESIDUAL: f64 = 1e-7;
+/// Residual above which a mode is refused, unless the rounding of the stiffness explains it.
+const RESIDUAL: f64 = 1e-7;
 /// A rigid motion has |λ| below this part of the lowest frequency of the held system.
 const RIGID: f64 = 1e-4;
 
@@ -26,8 +26,8 @@ pub struct Mode {
     /// |Q(σ)⁻¹ Q(λ) x| / |x|, with Q(λ) = λ² M + λ C + K: error of the pair, seen through the inverse. Where the lowest
     /// mode is so soft against λ that K⁻¹ magnifies rounding errors along it, through Q(|λ|) or K + |λ|² M.
     pub residual: f64,
-    /// Bound of the relative error of the frequency by the rounding of the entries of K in doubles, ½ ε |x|ᵀ|K||x| / |λ|².
-    /// It matters for fine meshes in models that do not give the [terms](System::stiffness_terms) of K.
+    /// Bound of the relative error of the frequency by rounding: δ = ½ ε |x|ᵀ|K||x| / |λ|² by that of the entries of K in
+    /// doubles, and δ² where the frequency is corrected by the [strains](System::stiffness_forms) of the mode.
     pub rounding: f64,
     /// Shares of the modal mass.
     pub shares: Shares,
@@ -180,6 +180,17 @@ pub fn modes(
     count: usize,
     stations: &[f64],
 ) -> Result<Modes, NoModes> {
+    modes_near(system, state, count, stations, &[])
+}
+
+/// As [`modes`], from approximate eigenvalues and vectors.
+pub(super) fn modes_near(
+    system: &mut dyn System,
+    state: &State,
+    count: usize,
+    stations: &[f64],
+    near: &[(Complex64, &[Complex64])],
+) -> Result<Modes, NoModes> {
     let size = system.size();
     if size.lambda > 0 {
         return Err(NoModes::Constrained(size.lambda));
@@ -187,57 +198,83 @@ pub fn modes(
     if count > size.v {
         return Err(NoModes::TooMany { asked: count, there: size.v });
     }
-    let mut tangent = |a: f64, v: f64, q: f64| tangent(system, state, Weights::new(a, v, q));
-    let (mass, damping, rounded) = (tangent(1.0, 0.0, 0.0), tangent(0.0, 1.0, 0.0), tangent(0.0, 0.0, 1.0));
-    let (wide, in_terms) = stiffness(system, state);
+    let (mass, damping, stiffness) = (mass(system, state), damping(system, state), stiffness(system, state));
     let mut rigid = 0.0;
-    let pencil = Pencil::new(mass.clone(), damping.clone(), wide.clone(), 0.0);
-    let mut pencil = match pencil {
+    let mut pencil = match Pencil::new(mass.clone(), damping.clone(), stiffness.clone(), 0.0) {
         // Rigid motions: the lowest frequency without them sets a shift.
         Err(EigenError::Singular(singular)) => {
             let lowest = held_frequency(system, state, singular)?;
             rigid = RIGID * lowest;
-            Pencil::new(mass, damping, wide, 0.3 * lowest)?
+            Pencil::new(mass, damping, stiffness, 0.3 * lowest)?
         }
         other => other?,
     };
     // A rigid motion that neither moves nor stops is an eigenvalue twice: as a place and as a speed.
-    let pairs = pencil.pairs(if rigid > 0.0 { (count + 1).min(size.v) } else { count })?;
-    let (mut modes, mut counted) = (Vec::with_capacity(count), None);
+    let pairs = pencil.pairs(if rigid > 0.0 { (count + 1).min(size.v) } else { count }, near)?;
+    let mut modes: Vec<Mode> = Vec::with_capacity(count);
     let scale: Vec<f64> = system.scales().to_vec();
     for pair in pairs {
         let number = modes.len() + 1;
         if number > count {
             break;
         }
-        let mut mode =
-            mode(system, state, &pencil, (!in_terms).then_some(&rounded), pair, (&scale, rigid), stations);
-        if !(mode.residual <= RESIDUAL) && mode.eigenvalue.norm() > 0.0 {
+        let mut mode = mode(system, &pencil, pair, &scale, rigid);
+        let again = |m: &Mode| m.eigenvalue == Complex64::ZERO && parallel(&m.vector, &mode.vector);
+        if mode.eigenvalue == Complex64::ZERO {
+            // A defective rigid motion is known to half the digits.
+            if !modes.iter().any(again) {
+                modes.push(mode);
+            }
+            continue;
+        }
+        let allowed = RESIDUAL.max(mode.rounding);
+        if !(mode.residual <= allowed) {
             mode.residual = pencil.residual_at_its_size(mode.eigenvalue, &mode.vector);
         }
-        // Written so that NaN is refused too. A defective rigid motion is known to half the digits.
-        if !(mode.residual <= RESIDUAL) && mode.eigenvalue.norm() > 0.0 {
+        // Written so that NaN is refused too.
+        if !(mode.residual <= allowed) {
             let frequency = mode.eigenvalue.norm();
             return Err(NoModes::Inaccurate { number, frequency, residual: mode.residual });
         }
-        let again = |m: &Mode| m.eigenvalue == Complex64::ZERO && parallel(&m.vector, &mode.vector);
-        if mode.eigenvalue == Complex64::ZERO && modes.iter().any(again) {
-            continue;
-        }
         modes.push(mode);
     }
-    let steady = modes.iter().all(|m: &Mode| m.eigenvalue.re == 0.0 && m.eigenvalue.im > 0.0);
-    if let Some(last) = modes.last().filter(|_| steady) {
-        // Just below the last, so that copies of it that were not asked for do not count.
-        let limit = last.frequency() * (1.0 - 1e-7);
-        let found = modes.iter().filter(|m| m.frequency() < limit).count();
-        let below = pencil.count_below(limit);
-        if let Some(counted) = below.filter(|&counted| counted != found) {
-            return Err(NoModes::Missed { counted, found, frequency: limit });
-        }
-        counted = below.map(|_| modes.len());
+    let counted = complete(&pencil, &modes)?;
+    correct(system, state, &pencil, &mut modes);
+    for mode in &mut modes {
+        describe(mode, system, state, &scale, stations);
     }
     Ok(Modes { modes, kind: pencil.kind(), counted, solutions: pencil.solutions() })
+}
+
+/// The number of modes, if it can be counted.
+fn complete(pencil: &Pencil, modes: &[Mode]) -> Result<Option<usize>, NoModes> {
+    let steady = modes.iter().all(|m: &Mode| m.eigenvalue.re == 0.0 && m.eigenvalue.im > 0.0);
+    let Some(last) = modes.last().filter(|_| steady) else { return Ok(None) };
+    // Just below the last, so that copies of it that were not asked for do not count.
+    let limit = pencil.just_below(last.eigenvalue, &last.vector);
+    let found = modes.iter().filter(|m| m.frequency() < limit).count();
+    match pencil.count_below(limit) {
+        Some(counted) if counted != found => Err(NoModes::Missed { counted, found, frequency: limit }),
+        counted => Ok(counted.map(|_| modes.len())),
+    }
+}
+
+/// The frequencies of a conservative system from the strains of its modes: right to the square of the error of the vectors,
+/// which the rounding of K makes.
+fn correct(system: &mut dyn System, state: &State, pencil: &Pencil, modes: &mut [Mode]) {
+    if pencil.kind() == Kind::General {
+        return;
+    }
+    let parts = |m: &Mode| [m.vector.iter().map(|x| x.re).collect(), m.vector.iter().map(|x| x.im).collect()];
+    let vectors: Vec<Vec<f64>> = modes.iter().flat_map(parts).collect();
+    let Some(forms) = system.stiffness_forms(state, &vectors) else { return };
+    let (pairs, _) = forms.as_chunks::<2>();
+    for (mode, [re, im]) in modes.iter_mut().zip(pairs).filter(|(m, _)| m.eigenvalue != Complex64::ZERO) {
+        if let Some(eigenvalue) = pencil.rayleigh(re + im, &mode.vector) {
+            mode.eigenvalue = eigenvalue;
+            mode.rounding *= mode.rounding;
+        }
+    }
 }
 
 /// Whether two vectors are multiples of each other.
@@ -251,28 +288,18 @@ fn parallel(x: &[Complex64], y: &[Complex64]) -> bool {
 /// Lowest frequency of the system with its rigid motions held.
 fn held_frequency(system: &mut dyn System, state: &State, singular: Singular) -> Result<f64, NoModes> {
     system.hold(true);
-    let mass = tangent(system, state, Weights::new(1.0, 0.0, 0.0));
-    let structure = system.structure(0);
-    let (wide, _) = stiffness(system, state);
+    let (mass, stiffness) = (mass(system, state), stiffness(system, state));
     system.hold(false);
-    let pencil = Pencil::new(mass, Matrix::new(&structure), wide, 0.0);
-    let pair = pencil.and_then(|mut pencil| pencil.pairs(1));
+    let damping = Matrix::new(&system.structure(0));
+    let pair = Pencil::new(mass, damping, stiffness, 0.0).and_then(|mut pencil| pencil.pairs(1, &[]));
     match pair.as_ref().map(|pairs| pairs.first()) {
         Ok(Some(pair)) => Ok(pair.value.norm()),
         _ => Err(EigenError::Singular(singular).into()),
     }
 }
 
-/// A mode from its eigenpair.
-fn mode(
-    system: &mut dyn System,
-    state: &State,
-    pencil: &Pencil,
-    rounded: Option<&Matrix>,
-    pair: Pair,
-    (scale, rigid): (&[f64], f64),
-    stations: &[f64],
-) -> Mode {
+/// A mode from its eigenpair, without its shape.
+fn mode(system: &dyn System, pencil: &Pencil, pair: Pair, scale: &[f64], rigid: f64) -> Mode {
     let Pair { value: mut eigenvalue, mut vector, residual } = pair;
     let n = vector.len();
     if eigenvalue.norm() < rigid {
@@ -310,15 +337,8 @@ fn mode(
             *share /= mass;
         }
     }
-    let mut energy = 0.0;
-    if let Some(rounded) = rounded {
-        each(rounded, |i, j| energy += vector[i].norm() * rounded.get(i, j).abs() * vector[j].norm());
-    }
-    let square = eigenvalue.norm_sqr();
-    let rounding = if square > 0.0 { 0.5 * f64::EPSILON * energy / square } else { 0.0 };
-    let mut mode = Mode { eigenvalue, vector, residual, rounding, shares, shape: Shape::default(), nodes: 0 };
-    describe(&mut mode, system, state, scale, stations);
-    mode
+    let rounding = if eigenvalue == Complex64::ZERO { 0.0 } else { pencil.rounding(eigenvalue, &vector) };
+    Mode { eigenvalue, vector, residual, rounding, shares, shape: Shape::default(), nodes: 0 }
 }
 
 /// Gives a mode its displacements at the stations and its nodes.

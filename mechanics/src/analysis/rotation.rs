@@ -142,5 +142,5 @@ pub fn rotate_stably(
 
 /// Number of negative eigenvalues of a symmetric stiffness ∂r/∂q; zero if it is not symmetric or has a border.
 pub fn negative_stiffness(system: &mut dyn System, state: &State) -> usize {
-    negative_eigenvalues(&stiffness(system, state).0).unwrap_or(0)
+    negative_eigenvalues(&stiffness(system, state)).unwrap_or(0)
 }

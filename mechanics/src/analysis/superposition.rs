@@ -15,8 +15,8 @@
 
 use super::modes::{Mode, NoModes, modes};
 use super::rotation::negative_stiffness;
-use super::stiffness::tangent;
-use crate::system::{Direction, State, System, Weights};
+use super::stiffness::mass;
+use crate::system::{Direction, State, System};
 use num_complex::Complex64;
 
 /// Step of the differences of recorded displacements, in scales of the unknowns.
@@ -180,7 +180,7 @@ fn balanced(system: &mut dyn System, state: &State, found: &[Mode]) -> Result<()
     still.a.fill(0.0);
     let mut r = vec![0.0; state.v.len()];
     system.residual(&still, &mut r);
-    let inertia = tangent(system, state, Weights::new(1.0, 0.0, 0.0)).get(hub, hub);
+    let inertia = mass(system, state).get(hub, hub);
     let (torque, acceleration) = (-r[hub], -r[hub] / inertia);
     let frequencies = found.iter().map(|mode| mode.eigenvalue.norm()).filter(|size| *size > 0.0);
     let lowest = frequencies.fold(f64::INFINITY, f64::min);

@@ -1,13 +1,23 @@
-//! Following modes by their shapes.
+//! Joining modes of neighbouring speeds by their shapes.
 
 use super::campbell::{Branch, Point};
-use super::follow::assurance;
-use super::worker::Solved;
+use super::speeds::Solved;
+use num_complex::Complex64;
 
 /// Assurance above which two shapes are taken for one mode.
 const CLEAR: f64 = 0.6;
 /// Assurance above which no other shape can be more like.
 const ORDERED: f64 = 0.9;
+
+/// The modal assurance |xᴴ M y|² of two vectors of modal mass 1, from x and M y.
+pub(super) fn assurance(x: &[Complex64], my: &[Complex64]) -> f64 {
+    let (mut re, mut im) = (0.0, 0.0);
+    for (x, y) in x.iter().zip(my) {
+        re += x.re * y.re + x.im * y.im;
+        im += x.re * y.im - x.im * y.re;
+    }
+    re * re + im * im
+}
 
 /// The mode at the next speed that continues a mode.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,8 +64,8 @@ fn assign(pairs: &[Vec<f64>], rows: usize, columns: usize) -> Vec<Match> {
     matches
 }
 
-/// Assurances of all pairs; the vectors have modal mass 1. Where the modes follow each other in the same order, which shows
-/// by the first look, the others are left at zero: a mode is like one other at most.
+/// Assurances of all pairs; the vectors have modal mass 1. Where those of equal number are
+/// alike, the others are left at zero: a mode is like one other at most.
 fn assurances(from: &Solved, to: &Solved) -> Vec<Vec<f64>> {
     let (rows, columns) = (from.modes.len(), to.modes.len());
     let of = |i: usize, j: usize| assurance(&from.modes[i].vector, &to.massed[j]);
@@ -78,7 +88,7 @@ fn assurances(from: &Solved, to: &Solved) -> Vec<Vec<f64>> {
 /// Branches that grow speed by speed.
 pub(super) struct Tracker {
     pub branches: Vec<Branch>,
-    /// Number of each branch's mode at the last speed, while it is followed.
+    /// Number of each branch's mode at the last speed, while it is among those computed.
     at: Vec<Option<usize>>,
 }
 

@@ -82,12 +82,12 @@ impl Functions {
     }
 
     /// Derivative `d` of u, v, w.
-    fn field(&self, q: &[f64; LOCAL], d: usize) -> [f64; 3] {
+    pub fn field(&self, q: &[f64; LOCAL], d: usize) -> [f64; 3] {
         std::array::from_fn(|f| (0..4).map(|k| self.n[d][k] * q[4 * f + k]).sum())
     }
 
     /// Derivative `d` of φ.
-    fn torsion(&self, q: &[f64; LOCAL], d: usize) -> f64 {
+    pub fn torsion(&self, q: &[f64; LOCAL], d: usize) -> f64 {
         (0..3).map(|k| self.m[d][k] * q[12 + k]).sum()
     }
 

@@ -4,8 +4,8 @@ use super::element::{Functions, Local, Rotation, add_inertia};
 use super::mesh::{CLAMPED, Element, LOCAL, Mesh, hermite, quadratic};
 use super::model::{Model, Setting, StrainEnergy};
 use super::tension::Tension;
+use super::terms::form;
 use crate::linalg::Matrix;
-use crate::system::VisitTerm;
 
 /// Iterations of Newton's method before a speed is approached in smaller increments.
 const ITERATIONS: usize = 25;
@@ -116,26 +116,26 @@ impl Matrices {
         }
     }
 
-    /// The stiffness at `q` and `speed` with the strains apart: `rest` + Σ w b bᵀ.
-    pub fn visit_strain(&self, speed: f64, q: &[f64], rest: &mut Matrix, visit: &mut VisitTerm<'_>) {
+    /// xᵀKx of each vector with the stiffness K at `q` and `speed`, strain by strain.
+    pub fn stiffness_forms(&self, speed: f64, q: &[f64], vectors: &[Vec<f64>]) -> Vec<f64> {
         let (rotation, square) = (self.rotation(speed), speed * speed);
-        rest.clear();
+        let mut out = vec![0.0; vectors.len()];
         let elements = self.mesh.elements.len();
         for (number, (element, tension)) in self.mesh.elements.iter().zip(&self.tension.at).enumerate() {
             let at = element.gather(q);
             let (pitch, model) = (rotation.pitch, &self.model);
+            let x: Vec<[f64; LOCAL]> = vectors.iter().map(|x| element.gather(x)).collect();
             match self.model.strain_energy.terms() {
-                None => element.visit_exact(&at, pitch, model, visit),
-                Some(terms) => element.visit_straight(pitch, square, tension, terms, model, visit),
+                None => element.exact_forms(&at, pitch, model, &x, &mut out),
+                Some(terms) => element.straight_forms(pitch, square, tension, terms, model, &x, &mut out),
             }
             let mut local = Local::new();
             self.add_masses(element, number + 1 == elements, &rotation, &at, &mut local);
-            for (i, &row) in element.unknowns.iter().enumerate().filter(|(_, row)| **row != CLAMPED) {
-                for (j, &column) in element.unknowns.iter().enumerate().filter(|(_, c)| **c != CLAMPED) {
-                    rest.add(row, column, local.stiffness[i][j]);
-                }
+            for (x, out) in x.iter().zip(&mut out) {
+                *out += form(x, |i, j| local.stiffness[i][j]);
             }
         }
+        out
     }
 
     /// The rotation at a speed.

@@ -10,7 +10,7 @@ use crate::linalg::{Matrix, Storage, Structure};
 use crate::section::BladeSection;
 use crate::system::{
     Channel, Direction, Dynamics, Energy, Events, Frame, NotSet, Observed, Parameter, Role, Size, State, Steady,
-    VisitTerm, Weights,
+    Weights,
 };
 
 /// A rotating blade. See the [module documentation](super).
@@ -259,9 +259,8 @@ impl Dynamics for Blade {
         out.set_stamp(Some(stamp));
     }
 
-    fn stiffness_terms(&mut self, _s: &State, rest: &mut Matrix, visit: &mut VisitTerm<'_>) -> bool {
-        self.matrices.visit_strain(self.speed, &self.steady, rest, visit);
-        true
+    fn stiffness_forms(&mut self, _s: &State, vectors: &[Vec<f64>]) -> Option<Vec<f64>> {
+        Some(self.matrices.stiffness_forms(self.speed, &self.steady, vectors))
     }
 }
 

@@ -7,7 +7,7 @@ use super::load::Kinematics;
 use super::station::{Placement, Station};
 use crate::linalg::{Storage, Structure};
 use crate::profile::HubKinematics;
-use crate::system::{State, Corotation, VisitTerm, Weights};
+use crate::system::{Corotation, State, Weights};
 
 /// A kinematic model of the beam: everything that differs between `zeroth`, `first`, `high` and `exact`.
 ///
@@ -41,10 +41,12 @@ pub trait Coupling: Send {
         out.clear();
     }
 
-    /// Gives `visit` the terms w b bᵀ of the strain energy in the tangent of [`Coupling::inertia`]: unknowns, entries
-    /// of b, w. `false` where the strain energy is not there or not quadratic.
-    fn strain_terms(&self, _visit: &mut VisitTerm<'_>) -> bool {
-        false
+    /// Adds to each of `out` the second variation of the strain energy by a vector, xᵀ(∂²U/∂q²)x, summed strain by strain.
+    fn strain_forms(&mut self, s: &State, vectors: &[Vec<f64>], out: &mut [f64]);
+
+    /// [`Coupling::add_tangent`] without the strain energy, for w = (0, 0, 1).
+    fn add_unstrained_stiffness(&mut self, s: &State, hub: &HubKinematics, out: &mut Storage<f64>) {
+        self.add_tangent(s, hub, &Weights::new(0.0, 0.0, 1.0), out);
     }
 
     /// Strain energy [J].

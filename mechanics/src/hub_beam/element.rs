@@ -426,6 +426,42 @@ impl Element {
         }
     }
 
+    /// Adds dᵀ(∂²U/∂q²)d of the unknowns d that each of the vectors has here, with δε and δκ the first variations and δ²ε and
+    /// δ²κ the second ones: ∫ EA δε² − 2 ES δε δκ + EI δκ² + N δ²ε + M δ²κ dx.
+    pub fn strain_forms(&self, rule: &Rule, local: &Local, vectors: &[Vec<f64>], out: &mut [f64]) {
+        let s = self.strains(rule, &local.q);
+        for (x, out) in vectors.iter().zip(out) {
+            let d: [f64; 8] =
+                self.unknowns.map(|i| if i == CLAMPED { 0.0 } else { x.get(i).copied().unwrap_or(0.0) });
+            let (du, dv) = d.split_at(4);
+            let slopes = [[du[1], dv[1]], [dot(&rule.middle, du), dot(&rule.middle, dv)], [du[3], dv[3]]];
+            let mut stretch = [0.0; 3];
+            for i in 0..3 {
+                let ([tx, ty], [x, y]) = (s.tangent[i], slopes[i]);
+                stretch[i] = tx * x + ty * y;
+                *out += s.axial[i] * s.inverse_stretch[i] * (tx * y - ty * x).powi(2);
+            }
+            for i in 0..3 {
+                *out += stretch[i] * (0..3).map(|j| self.axial[i][j] * stretch[j]).sum::<f64>();
+            }
+            for (g, p) in rule.points.iter().enumerate() {
+                let ([sx, sy], [x1, y1, x2, y2]) = (s.slope[g], s.gradient[g]);
+                let (px, py) = (dot(&p.n1, du), dot(&p.n1, dv));
+                let (rx, ry) = (dot(&p.n2, du), dot(&p.n2, dv));
+                let curvature = x1 * px + y1 * py + x2 * rx + y2 * ry;
+                let along = sx * px + sy * py;
+                let second = 2.0 * (px * ry - py * rx)
+                    - 4.0 * along * curvature
+                    - 2.0 * s.curvature[g] * (px * px + py * py);
+                *out += self.bending[g] * curvature * curvature + s.moment[g] * second / (sx * sx + sy * sy);
+                if self.has_coupling {
+                    let strain: f64 = (0..3).map(|i| p.l[i] * stretch[i]).sum();
+                    *out -= 2.0 * self.coupling[g] * strain * curvature;
+                }
+            }
+        }
+    }
+
     /// Kinematics of the section's rotation at quadrature point `g`.
     fn rotation(&self, p: &RulePoint, local: &Local, hub: &HubKinematics, rule: &Rule) -> SectionRotation {
         let at = |n: &[f64; 4], d: &[f64; 8]| [dot(n, &d[..4]), dot(n, &d[4..])];

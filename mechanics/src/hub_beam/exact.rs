@@ -105,6 +105,38 @@ impl ExactCoupling {
     }
 }
 
+impl ExactCoupling {
+    /// [`Coupling::add_tangent`] with the stiffness of the strain energy weighted by `strain`.
+    fn add_tangent_with(
+        &self,
+        strain: f64,
+        s: &State,
+        hub: &HubKinematics,
+        w: &Weights<'_>,
+        out: &mut Storage<f64>,
+    ) {
+        let viscous = self.viscosity > 0.0 && (w.q != 0.0 || w.v != 0.0);
+        for element in &self.elements {
+            if strain == 0.0 && !viscous && !element.has_section_inertia() {
+                continue;
+            }
+            let local = element.gather(s, self.radius);
+            let mut tangent = [[0.0; 8]; 8];
+            if strain != 0.0 {
+                element.strain_tangent(&self.rule, &local, strain, &mut tangent);
+            }
+            element.section_tangent(&self.rule, &local, hub, w, &mut tangent);
+            if viscous {
+                element.viscous_tangent(&self.rule, &local, self.viscosity, w, &mut tangent);
+            }
+            element.assemble(&tangent, out);
+        }
+        for mass in &self.lumped {
+            mass.add_tangent(s, hub, w, out);
+        }
+    }
+}
+
 impl Coupling for ExactCoupling {
     fn name(&self) -> &'static str {
         "exact"
@@ -139,26 +171,17 @@ impl Coupling for ExactCoupling {
     }
 
     fn add_tangent(&mut self, s: &State, hub: &HubKinematics, w: &Weights<'_>, out: &mut Storage<f64>) {
-        let constant = w.q == 0.0;
-        let viscous = self.viscosity > 0.0 && (w.q != 0.0 || w.v != 0.0);
+        self.add_tangent_with(w.q, s, hub, w, out);
+    }
+
+    fn strain_forms(&mut self, s: &State, vectors: &[Vec<f64>], out: &mut [f64]) {
         for element in &self.elements {
-            if constant && !viscous && !element.has_section_inertia() {
-                continue;
-            }
-            let local = element.gather(s, self.radius);
-            let mut tangent = [[0.0; 8]; 8];
-            if !constant {
-                element.strain_tangent(&self.rule, &local, w.q, &mut tangent);
-            }
-            element.section_tangent(&self.rule, &local, hub, w, &mut tangent);
-            if viscous {
-                element.viscous_tangent(&self.rule, &local, self.viscosity, w, &mut tangent);
-            }
-            element.assemble(&tangent, out);
+            element.strain_forms(&self.rule, &element.gather(s, self.radius), vectors, out);
         }
-        for mass in &self.lumped {
-            mass.add_tangent(s, hub, w, out);
-        }
+    }
+
+    fn add_unstrained_stiffness(&mut self, s: &State, hub: &HubKinematics, out: &mut Storage<f64>) {
+        self.add_tangent_with(0.0, s, hub, &Weights::new(0.0, 0.0, 1.0), out);
     }
 
     fn corotate(&self, before: &State, now: &State, out: &mut Corotation) {

@@ -74,8 +74,6 @@ pub struct Inertia {
     /// J, hub included [kg·m²].
     moment: f64,
     damping: Damping,
-    /// Whether the forces K (q + η v) are added by somebody else.
-    strain_apart: bool,
 }
 
 /// What hub and beam have together.
@@ -231,18 +229,12 @@ impl Inertia {
             transverse_moment: sy,
             moment,
             damping: Damping::default(),
-            strain_apart: false,
         }
     }
 
     /// Adds the forces β M v + η K v.
     pub fn damp(&mut self, damping: Damping) {
         self.damping = damping;
-    }
-
-    /// Leaves the forces K (q + η v) out of the residual from now on, not K out of the tangent.
-    pub fn leave_strain_apart(&mut self) {
-        self.strain_apart = true;
     }
 
     /// Power that [`Inertia::damp`] takes, vᵀ(βM + ηK) v \[W\].
@@ -285,10 +277,9 @@ impl Inertia {
         let (q, v, a) = (&s.q[..n], &s.v[..n], &s.a[..n]);
         let (sx, sy, r) = (&self.axial_moment[..n], &self.transverse_moment[..n], &mut r[..n]);
         let Damping { mass, stiffness } = self.damping;
-        let elastic = if self.strain_apart { 0.0 } else { 1.0 };
         x.vectors[0].set(|i| {
             let (q, v) = (q[i], v[i]);
-            [a[i] + mass * v - w2 * q, w * v + 0.5 * w1 * q, elastic * (q + stiffness * v), w2 * q]
+            [a[i] + mass * v - w2 * q, w * v + 0.5 * w1 * q, q + stiffness * v, w2 * q]
         });
         self.bundle.products(&x.vectors[0], &mut x.products[0]);
         for (i, [m, g, k, n]) in x.products[0].iter().enumerate() {
@@ -398,8 +389,7 @@ impl Inertia {
     fn prepare(&self, s: &State, x: &mut Scratch) {
         let n = self.len();
         let (q, v) = (&s.q[..n], &s.v[..n]);
-        let elastic = if self.strain_apart { 0.0 } else { 1.0 };
-        x.vectors[0].set(|i| [q[i], q[i], elastic * (q[i] + self.damping.stiffness * v[i]), q[i]]);
+        x.vectors[0].set(|i| [q[i], q[i], q[i] + self.damping.stiffness * v[i], q[i]]);
         if let Some((symmetric, y)) = self.symmetric.as_ref().zip(x.symmetric.as_mut()) {
             y.set(|i| [q[i], v[i], 0.0, 0.0]);
             symmetric.products(y, &mut x.products[0]);

@@ -13,12 +13,10 @@ use super::hub::Hub;
 use super::inertia::{Foreshortening, Inertia};
 use super::load::Kinematics;
 use super::station::{Placement, Station};
-use super::strain_terms::{FINE, StrainTerms};
 use crate::basis::Role;
 use crate::linalg::{Matrix, negative_pivots};
-use crate::profile::HubKinematics;
 use crate::section::Section;
-use crate::system::{State, VisitTerm};
+use crate::system::State;
 
 /// Deflection over length beyond which dropping higher-order terms is no longer harmless.
 const SMALL: f64 = 0.1;
@@ -37,9 +35,6 @@ pub struct LinearCoupling {
     slopes: Vec<SlopePoint>,
     /// Stiffness at the quadrature points.
     strains: Vec<StrainPoint>,
-    /// The strain energy term by term, on fine meshes, and the damping in proportion to the stiffness, η \[s\].
-    terms: Option<StrainTerms>,
-    viscosity: f64,
     /// Unknowns that are displacements, and what they may not exceed \[m\].
     bounds: Vec<(usize, f64)>,
 }
@@ -108,43 +103,7 @@ impl LinearCoupling {
             Foreshortening::None => "zeroth",
             Foreshortening::First => "first",
         };
-        let fine = fields.cells().len() > FINE;
-        let (terms, viscosity) = (None, 0.0);
-        let mut coupling = LinearCoupling {
-            name,
-            foreshortening,
-            fields,
-            inertia,
-            slopes,
-            strains,
-            terms,
-            viscosity,
-            bounds,
-        };
-        if fine {
-            coupling.terms = Some(StrainTerms::new(|visit| coupling.visit_terms(visit)));
-            coupling.inertia.leave_strain_apart();
-        }
-        coupling
-    }
-
-    /// Gives `visit` the terms of the strain energy.
-    fn visit_terms(&self, visit: &mut VisitTerm<'_>) {
-        let mut strains = self.strains.iter();
-        let (mut index, mut stretch) = (Vec::new(), Vec::new());
-        self.fields.integrate(|p| {
-            let Some(strain) = strains.next() else { return };
-            index.clear();
-            stretch.clear();
-            index.extend_from_slice(&p.axial.index);
-            stretch.extend_from_slice(&p.axial.value[1]);
-            if strain.offset != 0.0 {
-                index.extend_from_slice(&p.transverse.index);
-                stretch.extend(p.transverse.value[2].iter().map(|phi| -strain.offset * phi));
-            }
-            visit(&index, &stretch, strain.stretch);
-            visit(&p.transverse.index, &p.transverse.value[2], strain.bending);
-        });
+        LinearCoupling { name, foreshortening, fields, inertia, slopes, strains, bounds }
     }
 
     /// The coupling as the linear part of another one, by whose name its messages call it.
@@ -190,19 +149,20 @@ impl Coupling for LinearCoupling {
         true
     }
 
-    fn add_forces(&mut self, s: &State, _hub: &HubKinematics, r: &mut [f64]) {
-        if let Some(terms) = &self.terms {
-            terms.add_forces(&s.q, &s.v, self.viscosity, r);
-        }
-    }
-
-    fn strain_terms(&self, visit: &mut VisitTerm<'_>) -> bool {
-        self.visit_terms(visit);
-        true
+    fn strain_forms(&mut self, _s: &State, vectors: &[Vec<f64>], out: &mut [f64]) {
+        let mut strains = self.strains.iter();
+        self.fields.integrate(|p| {
+            let Some(strain) = strains.next() else { return };
+            for (x, out) in vectors.iter().zip(&mut *out) {
+                let curvature = p.transverse.field(2, x);
+                let stretch = p.axial.field(1, x) - strain.offset * curvature;
+                *out += strain.stretch * stretch * stretch + strain.bending * curvature * curvature;
+            }
+        });
     }
 
     fn strain(&mut self, s: &State) -> f64 {
-        self.terms.as_ref().map_or_else(|| self.inertia.strain(&s.q), |terms| terms.energy(&s.q))
+        self.inertia.strain(&s.q)
     }
 
     fn kinematics(&self) -> Kinematics {
@@ -214,7 +174,6 @@ impl Coupling for LinearCoupling {
 
     fn damp(&mut self, damping: Damping) {
         self.inertia.damp(damping);
-        self.viscosity = damping.stiffness;
     }
 
     fn placements(&self, s: &State, stations: &[Station], out: &mut [Placement]) {

@@ -28,7 +28,6 @@ mod rule;
 mod section_forces;
 mod section_rotation;
 mod station;
-mod strain_terms;
 mod system;
 #[cfg(test)]
 mod tests;

@@ -8,12 +8,13 @@ use super::load::{Load, Loads, Site};
 use super::positive::HubInertia;
 use super::section_forces::{Sampling, SectionForces};
 use super::station::{Placement, Station};
+use crate::linalg::vector::dot;
 use crate::linalg::{Matrix, Storage, Structure};
 use crate::profile::{HubKinematics, Motion};
 use crate::section::Section;
 use crate::system::{
     Break, Channel, Corotation, Direction, Dynamics, Energy, Events, Frame, Jump, Label, NotSet, Observed, Parameter,
-    Power, Role, Size, State, Steady, VisitTerm, Weights, ordered,
+    Power, Role, Size, State, Steady, Weights, ordered,
 };
 
 /// A flexible beam on a hub. See the [module documentation](super).
@@ -358,17 +359,22 @@ impl<C: Coupling> Dynamics for HubBeam<C> {
         self.coupling.corotate(before, now, out);
     }
 
-    fn stiffness_terms(&mut self, s: &State, rest: &mut Matrix, visit: &mut VisitTerm<'_>) -> bool {
-        if !self.coupling.strain_terms(visit) {
-            return false;
-        }
+    fn stiffness_forms(&mut self, s: &State, vectors: &[Vec<f64>]) -> Option<Vec<f64>> {
         let (hub, w) = (self.kinematics(s), Weights::new(0.0, 0.0, 1.0));
+        let mut rest = Matrix::new(&self.structure(0));
         let storage = rest.begin();
         self.coupling.inertia().tangent_without_strain(&hub, storage);
-        self.coupling.add_tangent(s, &hub, &w, storage);
+        self.coupling.add_unstrained_stiffness(s, &hub, storage);
         self.loads.subtract_tangent(s, &hub, &w, storage);
         self.write_border(s, &hub, &w, storage);
-        true
+        let mut product = vec![0.0; s.v.len()];
+        let mut form = |x: &Vec<f64>| {
+            rest.multiply(x, &mut product);
+            dot(x, &product)
+        };
+        let mut forms = vectors.iter().map(&mut form).collect::<Vec<f64>>();
+        self.coupling.strain_forms(s, vectors, &mut forms);
+        Some(forms)
     }
 }
 

@@ -1,4 +1,4 @@
-//! Inertia (number of negative eigenvalues) of a symmetric matrix by Sylvester's law.
+//! Inertia (number of negative eigenvalues) of a Hermitian matrix by Sylvester's law.
 
 use super::{Matrix, Scalar};
 
@@ -9,17 +9,12 @@ pub fn negative_pivots(a: &Matrix, b: &Matrix, w: f64) -> usize {
         super::Storage::Dense(_) => a.order().saturating_sub(1),
         super::Storage::Band(m) => m.band().upper(),
     };
-    negative_pivots_of(a.order(), half, |i, j| a.get(i, j) + w * b.get(i, j), |x| x < 0.0)
+    negative_pivots_of(a.order(), half, |i, j| a.get(i, j) + w * b.get(i, j))
 }
 
-/// Number of negative eigenvalues of a symmetric matrix of order `n` and half-bandwidth `half` with the entries
-/// `entry(i, j)`, j ≥ i; `negative` is the sign of a number.
-pub fn negative_pivots_of<T: Scalar>(
-    n: usize,
-    half: usize,
-    entry: impl Fn(usize, usize) -> T,
-    negative: impl Fn(T) -> bool,
-) -> usize {
+/// Number of negative eigenvalues of a Hermitian matrix of order `n` and half-bandwidth `half` with the entries
+/// `entry(i, j)`, j ≥ i, from LDLᴴ without interchanges.
+pub fn negative_pivots_of<T: Scalar>(n: usize, half: usize, entry: impl Fn(usize, usize) -> T) -> usize {
     // Rows of the upper triangle of the last `half` pivots, as a ring.
     let width = half + 1;
     let mut rows = vec![T::ZERO; width * width];
@@ -33,21 +28,17 @@ pub fn negative_pivots_of<T: Scalar>(
             let former = &rows[(p % width) * width..(p % width + 1) * width];
             let offset = k - p;
             // Rows keep their entries over the pivot in front of which they stand.
-            let factor = former[offset] * former[0];
+            let factor = former[offset].conj() * former[0];
             for j in offset..width {
                 row[j - offset] -= factor * former[j];
             }
         }
-        // An exactly vanishing pivot is counted as positive and kept from dividing.
-        if row[0] == T::ZERO {
-            row[0] = T::real(f64::MIN_POSITIVE.sqrt());
-        }
-        if negative(row[0]) {
-            count += 1;
-        }
+        // Real but for rounding. An exactly vanishing pivot is counted as positive and kept from dividing.
+        let pivot = if row[0].re() == 0.0 { f64::MIN_POSITIVE.sqrt() } else { row[0].re() };
+        count += usize::from(pivot < 0.0);
         let kept = &mut rows[(k % width) * width..(k % width + 1) * width];
         kept.copy_from_slice(&row);
-        kept[0] = T::ONE / row[0];
+        kept[0] = T::real(1.0 / pivot);
     }
     count
 }

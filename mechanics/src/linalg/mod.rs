@@ -6,20 +6,17 @@
 mod band;
 mod bordered;
 mod dense;
-mod double;
 pub mod eigen;
-mod hermitian;
 mod inertia;
 mod matrix;
 mod scalar;
 #[cfg(test)]
 mod tests;
+pub mod vector;
 
 pub use band::Band;
 pub use bordered::Bordered;
 pub use dense::Dense;
-pub use double::Double;
-pub use hermitian::Hermitian;
 pub use inertia::{negative_pivots, negative_pivots_of};
 pub use matrix::{Matrix, Stamp, Storage, Structure};
 pub use scalar::Scalar;

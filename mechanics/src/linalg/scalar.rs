@@ -4,7 +4,7 @@ use num_complex::Complex64;
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
-/// A real or complex double, or a real [`Double`](super::Double) of 106 bits.
+/// A real or complex double.
 pub trait Scalar:
     Copy
     + Debug
@@ -27,6 +27,10 @@ pub trait Scalar:
     fn size(self) -> f64;
     /// The real number `x`.
     fn real(x: f64) -> Self;
+    /// The real part.
+    fn re(self) -> f64;
+    /// The complex conjugate.
+    fn conj(self) -> Self;
     /// The number times the real number `x`.
     fn times(self, x: f64) -> Self;
 }
@@ -41,6 +45,14 @@ impl Scalar for f64 {
     #[inline(always)]
     fn real(x: f64) -> f64 {
         x
+    }
+    #[inline(always)]
+    fn re(self) -> f64 {
+        self
+    }
+    #[inline(always)]
+    fn conj(self) -> f64 {
+        self
     }
     #[inline(always)]
     fn times(self, x: f64) -> f64 {
@@ -58,6 +70,14 @@ impl Scalar for Complex64 {
     #[inline(always)]
     fn real(x: f64) -> Complex64 {
         Complex64::new(x, 0.0)
+    }
+    #[inline(always)]
+    fn re(self) -> f64 {
+        self.re
+    }
+    #[inline(always)]
+    fn conj(self) -> Complex64 {
+        Complex64::conj(&self)
     }
     #[inline(always)]
     fn times(self, x: f64) -> Complex64 {

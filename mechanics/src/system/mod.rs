@@ -31,7 +31,7 @@ mod state;
 mod steady;
 
 pub use corotation::Corotation;
-pub use dynamics::{Dynamics, Label, VisitRow, VisitTerm, Weights};
+pub use dynamics::{Dynamics, Label, VisitRow, Weights};
 pub use events::{Break, Crossing, Events, Jump, ordered};
 pub use observed::{Channel, Direction, Energy, Frame, Observed, Power, Role};
 pub use rows::{RowWeights, Set, is_active, replace_inactive, slip};

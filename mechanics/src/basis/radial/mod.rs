@@ -14,6 +14,7 @@
 //! doi:10.1002/nme.489; C. F. Du, D. G. Zhang & J. Z. Hong, *Chin. J. Theor. Appl. Mech.* 47 (2015)
 //! 279–288, doi:10.6052/0459-1879-14-334, equations (11)–(37).
 
+mod double;
 mod patch;
 
 use super::{Basis, BasisError, Conditioning, Field, Role, Support, uniform_cells};

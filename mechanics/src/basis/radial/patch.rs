@@ -6,7 +6,7 @@
 //! functions (α_c > 3) that it is inverted, and the sums are taken, in double-double arithmetic; inside
 //! the cell each derivative is then kept as a Chebyshev series, exact to working precision.
 
-use crate::linalg::Double;
+use super::double::Double;
 use std::f64::consts::PI;
 
 /// Highest derivative kept.

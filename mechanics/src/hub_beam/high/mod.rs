@@ -93,8 +93,8 @@ impl Coupling for HighCoupling {
         "high"
     }
 
-    fn strain_terms(&self, visit: &mut crate::system::VisitTerm<'_>) -> bool {
-        self.linear.strain_terms(visit)
+    fn strain_forms(&mut self, s: &State, vectors: &[Vec<f64>], out: &mut [f64]) {
+        self.linear.strain_forms(s, vectors, out);
     }
 
     fn fields(&self) -> &Fields {

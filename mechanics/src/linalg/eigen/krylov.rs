@@ -1,14 +1,14 @@
 //! The Krylov space of an operator, orthonormal in its inner product to working precision.
 
 use super::EigenError;
-use super::operators::{Operator, noise};
-use super::pencil::dot;
+use super::operators::Operator;
 use super::small::{Ritz, hessenberg, skew, symmetric};
+use crate::linalg::vector::{axpy, dot, noise, scale};
 use num_complex::Complex64;
 
 /// Relative error estimate at which an eigenvalue has converged. The error of the eigenvalue of a symmetric or
 /// skew operator is about its square.
-const TOLERANCE: f64 = 1e-12;
+pub(super) const TOLERANCE: f64 = 1e-12;
 /// Share of a vector left by orthogonalisation below which the space is invariant.
 const INVARIANT: f64 = 1e-13;
 
@@ -32,25 +32,31 @@ impl Space {
     pub(super) fn push(&mut self, mut z: Vec<f64>, mut dual: Vec<f64>) {
         let size = norm(&z, &dual);
         if size > 0.0 {
-            scale(&mut z, 1.0 / size);
-            scale(&mut dual, 1.0 / size);
+            scale(1.0 / size, &mut z);
+            scale(1.0 / size, &mut dual);
         }
         self.vectors.push(z);
         self.duals.push(dual);
     }
 
-    /// Adds the real and imaginary parts of a vector, as far as they are not there.
-    pub(super) fn push_complex(&mut self, lifted: &Lifted) {
-        let part = |z: &[Complex64], of: fn(&Complex64) -> f64| z.iter().map(of).collect::<Vec<f64>>();
-        let of: [fn(&Complex64) -> f64; 2] = [|z| z.re, |z| z.im];
-        for of in of {
-            let (mut z, mut dual) = (part(&lifted.vector, of), part(&lifted.dual, of));
+    /// Adds the vectors of another space that have these coefficients, as far as they are not there.
+    pub(super) fn push_from(&mut self, other: &Space, ritz: &Ritz) {
+        for of in [|c: &Complex64| c.re, |c: &Complex64| c.im] {
+            let part: Vec<f64> = ritz.coefficients.iter().map(of).collect();
+            let (mut z, mut dual) = (combine(&other.vectors, &part), combine(&other.duals, &part));
             let before = norm(&z, &dual);
             self.remove(&mut z, &mut dual, None);
             if norm(&z, &dual) > 1e-3 * before {
                 self.push(z, dual);
             }
         }
+    }
+
+    /// The vector with these coefficients.
+    pub(super) fn vector(&self, ritz: &Ritz) -> Vec<Complex64> {
+        let [re, im] = [|c: &Complex64| c.re, |c: &Complex64| c.im]
+            .map(|of| combine(&self.vectors, &ritz.coefficients.iter().map(of).collect::<Vec<f64>>()));
+        re.into_iter().zip(im).map(|(re, im)| Complex64::new(re, im)).collect()
     }
 
     /// Takes the part in the space away from w; adds the coefficients to `h`.
@@ -60,12 +66,8 @@ impl Space {
             if let Some(h) = h.as_deref_mut() {
                 h[j] += c;
             }
-            for (w, z) in w.iter_mut().zip(z) {
-                *w -= c * z;
-            }
-            for (w, z) in dual_w.iter_mut().zip(dual) {
-                *w -= c * z;
-            }
+            axpy(-c, z, w);
+            axpy(-c, dual, dual_w);
         }
     }
 }
@@ -74,44 +76,74 @@ fn norm(z: &[f64], dual: &[f64]) -> f64 {
     dot(z, dual).max(0.0).sqrt()
 }
 
-fn scale(z: &mut [f64], c: f64) {
-    z.iter_mut().for_each(|z| *z *= c);
+/// Σ c z
+fn combine(vectors: &[Vec<f64>], coefficients: &[f64]) -> Vec<f64> {
+    let mut out = vec![0.0; vectors.first().map_or(0, Vec::len)];
+    for (&c, z) in coefficients.iter().zip(vectors).filter(|(c, _)| **c != 0.0) {
+        axpy(c, z, &mut out);
+    }
+    out
 }
 
-/// Approximate eigenpairs of an operator, largest first.
-pub(super) struct Approximate {
-    pub pairs: Vec<Lifted>,
+/// What is looked for.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Search<'a> {
+    /// Number of the largest eigenpairs; of conjugate pairs both count as one.
+    pub wanted: usize,
+    pub projection: Projection,
+    /// Relative error estimate |A z − θ z|/|θ| at which an eigenvalue has converged.
+    pub tolerance: f64,
+    /// A vector in which the eigenvectors are strong, if there is one.
+    pub start: Option<&'a [f64]>,
+    /// Number of the sequence of random start vectors.
+    pub seed: u64,
 }
 
-/// An eigenvalue of the operator, its vector, and the dual of that.
-pub(super) struct Lifted {
-    pub value: Complex64,
-    pub vector: Vec<Complex64>,
-    pub dual: Vec<Complex64>,
+/// What was found: the largest eigenpairs in the coefficients of a space, and how many of them have converged.
+pub(super) struct Found {
+    pub space: Space,
+    pub pairs: Vec<Ritz>,
+    pub converged: usize,
 }
 
-/// The `wanted` largest eigenpairs of `operator` orthogonal to `locked` (of conjugate pairs both count as one);
-/// at least these are returned, if there are so many.
+impl Found {
+    /// Itself, if as many as were `wanted` have converged.
+    pub(super) fn all(self, wanted: usize) -> Result<Found, EigenError> {
+        let (converged, dimension) = (self.converged, self.space.vectors.len());
+        if converged < wanted {
+            Err(EigenError::NotConverged { wanted, converged, dimension })
+        } else {
+            Ok(self)
+        }
+    }
+}
+
+/// The largest eigenpairs of `operator` orthogonal to `locked`, as many as are wanted or there are.
 pub(super) fn krylov(
     operator: &mut dyn Operator,
     locked: &Space,
-    wanted: usize,
-    projection: Projection,
-    seed: u64,
-) -> Result<Approximate, EigenError> {
+    search: Search<'_>,
+) -> Result<Found, EigenError> {
+    let Search { wanted, projection, tolerance, start, seed } = search;
     let n = operator.len();
     let copies = if projection == Projection::Symmetric { 1 } else { 2 };
     let limit = (copies * (8 * wanted + 120)).min(n);
-    let mut next_look = (copies * (2 * wanted + 6)).min(limit);
+    let first_look = if start.is_some() { 2 * copies * wanted } else { copies * (2 * wanted + 6) };
+    let mut next_look = first_look.min(limit);
     let mut space = Space::default();
     // Columns of the projected matrix, each with the entry below.
     let mut columns: Vec<Vec<f64>> = Vec::new();
     let (mut w, mut dual_w) = (vec![0.0; n], vec![0.0; n]);
     let mut seeds = (0..u64::MAX).map(|k| 1 + 1000 * seed + k);
-    // A fresh vector, orthogonal to everything, or none if everything is spanned.
-    let mut fresh = |operator: &mut dyn Operator, space: &Space, w: &mut [f64], dual_w: &mut [f64]| {
-        let r = noise(n, seeds.next().unwrap_or(1));
-        operator.start(&r, w, dual_w);
+    // A new vector, orthogonal to everything, or none if everything is spanned.
+    let mut begin = |operator: &mut dyn Operator, space: &Space, w: &mut [f64], dual_w: &mut [f64]| {
+        let r = match start.filter(|_| space.vectors.is_empty()) {
+            Some(start) => start.to_vec(),
+            None => noise(n, seeds.next().unwrap_or(1)),
+        };
+        let mut dual = vec![0.0; n];
+        operator.dual(&r, &mut dual);
+        operator.apply(&r, &dual, w, dual_w);
         let before = norm(w, dual_w);
         for _ in 0..3 {
             locked.remove(w, dual_w, None);
@@ -119,8 +151,8 @@ pub(super) fn krylov(
         }
         norm(w, dual_w) > 1e-10 * before
     };
-    if !fresh(operator, &space, &mut w, &mut dual_w) {
-        return Ok(Approximate { pairs: Vec::new() });
+    if !begin(operator, &space, &mut w, &mut dual_w) {
+        return Ok(Found { space, pairs: Vec::new(), converged: wanted });
     }
     let mut largest: f64 = 0.0;
     loop {
@@ -130,18 +162,22 @@ pub(super) fn krylov(
         let before = norm(&w, &dual_w);
         largest = largest.max(before);
         let mut h = vec![0.0; m + 1];
+        // Twice, unless little was taken away.
         for _ in 0..2 {
             locked.remove(&mut w, &mut dual_w, None);
             space.remove(&mut w, &mut dual_w, Some(&mut h[..m]));
+            h[m] = norm(&w, &dual_w);
+            if h[m] > 0.1 * before {
+                break;
+            }
         }
-        h[m] = norm(&w, &dual_w);
         if !before.is_finite() {
             return Err(EigenError::Projection(m));
         }
         let mut exhausted = m == limit && limit == n;
         if h[m] <= INVARIANT * largest {
             h[m] = 0.0;
-            exhausted |= !fresh(operator, &space, &mut w, &mut dual_w);
+            exhausted |= !begin(operator, &space, &mut w, &mut dual_w);
         }
         columns.push(h);
         if m < next_look && !exhausted {
@@ -154,31 +190,25 @@ pub(super) fn krylov(
             Projection::Hessenberg => hessenberg(&columns)?,
         };
         // Of a conjugate pair the one in the upper half plane of λ, that is below the real axis of θ, counts.
-        let counted: Vec<&Ritz> =
-            ritz.iter().filter(|r| projection == Projection::Symmetric || r.value.im <= 0.0).collect();
-        let good = |r: &Ritz| r.error <= TOLERANCE * r.value.norm();
+        let counted: Vec<Ritz> =
+            ritz.into_iter().filter(|r| projection == Projection::Symmetric || r.value.im <= 0.0).collect();
+        let good = |r: &Ritz| r.error <= tolerance * r.value.norm();
         let converged = counted.iter().take(wanted).take_while(|r| good(r)).count();
-        if converged >= wanted || exhausted {
-            return Ok(Approximate {
-                pairs: counted.iter().take(converged.max(wanted)).map(|r| lift(&space, r)).collect(),
-            });
-        }
-        if m >= limit {
-            return Err(EigenError::NotConverged { wanted, converged, dimension: m });
+        if converged >= wanted || exhausted || m >= limit {
+            let converged = if exhausted { wanted } else { converged };
+            let pairs = counted.into_iter().take(wanted).collect();
+            return Ok(Found { space, pairs, converged });
         }
     }
 }
 
-/// The vector of the space with the coefficients of a Ritz pair.
-fn lift(space: &Space, ritz: &Ritz) -> Lifted {
-    let combine = |vectors: &[Vec<f64>]| {
-        let mut z = vec![Complex64::default(); vectors.first().map_or(0, Vec::len)];
-        for (c, vector) in ritz.coefficients.iter().zip(vectors) {
-            for (z, v) in z.iter_mut().zip(vector) {
-                *z += c * v;
-            }
-        }
-        z
-    };
-    Lifted { value: ritz.value, vector: combine(&space.vectors), dual: combine(&space.duals) }
+/// The largest eigenvalue θ of a symmetric operator, from a Krylov space in which |A z − θ z| ≤ `tolerance`·θ, or of
+/// the largest dimension allowed; approached from below. Zero for an operator that is zero.
+///
+/// # Errors
+/// [`EigenError::Projection`] for numbers that are not finite.
+pub fn largest(operator: &mut dyn Operator, tolerance: f64) -> Result<f64, EigenError> {
+    let search = Search { wanted: 1, projection: Projection::Symmetric, tolerance, start: None, seed: 0 };
+    let found = krylov(operator, &Space::default(), search)?;
+    Ok(found.pairs.first().map_or(0.0, |pair| pair.value.re))
 }

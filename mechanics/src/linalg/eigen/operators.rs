@@ -1,18 +1,18 @@
 //! The inverses whose largest eigenvalues are wanted. Each knows its inner product through the dual of a vector.
 
 use super::Pencil;
-use super::pencil::dot;
+use crate::linalg::vector::{dot, noise, scale};
 
 /// A linear operator with an inner product ⟨z, z′⟩ = z · dual(z′).
-pub(super) trait Operator {
+pub trait Operator {
     /// Length of its vectors.
     fn len(&self) -> usize;
 
     /// w = A z, and the dual of w.
     fn apply(&mut self, z: &[f64], dual: &[f64], w: &mut [f64], dual_w: &mut [f64]);
 
-    /// A vector to start from made from `r`, smoothed by the inverse, and its dual.
-    fn start(&mut self, r: &[f64], z: &mut [f64], dual: &mut [f64]);
+    /// The dual of z, as far as [`Operator::apply`] needs it.
+    fn dual(&mut self, z: &[f64], dual: &mut [f64]);
 }
 
 /// x ↦ K⁻¹ M x with the dual M x.
@@ -29,9 +29,7 @@ impl Operator for Symmetric<'_> {
         self.0.mass().multiply(w, dual_w);
     }
 
-    fn start(&mut self, r: &[f64], z: &mut [f64], dual: &mut [f64]) {
-        self.0.mass().multiply(r, z);
-        self.0.solve(z);
+    fn dual(&mut self, z: &[f64], dual: &mut [f64]) {
         self.0.mass().multiply(z, dual);
     }
 }
@@ -58,16 +56,9 @@ impl Operator for Gyroscopic<'_> {
         self.0.mass().multiply(wy, my);
     }
 
-    fn start(&mut self, r: &[f64], z: &mut [f64], dual: &mut [f64]) {
+    fn dual(&mut self, z: &[f64], dual: &mut [f64]) {
         let n = self.0.order();
-        for half in [0..n, n..2 * n] {
-            self.0.mass().multiply(&r[half.clone()], &mut dual[half.clone()]);
-            z[half.clone()].copy_from_slice(&dual[half.clone()]);
-            self.0.solve(&mut z[half]);
-        }
-        let mut my = vec![0.0; n];
-        self.0.mass().multiply(&z[n..], &mut my);
-        dual[n..].copy_from_slice(&my);
+        self.0.mass().multiply(&z[n..], &mut dual[n..]);
     }
 }
 
@@ -98,7 +89,7 @@ impl<'a> General<'a> {
         let n = self.pencil.order();
         let (dual_x, dual_y) = dual.split_at_mut(n);
         self.pencil.mass().multiply(&w[..n], dual_x);
-        dual_x.iter_mut().for_each(|x| *x *= self.scale);
+        scale(self.scale, dual_x);
         self.pencil.mass().multiply(&w[n..], dual_y);
     }
 }
@@ -123,25 +114,7 @@ impl Operator for General<'_> {
         self.duals(w, dual_w);
     }
 
-    fn start(&mut self, r: &[f64], z: &mut [f64], dual: &mut [f64]) {
-        let n = self.pencil.order();
-        for half in [0..n, n..2 * n] {
-            self.pencil.mass().multiply(&r[half.clone()], &mut z[half.clone()]);
-            self.pencil.solve(&mut z[half]);
-        }
-        let s = self.scale.sqrt();
-        z[n..].iter_mut().for_each(|y| *y *= s);
+    fn dual(&mut self, z: &[f64], dual: &mut [f64]) {
         self.duals(z, dual);
     }
-}
-
-/// Numbers in [−1, 1] that look random and are always the same.
-pub(super) fn noise(n: usize, seed: u64) -> Vec<f64> {
-    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(0x1234_5678_9abc_def1);
-    (0..n)
-        .map(|_| {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-        })
-        .collect()
 }

@@ -1,9 +1,10 @@
 //! The three matrices of an eigenproblem, and its solutions.
 
-use super::super::{Double, Matrix, Storage, Structure, negative_pivots_of};
-use super::krylov::{Projection, Space, krylov};
+use super::krylov::{Projection, Search, Space, TOLERANCE, krylov};
 use super::operators::{General, Gyroscopic, Symmetric};
 use super::{EigenError, Pair};
+use crate::linalg::vector::dot;
+use crate::linalg::{Matrix, Storage, negative_pivots_of};
 use num_complex::Complex64;
 
 /// What is known of the matrices.
@@ -22,49 +23,37 @@ pub enum Kind {
 pub struct Pencil {
     mass: Matrix,
     damping: Matrix,
-    stiffness: Matrix<Double>,
+    stiffness: Matrix,
+    /// |K|, entry by entry.
+    sizes: Matrix,
     /// Q(σ), factored.
-    factor: Matrix<Double>,
+    factor: Matrix,
     shift: f64,
     kind: Kind,
-    wide: Vec<Double>,
     solutions: usize,
 }
 
 /// Relative size at which an entry counts as zero.
 const NOUGHT: f64 = 1e-12;
+/// Relative distance below a frequency at which others are counted.
+const MARGIN: f64 = 1e-7;
 
 impl Pencil {
     /// The pencil of three matrices of equal structure, factored at the shift σ.
     ///
     /// # Errors
     /// [`EigenError::Singular`] when σ is an eigenvalue.
-    pub fn new(
-        mass: Matrix,
-        damping: Matrix,
-        stiffness: Matrix<Double>,
-        shift: f64,
-    ) -> Result<Pencil, EigenError> {
-        let n = mass.order();
+    pub fn new(mass: Matrix, damping: Matrix, stiffness: Matrix, shift: f64) -> Result<Pencil, EigenError> {
         let mut factor = stiffness.clone();
         if shift != 0.0 {
-            each(&mass, |i, j| {
-                let c = Double::from(damping.get(i, j)) * shift.into();
-                let m = Double::from(mass.get(i, j)) * shift.into() * shift.into();
-                factor.add(i, j, c + m);
-            });
+            factor.combine([&stiffness, &damping, &mass], [1.0, shift, shift * shift]);
         }
         factor.factor()?;
-        let mut pencil = Pencil {
-            mass,
-            damping,
-            stiffness,
-            factor,
-            shift,
-            kind: Kind::General,
-            wide: vec![Double::ZERO; n],
-            solutions: 0,
-        };
+        let mut sizes = stiffness.clone();
+        sizes.clear();
+        each(&stiffness, |i, j| sizes.add(i, j, stiffness.get(i, j).abs()));
+        let mut pencil =
+            Pencil { sizes, mass, damping, stiffness, factor, shift, kind: Kind::General, solutions: 0 };
         pencil.kind = pencil.find_kind();
         Ok(pencil)
     }
@@ -99,16 +88,48 @@ impl Pencil {
         self.solutions
     }
 
-    /// b ← Q(σ)⁻¹ b, right to the rounding of the result.
+    /// b ← Q(σ)⁻¹ b
     pub fn solve(&mut self, b: &mut [f64]) {
         self.solutions += 1;
-        for (wide, b) in self.wide.iter_mut().zip(b.iter()) {
-            *wide = (*b).into();
+        self.factor.solve(b);
+    }
+
+    /// Bound of the relative error of an eigenvalue λ ≠ 0 with the vector x by the rounding of the entries of K,
+    /// ½ε |x|ᵀ|K||x| / (|λ|² xᴴMx).
+    pub fn rounding(&self, value: Complex64, x: &[Complex64]) -> f64 {
+        let size: Vec<f64> = x.iter().map(|x| x.norm_sqr().sqrt()).collect();
+        let mut product = size.clone();
+        self.sizes.multiply(&size, &mut product);
+        let energy = dot(&size, &product);
+        let mass = self.hermitian_form(&self.mass, x).re;
+        0.5 * f64::EPSILON * energy / (value.norm_sqr() * mass)
+    }
+
+    /// The eigenvalue that the vector of a conservative pencil has with K replaced by a more accurate one of which
+    /// `energy` = xᴴKx is given: the root of ω² xᴴMx − ω xᴴ(iC)x − xᴴKx = 0, right to the square of the error of x.
+    /// `None` for other pencils.
+    pub fn rayleigh(&self, energy: f64, x: &[Complex64]) -> Option<Complex64> {
+        let mass = self.hermitian_form(&self.mass, x).re;
+        let square = energy / mass;
+        match self.kind {
+            Kind::General => None,
+            Kind::Symmetric if square < 0.0 => Some((-square).sqrt().into()),
+            Kind::Symmetric => Some(Complex64::new(0.0, square.sqrt())),
+            Kind::Gyroscopic => {
+                let c = -self.hermitian_form(&self.damping, x).im / mass;
+                let root = 0.5 * (c + (c * c + 4.0 * square).sqrt());
+                Some(Complex64::new(0.0, root)).filter(|root| root.im.is_finite())
+            }
         }
-        self.factor.solve(&mut self.wide);
-        for (b, wide) in b.iter_mut().zip(&self.wide) {
-            *b = wide.value();
-        }
+    }
+
+    /// xᴴ A x
+    fn hermitian_form(&self, a: &Matrix, x: &[Complex64]) -> Complex64 {
+        let [re, im] = parts(x);
+        let (mut a_re, mut a_im) = (re.clone(), im.clone());
+        a.multiply(&re, &mut a_re);
+        a.multiply(&im, &mut a_im);
+        Complex64::new(dot(&re, &a_re) + dot(&im, &a_im), dot(&re, &a_im) - dot(&im, &a_re))
     }
 
     fn find_kind(&self) -> Kind {
@@ -116,7 +137,7 @@ impl Pencil {
         each(&self.mass, |i, j| {
             m.look(self.mass.get(i, j), self.mass.get(j, i));
             c.look(self.damping.get(i, j), self.damping.get(j, i));
-            k.look(self.stiffness.get(i, j).value(), self.stiffness.get(j, i).value());
+            k.look(self.stiffness.get(i, j), self.stiffness.get(j, i));
         });
         if !(m.is_symmetric() && k.is_symmetric()) {
             Kind::General
@@ -136,92 +157,125 @@ impl Pencil {
     /// them: for conservative systems ([`Kind::Symmetric`]: of ω² below the square, divergent ones included;
     /// [`Kind::Gyroscopic`]). `None` for others, and with a border.
     ///
-    /// The Hermitian matrix is counted as a real one of twice the order. Its eigenvalues fall with ω > 0 through
-    /// zero once each, since M ≥ 0 and K > 0.
+    /// The eigenvalues of the Hermitian matrix fall with ω > 0 through zero once each, since M ≥ 0 and K > 0.
     pub fn count_below(&self, frequency: f64) -> Option<usize> {
-        let half = half_bandwidth(&self.stiffness)?;
-        let square = Double::from(frequency) * frequency.into();
-        let entry = |i: usize, j: usize| self.stiffness.get(i, j) - square * self.mass.get(i, j).into();
-        let negative = |x: Double| x.value() < 0.0;
+        let (n, half) = (self.order(), half_bandwidth(&self.stiffness)?);
+        let entry =
+            |i: usize, j: usize| self.stiffness.get(i, j) - frequency * frequency * self.mass.get(i, j);
         match self.kind {
-            Kind::Symmetric => Some(negative_pivots_of(self.order(), half, entry, negative)),
+            Kind::Symmetric => Some(negative_pivots_of(n, half, entry)),
             Kind::General => None,
-            Kind::Gyroscopic => {
-                let skew = |i: usize, j: usize| {
-                    Double::from(frequency) * (0.5 * (self.damping.get(i, j) - self.damping.get(j, i))).into()
-                };
-                // Re and Im of an unknown side by side: [[A, −B], [B, A]] for A + iB.
-                let doubled = |i: usize, j: usize| match (i % 2, j % 2) {
-                    (0, 1) => -skew(i / 2, j / 2),
-                    (1, 0) => skew(i / 2, j / 2),
-                    _ => entry(i / 2, j / 2),
-                };
-                Some(negative_pivots_of(2 * self.order(), 2 * half + 1, doubled, negative) / 2)
-            }
+            Kind::Gyroscopic => Some(negative_pivots_of(n, half, |i, j| {
+                let skew = 0.5 * (self.damping.get(i, j) - self.damping.get(j, i));
+                Complex64::new(entry(i, j), frequency * skew)
+            })),
         }
     }
 
+    /// A frequency below that of a pair by more than its rounding, for [`Pencil::count_below`].
+    pub fn just_below(&self, value: Complex64, x: &[Complex64]) -> f64 {
+        value.norm() * (1.0 - f64::max(MARGIN, 4.0 * self.rounding(value, x)))
+    }
+
     /// At least `count` eigenpairs next to the shift (fewer if there are fewer), ascending in |λ|, Im λ ≥ 0. Of a real
-    /// pair ±λ of a symmetric pencil the growing one is given.
+    /// pair ±λ of a symmetric pencil the growing one is given. `near` are approximate pairs, with which a conservative
+    /// pencil begins: the Krylov space of a sum of eigenvectors is spanned by them.
     ///
     /// # Errors
     /// [`EigenError`] when they do not converge.
-    pub fn pairs(&mut self, count: usize) -> Result<Vec<Pair>, EigenError> {
+    pub fn pairs(
+        &mut self,
+        count: usize,
+        near: &[(Complex64, &[Complex64])],
+    ) -> Result<Vec<Pair>, EigenError> {
         let found = match self.kind {
-            Kind::Symmetric | Kind::Gyroscopic => self.conservative(count)?,
+            Kind::Symmetric | Kind::Gyroscopic => self.conservative(count, near)?,
             Kind::General => self.general(count)?,
         };
-        let mut pairs: Vec<Pair> = found
-            .into_iter()
-            .map(|(value, vector)| Pair { residual: self.residual(value, &vector), value, vector })
-            .collect();
+        let mut pairs = Vec::with_capacity(found.len());
+        for (value, vector) in found {
+            let matrices = [&self.mass, &self.damping];
+            let residual = residual(matrices, &mut self.factor, self.shift, value, &vector);
+            self.solutions += 2;
+            pairs.push(Pair { residual, value, vector });
+        }
         pairs.sort_by(|a, b| a.value.norm().total_cmp(&b.value.norm()));
         Ok(pairs)
     }
 
     /// The pairs of a conservative pencil. Copies of a multiple eigenvalue are found one after the other, by a
     /// space that is orthogonal to what was found, until the count of frequencies says that none is missing.
-    fn conservative(&mut self, count: usize) -> Result<Vec<(Complex64, Vec<Complex64>)>, EigenError> {
+    fn conservative(
+        &mut self,
+        count: usize,
+        near: &[(Complex64, &[Complex64])],
+    ) -> Result<Vec<(Complex64, Vec<Complex64>)>, EigenError> {
         let (n, shift) = (self.order(), self.shift);
+        let projection = match self.kind {
+            Kind::Symmetric => Projection::Symmetric,
+            _ => Projection::Skew,
+        };
+        let warm = (!near.is_empty()).then(|| self.sum(near));
         let mut found: Vec<(Complex64, Vec<Complex64>)> = Vec::new();
         let mut locked = Space::default();
         for round in 0..=count as u64 {
             // Copies are looked for one at a time.
             let wanted = if round == 0 { count } else { 1 };
+            let start = warm.as_deref().filter(|_| round == 0);
+            let search = Search { wanted, projection, tolerance: TOLERANCE, start, seed: round };
             let ritz = if self.kind == Kind::Symmetric {
-                krylov(&mut Symmetric(self), &locked, wanted, Projection::Symmetric, round)?
+                krylov(&mut Symmetric(self), &locked, search)?
             } else {
-                krylov(&mut Gyroscopic(self), &locked, wanted, Projection::Skew, round)?
+                krylov(&mut Gyroscopic(self), &locked, search)?
             };
+            let ritz = ritz.all(wanted)?;
             let before = found.len();
-            for mut lifted in ritz.pairs.into_iter().filter(|r| r.value.norm() > 0.0).take(wanted) {
-                locked.push_complex(&lifted);
+            for pair in ritz.pairs.iter().filter(|r| r.value.norm() > 0.0) {
                 let value = if self.kind == Kind::Symmetric {
-                    let square = 1.0 / lifted.value.re - shift * shift;
+                    let square = 1.0 / pair.value.re - shift * shift;
                     let root = square.abs().sqrt();
                     if square < 0.0 { Complex64::new(root, 0.0) } else { Complex64::new(0.0, root) }
                 } else {
-                    Complex64::new(0.0, (1.0 / lifted.value).im)
+                    Complex64::new(0.0, (1.0 / pair.value).im)
                 };
-                lifted.vector.truncate(n);
-                found.push((value, lifted.vector));
+                let mut vector = ritz.space.vector(pair);
+                vector.truncate(n);
+                found.push((value, vector));
             }
             found.sort_by(|a, b| a.0.norm().total_cmp(&b.0.norm()));
             if found.len() == before || self.is_complete(&found, count) {
                 break;
             }
+            ritz.pairs.iter().for_each(|pair| locked.push_from(&ritz.space, pair));
         }
         Ok(found)
     }
 
+    /// A sum of vectors of the operator in which each of the pairs has the same size after one product with it.
+    fn sum(&self, near: &[(Complex64, &[Complex64])]) -> Vec<f64> {
+        let n = self.order();
+        let symmetric = self.kind == Kind::Symmetric;
+        let mut sum = vec![0.0; if symmetric { n } else { 2 * n }];
+        for (value, x) in near {
+            let factor = if symmetric { value.norm_sqr() } else { 1.0 };
+            for (i, x) in x.iter().enumerate() {
+                sum[i] += factor * x.re;
+                if !symmetric {
+                    sum[n + i] += (value * x).re;
+                }
+            }
+        }
+        sum
+    }
+
     /// Whether nothing is missing among the first `count` eigenvalues found.
     fn is_complete(&self, found: &[(Complex64, Vec<Complex64>)], count: usize) -> bool {
-        let Some((last, _)) = found.get(count.min(found.len()).saturating_sub(1)) else { return true };
+        let Some((last, x)) = found.get(count.min(found.len()).saturating_sub(1)) else { return true };
         // With divergent eigenvalues those found need not be the lowest: nothing is counted.
         if found.iter().any(|(value, _)| value.re != 0.0) {
             return true;
         }
-        let limit = last.im * (1.0 - 1e-8);
+        let limit = self.just_below(*last, x);
         let below = found.iter().filter(|(value, _)| value.im < limit).count();
         self.count_below(limit).is_none_or(|counted| counted <= below)
     }
@@ -229,15 +283,22 @@ impl Pencil {
     fn general(&mut self, count: usize) -> Result<Vec<(Complex64, Vec<Complex64>)>, EigenError> {
         let (n, shift) = (self.order(), self.shift);
         let mut operator = General::new(self);
-        let ritz = krylov(&mut operator, &Space::default(), count, Projection::Hessenberg, 0)?;
-        let values = ritz.pairs.into_iter().filter(|r| r.value.norm() > 0.0);
+        let search = Search {
+            wanted: count,
+            projection: Projection::Hessenberg,
+            tolerance: TOLERANCE,
+            start: None,
+            seed: 0,
+        };
+        let ritz = krylov(&mut operator, &Space::default(), search)?.all(count)?;
+        let values = ritz.pairs.iter().filter(|r| r.value.norm() > 0.0);
         Ok(values
-            .map(|r| (1.0 / r.value + shift, r.vector))
+            .map(|r| (1.0 / r.value + shift, r))
             .filter(|(value, _)| value.im >= 0.0)
-            .take(count)
-            .map(|(value, mut z)| {
-                z.truncate(n);
-                (value, z)
+            .map(|(value, r)| {
+                let mut vector = ritz.space.vector(r);
+                vector.truncate(n);
+                (value, vector)
             })
             .collect())
     }
@@ -245,39 +306,12 @@ impl Pencil {
     /// The residual of a pair seen through Q(|λ|) in the place of Q(σ). Where K is nearly singular, K⁻¹ magnifies by (λ/λ₁)²
     /// what rounding leaves of the lowest mode in the others; the inverse of K + |λ|C + |λ|²M magnifies nothing. O(n).
     pub fn residual_at_its_size(&self, value: Complex64, vector: &[Complex64]) -> f64 {
-        let [mass, damping] = [self.mass.clone(), self.damping.clone()];
-        let shifted = Pencil::new(mass, damping, self.stiffness.clone(), value.norm());
-        shifted.map_or(f64::NAN, |mut pencil| pencil.residual(value, vector))
-    }
-
-    /// |x + Q(σ)⁻¹ (λ − σ)((λ + σ) M + C) x| / |x|, since Q(λ) = Q(σ) + (λ − σ)((λ + σ) M + C).
-    fn residual(&mut self, value: Complex64, x: &[Complex64]) -> f64 {
-        let n = x.len();
-        let (mut mx, mut cx) = ([vec![0.0; n], vec![0.0; n]], [vec![0.0; n], vec![0.0; n]]);
-        let parts: [Vec<f64>; 2] = [x.iter().map(|x| x.re).collect(), x.iter().map(|x| x.im).collect()];
-        for part in 0..2 {
-            self.mass.multiply(&parts[part], &mut mx[part]);
-            self.damping.multiply(&parts[part], &mut cx[part]);
+        let (mut factor, shift) = (self.stiffness.clone(), value.norm());
+        factor.combine([&self.stiffness, &self.damping, &self.mass], [1.0, shift, shift * shift]);
+        if factor.factor().is_err() {
+            return f64::NAN;
         }
-        let shift = self.shift;
-        let mut r = parts.clone();
-        for i in 0..n {
-            let (m, c) = (Complex64::new(mx[0][i], mx[1][i]), Complex64::new(cx[0][i], cx[1][i]));
-            let f = (value - shift) * ((value + shift) * m + c);
-            (r[0][i], r[1][i]) = (f.re, f.im);
-        }
-        let (mut off, mut size) = (0.0, 0.0);
-        let mut mr = vec![0.0; n];
-        for part in 0..2 {
-            self.solve(&mut r[part]);
-            for (r, x) in r[part].iter_mut().zip(&parts[part]) {
-                *r += x;
-            }
-            self.mass.multiply(&r[part], &mut mr);
-            off += dot(&r[part], &mr);
-            size += dot(&parts[part], &mx[part]);
-        }
-        (off.abs() / size).sqrt()
+        residual([&self.mass, &self.damping], &mut factor, shift, value, vector)
     }
 }
 
@@ -318,7 +352,7 @@ pub fn each(matrix: &Matrix, mut f: impl FnMut(usize, usize)) {
 }
 
 /// Half-bandwidth of a matrix without border.
-fn half_bandwidth(matrix: &Matrix<Double>) -> Option<usize> {
+fn half_bandwidth(matrix: &Matrix) -> Option<usize> {
     match matrix.storage() {
         Storage::Dense(a) => Some(a.order().saturating_sub(1)),
         Storage::Band(a) => (a.order() == a.band().order()).then(|| a.band().upper().max(a.band().lower())),
@@ -326,29 +360,47 @@ fn half_bandwidth(matrix: &Matrix<Double>) -> Option<usize> {
 }
 
 /// Number of negative eigenvalues of a symmetric matrix; `None` with a border.
-pub fn negative_eigenvalues(matrix: &Matrix<Double>) -> Option<usize> {
+pub fn negative_eigenvalues(matrix: &Matrix) -> Option<usize> {
     let half = half_bandwidth(matrix)?;
-    Some(negative_pivots_of(matrix.order(), half, |i, j| matrix.get(i, j), |x| x.value() < 0.0))
+    Some(negative_pivots_of(matrix.order(), half, |i, j| matrix.get(i, j)))
 }
 
-/// A matrix of doubles in wide numbers.
-pub fn widen(matrix: &Matrix, structure: &Structure) -> Matrix<Double> {
-    let mut wide = Matrix::new(structure);
-    each(matrix, |i, j| wide.add(i, j, matrix.get(i, j).into()));
-    wide
-}
-
-/// aᵀ b
-#[inline]
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sums = [0.0; 4];
-    let (a4, a_rest) = a.as_chunks::<4>();
-    let (b4, b_rest) = b.as_chunks::<4>();
-    for (a, b) in a4.iter().zip(b4) {
-        for k in 0..4 {
-            sums[k] += a[k] * b[k];
-        }
+/// |x + Q(σ)⁻¹ (λ − σ)((λ + σ) M + C) x| / |x|, since Q(λ) = Q(σ) + (λ − σ)((λ + σ) M + C).
+fn residual(
+    [mass, damping]: [&Matrix; 2],
+    factor: &mut Matrix,
+    shift: f64,
+    value: Complex64,
+    x: &[Complex64],
+) -> f64 {
+    let n = x.len();
+    let (mut mx, mut cx) = ([vec![0.0; n], vec![0.0; n]], [vec![0.0; n], vec![0.0; n]]);
+    let parts = parts(x);
+    for part in 0..2 {
+        mass.multiply(&parts[part], &mut mx[part]);
+        damping.multiply(&parts[part], &mut cx[part]);
     }
-    let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
-    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
+    let mut r = parts.clone();
+    for i in 0..n {
+        let (m, c) = (Complex64::new(mx[0][i], mx[1][i]), Complex64::new(cx[0][i], cx[1][i]));
+        let f = (value - shift) * ((value + shift) * m + c);
+        (r[0][i], r[1][i]) = (f.re, f.im);
+    }
+    let (mut off, mut size) = (0.0, 0.0);
+    let mut mr = vec![0.0; n];
+    for part in 0..2 {
+        factor.solve(&mut r[part]);
+        for (r, x) in r[part].iter_mut().zip(&parts[part]) {
+            *r += x;
+        }
+        mass.multiply(&r[part], &mut mr);
+        off += dot(&r[part], &mr);
+        size += dot(&parts[part], &mx[part]);
+    }
+    (off.abs() / size).sqrt()
+}
+
+/// Real and imaginary part.
+fn parts(x: &[Complex64]) -> [Vec<f64>; 2] {
+    [x.iter().map(|x| x.re).collect(), x.iter().map(|x| x.im).collect()]
 }

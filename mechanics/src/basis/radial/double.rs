@@ -3,12 +3,11 @@
 //! Sources: T. J. Dekker, *Numer. Math.* 18 (1971) 224–242, doi:10.1007/BF01397083; Y. Hida, X. S. Li &
 //! D. H. Bailey, *Proc. ARITH-15* (2001) 155–162, doi:10.1109/ARITH.2001.930115.
 
-use super::Scalar;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
 /// high + low, |low| ≤ ½ ulp(high).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Double {
+pub(super) struct Double {
     high: f64,
     low: f64,
 }
@@ -17,28 +16,28 @@ const LN_2: Double = Double { high: std::f64::consts::LN_2, low: 2.319_046_813_8
 
 impl Double {
     /// 0
-    pub const ZERO: Double = Double { high: 0.0, low: 0.0 };
+    pub(super) const ZERO: Double = Double { high: 0.0, low: 0.0 };
     /// 1
-    pub const ONE: Double = Double { high: 1.0, low: 0.0 };
+    pub(super) const ONE: Double = Double { high: 1.0, low: 0.0 };
 
     /// The nearest double.
     #[inline(always)]
-    pub fn value(self) -> f64 {
+    pub(super) fn value(self) -> f64 {
         self.high + self.low
     }
 
     /// |x|
-    pub fn abs(self) -> Double {
+    pub(super) fn abs(self) -> Double {
         if self.high < 0.0 { -self } else { self }
     }
 
     /// xⁿ.
-    pub fn powi(self, n: usize) -> Double {
+    pub(super) fn powi(self, n: usize) -> Double {
         (0..n).fold(Double::ONE, |product, _| product * self)
     }
 
     /// x^y for x > 0.
-    pub fn pow(self, y: f64) -> Double {
+    pub(super) fn pow(self, y: f64) -> Double {
         (self.ln() * y.into()).exp()
     }
 
@@ -152,23 +151,6 @@ impl MulAssign for Double {
     #[inline]
     fn mul_assign(&mut self, o: Double) {
         *self = *self * o;
-    }
-}
-
-impl Scalar for Double {
-    const ZERO: Double = Double::ZERO;
-    const ONE: Double = Double::ONE;
-    #[inline(always)]
-    fn size(self) -> f64 {
-        self.high.abs()
-    }
-    #[inline(always)]
-    fn real(x: f64) -> Double {
-        x.into()
-    }
-    #[inline(always)]
-    fn times(self, x: f64) -> Double {
-        self * Double::real(x)
     }
 }
 

@@ -1,0 +1,68 @@
+//! Campbell diagrams on several threads.
+
+use flexion::analysis::campbell::{Block, Campbell, NoCampbell, Plan, Speeds, assemble};
+use flexion::system::System;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::thread;
+
+/// Builds the system of the diagram, once a thread.
+pub type Build<'a> = dyn Fn() -> Result<Box<dyn System>, String> + Sync + 'a;
+
+/// Computes a diagram on `threads` threads, 0 for as many as the machine has: the same one for any number of them.
+/// `progress` is called with the number of speeds that are done, and stops by `false`.
+///
+/// # Errors
+/// [`NoCampbell`].
+///
+/// # Panics
+/// Where a thread does.
+pub fn campbell(
+    build: &Build<'_>,
+    plan: &Plan,
+    threads: usize,
+    progress: &(dyn Fn(usize) -> bool + Sync),
+) -> Result<Campbell, NoCampbell> {
+    let count = Speeds::blocks(plan);
+    let threads = match threads {
+        0 => thread::available_parallelism().map_or(1, usize::from),
+        n => n,
+    };
+    let (next, done, stop) = (AtomicUsize::new(0), AtomicUsize::new(0), AtomicBool::new(false));
+    // Nothing is computed beyond a block that ends.
+    let end = AtomicUsize::new(count);
+    let blocks: Vec<Mutex<Option<Block>>> = (0..count).map(|_| Mutex::new(None)).collect();
+    let new = || Speeds::new(build().map_err(NoCampbell::Build)?, plan);
+    let work = |speeds: &mut Speeds<'_>| -> Result<(), NoCampbell> {
+        loop {
+            let number = next.fetch_add(1, Ordering::Relaxed);
+            let Some(slot) = blocks.get(number).filter(|_| number < end.load(Ordering::Relaxed)) else {
+                return Ok(());
+            };
+            let block = speeds.block(number, || {
+                if !progress(1 + done.fetch_add(1, Ordering::Relaxed)) {
+                    stop.store(true, Ordering::Relaxed);
+                }
+                !stop.load(Ordering::Relaxed)
+            })?;
+            if block.ends() {
+                end.fetch_min(number, Ordering::Relaxed);
+            }
+            if let Ok(mut slot) = slot.lock() {
+                *slot = Some(block);
+            }
+        }
+    };
+    let mut speeds = new()?;
+    thread::scope(|scope| {
+        let helper = || work(&mut new()?);
+        let others: Vec<_> = (1..threads.min(count)).map(|_| scope.spawn(helper)).collect();
+        let mut outcome = work(&mut speeds);
+        for other in others {
+            outcome = outcome.and(other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
+        }
+        outcome
+    })?;
+    let computed = blocks.into_iter().map_while(|slot| slot.into_inner().ok().flatten()).collect();
+    assemble(&mut speeds, computed)
+}

@@ -1,0 +1,172 @@
+//! Modes at one speed after the other.
+
+use super::campbell::{Block, Branch, HubState, NoCampbell, Plan};
+use super::modes::{Mode, describe, modes_near};
+use super::rotation::{negative_stiffness, rotate, rotate_stably};
+use super::stiffness::mass;
+use super::tracking::assurance;
+use crate::linalg::Matrix;
+use crate::system::{Parameter, State, System};
+use num_complex::Complex64;
+
+/// Modes computed beyond those asked for, so that curves may cross the last one.
+const SPARE: usize = 4;
+/// Speeds in a block.
+const BLOCK: usize = 25;
+
+/// Modes at one speed, with what the next one begins with.
+#[derive(Clone, Debug)]
+pub(super) struct Solved {
+    pub speed: f64,
+    /// The modes, ascending.
+    pub modes: Vec<Mode>,
+    /// M x of each mode.
+    pub massed: Vec<Vec<Complex64>>,
+    pub equilibrium: State,
+}
+
+/// A system that turns at the speeds of a [`Plan`], and its last equilibrium.
+pub struct Speeds<'a> {
+    system: Box<dyn System>,
+    plan: &'a Plan,
+    state: State,
+    speed: f64,
+}
+
+impl<'a> Speeds<'a> {
+    /// For the speeds of a plan.
+    ///
+    /// # Errors
+    /// [`NoCampbell::Speeds`].
+    pub fn new(system: Box<dyn System>, plan: &'a Plan) -> Result<Speeds<'a>, NoCampbell> {
+        let speeds = &plan.speeds;
+        let ascending =
+            speeds.windows(2).all(|w| w[0] < w[1]) && speeds.iter().all(|s| s.is_finite() && *s >= 0.0);
+        if speeds.len() < 2 || !ascending {
+            return Err(NoCampbell::Speeds);
+        }
+        let state = system.initial();
+        Ok(Speeds { system, plan, state, speed: 0.0 })
+    }
+
+    /// Number of blocks of speeds, each of which begins at rest.
+    pub fn blocks(plan: &Plan) -> usize {
+        plan.speeds.len().div_ceil(BLOCK)
+    }
+
+    /// The modes at the speeds of block `number`, up to the first failure. `next` is called after each speed and stops by
+    /// `false`. The result does not depend on what was computed before.
+    ///
+    /// # Errors
+    /// [`NoCampbell::Stopped`].
+    pub fn block(&mut self, number: usize, mut next: impl FnMut() -> bool) -> Result<Block, NoCampbell> {
+        self.rest();
+        let mut block = Block { solved: Vec::with_capacity(BLOCK), failure: None };
+        for &speed in self.plan.speeds.chunks(BLOCK).nth(number).unwrap_or_default() {
+            let result = self.solve(speed, self.plan.count + SPARE, block.solved.last());
+            if !next() {
+                return Err(NoCampbell::Stopped);
+            }
+            match result {
+                Ok(solved) => block.solved.push(solved),
+                Err(failure) => {
+                    block.failure = Some(failure);
+                    break;
+                }
+            }
+        }
+        Ok(block)
+    }
+
+    pub(super) fn plan(&self) -> &'a Plan {
+        self.plan
+    }
+
+    /// Returns to the undeformed system at rest.
+    pub(super) fn rest(&mut self) {
+        self.system.release();
+        let _ = self.system.set(Parameter::Speed, 0.0);
+        self.state = self.system.initial();
+        self.speed = 0.0;
+    }
+
+    /// The modes at a speed between those computed, from the ones at a lower speed.
+    pub(super) fn between(&mut self, speed: f64, from: &Solved) -> Result<Solved, NoCampbell> {
+        self.state.copy_from(&from.equilibrium);
+        self.speed = from.speed;
+        self.solve(speed, self.plan.count + SPARE, Some(from))
+    }
+
+    /// The mode at a speed, among those up to `number`, that is most like the vector `near`, and its assurance.
+    pub(super) fn mode_like(
+        &mut self,
+        speed: f64,
+        from: &Solved,
+        number: usize,
+        near: &[Complex64],
+    ) -> Option<(Mode, f64)> {
+        self.state.copy_from(&from.equilibrium);
+        self.speed = from.speed;
+        let solved = self.solve(speed, number + 1, Some(from)).ok()?;
+        let likeness = solved.massed.iter().map(|massed| assurance(near, massed));
+        solved.modes.iter().cloned().zip(likeness).max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// The lowest modes at a speed, from those at another.
+    fn solve(&mut self, speed: f64, count: usize, from: Option<&Solved>) -> Result<Solved, NoCampbell> {
+        let start = self.state.clone();
+        let system = self.system.as_mut();
+        rotate(system, &mut self.state, self.speed, speed)?;
+        if negative_stiffness(system, &self.state) > 0 {
+            self.state.copy_from(&start);
+            rotate_stably(system, &mut self.state, self.speed, speed)?;
+        }
+        self.speed = speed;
+        let mut state = self.state.clone();
+        if self.plan.hub == HubState::Free {
+            system.hold(false);
+            state.v = system.initial().v;
+        }
+        let count = count.min(system.size().v);
+        let near: Vec<_> = from.map_or(&[][..], |s| &s.modes).iter().take(count).collect();
+        let near: Vec<_> = near.iter().map(|m| (m.eigenvalue, m.vector.as_slice())).collect();
+        let modes = modes_near(system, &state, count, &[], &near)
+            .map_err(|source| NoCampbell::Modes { speed, source })?
+            .modes;
+        let mass = mass(system, &state);
+        system.hold(true);
+        let massed = modes.iter().map(|m| times(&mass, &m.vector)).collect();
+        Ok(Solved { speed, modes, massed, equilibrium: self.state.clone() })
+    }
+
+    /// Gives the modes at both ends of each branch their shapes.
+    pub(super) fn describe_ends(&mut self, solved: &[Solved], branches: &mut [Branch]) {
+        let scale: Vec<f64> = self.system.scales().to_vec();
+        for at in solved {
+            let ends = branches.iter_mut().flat_map(|b| {
+                let last = b.points.len().saturating_sub(1);
+                b.points.iter_mut().enumerate().filter(move |(k, _)| *k == 0 || *k == last)
+            });
+            let mut here = ends.filter(|(_, p)| p.speed == at.speed).map(|(_, p)| p).peekable();
+            if here.peek().is_some() {
+                self.system.hold(true);
+                let _ = self.system.set(Parameter::Speed, at.speed);
+                for point in here {
+                    let system = self.system.as_mut();
+                    describe(&mut point.mode, system, &at.equilibrium, &scale, &self.plan.stations);
+                }
+            }
+        }
+    }
+}
+
+/// A z
+fn times(a: &Matrix, z: &[Complex64]) -> Vec<Complex64> {
+    let mut product = vec![0.0; z.len()];
+    let mut part = |of: fn(&Complex64) -> f64| {
+        a.multiply(&z.iter().map(of).collect::<Vec<f64>>(), &mut product);
+        product.clone()
+    };
+    let (re, im) = (part(|z| z.re), part(|z| z.im));
+    re.into_iter().zip(im).map(|(re, im)| Complex64::new(re, im)).collect()
+}
