@@ -6,7 +6,7 @@
 #![allow(clippy::print_stdout)] // what it is for
 
 use flexion::linalg::{Matrix, negative_pivots};
-use flexion::system::{State, System, Weights};
+use flexion::system::{Dynamics, Events, Observed, Parameter, State, Steady, System, Weights};
 use flexion_case::{build, read};
 use std::path::Path;
 
@@ -22,7 +22,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         blade.set_speed(speed.parse()?)?;
         let state = State::zeros(blade.size(), 0.0);
         let [m, k] = [(1.0, 0.0), (0.0, 1.0)].map(|(a, q)| {
-            let mut matrix = Matrix::new(&blade.structure());
+            let mut matrix = Matrix::new(&blade.structure(0));
             blade.tangent(&state, Weights::new(a, 0.0, q), &mut matrix);
             matrix
         });

@@ -7,7 +7,7 @@ use flexion::analysis::modes::modes;
 use flexion::analysis::rotation::rotate_stably;
 use flexion::linalg::eigen::Pencil;
 use flexion::linalg::{Matrix, Structure};
-use flexion::system::{Direction, State, System, Weights};
+use flexion::system::{Direction, Dynamics, Events, Observed, Parameter, State, Steady, System, Weights};
 use flexion_case::{build, read};
 use std::path::Path;
 
@@ -39,11 +39,11 @@ fn full(exponent: f64, basis: &str, gamma: f64) -> [f64; 2] {
 /// The same with the transverse unknowns only: M₂ B̈ + [Ω²(C − M₂) + K₃] B = 0.
 fn transverse(exponent: f64, basis: &str, gamma: f64) -> [f64; 2] {
     let mut system = system(exponent, basis);
-    system.turn_steadily(gamma / unit_of_time());
+    system.set(Parameter::Speed, gamma / unit_of_time()).unwrap();
     let state = State::zeros(system.size(), 0.0);
     let kept: Vec<usize> =
         (0..system.size().v).filter(|&i| system.direction(i) == Direction::Chord).collect();
-    let structure = system.structure();
+    let structure = system.structure(0);
     let mut part = |a: f64, q: f64| {
         let mut whole = Matrix::new(&structure);
         system.tangent(&state, Weights::new(a, 0.0, q), &mut whole);

@@ -8,7 +8,7 @@
 use flexion::blade::{Blade, BladeError, Model, Setting, StrainEnergy, Terms};
 use flexion::linalg::{Matrix, negative_pivots};
 use flexion::section::BladeResultants;
-use flexion::system::{State, System, Weights};
+use flexion::system::{Dynamics, Events, Observed, Parameter, State, Steady, System, Weights};
 use flexion_results::plot::{Axis, Figure, Line, Panel, Series};
 
 /// Elements of the blade.
@@ -39,7 +39,7 @@ fn frequency(slenderness: f64, strain_energy: StrainEnergy, speed: f64) -> Resul
     blade.set_speed(speed)?;
     let state = State::zeros(blade.size(), 0.0);
     let [m, k] = [(1.0, 0.0), (0.0, 1.0)].map(|(a, q)| {
-        let mut matrix = Matrix::new(&blade.structure());
+        let mut matrix = Matrix::new(&blade.structure(0));
         blade.tangent(&state, Weights::new(a, 0.0, q), &mut matrix);
         matrix
     });

@@ -60,7 +60,7 @@ pub use torque::{Controller, Free, Torque};
 
 use build::BuildError;
 use declaration::Seam;
-use flexion::system::{State, System};
+use flexion::system::{Dynamics, Events, Observed, Parameter, State, Steady, System};
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};

@@ -7,7 +7,7 @@ use flexion::analysis::superposition::superpose;
 use flexion::analysis::transient::{Ending, Plan, resume, transient_to_checkpoint};
 use flexion::integrator::{Checkpoint, Counters, Info};
 use flexion::linalg::Structure;
-use flexion::system::{State, System};
+use flexion::system::{Dynamics, Events, Observed, Parameter, State, Steady, System};
 use flexion_results::plot::trajectory_figure;
 use flexion_results::{
     Artifact, Attachments, Directory, Integration, OutputError, ProblemSize, Recorder, RunReport, Shapes,
@@ -209,7 +209,7 @@ impl Prepared<'_> {
             trajectory,
             shapes,
             tables,
-            warnings: system.cautions(),
+            warnings: system.cautions(&[]),
             info: integrator.info().clone(),
             counters: integrator.counters(),
             size: size(system.as_ref()),
@@ -237,7 +237,7 @@ fn processor_time() -> Option<f64> {
 
 fn size(system: &dyn System) -> ProblemSize {
     let unknowns = system.size().v + system.size().lambda;
-    let structure = system.structure();
+    let structure = system.structure(0);
     let border = if let Structure::Band { border, .. } = structure { border } else { 0 };
     ProblemSize { unknowns, half_bandwidth: structure.half_bandwidth(), border }
 }

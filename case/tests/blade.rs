@@ -12,14 +12,14 @@ use flexion::linalg::{Matrix, negative_pivots};
 use flexion::profile::{Constant, Motion};
 use flexion::quadrature::Gauss;
 use flexion::section::{BladeResultants, Resultants, Uniform};
-use flexion::system::{State, System, Weights};
+use flexion::system::{Dynamics, Events, Observed, Parameter, State, Steady, System, Weights};
 use flexion_case::{build, parse};
 use std::f64::consts::TAU;
 use std::path::Path;
 use std::sync::Arc;
 
 fn matrix(system: &mut dyn System, state: &State, weights: (f64, f64, f64)) -> Matrix {
-    let mut matrix = Matrix::new(&system.structure());
+    let mut matrix = Matrix::new(&system.structure(0));
     system.tangent(state, Weights::new(weights.0, weights.1, weights.2), &mut matrix);
     matrix
 }

@@ -6,7 +6,10 @@ use crate::verification::run::{Run, Span, case, run};
 use flexion::analysis::transient::{Ending, Observer, Plan, Step, transient};
 use flexion::integrator::Integrator;
 use flexion::linalg::{Matrix, Structure};
-use flexion::system::{Channel, Energy, Frame, Label, Power, Size, State, System, Turns, Weights};
+use flexion::system::{
+    Channel, Corotation, Dynamics, Energy, Events, Frame, Label, Observed, Parameter, Power, Size, State,
+    Steady, System, Weights,
+};
 use flexion_case::Reading;
 use flexion_results::{Trajectory, write_csv};
 
@@ -264,7 +267,7 @@ fn band_and_dense_storage_give_the_same_run() {
                     assert!(matches!(live.system.structure(), Structure::Band { .. }), "{folder}");
                     let integrator: &mut dyn Integrator = live.integrator.as_mut();
                     if dense {
-                        let own = Matrix::new(&live.system.structure());
+                        let own = Matrix::new(&live.system.structure(0));
                         integrate_system(&reading, &mut Dense(live.system, own), integrator)
                     } else {
                         integrate_system(&reading, live.system.as_mut(), integrator)

@@ -4,7 +4,7 @@ use crate::{Outcome, case, screen};
 use flexion::hub_beam::Drive;
 use flexion::integrator::{Adams, Integrator, RungeKutta, StabilityLimit, StepError};
 use flexion::linalg::Structure;
-use flexion::system::{State, System};
+use flexion::system::{Dynamics, Events, Observed, Parameter, State, Steady, System};
 use flexion_case::{Case, Coupling, Initial, Live, Problems, Reading, build};
 
 /// The case to check.
@@ -48,7 +48,7 @@ fn describe(reading: &Reading) -> Result<String, Problems> {
     for t in [0.0, case.duration] {
         rows.extend(stability(system.as_mut(), t));
     }
-    rows.extend(system.cautions().into_iter().map(|caution| row("caution", caution)));
+    rows.extend(system.cautions(&[]).into_iter().map(|caution| row("caution", caution)));
     out.push_str(&screen::table(&rows));
     let defaults = reading.defaults();
     if !defaults.is_empty() {

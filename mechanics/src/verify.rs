@@ -63,7 +63,14 @@ pub fn dynamics(system: &mut dyn System, s: &State) -> Vec<Defect> {
 
 impl Checker<'_> {
     /// Records where `found` is not `expected`; errors are measured by the largest of `expected`.
-    fn compare(&mut self, check: &'static str, place: impl Fn(usize) -> String, found: &[f64], expected: &[f64], floor: f64) {
+    fn compare(
+        &mut self,
+        check: &'static str,
+        place: impl Fn(usize) -> String,
+        found: &[f64],
+        expected: &[f64],
+        floor: f64,
+    ) {
         let size = expected.iter().chain(found).fold(floor, |m, x| m.max(x.abs()));
         for (i, (&found, &expected)) in found.iter().zip(expected).enumerate() {
             if !((found - expected).abs() <= ALLOWED * size) {
@@ -219,7 +226,8 @@ impl Checker<'_> {
             e[0] = system.energy(&along(system, &s, t)).total();
         });
         // Power of single terms, which may cancel.
-        let size: f64 = s.v.iter().map(|v| v.abs()).fold(0.0, f64::max) * energy.total().abs().max(energy.kinetic);
+        let size: f64 =
+            s.v.iter().map(|v| v.abs()).fold(0.0, f64::max) * energy.total().abs().max(energy.kinetic);
         self.compare("dE/dt", |_| "power".to_owned(), &[power], &rate, 1e-2 * size);
     }
 }

@@ -6,7 +6,7 @@ use flexion::integrator::{Counters, GeneralizedAlpha, Integrator, Radau, Toleran
 use flexion::linalg::Matrix;
 use flexion::profile::{Motion, SpinUp};
 use flexion::section::{Resultants, Uniform};
-use flexion::system::{State, System, Turns, Weights};
+use flexion::system::{Corotation, Dynamics, Events, Observed, Parameter, State, Steady, System, Weights};
 use std::sync::Arc;
 
 const LENGTH: f64 = 10.0;
@@ -25,7 +25,7 @@ fn beam() -> HubBeam<ExactCoupling> {
 }
 
 fn stiffness(system: &mut dyn System, s: &State) -> Matrix {
-    let mut out = Matrix::new(&system.structure());
+    let mut out = Matrix::new(&system.structure(0));
     system.tangent(s, Weights::new(0.0, 0.0, 1.0), &mut out);
     out
 }
@@ -57,8 +57,8 @@ fn stiffness_turns_with_a_beam_that_turns_as_a_whole() {
     let (bent, turned) = bent_and_turned(&system, 0.7);
     let before = stiffness(&mut system, &bent);
     let now = stiffness(&mut system, &turned);
-    let mut turns = Turns::default();
-    system.turns(&bent, &turned, &mut turns);
+    let mut turns = Corotation::default();
+    system.corotate(&bent, &turned, &mut turns);
     let n = bent.q.len();
     // The first two nodes belong to the element at the root, which does not turn.
     let free = ROOT + 4..n;
@@ -67,9 +67,9 @@ fn stiffness_turns_with_a_beam_that_turns_as_a_whole() {
         let (mut unit, mut column, mut expected) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
         unit[j] = 1.0;
         now.multiply(&unit, &mut expected);
-        turns.turn_back(&mut unit);
+        turns.rotate_back(&mut unit);
         before.multiply(&unit, &mut column);
-        turns.turn(&mut column);
+        turns.rotate(&mut column);
         for i in free.clone() {
             largest = largest.max(expected[i].abs());
             assert!(
@@ -87,13 +87,13 @@ fn stiffness_turns_with_a_beam_that_turns_as_a_whole() {
 fn turning_back_undoes_turning() {
     let system = beam();
     let (bent, turned) = bent_and_turned(&system, -1.2);
-    let mut turns = Turns::default();
-    system.turns(&bent, &turned, &mut turns);
+    let mut turns = Corotation::default();
+    system.corotate(&bent, &turned, &mut turns);
     let x: Vec<f64> = (0..bent.q.len()).map(|i| (1.0 + i as f64).sin()).collect();
     let mut y = x.clone();
-    turns.turn(&mut y);
+    turns.rotate(&mut y);
     assert!(x.iter().zip(&y).any(|(x, y)| (x - y).abs() > 0.1));
-    turns.turn_back(&mut y);
+    turns.rotate_back(&mut y);
     assert!(x.iter().zip(&y).all(|(x, y)| (x - y).abs() < 1e-14));
 }
 

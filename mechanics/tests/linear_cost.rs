@@ -13,7 +13,7 @@ use flexion::integrator::{GeneralizedAlpha, Integrator};
 use flexion::linalg::Matrix;
 use flexion::profile::{Motion, Ramp};
 use flexion::section::{Resultants, Uniform};
-use flexion::system::System;
+use flexion::system::{Dynamics, Events, Observed, Parameter, Steady, System};
 use std::sync::Arc;
 
 /// Numbers stored for the tangent.
@@ -24,7 +24,7 @@ fn stored(matrix: &Matrix) -> usize {
 #[test]
 fn the_tangent_takes_memory_in_proportion_to_the_elements() {
     for coupling in ["first", "exact"] {
-        let size = |n: usize| stored(&Matrix::new(&spin_up::system(coupling, n).structure()));
+        let size = |n: usize| stored(&Matrix::new(&spin_up::system(coupling, n).structure(0)));
         let sizes: Vec<usize> = spin_up::sizes().map(size).collect();
         for pair in sizes.windows(2) {
             assert!(pair[1] <= 2 * pair[0], "{coupling}: {sizes:?}");
@@ -101,7 +101,7 @@ fn a_hundred_thousand_unknowns_take_few_numbers_each() {
     let mut system = HubBeam::new(hub, coupling, &[]);
     let n = system.size().v;
     assert!(n > 100_000);
-    assert!(stored(&Matrix::new(&system.structure())) <= 16 * n, "half-bandwidth 5 and its fill");
+    assert!(stored(&Matrix::new(&system.structure(0))) <= 16 * n, "half-bandwidth 5 and its fill");
     let mut integrator = GeneralizedAlpha::newmark(0.25, 0.5).unwrap();
     let mut from = system.initial();
     integrator.start(&mut system, &mut from, spin_up::STEP).unwrap();

@@ -2,7 +2,7 @@
 
 use super::{Shapes, Trajectory};
 use flexion::analysis::transient::{Observer, Plan, Step};
-use flexion::system::{Channel, Role, State, System};
+use flexion::system::{Channel, Dynamics, Events, Observed, Parameter, Role, State, Steady, System};
 use std::ops::ControlFlow;
 
 /// Called after every accepted step; `Break` stops the run.
@@ -56,7 +56,7 @@ impl<'a> Recorder<'a> {
 }
 
 impl Observer for Recorder<'_> {
-    fn wants_books(&self) -> bool {
+    fn wants_energy_balance(&self) -> bool {
         self.balance
     }
 
@@ -68,7 +68,7 @@ impl Observer for Recorder<'_> {
                 [] => system.energy(state).total(),
                 recorded => recorded.iter().map(|&i| own[i]).sum(),
             };
-            let balance = step.books.filter(|_| self.balance);
+            let balance = step.balance.filter(|_| self.balance);
             let work = balance.map(|b| [b.drive, b.loads, b.dissipated, b.balance(total)]);
             let steps = [step.size, f64::from(step.iterations)];
             let values = std::iter::once(total).chain(work.into_iter().flatten()).chain(steps);

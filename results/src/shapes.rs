@@ -1,6 +1,6 @@
 //! The shape of the beam at some of the recorded times, for pictures in space.
 
-use flexion::system::{Frame, State, System};
+use flexion::system::{Dynamics, Events, Frame, Observed, Parameter, State, Steady, System};
 
 /// Equal intervals along the beam between whose ends it is drawn.
 const INTERVALS: usize = 100;

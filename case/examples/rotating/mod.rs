@@ -6,7 +6,7 @@ use flexion::hub_beam::{Fields, Foreshortening, Hub, HubBeam, LinearCoupling};
 use flexion::linalg::Matrix;
 use flexion::profile::{Constant, Motion};
 use flexion::section::{Resultants, Uniform};
-use flexion::system::{Direction, State, System, Weights};
+use flexion::system::{Direction, Dynamics, Events, Observed, Parameter, State, Steady, System, Weights};
 use nalgebra::{Cholesky, DMatrix};
 use std::error::Error;
 use std::sync::Arc;
@@ -33,7 +33,7 @@ pub fn frequency_error(transverse: Box<dyn Basis>) -> Result<(usize, f64), Box<d
     let across: Vec<usize> =
         (0..system.size().v).filter(|&i| system.direction(i) == Direction::Chord).collect();
     let mut part = |weights: Weights<'_>| {
-        let mut matrix = Matrix::new(&system.structure());
+        let mut matrix = Matrix::new(&system.structure(0));
         system.tangent(&state, weights, &mut matrix);
         DMatrix::from_fn(unknowns, unknowns, |i, j| matrix.get(across[i], across[j]))
     };

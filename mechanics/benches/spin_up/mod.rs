@@ -10,7 +10,7 @@ use flexion::integrator::{GeneralizedAlpha, Integrator, Radau, Tolerance};
 use flexion::linalg::Matrix;
 use flexion::profile::{Expression, Motion, SpinUp};
 use flexion::section::{Resultants, Uniform};
-use flexion::system::{State, System, Weights};
+use flexion::system::{Dynamics, State, System, Weights};
 use std::sync::Arc;
 
 /// Step of the fixed-step runs [s].
@@ -105,7 +105,7 @@ impl Run {
 pub fn equations(elements: usize) -> (Matrix, Vec<f64>) {
     let mut system = system("first", elements);
     let state = State::zeros(system.size(), 5.0);
-    let mut tangent = Matrix::new(&system.structure());
+    let mut tangent = Matrix::new(&system.structure(0));
     system.tangent(&state, Weights::new(1.0, 0.5 * STEP, 0.25 * STEP * STEP), &mut tangent);
     let mut rhs = vec![0.0; state.v.len()];
     system.residual(&state, &mut rhs);

@@ -9,8 +9,8 @@ use super::tension::Tension;
 use crate::linalg::{Matrix, Storage, Structure};
 use crate::section::BladeSection;
 use crate::system::{
-    Channel, Direction, Dynamics, Energy, Events, Frame, NotSet, Observed, Parameter, Role, Size, State, Steady,
-    Weights,
+    Channel, Direction, Dynamics, Energy, Events, Frame, NotSet, Observed, Parameter, Role, Size, State,
+    Steady, Weights,
 };
 
 /// A rotating blade. See the [module documentation](super).
@@ -293,7 +293,6 @@ impl Steady for Blade {
 }
 
 impl Observed for Blade {
-
     fn direction(&self, i: usize) -> Direction {
         match self.components().get(i) {
             Some(Component::Axial) => Direction::Axial,

@@ -40,7 +40,9 @@ pub enum Law {
 
 /// The relaxation did not settle.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("the contact forces of {rows} rows did not settle: after {sweeps} sweeps they still change by {change:.1e} of the largest")]
+#[error(
+    "the contact forces of {rows} rows did not settle: after {sweeps} sweeps they still change by {change:.1e} of the largest"
+)]
 pub struct Unresolved {
     /// Number of rows.
     pub rows: usize,

@@ -104,7 +104,9 @@ impl ImpactMap {
     ) -> Result<Impact, ImpactError> {
         self.factor(system, state)?;
         let n = self.velocities;
-        if self.weight > 0.0 && state.lambda.iter().zip(&self.sets).all(|(x, set)| *set == Set::Free || *x <= weak) {
+        if self.weight > 0.0
+            && state.lambda.iter().zip(&self.sets).all(|(x, set)| *set == Set::Free || *x <= weak)
+        {
             let (mut force, mut change) = (vec![0.0; n], vec![0.0; n]);
             self.stiffness.multiply(&state.v, &mut force);
             force.iter_mut().for_each(|f| *f *= -self.weight);
@@ -125,8 +127,7 @@ impl ImpactMap {
             Set::Unilateral { restitution } if before[i] < -resting => restitution * before[i],
             _ => 0.0,
         };
-        let b: Vec<f64> =
-            part.rows.iter().map(|&i| before[i] + target(i) + self.along(i, &change)).collect();
+        let b: Vec<f64> = part.rows.iter().map(|&i| before[i] + target(i) + self.along(i, &change)).collect();
         let mut impulses = vec![0.0; part.rows.len()];
         solve(&part.laws, &w, &b, &mut impulses)?;
         self.add_images(&part, &impulses, &mut change);
@@ -199,7 +200,9 @@ impl ImpactMap {
             state.mode[i] = match part.laws[k] {
                 Law::Free => Mode::Closed,
                 Law::Unilateral if forces[k] > 0.0 => Mode::Closed,
-                Law::Unilateral if struck.get(i) == Some(&true) && b[k] <= RESTING * largest_bend => Mode::Closed,
+                Law::Unilateral if struck.get(i) == Some(&true) && b[k] <= RESTING * largest_bend => {
+                    Mode::Closed
+                }
                 Law::Unilateral => Mode::Open,
                 Law::Slip { slope, .. } if slope > 0.0 => Mode::SlipForward,
                 Law::Slip { .. } => Mode::SlipBackward,

@@ -13,7 +13,7 @@ use crate::linalg::Storage;
 use crate::profile::HubKinematics;
 use crate::quadrature::Gauss;
 use crate::section::Section;
-use crate::system::{State, Corotation, Weights};
+use crate::system::{Corotation, State, Weights};
 
 /// Marks an unknown that the clamp removes.
 const CLAMPED: usize = usize::MAX;

@@ -36,7 +36,7 @@ use crate::basis::{BasisError, Field, Hermite};
 use crate::linalg::Storage;
 use crate::profile::HubKinematics;
 use crate::section::{Mass, Resultants, Section};
-use crate::system::{State, Corotation, Weights};
+use crate::system::{Corotation, State, Weights};
 
 /// Largest axial strain |ε| that a linear-elastic beam is believed to have.
 const LARGEST_STRAIN: f64 = 0.5;

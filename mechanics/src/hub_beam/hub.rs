@@ -147,15 +147,17 @@ impl FreeHub {
 
     /// Times at which torque or reference are not smooth.
     pub fn breaks(&self) -> Vec<Break> {
-        let torque = self.torque.breaks().iter().map(|&time| Break {
-            time,
-            jump: force_jump(jumping_derivative(self.torque.as_ref(), time)),
-        });
+        let torque = self
+            .torque
+            .breaks()
+            .iter()
+            .map(|&time| Break { time, jump: force_jump(jumping_derivative(self.torque.as_ref(), time)) });
         let reference = self.controller.iter().flat_map(|controller| {
             let reference = &controller.reference;
-            reference.breaks().iter().map(|&time| {
-                Break { time, jump: force_jump(reference.jumping_derivative(time)) }
-            })
+            reference
+                .breaks()
+                .iter()
+                .map(|&time| Break { time, jump: force_jump(reference.jumping_derivative(time)) })
         });
         torque.chain(reference).collect()
     }

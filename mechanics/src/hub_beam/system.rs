@@ -13,8 +13,8 @@ use crate::linalg::{Matrix, Storage, Structure};
 use crate::profile::{HubKinematics, Motion};
 use crate::section::Section;
 use crate::system::{
-    Break, Channel, Corotation, Direction, Dynamics, Energy, Events, Frame, Jump, Label, NotSet, Observed, Parameter,
-    Power, Role, Size, State, Steady, Weights, ordered,
+    Break, Channel, Corotation, Direction, Dynamics, Energy, Events, Frame, Jump, Label, NotSet, Observed,
+    Parameter, Power, Role, Size, State, Steady, Weights, ordered,
 };
 
 /// A flexible beam on a hub. See the [module documentation](super).

@@ -144,14 +144,7 @@ impl Work {
     }
 
     /// Adds the rows and columns of μ, where the form is stabilized.
-    fn stabilize(
-        &mut self,
-        system: &mut dyn Dynamics,
-        to: &State,
-        d: &[f64],
-        h: f64,
-        [_, to_q]: [f64; 2],
-    ) {
+    fn stabilize(&mut self, system: &mut dyn Dynamics, to: &State, d: &[f64], h: f64, [_, to_q]: [f64; 2]) {
         let Some(stiffness) = &mut self.stiffness else { return };
         let (n, m) = (d.len(), self.rows.len());
         system.tangent(to, Weights { q: 1.0, v: 0.0, a: 0.0, increment: Some(d) }, stiffness);

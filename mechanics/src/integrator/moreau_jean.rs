@@ -243,8 +243,10 @@ impl Work {
                 let part = self.w[k * m..(k + 1) * m].iter().zip(&self.solution);
                 self.b[k] -= part.map(|(w, p)| w * p).sum::<f64>();
             }
-            solve(&self.laws, &self.w, &self.b, &mut self.solution).map_err(|cause| {
-                StepError::Contacts { time: from.t, step: h, cause }
+            solve(&self.laws, &self.w, &self.b, &mut self.solution).map_err(|cause| StepError::Contacts {
+                time: from.t,
+                step: h,
+                cause,
             })?;
             for (k, &row) in self.part.iter().enumerate() {
                 let change = self.solution[k] - self.impulses[row];

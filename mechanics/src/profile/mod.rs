@@ -51,7 +51,9 @@ pub fn jumping_derivative(profile: &dyn Profile, t: f64) -> usize {
     (0..3)
         .find(|&k| {
             let jump = (derivative(k, t) - derivative(k, t.next_down())).abs();
-            let near = [1e-6, 1e-3, 0.1].into_iter().flat_map(|d| [t - d * (1.0 + t.abs()), t + d * (1.0 + t.abs())]);
+            let near = [1e-6, 1e-3, 0.1]
+                .into_iter()
+                .flat_map(|d| [t - d * (1.0 + t.abs()), t + d * (1.0 + t.abs())]);
             let scale = near.map(|t| derivative(k, t.clamp(first, last)).abs()).fold(0.0, f64::max);
             !(jump <= 1e-9 * scale)
         })
@@ -126,7 +128,9 @@ pub enum ProfileError {
         time: f64,
     },
     /// A prescribed angle jumps.
-    #[error("the angle of the hub jumps by {size} rad at t = {time} s, which no motion does: prescribe the speed, or a continuous angle")]
+    #[error(
+        "the angle of the hub jumps by {size} rad at t = {time} s, which no motion does: prescribe the speed, or a continuous angle"
+    )]
     AngleJumps {
         /// Time \[s\].
         time: f64,

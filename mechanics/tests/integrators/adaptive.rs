@@ -3,9 +3,9 @@
 use super::drive::adaptive;
 use super::systems::{Chain, Pendulum, SpringPendulum, TwoFrequencies, state, wide_chain};
 use flexion::integrator::{Counters, Integrator, Radau, Tolerance};
-use flexion::system::{Dynamics, State};
+use flexion::system::{Dynamics, State, System};
 
-fn run(system: &mut dyn Dynamics, from: &State, end: f64, tolerance: f64) -> (State, Counters) {
+fn run(system: &mut dyn System, from: &State, end: f64, tolerance: f64) -> (State, Counters) {
     let mut method = Radau::new(Tolerance::uniform(tolerance)).unwrap();
     let last = adaptive(&mut method, system, from.clone(), end, tolerance, |_, _, _, _| {}).unwrap();
     (last, method.counters())

@@ -3,16 +3,16 @@
 #![allow(dead_code)]
 
 use flexion::integrator::{Integrator, StepControl, StepError};
-use flexion::system::{Dynamics, State};
+use flexion::system::{State, System};
 
 /// `steps` equal steps to `end`; the callback sees (integrator, system, from, to) of each.
 pub fn fixed(
     integrator: &mut dyn Integrator,
-    system: &mut dyn Dynamics,
+    system: &mut dyn System,
     mut from: State,
     end: f64,
     steps: usize,
-    mut each: impl FnMut(&dyn Integrator, &mut dyn Dynamics, &State, &State),
+    mut each: impl FnMut(&dyn Integrator, &mut dyn System, &State, &State),
 ) -> Result<State, StepError> {
     let h = end / steps as f64;
     integrator.start(system, &mut from, h)?;
@@ -30,11 +30,11 @@ pub fn fixed(
 /// Adaptive run to `end`.
 pub fn adaptive(
     integrator: &mut dyn Integrator,
-    system: &mut dyn Dynamics,
+    system: &mut dyn System,
     mut from: State,
     end: f64,
     tolerance: f64,
-    mut each: impl FnMut(&dyn Integrator, &mut dyn Dynamics, &State, &State),
+    mut each: impl FnMut(&dyn Integrator, &mut dyn System, &State, &State),
 ) -> Result<State, StepError> {
     let order = integrator.info().estimate_order.unwrap_or(1);
     integrator.start(system, &mut from, 0.0)?;

@@ -201,7 +201,8 @@ impl Dynamics for HeavyTop {
         let (d, v) = ([d[0], d[1], d[2]], [v[0], v[1], v[2]]);
         let square: f64 = d.iter().map(|x| x * x).sum();
         let half = 0.5 * square.sqrt();
-        let part = if square > 1e-6 { (1.0 - half / half.tan()) / square } else { 1.0 / 12.0 + square / 720.0 };
+        let part =
+            if square > 1e-6 { (1.0 - half / half.tan()) / square } else { 1.0 / 12.0 + square / 720.0 };
         let once = cross(d, v);
         let twice = cross(d, once);
         for i in 0..3 {

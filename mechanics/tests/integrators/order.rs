@@ -3,7 +3,7 @@
 use super::drive::fixed;
 use super::systems::{Chain, Pendulum, SpringPendulum, state};
 use flexion::integrator::{Adams, GeneralizedAlpha, Integrator, Radau, RungeKutta, Tolerance};
-use flexion::system::{Dynamics, State};
+use flexion::system::{Dynamics, State, System};
 
 type Make = fn() -> Box<dyn Integrator>;
 
@@ -19,7 +19,7 @@ const METHODS: [(&str, Make, f64, [usize; 2]); 6] = [
 /// Largest errors of q and v at the ends of steps, and of q within them, against `exact`.
 fn errors(
     make: Make,
-    system: &mut dyn Dynamics,
+    system: &mut dyn System,
     from: &State,
     end: f64,
     steps: usize,
@@ -45,7 +45,7 @@ fn errors(
 
 fn assert_orders(
     what: &str,
-    system: &mut dyn Dynamics,
+    system: &mut dyn System,
     from: &State,
     end: f64,
     exact: &dyn Fn(f64) -> (Vec<f64>, Vec<f64>),

@@ -132,7 +132,8 @@ fn two_balls_strike_the_floor_at_once_with_friction() {
     }
     let mut far = |steps: usize| {
         let mut method = MoreauJean::new(0.5).unwrap();
-        let end = fixed(&mut method, &mut system, start.clone(), time + after, steps, |_, _, _, _| {}).unwrap();
+        let end =
+            fixed(&mut method, &mut system, start.clone(), time + after, steps, |_, _, _, _| {}).unwrap();
         assert!((end.v[0] - v_x).abs() < 1e-2 * v_x, "{} for {v_x}", end.v[0]);
         (end.q[1] - exact_y).abs()
     };
@@ -151,7 +152,8 @@ fn balls_that_stick_roll_on_with_five_sevenths_of_their_speed() {
     start.v = vec![1.4, 0.0, 0.0, 1.4, 0.0, 0.0];
     start.mode[..4].fill(Mode::Open);
     let mut alpha = GeneralizedAlpha::chung_hulbert(0.8).unwrap();
-    let mut methods: [(&mut dyn Integrator, Option<f64>); 2] = [(&mut radau(), None), (&mut alpha, Some(1e-3))];
+    let mut methods: [(&mut dyn Integrator, Option<f64>); 2] =
+        [(&mut radau(), None), (&mut alpha, Some(1e-3))];
     for (method, step) in &mut methods {
         let (end, watch) = run(&mut system, *method, start.clone(), 0.6, *step);
         assert_eq!(impacts(&watch), 1, "{:?}", watch.events);
@@ -253,7 +255,12 @@ fn a_node_without_mass_meets_a_stop_and_all_energy_comes_back() {
     assert_eq!(watch.events.len(), 2, "{:?}", watch.events);
     assert!((watch.events[0].time - touch).abs() < 1e-10);
     assert!((watch.events[1].time - touch - half).abs() < 1e-6);
-    assert!((last.q[0] - exact).abs() < 1e-6 && (last.v[0] - speed).abs() < 1e-6, "{:?} {:?}", last.q, last.v);
+    assert!(
+        (last.q[0] - exact).abs() < 1e-6 && (last.v[0] - speed).abs() < 1e-6,
+        "{:?} {:?}",
+        last.q,
+        last.v
+    );
     // The method's error of energy in a contact is some (hω)²/12 = 2e-6 of the whole.
     assert!(watch.imbalance < 1e-5 * 0.5 * system.mass * speed * speed, "{:e}", watch.imbalance);
     let mut method = MoreauJean::new(0.5).unwrap();
@@ -293,7 +300,8 @@ fn a_ball_bounces_on_a_moving_plate_and_the_balance_counts_its_work() {
     let mut start = system.initial();
     (start.q[0], start.mode[0]) = (0.25, Mode::Open);
     let mut alpha = GeneralizedAlpha::chung_hulbert(0.8).unwrap();
-    let mut methods: [(&mut dyn Integrator, Option<f64>); 2] = [(&mut radau(), None), (&mut alpha, Some(2e-3))];
+    let mut methods: [(&mut dyn Integrator, Option<f64>); 2] =
+        [(&mut radau(), None), (&mut alpha, Some(2e-3))];
     for (method, step) in &mut methods {
         let (last, watch) = run(&mut system, *method, start.clone(), end, *step);
         let times: Vec<f64> = watch.events.iter().map(|e| e.time).collect();

@@ -119,7 +119,7 @@ fn a_state_that_is_not_finite_is_an_error_of_every_method() {
     ];
     for mut method in methods {
         for nonlinear in [false, true] {
-            let mut system: Box<dyn Dynamics> =
+            let mut system: Box<dyn System> =
                 if nonlinear { Box::new(Pendulum::new()) } else { Box::new(Chain::oscillator(1.0, 0.0)) };
             let mut from = state(&*system, &[1.0], &[0.0]);
             method.start(&mut *system, &mut from, 0.05).unwrap();

@@ -223,11 +223,7 @@ impl Dynamics for CartesianPendulum {
     }
     fn constraint(&mut self, s: &State, c: RowWeights, g: &mut [f64]) {
         let dot = |x: &[f64], y: &[f64]| x[0] * y[0] + x[1] * y[1];
-        g[0] = c.combine(
-            0.5 * (dot(&s.q, &s.q) - 1.0),
-            dot(&s.q, &s.v),
-            dot(&s.q, &s.a) + dot(&s.v, &s.v),
-        );
+        g[0] = c.combine(0.5 * (dot(&s.q, &s.q) - 1.0), dot(&s.q, &s.v), dot(&s.q, &s.a) + dot(&s.v, &s.v));
     }
     fn rows(&self) -> &[Set] {
         &[Set::Free]

@@ -208,9 +208,10 @@ impl Locator {
 
     fn least(&self, values: &Values) -> f64 {
         let m = self.sets.len();
-        let rows = values.indicator[..m].iter().zip(&values.zero).map(|(x, zero)| {
-            if x.is_finite() { x / zero.max(SMALLEST) } else { f64::MAX }
-        });
+        let rows = values.indicator[..m]
+            .iter()
+            .zip(&values.zero)
+            .map(|(x, zero)| if x.is_finite() { x / zero.max(SMALLEST) } else { f64::MAX });
         let own = values.indicator[m..].iter().zip(&self.signs).map(|(x, sign)| sign * x);
         rows.chain(own).fold(f64::MAX, f64::min)
     }

@@ -145,7 +145,9 @@ pub enum RunError {
         cause: ImpactError,
     },
     /// Events accumulate.
-    #[error("{count} events follow each other at t = {time:.9} s with no time between them: the contacts chatter; give them less restitution or use a continuous contact force")]
+    #[error(
+        "{count} events follow each other at t = {time:.9} s with no time between them: the contacts chatter; give them less restitution or use a continuous contact force"
+    )]
     Chatter {
         /// Time \[s\].
         time: f64,
@@ -447,10 +449,12 @@ impl Run {
                 if let Some(control) = &mut self.control {
                     control.restart(h);
                 }
-                if at_break.is_some() && state.t < plan.end
+                if at_break.is_some()
+                    && state.t < plan.end
                     && let (Some(stretch), Some(asked)) = (&mut self.stretch, plan.step)
                 {
-                    *stretch = Stretch::new(state.t, next_break(system, integrator, state.t, plan.end), asked);
+                    *stretch =
+                        Stretch::new(state.t, next_break(system, integrator, state.t, plan.end), asked);
                 }
             }
             if observer.step(state).is_break() && state.t < plan.end {

@@ -263,13 +263,13 @@ fn vibrations_keep_their_energy_and_the_shape_turns_with_the_hub() {
     }
     let mut frames = [crate::system::Frame::default(); 2];
     let mut state = State::zeros(blade.size(), 0.0);
-    blade.shape(&state, &[0.0, 1.0], &mut frames);
+    blade.frames(0, &state, &[0.0, 1.0], &mut frames);
     let setting = general();
     let root = [setting.hub_radius * setting.precone.cos(), 0.0, setting.hub_radius * setting.precone.sin()];
     assert!((0..3).all(|k| (frames[0].position[k] - root[k]).abs() < 1e-14));
     let tip = frames[1].position;
     state.t = std::f64::consts::PI / 4.0;
-    blade.shape(&state, &[0.0, 1.0], &mut frames);
+    blade.frames(0, &state, &[0.0, 1.0], &mut frames);
     let turned = [-tip[1], tip[0], tip[2]];
     assert!((0..3).all(|k| (frames[1].position[k] - turned[k]).abs() < 1e-14));
 }

@@ -7,13 +7,13 @@ use super::mesh::Component;
 use super::*;
 use crate::linalg::Matrix;
 use crate::section::BladeResultants;
-use crate::system::{State, System, Weights};
+use crate::system::{Dynamics, Observed, State, Weights};
 
 /// Vibration problem of a blade in dense matrices: M, C, K, rows of the given unknowns.
 pub fn matrices(blade: &mut Blade, keep: impl Fn(Component) -> bool) -> [Vec<Vec<f64>>; 3] {
     let numbers: Vec<usize> = (0..blade.size().v).filter(|&i| keep(blade.components()[i])).collect();
     [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)].map(|(a, v, q)| {
-        let mut matrix = Matrix::new(&blade.structure());
+        let mut matrix = Matrix::new(&blade.structure(0));
         blade.tangent(&State::zeros(blade.size(), 0.0), Weights::new(a, v, q), &mut matrix);
         numbers.iter().map(|&i| numbers.iter().map(|&j| matrix.get(i, j)).collect()).collect()
     })

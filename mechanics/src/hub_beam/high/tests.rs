@@ -11,7 +11,7 @@ use crate::hub_beam::tests::{
 use crate::hub_beam::{Coupling, Drive, Fields, Foreshortening, Hub, HubBeam, LinearCoupling};
 use crate::quadrature::Gauss;
 use crate::section::{Laden, Mass as Lump, Resultants, Section};
-use crate::system::{State, System};
+use crate::system::{Events, Observed, State, System};
 
 /// ρA of the two fibres and nothing else.
 #[derive(Debug)]

@@ -14,10 +14,10 @@
 use super::on_section::{Nature, OnSection};
 use super::{Amplitude, Axes};
 use crate::hub_beam::fields::Point;
+use crate::hub_beam::hub::force_jump;
 use crate::hub_beam::inertia::Border;
 use crate::hub_beam::product::{Bundle, Entry, Vectors};
 use crate::linalg::{Matrix, Storage, Structure};
-use crate::hub_beam::hub::force_jump;
 use crate::profile::{HubKinematics, jumping_derivative};
 use crate::system::{Break, State};
 

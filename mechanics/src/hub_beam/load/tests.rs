@@ -11,7 +11,7 @@ use crate::hub_beam::{
 };
 use crate::profile::Expression;
 use crate::section::{Laden, Mass, Section};
-use crate::system::System;
+use crate::system::{Dynamics, Events, Observed, System};
 
 const FORCE: [f64; 2] = [-3.0, 5.0];
 /// A station inside the second of three cells, which it cuts.
@@ -138,12 +138,12 @@ fn a_stamped_tangent_is_never_taken_for_another() {
     for load in loads() {
         let build = || systems(&[&*load], &[], damping);
         for (mut kept, mut fresh) in build().into_iter().zip(build()) {
-            let mut matrix = crate::linalg::Matrix::new(&kept.structure());
+            let mut matrix = crate::linalg::Matrix::new(&kept.structure(0));
             for (t, w) in [(0.2, (1.0, 0.5, 0.2)), (0.7, (1.0, 0.5, 0.2)), (0.7, (1.0, 0.4, 0.2))] {
                 let s = State { t, ..state(&*kept, 0.1) };
                 let w = Weights::new(w.0, w.1, w.2);
                 kept.tangent(&s, w, &mut matrix);
-                let mut other = crate::linalg::Matrix::new(&fresh.structure());
+                let mut other = crate::linalg::Matrix::new(&fresh.structure(0));
                 fresh.tangent(&s, w, &mut other);
                 let n = matrix.order();
                 let all = (0..n * n).map(|k| (k / n, k % n));

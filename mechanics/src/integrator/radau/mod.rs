@@ -182,7 +182,8 @@ impl Integrator for Radau {
             }
             work.predict(from, h, ratio);
             self.convergence.begin(work.fresh);
-            let (progress, size) = work.iterate(system, (from, to), h, &mut self.convergence, &mut self.counters);
+            let (progress, size) =
+                work.iterate(system, (from, to), h, &mut self.convergence, &mut self.counters);
             if progress == Progress::Converged {
                 work.rate = self.convergence.rate();
                 break;

@@ -450,7 +450,10 @@ impl Stages {
 
     /// Unknown with the largest scaled increment.
     pub(super) fn worst_increment(&self) -> usize {
-        largest((0..self.inverse_weight.len()).map(|i| self.inverse_weight[i] * (self.rhs[i].abs() + self.z[i].norm())))
+        largest(
+            (0..self.inverse_weight.len())
+                .map(|i| self.inverse_weight[i] * (self.rhs[i].abs() + self.z[i].norm())),
+        )
     }
 }
 
