@@ -6,7 +6,7 @@
 #![allow(clippy::print_stdout)] // what it is for
 
 use flexion::linalg::{Matrix, negative_pivots};
-use flexion::system::{Dynamics, Events, Observed, Parameter, State, Steady, System, Weights};
+use flexion::system::{Dynamics, State, Weights};
 use flexion_case::{build, read};
 use std::path::Path;
 

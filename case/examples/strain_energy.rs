@@ -8,7 +8,7 @@
 use flexion::blade::{Blade, BladeError, Model, Setting, StrainEnergy, Terms};
 use flexion::linalg::{Matrix, negative_pivots};
 use flexion::section::BladeResultants;
-use flexion::system::{Dynamics, Events, Observed, Parameter, State, Steady, System, Weights};
+use flexion::system::{Dynamics, State, Weights};
 use flexion_results::plot::{Axis, Figure, Line, Panel, Series};
 
 /// Elements of the blade.

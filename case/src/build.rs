@@ -27,7 +27,7 @@ use flexion::section::{
     self, BladeSection, Graded, HomogeneousBlade, Inertia, Interpolation, Material, Piecewise, PlanarBlade,
     Resultants, Section, SectionError, Segment, Shape, Tapered, Uniform,
 };
-use flexion::system::{Dynamics, Events, Observed, Parameter, Steady, System};
+use flexion::system::{Dynamics, Events, System};
 use std::path::Path;
 use std::sync::Arc;
 

@@ -1,7 +1,7 @@
 //! Campbell diagrams on several threads.
 
 use flexion::analysis::campbell::{Block, Campbell, NoCampbell, Plan, Speeds, assemble};
-use flexion::system::{Dynamics, Events, Observed, Parameter, Steady, System};
+use flexion::system::System;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::thread;

@@ -60,7 +60,7 @@ pub use torque::{Controller, Free, Torque};
 
 use build::BuildError;
 use declaration::Seam;
-use flexion::system::{Dynamics, Events, Observed, Parameter, State, Steady, System};
+use flexion::system::{Dynamics, Events, State, System};
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -149,7 +149,7 @@ impl Reading {
         if let (false, Some(step)) = (trial.info().implicit, case.integrator.step()) {
             // The largest frequency changes with the speed of the hub.
             let among = (0..=STABILITY_TIMES).map(|k| case.duration * k as f64 / STABILITY_TIMES as f64);
-            let within = system.breaks().iter().copied().filter(|t| *t <= case.duration);
+            let within = system.breaks().iter().map(|b| b.time).filter(|t| *t <= case.duration);
             for t in among.chain(within).collect::<Vec<_>>() {
                 let mut state = State { t, ..system.initial() };
                 trial

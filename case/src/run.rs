@@ -7,7 +7,7 @@ use flexion::analysis::superposition::superpose;
 use flexion::analysis::transient::{Ending, Plan, resume, transient_to_checkpoint};
 use flexion::integrator::{Checkpoint, Counters, Info};
 use flexion::linalg::Structure;
-use flexion::system::{Dynamics, Events, Observed, Parameter, State, Steady, System};
+use flexion::system::{Dynamics, Observed, State, Steady, System};
 use flexion_results::plot::trajectory_figure;
 use flexion_results::{
     Artifact, Attachments, Directory, Integration, OutputError, ProblemSize, Recorder, RunReport, Shapes,
@@ -192,7 +192,10 @@ impl Prepared<'_> {
         };
         let wall_time = start.elapsed().as_secs_f64();
         let cpu_time = processor_time().zip(cpu_start).map(|(end, start)| end - start);
+        let warning = recorder.warning();
         let (trajectory, mut shapes) = recorder.into_parts();
+        let mut warnings = system.cautions(&trajectory.peaks());
+        warnings.extend(warning);
         if let (Ending::Finished, Some(shapes)) = (&ending, &mut shapes) {
             shapes.finish(system.as_mut(), &state);
         }
@@ -209,7 +212,7 @@ impl Prepared<'_> {
             trajectory,
             shapes,
             tables,
-            warnings: system.cautions(&[]),
+            warnings,
             info: integrator.info().clone(),
             counters: integrator.counters(),
             size: size(system.as_ref()),

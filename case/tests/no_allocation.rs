@@ -9,7 +9,7 @@ mod run;
 mod systems;
 
 use flexion::integrator::{Adams, GeneralizedAlpha, Integrator, Radau, RungeKutta, StepControl, Tolerance};
-use flexion::system::{Dynamics, Events, Observed, Parameter, State, Steady, System};
+use flexion::system::{Dynamics, State, Steady, System};
 use std::alloc::{GlobalAlloc, Layout, System as Heap};
 use std::cell::Cell;
 use systems::{CartesianPendulum, Chain, SpringPendulum, state, wide_chain};

@@ -7,8 +7,8 @@ use flexion::analysis::transient::{Ending, Observer, Plan, Step, transient};
 use flexion::integrator::Integrator;
 use flexion::linalg::{Matrix, Structure};
 use flexion::system::{
-    Channel, Corotation, Dynamics, Energy, Events, Frame, Label, Observed, Parameter, Power, Size, State,
-    Steady, System, Weights,
+    Break, Channel, Corotation, Dynamics, Energy, Events, Observed, Power, Size, State, Steady, System,
+    Weights,
 };
 use flexion_case::Reading;
 use flexion_results::{Trajectory, write_csv};
@@ -181,15 +181,15 @@ fn the_same_case_gives_the_same_bytes() {
 /// A system that asks for dense storage, and the tangent in its own.
 struct Dense(Box<dyn System>, Matrix);
 
-impl System for Dense {
-    fn structure(&self) -> Structure {
-        Structure::dense(self.0.structure().order())
+impl Dynamics for Dense {
+    fn structure(&self, multipliers: usize) -> Structure {
+        Structure::dense(self.0.structure(multipliers).order())
     }
     fn size(&self) -> Size {
         self.0.size()
     }
-    fn labels(&self) -> &[Label] {
-        self.0.labels()
+    fn scales(&self) -> &[f64] {
+        self.0.scales()
     }
     fn residual(&mut self, s: &State, r: &mut [f64]) {
         self.0.residual(s, r);
@@ -203,29 +203,34 @@ impl System for Dense {
             }
         }
     }
-    fn turns(&self, before: &State, now: &State, out: &mut Turns) {
-        self.0.turns(before, now, out);
+    fn corotate(&self, before: &State, now: &State, out: &mut Corotation) {
+        self.0.corotate(before, now, out);
     }
     fn is_affine(&self) -> bool {
         self.0.is_affine()
     }
+}
+
+impl Events for Dense {
+    fn breaks(&self) -> &[Break] {
+        self.0.breaks()
+    }
+}
+
+impl Steady for Dense {}
+
+impl Observed for Dense {
     fn energy(&mut self, s: &State) -> Energy {
         self.0.energy(s)
     }
     fn power(&mut self, s: &State) -> Power {
         self.0.power(s)
     }
-    fn shape(&mut self, s: &State, stations: &[f64], out: &mut [Frame]) {
-        self.0.shape(s, stations, out);
-    }
     fn channels(&self) -> &[Channel] {
         self.0.channels()
     }
     fn record(&mut self, s: &State, out: &mut [f64]) {
         self.0.record(s, out);
-    }
-    fn breaks(&self) -> &[f64] {
-        self.0.breaks()
     }
 }
 
@@ -264,7 +269,7 @@ fn band_and_dense_storage_give_the_same_run() {
             let runs: Vec<Run> = [false, true]
                 .map(|dense| {
                     let mut live = reading.build().unwrap();
-                    assert!(matches!(live.system.structure(), Structure::Band { .. }), "{folder}");
+                    assert!(matches!(live.system.structure(1), Structure::Band { .. }), "{folder}");
                     let integrator: &mut dyn Integrator = live.integrator.as_mut();
                     if dense {
                         let own = Matrix::new(&live.system.structure(0));

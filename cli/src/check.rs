@@ -4,7 +4,7 @@ use crate::{Outcome, case, screen};
 use flexion::hub_beam::Drive;
 use flexion::integrator::{Adams, Integrator, RungeKutta, StabilityLimit, StepError};
 use flexion::linalg::Structure;
-use flexion::system::{Dynamics, Events, Observed, Parameter, State, Steady, System};
+use flexion::system::{Dynamics, Observed, State, System};
 use flexion_case::{Case, Coupling, Initial, Live, Problems, Reading, build};
 
 /// The case to check.
@@ -87,7 +87,7 @@ fn beam(case: &Case) -> Vec<Vec<String>> {
 
 /// Sizes and structure.
 fn equations(system: &dyn System, integrator: &dyn Integrator) -> Vec<Vec<String>> {
-    let structure = match system.structure() {
+    let structure = match system.structure(1) {
         Structure::Dense { order } => format!("dense, order {order}"),
         Structure::Band { order, lower, upper, border } => {
             format!("band, order {order}, half-bandwidth {}, border {border}", lower.max(upper))

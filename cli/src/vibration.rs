@@ -3,7 +3,7 @@
 use crate::screen;
 use flexion::analysis::campbell::HubState;
 use flexion::hub_beam::Drive;
-use flexion::system::{Dynamics, Events, Observed, Parameter, Steady, System};
+use flexion::system::System;
 use flexion_case::loads::Axes;
 use flexion_case::{Case, Reading, build, units};
 use flexion_results::Frequencies;

@@ -7,7 +7,7 @@ use flexion::hub_beam::{Coupling, Drive, Fields, FreeHub, HighCoupling, Hub, Hub
 use flexion::integrator::RungeKutta;
 use flexion::profile::Constant;
 use flexion::section::{Resultants, Uniform};
-use flexion::system::{Dynamics, Events, Observed, Parameter, Steady, System};
+use flexion::system::{Dynamics, Observed, System};
 use std::sync::Arc;
 
 const LENGTH: f64 = 2.0;

@@ -6,7 +6,7 @@ use flexion::integrator::{Counters, GeneralizedAlpha, Integrator, Radau, Toleran
 use flexion::linalg::Matrix;
 use flexion::profile::{Motion, SpinUp};
 use flexion::section::{Resultants, Uniform};
-use flexion::system::{Corotation, Dynamics, Events, Observed, Parameter, State, Steady, System, Weights};
+use flexion::system::{Corotation, Dynamics, State, System, Weights};
 use std::sync::Arc;
 
 const LENGTH: f64 = 10.0;

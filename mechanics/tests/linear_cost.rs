@@ -13,7 +13,7 @@ use flexion::integrator::{GeneralizedAlpha, Integrator};
 use flexion::linalg::Matrix;
 use flexion::profile::{Motion, Ramp};
 use flexion::section::{Resultants, Uniform};
-use flexion::system::{Dynamics, Events, Observed, Parameter, Steady, System};
+use flexion::system::{Dynamics, Observed};
 use std::sync::Arc;
 
 /// Numbers stored for the tangent.

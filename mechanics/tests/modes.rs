@@ -15,7 +15,7 @@ use flexion::linalg::eigen::Kind;
 use flexion::linalg::vector::dot;
 use flexion::profile::{Constant, Motion};
 use flexion::section::{BladeResultants, Resultants, Uniform};
-use flexion::system::{Dynamics, Events, Observed, Parameter, State, Steady, System, Weights};
+use flexion::system::{Dynamics, Parameter, State, Steady, System, Weights};
 use std::sync::Arc;
 
 /// Roots of cos x cosh x = −1, squared.

@@ -2,7 +2,7 @@
 
 use super::{Shapes, Trajectory};
 use flexion::analysis::transient::{Observer, Plan, Step};
-use flexion::system::{Channel, Dynamics, Events, Observed, Parameter, Role, State, Steady, System};
+use flexion::system::{Channel, Role, State, System};
 use std::ops::ControlFlow;
 
 /// Called after every accepted step; `Break` stops the run.
@@ -16,6 +16,7 @@ pub struct Recorder<'a> {
     balance: bool,
     /// Channels of the system that are parts of the total energy.
     energies: Vec<usize>,
+    gain: Option<f64>,
     watch: &'a mut Watch<'a>,
 }
 
@@ -41,12 +42,21 @@ impl<'a> Recorder<'a> {
         add(Role::Integration, "step.iterations", "", "Newton iterations of that step");
         let mut trajectory = Trajectory::new(channels);
         trajectory.reserve((plan.end / plan.sample).min(1e7) as usize + 2);
-        Recorder { trajectory, shapes: None, balance, energies, watch }
+        Recorder { trajectory, shapes: None, balance, energies, gain: None, watch }
     }
 
     /// The recorder, taking shapes too.
     pub fn with_shapes(self, shapes: Option<Shapes>) -> Recorder<'a> {
         Recorder { shapes, ..self }
+    }
+
+    /// A warning if the run has gained energy that nothing has put in.
+    pub fn warning(&self) -> Option<String> {
+        let excess = self.gain?;
+        Some(format!(
+            "the energy has grown by {excess:.3e} J more than drives and loads have put in: the steps are too large for \
+             this method, and the motion is not to be trusted; use a smaller step or the adaptive method `radau`"
+        ))
     }
 
     /// What was recorded.
@@ -69,7 +79,7 @@ impl Observer for Recorder<'_> {
                 recorded => recorded.iter().map(|&i| own[i]).sum(),
             };
             let balance = step.balance.filter(|_| self.balance);
-            let work = balance.map(|b| [b.drive, b.loads, b.dissipated, b.balance(total)]);
+            let work = balance.map(|b| [b.drive, b.loads, b.dissipated, b.imbalance(total)]);
             let steps = [step.size, f64::from(step.iterations)];
             let values = std::iter::once(total).chain(work.into_iter().flatten()).chain(steps);
             for (out, value) in common.iter_mut().zip(values) {
@@ -79,6 +89,10 @@ impl Observer for Recorder<'_> {
         if let Some(shapes) = &mut self.shapes {
             shapes.sample(system, state);
         }
+    }
+
+    fn gained_energy(&mut self, excess: f64) {
+        self.gain = Some(excess);
     }
 
     fn step(&mut self, state: &State) -> ControlFlow<()> {

@@ -1,6 +1,6 @@
 //! The shape of the beam at some of the recorded times, for pictures in space.
 
-use flexion::system::{Dynamics, Events, Frame, Observed, Parameter, State, Steady, System};
+use flexion::system::{Frame, Observed, State, System};
 
 /// Equal intervals along the beam between whose ends it is drawn.
 const INTERVALS: usize = 100;
@@ -59,7 +59,7 @@ impl Shapes {
         let start = self.frames.len();
         self.times.push(state.t);
         self.frames.resize(start + self.stations.len(), Frame::default());
-        system.shape(state, &self.stations, &mut self.frames[start..]);
+        system.frames(0, state, &self.stations, &mut self.frames[start..]);
     }
 
     /// The shapes taken, in order of time.

@@ -127,6 +127,15 @@ impl Trajectory {
         e
     }
 
+    /// The largest absolute value of each channel.
+    pub fn peaks(&self) -> Vec<f64> {
+        let mut peaks = vec![0.0_f64; self.channels.len()];
+        for (_, row) in self.rows() {
+            peaks.iter_mut().zip(row).for_each(|(peak, x)| *peak = peak.max(x.abs()));
+        }
+        peaks
+    }
+
     /// The channel and time of the first value that is not a finite number, if there is one.
     pub fn first_not_finite(&self) -> Option<(&Channel, f64)> {
         self.rows().find_map(|(t, row)| {

@@ -6,7 +6,7 @@ use flexion::hub_beam::{Fields, Foreshortening, Hub, HubBeam, LinearCoupling};
 use flexion::linalg::Matrix;
 use flexion::profile::{Constant, Motion};
 use flexion::section::{Resultants, Uniform};
-use flexion::system::{Direction, Dynamics, Events, Observed, Parameter, State, Steady, System, Weights};
+use flexion::system::{Direction, Dynamics, Observed, State, Weights};
 use nalgebra::{Cholesky, DMatrix};
 use std::error::Error;
 use std::sync::Arc;

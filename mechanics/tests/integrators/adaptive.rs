@@ -3,7 +3,7 @@
 use super::drive::adaptive;
 use super::systems::{Chain, Pendulum, SpringPendulum, TwoFrequencies, state, wide_chain};
 use flexion::integrator::{Counters, Integrator, Radau, Tolerance};
-use flexion::system::{Dynamics, State, System};
+use flexion::system::{State, System};
 
 fn run(system: &mut dyn System, from: &State, end: f64, tolerance: f64) -> (State, Counters) {
     let mut method = Radau::new(Tolerance::uniform(tolerance)).unwrap();

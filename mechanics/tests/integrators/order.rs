@@ -3,7 +3,7 @@
 use super::drive::fixed;
 use super::systems::{Chain, Pendulum, SpringPendulum, state};
 use flexion::integrator::{Adams, GeneralizedAlpha, Integrator, Radau, RungeKutta, Tolerance};
-use flexion::system::{Dynamics, State, System};
+use flexion::system::{State, System};
 
 type Make = fn() -> Box<dyn Integrator>;
 

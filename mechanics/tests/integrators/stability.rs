@@ -5,7 +5,7 @@ use super::systems::{CartesianPendulum, Chain, Pendulum, state, wide_chain};
 use flexion::integrator::{
     Adams, GeneralizedAlpha, Integrator, Radau, RungeKutta, StepError, Tolerance, largest_frequency,
 };
-use flexion::system::{Dynamics, Observed, State};
+use flexion::system::{Observed, State, System};
 
 /// A chain of n equal masses and springs, free at the end: ω = 2 √(k/m) cos(π/(2n+1)).
 #[test]
