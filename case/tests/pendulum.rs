@@ -52,7 +52,8 @@ fn off(a: &[f64], b: &[f64]) -> f64 {
 #[test]
 fn a_stiff_beam_falls_like_the_rod_of_the_elliptic_functions() {
     for coupling in COUPLINGS {
-        for degrees in ANGLES {
+        // A beam that does not bend falls alike in every coupling: one angle each, both for two of them.
+        for &degrees in if ["first", "exact"].contains(&coupling) { &ANGLES[..] } else { &ANGLES[..1] } {
             let errors = ["1e5", "1e7", "1e9"].map(|stiffness| {
                 let section = format!(
                     "section={{kind='resultants',mass-per-length=2,axial-stiffness=1e13,bending-stiffness={stiffness}}}"

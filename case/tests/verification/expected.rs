@@ -1,5 +1,7 @@
 //! What `expected.toml` says the runs of a folder of `verification` are held to.
 
+#![allow(dead_code)] // each program uses its part
+
 use crate::run::{Run, Span, Variant, case, root, run};
 use flexion::analysis::modes::modes;
 use flexion::analysis::rotation::rotate_stably;
@@ -10,7 +12,7 @@ use toml::{Table, Value};
 
 /// The keys of `expected.toml` and of a variant in it.
 const KEYS: &[&str] = &["reference", "until", "columns", "figures", "failure", "regression", "same", "modes"];
-const MODES: &[&str] = &["speed", "free-hub", "frequencies", "tolerance", "half-digit", "moves"];
+const MODES: &[&str] = &["speed", "free-hub", "frequencies", "tolerance", "absolute", "moves"];
 /// Modes among which those that move one way are looked for, to each that is expected.
 const AMONG: usize = 4;
 const FIGURE: &[&str] = &["column", "of", "from", "to", "value", "tolerance"];
@@ -161,8 +163,8 @@ impl Expected<'_> {
         for table in speeds.iter().map(|table| table.as_table().unwrap()) {
             self.known("modes", table, MODES);
             let speed = number(table, "speed");
-            // Relative, or half of the last digit of a printed table [rad/s].
-            let half_digit = table.get("half-digit").map(value);
+            // Relative, or of the last digit of a printed table [rad/s].
+            let absolute = table.get("absolute").map(value);
             let expected: Vec<f64> = table["frequencies"].as_array().unwrap().iter().map(value).collect();
             let mut system = build::vibrating(&case).unwrap();
             let mut state = State::zeros(system.size(), 0.0);
@@ -179,7 +181,7 @@ impl Expected<'_> {
                 let frequency = mode.frequency();
                 let what = format!("frequency {} at {speed} rad/s, relative", index + 1);
                 let note = format!("{frequency:.8}, expected {expected}");
-                let tolerance = half_digit.map_or_else(|| number(table, "tolerance"), |half| half / expected);
+                let tolerance = absolute.map_or_else(|| number(table, "tolerance"), |off| off / expected);
                 all.push(Comparison::new(what, (frequency / expected - 1.0).abs(), tolerance, note));
             }
         }
