@@ -8,7 +8,9 @@ mod run;
 #[path = "../../mechanics/tests/integrators/systems.rs"]
 mod systems;
 
-use flexion::integrator::{Adams, GeneralizedAlpha, Integrator, Radau, RungeKutta, StepControl, Tolerance};
+use flexion::integrator::{
+    Adams, GeneralizedAlpha, Integrator, Radau, RungeKutta, Span, StepControl, Tolerance,
+};
 use flexion::system::{Dynamics, State, Steady, System};
 use std::alloc::{GlobalAlloc, Layout, System as Heap};
 use std::cell::Cell;
@@ -73,9 +75,10 @@ fn assert_no_allocation(
         let mut failures = 0;
         for k in 0..20 {
             let h = if k == 10 { 0.5 * h } else { h };
-            failures += u32::from(integrator.step(system, &from, 0.7 * h, &mut to).is_err());
+            failures +=
+                u32::from(integrator.step(system, &from, Span::new(from.t, 0.7 * h), &mut to).is_err());
             control.rejected(0.7 * h, 2.0, 1);
-            match integrator.step(system, &from, h, &mut to) {
+            match integrator.step(system, &from, Span::new(from.t, h), &mut to) {
                 Ok(report) => control.accepted(h, report.error.unwrap_or(0.5), report.iterations),
                 Err(_) => failures += 1,
             }

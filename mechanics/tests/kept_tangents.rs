@@ -2,7 +2,7 @@
 #![allow(missing_docs, clippy::unwrap_used)]
 
 use flexion::hub_beam::{Drive, ExactCoupling, Hub, HubBeam};
-use flexion::integrator::{Counters, GeneralizedAlpha, Integrator, Radau, Tolerance};
+use flexion::integrator::{Counters, GeneralizedAlpha, Integrator, Radau, Span, Tolerance};
 use flexion::linalg::Matrix;
 use flexion::profile::{Motion, SpinUp};
 use flexion::section::{Resultants, Uniform};
@@ -104,7 +104,7 @@ fn work(mut integrator: impl Integrator, h: f64) -> Counters {
     let mut to = from.clone();
     integrator.start(&mut system, &mut from, h).unwrap();
     for _ in 0..(12.0 / h).round() as usize {
-        integrator.step(&mut system, &from, h, &mut to).unwrap();
+        integrator.step(&mut system, &from, Span::new(from.t, h), &mut to).unwrap();
         integrator.accept(&from, &to);
         std::mem::swap(&mut from, &mut to);
     }

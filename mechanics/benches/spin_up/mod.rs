@@ -6,7 +6,7 @@ use flexion::basis::{Field, Hermite, Lagrange};
 use flexion::hub_beam::{
     Drive, ExactCoupling, Fields, Foreshortening, FreeHub, HighCoupling, Hub, HubBeam, LinearCoupling,
 };
-use flexion::integrator::{GeneralizedAlpha, Integrator, Radau, Tolerance};
+use flexion::integrator::{GeneralizedAlpha, Integrator, Radau, Span, Tolerance};
 use flexion::linalg::Matrix;
 use flexion::profile::{Expression, Motion, SpinUp};
 use flexion::section::{Resultants, Uniform};
@@ -94,7 +94,9 @@ impl Run {
     /// `count` accepted steps of the fixed size.
     pub fn steps(&mut self, count: usize) {
         for _ in 0..count {
-            self.integrator.step(&mut *self.system, &self.from, STEP, &mut self.to).unwrap();
+            self.integrator
+                .step(&mut *self.system, &self.from, Span::new(self.from.t, STEP), &mut self.to)
+                .unwrap();
             self.integrator.accept(&self.from, &self.to);
             std::mem::swap(&mut self.from, &mut self.to);
         }

@@ -30,7 +30,7 @@
 
 use super::runge_kutta::Scratch;
 use super::{
-    Checkpoint, Counters, Info, Integrator, NotResumed, StabilityLimit, StepError, StepReport, hermite,
+    Checkpoint, Counters, Info, Integrator, NotResumed, Span, StabilityLimit, StepError, StepReport, hermite,
 };
 use crate::system::{Dynamics, RowWeights, Side, State};
 
@@ -136,9 +136,11 @@ impl Integrator for Adams {
         &mut self,
         system: &mut dyn Dynamics,
         from: &State,
-        h: f64,
+        span: Span,
         to: &mut State,
     ) -> Result<StepReport, StepError> {
+        let h = span.step;
+        (to.t, to.side) = (span.end, span.side);
         let Some(scratch) = &mut self.scratch else {
             return Err(StepError::NotStarted { method: NAME });
         };

@@ -47,8 +47,8 @@
 use super::acceleration::Accelerations;
 use super::rows::Rows;
 use super::{
-    Checkpoint, Convergence, Counters, Info, Integrator, InvalidParameter, NotResumed, Progress, StepError,
-    StepReport, failure, hermite,
+    Checkpoint, Convergence, Counters, Info, Integrator, InvalidParameter, NotResumed, Progress, Span,
+    StepError, StepReport, failure, hermite,
 };
 use crate::linalg::Matrix;
 use crate::system::{Corotation, Dynamics, RowWeights, Set, Side, State, Weights, is_active};
@@ -540,9 +540,11 @@ impl Integrator for GeneralizedAlpha {
         &mut self,
         system: &mut dyn Dynamics,
         from: &State,
-        h: f64,
+        span: Span,
         to: &mut State,
     ) -> Result<StepReport, StepError> {
+        let h = span.step;
+        (to.t, to.side) = (span.end, span.side);
         let Some(mut work) = self.work.take() else {
             return Err(StepError::NotStarted { method: self.info.name });
         };

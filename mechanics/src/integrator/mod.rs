@@ -32,7 +32,7 @@ pub use runge_kutta::RungeKutta;
 pub use stability::{StabilityLimit, largest_frequency};
 pub use step_control::{Law, StepControl};
 
-use crate::system::{Dynamics, State};
+use crate::system::{Dynamics, Side, State};
 
 /// What an integrator is: for listings, reports and step control.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,6 +64,24 @@ pub struct Counters {
     pub factorizations: u64,
     /// Forward and back substitutions.
     pub solves: u64,
+}
+
+/// The time that a step covers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Span {
+    /// Size h of the step [s].
+    pub step: f64,
+    /// Where it ends [s]: the start + h but for rounding.
+    pub end: f64,
+    /// Which limit is meant at the end, where something jumps there.
+    pub side: Side,
+}
+
+impl Span {
+    /// A step of size `step` from time `start`, at whose end nothing jumps.
+    pub fn new(start: f64, step: f64) -> Span {
+        Span { step, end: start + step, side: Side::Right }
+    }
 }
 
 /// What one successful step reports.
@@ -205,13 +223,12 @@ pub trait Integrator: Send {
     /// `state` with consistent accelerations (and multipliers).
     fn start(&mut self, system: &mut dyn Dynamics, state: &mut State, step: f64) -> Result<(), StepError>;
 
-    /// Attempts one step of size `h` from `from`, writing the new state to `to`, whose time and side are given: they say
-    /// where the step ends, and which limit is meant there.
+    /// Attempts one step from `from`, writing the new state to `to`.
     fn step(
         &mut self,
         system: &mut dyn Dynamics,
         from: &State,
-        h: f64,
+        span: Span,
         to: &mut State,
     ) -> Result<StepReport, StepError>;
 

@@ -18,8 +18,8 @@
 
 use super::rows::Rows;
 use super::{
-    Checkpoint, Convergence, Counters, Info, Integrator, InvalidParameter, NotResumed, Progress, StepError,
-    StepReport, failure,
+    Checkpoint, Convergence, Counters, Info, Integrator, InvalidParameter, NotResumed, Progress, Span,
+    StepError, StepReport, failure,
 };
 use crate::contact::{Law, solve};
 use crate::linalg::Matrix;
@@ -288,9 +288,11 @@ impl Integrator for MoreauJean {
         &mut self,
         system: &mut dyn Dynamics,
         from: &State,
-        h: f64,
+        span: Span,
         to: &mut State,
     ) -> Result<StepReport, StepError> {
+        let h = span.step;
+        (to.t, to.side) = (span.end, span.side);
         let Some(mut work) = self.work.take() else {
             return Err(StepError::NotStarted { method: NAME });
         };

@@ -25,7 +25,7 @@
 
 use super::acceleration::Accelerations;
 use super::{
-    Checkpoint, Counters, Info, Integrator, NotResumed, StabilityLimit, StepError, StepReport, hermite,
+    Checkpoint, Counters, Info, Integrator, NotResumed, Span, StabilityLimit, StepError, StepReport, hermite,
 };
 use crate::system::{Dynamics, RowWeights, Side, State};
 
@@ -190,9 +190,11 @@ impl Integrator for RungeKutta {
         &mut self,
         system: &mut dyn Dynamics,
         from: &State,
-        h: f64,
+        span: Span,
         to: &mut State,
     ) -> Result<StepReport, StepError> {
+        let h = span.step;
+        (to.t, to.side) = (span.end, span.side);
         let Some(scratch) = &mut self.scratch else {
             return Err(StepError::NotStarted { method: NAME });
         };

@@ -2,7 +2,7 @@
 
 use super::drive::adaptive;
 use super::systems::{Chain, Pendulum, SpringPendulum, TwoFrequencies, state, wide_chain};
-use flexion::integrator::{Counters, Integrator, Radau, Tolerance};
+use flexion::integrator::{Counters, Integrator, Radau, Span, Tolerance};
 use flexion::system::{State, System};
 
 fn run(system: &mut dyn System, from: &State, end: f64, tolerance: f64) -> (State, Counters) {
@@ -106,9 +106,9 @@ fn a_rejected_attempt_leaves_no_trace_in_the_history() {
         let mut to = from.clone();
         for _ in 0..50 {
             if waste {
-                method.step(&mut system, &from, 3e-3, &mut to).unwrap();
+                method.step(&mut system, &from, Span::new(from.t, 3e-3), &mut to).unwrap();
             }
-            method.step(&mut system, &from, 1e-3, &mut to).unwrap();
+            method.step(&mut system, &from, Span::new(from.t, 1e-3), &mut to).unwrap();
             method.accept(&from, &to);
             std::mem::swap(&mut from, &mut to);
         }

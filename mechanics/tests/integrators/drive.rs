@@ -2,7 +2,7 @@
 
 #![allow(dead_code)]
 
-use flexion::integrator::{Integrator, StepControl, StepError};
+use flexion::integrator::{Integrator, Span, StepControl, StepError};
 use flexion::system::{State, System};
 
 /// `steps` equal steps to `end`; the callback sees (integrator, system, from, to) of each.
@@ -18,8 +18,7 @@ pub fn fixed(
     integrator.start(system, &mut from, h)?;
     let mut to = from.clone();
     for _ in 0..steps {
-        to.t = from.t + h;
-        integrator.step(system, &from, h, &mut to)?;
+        integrator.step(system, &from, Span::new(from.t, h), &mut to)?;
         integrator.accept(&from, &to);
         each(integrator, system, &from, &to);
         std::mem::swap(&mut from, &mut to);
@@ -44,8 +43,7 @@ pub fn adaptive(
     while from.t < end * (1.0 - 1e-12) {
         let h = control.propose(end - from.t);
         assert!(!control.is_too_small(from.t, h), "the step fell to {h} at {}", from.t);
-        to.t = from.t + h;
-        match integrator.step(system, &from, h, &mut to) {
+        match integrator.step(system, &from, Span::new(from.t, h), &mut to) {
             Ok(report) => {
                 let error = report.error.unwrap_or(0.0);
                 if error <= 1.0 {

@@ -3,7 +3,7 @@
 use super::drive::fixed;
 use super::systems::{CartesianPendulum, Chain, Pendulum, state, wide_chain};
 use flexion::integrator::{
-    Adams, GeneralizedAlpha, Integrator, Radau, RungeKutta, StepError, Tolerance, largest_frequency,
+    Adams, GeneralizedAlpha, Integrator, Radau, RungeKutta, Span, StepError, Tolerance, largest_frequency,
 };
 use flexion::system::{Observed, State, System};
 
@@ -40,7 +40,7 @@ fn amplitude(method: &mut dyn Integrator, h: f64, steps: usize) -> f64 {
     let mut to = from.clone();
     let mut largest: f64 = 0.0;
     for k in 0..steps {
-        if method.step(&mut system, &from, h, &mut to).is_err() {
+        if method.step(&mut system, &from, Span::new(from.t, h), &mut to).is_err() {
             return f64::INFINITY;
         }
         method.accept(&from, &to);
@@ -97,7 +97,7 @@ fn a_run_that_blows_up_says_when_and_where() {
     method.start(&mut system, &mut from, 1.0).unwrap();
     let mut to = from.clone();
     let error = loop {
-        match method.step(&mut system, &from, 10.0, &mut to) {
+        match method.step(&mut system, &from, Span::new(from.t, 10.0), &mut to) {
             Ok(_) => {
                 method.accept(&from, &to);
                 std::mem::swap(&mut from, &mut to);
@@ -125,7 +125,7 @@ fn a_state_that_is_not_finite_is_an_error_of_every_method() {
             method.start(&mut *system, &mut from, 0.05).unwrap();
             from.v[0] = f64::NAN;
             let mut to = from.clone();
-            let error = method.step(&mut *system, &from, 0.05, &mut to).unwrap_err();
+            let error = method.step(&mut *system, &from, Span::new(from.t, 0.05), &mut to).unwrap_err();
             assert!(matches!(error, StepError::NotFinite { .. }), "{}: {error}", method.info().name);
         }
     }
@@ -178,7 +178,7 @@ fn radau_annihilates_what_it_cannot_follow() {
     let mut method = Radau::new(Tolerance::uniform(1e-6)).unwrap();
     method.start(&mut system, &mut from, 1.0).unwrap();
     let mut to = from.clone();
-    method.step(&mut system, &from, 1.0, &mut to).unwrap();
+    method.step(&mut system, &from, Span::new(from.t, 1.0), &mut to).unwrap();
     assert!(to.q[0].abs() < 1e-4, "{to:?}");
 }
 

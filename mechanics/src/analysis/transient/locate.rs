@@ -15,8 +15,8 @@
 //! refined by steps from the same state until φ vanishes to rounding.
 
 use super::RunError;
-use crate::integrator::Integrator;
-use crate::system::{Mode, RowWeights, Set, Side, State, System};
+use crate::integrator::{Integrator, Span};
+use crate::system::{Mode, RowWeights, Set, State, System};
 
 /// Gap at which a contact touches, over the length of the system.
 pub(super) const TOUCHING: f64 = 1e-13;
@@ -120,9 +120,10 @@ impl Locator {
             let at_dip = self.trial_value(system);
             if at_dip > 0.0 {
                 // The step as it was.
-                to.copy_from(from);
-                (to.t, to.side) = whole;
-                integrator.step(system, from, h, to).map_err(|error| super::failed(system, from, error))?;
+                let span = Span { step: h, end: whole.0, side: whole.1 };
+                integrator
+                    .step(system, from, span, to)
+                    .map_err(|error| super::failed(system, from, error))?;
                 return Ok((h, false));
             }
             (high, value) = (dip, at_dip);
@@ -234,9 +235,7 @@ impl Locator {
         from: &State,
         size: f64,
     ) -> Result<(), RunError> {
-        self.trial.copy_from(from);
-        (self.trial.t, self.trial.side) = (from.t + size, Side::Right);
-        let done = integrator.step(system, from, size, &mut self.trial);
+        let done = integrator.step(system, from, Span::new(from.t, size), &mut self.trial);
         done.map(|_| ()).map_err(|error| super::failed(system, from, error))
     }
 

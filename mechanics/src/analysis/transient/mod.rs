@@ -4,24 +4,24 @@
 //! takes the left limit of what jumps there, and the method restarts from the right one. A method with step control sees
 //! every break, one with fixed steps those of velocities and accelerations, for a kink costs it less than its own error.
 
+mod contacts;
+mod ending;
 mod locate;
+mod observer;
 mod stretch;
 
-use super::energy_balance::{EnergyBalance, Integral};
-use crate::contact::{ImpactError, ImpactMap};
-use crate::integrator::{Checkpoint, Integrator, NotResumed, StepControl, StepError, StepReport};
-use crate::system::{Crossing, Jump, RowWeights, Set, Side, State, System};
-use locate::{Locator, TOUCHING};
-use std::ops::ControlFlow;
+pub use ending::{Ending, RunError};
+pub use observer::{Event, EventKind, Observer, Step};
+
+use super::energy_balance::Integral;
+use crate::contact::ImpactMap;
+use crate::integrator::{Checkpoint, Integrator, NotResumed, Span, StepControl, StepError, StepReport};
+use crate::system::{Crossing, Jump, Side, State, System};
+use contacts::Contacts;
 use stretch::Stretch;
 
 /// Shortest recording interval, over the length of the run.
 const SMALLEST_SAMPLE: f64 = 1e-9;
-/// Closing speed, over the largest met in the run, below which an impact is taken without restitution.
-const RESTING: f64 = 1e-5;
-/// Events in a row with next to no time between them at which a run ends.
-const MOST_EVENTS: usize = 1000;
-
 /// What a run is asked to do.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
@@ -36,136 +36,6 @@ pub struct Plan {
     pub longest_step: Option<f64>,
     /// Interval of recording [s]; the end is recorded too.
     pub sample: f64,
-}
-
-/// What an observer learns besides the state.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Step {
-    /// Size of the step that ended at or covers this state \[s\]; 0 at the start.
-    pub size: f64,
-    /// Newton iterations of that step.
-    pub iterations: u32,
-    /// The energy balance until this state, if the observer [wants it](Observer::wants_energy_balance).
-    pub balance: Option<EnergyBalance>,
-}
-
-/// Something that happened at one time of a run.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Event {
-    /// Time \[s\].
-    pub time: f64,
-    /// What happened.
-    pub kind: EventKind,
-}
-
-/// What happened at an event.
-#[derive(Clone, Debug, PartialEq)]
-pub enum EventKind {
-    /// A prescribed velocity jumped; with the work \[J\] of what enforces it.
-    Jump {
-        /// Work \[J\].
-        work: f64,
-    },
-    /// Contacts closed with an impulse.
-    Impact {
-        /// Impulse of each row [N·s].
-        impulses: Vec<f64>,
-        /// Energy lost \[J\].
-        lost: f64,
-    },
-    /// Contacts opened, closed without impulse, began to slip or to stick.
-    Switch,
-    /// An indicator of the model changed its sign.
-    Crossing,
-}
-
-/// Observes a run: records, reports progress, stops it.
-pub trait Observer {
-    /// Whether the energy balance is integrated along the run: one to three evaluations of the power a step.
-    fn wants_energy_balance(&self) -> bool {
-        false
-    }
-
-    /// A state at a time to be recorded.
-    fn sample(&mut self, system: &mut dyn System, state: &State, step: &Step);
-
-    /// An accepted step ended at `state`; `Break` stops the run there.
-    fn step(&mut self, _state: &State) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
-
-    /// An event.
-    fn event(&mut self, _event: &Event) {}
-
-    /// The run has gained the energy `excess` \[J\] beyond the work done on it: its steps are too large for its method.
-    fn gained_energy(&mut self, _excess: f64) {}
-}
-
-/// How a run ended.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Ending {
-    /// At its end time.
-    Finished,
-    /// An observer stopped it.
-    Stopped,
-    /// It could not go on.
-    Failed(RunError),
-}
-
-/// Why a run could not go on.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum RunError {
-    /// The integrator gave up.
-    #[error("{error}{}", because(.reason))]
-    Step {
-        /// What the integrator says.
-        error: StepError,
-        /// What the model knows about it.
-        reason: Option<String>,
-    },
-    /// The model left its range.
-    #[error("the run broke down at t = {time:.4} s: {what}{}", because(.reason))]
-    Inadmissible {
-        /// Time [s].
-        time: f64,
-        /// What is out of range.
-        what: String,
-        /// What the model knows about it.
-        reason: Option<String>,
-    },
-    /// The history of an earlier run could not be taken up.
-    #[error("the run cannot go on: {0}")]
-    NotResumed(#[from] NotResumed),
-    /// Contacts have no solution.
-    #[error("the contacts cannot be resolved at t = {time:.6} s: {cause}")]
-    Contact {
-        /// Time \[s\].
-        time: f64,
-        /// Why.
-        cause: ImpactError,
-    },
-    /// Events accumulate.
-    #[error(
-        "{count} events follow each other at t = {time:.9} s with no time between them: the contacts chatter; give them less restitution or use a continuous contact force"
-    )]
-    Chatter {
-        /// Time \[s\].
-        time: f64,
-        /// Events.
-        count: usize,
-    },
-    /// The model ended the run.
-    #[error("the run was ended at t = {time:.6} s: {reason}")]
-    Ended {
-        /// Time \[s\].
-        time: f64,
-        /// Why.
-        reason: String,
-    },
-}
-
-fn because(reason: &Option<String>) -> String {
-    reason.as_ref().map(|r| format!("; {r}")).unwrap_or_default()
 }
 
 /// Integrates `system` from `state`, which is left at the last accepted step, and shows the observer the
@@ -235,26 +105,9 @@ struct Run {
     middle: State,
 }
 
-/// What a run needs for contacts and events.
-struct Contacts {
-    locator: Locator,
-    map: ImpactMap,
-    /// Largest closing speed so far [m/s].
-    fastest: f64,
-    rates: Vec<f64>,
-    /// Events in a row, and when the first of them was.
-    events: (usize, f64),
-}
-
 impl Run {
     fn new(system: &dyn System, state: &State) -> Run {
-        let contacts = Locator::new(system, state).map(|locator| Contacts {
-            locator,
-            map: ImpactMap::new(system),
-            fastest: 0.0,
-            rates: vec![0.0; state.lambda.len()],
-            events: (0, state.t),
-        });
+        let contacts = Contacts::new(system, state);
         Run {
             origin: state.t,
             samples: 1,
@@ -486,8 +339,8 @@ impl Run {
             Some(stretch) => (stretch.step, stretch.next()),
             None => (plan.end - state.t, plan.end),
         };
-        (next.t, next.side) = (end, if end == stop { side } else { Side::Right });
-        let report = integrator.step(system, state, h, next);
+        let span = Span { step: h, end, side: if end == stop { side } else { Side::Right } };
+        let report = integrator.step(system, state, span, next);
         Ok((h, report.map_err(|error| failed(system, state, error))?))
     }
 
@@ -610,43 +463,6 @@ impl Run {
     }
 }
 
-impl Contacts {
-    fn settle(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), RunError> {
-        let touching = 100.0 * TOUCHING * self.locator.length;
-        let settled = self.map.settle(system, state, touching, &[]);
-        settled.map_err(|cause| RunError::Contact { time: state.t, cause })
-    }
-
-    /// The impact at `state` with the impulse `p`: without restitution where it is slow.
-    fn strike(
-        &mut self,
-        system: &mut dyn System,
-        state: &mut State,
-        p: &[f64],
-    ) -> Result<crate::contact::Impact, RunError> {
-        let touching = 100.0 * TOUCHING * self.locator.length;
-        system.constraint(state, RowWeights::VELOCITY, &mut self.rates);
-        for (set, rate) in system.rows().iter().zip(&self.rates) {
-            if matches!(set, Set::Unilateral { .. }) {
-                self.fastest = self.fastest.max(-rate);
-            }
-        }
-        let weak = 1e-9 * self.locator.strongest;
-        let bounds = [touching, RESTING * self.fastest, weak];
-        let struck = self.map.strike(system, state, p, bounds);
-        struck.map_err(|cause| RunError::Contact { time: state.t, cause })
-    }
-
-    fn count_event(&mut self, time: f64) -> Result<(), RunError> {
-        let (count, since) = &mut self.events;
-        if time - *since > 1e-9 * time.abs() {
-            (*count, *since) = (0, time);
-        }
-        *count += 1;
-        if *count > MOST_EVENTS { Err(RunError::Chatter { time, count: *count }) } else { Ok(()) }
-    }
-}
-
 /// k times the interval; k over a whole number where the interval is the inverse of one, so that samples
 /// every 0.02 s fall on 13.28 s and not on its neighbour.
 fn multiple(k: u64, interval: f64) -> f64 {
@@ -706,8 +522,8 @@ fn adapt(
         let left = stop - state.t;
         let h = control.propose(left);
         let lands = h == left;
-        (next.t, next.side) = if lands { (stop, side) } else { (state.t + h, Side::Right) };
-        match integrator.step(system, state, h, next) {
+        let span = if lands { Span { step: h, end: stop, side } } else { Span::new(state.t, h) };
+        match integrator.step(system, state, span, next) {
             Ok(report) => {
                 let error = report.error.unwrap_or(0.0);
                 if error <= 1.0 {

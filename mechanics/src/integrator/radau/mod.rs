@@ -49,8 +49,8 @@ mod coefficients;
 mod stages;
 
 use super::{
-    Checkpoint, Convergence, Counters, Info, Integrator, InvalidParameter, NotResumed, Progress, StepError,
-    StepReport, hermite,
+    Checkpoint, Convergence, Counters, Info, Integrator, InvalidParameter, NotResumed, Progress, Span,
+    StepError, StepReport, hermite,
 };
 use crate::system::{Dynamics, Side, State};
 use stages::Stages;
@@ -160,9 +160,11 @@ impl Integrator for Radau {
         &mut self,
         system: &mut dyn Dynamics,
         from: &State,
-        h: f64,
+        span: Span,
         to: &mut State,
     ) -> Result<StepReport, StepError> {
+        let h = span.step;
+        (to.t, to.side) = (span.end, span.side);
         let Some(work) = &mut self.work else {
             return Err(StepError::NotStarted { method: NAME });
         };

@@ -1,0 +1,68 @@
+//! What a run shows: samples, steps, events.
+
+use crate::analysis::EnergyBalance;
+use crate::system::{State, System};
+use std::ops::ControlFlow;
+
+/// What an observer learns besides the state.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Step {
+    /// Size of the step that ended at or covers this state \[s\]; 0 at the start.
+    pub size: f64,
+    /// Newton iterations of that step.
+    pub iterations: u32,
+    /// The energy balance until this state, if the observer [wants it](Observer::wants_energy_balance).
+    pub balance: Option<EnergyBalance>,
+}
+
+/// Something that happened at one time of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Event {
+    /// Time \[s\].
+    pub time: f64,
+    /// What happened.
+    pub kind: EventKind,
+}
+
+/// What happened at an event.
+#[derive(Clone, Debug, PartialEq)]
+pub enum EventKind {
+    /// A prescribed velocity jumped; with the work \[J\] of what enforces it.
+    Jump {
+        /// Work \[J\].
+        work: f64,
+    },
+    /// Contacts closed with an impulse.
+    Impact {
+        /// Impulse of each row [N·s].
+        impulses: Vec<f64>,
+        /// Energy lost \[J\].
+        lost: f64,
+    },
+    /// Contacts opened, closed without impulse, began to slip or to stick.
+    Switch,
+    /// An indicator of the model changed its sign.
+    Crossing,
+}
+
+/// Observes a run: records, reports progress, stops it.
+pub trait Observer {
+    /// Whether the energy balance is integrated along the run: one to three evaluations of the power a step.
+    fn wants_energy_balance(&self) -> bool {
+        false
+    }
+
+    /// A state at a time to be recorded.
+    fn sample(&mut self, system: &mut dyn System, state: &State, step: &Step);
+
+    /// An accepted step ended at `state`; `Break` stops the run there.
+    fn step(&mut self, _state: &State) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+
+    /// An event.
+    fn event(&mut self, _event: &Event) {}
+
+    /// The run has gained the energy `excess` \[J\] beyond the work done on it: its steps are too large for its method.
+    fn gained_energy(&mut self, _excess: f64) {}
+}
