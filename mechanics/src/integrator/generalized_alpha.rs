@@ -28,8 +28,8 @@
 //! ⎣ G                     0    0               ⎦ ⎣Δμ⎦     ⎣ ġ / (hγκ)  ⎦
 //! ```
 //!
-//! The tangent and its factors are kept from step to step while they converge in two iterations; they are carried along
-//! with the sections as these rotate (see [`Dynamics::corotate`]), without which the axial stiffness of a slender beam
+//! The tangent and its factors are kept from step to step until their age costs more iterations than new ones; they are
+//! rotated with the sections (see [`Dynamics::corotate`]), without which the axial stiffness of a slender beam
 //! soon points in wrong directions. An affine system is solved exactly by one iteration with the tangent of its step.
 //! Systems with constraints get a new tangent every iteration.
 //! The predictor is q̈ₙ₊₁ = q̈ₙ + q̈ₙ₋₁ − q̈ₙ₋₂: exact for accelerations linear in time, and for those that change their
@@ -64,8 +64,29 @@ const KEPT_TOLERANCE: f64 = 1e-13;
 /// Largest size of increments that may be rounding errors.
 const NOISE: f64 = 1e-7;
 
-/// Iterations beyond which a kept tangent is renewed in the next step.
-const PATIENCE: u32 = 2;
+/// Cost of a tangent and its factors, in iterations.
+const RENEWAL: f64 = 2.0;
+
+/// When to renew a kept tangent, by the rule of age replacement: as soon as a step costs more iterations than the mean
+/// step since the last renewal, the cost of the renewal included. Its mean cost is then least.
+#[derive(Clone, Copy, Debug, Default)]
+struct Age {
+    cost: f64,
+    steps: f64,
+    due: bool,
+}
+
+impl Age {
+    fn renewed() -> Age {
+        Age { cost: RENEWAL, steps: 0.0, due: false }
+    }
+
+    fn count(&mut self, iterations: u32) {
+        self.cost += f64::from(iterations);
+        self.steps += 1.0;
+        self.due = f64::from(iterations) * self.steps > self.cost;
+    }
+}
 
 /// The generalized-α method. See the [module documentation](self) for formulas and sources.
 #[derive(Debug)]
@@ -117,8 +138,7 @@ struct Work {
     place: State,
     increment: Vec<f64>,
     corotation: Corotation,
-    /// Whether the tangent is renewed in the next step.
-    renew: bool,
+    age: Age,
     /// Renewals since the start, and whether the last one found the tangent of an affine system unchanged.
     renewals: u32,
     constant: bool,
@@ -318,7 +338,9 @@ impl GeneralizedAlpha {
         if !work.rows.is_empty() && work.stiffness.is_some() {
             work.rows.store_jacobian(system, from);
         }
-        let renew = work.renew || work.kept != to.1;
+        // To renew a constant tangent costs nothing, and makes the step exact.
+        let free = work.affine && (work.constant || work.renewals == 1);
+        let renew = work.age.due || free || work.kept != to.1;
         if work.keeps && !renew && self.iterate(work, system, from, h, (to.0, to.1), false)? {
             return Ok(self.report(work, false));
         }
@@ -331,9 +353,7 @@ impl GeneralizedAlpha {
 
     fn report(&self, work: &mut Work, full: bool) -> StepReport {
         let iterations = if full { self.full.iterations() } else { self.kept.iterations() };
-        // To renew a constant tangent costs nothing, and makes the step exact.
-        let free = work.affine && (work.constant || work.renewals == 1);
-        work.renew = full || iterations > PATIENCE || free;
+        work.age.count(iterations);
         StepReport { iterations, error: None }
     }
 
@@ -441,6 +461,7 @@ impl GeneralizedAlpha {
         self.counters.factorizations += u64::from(factored);
         work.kept = weights;
         work.renewals += 1;
+        work.age = Age::renewed();
         work.constant = !factored;
         if factored && work.keeps {
             work.place.copy_from(to);
@@ -528,7 +549,7 @@ impl Integrator for GeneralizedAlpha {
             place: State::zeros(size, state.t),
             increment: vec![0.0; size.v],
             corotation: Corotation::with_capacity(size.v),
-            renew: true,
+            age: Age::default(),
             renewals: 0,
             constant: false,
         }));
@@ -576,7 +597,7 @@ impl Integrator for GeneralizedAlpha {
         self.pending = false;
         self.history = 0;
         self.kept.forget();
-        (work.renew, work.renewals) = (true, 0);
+        (work.age, work.renewals) = (Age::default(), 0);
         work.kept = [f64::NAN; 2];
         state.side = Side::Right;
         let place = (state.t, 0.0);
@@ -594,8 +615,9 @@ impl Integrator for GeneralizedAlpha {
         out.put("convergence", &self.kept.memory());
         if let Some(work) = &self.work {
             out.put("tangent.weights", &work.kept);
-            let flags = [work.renew, work.constant].map(|flag| f64::from(u8::from(flag)));
-            out.put("tangent.renewals", &[flags[0], flags[1], f64::from(work.renewals)]);
+            let flag = |flag| f64::from(u8::from(flag));
+            let Age { cost, steps, due } = work.age;
+            out.put("tangent.age", &[cost, steps, flag(due), flag(work.constant), f64::from(work.renewals)]);
             out.put_state("tangent.", &work.place);
             out.put("tangent.increment", &work.increment);
         }
@@ -612,8 +634,9 @@ impl Integrator for GeneralizedAlpha {
         self.history = history as u8;
         self.kept.recall(from.numbers("convergence")?);
         work.kept = from.numbers("tangent.weights")?;
-        let [renew, constant, renewals] = from.numbers("tangent.renewals")?;
-        (work.renew, work.constant, work.renewals) = (renew != 0.0, constant != 0.0, renewals as u32);
+        let [cost, steps, due, constant, renewals] = from.numbers("tangent.age")?;
+        work.age = Age { cost, steps, due: due != 0.0 };
+        (work.constant, work.renewals) = (constant != 0.0, renewals as u32);
         from.fill_state("tangent.", &mut work.place)?;
         from.fill("tangent.increment", &mut work.increment)?;
         let [v, q] = work.kept;

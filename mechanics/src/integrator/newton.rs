@@ -10,6 +10,9 @@
 //! Source: Hairer & Wanner, *Solving Ordinary Differential Equations II*, section IV.8
 //! (doi 10.1007/978-3-642-05221-7).
 //!
+//! Where steps are not controlled, the tolerance is at least a part of the first increment, which is what the step adds
+//! to its prediction: the iteration error is then far below the error of the step.
+//!
 //! Increments that are rounding errors of the residual do not shrink: with a new tangent, an increment that is not
 //! halved any more and is smaller than `noise` ends the iteration. Its size is the least that later iterations with
 //! this tangent are asked for.
@@ -32,6 +35,9 @@ pub struct Convergence {
     tolerance: f64,
     /// Largest size of an increment that may be rounding error.
     noise: f64,
+    /// Part of the first increment that the iteration error may have.
+    part: f64,
+    allowed: f64,
     max_iterations: u32,
     /// Whether the tangent is kept during the iteration, so that convergence is linear at best.
     simplified: bool,
@@ -47,6 +53,9 @@ pub struct Convergence {
     rounding: f64,
 }
 
+/// Part of the first increment that the iteration error may have, where steps are not controlled.
+const PART: f64 = 1e-3;
+
 /// An increment that is not reduced to this part has stopped shrinking, where the tangent is new.
 const STALLED: f64 = 0.5;
 
@@ -57,6 +66,8 @@ impl Convergence {
         Convergence {
             tolerance,
             noise,
+            part: 0.0,
+            allowed: tolerance,
             max_iterations: 20,
             simplified: false,
             fading: 0.8,
@@ -75,9 +86,9 @@ impl Convergence {
     }
 
     /// Like [`Convergence::simplified`], for a tangent that is kept over many equal steps: η of the last step is
-    /// forgotten more slowly.
+    /// forgotten more slowly, and the iteration error may be a thousandth of the first increment.
     pub fn kept(tolerance: f64, noise: f64) -> Convergence {
-        Convergence { fading: 0.95, ..Convergence::simplified(tolerance, noise) }
+        Convergence { fading: 0.95, part: PART, ..Convergence::simplified(tolerance, noise) }
     }
 
     /// The same, with another largest size of increments that may be rounding errors.
@@ -107,11 +118,15 @@ impl Convergence {
         if !size.is_finite() {
             return Progress::Diverged;
         }
-        let tolerance = self.tolerance.max(2.0 * self.rounding);
+        if self.iteration == 1 {
+            self.allowed = self.tolerance.max(2.0 * self.rounding).max(self.part * size);
+        }
+        let tolerance = self.allowed;
         if self.iteration > 1 {
             self.rate = if self.previous > 0.0 { size / self.previous } else { 0.0 };
-            if self.fresh && self.rate >= STALLED && size <= self.noise {
-                self.rounding = size;
+            let small = if self.fresh { self.noise } else { 10.0 * self.rounding };
+            if self.rate >= STALLED && size <= small {
+                self.rounding = self.rounding.max(size);
                 return Progress::Converged;
             }
             if self.rate < 1.0 {
