@@ -386,8 +386,16 @@ impl GeneralizedAlpha {
             work.corotation.rotate(&mut work.rhs);
             let size = self.update(work, system, from, h, (to, weights));
             let progress = self.kept.judge(size);
-            let exact = renew && work.affine && size.is_finite();
-            if exact || progress == Progress::Converged {
+            if renew && work.affine && size.is_finite() {
+                if self.kept.wants_rounding() && self.kept.iterations() == 1 && !work.constant {
+                    continue;
+                }
+                if self.kept.iterations() > 1 {
+                    self.kept.learn_rounding(size);
+                }
+                return Ok(true);
+            }
+            if progress == Progress::Converged {
                 return Ok(true);
             }
             if progress == Progress::Diverged {

@@ -14,8 +14,8 @@
 //! to its prediction: the iteration error is then far below the error of the step.
 //!
 //! Increments that are rounding errors of the residual do not shrink: with a new tangent, an increment that is not
-//! halved any more and is smaller than `noise` ends the iteration. Its size is the least that later iterations with
-//! this tangent are asked for.
+//! halved any more and is smaller than `noise` ends the iteration. Its size is the least that later iterations are asked
+//! for. Of an affine system, whose first increment with a new tangent is exact, the second one shows it.
 
 /// What to do after an iteration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,8 +49,9 @@ pub struct Convergence {
     previous: f64,
     rate: f64,
     eta: f64,
-    /// Size of increments that are rounding errors, as far as known with this tangent.
+    /// Size of increments that are rounding errors, as far as known, and whether it has grown.
     rounding: f64,
+    stalled: bool,
 }
 
 /// Part of the first increment that the iteration error may have, where steps are not controlled.
@@ -77,6 +78,7 @@ impl Convergence {
             rate: 0.0,
             eta: 1.0,
             rounding: 0.0,
+            stalled: false,
         }
     }
 
@@ -101,9 +103,6 @@ impl Convergence {
         self.iteration = 0;
         self.fresh = fresh;
         self.rate = 0.0;
-        if fresh {
-            self.rounding = 0.0;
-        }
         self.eta = if self.simplified { self.eta.max(f64::EPSILON).powf(self.fading) } else { 1.0 };
     }
 
@@ -129,6 +128,7 @@ impl Convergence {
                 self.rounding = self.rounding.max(size);
                 return Progress::Converged;
             }
+            self.stalled |= self.rate >= STALLED && size <= self.noise;
             if self.rate < 1.0 {
                 self.eta = self.rate / (1.0 - self.rate);
                 let left = self.max_iterations.saturating_sub(self.iteration) as i32;
@@ -151,14 +151,24 @@ impl Convergence {
         }
     }
 
+    /// Whether the size of rounding errors is to be learnt from the second increment of an exact iteration.
+    pub(super) fn wants_rounding(&self) -> bool {
+        self.stalled
+    }
+
+    /// Takes increments of this size for rounding errors.
+    pub(super) fn learn_rounding(&mut self, size: f64) {
+        (self.rounding, self.stalled) = (size, false);
+    }
+
     /// What later attempts depend on.
-    pub(super) fn memory(&self) -> [f64; 3] {
-        [self.eta, self.rate, self.rounding]
+    pub(super) fn memory(&self) -> [f64; 4] {
+        [self.eta, self.rate, self.rounding, f64::from(u8::from(self.stalled))]
     }
 
     /// Continues from the [memory](Convergence::memory) of another run.
-    pub(super) fn recall(&mut self, memory: [f64; 3]) {
-        [self.eta, self.rate, self.rounding] = memory;
+    pub(super) fn recall(&mut self, [eta, rate, rounding, stalled]: [f64; 4]) {
+        (self.eta, self.rate, self.rounding, self.stalled) = (eta, rate, rounding, stalled != 0.0);
     }
 
     /// Iterations of this attempt.
