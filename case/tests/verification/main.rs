@@ -5,7 +5,7 @@
 mod folder;
 mod run;
 
-use flexion_case::{Reading, seams};
+use flexion_case::{Reading, choices};
 use folder::Expected;
 use std::fmt::Write;
 
@@ -67,7 +67,7 @@ fn at<'t>(value: &'t toml::Value, path: &str) -> Vec<&'t str> {
     }
 }
 
-/// Whether a case uses a kind of the seam at `path`.
+/// Whether a case uses a kind of the choice at `path`.
 fn uses(reading: &Reading, path: &str, kind: &str) -> bool {
     let resolved = toml::Value::Table(reading.resolved().parse().unwrap());
     let chosen = |path: &str| {
@@ -86,10 +86,10 @@ fn uses(reading: &Reading, path: &str, kind: &str) -> bool {
 #[test]
 fn every_kind_that_a_case_may_choose_is_verified() {
     let readings: Vec<Reading> = folders().iter().map(|folder| run::case(folder, &[]).unwrap()).collect();
-    for seam in seams() {
-        for kind in seam.kinds {
-            let used = readings.iter().any(|reading| uses(reading, seam.path, kind.name));
-            assert!(used, "no folder of verification uses the {} `{}`", seam.name, kind.name);
+    for choice in choices() {
+        for kind in choice.kinds() {
+            let used = readings.iter().any(|reading| uses(reading, choice.path(), kind.name));
+            assert!(used, "no folder of verification uses the {} `{}`", choice.name(), kind.name);
         }
     }
 }

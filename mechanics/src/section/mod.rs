@@ -179,3 +179,25 @@ pub trait Section: Send + Sync + std::fmt::Debug {
         None
     }
 }
+
+impl Section for std::sync::Arc<dyn Section> {
+    fn resultants(&self, x: f64) -> Resultants {
+        (**self).resultants(x)
+    }
+
+    fn breaks(&self) -> &[f64] {
+        (**self).breaks()
+    }
+
+    fn jumps(&self) -> &[f64] {
+        (**self).jumps()
+    }
+
+    fn masses(&self) -> &[Mass] {
+        (**self).masses()
+    }
+
+    fn fibres(&self, x: f64) -> Option<(f64, f64)> {
+        (**self).fibres(x)
+    }
+}
