@@ -160,23 +160,7 @@ fn value(key: &'static Key, node: &Node, path: &str, problems: &mut Problems) ->
             quantity(node, measure, *bound, path, problems).map(Value::Number)
         }
         (Type::Quantities(measure, bound), Raw::List(items)) => {
-            let before = problems.list.len();
-            let mut numbers = Vec::with_capacity(items.len());
-            for item in items {
-                match item.value {
-                    Raw::Text(_) | Raw::Number(_) | Raw::Integer(_) => {
-                        numbers.extend(quantity(item, measure, *bound, path, problems));
-                    }
-                    _ => {
-                        let message = format!("{} is not {}", item.value.describe(), units::article(measure));
-                        problems.push(
-                            Problem::new(path, Some(item.place.clone()), message)
-                                .help(format!("write for example {}", measure.examples)),
-                        );
-                    }
-                }
-            }
-            (problems.list.len() == before).then_some(Value::Numbers(numbers))
+            quantities(items, measure, *bound, path, problems).map(Value::Numbers)
         }
         (Type::Number(bound), Raw::Number(value)) => {
             bounded(*value, "", *bound, path, &node.place, problems).map(Value::Number)
@@ -201,21 +185,7 @@ fn value(key: &'static Key, node: &Node, path: &str, problems: &mut Problems) ->
             Some(Value::Table(table(entries, Some(node.place.clone()), keys, path, problems)))
         }
         (Type::Tables(keys), Raw::List(items)) => {
-            let mut list = Vec::with_capacity(items.len());
-            for (number, node) in items.iter().enumerate() {
-                let path = item(path, number);
-                match &node.value {
-                    Raw::Table(entries) => {
-                        list.push(table(entries, Some(node.place.clone()), keys, &path, problems));
-                    }
-                    other => {
-                        let message = format!("{} is not a table", other.describe());
-                        let problem = Problem::new(&path, Some(node.place.clone()), message);
-                        problems.push(problem.help(format!("`{}` takes {}", key.name, expected(&key.takes))));
-                    }
-                }
-            }
-            Some(Value::Tables(list))
+            Some(Value::Tables(tables(key, keys, items, path, problems)))
         }
         (Type::Kind(choice), Raw::Table(entries)) => kind(*choice, key, entries, &node.place, path, problems),
         (Type::Kind(choice), Raw::Text(text)) if choice.kind(text).is_some() => {
@@ -226,6 +196,58 @@ fn value(key: &'static Key, node: &Node, path: &str, problems: &mut Problems) ->
         }
         _ => mismatch(problems),
     }
+}
+
+/// The numbers of a list of quantities, if each of them is sound.
+fn quantities(
+    items: &[Node],
+    measure: &'static Measure,
+    bound: Bound,
+    path: &str,
+    problems: &mut Problems,
+) -> Option<Vec<f64>> {
+    let before = problems.list.len();
+    let mut numbers = Vec::with_capacity(items.len());
+    for item in items {
+        match item.value {
+            Raw::Text(_) | Raw::Number(_) | Raw::Integer(_) => {
+                numbers.extend(quantity(item, measure, bound, path, problems));
+            }
+            _ => {
+                let message = format!("{} is not {}", item.value.describe(), units::article(measure));
+                problems.push(
+                    Problem::new(path, Some(item.place.clone()), message)
+                        .help(format!("write for example {}", measure.examples)),
+                );
+            }
+        }
+    }
+    (problems.list.len() == before).then_some(numbers)
+}
+
+/// The tables of a list.
+fn tables(
+    key: &Key,
+    keys: &'static [Key],
+    items: &[Node],
+    path: &str,
+    problems: &mut Problems,
+) -> Vec<Values> {
+    let mut list = Vec::with_capacity(items.len());
+    for (number, node) in items.iter().enumerate() {
+        let path = item(path, number);
+        match &node.value {
+            Raw::Table(entries) => {
+                list.push(table(entries, Some(node.place.clone()), keys, &path, problems));
+            }
+            other => {
+                let message = format!("{} is not a table", other.describe());
+                let problem = Problem::new(&path, Some(node.place.clone()), message);
+                problems.push(problem.help(format!("`{}` takes {}", key.name, expected(&key.takes))));
+            }
+        }
+    }
+    list
 }
 
 fn kind(
