@@ -9,10 +9,7 @@ mod table;
 mod tapered;
 mod uniform;
 
-pub use blade::{
-    BladeResultants, BladeSection, BladeTable, Guided, HomogeneousBlade, PlanarBlade, Twisted,
-    torsion_constant,
-};
+pub use blade::{BladeResultants, BladeSection, BladeTable, Guided, HomogeneousBlade, PlanarBlade, Twisted};
 pub use graded::{Graded, Material};
 pub use laden::{Laden, Mass};
 pub use piecewise::{Piecewise, Segment};

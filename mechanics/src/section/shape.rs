@@ -27,34 +27,113 @@ pub enum Shape {
     },
 }
 
+/// What follows from the dimensions of a shape.
+struct Properties {
+    /// Names of the dimensions and the dimensions, all of them positive.
+    dimensions: [(&'static str, f64); 2],
+    /// Half of the height [m].
+    half_height: f64,
+    /// A [m²].
+    area: f64,
+    /// ∫ y² dA [m⁴], y in the plane of motion.
+    second_moment: f64,
+    /// ∫ z² dA [m⁴], z across the plane of motion.
+    flap_moment: f64,
+    /// J [m⁴]; not of a rectangle, whose series is summed when it is asked for.
+    torsion_constant: f64,
+}
+
 impl Shape {
+    /// All that is to be known of a shape.
+    fn properties(&self) -> Properties {
+        match *self {
+            Shape::Rectangle { width, height } => Properties {
+                dimensions: [("width of the section", width), ("height of the section", height)],
+                half_height: 0.5 * height,
+                area: width * height,
+                second_moment: width * height.powi(3) / 12.0,
+                flap_moment: height * width.powi(3) / 12.0,
+                torsion_constant: 0.0,
+            },
+            Shape::Circle { radius } => {
+                let second_moment = PI * radius.powi(4) / 4.0;
+                Properties {
+                    dimensions: [("radius of the section", radius); 2],
+                    half_height: radius,
+                    area: PI * radius * radius,
+                    second_moment,
+                    flap_moment: second_moment,
+                    torsion_constant: 2.0 * second_moment,
+                }
+            }
+            Shape::Tube { outer_radius: o, inner_radius: i } => {
+                let second_moment = PI / 4.0 * (o - i) * (o + i) * (o * o + i * i);
+                Properties {
+                    dimensions: [("outer radius of the section", o); 2],
+                    half_height: o,
+                    area: PI * (o - i) * (o + i),
+                    second_moment,
+                    flap_moment: second_moment,
+                    torsion_constant: 2.0 * second_moment,
+                }
+            }
+        }
+    }
+
+    /// The shape whose dimensions lie between those of this one (s = 0) and of `other` (s = 1), d + s (d′ − d); `None`
+    /// if the two are not of one kind.
+    pub fn between(self, other: Shape, s: f64) -> Option<Shape> {
+        let at = |from: f64, to: f64| from + s * (to - from);
+        Some(match (self, other) {
+            (Shape::Rectangle { width: b, height: h }, Shape::Rectangle { width, height }) => {
+                Shape::Rectangle { width: at(b, width), height: at(h, height) }
+            }
+            (Shape::Circle { radius: r }, Shape::Circle { radius }) => {
+                Shape::Circle { radius: at(r, radius) }
+            }
+            (
+                Shape::Tube { outer_radius: o, inner_radius: i },
+                Shape::Tube { outer_radius, inner_radius },
+            ) => Shape::Tube { outer_radius: at(o, outer_radius), inner_radius: at(i, inner_radius) },
+            _ => return None,
+        })
+    }
+
     /// Area A [m²].
     pub fn area(&self) -> f64 {
-        match *self {
-            Shape::Rectangle { width, height } => width * height,
-            Shape::Circle { radius } => PI * radius * radius,
-            Shape::Tube { outer_radius: o, inner_radius: i } => PI * (o - i) * (o + i),
-        }
+        self.properties().area
     }
 
     /// Second moment of area I = ∫ y² dA for bending in the plane of motion [m⁴].
     pub fn second_moment(&self) -> f64 {
+        self.properties().second_moment
+    }
+
+    /// Second moment of area ∫ z² dA for bending across the plane of motion [m⁴].
+    pub fn flap_moment(&self) -> f64 {
+        self.properties().flap_moment
+    }
+
+    /// Torsion constant J [m⁴]: GJ = G times it.
+    ///
+    /// Of a rectangle with sides a ≥ b, J = a b³/3 (1 − 192/π⁵ b/a Σ tanh(nπa/2b)/n⁵), n = 1, 3, 5 …; of a circle
+    /// and of a tube its polar second moment of area. Source: S. P. Timoshenko & J. N. Goodier, *Theory of
+    /// Elasticity*, 3rd ed. (1970), §109.
+    pub fn torsion_constant(&self) -> f64 {
         match *self {
-            Shape::Rectangle { width, height } => width * height.powi(3) / 12.0,
-            Shape::Circle { radius } => PI * radius.powi(4) / 4.0,
-            Shape::Tube { outer_radius: o, inner_radius: i } => {
-                PI / 4.0 * (o - i) * (o + i) * (o * o + i * i)
+            Shape::Rectangle { width, height } => {
+                let (a, b) = (width.max(height), width.min(height));
+                let term = |n: f64| (n * PI * a / (2.0 * b)).tanh() / n.powi(5);
+                let sum: f64 = (0..200).rev().map(|k| term(2.0 * f64::from(k) + 1.0)).sum();
+                a * b.powi(3) / 3.0 * (1.0 - 192.0 / PI.powi(5) * b / a * sum)
             }
+            _ => self.properties().torsion_constant,
         }
     }
 
     /// Heights of the lower and upper fibre [m].
     pub fn fibres(&self) -> (f64, f64) {
-        let half = match *self {
-            Shape::Rectangle { height, .. } => 0.5 * height,
-            Shape::Circle { radius } => radius,
-            Shape::Tube { outer_radius, .. } => outer_radius,
-        };
+        let half = self.properties().half_height;
         (-half, half)
     }
 
@@ -63,17 +142,13 @@ impl Shape {
     /// # Errors
     /// [`SectionError::Quantity`] names the first dimension that does not.
     pub fn validate(&self) -> Result<(), SectionError> {
+        for (name, value) in self.properties().dimensions {
+            positive(name, "m", value)?;
+        }
         match *self {
-            Shape::Rectangle { width, height } => {
-                positive("width of the section", "m", width)?;
-                positive("height of the section", "m", height)
-            }
-            Shape::Circle { radius } => positive("radius of the section", "m", radius),
-            Shape::Tube { outer_radius, inner_radius } => {
-                positive("outer radius of the section", "m", outer_radius)?;
-                if inner_radius >= 0.0 && inner_radius < outer_radius {
-                    return Ok(());
-                }
+            Shape::Tube { outer_radius, inner_radius }
+                if !(inner_radius >= 0.0 && inner_radius < outer_radius) =>
+            {
                 Err(SectionError::Quantity {
                     quantity: "inner radius of the section",
                     unit: "m",
@@ -81,6 +156,7 @@ impl Shape {
                     needed: "from 0 to less than the outer radius",
                 })
             }
+            _ => Ok(()),
         }
     }
 }
