@@ -245,6 +245,25 @@ pub static SECTION: Choice<Section> = Choice {
             make: |v, c| homogeneous(v, c, shape::tube),
         },
         Kind {
+            name: "ellipse",
+            summary: "one material; a full ellipse",
+            source: "",
+            keys: &[
+                E,
+                RHO,
+                dimension("semi-width", "semi-axis a, normal to the plane of motion"),
+                dimension("semi-height", "semi-axis b, in the plane of motion"),
+                ROTARY,
+            ],
+            example: r#"section={kind="ellipse", modulus="70 GPa", density=2700, semi-width="2 cm", semi-height="1 cm"}"#,
+            make: |v, c| {
+                homogeneous(v, c, |v, _| {
+                    let (semi_width, semi_height) = (v.number("semi-width")?, v.number("semi-height")?);
+                    Ok(Shape::Ellipse { semi_width, semi_height })
+                })
+            },
+        },
+        Kind {
             name: "resultants",
             summary: "mass and stiffnesses per length given directly",
             source: "",

@@ -25,6 +25,13 @@ pub enum Shape {
         /// Inner radius r [m], 0 ≤ r < R.
         inner_radius: f64,
     },
+    /// A solid ellipse: A = π a b, I = π a b³/4, J = π a³ b³/(a² + b²).
+    Ellipse {
+        /// Semi-axis a, across the plane of motion [m].
+        semi_width: f64,
+        /// Semi-axis b, in the plane of motion [m].
+        semi_height: f64,
+    },
 }
 
 /// What follows from the dimensions of a shape.
@@ -77,6 +84,14 @@ impl Shape {
                     torsion_constant: 2.0 * second_moment,
                 }
             }
+            Shape::Ellipse { semi_width: a, semi_height: b } => Properties {
+                dimensions: [("semi-width of the section", a), ("semi-height of the section", b)],
+                half_height: b,
+                area: PI * a * b,
+                second_moment: PI * a * b.powi(3) / 4.0,
+                flap_moment: PI * b * a.powi(3) / 4.0,
+                torsion_constant: PI * (a * b).powi(3) / (a * a + b * b),
+            },
         }
     }
 
@@ -95,6 +110,10 @@ impl Shape {
                 Shape::Tube { outer_radius: o, inner_radius: i },
                 Shape::Tube { outer_radius, inner_radius },
             ) => Shape::Tube { outer_radius: at(o, outer_radius), inner_radius: at(i, inner_radius) },
+            (
+                Shape::Ellipse { semi_width: a, semi_height: b },
+                Shape::Ellipse { semi_width, semi_height },
+            ) => Shape::Ellipse { semi_width: at(a, semi_width), semi_height: at(b, semi_height) },
             _ => return None,
         })
     }
@@ -178,7 +197,12 @@ mod tests {
     fn area_and_second_moment_are_the_integrals_of_the_chord() {
         let circle = |r: f64| move |y: f64| 2.0 * (r * r - y * y).max(0.0).sqrt();
         type Moment = Box<dyn Fn(i32) -> f64>;
-        let cases: [(Shape, Moment); 3] = [
+        let ellipse = |y: f64| 0.6 * (1.0 - (y / 0.1).powi(2)).max(0.0).sqrt();
+        let cases: [(Shape, Moment); 4] = [
+            (
+                Shape::Ellipse { semi_width: 0.3, semi_height: 0.1 },
+                Box::new(move |k| moment(0.1, k, ellipse)),
+            ),
             (Shape::Rectangle { width: 0.3, height: 0.2 }, Box::new(|k| moment(0.1, k, |_| 0.3))),
             (Shape::Circle { radius: 0.2 }, Box::new(move |k| moment(0.2, k, circle(0.2)))),
             (
@@ -193,11 +217,31 @@ mod tests {
     }
 
     #[test]
+    fn an_ellipse_bends_out_of_the_plane_as_its_other_axis_says_and_a_round_one_is_a_circle() {
+        let ellipse = |a, b| Shape::Ellipse { semi_width: a, semi_height: b };
+        assert_eq!(ellipse(0.3, 0.1).flap_moment(), ellipse(0.1, 0.3).second_moment());
+        let (round, circle) = (ellipse(0.2, 0.2), Shape::Circle { radius: 0.2 });
+        let pairs = [Shape::area, Shape::second_moment, Shape::flap_moment, Shape::torsion_constant];
+        for of in pairs {
+            assert!((of(&round) / of(&circle) - 1.0).abs() < 1e-14);
+        }
+        // ∇²ψ = −2 with ψ = 0 on the edge is solved by ψ = a²b²/(a² + b²) (1 − z²/a² − y²/b²), and J = 2∫ψ dA.
+        let (a, b) = (0.3, 0.1);
+        let integral = moment(b, 0, |y: f64| {
+            let half = a * (1.0 - (y / b).powi(2)).max(0.0).sqrt();
+            4.0 / 3.0 * half * (1.0 - (y / b).powi(2))
+        });
+        let j = 2.0 * (a * b).powi(2) / (a * a + b * b) * integral;
+        assert!((ellipse(a, b).torsion_constant() / j - 1.0).abs() < 1e-13);
+    }
+
+    #[test]
     fn impossible_dimensions_are_named() {
         for (shape, name) in [
             (Shape::Rectangle { width: 0.0, height: 1.0 }, "width"),
             (Shape::Rectangle { width: 1.0, height: f64::NAN }, "height"),
             (Shape::Circle { radius: -1.0 }, "radius"),
+            (Shape::Ellipse { semi_width: 1.0, semi_height: 0.0 }, "semi-height"),
             (Shape::Tube { outer_radius: 1.0, inner_radius: 1.0 }, "inner radius"),
             (Shape::Tube { outer_radius: f64::INFINITY, inner_radius: 1.0 }, "outer radius"),
         ] {
