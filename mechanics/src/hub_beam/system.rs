@@ -539,7 +539,7 @@ impl<C: Coupling> HubBeam<C> {
             Drive::Prescribed(_) => 0.0,
             Drive::Free(free) => free.spring_energy(hub.angle),
         };
-        self.coupling.strain(s) + spring
+        self.coupling.strain(s) + spring + self.loads.spring(s, hub)
     }
 }
 

@@ -38,7 +38,7 @@ use super::inertia::Border;
 use crate::linalg::Storage;
 use crate::profile::{HubKinematics, Profile};
 use crate::system::{State, Weights};
-use group::Group;
+use group::{Group, Store};
 use std::sync::Arc;
 
 /// What the components of a force refer to.
@@ -89,7 +89,7 @@ impl Loads {
 
     /// Whether gravity is among them.
     pub fn has_gravity(&self) -> bool {
-        self.groups.iter().any(|g| g.is_gravity())
+        self.groups.iter().any(|g| g.store() == Some(Store::Gravity))
     }
 
     /// Applies a part of the loads, 0 … 1, from now on.
@@ -135,17 +135,27 @@ impl Loads {
 
     /// Potential energy of gravity [J].
     pub fn gravity(&mut self, s: &State, hub: &HubKinematics) -> f64 {
-        self.groups.iter_mut().map(|g| g.potential(s, hub)).sum()
+        self.stored(Store::Gravity, s, hub)
     }
 
-    /// Power of the loads, gravity aside \[W\].
+    /// Energy of springs [J].
+    pub fn spring(&mut self, s: &State, hub: &HubKinematics) -> f64 {
+        self.stored(Store::Spring, s, hub)
+    }
+
+    fn stored(&mut self, store: Store, s: &State, hub: &HubKinematics) -> f64 {
+        let groups = self.groups.iter_mut().filter(|g| g.store() == Some(store));
+        groups.map(|g| g.potential(s, hub)).sum()
+    }
+
+    /// Power of the loads, gravity and springs aside \[W\].
     pub fn power(&mut self, s: &State, hub: &HubKinematics) -> f64 {
         let mut power = 0.0;
-        if self.groups.iter().all(Group::is_gravity) {
+        if self.groups.iter().all(|g| g.store().is_some()) {
             return power;
         }
         self.force.fill(0.0);
-        for group in self.groups.iter_mut().filter(|g| !g.is_gravity()) {
+        for group in self.groups.iter_mut().filter(|g| g.store().is_none()) {
             group.add_force(s, hub, 1.0, &mut self.force);
             power += group.torque(s, hub) * hub.speed;
         }
