@@ -52,7 +52,7 @@ fn dash(c: char) -> char {
     if matches!(c, '.' | '-' | '_' | ' ') { '-' } else { c.to_ascii_lowercase() }
 }
 
-/// What to write instead of a kind that was laid over the file, where a key of the file belongs to the kind before.
+/// What to write instead of a kind that was chosen on the command line, where a key of the file belongs to the kind before.
 pub(super) fn replacement(choice: &dyn Kinds, kind: Entry, path: &str, of: &str) -> String {
     let mut table = format!("kind='{}'", kind.name);
     for key in kind.keys.iter().filter(|key| key.presence == Presence::Required) {

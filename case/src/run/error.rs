@@ -196,7 +196,7 @@ fn settled(run: &Run, coarser: &Run, finer: &Run) -> bool {
         })
 }
 
-/// The columns whose errors are told: all but those that tell of the integrator.
+/// The columns whose errors are estimated: all but those about the integrator.
 fn columns(run: &Run) -> impl Iterator<Item = &str> {
     run.trajectory.channels().iter().map(|c| c.name.as_str()).filter(|name| !name.starts_with("step."))
 }

@@ -191,6 +191,7 @@ impl<C: Coupling> HubBeam<C> {
         if self.damped {
             power.dissipated += self.coupling.dissipated(s);
         }
+        power.dissipated += self.loads.dissipated(s, hub);
         power
     }
 

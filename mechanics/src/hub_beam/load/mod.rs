@@ -19,6 +19,7 @@
 //! | `Curve` | U, V | linear | turns with the tangent (X′, Y′)/ℓ |
 
 mod couple;
+mod damper;
 mod distributed;
 mod force;
 mod gravity;
@@ -29,6 +30,7 @@ mod site;
 mod tests;
 
 pub use couple::Couple;
+pub use damper::Damper;
 pub use distributed::DistributedForce;
 pub use force::Force;
 pub use gravity::Gravity;
@@ -59,12 +61,18 @@ pub type Amplitude = Option<Arc<dyn Profile>>;
 pub trait Load: std::fmt::Debug {
     /// The load on a beam, ready to be evaluated.
     fn group(&self, site: &Site<'_>) -> Group;
+
+    /// The damper that comes with it, if there is one.
+    fn damper(&self, _site: &Site<'_>) -> Option<Damper> {
+        None
+    }
 }
 
 /// The loads of a system. Empty, they cost nothing.
 #[derive(Debug, Default)]
 pub struct Loads {
     groups: Vec<Group>,
+    dampers: Vec<Damper>,
     breaks: Vec<f64>,
     /// What is not there of the loads: 0 but while an equilibrium is followed.
     missing: f64,
@@ -79,7 +87,8 @@ impl Loads {
         let mut breaks: Vec<f64> = groups.iter().flat_map(|g| g.breaks().iter().copied()).collect();
         breaks.sort_by(f64::total_cmp);
         breaks.dedup();
-        Loads { groups, breaks, missing: 0.0, force: vec![0.0; site.fields.len()] }
+        let dampers = loads.iter().filter_map(|load| load.damper(site)).collect();
+        Loads { groups, dampers, breaks, missing: 0.0, force: vec![0.0; site.fields.len()] }
     }
 
     /// Whether there is no load.
@@ -108,6 +117,9 @@ impl Loads {
         for group in &mut self.groups {
             group.add_force(s, hub, -1.0, r);
         }
+        for damper in &self.dampers {
+            damper.add_force(s, hub, self.missing - 1.0, r);
+        }
     }
 
     /// Subtracts ∂Q_q/∂q, weighted, from the tangent.
@@ -116,6 +128,9 @@ impl Loads {
             for group in &self.groups {
                 group.add_tangent(s, hub, -w.q, out);
             }
+        }
+        for damper in &self.dampers {
+            damper.add_tangent(hub, w, self.missing - 1.0, out);
         }
     }
 
@@ -126,11 +141,20 @@ impl Loads {
                 group.add_border(s, hub, -w.q, out);
             }
         }
+        for damper in &self.dampers {
+            damper.add_border(s, hub, w, self.missing - 1.0, out);
+        }
     }
 
     /// Torque Q_θ on the hub [N·m].
     pub fn torque(&mut self, s: &State, hub: &HubKinematics) -> f64 {
-        self.groups.iter_mut().map(|g| g.torque(s, hub)).sum()
+        let resisting: f64 = self.dampers.iter().map(|d| (1.0 - self.missing) * d.torque(s, hub)).sum();
+        self.groups.iter_mut().map(|g| g.torque(s, hub)).sum::<f64>() + resisting
+    }
+
+    /// Power lost in dampers \[W\].
+    pub fn dissipated(&self, s: &State, hub: &HubKinematics) -> f64 {
+        self.dampers.iter().map(|d| (1.0 - self.missing) * d.dissipated(s, hub)).sum()
     }
 
     /// Potential energy of gravity [J].
@@ -169,7 +193,7 @@ impl Loads {
         if self.missing != 0.0 {
             // No number: a tangent with part of the loads is never taken for another.
             f64::NAN
-        } else if stiff().any(Group::varies) {
+        } else if !self.dampers.is_empty() || stiff().any(Group::varies) {
             s.t
         } else if stiff().any(|g| g.axes() == Axes::Dead) {
             hub.angle
