@@ -84,7 +84,47 @@ const FRAME: Key =
     key("frame", Type::Choice(&AXES), Default::Name("dead"), "axes that the components refer to");
 
 /// Everything that a case may put onto the beam, in the order of a case file.
-pub static LOADS: &[&Table<Load>] = &[&GRAVITY, &MASS, &FORCE, &COUPLE, &DISTRIBUTED];
+pub static LOADS: &[&Table<Load>] = &[&GRAVITY, &MASS, &FORCE, &COUPLE, &DISTRIBUTED, &SPRING];
+
+static SPRING: Table<Load> = Table {
+    key: key(
+        "spring",
+        Type::Tables(&[
+            STATION,
+            key(
+                "stiffness",
+                Quantity(&units::FORCE_PER_LENGTH, NotNegative),
+                Required,
+                "stiffness k, the same in all directions",
+            ),
+            key(
+                "damping",
+                Quantity(&units::DAMPING, NotNegative),
+                Default::Number(0.0),
+                "force over velocity of the station, c",
+            ),
+            key(
+                "anchor",
+                Type::Quantities(&units::LENGTH, Any),
+                Required,
+                "x and y of the other end in inertial axes, from the axis of the hub",
+            ),
+        ]),
+        Default::Empty,
+        "springs between a station and a point fixed in space",
+    ),
+    example: "spring=[{station=2, stiffness='200 N/m', damping='2 N s/m', anchor=['2.1 m', 0]}]",
+    make: |v, c| {
+        let anchor = v.numbers("anchor").and_then(|place| {
+            let message = format!("a place in the plane has 2 coordinates, not {}", place.len());
+            place.try_into().map_err(|_| Fault::new("anchor", message).into())
+        });
+        let (station, anchor) = both(c.station(v, "station"), anchor)?;
+        let (stiffness, damping) = (v.number("stiffness")?, v.number("damping")?);
+        let spring = load::Spring { station, stiffness, damping, anchor };
+        Ok(Load { fixed_in_space: Some("springs to the ground"), ..acting(spring, vec![station]) })
+    },
+};
 
 static GRAVITY: Table<Load> = Table {
     key: key(

@@ -26,6 +26,7 @@ mod gravity;
 mod group;
 mod on_section;
 mod site;
+mod spring;
 #[cfg(test)]
 mod tests;
 
@@ -35,6 +36,7 @@ pub use distributed::DistributedForce;
 pub use force::Force;
 pub use gravity::Gravity;
 pub use site::{Kinematics, Site};
+pub use spring::Spring;
 
 use super::inertia::Border;
 use crate::linalg::Storage;
