@@ -178,3 +178,30 @@ pub(super) fn join(path: &str, name: &str) -> String {
 pub(super) fn item(path: &str, number: usize) -> String {
     format!("{path}[{}]", number + 1)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::declaration::{Bound, Type, key};
+
+    static KEYS: [Key; 2] = [
+        key("given", Type::Number(Bound::Any), Presence::Required, ""),
+        key("open", Type::Number(Bound::Any), Presence::Optional, ""),
+    ];
+
+    #[test]
+    fn a_key_that_is_asked_for_otherwise_than_declared_is_reported_as_a_mistake_in_the_program() {
+        let filled = Filled { key: &KEYS[0], value: Value::Number(2.0), place: None };
+        let values = Values { keys: &KEYS, entries: vec![filled], sound: true, place: None };
+        assert_eq!((values.number("given"), values.optional_number("open")), (Ok(2.0), Ok(None)));
+        for (found, words) in [
+            (values.number("gvien"), "the key `gvien` is not declared"),
+            (values.optional_number("oepn").map(|_| 0.0), "the key `oepn` is not declared"),
+            (values.integer("given").map(|_| 0.0), "the key `given` is no integer"),
+            (values.number("open"), "the key `open` is one that may be left out"),
+        ] {
+            let message = found.unwrap_err().to_string();
+            assert!(message.contains("mistake in the program") && message.contains(words), "{message}");
+        }
+    }
+}
