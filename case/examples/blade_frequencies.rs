@@ -7,7 +7,7 @@
 
 use flexion::linalg::{Matrix, negative_pivots};
 use flexion::system::{Dynamics, State, Weights};
-use flexion_case::{build, read};
+use flexion_case::read;
 use std::path::Path;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -17,7 +17,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let count: usize = count.parse()?;
     let reading = read(Path::new(case), &[])?;
-    let mut blade = build::blade(&reading.case)?.ok_or("the case has no [blade]")?;
+    let mut blade = reading.case.blade()?.ok_or("the case has no [blade]")?;
     for speed in speeds {
         blade.set_speed(speed.parse()?)?;
         let state = State::zeros(blade.size(), 0.0);

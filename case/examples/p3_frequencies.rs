@@ -8,7 +8,7 @@ use flexion::analysis::rotation::rotate_stably;
 use flexion::linalg::eigen::Pencil;
 use flexion::linalg::{Matrix, Structure};
 use flexion::system::{Direction, Dynamics, Observed, Parameter, State, Steady, System, Weights};
-use flexion_case::{build, read};
+use flexion_case::read;
 use std::path::Path;
 
 const SPEEDS: [f64; 9] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 10.0, 20.0, 50.0];
@@ -24,7 +24,7 @@ fn unit_of_time() -> f64 {
 fn system(exponent: f64, basis: &str) -> Box<dyn System> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../verification/p3_spin_up");
     let overrides = [format!("section.exponent={exponent}"), basis.to_owned()];
-    build::system(&read(&folder, &overrides).unwrap().case).unwrap()
+    read(&folder, &overrides).unwrap().case.system().unwrap()
 }
 
 /// The two lowest frequencies times τ at γ = Ωτ: all unknowns.

@@ -66,13 +66,13 @@ pub enum Type {
     /// A path, relative to the folder of the case.
     Path,
     /// One of some names.
-    Choice(&'static Seam),
+    Choice(&'static dyn Kinds),
     /// A table with the given keys.
     Table(&'static [Key]),
     /// A list of tables with the given keys: `[[force]]`.
     Tables(&'static [Key]),
     /// A table whose `kind` decides which keys it has.
-    Kind(&'static Seam),
+    Kind(&'static dyn Kinds),
 }
 
 /// What happens when a key is left out.
@@ -95,7 +95,7 @@ pub enum Presence {
 }
 
 /// A key of a table.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Key {
     /// Name, kebab-case.
     pub name: &'static str,
@@ -112,9 +112,9 @@ pub const fn key(name: &'static str, takes: Type, presence: Presence, doc: &'sta
     Key { name, takes, presence, doc }
 }
 
-/// One of the kinds of a seam.
-#[derive(Debug)]
-pub struct Kind {
+/// A kind as declared, without its maker.
+#[derive(Clone, Copy, Debug)]
+pub struct Entry {
     /// Name in a case file.
     pub name: &'static str,
     /// One line on what it is.
@@ -123,30 +123,32 @@ pub struct Kind {
     pub source: &'static str,
     /// Its keys, besides `kind`.
     pub keys: &'static [Key],
+    /// How a case may choose it: changes `KEY=VALUE` of a case, one a line, as on the command line.
+    pub example: &'static str,
 }
 
 /// A place in a case where one of several kinds is chosen.
-#[derive(Debug)]
-pub struct Seam {
+pub trait Kinds: Sync + std::fmt::Debug {
     /// What is chosen, e.g. `integrator`.
-    pub name: &'static str,
-    /// Where it stands in a case, e.g. `hub.motion`.
-    pub path: &'static str,
-    /// One line on what it decides.
-    pub summary: &'static str,
-    /// The kinds.
-    pub kinds: &'static [Kind],
-}
+    fn name(&self) -> &'static str;
 
-impl Seam {
+    /// Where it stands in a case, e.g. `hub.motion`.
+    fn path(&self) -> &'static str;
+
+    /// One line on what it decides.
+    fn summary(&self) -> &'static str;
+
+    /// The kinds.
+    fn kinds(&self) -> Vec<Entry>;
+
     /// The kind of this name.
-    pub fn kind(&self, name: &str) -> Option<&'static Kind> {
-        self.kinds.iter().find(|kind| kind.name == name)
+    fn kind(&self, name: &str) -> Option<Entry> {
+        self.kinds().into_iter().find(|kind| kind.name == name)
     }
 
     /// The names of the kinds: "`a`, `b`, `c`".
-    pub fn names(&self) -> String {
-        listed(self.kinds.iter().map(|kind| kind.name))
+    fn names(&self) -> String {
+        listed(self.kinds().iter().map(|kind| kind.name))
     }
 }
 

@@ -170,6 +170,18 @@ impl fmt::Display for Problems {
 
 impl std::error::Error for Problems {}
 
+/// The place of `span` of a text inside the place of its TOML value, where the two correspond.
+pub(super) fn inside(place: &Place, text: &str, span: Range<usize>, problems: &Problems) -> Place {
+    let written = problems.sources.get(place.source).and_then(|s| s.text.get(place.start..place.end));
+    let offset = match written {
+        Some(written) if written == text => 0,
+        Some(written) if written.get(1..written.len().saturating_sub(1)) == Some(text) => 1,
+        _ => return place.clone(),
+    };
+    let start = place.start + offset;
+    Place::new(place.source, start + span.start..start + span.end)
+}
+
 /// The line of a place, with the place as a span of it.
 struct Window<'t> {
     text: &'t str,

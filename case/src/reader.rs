@@ -1,36 +1,35 @@
 //! Reads the raw tree by the declarations: every problem is collected, nothing stops at the first.
 
-use super::declaration::{Bound, Key, Kind, Presence, Seam, Type, listed};
-use super::elsewhere;
-use super::problem::{Place, Problem, Problems};
-use super::tree::{Entry, Node, Raw};
+use super::declaration::{Bound, Entry, Key, Kinds, Presence, Type, listed};
+use super::problem::{Place, Problem, Problems, inside};
+use super::suggestion;
+use super::tree::{Line, Node, Raw};
 use super::units::{self, Measure};
 use super::values::{Filled, Value, Values, item, join};
 use flexion_results::nearest;
 
 /// Reads a table with the given keys.
 pub(super) fn table(
-    entries: &[Entry],
+    entries: &[Line],
     place: Option<Place>,
     keys: &'static [Key],
     path: &str,
     problems: &mut Problems,
 ) -> Values {
     let suspected = unknown(entries, keys, path, None, problems);
-    let entries = known(entries, place.as_ref(), keys, path, &suspected, problems);
-    Values { place, entries }
+    known(entries, place, keys, path, &suspected, problems)
 }
 
 /// Reads the declared keys; a missing key is no problem of its own when it is `suspected` misspelt.
 fn known(
-    entries: &[Entry],
-    place: Option<&Place>,
+    entries: &[Line],
+    place: Option<Place>,
     keys: &'static [Key],
     path: &str,
     suspected: &[&str],
     problems: &mut Problems,
-) -> Vec<Filled> {
-    let mut values = Vec::new();
+) -> Values {
+    let mut values = Values { place, keys, entries: Vec::new(), sound: true };
     for key in keys {
         let path = join(path, key.name);
         let (value, place) = match entries.iter().find(|entry| entry.key == key.name) {
@@ -39,14 +38,15 @@ fn known(
                 if key.presence == Presence::Required && !suspected.contains(&key.name) {
                     let what =
                         if is_table(&key.takes) { "this table is missing" } else { "this key is missing" };
-                    let problem = Problem::new(&path, place.cloned(), what);
+                    let problem = Problem::new(&path, values.place.clone(), what);
                     problems.push(problem.label(format!("`{}` belongs here", key.name)).help(advice(key)));
                 }
                 (default(key, &path, problems), None)
             }
         };
-        if let Some(value) = value {
-            values.push(Filled { key, value, place });
+        match value {
+            Some(value) => values.entries.push(Filled { key, value, place }),
+            None => values.sound &= place.is_none() && key.presence == Presence::Optional,
         }
     }
     values
@@ -54,10 +54,10 @@ fn known(
 
 /// Reports the keys that are not declared; returns the declared keys they were perhaps meant to be.
 fn unknown<'k>(
-    entries: &[Entry],
+    entries: &[Line],
     keys: &'k [Key],
     path: &str,
-    of: Option<(&'static Seam, &'static Kind)>,
+    of: Option<(&'static dyn Kinds, Entry)>,
     problems: &mut Problems,
 ) -> Vec<&'k str> {
     let mut suspected = Vec::new();
@@ -72,25 +72,25 @@ fn unknown<'k>(
         if let Some(name) = nearest(name, free).or_else(|| nearest(name, all)) {
             problem = problem.label(format!("did you mean `{name}`?"));
             suspected.push(name);
-        } else if let Some((seam, kind)) = of {
-            let owners: Vec<&str> = seam
-                .kinds
-                .iter()
-                .filter(|other| other.name != kind.name && other.keys.iter().any(|key| key.name == name))
-                .map(|other| other.name)
-                .collect();
+        } else if let Some((choice, kind)) = of {
+            let owns =
+                |other: &Entry| other.name != kind.name && other.keys.iter().any(|key| key.name == name);
+            let owners: Vec<Entry> = choice.kinds().into_iter().filter(owns).collect();
             if !owners.is_empty() {
-                let owners = listed(owners.into_iter());
-                problem = problem
-                    .help(format!("`{name}` is a key of {} {owners}, not of `{}`", seam.name, kind.name));
-                let laid_over = |entry: &&Entry| entry.key == "kind" && entry.node.place.source != 0;
+                let owners = listed(owners.iter().map(|kind| kind.name));
+                problem = problem.help(format!(
+                    "`{name}` is a key of {} {owners}, not of `{}`",
+                    choice.name(),
+                    kind.name
+                ));
+                let laid_over = |entry: &&Line| entry.key == "kind" && entry.node.place.source != 0;
                 if entry.place.source == 0 && entries.iter().any(|entry| laid_over(&entry)) {
-                    problem = problem.help(elsewhere::replacement(seam, kind, path, name));
+                    problem = problem.help(suggestion::replacement(choice, kind, path, name));
                 }
-            } else if let Some(advice) = elsewhere::advice(name, path) {
+            } else if let Some(advice) = suggestion::advice(name, path) {
                 problem = problem.help(advice);
             }
-        } else if let Some(advice) = elsewhere::advice(name, path) {
+        } else if let Some(advice) = suggestion::advice(name, path) {
             problem = problem.help(advice);
         }
         let allowed = listed(of.iter().map(|_| "kind").chain(keys.iter().map(|key| key.name)));
@@ -109,7 +109,7 @@ fn advice(key: &Key) -> String {
         Type::Quantity(measure, _) => {
             format!("{}, for example {}", units::article(measure), measure.examples)
         }
-        Type::Kind(seam) => format!("a table whose kind is one of {}", seam.names()),
+        Type::Kind(choice) => format!("a table whose kind is one of {}", choice.names()),
         Type::Table(keys) => {
             let required = keys.iter().filter(|key| key.presence == Presence::Required);
             format!("a table with {}", listed(required.map(|key| key.name)))
@@ -138,7 +138,7 @@ fn expected(takes: &Type) -> String {
         Type::Boolean => "`true` or `false`".to_owned(),
         Type::Text => "a text".to_owned(),
         Type::Path => "the path of a file, relative to the folder of the case".to_owned(),
-        Type::Choice(seam) => format!("one of {}", seam.names()),
+        Type::Choice(choice) => format!("one of {}", choice.names()),
         Type::Table(keys) => format!("a table: its keys are {}", listed(keys.iter().map(|key| key.name))),
         Type::Tables(keys) => format!(
             "a list of tables, each under a heading in double brackets: their keys are {}",
@@ -160,23 +160,7 @@ fn value(key: &'static Key, node: &Node, path: &str, problems: &mut Problems) ->
             quantity(node, measure, *bound, path, problems).map(Value::Number)
         }
         (Type::Quantities(measure, bound), Raw::List(items)) => {
-            let before = problems.list.len();
-            let mut numbers = Vec::with_capacity(items.len());
-            for item in items {
-                match item.value {
-                    Raw::Text(_) | Raw::Number(_) | Raw::Integer(_) => {
-                        numbers.extend(quantity(item, measure, *bound, path, problems));
-                    }
-                    _ => {
-                        let message = format!("{} is not {}", item.value.describe(), units::article(measure));
-                        problems.push(
-                            Problem::new(path, Some(item.place.clone()), message)
-                                .help(format!("write for example {}", measure.examples)),
-                        );
-                    }
-                }
-            }
-            (problems.list.len() == before).then_some(Value::Numbers(numbers))
+            quantities(items, measure, *bound, path, problems).map(Value::Numbers)
         }
         (Type::Number(bound), Raw::Number(value)) => {
             bounded(*value, "", *bound, path, &node.place, problems).map(Value::Number)
@@ -194,31 +178,17 @@ fn value(key: &'static Key, node: &Node, path: &str, problems: &mut Problems) ->
         }
         (Type::Boolean, Raw::Boolean(value)) => Some(Value::Boolean(*value)),
         (Type::Text | Type::Path, Raw::Text(text)) => Some(Value::Text(text.clone())),
-        (Type::Choice(seam), Raw::Text(text)) => {
-            chosen(seam, text, &node.place, path, problems).map(|kind| Value::Text(kind.name.to_owned()))
+        (Type::Choice(choice), Raw::Text(text)) => {
+            chosen(*choice, text, &node.place, path, problems).map(|kind| Value::Text(kind.name.to_owned()))
         }
         (Type::Table(keys), Raw::Table(entries)) => {
             Some(Value::Table(table(entries, Some(node.place.clone()), keys, path, problems)))
         }
         (Type::Tables(keys), Raw::List(items)) => {
-            let mut list = Vec::with_capacity(items.len());
-            for (number, node) in items.iter().enumerate() {
-                let path = item(path, number);
-                match &node.value {
-                    Raw::Table(entries) => {
-                        list.push(table(entries, Some(node.place.clone()), keys, &path, problems));
-                    }
-                    other => {
-                        let message = format!("{} is not a table", other.describe());
-                        let problem = Problem::new(&path, Some(node.place.clone()), message);
-                        problems.push(problem.help(format!("`{}` takes {}", key.name, expected(&key.takes))));
-                    }
-                }
-            }
-            Some(Value::Tables(list))
+            Some(Value::Tables(tables(key, keys, items, path, problems)))
         }
-        (Type::Kind(seam), Raw::Table(entries)) => kind(seam, key, entries, &node.place, path, problems),
-        (Type::Kind(seam), Raw::Text(text)) if seam.kind(text).is_some() => {
+        (Type::Kind(choice), Raw::Table(entries)) => kind(*choice, key, entries, &node.place, path, problems),
+        (Type::Kind(choice), Raw::Text(text)) if choice.kind(text).is_some() => {
             let problem =
                 Problem::new(path, Some(node.place.clone()), "this key takes a table, not a name alone");
             problems.push(problem.help(format!("write `{} = {{ kind = \"{text}\", … }}`", key.name)));
@@ -228,10 +198,62 @@ fn value(key: &'static Key, node: &Node, path: &str, problems: &mut Problems) ->
     }
 }
 
+/// The numbers of a list of quantities, if each of them is sound.
+fn quantities(
+    items: &[Node],
+    measure: &'static Measure,
+    bound: Bound,
+    path: &str,
+    problems: &mut Problems,
+) -> Option<Vec<f64>> {
+    let before = problems.list.len();
+    let mut numbers = Vec::with_capacity(items.len());
+    for item in items {
+        match item.value {
+            Raw::Text(_) | Raw::Number(_) | Raw::Integer(_) => {
+                numbers.extend(quantity(item, measure, bound, path, problems));
+            }
+            _ => {
+                let message = format!("{} is not {}", item.value.describe(), units::article(measure));
+                problems.push(
+                    Problem::new(path, Some(item.place.clone()), message)
+                        .help(format!("write for example {}", measure.examples)),
+                );
+            }
+        }
+    }
+    (problems.list.len() == before).then_some(numbers)
+}
+
+/// The tables of a list.
+fn tables(
+    key: &Key,
+    keys: &'static [Key],
+    items: &[Node],
+    path: &str,
+    problems: &mut Problems,
+) -> Vec<Values> {
+    let mut list = Vec::with_capacity(items.len());
+    for (number, node) in items.iter().enumerate() {
+        let path = item(path, number);
+        match &node.value {
+            Raw::Table(entries) => {
+                list.push(table(entries, Some(node.place.clone()), keys, &path, problems));
+            }
+            other => {
+                let message = format!("{} is not a table", other.describe());
+                let problem = Problem::new(&path, Some(node.place.clone()), message);
+                problems.push(problem.help(format!("`{}` takes {}", key.name, expected(&key.takes))));
+            }
+        }
+    }
+    list
+}
+
 fn kind(
-    seam: &'static Seam,
+    choice: &'static dyn Kinds,
     key: &'static Key,
-    entries: &[Entry],
+    entries: &[Line],
     place: &Place,
     path: &str,
     problems: &mut Problems,
@@ -240,52 +262,52 @@ fn kind(
     let Some(entry) = entries.iter().find(|entry| entry.key == "kind") else {
         // A table that only changes some keys of the default kind.
         if let Presence::Name(name) = key.presence
-            && let Some(kind) = seam.kind(name)
+            && let Some(kind) = choice.kind(name)
         {
-            return Some(of_kind(seam, kind, entries, place, path, problems));
+            return Some(of_kind(choice, kind, entries, place, path, problems));
         }
         let problem =
-            Problem::new(kind_path, Some(place.clone()), format!("the kind of {} is missing", seam.name));
-        problems.push(problem.label("`kind` belongs here").help(format!("the kinds are {}", seam.names())));
+            Problem::new(kind_path, Some(place.clone()), format!("the kind of {} is missing", choice.name()));
+        problems.push(problem.label("`kind` belongs here").help(format!("the kinds are {}", choice.names())));
         return None;
     };
     let Raw::Text(name) = &entry.node.value else {
         let message = format!("a kind is a text, not {}", entry.node.value.describe());
         let problem = Problem::new(kind_path, Some(entry.node.place.clone()), message);
-        problems.push(problem.help(format!("the kinds are {}", seam.names())));
+        problems.push(problem.help(format!("the kinds are {}", choice.names())));
         return None;
     };
-    let kind = chosen(seam, name, &entry.node.place, &kind_path, problems)?;
-    Some(of_kind(seam, kind, entries, place, path, problems))
+    let kind = chosen(choice, name, &entry.node.place, &kind_path, problems)?;
+    Some(of_kind(choice, kind, entries, place, path, problems))
 }
 
 fn of_kind(
-    seam: &'static Seam,
-    kind: &'static Kind,
-    entries: &[Entry],
+    choice: &'static dyn Kinds,
+    kind: Entry,
+    entries: &[Line],
     place: &Place,
     path: &str,
     problems: &mut Problems,
 ) -> Value {
-    let suspected = unknown(entries, kind.keys, path, Some((seam, kind)), problems);
-    let entries = known(entries, Some(place), kind.keys, path, &suspected, problems);
-    Value::Kind(kind, Values { place: Some(place.clone()), entries })
+    let suspected = unknown(entries, kind.keys, path, Some((choice, kind)), problems);
+    Value::Kind(kind, known(entries, Some(place.clone()), kind.keys, path, &suspected, problems))
 }
 
 fn chosen(
-    seam: &'static Seam,
+    choice: &'static dyn Kinds,
     name: &str,
     place: &Place,
     path: &str,
     problems: &mut Problems,
-) -> Option<&'static Kind> {
-    let kind = seam.kind(name);
+) -> Option<Entry> {
+    let kind = choice.kind(name);
     if kind.is_none() {
-        let mut problem = Problem::new(path, Some(place.clone()), format!("unknown {} `{name}`", seam.name));
-        if let Some(near) = nearest(name, seam.kinds.iter().map(|kind| kind.name)) {
+        let mut problem =
+            Problem::new(path, Some(place.clone()), format!("unknown {} `{name}`", choice.name()));
+        if let Some(near) = nearest(name, choice.kinds().iter().map(|kind| kind.name)) {
             problem = problem.label(format!("did you mean `{near}`?"));
         }
-        problems.push(problem.help(format!("it is one of {}", seam.names())));
+        problems.push(problem.help(format!("it is one of {}", choice.names())));
     }
     kind
 }
@@ -296,10 +318,9 @@ fn default(key: &'static Key, path: &str, problems: &mut Problems) -> Option<Val
         (Presence::Number(value), _) => Some(Value::Number(value)),
         (Presence::Integer(value), _) => Some(Value::Integer(value)),
         (Presence::Boolean(value), _) => Some(Value::Boolean(value)),
-        (Presence::Name(name), Type::Kind(seam)) => {
-            let kind = seam.kind(name)?;
-            let entries = known(&[], None, kind.keys, path, &[], problems);
-            Some(Value::Kind(kind, Values { place: None, entries }))
+        (Presence::Name(name), Type::Kind(choice)) => {
+            let kind = choice.kind(name)?;
+            Some(Value::Kind(kind, known(&[], None, kind.keys, path, &[], problems)))
         }
         (Presence::Name(name), _) => Some(Value::Text(name.to_owned())),
         (Presence::Empty, Type::Table(keys)) => Some(Value::Table(table(&[], None, keys, path, problems))),
@@ -329,18 +350,6 @@ fn quantity(
         _ => return None,
     };
     bounded(number, measure.unit, bound, path, &node.place, problems)
-}
-
-/// The place of `span` of a text inside the place of its TOML value, where the two correspond.
-pub(super) fn inside(place: &Place, text: &str, span: std::ops::Range<usize>, problems: &Problems) -> Place {
-    let written = problems.sources.get(place.source).and_then(|s| s.text.get(place.start..place.end));
-    let offset = match written {
-        Some(written) if written == text => 0,
-        Some(written) if written.get(1..written.len().saturating_sub(1)) == Some(text) => 1,
-        _ => return place.clone(),
-    };
-    let start = place.start + offset;
-    Place::new(place.source, start + span.start..start + span.end)
 }
 
 fn bounded(

@@ -91,6 +91,29 @@ pub(super) fn flat(values: &Values, path: &str, out: &mut Vec<(String, String)>)
     }
 }
 
+/// The defaults in force, as dotted path and value.
+pub(super) fn defaults(values: &Values, path: &str, out: &mut Vec<(String, String)>) {
+    for filled in &values.entries {
+        let path = join(path, filled.key.name);
+        match &filled.value {
+            Value::Table(values) => defaults(values, &path, out),
+            Value::Tables(list) => {
+                for (number, values) in list.iter().enumerate() {
+                    defaults(values, &item(&path, number), out);
+                }
+            }
+            Value::Kind(kind, values) => {
+                if filled.place.is_none() {
+                    out.push((join(&path, "kind"), kind.name.to_owned()));
+                }
+                defaults(values, &path, out);
+            }
+            _ if filled.place.is_some() => {}
+            value => out.push((path, written(value, &filled.key.takes, true))),
+        }
+    }
+}
+
 /// A value as TOML, with its unit if `unit`.
 pub(super) fn written(value: &Value, takes: &Type, unit: bool) -> String {
     let text = match value {

@@ -1,6 +1,6 @@
 //! The JSON Schema (draft 2020-12) of case files, for editors.
 
-use super::declaration::{Bound, Key, Presence, Seam, Type};
+use super::declaration::{Bound, Entry, Key, Kinds, Presence, Type};
 use super::layout;
 use super::units::{self, Measure};
 use serde_json::{Map, Value, json};
@@ -15,7 +15,7 @@ pub fn schema() -> String {
         "title": "Flexion case",
         "description": "A rotating flexible beam and how to integrate its motion.",
     });
-    if let (Some(root), Value::Object(table)) = (root.as_object_mut(), table(layout::KEYS, None, false)) {
+    if let (Some(root), Value::Object(table)) = (root.as_object_mut(), table(layout::keys(), None, false)) {
         root.extend(table);
     }
     format!("{root:#}\n")
@@ -70,9 +70,9 @@ fn takes(takes: &Type, default: &str) -> Value {
         Type::Integer(low, high) => json!({ "type": "integer", "minimum": low, "maximum": high }),
         Type::Boolean => json!({ "type": "boolean" }),
         Type::Text | Type::Path => json!({ "type": "string" }),
-        Type::Choice(seam) => {
-            let options: Vec<Value> = seam
-                .kinds
+        Type::Choice(choice) => {
+            let options: Vec<Value> = choice
+                .kinds()
                 .iter()
                 .map(|kind| json!({ "const": kind.name, "description": kind.summary }))
                 .collect();
@@ -80,12 +80,12 @@ fn takes(takes: &Type, default: &str) -> Value {
         }
         Type::Table(keys) => table(keys, None, false),
         Type::Tables(keys) => json!({ "type": "array", "items": table(keys, None, false) }),
-        Type::Kind(seam) => json!({ "type": "object", "oneOf": kinds(seam, default) }),
+        Type::Kind(choice) => json!({ "type": "object", "oneOf": kinds(*choice, default) }),
     }
 }
 
-fn kinds(seam: &Seam, default: &str) -> Vec<Value> {
-    let described = |kind: &super::declaration::Kind| {
+fn kinds(choice: &dyn Kinds, default: &str) -> Vec<Value> {
+    let described = |kind: &Entry| {
         let mut schema = table(kind.keys, Some(kind.name), kind.name == default);
         if let Some(object) = schema.as_object_mut() {
             let source = if kind.source.is_empty() { String::new() } else { format!(". {}", kind.source) };
@@ -93,7 +93,7 @@ fn kinds(seam: &Seam, default: &str) -> Vec<Value> {
         }
         schema
     };
-    seam.kinds.iter().map(described).collect()
+    choice.kinds().iter().map(described).collect()
 }
 
 fn quantity(measure: &Measure, bound: Bound) -> Value {

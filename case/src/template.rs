@@ -1,10 +1,12 @@
 //! Case files to begin with. A template gives values only: what they mean, what else could be set and the kinds
 //! there are to choose from is written in from the declarations.
 
-use super::declaration::{Bound, Key, Kind, Presence, Seam, Type};
+use super::declaration::{Bound, Entry, Key, Kinds, Presence, Type};
+use super::layout;
+use super::problem::Problems;
+use super::reading::parse;
 use super::resolved::written;
 use super::values::{Filled, Value, Values, join};
-use super::{Problems, layout, parse};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -170,7 +172,7 @@ impl Template {
             self.name, self.summary
         );
         let writer = Writer { text: self.text };
-        writer.table(&reading.values, layout::KEYS, None, "", &mut out);
+        writer.table(&reading.values, layout::keys(), None, "", &mut out);
         Ok(out)
     }
 }
@@ -189,7 +191,7 @@ impl Writer {
         &self,
         values: &Values,
         keys: &'static [Key],
-        kind: Option<(&Kind, bool)>,
+        kind: Option<(&Entry, bool)>,
         path: &str,
         out: &mut String,
     ) {
@@ -225,7 +227,7 @@ impl Writer {
             let path = join(path, key.name);
             let mark = if place.is_some() { "" } else { "#" };
             let choice = match key.takes {
-                Type::Kind(seam) => format!("; its kind is one of {}", names(seam)),
+                Type::Kind(choice) => format!("; its kind is one of {}", names(choice)),
                 _ => String::new(),
             };
             let _ = writeln!(out, "\n# {}{choice}\n{mark}[{path}]", capitalised(key.doc));
@@ -253,8 +255,8 @@ fn meaning(key: &Key) -> String {
             limits(bound, &mut text);
         }
         Type::Number(bound) => limits(bound, &mut text),
-        Type::Choice(seam) => {
-            let _ = write!(text, "; one of {}", names(seam));
+        Type::Choice(choice) => {
+            let _ = write!(text, "; one of {}", names(choice));
         }
         _ => {}
     }
@@ -264,8 +266,8 @@ fn meaning(key: &Key) -> String {
     text
 }
 
-fn names(seam: &Seam) -> String {
-    seam.kinds.iter().map(|kind| kind.name).collect::<Vec<_>>().join(", ")
+fn names(choice: &dyn Kinds) -> String {
+    choice.kinds().iter().map(|kind| kind.name).collect::<Vec<_>>().join(", ")
 }
 
 fn limits(bound: Bound, text: &mut String) {
@@ -296,10 +298,11 @@ fn capitalised(text: &str) -> String {
 mod tests {
     use super::*;
 
-    fn case(text: &str) -> super::super::Case {
+    /// Every value of the case, defaults included.
+    fn case(text: &str) -> String {
         parse(text.to_owned(), Path::new("case.toml"), &[])
             .unwrap_or_else(|p| panic!("{}", p.render(false)))
-            .case
+            .resolved()
     }
 
     #[test]

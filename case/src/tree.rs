@@ -22,14 +22,14 @@ pub(super) enum Raw {
     Number(f64),
     Boolean(bool),
     List(Vec<Node>),
-    Table(Vec<Entry>),
+    Table(Vec<Line>),
     /// A value that no key takes, described: a date, an integer out of range …
     Other(&'static str),
 }
 
 /// A key of a table.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Entry {
+pub(super) struct Line {
     pub key: String,
     pub place: Place,
     pub node: Node,
@@ -99,15 +99,15 @@ fn convert_table(table: &DeTable<'_>, source: usize, depth: usize, problems: &mu
     let entry = |(key, value): (&Spanned<_>, _), problems: &mut Problems| {
         let name: &toml::de::DeString<'_> = key.get_ref();
         let place = Place::new(source, key.span());
-        Entry { key: name.clone().into_owned(), place, node: convert(value, source, depth, problems) }
+        Line { key: name.clone().into_owned(), place, node: convert(value, source, depth, problems) }
     };
-    let mut entries: Vec<Entry> = table.iter().map(|pair| entry(pair, problems)).collect();
+    let mut entries: Vec<Line> = table.iter().map(|pair| entry(pair, problems)).collect();
     entries.sort_by(|a, b| a.place.cmp(&b.place));
     Raw::Table(entries)
 }
 
 /// Applies one `KEY=VALUE` argument; KEY is a dotted path, VALUE is TOML or else a bare text.
-fn lay_over(root: &mut Node, argument: &str, problems: &mut Problems) {
+pub(super) fn lay_over(root: &mut Node, argument: &str, problems: &mut Problems) {
     let source = problems.sources.len();
     problems.sources.push(Source { name: "--set".to_owned(), text: argument.to_owned() });
     let all = Place::new(source, 0..argument.len());
@@ -153,7 +153,7 @@ fn lay_over(root: &mut Node, argument: &str, problems: &mut Problems) {
         let Raw::Table(entries) = &mut target.value else { return };
         let index = entries.iter().position(|e| e.key == name).unwrap_or_else(|| {
             let empty = Node { place: place.clone(), value: Raw::Table(Vec::new()) };
-            entries.push(Entry { key: name.to_owned(), place: place.clone(), node: empty });
+            entries.push(Line { key: name.to_owned(), place: place.clone(), node: empty });
             entries.len() - 1
         });
         if at > path.len() {

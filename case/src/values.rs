@@ -1,6 +1,7 @@
 //! A case as read: typed values in SI, each with the place where it was written.
 
-use super::declaration::{Key, Kind};
+use super::declaration::{Entry, Key, Presence};
+use super::fault::{Fault, Faults, Made};
 use super::problem::Place;
 
 /// The value of a key.
@@ -21,7 +22,7 @@ pub enum Value {
     /// A list of tables.
     Tables(Vec<Values>),
     /// A table of a kind.
-    Kind(&'static Kind, Values),
+    Kind(Entry, Values),
 }
 
 /// A value and where it comes from.
@@ -40,8 +41,26 @@ pub struct Filled {
 pub struct Values {
     /// Where the table was written; `None` if it was left out.
     pub place: Option<Place>,
+    /// The keys that are declared.
+    pub keys: &'static [Key],
     /// The values.
     pub entries: Vec<Filled>,
+    /// Whether each of its own keys has a value or may be left out.
+    pub sound: bool,
+}
+
+/// Typed access. A key that is not declared, or not of this type, is a mistake in the maker that asks for it; it is
+/// reported as such.
+macro_rules! typed {
+    ($($name:ident $type:ty: $pattern:pat => $value:expr, $what:literal;)*) => {
+        $(#[doc = concat!("The ", $what, " of a key.")]
+        pub fn $name(&self, name: &str) -> Made<$type> {
+            match self.value(name)? {
+                $pattern => Ok($value),
+                _ => Err(Values::misused(name, concat!("no ", $what))),
+            }
+        })*
+    };
 }
 
 impl Values {
@@ -49,78 +68,88 @@ impl Values {
         self.entries.iter().find(|filled| filled.key.name == name)
     }
 
-    /// The number of a key.
-    pub fn number(&self, name: &str) -> Option<f64> {
-        match self.get(name)?.value {
-            Value::Number(value) => Some(value),
-            _ => None,
+    /// What a maker gets that asks for a key in a way in which it is not declared.
+    pub(super) fn misused(name: &str, what: &str) -> Faults {
+        Fault::new("", format!("this is a mistake in the program: the key `{name}` is {what}")).into()
+    }
+
+    /// The value of a key that may be left out.
+    pub(super) fn optional(&self, name: &str) -> Made<Option<&Value>> {
+        if self.keys.iter().all(|key| key.name != name) {
+            return Err(Values::misused(name, "not declared"));
+        }
+        Ok(self.get(name).map(|filled| &filled.value))
+    }
+
+    /// The value of a key that has one, if it has no problem.
+    pub(super) fn value(&self, name: &str) -> Made<&Value> {
+        match self.optional(name)? {
+            Some(value) => Ok(value),
+            None if self.keys.iter().any(|key| key.name == name && key.presence == Presence::Optional) => {
+                Err(Values::misused(name, "one that may be left out"))
+            }
+            None => Err(Faults::default()),
         }
     }
 
-    /// The numbers of a key.
-    pub fn numbers(&self, name: &str) -> Option<&[f64]> {
-        match &self.get(name)?.value {
-            Value::Numbers(values) => Some(values),
-            _ => None,
-        }
-    }
-
-    /// The integer of a key.
-    pub fn integer(&self, name: &str) -> Option<i64> {
-        match self.get(name)?.value {
-            Value::Integer(value) => Some(value),
-            _ => None,
-        }
+    typed! {
+        number f64: Value::Number(value) => *value, "number";
+        numbers &[f64]: Value::Numbers(values) => values, "list of numbers";
+        integer i64: Value::Integer(value) => *value, "integer";
+        boolean bool: Value::Boolean(value) => *value, "boolean";
+        text &str: Value::Text(value) => value, "text";
+        table &Values: Value::Table(values) => values, "table";
     }
 
     /// The count of a key.
-    pub fn count(&self, name: &str) -> Option<usize> {
-        usize::try_from(self.integer(name)?).ok()
+    pub fn count(&self, name: &str) -> Made<usize> {
+        usize::try_from(self.integer(name)?).map_err(|_| Values::misused(name, "no count"))
     }
 
-    /// The boolean of a key.
-    pub fn boolean(&self, name: &str) -> Option<bool> {
+    /// The name of the kind of a key.
+    pub fn kind(&self, name: &str) -> Option<&'static str> {
         match self.get(name)?.value {
-            Value::Boolean(value) => Some(value),
+            Value::Kind(entry, _) => Some(entry.name),
             _ => None,
         }
     }
 
-    /// The text of a key.
-    pub fn text(&self, name: &str) -> Option<&str> {
+    /// The number of a key that may be left out.
+    pub fn optional_number(&self, name: &str) -> Made<Option<f64>> {
+        self.optional(name)?.map(|_| self.number(name)).transpose()
+    }
+
+    /// The boolean of a key that may be left out.
+    pub fn optional_boolean(&self, name: &str) -> Made<Option<bool>> {
+        self.optional(name)?.map(|_| self.boolean(name)).transpose()
+    }
+
+    /// The table at a key, whether it is of a kind or not.
+    pub(super) fn inner(&self, name: &str) -> Option<&Values> {
+        let (name, number) = match name.strip_suffix(']').and_then(|name| name.split_once('[')) {
+            Some((name, number)) => (name, number.parse::<usize>().ok()?.checked_sub(1)?),
+            None => (name, 0),
+        };
         match &self.get(name)?.value {
-            Value::Text(value) => Some(value),
+            Value::Table(values) | Value::Kind(_, values) => Some(values),
+            Value::Tables(list) => list.get(number),
             _ => None,
         }
     }
 
-    /// The table of a key.
-    pub fn table(&self, name: &str) -> Option<&Values> {
-        match &self.get(name)?.value {
-            Value::Table(values) => Some(values),
-            _ => None,
+    /// Where the value at a dotted path was written, or else the innermost table around it; with the text, if it is one.
+    pub(super) fn find(&self, path: &str) -> (Option<Place>, Option<&str>) {
+        let (mut place, mut text, mut table) = (self.place.clone(), None, Some(self));
+        for part in path.split('.') {
+            let Some(values) = table else { break };
+            if let Some(filled) = values.get(part) {
+                place = filled.place.clone().or(place);
+                text = if let Value::Text(text) = &filled.value { Some(text.as_str()) } else { None };
+            }
+            table = values.inner(part);
+            place = table.and_then(|table| table.place.clone()).or(place);
         }
-    }
-
-    /// The tables of a list.
-    pub fn tables(&self, name: &str) -> &[Values] {
-        match self.get(name).map(|filled| &filled.value) {
-            Some(Value::Tables(values)) => values,
-            _ => &[],
-        }
-    }
-
-    /// The kind of a key and its table.
-    pub fn kind(&self, name: &str) -> Option<(&'static Kind, &Values)> {
-        match &self.get(name)?.value {
-            Value::Kind(kind, values) => Some((kind, values)),
-            _ => None,
-        }
-    }
-
-    /// Where the value of a key was written, or else the table.
-    pub fn place(&self, name: &str) -> Option<Place> {
-        self.get(name).and_then(|filled| filled.place.clone()).or_else(|| self.place.clone())
+        (place, text)
     }
 
     /// The values of the plain keys.
@@ -138,29 +167,6 @@ impl Values {
         };
         self.entries.iter().filter_map(plain).collect()
     }
-
-    /// The defaults in force, as dotted path and value.
-    pub(super) fn defaults(&self, path: &str, out: &mut Vec<(String, String)>) {
-        for filled in &self.entries {
-            let path = join(path, filled.key.name);
-            match &filled.value {
-                Value::Table(values) => values.defaults(&path, out),
-                Value::Tables(list) => {
-                    for (number, values) in list.iter().enumerate() {
-                        values.defaults(&item(&path, number), out);
-                    }
-                }
-                Value::Kind(kind, values) => {
-                    if filled.place.is_none() {
-                        out.push((join(&path, "kind"), kind.name.to_owned()));
-                    }
-                    values.defaults(&path, out);
-                }
-                _ if filled.place.is_some() => {}
-                value => out.push((path, super::resolved::written(value, &filled.key.takes, true))),
-            }
-        }
-    }
 }
 
 /// A dotted path.
@@ -171,4 +177,31 @@ pub(super) fn join(path: &str, name: &str) -> String {
 /// The path of table `number`, from 0, of a list.
 pub(super) fn item(path: &str, number: usize) -> String {
     format!("{path}[{}]", number + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::declaration::{Bound, Type, key};
+
+    static KEYS: [Key; 2] = [
+        key("given", Type::Number(Bound::Any), Presence::Required, ""),
+        key("open", Type::Number(Bound::Any), Presence::Optional, ""),
+    ];
+
+    #[test]
+    fn a_key_that_is_asked_for_otherwise_than_declared_is_reported_as_a_mistake_in_the_program() {
+        let filled = Filled { key: &KEYS[0], value: Value::Number(2.0), place: None };
+        let values = Values { keys: &KEYS, entries: vec![filled], sound: true, place: None };
+        assert_eq!((values.number("given"), values.optional_number("open")), (Ok(2.0), Ok(None)));
+        for (found, words) in [
+            (values.number("gvien"), "the key `gvien` is not declared"),
+            (values.optional_number("oepn").map(|_| 0.0), "the key `oepn` is not declared"),
+            (values.integer("given").map(|_| 0.0), "the key `given` is no integer"),
+            (values.number("open"), "the key `open` is one that may be left out"),
+        ] {
+            let message = found.unwrap_err().to_string();
+            assert!(message.contains("mistake in the program") && message.contains(words), "{message}");
+        }
+    }
 }

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 use flexion::analysis::campbell::{Campbell, HubState, Plan};
-use flexion_case::{build, parse};
+use flexion_case::parse;
 use std::f64::consts::TAU;
 use std::fmt::Write;
 use std::path::Path;
@@ -88,7 +88,7 @@ fn diagram(format: &str, text: &str) -> Campbell {
         revolutions: 6,
     };
     let on = |threads| {
-        let build = || build::vibrating(&reading.case).map_err(|e| e.to_string());
+        let build = || reading.case.vibrating().map_err(|e| e.to_string());
         flexion_case::campbell(&build, &plan, threads, &|_| true).unwrap()
     };
     let alone = on(1);

@@ -13,7 +13,7 @@ use flexion::profile::{Constant, Motion};
 use flexion::quadrature::Gauss;
 use flexion::section::{BladeResultants, Resultants, Uniform};
 use flexion::system::{Dynamics, Events, State, System, Weights};
-use flexion_case::{build, parse};
+use flexion_case::parse;
 use std::f64::consts::TAU;
 use std::path::Path;
 use std::sync::Arc;
@@ -59,7 +59,7 @@ fn nrel() -> flexion_case::Reading {
 
 /// ∫ρA xⁿ dx by straight lines between the rows.
 fn moment(power: i32) -> f64 {
-    let section = build::section(&nrel().case.section, 61.5).unwrap();
+    let section = nrel().case.section.planar;
     let mut cuts = vec![0.0];
     cuts.extend(section.breaks());
     cuts.push(61.5);
@@ -73,7 +73,7 @@ fn the_nrel_blade_has_its_published_mass() {
     // J. Jonkman, S. Butterfield, W. Musial & G. Scott, NREL/TP-500-38060 (2009), table 2-2: 17 740 kg, 363 231 kg·m and
     // 11 776 047 kg·m² about the root. The factor 1.04536 of the file makes the mass right as FAST sums it: over the 17
     // elements of table 3-1, each with the density in its middle, the rows joined by straight lines.
-    let section = build::section(&nrel().case.section, 61.5).unwrap();
+    let section = nrel().case.section.planar;
     let ends = [vec![41.0 / 15.0; 3], vec![4.1; 11], vec![41.0 / 15.0; 3]].concat();
     let (mut sums, mut from) = ([0.0; 3], 0.0);
     for length in ends {
@@ -101,7 +101,7 @@ fn the_nrel_blade_has_the_frequencies_of_lumped_masses_and_lies_among_those_of_i
     // blade, which tower and drive train move apart: asymmetric 0.6664 and 0.6675, collective 0.6993 Hz flapwise,
     // asymmetric 1.0793 and 1.0898 Hz edgewise; 1.9223, 1.9337 and 2.0205 Hz second flapwise. The blade on a root
     // that does not move lies among its three.
-    let mut blade = build::blade(&nrel().case).unwrap().unwrap();
+    let mut blade = nrel().case.blade().unwrap().unwrap();
     for (number, lowest, highest) in [(1, 0.6664, 0.6993), (2, 1.0793, 1.0898), (3, 1.9223, 2.0205)] {
         let found = frequency(&mut blade, number);
         assert!((lowest..highest).contains(&found), "mode {number}: {found}");
@@ -128,7 +128,7 @@ fn the_nrel_blade_moves_in_the_shapes_that_elastodyn_is_given() {
         (1, 1, [0.3627, 2.5337, -3.5772, 2.376, -0.6952], 0.015),
         (2, 2, [-0.5809, 1.2067, -15.5349, 29.7347, -13.8255], 0.05),
     ];
-    let mut blade = build::blade(&nrel().case).unwrap().unwrap();
+    let mut blade = nrel().case.blade().unwrap().unwrap();
     let mut state = State::zeros(blade.size(), 0.0);
     rotate_stably(&mut blade, &mut state, 0.0, 12.1 * TAU / 60.0).unwrap();
     let found = modes(&mut blade, &state, 3, &[]).unwrap().modes;
@@ -203,7 +203,7 @@ fn in_the_plane_of_rotation_the_exact_blade_is_the_exact_hub_beam() {
 }
 
 #[test]
-fn modes_are_found_through_the_seam_and_say_which_way_they_swing() {
+fn modes_are_found_through_the_system_and_say_which_way_they_swing() {
     let section = BladeResultants {
         mass: 1.0,
         axial_stiffness: 4900.0,

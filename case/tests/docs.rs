@@ -177,9 +177,10 @@ fn the_case_of_the_first_run_and_the_program_exist() {
 fn the_case_in_the_readme_is_valid_and_is_that_of_the_first_run() {
     let blocks = fenced(&read("README.md"), "toml");
     assert_eq!(blocks.len(), 1);
-    let shown = flexion_case::parse(blocks[0].clone(), Path::new("case.toml"), &[]).unwrap().case;
-    let run = flexion_case::read(&root().join(RUN.rsplit(' ').next().unwrap()), &[]).unwrap().case;
-    assert_eq!(shown, flexion_case::Case { title: String::new(), ..run });
+    let untitled = ["title=".to_owned()];
+    let shown = flexion_case::parse(blocks[0].clone(), Path::new("case.toml"), &untitled).unwrap();
+    let run = flexion_case::read(&root().join(RUN.rsplit(' ').next().unwrap()), &untitled).unwrap();
+    assert_eq!(shown.resolved(), run.resolved());
 }
 
 #[test]
@@ -216,11 +217,11 @@ fn the_check_of_links_sees_broken_ones() {
 #[test]
 fn every_kind_is_described_in_the_reference_and_named_in_the_readme() {
     let (reference, readme) = (read("docs/src/guide/reference.md"), read("README.md"));
-    for seam in flexion_case::seams() {
-        for kind in seam.kinds {
+    for choice in flexion_case::choices() {
+        for kind in choice.kinds() {
             let name = format!("`{}`", kind.name);
-            assert!(reference.contains(&name), "reference.md does not describe the {} {name}", seam.name);
-            assert!(readme.contains(&name), "README.md does not name the {} {name}", seam.name);
+            assert!(reference.contains(&name), "reference.md does not describe the {} {name}", choice.name());
+            assert!(readme.contains(&name), "README.md does not name the {} {name}", choice.name());
         }
     }
 }

@@ -3,7 +3,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
 
-use flexion_case::{parse, seams};
+use flexion_case::{choices, parse};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -86,8 +86,8 @@ fn span(random: &mut fastrand::Rng, text: &str) -> std::ops::Range<usize> {
 
 fn words() -> Vec<String> {
     let mut words: Vec<String> = ODDITIES.iter().map(|word| (*word).to_owned()).collect();
-    for seam in seams() {
-        for kind in seam.kinds {
+    for choice in choices() {
+        for kind in choice.kinds() {
             words.push(format!("\"{}\"", kind.name));
             words.extend(kind.keys.iter().map(|key| key.name.to_owned()));
         }

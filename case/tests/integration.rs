@@ -9,15 +9,16 @@ mod docs;
 mod energy;
 mod frequency_orders;
 mod fuzz;
+mod kinds;
 mod loads;
 mod modal_release;
 mod papers;
 mod pendulum;
 mod random_cases;
 mod reported_errors;
-mod resolved_runs;
 mod restart;
 mod section_forces;
+mod spring;
 mod twenty_seconds;
 mod verification {
     pub mod run;

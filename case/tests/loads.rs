@@ -4,7 +4,7 @@
 
 use flexion::analysis::equilibrium::equilibrium;
 use flexion::analysis::rotation::negative_stiffness;
-use flexion_case::{Reading, build, parse};
+use flexion_case::{Reading, parse};
 use flexion_results::Status;
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
@@ -27,7 +27,7 @@ fn buckles(coupling: &str, force: f64) -> bool {
     let coupling = format!("\"{coupling}\"");
     let changes = [("force = [\"0 N\", \"1 kN\"]", force.as_str()), ("\"exact\"", coupling.as_str())];
     let reading = reading("elastica_tip_force", &changes);
-    let mut system = build::system(&reading.case).unwrap();
+    let mut system = reading.case.system().unwrap();
     let mut state = system.initial();
     equilibrium(system.as_mut(), &mut state).unwrap();
     negative_stiffness(system.as_mut(), &state) > 0

@@ -6,7 +6,7 @@ use crate::written::{self, SQUARE_BAR};
 use flexion::analysis::modes::{Mode, modes};
 use flexion::analysis::rotation::rotate;
 use flexion::system::State;
-use flexion_case::{Reading, Run, build};
+use flexion_case::{Reading, Run};
 
 const REST: &str = r#"
 [hub]
@@ -50,7 +50,7 @@ const DAMPED: &str = "damping={mass-proportional='0.5 1/s',stiffness-proportiona
 /// The modes of the case, found apart from its release.
 fn modes_of(set: &[&str], speed: f64, free: bool, count: usize) -> Vec<Mode> {
     let case = reading(set).case;
-    let mut system = build::system(&case).unwrap();
+    let mut system = case.system().unwrap();
     let mut state = State::zeros(system.size(), 0.0);
     if free {
         state.q = system.initial().q;

@@ -8,7 +8,7 @@ mod draw;
 
 use draw::Drawn;
 use flexion::system::State;
-use flexion_case::{Coupling, Problems, Reading, Run, parse};
+use flexion_case::{Problems, Reading, Run, parse};
 use flexion_results::{Status, Trajectory};
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -106,7 +106,7 @@ fn admitted(text: &str) -> Result<Reading, Problems> {
     let mut factor = 1.0;
     loop {
         let reading = read(text, &[])?;
-        let step = reading.case.integrator.step();
+        let step = reading.case.steps.step();
         let shorter = step.map(|step| format!("integrator.step={:e}", step * factor));
         let overrides: Vec<&str> = shorter.iter().map(String::as_str).filter(|_| factor < 1.0).collect();
         let reading = read(text, &overrides)?;
@@ -176,7 +176,7 @@ fn judge(drawn: &Drawn) -> (Verdict, String) {
         let mut largest = 0.0_f64;
         for (column, negligible) in COLUMNS {
             let Some(error) = errors.columns.iter().find(|error| error.column == *column) else { continue };
-            let exact = reading.case.coupling == Coupling::Exact;
+            let exact = reading.case.coupling.whole_curve;
             let Some(model) = error.model.or(exact.then_some(0.0)) else {
                 return (Verdict::Wrong, format!("no model error of {column} and no word about it"));
             };

@@ -174,7 +174,8 @@ fn another_model_is_refused_and_another_integrator_begins_anew() {
     }
     for broken in ["case.toml", "missing.npz"] {
         let from = format!("initial={{kind='restart',file='{broken}'}}");
-        let problems = reading(&case, &[&from]).prepare().map(|_| ()).unwrap_err();
+        let problems = flexion_case::read(&case, &[from]).map(|_| ()).unwrap_err();
+        assert_eq!(problems.list[0].key, "initial.file");
         assert!(problems.to_string().contains(broken), "{problems}");
     }
     // Another method starts there, and goes the same way.

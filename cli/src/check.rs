@@ -1,11 +1,13 @@
 //! `flexion check`: validates a case and shows what would be run.
 
 use crate::{Outcome, case, screen};
+use flexion::basis::Basis;
 use flexion::hub_beam::Drive;
 use flexion::integrator::{Adams, Integrator, RungeKutta, StabilityLimit, StepError};
 use flexion::linalg::Structure;
 use flexion::system::{Dynamics, Observed, State, System};
-use flexion_case::{Case, Coupling, Initial, Live, Problems, Reading, build};
+use flexion_case::kinds::initial::Initial;
+use flexion_case::{Case, Live, Problems, Reading};
 
 /// The case to check.
 #[derive(clap::Args)]
@@ -35,7 +37,7 @@ pub fn check(arguments: &Arguments) -> Outcome {
 fn describe(reading: &Reading) -> Result<String, Problems> {
     let case = &reading.case;
     let Live { mut system, integrator } = reading.build()?;
-    if !matches!(case.initial, Initial::Undeformed | Initial::Restart { .. }) {
+    if !matches!(case.initial, Initial::Undeformed) {
         reading.prepare()?;
     }
     let mut out = String::new();
@@ -67,19 +69,17 @@ fn row(name: &str, text: String) -> Vec<String> {
 /// Resultants at the root and the largest speed.
 fn beam(case: &Case) -> Vec<Vec<String>> {
     let mut rows = vec![row("length", format!("{} m", case.length))];
-    if let Ok(section) = build::section(&case.section, case.length) {
-        let r = section.resultants(0.0);
-        rows.push(row("mass per length ρA", format!("{:.6} kg/m", r.mass)));
-        rows.push(row("axial stiffness EA", format!("{:.6e} N", r.axial_stiffness)));
-        if r.coupling_stiffness != 0.0 {
-            rows.push(row("coupling stiffness ES", format!("{:.6e} N·m", r.coupling_stiffness)));
-        }
-        rows.push(row("bending stiffness EI", format!("{:.6e} N·m²", r.bending_stiffness)));
-        if r.rotary_inertia != 0.0 {
-            rows.push(row("rotary inertia ρI", format!("{:.6e} kg·m", r.rotary_inertia)));
-        }
+    let r = case.section.planar.resultants(0.0);
+    rows.push(row("mass per length ρA", format!("{:.6} kg/m", r.mass)));
+    rows.push(row("axial stiffness EA", format!("{:.6e} N", r.axial_stiffness)));
+    if r.coupling_stiffness != 0.0 {
+        rows.push(row("coupling stiffness ES", format!("{:.6e} N·m", r.coupling_stiffness)));
     }
-    if let Ok(Drive::Prescribed(motion)) = build::drive(&case.hub.motion, case.duration) {
+    rows.push(row("bending stiffness EI", format!("{:.6e} N·m²", r.bending_stiffness)));
+    if r.rotary_inertia != 0.0 {
+        rows.push(row("rotary inertia ρI", format!("{:.6e} kg·m", r.rotary_inertia)));
+    }
+    if let Drive::Prescribed(motion) = &case.hub.drive {
         rows.push(row("largest hub speed", format!("{:.6} rad/s", motion.max_speed(case.duration))));
     }
     rows
@@ -106,16 +106,10 @@ fn equations(system: &dyn System, integrator: &dyn Integrator) -> Vec<Vec<String
 
 /// Conditioning of the bases; the exact coupling has its own.
 fn conditioning(case: &Case) -> Vec<Vec<String>> {
-    use flexion::basis::Field;
-    if case.coupling == Coupling::Exact {
+    if case.coupling.whole_curve {
         return Vec::new();
     }
-    let fields = [
-        ("axial", &case.bases.axial, Field::Axial),
-        ("transverse", &case.bases.transverse, Field::Transverse),
-    ];
-    let row_of = |(name, basis, field): (&str, _, _)| {
-        let basis = build::basis(basis, case.length, field).ok()?;
+    let row_of = |(name, basis): (&str, &std::sync::Arc<dyn Basis>)| {
         let conditioning = basis.conditioning();
         let text = if conditioning.number > 1.0 {
             format!(
@@ -127,9 +121,9 @@ fn conditioning(case: &Case) -> Vec<Vec<String>> {
         } else {
             format!("{} functions, nothing to invert", basis.len())
         };
-        Some(row(&format!("{name} basis"), text))
+        row(&format!("{name} basis"), text)
     };
-    fields.into_iter().filter_map(row_of).collect()
+    [("axial", &case.bases.axial), ("transverse", &case.bases.transverse)].map(row_of).to_vec()
 }
 
 /// Largest stable steps of the explicit integrators about the undeformed beam at time `t`.

@@ -1,7 +1,7 @@
 //! `flexion list`: every kind with one line and its source.
 
 use crate::{Outcome, screen};
-use flexion_case::declaration::{Bound, Key, Presence, Seam, Type, short};
+use flexion_case::declaration::{Bound, Entry, Key, Kinds, Presence, Type, short};
 
 /// What to list.
 #[derive(clap::Args)]
@@ -9,32 +9,31 @@ use flexion_case::declaration::{Bound, Key, Presence, Seam, Type, short};
 pub struct Arguments {
     /// Only this choice, with the keys of its kinds: e.g. section, motion, basis, initial, integrator
     #[arg(value_name = "CHOICE")]
-    seam: Option<String>,
+    choice: Option<String>,
 }
 
 /// Lists all kinds, or those of one choice with their keys.
 pub fn list(arguments: &Arguments) -> Outcome {
-    let seams = flexion_case::seams();
+    let choices = flexion_case::choices();
     let mut out = String::new();
-    let Some(name) = &arguments.seam else {
-        for seam in seams {
-            out.push_str(&heading(seam));
-            let row = |kind: &flexion_case::declaration::Kind| {
-                vec![kind.name.to_owned(), kind.summary.to_owned(), kind.source.to_owned()]
-            };
-            out.push_str(&screen::table(&seam.kinds.iter().map(row).collect::<Vec<_>>()));
+    let Some(name) = &arguments.choice else {
+        for choice in choices {
+            out.push_str(&heading(*choice));
+            let row =
+                |kind: &Entry| vec![kind.name.to_owned(), kind.summary.to_owned(), kind.source.to_owned()];
+            out.push_str(&screen::table(&choice.kinds().iter().map(row).collect::<Vec<_>>()));
             out.push('\n');
         }
         screen::print(&out);
         return Outcome::Finished;
     };
-    let Some(seam) = seams.iter().find(|seam| seam.name == name || seam.path == name) else {
-        let names: Vec<&str> = seams.iter().map(|seam| seam.name).collect();
+    let Some(choice) = choices.iter().find(|choice| choice.name() == name || choice.path() == name) else {
+        let names: Vec<&str> = choices.iter().map(|choice| choice.name()).collect();
         screen::report(&format!("error: there is no `{name}` to list; choose one of {}\n", names.join(", ")));
         return Outcome::Rejected;
     };
-    out.push_str(&heading(seam));
-    for kind in seam.kinds {
+    out.push_str(&heading(*choice));
+    for kind in choice.kinds() {
         out.push_str(&format!("\n{}: {}\n", kind.name, kind.summary));
         if !kind.source.is_empty() {
             out.push_str(&format!("  {}\n", kind.source));
@@ -45,8 +44,8 @@ pub fn list(arguments: &Arguments) -> Outcome {
     Outcome::Finished
 }
 
-fn heading(seam: &Seam) -> String {
-    format!("{} ({}): {}\n", seam.name, seam.path, seam.summary)
+fn heading(choice: &dyn Kinds) -> String {
+    format!("{} ({}): {}\n", choice.name(), choice.path(), choice.summary())
 }
 
 fn row(key: &Key) -> Vec<String> {
@@ -58,10 +57,10 @@ fn row(key: &Key) -> Vec<String> {
         Type::Boolean => "true or false".to_owned(),
         Type::Text => "text".to_owned(),
         Type::Path => "path".to_owned(),
-        Type::Choice(seam) => seam.kinds.iter().map(|kind| kind.name).collect::<Vec<_>>().join(" or "),
+        Type::Choice(choice) => choice.kinds().iter().map(|kind| kind.name).collect::<Vec<_>>().join(" or "),
         Type::Table(_) => "table".to_owned(),
         Type::Tables(_) => "tables".to_owned(),
-        Type::Kind(seam) => format!("table: {}", seam.name),
+        Type::Kind(choice) => format!("table: {}", choice.name()),
     };
     let bound = match key.takes {
         Type::Quantity(_, bound) | Type::Quantities(_, bound) | Type::Number(bound)

@@ -4,8 +4,7 @@ use crate::screen;
 use flexion::analysis::campbell::HubState;
 use flexion::hub_beam::Drive;
 use flexion::system::System;
-use flexion_case::loads::Axes;
-use flexion_case::{Case, Reading, build, units};
+use flexion_case::{Case, Reading, units};
 use flexion_results::Frequencies;
 
 /// Units of frequencies and speeds.
@@ -40,8 +39,7 @@ impl Options {
     /// The unit of speeds and frequencies.
     pub fn frequencies(&self, case: &Case) -> Result<Frequencies, String> {
         if self.dimensionless {
-            let section = build::section(&case.section, case.length).map_err(|error| error.to_string())?;
-            let r = section.resultants(0.0);
+            let r = case.section.planar.resultants(0.0);
             let time = (r.mass * case.length.powi(4) / r.bending_stiffness).sqrt();
             return Ok(Frequencies::dimensionless(time));
         }
@@ -62,34 +60,25 @@ impl Options {
                         speed; leave one of the two out"
                 .to_owned());
         }
-        match build::drive(&case.hub.motion, case.duration) {
-            Ok(Drive::Free(_)) => Ok(HubState::Free),
-            _ => Err("--free-hub needs a case whose hub is free: its hub.motion is prescribed".to_owned()),
+        match case.hub.drive {
+            Drive::Free(_) => Ok(HubState::Free),
+            Drive::Prescribed(_) => {
+                Err("--free-hub needs a case whose hub is free: its hub.motion is prescribed".to_owned())
+            }
         }
     }
 }
 
 /// What vibrates in a case: its blade, or else its hub–beam.
 pub fn system(case: &Case) -> Result<Box<dyn System>, String> {
-    build::vibrating(case).map_err(|error| error.to_string())
+    case.vibrating().map_err(|error| error.to_string())
 }
 
 /// The case without the loads that are fixed in space, and a warning that names them. In the frame of a turning hub these
 /// loads are periodic, and there is no steady state to linearize about. Their mean over a revolution is zero: the modes
 /// are those about this mean.
 pub fn without_loads_in_space(case: &Case) -> (Case, Vec<String>) {
-    let mut case = case.clone();
-    let loads = &mut case.loads;
-    let mut left_out = Vec::new();
-    if loads.gravity.take().is_some() {
-        left_out.push("gravity");
-    }
-    let before = loads.forces.len() + loads.distributed.len();
-    loads.forces.retain(|f| f.axes != Axes::Dead);
-    loads.distributed.retain(|d| d.axes != Axes::Dead);
-    if loads.forces.len() + loads.distributed.len() < before {
-        left_out.push("forces of fixed direction");
-    }
+    let (case, left_out) = case.without_loads_in_space();
     let caution = format!(
         "without {}: seen from a hub that turns it changes with every revolution, a state that is not steady has no modes, \
          and its mean over a revolution is zero",

@@ -6,7 +6,6 @@ use crate::run::{Run, Span, Variant, case, root, run};
 use flexion::analysis::modes::modes;
 use flexion::analysis::rotation::rotate_stably;
 use flexion::system::State;
-use flexion_case::build;
 use std::path::Path;
 use toml::{Table, Value};
 
@@ -166,7 +165,7 @@ impl Expected<'_> {
             // Relative, or of the last digit of a printed table [rad/s].
             let absolute = table.get("absolute").map(value);
             let expected: Vec<f64> = table["frequencies"].as_array().unwrap().iter().map(value).collect();
-            let mut system = build::vibrating(&case).unwrap();
+            let mut system = case.vibrating().unwrap();
             let mut state = State::zeros(system.size(), 0.0);
             rotate_stably(system.as_mut(), &mut state, 0.0, speed).unwrap();
             if table.get("free-hub").is_some_and(|free| free.as_bool().unwrap()) {

@@ -8,7 +8,7 @@ mod expected;
 mod run;
 
 use expected::Expected;
-use flexion_case::{Reading, seams};
+use flexion_case::{Reading, choices};
 use libtest_mimic::{Arguments, Failed, Trial};
 use run::Variant;
 use std::fmt::Write;
@@ -80,7 +80,7 @@ fn at<'t>(value: &'t toml::Value, path: &str) -> Vec<&'t str> {
     }
 }
 
-/// Whether a case uses a kind of the seam at `path`.
+/// Whether a case uses a kind of the choice at `path`.
 fn uses(reading: &Reading, path: &str, kind: &str) -> bool {
     let resolved = toml::Value::Table(reading.resolved().parse().unwrap());
     let chosen = |path: &str| {
@@ -98,10 +98,10 @@ fn uses(reading: &Reading, path: &str, kind: &str) -> bool {
 
 fn every_kind_that_a_case_may_choose_is_verified() {
     let readings: Vec<Reading> = run::all().iter().map(|v| run::case(&v.name, &[]).unwrap()).collect();
-    for seam in seams() {
-        for kind in seam.kinds {
-            let used = readings.iter().any(|reading| uses(reading, seam.path, kind.name));
-            assert!(used, "no case of verification uses the {} `{}`", seam.name, kind.name);
+    for choice in choices() {
+        for kind in choice.kinds() {
+            let used = readings.iter().any(|reading| uses(reading, choice.path(), kind.name));
+            assert!(used, "no case of verification uses the {} `{}`", choice.name(), kind.name);
         }
     }
 }

@@ -6,7 +6,7 @@
 //! δq(t) = Re Σ c x e^{λt}
 //! ```
 //!
-//! With x scaled so that a recorded displacement moves by one, the displacement A and the velocity V of that
+//! With x scaled so that the displacement of the tip is one, the displacement A and the velocity V of that
 //! quantity in a mode at t = 0 are Re c = A and Re λc = V, so that
 //!
 //! ```text
@@ -16,12 +16,12 @@
 use super::modes::{Mode, NoModes, modes};
 use super::rotation::negative_stiffness;
 use super::stiffness::mass;
-use crate::system::{Direction, State, System};
+use crate::system::{Direction, Frame, State, System};
 use num_complex::Complex64;
 
-/// Step of the differences of recorded displacements, in scales of the unknowns.
+/// Step of the differences of displacements, in scales of the unknowns.
 const DIFFERENCE: f64 = 1e-5;
-/// A mode that moves the recorded displacement by less than this part of its largest unknown (both over their scales)
+/// A mode that moves the tip by less than this part of its largest unknown (both over their scales)
 /// cannot be told by it.
 const STILL: f64 = 1e-6;
 /// Largest distance from the equilibrium of a hub that is free, as acceleration over ω².
@@ -30,7 +30,7 @@ const UNBALANCED: f64 = 1e-9;
 /// What one mode does at t = 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Vibration {
-    /// Displacement A of the recorded quantity that the mode moves most.
+    /// Displacement A of the tip, its component that the mode moves most.
     pub displacement: f64,
     /// Its velocity V.
     pub velocity: f64,
@@ -89,8 +89,8 @@ pub enum NoSuperposition {
 }
 
 /// Adds vibrations to `state`, the equilibrium of `system` as it stands: one for each of the modes of smallest |λ|, in
-/// their order. `recorded` are the numbers of the [channels](System::channels) one of which, that which the mode moves
-/// most, is the displacement of a [`Vibration`]. Returns the modes.
+/// their order. The displacement of a [`Vibration`] is that component of the displacement of the tip, at `length` [m]
+/// from the root and seen from the root section, which the mode moves most. Returns the modes.
 ///
 /// Valid for vibrations that are small: of a nonlinear model the state is right to first order in them.
 ///
@@ -100,7 +100,7 @@ pub fn superpose(
     system: &mut dyn System,
     state: &mut State,
     vibrations: &[Vibration],
-    recorded: &[usize],
+    length: f64,
 ) -> Result<Vec<Mode>, NoSuperposition> {
     let found = modes(system, state, vibrations.len(), &[])?.modes;
     balanced(system, state, &found)?;
@@ -125,7 +125,7 @@ pub fn superpose(
             return Err(NoSuperposition::Aperiodic { number, rate: rate.re, what, advice });
         }
         let unit =
-            Complex64::ONE / moved(system, state, mode, recorded).ok_or(NoSuperposition::Still(number))?;
+            Complex64::ONE / moved(system, state, mode, length).ok_or(NoSuperposition::Still(number))?;
         let amplitude =
             Complex64::new(wanted.displacement, (wanted.displacement * rate.re - wanted.velocity) / rate.im);
         for (i, x) in mode.vector.iter().enumerate() {
@@ -142,33 +142,35 @@ pub fn superpose(
     Ok(found)
 }
 
-/// How far the recorded quantity that the mode moves most moves with it: `None` if none does.
-fn moved(system: &mut dyn System, state: &State, mode: &Mode, recorded: &[usize]) -> Option<Complex64> {
+/// How far the component of the tip's displacement that the mode moves most moves with it: `None` if none does.
+fn moved(system: &mut dyn System, state: &State, mode: &Mode, length: f64) -> Option<Complex64> {
     let scale: Vec<f64> = system.scales().to_vec();
     let largest = mode.vector.iter().zip(&scale).map(|(x, s)| x.norm() / s).fold(0.0, f64::max);
     let step = DIFFERENCE / largest;
-    let count = system.channels().len();
-    let mut row = |direction: &[f64]| {
+    let mut tip = |direction: &[f64]| {
         let mut at = state.clone();
         system.retract(&state.q, direction, &mut at.q);
-        let mut row = vec![0.0; count];
-        system.record(&at, &mut row);
-        row
+        let mut frames = [Frame::default(); 2];
+        system.frames(0, &at, &[0.0, length], &mut frames);
+        let [root, tip] = frames;
+        let apart: [f64; 3] = std::array::from_fn(|i| tip.position[i] - root.position[i]);
+        // Components along the axes of the root section, which are the columns of its rotation.
+        [0, 1, 2].map(|j| (0..3).map(|i| root.rotation[i][j] * apart[i]).sum::<f64>())
     };
-    let mut out = vec![Complex64::ZERO; recorded.len()];
+    let mut out = [Complex64::ZERO; 3];
     for unit in [Complex64::ONE, Complex64::I] {
         let part = |x: &Complex64| if unit == Complex64::ONE { x.re } else { x.im };
         let ahead: Vec<f64> = mode.vector.iter().map(|x| step * part(x)).collect();
         let behind: Vec<f64> = ahead.iter().map(|d| -d).collect();
-        let (ahead, behind) = (row(&ahead), row(&behind));
-        for (out, &channel) in out.iter_mut().zip(recorded) {
-            *out += unit * (0.5 * (ahead[channel] - behind[channel]) / step);
+        let (ahead, behind) = (tip(&ahead), tip(&behind));
+        for (out, (ahead, behind)) in out.iter_mut().zip(ahead.into_iter().zip(behind)) {
+            *out += unit * (0.5 * (ahead - behind) / step);
         }
     }
     // Displacements are measured by the scale of those of the beam.
-    let length = scale.iter().copied().fold(0.0, f64::max);
+    let size = scale.iter().copied().fold(0.0, f64::max);
     let best = out.into_iter().fold(Complex64::ZERO, |best, u| if u.norm() > best.norm() { u } else { best });
-    (best.norm() > STILL * largest * length).then_some(best)
+    (best.norm() > STILL * largest * size).then_some(best)
 }
 
 /// Whether the equation of a free hub holds too: with the hub held, an equilibrium says nothing about it.

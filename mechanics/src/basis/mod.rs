@@ -111,6 +111,48 @@ pub trait Basis: Send + Sync + std::fmt::Debug {
     }
 }
 
+impl Basis for std::sync::Arc<dyn Basis> {
+    fn len(&self) -> usize {
+        (**self).len()
+    }
+
+    fn cells(&self) -> &[f64] {
+        (**self).cells()
+    }
+
+    fn points_per_cell(&self) -> usize {
+        (**self).points_per_cell()
+    }
+
+    fn support(&self, cell: usize) -> Support {
+        (**self).support(cell)
+    }
+
+    fn max_support(&self) -> usize {
+        (**self).max_support()
+    }
+
+    fn eval(&self, cell: usize, x: f64, derivative: usize, out: &mut [f64]) -> Support {
+        (**self).eval(cell, x, derivative, out)
+    }
+
+    fn anchor(&self, i: usize) -> f64 {
+        (**self).anchor(i)
+    }
+
+    fn role(&self, i: usize) -> Role {
+        (**self).role(i)
+    }
+
+    fn conditioning(&self) -> Conditioning {
+        (**self).conditioning()
+    }
+
+    fn locate(&self, x: f64) -> usize {
+        (**self).locate(x)
+    }
+}
+
 /// A basis that cannot be built.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum BasisError {

@@ -193,6 +193,7 @@ impl<C: Coupling> HubBeam<C> {
         if self.damped {
             power.dissipated += self.coupling.dissipated(s);
         }
+        power.dissipated += self.loads.dissipated(s, hub);
         power
     }
 
@@ -577,7 +578,7 @@ impl<C: Coupling> HubBeam<C> {
             Drive::Prescribed(_) => 0.0,
             Drive::Free(free) => free.spring_energy(hub.angle),
         };
-        self.coupling.strain(s) + spring
+        self.coupling.strain(s) + spring + self.loads.spring(s, hub)
     }
 }
 

@@ -1,7 +1,6 @@
 //! Sections of a blade: stiffness and inertia for extension, bending in two planes and torsion.
 
 use super::{Resultants, Section, SectionError, Shape, positive};
-use std::f64::consts::PI;
 
 /// Stiffness and inertia per length of a blade at a station, about its principal axes: η along the chord (at no
 /// twist the direction of motion), ζ normal to it (at no twist along the axis of rotation). Centre of mass and
@@ -88,23 +87,6 @@ impl BladeSection for BladeResultants {
     }
 }
 
-/// Torsion constant of a shape [m⁴]: GJ = G times it.
-///
-/// Of a rectangle with sides a ≥ b, J = a b³/3 (1 − 192/π⁵ b/a Σ tanh(nπa/2b)/n⁵), n = 1, 3, 5 …; of a circle
-/// and of a tube its polar second moment of area. Source: S. P. Timoshenko & J. N. Goodier, *Theory of
-/// Elasticity*, 3rd ed. (1970), §109.
-pub fn torsion_constant(shape: &Shape) -> f64 {
-    match *shape {
-        Shape::Rectangle { width, height } => {
-            let (a, b) = (width.max(height), width.min(height));
-            let term = |n: f64| (n * PI * a / (2.0 * b)).tanh() / n.powi(5);
-            let sum: f64 = (0..200).rev().map(|k| term(2.0 * f64::from(k) + 1.0)).sum();
-            a * b.powi(3) / 3.0 * (1.0 - 192.0 / PI.powi(5) * b / a * sum)
-        }
-        Shape::Circle { .. } | Shape::Tube { .. } => 2.0 * shape.second_moment(),
-    }
-}
-
 /// A homogeneous blade: a shape at every station, of one material.
 pub struct HomogeneousBlade<F> {
     modulus: f64,
@@ -155,16 +137,13 @@ impl<F: Fn(f64) -> Shape + Send + Sync> BladeSection for HomogeneousBlade<F> {
         let shape = (self.shape)(x);
         let area = shape.area();
         let chord = shape.second_moment();
-        let flap = match shape {
-            Shape::Rectangle { width, height } => height * width.powi(3) / 12.0,
-            Shape::Circle { .. } | Shape::Tube { .. } => chord,
-        };
+        let flap = shape.flap_moment();
         BladeResultants {
             mass: self.density * area,
             axial_stiffness: self.modulus * area,
             flap_stiffness: self.modulus * flap,
             chord_stiffness: self.modulus * chord,
-            torsional_stiffness: self.shear_modulus * torsion_constant(&shape),
+            torsional_stiffness: self.shear_modulus * shape.torsion_constant(),
             flap_inertia: self.density * flap,
             chord_inertia: self.density * chord,
             twist: 0.0,
@@ -345,15 +324,16 @@ impl BladeSection for BladeTable {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::PI;
 
     #[test]
     fn torsion_constants_are_those_of_the_handbook() {
         // Timoshenko & Goodier, table of k₁ in J = k₁ (2a)³(2b) for sides in the ratios 1, 1.5, 2, 10.
         for (ratio, k) in [(1.0, 0.1406), (1.5, 0.196), (2.0, 0.229), (10.0, 0.312)] {
-            let j = torsion_constant(&Shape::Rectangle { width: 1.0, height: ratio });
+            let j = Shape::Rectangle { width: 1.0, height: ratio }.torsion_constant();
             assert!((j / ratio - k).abs() < 6e-4, "{ratio}: {}", j / ratio);
         }
-        let circle = torsion_constant(&Shape::Circle { radius: 2.0 });
+        let circle = Shape::Circle { radius: 2.0 }.torsion_constant();
         assert!((circle - PI * 16.0 / 2.0).abs() < 1e-12);
     }
 

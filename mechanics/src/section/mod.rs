@@ -9,10 +9,7 @@ mod table;
 mod tapered;
 mod uniform;
 
-pub use blade::{
-    BladeResultants, BladeSection, BladeTable, Guided, HomogeneousBlade, PlanarBlade, Twisted,
-    torsion_constant,
-};
+pub use blade::{BladeResultants, BladeSection, BladeTable, Guided, HomogeneousBlade, PlanarBlade, Twisted};
 pub use graded::{Graded, Material};
 pub use laden::{Laden, Mass};
 pub use piecewise::{Piecewise, Segment};
@@ -177,5 +174,27 @@ pub trait Section: Send + Sync + std::fmt::Debug {
     /// Heights of the lower and upper fibre [m] where the section knows its shape.
     fn fibres(&self, _x: f64) -> Option<(f64, f64)> {
         None
+    }
+}
+
+impl Section for std::sync::Arc<dyn Section> {
+    fn resultants(&self, x: f64) -> Resultants {
+        (**self).resultants(x)
+    }
+
+    fn breaks(&self) -> &[f64] {
+        (**self).breaks()
+    }
+
+    fn jumps(&self) -> &[f64] {
+        (**self).jumps()
+    }
+
+    fn masses(&self) -> &[Mass] {
+        (**self).masses()
+    }
+
+    fn fibres(&self, x: f64) -> Option<(f64, f64)> {
+        (**self).fibres(x)
     }
 }

@@ -57,21 +57,8 @@ impl Tapered {
     /// The shape at station `x` [m].
     pub fn shape(&self, x: f64) -> Shape {
         let s = (x / self.length).clamp(0.0, 1.0);
-        let at = |root: f64, tip: f64| root + s * (tip - root);
-        match (self.root, self.tip) {
-            (Shape::Rectangle { width: b, height: h }, Shape::Rectangle { width, height }) => {
-                Shape::Rectangle { width: at(b, width), height: at(h, height) }
-            }
-            (Shape::Circle { radius: r }, Shape::Circle { radius }) => {
-                Shape::Circle { radius: at(r, radius) }
-            }
-            (
-                Shape::Tube { outer_radius: o, inner_radius: i },
-                Shape::Tube { outer_radius, inner_radius },
-            ) => Shape::Tube { outer_radius: at(o, outer_radius), inner_radius: at(i, inner_radius) },
-            // Refused by `new`.
-            (root, _) => root,
-        }
+        // Two kinds are refused by `new`.
+        self.root.between(self.tip, s).unwrap_or(self.root)
     }
 }
 

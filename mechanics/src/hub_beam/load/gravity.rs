@@ -7,7 +7,7 @@
 //! In the couplings with small deflections the section turns to second order in φ = w₂′,
 //! n = (−φ, 1 − ½φ²): C_x ∋ −∫ρS φ dx, C_y ∋ ∫ρS (1 − ½φ²) dx.
 
-use super::group::Group;
+use super::group::{Group, Store};
 use super::site::Share;
 use super::{Axes, Kinematics, Load, Site};
 use crate::hub_beam::fields::{add_outer, add_vector};
@@ -30,7 +30,7 @@ impl Load for Gravity {
         let points: Vec<(f64, f64)> = section.masses().iter().map(|m| (m.station, m.mass)).collect();
         let share = Share { density: &|x| section.resultants(x).mass, points: &points };
         let mut group = site.group(&share, force, Axes::Dead, None);
-        group.set_gravity();
+        group.set_store(Store::Gravity, 0.0);
         let moment = Share { density: &|x| section.resultants(x).first_moment, points: &[] };
         let mut across = Matrix::new(&site.structure());
         let mut eccentric = false;

@@ -21,13 +21,23 @@ use crate::linalg::{Matrix, Storage, Structure};
 use crate::profile::{HubKinematics, jumping_derivative};
 use crate::system::{Break, State};
 
+/// Where the work of a conservative load is stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Store {
+    /// In the field of gravity.
+    Gravity,
+    /// In a spring.
+    Spring,
+}
+
 /// One load, ready to be evaluated. See the [module documentation](self).
 #[derive(Debug)]
 pub struct Group {
     force: [f64; 2],
     axes: Axes,
     amplitude: Amplitude,
-    gravity: bool,
+    /// Where its work is stored, if it is, and the energy there at r = 0 and q = 0 \[J\].
+    store: Option<(Store, f64)>,
     /// Part of the load that is applied.
     part: f64,
     /// c_x and c_y
@@ -61,7 +71,7 @@ impl Group {
             force,
             axes,
             amplitude,
-            gravity: false,
+            store: None,
             part: 1.0,
             c_x: 0.0,
             c_y: 0.0,
@@ -105,17 +115,17 @@ impl Group {
         self.sections.push(OnSection::new(point, Nature::Eccentric, p, radius));
     }
 
-    /// Its work is kept as potential energy.
-    pub(super) fn set_gravity(&mut self) {
-        self.gravity = true;
+    /// Its work is stored; `energy` \[J\] is there at r = 0 and q = 0.
+    pub(super) fn set_store(&mut self, store: Store, energy: f64) {
+        self.store = Some((store, energy));
     }
 
     pub(super) fn set_part(&mut self, part: f64) {
         self.part = part;
     }
 
-    pub(super) fn is_gravity(&self) -> bool {
-        self.gravity
+    pub(super) fn store(&self) -> Option<Store> {
+        self.store.map(|(store, _)| store)
     }
 
     pub(super) fn is_stiff(&self) -> bool {
@@ -206,15 +216,18 @@ impl Group {
         now.d[1] * x - now.d[0] * y + now.factor * (follower + self.moment) + sections
     }
 
-    /// −f d·C for gravity, 0 for other loads.
+    /// −f [d·C + mᵀq + ½ qᵀN q] and the energy at r = 0 and q = 0, for a load whose work is stored; 0 for others.
     pub(super) fn potential(&mut self, s: &State, hub: &HubKinematics) -> f64 {
-        if !self.gravity {
-            return 0.0;
-        }
+        let Some((_, energy)) = self.store else { return 0.0 };
         let now = self.now(s.time(), hub);
+        let mut own: f64 = self.m.iter().zip(&s.q).map(|(m, q)| m * q).sum();
+        for (q, [.., n, _]) in s.q.iter().zip(self.products(&s.q, [0.0; 2], 1.0)) {
+            own += 0.5 * q * n;
+        }
+        let own = now.factor * (energy - own);
         let [x, y] = self.moments(&s.q);
         let sections: f64 = self.sections.iter().map(|section| section.potential(s, &now)).sum();
-        sections - now.d[0] * x - now.d[1] * y
+        sections - now.d[0] * x - now.d[1] * y + own
     }
 
     /// Adds c times the derivatives of Q_q by θ and of Q_θ by q and θ.

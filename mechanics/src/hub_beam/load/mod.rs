@@ -19,26 +19,30 @@
 //! | `Curve` | U, V | linear | turns with the tangent (X′, Y′)/ℓ |
 
 mod couple;
+mod damper;
 mod distributed;
 mod force;
 mod gravity;
 mod group;
 mod on_section;
 mod site;
+mod spring;
 #[cfg(test)]
 mod tests;
 
 pub use couple::Couple;
+pub use damper::Damper;
 pub use distributed::DistributedForce;
 pub use force::Force;
 pub use gravity::Gravity;
 pub use site::{Kinematics, Site};
+pub use spring::Spring;
 
 use super::inertia::Border;
 use crate::linalg::Storage;
 use crate::profile::{HubKinematics, Profile};
 use crate::system::{Break, State, Weights};
-use group::Group;
+use group::{Group, Store};
 use std::sync::Arc;
 
 /// What the components of a force refer to.
@@ -59,12 +63,18 @@ pub type Amplitude = Option<Arc<dyn Profile>>;
 pub trait Load: std::fmt::Debug {
     /// The load on a beam, ready to be evaluated.
     fn group(&self, site: &Site<'_>) -> Group;
+
+    /// The damper that comes with it, if there is one.
+    fn damper(&self, _site: &Site<'_>) -> Option<Damper> {
+        None
+    }
 }
 
 /// The loads of a system. Empty, they cost nothing.
 #[derive(Debug, Default)]
 pub struct Loads {
     groups: Vec<Group>,
+    dampers: Vec<Damper>,
     breaks: Vec<Break>,
     /// What is not there of the loads: 0 but while an equilibrium is followed.
     missing: f64,
@@ -77,7 +87,8 @@ impl Loads {
     pub fn new(site: &Site<'_>, loads: &[&dyn Load]) -> Loads {
         let groups: Vec<Group> = loads.iter().map(|load| load.group(site)).collect();
         let breaks = groups.iter().flat_map(Group::breaks).collect();
-        Loads { groups, breaks, missing: 0.0, force: vec![0.0; site.fields.len()] }
+        let dampers = loads.iter().filter_map(|load| load.damper(site)).collect();
+        Loads { groups, dampers, breaks, missing: 0.0, force: vec![0.0; site.fields.len()] }
     }
 
     /// Whether there is no load.
@@ -87,7 +98,7 @@ impl Loads {
 
     /// Whether gravity is among them.
     pub fn has_gravity(&self) -> bool {
-        self.groups.iter().any(|g| g.is_gravity())
+        self.groups.iter().any(|g| g.store() == Some(Store::Gravity))
     }
 
     /// Applies a part of the loads, 0 … 1, from now on.
@@ -106,6 +117,9 @@ impl Loads {
         for group in &mut self.groups {
             group.add_force(s, hub, -1.0, r);
         }
+        for damper in &self.dampers {
+            damper.add_force(s, hub, self.missing - 1.0, r);
+        }
     }
 
     /// Subtracts ∂Q_q/∂q, weighted, from the tangent.
@@ -114,6 +128,9 @@ impl Loads {
             for group in &self.groups {
                 group.add_tangent(s, hub, -w.q, out);
             }
+        }
+        for damper in &self.dampers {
+            damper.add_tangent(hub, w, self.missing - 1.0, out);
         }
     }
 
@@ -124,26 +141,45 @@ impl Loads {
                 group.add_border(s, hub, -w.q, out);
             }
         }
+        for damper in &self.dampers {
+            damper.add_border(s, hub, w, self.missing - 1.0, out);
+        }
     }
 
     /// Torque Q_θ on the hub [N·m].
     pub fn torque(&mut self, s: &State, hub: &HubKinematics) -> f64 {
-        self.groups.iter_mut().map(|g| g.torque(s, hub)).sum()
+        let resisting: f64 = self.dampers.iter().map(|d| (1.0 - self.missing) * d.torque(s, hub)).sum();
+        self.groups.iter_mut().map(|g| g.torque(s, hub)).sum::<f64>() + resisting
+    }
+
+    /// Power lost in dampers \[W\].
+    pub fn dissipated(&self, s: &State, hub: &HubKinematics) -> f64 {
+        self.dampers.iter().map(|d| (1.0 - self.missing) * d.dissipated(s, hub)).sum()
     }
 
     /// Potential energy of gravity [J].
     pub fn gravity(&mut self, s: &State, hub: &HubKinematics) -> f64 {
-        self.groups.iter_mut().map(|g| g.potential(s, hub)).sum()
+        self.stored(Store::Gravity, s, hub)
     }
 
-    /// Power of the loads, gravity aside \[W\].
+    /// Energy of springs [J].
+    pub fn spring(&mut self, s: &State, hub: &HubKinematics) -> f64 {
+        self.stored(Store::Spring, s, hub)
+    }
+
+    fn stored(&mut self, store: Store, s: &State, hub: &HubKinematics) -> f64 {
+        let groups = self.groups.iter_mut().filter(|g| g.store() == Some(store));
+        groups.map(|g| g.potential(s, hub)).sum()
+    }
+
+    /// Power of the loads, gravity and springs aside \[W\].
     pub fn power(&mut self, s: &State, hub: &HubKinematics) -> f64 {
         let mut power = 0.0;
-        if self.groups.iter().all(Group::is_gravity) {
+        if self.groups.iter().all(|g| g.store().is_some()) {
             return power;
         }
         self.force.fill(0.0);
-        for group in self.groups.iter_mut().filter(|g| !g.is_gravity()) {
+        for group in self.groups.iter_mut().filter(|g| g.store().is_none()) {
             group.add_force(s, hub, 1.0, &mut self.force);
             power += group.torque(s, hub) * hub.speed;
         }
@@ -157,7 +193,7 @@ impl Loads {
         if self.missing != 0.0 {
             // No number: a tangent with part of the loads is never taken for another.
             f64::NAN
-        } else if stiff().any(Group::varies) {
+        } else if !self.dampers.is_empty() || stiff().any(Group::varies) {
             s.time()
         } else if stiff().any(|g| g.axes() == Axes::Dead) {
             hub.angle

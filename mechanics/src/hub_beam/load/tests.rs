@@ -35,6 +35,7 @@ fn distributed(axes: Axes) -> DistributedForce {
     }
 }
 
+const SPRING: Spring = Spring { station: STATION, stiffness: 40.0, damping: 0.0, anchor: [1.3, -0.7] };
 const GRAVITY: Gravity = Gravity { acceleration: 9.81, direction: -1.2 };
 const AXES: [Axes; 3] = [Axes::Dead, Axes::Hub, Axes::Follower];
 
@@ -43,6 +44,9 @@ fn loads() -> Vec<Box<dyn Load>> {
     let mut loads: Vec<Box<dyn Load>> = vec![
         Box::new(GRAVITY),
         Box::new(Couple { station: STATION, couple: 2.0, amplitude: profile("cos(t)") }),
+        Box::new(SPRING),
+        Box::new(Spring { station: LENGTH, anchor: [0.0, 0.0], ..SPRING }),
+        Box::new(Spring { damping: 3.0, ..SPRING }),
     ];
     for axes in AXES {
         loads.push(Box::new(force(axes, LENGTH)));
@@ -224,6 +228,26 @@ fn shares(load: &DistributedForce, cells: &[f64]) -> Vec<(f64, f64)> {
         shares.extend(gauss.on(ends[0], ends[1]).map(|(x, w)| (x, w * (1.0 + 0.5 * x))));
     }
     shares
+}
+
+#[test]
+fn the_energy_of_a_spring_is_half_its_stiffness_times_its_length_squared() {
+    let section = section(vec![]);
+    let (mut without, mut with) =
+        (exact(hub(), &section), exact(hub(), &section).with_loads(&section, &[&SPRING]));
+    let s = state(&without, 0.15);
+    let (sin, cos) = at(&without, s.t).angle.sin_cos();
+    let p = placement(without.coupling(), &s.q, STATION);
+    let (x, y) = (RADIUS + STATION + p.axial, p.deflection);
+    let length = [x * cos - y * sin - SPRING.anchor[0], x * sin + y * cos - SPRING.anchor[1]];
+    let expected = 0.5 * SPRING.stiffness * (length[0].powi(2) + length[1].powi(2));
+    let found = with.energy(&s).strain - without.energy(&s).strain;
+    assert!((found / expected - 1.0).abs() < 1e-10, "{found} for {expected}");
+    // Force and torque on the undeformed beam: −k (r − A), seen from the hub.
+    let forces = added(&|| exact(hub(), &section), &section, &SPRING, &s).1;
+    let torque =
+        SPRING.stiffness * ((x * cos - y * sin) * SPRING.anchor[1] - (x * sin + y * cos) * SPRING.anchor[0]);
+    assert!((forces / torque - 1.0).abs() < 1e-10, "{forces} for {torque}");
 }
 
 #[test]

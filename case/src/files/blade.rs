@@ -1,0 +1,329 @@
+//! Files of blades: sectional properties along the span.
+//!
+//! | format | station | columns or matrices read |
+//! |---|---|---|
+//! | `csv` | `x` in m | `mass`, `EA`, `EI-flap`, `EI-chord` and, if there, `GJ`, `inertia-flap`, `inertia-chord`, `twist` in rad |
+//! | `elastodyn` | `BlFract` of the length | `StrcTwst`, `BMassDen`, `FlpStff`, `EdgStff`, and `GJStff`, `EAStff`, `FlpIner`, `EdgIner` of older files; the factors `AdjBlMs`, `AdjFlSt`, `AdjEdSt` |
+//! | `beamdyn` | fraction of the length | K₃₃ = EA, K₄₄ edgewise, K₅₅ flapwise, K₆₆ = GJ; M₁₁, M₄₄, M₅₅ |
+//!
+//! Offsets of the mass centre in a BeamDyn file are left out; couplings in its stiffness are refused.
+
+use flexion::section::BladeResultants;
+
+/// Stations x [m] and the resultants there.
+pub type Rows = Vec<(f64, BladeResultants)>;
+
+/// Reads the text of a file that the case calls by the second argument, for a blade of the length [m] of the third.
+pub type Format = fn(&str, &str, f64) -> Result<Rows, String>;
+
+/// Share of √(Kᵢᵢ Kⱼⱼ) up to which an entry off the diagonal counts as zero.
+const UNCOUPLED: f64 = 1e-6;
+
+/// Slenderness L√(EA/EI) of a blade whose file gives no axial stiffness.
+const SLENDERNESS: f64 = 100.0;
+
+/// The rows of a file that the case calls `name`, for a blade of the given length [m].
+///
+/// # Errors
+/// What is wrong with it, in one sentence.
+pub fn read(bytes: &[u8], name: &str, format: Format, length: f64) -> Result<Rows, String> {
+    // Comments of old files are in whatever encoding their author had.
+    let rows = format(&String::from_utf8_lossy(bytes), name, length)?;
+    if rows.is_empty() {
+        return Err(format!("{name} holds no station"));
+    }
+    Ok(rows)
+}
+
+/// The numbers of a line, or what is wrong with it.
+fn numbers(line: &str, number: usize, name: &str) -> Result<Vec<f64>, String> {
+    let parse = |word: &str| {
+        // Fortran writes exponents with D, too.
+        let plain = word.replace(['d', 'D'], "e");
+        plain.parse::<f64>().map_err(|_| format!("line {number} of {name}: `{word}` is not a number"))
+    };
+    line.split_whitespace().map(parse).collect()
+}
+
+/// CSV with a line of names.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn csv(text: &str, name: &str, _length: f64) -> Result<Rows, String> {
+    const COLUMNS: [(&str, bool); 9] = [
+        ("x", true),
+        ("mass", true),
+        ("EA", true),
+        ("EI-flap", true),
+        ("EI-chord", true),
+        ("GJ", false),
+        ("inertia-flap", false),
+        ("inertia-chord", false),
+        ("twist", false),
+    ];
+    let failed = |error: csv::Error| format!("cannot read {name}: {error}");
+    let mut reader =
+        csv::ReaderBuilder::new().comment(Some(b'#')).trim(csv::Trim::All).from_reader(text.as_bytes());
+    let header = reader.headers().map_err(failed)?.clone();
+    let known = || COLUMNS.map(|column| column.0).join(", ");
+    if let Some(title) = header.iter().find(|title| !COLUMNS.iter().any(|column| column.0 == *title)) {
+        return Err(format!("{name} has a column `{title}`; the columns are named {}", known()));
+    }
+    let mut places = [None; 9];
+    for (place, (title, required)) in places.iter_mut().zip(COLUMNS) {
+        *place = header.iter().position(|other| other == title);
+        if required && place.is_none() {
+            return Err(format!("{name} has no column `{title}`; the columns are named {}", known()));
+        }
+    }
+    let mut rows = Vec::new();
+    for record in reader.records() {
+        let record = record.map_err(failed)?;
+        let mut v = [0.0; 9];
+        for (value, place) in v.iter_mut().zip(places) {
+            let Some(place) = place else { continue };
+            let text = record.get(place).unwrap_or("");
+            *value = text.parse().map_err(|_| {
+                let line = record.position().map_or(0, csv::Position::line);
+                format!("line {line} of {name}: `{text}` under `{}` is not a number", &header[place])
+            })?;
+        }
+        let resultants = BladeResultants {
+            mass: v[1],
+            axial_stiffness: v[2],
+            flap_stiffness: v[3],
+            chord_stiffness: v[4],
+            torsional_stiffness: v[5],
+            flap_inertia: v[6],
+            chord_inertia: v[7],
+            twist: v[8],
+            twist_rate: 0.0,
+        };
+        rows.push((v[0], resultants));
+    }
+    Ok(rows)
+}
+
+/// The number before a keyword of an OpenFAST file, with its line.
+fn keyword(text: &str, key: &str, name: &str) -> Result<Option<f64>, String> {
+    for (i, line) in text.lines().enumerate() {
+        let mut words = line.split_whitespace();
+        let (value, word) = (words.next().unwrap_or(""), words.next().unwrap_or(""));
+        if word.eq_ignore_ascii_case(key) {
+            return Ok(numbers(value, i + 1, name)?.first().copied());
+        }
+    }
+    Ok(None)
+}
+
+/// The number of stations that a file announces.
+fn stations(text: &str, key: &str, name: &str) -> Result<usize, String> {
+    match keyword(text, key, name)? {
+        Some(count) if (2.0..=1e6).contains(&count) && count.fract() == 0.0 => Ok(count as usize),
+        Some(count) => Err(format!("{name} says `{key}` = {count}: a blade needs at least two stations")),
+        None => Err(format!("{name} has no line with `{key}`, the number of stations")),
+    }
+}
+
+/// Blade file of ElastoDyn.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn elastodyn(text: &str, name: &str, length: f64) -> Result<Rows, String> {
+    let count = stations(text, "NBlInpSt", name)?;
+    let factor = |key: &str| keyword(text, key, name).map(|found| found.unwrap_or(1.0));
+    let (mass, flap, edge) = (factor("AdjBlMs")?, factor("AdjFlSt")?, factor("AdjEdSt")?);
+    let mut lines = text.lines().enumerate().map(|(i, line)| (i + 1, line));
+    let header = lines.by_ref().map(|(_, line)| line).find(|line| line.trim_start().starts_with("BlFract"));
+    let Some(header) = header else {
+        return Err(format!("{name} has no line of column names that begins with `BlFract`"));
+    };
+    let titles: Vec<&str> = header.split_whitespace().collect();
+    let place = |title: &str| titles.iter().position(|other| other.eq_ignore_ascii_case(title));
+    let needed = |title: &str| place(title).ok_or_else(|| format!("{name} has no column `{title}`"));
+    let (station, twist) = (needed("BlFract")?, needed("StrcTwst")?);
+    let (density, flapwise, edgewise) = (needed("BMassDen")?, needed("FlpStff")?, needed("EdgStff")?);
+    let mut rows = Vec::new();
+    // The line of units stands between.
+    for (number, line) in lines.skip(1).take(count) {
+        if line.trim_start().starts_with("---") {
+            break;
+        }
+        let row = numbers(line, number, name)?;
+        if row.len() < titles.len() {
+            return Err(format!("line {number} of {name} has {} of the {} columns", row.len(), titles.len()));
+        }
+        let optional = |title: &str| place(title).map_or(0.0, |i| row[i]);
+        let chord_stiffness = edge * row[edgewise];
+        let given = optional("EAStff");
+        let axial_stiffness =
+            if given > 0.0 { given } else { chord_stiffness * (SLENDERNESS / length).powi(2) };
+        let resultants = BladeResultants {
+            mass: mass * row[density],
+            axial_stiffness,
+            flap_stiffness: flap * row[flapwise],
+            chord_stiffness,
+            torsional_stiffness: optional("GJStff"),
+            flap_inertia: optional("FlpIner"),
+            chord_inertia: optional("EdgIner"),
+            twist: row[twist].to_radians(),
+            twist_rate: 0.0,
+        };
+        rows.push((row[station] * length, resultants));
+    }
+    if rows.len() < count {
+        return Err(format!("{name} announces {count} stations and holds {}", rows.len()));
+    }
+    Ok(rows)
+}
+
+/// Blade file of BeamDyn.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn beamdyn(text: &str, name: &str, length: f64) -> Result<Rows, String> {
+    let count = stations(text, "station_total", name)?;
+    let mut lines = text
+        .lines()
+        .enumerate()
+        .map(|(i, line)| (i + 1, line))
+        .skip_while(|(_, line)| !line.to_ascii_lowercase().contains("distributed properties"))
+        .skip(1)
+        .filter(|(_, line)| !line.trim().is_empty());
+    let mut rows = Vec::new();
+    for station in 1..=count {
+        let mut next = |columns: usize, what: &str| -> Result<Vec<f64>, String> {
+            let Some((number, line)) = lines.next() else {
+                return Err(format!("{name} announces {count} stations and ends in station {station}"));
+            };
+            let row = numbers(line, number, name)?;
+            if row.len() != columns {
+                return Err(format!(
+                    "line {number} of {name} has {} numbers for {what}, which has {columns}",
+                    row.len()
+                ));
+            }
+            Ok(row)
+        };
+        let fraction = next(1, "the place of a station")?[0];
+        let mut matrix = |what| (0..6).map(|_| next(6, what)).collect::<Result<Vec<_>, _>>();
+        let (k, m) = (matrix("a row of a stiffness matrix")?, matrix("a row of a mass matrix")?);
+        for i in 0..6 {
+            for j in 0..i {
+                let bound = UNCOUPLED * (k[i][i] * k[j][j]).abs().sqrt();
+                if k[i][j].abs().max(k[j][i].abs()) > bound {
+                    return Err(format!(
+                        "station {station} of {name} couples strains {} and {} with {:.3e}: the blade has uncoupled sections only",
+                        j + 1,
+                        i + 1,
+                        k[i][j]
+                    ));
+                }
+            }
+        }
+        let resultants = BladeResultants {
+            mass: m[0][0],
+            axial_stiffness: k[2][2],
+            flap_stiffness: k[4][4],
+            chord_stiffness: k[3][3],
+            torsional_stiffness: k[5][5],
+            flap_inertia: m[4][4],
+            chord_inertia: m[3][3],
+            twist: 0.0,
+            twist_rate: 0.0,
+        };
+        rows.push((fraction * length, resultants));
+    }
+    Ok(rows)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ELASTODYN: &str = "--- header\ncomment\n--- PARAMETERS\n 2 NBlInpSt - stations\n 1.5 AdjBlMs - mass\n 1 AdjFlSt -\n\
+        2.0D0 AdjEdSt -\n--- DISTRIBUTED\n BlFract StrcTwst BMassDen FlpStff EdgStff\n (-) (deg) (kg/m) (Nm^2) (Nm^2)\n\
+        0.0 13.308 678.9 1.8E+10 1.9D+10\n1.0 0.0 10.0 2e5 5e6\n--- MODE SHAPES\n0.06 BldFl1Sh(2)\n";
+
+    #[test]
+    fn an_elastodyn_file_is_read_with_its_factors() {
+        let rows = elastodyn(ELASTODYN, "f", 50.0).unwrap();
+        assert_eq!((rows.len(), rows[1].0), (2, 50.0));
+        let root = rows[0].1;
+        assert!((root.mass - 1018.35).abs() < 1e-9 && root.flap_stiffness == 1.8e10);
+        assert!(root.chord_stiffness == 3.8e10 && (root.axial_stiffness - 1.52e11).abs() < 1.0);
+        assert!((root.twist - 0.232_268_4).abs() < 1e-6);
+        for (from, to, says) in [
+            (" 2 NBlInpSt", " 3 NBlInpSt", "announces 3 stations and holds 2"),
+            (" 2 NBlInpSt", " 0 NBlInpSt", "at least two stations"),
+            (" 2 NBlInpSt", " 2 Stations", "no line with `NBlInpSt`"),
+            ("FlpStff", "FlapStff", "no column `FlpStff`"),
+            ("678.9", "67x8", "line 11 of f: `67x8`"),
+            (" 5e6", "", "line 12 of f has 4 of the 5 columns"),
+        ] {
+            let message = elastodyn(&ELASTODYN.replacen(from, to, 1), "f", 50.0).unwrap_err();
+            assert!(message.contains(says), "{message}");
+        }
+    }
+
+    fn diagonal(entries: [f64; 6]) -> String {
+        let row = |i: usize| {
+            (0..6).map(|j| if i == j { entries[i] } else { 0.0 }.to_string() + " ").collect::<String>()
+        };
+        (0..6).map(|i| row(i) + "\n").collect()
+    }
+
+    #[test]
+    fn a_beamdyn_file_is_read_matrix_by_matrix() {
+        let station = |x: &str| {
+            format!(
+                "{x}\n{}\n{}\n",
+                diagonal([1.0, 2.0, 3.0, 4.0, 5.0, 6.0]),
+                diagonal([7.0, 7.0, 7.0, 8.0, 9.0, 17.0])
+            )
+        };
+        let text = format!(
+            "--- BEAMDYN\n2 station_total - n\n1 damp_type\n--- Distributed Properties ---\n{}{}",
+            station("0.0"),
+            station("1.0")
+        );
+        let rows = beamdyn(&text, "f", 20.0).unwrap();
+        let r = rows[1].1;
+        assert_eq!((rows.len(), rows[1].0), (2, 20.0));
+        assert_eq!(
+            [
+                r.axial_stiffness,
+                r.chord_stiffness,
+                r.flap_stiffness,
+                r.torsional_stiffness,
+                r.mass,
+                r.chord_inertia,
+                r.flap_inertia
+            ],
+            [3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]
+        );
+        for (from, to, says) in [
+            ("2 station_total", "3 station_total", "announces 3 stations and ends in station 3"),
+            ("0 2 0", "1 2 0", "couples strains 1 and 2"),
+            ("0 0 3 0 0 0", "0 0 3 0 0", "has 5 numbers for a row of a stiffness matrix"),
+        ] {
+            let message = beamdyn(&text.replacen(from, to, 1), "f", 20.0).unwrap_err();
+            assert!(message.contains(says), "{message}");
+        }
+    }
+
+    #[test]
+    fn a_csv_file_names_its_columns() {
+        let text = "# a blade\nx, mass, EA, EI-flap, EI-chord, twist\n0, 1, 2, 3, 4, 0.1\n5, 1, 2, 3, 4, 0\n";
+        let rows = csv(text, "f", 5.0).unwrap();
+        assert_eq!((rows.len(), rows[1].0, rows[0].1.twist, rows[0].1.flap_stiffness), (2, 5.0, 0.1, 3.0));
+        for (from, to, says) in [
+            ("EI-flap", "EI", "column `EI`"),
+            (", EI-chord", "", "no column `EI-chord`"),
+            ("5, 1", "5, one", "line 4 of f: `one`"),
+        ] {
+            let message = csv(&text.replacen(from, to, 1), "f", 5.0).unwrap_err();
+            assert!(message.contains(says), "{message}");
+        }
+    }
+}

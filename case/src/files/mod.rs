@@ -1,0 +1,5 @@
+//! Tables in files that a case names: each format a file.
+
+pub mod blade;
+pub mod rows;
+pub mod section;

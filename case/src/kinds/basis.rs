@@ -1,0 +1,355 @@
+//! The bases of a case: kinds, keys and makers.
+
+use crate::declaration::{Bound::*, Key, Presence as Default, Presence::Required, Type, key};
+use crate::fault::{At, Fault, Made, both};
+use crate::kind::{Choice, Context, Kind};
+use crate::values::{Values, join};
+use flexion::basis::{
+    self, BSpline, BasisError, Bezier, Field, Hermite, Lagrange, Modes, Polynomial, PolynomialParameters,
+    Radial, RadialParameters,
+};
+use std::sync::Arc;
+
+/// Largest matrices of a run: with its dozens of them it takes some 10 GB.
+const MOST_ENTRIES: f64 = 5e7;
+/// Factor between the error of a run and its difference from one with twice the functions: 2 covers every order of
+/// convergence, with half as much again in reserve for orders from 2.
+const SAFETY: f64 = 2.0;
+/// Vibration modes converge more slowly than that when the beam turns fast.
+const SAFETY_OF_MODES: f64 = 4.0;
+
+/// The bases of both fields.
+#[derive(Clone, Debug)]
+pub struct Bases {
+    /// Basis of the axial field.
+    pub axial: Arc<dyn basis::Basis>,
+    /// Basis of the transverse field.
+    pub transverse: Arc<dyn basis::Basis>,
+    /// Number and axial degree of the elements, if both fields are of the same finite elements.
+    pub elements: Option<(usize, usize)>,
+    /// What makes twice the functions: dotted path within the table and value.
+    pub finer: Vec<(String, usize)>,
+    /// Factor between the error of a run and its difference from one with twice the functions.
+    pub safety: f64,
+}
+
+/// The functions of one field, still to be built.
+struct Functions {
+    /// Number of functions, about, and the part of the beam on which each of them is not zero.
+    extent: (f64, f64),
+    /// Number and axial degree of finite elements.
+    elements: Option<(usize, usize)>,
+    /// The key that makes twice the functions, and its value then.
+    finer: (&'static str, usize),
+    /// As in [`Bases`].
+    safety: f64,
+    /// The key that most likely is to blame.
+    blame: &'static str,
+    build: Build,
+    /// The key of its table, if each field has its own.
+    table: &'static str,
+}
+
+type Build = Box<dyn Fn(f64) -> Result<Arc<dyn basis::Basis>, BasisError>>;
+
+/// What a kind gives: the functions of either field.
+pub struct Either(Box<dyn Fn(Field) -> Functions>);
+
+impl Either {
+    fn new(functions: impl Fn(Field) -> Functions + 'static) -> Made<Either> {
+        Ok(Either(Box::new(functions)))
+    }
+}
+
+impl Functions {
+    /// Functions of this extent, to be refined by this key.
+    fn new(extent: (f64, f64), finer: (&'static str, usize), build: Build) -> Functions {
+        Functions { extent, finer, build, elements: None, safety: SAFETY, blame: "kind", table: "" }
+    }
+}
+
+/// The basis as what [`Functions`] build.
+fn shared<B: basis::Basis + 'static>(
+    basis: Result<B, BasisError>,
+) -> Result<Arc<dyn basis::Basis>, BasisError> {
+    basis.map(|basis| Arc::new(basis) as Arc<dyn basis::Basis>)
+}
+
+/// The bases that the key `basis` of a case chooses.
+pub fn make(v: &Values, c: &Context<'_>) -> Made<Bases> {
+    let Either(functions) = BASIS.make(v, "basis", c)?;
+    built([functions(Field::Axial), functions(Field::Transverse)], c).map_err(|faults| faults.within("basis"))
+}
+
+fn built(fields: [Functions; 2], c: &Context<'_>) -> Made<Bases> {
+    let length = c.length()?;
+    let functions = fields[0].extent.0 + fields[1].extent.0;
+    // A function that is not zero on a part s of the beam shares it with s n of all n functions.
+    let entries = functions * (functions * fields[0].extent.1.max(fields[1].extent.1)).min(functions);
+    if entries > MOST_ENTRIES {
+        let message = format!(
+            "a matrix of this basis has about {entries:.0e} entries, and a run needs some dozen of that size; at most \
+             {MOST_ENTRIES:.0e} are tried: take fewer or narrower functions"
+        );
+        return Err(Fault::new("", message).into());
+    }
+    let made = |field: &Functions| (field.build)(length).at(&join(field.table, field.blame));
+    let (axial, transverse) = both(made(&fields[0]), made(&fields[1])).map_err(|mut faults| {
+        // One basis for both fields is reported once.
+        faults.0.dedup_by(|a, b| a.key == b.key);
+        faults
+    })?;
+    let mut finer = fields.each_ref().map(|f| (join(f.table, f.finer.0), f.finer.1)).to_vec();
+    finer.dedup();
+    Ok(Bases {
+        axial,
+        transverse,
+        elements: fields[0].elements.filter(|(n, _)| fields[1].elements.is_some_and(|(m, _)| *n == m)),
+        finer,
+        safety: fields[0].safety.max(fields[1].safety),
+    })
+}
+
+/// Another basis for each field.
+fn mixed(v: &Values, c: &Context<'_>) -> Made<Either> {
+    let (axial, transverse) = both(FIELD.make(v, "axial", c), FIELD.make(v, "transverse", c))?;
+    Either::new(move |field| match field {
+        Field::Axial => Functions { table: "axial", ..(axial.0)(field) },
+        Field::Transverse => Functions { table: "transverse", ..(transverse.0)(field) },
+    })
+}
+
+fn finite_elements(v: &Values, _: &Context<'_>) -> Made<Either> {
+    let (elements, degree) = (v.count("elements")?, v.count("axial-degree")?);
+    Either::new(move |field| {
+        let each = if field == Field::Axial { degree } else { 2 };
+        let extent = ((elements * each) as f64, 2.0 / elements as f64);
+        let build: Build = Box::new(move |length| match field {
+            Field::Axial => shared(Lagrange::new(length, elements, degree)),
+            Field::Transverse => shared(Hermite::new(length, elements, field)),
+        });
+        let functions = Functions::new(extent, ("elements", 2 * elements), build);
+        Functions { elements: Some((elements, degree)), ..functions }
+    })
+}
+
+/// Vibration modes; `axial` and `transverse` are the keys of their numbers.
+fn modes(v: &Values, axial: &'static str, transverse: &'static str) -> Made<Either> {
+    let counts = [(axial, v.count(axial)?), (transverse, v.count(transverse)?)];
+    Either::new(move |field| {
+        let (key, count) = counts[usize::from(field == Field::Transverse)];
+        let build: Build = Box::new(move |length| shared(Modes::new(length, count, field)));
+        let functions = Functions::new((count as f64, 1.0), (key, 2 * count), build);
+        Functions { safety: SAFETY_OF_MODES, ..functions }
+    })
+}
+
+/// Extent and refinement of functions that interpolate on equally spaced nodes.
+fn on_nodes(nodes: usize, support: f64, build: Build) -> Functions {
+    let extent = (2.0 * nodes as f64, 2.0 * (support + 1.0) / nodes as f64);
+    Functions::new(extent, ("nodes", 2 * nodes - 1), build)
+}
+
+fn radial(v: &Values, _: &Context<'_>) -> Made<Either> {
+    let parameters = RadialParameters {
+        nodes: v.count("nodes")?,
+        shape: v.number("shape")?,
+        exponent: v.number("exponent")?,
+        support: v.number("support")?,
+        degree: usize::try_from(v.integer("degree")?).ok(),
+    };
+    Either::new(move |field| {
+        let build: Build = Box::new(move |length| shared(Radial::new(length, parameters, field)));
+        Functions { blame: "shape", ..on_nodes(parameters.nodes, parameters.support, build) }
+    })
+}
+
+fn polynomial(v: &Values, _: &Context<'_>) -> Made<Either> {
+    let parameters = PolynomialParameters { nodes: v.count("nodes")?, support: v.number("support")? };
+    Either::new(move |field| {
+        let build: Build = Box::new(move |length| shared(Polynomial::new(length, parameters, field)));
+        Functions { blame: "support", ..on_nodes(parameters.nodes, parameters.support, build) }
+    })
+}
+
+fn b_spline(v: &Values, _: &Context<'_>) -> Made<Either> {
+    let (elements, degree) = (v.count("elements")?, v.count("degree")?);
+    let extent = ((elements + degree) as f64, (degree + 1) as f64 / elements as f64);
+    Either::new(move |field| {
+        let build: Build = Box::new(move |length| shared(BSpline::new(length, elements, degree, field)));
+        Functions { blame: "degree", ..Functions::new(extent, ("elements", 2 * elements), build) }
+    })
+}
+
+fn bezier(v: &Values, _: &Context<'_>) -> Made<Either> {
+    let (elements, degree) = (v.count("elements")?, v.count("degree")?);
+    let extent = ((elements * degree) as f64, 2.0 / elements as f64);
+    Either::new(move |field| {
+        let build: Build = Box::new(move |length| shared(Bezier::new(length, elements, degree, field)));
+        Functions { blame: "degree", ..Functions::new(extent, ("elements", 2 * elements), build) }
+    })
+}
+
+const MOST: i64 = 1_000_000;
+
+const ELEMENTS: Key =
+    key("elements", Type::Integer(1, MOST), Default::Integer(10), "number of equal elements over the length");
+const AXIAL_DEGREE: Key = key(
+    "axial-degree",
+    Type::Integer(1, 2),
+    Default::Integer(1),
+    "degree of the axial elements (the exact coupling is cubic and does without it)",
+);
+const NODES: Key = key(
+    "nodes",
+    Type::Integer(2, MOST),
+    Default::Integer(11),
+    "number of equally spaced nodes, ends included",
+);
+const DU: &str = "Du, Zhang & Hong 2015, doi:10.6052/0459-1879-14-334";
+
+const FINITE_ELEMENTS: Kind<Either> = Kind {
+    name: "finite-elements",
+    summary: "Lagrange elements (axial) and cubic Hermite elements (transverse)",
+    source: DU,
+    keys: &[ELEMENTS, AXIAL_DEGREE],
+    example: "basis={kind='finite-elements', elements=7, axial-degree=2}",
+    make: finite_elements,
+};
+
+/// Largest number of modes.
+const MOST_MODES: i64 = 200;
+
+const MODES: Kind<Either> = Kind {
+    name: "modes",
+    summary: "vibration modes of the beam at rest (assumed modes)",
+    source: DU,
+    keys: &[
+        key("axial", Type::Integer(1, MOST_MODES), Default::Integer(4), "number of axial modes"),
+        key("transverse", Type::Integer(1, MOST_MODES), Default::Integer(4), "number of bending modes"),
+    ],
+    example: "basis={kind='modes', axial=2}",
+    make: |v, _| modes(v, "axial", "transverse"),
+};
+
+/// Modes of one field.
+const MODES_OF_FIELD: Kind<Either> = Kind {
+    keys: &[key("count", Type::Integer(1, MOST_MODES), Required, "number of modes")],
+    example: "basis={kind='mixed', axial={kind='modes', count=2}, transverse={kind='radial'}}",
+    make: |v, _| modes(v, "count", "count"),
+    ..MODES
+};
+
+const RADIAL: Kind<Either> = Kind {
+    name: "radial",
+    summary: "radial point interpolation (RPIM) with multiquadrics",
+    source: DU,
+    keys: &[
+        NODES,
+        key(
+            "shape",
+            Type::Number(Positive),
+            Default::Number(4.0),
+            "shape parameter α_c; 2 to 7 is accurate, above that the moment matrix becomes singular",
+        ),
+        key("exponent", Type::Number(Positive), Default::Number(1.03), "exponent q; not an integer"),
+        key(
+            "support",
+            Type::Number(Positive),
+            Default::Number(2.5),
+            "half width α_s of the support domain over the node spacing",
+        ),
+        key(
+            "degree",
+            Type::Integer(-1, 9),
+            Default::Integer(3),
+            "degree of the added polynomials, -1 for none",
+        ),
+    ],
+    example: "basis={kind='radial', nodes=9, degree=-1}",
+    make: radial,
+};
+
+const POLYNOMIAL: Kind<Either> = Kind {
+    name: "polynomial",
+    summary: "meshfree point interpolation (PIM) with polynomials",
+    source: "Du & Zhang 2015, doi:10.7498/aps.64.034501",
+    keys: &[
+        NODES,
+        key(
+            "support",
+            Type::Number(Positive),
+            Default::Number(1.5),
+            "half width α_s of the support domain over the node spacing; 0.5 gives finite elements",
+        ),
+    ],
+    example: "basis={kind='polynomial', nodes=9, support=2.5}",
+    make: polynomial,
+};
+
+const B_SPLINE: Kind<Either> = Kind {
+    name: "b-spline",
+    summary: "B-splines of any degree on equal spans",
+    source: "Fan & Zhang 2012, doi:10.3901/JME.2012.23.059",
+    keys: &[
+        ELEMENTS,
+        key(
+            "degree",
+            Type::Integer(1, 15),
+            Default::Integer(3),
+            "degree p; at least 2 for the transverse field",
+        ),
+    ],
+    example: "basis={kind='b-spline', elements=8, degree=4}",
+    make: b_spline,
+};
+
+const BEZIER: Kind<Either> = Kind {
+    name: "bezier",
+    summary: "Bézier curve over the whole beam, or smoothly joined ones",
+    source: "Fan & Zhang 2014, doi:10.7498/aps.63.154501",
+    keys: &[
+        key(
+            "degree",
+            Type::Integer(1, 27),
+            Default::Integer(10),
+            "degree n; at least 2 for the transverse field",
+        ),
+        key(
+            "elements",
+            Type::Integer(1, MOST),
+            Default::Integer(1),
+            "number of equal elements, joined smoothly",
+        ),
+    ],
+    example: "basis={kind='bezier', degree=6, elements=2}",
+    make: bezier,
+};
+
+const MIXED: Kind<Either> = Kind {
+    name: "mixed",
+    summary: "another basis for each field",
+    source: "",
+    keys: &[
+        key("axial", Type::Kind(&FIELD), Required, "basis of the axial displacement"),
+        key("transverse", Type::Kind(&FIELD), Required, "basis of the transverse displacement"),
+    ],
+    example: "basis={kind='mixed', axial={kind='b-spline', degree=1}, transverse={kind='bezier', degree=5, elements=2}}",
+    make: mixed,
+};
+
+/// The kinds of basis for one field.
+pub static FIELD: Choice<Either> = Choice {
+    name: "field basis",
+    path: "basis.axial",
+    summary: "functions for one displacement field",
+    kinds: &[FINITE_ELEMENTS, MODES_OF_FIELD, RADIAL, POLYNOMIAL, B_SPLINE, BEZIER],
+};
+
+/// The kinds of basis.
+pub static BASIS: Choice<Either> = Choice {
+    name: "basis",
+    path: "basis",
+    summary: "functions for the axial and transverse displacement",
+    kinds: &[FINITE_ELEMENTS, MODES, RADIAL, POLYNOMIAL, B_SPLINE, BEZIER, MIXED],
+};

@@ -1,0 +1,164 @@
+//! The kinematic model of the beam: kinds and how the system of each is assembled.
+
+use super::basis::Bases;
+use super::section::Section;
+use crate::fault::{At, Fault, Made};
+use crate::kind::{Choice, Kind};
+use flexion::hub_beam::load::Load;
+use flexion::hub_beam::{
+    self, Damping, ExactCoupling, Fields, Foreshortening, HighCoupling, Hub, HubBeam, LinearCoupling,
+    Sampling,
+};
+use flexion::section;
+use flexion::system::{Events, System};
+use std::sync::Arc;
+
+/// A kinematic model.
+#[derive(Clone, Copy, Debug)]
+pub struct Coupling {
+    /// Whether one field describes the whole curve of the beam: it needs finite elements, which end where the section
+    /// jumps.
+    pub whole_curve: bool,
+    /// Assembles the system of a beam.
+    pub assemble: fn(&Beam<'_>) -> Made<Box<dyn System>>,
+}
+
+/// What a system is assembled of.
+pub struct Beam<'a> {
+    /// Length [m].
+    pub length: f64,
+    /// The section with what the beam carries; cells end at the loads.
+    pub section: &'a dyn section::Section,
+    /// The hub.
+    pub hub: Hub,
+    /// The bases of both fields.
+    pub bases: &'a Bases,
+    /// What acts on the beam.
+    pub loads: &'a [&'a dyn Load],
+    /// Damping of the beam.
+    pub damping: Damping,
+    /// Stations that are recorded besides the tip [m].
+    pub stations: &'a [f64],
+    /// Whether axial, shear force and bending moment are recorded at the stations.
+    pub section_forces: bool,
+    /// Heights over the axis at which the strain is recorded at the stations [m].
+    pub strain_heights: &'a [f64],
+}
+
+impl Beam<'_> {
+    fn fields(&self) -> Fields {
+        let (axial, transverse) = (Arc::clone(&self.bases.axial), Arc::clone(&self.bases.transverse));
+        Fields::new(self.length, Box::new(axial), Box::new(transverse), self.section.breaks())
+    }
+
+    fn linear(&self, foreshortening: Foreshortening) -> Made<Box<dyn System>> {
+        let coupling = LinearCoupling::new(self.fields(), self.section, &self.hub, foreshortening);
+        Ok(self.system(coupling, self.sampling()))
+    }
+
+    /// How forces in the sections are recovered from two fields.
+    fn sampling(&self) -> Sampling {
+        self.bases.elements.map_or(Sampling::Station, |(_, axial_degree)| Sampling::Elements(axial_degree))
+    }
+
+    /// The system under the loads and with the damping, and with the section forces and strains to be recorded.
+    fn system<C: hub_beam::Coupling + 'static>(&self, coupling: C, sampling: Sampling) -> Box<dyn System> {
+        let mut system = HubBeam::new(self.hub.clone(), coupling, self.stations);
+        if !self.loads.is_empty() {
+            system = system.with_loads(self.section, self.loads);
+        }
+        system = system.with_damping(self.damping);
+        if self.section_forces || !self.strain_heights.is_empty() {
+            system =
+                system.with_section_forces(self.section, sampling, self.section_forces, self.strain_heights);
+        }
+        Box::new(system)
+    }
+}
+
+/// The kinds of coupling.
+pub static COUPLING: Choice<Coupling> = Choice {
+    name: "coupling",
+    path: "model.coupling",
+    summary: "kinematic model of the beam",
+    kinds: &[
+        Kind {
+            name: "zeroth",
+            summary: "no foreshortening: softens falsely and diverges at high speed, for comparison only",
+            source: "the conventional model of Kane, Ryan & Banerjee 1987, doi:10.2514/3.20195",
+            keys: &[],
+            example: "model.coupling=zeroth",
+            make: |_, _| {
+                Ok(Coupling { whole_curve: false, assemble: |beam| beam.linear(Foreshortening::None) })
+            },
+        },
+        Kind {
+            name: "first",
+            summary: "foreshortening to first order: linear with dynamic stiffening, small deflections",
+            source: "Kane, Ryan & Banerjee 1987, doi:10.2514/3.20195",
+            keys: &[],
+            example: "model.coupling=first",
+            make: |_, _| {
+                Ok(Coupling { whole_curve: false, assemble: |beam| beam.linear(Foreshortening::First) })
+            },
+        },
+        Kind {
+            name: "high",
+            summary: "foreshortening to every order in the kinetic energy: nonlinear, moderate deflections",
+            source: "Li, Zhang & Hong 2013, Journal of Mechanical Engineering 49(13) 77–84",
+            keys: &[],
+            example: "model.coupling=high",
+            make: |_, _| {
+                let assemble = |beam: &Beam<'_>| {
+                    let coupling = HighCoupling::new(beam.fields(), beam.section, &beam.hub);
+                    Ok(beam.system(coupling.at("basis")?, beam.sampling()))
+                };
+                Ok(Coupling { whole_curve: false, assemble })
+            },
+        },
+        Kind {
+            name: "exact",
+            summary: "geometrically exact, without shear: any deflection",
+            source: "Simo & Vu-Quoc 1986, doi:10.1115/1.3171870",
+            keys: &[],
+            example: "model.coupling=exact",
+            make: |_, _| {
+                let assemble = |beam: &Beam<'_>| {
+                    let Some((elements, _)) = beam.bases.elements else {
+                        return Err(Fault::new("basis", "the exact coupling needs finite elements").into());
+                    };
+                    let coupling = ExactCoupling::new(beam.length, elements, beam.section, &beam.hub);
+                    Ok(beam.system(coupling.at("section")?, Sampling::Curve))
+                };
+                Ok(Coupling { whole_curve: true, assemble })
+            },
+        },
+    ],
+};
+
+/// Whether a coupling that describes the whole curve of the beam can use a basis, called `name`, and a section.
+pub fn fits_whole_curve(bases: &Bases, name: &str, section: Option<&Section>, length: f64) -> Made<()> {
+    let Some((elements, _)) = bases.elements else {
+        let message = format!(
+            "the exact coupling describes the whole curve of the beam by one Hermite field and cannot use the basis `{name}`"
+        );
+        let help =
+            "write `kind = \"finite-elements\"` and the number of elements, or use the coupling `first`";
+        return Err(Fault::new("basis", message).help(help).into());
+    };
+    let Some(section) = section else { return Ok(()) };
+    let off = |jump: &&f64| {
+        let nodes = *jump / length * elements as f64;
+        (nodes - nodes.round()).abs() > 1e-6
+    };
+    match section.planar.jumps().iter().find(off) {
+        None => Ok(()),
+        Some(jump) => {
+            let message = format!(
+                "the section jumps at {jump} m, inside one of the {elements} equal elements of {} m; with the exact coupling elements must end at the jumps",
+                length / elements as f64
+            );
+            Err(Fault::new(format!("section.{}", section.changes), message).into())
+        }
+    }
+}

@@ -1,0 +1,137 @@
+//! The state at the start of a run: kinds, keys and makers.
+
+use crate::declaration::{Bound::*, Presence as Default, Presence::*, Type, key};
+use crate::fault::{Fault, Made};
+use crate::kind::{Choice, Context, Kind};
+use crate::units::{LENGTH, VELOCITY};
+use crate::values::Values;
+use flexion::analysis::superposition::Vibration;
+use flexion::integrator::Checkpoint;
+use flexion_results::read_state;
+use std::io::Cursor;
+use std::sync::Arc;
+
+/// The state at t = 0.
+#[derive(Clone, Debug)]
+pub enum Initial {
+    /// Undeformed, moving with the hub.
+    Undeformed,
+    /// In the equilibrium of steady rotation at the initial speed of the hub.
+    SteadyRotation,
+    /// In static equilibrium under the loads at t = 0, the hub held.
+    Static,
+    /// The last state of an earlier run of the same model, whose time goes on.
+    Restart(Arc<Earlier>),
+    /// Vibrating in modes about the equilibrium of the start: what each mode does, in the order of their frequencies, as
+    /// displacement \[m\] and velocity \[m/s\] of the tip.
+    Modes(Vec<Vibration>),
+}
+
+/// The state in which an earlier run ended.
+#[derive(Debug)]
+pub struct Earlier {
+    /// The state, with the history of the integrator.
+    pub checkpoint: Checkpoint,
+    /// What the state belongs to: a line `key = value` for all that makes model and integrator.
+    pub identity: String,
+}
+
+/// The kinds of initial state.
+pub static INITIAL: Choice<Initial> = Choice {
+    name: "initial",
+    path: "initial",
+    summary: "state at the start",
+    kinds: &[
+        Kind {
+            name: "undeformed",
+            summary: "undeformed, moving with the hub",
+            source: "",
+            keys: &[],
+            example: "initial.kind=undeformed",
+            make: |_, _| Ok(Initial::Undeformed),
+        },
+        Kind {
+            name: "steady-rotation",
+            summary: "equilibrium of steady rotation at the initial speed of the hub",
+            source: "",
+            keys: &[],
+            example: "initial.kind=steady-rotation\nhub.motion={kind='constant', speed='4 rad/s'}",
+            make: |_, _| Ok(Initial::SteadyRotation),
+        },
+        Kind {
+            name: "static",
+            summary: "static equilibrium under the loads of the start, the hub at rest and held",
+            source: "",
+            keys: &[],
+            example: "initial.kind=static\ngravity={acceleration=9.81}",
+            make: |_, _| Ok(Initial::Static),
+        },
+        Kind {
+            name: "restart",
+            summary: "last state of an earlier run of the same model, whose time goes on",
+            source: "",
+            keys: &[key(
+                "file",
+                Type::Path,
+                Required,
+                "state.npz of the earlier run, or the folder of its results",
+            )],
+            example: "initial={kind='restart', file='state.npz'}",
+            make: restart,
+        },
+        Kind {
+            name: "modes",
+            summary: "vibrating in given modes about the equilibrium of the start",
+            source: "",
+            keys: &[
+                key(
+                    "amplitudes",
+                    Type::Quantities(&LENGTH, Any),
+                    Default::Empty,
+                    "displacement of the tip in each mode, the lowest mode first",
+                ),
+                key(
+                    "velocities",
+                    Type::Quantities(&VELOCITY, Any),
+                    Default::Empty,
+                    "velocity of the tip in each mode, the lowest mode first",
+                ),
+            ],
+            example: "initial={kind='modes', amplitudes=['1 mm', 0], velocities=[0, '3 mm/s']}",
+            make: modes,
+        },
+    ],
+};
+
+fn restart(v: &Values, c: &Context<'_>) -> Made<Initial> {
+    let name = v.text("file")?;
+    let refuse = |message: String| Fault::new("file", message);
+    let bytes = c.files.bytes(name).map_err(|reason| {
+        refuse(format!("{reason}; a path begins at the folder of the case, unless it is absolute"))
+    })?;
+    let (checkpoint, identity) = read_state(Cursor::new(&*bytes))
+        .map_err(|reason| refuse(format!("{name} is not the state of a run: {reason}")))?;
+    Ok(Initial::Restart(Arc::new(Earlier { checkpoint, identity })))
+}
+
+/// A list that is left out is one of zeros.
+fn modes(v: &Values, _: &Context<'_>) -> Made<Initial> {
+    let (amplitudes, velocities) = (v.numbers("amplitudes")?, v.numbers("velocities")?);
+    match (amplitudes.len(), velocities.len()) {
+        (0, 0) => {
+            let message = "no mode is given an amplitude or a velocity; write `amplitudes`, `velocities` or both, one \
+                           number for each mode";
+            return Err(Fault::new("amplitudes", message).into());
+        }
+        (a, v) if a > 0 && v > 0 && a != v => {
+            let message = format!(
+                "the numbers of velocities and amplitudes are {v} and {a}; give each mode both, 0 where it has none"
+            );
+            return Err(Fault::new("velocities", message).into());
+        }
+        _ => {}
+    }
+    let at = |list: &[f64], mode: usize| list.get(mode).copied().unwrap_or(0.0);
+    let vibration = |mode| Vibration { displacement: at(amplitudes, mode), velocity: at(velocities, mode) };
+    Ok(Initial::Modes((0..amplitudes.len().max(velocities.len())).map(vibration).collect()))
+}

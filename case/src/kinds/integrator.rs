@@ -1,0 +1,162 @@
+//! The integrator of a case: kinds, keys and makers.
+
+use crate::declaration::{Bound::*, Key, Presence as Default, Presence::*, Type, Type::Quantity, key};
+use crate::fault::{Fault, Made};
+use crate::kind::{Choice, Kind};
+use crate::units::TIME;
+use crate::values::Values;
+use flexion::integrator::{
+    Adams, GeneralizedAlpha, Integrator, InvalidParameter, Radau, RungeKutta, Tolerance,
+};
+
+/// An integrator that has not yet started, and the steps that a case asks of it.
+pub struct Method {
+    /// The integrator: it belongs to one run.
+    pub integrator: Box<dyn Integrator>,
+    /// The steps.
+    pub steps: Steps,
+}
+
+/// The steps that a case asks for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Steps {
+    /// All steps have this length [s].
+    Fixed(f64),
+    /// The method controls its steps, by the tolerances of its table.
+    Controlled {
+        /// Relative tolerance of the local error.
+        tolerance: f64,
+        /// Absolute tolerance, in scales of the unknowns.
+        absolute_tolerance: f64,
+        /// First step [s]; chosen by the run when `None`.
+        first: Option<f64>,
+        /// Largest step [s]; no limit when `None`.
+        longest: Option<f64>,
+    },
+}
+
+impl Steps {
+    /// The fixed step [s]; `None` for step control.
+    pub fn step(self) -> Option<f64> {
+        match self {
+            Steps::Fixed(step) => Some(step),
+            Steps::Controlled { .. } => None,
+        }
+    }
+}
+
+/// A method with the fixed step of its key `step`.
+fn fixed<I: Integrator + 'static>(v: &Values, integrator: Result<I, InvalidParameter>) -> Made<Method> {
+    let integrator = Box::new(checked(integrator)?);
+    Ok(Method { integrator, steps: Steps::Fixed(v.number("step")?) })
+}
+
+/// The method, or what is wrong at the key of its parameter.
+fn checked<I>(integrator: Result<I, InvalidParameter>) -> Made<I> {
+    integrator.map_err(|error| Fault::new(error.parameter.replace(' ', "-"), error.to_string()).into())
+}
+
+fn radau(v: &Values) -> Made<Method> {
+    let (tolerance, absolute_tolerance) = (v.number("tolerance")?, v.number("absolute-tolerance")?);
+    let integrator = Radau::new(Tolerance { relative: tolerance, absolute: absolute_tolerance });
+    let (first, longest) = (v.optional_number("initial-step")?, v.optional_number("max-step")?);
+    Ok(Method {
+        integrator: Box::new(checked(integrator)?),
+        steps: Steps::Controlled { tolerance, absolute_tolerance, first, longest },
+    })
+}
+
+const STEP: Key = key("step", Quantity(&TIME, Positive), Required, "time step");
+const TOLERANCE: Type = Type::Number(Between(1e-14, 1e-1));
+
+/// The kinds of integrator.
+pub static INTEGRATOR: Choice<Method> = Choice {
+    name: "integrator",
+    path: "integrator",
+    summary: "time integration",
+    kinds: &[
+        Kind {
+            name: "radau",
+            summary: "Radau IIA, implicit, order 5, with step control",
+            source: "Hairer & Wanner 1999, doi:10.1016/S0377-0427(99)00134-X",
+            keys: &[
+                key("tolerance", TOLERANCE, Default::Number(1e-6), "relative tolerance of the local error"),
+                key(
+                    "absolute-tolerance",
+                    TOLERANCE,
+                    Default::Number(1e-8),
+                    "absolute tolerance, in scales of the unknowns",
+                ),
+                key("initial-step", Quantity(&TIME, Positive), Optional, "first step, chosen if left out"),
+                key("max-step", Quantity(&TIME, Positive), Optional, "largest step, free if left out"),
+            ],
+            example: "integrator={kind='radau', tolerance=1e-8, max-step='20 ms'}",
+            make: |v, _| radau(v),
+        },
+        Kind {
+            name: "newmark",
+            summary: "Newmark, implicit, order 2 with γ = 1/2",
+            source: "Newmark 1959, doi:10.1061/JMCEA3.0000098",
+            keys: &[
+                STEP,
+                key("beta", Type::Number(Between(0.01, 1.0)), Default::Number(0.25), "β, at least γ/2"),
+                key(
+                    "gamma",
+                    Type::Number(Between(0.5, 1.5)),
+                    Default::Number(0.5),
+                    "γ; above 1/2 it dissipates",
+                ),
+            ],
+            example: "integrator={kind='newmark', step='1 ms'}",
+            make: |v, _| fixed(v, GeneralizedAlpha::newmark(v.number("beta")?, v.number("gamma")?)),
+        },
+        Kind {
+            name: "hht",
+            summary: "Hilber–Hughes–Taylor, implicit, order 2, dissipates high frequencies",
+            source: "Hilber, Hughes & Taylor 1977, doi:10.1002/eqe.4290050306",
+            keys: &[
+                STEP,
+                key(
+                    "alpha",
+                    Type::Number(Between(0.0, 1.0 / 3.0)),
+                    Default::Number(0.05),
+                    "α, from 0 (no dissipation) to 1/3 (most)",
+                ),
+            ],
+            example: "integrator={kind='hht', step='1 ms', alpha=0.1}",
+            make: |v, _| fixed(v, GeneralizedAlpha::hht(v.number("alpha")?)),
+        },
+        Kind {
+            name: "generalized-alpha",
+            summary: "generalized-α, implicit, order 2, dissipates high frequencies",
+            source: "Chung & Hulbert 1993, doi:10.1115/1.2900803",
+            keys: &[
+                STEP,
+                key(
+                    "spectral-radius",
+                    Type::Number(Between(0.0, 1.0)),
+                    Default::Number(0.8),
+                    "spectral radius ρ∞ at high frequency, from 0 (most dissipation) to 1 (none)",
+                ),
+            ],
+            example: "integrator={kind='generalized-alpha', step='1 ms'}",
+            make: |v, _| fixed(v, GeneralizedAlpha::chung_hulbert(v.number("spectral-radius")?)),
+        },
+        Kind {
+            name: "runge-kutta-4",
+            summary: "classical Runge–Kutta, explicit, order 4",
+            source: "Hairer, Nørsett & Wanner 1993, doi:10.1007/978-3-540-78862-1",
+            keys: &[STEP],
+            example: "integrator={kind='runge-kutta-4', step='1 us'}",
+            make: |v, _| fixed(v, Ok(RungeKutta::new())),
+        },
+        Kind {
+            name: "adams-4",
+            summary: "Adams–Bashforth–Moulton predictor–corrector, explicit, order 4",
+            source: "Hairer, Nørsett & Wanner 1993, doi:10.1007/978-3-540-78862-1",
+            keys: &[STEP],
+            example: "integrator={kind='adams-4', step='1 us'}",
+            make: |v, _| fixed(v, Ok(Adams::new())),
+        },
+    ],
+};

@@ -1,0 +1,14 @@
+//! The kinds of every choice: each with its keys, an example and the maker of its part.
+
+pub mod amplitude;
+pub mod basis;
+pub mod blade;
+pub mod coupling;
+pub mod initial;
+pub mod integrator;
+pub mod load;
+pub mod motion;
+mod profile;
+pub mod section;
+mod shape;
+pub mod torque;

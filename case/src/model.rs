@@ -1,0 +1,78 @@
+//! The models of a case: what is made of its parts.
+
+use super::case::Case;
+use super::fault::Made;
+use super::kinds::coupling::Beam;
+use super::kinds::load::Load;
+use flexion::blade::Blade;
+use flexion::hub_beam::load as acting;
+use flexion::section::{Laden, Section};
+use flexion::system::System;
+use std::sync::Arc;
+
+impl Case {
+    /// The section with what the beam carries; cells end at its loads.
+    fn laden(&self) -> Arc<dyn Section> {
+        let masses: Vec<_> = self.loads.iter().filter_map(|load| load.mass).collect();
+        let stations: Vec<f64> = self.loads.iter().flat_map(|load| load.stations.iter().copied()).collect();
+        let section = Arc::clone(&self.section.planar);
+        if masses.is_empty() && stations.is_empty() {
+            return section;
+        }
+        Arc::new(Laden::new(Box::new(section), masses, &stations))
+    }
+
+    /// The mechanical system.
+    ///
+    /// # Errors
+    /// Faults at dotted paths of the case; a case that was read has passed most checks.
+    pub fn system(&self) -> Made<Box<dyn System>> {
+        let section = self.laden();
+        let act = |load: &'_ Load| load.load.clone();
+        let loads: Vec<_> = self.loads.iter().filter_map(act).collect();
+        let loads: Vec<&dyn acting::Load> =
+            loads.iter().map(|load| load.as_ref() as &dyn acting::Load).collect();
+        let output = &self.output;
+        let beam = Beam {
+            length: self.length,
+            section: section.as_ref(),
+            hub: self.hub.clone(),
+            bases: &self.bases,
+            loads: &loads,
+            damping: self.damping,
+            stations: &output.stations,
+            section_forces: output.section_forces,
+            strain_heights: &output.strain_heights,
+        };
+        (self.coupling.assemble)(&beam)
+    }
+
+    /// The blade at rest: `None` if the case has no `[blade]`.
+    ///
+    /// # Errors
+    /// Faults at dotted paths of the case.
+    pub fn blade(&self) -> Made<Option<Blade>> {
+        let built = self.blade.as_ref().map(|blade| blade.built(&self.section, self.hub.radius));
+        built.transpose().map_err(|faults| faults.within("blade"))
+    }
+
+    /// What vibrates about a steady rotation: the blade, or the hub–beam of a case without `[blade]`.
+    ///
+    /// # Errors
+    /// Faults at dotted paths of the case.
+    pub fn vibrating(&self) -> Made<Box<dyn System>> {
+        match self.blade()? {
+            Some(blade) => Ok(Box::new(blade)),
+            None => self.system(),
+        }
+    }
+
+    /// The case without the loads whose direction is fixed in space, and what they are called.
+    pub fn without_loads_in_space(&self) -> (Case, Vec<&'static str>) {
+        let mut names: Vec<&str> = self.loads.iter().filter_map(|load| load.fixed_in_space).collect();
+        names.dedup();
+        let mut case = self.clone();
+        case.loads.retain(|load| load.fixed_in_space.is_none());
+        (case, names)
+    }
+}

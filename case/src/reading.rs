@@ -1,0 +1,259 @@
+//! A case that was read: how it was written, and the parts made of it.
+
+use super::case::{self, Case};
+use super::fault::Faults;
+use super::kind::Context;
+use super::kinds::integrator::{INTEGRATOR, Method};
+use super::layout;
+use super::problem::{Problem, Problems, Source, inside};
+use super::reader;
+use super::resolved;
+use super::sources::{Contents, Files, Folder, Sources};
+use super::tree::{self, Node, Raw};
+use super::values::Values;
+use flexion::integrator::Integrator;
+use flexion::system::{Dynamics, Events, State, System};
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+/// Largest case file that is read [bytes].
+const LARGEST: u64 = 10_000_000;
+
+/// Intervals of a run at whose ends the step of an explicit method is held against its stability limit.
+const STABILITY_TIMES: usize = 8;
+
+/// The live objects of a case.
+pub struct Live {
+    /// The mechanical system.
+    pub system: Box<dyn System>,
+    /// The integrator, not yet started.
+    pub integrator: Box<dyn Integrator>,
+}
+
+/// A case that was read, with all that is known about how it was written.
+#[derive(Clone, Debug)]
+pub struct Reading {
+    /// The parts of the case.
+    pub case: Case,
+    /// The file.
+    pub file: PathBuf,
+    root: Node,
+    pub(super) values: Values,
+    sources: Vec<Source>,
+    pub(super) files: Contents,
+}
+
+impl Reading {
+    /// The case as a file with every default filled in, in SI, that reads back as the same case.
+    pub fn resolved(&self) -> String {
+        resolved::resolved(&self.values, false)
+    }
+
+    /// As [`Reading::resolved`], beside copies of the tables that the case names: `motion.csv`, `torque.csv` and
+    /// `section.csv`.
+    pub fn resolved_with_copies(&self) -> String {
+        resolved::resolved(&self.values, true)
+    }
+
+    /// The files that the case names: dotted path of the table and bytes.
+    pub(super) fn tables(&self) -> Vec<(String, &[u8])> {
+        let mut found = Vec::new();
+        resolved::paths(&self.values, "", &mut found);
+        let bytes = |(key, name): (String, String)| self.files.get(&name).map(|bytes| (key, &**bytes));
+        found.into_iter().filter_map(bytes).collect()
+    }
+
+    /// The defaults in force: dotted path and value.
+    pub fn defaults(&self) -> Vec<(String, String)> {
+        let mut out = Vec::new();
+        resolved::defaults(&self.values, "", &mut out);
+        out
+    }
+
+    /// What a table of the case says, in SI and with its defaults, for a summary: `integrator`.
+    pub fn settings(&self, table: &str) -> serde_json::Map<String, serde_json::Value> {
+        self.values.inner(table).map(Values::to_json).unwrap_or_default()
+    }
+
+    /// The same case with changes `KEY=VALUE`, read anew; the files that it names are those that were read.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the changes.
+    pub fn with(&self, changes: &[String]) -> Result<Reading, Problems> {
+        let mut problems = Problems { sources: self.sources.clone(), list: Vec::new() };
+        let mut root = self.root.clone();
+        for change in changes {
+            tree::lay_over(&mut root, change, &mut problems);
+        }
+        interpreted(root, &self.file, &self.files, problems)
+    }
+
+    /// The live objects: the mechanical system and the integrator, which has passed its stability limit for
+    /// the undeformed beam at several times of the run if it is explicit.
+    ///
+    /// # Errors
+    /// [`Problems`] at the key that is to blame.
+    pub fn build(&self) -> Result<Live, Problems> {
+        let case = &self.case;
+        let mut system = case.system().map_err(|faults| self.problems(faults))?;
+        let mut explicit = self.integrator()?;
+        if let (false, Some(step)) = (explicit.info().implicit, case.steps.step()) {
+            // The largest frequency changes with the speed of the hub.
+            let among = (0..=STABILITY_TIMES).map(|k| case.duration * k as f64 / STABILITY_TIMES as f64);
+            let within = system.breaks().iter().map(|b| b.time).filter(|t| *t <= case.duration);
+            for t in among.chain(within).collect::<Vec<_>>() {
+                let mut state = State { t, ..system.initial() };
+                explicit
+                    .start(system.as_mut(), &mut state, step)
+                    .map_err(|error| self.problem("integrator.step", error.to_string()))?;
+            }
+        }
+        Ok(Live { system, integrator: self.integrator()? })
+    }
+
+    /// A new integrator: it belongs to one run.
+    fn integrator(&self) -> Result<Box<dyn Integrator>, Problems> {
+        let files = Files::new(&self.files);
+        let context =
+            Context { length: Some(self.case.length), duration: Some(self.case.duration), files: &files };
+        let method = INTEGRATOR.make(&self.values, "integrator", &context);
+        method.map(|Method { integrator, .. }| integrator).map_err(|faults| self.problems(faults))
+    }
+
+    /// A problem with the case that was found later, when it was built: `key` is a dotted path.
+    pub fn problem(&self, key: &str, message: impl Into<String>) -> Problems {
+        let problem = Problem::new(key, self.values.find(key).0, message);
+        Problems { sources: self.sources.clone(), list: vec![problem] }
+    }
+
+    fn problems(&self, faults: Faults) -> Problems {
+        let mut problems = Problems { sources: self.sources.clone(), list: Vec::new() };
+        report(faults, &self.values, &mut problems);
+        problems
+    }
+}
+
+/// Notes the faults of makers at the places of their keys.
+fn report(faults: Faults, values: &Values, problems: &mut Problems) {
+    for fault in faults.0 {
+        let (mut place, text) = values.find(&fault.key);
+        if let (Some(span), Some(whole), Some(text)) = (fault.span, &place, text) {
+            place = Some(inside(whole, text, span, problems));
+        }
+        let mut problem = Problem::new(fault.key, place, fault.message);
+        problem.help.extend(fault.help);
+        problems.push(problem);
+    }
+}
+
+/// Reads a case: a file, or a folder that holds a `case.toml`. Each override is `KEY=VALUE`.
+///
+/// # Errors
+/// Everything that is wrong with the file, the case in it or the overrides.
+pub fn read(path: &Path, overrides: &[String]) -> Result<Reading, Problems> {
+    let file = if path.is_dir() { path.join("case.toml") } else { path.to_owned() };
+    match load(&file) {
+        Ok(text) => parse(text, &file, overrides),
+        Err((message, help)) => {
+            let source = Source { name: file.display().to_string(), text: String::new() };
+            let mut problem = Problem::new("", None, message);
+            problem.help.extend(help);
+            Err(Problems { sources: vec![source], list: vec![problem] })
+        }
+    }
+}
+
+/// Reads a case from its text; `file` names it in messages, and paths in it are relative to its folder.
+///
+/// # Errors
+/// Everything that is wrong with the case or the overrides.
+pub fn parse(text: String, file: &Path, overrides: &[String]) -> Result<Reading, Problems> {
+    parse_with(text, file, overrides, &Folder(file.parent().unwrap_or(Path::new("")).to_owned()))
+}
+
+/// As [`parse`]; the files that the case names are those of `sources`.
+///
+/// # Errors
+/// As [`parse`].
+pub fn parse_with(
+    text: String,
+    file: &Path,
+    overrides: &[String],
+    sources: &dyn Sources,
+) -> Result<Reading, Problems> {
+    let mut problems = Problems::default();
+    problems.sources.push(Source { name: file.display().to_string(), text: text.clone() });
+    let root = tree::read(&text, overrides, &mut problems);
+    interpreted(root, file, sources, problems)
+}
+
+/// Makes the case of its tree; `problems` are those of its text.
+fn interpreted(
+    root: Node,
+    file: &Path,
+    sources: &dyn Sources,
+    mut problems: Problems,
+) -> Result<Reading, Problems> {
+    // What a broken file seems to say is not worth reporting: its syntax comes first.
+    if let (true, Raw::Table(entries)) = (problems.list.is_empty(), &root.value) {
+        let mut values = reader::table(entries, None, layout::keys(), "", &mut problems);
+        let files = Files::new(sources);
+        match case::case(&mut values, &files) {
+            Ok(case) if problems.list.is_empty() => {
+                let files = files.into_contents();
+                let (file, sources) = (file.to_owned(), problems.sources);
+                return Ok(Reading { case, file, root, values, sources, files });
+            }
+            Ok(_) => {}
+            Err(faults) => report(faults, &values, &mut problems),
+        }
+    }
+    if problems.list.is_empty() {
+        let message =
+            "this is a mistake in the program: a part of the case is missing, and no maker says why";
+        problems.push(Problem::new("", None, message));
+    }
+    problems.sort();
+    Err(problems)
+}
+
+/// The text of a file, or what is wrong with it and what to do.
+fn load(file: &Path) -> Result<String, (String, Option<String>)> {
+    let name = file.display();
+    let help = || Some("a case is a TOML file, or a folder that holds a case.toml".to_owned());
+    let failed = |error: std::io::Error| {
+        let folder = file.parent().filter(|folder| file.ends_with("case.toml") && folder.is_dir());
+        match (error.kind() == std::io::ErrorKind::NotFound, folder) {
+            (true, Some(folder)) if !folder.as_os_str().is_empty() => {
+                (format!("the folder {} holds no case.toml", folder.display()), help())
+            }
+            (true, _) => (format!("cannot read {name}: {error}"), help()),
+            (false, _) => (format!("cannot read {name}: {error}"), None),
+        }
+    };
+    let metadata = std::fs::metadata(file).map_err(failed)?;
+    if metadata.is_dir() {
+        return Err((format!("{name} is not a file but a folder"), help()));
+    }
+    if !metadata.is_file() {
+        return Err((format!("{name} is not a file but a pipe or a device"), help()));
+    }
+    // The size is checked on what is read: a file may grow, or have none until it is read.
+    let mut bytes = Vec::new();
+    File::open(file).and_then(|f| f.take(LARGEST + 1).read_to_end(&mut bytes)).map_err(failed)?;
+    if bytes.len() as u64 > LARGEST {
+        return Err((
+            format!("{name} is larger than {} MB: a case file is text of a few kB", LARGEST / 1_000_000),
+            None,
+        ));
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        let line = error.as_bytes()[..at].iter().filter(|byte| **byte == b'\n').count() + 1;
+        (
+            format!("{name} is not UTF-8 text: byte {at}, on line {line}, is not"),
+            Some("save it as UTF-8".to_owned()),
+        )
+    })
+}
