@@ -9,6 +9,7 @@ mod docs;
 mod energy;
 mod frequency_orders;
 mod fuzz;
+mod jumps;
 mod kinds;
 mod loads;
 mod modal_release;

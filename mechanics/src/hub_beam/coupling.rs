@@ -95,7 +95,7 @@ pub trait Coupling: Send {
     fn admissible(&mut self, s: &State) -> Result<(), String>;
 
     /// Limits of validity worth a warning at the largest tip deflection of a run (`deflection` \[m\]).
-    fn caution(&self, deflection: f64) -> Option<String>;
+    fn cautions(&self, deflection: f64) -> Vec<String>;
 
     /// Hub speed [rad/s] at which the model's own stiffness is exhausted, if there is one below `speed`.
     fn critical_speed(&self, _speed: f64) -> Option<f64> {

@@ -290,7 +290,7 @@ impl Coupling for ExactCoupling {
         Ok(())
     }
 
-    fn caution(&self, _deflection: f64) -> Option<String> {
-        None
+    fn cautions(&self, _deflection: f64) -> Vec<String> {
+        Vec::new()
     }
 }

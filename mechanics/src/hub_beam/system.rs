@@ -527,7 +527,7 @@ impl<C: Coupling> Observed for HubBeam<C> {
                 self.coupling.name()
             )
         });
-        share.into_iter().chain(self.coupling.caution(peaks.first().copied().unwrap_or(0.0))).collect()
+        share.into_iter().chain(self.coupling.cautions(peaks.first().copied().unwrap_or(0.0))).collect()
     }
 
     fn explain(&mut self, s: &State) -> Option<String> {

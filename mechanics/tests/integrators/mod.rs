@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // in helpers of tests
 
 mod adaptive;
+mod breaks;
 mod constraints;
 pub mod drive;
 mod multibody;

@@ -192,8 +192,8 @@ impl Coupling for HighCoupling {
         self.linear.admissible(s)
     }
 
-    fn caution(&self, deflection: f64) -> Option<String> {
-        self.linear.caution(deflection)
+    fn cautions(&self, deflection: f64) -> Vec<String> {
+        self.linear.cautions(deflection)
     }
 
     fn critical_speed(&self, speed: f64) -> Option<f64> {
