@@ -10,6 +10,9 @@
 
 use super::{Scalar, Singular};
 
+/// Largest number of vanishing pivots of the band that are moved to the border.
+pub const DEFLATIONS: usize = 4;
+
 /// A pivot below this share of its column is taken for nought when the border can replace it.
 const VANISHING: f64 = 1e-12;
 
@@ -54,7 +57,7 @@ impl<T: Scalar> Band<T> {
             inverse: vec![T::ZERO; n],
             reach: vec![0; n],
             interchanged: false,
-            deflated: Vec::with_capacity(super::bordered::DEFLATIONS),
+            deflated: Vec::with_capacity(DEFLATIONS),
             column_size: vec![0.0; n],
         }
     }
@@ -236,7 +239,7 @@ impl<T: Scalar> Band<T> {
             self.pivots[k] = (p - k) as u32;
             self.reach[k] = count as u32;
             if !(best > small) {
-                if !deflate || !best.is_finite() || self.deflated.len() == super::bordered::DEFLATIONS {
+                if !deflate || !best.is_finite() || self.deflated.len() == DEFLATIONS {
                     return Err(Singular { index: k, pivot: best / largest });
                 }
                 let delta = if self.column_size[k] > 0.0 { self.column_size[k] } else { 1.0 };

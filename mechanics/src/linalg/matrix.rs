@@ -1,5 +1,6 @@
 //! The matrix an integrator owns and a system fills.
 
+use super::vector::weighted_sum;
 use super::{Bordered, Dense, Scalar, Singular};
 
 /// Shape of a system's tangent.
@@ -300,13 +301,5 @@ impl<T: Scalar> Matrix<T> {
             _ => debug_assert!(false, "structures differ"),
         }
         self.source = source;
-    }
-}
-
-/// `out` = Σ wₖ aₖ, entry by entry.
-pub(super) fn weighted_sum<T: Scalar>(out: &mut [T], terms: [&[f64]; 3], weights: [T; 3]) {
-    let [a, b, c] = terms;
-    for (((out, a), b), c) in out.iter_mut().zip(a).zip(b).zip(c) {
-        *out = weights[0].times(*a) + (weights[1].times(*b) + weights[2].times(*c));
     }
 }

@@ -1,4 +1,6 @@
-//! Products of vectors.
+//! Sums and products of vectors.
+
+use super::Scalar;
 
 /// aᵀ b, in four sums side by side.
 #[inline]
@@ -32,6 +34,14 @@ pub fn scale(c: f64, x: &mut [f64]) {
 #[inline]
 pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// `out` = Σ wₖ aₖ, entry by entry.
+pub(super) fn weighted_sum<T: Scalar>(out: &mut [T], terms: [&[f64]; 3], weights: [T; 3]) {
+    let [a, b, c] = terms;
+    for (((out, a), b), c) in out.iter_mut().zip(a).zip(b).zip(c) {
+        *out = weights[0].times(*a) + (weights[1].times(*b) + weights[2].times(*c));
+    }
 }
 
 /// Numbers in [−1, 1) without structure, the same for the same seed: a linear congruential sequence.

@@ -82,12 +82,6 @@ impl HighCoupling {
     }
 }
 
-/// α: the axial acceleration of the axis without the −ω²R that [`Inertia`] has.
-fn axial_acceleration(p: &Point, hub: &HubKinematics) -> f64 {
-    let (om, al) = (hub.speed, hub.acceleration);
-    (p.w1[2] + p.wc[2]) - al * p.w2[0] - 2.0 * om * p.w2[1] - om * om * (p.w1[0] + p.wc[0])
-}
-
 impl Coupling for HighCoupling {
     fn name(&self) -> &'static str {
         "high"
@@ -120,7 +114,7 @@ impl Coupling for HighCoupling {
         self.sums.scatter(r, |p| {
             let on_axial = p.wc[2] - om * om * p.wc[0];
             let on_transverse = al * p.wc[0] + 2.0 * om * p.wc[1];
-            ([on_axial, on_transverse], [axial_acceleration(p, hub)])
+            ([on_axial, on_transverse], [p.axial_acceleration(hub)])
         });
     }
 

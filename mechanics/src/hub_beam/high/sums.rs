@@ -9,6 +9,7 @@
 //! sum up to there is that over the whole cell, and its axial force enters the tails as a jump.
 
 use crate::hub_beam::fields::{Fields, Shapes};
+use crate::profile::HubKinematics;
 use crate::quadrature::Gauss;
 use crate::section::Section;
 use crate::system::State;
@@ -25,6 +26,17 @@ pub struct Point {
     pub w2: Rates,
     /// Foreshortening w_c \[m\] and its rates.
     pub wc: Rates,
+}
+
+impl Point {
+    /// α: the axial acceleration of the axis without the −ω²R that [`Inertia`](crate::hub_beam::Inertia) has.
+    pub fn axial_acceleration(&self, hub: &HubKinematics) -> f64 {
+        let (om, al) = (hub.speed, hub.acceleration);
+        (self.w1[2] + self.wc[2])
+            - al * self.w2[0]
+            - 2.0 * om * self.w2[1]
+            - om * om * (self.w1[0] + self.wc[0])
+    }
 }
 
 /// A cell: unknowns and shapes at its points, by rows.

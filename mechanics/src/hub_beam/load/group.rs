@@ -11,6 +11,7 @@
 //! order; both vanish for other forces. Couples have Q_q = f m, Q_θ = f M. What acts on the sections of a curve
 //! stands in [`OnSection`](super::on_section::OnSection).
 
+use super::components::Components;
 use super::on_section::{Nature, OnSection};
 use super::{Amplitude, Axes};
 use crate::hub_beam::fields::Point;
@@ -44,13 +45,6 @@ pub struct Group {
     /// G_x, G_y and N, if one of them is there.
     stiffness: Option<(Bundle, Vectors, Vec<Entry>)>,
     sections: Vec<OnSection>,
-}
-
-/// Components of a force at one time: f d, f d′ = f ∂d/∂θ, and f.
-pub(super) struct Now {
-    pub d: [f64; 2],
-    pub by_angle: [f64; 2],
-    pub factor: f64,
 }
 
 impl Group {
@@ -136,15 +130,9 @@ impl Group {
         amplitude.breaks().iter().map(|&time| Break { time, jump: jump(time) }).collect()
     }
 
-    fn now(&self, t: f64, hub: &HubKinematics) -> Now {
+    fn components(&self, t: f64, hub: &HubKinematics) -> Components {
         let factor = self.part * self.amplitude.as_ref().map_or(1.0, |f| f.value(t));
-        let [x, y] = self.force.map(|c| factor * c);
-        if self.axes == Axes::Dead {
-            let (sin, cos) = hub.angle.sin_cos();
-            let d = [x * cos + y * sin, y * cos - x * sin];
-            return Now { d, by_angle: [d[1], -d[0]], factor };
-        }
-        Now { d: [x, y], by_angle: [0.0; 2], factor }
+        Components::new(self.force, self.axes, factor, hub)
     }
 
     /// d_x G_x q, d_y G_y q and f N q, row after row; nothing if there are no such matrices.
@@ -157,7 +145,7 @@ impl Group {
 
     /// out += c Q_q
     pub(super) fn add_force(&mut self, s: &State, hub: &HubKinematics, c: f64, out: &mut [f64]) {
-        let now = self.now(s.time(), hub);
+        let now = self.components(s.time(), hub);
         let d = now.d.map(|d| c * d);
         let m = c * now.factor;
         for (i, out) in out.iter_mut().enumerate().take(self.g_x.len()) {
@@ -176,7 +164,7 @@ impl Group {
         if self.stiffness.is_none() && self.sections.is_empty() {
             return;
         }
-        let now = self.now(s.time(), hub);
+        let now = self.components(s.time(), hub);
         if let Some((bundle, ..)) = &self.stiffness {
             bundle.add_sum([c * now.d[0], c * now.d[1], c * now.factor, 0.0], out);
         }
@@ -199,7 +187,7 @@ impl Group {
 
     /// Q_θ
     pub(super) fn torque(&mut self, s: &State, hub: &HubKinematics) -> f64 {
-        let now = self.now(s.time(), hub);
+        let now = self.components(s.time(), hub);
         let [x, y] = self.moments(&s.q);
         let follower: f64 = self.h.iter().zip(&s.q).map(|(h, q)| h * q).sum();
         let sections: f64 = self.sections.iter().map(|section| section.torque(s, &now)).sum();
@@ -211,7 +199,7 @@ impl Group {
         if !self.gravity {
             return 0.0;
         }
-        let now = self.now(s.time(), hub);
+        let now = self.components(s.time(), hub);
         let [x, y] = self.moments(&s.q);
         let sections: f64 = self.sections.iter().map(|section| section.potential(s, &now)).sum();
         sections - now.d[0] * x - now.d[1] * y
@@ -219,7 +207,7 @@ impl Group {
 
     /// Adds c times the derivatives of Q_q by θ and of Q_θ by q and θ.
     pub(super) fn add_border(&mut self, s: &State, hub: &HubKinematics, c: f64, out: &mut Border) {
-        let now = self.now(s.time(), hub);
+        let now = self.components(s.time(), hub);
         let dead = if self.axes == Axes::Dead { 1.0 } else { 0.0 };
         // Q_θ by q: as the force with the components (d_y, −d_x), whatever the axes.
         let normal = [c * now.d[1], -c * now.d[0]];

@@ -18,6 +18,7 @@
 //! | `Foreshortened` | w₁ − ½∫₀ˣ w₂′² dξ, w₂ | quadratic, banded: −½∫ P w₂′² dξ, P(ξ) = ∫_ξᴸ p dx | turns by w₂′ |
 //! | `Curve` | U, V | linear | turns with the tangent (X′, Y′)/ℓ |
 
+mod components;
 mod couple;
 mod distributed;
 mod force;
@@ -28,6 +29,7 @@ mod site;
 #[cfg(test)]
 mod tests;
 
+pub use components::{Amplitude, Axes};
 pub use couple::Couple;
 pub use distributed::DistributedForce;
 pub use force::Force;
@@ -36,24 +38,9 @@ pub use site::{Kinematics, Site};
 
 use super::inertia::Border;
 use crate::linalg::Storage;
-use crate::profile::{HubKinematics, Profile};
+use crate::profile::HubKinematics;
 use crate::system::{Break, State, Weights};
 use group::Group;
-use std::sync::Arc;
-
-/// What the components of a force refer to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Axes {
-    /// The inertial axes: the force keeps its direction in space.
-    Dead,
-    /// The hub's axes, radial and transverse: the force turns with the hub.
-    Hub,
-    /// Tangent and normal of the section it acts on: the force turns with the section.
-    Follower,
-}
-
-/// How a load changes with time: a factor f(t), or 1 where there is none.
-pub type Amplitude = Option<Arc<dyn Profile>>;
 
 /// A load: what it does to a beam with the given kinematics.
 pub trait Load: std::fmt::Debug {

@@ -11,7 +11,7 @@
 //!
 //! The torque on the hub is X F_y − Y F_x + M, and ∂(M n/ℓ)/∂p′ = n ⊗ (∂M/∂p′)/ℓ − M (t nᵀ + n tᵀ)/ℓ².
 
-use super::group::Now;
+use super::components::Components;
 use crate::hub_beam::fields::{Point, Shapes};
 use crate::hub_beam::inertia::Border;
 use crate::linalg::Storage;
@@ -64,7 +64,7 @@ impl OnSection {
         OnSection { nature, share, origin: radius + point.x, shapes }
     }
 
-    fn wrench(&self, s: &State, now: &Now) -> Wrench {
+    fn wrench(&self, s: &State, now: &Components) -> Wrench {
         let field = |c: usize, d: usize| self.shapes[c].field(d, &s.q);
         let place = [self.origin + field(0, 0), field(1, 0)];
         let (x1, y1) = (1.0 + field(0, 1), field(1, 1));
@@ -99,7 +99,7 @@ impl OnSection {
         out
     }
 
-    pub(super) fn add_force(&self, s: &State, now: &Now, c: f64, out: &mut [f64]) {
+    pub(super) fn add_force(&self, s: &State, now: &Components, c: f64, out: &mut [f64]) {
         let w = self.wrench(s, now);
         for (axis, shapes) in self.shapes.iter().enumerate() {
             let (on_value, on_slope) = (c * w.force[axis], c * w.couple * w.n[axis] / w.stretch);
@@ -109,7 +109,7 @@ impl OnSection {
         }
     }
 
-    pub(super) fn add_tangent(&self, s: &State, now: &Now, c: f64, out: &mut Storage<f64>) {
+    pub(super) fn add_tangent(&self, s: &State, now: &Components, c: f64, out: &mut Storage<f64>) {
         let w = self.wrench(s, now);
         let l = w.stretch;
         for (b, columns) in self.shapes.iter().enumerate() {
@@ -129,20 +129,20 @@ impl OnSection {
         }
     }
 
-    pub(super) fn torque(&self, s: &State, now: &Now) -> f64 {
+    pub(super) fn torque(&self, s: &State, now: &Components) -> f64 {
         let w = self.wrench(s, now);
         w.place[0] * w.force[1] - w.place[1] * w.force[0] + w.couple
     }
 
     /// −p n·d of an eccentric dead force.
-    pub(super) fn potential(&self, s: &State, now: &Now) -> f64 {
+    pub(super) fn potential(&self, s: &State, now: &Components) -> f64 {
         match self.nature {
             Nature::Eccentric => -self.share * inner(self.wrench(s, now).n, now.d),
             _ => 0.0,
         }
     }
 
-    pub(super) fn add_border(&self, s: &State, now: &Now, c: f64, out: &mut Border) {
+    pub(super) fn add_border(&self, s: &State, now: &Components, c: f64, out: &mut Border) {
         let w = self.wrench(s, now);
         let lever = w.place[0] * w.force_by_turn[1] - w.place[1] * w.force_by_turn[0] + w.couple_by_turn;
         let by_place = [w.force[1], -w.force[0]];

@@ -24,6 +24,7 @@
 
 mod krylov;
 mod operators;
+mod pairs;
 mod pencil;
 mod small;
 
