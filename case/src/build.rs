@@ -16,8 +16,8 @@ use flexion::basis::{
 };
 use flexion::blade::{Blade, BladeError, Model, Setting, StrainEnergy, Tip};
 use flexion::hub_beam::{
-    Controller, Coupling as HubCoupling, Drive, ExactCoupling, Fields, Foreshortening, FreeHub, HighCoupling,
-    Hub, HubBeam, LinearCoupling, Sampling,
+    Beam, Controller, Coupling as HubCoupling, Drive, ExactCoupling, Fields, Foreshortening, FreeHub,
+    HighCoupling, Hub, HubBeam, LinearCoupling, Sampling,
 };
 use flexion::integrator::{
     Adams, GeneralizedAlpha, Integrator, InvalidParameter, Radau, RungeKutta, Tolerance,
@@ -414,7 +414,8 @@ pub enum BuildError {
 /// # Errors
 /// [`BuildError`] when a part of it is refused; a case that was read has passed these checks.
 pub fn system(case: &Case) -> Result<Box<dyn System>, BuildError> {
-    let section = load_build::laden(section(&case.section, case.length)?, case)?;
+    let section = section(&case.section, case.length)?;
+    let beam = Beam::new(section.as_ref(), case.loads.masses.clone(), &load_build::stations(case)?);
     let drive = drive(&case.hub.motion, case.duration)?;
     let (length, stations) = (case.length, &case.output.stations);
     let hub = Hub { radius: case.hub.radius, inertia: case.hub.inertia, drive };
@@ -429,31 +430,31 @@ pub fn system(case: &Case) -> Result<Box<dyn System>, BuildError> {
             if let Some(jump) = jump_inside_element(section.as_ref(), length, elements) {
                 return Err(SectionError::Invalid(jump).into());
             }
-            let coupling = ExactCoupling::new(length, elements, section.as_ref(), &hub)?;
-            return finished(HubBeam::new(hub, coupling, stations), section.as_ref(), case);
+            let coupling = ExactCoupling::new(length, elements, &beam, &hub)?;
+            return finished(HubBeam::new(hub, coupling, stations), &beam, case);
         }
     };
     let axial = basis(&case.bases.axial, length, Field::Axial)?;
     let transverse = basis(&case.bases.transverse, length, Field::Transverse)?;
-    let fields = Fields::new(length, axial, transverse, section.breaks());
+    let fields = Fields::new(length, axial, transverse, &beam.breaks);
     if case.coupling == Coupling::High {
-        let coupling = HighCoupling::new(fields, section.as_ref(), &hub)?;
-        return finished(HubBeam::new(hub, coupling, stations), section.as_ref(), case);
+        let coupling = HighCoupling::new(fields, &beam, &hub)?;
+        return finished(HubBeam::new(hub, coupling, stations), &beam, case);
     }
-    let coupling = LinearCoupling::new(fields, section.as_ref(), &hub, foreshortening);
-    finished(HubBeam::new(hub, coupling, stations), section.as_ref(), case)
+    let coupling = LinearCoupling::new(fields, &beam, &hub, foreshortening);
+    finished(HubBeam::new(hub, coupling, stations), &beam, case)
 }
 
 /// A system under the loads and with the damping of a case, and with the section forces and strains that it wants
 /// recorded.
 fn finished<C: HubCoupling + 'static>(
     system: HubBeam<C>,
-    section: &dyn Section,
+    beam: &Beam<'_>,
     case: &Case,
 ) -> Result<Box<dyn System>, BuildError> {
     let loads = load_build::loads(case)?;
     let loads: Vec<_> = loads.iter().map(|load| load.as_ref()).collect();
-    let system = if loads.is_empty() { system } else { system.with_loads(section, &loads) };
+    let system = if loads.is_empty() { system } else { system.with_loads(beam, &loads) };
     let system = system.with_damping(case.loads.damping);
     let output = &case.output;
     if !output.section_forces && output.strain_heights.is_empty() {
@@ -468,5 +469,10 @@ fn finished<C: HubCoupling + 'static>(
         ) if elements == transverse => Sampling::Elements(*axial_degree),
         _ => Sampling::Station,
     };
-    Ok(Box::new(system.with_section_forces(section, sampling, output.section_forces, &output.strain_heights)))
+    Ok(Box::new(system.with_section_forces(
+        beam.section,
+        sampling,
+        output.section_forces,
+        &output.strain_heights,
+    )))
 }

@@ -5,7 +5,6 @@ use super::layout::Case;
 use super::loads::{Amplitude, Distribution, Loads};
 use flexion::hub_beam::load::{Couple, DistributedForce, Force, Load};
 use flexion::profile::{End, Expression, Polyline, Profile, ProfileError, Ramp, Table, covers};
-use flexion::section::{Laden, Section};
 use std::sync::Arc;
 
 /// A factor against time over the duration \[s\]; `None` for 1.
@@ -67,12 +66,12 @@ pub fn loads(case: &Case) -> Result<Vec<Box<dyn Load>>, ProfileError> {
     Ok(loads)
 }
 
-/// The section with the masses of a case; cells end at its loads.
+/// Stations at which the loads of a case begin, end or jump \[m\].
 ///
 /// # Errors
 /// [`ProfileError`] when a distribution cannot be built.
-pub fn laden(section: Box<dyn Section>, case: &Case) -> Result<Box<dyn Section>, ProfileError> {
-    let Loads { masses, forces, couples, distributed, .. } = &case.loads;
+pub fn stations(case: &Case) -> Result<Vec<f64>, ProfileError> {
+    let Loads { forces, couples, distributed, .. } = &case.loads;
     let mut stations: Vec<f64> = forces.iter().map(|f| f.station).collect();
     stations.extend(couples.iter().map(|c| c.station));
     for d in distributed {
@@ -81,8 +80,5 @@ pub fn laden(section: Box<dyn Section>, case: &Case) -> Result<Box<dyn Section>,
             stations.extend(profile.breaks());
         }
     }
-    if masses.is_empty() && stations.is_empty() {
-        return Ok(section);
-    }
-    Ok(Box::new(Laden::new(section, masses.clone(), &stations)))
+    Ok(stations)
 }

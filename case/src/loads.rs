@@ -7,9 +7,8 @@ use super::units::{
     ACCELERATION, ANGLE, FACTOR, FORCE, FORCE_PER_LENGTH, INERTIA, LENGTH, MASS, RATE, TIME, TORQUE,
 };
 use super::values::Values;
-pub use flexion::hub_beam::Damping;
 pub use flexion::hub_beam::load::{Axes, Gravity};
-pub use flexion::section::Mass;
+pub use flexion::hub_beam::{Damping, Mass};
 
 /// Everything on the beam, in SI.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -22,6 +22,7 @@
 //! φ̈ = (n·p̈′ − 2 φ̇ t·ṗ′)/|p′|
 //! ```
 
+use super::beam::{Beam, Mass};
 use super::coupling::Coupling;
 use super::damping::Damping;
 use super::element::Element;
@@ -35,7 +36,7 @@ use super::station::{Placement, Station};
 use crate::basis::{BasisError, Field, Hermite};
 use crate::linalg::Storage;
 use crate::profile::HubKinematics;
-use crate::section::{Mass, Resultants, Section};
+use crate::section::{Resultants, Section};
 use crate::system::{Corotation, State, Weights};
 
 /// Largest axial strain |ε| that a linear-elastic beam is believed to have.
@@ -56,25 +57,11 @@ pub struct ExactCoupling {
 
 /// A section reduced to its mass: what is quadratic for this coupling.
 #[derive(Debug)]
-struct MassOnly<'a> {
-    section: &'a dyn Section,
-    masses: Vec<Mass>,
-}
-
-impl<'a> MassOnly<'a> {
-    fn new(section: &'a dyn Section) -> MassOnly<'a> {
-        let masses = section.masses().iter().map(|m| Mass { inertia: 0.0, ..*m }).collect();
-        MassOnly { section, masses }
-    }
-}
+struct MassOnly<'a>(&'a dyn Section);
 
 impl Section for MassOnly<'_> {
     fn resultants(&self, x: f64) -> Resultants {
-        Resultants { mass: self.section.resultants(x).mass, ..Resultants::default() }
-    }
-
-    fn masses(&self) -> &[Mass] {
-        &self.masses
+        Resultants { mass: self.0.resultants(x).mass, ..Resultants::default() }
     }
 }
 
@@ -83,23 +70,26 @@ impl ExactCoupling {
     ///
     /// # Errors
     /// [`BasisError`] if length or number of elements make no mesh.
-    pub fn new(
+    pub fn new<'a>(
         length: f64,
         elements: usize,
-        section: &dyn Section,
+        beam: impl Into<Beam<'a>>,
         hub: &Hub,
     ) -> Result<ExactCoupling, BasisError> {
+        let Beam { section, masses, breaks } = beam.into();
         let fields = Fields::new(
             length,
             Box::new(Hermite::new(length, elements, Field::Axial)?),
             Box::new(Hermite::new(length, elements, Field::Transverse)?),
-            section.breaks(),
+            &breaks,
         );
-        let inertia = Inertia::new(&fields, &MassOnly::new(section), hub, Foreshortening::None);
+        let lumped = LumpedRotation::of(&fields, &masses, hub.radius);
+        let points = masses.into_iter().map(|m| Mass { inertia: 0.0, ..m }).collect();
+        let quadratic = Beam { section: &MassOnly(section), masses: points, breaks };
+        let inertia = Inertia::new(&fields, &quadratic, hub, Foreshortening::None);
         let nodes = fields.axial().cells().to_vec();
         let rule = Rule::new(nodes[1] - nodes[0]);
         let elements = (0..elements).map(|e| Element::new(&fields, section, &nodes, e)).collect();
-        let lumped = LumpedRotation::of(&fields, section.masses(), hub.radius);
         let radius = hub.radius;
         Ok(ExactCoupling { fields, inertia, elements, rule, radius, lumped, viscosity: 0.0 })
     }

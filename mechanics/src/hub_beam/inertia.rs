@@ -30,13 +30,14 @@
 //! Integrals of w_c are turned round: ∫ f(x) w_c dx = −½ ∫ F(ξ) w₂′² dξ with F(ξ) = ∫_ξᴸ f dx, so the
 //! matrices stay banded (the papers store the full H(x)).
 
+use super::beam::Beam;
 use super::damping::Damping;
 use super::fields::{Fields, Point, Shapes, add_outer, add_vector};
 use super::hub::Hub;
 use super::product::{Bundle, Entry, Vectors};
 use crate::linalg::{Matrix, Storage};
 use crate::profile::HubKinematics;
-use crate::section::{Resultants, Section};
+use crate::section::Resultants;
 use crate::system::{State, Weights};
 
 /// Whether the foreshortening enters the kinetic energy.
@@ -148,12 +149,13 @@ impl HubSums {
 }
 
 impl Inertia {
-    /// Integrates the matrices of `fields` on `hub`; `section` is the section as the coupling sees it.
-    pub fn new(fields: &Fields, section: &dyn Section, hub: &Hub, foreshortening: Foreshortening) -> Inertia {
+    /// Integrates the matrices of `fields` on `hub`; of `beam` the inertia and stiffness of the
+    /// section enter that are quadratic for the coupling.
+    pub fn new(fields: &Fields, beam: &Beam<'_>, hub: &Hub, foreshortening: Foreshortening) -> Inertia {
         let structure = fields.structure(hub.unknowns());
         let radius = hub.radius;
         let first = foreshortening == Foreshortening::First;
-        let masses = section.masses();
+        let Beam { section, masses, .. } = beam;
         let spread = fields.tail(|x| section.resultants(x).mass * (radius + x));
         let mass_tail = |x: f64| {
             let beyond = masses.iter().filter(|m| m.station > x);

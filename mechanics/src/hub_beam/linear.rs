@@ -6,6 +6,7 @@
 //! lacks (Kane, Ryan & Banerjee 1987, doi 10.2514/3.20195; P1 equations 45–50). Without it the chordwise
 //! stiffness K − ω² M is exhausted when ω reaches the first natural frequency: dynamic softening.
 
+use super::beam::Beam;
 use super::coupling::Coupling;
 use super::damping::Damping;
 use super::fields::Fields;
@@ -15,7 +16,6 @@ use super::load::Kinematics;
 use super::station::{Placement, Station};
 use crate::basis::Role;
 use crate::linalg::{Matrix, negative_pivots};
-use crate::section::Section;
 use crate::system::State;
 
 /// Deflection over length beyond which dropping higher-order terms is no longer harmless.
@@ -62,13 +62,14 @@ struct StrainPoint {
 
 impl LinearCoupling {
     /// The coupling over `fields`, on a hub.
-    pub fn new(
+    pub fn new<'a>(
         fields: Fields,
-        section: &dyn Section,
+        beam: impl Into<Beam<'a>>,
         hub: &Hub,
         foreshortening: Foreshortening,
     ) -> LinearCoupling {
-        let inertia = Inertia::new(&fields, section, hub, foreshortening);
+        let beam = beam.into();
+        let inertia = Inertia::new(&fields, &beam, hub, foreshortening);
         let mut slopes = Vec::new();
         if foreshortening == Foreshortening::First {
             fields.integrate(|p| {
@@ -82,7 +83,7 @@ impl LinearCoupling {
         }
         let mut strains = Vec::new();
         fields.integrate(|p| {
-            let r = section.resultants(p.x);
+            let r = beam.section.resultants(p.x);
             let offset = r.coupling_stiffness / r.axial_stiffness;
             strains.push(StrainPoint {
                 stretch: p.weight * r.axial_stiffness,

@@ -11,6 +11,7 @@
 //! | [`high`](HighCoupling) | the same foreshortening, to every order in the kinetic energy | the same |
 //! | [`exact`](ExactCoupling) | everything but shear | strains are no longer small |
 
+mod beam;
 mod coupling;
 mod damping;
 mod element;
@@ -34,6 +35,7 @@ mod tests;
 
 mod viscous;
 
+pub use beam::{Beam, Mass};
 pub use coupling::Coupling;
 pub use damping::Damping;
 pub use exact::ExactCoupling;

@@ -1,5 +1,6 @@
 //! The hub–beam as a [`System`](crate::system::System).
 
+use super::beam::Beam;
 use super::coupling::Coupling;
 use super::damping::Damping;
 use super::hub::{Drive, Hub, Recent};
@@ -100,12 +101,12 @@ impl<C: Coupling> HubBeam<C> {
         }
     }
 
-    /// The same system under `loads`; `section` is the one the coupling was made of.
-    pub fn with_loads(mut self, section: &dyn Section, loads: &[&dyn Load]) -> HubBeam<C> {
+    /// The same system under `loads`; `beam` is the one the coupling was made of.
+    pub fn with_loads<'a>(mut self, beam: impl Into<Beam<'a>>, loads: &[&dyn Load]) -> HubBeam<C> {
         let site = Site {
             fields: self.coupling.fields(),
             kinematics: self.coupling.kinematics(),
-            section,
+            beam: &beam.into(),
             radius: self.hub.radius,
             border: self.hub.unknowns(),
         };

@@ -2,7 +2,6 @@
 
 mod blade;
 mod graded;
-mod laden;
 mod piecewise;
 mod shape;
 mod table;
@@ -14,7 +13,6 @@ pub use blade::{
     torsion_constant,
 };
 pub use graded::{Graded, Material};
-pub use laden::{Laden, Mass};
 pub use piecewise::{Piecewise, Segment};
 pub use shape::Shape;
 pub use table::{Interpolation, Table};
@@ -166,11 +164,6 @@ pub trait Section: Send + Sync + std::fmt::Debug {
 
     /// Those of the breaks at which the resultants jump: an element whose curvature is smooth must end there.
     fn jumps(&self) -> &[f64] {
-        &[]
-    }
-
-    /// Lumped masses that the beam carries.
-    fn masses(&self) -> &[Mass] {
         &[]
     }
 

@@ -25,6 +25,7 @@ mod tangent;
 #[cfg(test)]
 mod tests;
 
+use super::beam::Beam;
 use super::coupling::Coupling;
 use super::damping::Damping;
 use super::fields::Fields;
@@ -35,7 +36,6 @@ use super::station::{Placement, Station};
 use crate::basis::{Basis, BasisError};
 use crate::linalg::{Storage, Structure};
 use crate::profile::HubKinematics;
-use crate::section::Section;
 use crate::system::{State, Weights};
 use sums::{Point, Sums};
 use tangent::Tangent;
@@ -57,12 +57,13 @@ impl HighCoupling {
     ///
     /// # Errors
     /// [`BasisError`] if a basis has more than [`MOST_ELEMENTS`].
-    pub fn new(fields: Fields, section: &dyn Section, hub: &Hub) -> Result<HighCoupling, BasisError> {
+    pub fn new<'a>(fields: Fields, beam: impl Into<Beam<'a>>, hub: &Hub) -> Result<HighCoupling, BasisError> {
+        let beam = beam.into();
         HighCoupling::validate(fields.axial())?;
         HighCoupling::validate(fields.transverse())?;
-        let sums = Sums::new(&fields, section);
+        let sums = Sums::new(&fields, &beam);
         let tangent = Tangent::new(fields.len());
-        let linear = LinearCoupling::new(fields, section, hub, Foreshortening::First).named("high");
+        let linear = LinearCoupling::new(fields, beam, hub, Foreshortening::First).named("high");
         Ok(HighCoupling { linear, sums, tangent })
     }
 

@@ -8,10 +8,10 @@
 //! A lumped mass stands at the end of a cell, which is one more point of it for the mass and none for the slope: the
 //! sum up to there is that over the whole cell, and its axial force enters the tails as a jump.
 
+use crate::hub_beam::beam::Beam;
 use crate::hub_beam::fields::{Fields, Shapes};
 use crate::profile::HubKinematics;
 use crate::quadrature::Gauss;
-use crate::section::Section;
 use crate::system::State;
 
 /// Value, velocity and acceleration.
@@ -109,8 +109,8 @@ fn partial_integrals(gauss: &Gauss) -> Vec<f64> {
 }
 
 impl Sums {
-    /// The points of `fields` with the mass of `section`; cells of the fields end at its lumped masses.
-    pub fn new(fields: &Fields, section: &dyn Section) -> Sums {
+    /// The points of `fields` with the mass of `beam`; cells of the fields end at its lumped masses.
+    pub fn new(fields: &Fields, beam: &Beam<'_>) -> Sums {
         let gauss = fields.gauss();
         let points = gauss.len();
         let mut cells: Vec<Cell> = Vec::with_capacity(fields.cells().len());
@@ -131,12 +131,12 @@ impl Sums {
             }
             count += 1;
             let Some(cell) = cells.last_mut() else { return };
-            cell.mass.push(p.weight * section.resultants(p.x).mass);
+            cell.mass.push(p.weight * beam.section.resultants(p.x).mass);
             copy(&p.axial, 0, &mut cell.phi_x);
             copy(&p.transverse, 0, &mut cell.phi_y);
             copy(&p.transverse, 1, &mut cell.slope);
         });
-        let lumped = section.masses();
+        let lumped = &beam.masses;
         for (c, cell) in cells.iter_mut().enumerate() {
             let end = fields.cell_end(c);
             let here = lumped.iter().filter(|m| (m.station - end.x).abs() <= 1e-12 * fields.length());

@@ -2,9 +2,9 @@
 
 use super::group::Group;
 use super::{Amplitude, Axes};
+use crate::hub_beam::beam::Beam;
 use crate::hub_beam::fields::{Fields, Point, add_outer, add_vector};
 use crate::linalg::{Matrix, Structure};
-use crate::section::Section;
 
 /// How a coupling places the axis; see the [module documentation](super).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,8 +24,8 @@ pub struct Site<'a> {
     pub fields: &'a Fields,
     /// How the coupling places the axis.
     pub kinematics: Kinematics,
-    /// Its section, with the masses it carries.
-    pub section: &'a dyn Section,
+    /// Its section and lumped masses.
+    pub beam: &'a Beam<'a>,
     /// Radius a of the hub \[m\].
     pub radius: f64,
     /// Number of unknowns of the hub.
