@@ -177,7 +177,7 @@ impl Coupling for ExactCoupling {
     fn corotate(&self, before: &State, now: &State, out: &mut Corotation) {
         out.clear();
         for element in &self.elements {
-            element.end_turn(&before.q, &now.q, out);
+            element.end_rotation(&before.q, &now.q, out);
         }
     }
 

@@ -21,8 +21,8 @@ use crate::system::State;
 /// Deflection over length beyond which dropping higher-order terms is no longer harmless.
 const SMALL: f64 = 0.1;
 
-/// Axial stretch over length beyond which no linear-elastic beam follows.
-const LARGEST_STRETCH: f64 = 0.5;
+/// Axial displacement over length beyond which a beam is not linear-elastic.
+const LARGEST_EXTENSION: f64 = 0.5;
 
 /// A beam whose equations are linear in the unknowns. See the [module documentation](self).
 #[derive(Debug)]
@@ -34,7 +34,7 @@ pub struct LinearCoupling {
     /// Slopes at the quadrature points of each cell, for the foreshortening of a deflected beam.
     slopes: Vec<SlopePoint>,
     /// Stiffness at the quadrature points.
-    strains: Vec<StrainPoint>,
+    stiffnesses: Vec<StiffnessPoint>,
     /// Unknowns that are displacements, and what they may not exceed \[m\].
     bounds: Vec<(usize, f64)>,
 }
@@ -49,11 +49,11 @@ struct SlopePoint {
 }
 
 /// ½∫ (EA w₁′² − 2 ES w₁′w₂″ + EI w₂″²) dx at a quadrature point as the sum of two squares,
-/// ½ stretch (w₁′ − offset w₂″)² + ½ bending w₂″².
+/// ½ axial (w₁′ − offset w₂″)² + ½ bending w₂″².
 #[derive(Clone, Copy, Debug)]
-struct StrainPoint {
+struct StiffnessPoint {
     /// EA times the weight.
-    stretch: f64,
+    axial: f64,
     /// ES/EA
     offset: f64,
     /// EI − ES²/EA times the weight.
@@ -81,12 +81,12 @@ impl LinearCoupling {
                 });
             });
         }
-        let mut strains = Vec::new();
+        let mut stiffnesses = Vec::new();
         fields.integrate(|p| {
             let r = beam.section.resultants(p.x);
             let offset = r.coupling_stiffness / r.axial_stiffness;
-            strains.push(StrainPoint {
-                stretch: p.weight * r.axial_stiffness,
+            stiffnesses.push(StiffnessPoint {
+                axial: p.weight * r.axial_stiffness,
                 offset,
                 bending: p.weight * (r.bending_stiffness - offset * r.coupling_stiffness),
             });
@@ -95,7 +95,7 @@ impl LinearCoupling {
         let length = fields.length();
         let mut bounds = Vec::new();
         for (basis, index, bound) in
-            [(fields.transverse(), transverse, length), (fields.axial(), axial, LARGEST_STRETCH * length)]
+            [(fields.transverse(), transverse, length), (fields.axial(), axial, LARGEST_EXTENSION * length)]
         {
             let values = index.iter().enumerate().filter(|(i, _)| basis.role(*i) != Role::Slope);
             bounds.extend(values.map(|(_, &number)| (number, bound)));
@@ -104,7 +104,7 @@ impl LinearCoupling {
             Foreshortening::None => "zeroth",
             Foreshortening::First => "first",
         };
-        LinearCoupling { name, foreshortening, fields, inertia, slopes, strains, bounds }
+        LinearCoupling { name, foreshortening, fields, inertia, slopes, stiffnesses, bounds }
     }
 
     /// The coupling as the linear part of another one, by whose name its messages call it.
@@ -151,13 +151,13 @@ impl Coupling for LinearCoupling {
     }
 
     fn strain_forms(&mut self, _s: &State, vectors: &[Vec<f64>], out: &mut [f64]) {
-        let mut strains = self.strains.iter();
+        let mut stiffnesses = self.stiffnesses.iter();
         self.fields.integrate(|p| {
-            let Some(strain) = strains.next() else { return };
+            let Some(stiffness) = stiffnesses.next() else { return };
             for (x, out) in vectors.iter().zip(&mut *out) {
                 let curvature = p.transverse.field(2, x);
-                let stretch = p.axial.field(1, x) - strain.offset * curvature;
-                *out += strain.stretch * stretch * stretch + strain.bending * curvature * curvature;
+                let strain = p.axial.field(1, x) - stiffness.offset * curvature;
+                *out += stiffness.axial * strain * strain + stiffness.bending * curvature * curvature;
             }
         });
     }

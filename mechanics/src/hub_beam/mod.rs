@@ -33,8 +33,6 @@ mod system;
 #[cfg(test)]
 mod tests;
 
-mod viscous;
-
 pub use beam::{Beam, Mass};
 pub use coupling::Coupling;
 pub use damping::Damping;

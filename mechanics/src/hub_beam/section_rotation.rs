@@ -3,6 +3,7 @@
 //! equations as in [`super::exact`].
 
 use super::inertia::Totals;
+use crate::linalg::vector::inner;
 use crate::profile::HubKinematics;
 use crate::system::Weights;
 
@@ -25,10 +26,6 @@ pub struct SectionRotation {
     spin_rate: f64,
     /// Absolute acceleration of the axis, in the hub's frame.
     acceleration: [f64; 2],
-}
-
-fn inner(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
 }
 
 /// c₁ a + c₂ b

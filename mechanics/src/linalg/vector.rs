@@ -17,6 +17,16 @@ pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }
 
+/// aᵀ b of short vectors, summed in their order.
+#[inline(always)]
+pub fn inner<const N: usize>(a: [f64; N], b: [f64; N]) -> f64 {
+    let mut sum = -0.0;
+    for k in 0..N {
+        sum += a[k] * b[k];
+    }
+    sum
+}
+
 /// y ← y + c x
 #[inline]
 pub fn axpy(c: f64, x: &[f64], y: &mut [f64]) {

@@ -15,6 +15,7 @@ use super::components::Components;
 use crate::hub_beam::fields::{Point, Shapes};
 use crate::hub_beam::inertia::Border;
 use crate::linalg::Storage;
+use crate::linalg::vector::inner;
 use crate::system::State;
 
 /// What a load does to a section.
@@ -52,10 +53,6 @@ struct Wrench {
     couple: f64,
     couple_by_turn: f64,
     couple_by_angle: f64,
-}
-
-fn inner(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
 }
 
 impl OnSection {
