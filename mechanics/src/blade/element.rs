@@ -148,9 +148,9 @@ pub fn add_inertia(
     let slope = f.field(at, 1);
     let [x, y, z] = slope;
     let variables = [Jet::<4>::variable(1.0 + x, 0), Jet::variable(y, 1), Jet::variable(z, 2)];
-    let turned = Jet::variable(angle + f.torsion(at, 0), 3);
+    let rotated = Jet::variable(angle + f.torsion(at, 0), 3);
     let free = |v: usize| if v == 3 { model.torsion } else { model.rotary_inertia };
-    for (axis, moment) in axes(&variables, &turned).iter().zip(second) {
+    for (axis, moment) in axes(&variables, &rotated).iter().zip(second) {
         if moment == 0.0 {
             continue;
         }
@@ -206,10 +206,10 @@ pub fn exact_energy(
     if model.torsion {
         energy = energy + (e.twist * e.twist).scaled(0.5 * section.torsional_stiffness);
         if model.tension_torsion {
-            let stretch = e.stretch - Jet::constant(1.0);
+            let strain = e.stretch - Jet::constant(1.0);
             let square = e.twist * (e.twist + Jet::constant(2.0 * section.twist_rate));
             let polar = section.chord_stiffness + section.flap_stiffness;
-            energy = energy + (stretch * square).scaled(0.5 * polar);
+            energy = energy + (strain * square).scaled(0.5 * polar);
         }
     }
     energy

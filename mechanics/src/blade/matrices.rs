@@ -200,7 +200,7 @@ impl Matrices {
             if !(size < 10.0) {
                 return false;
             }
-            // A turn of more than half a radian in one iteration leaves the tangent's reach.
+            // The tangent is not valid for a rotation of more than half a radian in one iteration.
             let factor = (0.5 / size).min(1.0);
             for (q, d) in q.iter_mut().zip(&step) {
                 *q += factor * d;

@@ -27,7 +27,7 @@ pub enum Component {
     Axial,
     /// v, in the direction of motion.
     Chordwise,
-    /// w, towards the vector of rotation.
+    /// w, towards the angular velocity.
     Flapwise,
     /// φ, about the axis towards the tip.
     Torsion,

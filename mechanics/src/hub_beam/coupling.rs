@@ -36,7 +36,7 @@ pub trait Coupling: Send {
     /// Adds to `out` the tangent of [`Coupling::add_forces`].
     fn add_tangent(&mut self, _s: &State, _hub: &HubKinematics, _w: &Weights<'_>, _out: &mut Storage<f64>) {}
 
-    /// Writes how the sections turn from one state to another: see [`Dynamics::corotate`](crate::system::Dynamics::corotate).
+    /// Writes the rotation of each section from one state to another: see [`Dynamics::corotate`](crate::system::Dynamics::corotate).
     fn corotate(&self, _before: &State, _now: &State, out: &mut Corotation) {
         out.clear();
     }

@@ -188,9 +188,9 @@ impl Coupling for ExactCoupling {
 
     fn extra_totals(&mut self, s: &State, hub: &HubKinematics) -> Totals {
         let of = |e: &Element| e.section_totals(&self.rule, &e.gather(s, self.radius), hub);
-        let turning = self.elements.iter().filter(|e| e.has_section_inertia());
+        let rotating = self.elements.iter().filter(|e| e.has_section_inertia());
         let lumped = self.lumped.iter().map(|mass| mass.totals(s, hub));
-        turning.map(of).chain(lumped).fold(Totals::default(), |sum, t| sum + t)
+        rotating.map(of).chain(lumped).fold(Totals::default(), |sum, t| sum + t)
     }
 
     fn add_border(&mut self, s: &State, hub: &HubKinematics, w: &Weights<'_>, out: &mut Border) {

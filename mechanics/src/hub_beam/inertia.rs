@@ -16,7 +16,7 @@
 //!
 //! Entries, with mass ρA, first moment ρS and rotary inertia ρI of the section, φ = w₂′ and the
 //! foreshortening w_c = −½ ∫₀ˣ w₂′² dξ kept to first order (terms marked ◦; the zeroth-order coupling
-//! leaves them out). The section itself turns rigidly, to second order in φ, in either case:
+//! leaves them out). The section itself rotates rigidly, to second order in φ, in either case:
 //!
 //! ```text
 //! T ∋ ½ρA (ẇ₁² + ẇ₂²) + ½ρI φ̇² − ρS ẇ₁ φ̇
@@ -27,7 +27,7 @@
 //! A lumped mass is a point of the quadrature with ρA → m, ρI → j and no ρS. [`Damping`] adds β M v and η K v to the
 //! forces: those of the dissipation function ½ vᵀ(βM + ηK) v, which rigid rotation leaves at zero.
 //!
-//! Integrals of w_c are turned round: ∫ f(x) w_c dx = −½ ∫ F(ξ) w₂′² dξ with F(ξ) = ∫_ξᴸ f dx, so the
+//! The order of integration is interchanged in integrals of w_c: ∫ f(x) w_c dx = −½ ∫ F(ξ) w₂′² dξ with F(ξ) = ∫_ξᴸ f dx, so the
 //! matrices stay banded (the papers store the full H(x)).
 
 use super::beam::Beam;
@@ -294,7 +294,7 @@ impl Inertia {
         }
     }
 
-    /// [`Inertia::residual`] for a hub that is free to turn: also returns the torque of [`Inertia::totals`], with
+    /// [`Inertia::residual`] for a free hub: also returns the torque of [`Inertia::totals`], with
     /// which it shares its products.
     ///
     /// ```text

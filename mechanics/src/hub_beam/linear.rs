@@ -1,6 +1,6 @@
 //! Couplings `zeroth` and `first`: small deflections, equations linear in the unknowns.
 //!
-//! `zeroth` (traditional hybrid coordinates) adds the small displacements w₁, w₂ to a rigidly turning
+//! `zeroth` (traditional hybrid coordinates) adds the small displacements w₁, w₂ to a rigidly rotating
 //! beam. `first` also keeps, to first order, the shortening w_c = −½ ∫₀ˣ w₂′² dξ of the axis by
 //! bending, whose product with the centrifugal force is the stiffening Ω² C that the zeroth-order model
 //! lacks (Kane, Ryan & Banerjee 1987, doi 10.2514/3.20195; P1 equations 45–50). Without it the chordwise

@@ -548,11 +548,11 @@ impl<C: Coupling> Observed for HubBeam<C> {
                  centrifugal stiffening); use coupling = \"first\" or \"exact\""
             }
             _ => {
-                "the centrifugal force outgrows the stiffness of the beam, centrifugal stiffening included: no beam so \
-                 soft turns so fast; check the modulus, the section and the speed, and their units"
+                "the centrifugal force outgrows the stiffness of the beam, centrifugal stiffening included: a beam \
+                 of this stiffness has no steady rotation at this speed; check the modulus, the section and the speed, and their units"
             }
         };
-        Some(format!("{since}the hub turns faster than {critical:.4} rad/s, where {why}"))
+        Some(format!("{since}the speed of the hub exceeds {critical:.4} rad/s, where {why}"))
     }
 }
 

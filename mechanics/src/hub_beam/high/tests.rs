@@ -61,7 +61,7 @@ fn fields_of_every_basis() -> Vec<Fields> {
 }
 
 /// T of a beam without thickness: ½∫ρA[(Ẋ − ωY)² + (Ẏ + ωX)²] with w_c summed afresh from the root to each point, and
-/// of masses on it that turn with w₂′.
+/// of masses on it that rotate with w₂′.
 fn kinetic_energy(fields: &Fields, masses: &[Mass], s: &State, speed: f64) -> f64 {
     let gauss = Gauss::new(14);
     let cells = fields.cells();
@@ -89,8 +89,8 @@ fn kinetic_energy(fields: &Fields, masses: &[Mass], s: &State, speed: f64) -> f6
         }
     }
     for m in masses {
-        let turn = fields.point(m.station, 1.0).transverse.field(1, &s.v) + speed;
-        total += particle(m.station, m.mass) + 0.5 * m.inertia * turn * turn;
+        let rate = fields.point(m.station, 1.0).transverse.field(1, &s.v) + speed;
+        total += particle(m.station, m.mass) + 0.5 * m.inertia * rate * rate;
     }
     total
 }

@@ -1,10 +1,10 @@
-//! Gravity on the beam and on its lumped masses; the hub turns about its centre of mass and feels none.
+//! Gravity on the beam and on its lumped masses; the hub rotates about its centre of mass, so that its weight does no work.
 //!
 //! ```text
 //! V = −∫ ρA g·r + ρS g·n dx,   n the normal of the section;   without foreshortening etc. see the parent module
 //! ```
 //!
-//! In the couplings with small deflections the section turns to second order in φ = w₂′,
+//! In the couplings with small deflections the section rotates to second order in φ = w₂′,
 //! n = (−φ, 1 − ½φ²): C_x ∋ −∫ρS φ dx, C_y ∋ ∫ρS (1 − ½φ²) dx.
 
 use super::group::Group;

@@ -1,8 +1,8 @@
 //! Loads on the beam: gravity, forces, couples and forces per length, with their torque on the hub.
 //!
 //! A force with components F = (F_x, F_y) acts on a place r = (X, Y) of the axis. In the hub's frame its
-//! components are d = R(−θ) F in inertial axes (`Dead`), F itself if it turns with the hub (`Hub`), and
-//! F_x t + F_y n if it turns with the section (`Follower`, t and n tangent and normal). With p the force's share
+//! components are d = R(−θ) F in inertial axes (`Dead`), F itself if it rotates with the hub (`Hub`), and
+//! F_x t + F_y n if it rotates with the section (`Follower`, t and n tangent and normal). With p the force's share
 //! of each place (a density, or 1 at one station) and f(t) its amplitude, virtual work gives
 //!
 //! ```text
@@ -14,9 +14,9 @@
 //!
 //! | kinematics | X − a − x, Y | C | section |
 //! |---|---|---|---|
-//! | `Straight` | w₁, w₂ | linear | turns by w₂′ |
-//! | `Foreshortened` | w₁ − ½∫₀ˣ w₂′² dξ, w₂ | quadratic, banded: −½∫ P w₂′² dξ, P(ξ) = ∫_ξᴸ p dx | turns by w₂′ |
-//! | `Curve` | U, V | linear | turns with the tangent (X′, Y′)/ℓ |
+//! | `Straight` | w₁, w₂ | linear | rotates by w₂′ |
+//! | `Foreshortened` | w₁ − ½∫₀ˣ w₂′² dξ, w₂ | quadratic, banded: −½∫ P w₂′² dξ, P(ξ) = ∫_ξᴸ p dx | rotates by w₂′ |
+//! | `Curve` | U, V | linear | rotates with the tangent (X′, Y′)/ℓ |
 
 mod components;
 mod couple;

@@ -1,4 +1,4 @@
-//! A load that turns with, or acts on the turn of, a section of a curve: forces and couples that depend on p′.
+//! A load that rotates with a section of a curve, or does work on its rotation: forces and couples that depend on p′.
 //!
 //! With t, n = Jt the unit tangent and normal, ℓ = |p′|, and p the share of the place, a force F on p and a couple M
 //! on the section do the work δW = F·δp + M δφ, δφ = n·δp′/ℓ:
@@ -21,7 +21,7 @@ use crate::system::State;
 /// What a load does to a section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Nature {
-    /// A force that turns with it.
+    /// A force that rotates with it.
     Follower,
     /// A couple on it.
     Couple,
@@ -49,9 +49,9 @@ struct Wrench {
     place: [f64; 2],
     force: [f64; 2],
     /// ∂F/∂φ, along n/ℓ of p′
-    force_by_turn: [f64; 2],
+    force_by_rotation: [f64; 2],
     couple: f64,
-    couple_by_turn: f64,
+    couple_by_rotation: f64,
     couple_by_angle: f64,
 }
 
@@ -75,21 +75,21 @@ impl OnSection {
             stretch,
             place,
             force: [0.0; 2],
-            force_by_turn: [0.0; 2],
+            force_by_rotation: [0.0; 2],
             couple: 0.0,
-            couple_by_turn: 0.0,
+            couple_by_rotation: 0.0,
             couple_by_angle: 0.0,
         };
         match self.nature {
             Nature::Follower => {
                 let [x, y] = now.d;
                 out.force = [0, 1].map(|c| p * (x * t[c] + y * n[c]));
-                out.force_by_turn = [0, 1].map(|c| p * (x * n[c] - y * t[c]));
+                out.force_by_rotation = [0, 1].map(|c| p * (x * n[c] - y * t[c]));
             }
             Nature::Couple => out.couple = p * now.factor,
             Nature::Eccentric => {
                 out.couple = -p * inner(t, now.d);
-                out.couple_by_turn = -p * inner(n, now.d);
+                out.couple_by_rotation = -p * inner(n, now.d);
                 out.couple_by_angle = -p * inner(t, now.by_angle);
             }
         }
@@ -110,11 +110,11 @@ impl OnSection {
         let w = self.wrench(s, now);
         let l = w.stretch;
         for (b, columns) in self.shapes.iter().enumerate() {
-            let turn = w.n[b] / l;
+            let rotation = w.n[b] / l;
             for (a, rows) in self.shapes.iter().enumerate() {
-                let on_value = c * w.force_by_turn[a] * turn;
+                let on_value = c * w.force_by_rotation[a] * rotation;
                 let on_slope = c
-                    * (w.n[a] / l * w.couple_by_turn * turn
+                    * (w.n[a] / l * w.couple_by_rotation * rotation
                         - w.couple * (w.t[a] * w.n[b] + w.n[a] * w.t[b]) / (l * l));
                 for (k, &i) in rows.index.iter().enumerate() {
                     let row = on_value * rows.value[0][k] + on_slope * rows.value[1][k];
@@ -141,14 +141,15 @@ impl OnSection {
 
     pub(super) fn add_border(&self, s: &State, now: &Components, c: f64, out: &mut Border) {
         let w = self.wrench(s, now);
-        let lever = w.place[0] * w.force_by_turn[1] - w.place[1] * w.force_by_turn[0] + w.couple_by_turn;
+        let lever =
+            w.place[0] * w.force_by_rotation[1] - w.place[1] * w.force_by_rotation[0] + w.couple_by_rotation;
         let by_place = [w.force[1], -w.force[0]];
         for (axis, shapes) in self.shapes.iter().enumerate() {
-            let turn = w.n[axis] / w.stretch;
+            let rotation = w.n[axis] / w.stretch;
             for (k, &i) in shapes.index.iter().enumerate() {
                 let (value, slope) = (shapes.value[0][k], shapes.value[1][k]);
-                out.row[i] += c * (by_place[axis] * value + lever * turn * slope);
-                out.column[i] += c * w.couple_by_angle * turn * slope;
+                out.row[i] += c * (by_place[axis] * value + lever * rotation * slope);
+                out.column[i] += c * w.couple_by_angle * rotation * slope;
             }
         }
         out.corner += c * w.couple_by_angle;

@@ -81,7 +81,7 @@ impl Site<'_> {
             add_vector(&mut group.g_x, &point.axial, 0, p);
             add_vector(&mut group.g_y, &point.transverse, 0, p);
             if axes == Axes::Follower {
-                // (F_x, F_y) turned by φ = w₂′: (−φ F_y, φ F_x).
+                // (F_x, F_y) rotated by φ = w₂′: (−φ F_y, φ F_x).
                 add_outer(&mut follower, (&point.axial, 0), (&point.transverse, 1), -p * force[1]);
                 add_outer(&mut follower, (&point.transverse, 0), (&point.transverse, 1), p * force[0]);
                 add_vector(&mut group.h, &point.transverse, 1, p * r * force[0]);
