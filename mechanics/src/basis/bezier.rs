@@ -207,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn the_condition_number_is_the_ratio_of_the_extreme_rayleigh_quotients_of_the_mass_matrix() {
+    fn the_condition_number_is_that_of_the_mass_matrix() {
         // Eigenvectors: the control points of the Legendre polynomials P_0 (all one) and P_n
         // (the binomials with alternating signs), the smoothest and the roughest.
         for n in [2, 5, 9] {

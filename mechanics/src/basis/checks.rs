@@ -58,7 +58,7 @@ pub fn derivatives_equal_finite_differences(basis: &dyn Basis, tolerance: f64) {
     }
 }
 
-/// Largest |φ⁽ᵈ⁾| of all functions at a few places of each cell.
+/// Largest |φ⁽ᵈ⁾| of all functions at a few points of each cell.
 pub fn largest(basis: &dyn Basis, derivative: usize) -> f64 {
     let mut out = vec![0.0; basis.max_support()];
     let mut most: f64 = 0.0;

@@ -92,7 +92,7 @@ pub fn quadratic(s: f64, h: f64) -> [[f64; 3]; 2] {
     ]
 }
 
-/// Places of the samples of the strain, in the order of [`quadratic`].
+/// Positions of the samples of the strain, in the order of [`quadratic`].
 pub const SAMPLES: [f64; 3] = [0.0, 1.0, 0.5];
 
 impl Mesh {

@@ -1,7 +1,7 @@
 //! The second variation of the strain energy of an element, strain by strain.
 //!
 //! With the second derivatives H of the energy per length by e = (u′, v′, w′, u″, v″, w″, φ, φ′) and the axial strain
-//! sampled at three places likewise,
+//! sampled at three points likewise,
 //!
 //! ```text
 //! xᵀ (∂²U/∂q²) x = Σ weight · Σ_vw H_vw e_v e_w

@@ -39,7 +39,7 @@ use crate::profile::HubKinematics;
 use crate::section::{Resultants, Section};
 use crate::system::{Corotation, State, Weights};
 
-/// Largest axial strain |ε| that a linear-elastic beam is believed to have.
+/// Largest axial strain |ε| accepted for a linear-elastic beam.
 const LARGEST_STRAIN: f64 = 0.5;
 
 /// Geometrically exact planar beam. See the [module documentation](self).
@@ -269,8 +269,8 @@ impl Coupling for ExactCoupling {
             // Written so that NaN is refused too.
             if !(strain.abs() <= LARGEST_STRAIN) {
                 return Err(format!(
-                    "the axis is stretched by {:.1} % at x = {:.3} m, beyond what a linear-elastic beam can carry \
-                     ({:.0} %): the step is likely too large, or the load",
+                    "the axial strain is {:.1} % at x = {:.3} m and exceeds the limit of a linear-elastic beam, {:.0} %: \
+                     the step is likely too large, or the load",
                     100.0 * strain,
                     element.end(),
                     100.0 * LARGEST_STRAIN

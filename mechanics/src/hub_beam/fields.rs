@@ -47,7 +47,7 @@ impl Shapes {
 /// Both fields at one quadrature point or station.
 #[derive(Clone, Debug, Default)]
 pub struct Point {
-    /// Place [m].
+    /// Station x [m].
     pub x: f64,
     /// Quadrature weight [m].
     pub weight: f64,
@@ -184,7 +184,7 @@ impl Fields {
         labels
     }
 
-    /// Both fields at `x`, with a quadrature weight to be carried along.
+    /// Both fields at `x`, with a quadrature weight.
     pub fn point(&self, x: f64, weight: f64) -> Point {
         let mut point = Point { x, weight, ..Point::default() };
         self.fill(x, x, &mut point);
@@ -199,7 +199,7 @@ impl Fields {
         point
     }
 
-    /// Fills the shapes of `point` at `x`; `inside` is a place strictly inside the same cell.
+    /// Fills the shapes of `point` at `x`; `inside` is a point strictly inside the same cell.
     fn fill(&self, x: f64, inside: f64, point: &mut Point) {
         for (basis, numbers, shapes) in [
             (&self.axial, &self.axial_index, &mut point.axial),

@@ -15,7 +15,7 @@ pub struct Hub {
     pub drive: Drive,
 }
 
-/// The motion of the hub at the times asked for last: a step asks for its few times again and again.
+/// The motion of the hub at recent times: a step evaluates it repeatedly at a few times.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Recent {
     entries: [(f64, HubKinematics); 4],
@@ -28,7 +28,7 @@ impl Recent {
         Recent { entries: [(f64::NAN, HubKinematics::default()); 4], oldest: 0 }
     }
 
-    /// `motion` at time `t`, looked up or worked out.
+    /// `motion` at time `t`, stored or computed.
     #[inline]
     pub(super) fn at(&mut self, motion: &Motion, t: f64) -> HubKinematics {
         if let Some((_, hub)) = self.entries.iter().find(|(time, _)| *time == t) {

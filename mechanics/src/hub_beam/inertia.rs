@@ -77,7 +77,7 @@ pub struct Inertia {
     damping: Damping,
 }
 
-/// What hub and beam have together.
+/// Energy, momentum and torque of hub and beam.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Totals {
     /// Kinetic energy T [J].
@@ -117,7 +117,7 @@ impl Border {
     }
 }
 
-/// What [`Inertia`] multiplies its matrices with: scratch of the system's.
+/// Scratch for the products of the matrices of [`Inertia`].
 #[derive(Clone, Debug)]
 pub struct Scratch {
     vectors: [Vectors; 2],

@@ -24,7 +24,7 @@ pub(super) struct Bundle {
     advance: usize,
     /// Entries of a row in front of the diagonal: zeros in front of a vector.
     lead: usize,
-    /// Term k of the entry at place j of row i is at (i·width + j)·terms + k.
+    /// Term k of the entry at position j of row i is at (i·width + j)·terms + k.
     data: Vec<f64>,
 }
 
@@ -75,7 +75,7 @@ impl Bundle {
         bundle
     }
 
-    /// Column of the entry at place `j` of row `i`, if it is one of the matrix.
+    /// Column of the entry at position `j` of row `i`, if it is one of the matrix.
     fn column(&self, i: usize, j: usize) -> Option<usize> {
         (self.advance * i + j).checked_sub(self.lead).filter(|column| *column < self.order)
     }

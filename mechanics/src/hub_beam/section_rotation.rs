@@ -1,5 +1,5 @@
 //! Inertia of the rotation of a section in the exact coupling: rotary inertia ρI and first mass moment ρS
-//! at one place of the axis, as forces on p and p′, as a torque on the hub, and their tangents. Symbols and
+//! at one point of the axis, as forces on p and p′, as a torque on the hub, and their tangents. Symbols and
 //! equations as in [`super::exact`].
 
 use super::inertia::Totals;
@@ -40,7 +40,7 @@ fn absolute(p: [f64; 2], v: [f64; 2], a: [f64; 2], hub: &HubKinematics) -> [f64;
 }
 
 impl SectionRotation {
-    /// The rotation at a place p with slope p′, their rates and their accelerations.
+    /// The rotation at a point p with slope p′, their rates and their accelerations.
     pub fn new(
         p: [f64; 2],
         slope: [f64; 2],

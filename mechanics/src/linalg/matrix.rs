@@ -281,7 +281,7 @@ impl<T: Scalar> Matrix<T> {
 }
 
 impl<T: Scalar> Matrix<T> {
-    /// Sets the matrix to Σ wₖ Aₖ (equal structures). When the terms carry the stamps of the last combination and
+    /// Sets the matrix to Σ wₖ Aₖ (equal structures). When the terms have the stamps of the last combination and
     /// the weights are the same the content, factored or not, is left as it is.
     pub fn combine(&mut self, terms: [&Matrix; 3], weights: [T; 3]) {
         let source = match terms.map(|a| a.stamp) {

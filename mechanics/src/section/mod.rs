@@ -167,7 +167,7 @@ pub trait Section: Send + Sync + std::fmt::Debug {
         &[]
     }
 
-    /// Heights of the lower and upper fibre [m] where the section knows its shape.
+    /// Heights of the lower and upper fibre [m] if the shape of the section is known.
     fn fibres(&self, _x: f64) -> Option<(f64, f64)> {
         None
     }

@@ -126,7 +126,7 @@ fn strain_energy_is_that_of_a_curve_whose_frame_turns() {
 }
 
 #[test]
-fn forces_are_the_gradient_of_the_energy_and_stiffness_that_of_the_forces() {
+fn forces_are_the_gradient_of_the_energy_and_stiffness_of_the_forces() {
     let mut blade = Blade::new(general(), &General, Model::default(), 3).unwrap();
     let n = blade.size().q;
     let (q, speed) = (bent(n), 4.0);

@@ -158,11 +158,11 @@ impl Coupling for HighCoupling {
         self.sums.scatter(&mut out.row, |Point { w1, w2, wc }| {
             let by_axial = 2.0 * w.q * (al * wc[0] + om * wc[1]) + 2.0 * w.v * om * wc[0];
             let by_transverse = w.a * wc[0] - w.q * wc[2];
-            let by_place = 2.0 * (al * (w1[0] + wc[0]) + om * (w1[1] + wc[1])) + w2[2];
+            let by_position = 2.0 * (al * (w1[0] + wc[0]) + om * (w1[1] + wc[1])) + w2[2];
             let by_speed = 2.0 * om * (w1[0] + wc[0]);
             let by_acceleration = -w2[0];
             let tails = [
-                w.q * by_place + w.v * by_speed + w.a * by_acceleration,
+                w.q * by_position + w.v * by_speed + w.a * by_acceleration,
                 w.q * by_speed + 2.0 * w.v * by_acceleration,
                 w.q * by_acceleration,
             ];

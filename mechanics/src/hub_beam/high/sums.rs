@@ -50,9 +50,9 @@ pub struct Cell {
     pub transverse: Vec<usize>,
     /// ρA times the quadrature weight [kg] at each point, then the lumped mass at the end of the cell if there is one.
     pub mass: Vec<f64>,
-    /// φx at each place of mass.
+    /// φx at each point of mass.
     pub phi_x: Vec<f64>,
-    /// φy at each place of mass.
+    /// φy at each point of mass.
     pub phi_y: Vec<f64>,
     /// φy′ at each point.
     pub slope: Vec<f64>,
@@ -63,7 +63,7 @@ pub struct Cell {
 pub struct Sums {
     /// Points of a cell.
     pub points: usize,
-    /// Places of a cell in `at`: its points and, where the beam carries lumped masses, its end.
+    /// Points of mass of a cell in `at`: its points and, on a beam with lumped masses, its end.
     pub rows: usize,
     /// S by rows, for a cell of unit length; the last row, for its end, holds the weights.
     pub partial: Vec<f64>,
@@ -71,7 +71,7 @@ pub struct Sums {
     pub weights: Vec<f64>,
     /// The cells, root first.
     pub cells: Vec<Cell>,
-    /// The axis at every place of mass.
+    /// The axis at every point of mass.
     pub at: Vec<Point>,
     /// w₂′ and its rates at every point.
     pub slope: Vec<Rates>,
@@ -168,8 +168,8 @@ impl Sums {
         let p = self.points;
         // w_c and its rates at the start of the cell.
         let mut start = [0.0; 3];
-        let places = self.at.chunks_exact_mut(self.rows);
-        let cells = self.cells.iter().zip(places).zip(self.slope.chunks_exact_mut(p));
+        let axis = self.at.chunks_exact_mut(self.rows);
+        let cells = self.cells.iter().zip(axis).zip(self.slope.chunks_exact_mut(p));
         for ((cell, at), slope) in cells {
             let (na, nt) = (cell.axial.len(), cell.transverse.len());
             at.fill(Point::default());
@@ -202,7 +202,7 @@ impl Sums {
         }
     }
 
-    /// Calls `f` with the mass [kg] and the axis of every place of mass.
+    /// Calls `f` with the mass [kg] and the axis of every point of mass.
     pub fn each(&self, mut f: impl FnMut(f64, &Point)) {
         for (cell, at) in self.cells.iter().zip(self.at.chunks_exact(self.rows)) {
             for (m, at) in cell.mass.iter().zip(at) {

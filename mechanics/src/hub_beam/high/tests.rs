@@ -66,19 +66,19 @@ fn kinetic_energy(fields: &Fields, masses: &[Mass], s: &State, speed: f64) -> f6
     let gauss = Gauss::new(14);
     let cells = fields.cells();
     let particle = |x: f64, mass: f64| {
-        let (mut place, mut rate) = (0.0, 0.0);
+        let (mut shortening, mut rate) = (0.0, 0.0);
         let mut boundaries: Vec<f64> = cells.iter().copied().filter(|end| *end < x).collect();
         boundaries.push(x);
         for piece in boundaries.windows(2) {
             for (y, w) in gauss.on(piece[0], piece[1]) {
                 let b = fields.point(y, w).transverse;
-                place -= 0.5 * w * b.field(1, &s.q).powi(2);
+                shortening -= 0.5 * w * b.field(1, &s.q).powi(2);
                 rate -= w * b.field(1, &s.q) * b.field(1, &s.v);
             }
         }
         let point = fields.point(x, mass);
         let (a, b) = (point.axial, point.transverse);
-        let (px, py) = (RADIUS + x + a.field(0, &s.q) + place, b.field(0, &s.q));
+        let (px, py) = (RADIUS + x + a.field(0, &s.q) + shortening, b.field(0, &s.q));
         let (vx, vy) = (a.field(0, &s.v) + rate, b.field(0, &s.v));
         0.5 * mass * ((vx - speed * py).powi(2) + (vy + speed * px).powi(2))
     };
@@ -120,13 +120,13 @@ fn lagrange(fields: &Fields, masses: &[Mass], s: &State, speed: f64, acceleratio
                 // T is quadratic in v: the central difference is exact.
                 (value(1.0) - value(-1.0)) / (2.0 * d)
             };
-            let by_place = |c: f64| {
+            let by_position = |c: f64| {
                 let mut at = s.clone();
                 at.q[k] += c * h;
                 kinetic_energy(fields, masses, &at, speed)
             };
             let rate: f64 = stencil.iter().map(|(c, t)| c * momentum(t * h) / (12.0 * h)).sum();
-            let slope: f64 = stencil.iter().map(|(c, t)| c * by_place(*t) / (12.0 * h)).sum();
+            let slope: f64 = stencil.iter().map(|(c, t)| c * by_position(*t) / (12.0 * h)).sum();
             rate - slope
         })
         .collect()

@@ -1,4 +1,4 @@
-//! A load made ready: the moments of its share of force over the shape functions.
+//! A load reduced to the moments of its share of force over the shape functions.
 //!
 //! With g_x, g_y the vectors and G_x, G_y the symmetric matrices of C (see [`super`]),
 //!
@@ -84,12 +84,12 @@ impl Group {
         });
     }
 
-    /// A share `p` of a follower at a place of a curve.
+    /// A share `p` of a follower at a point of a curve.
     pub(super) fn push_follower(&mut self, point: &Point, p: f64, radius: f64) {
         self.sections.push(OnSection::new(point, Nature::Follower, p, radius));
     }
 
-    /// A couple on the section at a place of a curve.
+    /// A couple on the section at a point of a curve.
     pub(super) fn push_couple(&mut self, point: &Point, moment: f64, radius: f64) {
         self.sections.push(OnSection::new(point, Nature::Couple, moment, radius));
     }

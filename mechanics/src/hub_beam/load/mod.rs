@@ -1,9 +1,9 @@
 //! Loads on the beam: gravity, forces, couples and forces per length, with their torque on the hub.
 //!
-//! A force with components F = (F_x, F_y) acts on a place r = (X, Y) of the axis. In the hub's frame its
+//! A force with components F = (F_x, F_y) acts at the point r = (X, Y) of the axis. In the hub's frame its
 //! components are d = R(−θ) F in inertial axes (`Dead`), F itself if it rotates with the hub (`Hub`), and
 //! F_x t + F_y n if it rotates with the section (`Follower`, t and n tangent and normal). With p the force's share
-//! of each place (a density, or 1 at one station) and f(t) its amplitude, virtual work gives
+//! at each point (a density, or 1 at one station) and f(t) its amplitude, virtual work gives
 //!
 //! ```text
 //! Q_q = f [ d_x ∂C_x/∂q + d_y ∂C_y/∂q ],   Q_θ = f [ d_y C_x − d_x C_y ],   C_x = ∫p X dx,  C_y = ∫p Y dx
@@ -53,7 +53,7 @@ pub trait Load: std::fmt::Debug {
 pub struct Loads {
     groups: Vec<Group>,
     breaks: Vec<Break>,
-    /// What is not there of the loads: 0 but while an equilibrium is followed.
+    /// Part of the loads that is not applied: 0 except during the continuation of an equilibrium.
     missing: f64,
     /// Forces, for their power.
     force: Vec<f64>,

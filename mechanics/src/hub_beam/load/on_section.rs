@@ -1,6 +1,6 @@
 //! A load that rotates with a section of a curve, or does work on its rotation: forces and couples that depend on p′.
 //!
-//! With t, n = Jt the unit tangent and normal, ℓ = |p′|, and p the share of the place, a force F on p and a couple M
+//! With t, n = Jt the unit tangent and normal, ℓ = |p′|, and p the share at the point, a force F on p and a couple M
 //! on the section do the work δW = F·δp + M δφ, δφ = n·δp′/ℓ:
 //!
 //! | nature | F | M |
@@ -46,7 +46,7 @@ struct Wrench {
     n: [f64; 2],
     stretch: f64,
     /// (X, Y)
-    place: [f64; 2],
+    position: [f64; 2],
     force: [f64; 2],
     /// ∂F/∂φ, along n/ℓ of p′
     force_by_rotation: [f64; 2],
@@ -63,7 +63,7 @@ impl OnSection {
 
     fn wrench(&self, s: &State, now: &Components) -> Wrench {
         let field = |c: usize, d: usize| self.shapes[c].field(d, &s.q);
-        let place = [self.origin + field(0, 0), field(1, 0)];
+        let position = [self.origin + field(0, 0), field(1, 0)];
         let (x1, y1) = (1.0 + field(0, 1), field(1, 1));
         let stretch = x1.hypot(y1);
         let t = [x1 / stretch, y1 / stretch];
@@ -73,7 +73,7 @@ impl OnSection {
             t,
             n,
             stretch,
-            place,
+            position,
             force: [0.0; 2],
             force_by_rotation: [0.0; 2],
             couple: 0.0,
@@ -128,7 +128,7 @@ impl OnSection {
 
     pub(super) fn torque(&self, s: &State, now: &Components) -> f64 {
         let w = self.wrench(s, now);
-        w.place[0] * w.force[1] - w.place[1] * w.force[0] + w.couple
+        w.position[0] * w.force[1] - w.position[1] * w.force[0] + w.couple
     }
 
     /// −p n·d of an eccentric dead force.
@@ -141,14 +141,14 @@ impl OnSection {
 
     pub(super) fn add_border(&self, s: &State, now: &Components, c: f64, out: &mut Border) {
         let w = self.wrench(s, now);
-        let lever =
-            w.place[0] * w.force_by_rotation[1] - w.place[1] * w.force_by_rotation[0] + w.couple_by_rotation;
-        let by_place = [w.force[1], -w.force[0]];
+        let lever = w.position[0] * w.force_by_rotation[1] - w.position[1] * w.force_by_rotation[0]
+            + w.couple_by_rotation;
+        let by_position = [w.force[1], -w.force[0]];
         for (axis, shapes) in self.shapes.iter().enumerate() {
             let rotation = w.n[axis] / w.stretch;
             for (k, &i) in shapes.index.iter().enumerate() {
                 let (value, slope) = (shapes.value[0][k], shapes.value[1][k]);
-                out.row[i] += c * (by_place[axis] * value + lever * rotation * slope);
+                out.row[i] += c * (by_position[axis] * value + lever * rotation * slope);
                 out.column[i] += c * w.couple_by_angle * rotation * slope;
             }
         }

@@ -1,4 +1,4 @@
-//! Where loads act: a beam as they see it while a system is built.
+//! The beam on which loads act, while a system is built.
 
 use super::group::Group;
 use super::{Amplitude, Axes};
@@ -6,7 +6,7 @@ use crate::hub_beam::beam::Beam;
 use crate::hub_beam::fields::{Fields, Point, add_outer, add_vector};
 use crate::linalg::{Matrix, Structure};
 
-/// How a coupling places the axis; see the [module documentation](super).
+/// How a coupling describes the axis; see the [module documentation](super).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kinematics {
     /// Without foreshortening.
@@ -22,7 +22,7 @@ pub enum Kinematics {
 pub struct Site<'a> {
     /// Its displacement fields, whose cells end where loads begin, end or jump.
     pub fields: &'a Fields,
-    /// How the coupling places the axis.
+    /// How the coupling describes the axis.
     pub kinematics: Kinematics,
     /// Its section and lumped masses.
     pub beam: &'a Beam<'a>,
@@ -39,7 +39,7 @@ pub(super) struct Share<'s> {
 }
 
 impl Share<'_> {
-    /// Calls `f` at every place with its share of the force, quadrature weights included.
+    /// Calls `f` at every point with its share of the force, quadrature weights included.
     pub fn each(&self, fields: &Fields, mut f: impl FnMut(&Point, f64)) {
         fields.integrate(|point| {
             let p = point.weight * (self.density)(point.x);

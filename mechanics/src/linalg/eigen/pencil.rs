@@ -133,9 +133,9 @@ impl Pencil {
     fn find_kind(&self) -> Kind {
         let (mut m, mut c, mut k) = (Parts::default(), Parts::default(), Parts::default());
         each(&self.mass, |i, j| {
-            m.look(self.mass.get(i, j), self.mass.get(j, i));
-            c.look(self.damping.get(i, j), self.damping.get(j, i));
-            k.look(self.stiffness.get(i, j), self.stiffness.get(j, i));
+            m.include(self.mass.get(i, j), self.mass.get(j, i));
+            c.include(self.damping.get(i, j), self.damping.get(j, i));
+            k.include(self.stiffness.get(i, j), self.stiffness.get(j, i));
         });
         if !(m.is_symmetric() && k.is_symmetric()) {
             Kind::General
@@ -181,7 +181,7 @@ impl Pencil {
         residual([&self.mass, &self.damping], &mut self.factor, self.shift, value, vector)
     }
 
-    /// The residual of a pair seen through Q(|λ|) in the place of Q(σ). Where K is nearly singular, K⁻¹ magnifies by (λ/λ₁)²
+    /// The residual of a pair seen through Q(|λ|) instead of Q(σ). Where K is nearly singular, K⁻¹ magnifies by (λ/λ₁)²
     /// what rounding leaves of the lowest mode in the others; the inverse of K + |λ|C + |λ|²M magnifies nothing. O(n).
     pub fn residual_at_its_size(&self, value: Complex64, vector: &[Complex64]) -> f64 {
         let (mut factor, shift) = (self.stiffness.clone(), value.norm());
@@ -202,7 +202,7 @@ struct Parts {
 }
 
 impl Parts {
-    fn look(&mut self, a: f64, b: f64) {
+    fn include(&mut self, a: f64, b: f64) {
         self.largest = self.largest.max(a.abs());
         self.symmetric = self.symmetric.max((a + b).abs());
         self.skew = self.skew.max((a - b).abs());
