@@ -8,7 +8,7 @@
 //! over the open knots 0 (p + 1 times), L/m, 2L/m, …, L (p + 1 times), m: number of spans. The functions
 //! are not negative and sum to one. At x = 0 only N₀ has a value and only N₀, N₁ a slope, so the axial field
 //! leaves out N₀ and the transverse field N₀ and N₁. Each coefficient is the displacement \[m\] of a control
-//! point, which stands at its Greville abscissa (tᵢ₊₁ + … + tᵢ₊ₚ)/p; the beam passes near the control
+//! point, which is at its Greville abscissa (tᵢ₊₁ + … + tᵢ₊ₚ)/p; the beam passes near the control
 //! points and, at the tip, through the last one.
 //!
 //! On a smooth problem the bending frequencies converge with order 2(p − 1) in the length of a span, and the

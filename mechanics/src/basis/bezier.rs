@@ -9,8 +9,8 @@
 //! (transverse). Between two equal elements the common control point is no unknown of the transverse field:
 //! it is the mean of its neighbours, which makes the curve C¹.
 //!
-//! One element is spectral: the error falls faster than any power of n until rounding. The price is that the
-//! functions come close to linear dependence: the eigenvalues of their mass matrix ∫BᵢBⱼ ds are
+//! One element is spectral: the error falls faster than any power of n until rounding. But the
+//! functions become nearly linearly dependent: the eigenvalues of their mass matrix ∫BᵢBⱼ ds are
 //! (n!)²/((n+k+1)!(n−k)!), k = 0 … n, whence its condition number
 //!
 //! ```text
@@ -114,7 +114,7 @@ impl Basis for Bezier {
         let mut all = [0.0; MOST_DEGREE + 1];
         raise(n, derivative, x, |_, _| (start, end), &mut all);
         if self.field == Field::Transverse {
-            // b₀ = ½(b₋₁ + b₁): half of B₀ goes to either neighbour; and alike at the other end.
+            // b₀ = ½(b₋₁ + b₁): half of B₀ goes to either neighbour; and likewise at the other end.
             if cell > 0 {
                 all[0] *= 0.5;
                 all[1] += all[0];

@@ -2,7 +2,7 @@
 //!
 //! Each node has u, u′, v, v′, w, w′ (cubic Hermite fields) and, with torsion, φ, which has a node in the middle
 //! of each element too (quadratic). Unknowns are numbered node after node, so that the half bandwidth is 14
-//! (11 without torsion) whatever their number. Where the section jumps the strain u′ does too: the node has one
+//! (11 without torsion) for any number of elements. Where the section jumps the strain u′ does too: the node has one
 //! on either side.
 
 use super::model::{BladeError, Setting};

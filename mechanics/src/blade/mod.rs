@@ -1,6 +1,6 @@
 //! A blade in space: small vibrations about the steady state of constant rotation.
 //!
-//! The blade's axis leaves the axis of rotation at an angle of 90° less the precone β, and the root stands at the
+//! The blade's axis leaves the axis of rotation at an angle of 90° less the precone β, and the root is at the
 //! distance a along it. In the blade's frame e₁ points to the tip, e₂ in the direction of motion, e₃ = e₁ × e₂
 //! towards the vector of rotation; the frame rotates with Ω (sin β, 0, cos β). The displacement is
 //! axial u, chordwise v, flapwise w and torsion φ; sections are rotated about e₁ by pitch and twist.

@@ -1,6 +1,6 @@
 //! What a blade is and which terms its model keeps.
 
-/// Where a blade sits on its hub and how it is set.
+/// Position and orientation of a blade on its hub.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Setting {
     /// Length L [m].
@@ -122,7 +122,7 @@ pub enum BladeError {
          at this speed, or its precone bends it too far. Check stiffness, mass and speed and their units"
     )]
     NoSteadyState {
-        /// Speed asked for [rad/s].
+        /// Requested speed [rad/s].
         speed: f64,
         /// Largest speed at which a steady state was found [rad/s].
         reached: f64,

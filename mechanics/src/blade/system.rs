@@ -111,7 +111,7 @@ impl Blade {
         }
     }
 
-    /// Forgets all states but that at rest.
+    /// Discards all states except the undeformed one.
     fn undeform(&mut self) {
         self.steady.fill(0.0);
         self.earlier = None;
@@ -271,7 +271,7 @@ impl Steady for Blade {
         if parameter != Parameter::Speed {
             return Ok(());
         }
-        // At rest the blade is undeformed, whatever went before.
+        // At rest the blade is undeformed.
         if speed == 0.0 {
             self.undeform();
         }

@@ -7,7 +7,7 @@
 //! ```
 //!
 //! κ = dφ/dx with φ the angle of the tangent. The inertia ½∫ρA |ṗ + ω Jp|² is quadratic in the unknowns and
-//! stands in [`Inertia`]; only the strain energy (and the rotary inertia, if asked for) is not.
+//! is [`Inertia`]; only the strain energy, and the rotary inertia where it is kept, are not quadratic.
 //!
 //! **No membrane locking.** A cubic curve cannot bend without axial strain at every point, and its energy EA ε² grows with
 //! EA/EI·h². So ε is sampled at the two nodes and the middle of each element and
@@ -266,7 +266,7 @@ impl Coupling for ExactCoupling {
         for element in &self.elements {
             let (u, v) = element.end_slopes(&s.q);
             let strain = (1.0 + u).hypot(v) - 1.0;
-            // Written so that NaN is refused too.
+            // NaN is refused too.
             if !(strain.abs() <= LARGEST_STRAIN) {
                 return Err(format!(
                     "the axial strain is {:.1} % at x = {:.3} m and exceeds the limit of a linear-elastic beam, {:.0} %: \

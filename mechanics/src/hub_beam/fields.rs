@@ -6,13 +6,13 @@ use crate::linalg::{Matrix, Structure};
 use crate::quadrature::Gauss;
 use crate::system::Label;
 
-/// Gauss points a cell gets beyond what its bases ask for when the section varies inside it.
+/// Gauss points of a cell in addition to those of its bases, for a section that varies inside it.
 const EXTRA_POINTS: usize = 2;
 
 /// Axial field w₁ = Σ φx_i A_i and transverse field w₂ = Σ φy_i B_i over x ∈ [0, L].
 ///
 /// The unknowns of both are numbered together in the order of their anchors along the beam, which
-/// keeps the matrices narrow bands whatever the two bases are.
+/// keeps the matrices narrow bands for any two bases.
 #[derive(Debug)]
 pub struct Fields {
     length: f64,

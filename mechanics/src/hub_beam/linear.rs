@@ -263,7 +263,7 @@ impl Coupling for LinearCoupling {
     }
 }
 
-/// The matrices of a coupling, for analyses that need them one by one.
+/// The matrices of a coupling.
 impl LinearCoupling {
     /// M, D and K of the fields; see [`Inertia`].
     pub fn matrices(&self) -> (&Matrix, &Matrix, &Matrix) {

@@ -53,7 +53,7 @@ impl Vectors {
 }
 
 impl Bundle {
-    /// The first `order` rows of the matrices; zeros stand for those that are not there.
+    /// The first `order` rows of the matrices; a matrix that is `None` is zero.
     pub(super) fn new(structure: &Structure, order: usize, matrices: [Option<&Matrix>; TERMS]) -> Bundle {
         let most = order.saturating_sub(1);
         let (width, advance, lead) = match *structure {
@@ -108,7 +108,7 @@ impl Bundle {
         }
     }
 
-    /// [`Bundle::products`] of `T` terms; `W` is the width of a row where the compiler knows it, or 0.
+    /// [`Bundle::products`] of `T` terms; `W` is the width of a row where it is known at compile time, or 0.
     #[inline(always)]
     fn sums<const T: usize, const W: usize>(&self, x: &Vectors, out: &mut [Entry]) {
         let length = T * if W > 0 { W } else { self.width };

@@ -5,7 +5,7 @@
 //! elimination stays within the band, and the cost is n·l·u multiplications.
 //!
 //! The diagonal is the pivot as long as |aᵢₖ|² ≤ τ⁻² |aₖₖ| |aᵢᵢ| for the rows i below it, which holds for
-//! every positive definite matrix, and in whatever units the unknowns are: it bounds by 1/τ the multipliers
+//! every positive definite matrix, and for any units of the unknowns: it bounds by 1/τ the multipliers
 //! of the matrix that is scaled to a unit diagonal. Otherwise the largest entry of the column is.
 
 use super::{Scalar, Singular};
@@ -37,7 +37,7 @@ pub struct Band<T> {
     interchanged: bool,
     /// Pivots that were too small and were replaced: see [`Band::factor`].
     deflated: Vec<(usize, f64)>,
-    /// Largest entry of each column before elimination, where deflation is asked for.
+    /// Largest entry of each column before elimination, for deflation.
     column_size: Vec<f64>,
 }
 
@@ -174,7 +174,7 @@ impl<T: Scalar> Band<T> {
         }
     }
 
-    /// Elimination with half-bandwidths `HALF` and rows of length `WIDTH` while the diagonal will do.
+    /// Elimination with half-bandwidths `HALF` and rows of length `WIDTH` while the diagonal is a sufficient pivot.
     fn eliminate<const HALF: usize, const WIDTH: usize>(&mut self, deflate: bool) -> Result<(), Singular> {
         let mut k = 0;
         while k + HALF < self.n {
@@ -209,7 +209,7 @@ impl<T: Scalar> Band<T> {
         self.eliminate_from(k, deflate)
     }
 
-    /// Elimination of the columns from `start` on, with whatever pivots it takes.
+    /// Elimination of the columns from `start` on, with interchanges where they are needed.
     fn eliminate_from(&mut self, start: usize, deflate: bool) -> Result<(), Singular> {
         let (n, width, l, u) = (self.n, self.width, self.lower, self.upper);
         let largest = self.data[start * width..].iter().map(|x| x.size()).fold(0.0, f64::max);
@@ -229,7 +229,7 @@ impl<T: Scalar> Band<T> {
                 }
             }
             // Compared with its own column, so that unknowns in different units do not make a sound
-            // band look singular. Written so that a NaN pivot is refused too.
+            // band look singular. A NaN pivot is refused too.
             let small = if deflate { floor.max(VANISHING * self.column_size[k]) } else { floor };
             if sound && diagonal > small {
                 (p, best) = (k, diagonal);

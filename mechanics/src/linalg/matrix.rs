@@ -66,7 +66,7 @@ impl Structure {
 /// depends on a few numbers only stamps it with them.
 pub type Stamp = [f64; 6];
 
-/// A square matrix in the storage its [`Structure`] asks for; factored in place.
+/// A square matrix in the storage of its [`Structure`]; factored in place.
 #[derive(Clone, Debug)]
 pub struct Matrix<T = f64> {
     storage: Storage<T>,
@@ -121,7 +121,7 @@ impl<T: Scalar> Storage<T> {
         }
     }
 
-    /// Sets column, row and corner of border unknown `k`, which stands behind all others but the border's.
+    /// Sets column, row and corner of border unknown `k`, which follows all unknowns but those of the border.
     pub fn set_border(&mut self, k: usize, column: &[T], row: &[T], corner: T) {
         match self {
             Storage::Dense(a) => {
@@ -219,7 +219,7 @@ impl<T: Scalar> Matrix<T> {
         self.stamp = stamp;
     }
 
-    /// Whether the content is already what `stamp` stands for.
+    /// Whether the content is that of `stamp`.
     pub fn holds(&self, stamp: &Stamp) -> bool {
         self.stamp.as_ref() == Some(stamp)
     }

@@ -1,5 +1,5 @@
 //! One Hermite element of the exact coupling: its unknowns, its section, and their assembly. Symbols as in
-//! [`super::exact`]. The energies and forces stand in a file each: `elastic`, `viscous`, `inertial`.
+//! [`super::exact`]. Its forces: `elastic`, `viscous`, `inertial`.
 //!
 //! Local unknowns d = (U, U′ at both nodes; V, V′ at both nodes); N, N′, N″ the four Hermite functions;
 //! L the three quadratic Lagrange functions of the strain's samples; ℓ = |p′|.

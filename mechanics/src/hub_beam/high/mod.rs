@@ -2,7 +2,7 @@
 //!
 //! The kinematics are those of the first-order coupling, X = R + w₁ + w_c, Y = w₂, R = a + x,
 //! w_c = −½ ∫₀ˣ w₂′² dξ; but nothing of ½∫ρA [(Ẋ − ωY)² + (Ẏ + ωX)²] dx is dropped (P3 equations 28–36). The
-//! part that is quadratic in the unknowns stands in [`Inertia`]; what is beyond it is
+//! part that is quadratic in the unknowns is [`Inertia`]; what is beyond it is
 //!
 //! ```text
 //! T − T_first = ∫ρA [ ẇ₁ẇ_c + ½ẇ_c² + ω (w_c ẇ₂ − w₂ ẇ_c) + ½ω² (2w₁w_c + w_c²) ] dx

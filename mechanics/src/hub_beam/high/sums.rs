@@ -5,7 +5,7 @@
 //! Gauss points, ∫₀^{ξ_g} f dx = h Σ_k S_gk f_k. Tails use the transposed rule, so that the forces are exactly
 //! the derivatives of the kinetic energy that these sums define.
 //!
-//! A lumped mass stands at the end of a cell, which is one more point of it for the mass and none for the slope: the
+//! A lumped mass is at the end of a cell, which is a further point of the cell for the mass but not for the slope: the
 //! sum up to there is that over the whole cell, and its axial force enters the tails as a jump.
 
 use crate::hub_beam::beam::Beam;

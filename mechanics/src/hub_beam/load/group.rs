@@ -8,8 +8,8 @@
 //! ```
 //!
 //! N = ∫p (−F_y Φ_x + F_x Φ_y) Φ_y′ᵀ dx and h = ∫p (a + x) F_x Φ_y′ dx are a follower's change of direction, to first
-//! order; both vanish for other forces. Couples have Q_q = f m, Q_θ = f M. What acts on the sections of a curve
-//! stands in [`OnSection`](super::on_section::OnSection).
+//! order; both vanish for other forces. Couples have Q_q = f m, Q_θ = f M. Forces and couples on the sections of a curve
+//! are [`OnSection`](super::on_section::OnSection).
 
 use super::components::Components;
 use super::on_section::{Nature, OnSection};
@@ -209,7 +209,7 @@ impl Group {
     pub(super) fn add_border(&mut self, s: &State, hub: &HubKinematics, c: f64, out: &mut Border) {
         let now = self.components(s.time(), hub);
         let dead = if self.axes == Axes::Dead { 1.0 } else { 0.0 };
-        // Q_θ by q: as the force with the components (d_y, −d_x), whatever the axes.
+        // Q_θ by q: as the force with the components (d_y, −d_x), for all axes.
         let normal = [c * now.d[1], -c * now.d[0]];
         for i in 0..self.g_x.len() {
             let rotated = normal[0] * self.g_x[i] + normal[1] * self.g_y[i];

@@ -129,7 +129,7 @@ fn tangents_of_masses_and_damping_equal_finite_differences() {
 
 #[test]
 fn a_stamped_tangent_is_never_taken_for_another() {
-    // The same matrix is asked for at other times, angles and weights: it must be written anew.
+    // The same matrix at other times, angles and weights: it is written again.
     let damping = Damping { mass: 0.3, stiffness: 0.02 };
     for load in loads() {
         let build = || systems(&[&*load], &[], damping);

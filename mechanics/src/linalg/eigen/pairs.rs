@@ -46,7 +46,7 @@ impl Pencil {
         let mut found: Vec<(Complex64, Vec<Complex64>)> = Vec::new();
         let mut locked = Space::default();
         for round in 0..=count as u64 {
-            // Copies are looked for one at a time.
+            // Copies are found one at a time.
             let wanted = if round == 0 { count } else { 1 };
             let start = warm.as_deref().filter(|_| round == 0);
             let search = Search { wanted, projection, tolerance: TOLERANCE, start, seed: round };

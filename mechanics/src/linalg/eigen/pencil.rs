@@ -5,7 +5,7 @@ use crate::linalg::vector::dot;
 use crate::linalg::{Matrix, Storage, negative_pivots_of};
 use num_complex::Complex64;
 
-/// What is known of the matrices.
+/// Form of the matrices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// M, K symmetric, C = 0.
@@ -76,7 +76,7 @@ impl Pencil {
         self.shift
     }
 
-    /// What the matrices are.
+    /// Form of the matrices.
     pub fn kind(&self) -> Kind {
         self.kind
     }
