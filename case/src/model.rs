@@ -2,40 +2,29 @@
 
 use super::case::Case;
 use super::fault::Made;
-use super::kinds::coupling::Beam;
+use super::kinds::coupling::Assembly;
 use super::kinds::load::Load;
 use flexion::blade::Blade;
-use flexion::hub_beam::load as acting;
-use flexion::section::{Laden, Section};
+use flexion::hub_beam::{Beam, load as acting};
 use flexion::system::System;
-use std::sync::Arc;
 
 impl Case {
-    /// The section with what the beam carries; cells end at its loads.
-    fn laden(&self) -> Arc<dyn Section> {
-        let masses: Vec<_> = self.loads.iter().filter_map(|load| load.mass).collect();
-        let stations: Vec<f64> = self.loads.iter().flat_map(|load| load.stations.iter().copied()).collect();
-        let section = Arc::clone(&self.section.planar);
-        if masses.is_empty() && stations.is_empty() {
-            return section;
-        }
-        Arc::new(Laden::new(Box::new(section), masses, &stations))
-    }
-
     /// The mechanical system.
     ///
     /// # Errors
     /// Faults at dotted paths of the case; a case that was read has passed most checks.
     pub fn system(&self) -> Made<Box<dyn System>> {
-        let section = self.laden();
+        let masses = self.loads.iter().filter_map(|load| load.mass).collect();
+        let stations: Vec<f64> = self.loads.iter().flat_map(|load| load.stations.iter().copied()).collect();
+        let beam = Beam::new(self.section.planar.as_ref(), masses, &stations);
         let act = |load: &'_ Load| load.load.clone();
         let loads: Vec<_> = self.loads.iter().filter_map(act).collect();
         let loads: Vec<&dyn acting::Load> =
             loads.iter().map(|load| load.as_ref() as &dyn acting::Load).collect();
         let output = &self.output;
-        let beam = Beam {
+        let parts = Assembly {
             length: self.length,
-            section: section.as_ref(),
+            beam: &beam,
             hub: self.hub.clone(),
             bases: &self.bases,
             loads: &loads,
@@ -44,7 +33,7 @@ impl Case {
             section_forces: output.section_forces,
             strain_heights: &output.strain_heights,
         };
-        (self.coupling.assemble)(&beam)
+        (self.coupling.assemble)(&parts)
     }
 
     /// The blade at rest: `None` if the case has no `[blade]`.

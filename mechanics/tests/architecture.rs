@@ -18,6 +18,34 @@ const VAGUE: [&str; 10] =
 /// Models that must not know each other.
 const SIBLINGS: [(&str, &str); 1] = [("hub_beam", "multibody")];
 
+/// Files of one crate that may import each other in a circle.
+const CIRCLES: [(&str, &[&str]); 6] = [
+    ("mechanics/src", &["analysis/campbell", "analysis/crossings", "analysis/speeds", "analysis/tracking"]),
+    ("mechanics/src", &["analysis/transient", "analysis/transient/contacts", "analysis/transient/locate"]),
+    ("mechanics/src", &["integrator/radau", "integrator/radau/stages"]),
+    ("results/src", &["plot/coverage", "plot/draw"]),
+    ("results/src", &["plot/vibration", "vibration"]),
+    (
+        "case/src",
+        &[
+            "",
+            "build",
+            "elsewhere",
+            "error",
+            "initial",
+            "layout",
+            "load_build",
+            "load_trial",
+            "reader",
+            "resolved",
+            "restart",
+            "run",
+            "trial",
+            "values",
+        ],
+    ),
+];
+
 /// Module → modules it may import.
 type Layers = BTreeMap<String, BTreeSet<String>>;
 
@@ -189,6 +217,108 @@ fn heads(tokens: &[(usize, String)], at: usize) -> Vec<(usize, String)> {
     out
 }
 
+/// Collects the paths of a `use` tree, or the path in code, that begins at token `i`; gives the token behind it.
+fn paths(tokens: &[(usize, String)], mut i: usize, prefix: &[String], out: &mut Vec<Vec<String>>) -> usize {
+    let word = |i: usize| tokens.get(i).map_or("", |t| t.1.as_str());
+    let mut path = prefix.to_vec();
+    loop {
+        if word(i) == "{" {
+            i += 1;
+            while !matches!(word(i), "}" | "") {
+                i = paths(tokens, i, &path, out);
+                i += if word(i) == "as" { 2 } else { 0 };
+                i += usize::from(word(i) == ",");
+            }
+            return i + 1;
+        }
+        path.push(word(i).to_owned());
+        i += 1;
+        if word(i) != "::" {
+            out.push(path);
+            return i;
+        }
+        i += 1;
+    }
+}
+
+/// A file: what it imports and what it exports under another path, as paths from the root of the crate.
+#[derive(Default)]
+struct Uses {
+    imports: Vec<Vec<String>>,
+    exports: Vec<Vec<String>>,
+}
+
+/// The uses of the file of module path `own`, its test module aside.
+fn uses(own: &[String], text: &str) -> Uses {
+    let text = text.split("#[cfg(test)]\nmod tests {").next().unwrap();
+    let code = code_only(text);
+    let tokens = tokens(&code);
+    let word = |i: usize| tokens.get(i).map_or("", |t| t.1.as_str());
+    let (mut out, mut i) = (Uses::default(), 0);
+    while i < tokens.len() {
+        let is_use = word(i) == "use";
+        let begins = matches!(word(i), "crate" | "super" | "self") && word(i + 1) == "::";
+        if !is_use && !begins {
+            i += 1;
+            continue;
+        }
+        let is_export = is_use && i > 0 && matches!(word(i - 1), "pub" | ")");
+        let mut found = Vec::new();
+        i = paths(&tokens, i + usize::from(is_use), &[], &mut found);
+        for path in found {
+            let up = path.iter().take_while(|w| *w == "super").count();
+            let path = match path[0].as_str() {
+                "crate" => path[1..].to_vec(),
+                "self" => [own, &path[1..]].concat(),
+                _ => [&own[..own.len().saturating_sub(up)], &path[up..]].concat(),
+            };
+            if is_export { &mut out.exports } else { &mut out.imports }.push(path);
+        }
+    }
+    out
+}
+
+/// The circles of imports among files, given by module path and text. A name that a `mod.rs` exports again counts
+/// as imported from the file that declares it.
+fn circles(files: &[(Vec<String>, String)]) -> Vec<BTreeSet<String>> {
+    let uses: Vec<Uses> = files.iter().map(|(own, text)| uses(own, text)).collect();
+    let mut aliases = BTreeMap::new();
+    for ((own, _), uses) in files.iter().zip(&uses) {
+        for path in &uses.exports {
+            let alias = [own.as_slice(), &path[path.len() - 1..]].concat();
+            aliases.insert(alias, path.clone());
+        }
+    }
+    let file_of = |path: &[String]| {
+        let mut path = path.to_vec();
+        for _ in 0..8 {
+            let alias =
+                (1..=path.len()).rev().find(|&k| aliases.get(&path[..k]).is_some_and(|a| a[..] != path[..k]));
+            let Some(k) = alias else { break };
+            path = [&aliases[&path[..k]], &path[k..]].concat();
+        }
+        (0..=path.len()).rev().find_map(|k| files.iter().position(|(file, _)| *file == path[..k]))
+    };
+    // Whether a path of imports leads from file i to file j.
+    let mut leads = vec![vec![false; files.len()]; files.len()];
+    for (i, uses) in uses.iter().enumerate() {
+        for j in uses.imports.iter().filter_map(|path| file_of(path)).filter(|j| *j != i) {
+            leads[i][j] = true;
+        }
+    }
+    for k in 0..files.len() {
+        let onward = leads[k].clone();
+        for row in leads.iter_mut().filter(|row| row[k]) {
+            row.iter_mut().zip(&onward).for_each(|(to, also)| *to |= also);
+        }
+    }
+    let circle: Vec<Vec<usize>> = (0..files.len())
+        .map(|i| (0..files.len()).filter(|&j| leads[i][j] && leads[j][i]).collect())
+        .collect();
+    let names = |circle: &Vec<usize>| circle.iter().map(|&j| files[j].0.join("/")).collect();
+    circle.iter().enumerate().filter(|(i, circle)| circle.first() == Some(i)).map(|(_, c)| names(c)).collect()
+}
+
 /// What of the imports of a file the table forbids.
 fn violations(layers: &Layers, file: &str, path: &[&str], text: &str) -> Vec<String> {
     let Some(own) = path.first() else { return Vec::new() };
@@ -317,6 +447,25 @@ fn files_are_short_and_named_by_a_noun() {
     }
 }
 
+#[test]
+fn files_do_not_import_each_other_in_a_circle() {
+    let mut wrong = Vec::new();
+    for folder in ["mechanics/src", "results/src", "case/src", "cli/src"] {
+        let files: Vec<(Vec<String>, String)> = sources(&root().join(folder))
+            .into_iter()
+            .map(|(file, text)| (module_path(&file).into_iter().map(str::to_owned).collect(), text))
+            .filter(|(path, _): &(Vec<String>, String)| !path.iter().any(|part| part == "tests"))
+            .collect();
+        for circle in circles(&files) {
+            let permitted = |files: &[&str]| circle.iter().all(|file| files.contains(&file.as_str()));
+            if !CIRCLES.iter().any(|(of, files)| *of == folder && permitted(files)) {
+                wrong.push(format!("{folder}: {circle:?}"));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "circles of imports; move what they share below both:\n{}", wrong.join("\n"));
+}
+
 mod the_checker {
     use super::*;
 
@@ -352,6 +501,20 @@ mod the_checker {
         assert_eq!(modules(&["a"], "use super::c::X;"), ["c"]);
         assert!(modules(&["a"], "mod tests { use super::c::X; }").is_empty());
         assert_eq!(modules(&["a"], "mod tests { fn f() {} } use super::c::X;"), ["c"]);
+    }
+
+    #[test]
+    fn it_finds_circles_through_exported_names() {
+        let file = |path: &str, text: &str| (path.split('/').map(str::to_owned).collect(), text.to_owned());
+        let files = [
+            file("a", "mod b; mod c; pub use b::{X, Y as Z}; pub trait T {}"),
+            file("a/b", "use super::{T, c}; fn f() { c::g() }"),
+            file("a/c", "fn g() -> crate::a::X { loop {} }"),
+            file("a/d", "use super::{T, X};"),
+        ];
+        let expected = BTreeSet::from(["a/b".to_owned(), "a/c".to_owned()]);
+        assert_eq!(circles(&files), [expected]);
+        assert!(circles(&files[..2]).is_empty());
     }
 
     #[test]

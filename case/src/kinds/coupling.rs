@@ -9,7 +9,6 @@ use flexion::hub_beam::{
     self, Damping, ExactCoupling, Fields, Foreshortening, HighCoupling, Hub, HubBeam, LinearCoupling,
     Sampling,
 };
-use flexion::section;
 use flexion::system::{Events, System};
 use std::sync::Arc;
 
@@ -20,15 +19,15 @@ pub struct Coupling {
     /// jumps.
     pub whole_curve: bool,
     /// Assembles the system of a beam.
-    pub assemble: fn(&Beam<'_>) -> Made<Box<dyn System>>,
+    pub assemble: fn(&Assembly<'_>) -> Made<Box<dyn System>>,
 }
 
 /// What a system is assembled of.
-pub struct Beam<'a> {
+pub struct Assembly<'a> {
     /// Length [m].
     pub length: f64,
-    /// The section with what the beam carries; cells end at the loads.
-    pub section: &'a dyn section::Section,
+    /// The section, masses, and stations at which cells end.
+    pub beam: &'a hub_beam::Beam<'a>,
     /// The hub.
     pub hub: Hub,
     /// The bases of both fields.
@@ -45,14 +44,14 @@ pub struct Beam<'a> {
     pub strain_heights: &'a [f64],
 }
 
-impl Beam<'_> {
+impl Assembly<'_> {
     fn fields(&self) -> Fields {
         let (axial, transverse) = (Arc::clone(&self.bases.axial), Arc::clone(&self.bases.transverse));
-        Fields::new(self.length, Box::new(axial), Box::new(transverse), self.section.breaks())
+        Fields::new(self.length, Box::new(axial), Box::new(transverse), &self.beam.breaks)
     }
 
     fn linear(&self, foreshortening: Foreshortening) -> Made<Box<dyn System>> {
-        let coupling = LinearCoupling::new(self.fields(), self.section, &self.hub, foreshortening);
+        let coupling = LinearCoupling::new(self.fields(), self.beam, &self.hub, foreshortening);
         Ok(self.system(coupling, self.sampling()))
     }
 
@@ -65,12 +64,16 @@ impl Beam<'_> {
     fn system<C: hub_beam::Coupling + 'static>(&self, coupling: C, sampling: Sampling) -> Box<dyn System> {
         let mut system = HubBeam::new(self.hub.clone(), coupling, self.stations);
         if !self.loads.is_empty() {
-            system = system.with_loads(self.section, self.loads);
+            system = system.with_loads(self.beam, self.loads);
         }
         system = system.with_damping(self.damping);
         if self.section_forces || !self.strain_heights.is_empty() {
-            system =
-                system.with_section_forces(self.section, sampling, self.section_forces, self.strain_heights);
+            system = system.with_section_forces(
+                self.beam.section,
+                sampling,
+                self.section_forces,
+                self.strain_heights,
+            );
         }
         Box::new(system)
     }
@@ -89,7 +92,7 @@ pub static COUPLING: Choice<Coupling> = Choice {
             keys: &[],
             example: "model.coupling=zeroth",
             make: |_, _| {
-                Ok(Coupling { whole_curve: false, assemble: |beam| beam.linear(Foreshortening::None) })
+                Ok(Coupling { whole_curve: false, assemble: |parts| parts.linear(Foreshortening::None) })
             },
         },
         Kind {
@@ -99,7 +102,7 @@ pub static COUPLING: Choice<Coupling> = Choice {
             keys: &[],
             example: "model.coupling=first",
             make: |_, _| {
-                Ok(Coupling { whole_curve: false, assemble: |beam| beam.linear(Foreshortening::First) })
+                Ok(Coupling { whole_curve: false, assemble: |parts| parts.linear(Foreshortening::First) })
             },
         },
         Kind {
@@ -109,9 +112,9 @@ pub static COUPLING: Choice<Coupling> = Choice {
             keys: &[],
             example: "model.coupling=high",
             make: |_, _| {
-                let assemble = |beam: &Beam<'_>| {
-                    let coupling = HighCoupling::new(beam.fields(), beam.section, &beam.hub);
-                    Ok(beam.system(coupling.at("basis")?, beam.sampling()))
+                let assemble = |parts: &Assembly<'_>| {
+                    let coupling = HighCoupling::new(parts.fields(), parts.beam, &parts.hub);
+                    Ok(parts.system(coupling.at("basis")?, parts.sampling()))
                 };
                 Ok(Coupling { whole_curve: false, assemble })
             },
@@ -123,12 +126,12 @@ pub static COUPLING: Choice<Coupling> = Choice {
             keys: &[],
             example: "model.coupling=exact",
             make: |_, _| {
-                let assemble = |beam: &Beam<'_>| {
-                    let Some((elements, _)) = beam.bases.elements else {
+                let assemble = |parts: &Assembly<'_>| {
+                    let Some((elements, _)) = parts.bases.elements else {
                         return Err(Fault::new("basis", "the exact coupling needs finite elements").into());
                     };
-                    let coupling = ExactCoupling::new(beam.length, elements, beam.section, &beam.hub);
-                    Ok(beam.system(coupling.at("section")?, Sampling::Curve))
+                    let coupling = ExactCoupling::new(parts.length, elements, parts.beam, &parts.hub);
+                    Ok(parts.system(coupling.at("section")?, Sampling::Curve))
                 };
                 Ok(Coupling { whole_curve: true, assemble })
             },

@@ -8,8 +8,8 @@ use crate::kind::{Choice, Context, Kind, Table};
 use crate::units;
 use crate::values::Values;
 use flexion::hub_beam::Damping;
+use flexion::hub_beam::Mass;
 use flexion::hub_beam::load::{self, Axes, DistributedForce};
-use flexion::section::Mass;
 use std::sync::Arc;
 
 /// What one table of a case puts onto the beam.

@@ -8,7 +8,7 @@
 //! over the open knots 0 (p + 1 times), L/m, 2L/m, …, L (p + 1 times), m: number of spans. The functions
 //! are not negative and sum to one. At x = 0 only N₀ has a value and only N₀, N₁ a slope, so the axial field
 //! leaves out N₀ and the transverse field N₀ and N₁. Each coefficient is the displacement \[m\] of a control
-//! point, which stands at its Greville abscissa (tᵢ₊₁ + … + tᵢ₊ₚ)/p; the beam passes near the control
+//! point, which is at its Greville abscissa (tᵢ₊₁ + … + tᵢ₊ₚ)/p; the beam passes near the control
 //! points and, at the tip, through the last one.
 //!
 //! On a smooth problem the bending frequencies converge with order 2(p − 1) in the length of a span, and the
@@ -75,7 +75,7 @@ pub(super) fn raise(
     out[0] = if derivative > degree { 0.0 } else { 1.0 };
     for j in 1..=degree {
         let differentiate = j + derivative > degree;
-        let mut carried = 0.0;
+        let mut saved = 0.0;
         for r in 0..j {
             let (start, end) = knots(j, r);
             let share = out[r] / (end - start);
@@ -83,10 +83,10 @@ pub(super) fn raise(
                 true => (-(j as f64) * share, j as f64 * share),
                 false => ((end - x) * share, (x - start) * share),
             };
-            out[r] = carried + left;
-            carried = right;
+            out[r] = saved + left;
+            saved = right;
         }
-        out[j] = carried;
+        out[j] = saved;
     }
 }
 
@@ -215,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn control_points_at_the_greville_abscissae_reproduce_a_straight_line_and_marsden_a_parabola() {
+    fn greville_abscissae_give_a_line_and_marsdens_identity_a_parabola() {
         for degree in [1, 2, 3, 7] {
             let basis = BSpline::new(2.0, 5, degree, Field::Axial).unwrap();
             let line: Vec<f64> = (0..basis.len()).map(|i| 3.0 * basis.anchor(i)).collect();

@@ -9,8 +9,8 @@
 //! (transverse). Between two equal elements the common control point is no unknown of the transverse field:
 //! it is the mean of its neighbours, which makes the curve C¹.
 //!
-//! One element is spectral: the error falls faster than any power of n until rounding. The price is that the
-//! functions come close to linear dependence: the eigenvalues of their mass matrix ∫BᵢBⱼ ds are
+//! One element is spectral: the error falls faster than any power of n until rounding. But the
+//! functions become nearly linearly dependent: the eigenvalues of their mass matrix ∫BᵢBⱼ ds are
 //! (n!)²/((n+k+1)!(n−k)!), k = 0 … n, whence its condition number
 //!
 //! ```text
@@ -114,7 +114,7 @@ impl Basis for Bezier {
         let mut all = [0.0; MOST_DEGREE + 1];
         raise(n, derivative, x, |_, _| (start, end), &mut all);
         if self.field == Field::Transverse {
-            // b₀ = ½(b₋₁ + b₁): half of B₀ goes to either neighbour; and alike at the other end.
+            // b₀ = ½(b₋₁ + b₁): half of B₀ goes to either neighbour; and likewise at the other end.
             if cell > 0 {
                 all[0] *= 0.5;
                 all[1] += all[0];
@@ -207,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn the_condition_number_is_the_ratio_of_the_extreme_rayleigh_quotients_of_the_mass_matrix() {
+    fn the_condition_number_is_that_of_the_mass_matrix() {
         // Eigenvectors: the control points of the Legendre polynomials P_0 (all one) and P_n
         // (the binomials with alternating signs), the smoothest and the roughest.
         for n in [2, 5, 9] {

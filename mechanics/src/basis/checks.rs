@@ -1,9 +1,9 @@
-//! What every basis must satisfy, checked from outside; used by the tests of each.
+//! Properties of every basis, for the tests of each.
 
 use super::{Basis, Field};
 use crate::quadrature::Gauss;
 
-/// Everything below.
+/// All checks below.
 pub fn all(basis: &dyn Basis, field: Field) {
     supports_are_contiguous_and_ascending(basis);
     derivatives_equal_finite_differences(basis, 1e-8);
@@ -58,7 +58,7 @@ pub fn derivatives_equal_finite_differences(basis: &dyn Basis, tolerance: f64) {
     }
 }
 
-/// Largest |φ⁽ᵈ⁾| of all functions at a few places of each cell.
+/// Largest |φ⁽ᵈ⁾| of all functions at a few points of each cell.
 pub fn largest(basis: &dyn Basis, derivative: usize) -> f64 {
     let mut out = vec![0.0; basis.max_support()];
     let mut most: f64 = 0.0;
@@ -120,7 +120,7 @@ pub fn gram(basis: &dyn Basis, derivative: usize, points: usize, weight: impl Fn
     matrix
 }
 
-/// The rule the basis asks for against one of many more points, relative to √(Gᵢᵢ Gⱼⱼ).
+/// The rule of the basis against one of many more points, relative to √(Gᵢᵢ Gⱼⱼ).
 pub fn quadrature_is_exact(basis: &dyn Basis, field: Field, tolerance: f64) {
     let (n, points) = (basis.len(), basis.points_per_cell());
     let length = basis.cells()[basis.cells().len() - 1];

@@ -58,7 +58,7 @@ impl Basis for Lagrange {
 
     fn support(&self, cell: usize) -> Support {
         let end = self.degree * (cell + 1);
-        // Node n carries function n − 1; the root node carries none.
+        // Node n has function n − 1; the root node has none.
         (end - self.degree).saturating_sub(1)..end
     }
 

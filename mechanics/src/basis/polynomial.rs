@@ -29,7 +29,7 @@
 
 use super::{Basis, BasisError, Conditioning, Field, Role, Support, uniform_cells};
 
-/// Most nodes of a support domain: any more is singular, and need not be tried.
+/// Most nodes of a support domain: with more the moment matrix is singular.
 const MOST_NODES: usize = 40;
 
 /// Parameters of point interpolation.

@@ -19,6 +19,7 @@ use super::frame::{Tangent, axes, strains};
 use super::jet::Jet;
 use super::mesh::{Element, LOCAL, Point, SAMPLES, hermite};
 use super::model::Model;
+use crate::linalg::vector::{cross, inner};
 use crate::section::BladeResultants;
 
 /// Block of an element.
@@ -54,16 +55,6 @@ pub struct Rotation {
     pub hub_radius: f64,
     /// Pitch [rad].
     pub pitch: f64,
-}
-
-/// a·b
-pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-/// a × b
-pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// Place and orientation of a section as functions of the element's unknowns.
@@ -123,11 +114,11 @@ pub fn add_inertia(
 ) {
     let (mass, second) = inertia;
     let omega = rotation.vector;
-    let square = dot(omega, omega);
+    let square = inner(omega, omega);
     if mass != 0.0 {
         let u = f.field(at, 0);
         let r = [rotation.hub_radius + x + u[0], u[1], u[2]];
-        let along = dot(omega, r);
+        let along = inner(omega, r);
         for i in 0..12 {
             let (a, k) = (i / 4, i % 4);
             out.force[i] -= mass * f.n[0][k] * (square * r[a] - omega[a] * along);
@@ -157,9 +148,9 @@ pub fn add_inertia(
     let slope = f.field(at, 1);
     let [x, y, z] = slope;
     let variables = [Jet::<4>::variable(1.0 + x, 0), Jet::variable(y, 1), Jet::variable(z, 2)];
-    let turned = Jet::variable(angle + f.torsion(at, 0), 3);
+    let rotated = Jet::variable(angle + f.torsion(at, 0), 3);
     let free = |v: usize| if v == 3 { model.torsion } else { model.rotary_inertia };
-    for (axis, moment) in axes(&variables, &turned).iter().zip(second) {
+    for (axis, moment) in axes(&variables, &rotated).iter().zip(second) {
         if moment == 0.0 {
             continue;
         }
@@ -170,13 +161,14 @@ pub fn add_inertia(
         let mut force = [0.0; 4];
         let (mut mass, mut gyro, mut stiff) = ([[0.0; 4]; 4], [[0.0; 4]; 4], [[0.0; 4]; 4]);
         for v in (0..4).filter(|&v| free(v)) {
-            force[v] = moment * dot(swept, cross(omega, first[v]));
+            force[v] = moment * inner(swept, cross(omega, first[v]));
             for w in (0..4).filter(|&w| free(w)) {
                 let twice = value(&|j| j.h[v][w]);
-                mass[v][w] = moment * dot(first[v], first[w]);
-                gyro[v][w] = 2.0 * moment * dot(first[v], cross(omega, first[w]));
+                mass[v][w] = moment * inner(first[v], first[w]);
+                gyro[v][w] = 2.0 * moment * inner(first[v], cross(omega, first[w]));
                 stiff[v][w] = moment
-                    * (dot(cross(omega, twice), swept) + dot(cross(omega, first[v]), cross(omega, first[w])));
+                    * (inner(cross(omega, twice), swept)
+                        + inner(cross(omega, first[v]), cross(omega, first[w])));
             }
         }
         for i in 0..LOCAL {
@@ -214,10 +206,10 @@ pub fn exact_energy(
     if model.torsion {
         energy = energy + (e.twist * e.twist).scaled(0.5 * section.torsional_stiffness);
         if model.tension_torsion {
-            let stretch = e.stretch - Jet::constant(1.0);
+            let strain = e.stretch - Jet::constant(1.0);
             let square = e.twist * (e.twist + Jet::constant(2.0 * section.twist_rate));
             let polar = section.chord_stiffness + section.flap_stiffness;
-            energy = energy + (stretch * square).scaled(0.5 * polar);
+            energy = energy + (strain * square).scaled(0.5 * polar);
         }
     }
     energy
@@ -254,7 +246,7 @@ impl Element {
             let n = hermite(s, self.ends[1] - self.ends[0])[1];
             let slope: [f64; 3] = std::array::from_fn(|f| (0..4).map(|k| n[k] * q[4 * f + k]).sum());
             let r = [1.0 + slope[0], slope[1], slope[2]];
-            let stretch = dot(r, r).sqrt();
+            let stretch = inner(r, r).sqrt();
             // λ − 1 without cancellation.
             let strain =
                 (slope[0] * (2.0 + slope[0]) + slope[1] * slope[1] + slope[2] * slope[2]) / (stretch + 1.0);

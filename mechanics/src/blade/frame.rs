@@ -2,7 +2,7 @@
 //!
 //! The axis is r(x) with r′ = (1 + u′, v′, w′) in the blade's frame, λ = |r′|, t = r′/λ. The frame (t, n, b) is
 //! the undeformed frame (e₁, e₂, e₃) moved by the smallest rotation that takes e₁ to t, and the section's axes
-//! are turned from it by the angle ψ = θ + φ about t:
+//! are rotated from it by the angle ψ = θ + φ about t:
 //!
 //! ```text
 //! n = e₂ − t₂/(1+t₁) (e₁ + t),     b = e₃ − t₃/(1+t₁) (e₁ + t)
@@ -15,7 +15,7 @@
 //! κ₂ = t′·d₂,  κ₃ = t′·d₃,     d₂′·d₃ = θ′ + τ,   τ = φ′ + (t₃ t₂′ − t₂ t₃′)/(1 + t₁)
 //! ```
 //!
-//! The smallest rotation fails only where the axis has turned back on itself, t = −e₁.
+//! The smallest rotation fails only where the axis reverses, t = −e₁.
 //!
 //! Source: C. Meier, A. Popp & W. A. Wall, *Comput. Methods Appl. Mech. Eng.* 278 (2014) 445–478,
 //! doi:10.1016/j.cma.2014.05.017.
@@ -74,8 +74,8 @@ impl<const N: usize> Tangent<N> {
     /// At slopes r′.
     pub fn new(slope: &Vector<N>) -> Tangent<N> {
         let (stretch, t) = unit(slope);
-        let turn = (Jet::constant(1.0) + t[0]).inverse();
-        Tangent { stretch, inverse: stretch.inverse(), t, lean: [t[1] * turn, t[2] * turn] }
+        let scale = (Jet::constant(1.0) + t[0]).inverse();
+        Tangent { stretch, inverse: stretch.inverse(), t, lean: [t[1] * scale, t[2] * scale] }
     }
 
     /// The same as a function of more variables, of which its own are the first.
@@ -145,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn strains_are_the_rates_at_which_the_axes_turn() {
+    fn strains_are_the_rates_at_which_the_axes_rotate() {
         let (x, d) = (0.8, 1e-5);
         let (before, at, after) = (frame(x - d), frame(x), frame(x + d));
         let rate =

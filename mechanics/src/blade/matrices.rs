@@ -175,8 +175,8 @@ impl Matrices {
         }
     }
 
-    /// Moves `q`, which is near the steady state at a speed, to it, assembled; `false` if it is not so near, or there is
-    /// nothing to be found.
+    /// Moves `q`, which is near the steady state at a speed, to it, assembled; `false` if it is not near enough, or if there is no
+    /// steady state.
     pub fn settle(&mut self, speed: f64, q: &mut [f64]) -> bool {
         self.model.strain_energy == StrainEnergy::Exact && self.newton(speed, q)
     }
@@ -196,11 +196,11 @@ impl Matrices {
                 .iter()
                 .zip(&self.mesh.labels)
                 .fold(0.0_f64, |most, (d, l)| most.max((d / l.scale).abs()));
-            // Written so that NaN is refused too.
+            // NaN is refused too.
             if !(size < 10.0) {
                 return false;
             }
-            // A turn of more than half a radian in one iteration leaves the tangent's reach.
+            // The tangent is not valid for a rotation of more than half a radian in one iteration.
             let factor = (0.5 / size).min(1.0);
             for (q, d) in q.iter_mut().zip(&step) {
                 *q += factor * d;

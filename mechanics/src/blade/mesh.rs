@@ -2,7 +2,7 @@
 //!
 //! Each node has u, u′, v, v′, w, w′ (cubic Hermite fields) and, with torsion, φ, which has a node in the middle
 //! of each element too (quadratic). Unknowns are numbered node after node, so that the half bandwidth is 14
-//! (11 without torsion) whatever their number. Where the section jumps the strain u′ does too: the node has one
+//! (11 without torsion) for any number of elements. Where the section jumps the strain u′ does too: the node has one
 //! on either side.
 
 use super::model::{BladeError, Setting};
@@ -27,7 +27,7 @@ pub enum Component {
     Axial,
     /// v, in the direction of motion.
     Chordwise,
-    /// w, towards the vector of rotation.
+    /// w, towards the angular velocity.
     Flapwise,
     /// φ, about the axis towards the tip.
     Torsion,
@@ -92,7 +92,7 @@ pub fn quadratic(s: f64, h: f64) -> [[f64; 3]; 2] {
     ]
 }
 
-/// Places of the samples of the strain, in the order of [`quadratic`].
+/// Positions of the samples of the strain, in the order of [`quadratic`].
 pub const SAMPLES: [f64; 3] = [0.0, 1.0, 0.5];
 
 impl Mesh {

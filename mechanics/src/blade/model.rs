@@ -1,13 +1,13 @@
 //! What a blade is and which terms its model keeps.
 
-/// Where a blade sits on its hub and how it is set.
+/// Position and orientation of a blade on its hub.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Setting {
     /// Length L [m].
     pub length: f64,
     /// Distance a of the root from the axis of rotation, along the blade's axis [m].
     pub hub_radius: f64,
-    /// Angle β of the blade's axis out of the plane of rotation, towards the vector of rotation [rad].
+    /// Angle β of the blade's axis out of the plane of rotation, towards the angular velocity [rad].
     pub precone: f64,
     /// Angle of the root section, about the axis towards the tip, added to the twist of the sections [rad].
     pub pitch: f64,
@@ -31,11 +31,11 @@ pub struct Model {
     pub strain_energy: StrainEnergy,
     /// Gyroscopic (Coriolis) terms 2Ω: they couple axial, chordwise and flapwise motion.
     pub gyroscopic: bool,
-    /// Inertia of sections that turn with the slopes of the axis.
+    /// Inertia of sections that rotate with the slopes of the axis.
     pub rotary_inertia: bool,
     /// Torsion φ, with its inertia and the propeller moment.
     pub torsion: bool,
-    /// The axial force's share in the torsional stiffness: fibres off the axis are stretched by twist,
+    /// The axial force's share in the torsional stiffness: twist lengthens fibres off the axis,
     /// ½∫E(η²+ζ²) dA · ε (θ′ + τ)² − θ′².
     pub tension_torsion: bool,
 }
@@ -55,10 +55,10 @@ impl Default for Model {
 /// The strain energy of a rotating blade.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StrainEnergy {
-    /// Quadratic in stretch and curvature, ½∫EA w₁′² + EI w₂″², with foreshortening in the kinetic energy: the
+    /// Quadratic in axial strain and curvature, ½∫EA w₁′² + EI w₂″², with foreshortening in the kinetic energy: the
     /// first-order coupling. The blade is straight at any speed.
     Linear,
-    /// As `Linear`, with terms of the Green strain that couple the steady stretch and bending.
+    /// As `Linear`, with terms of the Green strain that couple the steady axial strain and bending.
     Coupled(Terms),
     /// Geometrically exact, ½∫EA (|r′|−1)² + EI κ² + GJ τ², about its own steady state.
     Exact,
@@ -75,7 +75,7 @@ impl StrainEnergy {
     }
 }
 
-/// Terms of the Green strain, w₁′ being the steady stretch: Zhao & Wu 2015, doi:10.6052/0459-1879-14-207.
+/// Terms of the Green strain, w₁′ being the steady axial strain: Zhao & Wu 2015, doi:10.6052/0459-1879-14-207.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Terms {
     /// ½∫EI · 3w₁′ w₂″²
@@ -122,7 +122,7 @@ pub enum BladeError {
          at this speed, or its precone bends it too far. Check stiffness, mass and speed and their units"
     )]
     NoSteadyState {
-        /// Speed asked for [rad/s].
+        /// Requested speed [rad/s].
         speed: f64,
         /// Largest speed at which a steady state was found [rad/s].
         reached: f64,

@@ -1,6 +1,6 @@
 //! Strain energy of a blade that stays straight, to second order in the vibration: `linear` and `coupled`.
 //!
-//! With the foreshortening in the kinetic energy, w₁ the stretch, e = w₁′ = N₀/EA its steady value and θ the
+//! With the foreshortening in the kinetic energy, w₁ the axial displacement, e = w₁′ = N₀/EA its steady value and θ the
 //! angle of the section, per length
 //!
 //! ```text

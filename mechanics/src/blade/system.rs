@@ -111,7 +111,7 @@ impl Blade {
         }
     }
 
-    /// Forgets all states but that at rest.
+    /// Discards all states except the undeformed one.
     fn undeform(&mut self) {
         self.steady.fill(0.0);
         self.earlier = None;
@@ -271,7 +271,7 @@ impl Steady for Blade {
         if parameter != Parameter::Speed {
             return Ok(());
         }
-        // At rest the blade is undeformed, whatever went before.
+        // At rest the blade is undeformed.
         if speed == 0.0 {
             self.undeform();
         }
@@ -312,11 +312,15 @@ impl Observed for Blade {
     fn frames(&mut self, _body: usize, s: &State, stations: &[f64], out: &mut [Frame]) {
         let whole: Vec<f64> = self.steady.iter().zip(&s.q).map(|(a, b)| a + b).collect();
         let (sin, cos) = self.setting.precone.sin_cos();
-        let (sin_turn, cos_turn) = (self.speed * s.t).sin_cos();
+        let (sin_rotation, cos_rotation) = (self.speed * s.t).sin_cos();
         // From the blade's frame through the hub's frame to the inertial frame.
         let inertial = |r: [f64; 3]| {
             let hub = [cos * r[0] - sin * r[2], r[1], sin * r[0] + cos * r[2]];
-            [cos_turn * hub[0] - sin_turn * hub[1], sin_turn * hub[0] + cos_turn * hub[1], hub[2]]
+            [
+                cos_rotation * hub[0] - sin_rotation * hub[1],
+                sin_rotation * hub[0] + cos_rotation * hub[1],
+                hub[2],
+            ]
         };
         for (&x, frame) in stations.iter().zip(out) {
             let (u, slope, torsion) = self.displacement(&whole, x);

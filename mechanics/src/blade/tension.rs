@@ -1,11 +1,11 @@
-//! The steady tension of a straight blade, and its steady stretch.
+//! The steady tension of a straight blade, and its steady axial strain.
 //!
 //! ```text
 //! N(x) = Ω² [C(x) + Ω² D(x)],   C = ∫ₓᴸ ρA (a + ξ) dξ + m (a + L),   D = ∫ₓᴸ ρA W dξ + m W(L)
 //! w₁(x) = Ω² W(x),              W = ∫₀ˣ C/EA dξ
 //! ```
 //!
-//! m is the mass at the tip. C is the tension of the unstretched blade, D what its stretch adds.
+//! m is the mass at the tip. C is the tension of the unstretched blade, D the part of its elongation.
 
 use super::mesh::Mesh;
 use super::model::Setting;
@@ -37,13 +37,13 @@ impl Tension {
             c[i] = c[i + 1] + gauss.integrate(cuts[i], cuts[i + 1], force);
         }
         let c_at = |i: usize, x: f64| c[i + 1] + gauss.integrate(x, cuts[i + 1], force);
-        let stretch = |i: usize, x: f64| c_at(i, x) / section.resultants(x).axial_stiffness;
+        let strain = |i: usize, x: f64| c_at(i, x) / section.resultants(x).axial_stiffness;
         let mut w = vec![0.0; pieces + 1];
         for i in 0..pieces {
-            w[i + 1] = w[i] + gauss.integrate(cuts[i], cuts[i + 1], |x| stretch(i, x));
+            w[i + 1] = w[i] + gauss.integrate(cuts[i], cuts[i + 1], |x| strain(i, x));
         }
         let more = |i: usize, x: f64| {
-            section.resultants(x).mass * (w[i] + gauss.integrate(cuts[i], x, |y| stretch(i, y)))
+            section.resultants(x).mass * (w[i] + gauss.integrate(cuts[i], x, |y| strain(i, y)))
         };
         let mut d = vec![0.0; pieces + 1];
         d[pieces] = tip * w[pieces];

@@ -1,7 +1,7 @@
 //! The second variation of the strain energy of an element, strain by strain.
 //!
 //! With the second derivatives H of the energy per length by e = (u′, v′, w′, u″, v″, w″, φ, φ′) and the axial strain
-//! sampled at three places likewise,
+//! sampled at three points likewise,
 //!
 //! ```text
 //! xᵀ (∂²U/∂q²) x = Σ weight · Σ_vw H_vw e_v e_w
@@ -43,15 +43,15 @@ impl Element {
         }
         let samples = self.samples(q);
         for (x, out) in vectors.iter().zip(out) {
-            let mut stretches = [0.0; 3];
+            let mut strains = [0.0; 3];
             for (a, (_, stretch, t, n)) in samples.iter().enumerate() {
                 let slopes: [f64; 3] = std::array::from_fn(|f| (0..4).map(|k| n[k] * x[4 * f + k]).sum());
                 let tension: f64 = (0..3).map(|b| self.axial[a][b] * samples[b].0).sum();
-                stretches[a] = (0..3).map(|f| t[f] * slopes[f]).sum();
-                let across: f64 = (0..3).map(|f| (slopes[f] - t[f] * stretches[a]).powi(2)).sum();
+                strains[a] = (0..3).map(|f| t[f] * slopes[f]).sum();
+                let across: f64 = (0..3).map(|f| (slopes[f] - t[f] * strains[a]).powi(2)).sum();
                 *out += tension * across / stretch;
             }
-            *out += form(&stretches, |a, b| self.axial[a][b]);
+            *out += form(&strains, |a, b| self.axial[a][b]);
         }
     }
 

@@ -1,4 +1,4 @@
-//! What a coupling (a kinematic model of the beam in the hub's frame) has to say.
+//! The interface of a coupling, a kinematic model of the beam in the hub's frame.
 
 use super::damping::Damping;
 use super::fields::{Fields, Point};
@@ -36,7 +36,7 @@ pub trait Coupling: Send {
     /// Adds to `out` the tangent of [`Coupling::add_forces`].
     fn add_tangent(&mut self, _s: &State, _hub: &HubKinematics, _w: &Weights<'_>, _out: &mut Storage<f64>) {}
 
-    /// Writes how the sections turn from one state to another: see [`Dynamics::corotate`](crate::system::Dynamics::corotate).
+    /// Writes the rotation of each section from one state to another: see [`Dynamics::corotate`](crate::system::Dynamics::corotate).
     fn corotate(&self, _before: &State, _now: &State, out: &mut Corotation) {
         out.clear();
     }
@@ -65,7 +65,7 @@ pub trait Coupling: Send {
     /// Adds to the border of a free hub what is not in [`Coupling::inertia`].
     fn add_border(&mut self, _s: &State, _hub: &HubKinematics, _w: &Weights<'_>, _out: &mut Border) {}
 
-    /// How loads see the axis.
+    /// The kinematics of the axis, for the loads.
     fn kinematics(&self) -> Kinematics {
         Kinematics::Foreshortened
     }
@@ -78,7 +78,7 @@ pub trait Coupling: Send {
         self.inertia().dissipated(&s.v)
     }
 
-    /// What the section does at each of the stations, which ascend along the beam.
+    /// Displacement and rotation of the section at each of the stations, which ascend along the beam.
     fn placements(&self, s: &State, stations: &[Station], out: &mut [Placement]);
 
     /// Axial strain ε and curvature κ at a point: w₁′ and w₂″ of small deflections.

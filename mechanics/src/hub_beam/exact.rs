@@ -7,7 +7,7 @@
 //! ```
 //!
 //! κ = dφ/dx with φ the angle of the tangent. The inertia ½∫ρA |ṗ + ω Jp|² is quadratic in the unknowns and
-//! stands in [`Inertia`]; only the strain energy (and the rotary inertia, if asked for) is not.
+//! is [`Inertia`]; only the strain energy, and the rotary inertia where it is kept, are not quadratic.
 //!
 //! **No membrane locking.** A cubic curve cannot bend without axial strain at every point, and its energy EA ε² grows with
 //! EA/EI·h². So ε is sampled at the two nodes and the middle of each element and
@@ -22,6 +22,7 @@
 //! φ̈ = (n·p̈′ − 2 φ̇ t·ṗ′)/|p′|
 //! ```
 
+use super::beam::{Beam, Mass};
 use super::coupling::Coupling;
 use super::damping::Damping;
 use super::element::Element;
@@ -35,10 +36,10 @@ use super::station::{Placement, Station};
 use crate::basis::{BasisError, Field, Hermite};
 use crate::linalg::Storage;
 use crate::profile::HubKinematics;
-use crate::section::{Mass, Resultants, Section};
+use crate::section::{Resultants, Section};
 use crate::system::{Corotation, State, Weights};
 
-/// Largest axial strain |ε| that a linear-elastic beam is believed to have.
+/// Largest axial strain |ε| accepted for a linear-elastic beam.
 const LARGEST_STRAIN: f64 = 0.5;
 
 /// Geometrically exact planar beam. See the [module documentation](self).
@@ -56,25 +57,11 @@ pub struct ExactCoupling {
 
 /// A section reduced to its mass: what is quadratic for this coupling.
 #[derive(Debug)]
-struct MassOnly<'a> {
-    section: &'a dyn Section,
-    masses: Vec<Mass>,
-}
-
-impl<'a> MassOnly<'a> {
-    fn new(section: &'a dyn Section) -> MassOnly<'a> {
-        let masses = section.masses().iter().map(|m| Mass { inertia: 0.0, ..*m }).collect();
-        MassOnly { section, masses }
-    }
-}
+struct MassOnly<'a>(&'a dyn Section);
 
 impl Section for MassOnly<'_> {
     fn resultants(&self, x: f64) -> Resultants {
-        Resultants { mass: self.section.resultants(x).mass, ..Resultants::default() }
-    }
-
-    fn masses(&self) -> &[Mass] {
-        &self.masses
+        Resultants { mass: self.0.resultants(x).mass, ..Resultants::default() }
     }
 }
 
@@ -83,23 +70,26 @@ impl ExactCoupling {
     ///
     /// # Errors
     /// [`BasisError`] if length or number of elements make no mesh.
-    pub fn new(
+    pub fn new<'a>(
         length: f64,
         elements: usize,
-        section: &dyn Section,
+        beam: impl Into<Beam<'a>>,
         hub: &Hub,
     ) -> Result<ExactCoupling, BasisError> {
+        let Beam { section, masses, breaks } = beam.into();
         let fields = Fields::new(
             length,
             Box::new(Hermite::new(length, elements, Field::Axial)?),
             Box::new(Hermite::new(length, elements, Field::Transverse)?),
-            section.breaks(),
+            &breaks,
         );
-        let inertia = Inertia::new(&fields, &MassOnly::new(section), hub, Foreshortening::None);
+        let lumped = LumpedRotation::of(&fields, &masses, hub.radius);
+        let points = masses.into_iter().map(|m| Mass { inertia: 0.0, ..m }).collect();
+        let quadratic = Beam { section: &MassOnly(section), masses: points, breaks };
+        let inertia = Inertia::new(&fields, &quadratic, hub, Foreshortening::None);
         let nodes = fields.axial().cells().to_vec();
         let rule = Rule::new(nodes[1] - nodes[0]);
         let elements = (0..elements).map(|e| Element::new(&fields, section, &nodes, e)).collect();
-        let lumped = LumpedRotation::of(&fields, section.masses(), hub.radius);
         let radius = hub.radius;
         Ok(ExactCoupling { fields, inertia, elements, rule, radius, lumped, viscosity: 0.0 })
     }
@@ -187,7 +177,7 @@ impl Coupling for ExactCoupling {
     fn corotate(&self, before: &State, now: &State, out: &mut Corotation) {
         out.clear();
         for element in &self.elements {
-            element.end_turn(&before.q, &now.q, out);
+            element.end_rotation(&before.q, &now.q, out);
         }
     }
 
@@ -198,9 +188,9 @@ impl Coupling for ExactCoupling {
 
     fn extra_totals(&mut self, s: &State, hub: &HubKinematics) -> Totals {
         let of = |e: &Element| e.section_totals(&self.rule, &e.gather(s, self.radius), hub);
-        let turning = self.elements.iter().filter(|e| e.has_section_inertia());
+        let rotating = self.elements.iter().filter(|e| e.has_section_inertia());
         let lumped = self.lumped.iter().map(|mass| mass.totals(s, hub));
-        turning.map(of).chain(lumped).fold(Totals::default(), |sum, t| sum + t)
+        rotating.map(of).chain(lumped).fold(Totals::default(), |sum, t| sum + t)
     }
 
     fn add_border(&mut self, s: &State, hub: &HubKinematics, w: &Weights<'_>, out: &mut Border) {
@@ -276,11 +266,11 @@ impl Coupling for ExactCoupling {
         for element in &self.elements {
             let (u, v) = element.end_slopes(&s.q);
             let strain = (1.0 + u).hypot(v) - 1.0;
-            // Written so that NaN is refused too.
+            // NaN is refused too.
             if !(strain.abs() <= LARGEST_STRAIN) {
                 return Err(format!(
-                    "the axis is stretched by {:.1} % at x = {:.3} m, beyond what a linear-elastic beam can carry \
-                     ({:.0} %): the step is likely too large, or the load",
+                    "the axial strain is {:.1} % at x = {:.3} m and exceeds the limit of a linear-elastic beam, {:.0} %: \
+                     the step is likely too large, or the load",
                     100.0 * strain,
                     element.end(),
                     100.0 * LARGEST_STRAIN

@@ -6,13 +6,13 @@ use crate::linalg::{Matrix, Structure};
 use crate::quadrature::Gauss;
 use crate::system::Label;
 
-/// Gauss points a cell gets beyond what its bases ask for when the section varies inside it.
+/// Gauss points of a cell in addition to those of its bases, for a section that varies inside it.
 const EXTRA_POINTS: usize = 2;
 
 /// Axial field w₁ = Σ φx_i A_i and transverse field w₂ = Σ φy_i B_i over x ∈ [0, L].
 ///
 /// The unknowns of both are numbered together in the order of their anchors along the beam, which
-/// keeps the matrices narrow bands whatever the two bases are.
+/// keeps the matrices narrow bands for any two bases.
 #[derive(Debug)]
 pub struct Fields {
     length: f64,
@@ -47,7 +47,7 @@ impl Shapes {
 /// Both fields at one quadrature point or station.
 #[derive(Clone, Debug, Default)]
 pub struct Point {
-    /// Place [m].
+    /// Station x [m].
     pub x: f64,
     /// Quadrature weight [m].
     pub weight: f64,
@@ -184,7 +184,7 @@ impl Fields {
         labels
     }
 
-    /// Both fields at `x`, with a quadrature weight to be carried along.
+    /// Both fields at `x`, with a quadrature weight.
     pub fn point(&self, x: f64, weight: f64) -> Point {
         let mut point = Point { x, weight, ..Point::default() };
         self.fill(x, x, &mut point);
@@ -199,7 +199,7 @@ impl Fields {
         point
     }
 
-    /// Fills the shapes of `point` at `x`; `inside` is a place strictly inside the same cell.
+    /// Fills the shapes of `point` at `x`; `inside` is a point strictly inside the same cell.
     fn fill(&self, x: f64, inside: f64, point: &mut Point) {
         for (basis, numbers, shapes) in [
             (&self.axial, &self.axial_index, &mut point.axial),

@@ -1,4 +1,4 @@
-//! The hub: a rigid body that turns about a fixed axis, by a prescribed motion or under torques.
+//! The hub: a rigid body that rotates about a fixed axis, by a prescribed motion or under torques.
 
 use crate::profile::{HubKinematics, Motion, Profile, jumping_derivative};
 use crate::system::{Break, Jump};
@@ -11,11 +11,11 @@ pub struct Hub {
     pub radius: f64,
     /// Moment of inertia about the axis [kg·m²].
     pub inertia: f64,
-    /// What turns it.
+    /// Its drive.
     pub drive: Drive,
 }
 
-/// The motion of the hub at the times asked for last: a step asks for its few times again and again.
+/// The motion of the hub at recent times: a step evaluates it repeatedly at a few times.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Recent {
     entries: [(f64, HubKinematics); 4],
@@ -28,7 +28,7 @@ impl Recent {
         Recent { entries: [(f64::NAN, HubKinematics::default()); 4], oldest: 0 }
     }
 
-    /// `motion` at time `t`, looked up or worked out.
+    /// `motion` at time `t`, stored or computed.
     #[inline]
     pub(super) fn at(&mut self, motion: &Motion, t: f64) -> HubKinematics {
         if let Some((_, hub)) = self.entries.iter().find(|(time, _)| *time == t) {
@@ -41,7 +41,7 @@ impl Recent {
     }
 }
 
-/// What turns the hub.
+/// The drive of the hub.
 #[derive(Clone, Debug)]
 pub enum Drive {
     /// A prescribed motion θ(t): the torque follows.
@@ -50,7 +50,7 @@ pub enum Drive {
     Free(FreeHub),
 }
 
-/// A hub that torques turn:
+/// A hub under torques:
 ///
 /// ```text
 /// τ = f(t) − c θ̇ − k (θ − θ_k) + sat[ K_p (θ_r(t) − θ) + K_d (θ̇_r(t) − θ̇) ]

@@ -16,7 +16,7 @@
 //!
 //! Entries, with mass ρA, first moment ρS and rotary inertia ρI of the section, φ = w₂′ and the
 //! foreshortening w_c = −½ ∫₀ˣ w₂′² dξ kept to first order (terms marked ◦; the zeroth-order coupling
-//! leaves them out). The section itself turns rigidly, to second order in φ, in either case:
+//! leaves them out). The section itself rotates rigidly, to second order in φ, in either case:
 //!
 //! ```text
 //! T ∋ ½ρA (ẇ₁² + ẇ₂²) + ½ρI φ̇² − ρS ẇ₁ φ̇
@@ -27,16 +27,17 @@
 //! A lumped mass is a point of the quadrature with ρA → m, ρI → j and no ρS. [`Damping`] adds β M v and η K v to the
 //! forces: those of the dissipation function ½ vᵀ(βM + ηK) v, which rigid rotation leaves at zero.
 //!
-//! Integrals of w_c are turned round: ∫ f(x) w_c dx = −½ ∫ F(ξ) w₂′² dξ with F(ξ) = ∫_ξᴸ f dx, so the
+//! The order of integration is interchanged in integrals of w_c: ∫ f(x) w_c dx = −½ ∫ F(ξ) w₂′² dξ with F(ξ) = ∫_ξᴸ f dx, so the
 //! matrices stay banded (the papers store the full H(x)).
 
+use super::beam::Beam;
 use super::damping::Damping;
 use super::fields::{Fields, Point, Shapes, add_outer, add_vector};
 use super::hub::Hub;
 use super::product::{Bundle, Entry, Vectors};
 use crate::linalg::{Matrix, Storage};
 use crate::profile::HubKinematics;
-use crate::section::{Resultants, Section};
+use crate::section::Resultants;
 use crate::system::{State, Weights};
 
 /// Whether the foreshortening enters the kinetic energy.
@@ -76,7 +77,7 @@ pub struct Inertia {
     damping: Damping,
 }
 
-/// What hub and beam have together.
+/// Energy, momentum and torque of hub and beam.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Totals {
     /// Kinetic energy T [J].
@@ -116,7 +117,7 @@ impl Border {
     }
 }
 
-/// What [`Inertia`] multiplies its matrices with: scratch of the system's.
+/// Scratch for the products of the matrices of [`Inertia`].
 #[derive(Clone, Debug)]
 pub struct Scratch {
     vectors: [Vectors; 2],
@@ -148,12 +149,13 @@ impl HubSums {
 }
 
 impl Inertia {
-    /// Integrates the matrices of `fields` on `hub`; `section` is the section as the coupling sees it.
-    pub fn new(fields: &Fields, section: &dyn Section, hub: &Hub, foreshortening: Foreshortening) -> Inertia {
+    /// Integrates the matrices of `fields` on `hub`; of `beam` the inertia and stiffness of the
+    /// section enter that are quadratic for the coupling.
+    pub fn new(fields: &Fields, beam: &Beam<'_>, hub: &Hub, foreshortening: Foreshortening) -> Inertia {
         let structure = fields.structure(hub.unknowns());
         let radius = hub.radius;
         let first = foreshortening == Foreshortening::First;
-        let masses = section.masses();
+        let Beam { section, masses, .. } = beam;
         let spread = fields.tail(|x| section.resultants(x).mass * (radius + x));
         let mass_tail = |x: f64| {
             let beyond = masses.iter().filter(|m| m.station > x);
@@ -292,7 +294,7 @@ impl Inertia {
         }
     }
 
-    /// [`Inertia::residual`] for a hub that is free to turn: also returns the torque of [`Inertia::totals`], with
+    /// [`Inertia::residual`] for a free hub: also returns the torque of [`Inertia::totals`], with
     /// which it shares its products.
     ///
     /// ```text

@@ -1,11 +1,12 @@
 //! Couplings `zeroth` and `first`: small deflections, equations linear in the unknowns.
 //!
-//! `zeroth` (traditional hybrid coordinates) adds the small displacements w₁, w₂ to a rigidly turning
+//! `zeroth` (traditional hybrid coordinates) adds the small displacements w₁, w₂ to a rigidly rotating
 //! beam. `first` also keeps, to first order, the shortening w_c = −½ ∫₀ˣ w₂′² dξ of the axis by
 //! bending, whose product with the centrifugal force is the stiffening Ω² C that the zeroth-order model
 //! lacks (Kane, Ryan & Banerjee 1987, doi 10.2514/3.20195; P1 equations 45–50). Without it the chordwise
 //! stiffness K − ω² M is exhausted when ω reaches the first natural frequency: dynamic softening.
 
+use super::beam::Beam;
 use super::coupling::Coupling;
 use super::damping::Damping;
 use super::fields::Fields;
@@ -15,7 +16,6 @@ use super::load::Kinematics;
 use super::station::{Placement, Station};
 use crate::basis::Role;
 use crate::linalg::{Matrix, negative_pivots};
-use crate::section::Section;
 use crate::system::State;
 
 /// Deflection over length beyond which dropping higher-order terms is no longer harmless.
@@ -24,8 +24,8 @@ const SMALL: f64 = 0.1;
 /// Rounding error of the deflection, over the deflection, that is worth a caution.
 const ROUNDING: f64 = 1e-6;
 
-/// Axial stretch over length beyond which no linear-elastic beam follows.
-const LARGEST_STRETCH: f64 = 0.5;
+/// Axial displacement over length beyond which a beam is not linear-elastic.
+const LARGEST_EXTENSION: f64 = 0.5;
 
 /// A beam whose equations are linear in the unknowns. See the [module documentation](self).
 #[derive(Debug)]
@@ -37,7 +37,7 @@ pub struct LinearCoupling {
     /// Slopes at the quadrature points of each cell, for the foreshortening of a deflected beam.
     slopes: Vec<SlopePoint>,
     /// Stiffness at the quadrature points.
-    strains: Vec<StrainPoint>,
+    stiffnesses: Vec<StiffnessPoint>,
     /// Unknowns that are displacements, and what they may not exceed \[m\].
     bounds: Vec<(usize, f64)>,
 }
@@ -52,11 +52,11 @@ struct SlopePoint {
 }
 
 /// ½∫ (EA w₁′² − 2 ES w₁′w₂″ + EI w₂″²) dx at a quadrature point as the sum of two squares,
-/// ½ stretch (w₁′ − offset w₂″)² + ½ bending w₂″².
+/// ½ axial (w₁′ − offset w₂″)² + ½ bending w₂″².
 #[derive(Clone, Copy, Debug)]
-struct StrainPoint {
+struct StiffnessPoint {
     /// EA times the weight.
-    stretch: f64,
+    axial: f64,
     /// ES/EA
     offset: f64,
     /// EI − ES²/EA times the weight.
@@ -65,13 +65,14 @@ struct StrainPoint {
 
 impl LinearCoupling {
     /// The coupling over `fields`, on a hub.
-    pub fn new(
+    pub fn new<'a>(
         fields: Fields,
-        section: &dyn Section,
+        beam: impl Into<Beam<'a>>,
         hub: &Hub,
         foreshortening: Foreshortening,
     ) -> LinearCoupling {
-        let inertia = Inertia::new(&fields, section, hub, foreshortening);
+        let beam = beam.into();
+        let inertia = Inertia::new(&fields, &beam, hub, foreshortening);
         let mut slopes = Vec::new();
         if foreshortening == Foreshortening::First {
             fields.integrate(|p| {
@@ -83,12 +84,12 @@ impl LinearCoupling {
                 });
             });
         }
-        let mut strains = Vec::new();
+        let mut stiffnesses = Vec::new();
         fields.integrate(|p| {
-            let r = section.resultants(p.x);
+            let r = beam.section.resultants(p.x);
             let offset = r.coupling_stiffness / r.axial_stiffness;
-            strains.push(StrainPoint {
-                stretch: p.weight * r.axial_stiffness,
+            stiffnesses.push(StiffnessPoint {
+                axial: p.weight * r.axial_stiffness,
                 offset,
                 bending: p.weight * (r.bending_stiffness - offset * r.coupling_stiffness),
             });
@@ -97,7 +98,7 @@ impl LinearCoupling {
         let length = fields.length();
         let mut bounds = Vec::new();
         for (basis, index, bound) in
-            [(fields.transverse(), transverse, length), (fields.axial(), axial, LARGEST_STRETCH * length)]
+            [(fields.transverse(), transverse, length), (fields.axial(), axial, LARGEST_EXTENSION * length)]
         {
             let values = index.iter().enumerate().filter(|(i, _)| basis.role(*i) != Role::Slope);
             bounds.extend(values.map(|(_, &number)| (number, bound)));
@@ -106,7 +107,7 @@ impl LinearCoupling {
             Foreshortening::None => "zeroth",
             Foreshortening::First => "first",
         };
-        LinearCoupling { name, foreshortening, fields, inertia, slopes, strains, bounds }
+        LinearCoupling { name, foreshortening, fields, inertia, slopes, stiffnesses, bounds }
     }
 
     /// The coupling as the linear part of another one, by whose name its messages call it.
@@ -153,13 +154,13 @@ impl Coupling for LinearCoupling {
     }
 
     fn strain_forms(&mut self, _s: &State, vectors: &[Vec<f64>], out: &mut [f64]) {
-        let mut strains = self.strains.iter();
+        let mut stiffnesses = self.stiffnesses.iter();
         self.fields.integrate(|p| {
-            let Some(strain) = strains.next() else { return };
+            let Some(stiffness) = stiffnesses.next() else { return };
             for (x, out) in vectors.iter().zip(&mut *out) {
                 let curvature = p.transverse.field(2, x);
-                let stretch = p.axial.field(1, x) - strain.offset * curvature;
-                *out += strain.stretch * stretch * stretch + strain.bending * curvature * curvature;
+                let strain = p.axial.field(1, x) - stiffness.offset * curvature;
+                *out += stiffness.axial * strain * strain + stiffness.bending * curvature * curvature;
             }
         });
     }
@@ -275,7 +276,7 @@ impl Coupling for LinearCoupling {
     }
 }
 
-/// The matrices of a coupling, for analyses that need them one by one.
+/// The matrices of a coupling.
 impl LinearCoupling {
     /// M, D and K of the fields; see [`Inertia`].
     pub fn matrices(&self) -> (&Matrix, &Matrix, &Matrix) {

@@ -1,11 +1,11 @@
 //! Rotary inertia of lumped masses on the exact coupling: a [`SectionRotation`] at each mass.
 
+use super::beam::Mass;
 use super::fields::{Fields, Point};
 use super::inertia::{Border, Totals};
 use super::section_rotation::SectionRotation;
 use crate::linalg::Storage;
 use crate::profile::HubKinematics;
-use crate::section::Mass;
 use crate::system::{State, Weights};
 
 /// The rotary inertia j of a mass on the axis.

@@ -1,4 +1,4 @@
-//! A flexible beam on a rigid hub that turns about a fixed axis, in the hub's frame (P1, P3, P4).
+//! A flexible beam on a rigid hub that rotates about a fixed axis, in the hub's frame (P1, P3, P4).
 //!
 //! The hub has radius a and angle θ(t); the beam is clamped to it radially, x ∈ [0, L]. In the hub's frame
 //! the axis is at X = a + x + (axial displacement), Y = (transverse displacement). A [`Coupling`] says which
@@ -6,11 +6,12 @@
 //!
 //! | coupling | kept | fails when |
 //! |---|---|---|
-//! | [`zeroth`](LinearCoupling) | small displacements on a rigidly turning beam | θ̇ nears the first frequency |
+//! | [`zeroth`](LinearCoupling) | small displacements on a rigidly rotating beam | θ̇ nears the first frequency |
 //! | [`first`](LinearCoupling) | foreshortening, to first order in the kinetic energy | deflections are no longer small |
 //! | [`high`](HighCoupling) | the same foreshortening, to every order in the kinetic energy | the same |
 //! | [`exact`](ExactCoupling) | everything but shear | strains are no longer small |
 
+mod beam;
 mod coupling;
 mod damping;
 mod element;
@@ -32,8 +33,7 @@ mod system;
 #[cfg(test)]
 mod tests;
 
-mod viscous;
-
+pub use beam::{Beam, Mass};
 pub use coupling::Coupling;
 pub use damping::Damping;
 pub use exact::ExactCoupling;

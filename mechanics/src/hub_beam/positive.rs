@@ -8,7 +8,7 @@
 //!
 //! M, m, J_θθ: the blocks of the mass matrix. The coupling `first` keeps the foreshortening in J_θθ and drops what
 //! belongs to it in m and M: T is a sum of squares and J θ̇²/2, J the inertia of the hub alone, less qᵀN q θ̇²/2. A beam
-//! of which the foreshortening takes more than J_e(0) has no positive kinetic energy any more, and no motion that means anything.
+//! of which the foreshortening takes more than J_e(0) has no positive kinetic energy any more, and its motion has no meaning.
 
 use super::inertia::{Border, Inertia, Scratch};
 use crate::linalg::{Matrix, Structure, eigen::each};
@@ -20,7 +20,7 @@ fn inertial() -> Weights<'static> {
     Weights::new(1.0, 0.0, 0.0)
 }
 
-/// What is left of the inertia of a free hub.
+/// Effective inertia of a free hub.
 #[derive(Debug)]
 pub struct HubInertia {
     /// M, factored.

@@ -24,7 +24,7 @@ pub(super) struct Bundle {
     advance: usize,
     /// Entries of a row in front of the diagonal: zeros in front of a vector.
     lead: usize,
-    /// Term k of the entry at place j of row i is at (i·width + j)·terms + k.
+    /// Term k of the entry at position j of row i is at (i·width + j)·terms + k.
     data: Vec<f64>,
 }
 
@@ -53,7 +53,7 @@ impl Vectors {
 }
 
 impl Bundle {
-    /// The first `order` rows of the matrices; zeros stand for those that are not there.
+    /// The first `order` rows of the matrices; a matrix that is `None` is zero.
     pub(super) fn new(structure: &Structure, order: usize, matrices: [Option<&Matrix>; TERMS]) -> Bundle {
         let most = order.saturating_sub(1);
         let (width, advance, lead) = match *structure {
@@ -75,7 +75,7 @@ impl Bundle {
         bundle
     }
 
-    /// Column of the entry at place `j` of row `i`, if it is one of the matrix.
+    /// Column of the entry at position `j` of row `i`, if it is one of the matrix.
     fn column(&self, i: usize, j: usize) -> Option<usize> {
         (self.advance * i + j).checked_sub(self.lead).filter(|column| *column < self.order)
     }
@@ -108,7 +108,7 @@ impl Bundle {
         }
     }
 
-    /// [`Bundle::products`] of `T` terms; `W` is the width of a row where the compiler knows it, or 0.
+    /// [`Bundle::products`] of `T` terms; `W` is the width of a row where it is known at compile time, or 0.
     #[inline(always)]
     fn sums<const T: usize, const W: usize>(&self, x: &Vectors, out: &mut [Entry]) {
         let length = T * if W > 0 { W } else { self.width };

@@ -4,7 +4,7 @@
 use crate::quadrature::Gauss;
 
 /// Gauss points of the bending energy. Two integrate the energy of a straight element exactly; the third
-/// carries the fourth-order terms of large rotations.
+/// is for the fourth-order terms of large rotations.
 pub(super) const POINTS: usize = 3;
 
 /// Shape functions at the quadrature points of an element of given length: equal for equal elements.
@@ -19,7 +19,7 @@ pub struct Rule {
 
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct RulePoint {
-    /// Place in the element, 0 to 1.
+    /// Position in the element, 0 to 1.
     pub(super) s: f64,
     /// Quadrature weight \[m\].
     pub(super) weight: f64,

@@ -36,17 +36,17 @@ use crate::system::{Channel, Role, State};
 /// Coefficients of the polynomials, and Gauss points of an element.
 const POINTS: usize = 4;
 
-/// Half width, over the length, of the window in which smooth functions are looked at.
+/// Half width, over the length, of the window in which smooth functions are sampled.
 const WINDOW: f64 = 0.005;
 
-/// Where the strains of a basis are at their best.
+/// Where the strains of a basis are most accurate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sampling {
     /// Close around the station.
     Station,
     /// In elements, by moments: this many of N in each, two of M.
     Elements(usize),
-    /// In elements: the stretch at nodes and midpoints, two moments of M.
+    /// In elements: the axial strain at nodes and midpoints, two moments of M.
     Curve,
 }
 
@@ -68,7 +68,7 @@ struct Forces {
     section: Resultants,
 }
 
-/// A place where strains are taken, with its weights in the value and in the derivative at the station.
+/// A point where strains are sampled, with its weights in the value and in the derivative at the station.
 #[derive(Debug)]
 struct Sample {
     point: Point,
@@ -78,13 +78,13 @@ struct Sample {
 }
 
 impl SectionForces {
-    /// Those of the stations `places` (name and x \[m\]) of a beam with elements between the cells of its transverse
+    /// Those of the stations `at` (name and x \[m\]) of a beam with elements between the cells of its transverse
     /// basis; `heights` \[m\] are those at which strains are recorded.
     pub fn new(
         fields: &Fields,
         section: &dyn Section,
         sampling: Sampling,
-        places: &[(String, f64)],
+        at: &[(String, f64)],
         forces: bool,
         heights: &[f64],
     ) -> SectionForces {
@@ -112,7 +112,7 @@ impl SectionForces {
             Sampling::Station => around(x),
             Sampling::Elements(_) | Sampling::Curve => by_moments(nodes, 2, x),
         };
-        let stations = places
+        let stations = at
             .iter()
             .map(|(name, x)| Forces {
                 name: name.clone(),
@@ -178,9 +178,9 @@ impl SectionForces {
             let r = &station.section;
             let (ea, es, ei) = (r.axial_stiffness, r.coupling_stiffness, r.bending_stiffness);
             let determinant = ea * ei - es * es;
-            let stretch = (ei * axial + es * moment) / determinant;
+            let strain = (ei * axial + es * moment) / determinant;
             let curvature = (es * axial + ea * moment) / determinant;
-            self.heights.iter().for_each(|y| put(stretch - y * curvature));
+            self.heights.iter().for_each(|y| put(strain - y * curvature));
         }
     }
 }
@@ -188,20 +188,20 @@ impl SectionForces {
 impl Sample {
     /// N and M.
     fn forces(&self, coupling: &impl Coupling, s: &State) -> (f64, f64) {
-        let (stretch, curvature) = coupling.strains(s, &self.point);
+        let (strain, curvature) = coupling.strains(s, &self.point);
         let r = &self.section;
         (
-            r.axial_stiffness * stretch - r.coupling_stiffness * curvature,
-            r.bending_stiffness * curvature - r.coupling_stiffness * stretch,
+            r.axial_stiffness * strain - r.coupling_stiffness * curvature,
+            r.bending_stiffness * curvature - r.coupling_stiffness * strain,
         )
     }
 }
 
 /// Points close around `x`, for smooth functions: the cubic through them is theirs.
 fn around(x: f64, length: f64) -> Vec<f64> {
-    let reach = WINDOW * length;
-    let first = (x - reach).clamp(0.0, length - 2.0 * reach);
-    Gauss::new(POINTS).on(first, first + 2.0 * reach).map(|(x, _)| x).collect()
+    let half = WINDOW * length;
+    let first = (x - half).clamp(0.0, length - 2.0 * half);
+    Gauss::new(POINTS).on(first, first + 2.0 * half).map(|(x, _)| x).collect()
 }
 
 /// The points of an ascending list that are next to `x`: as many on either side as there are.
@@ -215,9 +215,9 @@ fn nearest(among: &[f64], x: f64) -> Vec<f64> {
 fn through(at: &[f64], x: f64) -> Vec<(f64, f64, f64)> {
     at.iter()
         .enumerate()
-        .map(|(i, place)| {
+        .map(|(i, point)| {
             let (value, slope) = lagrange(at, i, x);
-            (*place, value, slope)
+            (*point, value, slope)
         })
         .collect()
 }
@@ -262,10 +262,10 @@ fn by_moments(nodes: &[f64], count: usize, x: f64) -> Vec<(f64, f64, f64)> {
     }
     transposed.solve(&mut value);
     transposed.solve(&mut slope);
-    let weigh = |solved: &[f64], e: usize, test: &[f64]| -> f64 {
+    let weight = |solved: &[f64], e: usize, test: &[f64]| -> f64 {
         test.iter().enumerate().map(|(m, test)| test * solved[e * count + m]).sum()
     };
-    tests.iter().map(|(y, e, test)| (*y, weigh(&value, *e, test), weigh(&slope, *e, test))).collect()
+    tests.iter().map(|(y, e, test)| (*y, weight(&value, *e, test), weight(&slope, *e, test))).collect()
 }
 
 /// Value and derivative at `x` of the Lagrange polynomial of point `i`.

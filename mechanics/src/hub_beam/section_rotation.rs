@@ -1,8 +1,9 @@
 //! Inertia of the rotation of a section in the exact coupling: rotary inertia ρI and first mass moment ρS
-//! at one place of the axis, as forces on p and p′, as a torque on the hub, and their tangents. Symbols and
+//! at one point of the axis, as forces on p and p′, as a torque on the hub, and their tangents. Symbols and
 //! equations as in [`super::exact`].
 
 use super::inertia::Totals;
+use crate::linalg::vector::inner;
 use crate::profile::HubKinematics;
 use crate::system::Weights;
 
@@ -27,10 +28,6 @@ pub struct SectionRotation {
     acceleration: [f64; 2],
 }
 
-fn inner(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
-}
-
 /// c₁ a + c₂ b
 fn sum(c1: f64, a: [f64; 2], c2: f64, b: [f64; 2]) -> [f64; 2] {
     [c1 * a[0] + c2 * b[0], c1 * a[1] + c2 * b[1]]
@@ -43,7 +40,7 @@ fn absolute(p: [f64; 2], v: [f64; 2], a: [f64; 2], hub: &HubKinematics) -> [f64;
 }
 
 impl SectionRotation {
-    /// The rotation at a place p with slope p′, their rates and their accelerations.
+    /// The rotation at a point p with slope p′, their rates and their accelerations.
     pub fn new(
         p: [f64; 2],
         slope: [f64; 2],

@@ -1,9 +1,9 @@
-//! Stations: where along the beam something is recorded, and what the beam does there.
+//! Stations: points of the axis at which displacements are recorded.
 
 use super::fields::{Fields, Point};
 use crate::system::State;
 
-/// A place along the beam with the shape functions there.
+/// A station on the axis, with the shape functions there.
 #[derive(Clone, Debug)]
 pub struct Station {
     /// Prefix of its columns: `tip`, or `x=2.5`.
@@ -37,7 +37,7 @@ impl Station {
     }
 }
 
-/// What the section at a station does, in the hub's frame.
+/// Displacement and rotation of the section at a station, with their rates, in the hub's frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Placement {
     /// Axial displacement X − a − x \[m\].

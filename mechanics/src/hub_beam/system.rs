@@ -1,5 +1,6 @@
 //! The hub–beam as a [`System`](crate::system::System).
 
+use super::beam::Beam;
 use super::coupling::Coupling;
 use super::damping::Damping;
 use super::hub::{Drive, Hub, Recent};
@@ -27,7 +28,7 @@ pub struct HubBeam<C> {
     channels: Vec<Channel>,
     /// Recorded stations, ascending along the beam; the tip is the last.
     stations: Vec<Station>,
-    /// Stations that were last asked for by [`Observed::frames`].
+    /// Stations that were last requested by [`Observed::frames`].
     shown: Vec<Station>,
     placements: Vec<Placement>,
     scratch: Scratch,
@@ -35,34 +36,34 @@ pub struct HubBeam<C> {
     border: Border,
     /// Times at which drive and loads are not smooth.
     breaks: Vec<Break>,
-    /// Speed of a steady rotation in the place of the drive's [rad/s], and whether the hub is held.
+    /// Speed of a steady rotation instead of the drive's [rad/s], and whether the hub is held.
     steady: Option<f64>,
     held: bool,
     loads: Loads,
     damped: bool,
     /// Forces in the sections at the stations, recorded last.
     section_forces: SectionForces,
-    /// Watches the inertia of a free hub, where a coupling may lose it.
+    /// Effective inertia of a free hub, for a coupling whose kinetic energy may become negative.
     hub_inertia: Option<HubInertia>,
     /// Effective inertia of the released hub over the inertia of hub and beam, where it is watched and small.
     small_share: Option<f64>,
 }
 
-/// Part of the inertia of hub and beam below which a hub that may lose its own is worth a caution.
+/// Part of the inertia of hub and beam below which such a hub is reported by a caution.
 const SMALL_SHARE: f64 = 0.01;
-/// Part of the inertia of a free hub below which a run that fails does so for the want of it.
+/// Part of the inertia of a free hub below which the failure of a run is attributed to its loss.
 const VANISHING: f64 = 0.2;
 
 impl<C: Coupling> HubBeam<C> {
     /// The system; `stations` \[m\] are recorded besides the tip.
     pub fn new(hub: Hub, coupling: C, stations: &[f64]) -> HubBeam<C> {
         let fields = coupling.fields();
-        let mut places: Vec<f64> =
+        let mut at: Vec<f64> =
             stations.iter().copied().filter(|x| *x < fields.length() * (1.0 - 1e-12)).collect();
-        places.sort_by(f64::total_cmp);
-        places.dedup();
-        places.push(fields.length());
-        let stations: Vec<Station> = places.iter().map(|&x| Station::new(fields, x)).collect();
+        at.sort_by(f64::total_cmp);
+        at.dedup();
+        at.push(fields.length());
+        let stations: Vec<Station> = at.iter().map(|&x| Station::new(fields, x)).collect();
         let mut labels = fields.labels();
         let breaks = match &hub.drive {
             Drive::Prescribed(motion) => motion_breaks(motion),
@@ -100,12 +101,12 @@ impl<C: Coupling> HubBeam<C> {
         }
     }
 
-    /// The same system under `loads`; `section` is the one the coupling was made of.
-    pub fn with_loads(mut self, section: &dyn Section, loads: &[&dyn Load]) -> HubBeam<C> {
+    /// The same system under `loads`; `beam` is the one the coupling was made of.
+    pub fn with_loads<'a>(mut self, beam: impl Into<Beam<'a>>, loads: &[&dyn Load]) -> HubBeam<C> {
         let site = Site {
             fields: self.coupling.fields(),
             kinematics: self.coupling.kinematics(),
-            section,
+            beam: &beam.into(),
             radius: self.hub.radius,
             border: self.hub.unknowns(),
         };
@@ -143,10 +144,10 @@ impl<C: Coupling> HubBeam<C> {
         // The tip first, as for the displacements.
         let (tip, rest) = (self.stations.len() - 1, self.stations.len() - 1);
         let order = std::iter::once(tip).chain(0..rest);
-        let places: Vec<(String, f64)> =
+        let at: Vec<(String, f64)> =
             order.map(|i| (self.stations[i].name.clone(), self.stations[i].point.x)).collect();
         let fields = self.coupling.fields();
-        self.section_forces = SectionForces::new(fields, section, sampling, &places, forces, heights);
+        self.section_forces = SectionForces::new(fields, section, sampling, &at, forces, heights);
         self.channels.extend(self.section_forces.channels());
         self
     }
@@ -179,7 +180,7 @@ impl<C: Coupling> HubBeam<C> {
     fn power_with(&mut self, s: &State, hub: &HubKinematics, reaction: Option<f64>) -> Power {
         let mut power = Power { loads: self.loads.power(s, hub), ..Power::default() };
         match &self.hub.drive {
-            // A hub at rest takes no power, whatever holds it.
+            // A hub at rest takes no power.
             Drive::Prescribed(_) if hub.speed == 0.0 => {}
             Drive::Prescribed(_) => {
                 let torque = reaction.unwrap_or_else(|| self.reaction(s, hub));
@@ -250,7 +251,7 @@ fn channels(stations: &[Station]) -> Vec<Channel> {
     let mut add = |role, name: String, unit: &'static str, meaning: String| {
         channels.push(Channel { name, unit, meaning, role });
     };
-    // The tip first: it is what most people look for.
+    // The tip first.
     for station in stations.iter().rev().take(1).chain(&stations[..stations.len() - 1]) {
         let (name, x) = (&station.name, station.point.x);
         let (displacement, other, at) = match name.as_str() {
@@ -457,7 +458,7 @@ impl<C: Coupling> Observed for HubBeam<C> {
     }
 
     fn frames(&mut self, _body: usize, s: &State, stations: &[f64], out: &mut [Frame]) {
-        // The same stations are asked for again and again.
+        // The same stations are requested repeatedly.
         if !self.shown.iter().map(|s| &s.point.x).eq(stations) {
             self.shown = stations.iter().map(|&x| Station::new(self.coupling.fields(), x)).collect();
         }
@@ -548,16 +549,16 @@ impl<C: Coupling> Observed for HubBeam<C> {
                  centrifugal stiffening); use coupling = \"first\" or \"exact\""
             }
             _ => {
-                "the centrifugal force outgrows the stiffness of the beam, centrifugal stiffening included: no beam so \
-                 soft turns so fast; check the modulus, the section and the speed, and their units"
+                "the centrifugal force outgrows the stiffness of the beam, centrifugal stiffening included: a beam \
+                 of this stiffness has no steady rotation at this speed; check the modulus, the section and the speed, and their units"
             }
         };
-        Some(format!("{since}the hub turns faster than {critical:.4} rad/s, where {why}"))
+        Some(format!("{since}the speed of the hub exceeds {critical:.4} rad/s, where {why}"))
     }
 }
 
 impl<C: Coupling> HubBeam<C> {
-    /// What to say where a free hub has at most this part of its inertia left.
+    /// The message where a free hub has at most this part of its inertia left.
     fn lost_inertia(&mut self, s: &State, part: f64) -> Option<String> {
         if self.held {
             return None;

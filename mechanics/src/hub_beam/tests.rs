@@ -4,7 +4,7 @@ use super::*;
 use crate::basis::{Field, Hermite, Lagrange};
 use crate::linalg::{Matrix, Structure};
 use crate::profile::{Expression, HubKinematics, Motion};
-use crate::section::{Mass, Resultants, Section};
+use crate::section::{Resultants, Section};
 use crate::system::{Dynamics, Observed, State, System, Weights};
 use std::sync::Arc;
 

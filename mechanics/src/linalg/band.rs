@@ -5,12 +5,15 @@
 //! elimination stays within the band, and the cost is n·l·u multiplications.
 //!
 //! The diagonal is the pivot as long as |aᵢₖ|² ≤ τ⁻² |aₖₖ| |aᵢᵢ| for the rows i below it, which holds for
-//! every positive definite matrix, and in whatever units the unknowns are: it bounds by 1/τ the multipliers
+//! every positive definite matrix, and for any units of the unknowns: it bounds by 1/τ the multipliers
 //! of the matrix that is scaled to a unit diagonal. Otherwise the largest entry of the column is.
 
 use super::{Scalar, Singular};
 
-/// A pivot below this share of its column is taken for nought when the border can replace it.
+/// Largest number of vanishing pivots of the band that are moved to the border.
+pub const DEFLATIONS: usize = 4;
+
+/// A pivot below this share of its column is taken for zero when the border can replace it.
 const VANISHING: f64 = 1e-12;
 
 /// Bound 1/τ² of the squared multipliers with which the diagonal is accepted as pivot.
@@ -29,12 +32,12 @@ pub struct Band<T> {
     /// 1 / U_kk.
     inverse: Vec<T>,
     /// Number of entries of row k of U right of the diagonal.
-    reach: Vec<u32>,
+    row_length: Vec<u32>,
     /// Whether any rows were exchanged.
     interchanged: bool,
     /// Pivots that were too small and were replaced: see [`Band::factor`].
     deflated: Vec<(usize, f64)>,
-    /// Largest entry of each column before elimination, where deflation is asked for.
+    /// Largest entry of each column before elimination, for deflation.
     column_size: Vec<f64>,
 }
 
@@ -52,9 +55,9 @@ impl<T: Scalar> Band<T> {
             data: vec![T::ZERO; n * width],
             pivots: vec![0; n],
             inverse: vec![T::ZERO; n],
-            reach: vec![0; n],
+            row_length: vec![0; n],
             interchanged: false,
-            deflated: Vec::with_capacity(super::bordered::DEFLATIONS),
+            deflated: Vec::with_capacity(DEFLATIONS),
             column_size: vec![0.0; n],
         }
     }
@@ -171,7 +174,7 @@ impl<T: Scalar> Band<T> {
         }
     }
 
-    /// Elimination with half-bandwidths `HALF` and rows of length `WIDTH` while the diagonal will do.
+    /// Elimination with half-bandwidths `HALF` and rows of length `WIDTH` while the diagonal is a sufficient pivot.
     fn eliminate<const HALF: usize, const WIDTH: usize>(&mut self, deflate: bool) -> Result<(), Singular> {
         let mut k = 0;
         while k + HALF < self.n {
@@ -192,7 +195,7 @@ impl<T: Scalar> Band<T> {
             let inverse = T::ONE / pivot;
             self.inverse[k] = inverse;
             self.pivots[k] = 0;
-            self.reach[k] = HALF as u32;
+            self.row_length[k] = HALF as u32;
             for r in 0..HALF {
                 let first = HALF - 1 - r;
                 let factor = below[r][first] * inverse;
@@ -206,7 +209,7 @@ impl<T: Scalar> Band<T> {
         self.eliminate_from(k, deflate)
     }
 
-    /// Elimination of the columns from `start` on, with whatever pivots it takes.
+    /// Elimination of the columns from `start` on, with interchanges where they are needed.
     fn eliminate_from(&mut self, start: usize, deflate: bool) -> Result<(), Singular> {
         let (n, width, l, u) = (self.n, self.width, self.lower, self.upper);
         let largest = self.data[start * width..].iter().map(|x| x.size()).fold(0.0, f64::max);
@@ -225,8 +228,8 @@ impl<T: Scalar> Band<T> {
                     (p, best) = (i, size);
                 }
             }
-            // Judged against its own column, so that unknowns in different units do not make a sound
-            // band look singular. Written so that a NaN pivot is refused too.
+            // Compared with its own column, so that unknowns in different units do not make a sound
+            // band look singular. A NaN pivot is refused too.
             let small = if deflate { floor.max(VANISHING * self.column_size[k]) } else { floor };
             if sound && diagonal > small {
                 (p, best) = (k, diagonal);
@@ -234,9 +237,9 @@ impl<T: Scalar> Band<T> {
             filled = filled.max((p + u).min(n - 1)).max(k);
             let count = filled - k;
             self.pivots[k] = (p - k) as u32;
-            self.reach[k] = count as u32;
+            self.row_length[k] = count as u32;
             if !(best > small) {
-                if !deflate || !best.is_finite() || self.deflated.len() == super::bordered::DEFLATIONS {
+                if !deflate || !best.is_finite() || self.deflated.len() == DEFLATIONS {
                     return Err(Singular { index: k, pivot: best / largest });
                 }
                 let delta = if self.column_size[k] > 0.0 { self.column_size[k] } else { 1.0 };
@@ -346,22 +349,22 @@ impl<T: Scalar> Band<T> {
         }
     }
 
-    /// `UPPER` is the common reach of a row, or 0.
+    /// `UPPER` is the common length of a row, or 0.
     fn backward_by_rows<const UPPER: usize>(&self, b: &mut [T]) {
         let (l, width) = (self.lower, self.width);
         for k in (0..self.n).rev() {
-            let reach = self.reach[k] as usize;
-            let row = &self.data[k * width + l + 1..k * width + l + 1 + reach];
+            let length = self.row_length[k] as usize;
+            let row = &self.data[k * width + l + 1..k * width + l + 1 + length];
             let (head, tail) = b.split_at_mut(k + 1);
             let Some(x) = head.last_mut() else { return };
             let sum = if UPPER > 0
-                && reach == UPPER
+                && length == UPPER
                 && let Some(row) = row.first_chunk::<UPPER>()
                 && let Some(tail) = tail.first_chunk::<UPPER>()
             {
                 backward_products(*x, row, tail)
             } else {
-                backward_products(*x, row, &tail[..reach])
+                backward_products(*x, row, &tail[..length])
             };
             *x = sum * self.inverse[k];
         }

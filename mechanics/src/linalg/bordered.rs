@@ -9,10 +9,9 @@
 //! Pivots of B that vanish are then replaced, and for each a further border row and column restores
 //! the original matrix: B x = B̃ x − (L e_k) z with z = δ x_k.
 
+use super::band::DEFLATIONS;
+use super::vector::weighted_sum;
 use super::{Band, Dense, Scalar, Singular};
-
-/// Largest number of vanishing pivots of the band that are moved to the border.
-pub const DEFLATIONS: usize = 4;
 
 /// Band matrix of order `n` bordered by `m` dense rows and columns.
 #[derive(Clone, Debug)]
@@ -113,10 +112,10 @@ impl<T: Scalar> Bordered<T> {
 
     /// Replaces the content by Σ wₖ Aₖ of real matrices of the same structure.
     pub(super) fn combine(&mut self, terms: [&Bordered<f64>; 3], weights: [T; 3]) {
-        super::weighted_sum(self.band.data_mut(), terms.map(|a| a.band.data()), weights);
-        super::weighted_sum(&mut self.columns, terms.map(|a| &a.columns[..]), weights);
-        super::weighted_sum(&mut self.rows, terms.map(|a| &a.rows[..]), weights);
-        super::weighted_sum(&mut self.corner, terms.map(|a| &a.corner[..]), weights);
+        weighted_sum(self.band.data_mut(), terms.map(|a| a.band.data()), weights);
+        weighted_sum(&mut self.columns, terms.map(|a| &a.columns[..]), weights);
+        weighted_sum(&mut self.rows, terms.map(|a| &a.rows[..]), weights);
+        weighted_sum(&mut self.corner, terms.map(|a| &a.corner[..]), weights);
     }
 
     /// y = A x, before factoring.

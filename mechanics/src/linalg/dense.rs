@@ -79,7 +79,7 @@ impl<T: Scalar> Dense<T> {
                     (p, best) = (i, size);
                 }
             }
-            // Written so that a NaN pivot is refused too.
+            // A NaN pivot is refused too.
             if !(best > floor) {
                 return Err(Singular { index: k, pivot: best / largest });
             }

@@ -27,7 +27,7 @@ pub fn negative_pivots_of<T: Scalar>(n: usize, half: usize, entry: impl Fn(usize
         for p in k.saturating_sub(half)..k {
             let former = &rows[(p % width) * width..(p % width + 1) * width];
             let offset = k - p;
-            // Rows keep their entries over the pivot in front of which they stand.
+            // The entries of a row are over the pivot in front of it.
             let factor = former[offset].conj() * former[0];
             for j in offset..width {
                 row[j - offset] -= factor * former[j];

@@ -1,5 +1,6 @@
 //! The matrix an integrator owns and a system fills.
 
+use super::vector::weighted_sum;
 use super::{Bordered, Dense, Scalar, Singular};
 
 /// Shape of a system's tangent.
@@ -65,7 +66,7 @@ impl Structure {
 /// depends on a few numbers only stamps it with them.
 pub type Stamp = [f64; 6];
 
-/// A square matrix in the storage its [`Structure`] asks for; factored in place.
+/// A square matrix in the storage of its [`Structure`]; factored in place.
 #[derive(Clone, Debug)]
 pub struct Matrix<T = f64> {
     storage: Storage<T>,
@@ -120,7 +121,7 @@ impl<T: Scalar> Storage<T> {
         }
     }
 
-    /// Sets column, row and corner of border unknown `k`, which stands behind all others but the border's.
+    /// Sets column, row and corner of border unknown `k`, which follows all unknowns but those of the border.
     pub fn set_border(&mut self, k: usize, column: &[T], row: &[T], corner: T) {
         match self {
             Storage::Dense(a) => {
@@ -218,7 +219,7 @@ impl<T: Scalar> Matrix<T> {
         self.stamp = stamp;
     }
 
-    /// Whether the content is already what `stamp` stands for.
+    /// Whether the content is that of `stamp`.
     pub fn holds(&self, stamp: &Stamp) -> bool {
         self.stamp.as_ref() == Some(stamp)
     }
@@ -280,7 +281,7 @@ impl<T: Scalar> Matrix<T> {
 }
 
 impl<T: Scalar> Matrix<T> {
-    /// Sets the matrix to Σ wₖ Aₖ (equal structures). When the terms carry the stamps of the last combination and
+    /// Sets the matrix to Σ wₖ Aₖ (equal structures). When the terms have the stamps of the last combination and
     /// the weights are the same the content, factored or not, is left as it is.
     pub fn combine(&mut self, terms: [&Matrix; 3], weights: [T; 3]) {
         let source = match terms.map(|a| a.stamp) {
@@ -300,13 +301,5 @@ impl<T: Scalar> Matrix<T> {
             _ => debug_assert!(false, "structures differ"),
         }
         self.source = source;
-    }
-}
-
-/// `out` = Σ wₖ aₖ, entry by entry.
-pub(super) fn weighted_sum<T: Scalar>(out: &mut [T], terms: [&[f64]; 3], weights: [T; 3]) {
-    let [a, b, c] = terms;
-    for (((out, a), b), c) in out.iter_mut().zip(a).zip(b).zip(c) {
-        *out = weights[0].times(*a) + (weights[1].times(*b) + weights[2].times(*c));
     }
 }

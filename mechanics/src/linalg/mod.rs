@@ -21,8 +21,6 @@ pub use inertia::{negative_pivots, negative_pivots_of};
 pub use matrix::{Matrix, Stamp, Storage, Structure};
 pub use scalar::Scalar;
 
-use matrix::weighted_sum;
-
 /// A matrix that cannot be factored: its pivot `pivot` (relative to the largest entry) is too small
 /// at unknown `index`.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]

@@ -129,7 +129,7 @@ fn multiplication_inverts_the_solution() {
 }
 
 #[test]
-fn combination_is_kept_while_the_stamps_of_its_terms_and_the_weights_stay() {
+fn a_combination_is_kept_while_stamps_and_weights_stay() {
     let structure = Structure::band(12, 2, 2, 1);
     let [mut a, mut b, mut c] =
         [(3.0, 1), (1.0, 2), (2.0, 3)].map(|(d, seed)| random_pair(&structure, d, seed).0);

@@ -1,4 +1,6 @@
-//! Products of vectors.
+//! Sums and products of vectors.
+
+use super::Scalar;
 
 /// aᵀ b, in four sums side by side.
 #[inline]
@@ -13,6 +15,16 @@ pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     }
     let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
     (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
+}
+
+/// aᵀ b of short vectors, summed in their order.
+#[inline(always)]
+pub fn inner<const N: usize>(a: [f64; N], b: [f64; N]) -> f64 {
+    let mut sum = -0.0;
+    for k in 0..N {
+        sum += a[k] * b[k];
+    }
+    sum
 }
 
 /// y ← y + c x
@@ -32,6 +44,14 @@ pub fn scale(c: f64, x: &mut [f64]) {
 #[inline]
 pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// `out` = Σ wₖ aₖ, entry by entry.
+pub(super) fn weighted_sum<T: Scalar>(out: &mut [T], terms: [&[f64]; 3], weights: [T; 3]) {
+    let [a, b, c] = terms;
+    for (((out, a), b), c) in out.iter_mut().zip(a).zip(b).zip(c) {
+        *out = weights[0].times(*a) + (weights[1].times(*b) + weights[2].times(*c));
+    }
 }
 
 /// Numbers in [−1, 1) without structure, the same for the same seed: a linear congruential sequence.

@@ -4,7 +4,7 @@ use super::program::Program;
 use super::{Profile, ProfileError, positive};
 use crate::quadrature::Gauss;
 
-/// Intervals in which changes of branch are looked for.
+/// Intervals scanned for changes of branch.
 const SCAN: usize = 4096;
 /// Intervals of the integral, besides the breaks.
 const PANELS: usize = 512;

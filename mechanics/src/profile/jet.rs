@@ -4,7 +4,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// f, f′ and f″ at one place.
+/// f, f′ and f″ at one point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Jet {
     pub value: f64,

@@ -5,14 +5,14 @@ use super::{Profile, ProfileError};
 /// Straight lines between rows (x, f), constant before the first and behind the last. Every row is a break.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polyline {
-    places: Vec<f64>,
+    abscissae: Vec<f64>,
     values: Vec<f64>,
     /// ∫ from the first row to each row.
     sums: Vec<f64>,
 }
 
 impl Polyline {
-    /// The lines through at least one row, with strictly ascending finite places.
+    /// The lines through at least one row, with strictly ascending finite abscissae.
     ///
     /// # Errors
     /// [`ProfileError::Row`] or [`ProfileError::TooFewRows`].
@@ -30,28 +30,28 @@ impl Polyline {
             };
             return Err(ProfileError::Row { row: i + 1, time, value, fault });
         }
-        let (places, values): (Vec<f64>, Vec<f64>) = rows.iter().copied().unzip();
-        let mut sums = vec![0.0; places.len()];
-        for i in 1..places.len() {
-            sums[i] = sums[i - 1] + 0.5 * (values[i - 1] + values[i]) * (places[i] - places[i - 1]);
+        let (abscissae, values): (Vec<f64>, Vec<f64>) = rows.iter().copied().unzip();
+        let mut sums = vec![0.0; abscissae.len()];
+        for i in 1..abscissae.len() {
+            sums[i] = sums[i - 1] + 0.5 * (values[i - 1] + values[i]) * (abscissae[i] - abscissae[i - 1]);
         }
-        Ok(Polyline { places, values, sums })
+        Ok(Polyline { abscissae, values, sums })
     }
 
     /// Number of rows at or before x.
     fn passed(&self, x: f64) -> usize {
-        self.places.partition_point(|p| *p <= x)
+        self.abscissae.partition_point(|p| *p <= x)
     }
 
     fn slope(&self, i: usize) -> f64 {
-        (self.values[i + 1] - self.values[i]) / (self.places[i + 1] - self.places[i])
+        (self.values[i + 1] - self.values[i]) / (self.abscissae[i + 1] - self.abscissae[i])
     }
 
     /// ∫ from the first row to x.
     fn since_first(&self, x: f64) -> f64 {
         match self.passed(x) {
-            0 => self.values[0] * (x - self.places[0]),
-            i => self.sums[i - 1] + 0.5 * (self.values[i - 1] + self.value(x)) * (x - self.places[i - 1]),
+            0 => self.values[0] * (x - self.abscissae[0]),
+            i => self.sums[i - 1] + 0.5 * (self.values[i - 1] + self.value(x)) * (x - self.abscissae[i - 1]),
         }
     }
 }
@@ -60,15 +60,15 @@ impl Profile for Polyline {
     fn value(&self, x: f64) -> f64 {
         match self.passed(x) {
             0 => self.values[0],
-            i if i == self.places.len() => self.values[i - 1],
-            i => self.values[i - 1] + self.slope(i - 1) * (x - self.places[i - 1]),
+            i if i == self.abscissae.len() => self.values[i - 1],
+            i => self.values[i - 1] + self.slope(i - 1) * (x - self.abscissae[i - 1]),
         }
     }
 
     fn rate(&self, x: f64) -> f64 {
         match self.passed(x) {
             0 => 0.0,
-            i if i == self.places.len() => 0.0,
+            i if i == self.abscissae.len() => 0.0,
             i => self.slope(i - 1),
         }
     }
@@ -82,7 +82,7 @@ impl Profile for Polyline {
     }
 
     fn breaks(&self) -> &[f64] {
-        &self.places
+        &self.abscissae
     }
 }
 

@@ -2,7 +2,6 @@
 
 mod blade;
 mod graded;
-mod laden;
 mod piecewise;
 mod shape;
 mod table;
@@ -11,7 +10,6 @@ mod uniform;
 
 pub use blade::{BladeResultants, BladeSection, BladeTable, Guided, HomogeneousBlade, PlanarBlade, Twisted};
 pub use graded::{Graded, Material};
-pub use laden::{Laden, Mass};
 pub use piecewise::{Piecewise, Segment};
 pub use shape::Shape;
 pub use table::{Interpolation, Table};
@@ -166,12 +164,7 @@ pub trait Section: Send + Sync + std::fmt::Debug {
         &[]
     }
 
-    /// Lumped masses that the beam carries.
-    fn masses(&self) -> &[Mass] {
-        &[]
-    }
-
-    /// Heights of the lower and upper fibre [m] where the section knows its shape.
+    /// Heights of the lower and upper fibre [m] if the shape of the section is known.
     fn fibres(&self, _x: f64) -> Option<(f64, f64)> {
         None
     }
@@ -188,10 +181,6 @@ impl Section for std::sync::Arc<dyn Section> {
 
     fn jumps(&self) -> &[f64] {
         (**self).jumps()
-    }
-
-    fn masses(&self) -> &[Mass] {
-        (**self).masses()
     }
 
     fn fibres(&self, x: f64) -> Option<(f64, f64)> {

@@ -186,10 +186,10 @@ mod tests {
     use crate::quadrature::Gauss;
 
     /// ∫ chord(y) yᵏ dy with the substitution y = R sin φ, which makes chords of circles smooth.
-    fn moment(reach: f64, power: i32, chord: impl Fn(f64) -> f64) -> f64 {
+    fn moment(half: f64, power: i32, chord: impl Fn(f64) -> f64) -> f64 {
         Gauss::new(60).integrate(-PI / 2.0, PI / 2.0, |p| {
-            let y = reach * p.sin();
-            chord(y) * y.powi(power) * reach * p.cos()
+            let y = half * p.sin();
+            chord(y) * y.powi(power) * half * p.cos()
         })
     }
 

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! and at an end the one-sided three-point difference, limited to keep the sign of δ and to 3δ. No value leaves
-//! the range of its two rows. Two rows at one station make a jump; an interpolation never reaches across.
+//! the range of its two rows. Two rows at one station make a jump; no interpolation crosses it.
 //!
 //! Source: F. N. Fritsch & J. Butland, *SIAM J. Sci. Stat. Comput.* 5 (1984) 300–304, doi:10.1137/0905021.
 

@@ -19,7 +19,7 @@ pub struct Tapered {
 
 impl Tapered {
     /// A section of Young's modulus E [Pa] and density ρ [kg/m³] over a beam of the given length [m], between
-    /// two shapes of the same kind. Rotary inertia is left out until asked for with
+    /// two shapes of the same kind. Rotary inertia is left out unless requested with
     /// [`Tapered::with_inertia`].
     ///
     /// # Errors
@@ -88,7 +88,7 @@ mod tests {
     const TIP: Shape = Shape::Rectangle { width: 0.02, height: 0.01 };
 
     #[test]
-    fn root_and_tip_are_the_given_shapes_and_the_middle_has_the_mean_dimensions() {
+    fn root_and_tip_have_the_given_shapes_and_the_middle_their_mean() {
         let section = Tapered::new(70e9, 2700.0, 2.0, ROOT, TIP).unwrap();
         for (x, width, height) in [(0.0, 0.04, 0.03), (1.0, 0.03, 0.02), (2.0, 0.02, 0.01)] {
             let r = section.resultants(x);

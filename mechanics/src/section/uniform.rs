@@ -14,7 +14,7 @@ pub struct Uniform {
 
 impl Uniform {
     /// A homogeneous section: ρA, EA, EI and ρI from Young's modulus E [Pa], density ρ [kg/m³] and
-    /// shape. Rotary inertia is left out until asked for with [`Uniform::with_inertia`].
+    /// shape. Rotary inertia is left out unless requested with [`Uniform::with_inertia`].
     ///
     /// # Errors
     /// [`SectionError::Quantity`] if one of them is not positive and finite.
@@ -71,7 +71,7 @@ mod tests {
 
     #[test]
     fn a_rectangle_of_aluminium_has_the_resultants_of_the_handbook() {
-        // b = 0.1 m, h = 2.5 mm, E = 69 GPa, ρ = 2766 kg/m³: figures worked by hand.
+        // b = 0.1 m, h = 2.5 mm, E = 69 GPa, ρ = 2766 kg/m³: values computed by hand.
         let shape = Shape::Rectangle { width: 0.1, height: 2.5e-3 };
         let section = Uniform::from_material(69e9, 2766.0, shape).unwrap();
         let r = section.resultants(0.3);

@@ -3,7 +3,9 @@
 use flexion::analysis::transient::{Ending, EventKind, Observer, Plan, Step, transient};
 use flexion::integrator::{Adams, GeneralizedAlpha, Integrator, Radau, RungeKutta, Tolerance};
 use flexion::linalg::Matrix;
-use flexion::system::{Break, Dynamics, Energy, Events, Jump, Observed, Power, Size, State, Steady, System, Weights};
+use flexion::system::{
+    Break, Dynamics, Energy, Events, Jump, Observed, Power, Size, State, Steady, System, Weights,
+};
 
 /// q̈ + ω² q = F(t) with a force F = 1 behind a time that no step meets by itself.
 struct StepLoad {
@@ -13,7 +15,10 @@ struct StepLoad {
 
 impl StepLoad {
     fn new() -> StepLoad {
-        StepLoad { frequency: 3.0, breaks: [Break { time: std::f64::consts::FRAC_1_PI, jump: Jump::Acceleration }] }
+        StepLoad {
+            frequency: 3.0,
+            breaks: [Break { time: std::f64::consts::FRAC_1_PI, jump: Jump::Acceleration }],
+        }
     }
 
     fn force(&self, s: &State) -> f64 {

@@ -4,6 +4,7 @@
 
 mod adaptive;
 mod breaks;
+mod conformance;
 mod constraints;
 pub mod drive;
 mod multibody;

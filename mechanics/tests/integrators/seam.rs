@@ -54,7 +54,7 @@ fn impacts(watch: &Watch) -> usize {
 }
 
 /// A state that is not special, with consistent rows or not.
-fn anywhere(system: &dyn Dynamics) -> State {
+pub fn anywhere(system: &dyn Dynamics) -> State {
     let mut s = system.initial();
     let wave = |i: usize, k: f64| (1.3 * i as f64 + k).sin();
     let d: Vec<f64> = (0..s.v.len()).map(|i| 0.4 * wave(i, 0.7)).collect();

@@ -71,7 +71,7 @@ impl Radial {
     /// [`BasisError::Invalid`] if the length or a parameter is out of its range;
     /// [`BasisError::Singular`] if a moment matrix G is singular to working precision, κ₁(G)·2⁻⁵² ≥ 1 (the
     /// rounding of its own entries then decides what its inverse is), or if in 106-bit arithmetic some entry
-    /// of G G⁻¹ − 1 is off by more than 1e-10 or the shape functions carry noise above 1e-14 of their size.
+    /// of G G⁻¹ − 1 is off by more than 1e-10 or the shape functions have noise above 1e-14 of their size.
     pub fn new(length: f64, parameters: RadialParameters, field: Field) -> Result<Radial, BasisError> {
         let RadialParameters { nodes, shape, exponent, support, degree } = parameters;
         let cells = uniform_cells(length, nodes.saturating_sub(1))?;

@@ -29,7 +29,7 @@ fn general() -> Setting {
     Setting { length: 1.0, hub_radius: 0.3, precone: 0.15, pitch: 0.2, tip: Tip { mass: 0.2, inertia: 0.01 } }
 }
 
-/// A vector turned about an axis (unit) by an angle: Rodrigues.
+/// A vector rotated about an axis (unit) by an angle: Rodrigues.
 fn turned(v: [f64; 3], axis: [f64; 3], angle: f64) -> [f64; 3] {
     let (s, c) = angle.sin_cos();
     let cross =
@@ -42,7 +42,7 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// Axes of the section at x by turning e₁ to the tangent about e₁ × t, then about the tangent.
+/// Axes of the section at x by rotating e₁ to the tangent about e₁ × t, then about the tangent.
 fn frame(blade: &Blade, q: &[f64], x: f64) -> [[f64; 3]; 3] {
     let (_, slope, torsion) = blade.displacement(q, x);
     let r = [1.0 + slope[0], slope[1], slope[2]];
@@ -126,7 +126,7 @@ fn strain_energy_is_that_of_a_curve_whose_frame_turns() {
 }
 
 #[test]
-fn forces_are_the_gradient_of_the_energy_and_stiffness_that_of_the_forces() {
+fn forces_are_the_gradient_of_the_energy_and_stiffness_of_the_forces() {
     let mut blade = Blade::new(general(), &General, Model::default(), 3).unwrap();
     let n = blade.size().q;
     let (q, speed) = (bent(n), 4.0);

@@ -2,7 +2,7 @@
 //!
 //! The kinematics are those of the first-order coupling, X = R + w₁ + w_c, Y = w₂, R = a + x,
 //! w_c = −½ ∫₀ˣ w₂′² dξ; but nothing of ½∫ρA [(Ẋ − ωY)² + (Ẏ + ωX)²] dx is dropped (P3 equations 28–36). The
-//! part that is quadratic in the unknowns stands in [`Inertia`]; what is beyond it is
+//! part that is quadratic in the unknowns is [`Inertia`]; what is beyond it is
 //!
 //! ```text
 //! T − T_first = ∫ρA [ ẇ₁ẇ_c + ½ẇ_c² + ω (w_c ẇ₂ − w₂ ẇ_c) + ½ω² (2w₁w_c + w_c²) ] dx
@@ -25,6 +25,7 @@ mod tangent;
 #[cfg(test)]
 mod tests;
 
+use super::beam::Beam;
 use super::coupling::Coupling;
 use super::damping::Damping;
 use super::fields::Fields;
@@ -35,7 +36,6 @@ use super::station::{Placement, Station};
 use crate::basis::{Basis, BasisError};
 use crate::linalg::{Storage, Structure};
 use crate::profile::HubKinematics;
-use crate::section::Section;
 use crate::system::{State, Weights};
 use sums::{Point, Sums};
 use tangent::Tangent;
@@ -57,12 +57,13 @@ impl HighCoupling {
     ///
     /// # Errors
     /// [`BasisError`] if a basis has more than [`MOST_ELEMENTS`].
-    pub fn new(fields: Fields, section: &dyn Section, hub: &Hub) -> Result<HighCoupling, BasisError> {
+    pub fn new<'a>(fields: Fields, beam: impl Into<Beam<'a>>, hub: &Hub) -> Result<HighCoupling, BasisError> {
+        let beam = beam.into();
         HighCoupling::validate(fields.axial())?;
         HighCoupling::validate(fields.transverse())?;
-        let sums = Sums::new(&fields, section);
+        let sums = Sums::new(&fields, &beam);
         let tangent = Tangent::new(fields.len());
-        let linear = LinearCoupling::new(fields, section, hub, Foreshortening::First).named("high");
+        let linear = LinearCoupling::new(fields, beam, hub, Foreshortening::First).named("high");
         Ok(HighCoupling { linear, sums, tangent })
     }
 
@@ -80,12 +81,6 @@ impl HighCoupling {
              {MOST_ELEMENTS}: take fewer, or the coupling `first` or `exact`"
         )))
     }
-}
-
-/// α: the axial acceleration of the axis without the −ω²R that [`Inertia`] has.
-fn axial_acceleration(p: &Point, hub: &HubKinematics) -> f64 {
-    let (om, al) = (hub.speed, hub.acceleration);
-    (p.w1[2] + p.wc[2]) - al * p.w2[0] - 2.0 * om * p.w2[1] - om * om * (p.w1[0] + p.wc[0])
 }
 
 impl Coupling for HighCoupling {
@@ -120,7 +115,7 @@ impl Coupling for HighCoupling {
         self.sums.scatter(r, |p| {
             let on_axial = p.wc[2] - om * om * p.wc[0];
             let on_transverse = al * p.wc[0] + 2.0 * om * p.wc[1];
-            ([on_axial, on_transverse], [axial_acceleration(p, hub)])
+            ([on_axial, on_transverse], [p.axial_acceleration(hub)])
         });
     }
 
@@ -163,11 +158,11 @@ impl Coupling for HighCoupling {
         self.sums.scatter(&mut out.row, |Point { w1, w2, wc }| {
             let by_axial = 2.0 * w.q * (al * wc[0] + om * wc[1]) + 2.0 * w.v * om * wc[0];
             let by_transverse = w.a * wc[0] - w.q * wc[2];
-            let by_place = 2.0 * (al * (w1[0] + wc[0]) + om * (w1[1] + wc[1])) + w2[2];
+            let by_position = 2.0 * (al * (w1[0] + wc[0]) + om * (w1[1] + wc[1])) + w2[2];
             let by_speed = 2.0 * om * (w1[0] + wc[0]);
             let by_acceleration = -w2[0];
             let tails = [
-                w.q * by_place + w.v * by_speed + w.a * by_acceleration,
+                w.q * by_position + w.v * by_speed + w.a * by_acceleration,
                 w.q * by_speed + 2.0 * w.v * by_acceleration,
                 w.q * by_acceleration,
             ];

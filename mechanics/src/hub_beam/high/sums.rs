@@ -5,12 +5,13 @@
 //! Gauss points, ∫₀^{ξ_g} f dx = h Σ_k S_gk f_k. Tails use the transposed rule, so that the forces are exactly
 //! the derivatives of the kinetic energy that these sums define.
 //!
-//! A lumped mass stands at the end of a cell, which is one more point of it for the mass and none for the slope: the
+//! A lumped mass is at the end of a cell, which is a further point of the cell for the mass but not for the slope: the
 //! sum up to there is that over the whole cell, and its axial force enters the tails as a jump.
 
+use crate::hub_beam::beam::Beam;
 use crate::hub_beam::fields::{Fields, Shapes};
+use crate::profile::HubKinematics;
 use crate::quadrature::Gauss;
-use crate::section::Section;
 use crate::system::State;
 
 /// Value, velocity and acceleration.
@@ -27,6 +28,17 @@ pub struct Point {
     pub wc: Rates,
 }
 
+impl Point {
+    /// α: the axial acceleration of the axis without the −ω²R that [`Inertia`](crate::hub_beam::Inertia) has.
+    pub fn axial_acceleration(&self, hub: &HubKinematics) -> f64 {
+        let (om, al) = (hub.speed, hub.acceleration);
+        (self.w1[2] + self.wc[2])
+            - al * self.w2[0]
+            - 2.0 * om * self.w2[1]
+            - om * om * (self.w1[0] + self.wc[0])
+    }
+}
+
 /// A cell: unknowns and shapes at its points, by rows.
 #[derive(Clone, Debug)]
 pub struct Cell {
@@ -38,9 +50,9 @@ pub struct Cell {
     pub transverse: Vec<usize>,
     /// ρA times the quadrature weight [kg] at each point, then the lumped mass at the end of the cell if there is one.
     pub mass: Vec<f64>,
-    /// φx at each place of mass.
+    /// φx at each point of mass.
     pub phi_x: Vec<f64>,
-    /// φy at each place of mass.
+    /// φy at each point of mass.
     pub phi_y: Vec<f64>,
     /// φy′ at each point.
     pub slope: Vec<f64>,
@@ -51,7 +63,7 @@ pub struct Cell {
 pub struct Sums {
     /// Points of a cell.
     pub points: usize,
-    /// Places of a cell in `at`: its points and, where the beam carries lumped masses, its end.
+    /// Points of mass of a cell in `at`: its points and, on a beam with lumped masses, its end.
     pub rows: usize,
     /// S by rows, for a cell of unit length; the last row, for its end, holds the weights.
     pub partial: Vec<f64>,
@@ -59,7 +71,7 @@ pub struct Sums {
     pub weights: Vec<f64>,
     /// The cells, root first.
     pub cells: Vec<Cell>,
-    /// The axis at every place of mass.
+    /// The axis at every point of mass.
     pub at: Vec<Point>,
     /// w₂′ and its rates at every point.
     pub slope: Vec<Rates>,
@@ -97,8 +109,8 @@ fn partial_integrals(gauss: &Gauss) -> Vec<f64> {
 }
 
 impl Sums {
-    /// The points of `fields` with the mass of `section`; cells of the fields end at its lumped masses.
-    pub fn new(fields: &Fields, section: &dyn Section) -> Sums {
+    /// The points of `fields` with the mass of `beam`; cells of the fields end at its lumped masses.
+    pub fn new(fields: &Fields, beam: &Beam<'_>) -> Sums {
         let gauss = fields.gauss();
         let points = gauss.len();
         let mut cells: Vec<Cell> = Vec::with_capacity(fields.cells().len());
@@ -119,12 +131,12 @@ impl Sums {
             }
             count += 1;
             let Some(cell) = cells.last_mut() else { return };
-            cell.mass.push(p.weight * section.resultants(p.x).mass);
+            cell.mass.push(p.weight * beam.section.resultants(p.x).mass);
             copy(&p.axial, 0, &mut cell.phi_x);
             copy(&p.transverse, 0, &mut cell.phi_y);
             copy(&p.transverse, 1, &mut cell.slope);
         });
-        let lumped = section.masses();
+        let lumped = &beam.masses;
         for (c, cell) in cells.iter_mut().enumerate() {
             let end = fields.cell_end(c);
             let here = lumped.iter().filter(|m| (m.station - end.x).abs() <= 1e-12 * fields.length());
@@ -156,8 +168,8 @@ impl Sums {
         let p = self.points;
         // w_c and its rates at the start of the cell.
         let mut start = [0.0; 3];
-        let places = self.at.chunks_exact_mut(self.rows);
-        let cells = self.cells.iter().zip(places).zip(self.slope.chunks_exact_mut(p));
+        let axis = self.at.chunks_exact_mut(self.rows);
+        let cells = self.cells.iter().zip(axis).zip(self.slope.chunks_exact_mut(p));
         for ((cell, at), slope) in cells {
             let (na, nt) = (cell.axial.len(), cell.transverse.len());
             at.fill(Point::default());
@@ -190,7 +202,7 @@ impl Sums {
         }
     }
 
-    /// Calls `f` with the mass [kg] and the axis of every place of mass.
+    /// Calls `f` with the mass [kg] and the axis of every point of mass.
     pub fn each(&self, mut f: impl FnMut(f64, &Point)) {
         for (cell, at) in self.cells.iter().zip(self.at.chunks_exact(self.rows)) {
             for (m, at) in cell.mass.iter().zip(at) {

@@ -26,7 +26,6 @@
 //! the cell and a part that only the functions of this cell have. O(n²) a cell, of n unknowns, and a factorisation
 //! takes O(n³): hence the [largest number of elements](super::MOST_ELEMENTS).
 
-use super::axial_acceleration;
 use super::sums::{Rates, Sums};
 use crate::linalg::Storage;
 use crate::profile::HubKinematics;
@@ -104,7 +103,7 @@ impl Tangent {
             sums.add_derivatives(c, &sums.weights, &mut self.start);
         }
         sums.tails(
-            |at| [axial_acceleration(at, hub)],
+            |at| [at.axial_acceleration(hub)],
             |cell, _, tension| {
                 let nt = cell.transverse.len();
                 for (k, [tension, ..]) in tension.iter().enumerate() {

@@ -8,16 +8,16 @@ use crate::basis::{
 use crate::hub_beam::tests::{
     LENGTH, RADIUS, TwoFibres, check_power, check_tangent, free_hub, hub, relative, residual, state,
 };
-use crate::hub_beam::{Coupling, Drive, Fields, Foreshortening, Hub, HubBeam, LinearCoupling};
+use crate::hub_beam::{Beam, Coupling, Drive, Fields, Foreshortening, Hub, HubBeam, LinearCoupling, Mass};
 use crate::quadrature::Gauss;
-use crate::section::{Laden, Mass as Lump, Resultants, Section};
+use crate::section::{Resultants, Section};
 use crate::system::{Events, Observed, State, System};
 
 /// ρA of the two fibres and nothing else.
 #[derive(Debug)]
-struct Mass;
+struct MassOnly;
 
-impl Section for Mass {
+impl Section for MassOnly {
     fn resultants(&self, x: f64) -> Resultants {
         let mass = TwoFibres::fibres(x).iter().map(|f| f.1).sum();
         Resultants { mass, axial_stiffness: 2200.0, bending_stiffness: 17.0, ..Resultants::default() }
@@ -33,8 +33,8 @@ fn elements(count: usize, degree: usize) -> Fields {
     )
 }
 
-fn high(fields: Fields, section: &dyn Section, hub: Hub) -> HubBeam<HighCoupling> {
-    let coupling = HighCoupling::new(fields, section, &hub).unwrap();
+fn high<'a>(fields: Fields, beam: impl Into<Beam<'a>>, hub: Hub) -> HubBeam<HighCoupling> {
+    let coupling = HighCoupling::new(fields, beam, &hub).unwrap();
     HubBeam::new(hub, coupling, &[])
 }
 
@@ -61,42 +61,42 @@ fn fields_of_every_basis() -> Vec<Fields> {
 }
 
 /// T of a beam without thickness: ½∫ρA[(Ẋ − ωY)² + (Ẏ + ωX)²] with w_c summed afresh from the root to each point, and
-/// of masses on it that turn with w₂′.
-fn kinetic_energy(fields: &Fields, masses: &[Lump], s: &State, speed: f64) -> f64 {
+/// of masses on it that rotate with w₂′.
+fn kinetic_energy(fields: &Fields, masses: &[Mass], s: &State, speed: f64) -> f64 {
     let gauss = Gauss::new(14);
     let cells = fields.cells();
     let particle = |x: f64, mass: f64| {
-        let (mut place, mut rate) = (0.0, 0.0);
+        let (mut shortening, mut rate) = (0.0, 0.0);
         let mut boundaries: Vec<f64> = cells.iter().copied().filter(|end| *end < x).collect();
         boundaries.push(x);
         for piece in boundaries.windows(2) {
             for (y, w) in gauss.on(piece[0], piece[1]) {
                 let b = fields.point(y, w).transverse;
-                place -= 0.5 * w * b.field(1, &s.q).powi(2);
+                shortening -= 0.5 * w * b.field(1, &s.q).powi(2);
                 rate -= w * b.field(1, &s.q) * b.field(1, &s.v);
             }
         }
         let point = fields.point(x, mass);
         let (a, b) = (point.axial, point.transverse);
-        let (px, py) = (RADIUS + x + a.field(0, &s.q) + place, b.field(0, &s.q));
+        let (px, py) = (RADIUS + x + a.field(0, &s.q) + shortening, b.field(0, &s.q));
         let (vx, vy) = (a.field(0, &s.v) + rate, b.field(0, &s.v));
         0.5 * mass * ((vx - speed * py).powi(2) + (vy + speed * px).powi(2))
     };
     let mut total = 0.5 * 0.7 * speed * speed;
     for ends in cells.windows(2) {
         for (x, weight) in gauss.on(ends[0], ends[1]) {
-            total += particle(x, weight * Mass.resultants(x).mass);
+            total += particle(x, weight * MassOnly.resultants(x).mass);
         }
     }
     for m in masses {
-        let turn = fields.point(m.station, 1.0).transverse.field(1, &s.v) + speed;
-        total += particle(m.station, m.mass) + 0.5 * m.inertia * turn * turn;
+        let rate = fields.point(m.station, 1.0).transverse.field(1, &s.v) + speed;
+        total += particle(m.station, m.mass) + 0.5 * m.inertia * rate * rate;
     }
     total
 }
 
 /// d/dt ∂T/∂v − ∂T/∂q by nothing but values of T, along the motion q + v t + ½ a t².
-fn lagrange(fields: &Fields, masses: &[Lump], s: &State, speed: f64, acceleration: f64) -> Vec<f64> {
+fn lagrange(fields: &Fields, masses: &[Mass], s: &State, speed: f64, acceleration: f64) -> Vec<f64> {
     let n = fields.len();
     let moved = |t: f64| {
         let mut out = s.clone();
@@ -120,34 +120,30 @@ fn lagrange(fields: &Fields, masses: &[Lump], s: &State, speed: f64, acceleratio
                 // T is quadratic in v: the central difference is exact.
                 (value(1.0) - value(-1.0)) / (2.0 * d)
             };
-            let by_place = |c: f64| {
+            let by_position = |c: f64| {
                 let mut at = s.clone();
                 at.q[k] += c * h;
                 kinetic_energy(fields, masses, &at, speed)
             };
             let rate: f64 = stencil.iter().map(|(c, t)| c * momentum(t * h) / (12.0 * h)).sum();
-            let slope: f64 = stencil.iter().map(|(c, t)| c * by_place(*t) / (12.0 * h)).sum();
+            let slope: f64 = stencil.iter().map(|(c, t)| c * by_position(*t) / (12.0 * h)).sum();
             rate - slope
         })
         .collect()
 }
 
 /// Inside the second of three elements, at the end of it, and at the tip.
-const MASSES: [Lump; 3] = [
-    Lump { station: 0.45 * LENGTH, mass: 0.7, inertia: 0.02 },
-    Lump { station: 2.0 / 3.0 * LENGTH, mass: 0.3, inertia: 0.0 },
-    Lump { station: LENGTH, mass: 0.4, inertia: 0.05 },
+const MASSES: [Mass; 3] = [
+    Mass { station: 0.45 * LENGTH, mass: 0.7, inertia: 0.02 },
+    Mass { station: 2.0 / 3.0 * LENGTH, mass: 0.3, inertia: 0.0 },
+    Mass { station: LENGTH, mass: 0.4, inertia: 0.05 },
 ];
-
-fn laden(section: impl Section + 'static) -> Laden {
-    Laden::new(Box::new(section), MASSES.to_vec(), &[])
-}
 
 #[test]
 fn forces_are_lagranges_of_an_energy_with_nothing_dropped() {
     let hub = hub();
     let Drive::Prescribed(motion) = &hub.drive else { panic!("prescribed") };
-    let bare = Laden::new(Box::new(Mass), vec![], &[]);
+    let beams = [&[], &MASSES[..]].map(|masses| Beam::new(&MassOnly, masses.to_vec(), &[]));
     let elements = |field| -> Box<dyn Basis> {
         match field {
             Field::Axial => Box::new(Lagrange::new(LENGTH, 3, 2).unwrap()),
@@ -156,9 +152,9 @@ fn forces_are_lagranges_of_an_energy_with_nothing_dropped() {
     };
     let splines = |field| -> Box<dyn Basis> { Box::new(BSpline::new(LENGTH, 3, 3, field).unwrap()) };
     let bases: [&dyn Fn(Field) -> Box<dyn Basis>; 2] = [&elements, &splines];
-    for (section, basis) in [&bare, &laden(Mass)].into_iter().flat_map(|s| bases.map(|b| (s, b))) {
-        let fields = || Fields::new(LENGTH, basis(Field::Axial), basis(Field::Transverse), section.breaks());
-        let mut system = high(fields(), section, hub.clone());
+    for (beam, basis) in beams.iter().flat_map(|s| bases.map(|b| (s, b))) {
+        let fields = || Fields::new(LENGTH, basis(Field::Axial), basis(Field::Transverse), &beam.breaks);
+        let mut system = high(fields(), beam, hub.clone());
         let s = state(&system, 0.3);
         let at = motion.at(s.t);
         let strain: Vec<f64> = {
@@ -168,15 +164,15 @@ fn forces_are_lagranges_of_an_energy_with_nothing_dropped() {
             product
         };
         let forces: Vec<f64> = residual(&mut system, &s).iter().zip(&strain).map(|(r, k)| r - k).collect();
-        let expected = lagrange(&fields(), section.masses(), &s, at.speed, at.acceleration);
+        let expected = lagrange(&fields(), &beam.masses, &s, at.speed, at.acceleration);
         let error = relative(&forces, &expected);
         assert!(error < 1e-8, "{error:e}");
         // And they are not those of the first order.
-        let coupling = LinearCoupling::new(fields(), section, &hub, Foreshortening::First);
+        let coupling = LinearCoupling::new(fields(), beam, &hub, Foreshortening::First);
         let mut first = HubBeam::new(hub.clone(), coupling, &[]);
         let forces: Vec<f64> = residual(&mut first, &s).iter().zip(&strain).map(|(r, k)| r - k).collect();
         assert!(relative(&forces, &expected) > 1e-2);
-        let kinetic = kinetic_energy(&fields(), section.masses(), &s, at.speed);
+        let kinetic = kinetic_energy(&fields(), &beam.masses, &s, at.speed);
         assert!((system.energy(&s).kinetic / kinetic - 1.0).abs() < 1e-12);
     }
 }
@@ -193,9 +189,9 @@ fn tangents_equal_finite_differences_on_every_basis() {
 
 #[test]
 fn tangents_with_lumped_masses_equal_finite_differences() {
-    let section = laden(TwoFibres);
+    let beam = Beam::new(&TwoFibres, MASSES.to_vec(), &[]);
     let both = |of: &dyn Fn(Field) -> Box<dyn Basis>| {
-        Fields::new(LENGTH, of(Field::Axial), of(Field::Transverse), section.breaks())
+        Fields::new(LENGTH, of(Field::Axial), of(Field::Transverse), &beam.breaks)
     };
     let modes = both(&|field| Box::new(Modes::new(LENGTH, 3, field).unwrap()));
     let elements = both(&|field| match field {
@@ -203,7 +199,7 @@ fn tangents_with_lumped_masses_equal_finite_differences() {
         Field::Transverse => Box::new(Hermite::new(LENGTH, 3, field).unwrap()),
     });
     for fields in [modes, elements] {
-        let mut system = high(fields, &section, free_hub());
+        let mut system = high(fields, &beam, free_hub());
         let s = state(&system, 0.1);
         check_tangent(&mut system, &s);
         check_power(&mut system);

@@ -1,15 +1,16 @@
-//! Gravity on the beam and on the masses it carries; the hub turns about its centre of mass and feels none.
+//! Gravity on the beam and on its lumped masses; the hub rotates about its centre of mass, so that its weight does no work.
 //!
 //! ```text
 //! V = −∫ ρA g·r + ρS g·n dx,   n the normal of the section;   without foreshortening etc. see the parent module
 //! ```
 //!
-//! In the couplings with small deflections the section turns to second order in φ = w₂′,
+//! In the couplings with small deflections the section rotates to second order in φ = w₂′,
 //! n = (−φ, 1 − ½φ²): C_x ∋ −∫ρS φ dx, C_y ∋ ∫ρS (1 − ½φ²) dx.
 
 use super::group::{Group, Store};
 use super::site::Share;
 use super::{Axes, Kinematics, Load, Site};
+use crate::hub_beam::beam::Beam;
 use crate::hub_beam::fields::{add_outer, add_vector};
 use crate::linalg::Matrix;
 
@@ -26,8 +27,8 @@ impl Load for Gravity {
     fn group(&self, site: &Site<'_>) -> Group {
         let (sin, cos) = self.direction.sin_cos();
         let force = [self.acceleration * cos, self.acceleration * sin];
-        let section = site.section;
-        let points: Vec<(f64, f64)> = section.masses().iter().map(|m| (m.station, m.mass)).collect();
+        let Beam { section, masses, .. } = site.beam;
+        let points: Vec<(f64, f64)> = masses.iter().map(|m| (m.station, m.mass)).collect();
         let share = Share { density: &|x| section.resultants(x).mass, points: &points };
         let mut group = site.group(&share, force, Axes::Dead, None);
         group.set_store(Store::Gravity, 0.0);

@@ -1,4 +1,4 @@
-//! A load made ready: the moments of its share of force over the shape functions.
+//! A load reduced to the moments of its share of force over the shape functions.
 //!
 //! With g_x, g_y the vectors and G_x, G_y the symmetric matrices of C (see [`super`]),
 //!
@@ -8,9 +8,10 @@
 //! ```
 //!
 //! N = ∫p (−F_y Φ_x + F_x Φ_y) Φ_y′ᵀ dx and h = ∫p (a + x) F_x Φ_y′ dx are a follower's change of direction, to first
-//! order; both vanish for other forces. Couples have Q_q = f m, Q_θ = f M. What acts on the sections of a curve
-//! stands in [`OnSection`](super::on_section::OnSection).
+//! order; both vanish for other forces. Couples have Q_q = f m, Q_θ = f M. Forces and couples on the sections of a curve
+//! are [`OnSection`](super::on_section::OnSection).
 
+use super::components::Components;
 use super::on_section::{Nature, OnSection};
 use super::{Amplitude, Axes};
 use crate::hub_beam::fields::Point;
@@ -56,13 +57,6 @@ pub struct Group {
     sections: Vec<OnSection>,
 }
 
-/// Components of a force at one time: f d, f d′ = f ∂d/∂θ, and f.
-pub(super) struct Now {
-    pub d: [f64; 2],
-    pub by_angle: [f64; 2],
-    pub factor: f64,
-}
-
 impl Group {
     /// A load of force `force` for `n` unknowns that acts nowhere yet.
     pub(super) fn new(n: usize, force: [f64; 2], axes: Axes, amplitude: Amplitude) -> Group {
@@ -100,12 +94,12 @@ impl Group {
         });
     }
 
-    /// A share `p` of a follower at a place of a curve.
+    /// A share `p` of a follower at a point of a curve.
     pub(super) fn push_follower(&mut self, point: &Point, p: f64, radius: f64) {
         self.sections.push(OnSection::new(point, Nature::Follower, p, radius));
     }
 
-    /// A couple on the section at a place of a curve.
+    /// A couple on the section at a point of a curve.
     pub(super) fn push_couple(&mut self, point: &Point, moment: f64, radius: f64) {
         self.sections.push(OnSection::new(point, Nature::Couple, moment, radius));
     }
@@ -146,15 +140,9 @@ impl Group {
         amplitude.breaks().iter().map(|&time| Break { time, jump: jump(time) }).collect()
     }
 
-    fn now(&self, t: f64, hub: &HubKinematics) -> Now {
+    fn components(&self, t: f64, hub: &HubKinematics) -> Components {
         let factor = self.part * self.amplitude.as_ref().map_or(1.0, |f| f.value(t));
-        let [x, y] = self.force.map(|c| factor * c);
-        if self.axes == Axes::Dead {
-            let (sin, cos) = hub.angle.sin_cos();
-            let d = [x * cos + y * sin, y * cos - x * sin];
-            return Now { d, by_angle: [d[1], -d[0]], factor };
-        }
-        Now { d: [x, y], by_angle: [0.0; 2], factor }
+        Components::new(self.force, self.axes, factor, hub)
     }
 
     /// d_x G_x q, d_y G_y q and f N q, row after row; nothing if there are no such matrices.
@@ -167,7 +155,7 @@ impl Group {
 
     /// out += c Q_q
     pub(super) fn add_force(&mut self, s: &State, hub: &HubKinematics, c: f64, out: &mut [f64]) {
-        let now = self.now(s.time(), hub);
+        let now = self.components(s.time(), hub);
         let d = now.d.map(|d| c * d);
         let m = c * now.factor;
         for (i, out) in out.iter_mut().enumerate().take(self.g_x.len()) {
@@ -186,7 +174,7 @@ impl Group {
         if self.stiffness.is_none() && self.sections.is_empty() {
             return;
         }
-        let now = self.now(s.time(), hub);
+        let now = self.components(s.time(), hub);
         if let Some((bundle, ..)) = &self.stiffness {
             bundle.add_sum([c * now.d[0], c * now.d[1], c * now.factor, 0.0], out);
         }
@@ -209,7 +197,7 @@ impl Group {
 
     /// Q_θ
     pub(super) fn torque(&mut self, s: &State, hub: &HubKinematics) -> f64 {
-        let now = self.now(s.time(), hub);
+        let now = self.components(s.time(), hub);
         let [x, y] = self.moments(&s.q);
         let follower: f64 = self.h.iter().zip(&s.q).map(|(h, q)| h * q).sum();
         let sections: f64 = self.sections.iter().map(|section| section.torque(s, &now)).sum();
@@ -219,7 +207,7 @@ impl Group {
     /// −f [d·C + mᵀq + ½ qᵀN q] and the energy at r = 0 and q = 0, for a load whose work is stored; 0 for others.
     pub(super) fn potential(&mut self, s: &State, hub: &HubKinematics) -> f64 {
         let Some((_, energy)) = self.store else { return 0.0 };
-        let now = self.now(s.time(), hub);
+        let now = self.components(s.time(), hub);
         let mut own: f64 = self.m.iter().zip(&s.q).map(|(m, q)| m * q).sum();
         for (q, [.., n, _]) in s.q.iter().zip(self.products(&s.q, [0.0; 2], 1.0)) {
             own += 0.5 * q * n;
@@ -232,9 +220,9 @@ impl Group {
 
     /// Adds c times the derivatives of Q_q by θ and of Q_θ by q and θ.
     pub(super) fn add_border(&mut self, s: &State, hub: &HubKinematics, c: f64, out: &mut Border) {
-        let now = self.now(s.time(), hub);
+        let now = self.components(s.time(), hub);
         let dead = if self.axes == Axes::Dead { 1.0 } else { 0.0 };
-        // Q_θ by q: as the force with the components (d_y, −d_x), whatever the axes.
+        // Q_θ by q: as the force with the components (d_y, −d_x), for all axes.
         let normal = [c * now.d[1], -c * now.d[0]];
         for i in 0..self.g_x.len() {
             let rotated = normal[0] * self.g_x[i] + normal[1] * self.g_y[i];

@@ -1,9 +1,9 @@
 //! Loads on the beam: gravity, forces, couples and forces per length, with their torque on the hub.
 //!
-//! A force with components F = (F_x, F_y) acts on a place r = (X, Y) of the axis. In the hub's frame its
-//! components are d = R(−θ) F in inertial axes (`Dead`), F itself if it turns with the hub (`Hub`), and
-//! F_x t + F_y n if it turns with the section (`Follower`, t and n tangent and normal). With p the force's share
-//! of each place (a density, or 1 at one station) and f(t) its amplitude, virtual work gives
+//! A force with components F = (F_x, F_y) acts at the point r = (X, Y) of the axis. In the hub's frame its
+//! components are d = R(−θ) F in inertial axes (`Dead`), F itself if it rotates with the hub (`Hub`), and
+//! F_x t + F_y n if it rotates with the section (`Follower`, t and n tangent and normal). With p the force's share
+//! at each point (a density, or 1 at one station) and f(t) its amplitude, virtual work gives
 //!
 //! ```text
 //! Q_q = f [ d_x ∂C_x/∂q + d_y ∂C_y/∂q ],   Q_θ = f [ d_y C_x − d_x C_y ],   C_x = ∫p X dx,  C_y = ∫p Y dx
@@ -14,10 +14,11 @@
 //!
 //! | kinematics | X − a − x, Y | C | section |
 //! |---|---|---|---|
-//! | `Straight` | w₁, w₂ | linear | turns by w₂′ |
-//! | `Foreshortened` | w₁ − ½∫₀ˣ w₂′² dξ, w₂ | quadratic, banded: −½∫ P w₂′² dξ, P(ξ) = ∫_ξᴸ p dx | turns by w₂′ |
-//! | `Curve` | U, V | linear | turns with the tangent (X′, Y′)/ℓ |
+//! | `Straight` | w₁, w₂ | linear | rotates by w₂′ |
+//! | `Foreshortened` | w₁ − ½∫₀ˣ w₂′² dξ, w₂ | quadratic, banded: −½∫ P w₂′² dξ, P(ξ) = ∫_ξᴸ p dx | rotates by w₂′ |
+//! | `Curve` | U, V | linear | rotates with the tangent (X′, Y′)/ℓ |
 
+mod components;
 mod couple;
 mod damper;
 mod distributed;
@@ -30,6 +31,7 @@ mod spring;
 #[cfg(test)]
 mod tests;
 
+pub use components::{Amplitude, Axes};
 pub use couple::Couple;
 pub use damper::Damper;
 pub use distributed::DistributedForce;
@@ -40,24 +42,9 @@ pub use spring::Spring;
 
 use super::inertia::Border;
 use crate::linalg::Storage;
-use crate::profile::{HubKinematics, Profile};
+use crate::profile::HubKinematics;
 use crate::system::{Break, State, Weights};
 use group::{Group, Store};
-use std::sync::Arc;
-
-/// What the components of a force refer to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Axes {
-    /// The inertial axes: the force keeps its direction in space.
-    Dead,
-    /// The hub's axes, radial and transverse: the force turns with the hub.
-    Hub,
-    /// Tangent and normal of the section it acts on: the force turns with the section.
-    Follower,
-}
-
-/// How a load changes with time: a factor f(t), or 1 where there is none.
-pub type Amplitude = Option<Arc<dyn Profile>>;
 
 /// A load: what it does to a beam with the given kinematics.
 pub trait Load: std::fmt::Debug {
@@ -76,7 +63,7 @@ pub struct Loads {
     groups: Vec<Group>,
     dampers: Vec<Damper>,
     breaks: Vec<Break>,
-    /// What is not there of the loads: 0 but while an equilibrium is followed.
+    /// Part of the loads that is not applied: 0 except during the continuation of an equilibrium.
     missing: f64,
     /// Forces, for their power.
     force: Vec<f64>,

@@ -1,6 +1,6 @@
-//! A load that turns with, or acts on the turn of, a section of a curve: forces and couples that depend on p′.
+//! A load that rotates with a section of a curve, or does work on its rotation: forces and couples that depend on p′.
 //!
-//! With t, n = Jt the unit tangent and normal, ℓ = |p′|, and p the share of the place, a force F on p and a couple M
+//! With t, n = Jt the unit tangent and normal, ℓ = |p′|, and p the share at the point, a force F on p and a couple M
 //! on the section do the work δW = F·δp + M δφ, δφ = n·δp′/ℓ:
 //!
 //! | nature | F | M |
@@ -11,16 +11,17 @@
 //!
 //! The torque on the hub is X F_y − Y F_x + M, and ∂(M n/ℓ)/∂p′ = n ⊗ (∂M/∂p′)/ℓ − M (t nᵀ + n tᵀ)/ℓ².
 
-use super::group::Now;
+use super::components::Components;
 use crate::hub_beam::fields::{Point, Shapes};
 use crate::hub_beam::inertia::Border;
 use crate::linalg::Storage;
+use crate::linalg::vector::inner;
 use crate::system::State;
 
 /// What a load does to a section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Nature {
-    /// A force that turns with it.
+    /// A force that rotates with it.
     Follower,
     /// A couple on it.
     Couple,
@@ -45,17 +46,13 @@ struct Wrench {
     n: [f64; 2],
     stretch: f64,
     /// (X, Y)
-    place: [f64; 2],
+    position: [f64; 2],
     force: [f64; 2],
     /// ∂F/∂φ, along n/ℓ of p′
-    force_by_turn: [f64; 2],
+    force_by_rotation: [f64; 2],
     couple: f64,
-    couple_by_turn: f64,
+    couple_by_rotation: f64,
     couple_by_angle: f64,
-}
-
-fn inner(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
 }
 
 impl OnSection {
@@ -64,9 +61,9 @@ impl OnSection {
         OnSection { nature, share, origin: radius + point.x, shapes }
     }
 
-    fn wrench(&self, s: &State, now: &Now) -> Wrench {
+    fn wrench(&self, s: &State, now: &Components) -> Wrench {
         let field = |c: usize, d: usize| self.shapes[c].field(d, &s.q);
-        let place = [self.origin + field(0, 0), field(1, 0)];
+        let position = [self.origin + field(0, 0), field(1, 0)];
         let (x1, y1) = (1.0 + field(0, 1), field(1, 1));
         let stretch = x1.hypot(y1);
         let t = [x1 / stretch, y1 / stretch];
@@ -76,30 +73,30 @@ impl OnSection {
             t,
             n,
             stretch,
-            place,
+            position,
             force: [0.0; 2],
-            force_by_turn: [0.0; 2],
+            force_by_rotation: [0.0; 2],
             couple: 0.0,
-            couple_by_turn: 0.0,
+            couple_by_rotation: 0.0,
             couple_by_angle: 0.0,
         };
         match self.nature {
             Nature::Follower => {
                 let [x, y] = now.d;
                 out.force = [0, 1].map(|c| p * (x * t[c] + y * n[c]));
-                out.force_by_turn = [0, 1].map(|c| p * (x * n[c] - y * t[c]));
+                out.force_by_rotation = [0, 1].map(|c| p * (x * n[c] - y * t[c]));
             }
             Nature::Couple => out.couple = p * now.factor,
             Nature::Eccentric => {
                 out.couple = -p * inner(t, now.d);
-                out.couple_by_turn = -p * inner(n, now.d);
+                out.couple_by_rotation = -p * inner(n, now.d);
                 out.couple_by_angle = -p * inner(t, now.by_angle);
             }
         }
         out
     }
 
-    pub(super) fn add_force(&self, s: &State, now: &Now, c: f64, out: &mut [f64]) {
+    pub(super) fn add_force(&self, s: &State, now: &Components, c: f64, out: &mut [f64]) {
         let w = self.wrench(s, now);
         for (axis, shapes) in self.shapes.iter().enumerate() {
             let (on_value, on_slope) = (c * w.force[axis], c * w.couple * w.n[axis] / w.stretch);
@@ -109,15 +106,15 @@ impl OnSection {
         }
     }
 
-    pub(super) fn add_tangent(&self, s: &State, now: &Now, c: f64, out: &mut Storage<f64>) {
+    pub(super) fn add_tangent(&self, s: &State, now: &Components, c: f64, out: &mut Storage<f64>) {
         let w = self.wrench(s, now);
         let l = w.stretch;
         for (b, columns) in self.shapes.iter().enumerate() {
-            let turn = w.n[b] / l;
+            let rotation = w.n[b] / l;
             for (a, rows) in self.shapes.iter().enumerate() {
-                let on_value = c * w.force_by_turn[a] * turn;
+                let on_value = c * w.force_by_rotation[a] * rotation;
                 let on_slope = c
-                    * (w.n[a] / l * w.couple_by_turn * turn
+                    * (w.n[a] / l * w.couple_by_rotation * rotation
                         - w.couple * (w.t[a] * w.n[b] + w.n[a] * w.t[b]) / (l * l));
                 for (k, &i) in rows.index.iter().enumerate() {
                     let row = on_value * rows.value[0][k] + on_slope * rows.value[1][k];
@@ -129,29 +126,30 @@ impl OnSection {
         }
     }
 
-    pub(super) fn torque(&self, s: &State, now: &Now) -> f64 {
+    pub(super) fn torque(&self, s: &State, now: &Components) -> f64 {
         let w = self.wrench(s, now);
-        w.place[0] * w.force[1] - w.place[1] * w.force[0] + w.couple
+        w.position[0] * w.force[1] - w.position[1] * w.force[0] + w.couple
     }
 
     /// −p n·d of an eccentric dead force.
-    pub(super) fn potential(&self, s: &State, now: &Now) -> f64 {
+    pub(super) fn potential(&self, s: &State, now: &Components) -> f64 {
         match self.nature {
             Nature::Eccentric => -self.share * inner(self.wrench(s, now).n, now.d),
             _ => 0.0,
         }
     }
 
-    pub(super) fn add_border(&self, s: &State, now: &Now, c: f64, out: &mut Border) {
+    pub(super) fn add_border(&self, s: &State, now: &Components, c: f64, out: &mut Border) {
         let w = self.wrench(s, now);
-        let lever = w.place[0] * w.force_by_turn[1] - w.place[1] * w.force_by_turn[0] + w.couple_by_turn;
-        let by_place = [w.force[1], -w.force[0]];
+        let lever = w.position[0] * w.force_by_rotation[1] - w.position[1] * w.force_by_rotation[0]
+            + w.couple_by_rotation;
+        let by_position = [w.force[1], -w.force[0]];
         for (axis, shapes) in self.shapes.iter().enumerate() {
-            let turn = w.n[axis] / w.stretch;
+            let rotation = w.n[axis] / w.stretch;
             for (k, &i) in shapes.index.iter().enumerate() {
                 let (value, slope) = (shapes.value[0][k], shapes.value[1][k]);
-                out.row[i] += c * (by_place[axis] * value + lever * turn * slope);
-                out.column[i] += c * w.couple_by_angle * turn * slope;
+                out.row[i] += c * (by_position[axis] * value + lever * rotation * slope);
+                out.column[i] += c * w.couple_by_angle * rotation * slope;
             }
         }
         out.corner += c * w.couple_by_angle;

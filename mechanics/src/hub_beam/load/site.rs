@@ -1,12 +1,12 @@
-//! Where loads act: a beam as they see it while a system is built.
+//! The beam on which loads act, while a system is built.
 
 use super::group::Group;
 use super::{Amplitude, Axes};
+use crate::hub_beam::beam::Beam;
 use crate::hub_beam::fields::{Fields, Point, add_outer, add_vector};
 use crate::linalg::{Matrix, Structure};
-use crate::section::Section;
 
-/// How a coupling places the axis; see the [module documentation](super).
+/// How a coupling describes the axis; see the [module documentation](super).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kinematics {
     /// Without foreshortening.
@@ -22,10 +22,10 @@ pub enum Kinematics {
 pub struct Site<'a> {
     /// Its displacement fields, whose cells end where loads begin, end or jump.
     pub fields: &'a Fields,
-    /// How the coupling places the axis.
+    /// How the coupling describes the axis.
     pub kinematics: Kinematics,
-    /// Its section, with the masses it carries.
-    pub section: &'a dyn Section,
+    /// Its section and lumped masses.
+    pub beam: &'a Beam<'a>,
     /// Radius a of the hub \[m\].
     pub radius: f64,
     /// Number of unknowns of the hub.
@@ -39,7 +39,7 @@ pub(super) struct Share<'s> {
 }
 
 impl Share<'_> {
-    /// Calls `f` at every place with its share of the force, quadrature weights included.
+    /// Calls `f` at every point with its share of the force, quadrature weights included.
     pub fn each(&self, fields: &Fields, mut f: impl FnMut(&Point, f64)) {
         fields.integrate(|point| {
             let p = point.weight * (self.density)(point.x);
@@ -81,7 +81,7 @@ impl Site<'_> {
             add_vector(&mut group.g_x, &point.axial, 0, p);
             add_vector(&mut group.g_y, &point.transverse, 0, p);
             if axes == Axes::Follower {
-                // (F_x, F_y) turned by φ = w₂′: (−φ F_y, φ F_x).
+                // (F_x, F_y) rotated by φ = w₂′: (−φ F_y, φ F_x).
                 add_outer(&mut follower, (&point.axial, 0), (&point.transverse, 1), -p * force[1]);
                 add_outer(&mut follower, (&point.transverse, 0), (&point.transverse, 1), p * force[0]);
                 add_vector(&mut group.h, &point.transverse, 1, p * r * force[0]);

@@ -6,12 +6,12 @@ use crate::hub_beam::tests::{
     relative, residual, state, without_strain,
 };
 use crate::hub_beam::{
-    Coupling, Damping, ExactCoupling, Foreshortening, HighCoupling, Hub, HubBeam, LinearCoupling, Placement,
-    Station,
+    Beam, Coupling, Damping, ExactCoupling, Foreshortening, HighCoupling, Hub, HubBeam, LinearCoupling, Mass,
+    Placement, Station,
 };
 use crate::profile::Expression;
-use crate::section::{Laden, Mass, Section};
 use crate::system::{Dynamics, Events, Observed, System};
+use std::sync::Arc;
 
 const FORCE: [f64; 2] = [-3.0, 5.0];
 /// A station inside the second of three cells, which it cuts.
@@ -56,53 +56,49 @@ fn loads() -> Vec<Box<dyn Load>> {
     loads
 }
 
-fn masses() -> Vec<Mass> {
-    vec![
-        Mass { station: STATION, mass: 0.7, inertia: 0.02 },
-        Mass { station: LENGTH, mass: 0.4, inertia: 0.05 },
-    ]
+const MASSES: [Mass; 2] =
+    [Mass { station: STATION, mass: 0.7, inertia: 0.02 }, Mass { station: LENGTH, mass: 0.4, inertia: 0.05 }];
+
+fn beam(masses: &[Mass]) -> Beam<'static> {
+    Beam::new(&TwoFibres, masses.to_vec(), &distributed(Axes::Dead).stations())
 }
 
-fn section(masses: Vec<Mass>) -> Laden {
-    Laden::new(Box::new(TwoFibres), masses, &distributed(Axes::Dead).stations())
-}
-
-fn linear(hub: Hub, section: &dyn Section, foreshortening: Foreshortening) -> HubBeam<LinearCoupling> {
+fn linear(hub: Hub, beam: &Beam<'_>, foreshortening: Foreshortening) -> HubBeam<LinearCoupling> {
     let axial = Box::new(crate::basis::Lagrange::new(LENGTH, 3, 2).unwrap());
     let transverse =
         Box::new(crate::basis::Hermite::new(LENGTH, 3, crate::basis::Field::Transverse).unwrap());
-    let fields = crate::hub_beam::Fields::new(LENGTH, axial, transverse, section.breaks());
-    let coupling = LinearCoupling::new(fields, section, &hub, foreshortening);
+    let fields = crate::hub_beam::Fields::new(LENGTH, axial, transverse, &beam.breaks);
+    let coupling = LinearCoupling::new(fields, beam, &hub, foreshortening);
     HubBeam::new(hub, coupling, &[])
 }
 
-fn high(hub: Hub, section: &dyn Section, elements: usize) -> HubBeam<HighCoupling> {
+fn high(hub: Hub, beam: &Beam<'_>, elements: usize) -> HubBeam<HighCoupling> {
     let axial = Box::new(crate::basis::Lagrange::new(LENGTH, elements, 1).unwrap());
     let transverse =
         Box::new(crate::basis::Hermite::new(LENGTH, elements, crate::basis::Field::Transverse).unwrap());
-    let fields = crate::hub_beam::Fields::new(LENGTH, axial, transverse, section.breaks());
-    let coupling = HighCoupling::new(fields, section, &hub).unwrap();
+    let fields = crate::hub_beam::Fields::new(LENGTH, axial, transverse, &beam.breaks);
+    let coupling = HighCoupling::new(fields, beam, &hub).unwrap();
     HubBeam::new(hub, coupling, &[])
 }
 
-fn exact(hub: Hub, section: &dyn Section) -> HubBeam<ExactCoupling> {
-    let coupling = ExactCoupling::new(LENGTH, 3, section, &hub).unwrap();
+fn exact(hub: Hub, beam: &Beam<'_>) -> HubBeam<ExactCoupling> {
+    let coupling = ExactCoupling::new(LENGTH, 3, beam, &hub).unwrap();
     HubBeam::new(hub, coupling, &[])
 }
 
 /// Every coupling on both hubs, with the given loads, masses and damping.
 fn systems(loads: &[&dyn Load], masses: &[Mass], damping: Damping) -> Vec<Box<dyn System>> {
-    let section = section(masses.to_vec());
+    let beam = beam(masses);
     let mut systems: Vec<Box<dyn System>> = Vec::new();
     for hub in [hub(), free_hub()] {
         for foreshortening in [Foreshortening::None, Foreshortening::First] {
-            let system = linear(hub.clone(), &section, foreshortening);
-            systems.push(Box::new(system.with_loads(&section, loads).with_damping(damping)));
+            let system = linear(hub.clone(), &beam, foreshortening);
+            systems.push(Box::new(system.with_loads(&beam, loads).with_damping(damping)));
         }
-        let system = high(hub.clone(), &section, 3);
-        systems.push(Box::new(system.with_loads(&section, loads).with_damping(damping)));
-        let system = exact(hub, &section);
-        systems.push(Box::new(system.with_loads(&section, loads).with_damping(damping)));
+        let system = high(hub.clone(), &beam, 3);
+        systems.push(Box::new(system.with_loads(&beam, loads).with_damping(damping)));
+        let system = exact(hub, &beam);
+        systems.push(Box::new(system.with_loads(&beam, loads).with_damping(damping)));
     }
     systems
 }
@@ -115,9 +111,9 @@ fn tangents_of_every_load_equal_finite_differences() {
             check_tangent(&mut *system, &s);
         }
         // The band matrices of a load are added to a full one.
-        let section = section(masses());
+        let beam = beam(&MASSES);
         for hub in [hub(), free_hub()] {
-            let mut system = high(hub, &section, 12).with_loads(&section, &[&*load]);
+            let mut system = high(hub, &beam, 12).with_loads(&beam, &[&*load]);
             let s = state(&system, 0.15);
             check_tangent(&mut system, &s);
         }
@@ -127,8 +123,8 @@ fn tangents_of_every_load_equal_finite_differences() {
 #[test]
 fn tangents_of_masses_and_damping_equal_finite_differences() {
     let damped = Damping { mass: 0.3, stiffness: 0.02 };
-    for (masses, damping) in [(masses(), Damping::default()), (vec![], damped), (masses(), damped)] {
-        for mut system in systems(&[&GRAVITY], &masses, damping) {
+    for (masses, damping) in [(&MASSES[..], Damping::default()), (&[], damped), (&MASSES, damped)] {
+        for mut system in systems(&[&GRAVITY], masses, damping) {
             let s = state(&*system, 0.15);
             check_tangent(&mut *system, &s);
         }
@@ -137,7 +133,7 @@ fn tangents_of_masses_and_damping_equal_finite_differences() {
 
 #[test]
 fn a_stamped_tangent_is_never_taken_for_another() {
-    // The same matrix is asked for at other times, angles and weights: it must be written anew.
+    // The same matrix at other times, angles and weights: it is written again.
     let damping = Damping { mass: 0.3, stiffness: 0.02 };
     for load in loads() {
         let build = || systems(&[&*load], &[], damping);
@@ -161,7 +157,7 @@ fn a_stamped_tangent_is_never_taken_for_another() {
 fn energy_changes_by_the_power_of_loads_drives_and_dampers() {
     let damping = Damping { mass: 0.3, stiffness: 0.02 };
     for load in loads() {
-        for mut system in systems(&[&*load], &masses(), damping) {
+        for mut system in systems(&[&*load], &MASSES, damping) {
             check_power(&mut *system);
         }
     }
@@ -210,11 +206,11 @@ fn virtual_work<C: Coupling>(
 /// Forces and torque that `load` adds to a system.
 fn added<C: Coupling>(
     build: &dyn Fn() -> HubBeam<C>,
-    section: &dyn Section,
+    beam: &Beam<'_>,
     load: &dyn Load,
     s: &State,
 ) -> (Vec<f64>, f64) {
-    let (mut without, mut with) = (build(), build().with_loads(section, &[load]));
+    let (mut without, mut with) = (build(), build().with_loads(beam, &[load]));
     let r = residual(&mut without, s);
     let forces = r.iter().zip(residual(&mut with, s)).map(|(a, b)| a - b).collect();
     (forces, without.torque(s) - with.torque(s))
@@ -232,9 +228,8 @@ fn shares(load: &DistributedForce, cells: &[f64]) -> Vec<(f64, f64)> {
 
 #[test]
 fn the_energy_of_a_spring_is_half_its_stiffness_times_its_length_squared() {
-    let section = section(vec![]);
-    let (mut without, mut with) =
-        (exact(hub(), &section), exact(hub(), &section).with_loads(&section, &[&SPRING]));
+    let beam = beam(&[]);
+    let (mut without, mut with) = (exact(hub(), &beam), exact(hub(), &beam).with_loads(&beam, &[&SPRING]));
     let s = state(&without, 0.15);
     let (sin, cos) = at(&without, s.t).angle.sin_cos();
     let p = placement(without.coupling(), &s.q, STATION);
@@ -244,7 +239,7 @@ fn the_energy_of_a_spring_is_half_its_stiffness_times_its_length_squared() {
     let found = with.energy(&s).strain - without.energy(&s).strain;
     assert!((found / expected - 1.0).abs() < 1e-10, "{found} for {expected}");
     // Force and torque on the undeformed beam: −k (r − A), seen from the hub.
-    let forces = added(&|| exact(hub(), &section), &section, &SPRING, &s).1;
+    let forces = added(&|| exact(hub(), &beam), &beam, &SPRING, &s).1;
     let torque =
         SPRING.stiffness * ((x * cos - y * sin) * SPRING.anchor[1] - (x * sin + y * cos) * SPRING.anchor[0]);
     assert!((forces / torque - 1.0).abs() < 1e-10, "{forces} for {torque}");
@@ -252,8 +247,8 @@ fn the_energy_of_a_spring_is_half_its_stiffness_times_its_length_squared() {
 
 #[test]
 fn forces_and_torque_are_those_of_virtual_work_at_large_rotations() {
-    let section = section(vec![]);
-    let build = || exact(hub(), &section);
+    let beam = beam(&[]);
+    let build = || exact(hub(), &beam);
     let system = build();
     let s = state(&system, 0.15);
     let angle = at(&system, s.t).angle;
@@ -261,7 +256,7 @@ fn forces_and_torque_are_those_of_virtual_work_at_large_rotations() {
         let factor = 1.0 + s.t * s.t;
         for station in [STATION, LENGTH] {
             let expected = virtual_work(system.coupling(), &s.q, angle, axes, &[(station, factor)]);
-            let found = added(&build, &section, &force(axes, station), &s);
+            let found = added(&build, &beam, &force(axes, station), &s);
             assert!(relative(&found.0, &expected.0) < 1e-8, "{axes:?}");
             assert!((found.1 - expected.1).abs() < 1e-9 * expected.1.abs(), "{axes:?}");
         }
@@ -273,7 +268,7 @@ fn forces_and_torque_are_those_of_virtual_work_at_large_rotations() {
             axes,
             &shares(&load, system.coupling().fields().cells()),
         );
-        let found = added(&build, &section, &load, &s);
+        let found = added(&build, &beam, &load, &s);
         // The direction of a follower is no polynomial: its quadrature has fewer points than the check's.
         let tolerance = if axes == Axes::Follower { 1e-4 } else { 1e-8 };
         assert!(relative(&found.0, &expected.0) < tolerance, "{axes:?} {}", relative(&found.0, &expected.0));
@@ -283,9 +278,9 @@ fn forces_and_torque_are_those_of_virtual_work_at_large_rotations() {
 
 #[test]
 fn linear_couplings_have_the_linearised_forces_of_virtual_work() {
-    let section = section(vec![]);
+    let beam = beam(&[]);
     for foreshortening in [Foreshortening::None, Foreshortening::First] {
-        let build = || linear(hub(), &section, foreshortening);
+        let build = || linear(hub(), &beam, foreshortening);
         let system = build();
         let angle = at(&system, 0.6).angle;
         let cells = system.coupling().fields().cells().to_vec();
@@ -302,7 +297,7 @@ fn linear_couplings_have_the_linearised_forces_of_virtual_work() {
                     let s = state(&system, sign * size);
                     (
                         virtual_work(system.coupling(), &s.q, angle, axes, &shares),
-                        added(&build, &section, load, &s),
+                        added(&build, &beam, load, &s),
                     )
                 });
                 let odd = |a: &[f64], b: &[f64]| -> Vec<f64> {
@@ -318,7 +313,7 @@ fn linear_couplings_have_the_linearised_forces_of_virtual_work() {
                 // The even part at rest.
                 let zero = state(&system, 0.0);
                 let expected = virtual_work(system.coupling(), &zero.q, angle, axes, &shares);
-                let found = added(&build, &section, load, &zero);
+                let found = added(&build, &beam, load, &zero);
                 assert!(relative(&found.0, &expected.0) < 1e-8);
                 assert!((found.1 - expected.1).abs() < 1e-9 * expected.1.abs());
             }
@@ -365,26 +360,26 @@ fn gradient<C: Coupling>(coupling: &C, q: &[f64], angle: f64, masses: &[Mass]) -
 
 #[test]
 fn gravity_is_the_gradient_of_the_height_of_all_particles() {
-    let section = section(masses());
-    let build = || exact(hub(), &section);
+    let beam = beam(&MASSES);
+    let build = || exact(hub(), &beam);
     let system = build();
     let s = state(&system, 0.15);
     let angle = at(&system, s.t).angle;
-    let expected = gradient(system.coupling(), &s.q, angle, &masses());
-    let found = added(&build, &section, &GRAVITY, &s);
+    let expected = gradient(system.coupling(), &s.q, angle, &MASSES);
+    let found = added(&build, &beam, &GRAVITY, &s);
     assert!(relative(&found.0, &expected.0) < 1e-8, "{}", relative(&found.0, &expected.0));
     assert!((found.1 - expected.1).abs() < 1e-8 * expected.1.abs());
-    let energy = build().with_loads(&section, &[&GRAVITY]).energy(&s).gravity;
-    let expected = potential(system.coupling(), &s.q, angle, &masses());
+    let energy = build().with_loads(&beam, &[&GRAVITY]).energy(&s).gravity;
+    let expected = potential(system.coupling(), &s.q, angle, &MASSES);
     assert!((energy - expected).abs() < 1e-12 * expected.abs(), "{energy} {expected}");
 
     for foreshortening in [Foreshortening::None, Foreshortening::First] {
-        let build = || linear(hub(), &section, foreshortening);
+        let build = || linear(hub(), &beam, foreshortening);
         let system = build();
         let size = 1e-4;
         let both = [1.0, -1.0].map(|sign| {
             let s = state(&system, sign * size);
-            (gradient(system.coupling(), &s.q, angle, &masses()), added(&build, &section, &GRAVITY, &s))
+            (gradient(system.coupling(), &s.q, angle, &MASSES), added(&build, &beam, &GRAVITY, &s))
         });
         let odd = |a: &[f64], b: &[f64]| -> Vec<f64> {
             a.iter().zip(b).map(|(a, b)| (a - b) / (2.0 * size)).collect()
@@ -404,21 +399,21 @@ fn gravity_is_the_gradient_of_the_height_of_all_particles() {
 
 #[test]
 fn masses_obey_dalembert() {
-    let section = section(masses());
-    let mut system = exact(hub(), &section);
+    let beam = beam(&MASSES);
+    let mut system = exact(hub(), &beam);
     let s = state(&system, 0.15);
     let kinematics = at(&system, s.t);
-    let (forces, torque) = inertia_forces(system.coupling(), &s, &kinematics, &masses());
+    let (forces, torque) = inertia_forces(system.coupling(), &s, &kinematics, &MASSES);
     // As without masses: the element's rule of three points against the check's eight.
     let error = relative(&without_strain(&mut system, &s), &forces);
     assert!(error < 2e-3, "forces {error:e}");
     assert!((system.torque(&s) / torque - 1.0).abs() < 2e-3);
     // The masses alone, free of that difference.
-    let plain = self::section(vec![]);
+    let plain = self::beam(&[]);
     let mut bare = exact(hub(), &plain);
     let own: Vec<f64> =
         residual(&mut system, &s).iter().zip(residual(&mut bare, &s)).map(|(a, b)| a - b).collect();
-    let (all, all_torque) = inertia_forces(system.coupling(), &s, &kinematics, &masses());
+    let (all, all_torque) = inertia_forces(system.coupling(), &s, &kinematics, &MASSES);
     let (none, none_torque) = inertia_forces(bare.coupling(), &s, &kinematics, &[]);
     let expected: Vec<f64> = all.iter().zip(&none).map(|(a, b)| a - b).collect();
     assert!(relative(&own, &expected) < 1e-6, "{:e}", relative(&own, &expected));
@@ -426,12 +421,12 @@ fn masses_obey_dalembert() {
     assert!((own / expected - 1.0).abs() < 1e-6, "{own} {expected}");
 
     for foreshortening in [Foreshortening::None, Foreshortening::First] {
-        let mut system = linear(hub(), &section, foreshortening);
+        let mut system = linear(hub(), &beam, foreshortening);
         let size = 1e-3;
         let mut odd: [Vec<f64>; 2] = [vec![], vec![]];
         for sign in [1.0, -1.0] {
             let s = state(&system, sign * size);
-            let expected = inertia_forces(system.coupling(), &s, &kinematics, &masses()).0;
+            let expected = inertia_forces(system.coupling(), &s, &kinematics, &MASSES).0;
             let found = without_strain(&mut system, &s);
             for (odd, new) in odd.iter_mut().zip([expected, found]) {
                 odd.resize(new.len(), 0.0);
@@ -447,9 +442,9 @@ fn masses_obey_dalembert() {
 #[test]
 fn dissipation_is_that_of_the_rates_of_strain() {
     // From rest, U = ½ t² ėᵀSė + …: η ėᵀSė is the second derivative of the strain energy there.
-    let section = section(vec![]);
+    let beam = beam(&[]);
     let eta = 0.1;
-    let mut system = exact(hub(), &section).with_damping(Damping { mass: 0.0, stiffness: eta });
+    let mut system = exact(hub(), &beam).with_damping(Damping { mass: 0.0, stiffness: eta });
     let s = state(&system, 0.15);
     let mut energy = |t: f64| {
         let moved = State { q: s.v.iter().map(|v| t * v).collect(), ..s.clone() };

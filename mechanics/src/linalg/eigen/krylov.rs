@@ -12,7 +12,7 @@ pub(super) const TOLERANCE: f64 = 1e-12;
 /// Share of a vector left by orthogonalisation below which the space is invariant.
 const INVARIANT: f64 = 1e-13;
 
-/// What the operator is in its inner product.
+/// Form of the projected operator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Projection {
     Symmetric,
@@ -59,7 +59,7 @@ impl Space {
         re.into_iter().zip(im).map(|(re, im)| Complex64::new(re, im)).collect()
     }
 
-    /// Takes the part in the space away from w; adds the coefficients to `h`.
+    /// Removes the part of w in the space; adds the coefficients to `h`.
     fn remove(&self, w: &mut [f64], dual_w: &mut [f64], mut h: Option<&mut [f64]>) {
         for (j, (z, dual)) in self.vectors.iter().zip(&self.duals).enumerate() {
             let c = dot(w, dual);
@@ -85,7 +85,7 @@ fn combine(vectors: &[Vec<f64>], coefficients: &[f64]) -> Vec<f64> {
     out
 }
 
-/// What is looked for.
+/// The eigenpairs to find.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Search<'a> {
     /// Number of the largest eigenpairs; of conjugate pairs both count as one.
@@ -99,7 +99,7 @@ pub(super) struct Search<'a> {
     pub seed: u64,
 }
 
-/// What was found: the largest eigenpairs in the coefficients of a space, and how many of them have converged.
+/// Result: the largest eigenpairs in the coefficients of a space, and how many of them have converged.
 pub(super) struct Found {
     pub space: Space,
     pub pairs: Vec<Ritz>,
@@ -118,7 +118,7 @@ impl Found {
     }
 }
 
-/// The largest eigenpairs of `operator` orthogonal to `locked`, as many as are wanted or there are.
+/// The largest eigenpairs of `operator` orthogonal to `locked`, as many as `wanted`, or all.
 pub(super) fn krylov(
     operator: &mut dyn Operator,
     locked: &Space,
@@ -162,7 +162,7 @@ pub(super) fn krylov(
         let before = norm(&w, &dual_w);
         largest = largest.max(before);
         let mut h = vec![0.0; m + 1];
-        // Twice, unless little was taken away.
+        // Twice, unless little was removed.
         for _ in 0..2 {
             locked.remove(&mut w, &mut dual_w, None);
             space.remove(&mut w, &mut dual_w, Some(&mut h[..m]));

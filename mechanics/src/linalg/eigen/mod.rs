@@ -1,7 +1,7 @@
 //! A few eigenpairs (λ² M + λ C + K) x = 0 of large narrow bands, those of smallest |λ − σ|.
 //!
 //! The eigenvalues next to the shift σ are the largest of an inverse, which a Krylov space finds in some tens of
-//! solutions with one factorisation of Q(σ) = σ² M + σ C + K. Three spaces, by what the matrices are:
+//! solutions with one factorisation of Q(σ) = σ² M + σ C + K. Three spaces, by the form of the matrices:
 //!
 //! | matrices | operator | inner product | projected |
 //! |---|---|---|---|
@@ -24,6 +24,7 @@
 
 mod krylov;
 mod operators;
+mod pairs;
 mod pencil;
 mod small;
 
@@ -54,9 +55,9 @@ pub enum EigenError {
     /// The Krylov space was exhausted or grew too large.
     #[error("{converged} of {wanted} eigenvalues converged in a Krylov space of dimension {dimension}")]
     NotConverged {
-        /// How many were wanted.
+        /// Number requested.
         wanted: usize,
-        /// How many converged.
+        /// Number that converged.
         converged: usize,
         /// Dimension of the space.
         dimension: usize,

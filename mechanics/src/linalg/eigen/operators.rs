@@ -1,4 +1,4 @@
-//! The inverses whose largest eigenvalues are wanted. Each knows its inner product through the dual of a vector.
+//! The inverse operators whose largest eigenvalues are computed. The dual of a vector gives the inner product.
 
 use super::Pencil;
 use crate::linalg::vector::{dot, noise, scale};

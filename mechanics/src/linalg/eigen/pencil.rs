@@ -1,13 +1,11 @@
-//! The three matrices of an eigenproblem, and its solutions.
+//! The three matrices of an eigenproblem, their kind, and counts of its eigenvalues.
 
-use super::krylov::{Projection, Search, Space, TOLERANCE, krylov};
-use super::operators::{General, Gyroscopic, Symmetric};
-use super::{EigenError, Pair};
+use super::EigenError;
 use crate::linalg::vector::dot;
 use crate::linalg::{Matrix, Storage, negative_pivots_of};
 use num_complex::Complex64;
 
-/// What is known of the matrices.
+/// Form of the matrices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// M, K symmetric, C = 0.
@@ -34,7 +32,7 @@ pub struct Pencil {
 }
 
 /// Relative size at which an entry counts as zero.
-const NOUGHT: f64 = 1e-12;
+const ZERO: f64 = 1e-12;
 /// Relative distance below a frequency at which others are counted.
 const MARGIN: f64 = 1e-7;
 
@@ -78,7 +76,7 @@ impl Pencil {
         self.shift
     }
 
-    /// What the matrices are.
+    /// Form of the matrices.
     pub fn kind(&self) -> Kind {
         self.kind
     }
@@ -135,15 +133,15 @@ impl Pencil {
     fn find_kind(&self) -> Kind {
         let (mut m, mut c, mut k) = (Parts::default(), Parts::default(), Parts::default());
         each(&self.mass, |i, j| {
-            m.look(self.mass.get(i, j), self.mass.get(j, i));
-            c.look(self.damping.get(i, j), self.damping.get(j, i));
-            k.look(self.stiffness.get(i, j), self.stiffness.get(j, i));
+            m.include(self.mass.get(i, j), self.mass.get(j, i));
+            c.include(self.damping.get(i, j), self.damping.get(j, i));
+            k.include(self.stiffness.get(i, j), self.stiffness.get(j, i));
         });
         if !(m.is_symmetric() && k.is_symmetric()) {
             Kind::General
         } else if c.largest == 0.0 {
             Kind::Symmetric
-        } else if c.symmetric <= NOUGHT * c.largest
+        } else if c.symmetric <= ZERO * c.largest
             && self.shift == 0.0
             && negative_eigenvalues(&self.stiffness) == Some(0)
         {
@@ -177,133 +175,13 @@ impl Pencil {
         value.norm() * (1.0 - f64::max(MARGIN, 4.0 * self.rounding(value, x)))
     }
 
-    /// At least `count` eigenpairs next to the shift (fewer if there are fewer), ascending in |λ|, Im λ ≥ 0. Of a real
-    /// pair ±λ of a symmetric pencil the growing one is given. `near` are approximate pairs, with which a conservative
-    /// pencil begins: the Krylov space of a sum of eigenvectors is spanned by them.
-    ///
-    /// # Errors
-    /// [`EigenError`] when they do not converge.
-    pub fn pairs(
-        &mut self,
-        count: usize,
-        near: &[(Complex64, &[Complex64])],
-    ) -> Result<Vec<Pair>, EigenError> {
-        let found = match self.kind {
-            Kind::Symmetric | Kind::Gyroscopic => self.conservative(count, near)?,
-            Kind::General => self.general(count)?,
-        };
-        let mut pairs = Vec::with_capacity(found.len());
-        for (value, vector) in found {
-            let matrices = [&self.mass, &self.damping];
-            let residual = residual(matrices, &mut self.factor, self.shift, value, &vector);
-            self.solutions += 2;
-            pairs.push(Pair { residual, value, vector });
-        }
-        pairs.sort_by(|a, b| a.value.norm().total_cmp(&b.value.norm()));
-        Ok(pairs)
+    /// The residual of a pair, |x + Q(σ)⁻¹ (Q(λ) − Q(σ)) x| / |x| in the norm of M.
+    pub(super) fn residual(&mut self, value: Complex64, vector: &[Complex64]) -> f64 {
+        self.solutions += 2;
+        residual([&self.mass, &self.damping], &mut self.factor, self.shift, value, vector)
     }
 
-    /// The pairs of a conservative pencil. Copies of a multiple eigenvalue are found one after the other, by a
-    /// space that is orthogonal to what was found, until the count of frequencies says that none is missing.
-    fn conservative(
-        &mut self,
-        count: usize,
-        near: &[(Complex64, &[Complex64])],
-    ) -> Result<Vec<(Complex64, Vec<Complex64>)>, EigenError> {
-        let (n, shift) = (self.order(), self.shift);
-        let projection = match self.kind {
-            Kind::Symmetric => Projection::Symmetric,
-            _ => Projection::Skew,
-        };
-        let warm = (!near.is_empty()).then(|| self.sum(near));
-        let mut found: Vec<(Complex64, Vec<Complex64>)> = Vec::new();
-        let mut locked = Space::default();
-        for round in 0..=count as u64 {
-            // Copies are looked for one at a time.
-            let wanted = if round == 0 { count } else { 1 };
-            let start = warm.as_deref().filter(|_| round == 0);
-            let search = Search { wanted, projection, tolerance: TOLERANCE, start, seed: round };
-            let ritz = if self.kind == Kind::Symmetric {
-                krylov(&mut Symmetric(self), &locked, search)?
-            } else {
-                krylov(&mut Gyroscopic(self), &locked, search)?
-            };
-            let ritz = ritz.all(wanted)?;
-            let before = found.len();
-            for pair in ritz.pairs.iter().filter(|r| r.value.norm() > 0.0) {
-                let value = if self.kind == Kind::Symmetric {
-                    let square = 1.0 / pair.value.re - shift * shift;
-                    let root = square.abs().sqrt();
-                    if square < 0.0 { Complex64::new(root, 0.0) } else { Complex64::new(0.0, root) }
-                } else {
-                    Complex64::new(0.0, (1.0 / pair.value).im)
-                };
-                let mut vector = ritz.space.vector(pair);
-                vector.truncate(n);
-                found.push((value, vector));
-            }
-            found.sort_by(|a, b| a.0.norm().total_cmp(&b.0.norm()));
-            if found.len() == before || self.is_complete(&found, count) {
-                break;
-            }
-            ritz.pairs.iter().for_each(|pair| locked.push_from(&ritz.space, pair));
-        }
-        Ok(found)
-    }
-
-    /// A sum of vectors of the operator in which each of the pairs has the same size after one product with it.
-    fn sum(&self, near: &[(Complex64, &[Complex64])]) -> Vec<f64> {
-        let n = self.order();
-        let symmetric = self.kind == Kind::Symmetric;
-        let mut sum = vec![0.0; if symmetric { n } else { 2 * n }];
-        for (value, x) in near {
-            let factor = if symmetric { value.norm_sqr() } else { 1.0 };
-            for (i, x) in x.iter().enumerate() {
-                sum[i] += factor * x.re;
-                if !symmetric {
-                    sum[n + i] += (value * x).re;
-                }
-            }
-        }
-        sum
-    }
-
-    /// Whether nothing is missing among the first `count` eigenvalues found.
-    fn is_complete(&self, found: &[(Complex64, Vec<Complex64>)], count: usize) -> bool {
-        let Some((last, x)) = found.get(count.min(found.len()).saturating_sub(1)) else { return true };
-        // With divergent eigenvalues those found need not be the lowest: nothing is counted.
-        if found.iter().any(|(value, _)| value.re != 0.0) {
-            return true;
-        }
-        let limit = self.just_below(*last, x);
-        let below = found.iter().filter(|(value, _)| value.im < limit).count();
-        self.count_below(limit).is_none_or(|counted| counted <= below)
-    }
-
-    fn general(&mut self, count: usize) -> Result<Vec<(Complex64, Vec<Complex64>)>, EigenError> {
-        let (n, shift) = (self.order(), self.shift);
-        let mut operator = General::new(self);
-        let search = Search {
-            wanted: count,
-            projection: Projection::Hessenberg,
-            tolerance: TOLERANCE,
-            start: None,
-            seed: 0,
-        };
-        let ritz = krylov(&mut operator, &Space::default(), search)?.all(count)?;
-        let values = ritz.pairs.iter().filter(|r| r.value.norm() > 0.0);
-        Ok(values
-            .map(|r| (1.0 / r.value + shift, r))
-            .filter(|(value, _)| value.im >= 0.0)
-            .map(|(value, r)| {
-                let mut vector = ritz.space.vector(r);
-                vector.truncate(n);
-                (value, vector)
-            })
-            .collect())
-    }
-
-    /// The residual of a pair seen through Q(|λ|) in the place of Q(σ). Where K is nearly singular, K⁻¹ magnifies by (λ/λ₁)²
+    /// The residual of a pair seen through Q(|λ|) instead of Q(σ). Where K is nearly singular, K⁻¹ magnifies by (λ/λ₁)²
     /// what rounding leaves of the lowest mode in the others; the inverse of K + |λ|C + |λ|²M magnifies nothing. O(n).
     pub fn residual_at_its_size(&self, value: Complex64, vector: &[Complex64]) -> f64 {
         let (mut factor, shift) = (self.stiffness.clone(), value.norm());
@@ -324,14 +202,14 @@ struct Parts {
 }
 
 impl Parts {
-    fn look(&mut self, a: f64, b: f64) {
+    fn include(&mut self, a: f64, b: f64) {
         self.largest = self.largest.max(a.abs());
         self.symmetric = self.symmetric.max((a + b).abs());
         self.skew = self.skew.max((a - b).abs());
     }
 
     fn is_symmetric(&self) -> bool {
-        self.skew <= NOUGHT * self.largest
+        self.skew <= ZERO * self.largest
     }
 }
 

@@ -9,8 +9,9 @@
 //!
 //! ε̇ and κ̇ are those of the curve: a rigid rotation of a deformed beam dissipates nothing.
 
-use super::element::{Element, Local};
-use super::rule::{POINTS, Rule};
+use super::{Element, Local, components};
+use crate::hub_beam::rule::{POINTS, Rule};
+use crate::linalg::vector::inner;
 use crate::system::Weights;
 
 /// Strains of an element: three of the axis, then the curvatures.
@@ -79,9 +80,8 @@ impl Rows {
 
     /// The arguments' rates for the local vector `d`.
     fn arguments(&self, d: &[f64; 8]) -> [f64; 4] {
-        let dot = |n: &[f64; 4], d: &[f64]| n.iter().zip(d).map(|(n, d)| n * d).sum::<f64>();
-        let (u, v) = d.split_at(4);
-        [dot(&self.n1, u), dot(&self.n1, v), dot(&self.n2, u), dot(&self.n2, v)]
+        let [u, v] = components(d);
+        [inner(self.n1, u), inner(self.n1, v), inner(self.n2, u), inner(self.n2, v)]
     }
 
     /// Adds to a local vector what belongs to derivatives `g` by the arguments.
@@ -116,15 +116,15 @@ impl Element {
         });
         let mut hessians = [[[0.0; 4]; 4]; STRAINS];
         let strains = std::array::from_fn(|k| {
-            let mut z = rows[k].arguments(local.q());
+            let mut z = rows[k].arguments(&local.q);
             z[0] += 1.0;
-            let rates = rows[k].arguments(local.v());
+            let rates = rows[k].arguments(&local.v);
             let (g, h) = if k < 3 { axial_strain(z[0], z[1]) } else { curvature(z) };
-            let hessian_rate = h.map(|row| row.iter().zip(&rates).map(|(h, r)| h * r).sum());
+            let hessian_rate = h.map(|row| inner(row, rates));
             let mut strain = Strain { gradient: [0.0; 8], hessian_rate: [0.0; 8], rate: 0.0 };
             rows[k].spread(&g, &mut strain.gradient);
             rows[k].spread(&hessian_rate, &mut strain.hessian_rate);
-            strain.rate = g.iter().zip(&rates).map(|(g, r)| g * r).sum();
+            strain.rate = inner(g, rates);
             hessians[k] = h;
             strain
         });
