@@ -55,7 +55,13 @@ impl Observer for Trajectory {
         system.record(state, &mut self.values[start..]);
         let total = system.energy(state).total();
         let balance = step.balance.unwrap_or_default();
-        self.values.extend([total, balance.drive, balance.loads, balance.dissipated, balance.imbalance(total)]);
+        self.values.extend([
+            total,
+            balance.drive,
+            balance.loads,
+            balance.dissipated,
+            balance.imbalance(total),
+        ]);
         self.values.extend([step.size, f64::from(step.iterations)]);
     }
 }
@@ -88,8 +94,7 @@ pub fn spin_up(elements: usize) -> Result<Trajectory, Box<dyn Error>> {
         .iter()
         .map(|(name, unit)| if unit.is_empty() { (*name).to_owned() } else { format!("{name} [{unit}]") })
         .collect();
-    let mut trajectory =
-        Trajectory { heading: names.join(","), columns: columns.len(), values: Vec::new() };
+    let mut trajectory = Trajectory { heading: names.join(","), columns: columns.len(), values: Vec::new() };
     let mut state = system.initial();
     match transient(&mut system, &mut integrator, &mut state, &plan, &mut trajectory) {
         Ending::Finished => Ok(trajectory),

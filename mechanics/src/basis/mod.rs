@@ -4,6 +4,7 @@ mod b_spline;
 mod bezier;
 #[cfg(test)]
 pub(crate) mod checks;
+pub(crate) mod conformance;
 mod hermite;
 mod lagrange;
 mod modes;
@@ -66,6 +67,59 @@ impl Conditioning {
 ///
 /// The beam is cut into cells; inside a cell every function is smooth, and the functions that do
 /// not vanish there are a contiguous range of indices (so that banded storage is natural).
+///
+/// A basis of one's own, here φ_i = (x/L)^(i + 2) in a single cell, is checked by [`verify::basis`](fn@crate::verify::basis):
+///
+/// ```
+/// use flexion::basis::{Basis, Conditioning, Field, Role, Support};
+///
+/// #[derive(Debug)]
+/// struct Monomials {
+///     count: usize,
+///     cells: [f64; 2],
+/// }
+///
+/// impl Basis for Monomials {
+///     fn len(&self) -> usize {
+///         self.count
+///     }
+///     fn cells(&self) -> &[f64] {
+///         &self.cells
+///     }
+///     // n Gauss points integrate degree 2n − 1: twice the highest power, and one for the weight.
+///     fn points_per_cell(&self) -> usize {
+///         self.count + 2
+///     }
+///     fn support(&self, _cell: usize) -> Support {
+///         0..self.count
+///     }
+///     fn eval(&self, _cell: usize, x: f64, derivative: usize, out: &mut [f64]) -> Support {
+///         let length = self.cells[1];
+///         for i in 0..self.count {
+///             let power = i + 2;
+///             out[i] = if derivative > power {
+///                 0.0
+///             } else {
+///                 let factor: f64 = (0..derivative).map(|k| (power - k) as f64 / length).product();
+///                 factor * (x / length).powi((power - derivative) as i32)
+///             };
+///         }
+///         0..self.count
+///     }
+///     fn anchor(&self, _i: usize) -> f64 {
+///         self.cells[1]
+///     }
+///     fn role(&self, _i: usize) -> Role {
+///         Role::Amplitude
+///     }
+///     fn conditioning(&self) -> Conditioning {
+///         Conditioning::none()
+///     }
+/// }
+///
+/// let own = Monomials { count: 5, cells: [0.0, 10.0] };
+/// assert_eq!(flexion::verify::basis(&own, Field::Transverse), []);
+/// ```
 pub trait Basis: Send + Sync + std::fmt::Debug {
     /// Number of functions.
     fn len(&self) -> usize;

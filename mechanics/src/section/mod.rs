@@ -155,6 +155,41 @@ fn positive(quantity: &'static str, unit: &'static str, value: f64) -> Result<()
 }
 
 /// A cross-section along the beam.
+///
+/// A section of one's own, here a square bar whose sides narrow as e^(−x/h), is checked by
+/// [`verify::section`](fn@crate::verify::section):
+///
+/// ```
+/// use flexion::section::{Resultants, Section};
+///
+/// #[derive(Debug)]
+/// struct Horn {
+///     root_side: f64,
+///     h: f64,
+/// }
+///
+/// impl Section for Horn {
+///     fn resultants(&self, x: f64) -> Resultants {
+///         let (modulus, density) = (70e9, 2700.0);
+///         let side = self.root_side * (-x / self.h).exp();
+///         let (area, second_moment) = (side.powi(2), side.powi(4) / 12.0);
+///         Resultants {
+///             mass: density * area,
+///             rotary_inertia: density * second_moment,
+///             axial_stiffness: modulus * area,
+///             bending_stiffness: modulus * second_moment,
+///             ..Resultants::default()
+///         }
+///     }
+///     fn fibres(&self, x: f64) -> Option<(f64, f64)> {
+///         let side = self.root_side * (-x / self.h).exp();
+///         Some((-0.5 * side, 0.5 * side))
+///     }
+/// }
+///
+/// let own = Horn { root_side: 0.1, h: 8.0 };
+/// assert_eq!(flexion::verify::section(&own, 10.0), []);
+/// ```
 pub trait Section: Send + Sync + std::fmt::Debug {
     /// Resultants at station `x` [m].
     fn resultants(&self, x: f64) -> Resultants;
