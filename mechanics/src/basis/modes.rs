@@ -56,8 +56,9 @@ impl Modes {
                     return Shape { sign: sign * SQRT_2, beta, tip: 0.0, root: 0.0, sigma: 0.0 };
                 }
                 let z = eigenvalue(mode);
-                let decay = (-z).exp();
-                let tip = (z.sin() - z.cos() - decay) / (1.0 - decay * decay + 2.0 * decay * z.sin());
+                let decay = libm::exp(-z);
+                let tip = (libm::sin(z) - libm::cos(z) - decay)
+                    / (1.0 - decay * decay + 2.0 * decay * libm::sin(z));
                 let root = 1.0 - tip * decay;
                 Shape { sign, beta: z / length, tip, root, sigma: root - tip * decay }
             })
@@ -87,13 +88,13 @@ impl Basis for Modes {
         let length = self.cells[self.cells.len() - 1];
         for (shape, out) in self.shapes.iter().zip(out.iter_mut()) {
             let scale = shape.sign * shape.beta.powi(derivative as i32);
-            let (s, c) = (shape.beta * x).sin_cos();
+            let (s, c) = libm::sincos(shape.beta * x);
             *out = scale
                 * match self.field {
                     Field::Axial => [s, c, -s, -c][derivative % 4],
                     Field::Transverse => {
-                        let growing = shape.tip * (shape.beta * (x - length)).exp();
-                        let decaying = shape.root * (-shape.beta * x).exp();
+                        let growing = shape.tip * libm::exp(shape.beta * (x - length));
+                        let decaying = shape.root * libm::exp(-shape.beta * x);
                         match derivative % 4 {
                             0 => growing + decaying - c + shape.sigma * s,
                             1 => growing - decaying + s + shape.sigma * c,

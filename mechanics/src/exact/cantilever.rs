@@ -12,11 +12,11 @@ pub fn eigenvalue(mode: usize) -> f64 {
     let mode = mode.max(1);
     let start = (mode as f64 - 0.5) * PI;
     let sign = alternate(mode);
-    let mut offset = sign / start.cosh();
+    let mut offset = sign / libm::cosh(start);
     for _ in 0..50 {
         let z = start + offset;
-        let sech = 1.0 / z.cosh();
-        let step = (offset.sin() - sign * sech) / (offset.cos() + sign * sech * z.tanh());
+        let sech = 1.0 / libm::cosh(z);
+        let step = (libm::sin(offset) - sign * sech) / (libm::cos(offset) + sign * sech * libm::tanh(z));
         offset -= step;
         if step.abs() <= 1e-17 + 1e-16 * offset.abs() {
             break;

@@ -90,7 +90,7 @@ pub fn tip_deflection(taper: Taper, ratio: f64, load: f64, bending_stiffness: f6
         Taper::Cone => 1.0 / (3.0 * ratio),
         // The closed form cancels for small d.
         Taper::Wedge if d < 0.1 => (0..16).map(|k| d.powi(k) / (k as f64 + 3.0)).sum::<f64>(),
-        Taper::Wedge => (-ratio.ln() - d - 0.5 * d * d) / d.powi(3),
+        Taper::Wedge => (-libm::log(ratio) - d - 0.5 * d * d) / d.powi(3),
     }
 }
 
@@ -98,7 +98,7 @@ pub fn tip_deflection(taper: Taper, ratio: f64, load: f64, bending_stiffness: f6
 fn determinant(n: usize, k: f64, ratio: f64) -> f64 {
     let (root, tip) = (2.0 * k, 2.0 * k * ratio.sqrt());
     let (a, b) = (Bessel::at(root), Bessel::at(tip));
-    let decay = (tip - root).exp();
+    let decay = libm::exp(tip - root);
     let (m, o) = (n + 1, n + 2);
     let rows = [
         [a.j[n], a.y[n], a.i[n], decay * a.k[n]],

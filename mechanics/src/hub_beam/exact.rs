@@ -240,7 +240,7 @@ impl Coupling for ExactCoupling {
     fn placements(&self, s: &State, stations: &[Station], out: &mut [Placement]) {
         // The angle of the tangent is followed from the root, so that it may pass π.
         let (mut node, mut angle) = (0, 0.0);
-        let slope = |u: f64, v: f64| f64::atan2(v, 1.0 + u);
+        let slope = |u: f64, v: f64| libm::atan2(v, 1.0 + u);
         let nearest = |angle: f64, to: f64| {
             angle + std::f64::consts::TAU * ((to - angle) / std::f64::consts::TAU).round()
         };
@@ -275,7 +275,7 @@ impl Coupling for ExactCoupling {
     fn admissible(&mut self, s: &State) -> Result<(), String> {
         for element in &self.elements {
             let (u, v) = element.end_slopes(&s.q);
-            let strain = (1.0 + u).hypot(v) - 1.0;
+            let strain = libm::hypot(1.0 + u, v) - 1.0;
             // Written so that NaN is refused too.
             if !(strain.abs() <= LARGEST_STRAIN) {
                 return Err(format!(

@@ -93,7 +93,7 @@ impl Convergence {
         if fresh {
             self.rounding = 0.0;
         }
-        self.eta = if self.simplified { self.eta.max(f64::EPSILON).powf(self.fading) } else { 1.0 };
+        self.eta = if self.simplified { libm::pow(self.eta.max(f64::EPSILON), self.fading) } else { 1.0 };
     }
 
     /// Forgets the rates of former steps.

@@ -121,7 +121,7 @@ impl StepControl {
         if a > 0.0 {
             time = time.min(1.0 / a.sqrt());
         }
-        time * tolerance.clamp(1e-14, 1.0).powf(1.0 / (estimate_order as f64 + 1.0))
+        time * libm::pow(tolerance.clamp(1e-14, 1.0), 1.0 / (estimate_order as f64 + 1.0))
     }
 
     /// Size of the next step [s], where `left` [s] remain to the next time that a step must end at.
@@ -142,21 +142,23 @@ impl StepControl {
         let error = error.max(NEGLIGIBLE);
         let safety = self.safety(iterations);
         let k = self.exponent;
-        let elementary = safety * error.powf(-k);
+        let elementary = safety * libm::pow(error, -k);
         let mut factor = elementary;
         if let Some(past) = self.past {
             let ratio = h / past.step;
             factor = match self.law {
                 Law::Predictive => {
                     let past_error = past.error.max(1e-2);
-                    factor.min(safety * ratio * (past_error / (error * error)).powf(k))
+                    factor.min(safety * ratio * libm::pow(past_error / (error * error), k))
                 }
-                Law::ProportionalIntegral => safety * error.powf(-0.7 * k) * past.error.powf(0.4 * k),
+                Law::ProportionalIntegral => {
+                    safety * libm::pow(error, -0.7 * k) * libm::pow(past.error, 0.4 * k)
+                }
                 Law::Filter => {
                     // Never more than the last error alone allows: a small one before it must not
                     // lengthen a step that just passed.
-                    let filtered = ((safety / error) * (safety / past.error)).powf(0.25 * k);
-                    (filtered * ratio.powf(-0.25)).min(elementary / safety)
+                    let filtered = libm::pow((safety / error) * (safety / past.error), 0.25 * k);
+                    (filtered * libm::pow(ratio, -0.25)).min(elementary / safety)
                 }
             };
         }
@@ -181,7 +183,7 @@ impl StepControl {
         // A very first step may be wrong by any factor.
         let factor = match self.past {
             None => 0.1,
-            Some(_) => (self.safety(iterations) * error.powf(-self.exponent)).clamp(SHRINK, 0.9),
+            Some(_) => (self.safety(iterations) * libm::pow(error, -self.exponent)).clamp(SHRINK, 0.9),
         };
         self.retreat(h * factor);
     }

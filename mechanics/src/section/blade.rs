@@ -97,7 +97,7 @@ pub fn torsion_constant(shape: &Shape) -> f64 {
     match *shape {
         Shape::Rectangle { width, height } => {
             let (a, b) = (width.max(height), width.min(height));
-            let term = |n: f64| (n * PI * a / (2.0 * b)).tanh() / n.powi(5);
+            let term = |n: f64| libm::tanh(n * PI * a / (2.0 * b)) / n.powi(5);
             let sum: f64 = (0..200).rev().map(|k| term(2.0 * f64::from(k) + 1.0)).sum();
             a * b.powi(3) / 3.0 * (1.0 - 192.0 / PI.powi(5) * b / a * sum)
         }
@@ -207,7 +207,7 @@ pub struct Guided<B>(pub B);
 impl<B: BladeSection> Section for Guided<B> {
     fn resultants(&self, x: f64) -> Resultants {
         let r = self.0.resultants(x);
-        let (sin, cos) = r.twist.sin_cos();
+        let (sin, cos) = libm::sincos(r.twist);
         let in_plane = |chord: f64, flap: f64| chord * cos * cos + flap * sin * sin;
         Resultants {
             mass: r.mass,

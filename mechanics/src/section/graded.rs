@@ -112,7 +112,7 @@ impl Graded {
 
     /// Volume share of the ceramic (y/h + ½)ᴺ.
     fn share(&self, y: f64) -> f64 {
-        (y / self.height + 0.5).clamp(0.0, 1.0).powf(self.exponent)
+        libm::pow((y / self.height + 0.5).clamp(0.0, 1.0), self.exponent)
     }
 }
 

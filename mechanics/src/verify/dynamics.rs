@@ -158,7 +158,7 @@ impl Checker<'_> {
 
     fn configuration(&mut self, s: &State) {
         let n = s.v.len();
-        let d: Vec<f64> = (0..n).map(|i| 0.3 * self.scales[i] * (1.7 * i as f64 + 0.4).sin()).collect();
+        let d: Vec<f64> = (0..n).map(|i| 0.3 * self.scales[i] * libm::sin(1.7 * i as f64 + 0.4)).collect();
         let (mut q, mut back) = (s.q.clone(), vec![0.0; n]);
         self.system.retract(&s.q, &d, &mut q);
         self.system.difference(&s.q, &q, &mut back);

@@ -24,7 +24,7 @@ pub struct Gravity {
 
 impl Load for Gravity {
     fn group(&self, site: &Site<'_>) -> Group {
-        let (sin, cos) = self.direction.sin_cos();
+        let (sin, cos) = libm::sincos(self.direction);
         let force = [self.acceleration * cos, self.acceleration * sin];
         let section = site.section;
         let points: Vec<(f64, f64)> = section.masses().iter().map(|m| (m.station, m.mass)).collect();

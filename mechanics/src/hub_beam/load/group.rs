@@ -140,7 +140,7 @@ impl Group {
         let factor = self.part * self.amplitude.as_ref().map_or(1.0, |f| f.value(t));
         let [x, y] = self.force.map(|c| factor * c);
         if self.axes == Axes::Dead {
-            let (sin, cos) = hub.angle.sin_cos();
+            let (sin, cos) = libm::sincos(hub.angle);
             let d = [x * cos + y * sin, y * cos - x * sin];
             return Now { d, by_angle: [d[1], -d[0]], factor };
         }
