@@ -10,13 +10,13 @@ use flexion::blade::Terms;
 /// The blade, in SI.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Blade {
-    /// Angle of the root section [rad].
+    /// Angle of the root section \[rad\].
     pub pitch: f64,
-    /// Angle out of the plane of rotation [rad].
+    /// Angle out of the plane of rotation \[rad\].
     pub precone: f64,
-    /// Angle of the tip section against the root [rad].
+    /// Angle of the tip section against the root \[rad\].
     pub twist: f64,
-    /// Mass at the tip [kg].
+    /// Mass at the tip \[kg\].
     pub tip_mass: f64,
     /// Moment of inertia of the mass at the tip [kg·m²].
     pub tip_inertia: f64,

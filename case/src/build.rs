@@ -31,7 +31,7 @@ use flexion::system::{Dynamics, Events, System};
 use std::path::Path;
 use std::sync::Arc;
 
-/// The section of a case, on a beam of the given length [m].
+/// The section of a case, on a beam of the given length \[m\].
 ///
 /// # Errors
 /// [`SectionError`] when the quantities make no section, or its file cannot be read.
@@ -237,7 +237,7 @@ pub(super) fn known_for(duration: f64) -> f64 {
     if duration > 0.0 { duration } else { 1e-3 }
 }
 
-/// What turns the hub of a case, checked over its duration [s].
+/// What turns the hub of a case, checked over its duration \[s\].
 ///
 /// # Errors
 /// [`MotionError`] when a file cannot be read, or a profile is refused or does not cover the run.
@@ -333,7 +333,7 @@ fn rows(file: &Path) -> Result<Vec<(f64, f64)>, String> {
     Ok(rows)
 }
 
-/// The basis of one field of a beam of the given length [m].
+/// The basis of one field of a beam of the given length \[m\].
 ///
 /// # Errors
 /// [`BasisError`] when the parameters make no basis.

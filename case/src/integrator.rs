@@ -15,14 +15,14 @@ pub enum Integrator {
         tolerance: f64,
         /// Absolute tolerance, in scales of the unknowns.
         absolute_tolerance: f64,
-        /// First step [s]; chosen by the run when `None`.
+        /// First step \[s\]; chosen by the run when `None`.
         initial_step: Option<f64>,
-        /// Largest step [s]; no limit when `None`.
+        /// Largest step \[s\]; no limit when `None`.
         max_step: Option<f64>,
     },
     /// Newmark's method with a fixed step.
     Newmark {
-        /// Step [s].
+        /// Step \[s\].
         step: f64,
         /// β.
         beta: f64,
@@ -31,32 +31,32 @@ pub enum Integrator {
     },
     /// The method of Hilber, Hughes and Taylor.
     Hht {
-        /// Step [s].
+        /// Step \[s\].
         step: f64,
         /// α, from 0 (no dissipation) to 1/3 (most).
         alpha: f64,
     },
     /// The generalized-α method of Chung and Hulbert.
     GeneralizedAlpha {
-        /// Step [s].
+        /// Step \[s\].
         step: f64,
         /// Spectral radius ρ∞ at high frequency, from 0 (most dissipation) to 1.
         spectral_radius: f64,
     },
     /// The classical explicit method of order 4.
     RungeKutta4 {
-        /// Step [s].
+        /// Step \[s\].
         step: f64,
     },
     /// Adams–Bashforth–Moulton predictor–corrector of order 4.
     Adams4 {
-        /// Step [s].
+        /// Step \[s\].
         step: f64,
     },
 }
 
 impl Integrator {
-    /// The fixed step [s]; `None` for step control.
+    /// The fixed step \[s\]; `None` for step control.
     pub fn step(&self) -> Option<f64> {
         match self {
             Integrator::Radau { .. } => None,

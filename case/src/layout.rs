@@ -23,7 +23,7 @@ use std::path::Path;
 pub struct Case {
     /// Title for plots and reports.
     pub title: String,
-    /// Length L of the beam [m].
+    /// Length L of the beam \[m\].
     pub length: f64,
     /// The cross-section.
     pub section: Section,
@@ -41,7 +41,7 @@ pub struct Case {
     pub initial: Initial,
     /// The integrator.
     pub integrator: Integrator,
-    /// Duration of the run [s].
+    /// Duration of the run \[s\].
     pub duration: f64,
     /// What is recorded.
     pub output: Output,
@@ -50,7 +50,7 @@ pub struct Case {
 /// The hub, in SI.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hub {
-    /// Radius a [m].
+    /// Radius a \[m\].
     pub radius: f64,
     /// Moment of inertia about the axis [kg·m²].
     pub inertia: f64,
@@ -74,17 +74,17 @@ pub enum Coupling {
 /// What is recorded.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Output {
-    /// Interval between records [s].
+    /// Interval between records \[s\].
     pub step: f64,
-    /// Stations along the beam to be recorded besides the tip [m].
+    /// Stations along the beam to be recorded besides the tip \[m\].
     pub stations: Vec<f64>,
     /// Whether axial, shear force and bending moment are recorded at the stations.
     pub section_forces: bool,
-    /// Heights over the axis at which the strain is recorded at the stations [m].
+    /// Heights over the axis at which the strain is recorded at the stations \[m\].
     pub strain_heights: Vec<f64>,
     /// Whether work, losses and the balance of energy are recorded.
     pub energy_balance: bool,
-    /// Interval between shapes of the beam for ParaView [s]; `None` writes none.
+    /// Interval between shapes of the beam for ParaView \[s\]; `None` writes none.
     pub vtk: Option<f64>,
 }
 

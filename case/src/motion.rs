@@ -9,11 +9,11 @@ use std::path::{Path, PathBuf};
 /// The motion of the hub, in SI.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Motion {
-    /// Smooth spin-up from rest to `speed` [rad/s] in `time` [s].
+    /// Smooth spin-up from rest to `speed` [rad/s] in `time` \[s\].
     SpinUp {
         /// Final angular speed Ω [rad/s].
         speed: f64,
-        /// Duration T of the spin-up [s].
+        /// Duration T of the spin-up \[s\].
         time: f64,
     },
     /// Constant angular speed [rad/s].
@@ -25,17 +25,17 @@ pub enum Motion {
     Ramp {
         /// Final angular speed Ω [rad/s].
         speed: f64,
-        /// Duration T of the ramp [s].
+        /// Duration T of the ramp \[s\].
         time: f64,
     },
     /// A table of time and value.
     Table {
-        /// File with two columns: t [s] and the value.
+        /// File with two columns: t \[s\] and the value.
         file: PathBuf,
         /// What the second column is.
         of: MotionOf,
     },
-    /// A formula in `t` [s].
+    /// A formula in `t` \[s\].
     Expression {
         /// The formula.
         formula: String,
@@ -49,7 +49,7 @@ pub enum Motion {
 /// Which quantity a table or a formula gives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MotionOf {
-    /// The angle θ [rad].
+    /// The angle θ \[rad\].
     Angle,
     /// The angular speed θ̇ [rad/s].
     Speed,

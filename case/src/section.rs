@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 pub enum Section {
     /// One material and one shape over the whole length.
     Uniform {
-        /// Young's modulus E [Pa].
+        /// Young's modulus E \[Pa\].
         modulus: f64,
         /// Density ρ [kg/m³].
         density: f64,
@@ -32,7 +32,7 @@ pub enum Section {
     Resultants {
         /// ρA [kg/m].
         mass: f64,
-        /// EA [N].
+        /// EA \[N\].
         axial_stiffness: f64,
         /// EI [N·m²].
         bending_stiffness: f64,
@@ -41,17 +41,17 @@ pub enum Section {
     },
     /// A rectangle graded over its height from metal to ceramic.
     Graded {
-        /// E of the ceramic [Pa].
+        /// E of the ceramic \[Pa\].
         ceramic_modulus: f64,
-        /// E of the metal [Pa].
+        /// E of the metal \[Pa\].
         metal_modulus: f64,
         /// ρ of the ceramic [kg/m³].
         ceramic_density: f64,
         /// ρ of the metal [kg/m³].
         metal_density: f64,
-        /// Width b [m].
+        /// Width b \[m\].
         width: f64,
-        /// Height h, in the plane of motion [m].
+        /// Height h, in the plane of motion \[m\].
         height: f64,
         /// Exponent N of the power law.
         exponent: f64,
@@ -62,7 +62,7 @@ pub enum Section {
     },
     /// One material; dimensions linear between root and tip.
     Tapered {
-        /// Young's modulus E [Pa].
+        /// Young's modulus E \[Pa\].
         modulus: f64,
         /// Density ρ [kg/m³].
         density: f64,
@@ -119,15 +119,15 @@ impl Section {
 /// A part of a beam that is uniform, in SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Segment {
-    /// Station at which it ends [m].
+    /// Station at which it ends \[m\].
     pub end: f64,
-    /// Young's modulus E [Pa].
+    /// Young's modulus E \[Pa\].
     pub modulus: f64,
     /// Density ρ [kg/m³].
     pub density: f64,
-    /// A [m²].
+    /// A \[m²\].
     pub area: f64,
-    /// I [m⁴].
+    /// I \[m⁴\].
     pub second_moment: f64,
 }
 
@@ -143,30 +143,30 @@ pub enum Interpolation {
 /// The shape of a section, in SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {
-    /// Area A [m²] and second moment I [m⁴] given directly.
+    /// Area A \[m²\] and second moment I \[m⁴\] given directly.
     General {
-        /// A [m²].
+        /// A \[m²\].
         area: f64,
-        /// I [m⁴].
+        /// I \[m⁴\].
         second_moment: f64,
     },
     /// A rectangle.
     Rectangle {
-        /// Width, normal to the plane of motion [m].
+        /// Width, normal to the plane of motion \[m\].
         width: f64,
-        /// Height, in the plane of motion [m].
+        /// Height, in the plane of motion \[m\].
         height: f64,
     },
     /// A full circle.
     Circle {
-        /// Radius [m].
+        /// Radius \[m\].
         radius: f64,
     },
     /// A circular tube.
     Tube {
-        /// Outer radius [m].
+        /// Outer radius \[m\].
         outer_radius: f64,
-        /// Inner radius [m].
+        /// Inner radius \[m\].
         inner_radius: f64,
     },
 }

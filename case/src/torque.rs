@@ -19,15 +19,15 @@ pub enum Torque {
     Ramp {
         /// Torque reached [N·m].
         torque: f64,
-        /// Time in which it is reached [s].
+        /// Time in which it is reached \[s\].
         time: f64,
     },
     /// A table of time and torque.
     Table {
-        /// File with two columns: t [s] and torque [N·m].
+        /// File with two columns: t \[s\] and torque [N·m].
         file: PathBuf,
     },
-    /// A formula in `t` [s].
+    /// A formula in `t` \[s\].
     Expression {
         /// The formula, in N·m.
         formula: String,
@@ -41,7 +41,7 @@ pub struct Controller {
     pub proportional: f64,
     /// Gain K_d [N·m·s/rad].
     pub derivative: f64,
-    /// Angle to be reached [rad].
+    /// Angle to be reached \[rad\].
     pub target: f64,
     /// Largest speed of the reference on its way to the target [rad/s]; a step when `None`.
     pub rate: Option<f64>,
@@ -52,7 +52,7 @@ pub struct Controller {
 /// A hub that is free to turn, in SI.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Free {
-    /// Angle at the start [rad].
+    /// Angle at the start \[rad\].
     pub angle: f64,
     /// Speed at the start [rad/s].
     pub speed: f64,
@@ -62,7 +62,7 @@ pub struct Free {
     pub damping: f64,
     /// Spring restraint [N·m/rad].
     pub stiffness: f64,
-    /// Angle at which the spring is at rest [rad].
+    /// Angle at which the spring is at rest \[rad\].
     pub rest_angle: f64,
     /// Controller of the angle.
     pub controller: Option<Controller>,

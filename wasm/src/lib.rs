@@ -1,7 +1,7 @@
 //! The mechanics of [`flexion`] in WebAssembly: a beam of 10 m on a hub that spins up to 4 rad/s in 15 s
 //! (`verification/p1_spin_up_4`), with the first-order coupling, run for 20 s by [`Radau`].
 //!
-//! The module imports nothing. Its [exports](exports) run the case and hand out the trajectory in linear memory;
+//! The module imports nothing. Its [exports] run the case and hand out the trajectory in linear memory;
 //! `compare.mjs` reads it and holds it to that of the native program.
 
 // A `no_mangle` name counts as unsafe code, for two libraries might export the same one.

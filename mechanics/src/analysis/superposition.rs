@@ -89,7 +89,7 @@ pub enum NoSuperposition {
 }
 
 /// Adds vibrations to `state`, the equilibrium of `system` as it stands: one for each of the modes of smallest |λ|, in
-/// their order. `recorded` are the numbers of the [channels](System::channels) one of which, that which the mode moves
+/// their order. `recorded` are the numbers of the [channels](crate::system::Observed::channels) one of which, that which the mode moves
 /// most, is the displacement of a [`Vibration`]. Returns the modes.
 ///
 /// Valid for vibrations that are small: of a nonlinear model the state is right to first order in them.

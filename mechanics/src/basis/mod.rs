@@ -28,13 +28,13 @@ pub type Support = Range<usize>;
 /// What the coefficient of a basis function is: sets its unit and its scale.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
-    /// A displacement [m] at its anchor.
+    /// A displacement \[m\] at its anchor.
     Value,
-    /// A slope [1] at its anchor.
+    /// A slope \[1\] at its anchor.
     Slope,
-    /// The amplitude [m] of a shape.
+    /// The amplitude \[m\] of a shape.
     Amplitude,
-    /// The displacement [m] of a control point that stands at its anchor.
+    /// The displacement \[m\] of a control point that stands at its anchor.
     Control,
 }
 
@@ -129,7 +129,7 @@ pub trait Basis: Send + Sync + std::fmt::Debug {
         self.len() == 0
     }
 
-    /// Boundaries of the cells: ascending, first 0, last L [m].
+    /// Boundaries of the cells: ascending, first 0, last L \[m\].
     fn cells(&self) -> &[f64];
 
     /// Gauss points a cell needs so that products of two functions (or derivatives) and a linear
@@ -148,7 +148,7 @@ pub trait Basis: Send + Sync + std::fmt::Debug {
     /// `out[k]` = φ⁽ᵈ⁾ of function `support.start + k`. Returns the support.
     fn eval(&self, cell: usize, x: f64, derivative: usize, out: &mut [f64]) -> Support;
 
-    /// Where along the beam function `i` belongs [m]: unknowns are numbered in this order.
+    /// Where along the beam function `i` belongs \[m\]: unknowns are numbered in this order.
     fn anchor(&self, i: usize) -> f64;
 
     /// What the coefficient of function `i` is.

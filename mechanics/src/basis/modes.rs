@@ -19,7 +19,7 @@ use super::{Basis, BasisError, Conditioning, Field, Role, Support, uniform_cells
 use crate::exact::cantilever::{alternate, eigenvalue};
 use std::f64::consts::{FRAC_PI_2, SQRT_2};
 
-/// The first modes of a clamped–free beam or rod. See the [module documentation](self).
+/// The first modes of a clamped–free beam or rod. Its formulas head the source file.
 #[derive(Clone, Debug)]
 pub struct Modes {
     cells: Vec<f64>,
@@ -41,7 +41,7 @@ struct Shape {
 }
 
 impl Modes {
-    /// The first `count` modes of a beam of the given length [m].
+    /// The first `count` modes of a beam of the given length \[m\].
     ///
     /// # Errors
     /// [`BasisError::Invalid`] if the length is not positive and finite or if there is no mode.

@@ -42,7 +42,7 @@ impl Taper {
 }
 
 /// Angular frequency ω of bending mode `mode` = 1, 2, … [rad/s]: EI₀ [N·m²] and ρA₀ [kg/m] at the root, L
-/// [m], taper ratio 0 < τ < 1; without shear and rotary inertia. `None` for τ outside (0, 1), or so near its ends
+/// \[m\], taper ratio 0 < τ < 1; without shear and rotary inertia. `None` for τ outside (0, 1), or so near its ends
 /// that the Bessel functions overflow; `mode` = 0 is taken as 1. Accurate to about 1e-10 for the first ten modes and τ from 0.01 to 0.95.
 pub fn bending_frequency(
     taper: Taper,
@@ -77,7 +77,7 @@ pub fn bending_frequency(
     None
 }
 
-/// Deflection [m] of the tip under a tip load P [N]: EI₀ [N·m²] at the root, L [m], taper ratio 0 < τ ≤ 1.
+/// Deflection \[m\] of the tip under a tip load P \[N\]: EI₀ [N·m²] at the root, L \[m\], taper ratio 0 < τ ≤ 1.
 ///
 /// ```text
 /// wedge  P L³/EI₀ (−ln τ − d − d²/2)/d³ = P L³/EI₀ Σ dᵏ/(k + 3),   d = 1 − τ

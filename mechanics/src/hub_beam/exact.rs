@@ -41,7 +41,7 @@ use crate::system::{Corotation, State, Weights};
 /// Largest axial strain |ε| that a linear-elastic beam is believed to have.
 const LARGEST_STRAIN: f64 = 0.5;
 
-/// Geometrically exact planar beam. See the [module documentation](self).
+/// Geometrically exact planar beam. Its formulas head the source file.
 #[derive(Debug)]
 pub struct ExactCoupling {
     fields: Fields,

@@ -24,7 +24,7 @@ const SMALL: f64 = 0.1;
 /// Axial stretch over length beyond which no linear-elastic beam follows.
 const LARGEST_STRETCH: f64 = 0.5;
 
-/// A beam whose equations are linear in the unknowns. See the [module documentation](self).
+/// A beam whose equations are linear in the unknowns. Its formulas head the source file.
 #[derive(Debug)]
 pub struct LinearCoupling {
     name: &'static str,

@@ -67,7 +67,7 @@ const NOISE: f64 = 1e-7;
 /// Iterations beyond which a kept tangent is renewed in the next step.
 const PATIENCE: u32 = 2;
 
-/// The generalized-α method. See the [module documentation](self) for formulas and sources.
+/// The generalized-α method. Its formulas and sources head the source file.
 #[derive(Debug)]
 pub struct GeneralizedAlpha {
     info: Info,

@@ -40,7 +40,7 @@ struct Past {
     error: f64,
 }
 
-/// Step-size control. See the [module documentation](self) for the laws.
+/// Step-size control. Its laws head the source file.
 #[derive(Clone, Copy, Debug)]
 pub struct StepControl {
     law: Law,
@@ -69,7 +69,7 @@ const MAX_ITERATIONS: f64 = 10.0;
 
 impl StepControl {
     /// Control by the filter H211b for an error estimate of order `estimate_order` (p̂), over runs of length `span`
-    /// [s]: steps between 1e-14 and 1 times the span, beginning with `first`.
+    /// \[s\]: steps between 1e-14 and 1 times the span, beginning with `first`.
     pub fn new(estimate_order: usize, span: f64, first: f64) -> StepControl {
         let longest = span.abs();
         let shortest = 1e-14 * longest;
@@ -91,7 +91,7 @@ impl StepControl {
         self
     }
 
-    /// Other limits of the step [s]. An upper limit keeps step control from passing over short events.
+    /// Other limits of the step \[s\]. An upper limit keeps step control from passing over short events.
     pub fn with_limits(mut self, shortest: f64, longest: f64) -> StepControl {
         self.shortest = shortest;
         self.longest = longest.max(shortest);
@@ -99,7 +99,7 @@ impl StepControl {
         self
     }
 
-    /// A first step from the state itself [s]: tol^(1/(p̂+1)) times the shortest of scale/|v|,
+    /// A first step from the state itself \[s\]: tol^(1/(p̂+1)) times the shortest of scale/|v|,
     /// (scale/|a|)^½ and `span`/100, in the root mean square. Cheap and cautious; a wrong guess costs a
     /// few steps.
     pub fn first_step(
@@ -124,7 +124,7 @@ impl StepControl {
         time * libm::pow(tolerance.clamp(1e-14, 1.0), 1.0 / (estimate_order as f64 + 1.0))
     }
 
-    /// Size of the next step [s], where `left` [s] remain to the next time that a step must end at.
+    /// Size of the next step \[s\], where `left` \[s\] remain to the next time that a step must end at.
     /// A remainder just above the step is halved rather than left as a sliver.
     pub fn propose(&self, left: f64) -> f64 {
         let h = self.next;

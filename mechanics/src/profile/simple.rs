@@ -47,7 +47,7 @@ pub struct Ramp {
 }
 
 impl Ramp {
-    /// From `from` at t = 0 to `to` at t = `time` [s].
+    /// From `from` at t = 0 to `to` at t = `time` \[s\].
     ///
     /// # Errors
     /// [`ProfileError::Quantity`] if a value is not finite or the time is not positive.
@@ -101,7 +101,7 @@ pub struct SpinUp {
 }
 
 impl SpinUp {
-    /// Up to `value` Ω in the time `time` T [s].
+    /// Up to `value` Ω in the time `time` T \[s\].
     ///
     /// # Errors
     /// [`ProfileError::Quantity`] if Ω is not finite or T is not positive.

@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 pub struct BladeResultants {
     /// Mass per length ρA [kg/m].
     pub mass: f64,
-    /// Axial stiffness EA [N].
+    /// Axial stiffness EA \[N\].
     pub axial_stiffness: f64,
     /// Stiffness against bending in the direction of ζ, ∫E ζ² dA [N·m²].
     pub flap_stiffness: f64,
@@ -22,7 +22,7 @@ pub struct BladeResultants {
     pub flap_inertia: f64,
     /// ∫ρ η² dA [kg·m].
     pub chord_inertia: f64,
-    /// Angle θ of η from the direction of motion, about the axis towards the tip [rad].
+    /// Angle θ of η from the direction of motion, about the axis towards the tip \[rad\].
     pub twist: f64,
     /// dθ/dx [rad/m].
     pub twist_rate: f64,
@@ -67,7 +67,7 @@ impl BladeResultants {
 
 /// The sections of a blade.
 pub trait BladeSection: Send + Sync + std::fmt::Debug {
-    /// Resultants at station `x` [m].
+    /// Resultants at station `x` \[m\].
     fn resultants(&self, x: f64) -> BladeResultants;
 
     /// Stations inside (0, L) at which the resultants jump or kink, ascending.
@@ -88,7 +88,7 @@ impl BladeSection for BladeResultants {
     }
 }
 
-/// Torsion constant of a shape [m⁴]: GJ = G times it.
+/// Torsion constant of a shape \[m⁴\]: GJ = G times it.
 ///
 /// Of a rectangle with sides a ≥ b, J = a b³/3 (1 − 192/π⁵ b/a Σ tanh(nπa/2b)/n⁵), n = 1, 3, 5 …; of a circle
 /// and of a tube its polar second moment of area. Source: S. P. Timoshenko & J. N. Goodier, *Theory of
@@ -114,7 +114,7 @@ pub struct HomogeneousBlade<F> {
 }
 
 impl<F: Fn(f64) -> Shape + Send + Sync> HomogeneousBlade<F> {
-    /// A blade of Young's modulus E [Pa], density ρ [kg/m³] and Poisson's ratio ν whose shape at x [m] is
+    /// A blade of Young's modulus E \[Pa\], density ρ [kg/m³] and Poisson's ratio ν whose shape at x \[m\] is
     /// `shape(x)`; width across, height in the plane of motion. G = E/(2(1 + ν)).
     ///
     /// # Errors
@@ -260,7 +260,7 @@ pub struct BladeTable {
 }
 
 impl BladeTable {
-    /// The blade through rows (x [m], resultants) over the given length [m]; `twist_rate` of a row is not read.
+    /// The blade through rows (x \[m\], resultants) over the given length \[m\]; `twist_rate` of a row is not read.
     ///
     /// # Errors
     /// [`SectionError::Invalid`] names the row if there are fewer than two, if stations do not ascend (three

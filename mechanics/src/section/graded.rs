@@ -23,13 +23,13 @@ use super::{Inertia, Resultants, Section, SectionError, positive};
 /// A homogeneous elastic material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
-    /// Young's modulus E [Pa].
+    /// Young's modulus E \[Pa\].
     pub modulus: f64,
     /// Density ρ [kg/m³].
     pub density: f64,
 }
 
-/// A graded rectangular section. See the [module documentation](self) for the law and its resultants.
+/// A graded rectangular section. The law and its resultants head the source file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Graded {
     ceramic: Material,
@@ -41,7 +41,7 @@ pub struct Graded {
 }
 
 impl Graded {
-    /// A section of the given width b and height h [m], `ceramic` at the top, `metal` at the bottom,
+    /// A section of the given width b and height h \[m\], `ceramic` at the top, `metal` at the bottom,
     /// mixed by the power `exponent` N ≥ 0. First mass moment and rotary inertia are left out until asked
     /// for with [`Graded::with_inertia`].
     ///
@@ -100,12 +100,12 @@ impl Graded {
         Graded { kept: inertia.of(self.full), ..self }
     }
 
-    /// Young's modulus E [Pa] at height `y` [m], |y| ≤ h/2.
+    /// Young's modulus E \[Pa\] at height `y` \[m\], |y| ≤ h/2.
     pub fn modulus(&self, y: f64) -> f64 {
         (self.ceramic.modulus - self.metal.modulus) * self.share(y) + self.metal.modulus
     }
 
-    /// Density ρ [kg/m³] at height `y` [m], |y| ≤ h/2.
+    /// Density ρ [kg/m³] at height `y` \[m\], |y| ≤ h/2.
     pub fn density(&self, y: f64) -> f64 {
         (self.ceramic.density - self.metal.density) * self.share(y) + self.metal.density
     }

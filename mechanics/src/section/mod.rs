@@ -27,11 +27,11 @@ pub use uniform::Uniform;
 pub struct Resultants {
     /// Mass per length ρA = ∫ρ dA [kg/m].
     pub mass: f64,
-    /// First mass moment ρS = ∫ρ y dA [kg]; 0 where it is left out.
+    /// First mass moment ρS = ∫ρ y dA \[kg\]; 0 where it is left out.
     pub first_moment: f64,
     /// Rotary inertia ρI = ∫ρ y² dA [kg·m]; 0 where it is left out.
     pub rotary_inertia: f64,
-    /// Axial stiffness EA = ∫E dA [N].
+    /// Axial stiffness EA = ∫E dA \[N\].
     pub axial_stiffness: f64,
     /// Coupling stiffness ES = ∫E y dA [N·m].
     pub coupling_stiffness: f64,
@@ -191,7 +191,7 @@ fn positive(quantity: &'static str, unit: &'static str, value: f64) -> Result<()
 /// assert_eq!(flexion::verify::section(&own, 10.0), []);
 /// ```
 pub trait Section: Send + Sync + std::fmt::Debug {
-    /// Resultants at station `x` [m].
+    /// Resultants at station `x` \[m\].
     fn resultants(&self, x: f64) -> Resultants;
 
     /// Stations inside (0, L) at which the resultants jump or kink: cells end there.
@@ -209,7 +209,7 @@ pub trait Section: Send + Sync + std::fmt::Debug {
         &[]
     }
 
-    /// Heights of the lower and upper fibre [m] where the section knows its shape.
+    /// Heights of the lower and upper fibre \[m\] where the section knows its shape.
     fn fibres(&self, _x: f64) -> Option<(f64, f64)> {
         None
     }

@@ -6,7 +6,7 @@
 
 use super::{Inertia, Resultants, Section, SectionError, Shape, positive};
 
-/// A tapered section. See the [module documentation](self).
+/// A tapered section. Its formulas head the source file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tapered {
     modulus: f64,
@@ -18,7 +18,7 @@ pub struct Tapered {
 }
 
 impl Tapered {
-    /// A section of Young's modulus E [Pa] and density ρ [kg/m³] over a beam of the given length [m], between
+    /// A section of Young's modulus E \[Pa\] and density ρ [kg/m³] over a beam of the given length \[m\], between
     /// two shapes of the same kind. Rotary inertia is left out until asked for with
     /// [`Tapered::with_inertia`].
     ///
@@ -54,7 +54,7 @@ impl Tapered {
         Tapered { inertia, ..self }
     }
 
-    /// The shape at station `x` [m].
+    /// The shape at station `x` \[m\].
     pub fn shape(&self, x: f64) -> Shape {
         let s = (x / self.length).clamp(0.0, 1.0);
         let at = |root: f64, tip: f64| root + s * (tip - root);

@@ -13,7 +13,7 @@ pub struct Uniform {
 }
 
 impl Uniform {
-    /// A homogeneous section: ρA, EA, EI and ρI from Young's modulus E [Pa], density ρ [kg/m³] and
+    /// A homogeneous section: ρA, EA, EI and ρI from Young's modulus E \[Pa\], density ρ [kg/m³] and
     /// shape. Rotary inertia is left out until asked for with [`Uniform::with_inertia`].
     ///
     /// # Errors
@@ -49,7 +49,7 @@ impl Uniform {
         Uniform { kept: inertia.of(self.full), ..self }
     }
 
-    /// The same section with its lower and upper fibre at the given heights [m], for recovering strains.
+    /// The same section with its lower and upper fibre at the given heights \[m\], for recovering strains.
     pub fn with_fibres(self, lower: f64, upper: f64) -> Uniform {
         Uniform { fibres: Some((lower, upper)), ..self }
     }
