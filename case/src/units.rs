@@ -26,7 +26,7 @@ pub struct Measure {
 
 macro_rules! measures {
     ($($ident:ident $name:literal $unit:literal $dimension:tt $examples:literal;)*) => {
-        $(#[doc = concat!("The measure ", $name, " [", $unit, "].")]
+        $(#[doc = concat!("The measure ", $name, " \\[", $unit, "\\].")]
         pub static $ident: Measure =
             Measure { name: $name, unit: $unit, dimension: $dimension, examples: $examples };)*
     };

@@ -22,7 +22,7 @@ Exit codes: 0 finished, 1 case rejected, 2 stopped or failed (what was computed 
 pub struct Arguments {
     #[command(flatten)]
     case: case::Selection,
-    /// Directory of the results [default: results/<name of the case>]
+    /// Directory of the results [default: that of the case in results/]
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
     /// Write the shape of the beam for ParaView too, as `--set output.vtk=true`

@@ -22,7 +22,7 @@ pub fn print(text: &str) {
     }
 }
 
-/// Whether something could not be [printed](print).
+/// Whether something could not be [printed](fn@print).
 pub fn incomplete() -> bool {
     INCOMPLETE.load(Ordering::Relaxed)
 }

@@ -23,7 +23,7 @@ impl Gauss {
         let (mut points, mut weights) = (vec![0.0; n], vec![0.0; n]);
         for i in 0..n.div_ceil(2) {
             let middle = 2 * i + 1 == n;
-            let mut z = if middle { 0.0 } else { (PI * (i as f64 + 0.75) / (n as f64 + 0.5)).cos() };
+            let mut z = if middle { 0.0 } else { libm::cos(PI * (i as f64 + 0.75) / (n as f64 + 0.5)) };
             let (mut p, mut slope) = legendre(n, z);
             for _ in 0..10 {
                 let step = p / slope;

@@ -73,7 +73,7 @@ fn layer_table(text: &str) -> Vec<(String, BTreeSet<String>)> {
 }
 
 /// Source text with comments, strings and characters replaced by blanks; lines stay where they are.
-fn code_only(text: &str) -> String {
+pub fn code_only(text: &str) -> String {
     let bytes: Vec<char> = text.chars().collect();
     let at = |i: usize| bytes.get(i).copied().unwrap_or('\0');
     let mut out = String::with_capacity(text.len());
@@ -331,12 +331,12 @@ fn violations(layers: &Layers, file: &str, path: &[&str], text: &str) -> Vec<Str
         .collect()
 }
 
-fn root() -> PathBuf {
+pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().to_owned()
 }
 
 /// All Rust files below a folder, sorted, with their paths relative to it.
-fn sources(folder: &Path) -> Vec<(PathBuf, String)> {
+pub fn sources(folder: &Path) -> Vec<(PathBuf, String)> {
     let mut out = Vec::new();
     let mut open = vec![folder.to_owned()];
     while let Some(next) = open.pop() {

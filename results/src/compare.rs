@@ -21,7 +21,7 @@ pub struct Difference {
     pub unit: &'static str,
     /// max |d|, in the unit; NaN when no value is finite.
     pub max: f64,
-    /// Time at which `max` first occurs [s].
+    /// Time at which `max` first occurs \[s\].
     pub at: f64,
     /// Root mean square of d over the times compared.
     pub rms: f64,
@@ -29,7 +29,7 @@ pub struct Difference {
     pub peak: f64,
     /// max |d| / max |a|; 0 when both are 0, infinite when only max |a| is.
     pub relative: f64,
-    /// First time at which a or b is not a finite number [s]; such times are left out of the other figures.
+    /// First time at which a or b is not a finite number \[s\]; such times are left out of the other figures.
     pub not_finite: Option<f64>,
 }
 
@@ -40,7 +40,7 @@ pub struct Comparison {
     pub first: String,
     /// Name of the second.
     pub second: String,
-    /// First and last time compared [s].
+    /// First and last time compared \[s\].
     pub span: (f64, f64),
     /// Whether that is all of the first run.
     pub covers: bool,

@@ -9,7 +9,7 @@ use zip::{CompressionMethod, DateTime, ZipWriter};
 use super::{Trajectory, archive};
 
 /// Writes a trajectory as a NumPy archive (NEP 1): one array of f64, shape (rows,), for each column,
-/// named `time` [s] and then by the channel, e.g. `numpy.load(path)["tip.deflection"]`.
+/// named `time` \[s\] and then by the channel, e.g. `numpy.load(path)["tip.deflection"]`.
 ///
 /// The entries are stored without compression and carry no date: the same trajectory gives the same bytes.
 ///

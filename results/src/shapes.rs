@@ -19,7 +19,7 @@ pub struct Shapes {
 /// The shape at one time.
 #[derive(Clone, Copy, Debug)]
 pub struct Shape<'a> {
-    /// Time t [s].
+    /// Time t \[s\].
     pub time: f64,
     /// Arc lengths from the root, ascending \[m\].
     pub stations: &'a [f64],
@@ -68,7 +68,7 @@ impl Shapes {
         self.times.iter().zip(self.frames.chunks_exact(self.stations.len().max(1))).map(shape)
     }
 
-    /// The times at which they were taken [s].
+    /// The times at which they were taken \[s\].
     pub fn times(&self) -> &[f64] {
         &self.times
     }

@@ -63,9 +63,9 @@ pub struct RunReport<'a> {
     pub title: &'a str,
     /// File name of the case, without directories; `None` for a case that came from no file.
     pub file: Option<&'a str>,
-    /// Duration asked for [s].
+    /// Duration asked for \[s\].
     pub duration: f64,
-    /// Time reached [s].
+    /// Time reached \[s\].
     pub end_time: f64,
     /// Warnings, in the order in which they arose.
     pub warnings: &'a [String],
@@ -77,9 +77,9 @@ pub struct RunReport<'a> {
     pub counters: Counters,
     /// Size of the equations.
     pub size: ProblemSize,
-    /// Wall time of the run [s]; it and the processor time are the entries that differ between two runs of one case.
+    /// Wall time of the run \[s\]; it and the processor time are the entries that differ between two runs of one case.
     pub wall_time: f64,
-    /// Processor time of the run [s], where the system reports it.
+    /// Processor time of the run \[s\], where the system reports it.
     pub cpu_time: Option<f64>,
 }
 

@@ -17,15 +17,15 @@ pub struct Trajectory {
 pub struct Extremes {
     /// Smallest value, in the channel's unit; NaN when no value is finite.
     pub min: f64,
-    /// Time at which `min` first occurs [s].
+    /// Time at which `min` first occurs \[s\].
     pub t_min: f64,
     /// Largest value, in the channel's unit; NaN when no value is finite.
     pub max: f64,
-    /// Time at which `max` first occurs [s].
+    /// Time at which `max` first occurs \[s\].
     pub t_max: f64,
     /// Last recorded value, finite or not; NaN when nothing was recorded.
     pub last: f64,
-    /// Time of the first value that is not finite [s], if there is one.
+    /// Time of the first value that is not finite \[s\], if there is one.
     pub not_finite: Option<f64>,
 }
 
@@ -49,7 +49,7 @@ impl Trajectory {
         self.rows.reserve(rows.saturating_mul(self.channels.len()));
     }
 
-    /// Appends a row at time `t` [s]: `write` receives the row, zeroed, one entry for each channel,
+    /// Appends a row at time `t` \[s\]: `write` receives the row, zeroed, one entry for each channel,
     /// e.g. `trajectory.push(state.t, |row| system.record(&state, row))`.
     pub fn push(&mut self, t: f64, write: impl FnOnce(&mut [f64])) {
         let start = self.rows.len();
@@ -63,7 +63,7 @@ impl Trajectory {
         &self.channels
     }
 
-    /// The recorded times [s].
+    /// The recorded times \[s\].
     pub fn times(&self) -> &[f64] {
         &self.times
     }

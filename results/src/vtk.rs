@@ -66,7 +66,7 @@ pub fn write_vtu(shape: &Shape<'_>, mut to: impl Write) -> io::Result<()> {
     writeln!(to, "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>")
 }
 
-/// Writes the collection (`.pvd`) that gives each frame its time [s].
+/// Writes the collection (`.pvd`) that gives each frame its time \[s\].
 ///
 /// # Errors
 /// Whatever `to` returns.

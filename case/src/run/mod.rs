@@ -66,9 +66,9 @@ pub struct Run {
     pub counters: Counters,
     /// Size of the equations solved in each iteration.
     pub size: ProblemSize,
-    /// Time of computing [s]. It and `cpu_time` are the figures that differ from run to run.
+    /// Time of computing \[s\]. It and `cpu_time` are the figures that differ from run to run.
     pub wall_time: f64,
-    /// Time of computing of the processor [s], where the system tells it.
+    /// Time of computing of the processor \[s\], where the system tells it.
     pub cpu_time: Option<f64>,
 }
 

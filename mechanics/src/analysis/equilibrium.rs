@@ -17,7 +17,7 @@ const TOLERANCE: f64 = 1e-11;
     percent = 100.0 * reached
 )]
 pub struct NoEquilibrium {
-    /// Time at which it was sought [s].
+    /// Time at which it was sought \[s\].
     pub time: f64,
     /// Part of the load up to which there was equilibrium.
     pub reached: f64,

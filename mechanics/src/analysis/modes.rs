@@ -27,7 +27,7 @@ pub struct Mode {
     /// mode is so soft against λ that K⁻¹ magnifies rounding errors along it, through Q(|λ|) or K + |λ|² M.
     pub residual: f64,
     /// Bound of the relative error of the frequency by rounding: δ = ½ ε |x|ᵀ|K||x| / |λ|² by that of the entries of K in
-    /// doubles, and δ² where the frequency is corrected by the [strains](System::stiffness_forms) of the mode.
+    /// doubles, and δ² where the frequency is corrected by the [strains](crate::system::Dynamics::stiffness_forms) of the mode.
     pub rounding: f64,
     /// Shares of the modal mass.
     pub shares: Shares,
@@ -165,11 +165,11 @@ pub enum NoModes {
     },
 }
 
-/// The `count` modes of smallest |λ| of `system` about `state`, with their shapes at `stations` [m].
+/// The `count` modes of smallest |λ| of `system` about `state`, with their shapes at `stations` \[m\].
 ///
 /// The state is taken for an equilibrium as it stands: bring it there by
 /// [`equilibrium`](super::equilibrium::equilibrium) or [`rotate`](super::rotation::rotate). With the hub
-/// [held](System::hold) the modes are those of a beam on a hub that keeps its motion; a hub that is free has
+/// [held](crate::system::Steady::hold) the modes are those of a beam on a hub that keeps its motion; a hub that is free has
 /// the rigid motion as a mode of frequency zero.
 ///
 /// # Errors

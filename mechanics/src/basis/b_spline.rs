@@ -23,7 +23,7 @@ use super::{Basis, BasisError, Conditioning, Field, Role, Support, uniform_cells
 /// Highest degree: the condition number of the functions grows like p 2ᵖ, and nothing is gained beyond.
 const MOST_DEGREE: usize = 15;
 
-/// B-splines on [0, L]. See the [module documentation](self).
+/// B-splines on [0, L]. Its formulas head the source file.
 #[derive(Clone, Debug)]
 pub struct BSpline {
     cells: Vec<f64>,

@@ -29,7 +29,7 @@ use super::{Basis, BasisError, Conditioning, Field, Role, Support, uniform_cells
 /// Highest degree: beyond, the mass matrix is singular to working precision.
 const MOST_DEGREE: usize = 27;
 
-/// Bézier curves on [0, L]. See the [module documentation](self).
+/// Bézier curves on [0, L]. Its formulas head the source file.
 #[derive(Clone, Debug)]
 pub struct Bezier {
     cells: Vec<f64>,

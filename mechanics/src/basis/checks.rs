@@ -1,141 +1,27 @@
-//! Properties of every basis, for the tests of each.
+//! What the tests of the bases share.
 
+use super::conformance::{self, Report};
+pub use super::conformance::{gram, largest};
 use super::{Basis, Field};
-use crate::quadrature::Gauss;
 
-/// All checks below.
+/// All that a basis must satisfy.
 pub fn all(basis: &dyn Basis, field: Field) {
-    supports_are_contiguous_and_ascending(basis);
-    derivatives_equal_finite_differences(basis, 1e-8);
-    clamp_holds(basis, field);
-    field_is_continuous_across_cells(basis, field);
-    quadrature_is_exact(basis, field, 1e-13);
+    asserted(|report| conformance::all(basis, field, (1e-8, 1e-13), report));
 }
 
-fn supports_are_contiguous_and_ascending(basis: &dyn Basis) {
-    let cells = basis.cells().len() - 1;
-    assert_eq!(basis.cells()[0], 0.0);
-    assert!(basis.cells().windows(2).all(|c| c[0] < c[1]));
-    assert_eq!(basis.support(0).start, 0);
-    assert_eq!(basis.support(cells - 1).end, basis.len());
-    for c in 1..cells {
-        let (a, b) = (basis.support(c - 1), basis.support(c));
-        assert!(a.start <= b.start && a.end <= b.end && b.start <= a.end, "cell {c}: {a:?} then {b:?}");
-    }
-    for i in 1..basis.len() {
-        assert!(basis.anchor(i - 1) <= basis.anchor(i));
-    }
-}
-
-/// Derivative d + 1 against the five-point difference of derivative d, relative to its largest value.
+/// Derivatives against differences, to a relative tolerance.
 pub fn derivatives_equal_finite_differences(basis: &dyn Basis, tolerance: f64) {
-    let mut buffers = vec![vec![0.0; basis.max_support()]; 6];
-    let scale: Vec<f64> = (0..4).map(|d| largest(basis, d)).collect();
-    for c in 0..basis.cells().len() - 1 {
-        let (a, b) = (basis.cells()[c], basis.cells()[c + 1]);
-        for s in [0.07, 0.31, 0.5, 0.83, 0.94] {
-            let (x, h) = (a + s * (b - a), 2e-3 * (b - a));
-            for d in 0..3 {
-                for (buffer, step) in buffers.iter_mut().zip([-2.0, -1.0, 1.0, 2.0]) {
-                    basis.eval(c, x + step * h, d, buffer);
-                }
-                let count = basis.eval(c, x, d + 1, &mut buffers[5]).len();
-                for k in 0..count {
-                    let y: Vec<f64> = buffers[..4].iter().map(|b| b[k]).collect();
-                    let slope = (y[0] - 8.0 * y[1] + 8.0 * y[2] - y[3]) / (12.0 * h);
-                    let error = (buffers[5][k] - slope).abs();
-                    // Rounding of the difference itself.
-                    let floor = 8.0 * f64::EPSILON * scale[d] / h;
-                    assert!(
-                        error <= tolerance * scale[d + 1] + floor,
-                        "cell {c} x {x} derivative {} function {k}: {} for {slope}",
-                        d + 1,
-                        buffers[5][k]
-                    );
-                }
-            }
-        }
-    }
+    asserted(|report| conformance::derivatives(basis, tolerance, report));
 }
 
-/// Largest |φ⁽ᵈ⁾| of all functions at a few points of each cell.
-pub fn largest(basis: &dyn Basis, derivative: usize) -> f64 {
-    let mut out = vec![0.0; basis.max_support()];
-    let mut most: f64 = 0.0;
-    for c in 0..basis.cells().len() - 1 {
-        let (a, b) = (basis.cells()[c], basis.cells()[c + 1]);
-        for k in 0..=8 {
-            let count = basis.eval(c, a + k as f64 / 8.0 * (b - a), derivative, &mut out).len();
-            most = out[..count].iter().fold(most, |m, v| m.max(v.abs()));
-        }
-    }
-    most
-}
-
-fn clamp_holds(basis: &dyn Basis, field: Field) {
-    let mut out = vec![0.0; basis.max_support()];
-    let order = if field == Field::Transverse { 2 } else { 1 };
-    for d in 0..order {
-        let count = basis.eval(0, 0.0, d, &mut out).len();
-        let most = out[..count].iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-        assert!(most <= 1e-11 * largest(basis, d), "derivative {d} at the clamp is {most}");
-    }
-}
-
-fn field_is_continuous_across_cells(basis: &dyn Basis, field: Field) {
-    let (mut left, mut right) = (vec![0.0; basis.max_support()], vec![0.0; basis.max_support()]);
-    let order = if field == Field::Transverse { 2 } else { 1 };
-    for d in 0..order {
-        let scale = largest(basis, d);
-        for c in 1..basis.cells().len() - 1 {
-            let x = basis.cells()[c];
-            let (a, b) = (basis.eval(c - 1, x, d, &mut left), basis.eval(c, x, d, &mut right));
-            for i in a.start..b.end {
-                let one = if a.contains(&i) { left[i - a.start] } else { 0.0 };
-                let two = if b.contains(&i) { right[i - b.start] } else { 0.0 };
-                assert!(
-                    (one - two).abs() <= 1e-10 * scale,
-                    "derivative {d} of function {i} jumps at {x}: {one} {two}"
-                );
-            }
-        }
-    }
-}
-
-/// ∫ φᵢ⁽ᵈ⁾ φⱼ⁽ᵈ⁾ w dx with `points` Gauss points a cell, row-major.
-pub fn gram(basis: &dyn Basis, derivative: usize, points: usize, weight: impl Fn(f64) -> f64) -> Vec<f64> {
-    let (n, gauss) = (basis.len(), Gauss::new(points));
-    let mut out = vec![0.0; basis.max_support()];
-    let mut matrix = vec![0.0; n * n];
-    for c in 0..basis.cells().len() - 1 {
-        for (x, w) in gauss.on(basis.cells()[c], basis.cells()[c + 1]) {
-            let support = basis.eval(c, x, derivative, &mut out);
-            for (k, i) in support.clone().enumerate() {
-                for (l, j) in support.clone().enumerate() {
-                    matrix[i * n + j] += w * weight(x) * out[k] * out[l];
-                }
-            }
-        }
-    }
-    matrix
-}
-
-/// The rule of the basis against one of many more points, relative to √(Gᵢᵢ Gⱼⱼ).
+/// The rule the basis asks for against one of many more points, to a relative tolerance.
 pub fn quadrature_is_exact(basis: &dyn Basis, field: Field, tolerance: f64) {
-    let (n, points) = (basis.len(), basis.points_per_cell());
-    let length = basis.cells()[basis.cells().len() - 1];
-    let order = if field == Field::Transverse { 2 } else { 1 };
-    for d in 0..=order {
-        let weight = |x: f64| 0.3 + x / length;
-        let (few, many) = (gram(basis, d, points, weight), gram(basis, d, 2 * points + 6, weight));
-        for i in 0..n {
-            for j in 0..n {
-                let scale = (many[i * n + i] * many[j * n + j]).sqrt();
-                let error = (few[i * n + j] - many[i * n + j]).abs();
-                assert!(error <= tolerance * scale, "derivative {d} entry {i} {j}: {:.1e}", error / scale);
-            }
-        }
-    }
+    asserted(|report| conformance::points(basis, field, tolerance, report));
+}
+
+/// Fails at the first report.
+fn asserted(check: impl FnOnce(&mut Report<'_>)) {
+    check(&mut |check, place, found, expected| panic!("{check}: {place} is {found:e} for {expected:e}"));
 }
 
 /// Σ φᵢ cᵢ and its derivatives against the given functions, everywhere.

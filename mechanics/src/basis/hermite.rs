@@ -12,7 +12,7 @@
 
 use super::{Basis, BasisError, Conditioning, Field, Role, Support, check_cells, uniform_cells};
 
-/// Cubic Hermite finite elements on [0, L]. See the [module documentation](self).
+/// Cubic Hermite finite elements on [0, L]. Its formulas head the source file.
 #[derive(Clone, Debug)]
 pub struct Hermite {
     cells: Vec<f64>,
@@ -29,7 +29,7 @@ impl Hermite {
         Hermite::on(uniform_cells(length, elements)?, field)
     }
 
-    /// Elements between the given ascending boundaries, the first of which is 0 [m].
+    /// Elements between the given ascending boundaries, the first of which is 0 \[m\].
     ///
     /// # Errors
     /// [`BasisError::Invalid`] if the boundaries do not ascend from 0.

@@ -11,7 +11,7 @@
 
 use super::{Basis, BasisError, Conditioning, Role, Support, check_cells, uniform_cells};
 
-/// Lagrange finite elements on [0, L] with φ(0) = 0. See the [module documentation](self).
+/// Lagrange finite elements on [0, L] with φ(0) = 0. Its formulas head the source file.
 #[derive(Clone, Debug)]
 pub struct Lagrange {
     cells: Vec<f64>,
@@ -28,7 +28,7 @@ impl Lagrange {
         Lagrange::on(uniform_cells(length, elements)?, degree)
     }
 
-    /// Elements between the given ascending boundaries, the first of which is 0 [m].
+    /// Elements between the given ascending boundaries, the first of which is 0 \[m\].
     ///
     /// # Errors
     /// As [`Lagrange::new`], and if the boundaries do not ascend from 0.

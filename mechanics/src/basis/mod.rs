@@ -4,6 +4,7 @@ mod b_spline;
 mod bezier;
 #[cfg(test)]
 pub(crate) mod checks;
+pub(crate) mod conformance;
 mod hermite;
 mod lagrange;
 mod modes;
@@ -27,11 +28,11 @@ pub type Support = Range<usize>;
 /// What the coefficient of a basis function is: sets its unit and its scale.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
-    /// A displacement [m] at its anchor.
+    /// A displacement \[m\] at its anchor.
     Value,
-    /// A slope [1] at its anchor.
+    /// A slope \[1\] at its anchor.
     Slope,
-    /// The amplitude [m] of a shape.
+    /// The amplitude \[m\] of a shape.
     Amplitude,
     /// The displacement [m] of a control point at its anchor.
     Control,
@@ -66,6 +67,59 @@ impl Conditioning {
 ///
 /// The beam is cut into cells; inside a cell every function is smooth, and the functions that do
 /// not vanish there are a contiguous range of indices (so that banded storage is natural).
+///
+/// A basis of one's own, here φ_i = (x/L)^(i + 2) in a single cell, is checked by [`verify::basis`](fn@crate::verify::basis):
+///
+/// ```
+/// use flexion::basis::{Basis, Conditioning, Field, Role, Support};
+///
+/// #[derive(Debug)]
+/// struct Monomials {
+///     count: usize,
+///     cells: [f64; 2],
+/// }
+///
+/// impl Basis for Monomials {
+///     fn len(&self) -> usize {
+///         self.count
+///     }
+///     fn cells(&self) -> &[f64] {
+///         &self.cells
+///     }
+///     // n Gauss points integrate degree 2n − 1: twice the highest power, and one for the weight.
+///     fn points_per_cell(&self) -> usize {
+///         self.count + 2
+///     }
+///     fn support(&self, _cell: usize) -> Support {
+///         0..self.count
+///     }
+///     fn eval(&self, _cell: usize, x: f64, derivative: usize, out: &mut [f64]) -> Support {
+///         let length = self.cells[1];
+///         for i in 0..self.count {
+///             let power = i + 2;
+///             out[i] = if derivative > power {
+///                 0.0
+///             } else {
+///                 let factor: f64 = (0..derivative).map(|k| (power - k) as f64 / length).product();
+///                 factor * (x / length).powi((power - derivative) as i32)
+///             };
+///         }
+///         0..self.count
+///     }
+///     fn anchor(&self, _i: usize) -> f64 {
+///         self.cells[1]
+///     }
+///     fn role(&self, _i: usize) -> Role {
+///         Role::Amplitude
+///     }
+///     fn conditioning(&self) -> Conditioning {
+///         Conditioning::none()
+///     }
+/// }
+///
+/// let own = Monomials { count: 5, cells: [0.0, 10.0] };
+/// assert_eq!(flexion::verify::basis(&own, Field::Transverse), []);
+/// ```
 pub trait Basis: Send + Sync + std::fmt::Debug {
     /// Number of functions.
     fn len(&self) -> usize;
@@ -75,7 +129,7 @@ pub trait Basis: Send + Sync + std::fmt::Debug {
         self.len() == 0
     }
 
-    /// Boundaries of the cells: ascending, first 0, last L [m].
+    /// Boundaries of the cells: ascending, first 0, last L \[m\].
     fn cells(&self) -> &[f64];
 
     /// Gauss points a cell needs so that products of two functions (or derivatives) and a linear
@@ -94,7 +148,7 @@ pub trait Basis: Send + Sync + std::fmt::Debug {
     /// `out[k]` = φ⁽ᵈ⁾ of function `support.start + k`. Returns the support.
     fn eval(&self, cell: usize, x: f64, derivative: usize, out: &mut [f64]) -> Support;
 
-    /// Where along the beam function `i` belongs [m]: unknowns are numbered in this order.
+    /// Where along the beam function `i` belongs \[m\]: unknowns are numbered in this order.
     fn anchor(&self, i: usize) -> f64;
 
     /// What the coefficient of function `i` is.

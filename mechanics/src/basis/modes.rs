@@ -19,7 +19,7 @@ use super::{Basis, BasisError, Conditioning, Field, Role, Support, uniform_cells
 use crate::exact::cantilever::{alternate, eigenvalue};
 use std::f64::consts::{FRAC_PI_2, SQRT_2};
 
-/// The first modes of a clamped–free beam or rod. See the [module documentation](self).
+/// The first modes of a clamped–free beam or rod. Its formulas head the source file.
 #[derive(Clone, Debug)]
 pub struct Modes {
     cells: Vec<f64>,
@@ -41,7 +41,7 @@ struct Shape {
 }
 
 impl Modes {
-    /// The first `count` modes of a beam of the given length [m].
+    /// The first `count` modes of a beam of the given length \[m\].
     ///
     /// # Errors
     /// [`BasisError::Invalid`] if the length is not positive and finite or if there is no mode.
@@ -56,8 +56,9 @@ impl Modes {
                     return Shape { sign: sign * SQRT_2, beta, tip: 0.0, root: 0.0, sigma: 0.0 };
                 }
                 let z = eigenvalue(mode);
-                let decay = (-z).exp();
-                let tip = (z.sin() - z.cos() - decay) / (1.0 - decay * decay + 2.0 * decay * z.sin());
+                let decay = libm::exp(-z);
+                let tip = (libm::sin(z) - libm::cos(z) - decay)
+                    / (1.0 - decay * decay + 2.0 * decay * libm::sin(z));
                 let root = 1.0 - tip * decay;
                 Shape { sign, beta: z / length, tip, root, sigma: root - tip * decay }
             })
@@ -87,13 +88,13 @@ impl Basis for Modes {
         let length = self.cells[self.cells.len() - 1];
         for (shape, out) in self.shapes.iter().zip(out.iter_mut()) {
             let scale = shape.sign * shape.beta.powi(derivative as i32);
-            let (s, c) = (shape.beta * x).sin_cos();
+            let (s, c) = libm::sincos(shape.beta * x);
             *out = scale
                 * match self.field {
                     Field::Axial => [s, c, -s, -c][derivative % 4],
                     Field::Transverse => {
-                        let growing = shape.tip * (shape.beta * (x - length)).exp();
-                        let decaying = shape.root * (-shape.beta * x).exp();
+                        let growing = shape.tip * libm::exp(shape.beta * (x - length));
+                        let decaying = shape.root * libm::exp(-shape.beta * x);
                         match derivative % 4 {
                             0 => growing + decaying - c + shape.sigma * s,
                             1 => growing - decaying + s + shape.sigma * c,

@@ -49,7 +49,7 @@ impl PolynomialParameters {
     }
 }
 
-/// Point interpolation on [0, L]. See the [module documentation](self).
+/// Point interpolation on [0, L]. Its formulas head the source file.
 #[derive(Clone, Debug)]
 pub struct Polynomial {
     cells: Vec<f64>,

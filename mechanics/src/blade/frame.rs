@@ -34,7 +34,7 @@ pub fn axes<const N: usize>(slope: &Vector<N>, angle: &Jet<N>) -> [Vector<N>; 3]
     let (c2, c3) = (t[1] * inverse, t[2] * inverse);
     let n = [zero - c2 * lean[0], shape - c2 * lean[1], zero - c2 * lean[2]];
     let b = [zero - c3 * lean[0], zero - c3 * lean[1], shape - c3 * lean[2]];
-    let (sin, cos) = angle.sin_cos();
+    let (sin, cos) = Jet::sin_cos(angle);
     let d2 = std::array::from_fn(|k| cos * n[k] + sin * b[k]);
     let d3 = std::array::from_fn(|k| cos * b[k] - sin * n[k]);
     [t, d2, d3]
@@ -101,7 +101,7 @@ pub fn strains<const N: usize>(
     let rate: Vector<N> = std::array::from_fn(|k| (bend[k] - t[k] * along) * inverse);
     let n = rate[1] - lean[0] * rate[0];
     let b = rate[2] - lean[1] * rate[0];
-    let (sin, cos) = angle.sin_cos();
+    let (sin, cos) = Jet::sin_cos(angle);
     Strains {
         stretch,
         curvature: [cos * n + sin * b, cos * b - sin * n],

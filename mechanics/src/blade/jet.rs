@@ -69,7 +69,7 @@ impl<const N: usize> Jet<N> {
 
     /// Sine and cosine.
     pub fn sin_cos(&self) -> (Jet<N>, Jet<N>) {
-        let (s, c) = self.x.sin_cos();
+        let (s, c) = libm::sincos(self.x);
         (self.chain(s, c, -s), self.chain(c, -s, -c))
     }
 

@@ -140,7 +140,7 @@ impl Matrices {
 
     /// The rotation at a speed.
     fn rotation(&self, speed: f64) -> Rotation {
-        let (sin, cos) = self.setting.precone.sin_cos();
+        let (sin, cos) = libm::sincos(self.setting.precone);
         Rotation {
             vector: [speed * sin, 0.0, speed * cos],
             hub_radius: self.setting.hub_radius,

@@ -3,13 +3,13 @@
 /// Position and orientation of a blade on its hub.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Setting {
-    /// Length L [m].
+    /// Length L \[m\].
     pub length: f64,
-    /// Distance a of the root from the axis of rotation, along the blade's axis [m].
+    /// Distance a of the root from the axis of rotation, along the blade's axis \[m\].
     pub hub_radius: f64,
     /// Angle β of the blade's axis out of the plane of rotation, towards the angular velocity [rad].
     pub precone: f64,
-    /// Angle of the root section, about the axis towards the tip, added to the twist of the sections [rad].
+    /// Angle of the root section, about the axis towards the tip, added to the twist of the sections \[rad\].
     pub pitch: f64,
     /// A body at the tip.
     pub tip: Tip,
@@ -18,7 +18,7 @@ pub struct Setting {
 /// A body at the tip, its centre of mass on the axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tip {
-    /// Mass [kg].
+    /// Mass \[kg\].
     pub mass: f64,
     /// Moment of inertia about any axis through its centre, as of a sphere [kg·m²].
     pub inertia: f64,

@@ -28,7 +28,7 @@ fn energy(section: &BladeResultants, pitch: f64, tension: (f64, f64), terms: Ter
     let e = tension.0 / ea;
     let f = 1.0 + on(terms.bending_first, 3.0 * e) + on(terms.bending_second, 1.5 * e * e);
     let g = on(terms.axial_first, e * e) + on(terms.axial_second, 0.5 * e * e * e);
-    let (sin, cos) = (pitch + section.twist).sin_cos();
+    let (sin, cos) = libm::sincos(pitch + section.twist);
     let mut sum = square(0, 1.0, 0, 0.0, ea)
         + square(4, cos, 5, sin, f * section.chord_stiffness)
         + square(4, -sin, 5, cos, f * section.flap_stiffness)

@@ -136,7 +136,7 @@ impl Blade {
         &self.matrices.mesh().components
     }
 
-    /// Displacements u, v, w [m], their slopes and torsion φ at station x [m] of the given unknowns.
+    /// Displacements u, v, w \[m\], their slopes and torsion φ at station x \[m\] of the given unknowns.
     pub fn displacement(&self, q: &[f64], x: f64) -> ([f64; 3], [f64; 3], f64) {
         let elements = &self.matrices.mesh().elements;
         let last = elements.len() - 1;

@@ -36,11 +36,11 @@ impl Bessel {
     /// All four at x > 0.
     pub fn at(x: f64) -> Bessel {
         // Beyond x + 9 x^⅓ + 30 orders J is below rounding.
-        let top = 2 * ((x + 9.0 * x.cbrt() + 30.0) / 2.0) as usize;
+        let top = 2 * ((x + 9.0 * libm::cbrt(x) + 30.0) / 2.0) as usize;
         let all = backward(x, top, -1.0);
         let sum = all[0] + 2.0 * all.iter().skip(2).step_by(2).sum::<f64>();
         let at = |n: usize| all[n] / sum;
-        let logarithm = (0.5 * x).ln() + EULER;
+        let logarithm = libm::log(0.5 * x) + EULER;
         let (mut even, mut slopes) = (0.0, 0.0);
         for k in (1..top / 2).rev() {
             let sign = if k % 2 == 0 { 1.0 } else { -1.0 } / k as f64;
@@ -80,10 +80,10 @@ fn backward(x: f64, top: usize, sign: f64) -> Vec<f64> {
 /// eˣ Kₙ(x).
 fn decaying(n: usize, x: f64) -> f64 {
     // The integrand has fallen to e⁻⁴⁵ where cosh t = 1 + 60/x; it varies over 1/√x there.
-    let end = (1.0 + 60.0 / x).acosh();
+    let end = libm::acosh(1.0 + 60.0 / x);
     let steps = 200;
     let h = end / steps as f64;
-    let value = |t: f64| (-x * 2.0 * (0.5 * t).sinh().powi(2)).exp() * (n as f64 * t).cosh();
+    let value = |t: f64| libm::exp(-x * 2.0 * libm::sinh(0.5 * t).powi(2)) * libm::cosh(n as f64 * t);
     h * (0.5 * value(0.0) + (1..=steps).map(|i| value(i as f64 * h)).sum::<f64>())
 }
 

@@ -12,11 +12,11 @@ pub fn eigenvalue(mode: usize) -> f64 {
     let mode = mode.max(1);
     let start = (mode as f64 - 0.5) * PI;
     let sign = alternate(mode);
-    let mut offset = sign / start.cosh();
+    let mut offset = sign / libm::cosh(start);
     for _ in 0..50 {
         let z = start + offset;
-        let sech = 1.0 / z.cosh();
-        let step = (offset.sin() - sign * sech) / (offset.cos() + sign * sech * z.tanh());
+        let sech = 1.0 / libm::cosh(z);
+        let step = (libm::sin(offset) - sign * sech) / (libm::cos(offset) + sign * sech * libm::tanh(z));
         offset -= step;
         if step.abs() <= 1e-17 + 1e-16 * offset.abs() {
             break;
@@ -26,13 +26,13 @@ pub fn eigenvalue(mode: usize) -> f64 {
 }
 
 /// Angular frequency ω = (βL)² √(EI/(ρA L⁴)) of bending mode `mode` = 1, 2, … [rad/s]; EI [N·m²],
-/// ρA [kg/m], L [m], without shear and rotary inertia.
+/// ρA [kg/m], L \[m\], without shear and rotary inertia.
 pub fn bending_frequency(mode: usize, bending_stiffness: f64, mass: f64, length: f64) -> f64 {
     (eigenvalue(mode) / length).powi(2) * (bending_stiffness / mass).sqrt()
 }
 
-/// Angular frequency ω = (2i − 1)π/(2L) √(EA/ρA) of axial mode `mode` i = 1, 2, … [rad/s]; EA [N],
-/// ρA [kg/m], L [m].
+/// Angular frequency ω = (2i − 1)π/(2L) √(EA/ρA) of axial mode `mode` i = 1, 2, … [rad/s]; EA \[N\],
+/// ρA [kg/m], L \[m\].
 pub fn axial_frequency(mode: usize, axial_stiffness: f64, mass: f64, length: f64) -> f64 {
     (2.0 * mode.max(1) as f64 - 1.0) * FRAC_PI_2 / length * (axial_stiffness / mass).sqrt()
 }

@@ -12,7 +12,7 @@ use std::f64::consts::FRAC_PI_2;
 /// sin(φ/2) = k sn(K(k) + √(3g/2L) t, k)
 /// ```
 pub fn rod_angle(start: f64, length: f64, gravity: f64, t: f64) -> f64 {
-    let modulus = (0.5 * (start + FRAC_PI_2)).sin();
+    let modulus = libm::sin(0.5 * (start + FRAC_PI_2));
     let (mut a, mut c) = (vec![1.0_f64], vec![modulus]);
     let mut b = (1.0 - modulus * modulus).sqrt();
     while let (Some(&last), Some(&off)) = (a.last(), c.last())
@@ -29,9 +29,9 @@ pub fn rod_angle(start: f64, length: f64, gravity: f64, t: f64) -> f64 {
     let argument = quarter + (1.5 * gravity / length).sqrt() * t;
     let mut amplitude = 2.0_f64.powi(i32::try_from(steps).unwrap_or(0)) * mean * argument;
     for n in (1..=steps).rev() {
-        amplitude = 0.5 * (amplitude + (c[n] / a[n] * amplitude.sin()).asin());
+        amplitude = 0.5 * (amplitude + libm::asin(c[n] / a[n] * libm::sin(amplitude)));
     }
-    2.0 * (modulus * amplitude.sin()).asin() - FRAC_PI_2
+    2.0 * libm::asin(modulus * libm::sin(amplitude)) - FRAC_PI_2
 }
 
 #[cfg(test)]

@@ -49,7 +49,7 @@ pub trait Coupling: Send {
         self.add_tangent(s, hub, &Weights::new(0.0, 0.0, 1.0), out);
     }
 
-    /// Strain energy [J].
+    /// Strain energy \[J\].
     fn strain(&mut self, s: &State) -> f64;
 
     /// Kinetic energy, angular momentum and torque that are not in [`Coupling::inertia`].

@@ -42,7 +42,7 @@ use crate::system::{Corotation, State, Weights};
 /// Largest axial strain |ε| accepted for a linear-elastic beam.
 const LARGEST_STRAIN: f64 = 0.5;
 
-/// Geometrically exact planar beam. See the [module documentation](self).
+/// Geometrically exact planar beam. Its formulas head the source file.
 #[derive(Debug)]
 pub struct ExactCoupling {
     fields: Fields,
@@ -230,7 +230,7 @@ impl Coupling for ExactCoupling {
     fn placements(&self, s: &State, stations: &[Station], out: &mut [Placement]) {
         // The angle of the tangent is followed from the root, so that it may pass π.
         let (mut node, mut angle) = (0, 0.0);
-        let slope = |u: f64, v: f64| f64::atan2(v, 1.0 + u);
+        let slope = |u: f64, v: f64| libm::atan2(v, 1.0 + u);
         let nearest = |angle: f64, to: f64| {
             angle + std::f64::consts::TAU * ((to - angle) / std::f64::consts::TAU).round()
         };

@@ -49,7 +49,7 @@ impl Shapes {
 pub struct Point {
     /// Station x [m].
     pub x: f64,
-    /// Quadrature weight [m].
+    /// Quadrature weight \[m\].
     pub weight: f64,
     /// Functions of the axial field.
     pub axial: Shapes,
@@ -103,7 +103,7 @@ impl Fields {
         widest
     }
 
-    /// Length L of the beam [m].
+    /// Length L of the beam \[m\].
     pub fn length(&self) -> f64 {
         self.length
     }

@@ -57,7 +57,7 @@ pub enum Drive {
 /// ```
 #[derive(Clone, Debug)]
 pub struct FreeHub {
-    /// Angle at the start [rad].
+    /// Angle at the start \[rad\].
     pub angle: f64,
     /// Speed at the start [rad/s].
     pub speed: f64,
@@ -67,7 +67,7 @@ pub struct FreeHub {
     pub damping: f64,
     /// Spring restraint k [N·m/rad].
     pub stiffness: f64,
-    /// Angle θ_k at which the spring is at rest [rad].
+    /// Angle θ_k at which the spring is at rest \[rad\].
     pub rest_angle: f64,
     /// Controller of the angle.
     pub controller: Option<Controller>,
@@ -122,7 +122,7 @@ impl Controller {
 }
 
 impl FreeHub {
-    /// The torque on the hub at time `t` [s].
+    /// The torque on the hub at time `t` \[s\].
     pub fn torque(&self, hub: &HubKinematics, t: f64) -> Torque {
         let controlled = self.controller.as_ref().map_or(Torque::default(), |c| c.torque(hub, t));
         Torque {
@@ -140,7 +140,7 @@ impl FreeHub {
         self.torque.value(t) + self.controller.as_ref().map_or(0.0, |c| c.torque(hub, t).value)
     }
 
-    /// Energy of the spring [J].
+    /// Energy of the spring \[J\].
     pub fn spring_energy(&self, angle: f64) -> f64 {
         0.5 * self.stiffness * (angle - self.rest_angle).powi(2)
     }

@@ -49,7 +49,7 @@ pub enum Foreshortening {
     First,
 }
 
-/// Constant matrices of a beam on a hub; see the [module documentation](self).
+/// Constant matrices of a beam on a hub; their formulas head the source file.
 ///
 /// Most models have D close to M, and P antisymmetric or nearly so. With N = M − D and the symmetric part S
 /// of P, whose zeros are not multiplied, the equations for q are
@@ -80,7 +80,7 @@ pub struct Inertia {
 /// Energy, momentum and torque of hub and beam.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Totals {
-    /// Kinetic energy T [J].
+    /// Kinetic energy T \[J\].
     pub kinetic: f64,
     /// Angular momentum about the hub's axis ∂T/∂ω [kg·m²/s].
     pub momentum: f64,

@@ -27,7 +27,7 @@ const ROUNDING: f64 = 1e-6;
 /// Axial displacement over length beyond which a beam is not linear-elastic.
 const LARGEST_EXTENSION: f64 = 0.5;
 
-/// A beam whose equations are linear in the unknowns. See the [module documentation](self).
+/// A beam whose equations are linear in the unknowns. Its formulas head the source file.
 #[derive(Debug)]
 pub struct LinearCoupling {
     name: &'static str,

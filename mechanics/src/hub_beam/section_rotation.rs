@@ -48,7 +48,7 @@ impl SectionRotation {
         [acceleration, slope_acceleration]: [[f64; 2]; 2],
         hub: &HubKinematics,
     ) -> SectionRotation {
-        let stretch = slope[0].hypot(slope[1]);
+        let stretch = libm::hypot(slope[0], slope[1]);
         let t = [slope[0] / stretch, slope[1] / stretch];
         let n = [-t[1], t[0]];
         let rate = inner(n, slope_velocity) / stretch;

@@ -44,7 +44,7 @@ pub struct Placement {
     pub axial: f64,
     /// Transverse displacement Y \[m\].
     pub deflection: f64,
-    /// Rotation of the section [rad].
+    /// Rotation of the section \[rad\].
     pub rotation: f64,
     /// Rate of the axial displacement [m/s].
     pub axial_velocity: f64,

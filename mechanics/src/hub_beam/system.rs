@@ -468,8 +468,8 @@ impl<C: Coupling> Observed for HubBeam<C> {
         self.coupling.placements(s, stations, &mut placements);
         for ((station, p), frame) in stations.iter().zip(&placements).zip(out) {
             let x = self.hub.radius + station.point.x + p.axial;
-            let (sin, cos) = angle.sin_cos();
-            let (sin_section, cos_section) = (angle + p.rotation).sin_cos();
+            let (sin, cos) = libm::sincos(angle);
+            let (sin_section, cos_section) = libm::sincos(angle + p.rotation);
             frame.position = [x * cos - p.deflection * sin, x * sin + p.deflection * cos, 0.0];
             frame.rotation =
                 [[cos_section, -sin_section, 0.0], [sin_section, cos_section, 0.0], [0.0, 0.0, 1.0]];

@@ -50,7 +50,7 @@ struct Slope {
     a: Vec<f64>,
 }
 
-/// The Adams–Bashforth–Moulton pair of order 4. See the [module documentation](self).
+/// The Adams–Bashforth–Moulton pair of order 4. Its formulas head the source file.
 #[derive(Debug)]
 pub struct Adams {
     info: Info,

@@ -88,7 +88,7 @@ impl Age {
     }
 }
 
-/// The generalized-α method. See the [module documentation](self) for formulas and sources.
+/// The generalized-α method. Its formulas and sources head the source file.
 #[derive(Debug)]
 pub struct GeneralizedAlpha {
     info: Info,

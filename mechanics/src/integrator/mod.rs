@@ -69,9 +69,9 @@ pub struct Counters {
 /// The time that a step covers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {
-    /// Size h of the step [s].
+    /// Size h of the step \[s\].
     pub step: f64,
-    /// Where it ends [s]: the start + h but for rounding.
+    /// Where it ends \[s\]: the start + h but for rounding.
     pub end: f64,
     /// Which limit is meant at the end, where something jumps there.
     pub side: Side,
@@ -101,9 +101,9 @@ pub enum StepError {
         "no convergence at t = {time:.6} s with a step of {step:.3e} s: after {iterations} iterations the increment is {size:.2e} times the tolerance, largest in the {worst}; try a smaller step"
     )]
     NotConverged {
-        /// Time at the start of the step [s].
+        /// Time at the start of the step \[s\].
         time: f64,
-        /// Step [s].
+        /// Step \[s\].
         step: f64,
         /// Iterations done.
         iterations: u32,
@@ -117,9 +117,9 @@ pub enum StepError {
         "singular tangent at t = {time:.6} s with a step of {step:.3e} s: relative pivot {pivot:.1e} at the {worst}"
     )]
     Singular {
-        /// Time at the start of the step [s].
+        /// Time at the start of the step \[s\].
         time: f64,
-        /// Step [s].
+        /// Step \[s\].
         step: f64,
         /// Relative pivot.
         pivot: f64,
@@ -131,9 +131,9 @@ pub enum StepError {
         "the solution is no longer finite at t = {time:.6} s with a step of {step:.3e} s (first in the {worst}); try a smaller step"
     )]
     NotFinite {
-        /// Time at the start of the step [s].
+        /// Time at the start of the step \[s\].
         time: f64,
-        /// Step [s].
+        /// Step \[s\].
         step: f64,
         /// Label of the first bad unknown.
         worst: String,
@@ -145,11 +145,11 @@ pub enum StepError {
     Unstable {
         /// Method as in a case file.
         method: &'static str,
-        /// Time at which the frequency was found [s].
+        /// Time at which the frequency was found \[s\].
         time: f64,
-        /// Step asked for [s].
+        /// Step asked for \[s\].
         step: f64,
-        /// Largest stable step [s].
+        /// Largest stable step \[s\].
         limit: f64,
         /// Largest angular frequency of the system [rad/s].
         frequency: f64,
@@ -159,9 +159,9 @@ pub enum StepError {
         "the step fell to {step:.3e} s at t = {time:.6} s and the error is still {error:.2e} times the tolerance, largest in the {worst}; loosen the tolerance or look for a discontinuity in the motion there"
     )]
     StepTooSmall {
-        /// Time at the start of the step [s].
+        /// Time at the start of the step \[s\].
         time: f64,
-        /// Step [s].
+        /// Step \[s\].
         step: f64,
         /// Scaled error (infinite when Newton's method failed).
         error: f64,
@@ -171,9 +171,9 @@ pub enum StepError {
     /// The impulses of contacts in a step were not found.
     #[error("at t = {time:.6} s with a step of {step:.3e} s {cause}")]
     Contacts {
-        /// Time at the start of the step [s].
+        /// Time at the start of the step \[s\].
         time: f64,
-        /// Step [s].
+        /// Step \[s\].
         step: f64,
         /// Why.
         cause: crate::contact::Unresolved,

@@ -31,7 +31,7 @@ const NAME: &str = "moreau-jean";
 /// Iteration error of Newton's method, relative to the scales of the unknowns.
 const TOLERANCE: f64 = 1e-12;
 
-/// Moreau's scheme. See the [module documentation](self).
+/// Moreau's scheme. Its formulas head the source file.
 #[derive(Debug)]
 pub struct MoreauJean {
     info: Info,

@@ -35,7 +35,7 @@ const NAME: &str = "runge-kutta-4";
 /// Largest stable hω on the imaginary axis, 2√2.
 const LIMIT: f64 = 2.828_427_124_746_190_3;
 
-/// The classical Runge–Kutta method. See the [module documentation](self).
+/// The classical Runge–Kutta method. Its formulas head the source file.
 #[derive(Debug)]
 pub struct RungeKutta {
     info: Info,

@@ -17,11 +17,11 @@ const TOLERANCE: f64 = 1e-3;
 pub struct StabilityLimit {
     /// Method as in a case file.
     pub method: &'static str,
-    /// Time at which the frequency was found [s].
+    /// Time at which the frequency was found \[s\].
     pub time: f64,
     /// Largest angular frequency ω of the system [rad/s].
     pub frequency: f64,
-    /// Largest stable step, c/(1.005 ω) with the method's constant c [s].
+    /// Largest stable step, c/(1.005 ω) with the method's constant c \[s\].
     pub step: f64,
 }
 

@@ -40,7 +40,7 @@ struct Past {
     error: f64,
 }
 
-/// Step-size control. See the [module documentation](self) for the laws.
+/// Step-size control. Its laws head the source file.
 #[derive(Clone, Copy, Debug)]
 pub struct StepControl {
     law: Law,
@@ -69,7 +69,7 @@ const MAX_ITERATIONS: f64 = 10.0;
 
 impl StepControl {
     /// Control by the filter H211b for an error estimate of order `estimate_order` (p̂), over runs of length `span`
-    /// [s]: steps between 1e-14 and 1 times the span, beginning with `first`.
+    /// \[s\]: steps between 1e-14 and 1 times the span, beginning with `first`.
     pub fn new(estimate_order: usize, span: f64, first: f64) -> StepControl {
         let longest = span.abs();
         let shortest = 1e-14 * longest;
@@ -91,7 +91,7 @@ impl StepControl {
         self
     }
 
-    /// Other limits of the step [s]. An upper limit keeps step control from passing over short events.
+    /// Other limits of the step \[s\]. An upper limit keeps step control from passing over short events.
     pub fn with_limits(mut self, shortest: f64, longest: f64) -> StepControl {
         self.shortest = shortest;
         self.longest = longest.max(shortest);
@@ -99,7 +99,7 @@ impl StepControl {
         self
     }
 
-    /// A first step from the state itself [s]: tol^(1/(p̂+1)) times the shortest of scale/|v|,
+    /// A first step from the state itself \[s\]: tol^(1/(p̂+1)) times the shortest of scale/|v|,
     /// (scale/|a|)^½ and `span`/100, in the root mean square. Cheap and cautious; a wrong guess costs a
     /// few steps.
     pub fn first_step(
@@ -121,10 +121,10 @@ impl StepControl {
         if a > 0.0 {
             time = time.min(1.0 / a.sqrt());
         }
-        time * tolerance.clamp(1e-14, 1.0).powf(1.0 / (estimate_order as f64 + 1.0))
+        time * libm::pow(tolerance.clamp(1e-14, 1.0), 1.0 / (estimate_order as f64 + 1.0))
     }
 
-    /// Size of the next step [s], where `left` [s] remain to the next time that a step must end at.
+    /// Size of the next step \[s\], where `left` \[s\] remain to the next time that a step must end at.
     /// A remainder just above the step is halved rather than left as a sliver.
     pub fn propose(&self, left: f64) -> f64 {
         let h = self.next;
@@ -142,21 +142,23 @@ impl StepControl {
         let error = error.max(NEGLIGIBLE);
         let safety = self.safety(iterations);
         let k = self.exponent;
-        let elementary = safety * error.powf(-k);
+        let elementary = safety * libm::pow(error, -k);
         let mut factor = elementary;
         if let Some(past) = self.past {
             let ratio = h / past.step;
             factor = match self.law {
                 Law::Predictive => {
                     let past_error = past.error.max(1e-2);
-                    factor.min(safety * ratio * (past_error / (error * error)).powf(k))
+                    factor.min(safety * ratio * libm::pow(past_error / (error * error), k))
                 }
-                Law::ProportionalIntegral => safety * error.powf(-0.7 * k) * past.error.powf(0.4 * k),
+                Law::ProportionalIntegral => {
+                    safety * libm::pow(error, -0.7 * k) * libm::pow(past.error, 0.4 * k)
+                }
                 Law::Filter => {
                     // Never more than the last error alone allows: a small one before it must not
                     // lengthen a step that just passed.
-                    let filtered = ((safety / error) * (safety / past.error)).powf(0.25 * k);
-                    (filtered * ratio.powf(-0.25)).min(elementary / safety)
+                    let filtered = libm::pow((safety / error) * (safety / past.error), 0.25 * k);
+                    (filtered * libm::pow(ratio, -0.25)).min(elementary / safety)
                 }
             };
         }
@@ -181,7 +183,7 @@ impl StepControl {
         // A very first step may be wrong by any factor.
         let factor = match self.past {
             None => 0.1,
-            Some(_) => (self.safety(iterations) * error.powf(-self.exponent)).clamp(SHRINK, 0.9),
+            Some(_) => (self.safety(iterations) * libm::pow(error, -self.exponent)).clamp(SHRINK, 0.9),
         };
         self.retreat(h * factor);
     }

@@ -30,7 +30,7 @@ pub struct Expression {
 
 impl Expression {
     /// Reads `text` as a formula in `variable` (usually `t`) for values from 0 to `extent`, the duration of
-    /// the run [s].
+    /// the run \[s\].
     ///
     /// # Errors
     /// [`ProfileError::Expression`] says where the text is no formula; [`ProfileError::NotFinite`] when value

@@ -74,11 +74,11 @@ impl Number for Jet {
     /// A constant exponent leaves negative bases possible.
     fn pow(self, exponent: Jet) -> Jet {
         if !exponent.is_constant() {
-            return (exponent * self.ln()).exp();
+            return Jet::exp(exponent * self.ln());
         }
         let (x, n) = (self.value, exponent.value);
-        let term = |factor: f64, power: f64| if factor == 0.0 { 0.0 } else { factor * x.powf(power) };
-        self.chain(x.powf(n), term(n, n - 1.0), term(n * (n - 1.0), n - 2.0))
+        let term = |factor: f64, power: f64| if factor == 0.0 { 0.0 } else { factor * libm::pow(x, power) };
+        self.chain(libm::pow(x, n), term(n, n - 1.0), term(n * (n - 1.0), n - 2.0))
     }
 
     fn apply(self, function: Smooth) -> Jet {
@@ -101,17 +101,17 @@ impl Jet {
     }
 
     pub fn sin(self) -> Jet {
-        let (s, c) = self.value.sin_cos();
+        let (s, c) = libm::sincos(self.value);
         self.chain(s, c, -s)
     }
 
     pub fn cos(self) -> Jet {
-        let (s, c) = self.value.sin_cos();
+        let (s, c) = libm::sincos(self.value);
         self.chain(c, -s, -c)
     }
 
     pub fn tan(self) -> Jet {
-        let y = self.value.tan();
+        let y = libm::tan(self.value);
         let slope = 1.0 + y * y;
         self.chain(y, slope, 2.0 * y * slope)
     }
@@ -119,48 +119,48 @@ impl Jet {
     pub fn asin(self) -> Jet {
         let x = self.value;
         let slope = 1.0 / ((1.0 - x) * (1.0 + x)).sqrt();
-        self.chain(x.asin(), slope, x * slope.powi(3))
+        self.chain(libm::asin(x), slope, x * slope.powi(3))
     }
 
     pub fn acos(self) -> Jet {
         let y = self.asin();
-        Jet { value: self.value.acos(), rate: -y.rate, bend: -y.bend }
+        Jet { value: libm::acos(self.value), rate: -y.rate, bend: -y.bend }
     }
 
     pub fn atan(self) -> Jet {
         let slope = 1.0 / (1.0 + self.value * self.value);
-        self.chain(self.value.atan(), slope, -2.0 * self.value * slope * slope)
+        self.chain(libm::atan(self.value), slope, -2.0 * self.value * slope * slope)
     }
 
     pub fn sinh(self) -> Jet {
-        let (s, c) = (self.value.sinh(), self.value.cosh());
+        let (s, c) = (libm::sinh(self.value), libm::cosh(self.value));
         self.chain(s, c, s)
     }
 
     pub fn cosh(self) -> Jet {
-        let (s, c) = (self.value.sinh(), self.value.cosh());
+        let (s, c) = (libm::sinh(self.value), libm::cosh(self.value));
         self.chain(c, s, c)
     }
 
     pub fn tanh(self) -> Jet {
-        let y = self.value.tanh();
+        let y = libm::tanh(self.value);
         let slope = (1.0 - y) * (1.0 + y);
         self.chain(y, slope, -2.0 * y * slope)
     }
 
     pub fn exp(self) -> Jet {
-        let y = self.value.exp();
+        let y = libm::exp(self.value);
         self.chain(y, y, y)
     }
 
     pub fn ln(self) -> Jet {
         let slope = 1.0 / self.value;
-        self.chain(self.value.ln(), slope, -slope * slope)
+        self.chain(libm::log(self.value), slope, -slope * slope)
     }
 
     pub fn log10(self) -> Jet {
         let slope = std::f64::consts::LOG10_E / self.value;
-        self.chain(self.value.log10(), slope, -slope / self.value)
+        self.chain(libm::log10(self.value), slope, -slope / self.value)
     }
 
     pub fn sqrt(self) -> Jet {

@@ -14,7 +14,7 @@ pub use polyline::Polyline;
 pub use simple::{Constant, Ramp, SpinUp};
 pub use table::{End, Table};
 
-/// A function f of time t [s], smooth between its [`breaks`](Profile::breaks).
+/// A function f of time t \[s\], smooth between its [`breaks`](Profile::breaks).
 pub trait Profile: Send + Sync + std::fmt::Debug {
     /// f(t).
     fn value(&self, t: f64) -> f64;
@@ -28,7 +28,7 @@ pub trait Profile: Send + Sync + std::fmt::Debug {
     /// ∫₀ᵗ f dt [times s].
     fn integral(&self, t: f64) -> f64;
 
-    /// Times at which f, f′ or f″ jumps or kinks, ascending [s].
+    /// Times at which f, f′ or f″ jumps or kinks, ascending \[s\].
     fn breaks(&self) -> &[f64] {
         &[]
     }
@@ -78,7 +78,7 @@ pub enum ProfileError {
     Row {
         /// Row, from 1.
         row: usize,
-        /// Its time [s].
+        /// Its time \[s\].
         time: f64,
         /// Its value.
         value: f64,
@@ -112,9 +112,9 @@ pub enum ProfileError {
         what: &'static str,
         /// Its value.
         value: f64,
-        /// Time [s].
+        /// Time \[s\].
         time: f64,
-        /// Duration of the run [s].
+        /// Duration of the run \[s\].
         duration: f64,
     },
     /// A prescribed motion is not a finite number at some time.
@@ -124,7 +124,7 @@ pub enum ProfileError {
         quantity: &'static str,
         /// Its value.
         value: f64,
-        /// Time [s].
+        /// Time \[s\].
         time: f64,
     },
     /// A prescribed angle jumps.
@@ -134,22 +134,22 @@ pub enum ProfileError {
     AngleJumps {
         /// Time \[s\].
         time: f64,
-        /// Size of the jump [rad].
+        /// Size of the jump \[rad\].
         size: f64,
     },
     /// The run leaves the times at which the profile is given.
     #[error("the profile is given from {first} s to {last} s and the run needs it from 0 s to {duration} s")]
     OutOfRange {
-        /// First time [s].
+        /// First time \[s\].
         first: f64,
-        /// Last time [s].
+        /// Last time \[s\].
         last: f64,
-        /// Duration of the run [s].
+        /// Duration of the run \[s\].
         duration: f64,
     },
 }
 
-/// Whether a profile covers a run from 0 to `duration` [s].
+/// Whether a profile covers a run from 0 to `duration` \[s\].
 ///
 /// # Errors
 /// [`ProfileError::OutOfRange`] if it does not.

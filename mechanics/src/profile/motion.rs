@@ -6,7 +6,7 @@ use std::sync::Arc;
 /// Angle, speed and acceleration of the hub at one time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct HubKinematics {
-    /// Angle θ [rad].
+    /// Angle θ \[rad\].
     pub angle: f64,
     /// Speed θ̇ [rad/s].
     pub speed: f64,
@@ -21,7 +21,7 @@ pub enum Motion {
     Speed {
         /// Speed f [rad/s] against time.
         profile: Arc<dyn Profile>,
-        /// Angle θ₀ at t = 0 [rad].
+        /// Angle θ₀ at t = 0 \[rad\].
         initial_angle: f64,
     },
     /// The angle: θ = f, θ̇ = f′, θ̈ = f″.
@@ -32,7 +32,7 @@ pub enum Motion {
 const SAMPLES: usize = 4096;
 
 impl Motion {
-    /// Angle, speed and acceleration at time `t` [s].
+    /// Angle, speed and acceleration at time `t` \[s\].
     pub fn at(&self, t: f64) -> HubKinematics {
         match self {
             Motion::Speed { profile, initial_angle } => HubKinematics {
@@ -48,12 +48,12 @@ impl Motion {
         }
     }
 
-    /// Times at which the motion loses smoothness, ascending [s].
+    /// Times at which the motion loses smoothness, ascending \[s\].
     pub fn breaks(&self) -> &[f64] {
         self.profile().breaks()
     }
 
-    /// Largest |θ̇| [rad/s] from 0 to `duration` [s], among 4096 equal intervals and the breaks.
+    /// Largest |θ̇| [rad/s] from 0 to `duration` \[s\], among 4096 equal intervals and the breaks.
     pub fn max_speed(&self, duration: f64) -> f64 {
         let speed = |t: f64| self.at(t).speed.abs();
         let samples = self.samples(duration).map(speed);
@@ -63,7 +63,7 @@ impl Motion {
         samples.chain(breaks).fold(0.0, f64::max)
     }
 
-    /// Whether the motion is given, and finite, all through a run from 0 to `duration` [s].
+    /// Whether the motion is given, and finite, all through a run from 0 to `duration` \[s\].
     ///
     /// # Errors
     /// [`ProfileError::OutOfRange`], [`ProfileError::Motion`] with what is not finite and when, or

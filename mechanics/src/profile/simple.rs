@@ -47,7 +47,7 @@ pub struct Ramp {
 }
 
 impl Ramp {
-    /// From `from` at t = 0 to `to` at t = `time` [s].
+    /// From `from` at t = 0 to `to` at t = `time` \[s\].
     ///
     /// # Errors
     /// [`ProfileError::Quantity`] if a value is not finite or the time is not positive.
@@ -101,7 +101,7 @@ pub struct SpinUp {
 }
 
 impl SpinUp {
-    /// Up to `value` Ω in the time `time` T [s].
+    /// Up to `value` Ω in the time `time` T \[s\].
     ///
     /// # Errors
     /// [`ProfileError::Quantity`] if Ω is not finite or T is not positive.
@@ -115,25 +115,25 @@ impl SpinUp {
 impl Profile for SpinUp {
     fn value(&self, t: f64) -> f64 {
         let s = (t / self.breaks[0]).clamp(0.0, 1.0);
-        if s >= 1.0 { self.value } else { self.value * (s - (TAU * s).sin() / TAU) }
+        if s >= 1.0 { self.value } else { self.value * (s - libm::sin(TAU * s) / TAU) }
     }
 
     fn rate(&self, t: f64) -> f64 {
         let time = self.breaks[0];
         let s = (t / time).clamp(0.0, 1.0);
-        if s >= 1.0 { 0.0 } else { self.value / time * 2.0 * (PI * s).sin().powi(2) }
+        if s >= 1.0 { 0.0 } else { self.value / time * 2.0 * libm::sin(PI * s).powi(2) }
     }
 
     fn acceleration(&self, t: f64) -> f64 {
         let time = self.breaks[0];
         let s = (t / time).clamp(0.0, 1.0);
-        if s >= 1.0 { 0.0 } else { self.value / (time * time) * TAU * (TAU * s).sin() }
+        if s >= 1.0 { 0.0 } else { self.value / (time * time) * TAU * libm::sin(TAU * s) }
     }
 
     fn integral(&self, t: f64) -> f64 {
         let time = self.breaks[0];
         let s = (t / time).clamp(0.0, 1.0);
-        let wave = (PI * s).sin() / PI;
+        let wave = libm::sin(PI * s) / PI;
         self.value * time * 0.5 * (s * s - wave * wave) + self.value * (t - time).max(0.0)
     }
 

@@ -34,7 +34,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// The spline through at least 3 rows (t [s], f) with strictly ascending finite times.
+    /// The spline through at least 3 rows (t \[s\], f) with strictly ascending finite times.
     ///
     /// # Errors
     /// [`ProfileError::Row`] or [`ProfileError::TooFewRows`].

@@ -9,7 +9,7 @@ use super::{Resultants, Section, SectionError, Shape, positive};
 pub struct BladeResultants {
     /// Mass per length ρA [kg/m].
     pub mass: f64,
-    /// Axial stiffness EA [N].
+    /// Axial stiffness EA \[N\].
     pub axial_stiffness: f64,
     /// Stiffness against bending in the direction of ζ, ∫E ζ² dA [N·m²].
     pub flap_stiffness: f64,
@@ -21,7 +21,7 @@ pub struct BladeResultants {
     pub flap_inertia: f64,
     /// ∫ρ η² dA [kg·m].
     pub chord_inertia: f64,
-    /// Angle θ of η from the direction of motion, about the axis towards the tip [rad].
+    /// Angle θ of η from the direction of motion, about the axis towards the tip \[rad\].
     pub twist: f64,
     /// dθ/dx [rad/m].
     pub twist_rate: f64,
@@ -66,7 +66,7 @@ impl BladeResultants {
 
 /// The sections of a blade.
 pub trait BladeSection: Send + Sync + std::fmt::Debug {
-    /// Resultants at station `x` [m].
+    /// Resultants at station `x` \[m\].
     fn resultants(&self, x: f64) -> BladeResultants;
 
     /// Stations inside (0, L) at which the resultants jump or kink, ascending.
@@ -96,7 +96,7 @@ pub struct HomogeneousBlade<F> {
 }
 
 impl<F: Fn(f64) -> Shape + Send + Sync> HomogeneousBlade<F> {
-    /// A blade of Young's modulus E [Pa], density ρ [kg/m³] and Poisson's ratio ν whose shape at x [m] is
+    /// A blade of Young's modulus E \[Pa\], density ρ [kg/m³] and Poisson's ratio ν whose shape at x \[m\] is
     /// `shape(x)`; width across, height in the plane of motion. G = E/(2(1 + ν)).
     ///
     /// # Errors
@@ -186,7 +186,7 @@ pub struct Guided<B>(pub B);
 impl<B: BladeSection> Section for Guided<B> {
     fn resultants(&self, x: f64) -> Resultants {
         let r = self.0.resultants(x);
-        let (sin, cos) = r.twist.sin_cos();
+        let (sin, cos) = libm::sincos(r.twist);
         let in_plane = |chord: f64, flap: f64| chord * cos * cos + flap * sin * sin;
         Resultants {
             mass: r.mass,
@@ -239,7 +239,7 @@ pub struct BladeTable {
 }
 
 impl BladeTable {
-    /// The blade through rows (x [m], resultants) over the given length [m]; `twist_rate` of a row is not read.
+    /// The blade through rows (x \[m\], resultants) over the given length \[m\]; `twist_rate` of a row is not read.
     ///
     /// # Errors
     /// [`SectionError::Invalid`] names the row if there are fewer than two, if stations do not ascend (three

@@ -23,13 +23,13 @@ use super::{Inertia, Resultants, Section, SectionError, positive};
 /// A homogeneous elastic material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
-    /// Young's modulus E [Pa].
+    /// Young's modulus E \[Pa\].
     pub modulus: f64,
     /// Density ρ [kg/m³].
     pub density: f64,
 }
 
-/// A graded rectangular section. See the [module documentation](self) for the law and its resultants.
+/// A graded rectangular section. The law and its resultants head the source file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Graded {
     ceramic: Material,
@@ -100,19 +100,19 @@ impl Graded {
         Graded { kept: inertia.of(self.full), ..self }
     }
 
-    /// Young's modulus E [Pa] at height `y` [m], |y| ≤ h/2.
+    /// Young's modulus E \[Pa\] at height `y` \[m\], |y| ≤ h/2.
     pub fn modulus(&self, y: f64) -> f64 {
         (self.ceramic.modulus - self.metal.modulus) * self.share(y) + self.metal.modulus
     }
 
-    /// Density ρ [kg/m³] at height `y` [m], |y| ≤ h/2.
+    /// Density ρ [kg/m³] at height `y` \[m\], |y| ≤ h/2.
     pub fn density(&self, y: f64) -> f64 {
         (self.ceramic.density - self.metal.density) * self.share(y) + self.metal.density
     }
 
     /// Volume share of the ceramic (y/h + ½)ᴺ.
     fn share(&self, y: f64) -> f64 {
-        (y / self.height + 0.5).clamp(0.0, 1.0).powf(self.exponent)
+        libm::pow((y / self.height + 0.5).clamp(0.0, 1.0), self.exponent)
     }
 }
 

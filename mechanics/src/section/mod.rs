@@ -22,11 +22,11 @@ pub use uniform::Uniform;
 pub struct Resultants {
     /// Mass per length ρA = ∫ρ dA [kg/m].
     pub mass: f64,
-    /// First mass moment ρS = ∫ρ y dA [kg]; 0 where it is left out.
+    /// First mass moment ρS = ∫ρ y dA \[kg\]; 0 where it is left out.
     pub first_moment: f64,
     /// Rotary inertia ρI = ∫ρ y² dA [kg·m]; 0 where it is left out.
     pub rotary_inertia: f64,
-    /// Axial stiffness EA = ∫E dA [N].
+    /// Axial stiffness EA = ∫E dA \[N\].
     pub axial_stiffness: f64,
     /// Coupling stiffness ES = ∫E y dA [N·m].
     pub coupling_stiffness: f64,
@@ -150,8 +150,43 @@ fn positive(quantity: &'static str, unit: &'static str, value: f64) -> Result<()
 }
 
 /// A cross-section along the beam.
+///
+/// A section of one's own, here a square bar whose sides narrow as e^(−x/h), is checked by
+/// [`verify::section`](fn@crate::verify::section):
+///
+/// ```
+/// use flexion::section::{Resultants, Section};
+///
+/// #[derive(Debug)]
+/// struct Horn {
+///     root_side: f64,
+///     h: f64,
+/// }
+///
+/// impl Section for Horn {
+///     fn resultants(&self, x: f64) -> Resultants {
+///         let (modulus, density) = (70e9, 2700.0);
+///         let side = self.root_side * (-x / self.h).exp();
+///         let (area, second_moment) = (side.powi(2), side.powi(4) / 12.0);
+///         Resultants {
+///             mass: density * area,
+///             rotary_inertia: density * second_moment,
+///             axial_stiffness: modulus * area,
+///             bending_stiffness: modulus * second_moment,
+///             ..Resultants::default()
+///         }
+///     }
+///     fn fibres(&self, x: f64) -> Option<(f64, f64)> {
+///         let side = self.root_side * (-x / self.h).exp();
+///         Some((-0.5 * side, 0.5 * side))
+///     }
+/// }
+///
+/// let own = Horn { root_side: 0.1, h: 8.0 };
+/// assert_eq!(flexion::verify::section(&own, 10.0), []);
+/// ```
 pub trait Section: Send + Sync + std::fmt::Debug {
-    /// Resultants at station `x` [m].
+    /// Resultants at station `x` \[m\].
     fn resultants(&self, x: f64) -> Resultants;
 
     /// Stations inside (0, L) at which the resultants jump or kink: cells end there.

@@ -5,7 +5,7 @@ use super::{Resultants, Section, SectionError, Uniform};
 /// A part of a beam with one section.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Segment {
-    /// Station at which it ends [m].
+    /// Station at which it ends \[m\].
     pub end: f64,
     /// Its section.
     pub section: Uniform,
@@ -19,7 +19,7 @@ pub struct Piecewise {
 }
 
 impl Piecewise {
-    /// Segments over a beam of the given length [m], whose ends ascend from above 0 to that length.
+    /// Segments over a beam of the given length \[m\], whose ends ascend from above 0 to that length.
     ///
     /// # Errors
     /// [`SectionError::Invalid`] if there is no segment, if the ends do not ascend, or if the last one is off

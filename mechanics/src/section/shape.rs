@@ -8,21 +8,21 @@ use std::f64::consts::PI;
 pub enum Shape {
     /// A solid rectangle: A = b h, I = b h³/12.
     Rectangle {
-        /// Width b, across the plane of motion [m].
+        /// Width b, across the plane of motion \[m\].
         width: f64,
-        /// Height h, in the plane of motion [m].
+        /// Height h, in the plane of motion \[m\].
         height: f64,
     },
     /// A solid circle: A = π r², I = π r⁴/4.
     Circle {
-        /// Radius r [m].
+        /// Radius r \[m\].
         radius: f64,
     },
     /// A round tube: A = π (R² − r²), I = π (R⁴ − r⁴)/4.
     Tube {
-        /// Outer radius R [m].
+        /// Outer radius R \[m\].
         outer_radius: f64,
-        /// Inner radius r [m], 0 ≤ r < R.
+        /// Inner radius r \[m\], 0 ≤ r < R.
         inner_radius: f64,
     },
     /// A solid ellipse: A = π a b, I = π a b³/4, J = π a³ b³/(a² + b²).
@@ -123,7 +123,7 @@ impl Shape {
         self.properties().area
     }
 
-    /// Second moment of area I = ∫ y² dA for bending in the plane of motion [m⁴].
+    /// Second moment of area I = ∫ y² dA for bending in the plane of motion \[m⁴\].
     pub fn second_moment(&self) -> f64 {
         self.properties().second_moment
     }
@@ -150,7 +150,7 @@ impl Shape {
         }
     }
 
-    /// Heights of the lower and upper fibre [m].
+    /// Heights of the lower and upper fibre \[m\].
     pub fn fibres(&self) -> (f64, f64) {
         let half = self.properties().half_height;
         (-half, half)

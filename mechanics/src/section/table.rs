@@ -27,7 +27,7 @@ pub enum Interpolation {
 /// Stations between two rows at which the resultants of cubics are checked.
 const CHECKS: usize = 8;
 
-/// A tabulated section. See the [module documentation](self).
+/// A tabulated section. Its formulas head the source file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
     stations: Vec<f64>,
@@ -40,7 +40,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// The section through rows (x [m], resultants) over a beam of the given length [m].
+    /// The section through rows (x \[m\], resultants) over a beam of the given length \[m\].
     ///
     /// # Errors
     /// [`SectionError::Invalid`] if there are fewer than two rows, if the stations do not ascend (three rows

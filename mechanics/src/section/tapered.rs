@@ -6,7 +6,7 @@
 
 use super::{Inertia, Resultants, Section, SectionError, Shape, positive};
 
-/// A tapered section. See the [module documentation](self).
+/// A tapered section. Its formulas head the source file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tapered {
     modulus: f64,
@@ -54,7 +54,7 @@ impl Tapered {
         Tapered { inertia, ..self }
     }
 
-    /// The shape at station `x` [m].
+    /// The shape at station `x` \[m\].
     pub fn shape(&self, x: f64) -> Shape {
         let s = (x / self.length).clamp(0.0, 1.0);
         // Two kinds are refused by `new`.

@@ -49,7 +49,7 @@ impl Uniform {
         Uniform { kept: inertia.of(self.full), ..self }
     }
 
-    /// The same section with its lower and upper fibre at the given heights [m], for recovering strains.
+    /// The same section with its lower and upper fibre at the given heights \[m\], for recovering strains.
     pub fn with_fibres(self, lower: f64, upper: f64) -> Uniform {
         Uniform { fibres: Some((lower, upper)), ..self }
     }

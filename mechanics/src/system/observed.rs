@@ -91,11 +91,11 @@ pub enum Role {
     /// Only recorded, e.g. at a station.
     #[default]
     Detail,
-    /// A part of the total energy [J]: all parts together are [`Energy::total`].
+    /// A part of the total energy \[J\]: all parts together are [`Energy::total`].
     Energy,
-    /// The total energy, work, or a loss [J].
+    /// The total energy, work, or a loss \[J\].
     Work,
-    /// Error of the energy balance, E(t) − E(0) − work + losses [J]: zero if exact.
+    /// Error of the energy balance, E(t) − E(0) − work + losses \[J\]: zero if exact.
     Imbalance,
     /// Describes the time integration, not the motion.
     Integration,

@@ -28,7 +28,7 @@ pub enum RunError {
     /// The model left its range.
     #[error("the run broke down at t = {time:.4} s: {what}{}", because(.reason))]
     Inadmissible {
-        /// Time [s].
+        /// Time \[s\].
         time: f64,
         /// What is out of range.
         what: String,

@@ -25,16 +25,16 @@ const SMALLEST_SAMPLE: f64 = 1e-9;
 /// What a run is asked to do.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
-    /// End of the run [s].
+    /// End of the run \[s\].
     pub end: f64,
-    /// Step of a fixed-step method [s]: each stretch between breaks is divided into the
+    /// Step of a fixed-step method \[s\]: each stretch between breaks is divided into the
     /// fewest equal steps not longer than it.
     /// For an adaptive method, its first step; `None` lets the method choose.
     pub step: Option<f64>,
-    /// Longest step of an adaptive method [s]; `None` for two recording intervals, or a hundredth of the run if
+    /// Longest step of an adaptive method \[s\]; `None` for two recording intervals, or a hundredth of the run if
     /// that is shorter.
     pub longest_step: Option<f64>,
-    /// Interval of recording [s]; the end is recorded too.
+    /// Interval of recording \[s\]; the end is recorded too.
     pub sample: f64,
 }
 

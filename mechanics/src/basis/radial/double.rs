@@ -38,7 +38,7 @@ impl Double {
 
     /// x^y for x > 0.
     pub(super) fn pow(self, y: f64) -> Double {
-        (self.ln() * y.into()).exp()
+        Double::exp(self.ln() * y.into())
     }
 
     /// eˣ = 2ᵏ (e^{r/8})⁸ with |r| ≤ ½ ln 2; the squarings keep e^{…} − 1.
@@ -53,13 +53,13 @@ impl Double {
         for _ in 0..3 {
             sum = sum + sum + sum * sum;
         }
-        (sum + Double::ONE) * k.exp2().into()
+        (sum + Double::ONE) * libm::exp2(k).into()
     }
 
     /// ln x for x > 0: one step of Newton's method on e^y = x from the double result.
     fn ln(self) -> Double {
-        let y = Double::from(self.high.ln());
-        y + (self * (-y).exp() - Double::ONE)
+        let y = Double::from(libm::log(self.high));
+        y + (self * Double::exp(-y) - Double::ONE)
     }
 }
 

@@ -51,7 +51,7 @@ impl RadialParameters {
     }
 }
 
-/// Radial point interpolation on [0, L]. See the [module documentation](self).
+/// Radial point interpolation on [0, L]. Its formulas head the source file.
 #[derive(Clone, Debug)]
 pub struct Radial {
     cells: Vec<f64>,
@@ -65,7 +65,7 @@ pub struct Radial {
 }
 
 impl Radial {
-    /// The basis on a beam of the given length [m].
+    /// The basis on a beam of the given length \[m\].
     ///
     /// # Errors
     /// [`BasisError::Invalid`] if the length or a parameter is out of its range;

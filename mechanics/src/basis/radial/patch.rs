@@ -157,13 +157,13 @@ impl Layout {
         for p in 0..terms {
             let angle = PI * (p as f64 + 0.5) / terms as f64;
             for d in 0..DERIVATIVES {
-                self.functions_at((0.5 * angle.cos()).into(), d, &mut basis);
+                self.functions_at((0.5 * libm::cos(angle)).into(), d, &mut basis);
                 for k in 0..functions {
                     let sum = (0..n).fold(Double::ZERO, |sum, l| sum + basis[l] * inverse[l * n + k]);
                     let start = (d * functions + k) * terms;
                     for (m, c) in series[start..start + terms].iter_mut().enumerate() {
                         let weight = if m == 0 { 1.0 } else { 2.0 } / terms as f64;
-                        *c += weight * sum.value() * (m as f64 * angle).cos();
+                        *c += weight * sum.value() * libm::cos(m as f64 * angle);
                     }
                 }
             }

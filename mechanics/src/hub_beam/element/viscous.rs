@@ -33,7 +33,7 @@ type Hessian = [[f64; 4]; 4];
 
 /// ε = |p′| − 1: gradient and Hessian by (X′, Y′).
 fn axial_strain(x: f64, y: f64) -> ([f64; 4], Hessian) {
-    let l = x.hypot(y);
+    let l = libm::hypot(x, y);
     let (tx, ty) = (x / l, y / l);
     let mut h = [[0.0; 4]; 4];
     (h[0][0], h[0][1], h[1][0], h[1][1]) = (ty * ty / l, -tx * ty / l, -tx * ty / l, tx * tx / l);

@@ -43,7 +43,7 @@ use tangent::Tangent;
 /// Largest number of elements or cells of a basis: the full tangent of 300 has about a million entries.
 pub const MOST_ELEMENTS: usize = 300;
 
-/// A beam with the foreshortening to every order. See the [module documentation](self).
+/// A beam with the foreshortening to every order. Its formulas head the source file.
 #[derive(Debug)]
 pub struct HighCoupling {
     /// The part that is quadratic in the unknowns.
@@ -70,7 +70,7 @@ impl HighCoupling {
     /// Whether a basis has few enough elements for a full tangent.
     ///
     /// # Errors
-    /// [`BasisError`] if it has more than [`MOST_ELEMENTS`].
+    /// [`BasisError`] if it has more than `MOST_ELEMENTS`.
     pub fn validate(basis: &dyn Basis) -> Result<(), BasisError> {
         let elements = basis.cells().len().saturating_sub(1);
         if elements <= MOST_ELEMENTS {

@@ -25,7 +25,7 @@ pub struct Gravity {
 
 impl Load for Gravity {
     fn group(&self, site: &Site<'_>) -> Group {
-        let (sin, cos) = self.direction.sin_cos();
+        let (sin, cos) = libm::sincos(self.direction);
         let force = [self.acceleration * cos, self.acceleration * sin];
         let Beam { section, masses, .. } = site.beam;
         let points: Vec<(f64, f64)> = masses.iter().map(|m| (m.station, m.mass)).collect();

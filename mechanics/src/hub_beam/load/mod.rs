@@ -9,7 +9,7 @@
 //! Q_q = f [ d_x ∂C_x/∂q + d_y ∂C_y/∂q ],   Q_θ = f [ d_y C_x − d_x C_y ],   C_x = ∫p X dx,  C_y = ∫p Y dx
 //! ```
 //!
-//! Each kind of load is made into a [`Group`](group::Group) when a system is built: the shapes are
+//! Each kind of load is made into a `Group` when a system is built: the shapes are
 //! evaluated then and not in a run. How C depends on q is the coupling's [`Kinematics`]:
 //!
 //! | kinematics | X − a − x, Y | C | section |
@@ -144,7 +144,7 @@ impl Loads {
         self.dampers.iter().map(|d| (1.0 - self.missing) * d.dissipated(s, hub)).sum()
     }
 
-    /// Potential energy of gravity [J].
+    /// Potential energy of gravity \[J\].
     pub fn gravity(&mut self, s: &State, hub: &HubKinematics) -> f64 {
         self.stored(Store::Gravity, s, hub)
     }

@@ -65,7 +65,7 @@ impl OnSection {
         let field = |c: usize, d: usize| self.shapes[c].field(d, &s.q);
         let position = [self.origin + field(0, 0), field(1, 0)];
         let (x1, y1) = (1.0 + field(0, 1), field(1, 1));
-        let stretch = x1.hypot(y1);
+        let stretch = libm::hypot(x1, y1);
         let t = [x1 / stretch, y1 / stretch];
         let n = [-t[1], t[0]];
         let p = self.share;

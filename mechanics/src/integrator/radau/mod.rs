@@ -85,7 +85,7 @@ impl Tolerance {
     }
 }
 
-/// The 3-stage Radau IIA method. See the [module documentation](self).
+/// The 3-stage Radau IIA method. Its formulas head the source file.
 #[derive(Debug)]
 pub struct Radau {
     info: Info,

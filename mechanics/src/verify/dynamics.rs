@@ -1,44 +1,10 @@
-//! Conformance checks of models: what every [`System`] must satisfy, by differences.
-//!
-//! | check | equation |
-//! |---|---|
-//! | tangent | ∂r/∂a, ∂r/∂v, ∂r/∂q against differences of r |
-//! | multipliers | r(λ + δ) − r(λ) = −Gᵀ δ |
-//! | jacobian | ġ(v + δ) − ġ(v) = G δ |
-//! | rates of constraints | ġ = dg/dt, g̈ = dġ/dt along a motion |
-//! | configuration | (q ⊞ d) ⊟ q = d |
-//! | rate | q ⊞ (d + ḋ dt) = (q ⊞ d) ⊞ v dt with ḋ = T(d)⁻¹ v |
-//! | power | dE/dt = P along the motion that the equations ask for |
-//!
-//! A model of your own is checked by [`dynamics`] at a few states that are not special (no zeros, no symmetry).
+//! A model's equations, by differences.
 
+use super::{ALLOWED, Defect};
 use crate::integrator::{GeneralizedAlpha, Integrator};
 use crate::linalg::Matrix;
 use crate::system::{RowWeights, State, System, Weights};
-use std::fmt;
 
-/// A check that a model does not pass.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Defect {
-    /// Which check.
-    pub check: &'static str,
-    /// Where: the names of the unknowns concerned.
-    pub place: String,
-    /// What the model gives.
-    pub found: f64,
-    /// What differences give.
-    pub expected: f64,
-}
-
-impl fmt::Display for Defect {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Defect { check, place, found, expected } = self;
-        write!(f, "{check}: {place} is {found:e} and by differences {expected:e}")
-    }
-}
-
-/// Relative error of a difference that is allowed: truncation and rounding of a formula of order 4.
-const ALLOWED: f64 = 2e-6;
 /// Increment of an unknown for differences, over its scale.
 const INCREMENT: f64 = 1e-3;
 
@@ -49,7 +15,7 @@ struct Checker<'a> {
     defects: Vec<Defect>,
 }
 
-/// Runs all checks of `system` at the state `s`; empty if it passes. Accelerations and multipliers of `s` are used as
+/// Checks the model `system` at the state `s`; the result is empty if it passes. Accelerations and multipliers of `s` are used as
 /// they are, but for the power, where they are replaced by consistent ones.
 pub fn dynamics(system: &mut dyn System, s: &State) -> Vec<Defect> {
     let scales = system.scales().to_vec();
@@ -192,7 +158,7 @@ impl Checker<'_> {
 
     fn configuration(&mut self, s: &State) {
         let n = s.v.len();
-        let d: Vec<f64> = (0..n).map(|i| 0.3 * self.scales[i] * (1.7 * i as f64 + 0.4).sin()).collect();
+        let d: Vec<f64> = (0..n).map(|i| 0.3 * self.scales[i] * libm::sin(1.7 * i as f64 + 0.4)).collect();
         let (mut q, mut back) = (s.q.clone(), vec![0.0; n]);
         self.system.retract(&s.q, &d, &mut q);
         self.system.difference(&s.q, &q, &mut back);

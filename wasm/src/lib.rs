@@ -1,0 +1,126 @@
+//! The mechanics of [`flexion`] in WebAssembly: a beam of 10 m on a hub that spins up to 4 rad/s in 15 s
+//! (`verification/p1_spin_up_4`), with the first-order coupling, run for 20 s by [`Radau`].
+//!
+//! The module imports nothing. Its [exports] run the case and hand out the trajectory in linear memory;
+//! `compare.mjs` reads it and holds it to that of the native program.
+
+// A `no_mangle` name counts as unsafe code, for two libraries might export the same one.
+#[allow(unsafe_code)]
+pub mod exports;
+
+use flexion::analysis::transient::{Ending, Observer, Plan, Step, transient};
+use flexion::basis::{Field, Hermite, Lagrange};
+use flexion::hub_beam::{Drive, Fields, Foreshortening, Hub, HubBeam, LinearCoupling};
+use flexion::integrator::{Radau, Tolerance};
+use flexion::profile::{Motion, SpinUp};
+use flexion::section::{Resultants, Section, Uniform};
+use flexion::system::{Dynamics, Observed, State, System};
+use std::error::Error;
+use std::sync::Arc;
+
+/// Length L of the beam \[m\].
+const LENGTH: f64 = 10.0;
+
+/// A recorded run.
+#[derive(Debug, Default)]
+pub struct Trajectory {
+    /// Names of the columns with their units, separated by commas, as in `trajectory.csv`; the reason if the run failed.
+    pub heading: String,
+    /// Number of columns, the time included.
+    pub columns: usize,
+    /// The values in SI units, row after row.
+    pub values: Vec<f64>,
+}
+
+/// Names and units of the columns after those of the system.
+const COMMON: [(&str, &str); 7] = [
+    ("energy.total", "J"),
+    ("energy.drive", "J"),
+    ("energy.loads", "J"),
+    ("energy.dissipated", "J"),
+    ("energy.balance", "J"),
+    ("step.size", "s"),
+    ("step.iterations", ""),
+];
+
+impl Observer for Trajectory {
+    fn wants_energy_balance(&self) -> bool {
+        true
+    }
+
+    fn sample(&mut self, system: &mut dyn System, state: &State, step: &Step) {
+        self.values.push(state.t);
+        let start = self.values.len();
+        self.values.resize(start + system.channels().len(), 0.0);
+        system.record(state, &mut self.values[start..]);
+        let total = system.energy(state).total();
+        let balance = step.balance.unwrap_or_default();
+        self.values.extend([
+            total,
+            balance.drive,
+            balance.loads,
+            balance.dissipated,
+            balance.imbalance(total),
+        ]);
+        self.values.extend([step.size, f64::from(step.iterations)]);
+    }
+}
+
+/// Runs the case with so many finite elements.
+///
+/// # Errors
+/// When there is no element, or the run does not come to its end.
+pub fn spin_up(elements: usize) -> Result<Trajectory, Box<dyn Error>> {
+    let (modulus, density, area, second_moment) = (70e9, 3000.0, 4e-4, 2e-7);
+    let section = Uniform::from_resultants(Resultants {
+        mass: density * area,
+        axial_stiffness: modulus * area,
+        bending_stiffness: modulus * second_moment,
+        ..Resultants::default()
+    })?;
+    let axial = Lagrange::new(LENGTH, elements, 1)?;
+    let transverse = Hermite::new(LENGTH, elements, Field::Transverse)?;
+    let fields = Fields::new(LENGTH, Box::new(axial), Box::new(transverse), section.breaks());
+    let motion = Motion::Speed { profile: Arc::new(SpinUp::new(4.0, 15.0)?), initial_angle: 0.0 };
+    let hub = Hub { radius: 0.0, inertia: 0.0, drive: Drive::Prescribed(motion) };
+    let coupling = LinearCoupling::new(fields, &section, &hub, Foreshortening::First);
+    let mut system = HubBeam::new(hub, coupling, &[]);
+    let mut integrator = Radau::new(Tolerance { relative: 1e-6, absolute: 1e-8 })?;
+    let plan = Plan { end: 20.0, step: None, longest_step: None, sample: 0.02 };
+
+    let own = system.channels().iter().map(|c| (c.name.as_str(), c.unit));
+    let columns: Vec<_> = std::iter::once(("time", "s")).chain(own).chain(COMMON).collect();
+    let names: Vec<String> = columns
+        .iter()
+        .map(|(name, unit)| if unit.is_empty() { (*name).to_owned() } else { format!("{name} [{unit}]") })
+        .collect();
+    let mut trajectory = Trajectory { heading: names.join(","), columns: columns.len(), values: Vec::new() };
+    let mut state = system.initial();
+    match transient(&mut system, &mut integrator, &mut state, &plan, &mut trajectory) {
+        Ending::Finished => Ok(trajectory),
+        Ending::Stopped => Err("the run was stopped".into()),
+        Ending::Failed(error) => Err(error.into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Against the same equations, coded independently: `verification/p1_spin_up_4/expected.toml`.
+    #[test]
+    fn the_tip_lags_by_two_fifths_of_a_metre_at_most() {
+        assert_eq!(exports::flexion_run(10), 1001);
+        let trajectory = spin_up(10).unwrap();
+        assert_eq!(exports::flexion_columns(), trajectory.columns);
+        let column = trajectory.heading.split(',').position(|name| name == "tip.deflection [m]").unwrap();
+        let deflection = trajectory.values.chunks(trajectory.columns).map(|row| row[column]);
+        let smallest = deflection.fold(0.0, f64::min);
+        assert!((smallest + 0.400337212).abs() < 4e-6, "{smallest}");
+    }
+
+    #[test]
+    fn a_case_that_cannot_run_says_why() {
+        assert!(spin_up(0).unwrap_err().to_string().contains("at least one cell"));
+    }
+}
