@@ -251,7 +251,6 @@ fn channels(stations: &[Station]) -> Vec<Channel> {
     let mut add = |role, name: String, unit: &'static str, meaning: String| {
         channels.push(Channel { name, unit, meaning, role });
     };
-    // The tip first.
     for station in stations.iter().rev().take(1).chain(&stations[..stations.len() - 1]) {
         let (name, x) = (&station.name, station.point.x);
         let (displacement, other, at) = match name.as_str() {

@@ -57,7 +57,8 @@ pub struct Local {
 /// The axial and the transverse part of a local vector.
 #[inline(always)]
 fn components(d: &[f64; 8]) -> [[f64; 4]; 2] {
-    [0, 4].map(|first| std::array::from_fn(|k| d[first + k]))
+    let [u0, u1, u2, u3, v0, v1, v2, v3] = *d;
+    [[u0, u1, u2, u3], [v0, v1, v2, v3]]
 }
 
 impl Element {
