@@ -311,8 +311,8 @@ impl Observed for Blade {
 
     fn frames(&mut self, _body: usize, s: &State, stations: &[f64], out: &mut [Frame]) {
         let whole: Vec<f64> = self.steady.iter().zip(&s.q).map(|(a, b)| a + b).collect();
-        let (sin, cos) = self.setting.precone.sin_cos();
-        let (sin_rotation, cos_rotation) = (self.speed * s.t).sin_cos();
+        let (sin, cos) = libm::sincos(self.setting.precone);
+        let (sin_rotation, cos_rotation) = libm::sincos(self.speed * s.t);
         // From the blade's frame through the hub's frame to the inertial frame.
         let inertial = |r: [f64; 3]| {
             let hub = [cos * r[0] - sin * r[2], r[1], sin * r[0] + cos * r[2]];

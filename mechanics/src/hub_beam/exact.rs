@@ -265,7 +265,7 @@ impl Coupling for ExactCoupling {
     fn admissible(&mut self, s: &State) -> Result<(), String> {
         for element in &self.elements {
             let (u, v) = element.end_slopes(&s.q);
-            let strain = (1.0 + u).hypot(v) - 1.0;
+            let strain = libm::hypot(1.0 + u, v) - 1.0;
             // NaN is refused too.
             if !(strain.abs() <= LARGEST_STRAIN) {
                 return Err(format!(

@@ -103,7 +103,7 @@ impl Convergence {
         self.iteration = 0;
         self.fresh = fresh;
         self.rate = 0.0;
-        self.eta = if self.simplified { self.eta.max(f64::EPSILON).powf(self.fading) } else { 1.0 };
+        self.eta = if self.simplified { libm::pow(self.eta.max(f64::EPSILON), self.fading) } else { 1.0 };
     }
 
     /// Forgets the rates of former steps.

@@ -142,7 +142,7 @@ impl Shape {
         match *self {
             Shape::Rectangle { width, height } => {
                 let (a, b) = (width.max(height), width.min(height));
-                let term = |n: f64| (n * PI * a / (2.0 * b)).tanh() / n.powi(5);
+                let term = |n: f64| libm::tanh(n * PI * a / (2.0 * b)) / n.powi(5);
                 let sum: f64 = (0..200).rev().map(|k| term(2.0 * f64::from(k) + 1.0)).sum();
                 a * b.powi(3) / 3.0 * (1.0 - 192.0 / PI.powi(5) * b / a * sum)
             }

@@ -16,7 +16,7 @@
 //! | | quadrature | ∫ φᵢ⁽ᵈ⁾ φⱼ⁽ᵈ⁾ w dx with the points that the basis asks for |
 //! | [`section()`] | energies | ρA, EA, EI > 0, ES² < EA EI, ρS² ≤ ρA ρI |
 //! | | breaks, jumps | ascending, in [0, L], together all places where the resultants are not smooth |
-//! | | masses, fibres | masses on the beam and not negative, lower fibre below the upper |
+//! | | fibres | lower fibre below the upper |
 //!
 //! A model is checked at a few states that are not special (no zeros, no symmetry).
 

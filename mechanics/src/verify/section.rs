@@ -24,7 +24,6 @@ pub fn section(section: &dyn Section, length: f64) -> Vec<Defect> {
         for (number, piece) in ends.windows(2).enumerate() {
             checker.piece(piece[0], piece[1], number + 2 == ends.len());
         }
-        checker.masses();
     }
     checker.defects
 }
@@ -107,20 +106,6 @@ impl Checker<'_> {
             }
         }
     }
-
-    fn masses(&mut self) {
-        for mass in self.section.masses() {
-            let station = mass.station;
-            if !(station >= 0.0 && station <= self.length) {
-                self.report("masses", "the station of a mass".into(), station, self.length);
-            }
-            for (quantity, value) in [("mass", mass.mass), ("moment of inertia", mass.inertia)] {
-                if !(value >= 0.0 && value.is_finite()) {
-                    self.report("masses", format!("the {quantity} at x = {station} m"), value, 0.0);
-                }
-            }
-        }
-    }
 }
 
 /// A resultant of those of a station.
@@ -138,7 +123,7 @@ const QUANTITIES: [(&str, Quantity); 6] = [
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::section::{Laden, Mass, Piecewise, Segment, Shape, Tapered, Uniform};
+    use crate::section::{Piecewise, Segment, Shape, Tapered, Uniform};
 
     /// Unit resultants times a function of the station.
     #[derive(Debug)]
@@ -176,8 +161,6 @@ mod tests {
         let segments = [(0.7, big), (2.0, small)].map(|(end, s)| Segment { end, section: uniform(s) });
         let stepped = Piecewise::new(2.0, segments.to_vec()).unwrap();
         assert_eq!(section(&stepped, 2.0), []);
-        let mass = Mass { station: 2.0, mass: 1.0, inertia: 0.0 };
-        assert_eq!(section(&Laden::new(Box::new(stepped), vec![mass], &[0.3]), 2.0), []);
     }
 
     #[test]

@@ -29,7 +29,7 @@ impl Components {
     pub(super) fn new(force: [f64; 2], axes: Axes, factor: f64, hub: &HubKinematics) -> Components {
         let [x, y] = force.map(|c| factor * c);
         if axes == Axes::Dead {
-            let (sin, cos) = hub.angle.sin_cos();
+            let (sin, cos) = libm::sincos(hub.angle);
             let d = [x * cos + y * sin, y * cos - x * sin];
             return Components { d, by_angle: [d[1], -d[0]], factor };
         }
