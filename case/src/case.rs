@@ -19,7 +19,7 @@ use flexion::hub_beam::{Damping, Drive, Hub};
 pub struct Case {
     /// Title for plots and reports.
     pub title: String,
-    /// Length L of the beam [m].
+    /// Length L of the beam \[m\].
     pub length: f64,
     /// The cross-section.
     pub section: Section,
@@ -39,7 +39,7 @@ pub struct Case {
     pub initial: Initial,
     /// The steps that the integrator takes.
     pub steps: Steps,
-    /// Duration of the run [s].
+    /// Duration of the run \[s\].
     pub duration: f64,
     /// What is recorded.
     pub output: Output,
@@ -48,17 +48,17 @@ pub struct Case {
 /// What is recorded.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Output {
-    /// Interval between records [s].
+    /// Interval between records \[s\].
     pub step: f64,
-    /// Stations along the beam to be recorded besides the tip [m].
+    /// Stations along the beam to be recorded besides the tip \[m\].
     pub stations: Vec<f64>,
     /// Whether axial, shear force and bending moment are recorded at the stations.
     pub section_forces: bool,
-    /// Heights over the axis at which the strain is recorded at the stations [m].
+    /// Heights over the axis at which the strain is recorded at the stations \[m\].
     pub strain_heights: Vec<f64>,
     /// Whether work, losses and the balance of energy are recorded.
     pub energy_balance: bool,
-    /// Interval between shapes of the beam for ParaView [s]; `None` writes none.
+    /// Interval between shapes of the beam for ParaView \[s\]; `None` writes none.
     pub vtk: Option<f64>,
 }
 

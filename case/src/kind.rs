@@ -9,21 +9,21 @@ use std::sync::Arc;
 
 /// What a maker knows of the rest of the case.
 pub struct Context<'a> {
-    /// Length of the beam [m]; `None` if it has a problem of its own.
+    /// Length of the beam \[m\]; `None` if it has a problem of its own.
     pub length: Option<f64>,
-    /// Duration of the run [s]; `None` if it has a problem of its own.
+    /// Duration of the run \[s\]; `None` if it has a problem of its own.
     pub duration: Option<f64>,
     /// The files that the case names.
     pub files: &'a Files<'a>,
 }
 
 impl Context<'_> {
-    /// Length of the beam [m].
+    /// Length of the beam \[m\].
     pub fn length(&self) -> Made<f64> {
         self.length.ok_or_else(Faults::default)
     }
 
-    /// Duration of the run [s].
+    /// Duration of the run \[s\].
     pub fn duration(&self) -> Made<f64> {
         self.duration.ok_or_else(Faults::default)
     }

@@ -94,7 +94,7 @@ fn the_zeroth_order_coupling_diverges_on_every_basis_and_says_why() {
     for (folder, rigidity) in CASES.into_iter().zip([14e3, 14e3, 6e3, 1e3_f64]) {
         let critical = (rigidity / 1.2).sqrt() * (1.875_104_07 / 10.0_f64).powi(2);
         let faster = |message: &str| -> f64 {
-            let rest = message.split("faster than ").nth(1).unwrap();
+            let rest = message.split("the speed of the hub exceeds ").nth(1).unwrap();
             rest.split(' ').next().unwrap().parse().unwrap()
         };
         for basis in [ELEMENTS, RADIAL, &modes(4)] {

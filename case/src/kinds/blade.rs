@@ -27,7 +27,7 @@ pub struct Blade {
 }
 
 impl Blade {
-    /// The blade with its section, on a hub of the given radius [m], at rest.
+    /// The blade with its section, on a hub of the given radius \[m\], at rest.
     ///
     /// # Errors
     /// A fault of the table `blade` when section and setting make no blade.

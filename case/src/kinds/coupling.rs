@@ -24,7 +24,7 @@ pub struct Coupling {
 
 /// What a system is assembled of.
 pub struct Assembly<'a> {
-    /// Length [m].
+    /// Length \[m\].
     pub length: f64,
     /// The section, masses, and stations at which cells end.
     pub beam: &'a hub_beam::Beam<'a>,
@@ -36,11 +36,11 @@ pub struct Assembly<'a> {
     pub loads: &'a [&'a dyn Load],
     /// Damping of the beam.
     pub damping: Damping,
-    /// Stations that are recorded besides the tip [m].
+    /// Stations that are recorded besides the tip \[m\].
     pub stations: &'a [f64],
     /// Whether axial, shear force and bending moment are recorded at the stations.
     pub section_forces: bool,
-    /// Heights over the axis at which the strain is recorded at the stations [m].
+    /// Heights over the axis at which the strain is recorded at the stations \[m\].
     pub strain_heights: &'a [f64],
 }
 

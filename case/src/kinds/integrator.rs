@@ -20,7 +20,7 @@ pub struct Method {
 /// The steps that a case asks for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Steps {
-    /// All steps have this length [s].
+    /// All steps have this length \[s\].
     Fixed(f64),
     /// The method controls its steps, by the tolerances of its table.
     Controlled {
@@ -28,15 +28,15 @@ pub enum Steps {
         tolerance: f64,
         /// Absolute tolerance, in scales of the unknowns.
         absolute_tolerance: f64,
-        /// First step [s]; chosen by the run when `None`.
+        /// First step \[s\]; chosen by the run when `None`.
         first: Option<f64>,
-        /// Largest step [s]; no limit when `None`.
+        /// Largest step \[s\]; no limit when `None`.
         longest: Option<f64>,
     },
 }
 
 impl Steps {
-    /// The fixed step [s]; `None` for step control.
+    /// The fixed step \[s\]; `None` for step control.
     pub fn step(self) -> Option<f64> {
         match self {
             Steps::Fixed(step) => Some(step),

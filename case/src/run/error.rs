@@ -22,6 +22,7 @@
 //! nothing.
 
 use super::Run;
+use super::errors::{ColumnError, Errors};
 use crate::kinds::initial::Initial;
 use crate::kinds::integrator::Steps;
 use crate::problem::Problems;
@@ -44,26 +45,6 @@ const ELEMENTS: usize = 24;
 const BALANCE: &str = "energy.balance";
 /// Part of a column that rounding may have taken.
 const ROUNDING: f64 = 1e-12;
-
-/// Estimated error of one column, in its unit.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ColumnError {
-    /// Name of the column.
-    pub column: String,
-    /// Error of mesh and time integration.
-    pub discretization: f64,
-    /// Difference to the exact coupling, where there is one.
-    pub model: Option<f64>,
-}
-
-/// Estimated errors of a run.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Errors {
-    /// One entry for each column but those that tell of the integrator.
-    pub columns: Vec<ColumnError>,
-    /// What could not be estimated, and why.
-    pub warnings: Vec<String>,
-}
 
 impl Reading {
     /// Runs the companions of a run of this case, and compares. `watch` is shown their progress.

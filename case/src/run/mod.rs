@@ -2,6 +2,7 @@
 
 mod clock;
 pub mod error;
+pub mod errors;
 mod restart;
 
 use super::kinds::initial::Initial;
@@ -10,7 +11,7 @@ use super::problem::Problems;
 use super::reading::{Live, Reading};
 use super::resolved;
 use clock::Clock;
-use error::Errors;
+use errors::Errors;
 use flexion::analysis::equilibrium::equilibrium;
 use flexion::analysis::superposition::superpose;
 use flexion::analysis::transient::{Ending, Plan, resume, transient_to_checkpoint};

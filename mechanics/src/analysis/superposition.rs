@@ -89,7 +89,7 @@ pub enum NoSuperposition {
 }
 
 /// Adds vibrations to `state`, the equilibrium of `system` as it stands: one for each of the modes of smallest |λ|, in
-/// their order. The displacement of a [`Vibration`] is that component of the displacement of the tip, at `length` [m]
+/// their order. The displacement of a [`Vibration`] is that component of the displacement of the tip, at `length` \[m\]
 /// from the root and seen from the root section, which the mode moves most. Returns the modes.
 ///
 /// Valid for vibrations that are small: of a nonlinear model the state is right to first order in them.

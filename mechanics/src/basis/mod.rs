@@ -34,7 +34,7 @@ pub enum Role {
     Slope,
     /// The amplitude \[m\] of a shape.
     Amplitude,
-    /// The displacement [m] of a control point at its anchor.
+    /// The displacement \[m\] of a control point at its anchor.
     Control,
 }
 

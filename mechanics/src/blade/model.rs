@@ -7,7 +7,7 @@ pub struct Setting {
     pub length: f64,
     /// Distance a of the root from the axis of rotation, along the blade's axis \[m\].
     pub hub_radius: f64,
-    /// Angle β of the blade's axis out of the plane of rotation, towards the angular velocity [rad].
+    /// Angle β of the blade's axis out of the plane of rotation, towards the angular velocity \[rad\].
     pub precone: f64,
     /// Angle of the root section, about the axis towards the tip, added to the twist of the sections \[rad\].
     pub pitch: f64,

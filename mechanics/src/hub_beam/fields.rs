@@ -47,7 +47,7 @@ impl Shapes {
 /// Both fields at one quadrature point or station.
 #[derive(Clone, Debug, Default)]
 pub struct Point {
-    /// Station x [m].
+    /// Station x \[m\].
     pub x: f64,
     /// Quadrature weight \[m\].
     pub weight: f64,

@@ -538,7 +538,7 @@ impl<C: Coupling> Observed for HubBeam<C> {
         let critical = self.coupling.critical_speed(speed)?;
         let since = match &self.hub.drive {
             Drive::Prescribed(motion) if s.t > 0.0 && self.steady.is_none() => {
-                format!("since t = {:.3} s ", first_time_above(motion, critical, s.t))
+                format!("since t = {:.3} s ", motion.first_time_above(critical, s.t))
             }
             _ => String::new(),
         };
@@ -580,22 +580,4 @@ impl<C: Coupling> HubBeam<C> {
         };
         self.coupling.strain(s) + spring + self.loads.spring(s, hub)
     }
-}
-
-/// First time at which the hub is faster than `speed`, found on a fine grid and then by bisection.
-fn first_time_above(motion: &Motion, speed: f64, until: f64) -> f64 {
-    let above = |t: f64| motion.at(t).speed.abs() > speed;
-    let grid = 1000;
-    let at = |i: usize| until * i as f64 / grid as f64;
-    let hit = (0..=grid).find(|&i| above(at(i))).unwrap_or(grid);
-    let (mut low, mut high) = (at(hit.saturating_sub(1)), at(hit));
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if above(middle) {
-            high = middle;
-        } else {
-            low = middle;
-        }
-    }
-    high
 }

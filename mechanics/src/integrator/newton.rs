@@ -55,7 +55,7 @@ pub struct Convergence {
 }
 
 /// Part of the first increment that the iteration error may have, where steps are not controlled.
-const PART: f64 = 1e-4;
+const PART: f64 = 1e-5;
 
 /// An increment that is not reduced to this part has stopped shrinking, where the tangent is new.
 const STALLED: f64 = 0.5;
@@ -88,7 +88,7 @@ impl Convergence {
     }
 
     /// Like [`Convergence::simplified`], for a tangent that is kept over many equal steps: η of the last step is
-    /// forgotten more slowly, and the iteration error may be a ten-thousandth of the first increment.
+    /// forgotten more slowly, and the iteration error may be a hundred-thousandth of the first increment.
     pub fn kept(tolerance: f64, noise: f64) -> Convergence {
         Convergence { fading: 0.95, part: PART, ..Convergence::simplified(tolerance, noise) }
     }

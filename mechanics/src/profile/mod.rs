@@ -33,7 +33,7 @@ pub trait Profile: Send + Sync + std::fmt::Debug {
         &[]
     }
 
-    /// First and last time at which f is given [s]: a run lies between them.
+    /// First and last time at which f is given \[s\]: a run lies between them.
     fn range(&self) -> (f64, f64) {
         (f64::NEG_INFINITY, f64::INFINITY)
     }

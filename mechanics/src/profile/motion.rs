@@ -101,6 +101,21 @@ impl Motion {
         }
     }
 
+    /// The first time \[s\] up to `until` at which the hub is faster than `speed` [rad/s], found on a grid of 1000 intervals and
+    /// then by bisection; `until` if there is none.
+    pub fn first_time_above(&self, speed: f64, until: f64) -> f64 {
+        let above = |t: f64| self.at(t).speed.abs() > speed;
+        let grid = 1000;
+        let at = |i: usize| until * i as f64 / grid as f64;
+        let hit = (0..=grid).find(|&i| above(at(i))).unwrap_or(grid);
+        let (mut low, mut high) = (at(hit.saturating_sub(1)), at(hit));
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if above(middle) { high = middle } else { low = middle }
+        }
+        high
+    }
+
     fn profile(&self) -> &Arc<dyn Profile> {
         match self {
             Motion::Speed { profile, .. } | Motion::Angle(profile) => profile,

@@ -41,7 +41,7 @@ pub struct Graded {
 }
 
 impl Graded {
-    /// A section of the given width b and height h [m], `ceramic` at the top, `metal` at the bottom,
+    /// A section of the given width b and height h \[m\], `ceramic` at the top, `metal` at the bottom,
     /// mixed by the power `exponent` N ≥ 0. First mass moment and rotary inertia are left out unless requested
     /// for with [`Graded::with_inertia`].
     ///

@@ -199,7 +199,7 @@ pub trait Section: Send + Sync + std::fmt::Debug {
         &[]
     }
 
-    /// Heights of the lower and upper fibre [m] if the shape of the section is known.
+    /// Heights of the lower and upper fibre \[m\] if the shape of the section is known.
     fn fibres(&self, _x: f64) -> Option<(f64, f64)> {
         None
     }

@@ -27,9 +27,9 @@ pub enum Shape {
     },
     /// A solid ellipse: A = π a b, I = π a b³/4, J = π a³ b³/(a² + b²).
     Ellipse {
-        /// Semi-axis a, across the plane of motion [m].
+        /// Semi-axis a, across the plane of motion \[m\].
         semi_width: f64,
-        /// Semi-axis b, in the plane of motion [m].
+        /// Semi-axis b, in the plane of motion \[m\].
         semi_height: f64,
     },
 }
@@ -118,7 +118,7 @@ impl Shape {
         })
     }
 
-    /// Area A [m²].
+    /// Area A \[m²\].
     pub fn area(&self) -> f64 {
         self.properties().area
     }
@@ -128,12 +128,12 @@ impl Shape {
         self.properties().second_moment
     }
 
-    /// Second moment of area ∫ z² dA for bending across the plane of motion [m⁴].
+    /// Second moment of area ∫ z² dA for bending across the plane of motion \[m⁴\].
     pub fn flap_moment(&self) -> f64 {
         self.properties().flap_moment
     }
 
-    /// Torsion constant J [m⁴]: GJ = G times it.
+    /// Torsion constant J \[m⁴\]: GJ = G times it.
     ///
     /// Of a rectangle with sides a ≥ b, J = a b³/3 (1 − 192/π⁵ b/a Σ tanh(nπa/2b)/n⁵), n = 1, 3, 5 …; of a circle
     /// and of a tube its polar second moment of area. Source: S. P. Timoshenko & J. N. Goodier, *Theory of

@@ -18,7 +18,7 @@ pub struct Tapered {
 }
 
 impl Tapered {
-    /// A section of Young's modulus E [Pa] and density ρ [kg/m³] over a beam of the given length [m], between
+    /// A section of Young's modulus E \[Pa\] and density ρ [kg/m³] over a beam of the given length \[m\], between
     /// two shapes of the same kind. Rotary inertia is left out unless requested with
     /// [`Tapered::with_inertia`].
     ///

@@ -13,7 +13,7 @@ pub struct Uniform {
 }
 
 impl Uniform {
-    /// A homogeneous section: ρA, EA, EI and ρI from Young's modulus E [Pa], density ρ [kg/m³] and
+    /// A homogeneous section: ρA, EA, EI and ρI from Young's modulus E \[Pa\], density ρ [kg/m³] and
     /// shape. Rotary inertia is left out unless requested with [`Uniform::with_inertia`].
     ///
     /// # Errors

@@ -1,6 +1,6 @@
 //! Contacts of a run: impacts, and which contacts are closed.
 
-use super::RunError;
+use super::ending::RunError;
 use super::locate::{Locator, TOUCHING};
 use crate::contact::{Impact, ImpactMap};
 use crate::system::{RowWeights, Set, State, System};

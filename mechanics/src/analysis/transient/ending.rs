@@ -2,6 +2,7 @@
 
 use crate::contact::ImpactError;
 use crate::integrator::{NotResumed, StepError};
+use crate::system::{State, System};
 
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,4 +69,9 @@ pub enum RunError {
 
 fn because(reason: &Option<String>) -> String {
     reason.as_ref().map(|r| format!("; {r}")).unwrap_or_default()
+}
+
+/// The error of a step, with what the model knows about it.
+pub(super) fn failed(system: &mut dyn System, state: &State, error: StepError) -> RunError {
+    RunError::Step { error, reason: system.explain(state) }
 }

@@ -14,7 +14,7 @@
 //! cubic through g and ġ at both ends says where it is least, and a step to that time decides. The time of an event is
 //! refined by steps from the same state until φ vanishes to rounding.
 
-use super::RunError;
+use super::ending::{RunError, failed};
 use crate::integrator::{Integrator, Span};
 use crate::system::{Mode, RowWeights, Set, State, System};
 
@@ -121,9 +121,7 @@ impl Locator {
             if at_dip > 0.0 {
                 // The step as it was.
                 let span = Span { step: h, end: whole.0, side: whole.1 };
-                integrator
-                    .step(system, from, span, to)
-                    .map_err(|error| super::failed(system, from, error))?;
+                integrator.step(system, from, span, to).map_err(|error| failed(system, from, error))?;
                 return Ok((h, false));
             }
             (high, value) = (dip, at_dip);
@@ -236,7 +234,7 @@ impl Locator {
         size: f64,
     ) -> Result<(), RunError> {
         let done = integrator.step(system, from, Span::new(from.t, size), &mut self.trial);
-        done.map(|_| ()).map_err(|error| super::failed(system, from, error))
+        done.map(|_| ()).map_err(|error| failed(system, from, error))
     }
 
     /// Where in the step an open gap is least and may be negative, if it falls at the start and rises at the end.

@@ -10,6 +10,7 @@ mod locate;
 mod observer;
 mod stretch;
 
+use ending::failed;
 pub use ending::{Ending, RunError};
 pub use observer::{Event, EventKind, Observer, Step};
 
@@ -472,10 +473,6 @@ fn multiple(k: u64, interval: f64) -> f64 {
     } else {
         k as f64 * interval
     }
-}
-
-fn failed(system: &mut dyn System, state: &State, error: StepError) -> RunError {
-    RunError::Step { error, reason: system.explain(state) }
 }
 
 fn is_fixed(integrator: &dyn Integrator) -> bool {

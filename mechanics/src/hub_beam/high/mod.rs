@@ -56,7 +56,7 @@ impl HighCoupling {
     /// The coupling over `fields`, on a hub.
     ///
     /// # Errors
-    /// [`BasisError`] if a basis has more than [`MOST_ELEMENTS`].
+    /// [`BasisError`] if a basis has more than 300 elements.
     pub fn new<'a>(fields: Fields, beam: impl Into<Beam<'a>>, hub: &Hub) -> Result<HighCoupling, BasisError> {
         let beam = beam.into();
         HighCoupling::validate(fields.axial())?;

@@ -149,7 +149,7 @@ impl Loads {
         self.stored(Store::Gravity, s, hub)
     }
 
-    /// Energy of springs [J].
+    /// Energy of springs \[J\].
     pub fn spring(&mut self, s: &State, hub: &HubKinematics) -> f64 {
         self.stored(Store::Spring, s, hub)
     }

@@ -47,6 +47,7 @@
 
 mod coefficients;
 mod stages;
+mod tolerance;
 
 use super::{
     Checkpoint, Convergence, Counters, Info, Integrator, InvalidParameter, NotResumed, Progress, Span,
@@ -54,6 +55,7 @@ use super::{
 };
 use crate::system::{Dynamics, Side, State};
 use stages::Stages;
+pub use tolerance::Tolerance;
 
 /// Name as in a case file.
 const NAME: &str = "radau";
@@ -68,22 +70,6 @@ const REUSE_RATE: f64 = 0.1;
 /// beside a displacement is large as a ratio of the axis: it would make axial vibrations that short steps then follow.
 const LARGEST_KAPPA: f64 = 1e-2;
 const LARGEST_ITERATION_ERROR: f64 = 1e-5;
-
-/// What local errors are measured against: absolute·scaleᵢ + relative·|qᵢ|.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tolerance {
-    /// Relative to the unknown.
-    pub relative: f64,
-    /// Relative to the scale of the unknown's label.
-    pub absolute: f64,
-}
-
-impl Tolerance {
-    /// The same relative to the unknown and to its scale.
-    pub fn uniform(tolerance: f64) -> Tolerance {
-        Tolerance { relative: tolerance, absolute: tolerance }
-    }
-}
 
 /// The 3-stage Radau IIA method. Its formulas head the source file.
 #[derive(Debug)]

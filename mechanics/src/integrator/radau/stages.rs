@@ -3,8 +3,8 @@
 use super::super::acceleration::Accelerations;
 use super::super::rows::Rows;
 use super::super::{Convergence, Counters, Progress, StepError, failure};
-use super::Tolerance;
 use super::coefficients::{A, A_INVERSE, A2, A2_INVERSE, C, E_Q, E_V, LAMBDA, MU, T, T_INVERSE, lagrange};
+use super::tolerance::Tolerance;
 use crate::linalg::Matrix;
 use crate::system::{Corotation, Dynamics, RowWeights, Set, Side, State, Weights, is_active};
 use num_complex::Complex64;
