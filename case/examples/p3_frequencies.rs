@@ -7,7 +7,7 @@ use flexion::analysis::modes::modes;
 use flexion::analysis::rotation::rotate_stably;
 use flexion::linalg::eigen::Pencil;
 use flexion::linalg::{Matrix, Structure};
-use flexion::system::{Direction, Dynamics, Observed, Parameter, State, Steady, System, Weights};
+use flexion::system::{Direction, Parameter, State, System, Weights};
 use flexion_case::read;
 use std::path::Path;
 

@@ -12,7 +12,7 @@ use super::sources::{Contents, Files, Folder, Sources};
 use super::tree::{self, Node, Raw};
 use super::values::Values;
 use flexion::integrator::Integrator;
-use flexion::system::{Dynamics, Events, State, System};
+use flexion::system::{State, System};
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};

@@ -12,7 +12,7 @@ use flexion::linalg::{Matrix, negative_pivots};
 use flexion::profile::{Constant, Motion};
 use flexion::quadrature::Gauss;
 use flexion::section::{BladeResultants, Resultants, Uniform};
-use flexion::system::{Dynamics, Events, State, System, Weights};
+use flexion::system::{Dynamics, State, System, Weights};
 use flexion_case::parse;
 use std::f64::consts::TAU;
 use std::path::Path;

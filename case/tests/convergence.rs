@@ -3,7 +3,6 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use crate::verification::run::{Run, case, run};
-use flexion::system::Observed;
 
 /// A spin-up of P1's beam to 4 rad/s in a third of the time, which bends it more.
 const QUICK: [&str; 3] = ["run.duration=6", "hub.motion.time=5", "output.step=0.1"];

@@ -11,7 +11,7 @@ mod systems;
 use flexion::integrator::{
     Adams, GeneralizedAlpha, Integrator, Radau, RungeKutta, Span, StepControl, Tolerance,
 };
-use flexion::system::{Dynamics, State, Steady, System};
+use flexion::system::{State, System};
 use std::alloc::{GlobalAlloc, Layout, System as Heap};
 use std::cell::Cell;
 use systems::{CartesianPendulum, Chain, SpringPendulum, state, wide_chain};

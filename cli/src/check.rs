@@ -5,7 +5,7 @@ use flexion::basis::Basis;
 use flexion::hub_beam::Drive;
 use flexion::integrator::{Adams, Integrator, RungeKutta, StabilityLimit, StepError};
 use flexion::linalg::Structure;
-use flexion::system::{Dynamics, Observed, State, System};
+use flexion::system::{State, System};
 use flexion_case::kinds::initial::Initial;
 use flexion_case::{Case, Live, Problems, Reading};
 

@@ -5,7 +5,7 @@ mod spin_up;
 
 use criterion::{BatchSize, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use flexion::analysis::transient::{Observer, Plan, Step, transient};
-use flexion::system::{Dynamics, Observed, State, System};
+use flexion::system::{State, System};
 use std::hint::black_box;
 use std::time::Duration;
 

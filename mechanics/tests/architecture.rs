@@ -21,8 +21,8 @@ const SIBLINGS: [(&str, &str); 1] = [("hub_beam", "multibody")];
 /// Files of one crate that may import each other in a circle.
 const CIRCLES: [(&str, &[&str]); 3] = [
     ("mechanics/src", &["analysis/campbell", "analysis/crossings", "analysis/speeds", "analysis/tracking"]),
-    ("results/src", &["plot/coverage", "plot/draw"]),
-    ("results/src", &["plot/vibration", "vibration"]),
+    ("output/src", &["plot/coverage", "plot/draw"]),
+    ("output/src", &["plot/vibration", "vibration"]),
 ];
 
 /// Module → modules it may import.
@@ -410,7 +410,7 @@ fn models_that_are_siblings_do_not_know_each_other() {
 
 #[test]
 fn files_are_short_and_named_by_a_noun() {
-    for folder in ["mechanics/src", "results/src", "case/src", "cli/src"] {
+    for folder in ["mechanics/src", "output/src", "case/src", "cli/src"] {
         for (file, text) in sources(&root().join(folder)) {
             let path = module_path(&file);
             let lines = text.lines().count();
@@ -429,7 +429,7 @@ fn files_are_short_and_named_by_a_noun() {
 #[test]
 fn files_do_not_import_each_other_in_a_circle() {
     let mut wrong = Vec::new();
-    for folder in ["mechanics/src", "results/src", "case/src", "cli/src"] {
+    for folder in ["mechanics/src", "output/src", "case/src", "cli/src"] {
         let files: Vec<(Vec<String>, String)> = sources(&root().join(folder))
             .into_iter()
             .map(|(file, text)| (module_path(&file).into_iter().map(str::to_owned).collect(), text))

@@ -11,7 +11,7 @@ use flexion::basis::{Field, Hermite, Lagrange};
 use flexion::hub_beam::{Fields, Foreshortening, Hub, HubBeam, LinearCoupling};
 use flexion::profile::{Constant, Motion};
 use flexion::section::{Resultants, Uniform};
-use flexion::system::{Dynamics, State, System};
+use flexion::system::{State, System};
 use std::sync::Arc;
 
 /// L = ρA = EI = 1, EA = slenderness².

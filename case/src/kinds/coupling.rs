@@ -9,7 +9,7 @@ use flexion::hub_beam::{
     self, Damping, ExactCoupling, Fields, Foreshortening, HighCoupling, Hub, HubBeam, LinearCoupling,
     Sampling,
 };
-use flexion::system::{Events, System};
+use flexion::system::System;
 use std::sync::Arc;
 
 /// A kinematic model.

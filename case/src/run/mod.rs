@@ -18,7 +18,7 @@ use flexion::analysis::transient::{Ending, Plan, resume, transient_to_checkpoint
 use flexion::hub_beam::Drive;
 use flexion::integrator::{Checkpoint, Counters, Info};
 use flexion::linalg::Structure;
-use flexion::system::{Dynamics, Observed, State, Steady, System};
+use flexion::system::{State, System};
 use flexion_results::plot::trajectory_figure;
 use flexion_results::{
     Artifact, Attachments, Directory, Integration, OutputError, ProblemSize, Recorder, RunReport, Shapes,

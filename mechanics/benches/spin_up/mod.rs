@@ -10,7 +10,7 @@ use flexion::integrator::{GeneralizedAlpha, Integrator, Radau, Span, Tolerance};
 use flexion::linalg::Matrix;
 use flexion::profile::{Expression, Motion, SpinUp};
 use flexion::section::{Resultants, Uniform};
-use flexion::system::{Dynamics, State, System, Weights};
+use flexion::system::{State, System, Weights};
 use std::sync::Arc;
 
 /// Step of the fixed-step runs [s].

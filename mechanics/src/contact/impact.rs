@@ -1,4 +1,4 @@
-//! Impacts: the velocities behind an impulse, and the modes of the rows then.
+//! Impacts: the velocities after an impulse, and whether contacts then are open, closed, stick or slip.
 //!
 //! All rows that are at g = 0 take part at once. With u = ġ, W = G M⁻¹ Gᵀ on the motions that joints allow, and p the
 //! impulse of a prescribed velocity that jumps,
@@ -57,7 +57,7 @@ pub struct ImpactMap {
     stiffness: Matrix,
     /// Jacobian, row by row.
     jacobian: Vec<f64>,
-    /// K⁻¹ Gᵀ of each row that takes part.
+    /// M⁻¹ Gᵀ of each row that takes part.
     images: Vec<f64>,
     rhs: Vec<f64>,
     rates: Vec<f64>,
@@ -91,7 +91,7 @@ impl ImpactMap {
     }
 
     /// Changes the velocities of `state` by the impulse `p` and those of all rows with g ≤ `touching`, and [sets the modes](ImpactMap::settle)
-    /// of the rows. Contacts that close more slowly than `resting` have no restitution; forces up to `weak` hold nothing.
+    /// of the rows. Contacts that close more slowly than `resting` have no restitution; contact forces up to `weak` count as zero.
     ///
     /// # Errors
     /// [`ImpactError`].

@@ -197,6 +197,7 @@ impl Inertia {
             add_outer(&mut d, (b, 0), (b, 0), w * mass);
             add_symmetric(&mut d, (a, 0), (b, 1), -w * s);
             add_outer(&mut p, (b, 1), (b, 1), -w * s * r);
+            // Centrifugal (dynamic) stiffening: the foreshortening −½∫w₂′² against the centrifugal force Ω² ∫_ξᴸ ρA (a + x) dx.
             if first && !lumped {
                 add_outer(&mut p, (b, 1), (b, 1), w * moment_tail(x));
                 add_outer(&mut d, (b, 1), (b, 1), -w * mass_tail(x));
@@ -312,7 +313,7 @@ impl Inertia {
         sums.torque(hub)
     }
 
-    /// The stamp of the tangent with weights `w` at a hub speed and acceleration; its last entry is free for others.
+    /// The stamp of the tangent with weights `w` at a hub speed and acceleration: the key by which a factored tangent is recognised. The last entry is filled by the loads.
     pub fn stamp(&self, w: &Weights<'_>, hub: &HubKinematics) -> [f64; 6] {
         if !self.damping.is_none() {
             return [w.a, w.v, w.q, hub.speed, hub.acceleration, 0.0];

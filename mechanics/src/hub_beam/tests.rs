@@ -5,7 +5,7 @@ use crate::basis::{Field, Hermite, Lagrange};
 use crate::linalg::{Matrix, Structure};
 use crate::profile::{Expression, HubKinematics, Motion};
 use crate::section::{Resultants, Section};
-use crate::system::{Dynamics, Observed, State, System, Weights};
+use crate::system::{Dynamics, State, System, Weights};
 use std::sync::Arc;
 
 pub(super) const LENGTH: f64 = 2.0;
@@ -308,8 +308,9 @@ pub(super) fn without_strain(system: &mut dyn System, s: &State) -> Vec<f64> {
     r
 }
 
+/// All inertia forces, those of Coriolis among them.
 #[test]
-fn exact_coupling_obeys_dalembert_at_large_rotations() {
+fn coriolis_and_inertia_forces_of_the_exact_coupling_are_dalemberts() {
     let mut system = exact();
     let s = state(&system, 0.15);
     let kinematics = at(&system, s.t);
@@ -321,8 +322,9 @@ fn exact_coupling_obeys_dalembert_at_large_rotations() {
     assert!((system.torque(&s) / torque - 1.0).abs() < 2e-3, "{} {torque}", system.torque(&s));
 }
 
+/// All inertia forces, those of Coriolis and of the gyroscopic matrix among them.
 #[test]
-fn linear_couplings_are_the_linearised_dalembert_forces() {
+fn coriolis_and_inertia_forces_of_linear_couplings_are_dalemberts() {
     for (foreshortening, kind) in [(Foreshortening::None, "zeroth"), (Foreshortening::First, "first")] {
         let mut system = linear(foreshortening);
         let kinematics = at(&system, 0.6);

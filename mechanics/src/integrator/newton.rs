@@ -15,7 +15,7 @@
 //!
 //! Increments that are rounding errors of the residual do not shrink: with a new tangent, an increment that is not
 //! halved any more and is smaller than `noise` ends the iteration. Its size is the least that later iterations are asked
-//! for. Of an affine system, whose first increment with a new tangent is exact, the second one shows it.
+//! for. For an affine system the first increment with a new tangent is exact, so the second one measures it.
 
 /// What to do after an iteration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

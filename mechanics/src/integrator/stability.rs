@@ -106,7 +106,7 @@ impl Explicit {
 }
 
 impl Operator for Explicit {
-    fn len(&self) -> usize {
+    fn dimension(&self) -> usize {
         self.velocities
     }
 

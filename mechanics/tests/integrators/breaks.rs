@@ -98,9 +98,11 @@ fn error(method: &mut dyn Integrator, h: f64) -> [f64; 2] {
     [(state.q[0] - q).abs() + (state.v[0] - v).abs(), watch.imbalance.abs()]
 }
 
+type Make = fn() -> Box<dyn Integrator>;
+
 #[test]
 fn every_method_keeps_its_order_across_a_step_load() {
-    let methods: [(&str, fn() -> Box<dyn Integrator>, f64, f64); 4] = [
+    let methods: [(&str, Make, f64, f64); 4] = [
         ("newmark", || Box::new(GeneralizedAlpha::newmark(0.25, 0.5).unwrap()), 0.01, 2.0),
         ("runge-kutta", || Box::new(RungeKutta::new()), 0.02, 4.0),
         ("adams", || Box::new(Adams::new()), 0.005, 4.0),

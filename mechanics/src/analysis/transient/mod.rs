@@ -240,8 +240,8 @@ impl Run {
                 .step
                 .unwrap_or_else(|| StepControl::first_step(order, state, system.scales(), 1e-4, span));
             let control = StepControl::new(order, span, first);
-            // A drive that is quiet shows an error estimate nothing of an event that its step passes over. What
-            // the recorded columns can show must not be missed.
+            // While the drive is constant, the error estimate cannot detect an event inside the step: what the
+            // recorded columns can show bounds the step.
             let longest = plan.longest_step.unwrap_or((2.0 * plan.sample).min(0.01 * span));
             control.with_limits(1e-14 * span, longest)
         });

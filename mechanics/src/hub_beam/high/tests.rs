@@ -11,7 +11,7 @@ use crate::hub_beam::tests::{
 use crate::hub_beam::{Beam, Coupling, Drive, Fields, Foreshortening, Hub, HubBeam, LinearCoupling, Mass};
 use crate::quadrature::Gauss;
 use crate::section::{Resultants, Section};
-use crate::system::{Events, Observed, State, System};
+use crate::system::{Observed, State, System};
 
 /// ρA of the two fibres and nothing else.
 #[derive(Debug)]

@@ -1,4 +1,4 @@
-//! A load reduced to the moments of its share of force over the shape functions.
+//! The precomputed generalized forces of one load: moments of its density over the shape functions.
 //!
 //! With g_x, g_y the vectors and G_x, G_y the symmetric matrices of C (see [`super`]),
 //!

@@ -10,7 +10,7 @@ use crate::hub_beam::{
     Placement, Station,
 };
 use crate::profile::Expression;
-use crate::system::{Dynamics, Events, Observed, System};
+use crate::system::{Observed, System};
 use std::sync::Arc;
 
 const FORCE: [f64; 2] = [-3.0, 5.0];

@@ -125,7 +125,7 @@ pub(super) fn krylov(
     search: Search<'_>,
 ) -> Result<Found, EigenError> {
     let Search { wanted, projection, tolerance, start, seed } = search;
-    let n = operator.len();
+    let n = operator.dimension();
     let copies = if projection == Projection::Symmetric { 1 } else { 2 };
     let limit = (copies * (8 * wanted + 120)).min(n);
     let first_look = if start.is_some() { 2 * copies * wanted } else { copies * (2 * wanted + 6) };

@@ -6,7 +6,7 @@ use crate::linalg::vector::{dot, noise, scale};
 /// A linear operator with an inner product ⟨z, z′⟩ = z · dual(z′).
 pub trait Operator {
     /// Length of its vectors.
-    fn len(&self) -> usize;
+    fn dimension(&self) -> usize;
 
     /// w = A z, and the dual of w.
     fn apply(&mut self, z: &[f64], dual: &[f64], w: &mut [f64], dual_w: &mut [f64]);
@@ -19,7 +19,7 @@ pub trait Operator {
 pub(super) struct Symmetric<'a>(pub &'a mut Pencil);
 
 impl Operator for Symmetric<'_> {
-    fn len(&self) -> usize {
+    fn dimension(&self) -> usize {
         self.0.order()
     }
 
@@ -38,7 +38,7 @@ impl Operator for Symmetric<'_> {
 pub(super) struct Gyroscopic<'a>(pub &'a mut Pencil);
 
 impl Operator for Gyroscopic<'_> {
-    fn len(&self) -> usize {
+    fn dimension(&self) -> usize {
         2 * self.0.order()
     }
 
@@ -95,7 +95,7 @@ impl<'a> General<'a> {
 }
 
 impl Operator for General<'_> {
-    fn len(&self) -> usize {
+    fn dimension(&self) -> usize {
         2 * self.pencil.order()
     }
 

@@ -1,6 +1,6 @@
 //! The shape of the beam at some of the recorded times, for pictures in space.
 
-use flexion::system::{Frame, Observed, State, System};
+use flexion::system::{Frame, State, System};
 
 /// Equal intervals along the beam between whose ends it is drawn.
 const INTERVALS: usize = 100;
