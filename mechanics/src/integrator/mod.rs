@@ -3,7 +3,7 @@
 //! | method | file | order (q, v) | steps | equations solved a step |
 //! |---|---|---|---|---|
 //! | [`Radau`] IIA, 3 stages | `radau/` | 5 | adaptive | one real and one complex system per iteration |
-//! | [`GeneralizedAlpha`]: Newmark, HHT-α, Chung–Hulbert | `generalized_alpha.rs` | 2 | fixed | one system per iteration |
+//! | [`GeneralizedAlpha`]: Newmark, HHT-α, Chung–Hulbert | `generalized_alpha/` | 2 | fixed | one system per iteration |
 //! | [`RungeKutta`], classical | `runge_kutta.rs` | 4 | fixed | mass matrix only |
 //! | [`MoreauJean`], nonsmooth | `moreau_jean.rs` | 1 | fixed | one system per iteration, and one per contact |
 //! | [`Adams`]–Bashforth–Moulton PECE | `adams.rs` | 4 | fixed | mass matrix only |

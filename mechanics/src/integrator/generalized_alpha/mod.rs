@@ -44,6 +44,8 @@
 //! doi 10.1007/s11044-007-9084-0); Gear, Gupta & Leimkuhler (1985, doi 10.1016/0377-0427(85)90008-1); Arnold, Brüls &
 //! Cardona (2015, doi 10.1007/s00211-014-0633-1).
 
+mod work;
+
 use super::acceleration::Accelerations;
 use super::rows::Rows;
 use super::{
@@ -51,7 +53,8 @@ use super::{
     StepError, StepReport, failure, hermite,
 };
 use crate::linalg::Matrix;
-use crate::system::{Corotation, Dynamics, RowWeights, Set, Side, State, Weights, is_active};
+use crate::system::{Corotation, Dynamics, RowWeights, Side, State, Weights};
+use work::{Age, Work, has_mu};
 
 /// Iteration error, relative to the scales of the unknowns, at which Newton's method stops: far below
 /// the truncation error of a second-order method at any useful step.
@@ -63,30 +66,6 @@ const KEPT_TOLERANCE: f64 = 1e-13;
 
 /// Largest size of increments that may be rounding errors.
 const NOISE: f64 = 1e-7;
-
-/// Cost of a tangent and its factors, in iterations.
-const RENEWAL: f64 = 2.0;
-
-/// When to renew a kept tangent, by the rule of age replacement: as soon as a step costs more iterations than the mean
-/// step since the last renewal, the cost of the renewal included. Its mean cost is then least.
-#[derive(Clone, Copy, Debug, Default)]
-struct Age {
-    cost: f64,
-    steps: f64,
-    due: bool,
-}
-
-impl Age {
-    fn renewed() -> Age {
-        Age { cost: RENEWAL, steps: 0.0, due: false }
-    }
-
-    fn count(&mut self, iterations: u32) {
-        self.cost += f64::from(iterations);
-        self.steps += 1.0;
-        self.due = f64::from(iterations) * self.steps > self.cost;
-    }
-}
 
 /// The generalized-α method. Its formulas and sources head the source file.
 #[derive(Debug)]
@@ -117,91 +96,6 @@ pub struct GeneralizedAlpha {
     /// 1/scale of the unknowns.
     inverse_scale: Vec<f64>,
     work: Option<Box<Work>>,
-}
-
-/// What `start` allocates for a system.
-#[derive(Debug)]
-struct Work {
-    tangent: Matrix,
-    rhs: Vec<f64>,
-    accelerations: Accelerations,
-    rows: Rows,
-    /// Multipliers μ of the stabilized form, K, and K Gₙᵀ row by row.
-    mu: Vec<f64>,
-    stiffness: Option<Matrix>,
-    column: [Vec<f64>; 2],
-    affine: bool,
-    /// Whether factors may be kept; the weights (of v and q) that the present ones belong to, NaN without.
-    keeps: bool,
-    kept: [f64; 2],
-    /// Where the kept tangent was assembled: state and increment.
-    place: State,
-    increment: Vec<f64>,
-    corotation: Corotation,
-    age: Age,
-    /// Renewals since the start, and whether the last one found the tangent of an affine system unchanged.
-    renewals: u32,
-    constant: bool,
-}
-
-impl Work {
-    /// Assembles and factors the tangent at `to`.
-    fn assemble(
-        &mut self,
-        system: &mut dyn Dynamics,
-        to: &State,
-        d: &[f64],
-        h: f64,
-        [to_v, to_q]: [f64; 2],
-    ) -> Result<bool, crate::linalg::Singular> {
-        let n = d.len();
-        system.tangent(to, Weights { q: to_q, v: to_v, a: 1.0, increment: Some(d) }, &mut self.tangent);
-        if !self.rows.is_empty() {
-            self.rows.add_border(system, to, n, &mut self.tangent);
-            self.stabilize(system, to, d, h, [to_v, to_q]);
-        }
-        self.tangent.factor()
-    }
-
-    /// Adds the rows and columns of μ, where the form is stabilized.
-    fn stabilize(&mut self, system: &mut dyn Dynamics, to: &State, d: &[f64], h: f64, [_, to_q]: [f64; 2]) {
-        let Some(stiffness) = &mut self.stiffness else { return };
-        let (n, m) = (d.len(), self.rows.len());
-        system.tangent(to, Weights { q: 1.0, v: 0.0, a: 0.0, increment: Some(d) }, stiffness);
-        let (rows, tangent, [unit, product]) = (&self.rows, &mut self.tangent, &mut self.column);
-        for k in 0..m {
-            let active = has_mu(rows.sets()[k], to, k);
-            if !active {
-                tangent.add(n + m + k, n + m + k, 1.0);
-                continue;
-            }
-            unit.fill(0.0);
-            for &(_, j, x) in rows.stored().iter().filter(|(row, ..)| *row == k) {
-                unit[j] = x;
-            }
-            stiffness.multiply(&unit[..n], &mut product[..n]);
-            for (i, x) in product[..n].iter().enumerate().filter(|(_, x)| **x != 0.0) {
-                tangent.add(i, n + m + k, h * x);
-            }
-            system.jacobian(to, &mut |row, velocities, entries| {
-                let mut projected = 0.0;
-                for (&j, &x) in velocities.iter().zip(entries) {
-                    projected += x * unit[j];
-                    if row == k {
-                        tangent.add(n + m + k, j, x);
-                    }
-                }
-                if has_mu(rows.sets()[row], to, row) && projected != 0.0 {
-                    tangent.add(n + row, n + m + k, h * projected / to_q);
-                }
-            });
-        }
-    }
-}
-
-/// Whether a row has a multiplier μ: its position is imposed.
-fn has_mu(set: Set, s: &State, row: usize) -> bool {
-    is_active(set, s.mode[row]) && !matches!(set, Set::Friction { .. })
 }
 
 impl GeneralizedAlpha {

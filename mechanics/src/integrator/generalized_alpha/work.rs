@@ -1,0 +1,122 @@
+//! What a run of a generalized-α method allocates, and its tangent.
+
+use crate::integrator::acceleration::Accelerations;
+use crate::integrator::rows::Rows;
+use crate::linalg::{Matrix, Singular};
+use crate::system::{Corotation, Dynamics, Set, State, Weights, is_active};
+
+/// Cost of a tangent and its factors, in iterations.
+const RENEWAL: f64 = 2.0;
+
+/// When to renew a kept tangent, by the rule of age replacement: as soon as a step costs more iterations than the mean
+/// step since the last renewal, the cost of the renewal included. Its mean cost is then least.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Age {
+    pub(super) cost: f64,
+    pub(super) steps: f64,
+    pub(super) due: bool,
+}
+
+impl Age {
+    pub(super) fn renewed() -> Age {
+        Age { cost: RENEWAL, steps: 0.0, due: false }
+    }
+
+    pub(super) fn count(&mut self, iterations: u32) {
+        self.cost += f64::from(iterations);
+        self.steps += 1.0;
+        self.due = f64::from(iterations) * self.steps > self.cost;
+    }
+}
+
+/// What `start` allocates for a system.
+#[derive(Debug)]
+pub(super) struct Work {
+    pub(super) tangent: Matrix,
+    pub(super) rhs: Vec<f64>,
+    pub(super) accelerations: Accelerations,
+    pub(super) rows: Rows,
+    /// Multipliers μ of the stabilized form, K, and K Gₙᵀ row by row.
+    pub(super) mu: Vec<f64>,
+    pub(super) stiffness: Option<Matrix>,
+    pub(super) column: [Vec<f64>; 2],
+    pub(super) affine: bool,
+    /// Whether factors may be kept; the weights (of v and q) that the present ones belong to, NaN without.
+    pub(super) keeps: bool,
+    pub(super) kept: [f64; 2],
+    /// Where the kept tangent was assembled: state and increment.
+    pub(super) place: State,
+    pub(super) increment: Vec<f64>,
+    pub(super) corotation: Corotation,
+    pub(super) age: Age,
+    /// Renewals since the start, and whether the last one found the tangent of an affine system unchanged.
+    pub(super) renewals: u32,
+    pub(super) constant: bool,
+}
+
+impl Work {
+    /// Assembles and factors the tangent at `to`.
+    pub(super) fn assemble(
+        &mut self,
+        system: &mut dyn Dynamics,
+        to: &State,
+        d: &[f64],
+        h: f64,
+        [to_v, to_q]: [f64; 2],
+    ) -> Result<bool, Singular> {
+        let n = d.len();
+        system.tangent(to, Weights { q: to_q, v: to_v, a: 1.0, increment: Some(d) }, &mut self.tangent);
+        if !self.rows.is_empty() {
+            self.rows.add_border(system, to, n, &mut self.tangent);
+            self.stabilize(system, to, d, h, [to_v, to_q]);
+        }
+        self.tangent.factor()
+    }
+
+    /// Adds the rows and columns of μ, where the form is stabilized.
+    pub(super) fn stabilize(
+        &mut self,
+        system: &mut dyn Dynamics,
+        to: &State,
+        d: &[f64],
+        h: f64,
+        [_, to_q]: [f64; 2],
+    ) {
+        let Some(stiffness) = &mut self.stiffness else { return };
+        let (n, m) = (d.len(), self.rows.len());
+        system.tangent(to, Weights { q: 1.0, v: 0.0, a: 0.0, increment: Some(d) }, stiffness);
+        let (rows, tangent, [unit, product]) = (&self.rows, &mut self.tangent, &mut self.column);
+        for k in 0..m {
+            let active = has_mu(rows.sets()[k], to, k);
+            if !active {
+                tangent.add(n + m + k, n + m + k, 1.0);
+                continue;
+            }
+            unit.fill(0.0);
+            for &(_, j, x) in rows.stored().iter().filter(|(row, ..)| *row == k) {
+                unit[j] = x;
+            }
+            stiffness.multiply(&unit[..n], &mut product[..n]);
+            for (i, x) in product[..n].iter().enumerate().filter(|(_, x)| **x != 0.0) {
+                tangent.add(i, n + m + k, h * x);
+            }
+            system.jacobian(to, &mut |row, velocities, entries| {
+                let mut projected = 0.0;
+                for (&j, &x) in velocities.iter().zip(entries) {
+                    projected += x * unit[j];
+                    if row == k {
+                        tangent.add(n + m + k, j, x);
+                    }
+                }
+                if has_mu(rows.sets()[row], to, row) && projected != 0.0 {
+                    tangent.add(n + row, n + m + k, h * projected / to_q);
+                }
+            });
+        }
+    }
+}
+
+/// Whether a row has a multiplier μ: its position is imposed.
+pub(super) fn has_mu(set: Set, s: &State, row: usize) -> bool {
+    is_active(set, s.mode[row]) && !matches!(set, Set::Friction { .. })
+}
