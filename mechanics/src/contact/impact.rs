@@ -19,6 +19,8 @@ use crate::system::{Dynamics, Mode, RowWeights, Set, State, Weights};
 
 /// Velocity after an impact, over the largest before it, below which a contact counts as closed.
 const RESTING: f64 = 1e-12;
+/// Part of the limit of friction by which a contact that sticks must stay below it.
+const STICKING: f64 = 1e-9;
 /// Weight of K beside a singular M, in units of the ratio of their largest entries.
 const REGULARIZATION: f64 = 1e-12;
 
@@ -90,7 +92,7 @@ impl ImpactMap {
         }
     }
 
-    /// Changes the velocities of `state` by the impulse `p` and those of all rows with g ≤ `touching`, and [sets the modes](ImpactMap::settle)
+    /// Changes the velocities of `state` by the impulse `p` and those of all rows that are closed or have g ≤ `touching`, and [sets the modes](ImpactMap::settle)
     /// of the rows. Contacts that close more slowly than `resting` have no restitution; contact forces up to `weak` count as zero.
     ///
     /// # Errors
@@ -115,7 +117,8 @@ impl ImpactMap {
         }
         let mut gaps = vec![0.0; self.sets.len()];
         system.constraint(state, RowWeights::POSITION, &mut gaps);
-        let part = self.part(|i| gaps[i] <= touching, |_| None);
+        let closed: Vec<bool> = state.mode.iter().map(|mode| *mode != Mode::Open).collect();
+        let part = self.part(|i| gaps[i] <= touching || closed[i], |_| None);
         system.constraint(state, RowWeights::VELOCITY, &mut self.rates);
         let before = self.rates.clone();
         // The change of velocity by p, with the joints.
@@ -173,7 +176,8 @@ impl ImpactMap {
             _ => None,
         };
         let slips: Vec<Option<f64>> = (0..m).map(slip).collect();
-        let part = self.part(|i| gaps[i] <= touching && rates[i] <= resting, |i| slips[i]);
+        let closed: Vec<bool> = state.mode.iter().map(|mode| *mode != Mode::Open).collect();
+        let part = self.part(|i| (gaps[i] <= touching || closed[i]) && rates[i] <= resting, |i| slips[i]);
         // Accelerations without contact forces.
         state.a.fill(0.0);
         for (lambda, set) in state.lambda.iter_mut().zip(&self.sets) {
@@ -208,7 +212,7 @@ impl ImpactMap {
                 Law::Slip { .. } => Mode::SlipBackward,
                 Law::Friction { coefficient, normal } => {
                     let limit = coefficient * forces[normal];
-                    if forces[k].abs() < limit || limit == 0.0 {
+                    if forces[k].abs() < limit * (1.0 - STICKING) || limit == 0.0 {
                         Mode::Closed
                     } else if forces[k] < 0.0 {
                         Mode::SlipForward

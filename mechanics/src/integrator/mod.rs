@@ -253,6 +253,11 @@ pub trait Integrator: Send {
     /// [`NotResumed`] when the history is not one of this method and this system.
     fn resume(&mut self, system: &mut dyn Dynamics, from: &Checkpoint) -> Result<(), NotResumed>;
 
+    /// Whether the method resolves contacts in its own steps, so that a driver looks for no events of theirs.
+    fn resolves_contacts(&self) -> bool {
+        false
+    }
+
     /// Index of the unknown with the largest scaled error or increment in the last attempt.
     fn worst(&self) -> usize;
 

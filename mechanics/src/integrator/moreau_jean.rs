@@ -280,6 +280,7 @@ impl Integrator for MoreauJean {
 
     fn start(&mut self, system: &mut dyn Dynamics, state: &mut State, _step: f64) -> Result<(), StepError> {
         self.counters = Counters::default();
+        self.convergence.reset();
         self.work = Some(Work::new(system, state));
         self.restart(system, state)
     }
@@ -340,11 +341,17 @@ impl Integrator for MoreauJean {
 
     fn save(&self, out: &mut Checkpoint) {
         out.put("counters", &self.counters.to_numbers());
+        out.put("convergence", &self.convergence.memory());
     }
 
     fn resume(&mut self, _system: &mut dyn Dynamics, from: &Checkpoint) -> Result<(), NotResumed> {
         self.counters = Counters::from_numbers(from.numbers("counters")?);
+        self.convergence.recall(from.numbers("convergence")?);
         Ok(())
+    }
+
+    fn resolves_contacts(&self) -> bool {
+        true
     }
 
     fn worst(&self) -> usize {

@@ -106,6 +106,11 @@ impl Convergence {
         self.eta = if self.simplified { libm::pow(self.eta.max(f64::EPSILON), self.fading) } else { 1.0 };
     }
 
+    /// Forgets all that former runs have shown.
+    pub(super) fn reset(&mut self) {
+        (self.eta, self.rate, self.rounding, self.stalled) = (1.0, 0.0, 0.0, false);
+    }
+
     /// Forgets the rates of former steps.
     pub fn forget(&mut self) {
         self.eta = 1.0;

@@ -180,6 +180,15 @@ mod checks {
     use super::Profile;
     use crate::quadrature::Gauss;
 
+    #[test]
+    fn profiles_take_the_right_limit_at_their_breaks() {
+        let ramp = super::Ramp::new(0.0, 4.0, 15.0).unwrap();
+        assert_eq!([0.0, 15.0].map(|t| super::jumping_derivative(&ramp, t)), [1, 1]);
+        assert_eq!(ramp.rate(15.0), 0.0);
+        let spin_up = super::SpinUp::new(4.0, 15.0).unwrap();
+        assert_eq!(super::jumping_derivative(&spin_up, 15.0), 3);
+    }
+
     /// Derivatives against differences, and the integral against quadrature between breaks.
     pub fn derivatives_and_integral(profile: &dyn Profile, duration: f64) {
         let h = duration * 1e-4;

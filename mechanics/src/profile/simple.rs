@@ -67,7 +67,7 @@ impl Profile for Ramp {
 
     fn rate(&self, t: f64) -> f64 {
         let time = self.breaks[1];
-        if (0.0..=time).contains(&t) { (self.to - self.from) / time } else { 0.0 }
+        if (0.0..time).contains(&t) { (self.to - self.from) / time } else { 0.0 }
     }
 
     fn acceleration(&self, _t: f64) -> f64 {

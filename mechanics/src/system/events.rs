@@ -24,10 +24,16 @@ pub struct Break {
     pub jump: Jump,
 }
 
-/// Sorts breaks by time and joins those of one time to the roughest of them.
+/// Sorts breaks by time and joins those of one time, to rounding, to the roughest of them.
 pub fn ordered(mut breaks: Vec<Break>) -> Vec<Break> {
     breaks.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.jump.cmp(&b.jump)));
-    breaks.dedup_by_key(|b| b.time);
+    breaks.dedup_by(|later, first| {
+        let one = later.time - first.time <= 8.0 * f64::EPSILON * first.time.abs();
+        if one {
+            first.jump = first.jump.min(later.jump);
+        }
+        one
+    });
     breaks
 }
 

@@ -164,6 +164,32 @@ fn balls_that_stick_roll_on_with_five_sevenths_of_their_speed() {
     }
 }
 
+/// Moreau's scheme through the driver of a run: it resolves contacts itself, and no events are looked for.
+#[test]
+fn the_nonsmooth_scheme_runs_under_the_driver_too() {
+    let mut system = BallOnMovingWall::new(0.5);
+    system.amplitude = 0.0;
+    let mut start = system.initial();
+    (start.q[0], start.mode[0]) = (0.1, Mode::Open);
+    let mut method = MoreauJean::new(0.5).unwrap();
+    let (last, watch) = run(&mut system, &mut method, start, 2.0, Some(1e-3));
+    assert!(watch.events.is_empty() && last.q[0].abs() < 1e-3 && last.v[0].abs() < 0.02, "{last:?}");
+    assert!((last.lambda[0] / GRAVITY - 1.0).abs() < 1e-6, "{:?}", last.lambda);
+}
+
+/// A ball dropped onto a plate at rest, so that it lands on the end of a step, stays there.
+#[test]
+fn a_ball_that_lands_at_the_end_of_a_step_stays() {
+    let mut system = BallOnMovingWall::new(0.0);
+    system.amplitude = 0.0;
+    let mut start = system.initial();
+    (start.q[0], start.mode[0]) = (0.5 * GRAVITY * 0.3 * 0.3, Mode::Open);
+    let mut alpha = GeneralizedAlpha::chung_hulbert(0.8).unwrap();
+    let (last, watch) = run(&mut system, &mut alpha, start, 1.0, Some(1e-3));
+    assert_eq!(watch.events.len(), 1, "{:?}", watch.events);
+    assert!(last.q[0].abs() < 1e-12 && last.v[0].abs() < 1e-9, "{last:?}");
+}
+
 /// A top that precesses steadily at the angle α from the vertical: I₁ Ω² cos α − I₃ ω₃ Ω + m g l = 0.
 #[test]
 fn the_heavy_top_precesses_at_the_order_of_each_method() {

@@ -9,6 +9,8 @@ use crate::system::{RowWeights, Set, State, System};
 const RESTING: f64 = 1e-5;
 /// Events in a row with next to no time between them at which a run ends.
 const MOST_EVENTS: usize = 1000;
+/// Part of an attempted step below which an event follows the one before at once.
+const SHORT: f64 = 1e-6;
 
 /// What a run needs for contacts and events.
 pub(super) struct Contacts {
@@ -17,8 +19,8 @@ pub(super) struct Contacts {
     /// Largest closing speed so far [m/s].
     pub(super) fastest: f64,
     rates: Vec<f64>,
-    /// Events in a row, and when the first of them was.
-    events: (usize, f64),
+    /// Events in a row with no time between them.
+    events: usize,
 }
 
 impl Contacts {
@@ -29,7 +31,7 @@ impl Contacts {
             map: ImpactMap::new(system),
             fastest: 0.0,
             rates: vec![0.0; state.lambda.len()],
-            events: (0, state.t),
+            events: 0,
         })
     }
 
@@ -61,12 +63,8 @@ impl Contacts {
     }
 
     /// Counts the events that follow each other with no time between them.
-    pub(super) fn count_event(&mut self, time: f64) -> Result<(), RunError> {
-        let (count, since) = &mut self.events;
-        if time - *since > 1e-9 * time.abs() {
-            (*count, *since) = (0, time);
-        }
-        *count += 1;
-        if *count > MOST_EVENTS { Err(RunError::Chatter { time, count: *count }) } else { Ok(()) }
+    pub(super) fn count_event(&mut self, time: f64, part: f64) -> Result<(), RunError> {
+        self.events = if part < SHORT { self.events + 1 } else { 0 };
+        if self.events > MOST_EVENTS { Err(RunError::Chatter { time, count: self.events }) } else { Ok(()) }
     }
 }

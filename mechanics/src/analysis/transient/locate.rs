@@ -16,7 +16,7 @@
 
 use super::ending::{RunError, failed};
 use crate::integrator::{Integrator, Span};
-use crate::system::{Mode, RowWeights, Set, State, System};
+use crate::system::{Mode, RowWeights, Set, Side, State, System};
 
 /// Gap at which a contact touches, over the length of the system.
 pub(super) const TOUCHING: f64 = 1e-13;
@@ -26,6 +26,8 @@ const VANISHING: f64 = 1e-12;
 const SMALLEST: f64 = 1e-30;
 /// Part of a step below which an event happens at its start.
 const SHORTEST: f64 = 1e-9;
+/// Least scaled indicator of a contact that has just opened and separates: above 1, which is rounding.
+const SEPARATING: f64 = 2.0;
 /// Attempts to refine the time of an event.
 const ATTEMPTS: usize = 200;
 
@@ -42,6 +44,10 @@ pub(super) struct Locator {
     start: Values,
     end: Values,
     signs: Vec<f64>,
+    /// Open contacts that touch and separate at the start of the step.
+    leaving: Vec<bool>,
+    /// Time and side of the end of the attempted step.
+    whole: (f64, Side),
     trial: State,
 }
 
@@ -95,7 +101,19 @@ impl Locator {
         let length = system.scales().iter().fold(0.0_f64, |m, x| m.max(*x));
         let values = || Values::new(sets.len(), own);
         let (start, end, signs) = (values(), values(), vec![1.0; own]);
-        Some(Locator { own, length, strongest: 0.0, start, end, signs, trial: state.clone(), sets })
+        let leaving = vec![false; sets.len()];
+        Some(Locator {
+            leaving,
+            whole: (state.t, Side::Right),
+            own,
+            length,
+            strongest: 0.0,
+            start,
+            end,
+            signs,
+            trial: state.clone(),
+            sets,
+        })
     }
 
     /// Looks for events in the step of size `h` from `from` to `to`, which was attempted. Where there is one, `to` becomes
@@ -111,7 +129,7 @@ impl Locator {
         let largest = from.lambda.iter().chain(&to.lambda).fold(0.0_f64, |m, x| m.max(x.abs()));
         self.strongest = self.strongest.max(largest);
         self.begin(system, from);
-        let whole = (to.t, to.side);
+        self.whole = (to.t, to.side);
         let mut value = self.value(system, to);
         let (mut low, mut high) = (0.0, h);
         if value > 0.0 {
@@ -120,7 +138,7 @@ impl Locator {
             let at_dip = self.trial_value(system);
             if at_dip > 0.0 {
                 // The step as it was.
-                let span = Span { step: h, end: whole.0, side: whole.1 };
+                let span = Span { step: h, end: self.whole.0, side: self.whole.1 };
                 integrator.step(system, from, span, to).map_err(|error| failed(system, from, error))?;
                 return Ok((h, false));
             }
@@ -128,7 +146,7 @@ impl Locator {
         }
         // A time at which nothing has happened yet.
         let mut below = self.least(&self.start);
-        let start_is_clear = below > 1.0;
+        let start_is_clear = below > SEPARATING;
         if !start_is_clear {
             let mut size = high;
             loop {
@@ -176,21 +194,37 @@ impl Locator {
                 last = -1;
             }
         }
+        if !self.vanishes() && self.least(&self.end) > 0.0 {
+            size = high;
+            self.retry(system, integrator, from, size)?;
+            self.trial_value(system);
+        }
         to.copy_from(&self.trial);
         Ok((size, true))
     }
 
     /// Numbers of the model's indicators that are not positive at the end of the step located last.
-    pub(super) fn fired(&self) -> Vec<usize> {
+    pub(super) fn fired(&mut self) -> Vec<usize> {
         let m = self.sets.len();
-        (0..self.own).filter(|k| self.signs[*k] * self.end.indicator[m + k] <= 0.0).collect()
+        let fired: Vec<usize> =
+            (0..self.own).filter(|k| self.signs[*k] * self.end.indicator[m + k] <= 0.0).collect();
+        // An indicator that is zero now counts for the other side.
+        fired.iter().for_each(|k| self.signs[*k] = -self.signs[*k]);
+        fired
     }
 
     fn begin(&mut self, system: &mut dyn System, from: &State) {
         self.start.evaluate(system, from, &self.sets, [self.length, self.strongest]);
         let m = self.sets.len();
         for (sign, x) in self.signs.iter_mut().zip(&self.start.indicator[m..]) {
-            *sign = if *x < 0.0 { -1.0 } else { 1.0 };
+            if *x != 0.0 {
+                *sign = x.signum();
+            }
+        }
+        for i in 0..m {
+            let touches =
+                self.start.indicator[i] == self.start.gap[i] && self.start.gap[i] <= self.start.zero[i];
+            self.leaving[i] = touches && self.start.rate[i] > 0.0;
         }
     }
 
@@ -207,22 +241,18 @@ impl Locator {
 
     fn least(&self, values: &Values) -> f64 {
         let m = self.sets.len();
-        let rows = values.indicator[..m]
-            .iter()
-            .zip(&values.zero)
-            .map(|(x, zero)| if x.is_finite() { x / zero.max(SMALLEST) } else { f64::MAX });
-        let own = values.indicator[m..].iter().zip(&self.signs).map(|(x, sign)| sign * x);
+        let rows = (0..m).map(|i| {
+            let (x, zero) = (values.indicator[i], values.zero[i]);
+            let scaled = if x.is_finite() { x / zero.max(SMALLEST) } else { f64::MAX };
+            if self.leaving[i] && values.rate[i] > 0.0 { scaled.max(SEPARATING) } else { scaled }
+        });
+        let own = values.indicator[m..].iter().zip(&self.signs).map(|(x, sign)| sign * x / SMALLEST);
         rows.chain(own).fold(f64::MAX, f64::min)
     }
 
     /// Whether the least indicator at the trial is zero to rounding.
     fn vanishes(&self) -> bool {
-        let m = self.sets.len();
-        let least = self.least(&self.end);
-        if self.end.indicator[m..].iter().zip(&self.signs).any(|(x, sign)| sign * x == least) {
-            return least == 0.0;
-        }
-        least.abs() <= 1.0
+        self.least(&self.end).abs() <= 1.0
     }
 
     /// One step of size `size`.
@@ -233,7 +263,10 @@ impl Locator {
         from: &State,
         size: f64,
     ) -> Result<(), RunError> {
-        let done = integrator.step(system, from, Span::new(from.t, size), &mut self.trial);
+        let (end, side) = self.whole;
+        let span =
+            if from.t + size >= end { Span { step: size, end, side } } else { Span::new(from.t, size) };
+        let done = integrator.step(system, from, span, &mut self.trial);
         done.map(|_| ()).map_err(|error| failed(system, from, error))
     }
 

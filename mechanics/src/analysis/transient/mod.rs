@@ -23,6 +23,8 @@ use stretch::Stretch;
 
 /// Shortest recording interval, over the length of the run.
 const SMALLEST_SAMPLE: f64 = 1e-9;
+/// Part of a fixed step that is not taken as a step of its own.
+const SLIVER: f64 = 1e-6;
 /// What a run is asked to do.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
@@ -131,6 +133,9 @@ impl Run {
         plan: &Plan,
         observer: &mut dyn Observer,
     ) -> Result<(), RunError> {
+        if integrator.resolves_contacts() {
+            self.contacts = None;
+        }
         if let Some(contacts) = &mut self.contacts {
             contacts.settle(system, state)?;
         }
@@ -173,7 +178,13 @@ impl Run {
         if let Some(asked) = plan.step.filter(|_| is_fixed(integrator)) {
             let stretch = from.numbers("stretch")?;
             let stop = next_break(system, integrator, state.t, plan.end);
-            let (stretch, at) = Stretch::recall(stretch, stop, asked).map_err(|[before, now]| {
+            let recalled = if jump_at(system, integrator, state.t).is_some() {
+                // The run ended at a break: behind it begins another stretch.
+                Ok((Stretch::new(state.t, stop, asked), state.t))
+            } else {
+                Stretch::recall(stretch, stop, asked)
+            };
+            let (stretch, at) = recalled.map_err(|[before, now]| {
                 NotResumed::Failed(format!(
                     "the run was made with steps of {before} s, and until {} s steps would be {now} s: give the step \
                      and a duration that is a multiple of it",
@@ -185,6 +196,9 @@ impl Run {
                 state.t = at;
             }
             self.stretch = Some(stretch);
+        }
+        if integrator.resolves_contacts() {
+            self.contacts = None;
         }
         let step = self.stretch.map_or(plan.end - origin, |stretch| stretch.step);
         let started = integrator.start(system, &mut state.clone(), step);
@@ -274,8 +288,8 @@ impl Run {
         let mut next = state.clone();
         while state.t < plan.end {
             let stop = stop(system, integrator, state.t, plan.end);
-            let (mut h, report) = self.attempt(system, integrator, state, &mut next, stop, plan)?;
-            let planned = next.t;
+            let (mut h, report) = self.attempt(system, integrator, state, &mut next, stop)?;
+            let (planned, attempted) = (next.t, h);
             let mut event = false;
             if let Some(contacts) = &mut self.contacts {
                 (h, event) = contacts.locator.locate(system, integrator, state, h, &mut next)?;
@@ -299,7 +313,7 @@ impl Run {
             std::mem::swap(state, &mut next);
             let at_break = jump_at(system, integrator, state.t);
             if event || at_break.is_some() {
-                self.cross(system, integrator, state, at_break, event, observer)?;
+                self.cross(system, integrator, state, at_break, event.then_some(h / attempted), observer)?;
                 if let Some(control) = &mut self.control {
                     control.restart(h);
                 }
@@ -326,19 +340,23 @@ impl Run {
         state: &State,
         next: &mut State,
         (stop, side): (f64, Side),
-        plan: &Plan,
     ) -> Result<(f64, StepReport), RunError> {
         if let Some(control) = &mut self.control {
             return adapt(system, integrator, state, next, (stop, side), control)
                 .map_err(|error| failed(system, state, error));
         }
-        let (h, end) = match &self.stretch {
-            // A step that an event has shortened goes on to where it would have ended.
-            Some(stretch) if stretch.next() - state.t < 0.999_999 * stretch.step => {
-                (stretch.next() - state.t, stretch.next())
+        let (h, end) = match &mut self.stretch {
+            Some(stretch) => {
+                // A step that an event has shortened goes on to where it would have ended, or a step further where
+                // next to nothing is left.
+                while stretch.next() < stop && stretch.next() - state.t < SLIVER * stretch.step {
+                    stretch.advance();
+                }
+                let left = stretch.next() - state.t;
+                let whole = (left - stretch.step).abs() <= 1e-9 * stretch.step;
+                (if whole { stretch.step } else { left }, stretch.next())
             }
-            Some(stretch) => (stretch.step, stretch.next()),
-            None => (plan.end - state.t, plan.end),
+            None => (stop - state.t, stop),
         };
         let span = Span { step: h, end, side: if end == stop { side } else { Side::Right } };
         let report = integrator.step(system, state, span, next);
@@ -352,14 +370,16 @@ impl Run {
         integrator: &mut dyn Integrator,
         state: &mut State,
         at_break: Option<Jump>,
-        event: bool,
+        event: Option<f64>,
         observer: &mut dyn Observer,
     ) -> Result<(), RunError> {
         let before = state.clone();
         state.side = Side::Right;
         let mut happened = Vec::new();
         let mut jump = at_break == Some(Jump::Velocity);
-        if event && let Some(contacts) = &self.contacts {
+        if event.is_some()
+            && let Some(contacts) = &mut self.contacts
+        {
             let fired = contacts.locator.fired();
             if !fired.is_empty() {
                 happened.push(EventKind::Crossing);
@@ -373,7 +393,7 @@ impl Run {
         self.impulse.fill(0.0);
         let jump = jump && system.impulse(&before, &mut self.impulse);
         let (mut work, mut lost) = (0.0, 0.0);
-        if event || jump {
+        if event.is_some() || jump {
             let mut fallback;
             let contacts = match &mut self.contacts {
                 Some(contacts) => contacts,
@@ -386,8 +406,8 @@ impl Run {
                     return self.restart(system, integrator, state, (work, lost), happened, observer);
                 }
             };
-            if event {
-                contacts.count_event(state.t)?;
+            if let Some(part) = event {
+                contacts.count_event(state.t, part)?;
             }
             let impact = contacts.strike(system, state, &self.impulse)?;
             if jump {

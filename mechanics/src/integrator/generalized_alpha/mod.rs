@@ -456,6 +456,7 @@ impl Integrator for GeneralizedAlpha {
             constant: false,
         }));
         self.counters = Counters::default();
+        self.kept.reset();
         self.restart(system, state)
     }
 

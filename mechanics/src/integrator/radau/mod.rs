@@ -134,6 +134,7 @@ impl Integrator for Radau {
 
     fn start(&mut self, system: &mut dyn Dynamics, state: &mut State, _step: f64) -> Result<(), StepError> {
         self.counters = Counters::default();
+        self.convergence.reset();
         if system.is_affine() {
             // The iteration of an affine system does not become slow by anything but rounding.
             self.convergence = self.convergence.with_noise(1.0);

@@ -344,7 +344,7 @@ impl Stages {
     /// q ← q ⊞ δ and v ← v + ν with G δ = −g, G ν = −ġ, of least size in the norm of the real matrix.
     fn project(&mut self, system: &mut dyn Dynamics, from: &State, to: &mut State) {
         let n = from.v.len();
-        for (weights, rounds) in [(RowWeights::POSITION, 2), (RowWeights::VELOCITY, 2)] {
+        for (weights, rounds) in [(RowWeights::POSITION, 4), (RowWeights::VELOCITY, 4)] {
             let position = weights == RowWeights::POSITION;
             for _ in 0..rounds {
                 let (motion, rows) = self.rhs.split_at_mut(n);
@@ -356,7 +356,7 @@ impl Stages {
                         rows[k] = 0.0;
                     }
                 }
-                self.real.solve(&mut self.rhs);
+                self.solve_real();
                 let x = &self.rhs[..n];
                 if position {
                     self.increment.iter_mut().zip(x).for_each(|(d, x)| *d -= x);
