@@ -17,7 +17,6 @@ use flexion::analysis::superposition::superpose;
 use flexion::analysis::transient::{Ending, Plan, resume, transient_to_checkpoint};
 use flexion::hub_beam::Drive;
 use flexion::integrator::{Checkpoint, Counters, Info};
-use flexion::linalg::Structure;
 use flexion::system::{State, System};
 use flexion_results::plot::trajectory_figure;
 use flexion_results::{
@@ -236,6 +235,5 @@ impl Prepared {
 fn size(system: &dyn System) -> ProblemSize {
     let unknowns = system.size().v + system.size().lambda;
     let structure = system.structure(0);
-    let border = if let Structure::Band { border, .. } = structure { border } else { 0 };
-    ProblemSize { unknowns, half_bandwidth: structure.half_bandwidth(), border }
+    ProblemSize { unknowns, half_bandwidth: structure.half_bandwidth(), border: structure.border() }
 }
