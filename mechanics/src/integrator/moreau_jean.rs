@@ -21,7 +21,7 @@ use super::{
     Checkpoint, Convergence, Counters, Info, Integrator, InvalidParameter, NotResumed, Progress, Span,
     StepError, StepReport, failure,
 };
-use crate::contact::{Law, solve};
+use crate::contact::{RowLaw as Law, solve};
 use crate::linalg::Matrix;
 use crate::system::{Dynamics, Mode, RowWeights, Set, Side, State, Weights};
 
