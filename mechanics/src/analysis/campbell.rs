@@ -122,9 +122,6 @@ pub enum NoCampbell {
     /// The speeds make no axis.
     #[error("a Campbell diagram needs at least two ascending speeds of at least zero")]
     Speeds,
-    /// The system cannot be built.
-    #[error("{0}")]
-    Build(String),
     /// There is no steady rotation at the first speed, or the system does not turn.
     #[error(transparent)]
     Rotation(#[from] NoRotation),
