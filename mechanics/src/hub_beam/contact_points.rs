@@ -16,6 +16,7 @@ use crate::contact::{PointMotion, Points, Variation};
 use crate::linalg::Matrix;
 use crate::profile::HubKinematics;
 use crate::system::State;
+use std::sync::Arc;
 
 /// What an obstacle is fixed to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,9 +34,9 @@ pub struct ContactPoint {
     /// a + x
     origin: f64,
     /// Functions of both fields at the station.
-    shapes: [Shapes; 2],
+    shapes: Arc<[Shapes; 2]>,
     /// w₂′ at the quadrature points between root and station, with foreshortening.
-    slopes: Vec<(f64, Shapes)>,
+    slopes: Arc<[(f64, Shapes)]>,
     /// ∂X/∂q and ∂Ẋ/∂q with foreshortening.
     by: [Vec<f64>; 2],
 }
@@ -68,13 +69,14 @@ impl ContactPoint {
         }
         let n = if slopes.is_empty() { 0 } else { fields.len() };
         let by = [vec![0.0; n], vec![0.0; n]];
-        ContactPoint { mount, origin: radius + x, shapes: [point.axial, point.transverse], slopes, by }
+        let shapes = Arc::new([point.axial, point.transverse]);
+        ContactPoint { mount, origin: radius + x, shapes, slopes: slopes.into(), by }
     }
 
     fn place(&self, s: &State, hub: &HubKinematics) -> Place {
         let field = |k: usize, q: &[f64]| self.shapes[k].field(0, q);
         let mut x = [self.origin + field(0, &s.q), field(0, &s.v), field(0, &s.a)];
-        for (weight, shapes) in &self.slopes {
+        for (weight, shapes) in self.slopes.iter() {
             let [q, v, a] = [&s.q, &s.v, &s.a].map(|q| shapes.field(1, q));
             x[0] -= 0.5 * weight * q * q;
             x[1] -= weight * q * v;
@@ -161,7 +163,7 @@ impl<C: Coupling> Points for HubBeam<C> {
         } else {
             by_x.fill(0.0);
             by_rate.fill(0.0);
-            for (weight, shapes) in &point.slopes {
+            for (weight, shapes) in point.slopes.iter() {
                 let (q, v) = (shapes.field(1, &s.q), shapes.field(1, &s.v));
                 for (&i, slope) in shapes.index.iter().zip(&shapes.value[1]) {
                     by_x[i] -= weight * q * slope;
@@ -192,7 +194,7 @@ impl<C: Coupling> Points for HubBeam<C> {
         let point = &self.contact_points[k];
         let place = point.place(s, &hub);
         let [fx, fy] = place.axes.map(|axis| w * (force[0] * axis[0] + force[1] * axis[1]));
-        for (weight, shapes) in &point.slopes {
+        for (weight, shapes) in point.slopes.iter() {
             for (&i, a) in shapes.index.iter().zip(&shapes.value[1]) {
                 for (&j, b) in shapes.index.iter().zip(&shapes.value[1]) {
                     out.add(i, j, -fx * weight * a * b);
@@ -205,10 +207,10 @@ impl<C: Coupling> Points for HubBeam<C> {
             out.add(i, n, x);
             out.add(n, i, x);
         };
-        let [axial, transverse] = &point.shapes;
+        let [axial, transverse] = &*point.shapes;
         axial.index.iter().zip(&axial.value[0]).for_each(|(&i, phi)| cross(i, fy * phi));
         transverse.index.iter().zip(&transverse.value[0]).for_each(|(&i, phi)| cross(i, -fx * phi));
-        for (weight, shapes) in &point.slopes {
+        for (weight, shapes) in point.slopes.iter() {
             let slope = shapes.field(1, &s.q);
             for (&i, a) in shapes.index.iter().zip(&shapes.value[1]) {
                 cross(i, -fy * weight * slope * a);

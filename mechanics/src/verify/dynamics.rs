@@ -186,7 +186,6 @@ impl Checker<'_> {
             return;
         }
         let power = self.system.power(&s).total();
-        let energy = self.system.energy(&s);
         // Short against the time in which the acceleration moves an unknown by its scale.
         let times = s.a.iter().zip(&self.scales).map(|(a, scale)| libm::sqrt(scale / a.abs()));
         let step = times.fold(0.1, f64::min) * 1e-3;
