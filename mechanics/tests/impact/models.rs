@@ -1,0 +1,155 @@
+//! Small systems that meet an obstacle, and how they are driven.
+
+use flexion::integrator::{Integrator, Span};
+use flexion::linalg::{Matrix, Structure};
+use flexion::system::{
+    Dynamics, Energy, Events, Observed, RowWeights, Set, Size, State, Steady, System, VisitRow, Weights,
+};
+
+/// A linear system M a + K q = f with stops at single unknowns, g = q − place ≥ 0.
+pub struct Linear {
+    pub mass: Vec<Vec<f64>>,
+    pub stiffness: Vec<Vec<f64>>,
+    pub force: Vec<f64>,
+    pub scales: Vec<f64>,
+    pub stops: Vec<(usize, f64)>,
+    pub rows: Vec<Set>,
+    width: usize,
+}
+
+impl Linear {
+    pub fn new(mass: Vec<Vec<f64>>, stiffness: Vec<Vec<f64>>, force: Vec<f64>) -> Linear {
+        let n = force.len();
+        let entry = |i: usize, j: usize| mass[i][j] != 0.0 || stiffness[i][j] != 0.0;
+        let width = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
+        let width = width.filter(|(i, j)| entry(*i, *j)).map(|(i, j)| i.abs_diff(j)).max().unwrap_or(0);
+        Linear { mass, stiffness, force, scales: vec![1.0; n], stops: Vec::new(), rows: Vec::new(), width }
+    }
+
+    pub fn with_stop(mut self, unknown: usize, place: f64, restitution: f64) -> Linear {
+        self.stops.push((unknown, place));
+        self.rows.push(Set::Unilateral { restitution });
+        self
+    }
+
+    fn entries(matrix: &[Vec<f64>], width: usize) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
+        matrix.iter().enumerate().flat_map(move |(i, row)| {
+            let (low, high) = (i.saturating_sub(width), (i + width + 1).min(row.len()));
+            (low..high).map(move |j| (i, j, row[j]))
+        })
+    }
+
+    fn form(matrix: &[Vec<f64>], width: usize, x: &[f64]) -> f64 {
+        0.5 * Linear::entries(matrix, width).map(|(i, j, a)| a * x[i] * x[j]).sum::<f64>()
+    }
+
+    /// A bar of n linear elements from x = 0 to L with EA and ρA: q the displacements of its nodes, consistent mass, or
+    /// lumped.
+    pub fn bar(n: usize, length: f64, [ea, mass]: [f64; 2], lumped: bool) -> Linear {
+        let (h, size) = (length / n as f64, n + 1);
+        let mut m = vec![vec![0.0; size]; size];
+        let mut k = vec![vec![0.0; size]; size];
+        for e in 0..n {
+            for i in 0..2 {
+                for j in 0..2 {
+                    let consistent = if i == j { 2.0 } else { 1.0 } / 6.0;
+                    let part = if lumped { if i == j { 0.5 } else { 0.0 } } else { consistent };
+                    m[e + i][e + j] += mass * h * part;
+                    k[e + i][e + j] += if i == j { ea / h } else { -ea / h };
+                }
+            }
+        }
+        Linear::new(m, k, vec![0.0; size])
+    }
+
+    /// Adds the weight of every node, −g times the row sum of the mass.
+    pub fn with_gravity(mut self, gravity: f64) -> Linear {
+        for (force, row) in self.force.iter_mut().zip(&self.mass) {
+            *force -= gravity * row.iter().sum::<f64>();
+        }
+        self
+    }
+}
+
+impl Events for Linear {}
+impl Steady for Linear {}
+
+impl Dynamics for Linear {
+    fn size(&self) -> Size {
+        Size { q: self.force.len(), v: self.force.len(), lambda: self.rows.len() }
+    }
+    fn structure(&self, multipliers: usize) -> Structure {
+        let (n, m) = (self.force.len(), multipliers * self.rows.len());
+        Structure::band(n, self.width, self.width, m).cheaper()
+    }
+    fn scales(&self) -> &[f64] {
+        &self.scales
+    }
+    fn is_affine(&self) -> bool {
+        true
+    }
+    fn rows(&self) -> &[Set] {
+        &self.rows
+    }
+    fn residual(&mut self, s: &State, r: &mut [f64]) {
+        r.iter_mut().zip(&self.force).for_each(|(r, f)| *r = -f);
+        for (i, j, m) in Linear::entries(&self.mass, self.width) {
+            r[i] += m * s.a[j];
+        }
+        for (i, j, k) in Linear::entries(&self.stiffness, self.width) {
+            r[i] += k * s.q[j];
+        }
+        for ((unknown, _), lambda) in self.stops.iter().zip(&s.lambda) {
+            r[*unknown] -= lambda;
+        }
+    }
+    fn constraint(&mut self, s: &State, c: RowWeights, g: &mut [f64]) {
+        for ((unknown, place), g) in self.stops.iter().zip(g) {
+            *g = c.combine(s.q[*unknown] - place, s.v[*unknown], s.a[*unknown]);
+        }
+    }
+    fn jacobian(&mut self, _s: &State, visit: &mut VisitRow<'_>) {
+        for (row, (unknown, _)) in self.stops.iter().enumerate() {
+            visit(row, &[*unknown], &[1.0]);
+        }
+    }
+    fn tangent(&mut self, _s: &State, w: Weights<'_>, out: &mut Matrix) {
+        out.clear();
+        for (i, j, m) in Linear::entries(&self.mass, self.width) {
+            out.add(i, j, w.a * m + w.q * self.stiffness[i][j]);
+        }
+    }
+}
+
+impl Observed for Linear {
+    fn energy(&mut self, s: &State) -> Energy {
+        Energy {
+            kinetic: Linear::form(&self.mass, self.width, &s.v),
+            strain: Linear::form(&self.stiffness, self.width, &s.q),
+            gravity: -self.force.iter().zip(&s.q).map(|(f, q)| f * q).sum::<f64>(),
+            ..Energy::default()
+        }
+    }
+}
+
+/// Steps of size `step` from `from` to `end`; the callback sees the states at both ends of each.
+pub fn steps(
+    integrator: &mut dyn Integrator,
+    system: &mut dyn System,
+    mut from: State,
+    (end, step): (f64, f64),
+    mut each: impl FnMut(&mut dyn System, &State, &State),
+) -> State {
+    integrator.start(system, &mut from, step).unwrap();
+    let mut to = from.clone();
+    let origin = from.t;
+    let count = ((end - origin) / step).round() as u64;
+    for k in 1..=count {
+        let span = Span { end: origin + k as f64 * step, ..Span::new(from.t, step) };
+        integrator.step(system, &from, span, &mut to).unwrap();
+        integrator.accept(&from, &to);
+        each(system, &from, &to);
+        std::mem::swap(&mut from, &mut to);
+    }
+    from
+}
