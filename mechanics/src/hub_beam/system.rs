@@ -289,7 +289,7 @@ fn motion_breaks(motion: &Motion) -> Vec<Break> {
 impl<C: Coupling> Dynamics for HubBeam<C> {
     fn size(&self) -> Size {
         let n = self.coupling.fields().len() + self.hub.unknowns();
-        Size { q: n, v: n, lambda: 0 }
+        Size { q: n, v: n, lambda: 0, memory: 0 }
     }
 
     fn structure(&self, _multipliers: usize) -> Structure {

@@ -91,7 +91,7 @@ impl MoreauJean {
         let (n, theta) = (from.v.len(), self.theta);
         work.choose(system, from, h);
         to.v.copy_from_slice(&from.v);
-        to.mode.copy_from_slice(&from.mode);
+        to.copy_modes(from);
         work.impulses.fill(0.0);
         self.convergence.begin(true);
         loop {

@@ -76,7 +76,7 @@ impl Steady for Linear {}
 
 impl Dynamics for Linear {
     fn size(&self) -> Size {
-        Size { q: self.force.len(), v: self.force.len(), lambda: self.rows.len() }
+        Size { q: self.force.len(), v: self.force.len(), lambda: self.rows.len(), memory: 0 }
     }
     fn structure(&self, multipliers: usize) -> Structure {
         let (n, m) = (self.force.len(), multipliers * self.rows.len());

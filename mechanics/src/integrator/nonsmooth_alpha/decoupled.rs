@@ -25,6 +25,7 @@ impl NonsmoothAlpha {
         work.from.q.copy_from_slice(&from.q);
         work.from.v.copy_from_slice(&from.v);
         work.from.lambda.copy_from_slice(&from.lambda);
+        work.from.copy_modes(from);
         super::open(work.rows.sets(), &mut work.from);
         let mut report = self.smooth.step(system, &work.from, span, &mut work.smooth)?;
         to.copy_from(&work.smooth);
