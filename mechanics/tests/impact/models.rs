@@ -1,5 +1,7 @@
 //! Small systems that meet an obstacle, and how they are driven.
 
+use crate::integrators::multibody::GRAVITY;
+use flexion::analysis::transient::{Ending, Observer, Plan, Step, transient};
 use flexion::integrator::{Integrator, Span};
 use flexion::linalg::{Matrix, Structure};
 use flexion::system::{
@@ -152,4 +154,62 @@ pub fn steps(
         std::mem::swap(&mut from, &mut to);
     }
     from
+}
+
+/// Observes nothing.
+pub struct Blind;
+
+impl Observer for Blind {
+    fn sample(&mut self, _system: &mut dyn System, _state: &State, _step: &Step) {}
+}
+
+/// A run to its end.
+pub fn rest(system: &mut dyn System, method: &mut dyn Integrator, state: &mut State, plan: &Plan) {
+    assert_eq!(transient(system, method, state, plan, &mut Blind), Ending::Finished);
+}
+
+/// A block of mass 1 on an incline with the slope α and friction: q along it, downwards, and away from it.
+pub struct Block {
+    pub slope: f64,
+    rows: [Set; 2],
+}
+
+impl Block {
+    pub fn new(slope: f64, coefficient: f64) -> Block {
+        let rows = [Set::Unilateral { restitution: 0.0 }, Set::Friction { coefficient, normal: 0 }];
+        Block { slope, rows }
+    }
+}
+
+impl Events for Block {}
+impl Steady for Block {}
+impl Observed for Block {}
+
+impl Dynamics for Block {
+    fn size(&self) -> Size {
+        Size { q: 2, v: 2, lambda: 2, memory: 0 }
+    }
+    fn scales(&self) -> &[f64] {
+        &[1.0; 2]
+    }
+    fn rows(&self) -> &[Set] {
+        &self.rows
+    }
+    fn residual(&mut self, s: &State, r: &mut [f64]) {
+        r[0] = s.a[0] - GRAVITY * self.slope.sin() - s.lambda[1];
+        r[1] = s.a[1] + GRAVITY * self.slope.cos() - s.lambda[0];
+    }
+    fn constraint(&mut self, s: &State, c: RowWeights, g: &mut [f64]) {
+        g[0] = c.combine(s.q[1], s.v[1], s.a[1]);
+        g[1] = c.combine(0.0, s.v[0], s.a[0]);
+    }
+    fn jacobian(&mut self, _s: &State, visit: &mut VisitRow<'_>) {
+        visit(0, &[1], &[1.0]);
+        visit(1, &[0], &[1.0]);
+    }
+    fn tangent(&mut self, _s: &State, w: Weights<'_>, out: &mut Matrix) {
+        out.clear();
+        out.add(0, 0, w.a);
+        out.add(1, 1, w.a);
+    }
 }

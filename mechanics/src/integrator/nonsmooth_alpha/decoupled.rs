@@ -141,7 +141,13 @@ impl NonsmoothAlpha {
                         size(a).total_cmp(&size(b))
                     });
                     let worst = system.unknown(worst.unwrap_or(0));
-                    return Err(StepError::NotConverged { time: work.from.t, step: h, iterations, size, worst });
+                    return Err(StepError::NotConverged {
+                        time: work.from.t,
+                        step: h,
+                        iterations,
+                        size,
+                        worst,
+                    });
                 }
             }
         }

@@ -37,8 +37,8 @@ mod decoupled;
 use super::impulses::Impulses;
 use super::rows::Rows;
 use super::{
-    Checkpoint, Convergence, Counters, GeneralizedAlpha, Info, Integrator, InvalidParameter, NotResumed, Span,
-    StepError, StepReport, failure, hermite,
+    Checkpoint, Convergence, Counters, GeneralizedAlpha, Info, Integrator, InvalidParameter, NotResumed,
+    Span, StepError, StepReport, failure, hermite,
 };
 use crate::linalg::Matrix;
 use crate::system::{Dynamics, Mode, Set, State};
