@@ -9,4 +9,4 @@ mod cone;
 mod impact;
 
 pub use cone::{Law, Unresolved, solve};
-pub use impact::{Impact, ImpactError, ImpactMap};
+pub use impact::{Bounds, Impact, ImpactError, ImpactMap, Neglected};

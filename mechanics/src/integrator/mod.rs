@@ -236,6 +236,9 @@ pub trait Integrator: Send {
         to: &mut State,
     ) -> Result<StepReport, StepError>;
 
+    /// Takes note that the last attempt was a trial, by which something was looked for: it does not count as rejected.
+    fn discard(&mut self);
+
     /// Commits the last attempt to the history.
     fn accept(&mut self, from: &State, to: &State);
 

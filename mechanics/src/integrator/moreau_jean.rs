@@ -240,6 +240,10 @@ impl Integrator for MoreauJean {
         Ok(StepReport { iterations: solved?, error: None })
     }
 
+    fn discard(&mut self) {
+        self.pending = false;
+    }
+
     fn accept(&mut self, _from: &State, _to: &State) {
         self.pending = false;
         self.counters.steps += 1;

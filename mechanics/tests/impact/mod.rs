@@ -2,5 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // in helpers of tests
 
+mod accumulation;
+mod bars;
 mod models;
 mod nonsmooth;

@@ -213,3 +213,63 @@ impl Dynamics for Block {
         out.add(1, 1, w.a);
     }
 }
+
+/// A uniform rigid rod that falls about its end, q its angle over the horizontal; its tip meets the ground y = 0.
+pub struct Rod {
+    pub mass: f64,
+    pub length: f64,
+    rows: [Set; 1],
+}
+
+impl Rod {
+    pub fn new(restitution: f64) -> Rod {
+        Rod { mass: 0.8, length: 1.0, rows: [Set::Unilateral { restitution }] }
+    }
+
+    pub fn inertia(&self) -> f64 {
+        self.mass * self.length * self.length / 3.0
+    }
+}
+
+impl Events for Rod {}
+impl Steady for Rod {}
+
+impl Dynamics for Rod {
+    fn size(&self) -> Size {
+        Size { q: 1, v: 1, lambda: 1, memory: 0 }
+    }
+    fn scales(&self) -> &[f64] {
+        &[1.0]
+    }
+    fn rows(&self) -> &[Set] {
+        &self.rows
+    }
+    fn residual(&mut self, s: &State, r: &mut [f64]) {
+        let cos = s.q[0].cos();
+        r[0] = self.inertia() * s.a[0] + 0.5 * self.mass * GRAVITY * self.length * cos
+            - self.length * cos * s.lambda[0];
+    }
+    fn constraint(&mut self, s: &State, c: RowWeights, g: &mut [f64]) {
+        let (sin, cos) = s.q[0].sin_cos();
+        let bend = cos * s.a[0] - sin * s.v[0] * s.v[0];
+        g[0] = c.combine(self.length * sin, self.length * cos * s.v[0], self.length * bend);
+    }
+    fn jacobian(&mut self, s: &State, visit: &mut VisitRow<'_>) {
+        visit(0, &[0], &[self.length * s.q[0].cos()]);
+    }
+    fn tangent(&mut self, s: &State, w: Weights<'_>, out: &mut Matrix) {
+        out.clear();
+        let moment = (s.lambda[0] - 0.5 * self.mass * GRAVITY) * self.length * s.q[0].sin();
+        out.add(0, 0, w.a * self.inertia() + w.q * moment);
+    }
+}
+
+impl Observed for Rod {
+    fn energy(&mut self, s: &State) -> Energy {
+        Energy {
+            kinetic: 0.5 * self.inertia() * s.v[0] * s.v[0],
+            gravity: 0.5 * self.mass * GRAVITY * self.length * s.q[0].sin(),
+            ..Energy::default()
+        }
+    }
+}

@@ -4,7 +4,7 @@ use super::models::{Block, Linear, rest, steps};
 use crate::integrators::multibody::{BallOnMovingWall, BallsOnWall, FourBar, GRAVITY, MasslessNode};
 use flexion::analysis::transient::{Plan, resume, transient_to_checkpoint};
 use flexion::integrator::{Integrator, MoreauJean, NonsmoothAlpha, Radau, Tolerance};
-use flexion::system::{Dynamics, Mode, Observed, RowWeights, State};
+use flexion::system::{Dynamics, Mode, RowWeights, State, System};
 
 pub fn methods(rho: f64) -> [Box<dyn Integrator>; 1] {
     [Box::new(NonsmoothAlpha::decoupled(rho).unwrap())]
@@ -135,7 +135,7 @@ fn a_ball_on_a_moving_plate_comes_to_the_event_driven_solution() {
     let mut start = system.initial();
     (start.q[0], start.mode[0]) = (0.25, Mode::Open);
     let mut state = start.clone();
-    let plan = Plan { end: 0.8, step: None, longest_step: None, sample: 0.1 };
+    let plan = Plan { end: 0.8, step: None, longest_step: None, contact_step: None, sample: 0.1 };
     let mut radau = Radau::new(Tolerance::uniform(1e-10)).unwrap();
     rest(&mut system, &mut radau, &mut state, &plan);
     let exact = state.q[0];
@@ -198,7 +198,7 @@ fn a_run_goes_on_bit_by_bit() {
     for (mut method, mut again) in methods(0.8).into_iter().zip(methods(0.8)) {
         let (mut system, mut start) = ball(0.6, 0.5);
         start.v[0] = -1.0;
-        let plan = |end| Plan { end, step: Some(1e-3), longest_step: None, sample: 0.1 };
+        let plan = |end| Plan { end, step: Some(1e-3), longest_step: None, contact_step: None, sample: 0.1 };
         let mut whole = start.clone();
         rest(&mut system, method.as_mut(), &mut whole, &plan(1.0));
         let mut half = start.clone();

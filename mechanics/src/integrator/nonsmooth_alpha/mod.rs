@@ -208,6 +208,10 @@ impl Integrator for NonsmoothAlpha {
         result
     }
 
+    fn discard(&mut self) {
+        self.smooth.discard();
+    }
+
     fn accept(&mut self, _from: &State, _to: &State) {
         if let Some(work) = &mut self.work {
             self.smooth.accept(&work.from, &work.smooth);
