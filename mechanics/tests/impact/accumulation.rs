@@ -2,7 +2,7 @@
 
 use super::models::{Rod, rest};
 use super::nonsmooth::{ball, methods};
-use crate::integrators::multibody::GRAVITY;
+use crate::integrators::multibody::{BallsOnWall, GRAVITY};
 use flexion::analysis::transient::{Ending, Event, EventKind, Observer, Plan, Step, transient};
 use flexion::contact::Neglected;
 use flexion::exact::pendulum::rod_angle;
@@ -161,5 +161,50 @@ fn steps_are_shorter_while_a_contact_is_closed_or_near() {
         }
         let (_, _, long) = run(&mut system, method.as_mut(), start.clone(), &plan(None));
         assert!(long.steps == 60 && short.steps > 180 && short.steps < 240, "{long:?} {short:?}");
+    }
+}
+
+/// Balls that spin and bounce: every impact changes the sliding velocity u = v_x + Rφ̇ by Λ(1/m + R²/J), with
+/// Λ = min(μ (1 + e) m eᵏv₀, m |u| · 2/7), until they roll with 5/7 of v_x.
+#[test]
+fn spinning_balls_bounce_with_friction() {
+    let (e, friction) = (0.7, 0.05);
+    let mut system = BallsOnWall::new(e, [friction; 2]);
+    let (m, r, j) = (system.mass, system.radius, system.inertia());
+    let height = 0.5;
+    let mut start = system.initial();
+    start.q = vec![0.0, r + height, 0.0, system.length, r + height, 0.0];
+    start.v = vec![2.0, 0.0, 5.0, 2.0, 0.0, 5.0];
+    start.mode[..4].fill(Mode::Open);
+    let first = (2.0 * height / GRAVITY).sqrt();
+    // Between the third impact and the fourth.
+    let end = first * (1.0 + 2.0 * (e + e * e) + e.powi(3));
+    let (mut v, mut spin) = (2.0, 5.0);
+    for k in 0..3 {
+        let slide: f64 = v + r * spin;
+        let normal = (1.0 + e) * m * e.powi(k) * GRAVITY * first;
+        let impulse = (friction * normal).min(slide.abs() / (1.0 / m + r * r / j)).copysign(slide);
+        (v, spin) = (v - impulse / m, spin - r * impulse / j);
+    }
+    for (mut method, step) in event_driven() {
+        let plan = Plan { end, step, longest_step: None, contact_step: None, sample: end };
+        let (last, watch, _) = run(&mut system, method.as_mut(), start.clone(), &plan);
+        assert_eq!(watch.impacts.len(), 3);
+        assert!((last.v[0] - v).abs() < 1e-9 && (last.v[2] - spin).abs() < 1e-8, "{:?} {v} {spin}", last.v);
+    }
+    for mut method in methods(0.8) {
+        let mut far = |count: f64| {
+            let plan =
+                Plan { end, step: Some(end / count), longest_step: None, contact_step: None, sample: end };
+            let (last, _, _) = run(&mut system, method.as_mut(), start.clone(), &plan);
+            (last.v[0] - v).abs().max(r * (last.v[2] - spin).abs())
+        };
+        let (coarse, fine) = (far(500.0), far(8000.0));
+        assert!(fine < 1e-3 && fine < 0.3 * coarse, "{coarse:e} {fine:e}");
+        // At the end it rolls, whatever the bounces have been: angular momentum about the ground is kept.
+        let plan = Plan { end: 4.0, step: Some(1e-3), longest_step: None, contact_step: None, sample: 1.0 };
+        let (last, _, _) = run(&mut system, method.as_mut(), start.clone(), &plan);
+        let rolls = (m * 2.0 - j / r * 5.0) / (m + j / (r * r));
+        assert!((last.v[0] - rolls).abs() < 1e-9 && (last.v[0] + r * last.v[2]).abs() < 1e-9, "{:?}", last.v);
     }
 }

@@ -1,8 +1,8 @@
 //! Elastic bars and beams that strike rigid stops: published values and closed forms.
 
-use super::models::{Linear, rest, steps};
+use super::models::{Linear, steps};
 use super::nonsmooth::methods;
-use flexion::analysis::transient::{Ending, Observer, Plan, Step, transient};
+use flexion::analysis::transient::{Ending, Event, Observer, Plan, Step, transient};
 use flexion::integrator::{GeneralizedAlpha, Integrator, MoreauJean};
 use flexion::system::{Dynamics, Mode, Observed, State, System};
 use std::f64::consts::PI;
@@ -147,5 +147,125 @@ fn a_bar_whose_contact_node_has_no_mass_keeps_its_energy() {
             "{:?}",
             watch.phases.0
         );
+    }
+}
+
+/// A free beam that moves with V across its axis when its end is stopped: until waves return from the other end, the
+/// impulse of the stop is J(t) = V EI^¼ (ρA)^¾ √(2t/π).
+///
+/// Derivation: with κ⁴ = ρA s²/EI the transform of what the stop adds is w = (V/2s²) (e^(px) + e^(p̄x)), p = κ(−1 + i)/√2,
+/// for which w(0) = V/s² and w″(0) = 0; the force is EI w‴(0) = V EI^¼ (ρA)^¾ / √(2s).
+#[test]
+fn the_impulse_of_a_beam_on_a_stop_grows_with_the_root_of_time() {
+    let (length, ei, mass, speed): (f64, f64, f64, f64) = (20.0, 3.0, 2.0, 1.5);
+    for mut method in nonsmooth() {
+        let mut beam = Linear::beam(100, length, [ei, mass], false).with_stop(0, 0.0, 0.0);
+        let mut start = moving(&beam, 0.0);
+        start.v.iter_mut().step_by(2).for_each(|v| *v = -speed);
+        let (mut impulse, mut worst) = (0.0, 0.0_f64);
+        steps(method.as_mut(), &mut beam, start, (2.0, 4e-3), |_, from, to| {
+            impulse += to.lambda[0] * (to.t - from.t);
+            let exact = speed * ei.powf(0.25) * mass.powf(0.75) * (2.0 * to.t / PI).sqrt();
+            if to.t > 0.5 {
+                worst = worst.max((impulse / exact - 1.0).abs());
+            }
+        });
+        assert!(worst < 0.02, "{} {worst}", method.info().name);
+    }
+}
+
+/// Deflections of the tip at each quarter of a second, and the time of the first event.
+#[derive(Default)]
+struct Tip {
+    unknown: usize,
+    deflections: Vec<f64>,
+    first: Option<f64>,
+}
+
+impl Observer for Tip {
+    fn sample(&mut self, _system: &mut dyn System, state: &State, _step: &Step) {
+        self.deflections.push(state.q[self.unknown]);
+    }
+    fn event(&mut self, event: &Event) {
+        self.first.get_or_insert(event.time);
+    }
+}
+
+/// A cantilever under its weight, held straight and released above a stop: the nonsmooth schemes find the event-driven
+/// motion until the second touch, and never penetrate, or by O(h). (What follows depends on every micro-impact.)
+#[test]
+fn a_cantilever_is_released_above_a_stop() {
+    let (n, h) = (4, 1e-4);
+    let (tip, place) = (2 * n - 2, -0.05);
+    let make = || Linear::beam(n, 1.0, [1.0, 1.0], true).with_gravity_across(1.0).with_stop(tip, place, 0.0);
+    let run = |method: &mut dyn Integrator| {
+        let mut beam = make();
+        let mut state = moving(&beam, 0.0);
+        let mut watch = Tip { unknown: tip, ..Tip::default() };
+        let plan = Plan { end: 0.75, step: Some(h), longest_step: None, contact_step: None, sample: 0.25 };
+        assert_eq!(transient(&mut beam, method, &mut state, &plan, &mut watch), Ending::Finished);
+        watch
+    };
+    let events = run(&mut GeneralizedAlpha::chung_hulbert(0.8).unwrap());
+    for mut method in nonsmooth() {
+        let found = run(method.as_mut());
+        for k in 1..4 {
+            let (x, exact) = (found.deflections[k], events.deflections[k]);
+            assert!((x - exact).abs() < 5e-4, "{} {k}: {x} for {exact}", method.info().name);
+        }
+        let mut beam = make();
+        let (mut first, mut least, start) = (f64::INFINITY, f64::INFINITY, moving(&beam, 0.0));
+        steps(method.as_mut(), &mut beam, start, (0.75, h), |_, _, to| {
+            least = least.min(to.q[tip] - place);
+            if to.lambda[0] > 0.0 {
+                first = first.min(to.t);
+            }
+        });
+        assert!((first - events.first.unwrap()).abs() < 2.0 * h, "{first} {:?}", events.first);
+        assert!(least > if method.info().order == 2 { -1e-13 } else { -h }, "{least:e}");
+    }
+}
+
+/// Energy of a linear system in a step of Moreau–Jean's scheme, with u = ġ:
+///
+/// ```text
+/// E₁ − E₀ = P (θ u₁ + (1 − θ) u₀) − (θ − ½) (Δvᵀ M Δv + Δqᵀ K Δq)
+/// ```
+///
+/// from v_θ times the equation of the step. It cannot grow where the contact closes (u₀ ≤ 0) and ½ ≤ θ ≤ 1/(1 + e).
+///
+/// Source: Acary, arXiv 1410.2499.
+#[test]
+fn the_energy_balance_of_a_step_of_moreau_and_jean_is_exact() {
+    for (restitution, theta) in [(0.0, 0.5), (0.0, 1.0), (0.5, 2.0 / 3.0), (0.5, 0.5), (1.0, 0.5)] {
+        let mut bar =
+            Linear::bar(20, 1.0, [1.0, 1.0], false).with_gravity(0.3).with_stop(0, -0.01, restitution);
+        let start = moving(&bar, -1.0);
+        let mut method = MoreauJean::new(theta).unwrap();
+        let mut energy = bar.energy(&start).total();
+        let (initial, mut touched) = (energy, 0);
+        steps(&mut method, &mut bar, start, (4.0, 0.01), |bar, from, to| {
+            let now = bar.energy(to).total();
+            let impulse = 0.01 * to.lambda[0];
+            let change = State {
+                q: to.q.iter().zip(&from.q).map(|(a, b)| a - b).collect(),
+                v: to.v.iter().zip(&from.v).map(|(a, b)| a - b).collect(),
+                ..to.clone()
+            };
+            let of_change = bar.energy(&change);
+            let dissipated = (2.0 * theta - 1.0) * (of_change.kinetic + of_change.strain);
+            let work = impulse * (theta * to.v[0] + (1.0 - theta) * from.v[0]);
+            assert!(
+                (now - energy - work + dissipated).abs() < 1e-11 * initial,
+                "{restitution} {theta} {}",
+                to.t
+            );
+            if from.v[0] <= 0.0 {
+                assert!(now <= energy + 1e-12 * initial, "{restitution} {theta} {}: {now} {energy}", to.t);
+            }
+            touched += u32::from(impulse > 0.0);
+            energy = now;
+        });
+        assert!(touched > 20);
     }
 }

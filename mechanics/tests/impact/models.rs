@@ -64,6 +64,45 @@ impl Linear {
         Linear::new(m, k, vec![0.0; size])
     }
 
+    /// A beam of n cubic elements from x = 0 to L with EI and ρA, clamped at x = 0 or free: deflection and slope of each
+    /// node, the slope times the length of an element.
+    pub fn beam(n: usize, length: f64, [ei, mass]: [f64; 2], clamped: bool) -> Linear {
+        let (h, size) = (length / n as f64, 2 * n + 2);
+        let bending = [
+            [12.0, 6.0, -12.0, 6.0],
+            [6.0, 4.0, -6.0, 2.0],
+            [-12.0, -6.0, 12.0, -6.0],
+            [6.0, 2.0, -6.0, 4.0],
+        ];
+        let inertia = [
+            [156.0, 22.0, 54.0, -13.0],
+            [22.0, 4.0, 13.0, -3.0],
+            [54.0, 13.0, 156.0, -22.0],
+            [-13.0, -3.0, -22.0, 4.0],
+        ];
+        let mut m = vec![vec![0.0; size]; size];
+        let mut k = vec![vec![0.0; size]; size];
+        for e in 0..n {
+            for i in 0..4 {
+                for j in 0..4 {
+                    m[2 * e + i][2 * e + j] += mass * h / 420.0 * inertia[i][j];
+                    k[2 * e + i][2 * e + j] += ei / h.powi(3) * bending[i][j];
+                }
+            }
+        }
+        let first = if clamped { 2 } else { 0 };
+        let cut = |a: Vec<Vec<f64>>| a[first..].iter().map(|row| row[first..].to_vec()).collect();
+        Linear::new(cut(m), cut(k), vec![0.0; size - first])
+    }
+
+    /// Adds a weight across the beam, −g times the mass times a deflection of 1.
+    pub fn with_gravity_across(mut self, gravity: f64) -> Linear {
+        for (force, row) in self.force.iter_mut().zip(&self.mass) {
+            *force -= gravity * row.iter().step_by(2).sum::<f64>();
+        }
+        self
+    }
+
     /// Adds the weight of every node, −g times the row sum of the mass.
     pub fn with_gravity(mut self, gravity: f64) -> Linear {
         for (force, row) in self.force.iter_mut().zip(&self.mass) {

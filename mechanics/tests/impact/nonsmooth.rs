@@ -4,7 +4,7 @@ use super::models::{Block, Linear, rest, steps};
 use crate::integrators::multibody::{BallOnMovingWall, BallsOnWall, FourBar, GRAVITY, MasslessNode};
 use flexion::analysis::transient::{Plan, resume, transient_to_checkpoint};
 use flexion::integrator::{Integrator, MoreauJean, NonsmoothAlpha, Radau, Tolerance};
-use flexion::system::{Dynamics, Mode, RowWeights, State, System};
+use flexion::system::{Dynamics, Mode, RowWeights, State};
 
 pub fn methods(rho: f64) -> [Box<dyn Integrator>; 1] {
     [Box::new(NonsmoothAlpha::decoupled(rho).unwrap())]
