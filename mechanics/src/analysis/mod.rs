@@ -2,6 +2,7 @@
 
 pub mod campbell;
 mod crossings;
+mod diagram;
 mod energy_balance;
 pub mod equilibrium;
 pub mod modes;
@@ -11,5 +12,7 @@ mod stiffness;
 pub mod superposition;
 mod tracking;
 pub mod transient;
+mod violation;
 
 pub use energy_balance::EnergyBalance;
+pub use violation::Violation;

@@ -52,6 +52,21 @@ impl Structure {
         }
     }
 
+    /// The same with `more` dense rows and columns behind.
+    pub fn widened(self, more: usize) -> Structure {
+        match self {
+            Structure::Dense { order } => Structure::Dense { order: order + more },
+            Structure::Band { order, lower, upper, border } => {
+                Structure::Band { order, lower, upper, border: border + more }
+            }
+            Structure::Ordered { places, of } => {
+                let order = places.len();
+                let places = places.iter().copied().chain(order..order + more).collect();
+                Structure::Ordered { places, of: Box::new(of.widened(more)) }
+            }
+        }
+    }
+
     /// Order of the whole matrix.
     pub fn order(&self) -> usize {
         match self {

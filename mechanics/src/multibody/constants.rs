@@ -96,7 +96,7 @@ impl Constants {
         }
         let (bodies, joints) = (model.bodies.len(), model.joints.len());
         let mut constants = Constants {
-            size: Size { q, v: 6 * bodies, lambda: rows.len() },
+            size: Size { q, v: 6 * bodies, lambda: rows.len(), memory: 0 },
             sets: vec![Set::Free; rows.len()],
             scales: (0..6 * bodies).map(|i| if i % 6 < 3 { length } else { 1.0 }).collect(),
             structures: plan.structures,

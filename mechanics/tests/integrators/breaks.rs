@@ -35,7 +35,7 @@ impl StepLoad {
 
 impl Dynamics for StepLoad {
     fn size(&self) -> Size {
-        Size { q: 1, v: 1, lambda: 0 }
+        Size { q: 1, v: 1, lambda: 0, memory: 0 }
     }
     fn scales(&self) -> &[f64] {
         &[1.0]
@@ -91,7 +91,7 @@ fn error(method: &mut dyn Integrator, h: f64) -> [f64; 2] {
     let mut system = StepLoad::new();
     let mut state = system.initial();
     let end = 2.0;
-    let plan = Plan { end, step: Some(h), longest_step: Some(h), sample: end };
+    let plan = Plan { end, step: Some(h), longest_step: Some(h), contact_step: None, sample: end };
     let mut watch = Watch::default();
     assert_eq!(transient(&mut system, method, &mut state, &plan, &mut watch), Ending::Finished);
     let [q, v] = system.exact(end);

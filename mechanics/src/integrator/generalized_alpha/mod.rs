@@ -214,7 +214,7 @@ impl GeneralizedAlpha {
             d[i] = h * from_v[i] + d_old * a[i] + d_new * next;
         }
         to.lambda.copy_from_slice(&from.lambda);
-        to.mode.copy_from_slice(&from.mode);
+        to.copy_modes(from);
         system.retract(&from.q, d, &mut to.q);
     }
 
@@ -477,6 +477,10 @@ impl Integrator for GeneralizedAlpha {
         let result = self.solve(&mut work, system, from, h, to);
         self.work = Some(work);
         result
+    }
+
+    fn discard(&mut self) {
+        self.pending = false;
     }
 
     fn accept(&mut self, from: &State, _to: &State) {
