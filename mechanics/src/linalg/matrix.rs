@@ -316,6 +316,25 @@ impl<T: Scalar> Matrix<T> {
         }
     }
 
+    /// Calls `visit` with the row and the value of every entry of column `j` that is not zero.
+    pub fn column(&self, j: usize, mut visit: impl FnMut(usize, T)) {
+        let (n, place) = (self.order(), self.place(j));
+        let (band, reach) = match &self.storage {
+            Storage::Band(a) if place < a.band().order() => {
+                let (first, last) = (place.saturating_sub(a.band().upper()), place + a.band().lower() + 1);
+                (first..last.min(a.band().order()), a.band().order()..n)
+            }
+            _ => (0..n, n..n),
+        };
+        for i in band.chain(reach) {
+            let i = self.ordering.as_ref().map_or(i, |ordering| ordering.unknowns[i]);
+            let x = self.get(i, j);
+            if x != T::ZERO {
+                visit(i, x);
+            }
+        }
+    }
+
     /// Adds `x` to entry (i, j). For hot loops use the [storage](Matrix::begin) itself.
     pub fn add(&mut self, i: usize, j: usize, x: T) {
         self.factored = false;

@@ -114,6 +114,15 @@ fn multipliers_are_placed_between_the_bodies_that_they_join() {
     for (i, j) in [(0, 0), (3, 4), (4, 3), (masses + 3, 4), (5, masses + 5), (2 * masses - 1, 0)] {
         assert_eq!(a.get(i, j), b.get(i, j));
     }
+    for j in [0, 7, masses + 3, 2 * masses - 1] {
+        let entries = |a: &Matrix| {
+            let mut column = vec![0.0; 2 * masses];
+            a.column(j, |i, x| column[i] += x);
+            column
+        };
+        assert_eq!(entries(&a), entries(&b));
+        assert_eq!(entries(&a)[5], a.get(5, j));
+    }
     let x: Vec<f64> = (0..2 * masses).map(|i| (0.7 * i as f64).sin()).collect();
     let (mut y, mut z) = (vec![0.0; 2 * masses], vec![0.0; 2 * masses]);
     a.multiply(&x, &mut y);

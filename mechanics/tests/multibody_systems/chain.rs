@@ -175,9 +175,6 @@ fn the_cost_of_a_step_is_linear_in_the_pendulums() {
     // 11 unknowns a pendulum in rows of 3·16 + 1.
     assert_eq!([50, 100, 200].map(stored), [50, 100, 200].map(|n| 11 * n * 49));
     for (mut method, name) in methods() {
-        if name == "stabilized" {
-            continue;
-        }
         let iterations = [50, 200].map(|n| {
             let mut system = chain(n);
             let start = system.initial();

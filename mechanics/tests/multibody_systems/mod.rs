@@ -8,6 +8,7 @@ mod faults;
 mod heavy_top;
 mod mechanisms;
 mod single;
+mod statics;
 
 use flexion::analysis::transient::{Ending, Observer, Plan, Step, transient};
 use flexion::integrator::{Integrator, Radau, Tolerance};
