@@ -4,6 +4,7 @@ mod architecture;
 mod basis_orders;
 mod campbell;
 mod high_coupling;
+mod impact;
 mod integrators;
 mod kept_tangents;
 mod linear_cost;

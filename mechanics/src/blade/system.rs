@@ -198,7 +198,7 @@ fn channels(mesh: &Mesh) -> Vec<Channel> {
 
 impl Dynamics for Blade {
     fn size(&self) -> Size {
-        Size { q: self.steady.len(), v: self.steady.len(), lambda: 0 }
+        Size { q: self.steady.len(), v: self.steady.len(), lambda: 0, memory: 0 }
     }
 
     fn structure(&self, _multipliers: usize) -> Structure {

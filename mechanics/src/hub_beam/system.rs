@@ -1,6 +1,7 @@
 //! The hub–beam as a [`System`](crate::system::System).
 
 use super::beam::Beam;
+use super::contact_points::ContactPoint;
 use super::coupling::Coupling;
 use super::damping::Damping;
 use super::hub::{Drive, Hub, Recent};
@@ -39,8 +40,11 @@ pub struct HubBeam<C> {
     breaks: Arc<[Break]>,
     /// Speed of a steady rotation instead of the drive's [rad/s], and whether the hub is held.
     steady: Option<f64>,
-    held: bool,
+    pub(super) held: bool,
     loads: Loads,
+    /// Stations that may touch obstacles, and the torque of the contact forces on the hub [N·m].
+    pub(super) contact_points: Vec<ContactPoint>,
+    pub(super) contact_torque: f64,
     damped: bool,
     /// Forces in the sections at the stations, recorded last.
     section_forces: Arc<SectionForces>,
@@ -94,6 +98,8 @@ impl<C: Coupling> HubBeam<C> {
             steady: None,
             held: false,
             loads: Loads::default(),
+            contact_points: Vec::new(),
+            contact_torque: 0.0,
             damped: false,
             section_forces: Arc::default(),
             hub,
@@ -198,7 +204,7 @@ impl<C: Coupling> HubBeam<C> {
     }
 
     /// Angle, speed and acceleration of the hub.
-    fn kinematics(&mut self, s: &State) -> HubKinematics {
+    pub(super) fn kinematics(&mut self, s: &State) -> HubKinematics {
         let n = self.coupling.fields().len();
         match (&self.hub.drive, self.steady) {
             (Drive::Free(free), steady) if self.held => {
@@ -288,7 +294,7 @@ fn motion_breaks(motion: &Motion) -> Vec<Break> {
 impl<C: Coupling> Dynamics for HubBeam<C> {
     fn size(&self) -> Size {
         let n = self.coupling.fields().len() + self.hub.unknowns();
-        Size { q: n, v: n, lambda: 0 }
+        Size { q: n, v: n, lambda: 0, memory: 0 }
     }
 
     fn structure(&self, _multipliers: usize) -> Structure {
@@ -487,7 +493,7 @@ impl<C: Coupling> Observed for HubBeam<C> {
         let hub = self.kinematics(s);
         let totals = self.totals(s, &hub);
         let torque = match &self.hub.drive {
-            Drive::Prescribed(_) => totals.torque - self.loads.torque(s, &hub),
+            Drive::Prescribed(_) => totals.torque - self.loads.torque(s, &hub) - self.contact_torque,
             Drive::Free(free) => free.torque(&hub, s.time()).value,
         };
         let strain = self.strain(s, &hub);

@@ -134,7 +134,7 @@ impl Integrator for Adams {
             let dv = w * (55.0 * from.a[i] - 59.0 * f1.a[i] + 37.0 * f2.a[i] - 9.0 * f3.a[i]);
             to.v[i] = from.v[i] + dv;
         }
-        to.mode.copy_from_slice(&from.mode);
+        to.copy_modes(from);
         system.retract(&from.q, increment, &mut to.q);
         scratch.accelerations.complete(system, to, place, counters)?;
         for i in 0..n {

@@ -84,13 +84,14 @@ impl Checkpoint {
         Ok(())
     }
 
-    /// Adds t, q, v, a and λ of a state under names that begin with `prefix`.
+    /// Adds a state under names that begin with `prefix`.
     pub fn put_state(&mut self, prefix: &str, state: &State) {
         let left = f64::from(u8::from(state.side == Side::Left));
         self.put(&format!("{prefix}time"), &[state.t, left]);
         let mode: Vec<f64> = state.mode.iter().map(|mode| f64::from(*mode as u8)).collect();
         self.put(&format!("{prefix}mode"), &mode);
-        for (name, list) in [("q", &state.q), ("v", &state.v), ("a", &state.a), ("lambda", &state.lambda)] {
+        let State { q, v, a, lambda, memory, .. } = state;
+        for (name, list) in [("q", q), ("v", v), ("a", a), ("lambda", lambda), ("memory", memory)] {
             self.put(&format!("{prefix}{name}"), list);
         }
     }
@@ -108,7 +109,8 @@ impl Checkpoint {
         self.fill(&format!("{prefix}q"), &mut state.q)?;
         self.fill(&format!("{prefix}v"), &mut state.v)?;
         self.fill(&format!("{prefix}a"), &mut state.a)?;
-        self.fill(&format!("{prefix}lambda"), &mut state.lambda)
+        self.fill(&format!("{prefix}lambda"), &mut state.lambda)?;
+        self.fill(&format!("{prefix}memory"), &mut state.memory)
     }
 }
 

@@ -123,6 +123,6 @@ fn finish(from: &State, to: &State, s: f64, t: f64, out: &mut State) {
     for i in 0..out.lambda.len() {
         out.lambda[i] = from.lambda[i] + s * (to.lambda[i] - from.lambda[i]);
     }
-    out.mode.copy_from_slice(&from.mode);
+    out.copy_modes(from);
     (out.t, out.side) = (t, Side::Right);
 }

@@ -21,7 +21,7 @@ use super::{
     Checkpoint, Convergence, Counters, Info, Integrator, InvalidParameter, NotResumed, Progress, Span,
     StepError, StepReport, failure,
 };
-use crate::contact::{Law, solve};
+use crate::contact::{RowLaw as Law, solve};
 use crate::linalg::Matrix;
 use crate::system::{Dynamics, Mode, RowWeights, Set, Side, State, Weights};
 
@@ -97,7 +97,7 @@ impl MoreauJean {
         let (n, theta) = (from.v.len(), self.theta);
         work.choose(system, from, h);
         to.v.copy_from_slice(&from.v);
-        to.mode.copy_from_slice(&from.mode);
+        to.copy_modes(from);
         work.impulses.fill(0.0);
         self.convergence.begin(true);
         loop {
@@ -323,7 +323,7 @@ impl Integrator for MoreauJean {
         mean(&from.v, &to.v, &mut out.v);
         mean(&from.a, &to.a, &mut out.a);
         mean(&from.lambda, &to.lambda, &mut out.lambda);
-        out.mode.copy_from_slice(&from.mode);
+        out.copy_modes(from);
         (out.t, out.side) = (t, Side::Right);
     }
 

@@ -102,7 +102,7 @@ impl Scratch {
     ) -> Result<(), StepError> {
         let n = from.v.len();
         let place = (from.t, h);
-        self.stage.mode.copy_from_slice(&from.mode);
+        self.stage.copy_modes(from);
         self.stage.a.copy_from_slice(&from.a);
         self.rate.copy_from_slice(&from.v);
         self.sum_v.copy_from_slice(&from.a);
@@ -132,7 +132,7 @@ impl Scratch {
             to.v[i] = from.v[i] + h / 6.0 * self.sum_v[i];
             increment[i] = h / 6.0 * self.sum_d[i];
         }
-        to.mode.copy_from_slice(&from.mode);
+        to.copy_modes(from);
         system.retract(&from.q, increment, &mut to.q);
         self.accelerations.complete(system, to, place, counters)
     }

@@ -33,7 +33,7 @@ impl Mode {
     }
 }
 
-/// Time, configuration, velocity, acceleration, multipliers and modes of a system.
+/// Time, configuration, velocity, acceleration, multipliers, modes and memory of a system.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct State {
     /// Time t \[s\].
@@ -50,6 +50,8 @@ pub struct State {
     pub lambda: Vec<f64>,
     /// Mode of each row, `Size::lambda` entries.
     pub mode: Vec<Mode>,
+    /// Quantities that only events change, `Size::memory` entries, e.g. the speed at which a contact closed.
+    pub memory: Vec<f64>,
 }
 
 impl State {
@@ -63,6 +65,7 @@ impl State {
             a: vec![0.0; size.v],
             lambda: vec![0.0; size.lambda],
             mode: vec![Mode::Closed; size.lambda],
+            memory: vec![0.0; size.memory],
         }
     }
 
@@ -81,7 +84,13 @@ impl State {
         self.v.copy_from_slice(&other.v);
         self.a.copy_from_slice(&other.a);
         self.lambda.copy_from_slice(&other.lambda);
+        self.copy_modes(other);
+    }
+
+    /// Copies what does not change in a step: modes and memory.
+    pub fn copy_modes(&mut self, other: &State) {
         self.mode.copy_from_slice(&other.mode);
+        self.memory.copy_from_slice(&other.memory);
     }
 
     /// Whether every entry is a finite number.
@@ -91,7 +100,7 @@ impl State {
     }
 }
 
-/// Numbers of coordinates, velocities and multipliers (nq ≥ nv).
+/// Numbers of coordinates, velocities, multipliers and remembered quantities (nq ≥ nv).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Size {
     /// Number of configuration coordinates.
@@ -100,4 +109,6 @@ pub struct Size {
     pub v: usize,
     /// Number of constraints, and of multipliers: every contact that may ever close is counted.
     pub lambda: usize,
+    /// Number of quantities that only events change.
+    pub memory: usize,
 }

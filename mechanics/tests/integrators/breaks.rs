@@ -35,7 +35,7 @@ impl StepLoad {
 
 impl Dynamics for StepLoad {
     fn size(&self) -> Size {
-        Size { q: 1, v: 1, lambda: 0 }
+        Size { q: 1, v: 1, lambda: 0, memory: 0 }
     }
     fn scales(&self) -> &[f64] {
         &[1.0]

@@ -50,7 +50,7 @@ impl BallsOnWall {
 
 impl Dynamics for BallsOnWall {
     fn size(&self) -> Size {
-        Size { q: 6, v: 6, lambda: 5 }
+        Size { q: 6, v: 6, lambda: 5, memory: 0 }
     }
     fn scales(&self) -> &[f64] {
         &[1.0; 6]
@@ -170,7 +170,7 @@ pub fn exponential(d: &[f64]) -> [f64; 4] {
 
 impl Dynamics for HeavyTop {
     fn size(&self) -> Size {
-        Size { q: 4, v: 3, lambda: 0 }
+        Size { q: 4, v: 3, lambda: 0, memory: 0 }
     }
     fn scales(&self) -> &[f64] {
         &[1.0; 3]
@@ -308,7 +308,7 @@ impl FourBar {
 
 impl Dynamics for FourBar {
     fn size(&self) -> Size {
-        Size { q: 9, v: 9, lambda: 8 }
+        Size { q: 9, v: 9, lambda: 8, memory: 0 }
     }
     fn scales(&self) -> &[f64] {
         &[1.0; 9]
@@ -421,7 +421,7 @@ impl MasslessNode {
 
 impl Dynamics for MasslessNode {
     fn size(&self) -> Size {
-        Size { q: 2, v: 2, lambda: 1 }
+        Size { q: 2, v: 2, lambda: 1, memory: 0 }
     }
     fn scales(&self) -> &[f64] {
         &[1.0; 2]
@@ -482,7 +482,7 @@ impl BallOnMovingWall {
 
 impl Dynamics for BallOnMovingWall {
     fn size(&self) -> Size {
-        Size { q: 1, v: 1, lambda: 1 }
+        Size { q: 1, v: 1, lambda: 1, memory: 0 }
     }
     fn scales(&self) -> &[f64] {
         &[1.0]

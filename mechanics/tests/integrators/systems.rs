@@ -56,7 +56,7 @@ impl Dynamics for Chain {
         &self.scales
     }
     fn size(&self) -> Size {
-        Size { q: self.masses.len(), v: self.masses.len(), lambda: 0 }
+        Size { q: self.masses.len(), v: self.masses.len(), lambda: 0, memory: 0 }
     }
     fn structure(&self, _multipliers: usize) -> Structure {
         Structure::band(self.masses.len(), self.width, self.width, 0)
@@ -121,7 +121,7 @@ impl Dynamics for SpringPendulum {
         &self.scales
     }
     fn size(&self) -> Size {
-        Size { q: 2, v: 2, lambda: 0 }
+        Size { q: 2, v: 2, lambda: 0, memory: 0 }
     }
     fn structure(&self, _multipliers: usize) -> Structure {
         Structure::dense(2)
@@ -179,7 +179,7 @@ impl Dynamics for Pendulum {
         &self.scales
     }
     fn size(&self) -> Size {
-        Size { q: 1, v: 1, lambda: 0 }
+        Size { q: 1, v: 1, lambda: 0, memory: 0 }
     }
     fn structure(&self, _multipliers: usize) -> Structure {
         Structure::dense(1)
@@ -215,7 +215,7 @@ impl Dynamics for CartesianPendulum {
         &self.scales
     }
     fn size(&self) -> Size {
-        Size { q: 2, v: 2, lambda: 1 }
+        Size { q: 2, v: 2, lambda: 1, memory: 0 }
     }
     fn residual(&mut self, s: &State, r: &mut [f64]) {
         r[0] = s.a[0] - s.q[0] * s.lambda[0];
@@ -264,7 +264,7 @@ impl Dynamics for TwoFrequencies {
         &self.scales
     }
     fn size(&self) -> Size {
-        Size { q: 2, v: 2, lambda: 0 }
+        Size { q: 2, v: 2, lambda: 0, memory: 0 }
     }
     fn structure(&self, _multipliers: usize) -> Structure {
         Structure::band(2, 0, 0, 0)

@@ -214,7 +214,7 @@ impl GeneralizedAlpha {
             d[i] = h * from_v[i] + d_old * a[i] + d_new * next;
         }
         to.lambda.copy_from_slice(&from.lambda);
-        to.mode.copy_from_slice(&from.mode);
+        to.copy_modes(from);
         system.retract(&from.q, d, &mut to.q);
     }
 

@@ -280,7 +280,7 @@ impl Stages {
         let (a, lambda) = self.a[i].split_at(n);
         self.stage.a.copy_from_slice(a);
         self.stage.lambda.copy_from_slice(lambda);
-        self.stage.mode.copy_from_slice(&from.mode);
+        self.stage.copy_modes(from);
         // The last stage is the end of the step, with its side.
         (self.stage.t, self.stage.side) =
             if i == 2 { (to.t, to.side) } else { (from.t + h_gamma, Side::Right) };

@@ -1,0 +1,4 @@
+//! Contacts of the hub–beam.
+
+mod conformance;
+mod falling_pendulum;
