@@ -44,9 +44,12 @@ fn probe() {
     ] {
         let mut system = system;
         let mut method = Radau::new(Tolerance::uniform(1e-8)).unwrap();
-        let plan = Plan { end: 0.6, step: None, longest_step: None, sample: 0.001 };
+        let plan = Plan { end: 0.6, step: None, contact_step: None, longest_step: None, sample: 0.001 };
         let (watch, state, ending) = run(system.as_mut(), &mut method, &plan);
-        println!("{name} {ending:?}"); if watch.energies.is_empty() { continue; }
+        println!("{name} {ending:?}");
+        if watch.energies.is_empty() {
+            continue;
+        }
         let (first, last) = (watch.energies[0].total(), watch.energies.last().unwrap().total());
         println!(
             "{name}: {ending:?} t {} events {} energy {first} {last} counters {:?}",
