@@ -170,14 +170,7 @@ impl Inertia {
         let mut add = |point: &Point, resultants: Resultants, lumped: bool| {
             let (x, w, r) = (point.x, point.weight, radius + point.x);
             let (a, b) = (&point.axial, &point.transverse);
-            let Resultants {
-                mass,
-                first_moment: s,
-                rotary_inertia: i,
-                axial_stiffness: ea,
-                coupling_stiffness: es,
-                bending_stiffness: ei,
-            } = resultants;
+            let Resultants { mass, first_moment: s, rotary_inertia: i, .. } = resultants;
             moment += w * (mass * r * r + i);
             add_vector(&mut sx, a, 0, w * mass * r);
             add_vector(&mut sx, b, 0, w * s);
@@ -202,15 +195,20 @@ impl Inertia {
                 add_outer(&mut p, (b, 1), (b, 1), w * moment_tail(x));
                 add_outer(&mut d, (b, 1), (b, 1), -w * mass_tail(x));
             }
-            add_outer(&mut k, (a, 1), (a, 1), w * ea);
-            add_symmetric(&mut k, (a, 1), (b, 2), -w * es);
-            add_outer(&mut k, (b, 2), (b, 2), w * ei);
         };
-        fields.integrate(|point| add(point, section.resultants(point.x), false));
+        let inertial = fields.inertial();
+        inertial.integrate(|point| add(point, section.resultants(point.x), false));
         for m in masses {
             let resultants = Resultants { mass: m.mass, rotary_inertia: m.inertia, ..Resultants::default() };
-            add(&fields.point(m.station, 1.0), resultants, true);
+            add(&inertial.point(m.station, 1.0), resultants, true);
         }
+        fields.integrate(|point| {
+            let (w, a, b) = (point.weight, &point.axial, &point.transverse);
+            let r = section.resultants(point.x);
+            add_outer(&mut k, (a, 1), (a, 1), w * r.axial_stiffness);
+            add_symmetric(&mut k, (a, 1), (b, 2), -w * r.coupling_stiffness);
+            add_outer(&mut k, (b, 2), (b, 2), w * r.bending_stiffness);
+        });
         let (mut gyroscopic, mut stiffening, mut symmetric) = (new(), new(), new());
         let half = structure.half_bandwidth();
         for i in 0..n {

@@ -2,15 +2,13 @@
 
 use super::rows::Rows;
 use super::{Counters, StepError, failure};
-use crate::linalg::Matrix;
-use crate::system::{Dynamics, RowWeights, State, Weights};
+use crate::linalg::{Matrix, Singular};
+use crate::system::{Dynamics, RowWeights, State, Weights, is_active};
 
-/// Weight of K beside M where M is singular, in units of the ratio of their largest entries.
-const REGULARIZATION: f64 = 1e-9;
-/// Corrections of accelerations found with the regularized mass matrix.
-const CORRECTIONS: usize = 3;
-/// Change of accelerations, relative to the largest, that the corrections must fall below.
-const SETTLED: f64 = 1e-9;
+/// Corrections by which unknowns without mass are put in equilibrium.
+const CORRECTIONS: usize = 20;
+/// Last correction over the scale of the unknown.
+const SETTLED: f64 = 1e-13;
 
 /// Solver of
 ///
@@ -23,23 +21,27 @@ const SETTLED: f64 = 1e-9;
 /// The residual is linear in a and λ, so one solution is exact. A mass matrix that its stamp shows to be unchanged is
 /// not factored again.
 ///
-/// A singular mass matrix (a node without mass) is replaced by M + εK: the equations of massless unknowns,
-/// f(q, v) = 0, then hold in their second derivative, and the limit ε → 0 is taken by corrections.
+/// An unknown c without mass, whose row of M is zero and which no active constraint moves, has the equation f_c(q, v) = 0.
+/// Where f_c has no damping it gives q_c by Newton's method, and v_c, a_c by K_c v = 0 and K_c a = 0, its derivatives for
+/// constant K; where it has, v_c and C_c a = −K_c v.
 #[derive(Debug)]
 pub(super) struct Accelerations {
     matrix: Matrix,
     rhs: Vec<f64>,
     pub(super) rows: Rows,
     weights: RowWeights,
-    regularized: Option<Box<Regularized>>,
+    massless: Option<Box<Massless>>,
 }
 
-/// Memory for a singular mass matrix.
+/// Memory for unknowns without mass.
 #[derive(Debug)]
-struct Regularized {
+struct Massless {
     stiffness: Matrix,
-    product: Vec<f64>,
-    last: Vec<f64>,
+    damping: Matrix,
+    /// Which unknowns have no mass, and of which the velocity, not the configuration, is in equilibrium.
+    unknowns: Vec<(usize, bool)>,
+    increment: Vec<f64>,
+    q: Vec<f64>,
 }
 
 impl Accelerations {
@@ -51,7 +53,7 @@ impl Accelerations {
             rhs: vec![0.0; size.v + size.lambda],
             rows: Rows::new(system, state),
             weights,
-            regularized: None,
+            massless: None,
         }
     }
 
@@ -64,9 +66,6 @@ impl Accelerations {
         (from, step): (f64, f64),
         counters: &mut Counters,
     ) -> Result<(), StepError> {
-        if self.regularized.is_some() {
-            return self.complete_regularized(system, state, (from, step), counters);
-        }
         let n = state.v.len();
         state.a.fill(0.0);
         state.lambda.fill(0.0);
@@ -80,10 +79,7 @@ impl Accelerations {
         let factored = match self.matrix.factor() {
             Ok(factored) => factored,
             Err(singular) if singular.pivot.is_finite() => {
-                let stiffness = Matrix::new(&system.structure(0));
-                let regularized = Regularized { stiffness, product: vec![0.0; n], last: vec![0.0; n] };
-                self.regularized = Some(Box::new(regularized));
-                return self.complete_regularized(system, state, (from, step), counters);
+                return self.complete_massless(system, state, (from, step), counters, singular);
             }
             Err(cause) => return Err(failure::singular(system, from, step, cause)),
         };
@@ -103,52 +99,119 @@ impl Accelerations {
         counters.solves += 1;
     }
 
-    /// (M + εK) aₖ₊₁ = −r₀ + εK aₖ with the rows.
-    fn complete_regularized(
+    /// As [`Accelerations::complete`] with unknowns without mass; `singular` is why M could not be factored.
+    fn complete_massless(
         &mut self,
         system: &mut dyn Dynamics,
         state: &mut State,
         (from, step): (f64, f64),
         counters: &mut Counters,
+        singular: Singular,
     ) -> Result<(), StepError> {
-        let Some(mut work) = self.regularized.take() else { return Ok(()) };
         let n = state.v.len();
-        state.lambda.fill(0.0);
-        state.a.fill(0.0);
-        system.tangent(state, Weights::new(0.0, 0.0, 1.0), &mut work.stiffness);
-        let largest = |matrix: &Matrix| (0..n).fold(0.0_f64, |m, i| m.max(matrix.get(i, i).abs()));
-        let stiffness = largest(&work.stiffness);
+        let work = self.massless.get_or_insert_with(|| {
+            let matrix = || Matrix::new(&system.structure(0));
+            let (increment, q) = (vec![0.0; n], state.q.clone());
+            Box::new(Massless {
+                stiffness: matrix(),
+                damping: matrix(),
+                unknowns: Vec::with_capacity(n),
+                increment,
+                q,
+            })
+        });
         system.tangent(state, Weights::new(1.0, 0.0, 0.0), &mut self.matrix);
-        let weight = REGULARIZATION * largest(&self.matrix) / stiffness.max(f64::MIN_POSITIVE);
-        system.tangent(state, Weights::new(1.0, 0.0, weight), &mut self.matrix);
-        self.rows.add_border(system, state, n, &mut self.matrix);
-        self.matrix.factor().map_err(|e| failure::singular(system, from, step, e))?;
-        let mut change = f64::INFINITY;
-        for _ in 0..=CORRECTIONS {
-            work.last.copy_from_slice(&state.a);
-            work.stiffness.multiply(&state.a, &mut work.product);
-            state.a.fill(0.0);
-            state.lambda.fill(0.0);
-            let (motion, constraints) = self.rhs.split_at_mut(n);
-            system.residual(state, motion);
-            for (r, k) in motion.iter_mut().zip(&work.product) {
-                *r -= weight * k;
+        system.tangent(state, Weights::new(0.0, 1.0, 0.0), &mut work.damping);
+        system.tangent(state, Weights::new(0.0, 0.0, 1.0), &mut work.stiffness);
+        self.rows.store_jacobian(system, state);
+        work.find(&self.matrix, &self.rows, state);
+        if work.unknowns.is_empty() {
+            return Err(failure::singular(system, from, step, singular));
+        }
+        if !self.rows.is_empty() {
+            self.rows.add_border(system, state, n, &mut self.matrix);
+        }
+        for &(c, damped) in &work.unknowns {
+            let row = if damped { &work.damping } else { &work.stiffness };
+            for j in (0..n).filter(|j| row.get(c, *j) != 0.0) {
+                self.matrix.add(c, j, row.get(c, j));
             }
-            self.rows.weighted(system, state, self.weights, 1.0, constraints);
+        }
+        self.matrix.factor().map_err(|e| failure::singular(system, from, step, e))?;
+        // Equilibrium of the unknowns without mass: what has mass does not move.
+        let scales = system.scales();
+        let scales: Vec<f64> = work.unknowns.iter().map(|&(c, _)| scales[c]).collect();
+        let mut size = f64::INFINITY;
+        for _ in 0..CORRECTIONS {
+            self.rhs.fill(0.0);
+            system.residual(state, &mut work.increment);
+            for &(c, _) in &work.unknowns {
+                self.rhs[c] = -work.increment[c];
+            }
             self.matrix.solve(&mut self.rhs);
-            self.take(state, counters, true);
-            let size = state.a.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
-            let moved = state.a.iter().zip(&work.last).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
-            change = if size > 0.0 { moved / size } else { 0.0 };
+            counters.residuals += 1;
+            counters.solves += 1;
+            work.increment.fill(0.0);
+            size = 0.0;
+            for (&(c, damped), scale) in work.unknowns.iter().zip(&scales) {
+                size = size.max((self.rhs[c] / scale).abs());
+                if damped {
+                    state.v[c] += self.rhs[c];
+                } else {
+                    work.increment[c] = self.rhs[c];
+                }
+            }
+            system.retract(&state.q, &work.increment, &mut work.q);
+            state.q.copy_from_slice(&work.q);
+            if !(size > SETTLED) {
+                break;
+            }
         }
-        self.regularized = Some(work);
-        if !state.is_finite() {
-            return Err(failure::not_finite(system, from, step, state));
-        }
-        if change > SETTLED {
-            let worst = "unknowns without mass, which are not in equilibrium: start them there".to_owned();
+        if !(size <= 1e4 * SETTLED) {
+            let worst = "unknowns without mass, which find no equilibrium".to_owned();
             return Err(StepError::Singular { time: from, step, pivot: 0.0, worst });
         }
-        Ok(())
+        work.velocities(&mut self.matrix, &mut self.rhs, state);
+        // Accelerations, with −C_c a = K_c v where there is damping.
+        let (motion, constraints) = self.rhs.split_at_mut(n);
+        system.residual(state, motion);
+        work.stiffness.multiply(&state.v, &mut work.increment);
+        for &(c, damped) in &work.unknowns {
+            motion[c] = if damped { work.increment[c] } else { 0.0 };
+        }
+        self.rows.weighted(system, state, self.weights, 1.0, constraints);
+        self.matrix.solve(&mut self.rhs);
+        self.take(state, counters, true);
+        if state.is_finite() { Ok(()) } else { Err(failure::not_finite(system, from, step, state)) }
+    }
+}
+
+impl Massless {
+    /// Finds the unknowns whose row of `mass` is zero and which no active constraint moves.
+    fn find(&mut self, mass: &Matrix, rows: &Rows, state: &State) {
+        let n = state.v.len();
+        self.unknowns.clear();
+        for c in (0..n).filter(|c| mass.get(*c, *c) == 0.0) {
+            let held = rows
+                .stored()
+                .iter()
+                .any(|&(row, j, x)| j == c && x != 0.0 && is_active(rows.sets()[row], state.mode[row]));
+            if !held && (0..n).all(|j| mass.get(c, j) == 0.0) {
+                self.unknowns.push((c, self.damping.get(c, c) != 0.0));
+            }
+        }
+    }
+
+    /// v_c of K_c v = 0, where f_c has no damping.
+    fn velocities(&mut self, matrix: &mut Matrix, rhs: &mut [f64], state: &mut State) {
+        self.stiffness.multiply(&state.v, &mut self.increment);
+        rhs.fill(0.0);
+        for &(c, _) in self.unknowns.iter().filter(|(_, damped)| !damped) {
+            rhs[c] = -self.increment[c];
+        }
+        matrix.solve(rhs);
+        for &(c, _) in self.unknowns.iter().filter(|(_, damped)| !damped) {
+            state.v[c] += rhs[c];
+        }
     }
 }
