@@ -5,6 +5,7 @@ mod bezier;
 #[cfg(test)]
 pub(crate) mod checks;
 pub(crate) mod conformance;
+mod domains;
 mod hermite;
 mod lagrange;
 mod massless_tip;
