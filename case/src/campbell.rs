@@ -1,15 +1,13 @@
 //! Campbell diagrams on several threads.
 
 use flexion::analysis::campbell::{Block, Campbell, NoCampbell, Plan, Speeds, assemble};
-use flexion::system::System;
+use flexion::system::Fork;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::thread;
 
-/// Builds the system of the diagram, once a thread.
-pub type Build<'a> = dyn Fn() -> Result<Box<dyn System>, String> + Sync + 'a;
-
-/// Computes a diagram on `threads` threads, 0 for as many as the machine has: the same one for any number of them.
+/// Computes the diagram of `system` on `threads` threads, 0 for as many as the machine has, each with a fork of it: the same
+/// diagram for any number of them.
 /// `progress` is called with the number of speeds that are done, and stops by `false`.
 ///
 /// # Errors
@@ -18,7 +16,7 @@ pub type Build<'a> = dyn Fn() -> Result<Box<dyn System>, String> + Sync + 'a;
 /// # Panics
 /// Where a thread does.
 pub fn campbell(
-    build: &Build<'_>,
+    system: Box<dyn Fork>,
     plan: &Plan,
     threads: usize,
     progress: &(dyn Fn(usize) -> bool + Sync),
@@ -32,7 +30,6 @@ pub fn campbell(
     // Nothing is computed beyond a block that ends.
     let end = AtomicUsize::new(count);
     let blocks: Vec<Mutex<Option<Block>>> = (0..count).map(|_| Mutex::new(None)).collect();
-    let new = || Speeds::new(build().map_err(NoCampbell::Build)?, plan);
     let work = |speeds: &mut Speeds<'_>| -> Result<(), NoCampbell> {
         loop {
             let number = next.fetch_add(1, Ordering::Relaxed);
@@ -53,10 +50,13 @@ pub fn campbell(
             }
         }
     };
-    let mut speeds = new()?;
+    let forks = (1..threads.min(count)).map(|_| Speeds::new(system.fork(), plan));
+    let others = forks.collect::<Result<Vec<_>, _>>()?;
+    let mut speeds = Speeds::new(system, plan)?;
     thread::scope(|scope| {
-        let helper = || work(&mut new()?);
-        let others: Vec<_> = (1..threads.min(count)).map(|_| scope.spawn(helper)).collect();
+        let work = &work;
+        let others = others.into_iter().map(|mut speeds| scope.spawn(move || work(&mut speeds)));
+        let others: Vec<_> = others.collect();
         let mut outcome = work(&mut speeds);
         for other in others {
             outcome = outcome.and(other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));

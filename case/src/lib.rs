@@ -35,7 +35,7 @@ mod tree;
 pub mod units;
 mod values;
 
-pub use campbell::{Build, campbell};
+pub use campbell::campbell;
 pub use case::{Case, Output};
 pub use fault::{Fault, Faults, Made};
 pub use kind::{Choice, Context, Kind, Table};

@@ -6,14 +6,14 @@ use super::kinds::coupling::Assembly;
 use super::kinds::load::Load;
 use flexion::blade::Blade;
 use flexion::hub_beam::{Beam, load as acting};
-use flexion::system::System;
+use flexion::system::Fork;
 
 impl Case {
     /// The mechanical system.
     ///
     /// # Errors
     /// Faults at dotted paths of the case; a case that was read has passed most checks.
-    pub fn system(&self) -> Made<Box<dyn System>> {
+    pub fn system(&self) -> Made<Box<dyn Fork>> {
         let masses = self.loads.iter().filter_map(|load| load.mass).collect();
         let stations: Vec<f64> = self.loads.iter().flat_map(|load| load.stations.iter().copied()).collect();
         let beam = Beam::new(self.section.planar.as_ref(), masses, &stations);
@@ -49,7 +49,7 @@ impl Case {
     ///
     /// # Errors
     /// Faults at dotted paths of the case.
-    pub fn vibrating(&self) -> Made<Box<dyn System>> {
+    pub fn vibrating(&self) -> Made<Box<dyn Fork>> {
         match self.blade()? {
             Some(blade) => Ok(Box::new(blade)),
             None => self.system(),

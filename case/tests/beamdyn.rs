@@ -88,8 +88,7 @@ fn diagram(format: &str, text: &str) -> Campbell {
         revolutions: 6,
     };
     let on = |threads| {
-        let build = || reading.case.vibrating().map_err(|e| e.to_string());
-        flexion_case::campbell(&build, &plan, threads, &|_| true).unwrap()
+        flexion_case::campbell(reading.case.vibrating().unwrap(), &plan, threads, &|_| true).unwrap()
     };
     let alone = on(1);
     assert_eq!(alone, on(3), "the number of threads changes nothing");

@@ -1,4 +1,4 @@
-//! No integrator allocates in a step, an acceptance or an interpolation.
+//! No integrator allocates in a step, an acceptance or an interpolation, and a fork of a system only its work memory.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // in helpers of tests
 #![allow(unsafe_code)]
@@ -11,33 +11,35 @@ mod systems;
 use flexion::integrator::{
     Adams, GeneralizedAlpha, Integrator, Radau, RungeKutta, Span, StepControl, Tolerance,
 };
-use flexion::system::{State, System};
+use flexion::system::{Parameter, State, System};
 use std::alloc::{GlobalAlloc, Layout, System as Heap};
 use std::cell::Cell;
 use systems::{CartesianPendulum, Chain, SpringPendulum, state, wide_chain};
 
-/// Counts the allocations of the thread.
+/// Counts the allocations of the thread, and their bytes.
 struct Counting;
 
 thread_local! {
     static ALLOCATIONS: Cell<u64> = const { Cell::new(0) };
+    static BYTES: Cell<usize> = const { Cell::new(0) };
 }
 
-fn count() {
+fn count(bytes: usize) {
     let _ = ALLOCATIONS.try_with(|n| n.set(n.get() + 1));
+    let _ = BYTES.try_with(|n| n.set(n.get() + bytes));
 }
 
 // SAFETY: every call is passed on unchanged to the system's allocator.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        count();
+        count(layout.size());
         unsafe { Heap.alloc(layout) }
     }
     unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
         unsafe { Heap.dealloc(pointer, layout) }
     }
     unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        count();
+        count(size);
         unsafe { Heap.realloc(pointer, layout, size) }
     }
 }
@@ -159,6 +161,75 @@ fn no_step_of_a_hub_and_beam_allocates() {
                 );
             }
         }
+    }
+}
+
+/// The result of a function, and the bytes that it allocates.
+fn bytes<T>(f: impl FnOnce() -> T) -> (T, usize) {
+    let before = BYTES.with(Cell::get);
+    let result = f();
+    (result, BYTES.with(Cell::get) - before)
+}
+
+/// The bits of states and records of ten steps.
+fn steps(system: &mut dyn System) -> Vec<u64> {
+    let mut integrator = Radau::new(Tolerance::uniform(1e-6)).unwrap();
+    let mut from = system.initial();
+    from.v.iter_mut().for_each(|v| *v += 1e-3);
+    integrator.start(system, &mut from, 1e-5).unwrap();
+    let (mut to, mut row) = (from.clone(), vec![0.0; system.channels().len()]);
+    let mut out = Vec::new();
+    for _ in 0..10 {
+        integrator.step(system, &from, Span::new(from.t, 1e-5), &mut to).unwrap();
+        integrator.accept(&from, &to);
+        system.record(&to, &mut row);
+        out.extend([&to.q, &to.v, &to.a, &row].into_iter().flatten().map(|x| x.to_bits()));
+        std::mem::swap(&mut from, &mut to);
+    }
+    out
+}
+
+/// A fork computes the same bytes as its original, whatever either has done before, and takes a tenth of the memory that a
+/// system takes to build; less than all of it for a blade, whose matrices belong to its speed.
+#[test]
+fn a_fork_is_independent_and_shares_the_constants() {
+    for coupling in ["zeroth", "first", "high", "exact", "blade"] {
+        let model = format!("model.coupling={coupling}");
+        let free = "hub.motion={kind='free',speed='40 rad/s',damping=1,stiffness=2}";
+        let loads = [
+            "gravity={acceleration=9.81}",
+            "force=[{station='5 m',force=['0 N','2 N'],frame='follower'}]",
+            "spring=[{station='10 m',stiffness='20 N/m',anchor=['10 m','0 m']}]",
+        ];
+        let planar = [
+            &model,
+            "basis={kind='finite-elements',elements=40}",
+            free,
+            "hub.inertia=5",
+            loads[0],
+            loads[1],
+            loads[2],
+            "output.stations=[2,4]",
+            "output.section-forces=true",
+        ];
+        let blade = ["blade.elements=40", "hub.motion={kind='constant',speed='1 rad/s'}"];
+        let case = match coupling {
+            "blade" => run::case("modes_blade_nrel_5mw", &blade).unwrap(),
+            _ => run::case("p1_spin_up_4", &planar).unwrap(),
+        };
+        let (system, whole) = bytes(|| case.case.vibrating().unwrap());
+        let (mut fork, own) = bytes(|| system.fork());
+        let mut original = system;
+        let expected = steps(&mut *original);
+        for (parameter, value) in [(Parameter::Speed, 3.0), (Parameter::LoadFactor, 0.5)] {
+            fork.set(parameter, value).unwrap();
+        }
+        assert!(steps(&mut *fork) != expected, "{coupling}: the fork turns steadily");
+        assert!(steps(&mut *original) == expected, "{coupling}: the original does not");
+        let (mut later, again) = bytes(|| original.fork());
+        assert!(steps(&mut *later) == expected, "{coupling}: a fork of a system that has run");
+        let share = if coupling == "blade" { 1 } else { 10 };
+        assert!(share * own.max(again) < whole, "{coupling}: {own} bytes of {whole}");
     }
 }
 

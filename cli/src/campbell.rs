@@ -115,6 +115,7 @@ fn diagram(arguments: &Arguments, reading: &Reading) -> Result<bool, String> {
     let named = format!("{}-campbell", arguments.case.name());
     let output = arguments.output.clone().unwrap_or_else(|| Path::new("results").join(named));
     let (steady, cautions) = vibration::without_loads_in_space(case);
+    let system = vibration::system(&steady)?;
     let directory = Directory::create_for(Artifact::CAMPBELL, &output, arguments.force)
         .map_err(|error| error.to_string())?;
     let bar = ProgressBar::new(plan.speeds.len() as u64);
@@ -125,7 +126,7 @@ fn diagram(arguments: &Arguments, reading: &Reading) -> Result<bool, String> {
         bar.set_position(done as u64);
         true
     };
-    let diagram = flexion_case::campbell(&|| vibration::system(&steady), &plan, arguments.threads, &progress);
+    let diagram = flexion_case::campbell(system, &plan, arguments.threads, &progress);
     bar.finish_and_clear();
     let diagram = diagram.map_err(|error: NoCampbell| {
         directory.discard();

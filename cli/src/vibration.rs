@@ -3,7 +3,7 @@
 use crate::screen;
 use flexion::analysis::campbell::HubState;
 use flexion::hub_beam::Drive;
-use flexion::system::System;
+use flexion::system::Fork;
 use flexion_case::{Case, Reading, units};
 use flexion_results::Frequencies;
 
@@ -70,7 +70,7 @@ impl Options {
 }
 
 /// What vibrates in a case: its blade, or else its hub–beam.
-pub fn system(case: &Case) -> Result<Box<dyn System>, String> {
+pub fn system(case: &Case) -> Result<Box<dyn Fork>, String> {
     case.vibrating().map_err(|error| error.to_string())
 }
 

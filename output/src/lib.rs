@@ -9,6 +9,7 @@ mod compare;
 mod csv;
 mod directory;
 mod error;
+mod frequencies;
 mod nearest;
 mod npz;
 #[cfg(feature = "parquet")]
@@ -33,6 +34,7 @@ pub use self::compare::{Comparison, Difference, compare, compare_csv, compare_js
 pub use self::csv::{read_csv, write_csv};
 pub use self::directory::{Directory, write_file};
 pub use self::error::{OutputError, ResultsError};
+pub use self::frequencies::Frequencies;
 pub use self::nearest::nearest;
 pub use self::npz::write_npz;
 #[cfg(feature = "parquet")]
@@ -45,7 +47,7 @@ pub use self::shapes::{Shape, Shapes};
 pub use self::state_file::{read_state, write_state};
 pub use self::summary::{Integration, ProblemSize, RunReport, Status, Summary, VERSION};
 pub use self::trajectory::{Extremes, Trajectory};
-pub use self::vibration::{Frequencies, write_campbell, write_modes};
+pub use self::vibration::{write_campbell, write_modes};
 pub use self::vtk::{write_pvd, write_vtu};
 #[cfg(feature = "vtkhdf")]
 pub use self::vtkhdf::write_vtkhdf;

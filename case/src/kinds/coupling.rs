@@ -9,7 +9,7 @@ use flexion::hub_beam::{
     self, Damping, ExactCoupling, Fields, Foreshortening, HighCoupling, Hub, HubBeam, LinearCoupling,
     Sampling,
 };
-use flexion::system::System;
+use flexion::system::Fork;
 use std::sync::Arc;
 
 /// A kinematic model.
@@ -19,7 +19,7 @@ pub struct Coupling {
     /// jumps.
     pub whole_curve: bool,
     /// Assembles the system of a beam.
-    pub assemble: fn(&Assembly<'_>) -> Made<Box<dyn System>>,
+    pub assemble: fn(&Assembly<'_>) -> Made<Box<dyn Fork>>,
 }
 
 /// What a system is assembled of.
@@ -50,7 +50,7 @@ impl Assembly<'_> {
         Fields::new(self.length, Box::new(axial), Box::new(transverse), &self.beam.breaks)
     }
 
-    fn linear(&self, foreshortening: Foreshortening) -> Made<Box<dyn System>> {
+    fn linear(&self, foreshortening: Foreshortening) -> Made<Box<dyn Fork>> {
         let coupling = LinearCoupling::new(self.fields(), self.beam, &self.hub, foreshortening);
         Ok(self.system(coupling, self.sampling()))
     }
@@ -61,7 +61,11 @@ impl Assembly<'_> {
     }
 
     /// The system under the loads and with the damping, and with the section forces and strains to be recorded.
-    fn system<C: hub_beam::Coupling + 'static>(&self, coupling: C, sampling: Sampling) -> Box<dyn System> {
+    fn system<C: hub_beam::Coupling + Clone + 'static>(
+        &self,
+        coupling: C,
+        sampling: Sampling,
+    ) -> Box<dyn Fork> {
         let mut system = HubBeam::new(self.hub.clone(), coupling, self.stations);
         if !self.loads.is_empty() {
             system = system.with_loads(self.beam, self.loads);

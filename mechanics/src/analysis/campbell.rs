@@ -9,151 +9,17 @@
 //! of its own, in parallel; within a block the equilibrium and the modes of the last speed begin the next.
 
 use super::crossings::crossings;
-use super::modes::{Mode, NoModes};
+pub use super::diagram::{Branch, Campbell, Crossing, HubState, Instability, NoCampbell, Plan, Point};
 use super::rotation::NoRotation;
+use super::speeds::Solved;
+pub use super::speeds::{Block, Speeds};
 use super::tracking::{Match, Tracker, match_shapes};
 use crate::system::System;
-
-use super::speeds::Solved;
-pub use super::speeds::Speeds;
 
 /// Halvings of an interval of speed in which a shape changes too much.
 const HALVINGS: u32 = 8;
 /// Damping ratio below which a motion grows.
 const GROWTH: f64 = -1e-9;
-
-/// What is asked for.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Plan {
-    /// Speeds [rad/s], ascending.
-    pub speeds: Vec<f64>,
-    /// Number of modes, the lowest at the first speed.
-    pub count: usize,
-    /// Stations of the shapes \[m\], which the modes at the ends of a branch get.
-    pub stations: Vec<f64>,
-    /// Whether the hub keeps its speed, or is free to turn about it.
-    pub hub: HubState,
-    /// Lines ω = k Ω whose crossings are looked for, from 1 to this k.
-    pub revolutions: u32,
-}
-
-/// What the hub does while the beam vibrates.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum HubState {
-    /// It keeps its speed: modes of the beam on a hub of infinite inertia.
-    Held,
-    /// It turns with the beam, under its torques.
-    Free,
-}
-
-/// A mode at a speed.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Point {
-    /// Speed [rad/s].
-    pub speed: f64,
-    /// The mode.
-    pub mode: Mode,
-    /// Assurance against the mode at the speed before; 1 at the first.
-    pub assurance: f64,
-}
-
-/// One mode over the speeds; it ends where it leaves the modes computed.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Branch {
-    /// The mode at each speed of the diagram.
-    pub points: Vec<Point>,
-}
-
-/// A crossing of a branch with a line ω = k Ω: resonance with an excitation k times a revolution.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Crossing {
-    /// Number of the branch, from 0.
-    pub branch: usize,
-    /// k
-    pub revolutions: u32,
-    /// Speed Ω [rad/s].
-    pub speed: f64,
-}
-
-/// Where motion begins to grow.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Instability {
-    /// The damping of a branch becomes negative between the two speeds [rad/s].
-    Flutter {
-        /// Number of the branch, from 0.
-        branch: usize,
-        /// Last stable speed.
-        from: f64,
-        /// First unstable speed.
-        to: f64,
-    },
-    /// The stiffness is exhausted at a speed: ω = 0 there, the steady rotation beyond is unstable.
-    Divergence {
-        /// The critical speed [rad/s], to six digits.
-        speed: f64,
-        /// The message.
-        reason: String,
-    },
-    /// No steady rotation was found beyond a speed.
-    Lost {
-        /// Speed that was reached [rad/s].
-        speed: f64,
-        /// The message.
-        reason: String,
-    },
-}
-
-/// A Campbell diagram.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Campbell {
-    /// Speeds [rad/s]: those asked for, up to a divergence, and those inserted.
-    pub speeds: Vec<f64>,
-    /// The modes, ascending in their frequency at the first speed.
-    pub branches: Vec<Branch>,
-    /// Crossings with the lines of whole revolutions.
-    pub crossings: Vec<Crossing>,
-    /// Instabilities.
-    pub instabilities: Vec<Instability>,
-}
-
-/// Why there is no diagram.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum NoCampbell {
-    /// The speeds make no axis.
-    #[error("a Campbell diagram needs at least two ascending speeds of at least zero")]
-    Speeds,
-    /// The system cannot be built.
-    #[error("{0}")]
-    Build(String),
-    /// There is no steady rotation at the first speed, or the system does not turn.
-    #[error(transparent)]
-    Rotation(#[from] NoRotation),
-    /// The modes at a speed.
-    #[error("at {speed} rad/s: {source}")]
-    Modes {
-        /// The speed [rad/s].
-        speed: f64,
-        /// Why.
-        source: NoModes,
-    },
-    /// It was stopped.
-    #[error("stopped")]
-    Stopped,
-}
-
-/// The modes at the speeds of a block, up to the first failure.
-#[derive(Debug)]
-pub struct Block {
-    pub(super) solved: Vec<Solved>,
-    pub(super) failure: Option<NoCampbell>,
-}
-
-impl Block {
-    /// Whether it ends before its last speed: what lies beyond is not in the diagram.
-    pub fn ends(&self) -> bool {
-        self.failure.is_some()
-    }
-}
 
 /// Computes the diagram of a system. `progress` is called with the number of speeds that are done, and stops by `false`.
 ///

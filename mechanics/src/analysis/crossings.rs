@@ -5,7 +5,7 @@
 //!
 //! Source: M. Dowell & P. Jarratt, *BIT* 11 (1971) 168–174, doi:10.1007/BF01934364.
 
-use super::campbell::{Branch, Crossing, Point};
+use super::diagram::{Branch, Crossing, Point};
 use super::speeds::{Solved, Speeds};
 use num_complex::Complex64;
 

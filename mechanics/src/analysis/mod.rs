@@ -2,6 +2,7 @@
 
 pub mod campbell;
 mod crossings;
+mod diagram;
 mod energy_balance;
 pub mod equilibrium;
 pub mod modes;

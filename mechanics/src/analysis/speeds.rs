@@ -1,10 +1,9 @@
 //! Modes at one speed after the other.
 
-use super::campbell::{Block, Branch, HubState, NoCampbell, Plan};
+use super::diagram::{Branch, HubState, NoCampbell, Plan};
 use super::modes::{Mode, describe, modes_near};
 use super::rotation::{negative_stiffness, rotate, rotate_stably};
 use super::stiffness::mass;
-use super::tracking::assurance;
 use crate::linalg::Matrix;
 use crate::system::{Parameter, State, System};
 use num_complex::Complex64;
@@ -23,6 +22,20 @@ pub(super) struct Solved {
     /// M x of each mode.
     pub massed: Vec<Vec<Complex64>>,
     pub equilibrium: State,
+}
+
+/// The modes at the speeds of a block, up to the first failure.
+#[derive(Debug)]
+pub struct Block {
+    pub(super) solved: Vec<Solved>,
+    pub(super) failure: Option<NoCampbell>,
+}
+
+impl Block {
+    /// Whether it ends before its last speed: what lies beyond is not in the diagram.
+    pub fn ends(&self) -> bool {
+        self.failure.is_some()
+    }
 }
 
 /// A system that turns at the speeds of a [`Plan`], and its last equilibrium.
@@ -158,6 +171,16 @@ impl<'a> Speeds<'a> {
             }
         }
     }
+}
+
+/// The modal assurance |xᴴ M y|² of two vectors of modal mass 1, from x and M y.
+pub(super) fn assurance(x: &[Complex64], my: &[Complex64]) -> f64 {
+    let (mut re, mut im) = (0.0, 0.0);
+    for (x, y) in x.iter().zip(my) {
+        re += x.re * y.re + x.im * y.im;
+        im += x.re * y.im - x.im * y.re;
+    }
+    re * re + im * im
 }
 
 /// A z

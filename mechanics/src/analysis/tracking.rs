@@ -1,23 +1,12 @@
 //! Joining modes of neighbouring speeds by their shapes.
 
-use super::campbell::{Branch, Point};
-use super::speeds::Solved;
-use num_complex::Complex64;
+use super::diagram::{Branch, Point};
+use super::speeds::{Solved, assurance};
 
 /// Assurance above which two shapes are taken for one mode.
 const CLEAR: f64 = 0.6;
 /// Assurance above which no other shape can be more like.
 const ORDERED: f64 = 0.9;
-
-/// The modal assurance |xᴴ M y|² of two vectors of modal mass 1, from x and M y.
-pub(super) fn assurance(x: &[Complex64], my: &[Complex64]) -> f64 {
-    let (mut re, mut im) = (0.0, 0.0);
-    for (x, y) in x.iter().zip(my) {
-        re += x.re * y.re + x.im * y.im;
-        im += x.re * y.im - x.im * y.re;
-    }
-    re * re + im * im
-}
 
 /// The mode at the next speed that continues a mode.
 #[derive(Clone, Copy, Debug, PartialEq)]

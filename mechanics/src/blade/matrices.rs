@@ -6,6 +6,7 @@ use super::model::{Model, Setting, StrainEnergy};
 use super::tension::Tension;
 use super::terms::form;
 use crate::linalg::Matrix;
+use std::sync::Arc;
 
 /// Iterations of Newton's method before a speed is approached in smaller increments.
 const ITERATIONS: usize = 25;
@@ -22,10 +23,11 @@ const FINEST: f64 = 1.0 / 256.0;
 /// The parts of a blade's model that do not change with the speed, and its matrices at one speed.
 #[derive(Clone, Debug)]
 pub struct Matrices {
-    mesh: Mesh,
+    mesh: Arc<Mesh>,
+    tension: Arc<Tension>,
+    scales: Arc<[f64]>,
     setting: Setting,
     model: Model,
-    tension: Tension,
     /// M about the steady state.
     pub mass: Matrix,
     /// C about the steady state.
@@ -46,16 +48,22 @@ impl Matrices {
             gyroscopic: matrix.clone(),
             stiffness: matrix,
             force,
-            mesh,
+            scales: mesh.scales().into(),
+            mesh: Arc::new(mesh),
+            tension: Arc::new(tension),
             setting,
             model,
-            tension,
         }
     }
 
     /// The mesh.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
+    }
+
+    /// Size by which each unknown is measured.
+    pub fn scales(&self) -> &[f64] {
+        &self.scales
     }
 
     /// Assembles force and matrices at the speed and the state `q` of the exact model; a straight blade is
@@ -192,10 +200,8 @@ impl Matrices {
                 return false;
             }
             solver.solve(&mut step);
-            let size = step
-                .iter()
-                .zip(&self.mesh.labels)
-                .fold(0.0_f64, |most, (d, l)| most.max((d / l.scale).abs()));
+            let size =
+                step.iter().zip(&*self.scales).fold(0.0_f64, |most, (d, scale)| most.max((d / scale).abs()));
             // NaN is refused too.
             if !(size < 10.0) {
                 return false;

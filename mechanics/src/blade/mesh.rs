@@ -9,7 +9,6 @@ use super::model::{BladeError, Setting};
 use crate::linalg::Structure;
 use crate::quadrature::Gauss;
 use crate::section::{BladeResultants, BladeSection};
-use crate::system::Label;
 
 /// Unknowns of an element: u, v, w with values and slopes at both nodes, then φ at both nodes and the middle.
 pub const LOCAL: usize = 15;
@@ -66,10 +65,11 @@ pub struct Element {
 pub struct Mesh {
     /// Elements from the root.
     pub elements: Vec<Element>,
-    /// Name, unit and scale of each unknown.
-    pub labels: Vec<Label>,
     /// Which field each unknown belongs to.
     pub components: Vec<Component>,
+    /// Whether each unknown is a slope, and its station [m].
+    places: Vec<(bool, f64)>,
+    length: f64,
     /// Half bandwidth.
     pub half: usize,
 }
@@ -122,12 +122,13 @@ impl Mesh {
             }
         }
         nodes.sort_by(f64::total_cmp);
-        let mut mesh = Mesh { elements: Vec::new(), labels: Vec::new(), components: Vec::new(), half: 0 };
-        let mut node = mesh.node(0.0, length, torsion, true, false);
+        let (elements, components, places) = (Vec::new(), Vec::new(), Vec::new());
+        let mut mesh = Mesh { elements, components, places, length, half: 0 };
+        let mut node = mesh.node(0.0, torsion, true, false);
         for ends in nodes.windows(2) {
-            let middle = mesh.unknown(Component::Torsion, false, 0.5 * (ends[0] + ends[1]), length, torsion);
+            let middle = mesh.unknown(Component::Torsion, false, 0.5 * (ends[0] + ends[1]), torsion);
             let jumps = section.jumps().contains(&ends[1]);
-            let next = mesh.node(ends[1], length, torsion, false, jumps);
+            let next = mesh.node(ends[1], torsion, false, jumps);
             let mut unknowns = [CLAMPED; LOCAL];
             for field in 0..3 {
                 unknowns[4 * field..4 * field + 2].copy_from_slice(&node[2 * field..2 * field + 2]);
@@ -150,7 +151,27 @@ impl Mesh {
 
     /// Number of unknowns.
     pub fn len(&self) -> usize {
-        self.labels.len()
+        self.components.len()
+    }
+
+    /// Size by which each unknown is measured: the length \[m\], for slopes and torsion 1.
+    pub fn scales(&self) -> Vec<f64> {
+        let unknowns = self.components.iter().zip(&self.places);
+        let is_angle = |component, slope| slope || component == Component::Torsion;
+        unknowns.map(|(&c, &(slope, _))| if is_angle(c, slope) { 1.0 } else { self.length }).collect()
+    }
+
+    /// Name of unknown `i` for messages, if there is one.
+    pub fn name(&self, i: usize) -> Option<String> {
+        let (component, (slope, x)) = self.components.get(i).zip(self.places.get(i))?;
+        let what = match component {
+            Component::Axial => "axial displacement",
+            Component::Chordwise => "chordwise displacement",
+            Component::Flapwise => "flapwise displacement",
+            Component::Torsion => "torsion",
+        };
+        let of = if *slope { "slope of the " } else { "" };
+        Some(format!("{of}{what} at x = {x:.6} m"))
     }
 
     /// Structure of the tangent.
@@ -159,47 +180,34 @@ impl Mesh {
     }
 
     /// Unknowns of a node: u, u′, v, v′, w, w′, φ, and u′ on its right side.
-    fn node(&mut self, x: f64, length: f64, torsion: bool, root: bool, jumps: bool) -> [usize; 8] {
+    fn node(&mut self, x: f64, torsion: bool, root: bool, jumps: bool) -> [usize; 8] {
         let fields = [Component::Axial, Component::Chordwise, Component::Flapwise];
         let mut out = [CLAMPED; 8];
         for (k, field) in fields.into_iter().enumerate() {
             if !root {
-                out[2 * k] = self.unknown(field, false, x, length, true);
+                out[2 * k] = self.unknown(field, false, x, true);
             }
             if !root || field == Component::Axial {
-                out[2 * k + 1] = self.unknown(field, true, x, length, true);
+                out[2 * k + 1] = self.unknown(field, true, x, true);
             }
             if k == 0 {
-                out[7] = if jumps { self.unknown(field, true, x, length, true) } else { out[1] };
+                out[7] = if jumps { self.unknown(field, true, x, true) } else { out[1] };
             }
         }
         if !root {
-            out[6] = self.unknown(Component::Torsion, false, x, length, torsion);
+            out[6] = self.unknown(Component::Torsion, false, x, torsion);
         }
         out
     }
 
     /// Number of a new unknown.
-    fn unknown(&mut self, component: Component, slope: bool, x: f64, length: f64, exists: bool) -> usize {
+    fn unknown(&mut self, component: Component, slope: bool, x: f64, exists: bool) -> usize {
         if !exists {
             return CLAMPED;
         }
-        let what = match component {
-            Component::Axial => "axial displacement",
-            Component::Chordwise => "chordwise displacement",
-            Component::Flapwise => "flapwise displacement",
-            Component::Torsion => "torsion",
-        };
-        let (unit, scale) = match (component, slope) {
-            (Component::Torsion, _) => ("rad", 1.0),
-            (_, true) => ("", 1.0),
-            (_, false) => ("m", length),
-        };
-        let of = if slope { "slope of the " } else { "" };
-        let name = format!("{of}{what} at x = {x:.6} m");
-        self.labels.push(Label { name, unit, scale });
         self.components.push(component);
-        self.labels.len() - 1
+        self.places.push((slope, x));
+        self.components.len() - 1
     }
 }
 

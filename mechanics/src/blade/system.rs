@@ -12,6 +12,7 @@ use crate::system::{
     Channel, Direction, Dynamics, Energy, Events, Frame, NotSet, Observed, Parameter, Role, Size, State,
     Steady, Weights,
 };
+use std::sync::Arc;
 
 /// A rotating blade. See the [module documentation](super).
 ///
@@ -25,9 +26,8 @@ pub struct Blade {
     steady: Vec<f64>,
     /// The speed before the present one and its steady state.
     earlier: Option<(f64, Vec<f64>)>,
-    scales: Vec<f64>,
     scratch: Vec<f64>,
-    channels: Vec<Channel>,
+    channels: Arc<[Channel]>,
 }
 
 impl Blade {
@@ -67,8 +67,7 @@ impl Blade {
         let tension = Tension::new(&mesh, section, &setting);
         let size = mesh.len();
         let mut blade = Blade {
-            channels: channels(&mesh),
-            scales: mesh.labels.iter().map(|label| label.scale).collect(),
+            channels: channels(&mesh).into(),
             matrices: Matrices::new(mesh, setting, model, tension),
             setting,
             speed: 0.0,
@@ -207,12 +206,11 @@ impl Dynamics for Blade {
     }
 
     fn scales(&self) -> &[f64] {
-        &self.scales
+        self.matrices.scales()
     }
 
     fn unknown(&self, i: usize) -> String {
-        let labels = &self.matrices.mesh().labels;
-        labels.get(i).map_or_else(|| format!("unknown {i}"), |label| label.name.clone())
+        self.matrices.mesh().name(i).unwrap_or_else(|| format!("unknown {i}"))
     }
 
     fn is_affine(&self) -> bool {

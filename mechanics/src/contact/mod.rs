@@ -1,12 +1,24 @@
-//! Contact: what multipliers of rows with sets are, at an impact and while a contact is closed.
+//! Contact: points of a model that touch obstacles, and what multipliers of rows with sets are.
 //!
 //! | file | content |
 //! |---|---|
+//! | `obstacle.rs` | rigid surfaces, at rest or moved |
+//! | `force.rs` | continuous contact forces |
+//! | `points.rs` | what a model says of its points |
+//! | `contacting.rs` | a model with contacts: rows, forces, energies |
 //! | `cone.rs` | multipliers in their sets: u = b + W Λ, u and Λ complementary |
 //! | `impact.rs` | velocities behind an impact, and the modes of the rows then |
 
 mod cone;
+mod contacting;
+mod force;
 mod impact;
+mod obstacle;
+mod points;
 
-pub use cone::{Law, Unresolved, solve};
+pub use cone::{Law as RowLaw, Unresolved, solve};
+pub use contacting::{Contact, Contacting, Law};
+pub use force::{ContactForce, Dissipation, Response, delivered};
 pub use impact::{Bounds, Impact, ImpactError, ImpactMap, Neglected};
+pub use obstacle::{Circle, Obstacle, Plane, Surface, Translation};
+pub use points::{PointMotion, Points, Variation};

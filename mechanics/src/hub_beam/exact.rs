@@ -38,19 +38,20 @@ use crate::linalg::Storage;
 use crate::profile::HubKinematics;
 use crate::section::{Resultants, Section};
 use crate::system::{Corotation, State, Weights};
+use std::sync::Arc;
 
 /// Largest axial strain |ε| accepted for a linear-elastic beam.
 const LARGEST_STRAIN: f64 = 0.5;
 
 /// Geometrically exact planar beam. Its formulas head the source file.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct ExactCoupling {
-    fields: Fields,
-    inertia: Inertia,
-    elements: Vec<Element>,
+    fields: Arc<Fields>,
+    inertia: Arc<Inertia>,
+    elements: Arc<[Element]>,
     rule: Rule,
     radius: f64,
-    lumped: Vec<LumpedRotation>,
+    lumped: Arc<[LumpedRotation]>,
     /// Damping in proportion to the stiffness, η \[s\].
     viscosity: f64,
 }
@@ -83,14 +84,14 @@ impl ExactCoupling {
             Box::new(Hermite::new(length, elements, Field::Transverse)?),
             &breaks,
         );
-        let lumped = LumpedRotation::of(&fields, &masses, hub.radius);
+        let lumped = LumpedRotation::of(&fields, &masses, hub.radius).into();
         let points = masses.into_iter().map(|m| Mass { inertia: 0.0, ..m }).collect();
         let quadratic = Beam { section: &MassOnly(section), masses: points, breaks };
         let inertia = Inertia::new(&fields, &quadratic, hub, Foreshortening::None);
         let nodes = fields.axial().cells().to_vec();
         let rule = Rule::new(nodes[1] - nodes[0]);
         let elements = (0..elements).map(|e| Element::new(&fields, section, &nodes, e)).collect();
-        let radius = hub.radius;
+        let (radius, fields, inertia) = (hub.radius, Arc::new(fields), Arc::new(inertia));
         Ok(ExactCoupling { fields, inertia, elements, rule, radius, lumped, viscosity: 0.0 })
     }
 }
@@ -106,7 +107,7 @@ impl ExactCoupling {
         out: &mut Storage<f64>,
     ) {
         let viscous = self.viscosity > 0.0 && (w.q != 0.0 || w.v != 0.0);
-        for element in &self.elements {
+        for element in &*self.elements {
             if strain == 0.0 && !viscous && !element.has_section_inertia() {
                 continue;
             }
@@ -121,7 +122,7 @@ impl ExactCoupling {
             }
             element.assemble(&tangent, out);
         }
-        for mass in &self.lumped {
+        for mass in &*self.lumped {
             mass.add_tangent(s, hub, w, out);
         }
     }
@@ -145,7 +146,7 @@ impl Coupling for ExactCoupling {
     }
 
     fn add_forces(&mut self, s: &State, hub: &HubKinematics, r: &mut [f64]) {
-        for element in &self.elements {
+        for element in &*self.elements {
             let local = element.gather(s, self.radius);
             let mut force = [0.0; 8];
             element.strain_force(&self.rule, &local, &mut force);
@@ -155,7 +156,7 @@ impl Coupling for ExactCoupling {
             }
             element.scatter(&force, r);
         }
-        for mass in &self.lumped {
+        for mass in &*self.lumped {
             mass.add_forces(s, hub, r);
         }
     }
@@ -165,7 +166,7 @@ impl Coupling for ExactCoupling {
     }
 
     fn strain_forms(&mut self, s: &State, vectors: &[Vec<f64>], out: &mut [f64]) {
-        for element in &self.elements {
+        for element in &*self.elements {
             element.strain_forms(&self.rule, &element.gather(s, self.radius), vectors, out);
         }
     }
@@ -176,7 +177,7 @@ impl Coupling for ExactCoupling {
 
     fn corotate(&self, before: &State, now: &State, out: &mut Corotation) {
         out.clear();
-        for element in &self.elements {
+        for element in &*self.elements {
             element.end_rotation(&before.q, &now.q, out);
         }
     }
@@ -194,14 +195,14 @@ impl Coupling for ExactCoupling {
     }
 
     fn add_border(&mut self, s: &State, hub: &HubKinematics, w: &Weights<'_>, out: &mut Border) {
-        for element in &self.elements {
+        for element in &*self.elements {
             let (mut column, mut row) = ([0.0; 8], [0.0; 8]);
             let local = element.gather(s, self.radius);
             out.corner += element.section_border(&self.rule, &local, hub, w, (&mut column, &mut row));
             element.scatter(&column, &mut out.column);
             element.scatter(&row, &mut out.row);
         }
-        for mass in &self.lumped {
+        for mass in &*self.lumped {
             mass.add_border(s, hub, w, out);
         }
     }
@@ -211,9 +212,9 @@ impl Coupling for ExactCoupling {
     }
 
     fn damp(&mut self, damping: Damping) {
-        self.inertia.damp(damping);
+        Arc::make_mut(&mut self.inertia).damp(damping);
         self.viscosity = damping.stiffness;
-        for element in &mut self.elements {
+        for element in Arc::make_mut(&mut self.elements) {
             element.set_viscous(damping.stiffness > 0.0);
         }
     }
@@ -263,7 +264,7 @@ impl Coupling for ExactCoupling {
     }
 
     fn admissible(&mut self, s: &State) -> Result<(), String> {
-        for element in &self.elements {
+        for element in &*self.elements {
             let (u, v) = element.end_slopes(&s.q);
             let strain = libm::hypot(1.0 + u, v) - 1.0;
             // NaN is refused too.

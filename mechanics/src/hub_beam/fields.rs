@@ -4,7 +4,6 @@
 use crate::basis::{Basis, Role};
 use crate::linalg::{Matrix, Structure};
 use crate::quadrature::Gauss;
-use crate::system::Label;
 
 /// Gauss points of a cell in addition to those of its bases, for a section that varies inside it.
 const EXTRA_POINTS: usize = 2;
@@ -148,40 +147,29 @@ impl Fields {
         (&self.axial_index, &self.transverse_index)
     }
 
-    /// One label for each unknown.
-    pub fn labels(&self) -> Vec<Label> {
-        let mut labels = vec![Label { name: String::new(), unit: "", scale: 1.0 }; self.len()];
-        for (basis, index, field) in [
-            (&self.axial, &self.axial_index, "axial"),
-            (&self.transverse, &self.transverse_index, "transverse"),
-        ] {
-            for (i, &number) in index.iter().enumerate() {
-                let at = basis.anchor(i);
-                labels[number] = match basis.role(i) {
-                    Role::Value => Label {
-                        name: format!("{field} displacement at x = {at:.4} m"),
-                        unit: "m",
-                        scale: self.length,
-                    },
-                    Role::Slope => Label {
-                        name: format!("slope of the {field} displacement at x = {at:.4} m"),
-                        unit: "",
-                        scale: 1.0,
-                    },
-                    Role::Control => Label {
-                        name: format!("{field} displacement of the control point at x = {at:.4} m"),
-                        unit: "m",
-                        scale: self.length,
-                    },
-                    Role::Amplitude => Label {
-                        name: format!("amplitude of {field} shape {}", i + 1),
-                        unit: "m",
-                        scale: self.length,
-                    },
-                };
-            }
+    /// Size by which each unknown is measured: the length \[m\], for slopes 1.
+    pub fn scales(&self) -> Vec<f64> {
+        let mut scales = vec![self.length; self.len()];
+        for (basis, index) in [(&self.axial, &self.axial_index), (&self.transverse, &self.transverse_index)] {
+            let slopes = index.iter().enumerate().filter(|(i, _)| basis.role(*i) == Role::Slope);
+            slopes.for_each(|(_, &number)| scales[number] = 1.0);
         }
-        labels
+        scales
+    }
+
+    /// Name of unknown `number` for messages, if there is one.
+    pub fn name(&self, number: usize) -> Option<String> {
+        let find = |index: &[usize]| index.iter().position(|i| *i == number);
+        let axial = find(&self.axial_index).map(|i| (&self.axial, "axial", i));
+        let transverse = || find(&self.transverse_index).map(|i| (&self.transverse, "transverse", i));
+        let (basis, field, i) = axial.or_else(transverse)?;
+        let at = basis.anchor(i);
+        Some(match basis.role(i) {
+            Role::Value => format!("{field} displacement at x = {at:.4} m"),
+            Role::Slope => format!("slope of the {field} displacement at x = {at:.4} m"),
+            Role::Control => format!("{field} displacement of the control point at x = {at:.4} m"),
+            Role::Amplitude => format!("amplitude of {field} shape {}", i + 1),
+        })
     }
 
     /// Both fields at `x`, with a quadrature weight.

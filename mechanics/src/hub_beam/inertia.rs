@@ -57,7 +57,7 @@ pub enum Foreshortening {
 /// ```text
 /// M (a − ω² q) + (Pᵀ − P)(ω v + ½ω̇ q) + (K + ω² N + ω̇ S) q + ω̇ s_y − ω² s_x = 0
 /// ```
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Inertia {
     /// M, Pᵀ − P and, unless both vanish, K and N.
     bundle: Bundle,

@@ -17,6 +17,7 @@ use super::station::{Placement, Station};
 use crate::basis::Role;
 use crate::linalg::{Matrix, negative_pivots};
 use crate::system::State;
+use std::sync::Arc;
 
 /// Deflection over length beyond which dropping higher-order terms is no longer harmless.
 const SMALL: f64 = 0.1;
@@ -28,18 +29,18 @@ const ROUNDING: f64 = 1e-6;
 const LARGEST_EXTENSION: f64 = 0.5;
 
 /// A beam whose equations are linear in the unknowns. Its formulas head the source file.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct LinearCoupling {
     name: &'static str,
     foreshortening: Foreshortening,
-    fields: Fields,
-    inertia: Inertia,
+    fields: Arc<Fields>,
+    inertia: Arc<Inertia>,
     /// Slopes at the quadrature points of each cell, for the foreshortening of a deflected beam.
-    slopes: Vec<SlopePoint>,
+    slopes: Arc<[SlopePoint]>,
     /// Stiffness at the quadrature points.
-    stiffnesses: Vec<StiffnessPoint>,
+    stiffnesses: Arc<[StiffnessPoint]>,
     /// Unknowns that are displacements, and what they may not exceed \[m\].
-    bounds: Vec<(usize, f64)>,
+    bounds: Arc<[(usize, f64)]>,
 }
 
 /// The slope w₂′ at a quadrature point, as weights of a few consecutive unknowns.
@@ -107,7 +108,15 @@ impl LinearCoupling {
             Foreshortening::None => "zeroth",
             Foreshortening::First => "first",
         };
-        LinearCoupling { name, foreshortening, fields, inertia, slopes, stiffnesses, bounds }
+        LinearCoupling {
+            name,
+            foreshortening,
+            fields: Arc::new(fields),
+            inertia: Arc::new(inertia),
+            slopes: slopes.into(),
+            stiffnesses: stiffnesses.into(),
+            bounds: bounds.into(),
+        }
     }
 
     /// The coupling as the linear part of another one, by whose name its messages call it.
@@ -177,7 +186,7 @@ impl Coupling for LinearCoupling {
     }
 
     fn damp(&mut self, damping: Damping) {
-        self.inertia.damp(damping);
+        Arc::make_mut(&mut self.inertia).damp(damping);
     }
 
     fn placements(&self, s: &State, stations: &[Station], out: &mut [Placement]) {

@@ -21,7 +21,7 @@ fn inertial() -> Weights<'static> {
 }
 
 /// Effective inertia of a free hub.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct HubInertia {
     /// M, factored.
     mass: Matrix,

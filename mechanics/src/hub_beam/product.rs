@@ -5,6 +5,7 @@
 //! with l zeros in front of the vector and u behind it every row meets a full window, the first and last rows too.
 
 use crate::linalg::{Matrix, Storage, Structure};
+use std::sync::Arc;
 
 /// Number of matrices that are stored together.
 const TERMS: usize = 4;
@@ -25,7 +26,7 @@ pub(super) struct Bundle {
     /// Entries of a row in front of the diagonal: zeros in front of a vector.
     lead: usize,
     /// Term k of the entry at position j of row i is at (i·width + j)·terms + k.
-    data: Vec<f64>,
+    data: Arc<[f64]>,
 }
 
 /// As many vectors to multiply with a [`Bundle`], entry by entry, with zeros in front and behind.
@@ -63,16 +64,16 @@ impl Bundle {
             }
         };
         let terms = if matrices[2].is_none() && matrices[3].is_none() { 2 } else { TERMS };
-        let data = Vec::with_capacity(order * width * terms);
-        let mut bundle = Bundle { order, terms, width, advance, lead, data };
+        let mut data = Vec::with_capacity(order * width * terms);
+        let bundle = Bundle { order, terms, width, advance, lead, data: Arc::new([]) };
         for i in 0..order {
             for j in 0..width {
                 let column = bundle.column(i, j);
                 let entry = |a: &Option<&Matrix>| a.zip(column).map_or(0.0, |(a, column)| a.get(i, column));
-                bundle.data.extend(matrices[..terms].iter().map(entry));
+                data.extend(matrices[..terms].iter().map(entry));
             }
         }
-        bundle
+        Bundle { data: data.into(), ..bundle }
     }
 
     /// Column of the entry at position `j` of row `i`, if it is one of the matrix.

@@ -1,6 +1,7 @@
 //! The hub–beam as a [`System`](crate::system::System).
 
 use super::beam::Beam;
+use super::contact_points::ContactPoint;
 use super::coupling::Coupling;
 use super::damping::Damping;
 use super::hub::{Drive, Hub, Recent};
@@ -14,20 +15,21 @@ use crate::linalg::{Matrix, Storage, Structure};
 use crate::profile::{HubKinematics, Motion};
 use crate::section::Section;
 use crate::system::{
-    Break, Channel, Corotation, Direction, Dynamics, Energy, Events, Frame, Jump, Label, NotSet, Observed,
+    Break, Channel, Corotation, Direction, Dynamics, Energy, Events, Frame, Jump, NotSet, Observed,
     Parameter, Power, Role, Size, State, Steady, Weights, ordered,
 };
+use std::sync::Arc;
 
-/// A flexible beam on a hub. See the [module documentation](super).
-#[derive(Debug)]
+/// A flexible beam on a hub. See the [module documentation](super). A clone shares the constants and has work memory of
+/// its own.
+#[derive(Clone, Debug)]
 pub struct HubBeam<C> {
     hub: Hub,
     coupling: C,
-    labels: Vec<Label>,
-    scales: Vec<f64>,
-    channels: Vec<Channel>,
+    scales: Arc<[f64]>,
+    channels: Arc<Vec<Channel>>,
     /// Recorded stations, ascending along the beam; the tip is the last.
-    stations: Vec<Station>,
+    stations: Arc<[Station]>,
     /// Stations that were last requested by [`Observed::frames`].
     shown: Vec<Station>,
     placements: Vec<Placement>,
@@ -35,14 +37,17 @@ pub struct HubBeam<C> {
     recent: Recent,
     border: Border,
     /// Times at which drive and loads are not smooth.
-    breaks: Vec<Break>,
+    breaks: Arc<[Break]>,
     /// Speed of a steady rotation instead of the drive's [rad/s], and whether the hub is held.
     steady: Option<f64>,
-    held: bool,
+    pub(super) held: bool,
     loads: Loads,
+    /// Stations that may touch obstacles, and the torque of the contact forces on the hub [N·m].
+    pub(super) contact_points: Vec<ContactPoint>,
+    pub(super) contact_torque: f64,
     damped: bool,
     /// Forces in the sections at the stations, recorded last.
-    section_forces: SectionForces,
+    section_forces: Arc<SectionForces>,
     /// Effective inertia of a free hub, for a coupling whose kinetic energy may become negative.
     hub_inertia: Option<HubInertia>,
     /// Effective inertia of the released hub over the inertia of hub and beam, where it is watched and small.
@@ -64,11 +69,11 @@ impl<C: Coupling> HubBeam<C> {
         at.dedup();
         at.push(fields.length());
         let stations: Vec<Station> = at.iter().map(|&x| Station::new(fields, x)).collect();
-        let mut labels = fields.labels();
+        let mut scales = fields.scales();
         let breaks = match &hub.drive {
             Drive::Prescribed(motion) => motion_breaks(motion),
             Drive::Free(free) => {
-                labels.push(Label { name: "angle of the hub".to_owned(), unit: "rad", scale: 1.0 });
+                scales.push(1.0);
                 ordered(free.breaks())
             }
         };
@@ -81,21 +86,22 @@ impl<C: Coupling> HubBeam<C> {
         HubBeam {
             hub_inertia,
             small_share: share.filter(|share| *share < SMALL_SHARE),
-            scales: labels.iter().map(|label| label.scale).collect(),
-            labels,
-            channels: channels(&stations),
+            scales: scales.into(),
+            channels: Arc::new(channels(&stations)),
             placements: vec![Placement::default(); stations.len()],
-            stations,
+            stations: stations.into(),
             shown: Vec::new(),
             scratch,
             recent: Recent::new(),
             border: Border::new(fields.len()),
-            breaks,
+            breaks: breaks.into(),
             steady: None,
             held: false,
             loads: Loads::default(),
+            contact_points: Vec::new(),
+            contact_torque: 0.0,
             damped: false,
-            section_forces: SectionForces::default(),
+            section_forces: Arc::default(),
             hub,
             coupling,
         }
@@ -111,11 +117,10 @@ impl<C: Coupling> HubBeam<C> {
             border: self.hub.unknowns(),
         };
         self.loads = Loads::new(&site, loads);
-        self.breaks.extend(self.loads.breaks());
-        self.breaks = ordered(std::mem::take(&mut self.breaks));
+        self.breaks = ordered([&*self.breaks, self.loads.breaks()].concat()).into();
         if self.loads.has_gravity() {
             let meaning = "potential energy of gravity on the beam, zero at the height of the axis";
-            self.channels.push(Channel {
+            Arc::make_mut(&mut self.channels).push(Channel {
                 name: "energy.gravity".to_owned(),
                 unit: "J",
                 meaning: meaning.to_owned(),
@@ -147,8 +152,8 @@ impl<C: Coupling> HubBeam<C> {
         let at: Vec<(String, f64)> =
             order.map(|i| (self.stations[i].name.clone(), self.stations[i].point.x)).collect();
         let fields = self.coupling.fields();
-        self.section_forces = SectionForces::new(fields, section, sampling, &at, forces, heights);
-        self.channels.extend(self.section_forces.channels());
+        self.section_forces = Arc::new(SectionForces::new(fields, section, sampling, &at, forces, heights));
+        Arc::make_mut(&mut self.channels).extend(self.section_forces.channels());
         self
     }
 
@@ -199,7 +204,7 @@ impl<C: Coupling> HubBeam<C> {
     }
 
     /// Angle, speed and acceleration of the hub.
-    fn kinematics(&mut self, s: &State) -> HubKinematics {
+    pub(super) fn kinematics(&mut self, s: &State) -> HubKinematics {
         let n = self.coupling.fields().len();
         match (&self.hub.drive, self.steady) {
             (Drive::Free(free), steady) if self.held => {
@@ -301,7 +306,8 @@ impl<C: Coupling> Dynamics for HubBeam<C> {
     }
 
     fn unknown(&self, i: usize) -> String {
-        self.labels.get(i).map_or_else(|| format!("unknown {i}"), |label| label.name.clone())
+        let hub = || (i == self.coupling.fields().len()).then(|| "angle of the hub".to_owned());
+        self.coupling.fields().name(i).or_else(hub).unwrap_or_else(|| format!("unknown {i}"))
     }
 
     fn initial(&self) -> State {
@@ -487,7 +493,7 @@ impl<C: Coupling> Observed for HubBeam<C> {
         let hub = self.kinematics(s);
         let totals = self.totals(s, &hub);
         let torque = match &self.hub.drive {
-            Drive::Prescribed(_) => totals.torque - self.loads.torque(s, &hub),
+            Drive::Prescribed(_) => totals.torque - self.loads.torque(s, &hub) - self.contact_torque,
             Drive::Free(free) => free.torque(&hub, s.time()).value,
         };
         let strain = self.strain(s, &hub);

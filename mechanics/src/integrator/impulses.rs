@@ -9,7 +9,7 @@
 //!
 //! and the increment becomes x + A⁻¹ Gᵀ (P − P₀). See the [cone problem](crate::contact::solve).
 
-use crate::contact::{Law, Unresolved, solve};
+use crate::contact::{RowLaw as Law, Unresolved, solve};
 use crate::linalg::Matrix;
 use crate::system::Set;
 

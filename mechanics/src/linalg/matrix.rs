@@ -35,6 +35,16 @@ impl Structure {
         Structure::Band { order: n, lower, upper, border }
     }
 
+    /// The same with `more` dense rows and columns behind.
+    pub fn widened(self, more: usize) -> Structure {
+        match self {
+            Structure::Dense { order } => Structure::Dense { order: order + more },
+            Structure::Band { order, lower, upper, border } => {
+                Structure::Band { order, lower, upper, border: border + more }
+            }
+        }
+    }
+
     /// Order of the whole matrix.
     pub fn order(&self) -> usize {
         match self {

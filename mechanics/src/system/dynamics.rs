@@ -117,14 +117,3 @@ pub trait Dynamics: Send {
         None
     }
 }
-
-/// Name, unit and scale of one unknown.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Label {
-    /// What it is and where, e.g. `deflection at x = 4 m`.
-    pub name: String,
-    /// SI unit, empty for pure numbers.
-    pub unit: &'static str,
-    /// Size by which errors and increments of this unknown are measured (> 0).
-    pub scale: f64,
-}

@@ -31,7 +31,7 @@ mod state;
 mod steady;
 
 pub use corotation::Corotation;
-pub use dynamics::{Dynamics, Label, VisitRow, Weights};
+pub use dynamics::{Dynamics, VisitRow, Weights};
 pub use events::{Break, Crossing, Events, Jump, ordered};
 pub use observed::{Channel, Direction, Energy, Frame, Observed, Power, Role};
 pub use rows::{RowWeights, Set, is_active, replace_inactive, slip};
@@ -42,3 +42,16 @@ pub use steady::{NotSet, Parameter, Steady};
 pub trait System: Dynamics + Events + Steady + Observed {}
 
 impl<T: Dynamics + Events + Steady + Observed + ?Sized> System for T {}
+
+/// A system that can be copied at the cost of its work memory: its constants are shared, so that each run or thread has a
+/// system of its own and the model is built once. Every system that is `Clone` is one.
+pub trait Fork: System {
+    /// A copy that from now on is independent of this system.
+    fn fork(&self) -> Box<dyn Fork>;
+}
+
+impl<T: System + Clone + 'static> Fork for T {
+    fn fork(&self) -> Box<dyn Fork> {
+        Box::new(self.clone())
+    }
+}

@@ -1,6 +1,6 @@
 //! What the curves of a panel cover, and places for words and the legend clear of them.
 
-use super::draw::Placed;
+use super::placed::Placed;
 use super::style;
 use kuva::plot::legend::LegendPosition;
 

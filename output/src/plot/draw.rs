@@ -17,6 +17,7 @@ use super::axis::Resolved;
 use super::coverage::Coverage;
 use super::dash::dashes;
 use super::decimate::decimate;
+use super::placed::Placed;
 use super::{Figure, Line, Marker, Panel, Series, style};
 use crate::OutputError;
 
@@ -57,15 +58,6 @@ fn number_clips(scene: &mut Scene) {
         }
         *id = name;
     }
-}
-
-/// A panel with its axes decided.
-pub(super) struct Placed<'a> {
-    pub(super) panel: &'a Panel,
-    pub(super) x: Resolved,
-    pub(super) y: Resolved,
-    /// Whether numbers and label stand below it.
-    x_labelled: bool,
 }
 
 impl Figure {
@@ -246,19 +238,6 @@ fn plots(p: &Placed<'_>, size: (f64, f64)) -> Vec<Plot> {
         plots.push(LinePlot::new().with_data(Vec::<(f64, f64)>::new()).into());
     }
     plots
-}
-
-impl Placed<'_> {
-    /// The unbroken pieces of a curve, in mapped numbers.
-    pub(super) fn pieces(&self, series: &Series) -> Vec<Vec<(f64, f64)>> {
-        let mapped: Vec<Option<(f64, f64)>> =
-            series.points.iter().map(|&(x, y)| self.x.map(x).zip(self.y.map(y))).collect();
-        mapped
-            .split(Option::is_none)
-            .filter(|piece| !piece.is_empty())
-            .map(|piece| piece.iter().flatten().copied().collect())
-            .collect()
-    }
 }
 
 fn legend(panel: &Panel) -> Vec<LegendEntry> {

@@ -10,6 +10,7 @@ mod dash;
 mod decimate;
 mod draw;
 mod panels;
+mod placed;
 mod style;
 #[cfg(test)]
 mod tests;

@@ -44,7 +44,7 @@ use tangent::Tangent;
 pub const MOST_ELEMENTS: usize = 300;
 
 /// A beam with the foreshortening to every order. Its formulas head the source file.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct HighCoupling {
     /// The part that is quadratic in the unknowns.
     linear: LinearCoupling,

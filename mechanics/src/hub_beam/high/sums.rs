@@ -13,6 +13,7 @@ use crate::hub_beam::fields::{Fields, Shapes};
 use crate::profile::HubKinematics;
 use crate::quadrature::Gauss;
 use crate::system::State;
+use std::sync::Arc;
 
 /// Value, velocity and acceleration.
 pub type Rates = [f64; 3];
@@ -66,11 +67,11 @@ pub struct Sums {
     /// Points of mass of a cell in `at`: its points and, on a beam with lumped masses, its end.
     pub rows: usize,
     /// S by rows, for a cell of unit length; the last row, for its end, holds the weights.
-    pub partial: Vec<f64>,
+    pub partial: Arc<[f64]>,
     /// Quadrature weights of a cell of unit length.
-    pub weights: Vec<f64>,
+    pub weights: Arc<[f64]>,
     /// The cells, root first.
-    pub cells: Vec<Cell>,
+    pub cells: Arc<[Cell]>,
     /// The axis at every point of mass.
     pub at: Vec<Point>,
     /// w₂′ and its rates at every point.
@@ -154,12 +155,12 @@ impl Sums {
         Sums {
             points,
             rows,
-            partial,
-            weights,
+            partial: partial.into(),
+            weights: weights.into(),
             at: vec![Point::default(); cells.len() * rows],
             slope: vec![[0.0; 3]; cells.len() * points],
             tension: vec![[0.0; 3]; points],
-            cells,
+            cells: cells.into(),
         }
     }
 
@@ -234,7 +235,7 @@ impl Sums {
         // Tails at the end of the cell.
         let mut beyond = [0.0; N];
         for (c, cell) in self.cells.iter().enumerate().rev() {
-            for (tension, weight) in self.tension.iter_mut().zip(&self.weights) {
+            for (tension, weight) in self.tension.iter_mut().zip(&*self.weights) {
                 for (tension, beyond) in tension.iter_mut().zip(beyond) {
                     *tension = weight * beyond;
                 }

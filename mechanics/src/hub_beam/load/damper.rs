@@ -16,7 +16,7 @@ use crate::profile::HubKinematics;
 use crate::system::{State, Weights};
 
 /// A damper, ready to be evaluated.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Damper {
     /// c [N·s/m]
     coefficient: f64,

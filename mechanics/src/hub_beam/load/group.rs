@@ -21,6 +21,7 @@ use crate::hub_beam::product::{Bundle, Entry, Vectors};
 use crate::linalg::{Matrix, Storage, Structure};
 use crate::profile::{HubKinematics, jumping_derivative};
 use crate::system::{Break, State};
+use std::sync::Arc;
 
 /// Where the work of a conservative load is stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,7 +33,7 @@ pub(super) enum Store {
 }
 
 /// One load, ready to be evaluated. See the [module documentation](self).
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Group {
     force: [f64; 2],
     axes: Axes,
@@ -54,7 +55,7 @@ pub struct Group {
     pub(super) moment: f64,
     /// G_x, G_y and N, if one of them is there.
     stiffness: Option<(Bundle, Vectors, Vec<Entry>)>,
-    sections: Vec<OnSection>,
+    sections: Arc<Vec<OnSection>>,
 }
 
 impl Group {
@@ -75,7 +76,7 @@ impl Group {
             m: zero(),
             moment: 0.0,
             stiffness: None,
-            sections: Vec::new(),
+            sections: Arc::default(),
         }
     }
 
@@ -96,17 +97,17 @@ impl Group {
 
     /// A share `p` of a follower at a point of a curve.
     pub(super) fn push_follower(&mut self, point: &Point, p: f64, radius: f64) {
-        self.sections.push(OnSection::new(point, Nature::Follower, p, radius));
+        Arc::make_mut(&mut self.sections).push(OnSection::new(point, Nature::Follower, p, radius));
     }
 
     /// A couple on the section at a point of a curve.
     pub(super) fn push_couple(&mut self, point: &Point, moment: f64, radius: f64) {
-        self.sections.push(OnSection::new(point, Nature::Couple, moment, radius));
+        Arc::make_mut(&mut self.sections).push(OnSection::new(point, Nature::Couple, moment, radius));
     }
 
     /// A force that acts off the axis: first moment `p` about it.
     pub(super) fn push_eccentric(&mut self, point: &Point, p: f64, radius: f64) {
-        self.sections.push(OnSection::new(point, Nature::Eccentric, p, radius));
+        Arc::make_mut(&mut self.sections).push(OnSection::new(point, Nature::Eccentric, p, radius));
     }
 
     /// Its work is stored; `energy` \[J\] is there at r = 0 and q = 0.
@@ -164,7 +165,7 @@ impl Group {
         for (out, [gx, gy, n, _]) in out.iter_mut().zip(self.products(&s.q, d, m)) {
             *out += gx + gy + n;
         }
-        for section in &self.sections {
+        for section in self.sections.iter() {
             section.add_force(s, &now, c, out);
         }
     }
@@ -178,7 +179,7 @@ impl Group {
         if let Some((bundle, ..)) = &self.stiffness {
             bundle.add_sum([c * now.d[0], c * now.d[1], c * now.factor, 0.0], out);
         }
-        for section in &self.sections {
+        for section in self.sections.iter() {
             section.add_tangent(s, &now, c, out);
         }
     }
@@ -237,7 +238,7 @@ impl Group {
             let [x, y] = self.moments(&s.q);
             out.corner -= c * (now.d[0] * x + now.d[1] * y);
         }
-        for section in &self.sections {
+        for section in self.sections.iter() {
             section.add_border(s, &now, c, out);
         }
     }

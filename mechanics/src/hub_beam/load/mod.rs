@@ -58,7 +58,7 @@ pub trait Load: std::fmt::Debug {
 }
 
 /// The loads of a system. Empty, they cost nothing.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Loads {
     groups: Vec<Group>,
     dampers: Vec<Damper>,

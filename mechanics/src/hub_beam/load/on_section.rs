@@ -30,7 +30,7 @@ pub(super) enum Nature {
 }
 
 /// A load on one section of a curve.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct OnSection {
     nature: Nature,
     share: f64,

@@ -1,0 +1,612 @@
+//! A model whose points may touch obstacles.
+//!
+//! With p a point of the model, u the velocity of the obstacle, w = ṗ − u, and n, t, κ of its [`Surface`],
+//!
+//! ```text
+//! g,   ġ = n·w,   g̈ = n·(p̈ − u̇) + κ₁ (t₁·w)² + κ₂ (t₂·w)²
+//! sliding velocity t₁·w, its rate t₁·(p̈ − u̇) − κ₁ (t₁·w)(n·w)
+//! F = λₙ n + λ_t t₁  or  F = N(δ, δ̇) n + T t₁,   r −= F·∂p/∂q
+//! ```
+//!
+//! A contact with the law [`Law::Constraint`] gives a row to the system, and one more with friction: drivers and
+//! integrators do the rest. A [`Law::Force`] is a load; the closing speed is stored in the state's memory by the event
+//! at which the gap changes its sign.
+
+use super::force::ContactForce;
+use super::obstacle::{Obstacle, Surface};
+use super::points::{PointMotion, Points, Variation};
+use crate::linalg::vector::inner;
+use crate::linalg::{Matrix, Structure};
+use crate::system::{
+    Break, Channel, Corotation, Crossing, Direction, Dynamics, Energy, Events, Frame, Jump, Mode, NotSet,
+    Observed, Parameter, Power, Role, RowWeights, Set, Size, State, Steady, VisitRow, Weights, ordered,
+};
+use std::sync::Arc;
+
+/// What happens when a point touches.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Law {
+    /// The point cannot enter: impulse and momentum, then a constraint until it would pull.
+    Constraint {
+        /// Newton's coefficient of restitution e, 0 … 1.
+        restitution: f64,
+        /// Coefficient of Coulomb's friction μ ≥ 0.
+        friction: f64,
+    },
+    /// A continuous force.
+    Force(ContactForce),
+}
+
+/// A point and the obstacle that it may touch.
+#[derive(Clone, Debug)]
+pub struct Contact {
+    /// Prefix of its columns.
+    pub name: String,
+    /// Number of the point.
+    pub point: usize,
+    /// What it may touch.
+    pub obstacle: Arc<dyn Obstacle>,
+    /// What happens then.
+    pub law: Law,
+}
+
+/// A model `S` with contacts. Its formulas head the source file.
+#[derive(Clone, Debug)]
+pub struct Contacting<S> {
+    inner: S,
+    contacts: Vec<Placed>,
+    /// Rows of the model and of the contacts.
+    sets: Vec<Set>,
+    /// Numbers of rows, memory, indicators and channels of the model itself.
+    rows: usize,
+    memory: usize,
+    indicators: usize,
+    channels: Vec<Channel>,
+    recorded: usize,
+    breaks: Vec<Break>,
+    /// Of the point at hand.
+    variations: Vec<Variation>,
+    numbers: Vec<usize>,
+    entries: Vec<f64>,
+}
+
+/// A contact with its place in the lists of the system.
+#[derive(Clone, Debug)]
+struct Placed {
+    contact: Contact,
+    /// Row of the normal force, or number of the indicator and of the memory among those of contacts.
+    place: usize,
+    /// Row of the friction.
+    friction: Option<usize>,
+}
+
+/// A point and the surface before it.
+struct Touch {
+    motion: PointMotion,
+    surface: Surface,
+    /// w = ṗ − u
+    velocity: [f64; 3],
+    /// ġ
+    rate: f64,
+    /// t₁·w
+    sliding: f64,
+}
+
+fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|i| a[i] - b[i])
+}
+
+/// Σ xᵢ aᵢ
+fn sum<const N: usize>(terms: [(f64, [f64; 3]); N]) -> [f64; 3] {
+    [0, 1, 2].map(|i| terms.iter().map(|(x, a)| x * a[i]).sum())
+}
+
+impl Touch {
+    fn new(inner_model: &mut impl Points, contact: &Contact, s: &State) -> Touch {
+        let motion = inner_model.motion(contact.point, s);
+        let surface = contact.obstacle.surface(motion.position, s.time());
+        let velocity = minus(motion.velocity, surface.velocity);
+        let (rate, sliding) = (inner(surface.normal, velocity), inner(surface.tangents[0], velocity));
+        Touch { motion, surface, velocity, rate, sliding }
+    }
+
+    /// g̈
+    fn acceleration(&self) -> f64 {
+        let Surface { normal, tangents, curvatures, acceleration, .. } = &self.surface;
+        let turning: f64 = (0..2).map(|i| curvatures[i] * inner(tangents[i], self.velocity).powi(2)).sum();
+        inner(*normal, minus(self.motion.acceleration, *acceleration)) + turning
+    }
+
+    /// Rate of the sliding velocity.
+    fn sliding_rate(&self) -> f64 {
+        let Surface { tangents: [t, _], curvatures: [k, _], acceleration, .. } = self.surface;
+        inner(t, minus(self.motion.acceleration, acceleration)) - k * self.sliding * self.rate
+    }
+
+    /// ∂n/∂p x and ∂t₁/∂p x.
+    fn turned(&self, x: [f64; 3]) -> [[f64; 3]; 2] {
+        let Surface { normal, tangents: [t1, t2], curvatures: [k1, k2], .. } = self.surface;
+        let along = k1 * inner(t1, x);
+        [sum([(along, t1), (k2 * inner(t2, x), t2)]), normal.map(|n| -along * n)]
+    }
+}
+
+/// Normal force and friction of a contact at a state, with their derivatives by a variation.
+struct Forces {
+    normal: f64,
+    friction: f64,
+    /// ∂N by g and ġ.
+    by_gap: [f64; 2],
+    /// ∂T by N and by the sliding velocity.
+    by_sliding: [f64; 2],
+}
+
+impl Placed {
+    /// The forces at a state.
+    fn forces(&self, touch: &Touch, s: &State, memory: usize) -> Forces {
+        match &self.contact.law {
+            Law::Constraint { .. } => Forces {
+                normal: s.lambda[self.place],
+                friction: self.friction.map_or(0.0, |row| s.lambda[row]),
+                by_gap: [0.0; 2],
+                by_sliding: [0.0; 2],
+            },
+            Law::Force(law) => {
+                let normal = law.normal(-touch.surface.gap, -touch.rate, s.memory[memory + self.place]);
+                let (part, slope) = law.friction(touch.sliding);
+                Forces {
+                    normal: normal.value,
+                    friction: part * normal.value,
+                    by_gap: [-normal.by_indentation, -normal.by_rate],
+                    by_sliding: [part, slope * normal.value],
+                }
+            }
+        }
+    }
+}
+
+impl Forces {
+    fn vector(&self, surface: &Surface) -> [f64; 3] {
+        sum([(self.normal, surface.normal), (self.friction, surface.tangents[0])])
+    }
+
+    fn vanish(&self) -> bool {
+        self.normal == 0.0 && self.friction == 0.0
+    }
+
+    /// Change of the force by `position` of the point and `velocity`.
+    fn change(&self, touch: &Touch, position: [f64; 3], velocity: [f64; 3]) -> [f64; 3] {
+        let Surface { normal: n, tangents: [t, _], .. } = touch.surface;
+        let [dn, dt] = touch.turned(position);
+        let gap = inner(n, position);
+        let rate = inner(dn, touch.velocity) + inner(n, velocity);
+        let sliding = inner(dt, touch.velocity) + inner(t, velocity);
+        let normal = self.by_gap[0] * gap + self.by_gap[1] * rate;
+        let friction = self.by_sliding[0] * normal + self.by_sliding[1] * sliding;
+        sum([(normal, n), (friction, t), (self.normal, dn), (self.friction, dt)])
+    }
+}
+
+impl<S: Points + Dynamics + Events + Observed> Contacting<S> {
+    /// `inner` with contacts.
+    pub fn new(inner: S, contacts: Vec<Contact>) -> Contacting<S> {
+        let Size { lambda: rows, memory, .. } = inner.size();
+        let mut sets = inner.rows().to_vec();
+        let mut breaks = inner.breaks().to_vec();
+        let mut forces = 0;
+        let mut channels = inner.channels().to_vec();
+        let recorded = channels.len();
+        let mut add = |contact: &Contact, quantity: &str, unit, meaning: &str| {
+            let name = format!("{}.{quantity}", contact.name);
+            let meaning = format!("{meaning} of the contact {}", contact.name);
+            channels.push(Channel { name, unit, meaning, role: Role::Secondary });
+        };
+        let mut placed = Vec::new();
+        for contact in contacts {
+            breaks.extend(contact.obstacle.breaks());
+            add(&contact, "gap", "m", "gap");
+            add(&contact, "force", "N", "normal force");
+            let (place, friction) = match contact.law {
+                Law::Constraint { restitution, friction } => {
+                    let place = sets.len();
+                    sets.push(Set::Unilateral { restitution });
+                    let row = (friction > 0.0).then_some(sets.len());
+                    sets.extend(row.map(|_| Set::Friction { coefficient: friction, normal: place }));
+                    (place, row)
+                }
+                Law::Force(_) => {
+                    forces += 1;
+                    (forces - 1, None)
+                }
+            };
+            let rubs = friction.is_some() || matches!(contact.law, Law::Force(f) if f.friction > 0.0);
+            if rubs {
+                add(&contact, "friction", "N", "friction force");
+            }
+            placed.push(Placed { contact, place, friction });
+        }
+        if forces > 0 {
+            let meaning = "energy stored in contacts".to_owned();
+            channels.push(Channel {
+                name: "energy.contact".to_owned(),
+                unit: "J",
+                meaning,
+                role: Role::Energy,
+            });
+        }
+        let n = inner.size().v;
+        Contacting {
+            indicators: inner.indicators(),
+            inner,
+            contacts: placed,
+            sets,
+            rows,
+            memory,
+            channels,
+            recorded,
+            breaks: ordered(breaks),
+            variations: Vec::with_capacity(n),
+            numbers: Vec::with_capacity(n),
+            entries: Vec::with_capacity(n),
+        }
+    }
+
+    /// The model without contacts.
+    pub fn inner(&self) -> &S {
+        &self.inner
+    }
+
+    /// The model without contacts.
+    pub fn into_inner(self) -> S {
+        self.inner
+    }
+
+    /// The contacts.
+    pub fn contacts(&self) -> impl Iterator<Item = &Contact> {
+        self.contacts.iter().map(|placed| &placed.contact)
+    }
+
+    /// The gap of each contact \[m\].
+    pub fn gaps(&mut self, s: &State) -> Vec<f64> {
+        let gap = |placed: &Placed, model: &mut S| Touch::new(model, &placed.contact, s).surface.gap;
+        self.contacts.iter().map(|placed| gap(placed, &mut self.inner)).collect()
+    }
+
+    /// Number of contacts with a continuous force.
+    fn forces(&self) -> usize {
+        self.contacts.iter().filter(|placed| matches!(placed.contact.law, Law::Force(_))).count()
+    }
+
+    /// Calls `f` for every contact with its point, surface and forces.
+    fn each(&mut self, s: &State, mut f: impl FnMut(&Placed, &Touch, &Forces)) {
+        for placed in &self.contacts {
+            let touch = Touch::new(&mut self.inner, &placed.contact, s);
+            f(placed, &touch, &placed.forces(&touch, s, self.memory));
+        }
+    }
+
+    /// Tells the model the forces on its points.
+    fn set_forces(&mut self, s: &State) {
+        self.inner.begin_forces();
+        for placed in &self.contacts {
+            let touch = Touch::new(&mut self.inner, &placed.contact, s);
+            let force = placed.forces(&touch, s, self.memory).vector(&touch.surface);
+            self.inner.add_force(placed.contact.point, s, force);
+        }
+    }
+
+    /// Energy stored in contacts.
+    fn stored(&mut self, s: &State) -> f64 {
+        let mut stored = 0.0;
+        self.each(s, |placed, touch, _| {
+            if let Law::Force(law) = &placed.contact.law {
+                stored += law.stored(-touch.surface.gap);
+            }
+        });
+        stored
+    }
+
+    /// Adds the power of the contacts: moving obstacles and the prescribed motion of the model drive, friction and damping lose.
+    fn add_power(&mut self, s: &State, power: &mut Power) {
+        self.each(s, |placed, touch, forces| {
+            let force = forces.vector(&touch.surface);
+            power.drive += inner(force, minus(touch.surface.velocity, touch.motion.prescribed));
+            power.contact -= forces.friction * touch.sliding;
+            if let Law::Force(law) = &placed.contact.law {
+                let elastic = law.normal(-touch.surface.gap, 0.0, 0.0).value;
+                power.contact -= (forces.normal - elastic) * touch.rate;
+            }
+        });
+    }
+}
+
+impl<S: Points + Dynamics + Events + Observed> Dynamics for Contacting<S> {
+    fn size(&self) -> Size {
+        let size = self.inner.size();
+        Size { lambda: self.sets.len(), memory: self.memory + self.forces(), ..size }
+    }
+
+    fn structure(&self, multipliers: usize) -> Structure {
+        let own = multipliers * (self.sets.len() - self.rows);
+        let structure = self.inner.structure(multipliers).widened(own);
+        let full = self.contacts.iter().any(|placed| {
+            let surface = placed.contact.obstacle.surface([0.0; 3], 0.0);
+            let stiff = matches!(placed.contact.law, Law::Force(_)) || surface.curvatures != [0.0; 2];
+            stiff && !self.inner.is_local(placed.contact.point)
+        });
+        if full { Structure::dense(structure.order()) } else { structure }
+    }
+
+    fn scales(&self) -> &[f64] {
+        self.inner.scales()
+    }
+
+    fn unknown(&self, i: usize) -> String {
+        let Some(row) = i.checked_sub(self.inner.size().v + self.rows) else { return self.inner.unknown(i) };
+        let found = self.contacts.iter().find_map(|placed| {
+            let name = &placed.contact.name;
+            let own = matches!(placed.contact.law, Law::Constraint { .. });
+            match row + self.rows {
+                row if own && row == placed.place => Some(format!("force of the contact {name}")),
+                row if Some(row) == placed.friction => Some(format!("friction of the contact {name}")),
+                _ => None,
+            }
+        });
+        found.unwrap_or_else(|| format!("unknown {i}"))
+    }
+
+    fn initial(&self) -> State {
+        let inner = self.inner.initial();
+        let mut state = State::zeros(self.size(), inner.t);
+        let copy = |from: &[f64], to: &mut [f64]| to[..from.len()].copy_from_slice(from);
+        copy(&inner.q, &mut state.q);
+        copy(&inner.v, &mut state.v);
+        copy(&inner.a, &mut state.a);
+        copy(&inner.lambda, &mut state.lambda);
+        copy(&inner.memory, &mut state.memory);
+        state.mode.fill(Mode::Open);
+        state.mode[..inner.mode.len()].copy_from_slice(&inner.mode);
+        state
+    }
+
+    fn is_vector_space(&self) -> bool {
+        self.inner.is_vector_space()
+    }
+
+    fn retract(&self, q: &[f64], d: &[f64], out: &mut [f64]) {
+        self.inner.retract(q, d, out);
+    }
+
+    fn difference(&self, from: &[f64], to: &[f64], d: &mut [f64]) {
+        self.inner.difference(from, to, d);
+    }
+
+    fn rate(&self, d: &[f64], v: &[f64], out: &mut [f64]) {
+        self.inner.rate(d, v, out);
+    }
+
+    fn residual(&mut self, s: &State, r: &mut [f64]) {
+        self.inner.residual(s, r);
+        for placed in &self.contacts {
+            let touch = Touch::new(&mut self.inner, &placed.contact, s);
+            let forces = placed.forces(&touch, s, self.memory);
+            if forces.vanish() {
+                continue;
+            }
+            let force = forces.vector(&touch.surface);
+            self.inner.variations(placed.contact.point, s, &mut self.variations);
+            for by in &self.variations {
+                r[by.unknown] -= inner(force, by.position);
+            }
+        }
+    }
+
+    fn constraint(&mut self, s: &State, c: RowWeights, g: &mut [f64]) {
+        self.inner.constraint(s, c, &mut g[..self.rows]);
+        for placed in &self.contacts {
+            if let Law::Constraint { .. } = placed.contact.law {
+                let touch = Touch::new(&mut self.inner, &placed.contact, s);
+                g[placed.place] = c.combine(touch.surface.gap, touch.rate, touch.acceleration());
+                if let Some(row) = placed.friction {
+                    g[row] = c.combine(0.0, touch.sliding, touch.sliding_rate());
+                }
+            }
+        }
+    }
+
+    fn rows(&self) -> &[Set] {
+        &self.sets
+    }
+
+    fn jacobian(&mut self, s: &State, visit: &mut VisitRow<'_>) {
+        self.inner.jacobian(s, visit);
+        for placed in &self.contacts {
+            if let Law::Constraint { .. } = placed.contact.law {
+                let touch = Touch::new(&mut self.inner, &placed.contact, s);
+                self.inner.variations(placed.contact.point, s, &mut self.variations);
+                self.numbers.clear();
+                self.numbers.extend(self.variations.iter().map(|by| by.unknown));
+                let [tangent, _] = touch.surface.tangents;
+                let friction = placed.friction.map(|row| (row, tangent));
+                for (row, direction) in [(placed.place, touch.surface.normal)].into_iter().chain(friction) {
+                    self.entries.clear();
+                    self.entries.extend(self.variations.iter().map(|by| inner(direction, by.position)));
+                    visit(row, &self.numbers, &self.entries);
+                }
+            }
+        }
+    }
+
+    fn tangent(&mut self, s: &State, w: Weights<'_>, out: &mut Matrix) {
+        // The model alone may recognise its own content, to which contacts have been added.
+        out.set_stamp(None);
+        self.inner.tangent(s, w, out);
+        out.set_stamp(None);
+        if w.q == 0.0 && w.v == 0.0 {
+            return;
+        }
+        for placed in &self.contacts {
+            let touch = Touch::new(&mut self.inner, &placed.contact, s);
+            let forces = placed.forces(&touch, s, self.memory);
+            if forces.vanish() {
+                continue;
+            }
+            let point = placed.contact.point;
+            self.inner.variations(point, s, &mut self.variations);
+            let rigid = matches!(placed.contact.law, Law::Constraint { .. });
+            if !rigid || touch.surface.curvatures != [0.0; 2] {
+                for column in &self.variations {
+                    let by_position = forces.change(&touch, column.position, column.velocity);
+                    let by_velocity = forces.change(&touch, [0.0; 3], column.position);
+                    let change = sum([(w.q, by_position), (w.v, by_velocity)]);
+                    for row in &self.variations {
+                        let x = inner(row.position, change);
+                        if x != 0.0 {
+                            out.add(row.unknown, column.unknown, -x);
+                        }
+                    }
+                }
+            }
+            self.inner.add_curvature(point, s, forces.vector(&touch.surface), -w.q, out);
+        }
+    }
+
+    fn corotate(&self, before: &State, now: &State, out: &mut Corotation) {
+        self.inner.corotate(before, now, out);
+    }
+
+    fn stiffness_forms(&mut self, s: &State, vectors: &[Vec<f64>]) -> Option<Vec<f64>> {
+        let mut free = true;
+        self.each(s, |_, _, forces| free &= forces.vanish());
+        if free { self.inner.stiffness_forms(s, vectors) } else { None }
+    }
+}
+
+impl<S: Points + Dynamics + Events + Observed> Events for Contacting<S> {
+    fn breaks(&self) -> &[Break] {
+        &self.breaks
+    }
+
+    /// An obstacle whose velocity jumps strikes too, without an impulse of its own.
+    fn impulse(&mut self, s: &State, p: &mut [f64]) -> bool {
+        let own = self.inner.impulse(s, p);
+        let moved = |b: &Break| b.time == s.t && b.jump == Jump::Velocity;
+        own || self.contacts.iter().any(|placed| placed.contact.obstacle.breaks().iter().any(moved))
+    }
+
+    fn impulse_work(&mut self, before: &State, after: &State) -> f64 {
+        self.inner.impulse_work(before, after)
+    }
+
+    fn indicators(&self) -> usize {
+        self.indicators + self.forces()
+    }
+
+    fn indicate(&mut self, s: &State, out: &mut [f64]) {
+        let (own, gaps) = out.split_at_mut(self.indicators);
+        self.inner.indicate(s, own);
+        self.each(s, |placed, touch, _| {
+            if let Law::Force(_) = placed.contact.law {
+                gaps[placed.place] = touch.surface.gap;
+            }
+        });
+    }
+
+    fn cross(&mut self, fired: &[usize], s: &mut State) -> Crossing {
+        let own: Vec<usize> = fired.iter().copied().filter(|k| *k < self.indicators).collect();
+        let crossing = if own.is_empty() { Crossing::Restart } else { self.inner.cross(&own, s) };
+        let mut closing = vec![0.0; self.forces()];
+        self.each(s, |placed, touch, _| {
+            if let Law::Force(_) = placed.contact.law {
+                closing[placed.place] = (-touch.rate).max(0.0);
+            }
+        });
+        for &k in fired.iter().filter(|k| **k >= self.indicators) {
+            s.memory[self.memory + k - self.indicators] = closing[k - self.indicators];
+        }
+        if crossing == Crossing::Continue { Crossing::Restart } else { crossing }
+    }
+}
+
+impl<S: Steady> Steady for Contacting<S> {
+    fn set(&mut self, parameter: Parameter, value: f64) -> Result<(), NotSet> {
+        self.inner.set(parameter, value)
+    }
+
+    fn hold(&mut self, held: bool) {
+        self.inner.hold(held);
+    }
+
+    fn release(&mut self) {
+        self.inner.release();
+    }
+}
+
+impl<S: Points + Dynamics + Events + Observed> Observed for Contacting<S> {
+    fn energy(&mut self, s: &State) -> Energy {
+        let energy = self.inner.energy(s);
+        Energy { contact: energy.contact + self.stored(s), ..energy }
+    }
+
+    fn power(&mut self, s: &State) -> Power {
+        let mut power = self.inner.power(s);
+        self.add_power(s, &mut power);
+        power
+    }
+
+    fn energy_and_power(&mut self, s: &State) -> (Energy, Power) {
+        let (mut energy, mut power) = self.inner.energy_and_power(s);
+        energy.contact += self.stored(s);
+        self.add_power(s, &mut power);
+        (energy, power)
+    }
+
+    fn frames(&mut self, body: usize, s: &State, stations: &[f64], out: &mut [Frame]) {
+        self.inner.frames(body, s, stations, out);
+    }
+
+    fn channels(&self) -> &[Channel] {
+        &self.channels
+    }
+
+    fn record(&mut self, s: &State, out: &mut [f64]) {
+        let (own, contacts) = out.split_at_mut(self.recorded.min(out.len()));
+        self.set_forces(s);
+        self.inner.record(s, own);
+        let mut next = contacts.iter_mut();
+        let mut write = |x: f64| next.next().into_iter().for_each(|out| *out = x);
+        let (mut stored, mut stores) = (0.0, false);
+        self.each(s, |placed, touch, forces| {
+            write(touch.surface.gap);
+            write(forces.normal);
+            let force = match &placed.contact.law {
+                Law::Constraint { .. } => None,
+                Law::Force(force) => Some(force),
+            };
+            if placed.friction.is_some() || force.is_some_and(|force| force.friction > 0.0) {
+                write(forces.friction);
+            }
+            stores |= force.is_some();
+            stored += force.map_or(0.0, |force| force.stored(-touch.surface.gap));
+        });
+        if stores {
+            write(stored);
+        }
+    }
+
+    fn direction(&self, i: usize) -> Direction {
+        self.inner.direction(i)
+    }
+
+    fn admissible(&mut self, s: &State) -> Result<(), String> {
+        self.inner.admissible(s)
+    }
+
+    fn explain(&mut self, s: &State) -> Option<String> {
+        self.inner.explain(s)
+    }
+
+    fn cautions(&self, peaks: &[f64]) -> Vec<String> {
+        self.inner.cautions(peaks.get(..self.recorded).unwrap_or(&[]))
+    }
+}
