@@ -6,8 +6,9 @@ use flexion::analysis::transient::{Plan, resume, transient_to_checkpoint};
 use flexion::integrator::{Integrator, MoreauJean, NonsmoothAlpha, Radau, Tolerance};
 use flexion::system::{Dynamics, Mode, RowWeights, State};
 
-pub fn methods(rho: f64) -> [Box<dyn Integrator>; 1] {
-    [Box::new(NonsmoothAlpha::decoupled(rho).unwrap())]
+/// The decoupled scheme and the coupled one.
+pub fn methods(rho: f64) -> [Box<dyn Integrator>; 2] {
+    [Box::new(NonsmoothAlpha::decoupled(rho).unwrap()), Box::new(NonsmoothAlpha::coupled(rho).unwrap())]
 }
 
 pub fn ball(restitution: f64, height: f64) -> (BallOnMovingWall, State) {
