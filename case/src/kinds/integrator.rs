@@ -146,9 +146,23 @@ pub static INTEGRATOR: Choice<Method> = Choice {
             summary: "nonsmooth generalized-α, implicit, order 2, 1 across impacts; locates no events",
             source: "Brüls, Acary & Cardona 2014, doi:10.1016/j.cma.2014.07.025; Cosimo et al. 2020, \
                      doi:10.1007/s11044-019-09706-6",
-            keys: &[STEP, SPECTRAL_RADIUS],
+            keys: &[
+                STEP,
+                SPECTRAL_RADIUS,
+                key(
+                    "decoupled",
+                    Type::Boolean,
+                    Default::Boolean(true),
+                    "position and velocity are corrected after a smooth step; if false, all is solved at once",
+                ),
+            ],
             example: "integrator={kind='nonsmooth-generalized-alpha', step='1 ms'}",
-            make: |v, _| fixed(v, NonsmoothAlpha::decoupled(v.number("spectral-radius")?)),
+            make: |v, _| {
+                let spectral_radius = v.number("spectral-radius")?;
+                let decoupled = v.boolean("decoupled")?;
+                let make = if decoupled { NonsmoothAlpha::decoupled } else { NonsmoothAlpha::coupled };
+                fixed(v, make(spectral_radius))
+            },
         },
         Kind {
             name: "moreau-jean",
