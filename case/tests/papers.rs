@@ -238,8 +238,13 @@ impl Observed for Dense {
 fn integrate_system(reading: &Reading, system: &mut dyn System, integrator: &mut dyn Integrator) -> Run {
     let case = &reading.case;
     let mut state = system.initial();
-    let plan =
-        Plan { end: case.duration, step: case.steps.step(), longest_step: None, sample: case.output.step };
+    let plan = Plan {
+        end: case.duration,
+        step: case.steps.step(),
+        longest_step: None,
+        contact_step: None,
+        sample: case.output.step,
+    };
     let mut record = Record(Trajectory::new(system.channels().to_vec()));
     let ending = transient(system, integrator, &mut state, &plan, &mut record);
     let failure = match ending {

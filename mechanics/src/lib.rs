@@ -31,7 +31,7 @@
 //! let mut system = HubBeam::new(hub, coupling, &[]);
 //! let mut radau = Radau::new(Tolerance { relative: 1e-6, absolute: 1e-8 })?;
 //! let (mut state, mut tip) = (system.initial(), Tip(Vec::new()));
-//! let plan = Plan { end: 20.0, step: None, longest_step: None, sample: 0.02 }; // s
+//! let plan = Plan { end: 20.0, step: None, longest_step: None, contact_step: None, sample: 0.02 }; // s
 //! assert_eq!(transient(&mut system, &mut radau, &mut state, &plan, &mut tip), Ending::Finished);
 //! let &(time, peak) = tip.0.iter().min_by(|a, b| a.1.total_cmp(&b.1)).ok_or("no sample")?;
 //! assert!((peak + 0.40034).abs() < 1e-5 && (time - 6.95).abs() < 0.02, "{peak} m at {time} s");

@@ -86,7 +86,7 @@ pub fn spin_up(elements: usize) -> Result<Trajectory, Box<dyn Error>> {
     let coupling = LinearCoupling::new(fields, &section, &hub, Foreshortening::First);
     let mut system = HubBeam::new(hub, coupling, &[]);
     let mut integrator = Radau::new(Tolerance { relative: 1e-6, absolute: 1e-8 })?;
-    let plan = Plan { end: 20.0, step: None, longest_step: None, sample: 0.02 };
+    let plan = Plan { end: 20.0, step: None, longest_step: None, contact_step: None, sample: 0.02 };
 
     let own = system.channels().iter().map(|c| (c.name.as_str(), c.unit));
     let columns: Vec<_> = std::iter::once(("time", "s")).chain(own).chain(COMMON).collect();

@@ -87,7 +87,8 @@ impl Reading {
             Steps::Fixed(step) => (Some(step), None),
             Steps::Controlled { first, longest, .. } => (first, longest),
         };
-        let plan = Plan { end: case.duration, step, longest_step, sample: case.output.step };
+        let plan =
+            Plan { end: case.duration, step, longest_step, contact_step: None, sample: case.output.step };
         let copy = |(key, bytes): (String, &[u8])| Some((resolved::copy(&key)?, bytes.to_vec()));
         let tables = self.tables().into_iter().filter_map(copy).collect();
         let energy_balance = case.output.energy_balance;

@@ -12,5 +12,7 @@ mod stiffness;
 pub mod superposition;
 mod tracking;
 pub mod transient;
+mod violation;
 
 pub use energy_balance::EnergyBalance;
+pub use violation::Violation;

@@ -13,7 +13,7 @@
 //! A node without mass is given its part of ε K, ε → 0. While no force holds it, its velocity is that of equilibrium,
 //! (M + εK) v = M v⁻, and it is stopped without an impulse.
 
-use super::cone::{Law, Unresolved, solve};
+use super::cone::{RowLaw, Unresolved, solve};
 use crate::linalg::{Matrix, Singular};
 use crate::system::{Dynamics, Mode, RowWeights, Set, State, Weights};
 
@@ -33,6 +33,62 @@ pub struct Impact {
     pub lost: f64,
     /// Work of moving obstacles \[J\].
     pub work: f64,
+    /// What the contacts that closed too slowly for restitution would still have done.
+    pub neglected: Neglected,
+}
+
+/// When an impact counts as one.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Bounds {
+    /// Gap \[m\] up to which a contact touches.
+    pub touching: f64,
+    /// Closing speed \[m/s\] up to which a contact has no restitution.
+    pub resting: f64,
+    /// Contact force \[N\] that counts as zero.
+    pub weak: f64,
+}
+
+/// Bounds of what is lost where bounces that accumulate are not followed, each contact taken by itself: one that closes
+/// with v and is pressed by g̈ = −b would rebound with ev, e²v, … until it rests,
+///
+/// ```text
+/// Δt = 2ev/(b(1 − e)),   Δg = (ev)²/(2b),   ΔE = ½ (ev)²/W,   W = G M⁻¹ Gᵀ
+/// ```
+///
+/// ΔE is energy that is dissipated at once and not within Δt. With e = 1 the bounces never end and Δt is infinite; a
+/// contact that is not pressed has no bounces to come, and only ΔE counts, of its rebound that is lost.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Neglected {
+    /// Number of contacts brought to rest.
+    pub count: u64,
+    /// Δt \[s\], summed.
+    pub time: f64,
+    /// Δg \[m\], summed.
+    pub gap: f64,
+    /// ΔE \[J\], summed.
+    pub energy: f64,
+}
+
+impl Neglected {
+    /// Adds another bound.
+    pub fn add(&mut self, other: Neglected) {
+        self.count += other.count;
+        self.time += other.time;
+        self.gap += other.gap;
+        self.energy += other.energy;
+    }
+
+    /// Of a contact with restitution e that closes with v, presses with b and has W.
+    pub fn of(e: f64, v: f64, b: f64, w: f64) -> Neglected {
+        let rebound = e * v;
+        let (time, gap) = if b > 0.0 && rebound > 0.0 {
+            (2.0 * rebound / (b * (1.0 - e)), rebound * rebound / (2.0 * b))
+        } else {
+            (0.0, 0.0)
+        };
+        let energy = if w > 0.0 { 0.5 * rebound * rebound / w } else { 0.0 };
+        Neglected { count: 1, time, gap, energy }
+    }
 }
 
 /// Why an impact has no solution.
@@ -63,6 +119,8 @@ pub struct ImpactMap {
     images: Vec<f64>,
     rhs: Vec<f64>,
     rates: Vec<f64>,
+    /// −g̈ without contact forces, as [`ImpactMap::settle`] found it.
+    pressing: Vec<f64>,
     velocities: usize,
     /// ε, where M is singular.
     weight: f64,
@@ -71,7 +129,7 @@ pub struct ImpactMap {
 /// The rows that take part in a problem, with their laws.
 struct Part {
     rows: Vec<usize>,
-    laws: Vec<Law>,
+    laws: Vec<RowLaw>,
 }
 
 impl ImpactMap {
@@ -87,13 +145,14 @@ impl ImpactMap {
             images: vec![0.0; m * (n + m)],
             rhs: vec![0.0; n + m],
             rates: vec![0.0; m],
+            pressing: vec![0.0; m],
             velocities: n,
             weight: 0.0,
         }
     }
 
-    /// Changes the velocities of `state` by the impulse `p` and those of all rows that are closed or have g ≤ `touching`, and [sets the modes](ImpactMap::settle)
-    /// of the rows. Contacts that close more slowly than `resting` have no restitution; contact forces up to `weak` count as zero.
+    /// Changes the velocities of `state` by the impulse `p` and those of all rows that are closed or touch, and [sets the modes](ImpactMap::settle)
+    /// of the rows.
     ///
     /// # Errors
     /// [`ImpactError`].
@@ -102,7 +161,7 @@ impl ImpactMap {
         system: &mut dyn Dynamics,
         state: &mut State,
         p: &[f64],
-        [touching, resting, weak]: [f64; 3],
+        Bounds { touching, resting, weak }: Bounds,
     ) -> Result<Impact, ImpactError> {
         self.factor(system, state)?;
         let n = self.velocities;
@@ -145,6 +204,18 @@ impl ImpactMap {
         state.v.iter_mut().zip(&change).for_each(|(v, dv)| *v += dv);
         let struck: Vec<bool> = before.iter().map(|rate| *rate < -resting).collect();
         self.settle(system, state, touching, &struck)?;
+        let m = part.rows.len();
+        for (k, &i) in part.rows.iter().enumerate() {
+            if let Set::Unilateral { restitution } = self.sets[i]
+                && restitution > 0.0
+                && !closed[i]
+                && before[i] < 0.0
+                && before[i] >= -resting
+            {
+                let neglected = Neglected::of(restitution, -before[i], self.pressing[i], w[k * m + k]);
+                impact.neglected.add(neglected);
+            }
+        }
         Ok(impact)
     }
 
@@ -194,6 +265,8 @@ impl ImpactMap {
         self.respond(&force, |i| free[i], &mut a);
         let w = self.delassus(&part);
         let b: Vec<f64> = part.rows.iter().map(|&i| bends[i] + self.along(i, &a)).collect();
+        self.pressing.fill(0.0);
+        part.rows.iter().zip(&b).for_each(|(&i, b)| self.pressing[i] = -b);
         let largest_bend = a.iter().chain(&bends).fold(0.0_f64, |x, a| x.max(a.abs()));
         let mut forces = vec![0.0; part.rows.len()];
         solve(&part.laws, &w, &b, &mut forces)?;
@@ -202,15 +275,15 @@ impl ImpactMap {
         }
         for (k, &i) in part.rows.iter().enumerate() {
             state.mode[i] = match part.laws[k] {
-                Law::Free => Mode::Closed,
-                Law::Unilateral if forces[k] > 0.0 => Mode::Closed,
-                Law::Unilateral if struck.get(i) == Some(&true) && b[k] <= RESTING * largest_bend => {
+                RowLaw::Free => Mode::Closed,
+                RowLaw::Unilateral if forces[k] > 0.0 => Mode::Closed,
+                RowLaw::Unilateral if struck.get(i) == Some(&true) && b[k] <= RESTING * largest_bend => {
                     Mode::Closed
                 }
-                Law::Unilateral => Mode::Open,
-                Law::Slip { slope, .. } if slope > 0.0 => Mode::SlipForward,
-                Law::Slip { .. } => Mode::SlipBackward,
-                Law::Friction { coefficient, normal } => {
+                RowLaw::Unilateral => Mode::Open,
+                RowLaw::Slip { slope, .. } if slope > 0.0 => Mode::SlipForward,
+                RowLaw::Slip { .. } => Mode::SlipBackward,
+                RowLaw::Friction { coefficient, normal } => {
                     let limit = coefficient * forces[normal];
                     if forces[k].abs() < limit * (1.0 - STICKING) || limit == 0.0 {
                         Mode::Closed
@@ -239,7 +312,7 @@ impl ImpactMap {
         for (i, set) in self.sets.iter().enumerate() {
             if matches!(set, Set::Unilateral { .. }) && takes_part(i) {
                 part.rows.push(i);
-                part.laws.push(Law::Unilateral);
+                part.laws.push(RowLaw::Unilateral);
             }
         }
         for (i, set) in self.sets.iter().enumerate() {
@@ -248,8 +321,8 @@ impl ImpactMap {
             {
                 part.rows.push(i);
                 part.laws.push(match slip(i) {
-                    Some(slope) => Law::Slip { slope, normal },
-                    None => Law::Friction { coefficient, normal },
+                    Some(slope) => RowLaw::Slip { slope, normal },
+                    None => RowLaw::Friction { coefficient, normal },
                 });
             }
         }
@@ -266,10 +339,9 @@ impl ImpactMap {
                 jacobian[row * n + j] += x;
             }
         });
+        // ε belongs to this state: a run that goes on from a checkpoint finds the same.
+        self.weight = 0.0;
         loop {
-            if self.weight > 0.0 {
-                system.tangent(state, Weights::new(0.0, 0.0, 1.0), &mut self.stiffness);
-            }
             system.tangent(state, Weights::new(1.0, 0.0, self.weight), &mut self.matrix);
             for (i, set) in sets.iter().enumerate() {
                 if *set == Set::Free {

@@ -16,9 +16,9 @@ mod impact;
 mod obstacle;
 mod points;
 
-pub use cone::{Law as RowLaw, Unresolved, solve};
+pub use cone::{RowLaw, Unresolved, solve};
 pub use contacting::{Contact, Contacting, Law};
 pub use force::{ContactForce, Dissipation, Response, delivered};
-pub use impact::{Impact, ImpactError, ImpactMap};
+pub use impact::{Bounds, Impact, ImpactError, ImpactMap, Neglected};
 pub use obstacle::{Circle, Obstacle, Plane, Surface, Translation};
 pub use points::{PointMotion, Points, Variation};

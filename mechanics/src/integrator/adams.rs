@@ -173,6 +173,10 @@ impl Integrator for Adams {
         Ok(StepReport { iterations: 0, error: None })
     }
 
+    fn discard(&mut self) {
+        self.pending = false;
+    }
+
     fn accept(&mut self, from: &State, _to: &State) {
         let h = self.attempt;
         if (h - self.spacing).abs() > 1e-9 * h.abs() {

@@ -87,6 +87,19 @@ pub(super) fn quintic(
     finish(from, to, s, t, out);
 }
 
+/// Writes what is linear between both ends: for steps in which velocities may jump.
+pub(super) fn linear(system: &dyn Dynamics, from: &State, to: &State, t: f64, out: &mut State) {
+    let s = fraction(from, to, t);
+    system.difference(&from.q, &to.q, &mut out.v);
+    out.v.iter_mut().for_each(|d| *d *= s);
+    system.retract(&from.q, &out.v, &mut out.q);
+    for i in 0..out.v.len() {
+        out.v[i] = from.v[i] + s * (to.v[i] - from.v[i]);
+        out.a[i] = from.a[i] + s * (to.a[i] - from.a[i]);
+    }
+    finish(from, to, s, t, out);
+}
+
 /// Values, first and second derivatives at s of the quintics that take, one each and of the others nothing, the value
 /// at 1, the slopes at 0 and 1, and the second derivatives at 0 and 1.
 fn quintic_weights(s: f64) -> [[f64; 5]; 3] {

@@ -6,6 +6,7 @@
 //! | [`GeneralizedAlpha`]: Newmark, HHT-α, Chung–Hulbert | `generalized_alpha/` | 2 | fixed | one system per iteration |
 //! | [`RungeKutta`], classical | `runge_kutta.rs` | 4 | fixed | mass matrix only |
 //! | [`MoreauJean`], nonsmooth | `moreau_jean.rs` | 1 | fixed | one system per iteration, and one per contact |
+//! | [`NonsmoothAlpha`], nonsmooth | `nonsmooth_alpha.rs` | 2 in smooth motion, 1 across impacts | fixed | one system per iteration, and one per contact |
 //! | [`Adams`]–Bashforth–Moulton PECE | `adams.rs` | 4 | fixed | mass matrix only |
 
 mod acceleration;
@@ -14,8 +15,10 @@ mod checkpoint;
 mod failure;
 mod generalized_alpha;
 mod hermite;
+mod impulses;
 mod moreau_jean;
 mod newton;
+mod nonsmooth_alpha;
 mod radau;
 mod rows;
 mod runge_kutta;
@@ -27,6 +30,7 @@ pub use checkpoint::{Checkpoint, NotResumed};
 pub use generalized_alpha::GeneralizedAlpha;
 pub use moreau_jean::MoreauJean;
 pub use newton::{Convergence, Progress};
+pub use nonsmooth_alpha::NonsmoothAlpha;
 pub use radau::{Radau, Tolerance};
 pub use runge_kutta::RungeKutta;
 pub use stability::{StabilityLimit, largest_frequency};
@@ -231,6 +235,9 @@ pub trait Integrator: Send {
         span: Span,
         to: &mut State,
     ) -> Result<StepReport, StepError>;
+
+    /// Takes note that the last attempt was a trial, by which something was looked for: it does not count as rejected.
+    fn discard(&mut self);
 
     /// Commits the last attempt to the history.
     fn accept(&mut self, from: &State, to: &State);

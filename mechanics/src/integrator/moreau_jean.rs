@@ -16,12 +16,12 @@
 //!
 //! Sources: Moreau (1988, doi 10.1007/978-3-7091-2624-0_1); Jean (1999, doi 10.1016/S0045-7825(98)00383-1).
 
+use super::impulses::Impulses;
 use super::rows::Rows;
 use super::{
     Checkpoint, Convergence, Counters, Info, Integrator, InvalidParameter, NotResumed, Progress, Span,
-    StepError, StepReport, failure,
+    StepError, StepReport, failure, hermite,
 };
-use crate::contact::{RowLaw as Law, solve};
 use crate::linalg::Matrix;
 use crate::system::{Dynamics, Mode, RowWeights, Set, Side, State, Weights};
 
@@ -51,17 +51,11 @@ struct Work {
     middle: State,
     increment: Vec<f64>,
     rhs: Vec<f64>,
-    image: Vec<f64>,
     impulses: Vec<f64>,
     start: Vec<f64>,
     gaps: Vec<f64>,
     rates: Vec<f64>,
-    /// Rows that take part, their laws, W, b and multipliers.
-    part: Vec<usize>,
-    laws: Vec<Law>,
-    w: Vec<f64>,
-    b: Vec<f64>,
-    solution: Vec<f64>,
+    part: Impulses,
     scale: Vec<f64>,
 }
 
@@ -158,46 +152,23 @@ impl Work {
             middle: State::zeros(size, state.t),
             increment: zeros(n),
             rhs: zeros(n),
-            image: zeros(n * m),
             impulses: zeros(m),
             start: zeros(m),
             gaps: zeros(m),
             rates: zeros(m),
-            part: Vec::with_capacity(m),
-            laws: Vec::with_capacity(m),
-            w: Vec::with_capacity(m * m),
-            b: Vec::with_capacity(m),
-            solution: Vec::with_capacity(m),
+            part: Impulses::new(m, n),
             scale: system.scales().to_vec(),
         }
     }
 
     /// Chooses the rows that take part in a step: joints, contacts that close, their friction.
     fn choose(&mut self, system: &mut dyn Dynamics, from: &State, h: f64) {
-        self.part.clear();
-        self.laws.clear();
-        if self.rows.is_empty() {
-            return;
+        if !self.rows.is_empty() {
+            system.constraint(from, RowWeights::POSITION, &mut self.gaps);
+            system.constraint(from, RowWeights::VELOCITY, &mut self.start);
         }
-        system.constraint(from, RowWeights::POSITION, &mut self.gaps);
-        system.constraint(from, RowWeights::VELOCITY, &mut self.start);
-        for (i, set) in self.rows.sets().iter().enumerate() {
-            let law = match set {
-                Set::Free => Law::Free,
-                Set::Unilateral { .. } if self.gaps[i] + 0.5 * h * self.start[i] <= 0.0 => Law::Unilateral,
-                _ => continue,
-            };
-            self.part.push(i);
-            self.laws.push(law);
-        }
-        for (i, set) in self.rows.sets().iter().enumerate() {
-            if let Set::Friction { coefficient, normal } = *set
-                && let Some(normal) = self.part.iter().position(|&row| row == normal)
-            {
-                self.part.push(i);
-                self.laws.push(Law::Friction { coefficient, normal });
-            }
-        }
+        let (sets, gaps, start) = (self.rows.sets(), &self.gaps, &self.start);
+        self.part.choose(sets, |i| sets[i] == Set::Free || gaps[i] + 0.5 * h * start[i] <= 0.0);
     }
 
     /// Adds to the increment `rhs` of the velocities what the impulses change, and to `to` the whole.
@@ -209,52 +180,17 @@ impl Work {
         to: &mut State,
         theta: f64,
     ) -> Result<(), StepError> {
-        let (n, m) = (self.rhs.len(), self.part.len());
-        if m > 0 {
+        if self.part.len() > 0 {
             self.finish(system, from, h, to, theta);
             system.constraint(to, RowWeights::VELOCITY, &mut self.rates);
-            self.w.clear();
-            self.w.resize(m * m, 0.0);
-            for (k, &row) in self.part.iter().enumerate() {
-                let image = &mut self.image[k * n..(k + 1) * n];
-                image.fill(0.0);
-                for &(_, j, x) in self.rows.stored().iter().filter(|(i, ..)| *i == row) {
-                    image[j] += x;
-                }
-                self.matrix.solve(image);
-                for (l, &other) in self.part.iter().enumerate() {
-                    let entries = self.rows.stored().iter().filter(|(i, ..)| *i == other);
-                    self.w[l * m + k] = entries.map(|&(_, j, x)| x * image[j]).sum();
-                }
-            }
-            self.b.clear();
-            self.solution.clear();
-            for &row in &self.part {
-                let entries = self.rows.stored().iter().filter(|(i, ..)| *i == row);
-                let mut b = self.rates[row] + entries.map(|&(_, j, x)| x * self.rhs[j]).sum::<f64>();
-                if let Set::Unilateral { restitution } = self.rows.sets()[row] {
-                    b += restitution * self.start[row].min(0.0);
-                }
-                self.b.push(b);
-                self.solution.push(self.impulses[row]);
-            }
-            // In terms of the whole impulses, not of their change.
-            for k in 0..m {
-                let part = self.w[k * m..(k + 1) * m].iter().zip(&self.solution);
-                self.b[k] -= part.map(|(w, p)| w * p).sum::<f64>();
-            }
-            solve(&self.laws, &self.w, &self.b, &mut self.solution).map_err(|cause| StepError::Contacts {
-                time: from.t,
-                step: h,
-                cause,
-            })?;
-            for (k, &row) in self.part.iter().enumerate() {
-                let change = self.solution[k] - self.impulses[row];
-                self.impulses[row] = self.solution[k];
-                for (x, image) in self.rhs.iter_mut().zip(&self.image[k * n..(k + 1) * n]) {
-                    *x += change * image;
-                }
-            }
+            let (sets, rates, start) = (self.rows.sets(), &self.rates, &self.start);
+            let value = |row: usize| match sets[row] {
+                Set::Unilateral { restitution } => rates[row] + restitution * start[row].min(0.0),
+                _ => rates[row],
+            };
+            self.part
+                .solve(&mut self.matrix, self.rows.stored(), value, &mut self.impulses, &mut self.rhs)
+                .map_err(|cause| StepError::Contacts { time: from.t, step: h, cause })?;
         }
         to.v.iter_mut().zip(&self.rhs).for_each(|(v, x)| *v += x);
         Ok(())
@@ -304,27 +240,17 @@ impl Integrator for MoreauJean {
         Ok(StepReport { iterations: solved?, error: None })
     }
 
+    fn discard(&mut self) {
+        self.pending = false;
+    }
+
     fn accept(&mut self, _from: &State, _to: &State) {
         self.pending = false;
         self.counters.steps += 1;
     }
 
     fn interpolate(&self, system: &dyn Dynamics, from: &State, to: &State, t: f64, out: &mut State) {
-        let h = to.t - from.t;
-        let s = if h > 0.0 { (t - from.t) / h } else { 1.0 };
-        let mean = |a: &[f64], b: &[f64], out: &mut [f64]| {
-            for ((out, a), b) in out.iter_mut().zip(a).zip(b) {
-                *out = a + s * (b - a);
-            }
-        };
-        system.difference(&from.q, &to.q, &mut out.v);
-        out.v.iter_mut().for_each(|d| *d *= s);
-        system.retract(&from.q, &out.v, &mut out.q);
-        mean(&from.v, &to.v, &mut out.v);
-        mean(&from.a, &to.a, &mut out.a);
-        mean(&from.lambda, &to.lambda, &mut out.lambda);
-        out.copy_modes(from);
-        (out.t, out.side) = (t, Side::Right);
+        hermite::linear(system, from, to, t, out);
     }
 
     fn restart(&mut self, _system: &mut dyn Dynamics, state: &mut State) -> Result<(), StepError> {

@@ -204,6 +204,10 @@ impl Integrator for RungeKutta {
         Ok(StepReport { iterations: 0, error: None })
     }
 
+    fn discard(&mut self) {
+        self.pending = false;
+    }
+
     fn accept(&mut self, _from: &State, _to: &State) {
         std::mem::swap(&mut self.increment, &mut self.accepted);
         self.pending = false;

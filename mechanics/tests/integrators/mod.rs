@@ -7,7 +7,7 @@ mod breaks;
 mod conformance;
 mod constraints;
 pub mod drive;
-mod multibody;
+pub mod multibody;
 mod order;
 mod seam;
 mod stability;

@@ -2,10 +2,11 @@
 
 use super::ending::RunError;
 use super::locate::{Locator, TOUCHING};
-use crate::contact::{Impact, ImpactMap};
-use crate::system::{RowWeights, Set, State, System};
+use crate::contact::{Bounds, Impact, ImpactMap, Neglected};
+use crate::system::{Mode, RowWeights, Set, State, System};
 
-/// Closing speed, over the largest met in the run, below which an impact is taken without restitution.
+/// Closing speed, over the largest met in the run, below which an impact is taken without restitution: bounces that
+/// accumulate end there, and the run goes past their limit.
 const RESTING: f64 = 1e-5;
 /// Events in a row with next to no time between them at which a run ends.
 const MOST_EVENTS: usize = 1000;
@@ -17,7 +18,9 @@ pub(super) struct Contacts {
     pub(super) locator: Locator,
     map: ImpactMap,
     /// Largest closing speed so far [m/s].
-    pub(super) fastest: f64,
+    fastest: f64,
+    /// Bounds of what bounces not followed would have done.
+    pub(super) neglected: Neglected,
     rates: Vec<f64>,
     /// Events in a row with no time between them.
     events: usize,
@@ -30,6 +33,7 @@ impl Contacts {
             locator: Locator::new(system, state)?,
             map: ImpactMap::new(system),
             fastest: 0.0,
+            neglected: Neglected::default(),
             rates: vec![0.0; state.lambda.len()],
             events: 0,
         })
@@ -37,6 +41,13 @@ impl Contacts {
 
     /// Sets the modes of the contacts at the start of a run.
     pub(super) fn settle(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), RunError> {
+        let sets = system.rows();
+        let rubs = |normal: usize| {
+            sets.iter().filter(|set| matches!(set, Set::Friction { normal: n, .. } if *n == normal)).count()
+        };
+        if let Some(normal) = (0..sets.len()).find(|i| rubs(*i) > 1) {
+            return Err(RunError::Disc { normal: system.unknown(state.v.len() + normal) });
+        }
         let touching = 100.0 * TOUCHING * self.locator.length;
         let settled = self.map.settle(system, state, touching, &[]);
         settled.map_err(|cause| RunError::Contact { time: state.t, cause })
@@ -57,9 +68,25 @@ impl Contacts {
             }
         }
         let weak = 1e-9 * self.locator.strongest;
-        let bounds = [touching, RESTING * self.fastest, weak];
+        let bounds = Bounds { touching, resting: RESTING * self.fastest, weak };
         let struck = self.map.strike(system, state, p, bounds);
-        struck.map_err(|cause| RunError::Contact { time: state.t, cause })
+        let impact = struck.map_err(|cause| RunError::Contact { time: state.t, cause })?;
+        self.neglected.add(impact.neglected);
+        Ok(impact)
+    }
+
+    /// What later steps depend on, as numbers.
+    pub(super) fn memory(&self) -> [f64; 7] {
+        let Neglected { count, time, gap, energy } = self.neglected;
+        let strongest = self.locator.strongest;
+        [self.fastest, strongest, self.events as f64, count as f64, time, gap, energy]
+    }
+
+    /// From the [memory](Contacts::memory) of a run.
+    pub(super) fn recall(&mut self, memory: [f64; 7]) {
+        let [fastest, strongest, events, count, time, gap, energy] = memory;
+        (self.fastest, self.locator.strongest, self.events) = (fastest, strongest, events as usize);
+        self.neglected = Neglected { count: count as u64, time, gap, energy };
     }
 
     /// Counts the events that follow each other with no time between them.
@@ -67,4 +94,16 @@ impl Contacts {
         self.events = if part < SHORT { self.events + 1 } else { 0 };
         if self.events > MOST_EVENTS { Err(RunError::Chatter { time, count: self.events }) } else { Ok(()) }
     }
+}
+
+/// Whether a contact is closed, or may close within two steps of size `h` with the present velocity and acceleration.
+pub(super) fn approaches(system: &mut dyn System, s: &State, h: f64, gaps: &mut [f64]) -> bool {
+    if gaps.is_empty() {
+        return false;
+    }
+    system.constraint(s, RowWeights([1.0, 2.0 * h, 2.0 * h * h]), gaps);
+    system.rows().iter().enumerate().any(|(i, set)| {
+        let closes = s.mode[i] != Mode::Open || s.lambda[i] > 0.0 || gaps[i] <= 0.0;
+        matches!(set, Set::Unilateral { .. }) && closes
+    })
 }

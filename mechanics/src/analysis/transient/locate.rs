@@ -139,6 +139,7 @@ impl Locator {
             if at_dip > 0.0 {
                 // The step as it was.
                 let span = Span { step: h, end: self.whole.0, side: self.whole.1 };
+                integrator.discard();
                 integrator.step(system, from, span, to).map_err(|error| failed(system, from, error))?;
                 return Ok((h, false));
             }
@@ -266,6 +267,7 @@ impl Locator {
         let (end, side) = self.whole;
         let span =
             if from.t + size >= end { Span { step: size, end, side } } else { Span::new(from.t, size) };
+        integrator.discard();
         let done = integrator.step(system, from, span, &mut self.trial);
         done.map(|_| ()).map_err(|error| failed(system, from, error))
     }

@@ -4,6 +4,7 @@
 //! takes the left limit of what jumps there, and the method restarts from the right one. A method with step control sees
 //! every break, one with fixed steps those of velocities and accelerations, for a kink costs it less than its own error.
 
+mod adaptive;
 mod contacts;
 mod ending;
 mod locate;
@@ -15,10 +16,11 @@ pub use ending::{Ending, RunError};
 pub use observer::{Event, EventKind, Observer, Step};
 
 use super::energy_balance::Integral;
-use crate::contact::ImpactMap;
-use crate::integrator::{Checkpoint, Integrator, NotResumed, Span, StepControl, StepError, StepReport};
+use crate::contact::{Bounds, ImpactMap};
+use crate::integrator::{Checkpoint, Integrator, NotResumed, Span, StepControl, StepReport};
 use crate::system::{Crossing, Jump, Side, State, System};
-use contacts::Contacts;
+use adaptive::adapt;
+use contacts::{Contacts, approaches};
 use stretch::Stretch;
 
 /// Shortest recording interval, over the length of the run.
@@ -37,6 +39,9 @@ pub struct Plan {
     /// Longest step of an adaptive method \[s\]; `None` for two recording intervals, or a hundredth of the run if
     /// that is shorter.
     pub longest_step: Option<f64>,
+    /// Step of a fixed-step method while a contact is closed or comes near \[s\], if shorter than `step`: the rest of a step
+    /// is divided into the fewest equal ones not longer than it.
+    pub contact_step: Option<f64>,
     /// Interval of recording \[s\]; the end is recorded too.
     pub sample: f64,
 }
@@ -106,6 +111,8 @@ struct Run {
     impulse: Vec<f64>,
     /// Dense output.
     middle: State,
+    /// Gaps, to see whether a contact comes near.
+    gaps: Vec<f64>,
 }
 
 impl Run {
@@ -121,6 +128,7 @@ impl Run {
             contacts,
             impulse: vec![0.0; state.v.len()],
             middle: state.clone(),
+            gaps: vec![0.0; state.lambda.len()],
         }
     }
 
@@ -169,7 +177,7 @@ impl Run {
         let [origin, samples] = from.numbers("run")?;
         (self.origin, self.samples) = (origin, samples as u64);
         let [size, iterations] = from.numbers("last")?;
-        self.last = Step { size, iterations: iterations as u32, balance: None };
+        self.last = Step { size, iterations: iterations as u32, ..Step::default() };
         let [sample] = from.numbers("sample")?;
         if sample != plan.sample {
             let before = (state.t - origin) / plan.sample;
@@ -208,7 +216,7 @@ impl Run {
             control.recall(from.numbers("control")?);
         }
         if let Some(contacts) = &mut self.contacts {
-            [contacts.fastest, contacts.locator.strongest] = from.numbers("contacts")?;
+            contacts.recall(from.numbers("contacts")?);
         }
         if observer.wants_energy_balance() {
             let mut balance = Integral::new(system, integrator.info().order, state);
@@ -232,7 +240,7 @@ impl Run {
             out.put("control", &control.memory());
         }
         if let Some(contacts) = &self.contacts {
-            out.put("contacts", &[contacts.fastest, contacts.locator.strongest]);
+            out.put("contacts", &contacts.memory());
         }
         if let Some(balance) = &self.balance {
             balance.save(&mut out);
@@ -288,19 +296,21 @@ impl Run {
         let mut next = state.clone();
         while state.t < plan.end {
             let stop = stop(system, integrator, state.t, plan.end);
-            let (mut h, report) = self.attempt(system, integrator, state, &mut next, stop)?;
-            let (planned, attempted) = (next.t, h);
+            let (mut h, report) =
+                self.attempt(system, integrator, state, &mut next, stop, plan.contact_step)?;
+            let attempted = h;
             let mut event = false;
             if let Some(contacts) = &mut self.contacts {
                 (h, event) = contacts.locator.locate(system, integrator, state, h, &mut next)?;
             }
-            self.last = Step { size: h, iterations: report.iterations, balance: None };
+            let neglected = self.contacts.as_ref().map(|contacts| contacts.neglected).unwrap_or_default();
+            self.last = Step { size: h, iterations: report.iterations, balance: None, neglected };
             if let Err(what) = system.admissible(&next) {
                 let reason = system.explain(&next);
                 return Err(RunError::Inadmissible { time: next.t, what, reason });
             }
             integrator.accept(state, &next);
-            if let Some(stretch) = self.stretch.as_mut().filter(|_| next.t == planned) {
+            if let Some(stretch) = self.stretch.as_mut().filter(|stretch| next.t == stretch.next()) {
                 stretch.advance();
             }
             if let Some(balance) = &mut self.balance {
@@ -340,6 +350,7 @@ impl Run {
         state: &State,
         next: &mut State,
         (stop, side): (f64, Side),
+        contact_step: Option<f64>,
     ) -> Result<(f64, StepReport), RunError> {
         if let Some(control) = &mut self.control {
             return adapt(system, integrator, state, next, (stop, side), control)
@@ -354,7 +365,14 @@ impl Run {
                 }
                 let left = stretch.next() - state.t;
                 let whole = (left - stretch.step).abs() <= 1e-9 * stretch.step;
-                (if whole { stretch.step } else { left }, stretch.next())
+                let h = if whole { stretch.step } else { left };
+                match contact_step.filter(|_| approaches(system, state, h, &mut self.gaps)) {
+                    Some(short) if short < h * (1.0 - 1e-9) => {
+                        let h = h / (h / short - 1e-9).ceil();
+                        (h, state.t + h)
+                    }
+                    _ => (h, stretch.next()),
+                }
             }
             None => (stop - state.t, stop),
         };
@@ -399,7 +417,7 @@ impl Run {
                 Some(contacts) => contacts,
                 None => {
                     fallback = ImpactMap::new(system);
-                    let impact = fallback.strike(system, state, &self.impulse, [0.0; 3]);
+                    let impact = fallback.strike(system, state, &self.impulse, Bounds::default());
                     impact.map_err(|cause| RunError::Contact { time: state.t, cause })?;
                     work = system.impulse_work(&before, state);
                     happened.push(EventKind::Jump { work });
@@ -524,58 +542,4 @@ fn jump_at(system: &dyn System, integrator: &dyn Integrator, t: f64) -> Option<J
     let breaks = system.breaks();
     let at = breaks.get(breaks.partition_point(|b| b.time < t))?;
     (at.time == t && sees(integrator, at.jump)).then_some(at.jump)
-}
-
-/// Attempts steps under step control until one is good.
-fn adapt(
-    system: &mut dyn System,
-    integrator: &mut dyn Integrator,
-    state: &State,
-    next: &mut State,
-    (stop, side): (f64, Side),
-    control: &mut StepControl,
-) -> Result<(f64, StepReport), StepError> {
-    loop {
-        let left = stop - state.t;
-        let h = control.propose(left);
-        let lands = h == left;
-        let span = if lands { Span { step: h, end: stop, side } } else { Span::new(state.t, h) };
-        match integrator.step(system, state, span, next) {
-            Ok(report) => {
-                let error = report.error.unwrap_or(0.0);
-                if error <= 1.0 {
-                    control.accepted(h, error, report.iterations);
-                    return Ok((h, report));
-                }
-                control.rejected(h, error, report.iterations);
-                give_up(system, integrator, control, (state.t, left), error)?;
-            }
-            Err(
-                error @ (StepError::NotConverged { .. }
-                | StepError::NotFinite { .. }
-                | StepError::Singular { .. }),
-            ) => {
-                control.failed(h);
-                if control.is_too_small(state.t, control.propose(left)) {
-                    return Err(error);
-                }
-            }
-            Err(error) => return Err(error),
-        }
-    }
-}
-
-fn give_up(
-    system: &dyn System,
-    integrator: &dyn Integrator,
-    control: &StepControl,
-    (time, left): (f64, f64),
-    error: f64,
-) -> Result<(), StepError> {
-    let step = control.propose(left);
-    if !control.is_too_small(time, step) {
-        return Ok(());
-    }
-    let worst = system.unknown(integrator.worst());
-    Err(StepError::StepTooSmall { time, step, error, worst })
 }

@@ -1,6 +1,7 @@
 //! What a run shows: samples, steps, events.
 
 use crate::analysis::EnergyBalance;
+use crate::contact::Neglected;
 use crate::system::{State, System};
 use std::ops::ControlFlow;
 
@@ -13,6 +14,8 @@ pub struct Step {
     pub iterations: u32,
     /// The energy balance until this state, if the observer [wants it](Observer::wants_energy_balance).
     pub balance: Option<EnergyBalance>,
+    /// Bounds of what the bounces that were not followed since the start would have done.
+    pub neglected: Neglected,
 }
 
 /// Something that happened at one time of a run.

@@ -479,6 +479,10 @@ impl Integrator for GeneralizedAlpha {
         result
     }
 
+    fn discard(&mut self) {
+        self.pending = false;
+    }
+
     fn accept(&mut self, from: &State, _to: &State) {
         std::mem::swap(&mut self.before, &mut self.earlier);
         self.before.copy_from_slice(&from.a);

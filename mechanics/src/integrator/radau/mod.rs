@@ -200,6 +200,10 @@ impl Integrator for Radau {
         Ok(StepReport { iterations: self.convergence.iterations(), error: Some(error) })
     }
 
+    fn discard(&mut self) {
+        self.pending = false;
+    }
+
     fn accept(&mut self, _from: &State, _to: &State) {
         self.pending = false;
         self.first = false;

@@ -1,0 +1,120 @@
+//! Contact multipliers in a linear system of a step: those that lie in their sets.
+//!
+//! With the factored matrix A of a Newton iteration, the jacobian G of the rows that take part, and the increment x without
+//! a change of multipliers, the new multipliers P solve
+//!
+//! ```text
+//! u = value + G x + W (P − P₀),   W = G A⁻¹ Gᵀ,   u and P complementary in the set of each row
+//! ```
+//!
+//! and the increment becomes x + A⁻¹ Gᵀ (P − P₀). See the [cone problem](crate::contact::solve).
+
+use crate::contact::{RowLaw, Unresolved, solve};
+use crate::linalg::Matrix;
+use crate::system::Set;
+
+/// The rows that take part in a step, and memory for their problem.
+#[derive(Debug, Default)]
+pub(super) struct Impulses {
+    /// Rows that take part, their laws, W, b and multipliers.
+    rows: Vec<usize>,
+    laws: Vec<RowLaw>,
+    w: Vec<f64>,
+    b: Vec<f64>,
+    solution: Vec<f64>,
+    /// A⁻¹ Gᵀ of each row.
+    images: Vec<f64>,
+}
+
+impl Impulses {
+    /// Memory for `rows` rows and matrices of the given order.
+    pub(super) fn new(rows: usize, order: usize) -> Impulses {
+        Impulses {
+            rows: Vec::with_capacity(rows),
+            laws: Vec::with_capacity(rows),
+            w: Vec::with_capacity(rows * rows),
+            b: Vec::with_capacity(rows),
+            solution: Vec::with_capacity(rows),
+            images: vec![0.0; rows * order],
+        }
+    }
+
+    /// Number of rows that take part.
+    pub(super) fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Chooses joints and contacts that take part; friction does with its normal.
+    pub(super) fn choose(&mut self, sets: &[Set], takes_part: impl Fn(usize) -> bool) {
+        self.rows.clear();
+        self.laws.clear();
+        for (i, set) in sets.iter().enumerate() {
+            let law = match set {
+                Set::Free => RowLaw::Free,
+                Set::Unilateral { .. } => RowLaw::Unilateral,
+                Set::Friction { .. } => continue,
+            };
+            if takes_part(i) {
+                self.rows.push(i);
+                self.laws.push(law);
+            }
+        }
+        for (i, set) in sets.iter().enumerate() {
+            if let Set::Friction { coefficient, normal } = *set
+                && let Some(normal) = self.rows.iter().position(|&row| row == normal)
+            {
+                self.rows.push(i);
+                self.laws.push(RowLaw::Friction { coefficient, normal });
+            }
+        }
+    }
+
+    /// Solves for the multipliers `p` of the rows that take part and adds what their change does to the increment `x`;
+    /// `jacobian` holds (row, velocity, entry), and `value` gives the value of a row before the increment.
+    pub(super) fn solve(
+        &mut self,
+        matrix: &mut Matrix,
+        jacobian: &[(usize, usize, f64)],
+        value: impl Fn(usize) -> f64,
+        p: &mut [f64],
+        x: &mut [f64],
+    ) -> Result<(), Unresolved> {
+        let (n, m) = (x.len(), self.rows.len());
+        if m == 0 {
+            return Ok(());
+        }
+        let along = |row: usize, x: &[f64]| -> f64 {
+            jacobian.iter().filter(|(i, ..)| *i == row).map(|&(_, j, entry)| entry * x[j]).sum()
+        };
+        self.w.clear();
+        self.w.resize(m * m, 0.0);
+        for (k, &row) in self.rows.iter().enumerate() {
+            let image = &mut self.images[k * n..(k + 1) * n];
+            image.fill(0.0);
+            for &(_, j, entry) in jacobian.iter().filter(|(i, ..)| *i == row) {
+                image[j] += entry;
+            }
+            matrix.solve(image);
+            for (l, &other) in self.rows.iter().enumerate() {
+                self.w[l * m + k] = along(other, image);
+            }
+        }
+        self.b.clear();
+        self.solution.clear();
+        self.solution.extend(self.rows.iter().map(|&row| p[row]));
+        // In terms of the whole multipliers, not of their change.
+        for (k, &row) in self.rows.iter().enumerate() {
+            let part = self.w[k * m..(k + 1) * m].iter().zip(&self.solution);
+            self.b.push(value(row) + along(row, x) - part.map(|(w, p)| w * p).sum::<f64>());
+        }
+        solve(&self.laws, &self.w, &self.b, &mut self.solution)?;
+        for (k, &row) in self.rows.iter().enumerate() {
+            let change = self.solution[k] - p[row];
+            p[row] = self.solution[k];
+            for (x, image) in x.iter_mut().zip(&self.images[k * n..(k + 1) * n]) {
+                *x += change * image;
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,217 @@
+//! The nonsmooth generalized-α method against closed forms, and beside Moreau–Jean's scheme.
+
+use super::models::{Block, Linear, rest, steps};
+use crate::integrators::multibody::{BallOnMovingWall, BallsOnWall, FourBar, GRAVITY, MasslessNode};
+use flexion::analysis::transient::{Plan, resume, transient_to_checkpoint};
+use flexion::integrator::{Integrator, MoreauJean, NonsmoothAlpha, Radau, Tolerance};
+use flexion::system::{Dynamics, Mode, RowWeights, State};
+
+pub fn methods(rho: f64) -> [Box<dyn Integrator>; 1] {
+    [Box::new(NonsmoothAlpha::decoupled(rho).unwrap())]
+}
+
+pub fn ball(restitution: f64, height: f64) -> (BallOnMovingWall, State) {
+    let mut system = BallOnMovingWall::new(restitution);
+    system.amplitude = 0.0;
+    let mut start = system.initial();
+    (start.q[0], start.mode[0]) = (height, Mode::Open);
+    (system, start)
+}
+
+/// The first impact of a ball that falls from y₀ happens in the step that contains √(2 y₀/g); the energy never grows, and
+/// with e = 0 nothing of it is left.
+#[test]
+fn a_ball_bounces_without_penetration_and_never_gains_energy() {
+    for mut method in methods(0.8) {
+        for restitution in [0.0, 0.5, 1.0] {
+            let (mut system, start) = ball(restitution, 1.0);
+            let (h, fall) = (1e-3, (2.0 / GRAVITY).sqrt());
+            let (mut impact, mut least, mut energy) = (f64::NAN, f64::INFINITY, GRAVITY);
+            let last = steps(method.as_mut(), &mut system, start, (3.0, h), |system, _, to| {
+                if to.lambda[0] > 0.0 && impact.is_nan() {
+                    impact = to.t;
+                }
+                least = least.min(to.q[0]);
+                let now = system.energy(to).total();
+                assert!(now <= energy + 1e-12, "{now} after {energy} at {}", to.t);
+                energy = now;
+            });
+            assert!((impact - fall).abs() <= h, "{impact} for {fall}");
+            assert!(least >= -1e-13, "{least:e}");
+            if restitution == 1.0 {
+                // Each impact throws back the velocity at the start of its step and loses at most m g h v.
+                let bounces = (3.0 - fall) / (2.0 * fall) + 1.0;
+                let lost = bounces * GRAVITY * h * (2.0 * GRAVITY).sqrt();
+                assert!(energy > GRAVITY - lost, "{energy}");
+            } else {
+                assert!(energy < 1e-12 && last.q[0].abs() < 1e-13 && last.v[0].abs() < 1e-12, "{last:?}");
+                assert!((last.lambda[0] / GRAVITY - 1.0).abs() < 1e-12 && last.a[0].abs() < 1e-9, "{last:?}");
+            }
+        }
+    }
+}
+
+/// A free motion is one of order 2, with joints that hold at both levels.
+#[test]
+fn the_order_is_two_while_nothing_strikes() {
+    let mut bars = FourBar::new();
+    let start = bars.swung(0.8, 0.0);
+    let mut radau = Radau::new(Tolerance::uniform(1e-12)).unwrap();
+    let exact = steps(&mut radau, &mut bars, start.clone(), (1.0, 1e-3), |_, _, _| {});
+    for mut method in methods(0.7) {
+        let mut error = |h: f64| {
+            let last = steps(method.as_mut(), &mut bars, start.clone(), (1.0, h), |bars, _, to| {
+                let mut g = [0.0; 8];
+                for weights in [RowWeights::POSITION, RowWeights::VELOCITY] {
+                    bars.constraint(to, weights, &mut g);
+                    assert!(g.iter().all(|g| g.abs() < 1e-8), "{g:?}");
+                }
+            });
+            last.q.iter().zip(&exact.q).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()))
+        };
+        let (coarse, fine) = (error(4e-3), error(2e-3));
+        assert!(((coarse / fine).log2() - 2.0).abs() < 0.1 && fine < 1e-4, "{coarse:e} {fine:e}");
+    }
+}
+
+/// See `two_balls_strike_the_floor_at_once_with_friction` for the closed forms.
+#[test]
+fn two_balls_slide_and_two_balls_roll() {
+    let (e, friction) = (0.6, [0.1, 0.25]);
+    let mut system = BallsOnWall::new(e, friction);
+    let (m, r) = (system.mass, system.radius);
+    let mut start = system.initial();
+    start.q = vec![0.0, r + 0.3, 0.0, system.length, r + 0.3, 0.0];
+    start.v = vec![4.0, 0.0, 0.0, 4.0, 0.0, 0.0];
+    let fall = (2.0 * GRAVITY * 0.3).sqrt();
+    let end = fall / GRAVITY + 0.1;
+    let v_x = 4.0 - 0.35 * (1.0 + e) * m * fall / (2.0 * m);
+    let exact_y = r + e * fall * 0.1 - 0.5 * GRAVITY * 0.01;
+    for mut method in methods(0.8) {
+        let mut far = |count: f64| {
+            let last = steps(method.as_mut(), &mut system, start.clone(), (end, end / count), |_, _, _| {});
+            [(last.v[0] - v_x).abs() / v_x, (last.q[1] - exact_y).abs()]
+        };
+        let ([coarse_v, coarse_y], [fine_v, fine_y]) = (far(500.0), far(8000.0));
+        assert!(fine_v < 1e-5 && fine_v < 0.2 * coarse_v, "{coarse_v:e} {fine_v:e}");
+        assert!(fine_y < 1e-4 && fine_y < 0.2 * coarse_y, "{coarse_y:e} {fine_y:e}");
+        let mut system = BallsOnWall::new(0.0, [2.0; 2]);
+        let mut start = system.initial();
+        start.q = vec![0.0, r + 0.2, 0.0, system.length, r + 0.2, 0.0];
+        start.v = vec![1.4, 0.0, 0.0, 1.4, 0.0, 0.0];
+        let last = steps(method.as_mut(), &mut system, start, (0.6, 1e-3), |_, _, _| {});
+        assert!((last.v[0] - 1.0).abs() < 1e-10 && (last.v[2] + 1.0 / r).abs() < 1e-9, "{:?}", last.v);
+        assert!((last.q[1] - r).abs() < 1e-13 && (last.lambda[0] / (m * GRAVITY) - 1.0).abs() < 1e-9);
+        assert_eq!(last.mode, [Mode::Closed; 5]);
+    }
+}
+
+/// Half a period on the spring, and the whole speed back; the error is one of order 1.
+#[test]
+fn a_node_without_mass_is_stopped_and_all_energy_comes_back() {
+    let mut system = MasslessNode::new();
+    let speed = 1.5;
+    let mut start = system.initial();
+    (start.q, start.v) = (vec![0.3 + system.length, 0.3], vec![-speed; 2]);
+    start.mode[0] = Mode::Open;
+    let end = 0.3 + std::f64::consts::PI * (system.mass / system.stiffness).sqrt();
+    let exact = system.length + speed * 0.1;
+    let mut method = NonsmoothAlpha::decoupled(0.8).unwrap();
+    let mut error = |count: f64| {
+        let last = steps(&mut method, &mut system, start.clone(), (end, end / count), |_, _, to| {
+            assert!(to.q[1] >= -1e-13);
+        });
+        [(last.q[0] - exact).abs(), (last.v[0] - speed).abs()]
+    };
+    let (coarse, fine) = (error(1000.0), error(10_000.0));
+    assert!(fine[0] < 3e-4 && fine[1] < 3e-3, "{fine:?}");
+    assert!(fine[0] < 0.15 * coarse[0] && fine[1] < 0.15 * coarse[1], "{coarse:?} {fine:?}");
+}
+
+/// The ball on a moving plate: both nonsmooth schemes come to the event-driven solution, this one sooner.
+#[test]
+fn a_ball_on_a_moving_plate_comes_to_the_event_driven_solution() {
+    let mut system = BallOnMovingWall::new(0.7);
+    let mut start = system.initial();
+    (start.q[0], start.mode[0]) = (0.25, Mode::Open);
+    let mut state = start.clone();
+    let plan = Plan { end: 0.8, step: None, longest_step: None, contact_step: None, sample: 0.1 };
+    let mut radau = Radau::new(Tolerance::uniform(1e-10)).unwrap();
+    rest(&mut system, &mut radau, &mut state, &plan);
+    let exact = state.q[0];
+    let mut error = |method: &mut dyn Integrator, h: f64| {
+        (steps(method, &mut system, start.clone(), (0.8, h), |_, _, _| {}).q[0] - exact).abs()
+    };
+    let of_moreau = error(&mut MoreauJean::new(0.5).unwrap(), 1e-4);
+    for mut method in methods(0.8) {
+        let (coarse, fine) = (error(method.as_mut(), 1e-4), error(method.as_mut(), 1e-5));
+        assert!(coarse < of_moreau && fine < 1e-5, "{coarse:e} {fine:e} {of_moreau:e}");
+    }
+}
+
+/// A block on an incline of slope α: it sticks without creeping where tan α < μ, and slides by ½ g (sin α − μ cos α) t²
+/// where tan α > μ. Moreau–Jean's scheme does as well.
+#[test]
+fn a_block_on_an_incline_sticks_and_slides() {
+    let slope: f64 = 0.4;
+    for mut method in methods(0.8).into_iter().chain([Box::new(MoreauJean::new(0.5).unwrap()) as _]) {
+        let mut end = |friction: f64| {
+            let mut block = Block::new(slope, friction);
+            let start = block.initial();
+            steps(method.as_mut(), &mut block, start, (1.0, 1e-3), |_, _, to| assert!(to.q[1] > -1e-13))
+        };
+        let sticks = end(slope.tan() + 0.05);
+        assert!(sticks.q[0].abs() < 1e-12 && sticks.v[0].abs() < 1e-12, "{sticks:?}");
+        assert!((sticks.lambda[1] / (GRAVITY * slope.sin()) + 1.0).abs() < 1e-10, "{sticks:?}");
+        let slides = end(0.2);
+        let rate = GRAVITY * (slope.sin() - 0.2 * slope.cos());
+        assert!((slides.v[0] / rate - 1.0).abs() < 1e-10, "{slides:?}");
+        assert!((slides.q[0] / (0.5 * rate) - 1.0).abs() < 2e-3, "{slides:?}");
+    }
+}
+
+/// Violation of the gap at the ends of the steps of a rod that strikes a wall: rounding, where Moreau–Jean's scheme leaves
+/// a part of v₀ h.
+#[test]
+fn a_gap_is_not_violated_at_the_end_of_any_step() {
+    let mut rod = Linear::bar(40, 1.0, [1.0, 1.0], false).with_stop(0, -0.01, 0.0);
+    let mut start = rod.initial();
+    start.v.fill(-1.0);
+    start.mode[0] = Mode::Open;
+    let h = 0.007;
+    let mut worst = |method: &mut dyn Integrator| {
+        let mut least = 0.0_f64;
+        steps(method, &mut rod, start.clone(), (3.0, h), |_, _, to| least = least.min(to.q[0] + 0.01));
+        -least
+    };
+    let of_moreau = worst(&mut MoreauJean::new(0.5).unwrap());
+    assert!(of_moreau > 0.05 * h && of_moreau < h, "{of_moreau:e}");
+    for mut method in methods(0.8) {
+        let violated = worst(method.as_mut());
+        assert!(violated < 1e-14, "{violated:e}");
+    }
+}
+
+/// A run that goes on from a checkpoint takes the steps of one that has not stopped.
+#[test]
+fn a_run_goes_on_bit_by_bit() {
+    for (mut method, mut again) in methods(0.8).into_iter().zip(methods(0.8)) {
+        let (mut system, mut start) = ball(0.6, 0.5);
+        start.v[0] = -1.0;
+        let plan = |end| Plan { end, step: Some(1e-3), longest_step: None, contact_step: None, sample: 0.1 };
+        let mut whole = start.clone();
+        rest(&mut system, method.as_mut(), &mut whole, &plan(1.0));
+        let mut half = start.clone();
+        let (_, checkpoint) = transient_to_checkpoint(
+            &mut system,
+            again.as_mut(),
+            &mut half,
+            &plan(0.5),
+            &mut super::models::Blind,
+        );
+        let mut state = system.initial();
+        resume(&mut system, again.as_mut(), &checkpoint, &mut state, &plan(1.0), &mut super::models::Blind)
+            .unwrap();
+        assert_eq!(whole, state);
+    }
+}
