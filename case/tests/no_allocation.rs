@@ -3,15 +3,18 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // in helpers of tests
 #![allow(unsafe_code)]
 
+#[path = "../../mechanics/tests/integrators/multibody.rs"]
+mod multibody;
 #[path = "verification/run.rs"]
 mod run;
 #[path = "../../mechanics/tests/integrators/systems.rs"]
 mod systems;
 
 use flexion::integrator::{
-    Adams, GeneralizedAlpha, Integrator, Radau, RungeKutta, Span, StepControl, Tolerance,
+    Adams, GeneralizedAlpha, Integrator, MoreauJean, NonsmoothAlpha, Radau, RungeKutta, Span, StepControl,
+    Tolerance,
 };
-use flexion::system::{Parameter, State, System};
+use flexion::system::{Dynamics, Mode, Parameter, State, System};
 use std::alloc::{GlobalAlloc, Layout, System as Heap};
 use std::cell::Cell;
 use systems::{CartesianPendulum, Chain, SpringPendulum, state, wide_chain};
@@ -113,6 +116,23 @@ fn no_step_allocates() {
     let from = state(&constrained, &[1.0, 0.0], &[0.0, 0.0]);
     let only: Vec<Box<dyn Integrator>> = vec![Box::new(GeneralizedAlpha::chung_hulbert(0.5).unwrap())];
     assert_no_allocation("pendulum with a constraint", &mut constrained, &from, 1e-2, only);
+}
+
+/// Two balls that fall, strike, bounce and slide, with a rod between them.
+#[test]
+fn no_nonsmooth_step_allocates() {
+    let mut balls = multibody::BallsOnWall::new(0.5, [0.2, 0.3]);
+    let mut from = balls.initial();
+    let r = balls.radius;
+    from.q = vec![0.0, r + 0.01, 0.0, balls.length, r + 0.01, 0.0];
+    from.v = vec![1.0, -1.0, 0.0, 1.0, -1.0, 0.0];
+    from.mode[..4].fill(Mode::Open);
+    let all: Vec<Box<dyn Integrator>> = vec![
+        Box::new(MoreauJean::new(0.5).unwrap()),
+        Box::new(NonsmoothAlpha::decoupled(0.8).unwrap()),
+        Box::new(NonsmoothAlpha::coupled(0.8).unwrap()),
+    ];
+    assert_no_allocation("two balls", &mut balls, &from, 2e-3, all);
 }
 
 /// Every coupling on every basis it can use, uniform and graded, bands and dense matrices.

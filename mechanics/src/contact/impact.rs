@@ -31,6 +31,10 @@ const REGULARIZATION: f64 = 1e-12;
 pub struct Impact {
     /// Impulse of every row [N·s, N·m·s].
     pub impulses: Vec<f64>,
+    /// ġ of every row before the impact [m/s].
+    pub rates: Vec<f64>,
+    /// Effective mass 1/Wᵢᵢ \[kg\] of every row that takes part, with W = G M⁻¹ Gᵀ; 0 for the others.
+    pub masses: Vec<f64>,
     /// Energy lost in the contacts \[J\].
     pub lost: f64,
     /// Work of moving obstacles \[J\].
@@ -197,7 +201,8 @@ impl ImpactMap {
         let mut impulses = vec![0.0; part.rows.len()];
         solve(&part.laws, &w, &b, &mut impulses)?;
         self.add_images(&part, &impulses, &mut change);
-        let mut impact = Impact { impulses: vec![0.0; self.sets.len()], ..Impact::default() };
+        let zeros = || vec![0.0; self.sets.len()];
+        let mut impact = Impact { impulses: zeros(), masses: zeros(), ..Impact::default() };
         for (&i, x) in part.rows.iter().zip(&impulses) {
             impact.impulses[i] = *x;
             let after = before[i] + self.along(i, &change);
@@ -219,8 +224,23 @@ impl ImpactMap {
                 let neglected = Neglected::of(restitution, -before[i], self.pressing[i], w[k * m + k]);
                 impact.neglected.add(neglected);
             }
+            impact.masses[i] = 1.0 / w[k * m + k];
         }
+        impact.rates = before;
         Ok(impact)
+    }
+
+    /// Effective mass 1/(G M⁻¹ Gᵀ) \[kg\] of every contact at `state`, each by itself; 0 for other rows.
+    ///
+    /// # Errors
+    /// [`ImpactError::Singular`].
+    pub fn masses(&mut self, system: &mut dyn Dynamics, state: &State) -> Result<Vec<f64>, ImpactError> {
+        self.factor(system, state)?;
+        let part = self.part(|_| true, |_| None);
+        let (w, m) = (self.delassus(&part), part.rows.len());
+        let mut masses = vec![0.0; self.sets.len()];
+        part.rows.iter().enumerate().for_each(|(k, &i)| masses[i] = 1.0 / w[k * m + k]);
+        Ok(masses)
     }
 
     /// Sets the mode of every contact by the accelerations at `state`: those that touch and do not separate are closed if

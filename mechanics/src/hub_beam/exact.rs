@@ -77,33 +77,9 @@ impl ExactCoupling {
         beam: impl Into<Beam<'a>>,
         hub: &Hub,
     ) -> Result<ExactCoupling, BasisError> {
-        let beam = beam.into();
-        let fields = ExactCoupling::mesh(length, elements, &beam)?;
-        Ok(ExactCoupling::on(fields, elements, beam, hub))
-    }
-
-    /// The same beam with a tip that has no mass: see [`MasslessTip`](crate::basis::MasslessTip).
-    ///
-    /// # Errors
-    /// As [`ExactCoupling::new`].
-    pub fn with_massless_tip<'a>(
-        length: f64,
-        elements: usize,
-        beam: impl Into<Beam<'a>>,
-        hub: &Hub,
-    ) -> Result<ExactCoupling, BasisError> {
-        let beam = beam.into();
-        let fields = ExactCoupling::mesh(length, elements, &beam)?.with_massless_tip()?;
-        Ok(ExactCoupling::on(fields, elements, beam, hub))
-    }
-
-    fn mesh(length: f64, elements: usize, beam: &Beam<'_>) -> Result<Fields, BasisError> {
+        let Beam { section, masses, breaks } = beam.into();
         let mesh = |field| Hermite::new(length, elements, field).map(Box::new);
-        Ok(Fields::new(length, mesh(Field::Axial)?, mesh(Field::Transverse)?, &beam.breaks))
-    }
-
-    fn on(fields: Fields, elements: usize, beam: Beam<'_>, hub: &Hub) -> ExactCoupling {
-        let Beam { section, masses, breaks } = beam;
+        let fields = Fields::new(length, mesh(Field::Axial)?, mesh(Field::Transverse)?, &breaks);
         let lumped = LumpedRotation::of(&fields, &masses, hub.radius).into();
         let points = masses.into_iter().map(|m| Mass { inertia: 0.0, ..m }).collect();
         let quadratic = Beam { section: &MassOnly(section), masses: points, breaks };
@@ -112,7 +88,7 @@ impl ExactCoupling {
         let rule = Rule::new(nodes[1] - nodes[0]);
         let elements = (0..elements).map(|e| Element::new(&fields, section, &nodes, e)).collect();
         let (radius, fields, inertia) = (hub.radius, Arc::new(fields), Arc::new(inertia));
-        ExactCoupling { fields, inertia, elements, rule, radius, lumped, viscosity: 0.0 }
+        Ok(ExactCoupling { fields, inertia, elements, rule, radius, lumped, viscosity: 0.0 })
     }
 }
 

@@ -21,9 +21,9 @@ const SETTLED: f64 = 1e-13;
 /// The residual is linear in a and λ, so one solution is exact. A mass matrix that its stamp shows to be unchanged is
 /// not factored again.
 ///
-/// An unknown c without mass, whose row of M is zero and which no active constraint moves, has the equation f_c(q, v) = 0.
-/// Where f_c has no damping it gives q_c by Newton's method, and v_c, a_c by K_c v = 0 and K_c a = 0, its derivatives for
-/// constant K; where it has, v_c and C_c a = −K_c v.
+/// Unknowns C without mass, whose rows of M are zero, have the equations f_C(q, v) + G_Cᵀ λ = 0. A combination nᵀ of them with
+/// G_C n = 0 is free of λ. Where it has no damping it gives q_C by Newton's method, and v_C, a_C by nᵀK_C v = 0 and
+/// nᵀK_C a = 0, its derivatives for constant K; where it has, v_C and nᵀ(C_C a + K_C v) = 0.
 #[derive(Debug)]
 pub(super) struct Accelerations {
     matrix: Matrix,
@@ -38,10 +38,31 @@ pub(super) struct Accelerations {
 struct Massless {
     stiffness: Matrix,
     damping: Matrix,
-    /// Which unknowns have no mass, and of which the velocity, not the configuration, is in equilibrium.
-    unknowns: Vec<(usize, bool)>,
+    /// Unknowns without mass, and the combinations of their equations that are free of multipliers.
+    unknowns: Vec<usize>,
+    free: Vec<Combination>,
     increment: Vec<f64>,
     q: Vec<f64>,
+}
+
+/// nᵀ r_C = r_c − Σ ratio r_p: an equation of equilibrium.
+#[derive(Debug)]
+struct Combination {
+    /// c, whose equation it replaces.
+    unknown: usize,
+    /// Held unknowns p, with their ratios.
+    held: Vec<(usize, f64)>,
+    /// Whether the velocity, not the configuration, is in equilibrium.
+    damped: bool,
+    /// Factor that brings it to the size of the equations with mass.
+    scale: f64,
+}
+
+impl Combination {
+    /// nᵀ x, scaled.
+    fn of(&self, x: impl Fn(usize) -> f64) -> f64 {
+        self.scale * (x(self.unknown) - self.held.iter().map(|&(p, ratio)| ratio * x(p)).sum::<f64>())
+    }
 }
 
 impl Accelerations {
@@ -116,6 +137,7 @@ impl Accelerations {
                 stiffness: matrix(),
                 damping: matrix(),
                 unknowns: Vec::with_capacity(n),
+                free: Vec::new(),
                 increment,
                 q,
             })
@@ -131,35 +153,39 @@ impl Accelerations {
         if !self.rows.is_empty() {
             self.rows.add_border(system, state, n, &mut self.matrix);
         }
-        for &(c, damped) in &work.unknowns {
-            let row = if damped { &work.damping } else { &work.stiffness };
-            for j in (0..n).filter(|j| row.get(c, *j) != 0.0) {
-                self.matrix.add(c, j, row.get(c, j));
+        for combination in &work.free {
+            let (c, row) = (combination.unknown, work.row(combination));
+            for j in 0..n {
+                let x = combination.of(|i| row.get(i, j));
+                if x != 0.0 {
+                    self.matrix.add(c, j, x);
+                }
             }
+            self.rows.remove_from_equation(state, c, n, &mut self.matrix);
         }
         self.matrix.factor().map_err(|e| failure::singular(system, from, step, e))?;
         // Equilibrium of the unknowns without mass: what has mass does not move.
         let scales = system.scales();
-        let scales: Vec<f64> = work.unknowns.iter().map(|&(c, _)| scales[c]).collect();
+        let scales: Vec<f64> = work.unknowns.iter().map(|&c| scales[c]).collect();
         let mut size = f64::INFINITY;
         for _ in 0..CORRECTIONS {
             self.rhs.fill(0.0);
+            state.a.fill(0.0);
+            state.lambda.fill(0.0);
             system.residual(state, &mut work.increment);
-            for &(c, _) in &work.unknowns {
-                self.rhs[c] = -work.increment[c];
+            for combination in &work.free {
+                self.rhs[combination.unknown] = -combination.of(|i| work.increment[i]);
             }
             self.matrix.solve(&mut self.rhs);
             counters.residuals += 1;
             counters.solves += 1;
+            let damped = work.free.iter().any(|combination| combination.damped);
             work.increment.fill(0.0);
             size = 0.0;
-            for (&(c, damped), scale) in work.unknowns.iter().zip(&scales) {
+            for (&c, scale) in work.unknowns.iter().zip(&scales) {
                 size = size.max((self.rhs[c] / scale).abs());
-                if damped {
-                    state.v[c] += self.rhs[c];
-                } else {
-                    work.increment[c] = self.rhs[c];
-                }
+                let moved = if damped { &mut state.v[c] } else { &mut work.increment[c] };
+                *moved += self.rhs[c];
             }
             system.retract(&state.q, &work.increment, &mut work.q);
             state.q.copy_from_slice(&work.q);
@@ -176,8 +202,9 @@ impl Accelerations {
         let (motion, constraints) = self.rhs.split_at_mut(n);
         system.residual(state, motion);
         work.stiffness.multiply(&state.v, &mut work.increment);
-        for &(c, damped) in &work.unknowns {
-            motion[c] = if damped { work.increment[c] } else { 0.0 };
+        for combination in &work.free {
+            let rate = if combination.damped { combination.of(|i| work.increment[i]) } else { 0.0 };
+            motion[combination.unknown] = rate;
         }
         self.rows.weighted(system, state, self.weights, 1.0, constraints);
         self.matrix.solve(&mut self.rhs);
@@ -187,30 +214,65 @@ impl Accelerations {
 }
 
 impl Massless {
-    /// Finds the unknowns whose row of `mass` is zero and which no active constraint moves.
+    /// K, or C where the combination has damping.
+    fn row(&self, combination: &Combination) -> &Matrix {
+        if combination.damped { &self.damping } else { &self.stiffness }
+    }
+
+    /// Finds the unknowns whose row of `mass` is zero, and by elimination in G_C the combinations of their equations.
     fn find(&mut self, mass: &Matrix, rows: &Rows, state: &State) {
         let n = state.v.len();
+        let zero = |c: &usize| mass.get(*c, *c) == 0.0 && (0..n).all(|j| mass.get(*c, j) == 0.0);
         self.unknowns.clear();
-        for c in (0..n).filter(|c| mass.get(*c, *c) == 0.0) {
-            let held = rows
-                .stored()
-                .iter()
-                .any(|&(row, j, x)| j == c && x != 0.0 && is_active(rows.sets()[row], state.mode[row]));
-            if !held && (0..n).all(|j| mass.get(c, j) == 0.0) {
-                self.unknowns.push((c, self.damping.get(c, c) != 0.0));
+        self.unknowns.extend((0..n).filter(zero));
+        // Reduced row echelon form of G_C: pivots are held.
+        let mut pivots: Vec<(usize, Vec<f64>)> = Vec::new();
+        for i in (0..rows.len()).filter(|i| is_active(rows.sets()[*i], state.mode[*i])) {
+            let entry = |c: &usize| {
+                let entries = rows.stored().iter().filter(|(row, j, _)| *row == i && j == c);
+                entries.map(|(_, _, x)| x).sum::<f64>()
+            };
+            let mut row: Vec<f64> = self.unknowns.iter().map(entry).collect();
+            for (pivot, reduced) in &pivots {
+                let factor = row[*pivot];
+                row.iter_mut().zip(reduced).for_each(|(x, r)| *x -= factor * r);
+            }
+            let largest = row.iter().enumerate().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+            let Some((pivot, value)) = largest.map(|(k, x)| (k, *x)).filter(|(_, x)| *x != 0.0) else {
+                continue;
+            };
+            row.iter_mut().for_each(|x| *x /= value);
+            for (_, other) in &mut pivots {
+                let factor = other[pivot];
+                other.iter_mut().zip(&row).for_each(|(x, r)| *x -= factor * r);
+            }
+            pivots.push((pivot, row));
+        }
+        self.free.clear();
+        for (k, &unknown) in self.unknowns.iter().enumerate() {
+            if pivots.iter().all(|(pivot, _)| *pivot != k) {
+                let held = pivots.iter().map(|(pivot, row)| (self.unknowns[*pivot], row[k])).collect();
+                let damped = self.damping.get(unknown, unknown) != 0.0;
+                let row = if damped { &self.damping } else { &self.stiffness };
+                let largest = (0..n).fold(f64::MIN_POSITIVE, |x, j| x.max(row.get(unknown, j).abs()));
+                let scale = (0..n).fold(0.0_f64, |x, j| x.max(mass.get(j, j))) / largest;
+                self.free.push(Combination { unknown, held, damped, scale });
             }
         }
     }
 
-    /// v_c of K_c v = 0, where f_c has no damping.
+    /// v_C of nᵀK_C v = 0, where there is no damping.
     fn velocities(&mut self, matrix: &mut Matrix, rhs: &mut [f64], state: &mut State) {
+        if self.free.iter().any(|combination| combination.damped) {
+            return;
+        }
         self.stiffness.multiply(&state.v, &mut self.increment);
         rhs.fill(0.0);
-        for &(c, _) in self.unknowns.iter().filter(|(_, damped)| !damped) {
-            rhs[c] = -self.increment[c];
+        for combination in &self.free {
+            rhs[combination.unknown] = -combination.of(|i| self.increment[i]);
         }
         matrix.solve(rhs);
-        for &(c, _) in self.unknowns.iter().filter(|(_, damped)| !damped) {
+        for &c in &self.unknowns {
             state.v[c] += rhs[c];
         }
     }
