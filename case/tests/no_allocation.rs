@@ -159,7 +159,7 @@ fn no_step_of_a_hub_and_beam_allocates() {
         for (coupling, bases) in couplings {
             for basis in bases {
                 let rotary = "section.rotary-inertia=true";
-                // It turns from the start, so that the steps have something to do.
+                // It rotates from the start, so that the steps have something to do.
                 let motion = "hub.motion={kind='constant',speed='40 rad/s'}";
                 let overrides = [&format!("model.coupling={coupling}"), *basis, motion, rotary];
                 let what = format!("{folder} {overrides:?}");
@@ -244,7 +244,7 @@ fn a_fork_is_independent_and_shares_the_constants() {
         for (parameter, value) in [(Parameter::Speed, 3.0), (Parameter::LoadFactor, 0.5)] {
             fork.set(parameter, value).unwrap();
         }
-        assert!(steps(&mut *fork) != expected, "{coupling}: the fork turns steadily");
+        assert!(steps(&mut *fork) != expected, "{coupling}: the fork rotates steadily");
         assert!(steps(&mut *original) == expected, "{coupling}: the original does not");
         let (mut later, again) = bytes(|| original.fork());
         assert!(steps(&mut *later) == expected, "{coupling}: a fork of a system that has run");

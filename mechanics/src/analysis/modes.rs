@@ -2,7 +2,7 @@
 //!
 //! With M, C, K = ∂r/∂a, ∂r/∂v, ∂r/∂q of a [`System`] at the equilibrium, the modes are the solutions
 //! δq = x e^{λt} of (λ² M + λ C + K) x = 0: angular frequency ω = |Im λ|, damping ratio ζ = −Re λ/|λ|. Everything goes
-//! through the tangent, so every model has modes; how they are found is told in [`eigen`](crate::linalg::eigen).
+//! through the tangent, so every model has modes; how they are found is described in [`eigen`](crate::linalg::eigen).
 
 use super::stiffness::{damping, mass, stiffness};
 use crate::linalg::eigen::{EigenError, Kind, Pair, Pencil};
@@ -63,7 +63,7 @@ pub struct Shares {
     pub torsion: f64,
     /// The hub.
     pub hub: f64,
-    /// What the model does not tell apart.
+    /// What the model does not distinguish.
     pub other: f64,
 }
 

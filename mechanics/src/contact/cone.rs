@@ -17,7 +17,7 @@
 
 /// What a row is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Law {
+pub enum RowLaw {
     /// u = 0
     Free,
     /// u ≥ 0 ⟂ Λ ≥ 0
@@ -63,7 +63,7 @@ const TOLERABLE: f64 = 1e-12;
 ///
 /// # Errors
 /// [`Unresolved`].
-pub fn solve(laws: &[Law], w: &[f64], b: &[f64], lambda: &mut [f64]) -> Result<usize, Unresolved> {
+pub fn solve(laws: &[RowLaw], w: &[f64], b: &[f64], lambda: &mut [f64]) -> Result<usize, Unresolved> {
     let m = laws.len();
     let mut change = 0.0;
     for sweep in 1..=SWEEPS {
@@ -72,8 +72,8 @@ pub fn solve(laws: &[Law], w: &[f64], b: &[f64], lambda: &mut [f64]) -> Result<u
         while i < m {
             // A disc of friction is relaxed as a whole.
             let mut rows = 1;
-            if let Law::Friction { normal, .. } = laws[i] {
-                let same = |law: &Law| matches!(law, Law::Friction { normal: n, .. } if *n == normal);
+            if let RowLaw::Friction { normal, .. } = laws[i] {
+                let same = |law: &RowLaw| matches!(law, RowLaw::Friction { normal: n, .. } if *n == normal);
                 rows = laws[i..].iter().take_while(|law| same(law)).count();
             }
             let mut before = [0.0; 3];
@@ -87,10 +87,10 @@ pub fn solve(laws: &[Law], w: &[f64], b: &[f64], lambda: &mut [f64]) -> Result<u
                 }
             }
             match laws[i] {
-                Law::Free => {}
-                Law::Unilateral => lambda[i] = lambda[i].max(0.0),
-                Law::Slip { slope, normal } => lambda[i] = -slope * lambda[normal],
-                Law::Friction { coefficient, normal } => {
+                RowLaw::Free => {}
+                RowLaw::Unilateral => lambda[i] = lambda[i].max(0.0),
+                RowLaw::Slip { slope, normal } => lambda[i] = -slope * lambda[normal],
+                RowLaw::Friction { coefficient, normal } => {
                     let size = lambda[i..i + rows].iter().map(|x| x * x).sum::<f64>().sqrt();
                     let radius = coefficient * lambda[normal];
                     if size > radius {
@@ -122,7 +122,7 @@ mod tests {
         let w = [2.0, -1.0, 0.3, -1.0, 2.0, 0.1, 0.3, 0.1, 1.0];
         let b = [-1.0, -2.0, 0.5];
         let mut x = [0.0; 3];
-        solve(&[Law::Unilateral; 3], &w, &b, &mut x).unwrap();
+        solve(&[RowLaw::Unilateral; 3], &w, &b, &mut x).unwrap();
         for i in 0..3 {
             let u: f64 = b[i] + (0..3).map(|j| w[3 * i + j] * x[j]).sum::<f64>();
             assert!(x[i] >= 0.0 && u > -1e-14 && (u * x[i]).abs() < 1e-14, "{i}: {u} {}", x[i]);
@@ -134,8 +134,8 @@ mod tests {
     fn friction_sticks_inside_the_disc_and_slides_on_its_rim() {
         let w = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
         let laws = |coefficient| {
-            let friction = Law::Friction { coefficient, normal: 0 };
-            [Law::Unilateral, friction, friction]
+            let friction = RowLaw::Friction { coefficient, normal: 0 };
+            [RowLaw::Unilateral, friction, friction]
         };
         let mut x = [0.0; 3];
         solve(&laws(1.0), &w, &[-2.0, 0.6, 0.8], &mut x).unwrap();

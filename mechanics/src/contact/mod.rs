@@ -16,7 +16,7 @@ mod impact;
 mod obstacle;
 mod points;
 
-pub use cone::{Law as RowLaw, Unresolved, solve};
+pub use cone::{RowLaw, Unresolved, solve};
 pub use contacting::{Contact, Contacting, Law};
 pub use force::{ContactForce, Dissipation, Response, delivered};
 pub use impact::{Bounds, Impact, ImpactError, ImpactMap, Neglected};

@@ -9,7 +9,7 @@
 //!
 //! and the increment becomes x + A⁻¹ Gᵀ (P − P₀). See the [cone problem](crate::contact::solve).
 
-use crate::contact::{RowLaw as Law, Unresolved, solve};
+use crate::contact::{RowLaw, Unresolved, solve};
 use crate::linalg::Matrix;
 use crate::system::Set;
 
@@ -18,7 +18,7 @@ use crate::system::Set;
 pub(super) struct Impulses {
     /// Rows that take part, their laws, W, b and multipliers.
     rows: Vec<usize>,
-    laws: Vec<Law>,
+    laws: Vec<RowLaw>,
     w: Vec<f64>,
     b: Vec<f64>,
     solution: Vec<f64>,
@@ -50,8 +50,8 @@ impl Impulses {
         self.laws.clear();
         for (i, set) in sets.iter().enumerate() {
             let law = match set {
-                Set::Free => Law::Free,
-                Set::Unilateral { .. } => Law::Unilateral,
+                Set::Free => RowLaw::Free,
+                Set::Unilateral { .. } => RowLaw::Unilateral,
                 Set::Friction { .. } => continue,
             };
             if takes_part(i) {
@@ -64,7 +64,7 @@ impl Impulses {
                 && let Some(normal) = self.rows.iter().position(|&row| row == normal)
             {
                 self.rows.push(i);
-                self.laws.push(Law::Friction { coefficient, normal });
+                self.laws.push(RowLaw::Friction { coefficient, normal });
             }
         }
     }

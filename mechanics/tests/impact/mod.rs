@@ -1,11 +1,10 @@
-//! Impacts and contacts: nonsmooth and event-driven integration against closed forms and published numbers, and contacts of
-//! the hub–beam.
-
+//! Contacts of the hub–beam and of small systems, against closed forms, published numbers and independent programs.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // in helpers of tests
 
 mod accumulation;
 mod bars;
 mod conformance;
 mod falling_pendulum;
+mod massless;
 mod models;
 mod nonsmooth;
