@@ -17,7 +17,7 @@
 //! this is left to the iteration.
 
 use super::{Level, NAME, NonsmoothAlpha, Set, Work, failure, open};
-use crate::integrator::{Progress, Span, StepError, StepReport};
+use crate::integrator::{Checkpoint, NotResumed, Progress, Span, StepError, StepReport};
 use crate::linalg::Matrix;
 use crate::system::{Dynamics, RowWeights, State, Weights};
 
@@ -27,8 +27,10 @@ pub(super) struct Coupled {
     /// M with the joints.
     mass: Option<Matrix>,
     /// Auxiliary acceleration aₙ, and aₙ₊₁ of the attempt.
-    pub(super) a: Vec<f64>,
+    a: Vec<f64>,
     a_next: Vec<f64>,
+    /// Size of the step accepted last, and of the attempt.
+    spacing: [f64; 2],
     /// Increment of the position in the attempt, and in the step accepted.
     d: Vec<f64>,
     pub(super) accepted: Vec<f64>,
@@ -57,14 +59,35 @@ impl Coupled {
     pub(super) fn accept(&mut self) {
         std::mem::swap(&mut self.a, &mut self.a_next);
         std::mem::swap(&mut self.d, &mut self.accepted);
+        self.spacing[0] = self.spacing[1];
+    }
+
+    /// Begins anew with the accelerations `a`.
+    pub(super) fn restart(&mut self, a: &[f64]) {
+        self.a.copy_from_slice(a);
+        self.spacing = [0.0; 2];
+    }
+
+    pub(super) fn save(&self, out: &mut Checkpoint) {
+        out.put("smooth.auxiliary", &self.a);
+        out.put("smooth.spacing", &self.spacing[..1]);
+    }
+
+    pub(super) fn resume(&mut self, from: &Checkpoint) -> Result<(), NotResumed> {
+        from.fill("smooth.auxiliary", &mut self.a)?;
+        from.fill("smooth.spacing", &mut self.spacing[..1])
     }
 
     /// Makes position, velocities and accelerations of the attempt from the unknowns: `to` becomes the end of the step,
     /// `work.smooth` has ṽ and the same position.
     fn place(&mut self, p: [f64; 4], work: &mut Work, system: &dyn Dynamics, h: f64, to: &mut State) {
         let [alpha_m, alpha_f, beta, gamma] = p;
+        let ratio = if self.spacing[0] > 0.0 { h / self.spacing[0] } else { 1.0 };
+        self.spacing[1] = h;
         for i in 0..self.a.len() {
-            let (a, from, v) = (self.a[i], work.from.a[i], work.from.v[i]);
+            let (from, v) = (work.from.a[i], work.from.v[i]);
+            // The lag of a behind q̈ is a part of the step.
+            let a = if ratio == 1.0 { self.a[i] } else { from + ratio * (self.a[i] - from) };
             let next = ((1.0 - alpha_f) * to.a[i] + alpha_f * from - alpha_m * a) / (1.0 - alpha_m);
             self.a_next[i] = next;
             self.d[i] = h * v + h * h * ((0.5 - beta) * a + beta * next) + 0.5 * h * h * work.alpha[i];

@@ -327,7 +327,7 @@ impl Integrator for NonsmoothAlpha {
             work.from.copy_from(state);
         }
         if let Some(coupled) = &mut self.coupled {
-            coupled.a.copy_from_slice(&state.a);
+            coupled.restart(&state.a);
         }
         Ok(())
     }
@@ -340,7 +340,7 @@ impl Integrator for NonsmoothAlpha {
             out.put("smooth.a", &work.from.a);
         }
         if let Some(coupled) = &self.coupled {
-            out.put("smooth.auxiliary", &coupled.a);
+            coupled.save(out);
         }
     }
 
@@ -353,7 +353,7 @@ impl Integrator for NonsmoothAlpha {
         };
         from.fill("smooth.a", &mut work.from.a)?;
         match &mut self.coupled {
-            Some(coupled) => from.fill("smooth.auxiliary", &mut coupled.a),
+            Some(coupled) => coupled.resume(from),
             None => Ok(()),
         }
     }
