@@ -5,6 +5,7 @@ use super::fault::{Fault, Faults, Made};
 use super::kind::{Choice, Context};
 use super::kinds::basis::{self, Bases};
 use super::kinds::blade::{BLADE, Blade};
+use super::kinds::contact::{self, CONTACT, Contact};
 use super::kinds::coupling::{COUPLING, Coupling, fits_whole_curve};
 use super::kinds::initial::{INITIAL, Initial};
 use super::kinds::integrator::{INTEGRATOR, Method, Steps};
@@ -33,6 +34,8 @@ pub struct Case {
     pub bases: Bases,
     /// What acts on the beam and what it carries.
     pub loads: Vec<Load>,
+    /// What the beam may touch.
+    pub contacts: Vec<Contact>,
     /// Damping of the beam.
     pub damping: Damping,
     /// The state at t = 0.
@@ -114,6 +117,7 @@ pub(super) fn case(v: &mut Values, files: &super::sources::Files<'_>) -> Made<Ca
     let bases = found.part(basis::make(v, c));
     let method = found.part(INTEGRATOR.make(v, "integrator", c));
     let loads = loads(v, c, &mut found);
+    let contacts = found.part(CONTACT.make(v, c).and_then(contact::named));
     let damping = found.part(load::DAMPING.make(v, c)).map(|list| list.first().copied().unwrap_or_default());
     let initial = found.part(INITIAL.make(v, "initial", c));
     let output = found.part(output(v, c));
@@ -140,6 +144,7 @@ pub(super) fn case(v: &mut Values, files: &super::sources::Files<'_>) -> Made<Ca
             coupling: coupling?,
             bases: bases?,
             loads: loads?,
+            contacts: contacts?,
             damping: damping?,
             initial: initial?,
             steps: method?.steps,

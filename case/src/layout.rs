@@ -7,7 +7,7 @@ use super::kinds::initial::INITIAL;
 use super::kinds::integrator::INTEGRATOR;
 use super::kinds::motion::MOTION;
 use super::kinds::section::SECTION;
-use super::kinds::{amplitude, blade, load, torque};
+use super::kinds::{amplitude, blade, contact, load, torque};
 use super::units::{INERTIA, LENGTH, TIME};
 use std::sync::LazyLock;
 
@@ -20,6 +20,9 @@ pub(super) static CHOICES: &[&dyn Kinds] = &[
     &load::AXES,
     &amplitude::AMPLITUDE,
     &amplitude::DISTRIBUTION,
+    &contact::OBSTACLE,
+    &contact::MOUNT,
+    &contact::LAW,
     &blade::STRAIN_ENERGY,
     &COUPLING,
     &BASIS,
@@ -32,7 +35,7 @@ pub(super) static CHOICES: &[&dyn Kinds] = &[
 pub(super) fn keys() -> &'static [Key] {
     static KEYS: LazyLock<Vec<Key>> = LazyLock::new(|| {
         let loads: Vec<Key> = load::LOADS.iter().map(|table| table.key).collect();
-        [MODEL, &loads, &[load::DAMPING.key], RUN].concat()
+        [MODEL, &loads, &[contact::CONTACT.key, load::DAMPING.key], RUN].concat()
     });
     &KEYS
 }

@@ -56,5 +56,6 @@ pub fn choices() -> &'static [&'static dyn declaration::Kinds] {
 /// Examples of the tables that a case may have and need not: `KEY = VALUE`, as on the command line.
 pub fn examples_of_tables() -> Vec<&'static str> {
     let loads = kinds::load::LOADS.iter().map(|table| table.example);
-    loads.chain([kinds::load::DAMPING.example, kinds::blade::BLADE.example]).collect()
+    let others = [kinds::contact::CONTACT.example, kinds::load::DAMPING.example, kinds::blade::BLADE.example];
+    loads.chain(others).collect()
 }

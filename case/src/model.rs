@@ -15,7 +15,9 @@ impl Case {
     /// Faults at dotted paths of the case; a case that was read has passed most checks.
     pub fn system(&self) -> Made<Box<dyn Fork>> {
         let masses = self.loads.iter().filter_map(|load| load.mass).collect();
-        let stations: Vec<f64> = self.loads.iter().flat_map(|load| load.stations.iter().copied()).collect();
+        let loaded = self.loads.iter().flat_map(|load| load.stations.iter().copied());
+        let touching = self.contacts.iter().flat_map(|contact| contact.stations.iter().copied());
+        let stations: Vec<f64> = loaded.chain(touching).collect();
         let beam = Beam::new(self.section.planar.as_ref(), masses, &stations);
         let act = |load: &'_ Load| load.load.clone();
         let loads: Vec<_> = self.loads.iter().filter_map(act).collect();
@@ -28,6 +30,7 @@ impl Case {
             hub: self.hub.clone(),
             bases: &self.bases,
             loads: &loads,
+            contacts: &self.contacts,
             damping: self.damping,
             stations: &output.stations,
             section_forces: output.section_forces,
@@ -45,14 +48,15 @@ impl Case {
         built.transpose().map_err(|faults| faults.within("blade"))
     }
 
-    /// What vibrates about a steady rotation: the blade, or the hub–beam of a case without `[blade]`.
+    /// What vibrates about a steady rotation: the blade, or the hub–beam of a case without `[blade]`, in either case without
+    /// contacts.
     ///
     /// # Errors
     /// Faults at dotted paths of the case.
     pub fn vibrating(&self) -> Made<Box<dyn Fork>> {
         match self.blade()? {
             Some(blade) => Ok(Box::new(blade)),
-            None => self.system(),
+            None => Case { contacts: Vec::new(), ..self.clone() }.system(),
         }
     }
 

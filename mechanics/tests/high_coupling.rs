@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 const LENGTH: f64 = 2.0;
 
-/// A beam on a hub that nothing turns.
+/// A beam on a hub that nothing drives.
 fn system() -> HubBeam<HighCoupling> {
     let resultants =
         Resultants { mass: 1.2, axial_stiffness: 200.0, bending_stiffness: 8.0, ..Default::default() };

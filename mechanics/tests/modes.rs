@@ -243,7 +243,7 @@ fn a_beam_without_centrifugal_stiffening_buckles_at_its_first_frequency() {
     let Err(NoRotation::Buckled { reached, negative, .. }) =
         rotate_stably(system.as_mut(), &mut state, 0.0, 5.0)
     else {
-        panic!("it turns steadily at 5 rad/s");
+        panic!("it rotates steadily at 5 rad/s");
     };
     assert_eq!(negative, 1);
     // The axial stretch is not coupled to the deflection: K − Ω²M is exhausted at Ω = ω₁.

@@ -7,7 +7,7 @@
 //!
 //! | name | meaning |
 //! |---|---|
-//! | `displacement` | vector from the rigid beam that turns with the root section to the axis \[m\], inertial frame |
+//! | `displacement` | vector from the rigid beam that rotates with the root section to the axis \[m\], inertial frame |
 //! | `axial`, `deflection` | the same along the tangent and the normal of the root section \[m\] |
 //! | `rotation` | angle of the section against the root section [rad], about the third axis |
 //! | `arc_length` | arc length from the root in the undeformed beam \[m\] |

@@ -1,9 +1,11 @@
 //! The kinematic model of the beam: kinds and how the system of each is assembled.
 
 use super::basis::Bases;
+use super::contact::{self, Contact};
 use super::section::Section;
 use crate::fault::{At, Fault, Made};
 use crate::kind::{Choice, Kind};
+use flexion::contact::{self as touch, Contacting};
 use flexion::hub_beam::load::Load;
 use flexion::hub_beam::{
     self, Damping, ExactCoupling, Fields, Foreshortening, HighCoupling, Hub, HubBeam, LinearCoupling,
@@ -34,6 +36,8 @@ pub struct Assembly<'a> {
     pub bases: &'a Bases,
     /// What acts on the beam.
     pub loads: &'a [&'a dyn Load],
+    /// What the beam may touch.
+    pub contacts: &'a [Contact],
     /// Damping of the beam.
     pub damping: Damping,
     /// Stations that are recorded besides the tip \[m\].
@@ -79,7 +83,19 @@ impl Assembly<'_> {
                 self.strain_heights,
             );
         }
-        Box::new(system)
+        let points: Vec<_> = contact::points(self.contacts).collect();
+        if points.is_empty() {
+            return Box::new(system);
+        }
+        let at: Vec<_> = points.iter().map(|(_, station, contact)| (*station, contact.mount)).collect();
+        let made = |(point, (name, _, contact)): (usize, (String, f64, &Contact))| touch::Contact {
+            name,
+            point,
+            obstacle: Arc::clone(&contact.obstacle),
+            law: contact.law,
+        };
+        let contacts = points.into_iter().enumerate().map(made).collect();
+        Box::new(Contacting::new(system.with_contact_points(&at), contacts))
     }
 }
 

@@ -3,6 +3,7 @@
 pub mod amplitude;
 pub mod basis;
 pub mod blade;
+pub mod contact;
 pub mod coupling;
 pub mod initial;
 pub mod integrator;

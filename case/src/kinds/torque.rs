@@ -1,4 +1,4 @@
-//! What turns a free hub: the torque on it and the controller of its angle.
+//! What drives a free hub: the torque on it and the controller of its angle.
 
 use super::profile::{self, Shared};
 use crate::declaration::{Bound::*, Key, Presence as Default, Presence::*, Type, Type::Quantity, key};
@@ -140,7 +140,7 @@ fn pd(v: &Values, _: &Context<'_>) -> Made<Option<Control>> {
     })))
 }
 
-/// A hub that is free to turn.
+/// A hub that is free to rotate.
 pub(super) fn free_hub(v: &Values, c: &Context<'_>) -> Made<FreeHub> {
     let (torque, control) = both(TORQUE_ON_HUB.make(v, "torque", c), CONTROLLER.make(v, "controller", c))?;
     let angle = v.number("angle")?;

@@ -68,7 +68,7 @@ pub struct Run {
     pub size: ProblemSize,
     /// Time of computing \[s\]. It and `cpu_time` are the figures that differ from run to run.
     pub wall_time: f64,
-    /// Time of computing of the processor \[s\], where the system tells it.
+    /// Time of computing of the processor \[s\], where the system gives it.
     pub cpu_time: Option<f64>,
 }
 
@@ -108,7 +108,7 @@ impl Reading {
                 };
                 if speed != 0.0 {
                     let message = format!(
-                        "the hub turns at {speed} rad/s at the start, and a turning beam is not in static equilibrium: use \
+                        "the hub rotates at {speed} rad/s at the start, and a rotating beam is not in static equilibrium: use \
                          `steady-rotation`"
                     );
                     return Err(self.problem("initial.kind", message));

@@ -25,7 +25,7 @@ pub fn sizes() -> impl Iterator<Item = usize> {
     (0..=10).map(|k| 10 << k)
 }
 
-/// The system of a coupling; `first-free` and `exact-free` are turned by a torque, that of the rigid beam.
+/// The system of a coupling; `first-free` and `exact-free` are driven by a torque, that of the rigid beam.
 pub fn system(coupling: &str, elements: usize) -> Box<dyn System> {
     let resultants =
         Resultants { mass: 1.2, axial_stiffness: 2.8e7, bending_stiffness: 1.4e4, ..Default::default() };

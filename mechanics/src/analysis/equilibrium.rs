@@ -50,7 +50,7 @@ pub struct Effort {
 ///
 /// The equilibrium is followed from the given configuration as the loads grow: with r_s the residual under the part s
 /// of them and r₀ that without loads in the given configuration, the levels r_s(q) = (1 − s) r₀ are solved for s from
-/// 0 to 1, the increment of s growing and shrinking as Newton's method converges. A follower or a couple turns with
+/// 0 to 1, the increment of s growing and shrinking as Newton's method converges. A follower or a couple rotates with
 /// its section all the way.
 ///
 /// # Errors

@@ -98,6 +98,14 @@ pub struct Plane {
     pub motion: Option<Translation>,
 }
 
+impl Plane {
+    /// Half-space to the right of a line through `point` at `angle` [rad] against the x axis.
+    pub fn inclined(point: [f64; 3], angle: f64, motion: Option<Translation>) -> Plane {
+        let (sin, cos) = libm::sincos(angle);
+        Plane { point, normal: [-sin, cos, 0.0], motion }
+    }
+}
+
 impl Obstacle for Plane {
     fn surface(&self, p: [f64; 3], t: f64) -> Surface {
         let [place, velocity, acceleration] = Translation::at(self.motion.as_ref(), t);

@@ -12,6 +12,7 @@
 //! | [`exact`](ExactCoupling) | everything but shear | strains are no longer small |
 
 mod beam;
+mod contact_point;
 mod contact_points;
 mod coupling;
 mod damping;
@@ -35,7 +36,7 @@ mod system;
 mod tests;
 
 pub use beam::{Beam, Mass};
-pub use contact_points::{ContactPoint, Mount};
+pub use contact_point::{ContactPoint, Mount};
 pub use coupling::Coupling;
 pub use damping::Damping;
 pub use exact::ExactCoupling;

@@ -1,7 +1,7 @@
 //! The hub–beam as a [`System`](crate::system::System).
 
 use super::beam::Beam;
-use super::contact_points::ContactPoint;
+use super::contact_point::ContactPoint;
 use super::coupling::Coupling;
 use super::damping::Damping;
 use super::hub::{Drive, Hub, Recent};

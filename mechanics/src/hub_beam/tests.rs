@@ -44,7 +44,7 @@ pub(super) fn hub() -> Hub {
     Hub::prescribed(RADIUS, 0.7, Motion::Angle(Arc::new(Expression::new(formula, "t", 10.0).unwrap())))
 }
 
-/// A hub with everything that can turn it.
+/// A hub with everything that can drive it.
 pub(super) fn free_hub() -> Hub {
     let profile = |text: &str| Arc::new(Expression::new(text, "t", 10.0).unwrap());
     let controller = Controller {

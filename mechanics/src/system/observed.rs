@@ -81,6 +81,23 @@ pub struct Channel {
     pub role: Role,
 }
 
+/// A contact at a state.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Touch {
+    /// Prefix of its columns.
+    pub name: String,
+    /// Row of its normal force; `None` for a continuous force.
+    pub row: Option<usize>,
+    /// Row of its friction.
+    pub friction: Option<usize>,
+    /// Number of the indicator of a continuous force.
+    pub indicator: Option<usize>,
+    /// Gap g \[m\].
+    pub gap: f64,
+    /// Its rate ġ \[m/s\].
+    pub rate: f64,
+}
+
 /// What a recorded quantity is to its readers: which are added up, drawn and printed follows from this, not from names.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Role {
@@ -128,6 +145,11 @@ pub trait Observed {
 
     /// Writes one value for each channel.
     fn record(&mut self, _s: &State, _out: &mut [f64]) {}
+
+    /// The contacts, in the order of their columns.
+    fn contacts(&mut self, _s: &State) -> Vec<Touch> {
+        Vec::new()
+    }
 
     /// What unknown `i` (a velocity) moves.
     fn direction(&self, _i: usize) -> Direction {

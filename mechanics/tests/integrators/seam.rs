@@ -119,7 +119,7 @@ fn two_balls_strike_the_floor_at_once_with_friction() {
         let (end, watch) = run(&mut system, method.as_mut(), start.clone(), time + after, step);
         assert_eq!(watch.events.len(), 1, "{:?}", watch.events);
         assert!((watch.events[0].time - time).abs() < 1e-9, "{} for {time}", watch.events[0].time);
-        let EventKind::Impact { impulses, lost } = &watch.events[0].kind else { panic!("no impact") };
+        let EventKind::Impact { impulses, lost, .. } = &watch.events[0].kind else { panic!("no impact") };
         for (k, mu) in friction.into_iter().enumerate() {
             assert!((impulses[k] / impulse - 1.0).abs() < 1e-9, "{impulses:?} for {impulse}");
             assert!((impulses[2 + k] / (-mu * impulse) - 1.0).abs() < 1e-9, "{impulses:?}");

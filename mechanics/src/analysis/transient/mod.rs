@@ -16,7 +16,7 @@ pub use ending::{Ending, RunError};
 pub use observer::{Event, EventKind, Observer, Step};
 
 use super::energy_balance::Integral;
-use crate::contact::{Bounds, ImpactMap};
+use crate::contact::{Bounds, Impact, ImpactMap};
 use crate::integrator::{Checkpoint, Integrator, NotResumed, Span, StepControl, StepReport};
 use crate::system::{Crossing, Jump, Side, State, System};
 use adaptive::adapt;
@@ -400,8 +400,9 @@ impl Run {
         {
             let fired = contacts.locator.fired();
             if !fired.is_empty() {
-                happened.push(EventKind::Crossing);
-                match system.cross(&fired, state) {
+                let crossing = system.cross(&fired, state);
+                happened.push(EventKind::Crossing { indicators: fired });
+                match crossing {
                     Crossing::Continue | Crossing::Restart => {}
                     Crossing::Jump => jump = true,
                     Crossing::Stop(reason) => return Err(RunError::Ended { time: state.t, reason }),
@@ -435,7 +436,8 @@ impl Run {
             work += impact.work;
             lost = impact.lost;
             happened.push(if impact.impulses.iter().any(|x| *x != 0.0) {
-                EventKind::Impact { impulses: impact.impulses, lost }
+                let Impact { impulses, rates, masses, .. } = impact;
+                EventKind::Impact { impulses, lost, rates, masses }
             } else {
                 EventKind::Switch
             });
@@ -453,7 +455,7 @@ impl Run {
         observer: &mut dyn Observer,
     ) -> Result<(), RunError> {
         for kind in happened {
-            observer.event(&Event { time: state.t, kind });
+            observer.event(&Event { time: state.t, kind, modes: state.mode.clone() });
         }
         integrator.restart(system, state).map_err(|error| failed(system, state, error))?;
         if let Some(balance) = &mut self.balance {

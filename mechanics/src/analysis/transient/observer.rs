@@ -2,10 +2,10 @@
 
 use crate::analysis::EnergyBalance;
 use crate::contact::Neglected;
-use crate::system::{State, System};
+use crate::system::{Mode, State, System};
 use std::ops::ControlFlow;
 
-/// What an observer learns besides the state.
+/// What an observer receives besides the state.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Step {
     /// Size of the step that ended at or covers this state \[s\]; 0 at the start.
@@ -25,6 +25,8 @@ pub struct Event {
     pub time: f64,
     /// What happened.
     pub kind: EventKind,
+    /// Mode of every row behind it.
+    pub modes: Vec<Mode>,
 }
 
 /// What happened at an event.
@@ -41,11 +43,18 @@ pub enum EventKind {
         impulses: Vec<f64>,
         /// Energy lost \[J\].
         lost: f64,
+        /// ġ of each row before [m/s].
+        rates: Vec<f64>,
+        /// Effective mass of each row that took part \[kg\], 0 for the others.
+        masses: Vec<f64>,
     },
     /// Contacts opened, closed without impulse, began to slip or to stick.
     Switch,
-    /// An indicator of the model changed its sign.
-    Crossing,
+    /// Indicators of the model changed their signs.
+    Crossing {
+        /// Their numbers.
+        indicators: Vec<usize>,
+    },
 }
 
 /// Observes a run: records, reports progress, stops it.

@@ -12,14 +12,16 @@
 //! integrators do the rest. A [`Law::Force`] is a load; the closing speed is stored in the state's memory by the event
 //! at which the gap changes its sign.
 
+mod observed;
+
 use super::force::ContactForce;
 use super::obstacle::{Obstacle, Surface};
 use super::points::{PointMotion, Points, Variation};
 use crate::linalg::vector::inner;
 use crate::linalg::{Matrix, Structure};
 use crate::system::{
-    Break, Channel, Corotation, Crossing, Direction, Dynamics, Energy, Events, Frame, Jump, Mode, NotSet,
-    Observed, Parameter, Power, Role, RowWeights, Set, Size, State, Steady, VisitRow, Weights, ordered,
+    Break, Channel, Corotation, Crossing, Dynamics, Events, Jump, Mode, NotSet, Observed, Parameter, Power,
+    Role, RowWeights, Set, Size, State, Steady, VisitRow, Weights, ordered,
 };
 use std::sync::Arc;
 
@@ -539,74 +541,5 @@ impl<S: Steady> Steady for Contacting<S> {
 
     fn release(&mut self) {
         self.inner.release();
-    }
-}
-
-impl<S: Points + Dynamics + Events + Observed> Observed for Contacting<S> {
-    fn energy(&mut self, s: &State) -> Energy {
-        let energy = self.inner.energy(s);
-        Energy { contact: energy.contact + self.stored(s), ..energy }
-    }
-
-    fn power(&mut self, s: &State) -> Power {
-        let mut power = self.inner.power(s);
-        self.add_power(s, &mut power);
-        power
-    }
-
-    fn energy_and_power(&mut self, s: &State) -> (Energy, Power) {
-        let (mut energy, mut power) = self.inner.energy_and_power(s);
-        energy.contact += self.stored(s);
-        self.add_power(s, &mut power);
-        (energy, power)
-    }
-
-    fn frames(&mut self, body: usize, s: &State, stations: &[f64], out: &mut [Frame]) {
-        self.inner.frames(body, s, stations, out);
-    }
-
-    fn channels(&self) -> &[Channel] {
-        &self.channels
-    }
-
-    fn record(&mut self, s: &State, out: &mut [f64]) {
-        let (own, contacts) = out.split_at_mut(self.recorded.min(out.len()));
-        self.set_forces(s);
-        self.inner.record(s, own);
-        let mut next = contacts.iter_mut();
-        let mut write = |x: f64| next.next().into_iter().for_each(|out| *out = x);
-        let (mut stored, mut stores) = (0.0, false);
-        self.each(s, |placed, touch, forces| {
-            write(touch.surface.gap);
-            write(forces.normal);
-            let force = match &placed.contact.law {
-                Law::Constraint { .. } => None,
-                Law::Force(force) => Some(force),
-            };
-            if placed.friction.is_some() || force.is_some_and(|force| force.friction > 0.0) {
-                write(forces.friction);
-            }
-            stores |= force.is_some();
-            stored += force.map_or(0.0, |force| force.stored(-touch.surface.gap));
-        });
-        if stores {
-            write(stored);
-        }
-    }
-
-    fn direction(&self, i: usize) -> Direction {
-        self.inner.direction(i)
-    }
-
-    fn admissible(&mut self, s: &State) -> Result<(), String> {
-        self.inner.admissible(s)
-    }
-
-    fn explain(&mut self, s: &State) -> Option<String> {
-        self.inner.explain(s)
-    }
-
-    fn cautions(&self, peaks: &[f64]) -> Vec<String> {
-        self.inner.cautions(peaks.get(..self.recorded).unwrap_or(&[]))
     }
 }
