@@ -7,6 +7,8 @@ use flexion::system::{Mode, State, System, Touch};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
+/// Impulse over the largest of the run below which it is rounding.
+const ROUNDING: f64 = 1e-12;
 /// Rows of the list that a summary shows at either end.
 const SHOWN: usize = 5;
 
@@ -36,6 +38,8 @@ pub struct Entry {
 pub struct Events {
     contacts: Vec<Touch>,
     modes: Vec<Mode>,
+    /// Largest impulse [N·s].
+    strongest: f64,
     /// What happened, in order of time.
     pub list: Vec<Entry>,
     /// Bounds of what bounces that were not followed would have done.
@@ -83,13 +87,17 @@ impl Events {
             lost: 0.0,
         };
         let mut open = 0.0;
-        if let EventKind::Impact { lost, .. } = event.kind {
-            open = lost;
+        if let EventKind::Impact { lost, impulses, .. } = &event.kind {
+            open = *lost;
+            self.strongest = impulses.iter().fold(self.strongest, |m, x| m.max(x.abs()));
         }
+        let least = ROUNDING * self.strongest;
         for (i, contact) in self.contacts.iter_mut().enumerate() {
             let mut push = |entry: Entry| self.list.push(Entry { contact: i, ..entry });
             match (&event.kind, contact.row, contact.indicator) {
-                (EventKind::Impact { impulses, rates, masses, .. }, Some(row), _) if impulses[row] != 0.0 => {
+                (EventKind::Impact { impulses, rates, masses, .. }, Some(row), _)
+                    if impulses[row] > least =>
+                {
                     let friction = contact.friction.map_or(0.0, |row| impulses[row]);
                     let (impulse, speed, mass) = (impulses[row], -rates[row], masses[row]);
                     push(Entry { impulse, friction, speed, mass, lost: open, ..blank });

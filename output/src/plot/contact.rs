@@ -89,7 +89,7 @@ fn enlarged(
     (from, to): (f64, f64),
 ) -> Vec<Panel> {
     let inside = |entry: &&Entry| (from..=to).contains(&entry.time);
-    let mut gap = of_contacts(trajectory, shown, "gap", Axis::new("Gap, first touch", "m"), Some((from, to)));
+    let mut gap = of_contacts(trajectory, shown, "gap", Axis::new("Gap, first burst", "m"), Some((from, to)));
     // Records are too few for a burst: at an impact the gap is zero.
     for (series, (number, _)) in gap.series.iter_mut().zip(shown) {
         let touched = events.list.iter().filter(inside).filter(|entry| entry.contact == *number);
@@ -109,10 +109,10 @@ fn enlarged(
     };
     let series: Vec<Series> = shown.iter().enumerate().map(impulses).collect();
     let second = if series.iter().all(|series| series.points.is_empty()) {
-        of_contacts(trajectory, shown, "force", Axis::new("Force, first touch", "N"), Some((from, to)))
+        of_contacts(trajectory, shown, "force", Axis::new("Force, first burst", "N"), Some((from, to)))
     } else {
         let x = Axis { range: Some((from, to)), ..Axis::time() };
-        let y = Axis::logarithmic("Impulses, first touch", "N·s");
+        let y = Axis::logarithmic("Impulses, first burst", "N·s");
         Panel { x, y, series, words: Vec::new() }
     };
     vec![gap, second]
