@@ -9,6 +9,7 @@ mod integrators;
 mod kept_tangents;
 mod linear_cost;
 mod modes;
+mod multibody_systems;
 mod surroundings;
 mod tapered_beam;
 

@@ -19,7 +19,6 @@ use flexion::analysis::superposition::superpose;
 use flexion::analysis::transient::{Ending, Plan, resume, transient_to_checkpoint};
 use flexion::hub_beam::{Drive, Mount};
 use flexion::integrator::{Checkpoint, Counters, Info};
-use flexion::linalg::Structure;
 use flexion::system::{State, System};
 use flexion_results::plot::{contact_figure, trajectory_figure};
 use flexion_results::{
@@ -261,6 +260,5 @@ impl Prepared {
 fn size(system: &dyn System) -> ProblemSize {
     let unknowns = system.size().v + system.size().lambda;
     let structure = system.structure(0);
-    let border = if let Structure::Band { border, .. } = structure { border } else { 0 };
-    ProblemSize { unknowns, half_bandwidth: structure.half_bandwidth(), border }
+    ProblemSize { unknowns, half_bandwidth: structure.half_bandwidth(), border: structure.border() }
 }

@@ -42,7 +42,7 @@ pub use damping::Damping;
 pub use exact::ExactCoupling;
 pub use fields::{Fields, Point, Shapes};
 pub use high::HighCoupling;
-pub use hub::{Controller, Drive, FreeHub, Hub, Torque};
+pub use hub::{Drive, FreeHub, Hub};
 pub use inertia::{Border, Foreshortening, Inertia, Scratch, Totals};
 pub use linear::LinearCoupling;
 pub use section_forces::{Sampling, SectionForces};

@@ -58,7 +58,7 @@ impl Bundle {
     pub(super) fn new(structure: &Structure, order: usize, matrices: [Option<&Matrix>; TERMS]) -> Bundle {
         let most = order.saturating_sub(1);
         let (width, advance, lead) = match *structure {
-            Structure::Dense { .. } => (order, 0, 0),
+            Structure::Dense { .. } | Structure::Ordered { .. } => (order, 0, 0),
             Structure::Band { lower, upper, .. } => {
                 (lower.min(most) + upper.min(most) + 1, 1, lower.min(most))
             }

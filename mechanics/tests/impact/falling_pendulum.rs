@@ -4,6 +4,7 @@
 use flexion::analysis::transient::{Ending, Event, EventKind, Observer, Plan, Step, transient};
 use flexion::basis::{Field, Modes};
 use flexion::contact::{Contact, Contacting, Law, Plane};
+use flexion::drive::Actuator;
 use flexion::hub_beam::load::Gravity;
 use flexion::hub_beam::{Coupling, Drive, Fields, FreeHub, HighCoupling, Hub, HubBeam, Mount};
 use flexion::integrator::{Integrator, Radau, Tolerance};
@@ -29,11 +30,13 @@ pub fn hub() -> Hub {
     let drive = Drive::Free(FreeHub {
         angle: std::f64::consts::FRAC_PI_4,
         speed: 0.0,
-        torque: Arc::new(Constant::new(0.0).unwrap()),
-        damping: 0.0,
-        stiffness: 0.0,
-        rest_angle: 0.0,
-        controller: None,
+        actuator: Actuator {
+            torque: Arc::new(Constant::new(0.0).unwrap()),
+            damping: 0.0,
+            stiffness: 0.0,
+            rest_angle: 0.0,
+            controller: None,
+        },
     });
     Hub { radius: 0.0, inertia: 0.0, drive }
 }

@@ -426,7 +426,7 @@ impl Integrator for GeneralizedAlpha {
             rows: Rows::new(system, state),
             mu: vec![0.0; size.lambda],
             stiffness: stabilized.then(|| Matrix::new(&system.structure(0))),
-            column: [(); 2].map(|()| vec![0.0; size.v]),
+            meeting: vec![Vec::new(); if stabilized { size.v } else { 0 }],
             affine: system.is_affine() && size.lambda == 0,
             keeps: size.lambda == 0,
             kept: [f64::NAN; 2],
