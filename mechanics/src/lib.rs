@@ -69,6 +69,7 @@ pub mod exact;
 pub mod hub_beam;
 pub mod integrator;
 pub mod linalg;
+pub mod multibody;
 pub mod profile;
 pub mod quadrature;
 pub mod section;

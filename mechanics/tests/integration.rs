@@ -8,6 +8,7 @@ mod integrators;
 mod kept_tangents;
 mod linear_cost;
 mod modes;
+mod slender;
 mod surroundings;
 mod tapered_beam;
 

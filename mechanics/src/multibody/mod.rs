@@ -1,0 +1,3 @@
+//! Bodies in space.
+
+pub mod slender;

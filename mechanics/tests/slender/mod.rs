@@ -1,0 +1,5 @@
+//! The spatial slender beam.
+
+mod derivatives;
+mod newton;
+mod statics;
