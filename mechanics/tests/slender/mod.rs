@@ -1,5 +1,6 @@
 //! The spatial slender beam.
 
+mod cost;
 mod derivatives;
 mod newton;
 mod statics;

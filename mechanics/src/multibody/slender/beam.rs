@@ -11,12 +11,11 @@
 //! rotates about it by φ. Of this motion the spin is w = φ̇ − c·ṙ′/|r′|, with c of the tangents before and now
 //! ([`Pair`]): that is v = T(d) ḋ.
 
-use super::element::{Element, Motion};
+use super::element::{Element, Motion, Tangent};
 use super::pair::Pair;
 use super::properties::Properties;
-use super::stiffness::Tangent;
-use super::strain::{CENTRELINE, COORDINATES, SPINS, VELOCITIES, centreline};
-use super::triad::{Triad, Vector, times, vector};
+use super::strain::{COORDINATES, VELOCITIES, centreline, positions};
+use super::triad::{Triad, Vector, vector};
 use crate::linalg::vector::inner;
 use crate::system::Weights;
 
@@ -82,15 +81,6 @@ pub struct Beam {
     nodes: Vec<f64>,
 }
 
-/// The increments of (r, r′) at a node, and of Θ in increments of φ: δΘ = δφ + row·δr′, the lower row of T(d).
-fn spin_by_slope(before: Vector, now: Vector) -> Vector {
-    let length = inner(now, now).sqrt();
-    let scale = -1.0 / (length * inner(before, before).sqrt());
-    // c does not change with the lengths.
-    let pair = Pair::of_tangents(times(-scale * length, before), times(1.0 / length, now));
-    times(-1.0 / length, pair.c)
-}
-
 impl Beam {
     /// A beam with nodes at the ascending arc lengths `nodes` \[m\], whose centreline without stress is `curve(s)`, with the
     /// sections `section(s)` in its axes.
@@ -136,7 +126,7 @@ impl Beam {
             validate(&section, s, length)?;
             let q = chunk_mut::<COORDINATES>(&mut initial, ELEMENT_COORDINATES * e);
             let element = Element::new(length, q, |z| section(s + z * length));
-            let slope = element.middle_slope(&[0, 3, 12, 15].map(|at| vector(q, at)));
+            let slope = element.middle_slope(&positions(q));
             let middle = curve(s + 0.5 * length);
             let middle = Triad::new(middle.tangent, middle.normal).transported(slope, 0.0);
             q[9..12].copy_from_slice(&middle.normal);
@@ -216,7 +206,7 @@ impl Beam {
 
     /// r′ in the middle of an element whose coordinates begin at `at`.
     fn middle_slope(element: &Element, q: &[f64], at: usize) -> Vector {
-        element.middle_slope(&[0, 3, 12, 15].map(|k| vector(q, at + k)))
+        element.middle_slope(&positions(chunk(q, at)))
     }
 
     /// `out` = q ⊞ d
@@ -255,18 +245,17 @@ impl Beam {
     /// `out` = ḋ = T(d)⁻¹ v, the rate of the increment d in `from` ⊞ d where the velocity is v.
     pub fn rate(&self, from: &[f64], d: &[f64], v: &[f64], out: &mut [f64]) {
         out.copy_from_slice(v);
-        let now = |before: Vector, d: Vector| super::triad::plus(before, 1.0, d);
+        let turn = |from: Vector, d: Vector, rate: Vector| {
+            let now = Triad::new(super::triad::plus(from, 1.0, d), [0.0; 3]);
+            inner(now.spin_by_slope(d), rate)
+        };
         for node in 0..=self.elements.len() {
             let (i, j) = (ELEMENT_COORDINATES * node, ELEMENT_VELOCITIES * node);
-            let before = vector(from, i + 3);
-            let row = spin_by_slope(before, now(before, vector(d, j + 3)));
-            out[j + 6] -= inner(row, vector(v, j + 3));
+            out[j + 6] -= turn(vector(from, i + 3), vector(d, j + 3), vector(v, j + 3));
         }
         for (element, i, j) in self.middles() {
-            let rates = |x: &[f64]| element.middle_slope(&CENTRELINE.map(|at| vector(x, j + at)));
-            let before = Beam::middle_slope(element, from, i);
-            let row = spin_by_slope(before, now(before, rates(d)));
-            out[j + 7] -= inner(row, rates(v));
+            let rates = |x: &[f64]| element.middle_slope(&centreline(chunk(x, j)));
+            out[j + 7] -= turn(Beam::middle_slope(element, from, i), rates(d), rates(v));
         }
     }
 
@@ -290,16 +279,9 @@ impl Beam {
     ) {
         for (element, i, j) in self.middles() {
             let motion = Motion { q: chunk(q, i), v: chunk(v, j), a: chunk(a, j) };
-            let mut tangent = [[0.0; 16]; VELOCITIES];
-            match w.increment {
-                Some(d) if w.q != 0.0 => {
-                    let stiff = Weights::new(0.0, 0.0, w.q);
-                    element.add_tangent(&motion, &stiff, &mut tangent);
-                    move_columns(element, motion.q, chunk(d, j), &mut tangent);
-                    element.add_tangent(&motion, &Weights::new(w.a, w.v, 0.0), &mut tangent);
-                }
-                _ => element.add_tangent(&motion, w, &mut tangent),
-            }
+            let mut tangent = [[0.0; VELOCITIES]; VELOCITIES];
+            let w = Weights { increment: w.increment.map(|d| &d[j..]), ..*w };
+            element.add_tangent(&motion, &w, &mut tangent);
             add(j, &tangent);
         }
     }
@@ -312,24 +294,6 @@ impl Beam {
     /// Kinetic energy \[J\].
     pub fn kinetic_energy(&self, q: &[f64], v: &[f64]) -> f64 {
         self.middles().map(|(element, i, j)| element.kinetic_energy(chunk(q, i), chunk(v, j))).sum()
-    }
-}
-
-/// tangent ← tangent T(d): the columns of r′ take up those of the spins.
-fn move_columns(element: &Element, q: &[f64; COORDINATES], d: &[f64; VELOCITIES], tangent: &mut Tangent) {
-    let (x, d) = ([0, 3, 12, 15].map(|at| vector(q, at)), centreline(d));
-    let before = |now: Vector, d: Vector| super::triad::plus(now, -1.0, d);
-    let slopes = [(x[1], d[1]), (element.middle_slope(&x), element.middle_slope(&d)), (x[3], d[3])];
-    let shares = [[0.0, 1.0, 0.0, 0.0], *element.middle(), [0.0, 0.0, 0.0, 1.0]];
-    for (((now, d), share), spin) in slopes.into_iter().zip(shares).zip(SPINS) {
-        let by_slope = spin_by_slope(before(now, d), now);
-        for row in tangent.iter_mut() {
-            for i in 0..4 {
-                for k in 0..3 {
-                    row[CENTRELINE[i] + k] += row[spin] * share[i] * by_slope[k];
-                }
-            }
-        }
     }
 }
 

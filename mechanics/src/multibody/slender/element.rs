@@ -4,27 +4,15 @@ use super::inertia::{Rate, Rotation};
 use super::pair::Pair;
 use super::properties::Properties;
 use super::shapes::{MASS_POINTS, POINTS, Point, Shapes, hermite};
-use super::stiffness::{self, Tangent};
+use super::stiffness;
 use super::strain::{
-    CENTRELINE, COORDINATES, Forces, SPINS, Section, Sections, VELOCITIES, centreline, combined,
+    CENTRELINE, COORDINATES, Forces, SPINS, Section, Sections, Stiffness, VARIABLES, VELOCITIES, centreline,
+    chord, combined, positions, shares,
 };
-use super::triad::{Triad, Vector, plus, times, vector};
+use super::triad::{Triad, Vector, plus, times};
 use crate::linalg::vector::inner;
 use crate::quadrature::Gauss;
 use crate::system::Weights;
-
-/// The stiffness matrix C of a section.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Stiffness(pub [[f64; 4]; 4]);
-
-impl Stiffness {
-    /// weight · C (γ − γ₀)
-    #[inline(always)]
-    pub fn stress(&self, strain: &[f64; 4], initial: &[f64; 4], weight: f64) -> [f64; 4] {
-        let strain: [f64; 4] = std::array::from_fn(|k| weight * (strain[k] - initial[k]));
-        self.0.map(|row| inner(row, strain))
-    }
-}
 
 /// Motion of an element: its coordinates, velocities and accelerations in the order of [`VELOCITIES`].
 #[derive(Clone, Copy, Debug)]
@@ -36,6 +24,12 @@ pub struct Motion<'a> {
     /// The derivatives of v.
     pub a: &'a [f64; VELOCITIES],
 }
+
+/// Matrix of an element, by rows.
+pub type Tangent = [[f64; VELOCITIES]; VELOCITIES];
+
+/// What a variable of the strains is among the velocities of an element: r₂ − r₁ is two of them.
+const PLACES: [usize; VARIABLES] = [8, 9, 10, 3, 4, 5, 11, 12, 13, 6, 7, 14];
 
 /// An element of a slender beam. See the [module documentation](super).
 #[derive(Clone, Debug)]
@@ -88,14 +82,9 @@ impl Element {
         self.shapes.length
     }
 
-    /// r′ in the middle, or its rate, by those of the ends.
+    /// r′ in the middle, or its rate, by r₁, r′₁, r₂, r′₂ or theirs.
     pub(super) fn middle_slope(&self, centreline: &[Vector; 4]) -> Vector {
-        combined(&self.shapes.middle, centreline)
-    }
-
-    /// N′ in the middle, by which r₁, r′₁, r₂, r′₂ make r′ there.
-    pub(super) fn middle(&self) -> &[f64; 4] {
-        &self.shapes.middle
+        combined(&self.shapes.middle, &chord(centreline))
     }
 
     /// Strain energy \[J\].
@@ -128,7 +117,7 @@ impl Element {
 
     /// ∫ρA r ds [kg·m], the mass times its centre.
     pub fn first_moment(&self, q: &[f64; COORDINATES]) -> Vector {
-        combined(&self.weight, &[0, 3, 12, 15].map(|at| vector(q, at)))
+        combined(&self.weight, &positions(q))
     }
 
     /// Mass \[kg\].
@@ -139,60 +128,102 @@ impl Element {
     /// Rotation of section `k` of the three.
     #[inline(always)]
     fn rotation(&self, k: usize, s: &Sections, v: &[f64; VELOCITIES], a: &[f64; VELOCITIES]) -> Rotation {
-        let rate = |x: &[f64; VELOCITIES]| {
-            let slope = match k {
-                0 => vector(x, CENTRELINE[1]),
-                1 => combined(&self.shapes.middle, &centreline(x)),
-                _ => vector(x, CENTRELINE[3]),
-            };
-            Rate { slope, spin: x[SPINS[k]] }
-        };
+        let parts = &shares(&self.shapes)[k];
+        let rate = |x| Rate { slope: combined(parts, &chord(&centreline(x))), spin: x[SPINS[k]] };
         Rotation::new(&s.triads[k], rate(v), rate(a), self.inertia[k], self.damping)
     }
 
     /// Adds the forces of strain and inertia, ∂U/∂q + M a + …, to `r`.
     pub fn add_forces(&self, m: &Motion<'_>, r: &mut [f64; VELOCITIES]) {
         let sections = Sections::new(&self.shapes, m.q);
-        let mut forces = Forces::default();
+        let mut forces = Forces::ZERO;
         for ((at, stiffness), initial) in self.shapes.points.iter().zip(&self.stiffness).zip(&self.initial) {
             let section = Section::new(at, &sections);
-            forces.add(at, &section, stiffness.stress(&section.strain, initial, at.weight));
+            let stress = stiffness.stress(&section.strain, initial, at.weight);
+            forces.add(at, &section, &sections.triads[1], &section.forces(stress));
         }
+        let mut total = forces.total(&self.shapes, &sections);
+        if self.has_rotary_inertia {
+            for (k, parts) in shares(&self.shapes).iter().enumerate() {
+                let force = self.rotation(k, &sections, m.v, m.a).force();
+                total[9 + k] += force.spin;
+                (0..9).for_each(|i| total[i] += parts[i / 3] * force.slope[i % 3]);
+            }
+        }
+        for i in 0..VARIABLES {
+            r[PLACES[i]] += total[i];
+        }
+        (0..3).for_each(|k| r[k] -= total[k]);
         let (v, a) = (centreline(m.v), centreline(m.a));
         let rate: [Vector; 4] = std::array::from_fn(|i| plus(a[i], self.damping, v[i]));
         for i in 0..4 {
-            forces.centreline[i] = plus(forces.centreline[i], 1.0, combined(&self.mass[i], &rate));
+            let force = combined(&self.mass[i], &rate);
+            (0..3).for_each(|k| r[CENTRELINE[i] + k] += force[k]);
         }
-        forces.scatter(&self.shapes, &sections, r);
-        if !self.has_rotary_inertia {
-            return;
+    }
+
+    /// Adds w.q ∂r/∂d + w.v ∂r/∂v + w.a ∂r/∂a to `out`: by the increment d of the element since the configuration that was
+    /// retracted, or by variations (δr, δr′, δΘ) where `w.increment` is `None`.
+    pub fn add_tangent(&self, m: &Motion<'_>, w: &Weights<'_>, out: &mut Tangent) {
+        let sections = Sections::new(&self.shapes, m.q);
+        let parts = shares(&self.shapes);
+        // δΘ = δφ + turn·δr′ at the three sections.
+        let mut turns = [[0.0; 3]; 3];
+        if let Some(d) = w.increment.and_then(|d| d.first_chunk()) {
+            let d = chord(&centreline(d));
+            for k in 0..3 {
+                turns[k] = sections.triads[k].spin_by_slope(combined(&parts[k], &d));
+            }
         }
-        for k in 0..3 {
-            let force = self.rotation(k, &sections, m.v, m.a).force();
-            r[SPINS[k]] += force.spin;
-            for (i, share) in self.shares(k) {
-                for l in 0..3 {
-                    r[CENTRELINE[i] + l] += share * force.slope[l];
+        let mut tangent = [[0.0; VARIABLES]; VARIABLES];
+        if w.q != 0.0 {
+            tangent = stiffness::tangent(&self.shapes, &self.stiffness, &self.initial, &sections, w.q);
+            if w.increment.is_some() {
+                for row in &mut tangent {
+                    for k in 0..3 {
+                        (0..9).for_each(|i| row[i] += row[9 + k] * parts[k][i / 3] * turns[k][i % 3]);
+                    }
                 }
             }
         }
-    }
-
-    /// The unknowns of the centreline that make r′ at section `k` of the three, and their parts.
-    fn shares(&self, k: usize) -> impl Iterator<Item = (usize, f64)> + Clone {
-        let parts = match k {
-            0 => [0.0, 1.0, 0.0, 0.0],
-            1 => self.shapes.middle,
-            _ => [0.0, 0.0, 0.0, 1.0],
-        };
-        parts.into_iter().enumerate().filter(|(_, part)| *part != 0.0)
-    }
-
-    /// Adds the derivative of the forces to `out`. By q it is that along variations δr, δr′, δΘ of the configuration.
-    pub fn add_tangent(&self, m: &Motion<'_>, w: &Weights<'_>, out: &mut Tangent) {
-        let sections = Sections::new(&self.shapes, m.q);
-        if w.q != 0.0 {
-            stiffness::add_tangent(&self.shapes, &self.stiffness, &self.initial, &sections, w.q, out);
+        if self.has_rotary_inertia {
+            for k in 0..3 {
+                let rotation = self.rotation(k, &sections, m.v, m.a);
+                for direction in 0..4 {
+                    let mut unit = Rate::default();
+                    match direction {
+                        3 => unit.spin = 1.0,
+                        axis => unit.slope[axis] = 1.0,
+                    }
+                    let rate = |c: f64, spin: f64| Rate {
+                        slope: times(c, unit.slope),
+                        spin: c * (unit.spin + spin),
+                    };
+                    let turn = inner(turns[k], unit.slope);
+                    let change = rotation.derivative(rate(w.q, turn), rate(w.v, 0.0), rate(w.a, 0.0));
+                    let mut add = |column: usize, part: f64| {
+                        tangent[9 + k][column] += part * change.spin;
+                        (0..9)
+                            .for_each(|i| tangent[i][column] += part * parts[k][i / 3] * change.slope[i % 3]);
+                    };
+                    match direction {
+                        3 => add(9 + k, 1.0),
+                        axis => (0..3).for_each(|j| add(3 * j + axis, parts[k][j])),
+                    }
+                }
+            }
+        }
+        for i in 0..VARIABLES {
+            for j in 0..VARIABLES {
+                out[PLACES[i]][PLACES[j]] += tangent[i][j];
+            }
+            for k in 0..3 {
+                out[k][PLACES[i]] -= tangent[k][i];
+                out[PLACES[i]][k] -= tangent[i][k];
+                if i < 3 {
+                    out[i][k] += tangent[i][k];
+                }
+            }
         }
         let inertia = w.a + self.damping * w.v;
         for i in 0..4 {
@@ -200,41 +231,6 @@ impl Element {
                 for k in 0..3 {
                     out[CENTRELINE[i] + k][CENTRELINE[j] + k] += inertia * self.mass[i][j];
                 }
-            }
-        }
-        if !self.has_rotary_inertia {
-            return;
-        }
-        for k in 0..3 {
-            let rotation = self.rotation(k, &sections, m.v, m.a);
-            for direction in 0..4 {
-                let along = |c: f64| {
-                    let mut rate = Rate::default();
-                    match direction {
-                        3 => rate.spin = c,
-                        axis => rate.slope[axis] = c,
-                    }
-                    rate
-                };
-                let change = rotation.derivative(along(w.q), along(w.v), along(w.a));
-                if direction == 3 {
-                    self.add_column(k, SPINS[k], 1.0, &change, out);
-                } else {
-                    for (j, share) in self.shares(k) {
-                        self.add_column(k, CENTRELINE[j] + direction, share, &change, out);
-                    }
-                }
-            }
-        }
-    }
-
-    /// Adds a change of the forces at section `k` of the three to a column.
-    #[inline(always)]
-    fn add_column(&self, k: usize, column: usize, scale: f64, change: &Rate, out: &mut Tangent) {
-        out[SPINS[k]][column] += scale * change.spin;
-        for (i, share) in self.shares(k) {
-            for l in 0..3 {
-                out[CENTRELINE[i] + l][column] += scale * share * change.slope[l];
             }
         }
     }
@@ -261,7 +257,7 @@ impl Element {
     pub fn section(&self, q: &[f64; COORDINATES], z: f64) -> (Vector, Triad, [f64; 4]) {
         let sections = Sections::new(&self.shapes, q);
         let at = Point::at(z, 0.0, self.shapes.length);
-        let position = combined(&hermite(z, self.shapes.length)[0], &sections.centreline);
+        let position = combined(&hermite(z, self.shapes.length)[0], &positions(q));
         let mut strain = [0.0; 4];
         let places = self.shapes.points.map(|at| at.place);
         for (k, point) in self.shapes.points.iter().enumerate() {

@@ -12,7 +12,7 @@ mod strain;
 mod triad;
 
 pub use beam::{Beam, BeamError, ELEMENT_COORDINATES, ELEMENT_VELOCITIES, Station};
-pub use element::{Element, Motion};
+pub use element::{Element, Motion, Tangent};
 pub use loads::{Load, SectionForces};
 pub use pair::Pair;
 pub use properties::Properties;

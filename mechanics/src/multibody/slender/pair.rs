@@ -77,6 +77,16 @@ impl Pair {
     }
 }
 
+impl Triad {
+    /// The vector x in δΘ = δφ + x·δr′ for increments (δr′, φ) of a configuration whose r′ was less by `increment`: x = −c/|r′|
+    /// with c of the tangents before and now.
+    pub fn spin_by_slope(&self, increment: Vector) -> Vector {
+        let before = plus(times(self.length, self.tangent), -1.0, increment);
+        let before = times(1.0 / inner(before, before).sqrt(), before);
+        times(-1.0 / self.length, Pair::of_tangents(before, self.tangent).c)
+    }
+}
+
 /// \[x\]×, with \[x\]× y = x × y.
 #[inline(always)]
 pub(super) fn skew(x: Vector) -> Block {

@@ -1,6 +1,6 @@
 //! Shape functions of an element at the points where it is evaluated.
 //!
-//! The centreline is cubic, r = Σ Nᵢ(s) xᵢ with x = (r₁, r′₁, r₂, r′₂). What is sampled at the first node, in the middle and
+//! The centreline is cubic, r = Σ Nᵢ(s) xᵢ with x = (r₁, r′₁, r₂, r′₂); its derivatives need (r₂ − r₁, r′₁, r′₂) alone. What is sampled at the first node, in the middle and
 //! at the second node is interpolated by the quadratic Lagrange functions L. The torsion follows from the angles of twist
 //! φ₁ₘ, φₘ₂, φ₁₂ between the three sections (1, m, 2). Seen from any of the three, φ is interpolated quadratically; the
 //! three slopes there are sampled and interpolated in turn:
@@ -22,8 +22,8 @@ pub(super) const MASS_POINTS: usize = 4;
 pub(super) struct Shapes {
     pub length: f64,
     pub points: [Point; POINTS],
-    /// N′ in the middle.
-    pub middle: [f64; 4],
+    /// r′ in the middle by (r₂ − r₁, r′₁, r′₂).
+    pub middle: [f64; 3],
 }
 
 /// Shape functions at a quadrature point.
@@ -33,9 +33,9 @@ pub(super) struct Point {
     pub place: f64,
     /// Weight \[m\].
     pub weight: f64,
-    /// N′ and N″.
-    pub slope: [f64; 4],
-    pub curvature: [f64; 4],
+    /// r′ and r″ by (r₂ − r₁, r′₁, r′₂).
+    pub slope: [f64; 3],
+    pub curvature: [f64; 3],
     /// L and P.
     pub sample: [f64; 3],
     pub torsion: [f64; 3],
@@ -44,7 +44,7 @@ pub(super) struct Point {
 impl Point {
     /// The functions at the place z of an element of length h.
     pub fn at(place: f64, weight: f64, length: f64) -> Point {
-        let [_, slope, curvature] = hermite(place, length);
+        let [_, slope, curvature] = hermite(place, length).map(|n| [n[2], n[1], n[3]]);
         Point { place, weight, slope, curvature, sample: sample(place), torsion: torsion(place, length) }
     }
 }
@@ -56,7 +56,7 @@ impl Shapes {
         for (point, (z, weight)) in points.iter_mut().zip(Gauss::new(POINTS).on(0.0, 1.0)) {
             *point = Point::at(z, weight * length, length);
         }
-        Shapes { length, points, middle: hermite(0.5, length)[1] }
+        Shapes { length, points, middle: [1.5 / length, -0.25, -0.25] }
     }
 }
 

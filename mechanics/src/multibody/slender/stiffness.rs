@@ -1,25 +1,32 @@
 //! The second variation of the strain energy of an element.
 //!
-//! At a quadrature point all is written in nine variations: the components along t, n, b of δr′ and of δr″, then δΘ, δε and
-//! δκ₁. Each is a row over the unknowns of the element. With m₂, m₃ the moments, F = m₂ δκ₂ + m₃ δκ₃ as a row, c = m₂κ₂ + m₃κ₃,
+//! At a quadrature point all is written in nine variations: δr′ and δr″, first along t, n, b and then along fixed axes, then
+//! δΘ, δε and δκ₁. The derivatives of the forces on them are rows over the variables of the strains, and are summed in the same
+//! way as the forces themselves. With m₂, m₃ the moments, F = m₂ δκ₂ + m₃ δκ₃ as a row, c = m₂κ₂ + m₃κ₃,
 //! and ω = m₂κ₃ − m₃κ₂, differentiation of the variations in [`super::strain`] gives, by
 //! δt = (n n·δr′ + b b·δr′)/|r′|, δn = δΘ b − t n·δr′/|r′|, δb = −δΘ n − t b·δr′/|r′|, a 7 × 7 matrix of few entries, and
 //! ω times the variation of δΘ itself: that of the vectors c of the pairs.
 
-use super::element::Stiffness;
 use super::pair::Block;
 use super::shapes::{POINTS, Point, Shapes};
-use super::strain::{CENTRELINE, ENDS, Forces, SPINS, Section, Sections};
-use super::triad::{Vector, times};
+use super::strain::{ENDS, Forces, Linear, Local, Section, Sections, Stiffness, VARIABLES, shares};
+use super::triad::{Triad, times};
 
-/// Unknowns of an element, and one more place that stays zero.
-const WIDTH: usize = 16;
-/// A linear form on the variations of an element's unknowns.
-type Row = [f64; WIDTH];
-/// Matrix of an element; the last column is not used.
-pub(super) type Tangent = [Row; 15];
+/// A force's derivative by the variables of the strains.
+type Row = [f64; VARIABLES];
 
-/// Numbers of the variations at a point: those of r′ and r″ along t, n, b, then Θ, ε, κ₁.
+impl Linear for Row {
+    const ZERO: Row = [0.0; VARIABLES];
+
+    #[inline(always)]
+    fn add(&mut self, c: f64, x: &Row) {
+        for k in 0..VARIABLES {
+            self[k] += c * x[k];
+        }
+    }
+}
+
+/// Numbers of the variations at a point: those of r′ and r″, then Θ, ε, κ₁.
 const SLOPE: usize = 0;
 const CURVATURE: usize = 3;
 const SPIN: usize = 6;
@@ -27,30 +34,7 @@ const AXIAL: usize = 7;
 const TORSION: usize = 8;
 const LOCAL: usize = 9;
 
-/// row += n ⊗ x
-#[inline(always)]
-fn spread(row: &mut Row, n: &[f64; 4], x: Vector) {
-    for i in 0..4 {
-        for k in 0..3 {
-            row[CENTRELINE[i] + k] += n[i] * x[k];
-        }
-    }
-}
-
-/// row += c other
-#[inline(always)]
-fn add(row: &mut Row, c: f64, other: &Row) {
-    for k in 0..WIDTH {
-        row[k] += c * other[k];
-    }
-}
-
-/// N′ at the sections: of r′₁, r′ₘ, r′₂ by the centreline's unknowns.
-fn slopes(shapes: &Shapes) -> [[f64; 4]; 3] {
-    [[0.0, 1.0, 0.0, 0.0], shapes.middle, [0.0, 0.0, 0.0, 1.0]]
-}
-
-/// δκ₂ and δκ₃ of the seven variations of r′, r″ and Θ; δε and δκ₁ are variations themselves.
+/// δκ₂ and δκ₃ of the variations of r′ and r″ along t, n, b and of Θ.
 #[inline(always)]
 fn bending(section: &Section) -> [[f64; LOCAL]; 2] {
     let [_, _, k2, k3] = section.strain;
@@ -63,30 +47,26 @@ fn bending(section: &Section) -> [[f64; LOCAL]; 2] {
     [second, third]
 }
 
-/// The matrix of the nine variations: that of the material, γᵀ C γ, and that of the moments.
+/// The derivative of the forces on the nine variations, along t, n, b: that of the stress, γᵀ C γ, and that of the
+/// variations of the strains.
 #[inline(always)]
-fn local(
+fn along_axes(
     section: &Section,
     stress: [f64; 4],
-    stiffness: &[[f64; 4]; 4],
+    stiffness: &Stiffness,
     weight: f64,
 ) -> [[f64; LOCAL]; LOCAL] {
     let [second, third] = bending(section);
-    let mut rows = [[0.0; LOCAL], [0.0; LOCAL], second, third];
-    (rows[0][AXIAL], rows[1][TORSION]) = (1.0, 1.0);
     let mut out = [[0.0; LOCAL]; LOCAL];
-    for a in 0..4 {
-        let mut product = [0.0; LOCAL];
-        for b in 0..4 {
-            let c = weight * stiffness[a][b];
-            for k in 0..LOCAL {
-                product[k] += c * rows[b][k];
-            }
-        }
-        for i in 0..LOCAL {
-            for k in 0..LOCAL {
-                out[i][k] += rows[a][i] * product[k];
-            }
+    let products = stiffness.0.map(|c| {
+        let mut row: [f64; LOCAL] = std::array::from_fn(|k| weight * (c[2] * second[k] + c[3] * third[k]));
+        (row[AXIAL], row[TORSION]) = (weight * c[0], weight * c[1]);
+        row
+    });
+    (out[AXIAL], out[TORSION]) = (products[0], products[1]);
+    for i in 0..AXIAL {
+        for k in 0..LOCAL {
+            out[i][k] = second[i] * products[2][k] + third[i] * products[3][k];
         }
     }
     let [_, _, m2, m3] = stress;
@@ -101,10 +81,10 @@ fn local(
         out[n][k] -= m3 * inverse * along[k];
         out[b][k] += m2 * inverse * along[k];
     }
-    for k in 0..SPIN + 1 {
-        let force = m2 * second[k] + m3 * third[k];
-        out[t][k] -= inverse * force;
-        out[k][t] -= inverse * force;
+    for k in 0..AXIAL {
+        let force = inverse * (m2 * second[k] + m3 * third[k]);
+        out[t][k] -= force;
+        out[k][t] -= force;
         out[SPIN][k] += m2 * third[k] - m3 * second[k];
     }
     let square = inverse * inverse;
@@ -122,121 +102,155 @@ fn local(
     out
 }
 
-/// Rows that all quadrature points share.
+/// The same along fixed axes: rows and columns of r′ and r″ multiplied by Λ.
+#[inline(always)]
+fn along_fixed_axes(triad: &Triad, mut matrix: [[f64; LOCAL]; LOCAL]) -> [[f64; LOCAL]; LOCAL] {
+    for at in [SLOPE, CURVATURE] {
+        for row in &mut matrix {
+            let turned = triad.outward([row[at], row[at + 1], row[at + 2]]);
+            row[at..at + 3].copy_from_slice(&turned);
+        }
+    }
+    let mut out = matrix;
+    for at in [SLOPE, CURVATURE] {
+        for k in 0..LOCAL {
+            let turned = triad.outward([matrix[at][k], matrix[at + 1][k], matrix[at + 2][k]]);
+            for i in 0..3 {
+                out[at + i][k] = turned[i];
+            }
+        }
+    }
+    out
+}
+
+/// Variations of the samples of ε and of the angles of the pairs, as rows.
 struct Rows {
-    /// δε at the three sections.
     samples: [Row; 3],
-    /// δφ of the three pairs.
     angles: [Row; 3],
 }
 
 impl Rows {
     fn new(shapes: &Shapes, sections: &Sections) -> Rows {
-        let (mut samples, mut angles) = ([[0.0; WIDTH]; 3], [[0.0; WIDTH]; 3]);
-        let slopes = slopes(shapes);
+        let (mut samples, mut angles) = ([Row::ZERO; 3], [Row::ZERO; 3]);
+        let parts = shares(shapes);
         for (i, row) in samples.iter_mut().enumerate() {
-            spread(row, &slopes[i], sections.triads[i].tangent);
+            add_vector(row, &parts[i], sections.triads[i].tangent);
         }
         for ((row, pair), [a, b]) in angles.iter_mut().zip(&sections.pairs).zip(ENDS) {
-            row[SPINS[a]] -= 1.0;
-            row[SPINS[b]] += 1.0;
+            row[9 + a] -= 1.0;
+            row[9 + b] += 1.0;
             for i in [a, b] {
-                spread(row, &slopes[i], times(1.0 / sections.triads[i].length, pair.c));
+                add_vector(row, &parts[i], times(1.0 / sections.triads[i].length, pair.c));
             }
         }
         Rows { samples, angles }
     }
 
-    /// The nine rows at a quadrature point.
+    /// δΘ, δε, δκ₁ at a point.
     #[inline(always)]
-    fn at(&self, at: &Point, middle: &[f64; 4], length: f64, section: &Section) -> [Row; LOCAL] {
-        let mut rows = [[0.0; WIDTH]; LOCAL];
-        let triad = &section.triad;
-        for (k, axis) in [triad.tangent, triad.normal, triad.binormal].into_iter().enumerate() {
-            spread(&mut rows[SLOPE + k], &at.slope, axis);
-            spread(&mut rows[CURVATURE + k], &at.curvature, axis);
-        }
+    fn at(&self, at: &Point, shapes: &Shapes, middle: &Triad, section: &Section) -> [Row; 3] {
+        let [mut spin, mut axial, mut torsion] = [Row::ZERO; 3];
         for k in 0..3 {
-            add(&mut rows[AXIAL], at.sample[k], &self.samples[k]);
-            add(&mut rows[TORSION], at.torsion[k], &self.angles[k]);
+            axial.add(at.sample[k], &self.samples[k]);
+            torsion.add(at.torsion[k], &self.angles[k]);
         }
-        let spin = &mut rows[SPIN];
-        spin[SPINS[1]] = 1.0;
-        add(spin, -at.sample[0], &self.angles[0]);
-        add(spin, at.sample[2], &self.angles[1]);
-        spread(spin, middle, times(-1.0 / length, section.pair.c));
-        spread(spin, &at.slope, times(-1.0 / triad.length, section.pair.c));
-        rows
+        spin[10] = 1.0;
+        spin.add(-at.sample[0], &self.angles[0]);
+        spin.add(at.sample[2], &self.angles[1]);
+        let (here, there) = (-1.0 / section.triad.length, -1.0 / middle.length);
+        let parts = std::array::from_fn(|i| there * shapes.middle[i] + here * at.slope[i]);
+        add_vector(&mut spin, &parts, section.pair.c);
+        [spin, axial, torsion]
     }
 }
 
-/// out += (m ⊗ n) ⊗ block on the centreline's unknowns.
+/// row += n ⊗ x on (r₂ − r₁, r′₁, r′₂)
 #[inline(always)]
-fn spread_block(out: &mut Tangent, m: &[f64; 4], n: &[f64; 4], block: &Block) {
-    for i in 0..4 {
-        for j in 0..4 {
-            let weight = m[i] * n[j];
-            for k in 0..3 {
-                for l in 0..3 {
-                    out[CENTRELINE[i] + k][CENTRELINE[j] + l] += weight * block[k][l];
-                }
-            }
+fn add_vector(row: &mut Row, n: &[f64; 3], x: [f64; 3]) {
+    for i in 0..3 {
+        for k in 0..3 {
+            row[3 * i + k] += n[i] * x[k];
         }
     }
 }
 
-/// Adds `weight` times the derivative of the forces of the strain energy to `out`.
-pub(super) fn add_tangent(
+/// rows += block · (n ⊗ 1) on (r₂ − r₁, r′₁, r′₂)
+#[inline(always)]
+fn add_block(rows: &mut [Row; 3], block: &Block, n: &[f64; 3]) {
+    for k in 0..3 {
+        add_vector(&mut rows[k], n, block[k]);
+    }
+}
+
+/// `weight` times the derivative of the forces of the strain energy on the variables of the strains.
+pub(super) fn tangent(
     shapes: &Shapes,
     stiffness: &[Stiffness; POINTS],
     initial: &[[f64; 4]; POINTS],
     sections: &Sections,
     weight: f64,
-    out: &mut Tangent,
-) {
+) -> [Row; VARIABLES] {
     let rows = Rows::new(shapes, sections);
-    let triads = &sections.triads;
-    let mut forces = Forces::default();
+    let Sections { triads, pairs, .. } = sections;
+    let (mut forces, mut changes) = (Forces::<f64>::ZERO, Forces::<Row>::ZERO);
     for ((at, stiffness), initial) in shapes.points.iter().zip(stiffness).zip(initial) {
         let section = Section::new(at, sections);
-        let scale = weight * at.weight;
-        let stress = stiffness.stress(&section.strain, initial, scale);
-        forces.add(at, &section, stress);
-        let matrix = local(&section, stress, &stiffness.0, scale);
-        let rows = rows.at(at, &shapes.middle, triads[1].length, &section);
-        for i in 0..LOCAL {
-            let mut product = [0.0; WIDTH];
-            for k in 0..LOCAL {
-                add(&mut product, matrix[i][k], &rows[k]);
+        let stress = stiffness.stress(&section.strain, initial, weight * at.weight);
+        let force = section.forces(stress);
+        forces.add(at, &section, &triads[1], &force);
+        let matrix = along_axes(&section, stress, stiffness, weight * at.weight);
+        let matrix = along_fixed_axes(&section.triad, matrix);
+        let scalars = rows.at(at, shapes, &triads[1], &section);
+        let of = |row: &[f64; LOCAL]| {
+            let mut out = Row::ZERO;
+            for i in 0..3 {
+                out.add(row[SPIN + i], &scalars[i]);
             }
-            for k in 0..15 {
-                add(&mut out[k], rows[i][k], &product);
-            }
-        }
-        let [_, _, m2, m3] = stress;
-        let [_, _, k2, k3] = section.strain;
-        let blocks = section.pair.second(&triads[1], &section.triad, m3 * k2 - m2 * k3);
-        let slopes = [&shapes.middle, &at.slope];
-        for i in 0..2 {
-            for j in 0..2 {
-                spread_block(out, slopes[i], slopes[j], &blocks[i][j]);
-            }
-        }
+            add_vector(&mut out, &at.slope, [row[SLOPE], row[SLOPE + 1], row[SLOPE + 2]]);
+            add_vector(&mut out, &at.curvature, [row[CURVATURE], row[CURVATURE + 1], row[CURVATURE + 2]]);
+            out
+        };
+        let m = matrix.each_ref().map(of);
+        let mut slope = [m[0], m[1], m[2]];
+        // c of the middle and the point, on which the moment −ω acts.
+        let [middle, here] = section.pair.second(&triads[1], &section.triad, -force.spin);
+        let mut on_middle = [Row::ZERO; 3];
+        add_block(&mut on_middle, &middle[0], &shapes.middle);
+        add_block(&mut on_middle, &middle[1], &at.slope);
+        add_block(&mut slope, &here[0], &shapes.middle);
+        add_block(&mut slope, &here[1], &at.slope);
+        let change = Local { slope, curvature: [m[3], m[4], m[5]], spin: m[6], axial: m[7], torsion: m[8] };
+        changes.add(at, &section, &triads[1], &change);
+        changes.add_middle(&on_middle);
     }
-    let slopes = slopes(shapes);
-    for ((pair, [a, b]), force) in sections.pairs.iter().zip(ENDS).zip(forces.angles) {
-        let blocks = pair.second(&triads[a], &triads[b], force);
-        for (i, row) in [a, b].into_iter().zip(blocks) {
-            for (j, block) in [a, b].into_iter().zip(row) {
-                spread_block(out, &slopes[i], &slopes[j], &block);
+    let mut out = changes.total(shapes, sections);
+    let (samples, angles) = forces.of_samples_and_angles();
+    // The derivatives of t and c at the sections, by r′ at the sections.
+    let mut blocks = [[[[0.0; 3]; 3]; 3]; 3];
+    for ((pair, ends), force) in pairs.iter().zip(ENDS).zip(angles) {
+        let second = pair.second(&triads[ends[0]], &triads[ends[1]], force);
+        for (i, row) in ends.into_iter().zip(second) {
+            for (j, block) in ends.into_iter().zip(row) {
+                (0..9).for_each(|k| blocks[i][j][k / 3][k % 3] += block[k / 3][k % 3]);
             }
         }
     }
     for i in 0..3 {
-        let (t, scale) = (triads[i].tangent, forces.samples[i] / triads[i].length);
-        let block = std::array::from_fn(|k| {
-            std::array::from_fn(|l| scale * (f64::from(u8::from(k == l)) - t[k] * t[l]))
-        });
-        spread_block(out, &slopes[i], &slopes[i], &block);
+        let (t, scale) = (triads[i].tangent, samples[i] / triads[i].length);
+        for k in 0..3 {
+            blocks[i][i][k][k] += scale;
+            (0..3).for_each(|l| blocks[i][i][k][l] -= scale * t[k] * t[l]);
+        }
     }
+    let parts = shares(shapes);
+    for i in 0..3 {
+        let mut rows = [Row::ZERO; 3];
+        for j in 0..3 {
+            add_block(&mut rows, &blocks[i][j], &parts[j]);
+        }
+        for part in (0..3).filter(|part| parts[i][*part] != 0.0) {
+            (0..3).for_each(|k| out[3 * part + k].add(parts[i][part], &rows[k]));
+        }
+    }
+    out
 }

@@ -18,6 +18,7 @@
 use super::pair::Pair;
 use super::shapes::{Point, Shapes};
 use super::triad::{Triad, Vector, plus, times, vector};
+use crate::linalg::vector::inner;
 
 /// Coordinates of an element: r₁, r′₁, n₁, nₘ, r₂, r′₂, n₂.
 pub const COORDINATES: usize = 21;
@@ -29,24 +30,47 @@ pub(super) const CENTRELINE: [usize; 4] = [0, 3, 8, 11];
 pub(super) const SPINS: [usize; 3] = [6, 7, 14];
 /// The sections of the pairs of angles φ₁ₘ, φₘ₂, φ₁₂.
 pub(super) const ENDS: [[usize; 2]; 3] = [[0, 1], [1, 2], [0, 2]];
+/// What the strains depend on: r₂ − r₁, r′₁, r′₂ and the rotations of the three sections about their tangents.
+pub(super) const VARIABLES: usize = 12;
 
-/// Σ Nᵢ xᵢ
+/// Σ nᵢ xᵢ
 #[inline(always)]
-pub(super) fn combined(n: &[f64; 4], x: &[Vector; 4]) -> Vector {
-    std::array::from_fn(|k| n[0] * x[0][k] + n[1] * x[1][k] + n[2] * x[2][k] + n[3] * x[3][k])
+pub(super) fn combined<const N: usize>(n: &[f64; N], x: &[Vector; N]) -> Vector {
+    let mut out = [0.0; 3];
+    for i in 0..N {
+        out = plus(out, n[i], x[i]);
+    }
+    out
 }
 
-/// The centreline's unknowns r₁, r′₁, r₂, r′₂ among the velocities of an element, or their rates.
+/// r₁, r′₁, r₂, r′₂ of the coordinates of an element.
+#[inline(always)]
+pub(super) fn positions(q: &[f64; COORDINATES]) -> [Vector; 4] {
+    [0, 3, 12, 15].map(|at| vector(q, at))
+}
+
+/// r₁, r′₁, r₂, r′₂ among the velocities of an element, or their rates.
 #[inline(always)]
 pub(super) fn centreline(v: &[f64; VELOCITIES]) -> [Vector; 4] {
     CENTRELINE.map(|at| vector(v, at))
 }
 
+/// (r₂ − r₁, r′₁, r′₂)
+#[inline(always)]
+pub(super) fn chord(x: &[Vector; 4]) -> [Vector; 3] {
+    [plus(x[2], -1.0, x[0]), x[1], x[3]]
+}
+
+/// The parts that (r₂ − r₁, r′₁, r′₂) have in r′ at the three sections.
+pub(super) fn shares(shapes: &Shapes) -> [[f64; 3]; 3] {
+    [[0.0, 1.0, 0.0], shapes.middle, [0.0, 0.0, 1.0]]
+}
+
 /// The three sections of an element that carry unknowns.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sections {
-    /// r₁, r′₁, r₂, r′₂
-    pub centreline: [Vector; 4],
+    /// (r₂ − r₁, r′₁, r′₂)
+    pub chord: [Vector; 3],
     pub triads: [Triad; 3],
     pub pairs: [Pair; 3],
 }
@@ -54,13 +78,12 @@ pub(super) struct Sections {
 impl Sections {
     #[inline]
     pub fn new(shapes: &Shapes, q: &[f64; COORDINATES]) -> Sections {
-        let centreline = [0, 3, 12, 15].map(|at| vector(q, at));
-        let middle = combined(&shapes.middle, &centreline);
-        let slopes = [centreline[1], middle, centreline[3]];
+        let chord = chord(&positions(q));
+        let slopes = [chord[1], combined(&shapes.middle, &chord), chord[2]];
         let normals = [6, 9, 18].map(|at| vector(q, at));
         let triads: [Triad; 3] = std::array::from_fn(|i| Triad::new(slopes[i], normals[i]));
         let pairs = ENDS.map(|[a, b]| Pair::new(&triads[a], &triads[b]));
-        Sections { centreline, triads, pairs }
+        Sections { chord, triads, pairs }
     }
 }
 
@@ -79,8 +102,8 @@ pub(super) struct Section {
 impl Section {
     #[inline]
     pub fn new(at: &Point, sections: &Sections) -> Section {
-        let Sections { centreline, triads, pairs } = sections;
-        let (slope, curvature) = (combined(&at.slope, centreline), combined(&at.curvature, centreline));
+        let Sections { chord, triads, pairs } = sections;
+        let (slope, curvature) = (combined(&at.slope, chord), combined(&at.curvature, chord));
         let (l, p) = (&at.sample, &at.torsion);
         let twist = l[2] * pairs[1].angle - l[0] * pairs[0].angle;
         let triad = triads[1].transported(slope, twist);
@@ -90,72 +113,152 @@ impl Section {
         let torsion = (0..3).map(|i| p[i] * pairs[i].angle).sum();
         Section { triad, pair, along, strain: [axial, torsion, -third, second] }
     }
-}
 
-/// Forces on what the strains are made of, summed over the quadrature points.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Forces {
-    /// On the samples of ε.
-    pub samples: [f64; 3],
-    /// On the angles of the pairs.
-    pub angles: [f64; 3],
-    /// On Θₘ and r′ₘ, beside those by the pairs.
-    pub spin: f64,
-    pub middle: Vector,
-    /// On the centreline, beside those by samples and pairs.
-    pub centreline: [Vector; 4],
-}
-
-impl Forces {
-    /// Adds those of a section with the stress resultants (N, M₁, M₂, M₃), already times the weight of the point.
+    /// Forces on (r′, r″, Θ, ε, κ₁) here of the stress resultants (N, M₁, M₂, M₃), and the moment ω on Θ.
     #[inline]
-    pub fn add(&mut self, at: &Point, section: &Section, stress: [f64; 4]) {
-        let Section { triad, pair, along, strain } = section;
-        let [normal, torque, m2, m3] = stress;
-        let [_, _, k2, k3] = *strain;
-        let spin = m2 * k3 - m3 * k2;
-        for k in 0..3 {
-            self.samples[k] += at.sample[k] * normal;
-            self.angles[k] += at.torsion[k] * torque;
+    pub fn forces(&self, stress: [f64; 4]) -> Local<f64> {
+        let [axial, torsion, m2, m3] = stress;
+        let [_, _, k2, k3] = self.strain;
+        let (inverse, mu) = (1.0 / self.triad.length, self.along);
+        let slope = [-(m2 * k2 + m3 * k3), -mu * m3, mu * m2];
+        let curvature = [0.0, m3, -m2];
+        Local {
+            slope: times(inverse, self.triad.outward(slope)),
+            curvature: times(inverse, self.triad.outward(curvature)),
+            spin: m2 * k3 - m3 * k2,
+            axial,
+            torsion,
         }
-        self.angles[0] -= at.sample[0] * spin;
-        self.angles[1] += at.sample[2] * spin;
-        self.spin += spin;
-        // The length |r′ₘ| is divided by at the end.
-        self.middle = plus(self.middle, -spin, pair.c);
-        let inverse = 1.0 / triad.length;
-        let slope = [-(m2 * k2 + m3 * k3), -along * m3, along * m2];
-        let slope = times(inverse, plus(triad.outward(slope), -spin, pair.c));
-        let curvature = times(inverse, plus(times(m3, triad.normal), -m2, triad.binormal));
-        for i in 0..4 {
-            let force = plus(times(at.slope[i], slope), at.curvature[i], curvature);
-            self.centreline[i] = plus(self.centreline[i], 1.0, force);
+    }
+}
+
+/// A force, or its derivative as a row over the [`VARIABLES`].
+pub(super) trait Linear: Copy {
+    const ZERO: Self;
+    /// self += c x
+    fn add(&mut self, c: f64, x: &Self);
+}
+
+impl Linear for f64 {
+    const ZERO: f64 = 0.0;
+
+    #[inline(always)]
+    fn add(&mut self, c: f64, x: &f64) {
+        *self += c * x;
+    }
+}
+
+/// Forces on what the strains at a point are made of.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Local<T> {
+    pub slope: [T; 3],
+    pub curvature: [T; 3],
+    pub spin: T,
+    pub axial: T,
+    pub torsion: T,
+}
+
+/// Forces on what the strains of an element are made of, summed over the quadrature points.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Forces<T> {
+    /// On the samples of ε.
+    samples: [T; 3],
+    /// On the angles of the pairs.
+    angles: [T; 3],
+    /// On Θₘ and r′ₘ, beside those by the pairs.
+    spin: T,
+    middle: [T; 3],
+    /// On (r₂ − r₁, r′₁, r′₂), beside those by samples and pairs.
+    chord: [[T; 3]; 3],
+}
+
+impl<T: Linear> Forces<T> {
+    pub const ZERO: Forces<T> = Forces {
+        samples: [T::ZERO; 3],
+        angles: [T::ZERO; 3],
+        spin: T::ZERO,
+        middle: [T::ZERO; 3],
+        chord: [[T::ZERO; 3]; 3],
+    };
+
+    /// Adds the forces at a point. δΘ there is made of δΘₘ, of the angles, and of r′ here and in the middle.
+    #[inline(always)]
+    pub fn add(&mut self, at: &Point, section: &Section, middle: &Triad, local: &Local<T>) {
+        let (here, there) = (-1.0 / section.triad.length, -1.0 / middle.length);
+        let c = section.pair.c;
+        for k in 0..3 {
+            self.samples[k].add(at.sample[k], &local.axial);
+            self.angles[k].add(at.torsion[k], &local.torsion);
+            self.middle[k].add(there * c[k], &local.spin);
+        }
+        self.spin.add(1.0, &local.spin);
+        self.angles[0].add(-at.sample[0], &local.spin);
+        self.angles[1].add(at.sample[2], &local.spin);
+        for k in 0..3 {
+            let mut slope = local.slope[k];
+            slope.add(here * c[k], &local.spin);
+            for i in 0..3 {
+                self.chord[i][k].add(at.slope[i], &slope);
+                self.chord[i][k].add(at.curvature[i], &local.curvature[k]);
+            }
         }
     }
 
-    /// Adds all forces to those on the velocities of the element.
-    pub fn scatter(&self, shapes: &Shapes, sections: &Sections, out: &mut [f64; VELOCITIES]) {
+    /// Adds forces on r′ₘ.
+    #[inline(always)]
+    pub fn add_middle(&mut self, forces: &[T; 3]) {
+        for k in 0..3 {
+            self.middle[k].add(1.0, &forces[k]);
+        }
+    }
+
+    /// All forces as those on the [`VARIABLES`].
+    #[inline(always)]
+    pub fn total(&self, shapes: &Shapes, sections: &Sections) -> [T; VARIABLES] {
         let Sections { triads, pairs, .. } = sections;
-        let mut spins = [0.0, self.spin, 0.0];
-        let mut slopes = [[0.0; 3], self.middle, [0.0; 3]];
-        for ((pair, [a, b]), force) in pairs.iter().zip(ENDS).zip(self.angles) {
-            spins[a] -= force;
-            spins[b] += force;
-            slopes[a] = plus(slopes[a], force, pair.c);
-            slopes[b] = plus(slopes[b], force, pair.c);
-        }
-        for i in 0..3 {
-            slopes[i] = plus(times(1.0 / triads[i].length, slopes[i]), self.samples[i], triads[i].tangent);
-            out[SPINS[i]] += spins[i];
-        }
-        let mut centreline = self.centreline;
-        centreline[1] = plus(centreline[1], 1.0, slopes[0]);
-        centreline[3] = plus(centreline[3], 1.0, slopes[2]);
-        for i in 0..4 {
-            let force = plus(centreline[i], shapes.middle[i], slopes[1]);
-            for k in 0..3 {
-                out[CENTRELINE[i] + k] += force[k];
+        let mut spins = [T::ZERO, self.spin, T::ZERO];
+        let mut slopes = [[T::ZERO; 3], self.middle, [T::ZERO; 3]];
+        for ((pair, ends), force) in pairs.iter().zip(ENDS).zip(&self.angles) {
+            for (end, sign) in ends.into_iter().zip([-1.0, 1.0]) {
+                spins[end].add(sign, force);
+                for k in 0..3 {
+                    slopes[end][k].add(pair.c[k] / triads[end].length, force);
+                }
             }
         }
+        let mut out = [T::ZERO; VARIABLES];
+        out[9..].copy_from_slice(&spins);
+        for (k, out) in out[..9].iter_mut().enumerate() {
+            *out = self.chord[k / 3][k % 3];
+        }
+        for (i, parts) in shares(shapes).iter().enumerate() {
+            for k in 0..3 {
+                slopes[i][k].add(triads[i].tangent[k], &self.samples[i]);
+                for j in (0..3).filter(|j| parts[*j] != 0.0) {
+                    out[3 * j + k].add(parts[j], &slopes[i][k]);
+                }
+            }
+        }
+        out
+    }
+}
+
+impl Forces<f64> {
+    /// The forces on the samples of ε and on the angles of the pairs.
+    pub fn of_samples_and_angles(&self) -> ([f64; 3], [f64; 3]) {
+        (self.samples, self.angles)
+    }
+}
+
+/// The stiffness matrix C of a section.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stiffness(pub [[f64; 4]; 4]);
+
+impl Stiffness {
+    /// weight · C (γ − γ₀)
+    #[inline(always)]
+    pub fn stress(&self, strain: &[f64; 4], initial: &[f64; 4], weight: f64) -> [f64; 4] {
+        let strain: [f64; 4] = std::array::from_fn(|k| weight * (strain[k] - initial[k]));
+        self.0.map(|row| inner(row, strain))
     }
 }
