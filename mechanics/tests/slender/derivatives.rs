@@ -1,7 +1,5 @@
 //! Forces and tangents against differences.
 
-#![allow(clippy::unwrap_used)]
-
 use flexion::linalg::vector::noise;
 use flexion::multibody::slender::{Beam, Load, Properties, Station};
 use flexion::system::Weights;
@@ -21,14 +19,18 @@ pub fn general() -> Beam {
             normal: std::array::from_fn(|k| c * n[k] + d * b[k]),
         }
     };
-    let stiffness =
-        [[50.0, 0.4, -1.1, 0.7], [0.4, 1.3, 0.2, -0.1], [-1.1, 0.2, 2.0, 0.3], [0.7, -0.1, 0.3, 0.9]];
     Beam::new(&[0.0, 0.5, 0.9, 1.6], curve, |s| Properties {
-        stiffness: stiffness.map(|row| row.map(|c| c * (1.0 - 0.2 * s))),
+        stiffness: stiffness(s),
         mass: 1.3 + 0.1 * s,
         inertia: [0.05, 0.03, 0.04],
     })
     .unwrap()
+}
+
+/// C of its section at the arc length s.
+pub fn stiffness(s: f64) -> [[f64; 4]; 4] {
+    [[50.0, 0.4, -1.1, 0.7], [0.4, 1.3, 0.2, -0.1], [-1.1, 0.2, 2.0, 0.3], [0.7, -0.1, 0.3, 0.9]]
+        .map(|row| row.map(|c| c * (1.0 - 0.2 * s)))
 }
 
 /// A configuration far from the one without stress, velocities and accelerations.

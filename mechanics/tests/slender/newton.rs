@@ -1,7 +1,5 @@
 //! Equilibria of a beam by Newton's method.
 
-#![allow(clippy::unwrap_used, clippy::panic)]
-
 use flexion::linalg::{Matrix, Structure};
 use flexion::multibody::slender::{Beam, Load, Properties, Station, Triad, Vector};
 use flexion::system::Weights;
@@ -106,9 +104,6 @@ impl Statics {
             self.beam.retract(&self.q, &d, &mut to);
             self.q = to;
             let size = d.iter().fold(0.0, |a: f64, d| a.max(d.abs()));
-            if std::env::var("SHOW").is_ok() {
-                println!("{iteration} {size:.3e}");
-            }
             // Quadratic convergence ends in rounding.
             if size < 1e-13 || size < 1e-7 && size > 0.1 * last {
                 return iteration;
@@ -122,4 +117,19 @@ impl Statics {
     pub fn load(&mut self, steps: usize) -> usize {
         (1..=steps).map(|k| self.solve(k as f64 / steps as f64)).sum()
     }
+}
+
+/// Largest difference of the components.
+pub fn distance(a: Vector, b: Vector) -> f64 {
+    (0..3).map(|k| (a[k] - b[k]).abs()).fold(0.0, f64::max)
+}
+
+/// Orders of convergence from one to the next of errors on meshes of twice the elements.
+pub fn orders(errors: &[f64]) -> Vec<f64> {
+    errors.windows(2).map(|e| (e[0] / e[1]).log2()).collect()
+}
+
+/// Orders from solutions on meshes of twice the elements alone, by the ratios of their differences.
+pub fn orders_of(tips: &[Vector]) -> Vec<f64> {
+    orders(&tips.windows(2).map(|t| distance(t[0], t[1])).collect::<Vec<_>>())
 }

@@ -15,7 +15,7 @@ use super::element::{Element, Motion, Tangent};
 use super::pair::Pair;
 use super::properties::Properties;
 use super::strain::{COORDINATES, VELOCITIES, centreline, positions};
-use super::triad::{Triad, Vector, vector};
+use super::triad::{Triad, Vector, plus, vector};
 use crate::linalg::vector::inner;
 use crate::system::Weights;
 
@@ -124,15 +124,17 @@ impl Beam {
         for (e, ends) in nodes.windows(2).enumerate() {
             let (s, length) = (ends[0], ends[1] - ends[0]);
             validate(&section, s, length)?;
-            let q = chunk_mut::<COORDINATES>(&mut initial, ELEMENT_COORDINATES * e);
-            let element = Element::new(length, q, |z| section(s + z * length));
-            let slope = element.middle_slope(&positions(q));
+            let begin = ELEMENT_COORDINATES * e;
+            let mut q: [f64; COORDINATES] = part(&initial, begin);
+            let element = Element::new(length, &q, |z| section(s + z * length));
+            let slope = element.middle_slope(&positions(&q));
             let middle = curve(s + 0.5 * length);
             let middle = Triad::new(middle.tangent, middle.normal).transported(slope, 0.0);
             q[9..12].copy_from_slice(&middle.normal);
-            let element = Element::new(length, q, |z| section(s + z * length));
-            let turned = inner(vector(q, 3), vector(q, 15));
-            let twist = element.pairs(q).into_iter().map(|pair| pair.angle.abs()).fold(0.0, f64::max);
+            initial[begin + 9..begin + 12].copy_from_slice(&middle.normal);
+            let element = Element::new(length, &q, |z| section(s + z * length));
+            let turned = inner(vector(&q, 3), vector(&q, 15));
+            let twist = element.pairs(&q).into_iter().map(|pair| pair.angle.abs()).fold(0.0, f64::max);
             let angle = libm::acos(turned.clamp(-1.0, 1.0)).max(twist).to_degrees();
             if !(angle < 90.0) {
                 return Err(BeamError::Turned { at: s, angle });
@@ -153,7 +155,7 @@ impl Beam {
         section: Properties,
     ) -> Result<Beam, BeamError> {
         let nodes: Vec<f64> = (0..=elements).map(|i| length * i as f64 / elements.max(1) as f64).collect();
-        let at = |s: f64| Station { position: super::triad::plus(root.position, s, root.tangent), ..root };
+        let at = |s: f64| Station { position: plus(root.position, s, root.tangent), ..root };
         Beam::new(&nodes, at, |_| section)
     }
 
@@ -206,7 +208,7 @@ impl Beam {
 
     /// r′ in the middle of an element whose coordinates begin at `at`.
     fn middle_slope(element: &Element, q: &[f64], at: usize) -> Vector {
-        element.middle_slope(&positions(chunk(q, at)))
+        element.middle_slope(&positions(&part(q, at)))
     }
 
     /// `out` = q ⊞ d
@@ -246,7 +248,7 @@ impl Beam {
     pub fn rate(&self, from: &[f64], d: &[f64], v: &[f64], out: &mut [f64]) {
         out.copy_from_slice(v);
         let turn = |from: Vector, d: Vector, rate: Vector| {
-            let now = Triad::new(super::triad::plus(from, 1.0, d), [0.0; 3]);
+            let now = Triad::new(plus(from, 1.0, d), [0.0; 3]);
             inner(now.spin_by_slope(d), rate)
         };
         for node in 0..=self.elements.len() {
@@ -254,7 +256,7 @@ impl Beam {
             out[j + 6] -= turn(vector(from, i + 3), vector(d, j + 3), vector(v, j + 3));
         }
         for (element, i, j) in self.middles() {
-            let rates = |x: &[f64]| element.middle_slope(&centreline(chunk(x, j)));
+            let rates = |x: &[f64]| element.middle_slope(&centreline(&part(x, j)));
             out[j + 7] -= turn(Beam::middle_slope(element, from, i), rates(d), rates(v));
         }
     }
@@ -262,8 +264,10 @@ impl Beam {
     /// Adds the forces of strain and inertia to `r`: r = M a + … + ∂U/∂q.
     pub fn add_forces(&self, q: &[f64], v: &[f64], a: &[f64], r: &mut [f64]) {
         for (element, i, j) in self.middles() {
-            let motion = Motion { q: chunk(q, i), v: chunk(v, j), a: chunk(a, j) };
-            element.add_forces(&motion, chunk_mut(r, j));
+            let motion = Motion { q: &part(q, i), v: &part(v, j), a: &part(a, j) };
+            let mut forces = [0.0; VELOCITIES];
+            element.add_forces(&motion, &mut forces);
+            r[j..].iter_mut().zip(forces).for_each(|(r, force)| *r += force);
         }
     }
 
@@ -278,7 +282,7 @@ impl Beam {
         mut add: impl FnMut(usize, &Tangent),
     ) {
         for (element, i, j) in self.middles() {
-            let motion = Motion { q: chunk(q, i), v: chunk(v, j), a: chunk(a, j) };
+            let motion = Motion { q: &part(q, i), v: &part(v, j), a: &part(a, j) };
             let mut tangent = [[0.0; VELOCITIES]; VELOCITIES];
             let w = Weights { increment: w.increment.map(|d| &d[j..]), ..*w };
             element.add_tangent(&motion, &w, &mut tangent);
@@ -288,12 +292,12 @@ impl Beam {
 
     /// Strain energy \[J\].
     pub fn strain_energy(&self, q: &[f64]) -> f64 {
-        self.middles().map(|(element, i, _)| element.strain_energy(chunk(q, i))).sum()
+        self.middles().map(|(element, i, _)| element.strain_energy(&part(q, i))).sum()
     }
 
     /// Kinetic energy \[J\].
     pub fn kinetic_energy(&self, q: &[f64], v: &[f64]) -> f64 {
-        self.middles().map(|(element, i, j)| element.kinetic_energy(chunk(q, i), chunk(v, j))).sum()
+        self.middles().map(|(element, i, j)| element.kinetic_energy(&part(q, i), &part(v, j))).sum()
     }
 }
 
@@ -341,18 +345,6 @@ fn is_positive_definite(matrix: &[[f64; 4]; 4]) -> bool {
 
 /// The `N` entries from `at` on.
 #[inline(always)]
-fn chunk<const N: usize>(x: &[f64], at: usize) -> &[f64; N] {
-    match x[at..].first_chunk() {
-        Some(chunk) => chunk,
-        None => unreachable!("the slice is as long as the beam"),
-    }
-}
-
-/// The `N` entries from `at` on, to be changed.
-#[inline(always)]
-fn chunk_mut<const N: usize>(x: &mut [f64], at: usize) -> &mut [f64; N] {
-    match x[at..].first_chunk_mut() {
-        Some(chunk) => chunk,
-        None => unreachable!("the slice is as long as the beam"),
-    }
+fn part<const N: usize>(x: &[f64], at: usize) -> [f64; N] {
+    std::array::from_fn(|k| x[at + k])
 }

@@ -92,3 +92,31 @@ impl Triad {
 pub(super) fn skew(x: Vector) -> Block {
     [[0.0, -x[2], x[1]], [x[2], 0.0, -x[0]], [-x[1], x[0], 0.0]]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::FRAC_PI_2;
+
+    const X: Vector = [1.0, 0.0, 0.0];
+    const Y: Vector = [0.0, 1.0, 0.0];
+    const Z: Vector = [0.0, 0.0, 1.0];
+
+    #[test]
+    fn transport_around_an_octant_turns_by_its_solid_angle() {
+        // The smallest rotations along a triangle of great circles turn a frame by the area of the triangle, π/2.
+        let begin = Triad::new(X, Y);
+        let end = begin.transported(Y, 0.0).transported(Z, 0.0).transported(X, 0.0);
+        assert!((Pair::new(&begin, &end).angle - FRAC_PI_2).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_twist_is_the_angle_behind_the_transport_and_changes_its_sign_with_the_order() {
+        let a = Triad::new([0.3, -1.2, 0.4], times(1.0 / 1.53_f64.sqrt(), [1.2, 0.3, 0.0]));
+        for angle in [-3.0, -0.4, 0.0, 1e-9, 2.5] {
+            let b = a.transported([0.9, 0.1, -0.7], angle);
+            assert!((Pair::new(&a, &b).angle - angle).abs() < 4e-16 * 8.0);
+            assert!((Pair::new(&b, &a).angle + angle).abs() < 4e-16 * 8.0);
+        }
+    }
+}
