@@ -289,7 +289,7 @@ mod tests {
     #[test]
     fn the_collection_names_every_frame_with_its_time() {
         let mut out = Vec::new();
-        write_pvd(&[0.0, 0.1, 1.0 / 3.0], &mut out).unwrap();
+        write_pvd(&[0.0, 0.1, 1.0 / 3.0], false, &mut out).unwrap();
         let text = String::from_utf8(out).unwrap();
         let document = roxmltree::Document::parse(&text).unwrap();
         let sets: Vec<(f64, &str)> = document

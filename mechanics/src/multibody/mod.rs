@@ -25,6 +25,7 @@
 //! | `model` | what a user builds, with its faults |
 //! | `consistency` | positions, ranks and velocities at the start |
 //! | `constants` | what does not change in a run |
+//! | `slender` | the geometrically exact slender beam |
 //! | `system` | the equations of motion |
 //! | `observed`, `channels` | energies, power, recorded quantities |
 
@@ -40,6 +41,7 @@ mod model;
 mod observed;
 pub mod rotation;
 mod row;
+pub mod slender;
 mod system;
 
 pub use body::Body;
