@@ -4,6 +4,7 @@ mod beamdyn;
 mod blade;
 mod broken_cases;
 mod case_files;
+mod contact;
 mod convergence;
 mod docs;
 mod energy;

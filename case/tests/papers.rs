@@ -251,7 +251,8 @@ fn integrate_system(reading: &Reading, system: &mut dyn System, integrator: &mut
         Ending::Failed(error) => Some(error.to_string()),
         _ => None,
     };
-    Run { failure, end: state.t, trajectory: record.0, steps: integrator.counters().steps }
+    let (events, steps) = (flexion_results::Events::default(), integrator.counters().steps);
+    Run { failure, end: state.t, trajectory: record.0, events, steps }
 }
 
 struct Record(Trajectory);

@@ -127,6 +127,39 @@ fn a_stopped_run_goes_on_as_if_it_had_never_stopped() {
     }
 }
 
+/// Pieces that end while contacts are closed: a rigid one at the tip, and an elastic one in the middle.
+#[test]
+fn a_run_that_is_stopped_in_contact_goes_on_as_if_it_had_never_stopped() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = folder.path().join("case.toml");
+    std::fs::write(&case, [SQUARE_BAR, REST].concat()).unwrap();
+    let contacts = "contact=[{obstacle={kind='stop',offset='-1 mm'},law={kind='constraint',restitution=0.4,friction=0.1}},\
+                    {station=1,obstacle={kind='stop',offset='-0.2 mm'},law={kind='hunt-crossley',stiffness=1e6,restitution=0.5}}]";
+    for integrator in ["integrator={kind='radau'}", "integrator={kind='generalized-alpha',step='1 ms'}"] {
+        let whole = reading(&case, &[contacts, integrator]);
+        let complete = run(&whole, f64::INFINITY);
+        assert_eq!(complete.status, Status::Finished, "{:?}", complete.message);
+        for part in [0.2, 0.43, 0.6] {
+            let first = run(&whole, part * whole.case.duration);
+            let since = first.state.t;
+            let directory = Directory::create(folder.path().join("first"), true).unwrap();
+            whole.write(&first, &directory).unwrap();
+            drop(directory);
+            let from = "initial={kind='restart',file='first'}";
+            let rest = run(&reading(&case, &[contacts, integrator, from]), f64::INFINITY);
+            assert_eq!(rest.status, Status::Finished, "{:?}", rest.message);
+            assert_same(&complete, &rest, since, integrator);
+            let later = |run: &Run| {
+                let later = run.events.list.iter().filter(|entry| entry.time > since);
+                later.map(|entry| (entry.what, entry.time.to_bits())).collect::<Vec<_>>()
+            };
+            assert_eq!(later(&complete), later(&rest), "{integrator} {part}");
+        }
+        let closed = |name: &str| complete.trajectory.column(name).unwrap().iter().any(|force| *force > 0.0);
+        assert!(closed("contact.force") && closed("contact2.force"));
+    }
+}
+
 /// With fixed steps a run may also be prolonged.
 #[test]
 fn a_finished_run_is_prolonged_by_the_same_steps() {

@@ -61,8 +61,9 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
     let directory =
         arguments.output.as_ref().map(|path| Directory::create_for(Artifact::MODES, path, arguments.force));
     let directory = directory.transpose().map_err(|error| error.to_string())?;
-    let (steady, cautions) =
+    let (steady, mut cautions) =
         if speed > 0.0 { vibration::without_loads_in_space(case) } else { (case.clone(), Vec::new()) };
+    cautions.extend(vibration::without_contacts(case));
     let modes = compute(arguments, &steady, speed, hub)?;
     cautions.iter().for_each(|caution| screen::report(&format!("warning: {caution}\n")));
     let out = described(&modes, &unit, speed, hub);

@@ -3,7 +3,7 @@
 use crate::{Outcome, case, screen};
 use flexion::system::{Channel, Role};
 use flexion_case::{Errors, Run, units};
-use flexion_results::{Artifact, Directory, Status, Trajectory};
+use flexion_results::{Artifact, Directory, Events, Status, Trajectory};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -99,12 +99,16 @@ fn finish(status: Status, run: &Run, directory: &Directory) -> Outcome {
     let mut out = format!("{} at t = {end} s in {wall_time:.3} s of wall time\n\n", status.word());
     out.push_str(&extremes(trajectory));
     out.push('\n');
+    if !run.events.is_empty() {
+        out.push_str(&impacts(&run.events));
+    }
     if let Some(errors) = &run.errors {
         out.push_str(&error_table(errors, trajectory));
         out.push('\n');
     }
     screen::print(&out);
     let mut files = vec![("summary", Artifact::Summary), ("plot", Artifact::PlotSvg)];
+    files.extend((!run.events.is_empty()).then_some(("events", Artifact::Events)));
     files.extend(run.shapes.is_some().then_some(("shapes", Artifact::ShapeSeries)));
     screen::files(directory, Ok(()), &files);
     let estimates = run.errors.iter().flat_map(|errors| &errors.warnings);
@@ -121,6 +125,16 @@ fn finish(status: Status, run: &Run, directory: &Directory) -> Outcome {
     };
     screen::report(&format!("error: {reason}\nWhat was computed until t = {end} s is kept.\n"));
     Outcome::Incomplete
+}
+
+/// Number of impacts, the first of them, and the energy lost.
+fn impacts(events: &Events) -> String {
+    let count = events.impacts().count();
+    let Some(first) = events.impacts().next() else { return "  no impacts\n\n".to_owned() };
+    let (time, name, lost) = (first.time, events.name(first.contact), events.lost());
+    format!(
+        "  {count} impacts, the first at t = {time:.6} s ({name}); energy lost in impacts {lost:.6e} J\n\n"
+    )
 }
 
 /// Whether a column is printed after a run.

@@ -88,6 +88,12 @@ pub fn without_loads_in_space(case: &Case) -> (Case, Vec<String>) {
     (case, cautions)
 }
 
+/// A warning for a case whose contacts do not matter here.
+pub fn without_contacts(case: &Case) -> Option<String> {
+    let message = "without contacts: a contact that opens and closes has no small vibrations, and the modes are those of the free beam";
+    (!case.contacts.is_empty()).then(|| message.to_owned())
+}
+
 /// A speed as written: `12.1 rpm`, or a number of the unit chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Speed {

@@ -10,6 +10,7 @@ mod kept_tangents;
 mod linear_cost;
 mod modes;
 mod multibody_systems;
+mod slender;
 mod surroundings;
 mod tapered_beam;
 

@@ -15,6 +15,8 @@ macro_rules! artifacts {
             $($(#[doc = concat!("`", $file, "`: ", $what, ".")] $variant,)*)*
             /// `vtk/frame_00000.vtu` and so on: the shape of the beam at one time.
             Shape(u32),
+            /// `vtk/obstacles_00000.vtp` and so on: the obstacles at the same time.
+            Obstacles(u32),
         }
 
         impl Artifact {
@@ -28,6 +30,7 @@ macro_rules! artifacts {
                 match self {
                     $($(Artifact::$variant => $file.into(),)*)*
                     Artifact::Shape(number) => format!("{SHAPES}/frame_{number:05}.vtu").into(),
+                    Artifact::Obstacles(number) => format!("{SHAPES}/obstacles_{number:05}.vtp").into(),
                 }
             }
         }
@@ -47,6 +50,7 @@ artifacts! {
         TrajectoryCsv "trajectory.csv" "what was recorded, as text",
         TrajectoryNpz "trajectory.npz" "the same for NumPy",
         TrajectoryParquet "trajectory.parquet" "the same, written with the feature `parquet`",
+        Events "events.csv" "impacts, and contacts that close, open, slip or stick",
         PlotSvg "plot.svg" "the plot",
         PlotPng "plot.png" "the plot as pixels",
         ShapeSeries "beam.pvd" "the times of the shapes, for ParaView",
@@ -96,7 +100,8 @@ impl Artifact {
 
     /// Whether a file of this name in the folder of the shapes is one of them.
     pub(super) fn is_shape(name: &str) -> bool {
-        let number = name.strip_prefix("frame_").and_then(|rest| rest.strip_suffix(".vtu"));
+        let between = |first, last| name.strip_prefix(first).and_then(|rest| rest.strip_suffix(last));
+        let number = between("frame_", ".vtu").or_else(|| between("obstacles_", ".vtp"));
         number.is_some_and(|digits| digits.len() >= 5 && digits.bytes().all(|b| b.is_ascii_digit()))
     }
 }
@@ -110,8 +115,16 @@ mod tests {
         for number in [0, 99_999, 123_456] {
             let name = Artifact::Shape(number).file_name();
             assert!(Artifact::is_shape(name.strip_prefix("vtk/").unwrap()), "{name}");
+            let name = Artifact::Obstacles(number).file_name();
+            assert!(Artifact::is_shape(name.strip_prefix("vtk/").unwrap()), "{name}");
         }
-        for name in ["frame_.vtu", "frame_00001.vtu.bak", "my_frame_00001.vtu", "frame_0000a.vtu"] {
+        for name in [
+            "frame_.vtu",
+            "frame_00001.vtu.bak",
+            "my_frame_00001.vtu",
+            "frame_0000a.vtu",
+            "obstacles_00000.vtu",
+        ] {
             assert!(!Artifact::is_shape(name), "{name}");
         }
     }

@@ -101,9 +101,10 @@ pub(super) fn role(name: &str) -> Role {
         Some(("hub", "speed" | "torque")) => Role::Primary,
         Some(("tip" | "hub", _)) => Role::Secondary,
         Some(("energy", "balance")) => Role::Imbalance,
-        Some(("energy", "total" | "drive" | "loads" | "dissipated")) => Role::Work,
+        Some(("energy", "total" | "drive" | "loads" | "dissipated" | "contact_loss")) => Role::Work,
         Some(("energy", _)) => Role::Energy,
-        Some(("step", _)) => Role::Integration,
+        Some(("step" | "constraint", _)) => Role::Integration,
+        Some((_, "gap" | "force" | "friction")) => Role::Secondary,
         _ => Role::Detail,
     }
 }

@@ -9,9 +9,11 @@ mod compare;
 mod csv;
 mod directory;
 mod error;
+mod events;
 mod frequencies;
 mod nearest;
 mod npz;
+mod obstacles;
 #[cfg(feature = "parquet")]
 mod parquet;
 pub mod plot;
@@ -34,9 +36,11 @@ pub use self::compare::{Comparison, Difference, compare, compare_csv, compare_js
 pub use self::csv::{read_csv, write_csv};
 pub use self::directory::{Directory, write_file};
 pub use self::error::{OutputError, ResultsError};
+pub use self::events::{Entry, Events, write_events};
 pub use self::frequencies::Frequencies;
 pub use self::nearest::nearest;
 pub use self::npz::write_npz;
+pub use self::obstacles::Drawn;
 #[cfg(feature = "parquet")]
 pub use self::parquet::write_parquet;
 pub use self::provenance::resolved_case;
@@ -48,6 +52,6 @@ pub use self::state_file::{read_state, write_state};
 pub use self::summary::{Integration, ProblemSize, RunReport, Status, Summary, VERSION};
 pub use self::trajectory::{Extremes, Trajectory};
 pub use self::vibration::{write_campbell, write_modes};
-pub use self::vtk::{write_pvd, write_vtu};
+pub use self::vtk::{write_pvd, write_vtp, write_vtu};
 #[cfg(feature = "vtkhdf")]
 pub use self::vtkhdf::write_vtkhdf;

@@ -1,7 +1,8 @@
 //! An observer that records a run.
 
-use super::{Shapes, Trajectory};
-use flexion::analysis::transient::{Observer, Plan, Step};
+use super::{Events, Shapes, Trajectory};
+use flexion::analysis::Violation;
+use flexion::analysis::transient::{Event, Observer, Plan, Step};
 use flexion::system::{Channel, Role, State, System};
 use std::ops::ControlFlow;
 
@@ -13,6 +14,9 @@ pub type Watch<'a> = dyn FnMut(&State) -> ControlFlow<()> + 'a;
 pub struct Recorder<'a> {
     trajectory: Trajectory,
     shapes: Option<Shapes>,
+    events: Events,
+    /// Of systems with rows of constraints.
+    violation: Option<Violation>,
     balance: bool,
     /// Channels of the system that are parts of the total energy.
     energies: Vec<usize>,
@@ -21,28 +25,48 @@ pub struct Recorder<'a> {
 }
 
 impl<'a> Recorder<'a> {
-    /// A recorder for runs of `system` by `plan` that calls `watch` after every step.
+    /// A recorder for runs of `system` from `state` by `plan` that calls `watch` after every step.
     /// `balance` asks for work, losses and the energy balance too.
-    pub fn new(system: &dyn System, plan: &Plan, balance: bool, watch: &'a mut Watch<'a>) -> Recorder<'a> {
+    pub fn new(
+        system: &mut dyn System,
+        state: &State,
+        plan: &Plan,
+        balance: bool,
+        watch: &'a mut Watch<'a>,
+    ) -> Recorder<'a> {
+        let events = Events::new(system, state);
         let mut channels = system.channels().to_vec();
         let parts = channels.iter().enumerate().filter(|(_, c)| c.role == Role::Energy);
         let energies = parts.map(|(i, _)| i).collect();
         let mut add = |role, name: &str, unit, meaning: &str| {
             channels.push(Channel { name: name.to_owned(), unit, meaning: meaning.to_owned(), role });
         };
-        add(Role::Work, "energy.total", "J", "kinetic, strain and gravity energy");
+        add(Role::Work, "energy.total", "J", "kinetic, strain, gravity and contact energy");
         if balance {
             add(Role::Work, "energy.drive", "J", "work of what moves the hub since the start");
             add(Role::Work, "energy.loads", "J", "work of the loads since the start, gravity aside");
             add(Role::Work, "energy.dissipated", "J", "energy lost in dampers since the start");
+            if !events.is_empty() {
+                add(Role::Work, "energy.contact_loss", "J", "energy lost in contacts since the start");
+            }
             let meaning = "error of the energy balance, E(t) − E(0) − work + losses: zero if exact";
             add(Role::Imbalance, "energy.balance", "J", meaning);
         }
         add(Role::Integration, "step.size", "s", "size of the time step that covers this time");
         add(Role::Integration, "step.iterations", "", "Newton iterations of that step");
+        let violation = (system.size().lambda > 0).then(|| Violation::new(system));
+        if violation.is_some() {
+            let meaning =
+                "largest violation of constraints and closed contacts, and penetration of open ones";
+            add(Role::Integration, "constraint.position", "m", meaning);
+            let meaning = "largest velocity against constraints and closed contacts";
+            add(Role::Integration, "constraint.velocity", "m/s", meaning);
+            let meaning = "largest acceleration against constraints and closed contacts";
+            add(Role::Integration, "constraint.acceleration", "m/s^2", meaning);
+        }
         let mut trajectory = Trajectory::new(channels);
         trajectory.reserve((plan.end / plan.sample).min(1e7) as usize + 2);
-        Recorder { trajectory, shapes: None, balance, energies, gain: None, watch }
+        Recorder { trajectory, shapes: None, events, violation, balance, energies, gain: None, watch }
     }
 
     /// The recorder, taking shapes too.
@@ -60,8 +84,8 @@ impl<'a> Recorder<'a> {
     }
 
     /// What was recorded.
-    pub fn into_parts(self) -> (Trajectory, Option<Shapes>) {
-        (self.trajectory, self.shapes)
+    pub fn into_parts(self) -> (Trajectory, Option<Shapes>, Events) {
+        (self.trajectory, self.shapes, self.events)
     }
 }
 
@@ -71,6 +95,13 @@ impl Observer for Recorder<'_> {
     }
 
     fn sample(&mut self, system: &mut dyn System, state: &State, step: &Step) {
+        self.events.begin(state);
+        self.events.neglected = step.neglected;
+        if let Some(violation) = &mut self.violation {
+            violation.evaluate(system, state);
+        }
+        let largest = self.violation.as_ref().map(|violation| violation.largest);
+        let contacts = !self.events.is_empty();
         self.trajectory.push(state.t, |row| {
             let (own, common) = row.split_at_mut(system.channels().len());
             system.record(state, own);
@@ -79,15 +110,24 @@ impl Observer for Recorder<'_> {
                 recorded => recorded.iter().map(|&i| own[i]).sum(),
             };
             let balance = step.balance.filter(|_| self.balance);
-            let work = balance.map(|b| [b.drive, b.loads, b.dissipated, b.imbalance(total)]);
+            let work = balance.map(|b| [b.drive, b.loads, b.dissipated]);
+            let lost = balance.filter(|_| contacts).map(|b| b.contact);
             let steps = [step.size, f64::from(step.iterations)];
-            let values = std::iter::once(total).chain(work.into_iter().flatten()).chain(steps);
+            let values = std::iter::once(total).chain(work.into_iter().flatten()).chain(lost);
+            let values = values.chain(balance.map(|b| b.imbalance(total))).chain(steps);
+            let values = values.chain(largest.into_iter().flatten());
             for (out, value) in common.iter_mut().zip(values) {
                 *out = value;
             }
         });
         if let Some(shapes) = &mut self.shapes {
             shapes.sample(system, state);
+        }
+    }
+
+    fn event(&mut self, event: &Event) {
+        if !self.events.is_empty() {
+            self.events.add(event);
         }
     }
 

@@ -6,7 +6,7 @@ use super::plot::Figure;
 use super::state_file::write_state;
 use super::{
     Artifact, Directory, OutputError, RunReport, Shapes, Status, Summary, Trajectory, resolved_case,
-    write_csv, write_npz, write_pvd, write_vtu,
+    write_csv, write_events, write_npz, write_pvd, write_vtp, write_vtu,
 };
 use flexion::integrator::Checkpoint;
 
@@ -51,6 +51,9 @@ pub fn write_run(
     directory.write(Artifact::TrajectoryCsv, |f| write_csv(trajectory, f))?;
     #[cfg(feature = "parquet")]
     directory.write(Artifact::TrajectoryParquet, |f| super::write_parquet(trajectory, f))?;
+    if let Some(events) = report.events {
+        directory.write(Artifact::Events, |f| write_events(events, f))?;
+    }
     let mut warnings = report.warnings.to_vec();
     if let Some(figure) = attachments.figure {
         let drawing = figure.draw();
@@ -64,7 +67,11 @@ pub fn write_run(
         for (number, shape) in (0..).zip(shapes.iter()) {
             directory.write(Artifact::Shape(number), |f| write_vtu(&shape, f))?;
         }
-        directory.write(Artifact::ShapeSeries, |f| write_pvd(shapes.times(), f))?;
+        let outlines = shapes.outlines();
+        for (number, lines) in (0..).zip(outlines) {
+            directory.write(Artifact::Obstacles(number), |f| write_vtp(lines, f))?;
+        }
+        directory.write(Artifact::ShapeSeries, |f| write_pvd(shapes.times(), !outlines.is_empty(), f))?;
         #[cfg(feature = "vtkhdf")]
         directory.write(Artifact::ShapeHdf, |f| super::write_vtkhdf(shapes, f))?;
     }

@@ -1,12 +1,13 @@
 //! The shape of the beam at some of the recorded times, for pictures in space.
 
+use super::obstacles::Drawn;
 use flexion::system::{Frame, State, System};
 
 /// Equal intervals along the beam between whose ends it is drawn.
 const INTERVALS: usize = 100;
 
 /// Section frames along the beam at a number of times.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub struct Shapes {
     stations: Vec<f64>,
     height: f64,
@@ -14,6 +15,9 @@ pub struct Shapes {
     seen: usize,
     times: Vec<f64>,
     frames: Vec<Frame>,
+    obstacles: Vec<Drawn>,
+    /// Outlines of the obstacles at each time.
+    outlines: Vec<Vec<Vec<[f64; 3]>>>,
 }
 
 /// The shape at one time.
@@ -40,6 +44,11 @@ impl Shapes {
         Shapes { stations: all, height, every: every.max(1), ..Shapes::default() }
     }
 
+    /// The same with obstacles.
+    pub fn with_obstacles(self, obstacles: Vec<Drawn>) -> Shapes {
+        Shapes { obstacles, ..self }
+    }
+
     /// Call it with every recorded state: it takes the shape of every `every`-th of them.
     pub fn sample(&mut self, system: &mut dyn System, state: &State) {
         if self.seen.is_multiple_of(self.every) {
@@ -60,12 +69,22 @@ impl Shapes {
         self.times.push(state.t);
         self.frames.resize(start + self.stations.len(), Frame::default());
         system.frames(0, state, &self.stations, &mut self.frames[start..]);
+        if !self.obstacles.is_empty() {
+            let size = 0.5 * self.stations.last().copied().unwrap_or(0.0);
+            let outline = |drawn: &Drawn| drawn.outline(system, state, size);
+            self.outlines.push(self.obstacles.iter().map(outline).collect());
+        }
     }
 
     /// The shapes taken, in order of time.
     pub fn iter(&self) -> impl Iterator<Item = Shape<'_>> {
         let shape = |(&time, frames)| Shape { time, stations: &self.stations, frames, height: self.height };
         self.times.iter().zip(self.frames.chunks_exact(self.stations.len().max(1))).map(shape)
+    }
+
+    /// The outlines of all obstacles at each time \[m\]; nothing without obstacles.
+    pub fn outlines(&self) -> &[Vec<Vec<[f64; 3]>>] {
+        &self.outlines
     }
 
     /// The times at which they were taken \[s\].

@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::Trajectory;
+use super::{Events, Trajectory};
 use flexion::integrator::{Counters, Info};
 use flexion::system::Role;
 
@@ -73,6 +73,8 @@ pub struct RunReport<'a> {
     pub integrator: Integration<'a>,
     /// Estimated errors: name of a column, error of the discretization and of the model.
     pub errors: &'a [(String, f64, Option<f64>)],
+    /// Events at contacts; `None` for a system without contacts.
+    pub events: Option<&'a Events>,
     /// Work done.
     pub counters: Counters,
     /// Size of the equations.
@@ -122,6 +124,9 @@ impl Summary {
         s.insert("columns", columns(trajectory, report.errors));
         if let Some(energy) = imbalance(trajectory) {
             s.insert("energy", energy);
+        }
+        if let Some(events) = report.events {
+            s.insert("events", events.to_json());
         }
         s.insert("warnings", report.warnings);
         let info = report.integrator.info;
@@ -220,6 +225,7 @@ pub(super) mod tests {
             warnings: &[],
             integrator: Integration { info: &RADAU, settings },
             errors: &[],
+            events: None,
             counters: Counters { steps: 400, ..Counters::default() },
             size: ProblemSize { unknowns: 33, half_bandwidth: 5, border: 1 },
             wall_time: 0.25,

@@ -1,4 +1,4 @@
-//! `beam.pvd` and `vtk/frame_*.vtu`: the moving beam for ParaView.
+//! `beam.pvd`, `vtk/frame_*.vtu` and `vtk/obstacles_*.vtp`: the moving beam and what it may touch, for ParaView.
 //!
 //! Each frame is an unstructured grid in VTK's XML format, arrays inline in base64. The beam is a strip in the
 //! plane of motion: at every station stand three points, the lower fibre, the axis and the upper fibre
@@ -66,17 +66,52 @@ pub fn write_vtu(shape: &Shape<'_>, mut to: impl Write) -> io::Result<()> {
     writeln!(to, "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>")
 }
 
-/// Writes the collection (`.pvd`) that gives each frame its time \[s\].
+/// Writes lines, such as the outlines of obstacles \[m\], as VTK polygonal data (`.vtp`).
 ///
 /// # Errors
 /// Whatever `to` returns.
-pub fn write_pvd(times: &[f64], mut to: impl Write) -> io::Result<()> {
+pub fn write_vtp(lines: &[Vec<[f64; 3]>], mut to: impl Write) -> io::Result<()> {
+    let points: Vec<f64> = lines.iter().flatten().flatten().copied().collect();
+    let connectivity = (0..points.len() as i32 / 3).flat_map(i32::to_le_bytes);
+    let mut end = 0;
+    let offsets: Vec<i32> = lines
+        .iter()
+        .map(|line| {
+            end += line.len() as i32;
+            end
+        })
+        .collect();
+    writeln!(to, r#"<?xml version="1.0"?>"#)?;
+    writeln!(
+        to,
+        r#"<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">"#
+    )?;
+    let (points_count, lines_count) = (points.len() / 3, lines.len());
+    writeln!(to, "<PolyData>")?;
+    writeln!(to, r#"<Piece NumberOfPoints="{points_count}" NumberOfLines="{lines_count}">"#)?;
+    writeln!(to, "<Points>")?;
+    reals(&mut to, "Points", r#" NumberOfComponents="3""#, &points)?;
+    writeln!(to, "</Points>\n<Lines>")?;
+    array(&mut to, "Int32", "connectivity", "", connectivity)?;
+    array(&mut to, "Int32", "offsets", "", offsets.iter().flat_map(|i| i.to_le_bytes()))?;
+    writeln!(to, "</Lines>\n</Piece>\n</PolyData>\n</VTKFile>")
+}
+
+/// Writes the collection (`.pvd`) that gives each frame its time \[s\], with `obstacles` in a second part.
+///
+/// # Errors
+/// Whatever `to` returns.
+pub fn write_pvd(times: &[f64], obstacles: bool, mut to: impl Write) -> io::Result<()> {
     writeln!(to, r#"<?xml version="1.0"?>"#)?;
     writeln!(to, r#"<VTKFile type="Collection" version="0.1" byte_order="LittleEndian">"#)?;
     writeln!(to, "<Collection>")?;
     for (number, time) in (0..).zip(times) {
         let file = Artifact::Shape(number).file_name();
         writeln!(to, r#"<DataSet timestep="{time:?}" part="0" file="{file}"/>"#)?;
+        if obstacles {
+            let file = Artifact::Obstacles(number).file_name();
+            writeln!(to, r#"<DataSet timestep="{time:?}" part="1" file="{file}"/>"#)?;
+        }
     }
     writeln!(to, "</Collection>\n</VTKFile>")
 }
@@ -254,7 +289,7 @@ mod tests {
     #[test]
     fn the_collection_names_every_frame_with_its_time() {
         let mut out = Vec::new();
-        write_pvd(&[0.0, 0.1, 1.0 / 3.0], &mut out).unwrap();
+        write_pvd(&[0.0, 0.1, 1.0 / 3.0], false, &mut out).unwrap();
         let text = String::from_utf8(out).unwrap();
         let document = roxmltree::Document::parse(&text).unwrap();
         let sets: Vec<(f64, &str)> = document

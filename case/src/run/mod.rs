@@ -1,10 +1,12 @@
 //! A case, run: from its reading to its results.
 
 mod clock;
+mod contact;
 pub mod error;
 pub mod errors;
 mod restart;
 
+use super::kinds::contact::Contact;
 use super::kinds::initial::Initial;
 use super::kinds::integrator::Steps;
 use super::problem::Problems;
@@ -15,14 +17,15 @@ use errors::Errors;
 use flexion::analysis::equilibrium::equilibrium;
 use flexion::analysis::superposition::superpose;
 use flexion::analysis::transient::{Ending, Plan, resume, transient_to_checkpoint};
-use flexion::hub_beam::Drive;
+use flexion::hub_beam::{Drive, Mount};
 use flexion::integrator::{Checkpoint, Counters, Info};
 use flexion::system::{State, System};
-use flexion_results::plot::trajectory_figure;
+use flexion_results::plot::{contact_figure, trajectory_figure};
 use flexion_results::{
-    Artifact, Attachments, Directory, Integration, OutputError, ProblemSize, Recorder, RunReport, Shapes,
-    Status, Trajectory, Watch, write_run,
+    Artifact, Attachments, Directory, Drawn, Events, Integration, OutputError, ProblemSize, Recorder,
+    RunReport, Shapes, Status, Trajectory, Watch, write_run,
 };
+use std::sync::Arc;
 
 /// Length over height of a beam drawn without knowing its height.
 const SLENDERNESS: f64 = 50.0;
@@ -37,6 +40,8 @@ pub struct Prepared {
     shapes: Option<Shapes>,
     /// The history of the earlier run that this one goes on with.
     history: Option<Checkpoint>,
+    /// What its reader should know about the model before it runs.
+    warnings: Vec<String>,
 }
 
 /// What a run gave.
@@ -50,6 +55,8 @@ pub struct Run {
     pub trajectory: Trajectory,
     /// The shapes of the beam, if the case asks for them.
     pub shapes: Option<Shapes>,
+    /// What happened at its contacts.
+    pub events: Events,
     /// The tables that the case names, byte for byte, under their names among the results.
     pub tables: Vec<(Artifact, Vec<u8>)>,
     /// The last accepted step.
@@ -81,6 +88,10 @@ impl Reading {
         let mut live = self.build()?;
         let mut state = live.system.initial();
         let history = self.begin(live.system.as_mut(), &mut state)?;
+        if history.is_none() {
+            self.check_contacts(live.system.as_mut(), &state)?;
+        }
+        let warnings = self.effective_masses(live.system.as_mut(), &state);
         let case = &self.case;
         let (step, longest_step) = match case.steps {
             Steps::Fixed(step) => (Some(step), None),
@@ -91,7 +102,8 @@ impl Reading {
         let copy = |(key, bytes): (String, &[u8])| Some((resolved::copy(&key)?, bytes.to_vec()));
         let tables = self.tables().into_iter().filter_map(copy).collect();
         let energy_balance = case.output.energy_balance;
-        Ok(Prepared { live, state, plan, energy_balance, tables, shapes: self.shapes(), history })
+        let shapes = self.shapes();
+        Ok(Prepared { live, state, plan, energy_balance, tables, shapes, history, warnings })
     }
 
     /// Brings the undeformed `state` into the initial state of the case. Returns the history of an earlier run to go on
@@ -145,7 +157,13 @@ impl Reading {
         let interval = case.output.vtk?;
         let every = (interval / case.output.step).round().max(1.0) as usize;
         let height = case.section.height.unwrap_or(case.length / SLENDERNESS);
-        Some(Shapes::new(case.length, &case.output.stations, height, every))
+        let drawn = |contact: &Contact| Drawn {
+            station: contact.stations.last().copied().unwrap_or(case.length),
+            on_hub: contact.mount == Mount::Hub,
+            obstacle: Arc::clone(&contact.obstacle),
+        };
+        let shapes = Shapes::new(case.length, &case.output.stations, height, every);
+        Some(shapes.with_obstacles(case.contacts.iter().map(drawn).collect()))
     }
 
     /// Writes the results of a run of this case and publishes them.
@@ -166,6 +184,7 @@ impl Reading {
             warnings: &run.warnings,
             integrator: Integration { info: &run.info, settings: self.settings("integrator") },
             errors: &errors,
+            events: (!run.events.is_empty()).then_some(&run.events),
             counters: run.counters,
             size: run.size,
             wall_time: run.wall_time,
@@ -173,7 +192,10 @@ impl Reading {
         };
         let identity = self.identity();
         let title = (!self.case.title.is_empty()).then_some(self.case.title.as_str());
-        let figure = trajectory_figure(&run.trajectory, title);
+        let figure = match &run.events {
+            events if events.is_empty() => trajectory_figure(&run.trajectory, title),
+            events => contact_figure(&run.trajectory, events, title),
+        };
         let attachments = Attachments {
             figure: Some(&figure),
             tables: &run.tables,
@@ -189,10 +211,11 @@ impl Prepared {
     /// Integrates to the end, or to where `watch` stops it or the integration fails: what was computed
     /// until then is in the run.
     pub fn run(self, watch: &mut Watch<'_>) -> Run {
-        let Prepared { live, mut state, plan, energy_balance, tables, shapes, history } = self;
+        let Prepared { live, mut state, plan, energy_balance, tables, shapes, history, mut warnings } = self;
         let Live { mut system, mut integrator } = live;
         let clock = Clock::start();
-        let mut recorder = Recorder::new(system.as_ref(), &plan, energy_balance, watch).with_shapes(shapes);
+        let mut recorder =
+            Recorder::new(system.as_mut(), &state, &plan, energy_balance, watch).with_shapes(shapes);
         let parts = (system.as_mut(), integrator.as_mut());
         let (ending, checkpoint) = match &history {
             None => transient_to_checkpoint(parts.0, parts.1, &mut state, &plan, &mut recorder),
@@ -201,8 +224,8 @@ impl Prepared {
         };
         let (wall_time, cpu_time) = clock.elapsed();
         let warning = recorder.warning();
-        let (trajectory, mut shapes) = recorder.into_parts();
-        let mut warnings = system.cautions(&trajectory.peaks());
+        let (trajectory, mut shapes, events) = recorder.into_parts();
+        warnings.extend(system.cautions(&trajectory.peaks()));
         warnings.extend(warning);
         if let (Ending::Finished, Some(shapes)) = (&ending, &mut shapes) {
             shapes.finish(system.as_mut(), &state);
@@ -219,6 +242,7 @@ impl Prepared {
             message,
             trajectory,
             shapes,
+            events,
             tables,
             warnings,
             info: integrator.info().clone(),

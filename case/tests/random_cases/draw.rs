@@ -301,3 +301,44 @@ pub fn case(seed: u64) -> Drawn {
     integrator(random, &mut text, beam);
     Drawn { text, length: beam.length }
 }
+
+/// The case of a seed with one to three contacts: stops beside the beam, planes on the hub, and a rim that the tip may touch.
+pub fn case_with_contacts(seed: u64) -> Drawn {
+    let Drawn { mut text, length } = case(seed);
+    let random = &mut Rng::with_seed(!seed);
+    for _ in 0..random.usize(1..4) {
+        let side = if random.bool() { 1.0 } else { -1.0 };
+        let gap = length * scale(random, 1e-5..1e-2);
+        let obstacle = match random.u8(..3) {
+            0 => format!("kind = \"stop\", offset = {}", side * gap),
+            1 => format!(
+                "kind = \"plane\", mount = \"hub\", point = [0, {}], angle = \"{} deg\"",
+                side * gap,
+                if side > 0.0 { 180.0 } else { 0.0 }
+            ),
+            _ => format!(
+                "kind = \"circle\", mount = \"hub\", centre = [{length}, {}], radius = {length}",
+                side * (length + gap)
+            ),
+        };
+        let restitution = between(random, 0.05..1.0);
+        let friction = [0.0, between(random, 0.0..0.5)][random.usize(..2)];
+        let law = match random.u8(..4) {
+            0 => {
+                let law =
+                    pick(random, &["hunt-crossley", "lankarani-nikravesh", "flores", "gonthier", "matched"]);
+                let stiffness = scale(random, 1e3..1e7);
+                format!(
+                    "kind = \"{law}\", stiffness = {stiffness}, restitution = {restitution}, friction = {friction}"
+                )
+            }
+            _ => format!("kind = \"constraint\", restitution = {restitution}, friction = {friction}"),
+        };
+        let station = if random.bool() { length } else { length * between(random, 0.3..1.0) };
+        let _ = writeln!(
+            text,
+            "[[contact]]\nstation = {station}\nobstacle = {{ {obstacle} }}\nlaw = {{ {law} }}"
+        );
+    }
+    Drawn { text, length }
+}

@@ -117,7 +117,8 @@ impl Expected<'_> {
         for (name, figure) in figures {
             let figure = figure.as_table().unwrap();
             self.known(name, figure, FIGURE);
-            let column = figure["column"].as_str().unwrap();
+            let column = figure.get("column").map_or("", |column| column.as_str().unwrap());
+            let first = || run.events.impacts().next().unwrap();
             let from = figure.get("from").map_or(0.0, value);
             let to = figure.get("to").map_or(run.end, value);
             let span = Span { from, to };
@@ -128,6 +129,10 @@ impl Expected<'_> {
                 "time-of-max" => run.extreme(column, 1.0, span).1,
                 "amplitude" => run.amplitude(column, span),
                 "middle" => 0.5 * (run.extreme(column, 1.0, span).0 + run.extreme(column, -1.0, span).0),
+                "first-impact-time" => first().time,
+                "first-impact-speed" => first().speed,
+                "first-impact-impulse" => first().impulse,
+                "first-impact-loss" => first().lost,
                 other => panic!("{}: unknown figure `{other}`", self.name),
             };
             let (expected, tolerance) = (number(figure, "value"), number(figure, "tolerance"));

@@ -4,7 +4,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use flexion_case::{Problems, Reading, read};
-use flexion_results::{Status, Trajectory};
+use flexion_results::{Events, Status, Trajectory};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use toml::{Table, Value};
@@ -61,6 +61,7 @@ pub struct Run {
     pub failure: Option<String>,
     pub end: f64,
     pub trajectory: Trajectory,
+    pub events: Events,
     pub steps: u64,
 }
 
@@ -121,5 +122,6 @@ pub fn run(name: &str, overrides: &[&str]) -> Run {
 pub fn integrate(reading: &Reading) -> Result<Run, Problems> {
     let run = reading.prepare()?.run(&mut |_| ControlFlow::Continue(()));
     let failure = (run.status != Status::Finished).then(|| run.message.unwrap());
-    Ok(Run { failure, end: run.state.t, trajectory: run.trajectory, steps: run.counters.steps })
+    let (trajectory, events, steps) = (run.trajectory, run.events, run.counters.steps);
+    Ok(Run { failure, end: run.state.t, trajectory, events, steps })
 }

@@ -21,10 +21,12 @@
 //! | `row` | scalar constraints between two markers |
 //! | `joint` | joints as lists of rows, with their drives |
 //! | `force` | springs, dampers, actuators and loads as forces between two markers |
+//! | `contact_points` | points that may touch obstacles |
 //! | `layout` | order of bodies and multipliers along the tree |
 //! | `model` | what a user builds, with its faults |
 //! | `consistency` | positions, ranks and velocities at the start |
 //! | `constants` | what does not change in a run |
+//! | `slender` | the geometrically exact slender beam |
 //! | `system` | the equations of motion |
 //! | `observed`, `channels` | energies, power, recorded quantities |
 
@@ -32,6 +34,7 @@ mod body;
 mod channels;
 mod consistency;
 mod constants;
+mod contact_points;
 mod force;
 mod joint;
 mod layout;
@@ -40,6 +43,7 @@ mod model;
 mod observed;
 pub mod rotation;
 mod row;
+pub mod slender;
 mod system;
 
 pub use body::Body;

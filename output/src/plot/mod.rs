@@ -5,6 +5,7 @@
 //! convergence plot) is a [`Figure`] built from its own [`Panel`]s. The same figure gives the same bytes.
 
 mod axis;
+mod contact;
 mod coverage;
 mod dash;
 mod decimate;
@@ -16,6 +17,7 @@ mod style;
 mod tests;
 mod vibration;
 
+pub use self::contact::contact_figure;
 pub use self::draw::Drawing;
 pub use self::panels::{compare_figure, difference_figure, trajectory_figure};
 pub use self::vibration::{campbell_figure, modes_figure};

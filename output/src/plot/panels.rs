@@ -5,7 +5,7 @@ use crate::{Comparison, Results, Trajectory};
 use flexion::system::{Channel, Role};
 
 /// Quantities of axes that are not the name of their column; nothing else depends on these names.
-const QUANTITIES: [(&str, &str); 9] = [
+const QUANTITIES: [(&str, &str); 10] = [
     ("tip.deflection", "Tip deflection w₂"),
     ("tip.axial", "Axial displacement"),
     ("hub.speed", "Hub speed"),
@@ -15,6 +15,7 @@ const QUANTITIES: [(&str, &str); 9] = [
     ("energy.strain", "Strain energy"),
     ("energy.gravity", "Energy of gravity"),
     ("energy.total", "Total energy"),
+    ("energy.contact_loss", "Energy lost in contacts"),
 ];
 
 /// Primary columns that the figure of a run shows in any case; further ones fill its last row.
@@ -83,12 +84,17 @@ pub fn difference_figure(
     Figure { title: title.map(String::from), panels, columns: 2, share_x: true }
 }
 
+/// Panels in two columns, each with a time axis of its own.
+pub(super) fn figure_of(panels: Vec<Panel>, title: Option<&str>) -> Figure {
+    Figure { title: title.map(String::from), panels, columns: 2, share_x: false }
+}
+
 fn figure(panels: Vec<Panel>, title: Option<&str>) -> Figure {
     let columns = if panels.len() < PANELS { 1 } else { 2 };
     Figure { title: title.map(String::from), panels, columns, share_x: true }
 }
 
-fn panel(runs: &[(Option<&str>, &Trajectory)], name: &str) -> Option<Panel> {
+pub(super) fn panel(runs: &[(Option<&str>, &Trajectory)], name: &str) -> Option<Panel> {
     let mut y = None;
     let mut series = Vec::new();
     for (number, (run, trajectory)) in runs.iter().enumerate() {
@@ -103,7 +109,7 @@ fn panel(runs: &[(Option<&str>, &Trajectory)], name: &str) -> Option<Panel> {
 }
 
 /// The parts of the energy: in one panel, or in two where some are small.
-fn energies(trajectory: &Trajectory) -> Vec<Panel> {
+pub(super) fn energies(trajectory: &Trajectory) -> Vec<Panel> {
     let found: Vec<(usize, f64)> =
         trajectory.with_role(Role::Energy).map(|i| (i, trajectory.extremes(i).largest())).collect();
     let readable = READABLE * found.iter().fold(0.0, |m: f64, (_, size)| m.max(*size));
@@ -129,7 +135,7 @@ fn axis(channel: &Channel) -> Axis {
     Axis::new(quantity, channel.unit.replace('*', "·"))
 }
 
-fn points(trajectory: &Trajectory, index: usize) -> Vec<(f64, f64)> {
+pub(super) fn points(trajectory: &Trajectory, index: usize) -> Vec<(f64, f64)> {
     trajectory.times().iter().copied().zip(trajectory.values(index)).collect()
 }
 

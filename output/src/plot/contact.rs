@@ -1,0 +1,119 @@
+//! The figure of a run with contacts: gaps, forces, energies, and the first burst of impacts.
+
+use super::panels::{energies, figure_of, panel, points};
+use super::{Axis, Figure, Line, Marker, Panel, Series};
+use crate::{Entry, Events, Trajectory};
+
+/// Contacts that are drawn.
+const DRAWN: usize = 4;
+/// A pause between events that ends a burst, over the duration.
+const PAUSE: f64 = 0.02;
+/// Shortest time that the enlarged panels show, over the duration.
+const SHORTEST: f64 = 0.01;
+/// Margin on both sides of a burst, over its length.
+const MARGIN: f64 = 0.15;
+
+/// The figure of a run with contacts against time. Without events, as of a method that steps over them, it has no
+/// enlarged panels.
+pub fn contact_figure(trajectory: &Trajectory, events: &Events, title: Option<&str>) -> Figure {
+    let shown = drawn(trajectory, events);
+    let mut panels = Vec::new();
+    panels.push(of_contacts(trajectory, &shown, "gap", Axis::new("Gap g", "m"), None));
+    panels.push(of_contacts(trajectory, &shown, "force", Axis::new("Normal force λ", "N"), None));
+    panels.extend(energies(trajectory).into_iter().take(1));
+    panels.extend(panel(&[(None, trajectory)], "energy.contact_loss"));
+    panels.retain(|panel| !panel.series.is_empty());
+    if let Some(window) = burst(trajectory, events) {
+        panels.extend(enlarged(trajectory, events, &shown, window));
+    }
+    figure_of(panels, title)
+}
+
+/// Numbers and names of the contacts that are drawn: those that touched first, or the first.
+fn drawn(trajectory: &Trajectory, events: &Events) -> Vec<(usize, String)> {
+    let mut numbers: Vec<usize> = Vec::new();
+    let all = (0..).take_while(|i| !events.name(*i).is_empty());
+    for i in events.list.iter().map(|entry| entry.contact).chain(all) {
+        if numbers.len() < DRAWN && !numbers.contains(&i) {
+            numbers.push(i);
+        }
+    }
+    numbers.sort_unstable();
+    let named = numbers.into_iter().map(|i| (i, events.name(i).to_owned()));
+    named.filter(|(_, name)| trajectory.index(&format!("{name}.gap")).is_some()).collect()
+}
+
+/// A quantity of the contacts, in all of the run or in a part of it.
+fn of_contacts(
+    trajectory: &Trajectory,
+    shown: &[(usize, String)],
+    quantity: &str,
+    y: Axis,
+    window: Option<(f64, f64)>,
+) -> Panel {
+    let curve = |(color, (_, name)): (usize, &(usize, String))| {
+        let mut points = points(trajectory, trajectory.index(&format!("{name}.{quantity}"))?);
+        if let Some((from, to)) = window {
+            points.retain(|(t, _)| (from..=to).contains(t));
+        }
+        let name = (shown.len() > 1).then_some(name.as_str());
+        Some(Series { color: Some(color), ..Series::line(name, points) })
+    };
+    let series = shown.iter().enumerate().filter_map(curve).collect();
+    let x = Axis { range: window, ..Axis::time() };
+    Panel { x, y, series, words: Vec::new() }
+}
+
+/// Beginning and end of the first burst of events, with a margin.
+fn burst(trajectory: &Trajectory, events: &Events) -> Option<(f64, f64)> {
+    let (start, end) = (*trajectory.times().first()?, *trajectory.times().last()?);
+    let duration = end - start;
+    let first = events.impacts().next()?.time;
+    let mut last = first;
+    for entry in events.list.iter().filter(|entry| entry.time >= first) {
+        if entry.time - last > PAUSE * duration {
+            break;
+        }
+        last = entry.time;
+    }
+    let missing = (SHORTEST * duration - (last - first)).max(0.0);
+    let margin = MARGIN * (last - first) + 0.5 * missing;
+    Some(((first - margin).max(start), (last + margin).min(end)))
+}
+
+/// Gap and impulses, or forces, of a part of the run.
+fn enlarged(
+    trajectory: &Trajectory,
+    events: &Events,
+    shown: &[(usize, String)],
+    (from, to): (f64, f64),
+) -> Vec<Panel> {
+    let inside = |entry: &&Entry| (from..=to).contains(&entry.time);
+    let mut gap = of_contacts(trajectory, shown, "gap", Axis::new("Gap, first burst", "m"), Some((from, to)));
+    // Records are too few for a burst: at an impact the gap is zero.
+    for (series, (number, _)) in gap.series.iter_mut().zip(shown) {
+        let touched = events.list.iter().filter(inside).filter(|entry| entry.contact == *number);
+        series.points.extend(touched.map(|entry| (entry.time, 0.0)));
+        series.points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    }
+    let impulses = |(color, (number, name)): (usize, &(usize, String))| {
+        let strikes = |entry: &&Entry| entry.contact == *number && entry.impulse > 0.0;
+        let points = events.list.iter().filter(inside).filter(strikes);
+        Series {
+            name: (shown.len() > 1).then(|| name.clone()),
+            points: points.map(|entry| (entry.time, entry.impulse)).collect(),
+            line: Line::None,
+            marker: Some(Marker::Circle),
+            color: Some(color),
+        }
+    };
+    let series: Vec<Series> = shown.iter().enumerate().map(impulses).collect();
+    let second = if series.iter().all(|series| series.points.is_empty()) {
+        of_contacts(trajectory, shown, "force", Axis::new("Force, first burst", "N"), Some((from, to)))
+    } else {
+        let x = Axis { range: Some((from, to)), ..Axis::time() };
+        let y = Axis::logarithmic("Impulses, first burst", "N·s");
+        Panel { x, y, series, words: Vec::new() }
+    };
+    vec![gap, second]
+}
