@@ -28,7 +28,7 @@ pub(super) struct Contacts {
 
 impl Contacts {
     /// `None` for a system without contacts and indicators.
-    pub(super) fn new(system: &dyn System, state: &State) -> Option<Contacts> {
+    pub(super) fn new(system: &mut dyn System, state: &State) -> Option<Contacts> {
         Some(Contacts {
             locator: Locator::new(system, state)?,
             map: ImpactMap::new(system),
@@ -72,6 +72,9 @@ impl Contacts {
         let struck = self.map.strike(system, state, p, bounds);
         let impact = struck.map_err(|cause| RunError::Contact { time: state.t, cause })?;
         self.neglected.add(impact.neglected);
+        if impact.impulses.iter().all(|x| *x == 0.0) {
+            self.locator.open_released(state);
+        }
         Ok(impact)
     }
 

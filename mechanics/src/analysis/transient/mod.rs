@@ -116,7 +116,7 @@ struct Run {
 }
 
 impl Run {
-    fn new(system: &dyn System, state: &State) -> Run {
+    fn new(system: &mut dyn System, state: &State) -> Run {
         let contacts = Contacts::new(system, state);
         Run {
             origin: state.t,
