@@ -87,7 +87,7 @@ fn main() {
     );
     println!(
         "The exact coupling with another basis than finite elements is refused: it describes the whole curve of the beam by \
-         one Hermite\nfield. `zeroth` ends as soon as the hub has turned faster than the first frequency of the beam for long enough.\n\n\
+         one Hermite\nfield. `zeroth` ends as soon as the hub has rotated faster than the first frequency of the beam for long enough.\n\n\
          At E = 5 GPa and Ω = 4 rad/s a simple iteration on the high-order equations is said to lose convergence near 14–15 s. With Newton's \
          method\nthe `high` column below ends earlier, at 7.4 s (five modes: 8.6 s), when the tip passes the length of the beam: the model \
          gives up, not the\niteration; a simple iteration gives up still earlier, at a slope of 0.6 \

@@ -100,7 +100,7 @@ fn main() {
          deflection a hundred times as large, and sensitive to everything.\n\
          - *RPIM and finite elements agree at every speed* (P1). Found; RPIM with 11 nodes is closer to the converged solution than\n  \
          10 elements are.\n\
-         - *The zeroth-order coupling diverges at high speed* (P1, P3). Found, as soon as the hub turns faster than the beam's first\n  \
+         - *The zeroth-order coupling diverges at high speed* (P1, P3). Found, as soon as the hub rotates faster than the beam's first\n  \
          frequency.\n\
          - *The largest deflection of a graded beam grows with N, and for N > 0 it vibrates about a shifted equilibrium* (P3). Found.\n"
     );
@@ -148,7 +148,7 @@ fn main() {
         "P1 finds an error of the amplitude beyond 50 % at α_c = 1, little from 2 to 7, and a singular moment matrix above.\n\
          It says neither which support nor which polynomials it used. Δ amplitude from 10 finite elements, Ω = 4 rad/s,\n\
          E = 70 GPa, for the default (cubic polynomials, support 2.5 spacings), for no polynomials, and for no polynomials on\n\
-         a support of 1.2 spacings, where a point sees its two or three nearest nodes: there the claim is found.\n"
+         a support of 1.2 spacings, where a point has its two or three nearest nodes in its support: there the claim is found.\n"
     );
     println!("| α_c | default | no polynomials | the same, support 1.2 | the same, support 1.2, q = 0.98 |");
     println!("|---|---|---|---|---|");

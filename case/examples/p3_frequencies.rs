@@ -81,7 +81,7 @@ fn main() {
         "# Frequencies of rotating graded beams, computed
 
 Made by `cargo run --release --example p3_frequencies`. The beam of P3 (ceramic 151 GPa and 3000 kg/m³, metal 70 GPa and
-2707 kg/m³, 5 m × 20 mm × 20 mm, no hub radius) turns steadily; chordwise frequencies ω and speed Ω are multiples of 1/τ,
+2707 kg/m³, 5 m × 20 mm × 20 mm, no hub radius) rotates steadily; chordwise frequencies ω and speed Ω are multiples of 1/τ,
 τ = (12 ρₜL⁴/(Eₜh²))^½, γ = Ωτ. Each entry: 10 finite elements, and in brackets how far 4 assumed modes are from them. N is
 the exponent of the grading, N = 0 pure ceramic.
 

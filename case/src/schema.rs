@@ -5,7 +5,7 @@ use super::layout;
 use super::units::{self, Measure};
 use serde_json::{Map, Value, json};
 
-/// A number and a unit, as far as a pattern can tell.
+/// A number and a unit, as far as a pattern can describe them.
 const QUANTITY: &str = r"^\s*[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?\s*([A-Za-zµμ°1(].*)?$";
 
 /// The schema, as indented text that ends in a newline.

@@ -56,9 +56,9 @@ output = { step = "5 ms", stations = ["1 m"] }
     },
     Template {
         name: "free-hub",
-        summary: "an arm on a hub that a controller turns to a target angle",
+        summary: "an arm on a hub that a controller rotates to a target angle",
         text: r#"
-title = "A flexible arm turned by a controller"
+title = "A flexible arm driven by a controller"
 beam = { length = "1 m" }
 section = { kind = "rectangle", modulus = "70 GPa", density = "2700 kg/m^3", width = "20 mm", height = "2 mm" }
 model = { coupling = "first" }

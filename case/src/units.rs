@@ -1,4 +1,4 @@
-//! Quantities as people write them, `"70 GPa"`, `"3000 rpm"`, `"4 cm^2"`, turned into SI numbers.
+//! Quantities as people write them, `"70 GPa"`, `"3000 rpm"`, `"4 cm^2"`, converted to SI numbers.
 //!
 //! A quantity is a decimal number and a unit. A unit is a product of named units with integer powers:
 //! `kg/m^3`, `N*m^2`, `N m²`, `1/s`, `kg/(m*s)`. Angle is a dimension of its own, so that `rpm` and

@@ -55,7 +55,7 @@ fn the_tip_deflection_of_cubic_elements_converges_with_the_fourth_power_of_their
 #[test]
 fn the_stretch_converges_with_the_square_of_the_size_of_linear_elements_and_the_fourth_power_of_quadratic_ones()
  {
-    // A soft beam that turns fast, so that errors stand out of rounding.
+    // A soft beam that rotates fast, so that errors stand out of rounding.
     let soft = ["section.modulus=0.7 GPa", "hub.motion.speed=40", "run.duration=0.01", "output.step=0.01"];
     let k = 40.0 / (0.7e9_f64 / 3000.0).sqrt();
     let stretch = (k * 10.0).tan() / k - 10.0;

@@ -75,7 +75,7 @@ fn a_speed_that_jumps_strikes_the_beam() {
 }
 
 /// The blow is an angular impulse: before it nothing moves, and behind it the beam has the momentum M v of a beam that
-/// stands still in space while the hub turns, J Δω.
+/// stands still in space while the hub rotates, J Δω.
 #[test]
 fn the_momentum_behind_the_blow_is_that_of_the_hub() {
     let struck = run(&jump("if(t<1,0,0.5)", "speed"), &["run.duration=1.01", "output.step=1e-4"]);

@@ -46,7 +46,7 @@ fn a_clamped_column_buckles_under_eulers_load() {
 
 #[test]
 fn a_couple_rolls_a_cantilever_up_to_four_circles() {
-    // 8π EI/L: the tip turns by 8π and comes back to the clamp.
+    // 8π EI/L: the tip rotates by 8π and comes back to the clamp.
     let errors = [40, 80].map(|elements| {
         let elements = format!("elements = {elements}");
         let couple = format!("couple = \"{} N*m\"", 8.0 * PI * 100.0);

@@ -3,15 +3,18 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // in helpers of tests
 #![allow(unsafe_code)]
 
+#[path = "../../mechanics/tests/integrators/multibody.rs"]
+mod multibody;
 #[path = "verification/run.rs"]
 mod run;
 #[path = "../../mechanics/tests/integrators/systems.rs"]
 mod systems;
 
 use flexion::integrator::{
-    Adams, GeneralizedAlpha, Integrator, Radau, RungeKutta, Span, StepControl, Tolerance,
+    Adams, GeneralizedAlpha, Integrator, MoreauJean, NonsmoothAlpha, Radau, RungeKutta, Span, StepControl,
+    Tolerance,
 };
-use flexion::system::{Parameter, State, System};
+use flexion::system::{Dynamics, Mode, Parameter, State, System};
 use std::alloc::{GlobalAlloc, Layout, System as Heap};
 use std::cell::Cell;
 use systems::{CartesianPendulum, Chain, SpringPendulum, state, wide_chain};
@@ -115,6 +118,23 @@ fn no_step_allocates() {
     assert_no_allocation("pendulum with a constraint", &mut constrained, &from, 1e-2, only);
 }
 
+/// Two balls that fall, strike, bounce and slide, with a rod between them.
+#[test]
+fn no_nonsmooth_step_allocates() {
+    let mut balls = multibody::BallsOnWall::new(0.5, [0.2, 0.3]);
+    let mut from = balls.initial();
+    let r = balls.radius;
+    from.q = vec![0.0, r + 0.01, 0.0, balls.length, r + 0.01, 0.0];
+    from.v = vec![1.0, -1.0, 0.0, 1.0, -1.0, 0.0];
+    from.mode[..4].fill(Mode::Open);
+    let all: Vec<Box<dyn Integrator>> = vec![
+        Box::new(MoreauJean::new(0.5).unwrap()),
+        Box::new(NonsmoothAlpha::decoupled(0.8).unwrap()),
+        Box::new(NonsmoothAlpha::coupled(0.8).unwrap()),
+    ];
+    assert_no_allocation("two balls", &mut balls, &from, 2e-3, all);
+}
+
 /// Every coupling on every basis it can use, uniform and graded, bands and dense matrices.
 #[test]
 fn no_step_of_a_hub_and_beam_allocates() {
@@ -139,7 +159,7 @@ fn no_step_of_a_hub_and_beam_allocates() {
         for (coupling, bases) in couplings {
             for basis in bases {
                 let rotary = "section.rotary-inertia=true";
-                // It turns from the start, so that the steps have something to do.
+                // It rotates from the start, so that the steps have something to do.
                 let motion = "hub.motion={kind='constant',speed='40 rad/s'}";
                 let overrides = [&format!("model.coupling={coupling}"), *basis, motion, rotary];
                 let what = format!("{folder} {overrides:?}");
@@ -224,7 +244,7 @@ fn a_fork_is_independent_and_shares_the_constants() {
         for (parameter, value) in [(Parameter::Speed, 3.0), (Parameter::LoadFactor, 0.5)] {
             fork.set(parameter, value).unwrap();
         }
-        assert!(steps(&mut *fork) != expected, "{coupling}: the fork turns steadily");
+        assert!(steps(&mut *fork) != expected, "{coupling}: the fork rotates steadily");
         assert!(steps(&mut *original) == expected, "{coupling}: the original does not");
         let (mut later, again) = bytes(|| original.fork());
         assert!(steps(&mut *later) == expected, "{coupling}: a fork of a system that has run");

@@ -7,7 +7,7 @@ use flexion_case::Run;
 use std::fmt::Write;
 use std::path::Path;
 
-/// A beam so soft that it swings by a fifth of its length, on a hub that is free to turn.
+/// A beam so soft that it swings by a fifth of its length, on a hub that is free to rotate.
 const BASE: &str = r#"
 [beam]
 length = "2 m"

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 /// Largest difference, over the length of the beam or in rad: rounding.
 const TOLERANCE: f64 = 1e-12;
 
-/// A beam that bends by more than half its length while it turns.
+/// A beam that bends by more than half its length while it rotates.
 fn results(folder: &Path) -> (PathBuf, Run) {
     let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("../verification/p1_spin_up_4_at_5_gpa");
     let set =

@@ -87,11 +87,15 @@ fn beam(case: &Case) -> Vec<Vec<String>> {
 
 /// Sizes and structure.
 fn equations(system: &dyn System, integrator: &dyn Integrator) -> Vec<Vec<String>> {
-    let structure = match system.structure(1) {
+    let structure = system.structure(1);
+    let structure = match structure {
         Structure::Dense { order } => format!("dense, order {order}"),
-        Structure::Band { order, lower, upper, border } => {
-            format!("band, order {order}, half-bandwidth {}, border {border}", lower.max(upper))
-        }
+        _ => format!(
+            "band, order {}, half-bandwidth {}, border {}",
+            structure.order() - structure.border(),
+            structure.half_bandwidth(),
+            structure.border()
+        ),
     };
     let info = integrator.info();
     let kind = if info.implicit { "implicit" } else { "explicit" };

@@ -30,7 +30,7 @@ pub struct Options {
     /// Speeds and frequencies, given and written, are multiples of √(EI/ρAL⁴), by the section at the root
     #[arg(long)]
     dimensionless: bool,
-    /// The hub of the case turns with the beam, under its torques [default: it keeps its speed]
+    /// The hub of the case rotates with the beam, under its torques [default: it keeps its speed]
     #[arg(long)]
     free_hub: bool,
 }
@@ -74,13 +74,13 @@ pub fn system(case: &Case) -> Result<Box<dyn Fork>, String> {
     case.vibrating().map_err(|error| error.to_string())
 }
 
-/// The case without the loads that are fixed in space, and a warning that names them. In the frame of a turning hub these
+/// The case without the loads that are fixed in space, and a warning that names them. In the frame of a rotating hub these
 /// loads are periodic, and there is no steady state to linearize about. Their mean over a revolution is zero: the modes
 /// are those about this mean.
 pub fn without_loads_in_space(case: &Case) -> (Case, Vec<String>) {
     let (case, left_out) = case.without_loads_in_space();
     let caution = format!(
-        "without {}: seen from a hub that turns it changes with every revolution, a state that is not steady has no modes, \
+        "without {}: seen from a hub that rotates it changes with every revolution, a state that is not steady has no modes, \
          and its mean over a revolution is zero",
         left_out.join(" and ")
     );

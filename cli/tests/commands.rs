@@ -160,7 +160,7 @@ fn modes_and_campbell_write_whole_results_and_refuse_what_cannot_be() {
     for (a, b) in last("one").iter().zip(last("rpm")) {
         assert!((a - b).abs() <= 1e-9 * a.abs(), "{a} {b}");
     }
-    // Loads fixed in space turn against the hub: left out, with a warning.
+    // Loads fixed in space rotate against the hub: left out, with a warning.
     let heavy =
         flexion(folder.path(), &["modes", "spin-up", "--speed", "4", "--set", "gravity.acceleration=9.81"]);
     let light = flexion(folder.path(), &["modes", "spin-up", "--speed", "4"]);

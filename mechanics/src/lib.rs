@@ -46,7 +46,7 @@
 //! | describe a cross-section | [`section`] | [`section::Section`] |
 //! | choose the functions of a displacement field | [`basis`] | [`basis::Basis`] |
 //! | prescribe a motion, a torque or a load in time | [`profile`] | [`profile::Profile`] |
-//! | make a beam on a turning hub, with its loads | [`hub_beam`] | [`hub_beam::Coupling`], [`hub_beam::load::Load`] |
+//! | make a beam on a rotating hub, with its loads | [`hub_beam`] | [`hub_beam::Coupling`], [`hub_beam::load::Load`] |
 //! | find the small vibrations of a rotating blade in space | [`blade`] | [`section::BladeSection`] |
 //! | write a model of one's own | [`system`] | [`system::Dynamics`], [`system::Events`], [`system::Steady`], [`system::Observed`] |
 //! | integrate in time | [`integrator`] | [`integrator::Integrator`] |
@@ -65,10 +65,12 @@ pub mod analysis;
 pub mod basis;
 pub mod blade;
 pub mod contact;
+pub mod drive;
 pub mod exact;
 pub mod hub_beam;
 pub mod integrator;
 pub mod linalg;
+pub mod multibody;
 pub mod profile;
 pub mod quadrature;
 pub mod section;

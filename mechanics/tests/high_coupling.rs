@@ -3,6 +3,7 @@
 
 use super::integrators::drive;
 use flexion::basis::{Field, Modes};
+use flexion::drive::Actuator;
 use flexion::hub_beam::{Coupling, Drive, Fields, FreeHub, HighCoupling, Hub, HubBeam};
 use flexion::integrator::RungeKutta;
 use flexion::profile::Constant;
@@ -12,7 +13,7 @@ use std::sync::Arc;
 
 const LENGTH: f64 = 2.0;
 
-/// A beam on a hub that nothing turns.
+/// A beam on a hub that nothing drives.
 fn system() -> HubBeam<HighCoupling> {
     let resultants =
         Resultants { mass: 1.2, axial_stiffness: 200.0, bending_stiffness: 8.0, ..Default::default() };
@@ -20,11 +21,13 @@ fn system() -> HubBeam<HighCoupling> {
     let free = FreeHub {
         angle: 0.0,
         speed: 1.5,
-        torque: Arc::new(Constant::new(0.0).unwrap()),
-        damping: 0.0,
-        stiffness: 0.0,
-        rest_angle: 0.0,
-        controller: None,
+        actuator: Actuator {
+            torque: Arc::new(Constant::new(0.0).unwrap()),
+            damping: 0.0,
+            stiffness: 0.0,
+            rest_angle: 0.0,
+            controller: None,
+        },
     };
     let hub = Hub { radius: 0.2, inertia: 3.0, drive: Drive::Free(free) };
     let fields = Fields::new(

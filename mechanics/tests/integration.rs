@@ -9,6 +9,8 @@ mod integrators;
 mod kept_tangents;
 mod linear_cost;
 mod modes;
+mod multibody_systems;
+mod slender;
 mod surroundings;
 mod tapered_beam;
 

@@ -1,4 +1,4 @@
-//! Tangents that are kept from step to step, and carried along with the turning sections.
+//! Tangents that are kept from step to step, and carried along with the rotating sections.
 #![allow(missing_docs, clippy::unwrap_used)]
 
 use flexion::hub_beam::{Drive, ExactCoupling, Hub, HubBeam};
@@ -57,19 +57,19 @@ fn stiffness_turns_with_a_beam_that_turns_as_a_whole() {
     let (bent, turned) = bent_and_turned(&system, 0.7);
     let before = stiffness(&mut system, &bent);
     let now = stiffness(&mut system, &turned);
-    let mut turns = Corotation::default();
-    system.corotate(&bent, &turned, &mut turns);
+    let mut rotation = Corotation::default();
+    system.corotate(&bent, &turned, &mut rotation);
     let n = bent.q.len();
-    // The first two nodes belong to the element at the root, which does not turn.
+    // The first two nodes belong to the element at the root, which does not rotate.
     let free = ROOT + 4..n;
     let mut largest: f64 = 0.0;
     for j in free.clone() {
         let (mut unit, mut column, mut expected) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
         unit[j] = 1.0;
         now.multiply(&unit, &mut expected);
-        turns.rotate_back(&mut unit);
+        rotation.rotate_back(&mut unit);
         before.multiply(&unit, &mut column);
-        turns.rotate(&mut column);
+        rotation.rotate(&mut column);
         for i in free.clone() {
             largest = largest.max(expected[i].abs());
             assert!(
@@ -87,13 +87,13 @@ fn stiffness_turns_with_a_beam_that_turns_as_a_whole() {
 fn turning_back_undoes_turning() {
     let system = beam();
     let (bent, turned) = bent_and_turned(&system, -1.2);
-    let mut turns = Corotation::default();
-    system.corotate(&bent, &turned, &mut turns);
+    let mut rotation = Corotation::default();
+    system.corotate(&bent, &turned, &mut rotation);
     let x: Vec<f64> = (0..bent.q.len()).map(|i| (1.0 + i as f64).sin()).collect();
     let mut y = x.clone();
-    turns.rotate(&mut y);
+    rotation.rotate(&mut y);
     assert!(x.iter().zip(&y).any(|(x, y)| (x - y).abs() > 0.1));
-    turns.rotate_back(&mut y);
+    rotation.rotate_back(&mut y);
     assert!(x.iter().zip(&y).all(|(x, y)| (x - y).abs() < 1e-14));
 }
 

@@ -81,7 +81,7 @@ fn rounding_errors_of_fine_meshes_are_not_iterated_upon() {
     }
 }
 
-/// A hundred thousand unknowns: a tether of 3.3 km whose hub begins to turn. No bending wave reaches the tip in ten
+/// A hundred thousand unknowns: a tether of 3.3 km whose hub begins to rotate. No bending wave reaches the tip in ten
 /// steps; it stays where it is, and is seen from the hub at −L θ = −½ L ω̇ t².
 #[test]
 fn a_hundred_thousand_unknowns_take_few_numbers_each() {

@@ -6,6 +6,7 @@ use flexion::analysis::modes::{Mode, Modes, modes};
 use flexion::analysis::rotation::{NoRotation, rotate_stably};
 use flexion::basis::{Basis, Field, Hermite, Lagrange};
 use flexion::blade::{Blade, Model, Setting, StrainEnergy, Terms};
+use flexion::drive::Actuator;
 use flexion::hub_beam::{
     Damping, Drive, ExactCoupling, Fields, Foreshortening, FreeHub, HighCoupling, Hub, HubBeam,
     LinearCoupling,
@@ -242,7 +243,7 @@ fn a_beam_without_centrifugal_stiffening_buckles_at_its_first_frequency() {
     let Err(NoRotation::Buckled { reached, negative, .. }) =
         rotate_stably(system.as_mut(), &mut state, 0.0, 5.0)
     else {
-        panic!("it turns steadily at 5 rad/s");
+        panic!("it rotates steadily at 5 rad/s");
     };
     assert_eq!(negative, 1);
     // The axial stretch is not coupled to the deflection: K − Ω²M is exhausted at Ω = ω₁.
@@ -277,11 +278,7 @@ fn a_free_hub_without_inertia_makes_a_pinned_beam() {
     let free = FreeHub {
         angle: 0.0,
         speed: 0.0,
-        torque,
-        damping: 0.0,
-        stiffness: 0.0,
-        rest_angle: 0.0,
-        controller: None,
+        actuator: Actuator { torque, damping: 0.0, stiffness: 0.0, rest_angle: 0.0, controller: None },
     };
     let hub = Hub { radius: 0.0, inertia: 0.0, drive: Drive::Free(free) };
     let mut system = HubBeam::new(hub.clone(), coupling(40, &hub), &[]);

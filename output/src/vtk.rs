@@ -7,7 +7,7 @@
 //!
 //! | name | meaning |
 //! |---|---|
-//! | `displacement` | vector from the rigid beam that turns with the root section to the axis \[m\], inertial frame |
+//! | `displacement` | vector from the rigid beam that rotates with the root section to the axis \[m\], inertial frame |
 //! | `axial`, `deflection` | the same along the tangent and the normal of the root section \[m\] |
 //! | `rotation` | angle of the section against the root section [rad], about the third axis |
 //! | `arc_length` | arc length from the root in the undeformed beam \[m\] |
@@ -289,7 +289,7 @@ mod tests {
     #[test]
     fn the_collection_names_every_frame_with_its_time() {
         let mut out = Vec::new();
-        write_pvd(&[0.0, 0.1, 1.0 / 3.0], &mut out).unwrap();
+        write_pvd(&[0.0, 0.1, 1.0 / 3.0], false, &mut out).unwrap();
         let text = String::from_utf8(out).unwrap();
         let document = roxmltree::Document::parse(&text).unwrap();
         let sets: Vec<(f64, &str)> = document

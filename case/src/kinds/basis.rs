@@ -15,7 +15,7 @@ const MOST_ENTRIES: f64 = 5e7;
 /// Factor between the error of a run and its difference from one with twice the functions: 2 covers every order of
 /// convergence, with half as much again in reserve for orders from 2.
 const SAFETY: f64 = 2.0;
-/// Vibration modes converge more slowly than that when the beam turns fast.
+/// Vibration modes converge more slowly than that when the beam rotates fast.
 const SAFETY_OF_MODES: f64 = 4.0;
 
 /// The bases of both fields.

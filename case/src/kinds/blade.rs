@@ -1,4 +1,4 @@
-//! The blade of a case: what turns its beam into one that also bends out of the plane and twists.
+//! The blade of a case: a beam that also bends out of the plane and twists.
 
 use super::section::Section;
 use crate::declaration::{Bound::*, Key, Presence as Default, Presence::Optional, Type, Type::Quantity, key};

@@ -6,7 +6,8 @@ use crate::kind::{Choice, Kind};
 use crate::units::TIME;
 use crate::values::Values;
 use flexion::integrator::{
-    Adams, GeneralizedAlpha, Integrator, InvalidParameter, Radau, RungeKutta, Tolerance,
+    Adams, GeneralizedAlpha, Integrator, InvalidParameter, MoreauJean, NonsmoothAlpha, Radau, RungeKutta,
+    Tolerance,
 };
 
 /// An integrator that has not yet started, and the steps that a case asks of it.
@@ -67,6 +68,12 @@ fn radau(v: &Values) -> Made<Method> {
 }
 
 const STEP: Key = key("step", Quantity(&TIME, Positive), Required, "time step");
+const SPECTRAL_RADIUS: Key = key(
+    "spectral-radius",
+    Type::Number(Between(0.0, 1.0)),
+    Default::Number(0.8),
+    "spectral radius ρ∞ at high frequency, from 0 (most dissipation) to 1 (none)",
+);
 const TOLERANCE: Type = Type::Number(Between(1e-14, 1e-1));
 
 /// The kinds of integrator.
@@ -130,17 +137,48 @@ pub static INTEGRATOR: Choice<Method> = Choice {
             name: "generalized-alpha",
             summary: "generalized-α, implicit, order 2, dissipates high frequencies",
             source: "Chung & Hulbert 1993, doi:10.1115/1.2900803",
+            keys: &[STEP, SPECTRAL_RADIUS],
+            example: "integrator={kind='generalized-alpha', step='1 ms'}",
+            make: |v, _| fixed(v, GeneralizedAlpha::chung_hulbert(v.number("spectral-radius")?)),
+        },
+        Kind {
+            name: "nonsmooth-generalized-alpha",
+            summary: "nonsmooth generalized-α, implicit, order 2, 1 across impacts; locates no events",
+            source: "Brüls, Acary & Cardona 2014, doi:10.1016/j.cma.2014.07.025; Cosimo et al. 2020, \
+                     doi:10.1007/s11044-019-09706-6",
+            keys: &[
+                STEP,
+                SPECTRAL_RADIUS,
+                key(
+                    "decoupled",
+                    Type::Boolean,
+                    Default::Boolean(true),
+                    "position and velocity are corrected after a smooth step; if false, all is solved at once",
+                ),
+            ],
+            example: "integrator={kind='nonsmooth-generalized-alpha', step='1 ms'}",
+            make: |v, _| {
+                let spectral_radius = v.number("spectral-radius")?;
+                let decoupled = v.boolean("decoupled")?;
+                let make = if decoupled { NonsmoothAlpha::decoupled } else { NonsmoothAlpha::coupled };
+                fixed(v, make(spectral_radius))
+            },
+        },
+        Kind {
+            name: "moreau-jean",
+            summary: "Moreau–Jean, nonsmooth, implicit, order 1; locates no events",
+            source: "Moreau 1988, doi:10.1007/978-3-7091-2624-0_1; Jean 1999, doi:10.1016/S0045-7825(98)00383-1",
             keys: &[
                 STEP,
                 key(
-                    "spectral-radius",
-                    Type::Number(Between(0.0, 1.0)),
-                    Default::Number(0.8),
-                    "spectral radius ρ∞ at high frequency, from 0 (most dissipation) to 1 (none)",
+                    "theta",
+                    Type::Number(Between(0.5, 1.0)),
+                    Default::Number(0.5),
+                    "θ; above 1/2 it dissipates",
                 ),
             ],
-            example: "integrator={kind='generalized-alpha', step='1 ms'}",
-            make: |v, _| fixed(v, GeneralizedAlpha::chung_hulbert(v.number("spectral-radius")?)),
+            example: "integrator={kind='moreau-jean', step='1 ms'}",
+            make: |v, _| fixed(v, MoreauJean::new(v.number("theta")?)),
         },
         Kind {
             name: "runge-kutta-4",

@@ -21,7 +21,7 @@ pub struct Load {
     pub mass: Option<Mass>,
     /// Stations at which cells must end \[m\].
     pub stations: Vec<f64>,
-    /// What it is called, if its direction is fixed in space: seen from a hub that turns, it changes with every
+    /// What it is called, if its direction is fixed in space: seen from a hub that rotates, it changes with every
     /// revolution.
     pub fixed_in_space: Option<&'static str>,
 }
@@ -61,7 +61,7 @@ pub static AXES: Choice<Axes> = Choice {
         },
         Kind {
             name: "hub",
-            summary: "radial and transverse axis of the hub: the force turns with it",
+            summary: "radial and transverse axis of the hub: the force rotates with it",
             source: "",
             keys: &[],
             example: "force=[{station=1, force=[0, 3], frame='hub'}]",
@@ -69,7 +69,7 @@ pub static AXES: Choice<Axes> = Choice {
         },
         Kind {
             name: "follower",
-            summary: "tangent and normal of the beam: the force turns with the section",
+            summary: "tangent and normal of the beam: the force rotates with the section",
             source: "",
             keys: &[],
             example: "force=[{station=1, force=[0, 3], frame='follower'}]",

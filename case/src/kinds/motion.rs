@@ -112,7 +112,7 @@ pub static MOTION: Choice<Drive> = Choice {
         },
         Kind {
             name: "free",
-            summary: "free to turn, driven by torques, restrained or controlled",
+            summary: "free to rotate, driven by torques, restrained or controlled",
             source: "",
             keys: torque::KEYS,
             example: "hub={inertia=5, motion={kind='free', angle='10 deg', speed='1 rad/s', damping='0.1 N*m*s/rad', stiffness=2, rest-angle=0.1}}",

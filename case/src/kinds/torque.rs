@@ -1,4 +1,4 @@
-//! What turns a free hub: the torque on it and the controller of its angle.
+//! What drives a free hub: the torque on it and the controller of its angle.
 
 use super::profile::{self, Shared};
 use crate::declaration::{Bound::*, Key, Presence as Default, Presence::*, Type, Type::Quantity, key};
@@ -6,7 +6,8 @@ use crate::fault::{Made, both};
 use crate::kind::{Choice, Context, Kind};
 use crate::units::{ANGLE, ANGULAR_DAMPING, ANGULAR_SPEED, ANGULAR_STIFFNESS, TIME, TORQUE};
 use crate::values::Values;
-use flexion::hub_beam::{Controller, FreeHub};
+use flexion::drive::{Actuator, Controller};
+use flexion::hub_beam::FreeHub;
 use flexion::profile::{Constant, Motion, Profile, ProfileError, Ramp};
 use std::sync::Arc;
 
@@ -139,7 +140,7 @@ fn pd(v: &Values, _: &Context<'_>) -> Made<Option<Control>> {
     })))
 }
 
-/// A hub that is free to turn.
+/// A hub that is free to rotate.
 pub(super) fn free_hub(v: &Values, c: &Context<'_>) -> Made<FreeHub> {
     let (torque, control) = both(TORQUE_ON_HUB.make(v, "torque", c), CONTROLLER.make(v, "controller", c))?;
     let angle = v.number("angle")?;
@@ -147,10 +148,12 @@ pub(super) fn free_hub(v: &Values, c: &Context<'_>) -> Made<FreeHub> {
     Ok(FreeHub {
         angle,
         speed: v.number("speed")?,
-        torque,
-        damping: v.number("damping")?,
-        stiffness: v.number("stiffness")?,
-        rest_angle: v.number("rest-angle")?,
-        controller: profile::checked(controller, "controller")?,
+        actuator: Actuator {
+            torque,
+            damping: v.number("damping")?,
+            stiffness: v.number("stiffness")?,
+            rest_angle: v.number("rest-angle")?,
+            controller: profile::checked(controller, "controller")?,
+        },
     })
 }

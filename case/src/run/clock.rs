@@ -14,7 +14,7 @@ impl Clock {
         Clock { start: Instant::now(), processor: processor_time() }
     }
 
-    /// Time since the start [s], and that of the processor, where the system tells it.
+    /// Time since the start [s], and that of the processor, where the system gives it.
     pub(super) fn elapsed(&self) -> (f64, Option<f64>) {
         let processor = processor_time().zip(self.processor).map(|(end, start)| end - start);
         (self.start.elapsed().as_secs_f64(), processor)

@@ -10,7 +10,7 @@
 //! and a less accurate integration: y_x − y_c covers the error of y_x, which need not be less than that of y_f. With
 //! errors of the mesh that fall like hᵖ the difference y − y_f is (1 − 2⁻ᵖ) of the error of y: S = 2 covers every order
 //! p ≥ 1, with half as much again in reserve for p ≥ 2. Vibration modes converge more slowly than that when the beam
-//! turns fast: S = 4.
+//! rotates fast: S = 4.
 //!
 //! Half the step would not serve where vibrations are hardly resolved, for errors do not fall like hᵖ there. So `radau`
 //! runs all companions: those of its own runs with a tenth of their tolerance, which makes the error 18 times smaller
@@ -212,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn a_difference_that_is_no_number_is_told_whatever_follows_it() {
+    fn a_difference_that_is_no_number_is_reported_whatever_follows_it() {
         let (a, b) = (column([0.0, f64::NAN, 3.0]), column([0.0, 1.0, 2.0]));
         assert!(largest_difference(&a, &b, "y").unwrap().0.is_nan());
         assert_eq!(largest_difference(&b, &column([0.0, 0.5, 2.25]), "y"), Some((0.5, 2.25)));

@@ -14,7 +14,7 @@ pub struct ColumnError {
 /// Estimated errors of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Errors {
-    /// One entry for each column but those that tell of the integrator.
+    /// One entry for each column but those about the integrator.
     pub columns: Vec<ColumnError>,
     /// What could not be estimated, and why.
     pub warnings: Vec<String>,

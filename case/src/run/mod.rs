@@ -21,7 +21,6 @@ use flexion::analysis::superposition::superpose;
 use flexion::analysis::transient::{Ending, Plan, resume, transient_to_checkpoint};
 use flexion::hub_beam::{Drive, Mount};
 use flexion::integrator::{Checkpoint, Counters, Info};
-use flexion::linalg::Structure;
 use flexion::system::{State, System};
 use flexion_results::plot::{contact_figure, trajectory_figure};
 use flexion_results::{
@@ -79,7 +78,7 @@ pub struct Run {
     pub size: ProblemSize,
     /// Time of computing \[s\]. It and `cpu_time` are the figures that differ from run to run.
     pub wall_time: f64,
-    /// Time of computing of the processor \[s\], where the system tells it.
+    /// Time of computing of the processor \[s\], where the system gives it.
     pub cpu_time: Option<f64>,
 }
 
@@ -124,7 +123,7 @@ impl Reading {
                 };
                 if speed != 0.0 {
                     let message = format!(
-                        "the hub turns at {speed} rad/s at the start, and a turning beam is not in static equilibrium: use \
+                        "the hub rotates at {speed} rad/s at the start, and a rotating beam is not in static equilibrium: use \
                          `steady-rotation`"
                     );
                     return Err(self.problem("initial.kind", message));
@@ -275,6 +274,5 @@ impl Prepared {
 fn size(system: &dyn System) -> ProblemSize {
     let unknowns = system.size().v + system.size().lambda;
     let structure = system.structure(0);
-    let border = if let Structure::Band { border, .. } = structure { border } else { 0 };
-    ProblemSize { unknowns, half_bandwidth: structure.half_bandwidth(), border }
+    ProblemSize { unknowns, half_bandwidth: structure.half_bandwidth(), border: structure.border() }
 }

@@ -31,7 +31,7 @@ impl Reading {
     }
 }
 
-/// FNV-1a, 64 bits: tells two tables apart.
+/// FNV-1a, 64 bits: distinguishes two tables.
 fn digest(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
         (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3)

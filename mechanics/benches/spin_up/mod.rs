@@ -3,6 +3,7 @@
 #![allow(missing_docs, clippy::unwrap_used, dead_code)]
 
 use flexion::basis::{Field, Hermite, Lagrange};
+use flexion::drive::Actuator;
 use flexion::hub_beam::{
     Drive, ExactCoupling, Fields, Foreshortening, FreeHub, HighCoupling, Hub, HubBeam, LinearCoupling,
 };
@@ -24,7 +25,7 @@ pub fn sizes() -> impl Iterator<Item = usize> {
     (0..=10).map(|k| 10 << k)
 }
 
-/// The system of a coupling; `first-free` and `exact-free` are turned by a torque, that of the rigid beam.
+/// The system of a coupling; `first-free` and `exact-free` are driven by a torque, that of the rigid beam.
 pub fn system(coupling: &str, elements: usize) -> Box<dyn System> {
     let resultants =
         Resultants { mass: 1.2, axial_stiffness: 2.8e7, bending_stiffness: 1.4e4, ..Default::default() };
@@ -36,11 +37,13 @@ pub fn system(coupling: &str, elements: usize) -> Box<dyn System> {
         Drive::Free(FreeHub {
             angle: 0.0,
             speed: 0.0,
-            torque: Arc::new(Expression::new(&torque, "t", 15.0).unwrap()),
-            damping: 0.0,
-            stiffness: 0.0,
-            rest_angle: 0.0,
-            controller: None,
+            actuator: Actuator {
+                torque: Arc::new(Expression::new(&torque, "t", 15.0).unwrap()),
+                damping: 0.0,
+                stiffness: 0.0,
+                rest_angle: 0.0,
+                controller: None,
+            },
         })
     } else {
         Drive::Prescribed(Motion::Speed { profile, initial_angle: 0.0 })

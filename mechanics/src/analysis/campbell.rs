@@ -1,4 +1,4 @@
-//! Campbell diagram: the modes of a steadily turning system as functions of its speed.
+//! Campbell diagram: the modes of a steadily rotating system as functions of its speed.
 //!
 //! Modes are joined by their shapes, never by their order: from one speed to the next the pairs with the
 //! largest assurance |xᴴ M y|² / (xᴴ M x · yᴴ M y) belong together, so that curves pass through each other where they

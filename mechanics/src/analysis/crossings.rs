@@ -82,7 +82,7 @@ fn located(system: &mut Speeds<'_>, at: &Solved, ends: [&Point; 2], k: u32) -> O
     None
 }
 
-/// x + part (y − x), y turned to the phase of x; `None` if they are not much alike.
+/// x + part (y − x), y rotated to the phase of x; `None` if they are not much alike.
 fn blend(x: &[Complex64], mx: &[Complex64], y: &[Complex64], part: f64) -> Option<Vec<Complex64>> {
     let alike: Complex64 = mx.iter().zip(y).map(|(mx, y)| mx.conj() * y).sum();
     let size = alike.norm();

@@ -12,7 +12,7 @@ pub struct Plan {
     pub count: usize,
     /// Stations of the shapes \[m\], which the modes at the ends of a branch get.
     pub stations: Vec<f64>,
-    /// Whether the hub keeps its speed, or is free to turn about it.
+    /// Whether the hub keeps its speed, or is free to rotate about it.
     pub hub: HubState,
     /// Lines ω = k Ω whose crossings are looked for, from 1 to this k.
     pub revolutions: u32,
@@ -23,7 +23,7 @@ pub struct Plan {
 pub enum HubState {
     /// It keeps its speed: modes of the beam on a hub of infinite inertia.
     Held,
-    /// It turns with the beam, under its torques.
+    /// It rotates with the beam, under its torques.
     Free,
 }
 
@@ -103,7 +103,7 @@ pub enum NoCampbell {
     /// The speeds make no axis.
     #[error("a Campbell diagram needs at least two ascending speeds of at least zero")]
     Speeds,
-    /// There is no steady rotation at the first speed, or the system does not turn.
+    /// There is no steady rotation at the first speed, or the system does not rotate.
     #[error(transparent)]
     Rotation(#[from] NoRotation),
     /// The modes at a speed.

@@ -1,5 +1,14 @@
-//! Equilibrium in the system's own frame: r(t, q, 0, 0) = 0 by Newton's method with continuation.
+//! Equilibrium in the system's own frame: r(t, q, 0, 0, λ) = 0 and g(t, q) = 0 by Newton's method with continuation.
+//!
+//! ```text
+//! ⎡ K  −Gᵀ⎤ ⎡Δq⎤     ⎡ r ⎤
+//! ⎣ G   0 ⎦ ⎣Δλ⎦ = − ⎣ g ⎦      q ← q ⊞ Δq
+//! ```
+//!
+//! K has the multipliers in it, which alone stiffen a mechanism: every level begins with those that balance the most of
+//! the loads.
 
+use super::joints;
 use crate::linalg::Matrix;
 use crate::system::{Parameter, State, System, Weights};
 
@@ -36,24 +45,24 @@ pub struct Effort {
     pub iterations: u32,
 }
 
-/// Brings `state` to equilibrium at its time, beginning from the configuration it has: q such that
-/// r(t, q, 0, 0) = 0. On return v = a = 0.
+/// Brings `state` to equilibrium at its time, beginning from the configuration it has: q and λ such that
+/// r(t, q, 0, 0, λ) = 0, and g = 0 of joints and closed contacts. On return v = a = 0.
 ///
 /// The equilibrium is followed from the given configuration as the loads grow: with r_s the residual under the part s
 /// of them and r₀ that without loads in the given configuration, the levels r_s(q) = (1 − s) r₀ are solved for s from
-/// 0 to 1, the increment of s growing and shrinking as Newton's method converges. A follower or a couple turns with
+/// 0 to 1, the increment of s growing and shrinking as Newton's method converges. A follower or a couple rotates with
 /// its section all the way.
 ///
 /// # Errors
 /// [`NoEquilibrium`] when the iteration breaks down however small the increments are: a limit point, or a
 /// model that has no equilibrium there.
 pub fn equilibrium(system: &mut dyn System, state: &mut State) -> Result<Effort, NoEquilibrium> {
-    let n = state.v.len();
+    let (n, m) = (state.v.len(), state.lambda.len());
     state.v.fill(0.0);
     state.a.fill(0.0);
     let scale = system.scales().to_vec();
-    let mut tangent = Matrix::new(&system.structure(0));
-    let (mut start, mut r) = (vec![0.0; n], vec![0.0; n]);
+    let mut tangent = Matrix::new(&system.structure(1));
+    let (mut start, mut r) = (vec![0.0; n], vec![0.0; n + m]);
     apply(system, 0.0);
     system.residual(state, &mut start);
     let mut good = state.clone();
@@ -63,27 +72,33 @@ pub fn equilibrium(system: &mut dyn System, state: &mut State) -> Result<Effort,
     while reached < 1.0 {
         let level = (reached + part).min(1.0);
         apply(system, level);
+        joints::balance(system, state);
         let mut failure = None;
         let mut last = f64::INFINITY;
         for iteration in 0..=ITERATIONS {
-            system.residual(state, &mut r);
-            for (r, start) in r.iter_mut().zip(&start) {
+            let (motion, rows) = r.split_at_mut(n);
+            system.residual(state, motion);
+            joints::positions(system, state, rows);
+            for (r, start) in motion.iter_mut().zip(&start) {
                 *r -= (1.0 - level) * start;
             }
             if r.iter().all(|r| *r == 0.0) {
                 break;
             }
             system.tangent(state, Weights::new(0.0, 0.0, 1.0), &mut tangent);
+            joints::add(system, state, n, &mut tangent);
             if let Err(singular) = tangent.factor() {
                 failure = Some((singular.to_string(), singular.index));
                 break;
             }
             tangent.solve(&mut r);
             r.iter_mut().for_each(|r| *r = -*r);
-            system.retract(&state.q, &r, &mut moved);
+            let (r, multipliers) = r.split_at(n);
+            state.lambda.iter_mut().zip(multipliers).for_each(|(lambda, x)| *lambda += x);
+            system.retract(&state.q, r, &mut moved);
             state.q.copy_from_slice(&moved);
             effort.iterations += 1;
-            let (worst, size) = largest(&r, &scale);
+            let (worst, size) = largest(r, &scale);
             // Converged, or as far as rounding lets it come.
             if size <= TOLERANCE || (size < 1e-7 && size > 0.3 * last) {
                 break;

@@ -5,6 +5,7 @@ mod crossings;
 mod diagram;
 mod energy_balance;
 pub mod equilibrium;
+mod joints;
 pub mod modes;
 pub mod rotation;
 mod speeds;

@@ -3,7 +3,11 @@
 //! With M, C, K = ∂r/∂a, ∂r/∂v, ∂r/∂q of a [`System`] at the equilibrium, the modes are the solutions
 //! δq = x e^{λt} of (λ² M + λ C + K) x = 0: angular frequency ω = |Im λ|, damping ratio ζ = −Re λ/|λ|. Everything goes
 //! through the tangent, so every model has modes; how they are found is told in [`eigen`](crate::linalg::eigen).
+//!
+//! Rows of constraints that hold allow the motions x = N y, with G N = 0: y has the matrices NᵀMN, NᵀCN and NᵀKN, with the
+//! multipliers of the equilibrium in K. They are dense: the cost grows with the cube of the unknowns.
 
+use super::joints::Allowed;
 use super::stiffness::{damping, mass, stiffness};
 use crate::linalg::eigen::{EigenError, Kind, Pair, Pencil};
 use crate::linalg::{Matrix, Singular};
@@ -63,7 +67,7 @@ pub struct Shares {
     pub torsion: f64,
     /// The hub.
     pub hub: f64,
-    /// What the model does not tell apart.
+    /// What the model does not distinguish.
     pub other: f64,
 }
 
@@ -133,9 +137,6 @@ pub enum NoModes {
         /// Number of unknowns.
         there: usize,
     },
-    /// The system has constraints.
-    #[error("the system has {0} constraints; modes are computed for systems without")]
-    Constrained(usize),
     /// The eigenproblem was not solved.
     #[error("the eigenproblem was not solved: {0}")]
     Eigen(#[from] EigenError),
@@ -193,7 +194,13 @@ pub(super) fn modes_near(
 ) -> Result<Modes, NoModes> {
     let size = system.size();
     if size.lambda > 0 {
-        return Err(NoModes::Constrained(size.lambda));
+        let mut allowed = Allowed::new(system, state);
+        let reduced = allowed.state(state);
+        let mut found = modes_near(&mut allowed, &reduced, count, stations, &[])?;
+        for mode in &mut found.modes {
+            mode.vector = allowed.lift(&mode.vector, |y, x| y * x);
+        }
+        return Ok(found);
     }
     if count > size.v {
         return Err(NoModes::TooMany { asked: count, there: size.v });

@@ -1,4 +1,4 @@
-//! Steady rotation: the equilibrium in the frame of a hub that turns at a constant speed.
+//! Steady rotation: the equilibrium in the frame of a hub that rotates at a constant speed.
 
 use super::equilibrium::{Effort, NoEquilibrium, equilibrium};
 use super::stiffness::stiffness;
@@ -13,8 +13,8 @@ const ACCURACY: f64 = 1e-6;
 /// Why a beam cannot be brought to a speed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NoRotation {
-    /// The system does not turn.
-    #[error("the system has no hub that could be turned steadily")]
+    /// The system does not rotate.
+    #[error("the system has no hub that could rotate steadily")]
     DoesNotTurn,
     /// There is no equilibrium.
     #[error(
@@ -58,7 +58,7 @@ impl NoRotation {
 }
 
 /// Brings `state` from the steady rotation at the speed `from` [rad/s], which it holds (the undeformed beam does
-/// for `from` = 0 without loads), to that at `to`. On return the system turns steadily at `to`
+/// for `from` = 0 without loads), to that at `to`. On return the system rotates steadily at `to`
 /// with its hub held, and v = a = 0.
 ///
 /// The equilibrium r(q, 0, 0; Ω) = 0 is followed in Ω: the speed is raised by parts that grow and shrink as

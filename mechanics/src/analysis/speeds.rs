@@ -38,7 +38,7 @@ impl Block {
     }
 }
 
-/// A system that turns at the speeds of a [`Plan`], and its last equilibrium.
+/// A system that rotates at the speeds of a [`Plan`], and its last equilibrium.
 pub struct Speeds<'a> {
     system: Box<dyn System>,
     plan: &'a Plan,

@@ -22,7 +22,7 @@ use num_complex::Complex64;
 /// Step of the differences of displacements, in scales of the unknowns.
 const DIFFERENCE: f64 = 1e-5;
 /// A mode that moves the tip by less than this part of its largest unknown (both over their scales)
-/// cannot be told by it.
+/// cannot be given by it.
 const STILL: f64 = 1e-6;
 /// Largest distance from the equilibrium of a hub that is free, as acceleration over ω².
 const UNBALANCED: f64 = 1e-9;
@@ -69,15 +69,15 @@ pub enum NoSuperposition {
         /// What to change.
         advice: &'static str,
     },
-    /// The tip does not tell the amplitude.
+    /// The tip does not give the amplitude.
     #[error(
-        "mode {0} does not move the tip in the frame of the hub, which is to tell its amplitude; give it 0"
+        "mode {0} does not move the tip in the frame of the hub, whose amplitude is prescribed; give it 0"
     )]
     Still(usize),
     /// The free hub is not in equilibrium.
     #[error(
         "the free hub is not in equilibrium where it begins, so that there is nothing to vibrate about: a torque of \
-         {torque:.6e} N·m is left and turns it with {acceleration:.6e} rad/s²; begin at an angle at which torques, \
+         {torque:.6e} N·m is left and accelerates it by {acceleration:.6e} rad/s²; begin at an angle at which torques, \
          loads and restraints balance, and without what drives or brakes the hub"
     )]
     Unbalanced {

@@ -10,7 +10,7 @@
 //! field the clamp removes value and slope at x = 0; for an axial field it removes the value only, and
 //! the slope (the strain) at the root is the first unknown.
 
-use super::{Basis, BasisError, Conditioning, Field, Role, Support, check_cells, uniform_cells};
+use super::{Basis, BasisError, Conditioning, Field, Role, Support, Tip, check_cells, uniform_cells};
 
 /// Cubic Hermite finite elements on [0, L]. Its formulas head the source file.
 #[derive(Clone, Debug)]
@@ -93,6 +93,15 @@ impl Basis for Hermite {
 
     fn role(&self, i: usize) -> Role {
         if (i + self.clamped).is_multiple_of(2) { Role::Value } else { Role::Slope }
+    }
+
+    /// w(L) = w₀ + ½l (w₀′ + w′(L)) with the last node before the tip: exact for parabolas.
+    fn tip(&self) -> Option<Tip> {
+        let n = self.len();
+        let l = self.cells[self.cells.len() - 1] - self.cells[self.cells.len() - 2];
+        let rule = [(Some(n - 1), 0.5 * l), (n.checked_sub(3), 0.5 * l), (n.checked_sub(4), 1.0)];
+        let follows = rule.into_iter().filter_map(|(i, c)| Some((i?, c))).collect();
+        Some(Tip { function: n - 2, follows })
     }
 
     fn conditioning(&self) -> Conditioning {

@@ -5,8 +5,10 @@ mod bezier;
 #[cfg(test)]
 pub(crate) mod checks;
 pub(crate) mod conformance;
+mod domains;
 mod hermite;
 mod lagrange;
+mod massless_tip;
 mod modes;
 mod polynomial;
 mod radial;
@@ -15,6 +17,7 @@ pub use b_spline::BSpline;
 pub use bezier::Bezier;
 pub use hermite::Hermite;
 pub use lagrange::Lagrange;
+pub use massless_tip::MasslessTip;
 pub use modes::Modes;
 pub use polynomial::{Polynomial, PolynomialParameters};
 pub use radial::{Radial, RadialParameters};
@@ -61,6 +64,16 @@ impl Conditioning {
     pub fn none() -> Conditioning {
         Conditioning { number: 1.0, of: "nothing" }
     }
+}
+
+/// The function of a basis whose coefficient moves the tip alone.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tip {
+    /// Its number.
+    pub function: usize,
+    /// Functions of the last cell with their weights: the tip of a rigid beam, and of one that bends little, is at the sum of
+    /// their coefficients.
+    pub follows: Vec<(usize, f64)>,
 }
 
 /// A finite set of functions φ_i(x) on [0, L] that satisfy the clamp at x = 0.
@@ -157,6 +170,11 @@ pub trait Basis: Send + Sync + std::fmt::Debug {
     /// Conditioning of the matrices behind the functions.
     fn conditioning(&self) -> Conditioning;
 
+    /// The function that moves the tip alone, and what follows it where the tip has no mass: see [`MasslessTip`].
+    fn tip(&self) -> Option<Tip> {
+        None
+    }
+
     /// The cell in which `x` lies (the right one at a boundary, the last one at L).
     fn locate(&self, x: f64) -> usize {
         let cells = self.cells();
@@ -196,6 +214,10 @@ impl Basis for std::sync::Arc<dyn Basis> {
 
     fn role(&self, i: usize) -> Role {
         (**self).role(i)
+    }
+
+    fn tip(&self) -> Option<Tip> {
+        (**self).tip()
     }
 
     fn conditioning(&self) -> Conditioning {

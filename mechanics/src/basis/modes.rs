@@ -14,10 +14,19 @@
 //!
 //! in which nothing overflows or cancels at any order. Source: R. D. Blevins, *Formulas for Natural
 //! Frequency and Mode Shape* (1979), table 8-1.
+//!
+//! Behind the modes may stand the residual shape, what they leave of the deflection ψ under a force at the tip:
+//!
+//! ```text
+//! ψ = x²(3L − x)/(2L³),   ψ_r = ψ − Σ 3φᵢ(L) φᵢ/(βᵢL)⁴,   φ = ψ_r/ψ_r(L),   ∫φ″φᵢ″ dx = 0
+//! ```
 
-use super::{Basis, BasisError, Conditioning, Field, Role, Support, uniform_cells};
+use super::{Basis, BasisError, Conditioning, Field, Role, Support, Tip, uniform_cells};
 use crate::exact::cantilever::{alternate, eigenvalue};
 use std::f64::consts::{FRAC_PI_2, SQRT_2};
+
+/// Residual of the tip's compliance below which its rounding error exceeds a millionth.
+const SMALLEST_RESIDUAL: f64 = 1e-9;
 
 /// The first modes of a clamped–free beam or rod. Its formulas head the source file.
 #[derive(Clone, Debug)]
@@ -25,6 +34,8 @@ pub struct Modes {
     cells: Vec<f64>,
     shapes: Vec<Shape>,
     field: Field,
+    /// Residual of the deflection under a force at the tip, behind the modes: 1/ψ_r(L), if it is there.
+    residual: Option<f64>,
 }
 
 /// One mode: wave number β [1/m], and for bending its constants.
@@ -63,13 +74,44 @@ impl Modes {
                 Shape { sign, beta: z / length, tip, root, sigma: root - tip * decay }
             })
             .collect();
-        Ok(Modes { cells, shapes, field })
+        Ok(Modes { cells, shapes, field, residual: None })
+    }
+
+    /// The first `count` bending modes, and behind them the residual shape.
+    ///
+    /// # Errors
+    /// As [`Modes::new`], and where the modes leave no residual above rounding.
+    pub fn with_residual(length: f64, count: usize) -> Result<Modes, BasisError> {
+        let modes = Modes::new(length, count, Field::Transverse)?;
+        let left = 1.0 - (1..=count).map(|i| 12.0 / eigenvalue(i).powi(4)).sum::<f64>();
+        if left < SMALLEST_RESIDUAL {
+            return Err(BasisError::Invalid(format!(
+                "{count} modes leave {left:.0e} of the tip's compliance: a massless tip needs fewer modes, or elements"
+            )));
+        }
+        Ok(Modes { residual: Some(1.0 / left), ..modes })
+    }
+
+    /// Derivative of the residual shape from the modes `phi` there.
+    fn residual(&self, scale: f64, x: f64, derivative: usize, phi: &[f64]) -> f64 {
+        let length = self.cells[self.cells.len() - 1];
+        let s = x / length;
+        let cubic = match derivative {
+            0 => 0.5 * s * s * (3.0 - s),
+            1 => 1.5 * s * (2.0 - s) / length,
+            2 => 3.0 * (1.0 - s) / length.powi(2),
+            3 => -3.0 / length.powi(3),
+            _ => 0.0,
+        };
+        let modes = phi.iter().zip(&self.shapes);
+        let part: f64 = modes.map(|(phi, shape)| 6.0 * phi / (shape.beta * length).powi(4)).sum();
+        scale * (cubic - part)
     }
 }
 
 impl Basis for Modes {
     fn len(&self) -> usize {
-        self.shapes.len()
+        self.shapes.len() + usize::from(self.residual.is_some())
     }
 
     fn cells(&self) -> &[f64] {
@@ -81,7 +123,7 @@ impl Basis for Modes {
     }
 
     fn support(&self, _cell: usize) -> Support {
-        0..self.shapes.len()
+        0..self.len()
     }
 
     fn eval(&self, _cell: usize, x: f64, derivative: usize, out: &mut [f64]) -> Support {
@@ -104,7 +146,16 @@ impl Basis for Modes {
                     }
                 };
         }
-        0..self.shapes.len()
+        if let Some(scale) = self.residual {
+            let (modes, last) = out.split_at_mut(self.shapes.len());
+            last[0] = self.residual(scale, x, derivative, modes);
+        }
+        0..self.len()
+    }
+
+    /// The residual shape, which the mass does not follow.
+    fn tip(&self) -> Option<Tip> {
+        self.residual.map(|_| Tip { function: self.shapes.len(), follows: Vec::new() })
     }
 
     /// The tip, where every mode is largest.

@@ -27,7 +27,8 @@
 //! doi:10.1002/1097-0207(20010210)50:4<937::AID-NME62>3.0.CO;2-X; for rotating beams C. F. Du & D. G. Zhang,
 //! *Acta Phys. Sin.* 64 (2015) 034501, doi:10.7498/aps.64.034501.
 
-use super::{Basis, BasisError, Conditioning, Field, Role, Support, uniform_cells};
+use super::domains::{self, Domains, per_node};
+use super::{BasisError, Field};
 
 /// Most nodes of a support domain: with more the moment matrix is singular.
 const MOST_NODES: usize = 40;
@@ -50,21 +51,11 @@ impl PolynomialParameters {
 }
 
 /// Point interpolation on [0, L]. Its formulas head the source file.
-#[derive(Clone, Debug)]
-pub struct Polynomial {
-    cells: Vec<f64>,
-    /// Node spacing d_c \[m\].
-    spacing: f64,
-    /// Unknowns of a node: 1 axial, 2 transverse.
-    per_node: usize,
-    /// Distinct patches, and for each cell (patch, first node).
-    patches: Vec<Patch>,
-    cell_patches: Vec<(usize, usize)>,
-}
+pub type Polynomial = Domains<Patch>;
 
 /// Shape functions of one support domain.
 #[derive(Clone, Debug)]
-struct Patch {
+pub struct Patch {
     /// Scaled positions of the nodes ξ; the cell is [−½, ½].
     nodes: Vec<f64>,
     /// Coefficients of ξʲ by functions: the columns of G⁻¹.
@@ -101,8 +92,18 @@ impl Patch {
         let condition = moment_norm(&nodes, per_node) * largest_sum(&coefficients, functions);
         Patch { nodes, coefficients, functions, condition }
     }
+}
 
-    /// Derivative `derivative` of function `k` with respect to ξ, −½ ≤ ξ ≤ ½, by Horner's rule.
+impl domains::Patch for Patch {
+    fn nodes(&self) -> &[f64] {
+        &self.nodes
+    }
+
+    fn functions(&self) -> usize {
+        self.functions
+    }
+
+    /// By Horner's rule.
     fn eval(&self, k: usize, derivative: usize, xi: f64) -> f64 {
         let n = self.functions;
         let mut sum = 0.0;
@@ -111,6 +112,15 @@ impl Patch {
             sum = sum * xi + falling * self.coefficients[k * n + j];
         }
         sum
+    }
+
+    fn condition(&self) -> f64 {
+        self.condition
+    }
+
+    /// Degree 2d + 1 for functions of degree d.
+    fn points(&self) -> usize {
+        self.functions
     }
 }
 
@@ -153,105 +163,40 @@ impl Polynomial {
         field: Field,
     ) -> Result<Polynomial, BasisError> {
         let PolynomialParameters { nodes, support } = parameters;
-        let cells = uniform_cells(length, nodes.saturating_sub(1))?;
         if !(support.is_finite() && support >= 0.5) {
             return Err(BasisError::Invalid(format!(
                 "support {support} of the polynomial basis must be at least 0.5, or a cell misses its own nodes"
             )));
         }
-        let per_node = if field == Field::Axial { 1 } else { 2 };
-        let (mut patches, mut cell_patches) = (Vec::<Patch>::new(), Vec::new());
-        for cell in 0..nodes - 1 {
-            let middle = cell as f64 + 0.5;
-            let first = (middle - support - 1e-9).ceil().max(0.0) as usize;
-            let last = ((middle + support + 1e-9).floor() as usize).min(nodes - 1);
-            let count = last + 1 - first;
+        Domains::of(length, nodes, support, field, |positions, x| {
+            let count = positions.len();
             if count > MOST_NODES {
                 return Err(BasisError::Invalid(format!(
                     "the support of {support} spacings holds {count} nodes and no polynomial through more than {MOST_NODES} can be resolved; narrow it"
                 )));
             }
-            let positions: Vec<f64> = (first..=last).map(|node| node as f64 - middle).collect();
-            let known = patches.iter().position(|patch| patch.nodes == positions);
-            let index = known.unwrap_or(patches.len());
-            if known.is_none() {
-                let patch = Patch::new(positions, per_node);
-                if patch.condition.is_nan() || patch.condition * f64::EPSILON >= 1.0 {
-                    return Err(BasisError::Singular {
-                        basis: "polynomial",
-                        number: patch.condition,
-                        place: format!("x = {:.4} m", middle * length / (nodes - 1) as f64),
-                        parameters: format!(
-                            "support {support} with {count} nodes, degree {}",
-                            patch.functions - 1
-                        ),
-                        advice: "narrow the support, or take the basis `radial`",
-                    });
-                }
-                patches.push(patch);
+            let patch = Patch::new(positions, per_node(field));
+            if patch.condition.is_nan() || patch.condition * f64::EPSILON >= 1.0 {
+                return Err(BasisError::Singular {
+                    basis: "polynomial",
+                    number: patch.condition,
+                    place: format!("x = {x:.4} m"),
+                    parameters: format!(
+                        "support {support} with {count} nodes, degree {}",
+                        patch.functions - 1
+                    ),
+                    advice: "narrow the support, or take the basis `radial`",
+                });
             }
-            cell_patches.push((index, first));
-        }
-        Ok(Polynomial { spacing: length / (nodes - 1) as f64, cells, per_node, patches, cell_patches })
-    }
-
-    /// Functions of a patch that belong to the clamped root, 0 where it is not in the support.
-    fn clamped(&self, first_node: usize) -> usize {
-        if first_node == 0 { self.per_node } else { 0 }
-    }
-}
-
-impl Basis for Polynomial {
-    fn len(&self) -> usize {
-        self.per_node * (self.cells.len() - 1)
-    }
-
-    fn cells(&self) -> &[f64] {
-        &self.cells
-    }
-
-    fn points_per_cell(&self) -> usize {
-        // Degree 2d + 1 for functions of degree d.
-        self.patches.iter().map(|patch| patch.functions).max().unwrap_or(1)
-    }
-
-    fn support(&self, cell: usize) -> Support {
-        let (patch, first) = self.cell_patches[cell];
-        let start = (first * self.per_node).saturating_sub(self.per_node);
-        start..start + self.patches[patch].functions - self.clamped(first)
-    }
-
-    fn eval(&self, cell: usize, x: f64, derivative: usize, out: &mut [f64]) -> Support {
-        let (patch, first) = self.cell_patches[cell];
-        let patch = &self.patches[patch];
-        let (a, b) = (self.cells[cell], self.cells[cell + 1]);
-        let xi = (x - 0.5 * (a + b)) / (b - a);
-        let scale = self.spacing.powi(-(derivative as i32));
-        for (out, k) in out.iter_mut().zip(self.clamped(first)..patch.functions) {
-            let slope = self.per_node == 2 && k % 2 == 1;
-            let unit = if slope { self.spacing } else { 1.0 };
-            *out = unit * scale * patch.eval(k, derivative, xi);
-        }
-        self.support(cell)
-    }
-
-    fn anchor(&self, i: usize) -> f64 {
-        self.cells[i / self.per_node + 1]
-    }
-
-    fn role(&self, i: usize) -> Role {
-        if self.per_node == 2 && i % 2 == 1 { Role::Slope } else { Role::Value }
-    }
-
-    fn conditioning(&self) -> Conditioning {
-        let number = self.patches.iter().map(|patch| patch.condition).fold(1.0, f64::max);
-        Conditioning { number, of: "moment matrices of the support domains" }
+            Ok(patch)
+        })
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Hermite, checks};
+    use super::super::{Basis, Hermite, Role, checks};
+    use super::domains::Patch as _;
     use super::*;
 
     fn with(nodes: usize, support: f64, field: Field) -> Polynomial {

@@ -21,6 +21,8 @@ use crate::system::{Dynamics, Mode, RowWeights, Set, State, Weights};
 const RESTING: f64 = 1e-12;
 /// Part of the limit of friction by which a contact that sticks must stay below it.
 const STICKING: f64 = 1e-9;
+/// W over the inverse of the largest mass above which a point has no mass of its own.
+const MASSLESS: f64 = 1e6;
 /// Weight of K beside a singular M, in units of the ratio of their largest entries.
 const REGULARIZATION: f64 = 1e-12;
 
@@ -126,8 +128,9 @@ pub struct ImpactMap {
     /// −g̈ without contact forces, as [`ImpactMap::settle`] found it.
     pressing: Vec<f64>,
     velocities: usize,
-    /// ε, where M is singular.
+    /// ε, where M is singular, and the largest entry of M then.
     weight: f64,
+    inertia: f64,
 }
 
 /// The rows that take part in a problem, with their laws.
@@ -152,6 +155,7 @@ impl ImpactMap {
             pressing: vec![0.0; m],
             velocities: n,
             weight: 0.0,
+            inertia: 0.0,
         }
     }
 
@@ -287,6 +291,7 @@ impl ImpactMap {
         let b: Vec<f64> = part.rows.iter().map(|&i| bends[i] + self.along(i, &a)).collect();
         self.pressing.fill(0.0);
         part.rows.iter().zip(&b).for_each(|(&i, b)| self.pressing[i] = -b);
+        let massless = |k: usize| self.weight > 0.0 && w[k * part.rows.len() + k] * self.inertia > MASSLESS;
         let largest_bend = a.iter().chain(&bends).fold(0.0_f64, |x, a| x.max(a.abs()));
         let mut forces = vec![0.0; part.rows.len()];
         solve(&part.laws, &w, &b, &mut forces)?;
@@ -297,7 +302,10 @@ impl ImpactMap {
             state.mode[i] = match part.laws[k] {
                 RowLaw::Free => Mode::Closed,
                 RowLaw::Unilateral if forces[k] > 0.0 => Mode::Closed,
-                RowLaw::Unilateral if struck.get(i) == Some(&true) && b[k] <= RESTING * largest_bend => {
+                // The force on a point without mass grows with its path, whatever its acceleration is.
+                RowLaw::Unilateral
+                    if struck.get(i) == Some(&true) && (massless(k) || b[k] <= RESTING * largest_bend) =>
+                {
                     Mode::Closed
                 }
                 RowLaw::Unilateral => Mode::Open,
@@ -383,8 +391,9 @@ impl ImpactMap {
                         |matrix: &Matrix| (0..n).fold(0.0_f64, |x, i| x.max(matrix.get(i, i).abs()));
                     system.tangent(state, Weights::new(0.0, 0.0, 1.0), &mut self.stiffness);
                     system.tangent(state, Weights::new(1.0, 0.0, 0.0), &mut self.matrix);
-                    self.weight = REGULARIZATION * largest(&self.matrix)
-                        / largest(&self.stiffness).max(f64::MIN_POSITIVE);
+                    self.inertia = largest(&self.matrix);
+                    self.weight =
+                        REGULARIZATION * self.inertia / largest(&self.stiffness).max(f64::MIN_POSITIVE);
                 }
             }
         }

@@ -78,12 +78,8 @@ impl ExactCoupling {
         hub: &Hub,
     ) -> Result<ExactCoupling, BasisError> {
         let Beam { section, masses, breaks } = beam.into();
-        let fields = Fields::new(
-            length,
-            Box::new(Hermite::new(length, elements, Field::Axial)?),
-            Box::new(Hermite::new(length, elements, Field::Transverse)?),
-            &breaks,
-        );
+        let mesh = |field| Hermite::new(length, elements, field).map(Box::new);
+        let fields = Fields::new(length, mesh(Field::Axial)?, mesh(Field::Transverse)?, &breaks);
         let lumped = LumpedRotation::of(&fields, &masses, hub.radius).into();
         let points = masses.into_iter().map(|m| Mass { inertia: 0.0, ..m }).collect();
         let quadratic = Beam { section: &MassOnly(section), masses: points, breaks };

@@ -1,9 +1,10 @@
 //! The two displacement fields of a planar beam: their bases, the numbering of the unknowns along the
 //! beam, and the quadrature over both.
 
-use crate::basis::{Basis, Role};
+use crate::basis::{Basis, BasisError, MasslessTip, Role};
 use crate::linalg::{Matrix, Structure};
 use crate::quadrature::Gauss;
+use std::sync::Arc;
 
 /// Gauss points of a cell in addition to those of its bases, for a section that varies inside it.
 const EXTRA_POINTS: usize = 2;
@@ -15,8 +16,10 @@ const EXTRA_POINTS: usize = 2;
 #[derive(Debug)]
 pub struct Fields {
     length: f64,
-    axial: Box<dyn Basis>,
-    transverse: Box<dyn Basis>,
+    axial: Arc<dyn Basis>,
+    transverse: Arc<dyn Basis>,
+    /// The fields that the mass of the beam follows, if the tip has none.
+    inertial: Option<Box<Fields>>,
     /// Number of the unknown of each axial function, then of each transverse one.
     axial_index: Vec<usize>,
     transverse_index: Vec<usize>,
@@ -76,8 +79,9 @@ impl Fields {
         let points = axial.points_per_cell().max(transverse.points_per_cell()) + EXTRA_POINTS;
         let mut fields = Fields {
             length,
-            axial,
-            transverse,
+            axial: Arc::from(axial),
+            transverse: Arc::from(transverse),
+            inertial: None,
             axial_index,
             transverse_index,
             cells,
@@ -86,6 +90,40 @@ impl Fields {
         };
         fields.half_bandwidth = fields.measure_bandwidth();
         fields
+    }
+
+    /// The same fields for a beam whose tip has no mass: see [`MasslessTip`].
+    ///
+    /// # Errors
+    /// [`BasisError`] if the transverse basis has no function that moves the tip alone.
+    pub fn with_massless_tip(self) -> Result<Fields, BasisError> {
+        let Some(transverse) = MasslessTip::new(Arc::clone(&self.transverse)) else {
+            return Err(BasisError::Invalid(
+                "no function of this basis moves the tip alone, and its mass cannot be taken away: use finite elements or \
+                 modes"
+                    .to_owned(),
+            ));
+        };
+        let axial: Arc<dyn Basis> = match MasslessTip::new(Arc::clone(&self.axial)) {
+            Some(axial) => Arc::new(axial),
+            None => Arc::clone(&self.axial),
+        };
+        let inertial = Fields {
+            axial,
+            transverse: Arc::new(transverse),
+            inertial: None,
+            axial_index: self.axial_index.clone(),
+            transverse_index: self.transverse_index.clone(),
+            cells: self.cells.clone(),
+            gauss: self.gauss.clone(),
+            ..self
+        };
+        Ok(Fields { inertial: Some(Box::new(inertial)), ..self })
+    }
+
+    /// The fields that the mass of the beam follows.
+    pub fn inertial(&self) -> &Fields {
+        self.inertial.as_deref().unwrap_or(self)
     }
 
     fn measure_bandwidth(&self) -> usize {

@@ -170,14 +170,7 @@ impl Inertia {
         let mut add = |point: &Point, resultants: Resultants, lumped: bool| {
             let (x, w, r) = (point.x, point.weight, radius + point.x);
             let (a, b) = (&point.axial, &point.transverse);
-            let Resultants {
-                mass,
-                first_moment: s,
-                rotary_inertia: i,
-                axial_stiffness: ea,
-                coupling_stiffness: es,
-                bending_stiffness: ei,
-            } = resultants;
+            let Resultants { mass, first_moment: s, rotary_inertia: i, .. } = resultants;
             moment += w * (mass * r * r + i);
             add_vector(&mut sx, a, 0, w * mass * r);
             add_vector(&mut sx, b, 0, w * s);
@@ -202,15 +195,20 @@ impl Inertia {
                 add_outer(&mut p, (b, 1), (b, 1), w * moment_tail(x));
                 add_outer(&mut d, (b, 1), (b, 1), -w * mass_tail(x));
             }
-            add_outer(&mut k, (a, 1), (a, 1), w * ea);
-            add_symmetric(&mut k, (a, 1), (b, 2), -w * es);
-            add_outer(&mut k, (b, 2), (b, 2), w * ei);
         };
-        fields.integrate(|point| add(point, section.resultants(point.x), false));
+        let inertial = fields.inertial();
+        inertial.integrate(|point| add(point, section.resultants(point.x), false));
         for m in masses {
             let resultants = Resultants { mass: m.mass, rotary_inertia: m.inertia, ..Resultants::default() };
-            add(&fields.point(m.station, 1.0), resultants, true);
+            add(&inertial.point(m.station, 1.0), resultants, true);
         }
+        fields.integrate(|point| {
+            let (w, a, b) = (point.weight, &point.axial, &point.transverse);
+            let r = section.resultants(point.x);
+            add_outer(&mut k, (a, 1), (a, 1), w * r.axial_stiffness);
+            add_symmetric(&mut k, (a, 1), (b, 2), -w * r.coupling_stiffness);
+            add_outer(&mut k, (b, 2), (b, 2), w * r.bending_stiffness);
+        });
         let (mut gyroscopic, mut stiffening, mut symmetric) = (new(), new(), new());
         let half = structure.half_bandwidth();
         for i in 0..n {
@@ -307,7 +305,8 @@ impl Inertia {
         let (v, a, r) = (&s.v[..n], &s.a[..n], &mut r[..n]);
         let Damping { mass, .. } = self.damping;
         x.vectors[1].set(|i| [a[i] + mass * v[i], v[i], 0.0, 0.0]);
-        let sums = self.each(s, x, true, |i, [d, e, k], [ma, gv, ..]| {
+        self.bundle.first_products(&x.vectors[1], &mut x.products[1]);
+        let sums = self.each(s, x, |i, [d, e, k], [ma, gv, ..]| {
             r[i] = (ma + k) + w * gv + (w1 * e - w2 * d);
         });
         sums.torque(hub)
@@ -344,7 +343,7 @@ impl Inertia {
     /// Kinetic energy T, angular momentum ∂T/∂ω and the torque τ of the equation of motion of the hub.
     pub fn totals(&self, s: &State, hub: &HubKinematics, x: &mut Scratch) -> Totals {
         let w = hub.speed;
-        let sums = self.each(s, x, false, |_, _, _| {});
+        let sums = self.each(s, x, |_, _, _| {});
         let HubSums { moment, relative, .. } = sums;
         Totals {
             kinetic: 0.5 * self.bundle.form(0, &s.v[..self.len()]) + w * relative + 0.5 * w * w * moment,
@@ -355,7 +354,7 @@ impl Inertia {
 
     /// The torque τ of [`Inertia::totals`] alone.
     pub fn torque(&self, s: &State, hub: &HubKinematics, x: &mut Scratch) -> f64 {
-        self.each(s, x, false, |_, _, _| {}).torque(hub)
+        self.each(s, x, |_, _, _| {}).torque(hub)
     }
 
     /// The tangent's row and column of a free hub, and their corner: derivatives of the residual by θ, θ̇, θ̈
@@ -373,7 +372,8 @@ impl Inertia {
         let (column, row) = (&mut out.column, &mut out.row);
         // D = M − N; P = S − G/2 with G = Pᵀ − P.
         x.vectors[1].set(|i| [v[i]; 4]);
-        let sums = self.each(s, x, true, |i, [d, e, _], [mv, gv, _, nv]| {
+        self.bundle.products(&x.vectors[1], &mut x.products[1]);
+        let sums = self.each(s, x, |i, [d, e, _], [mv, gv, _, nv]| {
             column[i] = w.v * (gv - 2.0 * om * d) + w.a * e;
             row[i] = 2.0 * (w.q * al + w.v * om) * d + w.a * e + 2.0 * w.q * om * (mv - nv);
         });
@@ -400,20 +400,11 @@ impl Inertia {
         }
     }
 
-    /// The sums of a state. Calls `f` with i, (d, e, K (q + η v))ᵢ, and the products of M, Pᵀ − P, K and N with the
-    /// second of the vectors, if they are to be `multiplied`.
+    /// The sums of a state. Calls `f` with i, (d, e, K (q + η v))ᵢ, and the second of the products.
     #[inline(always)]
-    fn each(
-        &self,
-        s: &State,
-        x: &mut Scratch,
-        multiplied: bool,
-        mut f: impl FnMut(usize, [f64; 3], Entry),
-    ) -> HubSums {
+    fn each(&self, s: &State, x: &mut Scratch, mut f: impl FnMut(usize, [f64; 3], Entry)) -> HubSums {
         self.prepare(s, x);
-        for (vectors, products) in x.vectors.iter().zip(&mut x.products).take(1 + usize::from(multiplied)) {
-            self.bundle.products(vectors, products);
-        }
+        self.bundle.products(&x.vectors[0], &mut x.products[0]);
         let n = self.len();
         let (q, v, a) = (&s.q[..n], &s.v[..n], &s.a[..n]);
         let (sx, sy) = (&self.axial_moment[..n], &self.transverse_moment[..n]);

@@ -12,6 +12,7 @@
 //! | [`exact`](ExactCoupling) | everything but shear | strains are no longer small |
 
 mod beam;
+mod contact_point;
 mod contact_points;
 mod coupling;
 mod damping;
@@ -35,13 +36,13 @@ mod system;
 mod tests;
 
 pub use beam::{Beam, Mass};
-pub use contact_points::{ContactPoint, Mount};
+pub use contact_point::{ContactPoint, Mount};
 pub use coupling::Coupling;
 pub use damping::Damping;
 pub use exact::ExactCoupling;
 pub use fields::{Fields, Point, Shapes};
 pub use high::HighCoupling;
-pub use hub::{Controller, Drive, FreeHub, Hub, Torque};
+pub use hub::{Drive, FreeHub, Hub};
 pub use inertia::{Border, Foreshortening, Inertia, Scratch, Totals};
 pub use linear::LinearCoupling;
 pub use section_forces::{Sampling, SectionForces};

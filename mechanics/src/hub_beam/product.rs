@@ -58,7 +58,7 @@ impl Bundle {
     pub(super) fn new(structure: &Structure, order: usize, matrices: [Option<&Matrix>; TERMS]) -> Bundle {
         let most = order.saturating_sub(1);
         let (width, advance, lead) = match *structure {
-            Structure::Dense { .. } => (order, 0, 0),
+            Structure::Dense { .. } | Structure::Ordered { .. } => (order, 0, 0),
             Structure::Band { lower, upper, .. } => {
                 (lower.min(most) + upper.min(most) + 1, 1, lower.min(most))
             }
@@ -102,27 +102,36 @@ impl Bundle {
     pub(super) fn products(&self, x: &Vectors, out: &mut [Entry]) {
         match (self.terms, self.width) {
             // Hermite functions with linear ones, and with Hermite ones.
-            (TERMS, 11) => self.sums::<TERMS, 11>(x, out),
-            (2, 15) => self.sums::<2, 15>(x, out),
-            (TERMS, _) => self.sums::<TERMS, 0>(x, out),
-            _ => self.sums::<2, 0>(x, out),
+            (TERMS, 11) => self.sums::<TERMS, TERMS, 11>(x, out),
+            (2, 15) => self.sums::<2, 2, 15>(x, out),
+            (TERMS, _) => self.sums::<TERMS, TERMS, 0>(x, out),
+            _ => self.sums::<2, 2, 0>(x, out),
         }
     }
 
-    /// [`Bundle::products`] of `T` terms; `W` is the width of a row where it is known at compile time, or 0.
+    /// [`Bundle::products`] with the first two matrices alone; zero for the others.
+    pub(super) fn first_products(&self, x: &Vectors, out: &mut [Entry]) {
+        match (self.terms, self.width) {
+            (TERMS, 11) => self.sums::<TERMS, 2, 11>(x, out),
+            (TERMS, _) => self.sums::<TERMS, 2, 0>(x, out),
+            _ => self.products(x, out),
+        }
+    }
+
+    /// The products of the first `U` of `T` terms; `W` is the width of a row where it is known at compile time, or 0.
     #[inline(always)]
-    fn sums<const T: usize, const W: usize>(&self, x: &Vectors, out: &mut [Entry]) {
+    fn sums<const T: usize, const U: usize, const W: usize>(&self, x: &Vectors, out: &mut [Entry]) {
         let length = T * if W > 0 { W } else { self.width };
         for (i, out) in out.iter_mut().enumerate() {
             let row = self.data[i * length..][..length].as_chunks::<T>().0;
             let x = x.data[i * self.advance * T..][..length].as_chunks::<T>().0;
-            let mut sum = [0.0; T];
+            let mut sum = [0.0; U];
             for (a, x) in row.iter().zip(x) {
-                for k in 0..T {
+                for k in 0..U {
                     sum[k] += a[k] * x[k];
                 }
             }
-            *out = std::array::from_fn(|k| if k < T { sum[k] } else { 0.0 });
+            *out = std::array::from_fn(|k| if k < U { sum[k] } else { 0.0 });
         }
     }
 

@@ -1,7 +1,7 @@
 //! The hub–beam as a [`System`](crate::system::System).
 
 use super::beam::Beam;
-use super::contact_points::ContactPoint;
+use super::contact_point::ContactPoint;
 use super::coupling::Coupling;
 use super::damping::Damping;
 use super::hub::{Drive, Hub, Recent};
@@ -10,13 +10,14 @@ use super::load::{Load, Loads, Site};
 use super::positive::HubInertia;
 use super::section_forces::{Sampling, SectionForces};
 use super::station::{Placement, Station};
+use crate::drive::motion_breaks;
 use crate::linalg::vector::dot;
 use crate::linalg::{Matrix, Storage, Structure};
-use crate::profile::{HubKinematics, Motion};
+use crate::profile::HubKinematics;
 use crate::section::Section;
 use crate::system::{
-    Break, Channel, Corotation, Direction, Dynamics, Energy, Events, Frame, Jump, NotSet, Observed,
-    Parameter, Power, Role, Size, State, Steady, Weights, ordered,
+    Break, Channel, Corotation, Direction, Dynamics, Energy, Events, Frame, NotSet, Observed, Parameter,
+    Power, Role, Size, State, Steady, Weights, ordered,
 };
 use std::sync::Arc;
 
@@ -74,7 +75,7 @@ impl<C: Coupling> HubBeam<C> {
             Drive::Prescribed(motion) => motion_breaks(motion),
             Drive::Free(free) => {
                 scales.push(1.0);
-                ordered(free.breaks())
+                ordered(free.actuator.breaks())
             }
         };
         let mut scratch = coupling.inertia().scratch();
@@ -172,7 +173,7 @@ impl<C: Coupling> HubBeam<C> {
         let hub = self.kinematics(s);
         match &self.hub.drive {
             Drive::Prescribed(_) => self.reaction(s, &hub) - self.loads.torque(s, &hub),
-            Drive::Free(free) => free.torque(&hub, s.time()).value,
+            Drive::Free(free) => free.actuator.torque(&hub, s.time()).value,
         }
     }
 
@@ -192,8 +193,8 @@ impl<C: Coupling> HubBeam<C> {
                 power.drive = (torque - self.loads.torque(s, hub)) * hub.speed;
             }
             Drive::Free(free) => {
-                power.drive = free.driving_torque(hub, s.time()) * hub.speed;
-                power.dissipated = free.damping * hub.speed * hub.speed;
+                power.drive = free.actuator.driving_torque(hub, s.time()) * hub.speed;
+                power.dissipated = free.actuator.damping * hub.speed * hub.speed;
             }
         }
         if self.damped {
@@ -243,7 +244,7 @@ impl<C: Coupling> HubBeam<C> {
             self.coupling.inertia().border(s, hub, w, &mut self.scratch, border);
             self.coupling.add_border(s, hub, w, border);
             self.loads.subtract_border(s, hub, w, border);
-            let torque = free.torque(hub, s.time());
+            let torque = free.actuator.torque(hub, s.time());
             border.corner -= w.q * torque.by_angle + w.v * torque.by_speed;
         }
         out.set_border(0, &border.column, &border.row, border.corner);
@@ -282,13 +283,6 @@ fn channels(stations: &[Station]) -> Vec<Channel> {
     add(Role::Energy, "energy.kinetic", "J", "kinetic energy of beam and hub");
     add(Role::Energy, "energy.strain", "J", "strain energy of the beam");
     channels
-}
-
-/// The breaks of a prescribed motion: a speed that jumps is an impulse.
-fn motion_breaks(motion: &Motion) -> Vec<Break> {
-    let kinds = [Jump::Velocity, Jump::Acceleration, Jump::Slope, Jump::Curvature];
-    let jump = |time| kinds[motion.jumping_derivative(time).min(3)];
-    ordered(motion.breaks().iter().map(|&time| Break { time, jump: jump(time) }).collect())
 }
 
 impl<C: Coupling> Dynamics for HubBeam<C> {
@@ -330,7 +324,7 @@ impl<C: Coupling> Dynamics for HubBeam<C> {
             Drive::Free(free) if !self.held => {
                 let inertia = self.coupling.inertia();
                 let torque = inertia.residual_and_torque(s, &hub, &mut self.scratch, r);
-                let applied = free.torque(&hub, s.time()).value + self.loads.torque(s, &hub);
+                let applied = free.actuator.torque(&hub, s.time()).value + self.loads.torque(s, &hub);
                 r[n] = torque + self.coupling.extra_totals(s, &hub).torque - applied;
             }
             _ => {
@@ -497,7 +491,7 @@ impl<C: Coupling> Observed for HubBeam<C> {
         let totals = self.totals(s, &hub);
         let torque = match &self.hub.drive {
             Drive::Prescribed(_) => totals.torque - self.loads.torque(s, &hub) - self.contact_torque,
-            Drive::Free(free) => free.torque(&hub, s.time()).value,
+            Drive::Free(free) => free.actuator.torque(&hub, s.time()).value,
         };
         let strain = self.strain(s, &hub);
         let gravity = self.loads.has_gravity().then(|| self.loads.gravity(s, &hub));
@@ -585,7 +579,7 @@ impl<C: Coupling> HubBeam<C> {
     fn strain(&mut self, s: &State, hub: &HubKinematics) -> f64 {
         let spring = match &self.hub.drive {
             Drive::Prescribed(_) => 0.0,
-            Drive::Free(free) => free.spring_energy(hub.angle),
+            Drive::Free(free) => free.actuator.spring_energy(hub.angle),
         };
         self.coupling.strain(s) + spring + self.loads.spring(s, hub)
     }

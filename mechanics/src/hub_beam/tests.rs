@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::basis::{Field, Hermite, Lagrange};
+use crate::drive::{Actuator, Controller};
 use crate::linalg::{Matrix, Structure};
 use crate::profile::{Expression, HubKinematics, Motion};
 use crate::section::{Resultants, Section};
@@ -43,7 +44,7 @@ pub(super) fn hub() -> Hub {
     Hub::prescribed(RADIUS, 0.7, Motion::Angle(Arc::new(Expression::new(formula, "t", 10.0).unwrap())))
 }
 
-/// A hub with everything that can turn it.
+/// A hub with everything that can drive it.
 pub(super) fn free_hub() -> Hub {
     let profile = |text: &str| Arc::new(Expression::new(text, "t", 10.0).unwrap());
     let controller = Controller {
@@ -55,11 +56,13 @@ pub(super) fn free_hub() -> Hub {
     let drive = Drive::Free(FreeHub {
         angle: 0.4,
         speed: 1.1,
-        torque: profile("2 + sin(3*t)"),
-        damping: 0.3,
-        stiffness: 4.0,
-        rest_angle: 0.1,
-        controller: Some(controller),
+        actuator: Actuator {
+            torque: profile("2 + sin(3*t)"),
+            damping: 0.3,
+            stiffness: 4.0,
+            rest_angle: 0.1,
+            controller: Some(controller),
+        },
     });
     Hub { radius: RADIUS, inertia: 0.7, drive }
 }

@@ -2,15 +2,13 @@
 
 use super::rows::Rows;
 use super::{Counters, StepError, failure};
-use crate::linalg::Matrix;
-use crate::system::{Dynamics, RowWeights, State, Weights};
+use crate::linalg::{Matrix, Singular};
+use crate::system::{Dynamics, RowWeights, State, Weights, is_active};
 
-/// Weight of K beside M where M is singular, in units of the ratio of their largest entries.
-const REGULARIZATION: f64 = 1e-9;
-/// Corrections of accelerations found with the regularized mass matrix.
-const CORRECTIONS: usize = 3;
-/// Change of accelerations, relative to the largest, that the corrections must fall below.
-const SETTLED: f64 = 1e-9;
+/// Corrections by which unknowns without mass are put in equilibrium.
+const CORRECTIONS: usize = 20;
+/// Last correction over the scale of the unknown.
+const SETTLED: f64 = 1e-13;
 
 /// Solver of
 ///
@@ -23,23 +21,48 @@ const SETTLED: f64 = 1e-9;
 /// The residual is linear in a and λ, so one solution is exact. A mass matrix that its stamp shows to be unchanged is
 /// not factored again.
 ///
-/// A singular mass matrix (a node without mass) is replaced by M + εK: the equations of massless unknowns,
-/// f(q, v) = 0, then hold in their second derivative, and the limit ε → 0 is taken by corrections.
+/// Unknowns C without mass, whose rows of M are zero, have the equations f_C(q, v) + G_Cᵀ λ = 0. A combination nᵀ of them with
+/// G_C n = 0 is free of λ. Where it has no damping it gives q_C by Newton's method, and v_C, a_C by nᵀK_C v = 0 and
+/// nᵀK_C a = 0, its derivatives for constant K; where it has, v_C and nᵀ(C_C a + K_C v) = 0.
 #[derive(Debug)]
 pub(super) struct Accelerations {
     matrix: Matrix,
     rhs: Vec<f64>,
     pub(super) rows: Rows,
     weights: RowWeights,
-    regularized: Option<Box<Regularized>>,
+    massless: Option<Box<Massless>>,
 }
 
-/// Memory for a singular mass matrix.
+/// Memory for unknowns without mass.
 #[derive(Debug)]
-struct Regularized {
+struct Massless {
     stiffness: Matrix,
-    product: Vec<f64>,
-    last: Vec<f64>,
+    damping: Matrix,
+    /// Unknowns without mass, and the combinations of their equations that are free of multipliers.
+    unknowns: Vec<usize>,
+    free: Vec<Combination>,
+    increment: Vec<f64>,
+    q: Vec<f64>,
+}
+
+/// nᵀ r_C = r_c − Σ ratio r_p: an equation of equilibrium.
+#[derive(Debug)]
+struct Combination {
+    /// c, whose equation it replaces.
+    unknown: usize,
+    /// Held unknowns p, with their ratios.
+    held: Vec<(usize, f64)>,
+    /// Whether the velocity, not the configuration, is in equilibrium.
+    damped: bool,
+    /// Factor that brings it to the size of the equations with mass.
+    scale: f64,
+}
+
+impl Combination {
+    /// nᵀ x, scaled.
+    fn of(&self, x: impl Fn(usize) -> f64) -> f64 {
+        self.scale * (x(self.unknown) - self.held.iter().map(|&(p, ratio)| ratio * x(p)).sum::<f64>())
+    }
 }
 
 impl Accelerations {
@@ -51,7 +74,7 @@ impl Accelerations {
             rhs: vec![0.0; size.v + size.lambda],
             rows: Rows::new(system, state),
             weights,
-            regularized: None,
+            massless: None,
         }
     }
 
@@ -64,9 +87,6 @@ impl Accelerations {
         (from, step): (f64, f64),
         counters: &mut Counters,
     ) -> Result<(), StepError> {
-        if self.regularized.is_some() {
-            return self.complete_regularized(system, state, (from, step), counters);
-        }
         let n = state.v.len();
         state.a.fill(0.0);
         state.lambda.fill(0.0);
@@ -80,10 +100,7 @@ impl Accelerations {
         let factored = match self.matrix.factor() {
             Ok(factored) => factored,
             Err(singular) if singular.pivot.is_finite() => {
-                let stiffness = Matrix::new(&system.structure(0));
-                let regularized = Regularized { stiffness, product: vec![0.0; n], last: vec![0.0; n] };
-                self.regularized = Some(Box::new(regularized));
-                return self.complete_regularized(system, state, (from, step), counters);
+                return self.complete_massless(system, state, (from, step), counters, singular);
             }
             Err(cause) => return Err(failure::singular(system, from, step, cause)),
         };
@@ -103,52 +120,160 @@ impl Accelerations {
         counters.solves += 1;
     }
 
-    /// (M + εK) aₖ₊₁ = −r₀ + εK aₖ with the rows.
-    fn complete_regularized(
+    /// As [`Accelerations::complete`] with unknowns without mass; `singular` is why M could not be factored.
+    fn complete_massless(
         &mut self,
         system: &mut dyn Dynamics,
         state: &mut State,
         (from, step): (f64, f64),
         counters: &mut Counters,
+        singular: Singular,
     ) -> Result<(), StepError> {
-        let Some(mut work) = self.regularized.take() else { return Ok(()) };
         let n = state.v.len();
-        state.lambda.fill(0.0);
-        state.a.fill(0.0);
-        system.tangent(state, Weights::new(0.0, 0.0, 1.0), &mut work.stiffness);
-        let largest = |matrix: &Matrix| (0..n).fold(0.0_f64, |m, i| m.max(matrix.get(i, i).abs()));
-        let stiffness = largest(&work.stiffness);
+        let work = self.massless.get_or_insert_with(|| {
+            let matrix = || Matrix::new(&system.structure(0));
+            let (increment, q) = (vec![0.0; n], state.q.clone());
+            Box::new(Massless {
+                stiffness: matrix(),
+                damping: matrix(),
+                unknowns: Vec::with_capacity(n),
+                free: Vec::new(),
+                increment,
+                q,
+            })
+        });
         system.tangent(state, Weights::new(1.0, 0.0, 0.0), &mut self.matrix);
-        let weight = REGULARIZATION * largest(&self.matrix) / stiffness.max(f64::MIN_POSITIVE);
-        system.tangent(state, Weights::new(1.0, 0.0, weight), &mut self.matrix);
-        self.rows.add_border(system, state, n, &mut self.matrix);
+        system.tangent(state, Weights::new(0.0, 1.0, 0.0), &mut work.damping);
+        system.tangent(state, Weights::new(0.0, 0.0, 1.0), &mut work.stiffness);
+        self.rows.store_jacobian(system, state);
+        work.find(&self.matrix, &self.rows, state);
+        if work.unknowns.is_empty() {
+            return Err(failure::singular(system, from, step, singular));
+        }
+        if !self.rows.is_empty() {
+            self.rows.add_border(system, state, n, &mut self.matrix);
+        }
+        for combination in &work.free {
+            let (c, row) = (combination.unknown, work.row(combination));
+            for j in 0..n {
+                let x = combination.of(|i| row.get(i, j));
+                if x != 0.0 {
+                    self.matrix.add(c, j, x);
+                }
+            }
+            self.rows.remove_from_equation(state, c, n, &mut self.matrix);
+        }
         self.matrix.factor().map_err(|e| failure::singular(system, from, step, e))?;
-        let mut change = f64::INFINITY;
-        for _ in 0..=CORRECTIONS {
-            work.last.copy_from_slice(&state.a);
-            work.stiffness.multiply(&state.a, &mut work.product);
+        // Equilibrium of the unknowns without mass: what has mass does not move.
+        let scales = system.scales();
+        let scales: Vec<f64> = work.unknowns.iter().map(|&c| scales[c]).collect();
+        let mut size = f64::INFINITY;
+        for _ in 0..CORRECTIONS {
+            self.rhs.fill(0.0);
             state.a.fill(0.0);
             state.lambda.fill(0.0);
-            let (motion, constraints) = self.rhs.split_at_mut(n);
-            system.residual(state, motion);
-            for (r, k) in motion.iter_mut().zip(&work.product) {
-                *r -= weight * k;
+            system.residual(state, &mut work.increment);
+            for combination in &work.free {
+                self.rhs[combination.unknown] = -combination.of(|i| work.increment[i]);
             }
-            self.rows.weighted(system, state, self.weights, 1.0, constraints);
             self.matrix.solve(&mut self.rhs);
-            self.take(state, counters, true);
-            let size = state.a.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
-            let moved = state.a.iter().zip(&work.last).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
-            change = if size > 0.0 { moved / size } else { 0.0 };
+            counters.residuals += 1;
+            counters.solves += 1;
+            let damped = work.free.iter().any(|combination| combination.damped);
+            work.increment.fill(0.0);
+            size = 0.0;
+            for (&c, scale) in work.unknowns.iter().zip(&scales) {
+                size = size.max((self.rhs[c] / scale).abs());
+                let moved = if damped { &mut state.v[c] } else { &mut work.increment[c] };
+                *moved += self.rhs[c];
+            }
+            system.retract(&state.q, &work.increment, &mut work.q);
+            state.q.copy_from_slice(&work.q);
+            if !(size > SETTLED) {
+                break;
+            }
         }
-        self.regularized = Some(work);
-        if !state.is_finite() {
-            return Err(failure::not_finite(system, from, step, state));
-        }
-        if change > SETTLED {
-            let worst = "unknowns without mass, which are not in equilibrium: start them there".to_owned();
+        if !(size <= 1e4 * SETTLED) {
+            let worst = "unknowns without mass, which find no equilibrium".to_owned();
             return Err(StepError::Singular { time: from, step, pivot: 0.0, worst });
         }
-        Ok(())
+        work.velocities(&mut self.matrix, &mut self.rhs, state);
+        // Accelerations, with −C_c a = K_c v where there is damping.
+        let (motion, constraints) = self.rhs.split_at_mut(n);
+        system.residual(state, motion);
+        work.stiffness.multiply(&state.v, &mut work.increment);
+        for combination in &work.free {
+            let rate = if combination.damped { combination.of(|i| work.increment[i]) } else { 0.0 };
+            motion[combination.unknown] = rate;
+        }
+        self.rows.weighted(system, state, self.weights, 1.0, constraints);
+        self.matrix.solve(&mut self.rhs);
+        self.take(state, counters, true);
+        if state.is_finite() { Ok(()) } else { Err(failure::not_finite(system, from, step, state)) }
+    }
+}
+
+impl Massless {
+    /// K, or C where the combination has damping.
+    fn row(&self, combination: &Combination) -> &Matrix {
+        if combination.damped { &self.damping } else { &self.stiffness }
+    }
+
+    /// Finds the unknowns whose row of `mass` is zero, and by elimination in G_C the combinations of their equations.
+    fn find(&mut self, mass: &Matrix, rows: &Rows, state: &State) {
+        let n = state.v.len();
+        let zero = |c: &usize| mass.get(*c, *c) == 0.0 && (0..n).all(|j| mass.get(*c, j) == 0.0);
+        self.unknowns.clear();
+        self.unknowns.extend((0..n).filter(zero));
+        // Reduced row echelon form of G_C: pivots are held.
+        let mut pivots: Vec<(usize, Vec<f64>)> = Vec::new();
+        for i in (0..rows.len()).filter(|i| is_active(rows.sets()[*i], state.mode[*i])) {
+            let entry = |c: &usize| {
+                let entries = rows.stored().iter().filter(|(row, j, _)| *row == i && j == c);
+                entries.map(|(_, _, x)| x).sum::<f64>()
+            };
+            let mut row: Vec<f64> = self.unknowns.iter().map(entry).collect();
+            for (pivot, reduced) in &pivots {
+                let factor = row[*pivot];
+                row.iter_mut().zip(reduced).for_each(|(x, r)| *x -= factor * r);
+            }
+            let largest = row.iter().enumerate().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+            let Some((pivot, value)) = largest.map(|(k, x)| (k, *x)).filter(|(_, x)| *x != 0.0) else {
+                continue;
+            };
+            row.iter_mut().for_each(|x| *x /= value);
+            for (_, other) in &mut pivots {
+                let factor = other[pivot];
+                other.iter_mut().zip(&row).for_each(|(x, r)| *x -= factor * r);
+            }
+            pivots.push((pivot, row));
+        }
+        self.free.clear();
+        for (k, &unknown) in self.unknowns.iter().enumerate() {
+            if pivots.iter().all(|(pivot, _)| *pivot != k) {
+                let held = pivots.iter().map(|(pivot, row)| (self.unknowns[*pivot], row[k])).collect();
+                let damped = self.damping.get(unknown, unknown) != 0.0;
+                let row = if damped { &self.damping } else { &self.stiffness };
+                let largest = (0..n).fold(f64::MIN_POSITIVE, |x, j| x.max(row.get(unknown, j).abs()));
+                let scale = (0..n).fold(0.0_f64, |x, j| x.max(mass.get(j, j))) / largest;
+                self.free.push(Combination { unknown, held, damped, scale });
+            }
+        }
+    }
+
+    /// v_C of nᵀK_C v = 0, where there is no damping.
+    fn velocities(&mut self, matrix: &mut Matrix, rhs: &mut [f64], state: &mut State) {
+        if self.free.iter().any(|combination| combination.damped) {
+            return;
+        }
+        self.stiffness.multiply(&state.v, &mut self.increment);
+        rhs.fill(0.0);
+        for combination in &self.free {
+            rhs[combination.unknown] = -combination.of(|i| self.increment[i]);
+        }
+        matrix.solve(rhs);
+        for &c in &self.unknowns {
+            state.v[c] += rhs[c];
+        }
     }
 }

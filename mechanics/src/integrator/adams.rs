@@ -28,11 +28,11 @@
 //! (doi 10.1007/978-3-540-78862-1); Lambert, *Numerical Methods for Ordinary Differential Systems*,
 //! section 4.5 (ISBN 978-0-471-92990-1).
 
-use super::runge_kutta::Scratch;
 use super::{
-    Checkpoint, Counters, Info, Integrator, NotResumed, Span, StabilityLimit, StepError, StepReport, hermite,
+    Checkpoint, Counters, Info, Integrator, NotResumed, RungeKutta, Span, StabilityLimit, StepError,
+    StepReport,
 };
-use crate::system::{Dynamics, RowWeights, Side, State};
+use crate::system::{Dynamics, State};
 
 /// Name as in a case file.
 const NAME: &str = "adams-4";
@@ -53,11 +53,8 @@ struct Slope {
 /// The Adams–Bashforth–Moulton pair of order 4. Its formulas head the source file.
 #[derive(Debug)]
 pub struct Adams {
-    info: Info,
-    counters: Counters,
-    limit: Option<StabilityLimit>,
-    baumgarte: Option<RowWeights>,
-    pending: bool,
+    /// The first steps, and all that explicit methods have in common.
+    start: RungeKutta,
     /// Slopes at tₙ₋₁, tₙ₋₂, tₙ₋₃.
     history: [Slope; 3],
     /// How many of them are valid, and the step they are apart.
@@ -65,38 +62,28 @@ pub struct Adams {
     spacing: f64,
     /// Step of the attempt.
     attempt: f64,
-    increment: Vec<f64>,
-    accepted: Vec<f64>,
-    scratch: Option<Scratch>,
 }
 
 impl Adams {
     /// The method, not yet started.
     pub fn new() -> Adams {
         Adams {
-            info: Info { name: NAME, order: 4, estimate_order: None, implicit: false },
-            counters: Counters::default(),
-            limit: None,
-            baumgarte: None,
-            pending: false,
+            start: RungeKutta::starting(NAME, LIMIT),
             history: Default::default(),
             known: 0,
             spacing: 0.0,
             attempt: 0.0,
-            increment: Vec::new(),
-            accepted: Vec::new(),
-            scratch: None,
         }
     }
 
     /// The same method, with constraints stabilized by Baumgarte's constants δ and ε [1/s].
     pub fn with_baumgarte(self, delta: f64, epsilon: f64) -> Adams {
-        Adams { baumgarte: Some(RowWeights::baumgarte(delta, epsilon)), ..self }
+        Adams { start: self.start.with_baumgarte(delta, epsilon), ..self }
     }
 
     /// The stability limit found by `start`.
     pub fn stability_limit(&self) -> Option<StabilityLimit> {
-        self.limit
+        self.start.stability_limit()
     }
 }
 
@@ -108,28 +95,20 @@ impl Default for Adams {
 
 impl Integrator for Adams {
     fn info(&self) -> &Info {
-        &self.info
+        self.start.info()
     }
 
     fn start(&mut self, system: &mut dyn Dynamics, state: &mut State, step: f64) -> Result<(), StepError> {
-        let size = system.size();
-        self.counters = Counters::default();
-        self.limit = None;
-        self.increment.resize(size.v, 0.0);
-        self.accepted.resize(size.v, 0.0);
-        for slope in &mut self.history {
-            slope.v.resize(size.v, 0.0);
-            slope.a.resize(size.v, 0.0);
-        }
         if !system.is_vector_space() {
             let (feature, instead) = ("rotations, whose increments do not add up", "runge-kutta-4");
             return Err(StepError::Unsupported { method: NAME, feature, instead });
         }
-        self.scratch = Some(Scratch::new(NAME, system, state, self.baumgarte)?);
-        self.restart(system, state)?;
-        let limit = StabilityLimit::find(NAME, LIMIT, system, state)?;
-        self.limit = Some(limit);
-        limit.check(step)
+        for slope in &mut self.history {
+            slope.v.resize(state.v.len(), 0.0);
+            slope.a.resize(state.a.len(), 0.0);
+        }
+        self.known = 0;
+        self.start.start(system, state, step)
     }
 
     fn step(
@@ -140,44 +119,38 @@ impl Integrator for Adams {
         to: &mut State,
     ) -> Result<StepReport, StepError> {
         let h = span.step;
-        (to.t, to.side) = (span.end, span.side);
-        let Some(scratch) = &mut self.scratch else {
-            return Err(StepError::NotStarted { method: NAME });
-        };
-        self.counters.rejected += u64::from(self.pending);
-        self.pending = true;
         self.attempt = h;
         let equidistant = (h - self.spacing).abs() <= 1e-9 * h.abs();
         if self.known < 3 || !equidistant {
-            scratch.step(system, from, h, to, &mut self.increment, &mut self.counters)?;
-            return Ok(StepReport { iterations: 0, error: None });
+            return self.start.step(system, from, span, to);
         }
+        let (scratch, increment, counters) = self.start.attempt(span, to)?;
         let n = from.v.len();
         let place = (from.t, h);
         let w = h / 24.0;
         let [f1, f2, f3] = &self.history;
         for i in 0..n {
-            self.increment[i] = w * (55.0 * from.v[i] - 59.0 * f1.v[i] + 37.0 * f2.v[i] - 9.0 * f3.v[i]);
+            increment[i] = w * (55.0 * from.v[i] - 59.0 * f1.v[i] + 37.0 * f2.v[i] - 9.0 * f3.v[i]);
             let dv = w * (55.0 * from.a[i] - 59.0 * f1.a[i] + 37.0 * f2.a[i] - 9.0 * f3.a[i]);
             to.v[i] = from.v[i] + dv;
         }
         to.copy_modes(from);
-        system.retract(&from.q, &self.increment, &mut to.q);
-        scratch.accelerations.complete(system, to, place, &mut self.counters)?;
+        system.retract(&from.q, increment, &mut to.q);
+        scratch.accelerations.complete(system, to, place, counters)?;
         for i in 0..n {
-            self.increment[i] = w * (9.0 * to.v[i] + 19.0 * from.v[i] - 5.0 * f1.v[i] + f2.v[i]);
+            increment[i] = w * (9.0 * to.v[i] + 19.0 * from.v[i] - 5.0 * f1.v[i] + f2.v[i]);
             to.v[i] = from.v[i] + w * (9.0 * to.a[i] + 19.0 * from.a[i] - 5.0 * f1.a[i] + f2.a[i]);
         }
-        system.retract(&from.q, &self.increment, &mut to.q);
-        scratch.accelerations.complete(system, to, place, &mut self.counters)?;
+        system.retract(&from.q, increment, &mut to.q);
+        scratch.accelerations.complete(system, to, place, counters)?;
         Ok(StepReport { iterations: 0, error: None })
     }
 
     fn discard(&mut self) {
-        self.pending = false;
+        self.start.discard();
     }
 
-    fn accept(&mut self, from: &State, _to: &State) {
+    fn accept(&mut self, from: &State, to: &State) {
         let h = self.attempt;
         if (h - self.spacing).abs() > 1e-9 * h.abs() {
             self.spacing = h;
@@ -187,28 +160,20 @@ impl Integrator for Adams {
         self.history[0].v.copy_from_slice(&from.v);
         self.history[0].a.copy_from_slice(&from.a);
         self.known = (self.known + 1).min(3);
-        std::mem::swap(&mut self.increment, &mut self.accepted);
-        self.pending = false;
-        self.counters.steps += 1;
+        self.start.accept(from, to);
     }
 
     fn interpolate(&self, system: &dyn Dynamics, from: &State, to: &State, t: f64, out: &mut State) {
-        hermite::quintic(system, from, to, &self.accepted, t, out);
+        self.start.interpolate(system, from, to, t, out);
     }
 
     fn restart(&mut self, system: &mut dyn Dynamics, state: &mut State) -> Result<(), StepError> {
-        let Some(scratch) = &mut self.scratch else {
-            return Err(StepError::NotStarted { method: NAME });
-        };
-        self.pending = false;
         self.known = 0;
-        state.side = Side::Right;
-        let place = (state.t, 0.0);
-        scratch.accelerations.complete(system, state, place, &mut self.counters)
+        self.start.restart(system, state)
     }
 
     fn save(&self, out: &mut Checkpoint) {
-        out.put("counters", &self.counters.to_numbers());
+        self.start.save(out);
         out.put("known", &[self.known as f64, self.spacing]);
         for (slope, [v, a]) in self.history.iter().zip(HISTORY) {
             out.put(v, &slope.v);
@@ -216,8 +181,8 @@ impl Integrator for Adams {
         }
     }
 
-    fn resume(&mut self, _system: &mut dyn Dynamics, from: &Checkpoint) -> Result<(), NotResumed> {
-        self.counters = Counters::from_numbers(from.numbers("counters")?);
+    fn resume(&mut self, system: &mut dyn Dynamics, from: &Checkpoint) -> Result<(), NotResumed> {
+        self.start.resume(system, from)?;
         let [known, spacing] = from.numbers("known")?;
         (self.known, self.spacing) = (known as usize, spacing);
         for (slope, [v, a]) in self.history.iter_mut().zip(HISTORY) {
@@ -232,6 +197,6 @@ impl Integrator for Adams {
     }
 
     fn counters(&self) -> Counters {
-        self.counters
+        self.start.counters()
     }
 }

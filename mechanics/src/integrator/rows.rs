@@ -107,6 +107,16 @@ impl Rows {
         }
     }
 
+    /// Removes the stored entries of Gᵀ from the equation of velocity `j`.
+    pub(super) fn remove_from_equation(&self, s: &State, j: usize, first: usize, out: &mut Matrix) {
+        let of_equation =
+            |(row, velocity, _): &&(usize, usize, f64)| *velocity == j && s.mode[*row] != Mode::Open;
+        for &(row, ..) in self.jacobian.iter().filter(of_equation) {
+            let entry = out.get(j, first + row);
+            out.add(j, first + row, -entry);
+        }
+    }
+
     /// Stores the jacobian at `s`.
     pub(super) fn store_jacobian(&mut self, system: &mut dyn Dynamics, s: &State) {
         let stored = &mut self.jacobian;

@@ -39,6 +39,8 @@ const LIMIT: f64 = 2.828_427_124_746_190_3;
 #[derive(Debug)]
 pub struct RungeKutta {
     info: Info,
+    /// Largest stable hω.
+    stable: f64,
     counters: Counters,
     limit: Option<StabilityLimit>,
     baumgarte: Option<RowWeights>,
@@ -48,7 +50,7 @@ pub struct RungeKutta {
     scratch: Option<Scratch>,
 }
 
-/// One explicit step's memory; shared with the start of [`Adams`](super::Adams).
+/// One explicit step's memory.
 #[derive(Debug)]
 pub(super) struct Scratch {
     pub(super) accelerations: Accelerations,
@@ -66,7 +68,7 @@ impl Scratch {
     ///
     /// # Errors
     /// [`StepError::Unsupported`] for constraints without Baumgarte's constants.
-    pub(super) fn new(
+    fn new(
         method: &'static str,
         system: &mut dyn Dynamics,
         state: &State,
@@ -89,7 +91,7 @@ impl Scratch {
     }
 
     /// One step of size `h` to the time of `to`; `increment` receives qₙ₊₁ ⊟ qₙ.
-    pub(super) fn step(
+    fn step(
         &mut self,
         system: &mut dyn Dynamics,
         from: &State,
@@ -139,8 +141,14 @@ impl Scratch {
 impl RungeKutta {
     /// The method, not yet started.
     pub fn new() -> RungeKutta {
+        RungeKutta::starting(NAME, LIMIT)
+    }
+
+    /// The same, as the start of the explicit method of order 4 with this name and this largest stable hω.
+    pub(super) fn starting(name: &'static str, stable: f64) -> RungeKutta {
         RungeKutta {
-            info: Info { name: NAME, order: 4, estimate_order: None, implicit: false },
+            info: Info { name, order: 4, estimate_order: None, implicit: false },
+            stable,
             counters: Counters::default(),
             limit: None,
             baumgarte: None,
@@ -159,6 +167,21 @@ impl RungeKutta {
     /// The stability limit found by `start`.
     pub fn stability_limit(&self) -> Option<StabilityLimit> {
         self.limit
+    }
+
+    /// Begins an attempt of a step: its memory, the increment and the counters.
+    pub(super) fn attempt(
+        &mut self,
+        span: Span,
+        to: &mut State,
+    ) -> Result<(&mut Scratch, &mut [f64], &mut Counters), StepError> {
+        let Some(scratch) = &mut self.scratch else {
+            return Err(StepError::NotStarted { method: self.info.name });
+        };
+        (to.t, to.side) = (span.end, span.side);
+        self.counters.rejected += u64::from(self.pending);
+        self.pending = true;
+        Ok((scratch, &mut self.increment, &mut self.counters))
     }
 }
 
@@ -179,9 +202,9 @@ impl Integrator for RungeKutta {
         self.increment.resize(size.v, 0.0);
         self.accepted.resize(size.v, 0.0);
         self.limit = None;
-        self.scratch = Some(Scratch::new(NAME, system, state, self.baumgarte)?);
+        self.scratch = Some(Scratch::new(self.info.name, system, state, self.baumgarte)?);
         self.restart(system, state)?;
-        let limit = StabilityLimit::find(NAME, LIMIT, system, state)?;
+        let limit = StabilityLimit::find(self.info.name, self.stable, system, state)?;
         self.limit = Some(limit);
         limit.check(step)
     }
@@ -193,14 +216,8 @@ impl Integrator for RungeKutta {
         span: Span,
         to: &mut State,
     ) -> Result<StepReport, StepError> {
-        let h = span.step;
-        (to.t, to.side) = (span.end, span.side);
-        let Some(scratch) = &mut self.scratch else {
-            return Err(StepError::NotStarted { method: NAME });
-        };
-        self.counters.rejected += u64::from(self.pending);
-        self.pending = true;
-        scratch.step(system, from, h, to, &mut self.increment, &mut self.counters)?;
+        let (scratch, increment, counters) = self.attempt(span, to)?;
+        scratch.step(system, from, span.step, to, increment, counters)?;
         Ok(StepReport { iterations: 0, error: None })
     }
 
@@ -220,7 +237,7 @@ impl Integrator for RungeKutta {
 
     fn restart(&mut self, system: &mut dyn Dynamics, state: &mut State) -> Result<(), StepError> {
         let Some(scratch) = &mut self.scratch else {
-            return Err(StepError::NotStarted { method: NAME });
+            return Err(StepError::NotStarted { method: self.info.name });
         };
         self.pending = false;
         state.side = Side::Right;

@@ -141,6 +141,23 @@ impl<T: Scalar> Bordered<T> {
         }
     }
 
+    /// The same for x and y in another order: place k belongs to their entry `unknowns[k]`.
+    pub(super) fn multiply_ordered(&self, unknowns: &[usize], x: &[T], y: &mut [T]) {
+        let (n, whole) = (self.band.order(), self.order());
+        for (i, &unknown) in unknowns.iter().enumerate() {
+            let columns = if i < n {
+                i.saturating_sub(self.band.lower())..(i + self.band.upper() + 1).min(n)
+            } else {
+                0..n
+            };
+            let mut sum = T::ZERO;
+            for j in columns.chain(n..whole) {
+                sum += self.get(i, j) * x[unknowns[j]];
+            }
+            y[unknown] = sum;
+        }
+    }
+
     /// Factors in place.
     pub fn factor(&mut self) -> Result<(), Singular> {
         let n = self.band.order();

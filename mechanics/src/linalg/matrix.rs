@@ -2,6 +2,7 @@
 
 use super::vector::weighted_sum;
 use super::{Bordered, Dense, Scalar, Singular};
+use std::sync::Arc;
 
 /// Shape of a system's tangent.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -22,6 +23,13 @@ pub enum Structure {
         /// Number of dense rows and columns behind the band.
         border: usize,
     },
+    /// Another structure in which the unknowns stand in another order: multipliers between the bodies that they couple.
+    Ordered {
+        /// The place of each unknown, a permutation.
+        places: Arc<[usize]>,
+        /// The structure of the places: dense or a band.
+        of: Box<Structure>,
+    },
 }
 
 impl Structure {
@@ -35,12 +43,26 @@ impl Structure {
         Structure::Band { order: n, lower, upper, border }
     }
 
+    /// The structure `of` with unknown i at the place `places[i]`.
+    pub fn ordered(places: Arc<[usize]>, of: Structure) -> Structure {
+        debug_assert_eq!(places.len(), of.order());
+        match of {
+            Structure::Band { .. } => Structure::Ordered { places, of: Box::new(of) },
+            of => of,
+        }
+    }
+
     /// The same with `more` dense rows and columns behind.
     pub fn widened(self, more: usize) -> Structure {
         match self {
             Structure::Dense { order } => Structure::Dense { order: order + more },
             Structure::Band { order, lower, upper, border } => {
                 Structure::Band { order, lower, upper, border: border + more }
+            }
+            Structure::Ordered { places, of } => {
+                let order = places.len();
+                let places = places.iter().copied().chain(order..order + more).collect();
+                Structure::Ordered { places, of: Box::new(of.widened(more)) }
             }
         }
     }
@@ -50,14 +72,25 @@ impl Structure {
         match self {
             Structure::Dense { order } => *order,
             Structure::Band { order, border, .. } => order + border,
+            Structure::Ordered { of, .. } => of.order(),
         }
     }
 
     /// Larger half-bandwidth of the part without border.
     pub fn half_bandwidth(&self) -> usize {
-        match *self {
+        match self {
             Structure::Dense { order } => order.saturating_sub(1),
-            Structure::Band { lower, upper, .. } => lower.max(upper),
+            Structure::Band { lower, upper, .. } => *lower.max(upper),
+            Structure::Ordered { of, .. } => of.half_bandwidth(),
+        }
+    }
+
+    /// Number of dense rows and columns behind the band.
+    pub fn border(&self) -> usize {
+        match self {
+            Structure::Dense { .. } => 0,
+            Structure::Band { border, .. } => *border,
+            Structure::Ordered { of, .. } => of.border(),
         }
     }
 
@@ -80,10 +113,35 @@ pub type Stamp = [f64; 6];
 #[derive(Clone, Debug)]
 pub struct Matrix<T = f64> {
     storage: Storage<T>,
+    ordering: Option<Ordering<T>>,
     stamp: Option<Stamp>,
     /// Stamps of the terms of a combination, and their weights.
     source: Option<([Stamp; 3], [T; 3])>,
     factored: bool,
+}
+
+/// The place of each unknown in the storage, and memory for a vector in the order of the places.
+#[derive(Clone, Debug)]
+struct Ordering<T> {
+    places: Arc<[usize]>,
+    unknowns: Vec<usize>,
+    vector: Vec<T>,
+}
+
+impl<T: Scalar> Ordering<T> {
+    fn new(places: Arc<[usize]>) -> Ordering<T> {
+        let mut unknowns = vec![0; places.len()];
+        places.iter().enumerate().for_each(|(i, place)| unknowns[*place] = i);
+        let vector = vec![T::ZERO; places.len()];
+        Ordering { places, unknowns, vector }
+    }
+
+    /// Takes `b` into the order of the places, changes it, and writes it back.
+    fn apply(&mut self, b: &mut [T], change: impl FnOnce(&mut [T])) {
+        self.unknowns.iter().zip(&mut self.vector).for_each(|(i, x)| *x = b[*i]);
+        change(&mut self.vector);
+        self.unknowns.iter().zip(&self.vector).for_each(|(i, x)| b[*i] = *x);
+    }
 }
 
 /// The storages.
@@ -189,8 +247,17 @@ impl<T: Scalar> Matrix<T> {
             Structure::Band { order, lower, upper, border } => {
                 Storage::Band(Bordered::new(order, lower, upper, border))
             }
+            Structure::Ordered { ref places, ref of } => {
+                return Matrix { ordering: Some(Ordering::new(places.clone())), ..Matrix::new(of) };
+            }
         };
-        Matrix { storage, stamp: None, source: None, factored: false }
+        Matrix { storage, ordering: None, stamp: None, source: None, factored: false }
+    }
+
+    /// The place of unknown `i` in the storage.
+    #[inline]
+    fn place(&self, i: usize) -> usize {
+        self.ordering.as_ref().map_or(i, |ordering| ordering.places[i])
     }
 
     /// Order of the matrix.
@@ -201,12 +268,13 @@ impl<T: Scalar> Matrix<T> {
         }
     }
 
-    /// The storage, for reading.
+    /// The storage, for reading. In an [ordered](Structure::Ordered) matrix its indices are places.
     pub fn storage(&self) -> &Storage<T> {
         &self.storage
     }
 
-    /// The storage, for writing new content: the matrix is no longer factored, and is unstamped.
+    /// The storage, for writing new content: the matrix is no longer factored, and is unstamped. In an
+    /// [ordered](Structure::Ordered) matrix its indices are places.
     pub fn begin(&mut self) -> &mut Storage<T> {
         self.factored = false;
         self.stamp = None;
@@ -241,21 +309,45 @@ impl<T: Scalar> Matrix<T> {
 
     /// Entry (i, j).
     pub fn get(&self, i: usize, j: usize) -> T {
+        let (i, j) = (self.place(i), self.place(j));
         match &self.storage {
             Storage::Dense(a) => a.get(i, j),
             Storage::Band(a) => a.get(i, j),
         }
     }
 
+    /// Calls `visit` with the row and the value of every entry of column `j` that is not zero.
+    pub fn column(&self, j: usize, mut visit: impl FnMut(usize, T)) {
+        let (n, place) = (self.order(), self.place(j));
+        let (band, reach) = match &self.storage {
+            Storage::Band(a) if place < a.band().order() => {
+                let (first, last) = (place.saturating_sub(a.band().upper()), place + a.band().lower() + 1);
+                (first..last.min(a.band().order()), a.band().order()..n)
+            }
+            _ => (0..n, n..n),
+        };
+        for i in band.chain(reach) {
+            let i = self.ordering.as_ref().map_or(i, |ordering| ordering.unknowns[i]);
+            let x = self.get(i, j);
+            if x != T::ZERO {
+                visit(i, x);
+            }
+        }
+    }
+
     /// Adds `x` to entry (i, j). For hot loops use the [storage](Matrix::begin) itself.
     pub fn add(&mut self, i: usize, j: usize, x: T) {
         self.factored = false;
+        let (i, j) = (self.place(i), self.place(j));
         self.storage.add(i, j, x);
     }
 
     /// y = A x. Only before factoring.
     pub fn multiply(&self, x: &[T], y: &mut [T]) {
         debug_assert!(!self.factored, "the entries are overwritten by the factors");
+        if let (Some(ordering), Storage::Band(a)) = (&self.ordering, &self.storage) {
+            return a.multiply_ordered(&ordering.unknowns, x, y);
+        }
         match &self.storage {
             Storage::Dense(a) => a.multiply(x, y),
             Storage::Band(a) => a.multiply(x, y),
@@ -271,11 +363,12 @@ impl<T: Scalar> Matrix<T> {
             Storage::Dense(a) => a.factor(),
             Storage::Band(a) => a.factor(),
         };
-        if result.is_err() {
+        if let Err(cause) = result {
             self.stamp = None;
             self.source = None;
+            let index = self.ordering.as_ref().map_or(cause.index, |o| o.unknowns[cause.index]);
+            return Err(Singular { index, ..cause });
         }
-        result?;
         self.factored = true;
         Ok(true)
     }
@@ -283,9 +376,10 @@ impl<T: Scalar> Matrix<T> {
     /// Solves A x = b in place after [`Matrix::factor`].
     pub fn solve(&mut self, b: &mut [T]) {
         debug_assert!(self.factored, "factor first");
-        match &mut self.storage {
-            Storage::Dense(a) => a.solve(b),
-            Storage::Band(a) => a.solve(b),
+        match (&mut self.storage, &mut self.ordering) {
+            (Storage::Dense(a), _) => a.solve(b),
+            (Storage::Band(a), None) => a.solve(b),
+            (Storage::Band(a), Some(ordering)) => ordering.apply(b, |b| a.solve(b)),
         }
     }
 }

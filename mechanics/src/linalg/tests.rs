@@ -80,6 +80,76 @@ fn multipliers_inside_the_band_survive_pivoting() {
     assert!(solve_error(a, b) < 1e-12);
 }
 
+/// A chain of masses with a multiplier between neighbours, which joins them, and one that joins the ends: in the order
+/// x, λ all the multipliers are far from their masses, in the order of the chain they lie in the band.
+fn chain<T: Scalar>(masses: usize, structure: &Structure) -> Matrix<T> {
+    let mut a = Matrix::new(structure);
+    for i in 0..masses {
+        a.add(i, i, T::real(1.0 + 0.1 * i as f64));
+        if i + 1 < masses {
+            a.add(i, i + 1, T::real(0.2));
+            a.add(i + 1, i, T::real(-0.3));
+        }
+        let (row, next) = (masses + i, (i + 1) % masses);
+        let part = if i + 1 < masses { -1.0 } else { 0.5 };
+        for (j, x) in [(i, 1.0), (next, part)] {
+            a.add(row, j, T::real(x));
+            a.add(j, row, T::real(-x));
+        }
+        a.add(row, row, T::real(if i + 1 < masses { 0.0 } else { 1.0 }));
+    }
+    a
+}
+
+#[test]
+fn multipliers_are_placed_between_the_bodies_that_they_join() {
+    let masses = 40;
+    // Mass i at 2i, the multiplier to the next at 2i + 1, the last one in the border.
+    let places: Vec<usize> =
+        (0..2 * masses).map(|i| if i < masses { 2 * i } else { 2 * (i - masses) + 1 }).collect();
+    let ordered = Structure::ordered(places.into(), Structure::band(2 * masses - 1, 2, 2, 1));
+    let dense = Structure::dense(2 * masses);
+    assert_eq!((ordered.order(), ordered.half_bandwidth(), ordered.border()), (2 * masses, 2, 1));
+    let (mut a, b) = (chain::<f64>(masses, &ordered), chain::<f64>(masses, &dense));
+    for (i, j) in [(0, 0), (3, 4), (4, 3), (masses + 3, 4), (5, masses + 5), (2 * masses - 1, 0)] {
+        assert_eq!(a.get(i, j), b.get(i, j));
+    }
+    for j in [0, 7, masses + 3, 2 * masses - 1] {
+        let entries = |a: &Matrix| {
+            let mut column = vec![0.0; 2 * masses];
+            a.column(j, |i, x| column[i] += x);
+            column
+        };
+        assert_eq!(entries(&a), entries(&b));
+        assert_eq!(entries(&a)[5], a.get(5, j));
+    }
+    let x: Vec<f64> = (0..2 * masses).map(|i| (0.7 * i as f64).sin()).collect();
+    let (mut y, mut z) = (vec![0.0; 2 * masses], vec![0.0; 2 * masses]);
+    a.multiply(&x, &mut y);
+    b.multiply(&x, &mut z);
+    assert!(y.iter().zip(&z).all(|(y, z)| (y - z).abs() < 1e-14));
+    assert!(solve_error(a.clone(), b) < 1e-12);
+    a.factor().unwrap();
+    a.solve(&mut y);
+    assert!(y.iter().zip(&x).all(|(y, x)| (y - x).abs() < 1e-12));
+    // A combination keeps the order, in complex numbers too.
+    let terms = [&chain(masses, &ordered), &chain(masses, &ordered), &chain(masses, &ordered)];
+    let weights = [Complex64::ONE, Complex64::new(0.3, 0.4), Complex64::new(-0.1, 0.2)];
+    let mut sum = Matrix::<Complex64>::new(&ordered);
+    sum.combine(terms, weights);
+    let total = weights.iter().sum::<Complex64>();
+    let mut product: Vec<Complex64> = z.iter().map(|z| total * z).collect();
+    sum.factor().unwrap();
+    sum.solve(&mut product);
+    assert!(product.iter().zip(&x).all(|(y, x)| (y - x).norm() < 1e-12));
+    // What is singular is named by its own number, not by its place.
+    let mut empty: Matrix =
+        Matrix::new(&Structure::ordered(vec![2, 0, 1].into(), Structure::band(3, 1, 1, 0)));
+    empty.add(0, 0, 1.0);
+    empty.add(1, 1, 1.0);
+    assert_eq!(empty.factor().unwrap_err().index, 2);
+}
+
 #[test]
 fn a_singular_band_held_by_its_border_is_solved() {
     // A free chain of springs (rigid translation) whose mean the border fixes.

@@ -33,7 +33,8 @@ pub trait Dynamics: Send {
     fn size(&self) -> Size;
 
     /// Structure of the matrix of the unknowns (v), (v, λ) or (v, λ, μ) with no, one or two multipliers a row. The
-    /// default is that of a dense matrix.
+    /// default is that of a dense matrix. Integrators use the numbers of the unknowns only: a model places multipliers
+    /// inside its band by an [order](Structure::Ordered) of its own; the matrix of the velocities alone has none.
     fn structure(&self, multipliers: usize) -> Structure {
         let size = self.size();
         Structure::dense(size.v + multipliers * size.lambda)

@@ -3,7 +3,7 @@
 /// A parameter of a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Parameter {
-    /// Angular speed Ω [rad/s] with which the frame of the model turns steadily.
+    /// Angular speed Ω [rad/s] with which the frame of the model rotates steadily.
     Speed,
     /// Part of the loads that acts, 0 … 1.
     LoadFactor,
@@ -20,21 +20,21 @@ pub enum NotSet {
     Lost(String),
 }
 
-/// A model seen from a frame that turns steadily, where a steady rotation is v = a = 0.
+/// A model seen from a frame that rotates steadily, where a steady rotation is v = a = 0.
 pub trait Steady {
-    /// Sets a parameter until [`release`](Steady::release). With [`Parameter::Speed`] the frame turns steadily at this
+    /// Sets a parameter until [`release`](Steady::release). With [`Parameter::Speed`] the frame rotates steadily at this
     /// speed in the place of whatever drives it.
     ///
     /// # Errors
     /// [`NotSet`]; the model stays as it was.
     fn set(&mut self, parameter: Parameter, _value: f64) -> Result<(), NotSet> {
         Err(NotSet::Unknown(match parameter {
-            Parameter::Speed => "frame that could turn steadily",
+            Parameter::Speed => "frame that could rotate steadily",
             Parameter::LoadFactor => "loads",
         }))
     }
 
-    /// Holds rigid motions at the values they have in the turning frame, or lets them go: the equation of a held
+    /// Holds rigid motions at the values they have in the rotating frame, or lets them go: the equation of a held
     /// unknown is that it does not change.
     fn hold(&mut self, _held: bool) {}
 

@@ -63,7 +63,7 @@ impl Checker<'_> {
             if let Some((lower, upper)) = section.fibres(x).filter(|(lower, upper)| !(lower < upper)) {
                 self.report("fibres", format!("the upper fibre at x = {x} m"), upper, lower);
             }
-            // One station tells enough.
+            // One station is enough.
             if self.defects.len() > before {
                 return;
             }

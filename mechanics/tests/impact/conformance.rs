@@ -5,6 +5,7 @@ use flexion::basis::{Field, Hermite, Modes};
 use flexion::contact::{
     Circle, Contact, ContactForce, Contacting, Dissipation, Law, Obstacle, Plane, Points, Translation,
 };
+use flexion::drive::Actuator;
 use flexion::hub_beam::{
     Coupling, Drive, ExactCoupling, Fields, Foreshortening, FreeHub, HighCoupling, Hub, HubBeam,
     LinearCoupling, Mount,
@@ -32,11 +33,13 @@ fn hub(free: bool) -> Hub {
         Drive::Free(FreeHub {
             angle: 0.4,
             speed: 1.5,
-            torque: Arc::new(Constant::new(0.0).unwrap()),
-            damping: 0.0,
-            stiffness: 0.0,
-            rest_angle: 0.0,
-            controller: None,
+            actuator: Actuator {
+                torque: Arc::new(Constant::new(0.0).unwrap()),
+                damping: 0.0,
+                stiffness: 0.0,
+                rest_angle: 0.0,
+                controller: None,
+            },
         })
     } else {
         Drive::Prescribed(Motion::Angle(Arc::new(

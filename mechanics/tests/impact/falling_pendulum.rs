@@ -4,44 +4,59 @@
 use flexion::analysis::transient::{Ending, Event, EventKind, Observer, Plan, Step, transient};
 use flexion::basis::{Field, Modes};
 use flexion::contact::{Contact, Contacting, Law, Plane};
+use flexion::drive::Actuator;
 use flexion::hub_beam::load::Gravity;
-use flexion::hub_beam::{Drive, Fields, FreeHub, HighCoupling, Hub, HubBeam, Mount};
+use flexion::hub_beam::{Coupling, Drive, Fields, FreeHub, HighCoupling, Hub, HubBeam, Mount};
 use flexion::integrator::{Integrator, Radau, Tolerance};
 use flexion::profile::Constant;
 use flexion::section::{Resultants, Uniform};
 use flexion::system::{Energy, State, System};
 use std::sync::Arc;
 
-/// Pendulum of P4 with N modes of each field, which falls from 45° onto y = 0.
-pub fn pendulum(modes: usize, law: Law) -> Contacting<HubBeam<HighCoupling>> {
+/// P4's beam.
+pub fn section() -> Uniform {
     let (density, modulus, area, second) = (2766.7, 6.8952e10, 3.14e-4, 7.85e-9);
-    let section = Uniform::from_resultants(Resultants {
+    Uniform::from_resultants(Resultants {
         mass: density * area,
         axial_stiffness: modulus * area,
         bending_stiffness: modulus * second,
         ..Default::default()
     })
-    .unwrap();
+    .unwrap()
+}
+
+/// A hinge at 45°.
+pub fn hub() -> Hub {
     let drive = Drive::Free(FreeHub {
         angle: std::f64::consts::FRAC_PI_4,
         speed: 0.0,
-        torque: Arc::new(Constant::new(0.0).unwrap()),
-        damping: 0.0,
-        stiffness: 0.0,
-        rest_angle: 0.0,
-        controller: None,
+        actuator: Actuator {
+            torque: Arc::new(Constant::new(0.0).unwrap()),
+            damping: 0.0,
+            stiffness: 0.0,
+            rest_angle: 0.0,
+            controller: None,
+        },
     });
-    let hub = Hub { radius: 0.0, inertia: 0.0, drive };
-    let basis = |field| Box::new(Modes::new(1.0, modes, field).unwrap());
-    let fields = Fields::new(1.0, basis(Field::Axial), basis(Field::Transverse), &[]);
+    Hub { radius: 0.0, inertia: 0.0, drive }
+}
+
+/// The pendulum over the ground y = 0.
+pub fn with_ground<C: Coupling>(coupling: C, law: Law) -> Contacting<HubBeam<C>> {
     let gravity = Gravity { acceleration: 9.81, direction: -std::f64::consts::FRAC_PI_2 };
-    let coupling = HighCoupling::new(fields, &section, &hub).unwrap();
-    let model = HubBeam::new(hub, coupling, &[])
-        .with_loads(&section, &[&gravity])
+    let model = HubBeam::new(hub(), coupling, &[])
+        .with_loads(&section(), &[&gravity])
         .with_contact_points(&[(1.0, Mount::Ground)]);
     let plane = Plane { point: [0.0; 3], normal: [0.0, 1.0, 0.0], motion: None };
     let contact = Contact { name: "ground".into(), point: 0, obstacle: Arc::new(plane), law };
     Contacting::new(model, vec![contact])
+}
+
+/// Pendulum of P4 with N modes of each field, which falls from 45° onto y = 0.
+pub fn pendulum(modes: usize, law: Law) -> Contacting<HubBeam<HighCoupling>> {
+    let basis = |field| Box::new(Modes::new(1.0, modes, field).unwrap());
+    let fields = Fields::new(1.0, basis(Field::Axial), basis(Field::Transverse), &[]);
+    with_ground(HighCoupling::new(fields, &section(), &hub()).unwrap(), law)
 }
 
 #[derive(Default)]

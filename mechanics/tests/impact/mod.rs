@@ -5,5 +5,6 @@ mod accumulation;
 mod bars;
 mod conformance;
 mod falling_pendulum;
+mod massless;
 mod models;
 mod nonsmooth;

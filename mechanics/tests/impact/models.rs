@@ -207,17 +207,26 @@ pub fn rest(system: &mut dyn System, method: &mut dyn Integrator, state: &mut St
     assert_eq!(transient(system, method, state, plan, &mut Blind), Ending::Finished);
 }
 
-/// A block of mass 1 on an incline with the slope α and friction: q along it, downwards, and away from it.
+/// A block of mass 1 on an incline with the slope α and friction: q along it, downwards, and away from it, and, where it
+/// has rows of friction in two directions, along it sideways.
 pub struct Block {
     pub slope: f64,
-    rows: [Set; 2],
+    rows: Vec<Set>,
 }
 
 impl Block {
     pub fn new(slope: f64, coefficient: f64) -> Block {
-        let rows = [Set::Unilateral { restitution: 0.0 }, Set::Friction { coefficient, normal: 0 }];
-        Block { slope, rows }
+        let friction = Set::Friction { coefficient, normal: 0 };
+        Block { slope, rows: vec![Set::Unilateral { restitution: 0.0 }, friction] }
     }
+
+    pub fn with_sideways(mut self) -> Block {
+        self.rows.push(self.rows[1]);
+        self
+    }
+
+    /// Unknown of each row.
+    const UNKNOWN: [usize; 3] = [1, 0, 2];
 }
 
 impl Events for Block {}
@@ -226,30 +235,37 @@ impl Observed for Block {}
 
 impl Dynamics for Block {
     fn size(&self) -> Size {
-        Size { q: 2, v: 2, lambda: 2, memory: 0 }
+        let n = self.rows.len();
+        Size { q: n, v: n, lambda: n, memory: 0 }
     }
     fn scales(&self) -> &[f64] {
-        &[1.0; 2]
+        &[1.0; 3][..self.rows.len()]
     }
     fn rows(&self) -> &[Set] {
         &self.rows
     }
     fn residual(&mut self, s: &State, r: &mut [f64]) {
-        r[0] = s.a[0] - GRAVITY * self.slope.sin() - s.lambda[1];
-        r[1] = s.a[1] + GRAVITY * self.slope.cos() - s.lambda[0];
+        r.copy_from_slice(&s.a);
+        r[0] -= GRAVITY * self.slope.sin();
+        r[1] += GRAVITY * self.slope.cos();
+        for (lambda, unknown) in s.lambda.iter().zip(Block::UNKNOWN) {
+            r[unknown] -= lambda;
+        }
     }
     fn constraint(&mut self, s: &State, c: RowWeights, g: &mut [f64]) {
-        g[0] = c.combine(s.q[1], s.v[1], s.a[1]);
-        g[1] = c.combine(0.0, s.v[0], s.a[0]);
+        for ((k, g), unknown) in g.iter_mut().enumerate().zip(Block::UNKNOWN) {
+            let gap = if k == 0 { s.q[unknown] } else { 0.0 };
+            *g = c.combine(gap, s.v[unknown], s.a[unknown]);
+        }
     }
     fn jacobian(&mut self, _s: &State, visit: &mut VisitRow<'_>) {
-        visit(0, &[1], &[1.0]);
-        visit(1, &[0], &[1.0]);
+        for (row, unknown) in Block::UNKNOWN.into_iter().enumerate().take(self.rows.len()) {
+            visit(row, &[unknown], &[1.0]);
+        }
     }
     fn tangent(&mut self, _s: &State, w: Weights<'_>, out: &mut Matrix) {
         out.clear();
-        out.add(0, 0, w.a);
-        out.add(1, 1, w.a);
+        (0..self.rows.len()).for_each(|i| out.add(i, i, w.a));
     }
 }
 

@@ -2,12 +2,14 @@
 
 use super::models::{Block, Linear, rest, steps};
 use crate::integrators::multibody::{BallOnMovingWall, BallsOnWall, FourBar, GRAVITY, MasslessNode};
-use flexion::analysis::transient::{Plan, resume, transient_to_checkpoint};
+use flexion::analysis::Violation;
+use flexion::analysis::transient::{Ending, Plan, RunError, resume, transient, transient_to_checkpoint};
 use flexion::integrator::{Integrator, MoreauJean, NonsmoothAlpha, Radau, Tolerance};
 use flexion::system::{Dynamics, Mode, RowWeights, State};
 
-pub fn methods(rho: f64) -> [Box<dyn Integrator>; 1] {
-    [Box::new(NonsmoothAlpha::decoupled(rho).unwrap())]
+/// The decoupled scheme and the coupled one.
+pub fn methods(rho: f64) -> [Box<dyn Integrator>; 2] {
+    [Box::new(NonsmoothAlpha::decoupled(rho).unwrap()), Box::new(NonsmoothAlpha::coupled(rho).unwrap())]
 }
 
 pub fn ball(restitution: f64, height: f64) -> (BallOnMovingWall, State) {
@@ -213,5 +215,49 @@ fn a_run_goes_on_bit_by_bit() {
         resume(&mut system, again.as_mut(), &checkpoint, &mut state, &plan(1.0), &mut super::models::Blind)
             .unwrap();
         assert_eq!(whole, state);
+    }
+}
+
+/// What is recorded of rows: a ball at rest on a plate, and one in the air below it.
+#[test]
+fn violations_are_those_of_active_rows() {
+    let (mut system, mut state) = ball(0.5, -2e-3);
+    (state.v[0], state.a[0]) = (3.0, -5.0);
+    let mut violation = Violation::new(&system);
+    violation.evaluate(&mut system, &state);
+    assert_eq!(violation.largest, [2e-3, 0.0, 0.0]);
+    assert_eq!((violation.velocity[0], violation.acceleration[0]), (3.0, -5.0));
+    state.mode[0] = Mode::Closed;
+    violation.evaluate(&mut system, &state);
+    assert_eq!(violation.largest, [2e-3, 3.0, 5.0]);
+    let mut block = Block::new(0.3, 0.1);
+    let mut state = block.initial();
+    (state.v, state.mode[1]) = (vec![1.0, 0.0], Mode::SlipForward);
+    let mut violation = Violation::new(&block);
+    violation.evaluate(&mut block, &state);
+    assert_eq!((violation.largest, violation.velocity[1]), ([0.0; 3], 1.0));
+}
+
+/// Friction in two directions: nonsmooth methods have the disc, and an event-driven run says that it has not.
+#[test]
+fn two_rows_of_friction_are_a_disc_or_refused() {
+    let slope: f64 = 0.5;
+    let incline = || Block::new(slope, 0.3).with_sideways();
+    let plan = Plan { end: 0.5, step: Some(1e-3), longest_step: None, contact_step: None, sample: 0.5 };
+    let mut state = incline().initial();
+    let mut radau = Radau::new(Tolerance::uniform(1e-8)).unwrap();
+    let ending = transient(&mut incline(), &mut radau, &mut state, &plan, &mut super::models::Blind);
+    assert!(matches!(ending, Ending::Failed(RunError::Disc { .. })), "{ending:?}");
+    for mut method in methods(0.8).into_iter().chain([Box::new(MoreauJean::new(0.5).unwrap()) as _]) {
+        let mut system = incline();
+        let mut state = system.initial();
+        // Across the slope at first: the friction turns with the velocity and has the size μ λₙ all the time.
+        state.v[2] = 2.0;
+        steps(method.as_mut(), &mut system, state, (0.5, 1e-3), |_, _, to| {
+            let size = to.lambda[1].hypot(to.lambda[2]);
+            assert!((size / (0.3 * to.lambda[0]) - 1.0).abs() < 1e-9, "{size}");
+            let across = to.lambda[1] * to.v[2] - to.lambda[2] * to.v[0];
+            assert!(across.abs() < 1e-9 && to.lambda[2] < 0.0, "{across:e}");
+        });
     }
 }

@@ -1,8 +1,8 @@
-//! Adaptive runs of Radau: tolerance proportionality, stiffness, work, reproducibility.
+//! Adaptive runs: tolerance proportionality, stiffness, work, reproducibility.
 
 use super::drive::adaptive;
 use super::systems::{Chain, Pendulum, SpringPendulum, TwoFrequencies, state, wide_chain};
-use flexion::integrator::{Counters, Integrator, Radau, Span, Tolerance};
+use flexion::integrator::{Counters, GeneralizedAlpha, Integrator, NonsmoothAlpha, Radau, Span, Tolerance};
 use flexion::system::{State, System};
 
 fn run(system: &mut dyn System, from: &State, end: f64, tolerance: f64) -> (State, Counters) {
@@ -116,4 +116,59 @@ fn a_rejected_attempt_leaves_no_trace_in_the_history() {
         ends.push(from);
     }
     assert_eq!(ends[0], ends[1]);
+}
+
+/// Steps of h, h/2, 3h/2, again and again: the order of the methods whose auxiliary acceleration lags stays 2.
+#[test]
+fn steps_that_change_their_size_keep_the_order_of_generalized_alpha() {
+    let mut system = SpringPendulum::new(9.0);
+    let start = state(&system, &[0.1, 1.2], &[0.0, 0.0]);
+    let (exact, _) = run(&mut system, &start, 2.0, 1e-12);
+    let methods: [&dyn Fn() -> Box<dyn Integrator>; 3] = [
+        &|| Box::new(GeneralizedAlpha::chung_hulbert(0.4).unwrap()),
+        &|| Box::new(NonsmoothAlpha::decoupled(0.4).unwrap()),
+        &|| Box::new(NonsmoothAlpha::coupled(0.4).unwrap()),
+    ];
+    for make in methods {
+        let mut error = |count: usize| {
+            let mut method = make();
+            let (h, mut from) = (2.0 / (3 * count) as f64, start.clone());
+            method.start(&mut system, &mut from, h).unwrap();
+            let mut to = from.clone();
+            for _ in 0..count {
+                for part in [1.0, 0.5, 1.5] {
+                    method.step(&mut system, &from, Span::new(from.t, part * h), &mut to).unwrap();
+                    method.accept(&from, &to);
+                    std::mem::swap(&mut from, &mut to);
+                }
+            }
+            (from.q[0] - exact.q[0]).hypot(from.q[1] - exact.q[1])
+        };
+        let (coarse, fine) = (error(200), error(400));
+        let order = (coarse / fine).log2();
+        assert!((order - 2.0).abs() < 0.1, "{order}: {coarse:e} {fine:e}");
+    }
+}
+
+/// A local error of order 3 gives a global one of the tolerance to the power 2/3.
+#[test]
+fn generalized_alpha_controls_its_steps() {
+    let period = Pendulum::period(2.0);
+    let mut points = Vec::new();
+    for tolerance in [1e-4, 1e-6, 1e-8] {
+        let mut system = Pendulum::new();
+        let from = state(&system, &[2.0], &[0.0]);
+        let mut method =
+            GeneralizedAlpha::chung_hulbert(0.6).unwrap().adaptive(Tolerance::uniform(tolerance));
+        let last = adaptive(&mut method, &mut system, from, period, tolerance, |_, _, _, _| {}).unwrap();
+        let counters = method.counters();
+        assert!(4 * counters.rejected < counters.steps, "{counters:?}");
+        points.push(((last.q[0] - 2.0).hypot(last.v[0]), counters.steps as f64));
+    }
+    for pair in points.windows(2) {
+        let slope = (pair[0].0 / pair[1].0).log10() / 2.0;
+        assert!((slope - 2.0 / 3.0).abs() < 0.15, "{points:?}");
+        let growth = (pair[1].1 / pair[0].1).log10() / 2.0;
+        assert!((growth - 1.0 / 3.0).abs() < 0.05, "{points:?}");
+    }
 }

@@ -5,7 +5,7 @@ use crate::contact::Neglected;
 use crate::system::{Mode, State, System};
 use std::ops::ControlFlow;
 
-/// What an observer learns besides the state.
+/// What an observer receives besides the state.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Step {
     /// Size of the step that ended at or covers this state \[s\]; 0 at the start.

@@ -17,7 +17,8 @@
 mod double;
 mod patch;
 
-use super::{Basis, BasisError, Conditioning, Field, Role, Support, uniform_cells};
+use super::domains::{Domains, per_node};
+use super::{BasisError, Field};
 use patch::{Fault, Layout, Patch};
 
 /// Most nodes of a support domain: more are never better conditioned and cost their cube to invert.
@@ -52,17 +53,7 @@ impl RadialParameters {
 }
 
 /// Radial point interpolation on [0, L]. Its formulas head the source file.
-#[derive(Clone, Debug)]
-pub struct Radial {
-    cells: Vec<f64>,
-    /// Node spacing d_c [m].
-    spacing: f64,
-    /// Unknowns of a node: 1 axial, 2 transverse.
-    per_node: usize,
-    /// Distinct patches, and for each cell (patch, first node).
-    patches: Vec<Patch>,
-    cell_patches: Vec<(usize, usize)>,
-}
+pub type Radial = Domains<Patch>;
 
 impl Radial {
     /// The basis on a beam of the given length \[m\].
@@ -74,7 +65,6 @@ impl Radial {
     /// of G G⁻¹ − 1 is off by more than 1e-10 or the shape functions have noise above 1e-14 of their size.
     pub fn new(length: f64, parameters: RadialParameters, field: Field) -> Result<Radial, BasisError> {
         let RadialParameters { nodes, shape, exponent, support, degree } = parameters;
-        let cells = uniform_cells(length, nodes.saturating_sub(1))?;
         let range = |name: &str, value: f64, holds: bool, needed: &str| {
             if holds && value.is_finite() {
                 return Ok(());
@@ -84,112 +74,37 @@ impl Radial {
         range("shape parameter", shape, shape > 0.0, "positive and finite; 2 to 7 serve well")?;
         range("exponent", exponent, true, "finite; 1.03 serves well")?;
         range("support", support, support >= 0.5, "at least 0.5, or a cell misses its own nodes")?;
-        let per_node = if field == Field::Axial { 1 } else { 2 };
         let terms = degree.map_or(0, |degree| degree.saturating_add(1));
-        let (mut patches, mut cell_patches) = (Vec::<Patch>::new(), Vec::new());
-        for cell in 0..nodes - 1 {
-            let middle = cell as f64 + 0.5;
-            let first = (middle - support - 1e-9).ceil().max(0.0) as usize;
-            let last = ((middle + support + 1e-9).floor() as usize).min(nodes - 1);
-            let inside = first..last + 1;
-            if inside.len() > MOST_NODES {
+        Domains::of(length, nodes, support, field, |positions, x| {
+            let count = positions.len();
+            if count > MOST_NODES {
                 return Err(BasisError::Invalid(format!(
-                    "the support of {support} spacings holds {} nodes and at most {MOST_NODES} are inverted together; narrow it",
-                    inside.len()
+                    "the support of {support} spacings holds {count} nodes and at most {MOST_NODES} are inverted together; narrow it"
                 )));
             }
-            if terms > per_node * inside.len() {
+            let data = per_node(field) * count;
+            if terms > data {
                 return Err(BasisError::Invalid(format!(
-                    "polynomials of degree {} need {terms} data and the support of {support} spacings at x = {:.4} m holds {}; lower the degree or widen the support",
-                    terms - 1,
-                    middle * length / (nodes - 1) as f64,
-                    per_node * inside.len()
+                    "polynomials of degree {} need {terms} data and the support of {support} spacings at x = {x:.4} m holds {data}; lower the degree or widen the support",
+                    terms - 1
                 )));
             }
-            let positions = inside.clone().map(|node| node as f64 - middle).collect();
-            let layout = Layout { nodes: positions, slopes: per_node == 2, shape, exponent, terms };
-            let known = patches.iter().position(|patch| patch.layout == layout);
-            let index = match known {
-                Some(index) => index,
-                None => {
-                    let place = || format!("x = {:.4} m", middle * length / (nodes - 1) as f64);
-                    let singular = |number| BasisError::Singular {
-                        basis: "radial",
-                        number,
-                        place: place(),
-                        parameters: format!(
-                            "shape {shape}, exponent {exponent}, support {support} with {} nodes, {terms} polynomial terms",
-                            inside.len()
-                        ),
-                        advice: "lower the shape parameter, narrow the support or take an exponent that is not whole, such as 1.03",
-                    };
-                    patches.push(Patch::new(layout).map_err(|fault| match fault {
-                        Fault::Singular(number) => singular(number),
-                        Fault::Unresolved => BasisError::Invalid(format!(
-                            "the radial functions vary too fast between the nodes at {} to be integrated; raise the shape parameter {shape}",
-                            place()
-                        )),
-                    })?);
-                    patches.len() - 1
-                }
-            };
-            cell_patches.push((index, first));
-        }
-        Ok(Radial { spacing: length / (nodes - 1) as f64, cells, per_node, patches, cell_patches })
-    }
-
-    /// Functions of a patch that belong to the clamped root, 0 where it is not in the support.
-    fn clamped(&self, first_node: usize) -> usize {
-        if first_node == 0 { self.per_node } else { 0 }
-    }
-}
-
-impl Basis for Radial {
-    fn len(&self) -> usize {
-        self.per_node * (self.cells.len() - 1)
-    }
-
-    fn cells(&self) -> &[f64] {
-        &self.cells
-    }
-
-    fn points_per_cell(&self) -> usize {
-        // Gauss points n integrate degree 2n − 1; the coefficients of a product of two resolved series
-        // have fallen to rounding at the degree of one.
-        self.patches.iter().map(Patch::degree).max().unwrap_or(0) / 2 + 3
-    }
-
-    fn support(&self, cell: usize) -> Support {
-        let (patch, first) = self.cell_patches[cell];
-        let start = (first * self.per_node).saturating_sub(self.per_node);
-        start..start + self.patches[patch].functions() - self.clamped(first)
-    }
-
-    fn eval(&self, cell: usize, x: f64, derivative: usize, out: &mut [f64]) -> Support {
-        let (patch, first) = self.cell_patches[cell];
-        let patch = &self.patches[patch];
-        let (a, b) = (self.cells[cell], self.cells[cell + 1]);
-        let xi = (x - 0.5 * (a + b)) / (b - a);
-        let scale = self.spacing.powi(-(derivative as i32));
-        for (out, k) in out.iter_mut().zip(self.clamped(first)..patch.functions()) {
-            let slope = self.per_node == 2 && k % 2 == 1;
-            let unit = if slope { self.spacing } else { 1.0 };
-            *out = unit * scale * patch.eval(k, derivative, xi);
-        }
-        self.support(cell)
-    }
-
-    fn anchor(&self, i: usize) -> f64 {
-        self.cells[i / self.per_node + 1]
-    }
-
-    fn role(&self, i: usize) -> Role {
-        if self.per_node == 2 && i % 2 == 1 { Role::Slope } else { Role::Value }
-    }
-
-    fn conditioning(&self) -> Conditioning {
-        let number = self.patches.iter().map(|patch| patch.condition).fold(1.0, f64::max);
-        Conditioning { number, of: "moment matrices of the support domains" }
+            let layout = Layout { nodes: positions, slopes: field != Field::Axial, shape, exponent, terms };
+            Patch::new(layout).map_err(|fault| match fault {
+                Fault::Singular(number) => BasisError::Singular {
+                    basis: "radial",
+                    number,
+                    place: format!("x = {x:.4} m"),
+                    parameters: format!(
+                        "shape {shape}, exponent {exponent}, support {support} with {count} nodes, {terms} polynomial terms"
+                    ),
+                    advice: "lower the shape parameter, narrow the support or take an exponent that is not whole, such as 1.03",
+                },
+                Fault::Unresolved => BasisError::Invalid(format!(
+                    "the radial functions vary too fast between the nodes at x = {x:.4} m to be integrated; raise the shape parameter {shape}"
+                )),
+            })
+        })
     }
 }
 

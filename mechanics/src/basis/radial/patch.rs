@@ -7,6 +7,7 @@
 //! the cell each derivative is then kept as a Chebyshev series, exact to working precision.
 
 use super::double::Double;
+use crate::basis::domains;
 use std::f64::consts::PI;
 
 /// Highest derivative kept.
@@ -17,8 +18,8 @@ const KRONECKER: f64 = 1e-10;
 /// Largest tolerated remainder of a series, over the largest coefficient: rounding noise included.
 const NOISE: f64 = 1e-14;
 
-/// What defines a support domain: cells with equal data share one patch.
-#[derive(Clone, Debug, PartialEq)]
+/// What defines a support domain.
+#[derive(Clone, Debug)]
 pub(super) struct Layout {
     /// Scaled positions of the nodes ξ; the cell is [−½, ½].
     pub nodes: Vec<f64>,
@@ -42,10 +43,10 @@ pub(super) enum Fault {
 
 /// Shape functions of one layout inside its cell.
 #[derive(Clone, Debug)]
-pub(super) struct Patch {
-    pub layout: Layout,
+pub struct Patch {
+    layout: Layout,
     /// κ₁ of the moment matrix.
-    pub condition: f64,
+    condition: f64,
     /// Chebyshev coefficients, `[derivative][function][degree]`.
     series: Vec<f64>,
     functions: usize,
@@ -53,7 +54,7 @@ pub(super) struct Patch {
 }
 
 impl Patch {
-    pub fn new(layout: Layout) -> Result<Patch, Fault> {
+    pub(super) fn new(layout: Layout) -> Result<Patch, Fault> {
         let functions = layout.nodes.len() * if layout.slopes { 2 } else { 1 };
         let n = functions + layout.terms;
         let moment = layout.moment_matrix(functions);
@@ -73,19 +74,19 @@ impl Patch {
         // Rounding noise of an ill-conditioned matrix never falls; otherwise the functions are too steep.
         Err(if condition > 1e12 { Fault::Singular(condition) } else { Fault::Unresolved })
     }
+}
 
-    /// Number of functions.
-    pub fn functions(&self) -> usize {
+impl domains::Patch for Patch {
+    fn nodes(&self) -> &[f64] {
+        &self.layout.nodes
+    }
+
+    fn functions(&self) -> usize {
         self.functions
     }
 
-    /// Degree of the polynomials that represent the functions.
-    pub fn degree(&self) -> usize {
-        self.terms - 1
-    }
-
-    /// Derivative `derivative` of function `k` with respect to ξ, −½ ≤ ξ ≤ ½, by Clenshaw's recurrence.
-    pub fn eval(&self, k: usize, derivative: usize, xi: f64) -> f64 {
+    /// By Clenshaw's recurrence.
+    fn eval(&self, k: usize, derivative: usize, xi: f64) -> f64 {
         if derivative >= DERIVATIVES {
             return 0.0;
         }
@@ -96,6 +97,16 @@ impl Patch {
             (b, before) = (c + 2.0 * z * b - before, b);
         }
         c[0] + z * b - before
+    }
+
+    fn condition(&self) -> f64 {
+        self.condition
+    }
+
+    /// n Gauss points integrate degree 2n − 1; the coefficients of a product of two resolved series have fallen to rounding
+    /// at the degree of one.
+    fn points(&self) -> usize {
+        (self.terms - 1) / 2 + 3
     }
 }
 

@@ -1,4 +1,4 @@
-use super::super::checks;
+use super::super::{Basis, Role, checks};
 use super::*;
 
 fn with(shape: f64, support: f64, degree: Option<usize>) -> RadialParameters {

@@ -61,7 +61,7 @@ impl HighCoupling {
         let beam = beam.into();
         HighCoupling::validate(fields.axial())?;
         HighCoupling::validate(fields.transverse())?;
-        let sums = Sums::new(&fields, &beam);
+        let sums = Sums::new(fields.inertial(), &beam);
         let tangent = Tangent::new(fields.len());
         let linear = LinearCoupling::new(fields, beam, hub, Foreshortening::First).named("high");
         Ok(HighCoupling { linear, sums, tangent })

@@ -25,6 +25,8 @@ pub struct Gravity {
 
 impl Load for Gravity {
     fn group(&self, site: &Site<'_>) -> Group {
+        // The weight is where the mass is.
+        let site = &Site { fields: site.fields.inertial(), ..*site };
         let (sin, cos) = libm::sincos(self.direction);
         let force = [self.acceleration * cos, self.acceleration * sin];
         let Beam { section, masses, .. } = site.beam;

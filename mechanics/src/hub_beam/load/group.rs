@@ -14,8 +14,8 @@
 use super::components::Components;
 use super::on_section::{Nature, OnSection};
 use super::{Amplitude, Axes};
+use crate::drive::force_jump;
 use crate::hub_beam::fields::Point;
-use crate::hub_beam::hub::force_jump;
 use crate::hub_beam::inertia::Border;
 use crate::hub_beam::product::{Bundle, Entry, Vectors};
 use crate::linalg::{Matrix, Storage, Structure};

@@ -35,6 +35,8 @@
 //! The predictor is q̈ₙ₊₁ = q̈ₙ + q̈ₙ₋₁ − q̈ₙ₋₂: exact for accelerations linear in time, and for those that change their
 //! sign from step to step, as vibrations far too fast for the step do for ever in a method without dissipation.
 //!
+//! Steps may change their size, and may be controlled by an estimate of their error (`steps.rs`).
+//!
 //! Order: 2 in q, v and λ for γ = ½ + αf − αm (measured 2.00, also for constraints of index 3 and in the stabilized
 //! form, and on rotations). Stability: unconditional on linear systems for the constructors here. Dense output: cubic
 //! in q, linear in q̈.
@@ -44,13 +46,14 @@
 //! doi 10.1007/s11044-007-9084-0); Gear, Gupta & Leimkuhler (1985, doi 10.1016/0377-0427(85)90008-1); Arnold, Brüls &
 //! Cardona (2015, doi 10.1007/s00211-014-0633-1).
 
+mod steps;
 mod work;
 
 use super::acceleration::Accelerations;
 use super::rows::Rows;
 use super::{
     Checkpoint, Convergence, Counters, Info, Integrator, InvalidParameter, NotResumed, Progress, Span,
-    StepError, StepReport, failure, hermite,
+    StepError, StepReport, Tolerance, failure, hermite,
 };
 use crate::linalg::Matrix;
 use crate::system::{Corotation, Dynamics, RowWeights, Side, State, Weights};
@@ -90,6 +93,10 @@ pub struct GeneralizedAlpha {
     /// Auxiliary acceleration aₙ, and aₙ₊₁ of the attempt.
     a: Vec<f64>,
     a_next: Vec<f64>,
+    /// aₙ for another step than the last, and the steps accepted last and attempted.
+    scaled: Vec<f64>,
+    spacing: [f64; 2],
+    tolerance: Option<Tolerance>,
     /// Increment d of the attempt, and of the accepted step.
     d: Vec<f64>,
     d_accepted: Vec<f64>,
@@ -167,6 +174,9 @@ impl GeneralizedAlpha {
             history: 0,
             a: Vec::new(),
             a_next: Vec::new(),
+            scaled: Vec::new(),
+            spacing: [0.0; 2],
+            tolerance: None,
             d: Vec::new(),
             d_accepted: Vec::new(),
             inverse_scale: Vec::new(),
@@ -187,35 +197,6 @@ impl GeneralizedAlpha {
     /// κ = (1 − αf)/(1 − αm), by which an increment of q̈ moves the auxiliary acceleration.
     fn kappa(&self) -> f64 {
         (1.0 - self.alpha_f) / (1.0 - self.alpha_m)
-    }
-
-    /// Starting values of the step: the accelerations of the last three steps, continued.
-    fn predict(&mut self, system: &dyn Dynamics, from: &State, h: f64, to: &mut State) {
-        let n = from.v.len();
-        let (alpha_m, beta, gamma, kappa) = (self.alpha_m, self.beta, self.gamma, self.kappa());
-        let (v_old, v_new) = (h * (1.0 - gamma), h * gamma);
-        let (d_old, d_new) = (h * h * (0.5 - beta), h * h * beta);
-        let (from_a, from_v) = (&from.a[..n], &from.v[..n]);
-        // The trend: of the last step at first, then of the one before it.
-        let (later, sooner) = match self.history {
-            0 => (from_a, from_a),
-            1 => (from_a, &self.before[..n]),
-            _ => (&self.before[..n], &self.earlier[..n]),
-        };
-        let (a, a_next, d) = (&self.a[..n], &mut self.a_next[..n], &mut self.d[..n]);
-        let (out_a, out_v) = (&mut to.a[..n], &mut to.v[..n]);
-        let lag = 1.0 / (1.0 - alpha_m);
-        for i in 0..n {
-            let change = later[i] - sooner[i];
-            let next = (from_a[i] - alpha_m * a[i]) * lag + kappa * change;
-            a_next[i] = next;
-            out_a[i] = from_a[i] + change;
-            out_v[i] = from_v[i] + v_old * a[i] + v_new * next;
-            d[i] = h * from_v[i] + d_old * a[i] + d_new * next;
-        }
-        to.lambda.copy_from_slice(&from.lambda);
-        to.copy_modes(from);
-        system.retract(&from.q, d, &mut to.q);
     }
 
     /// Solves the equations of a step: with the kept tangent, and where that does not converge with new ones.
@@ -427,6 +408,7 @@ impl Integrator for GeneralizedAlpha {
             &mut self.earlier,
             &mut self.a,
             &mut self.a_next,
+            &mut self.scaled,
             &mut self.d,
             &mut self.d_accepted,
         ] {
@@ -444,7 +426,7 @@ impl Integrator for GeneralizedAlpha {
             rows: Rows::new(system, state),
             mu: vec![0.0; size.lambda],
             stiffness: stabilized.then(|| Matrix::new(&system.structure(0))),
-            column: [(); 2].map(|()| vec![0.0; size.v]),
+            meeting: vec![Vec::new(); if stabilized { size.v } else { 0 }],
             affine: system.is_affine() && size.lambda == 0,
             keeps: size.lambda == 0,
             kept: [f64::NAN; 2],
@@ -476,7 +458,7 @@ impl Integrator for GeneralizedAlpha {
         self.pending = true;
         let result = self.solve(&mut work, system, from, h, to);
         self.work = Some(work);
-        result
+        Ok(StepReport { error: self.estimate(from, h), ..result? })
     }
 
     fn discard(&mut self) {
@@ -487,6 +469,7 @@ impl Integrator for GeneralizedAlpha {
         std::mem::swap(&mut self.before, &mut self.earlier);
         self.before.copy_from_slice(&from.a);
         self.history = (self.history + 1).min(2);
+        self.spacing[0] = self.spacing[1];
         std::mem::swap(&mut self.a, &mut self.a_next);
         std::mem::swap(&mut self.d, &mut self.d_accepted);
         self.pending = false;
@@ -502,7 +485,7 @@ impl Integrator for GeneralizedAlpha {
             return Err(StepError::NotStarted { method: self.info.name });
         };
         self.pending = false;
-        self.history = 0;
+        (self.history, self.spacing) = (0, [0.0; 2]);
         self.kept.forget();
         (work.age, work.renewals) = (Age::default(), 0);
         work.kept = [f64::NAN; 2];
@@ -518,7 +501,7 @@ impl Integrator for GeneralizedAlpha {
         out.put("auxiliary", &self.a);
         out.put("before", &self.before);
         out.put("earlier", &self.earlier);
-        out.put("history", &[f64::from(self.history)]);
+        out.put("history", &[f64::from(self.history), self.spacing[0]]);
         out.put("convergence", &self.kept.memory());
         if let Some(work) = &self.work {
             out.put("tangent.weights", &work.kept);
@@ -537,8 +520,8 @@ impl Integrator for GeneralizedAlpha {
         from.fill("auxiliary", &mut self.a)?;
         from.fill("before", &mut self.before)?;
         from.fill("earlier", &mut self.earlier)?;
-        let [history] = from.numbers("history")?;
-        self.history = history as u8;
+        let [history, spacing] = from.numbers("history")?;
+        (self.history, self.spacing[0]) = (history as u8, spacing);
         self.kept.recall(from.numbers("convergence")?);
         work.kept = from.numbers("tangent.weights")?;
         let [cost, steps, due, constant, renewals] = from.numbers("tangent.age")?;

@@ -36,10 +36,10 @@ pub(super) struct Work {
     pub(super) rhs: Vec<f64>,
     pub(super) accelerations: Accelerations,
     pub(super) rows: Rows,
-    /// Multipliers μ of the stabilized form, K, and K Gₙᵀ row by row.
+    /// Multipliers μ of the stabilized form, K, and the rows of Gₙ with an entry at each velocity.
     pub(super) mu: Vec<f64>,
     pub(super) stiffness: Option<Matrix>,
-    pub(super) column: [Vec<f64>; 2],
+    pub(super) meeting: Vec<Vec<(usize, f64)>>,
     pub(super) affine: bool,
     /// Whether factors may be kept; the weights (of v and q) that the present ones belong to, NaN without.
     pub(super) keeps: bool,
@@ -85,33 +85,23 @@ impl Work {
         let Some(stiffness) = &mut self.stiffness else { return };
         let (n, m) = (d.len(), self.rows.len());
         system.tangent(to, Weights { q: 1.0, v: 0.0, a: 0.0, increment: Some(d) }, stiffness);
-        let (rows, tangent, [unit, product]) = (&self.rows, &mut self.tangent, &mut self.column);
-        for k in 0..m {
-            let active = has_mu(rows.sets()[k], to, k);
-            if !active {
-                tangent.add(n + m + k, n + m + k, 1.0);
-                continue;
-            }
-            unit.fill(0.0);
-            for &(_, j, x) in rows.stored().iter().filter(|(row, ..)| *row == k) {
-                unit[j] = x;
-            }
-            stiffness.multiply(&unit[..n], &mut product[..n]);
-            for (i, x) in product[..n].iter().enumerate().filter(|(_, x)| **x != 0.0) {
-                tangent.add(i, n + m + k, h * x);
-            }
-            system.jacobian(to, &mut |row, velocities, entries| {
-                let mut projected = 0.0;
-                for (&j, &x) in velocities.iter().zip(entries) {
-                    projected += x * unit[j];
-                    if row == k {
-                        tangent.add(n + m + k, j, x);
-                    }
+        let (rows, tangent, meeting) = (&self.rows, &mut self.tangent, &mut self.meeting);
+        let has = |row: usize| has_mu(rows.sets()[row], to, row);
+        meeting.iter_mut().for_each(Vec::clear);
+        for &(k, j, x) in rows.stored().iter().filter(|(k, ..)| has(*k)) {
+            meeting[j].push((k, x));
+            stiffness.column(j, |i, y| tangent.add(i, n + m + k, h * x * y));
+        }
+        system.jacobian(to, &mut |row, velocities, entries| {
+            for (&j, &x) in velocities.iter().zip(entries).filter(|_| has(row)) {
+                tangent.add(n + m + row, j, x);
+                for &(k, y) in &meeting[j] {
+                    tangent.add(n + row, n + m + k, h * x * y / to_q);
                 }
-                if has_mu(rows.sets()[row], to, row) && projected != 0.0 {
-                    tangent.add(n + row, n + m + k, h * projected / to_q);
-                }
-            });
+            }
+        });
+        for k in (0..m).filter(|k| !has(*k)) {
+            tangent.add(n + m + k, n + m + k, 1.0);
         }
     }
 }

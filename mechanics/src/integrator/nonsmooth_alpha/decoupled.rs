@@ -1,19 +1,12 @@
 //! The decoupled scheme: smooth motion, position, velocity.
 
-use super::{NonsmoothAlpha, Set, TOLERANCE, Work, failure};
+use super::{Level, NonsmoothAlpha, Set, Work, failure};
 use crate::integrator::{Integrator, Progress, Span, StepError, StepReport};
 use crate::system::{Dynamics, RowWeights, State, Weights};
 
-/// What a correction imposes.
-#[derive(Clone, Copy, PartialEq)]
-enum Level {
-    Position,
-    Velocity,
-}
-
 impl NonsmoothAlpha {
-    /// Attempts a step.
-    pub(super) fn attempt(
+    /// Attempts a step of the decoupled scheme.
+    pub(super) fn attempt_decoupled(
         &mut self,
         work: &mut Work,
         system: &mut dyn Dynamics,
@@ -21,12 +14,6 @@ impl NonsmoothAlpha {
         span: Span,
         to: &mut State,
     ) -> Result<StepReport, StepError> {
-        (work.from.t, work.from.side) = (from.t, from.side);
-        work.from.q.copy_from_slice(&from.q);
-        work.from.v.copy_from_slice(&from.v);
-        work.from.lambda.copy_from_slice(&from.lambda);
-        work.from.copy_modes(from);
-        super::open(work.rows.sets(), &mut work.from);
         let mut report = self.smooth.step(system, &work.from, span, &mut work.smooth)?;
         to.copy_from(&work.smooth);
         self.corrected = false;
@@ -101,18 +88,11 @@ impl NonsmoothAlpha {
             work.matrix.factor().map_err(|e| failure::singular(system, work.from.t, h, e))?;
             work.matrix.solve(&mut work.rhs);
             work.rows.store_jacobian(system, to);
-            let (sets, gaps, rates, start) = (work.rows.sets(), &work.gaps, &work.rates, &work.start);
-            work.impulses.choose(sets, |i| work.takes_part[i]);
-            let value = |i: usize| match (sets[i], level) {
-                (Set::Unilateral { .. }, Level::Position) => gaps[i] / to_q,
-                (Set::Unilateral { restitution }, Level::Velocity) => {
-                    (rates[i] + restitution * start[i].min(0.0)) / to_v
-                }
-                _ => rates[i] / to_v,
-            };
-            work.impulses
-                .solve(&mut work.matrix, work.rows.stored(), value, &mut work.forces, &mut work.rhs)
-                .map_err(|cause| StepError::Contacts { time: work.from.t, step: h, cause })?;
+            work.solve_cone(level, [to_v, to_q], None).map_err(|cause| StepError::Contacts {
+                time: work.from.t,
+                step: h,
+                cause,
+            })?;
             let mut square = 0.0;
             for i in 0..n {
                 work.alpha[i] += work.rhs[i];
@@ -134,21 +114,7 @@ impl NonsmoothAlpha {
             match self.convergence.judge(size) {
                 Progress::Converged if !new => break,
                 Progress::Converged | Progress::Continue => {}
-                Progress::Diverged => {
-                    let (iterations, size) = (self.convergence.iterations(), size / TOLERANCE);
-                    let worst = (0..n).max_by(|a, b| {
-                        let size = |i: &usize| (work.rhs[*i] / work.scale[*i]).abs();
-                        size(a).total_cmp(&size(b))
-                    });
-                    let worst = system.unknown(worst.unwrap_or(0));
-                    return Err(StepError::NotConverged {
-                        time: work.from.t,
-                        step: h,
-                        iterations,
-                        size,
-                        worst,
-                    });
-                }
+                Progress::Diverged => return Err(self.not_converged(work, system, h, size)),
             }
         }
         for i in 0..n {

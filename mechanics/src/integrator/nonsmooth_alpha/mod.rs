@@ -16,6 +16,14 @@
 //!
 //! No event is located: any number of impacts may fall into a step. Joints hold exactly at both levels.
 //!
+//! *Coupled* (`coupled.rs`): all is solved at once, and forces are those of the end of the step,
+//!
+//! ```text
+//! r(tₙ₊₁, qₙ₊₁, vₙ₊₁, q̈, λ̃) = 0,   ġ(qₙ₊₁, ṽ) = 0 of joints,   M U = Gᵀ ν,   M W = Gᵀ P
+//! ```
+//!
+//! so that the vibrations of a body in contact are those of the generalized-α method. M must be regular.
+//!
 //! *Decoupled* (`decoupled.rs`): three problems, one after the other. The smooth motion is a step of the
 //! [generalized-α method](super::GeneralizedAlpha) in its stabilized form, with all contacts open. The two corrections
 //! are each a constant acceleration α over the step, by forces λ of the contacts, which the other forces see:
@@ -32,6 +40,7 @@
 //! a constant force then shifts the position by O(h). Friction at the level of positions, which keeps a contact that
 //! sticks from creeping, is Capobianco, Harsch, Eugster & Leine's (2021, doi 10.1002/nme.6801) in purpose, not in form.
 
+mod coupled;
 mod decoupled;
 
 use super::impulses::Impulses;
@@ -40,8 +49,10 @@ use super::{
     Checkpoint, Convergence, Counters, GeneralizedAlpha, Info, Integrator, InvalidParameter, NotResumed,
     Span, StepError, StepReport, failure, hermite,
 };
+use crate::contact::Unresolved;
 use crate::linalg::Matrix;
 use crate::system::{Dynamics, Mode, Set, State};
+use coupled::Coupled;
 
 /// Name as in a case file.
 const NAME: &str = "nonsmooth-generalized-alpha";
@@ -63,6 +74,15 @@ pub struct NonsmoothAlpha {
     /// Whether a contact acted in the last step.
     corrected: bool,
     work: Option<Box<Work>>,
+    /// Memory of the coupled scheme.
+    coupled: Option<Coupled>,
+}
+
+/// What a correction imposes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Level {
+    Position,
+    Velocity,
 }
 
 /// What `start` allocates for a system.
@@ -102,7 +122,30 @@ impl NonsmoothAlpha {
             counters: Counters::default(),
             corrected: false,
             work: None,
+            coupled: None,
         })
+    }
+
+    /// The coupled scheme, for systems with a regular mass matrix.
+    ///
+    /// # Errors
+    /// Outside 0 ≤ ρ∞ ≤ 1.
+    pub fn coupled(spectral_radius: f64) -> Result<NonsmoothAlpha, InvalidParameter> {
+        let coupled = Some(Coupled::default());
+        Ok(NonsmoothAlpha { coupled, ..NonsmoothAlpha::decoupled(spectral_radius)? })
+    }
+
+    /// The error of corrections that do not converge.
+    fn not_converged(&self, work: &Work, system: &dyn Dynamics, step: f64, size: f64) -> StepError {
+        let sizes = work.rhs.iter().zip(&work.scale).map(|(x, scale)| (x / scale).abs());
+        let largest = sizes.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
+        StepError::NotConverged {
+            time: work.from.t,
+            step,
+            iterations: self.convergence.iterations(),
+            size: size / TOLERANCE,
+            worst: system.unknown(largest.map_or(0, |(i, _)| i)),
+        }
     }
 }
 
@@ -147,6 +190,32 @@ impl Work {
         new
     }
 
+    /// Solves for the multipliers `forces` of the contacts with `matrix`, or with those of `other`, and adds what they do to
+    /// the increment in `rhs`; in units of accelerations, by which velocities move as `to_v` and positions as `to_q`.
+    fn solve_cone(
+        &mut self,
+        level: Level,
+        [to_v, to_q]: [f64; 2],
+        other: Option<(&mut Matrix, &mut [f64])>,
+    ) -> Result<(), Unresolved> {
+        let (sets, gaps, rates, start) = (self.rows.sets(), &self.gaps, &self.rates, &self.start);
+        let (takes_part, forces) = (&self.takes_part, &self.forces);
+        let strikes = |i: usize| other.is_none() || forces[i] > 0.0 || gaps[i] <= 0.0;
+        self.impulses.choose(sets, |i| takes_part[i] && strikes(i));
+        let value = |i: usize| match (sets[i], level) {
+            (Set::Unilateral { .. }, Level::Position) => gaps[i] / to_q,
+            (Set::Unilateral { restitution }, Level::Velocity) => {
+                (rates[i] + restitution * start[i].min(0.0)) / to_v
+            }
+            _ => rates[i] / to_v,
+        };
+        let (matrix, forces) = match other {
+            Some((matrix, forces)) => (matrix, forces),
+            None => (&mut self.matrix, &mut self.forces[..]),
+        };
+        self.impulses.solve(matrix, self.rows.stored(), value, forces, &mut self.rhs)
+    }
+
     /// The modes of the rows by the forces `lambda`, for those who read the state: impulses decide about contacts.
     fn modes(&self, lambda: &[f64], modes: &mut [Mode]) {
         for (i, set) in self.rows.sets().iter().enumerate() {
@@ -188,6 +257,9 @@ impl Integrator for NonsmoothAlpha {
         self.counters = Counters::default();
         self.convergence.reset();
         self.work = Some(Box::new(Work::new(system, state)));
+        if let Some(coupled) = &mut self.coupled {
+            coupled.start(system);
+        }
         open(system.rows(), state);
         self.smooth.start(system, state, step)?;
         self.restart(system, state)
@@ -203,7 +275,20 @@ impl Integrator for NonsmoothAlpha {
         let Some(mut work) = self.work.take() else {
             return Err(StepError::NotStarted { method: NAME });
         };
-        let result = self.attempt(&mut work, system, from, span, to);
+        (work.from.t, work.from.side) = (from.t, from.side);
+        work.from.q.copy_from_slice(&from.q);
+        work.from.v.copy_from_slice(&from.v);
+        work.from.lambda.copy_from_slice(&from.lambda);
+        work.from.copy_modes(from);
+        open(work.rows.sets(), &mut work.from);
+        let result = match self.coupled.take() {
+            Some(mut coupled) => {
+                let result = self.attempt_coupled(&mut coupled, &mut work, system, span, to);
+                self.coupled = Some(coupled);
+                result
+            }
+            None => self.attempt_decoupled(&mut work, system, from, span, to),
+        };
         self.work = Some(work);
         result
     }
@@ -214,7 +299,13 @@ impl Integrator for NonsmoothAlpha {
 
     fn accept(&mut self, _from: &State, _to: &State) {
         if let Some(work) = &mut self.work {
-            self.smooth.accept(&work.from, &work.smooth);
+            match &mut self.coupled {
+                Some(coupled) => {
+                    coupled.accept();
+                    self.counters.steps += 1;
+                }
+                None => self.smooth.accept(&work.from, &work.smooth),
+            }
             work.from.a.copy_from_slice(&work.smooth.a);
         }
     }
@@ -222,6 +313,8 @@ impl Integrator for NonsmoothAlpha {
     fn interpolate(&self, system: &dyn Dynamics, from: &State, to: &State, t: f64, out: &mut State) {
         if self.corrected {
             hermite::linear(system, from, to, t, out);
+        } else if let Some(coupled) = &self.coupled {
+            hermite::cubic(system, from, to, &coupled.accepted, t, out);
         } else {
             self.smooth.interpolate(system, from, to, t, out);
         }
@@ -233,6 +326,9 @@ impl Integrator for NonsmoothAlpha {
         if let Some(work) = &mut self.work {
             work.from.copy_from(state);
         }
+        if let Some(coupled) = &mut self.coupled {
+            coupled.restart(&state.a);
+        }
         Ok(())
     }
 
@@ -243,6 +339,9 @@ impl Integrator for NonsmoothAlpha {
         if let Some(work) = &self.work {
             out.put("smooth.a", &work.from.a);
         }
+        if let Some(coupled) = &self.coupled {
+            coupled.save(out);
+        }
     }
 
     fn resume(&mut self, system: &mut dyn Dynamics, from: &Checkpoint) -> Result<(), NotResumed> {
@@ -252,7 +351,11 @@ impl Integrator for NonsmoothAlpha {
         let Some(work) = &mut self.work else {
             return Err(NotResumed::Failed(format!("{NAME} was not started")));
         };
-        from.fill("smooth.a", &mut work.from.a)
+        from.fill("smooth.a", &mut work.from.a)?;
+        match &mut self.coupled {
+            Some(coupled) => coupled.resume(from),
+            None => Ok(()),
+        }
     }
 
     fn resolves_contacts(&self) -> bool {
@@ -265,6 +368,7 @@ impl Integrator for NonsmoothAlpha {
 
     fn counters(&self) -> Counters {
         let (mut all, own) = (self.smooth.counters(), self.counters);
+        all.steps += own.steps;
         all.iterations += own.iterations;
         all.residuals += own.residuals;
         all.tangents += own.tangents;

@@ -15,8 +15,8 @@
 //! (M + hλ C + h²λ² K) w₁ = h²λ² (T⁻¹r)₁,   (M + hμ C + h²μ² K)(w₂ + i w₃) = h²μ² ((T⁻¹r)₂ + i (T⁻¹r)₃),   ΔQ = −T w
 //! ```
 //!
-//! K, which the ratioing stiffness of a slender beam dominates, is carried along with the turning sections (see
-//! [`Dynamics::corotate`]): in the frames that have turned with each stage, K of the start serves them all.
+//! K, which the axial stiffness of a slender beam dominates, is carried along with the rotating sections (see
+//! [`Dynamics::corotate`]): in the frames that have rotated with each stage, K of the start serves them all.
 //!
 //! Starting values extrapolate the last step's collocation polynomial. The tangents M, C and K are kept while
 //! convergence is fast, their factors while the step is the same too.

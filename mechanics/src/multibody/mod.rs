@@ -1,0 +1,52 @@
+//! Rigid bodies in space, joined and driven.
+//!
+//! A body has the configuration (r, p) on ℝ³ × SO(3): the position r of its centre of mass in the inertial axes and the
+//! unit quaternion p of its rotation R; its velocity is (ṙ, Ω) with ṙ in the inertial axes and the angular velocity Ω in
+//! its own axes, Ṙ = R Ω̃. Increments d = (d_r, d_φ) act by r + d_r and p exp(d_φ). With the mass m, the inertia J about
+//! the centre of mass, and forces F and moments L,
+//!
+//! ```text
+//! m r̈ = F,     J Ω̇ + Ω × J Ω = Rᵀ L
+//! ```
+//!
+//! Joints, springs and loads act between [markers](Marker): frames that are fixed to bodies, of which a joint knows
+//! position, axes, velocities, accelerations and their derivatives by the velocities of the part, and nothing else.
+//! Constraints use the axes of markers, a·b = 0 and a·(x_B − x_A) = 0, so that no angle is singular.
+//!
+//! | file | content |
+//! |---|---|
+//! | `rotation` | quaternions, rotation vectors |
+//! | `body` | a rigid body |
+//! | `marker` | frames of parts, and their kinematics |
+//! | `row` | scalar constraints between two markers |
+//! | `joint` | joints as lists of rows, with their drives |
+//! | `force` | springs, dampers, actuators and loads as forces between two markers |
+//! | `layout` | order of bodies and multipliers along the tree |
+//! | `model` | what a user builds, with its faults |
+//! | `consistency` | positions, ranks and velocities at the start |
+//! | `constants` | what does not change in a run |
+//! | `slender` | the geometrically exact slender beam |
+//! | `system` | the equations of motion |
+//! | `observed`, `channels` | energies, power, recorded quantities |
+
+mod body;
+mod channels;
+mod consistency;
+mod constants;
+mod force;
+mod joint;
+mod layout;
+mod marker;
+mod model;
+mod observed;
+pub mod rotation;
+mod row;
+pub mod slender;
+mod system;
+
+pub use body::Body;
+pub use force::{Axes, Load, Spring};
+pub use joint::{Drive, Joint, Kind};
+pub use marker::{Marker, Part};
+pub use model::{Model, ModelError, Violation};
+pub use system::Multibody;

@@ -1,0 +1,222 @@
+//! What a user builds: bodies, joints, springs and loads, with their faults.
+
+use super::body::Body;
+use super::force::{Load, Spring};
+use super::joint::{Joint, Kind};
+use super::marker::{Marker, Part};
+use super::rotation::{IDENTITY, Vector, apply_transposed, frame, plus, product};
+use crate::system::Frame;
+use std::collections::BTreeSet;
+use std::fmt;
+
+/// Bodies, joints, springs and loads, as they stand at t = 0.
+#[derive(Clone, Debug, Default)]
+pub struct Model {
+    pub(super) gravity: Vector,
+    pub(super) bodies: Vec<Body>,
+    pub(super) joints: Vec<Joint>,
+    pub(super) springs: Vec<Spring>,
+    pub(super) loads: Vec<Load>,
+    pub(super) drop_redundant: bool,
+}
+
+/// A joint whose markers do not fit together at the start.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Violation {
+    /// Name of the joint.
+    pub joint: String,
+    /// Largest displacement that it forbids \[m\].
+    pub length: f64,
+    /// Largest cosine of axes that must be perpendicular.
+    pub angle: f64,
+}
+
+impl fmt::Display for Violation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "`{}` by {:.3e} m and {:.3e} rad", self.joint, self.length, self.angle)
+    }
+}
+
+/// Why a model has no equations of motion.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ModelError {
+    /// A number or a reference is wrong.
+    #[error("{kind} `{name}` {fault}")]
+    Part {
+        /// Body, joint, spring or load.
+        kind: &'static str,
+        /// Its name.
+        name: String,
+        /// What is wrong with it.
+        fault: String,
+    },
+    /// There is nothing that moves.
+    #[error("the model has no body")]
+    Empty,
+    /// Markers of joints do not coincide at the start.
+    #[error(
+        "the bodies do not fit their joints at the start: {}; move the bodies or the markers",
+        list(violations)
+    )]
+    Positions {
+        /// The joints, the worst first.
+        violations: Vec<Violation>,
+    },
+    /// Rows of joints follow from those of other joints.
+    #[error(
+        "{} redundant: the joints of a loop hold a motion twice, and {freedoms} degrees of freedom are left. Give a joint of the loop more freedom \
+         (spherical, universal or cylindrical in the place of revolute), take away the prescribed motion of what is locked, or drop the rows \
+         (`Model::drop_redundant_rows`): the motion is the same, their forces are then zero",
+        list(rows)
+    )]
+    Redundant {
+        /// Each row with the joints that it follows from.
+        rows: Vec<String>,
+        /// Degrees of freedom.
+        freedoms: usize,
+    },
+    /// No velocities obey the joints.
+    #[error("the joints allow no velocities at the start: {0}")]
+    Velocities(String),
+}
+
+fn list<T: fmt::Display>(of: &[T]) -> String {
+    of.iter().map(|x| x.to_string()).collect::<Vec<_>>().join(", ")
+}
+
+impl Model {
+    /// A model without gravity.
+    pub fn new() -> Model {
+        Model::default()
+    }
+
+    /// The same model with the acceleration of gravity, e.g. (0, 0, −9.81) m/s².
+    pub fn with_gravity(mut self, gravity: Vector) -> Model {
+        self.gravity = gravity;
+        self
+    }
+
+    /// The same model, of which rows that follow from others are left out, where they would be an error. They are those
+    /// that are redundant at the start: a mechanism that leaves that geometry needs them again.
+    pub fn drop_redundant_rows(mut self) -> Model {
+        self.drop_redundant = true;
+        self
+    }
+
+    /// Adds a body.
+    pub fn body(&mut self, body: Body) -> Part {
+        self.bodies.push(body);
+        Part::Body(self.bodies.len() - 1)
+    }
+
+    /// Adds a joint.
+    pub fn joint(&mut self, joint: Joint) {
+        self.joints.push(joint);
+    }
+
+    /// Adds a spring.
+    pub fn spring(&mut self, spring: Spring) {
+        self.springs.push(spring);
+    }
+
+    /// Adds a load.
+    pub fn load(&mut self, load: Load) {
+        self.loads.push(load);
+    }
+
+    /// Adds a joint at a `point` of space, where both markers are at the start: their third axis along `axis`, their first
+    /// towards `first` if that is given.
+    ///
+    /// # Errors
+    /// [`ModelError::Part`] when the axis has no direction or a body is not there.
+    pub fn join(
+        &mut self,
+        name: &str,
+        kind: Kind,
+        [from, to]: [Part; 2],
+        point: Vector,
+        (axis, first): (Vector, Option<Vector>),
+    ) -> Result<&mut Joint, ModelError> {
+        let fault =
+            |fault: &str| ModelError::Part { kind: "joint", name: name.to_owned(), fault: fault.to_owned() };
+        let rotation = frame(axis, first).ok_or_else(|| fault("has an axis without direction"))?;
+        let space = Frame { position: point, rotation };
+        let marker =
+            |part| self.marker(part, space).ok_or_else(|| fault("joins a body that is not in the model"));
+        let joint = Joint::new(name, kind, marker(from)?, marker(to)?);
+        self.joints.push(joint);
+        self.joints.last_mut().ok_or(ModelError::Empty)
+    }
+
+    /// The marker of a part that is the frame `space` at the start; `None` for a body that is not there.
+    pub fn marker(&self, part: Part, space: Frame) -> Option<Marker> {
+        let own = self.frame(part)?;
+        let position = apply_transposed(&own.rotation, plus(space.position, -1.0, own.position));
+        let inverse = [0, 1, 2].map(|i| [0, 1, 2].map(|j| own.rotation[j][i]));
+        Some(Marker { part, frame: Frame { position, rotation: product(&inverse, &space.rotation) } })
+    }
+
+    /// The frame of a part at the start.
+    fn frame(&self, part: Part) -> Option<Frame> {
+        match part {
+            Part::Ground => Some(Frame { position: [0.0; 3], rotation: IDENTITY }),
+            Part::Body(i) => self.bodies.get(i).map(|body| body.frame),
+        }
+    }
+
+    /// The first thing that is wrong with a part.
+    pub(super) fn check(&self) -> Result<(), ModelError> {
+        if self.bodies.is_empty() {
+            return Err(ModelError::Empty);
+        }
+        let mut names = BTreeSet::new();
+        for body in &self.bodies {
+            self.examine("body", &body.name, body.fault(), &[], &mut names)?;
+        }
+        for joint in &self.joints {
+            self.examine("joint", &joint.name, joint.fault(), &[joint.from, joint.to], &mut names)?;
+        }
+        for spring in &self.springs {
+            let Spring { stiffness, damping, length, .. } = spring;
+            let sound = [stiffness, damping, length].iter().all(|x| **x >= 0.0 && x.is_finite());
+            let fault = "has a stiffness, damping or length that is not a number ≥ 0";
+            let fault = (!sound).then(|| fault.to_owned());
+            self.examine("spring", &spring.name, fault, &[spring.from, spring.to], &mut names)?;
+        }
+        for load in &self.loads {
+            let sound = load.force.iter().chain(&load.moment).all(|x| x.is_finite());
+            let fault = (!sound).then(|| "has a component that is not finite".to_owned());
+            self.examine("load", &load.name, fault, &[load.at], &mut names)?;
+        }
+        Ok(())
+    }
+
+    fn examine(
+        &self,
+        kind: &'static str,
+        name: &str,
+        fault: Option<String>,
+        markers: &[Marker],
+        names: &mut BTreeSet<String>,
+    ) -> Result<(), ModelError> {
+        let missing = markers.iter().any(|m| self.frame(m.part).is_none());
+        let numbers = |m: &Marker| {
+            m.frame.position.iter().chain(m.frame.rotation.iter().flatten()).all(|x| x.is_finite())
+        };
+        let fault = fault
+            .or_else(|| missing.then(|| "is on a body that is not in the model".to_owned()))
+            .or_else(|| (!markers.iter().all(numbers)).then(|| "has a marker that is not finite".to_owned()))
+            .or_else(|| match markers {
+                [a, b] if a.part == b.part => Some("has both ends on the same part".to_owned()),
+                [a] if a.part == Part::Ground => Some("acts on the ground".to_owned()),
+                _ => None,
+            })
+            .or_else(|| {
+                (!names.insert(name.to_owned())).then(|| "has a name that is already taken".to_owned())
+            });
+        match fault {
+            Some(fault) => Err(ModelError::Part { kind, name: name.to_owned(), fault }),
+            None => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,184 @@
+//! Energies, power and recorded quantities.
+
+use super::force::Interaction;
+use super::joint::Drive;
+use super::rotation::{Vector, apply, plus, quaternion, times};
+use super::system::Multibody;
+use crate::linalg::vector::{cross, inner};
+use crate::profile::HubKinematics;
+use crate::system::{Channel, Energy, Frame, Observed, Power, State};
+
+impl Multibody {
+    /// Momentum and angular momentum about the origin of all bodies, inertial axes [kg·m/s, kg·m²/s].
+    pub fn momenta(&mut self, s: &State) -> [Vector; 2] {
+        self.place(s);
+        let constants = &self.constants;
+        let mut sums = [[0.0; 3]; 2];
+        for (body, &place) in constants.model.bodies.iter().zip(&constants.place) {
+            let placed = &self.placed[place];
+            let linear = times(body.mass, placed.velocity);
+            let own = apply(&placed.rotation, apply(&body.inertia, placed.spin));
+            sums[0] = plus(sums[0], 1.0, linear);
+            sums[1] = plus(plus(sums[1], 1.0, own), 1.0, cross(placed.position, linear));
+        }
+        sums
+    }
+
+    /// Energies at a state for which bodies and markers are placed.
+    fn energies(&self, s: &State) -> Energy {
+        let constants = &*self.constants;
+        let mut energy = Energy::default();
+        for (body, &place) in constants.model.bodies.iter().zip(&constants.place) {
+            let placed = &self.placed[place];
+            let spin = inner(placed.spin, apply(&body.inertia, placed.spin));
+            energy.kinetic += 0.5 * (body.mass * inner(placed.velocity, placed.velocity) + spin);
+            energy.gravity -= self.part * body.mass * inner(constants.model.gravity, placed.position);
+        }
+        for (k, spring) in constants.model.springs.iter().enumerate() {
+            let (a, b) = self.spring_ends(k);
+            energy.strain += spring.energy(a, b);
+        }
+        for k in 0..constants.model.joints.len() {
+            if let (Drive::Actuated(actuator), Some((position, _))) =
+                (&constants.model.joints[k].drive, self.coordinate(s, k))
+            {
+                energy.strain += actuator.spring_energy(position);
+            }
+        }
+        energy
+    }
+
+    /// Coordinate of joint `k` and its rate.
+    fn coordinate(&self, s: &State, k: usize) -> Option<(f64, f64)> {
+        let coordinate = self.constants.coordinates[k]?;
+        let (a, b) = self.ends(k);
+        let motion = coordinate.motion(a, b, self.constants.angle[k].map(|i| s.q[i]));
+        Some((motion.position, motion.rate))
+    }
+
+    fn powers(&self, s: &State) -> Power {
+        let constants = &*self.constants;
+        let model = &constants.model;
+        let mut power = Power::default();
+        for (body, &place) in model.bodies.iter().zip(&constants.place) {
+            let placed = &self.placed[place];
+            let spin = inner(placed.spin, apply(&body.inertia, placed.spin));
+            power.dissipated += body.damping * (body.mass * inner(placed.velocity, placed.velocity) + spin);
+        }
+        for (i, (joint, row)) in constants.rows.iter().enumerate() {
+            let (a, b) = self.ends(*joint);
+            power.drive -= s.lambda[i] * row.value(a, b, &self.motions[*joint]).by_time;
+        }
+        for (k, joint) in model.joints.iter().enumerate() {
+            if let (Drive::Actuated(actuator), Some((angle, speed))) = (&joint.drive, self.coordinate(s, k)) {
+                let motion = HubKinematics { angle, speed, acceleration: 0.0 };
+                power.drive += actuator.driving_torque(&motion, s.time()) * speed;
+                power.dissipated += actuator.damping * speed * speed;
+            }
+        }
+        for (k, spring) in model.springs.iter().enumerate() {
+            let (a, b) = self.spring_ends(k);
+            power.dissipated += spring.dissipation(a, b);
+        }
+        let mut work = Interaction::new();
+        for (k, load) in model.loads.iter().enumerate() {
+            work.clear(false);
+            let b = self.load_end(k);
+            load.interact(b, (s.time(), self.part), &mut work);
+            power.loads += inner(work.wrench[2], b.velocity) + inner(work.wrench[3], b.spin);
+        }
+        power
+    }
+}
+
+impl Observed for Multibody {
+    fn energy(&mut self, s: &State) -> Energy {
+        self.place(s);
+        self.energies(s)
+    }
+
+    fn power(&mut self, s: &State) -> Power {
+        self.place(s);
+        self.powers(s)
+    }
+
+    fn energy_and_power(&mut self, s: &State) -> (Energy, Power) {
+        self.place(s);
+        (self.energies(s), self.powers(s))
+    }
+
+    fn frames(&mut self, body: usize, s: &State, _stations: &[f64], out: &mut [Frame]) {
+        self.place(s);
+        let constants = &self.constants;
+        if let (Some(of), Some(place)) = (constants.model.bodies.get(body), constants.place.get(body)) {
+            out.fill(self.placed[*place].frame(of.centre));
+        }
+    }
+
+    fn channels(&self) -> &[Channel] {
+        &self.constants.channels
+    }
+
+    fn record(&mut self, s: &State, out: &mut [f64]) {
+        let momenta = self.momenta(s);
+        let constants = &*self.constants;
+        let mut at = 0;
+        let mut put = |values: &[f64]| {
+            for x in values {
+                if let Some(out) = out.get_mut(at) {
+                    *out = *x;
+                }
+                at += 1;
+            }
+        };
+        for (body, &place) in constants.model.bodies.iter().zip(&constants.place) {
+            let placed = &self.placed[place];
+            let spin = apply(&placed.rotation, placed.spin);
+            let arm = apply(&placed.rotation, body.centre);
+            put(&placed.frame(body.centre).position);
+            put(&plus(placed.velocity, -1.0, cross(spin, arm)));
+            put(&spin);
+            put(&quaternion(&placed.rotation));
+        }
+        let mut work = Interaction::new();
+        for (k, joint) in constants.model.joints.iter().enumerate() {
+            self.interact_joint(s, k, false, &mut work);
+            put(&work.wrench[2]);
+            put(&work.wrench[3]);
+            if let Some((position, rate)) = self.coordinate(s, k) {
+                put(&[position, rate]);
+                match &joint.drive {
+                    Drive::None => {}
+                    // The prescribed motion is the last row.
+                    Drive::Prescribed(_) => {
+                        let last = constants.of_joint[k].clone().next_back();
+                        let driving = last.filter(|i| constants.rows[*i].1.is_prescribed());
+                        put(&[driving.map_or(0.0, |i| s.lambda[i])]);
+                    }
+                    Drive::Actuated(actuator) => {
+                        let motion = HubKinematics { angle: position, speed: rate, acceleration: 0.0 };
+                        put(&[actuator.torque(&motion, s.time()).value]);
+                    }
+                }
+            }
+        }
+        put(&momenta[0]);
+        put(&momenta[1]);
+        let energy = self.energies(s);
+        put(&[energy.kinetic, energy.strain, energy.gravity]);
+    }
+
+    fn admissible(&mut self, s: &State) -> Result<(), String> {
+        self.place(s);
+        for (k, spring) in self.constants.model.springs.iter().enumerate() {
+            let (a, b) = self.spring_ends(k);
+            if a.position == b.position && spring.length > 0.0 {
+                return Err(format!(
+                    "spring `{}` has no length left, and its force no direction",
+                    spring.name
+                ));
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,350 @@
+//! A chain of elements: its unknowns, and the space of its configurations.
+//!
+//! Node by node, with the section in the middle of the following element behind each: 12 coordinates and 8 velocities an
+//! element, and 9 and 7 at the end,
+//!
+//! ```text
+//! q = (r, r′, n | nₘ | r, r′, n | …),    v = (ṙ, ṙ′, w | wₘ | ṙ, ṙ′, w | …)
+//! ```
+//!
+//! An increment d = (δr, δr′, φ | φₘ | …) moves r and r′ as vectors; each n follows its tangent by the smallest rotation, and
+//! rotates about it by φ. Of this motion the spin is w = φ̇ − c·ṙ′/|r′|, with c of the tangents before and now
+//! ([`Pair`]): that is v = T(d) ḋ.
+
+use super::element::{Element, Motion, Tangent};
+use super::pair::Pair;
+use super::properties::Properties;
+use super::strain::{COORDINATES, VELOCITIES, centreline, positions};
+use super::triad::{Triad, Vector, plus, vector};
+use crate::linalg::vector::inner;
+use crate::system::Weights;
+
+/// Coordinates of an element that the next one does not share.
+pub const ELEMENT_COORDINATES: usize = 12;
+/// Velocities of an element that the next one does not share.
+pub const ELEMENT_VELOCITIES: usize = 8;
+
+/// A point of the centreline without stress.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Station {
+    /// r \[m\]
+    pub position: Vector,
+    /// t, a unit vector.
+    pub tangent: Vector,
+    /// n, a unit vector across t.
+    pub normal: Vector,
+}
+
+/// Why no beam can be made.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum BeamError {
+    /// The nodes are not ascending, or fewer than two.
+    #[error("the nodes of a beam must be two or more ascending arc lengths: node {node} is at {at} m")]
+    Nodes {
+        /// Number of the node.
+        node: usize,
+        /// Its arc length \[m\].
+        at: f64,
+    },
+    /// Tangent and normal are no axes.
+    #[error("tangent and normal at s = {at} m must be unit vectors, one across the other")]
+    Axes {
+        /// Arc length \[m\].
+        at: f64,
+    },
+    /// Two sections of an element that are too far apart in orientation.
+    #[error(
+        "the beam turns by {angle:.0}° within the element from s = {at} m: it must stay below 90°; take more elements"
+    )]
+    Turned {
+        /// Arc length of the element's begin \[m\].
+        at: f64,
+        /// Angle \[°\].
+        angle: f64,
+    },
+    /// A quantity of a section is out of range.
+    #[error("the section at s = {at} m: {what}")]
+    Section {
+        /// Arc length \[m\].
+        at: f64,
+        /// What is wrong.
+        what: &'static str,
+    },
+}
+
+/// A slender beam. See the [module documentation](super).
+#[derive(Clone, Debug)]
+pub struct Beam {
+    elements: Vec<Element>,
+    initial: Vec<f64>,
+    /// Arc lengths of the nodes \[m\].
+    nodes: Vec<f64>,
+}
+
+impl Beam {
+    /// A beam with nodes at the ascending arc lengths `nodes` \[m\], whose centreline without stress is `curve(s)`, with the
+    /// sections `section(s)` in its axes.
+    ///
+    /// # Errors
+    /// [`BeamError`]: no mesh, no axes, an element that turns too far, or a section without positive energies.
+    pub fn new(
+        nodes: &[f64],
+        curve: impl Fn(f64) -> Station,
+        section: impl Fn(f64) -> Properties,
+    ) -> Result<Beam, BeamError> {
+        if nodes.len() < 2 {
+            return Err(BeamError::Nodes { node: nodes.len(), at: nodes.first().copied().unwrap_or(0.0) });
+        }
+        let mut initial = Vec::with_capacity(ELEMENT_COORDINATES * nodes.len());
+        let station = |s: f64| {
+            let at = curve(s);
+            let one = |x: Vector, y: Vector, c: f64| (inner(x, y) - c).abs() < 1e-9;
+            let (t, n) = (at.tangent, at.normal);
+            let axes = one(t, t, 1.0) && one(n, n, 1.0) && one(t, n, 0.0);
+            if axes && inner(at.position, at.position).is_finite() {
+                Ok(at)
+            } else {
+                Err(BeamError::Axes { at: s })
+            }
+        };
+        for (i, &s) in nodes.iter().enumerate() {
+            let last = nodes[i.saturating_sub(1)];
+            if !s.is_finite() || i > 0 && !(s > last) {
+                return Err(BeamError::Nodes { node: i, at: s });
+            }
+            let now = station(s)?;
+            if i > 0 {
+                // n in the middle is placed when both ends are known.
+                let at = station(0.5 * (last + s))?;
+                initial.extend(at.normal);
+            }
+            initial.extend([now.position, now.tangent, now.normal].into_iter().flatten());
+        }
+        let mut elements = Vec::with_capacity(nodes.len() - 1);
+        for (e, ends) in nodes.windows(2).enumerate() {
+            let (s, length) = (ends[0], ends[1] - ends[0]);
+            validate(&section, s, length)?;
+            let begin = ELEMENT_COORDINATES * e;
+            let mut q: [f64; COORDINATES] = part(&initial, begin);
+            let element = Element::new(length, &q, |z| section(s + z * length));
+            let slope = element.middle_slope(&positions(&q));
+            let middle = curve(s + 0.5 * length);
+            let middle = Triad::new(middle.tangent, middle.normal).transported(slope, 0.0);
+            q[9..12].copy_from_slice(&middle.normal);
+            initial[begin + 9..begin + 12].copy_from_slice(&middle.normal);
+            let element = Element::new(length, &q, |z| section(s + z * length));
+            let turned = inner(vector(&q, 3), vector(&q, 15));
+            let twist = element.pairs(&q).into_iter().map(|pair| pair.angle.abs()).fold(0.0, f64::max);
+            let angle = libm::acos(turned.clamp(-1.0, 1.0)).max(twist).to_degrees();
+            if !(angle < 90.0) {
+                return Err(BeamError::Turned { at: s, angle });
+            }
+            elements.push(element);
+        }
+        Ok(Beam { elements, initial, nodes: nodes.to_vec() })
+    }
+
+    /// A straight beam of equal sections and `elements` elements of equal length.
+    ///
+    /// # Errors
+    /// See [`Beam::new`].
+    pub fn straight(
+        root: Station,
+        length: f64,
+        elements: usize,
+        section: Properties,
+    ) -> Result<Beam, BeamError> {
+        let nodes: Vec<f64> = (0..=elements).map(|i| length * i as f64 / elements.max(1) as f64).collect();
+        let at = |s: f64| Station { position: plus(root.position, s, root.tangent), ..root };
+        Beam::new(&nodes, at, |_| section)
+    }
+
+    /// The elements, from the first node on.
+    pub fn elements(&self) -> &[Element] {
+        &self.elements
+    }
+
+    /// Sets the damping β [1/s] in proportion to the mass: forces −β M v.
+    pub fn damp(&mut self, damping: f64) {
+        self.elements.iter_mut().for_each(|element| element.damp(damping));
+    }
+
+    /// Arc lengths of the nodes \[m\].
+    pub fn nodes(&self) -> &[f64] {
+        &self.nodes
+    }
+
+    /// Number of coordinates q.
+    pub fn coordinates(&self) -> usize {
+        self.initial.len()
+    }
+
+    /// Number of velocities v.
+    pub fn velocities(&self) -> usize {
+        ELEMENT_VELOCITIES * self.elements.len() + 7
+    }
+
+    /// Half-bandwidth of the tangent.
+    pub fn half_bandwidth(&self) -> usize {
+        VELOCITIES - 1
+    }
+
+    /// The configuration without stress.
+    pub fn initial(&self) -> &[f64] {
+        &self.initial
+    }
+
+    /// Position and axes of node `i`; its velocities begin at 8 i.
+    pub fn node(&self, i: usize, q: &[f64]) -> (Vector, Triad) {
+        let at = ELEMENT_COORDINATES * i;
+        (vector(q, at), Triad::new(vector(q, at + 3), vector(q, at + 6)))
+    }
+
+    /// The middle sections of the elements: element, its coordinates' and velocities' begin.
+    fn middles(&self) -> impl Iterator<Item = (&Element, usize, usize)> {
+        let places = |(e, element)| (element, ELEMENT_COORDINATES * e, ELEMENT_VELOCITIES * e);
+        self.elements.iter().enumerate().map(places)
+    }
+
+    /// r′ in the middle of an element whose coordinates begin at `at`.
+    fn middle_slope(element: &Element, q: &[f64], at: usize) -> Vector {
+        element.middle_slope(&positions(&part(q, at)))
+    }
+
+    /// `out` = q ⊞ d
+    pub fn retract(&self, q: &[f64], d: &[f64], out: &mut [f64]) {
+        for node in 0..=self.elements.len() {
+            let (i, j) = (ELEMENT_COORDINATES * node, ELEMENT_VELOCITIES * node);
+            for k in 0..6 {
+                out[i + k] = q[i + k] + d[j + k];
+            }
+            let before = Triad::new(vector(q, i + 3), vector(q, i + 6));
+            let now = before.transported(vector(out, i + 3), d[j + 6]);
+            out[i + 6..i + 9].copy_from_slice(&now.normal);
+        }
+        for (element, i, j) in self.middles() {
+            let before = Triad::new(Beam::middle_slope(element, q, i), vector(q, i + 9));
+            let now = before.transported(Beam::middle_slope(element, out, i), d[j + 7]);
+            out[i + 9..i + 12].copy_from_slice(&now.normal);
+        }
+    }
+
+    /// `d` = `to` ⊟ `from`; φ lies between −π and π.
+    pub fn difference(&self, from: &[f64], to: &[f64], d: &mut [f64]) {
+        for node in 0..=self.elements.len() {
+            let (i, j) = (ELEMENT_COORDINATES * node, ELEMENT_VELOCITIES * node);
+            for k in 0..6 {
+                d[j + k] = to[i + k] - from[i + k];
+            }
+            d[j + 6] = Pair::new(&self.node(node, from).1, &self.node(node, to).1).angle;
+        }
+        for (element, i, j) in self.middles() {
+            let triad = |q: &[f64]| Triad::new(Beam::middle_slope(element, q, i), vector(q, i + 9));
+            d[j + 7] = Pair::new(&triad(from), &triad(to)).angle;
+        }
+    }
+
+    /// `out` = ḋ = T(d)⁻¹ v, the rate of the increment d in `from` ⊞ d where the velocity is v.
+    pub fn rate(&self, from: &[f64], d: &[f64], v: &[f64], out: &mut [f64]) {
+        out.copy_from_slice(v);
+        let turn = |from: Vector, d: Vector, rate: Vector| {
+            let now = Triad::new(plus(from, 1.0, d), [0.0; 3]);
+            inner(now.spin_by_slope(d), rate)
+        };
+        for node in 0..=self.elements.len() {
+            let (i, j) = (ELEMENT_COORDINATES * node, ELEMENT_VELOCITIES * node);
+            out[j + 6] -= turn(vector(from, i + 3), vector(d, j + 3), vector(v, j + 3));
+        }
+        for (element, i, j) in self.middles() {
+            let rates = |x: &[f64]| element.middle_slope(&centreline(&part(x, j)));
+            out[j + 7] -= turn(Beam::middle_slope(element, from, i), rates(d), rates(v));
+        }
+    }
+
+    /// Adds the forces of strain and inertia to `r`: r = M a + … + ∂U/∂q.
+    pub fn add_forces(&self, q: &[f64], v: &[f64], a: &[f64], r: &mut [f64]) {
+        for (element, i, j) in self.middles() {
+            let motion = Motion { q: &part(q, i), v: &part(v, j), a: &part(a, j) };
+            let mut forces = [0.0; VELOCITIES];
+            element.add_forces(&motion, &mut forces);
+            r[j..].iter_mut().zip(forces).for_each(|(r, force)| *r += force);
+        }
+    }
+
+    /// Hands the tangent w.q ∂r/∂d + w.v ∂r/∂v + w.a ∂r/∂a of each element to `add`, with the number of its first velocity.
+    /// ∂r/∂d is that by the increment d since the configuration that was retracted, `w.increment`.
+    pub fn add_tangent(
+        &self,
+        q: &[f64],
+        v: &[f64],
+        a: &[f64],
+        w: &Weights<'_>,
+        mut add: impl FnMut(usize, &Tangent),
+    ) {
+        for (element, i, j) in self.middles() {
+            let motion = Motion { q: &part(q, i), v: &part(v, j), a: &part(a, j) };
+            let mut tangent = [[0.0; VELOCITIES]; VELOCITIES];
+            let w = Weights { increment: w.increment.map(|d| &d[j..]), ..*w };
+            element.add_tangent(&motion, &w, &mut tangent);
+            add(j, &tangent);
+        }
+    }
+
+    /// Strain energy \[J\].
+    pub fn strain_energy(&self, q: &[f64]) -> f64 {
+        self.middles().map(|(element, i, _)| element.strain_energy(&part(q, i))).sum()
+    }
+
+    /// Kinetic energy \[J\].
+    pub fn kinetic_energy(&self, q: &[f64], v: &[f64]) -> f64 {
+        self.middles().map(|(element, i, j)| element.kinetic_energy(&part(q, i), &part(v, j))).sum()
+    }
+}
+
+/// Whether the sections of an element have positive energies.
+fn validate(section: &impl Fn(f64) -> Properties, s: f64, length: f64) -> Result<(), BeamError> {
+    for z in [0.0, 0.5, 1.0] {
+        let (at, of) = (s + z * length, section(s + z * length));
+        let fault = |what| Err(BeamError::Section { at, what });
+        let c = &of.stiffness;
+        let largest = |i: usize, j: usize| (c[i][i] * c[j][j]).abs().sqrt();
+        let symmetric = (0..4).all(|i| (0..i).all(|j| (c[i][j] - c[j][i]).abs() <= 1e-9 * largest(i, j)));
+        if !(symmetric && is_positive_definite(c)) {
+            return fault("the stiffness matrix must be symmetric and positive definite");
+        }
+        if !(of.mass > 0.0 && of.mass.is_finite()) {
+            return fault("the mass per length must be positive and finite");
+        }
+        let [polar, second, third] = of.inertia;
+        let finite = of.inertia.iter().all(|j| j.is_finite());
+        if !(finite && polar > 0.0 && second >= 0.0 && third >= 0.0) {
+            return fault(
+                "the moment of inertia about the tangent must be positive, those about n and b not negative",
+            );
+        }
+    }
+    Ok(())
+}
+
+/// Whether all pivots of a symmetric matrix are positive.
+fn is_positive_definite(matrix: &[[f64; 4]; 4]) -> bool {
+    let mut a = *matrix;
+    for k in 0..4 {
+        if !(a[k][k] > 1e-12 * matrix[k][k] && a[k][k] > 0.0 && a[k][k].is_finite()) {
+            return false;
+        }
+        for i in k + 1..4 {
+            let factor = a[i][k] / a[k][k];
+            for j in k..4 {
+                a[i][j] -= factor * a[k][j];
+            }
+        }
+    }
+    true
+}
+
+/// The `N` entries from `at` on.
+#[inline(always)]
+fn part<const N: usize>(x: &[f64], at: usize) -> [f64; N] {
+    std::array::from_fn(|k| x[at + k])
+}

@@ -1,0 +1,286 @@
+//! One element: its energies, forces and their derivatives.
+
+use super::inertia::{Rate, Rotation};
+use super::pair::Pair;
+use super::properties::Properties;
+use super::shapes::{MASS_POINTS, POINTS, Point, Shapes, hermite};
+use super::stiffness;
+use super::strain::{
+    CENTRELINE, COORDINATES, Forces, SPINS, Section, Sections, Stiffness, VARIABLES, VELOCITIES, centreline,
+    chord, combined, positions, shares,
+};
+use super::triad::{Triad, Vector, plus, times};
+use crate::linalg::vector::inner;
+use crate::quadrature::Gauss;
+use crate::system::Weights;
+
+/// Motion of an element: its coordinates, velocities and accelerations in the order of [`VELOCITIES`].
+#[derive(Clone, Copy, Debug)]
+pub struct Motion<'a> {
+    /// r₁, r′₁, n₁, nₘ, r₂, r′₂, n₂
+    pub q: &'a [f64; COORDINATES],
+    /// ṙ₁, ṙ′₁, w₁, wₘ, ṙ₂, ṙ′₂, w₂
+    pub v: &'a [f64; VELOCITIES],
+    /// The derivatives of v.
+    pub a: &'a [f64; VELOCITIES],
+}
+
+/// Matrix of an element, by rows.
+pub type Tangent = [[f64; VELOCITIES]; VELOCITIES];
+
+/// What a variable of the strains is among the velocities of an element: r₂ − r₁ is two of them.
+const PLACES: [usize; VARIABLES] = [8, 9, 10, 3, 4, 5, 11, 12, 13, 6, 7, 14];
+
+/// An element of a slender beam. See the [module documentation](super).
+#[derive(Clone, Debug)]
+pub struct Element {
+    shapes: Shapes,
+    stiffness: [Stiffness; POINTS],
+    /// Strains without stress.
+    initial: [[f64; 4]; POINTS],
+    /// ∫ρA Nᵢ Nⱼ ds
+    mass: [[f64; 4]; 4],
+    /// ∫ρA Nᵢ ds
+    weight: [f64; 4],
+    /// (J₁, J₂, J₃) of the three sections, times the weights of Simpson's rule.
+    inertia: [[f64; 3]; 3],
+    has_rotary_inertia: bool,
+    damping: f64,
+}
+
+impl Element {
+    /// An element of the length `length` \[m\] without stress at the coordinates `q`, whose section at the place 0 ≤ z ≤ 1
+    /// is `section(z)`. C is evaluated at three points, ρA at four, the moments of inertia at the three sections.
+    pub fn new(length: f64, q: &[f64; COORDINATES], section: impl Fn(f64) -> Properties) -> Element {
+        let shapes = Shapes::new(length);
+        let sections = Sections::new(&shapes, q);
+        let initial = shapes.points.map(|at| Section::new(&at, &sections).strain);
+        let stiffness = shapes.points.map(|at| Stiffness(section(at.place).stiffness));
+        let (mut mass, mut weight) = ([[0.0; 4]; 4], [0.0; 4]);
+        for (z, w) in Gauss::new(MASS_POINTS).on(0.0, 1.0) {
+            let ([n, ..], density) = (hermite(z, length), w * length * section(z).mass);
+            for i in 0..4 {
+                weight[i] += density * n[i];
+                for j in 0..4 {
+                    mass[i][j] += density * n[i] * n[j];
+                }
+            }
+        }
+        let inertia = [(0.0, 1.0), (0.5, 4.0), (1.0, 1.0)]
+            .map(|(z, w)| section(z).inertia.map(|j| w * length / 6.0 * j));
+        let has_rotary_inertia = inertia.iter().any(|j| j.iter().any(|j| *j != 0.0));
+        Element { shapes, stiffness, initial, mass, weight, inertia, has_rotary_inertia, damping: 0.0 }
+    }
+
+    /// Sets the damping β [1/s] in proportion to the mass: a force −β M v.
+    pub fn damp(&mut self, damping: f64) {
+        self.damping = damping;
+    }
+
+    /// Length of the element \[m\].
+    pub fn length(&self) -> f64 {
+        self.shapes.length
+    }
+
+    /// r′ in the middle, or its rate, by r₁, r′₁, r₂, r′₂ or theirs.
+    pub(super) fn middle_slope(&self, centreline: &[Vector; 4]) -> Vector {
+        combined(&self.shapes.middle, &chord(centreline))
+    }
+
+    /// Strain energy \[J\].
+    pub fn strain_energy(&self, q: &[f64; COORDINATES]) -> f64 {
+        let sections = Sections::new(&self.shapes, q);
+        let mut energy = 0.0;
+        for (k, at) in self.shapes.points.iter().enumerate() {
+            let strain = Section::new(at, &sections).strain;
+            let stress = self.stiffness[k].stress(&strain, &self.initial[k], at.weight);
+            let strain = std::array::from_fn(|i| strain[i] - self.initial[k][i]);
+            energy += 0.5 * inner(stress, strain);
+        }
+        energy
+    }
+
+    /// Kinetic energy \[J\].
+    pub fn kinetic_energy(&self, q: &[f64; COORDINATES], v: &[f64; VELOCITIES]) -> f64 {
+        let velocity = centreline(v);
+        let mut energy = 0.0;
+        for i in 0..4 {
+            for j in 0..4 {
+                energy += 0.5 * self.mass[i][j] * inner(velocity[i], velocity[j]);
+            }
+        }
+        let sections = Sections::new(&self.shapes, q);
+        let rest = [0.0; VELOCITIES];
+        let of = |k| self.rotation(k, &sections, v, &rest).energy();
+        energy + (0..3).map(of).sum::<f64>()
+    }
+
+    /// ∫ρA r ds [kg·m], the mass times its centre.
+    pub fn first_moment(&self, q: &[f64; COORDINATES]) -> Vector {
+        combined(&self.weight, &positions(q))
+    }
+
+    /// Mass \[kg\].
+    pub fn mass(&self) -> f64 {
+        self.weight[0] + self.weight[2]
+    }
+
+    /// Rotation of section `k` of the three.
+    #[inline(always)]
+    fn rotation(&self, k: usize, s: &Sections, v: &[f64; VELOCITIES], a: &[f64; VELOCITIES]) -> Rotation {
+        let parts = &shares(&self.shapes)[k];
+        let rate = |x| Rate { slope: combined(parts, &chord(&centreline(x))), spin: x[SPINS[k]] };
+        Rotation::new(&s.triads[k], rate(v), rate(a), self.inertia[k], self.damping)
+    }
+
+    /// Adds the forces of strain and inertia, ∂U/∂q + M a + …, to `r`.
+    pub fn add_forces(&self, m: &Motion<'_>, r: &mut [f64; VELOCITIES]) {
+        let sections = Sections::new(&self.shapes, m.q);
+        let mut forces = Forces::ZERO;
+        for ((at, stiffness), initial) in self.shapes.points.iter().zip(&self.stiffness).zip(&self.initial) {
+            let section = Section::new(at, &sections);
+            let stress = stiffness.stress(&section.strain, initial, at.weight);
+            forces.add(at, &section, &sections.triads[1], &section.forces(stress));
+        }
+        let mut total = forces.total(&self.shapes, &sections);
+        if self.has_rotary_inertia {
+            for (k, parts) in shares(&self.shapes).iter().enumerate() {
+                let force = self.rotation(k, &sections, m.v, m.a).force();
+                total[9 + k] += force.spin;
+                (0..9).for_each(|i| total[i] += parts[i / 3] * force.slope[i % 3]);
+            }
+        }
+        for i in 0..VARIABLES {
+            r[PLACES[i]] += total[i];
+        }
+        (0..3).for_each(|k| r[k] -= total[k]);
+        let (v, a) = (centreline(m.v), centreline(m.a));
+        let rate: [Vector; 4] = std::array::from_fn(|i| plus(a[i], self.damping, v[i]));
+        for i in 0..4 {
+            let force = combined(&self.mass[i], &rate);
+            (0..3).for_each(|k| r[CENTRELINE[i] + k] += force[k]);
+        }
+    }
+
+    /// Adds w.q ∂r/∂d + w.v ∂r/∂v + w.a ∂r/∂a to `out`: by the increment d of the element since the configuration that was
+    /// retracted, or by variations (δr, δr′, δΘ) where `w.increment` is `None`.
+    pub fn add_tangent(&self, m: &Motion<'_>, w: &Weights<'_>, out: &mut Tangent) {
+        let sections = Sections::new(&self.shapes, m.q);
+        let parts = shares(&self.shapes);
+        // δΘ = δφ + turn·δr′ at the three sections.
+        let mut turns = [[0.0; 3]; 3];
+        if let Some(d) = w.increment.and_then(|d| d.first_chunk()) {
+            let d = chord(&centreline(d));
+            for k in 0..3 {
+                turns[k] = sections.triads[k].spin_by_slope(combined(&parts[k], &d));
+            }
+        }
+        let mut tangent = [[0.0; VARIABLES]; VARIABLES];
+        if w.q != 0.0 {
+            tangent = stiffness::tangent(&self.shapes, &self.stiffness, &self.initial, &sections, w.q);
+            if w.increment.is_some() {
+                for row in &mut tangent {
+                    for k in 0..3 {
+                        (0..9).for_each(|i| row[i] += row[9 + k] * parts[k][i / 3] * turns[k][i % 3]);
+                    }
+                }
+            }
+        }
+        if self.has_rotary_inertia {
+            for k in 0..3 {
+                let rotation = self.rotation(k, &sections, m.v, m.a);
+                for direction in 0..4 {
+                    let mut unit = Rate::default();
+                    match direction {
+                        3 => unit.spin = 1.0,
+                        axis => unit.slope[axis] = 1.0,
+                    }
+                    let rate = |c: f64, spin: f64| Rate {
+                        slope: times(c, unit.slope),
+                        spin: c * (unit.spin + spin),
+                    };
+                    let turn = inner(turns[k], unit.slope);
+                    let change = rotation.derivative(rate(w.q, turn), rate(w.v, 0.0), rate(w.a, 0.0));
+                    let mut add = |column: usize, part: f64| {
+                        tangent[9 + k][column] += part * change.spin;
+                        (0..9)
+                            .for_each(|i| tangent[i][column] += part * parts[k][i / 3] * change.slope[i % 3]);
+                    };
+                    match direction {
+                        3 => add(9 + k, 1.0),
+                        axis => (0..3).for_each(|j| add(3 * j + axis, parts[k][j])),
+                    }
+                }
+            }
+        }
+        for i in 0..VARIABLES {
+            for j in 0..VARIABLES {
+                out[PLACES[i]][PLACES[j]] += tangent[i][j];
+            }
+            for k in 0..3 {
+                out[k][PLACES[i]] -= tangent[k][i];
+                out[PLACES[i]][k] -= tangent[i][k];
+                if i < 3 {
+                    out[i][k] += tangent[i][k];
+                }
+            }
+        }
+        let inertia = w.a + self.damping * w.v;
+        for i in 0..4 {
+            for j in 0..4 {
+                for k in 0..3 {
+                    out[CENTRELINE[i] + k][CENTRELINE[j] + k] += inertia * self.mass[i][j];
+                }
+            }
+        }
+    }
+
+    /// Forces of a field of acceleration b, ∫ρA Nᵢ b ds, on r₁, r′₁, r₂, r′₂: gravity.
+    pub fn body_force(&self, acceleration: Vector) -> [Vector; 4] {
+        self.weight.map(|w| times(w, acceleration))
+    }
+
+    /// Forces of a load p(z) per length [N/m] at the place z, ∫Nᵢ p ds, on r₁, r′₁, r₂, r′₂.
+    pub fn line_load(&self, load: impl Fn(f64) -> Vector) -> [Vector; 4] {
+        let mut out = [[0.0; 3]; 4];
+        for (z, w) in Gauss::new(MASS_POINTS).on(0.0, 1.0) {
+            let ([n, ..], p) = (hermite(z, self.shapes.length), load(z));
+            for i in 0..4 {
+                out[i] = plus(out[i], w * self.shapes.length * n[i], p);
+            }
+        }
+        out
+    }
+
+    /// The place z, 0 to 1, of the element: position, axes and strains (ε, κ₁, κ₂, κ₃) less those without stress. The latter
+    /// are interpolated between the quadrature points, where the strains are best.
+    pub fn section(&self, q: &[f64; COORDINATES], z: f64) -> (Vector, Triad, [f64; 4]) {
+        let sections = Sections::new(&self.shapes, q);
+        let at = Point::at(z, 0.0, self.shapes.length);
+        let position = combined(&hermite(z, self.shapes.length)[0], &positions(q));
+        let mut strain = [0.0; 4];
+        let places = self.shapes.points.map(|at| at.place);
+        for (k, point) in self.shapes.points.iter().enumerate() {
+            let others = (0..POINTS).filter(|i| *i != k);
+            let l: f64 = others.map(|i| (z - places[i]) / (places[k] - places[i])).product();
+            let there = Section::new(point, &sections).strain;
+            strain = std::array::from_fn(|i| strain[i] + l * (there[i] - self.initial[k][i]));
+        }
+        (position, Section::new(&at, &sections).triad, strain)
+    }
+
+    /// Stress resultants (N, M₁, M₂, M₃) \[N, N·m\] at the quadrature points, with their places z.
+    pub fn stresses(&self, q: &[f64; COORDINATES]) -> [(f64, [f64; 4]); POINTS] {
+        let sections = Sections::new(&self.shapes, q);
+        std::array::from_fn(|k| {
+            let at = &self.shapes.points[k];
+            let strain = Section::new(at, &sections).strain;
+            (at.place, self.stiffness[k].stress(&strain, &self.initial[k], 1.0))
+        })
+    }
+
+    /// The twist of the ends and the middle against each other, φ₁ₘ, φₘ₂, φ₁₂.
+    pub fn pairs(&self, q: &[f64; COORDINATES]) -> [Pair; 3] {
+        Sections::new(&self.shapes, q).pairs
+    }
+}

@@ -1,0 +1,264 @@
+//! Strains of an element and the forces of its strain energy.
+//!
+//! At a point of the centreline with the derivatives r′ and r″, and with t, n, b the axes of the section there,
+//!
+//! ```text
+//! ε = |r′| − 1,   κ₂ = −b·r″/|r′|,   κ₃ = n·r″/|r′|,   κ₁ = b·n′
+//! ```
+//!
+//! ε and κ₁ are sampled and interpolated (see [`super::shapes`]), κ₂ and κ₃ are evaluated at the quadrature points. The
+//! axes there are those of the middle, transported to t by the smallest rotation and twisted by φ = −L₁ φ₁ₘ + L₂ φₘ₂. With
+//! μ = t·r″/|r′| and c of the pair of the middle and the point,
+//!
+//! ```text
+//! δκ₂ = (−b·δr″ + μ b·δr′ − κ₂ t·δr′)/|r′| + κ₃ δΘ
+//! δκ₃ = ( n·δr″ − μ n·δr′ − κ₃ t·δr′)/|r′| − κ₂ δΘ,    δΘ = δΘₘ − L₁ δφ₁ₘ + L₂ δφₘ₂ − c·(δtₘ + δt)
+//! ```
+
+use super::pair::Pair;
+use super::shapes::{Point, Shapes};
+use super::triad::{Triad, Vector, plus, times, vector};
+use crate::linalg::vector::inner;
+
+/// Coordinates of an element: r₁, r′₁, n₁, nₘ, r₂, r′₂, n₂.
+pub const COORDINATES: usize = 21;
+/// Velocities of an element: ṙ₁, ṙ′₁, w₁, wₘ, ṙ₂, ṙ′₂, w₂.
+pub const VELOCITIES: usize = 15;
+/// Where r₁, r′₁, r₂, r′₂ begin among the velocities.
+pub(super) const CENTRELINE: [usize; 4] = [0, 3, 8, 11];
+/// The places of w₁, wₘ, w₂ among the velocities.
+pub(super) const SPINS: [usize; 3] = [6, 7, 14];
+/// The sections of the pairs of angles φ₁ₘ, φₘ₂, φ₁₂.
+pub(super) const ENDS: [[usize; 2]; 3] = [[0, 1], [1, 2], [0, 2]];
+/// What the strains depend on: r₂ − r₁, r′₁, r′₂ and the rotations of the three sections about their tangents.
+pub(super) const VARIABLES: usize = 12;
+
+/// Σ nᵢ xᵢ
+#[inline(always)]
+pub(super) fn combined<const N: usize>(n: &[f64; N], x: &[Vector; N]) -> Vector {
+    let mut out = [0.0; 3];
+    for i in 0..N {
+        out = plus(out, n[i], x[i]);
+    }
+    out
+}
+
+/// r₁, r′₁, r₂, r′₂ of the coordinates of an element.
+#[inline(always)]
+pub(super) fn positions(q: &[f64; COORDINATES]) -> [Vector; 4] {
+    [0, 3, 12, 15].map(|at| vector(q, at))
+}
+
+/// r₁, r′₁, r₂, r′₂ among the velocities of an element, or their rates.
+#[inline(always)]
+pub(super) fn centreline(v: &[f64; VELOCITIES]) -> [Vector; 4] {
+    CENTRELINE.map(|at| vector(v, at))
+}
+
+/// (r₂ − r₁, r′₁, r′₂)
+#[inline(always)]
+pub(super) fn chord(x: &[Vector; 4]) -> [Vector; 3] {
+    [plus(x[2], -1.0, x[0]), x[1], x[3]]
+}
+
+/// The parts that (r₂ − r₁, r′₁, r′₂) have in r′ at the three sections.
+pub(super) fn shares(shapes: &Shapes) -> [[f64; 3]; 3] {
+    [[0.0, 1.0, 0.0], shapes.middle, [0.0, 0.0, 1.0]]
+}
+
+/// The three sections of an element that carry unknowns.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sections {
+    /// (r₂ − r₁, r′₁, r′₂)
+    pub chord: [Vector; 3],
+    pub triads: [Triad; 3],
+    pub pairs: [Pair; 3],
+}
+
+impl Sections {
+    #[inline]
+    pub fn new(shapes: &Shapes, q: &[f64; COORDINATES]) -> Sections {
+        let chord = chord(&positions(q));
+        let slopes = [chord[1], combined(&shapes.middle, &chord), chord[2]];
+        let normals = [6, 9, 18].map(|at| vector(q, at));
+        let triads: [Triad; 3] = std::array::from_fn(|i| Triad::new(slopes[i], normals[i]));
+        let pairs = ENDS.map(|[a, b]| Pair::new(&triads[a], &triads[b]));
+        Sections { chord, triads, pairs }
+    }
+}
+
+/// A section at a quadrature point.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Section {
+    pub triad: Triad,
+    /// The middle and this section.
+    pub pair: Pair,
+    /// μ
+    pub along: f64,
+    /// (ε, κ₁, κ₂, κ₃)
+    pub strain: [f64; 4],
+}
+
+impl Section {
+    #[inline]
+    pub fn new(at: &Point, sections: &Sections) -> Section {
+        let Sections { chord, triads, pairs } = sections;
+        let (slope, curvature) = (combined(&at.slope, chord), combined(&at.curvature, chord));
+        let (l, p) = (&at.sample, &at.torsion);
+        let twist = l[2] * pairs[1].angle - l[0] * pairs[0].angle;
+        let triad = triads[1].transported(slope, twist);
+        let pair = Pair::of_tangents(triads[1].tangent, triad.tangent);
+        let [along, second, third] = triad.inward(times(1.0 / triad.length, curvature));
+        let axial: f64 = (0..3).map(|i| l[i] * (triads[i].length - 1.0)).sum();
+        let torsion = (0..3).map(|i| p[i] * pairs[i].angle).sum();
+        Section { triad, pair, along, strain: [axial, torsion, -third, second] }
+    }
+
+    /// Forces on (r′, r″, Θ, ε, κ₁) here of the stress resultants (N, M₁, M₂, M₃), and the moment ω on Θ.
+    #[inline]
+    pub fn forces(&self, stress: [f64; 4]) -> Local<f64> {
+        let [axial, torsion, m2, m3] = stress;
+        let [_, _, k2, k3] = self.strain;
+        let (inverse, mu) = (1.0 / self.triad.length, self.along);
+        let slope = [-(m2 * k2 + m3 * k3), -mu * m3, mu * m2];
+        let curvature = [0.0, m3, -m2];
+        Local {
+            slope: times(inverse, self.triad.outward(slope)),
+            curvature: times(inverse, self.triad.outward(curvature)),
+            spin: m2 * k3 - m3 * k2,
+            axial,
+            torsion,
+        }
+    }
+}
+
+/// A force, or its derivative as a row over the [`VARIABLES`].
+pub(super) trait Linear: Copy {
+    const ZERO: Self;
+    /// self += c x
+    fn add(&mut self, c: f64, x: &Self);
+}
+
+impl Linear for f64 {
+    const ZERO: f64 = 0.0;
+
+    #[inline(always)]
+    fn add(&mut self, c: f64, x: &f64) {
+        *self += c * x;
+    }
+}
+
+/// Forces on what the strains at a point are made of.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Local<T> {
+    pub slope: [T; 3],
+    pub curvature: [T; 3],
+    pub spin: T,
+    pub axial: T,
+    pub torsion: T,
+}
+
+/// Forces on what the strains of an element are made of, summed over the quadrature points.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Forces<T> {
+    /// On the samples of ε.
+    samples: [T; 3],
+    /// On the angles of the pairs.
+    angles: [T; 3],
+    /// On Θₘ and r′ₘ, beside those by the pairs.
+    spin: T,
+    middle: [T; 3],
+    /// On (r₂ − r₁, r′₁, r′₂), beside those by samples and pairs.
+    chord: [[T; 3]; 3],
+}
+
+impl<T: Linear> Forces<T> {
+    pub const ZERO: Forces<T> = Forces {
+        samples: [T::ZERO; 3],
+        angles: [T::ZERO; 3],
+        spin: T::ZERO,
+        middle: [T::ZERO; 3],
+        chord: [[T::ZERO; 3]; 3],
+    };
+
+    /// Adds the forces at a point. δΘ there is made of δΘₘ, of the angles, and of r′ here and in the middle.
+    #[inline(always)]
+    pub fn add(&mut self, at: &Point, section: &Section, middle: &Triad, local: &Local<T>) {
+        let (here, there) = (-1.0 / section.triad.length, -1.0 / middle.length);
+        let c = section.pair.c;
+        for k in 0..3 {
+            self.samples[k].add(at.sample[k], &local.axial);
+            self.angles[k].add(at.torsion[k], &local.torsion);
+            self.middle[k].add(there * c[k], &local.spin);
+        }
+        self.spin.add(1.0, &local.spin);
+        self.angles[0].add(-at.sample[0], &local.spin);
+        self.angles[1].add(at.sample[2], &local.spin);
+        for k in 0..3 {
+            let mut slope = local.slope[k];
+            slope.add(here * c[k], &local.spin);
+            for i in 0..3 {
+                self.chord[i][k].add(at.slope[i], &slope);
+                self.chord[i][k].add(at.curvature[i], &local.curvature[k]);
+            }
+        }
+    }
+
+    /// Adds forces on r′ₘ.
+    #[inline(always)]
+    pub fn add_middle(&mut self, forces: &[T; 3]) {
+        for k in 0..3 {
+            self.middle[k].add(1.0, &forces[k]);
+        }
+    }
+
+    /// All forces as those on the [`VARIABLES`].
+    #[inline(always)]
+    pub fn total(&self, shapes: &Shapes, sections: &Sections) -> [T; VARIABLES] {
+        let Sections { triads, pairs, .. } = sections;
+        let mut spins = [T::ZERO, self.spin, T::ZERO];
+        let mut slopes = [[T::ZERO; 3], self.middle, [T::ZERO; 3]];
+        for ((pair, ends), force) in pairs.iter().zip(ENDS).zip(&self.angles) {
+            for (end, sign) in ends.into_iter().zip([-1.0, 1.0]) {
+                spins[end].add(sign, force);
+                for k in 0..3 {
+                    slopes[end][k].add(pair.c[k] / triads[end].length, force);
+                }
+            }
+        }
+        let mut out = [T::ZERO; VARIABLES];
+        out[9..].copy_from_slice(&spins);
+        for (k, out) in out[..9].iter_mut().enumerate() {
+            *out = self.chord[k / 3][k % 3];
+        }
+        for (i, parts) in shares(shapes).iter().enumerate() {
+            for k in 0..3 {
+                slopes[i][k].add(triads[i].tangent[k], &self.samples[i]);
+                for j in (0..3).filter(|j| parts[*j] != 0.0) {
+                    out[3 * j + k].add(parts[j], &slopes[i][k]);
+                }
+            }
+        }
+        out
+    }
+}
+
+impl Forces<f64> {
+    /// The forces on the samples of ε and on the angles of the pairs.
+    pub fn of_samples_and_angles(&self) -> ([f64; 3], [f64; 3]) {
+        (self.samples, self.angles)
+    }
+}
+
+/// The stiffness matrix C of a section.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stiffness(pub [[f64; 4]; 4]);
+
+impl Stiffness {
+    /// weight · C (γ − γ₀)
+    #[inline(always)]
+    pub fn stress(&self, strain: &[f64; 4], initial: &[f64; 4], weight: f64) -> [f64; 4] {
+        let strain: [f64; 4] = std::array::from_fn(|k| weight * (strain[k] - initial[k]));
+        self.0.map(|row| inner(row, strain))
+    }
+}

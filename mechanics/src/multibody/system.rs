@@ -1,0 +1,438 @@
+//! The equations of motion of bodies and joints.
+//!
+//! Unknowns: (ṙ, Ω) of the bodies, in the order of the tree of joints; multipliers in the order of the joints. The
+//! configuration holds (r, p) of the bodies in the same order, and behind them the angle of every revolute and cylindrical
+//! joint, counted on beyond a turn.
+//!
+//! ```text
+//! r = ⎡ m r̈ + β m ṙ − m g          ⎤ − Σ Jᵀ w,     w: wrenches of joints (λ n), springs, actuators and loads
+//!     ⎣ J Ω̇ + Ω × J Ω + β J Ω      ⎦
+//! ∂(Jᵀ w) = Jᵀ (∂w/∂x J + ∂w/∂ẋ B) + ∂Jᵀ w
+//! ```
+
+use super::body::{Placed, four, three};
+use super::consistency;
+use super::constants::Constants;
+use super::force::Interaction;
+use super::joint::Drive;
+use super::marker::{MOST, Part, Pose};
+use super::model::{Model, ModelError};
+use super::rotation::{
+    IDENTITY, Matrix3, Vector, apply, apply_transposed, compose, exponential, inverse, logarithm, normalized,
+    plus, product, rate, skew, tangent, times,
+};
+use super::row::{Row, Wrench};
+use crate::linalg::vector::{cross, inner};
+use crate::linalg::{Matrix, Structure};
+use crate::profile::HubKinematics;
+use crate::system::{
+    Break, Dynamics, Events, NotSet, Parameter, RowWeights, Set, Size, State, Steady, VisitRow, Weights,
+};
+use std::sync::Arc;
+
+/// Velocities that two markers can have together.
+const PAIR: usize = 2 * MOST;
+
+/// Rigid bodies with joints.
+#[derive(Clone, Debug)]
+pub struct Multibody {
+    pub(super) constants: Arc<Constants>,
+    pub(super) initial: State,
+    /// Part of the loads that acts.
+    pub(super) part: f64,
+    pub(super) placed: Vec<Placed>,
+    pub(super) poses: Vec<Pose>,
+    /// Prescribed motion of each joint, and the time for which it was computed.
+    pub(super) motions: Vec<HubKinematics>,
+    time: f64,
+    charts: Vec<Matrix3>,
+}
+
+impl Multibody {
+    /// The system of a model. Bodies must fit their joints at the start; velocities that do not obey them are replaced by the nearest that do, in the norm
+    /// of kinetic energy.
+    ///
+    /// # Errors
+    /// [`ModelError`].
+    pub fn new(model: Model) -> Result<Multibody, ModelError> {
+        model.check()?;
+        let rows: Vec<(usize, Row)> = model
+            .joints
+            .iter()
+            .enumerate()
+            .flat_map(|(k, joint)| joint.rows().into_iter().map(move |row| (k, row)))
+            .collect();
+        let (constants, in_tree) = Constants::new(model, rows, Vec::new());
+        let mut system = Multibody::with(constants);
+        let (constants, start) = (system.constants.clone(), system.initial.clone());
+        consistency::positions(&mut system, &constants, &start)?;
+        let found = consistency::redundant(&mut system, &constants, &start, &in_tree)?;
+        if !found.is_empty() {
+            let names: Vec<String> = found.iter().map(|(_, name)| name.clone()).collect();
+            if !constants.model.drop_redundant {
+                let freedoms = constants.size.v + found.len() - constants.size.lambda;
+                return Err(ModelError::Redundant { rows: names, freedoms });
+            }
+            let kept = constants.rows.iter().enumerate();
+            let kept = kept.filter(|(i, _)| found.iter().all(|(row, _)| row != i)).map(|(_, row)| *row);
+            let (constants, _) = Constants::new(constants.model.clone(), kept.collect(), names);
+            system = Multibody::with(constants);
+        }
+        consistency::velocities(&mut system, &start).map(|v| system.initial.v = v)?;
+        Ok(system)
+    }
+
+    /// The system with these constants.
+    fn with(constants: Constants) -> Multibody {
+        let poses = constants.markers.iter().map(|(part, frame)| match part {
+            Part::Ground => Pose::grounded(*frame),
+            Part::Body(i) => Pose::on_body(6 * constants.place[*i]),
+        });
+        let poses = poses.collect();
+        let (bodies, joints) = (constants.place.len(), constants.of_joint.len());
+        Multibody {
+            initial: constants.start(),
+            constants: Arc::new(constants),
+            part: 1.0,
+            placed: vec![Placed::default(); bodies],
+            poses,
+            motions: vec![HubKinematics::default(); joints],
+            time: f64::NAN,
+            charts: vec![IDENTITY; bodies],
+        }
+    }
+
+    /// Rows that were left out because they follow from others, each with the joints that it follows from.
+    pub fn dropped(&self) -> &[String] {
+        &self.constants.dropped
+    }
+
+    /// Number of degrees of freedom: velocities less rows.
+    pub fn freedoms(&self) -> usize {
+        self.constants.size.v - self.constants.size.lambda
+    }
+
+    /// Places bodies and markers.
+    pub(super) fn place(&mut self, s: &State) {
+        let Multibody { constants, placed, poses, motions, time, .. } = self;
+        for (i, placed) in placed.iter_mut().enumerate() {
+            *placed = Placed::new(&s.q[7 * i..], &s.v[6 * i..], &s.a[6 * i..]);
+        }
+        for (pose, (part, frame)) in poses.iter_mut().zip(&constants.markers) {
+            if let Part::Body(i) = part {
+                pose.place(&placed[constants.place[*i]], frame);
+            }
+        }
+        if s.time() != *time {
+            *time = s.time();
+            for (joint, motion) in constants.model.joints.iter().zip(motions) {
+                if let Drive::Prescribed(prescribed) = &joint.drive {
+                    *motion = prescribed.at(*time);
+                }
+            }
+        }
+    }
+
+    /// The markers of joint `k`.
+    pub(super) fn ends(&self, k: usize) -> (&Pose, &Pose) {
+        (&self.poses[2 * k], &self.poses[2 * k + 1])
+    }
+
+    /// The markers of spring `k`.
+    pub(super) fn spring_ends(&self, k: usize) -> (&Pose, &Pose) {
+        self.ends(self.motions.len() + k)
+    }
+
+    /// The marker of load `k`.
+    pub(super) fn load_end(&self, k: usize) -> &Pose {
+        &self.poses[2 * (self.motions.len() + self.constants.model.springs.len()) + k]
+    }
+
+    /// Writes the wrench of joint `k`, with its derivatives if asked.
+    pub(super) fn interact_joint(&self, s: &State, k: usize, differentiate: bool, work: &mut Interaction) {
+        let constants = &*self.constants;
+        work.clear(differentiate);
+        let ((a, b), motion) = (self.ends(k), &self.motions[k]);
+        for i in constants.of_joint[k].clone() {
+            let (row, lambda) = (constants.rows[i].1, s.lambda[i]);
+            work.add(lambda, &row.normal(a, b, motion));
+            if differentiate {
+                row.add_gradient(lambda, (a, b), motion, &mut work.gradient);
+            }
+        }
+        if let (Drive::Actuated(actuator), Some(coordinate)) =
+            (&constants.model.joints[k].drive, constants.coordinates[k])
+        {
+            let motion = coordinate.motion(a, b, constants.angle[k].map(|i| s.q[i]));
+            coordinate.interact(actuator, (a, b), &motion, s.time(), work, differentiate);
+        }
+    }
+
+    /// Calls `visit` for every joint, spring and load with its markers and its wrench.
+    fn interactions(
+        &self,
+        s: &State,
+        differentiate: bool,
+        mut visit: impl FnMut(Option<&Pose>, &Pose, &Interaction),
+    ) {
+        let model = &self.constants.model;
+        let mut work = Interaction::new();
+        for k in 0..model.joints.len() {
+            self.interact_joint(s, k, differentiate, &mut work);
+            let (a, b) = self.ends(k);
+            visit(Some(a), b, &work);
+        }
+        for (k, spring) in model.springs.iter().enumerate() {
+            work.clear(differentiate);
+            let (a, b) = self.spring_ends(k);
+            spring.interact(a, b, &mut work, differentiate);
+            visit(Some(a), b, &work);
+        }
+        for (k, load) in model.loads.iter().enumerate() {
+            work.clear(differentiate);
+            let b = self.load_end(k);
+            load.interact(b, (s.time(), self.part), &mut work);
+            visit(None, b, &work);
+        }
+    }
+}
+
+/// Adds c Jᵀ w of one marker.
+#[inline]
+fn add_force(c: f64, pose: &Pose, force: Vector, moment: Vector, r: &mut [f64]) {
+    for k in 0..pose.count {
+        let column = |i: usize| pose.jacobian[i][k];
+        let sum = force[0] * column(0) + force[1] * column(1) + force[2] * column(2);
+        let turn = moment[0] * column(3) + moment[1] * column(4) + moment[2] * column(5);
+        r[pose.numbers[k]] += c * (sum + turn);
+    }
+}
+
+/// Adds to `out` −w.q ∂(Jᵀ w)/∂q − w.v ∂(Jᵀ w)/∂v of a pair of markers.
+fn add_tangent(
+    (a, b): (&Pose, &Pose),
+    interaction: &Interaction,
+    w: &Weights<'_>,
+    charts: Option<&[Matrix3]>,
+    out: &mut Matrix,
+) {
+    let count = a.count + b.count;
+    let number = |k: usize| if k < a.count { a.numbers[k] } else { b.numbers[k - a.count] };
+    // ∂w by the velocities of both parts: by their positions, and by themselves.
+    let (mut by_q, mut by_v) = ([[0.0; PAIR]; 12], [[0.0; PAIR]; 12]);
+    for (pose, at, side) in [(a, 0, 0), (b, a.count, 6)] {
+        for i in 0..12 {
+            for l in 0..6 {
+                let (stiffness, damping) =
+                    (interaction.gradient[i][side + l], interaction.damping[i][side + l]);
+                if stiffness != 0.0 {
+                    (0..pose.count).for_each(|k| by_q[i][at + k] += stiffness * pose.jacobian[l][k]);
+                }
+                if damping != 0.0 {
+                    (0..pose.count).for_each(|k| by_q[i][at + k] += damping * pose.transport[l][k]);
+                    (0..pose.count).for_each(|k| by_v[i][at + k] += damping * pose.jacobian[l][k]);
+                }
+            }
+        }
+    }
+    let (mut k_q, mut k_v) = ([[0.0; PAIR]; PAIR], [[0.0; PAIR]; PAIR]);
+    for (pose, at, side) in [(a, 0, 0), (b, a.count, 6)] {
+        for k in 0..pose.count {
+            for l in 0..6 {
+                let x = pose.jacobian[l][k];
+                if x != 0.0 {
+                    (0..count).for_each(|j| k_q[at + k][j] += x * by_q[side + l][j]);
+                    if interaction.damps {
+                        (0..count).for_each(|j| k_v[at + k][j] += x * by_v[side + l][j]);
+                    }
+                }
+            }
+        }
+        let [force, moment] = [interaction.wrench[side / 3], interaction.wrench[side / 3 + 1]];
+        pose.add_curvature(1.0, force, moment, at, &mut k_q);
+    }
+    for (pose, at) in [(a, 0), (b, a.count)].into_iter().filter(|(pose, _)| pose.count > 0) {
+        if let Some(charts) = charts {
+            let t = &charts[pose.numbers[0] / 6];
+            for row in &mut k_q[..count] {
+                let turned = apply_transposed(t, three(row, at + 3));
+                row[at + 3..at + 6].copy_from_slice(&turned);
+            }
+        }
+    }
+    for i in 0..count {
+        for j in 0..count {
+            out.add(number(i), number(j), -w.q * k_q[i][j] - w.v * k_v[i][j]);
+        }
+    }
+}
+
+impl Dynamics for Multibody {
+    fn size(&self) -> Size {
+        self.constants.size
+    }
+
+    fn structure(&self, multipliers: usize) -> Structure {
+        self.constants.structures[multipliers.min(2)].clone()
+    }
+
+    fn scales(&self) -> &[f64] {
+        &self.constants.scales
+    }
+
+    fn unknown(&self, i: usize) -> String {
+        let Constants { size, place, model, .. } = &*self.constants;
+        if i >= size.v {
+            return self.constants.row_name((i - size.v) % size.lambda.max(1));
+        }
+        let body = place.iter().position(|place| *place == i / 6).map_or("", |k| &model.bodies[k].name);
+        let axis = ["x", "y", "z"][i % 3];
+        let what = if i % 6 < 3 {
+            format!("velocity along {axis}")
+        } else {
+            format!("angular velocity about its {axis}")
+        };
+        format!("{what} of `{body}`")
+    }
+
+    fn initial(&self) -> State {
+        self.initial.clone()
+    }
+
+    fn is_vector_space(&self) -> bool {
+        false
+    }
+
+    fn retract(&self, q: &[f64], d: &[f64], out: &mut [f64]) {
+        for i in 0..self.placed.len() {
+            let (q, d, out) = (&q[7 * i..], &d[6 * i..], &mut out[7 * i..]);
+            out[..3].copy_from_slice(&plus(three(q, 0), 1.0, three(d, 0)));
+            out[3..7].copy_from_slice(&normalized(compose(four(q, 3), exponential(three(d, 3)))));
+        }
+        self.constants.count_angles(q, out);
+    }
+
+    fn difference(&self, from: &[f64], to: &[f64], d: &mut [f64]) {
+        for i in 0..self.placed.len() {
+            let (from, to, d) = (&from[7 * i..], &to[7 * i..], &mut d[6 * i..]);
+            d[..3].copy_from_slice(&plus(three(to, 0), -1.0, three(from, 0)));
+            d[3..6].copy_from_slice(&logarithm(compose(inverse(four(from, 3)), four(to, 3))));
+        }
+    }
+
+    fn rate(&self, d: &[f64], v: &[f64], out: &mut [f64]) {
+        for i in 0..self.placed.len() {
+            let (d, v, out) = (&d[6 * i..], &v[6 * i..], &mut out[6 * i..]);
+            out[..3].copy_from_slice(&v[..3]);
+            out[3..6].copy_from_slice(&rate(three(d, 3), three(v, 3)));
+        }
+    }
+
+    fn residual(&mut self, s: &State, r: &mut [f64]) {
+        self.place(s);
+        let model = &self.constants.model;
+        for (body, &place) in model.bodies.iter().zip(&self.constants.place) {
+            let Placed { velocity, spin, acceleration, spin_rate, .. } = self.placed[place];
+            let force = plus(plus(acceleration, body.damping, velocity), -self.part, model.gravity);
+            let momentum = apply(&body.inertia, spin);
+            let rate = apply(&body.inertia, plus(spin_rate, body.damping, spin));
+            r[6 * place..6 * place + 3].copy_from_slice(&times(body.mass, force));
+            r[6 * place + 3..6 * place + 6].copy_from_slice(&plus(rate, 1.0, cross(spin, momentum)));
+        }
+        self.interactions(s, false, |a, b, interaction| {
+            let [f_a, m_a, f_b, m_b] = interaction.wrench;
+            if let Some(a) = a {
+                add_force(-1.0, a, f_a, m_a, r);
+            }
+            add_force(-1.0, b, f_b, m_b, r);
+        });
+    }
+
+    fn rows(&self) -> &[Set] {
+        &self.constants.sets
+    }
+
+    fn constraint(&mut self, s: &State, c: RowWeights, g: &mut [f64]) {
+        self.place(s);
+        for (g, (joint, row)) in g.iter_mut().zip(&self.constants.rows) {
+            let (a, b) = self.ends(*joint);
+            *g = row.value(a, b, &self.motions[*joint]).combine(c);
+        }
+    }
+
+    fn jacobian(&mut self, s: &State, visit: &mut VisitRow<'_>) {
+        self.place(s);
+        for (i, (joint, row)) in self.constants.rows.iter().enumerate() {
+            let (a, b) = self.ends(*joint);
+            let normal: Wrench = row.normal(a, b, &self.motions[*joint]);
+            let (mut numbers, mut entries) = ([0; PAIR], [0.0; PAIR]);
+            for (pose, at, [force, moment]) in
+                [(a, 0, [normal[0], normal[1]]), (b, a.count, [normal[2], normal[3]])]
+            {
+                for k in 0..pose.count {
+                    numbers[at + k] = pose.numbers[k];
+                    let column = |first: usize| [0, 1, 2].map(|l| pose.jacobian[first + l][k]);
+                    entries[at + k] = inner(force, column(0)) + inner(moment, column(3));
+                }
+            }
+            let count = a.count + b.count;
+            visit(i, &numbers[..count], &entries[..count]);
+        }
+    }
+
+    fn tangent(&mut self, s: &State, w: Weights<'_>, out: &mut Matrix) {
+        out.clear();
+        self.place(s);
+        let constants = self.constants.clone();
+        let model = &constants.model;
+        for (body, &place) in model.bodies.iter().zip(&constants.place) {
+            let (at, spin) = (6 * place, self.placed[place].spin);
+            let gyro = product(&skew(spin), &body.inertia);
+            let momentum = skew(apply(&body.inertia, spin));
+            let inertia = w.a + w.v * body.damping;
+            for i in 0..3 {
+                out.add(at + i, at + i, inertia * body.mass);
+                for j in 0..3 {
+                    let x = inertia * body.inertia[i][j] + w.v * (gyro[i][j] - momentum[i][j]);
+                    out.add(at + 3 + i, at + 3 + j, x);
+                }
+            }
+        }
+        if w.q == 0.0 && w.v == 0.0 {
+            return;
+        }
+        for (pose, (part, _)) in self.poses.iter_mut().zip(&constants.markers) {
+            if let Part::Body(i) = part {
+                pose.transport(&self.placed[constants.place[*i]]);
+            }
+        }
+        if let Some(d) = w.increment {
+            self.charts.iter_mut().enumerate().for_each(|(i, chart)| *chart = tangent(three(d, 6 * i + 3)));
+        }
+        let charts = w.increment.map(|_| &self.charts[..]);
+        let ground = Pose::default();
+        self.interactions(s, true, |a, b, interaction| {
+            add_tangent((a.unwrap_or(&ground), b), interaction, &w, charts, out);
+        });
+    }
+}
+
+impl Events for Multibody {
+    fn breaks(&self) -> &[Break] {
+        &self.constants.breaks
+    }
+}
+
+impl Steady for Multibody {
+    fn set(&mut self, parameter: Parameter, value: f64) -> Result<(), NotSet> {
+        match parameter {
+            Parameter::LoadFactor => self.part = value,
+            Parameter::Speed => return Err(NotSet::Unknown("frame that could turn steadily")),
+        }
+        Ok(())
+    }
+
+    fn release(&mut self) {
+        self.part = 1.0;
+    }
+}

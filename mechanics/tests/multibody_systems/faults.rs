@@ -1,0 +1,127 @@
+//! What cannot be built is refused with names.
+
+use super::conformance::profile;
+use super::odd_body;
+use flexion::multibody::{Body, Drive, Joint, Kind, Marker, Model, ModelError, Multibody, Part, Spring};
+use flexion::profile::Motion;
+use flexion::system::Dynamics;
+
+fn message(model: Model) -> String {
+    Multibody::new(model).map(|_| ()).unwrap_err().to_string()
+}
+
+#[test]
+fn bodies_without_mass_or_with_impossible_inertia_are_refused() {
+    let of = |body: Body| {
+        let mut model = Model::new();
+        model.body(body);
+        message(model)
+    };
+    assert!(of(Body::new("ghost", 0.0, [1.0; 3])).contains("body `ghost` has the mass 0 kg"));
+    assert!(of(Body::new("rod", 1.0, [0.0, 1.0, 1.0])).contains("symmetric and positive definite"));
+    assert!(of(Body::new("odd", 1.0, [1.0, 1.0, 3.0])).contains("exceeds the sum of the others by 1.0"));
+    let mut turned = Body::new("turned", 1.0, [1.0; 3]);
+    turned.frame.rotation[0][0] = 0.9;
+    assert!(of(turned).contains("axes that are no rotation"));
+    assert_eq!(Multibody::new(Model::new()).map(|_| ()).unwrap_err(), ModelError::Empty);
+}
+
+#[test]
+fn joints_that_do_not_fit_name_themselves_and_by_how_much() {
+    let mut model = Model::new();
+    let part = model.body(Body::new("arm", 1.0, [1.0; 3]));
+    let from = Marker::new(Part::Ground, [0.0, 0.0, 0.2]).with_axis([0.0, 0.1, 1.0], None).unwrap();
+    model.joint(Joint::new("hinge", Kind::Revolute, from, Marker::new(part, [0.0; 3])));
+    let error = Multibody::new(model).map(|_| ()).unwrap_err();
+    let ModelError::Positions { violations } = &error else { panic!("{error}") };
+    assert!((violations[0].length - 0.2).abs() < 1e-15);
+    assert!((violations[0].angle - 0.1 / 1.01_f64.sqrt()).abs() < 1e-12, "{violations:?}");
+    assert!(error.to_string().contains("`hinge` by 2.000e-1 m"), "{error}");
+}
+
+#[test]
+fn names_ends_and_drives_are_checked() {
+    let two = || {
+        let mut model = Model::new();
+        let parts = [odd_body("one", 0.1), odd_body("two", 0.9)].map(|body| model.body(body));
+        (model, parts)
+    };
+    let (mut model, [one, two_]) = two();
+    model.join("one", Kind::Spherical, [one, two_], [0.0; 3], ([0.0, 0.0, 1.0], None)).unwrap();
+    assert!(message(model).contains("joint `one` has a name that is already taken"));
+    let (mut model, [one, _]) = two();
+    model.join("self", Kind::Spherical, [one, one], [0.0; 3], ([0.0, 0.0, 1.0], None)).unwrap();
+    assert!(message(model).contains("joint `self` has both ends on the same part"));
+    let (mut model, [one, _]) = two();
+    assert!(model.join("far", Kind::Fixed, [one, Part::Body(7)], [0.0; 3], ([0.0, 0.0, 1.0], None)).is_err());
+    assert!(model.join("none", Kind::Fixed, [one, Part::Ground], [0.0; 3], ([0.0; 3], None)).is_err());
+    let (mut model, [one, two_]) = two();
+    let [from, to] = [one, two_].map(|part| Marker::new(part, [0.0; 3]));
+    model.spring(Spring { name: "soft".into(), from, to, stiffness: -1.0, damping: 0.0, length: 0.0 });
+    assert!(
+        message(model).contains("spring `soft` has a stiffness, damping or length that is not a number ≥ 0")
+    );
+    let (mut model, [one, two_]) = two();
+    let joint = model.join("ball", Kind::Spherical, [one, two_], [0.0; 3], ([0.0, 0.0, 1.0], None)).unwrap();
+    joint.drive = Drive::Prescribed(Motion::Angle(profile("t")));
+    assert!(message(model).contains("joint `ball` is Spherical and has a drive"));
+    let (mut model, [one, two_]) = two();
+    let joint = model.join("jerk", Kind::Revolute, [one, two_], [0.0; 3], ([0.0, 0.0, 1.0], None)).unwrap();
+    joint.drive = Drive::Prescribed(Motion::Angle(profile("if(t < 1, 0, t - 1)")));
+    let text = message(model);
+    assert!(text.contains("joint `jerk` has a prescribed speed that jumps at t = 1 s"), "{text}");
+}
+
+/// A square of bars with four hinges: in the plane it moves, in space three rows follow from the others.
+fn four_bar(kinds: [Kind; 4]) -> Model {
+    let mut model = Model::new();
+    let mut body = |name: &str, x, y| model.body(Body::new(name, 1.0, [0.1; 3]).at([x, y, 0.0]));
+    let parts = [body("crank", 0.0, 0.5), body("coupler", 0.5, 1.0), body("rocker", 1.0, 0.5)];
+    let joints = [
+        ("A", [Part::Ground, parts[0]], [0.0, 0.0, 0.0]),
+        ("B", [parts[0], parts[1]], [0.0, 1.0, 0.0]),
+        ("C", [parts[1], parts[2]], [1.0, 1.0, 0.0]),
+        ("D", [parts[2], Part::Ground], [1.0, 0.0, 0.0]),
+    ];
+    for ((name, ends, point), kind) in joints.into_iter().zip(kinds) {
+        model.join(name, kind, ends, point, ([0.0, 0.0, 1.0], None)).unwrap();
+    }
+    model
+}
+
+#[test]
+fn redundant_rows_are_named_with_the_joints_that_they_follow_from() {
+    let error = Multibody::new(four_bar([Kind::Revolute; 4])).map(|_| ()).unwrap_err();
+    let ModelError::Redundant { rows, freedoms } = &error else { panic!("{error}") };
+    assert_eq!((rows.len(), *freedoms), (3, 1), "{error}");
+    for name in ["`A`", "`B`", "`C`", "`D`"] {
+        assert!(rows.iter().any(|row| row.contains(name)), "{name}: {rows:?}");
+    }
+    assert!(rows.iter().all(|row| row.contains("which follows from")), "{rows:?}");
+    // 5 + 4 + 3 + 5 = 17 rows of 18.
+    let free = [Kind::Revolute, Kind::Cylindrical, Kind::Spherical, Kind::Revolute];
+    assert_eq!(Multibody::new(four_bar(free)).unwrap().freedoms(), 1);
+    let dropped = Multibody::new(four_bar([Kind::Revolute; 4]).drop_redundant_rows()).unwrap();
+    assert_eq!((dropped.dropped().len(), dropped.freedoms(), dropped.size().lambda), (3, 1, 17));
+}
+
+#[test]
+fn a_locked_mechanism_is_refused() {
+    // A motion that is prescribed at both cranks.
+    let mut model = four_bar([Kind::Revolute, Kind::Cylindrical, Kind::Spherical, Kind::Revolute]);
+    for (k, at) in [(0, [0.0; 3]), (2, [1.0, 0.0, 0.0])] {
+        let ends = [Part::Ground, Part::Body(k)];
+        let joint = model.join(&format!("motor {k}"), Kind::Cylindrical, ends, at, ([0.0, 0.0, 1.0], None));
+        joint.unwrap().drive = Drive::Prescribed(Motion::Angle(profile("t")));
+    }
+    let text = message(model);
+    assert!(text.contains("prescribed angle in joint `motor 2` (which follows from"), "{text}");
+    assert!(text.contains("0 degrees of freedom are left"), "{text}");
+    // Two hinges with different axes hold a body: it moves no more, and nothing is redundant.
+    let mut model = Model::new();
+    let part = model.body(Body::new("box", 1.0, [0.1; 3]));
+    model.join("along z", Kind::Revolute, [Part::Ground, part], [0.0; 3], ([0.0, 0.0, 1.0], None)).unwrap();
+    model.join("along x", Kind::Revolute, [Part::Ground, part], [0.0; 3], ([1.0, 0.0, 0.0], None)).unwrap();
+    let text = message(model);
+    assert!(text.contains("redundant") && text.contains("0 degrees of freedom are left"), "{text}");
+}

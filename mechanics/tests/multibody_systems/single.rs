@@ -1,0 +1,217 @@
+//! One body: free rotation, free flight, a rail, a motor, a spring.
+
+use super::conformance::profile;
+use super::{GRAVITY, channel, odd_rotation, radau, run};
+use flexion::drive::{Actuator, Controller};
+use flexion::integrator::{GeneralizedAlpha, RungeKutta};
+use flexion::multibody::rotation::{apply, column};
+use flexion::multibody::{Axes, Body, Drive, Kind, Load, Marker, Model, Multibody, Part, Spring};
+use flexion::profile::Motion;
+use flexion::system::{Dynamics, Observed};
+
+/// A body on a joint with the ground at the origin.
+fn on_ground(body: Body, kind: Kind, axis: [f64; 3], drive: Drive) -> Multibody {
+    let mut model = Model::new().with_gravity([0.0, 0.0, -GRAVITY]);
+    let part = model.body(body);
+    model.join("joint", kind, [Part::Ground, part], [0.0; 3], (axis, None)).unwrap().drive = drive;
+    Multibody::new(model).unwrap()
+}
+
+/// Euler's equations of an asymmetric body that turns about nearly its middle axis: it tumbles, and keeps its energy and
+/// its angular momentum in space.
+#[test]
+fn a_free_body_tumbles_and_keeps_energy_and_momentum() {
+    let mut model = Model::new();
+    let mut body = Body::new("book", 2.0, [0.1, 0.2, 0.25]);
+    body.centre = [0.3, -0.2, 0.1];
+    body.frame.rotation = odd_rotation(0.4);
+    body.spin = apply(&body.frame.rotation, [0.05, 5.0, 0.02]);
+    body.velocity = [0.3, -0.1, 0.2];
+    model.body(body);
+    let mut system = Multibody::new(model).unwrap();
+    let start = system.initial();
+    let (energy, [linear, angular]) = (system.energy(&start).total(), system.momenta(&start));
+    let mut turned = false;
+    let (end, _) = run(&mut system, &mut radau(1e-12), 10.0, None, |_, s| turned |= s.v[4] < -4.9);
+    assert!(turned, "a body that turns about its middle axis turns over");
+    let [p, l] = system.momenta(&end);
+    assert!((system.energy(&end).total() / energy - 1.0).abs() < 1e-10);
+    for i in 0..3 {
+        assert!((p[i] - linear[i]).abs() < 1e-12, "{p:?} for {linear:?}");
+        assert!((l[i] - angular[i]).abs() < 1e-10, "{l:?} for {angular:?}");
+    }
+}
+
+/// A symmetric body in free flight: precession by Ω_n = (J₁ − J₃)/J₁ ω₃ in its own axes, and a parabola.
+#[test]
+fn a_symmetric_body_precesses_by_its_closed_form() {
+    let mut model = Model::new().with_gravity([0.0, 0.0, -GRAVITY]);
+    let mut body = Body::new("plate", 1.0, [0.2, 0.2, 0.35]).at([0.0, 0.0, 1.0]);
+    let (along, across) = (3.0, 0.8);
+    body.spin = [across, 0.0, along];
+    body.velocity = [1.0, 0.0, 2.0];
+    model.body(body);
+    let mut system = Multibody::new(model).unwrap();
+    let end = 1.7;
+    let (s, _) = run(&mut system, &mut radau(1e-11), end, None, |_, _| {});
+    let angle = (0.35 - 0.2) / 0.2 * along * end;
+    for (x, exact) in s.v[3..6].iter().zip([across * angle.cos(), across * angle.sin(), along]) {
+        assert!((x - exact).abs() < 1e-9, "{:?}", &s.v[3..]);
+    }
+    let height = 1.0 + 2.0 * end - 0.5 * GRAVITY * end * end;
+    assert!((channel(&mut system, &s, "plate.position.x") - end).abs() < 1e-12);
+    assert!((channel(&mut system, &s, "plate.position.z") - height).abs() < 1e-11);
+}
+
+/// On a rail with the slope n: u = ½ (g·n) t², and the forces of the rail hold the rest of the weight.
+#[test]
+fn a_body_slides_down_a_rail_without_friction() {
+    let axis = [0.6, 0.0, 0.8];
+    let mut body = Body::new("slider", 3.0, [0.1, 0.2, 0.3]);
+    body.centre = [0.1, 0.2, -0.05];
+    let mut system = on_ground(body, Kind::Prismatic, axis, Drive::None);
+    let methods: [(Box<dyn flexion::integrator::Integrator>, Option<f64>); 2] = [
+        (Box::new(radau(1e-10)), None),
+        (Box::new(GeneralizedAlpha::chung_hulbert(0.8).unwrap()), Some(1e-2)),
+    ];
+    for (mut method, step) in methods {
+        let (s, imbalance) = run(&mut system, method.as_mut(), 1.0, step, |_, _| {});
+        assert!((channel(&mut system, &s, "joint.displacement") + 0.5 * 0.8 * GRAVITY).abs() < 1e-10);
+        let force = ["x", "y", "z"].map(|c| channel(&mut system, &s, &format!("joint.force.{c}")));
+        // −m g + m (g·n) n
+        let exact = [-3.0 * GRAVITY * 0.8 * 0.6, 0.0, 3.0 * GRAVITY * (1.0 - 0.64)];
+        assert!((0..3).all(|i| (force[i] - exact[i]).abs() < 1e-7), "{force:?} for {exact:?}");
+        assert!(imbalance < 1e-9, "{imbalance:e}");
+    }
+}
+
+/// A hinge with a prescribed angle is the planar hub: the torque is (J + m a²) θ̈ + m g a cos θ, and the hinge holds the
+/// centripetal force.
+#[test]
+fn a_prescribed_hinge_takes_the_torque_of_its_inertia() {
+    let (mass, arm, inertia) = (2.0, 0.7, 0.3);
+    let mut body = Body::new("arm", mass, [0.05, inertia, inertia]);
+    body.centre = [arm, 0.0, 0.0];
+    // About −y, so that a positive angle lifts the arm.
+    let motion = Motion::Angle(profile("1.5*t^2 + 0.2*sin(3*t)"));
+    let mut system = on_ground(body, Kind::Revolute, [0.0, -1.0, 0.0], Drive::Prescribed(motion));
+    let end = 2.6;
+    let (s, imbalance) = run(&mut system, &mut radau(1e-11), end, None, |_, _| {});
+    let (angle, speed) = (1.5 * end * end + 0.2 * (3.0 * end).sin(), 3.0 * end + 0.6 * (3.0 * end).cos());
+    let acceleration = 3.0 - 1.8 * (3.0 * end).sin();
+    let torque = (inertia + mass * arm * arm) * acceleration + mass * GRAVITY * arm * angle.cos();
+    // The angle is counted on beyond a turn.
+    assert!(angle > 10.0 && (channel(&mut system, &s, "joint.angle") - angle).abs() < 1e-9);
+    assert!((channel(&mut system, &s, "joint.speed") - speed).abs() < 1e-8);
+    let found = channel(&mut system, &s, "joint.torque");
+    assert!((found / torque - 1.0).abs() < 1e-5, "{found} for {torque}");
+    let axial = mass * (-speed * speed * arm * angle.cos() - acceleration * arm * angle.sin());
+    let found = channel(&mut system, &s, "joint.force.x");
+    assert!((found - axial).abs() < 1e-4 * axial.abs(), "{found} for {axial}");
+    // Of 35 J: the balance takes multipliers as linear within a step.
+    assert!(imbalance < 3e-4, "{imbalance:e}");
+}
+
+/// A rotor on a motor with spring, damper and controller against the same equation with one unknown:
+/// J θ̈ = f(t) − c θ̇ − k (θ − θ_k) + K_p (θ_r − θ) + K_d (θ̇_r − θ̇), over several turns.
+#[test]
+fn a_motor_drives_a_rotor_as_its_equation_says() {
+    let actuator = Actuator {
+        torque: profile("0.4*sin(2*t)"),
+        damping: 0.1,
+        stiffness: 0.5,
+        rest_angle: 0.2,
+        controller: Some(Controller {
+            proportional: 6.0,
+            derivative: 1.5,
+            reference: Motion::Angle(profile("6*t")),
+            limit: f64::INFINITY,
+        }),
+    };
+    let inertia = 0.4;
+    let body = Body::new("rotor", 1.0, [0.3, 0.3, inertia]);
+    let mut system = on_ground(body, Kind::Revolute, [0.0, 0.0, 1.0], Drive::Actuated(actuator));
+    let end = 4.0;
+    let (s, imbalance) = run(&mut system, &mut radau(1e-11), end, None, |_, _| {});
+    let rate = |t: f64, x: f64, v: f64| {
+        let torque =
+            0.4 * (2.0 * t).sin() - 0.1 * v - 0.5 * (x - 0.2) + 6.0 * (6.0 * t - x) + 1.5 * (6.0 - v);
+        torque / inertia
+    };
+    let (mut x, mut v) = (0.0, 0.0);
+    let steps = 20_000;
+    let h = end / steps as f64;
+    for k in 0..steps {
+        let t = k as f64 * h;
+        let (x1, v1) = (v, rate(t, x, v));
+        let (x2, v2) = (v + 0.5 * h * v1, rate(t + 0.5 * h, x + 0.5 * h * x1, v + 0.5 * h * v1));
+        let (x3, v3) = (v + 0.5 * h * v2, rate(t + 0.5 * h, x + 0.5 * h * x2, v + 0.5 * h * v2));
+        let (x4, v4) = (v + h * v3, rate(t + h, x + h * x3, v + h * v3));
+        x += h / 6.0 * (x1 + 2.0 * x2 + 2.0 * x3 + x4);
+        v += h / 6.0 * (v1 + 2.0 * v2 + 2.0 * v3 + v4);
+    }
+    assert!(x > 15.0);
+    let found = [channel(&mut system, &s, "joint.angle"), channel(&mut system, &s, "joint.speed")];
+    assert!((found[0] - x).abs() < 1e-7 && (found[1] - v).abs() < 1e-6, "{found:?} for {x} {v}");
+    assert!(imbalance < 1e-5, "{imbalance:e}");
+}
+
+/// A mass on a spring to the ground, along a line that is no axis: ω = √(k/m), with damping.
+#[test]
+fn a_mass_on_a_spring_vibrates_by_its_closed_form() {
+    let (mass, stiffness, damping) = (1.5, 60.0, 1.2);
+    let direction = column(&odd_rotation(0.3), 0);
+    let mut model = Model::new();
+    let part = model.body(Body::new("mass", mass, [0.1; 3]).at(direction.map(|x| 1.3 * x)));
+    let [from, to] = [Marker::new(Part::Ground, [0.0; 3]), Marker::new(part, [0.0; 3])];
+    model.spring(Spring { name: "spring".into(), from, to, stiffness, damping, length: 1.0 });
+    let mut system = Multibody::new(model).unwrap();
+    let end = 3.0;
+    let mut method = RungeKutta::new();
+    let (s, imbalance) = run(&mut system, &mut method, end, Some(1e-3), |_, _| {});
+    let decay = damping / (2.0 * mass);
+    let omega = (stiffness / mass - decay * decay).sqrt();
+    let (sin, cos) = (omega * end).sin_cos();
+    let exact = 1.0 + 0.3 * (-decay * end).exp() * (cos + decay / omega * sin);
+    let length = s.q[..3].iter().map(|x| x * x).sum::<f64>().sqrt();
+    assert!((length - exact).abs() < 1e-9, "{length} for {exact}");
+    assert!(imbalance < 1e-6, "{imbalance:e}");
+}
+
+/// A follower force through the centre of mass and a dead couple about an axis of symmetry.
+#[test]
+fn a_follower_force_turns_with_its_body_and_a_dead_couple_does_not() {
+    let mut model = Model::new();
+    let part = model.body(Body::new("disc", 2.0, [0.2, 0.2, 0.4]));
+    let load = |name: &str, axes, force, moment| Load {
+        name: name.to_owned(),
+        at: Marker::new(part, [0.0; 3]),
+        force,
+        moment,
+        axes,
+        amplitude: None,
+    };
+    model.load(load("thrust", Axes::Follower, [4.0, 0.0, 0.0], [0.0; 3]));
+    model.load(load("couple", Axes::Dead, [0.0; 3], [0.0, 0.0, 0.2]));
+    let mut system = Multibody::new(model).unwrap();
+    let end: f64 = 2.0;
+    let (s, imbalance) = run(&mut system, &mut radau(1e-11), end, None, |_, _| {});
+    assert!((s.v[5] - 0.5 * end).abs() < 1e-10);
+    // v = ∫ F/m (cos, sin)(¼ t²) dt by Simpson's rule.
+    let n = 2000;
+    let weight = |k: usize| {
+        if k == 0 || k == n {
+            1.0
+        } else if k % 2 == 1 {
+            4.0
+        } else {
+            2.0
+        }
+    };
+    let integral = |f: &dyn Fn(f64) -> f64| {
+        (0..=n).map(|k| weight(k) * f(end * k as f64 / n as f64)).sum::<f64>() * end / (3 * n) as f64
+    };
+    let exact = [integral(&|t| 2.0 * (0.25 * t * t).cos()), integral(&|t| 2.0 * (0.25 * t * t).sin())];
+    assert!((s.v[0] - exact[0]).abs() < 1e-9 && (s.v[1] - exact[1]).abs() < 1e-9, "{:?} {exact:?}", s.v);
+    assert!(imbalance < 1e-8, "{imbalance:e}");
+}

@@ -1,0 +1,96 @@
+//! A helical spring that is drawn out: from one helix to another, in closed form.
+//!
+//! A helix of radius R and pitch angle α has the curvature κ = cos²α/R and the torsion τ = sin α cos α/R. With the moments
+//! EI (κ₁ − κ₀) about its binormal and GJ (τ₁ − τ₀) about its tangent it is in equilibrium under a force F and a couple along
+//! its axis, F = (GJ Δτ cos α − EI Δκ sin α)/R (Love 1927, art. 271).
+
+use super::newton::{Statics, distance, equal, orders};
+use flexion::multibody::slender::{Beam, Load, Properties, Station, Vector};
+
+const LENGTH: f64 = 6.0;
+const STIFFNESS: [f64; 4] = [500.0, 0.8, 1.0, 1.0];
+
+#[derive(Clone, Copy)]
+struct Helix {
+    radius: f64,
+    pitch: f64,
+    /// |r′|
+    stretch: f64,
+}
+
+impl Helix {
+    fn curvatures(&self) -> [f64; 2] {
+        let (sin, cos) = self.pitch.sin_cos();
+        [cos * cos / self.radius, sin * cos / self.radius].map(|k| k * self.stretch)
+    }
+
+    /// Position, t, principal normal and binormal.
+    fn at(&self, s: f64) -> [Vector; 4] {
+        let (sin, cos) = self.pitch.sin_cos();
+        let along = self.stretch * s;
+        let (y, x) = (along * cos / self.radius).sin_cos();
+        [
+            [self.radius * x, self.radius * y, along * sin],
+            [-cos * y, cos * x, sin],
+            [-x, -y, 0.0],
+            [sin * y, -sin * x, cos],
+        ]
+    }
+}
+
+/// The drawn helix with its stretch, and the force and the couple at its end.
+fn drawn(before: Helix, mut now: Helix) -> (Helix, Vector, Vector) {
+    let (sin, cos) = now.pitch.sin_cos();
+    let [k0, t0] = before.curvatures();
+    let (mut force, mut moments) = (0.0, [0.0; 2]);
+    for _ in 0..60 {
+        let [k, t] = now.curvatures();
+        moments = [STIFFNESS[1] * (t - t0), STIFFNESS[2] * (k - k0)];
+        force = (moments[0] * cos - moments[1] * sin) / now.radius;
+        now.stretch = 1.0 + force * sin / STIFFNESS[0];
+    }
+    let [_, t, _, b] = now.at(LENGTH);
+    (now, [0.0, 0.0, force], std::array::from_fn(|k| moments[0] * t[k] + moments[1] * b[k]))
+}
+
+/// The error of the tip and of the axes there, from the drawn helix as the first guess.
+fn error(elements: usize) -> f64 {
+    let before = Helix { radius: 0.5, pitch: 0.15, stretch: 1.0 };
+    let (now, force, couple) = drawn(before, Helix { radius: 0.45, pitch: 0.5, stretch: 1.0 });
+    let curve = |s: f64| {
+        let [position, tangent, normal, _] = before.at(s);
+        Station { position, tangent, normal }
+    };
+    let section = Properties::principal(STIFFNESS, 1.0, [1.0; 3]);
+    let beam = Beam::new(&equal(LENGTH, elements), curve, |_| section).unwrap();
+    let mut statics = Statics::clamped(beam);
+    let h = LENGTH / elements as f64;
+    for i in 0..=elements {
+        let [r, t, n, _] = now.at(i as f64 * h);
+        let slope = t.map(|t| now.stretch * t);
+        statics.q[12 * i..12 * i + 9].copy_from_slice(&[r, slope, n].concat());
+        if i < elements {
+            statics.q[12 * i + 9..12 * i + 12].copy_from_slice(&now.at((i as f64 + 0.5) * h)[2]);
+        }
+    }
+    // The normals in the middle are made normal to the tangents by a retraction without increment.
+    let mut q = statics.q.clone();
+    statics.beam.retract(&statics.q, &vec![0.0; statics.fixed.len()], &mut q);
+    statics.q = q;
+    // r′ at the clamp is free along the tangent.
+    let [_, t, ..] = now.at(0.0);
+    assert!(t[1] > 0.8);
+    statics.fixed[4] = true;
+    statics.loads = vec![(elements, Load::Force(force)), (elements, Load::Couple(couple))];
+    statics.solve(1.0);
+    let (position, triad) = statics.tip();
+    let [r, t, n, _] = now.at(LENGTH);
+    distance(position, r).max(distance(triad.tangent, t)).max(distance(triad.normal, n))
+}
+
+#[test]
+fn a_helical_spring_is_drawn_to_another_helix() {
+    let errors = [24, 48, 96].map(error);
+    let order = orders(&errors);
+    assert!(errors[2] < 1e-5 && order.iter().all(|order| *order > 3.7), "{errors:?} of order {order:?}");
+}

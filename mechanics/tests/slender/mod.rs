@@ -1,0 +1,16 @@
+//! The spatial slender beam.
+
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+mod automatic;
+mod bend;
+mod buckling;
+mod coupled;
+mod derivatives;
+mod frequencies;
+mod helix;
+mod invariance;
+mod newton;
+mod plane;
+mod princeton;
+mod rotation;
