@@ -61,6 +61,8 @@ pub struct Output {
     pub strain_heights: Vec<f64>,
     /// Whether work, losses and the balance of energy are recorded.
     pub energy_balance: bool,
+    /// Whether the shares of the transverse modes are recorded.
+    pub modal_shares: bool,
     /// Interval between shapes of the beam for ParaView \[s\]; `None` writes none.
     pub vtk: Option<f64>,
 }
@@ -224,6 +226,10 @@ fn output(v: &Values, c: &Context<'_>) -> Made<Output> {
             format!("the output step {step} s makes {records:.1e} records in {duration} s; at most {MOST_RECORDS:.0e} are kept")
         });
     }
+    let modal_shares = output.boolean("modal-shares")?;
+    found.check(modal_shares && v.kind("basis") != Some("modes"), "modal-shares", || {
+        "only the functions of the basis `modes` are modes: choose it, or leave the shares out".to_owned()
+    });
     let mut vtk = None;
     if output.boolean("vtk") == Ok(true) {
         let usual = if duration > 0.0 { duration / SHAPES } else { ONE };
@@ -246,6 +252,7 @@ fn output(v: &Values, c: &Context<'_>) -> Made<Output> {
         section_forces: output.boolean("section-forces")?,
         strain_heights: output.numbers("strain-heights")?.to_vec(),
         energy_balance: output.boolean("energy-balance")?,
+        modal_shares,
         vtk,
     })
 }

@@ -104,8 +104,8 @@ pub static MOUNT: Choice<Mount> = Choice {
             summary: "inertial axes, from the axis of the hub",
             source: "",
             keys: &[],
-            example: "contact=[{obstacle={kind='plane', mount='ground', point=[0, '0.2 mm']}, law={kind='hertz', stiffness=1e5}}]\n\
-                      hub.motion={kind='constant', speed='-1 rad/s'}",
+            example: "contact=[{obstacle={kind='plane', mount='ground', point=[0, '-1 mm']}, law={kind='hertz', stiffness=1e4}}]\n\
+                      hub.motion={kind='constant', speed='-0.1 rad/s'}",
             make: |_, _| Ok(Mount::Ground),
         },
         Kind {

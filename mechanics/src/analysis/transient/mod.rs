@@ -429,8 +429,9 @@ impl Run {
                 contacts.count_event(state.t, part)?;
             }
             let impact = contacts.strike(system, state, &self.impulse)?;
+            // A prescribed motion does work in every impact.
+            work += system.impulse_work(&before, state);
             if jump {
-                work += system.impulse_work(&before, state);
                 happened.push(EventKind::Jump { work });
             }
             work += impact.work;
