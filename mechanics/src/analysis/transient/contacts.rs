@@ -24,6 +24,8 @@ pub(super) struct Contacts {
     rates: Vec<f64>,
     /// Events in a row with no time between them.
     events: usize,
+    /// Whether the integrator resolves the contacts, so that only the model's own indicators are looked at.
+    pub(super) resolved: bool,
 }
 
 impl Contacts {
@@ -36,11 +38,21 @@ impl Contacts {
             neglected: Neglected::default(),
             rates: vec![0.0; state.lambda.len()],
             events: 0,
+            resolved: false,
         })
+    }
+
+    /// For an integrator that resolves contacts: what is left is the model's own indicators, if it has any.
+    pub(super) fn of_indicators(mut self) -> Option<Contacts> {
+        self.resolved = true;
+        self.locator.ignore_rows().then_some(self)
     }
 
     /// Sets the modes of the contacts at the start of a run.
     pub(super) fn settle(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), RunError> {
+        if self.resolved {
+            return Ok(());
+        }
         let sets = system.rows();
         let rubs = |normal: usize| {
             sets.iter().filter(|set| matches!(set, Set::Friction { normal: n, .. } if *n == normal)).count()

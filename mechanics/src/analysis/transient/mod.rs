@@ -142,7 +142,7 @@ impl Run {
         observer: &mut dyn Observer,
     ) -> Result<(), RunError> {
         if integrator.resolves_contacts() {
-            self.contacts = None;
+            self.contacts = self.contacts.take().and_then(Contacts::of_indicators);
         }
         if let Some(contacts) = &mut self.contacts {
             contacts.settle(system, state)?;
@@ -206,7 +206,7 @@ impl Run {
             self.stretch = Some(stretch);
         }
         if integrator.resolves_contacts() {
-            self.contacts = None;
+            self.contacts = self.contacts.take().and_then(Contacts::of_indicators);
         }
         let step = self.stretch.map_or(plan.end - origin, |stretch| stretch.step);
         let started = integrator.start(system, &mut state.clone(), step);
@@ -427,6 +427,9 @@ impl Run {
             };
             if let Some(part) = event {
                 contacts.count_event(state.t, part)?;
+            }
+            if contacts.resolved && !jump {
+                return self.restart(system, integrator, state, (work, lost), happened, observer);
             }
             let impact = contacts.strike(system, state, &self.impulse)?;
             if jump {
