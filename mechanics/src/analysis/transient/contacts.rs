@@ -108,6 +108,24 @@ impl Contacts {
     }
 }
 
+/// Energy \[J\] that contacts have taken by their normal impulses in a step of a nonsmooth method, −½ hλ (ġ₀ + ġ₁): in a step
+/// without impact it is a part of the error of the step.
+pub(super) fn loss(system: &mut dyn System, from: &State, to: &State, rates: &mut [f64]) -> f64 {
+    let half = 0.5 * (to.t - from.t);
+    let mut lost = 0.0;
+    let presses = |i: usize, sets: &[Set]| matches!(sets[i], Set::Unilateral { .. }) && to.lambda[i] > 0.0;
+    if !(0..rates.len()).any(|i| presses(i, system.rows())) {
+        return 0.0;
+    }
+    for s in [from, to] {
+        system.constraint(s, RowWeights::VELOCITY, rates);
+        for (i, rate) in rates.iter().enumerate().filter(|(i, _)| presses(*i, system.rows())) {
+            lost -= half * to.lambda[i] * rate;
+        }
+    }
+    lost
+}
+
 /// Whether a contact is closed, or may close within two steps of size `h` with the present velocity and acceleration.
 pub(super) fn approaches(system: &mut dyn System, s: &State, h: f64, gaps: &mut [f64]) -> bool {
     if gaps.is_empty() {

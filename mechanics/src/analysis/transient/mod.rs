@@ -20,7 +20,7 @@ use crate::contact::{Bounds, Impact, ImpactMap};
 use crate::integrator::{Checkpoint, Integrator, NotResumed, Span, StepControl, StepReport};
 use crate::system::{Crossing, Jump, Side, State, System};
 use adaptive::adapt;
-use contacts::{Contacts, approaches};
+use contacts::{Contacts, approaches, loss};
 use stretch::Stretch;
 
 /// Shortest recording interval, over the length of the run.
@@ -314,6 +314,9 @@ impl Run {
                 stretch.advance();
             }
             if let Some(balance) = &mut self.balance {
+                if integrator.resolves_contacts() {
+                    balance.add_impulse(0.0, loss(system, state, &next, &mut self.gaps));
+                }
                 balance.enter(system, integrator, (state, &next));
             }
             self.show(system, integrator, state, &next, plan, observer);
