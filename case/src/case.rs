@@ -139,7 +139,10 @@ pub(super) fn case(v: &mut Values, files: &super::sources::Files<'_>) -> Made<Ca
         let at_tip = |load: &Load| load.mass.is_some_and(|mass| mass.station == length);
         let has_mass = [
             (coupling.whole_curve, "the exact coupling needs it: use `first` or `high`"),
-            (bases.massless.is_none(), "no function of this basis moves the tip alone: use finite elements or modes"),
+            (
+                bases.massless.is_none(),
+                "no function of this basis moves the tip alone: use finite elements or modes",
+            ),
             (section.planar.resultants(length).rotary_inertia != 0.0, "the section has rotary inertia"),
             (loads.iter().any(at_tip), "a mass is fixed there"),
         ];

@@ -68,7 +68,16 @@ impl Either {
 impl Functions {
     /// Functions of this extent, to be refined by this key.
     fn new(extent: (f64, f64), finer: (&'static str, usize), build: Build) -> Functions {
-        Functions { extent, finer, build, massless: None, elements: None, safety: SAFETY, blame: "kind", table: "" }
+        Functions {
+            extent,
+            finer,
+            build,
+            massless: None,
+            elements: None,
+            safety: SAFETY,
+            blame: "kind",
+            table: "",
+        }
     }
 }
 

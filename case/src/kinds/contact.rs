@@ -380,7 +380,9 @@ pub static CONTACT: Table<Contact> = Table {
         )?;
         if massless && stations != [c.length()?] {
             let message = "only the tip can do without mass: at other stations a law with restitution or a force is needed";
-            return Err(Fault::new("law", message).help("write `law = { kind = \"constraint\", restitution = 0.5 }`").into());
+            return Err(Fault::new("law", message)
+                .help("write `law = { kind = \"constraint\", restitution = 0.5 }`")
+                .into());
         }
         Ok(Contact { name, stations, mount, obstacle, law, massless })
     },
@@ -417,7 +419,8 @@ pub fn points(contacts: &[Contact]) -> impl Iterator<Item = (String, f64, &Conta
 pub fn fits_massless(contacts: &[Contact], why_not: Option<&str>) -> Made<()> {
     match (contacts.iter().position(|contact| contact.massless), why_not) {
         (Some(i), Some(why)) => {
-            let message = format!("a contact without a law of its own takes the mass from the tip, but {why}");
+            let message =
+                format!("a contact without a law of its own takes the mass from the tip, but {why}");
             let help = "give it a law: `law = { kind = \"constraint\", restitution = 0.5 }`";
             Err(Fault::new(&format!("contact[{}].law", i + 1), message).help(help).into())
         }
