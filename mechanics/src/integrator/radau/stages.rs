@@ -270,7 +270,7 @@ impl Stages {
             d[k] = h_gamma * from.v[k] + row2[0] * a1[k] + row2[1] * a2[k] + row2[2] * a3[k];
         }
         if !self.flat {
-            system.rate(&self.increments[i][..n], &self.stage.v, &mut self.rates[i][..n]);
+            system.rate(&from.q, &self.increments[i][..n], &self.stage.v, &mut self.rates[i][..n]);
             for k in 0..n {
                 let d: f64 = (0..3).map(|j| row[j] * self.rates[j][k]).sum();
                 self.shift += ((d - self.increments[i][k]) * self.inverse_weight[k]).powi(2);
