@@ -325,8 +325,13 @@ impl Stages {
             a1[i] -= inverse * x;
             a2[i] -= inverse * y;
             a3[i] -= inverse * z;
+            let speed = rows(&A_INVERSE, d);
+            if !self.flat {
+                // The rates of later stages are not yet those of the new velocities.
+                self.rates.iter_mut().zip(speed).for_each(|(rate, x)| rate[i] -= x / h);
+            }
             let w = self.inverse_weight[i];
-            square += (squares(d) + squares(rows(&A_INVERSE, d))) * (w * w);
+            square += (squares(d) + squares(speed)) * (w * w);
         }
         (square / (6 * velocities.max(1)) as f64).sqrt()
     }
