@@ -146,7 +146,7 @@ fn the_energy_balance_closes_through_impacts_of_a_beam_whose_hub_turns_as_prescr
             &contact,
             "hub.motion={kind='spin-up',speed='4 rad/s',time='0.1 s'}",
             "integrator={kind='radau',tolerance=1e-9,absolute-tolerance=1e-11}",
-            "run.duration='0.1 s'",
+            "run.duration='0.25 s'",
         ]));
         let last = |name: &str| *run.trajectory.column(name).unwrap().last().unwrap();
         assert!(run.events.impacts().count() > 0 && last("energy.drive") != 0.0, "{obstacle}");
