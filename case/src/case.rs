@@ -133,6 +133,22 @@ pub(super) fn case(v: &mut Values, files: &super::sources::Files<'_>) -> Made<Ca
         let name = v.kind("basis").unwrap_or_default();
         found.part(fits_whole_curve(bases, name, section.as_ref(), length));
     }
+    if let (Some(coupling), Some(bases), Some(section), Some(loads), Some(contacts), Some(length)) =
+        (coupling, &bases, &section, &loads, &contacts, c.length)
+    {
+        let at_tip = |load: &Load| load.mass.is_some_and(|mass| mass.station == length);
+        let has_mass = [
+            (coupling.whole_curve, "the exact coupling needs it: use `first` or `high`"),
+            (
+                bases.massless.is_none(),
+                "no function of this basis moves the tip alone: use finite elements or modes",
+            ),
+            (section.planar.resultants(length).rotary_inertia != 0.0, "the section has rotary inertia"),
+            (loads.iter().any(at_tip), "a mass is fixed there"),
+        ];
+        let why_not = has_mass.iter().find(|(has, _)| *has).map(|(_, why)| *why);
+        found.part(contact::fits_massless(contacts, why_not));
+    }
     if let (Some(Some(blade)), Some(section)) = (&blade, &section) {
         found.part(blade.built(section, 0.0).map_err(|faults| faults.within("blade")));
     }

@@ -42,6 +42,7 @@
 
 mod coupled;
 mod decoupled;
+mod memory;
 
 use super::impulses::Impulses;
 use super::rows::Rows;
@@ -52,7 +53,7 @@ use super::{
 use crate::contact::Unresolved;
 use crate::linalg::Matrix;
 use crate::system::{Dynamics, Mode, Set, State};
-use coupled::Coupled;
+use memory::Coupled;
 
 /// Name as in a case file.
 const NAME: &str = "nonsmooth-generalized-alpha";
