@@ -163,8 +163,7 @@ pub static OBSTACLE: Choice<Placed> = Choice {
                 MOUNT_KEY,
                 MOTION,
             ],
-            example: "contact=[{obstacle={kind='circle', centre=[0, 0], radius='2.00001 m', inside=true}, law={kind='hertz', stiffness=1e5}}]\n\
-                      hub.motion={kind='constant', speed='20 rad/s'}",
+            example: "contact=[{obstacle={kind='circle', centre=[2, '501 mm'], radius='500 mm'}, law={kind='hertz', stiffness=1e5}}]",
             make: |v, c| {
                 let ((centre, motion), mount) =
                     both(both(place(v, "centre"), motion(v, c)), MOUNT.make(v, "mount", c))?;
