@@ -1,3 +1,3 @@
-//! Bodies in space.
+//! Bodies in space that move and rotate by any amount.
 
 pub mod slender;

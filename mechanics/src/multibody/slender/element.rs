@@ -269,7 +269,7 @@ impl Element {
     }
 
     /// The place z, 0 to 1, of the element: position, axes and strains (ε, κ₁, κ₂, κ₃) less those without stress. The strains
-    /// are linear through the two [`BEST`] places.
+    /// are linear through the places (1 ∓ 1/√3)/2, where their errors are of higher order than elsewhere.
     pub fn section(&self, q: &[f64; COORDINATES], z: f64) -> (Vector, Triad, [f64; 4]) {
         let sections = Sections::new(&self.shapes, q);
         let at = |z| Section::new(&Point::at(z, 0.0, self.shapes.length), &sections);
