@@ -229,16 +229,18 @@ impl Element {
                 }
             }
         }
-        for i in 0..VARIABLES {
+        for (i, row) in tangent.iter().enumerate() {
+            // The columns of r₁ are those of r₂ − r₁ with the other sign, and so are its rows.
+            let mut wide = [0.0; VELOCITIES];
             for j in 0..VARIABLES {
-                out[PLACES[i]][PLACES[j]] += tangent[i][j];
+                wide[PLACES[j]] = row[j];
             }
-            for k in 0..3 {
-                out[k][PLACES[i]] -= tangent[k][i];
-                out[PLACES[i]][k] -= tangent[i][k];
-                if i < 3 {
-                    out[i][k] += tangent[i][k];
-                }
+            (0..3).for_each(|k| wide[k] = -row[k]);
+            for (out, x) in out[PLACES[i]].iter_mut().zip(wide) {
+                *out += x;
+            }
+            if i < 3 {
+                out[i].iter_mut().zip(wide).for_each(|(out, x)| *out -= x);
             }
         }
         let inertia = w.a + self.damping * w.v;
