@@ -36,7 +36,7 @@ impl Single {
 
 impl Dynamics for Single {
     fn size(&self) -> Size {
-        Size { q: self.beam.coordinates(), v: self.beam.velocities(), lambda: 0 }
+        Size { q: self.beam.coordinates(), v: self.beam.velocities(), lambda: 0, memory: 0 }
     }
     fn structure(&self, _multipliers: usize) -> Structure {
         let width = self.beam.half_bandwidth();
