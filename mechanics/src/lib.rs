@@ -49,6 +49,7 @@
 //! | make a beam on a rotating hub, with its loads | [`hub_beam`] | [`hub_beam::Coupling`], [`hub_beam::load::Load`] |
 //! | find the small vibrations of a rotating blade in space | [`blade`] | [`section::BladeSection`] |
 //! | join and drive rigid bodies in space | [`multibody`] | |
+//! | compute a slender beam in space, large rotations and all | [`multibody::slender`] | |
 //! | write a model of one's own | [`system`] | [`system::Dynamics`], [`system::Events`], [`system::Steady`], [`system::Observed`] |
 //! | integrate in time | [`integrator`] | [`integrator::Integrator`] |
 //! | run, record, find equilibria, modes and Campbell diagrams | [`analysis`] | [`analysis::transient::Observer`] |

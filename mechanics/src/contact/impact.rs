@@ -187,7 +187,10 @@ impl ImpactMap {
         let closed: Vec<bool> = state.mode.iter().map(|mode| *mode != Mode::Open).collect();
         let part = self.part(|i| gaps[i] <= touching || closed[i], |_| None);
         system.constraint(state, RowWeights::VELOCITY, &mut self.rates);
-        let before = self.rates.clone();
+        let largest = self.rates.iter().chain(&state.v).fold(0.0_f64, |x, v| x.max(v.abs()));
+        // Rounding is no impact.
+        let rounded = |rate: &f64| if rate.abs() <= RESTING * largest { 0.0 } else { *rate };
+        let before: Vec<f64> = self.rates.iter().map(rounded).collect();
         // The change of velocity by p, with the joints.
         let mut change = vec![0.0; n];
         self.respond(p, |_| 0.0, &mut change);

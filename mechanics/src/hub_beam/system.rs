@@ -251,6 +251,16 @@ impl<C: Coupling> HubBeam<C> {
     }
 }
 
+/// The storage of a tangent of `n` velocities, for writing: what else is in it is zero.
+fn cleared(out: &mut Matrix, n: usize) -> &mut Storage<f64> {
+    let more = out.order() > n;
+    let storage = out.begin();
+    if more {
+        storage.clear();
+    }
+    storage
+}
+
 /// The recorded quantities, in the order of [`HubBeam::record`].
 fn channels(stations: &[Station]) -> Vec<Channel> {
     let mut channels = Vec::new();
@@ -342,13 +352,13 @@ impl<C: Coupling> Dynamics for HubBeam<C> {
             let mut stamp = self.coupling.inertia().stamp(&w, &hub);
             stamp[5] = if w.q == 0.0 { 0.0 } else { self.loads.stamp(s, &hub) };
             if !out.holds(&stamp) {
-                let storage = out.begin();
+                let storage = cleared(out, s.v.len());
                 self.coupling.inertia().tangent(&w, &hub, storage);
                 self.loads.subtract_tangent(s, &hub, &w, storage);
                 out.set_stamp(Some(stamp));
             }
         } else {
-            let storage = out.begin();
+            let storage = cleared(out, s.v.len());
             self.coupling.inertia().tangent(&w, &hub, storage);
             self.coupling.add_tangent(s, &hub, &w, storage);
             self.loads.subtract_tangent(s, &hub, &w, storage);
@@ -398,8 +408,11 @@ impl<C: Coupling> Events for HubBeam<C> {
         after != before
     }
 
-    /// ½ (ω⁺ + ω⁻) times the change of angular momentum.
+    /// ½ (ω⁺ + ω⁻) times the change of angular momentum; 0 for a free hub, which nothing turns.
     fn impulse_work(&mut self, before: &State, after: &State) -> f64 {
+        if matches!(self.hub().drive, Drive::Free(_)) {
+            return 0.0;
+        }
         let (first, last) = (self.kinematics(before), self.kinematics(after));
         let change = self.totals(after, &last).momentum - self.totals(before, &first).momentum;
         0.5 * (first.speed + last.speed) * change

@@ -25,7 +25,7 @@ const SETTLED: f64 = 1e-13;
 /// G_C n = 0 is free of λ. Where it has no damping it gives q_C by Newton's method, and v_C, a_C by nᵀK_C v = 0 and
 /// nᵀK_C a = 0, its derivatives for constant K; where it has, v_C and nᵀ(C_C a + K_C v) = 0.
 #[derive(Debug)]
-pub(super) struct Accelerations {
+pub(crate) struct Accelerations {
     matrix: Matrix,
     rhs: Vec<f64>,
     pub(super) rows: Rows,
@@ -67,7 +67,7 @@ impl Combination {
 
 impl Accelerations {
     /// Allocates for `system`.
-    pub(super) fn new(system: &mut dyn Dynamics, state: &State, weights: RowWeights) -> Accelerations {
+    pub(crate) fn new(system: &mut dyn Dynamics, state: &State, weights: RowWeights) -> Accelerations {
         let size = system.size();
         Accelerations {
             matrix: Matrix::new(&system.structure(1)),
@@ -80,7 +80,7 @@ impl Accelerations {
 
     /// Replaces `state.a` and `state.lambda` by the consistent ones. `from` and `step` are the start and
     /// the size of the step in which this happens, for messages.
-    pub(super) fn complete(
+    pub(crate) fn complete(
         &mut self,
         system: &mut dyn Dynamics,
         state: &mut State,
@@ -107,6 +107,11 @@ impl Accelerations {
         self.matrix.solve(&mut self.rhs);
         self.take(state, counters, factored);
         if state.is_finite() { Ok(()) } else { Err(failure::not_finite(system, from, step, state)) }
+    }
+
+    /// Whether unknowns without mass have been found.
+    pub(crate) fn is_massless(&self) -> bool {
+        self.massless.is_some()
     }
 
     fn take(&self, state: &mut State, counters: &mut Counters, factored: bool) {

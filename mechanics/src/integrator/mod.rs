@@ -25,6 +25,7 @@ mod runge_kutta;
 mod stability;
 mod step_control;
 
+pub(crate) use acceleration::Accelerations;
 pub use adams::Adams;
 pub use checkpoint::{Checkpoint, NotResumed};
 pub use generalized_alpha::GeneralizedAlpha;

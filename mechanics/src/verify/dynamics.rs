@@ -63,10 +63,15 @@ impl Checker<'_> {
         self.system.residual(s, &mut r);
         let largest = r.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
         let names: Vec<String> = (0..n).map(|i| self.system.unknown(i)).collect();
-        let mut matrix = Matrix::new(&self.system.structure(0));
+        let m = s.lambda.len();
+        let mut matrix = Matrix::new(&self.system.structure(usize::from(m > 0)));
         for (kind, check) in ["∂r/∂a", "∂r/∂v", "∂r/∂q"].into_iter().enumerate() {
             let w = |k| if kind == k { 1.0 } else { 0.0 };
+            // Equations of multipliers, as an integrator leaves them there.
+            (n..n + m).for_each(|i| matrix.add(i, i, 1.0));
             self.system.tangent(s, Weights::new(w(0), w(1), w(2)), &mut matrix);
+            let left: Vec<f64> = (n..n + m).map(|i| matrix.get(i, i)).collect();
+            self.compare("tangent, rest", |i| format!("multiplier {i}"), &left, &vec![0.0; m], 1.0);
             // Columns are compared in units of the largest entry of their kind.
             let mut floor = 0.0_f64;
             for i in 0..n {
@@ -164,7 +169,7 @@ impl Checker<'_> {
         self.system.difference(&s.q, &q, &mut back);
         self.compare("(q ⊞ d) ⊟ q", |i| format!("unknown {i}"), &back, &d, 1e-3);
         let mut rate = vec![0.0; n];
-        self.system.rate(&d, &s.v, &mut rate);
+        self.system.rate(&s.q, &d, &s.v, &mut rate);
         let system = &mut *self.system;
         let (mut increment, mut moved) = (d.clone(), q.clone());
         let found = Checker::derivative(1e-3, n, |t, out| {

@@ -5,18 +5,22 @@
 //! | row | mode | φ |
 //! |---|---|---|
 //! | contact | open | gap g |
-//! | contact | closed | force λ |
-//! | friction | sticks | μ λₙ − ∣λ∣ |
+//! | contact | closed | force λ of the accelerations at q, v |
+//! | friction | sticks | μ λₙ − ∣λ∣ of the same |
 //! | friction | slips | ±ġ |
 //! | of the model | | φ, with the sign it has at the start of the step |
+//!
+//! λ is not the multiplier of the method, which differs from that of the accelerations by the method's error (without
+//! bound in steps that are next to nothing): what is closed behind an event is decided by the latter, and the same contact
+//! would close and open in turn, for no time. Where unknowns have no mass, the multipliers of the method are taken.
 //!
 //! A gap that is positive at both ends of a step may have been negative inside: where it first falls and then rises, the
 //! cubic through g and ġ at both ends says where it is least, and a step to that time decides. The time of an event is
 //! refined by steps from the same state until φ vanishes to rounding.
 
 use super::ending::{RunError, failed};
-use crate::integrator::{Integrator, Span};
-use crate::system::{Mode, RowWeights, Set, Side, State, System};
+use crate::integrator::{Accelerations, Counters, Integrator, Span};
+use crate::system::{Mode, RowWeights, Set, Side, State, System, is_active};
 
 /// Gap at which a contact touches, over the length of the system.
 pub(super) const TOUCHING: f64 = 1e-13;
@@ -44,11 +48,33 @@ pub(super) struct Locator {
     start: Values,
     end: Values,
     signs: Vec<f64>,
-    /// Open contacts that touch and separate at the start of the step.
+    /// Open contacts that touch and do not approach at the start of the step: open as they are, they separate.
     leaving: Vec<bool>,
     /// Time and side of the end of the attempted step.
     whole: (f64, Side),
     trial: State,
+    forces: Forces,
+}
+
+/// Multipliers of the accelerations.
+#[derive(Debug)]
+struct Forces {
+    accelerations: Accelerations,
+    state: State,
+    counters: Counters,
+}
+
+impl Forces {
+    /// The multipliers at `s`: the method's own if no contact is closed or an unknown has no mass.
+    fn at<'a>(&'a mut self, system: &mut dyn System, s: &'a State, sets: &[Set]) -> &'a [f64] {
+        let closed = |(set, mode): (&Set, &Mode)| *set != Set::Free && is_active(*set, *mode);
+        if !sets.iter().zip(&s.mode).any(closed) || self.accelerations.is_massless() {
+            return &s.lambda;
+        }
+        self.state.copy_from(s);
+        let done = self.accelerations.complete(system, &mut self.state, (s.t, 0.0), &mut self.counters);
+        if done.is_err() || self.accelerations.is_massless() { &s.lambda } else { &self.state.lambda }
+    }
 }
 
 /// g, ġ, indicators, and the scale of each indicator.
@@ -66,8 +92,16 @@ impl Values {
         Values { gap: zeros(rows), rate: zeros(rows), indicator: zeros(rows + own), zero: zeros(rows + own) }
     }
 
-    fn evaluate(&mut self, system: &mut dyn System, s: &State, sets: &[Set], [length, strongest]: [f64; 2]) {
+    fn evaluate(
+        &mut self,
+        system: &mut dyn System,
+        s: &State,
+        forces: &mut Forces,
+        sets: &[Set],
+        [length, strongest]: [f64; 2],
+    ) {
         let m = sets.len();
+        let lambda = forces.at(system, s, sets);
         system.constraint(s, RowWeights::POSITION, &mut self.gap);
         system.constraint(s, RowWeights::VELOCITY, &mut self.rate);
         let largest = |x: &[f64]| x.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
@@ -76,10 +110,10 @@ impl Values {
             let (value, zero) = match (*set, s.mode[i]) {
                 (Set::Free, _) => (f64::INFINITY, 0.0),
                 (Set::Unilateral { .. }, Mode::Open) => (self.gap[i], TOUCHING * length),
-                (Set::Unilateral { .. }, _) => (s.lambda[i], force),
+                (Set::Unilateral { .. }, _) => (lambda[i], force),
                 (Set::Friction { .. }, Mode::Open) => (f64::INFINITY, 0.0),
                 (Set::Friction { coefficient, normal }, Mode::Closed) => {
-                    (coefficient * s.lambda[normal] - s.lambda[i].abs(), force)
+                    (coefficient * lambda[normal] - lambda[i].abs(), force)
                 }
                 (Set::Friction { .. }, Mode::SlipForward) => (self.rate[i], rate),
                 (Set::Friction { .. }, Mode::SlipBackward) => (-self.rate[i], rate),
@@ -92,7 +126,7 @@ impl Values {
 
 impl Locator {
     /// `None` for a system without contacts and indicators.
-    pub(super) fn new(system: &dyn System, state: &State) -> Option<Locator> {
+    pub(super) fn new(system: &mut dyn System, state: &State) -> Option<Locator> {
         let sets = system.rows().to_vec();
         let own = system.indicators();
         if own == 0 && sets.iter().all(|set| *set == Set::Free) {
@@ -112,8 +146,19 @@ impl Locator {
             end,
             signs,
             trial: state.clone(),
+            forces: Forces {
+                accelerations: Accelerations::new(system, state, RowWeights::ACCELERATION),
+                state: state.clone(),
+                counters: Counters::default(),
+            },
             sets,
         })
+    }
+
+    /// Leaves the rows out of account; whether there is something else to locate.
+    pub(super) fn ignore_rows(&mut self) -> bool {
+        self.sets.fill(Set::Free);
+        self.own > 0
     }
 
     /// Looks for events in the step of size `h` from `from` to `to`, which was attempted. Where there is one, `to` becomes
@@ -214,29 +259,43 @@ impl Locator {
         fired
     }
 
+    /// Opens the contacts in `state` whose force has fallen to zero at the end of the step located last: what rounding
+    /// leaves of it must not close them again.
+    pub(super) fn open_released(&self, state: &mut State) {
+        for (i, set) in self.sets.iter().enumerate() {
+            let normal = if let Set::Friction { normal, .. } = *set { normal } else { i };
+            let contact = matches!(self.sets[normal], Set::Unilateral { .. });
+            let closed = contact && self.trial.mode[normal] != Mode::Open;
+            if closed && self.end.indicator[normal] <= self.end.zero[normal] {
+                state.mode[i] = Mode::Open;
+            }
+        }
+    }
+
     fn begin(&mut self, system: &mut dyn System, from: &State) {
-        self.start.evaluate(system, from, &self.sets, [self.length, self.strongest]);
+        self.start.evaluate(system, from, &mut self.forces, &self.sets, [self.length, self.strongest]);
         let m = self.sets.len();
         for (sign, x) in self.signs.iter_mut().zip(&self.start.indicator[m..]) {
             if *x != 0.0 {
                 *sign = x.signum();
             }
         }
+        let still = VANISHING * self.start.rate.iter().chain(&from.v).fold(0.0_f64, |m, x| m.max(x.abs()));
         for i in 0..m {
             let touches =
                 self.start.indicator[i] == self.start.gap[i] && self.start.gap[i] <= self.start.zero[i];
-            self.leaving[i] = touches && self.start.rate[i] > 0.0;
+            self.leaving[i] = touches && self.start.rate[i] >= -still;
         }
     }
 
     /// The least indicator at `s`, scaled.
     fn value(&mut self, system: &mut dyn System, s: &State) -> f64 {
-        self.end.evaluate(system, s, &self.sets, [self.length, self.strongest]);
+        self.end.evaluate(system, s, &mut self.forces, &self.sets, [self.length, self.strongest]);
         self.least(&self.end)
     }
 
     fn trial_value(&mut self, system: &mut dyn System) -> f64 {
-        self.end.evaluate(system, &self.trial, &self.sets, [self.length, self.strongest]);
+        self.end.evaluate(system, &self.trial, &mut self.forces, &self.sets, [self.length, self.strongest]);
         self.least(&self.end)
     }
 
@@ -245,7 +304,8 @@ impl Locator {
         let rows = (0..m).map(|i| {
             let (x, zero) = (values.indicator[i], values.zero[i]);
             let scaled = if x.is_finite() { x / zero.max(SMALLEST) } else { f64::MAX };
-            if self.leaving[i] && values.rate[i] > 0.0 { scaled.max(SEPARATING) } else { scaled }
+            let leaves = self.leaving[i] && (values.rate[i] > 0.0 || scaled > -1.0);
+            if leaves { scaled.max(SEPARATING) } else { scaled }
         });
         let own = values.indicator[m..].iter().zip(&self.signs).map(|(x, sign)| sign * x / SMALLEST);
         rows.chain(own).fold(f64::MAX, f64::min)

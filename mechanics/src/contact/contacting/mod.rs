@@ -386,8 +386,8 @@ impl<S: Points + Dynamics + Events + Observed> Dynamics for Contacting<S> {
         self.inner.difference(from, to, d);
     }
 
-    fn rate(&self, d: &[f64], v: &[f64], out: &mut [f64]) {
-        self.inner.rate(d, v, out);
+    fn rate(&self, from: &[f64], d: &[f64], v: &[f64], out: &mut [f64]) {
+        self.inner.rate(from, d, v, out);
     }
 
     fn residual(&mut self, s: &State, r: &mut [f64]) {
