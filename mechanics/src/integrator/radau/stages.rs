@@ -232,6 +232,8 @@ impl Stages {
             counters.solves += 2;
             match convergence.judge(size) {
                 Progress::Continue => {}
+                // The rate of the last step does not know how far this one rotates.
+                Progress::Converged if !self.flat && convergence.iterations() == 1 && size > 0.0 => {}
                 other => return (other, size),
             }
         }
