@@ -62,7 +62,7 @@ fn bad_contacts_are_refused_at_their_keys() {
         ),
         (contact(&format!("station=0,{plane},{rigid}")), "contact[1].station", "must be positive"),
         (contact(&format!("station=1,points=3,{plane},{rigid}")), "contact[1].points", "not both"),
-        (contact(plane), "contact[1].law", "missing"),
+        (contact(&format!("station=1,{plane}")), "contact[1].law", "tip"),
         (law("kind='constraint'"), "contact[1].law.restitution", "missing"),
         (law("kind='constraint',restitution=1.1"), "contact[1].law.restitution", "from 0 to 1"),
         (law("kind='constraint',restitution=-0.1"), "contact[1].law.restitution", "from 0 to 1"),

@@ -133,7 +133,7 @@ fn impacts(events: &Events) -> String {
     let Some(first) = events.impacts().next() else { return "  no impacts\n\n".to_owned() };
     let (time, name, lost) = (first.time, events.name(first.contact), events.lost());
     format!(
-        "  {count} impacts, the first at t = {time:.6} s ({name}); energy lost in impacts {lost:.6e} J\n\n"
+        "  impacts: {count}, the first at t = {time:.6} s ({name}); energy lost in them: {lost:.6e} J\n\n"
     )
 }
 
