@@ -61,6 +61,8 @@ pub struct Output {
     pub strain_heights: Vec<f64>,
     /// Whether work, losses and the balance of energy are recorded.
     pub energy_balance: bool,
+    /// Whether the shares of the transverse modes are recorded.
+    pub modal_shares: bool,
     /// Interval between shapes of the beam for ParaView \[s\]; `None` writes none.
     pub vtk: Option<f64>,
 }
@@ -130,6 +132,22 @@ pub(super) fn case(v: &mut Values, files: &super::sources::Files<'_>) -> Made<Ca
     {
         let name = v.kind("basis").unwrap_or_default();
         found.part(fits_whole_curve(bases, name, section.as_ref(), length));
+    }
+    if let (Some(coupling), Some(bases), Some(section), Some(loads), Some(contacts), Some(length)) =
+        (coupling, &bases, &section, &loads, &contacts, c.length)
+    {
+        let at_tip = |load: &Load| load.mass.is_some_and(|mass| mass.station == length);
+        let has_mass = [
+            (coupling.whole_curve, "the exact coupling needs it: use `first` or `high`"),
+            (
+                bases.massless.is_none(),
+                "no function of this basis moves the tip alone: use finite elements or modes",
+            ),
+            (section.planar.resultants(length).rotary_inertia != 0.0, "the section has rotary inertia"),
+            (loads.iter().any(at_tip), "a mass is fixed there"),
+        ];
+        let why_not = has_mass.iter().find(|(has, _)| *has).map(|(_, why)| *why);
+        found.part(contact::fits_massless(contacts, why_not));
     }
     if let (Some(Some(blade)), Some(section)) = (&blade, &section) {
         found.part(blade.built(section, 0.0).map_err(|faults| faults.within("blade")));
@@ -211,6 +229,10 @@ fn output(v: &Values, c: &Context<'_>) -> Made<Output> {
             format!("the output step {step} s makes {records:.1e} records in {duration} s; at most {MOST_RECORDS:.0e} are kept")
         });
     }
+    let modal_shares = output.boolean("modal-shares")?;
+    found.check(modal_shares && v.kind("basis") != Some("modes"), "modal-shares", || {
+        "only the functions of the basis `modes` are modes: choose it, or leave the shares out".to_owned()
+    });
     let mut vtk = None;
     if output.boolean("vtk") == Ok(true) {
         let usual = if duration > 0.0 { duration / SHAPES } else { ONE };
@@ -233,6 +255,7 @@ fn output(v: &Values, c: &Context<'_>) -> Made<Output> {
         section_forces: output.boolean("section-forces")?,
         strain_heights: output.numbers("strain-heights")?.to_vec(),
         energy_balance: output.boolean("energy-balance")?,
+        modal_shares,
         vtk,
     })
 }

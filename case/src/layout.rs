@@ -134,6 +134,12 @@ static RUN: &[Key] = &[
                 "work, losses and the balance of energy are recorded, for an evaluation or more of the power a step",
             ),
             key(
+                "modal-shares",
+                Type::Boolean,
+                Default::Boolean(false),
+                "the shares B²/ΣB² of the transverse modes are recorded, for the basis `modes`",
+            ),
+            key(
                 "vtk",
                 Type::Boolean,
                 Default::Boolean(false),

@@ -10,13 +10,17 @@ mod run;
 #[path = "../../mechanics/tests/integrators/systems.rs"]
 mod systems;
 
+use flexion::drive::Actuator;
 use flexion::integrator::{
     Adams, GeneralizedAlpha, Integrator, MoreauJean, NonsmoothAlpha, Radau, RungeKutta, Span, StepControl,
     Tolerance,
 };
+use flexion::multibody::{Body, Drive, Kind, Marker, Model, Multibody, Part, Spring};
+use flexion::profile::Constant;
 use flexion::system::{Dynamics, Mode, Parameter, State, System};
 use std::alloc::{GlobalAlloc, Layout, System as Heap};
 use std::cell::Cell;
+use std::sync::Arc;
 use systems::{CartesianPendulum, Chain, SpringPendulum, state, wide_chain};
 
 /// Counts the allocations of the thread, and their bytes.
@@ -116,6 +120,44 @@ fn no_step_allocates() {
     let from = state(&constrained, &[1.0, 0.0], &[0.0, 0.0]);
     let only: Vec<Box<dyn Integrator>> = vec![Box::new(GeneralizedAlpha::chung_hulbert(0.5).unwrap())];
     assert_no_allocation("pendulum with a constraint", &mut constrained, &from, 1e-2, only);
+}
+
+/// A chain of bodies with a loop over the ground, a motor, a spring and a load.
+#[test]
+fn no_step_of_joined_bodies_allocates() {
+    let mut model = Model::new().with_gravity([0.0, 0.0, -9.81]);
+    let mut last = Part::Ground;
+    for i in 0..8 {
+        let x = f64::from(i);
+        let next = model.body(Body::new(&format!("link {i}"), 1.0, [0.01, 0.1, 0.1]).at([x + 0.5, 0.0, 0.0]));
+        let axis = ([0.0, 1.0, 0.1 * x], None);
+        let hinge =
+            model.join(&format!("hinge {i}"), Kind::Revolute, [last, next], [x, 0.0, 0.0], axis).unwrap();
+        if i == 2 {
+            let torque = Arc::new(Constant::new(0.3).unwrap());
+            hinge.drive = Drive::Actuated(Actuator {
+                torque,
+                damping: 0.2,
+                stiffness: 1.0,
+                rest_angle: 0.1,
+                controller: None,
+            });
+        }
+        last = next;
+    }
+    model
+        .join("end", Kind::Spherical, [Part::Ground, last], [8.0, 0.0, 0.0], ([0.0, 0.0, 1.0], None))
+        .unwrap();
+    let [from, to] = [Marker::new(Part::Ground, [2.0, 1.0, 1.0]), Marker::new(last, [0.1, 0.0, 0.0])];
+    model.spring(Spring { name: "spring".into(), from, to, stiffness: 30.0, damping: 0.5, length: 1.0 });
+    let mut system = Multibody::new(model).unwrap();
+    let start = system.initial();
+    let methods: Vec<Box<dyn Integrator>> = vec![
+        Box::new(GeneralizedAlpha::chung_hulbert(0.5).unwrap()),
+        Box::new(GeneralizedAlpha::chung_hulbert(0.5).unwrap().stabilized()),
+        Box::new(Radau::new(Tolerance::uniform(1e-6)).unwrap()),
+    ];
+    assert_no_allocation("joined bodies", &mut system, &start, 1e-3, methods);
 }
 
 /// Two balls that fall, strike, bounce and slide, with a rod between them.

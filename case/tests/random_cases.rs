@@ -4,7 +4,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)] // in helpers of tests
 
-mod draw;
+pub mod draw;
 
 use draw::Drawn;
 use flexion::system::State;

@@ -48,6 +48,8 @@
 //! | prescribe a motion, a torque or a load in time | [`profile`] | [`profile::Profile`] |
 //! | make a beam on a rotating hub, with its loads | [`hub_beam`] | [`hub_beam::Coupling`], [`hub_beam::load::Load`] |
 //! | find the small vibrations of a rotating blade in space | [`blade`] | [`section::BladeSection`] |
+//! | join and drive rigid bodies in space | [`multibody`] | |
+//! | compute a slender beam in space, large rotations and all | [`multibody::slender`] | |
 //! | write a model of one's own | [`system`] | [`system::Dynamics`], [`system::Events`], [`system::Steady`], [`system::Observed`] |
 //! | integrate in time | [`integrator`] | [`integrator::Integrator`] |
 //! | run, record, find equilibria, modes and Campbell diagrams | [`analysis`] | [`analysis::transient::Observer`] |
@@ -57,7 +59,7 @@
 //! | solve band matrices and eigenproblems, integrate over a cell | [`linalg`], [`quadrature`] | |
 //!
 //! What the library does not do: a beam on a hub has no shear and moves in one plane; a blade in space has only small
-//! vibrations about its steady rotation; there is one beam, without joints or other bodies; materials are linear and
+//! vibrations about its steady rotation; bodies with joints are rigid; materials are linear and
 //! elastic. Nothing here reads a case, writes a file, asks for the time or starts a thread: that is left to the
 //! program.
 

@@ -3,7 +3,7 @@
 use super::{Events, Shapes, Trajectory};
 use flexion::analysis::Violation;
 use flexion::analysis::transient::{Event, Observer, Plan, Step};
-use flexion::system::{Channel, Role, State, System};
+use flexion::system::{Channel, Direction, Role, State, System};
 use std::ops::ControlFlow;
 
 /// Called after every accepted step; `Break` stops the run.
@@ -17,6 +17,8 @@ pub struct Recorder<'a> {
     events: Events,
     /// Of systems with rows of constraints.
     violation: Option<Violation>,
+    /// Unknowns of the transverse modes whose shares are recorded.
+    modes: Vec<usize>,
     balance: bool,
     /// Channels of the system that are parts of the total energy.
     energies: Vec<usize>,
@@ -26,12 +28,13 @@ pub struct Recorder<'a> {
 
 impl<'a> Recorder<'a> {
     /// A recorder for runs of `system` from `state` by `plan` that calls `watch` after every step.
-    /// `balance` asks for work, losses and the energy balance too.
+    /// `balance` asks for work, losses and the energy balance too, `shares` for those of the unknowns across the beam,
+    /// W_i = B_i²/ΣB².
     pub fn new(
         system: &mut dyn System,
         state: &State,
         plan: &Plan,
-        balance: bool,
+        [balance, shares]: [bool; 2],
         watch: &'a mut Watch<'a>,
     ) -> Recorder<'a> {
         let events = Events::new(system, state);
@@ -64,9 +67,19 @@ impl<'a> Recorder<'a> {
             let meaning = "largest acceleration against constraints and closed contacts";
             add(Role::Integration, "constraint.acceleration", "m/s^2", meaning);
         }
+        let across = |i: &usize| shares && system.direction(*i) == Direction::Chord;
+        let modes: Vec<usize> = (0..system.size().v).filter(across).collect();
+        for k in 1..=modes.len() {
+            add(
+                Role::Detail,
+                &format!("mode.{k}.share"),
+                "",
+                &format!("share B²/ΣB² of the transverse mode {k}"),
+            );
+        }
         let mut trajectory = Trajectory::new(channels);
         trajectory.reserve((plan.end / plan.sample).min(1e7) as usize + 2);
-        Recorder { trajectory, shapes: None, events, violation, balance, energies, gain: None, watch }
+        Recorder { trajectory, shapes: None, events, violation, modes, balance, energies, gain: None, watch }
     }
 
     /// The recorder, taking shapes too.
@@ -116,6 +129,9 @@ impl Observer for Recorder<'_> {
             let values = std::iter::once(total).chain(work.into_iter().flatten()).chain(lost);
             let values = values.chain(balance.map(|b| b.imbalance(total))).chain(steps);
             let values = values.chain(largest.into_iter().flatten());
+            let square = |i: &usize| state.q[*i] * state.q[*i];
+            let sum = self.modes.iter().map(square).sum::<f64>().max(f64::MIN_POSITIVE);
+            let values = values.chain(self.modes.iter().map(|i| square(i) / sum));
             for (out, value) in common.iter_mut().zip(values) {
                 *out = value;
             }

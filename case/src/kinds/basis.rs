@@ -25,6 +25,8 @@ pub struct Bases {
     pub axial: Arc<dyn basis::Basis>,
     /// Basis of the transverse field.
     pub transverse: Arc<dyn basis::Basis>,
+    /// Basis of the transverse field for a tip without mass, where there is one.
+    pub massless: Option<Arc<dyn basis::Basis>>,
     /// Number and axial degree of the elements, if both fields are of the same finite elements.
     pub elements: Option<(usize, usize)>,
     /// What makes twice the functions: dotted path within the table and value.
@@ -46,6 +48,8 @@ struct Functions {
     /// The key that most likely is to blame.
     blame: &'static str,
     build: Build,
+    /// The same with a function for the tip alone, where `build` has none.
+    massless: Option<Build>,
     /// The key of its table, if each field has its own.
     table: &'static str,
 }
@@ -64,7 +68,16 @@ impl Either {
 impl Functions {
     /// Functions of this extent, to be refined by this key.
     fn new(extent: (f64, f64), finer: (&'static str, usize), build: Build) -> Functions {
-        Functions { extent, finer, build, elements: None, safety: SAFETY, blame: "kind", table: "" }
+        Functions {
+            extent,
+            finer,
+            build,
+            massless: None,
+            elements: None,
+            safety: SAFETY,
+            blame: "kind",
+            table: "",
+        }
     }
 }
 
@@ -99,11 +112,14 @@ fn built(fields: [Functions; 2], c: &Context<'_>) -> Made<Bases> {
         faults.0.dedup_by(|a, b| a.key == b.key);
         faults
     })?;
+    let with_tip = fields[1].massless.as_ref().and_then(|build| build(length).ok());
+    let massless = with_tip.or_else(|| transverse.tip().map(|_| Arc::clone(&transverse)));
     let mut finer = fields.each_ref().map(|f| (join(f.table, f.finer.0), f.finer.1)).to_vec();
     finer.dedup();
     Ok(Bases {
         axial,
         transverse,
+        massless,
         elements: fields[0].elements.filter(|(n, _)| fields[1].elements.is_some_and(|(m, _)| *n == m)),
         finer,
         safety: fields[0].safety.max(fields[1].safety),
@@ -140,7 +156,8 @@ fn modes(v: &Values, axial: &'static str, transverse: &'static str) -> Made<Eith
         let (key, count) = counts[usize::from(field == Field::Transverse)];
         let build: Build = Box::new(move |length| shared(Modes::new(length, count, field)));
         let functions = Functions::new((count as f64, 1.0), (key, 2 * count), build);
-        Functions { safety: SAFETY_OF_MODES, ..functions }
+        let massless: Build = Box::new(move |length| shared(Modes::with_residual(length, count)));
+        Functions { safety: SAFETY_OF_MODES, massless: Some(massless), ..functions }
     })
 }
 

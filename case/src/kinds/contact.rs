@@ -27,6 +27,8 @@ pub struct Contact {
     pub obstacle: Arc<dyn Obstacle>,
     /// What happens at a touch.
     pub law: Law,
+    /// Whether the tip loses its mass for it.
+    pub massless: bool,
 }
 
 /// An obstacle, and what it is fixed to.
@@ -102,8 +104,8 @@ pub static MOUNT: Choice<Mount> = Choice {
             summary: "inertial axes, from the axis of the hub",
             source: "",
             keys: &[],
-            example: "contact=[{obstacle={kind='plane', mount='ground', point=[0, '0.2 mm']}, law={kind='hertz', stiffness=1e5}}]\n\
-                      hub.motion={kind='constant', speed='-1 rad/s'}",
+            example: "contact=[{obstacle={kind='plane', mount='ground', point=[0, '-1 mm']}, law={kind='hertz', stiffness=1e4}}]\n\
+                      hub.motion={kind='constant', speed='-0.1 rad/s'}",
             make: |_, _| Ok(Mount::Ground),
         },
         Kind {
@@ -161,8 +163,7 @@ pub static OBSTACLE: Choice<Placed> = Choice {
                 MOUNT_KEY,
                 MOTION,
             ],
-            example: "contact=[{obstacle={kind='circle', centre=[0, 0], radius='2.00001 m', inside=true}, law={kind='hertz', stiffness=1e5}}]\n\
-                      hub.motion={kind='constant', speed='20 rad/s'}",
+            example: "contact=[{obstacle={kind='circle', centre=[2, '501 mm'], radius='500 mm'}, law={kind='hertz', stiffness=1e5}}]",
             make: |v, c| {
                 let ((centre, motion), mount) =
                     both(both(place(v, "centre"), motion(v, c)), MOUNT.make(v, "mount", c))?;
@@ -212,28 +213,37 @@ const SLIP_SPEED: Key = key(
 const DAMPED: &[Key] = &[STIFFNESS, EXPONENT, RESTITUTION, FRICTION, SLIP_SPEED];
 
 /// A continuous force K δⁿ (1 + χ δ̇/v₀).
-fn force(v: &Values, dissipation: Dissipation) -> Made<Law> {
+fn force(v: &Values, dissipation: Dissipation) -> Made<(Law, bool)> {
     let restitution = if dissipation == Dissipation::Hertz { 1.0 } else { v.number("restitution")? };
     if restitution == 0.0 && dissipation.needs_rebound() {
         let message = "with e = 0 this law has no finite damping";
         let help = "take `hunt-crossley` or `lankarani-nikravesh`, or a `constraint`";
         return Err(Fault::new("restitution", message).help(help).into());
     }
-    Ok(Law::Force(ContactForce {
+    let law = Law::Force(ContactForce {
         stiffness: v.number("stiffness")?,
         exponent: v.number("exponent")?,
         factor: dissipation.factor(restitution),
         friction: v.number("friction")?,
         slip_speed: v.number("slip-speed")?,
-    }))
+    });
+    Ok((law, false))
 }
 
-/// The laws of contact.
-pub static LAW: Choice<Law> = Choice {
+/// The laws of contact, and whether the point has no mass for them.
+pub static LAW: Choice<(Law, bool)> = Choice {
     name: "contact law",
     path: "contact.law",
     summary: "what happens where the beam touches an obstacle",
     kinds: &[
+        Kind {
+            name: "massless",
+            summary: "the tip has no mass of its own: it is stopped without impulse and loss, and no restitution is needed",
+            source: "Khenous, Laborde & Renard 2008, doi:10.1016/j.euromechsol.2008.01.001; arXiv 2207.00795",
+            keys: &[],
+            example: "contact=[{obstacle={kind='stop', offset='-1 um'}, law={kind='massless'}}]",
+            make: |_, _| Ok((Law::Constraint { restitution: 0.0, friction: 0.0 }, true)),
+        },
         Kind {
             name: "constraint",
             summary: "impulse with Newton's restitution, then a constraint until it would pull; Coulomb friction",
@@ -242,7 +252,7 @@ pub static LAW: Choice<Law> = Choice {
             example: "contact=[{obstacle={kind='stop', offset='-1 um'}, law={kind='constraint', restitution=0.5}}]",
             make: |v, _| {
                 let (restitution, friction) = (v.number("restitution")?, v.number("friction")?);
-                Ok(Law::Constraint { restitution, friction })
+                Ok((Law::Constraint { restitution, friction }, false))
             },
         },
         Kind {
@@ -356,18 +366,24 @@ pub static CONTACT: Table<Contact> = Table {
                 "number of equidistant points, the last at the tip, by which the whole beam may touch",
             ),
             key("obstacle", Type::Kind(&OBSTACLE), Required, "rigid obstacle"),
-            key("law", Type::Kind(&LAW), Required, "what happens at a touch"),
+            key("law", Type::Kind(&LAW), Default::Name("massless"), "what happens at a touch"),
         ]),
         Default::Empty,
         "contacts of the beam with obstacles",
     ),
     example: "contact=[{name='ground', points=4, obstacle={kind='plane', point=[0, '-2 mm']}, law={kind='constraint', restitution=0, friction=0.3}}]",
     make: |v, c| {
-        let ((name, stations), ((obstacle, mount), law)) = both(
+        let ((name, stations), ((obstacle, mount), (law, massless))) = both(
             both(name(v), stations(v, c)),
             both(OBSTACLE.make(v, "obstacle", c), LAW.make(v, "law", c)),
         )?;
-        Ok(Contact { name, stations, mount, obstacle, law })
+        if massless && stations != [c.length()?] {
+            let message = "only the tip can do without mass: at other stations a law with restitution or a force is needed";
+            return Err(Fault::new("law", message)
+                .help("write `law = { kind = \"constraint\", restitution = 0.5 }`")
+                .into());
+        }
+        Ok(Contact { name, stations, mount, obstacle, law, massless })
     },
 };
 
@@ -396,4 +412,17 @@ pub fn points(contacts: &[Contact]) -> impl Iterator<Item = (String, f64, &Conta
         let named = move |k: usize| if several { format!("{name}.{}", k + 1) } else { name.to_owned() };
         contact.stations.iter().enumerate().map(move |(k, station)| (named(k), *station, contact))
     })
+}
+
+/// Whether the tip of a beam can do without mass where a contact wants it so; `why_not` says what gives it mass.
+pub fn fits_massless(contacts: &[Contact], why_not: Option<&str>) -> Made<()> {
+    match (contacts.iter().position(|contact| contact.massless), why_not) {
+        (Some(i), Some(why)) => {
+            let message =
+                format!("a contact without a law of its own takes the mass from the tip, but {why}");
+            let help = "give it a law: `law = { kind = \"constraint\", restitution = 0.5 }`";
+            Err(Fault::new(&format!("contact[{}].law", i + 1), message).help(help).into())
+        }
+        _ => Ok(()),
+    }
 }

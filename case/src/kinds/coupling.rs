@@ -5,6 +5,7 @@ use super::contact::{self, Contact};
 use super::section::Section;
 use crate::fault::{At, Fault, Made};
 use crate::kind::{Choice, Kind};
+use flexion::basis::Basis;
 use flexion::contact::{self as touch, Contacting};
 use flexion::hub_beam::load::Load;
 use flexion::hub_beam::{
@@ -49,13 +50,22 @@ pub struct Assembly<'a> {
 }
 
 impl Assembly<'_> {
-    fn fields(&self) -> Fields {
-        let (axial, transverse) = (Arc::clone(&self.bases.axial), Arc::clone(&self.bases.transverse));
-        Fields::new(self.length, Box::new(axial), Box::new(transverse), &self.beam.breaks)
+    fn fields(&self) -> Made<Fields> {
+        let bases = self.bases;
+        let fields = |transverse: &Arc<dyn Basis>| {
+            let (axial, transverse) = (Arc::clone(&bases.axial), Arc::clone(transverse));
+            Fields::new(self.length, Box::new(axial), Box::new(transverse), &self.beam.breaks)
+        };
+        match &bases.massless {
+            Some(transverse) if self.contacts.iter().any(|contact| contact.massless) => {
+                fields(transverse).with_massless_tip().at("basis")
+            }
+            _ => Ok(fields(&bases.transverse)),
+        }
     }
 
     fn linear(&self, foreshortening: Foreshortening) -> Made<Box<dyn Fork>> {
-        let coupling = LinearCoupling::new(self.fields(), self.beam, &self.hub, foreshortening);
+        let coupling = LinearCoupling::new(self.fields()?, self.beam, &self.hub, foreshortening);
         Ok(self.system(coupling, self.sampling()))
     }
 
@@ -133,7 +143,7 @@ pub static COUPLING: Choice<Coupling> = Choice {
             example: "model.coupling=high",
             make: |_, _| {
                 let assemble = |parts: &Assembly<'_>| {
-                    let coupling = HighCoupling::new(parts.fields(), parts.beam, &parts.hub);
+                    let coupling = HighCoupling::new(parts.fields()?, parts.beam, &parts.hub);
                     Ok(parts.system(coupling.at("basis")?, parts.sampling()))
                 };
                 Ok(Coupling { whole_curve: false, assemble })

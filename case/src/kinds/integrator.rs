@@ -156,7 +156,8 @@ pub static INTEGRATOR: Choice<Method> = Choice {
                     "position and velocity are corrected after a smooth step; if false, all is solved at once",
                 ),
             ],
-            example: "integrator={kind='nonsmooth-generalized-alpha', step='1 ms'}",
+            example: "integrator={kind='nonsmooth-generalized-alpha', step='1 ms'}\n\
+                      contact=[{obstacle={kind='stop', offset='-1 um'}, law={kind='constraint', restitution=0.5}}]",
             make: |v, _| {
                 let spectral_radius = v.number("spectral-radius")?;
                 let decoupled = v.boolean("decoupled")?;

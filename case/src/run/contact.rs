@@ -1,5 +1,6 @@
 //! Contacts of a case before its run: nothing begins inside an obstacle, and masses at contacts are those of the beam.
 
+use crate::kinds::contact::Contact;
 use crate::kinds::initial::Initial;
 use crate::problem::Problems;
 use crate::reading::Reading;
@@ -48,8 +49,8 @@ impl Reading {
 
     /// A warning where twice the functions have another effective mass at a contact with restitution.
     pub(super) fn effective_masses(&self, system: &mut dyn System, state: &State) -> Vec<String> {
-        let rigid = |law: &Law| matches!(law, Law::Constraint { .. });
-        if !self.case.contacts.iter().any(|contact| rigid(&contact.law)) {
+        let rigid = |contact: &Contact| !contact.massless && matches!(contact.law, Law::Constraint { .. });
+        if !self.case.contacts.iter().any(rigid) {
             return Vec::new();
         }
         let masses = |system: &mut dyn System, state: &State| -> Option<Vec<(String, f64)>> {

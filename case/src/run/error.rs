@@ -79,6 +79,7 @@ impl Reading {
                 ));
             }
         }
+        warnings.extend(self.trust(run, watch)?);
         let safety = self.case.bases.safety;
         let mut columns = Vec::new();
         for name in self::columns(run) {
@@ -152,7 +153,7 @@ impl Reading {
     }
 
     /// Changes that multiply the tolerances by `factor` and keep them between the bounds; none for fixed steps.
-    fn tolerances(&self, factor: f64, least: f64, most: f64) -> Vec<String> {
+    pub(super) fn tolerances(&self, factor: f64, least: f64, most: f64) -> Vec<String> {
         let Steps::Controlled { tolerance, absolute_tolerance, .. } = self.case.steps else {
             return Vec::new();
         };

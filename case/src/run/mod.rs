@@ -5,7 +5,9 @@ mod contact;
 pub mod error;
 pub mod errors;
 mod restart;
+mod trust;
 
+use super::case::Output;
 use super::kinds::contact::Contact;
 use super::kinds::initial::Initial;
 use super::kinds::integrator::Steps;
@@ -36,6 +38,7 @@ pub struct Prepared {
     state: State,
     plan: Plan,
     energy_balance: bool,
+    modal_shares: bool,
     tables: Vec<(Artifact, Vec<u8>)>,
     shapes: Option<Shapes>,
     /// The history of the earlier run that this one goes on with.
@@ -101,9 +104,9 @@ impl Reading {
             Plan { end: case.duration, step, longest_step, contact_step: None, sample: case.output.step };
         let copy = |(key, bytes): (String, &[u8])| Some((resolved::copy(&key)?, bytes.to_vec()));
         let tables = self.tables().into_iter().filter_map(copy).collect();
-        let energy_balance = case.output.energy_balance;
+        let Output { energy_balance, modal_shares, .. } = case.output;
         let shapes = self.shapes();
-        Ok(Prepared { live, state, plan, energy_balance, tables, shapes, history, warnings })
+        Ok(Prepared { live, state, plan, energy_balance, modal_shares, tables, shapes, history, warnings })
     }
 
     /// Brings the undeformed `state` into the initial state of the case. Returns the history of an earlier run to go on
@@ -211,11 +214,22 @@ impl Prepared {
     /// Integrates to the end, or to where `watch` stops it or the integration fails: what was computed
     /// until then is in the run.
     pub fn run(self, watch: &mut Watch<'_>) -> Run {
-        let Prepared { live, mut state, plan, energy_balance, tables, shapes, history, mut warnings } = self;
+        let Prepared {
+            live,
+            mut state,
+            plan,
+            energy_balance,
+            modal_shares,
+            tables,
+            shapes,
+            history,
+            mut warnings,
+        } = self;
         let Live { mut system, mut integrator } = live;
         let clock = Clock::start();
         let mut recorder =
-            Recorder::new(system.as_mut(), &state, &plan, energy_balance, watch).with_shapes(shapes);
+            Recorder::new(system.as_mut(), &state, &plan, [energy_balance, modal_shares], watch)
+                .with_shapes(shapes);
         let parts = (system.as_mut(), integrator.as_mut());
         let (ending, checkpoint) = match &history {
             None => transient_to_checkpoint(parts.0, parts.1, &mut state, &plan, &mut recorder),

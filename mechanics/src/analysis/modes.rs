@@ -2,7 +2,7 @@
 //!
 //! With M, C, K = ∂r/∂a, ∂r/∂v, ∂r/∂q of a [`System`] at the equilibrium, the modes are the solutions
 //! δq = x e^{λt} of (λ² M + λ C + K) x = 0: angular frequency ω = |Im λ|, damping ratio ζ = −Re λ/|λ|. Everything goes
-//! through the tangent, so every model has modes; how they are found is told in [`eigen`](crate::linalg::eigen).
+//! through the tangent, so every model has modes; how they are found is described in [`eigen`](crate::linalg::eigen).
 //!
 //! Rows of constraints that hold allow the motions x = N y, with G N = 0: y has the matrices NᵀMN, NᵀCN and NᵀKN, with the
 //! multipliers of the equilibrium in K. They are dense: the cost grows with the cube of the unknowns.

@@ -408,8 +408,11 @@ impl<C: Coupling> Events for HubBeam<C> {
         after != before
     }
 
-    /// ½ (ω⁺ + ω⁻) times the change of angular momentum.
+    /// ½ (ω⁺ + ω⁻) times the change of angular momentum; 0 for a free hub, which nothing turns.
     fn impulse_work(&mut self, before: &State, after: &State) -> f64 {
+        if matches!(self.hub().drive, Drive::Free(_)) {
+            return 0.0;
+        }
         let (first, last) = (self.kinematics(before), self.kinematics(after));
         let change = self.totals(after, &last).momentum - self.totals(before, &first).momentum;
         0.5 * (first.speed + last.speed) * change

@@ -32,7 +32,7 @@ pub(super) fn cubic(
     if flat {
         out.v.copy_from_slice(&to.v);
     } else {
-        system.rate(increment, &to.v, &mut out.v);
+        system.rate(&from.q, increment, &to.v, &mut out.v);
     }
     for i in 0..increment.len() {
         let (d, v0, v1) = (increment[i], from.v[i], out.v[i]);

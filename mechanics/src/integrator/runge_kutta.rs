@@ -121,7 +121,7 @@ impl Scratch {
             if self.flat {
                 self.rate.copy_from_slice(&self.stage.v);
             } else {
-                system.rate(increment, &self.stage.v, &mut self.rate);
+                system.rate(&from.q, increment, &self.stage.v, &mut self.rate);
             }
             for i in 0..n {
                 self.sum_v[i] += weight * self.stage.a[i];

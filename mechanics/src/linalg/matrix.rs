@@ -52,17 +52,20 @@ impl Structure {
         }
     }
 
-    /// The same with `more` dense rows and columns behind.
-    pub fn widened(self, more: usize) -> Structure {
+    /// The same with `more` unknowns before unknown `at`, whose rows and columns are dense. Without an order of its own
+    /// a band takes them among its border.
+    pub fn widened(self, at: usize, more: usize) -> Structure {
         match self {
             Structure::Dense { order } => Structure::Dense { order: order + more },
             Structure::Band { order, lower, upper, border } => {
+                debug_assert!(at >= order, "unknown {at} stands in the band");
                 Structure::Band { order, lower, upper, border: border + more }
             }
             Structure::Ordered { places, of } => {
+                let (before, behind) = places.split_at(at);
                 let order = places.len();
-                let places = places.iter().copied().chain(order..order + more).collect();
-                Structure::Ordered { places, of: Box::new(of.widened(more)) }
+                let places = before.iter().copied().chain(order..order + more).chain(behind.iter().copied());
+                Structure::Ordered { places: places.collect(), of: Box::new(of.widened(order, more)) }
             }
         }
     }

@@ -111,17 +111,18 @@ fn multipliers_are_placed_between_the_bodies_that_they_join() {
     let dense = Structure::dense(2 * masses);
     assert_eq!((ordered.order(), ordered.half_bandwidth(), ordered.border()), (2 * masses, 2, 1));
     let (mut a, b) = (chain::<f64>(masses, &ordered), chain::<f64>(masses, &dense));
+    let entries = b.clone();
     for (i, j) in [(0, 0), (3, 4), (4, 3), (masses + 3, 4), (5, masses + 5), (2 * masses - 1, 0)] {
         assert_eq!(a.get(i, j), b.get(i, j));
     }
     for j in [0, 7, masses + 3, 2 * masses - 1] {
-        let entries = |a: &Matrix| {
+        let column = |a: &Matrix| {
             let mut column = vec![0.0; 2 * masses];
             a.column(j, |i, x| column[i] += x);
             column
         };
-        assert_eq!(entries(&a), entries(&b));
-        assert_eq!(entries(&a)[5], a.get(5, j));
+        assert_eq!(column(&a), column(&b));
+        assert_eq!(column(&a)[5], a.get(5, j));
     }
     let x: Vec<f64> = (0..2 * masses).map(|i| (0.7 * i as f64).sin()).collect();
     let (mut y, mut z) = (vec![0.0; 2 * masses], vec![0.0; 2 * masses]);
@@ -142,6 +143,35 @@ fn multipliers_are_placed_between_the_bodies_that_they_join() {
     sum.factor().unwrap();
     sum.solve(&mut product);
     assert!(product.iter().zip(&x).all(|(y, x)| (y - x).norm() < 1e-12));
+    // Further unknowns between the masses and the multipliers.
+    let wide = ordered.clone().widened(masses, 2);
+    assert_eq!((wide.order(), wide.half_bandwidth(), wide.border()), (2 * masses + 2, 2, 3));
+    let number = |i: usize| if i < masses { i } else { i + 2 };
+    let [mut more, mut dense] = [&wide, &Structure::dense(2 * masses + 2)].map(|structure| {
+        let mut more = Matrix::<f64>::new(structure);
+        for i in 0..2 * masses {
+            for j in 0..2 * masses {
+                let x = entries.get(i, j);
+                if x != 0.0 {
+                    more.add(number(i), number(j), x);
+                }
+            }
+        }
+        for k in 0..2 {
+            more.add(masses + k, masses + k, 3.0);
+            more.add(7 * k, masses + k, 0.4);
+            more.add(masses + k, 9 + k, -0.2);
+        }
+        more
+    });
+    assert_eq!(more.get(masses + 1, 10), -0.2);
+    more.factor().unwrap();
+    dense.factor().unwrap();
+    let mut right: Vec<f64> = (0..2 * masses + 2).map(|i| (0.3 * i as f64).cos()).collect();
+    let mut other = right.clone();
+    more.solve(&mut right);
+    dense.solve(&mut other);
+    assert!(right.iter().zip(&other).all(|(x, y)| (x - y).abs() < 1e-12));
     // What is singular is named by its own number, not by its place.
     let mut empty: Matrix =
         Matrix::new(&Structure::ordered(vec![2, 0, 1].into(), Structure::band(3, 1, 1, 0)));

@@ -72,10 +72,13 @@ impl Constants {
                 })
             })
             .collect();
-        // Two markers for each joint, two for each spring, one for each load.
+        // Two markers for each joint, two for each spring, one for each load and each contact point.
         let joints = model.joints.iter().flat_map(|j| [j.from, j.to]);
         let springs = model.springs.iter().flat_map(|s| [s.from, s.to]);
-        let markers = joints.chain(springs).chain(model.loads.iter().map(|load| load.at));
+        let markers = joints
+            .chain(springs)
+            .chain(model.loads.iter().map(|load| load.at))
+            .chain(model.points.iter().copied());
         let markers: Vec<(Part, Frame)> = markers
             .map(|marker| {
                 let centre = body(marker.part).map_or([0.0; 3], |i| model.bodies[i].centre);

@@ -21,6 +21,7 @@
 //! | `row` | scalar constraints between two markers |
 //! | `joint` | joints as lists of rows, with their drives |
 //! | `force` | springs, dampers, actuators and loads as forces between two markers |
+//! | `contact_points` | points that may touch obstacles |
 //! | `layout` | order of bodies and multipliers along the tree |
 //! | `model` | what a user builds, with its faults |
 //! | `consistency` | positions, ranks and velocities at the start |
@@ -33,6 +34,7 @@ mod body;
 mod channels;
 mod consistency;
 mod constants;
+mod contact_points;
 mod force;
 mod joint;
 mod layout;

@@ -17,6 +17,7 @@ pub struct Model {
     pub(super) joints: Vec<Joint>,
     pub(super) springs: Vec<Spring>,
     pub(super) loads: Vec<Load>,
+    pub(super) points: Vec<Marker>,
     pub(super) drop_redundant: bool,
 }
 
@@ -124,6 +125,12 @@ impl Model {
         self.loads.push(load);
     }
 
+    /// Adds a point of a body that may touch obstacles; gives its number for [contacts](crate::contact::Contact).
+    pub fn contact_point(&mut self, point: Marker) -> usize {
+        self.points.push(point);
+        self.points.len() - 1
+    }
+
     /// Adds a joint at a `point` of space, where both markers are at the start: their third axis along `axis`, their first
     /// towards `first` if that is given.
     ///
@@ -188,6 +195,9 @@ impl Model {
             let fault = (!sound).then(|| "has a component that is not finite".to_owned());
             self.examine("load", &load.name, fault, &[load.at], &mut names)?;
         }
+        for (k, point) in self.points.iter().enumerate() {
+            self.examine("contact point", &format!("contact point {k}"), None, &[*point], &mut names)?;
+        }
         Ok(())
     }
 
@@ -208,7 +218,7 @@ impl Model {
             .or_else(|| (!markers.iter().all(numbers)).then(|| "has a marker that is not finite".to_owned()))
             .or_else(|| match markers {
                 [a, b] if a.part == b.part => Some("has both ends on the same part".to_owned()),
-                [a] if a.part == Part::Ground => Some("acts on the ground".to_owned()),
+                [a] if a.part == Part::Ground => Some("is on the ground and moves nothing".to_owned()),
                 _ => None,
             })
             .or_else(|| {

@@ -320,7 +320,7 @@ impl Dynamics for Multibody {
         }
     }
 
-    fn rate(&self, d: &[f64], v: &[f64], out: &mut [f64]) {
+    fn rate(&self, _from: &[f64], d: &[f64], v: &[f64], out: &mut [f64]) {
         for i in 0..self.placed.len() {
             let (d, v, out) = (&d[6 * i..], &v[6 * i..], &mut out[6 * i..]);
             out[..3].copy_from_slice(&v[..3]);

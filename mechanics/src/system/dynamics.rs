@@ -78,8 +78,8 @@ pub trait Dynamics: Send {
         }
     }
 
-    /// `out` = ḋ, the rate of the increment d in q₀ ⊞ d(t) where the velocity is v: ḋ = T(d)⁻¹ v. On a vector space v.
-    fn rate(&self, _d: &[f64], v: &[f64], out: &mut [f64]) {
+    /// `out` = ḋ, the rate of the increment d in q₀ ⊞ d(t) where the velocity is v: ḋ = T(q₀, d)⁻¹ v. On a vector space v.
+    fn rate(&self, _from: &[f64], _d: &[f64], v: &[f64], out: &mut [f64]) {
         out.copy_from_slice(v);
     }
 

@@ -63,7 +63,7 @@ pub trait Events {
         false
     }
 
-    /// Work \[J\] of what enforces the jump of velocity between the states before and after it.
+    /// Work \[J\] of what enforces a prescribed velocity, between the states before and after a jump of it or an impact.
     fn impulse_work(&mut self, _before: &State, _after: &State) -> f64 {
         0.0
     }

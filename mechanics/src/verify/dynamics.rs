@@ -169,7 +169,7 @@ impl Checker<'_> {
         self.system.difference(&s.q, &q, &mut back);
         self.compare("(q ⊞ d) ⊟ q", |i| format!("unknown {i}"), &back, &d, 1e-3);
         let mut rate = vec![0.0; n];
-        self.system.rate(&d, &s.v, &mut rate);
+        self.system.rate(&s.q, &d, &s.v, &mut rate);
         let system = &mut *self.system;
         let (mut increment, mut moved) = (d.clone(), q.clone());
         let found = Checker::derivative(1e-3, n, |t, out| {

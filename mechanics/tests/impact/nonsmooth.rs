@@ -5,7 +5,10 @@ use crate::integrators::multibody::{BallOnMovingWall, BallsOnWall, FourBar, GRAV
 use flexion::analysis::Violation;
 use flexion::analysis::transient::{Ending, Plan, RunError, resume, transient, transient_to_checkpoint};
 use flexion::integrator::{Integrator, MoreauJean, NonsmoothAlpha, Radau, Tolerance};
-use flexion::system::{Dynamics, Mode, RowWeights, State};
+use flexion::linalg::Matrix;
+use flexion::system::{
+    Crossing, Dynamics, Events, Mode, Observed, RowWeights, Set, Size, State, Steady, VisitRow, Weights,
+};
 
 /// The decoupled scheme and the coupled one.
 pub fn methods(rho: f64) -> [Box<dyn Integrator>; 2] {
@@ -259,5 +262,66 @@ fn two_rows_of_friction_are_a_disc_or_refused() {
             let across = to.lambda[1] * to.v[2] - to.lambda[2] * to.v[0];
             assert!(across.abs() < 1e-9 && to.lambda[2] < 0.0, "{across:e}");
         });
+    }
+}
+
+/// A ball that passes a height: the model remembers with which speed.
+struct Gate {
+    ball: BallOnMovingWall,
+    height: f64,
+}
+
+impl Steady for Gate {}
+impl Observed for Gate {}
+impl Events for Gate {
+    fn indicators(&self) -> usize {
+        1
+    }
+    fn indicate(&mut self, s: &State, out: &mut [f64]) {
+        out[0] = s.q[0] - self.height;
+    }
+    fn cross(&mut self, _fired: &[usize], s: &mut State) -> Crossing {
+        s.memory[0] = s.v[0];
+        Crossing::Continue
+    }
+}
+impl Dynamics for Gate {
+    fn size(&self) -> Size {
+        Size { memory: 1, ..self.ball.size() }
+    }
+    fn scales(&self) -> &[f64] {
+        self.ball.scales()
+    }
+    fn rows(&self) -> &[Set] {
+        self.ball.rows()
+    }
+    fn residual(&mut self, s: &State, r: &mut [f64]) {
+        self.ball.residual(s, r);
+    }
+    fn constraint(&mut self, s: &State, c: RowWeights, g: &mut [f64]) {
+        self.ball.constraint(s, c, g);
+    }
+    fn jacobian(&mut self, s: &State, visit: &mut VisitRow<'_>) {
+        self.ball.jacobian(s, visit);
+    }
+    fn tangent(&mut self, s: &State, w: Weights<'_>, out: &mut Matrix) {
+        self.ball.tangent(s, w, out);
+    }
+}
+
+/// Events of the model itself are located whatever resolves the contacts: at the height y the speed is √(2g(y₀ − y)).
+#[test]
+fn events_of_the_model_are_found_beside_contacts() {
+    for mut method in methods(0.8).into_iter().chain([Box::new(MoreauJean::new(0.5).unwrap()) as _]) {
+        let mut system = Gate { ball: ball(0.5, 1.0).0, height: 0.8 };
+        let mut state = State::zeros(system.size(), 0.0);
+        (state.q[0], state.mode[0]) = (1.0, Mode::Open);
+        let plan = Plan { end: 2.0, step: Some(1e-3), longest_step: None, contact_step: None, sample: 0.5 };
+        rest(&mut system, method.as_mut(), &mut state, &plan);
+        // It rebounds to a quarter of the height only.
+        let exact = -f64::sqrt(2.0 * GRAVITY * 0.2);
+        let allowed = if method.info().order == 1 { 1e-2 } else { 1e-9 };
+        assert!((state.memory[0] - exact).abs() < allowed, "{:?} for {exact}", state.memory);
+        assert!(state.q[0].abs() < 1e-3 && state.v[0].abs() < 2e-2, "{state:?}");
     }
 }

@@ -62,8 +62,8 @@ impl<S: System> Dynamics for Mutant<S> {
     fn difference(&self, from: &[f64], to: &[f64], d: &mut [f64]) {
         self.model.difference(from, to, d);
     }
-    fn rate(&self, d: &[f64], v: &[f64], out: &mut [f64]) {
-        if self.fault == Fault::FlatRate { out.copy_from_slice(v) } else { self.model.rate(d, v, out) }
+    fn rate(&self, from: &[f64], d: &[f64], v: &[f64], out: &mut [f64]) {
+        if self.fault == Fault::FlatRate { out.copy_from_slice(v) } else { self.model.rate(from, d, v, out) }
     }
     fn residual(&mut self, s: &State, r: &mut [f64]) {
         let mut at = s.clone();

@@ -197,7 +197,7 @@ impl Dynamics for HeavyTop {
         d.iter_mut().zip(&turn[1..]).for_each(|(d, x)| *d = part * x);
     }
     /// ḋ = v + ½ d × v + (1 − (a/2) cot(a/2))/a² d × (d × v), a = |d|
-    fn rate(&self, d: &[f64], v: &[f64], out: &mut [f64]) {
+    fn rate(&self, _from: &[f64], d: &[f64], v: &[f64], out: &mut [f64]) {
         let (d, v) = ([d[0], d[1], d[2]], [v[0], v[1], v[2]]);
         let square: f64 = d.iter().map(|x| x * x).sum();
         let half = 0.5 * square.sqrt();

@@ -55,8 +55,8 @@ impl Dynamics for Dense {
     fn retract(&self, q: &[f64], d: &[f64], out: &mut [f64]) {
         self.0.retract(q, d, out);
     }
-    fn rate(&self, d: &[f64], v: &[f64], out: &mut [f64]) {
-        self.0.rate(d, v, out);
+    fn rate(&self, from: &[f64], d: &[f64], v: &[f64], out: &mut [f64]) {
+        self.0.rate(from, d, v, out);
     }
     fn residual(&mut self, s: &State, r: &mut [f64]) {
         self.0.residual(s, r);

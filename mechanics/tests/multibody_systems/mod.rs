@@ -4,6 +4,7 @@
 
 mod chain;
 mod conformance;
+mod contacts;
 mod faults;
 mod heavy_top;
 mod mechanisms;

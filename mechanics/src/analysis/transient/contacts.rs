@@ -24,6 +24,8 @@ pub(super) struct Contacts {
     rates: Vec<f64>,
     /// Events in a row with no time between them.
     events: usize,
+    /// Whether the integrator resolves the contacts, so that only the model's own indicators are looked at.
+    pub(super) resolved: bool,
 }
 
 impl Contacts {
@@ -36,11 +38,21 @@ impl Contacts {
             neglected: Neglected::default(),
             rates: vec![0.0; state.lambda.len()],
             events: 0,
+            resolved: false,
         })
+    }
+
+    /// For an integrator that resolves contacts: what is left is the model's own indicators, if it has any.
+    pub(super) fn of_indicators(mut self) -> Option<Contacts> {
+        self.resolved = true;
+        self.locator.ignore_rows().then_some(self)
     }
 
     /// Sets the modes of the contacts at the start of a run.
     pub(super) fn settle(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), RunError> {
+        if self.resolved {
+            return Ok(());
+        }
         let sets = system.rows();
         let rubs = |normal: usize| {
             sets.iter().filter(|set| matches!(set, Set::Friction { normal: n, .. } if *n == normal)).count()
@@ -97,6 +109,24 @@ impl Contacts {
         self.events = if part < SHORT { self.events + 1 } else { 0 };
         if self.events > MOST_EVENTS { Err(RunError::Chatter { time, count: self.events }) } else { Ok(()) }
     }
+}
+
+/// Energy \[J\] that contacts have taken by their normal impulses in a step of a nonsmooth method, −½ hλ (ġ₀ + ġ₁): in a step
+/// without impact it is a part of the error of the step.
+pub(super) fn loss(system: &mut dyn System, from: &State, to: &State, rates: &mut [f64]) -> f64 {
+    let half = 0.5 * (to.t - from.t);
+    let mut lost = 0.0;
+    let presses = |i: usize, sets: &[Set]| matches!(sets[i], Set::Unilateral { .. }) && to.lambda[i] > 0.0;
+    if !(0..rates.len()).any(|i| presses(i, system.rows())) {
+        return 0.0;
+    }
+    for s in [from, to] {
+        system.constraint(s, RowWeights::VELOCITY, rates);
+        for (i, rate) in rates.iter().enumerate().filter(|(i, _)| presses(*i, system.rows())) {
+            lost -= half * to.lambda[i] * rate;
+        }
+    }
+    lost
 }
 
 /// Whether a contact is closed, or may close within two steps of size `h` with the present velocity and acceleration.

@@ -155,6 +155,12 @@ impl Locator {
         })
     }
 
+    /// Leaves the rows out of account; whether there is something else to locate.
+    pub(super) fn ignore_rows(&mut self) -> bool {
+        self.sets.fill(Set::Free);
+        self.own > 0
+    }
+
     /// Looks for events in the step of size `h` from `from` to `to`, which was attempted. Where there is one, `to` becomes
     /// the state at the first of them; gives the size of that step, and whether an event is at its end.
     pub(super) fn locate(

@@ -20,7 +20,7 @@ use crate::contact::{Bounds, Impact, ImpactMap};
 use crate::integrator::{Checkpoint, Integrator, NotResumed, Span, StepControl, StepReport};
 use crate::system::{Crossing, Jump, Side, State, System};
 use adaptive::adapt;
-use contacts::{Contacts, approaches};
+use contacts::{Contacts, approaches, loss};
 use stretch::Stretch;
 
 /// Shortest recording interval, over the length of the run.
@@ -142,7 +142,7 @@ impl Run {
         observer: &mut dyn Observer,
     ) -> Result<(), RunError> {
         if integrator.resolves_contacts() {
-            self.contacts = None;
+            self.contacts = self.contacts.take().and_then(Contacts::of_indicators);
         }
         if let Some(contacts) = &mut self.contacts {
             contacts.settle(system, state)?;
@@ -206,7 +206,7 @@ impl Run {
             self.stretch = Some(stretch);
         }
         if integrator.resolves_contacts() {
-            self.contacts = None;
+            self.contacts = self.contacts.take().and_then(Contacts::of_indicators);
         }
         let step = self.stretch.map_or(plan.end - origin, |stretch| stretch.step);
         let started = integrator.start(system, &mut state.clone(), step);
@@ -314,6 +314,9 @@ impl Run {
                 stretch.advance();
             }
             if let Some(balance) = &mut self.balance {
+                if integrator.resolves_contacts() {
+                    balance.add_impulse(0.0, loss(system, state, &next, &mut self.gaps));
+                }
                 balance.enter(system, integrator, (state, &next));
             }
             self.show(system, integrator, state, &next, plan, observer);
@@ -428,9 +431,13 @@ impl Run {
             if let Some(part) = event {
                 contacts.count_event(state.t, part)?;
             }
+            if contacts.resolved && !jump {
+                return self.restart(system, integrator, state, (work, lost), happened, observer);
+            }
             let impact = contacts.strike(system, state, &self.impulse)?;
+            // A prescribed motion does work in every impact.
+            work += system.impulse_work(&before, state);
             if jump {
-                work += system.impulse_work(&before, state);
                 happened.push(EventKind::Jump { work });
             }
             work += impact.work;

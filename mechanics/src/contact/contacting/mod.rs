@@ -329,8 +329,11 @@ impl<S: Points + Dynamics + Events + Observed> Dynamics for Contacting<S> {
     }
 
     fn structure(&self, multipliers: usize) -> Structure {
-        let own = multipliers * (self.sets.len() - self.rows);
-        let structure = self.inner.structure(multipliers).widened(own);
+        // Behind each copy of the model's own multipliers.
+        let (n, own) = (self.inner.size().v, self.sets.len() - self.rows);
+        let structure = (1..=multipliers).fold(self.inner.structure(multipliers), |structure, copy| {
+            structure.widened(n + copy * self.rows + (copy - 1) * own, own)
+        });
         let full = self.contacts.iter().any(|placed| {
             let surface = placed.contact.obstacle.surface([0.0; 3], 0.0);
             let stiff = matches!(placed.contact.law, Law::Force(_)) || surface.curvatures != [0.0; 2];
@@ -383,8 +386,8 @@ impl<S: Points + Dynamics + Events + Observed> Dynamics for Contacting<S> {
         self.inner.difference(from, to, d);
     }
 
-    fn rate(&self, d: &[f64], v: &[f64], out: &mut [f64]) {
-        self.inner.rate(d, v, out);
+    fn rate(&self, from: &[f64], d: &[f64], v: &[f64], out: &mut [f64]) {
+        self.inner.rate(from, d, v, out);
     }
 
     fn residual(&mut self, s: &State, r: &mut [f64]) {

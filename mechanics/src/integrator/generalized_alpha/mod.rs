@@ -419,14 +419,19 @@ impl Integrator for GeneralizedAlpha {
         self.inverse_scale.extend(system.scales().iter().map(|scale| 1.0 / scale));
         let multipliers = if self.stabilized { 2 } else { 1 };
         let stabilized = self.stabilized && size.lambda > 0;
+        let rows = Rows::new(system, state);
+        let mut meeting = vec![Vec::new(); if stabilized { size.v } else { 0 }];
+        for &(_, j, _) in rows.stored().iter().filter(|_| stabilized) {
+            meeting[j].push((0, 0.0));
+        }
         self.work = Some(Box::new(Work {
             tangent: Matrix::new(&system.structure(multipliers)),
             rhs: vec![0.0; size.v + multipliers * size.lambda],
             accelerations: Accelerations::new(system, state, RowWeights::ACCELERATION),
-            rows: Rows::new(system, state),
+            rows,
             mu: vec![0.0; size.lambda],
             stiffness: stabilized.then(|| Matrix::new(&system.structure(0))),
-            meeting: vec![Vec::new(); if stabilized { size.v } else { 0 }],
+            meeting,
             affine: system.is_affine() && size.lambda == 0,
             keeps: size.lambda == 0,
             kept: [f64::NAN; 2],

@@ -21,6 +21,11 @@ impl GeneralizedAlpha {
         GeneralizedAlpha { tolerance: Some(tolerance), ..self }
     }
 
+    /// Whether a second multiplier stabilizes the rows.
+    pub(in crate::integrator) fn stabilize(&mut self, stabilized: bool) {
+        self.stabilized = stabilized;
+    }
+
     /// The estimated local error of the attempt over the tolerance.
     pub(super) fn estimate(&self, from: &State, h: f64) -> Option<f64> {
         let tolerance = self.tolerance?;

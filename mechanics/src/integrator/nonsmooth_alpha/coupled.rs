@@ -16,88 +16,10 @@
 //! so that the cone problem of the position has G S⁻¹ Gᵀ and that of the velocity G M⁻¹ Gᵀ. What damping couples beyond
 //! this is left to the iteration.
 
+use super::memory::Coupled;
 use super::{Level, NAME, NonsmoothAlpha, Set, Work, failure, open};
-use crate::integrator::{Checkpoint, NotResumed, Progress, Span, StepError, StepReport};
-use crate::linalg::Matrix;
+use crate::integrator::{Progress, Span, StepError, StepReport};
 use crate::system::{Dynamics, RowWeights, State, Weights};
-
-/// Memory of the coupled scheme.
-#[derive(Debug, Default)]
-pub(super) struct Coupled {
-    /// M with the joints.
-    mass: Option<Matrix>,
-    /// Auxiliary acceleration aₙ, and aₙ₊₁ of the attempt.
-    a: Vec<f64>,
-    a_next: Vec<f64>,
-    /// Size of the step accepted last, and of the attempt.
-    spacing: [f64; 2],
-    /// Increment of the position in the attempt, and in the step accepted.
-    d: Vec<f64>,
-    pub(super) accepted: Vec<f64>,
-    /// ϖ and Λ.
-    velocity: Vec<f64>,
-    impulses: Vec<f64>,
-    /// r₁, and λ before an iteration.
-    residual: Vec<f64>,
-    before: Vec<f64>,
-    /// Right-hand side with M.
-    rhs: Vec<f64>,
-}
-
-impl Coupled {
-    pub(super) fn start(&mut self, system: &dyn Dynamics) {
-        let size = system.size();
-        let (n, m) = (size.v, size.lambda);
-        self.mass = Some(Matrix::new(&system.structure(1)));
-        for list in [&mut self.a, &mut self.a_next, &mut self.d, &mut self.accepted, &mut self.velocity] {
-            *list = vec![0.0; n];
-        }
-        (self.impulses, self.before) = (vec![0.0; m], vec![0.0; m]);
-        (self.residual, self.rhs) = (vec![0.0; n], vec![0.0; n + m]);
-    }
-
-    pub(super) fn accept(&mut self) {
-        std::mem::swap(&mut self.a, &mut self.a_next);
-        std::mem::swap(&mut self.d, &mut self.accepted);
-        self.spacing[0] = self.spacing[1];
-    }
-
-    /// Begins anew with the accelerations `a`.
-    pub(super) fn restart(&mut self, a: &[f64]) {
-        self.a.copy_from_slice(a);
-        self.spacing = [0.0; 2];
-    }
-
-    pub(super) fn save(&self, out: &mut Checkpoint) {
-        out.put("smooth.auxiliary", &self.a);
-        out.put("smooth.spacing", &self.spacing[..1]);
-    }
-
-    pub(super) fn resume(&mut self, from: &Checkpoint) -> Result<(), NotResumed> {
-        from.fill("smooth.auxiliary", &mut self.a)?;
-        from.fill("smooth.spacing", &mut self.spacing[..1])
-    }
-
-    /// Makes position, velocities and accelerations of the attempt from the unknowns: `to` becomes the end of the step,
-    /// `work.smooth` has ṽ and the same position.
-    fn place(&mut self, p: [f64; 4], work: &mut Work, system: &dyn Dynamics, h: f64, to: &mut State) {
-        let [alpha_m, alpha_f, beta, gamma] = p;
-        let ratio = if self.spacing[0] > 0.0 { h / self.spacing[0] } else { 1.0 };
-        self.spacing[1] = h;
-        for i in 0..self.a.len() {
-            let (from, v) = (work.from.a[i], work.from.v[i]);
-            // The lag of a behind q̈ is a part of the step.
-            let a = if ratio == 1.0 { self.a[i] } else { from + ratio * (self.a[i] - from) };
-            let next = ((1.0 - alpha_f) * to.a[i] + alpha_f * from - alpha_m * a) / (1.0 - alpha_m);
-            self.a_next[i] = next;
-            self.d[i] = h * v + h * h * ((0.5 - beta) * a + beta * next) + 0.5 * h * h * work.alpha[i];
-            work.smooth.v[i] = v + h * ((1.0 - gamma) * a + gamma * next);
-            to.v[i] = work.smooth.v[i] + h * self.velocity[i];
-        }
-        system.retract(&work.from.q, &self.d, &mut to.q);
-        work.smooth.q.copy_from_slice(&to.q);
-    }
-}
 
 impl NonsmoothAlpha {
     /// Attempts a step of the coupled scheme.
@@ -127,7 +49,7 @@ impl NonsmoothAlpha {
         let joints = work.rows.sets().contains(&Set::Free);
         self.convergence.begin(true);
         let result = loop {
-            coupled.place(p, work, system, h, to);
+            work.place(p, coupled, system, h, to);
             system.constraint(to, RowWeights::POSITION, &mut work.gaps);
             let new = work.admit(|work, i| work.gaps[i] <= 0.0);
             self.corrected = work.takes_part.contains(&true);
@@ -199,7 +121,7 @@ impl NonsmoothAlpha {
                 to.lambda[k] += (work.rhs[n + k] - coupled.rhs[n + k]) / (2.0 * beta * kappa);
             }
             if active {
-                coupled.place(p, work, system, h, to);
+                work.place(p, coupled, system, h, to);
                 system.residual(to, &mut coupled.residual);
                 work.difference(system, to, Some((&coupled.velocity, &coupled.impulses)), &coupled.residual);
                 system.constraint(to, RowWeights::VELOCITY, &mut work.rates);
@@ -230,7 +152,7 @@ impl NonsmoothAlpha {
         };
         coupled.mass = Some(mass);
         result?;
-        coupled.place(p, work, system, h, to);
+        work.place(p, coupled, system, h, to);
         // What the smooth motion remembers, and what the state shows.
         work.smooth.a.copy_from_slice(&to.a);
         work.smooth.lambda.copy_from_slice(&to.lambda);
@@ -250,6 +172,26 @@ impl NonsmoothAlpha {
 }
 
 impl Work {
+    /// Makes position, velocities and accelerations of the attempt from the unknowns: `to` becomes the end of the step,
+    /// `self.smooth` has ṽ and the same position.
+    fn place(&mut self, p: [f64; 4], memory: &mut Coupled, system: &dyn Dynamics, h: f64, to: &mut State) {
+        let [alpha_m, alpha_f, beta, gamma] = p;
+        let ratio = if memory.spacing[0] > 0.0 { h / memory.spacing[0] } else { 1.0 };
+        memory.spacing[1] = h;
+        for i in 0..memory.a.len() {
+            let (from, v) = (self.from.a[i], self.from.v[i]);
+            // The lag of a behind q̈ is a part of the step.
+            let a = if ratio == 1.0 { memory.a[i] } else { from + ratio * (memory.a[i] - from) };
+            let next = ((1.0 - alpha_f) * to.a[i] + alpha_f * from - alpha_m * a) / (1.0 - alpha_m);
+            memory.a_next[i] = next;
+            memory.d[i] = h * v + h * h * ((0.5 - beta) * a + beta * next) + 0.5 * h * h * self.alpha[i];
+            self.smooth.v[i] = v + h * ((1.0 - gamma) * a + gamma * next);
+            to.v[i] = self.smooth.v[i] + h * memory.velocity[i];
+        }
+        system.retract(&self.from.q, &memory.d, &mut to.q);
+        self.smooth.q.copy_from_slice(&to.q);
+    }
+
     /// `rhs` = r(…, q̈ + x, λ̃ + f) − r₁ with x and f of the position, or those given.
     fn difference(
         &mut self,

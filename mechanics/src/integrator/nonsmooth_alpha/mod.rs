@@ -42,6 +42,7 @@
 
 mod coupled;
 mod decoupled;
+mod memory;
 
 use super::impulses::Impulses;
 use super::rows::Rows;
@@ -52,7 +53,7 @@ use super::{
 use crate::contact::Unresolved;
 use crate::linalg::Matrix;
 use crate::system::{Dynamics, Mode, Set, State};
-use coupled::Coupled;
+use memory::Coupled;
 
 /// Name as in a case file.
 const NAME: &str = "nonsmooth-generalized-alpha";
@@ -117,7 +118,7 @@ impl NonsmoothAlpha {
     pub fn decoupled(spectral_radius: f64) -> Result<NonsmoothAlpha, InvalidParameter> {
         Ok(NonsmoothAlpha {
             info: Info { name: NAME, order: 2, estimate_order: None, implicit: true },
-            smooth: GeneralizedAlpha::chung_hulbert(spectral_radius)?.stabilized(),
+            smooth: GeneralizedAlpha::chung_hulbert(spectral_radius)?,
             convergence: Convergence::full(TOLERANCE, 1e-9),
             counters: Counters::default(),
             corrected: false,
@@ -261,6 +262,8 @@ impl Integrator for NonsmoothAlpha {
             coupled.start(system);
         }
         open(system.rows(), state);
+        // Without joints nothing is to be stabilized.
+        self.smooth.stabilize(system.rows().contains(&Set::Free));
         self.smooth.start(system, state, step)?;
         self.restart(system, state)
     }

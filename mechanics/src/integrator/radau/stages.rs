@@ -270,7 +270,7 @@ impl Stages {
             d[k] = h_gamma * from.v[k] + row2[0] * a1[k] + row2[1] * a2[k] + row2[2] * a3[k];
         }
         if !self.flat {
-            system.rate(&self.increments[i][..n], &self.stage.v, &mut self.rates[i][..n]);
+            system.rate(&from.q, &self.increments[i][..n], &self.stage.v, &mut self.rates[i][..n]);
             for k in 0..n {
                 let d: f64 = (0..3).map(|j| row[j] * self.rates[j][k]).sum();
                 self.shift += ((d - self.increments[i][k]) * self.inverse_weight[k]).powi(2);
@@ -325,8 +325,13 @@ impl Stages {
             a1[i] -= inverse * x;
             a2[i] -= inverse * y;
             a3[i] -= inverse * z;
+            let speed = rows(&A_INVERSE, d);
+            if !self.flat {
+                // The rates of later stages are not yet those of the new velocities.
+                self.rates.iter_mut().zip(speed).for_each(|(rate, x)| rate[i] -= x / h);
+            }
             let w = self.inverse_weight[i];
-            square += (squares(d) + squares(rows(&A_INVERSE, d))) * (w * w);
+            square += (squares(d) + squares(speed)) * (w * w);
         }
         (square / (6 * velocities.max(1)) as f64).sqrt()
     }

@@ -1,26 +1,11 @@
-//! The angle of twist between two sections.
+//! The angle of twist between two sections, and its derivatives.
 //!
-//! Take the frame Λ_a to the tangent t_b by the smallest rotation. The angle from there to Λ_b about t_b is
-//!
-//! ```text
-//! φ = atan2(b_a·n_b − n_a·b_b, n_a·n_b + b_a·b_b)
-//! ```
-//!
-//! the twist of the relative rotation in its decomposition into swing and twist. With the rotations of the sections,
-//! δθ = δΘ t + t × δt, its variation does not contain n and b:
-//!
-//! ```text
-//! δφ = (t_a + t_b)·(δθ_b − δθ_a)/(1 + t_a·t_b) = δΘ_b − δΘ_a + c·(δt_a + δt_b),    c = t_a × t_b/(1 + t_a·t_b)
-//! ```
-//!
-//! c is orthogonal to both tangents, so that c·δt = c·δr′/|r′|. The derivatives of c by r′ of the two ends are, since c
-//! changes only with the directions,
+//! c of a [`Pair`] is orthogonal to both tangents, so that c·δt = c·δr′/|r′|. It changes only with the directions of r′ at the
+//! two ends, and
 //!
 //! ```text
 //! ∂c/∂r′_a = −([t_b]× + c (t_a + t_b)ᵀ)/((1 + t_a·t_b) |r′_a|),    ∂c/∂r′_b = ([t_a]× − c (t_a + t_b)ᵀ)/((1 + t_a·t_b) |r′_b|)
 //! ```
-//!
-//! φ is not defined where t_b = −t_a, and jumps by 2π where Λ_b is twisted by half a turn.
 
 use super::triad::{Triad, Vector, plus, times};
 use crate::linalg::vector::{cross, inner};
@@ -28,7 +13,22 @@ use crate::linalg::vector::{cross, inner};
 /// A 3 × 3 matrix, by rows.
 pub(super) type Block = [[f64; 3]; 3];
 
-/// The twist of one section against another. See the [module documentation](self).
+/// The twist of section b against section a.
+///
+/// Take the frame Λ_a to the tangent t_b by the smallest rotation. The angle from there to Λ_b about t_b is
+///
+/// ```text
+/// φ = atan2(b_a·n_b − n_a·b_b, n_a·n_b + b_a·b_b)
+/// ```
+///
+/// the twist of the relative rotation when it is split into swing and twist. With the rotations of the sections,
+/// δθ = δΘ t + t × δt, its variation does not contain n and b:
+///
+/// ```text
+/// δφ = (t_a + t_b)·(δθ_b − δθ_a)/(1 + t_a·t_b) = δΘ_b − δΘ_a + c·(δt_a + δt_b),    c = t_a × t_b/(1 + t_a·t_b)
+/// ```
+///
+/// φ is not defined where t_b = −t_a, and jumps by 2π where Λ_b is twisted by half a turn.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pair {
     /// φ \[rad\]

@@ -58,11 +58,13 @@ fn along_axes(
 ) -> [[f64; LOCAL]; LOCAL] {
     let [second, third] = bending(section);
     let mut out = [[0.0; LOCAL]; LOCAL];
-    let products = stiffness.0.map(|c| {
-        let mut row: [f64; LOCAL] = std::array::from_fn(|k| weight * (c[2] * second[k] + c[3] * third[k]));
+    let mut products = [[0.0; LOCAL]; 4];
+    for (row, c) in products.iter_mut().zip(&stiffness.0) {
+        for k in 0..LOCAL {
+            row[k] = weight * (c[2] * second[k] + c[3] * third[k]);
+        }
         (row[AXIAL], row[TORSION]) = (weight * c[0], weight * c[1]);
-        row
-    });
+    }
     (out[AXIAL], out[TORSION]) = (products[0], products[1]);
     for i in 0..AXIAL {
         for k in 0..LOCAL {
@@ -201,16 +203,14 @@ pub(super) fn tangent(
         let matrix = along_axes(&section, stress, stiffness, weight * at.weight);
         let matrix = along_fixed_axes(&section.triad, matrix);
         let scalars = rows.at(at, shapes, &triads[1], &section);
-        let of = |row: &[f64; LOCAL]| {
-            let mut out = Row::ZERO;
+        let mut m = [Row::ZERO; LOCAL];
+        for (out, row) in m.iter_mut().zip(&matrix) {
             for i in 0..3 {
                 out.add(row[SPIN + i], &scalars[i]);
             }
-            add_vector(&mut out, &at.slope, [row[SLOPE], row[SLOPE + 1], row[SLOPE + 2]]);
-            add_vector(&mut out, &at.curvature, [row[CURVATURE], row[CURVATURE + 1], row[CURVATURE + 2]]);
-            out
-        };
-        let m = matrix.each_ref().map(of);
+            add_vector(out, &at.slope, [row[SLOPE], row[SLOPE + 1], row[SLOPE + 2]]);
+            add_vector(out, &at.curvature, [row[CURVATURE], row[CURVATURE + 1], row[CURVATURE + 2]]);
+        }
         let mut slope = [m[0], m[1], m[2]];
         // c of the middle and the point, on which the moment −ω acts.
         let [middle, here] = section.pair.second(&triads[1], &section.triad, -force.spin);

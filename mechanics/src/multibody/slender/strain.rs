@@ -18,7 +18,6 @@
 use super::pair::Pair;
 use super::shapes::{Point, Shapes};
 use super::triad::{Triad, Vector, plus, times, vector};
-use crate::linalg::vector::inner;
 
 /// Coordinates of an element: r₁, r′₁, n₁, nₘ, r₂, r′₂, n₂.
 pub const COORDINATES: usize = 21;
@@ -258,7 +257,12 @@ impl Stiffness {
     /// weight · C (γ − γ₀)
     #[inline(always)]
     pub fn stress(&self, strain: &[f64; 4], initial: &[f64; 4], weight: f64) -> [f64; 4] {
-        let strain: [f64; 4] = std::array::from_fn(|k| weight * (strain[k] - initial[k]));
-        self.0.map(|row| inner(row, strain))
+        let mut stress = [0.0; 4];
+        for (stress, row) in stress.iter_mut().zip(&self.0) {
+            for k in 0..4 {
+                *stress += row[k] * weight * (strain[k] - initial[k]);
+            }
+        }
+        stress
     }
 }

@@ -70,6 +70,7 @@ impl Triad {
     ///
     /// Defined unless the tangent reverses, t₁ = −t. n is made a unit vector across t₁ again, so that rounding does not
     /// accumulate.
+    #[inline]
     pub fn transported(&self, slope: Vector, angle: f64) -> Triad {
         let length = inner(slope, slope).sqrt();
         let t = times(1.0 / length, slope);

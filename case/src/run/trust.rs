@@ -1,0 +1,44 @@
+//! Until when the contacts of a run are those of a more accurate one.
+//!
+//! Impacts of a beam are chaotic: a difference in the last digits grows from burst to burst, and no tolerance makes all of
+//! a long run right. A companion on the same mesh, with a tenth of the tolerance or half the step, says how far it is.
+
+use super::Run;
+use crate::kinds::integrator::Steps;
+use crate::problem::Problems;
+use crate::reading::Reading;
+use flexion_results::Watch;
+
+/// Difference of a gap, over its largest value, from which two runs go different ways.
+const APART: f64 = 0.01;
+
+impl Reading {
+    /// A warning with the time until which the gaps of a run are those of its companion; none where they are to the end.
+    pub(super) fn trust(&self, run: &Run, watch: &mut Watch<'_>) -> Result<Option<String>, Problems> {
+        if self.case.contacts.is_empty() {
+            return Ok(None);
+        }
+        let (changes, what) = match self.case.steps {
+            Steps::Controlled { .. } => (self.tolerances(0.1, 1e-13, 1.0), "a tenth of the tolerance"),
+            Steps::Fixed(step) => (vec![format!("integrator.step={:e}", 0.5 * step)], "half the step"),
+        };
+        let companion = self.with(&changes)?.prepare()?.run(watch);
+        let (ours, theirs) = (&run.trajectory, &companion.trajectory);
+        let mut first = f64::INFINITY;
+        for (index, channel) in ours.channels().iter().enumerate() {
+            let Some(other) = theirs.index(&channel.name).filter(|_| channel.name.ends_with(".gap")) else {
+                continue;
+            };
+            let bound = APART * ours.extremes(index).largest();
+            let rows = ours.times().iter().zip(ours.values(index).zip(theirs.values(other)));
+            let apart = rows.into_iter().find(|(_, (a, b))| (a - b).abs() > bound);
+            first = apart.map_or(first, |(t, _)| first.min(*t));
+        }
+        Ok(first.is_finite().then(|| {
+            format!(
+                "gaps and impacts are trusted until t = {first} s: from there a run with {what} goes another way, for \
+                 impacts amplify every difference"
+            )
+        }))
+    }
+}
