@@ -3,8 +3,10 @@
 
 mod accumulation;
 mod bars;
+mod bursts;
 mod conformance;
 mod falling_pendulum;
 mod massless;
 mod models;
 mod nonsmooth;
+mod properties;

@@ -1,0 +1,118 @@
+//! The first burst of impacts of P4's pendulum and its second touch, against an independent program
+//! (`references/impact`: other equations, other integrator, other search for events).
+#![allow(missing_docs)]
+
+use super::falling_pendulum::{pendulum, run};
+use flexion::analysis::transient::{Ending, EventKind, Plan};
+use flexion::contact::Law;
+use flexion::integrator::{Radau, Tolerance};
+use flexion::system::Mode;
+
+/// Time, impulse and loss of the impacts with more than 1e-4 N·s, and times at which the contact opens.
+fn events(modes: usize, restitution: f64, tolerance: f64, end: f64) -> (Vec<[f64; 3]>, Vec<f64>) {
+    let mut system = pendulum(modes, Law::Constraint { restitution, friction: 0.0 });
+    let mut method = Radau::new(Tolerance::uniform(tolerance)).unwrap();
+    let plan = Plan { end, step: None, contact_step: None, longest_step: None, sample: 0.01 };
+    let (watch, _, ending) = run(&mut system, &mut method, &plan);
+    assert_eq!(ending, Ending::Finished, "{:?}", watch.events);
+    let (mut strikes, mut openings) = (Vec::new(), Vec::new());
+    for event in &watch.events {
+        match &event.kind {
+            EventKind::Impact { impulses, lost, .. } if impulses[0] > 1e-4 => {
+                strikes.push([event.time, impulses[0], *lost]);
+            }
+            EventKind::Switch if event.modes[0] == Mode::Open => openings.push(event.time),
+            _ => {}
+        }
+    }
+    (strikes, openings)
+}
+
+fn compare(found: &[[f64; 3]], expected: &[[f64; 3]], time: f64, impulse: f64) {
+    assert!(found.len() >= expected.len(), "{found:?}");
+    for (found, expected) in found.iter().zip(expected) {
+        let part = |k: usize| (found[k] / expected[k] - 1.0).abs();
+        assert!(part(0) < time && part(1) < impulse && part(2) < 2.0 * impulse, "{found:?} {expected:?}");
+    }
+}
+
+/// N = 1, e = 0: one impact, a contact that lasts, a flight, the second touch.
+#[test]
+fn one_mode_without_restitution() {
+    let expected =
+        [[0.370001290051, 0.665990469917, 1.51617066949], [0.687134160001, 0.529578102979, 0.958814838425]];
+    let (strikes, openings) = events(1, 0.0, 1e-10, 0.6872);
+    compare(&strikes, &expected, 1e-7, 1e-5);
+    assert_eq!(openings.len(), 1);
+    assert!((openings[0] - 0.378713366621).abs() < 1e-8, "{openings:?}");
+}
+
+/// N = 2, e = 0, with both tolerances: three impacts, each with a contact that lasts, then the second touch.
+#[test]
+fn two_modes_without_restitution_whatever_the_tolerance() {
+    let expected = [
+        [0.370010052116, 0.429184146751, 0.981371260015],
+        [0.374436102453, 0.142297238625, 0.107897217689],
+        [0.382777778444, 0.111896342913, 0.0667078556399],
+        [0.778915922491, 0.197216838063, 0.207235749932],
+    ];
+    for (tolerance, time, impulse) in [(1e-9, 1e-6, 5e-4), (1e-10, 1e-6, 1e-4)] {
+        let (strikes, openings) = events(2, 0.0, tolerance, 0.779);
+        compare(&strikes, &expected, time, impulse);
+        assert_eq!((strikes.len(), openings.len()), (4, 3));
+        for (found, expected) in openings.iter().zip([0.372291273319, 0.38020670139, 0.383333999435]) {
+            assert!((found - expected).abs() < 1e-6, "{openings:?}");
+        }
+    }
+}
+
+/// N = 1, e = ½: three impacts and the second touch.
+#[test]
+fn one_mode_with_restitution() {
+    let expected = [
+        [0.370001290051, 0.998985704875, 1.13712800212],
+        [0.374436865181, 0.735325577492, 0.616290716733],
+        [0.377220065569, 0.264437475994, 0.079679500972],
+        [0.683420348057, 0.813759377447, 0.754572836232],
+    ];
+    let (strikes, _) = events(1, 0.5, 1e-10, 0.6835);
+    compare(&strikes, &expected, 1e-6, 1e-4);
+    assert_eq!(strikes.len(), 4);
+}
+
+/// N = 2, e = ½: bounces that accumulate, are cut off and go over into a contact that lasts.
+#[test]
+fn two_modes_with_restitution_in_the_first_burst() {
+    let expected = [
+        [0.370010052116, 0.643776220126, 0.736028445012],
+        [0.37221826421, 0.186509445647, 0.0617924233933],
+        [0.374793436311, 0.479016094942, 0.407609783665],
+        [0.376964641745, 0.160994355765, 0.0460500841691],
+        [0.377619673608, 0.104454079017, 0.0193807724352],
+        [0.377884879384, 0.0556255542416, 0.00549591825393],
+        [0.378012725121, 0.0282745554309, 0.00141994819083],
+        [0.37807437578, 0.0142841345643, 0.000362395768654],
+    ];
+    let (strikes, openings) = events(2, 0.5, 1e-10, 0.383);
+    compare(&strikes, &expected, 1e-7, 2e-4);
+    let (last, opened) = (strikes[strikes.len() - 1], openings[openings.len() - 1]);
+    assert!((opened - 0.379784003445).abs() < 1e-6, "{openings:?}");
+    assert!(
+        (last[0] - 0.382716975361).abs() < 1e-6 && (last[1] / 0.0214599559629 - 1.0).abs() < 1e-3,
+        "{last:?}"
+    );
+}
+
+/// N = 3, e = 0.
+#[test]
+fn three_modes_without_restitution_in_the_first_burst() {
+    let expected = [
+        [0.370010386339, 0.307540153414, 0.702881861406],
+        [0.376208883319, 0.0617607742232, 0.0283583128441],
+    ];
+    let (strikes, openings) = events(3, 0.0, 1e-10, 0.381);
+    compare(&strikes, &expected, 1e-7, 1e-4);
+    for (found, expected) in openings.iter().zip([0.374166825488, 0.379385760296]) {
+        assert!((found - expected).abs() < 1e-6, "{openings:?}");
+    }
+}
