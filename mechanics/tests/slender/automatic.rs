@@ -123,7 +123,8 @@ fn hermite(z: f64, h: f64) -> [[f64; 4]; 2] {
     ]
 }
 
-/// Strains at the Gauss points z of an element of the length h; q as in the library.
+/// Strains at the two Gauss points z of an element of the length h, and last the parts of ε and κ₁ along P₂(2z − 1); q as in
+/// the library.
 fn strains(q: &[Vec3; 7], h: f64) -> [[Number; 4]; 3] {
     let [r1, g1, n1, nm, r2, g2, n2] = *q;
     let x = [r1, g1, r2, g2];
@@ -138,8 +139,12 @@ fn strains(q: &[Vec3; 7], h: f64) -> [[Number; 4]; 3] {
         (first + second) / number(h),
         (number(4.0) * second - whole) / number(h),
     ];
-    let outer = 0.5 * (1.0 - 0.6_f64.sqrt());
-    [outer, 0.5, 1.0 - outer].map(|z| {
+    // The part of the values at 0, ½, 1 along P₂: a parabola y₀ + … + c x², x = 2z − 1, has 2c/3 of it.
+    let part = |y: [Number; 3]| number(2.0 / 3.0) * (number(0.5) * (y[0] + y[2]) - y[1]);
+    let axial = slopes.map(|g| dot(g, g).sqrt() - number(1.0));
+    let rest = [part(axial), part(torsion), number(0.0), number(0.0)];
+    let outer = 0.5 * (1.0 - (1.0 / 3.0_f64).sqrt());
+    let [first_point, second_point] = [outer, 1.0 - outer].map(|z| {
         let l = [(1.0 - z) * (1.0 - 2.0 * z), 4.0 * z * (1.0 - z), z * (2.0 * z - 1.0)];
         let interpolated = |y: [Number; 3]| (0..3).fold(number(0.0), |s, i| s + number(l[i]) * y[i]);
         let [slope, curvature] = hermite(z, h).map(combine);
@@ -149,12 +154,13 @@ fn strains(q: &[Vec3; 7], h: f64) -> [[Number; 4]; 3] {
         let n = sum(scaled(cos, n), sin, cross(t, n));
         let b = cross(t, n);
         [
-            interpolated(slopes.map(|g| dot(g, g).sqrt() - number(1.0))),
+            interpolated(axial),
             interpolated(torsion),
             number(0.0) - dot(b, curvature) / length,
             dot(n, curvature) / length,
         ]
-    })
+    });
+    [first_point, second_point, rest]
 }
 
 /// The strain energy at q ⊞ d, d the given variations.
@@ -180,10 +186,10 @@ fn energy(beam: &Beam, q: &[f64; 21], d: &[Number; 15], initial: &[[f64; 4]; 3])
         moved(at(15), g2, at(18), d[14]),
     ];
     let strains = strains(&[r1, g1, normals[0], normals[1], r2, g2, normals[2]], h);
-    let outer = 0.5 * (1.0 - 0.6_f64.sqrt());
+    let outer = 0.5 * (1.0 - (1.0 / 3.0_f64).sqrt());
     let mut energy = number(0.0);
     for ((strain, initial), (z, w)) in
-        strains.iter().zip(initial).zip([(outer, 5.0 / 18.0), (0.5, 4.0 / 9.0), (1.0 - outer, 5.0 / 18.0)])
+        strains.iter().zip(initial).zip([(outer, 0.5), (1.0 - outer, 0.5), (0.5, 0.2)])
     {
         let stiffness = super::derivatives::stiffness(z * h);
         for i in 0..4 {

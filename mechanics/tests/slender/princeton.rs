@@ -53,3 +53,18 @@ fn bending_in_two_planes_with_torsion_converges_with_the_fourth_power_of_the_ele
     let order = orders_of(&tips);
     assert!(order.iter().all(|order| (3.6..4.4).contains(order)), "{tips:?} of order {order:?}");
 }
+
+#[test]
+fn a_ribbon_that_is_stiff_edgewise_does_not_lock() {
+    for ratio in [1.0, 16.0, 2500.0] {
+        let tip = |n: usize| {
+            let section = Properties::principal([1e6, 0.7, 1.0, ratio], 1.0, [1.0; 3]);
+            let mut statics = cantilever(1.0, n, section);
+            statics.loads.push((n, Load::Force([0.0, 1.0, 1.0])));
+            statics.load(8);
+            statics.tip().0
+        };
+        let order = orders_of(&[2, 4, 8, 16].map(tip));
+        assert!(order.iter().all(|order| (3.6..4.4).contains(order)), "{ratio}: order {order:?}");
+    }
+}

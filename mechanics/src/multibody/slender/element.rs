@@ -7,7 +7,7 @@ use super::shapes::{MASS_POINTS, POINTS, Point, Shapes, hermite};
 use super::stiffness;
 use super::strain::{
     CENTRELINE, COORDINATES, Forces, SPINS, Section, Sections, Stiffness, VARIABLES, VELOCITIES, centreline,
-    chord, combined, positions, shares,
+    chord, combined, positions, sampled, shares,
 };
 use super::triad::{Triad, Vector, plus, times};
 use crate::linalg::vector::inner;
@@ -28,10 +28,6 @@ pub struct Motion<'a> {
 /// Matrix of an element, by rows.
 pub type Tangent = [[f64; VELOCITIES]; VELOCITIES];
 
-/// Places in an element, (1 ∓ 1/√3)/2, at which strains have errors of higher order than elsewhere: those of the rule of two
-/// points.
-const BEST: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
-
 /// What a variable of the strains is among the velocities of an element: r₂ − r₁ is two of them.
 const PLACES: [usize; VARIABLES] = [8, 9, 10, 3, 4, 5, 11, 12, 13, 6, 7, 14];
 
@@ -40,9 +36,11 @@ const PLACES: [usize; VARIABLES] = [8, 9, 10, 3, 4, 5, 11, 12, 13, 6, 7, 14];
 pub struct Element {
     shapes: Shapes,
     stiffness: [Stiffness; POINTS],
-    /// Strains without stress.
+    /// C in the middle.
+    middle: Stiffness,
+    /// Strains without stress, and of ε and κ₁ the part that vanishes at the points.
     initial: [[f64; 4]; POINTS],
-    initial_at_best: [[f64; 4]; 2],
+    rest: [f64; 2],
     /// ∫ρA Nᵢ Nⱼ ds
     mass: [[f64; 4]; 4],
     /// ∫ρA Nᵢ ds
@@ -55,12 +53,13 @@ pub struct Element {
 
 impl Element {
     /// An element of the length `length` \[m\] without stress at the coordinates `q`, whose section at the place 0 ≤ z ≤ 1
-    /// is `section(z)`. C is evaluated at three points, ρA at four, the moments of inertia at the three sections.
+    /// is `section(z)`. C is evaluated at two Gauss points and in the middle, ρA at four, the moments of inertia at the three sections.
     pub fn new(length: f64, q: &[f64; COORDINATES], section: impl Fn(f64) -> Properties) -> Element {
         let shapes = Shapes::new(length);
         let sections = Sections::new(&shapes, q);
         let initial = shapes.points.map(|at| Section::new(&at, &sections).strain);
-        let initial_at_best = BEST.map(|z| Section::new(&Point::at(z, 0.0, length), &sections).strain);
+        let rest = sampled(&shapes.rest, &sections);
+        let middle = Stiffness(section(0.5).stiffness);
         let stiffness = shapes.points.map(|at| Stiffness(section(at.place).stiffness));
         let (mut mass, mut weight) = ([[0.0; 4]; 4], [0.0; 4]);
         for (z, w) in Gauss::new(MASS_POINTS).on(0.0, 1.0) {
@@ -78,8 +77,9 @@ impl Element {
         Element {
             shapes,
             stiffness,
+            middle,
             initial,
-            initial_at_best,
+            rest,
             mass,
             weight,
             inertia,
@@ -113,7 +113,16 @@ impl Element {
             let strain = std::array::from_fn(|i| strain[i] - self.initial[k][i]);
             energy += 0.5 * inner(stress, strain);
         }
-        energy
+        let (strain, stress) = (sampled(&self.shapes.rest, &sections), self.rest_stress(&sections));
+        energy + 0.5 * (stress[0] * (strain[0] - self.rest[0]) + stress[1] * (strain[1] - self.rest[1]))
+    }
+
+    /// Forces on the parts of ε and κ₁ that vanish at the quadrature points.
+    #[inline(always)]
+    fn rest_stress(&self, sections: &Sections) -> [f64; 4] {
+        let [axial, torsion] = sampled(&self.shapes.rest, sections);
+        let initial = [self.rest[0], self.rest[1], 0.0, 0.0];
+        self.middle.stress(&[axial, torsion, 0.0, 0.0], &initial, self.shapes.rest.weight)
     }
 
     /// Kinetic energy \[J\].
@@ -158,6 +167,8 @@ impl Element {
             let stress = stiffness.stress(&section.strain, initial, at.weight);
             forces.add(at, &section, &sections.triads[1], &section.forces(stress));
         }
+        let [axial, torsion, ..] = self.rest_stress(&sections);
+        forces.add_sampled(&self.shapes.rest, &axial, &torsion);
         let mut total = forces.total(&self.shapes, &sections);
         if self.has_rotary_inertia {
             for (k, parts) in shares(&self.shapes).iter().enumerate() {
@@ -193,7 +204,10 @@ impl Element {
         }
         let mut tangent = [[0.0; VARIABLES]; VARIABLES];
         if w.q != 0.0 {
-            tangent = stiffness::tangent(&self.shapes, &self.stiffness, &self.initial, &sections, w.q);
+            tangent = {
+                let rest = (&self.middle, self.rest_stress(&sections));
+                stiffness::tangent(&self.shapes, &self.stiffness, &self.initial, rest, &sections, w.q)
+            };
             if w.increment.is_some() {
                 for row in &mut tangent {
                     for k in 0..3 {
@@ -271,19 +285,21 @@ impl Element {
     }
 
     /// The place z, 0 to 1, of the element: position, axes and strains (ε, κ₁, κ₂, κ₃) less those without stress. The strains
-    /// are linear through the places (1 ∓ 1/√3)/2, where their errors are of higher order than elsewhere.
+    /// are linear through the quadrature points, where their errors are of higher order than elsewhere.
     pub fn section(&self, q: &[f64; COORDINATES], z: f64) -> (Vector, Triad, [f64; 4]) {
         let sections = Sections::new(&self.shapes, q);
-        let at = |z| Section::new(&Point::at(z, 0.0, self.shapes.length), &sections);
-        let position = combined(&hermite(z, self.shapes.length)[0], &positions(q));
         let mut strain = [0.0; 4];
-        for k in 0..2 {
-            let (there, weight) = (at(BEST[k]).strain, (z - BEST[1 - k]) / (BEST[k] - BEST[1 - k]));
+        let places = self.shapes.points.map(|at| at.place);
+        let position = combined(&hermite(z, self.shapes.length)[0], &positions(q));
+        for (k, point) in self.shapes.points.iter().enumerate() {
+            let weight = (z - places[1 - k]) / (places[k] - places[1 - k]);
+            let there = Section::new(point, &sections).strain;
             for i in 0..4 {
-                strain[i] += weight * (there[i] - self.initial_at_best[k][i]);
+                strain[i] += weight * (there[i] - self.initial[k][i]);
             }
         }
-        (position, at(z).triad, strain)
+        let at = Section::new(&Point::at(z, 0.0, self.shapes.length), &sections);
+        (position, at.triad, strain)
     }
 
     /// Stress resultants (N, M₁, M₂, M₃) \[N, N·m\] at the quadrature points, with their places z.

@@ -13,7 +13,7 @@
 use crate::quadrature::Gauss;
 
 /// Quadrature points of the strain energy.
-pub(super) const POINTS: usize = 3;
+pub(super) const POINTS: usize = 2;
 /// Quadrature points of mass and distributed loads.
 pub(super) const MASS_POINTS: usize = 4;
 
@@ -22,6 +22,9 @@ pub(super) const MASS_POINTS: usize = 4;
 pub(super) struct Shapes {
     pub length: f64,
     pub points: [Point; POINTS],
+    /// The part of ε and κ₁ that vanishes at these points, P₂(2z − 1) with the coefficients of `sample` and `torsion`, and the
+    /// weight ∫P₂² ds.
+    pub rest: Point,
     /// r′ in the middle by (r₂ − r₁, r′₁, r′₂).
     pub middle: [f64; 3],
 }
@@ -56,7 +59,11 @@ impl Shapes {
         for (point, (z, weight)) in points.iter_mut().zip(Gauss::new(POINTS).on(0.0, 1.0)) {
             *point = Point::at(z, weight * length, length);
         }
-        Shapes { length, points, middle: [1.5 / length, -0.25, -0.25] }
+        let third = 1.0 / 3.0;
+        let torsion = [2.0 * third / length, 2.0 * third / length, -2.0 * third / length];
+        let sample = [third, -2.0 * third, third];
+        let rest = Point { weight: length / 5.0, sample, torsion, ..Point::default() };
+        Shapes { length, points, rest, middle: [1.5 / length, -0.25, -0.25] }
     }
 }
 

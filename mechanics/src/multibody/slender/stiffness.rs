@@ -189,6 +189,7 @@ pub(super) fn tangent(
     shapes: &Shapes,
     stiffness: &[Stiffness; POINTS],
     initial: &[[f64; 4]; POINTS],
+    rest: (&Stiffness, [f64; 4]),
     sections: &Sections,
     weight: f64,
 ) -> [Row; VARIABLES] {
@@ -223,6 +224,18 @@ pub(super) fn tangent(
         changes.add(at, &section, &triads[1], &change);
         changes.add_middle(&on_middle);
     }
+    let mut scalars = [Row::ZERO; 2];
+    for k in 0..3 {
+        scalars[0].add(shapes.rest.sample[k], &rows.samples[k]);
+        scalars[1].add(shapes.rest.torsion[k], &rows.angles[k]);
+    }
+    let (c, [axial, torsion, ..]) = (&rest.0.0, rest.1.map(|x| weight * x));
+    forces.add_sampled(&shapes.rest, &axial, &torsion);
+    let mut change = [Row::ZERO; 2];
+    for i in 0..2 {
+        (0..2).for_each(|j| change[i].add(weight * shapes.rest.weight * c[i][j], &scalars[j]));
+    }
+    changes.add_sampled(&shapes.rest, &change[0], &change[1]);
     let mut out = changes.total(shapes, sections);
     let (samples, angles) = forces.of_samples_and_angles();
     // The derivatives of t and c at the sections, by r′ at the sections.

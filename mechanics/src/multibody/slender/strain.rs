@@ -6,7 +6,8 @@
 //! ε = |r′| − 1,   κ₂ = −b·r″/|r′|,   κ₃ = n·r″/|r′|,   κ₁ = b·n′
 //! ```
 //!
-//! ε and κ₁ are sampled and interpolated (see [`super::shapes`]), κ₂ and κ₃ are evaluated at the quadrature points. The
+//! ε and κ₁ are sampled and interpolated (see [`super::shapes`]), κ₂ and κ₃ are evaluated at two Gauss points, where those of a
+//! cubic curve are best. ε and κ₁ have a part beside, which vanishes at both and is integrated apart. The
 //! axes there are those of the middle, transported to t by the smallest rotation and twisted by φ = −L₁ φ₁ₘ + L₂ φₘ₂. With
 //! μ = t·r″/|r′| and c of the pair of the middle and the point,
 //!
@@ -103,13 +104,12 @@ impl Section {
     pub fn new(at: &Point, sections: &Sections) -> Section {
         let Sections { chord, triads, pairs } = sections;
         let (slope, curvature) = (combined(&at.slope, chord), combined(&at.curvature, chord));
-        let (l, p) = (&at.sample, &at.torsion);
+        let l = &at.sample;
         let twist = l[2] * pairs[1].angle - l[0] * pairs[0].angle;
         let triad = triads[1].transported(slope, twist);
         let pair = Pair::of_tangents(triads[1].tangent, triad.tangent);
         let [along, second, third] = triad.inward(times(1.0 / triad.length, curvature));
-        let axial: f64 = (0..3).map(|i| l[i] * (triads[i].length - 1.0)).sum();
-        let torsion = (0..3).map(|i| p[i] * pairs[i].angle).sum();
+        let [axial, torsion] = sampled(at, sections);
         Section { triad, pair, along, strain: [axial, torsion, -third, second] }
     }
 
@@ -129,6 +129,18 @@ impl Section {
             torsion,
         }
     }
+}
+
+/// ε and κ₁ by the functions of a point.
+#[inline(always)]
+pub(super) fn sampled(at: &Point, sections: &Sections) -> [f64; 2] {
+    let Sections { triads, pairs, .. } = sections;
+    let (mut axial, mut torsion) = (0.0, 0.0);
+    for i in 0..3 {
+        axial += at.sample[i] * (triads[i].length - 1.0);
+        torsion += at.torsion[i] * pairs[i].angle;
+    }
+    [axial, torsion]
 }
 
 /// A force, or its derivative as a row over the [`VARIABLES`].
@@ -185,9 +197,8 @@ impl<T: Linear> Forces<T> {
     pub fn add(&mut self, at: &Point, section: &Section, middle: &Triad, local: &Local<T>) {
         let (here, there) = (-1.0 / section.triad.length, -1.0 / middle.length);
         let c = section.pair.c;
+        self.add_sampled(at, &local.axial, &local.torsion);
         for k in 0..3 {
-            self.samples[k].add(at.sample[k], &local.axial);
-            self.angles[k].add(at.torsion[k], &local.torsion);
             self.middle[k].add(there * c[k], &local.spin);
         }
         self.spin.add(1.0, &local.spin);
@@ -200,6 +211,15 @@ impl<T: Linear> Forces<T> {
                 self.chord[i][k].add(at.slope[i], &slope);
                 self.chord[i][k].add(at.curvature[i], &local.curvature[k]);
             }
+        }
+    }
+
+    /// Adds the forces on ε and κ₁ alone.
+    #[inline(always)]
+    pub fn add_sampled(&mut self, at: &Point, axial: &T, torsion: &T) {
+        for k in 0..3 {
+            self.samples[k].add(at.sample[k], axial);
+            self.angles[k].add(at.torsion[k], torsion);
         }
     }
 
