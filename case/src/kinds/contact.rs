@@ -421,7 +421,7 @@ pub fn fits_massless(contacts: &[Contact], why_not: Option<&str>) -> Made<()> {
             let message =
                 format!("a contact without a law of its own takes the mass from the tip, but {why}");
             let help = "give it a law: `law = { kind = \"constraint\", restitution = 0.5 }`";
-            Err(Fault::new(&format!("contact[{}].law", i + 1), message).help(help).into())
+            Err(Fault::new(format!("contact[{}].law", i + 1), message).help(help).into())
         }
         _ => Ok(()),
     }
