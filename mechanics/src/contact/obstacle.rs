@@ -99,7 +99,7 @@ pub struct Plane {
 }
 
 impl Plane {
-    /// Half-space to the right of a line through `point` at `angle` [rad] against the x axis.
+    /// Half-space to the right of a line through `point` at `angle` \[rad\] against the x axis.
     pub fn inclined(point: [f64; 3], angle: f64, motion: Option<Translation>) -> Plane {
         let (sin, cos) = libm::sincos(angle);
         Plane { point, normal: [-sin, cos, 0.0], motion }
