@@ -40,13 +40,14 @@ impl<S: Points + Dynamics + Events + Observed> Observed for Contacting<S> {
         let (mut stored, mut stores) = (0.0, false);
         self.each(s, |placed, touch, forces| {
             write(touch.surface.gap);
-            write(forces.normal);
+            // −0 of a contact that is open becomes 0.
+            write(forces.normal + 0.0);
             let force = match &placed.contact.law {
                 Law::Constraint { .. } => None,
                 Law::Force(force) => Some(force),
             };
             if placed.friction.is_some() || force.is_some_and(|force| force.friction > 0.0) {
-                write(forces.friction);
+                write(forces.friction + 0.0);
             }
             stores |= force.is_some();
             stored += force.map_or(0.0, |force| force.stored(-touch.surface.gap));
