@@ -254,12 +254,42 @@ fn restitution() {
     }
 }
 
+/// What 1 s of P4's experiment costs.
+fn cost() {
+    println!("\nCost of 1 s, N = 5, e = 0: scheme | energy at 0.6 s | events | steps | tangents | residuals | s\n");
+    let list: Vec<Scheme> = vec![
+        ("Radau 1e-5", Box::new(Radau::new(Tolerance::uniform(1e-5)).unwrap()), None),
+        ("Radau 1e-8", Box::new(Radau::new(Tolerance::uniform(1e-8)).unwrap()), None),
+        ("HHT α −0.15", Box::new(GeneralizedAlpha::hht(0.15).unwrap()), Some((1e-4, 1e-6))),
+        (
+            "HHT α −0.15, stabilized",
+            Box::new(GeneralizedAlpha::hht(0.15).unwrap().stabilized()),
+            Some((1e-4, 1e-6)),
+        ),
+    ];
+    for (name, mut method, steps) in list {
+        let (watch, ending, time) =
+            run(&mut pendulum(5, stop(0.0)), method.as_mut(), &plan(1.0, steps));
+        let counters = method.counters();
+        println!(
+            "| {name} | {:.5} | {} | {} | {} | {} | {time:.2} | {}",
+            watch.energy,
+            watch.events.len(),
+            watch.steps,
+            counters.tangents,
+            counters.residuals,
+            short(&ending)
+        );
+    }
+}
+
 fn main() {
     let wanted = std::env::args().nth(1);
-    let tables: [(&str, fn()); 6] = [
+    let tables: [(&str, fn()); 7] = [
         ("restitution", restitution),
         ("first", first_coupling),
         ("orders", orders),
+        ("cost", cost),
         ("modes", modes),
         ("schemes", || schemes(0.0)),
         ("schemes-with-restitution", || schemes(0.3)),
