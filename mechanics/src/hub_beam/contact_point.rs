@@ -30,10 +30,39 @@ pub struct ContactPoint {
     origin: f64,
     /// Functions of both fields at the station.
     pub(super) shapes: Arc<[Shapes; 2]>,
-    /// w₂′ at the quadrature points between root and station, with foreshortening.
-    pub(super) slopes: Arc<[(f64, Shapes)]>,
+    /// H, with foreshortening, as a sum over the cells between root and station.
+    pub(super) shortening: Arc<[Shortening]>,
     /// ∂X/∂q and ∂Ẋ/∂q with foreshortening.
     pub(super) by: [Vec<f64>; 2],
+}
+
+/// The part of H of neighbouring cells with the same transverse functions.
+#[derive(Clone, Debug)]
+pub(super) struct Shortening {
+    unknowns: Vec<usize>,
+    /// ∫ φ′φ′ᵀ dξ by rows \[1/m\].
+    integral: Vec<f64>,
+}
+
+impl Shortening {
+    /// Calls `f` with every unknown i and Σⱼ Hᵢⱼ xⱼ of every vector x.
+    pub(super) fn multiply<const N: usize>(&self, x: [&[f64]; N], mut f: impl FnMut(usize, [f64; N])) {
+        for (&i, row) in self.unknowns.iter().zip(self.integral.chunks_exact(self.unknowns.len().max(1))) {
+            let mut sum = [0.0; N];
+            for (&j, h) in self.unknowns.iter().zip(row) {
+                for (sum, x) in sum.iter_mut().zip(x) {
+                    *sum += h * x[j];
+                }
+            }
+            f(i, sum);
+        }
+    }
+
+    /// Calls `f` with every entry (i, j, Hᵢⱼ).
+    pub(super) fn each(&self, mut f: impl FnMut(usize, usize, f64)) {
+        let pairs = self.unknowns.iter().flat_map(|&i| self.unknowns.iter().map(move |&j| (i, j)));
+        pairs.zip(&self.integral).for_each(|((i, j), &h)| f(i, j, h));
+    }
 }
 
 /// X, Y and their rates, and the axes e_X, e_Y.
@@ -54,28 +83,37 @@ impl ContactPoint {
         (x, mount): (f64, Mount),
     ) -> ContactPoint {
         let point = fields.point(x, 1.0);
-        let mut slopes = Vec::new();
+        let mut shortening: Vec<Shortening> = Vec::new();
         if kinematics == Kinematics::Foreshortened {
             fields.integrate(|point| {
-                if point.x < x {
-                    slopes.push((point.weight, point.transverse.clone()));
+                if point.x >= x {
+                    return;
                 }
+                let Shapes { index, value } = &point.transverse;
+                if shortening.last().is_none_or(|last| last.unknowns != *index) {
+                    let integral = vec![0.0; index.len() * index.len()];
+                    shortening.push(Shortening { unknowns: index.clone(), integral });
+                }
+                let Some(last) = shortening.last_mut() else { return };
+                let products = value[1].iter().flat_map(|a| value[1].iter().map(move |b| a * b));
+                last.integral.iter_mut().zip(products).for_each(|(h, ab)| *h += point.weight * ab);
             });
         }
-        let n = if slopes.is_empty() { 0 } else { fields.len() };
+        let n = if shortening.is_empty() { 0 } else { fields.len() };
         let by = [vec![0.0; n], vec![0.0; n]];
         let shapes = Arc::new([point.axial, point.transverse]);
-        ContactPoint { mount, origin: radius + x, shapes, slopes: slopes.into(), by }
+        ContactPoint { mount, origin: radius + x, shapes, shortening: shortening.into(), by }
     }
 
     pub(super) fn place(&self, s: &State, hub: &HubKinematics) -> Place {
         let field = |k: usize, q: &[f64]| self.shapes[k].field(0, q);
         let mut x = [self.origin + field(0, &s.q), field(0, &s.v), field(0, &s.a)];
-        for (weight, shapes) in self.slopes.iter() {
-            let [q, v, a] = [&s.q, &s.v, &s.a].map(|q| shapes.field(1, q));
-            x[0] -= 0.5 * weight * q * q;
-            x[1] -= weight * q * v;
-            x[2] -= weight * (q * a + v * v);
+        for part in self.shortening.iter() {
+            part.multiply([&s.q, &s.v, &s.a], |i, [hq, hv, ha]| {
+                x[0] -= 0.5 * s.q[i] * hq;
+                x[1] -= s.q[i] * hv;
+                x[2] -= s.q[i] * ha + s.v[i] * hv;
+            });
         }
         let y = [&s.q, &s.v, &s.a].map(|q| field(1, q));
         let (axes, speed, acceleration) = match self.mount {

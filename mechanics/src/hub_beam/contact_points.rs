@@ -59,18 +59,17 @@ impl<C: Coupling> Points for HubBeam<C> {
             let (position, velocity) = (place.vector(x, y), place.vector(rate - w * y, w * x));
             out.push(Variation { unknown, position, velocity });
         };
-        if point.slopes.is_empty() {
+        if point.shortening.is_empty() {
             axial.index.iter().zip(&axial.value[0]).for_each(|(&i, phi)| push(i, *phi, 0.0, 0.0));
             transverse.index.iter().zip(&transverse.value[0]).for_each(|(&i, phi)| push(i, 0.0, *phi, 0.0));
         } else {
             by_x.fill(0.0);
             by_rate.fill(0.0);
-            for (weight, shapes) in point.slopes.iter() {
-                let (q, v) = (shapes.field(1, &s.q), shapes.field(1, &s.v));
-                for (&i, slope) in shapes.index.iter().zip(&shapes.value[1]) {
-                    by_x[i] -= weight * q * slope;
-                    by_rate[i] -= weight * v * slope;
-                }
+            for part in point.shortening.iter() {
+                part.multiply([&s.q, &s.v], |i, [hq, hv]| {
+                    by_x[i] -= hq;
+                    by_rate[i] -= hv;
+                });
             }
             for (&i, phi) in axial.index.iter().zip(&axial.value[0]) {
                 by_x[i] += phi;
@@ -96,12 +95,8 @@ impl<C: Coupling> Points for HubBeam<C> {
         let point = &self.contact_points[k];
         let place = point.place(s, &hub);
         let [fx, fy] = place.axes.map(|axis| w * (force[0] * axis[0] + force[1] * axis[1]));
-        for (weight, shapes) in point.slopes.iter() {
-            for (&i, a) in shapes.index.iter().zip(&shapes.value[1]) {
-                for (&j, b) in shapes.index.iter().zip(&shapes.value[1]) {
-                    out.add(i, j, -fx * weight * a * b);
-                }
-            }
+        for part in point.shortening.iter() {
+            part.each(|i, j, h| out.add(i, j, -fx * h));
         }
         let (Some(n), Mount::Ground) = (angle, point.mount) else { return };
         out.add(n, n, -fx * place.x[0] - fy * place.y[0]);
@@ -112,16 +107,13 @@ impl<C: Coupling> Points for HubBeam<C> {
         let [axial, transverse] = &*point.shapes;
         axial.index.iter().zip(&axial.value[0]).for_each(|(&i, phi)| cross(i, fy * phi));
         transverse.index.iter().zip(&transverse.value[0]).for_each(|(&i, phi)| cross(i, -fx * phi));
-        for (weight, shapes) in point.slopes.iter() {
-            let slope = shapes.field(1, &s.q);
-            for (&i, a) in shapes.index.iter().zip(&shapes.value[1]) {
-                cross(i, -fy * weight * slope * a);
-            }
+        for part in point.shortening.iter() {
+            part.multiply([&s.q], |i, [hq]| cross(i, -fy * hq));
         }
     }
 
     fn is_local(&self, k: usize) -> bool {
-        self.contact_points[k].slopes.is_empty()
+        self.contact_points[k].shortening.is_empty()
     }
 
     fn begin_forces(&mut self) {

@@ -93,6 +93,11 @@ impl Convergence {
         Convergence { fading: 0.95, part: PART, ..Convergence::simplified(tolerance, noise) }
     }
 
+    /// Like [`Convergence::simplified`], without a rate of former attempts: each one measures its own.
+    pub(super) fn measured(tolerance: f64, noise: f64) -> Convergence {
+        Convergence { fading: 0.0, ..Convergence::simplified(tolerance, noise) }
+    }
+
     /// The same, with another largest size of increments that may be rounding errors.
     pub fn with_noise(self, noise: f64) -> Convergence {
         Convergence { noise, ..self }

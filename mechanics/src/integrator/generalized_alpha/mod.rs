@@ -31,7 +31,7 @@
 //! The tangent and its factors are kept from step to step until their age costs more iterations than new ones; they are
 //! rotated with the sections (see [`Dynamics::corotate`]), without which the axial stiffness of a slender beam
 //! soon points in wrong directions. An affine system is solved exactly by one iteration with the tangent of its step.
-//! Systems with constraints get a new tangent every iteration.
+//! With constraints a step goes on to the rounding errors.
 //! The predictor is q̈ₙ₊₁ = q̈ₙ + q̈ₙ₋₁ − q̈ₙ₋₂: exact for accelerations linear in time, and for those that change their
 //! sign from step to step, as vibrations far too fast for the step do for ever in a method without dissipation.
 //!
@@ -56,8 +56,8 @@ use super::{
     StepError, StepReport, Tolerance, failure, hermite,
 };
 use crate::linalg::Matrix;
-use crate::system::{Corotation, Dynamics, RowWeights, Side, State, Weights};
-use work::{Age, Work, has_mu};
+use crate::system::{Corotation, Dynamics, RowWeights, Side, State};
+use work::{Age, Work};
 
 /// Iteration error, relative to the scales of the unknowns, at which Newton's method stops: far below
 /// the truncation error of a second-order method at any useful step.
@@ -66,6 +66,9 @@ const ITERATION_TOLERANCE: f64 = 1e-10;
 /// The same where the tangent is kept and the iteration converges linearly. The balance of energy shows ten times as
 /// much: its error would not fall with the square of the step.
 const KEPT_TOLERANCE: f64 = 1e-13;
+
+/// The same for systems with constraints: the rounding error of a position, for an error δ of g is an error δ/(h²βκ) of λ.
+const ROWS_TOLERANCE: f64 = 1e-16;
 
 /// Largest size of increments that may be rounding errors.
 const NOISE: f64 = 1e-7;
@@ -215,11 +218,11 @@ impl GeneralizedAlpha {
         }
         // To renew a constant tangent costs nothing, and makes the step exact.
         let free = work.affine && (work.constant || work.renewals == 1);
-        let renew = work.age.due || free || work.kept != to.1;
-        if work.keeps && !renew && self.iterate(work, system, from, h, (to.0, to.1), false)? {
+        let renew = work.age.due || free || !work.is_of(to.1);
+        if !renew && self.iterate(work, system, from, h, (to.0, to.1), false)? {
             return Ok(self.report(work, false));
         }
-        if work.keeps && self.iterate(work, system, from, h, (to.0, to.1), true)? {
+        if self.iterate(work, system, from, h, (to.0, to.1), true)? {
             return Ok(self.report(work, false));
         }
         self.iterate_fully(work, system, from, h, to)?;
@@ -244,6 +247,7 @@ impl GeneralizedAlpha {
         renew: bool,
     ) -> Result<bool, StepError> {
         self.predict(system, from, h, to);
+        work.mu.fill(0.0);
         if renew {
             self.kept.forget();
             work.corotation.clear();
@@ -252,7 +256,7 @@ impl GeneralizedAlpha {
         }
         self.kept.begin(renew);
         loop {
-            system.residual(to, &mut work.rhs);
+            work.residual(system, to, weights);
             if renew && self.kept.iterations() == 0 {
                 self.renew(work, system, from, h, (to, weights))?;
             }
@@ -288,22 +292,11 @@ impl GeneralizedAlpha {
         h: f64,
         (to, weights): (&mut State, [f64; 2]),
     ) -> Result<(), StepError> {
-        let (n, m) = (from.v.len(), work.rows.len());
         self.predict(system, from, h, to);
         work.mu.fill(0.0);
         self.full.begin(true);
         loop {
-            let (motion, rows) = work.rhs.split_at_mut(n);
-            system.residual(to, motion);
-            let [to_v, to_q] = weights;
-            let (positions, velocities) = rows.split_at_mut(m);
-            work.rows.positions(system, to, [to_q, to_v], positions);
-            if !velocities.is_empty() {
-                system.constraint(to, RowWeights::VELOCITY, velocities);
-                for (k, rate) in velocities.iter_mut().enumerate() {
-                    *rate = if has_mu(work.rows.sets()[k], to, k) { *rate / to_v } else { work.mu[k] };
-                }
-            }
+            work.residual(system, to, weights);
             self.renew(work, system, from, h, (to, weights))?;
             work.tangent.solve(&mut work.rhs);
             let size = self.update(work, system, from, h, (to, weights));
@@ -315,7 +308,7 @@ impl GeneralizedAlpha {
                     if !size.is_finite() {
                         return Err(failure::not_finite(system, from.t, h, to));
                     }
-                    self.worst = worst(&work.rhs[..n], &self.inverse_scale);
+                    self.worst = worst(&work.rhs[..from.v.len()], &self.inverse_scale);
                     return Err(StepError::NotConverged {
                         time: from.t,
                         step: h,
@@ -346,8 +339,11 @@ impl GeneralizedAlpha {
         work.renewals += 1;
         work.age = Age::renewed();
         work.constant = !factored;
-        if factored && work.keeps {
+        if factored {
             work.place.copy_from(to);
+            if work.stiffness.is_some() {
+                work.start.copy_from(from);
+            }
             work.increment.copy_from_slice(&self.d);
         }
         Ok(())
@@ -433,9 +429,9 @@ impl Integrator for GeneralizedAlpha {
             stiffness: stabilized.then(|| Matrix::new(&system.structure(0))),
             meeting,
             affine: system.is_affine() && size.lambda == 0,
-            keeps: size.lambda == 0,
             kept: [f64::NAN; 2],
             place: State::zeros(size, state.t),
+            start: State::zeros(size, state.t),
             increment: vec![0.0; size.v],
             corotation: Corotation::with_capacity(size.v),
             age: Age::default(),
@@ -443,7 +439,14 @@ impl Integrator for GeneralizedAlpha {
             constant: false,
         }));
         self.counters = Counters::default();
-        self.kept.reset();
+        self.kept = match size.lambda {
+            0 => Convergence::kept(KEPT_TOLERANCE, NOISE),
+            _ => Convergence::measured(ROWS_TOLERANCE, NOISE),
+        };
+        if size.lambda > 0 {
+            let places = state.q.iter().zip(&self.inverse_scale).map(|(q, scale)| (q * scale).abs());
+            self.kept.learn_rounding(0.25 * f64::EPSILON * places.fold(1.0, f64::max));
+        }
         self.restart(system, state)
     }
 
@@ -514,6 +517,7 @@ impl Integrator for GeneralizedAlpha {
             let Age { cost, steps, due } = work.age;
             out.put("tangent.age", &[cost, steps, flag(due), flag(work.constant), f64::from(work.renewals)]);
             out.put_state("tangent.", &work.place);
+            out.put_state("tangent.start.", &work.start);
             out.put("tangent.increment", &work.increment);
         }
     }
@@ -533,13 +537,13 @@ impl Integrator for GeneralizedAlpha {
         work.age = Age { cost, steps, due: due != 0.0 };
         (work.constant, work.renewals) = (constant != 0.0, renewals as u32);
         from.fill_state("tangent.", &mut work.place)?;
+        from.fill_state("tangent.start.", &mut work.start)?;
         from.fill("tangent.increment", &mut work.increment)?;
         let [v, q] = work.kept;
-        if work.keeps && v.is_finite() && q.is_finite() {
+        if v.is_finite() && q.is_finite() {
             // The same tangent at the same place has the same factors.
-            let weights = Weights { q, v, a: 1.0, increment: Some(&work.increment) };
-            system.tangent(&work.place, weights, &mut work.tangent);
-            work.tangent.factor().map_err(|e| NotResumed::Failed(format!("{}: {e}", self.info.name)))?;
+            let h = v / (self.gamma * (1.0 - self.alpha_f) / (1.0 - self.alpha_m));
+            work.reassemble(system, h).map_err(|e| NotResumed::Failed(format!("{}: {e}", self.info.name)))?;
         }
         self.counters = Counters::from_numbers(from.numbers("counters")?);
         Ok(())

@@ -3,7 +3,7 @@
 use crate::integrator::acceleration::Accelerations;
 use crate::integrator::rows::Rows;
 use crate::linalg::{Matrix, Singular};
-use crate::system::{Corotation, Dynamics, Set, State, Weights, is_active};
+use crate::system::{Corotation, Dynamics, RowWeights, Set, State, Weights, is_active};
 
 /// Cost of a tangent and its factors, in iterations.
 const RENEWAL: f64 = 2.0;
@@ -41,11 +41,11 @@ pub(super) struct Work {
     pub(super) stiffness: Option<Matrix>,
     pub(super) meeting: Vec<Vec<(usize, f64)>>,
     pub(super) affine: bool,
-    /// Whether factors may be kept; the weights (of v and q) that the present ones belong to, NaN without.
-    pub(super) keeps: bool,
+    /// Weights (of v and q) of the kept tangent, NaN without.
     pub(super) kept: [f64; 2],
-    /// Where the kept tangent was assembled: state and increment.
+    /// Where the kept tangent was assembled: state, start of its step with Gₙ, and increment.
     pub(super) place: State,
+    pub(super) start: State,
     pub(super) increment: Vec<f64>,
     pub(super) corotation: Corotation,
     pub(super) age: Age,
@@ -54,7 +54,40 @@ pub(super) struct Work {
     pub(super) constant: bool,
 }
 
+/// Relative difference of two steps by which divisions of the same time differ.
+const SAME: f64 = 1e-9;
+
 impl Work {
+    /// Whether the kept tangent has these weights.
+    pub(super) fn is_of(&self, weights: [f64; 2]) -> bool {
+        self.kept.iter().zip(weights).all(|(kept, x)| (kept - x).abs() <= SAME * x)
+    }
+
+    /// The residuals of the equations and of the rows into `rhs`.
+    pub(super) fn residual(&mut self, system: &mut dyn Dynamics, to: &State, [to_v, to_q]: [f64; 2]) {
+        let m = self.rows.len();
+        let (motion, rows) = self.rhs.split_at_mut(to.v.len());
+        system.residual(to, motion);
+        let (positions, velocities) = rows.split_at_mut(m);
+        self.rows.positions(system, to, [to_q, to_v], positions);
+        if !velocities.is_empty() {
+            system.constraint(to, RowWeights::VELOCITY, velocities);
+            for (k, rate) in velocities.iter_mut().enumerate() {
+                *rate = if has_mu(self.rows.sets()[k], to, k) { *rate / to_v } else { self.mu[k] };
+            }
+        }
+    }
+
+    /// Assembles the kept tangent again, of a step of size `h`.
+    pub(super) fn reassemble(&mut self, system: &mut dyn Dynamics, h: f64) -> Result<bool, Singular> {
+        let (place, d) = (self.place.clone(), self.increment.clone());
+        if self.stiffness.is_some() {
+            let start = self.start.clone();
+            self.rows.store_jacobian(system, &start);
+        }
+        self.assemble(system, &place, &d, h, self.kept)
+    }
+
     /// Assembles and factors the tangent at `to`.
     pub(super) fn assemble(
         &mut self,
@@ -84,9 +117,15 @@ impl Work {
     ) {
         let Some(stiffness) = &mut self.stiffness else { return };
         let (n, m) = (d.len(), self.rows.len());
+        let has = |row: usize| has_mu(self.rows.sets()[row], to, row);
+        for k in (0..m).filter(|k| !has(*k)) {
+            self.tangent.add(n + m + k, n + m + k, 1.0);
+        }
+        if !(0..m).any(has) {
+            return;
+        }
         system.tangent(to, Weights { q: 1.0, v: 0.0, a: 0.0, increment: Some(d) }, stiffness);
         let (rows, tangent, meeting) = (&self.rows, &mut self.tangent, &mut self.meeting);
-        let has = |row: usize| has_mu(rows.sets()[row], to, row);
         meeting.iter_mut().for_each(Vec::clear);
         for &(k, j, x) in rows.stored().iter().filter(|(k, ..)| has(*k)) {
             meeting[j].push((k, x));
@@ -100,9 +139,6 @@ impl Work {
                 }
             }
         });
-        for k in (0..m).filter(|k| !has(*k)) {
-            tangent.add(n + m + k, n + m + k, 1.0);
-        }
     }
 }
 
