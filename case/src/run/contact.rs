@@ -72,8 +72,8 @@ impl Reading {
         let Some((name, coarse, fine)) = pairs.into_iter().find(far) else { return Vec::new() };
         vec![format!(
             "the effective mass at the contact {name} is {coarse:.3e} kg and with twice the functions {fine:.3e} kg: restitution \
-             here is a parameter of the mesh; the impulse of a whole burst, the next touch and heights of rebound converge \
-             for e < 1, single impulses and energies do not"
+             here is a parameter of the mesh; the impulse of a whole burst, the next touch and heights of rebound stay \
+             within a few per cent for e < 1, single impulses and energies do not"
         )]
     }
 }
