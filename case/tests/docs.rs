@@ -244,7 +244,7 @@ fn no_text_names_a_path_of_one_machine() {
     texts.extend([".ci/run", "justfile"].map(PathBuf::from));
     for page in texts {
         let text = read(page.to_str().unwrap());
-        for path in ["/tmp/", "/root/", "/home/", "/work/", "C:\\"] {
+        for path in ["/tmp/", "/root/", "/home/", "C:\\"] {
             assert!(!text.contains(path), "{} mentions {path}", page.display());
         }
     }
