@@ -13,6 +13,9 @@ const SHORTEST: f64 = 0.01;
 /// Margin on both sides of a burst, over its length.
 const MARGIN: f64 = 0.15;
 
+/// Part of the largest energy below which a loss, or the work of an impulse, is rounding: that of a point without mass.
+const ROUNDING: f64 = 1e-9;
+
 /// The figure of a run with contacts against time. Without events, as of a method that steps over them, it has no
 /// enlarged panels.
 pub fn contact_figure(trajectory: &Trajectory, events: &Events, title: Option<&str>) -> Figure {
@@ -21,12 +24,19 @@ pub fn contact_figure(trajectory: &Trajectory, events: &Events, title: Option<&s
     panels.push(of_contacts(trajectory, &shown, "gap", Axis::new("Gap g", "m"), None));
     panels.push(of_contacts(trajectory, &shown, "force", Axis::new("Normal force λ", "N"), None));
     panels.extend(energies(trajectory).into_iter().take(1));
-    panels.extend(panel(&[(None, trajectory)], "energy.contact_loss"));
+    let negligible = ROUNDING * panels.last().map_or(0.0, largest);
+    let loss = panel(&[(None, trajectory)], "energy.contact_loss");
+    panels.extend(loss.into_iter().filter(|panel| largest(panel) > negligible));
     panels.retain(|panel| !panel.series.is_empty());
     if let Some(window) = burst(trajectory, events) {
-        panels.extend(enlarged(trajectory, events, &shown, window));
+        panels.extend(enlarged(trajectory, events, &shown, window, negligible));
     }
     figure_of(panels, title)
+}
+
+/// Largest size of a panel's values.
+fn largest(panel: &Panel) -> f64 {
+    panel.series.iter().flat_map(|series| &series.points).fold(0.0, |m, (_, y)| m.max(y.abs()))
 }
 
 /// Numbers and names of the contacts that are drawn: those that touched first, or the first.
@@ -81,12 +91,13 @@ fn burst(trajectory: &Trajectory, events: &Events) -> Option<(f64, f64)> {
     Some(((first - margin).max(start), (last + margin).min(end)))
 }
 
-/// Gap and impulses, or forces, of a part of the run.
+/// Gap and impulses, or forces where no impulse does more work than is negligible, of a part of the run.
 fn enlarged(
     trajectory: &Trajectory,
     events: &Events,
     shown: &[(usize, String)],
     (from, to): (f64, f64),
+    negligible: f64,
 ) -> Vec<Panel> {
     let inside = |entry: &&Entry| (from..=to).contains(&entry.time);
     let mut gap = of_contacts(trajectory, shown, "gap", Axis::new("Gap, first burst", "m"), Some((from, to)));
@@ -97,7 +108,7 @@ fn enlarged(
         series.points.sort_by(|a, b| a.0.total_cmp(&b.0));
     }
     let impulses = |(color, (number, name)): (usize, &(usize, String))| {
-        let strikes = |entry: &&Entry| entry.contact == *number && entry.impulse > 0.0;
+        let strikes = |entry: &&Entry| entry.contact == *number && entry.impulse * entry.speed > negligible;
         let points = events.list.iter().filter(inside).filter(strikes);
         Series {
             name: (shown.len() > 1).then(|| name.clone()),
