@@ -41,7 +41,7 @@ pub use fault::{Fault, Faults, Made};
 pub use kind::{Choice, Context, Kind, Table};
 pub use problem::{Place, Problem, Problems, Source};
 pub use reading::{Live, Reading, parse, parse_with, read};
-pub use run::errors::{ColumnError, Errors};
+pub use run::error::Effort;
 pub use run::{Prepared, Run};
 pub use schema::schema;
 pub use sources::{Contents, Files, Folder, Sources};

@@ -3,7 +3,6 @@
 mod clock;
 mod contact;
 pub mod error;
-pub mod errors;
 mod restart;
 mod trust;
 
@@ -15,7 +14,6 @@ use super::problem::Problems;
 use super::reading::{Live, Reading};
 use super::resolved;
 use clock::Clock;
-use errors::Errors;
 use flexion::analysis::equilibrium::equilibrium;
 use flexion::analysis::superposition::superpose;
 use flexion::analysis::transient::{Ending, Plan, resume, transient_to_checkpoint};
@@ -24,7 +22,7 @@ use flexion::integrator::{Checkpoint, Counters, Info};
 use flexion::system::{State, System};
 use flexion_results::plot::{contact_figure, trajectory_figure};
 use flexion_results::{
-    Artifact, Attachments, Directory, Drawn, Events, Integration, OutputError, ProblemSize, Recorder,
+    Artifact, Attachments, Directory, Drawn, Errors, Events, Integration, OutputError, ProblemSize, Recorder,
     RunReport, Shapes, Status, Trajectory, Watch, write_run,
 };
 use std::sync::Arc;
@@ -175,8 +173,6 @@ impl Reading {
     /// [`OutputError`] for whatever goes wrong on disk or in drawing.
     pub fn write(&self, run: &Run, directory: &Directory) -> Result<Status, OutputError> {
         let file = self.file.file_name().map(|name| name.to_string_lossy());
-        let estimated = run.errors.iter().flat_map(|errors| &errors.columns);
-        let errors: Vec<_> = estimated.map(|e| (e.column.clone(), e.discretization, e.model)).collect();
         let report = RunReport {
             status: run.status,
             message: run.message.as_deref(),
@@ -186,7 +182,7 @@ impl Reading {
             end_time: run.state.t,
             warnings: &run.warnings,
             integrator: Integration { info: &run.info, settings: self.settings("integrator") },
-            errors: &errors,
+            errors: run.errors.as_ref(),
             events: (!run.events.is_empty()).then_some(&run.events),
             counters: run.counters,
             size: run.size,
