@@ -39,6 +39,8 @@ const FINER: f64 = 0.1;
 /// Smallest and largest tolerance that is asked of `radau`.
 const TIGHTEST: f64 = 1e-13;
 const LOOSEST: f64 = 0.01;
+/// Largest error of a mesh of elements over its difference from one of twice as many.
+const SAFETY: f64 = 2.0;
 /// Elements of the companion with the exact coupling where the run has no elements.
 const ELEMENTS: usize = 24;
 /// The column whose exact value is known: 0, which a method that conserves energy meets better than its companions.
@@ -59,7 +61,12 @@ impl Reading {
         }
         let mut warnings = Vec::new();
         let (finer, fine) = self.finer_run(run, watch)?;
-        let exact = match (!self.case.coupling.whole_curve).then(|| finer.with_exact_coupling(watch)) {
+        let exact = match self
+            .case
+            .hub_beam()
+            .is_some_and(|beam| !beam.coupling.whole_curve)
+            .then(|| finer.with_exact_coupling(watch))
+        {
             Some(Ok(exact)) => Some(exact),
             Some(Err(problems)) => {
                 let why = problems.list.first().map_or("", |problem| problem.message.as_str());
@@ -80,7 +87,7 @@ impl Reading {
             }
         }
         warnings.extend(self.trust(run, watch)?);
-        let safety = self.case.bases.safety;
+        let safety = self.case.hub_beam().map_or(SAFETY, |beam| beam.bases.safety);
         let mut columns = Vec::new();
         for name in self::columns(run) {
             let apart = |a: &Trajectory, b: &Trajectory| largest_difference(a, b, name);
@@ -126,7 +133,11 @@ impl Reading {
     /// Runs this refined case with the exact coupling: with its own elements, or elements of their own in place of
     /// another basis, and with half as many and less accurate steps.
     fn with_exact_coupling(&self, watch: &mut Watch<'_>) -> Result<(Run, Run), Problems> {
-        let elements = self.case.bases.elements.map_or(ELEMENTS, |(elements, _)| elements);
+        let elements = self
+            .case
+            .hub_beam()
+            .and_then(|beam| beam.bases.elements)
+            .map_or(ELEMENTS, |(elements, _)| elements);
         let mut run = |elements: usize, factor: f64| {
             let mut changes = vec![
                 "model.coupling=exact".to_owned(),
@@ -140,9 +151,7 @@ impl Reading {
 
     /// The case with twice the functions and a far more accurate integration.
     fn refined(&self) -> Result<Reading, Problems> {
-        let finer = &self.case.bases.finer;
-        let mut changes: Vec<String> =
-            finer.iter().map(|(key, value)| format!("basis.{key}={value}")).collect();
+        let mut changes = self.case.finer();
         match self.case.steps {
             Steps::Controlled { .. } => changes.extend(self.tolerances(FINER, TIGHTEST, f64::INFINITY)),
             Steps::Fixed(_) => changes.push(radau(LADDER[0])),

@@ -117,10 +117,15 @@ impl Reading {
             Initial::Restart(earlier) => return restart::begin(earlier, self, state),
             Initial::SteadyRotation => self.equilibrium(system, state)?,
             Initial::Static => {
-                let speed = match &self.case.hub.drive {
+                let speed = self.case.hub_beam().map_or(0.0, |beam| match &beam.hub.drive {
                     Drive::Prescribed(motion) => motion.at(0.0).speed,
                     Drive::Free(hub) => hub.speed,
-                };
+                });
+                if self.case.space().is_some() && state.v.iter().any(|v| *v != 0.0) {
+                    let message = "the parts move at the start, and what moves is not in static equilibrium: take away \
+                                   `velocity`, `spin` and prescribed speeds at t = 0";
+                    return Err(self.problem("initial.kind", message));
+                }
                 if speed != 0.0 {
                     let message = format!(
                         "the hub rotates at {speed} rad/s at the start, and a rotating beam is not in static equilibrium: use \
@@ -132,7 +137,7 @@ impl Reading {
             }
             Initial::Modes(vibrations) => {
                 self.equilibrium(system, state)?;
-                superpose(system, state, vibrations, self.case.length).map_err(|error| {
+                superpose(system, state, vibrations, self.case.size()).map_err(|error| {
                     // At the list that was written.
                     let defaults = self.defaults();
                     let written = |key: &&str| defaults.iter().all(|(name, _)| name != key);
@@ -159,14 +164,15 @@ impl Reading {
         let case = &self.case;
         let interval = case.output.vtk?;
         let every = (interval / case.output.step).round().max(1.0) as usize;
-        let height = case.section.height.unwrap_or(case.length / SLENDERNESS);
+        let beam = case.hub_beam()?;
+        let height = beam.section.height.unwrap_or(beam.length / SLENDERNESS);
         let drawn = |contact: &Contact| Drawn {
-            station: contact.stations.last().copied().unwrap_or(case.length),
+            station: contact.stations.last().copied().unwrap_or(beam.length),
             on_hub: contact.mount == Mount::Hub,
             obstacle: Arc::clone(&contact.obstacle),
         };
-        let shapes = Shapes::new(case.length, &case.output.stations, height, every);
-        Some(shapes.with_obstacles(case.contacts.iter().map(drawn).collect()))
+        let shapes = Shapes::new(beam.length, &case.output.stations, height, every);
+        Some(shapes.with_obstacles(beam.contacts.iter().map(drawn).collect()))
     }
 
     /// Writes the results of a run of this case and publishes them.
