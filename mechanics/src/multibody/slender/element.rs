@@ -10,7 +10,7 @@ use super::strain::{
     chord, combined, positions, sampled, shares,
 };
 use super::triad::{Triad, Vector, plus, times};
-use crate::linalg::vector::inner;
+use crate::linalg::vector::{cross, inner};
 use crate::quadrature::Gauss;
 use crate::system::Weights;
 
@@ -93,6 +93,11 @@ impl Element {
         self.damping = damping;
     }
 
+    /// Its shape functions.
+    pub(super) fn shapes(&self) -> &Shapes {
+        &self.shapes
+    }
+
     /// Length of the element \[m\].
     pub fn length(&self) -> f64 {
         self.shapes.length
@@ -143,6 +148,21 @@ impl Element {
     /// ∫ρA r ds [kg·m], the mass times its centre.
     pub fn first_moment(&self, q: &[f64; COORDINATES]) -> Vector {
         combined(&self.weight, &positions(q))
+    }
+
+    /// Momentum and angular momentum about the origin.
+    pub fn momenta(&self, q: &[f64; COORDINATES], v: &[f64; VELOCITIES]) -> [Vector; 2] {
+        let (place, velocity) = (positions(q), centreline(v));
+        let linear = combined(&self.weight, &velocity);
+        let mut angular = [0.0; 3];
+        for (place, mass) in place.into_iter().zip(&self.mass) {
+            angular = plus(angular, 1.0, cross(place, combined(mass, &velocity)));
+        }
+        let (sections, rest) = (Sections::new(&self.shapes, q), [0.0; VELOCITIES]);
+        for k in 0..3 {
+            angular = plus(angular, 1.0, self.rotation(k, &sections, v, &rest).angular_momentum());
+        }
+        [linear, angular]
     }
 
     /// Mass \[kg\].
