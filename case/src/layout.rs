@@ -7,7 +7,7 @@ use super::kinds::initial::INITIAL;
 use super::kinds::integrator::INTEGRATOR;
 use super::kinds::motion::MOTION;
 use super::kinds::section::SECTION;
-use super::kinds::{amplitude, blade, body, contact, joint, load, obstacle, spatial, torque};
+use super::kinds::{amplitude, beam, blade, body, contact, joint, load, obstacle, spatial, torque};
 use super::tree::{Line, Raw};
 use super::units::{INERTIA, LENGTH, TIME};
 use std::sync::LazyLock;
@@ -33,8 +33,16 @@ pub(super) static CHOICES: &[&dyn Kinds] = &[
 ];
 
 /// The choices that only systems in space have.
-pub(super) static SPATIAL_CHOICES: &[&dyn Kinds] =
-    &[&body::INERTIA, &joint::JOINT, &joint::TRAVEL, &joint::TRAVEL_OF, &spatial::AXES, &obstacle::OBSTACLE];
+pub(super) static SPATIAL_CHOICES: &[&dyn Kinds] = &[
+    &body::INERTIA,
+    &beam::CURVE,
+    &beam::END,
+    &joint::JOINT,
+    &joint::TRAVEL,
+    &joint::TRAVEL_OF,
+    &spatial::AXES,
+    &obstacle::OBSTACLE,
+];
 
 /// The tables of which any makes a case one of a system in space.
 const IN_SPACE: [&str; 2] = ["body", "joint"];

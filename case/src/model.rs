@@ -104,7 +104,8 @@ impl Case {
             Subject::HubBeam(beam) => {
                 beam.bases.finer.iter().map(|(key, value)| format!("basis.{key}={value}")).collect()
             }
-            Subject::Space(_) => Vec::new(),
+            Subject::Space(space) if space.beams.is_empty() => Vec::new(),
+            Subject::Space(space) => vec![format!("model.refine={}", 2 * space.refine)],
         }
     }
 

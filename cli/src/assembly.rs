@@ -21,11 +21,12 @@ pub fn tree(space: &Space) -> String {
     let mut used = vec![false; space.joints.len()];
     out.push_str("ground\n");
     branch(space, "ground", 1, &mut seen, &mut used, &mut out);
-    for body in &space.bodies {
-        if !seen.contains(&body.name.as_str()) {
-            seen.push(&body.name);
-            out.push_str(&format!("{} (free)\n", body.name));
-            branch(space, &body.name, 1, &mut seen, &mut used, &mut out);
+    let bodies = space.bodies.iter().map(|body| body.name.as_str());
+    for name in bodies.chain(space.beams.iter().map(|(beam, _)| beam.name.as_str())) {
+        if !seen.contains(&name) {
+            seen.push(name);
+            out.push_str(&format!("{name} (free)\n"));
+            branch(space, name, 1, &mut seen, &mut used, &mut out);
         }
     }
     out
@@ -63,7 +64,12 @@ pub fn described(space: &Space) -> Vec<Vec<String>> {
         let [x, y, z] = body.frame.position;
         rows.push(row(&body.name, format!("{:.6} kg at ({x:.6}, {y:.6}, {z:.6}) m", body.mass)));
     }
-    let total: f64 = space.bodies.iter().map(|body| body.mass).sum();
+    for (beam, built) in &space.beams {
+        let (elements, length, mass) = (built.elements().len(), beam.length, beam.mass());
+        rows.push(row(&beam.name, format!("{mass:.6} kg, {length} m, {elements} elements")));
+    }
+    let bodies = space.bodies.iter().map(|body| body.mass);
+    let total: f64 = bodies.chain(space.beams.iter().map(|(beam, _)| beam.mass())).sum();
     rows.push(row("total mass", format!("{total:.6} kg")));
     let system = &space.multibody;
     let freedoms = system.freedoms();

@@ -2,6 +2,7 @@
 
 pub mod amplitude;
 pub mod basis;
+pub mod beam;
 pub mod blade;
 pub mod body;
 pub mod contact;

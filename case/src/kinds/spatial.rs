@@ -1,7 +1,7 @@
 //! What is common to the tables of a system in space, and its loads and springs.
 
 use super::amplitude::{CHANGE, amplitude};
-use super::{body, joint, obstacle};
+use super::{beam, body, joint, obstacle};
 use crate::declaration::{Bound::*, Key, Presence as Default, Presence::*, Type, Type::Quantity, key};
 use crate::fault::{Fault, Made, both};
 use crate::kind::{Choice, Kind, Table};
@@ -12,8 +12,17 @@ use flexion::multibody::rotation::{Matrix3, frame};
 use flexion::multibody::{Axes, rotation::Vector};
 
 /// The tables of a system in space, in the order of a case file.
-pub static TABLES: [&Key; 7] =
-    [&GRAVITY, &body::BODY.key, &joint::JOINTS.key, &SPRING.key, &LOAD.key, &obstacle::CONTACT.key, &MODEL];
+pub static TABLES: [&Key; 9] = [
+    &GRAVITY,
+    &body::BODY.key,
+    &beam::BEAMS.key,
+    &joint::JOINTS.key,
+    &SPRING.key,
+    &LOAD.key,
+    &LINE_LOAD.key,
+    &obstacle::CONTACT.key,
+    &MODEL,
+];
 
 /// The keys of the axes of a body or joint.
 pub(super) const MARKED: [Key; 2] = [
@@ -37,19 +46,24 @@ pub const GRAVITY: Key = key(
     "acceleration of gravity along x, y and z, none if left out",
 );
 
-/// What is kept of the equations.
-pub const MODEL: Key = key(
-    "model",
-    Type::Table(&[key(
+static MODEL_KEYS: [Key; 2] = [
+    key(
         "drop-redundant-rows",
         Type::Boolean,
         Default::Boolean(false),
         "rows of joints that follow from others at the start are left out, in place of an error: the motion is the same, \
          their forces are zero",
-    )]),
-    Empty,
-    "model of the system",
-);
+    ),
+    key(
+        "refine",
+        Type::Integer(1, 1000),
+        Default::Integer(1),
+        "into how many each element of the beams is cut",
+    ),
+];
+
+/// What is kept of the equations.
+pub const MODEL: Key = key("model", Type::Table(&MODEL_KEYS), Empty, "model of the system");
 
 /// Three components, or zeros where the key is left out.
 pub(crate) fn vector(v: &Values, key: &str) -> Made<Vector> {
@@ -178,6 +192,49 @@ pub static LOAD: Table<Load> = Table {
         }
         let (name, on) = (name(v, Some("load"))?, v.text("on")?.to_owned());
         Ok(Load { name, on, at: optional_vector(v, "at")?, force, couple, axes, amplitude })
+    },
+};
+
+/// A load along a beam.
+#[derive(Clone, Debug)]
+pub struct LineLoad {
+    /// Name; empty where none is given.
+    pub name: String,
+    /// Name of the beam.
+    pub on: String,
+    /// Force per length [N/m].
+    pub force: Vector,
+    /// What the components refer to.
+    pub axes: Axes,
+    /// Change with time.
+    pub amplitude: Amplitude,
+}
+
+/// The tables `[[distributed-load]]` of a system in space.
+pub static LINE_LOAD: Table<LineLoad> = Table {
+    key: key(
+        "distributed-load",
+        Type::Tables(&[
+            NAME,
+            key("on", Type::Text, Required, "beam"),
+            key(
+                "force",
+                Type::Quantities(&FORCE_PER_LENGTH, Any),
+                Required,
+                "components of the force per length",
+            ),
+            key("axes", Type::Choice(&AXES), Default::Name("dead"), "what the components refer to"),
+            CHANGE,
+        ]),
+        Empty,
+        "forces per length along whole beams",
+    ),
+    example: "beam=[{length=1, section={kind='circle', modulus='70 GPa', density=2700, radius='1 cm'}, root='clamped'}]\n\
+              distributed-load=[{on='beam', force=[0, 0, '-2 N/m'], axes='follower'}]",
+    make: |v, c| {
+        let (axes, amplitude) = both(AXES.make(v, "axes", c), amplitude(v, c))?;
+        let (name, on) = (name(v, Some("load"))?, v.text("on")?.to_owned());
+        Ok(LineLoad { name, on, force: vector(v, "force")?, axes, amplitude })
     },
 };
 
