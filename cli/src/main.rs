@@ -17,6 +17,7 @@ mod plot;
 mod run;
 mod screen;
 mod vibration;
+mod view;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -53,6 +54,8 @@ enum Command {
     Campbell(campbell::Arguments),
     /// Plot columns of one or several runs
     Plot(plot::Arguments),
+    /// Write a page that plays the motion or the modes of a result
+    View(view::Arguments),
     /// List all kinds that a case may choose, with their keys
     List(list::Arguments),
     /// Print the JSON Schema of case files, for editors
@@ -91,6 +94,7 @@ fn main() -> ExitCode {
         Command::Modes(arguments) => modes::modes(&arguments),
         Command::Campbell(arguments) => campbell::campbell(&arguments),
         Command::Plot(arguments) => plot::plot(&arguments),
+        Command::View(arguments) => view::view(&arguments),
         Command::Completions(arguments) => completions::completions(&arguments),
         Command::Man(arguments) => man::man(&arguments),
         Command::Check(arguments) => check::check(&arguments),

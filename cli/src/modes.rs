@@ -8,7 +8,7 @@ use flexion::analysis::modes::{Mode, Modes, modes as find};
 use flexion::analysis::rotation::rotate_stably;
 use flexion::system::State;
 use flexion_case::{Case, Reading};
-use flexion_results::{Artifact, Directory, Frequencies, write_modes};
+use flexion_results::{Artifact, Directory, Frequencies, Scene, write_modes};
 use std::path::PathBuf;
 
 /// The case, the speed, and how many modes.
@@ -65,7 +65,7 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
     let (steady, mut cautions) =
         if speed > 0.0 { vibration::without_loads_in_space(case) } else { (case.clone(), Vec::new()) };
     cautions.extend(vibration::without_contacts(case));
-    let modes = compute(arguments, &steady, speed, hub)?;
+    let (modes, scene) = compute(arguments, &steady, speed, hub)?;
     cautions.iter().for_each(|caution| screen::report(&format!("warning: {caution}\n")));
     let about = match case.space() {
         Some(_) => "about the equilibrium".to_owned(),
@@ -84,33 +84,35 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
     screen::print(&out);
     let Some(directory) = directory else { return Ok(Outcome::Finished) };
     let (resolved, stations) = (reading.resolved(), stations(case));
-    let written =
-        write_modes(&directory, (&modes, speed), &stations, &unit, &resolved, title(reading), &cautions);
+    let written = directory.write(Artifact::ModesScene, |f| scene.write(f)).and_then(|()| {
+        write_modes(&directory, (&modes, speed), &stations, &unit, &resolved, title(reading), &cautions)
+    });
     screen::print("\n");
     let files = [("modes", Artifact::ModesCsv), ("shapes", Artifact::ModesSvg)];
     let whole = screen::files(&directory, written, &files);
     Ok(if whole { Outcome::Finished } else { Outcome::Incomplete })
 }
 
-fn compute(arguments: &Arguments, case: &Case, speed: f64, hub: HubState) -> Result<Modes, String> {
+/// The modes and the equilibrium that they vibrate about.
+fn compute(arguments: &Arguments, case: &Case, speed: f64, hub: HubState) -> Result<(Modes, Scene), String> {
     let mut system = vibration::system(case)?;
     let mut state = State::zeros(system.size(), 0.0);
     if case.space().is_some() {
-        if speed != 0.0 {
-            return Err(
-                "a system in space vibrates about its equilibrium at rest: leave --speed out".to_owned()
-            );
-        }
         state = system.initial();
-        equilibrium(system.as_mut(), &mut state).map_err(|error| error.to_string())?;
-        return find(system.as_mut(), &state, arguments.count, &[]).map_err(|error| error.to_string());
     }
-    rotate_stably(system.as_mut(), &mut state, 0.0, speed).map_err(|error| error.to_string())?;
+    if case.space().is_some() && speed == 0.0 {
+        equilibrium(system.as_mut(), &mut state).map_err(|error| error.to_string())?;
+    } else {
+        rotate_stably(system.as_mut(), &mut state, 0.0, speed).map_err(|error| error.to_string())?;
+    }
     if hub == HubState::Free {
         system.hold(false);
         state.v = system.initial().v;
     }
-    find(system.as_mut(), &state, arguments.count, &stations(case)).map_err(|error| error.to_string())
+    let mut scene = case.scene();
+    scene.finish(system.as_mut(), &state);
+    let modes = find(system.as_mut(), &state, arguments.count, &stations(case));
+    Ok((modes.map_err(|error| error.to_string())?, scene))
 }
 
 /// The table of modes.

@@ -131,10 +131,12 @@ pub fn speed(text: &str) -> Result<Speed, String> {
     }
 }
 
-/// Stations of the shapes: two hundred equal parts of the beam on a hub.
+/// Stations of the shapes: two hundred equal parts of the beam on a hub, or of the first beam of a system without bodies.
 pub fn stations(case: &Case) -> Vec<f64> {
     let equal = |length: f64| (0..=200).map(|i| length * f64::from(i) / 200.0).collect();
-    case.hub_beam().map_or_else(Vec::new, |beam| equal(beam.length))
+    let of_space = case.space().filter(|space| space.bodies.is_empty()).and_then(|space| space.beams.first());
+    let length = case.hub_beam().map(|beam| beam.length).or(of_space.map(|(beam, _)| beam.length));
+    length.map_or_else(Vec::new, equal)
 }
 
 /// The title of a figure.

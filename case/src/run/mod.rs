@@ -5,10 +5,10 @@ mod contact;
 pub mod error;
 pub mod errors;
 mod restart;
+mod scene;
 mod trust;
 
 use super::case::Output;
-use super::kinds::contact::Contact;
 use super::kinds::initial::Initial;
 use super::kinds::integrator::Steps;
 use super::problem::Problems;
@@ -19,18 +19,14 @@ use errors::Errors;
 use flexion::analysis::equilibrium::equilibrium;
 use flexion::analysis::superposition::superpose;
 use flexion::analysis::transient::{Ending, Plan, resume, transient_to_checkpoint};
-use flexion::hub_beam::{Drive, Mount};
+use flexion::hub_beam::Drive;
 use flexion::integrator::{Checkpoint, Counters, Info};
 use flexion::system::{State, System};
 use flexion_results::plot::{contact_figure, trajectory_figure};
 use flexion_results::{
-    Artifact, Attachments, Directory, Drawn, Events, Integration, OutputError, ProblemSize, Recorder,
-    RunReport, Shapes, Status, Trajectory, Watch, write_run,
+    Artifact, Attachments, Directory, Events, Integration, OutputError, ProblemSize, Recorder, RunReport,
+    Scene, Shapes, Status, Trajectory, Watch, write_run,
 };
-use std::sync::Arc;
-
-/// Length over height of a beam drawn without knowing its height.
-const SLENDERNESS: f64 = 50.0;
 
 /// A case with all that its run needs, checked: what remains can only fail in time.
 pub struct Prepared {
@@ -41,6 +37,7 @@ pub struct Prepared {
     modal_shares: bool,
     tables: Vec<(Artifact, Vec<u8>)>,
     shapes: Option<Shapes>,
+    scene: Scene,
     /// The history of the earlier run that this one goes on with.
     history: Option<Checkpoint>,
     /// What its reader should know about the model before it runs.
@@ -58,6 +55,8 @@ pub struct Run {
     pub trajectory: Trajectory,
     /// The shapes of the beam, if the case asks for them.
     pub shapes: Option<Shapes>,
+    /// Its motion in space, at some of the recorded times.
+    pub scene: Scene,
     /// What happened at its contacts.
     pub events: Events,
     /// The tables that the case names, byte for byte, under their names among the results.
@@ -105,8 +104,19 @@ impl Reading {
         let copy = |(key, bytes): (String, &[u8])| Some((resolved::copy(&key)?, bytes.to_vec()));
         let tables = self.tables().into_iter().filter_map(copy).collect();
         let Output { energy_balance, modal_shares, .. } = case.output;
-        let shapes = self.shapes();
-        Ok(Prepared { live, state, plan, energy_balance, modal_shares, tables, shapes, history, warnings })
+        let (shapes, scene) = (self.shapes(), self.case.scene());
+        Ok(Prepared {
+            live,
+            state,
+            plan,
+            energy_balance,
+            modal_shares,
+            tables,
+            shapes,
+            scene,
+            history,
+            warnings,
+        })
     }
 
     /// Brings the undeformed `state` into the initial state of the case. Returns the history of an earlier run to go on
@@ -165,14 +175,8 @@ impl Reading {
         let interval = case.output.vtk?;
         let every = (interval / case.output.step).round().max(1.0) as usize;
         let beam = case.hub_beam()?;
-        let height = beam.section.height.unwrap_or(beam.length / SLENDERNESS);
-        let drawn = |contact: &Contact| Drawn {
-            station: contact.stations.last().copied().unwrap_or(beam.length),
-            on_hub: contact.mount == Mount::Hub,
-            obstacle: Arc::clone(&contact.obstacle),
-        };
-        let shapes = Shapes::new(beam.length, &case.output.stations, height, every);
-        Some(shapes.with_obstacles(beam.contacts.iter().map(drawn).collect()))
+        let shapes = Shapes::new(beam.length, &case.output.stations, beam.height(), every);
+        Some(shapes.with_obstacles(beam.drawn()))
     }
 
     /// Writes the results of a run of this case and publishes them.
@@ -210,6 +214,7 @@ impl Reading {
             tables: &run.tables,
             state: Some((&run.checkpoint, &identity)),
             shapes: run.shapes.as_ref(),
+            scene: Some(&run.scene),
         };
         let case = self.resolved_with_copies();
         write_run(directory, &report, &run.trajectory, &case, attachments)
@@ -228,6 +233,7 @@ impl Prepared {
             modal_shares,
             tables,
             shapes,
+            scene,
             history,
             mut warnings,
         } = self;
@@ -235,7 +241,7 @@ impl Prepared {
         let clock = Clock::start();
         let mut recorder =
             Recorder::new(system.as_mut(), &state, &plan, [energy_balance, modal_shares], watch)
-                .with_shapes(shapes);
+                .with_shapes(shapes, scene);
         let parts = (system.as_mut(), integrator.as_mut());
         let (ending, checkpoint) = match &history {
             None => transient_to_checkpoint(parts.0, parts.1, &mut state, &plan, &mut recorder),
@@ -244,11 +250,12 @@ impl Prepared {
         };
         let (wall_time, cpu_time) = clock.elapsed();
         let warning = recorder.warning();
-        let (trajectory, mut shapes, events) = recorder.into_parts();
+        let (trajectory, mut shapes, mut scene, events) = recorder.into_parts();
         warnings.extend(system.cautions(&trajectory.peaks()));
         warnings.extend(warning);
-        if let (Ending::Finished, Some(shapes)) = (&ending, &mut shapes) {
-            shapes.finish(system.as_mut(), &state);
+        if let Ending::Finished = ending {
+            shapes.iter_mut().for_each(|shapes| shapes.finish(system.as_mut(), &state));
+            scene.finish(system.as_mut(), &state);
         }
         let (status, message) = match ending {
             Ending::Finished => (Status::Finished, None),
@@ -262,6 +269,7 @@ impl Prepared {
             message,
             trajectory,
             shapes,
+            scene,
             events,
             tables,
             warnings,
