@@ -8,15 +8,19 @@ use flexion::linalg::Structure;
 use flexion::system::{State, System};
 use flexion_case::kinds::initial::Initial;
 use flexion_case::{HubBeam, Live, Problems, Reading, Subject};
+use std::path::PathBuf;
 
 /// The case to check.
 #[derive(clap::Args)]
 #[command(
-    after_help = "Examples:\n  flexion check verification/p1_spin_up_4\n  flexion check case.toml --set basis.elements=40"
+    after_help = "Examples:\n  flexion check verification/p1_spin_up_4\n  flexion check case.toml --set basis.elements=40\n  flexion check arm.toml --draw arm.svg"
 )]
 pub struct Arguments {
     #[command(flatten)]
     case: case::Selection,
+    /// Draw a system in space in three views with the names of its parts, .svg or .png
+    #[arg(long, value_name = "FILE")]
+    draw: Option<PathBuf>,
 }
 
 /// Validates a case and describes it.
@@ -25,7 +29,13 @@ pub fn check(arguments: &Arguments) -> Outcome {
     match describe(&reading) {
         Ok(text) => {
             screen::print(&text);
-            Outcome::Finished
+            match arguments.draw.as_ref().map_or(Ok(()), |file| assembly::draw(&reading, file)) {
+                Ok(()) => Outcome::Finished,
+                Err(message) => {
+                    screen::report(&format!("error: {message}\n"));
+                    Outcome::Rejected
+                }
+            }
         }
         Err(problems) => {
             screen::report(&problems.render(screen::colour()));
@@ -63,7 +73,8 @@ fn describe(reading: &Reading) -> Result<String, Problems> {
     }
     rows.extend(system.cautions(&[]).into_iter().map(|caution| row("caution", caution)));
     out.push_str(&screen::table(&rows));
-    let defaults = reading.defaults();
+    // An empty list says nothing.
+    let defaults: Vec<_> = reading.defaults().into_iter().filter(|(_, value)| value != "[]").collect();
     if !defaults.is_empty() {
         out.push_str("\ndefaults in force\n");
         let rows: Vec<Vec<String>> = defaults.into_iter().map(|(key, value)| vec![key, value]).collect();

@@ -101,7 +101,9 @@ fn arrays(path: &Path, artifact: Artifact) -> Result<Value, ResultsError> {
     let read = archive::arrays(BufReader::new(file), |name, array| {
         let shape = array.shape().to_vec();
         let values = match array.try_data::<f32>() {
-            Ok(values) => encoded("f4", values.collect::<io::Result<Vec<_>>>()?.iter().map(|x| x.to_le_bytes())),
+            Ok(values) => {
+                encoded("f4", values.collect::<io::Result<Vec<_>>>()?.iter().map(|x| x.to_le_bytes()))
+            }
             Err(array) => double(&array.into_vec::<f64>()?),
         };
         all.insert(name.to_owned(), json!({ "shape": shape, "values": values }));

@@ -22,7 +22,7 @@ use flexion::analysis::transient::{Ending, Plan, resume, transient_to_checkpoint
 use flexion::hub_beam::Drive;
 use flexion::integrator::{Checkpoint, Counters, Info};
 use flexion::system::{State, System};
-use flexion_results::plot::{contact_figure, trajectory_figure};
+use flexion_results::plot::{contact_figure, spatial_figure, trajectory_figure};
 use flexion_results::{
     Artifact, Attachments, Directory, Events, Integration, OutputError, ProblemSize, Recorder, RunReport,
     Scene, Shapes, Status, Trajectory, Watch, write_run,
@@ -206,6 +206,7 @@ impl Reading {
         let identity = self.identity();
         let title = (!self.case.title.is_empty()).then_some(self.case.title.as_str());
         let figure = match &run.events {
+            _ if self.case.space().is_some() => spatial_figure(&run.scene, &run.trajectory, title),
             events if events.is_empty() => trajectory_figure(&run.trajectory, title),
             events => contact_figure(&run.trajectory, events, title),
         };
