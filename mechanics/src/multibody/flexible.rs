@@ -2,9 +2,10 @@
 
 use super::force::Axes;
 use super::rotation::{Vector, plus, times};
-use super::slender::{Beam, COORDINATES, ELEMENT_COORDINATES, ELEMENT_VELOCITIES, Triad};
+use super::slender::{Beam, COORDINATES, ELEMENT_COORDINATES, ELEMENT_VELOCITIES};
 use crate::linalg::vector::{cross, inner};
 use crate::profile::Profile;
+use crate::system::Frame;
 use std::sync::Arc;
 
 /// A slender beam as it stands at the start: without stress, and moving as a rigid body.
@@ -112,10 +113,7 @@ impl Flexible {
             v[at + 3..at + 6].copy_from_slice(&cross(self.spin, slope));
             v[at + 6] = inner(self.spin, triad.tangent);
             if let Some(element) = self.beam.elements().get(node) {
-                let q = &q[ELEMENT_COORDINATES * node..];
-                if let Some(q) = q.first_chunk::<COORDINATES>() {
-                    v[at + 7] = inner(self.spin, element.section(q, 0.5).1.tangent);
-                }
+                v[at + 7] = inner(self.spin, element.section(&coordinates(q, node), 0.5).1.tangent);
             }
         }
     }
@@ -127,13 +125,51 @@ impl Flexible {
         (element, (s - nodes[element]) / (nodes[element + 1] - nodes[element]))
     }
 
-    /// Position, axes and strains (ε, κ₁, κ₂, κ₃) less those without stress, at the arc length `s`.
-    pub(super) fn section(&self, q: &[f64], s: f64) -> (Vector, Triad, [f64; 4]) {
+    /// Position and axes at the arc length `s`.
+    pub(super) fn frame(&self, q: &[f64], s: f64) -> Frame {
         let (element, z) = self.place(s);
-        let q = &q[ELEMENT_COORDINATES * element..];
-        let q = std::array::from_fn(|k| q[k]);
-        self.beam.elements()[element].section(&q, z)
+        let (position, triad, _) = self.beam.elements()[element].section(&coordinates(q, element), z);
+        Frame { position, rotation: triad.rotation() }
     }
+
+    /// Velocity of the centreline at the arc length `s`.
+    pub(super) fn velocity(&self, v: &[f64], s: f64) -> Vector {
+        let (element, z) = self.place(s);
+        let v = std::array::from_fn(|k| v[ELEMENT_VELOCITIES * element + k]);
+        self.beam.elements()[element].velocity(&v, z)
+    }
+
+    /// Strains (ε, κ₁, κ₂, κ₃) less those without stress, and (N, M₁, M₂, M₃), at the arc length `s`; at a node the means of both
+    /// elements.
+    pub(super) fn strains_and_forces(&self, q: &[f64], s: f64) -> [[f64; 4]; 2] {
+        let of = |(element, z): (usize, f64)| {
+            let (q, element) = (coordinates(q, element), &self.beam.elements()[element]);
+            [element.section(&q, z).2, element.section_forces(&q, z)]
+        };
+        let (element, z) = self.place(s);
+        let here = of((element, z));
+        if element == 0 || z > 1e-9 {
+            return here;
+        }
+        let before = of((element - 1, 1.0));
+        [0, 1].map(|k| std::array::from_fn(|i| 0.5 * (here[k][i] + before[k][i])))
+    }
+
+    /// The strain ε + z κ₂ − y κ₃ of a fibre.
+    pub(super) fn fibre_strain(&self, q: &[f64], fibre: &Fibre) -> f64 {
+        let ([axial, _, second, third], [y, z]) = (self.strains_and_forces(q, fibre.station)[0], fibre.place);
+        axial + z * second - y * third
+    }
+
+    /// The name of a station in the names of its columns.
+    pub(super) fn station_name(&self, s: f64) -> String {
+        if self.beam.nodes().last() == Some(&s) { "tip".to_owned() } else { format!("s={s}") }
+    }
+}
+
+/// The coordinates of an element.
+fn coordinates(q: &[f64], element: usize) -> [f64; COORDINATES] {
+    std::array::from_fn(|k| q[ELEMENT_COORDINATES * element + k])
 }
 
 /// A force per length along a whole beam.

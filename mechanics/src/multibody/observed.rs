@@ -137,8 +137,7 @@ impl Observed for Multibody {
             beam.and_then(|k| constants.model.beams.get(k).zip(constants.beams.get(k)))
         {
             for (out, station) in out.iter_mut().zip(stations) {
-                let (position, triad, _) = of.section(&s.q[*i..], *station);
-                *out = Frame { position, rotation: triad.rotation() };
+                *out = of.frame(&s.q[*i..], *station);
             }
         }
     }
@@ -167,6 +166,22 @@ impl Observed for Multibody {
             put(&plus(placed.velocity, -1.0, cross(spin, arm)));
             put(&spin);
             put(&quaternion(&placed.rotation));
+        }
+        for (of, &[i, j]) in constants.model.beams.iter().zip(&constants.beams) {
+            let (q, v) = (&s.q[i..], &s.v[j..]);
+            for &station in &of.stations {
+                let (frame, start) = (of.frame(q, station), of.frame(of.beam.initial(), station));
+                put(&frame.position);
+                put(&plus(frame.position, -1.0, start.position));
+                put(&of.velocity(v, station));
+                put(&quaternion(&frame.rotation));
+                let [strains, forces] = of.strains_and_forces(q, station);
+                put(&forces);
+                put(&strains);
+            }
+            for fibre in &of.fibres {
+                put(&[of.fibre_strain(q, fibre)]);
+            }
         }
         let mut work = Interaction::new();
         for (k, joint) in constants.model.joints.iter().enumerate() {

@@ -322,6 +322,13 @@ impl Element {
         (position, at.triad, strain)
     }
 
+    /// Stress resultants (N, M₁, M₂, M₃) \[N, N·m\] at the place z, linear through the quadrature points.
+    pub fn section_forces(&self, q: &[f64; COORDINATES], z: f64) -> [f64; 4] {
+        let [(a, first), (b, second)] = self.stresses(q);
+        let part = (z - a) / (b - a);
+        std::array::from_fn(|i| first[i] + part * (second[i] - first[i]))
+    }
+
     /// Stress resultants (N, M₁, M₂, M₃) \[N, N·m\] at the quadrature points, with their places z.
     pub fn stresses(&self, q: &[f64; COORDINATES]) -> [(f64, [f64; 4]); POINTS] {
         let sections = Sections::new(&self.shapes, q);
@@ -330,6 +337,11 @@ impl Element {
             let strain = Section::new(at, &sections).strain;
             (at.place, self.stiffness[k].stress(&strain, &self.initial[k], 1.0))
         })
+    }
+
+    /// ṙ at the place z.
+    pub fn velocity(&self, v: &[f64; VELOCITIES], z: f64) -> Vector {
+        combined(&hermite(z, self.shapes.length)[0], &centreline(v))
     }
 
     /// The twist of the ends and the middle against each other, φ₁ₘ, φₘ₂, φ₁₂.
