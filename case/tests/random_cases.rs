@@ -176,7 +176,7 @@ fn judge(drawn: &Drawn) -> (Verdict, String) {
         let mut largest = 0.0_f64;
         for (column, negligible) in COLUMNS {
             let Some(error) = errors.columns.iter().find(|error| error.column == *column) else { continue };
-            let exact = reading.case.coupling.whole_curve;
+            let exact = reading.case.hub_beam().unwrap().coupling.whole_curve;
             let Some(model) = error.model.or(exact.then_some(0.0)) else {
                 return (Verdict::Wrong, format!("no model error of {column} and no word about it"));
             };

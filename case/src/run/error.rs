@@ -44,6 +44,8 @@ const SETTLED: f64 = 0.5;
 const FINER: f64 = 0.1;
 /// Smallest tolerance that is asked of `radau`.
 const TIGHTEST: f64 = 1e-13;
+/// Largest error of a mesh of elements over its difference from one of twice as many.
+const SAFETY: f64 = 2.0;
 /// Elements of the companion with the exact coupling where the run has no elements.
 const ELEMENTS: usize = 24;
 /// The column whose exact value is known: 0, which a method that conserves energy meets better than its companions.
@@ -130,7 +132,8 @@ impl Reading {
     fn compare(&self, run: &Run, watch: &mut Watch<'_>) -> Result<Errors, Problems> {
         let mut warnings = Vec::new();
         let (finer, fine) = self.finer_run(run, watch)?;
-        let exact = match (!self.case.coupling.whole_curve).then(|| finer.with_exact_coupling(self, watch)) {
+        let foreshortened = self.case.hub_beam().is_some_and(|beam| !beam.coupling.whole_curve);
+        let exact = match foreshortened.then(|| finer.with_exact_coupling(self, watch)) {
             Some(Ok(exact)) => Some(exact),
             Some(Err(problems)) => {
                 let why = problems.list.first().map_or("", |problem| problem.message.as_str());
@@ -151,7 +154,7 @@ impl Reading {
             }
         }
         warnings.extend(self.trust(run, watch)?);
-        let safety = self.case.bases.safety;
+        let safety = self.case.hub_beam().map_or(SAFETY, |beam| beam.bases.safety);
         let (mut columns, mut trusted) = (Vec::new(), fine.state.t.min(run.state.t));
         for name in self::columns(run) {
             let Some(pair) = Pair::new(&run.trajectory, &fine.trajectory, name) else { continue };
@@ -203,7 +206,8 @@ impl Reading {
     /// Runs this refined case with the exact coupling: with the elements of the `coarse` case, or elements of their own
     /// in place of another basis, and its tolerance.
     fn with_exact_coupling(&self, coarse: &Reading, watch: &mut Watch<'_>) -> Result<Run, Problems> {
-        let elements = coarse.case.bases.elements.map_or(ELEMENTS, |(elements, _)| elements);
+        let elements = coarse.case.hub_beam().and_then(|beam| beam.bases.elements);
+        let elements = elements.map_or(ELEMENTS, |(elements, _)| elements);
         let mut changes = vec![
             "model.coupling=exact".to_owned(),
             format!("basis={{kind='finite-elements',elements={elements}}}"),
@@ -214,9 +218,7 @@ impl Reading {
 
     /// The case with twice the functions and a far more accurate integration.
     fn refined(&self) -> Result<Reading, Problems> {
-        let finer = &self.case.bases.finer;
-        let mut changes: Vec<String> =
-            finer.iter().map(|(key, value)| format!("basis.{key}={value}")).collect();
+        let mut changes = self.case.finer();
         match self.case.steps {
             Steps::Controlled { .. } => changes.extend(self.tolerances(FINER, TIGHTEST, f64::INFINITY)),
             Steps::Fixed(_) => changes.push(radau(LADDER[0])),
