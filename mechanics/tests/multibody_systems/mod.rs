@@ -8,6 +8,7 @@ mod contacts;
 mod faults;
 mod heavy_top;
 mod mechanisms;
+mod paths;
 mod single;
 mod statics;
 
