@@ -23,6 +23,8 @@ pub struct Case {
     pub steps: Steps,
     /// Duration of the run \[s\].
     pub duration: f64,
+    /// The accuracy to which the run is to be refined: part of the largest value, and column.
+    pub accuracy: Option<(f64, Option<String>)>,
     /// What is recorded.
     pub output: Output,
 }
@@ -114,6 +116,7 @@ pub(super) fn case(v: &mut Values, files: &super::sources::Files<'_>) -> Made<Ca
     if let Some(method) = &method {
         check_steps(method, duration, &mut found);
     }
+    let accuracy = found.part(v.table("run").and_then(accuracy));
     let parts = || {
         Some(Case {
             title: v.text("title").ok()?.to_owned(),
@@ -121,12 +124,22 @@ pub(super) fn case(v: &mut Values, files: &super::sources::Files<'_>) -> Made<Ca
             initial: initial?,
             steps: method?.steps,
             duration: duration?,
+            accuracy: accuracy?,
             output: output?,
         })
     };
     match parts() {
         Some(case) if found.0.0.is_empty() => Ok(case),
         _ => Err(found.0),
+    }
+}
+
+/// What `[run]` asks of the accuracy.
+fn accuracy(run: &Values) -> Made<Option<(f64, Option<String>)>> {
+    let quantity = run.optional_text("quantity")?.map(str::to_owned);
+    match (run.optional_number("tolerance")?, quantity) {
+        (None, Some(_)) => Err(Fault::new("run.quantity", "is of no use without `run.tolerance`").into()),
+        (tolerance, quantity) => Ok(tolerance.map(|tolerance| (tolerance, quantity))),
     }
 }
 

@@ -45,6 +45,7 @@ pub use kind::{Choice, Context, Kind, Table};
 pub use problem::{Place, Problem, Problems, Source};
 pub use reading::{Live, Reading, parse, parse_with, read};
 pub use run::error::Effort;
+pub use run::refine::{RefineError, Refinement, Target};
 pub use run::{Prepared, Run};
 pub use schema::schema;
 pub use sources::{Contents, Files, Folder, Sources};

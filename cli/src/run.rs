@@ -2,8 +2,8 @@
 
 use crate::{Outcome, case, screen};
 use flexion::system::{Channel, Role};
-use flexion_case::{Effort, Run, units};
-use flexion_results::{Artifact, ColumnError, Directory, Errors, Events, Status, Trajectory};
+use flexion_case::{Effort, Reading, RefineError, Refinement, Run, Target, units};
+use flexion_results::{Artifact, ColumnError, Directory, Errors, Events, Rung, Status, Trajectory};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -16,6 +16,7 @@ use std::time::{Duration, Instant};
 #[command(after_help = "Examples:
   flexion run verification/p1_spin_up_4
   flexion run case.toml --vtk --output results/film
+  flexion run case.toml --tolerance 1e-4 --quantity tip.deflection.min
   flexion run case.toml --set section.modulus=\"30 GPa\" --output results/soft --force
 
 Exit codes: 0 finished, 1 case rejected, 2 stopped or failed (what was computed is kept).")]
@@ -35,6 +36,14 @@ pub struct Arguments {
     /// or always
     #[arg(long, value_name = "EFFORT", value_enum, default_value = "auto")]
     error: ErrorEffort,
+    /// Refine mesh and steps until the estimated error is below this: a part of the largest value, "1e-4", or with a unit,
+    /// "0.1 mm"
+    #[arg(long, value_name = "ERROR")]
+    tolerance: Option<String>,
+    /// What the tolerance is for: a column, or its min, max or final value, e.g. tip.deflection.min [default: all
+    /// principal columns]
+    #[arg(long, value_name = "COLUMN", requires = "tolerance")]
+    quantity: Option<String>,
     /// Replace the results of a former run
     #[arg(long)]
     force: bool,
@@ -72,6 +81,25 @@ pub fn run(arguments: &Arguments) -> Outcome {
         }
     };
     let mut progress = Progress::new(reading.case.duration);
+    let of_case = reading.case.accuracy.clone();
+    let of_case = of_case.map(|(tolerance, quantity)| (format!("{tolerance:e}"), quantity));
+    let asked = arguments.tolerance.clone().map(|tolerance| (tolerance, arguments.quantity.clone()));
+    if let Some((tolerance, quantity)) = asked.or(of_case) {
+        let target = Target::new(tolerance, quantity);
+        let refined = reading.refine(&target, &mut |state| progress.show(state.t));
+        progress.finish();
+        return match refined {
+            Ok(Refinement { reading, run, refused }) => write(&reading, &run, &directory, refused),
+            Err(error) => {
+                match error {
+                    RefineError::Case(problems) => screen::report(&problems.render(screen::colour())),
+                    other => screen::report(&format!("error: {other}\n")),
+                }
+                directory.discard();
+                Outcome::Rejected
+            }
+        };
+    }
     let until = arguments.until.unwrap_or(f64::INFINITY);
     let mut run = prepared.run(&mut |state| {
         if state.t >= until { ControlFlow::Break(()) } else { progress.show(state.t) }
@@ -94,8 +122,22 @@ pub fn run(arguments: &Arguments) -> Outcome {
         }
     }
     progress.finish();
-    match reading.write(&run, &directory) {
-        Ok(status) => finish(status, &run, &directory),
+    write(&reading, &run, &directory, None)
+}
+
+/// Writes the results and says how the run went; `refused` is why a tolerance was not reached.
+fn write(reading: &Reading, run: &Run, directory: &Directory, refused: Option<String>) -> Outcome {
+    match reading.write(run, directory) {
+        Ok(status) => {
+            let outcome = finish(status, run, directory);
+            match refused {
+                Some(why) => {
+                    screen::report(&format!("error: {why}\n"));
+                    Outcome::Incomplete
+                }
+                None => outcome,
+            }
+        }
         Err(error) => {
             screen::report(&format!("error: {error}\n"));
             if let Some(path) = directory.salvage() {
@@ -117,6 +159,7 @@ fn finish(status: Status, run: &Run, directory: &Directory) -> Outcome {
     if !run.events.is_empty() {
         out.push_str(&impacts(&run.events));
     }
+    out.push_str(&run.errors.as_ref().map(|errors| sequence(&errors.sequence)).unwrap_or_default());
     out.push_str(&run.errors.as_ref().map(|errors| trust(errors, trajectory)).unwrap_or_default());
     screen::print(&out);
     let mut files = vec![("summary", Artifact::Summary), ("plot", Artifact::PlotSvg)];
@@ -190,6 +233,20 @@ fn extremes(trajectory: &Trajectory, errors: Option<&Errors>) -> String {
         rows.push(row);
     }
     screen::table(&rows)
+}
+
+/// The refined runs with what they found.
+fn sequence(rungs: &[Rung]) -> String {
+    if rungs.is_empty() {
+        return String::new();
+    }
+    let mut rows = vec![["refined", "quantity", "value", "error", "order"].map(str::to_owned).to_vec()];
+    for Rung { changes, quantity, value, error, order } in rungs {
+        let value = value.map_or("-".to_owned(), |value| screen::with_error(value, *error));
+        let order = order.map_or("-".to_owned(), |order| format!("{order:.1}"));
+        rows.push(vec![changes.join(" "), quantity.clone(), value, format!("{error:.1e}"), order]);
+    }
+    screen::table(&rows) + "\n"
 }
 
 /// What the estimate of errors says of the run as a whole.

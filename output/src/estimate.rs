@@ -19,6 +19,21 @@ pub struct ColumnError {
     pub model: Option<f64>,
 }
 
+/// A run of a sequence that is refined until its error is small enough.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rung {
+    /// Its mesh and steps, as changes of the case, `basis.elements=20`.
+    pub changes: Vec<String>,
+    /// The quantity that is farthest from its bound.
+    pub quantity: String,
+    /// Its value, where it is one.
+    pub value: Option<f64>,
+    /// Its error.
+    pub error: f64,
+    /// Observed order p: log₂ of the error of the run before over this, where that had the same quantity.
+    pub order: Option<f64>,
+}
+
 /// Estimated errors of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Errors {
@@ -28,6 +43,8 @@ pub struct Errors {
     pub warnings: Vec<String>,
     /// Time \[s\] until which the errors of the principal columns stay below a tenth of their largest values.
     pub trusted: f64,
+    /// The runs that led to this one, which is the last, where the case was refined.
+    pub sequence: Vec<Rung>,
     /// Why there is no estimate, where there is none.
     pub unknown: Option<String>,
 }
@@ -53,6 +70,16 @@ impl Errors {
         out.insert("estimated".into(), self.unknown.is_none().into());
         out.insert("reason".into(), self.unknown.clone().into());
         out.insert("until".into(), self.unknown.is_none().then_some(self.trusted).into());
+        if !self.sequence.is_empty() {
+            out.insert("refinement".into(), self.sequence.iter().map(Rung::to_json).collect());
+        }
         out
+    }
+}
+
+impl Rung {
+    fn to_json(&self) -> Value {
+        let Rung { changes, quantity, value, error, order } = self;
+        json!({ "case": changes, "quantity": quantity, "value": value, "error": error, "order": order })
     }
 }

@@ -2,7 +2,9 @@
 
 mod clock;
 mod contact;
+mod difference;
 pub mod error;
+pub mod refine;
 mod restart;
 mod scene;
 mod trust;
