@@ -102,7 +102,9 @@ fn arrays(path: &Path, artifact: Artifact) -> Result<Value, ResultsError> {
     let read = archive::arrays(BufReader::new(file), |name, array| {
         let shape = array.shape().to_vec();
         let values = match array.try_data::<f32>() {
-            Ok(values) => encoded("f4", values.collect::<io::Result<Vec<_>>>()?.iter().map(|x| x.to_le_bytes())),
+            Ok(values) => {
+                encoded("f4", values.collect::<io::Result<Vec<_>>>()?.iter().map(|x| x.to_le_bytes()))
+            }
             Err(array) => double(&array.into_vec::<f64>()?),
         };
         all.insert(name.to_owned(), json!({ "shape": shape, "values": values }));
@@ -157,7 +159,7 @@ mod tests {
         for outside in ["<link", "<script src", "<img", "@import", "sourceMappingURL"] {
             assert!(!PAGE.contains(outside), "{outside}");
         }
-        for licensed in ["Three.js Authors", "Leon Sorokin", "Permission is hereby granted"] {
+        for licensed in ["three.js authors", "Leon Sorokin", "Permission is hereby granted"] {
             assert!(PAGE.contains(licensed), "{licensed}");
         }
     }

@@ -133,6 +133,7 @@ class Body {
 class Solid {
   readonly group = new THREE.Group();
   private readonly edge = new Line("hub", 1.5);
+  private readonly edges = new THREE.LineBasicMaterial();
   private readonly mesh: THREE.Mesh<THREE.BufferGeometry, THREE.MeshLambertMaterial>;
 
   constructor(part: Part, size: number) {
@@ -141,8 +142,7 @@ class Solid {
       const [x, y, z, a, b, c] = part.box;
       this.mesh = new THREE.Mesh(new THREE.BoxGeometry(a, b, c), material);
       this.mesh.position.set(x, y, z);
-      const edges = new THREE.LineSegments(new THREE.EdgesGeometry(this.mesh.geometry), new THREE.LineBasicMaterial());
-      this.mesh.add(edges);
+      this.mesh.add(new THREE.LineSegments(new THREE.EdgesGeometry(this.mesh.geometry), this.edges));
     } else {
       const radius = part.beam?.hub || 0.012 * size;
       const around = Array.from({ length: 73 }, (_, k) => (k * Math.PI) / 36);
@@ -162,6 +162,7 @@ class Solid {
 
   paint() {
     this.mesh.material.color = colour("hub");
+    this.edges.color = colour("hub");
     this.edge.paint();
   }
 }

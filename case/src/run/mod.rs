@@ -24,8 +24,8 @@ use flexion::integrator::{Checkpoint, Counters, Info};
 use flexion::system::{State, System};
 use flexion_results::plot::{contact_figure, trajectory_figure};
 use flexion_results::{
-    Artifact, Attachments, Directory, Events, Integration, OutputError, ProblemSize, Recorder,
-    RunReport, Scene, Shapes, Status, Trajectory, Watch, write_run,
+    Artifact, Attachments, Directory, Events, Integration, OutputError, ProblemSize, Recorder, RunReport,
+    Scene, Shapes, Status, Trajectory, Watch, write_run,
 };
 
 /// A case with all that its run needs, checked: what remains can only fail in time.
@@ -105,7 +105,18 @@ impl Reading {
         let tables = self.tables().into_iter().filter_map(copy).collect();
         let Output { energy_balance, modal_shares, .. } = case.output;
         let (shapes, scene) = (self.shapes(), self.case.scene());
-        Ok(Prepared { live, state, plan, energy_balance, modal_shares, tables, shapes, scene, history, warnings })
+        Ok(Prepared {
+            live,
+            state,
+            plan,
+            energy_balance,
+            modal_shares,
+            tables,
+            shapes,
+            scene,
+            history,
+            warnings,
+        })
     }
 
     /// Brings the undeformed `state` into the initial state of the case. Returns the history of an earlier run to go on
