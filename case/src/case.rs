@@ -14,6 +14,7 @@ use super::kinds::motion::MOTION;
 use super::kinds::section::{SECTION, Section};
 use super::values::{Filled, Value, Values};
 use flexion::hub_beam::{Damping, Drive, Hub};
+use std::cell::RefCell;
 
 /// A validated case: the parts of a model, each built once and shared by all that is made of them.
 #[derive(Clone, Debug)]
@@ -46,6 +47,8 @@ pub struct Case {
     pub duration: f64,
     /// What is recorded.
     pub output: Output,
+    /// What its reader should know of its parts.
+    pub cautions: Vec<String>,
 }
 
 /// What is recorded.
@@ -112,13 +115,16 @@ pub(super) fn case(v: &mut Values, files: &super::sources::Files<'_>) -> Made<Ca
     let duration = number(v, "run", "duration").ok();
     fill_output_step(v, duration);
     let v = &*v;
-    let c = &Context { length: number(v, "beam", "length").ok(), duration, files };
+    let length = number(v, "beam", "length").ok();
+    let c = &Context { length, duration, files, cautions: RefCell::default() };
     let coupling = found.part(model(v, &COUPLING, c));
     let section = found.part(SECTION.make(v, "section", c));
     let hub = found.part(hub(v, c));
-    let bases = found.part(basis::make(v, c));
     let method = found.part(INTEGRATOR.make(v, "integrator", c));
     let loads = loads(v, c, &mut found);
+    let jumps = section.iter().flat_map(|section| section.planar.jumps().iter().copied());
+    let acting = loads.iter().flatten().flat_map(|load| load.nodes.iter().copied());
+    let bases = found.part(basis::make(v, c, &jumps.chain(acting).collect::<Vec<_>>()));
     let contacts = found.part(CONTACT.make(v, c).and_then(contact::named));
     let damping = found.part(load::DAMPING.make(v, c)).map(|list| list.first().copied().unwrap_or_default());
     let initial = found.part(INITIAL.make(v, "initial", c));
@@ -127,11 +133,11 @@ pub(super) fn case(v: &mut Values, files: &super::sources::Files<'_>) -> Made<Ca
     if let (Some(method), Some(damping)) = (&method, damping) {
         check_steps(method, damping, duration, &mut found);
     }
-    if let (Some(coupling), Some(bases), Some(length)) = (coupling, &bases, c.length)
+    if let (Some(coupling), Some(bases)) = (coupling, &bases)
         && coupling.whole_curve
     {
         let name = v.kind("basis").unwrap_or_default();
-        found.part(fits_whole_curve(bases, name, section.as_ref(), length));
+        found.part(fits_whole_curve(bases, name));
     }
     if let (Some(coupling), Some(bases), Some(section), Some(loads), Some(contacts), Some(length)) =
         (coupling, &bases, &section, &loads, &contacts, c.length)
@@ -168,6 +174,7 @@ pub(super) fn case(v: &mut Values, files: &super::sources::Files<'_>) -> Made<Ca
             steps: method?.steps,
             duration: duration?,
             output: output?,
+            cautions: c.cautions.take(),
         })
     };
     match parts() {
@@ -201,6 +208,12 @@ fn check_steps(method: &Method, damping: Damping, duration: Option<f64>, found: 
         found.check(duration / step > MOST_STEPS, "integrator.step", || {
             let steps = duration / step;
             format!("the step {step:e} s makes {steps:.1e} steps in {duration} s; at most {MOST_STEPS:.0e} can be run")
+        });
+    }
+    if let (Steps::Controlled { longest: Some(longest), .. }, Some(duration)) = (method.steps, duration) {
+        found.check(duration / longest > MOST_STEPS, "integrator.max-step", || {
+            let steps = duration / longest;
+            format!("steps of {longest:e} s at most make {steps:.1e} steps in {duration} s; at most {MOST_STEPS:.0e} can be run")
         });
     }
     let overdamped = !method.integrator.info().implicit && damping.stiffness > 0.0;

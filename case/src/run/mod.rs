@@ -1,5 +1,6 @@
 //! A case, run: from its reading to its results.
 
+mod cautions;
 mod clock;
 mod contact;
 pub mod error;
@@ -28,6 +29,10 @@ use flexion_results::{
     RunReport, Shapes, Status, Trajectory, Watch, write_run,
 };
 use std::sync::Arc;
+
+/// Most memory for records [bytes], and columns that every run may have.
+const MOST_BYTES: f64 = 4e9;
+const COMMON: usize = 12;
 
 /// Length over height of a beam drawn without knowing its height.
 const SLENDERNESS: f64 = 50.0;
@@ -94,12 +99,17 @@ impl Reading {
         if history.is_none() {
             self.check_contacts(live.system.as_mut(), &state)?;
         }
-        let warnings = self.effective_masses(live.system.as_mut(), &state);
+        let mut warnings = self.case.cautions.clone();
+        warnings.extend(self.effective_masses(live.system.as_mut(), &state));
         let case = &self.case;
         let (step, longest_step) = match case.steps {
-            Steps::Fixed(step) => (Some(step), None),
+            Steps::Fixed(step) => {
+                warnings.extend(cautions::unseen(live.system.as_ref(), step, case.duration));
+                (Some(step), None)
+            }
             Steps::Controlled { first, longest, .. } => (first, longest),
         };
+        self.check_memory(live.system.as_ref())?;
         let plan =
             Plan { end: case.duration, step, longest_step, contact_step: None, sample: case.output.step };
         let copy = |(key, bytes): (String, &[u8])| Some((resolved::copy(&key)?, bytes.to_vec()));
@@ -107,6 +117,23 @@ impl Reading {
         let Output { energy_balance, modal_shares, .. } = case.output;
         let shapes = self.shapes();
         Ok(Prepared { live, state, plan, energy_balance, modal_shares, tables, shapes, history, warnings })
+    }
+
+    /// Whether the records fit into memory.
+    fn check_memory(&self, system: &dyn System) -> Result<(), Problems> {
+        let records = self.case.duration / self.case.output.step + 2.0;
+        let bytes = 8.0 * records * (system.channels().len() + COMMON) as f64;
+        if bytes <= MOST_BYTES {
+            return Ok(());
+        }
+        let message = format!(
+            "{records:.1e} records of {} columns take {:.1} GB of memory, and at most {:.0} GB are taken: record less often, \
+             or at fewer stations",
+            system.channels().len() + COMMON,
+            1e-9 * bytes,
+            1e-9 * MOST_BYTES
+        );
+        Err(self.problem("output.step", message))
     }
 
     /// Brings the undeformed `state` into the initial state of the case. Returns the history of an earlier run to go on

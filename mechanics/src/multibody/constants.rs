@@ -9,10 +9,9 @@ use super::marker::Part;
 use super::model::Model;
 use super::rotation::{apply, apply_transposed, column, matrix, plus, product, quaternion};
 use super::row::Row;
-use crate::drive::force_jump;
+use crate::drive::force_breaks;
 use crate::linalg::Structure;
 use crate::linalg::vector::{cross, inner};
-use crate::profile::jumping_derivative;
 use crate::system::{Break, Channel, Frame, Set, Size, State, ordered};
 use std::ops::Range;
 
@@ -90,13 +89,8 @@ impl Constants {
         let length = arms.map(|(_, f)| inner(f.position, f.position).sqrt()).fold(0.0, f64::max);
         let length = if length > 0.0 { length } else { 1.0 };
         let mut breaks: Vec<Break> = model.joints.iter().flat_map(|joint| joint.breaks()).collect();
-        for amplitude in model.loads.iter().filter_map(|load| load.amplitude.as_ref()) {
-            let jump = |time| {
-                let derivative = jumping_derivative(amplitude.as_ref(), time);
-                Break { time, jump: force_jump(derivative) }
-            };
-            breaks.extend(amplitude.breaks().iter().map(|time| jump(*time)));
-        }
+        let amplitudes = model.loads.iter().filter_map(|load| load.amplitude.as_ref());
+        breaks.extend(amplitudes.flat_map(|amplitude| force_breaks(amplitude.as_ref())));
         let (bodies, joints) = (model.bodies.len(), model.joints.len());
         let mut constants = Constants {
             size: Size { q, v: 6 * bodies, lambda: rows.len(), memory: 0 },
