@@ -261,7 +261,8 @@ fn trust(errors: &Errors, trajectory: &Trajectory) -> String {
 
 /// A time with its unit, or in seconds.
 fn time(text: &str) -> Result<f64, String> {
-    text.parse().or_else(|_| units::parse(text, &units::TIME).map_err(|error| error.message))
+    let time = text.parse().or_else(|_| units::parse(text, &units::TIME).map_err(|error| error.message))?;
+    if time >= 0.0 { Ok(time) } else { Err(format!("`{text}` is no time of a run: zero or later")) }
 }
 
 /// Shows how far a run is, and stops it on Ctrl-C.
