@@ -2,7 +2,7 @@
 
 use crate::{Outcome, case, screen};
 use flexion::system::{Channel, Role};
-use flexion_case::{Errors, Run, units};
+use flexion_case::{Errors, Reading, Run, units};
 use flexion_results::{Artifact, Directory, Events, Status, Trajectory};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::ops::ControlFlow;
@@ -80,7 +80,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
     progress.finish();
     match reading.write(&run, &directory) {
-        Ok(status) => finish(status, &run, &directory),
+        Ok(status) => finish(status, &run, &reading, &directory),
         Err(error) => {
             screen::report(&format!("error: {error}\n"));
             if let Some(path) = directory.salvage() {
@@ -92,7 +92,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
 }
 
 /// Says how the run went and where its files are.
-fn finish(status: Status, run: &Run, directory: &Directory) -> Outcome {
+fn finish(status: Status, run: &Run, reading: &Reading, directory: &Directory) -> Outcome {
     let trajectory = &run.trajectory;
     let wall_time = run.wall_time;
     let end = format!("{:.6}", trajectory.times().last().copied().unwrap_or(0.0));
@@ -109,7 +109,8 @@ fn finish(status: Status, run: &Run, directory: &Directory) -> Outcome {
     screen::print(&out);
     let mut files = vec![("summary", Artifact::Summary), ("plot", Artifact::PlotSvg)];
     files.extend((!run.events.is_empty()).then_some(("events", Artifact::Events)));
-    files.extend(run.shapes.is_some().then_some(("shapes", Artifact::ShapeSeries)));
+    let solid = reading.case.space().is_some() && reading.case.output.vtk.is_some();
+    files.extend((run.shapes.is_some() || solid).then_some(("shapes", Artifact::ShapeSeries)));
     screen::files(directory, Ok(()), &files);
     let estimates = run.errors.iter().flat_map(|errors| &errors.warnings);
     for warning in run.warnings.iter().chain(estimates) {
