@@ -9,6 +9,7 @@ use super::kinds::integrator::{INTEGRATOR, Method, Steps};
 use super::layout;
 use super::space::{self, Space};
 use super::values::{Filled, Value, Values};
+use std::cell::RefCell;
 
 /// A validated case: each part is built once and shared by all that is made of it.
 #[derive(Clone, Debug)]
@@ -23,8 +24,12 @@ pub struct Case {
     pub steps: Steps,
     /// Duration of the run \[s\].
     pub duration: f64,
+    /// The accuracy to which the run is to be refined: part of the largest value, and column.
+    pub accuracy: Option<(f64, Option<String>)>,
     /// What is recorded.
     pub output: Output,
+    /// What its reader should know of its parts.
+    pub cautions: Vec<String>,
 }
 
 /// What moves.
@@ -102,7 +107,8 @@ pub(super) fn case(v: &mut Values, files: &super::sources::Files<'_>) -> Made<Ca
     let v = &*v;
     let in_space = layout::is_spatial(v.keys);
     let length = if in_space { None } else { number(v, "beam", "length").ok() };
-    let c = &Context { length, duration, files };
+    let cautions = RefCell::default();
+    let c = &Context { length, duration, files, cautions: &cautions };
     let method = found.part(INTEGRATOR.make(v, "integrator", c));
     let subject = found.part(if in_space {
         space::make(v, c, method.as_ref()).map(|space| Subject::Space(Box::new(space)))
@@ -114,6 +120,7 @@ pub(super) fn case(v: &mut Values, files: &super::sources::Files<'_>) -> Made<Ca
     if let Some(method) = &method {
         check_steps(method, duration, &mut found);
     }
+    let accuracy = found.part(v.table("run").and_then(accuracy));
     let parts = || {
         Some(Case {
             title: v.text("title").ok()?.to_owned(),
@@ -121,12 +128,23 @@ pub(super) fn case(v: &mut Values, files: &super::sources::Files<'_>) -> Made<Ca
             initial: initial?,
             steps: method?.steps,
             duration: duration?,
+            accuracy: accuracy?,
             output: output?,
+            cautions: cautions.take(),
         })
     };
     match parts() {
         Some(case) if found.0.0.is_empty() => Ok(case),
         _ => Err(found.0),
+    }
+}
+
+/// What `[run]` asks of the accuracy.
+fn accuracy(run: &Values) -> Made<Option<(f64, Option<String>)>> {
+    let quantity = run.optional_text("quantity")?.map(str::to_owned);
+    match (run.optional_number("tolerance")?, quantity) {
+        (None, Some(_)) => Err(Fault::new("run.quantity", "is of no use without `run.tolerance`").into()),
+        (tolerance, quantity) => Ok(tolerance.map(|tolerance| (tolerance, quantity))),
     }
 }
 
@@ -139,6 +157,12 @@ fn check_steps(method: &Method, duration: Option<f64>, found: &mut Found) {
         found.check(duration / step > MOST_STEPS, "integrator.step", || {
             let steps = duration / step;
             format!("the step {step:e} s makes {steps:.1e} steps in {duration} s; at most {MOST_STEPS:.0e} can be run")
+        });
+    }
+    if let (Steps::Controlled { longest: Some(longest), .. }, Some(duration)) = (method.steps, duration) {
+        found.check(duration / longest > MOST_STEPS, "integrator.max-step", || {
+            let steps = duration / longest;
+            format!("steps of {longest:e} s at most make {steps:.1e} steps in {duration} s; at most {MOST_STEPS:.0e} can be run")
         });
     }
 }

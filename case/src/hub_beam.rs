@@ -43,19 +43,21 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     let coupling = found.part(model(v, &COUPLING, c));
     let section = found.part(SECTION.make(v, "section", c));
     let hub = found.part(hub(v, c));
-    let bases = found.part(basis::make(v, c));
     let loads = loads(v, c, &mut found);
+    let jumps = section.iter().flat_map(|section| section.planar.jumps().iter().copied());
+    let acting = loads.iter().flatten().flat_map(|load| load.nodes.iter().copied());
+    let bases = found.part(basis::make(v, c, &jumps.chain(acting).collect::<Vec<_>>()));
     let contacts = found.part(CONTACT.make(v, c).and_then(contact::named));
     let damping = found.part(load::DAMPING.make(v, c)).map(|list| list.first().copied().unwrap_or_default());
     let blade = found.part(BLADE.make(v, c)).map(|list| list.into_iter().next());
     if let (Some(method), Some(damping)) = (method, damping) {
         overdamped(method, damping, &mut found);
     }
-    if let (Some(coupling), Some(bases), Some(length)) = (coupling, &bases, c.length)
+    if let (Some(coupling), Some(bases)) = (coupling, &bases)
         && coupling.whole_curve
     {
         let name = v.kind("basis").unwrap_or_default();
-        found.part(fits_whole_curve(bases, name, section.as_ref(), length));
+        found.part(fits_whole_curve(bases, name));
     }
     if let (Some(coupling), Some(bases), Some(section), Some(loads), Some(contacts), Some(length)) =
         (coupling, &bases, &section, &loads, &contacts, c.length)

@@ -131,12 +131,26 @@ static RUN: &[Key] = &[
     key("integrator", Type::Kind(&INTEGRATOR), Default::Name("radau"), "integrator"),
     key(
         "run",
-        Type::Table(&[key(
-            "duration",
-            Quantity(&TIME, NotNegative),
-            Required,
-            "simulated time; 0 for the initial state alone",
-        )]),
+        Type::Table(&[
+            key(
+                "duration",
+                Quantity(&TIME, NotNegative),
+                Required,
+                "simulated time; 0 for the initial state alone",
+            ),
+            key(
+                "tolerance",
+                Type::Number(Between(1e-12, 1.0)),
+                Optional,
+                "largest error of `quantity` over its largest value: mesh and steps are refined until it is reached",
+            ),
+            key(
+                "quantity",
+                Type::Text,
+                Optional,
+                "column of `tolerance`, also its `.min`, `.max` or `.final`; all principal columns if left out",
+            ),
+        ]),
         Required,
         "extent of the run",
     ),

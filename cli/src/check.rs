@@ -71,7 +71,8 @@ fn describe(reading: &Reading) -> Result<String, Problems> {
             rows.extend(equations(system.as_ref(), integrator.as_ref()));
         }
     }
-    rows.extend(system.cautions(&[]).into_iter().map(|caution| row("caution", caution)));
+    let cautions = case.cautions.iter().cloned().chain(system.cautions(&[]));
+    rows.extend(cautions.map(|caution| row("caution", caution)));
     out.push_str(&screen::table(&rows));
     // An empty list says nothing.
     let defaults: Vec<_> = reading.defaults().into_iter().filter(|(_, value)| value != "[]").collect();

@@ -97,7 +97,7 @@ fn apart(a: &[Vec<f64>], b: &[Vec<f64>], k: usize) -> (f64, f64) {
 }
 
 /// Wu & Haug's beam on a hub that is spun up to 4 rad/s in 15 s: in space, and by the planar exact coupling.
-fn plane(elements: usize) {
+fn plane(elements: usize, tolerance: f64) {
     let resultants =
         Resultants { mass: 1.2, axial_stiffness: 2.8e7, bending_stiffness: 1.4e4, ..Default::default() };
     let motion = Motion::Speed { profile: Arc::new(SpinUp::new(4.0, 15.0).unwrap()), initial_angle: 0.0 };
@@ -108,7 +108,7 @@ fn plane(elements: usize) {
     let of_planar = run(&mut planar, &mut radau(1e-9), (20.0, None), 0.02, &["tip.deflection", "tip.axial"]);
     let mut spatial = spun(elements, motion.clone());
     let names = ["beam.tip.position.x", "beam.tip.position.y"];
-    let mut of_space = run(&mut spatial, &mut radau(1e-9), (20.0, None), 0.02, &names);
+    let mut of_space = run(&mut spatial, &mut radau(tolerance), (20.0, None), 0.02, &names);
     for row in &mut of_space.rows {
         let (sin, cos) = motion.at(row[0]).angle.sin_cos();
         let (x, y) = (row[1], row[2]);
@@ -224,7 +224,7 @@ fn main() {
     let argument = |i: usize| arguments.get(i).map(String::as_str);
     let number = |i: usize, default: f64| argument(i).and_then(|x| x.parse().ok()).unwrap_or(default);
     match argument(0) {
-        Some("plane") => plane(number(1, 20.0) as usize),
+        Some("plane") => plane(number(1, 20.0) as usize, number(2, 1e-9)),
         // T0, elements, method
         Some("reference") => {
             let (period, elements) = (number(1, 3.0), number(2, 80.0) as usize);

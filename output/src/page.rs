@@ -76,12 +76,13 @@ fn motion(path: &Path, columns: &[String]) -> Result<Value, ResultsError> {
 /// Modes of vibration: the equilibrium and the shapes.
 fn modes(path: &Path) -> Result<Value, ResultsError> {
     let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
+    let table = read_json(path, Artifact::ModesJson)?;
     Ok(json!({
-        "title": "",
+        "title": table["title"].as_str().unwrap_or_default(),
         "name": absolute.file_name().unwrap_or_default().to_string_lossy(),
         "version": VERSION,
         "scene": arrays(path, Artifact::ModesScene)?,
-        "modes": { "table": read_json(path, Artifact::ModesJson)?, "shapes": arrays(path, Artifact::ModesNpz)? },
+        "modes": { "table": table, "shapes": arrays(path, Artifact::ModesNpz)? },
     }))
 }
 
@@ -158,7 +159,7 @@ mod tests {
         for outside in ["<link", "<script src", "<img", "@import", "sourceMappingURL"] {
             assert!(!PAGE.contains(outside), "{outside}");
         }
-        for licensed in ["Three.js Authors", "Leon Sorokin", "Permission is hereby granted"] {
+        for licensed in ["three.js authors", "Leon Sorokin", "Permission is hereby granted"] {
             assert!(PAGE.contains(licensed), "{licensed}");
         }
     }

@@ -280,3 +280,160 @@ impl Scene {
         archive::finish(archive)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use flexion::contact::Plane;
+    use flexion::multibody::rotation::{apply, exponential, matrix, product};
+    use flexion::system::{Dynamics, Events, Observed, Size, Steady, Weights};
+    use std::collections::BTreeMap;
+    use std::io::Cursor;
+    use std::sync::Arc;
+
+    /// A beam that is bent to an arc of the angle q per length about the third axis of its root, which is turned by the vector d
+    /// and stands at p; every other body stands at p alone.
+    struct Bent {
+        p: [f64; 3],
+        d: [f64; 3],
+    }
+
+    impl Dynamics for Bent {
+        fn size(&self) -> Size {
+            Size::default()
+        }
+        fn scales(&self) -> &[f64] {
+            &[]
+        }
+        fn residual(&mut self, _: &State, _: &mut [f64]) {}
+        fn tangent(&mut self, _: &State, _: Weights<'_>, _: &mut flexion::linalg::Matrix) {}
+    }
+    impl Events for Bent {}
+    impl Steady for Bent {}
+    impl Observed for Bent {
+        fn frames(&mut self, body: usize, s: &State, stations: &[f64], out: &mut [Frame]) {
+            let root = matrix(exponential(self.d));
+            for (x, frame) in stations.iter().zip(out) {
+                let angle = if body == 0 { s.q[0] * x } else { 0.0 };
+                let place = if body == 0 { arc(s.q[0], *x) } else { [0.0; 3] };
+                let turned = matrix(exponential([0.0, 0.0, angle]));
+                *frame = Frame {
+                    position: plus(self.p, 1.0, apply(&root, place)),
+                    rotation: product(&root, &turned),
+                };
+            }
+        }
+    }
+
+    /// Where a section of an arc is: (sin κx, 1 − cos κx)/κ.
+    fn arc(curvature: f64, x: f64) -> [f64; 3] {
+        let half = 0.5 * curvature * x;
+        let chord = half.sin() / (0.5 * curvature);
+        [chord * half.cos(), chord * half.sin(), 0.0]
+    }
+
+    fn written(scene: &Scene) -> BTreeMap<String, (Vec<u64>, Vec<f64>)> {
+        let mut out = Cursor::new(Vec::new());
+        scene.write(&mut out).unwrap();
+        let mut all = BTreeMap::new();
+        archive::arrays(out, |name, array| {
+            let shape = array.shape().to_vec();
+            let values = match array.try_data::<f32>() {
+                Ok(values) => values.map(|x| f64::from(x.unwrap())).collect(),
+                Err(array) => array.into_vec::<f64>()?,
+            };
+            all.insert(name.to_owned(), (shape, values));
+            Ok(())
+        })
+        .unwrap();
+        all
+    }
+
+    fn at(curvature: f64) -> State {
+        State { t: curvature, q: vec![curvature], ..State::default() }
+    }
+
+    #[test]
+    fn small_displacements_keep_their_digits_far_from_the_origin() {
+        let mut system = Bent { p: [300.0, -20.0, 7.0], d: [0.3, -1.2, 2.0] };
+        let mut scene = Scene::new(vec![Part::beam(("arm", 0), 2.0, [0.1, 0.2], None, &[])], Vec::new(), 3);
+        for curvature in [1e-7, 0.4] {
+            scene.sample(&mut system, &at(curvature));
+        }
+        let all = written(&scene);
+        let m = INTERVALS + 1;
+        assert_eq!(all["arm.displacement"].0, [2, m as u64, 3]);
+        assert_eq!(all["arm.pose"].0, [2, 7]);
+        assert_eq!(all["arm.pose"].1[..3], [300.0, -20.0, 7.0]);
+        let quaternion = exponential(system.d);
+        assert!(all["arm.pose"].1[3..7].iter().zip(quaternion).all(|(a, b)| (a - b).abs() < 1e-7));
+        for (time, curvature) in [1e-7, 0.4].into_iter().enumerate() {
+            let [along, across, _] = arc(curvature, 2.0);
+            let tip = |name: &str| &all[name].1[3 * (m * (time + 1) - 1)..3 * m * (time + 1)];
+            let (u, theta) = (tip("arm.displacement"), tip("arm.rotation"));
+            // Doubles at 300 m resolve 6e-14 m.
+            assert!((u[1] - across).abs() < 1e-7 * across + 2e-13, "{u:?} {across}");
+            assert!((u[0] - (along - 2.0)).abs() < 1e-7 * (2.0 - along) + 2e-13, "{u:?} {along}");
+            assert!((theta[2] - 2.0 * curvature).abs() < 2e-7 * curvature + 1e-15, "{theta:?}");
+        }
+    }
+
+    #[test]
+    fn a_section_may_turn_by_more_than_half_a_revolution() {
+        let mut system = Bent { p: [0.0; 3], d: [0.0, 0.5, 0.0] };
+        let mut scene = Scene::new(vec![Part::beam(("arm", 0), 2.0, [0.1; 2], None, &[])], Vec::new(), 1);
+        scene.sample(&mut system, &at(-5.0));
+        let (_, theta) = &written(&scene)["arm.rotation"];
+        for (k, theta) in theta.chunks(3).enumerate() {
+            let exact = -5.0 * 2.0 * k as f64 / INTERVALS as f64;
+            assert!((theta[2] - exact).abs() < 1e-6, "section {k}: {theta:?} instead of {exact}");
+        }
+    }
+
+    #[test]
+    fn long_runs_are_thinned_and_keep_their_last_time() {
+        let mut system = Bent { p: [1.0, 2.0, 3.0], d: [0.0; 3] };
+        let body = Part::rigid(("body", 1), [0.1, 0.0, 0.0], [1.0, 2.0, 3.0]);
+        let mut scene = Scene::new(vec![body], Vec::new(), 10 * MOST);
+        let states: Vec<State> = (1..=10 * MOST).map(|i| at(i as f64)).collect();
+        states.iter().for_each(|state| scene.sample(&mut system, state));
+        scene.finish(&mut system, &states[10 * MOST - 1]);
+        let all = written(&scene);
+        let times = &all["time"].1;
+        assert_eq!((times.len(), times[0], times[MOST]), (MOST + 1, 1.0, 10.0 * MOST as f64));
+        assert_eq!(all["body.pose"].1[..7], [1.0, 2.0, 3.0, 1.0, 0.0, 0.0, 0.0]);
+        assert_eq!(all["body.box"].1, [0.1, 0.0, 0.0, 1.0, 2.0, 3.0]);
+    }
+
+    #[test]
+    fn an_obstacle_is_seen_from_its_station() {
+        let mut system = Bent { p: [0.0; 3], d: [0.0; 3] };
+        let plane = Plane { point: [0.0, -1.0, 0.0], normal: [0.0, 1.0, 0.0], motion: None };
+        let drawn = Drawn { name: "floor".into(), station: 1.5, on_hub: false, obstacle: Arc::new(plane) };
+        let beam = Part::beam(("arm", 0), 2.0, [0.1; 2], Some(0.5), &[1.5]);
+        let mut scene = Scene::new(vec![beam], vec![drawn], 1);
+        scene.sample(&mut system, &at(1e-9));
+        let all = written(&scene);
+        let (shape, ends) = &all["floor.outline"];
+        assert_eq!(shape, &[1, 2, 3]);
+        assert!(
+            (ends[0] - ends[3]).abs() == 4.0 && (0.5 * (ends[0] + ends[3]) - 1.5).abs() < 1e-6,
+            "{ends:?}"
+        );
+        assert!(ends[1] == -1.0 && ends[4] == -1.0);
+        assert_eq!(all["arm.hub"].1, [0.5]);
+    }
+
+    #[test]
+    fn the_same_scene_gives_the_same_bytes() {
+        let bytes = || {
+            let mut system = Bent { p: [0.0; 3], d: [0.1; 3] };
+            let mut scene = Scene::new(vec![Part::beam(("arm", 0), 2.0, [0.1; 2], None, &[])], Vec::new(), 1);
+            scene.sample(&mut system, &at(0.3));
+            let mut out = Cursor::new(Vec::new());
+            scene.write(&mut out).unwrap();
+            out.into_inner()
+        };
+        assert!(bytes() == bytes());
+    }
+}

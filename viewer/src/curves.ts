@@ -9,6 +9,9 @@ export interface Curve {
   values: Float64Array;
 }
 
+/** Height of a plot [px]. */
+const HEIGHT = 120;
+
 const styled = (name: string) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 
 /** A tag with attributes and content. */
@@ -33,10 +36,9 @@ export class Panel {
   constructor(
     private readonly x: Float64Array,
     private readonly curves: Curve[],
-    abscissa: string,
     seek: ((x: number) => void) | undefined,
   ) {
-    this.values = curves.map(() => tag("output"));
+    this.values = curves.map(() => tag("output", { "aria-live": "off" }));
     const head = curves.map((curve, i) => {
       const unit = curve.unit ? tag("span", { class: "unit" }, curve.unit) : "";
       const parts = seek ? [this.values[i], " ", unit] : [unit];
@@ -53,17 +55,18 @@ export class Panel {
     });
     const options: uPlot.Options = {
       width: 300,
-      height: 130,
+      height: HEIGHT,
+      padding: [6, 18, 0, 0],
       cursor: { show: false },
       legend: { show: false },
       scales: { x: { time: false } },
       axes: [
-        { ...axis(), label: abscissa, labelSize: 14, labelFont: "11px system-ui, sans-serif", size: 22 },
+        { ...axis(), size: 22 },
         { ...axis(), size: 62, space: 28 },
       ],
       series: [
         {},
-        ...curves.map((_, i) => ({ stroke: () => styled(`curve${i}`), width: 1.5, points: { show: false } })),
+        ...curves.map((_, i) => ({ stroke: () => styled(`curve${i}`), width: 1.5, pxAlign: 0, points: { show: false } })),
       ],
     };
     const finite = (values: Float64Array) => Array.from(values, (y) => (Number.isFinite(y) ? y : null));
@@ -71,7 +74,7 @@ export class Panel {
     this.plot = new uPlot(options, data, this.node);
     new ResizeObserver(() => {
       const width = this.node.clientWidth;
-      if (width > 0) this.plot.setSize({ width, height: 130 });
+      if (width > 0) this.plot.setSize({ width, height: HEIGHT });
     }).observe(this.node);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.plot.redraw(false));
     if (seek) this.seekable(seek);
@@ -131,7 +134,7 @@ export class Columns {
       return tag("label", {}, box, column.name, " ", tag("span", { class: "unit" }, column.unit));
     });
     const chooser = tag("details", {}, tag("summary", {}, "Columns"), tag("div", { class: "columns" }, ...boxes));
-    into.append(chooser, tag("div", { class: "panels" }));
+    into.append(chooser, tag("div", { class: "panels" }), tag("p", { class: "abscissa" }, "time [s]"));
     this.arrange();
   }
 
@@ -144,7 +147,7 @@ export class Columns {
     const shown = this.columns.filter((column) => column.shown);
     for (const column of shown) {
       if (this.panels.has(column.name)) continue;
-      this.panels.set(column.name, new Panel(this.times, [column], "time [s]", this.seek));
+      this.panels.set(column.name, new Panel(this.times, [column], this.seek));
     }
     this.into.querySelector(".panels")!.replaceChildren(...shown.map(({ name }) => this.panels.get(name)!.node));
     this.show(this.time);

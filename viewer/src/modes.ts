@@ -11,6 +11,7 @@ import { button, choice } from "./tools";
 /** Seconds of a period, as it is played. */
 const PERIOD = 2;
 const AXES = ["tangent", "second", "third"];
+const NAMES = ["along the tangent", "second axis", "third axis"];
 
 const element = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
 
@@ -74,7 +75,7 @@ export function modes(results: ReturnType<typeof read>) {
   const plots = tag("div", { class: "panels" });
   const curves = shape.map((axes) => {
     const lists = axes.flatMap((parts, i) =>
-      parts.map((values, j) => ({ name: `${AXES[i]}${j ? ", a quarter of a period before" : ""}`, unit: "", values })),
+      parts.map((values, j) => ({ name: `${NAMES[i]}${j ? ", a quarter of a period before" : ""}`, unit: "", values })),
     );
     return lists.filter(({ values }) => largest(values) > 1e-6).slice(0, 6);
   });
@@ -102,7 +103,7 @@ export function modes(results: ReturnType<typeof read>) {
     mode = k;
     element<HTMLInputElement>(`mode${k}`).checked = true;
     rows.forEach((row, i) => row.classList.toggle("chosen", i === k));
-    plots.replaceChildren(new Panel(stations, curves[k], "arc length [m]", undefined).node);
+    plots.replaceChildren(new Panel(stations, curves[k], undefined).node, tag("p", { class: "abscissa" }, "arc length [m]"));
     fit();
     if (player) draw(player.time);
   }
@@ -125,7 +126,7 @@ export function modes(results: ReturnType<typeof read>) {
   });
   let player: Player | undefined;
   const times = Float64Array.from({ length: 25 }, (_, k) => (PERIOD * k) / 24);
-  player = new Player(times, (time) => `${Math.round((360 * time) / PERIOD)}° of a period`, draw, 20);
+  player = new Player(times, (time) => `${Math.round((360 * time) / PERIOD)}° of a period`, draw, 1);
   let fitted = false;
   canvas.addEventListener("resized", () => {
     if (fitted) draw(player!.time);

@@ -10,10 +10,19 @@ import { button, choice, toggle } from "./tools";
 
 /** Pieces of the beam between neighbouring stations, and of the path of the tip between neighbouring times. */
 const PIECES = 3;
+/** Playing takes between these times [s], where the run does not. */
+const LASTS = [4, 20];
 /** A deflection over length that is well seen: smaller ones are drawn larger. */
 const SEEN = 0.05;
 
 const element = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
+
+/** How many seconds of the run a second shows. */
+function speed(span: number): number {
+  const [least, most] = LASTS;
+  if (span === 0) return 1;
+  return span < least ? nice(span / least) : span > most ? 2 * nice(span / most) : 1;
+}
 
 export function motion(results: ReturnType<typeof read>) {
   const space = scene(results.scene);
@@ -24,8 +33,9 @@ export function motion(results: ReturnType<typeof read>) {
   const first = parts.findIndex((part) => part.beam);
   let [factor, rotating, path] = [suggested(), false, first >= 0];
 
-  /** The factor that makes small deflections visible. */
+  /** The factor that makes small deflections visible; with obstacles there is none, for gaps are not drawn larger. */
   function suggested(): number {
+    if (space.outlines.length > 0) return 1;
     const largest = Math.max(
       ...parts.map(({ beam }) =>
         beam ? beam.displacements.reduce((most, u) => Math.max(most, Math.abs(u)), 0) : 0,
@@ -58,34 +68,26 @@ export function motion(results: ReturnType<typeof read>) {
     return { from, to: Math.min(from + 1, times.length - 1), share: (k % PIECES) / PIECES };
   });
 
-  /** The path of the tip of the first beam. What rotates with a frame is drawn in inertial axes when that frame is applied. */
-  let inertial: Vector3[] = [];
-  const tip = (at: Instant) => {
-    const last = parts[first].beam!.stations.length;
-    const all = sections(parts[first], at, factor, 1);
-    return all[last - 1].position;
-  };
+  /** A point as it is seen from the frame of reference. */
+  const seen = (point: Vector3, { position, turned }: Section) =>
+    point.clone().sub(position).applyQuaternion(turned.clone().conjugate());
+
+  /** The path of the tip of the first beam. */
   function trace() {
-    inertial = first >= 0 ? instants.map(tip) : [];
-    if (rotating) {
-      inertial = inertial.map((point, k) => {
-        const { position, turned } = frame(instants[k]);
-        return point.sub(position).applyQuaternion(turned.clone().conjugate());
-      });
-    }
+    const tip = (at: Instant) => seen(sections(parts[first], at, factor, 1).at(-1)!.position, frame(at));
+    stage.trace(path ? instants.map(tip) : []);
   }
 
   function fit() {
     const every = Math.max(1, Math.floor(instants.length / 150));
     const points = instants.filter((_, k) => k % every === 0).flatMap((at) => {
-      const { position, turned } = frame(at);
-      const back = turned.clone().conjugate();
+      const now = frame(at);
       const drawn = parts.flatMap((part) => (part.beam ? sections(part, at, factor, 1) : [pose(part, at)]));
       const places = drawn.map((section) => section.position);
       const closed = space.outlines.filter(({ points }) => points.length / times.length > 6);
       places.push(...closed.flatMap(({ points }) => outline(points, at)));
-      places.push(new Vector3().copy(position));
-      return places.map((point) => point.clone().sub(position).applyQuaternion(back));
+      places.push(now.position);
+      return places.map((point) => seen(point, now));
     });
     const hub = Math.max(0, ...parts.map((part) => part.beam?.hub ?? 0));
     if (hub > 0) for (const x of [-hub, hub]) points.push(new Vector3(x, x, 0));
@@ -94,24 +96,16 @@ export function motion(results: ReturnType<typeof read>) {
 
   function draw(time: number) {
     const at = instant(times, time);
-    const now = frame(at);
     const outlines = space.outlines.map(({ points }) => outline(points, at));
-    stage.place({ poses: parts.map((part) => pose(part, at)), sections: shapes(at), outlines, frame: now });
-    if (path) {
-      // In a rotating frame the path stands still: it is turned as the frame is.
-      const seen = rotating ? inertial.map((p) => p.clone().applyQuaternion(now.turned).add(now.position)) : inertial;
-      stage.trace(seen);
-      stage.follow(Math.floor(PIECES * (at.from + at.share)) + 1);
-    } else {
-      stage.trace([]);
-    }
+    stage.place({ poses: parts.map((part) => pose(part, at)), sections: shapes(at), outlines, frame: frame(at) });
+    stage.follow(Math.floor(PIECES * (at.from + at.share)) + 1);
     stage.render();
   }
 
   const { curves } = results;
   const [start, end] = [times[0], times[times.length - 1]];
   element("subtitle").textContent =
-    `${results.name}, ${text(start)} to ${text(end)} s, ${times.length} frames, Flexion ${results.version}`;
+    `${results.name}, ${text(start)} to ${text(end)} s, ${times.length === 1 ? "1 frame" : `${times.length} frames`}, Flexion ${results.version}`;
   let player: Player | undefined;
   const columns = new Columns(
     element("curves"),
@@ -147,6 +141,7 @@ export function motion(results: ReturnType<typeof read>) {
   if (first >= 0) {
     toggle("Tip path", "p", path, (on) => {
       path = on;
+      trace();
       draw(player!.time);
     });
     const factors = [...new Set([1, 2, 5, 10, 20, 50, 100, 1000, factor])].sort((a, b) => a - b);
@@ -158,7 +153,7 @@ export function motion(results: ReturnType<typeof read>) {
   player = new Player(times, (time) => `${steady(time)} s`, (time) => {
     draw(time);
     columns.show(time);
-  }, 20);
+  }, speed(end - start));
   let fitted = false;
   canvas.addEventListener("resized", () => {
     if (fitted) draw(player!.time);

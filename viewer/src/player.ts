@@ -1,31 +1,28 @@
 // Time: playing, stepping, the scrubber and the keys.
-import { nice, text } from "./text";
+import { text } from "./text";
 
 const element = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
 
 export class Player {
   time: number;
   private playing = false;
-  private speed = 1;
   private last = 0;
   private readonly button = element<HTMLButtonElement>("play");
   private readonly scrubber = element<HTMLInputElement>("scrubber");
   private readonly clock = element<HTMLOutputElement>("clock");
   private readonly select = element<HTMLSelectElement>("speed");
 
-  /** From the first to the last of the times; `label` says the time, `show` draws it; `lasts` [s] is what playing takes at most. */
+  /** From the first to the last of the times; `label` says the time, `show` draws it. */
   constructor(
     private readonly times: Float64Array,
     private readonly label: (time: number) => string,
     private readonly show: (time: number) => void,
-    lasts: number,
+    private speed: number,
   ) {
     const [start, end] = [times[0], times[times.length - 1]];
     this.time = start;
     [this.scrubber.min, this.scrubber.max] = [String(start), String(end)];
     this.scrubber.setAttribute("aria-label", "Time");
-    const span = end - start;
-    this.speed = span > lasts ? nice(span / lasts) * 2 : span < 4 ? nice(span / 4) : 1;
     this.offer();
     this.button.addEventListener("click", () => this.play(!this.playing));
     this.scrubber.addEventListener("input", () => {
@@ -72,9 +69,8 @@ export class Player {
 
   private key(event: KeyboardEvent) {
     const target = event.target as HTMLElement;
-    if (event.ctrlKey || event.metaKey || event.altKey || target.matches("select, button, summary, [type=checkbox]")) {
-      if (!event.key.startsWith("Arrow") || !target.matches("button, summary")) return;
-    }
+    const own = target.matches(event.key === " " ? "select, button, summary, [type=checkbox]" : "select, [type=radio]");
+    if (own || event.ctrlKey || event.metaKey || event.altKey) return;
     const by = event.shiftKey ? 10 : 1;
     const actions: Record<string, () => void> = {
       " ": () => this.play(!this.playing),

@@ -133,6 +133,7 @@ class Body {
 class Solid {
   readonly group = new THREE.Group();
   private readonly edge = new Line("hub", 1.5);
+  private readonly edges = new THREE.LineBasicMaterial();
   private readonly mesh: THREE.Mesh<THREE.BufferGeometry, THREE.MeshLambertMaterial>;
 
   constructor(part: Part, size: number) {
@@ -141,8 +142,7 @@ class Solid {
       const [x, y, z, a, b, c] = part.box;
       this.mesh = new THREE.Mesh(new THREE.BoxGeometry(a, b, c), material);
       this.mesh.position.set(x, y, z);
-      const edges = new THREE.LineSegments(new THREE.EdgesGeometry(this.mesh.geometry), new THREE.LineBasicMaterial());
-      this.mesh.add(edges);
+      this.mesh.add(new THREE.LineSegments(new THREE.EdgesGeometry(this.mesh.geometry), this.edges));
     } else {
       const radius = part.beam?.hub || 0.012 * size;
       const around = Array.from({ length: 73 }, (_, k) => (k * Math.PI) / 36);
@@ -162,6 +162,7 @@ class Solid {
 
   paint() {
     this.mesh.material.color = colour("hub");
+    this.edges.color = colour("hub");
     this.edge.paint();
   }
 }
@@ -194,14 +195,21 @@ export class Stage {
     );
     this.outlines = scene.outlines.map(() => new Line("obstacle", 2.5));
     this.axes = scene.planar ? [] : ["x", "y", "z"].map((name) => new Line(name, 1.5));
+    const names = this.axes.map(({ name }) => {
+      const letter = Object.assign(document.createElement("b"), { textContent: name });
+      letter.style.color = `var(--${name})`;
+      return letter;
+    });
+    bar.after(...names);
     this.axes.forEach((axis, i) => {
       const end = new THREE.Vector3().setComponent(i, 0.15 * this.size);
       axis.place([new THREE.Vector3(), end]);
     });
     const groups = [...this.bodies, ...this.solids].flatMap((drawn) => (drawn ? [drawn.group] : []));
-    const lines = [...this.outlines, this.path, ...this.axes];
+    const lines = [...this.outlines, ...this.axes];
     this.world.add(...groups, ...lines.map((line) => line.object));
-    this.space.add(this.world, new THREE.AmbientLight(0xffffff, 1.6), this.camera);
+    // The path is given as it is seen.
+    this.space.add(this.world, this.path.object, new THREE.AmbientLight(0xffffff, 1.6), this.camera);
     const light = new THREE.DirectionalLight(0xffffff, 2);
     light.position.set(-0.4, 0.6, 1);
     this.camera.add(light);
@@ -267,7 +275,7 @@ export class Stage {
     picture.outlines.forEach((points, i) => this.outlines[i].place(points));
   }
 
-  /** The path of the tip. */
+  /** The path of the tip, as seen from the frame of reference. */
   trace(points: THREE.Vector3[]) {
     this.path.place(points);
     this.path.object.visible = points.length > 1;

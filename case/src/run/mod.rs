@@ -1,9 +1,11 @@
 //! A case, run: from its reading to its results.
 
+mod cautions;
 mod clock;
 mod contact;
+mod difference;
 pub mod error;
-pub mod errors;
+pub mod refine;
 mod restart;
 mod scene;
 mod trust;
@@ -15,7 +17,6 @@ use super::problem::Problems;
 use super::reading::{Live, Reading};
 use super::resolved;
 use clock::Clock;
-use errors::Errors;
 use flexion::analysis::equilibrium::equilibrium;
 use flexion::analysis::superposition::superpose;
 use flexion::analysis::transient::{Ending, Plan, resume, transient_to_checkpoint};
@@ -24,9 +25,13 @@ use flexion::integrator::{Checkpoint, Counters, Info};
 use flexion::system::{State, System};
 use flexion_results::plot::{contact_figure, spatial_figure, trajectory_figure};
 use flexion_results::{
-    Artifact, Attachments, Directory, Events, Integration, OutputError, ProblemSize, Recorder, RunReport,
-    Scene, Shapes, Status, Trajectory, Watch, write_run,
+    Artifact, Attachments, Directory, Errors, Events, Integration, OutputError, ProblemSize, Recorder,
+    RunReport, Scene, Shapes, Status, Trajectory, Watch, write_run,
 };
+
+/// Most memory for records [bytes], and columns that every run may have.
+const MOST_BYTES: f64 = 4e9;
+const COMMON: usize = 12;
 
 /// A case with all that its run needs, checked: what remains can only fail in time.
 pub struct Prepared {
@@ -93,12 +98,17 @@ impl Reading {
         if history.is_none() {
             self.check_contacts(live.system.as_mut(), &state)?;
         }
-        let warnings = self.effective_masses(live.system.as_mut(), &state);
+        let mut warnings = self.case.cautions.clone();
+        warnings.extend(self.effective_masses(live.system.as_mut(), &state));
         let case = &self.case;
         let (step, longest_step) = match case.steps {
-            Steps::Fixed(step) => (Some(step), None),
+            Steps::Fixed(step) => {
+                warnings.extend(cautions::unseen(live.system.as_ref(), step, case.duration));
+                (Some(step), None)
+            }
             Steps::Controlled { first, longest, .. } => (first, longest),
         };
+        self.check_memory(live.system.as_ref())?;
         let plan =
             Plan { end: case.duration, step, longest_step, contact_step: None, sample: case.output.step };
         let copy = |(key, bytes): (String, &[u8])| Some((resolved::copy(&key)?, bytes.to_vec()));
@@ -117,6 +127,23 @@ impl Reading {
             history,
             warnings,
         })
+    }
+
+    /// Whether the records fit into memory.
+    fn check_memory(&self, system: &dyn System) -> Result<(), Problems> {
+        let records = self.case.duration / self.case.output.step + 2.0;
+        let bytes = 8.0 * records * (system.channels().len() + COMMON) as f64;
+        if bytes <= MOST_BYTES {
+            return Ok(());
+        }
+        let message = format!(
+            "{records:.1e} records of {} columns take {:.1} GB of memory, and at most {:.0} GB are taken: record less often, \
+             or at fewer stations",
+            system.channels().len() + COMMON,
+            1e-9 * bytes,
+            1e-9 * MOST_BYTES
+        );
+        Err(self.problem("output.step", message))
     }
 
     /// Brings the undeformed `state` into the initial state of the case. Returns the history of an earlier run to go on
@@ -185,8 +212,6 @@ impl Reading {
     /// [`OutputError`] for whatever goes wrong on disk or in drawing.
     pub fn write(&self, run: &Run, directory: &Directory) -> Result<Status, OutputError> {
         let file = self.file.file_name().map(|name| name.to_string_lossy());
-        let estimated = run.errors.iter().flat_map(|errors| &errors.columns);
-        let errors: Vec<_> = estimated.map(|e| (e.column.clone(), e.discretization, e.model)).collect();
         let report = RunReport {
             status: run.status,
             message: run.message.as_deref(),
@@ -196,7 +221,7 @@ impl Reading {
             end_time: run.state.t,
             warnings: &run.warnings,
             integrator: Integration { info: &run.info, settings: self.settings("integrator") },
-            errors: &errors,
+            errors: run.errors.as_ref(),
             events: (!run.events.is_empty()).then_some(&run.events),
             counters: run.counters,
             size: run.size,

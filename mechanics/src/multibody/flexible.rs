@@ -1,7 +1,7 @@
 //! A slender beam as a part of a model, and loads along it.
 
 use super::force::Axes;
-use super::rotation::{Vector, plus, times};
+use super::rotation::{Matrix3, Vector, plus, product, times};
 use super::slender::{Beam, COORDINATES, ELEMENT_COORDINATES, ELEMENT_VELOCITIES};
 use crate::linalg::vector::{cross, inner};
 use crate::profile::Profile;
@@ -123,6 +123,13 @@ impl Flexible {
         let nodes = self.beam.nodes();
         let element = nodes.partition_point(|node| *node <= s).clamp(1, nodes.len() - 1) - 1;
         (element, (s - nodes[element]) / (nodes[element + 1] - nodes[element]))
+    }
+
+    /// The rotation of node `i` from one configuration to another.
+    pub(super) fn rotation(&self, node: usize, before: &[f64], now: &[f64]) -> Matrix3 {
+        let [before, now] = [before, now].map(|q| self.beam.node(node, q).1);
+        let inverse = [before.tangent, before.normal, before.binormal];
+        product(&now.rotation(), &inverse)
     }
 
     /// Position and axes at the arc length `s`.

@@ -19,7 +19,8 @@ use super::joint::Drive;
 use super::marker::{MOST, Part, Pose};
 use super::model::{Model, ModelError};
 use super::rotation::{
-    Vector, apply, compose, exponential, inverse, logarithm, normalized, plus, product, rate, skew, times,
+    Vector, apply, compose, exponential, inverse, logarithm, matrix, normalized, plus, product, rate, skew,
+    times,
 };
 use super::row::{Row, Wrench};
 use super::slender::{self, ELEMENT_COORDINATES, ELEMENT_VELOCITIES};
@@ -27,7 +28,8 @@ use crate::linalg::vector::{cross, inner};
 use crate::linalg::{Matrix, Structure};
 use crate::profile::HubKinematics;
 use crate::system::{
-    Break, Dynamics, Events, NotSet, Parameter, RowWeights, Set, Size, State, Steady, VisitRow, Weights,
+    Break, Corotation, Dynamics, Events, NotSet, Parameter, RowWeights, Set, Size, State, Steady, VisitRow,
+    Weights,
 };
 use std::sync::Arc;
 
@@ -385,6 +387,46 @@ impl Dynamics for Multibody {
             }
             add_force(-1.0, b, f_b, m_b, r);
         });
+    }
+
+    /// Velocities of bodies and nodes, ṙ′, and the forces of joints in a point rotate with their parts.
+    fn corotate(&self, before: &State, now: &State, out: &mut Corotation) {
+        let constants = &*self.constants;
+        out.clear();
+        for i in 0..self.placed.len() {
+            let turned = compose(four(&now.q, 7 * i + 3), inverse(four(&before.q, 7 * i + 3)));
+            out.push_vector(6 * i, matrix(turned));
+        }
+        for (of, &[q, v]) in constants.model.beams.iter().zip(&constants.beams) {
+            for node in 0..of.beam.nodes().len() {
+                let turned = of.rotation(node, &before.q[q..], &now.q[q..]);
+                let at = v + ELEMENT_VELOCITIES * node;
+                out.push_vector(at, turned);
+                out.push_vector(at + 3, turned);
+            }
+        }
+        for (joint, rows) in constants.model.joints.iter().zip(&constants.of_joint) {
+            let in_a_point = |k: usize| {
+                let row = constants.rows[rows.clone()].get(k);
+                row.is_some_and(|(_, row)| *row == Row::Point(k))
+            };
+            if !(0..3).all(in_a_point) {
+                continue;
+            }
+            let part = if joint.to.part == Part::Ground { joint.from.part } else { joint.to.part };
+            let turned = match part {
+                Part::Ground => continue,
+                Part::Body(i) => {
+                    let at = 7 * constants.place[i] + 3;
+                    matrix(compose(four(&now.q, at), inverse(four(&before.q, at))))
+                }
+                Part::Section { beam, node } => {
+                    let q = constants.beams[beam][0];
+                    constants.model.beams[beam].rotation(node, &before.q[q..], &now.q[q..])
+                }
+            };
+            out.push_vector(constants.size.v + rows.start, turned);
+        }
     }
 
     fn rows(&self) -> &[Set] {
