@@ -129,7 +129,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
 fn write(reading: &Reading, run: &Run, directory: &Directory, refused: Option<String>) -> Outcome {
     match reading.write(run, directory) {
         Ok(status) => {
-            let outcome = finish(status, run, directory);
+            let outcome = finish(status, run, reading, directory);
             match refused {
                 Some(why) => {
                     screen::report(&format!("error: {why}\n"));
@@ -149,7 +149,7 @@ fn write(reading: &Reading, run: &Run, directory: &Directory, refused: Option<St
 }
 
 /// Says how the run went and where its files are.
-fn finish(status: Status, run: &Run, directory: &Directory) -> Outcome {
+fn finish(status: Status, run: &Run, reading: &Reading, directory: &Directory) -> Outcome {
     let trajectory = &run.trajectory;
     let wall_time = run.wall_time;
     let end = format!("{:.6}", trajectory.times().last().copied().unwrap_or(0.0));
@@ -164,7 +164,8 @@ fn finish(status: Status, run: &Run, directory: &Directory) -> Outcome {
     screen::print(&out);
     let mut files = vec![("summary", Artifact::Summary), ("plot", Artifact::PlotSvg)];
     files.extend((!run.events.is_empty()).then_some(("events", Artifact::Events)));
-    files.extend(run.shapes.is_some().then_some(("shapes", Artifact::ShapeSeries)));
+    let solid = reading.case.space().is_some() && reading.case.output.vtk.is_some();
+    files.extend((run.shapes.is_some() || solid).then_some(("shapes", Artifact::ShapeSeries)));
     screen::files(directory, Ok(()), &files);
     let estimates = run.errors.iter().flat_map(|errors| &errors.warnings);
     for warning in run.warnings.iter().chain(estimates) {

@@ -241,6 +241,7 @@ impl Reading {
             state: Some((&run.checkpoint, &identity)),
             shapes: run.shapes.as_ref(),
             scene: Some(&run.scene),
+            solids: self.case.space().is_some() && self.case.output.vtk.is_some(),
         };
         let case = self.resolved_with_copies();
         write_run(directory, &report, &run.trajectory, &case, attachments)
