@@ -29,6 +29,7 @@ mod resolved;
 mod run;
 mod schema;
 mod sources;
+mod statics;
 mod suggestion;
 mod template;
 mod tree;

@@ -15,6 +15,7 @@ mod new;
 mod plot;
 mod run;
 mod screen;
+mod statics;
 mod vibration;
 
 use clap::{Parser, Subcommand};
@@ -50,6 +51,8 @@ enum Command {
     Modes(modes::Arguments),
     /// Follow the modes of vibration over a range of speeds
     Campbell(campbell::Arguments),
+    /// Follow the equilibrium of a case at rest as its loads grow
+    Statics(statics::Arguments),
     /// Plot columns of one or several runs
     Plot(plot::Arguments),
     /// List all kinds that a case may choose, with their keys
@@ -89,6 +92,7 @@ fn main() -> ExitCode {
         Command::Compare(arguments) => compare::compare(&arguments),
         Command::Modes(arguments) => modes::modes(&arguments),
         Command::Campbell(arguments) => campbell::campbell(&arguments),
+        Command::Statics(arguments) => statics::statics(&arguments),
         Command::Plot(arguments) => plot::plot(&arguments),
         Command::Completions(arguments) => completions::completions(&arguments),
         Command::Man(arguments) => man::man(&arguments),
