@@ -31,6 +31,7 @@ mod run;
 mod schema;
 mod sources;
 mod space;
+mod statics;
 mod suggestion;
 mod template;
 mod tree;

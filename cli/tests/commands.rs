@@ -118,6 +118,44 @@ fn an_interrupt_stops_the_run_with_2_and_keeps_what_it_computed() {
 }
 
 #[test]
+fn statics_follow_a_column_past_its_buckling_load() {
+    let folder = folder();
+    let column = |more: &[&str]| {
+        let common = [
+            "statics",
+            "spin-up",
+            "--set",
+            "model.coupling=exact",
+            "--set",
+            "force=[{station='10 m', force=['-400 N', '1 N']}]",
+        ];
+        flexion(folder.path(), &[&common[..], more].concat())
+    };
+    let output = column(&["-o", "column"]);
+    assert_eq!(output.status.code(), Some(0), "{} {}", text(&output.stdout), text(&output.stderr));
+    for file in
+        ["statics.json", "statics.csv", "statics.npz", "statics.svg", "statics.png", "case.resolved.toml"]
+    {
+        assert!(folder.path().join("column").join(file).exists(), "{file}");
+    }
+    let csv = std::fs::read_to_string(folder.path().join("column/statics.csv")).unwrap();
+    let last: Vec<&str> = csv.lines().last().unwrap().split(',').collect();
+    let head: Vec<&str> = csv.lines().next().unwrap().split(',').collect();
+    let at = head.iter().position(|name| *name == "tip.deflection [m]").unwrap();
+    assert_eq!((last[0], last[2]), ("1.0", "0"), "{csv}");
+    // 345.4 N is the load of Euler: bent far, towards the small force.
+    assert!(last[at].parse::<f64>().unwrap() > 1.0, "{}", last[at]);
+    assert_eq!(column(&["-o", "column"]).status.code(), Some(1));
+    let short = column(&["-o", "short", "--points", "5"]);
+    assert_eq!(short.status.code(), Some(2), "{}", text(&short.stderr));
+    assert!(text(&short.stderr).contains("allow more points"), "{}", text(&short.stderr));
+    let turning =
+        flexion(folder.path(), &["statics", "spin-up", "--set", "hub.motion={kind='constant',speed=3}"]);
+    assert_eq!(turning.status.code(), Some(1));
+    assert!(text(&turning.stderr).contains("not in static equilibrium"), "{}", text(&turning.stderr));
+}
+
+#[test]
 fn modes_and_campbell_write_whole_results_and_refuse_what_cannot_be() {
     let folder = folder();
     let output = flexion(folder.path(), &["modes", "spin-up", "--speed", "4", "--count", "4", "-o", "modes"]);

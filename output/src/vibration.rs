@@ -185,7 +185,7 @@ fn mode_json(m: &Mode, unit: &Frequencies) -> Value {
     })
 }
 
-fn column(
+pub(super) fn column(
     archive: &mut ZipWriter<Latched<&mut BufWriter<&mut File>>>,
     name: &str,
     values: impl Iterator<Item = f64> + Clone,
@@ -194,7 +194,7 @@ fn column(
 }
 
 /// Draws a figure; a picture that cannot be made is a warning.
-fn draw(
+pub(super) fn draw(
     directory: &Directory,
     figure: &Figure,
     [svg, png]: [Artifact; 2],
@@ -207,7 +207,7 @@ fn draw(
     }
 }
 
-fn close(directory: &Directory, artifact: Artifact, summary: &Value) -> Result<(), OutputError> {
+pub(super) fn close(directory: &Directory, artifact: Artifact, summary: &Value) -> Result<(), OutputError> {
     let text = serde_json::to_string_pretty(summary).unwrap_or_default();
     directory.write(artifact, |f| writeln!(f, "{text}"))?;
     directory.publish()

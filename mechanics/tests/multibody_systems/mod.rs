@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // in helpers of tests
 
+mod beam_statics;
 mod beams;
 mod chain;
 mod conformance;
@@ -10,6 +11,7 @@ mod faults;
 mod heavy_top;
 mod mechanisms;
 mod paths;
+mod rotating;
 mod single;
 mod statics;
 

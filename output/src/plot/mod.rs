@@ -12,6 +12,7 @@ mod decimate;
 mod draw;
 mod panels;
 mod placed;
+mod statics;
 mod style;
 #[cfg(test)]
 mod tests;
@@ -21,6 +22,7 @@ mod views;
 pub use self::contact::contact_figure;
 pub use self::draw::Drawing;
 pub use self::panels::{compare_figure, difference_figure, trajectory_figure};
+pub use self::statics::statics_figure;
 pub use self::vibration::{campbell_figure, modes_figure};
 pub use self::views::{assembly_figure, spatial_figure};
 
