@@ -14,6 +14,7 @@ mod frequencies;
 mod nearest;
 mod npz;
 mod obstacles;
+mod passing;
 #[cfg(feature = "parquet")]
 mod parquet;
 pub mod plot;
