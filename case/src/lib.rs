@@ -36,6 +36,7 @@ mod suggestion;
 mod template;
 mod tree;
 pub mod units;
+mod unused;
 mod values;
 
 pub use campbell::campbell;

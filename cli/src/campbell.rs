@@ -118,6 +118,7 @@ fn diagram(arguments: &Arguments, reading: &Reading) -> Result<bool, String> {
     let output = arguments.output.clone().unwrap_or_else(|| Path::new("results").join(named));
     let (steady, mut cautions) = vibration::without_loads_in_space(case);
     cautions.extend(vibration::without_contacts(case));
+    cautions.extend(case.unused_by_modes());
     let system = vibration::system(&steady)?;
     let directory = Directory::create_for(Artifact::CAMPBELL, &output, arguments.force)
         .map_err(|error| error.to_string())?;

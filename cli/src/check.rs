@@ -71,7 +71,12 @@ fn describe(reading: &Reading) -> Result<String, Problems> {
             rows.extend(equations(system.as_ref(), integrator.as_ref()));
         }
     }
-    let cautions = case.cautions.iter().cloned().chain(system.cautions(&[]));
+    let of_modes = case
+        .hub_beam()
+        .and_then(|beam| beam.blade.as_ref())
+        .iter()
+        .flat_map(|_| case.unused_by_modes().into_iter().skip(case.cautions.len()));
+    let cautions = case.unused_by_run().into_iter().chain(of_modes).chain(system.cautions(&[]));
     rows.extend(cautions.map(|caution| row("caution", caution)));
     out.push_str(&screen::table(&rows));
     // An empty list says nothing.

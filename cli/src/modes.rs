@@ -65,6 +65,7 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
     let (steady, mut cautions) =
         if speed > 0.0 { vibration::without_loads_in_space(case) } else { (case.clone(), Vec::new()) };
     cautions.extend(vibration::without_contacts(case));
+    cautions.extend(case.unused_by_modes());
     let (modes, scene) = compute(arguments, &steady, speed, hub)?;
     cautions.iter().for_each(|caution| screen::report(&format!("warning: {caution}\n")));
     let about = match case.space() {

@@ -63,7 +63,7 @@ pub fn statics(arguments: &Arguments) -> Outcome {
 fn followed(arguments: &Arguments, reading: &Reading) -> Result<bool, String> {
     let named = format!("{}-statics", arguments.case.name());
     let output = arguments.output.clone().unwrap_or_else(|| Path::new("results").join(named));
-    if reading.case.blade.is_some() {
+    if reading.case.hub_beam().is_some_and(|beam| beam.blade.is_some()) {
         return Err("statics are those of a beam, but the case has a [blade]: leave it out".to_owned());
     }
     let plan = Plan { points: arguments.points as usize, longest: arguments.step, ..Plan::to(arguments.to) };

@@ -18,6 +18,7 @@ mod obstacles;
 mod page;
 #[cfg(feature = "parquet")]
 mod parquet;
+mod passing;
 pub mod plot;
 mod provenance;
 mod recorder;

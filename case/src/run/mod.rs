@@ -98,7 +98,7 @@ impl Reading {
         if history.is_none() {
             self.check_contacts(live.system.as_mut(), &state)?;
         }
-        let mut warnings = self.case.cautions.clone();
+        let mut warnings = self.case.unused_by_run();
         warnings.extend(self.effective_masses(live.system.as_mut(), &state));
         warnings.extend(unstable);
         let case = &self.case;
@@ -300,10 +300,10 @@ impl Prepared {
                 .unwrap_or_else(|error| (Ending::Failed(error.into()), history.clone())),
         };
         let (wall_time, cpu_time) = clock.elapsed();
-        let warning = recorder.warning();
+        let of_steps = recorder.warnings();
         let (trajectory, mut shapes, mut scene, events) = recorder.into_parts();
         warnings.extend(system.cautions(&trajectory.peaks()));
-        warnings.extend(warning);
+        warnings.extend(of_steps);
         if let Ending::Finished = ending {
             shapes.iter_mut().for_each(|shapes| shapes.finish(system.as_mut(), &state));
             scene.finish(system.as_mut(), &state);

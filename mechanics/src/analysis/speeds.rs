@@ -1,7 +1,7 @@
 //! Modes at one speed after the other.
 
 use super::diagram::{Branch, HubState, NoCampbell, Plan};
-use super::modes::{Mode, describe, modes_near};
+use super::modes::{Mode, NoModes, describe, modes_near};
 use super::rotation::rotate_stably;
 use super::stiffness::mass;
 use crate::linalg::Matrix;
@@ -138,9 +138,15 @@ impl<'a> Speeds<'a> {
         let count = count.min(system.size().v);
         let near: Vec<_> = from.map_or(&[][..], |s| &s.modes).iter().take(count).collect();
         let near: Vec<_> = near.iter().map(|m| (m.eigenvalue, m.vector.as_slice())).collect();
-        let modes = modes_near(system, &state, count, &[], &near)
-            .map_err(|source| NoCampbell::Modes { speed, source })?
-            .modes;
+        let mut modes = modes_near(system, &state, count, &[], &near);
+        if let Err(NoModes::Inaccurate { number, .. }) = modes
+            && number > self.plan.count
+        {
+            // A mode that was not asked for.
+            let near = &near[..near.len().min(number - 1)];
+            modes = modes_near(system, &state, number - 1, &[], near);
+        }
+        let modes = modes.map_err(|source| NoCampbell::Modes { speed, source })?.modes;
         let mass = mass(system, &state);
         system.hold(true);
         let massed = modes.iter().map(|m| times(&mass, &m.vector)).collect();

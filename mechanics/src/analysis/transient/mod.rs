@@ -330,10 +330,12 @@ impl Run {
             if let Some(balance) = &mut self.balance {
                 balance.close();
             }
+            observer.passing(system, &next);
             std::mem::swap(state, &mut next);
             let at_break = jump_at(system, integrator, state.t);
             if event || at_break.is_some() {
                 self.cross(system, integrator, state, at_break, event.then_some(h / attempted), observer)?;
+                observer.passing(system, state);
                 if let Some(control) = &mut self.control {
                     control.restart(attempted);
                 }
