@@ -315,13 +315,6 @@ const CHANGES: &[Change] = &[
         r#"has 1 entries for the 2 segments"#,
     ),
     (
-        SECTION,
-        "kind = 'piecewise'\nends = ['3.7 m', '10 m']\nmodulus = [1e9, 1e9]\ndensity = [1, 1]\narea = [1, 1]\nsecond-moment = [1, 1]\n[model]\ncoupling = 'exact'",
-        r#"section.ends"#,
-        Some(6),
-        r#"inside one of the 10 equal elements of 1 m"#,
-    ),
-    (
         "[beam]",
         "force = [{ station = 11, force = [0, 1] }]\n[beam]",
         r#"force[1].station"#,

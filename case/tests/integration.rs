@@ -8,6 +8,7 @@ mod contact;
 mod convergence;
 mod docs;
 mod energy;
+mod first_look;
 mod frequency_orders;
 mod fuzz;
 mod jumps;

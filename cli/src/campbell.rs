@@ -32,7 +32,7 @@ pub struct Arguments {
     #[arg(long, value_name = "N", default_value = "6", value_parser = vibration::count)]
     modes: usize,
     /// Lines ω = kΩ to cross, for k from 1 to this number
-    #[arg(long, value_name = "K", default_value_t = 4)]
+    #[arg(long, value_name = "K", default_value_t = 4, value_parser = clap::value_parser!(u32).range(0..=MOST_REVOLUTIONS))]
     revolutions: u32,
     #[command(flatten)]
     options: Options,
@@ -55,6 +55,8 @@ pub struct Range {
     count: usize,
 }
 
+/// Most lines ω = kΩ.
+const MOST_REVOLUTIONS: i64 = 1000;
 /// Most speeds of a diagram.
 const MOST: usize = 100_000;
 

@@ -3,6 +3,7 @@
 //! Exit codes: 0 finished; 1 the case or the command line is rejected; 2 a run failed or was stopped, and what
 //! it had computed is kept, or runs differ by more than the tolerance, or not all could be written.
 
+mod assembly;
 mod campbell;
 mod case;
 mod check;

@@ -9,6 +9,7 @@ mod compare;
 mod csv;
 mod directory;
 mod error;
+mod estimate;
 mod events;
 mod frequencies;
 mod nearest;
@@ -38,6 +39,7 @@ pub use self::compare::{Comparison, Difference, compare, compare_csv, compare_js
 pub use self::csv::{read_csv, write_csv};
 pub use self::directory::{Directory, write_file};
 pub use self::error::{OutputError, ResultsError};
+pub use self::estimate::{ColumnError, Errors, Rung};
 pub use self::events::{Entry, Events, write_events};
 pub use self::frequencies::Frequencies;
 pub use self::nearest::nearest;

@@ -22,7 +22,10 @@ use super::archive;
 use super::npz::{write_array, write_shaped};
 use super::obstacles::Drawn;
 use super::shapes::stations;
-use flexion::multibody::rotation::{apply_transposed, compose, inverse, logarithm, plus, quaternion};
+use flexion::multibody::rotation::{
+    Matrix3, Vector, apply, apply_transposed, compose, exponential, inverse, logarithm, matrix, normalized,
+    plus, product, quaternion,
+};
 use flexion::system::{Frame, State, System};
 
 /// Equal intervals along a beam between whose ends it is drawn.
@@ -105,6 +108,58 @@ impl Part {
     }
 }
 
+impl Part {
+    /// Position and axes of the root section or of the body at a time.
+    fn pose(&self, time: usize) -> (Vector, Matrix3) {
+        let at = |i: usize| self.poses.get(7 * time + i).copied().map_or(0.0, f64::from);
+        ([at(0), at(1), at(2)], matrix(normalized([at(3), at(4), at(5), at(6)])))
+    }
+
+    /// Its sections at a time, from one end to the other, with the halves of their sizes along the second and third axis.
+    pub(super) fn sections(&self, time: usize) -> (Vec<Frame>, [f64; 2]) {
+        let (position, axes) = self.pose(time);
+        let in_space = |x: Vector| plus(position, 1.0, apply(&axes, x));
+        match &self.form {
+            Form::Beam { stations, section, .. } => {
+                let of = |list: &[f32], k: usize| {
+                    [0, 1, 2].map(|i| {
+                        list.get(3 * (time * stations.len() + k) + i).copied().map_or(0.0, f64::from)
+                    })
+                };
+                let section_at = |(k, x): (usize, &f64)| {
+                    let u = of(&self.displacements, k);
+                    let turned = matrix(exponential(of(&self.rotations, k)));
+                    let place = [x - stations[0] + u[0], u[1], u[2]];
+                    Frame { position: in_space(place), rotation: product(&axes, &turned) }
+                };
+                (stations.iter().enumerate().map(section_at).collect(), section.map(|size| 0.5 * size))
+            }
+            Form::Box { centre, edges } => {
+                let end = |side: f64| {
+                    let place = plus(*centre, 0.5 * side, [edges[0], 0.0, 0.0]);
+                    Frame { position: in_space(place), rotation: axes }
+                };
+                (vec![end(-1.0), end(1.0)], [0.5 * edges[1], 0.5 * edges[2]])
+            }
+        }
+    }
+
+    /// Lines that show it at a time: the centreline of a beam, the edges of a box.
+    fn lines(&self, time: usize) -> Vec<Vec<Vector>> {
+        let (sections, half) = self.sections(time);
+        if let Form::Beam { .. } = self.form {
+            return vec![sections.iter().map(|section| section.position).collect()];
+        }
+        let corner = |frame: &Frame, [y, z]: [f64; 2]| {
+            plus(frame.position, 1.0, apply(&frame.rotation, [0.0, y * half[0], z * half[1]]))
+        };
+        const AROUND: [[f64; 2]; 5] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0]];
+        let rims = sections.iter().map(|frame| AROUND.iter().map(|at| corner(frame, *at)).collect());
+        let along = AROUND[1..].iter().map(|at| sections.iter().map(|frame| corner(frame, *at)).collect());
+        rims.chain(along).collect()
+    }
+}
+
 /// The motion of a system: its parts and the obstacles at a number of times.
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
@@ -162,6 +217,21 @@ impl Scene {
                 obstacle.points.extend(outline.into_iter().flatten().map(|x| x as f32));
             }
         }
+    }
+
+    /// The times that were taken \[s\].
+    pub fn times(&self) -> &[f64] {
+        &self.times
+    }
+
+    /// The parts.
+    pub fn parts(&self) -> &[Part] {
+        &self.parts
+    }
+
+    /// The lines of each part at the time of this number, with its name \[m\].
+    pub(super) fn lines(&self, time: usize) -> Vec<(&str, Vec<Vec<Vector>>)> {
+        self.parts.iter().map(|part| (part.name.as_str(), part.lines(time))).collect()
     }
 
     /// Whether there is nothing to be drawn.

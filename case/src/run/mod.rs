@@ -1,9 +1,11 @@
 //! A case, run: from its reading to its results.
 
+mod cautions;
 mod clock;
 mod contact;
+mod difference;
 pub mod error;
-pub mod errors;
+pub mod refine;
 mod restart;
 mod scene;
 mod trust;
@@ -15,18 +17,21 @@ use super::problem::Problems;
 use super::reading::{Live, Reading};
 use super::resolved;
 use clock::Clock;
-use errors::Errors;
 use flexion::analysis::equilibrium::equilibrium;
 use flexion::analysis::superposition::superpose;
 use flexion::analysis::transient::{Ending, Plan, resume, transient_to_checkpoint};
 use flexion::hub_beam::Drive;
 use flexion::integrator::{Checkpoint, Counters, Info};
 use flexion::system::{State, System};
-use flexion_results::plot::{contact_figure, trajectory_figure};
+use flexion_results::plot::{contact_figure, spatial_figure, trajectory_figure};
 use flexion_results::{
-    Artifact, Attachments, Directory, Events, Integration, OutputError, ProblemSize, Recorder, RunReport,
-    Scene, Shapes, Status, Trajectory, Watch, write_run,
+    Artifact, Attachments, Directory, Errors, Events, Integration, OutputError, ProblemSize, Recorder,
+    RunReport, Scene, Shapes, Status, Trajectory, Watch, write_run,
 };
+
+/// Most memory for records [bytes], and columns that every run may have.
+const MOST_BYTES: f64 = 4e9;
+const COMMON: usize = 12;
 
 /// A case with all that its run needs, checked: what remains can only fail in time.
 pub struct Prepared {
@@ -93,12 +98,17 @@ impl Reading {
         if history.is_none() {
             self.check_contacts(live.system.as_mut(), &state)?;
         }
-        let warnings = self.effective_masses(live.system.as_mut(), &state);
+        let mut warnings = self.case.cautions.clone();
+        warnings.extend(self.effective_masses(live.system.as_mut(), &state));
         let case = &self.case;
         let (step, longest_step) = match case.steps {
-            Steps::Fixed(step) => (Some(step), None),
+            Steps::Fixed(step) => {
+                warnings.extend(cautions::unseen(live.system.as_ref(), step, case.duration));
+                (Some(step), None)
+            }
             Steps::Controlled { first, longest, .. } => (first, longest),
         };
+        self.check_memory(live.system.as_ref())?;
         let plan =
             Plan { end: case.duration, step, longest_step, contact_step: None, sample: case.output.step };
         let copy = |(key, bytes): (String, &[u8])| Some((resolved::copy(&key)?, bytes.to_vec()));
@@ -119,6 +129,23 @@ impl Reading {
         })
     }
 
+    /// Whether the records fit into memory.
+    fn check_memory(&self, system: &dyn System) -> Result<(), Problems> {
+        let records = self.case.duration / self.case.output.step + 2.0;
+        let bytes = 8.0 * records * (system.channels().len() + COMMON) as f64;
+        if bytes <= MOST_BYTES {
+            return Ok(());
+        }
+        let message = format!(
+            "{records:.1e} records of {} columns take {:.1} GB of memory, and at most {:.0} GB are taken: record less often, \
+             or at fewer stations",
+            system.channels().len() + COMMON,
+            1e-9 * bytes,
+            1e-9 * MOST_BYTES
+        );
+        Err(self.problem("output.step", message))
+    }
+
     /// Brings the undeformed `state` into the initial state of the case. Returns the history of an earlier run to go on
     /// with.
     fn begin(&self, system: &mut dyn System, state: &mut State) -> Result<Option<Checkpoint>, Problems> {
@@ -127,10 +154,15 @@ impl Reading {
             Initial::Restart(earlier) => return restart::begin(earlier, self, state),
             Initial::SteadyRotation => self.equilibrium(system, state)?,
             Initial::Static => {
-                let speed = match &self.case.hub.drive {
+                let speed = self.case.hub_beam().map_or(0.0, |beam| match &beam.hub.drive {
                     Drive::Prescribed(motion) => motion.at(0.0).speed,
                     Drive::Free(hub) => hub.speed,
-                };
+                });
+                if self.case.space().is_some() && state.v.iter().any(|v| *v != 0.0) {
+                    let message = "the parts move at the start, and what moves is not in static equilibrium: take away \
+                                   `velocity`, `spin` and prescribed speeds at t = 0";
+                    return Err(self.problem("initial.kind", message));
+                }
                 if speed != 0.0 {
                     let message = format!(
                         "the hub rotates at {speed} rad/s at the start, and a rotating beam is not in static equilibrium: use \
@@ -142,7 +174,7 @@ impl Reading {
             }
             Initial::Modes(vibrations) => {
                 self.equilibrium(system, state)?;
-                superpose(system, state, vibrations, self.case.length).map_err(|error| {
+                superpose(system, state, vibrations, self.case.size()).map_err(|error| {
                     // At the list that was written.
                     let defaults = self.defaults();
                     let written = |key: &&str| defaults.iter().all(|(name, _)| name != key);
@@ -169,8 +201,9 @@ impl Reading {
         let case = &self.case;
         let interval = case.output.vtk?;
         let every = (interval / case.output.step).round().max(1.0) as usize;
-        let shapes = Shapes::new(case.length, &case.output.stations, case.height(), every);
-        Some(shapes.with_obstacles(case.drawn()))
+        let beam = case.hub_beam()?;
+        let shapes = Shapes::new(beam.length, &case.output.stations, beam.height(), every);
+        Some(shapes.with_obstacles(beam.drawn()))
     }
 
     /// Writes the results of a run of this case and publishes them.
@@ -179,8 +212,6 @@ impl Reading {
     /// [`OutputError`] for whatever goes wrong on disk or in drawing.
     pub fn write(&self, run: &Run, directory: &Directory) -> Result<Status, OutputError> {
         let file = self.file.file_name().map(|name| name.to_string_lossy());
-        let estimated = run.errors.iter().flat_map(|errors| &errors.columns);
-        let errors: Vec<_> = estimated.map(|e| (e.column.clone(), e.discretization, e.model)).collect();
         let report = RunReport {
             status: run.status,
             message: run.message.as_deref(),
@@ -190,7 +221,7 @@ impl Reading {
             end_time: run.state.t,
             warnings: &run.warnings,
             integrator: Integration { info: &run.info, settings: self.settings("integrator") },
-            errors: &errors,
+            errors: run.errors.as_ref(),
             events: (!run.events.is_empty()).then_some(&run.events),
             counters: run.counters,
             size: run.size,
@@ -200,6 +231,7 @@ impl Reading {
         let identity = self.identity();
         let title = (!self.case.title.is_empty()).then_some(self.case.title.as_str());
         let figure = match &run.events {
+            _ if self.case.space().is_some() => spatial_figure(&run.scene, &run.trajectory, title),
             events if events.is_empty() => trajectory_figure(&run.trajectory, title),
             events => contact_figure(&run.trajectory, events, title),
         };

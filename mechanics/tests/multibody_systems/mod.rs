@@ -2,12 +2,14 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // in helpers of tests
 
+mod beams;
 mod chain;
 mod conformance;
 mod contacts;
 mod faults;
 mod heavy_top;
 mod mechanisms;
+mod paths;
 mod single;
 mod statics;
 

@@ -209,10 +209,10 @@ impl Stages {
                 }
                 let (motion, rows) = self.r[i].split_at_mut(from.v.len());
                 system.residual(&self.stage, motion);
-                self.stage_corotation[i].rotate_back(motion);
                 if !rows.is_empty() {
                     self.rows.weighted(system, &self.stage, RowWeights::VELOCITY, 1.0, rows);
                 }
+                self.stage_corotation[i].rotate_back(&mut self.r[i]);
             }
             self.mix_rows(from, h);
             let [r1, r2, r3] = &self.r;

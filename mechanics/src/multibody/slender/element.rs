@@ -10,7 +10,7 @@ use super::strain::{
     chord, combined, positions, sampled, shares,
 };
 use super::triad::{Triad, Vector, plus, times};
-use crate::linalg::vector::inner;
+use crate::linalg::vector::{cross, inner};
 use crate::quadrature::Gauss;
 use crate::system::Weights;
 
@@ -93,6 +93,11 @@ impl Element {
         self.damping = damping;
     }
 
+    /// Its shape functions.
+    pub(super) fn shapes(&self) -> &Shapes {
+        &self.shapes
+    }
+
     /// Length of the element \[m\].
     pub fn length(&self) -> f64 {
         self.shapes.length
@@ -143,6 +148,21 @@ impl Element {
     /// ∫ρA r ds [kg·m], the mass times its centre.
     pub fn first_moment(&self, q: &[f64; COORDINATES]) -> Vector {
         combined(&self.weight, &positions(q))
+    }
+
+    /// Momentum and angular momentum about the origin.
+    pub fn momenta(&self, q: &[f64; COORDINATES], v: &[f64; VELOCITIES]) -> [Vector; 2] {
+        let (place, velocity) = (positions(q), centreline(v));
+        let linear = combined(&self.weight, &velocity);
+        let mut angular = [0.0; 3];
+        for (place, mass) in place.into_iter().zip(&self.mass) {
+            angular = plus(angular, 1.0, cross(place, combined(mass, &velocity)));
+        }
+        let (sections, rest) = (Sections::new(&self.shapes, q), [0.0; VELOCITIES]);
+        for k in 0..3 {
+            angular = plus(angular, 1.0, self.rotation(k, &sections, v, &rest).angular_momentum());
+        }
+        [linear, angular]
     }
 
     /// Mass \[kg\].
@@ -302,6 +322,13 @@ impl Element {
         (position, at.triad, strain)
     }
 
+    /// Stress resultants (N, M₁, M₂, M₃) \[N, N·m\] at the place z, linear through the quadrature points.
+    pub fn section_forces(&self, q: &[f64; COORDINATES], z: f64) -> [f64; 4] {
+        let [(a, first), (b, second)] = self.stresses(q);
+        let part = (z - a) / (b - a);
+        std::array::from_fn(|i| first[i] + part * (second[i] - first[i]))
+    }
+
     /// Stress resultants (N, M₁, M₂, M₃) \[N, N·m\] at the quadrature points, with their places z.
     pub fn stresses(&self, q: &[f64; COORDINATES]) -> [(f64, [f64; 4]); POINTS] {
         let sections = Sections::new(&self.shapes, q);
@@ -310,6 +337,11 @@ impl Element {
             let strain = Section::new(at, &sections).strain;
             (at.place, self.stiffness[k].stress(&strain, &self.initial[k], 1.0))
         })
+    }
+
+    /// ṙ at the place z.
+    pub fn velocity(&self, v: &[f64; VELOCITIES], z: f64) -> Vector {
+        combined(&hermite(z, self.shapes.length)[0], &centreline(v))
     }
 
     /// The twist of the ends and the middle against each other, φ₁ₘ, φₘ₂, φ₁₂.
