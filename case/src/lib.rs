@@ -18,6 +18,7 @@ mod case;
 pub mod declaration;
 mod fault;
 mod files;
+mod hub_beam;
 mod kind;
 pub mod kinds;
 mod layout;
@@ -29,6 +30,7 @@ mod resolved;
 mod run;
 mod schema;
 mod sources;
+mod space;
 mod suggestion;
 mod template;
 mod tree;
@@ -36,21 +38,29 @@ pub mod units;
 mod values;
 
 pub use campbell::campbell;
-pub use case::{Case, Output};
+pub use case::{Case, Output, Subject};
 pub use fault::{Fault, Faults, Made};
+pub use hub_beam::HubBeam;
 pub use kind::{Choice, Context, Kind, Table};
 pub use problem::{Place, Problem, Problems, Source};
 pub use reading::{Live, Reading, parse, parse_with, read};
-pub use run::errors::{ColumnError, Errors};
+pub use run::error::Effort;
+pub use run::refine::{RefineError, Refinement, Target};
 pub use run::{Prepared, Run};
 pub use schema::schema;
 pub use sources::{Contents, Files, Folder, Sources};
+pub use space::Space;
 pub use template::{TEMPLATES, Template};
 pub use values::Values;
 
 /// Every place in a case where a kind is chosen, with the kinds.
 pub fn choices() -> &'static [&'static dyn declaration::Kinds] {
     layout::CHOICES
+}
+
+/// Those that only systems in space have.
+pub fn spatial_choices() -> &'static [&'static dyn declaration::Kinds] {
+    layout::SPATIAL_CHOICES
 }
 
 /// Examples of the tables that a case may have and need not: `KEY = VALUE`, as on the command line.

@@ -115,8 +115,8 @@ impl Reading {
     /// A new integrator: it belongs to one run.
     fn integrator(&self) -> Result<Box<dyn Integrator>, Problems> {
         let files = Files::new(&self.files);
-        let context =
-            Context { length: Some(self.case.length), duration: Some(self.case.duration), files: &files };
+        let length = self.case.hub_beam().map(|beam| beam.length);
+        let context = Context { length, duration: Some(self.case.duration), files: &files };
         let method = INTEGRATOR.make(&self.values, "integrator", &context);
         method.map(|Method { integrator, .. }| integrator).map_err(|faults| self.problems(faults))
     }
@@ -197,7 +197,7 @@ fn interpreted(
 ) -> Result<Reading, Problems> {
     // What a broken file seems to say is not worth reporting: its syntax comes first.
     if let (true, Raw::Table(entries)) = (problems.list.is_empty(), &root.value) {
-        let mut values = reader::table(entries, None, layout::keys(), "", &mut problems);
+        let mut values = reader::table(entries, None, layout::keys_of(entries), "", &mut problems);
         let files = Files::new(sources);
         match case::case(&mut values, &files) {
             Ok(case) if problems.list.is_empty() => {

@@ -124,6 +124,9 @@ pub(super) fn written(value: &Value, takes: &Type, unit: bool) -> String {
         Value::Integer(value) => value.to_string(),
         Value::Boolean(value) => value.to_string(),
         Value::Text(value) => quoted(value),
+        Value::Texts(values) => {
+            format!("[{}]", values.iter().map(|value| quoted(value)).collect::<Vec<_>>().join(", "))
+        }
         Value::Table(_) | Value::Tables(_) | Value::Kind(..) => String::new(),
     };
     match takes {

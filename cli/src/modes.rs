@@ -3,11 +3,12 @@
 use crate::vibration::{self, Options, Speed, report, stations, title};
 use crate::{Outcome, case, screen};
 use flexion::analysis::campbell::HubState;
+use flexion::analysis::equilibrium::equilibrium;
 use flexion::analysis::modes::{Mode, Modes, modes as find};
 use flexion::analysis::rotation::rotate_stably;
 use flexion::system::State;
 use flexion_case::{Case, Reading};
-use flexion_results::{Artifact, Directory, Frequencies, write_modes};
+use flexion_results::{Artifact, Directory, Frequencies, Scene, write_modes};
 use std::path::PathBuf;
 
 /// The case, the speed, and how many modes.
@@ -64,9 +65,14 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
     let (steady, mut cautions) =
         if speed > 0.0 { vibration::without_loads_in_space(case) } else { (case.clone(), Vec::new()) };
     cautions.extend(vibration::without_contacts(case));
-    let modes = compute(arguments, &steady, speed, hub)?;
+    let (modes, scene) = compute(arguments, &steady, speed, hub)?;
     cautions.iter().for_each(|caution| screen::report(&format!("warning: {caution}\n")));
-    let out = described(&modes, &unit, speed, hub);
+    let about = match case.space() {
+        Some(_) => "about the equilibrium".to_owned(),
+        None if hub == HubState::Free => format!("at {}, free hub", unit.text(speed)),
+        None => format!("at {}, hub that keeps its speed", unit.text(speed)),
+    };
+    let out = described(&modes, &unit, &about);
     for (number, mode) in modes.modes.iter().enumerate().filter(|(_, mode)| mode.rounding > 1e-6) {
         screen::report(&format!(
             "warning: the frequency of mode {} may be off by {:.1e} by rounding: the mesh is too fine for this coupling; \
@@ -78,29 +84,40 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
     screen::print(&out);
     let Some(directory) = directory else { return Ok(Outcome::Finished) };
     let (resolved, stations) = (reading.resolved(), stations(case));
-    let written =
-        write_modes(&directory, (&modes, speed), &stations, &unit, &resolved, title(reading), &cautions);
+    let written = directory.write(Artifact::ModesScene, |f| scene.write(f)).and_then(|()| {
+        write_modes(&directory, (&modes, speed), &stations, &unit, &resolved, title(reading), &cautions)
+    });
     screen::print("\n");
     let files = [("modes", Artifact::ModesCsv), ("shapes", Artifact::ModesSvg)];
     let whole = screen::files(&directory, written, &files);
     Ok(if whole { Outcome::Finished } else { Outcome::Incomplete })
 }
 
-fn compute(arguments: &Arguments, case: &Case, speed: f64, hub: HubState) -> Result<Modes, String> {
+/// The modes and the equilibrium that they vibrate about.
+fn compute(arguments: &Arguments, case: &Case, speed: f64, hub: HubState) -> Result<(Modes, Scene), String> {
     let mut system = vibration::system(case)?;
     let mut state = State::zeros(system.size(), 0.0);
-    rotate_stably(system.as_mut(), &mut state, 0.0, speed).map_err(|error| error.to_string())?;
+    if case.space().is_some() {
+        state = system.initial();
+    }
+    if case.space().is_some() && speed == 0.0 {
+        equilibrium(system.as_mut(), &mut state).map_err(|error| error.to_string())?;
+    } else {
+        rotate_stably(system.as_mut(), &mut state, 0.0, speed).map_err(|error| error.to_string())?;
+    }
     if hub == HubState::Free {
         system.hold(false);
         state.v = system.initial().v;
     }
-    find(system.as_mut(), &state, arguments.count, &stations(case)).map_err(|error| error.to_string())
+    let mut scene = case.scene();
+    scene.finish(system.as_mut(), &state);
+    let modes = find(system.as_mut(), &state, arguments.count, &stations(case));
+    Ok((modes.map_err(|error| error.to_string())?, scene))
 }
 
 /// The table of modes.
-fn described(modes: &Modes, unit: &Frequencies, speed: f64, hub: HubState) -> String {
-    let hub = if hub == HubState::Free { "free hub" } else { "hub that keeps its speed" };
-    let mut out = format!("{} modes at {}, {hub}\n\n", modes.modes.len(), unit.text(speed));
+fn described(modes: &Modes, unit: &Frequencies, about: &str) -> String {
+    let mut out = format!("{} modes {about}\n\n", modes.modes.len());
     let head = [
         "mode",
         if unit.name.is_empty() { "frequency" } else { unit.name },

@@ -39,8 +39,11 @@ impl Options {
     /// The unit of speeds and frequencies.
     pub fn frequencies(&self, case: &Case) -> Result<Frequencies, String> {
         if self.dimensionless {
-            let r = case.section.planar.resultants(0.0);
-            let time = (r.mass * case.length.powi(4) / r.bending_stiffness).sqrt();
+            let beam = case
+                .hub_beam()
+                .ok_or("--dimensionless is for a beam on a hub: a system in space has no one section")?;
+            let r = beam.section.planar.resultants(0.0);
+            let time = (r.mass * beam.length.powi(4) / r.bending_stiffness).sqrt();
             return Ok(Frequencies::dimensionless(time));
         }
         Ok(match self.unit {
@@ -55,12 +58,15 @@ impl Options {
         if !self.free_hub {
             return Ok(HubState::Held);
         }
-        if case.blade.is_some() {
+        let beam = case
+            .hub_beam()
+            .ok_or("--free-hub is for a beam on a hub: a system in space has the joints of its case")?;
+        if beam.blade.is_some() {
             return Err("--free-hub is for a beam in the plane of rotation, but the case has a [blade]: its hub keeps its \
                         speed; leave one of the two out"
                 .to_owned());
         }
-        match case.hub.drive {
+        match beam.hub.drive {
             Drive::Free(_) => Ok(HubState::Free),
             Drive::Prescribed(_) => {
                 Err("--free-hub needs a case whose hub is free: its hub.motion is prescribed".to_owned())
@@ -91,7 +97,7 @@ pub fn without_loads_in_space(case: &Case) -> (Case, Vec<String>) {
 /// A warning for a case whose contacts do not matter here.
 pub fn without_contacts(case: &Case) -> Option<String> {
     let message = "without contacts: a contact that opens and closes has no small vibrations, and the modes are those of the free beam";
-    (!case.contacts.is_empty()).then(|| message.to_owned())
+    case.has_contacts().then(|| message.to_owned())
 }
 
 /// A speed as written: `12.1 rpm`, or a number of the unit chosen.
@@ -125,9 +131,12 @@ pub fn speed(text: &str) -> Result<Speed, String> {
     }
 }
 
-/// Stations of the shapes: two hundred equal parts.
+/// Stations of the shapes: two hundred equal parts of the beam on a hub, or of the first beam of a system without bodies.
 pub fn stations(case: &Case) -> Vec<f64> {
-    (0..=200).map(|i| case.length * f64::from(i) / 200.0).collect()
+    let equal = |length: f64| (0..=200).map(|i| length * f64::from(i) / 200.0).collect();
+    let of_space = case.space().filter(|space| space.bodies.is_empty()).and_then(|space| space.beams.first());
+    let length = case.hub_beam().map(|beam| beam.length).or(of_space.map(|(beam, _)| beam.length));
+    length.map_or_else(Vec::new, equal)
 }
 
 /// The title of a figure.

@@ -400,6 +400,61 @@ fn results_are_plotted_as_svg_and_png() {
 }
 
 #[test]
+fn motion_and_modes_become_pages() {
+    let folder = folder();
+    let view = |arguments: &[&str]| {
+        let output = flexion(folder.path(), &[&["view"], arguments].concat());
+        (output.status.code(), text(&output.stderr))
+    };
+    let read = |file: &str| std::fs::read_to_string(folder.path().join(file)).unwrap();
+    for result in [
+        &["run", "spin-up", "-o", "run"][..],
+        &["modes", "spin-up", "--speed", "4", "--count", "3", "-o", "modes"],
+        &["campbell", "spin-up", "--speeds", "0:4:2", "-o", "campbell"],
+    ] {
+        assert_eq!(flexion(folder.path(), result).status.code(), Some(0), "{result:?}");
+    }
+    // What stands in the page, with as many frames as NumPy reads.
+    let data = |page: &str| -> serde_json::Value {
+        let text = read(page);
+        let (_, rest) = text.split_once(r#"<script type="application/json" id="results">"#).unwrap();
+        serde_json::from_str(rest.split_once("</script>").unwrap().0).unwrap()
+    };
+    assert_eq!(view(&["run", "-o", "run.html", "-c", "tip.*"]), (Some(0), String::new()));
+    let run = data("run.html");
+    assert_eq!(run["title"], "spin-up");
+    let frames = run["scene"]["time"]["shape"][0].as_u64().unwrap();
+    assert!((200..=302).contains(&frames), "{frames}");
+    assert_eq!(run["scene"]["beam.displacement"]["shape"], serde_json::json!([frames, 26, 3]));
+    let columns = run["curves"]["columns"].as_array().unwrap();
+    let shown: Vec<&str> =
+        columns.iter().filter(|c| c["shown"] == true).map(|c| c["name"].as_str().unwrap()).collect();
+    assert!(shown.len() >= 3 && shown.iter().all(|name| name.starts_with("tip.")), "{shown:?}");
+    assert!(columns.iter().any(|c| c["name"] == "hub.speed"));
+
+    assert_eq!(view(&["modes", "-o", "pages/modes.html"]), (Some(0), String::new()));
+    let modes = data("pages/modes.html");
+    assert_eq!(modes["modes"]["table"]["modes"].as_array().unwrap().len(), 3);
+    assert_eq!(modes["modes"]["shapes"]["mode3.second.real"]["shape"], serde_json::json!([201]));
+    assert_eq!(modes["scene"]["time"]["shape"], serde_json::json!([1]));
+
+    for (arguments, complaint) in [
+        (&["run", "-o", "run.html"][..], "--force"),
+        (&["run", "-o", "run.svg"], ".html"),
+        (&["run", "-o", "x.html", "-c", "tip.defelction"], "did you mean `tip.deflection`"),
+        (&["campbell", "-o", "x.html"], "holds no motion and no modes"),
+        (&["nowhere", "-o", "x.html"], "nowhere holds no motion and no modes"),
+    ] {
+        let (code, message) = view(arguments);
+        assert!(code == Some(1) && message.contains(complaint), "{arguments:?}: {code:?} {message}");
+    }
+    std::fs::write(folder.path().join("run/scene.npz"), "cut short").unwrap();
+    let (code, message) = view(&["run", "-o", "x.html"]);
+    assert!(code == Some(1) && message.contains("scene.npz"), "{message}");
+    assert!(!folder.path().join("x.html").exists());
+}
+
+#[test]
 fn shapes_are_written_when_asked_for() {
     let folder = folder();
     let output =

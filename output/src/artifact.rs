@@ -50,6 +50,7 @@ artifacts! {
         TrajectoryCsv "trajectory.csv" "what was recorded, as text",
         TrajectoryNpz "trajectory.npz" "the same for NumPy",
         TrajectoryParquet "trajectory.parquet" "the same, written with the feature `parquet`",
+        Scene "scene.npz" "the motion in space, for `flexion view`",
         Events "events.csv" "impacts, and contacts that close, open, slip or stick",
         PlotSvg "plot.svg" "the plot",
         PlotPng "plot.png" "the plot as pixels",
@@ -68,6 +69,7 @@ artifacts! {
         ModesJson "modes.json" "frequencies, damping and residuals",
         ModesCsv "modes.csv" "the same as a table",
         ModesNpz "modes.npz" "frequencies and shapes for NumPy",
+        ModesScene "equilibrium.npz" "the equilibrium that the modes vibrate about, for `flexion view`",
         ModesSvg "modes.svg" "the plot",
         ModesPng "modes.png" "the plot as pixels",
     }

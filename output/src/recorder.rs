@@ -1,6 +1,6 @@
 //! An observer that records a run.
 
-use super::{Events, Shapes, Trajectory};
+use super::{Events, Scene, Shapes, Trajectory};
 use flexion::analysis::Violation;
 use flexion::analysis::transient::{Event, Observer, Plan, Step};
 use flexion::system::{Channel, Direction, Role, State, System};
@@ -14,6 +14,7 @@ pub type Watch<'a> = dyn FnMut(&State) -> ControlFlow<()> + 'a;
 pub struct Recorder<'a> {
     trajectory: Trajectory,
     shapes: Option<Shapes>,
+    scene: Scene,
     events: Events,
     /// Of systems with rows of constraints.
     violation: Option<Violation>,
@@ -79,12 +80,13 @@ impl<'a> Recorder<'a> {
         }
         let mut trajectory = Trajectory::new(channels);
         trajectory.reserve((plan.end / plan.sample).min(1e7) as usize + 2);
-        Recorder { trajectory, shapes: None, events, violation, modes, balance, energies, gain: None, watch }
+        let (shapes, scene, gain) = Default::default();
+        Recorder { trajectory, shapes, scene, events, violation, modes, balance, energies, gain, watch }
     }
 
-    /// The recorder, taking shapes too.
-    pub fn with_shapes(self, shapes: Option<Shapes>) -> Recorder<'a> {
-        Recorder { shapes, ..self }
+    /// The recorder, taking shapes and the motion in space too.
+    pub fn with_shapes(self, shapes: Option<Shapes>, scene: Scene) -> Recorder<'a> {
+        Recorder { shapes, scene, ..self }
     }
 
     /// A warning if the run has gained energy that nothing has put in.
@@ -97,8 +99,8 @@ impl<'a> Recorder<'a> {
     }
 
     /// What was recorded.
-    pub fn into_parts(self) -> (Trajectory, Option<Shapes>, Events) {
-        (self.trajectory, self.shapes, self.events)
+    pub fn into_parts(self) -> (Trajectory, Option<Shapes>, Scene, Events) {
+        (self.trajectory, self.shapes, self.scene, self.events)
     }
 }
 
@@ -139,6 +141,7 @@ impl Observer for Recorder<'_> {
         if let Some(shapes) = &mut self.shapes {
             shapes.sample(system, state);
         }
+        self.scene.sample(system, state);
     }
 
     fn event(&mut self, event: &Event) {

@@ -5,7 +5,7 @@ use std::io::Write;
 use super::plot::Figure;
 use super::state_file::write_state;
 use super::{
-    Artifact, Directory, OutputError, RunReport, Shapes, Status, Summary, Trajectory, resolved_case,
+    Artifact, Directory, OutputError, RunReport, Scene, Shapes, Status, Summary, Trajectory, resolved_case,
     write_csv, write_events, write_npz, write_pvd, write_vtp, write_vtu,
 };
 use flexion::integrator::Checkpoint;
@@ -21,6 +21,8 @@ pub struct Attachments<'a> {
     pub state: Option<(&'a Checkpoint, &'a str)>,
     /// The shapes of the beam.
     pub shapes: Option<&'a Shapes>,
+    /// The motion in space.
+    pub scene: Option<&'a Scene>,
 }
 
 /// Writes the files of a run into `directory`, publishes them, and returns the status that the
@@ -74,6 +76,9 @@ pub fn write_run(
         directory.write(Artifact::ShapeSeries, |f| write_pvd(shapes.times(), !outlines.is_empty(), f))?;
         #[cfg(feature = "vtkhdf")]
         directory.write(Artifact::ShapeHdf, |f| super::write_vtkhdf(shapes, f))?;
+    }
+    if let Some(scene) = attachments.scene.filter(|scene| !scene.is_empty()) {
+        directory.write(Artifact::Scene, |f| scene.write(f))?;
     }
     let summary = Summary::of_run(&RunReport { warnings: &warnings, ..report.clone() }, trajectory);
     directory.write(Artifact::Summary, |f| f.write_all(summary.to_json().as_bytes()))?;

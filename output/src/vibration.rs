@@ -69,6 +69,7 @@ pub fn write_modes(
     let list: Vec<Value> = modes.modes.iter().map(|m| mode_json(m, unit)).collect();
     let summary = json!({
         "version": VERSION,
+        "title": title,
         "unit": unit.name,
         "speed": speed * unit.factor,
         "counted": modes.counted,

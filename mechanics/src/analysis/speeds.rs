@@ -2,7 +2,7 @@
 
 use super::diagram::{Branch, HubState, NoCampbell, Plan};
 use super::modes::{Mode, describe, modes_near};
-use super::rotation::{negative_stiffness, rotate, rotate_stably};
+use super::rotation::rotate_stably;
 use super::stiffness::mass;
 use crate::linalg::Matrix;
 use crate::system::{Parameter, State, System};
@@ -127,13 +127,8 @@ impl<'a> Speeds<'a> {
 
     /// The lowest modes at a speed, from those at another.
     fn solve(&mut self, speed: f64, count: usize, from: Option<&Solved>) -> Result<Solved, NoCampbell> {
-        let start = self.state.clone();
         let system = self.system.as_mut();
-        rotate(system, &mut self.state, self.speed, speed)?;
-        if negative_stiffness(system, &self.state) > 0 {
-            self.state.copy_from(&start);
-            rotate_stably(system, &mut self.state, self.speed, speed)?;
-        }
+        rotate_stably(system, &mut self.state, self.speed, speed)?;
         self.speed = speed;
         let mut state = self.state.clone();
         if self.plan.hub == HubState::Free {

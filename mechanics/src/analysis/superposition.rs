@@ -14,7 +14,7 @@
 //! ```
 
 use super::modes::{Mode, NoModes, modes};
-use super::rotation::negative_stiffness;
+use super::stability::stability;
 use super::stiffness::mass;
 use crate::system::{Direction, Frame, State, System};
 use num_complex::Complex64;
@@ -115,7 +115,7 @@ pub fn superpose(
         }
         if rate.im == 0.0 {
             // About a saddle such modes come in pairs, ±λ.
-            let stable = rate.re < 0.0 && negative_stiffness(system, state) == 0;
+            let stable = rate.re < 0.0 && stability(system, state).is_ok_and(|found| found.divergent == 0);
             let what = if rate.re < 0.0 { "decays" } else { "grows" };
             let advice = if stable {
                 "lower the damping"

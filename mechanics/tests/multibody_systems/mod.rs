@@ -9,6 +9,7 @@ mod contacts;
 mod faults;
 mod heavy_top;
 mod mechanisms;
+mod paths;
 mod single;
 mod statics;
 

@@ -328,7 +328,7 @@ impl Run {
             if event || at_break.is_some() {
                 self.cross(system, integrator, state, at_break, event.then_some(h / attempted), observer)?;
                 if let Some(control) = &mut self.control {
-                    control.restart(h);
+                    control.restart(attempted);
                 }
                 if at_break.is_some()
                     && state.t < plan.end
