@@ -8,6 +8,7 @@ mod chain;
 mod conformance;
 mod contacts;
 mod faults;
+mod flexible;
 mod heavy_top;
 mod mechanisms;
 mod paths;
