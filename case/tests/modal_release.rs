@@ -117,7 +117,7 @@ fn a_release_of_one_hundredth_of_the_length_makes_no_axial_force() {
         let last = |name: &str| *run.trajectory.column(name).unwrap().last().unwrap();
         (last("energy.strain"), last("tip.deflection"), last("tip.axial"))
     };
-    let length = reading(&still).case.length;
+    let length = reading(&still).case.size();
     let (small, ..) = energy(1e-6 * length);
     for part in [0.01, 0.1] {
         let (found, deflection, axial) = energy(part * length);

@@ -48,7 +48,7 @@ pub fn system(coupling: &str, elements: usize) -> Box<dyn System> {
             },
         })
     } else {
-        Drive::Prescribed(Motion::Speed { profile, initial_angle: 0.0 })
+        Drive::Prescribed(Motion::Speed { profile: profile.clone(), initial_angle: 0.0 })
     };
     if coupling == "space" {
         return Box::new(in_space(elements, Motion::Speed { profile, initial_angle: 0.0 }));
