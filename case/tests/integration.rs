@@ -18,6 +18,7 @@ mod modal_release;
 mod papers;
 mod pendulum;
 mod random_cases;
+mod random_space;
 mod reported_errors;
 mod restart;
 mod section_forces;

@@ -186,6 +186,13 @@ fn every_kind_makes_a_model_of_its_own() {
     }
 }
 
+/// The same of a system in space.
+const WRITTEN_IN_SPACE: &[&str] = &[
+    "joint=[{kind='prismatic', between=['ground', 'bar'], travel={kind='table', file='tables/measured.csv', of='speed'}}]",
+    "beam=[{length=2, root='clamped', elements=2, section={kind='rectangle', modulus=7e10, density=2700, width=0.01, height=0.02}, fibre=[{name='top', station=0, y=0.01}]}]",
+    "output={vtk=true, vtk-step='10 ms'}",
+];
+
 /// Changes to the base case whose runs are written: they name files, or are recorded in another way.
 const WRITTEN: &[&str] = &[
     "title=base",
@@ -207,14 +214,17 @@ fn a_run_is_repeated_byte_for_byte_from_the_resolved_case_alone() {
     let earlier = folder.path().join("earlier");
     run(&case, &["run.duration='20 ms'"], &earlier);
     let (first, second) = (folder.path().join("first"), folder.path().join("elsewhere/second"));
-    for variation in WRITTEN {
+    let space = folder.path().join("space.toml");
+    fs::write(&space, IN_SPACE).unwrap();
+    let planar = WRITTEN.iter().map(|variation| (&case, variation));
+    for (case, variation) in planar.chain(WRITTEN_IN_SPACE.iter().map(|variation| (&space, variation))) {
         // What the case refers to is there for the first run only.
         fs::create_dir(folder.path().join("tables")).unwrap();
         for (name, bytes) in files() {
             fs::write(folder.path().join("tables").join(name), bytes).unwrap();
         }
         fs::copy(earlier.join("state.npz"), folder.path().join("tables/state.npz")).unwrap();
-        run(&case, &[variation], &first);
+        run(case, &[variation], &first);
         fs::remove_dir_all(folder.path().join("tables")).unwrap();
         run(&first.join("case.resolved.toml"), &[], &second);
         let (a, b) = (written(&first), written(&second));
@@ -223,7 +233,7 @@ fn a_run_is_repeated_byte_for_byte_from_the_resolved_case_alone() {
         for ((name, a), (_, b)) in a.iter().zip(&b) {
             assert!(a == b, "{variation}: {name} differs");
         }
-        let copies = ["motion.csv", "torque.csv", "section.csv", "initial.npz"]
+        let copies = ["motion.csv", "torque.csv", "section.csv", "initial.npz", "table1.csv"]
             .map(|copy| names(&a).contains(&copy.to_owned()));
         assert_eq!(variation.contains("tables"), copies.contains(&true), "{variation}");
         assert_eq!(variation.contains("vtk=true"), names(&a).contains(&"beam.pvd".to_owned()));

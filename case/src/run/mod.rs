@@ -112,8 +112,10 @@ impl Reading {
         self.check_memory(live.system.as_ref())?;
         let plan =
             Plan { end: case.duration, step, longest_step, contact_step: None, sample: case.output.step };
-        let copy = |(key, bytes): (String, &[u8])| Some((resolved::copy(&key)?, bytes.to_vec()));
-        let tables = self.tables().into_iter().filter_map(copy).collect();
+        let tables = self.tables();
+        let keys: Vec<String> = tables.iter().map(|(key, _)| key.clone()).collect();
+        let copy = |(key, bytes): (String, &[u8])| Some((resolved::copy(&key, &keys)?, bytes.to_vec()));
+        let tables = tables.into_iter().filter_map(copy).collect();
         let Output { energy_balance, modal_shares, .. } = case.output;
         let (shapes, scene) = (self.shapes(), self.case.scene());
         Ok(Prepared {
