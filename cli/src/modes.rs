@@ -10,6 +10,9 @@ use flexion_case::{Case, Reading};
 use flexion_results::{Artifact, Directory, Frequencies, write_modes};
 use std::path::PathBuf;
 
+/// Damping ratio below which a mode grows.
+const GROWTH: f64 = -1e-7;
+
 /// The case, the speed, and how many modes.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
@@ -65,6 +68,10 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
         if speed > 0.0 { vibration::without_loads_in_space(case) } else { (case.clone(), Vec::new()) };
     cautions.extend(vibration::without_contacts(case));
     let modes = compute(arguments, &steady, speed, hub)?;
+    let growing = modes.modes.iter().filter(|mode| mode.damping_ratio() < GROWTH).count();
+    if growing > 0 {
+        cautions.push(format!("the equilibrium is unstable: {growing} of the modes grow (negative damping)"));
+    }
     cautions.iter().for_each(|caution| screen::report(&format!("warning: {caution}\n")));
     let out = described(&modes, &unit, speed, hub);
     for (number, mode) in modes.modes.iter().enumerate().filter(|(_, mode)| mode.rounding > 1e-6) {
