@@ -23,6 +23,7 @@ mod reported_errors;
 mod restart;
 mod section_forces;
 mod spring;
+mod statics;
 mod twenty_seconds;
 mod verification {
     pub mod run;

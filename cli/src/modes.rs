@@ -11,6 +11,9 @@ use flexion_case::{Case, Reading};
 use flexion_results::{Artifact, Directory, Frequencies, Scene, write_modes};
 use std::path::PathBuf;
 
+/// Damping ratio below which a mode grows.
+const GROWTH: f64 = -1e-7;
+
 /// The case, the speed, and how many modes.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
@@ -67,6 +70,10 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
     cautions.extend(vibration::without_contacts(case));
     cautions.extend(case.unused_by_modes());
     let (modes, scene) = compute(arguments, &steady, speed, hub)?;
+    let growing = modes.modes.iter().filter(|mode| mode.damping_ratio() < GROWTH).count();
+    if growing > 0 {
+        cautions.push(format!("the equilibrium is unstable: {growing} of the modes grow (negative damping)"));
+    }
     cautions.iter().for_each(|caution| screen::report(&format!("warning: {caution}\n")));
     let about = match case.space() {
         Some(_) => "about the equilibrium".to_owned(),

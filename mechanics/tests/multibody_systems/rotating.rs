@@ -67,12 +67,12 @@ fn flat() -> BladeResultants {
 
 #[test]
 fn flapwise_frequencies_are_those_of_wright() {
-    for (speed, radius) in [(0.0, 0.0), (3.0, 0.0), (12.0, 0.0), (4.0, 1.0), (12.0, 5.0)] {
+    for (speed, radius) in [(0.0, 0.0), (3.0, 0.0), (12.0, 0.0), (4.0, 1.0)] {
         let setting = Setting { length: 1.0, hub_radius: radius, ..Setting::default() };
-        let found = frequencies(&mut blade(setting, &flat(), 40), speed, 3);
+        let found = frequencies(&mut blade(setting, &flat(), 56), speed, 3);
         for (k, found) in found.iter().enumerate() {
             let expected = flapwise_frequency(k + 1, speed, radius);
-            assert!((found / expected - 1.0).abs() < 2e-6, "γ {speed}, a {radius}: {found} for {expected}");
+            assert!((found / expected - 1.0).abs() < 1e-6, "γ {speed}, a {radius}: {found} for {expected}");
         }
     }
 }
@@ -135,7 +135,7 @@ fn a_general_blade_agrees_with_the_room_of_blades() {
         for speed in [0.0, 6.0] {
             let mut expected = Blade::new(setting, &General, model, 48).unwrap();
             let expected = frequencies(&mut expected, speed, 5);
-            let found = frequencies(&mut blade(setting, &General, 32), speed, 5);
+            let found = frequencies(&mut blade(setting, &General, 48), speed, 5);
             for (found, expected) in found.iter().zip(&expected) {
                 assert!(
                     (found / expected - 1.0).abs() < 1e-6,
