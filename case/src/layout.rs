@@ -139,6 +139,7 @@ static RUN: &[Key] = &[
                 Default::Boolean(false),
                 "the shares B²/ΣB² of the transverse modes are recorded, for the basis `modes`",
             ),
+            key("plots", Type::Boolean, Default::Boolean(true), "the run is drawn: plot.svg and plot.png"),
             key(
                 "vtk",
                 Type::Boolean,

@@ -1,13 +1,13 @@
 //! `flexion modes`: modes of vibration at one speed.
 
-use crate::vibration::{self, Options, Speed, report, stations, title};
+use crate::vibration::{self, Options, Speed, report, stations};
 use crate::{Outcome, case, screen};
 use flexion::analysis::campbell::HubState;
 use flexion::analysis::modes::{Mode, Modes, modes as find};
 use flexion::analysis::rotation::rotate_stably;
 use flexion::system::State;
 use flexion_case::{Case, Reading};
-use flexion_results::{Artifact, Directory, Frequencies, write_modes};
+use flexion_results::{Artifact, Directory, Units, write_modes};
 use std::path::PathBuf;
 
 /// The case, the speed, and how many modes.
@@ -15,7 +15,7 @@ use std::path::PathBuf;
 #[command(after_help = "Examples:
   flexion modes verification/p1_spin_up_4 --speed 4 --count 6
   flexion modes case.toml --speed 300 --unit rpm --output results/modes
-  flexion modes case.toml --speed '12.1 rpm' --unit Hz
+  flexion modes case.toml --speed '12.1 rpm'
 
 The motion of the case is replaced by a steady rotation at the speed; the modes are those of small vibrations about its
 equilibrium. The hub keeps its speed unless --free-hub is given.
@@ -41,6 +41,9 @@ pub struct Arguments {
     force: bool,
 }
 
+/// Parts of the beam at whose ends shapes are given.
+const STATIONS: u32 = 200;
+
 /// Finds and writes modes.
 pub fn modes(arguments: &Arguments) -> Outcome {
     let Some(reading) = arguments.case.read() else { return Outcome::Rejected };
@@ -52,10 +55,10 @@ pub fn modes(arguments: &Arguments) -> Outcome {
 
 fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
     let case = &reading.case;
-    let unit = arguments.options.frequencies(case)?;
-    let speed = arguments.speed.in_radians(&unit);
+    let units = arguments.options.units(case, arguments.speed);
+    let speed = arguments.speed.in_radians(&units.speed);
     if !(speed.is_finite() && speed >= 0.0) {
-        return Err(format!("the speed is {} and must be zero or positive", unit.text(speed)));
+        return Err(format!("the speed is {} and must be zero or positive", units.speed.text(speed)));
     }
     let hub = arguments.options.hub(case)?;
     let directory =
@@ -66,7 +69,7 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
     cautions.extend(vibration::without_contacts(case));
     let modes = compute(arguments, &steady, speed, hub)?;
     cautions.iter().for_each(|caution| screen::report(&format!("warning: {caution}\n")));
-    let out = described(&modes, &unit, speed, hub);
+    let out = described(&modes, &units, speed, hub);
     for (number, mode) in modes.modes.iter().enumerate().filter(|(_, mode)| mode.rounding > 1e-6) {
         screen::report(&format!(
             "warning: the frequency of mode {} may be off by {:.1e} by rounding: the mesh is too fine for this coupling; \
@@ -77,9 +80,9 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
     }
     screen::print(&out);
     let Some(directory) = directory else { return Ok(Outcome::Finished) };
-    let (resolved, stations) = (reading.resolved(), stations(case));
-    let written =
-        write_modes(&directory, (&modes, speed), &stations, &unit, &resolved, title(reading), &cautions);
+    let (resolved, stations) = (reading.resolved(), stations(case, STATIONS));
+    let title = arguments.options.title(reading);
+    let written = write_modes(&directory, (&modes, speed), &stations, &units, &resolved, title, &cautions);
     screen::print("\n");
     let files = [("modes", Artifact::ModesCsv), ("shapes", Artifact::ModesSvg)];
     let whole = screen::files(&directory, written, &files);
@@ -94,13 +97,15 @@ fn compute(arguments: &Arguments, case: &Case, speed: f64, hub: HubState) -> Res
         system.hold(false);
         state.v = system.initial().v;
     }
-    find(system.as_mut(), &state, arguments.count, &stations(case)).map_err(|error| error.to_string())
+    find(system.as_mut(), &state, arguments.count, &stations(case, STATIONS))
+        .map_err(|error| error.to_string())
 }
 
 /// The table of modes.
-fn described(modes: &Modes, unit: &Frequencies, speed: f64, hub: HubState) -> String {
+fn described(modes: &Modes, units: &Units, speed: f64, hub: HubState) -> String {
+    let unit = &units.frequency;
     let hub = if hub == HubState::Free { "free hub" } else { "hub that keeps its speed" };
-    let mut out = format!("{} modes at {}, {hub}\n\n", modes.modes.len(), unit.text(speed));
+    let mut out = format!("{} modes at {}, {hub}\n\n", modes.modes.len(), units.speed.text(speed));
     let head = [
         "mode",
         if unit.name.is_empty() { "frequency" } else { unit.name },

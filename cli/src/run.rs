@@ -2,7 +2,7 @@
 
 use crate::{Outcome, case, screen};
 use flexion::system::{Channel, Role};
-use flexion_case::{Errors, Run, units};
+use flexion_case::{Errors, Reading, Run, units};
 use flexion_results::{Artifact, Directory, Events, Status, Trajectory};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::ops::ControlFlow;
@@ -18,7 +18,8 @@ use std::time::{Duration, Instant};
   flexion run case.toml --vtk --output results/film
   flexion run case.toml --set section.modulus=\"30 GPa\" --output results/soft --force
 
-Exit codes: 0 finished, 1 case rejected, 2 stopped or failed (what was computed is kept).")]
+Exit codes: 0 finished, or stopped where --until asks for it; 1 case rejected; 2 stopped or failed (what was computed is
+kept).")]
 pub struct Arguments {
     #[command(flatten)]
     case: case::Selection,
@@ -28,6 +29,9 @@ pub struct Arguments {
     /// Write the shape of the beam for ParaView too, as `--set output.vtk=true`
     #[arg(long)]
     vtk: bool,
+    /// Draw nothing, as `--set output.plots=false`: most of the time of a short run is that of its pictures
+    #[arg(long)]
+    no_plots: bool,
     /// Stop after the step that reaches this time, e.g. "2 s"; `initial.kind = "restart"` goes on from there
     #[arg(long, value_name = "TIME", value_parser = time)]
     until: Option<f64>,
@@ -44,8 +48,9 @@ const TICKS: f64 = 1000.0;
 
 /// Runs a case.
 pub fn run(arguments: &Arguments) -> Outcome {
-    let set: &[&str] = if arguments.vtk { &["output.vtk=true"] } else { &[] };
-    let Some(reading) = arguments.case.read_with(set) else { return Outcome::Rejected };
+    let flags = [(arguments.vtk, "output.vtk=true"), (arguments.no_plots, "output.plots=false")];
+    let set: Vec<&str> = flags.into_iter().filter_map(|(given, set)| given.then_some(set)).collect();
+    let Some(reading) = arguments.case.read_with(&set) else { return Outcome::Rejected };
     let output = arguments.output.clone().unwrap_or_else(|| Path::new("results").join(arguments.case.name()));
     // The case is checked, and the directory tried, before anything is computed.
     let prepared = match reading.prepare() {
@@ -64,9 +69,14 @@ pub fn run(arguments: &Arguments) -> Outcome {
     };
     let mut progress = Progress::new(reading.case.duration);
     let until = arguments.until.unwrap_or(f64::INFINITY);
+    let mut reached = false;
     let mut run = prepared.run(&mut |state| {
-        if state.t >= until { ControlFlow::Break(()) } else { progress.show(state.t) }
+        reached = state.t >= until;
+        if reached { ControlFlow::Break(()) } else { progress.show(state.t) }
     });
+    if reached && run.status == Status::Stopped {
+        run.message = Some(format!("stopped at t = {:.6} s, as asked", run.state.t));
+    }
     if arguments.error {
         match reading.estimate_errors(&run, &mut |state| progress.show(state.t)) {
             Ok(errors) => run.errors = Some(errors),
@@ -80,7 +90,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
     progress.finish();
     match reading.write(&run, &directory) {
-        Ok(status) => finish(status, &run, &directory),
+        Ok(status) => finish(status, reached, &reading, &run, &directory),
         Err(error) => {
             screen::report(&format!("error: {error}\n"));
             if let Some(path) = directory.salvage() {
@@ -92,7 +102,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
 }
 
 /// Says how the run went and where its files are.
-fn finish(status: Status, run: &Run, directory: &Directory) -> Outcome {
+fn finish(status: Status, reached: bool, reading: &Reading, run: &Run, directory: &Directory) -> Outcome {
     let trajectory = &run.trajectory;
     let wall_time = run.wall_time;
     let end = format!("{:.6}", trajectory.times().last().copied().unwrap_or(0.0));
@@ -107,7 +117,8 @@ fn finish(status: Status, run: &Run, directory: &Directory) -> Outcome {
         out.push('\n');
     }
     screen::print(&out);
-    let mut files = vec![("summary", Artifact::Summary), ("plot", Artifact::PlotSvg)];
+    let mut files = vec![("summary", Artifact::Summary)];
+    files.extend(reading.case.output.plots.then_some(("plot", Artifact::PlotSvg)));
     files.extend((!run.events.is_empty()).then_some(("events", Artifact::Events)));
     files.extend(run.shapes.is_some().then_some(("shapes", Artifact::ShapeSeries)));
     screen::files(directory, Ok(()), &files);
@@ -115,7 +126,7 @@ fn finish(status: Status, run: &Run, directory: &Directory) -> Outcome {
     for warning in run.warnings.iter().chain(estimates) {
         screen::report(&format!("warning: {warning}\n"));
     }
-    if status == Status::Finished {
+    if status == Status::Finished || (reached && status == Status::Stopped) {
         return Outcome::Finished;
     }
     let reason = match (&run.message, trajectory.first_not_finite()) {
