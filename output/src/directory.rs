@@ -16,11 +16,15 @@ use super::staging::{self, NEW};
 /// which is moved last and removed first. The next run finishes a move that was interrupted, and removes what an
 /// interrupted run had begun to write.
 ///
+/// After a loss of power that holds for former results, which go only when the new files are on the disk; a first run into
+/// a directory may then have to be repeated.
+///
 /// As long as the value lives no other run can take the same directory, where the file system has locks.
 #[derive(Debug)]
 pub struct Directory {
     path: PathBuf,
-    own: &'static [Artifact],
+    /// Whether there are former results.
+    replaces: bool,
     /// Holds the lock.
     _lock: Option<File>,
 }
@@ -57,7 +61,8 @@ impl Directory {
             refuse_contents(&path)?;
         }
         staging::clear(&path).and_then(|()| probe(&path)).map_err(OutputError::io("write to", &path))?;
-        Ok(Directory { path, own, _lock: lock })
+        let replaces = own.iter().any(|artifact| path.join(&*artifact.file_name()).exists());
+        Ok(Directory { path, replaces, _lock: lock })
     }
 
     /// Where it is, as it was asked for.
@@ -90,7 +95,8 @@ impl Directory {
             let written = fill(&mut buffered).and_then(|()| buffered.flush());
             // Without this the buffer would try to write once more when it is dropped.
             drop(buffered.into_parts());
-            written.and_then(|()| file.sync_all())
+            // A new run has nothing to lose but itself: only where it replaces another is the disk waited for.
+            written.and_then(|()| if self.replaces { file.sync_all() } else { Ok(()) })
         };
         attempt().map_err(|error| {
             let _ = fs::remove_file(&staged);
@@ -116,8 +122,11 @@ impl Directory {
             self.discard();
             return None;
         }
-        let former = self.own.iter().any(|artifact| self.file(*artifact).exists());
-        if !former && staging::place(&self.path).is_ok() { Some(self.path.clone()) } else { Some(staged) }
+        if !self.replaces && staging::place(&self.path).is_ok() {
+            Some(self.path.clone())
+        } else {
+            Some(staged)
+        }
     }
 
     /// Removes what was written and not published.

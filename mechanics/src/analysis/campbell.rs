@@ -75,7 +75,7 @@ pub fn assemble(system: &mut Speeds<'_>, blocks: Vec<Block>) -> Result<Campbell,
     let (solved, matches) = refine(system, solved)?;
     let mut branches = join(&solved, &matches, plan.count);
     let crossings = crossings(system, &solved, &branches, plan.revolutions);
-    system.describe_ends(&solved, &mut branches);
+    system.describe(&solved, &mut branches);
     let mut instabilities = flutter(&branches);
     if let Some(ended) = ended {
         let (speed, reason) = (ended.reached(), ended.to_string());

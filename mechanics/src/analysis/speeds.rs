@@ -153,22 +153,15 @@ impl<'a> Speeds<'a> {
         Ok(Solved { speed, modes, massed, equilibrium: self.state.clone() })
     }
 
-    /// Gives the modes at both ends of each branch their shapes.
-    pub(super) fn describe_ends(&mut self, solved: &[Solved], branches: &mut [Branch]) {
+    /// Gives the modes of all branches their shapes.
+    pub(super) fn describe(&mut self, solved: &[Solved], branches: &mut [Branch]) {
         let scale: Vec<f64> = self.system.scales().to_vec();
-        for at in solved {
-            let ends = branches.iter_mut().flat_map(|b| {
-                let last = b.points.len().saturating_sub(1);
-                b.points.iter_mut().enumerate().filter(move |(k, _)| *k == 0 || *k == last)
-            });
-            let mut here = ends.filter(|(_, p)| p.speed == at.speed).map(|(_, p)| p).peekable();
-            if here.peek().is_some() {
-                self.system.hold(true);
-                let _ = self.system.set(Parameter::Speed, at.speed);
-                for point in here {
-                    let system = self.system.as_mut();
-                    describe(&mut point.mode, system, &at.equilibrium, &scale, &self.plan.stations);
-                }
+        for (number, at) in solved.iter().enumerate() {
+            self.system.hold(true);
+            let _ = self.system.set(Parameter::Speed, at.speed);
+            for point in branches.iter_mut().filter_map(|branch| branch.points.get_mut(number)) {
+                let system = self.system.as_mut();
+                describe(&mut point.mode, system, &at.equilibrium, &scale, &self.plan.stations);
             }
         }
     }
