@@ -32,7 +32,7 @@ pub struct Arguments {
     #[arg(long, value_name = "N", default_value = "6", value_parser = vibration::count)]
     modes: usize,
     /// Lines ω = kΩ to cross, for k from 1 to this number
-    #[arg(long, value_name = "K", default_value_t = 4)]
+    #[arg(long, value_name = "K", default_value_t = 4, value_parser = clap::value_parser!(u32).range(0..=MOST_REVOLUTIONS))]
     revolutions: u32,
     /// List the speeds at which a frequency is within this many percent of kΩ
     #[arg(long, value_name = "PERCENT", default_value = "5", value_parser = margin)]
@@ -60,6 +60,8 @@ pub struct Range {
 
 /// Modes above those asked for that are followed, for they may come down.
 const ABOVE: usize = 3;
+/// Most lines ω = kΩ.
+const MOST_REVOLUTIONS: i64 = 1000;
 /// Most speeds of a diagram.
 const MOST: usize = 100_000;
 
@@ -121,8 +123,9 @@ fn diagram(arguments: &Arguments, reading: &Reading) -> Result<bool, String> {
     let case = &reading.case;
     let (steady, mut cautions) = vibration::without_loads_in_space(case);
     cautions.extend(vibration::without_contacts(case));
+    cautions.extend(case.unused_by_modes());
     let system = vibration::system(&steady)?;
-    let units = arguments.options.units(case, arguments.speeds.to);
+    let units = arguments.options.units(case, arguments.speeds.to)?;
     let unit = &units.speed;
     let plan = Plan {
         speeds: arguments.speeds.speeds(unit)?,

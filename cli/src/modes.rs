@@ -3,12 +3,16 @@
 use crate::vibration::{self, Options, Speed, report, stations};
 use crate::{Outcome, case, screen};
 use flexion::analysis::campbell::HubState;
+use flexion::analysis::equilibrium::equilibrium;
 use flexion::analysis::modes::{Mode, Modes, modes as find};
 use flexion::analysis::rotation::rotate_stably;
 use flexion::system::State;
 use flexion_case::{Case, Reading};
-use flexion_results::{Artifact, Directory, Units, write_modes};
+use flexion_results::{Artifact, Directory, Frequencies, Scene, write_modes};
 use std::path::PathBuf;
+
+/// Damping ratio below which a mode grows.
+const GROWTH: f64 = -1e-7;
 
 /// The case, the speed, and how many modes.
 #[derive(clap::Args)]
@@ -55,7 +59,7 @@ pub fn modes(arguments: &Arguments) -> Outcome {
 
 fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
     let case = &reading.case;
-    let units = arguments.options.units(case, arguments.speed);
+    let units = arguments.options.units(case, arguments.speed)?;
     let speed = arguments.speed.in_radians(&units.speed);
     if !(speed.is_finite() && speed >= 0.0) {
         return Err(format!("the speed is {} and must be zero or positive", units.speed.text(speed)));
@@ -67,9 +71,19 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
     let (steady, mut cautions) =
         if speed > 0.0 { vibration::without_loads_in_space(case) } else { (case.clone(), Vec::new()) };
     cautions.extend(vibration::without_contacts(case));
-    let modes = compute(arguments, &steady, speed, hub)?;
+    cautions.extend(case.unused_by_modes());
+    let (modes, scene) = compute(arguments, &steady, speed, hub)?;
+    let growing = modes.modes.iter().filter(|mode| mode.damping_ratio() < GROWTH).count();
+    if growing > 0 {
+        cautions.push(format!("the equilibrium is unstable: {growing} of the modes grow (negative damping)"));
+    }
     cautions.iter().for_each(|caution| screen::report(&format!("warning: {caution}\n")));
-    let out = described(&modes, &units, speed, hub);
+    let about = match case.space() {
+        Some(_) => "about the equilibrium".to_owned(),
+        None if hub == HubState::Free => format!("at {}, free hub", units.speed.text(speed)),
+        None => format!("at {}, hub that keeps its speed", units.speed.text(speed)),
+    };
+    let out = described(&modes, &units.frequency, &about);
     for (number, mode) in modes.modes.iter().enumerate().filter(|(_, mode)| mode.rounding > 1e-6) {
         screen::report(&format!(
             "warning: the frequency of mode {} may be off by {:.1e} by rounding: the mesh is too fine for this coupling; \
@@ -82,30 +96,40 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
     let Some(directory) = directory else { return Ok(Outcome::Finished) };
     let (resolved, stations) = (reading.resolved(), stations(case, STATIONS));
     let title = arguments.options.title(reading);
-    let written = write_modes(&directory, (&modes, speed), &stations, &units, &resolved, title, &cautions);
+    let written = directory.write(Artifact::ModesScene, |f| scene.write(f)).and_then(|()| {
+        write_modes(&directory, (&modes, speed), &stations, &units, &resolved, title, &cautions)
+    });
     screen::print("\n");
     let files = [("modes", Artifact::ModesCsv), ("shapes", Artifact::ModesSvg)];
     let whole = screen::files(&directory, written, &files);
     Ok(if whole { Outcome::Finished } else { Outcome::Incomplete })
 }
 
-fn compute(arguments: &Arguments, case: &Case, speed: f64, hub: HubState) -> Result<Modes, String> {
+/// The modes and the equilibrium that they vibrate about.
+fn compute(arguments: &Arguments, case: &Case, speed: f64, hub: HubState) -> Result<(Modes, Scene), String> {
     let mut system = vibration::system(case)?;
     let mut state = State::zeros(system.size(), 0.0);
-    rotate_stably(system.as_mut(), &mut state, 0.0, speed).map_err(|error| error.to_string())?;
+    if case.space().is_some() {
+        state = system.initial();
+    }
+    if case.space().is_some() && speed == 0.0 {
+        equilibrium(system.as_mut(), &mut state).map_err(|error| error.to_string())?;
+    } else {
+        rotate_stably(system.as_mut(), &mut state, 0.0, speed).map_err(|error| error.to_string())?;
+    }
     if hub == HubState::Free {
         system.hold(false);
         state.v = system.initial().v;
     }
-    find(system.as_mut(), &state, arguments.count, &stations(case, STATIONS))
-        .map_err(|error| error.to_string())
+    let mut scene = case.scene();
+    scene.finish(system.as_mut(), &state);
+    let modes = find(system.as_mut(), &state, arguments.count, &stations(case, STATIONS));
+    Ok((modes.map_err(|error| error.to_string())?, scene))
 }
 
 /// The table of modes.
-fn described(modes: &Modes, units: &Units, speed: f64, hub: HubState) -> String {
-    let unit = &units.frequency;
-    let hub = if hub == HubState::Free { "free hub" } else { "hub that keeps its speed" };
-    let mut out = format!("{} modes at {}, {hub}\n\n", modes.modes.len(), units.speed.text(speed));
+fn described(modes: &Modes, unit: &Frequencies, about: &str) -> String {
+    let mut out = format!("{} modes {about}\n\n", modes.modes.len());
     let head = [
         "mode",
         if unit.name.is_empty() { "frequency" } else { unit.name },

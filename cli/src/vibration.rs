@@ -56,12 +56,15 @@ pub struct Options {
 
 impl Options {
     /// The units of speeds and frequencies, where this speed is given.
-    pub fn units(&self, case: &Case, given: Speed) -> Units {
+    pub fn units(&self, case: &Case, given: Speed) -> Result<Units, String> {
         if self.dimensionless {
-            let r = case.section.planar.resultants(0.0);
-            let time = (r.mass * case.length.powi(4) / r.bending_stiffness).sqrt();
+            let beam = case
+                .hub_beam()
+                .ok_or("--dimensionless is for a beam on a hub: a system in space has no one section")?;
+            let r = beam.section.planar.resultants(0.0);
+            let time = (r.mass * beam.length.powi(4) / r.bending_stiffness).sqrt();
             let both = Frequencies::dimensionless(time);
-            return Units { speed: both, frequency: both };
+            return Ok(Units { speed: both, frequency: both });
         }
         let written = match given {
             Speed::Rpm(_) => Unit::Rpm,
@@ -71,12 +74,12 @@ impl Options {
         // Nobody counts vibrations by the minute, unless he says so.
         let usual = if speed == Unit::Rpm { Unit::Hertz } else { speed };
         let frequency = self.frequency_unit.or(self.unit).unwrap_or(usual);
-        Units { speed: speed.frequencies(), frequency: frequency.frequencies() }
+        Ok(Units { speed: speed.frequencies(), frequency: frequency.frequencies() })
     }
 
     /// The title of a figure.
     pub fn title<'a>(&'a self, reading: &'a Reading) -> Option<&'a str> {
-        self.title.as_deref().or(Some(reading.case.title.as_str())).filter(|title| !title.is_empty())
+        self.title.as_deref().or(title(reading))
     }
 
     /// What the hub does.
@@ -84,12 +87,15 @@ impl Options {
         if !self.free_hub {
             return Ok(HubState::Held);
         }
-        if case.blade.is_some() {
+        let beam = case
+            .hub_beam()
+            .ok_or("--free-hub is for a beam on a hub: a system in space has the joints of its case")?;
+        if beam.blade.is_some() {
             return Err("--free-hub is for a beam in the plane of rotation, but the case has a [blade]: its hub keeps its \
                         speed; leave one of the two out"
                 .to_owned());
         }
-        match case.hub.drive {
+        match beam.hub.drive {
             Drive::Free(_) => Ok(HubState::Free),
             Drive::Prescribed(_) => {
                 Err("--free-hub needs a case whose hub is free: its hub.motion is prescribed".to_owned())
@@ -120,7 +126,7 @@ pub fn without_loads_in_space(case: &Case) -> (Case, Vec<String>) {
 /// A warning for a case whose contacts do not matter here.
 pub fn without_contacts(case: &Case) -> Option<String> {
     let message = "without contacts: a contact that opens and closes has no small vibrations, and the modes are those of the free beam";
-    (!case.contacts.is_empty()).then(|| message.to_owned())
+    case.has_contacts().then(|| message.to_owned())
 }
 
 /// A speed as written: `12.1 rpm`, or a number of the unit chosen.
@@ -157,9 +163,17 @@ pub fn speed(text: &str) -> Result<Speed, String> {
     }
 }
 
-/// Stations of the shapes: the ends of so many equal parts.
+/// Stations of the shapes: the ends of equal parts of the beam on a hub, or of the first beam of a system without bodies.
 pub fn stations(case: &Case, parts: u32) -> Vec<f64> {
-    (0..=parts).map(|i| case.length * f64::from(i) / f64::from(parts)).collect()
+    let equal = |length: f64| (0..=parts).map(|i| length * f64::from(i) / f64::from(parts)).collect();
+    let of_space = case.space().filter(|space| space.bodies.is_empty()).and_then(|space| space.beams.first());
+    let length = case.hub_beam().map(|beam| beam.length).or(of_space.map(|(beam, _)| beam.length));
+    length.map_or_else(Vec::new, equal)
+}
+
+/// The title of a case.
+pub fn title(reading: &Reading) -> Option<&str> {
+    Some(reading.case.title.as_str()).filter(|title| !title.is_empty())
 }
 
 /// Reports an error.

@@ -118,6 +118,44 @@ fn an_interrupt_stops_the_run_with_2_and_keeps_what_it_computed() {
 }
 
 #[test]
+fn statics_follow_a_column_past_its_buckling_load() {
+    let folder = folder();
+    let column = |more: &[&str]| {
+        let common = [
+            "statics",
+            "spin-up",
+            "--set",
+            "model.coupling=exact",
+            "--set",
+            "force=[{station='10 m', force=['-400 N', '1 N']}]",
+        ];
+        flexion(folder.path(), &[&common[..], more].concat())
+    };
+    let output = column(&["-o", "column"]);
+    assert_eq!(output.status.code(), Some(0), "{} {}", text(&output.stdout), text(&output.stderr));
+    for file in
+        ["statics.json", "statics.csv", "statics.npz", "statics.svg", "statics.png", "case.resolved.toml"]
+    {
+        assert!(folder.path().join("column").join(file).exists(), "{file}");
+    }
+    let csv = std::fs::read_to_string(folder.path().join("column/statics.csv")).unwrap();
+    let last: Vec<&str> = csv.lines().last().unwrap().split(',').collect();
+    let head: Vec<&str> = csv.lines().next().unwrap().split(',').collect();
+    let at = head.iter().position(|name| *name == "tip.deflection [m]").unwrap();
+    assert_eq!((last[0], last[2]), ("1.0", "0"), "{csv}");
+    // 345.4 N is the load of Euler: bent far, towards the small force.
+    assert!(last[at].parse::<f64>().unwrap() > 1.0, "{}", last[at]);
+    assert_eq!(column(&["-o", "column"]).status.code(), Some(1));
+    let short = column(&["-o", "short", "--points", "5"]);
+    assert_eq!(short.status.code(), Some(2), "{}", text(&short.stderr));
+    assert!(text(&short.stderr).contains("allow more points"), "{}", text(&short.stderr));
+    let turning =
+        flexion(folder.path(), &["statics", "spin-up", "--set", "hub.motion={kind='constant',speed=3}"]);
+    assert_eq!(turning.status.code(), Some(1));
+    assert!(text(&turning.stderr).contains("not in static equilibrium"), "{}", text(&turning.stderr));
+}
+
+#[test]
 fn modes_and_campbell_write_whole_results_and_refuse_what_cannot_be() {
     let folder = folder();
     let output = flexion(folder.path(), &["modes", "spin-up", "--speed", "4", "--count", "4", "-o", "modes"]);
@@ -438,6 +476,61 @@ fn a_campbell_diagram_of_speeds_in_rpm_is_in_rpm_and_hertz() {
     let units = ["--speed-unit", "Hz", "--frequency-unit", "rad/s", "--force"];
     assert_eq!(flexion(folder.path(), &[&common[..], &units].concat()).status.code(), Some(0));
     assert!(read("campbell.csv").starts_with("speed [Hz],mode1-flap.frequency [rad/s],"));
+}
+
+#[test]
+fn motion_and_modes_become_pages() {
+    let folder = folder();
+    let view = |arguments: &[&str]| {
+        let output = flexion(folder.path(), &[&["view"], arguments].concat());
+        (output.status.code(), text(&output.stderr))
+    };
+    let read = |file: &str| std::fs::read_to_string(folder.path().join(file)).unwrap();
+    for result in [
+        &["run", "spin-up", "-o", "run"][..],
+        &["modes", "spin-up", "--speed", "4", "--count", "3", "-o", "modes"],
+        &["campbell", "spin-up", "--speeds", "0:4:2", "-o", "campbell"],
+    ] {
+        assert_eq!(flexion(folder.path(), result).status.code(), Some(0), "{result:?}");
+    }
+    // What stands in the page, with as many frames as NumPy reads.
+    let data = |page: &str| -> serde_json::Value {
+        let text = read(page);
+        let (_, rest) = text.split_once(r#"<script type="application/json" id="results">"#).unwrap();
+        serde_json::from_str(rest.split_once("</script>").unwrap().0).unwrap()
+    };
+    assert_eq!(view(&["run", "-o", "run.html", "-c", "tip.*"]), (Some(0), String::new()));
+    let run = data("run.html");
+    assert_eq!(run["title"], "spin-up");
+    let frames = run["scene"]["time"]["shape"][0].as_u64().unwrap();
+    assert!((200..=302).contains(&frames), "{frames}");
+    assert_eq!(run["scene"]["beam.displacement"]["shape"], serde_json::json!([frames, 26, 3]));
+    let columns = run["curves"]["columns"].as_array().unwrap();
+    let shown: Vec<&str> =
+        columns.iter().filter(|c| c["shown"] == true).map(|c| c["name"].as_str().unwrap()).collect();
+    assert!(shown.len() >= 3 && shown.iter().all(|name| name.starts_with("tip.")), "{shown:?}");
+    assert!(columns.iter().any(|c| c["name"] == "hub.speed"));
+
+    assert_eq!(view(&["modes", "-o", "pages/modes.html"]), (Some(0), String::new()));
+    let modes = data("pages/modes.html");
+    assert_eq!(modes["modes"]["table"]["modes"].as_array().unwrap().len(), 3);
+    assert_eq!(modes["modes"]["shapes"]["mode3.second.real"]["shape"], serde_json::json!([201]));
+    assert_eq!(modes["scene"]["time"]["shape"], serde_json::json!([1]));
+
+    for (arguments, complaint) in [
+        (&["run", "-o", "run.html"][..], "--force"),
+        (&["run", "-o", "run.svg"], ".html"),
+        (&["run", "-o", "x.html", "-c", "tip.defelction"], "did you mean `tip.deflection`"),
+        (&["campbell", "-o", "x.html"], "holds no motion and no modes"),
+        (&["nowhere", "-o", "x.html"], "nowhere holds no motion and no modes"),
+    ] {
+        let (code, message) = view(arguments);
+        assert!(code == Some(1) && message.contains(complaint), "{arguments:?}: {code:?} {message}");
+    }
+    std::fs::write(folder.path().join("run/scene.npz"), "cut short").unwrap();
+    let (code, message) = view(&["run", "-o", "x.html"]);
+    assert!(code == Some(1) && message.contains("scene.npz"), "{message}");
+    assert!(!folder.path().join("x.html").exists());
 }
 
 #[test]

@@ -61,6 +61,15 @@ pub struct Comparison {
 }
 
 impl Comparison {
+    /// The columns with a value that is not a finite number.
+    pub fn not_finite(&self) -> Vec<String> {
+        let first = |d: &Difference| {
+            let t = d.not_finite?;
+            Some(format!("{} is not a finite number at t = {t} s", d.column))
+        };
+        self.differences.iter().filter_map(first).collect()
+    }
+
     /// What exceeds a relative tolerance: columns, and a second run that ends before the first.
     pub fn beyond(&self, tolerance: f64) -> Vec<String> {
         let mut out = Vec::new();

@@ -12,8 +12,8 @@ use super::staging::{self, NEW};
 ///
 /// Files are written into a hidden folder of it, and moved to their names by [`Directory::publish`] when all of
 /// them are whole: former results stay as they are until then, whatever ends the run. A directory is complete
-/// if and only if it holds its closing file (`summary.json`, `compare.json`, `modes.json` or `campbell.json`), which
-/// is moved last and removed first. The next run finishes a move that was interrupted, and removes what an
+/// if and only if it holds its closing file (`summary.json`, `compare.json`, `modes.json`, `campbell.json` or `statics.json`),
+/// which is moved last and removed first. The next run finishes a move that was interrupted, and removes what an
 /// interrupted run had begun to write.
 ///
 /// After a loss of power that holds for former results, which go only when the new files are on the disk; a first run into

@@ -31,19 +31,18 @@ pub(super) fn write_array<T: npyz::AutoSerialize, W: Write + Seek>(
     len: usize,
     values: impl Iterator<Item = T>,
 ) -> io::Result<()> {
-    write_table(archive, name, &[len as u64], values)
+    write_shaped(archive, name, &[len as u64], values)
 }
 
-/// Writes one array of the archive, of any shape, the last index running fastest.
-pub(super) fn write_table<T: npyz::AutoSerialize, W: Write + Seek>(
+/// Writes one array of several dimensions, the last of which runs fastest.
+pub(super) fn write_shaped<T: npyz::AutoSerialize, W: Write + Seek>(
     archive: &mut ZipWriter<W>,
     name: &str,
     shape: &[u64],
     values: impl Iterator<Item = T>,
 ) -> io::Result<()> {
-    let len = shape.iter().fold(1, |product: u64, size| product.saturating_mul(*size));
     // The header of an array takes 128 bytes; beyond 4 GiB an entry needs the 64-bit format.
-    let bytes = len.saturating_mul(size_of::<T>() as u64).saturating_add(128);
+    let bytes = shape.iter().fold(size_of::<T>() as u64, |n, k| n.saturating_mul(*k)).saturating_add(128);
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Stored)
         .last_modified_time(DateTime::default())

@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::{Events, Trajectory};
+use super::{Errors, Events, Trajectory};
 use flexion::integrator::{Counters, Info};
 use flexion::system::Role;
 
@@ -71,8 +71,8 @@ pub struct RunReport<'a> {
     pub warnings: &'a [String],
     /// The integrator.
     pub integrator: Integration<'a>,
-    /// Estimated errors: name of a column, error of the discretization and of the model.
-    pub errors: &'a [(String, f64, Option<f64>)],
+    /// Estimated errors; `None` where nobody asked for them.
+    pub errors: Option<&'a Errors>,
     /// Events at contacts; `None` for a system without contacts.
     pub events: Option<&'a Events>,
     /// Work done.
@@ -122,6 +122,9 @@ impl Summary {
         s.insert("duration", report.duration);
         s.insert("end_time", report.end_time);
         s.insert("columns", columns(trajectory, report.errors));
+        if let Some(errors) = report.errors {
+            s.insert("trust", errors.trust());
+        }
         if let Some(energy) = imbalance(trajectory) {
             s.insert("energy", energy);
         }
@@ -177,12 +180,22 @@ impl Summary {
     }
 }
 
+/// Largest value of the energy balance over the largest energy or work of the run.
+pub(super) fn relative_imbalance(trajectory: &Trajectory) -> Option<f64> {
+    let balance = trajectory.extremes(trajectory.with_role(Role::Imbalance).next()?);
+    Some(balance.largest() / largest_energy(trajectory)).filter(|x| x.is_finite())
+}
+
+fn largest_energy(trajectory: &Trajectory) -> f64 {
+    let energies =
+        [Role::Energy, Role::Work, Role::Imbalance].into_iter().flat_map(|r| trajectory.with_role(r));
+    energies.map(|i| trajectory.extremes(i).largest()).fold(0.0, f64::max)
+}
+
 /// The energy balance: its largest and last value, and both over the largest energy or work of the run.
 fn imbalance(trajectory: &Trajectory) -> Option<Value> {
     let balance = trajectory.extremes(trajectory.with_role(Role::Imbalance).next()?);
-    let energies =
-        [Role::Energy, Role::Work, Role::Imbalance].into_iter().flat_map(|r| trajectory.with_role(r));
-    let largest = energies.map(|i| trajectory.extremes(i).largest()).fold(0.0, f64::max);
+    let largest = largest_energy(trajectory);
     let max = balance.largest();
     let over = |x: f64| if largest > 0.0 { x / largest } else { 0.0 };
     Some(json!({
@@ -192,14 +205,14 @@ fn imbalance(trajectory: &Trajectory) -> Option<Value> {
     }))
 }
 
-fn columns(trajectory: &Trajectory, errors: &[(String, f64, Option<f64>)]) -> Map<String, Value> {
+fn columns(trajectory: &Trajectory, errors: Option<&Errors>) -> Map<String, Value> {
     let entry = |(i, c): (usize, &flexion::system::Channel)| {
         let e = trajectory.extremes(i);
         let mut value = json!({
             "min": e.min, "t_min": e.t_min, "max": e.max, "t_max": e.t_max, "final": e.last, "unit": c.unit,
         });
-        if let Some((_, discretization, model)) = errors.iter().find(|(name, ..)| *name == c.name) {
-            value["error"] = json!({ "discretization": discretization, "model": model });
+        if let Some(error) = errors.and_then(|errors| errors.of(&c.name)) {
+            value["error"] = error;
         }
         (c.name.clone(), value)
     };
@@ -224,7 +237,7 @@ pub(super) mod tests {
             end_time: 4.0,
             warnings: &[],
             integrator: Integration { info: &RADAU, settings },
-            errors: &[],
+            errors: None,
             events: None,
             counters: Counters { steps: 400, ..Counters::default() },
             size: ProblemSize { unknowns: 33, half_bandwidth: 5, border: 1 },

@@ -2,7 +2,7 @@
 
 use super::archive::{self, Latched};
 use super::frequencies::{Frequencies, Units};
-use super::npz::{write_array, write_table};
+use super::npz::{write_array, write_shaped};
 use super::plot::{Figure, campbell_figure, modes_figure};
 use super::{Artifact, Directory, OutputError, Resonance, VERSION, resolved_case};
 use flexion::analysis::campbell::{Branch, Campbell, Instability};
@@ -14,7 +14,7 @@ use std::io::{self, BufWriter, Write};
 use zip::ZipWriter;
 
 /// An archive that is being written.
-type Archive<'a, 'b> = ZipWriter<Latched<&'a mut BufWriter<&'b mut File>>>;
+pub(super) type Archive<'a, 'b> = ZipWriter<Latched<&'a mut BufWriter<&'b mut File>>>;
 
 /// Writes displacements, along the three axes of the sections, in arrays of the given size.
 fn write_shapes<'u>(
@@ -23,10 +23,10 @@ fn write_shapes<'u>(
     size: &[u64],
     displacements: impl Iterator<Item = &'u [Complex64; 3]> + Clone,
 ) -> io::Result<()> {
-    for (axis, name) in ["axial", "chord", "flap"].iter().enumerate() {
+    for (axis, name) in ["tangent", "second", "third"].iter().enumerate() {
         let u = displacements.clone().map(|u| u[axis]);
-        write_table(archive, &format!("{mode}.{name}.real"), size, u.clone().map(|u| u.re))?;
-        write_table(archive, &format!("{mode}.{name}.imaginary"), size, u.map(|u| u.im))?;
+        write_shaped(archive, &format!("{mode}.{name}.real"), size, u.clone().map(|u| u.re))?;
+        write_shaped(archive, &format!("{mode}.{name}.imaginary"), size, u.map(|u| u.im))?;
     }
     Ok(())
 }
@@ -85,9 +85,9 @@ pub fn write_modes(
     let list: Vec<Value> = modes.modes.iter().map(|m| mode_json(m, unit)).collect();
     let summary = json!({
         "version": VERSION,
+        "title": title,
         "unit": unit.name,
-        "speed-unit": units.speed.name,
-        "speed": speed * units.speed.factor,
+        "speed": speed * unit.factor,
         "counted": modes.counted,
         "modes": list,
         "warnings": warnings,
@@ -248,7 +248,7 @@ fn mode_json(m: &Mode, unit: &Frequencies) -> Value {
     })
 }
 
-fn column(
+pub(super) fn column(
     archive: &mut Archive<'_, '_>,
     name: &str,
     values: impl Iterator<Item = f64> + Clone,
@@ -257,7 +257,7 @@ fn column(
 }
 
 /// Draws a figure; a picture that cannot be made is a warning.
-fn draw(
+pub(super) fn draw(
     directory: &Directory,
     figure: &Figure,
     [svg, png]: [Artifact; 2],
@@ -270,7 +270,7 @@ fn draw(
     }
 }
 
-fn close(directory: &Directory, artifact: Artifact, summary: &Value) -> Result<(), OutputError> {
+pub(super) fn close(directory: &Directory, artifact: Artifact, summary: &Value) -> Result<(), OutputError> {
     let text = serde_json::to_string_pretty(summary).unwrap_or_default();
     directory.write(artifact, |f| writeln!(f, "{text}"))?;
     directory.publish()

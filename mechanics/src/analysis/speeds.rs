@@ -1,8 +1,8 @@
 //! Modes at one speed after the other.
 
 use super::diagram::{Branch, HubState, NoCampbell, Plan};
-use super::modes::{Mode, describe, modes_near};
-use super::rotation::{negative_stiffness, rotate, rotate_stably};
+use super::modes::{Mode, NoModes, describe, modes_near};
+use super::rotation::rotate_stably;
 use super::stiffness::mass;
 use crate::linalg::Matrix;
 use crate::system::{Parameter, State, System};
@@ -127,13 +127,8 @@ impl<'a> Speeds<'a> {
 
     /// The lowest modes at a speed, from those at another.
     fn solve(&mut self, speed: f64, count: usize, from: Option<&Solved>) -> Result<Solved, NoCampbell> {
-        let start = self.state.clone();
         let system = self.system.as_mut();
-        rotate(system, &mut self.state, self.speed, speed)?;
-        if negative_stiffness(system, &self.state) > 0 {
-            self.state.copy_from(&start);
-            rotate_stably(system, &mut self.state, self.speed, speed)?;
-        }
+        rotate_stably(system, &mut self.state, self.speed, speed)?;
         self.speed = speed;
         let mut state = self.state.clone();
         if self.plan.hub == HubState::Free {
@@ -143,9 +138,15 @@ impl<'a> Speeds<'a> {
         let count = count.min(system.size().v);
         let near: Vec<_> = from.map_or(&[][..], |s| &s.modes).iter().take(count).collect();
         let near: Vec<_> = near.iter().map(|m| (m.eigenvalue, m.vector.as_slice())).collect();
-        let modes = modes_near(system, &state, count, &[], &near)
-            .map_err(|source| NoCampbell::Modes { speed, source })?
-            .modes;
+        let mut modes = modes_near(system, &state, count, &[], &near);
+        if let Err(NoModes::Inaccurate { number, .. }) = modes
+            && number > self.plan.count
+        {
+            // A mode that was not asked for.
+            let near = &near[..near.len().min(number - 1)];
+            modes = modes_near(system, &state, number - 1, &[], near);
+        }
+        let modes = modes.map_err(|source| NoCampbell::Modes { speed, source })?.modes;
         let mass = mass(system, &state);
         system.hold(true);
         let massed = modes.iter().map(|m| times(&mass, &m.vector)).collect();

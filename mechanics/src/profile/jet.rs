@@ -1,7 +1,9 @@
-//! Second-order Taylor coefficients in one variable: value, first and second derivative together.
+//! Second-order Taylor coefficients in one variable: value, first and second derivative together; and what all that a
+//! formula is evaluated with has in common.
 //!
 //! For g(f): (g f)′ = g′ f′, (g f)″ = g″ f′² + g′ f″.
 
+use super::interval::Interval;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// f, f′ and f″ at one point.
@@ -12,7 +14,7 @@ pub(super) struct Jet {
     pub bend: f64,
 }
 
-/// What a formula can be evaluated with: numbers alone, or with derivatives.
+/// What a formula can be evaluated with: numbers alone, with derivatives, or intervals of them.
 pub(super) trait Number:
     Copy
     + Default
@@ -23,30 +25,28 @@ pub(super) trait Number:
     + Div<Output = Self>
 {
     fn constant(value: f64) -> Self;
-    fn variable(value: f64) -> Self;
-    fn value(self) -> f64;
     fn pow(self, exponent: Self) -> Self;
     fn apply(self, function: Smooth) -> Self;
+    /// Whether this is less than (or equal to) `other`: `None` for an interval of which only a part is.
+    fn below(self, other: Self, or_equal: bool) -> Option<bool>;
+    fn differs_from_zero(self) -> Option<bool>;
+    /// The largest whole number below, and that number where there is one alone.
+    fn floor(self) -> (Self, Option<f64>);
+    /// What holds one and the other.
+    fn or(self, other: Self) -> Self;
 }
 
-/// A smooth function of numbers and of jets.
+/// A smooth function of numbers, of jets and of intervals.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Smooth {
     pub number: fn(f64) -> f64,
     pub jet: fn(Jet) -> Jet,
+    pub interval: fn(Interval) -> Interval,
 }
 
 impl Number for f64 {
     fn constant(value: f64) -> f64 {
         value
-    }
-
-    fn variable(value: f64) -> f64 {
-        value
-    }
-
-    fn value(self) -> f64 {
-        self
     }
 
     fn pow(self, exponent: f64) -> f64 {
@@ -56,19 +56,27 @@ impl Number for f64 {
     fn apply(self, function: Smooth) -> f64 {
         (function.number)(self)
     }
+
+    fn below(self, other: f64, or_equal: bool) -> Option<bool> {
+        Some(if or_equal { self <= other } else { self < other })
+    }
+
+    fn differs_from_zero(self) -> Option<bool> {
+        Some(self != 0.0)
+    }
+
+    fn floor(self) -> (f64, Option<f64>) {
+        (f64::floor(self), Some(f64::floor(self)))
+    }
+
+    fn or(self, _: f64) -> f64 {
+        self
+    }
 }
 
 impl Number for Jet {
     fn constant(value: f64) -> Jet {
         Jet { value, rate: 0.0, bend: 0.0 }
-    }
-
-    fn variable(value: f64) -> Jet {
-        Jet { value, rate: 1.0, bend: 0.0 }
-    }
-
-    fn value(self) -> f64 {
-        self.value
     }
 
     /// A constant exponent leaves negative bases possible.
@@ -84,9 +92,31 @@ impl Number for Jet {
     fn apply(self, function: Smooth) -> Jet {
         (function.jet)(self)
     }
+
+    fn below(self, other: Jet, or_equal: bool) -> Option<bool> {
+        self.value.below(other.value, or_equal)
+    }
+
+    fn differs_from_zero(self) -> Option<bool> {
+        self.value.differs_from_zero()
+    }
+
+    fn floor(self) -> (Jet, Option<f64>) {
+        let (whole, decided) = Number::floor(self.value);
+        (Jet::constant(whole), decided)
+    }
+
+    fn or(self, _: Jet) -> Jet {
+        self
+    }
 }
 
 impl Jet {
+    /// The variable itself.
+    pub fn variable(value: f64) -> Jet {
+        Jet { value, rate: 1.0, bend: 0.0 }
+    }
+
     fn is_constant(self) -> bool {
         self.rate == 0.0 && self.bend == 0.0
     }

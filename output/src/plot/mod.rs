@@ -17,16 +17,20 @@ mod placed;
 mod raster;
 mod room;
 mod sketch;
+mod statics;
 mod style;
 mod svg;
 #[cfg(test)]
 mod tests;
 mod vibration;
+mod views;
 
 pub use self::contact::contact_figure;
 pub use self::draw::Drawing;
 pub use self::panels::{compare_figure, difference_figure, trajectory_figure};
+pub use self::statics::statics_figure;
 pub use self::vibration::{campbell_figure, modes_figure};
+pub use self::views::{assembly_figure, spatial_figure};
 
 /// A grid of panels, filled row by row.
 #[derive(Clone, Debug, Default, PartialEq)]
