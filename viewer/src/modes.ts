@@ -3,7 +3,7 @@ import { Vector3 } from "three";
 import { array, type read, type Vibration } from "./data";
 import { Panel, tag } from "./curves";
 import { Player } from "./player";
-import { largest, pose, rotation, scene, sections, type Instant, type Part, type Section } from "./scene";
+import { extent, largest, pose, rotation, scene, sections, type Instant, type Part, type Section } from "./scene";
 import { Stage, type View } from "./stage";
 import { text } from "./text";
 import { button, choice } from "./tools";
@@ -66,9 +66,8 @@ export function modes(results: ReturnType<typeof read>) {
     return { ...part, poses, beam };
   }
   const all = space.parts.map((_, p) => p);
-  const drawn = (part: Part) => (part.beam ? sections(part, still, 1, PIECES) : [pose(part, still)]);
   const places = (k: number, phase: number, scale: number) =>
-    all.flatMap((p) => drawn(displaced(k, p, phase, scale)).map((section) => section.position));
+    all.flatMap((p) => extent(displaced(k, p, phase, scale), still, 1));
 
   // What makes the largest displacement of every mode one.
   const unit = table.modes.map((_, k) => {

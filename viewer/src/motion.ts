@@ -3,7 +3,7 @@ import { Vector3 } from "three";
 import { numbers, type read } from "./data";
 import { Columns } from "./curves";
 import { Player } from "./player";
-import { instant, largest, pose, scene, sections, type Instant, type Part, type Section } from "./scene";
+import { extent, instant, largest, pose, scene, sections, type Instant, type Part, type Section } from "./scene";
 import { Stage, type View } from "./stage";
 import { nice, steady, text } from "./text";
 import { button, choice, toggle } from "./tools";
@@ -37,6 +37,8 @@ export function motion(results: ReturnType<typeof read>) {
   // Tips of beams, or bodies where there is no beam.
   const followed = (beams.length > 0 ? beams : parts).slice(0, 12);
   const columns = results.curves!.columns.map((column) => ({ ...column, values: numbers(column.values) }));
+  // Where none is of the usual ones, the first few.
+  if (!columns.some((column) => column.shown)) for (const column of columns.slice(0, 3)) column.shown = true;
   const recorded = numbers(results.curves!.times);
   const revolutions = turns() / (2 * Math.PI);
   // Beyond half a revolution between frames nobody sees which way it turns.
@@ -103,8 +105,7 @@ export function motion(results: ReturnType<typeof read>) {
     const every = Math.max(1, Math.floor(instants.length / 150));
     const points = instants.filter((_, k) => k % every === 0).flatMap((at) => {
       const now = frame(at);
-      const drawn = parts.flatMap((part) => (part.beam ? sections(part, at, factor, 1) : [pose(part, at)]));
-      const places = drawn.map((section) => section.position);
+      const places = parts.flatMap((part) => extent(part, at, factor));
       const closed = space.outlines.filter(({ points }) => points.length / times.length > 6);
       places.push(...closed.flatMap(({ points }) => outline(points, at)));
       places.push(now.position);

@@ -94,6 +94,16 @@ export function instant(times: Float64Array, time: number): Instant {
   return { from: low, to: high, share };
 }
 
+/** Points that a part extends to. */
+export function extent(part: Part, at: Instant, factor: number): Vector3[] {
+  if (part.beam) return sections(part, at, factor, 1).map((section) => section.position);
+  const { position, turned } = pose(part, at);
+  const [x, y, z, a, b, c] = part.box ?? new Float64Array(6);
+  const corner = (i: number) => new Vector3(i & 1 ? a : -a, i & 2 ? b : -b, i & 4 ? c : -c).divideScalar(2);
+  const corners = Array.from({ length: 8 }, (_, i) => corner(i).add(new Vector3(x, y, z)));
+  return corners.map((point) => point.applyQuaternion(turned).add(position));
+}
+
 /** The rotation by a vector. */
 export function rotation(theta: Vector3): Quaternion {
   const angle = theta.length();
