@@ -6,13 +6,15 @@ use flexion::analysis::campbell::HubState;
 use flexion::analysis::equilibrium::equilibrium;
 use flexion::analysis::modes::{Mode, Modes, modes as find};
 use flexion::analysis::rotation::rotate_stably;
-use flexion::system::State;
+use flexion::system::{State, System};
 use flexion_case::{Case, Reading};
 use flexion_results::{Artifact, Directory, Scene, Units, write_modes};
 use std::path::PathBuf;
 
 /// Damping ratio below which a mode grows.
 const GROWTH: f64 = -1e-7;
+/// Displacement of a mode in the files of its scene, over the scale of the unknowns.
+const DISPLACED: f64 = 1e-3;
 
 /// The case, the speed, and how many modes.
 #[derive(clap::Args)]
@@ -121,10 +123,27 @@ fn compute(arguments: &Arguments, case: &Case, speed: f64, hub: HubState) -> Res
         system.hold(false);
         state.v = system.initial().v;
     }
-    let mut scene = case.scene();
-    scene.finish(system.as_mut(), &state);
     let modes = find(system.as_mut(), &state, arguments.count, &stations(case, STATIONS));
-    Ok((modes.map_err(|error| error.to_string())?, scene))
+    let modes = modes.map_err(|error| error.to_string())?;
+    let scene = displaced(case, &modes, system.as_mut(), &state);
+    Ok((modes, scene))
+}
+
+/// The equilibrium under the time 0, and displaced a little by the real and the imaginary part of every mode under the times
+/// 1, 2, and so on.
+fn displaced(case: &Case, modes: &Modes, system: &mut dyn System, state: &State) -> Scene {
+    let mut scene = case.scene();
+    scene.take(0.0, system, state);
+    let scales = system.scales().to_vec();
+    let mut moved = state.clone();
+    for (time, (mode, part)) in modes.modes.iter().flat_map(|m| [(m, 0), (m, 1)]).enumerate() {
+        let sizes = mode.vector.iter().zip(&scales).map(|(x, scale)| x.norm() / scale);
+        let step = DISPLACED / sizes.fold(f64::MIN_POSITIVE, f64::max);
+        let d: Vec<f64> = mode.vector.iter().map(|x| step * if part == 0 { x.re } else { x.im }).collect();
+        system.retract(&state.q, &d, &mut moved.q);
+        scene.take((time + 1) as f64, system, &moved);
+    }
+    scene
 }
 
 /// The table of modes.

@@ -482,7 +482,8 @@ fn motion_and_modes_become_pages() {
     let modes = data("pages/modes.html");
     assert_eq!(modes["modes"]["table"]["modes"].as_array().unwrap().len(), 3);
     assert_eq!(modes["modes"]["shapes"]["mode3.second.real"]["shape"], serde_json::json!([201]));
-    assert_eq!(modes["scene"]["time"]["shape"], serde_json::json!([1]));
+    // The equilibrium, and two displaced states for each mode.
+    assert_eq!(modes["scene"]["beam.pose"]["shape"], serde_json::json!([7, 7]));
 
     for (arguments, complaint) in [
         (&["run", "-o", "run.html"][..], "--force"),
