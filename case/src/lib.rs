@@ -31,10 +31,12 @@ mod run;
 mod schema;
 mod sources;
 mod space;
+mod statics;
 mod suggestion;
 mod template;
 mod tree;
 pub mod units;
+mod unused;
 mod values;
 
 pub use campbell::campbell;

@@ -24,6 +24,7 @@ mod restart;
 mod section_forces;
 mod space;
 mod spring;
+mod statics;
 mod twenty_seconds;
 mod verification {
     pub mod run;

@@ -89,6 +89,14 @@ artifacts! {
         CampbellSvg "campbell.svg" "the diagram",
         CampbellPng "campbell.png" "the diagram as pixels",
     }
+    /// The files of a path of equilibria; the first marks the directory as complete.
+    STATICS {
+        StaticsJson "statics.json" "critical states, and the equilibria under all loads",
+        StaticsCsv "statics.csv" "the path as a table",
+        StaticsNpz "statics.npz" "the path for NumPy",
+        StaticsSvg "statics.svg" "the plot of load and displacement",
+        StaticsPng "statics.png" "the plot as pixels",
+    }
 }
 
 impl Artifact {

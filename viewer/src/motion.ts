@@ -8,8 +8,10 @@ import { Stage, type View } from "./stage";
 import { nice, steady, text } from "./text";
 import { button, choice, toggle } from "./tools";
 
-/** Pieces of the beam between neighbouring stations, and of the path of the tip between neighbouring times. */
+/** Pieces of the beam between neighbouring stations. */
 const PIECES = 3;
+/** Angle of rotation [rad] that a piece of the path of the tip covers. */
+const TURN = 0.1;
 /** Playing takes between these times [s], where the run does not. */
 const LASTS = [4, 20];
 /** A deflection over length that is well seen: smaller ones are drawn larger. */
@@ -31,7 +33,26 @@ export function motion(results: ReturnType<typeof read>) {
   const canvas = element<HTMLCanvasElement>("canvas");
   const stage = new Stage(canvas, element("scale"), space);
   const first = parts.findIndex((part) => part.beam);
-  let [factor, rotating, path] = [suggested(), false, first >= 0];
+  const columns = results.curves!.columns.map((column) => ({ ...column, values: numbers(column.values) }));
+  const recorded = numbers(results.curves!.times);
+  const revolutions = turns() / (2 * Math.PI);
+  // Beyond half a revolution between frames nobody sees which way it turns.
+  let [factor, rotating, path] = [suggested(), revolutions > 0.5, first >= 0];
+
+  /** The largest angle [rad] by which the first part or its hub turns between neighbouring times. */
+  function turns(): number {
+    const angle = columns.find((column) => column.name === "hub.angle")?.values;
+    const hub = (time: number) => {
+      const { from, to, share } = instant(recorded, time);
+      return angle ? angle[from] + share * (angle[to] - angle[from]) : 0;
+    };
+    let largest = 0;
+    for (let i = 1; i < times.length; i++) {
+      const [before, now] = [i - 1, i].map((k) => pose(parts[0], { from: k, to: k, share: 0 }).turned);
+      largest = Math.max(largest, before.angleTo(now), Math.abs(hub(times[i]) - hub(times[i - 1])));
+    }
+    return largest;
+  }
 
   /** The factor that makes small deflections visible; with obstacles there is none, for gaps are not drawn larger. */
   function suggested(): number {
@@ -63,9 +84,10 @@ export function motion(results: ReturnType<typeof read>) {
     });
   }
 
-  const instants = Array.from({ length: PIECES * (times.length - 1) + 1 }, (_, k): Instant => {
-    const from = Math.min(Math.floor(k / PIECES), times.length - 1);
-    return { from, to: Math.min(from + 1, times.length - 1), share: (k % PIECES) / PIECES };
+  const pieces = Math.min(Math.max(Math.ceil((2 * Math.PI * revolutions) / TURN), 2), 16);
+  const instants = Array.from({ length: pieces * (times.length - 1) + 1 }, (_, k): Instant => {
+    const from = Math.min(Math.floor(k / pieces), times.length - 1);
+    return { from, to: Math.min(from + 1, times.length - 1), share: (k % pieces) / pieces };
   });
 
   /** A point as it is seen from the frame of reference. */
@@ -98,27 +120,23 @@ export function motion(results: ReturnType<typeof read>) {
     const at = instant(times, time);
     const outlines = space.outlines.map(({ points }) => outline(points, at));
     stage.place({ poses: parts.map((part) => pose(part, at)), sections: shapes(at), outlines, frame: frame(at) });
-    stage.follow(Math.floor(PIECES * (at.from + at.share)) + 1);
+    stage.follow(Math.floor(pieces * (at.from + at.share)) + 1);
     stage.render();
   }
 
-  const { curves } = results;
   const [start, end] = [times[0], times[times.length - 1]];
   element("subtitle").textContent =
     `${results.name}, ${text(start)} to ${text(end)} s, ${times.length === 1 ? "1 frame" : `${times.length} frames`}, Flexion ${results.version}`;
   let player: Player | undefined;
-  const columns = new Columns(
-    element("curves"),
-    numbers(curves!.times),
-    curves!.columns.map((column) => ({ ...column, values: numbers(column.values) })),
-    (time) => {
-      player?.play(false);
-      player?.seek(time);
-    },
-  );
+  const curves = new Columns(element("curves"), recorded, columns, (time) => {
+    player?.play(false);
+    player?.seek(time);
+  });
   const note = () => {
     const larger = factor === 1 ? "" : `Deflections are drawn ${text(factor)} times as large.`;
-    element("note").textContent = [results.caution ? `${results.caution}.` : "", larger].join(" ").trim();
+    const fast = `The hub turns by up to ${text(revolutions, 2)} revolutions between frames: see it in the rotating frame.`;
+    const parts = [results.caution ? `${results.caution}.` : "", revolutions > 0.5 ? fast : "", larger];
+    element("note").textContent = parts.join(" ").trim();
   };
   const again = () => {
     trace();
@@ -152,7 +170,7 @@ export function motion(results: ReturnType<typeof read>) {
   }
   player = new Player(times, (time) => `${steady(time)} s`, (time) => {
     draw(time);
-    columns.show(time);
+    curves.show(time);
   }, speed(end - start));
   let fitted = false;
   canvas.addEventListener("resized", () => {

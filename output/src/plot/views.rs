@@ -46,7 +46,7 @@ pub fn assembly_figure(scene: &Scene, joints: &[(&str, [f64; 3])], title: Option
                 .fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), p| (lo.min(p.0), hi.max(p.0)));
             let top = points.iter().map(|p| p.1).fold(f64::NEG_INFINITY, f64::max);
             let across = [0.5, 0.25, 0.75].map(|part| (lowest + part * (highest - lowest), top));
-            panel.words.push(Words { points: across.to_vec(), text: name.to_owned(), beside: false });
+            panel.words.push(Words { points: across.to_vec(), text: name.to_owned(), ..Words::default() });
         }
         for (name, point) in joints {
             let at = (point[i], point[j]);
@@ -57,7 +57,7 @@ pub fn assembly_figure(scene: &Scene, joints: &[(&str, [f64; 3])], title: Option
                 ..Series::line(None, vec![at])
             };
             panel.series.push(mark);
-            panel.words.push(Words { points: vec![at], text: (*name).to_owned(), beside: true });
+            panel.words.push(Words { points: vec![at], text: (*name).to_owned(), ..Words::default() });
         }
     }
     Figure { title: title.map(String::from), panels, columns: 2, share_x: false }
