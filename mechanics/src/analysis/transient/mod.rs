@@ -20,7 +20,7 @@ use crate::contact::{Bounds, Impact, ImpactMap};
 use crate::integrator::{Checkpoint, Integrator, NotResumed, Span, StepControl, StepReport};
 use crate::system::{Crossing, Jump, Side, State, System};
 use adaptive::adapt;
-use contacts::{Contacts, approaches, loss};
+use contacts::{Contacts, approaches, loss, struck};
 use stretch::Stretch;
 
 /// Shortest recording interval, over the length of the run.
@@ -306,7 +306,7 @@ impl Run {
             let neglected = self.contacts.as_ref().map(|contacts| contacts.neglected).unwrap_or_default();
             self.last = Step { size: h, iterations: report.iterations, balance: None, neglected };
             if let Err(what) = system.admissible(&next) {
-                let reason = system.explain(&next);
+                let reason = system.explain(&next).filter(|reason| *reason != what);
                 return Err(RunError::Inadmissible { time: next.t, what, reason });
             }
             integrator.accept(state, &next);
@@ -322,6 +322,11 @@ impl Run {
             self.show(system, integrator, state, &next, plan, observer);
             if let Some(balance) = &mut self.balance {
                 balance.close();
+            }
+            if integrator.resolves_contacts()
+                && let Some(event) = struck(system, state, &next, &mut self.gaps)
+            {
+                observer.event(&event);
             }
             std::mem::swap(state, &mut next);
             let at_break = jump_at(system, integrator, state.t);
