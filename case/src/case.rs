@@ -196,7 +196,9 @@ fn hub(v: &Values, c: &Context<'_>) -> Made<Hub> {
 fn loads(v: &Values, c: &Context<'_>, found: &mut Found) -> Option<Vec<Load>> {
     let named = |table: &Table<Load>| {
         let made = table.make(v, c);
-        made.map(|list| list.into_iter().map(|load| Load { table: table.key.name, ..load }).collect::<Vec<_>>())
+        made.map(|list| {
+            list.into_iter().map(|load| Load { table: table.key.name, ..load }).collect::<Vec<_>>()
+        })
     };
     let made: Vec<_> = LOADS.iter().map(|table| found.part(named(table))).collect();
     let lists: Option<Vec<Vec<Load>>> = made.into_iter().collect();

@@ -102,7 +102,8 @@ impl Reading {
         if let (false, Some(step)) = (explicit.info().implicit, case.steps.step()) {
             // The largest frequency changes with the speed of the hub.
             let among = (0..=STABILITY_TIMES).map(|k| case.duration * k as f64 / STABILITY_TIMES as f64);
-            let breaks = system.breaks().iter().filter(|b| b.jump != Jump::Nothing && b.time <= case.duration);
+            let breaks =
+                system.breaks().iter().filter(|b| b.jump != Jump::Nothing && b.time <= case.duration);
             let within = breaks.map(|b| b.time);
             for t in among.chain(within).collect::<Vec<_>>() {
                 let mut state = State { t, ..system.initial() };

@@ -136,6 +136,14 @@ fn diagram(arguments: &Arguments, reading: &Reading) -> Result<bool, String> {
         directory.discard();
         error.to_string()
     })?;
+    cautions.extend(diagram.entering.map(|(speed, count)| {
+        format!(
+            "from {} on, {count} mode(s) that begin above those asked for lie among them, and their crossings are not listed: \
+             ask for --modes {}",
+            unit.text(speed),
+            plan.count + count
+        )
+    }));
     let resolved = reading.resolved();
     let written =
         write_campbell(&directory, &diagram, plan.revolutions, &unit, &resolved, title(reading), &cautions);

@@ -50,7 +50,8 @@ fn describe(reading: &Reading) -> Result<String, Problems> {
     for t in [0.0, case.duration] {
         rows.extend(stability(system.as_mut(), t));
     }
-    let of_modes = case.blade.iter().flat_map(|_| case.unused_by_modes().into_iter().skip(case.cautions.len()));
+    let of_modes =
+        case.blade.iter().flat_map(|_| case.unused_by_modes().into_iter().skip(case.cautions.len()));
     let cautions = case.unused_by_run().into_iter().chain(of_modes).chain(system.cautions(&[]));
     rows.extend(cautions.map(|caution| row("caution", caution)));
     out.push_str(&screen::table(&rows));

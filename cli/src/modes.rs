@@ -67,7 +67,16 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
     cautions.extend(case.unused_by_modes());
     let modes = compute(arguments, &steady, speed, hub)?;
     cautions.iter().for_each(|caution| screen::report(&format!("warning: {caution}\n")));
-    let out = described(&modes, &unit, speed, hub);
+    let errors = mesh_errors(arguments, reading, &modes, speed, hub);
+    let out = described(&modes, &errors, &unit, speed, hub);
+    let relative = |(number, (mode, error)): (usize, (&Mode, &f64))| (number + 1, error / mode.frequency());
+    let coarse = modes.modes.iter().zip(&errors).enumerate().map(relative).find(|(_, e)| *e > COARSE);
+    if let Some((number, error)) = coarse {
+        screen::report(&format!(
+            "warning: by the mesh the frequency of mode {number} may be off by {:.1} %: use more elements or functions\n",
+            100.0 * error
+        ));
+    }
     for (number, mode) in modes.modes.iter().enumerate().filter(|(_, mode)| mode.rounding > 1e-6) {
         screen::report(&format!(
             "warning: the frequency of mode {} may be off by {:.1e} by rounding: the mesh is too fine for this coupling; \
@@ -98,13 +107,35 @@ fn compute(arguments: &Arguments, case: &Case, speed: f64, hub: HubState) -> Res
     find(system.as_mut(), &state, arguments.count, &stations(case)).map_err(|error| error.to_string())
 }
 
+/// Relative error of a frequency by the mesh above which there is a warning.
+const COARSE: f64 = 0.01;
+
+/// Error of each frequency by the mesh \[rad/s\], from its difference to the one with twice the functions; none where that
+/// cannot be computed.
+fn mesh_errors(
+    arguments: &Arguments,
+    reading: &Reading,
+    modes: &Modes,
+    speed: f64,
+    hub: HubState,
+) -> Vec<f64> {
+    let Ok(finer) = reading.with_finer_mesh() else { return Vec::new() };
+    let steady =
+        if speed > 0.0 { vibration::without_loads_in_space(&finer.case).0 } else { finer.case.clone() };
+    let Ok(fine) = compute(arguments, &steady, speed, hub) else { return Vec::new() };
+    let safety = reading.case.bases.safety;
+    let pairs = modes.modes.iter().zip(&fine.modes);
+    pairs.map(|(a, b)| safety * (a.frequency() - b.frequency()).abs()).collect()
+}
+
 /// The table of modes.
-fn described(modes: &Modes, unit: &Frequencies, speed: f64, hub: HubState) -> String {
+fn described(modes: &Modes, errors: &[f64], unit: &Frequencies, speed: f64, hub: HubState) -> String {
     let hub = if hub == HubState::Free { "free hub" } else { "hub that keeps its speed" };
     let mut out = format!("{} modes at {}, {hub}\n\n", modes.modes.len(), unit.text(speed));
     let head = [
         "mode",
         if unit.name.is_empty() { "frequency" } else { unit.name },
+        "± mesh",
         "damping",
         "nodes",
         "moves",
@@ -115,6 +146,7 @@ fn described(modes: &Modes, unit: &Frequencies, speed: f64, hub: HubState) -> St
         rows.push(vec![
             format!("{}", number + 1),
             format!("{:.6}", mode.frequency() * unit.factor),
+            errors.get(number).map_or("-".to_owned(), |error| format!("{:.1e}", error * unit.factor)),
             format!("{:.4e}", mode.damping_ratio()),
             mode.nodes.to_string(),
             moves(mode),

@@ -14,9 +14,9 @@ mod frequencies;
 mod nearest;
 mod npz;
 mod obstacles;
-mod passing;
 #[cfg(feature = "parquet")]
 mod parquet;
+mod passing;
 pub mod plot;
 mod provenance;
 mod recorder;

@@ -157,7 +157,8 @@ impl Trajectory {
             peaks.iter_mut().zip(row).for_each(|(peak, x)| *peak = peak.max(x.abs()));
         }
         for (peak, passed) in peaks.iter_mut().zip(&self.passed) {
-            *peak = passed.iter().filter(|(_, y)| y.is_finite()).fold(*peak, |peak, (_, y)| peak.max(y.abs()));
+            *peak =
+                passed.iter().filter(|(_, y)| y.is_finite()).fold(*peak, |peak, (_, y)| peak.max(y.abs()));
         }
         peaks
     }

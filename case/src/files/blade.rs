@@ -263,7 +263,9 @@ pub fn beamdyn(text: &str, name: &str, length: f64) -> Result<Contents, String> 
     }
     let mut unused = format!("of {name} the stiffness in shear is not used, and it holds no twist");
     if offset > 0.0 {
-        unused.push_str(&format!("; the centre of mass lies up to {offset:.4} m off the axis there and on it here"));
+        unused.push_str(&format!(
+            "; the centre of mass lies up to {offset:.4} m off the axis there and on it here"
+        ));
     }
     Ok(Contents { rows, unused: Some(unused) })
 }

@@ -95,7 +95,8 @@ fn shared<B: basis::Basis + 'static>(
 /// The bases that the key `basis` of a case chooses; finite elements also end at `stations` \[m\].
 pub fn make(v: &Values, c: &Context<'_>, stations: &[f64]) -> Made<Bases> {
     let Either(functions) = BASIS.make(v, "basis", c)?;
-    built([functions(Field::Axial), functions(Field::Transverse)], c, stations).map_err(|faults| faults.within("basis"))
+    built([functions(Field::Axial), functions(Field::Transverse)], c, stations)
+        .map_err(|faults| faults.within("basis"))
 }
 
 fn built(fields: [Functions; 2], c: &Context<'_>, stations: &[f64]) -> Made<Bases> {

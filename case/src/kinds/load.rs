@@ -256,7 +256,8 @@ static DISTRIBUTED: Table<Load> = Table {
         let ((axes, distribution), amplitude) =
             both(both(AXES.make(v, "frame", c), DISTRIBUTION.make(v, "distribution", c)), amplitude(v, c))?;
         let (from, to) = range?;
-        let load = DistributedForce { force: components(v)?, axes, distribution, range: (from, to), amplitude };
+        let load =
+            DistributedForce { force: components(v)?, axes, distribution, range: (from, to), amplitude };
         let stations = load.stations();
         Ok(Load { nodes: vec![from, to], fixed_in_space: in_space(axes), ..acting(load, stations) })
     },

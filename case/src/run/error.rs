@@ -138,6 +138,19 @@ impl Reading {
         Ok((run(elements, 1.0)?, run(elements / 2, 1.0 / FINER)?))
     }
 
+    /// The case with twice the functions: of the blade, or else of the bases.
+    ///
+    /// # Errors
+    /// [`Problems`] when there are too many.
+    pub fn with_finer_mesh(&self) -> Result<Reading, Problems> {
+        let finer = self.case.bases.finer.iter().map(|(key, value)| format!("basis.{key}={value}"));
+        let changes = match &self.case.blade {
+            Some(blade) => vec![format!("blade.elements={}", 2 * blade.elements())],
+            None => finer.collect(),
+        };
+        self.with(&changes)
+    }
+
     /// The case with twice the functions and a far more accurate integration.
     fn refined(&self) -> Result<Reading, Problems> {
         let finer = &self.case.bases.finer;

@@ -212,7 +212,14 @@ mod tests {
             let message = Expression::new(text, "x", 10.0).unwrap_err().to_string();
             assert!(message.contains("finite") && message.contains("x = "), "{text}: {message}");
         }
-        for text in ["x^2/x + 1", "sqrt(10 - x)", "x^(1/3)", "abs(sin(x))^0.5", "1/(x + 1e-3)", "1/(x^2 - 2*x + 1.001)"] {
+        for text in [
+            "x^2/x + 1",
+            "sqrt(10 - x)",
+            "x^(1/3)",
+            "abs(sin(x))^0.5",
+            "1/(x + 1e-3)",
+            "1/(x^2 - 2*x + 1.001)",
+        ] {
             let text = if text == "x^2/x + 1" { "if(x > 0, x^2/x, 0)" } else { text };
             assert!(Expression::new(text, "x", 10.0).is_ok(), "{text}");
         }

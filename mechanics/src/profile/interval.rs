@@ -8,7 +8,7 @@
 use std::f64::consts::{FRAC_PI_2, LOG10_E, PI, TAU};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::jet::{Number, Smooth};
+use super::number::{Function, Number};
 
 /// All numbers from `low` to `high`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -132,8 +132,22 @@ impl Number for Interval {
         (exponent * self.ln()).exp()
     }
 
-    fn apply(self, function: Smooth) -> Interval {
-        (function.interval)(self)
+    fn apply(self, function: Function) -> Interval {
+        match function {
+            Function::Sin => self.sin(),
+            Function::Cos => self.cos(),
+            Function::Tan => self.tan(),
+            Function::Asin => self.asin(),
+            Function::Acos => self.acos(),
+            Function::Atan => self.atan(),
+            Function::Sinh => self.sinh(),
+            Function::Cosh => self.cosh(),
+            Function::Tanh => self.tanh(),
+            Function::Exp => self.exp(),
+            Function::Ln => self.ln(),
+            Function::Log10 => self.log10(),
+            Function::Sqrt => self.sqrt(),
+        }
     }
 
     fn below(self, other: Interval, or_equal: bool) -> Option<bool> {
@@ -231,7 +245,10 @@ mod tests {
                 }
                 let excess = (bounds.high - bounds.low) - (high - low);
                 let jumps = b - a > 0.1;
-                assert!(jumps || excess < 20.0 * (b - a), "{text} from {a} to {b}: {bounds:?}, {low} to {high}");
+                assert!(
+                    jumps || excess < 20.0 * (b - a),
+                    "{text} from {a} to {b}: {bounds:?}, {low} to {high}"
+                );
             }
         }
     }
@@ -246,7 +263,11 @@ mod tests {
             ("if(t < 9, 1, 2)", false, true),
         ] {
             let (bounds, whether) = Program::parse(text, "t").unwrap().bounds(3.0, 5.0);
-            assert_eq!((bounds.low.is_infinite() || bounds.high.is_infinite(), whether), (unbounded, decided), "{text}");
+            assert_eq!(
+                (bounds.low.is_infinite() || bounds.high.is_infinite(), whether),
+                (unbounded, decided),
+                "{text}"
+            );
         }
     }
 }

@@ -67,7 +67,8 @@ impl Panels {
     pub fn new(program: &Program, extent: f64) -> Result<Panels, Refused> {
         let mut scan = Scan { program, extent, rules: [3, POINTS].map(Gauss::new), total: 0.0 };
         let coarse = extent / f64::from(1 << LEAST_DEPTH);
-        let seen = (0..1 << LEAST_DEPTH).map(|k| scan.sizes(1, f64::from(k) * coarse, f64::from(k + 1) * coarse)[0]);
+        let seen =
+            (0..1 << LEAST_DEPTH).map(|k| scan.sizes(1, f64::from(k) * coarse, f64::from(k + 1) * coarse)[0]);
         scan.total = Some(seen.sum()).filter(|total: &f64| total.is_finite()).unwrap_or(0.0);
         let mut panels = scan.panels()?;
         let total = panels.sizes[panels.sizes.len() - 1][0];

@@ -166,7 +166,10 @@ mod tests {
         let error = |n: i32| {
             let rows: Vec<_> = (0..=n).map(|k| f64::from(k) / f64::from(n)).map(|t| (t, t.exp())).collect();
             let pieces = Pieces::monotone(&rows).unwrap();
-            (0..=1000).map(|k| f64::from(k) / 1000.0).map(|t| (pieces.value(t) - t.exp()).abs()).fold(0.0, f64::max)
+            (0..=1000)
+                .map(|k| f64::from(k) / 1000.0)
+                .map(|t| (pieces.value(t) - t.exp()).abs())
+                .fold(0.0, f64::max)
         };
         assert!(error(10) < 4e-3 && error(20) < error(10) / 3.5, "{} {}", error(10), error(20));
     }

@@ -70,7 +70,8 @@ impl Table {
             size <= global * sums(of)
                 || (found - (of[j] - of[i])).abs() <= local * size && found_size >= 0.3 * size
         };
-        if j - i > 1 && !(is_seen(&self.sums, &|t| self.value(t)) && is_seen(&self.values, &|t| self.rate(t))) {
+        if j - i > 1 && !(is_seen(&self.sums, &|t| self.value(t)) && is_seen(&self.values, &|t| self.rate(t)))
+        {
             let middle = i.midpoint(j);
             self.resolve((i, middle), points, out);
             out.push(self.times[middle]);
@@ -287,7 +288,9 @@ mod tests {
     #[test]
     fn an_overshoot_is_measured_and_a_spike_is_resolved() {
         let (overshoot, time) =
-            Table::new(&[(0.0, 0.0), (1.0, 0.0), (1.1, 1.0), (5.0, 1.0), (20.0, 1.0)], End::NotAKnot).unwrap().overshoot();
+            Table::new(&[(0.0, 0.0), (1.0, 0.0), (1.1, 1.0), (5.0, 1.0), (20.0, 1.0)], End::NotAKnot)
+                .unwrap()
+                .overshoot();
         assert!(overshoot > 10.0 && time > 5.0, "{overshoot} at {time}");
         let wave = |k: i32| f64::from(k) / 10.0;
         let sine: Vec<_> = (0..=100).map(|k| (wave(k), wave(k).sin())).collect();

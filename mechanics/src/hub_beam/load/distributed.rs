@@ -67,9 +67,7 @@ fn refined(fields: &Fields, seen: &[f64], density: &dyn Fn(f64) -> f64) -> Vec<f
         let middle = 0.5 * (a + b);
         let moments = |from: f64, to: f64| {
             let cubic = |x: f64| ((x - a) / (b - a)).powi(3);
-            [0, 1].map(|k| {
-                gauss.integrate(from, to, |x| density(x) * if k == 0 { 1.0 } else { cubic(x) })
-            })
+            [0, 1].map(|k| gauss.integrate(from, to, |x| density(x) * if k == 0 { 1.0 } else { cubic(x) }))
         };
         let (whole, first, second) = (moments(a, b), moments(a, middle), moments(middle, b));
         let good = (0..2).all(|k| (whole[k] - first[k] - second[k]).abs() <= TOLERANCE * size);

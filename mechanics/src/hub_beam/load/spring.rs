@@ -48,7 +48,10 @@ impl Load for Spring {
         let shortened = site.kinematics == Kinematics::Foreshortened;
         if shortened {
             site.add_tail(&mut along, &share);
-            site.add_tail(&mut own, &Share { density: &|_| 0.0, points: &central, cells: site.fields.cells() });
+            site.add_tail(
+                &mut own,
+                &Share { density: &|_| 0.0, points: &central, cells: site.fields.cells() },
+            );
         }
         group.stiffen(&site.structure(), shortened.then_some(&along), None, Some(&own));
         let [x, y] = self.anchor;
