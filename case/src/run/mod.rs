@@ -96,12 +96,11 @@ impl Reading {
         }
         let warnings = self.effective_masses(live.system.as_mut(), &state);
         let case = &self.case;
-        let (step, longest_step) = match case.steps {
-            Steps::Fixed(step) => (Some(step), None),
-            Steps::Controlled { first, longest, .. } => (first, longest),
+        let (step, longest_step, contact_step) = match case.steps {
+            Steps::Fixed { step, contact } => (Some(step), None, contact),
+            Steps::Controlled { first, longest, .. } => (first, longest, None),
         };
-        let plan =
-            Plan { end: case.duration, step, longest_step, contact_step: None, sample: case.output.step };
+        let plan = Plan { end: case.duration, step, longest_step, contact_step, sample: case.output.step };
         let copy = |(key, bytes): (String, &[u8])| Some((resolved::copy(&key)?, bytes.to_vec()));
         let tables = self.tables().into_iter().filter_map(copy).collect();
         let Output { energy_balance, modal_shares, .. } = case.output;
