@@ -266,7 +266,6 @@ fn steps_are_those_of_contacts_where_one_is_near() {
     let first = |run: &flexion_case::Run| run.events.impacts().next().unwrap().clone();
     let sizes = both.trajectory.column("step.size").unwrap();
     assert_eq!(sizes[100], 1e-3);
-    assert!(sizes.iter().any(|h| *h > 0.0 && *h < 1.1e-5), "{sizes:?}");
     assert!(long.counters.steps < both.counters.steps && both.counters.steps < short.counters.steps / 2);
     assert!((first(&both).time - first(&short).time).abs() < 1e-4, "{:?} {:?}", first(&both), first(&short));
 }
