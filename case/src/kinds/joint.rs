@@ -138,7 +138,11 @@ pub static TRAVEL: Choice<Drive> = Choice {
             name: "table",
             summary: "table of time and speed or displacement",
             source: "",
-            keys: &[key("file", Type::Path, Required, "CSV file with the columns t [s] and value"), GIVES],
+            keys: &[
+                key("file", Type::Path, Required, "CSV file with the columns t [s] and value"),
+                profile::INTERPOLATION,
+                GIVES,
+            ],
             example: "joint=[{kind='prismatic', between=['ground', 'bar'], travel={kind='table', file='measured.csv', of='displacement'}}]",
             make: |v, c| given(profile::table(v, c)?, v, c, "file"),
         },
