@@ -57,7 +57,7 @@ fn transverse(exponent: f64, basis: &str, gamma: f64) -> [f64; 2] {
     };
     let (mass, stiffness) = (part(1.0, 0.0), part(0.0, 1.0));
     let none = Matrix::new(&Structure::dense(kept.len()));
-    let pairs = Pencil::new(mass, none, stiffness, 0.0).unwrap().pairs(2, &[]).unwrap();
+    let pairs = Pencil::new([mass, none, stiffness], 0, 0.0).unwrap().pairs(2, &[]).unwrap();
     [pairs[0].value.im * unit_of_time(), pairs[1].value.im * unit_of_time()]
 }
 

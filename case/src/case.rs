@@ -1,54 +1,44 @@
-//! A validated case: its parts, and what is checked across them.
+//! A validated case: what moves, how it is integrated, and what is recorded.
 
 use super::declaration::Type;
 use super::fault::{Fault, Faults, Made};
-use super::kind::{Choice, Context, Table};
-use super::kinds::basis::{self, Bases};
-use super::kinds::blade::{BLADE, Blade};
-use super::kinds::contact::{self, CONTACT, Contact};
-use super::kinds::coupling::{COUPLING, Coupling, fits_whole_curve};
+use super::hub_beam::HubBeam;
+use super::kind::Context;
 use super::kinds::initial::{INITIAL, Initial};
 use super::kinds::integrator::{INTEGRATOR, Method, Steps};
-use super::kinds::load::{self, LOADS, Load};
-use super::kinds::motion::MOTION;
-use super::kinds::section::{SECTION, Section};
+use super::layout;
+use super::space::{self, Space};
 use super::values::{Filled, Value, Values};
-use flexion::hub_beam::{Damping, Drive, Hub};
 use std::cell::RefCell;
 
-/// A validated case: the parts of a model, each built once and shared by all that is made of them.
+/// A validated case: each part is built once and shared by all that is made of it.
 #[derive(Clone, Debug)]
 pub struct Case {
     /// Title for plots and reports.
     pub title: String,
-    /// Length L of the beam \[m\].
-    pub length: f64,
-    /// The cross-section.
-    pub section: Section,
-    /// The hub.
-    pub hub: Hub,
-    /// What makes the beam a blade; `None` for a beam in the plane of rotation.
-    pub blade: Option<Blade>,
-    /// The kinematic model.
-    pub coupling: Coupling,
-    /// The bases of the two displacement fields.
-    pub bases: Bases,
-    /// What acts on the beam and what it carries.
-    pub loads: Vec<Load>,
-    /// What the beam may touch.
-    pub contacts: Vec<Contact>,
-    /// Damping of the beam.
-    pub damping: Damping,
+    /// What moves.
+    pub subject: Subject,
     /// The state at t = 0.
     pub initial: Initial,
     /// The steps that the integrator takes.
     pub steps: Steps,
     /// Duration of the run \[s\].
     pub duration: f64,
+    /// The accuracy to which the run is to be refined: part of the largest value, and column.
+    pub accuracy: Option<(f64, Option<String>)>,
     /// What is recorded.
     pub output: Output,
     /// What its reader should know of its parts.
     pub cautions: Vec<String>,
+}
+
+/// What moves.
+#[derive(Clone, Debug)]
+pub enum Subject {
+    /// A beam on a hub, in the plane of its rotation or as a blade.
+    HubBeam(Box<HubBeam>),
+    /// Bodies, joints and beams in space.
+    Space(Box<Space>),
 }
 
 /// What is recorded.
@@ -66,6 +56,8 @@ pub struct Output {
     pub energy_balance: bool,
     /// Whether the shares of the transverse modes are recorded.
     pub modal_shares: bool,
+    /// Whether the run is drawn.
+    pub plots: bool,
     /// Interval between shapes of the beam for ParaView \[s\]; `None` writes none.
     pub vtk: Option<f64>,
 }
@@ -85,16 +77,16 @@ const MOST_SHAPES: f64 = 1e4;
 
 /// What is wrong with a case, as it is found.
 #[derive(Default)]
-struct Found(Faults);
+pub(super) struct Found(pub(super) Faults);
 
 impl Found {
     /// The part, or `None`, with its faults noted.
-    fn part<T>(&mut self, made: Made<T>) -> Option<T> {
+    pub(super) fn part<T>(&mut self, made: Made<T>) -> Option<T> {
         made.map_err(|faults| self.0.0.extend(faults.0)).ok()
     }
 
     /// Notes a fault if there is one.
-    fn check(&mut self, wrong: bool, key: &str, message: impl FnOnce() -> String) {
+    pub(super) fn check(&mut self, wrong: bool, key: &str, message: impl FnOnce() -> String) {
         if wrong {
             self.0.0.push(Fault::new(key, message()));
         }
@@ -115,66 +107,32 @@ pub(super) fn case(v: &mut Values, files: &super::sources::Files<'_>) -> Made<Ca
     let duration = number(v, "run", "duration").ok();
     fill_output_step(v, duration);
     let v = &*v;
-    let length = number(v, "beam", "length").ok();
-    let c = &Context { length, duration, files, cautions: RefCell::default() };
-    let coupling = found.part(model(v, &COUPLING, c));
-    let section = found.part(SECTION.make(v, "section", c));
-    let hub = found.part(hub(v, c));
+    let in_space = layout::is_spatial(v.keys);
+    let length = if in_space { None } else { number(v, "beam", "length").ok() };
+    let cautions = RefCell::default();
+    let c = &Context { length, duration, files, cautions: &cautions };
     let method = found.part(INTEGRATOR.make(v, "integrator", c));
-    let loads = loads(v, c, &mut found);
-    let jumps = section.iter().flat_map(|section| section.planar.jumps().iter().copied());
-    let acting = loads.iter().flatten().flat_map(|load| load.nodes.iter().copied());
-    let bases = found.part(basis::make(v, c, &jumps.chain(acting).collect::<Vec<_>>()));
-    let contacts = found.part(CONTACT.make(v, c).and_then(contact::named));
-    let damping = found.part(load::DAMPING.make(v, c)).map(|list| list.first().copied().unwrap_or_default());
+    let subject = found.part(if in_space {
+        space::make(v, c, method.as_ref()).map(|space| Subject::Space(Box::new(space)))
+    } else {
+        super::hub_beam::make(v, c, method.as_ref()).map(|beam| Subject::HubBeam(Box::new(beam)))
+    });
     let initial = found.part(INITIAL.make(v, "initial", c));
     let output = found.part(output(v, c));
-    let blade = found.part(BLADE.make(v, c)).map(|list| list.into_iter().next());
-    if let (Some(method), Some(damping)) = (&method, damping) {
-        check_steps(method, damping, duration, &mut found);
+    if let Some(method) = &method {
+        check_steps(method, duration, &mut found);
     }
-    if let (Some(coupling), Some(bases)) = (coupling, &bases)
-        && coupling.whole_curve
-    {
-        let name = v.kind("basis").unwrap_or_default();
-        found.part(fits_whole_curve(bases, name));
-    }
-    if let (Some(coupling), Some(bases), Some(section), Some(loads), Some(contacts), Some(length)) =
-        (coupling, &bases, &section, &loads, &contacts, c.length)
-    {
-        let at_tip = |load: &Load| load.mass.is_some_and(|mass| mass.station == length);
-        let has_mass = [
-            (coupling.whole_curve, "the exact coupling needs it: use `first` or `high`"),
-            (
-                bases.massless.is_none(),
-                "no function of this basis moves the tip alone: use finite elements or modes",
-            ),
-            (section.planar.resultants(length).rotary_inertia != 0.0, "the section has rotary inertia"),
-            (loads.iter().any(at_tip), "a mass is fixed there"),
-        ];
-        let why_not = has_mass.iter().find(|(has, _)| *has).map(|(_, why)| *why);
-        found.part(contact::fits_massless(contacts, why_not));
-    }
-    if let (Some(Some(blade)), Some(section)) = (&blade, &section) {
-        found.part(blade.built(section, 0.0).map_err(|faults| faults.within("blade")));
-    }
+    let accuracy = found.part(v.table("run").and_then(accuracy));
     let parts = || {
         Some(Case {
             title: v.text("title").ok()?.to_owned(),
-            length: c.length?,
-            section: section?,
-            hub: hub?,
-            blade: blade?,
-            coupling: coupling?,
-            bases: bases?,
-            loads: loads?,
-            contacts: contacts?,
-            damping: damping?,
+            subject: subject?,
             initial: initial?,
             steps: method?.steps,
             duration: duration?,
+            accuracy: accuracy?,
             output: output?,
-            cautions: c.cautions.take(),
+            cautions: cautions.take(),
         })
     };
     match parts() {
@@ -183,30 +141,17 @@ pub(super) fn case(v: &mut Values, files: &super::sources::Files<'_>) -> Made<Ca
     }
 }
 
-fn model<T>(v: &Values, choice: &Choice<T>, c: &Context<'_>) -> Made<T> {
-    choice.make(v.table("model")?, choice.name, c).map_err(|faults| faults.within("model"))
+/// What `[run]` asks of the accuracy.
+fn accuracy(run: &Values) -> Made<Option<(f64, Option<String>)>> {
+    let quantity = run.optional_text("quantity")?.map(str::to_owned);
+    match (run.optional_number("tolerance")?, quantity) {
+        (None, Some(_)) => Err(Fault::new("run.quantity", "is of no use without `run.tolerance`").into()),
+        (tolerance, quantity) => Ok(tolerance.map(|tolerance| (tolerance, quantity))),
+    }
 }
 
-fn hub(v: &Values, c: &Context<'_>) -> Made<Hub> {
-    let hub = v.table("hub")?;
-    let drive: Drive = MOTION.make(hub, "motion", c).map_err(|faults| faults.within("hub"))?;
-    Ok(Hub { radius: hub.number("radius")?, inertia: hub.number("inertia")?, drive })
-}
-
-fn loads(v: &Values, c: &Context<'_>, found: &mut Found) -> Option<Vec<Load>> {
-    let named = |table: &Table<Load>| {
-        let made = table.make(v, c);
-        made.map(|list| {
-            list.into_iter().map(|load| Load { table: table.key.name, ..load }).collect::<Vec<_>>()
-        })
-    };
-    let made: Vec<_> = LOADS.iter().map(|table| found.part(named(table))).collect();
-    let lists: Option<Vec<Vec<Load>>> = made.into_iter().collect();
-    lists.map(|lists| lists.concat())
-}
-
-/// Fixed steps within the run, and damping that the method can follow.
-fn check_steps(method: &Method, damping: Damping, duration: Option<f64>, found: &mut Found) {
+/// Fixed steps within the run.
+fn check_steps(method: &Method, duration: Option<f64>, found: &mut Found) {
     if let (Some(step), Some(duration)) = (method.steps.step(), duration) {
         found.check(step > duration && duration > 0.0, "integrator.step", || {
             format!("the step {step} s is longer than the run of {duration} s")
@@ -222,18 +167,16 @@ fn check_steps(method: &Method, damping: Damping, duration: Option<f64>, found: 
             format!("steps of {longest:e} s at most make {steps:.1e} steps in {duration} s; at most {MOST_STEPS:.0e} can be run")
         });
     }
-    let overdamped = !method.integrator.info().implicit && damping.stiffness > 0.0;
-    found.check(overdamped, "damping.stiffness-proportional", || {
-        "damping in proportion to the stiffness overdamps the shortest waves, and no explicit method follows them: use \
-         an implicit one, `radau` or `generalized-alpha`"
-            .to_owned()
-    });
 }
 
 /// What is recorded, within the run and on the beam.
 fn output(v: &Values, c: &Context<'_>) -> Made<Output> {
     let output = v.table("output")?;
-    let stations = output.numbers("stations").unwrap_or_default();
+    let in_space = layout::is_spatial(v.keys);
+    // Stations belong to the beams of a system in space.
+    let list = |name| if in_space { Ok(&[][..]) } else { output.numbers(name) };
+    let said = |name| if in_space { Ok(false) } else { output.boolean(name) };
+    let stations = list("stations").unwrap_or_default();
     let mut found = Found::default();
     for &station in stations {
         found.part(c.on_beam(station, "stations"));
@@ -248,7 +191,7 @@ fn output(v: &Values, c: &Context<'_>) -> Made<Output> {
             format!("the output step {step} s makes {records:.1e} records in {duration} s; at most {MOST_RECORDS:.0e} are kept")
         });
     }
-    let modal_shares = output.boolean("modal-shares")?;
+    let modal_shares = said("modal-shares")?;
     found.check(modal_shares && v.kind("basis") != Some("modes"), "modal-shares", || {
         "only the functions of the basis `modes` are modes: choose it, or leave the shares out".to_owned()
     });
@@ -270,11 +213,12 @@ fn output(v: &Values, c: &Context<'_>) -> Made<Output> {
     }
     Ok(Output {
         step: step.ok_or_else(Faults::default)?,
-        stations: output.numbers("stations")?.to_vec(),
-        section_forces: output.boolean("section-forces")?,
-        strain_heights: output.numbers("strain-heights")?.to_vec(),
+        stations: list("stations")?.to_vec(),
+        section_forces: said("section-forces")?,
+        strain_heights: list("strain-heights")?.to_vec(),
         energy_balance: output.boolean("energy-balance")?,
         modal_shares,
+        plots: output.boolean("plots")?,
         vtk,
     })
 }

@@ -63,6 +63,8 @@ pub enum Type {
     Boolean,
     /// Any text.
     Text,
+    /// A list of texts.
+    Texts,
     /// A path, relative to the folder of the case.
     Path,
     /// One of some names.

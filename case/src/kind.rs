@@ -17,7 +17,7 @@ pub struct Context<'a> {
     /// The files that the case names.
     pub files: &'a Files<'a>,
     /// What the reader of a case should know of its parts.
-    pub cautions: RefCell<Vec<String>>,
+    pub cautions: &'a RefCell<Vec<String>>,
 }
 
 impl Context<'_> {

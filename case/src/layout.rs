@@ -7,7 +7,8 @@ use super::kinds::initial::INITIAL;
 use super::kinds::integrator::INTEGRATOR;
 use super::kinds::motion::MOTION;
 use super::kinds::section::SECTION;
-use super::kinds::{amplitude, blade, contact, load, torque};
+use super::kinds::{amplitude, beam, blade, body, contact, joint, load, obstacle, spatial, torque};
+use super::tree::{Line, Raw};
 use super::units::{INERTIA, LENGTH, TIME};
 use std::sync::LazyLock;
 
@@ -31,18 +32,57 @@ pub(super) static CHOICES: &[&dyn Kinds] = &[
     &INTEGRATOR,
 ];
 
-/// The keys of a case file.
-pub(super) fn keys() -> &'static [Key] {
+/// The choices that only systems in space have.
+pub(super) static SPATIAL_CHOICES: &[&dyn Kinds] = &[
+    &body::INERTIA,
+    &beam::CURVE,
+    &beam::END,
+    &joint::JOINT,
+    &joint::TRAVEL,
+    &joint::TRAVEL_OF,
+    &spatial::AXES,
+    &obstacle::OBSTACLE,
+];
+
+/// The tables of which any makes a case one of a system in space.
+const IN_SPACE: [&str; 2] = ["body", "joint"];
+
+/// The keys of the case with these lines.
+pub(super) fn keys_of(entries: &[Line]) -> &'static [Key] {
+    let list = |entry: &Line| matches!(entry.node.value, Raw::List(_));
+    let spatial = |entry: &Line| {
+        IN_SPACE.contains(&entry.key.as_str()) || ["beam"].contains(&entry.key.as_str()) && list(entry)
+    };
+    if entries.iter().any(spatial) { spatial_keys() } else { keys() }
+}
+
+/// Whether keys are those of a system in space.
+pub(super) fn is_spatial(keys: &[Key]) -> bool {
+    keys.iter().any(|key| key.name == IN_SPACE[0])
+}
+
+/// The keys of a system in space.
+pub(super) fn spatial_keys() -> &'static [Key] {
     static KEYS: LazyLock<Vec<Key>> = LazyLock::new(|| {
-        let loads: Vec<Key> = load::LOADS.iter().map(|table| table.key).collect();
-        [MODEL, &loads, &[contact::CONTACT.key, load::DAMPING.key], RUN].concat()
+        let parts = spatial::TABLES.map(|key| *key);
+        [&[TITLE][..], &parts, RUN, &[SPATIAL_OUTPUT]].concat()
     });
     &KEYS
 }
 
+/// The keys of a beam on a hub.
+pub(super) fn keys() -> &'static [Key] {
+    static KEYS: LazyLock<Vec<Key>> = LazyLock::new(|| {
+        let loads: Vec<Key> = load::LOADS.iter().map(|table| table.key).collect();
+        [&[TITLE], MODEL, &loads, &[contact::CONTACT.key, load::DAMPING.key], RUN, &[OUTPUT]].concat()
+    });
+    &KEYS
+}
+
+const TITLE: Key = key("title", Type::Text, Default::Name(""), "title for plots and reports");
+
 /// Keys of the beam, its hub and its model.
 static MODEL: &[Key] = &[
-    key("title", Type::Text, Default::Name(""), "title for plots and reports"),
     key(
         "beam",
         Type::Table(&[key("length", Quantity(&LENGTH, Positive), Required, "length L of the beam")]),
@@ -91,68 +131,93 @@ static RUN: &[Key] = &[
     key("integrator", Type::Kind(&INTEGRATOR), Default::Name("radau"), "integrator"),
     key(
         "run",
-        Type::Table(&[key(
-            "duration",
-            Quantity(&TIME, NotNegative),
-            Required,
-            "simulated time; 0 for the initial state alone",
-        )]),
+        Type::Table(&[
+            key(
+                "duration",
+                Quantity(&TIME, NotNegative),
+                Required,
+                "simulated time; 0 for the initial state alone",
+            ),
+            key(
+                "tolerance",
+                Type::Number(Between(1e-12, 1.0)),
+                Optional,
+                "largest error of `quantity` over its largest value: mesh and steps are refined until it is reached",
+            ),
+            key(
+                "quantity",
+                Type::Text,
+                Optional,
+                "column of `tolerance`, also its `.min`, `.max` or `.final`; all principal columns if left out",
+            ),
+        ]),
         Required,
         "extent of the run",
     ),
-    key(
-        "output",
-        Type::Table(&[
-            key(
-                "step",
-                Quantity(&TIME, Positive),
-                Optional,
-                "interval between records, a thousandth of the duration if left out",
-            ),
-            key(
-                "stations",
-                Type::Quantities(&LENGTH, NotNegative),
-                Default::Empty,
-                "stations along the beam, from the root, recorded besides the tip",
-            ),
-            key(
-                "section-forces",
-                Type::Boolean,
-                Default::Boolean(false),
-                "axial force, shear force and bending moment are recorded at the stations",
-            ),
-            key(
-                "strain-heights",
-                Type::Quantities(&LENGTH, Any),
-                Default::Empty,
-                "heights over the axis at which the strain is recorded at the stations",
-            ),
-            key(
-                "energy-balance",
-                Type::Boolean,
-                Default::Boolean(true),
-                "work, losses and the balance of energy are recorded, for an evaluation or more of the power a step",
-            ),
-            key(
-                "modal-shares",
-                Type::Boolean,
-                Default::Boolean(false),
-                "the shares B²/ΣB² of the transverse modes are recorded, for the basis `modes`",
-            ),
-            key(
-                "vtk",
-                Type::Boolean,
-                Default::Boolean(false),
-                "the shape of the beam is written too, for ParaView: beam.pvd",
-            ),
-            key(
-                "vtk-step",
-                Quantity(&TIME, Positive),
-                Optional,
-                "interval between shapes, rounded to records, 200 shapes if left out",
-            ),
-        ]),
-        Default::Empty,
-        "recording of results",
-    ),
 ];
+
+const SAMPLE: Key = key(
+    "step",
+    Quantity(&TIME, Positive),
+    Optional,
+    "interval between records, a thousandth of the duration if left out",
+);
+const BALANCE: Key = key(
+    "energy-balance",
+    Type::Boolean,
+    Default::Boolean(true),
+    "work, losses and the balance of energy are recorded, for an evaluation or more of the power a step",
+);
+const PLOTS: Key =
+    key("plots", Type::Boolean, Default::Boolean(true), "the run is drawn: plot.svg and plot.png");
+const VTK: Key = key(
+    "vtk",
+    Type::Boolean,
+    Default::Boolean(false),
+    "the shape of the beam is written too, for ParaView: beam.pvd",
+);
+const VTK_STEP: Key = key(
+    "vtk-step",
+    Quantity(&TIME, Positive),
+    Optional,
+    "interval between shapes, rounded to records, 200 shapes if left out",
+);
+
+/// What is recorded of a beam on a hub.
+static RECORDED: [Key; 9] = [
+    SAMPLE,
+    key(
+        "stations",
+        Type::Quantities(&LENGTH, NotNegative),
+        Default::Empty,
+        "stations along the beam, from the root, recorded besides the tip",
+    ),
+    key(
+        "section-forces",
+        Type::Boolean,
+        Default::Boolean(false),
+        "axial force, shear force and bending moment are recorded at the stations",
+    ),
+    key(
+        "strain-heights",
+        Type::Quantities(&LENGTH, Any),
+        Default::Empty,
+        "heights over the axis at which the strain is recorded at the stations",
+    ),
+    BALANCE,
+    key(
+        "modal-shares",
+        Type::Boolean,
+        Default::Boolean(false),
+        "the shares B²/ΣB² of the transverse modes are recorded, for the basis `modes`",
+    ),
+    PLOTS,
+    VTK,
+    VTK_STEP,
+];
+const OUTPUT: Key = key("output", Type::Table(&RECORDED), Default::Empty, "recording of results");
+
+/// What is recorded of a system in space.
+static RECORDED_IN_SPACE: [Key; 5] = [SAMPLE, BALANCE, PLOTS, VTK, VTK_STEP];
+const SPATIAL_OUTPUT: Key =
+    key("output", Type::Table(&RECORDED_IN_SPACE), Default::Empty, "recording of results");

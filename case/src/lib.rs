@@ -18,6 +18,7 @@ mod case;
 pub mod declaration;
 mod fault;
 mod files;
+mod hub_beam;
 mod kind;
 pub mod kinds;
 mod layout;
@@ -29,6 +30,8 @@ mod resolved;
 mod run;
 mod schema;
 mod sources;
+mod space;
+mod statics;
 mod suggestion;
 mod template;
 mod tree;
@@ -37,21 +40,37 @@ mod unused;
 mod values;
 
 pub use campbell::campbell;
-pub use case::{Case, Output};
+pub use case::{Case, Output, Subject};
 pub use fault::{Fault, Faults, Made};
+pub use hub_beam::HubBeam;
 pub use kind::{Choice, Context, Kind, Table};
 pub use problem::{Place, Problem, Problems, Source};
 pub use reading::{Live, Reading, parse, parse_with, read};
-pub use run::errors::{ColumnError, Errors};
+pub use run::error::Effort;
+pub use run::refine::{RefineError, Refinement, Target};
 pub use run::{Prepared, Run};
 pub use schema::schema;
 pub use sources::{Contents, Files, Folder, Sources};
+pub use space::{Link, Space};
 pub use template::{TEMPLATES, Template};
 pub use values::Values;
 
 /// Every place in a case where a kind is chosen, with the kinds.
 pub fn choices() -> &'static [&'static dyn declaration::Kinds] {
     layout::CHOICES
+}
+
+/// Those that only systems in space have.
+pub fn spatial_choices() -> &'static [&'static dyn declaration::Kinds] {
+    layout::SPATIAL_CHOICES
+}
+
+/// Examples of the tables of systems in space: `KEY = VALUE`, as on the command line.
+pub fn examples_in_space() -> Vec<&'static str> {
+    use kinds::{beam, body, joint, obstacle, spatial};
+    let parts = [body::BODY.example, beam::BEAMS.example, joint::JOINTS.example, spatial::SPRING.example];
+    let loads = [spatial::LOAD.example, spatial::LINE_LOAD.example, obstacle::CONTACT.example];
+    parts.into_iter().chain(loads).collect()
 }
 
 /// Examples of the tables that a case may have and need not: `KEY = VALUE`, as on the command line.

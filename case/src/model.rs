@@ -1,19 +1,19 @@
 //! The models of a case: what is made of its parts.
 
-use super::case::Case;
+use super::case::{Case, Output, Subject};
 use super::fault::Made;
+use super::hub_beam::HubBeam;
 use super::kinds::coupling::Assembly;
 use super::kinds::load::Load;
+use super::space::Space;
+use super::values::item;
 use flexion::blade::Blade;
 use flexion::hub_beam::{Beam, load as acting};
 use flexion::system::Fork;
 
-impl Case {
+impl HubBeam {
     /// The mechanical system.
-    ///
-    /// # Errors
-    /// Faults at dotted paths of the case; a case that was read has passed most checks.
-    pub fn system(&self) -> Made<Box<dyn Fork>> {
+    fn system(&self, output: &Output) -> Made<Box<dyn Fork>> {
         let masses = self.loads.iter().filter_map(|load| load.mass).collect();
         let loaded = self.loads.iter().flat_map(|load| load.stations.iter().copied());
         let touching = self.contacts.iter().flat_map(|contact| contact.stations.iter().copied());
@@ -23,7 +23,6 @@ impl Case {
         let loads: Vec<_> = self.loads.iter().filter_map(act).collect();
         let loads: Vec<&dyn acting::Load> =
             loads.iter().map(|load| load.as_ref() as &dyn acting::Load).collect();
-        let output = &self.output;
         let parts = Assembly {
             length: self.length,
             beam: &beam,
@@ -39,33 +38,100 @@ impl Case {
         (self.coupling.assemble)(&parts)
     }
 
+    /// The blade at rest.
+    fn blade(&self) -> Made<Option<Blade>> {
+        let built = self.blade.as_ref().map(|blade| blade.built(&self.section, self.hub.radius));
+        built.transpose().map_err(|faults| faults.within("blade"))
+    }
+}
+
+impl Case {
+    /// The beam on its hub, if the case has one.
+    pub fn hub_beam(&self) -> Option<&HubBeam> {
+        if let Subject::HubBeam(beam) = &self.subject { Some(beam) } else { None }
+    }
+
+    /// The system in space, if the case is of one.
+    pub fn space(&self) -> Option<&Space> {
+        if let Subject::Space(space) = &self.subject { Some(space) } else { None }
+    }
+
+    /// The mechanical system.
+    ///
+    /// # Errors
+    /// Faults at dotted paths of the case; a case that was read has passed most checks.
+    pub fn system(&self) -> Made<Box<dyn Fork>> {
+        match &self.subject {
+            Subject::HubBeam(beam) => beam.system(&self.output),
+            Subject::Space(space) => Ok(space.system()),
+        }
+    }
+
     /// The blade at rest: `None` if the case has no `[blade]`.
     ///
     /// # Errors
     /// Faults at dotted paths of the case.
     pub fn blade(&self) -> Made<Option<Blade>> {
-        let built = self.blade.as_ref().map(|blade| blade.built(&self.section, self.hub.radius));
-        built.transpose().map_err(|faults| faults.within("blade"))
+        self.hub_beam().map_or(Ok(None), HubBeam::blade)
     }
 
-    /// What vibrates about a steady rotation: the blade, or the hub–beam of a case without `[blade]`, in either case without
-    /// contacts.
+    /// A length by which distances are measured: that of the beam, or the extent of a system in space \[m\].
+    pub fn size(&self) -> f64 {
+        match &self.subject {
+            Subject::HubBeam(beam) => beam.length,
+            Subject::Space(space) => space.size,
+        }
+    }
+
+    /// Whether anything may touch an obstacle.
+    pub fn has_contacts(&self) -> bool {
+        !self.contact_keys().is_empty()
+    }
+
+    /// The key of the table of each contact, in the order of the system.
+    pub(super) fn contact_keys(&self) -> Vec<String> {
+        let several = match &self.subject {
+            Subject::HubBeam(beam) => beam.contacts.iter().map(|contact| contact.stations.len()).collect(),
+            Subject::Space(space) => vec![1; space.contacts.len()],
+        };
+        let tables = several.into_iter().enumerate();
+        tables.flat_map(|(table, points)| std::iter::repeat_n(item("contact", table), points)).collect()
+    }
+
+    /// Changes that give the case twice the functions.
+    pub(super) fn finer(&self) -> Vec<String> {
+        match &self.subject {
+            Subject::HubBeam(beam) => {
+                beam.bases.finer.iter().map(|(key, value)| format!("basis.{key}={value}")).collect()
+            }
+            Subject::Space(space) if space.beams.is_empty() => Vec::new(),
+            Subject::Space(space) => vec![format!("model.refine={}", 2 * space.refine)],
+        }
+    }
+
+    /// What vibrates about a steady rotation: the blade, the hub–beam of a case without `[blade]`, or the system in space, in any
+    /// case without contacts.
     ///
     /// # Errors
     /// Faults at dotted paths of the case.
     pub fn vibrating(&self) -> Made<Box<dyn Fork>> {
-        match self.blade()? {
-            Some(blade) => Ok(Box::new(blade)),
-            None => Case { contacts: Vec::new(), ..self.clone() }.system(),
+        match (&self.subject, self.blade()?) {
+            (_, Some(blade)) => Ok(Box::new(blade)),
+            (Subject::HubBeam(beam), None) => {
+                HubBeam { contacts: Vec::new(), ..(**beam).clone() }.system(&self.output)
+            }
+            (Subject::Space(space), None) => Ok(Box::new(space.multibody.clone())),
         }
     }
 
-    /// The case without the loads whose direction is fixed in space, and what they are called.
+    /// The case without the loads whose direction is fixed in space, and what they are called; a system in space keeps its
+    /// loads.
     pub fn without_loads_in_space(&self) -> (Case, Vec<&'static str>) {
-        let mut names: Vec<&str> = self.loads.iter().filter_map(|load| load.fixed_in_space).collect();
-        names.dedup();
         let mut case = self.clone();
-        case.loads.retain(|load| load.fixed_in_space.is_none());
+        let Subject::HubBeam(beam) = &mut case.subject else { return (case, Vec::new()) };
+        let mut names: Vec<&str> = beam.loads.iter().filter_map(|load| load.fixed_in_space).collect();
+        names.dedup();
+        beam.loads.retain(|load| load.fixed_in_space.is_none());
         (case, names)
     }
 }

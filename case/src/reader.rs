@@ -137,6 +137,7 @@ fn expected(takes: &Type) -> String {
         Type::Integer(low, high) => format!("an integer from {low} to {high}"),
         Type::Boolean => "`true` or `false`".to_owned(),
         Type::Text => "a text".to_owned(),
+        Type::Texts => "a list of texts".to_owned(),
         Type::Path => "the path of a file, relative to the folder of the case".to_owned(),
         Type::Choice(choice) => format!("one of {}", choice.names()),
         Type::Table(keys) => format!("a table: its keys are {}", listed(keys.iter().map(|key| key.name))),
@@ -178,6 +179,11 @@ fn value(key: &'static Key, node: &Node, path: &str, problems: &mut Problems) ->
         }
         (Type::Boolean, Raw::Boolean(value)) => Some(Value::Boolean(*value)),
         (Type::Text | Type::Path, Raw::Text(text)) => Some(Value::Text(text.clone())),
+        (Type::Texts, Raw::List(items)) => {
+            let text =
+                |item: &Node| if let Raw::Text(text) = &item.value { Some(text.clone()) } else { None };
+            items.iter().map(text).collect::<Option<_>>().map(Value::Texts).or_else(|| mismatch(problems))
+        }
         (Type::Choice(choice), Raw::Text(text)) => {
             chosen(*choice, text, &node.place, path, problems).map(|kind| Value::Text(kind.name.to_owned()))
         }

@@ -48,13 +48,14 @@ pub struct Reading {
 impl Reading {
     /// The case as a file with every default filled in, in SI, that reads back as the same case.
     pub fn resolved(&self) -> String {
-        resolved::resolved(&self.values, false)
+        resolved::resolved(&self.values, None)
     }
 
     /// As [`Reading::resolved`], beside copies of the tables that the case names: `motion.csv`, `torque.csv` and
     /// `section.csv`.
     pub fn resolved_with_copies(&self) -> String {
-        resolved::resolved(&self.values, true)
+        let files: Vec<String> = self.tables().into_iter().map(|(key, _)| key).collect();
+        resolved::resolved(&self.values, Some(&files))
     }
 
     /// The files that the case names: dotted path of the table and bytes.
@@ -118,12 +119,10 @@ impl Reading {
     /// A new integrator: it belongs to one run.
     fn integrator(&self) -> Result<Box<dyn Integrator>, Problems> {
         let files = Files::new(&self.files);
-        let context = Context {
-            length: Some(self.case.length),
-            duration: Some(self.case.duration),
-            files: &files,
-            cautions: RefCell::default(),
-        };
+        let length = self.case.hub_beam().map(|beam| beam.length);
+        let cautions = RefCell::default();
+        let context =
+            Context { length, duration: Some(self.case.duration), files: &files, cautions: &cautions };
         let method = INTEGRATOR.make(&self.values, "integrator", &context);
         method.map(|Method { integrator, .. }| integrator).map_err(|faults| self.problems(faults))
     }
@@ -204,7 +203,7 @@ fn interpreted(
 ) -> Result<Reading, Problems> {
     // What a broken file seems to say is not worth reporting: its syntax comes first.
     if let (true, Raw::Table(entries)) = (problems.list.is_empty(), &root.value) {
-        let mut values = reader::table(entries, None, layout::keys(), "", &mut problems);
+        let mut values = reader::table(entries, None, layout::keys_of(entries), "", &mut problems);
         let files = Files::new(sources);
         match case::case(&mut values, &files) {
             Ok(case) if problems.list.is_empty() => {

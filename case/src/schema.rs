@@ -13,10 +13,18 @@ pub fn schema() -> String {
     let mut root = json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "Flexion case",
-        "description": "A rotating flexible beam and how to integrate its motion.",
+        "description": "A rotating flexible beam, or a system of bodies, joints and beams in space, and how to integrate its motion.",
     });
-    if let (Some(root), Value::Object(table)) = (root.as_object_mut(), table(layout::keys(), None, false)) {
-        root.extend(table);
+    if let Some(root) = root.as_object_mut() {
+        let layouts = [("a beam on a hub", layout::keys()), ("a system in space", layout::spatial_keys())];
+        let described = layouts.map(|(what, keys)| {
+            let mut layout = table(keys, None, false);
+            if let Some(layout) = layout.as_object_mut() {
+                layout.insert("description".to_owned(), json!(what));
+            }
+            layout
+        });
+        root.insert("anyOf".to_owned(), json!(described));
     }
     format!("{root:#}\n")
 }
@@ -70,6 +78,7 @@ fn takes(takes: &Type, default: &str) -> Value {
         Type::Integer(low, high) => json!({ "type": "integer", "minimum": low, "maximum": high }),
         Type::Boolean => json!({ "type": "boolean" }),
         Type::Text | Type::Path => json!({ "type": "string" }),
+        Type::Texts => json!({ "type": "array", "items": { "type": "string" } }),
         Type::Choice(choice) => {
             let options: Vec<Value> = choice
                 .kinds()

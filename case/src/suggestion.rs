@@ -15,6 +15,9 @@ const DEEPEST: usize = 5;
 pub(super) fn advice(name: &str, path: &str) -> Option<String> {
     let mut places = Vec::new();
     search(name, layout::keys(), "", 0, &mut places);
+    if places.is_empty() {
+        search(name, layout::spatial_keys(), "", 0, &mut places);
+    }
     places.retain(|place| *place != join(path, name));
     places.dedup();
     if places.is_empty() || places.len() > MOST {

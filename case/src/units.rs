@@ -184,6 +184,19 @@ pub fn parse(text: &str, measure: &Measure) -> Result<f64, QuantityError> {
     }
 }
 
+/// As [`parse`], of a quantity in the unit `unit`.
+///
+/// # Errors
+/// As [`parse`], or when `unit` is none.
+pub fn parse_in(text: &str, unit: &'static str) -> Result<f64, QuantityError> {
+    let fail = |(span, message): (Range<usize>, String)| QuantityError { span, message, help: String::new() };
+    let scale =
+        if unit.is_empty() { Scale::ONE } else { Parser { text: unit, at: 0 }.product(0).map_err(fail)? };
+    let measure =
+        Measure { name: "quantity", unit, dimension: scale.dimension, examples: "`0.1 mm`, `1e-3 rad`" };
+    parse(text, &measure)
+}
+
 /// "a length", "an angular speed".
 pub fn article(measure: &Measure) -> String {
     let vowel = measure.name.starts_with(['a', 'e', 'i', 'o', 'u']);

@@ -6,13 +6,14 @@ impl Case {
     /// Cautions of a run.
     pub fn unused_by_run(&self) -> Vec<String> {
         let mut cautions = self.cautions.clone();
-        if self.blade.is_some() {
+        let Some(beam) = self.hub_beam() else { return cautions };
+        if beam.blade.is_some() {
             cautions.push(
                 "[blade] is for `modes` and `campbell`: a run is of the beam in the plane of rotation, without its pitch, \
                  precone, twist and tip mass"
                     .to_owned(),
             );
-        } else if self.section.is_blade {
+        } else if beam.section.is_blade {
             cautions.push(
                 "a run is of the beam in the plane of rotation: the section's stiffness out of it is used through its twist \
                  alone"
@@ -25,8 +26,9 @@ impl Case {
     /// Cautions of modes and diagrams.
     pub fn unused_by_modes(&self) -> Vec<String> {
         let mut cautions = self.cautions.clone();
-        if self.blade.is_none() {
-            if self.section.is_blade {
+        let Some(beam) = self.hub_beam() else { return cautions };
+        if beam.blade.is_none() {
+            if beam.section.is_blade {
                 cautions.push(
                     "the section is one of a blade and the case has no [blade]: half of its modes are missing, those out of \
                      the plane of rotation and of torsion; write [blade] for all of them"
@@ -35,9 +37,9 @@ impl Case {
             }
             return cautions;
         }
-        let mut tables: Vec<&str> = self.loads.iter().map(|load| load.table).collect();
+        let mut tables: Vec<&str> = beam.loads.iter().map(|load| load.table).collect();
         tables.dedup();
-        if self.damping.mass != 0.0 || self.damping.stiffness != 0.0 {
+        if beam.damping.mass != 0.0 || beam.damping.stiffness != 0.0 {
             tables.push("damping");
         }
         if !tables.is_empty() {

@@ -17,6 +17,8 @@ pub enum Value {
     Boolean(bool),
     /// A text, a path or the name of a choice.
     Text(String),
+    /// Texts.
+    Texts(Vec<String>),
     /// A table.
     Table(Values),
     /// A list of tables.
@@ -98,6 +100,7 @@ impl Values {
         integer i64: Value::Integer(value) => *value, "integer";
         boolean bool: Value::Boolean(value) => *value, "boolean";
         text &str: Value::Text(value) => value, "text";
+        texts &[String]: Value::Texts(values) => values, "list of texts";
         table &Values: Value::Table(values) => values, "table";
     }
 
@@ -117,6 +120,11 @@ impl Values {
     /// The number of a key that may be left out.
     pub fn optional_number(&self, name: &str) -> Made<Option<f64>> {
         self.optional(name)?.map(|_| self.number(name)).transpose()
+    }
+
+    /// The text of a key that may be left out.
+    pub fn optional_text(&self, name: &str) -> Made<Option<&str>> {
+        self.optional(name)?.map(|_| self.text(name)).transpose()
     }
 
     /// The boolean of a key that may be left out.
@@ -161,6 +169,7 @@ impl Values {
                 Value::Integer(value) => (*value).into(),
                 Value::Boolean(value) => (*value).into(),
                 Value::Text(value) => value.as_str().into(),
+                Value::Texts(values) => values.clone().into(),
                 Value::Table(_) | Value::Tables(_) | Value::Kind(..) => return None,
             };
             Some((filled.key.name.to_owned(), value))

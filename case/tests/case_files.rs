@@ -32,14 +32,14 @@ fn parsed(text: &str, overrides: &[&str]) -> Result<Case, Problems> {
 fn a_case_is_read_in_si_with_defaults() {
     let case = parsed(SPIN_UP, &[]).unwrap();
     assert_eq!(case.title, "spin-up");
-    assert_eq!(case.length, 10.0);
-    let r = case.section.planar.resultants(3.0);
+    assert_eq!(case.hub_beam().unwrap().length, 10.0);
+    let r = case.hub_beam().unwrap().section.planar.resultants(3.0);
     assert_eq!((r.mass, r.axial_stiffness, r.bending_stiffness, r.rotary_inertia), (1.2, 28e6, 14e3, 0.0));
-    let Drive::Prescribed(motion) = &case.hub.drive else { panic!("the hub is free") };
+    let Drive::Prescribed(motion) = &case.hub_beam().unwrap().hub.drive else { panic!("the hub is free") };
     assert_eq!((motion.at(0.0).speed, motion.at(7.5).speed, motion.at(15.0).speed), (0.0, 2.0, 4.0));
-    assert_eq!((case.hub.radius, case.hub.inertia), (0.0, 0.0));
-    assert!(!case.coupling.whole_curve);
-    assert_eq!(case.bases.elements, Some((10, 1)));
+    assert_eq!((case.hub_beam().unwrap().hub.radius, case.hub_beam().unwrap().hub.inertia), (0.0, 0.0));
+    assert!(!case.hub_beam().unwrap().coupling.whole_curve);
+    assert_eq!(case.hub_beam().unwrap().bases.elements, Some((10, 1)));
     let tolerances =
         Steps::Controlled { tolerance: 1e-6, absolute_tolerance: 1e-8, first: None, longest: None };
     assert_eq!(case.steps, tolerances);
@@ -60,9 +60,9 @@ fn overrides_replace_values_tables_and_defaults() {
         "title=two",
     ];
     let case = parsed(SPIN_UP, &overrides).unwrap();
-    assert_eq!(case.section.planar.resultants(0.0).axial_stiffness, 12e6);
-    assert_eq!(case.bases.elements, Some((20, 1)));
-    assert!(case.coupling.whole_curve);
+    assert_eq!(case.hub_beam().unwrap().section.planar.resultants(0.0).axial_stiffness, 12e6);
+    assert_eq!(case.hub_beam().unwrap().bases.elements, Some((20, 1)));
+    assert!(case.hub_beam().unwrap().coupling.whole_curve);
     assert_eq!(case.steps, Steps::Fixed(1e-3));
     assert_eq!(case.output.stations, [2.0, 5.0]);
     assert_eq!(case.title, "two");

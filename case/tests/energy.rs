@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
 
 use crate::written::{self, SQUARE_BAR};
-use flexion_case::{Reading, Run};
+use flexion_case::{Effort, Reading, Run};
 use std::ops::ControlFlow;
 
 const REST: &str = r#"
@@ -152,7 +152,8 @@ fn the_true_error_lies_within_the_reported_one() {
         coarse_set.insert(0, &coarse);
         let reading = reading(&coarse_set);
         let run_here = run(&coarse_set);
-        let errors = reading.estimate_errors(&run_here, &mut |_| ControlFlow::Continue(())).unwrap();
+        let errors =
+            reading.estimate_errors(&run_here, Effort::Full, &mut |_| ControlFlow::Continue(())).unwrap();
         let fine = elements(24);
         let mut fine_set = set.to_vec();
         fine_set

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
 
 use flexion::analysis::equilibrium::equilibrium;
-use flexion::analysis::rotation::negative_stiffness;
+use flexion::analysis::stability;
 use flexion_case::{Reading, parse};
 use flexion_results::Status;
 use std::f64::consts::PI;
@@ -30,7 +30,7 @@ fn buckles(coupling: &str, force: f64) -> bool {
     let mut system = reading.case.system().unwrap();
     let mut state = system.initial();
     equilibrium(system.as_mut(), &mut state).unwrap();
-    negative_stiffness(system.as_mut(), &state) > 0
+    !stability(system.as_mut(), &state).unwrap().is_stable()
 }
 
 #[test]

@@ -3,7 +3,8 @@
 #![allow(clippy::unwrap_used)] // in helpers of tests
 
 use crate::written;
-use flexion_case::{Errors, Reading, Run};
+use flexion_case::{Effort, Reading, Run};
+use flexion_results::Errors;
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
@@ -57,7 +58,7 @@ fn read(overrides: &[&str]) -> Reading {
 fn run(reading: &Reading) -> (Run, Errors, u64) {
     let run = written::outcome(reading);
     let mut steps = 0;
-    let errors = reading.estimate_errors(&run, &mut |_| {
+    let errors = reading.estimate_errors(&run, Effort::Full, &mut |_| {
         steps += 1;
         ControlFlow::Continue(())
     });

@@ -1,22 +1,26 @@
 //! `flexion check`: validates a case and shows what would be run.
 
-use crate::{Outcome, case, screen};
+use crate::{Outcome, assembly, case, screen};
 use flexion::basis::Basis;
 use flexion::hub_beam::Drive;
 use flexion::integrator::{Adams, Integrator, RungeKutta, StabilityLimit, StepError};
 use flexion::linalg::Structure;
 use flexion::system::{State, System};
 use flexion_case::kinds::initial::Initial;
-use flexion_case::{Case, Live, Problems, Reading};
+use flexion_case::{HubBeam, Live, Problems, Reading, Subject};
+use std::path::PathBuf;
 
 /// The case to check.
 #[derive(clap::Args)]
 #[command(
-    after_help = "Examples:\n  flexion check verification/p1_spin_up_4\n  flexion check case.toml --set basis.elements=40"
+    after_help = "Examples:\n  flexion check verification/p1_spin_up_4\n  flexion check case.toml --set basis.elements=40\n  flexion check arm.toml --draw arm.svg"
 )]
 pub struct Arguments {
     #[command(flatten)]
     case: case::Selection,
+    /// Draw a system in space in three views with the names of its parts, .svg or .png
+    #[arg(long, value_name = "FILE")]
+    draw: Option<PathBuf>,
 }
 
 /// Validates a case and describes it.
@@ -25,7 +29,13 @@ pub fn check(arguments: &Arguments) -> Outcome {
     match describe(&reading) {
         Ok(text) => {
             screen::print(&text);
-            Outcome::Finished
+            match arguments.draw.as_ref().map_or(Ok(()), |file| assembly::draw(&reading, file)) {
+                Ok(()) => Outcome::Finished,
+                Err(message) => {
+                    screen::report(&format!("error: {message}\n"));
+                    Outcome::Rejected
+                }
+            }
         }
         Err(problems) => {
             screen::report(&problems.render(screen::colour()));
@@ -44,18 +54,31 @@ fn describe(reading: &Reading) -> Result<String, Problems> {
     if !case.title.is_empty() {
         out.push_str(&format!("{}\n", case.title));
     }
-    let mut rows = beam(case);
-    rows.extend(equations(system.as_ref(), integrator.as_ref()));
-    rows.extend(conditioning(case));
-    for t in [0.0, case.duration] {
-        rows.extend(stability(system.as_mut(), t));
+    let mut rows = Vec::new();
+    match &case.subject {
+        Subject::HubBeam(of) => {
+            rows.extend(beam(of, case.duration));
+            rows.extend(equations(system.as_ref(), integrator.as_ref()));
+            rows.extend(conditioning(of));
+            for t in [0.0, case.duration] {
+                rows.extend(stability(system.as_mut(), t));
+            }
+        }
+        Subject::Space(space) => {
+            out.push_str(&assembly::tree(space));
+            out.push('\n');
+            rows.extend(assembly::described(space));
+            rows.extend(equations(system.as_ref(), integrator.as_ref()));
+        }
     }
-    let of_modes =
-        case.blade.iter().flat_map(|_| case.unused_by_modes().into_iter().skip(case.cautions.len()));
+    let is_blade = case.hub_beam().is_some_and(|beam| beam.blade.is_some());
+    let of_modes = if is_blade { case.unused_by_modes() } else { Vec::new() };
+    let of_modes = of_modes.into_iter().skip(case.cautions.len());
     let cautions = case.unused_by_run().into_iter().chain(of_modes).chain(system.cautions(&[]));
     rows.extend(cautions.map(|caution| row("caution", caution)));
     out.push_str(&screen::table(&rows));
-    let defaults = reading.defaults();
+    // An empty list says nothing.
+    let defaults: Vec<_> = reading.defaults().into_iter().filter(|(_, value)| value != "[]").collect();
     if !defaults.is_empty() {
         out.push_str("\ndefaults in force\n");
         let rows: Vec<Vec<String>> = defaults.into_iter().map(|(key, value)| vec![key, value]).collect();
@@ -65,14 +88,14 @@ fn describe(reading: &Reading) -> Result<String, Problems> {
     Ok(out)
 }
 
-fn row(name: &str, text: String) -> Vec<String> {
+pub fn row(name: &str, text: String) -> Vec<String> {
     vec![name.to_owned(), text]
 }
 
 /// Resultants at the root and the largest speed.
-fn beam(case: &Case) -> Vec<Vec<String>> {
-    let mut rows = vec![row("length", format!("{} m", case.length))];
-    let r = case.section.planar.resultants(0.0);
+fn beam(of: &HubBeam, duration: f64) -> Vec<Vec<String>> {
+    let mut rows = vec![row("length", format!("{} m", of.length))];
+    let r = of.section.planar.resultants(0.0);
     rows.push(row("mass per length ρA", format!("{:.6} kg/m", r.mass)));
     rows.push(row("axial stiffness EA", format!("{:.6e} N", r.axial_stiffness)));
     if r.coupling_stiffness != 0.0 {
@@ -82,8 +105,8 @@ fn beam(case: &Case) -> Vec<Vec<String>> {
     if r.rotary_inertia != 0.0 {
         rows.push(row("rotary inertia ρI", format!("{:.6e} kg·m", r.rotary_inertia)));
     }
-    if let Drive::Prescribed(motion) = &case.hub.drive {
-        rows.push(row("largest hub speed", format!("{:.6} rad/s", motion.max_speed(case.duration))));
+    if let Drive::Prescribed(motion) = &of.hub.drive {
+        rows.push(row("largest hub speed", format!("{:.6} rad/s", motion.max_speed(duration))));
     }
     rows
 }
@@ -112,8 +135,8 @@ fn equations(system: &dyn System, integrator: &dyn Integrator) -> Vec<Vec<String
 }
 
 /// Conditioning of the bases; the exact coupling has its own.
-fn conditioning(case: &Case) -> Vec<Vec<String>> {
-    if case.coupling.whole_curve {
+fn conditioning(of: &HubBeam) -> Vec<Vec<String>> {
+    if of.coupling.whole_curve {
         return Vec::new();
     }
     let row_of = |(name, basis): (&str, &std::sync::Arc<dyn Basis>)| {
@@ -130,7 +153,7 @@ fn conditioning(case: &Case) -> Vec<Vec<String>> {
         };
         row(&format!("{name} basis"), text)
     };
-    [("axial", &case.bases.axial), ("transverse", &case.bases.transverse)].map(row_of).to_vec()
+    [("axial", &of.bases.axial), ("transverse", &of.bases.transverse)].map(row_of).to_vec()
 }
 
 /// Largest stable steps of the explicit integrators about the undeformed beam at time `t`.

@@ -56,6 +56,7 @@ fn row(key: &Key) -> Vec<String> {
         Type::Integer(low, high) => format!("integer {low} … {high}"),
         Type::Boolean => "true or false".to_owned(),
         Type::Text => "text".to_owned(),
+        Type::Texts => "list of texts".to_owned(),
         Type::Path => "path".to_owned(),
         Type::Choice(choice) => choice.kinds().iter().map(|kind| kind.name).collect::<Vec<_>>().join(" or "),
         Type::Table(_) => "table".to_owned(),

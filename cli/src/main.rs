@@ -3,6 +3,7 @@
 //! Exit codes: 0 finished; 1 the case or the command line is rejected; 2 a run failed or was stopped, and what
 //! it had computed is kept, or runs differ by more than the tolerance, or not all could be written.
 
+mod assembly;
 mod campbell;
 mod case;
 mod check;
@@ -15,7 +16,9 @@ mod new;
 mod plot;
 mod run;
 mod screen;
+mod statics;
 mod vibration;
+mod view;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -50,8 +53,12 @@ enum Command {
     Modes(modes::Arguments),
     /// Follow the modes of vibration over a range of speeds
     Campbell(campbell::Arguments),
+    /// Follow the equilibrium of a case at rest as its loads grow
+    Statics(statics::Arguments),
     /// Plot columns of one or several runs
     Plot(plot::Arguments),
+    /// Write a page that plays the motion or the modes of a result
+    View(view::Arguments),
     /// List all kinds that a case may choose, with their keys
     List(list::Arguments),
     /// Print the JSON Schema of case files, for editors
@@ -89,7 +96,9 @@ fn main() -> ExitCode {
         Command::Compare(arguments) => compare::compare(&arguments),
         Command::Modes(arguments) => modes::modes(&arguments),
         Command::Campbell(arguments) => campbell::campbell(&arguments),
+        Command::Statics(arguments) => statics::statics(&arguments),
         Command::Plot(arguments) => plot::plot(&arguments),
+        Command::View(arguments) => view::view(&arguments),
         Command::Completions(arguments) => completions::completions(&arguments),
         Command::Man(arguments) => man::man(&arguments),
         Command::Check(arguments) => check::check(&arguments),

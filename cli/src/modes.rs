@@ -1,21 +1,25 @@
 //! `flexion modes`: modes of vibration at one speed.
 
-use crate::vibration::{self, Options, Speed, report, stations, title};
+use crate::vibration::{self, Options, Speed, report, stations};
 use crate::{Outcome, case, screen};
 use flexion::analysis::campbell::HubState;
+use flexion::analysis::equilibrium::equilibrium;
 use flexion::analysis::modes::{Mode, Modes, modes as find};
 use flexion::analysis::rotation::rotate_stably;
 use flexion::system::State;
 use flexion_case::{Case, Reading};
-use flexion_results::{Artifact, Directory, Frequencies, write_modes};
+use flexion_results::{Artifact, Directory, Scene, Units, write_modes};
 use std::path::PathBuf;
+
+/// Damping ratio below which a mode grows.
+const GROWTH: f64 = -1e-7;
 
 /// The case, the speed, and how many modes.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   flexion modes verification/p1_spin_up_4 --speed 4 --count 6
   flexion modes case.toml --speed 300 --unit rpm --output results/modes
-  flexion modes case.toml --speed '12.1 rpm' --unit Hz
+  flexion modes case.toml --speed '12.1 rpm'
 
 The motion of the case is replaced by a steady rotation at the speed; the modes are those of small vibrations about its
 equilibrium. The hub keeps its speed unless --free-hub is given.
@@ -41,6 +45,9 @@ pub struct Arguments {
     force: bool,
 }
 
+/// Parts of the beam at whose ends shapes are given.
+const STATIONS: u32 = 200;
+
 /// Finds and writes modes.
 pub fn modes(arguments: &Arguments) -> Outcome {
     let Some(reading) = arguments.case.read() else { return Outcome::Rejected };
@@ -52,10 +59,10 @@ pub fn modes(arguments: &Arguments) -> Outcome {
 
 fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
     let case = &reading.case;
-    let unit = arguments.options.frequencies(case)?;
-    let speed = arguments.speed.in_radians(&unit);
+    let units = arguments.options.units(case, arguments.speed)?;
+    let speed = arguments.speed.in_radians(&units.speed);
     if !(speed.is_finite() && speed >= 0.0) {
-        return Err(format!("the speed is {} and must be zero or positive", unit.text(speed)));
+        return Err(format!("the speed is {} and must be zero or positive", units.speed.text(speed)));
     }
     let hub = arguments.options.hub(case)?;
     let directory =
@@ -65,10 +72,13 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
         if speed > 0.0 { vibration::without_loads_in_space(case) } else { (case.clone(), Vec::new()) };
     cautions.extend(vibration::without_contacts(case));
     cautions.extend(case.unused_by_modes());
-    let modes = compute(arguments, &steady, speed, hub)?;
+    let (modes, scene) = compute(arguments, &steady, speed, hub)?;
+    let growing = modes.modes.iter().filter(|mode| mode.damping_ratio() < GROWTH).count();
+    if growing > 0 {
+        cautions.push(format!("the equilibrium is unstable: {growing} of the modes grow (negative damping)"));
+    }
     cautions.iter().for_each(|caution| screen::report(&format!("warning: {caution}\n")));
     let errors = mesh_errors(arguments, reading, &modes, speed, hub);
-    let out = described(&modes, &errors, &unit, speed, hub);
     let relative = |(number, (mode, error)): (usize, (&Mode, &f64))| (number + 1, error / mode.frequency());
     let coarse = modes.modes.iter().zip(&errors).enumerate().map(relative).find(|(_, e)| *e > COARSE);
     if let Some((number, error)) = coarse {
@@ -77,6 +87,12 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
             100.0 * error
         ));
     }
+    let about = match case.space() {
+        Some(_) => "about the equilibrium".to_owned(),
+        None if hub == HubState::Free => format!("at {}, free hub", units.speed.text(speed)),
+        None => format!("at {}, hub that keeps its speed", units.speed.text(speed)),
+    };
+    let out = described(&modes, &errors, &units, &about);
     for (number, mode) in modes.modes.iter().enumerate().filter(|(_, mode)| mode.rounding > 1e-6) {
         screen::report(&format!(
             "warning: the frequency of mode {} may be off by {:.1e} by rounding: the mesh is too fine for this coupling; \
@@ -87,24 +103,37 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
     }
     screen::print(&out);
     let Some(directory) = directory else { return Ok(Outcome::Finished) };
-    let (resolved, stations) = (reading.resolved(), stations(case));
-    let written =
-        write_modes(&directory, (&modes, speed), &stations, &unit, &resolved, title(reading), &cautions);
+    let (resolved, stations) = (reading.resolved(), stations(case, STATIONS));
+    let title = arguments.options.title(reading);
+    let written = directory.write(Artifact::ModesScene, |f| scene.write(f)).and_then(|()| {
+        write_modes(&directory, (&modes, speed), &stations, &units, &resolved, title, &cautions)
+    });
     screen::print("\n");
     let files = [("modes", Artifact::ModesCsv), ("shapes", Artifact::ModesSvg)];
     let whole = screen::files(&directory, written, &files);
     Ok(if whole { Outcome::Finished } else { Outcome::Incomplete })
 }
 
-fn compute(arguments: &Arguments, case: &Case, speed: f64, hub: HubState) -> Result<Modes, String> {
+/// The modes and the equilibrium that they vibrate about.
+fn compute(arguments: &Arguments, case: &Case, speed: f64, hub: HubState) -> Result<(Modes, Scene), String> {
     let mut system = vibration::system(case)?;
     let mut state = State::zeros(system.size(), 0.0);
-    rotate_stably(system.as_mut(), &mut state, 0.0, speed).map_err(|error| error.to_string())?;
+    if case.space().is_some() {
+        state = system.initial();
+    }
+    if case.space().is_some() && speed == 0.0 {
+        equilibrium(system.as_mut(), &mut state).map_err(|error| error.to_string())?;
+    } else {
+        rotate_stably(system.as_mut(), &mut state, 0.0, speed).map_err(|error| error.to_string())?;
+    }
     if hub == HubState::Free {
         system.hold(false);
         state.v = system.initial().v;
     }
-    find(system.as_mut(), &state, arguments.count, &stations(case)).map_err(|error| error.to_string())
+    let mut scene = case.scene();
+    scene.finish(system.as_mut(), &state);
+    let modes = find(system.as_mut(), &state, arguments.count, &stations(case, STATIONS));
+    Ok((modes.map_err(|error| error.to_string())?, scene))
 }
 
 /// Relative error of a frequency by the mesh above which there is a warning.
@@ -122,16 +151,16 @@ fn mesh_errors(
     let Ok(finer) = reading.with_finer_mesh() else { return Vec::new() };
     let steady =
         if speed > 0.0 { vibration::without_loads_in_space(&finer.case).0 } else { finer.case.clone() };
-    let Ok(fine) = compute(arguments, &steady, speed, hub) else { return Vec::new() };
-    let safety = reading.case.bases.safety;
+    let Ok((fine, _)) = compute(arguments, &steady, speed, hub) else { return Vec::new() };
+    let safety = reading.case.hub_beam().map_or(1.0, |beam| beam.bases.safety);
     let pairs = modes.modes.iter().zip(&fine.modes);
     pairs.map(|(a, b)| safety * (a.frequency() - b.frequency()).abs()).collect()
 }
 
 /// The table of modes.
-fn described(modes: &Modes, errors: &[f64], unit: &Frequencies, speed: f64, hub: HubState) -> String {
-    let hub = if hub == HubState::Free { "free hub" } else { "hub that keeps its speed" };
-    let mut out = format!("{} modes at {}, {hub}\n\n", modes.modes.len(), unit.text(speed));
+fn described(modes: &Modes, errors: &[f64], units: &Units, about: &str) -> String {
+    let unit = &units.frequency;
+    let mut out = format!("{} modes {about}\n\n", modes.modes.len());
     let head = [
         "mode",
         if unit.name.is_empty() { "frequency" } else { unit.name },

@@ -2,8 +2,8 @@
 
 use crate::{Outcome, case, screen};
 use flexion::system::{Channel, Role};
-use flexion_case::{Errors, Run, units};
-use flexion_results::{Artifact, Directory, Events, Status, Trajectory};
+use flexion_case::{Effort, Reading, RefineError, Refinement, Run, Target, units};
+use flexion_results::{Artifact, ColumnError, Directory, Errors, Events, Rung, Status, Trajectory};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -16,9 +16,11 @@ use std::time::{Duration, Instant};
 #[command(after_help = "Examples:
   flexion run verification/p1_spin_up_4
   flexion run case.toml --vtk --output results/film
+  flexion run case.toml --tolerance 1e-4 --quantity tip.deflection.min
   flexion run case.toml --set section.modulus=\"30 GPa\" --output results/soft --force
 
-Exit codes: 0 finished, 1 case rejected, 2 stopped or failed (what was computed is kept).")]
+Exit codes: 0 finished, or stopped where --until asks for it; 1 case rejected; 2 stopped or failed (what was computed is
+kept).")]
 pub struct Arguments {
     #[command(flatten)]
     case: case::Selection,
@@ -28,15 +30,35 @@ pub struct Arguments {
     /// Write the shape of the beam for ParaView too, as `--set output.vtk=true`
     #[arg(long)]
     vtk: bool,
+    /// Draw nothing, as `--set output.plots=false`: most of the time of a short run is that of its pictures
+    #[arg(long)]
+    no_plots: bool,
     /// Stop after the step that reaches this time, e.g. "2 s"; `initial.kind = "restart"` goes on from there
     #[arg(long, value_name = "TIME", value_parser = time)]
     until: Option<f64>,
-    /// Estimate the error of every column, by runs with finer meshes and steps
-    #[arg(long)]
-    error: bool,
+    /// Estimate the error of every column by runs with finer meshes and steps: never, where they cost a few times the run,
+    /// or always
+    #[arg(long, value_name = "EFFORT", value_enum, default_value = "auto")]
+    error: ErrorEffort,
+    /// Refine mesh and steps until the estimated error is below this: a part of the largest value, "1e-4", or with a unit,
+    /// "0.1 mm"
+    #[arg(long, value_name = "ERROR")]
+    tolerance: Option<String>,
+    /// What the tolerance is for: a column, or its min, max or final value, e.g. tip.deflection.min [default: all
+    /// principal columns]
+    #[arg(long, value_name = "COLUMN", requires = "tolerance")]
+    quantity: Option<String>,
     /// Replace the results of a former run
     #[arg(long)]
     force: bool,
+}
+
+/// How much the estimate of errors may cost.
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum ErrorEffort {
+    Off,
+    Auto,
+    Full,
 }
 
 /// Positions of the progress bar.
@@ -44,8 +66,9 @@ const TICKS: f64 = 1000.0;
 
 /// Runs a case.
 pub fn run(arguments: &Arguments) -> Outcome {
-    let set: &[&str] = if arguments.vtk { &["output.vtk=true"] } else { &[] };
-    let Some(reading) = arguments.case.read_with(set) else { return Outcome::Rejected };
+    let flags = [(arguments.vtk, "output.vtk=true"), (arguments.no_plots, "output.plots=false")];
+    let set: Vec<&str> = flags.into_iter().filter_map(|(given, set)| given.then_some(set)).collect();
+    let Some(reading) = arguments.case.read_with(&set) else { return Outcome::Rejected };
     let output = arguments.output.clone().unwrap_or_else(|| Path::new("results").join(arguments.case.name()));
     // The case is checked, and the directory tried, before anything is computed.
     let prepared = match reading.prepare() {
@@ -63,12 +86,42 @@ pub fn run(arguments: &Arguments) -> Outcome {
         }
     };
     let mut progress = Progress::new(reading.case.duration);
+    let of_case = reading.case.accuracy.clone();
+    let of_case = of_case.map(|(tolerance, quantity)| (format!("{tolerance:e}"), quantity));
+    let asked = arguments.tolerance.clone().map(|tolerance| (tolerance, arguments.quantity.clone()));
+    if let Some((tolerance, quantity)) = asked.or(of_case) {
+        let target = Target::new(tolerance, quantity);
+        let refined = reading.refine(&target, &mut |state| progress.show(state.t));
+        progress.finish();
+        return match refined {
+            Ok(Refinement { reading, run, refused }) => write(&reading, &run, &directory, false, refused),
+            Err(error) => {
+                match error {
+                    RefineError::Case(problems) => screen::report(&problems.render(screen::colour())),
+                    other => screen::report(&format!("error: {other}\n")),
+                }
+                directory.discard();
+                Outcome::Rejected
+            }
+        };
+    }
     let until = arguments.until.unwrap_or(f64::INFINITY);
+    let mut reached = false;
     let mut run = prepared.run(&mut |state| {
-        if state.t >= until { ControlFlow::Break(()) } else { progress.show(state.t) }
+        reached = state.t >= until;
+        if reached { ControlFlow::Break(()) } else { progress.show(state.t) }
     });
-    if arguments.error {
-        match reading.estimate_errors(&run, &mut |state| progress.show(state.t)) {
+    if reached && run.status == Status::Stopped {
+        run.message = Some(format!("stopped at t = {:.6} s, as asked", run.state.t));
+    }
+    let effort = match arguments.error {
+        ErrorEffort::Off => None,
+        ErrorEffort::Auto => Some(Effort::Auto),
+        ErrorEffort::Full => Some(Effort::Full),
+    };
+    // What a run that was stopped holds has no end to compare.
+    if let Some(effort) = effort.filter(|_| run.status == Status::Finished) {
+        match reading.estimate_errors(&run, effort, &mut |state| progress.show(state.t)) {
             Ok(errors) => run.errors = Some(errors),
             Err(problems) => {
                 progress.finish();
@@ -79,8 +132,28 @@ pub fn run(arguments: &Arguments) -> Outcome {
         }
     }
     progress.finish();
-    match reading.write(&run, &directory) {
-        Ok(status) => finish(status, &run, &directory),
+    write(&reading, &run, &directory, reached, None)
+}
+
+/// Writes the results and says how the run went; `refused` is why a tolerance was not reached.
+fn write(
+    reading: &Reading,
+    run: &Run,
+    directory: &Directory,
+    reached: bool,
+    refused: Option<String>,
+) -> Outcome {
+    match reading.write(run, directory) {
+        Ok(status) => {
+            let outcome = finish(status, reached, reading, run, directory);
+            match refused {
+                Some(why) => {
+                    screen::report(&format!("error: {why}\n"));
+                    Outcome::Incomplete
+                }
+                None => outcome,
+            }
+        }
         Err(error) => {
             screen::report(&format!("error: {error}\n"));
             if let Some(path) = directory.salvage() {
@@ -92,30 +165,30 @@ pub fn run(arguments: &Arguments) -> Outcome {
 }
 
 /// Says how the run went and where its files are.
-fn finish(status: Status, run: &Run, directory: &Directory) -> Outcome {
+fn finish(status: Status, reached: bool, reading: &Reading, run: &Run, directory: &Directory) -> Outcome {
     let trajectory = &run.trajectory;
     let wall_time = run.wall_time;
     let end = format!("{:.6}", trajectory.times().last().copied().unwrap_or(0.0));
     let mut out = format!("{} at t = {end} s in {wall_time:.3} s of wall time\n\n", status.word());
-    out.push_str(&extremes(trajectory));
+    out.push_str(&extremes(trajectory, run.errors.as_ref()));
     out.push('\n');
     if !run.events.is_empty() {
         out.push_str(&impacts(&run.events));
     }
-    if let Some(errors) = &run.errors {
-        out.push_str(&error_table(errors, trajectory));
-        out.push('\n');
-    }
+    out.push_str(&run.errors.as_ref().map(|errors| sequence(&errors.sequence)).unwrap_or_default());
+    out.push_str(&run.errors.as_ref().map(|errors| trust(errors, trajectory)).unwrap_or_default());
     screen::print(&out);
-    let mut files = vec![("summary", Artifact::Summary), ("plot", Artifact::PlotSvg)];
+    let mut files = vec![("summary", Artifact::Summary)];
+    files.extend(reading.case.output.plots.then_some(("plot", Artifact::PlotSvg)));
     files.extend((!run.events.is_empty()).then_some(("events", Artifact::Events)));
-    files.extend(run.shapes.is_some().then_some(("shapes", Artifact::ShapeSeries)));
+    let solid = reading.case.space().is_some() && reading.case.output.vtk.is_some();
+    files.extend((run.shapes.is_some() || solid).then_some(("shapes", Artifact::ShapeSeries)));
     screen::files(directory, Ok(()), &files);
     let estimates = run.errors.iter().flat_map(|errors| &errors.warnings);
     for warning in run.warnings.iter().chain(estimates) {
         screen::report(&format!("warning: {warning}\n"));
     }
-    if status == Status::Finished {
+    if status == Status::Finished || (reached && status == Status::Stopped) {
         return Outcome::Finished;
     }
     let reason = match (&run.message, trajectory.first_not_finite()) {
@@ -142,47 +215,66 @@ fn is_printed(channel: &Channel) -> bool {
     matches!(channel.role, Role::Primary | Role::Secondary)
 }
 
-/// Smallest, largest and last value of the columns that most readers look for.
-fn extremes(trajectory: &Trajectory) -> String {
-    let head = ["", "unit", "min", "at t [s]", "max", "at t [s]", "last"];
+/// Smallest, largest and last value of the columns that most readers look for, with their errors where those are known.
+fn extremes(trajectory: &Trajectory, errors: Option<&Errors>) -> String {
+    let known = errors.is_some_and(|errors| !errors.columns.is_empty());
+    let mut head = vec!["", "unit", "min", "at t [s]", "max", "at t [s]", "last"];
+    let of = |name: &str| errors.and_then(|errors| errors.columns.iter().find(|error| error.column == name));
+    let has_model = |error: &ColumnError| error.model.is_some();
+    let model = known && errors.is_some_and(|errors| errors.columns.iter().any(has_model));
+    head.extend(model.then_some("exact coupling differs by"));
     let mut rows = vec![head.iter().map(|cell| (*cell).to_owned()).collect::<Vec<_>>()];
     for (index, channel) in trajectory.channels().iter().enumerate() {
         if !is_printed(channel) {
             continue;
         }
         let e = trajectory.extremes(index);
+        let error = of(&channel.name);
         let unit = if channel.unit.is_empty() { "1" } else { channel.unit };
-        let mut row = vec![channel.name.clone(), unit.to_owned()];
-        let value = |x: f64| format!("{x:.6e}");
-        row.extend([
-            value(e.min),
+        let value = |x: f64, error: Option<f64>| match error {
+            Some(error) => screen::with_error(x, error),
+            None => format!("{x:.6e}"),
+        };
+        let mut row = vec![
+            channel.name.clone(),
+            unit.to_owned(),
+            value(e.min, error.map(|error| error.min)),
             format!("{:.4}", e.t_min),
-            value(e.max),
+            value(e.max, error.map(|error| error.max)),
             format!("{:.4}", e.t_max),
-            value(e.last),
-        ]);
+            value(e.last, error.map(|error| error.last)),
+        ];
+        if model {
+            let differs = error.and_then(|error| error.model);
+            row.push(differs.map_or("-".to_owned(), |model| format!("{model:.0e}")));
+        }
         rows.push(row);
     }
     screen::table(&rows)
 }
 
-/// Estimated errors of the same columns.
-fn error_table(errors: &Errors, trajectory: &Trajectory) -> String {
-    let head = ["", "unit", "error of mesh and steps", "difference to the exact coupling"];
-    let mut rows = vec![head.iter().map(|cell| (*cell).to_owned()).collect::<Vec<_>>()];
-    for error in &errors.columns {
-        let channel = trajectory.channels().iter().find(|channel| channel.name == error.column);
-        let Some(channel) = channel.filter(|channel| is_printed(channel)) else { continue };
-        let model = error.model.map_or("-".to_owned(), |model| format!("{model:.1e}"));
-        let unit = if channel.unit.is_empty() { "1" } else { channel.unit };
-        rows.push(vec![
-            error.column.clone(),
-            unit.to_owned(),
-            format!("{:.1e}", error.discretization),
-            model,
-        ]);
+/// The refined runs with what they found.
+fn sequence(rungs: &[Rung]) -> String {
+    if rungs.is_empty() {
+        return String::new();
     }
-    screen::table(&rows)
+    let mut rows = vec![["refined", "quantity", "value", "error", "order"].map(str::to_owned).to_vec()];
+    for Rung { changes, quantity, value, error, order } in rungs {
+        let value = value.map_or("-".to_owned(), |value| screen::with_error(value, *error));
+        let order = order.map_or("-".to_owned(), |order| format!("{order:.1}"));
+        rows.push(vec![changes.join(" "), quantity.clone(), value, format!("{error:.1e}"), order]);
+    }
+    screen::table(&rows) + "\n"
+}
+
+/// What the estimate of errors says of the run as a whole.
+fn trust(errors: &Errors, trajectory: &Trajectory) -> String {
+    let end = trajectory.times().last().copied().unwrap_or(0.0);
+    match &errors.unknown {
+        Some(why) => format!("  errors are not known: {why}\n\n"),
+        None if errors.trusted < end => format!("  trusted until t = {:.4} s\n\n", errors.trusted),
+        None => "  ± is the error of mesh and steps, estimated by a finer run\n\n".to_owned(),
+    }
 }
 
 /// A time with its unit, or in seconds.

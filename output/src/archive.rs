@@ -3,8 +3,12 @@
 //! The library for archives completes an archive that is dropped, and prints an error of that on standard error: on a
 //! full disk, the same error again. Here what follows a failure is discarded, so that there is no second error.
 
-use std::io::{self, Seek, SeekFrom, Write};
-use zip::ZipWriter;
+use npyz::NpyFile;
+use std::io::{self, Read, Seek, SeekFrom, Write};
+use zip::{ZipArchive, ZipWriter};
+
+/// Largest array that is read [bytes].
+const LARGEST: u64 = 1 << 32;
 
 /// A writer that fails once, and discards what is written after that.
 pub(super) struct Latched<W> {
@@ -30,6 +34,42 @@ pub(super) fn finish<W: Write + Seek>(archive: ZipWriter<Latched<W>>) -> io::Res
         return Err(io::Error::other("the archive is incomplete"));
     }
     latched.flush()
+}
+
+/// Hands every array of a NumPy archive to `take`, with its name.
+///
+/// # Errors
+/// What is wrong with the file, for people.
+pub(super) fn arrays<R: Read + Seek>(
+    from: R,
+    mut take: impl FnMut(&str, NpyFile<&[u8]>) -> io::Result<()>,
+) -> Result<(), String> {
+    let mut archive = ZipArchive::new(from).map_err(|error| format!("it is no NumPy archive ({error})"))?;
+    for i in 0..archive.len() {
+        let entry = archive.by_index(i).map_err(|error| error.to_string())?;
+        let file = entry.name().map_err(|error| error.to_string())?.into_owned();
+        let Some(name) = file.strip_suffix(".npy") else {
+            return Err(format!("it holds `{file}`, which is no array"));
+        };
+        let broken = |error: &dyn std::fmt::Display| format!("its array `{name}` cannot be read ({error})");
+        if entry.size() > LARGEST {
+            return Err(broken(&"it is too large"));
+        }
+        // To its end, where its checksum is compared: an array ends before it.
+        let mut bytes = Vec::new();
+        entry.take(LARGEST).read_to_end(&mut bytes).map_err(|error| broken(&error))?;
+        let size = bytes.len() as u64;
+        let array = NpyFile::new(bytes.as_slice()).map_err(|error| broken(&error))?;
+        let width = match array.dtype() {
+            npyz::DType::Plain(plain) => plain.num_bytes().unwrap_or(1) as u64,
+            _ => 1,
+        };
+        if array.shape().iter().try_fold(width, |n: u64, k| n.checked_mul(*k)).is_none_or(|n| n > size) {
+            return Err(broken(&"it is cut short"));
+        }
+        take(name, array).map_err(|error| broken(&error))?;
+    }
+    Ok(())
 }
 
 impl<W> Latched<W> {

@@ -110,6 +110,15 @@ pub enum ResultsError {
         /// What is wrong with it.
         reason: String,
     },
+    /// There is nothing to be seen in motion.
+    #[error(
+        "{} holds no motion and no modes; give the directory of results of `flexion run`, or of `flexion modes --output`",
+        path.display()
+    )]
+    NoMotion {
+        /// Where it was looked for.
+        path: PathBuf,
+    },
     /// No column matches.
     #[error("no column of {of} is called `{pattern}`{}; there are {there}", hint(nearest))]
     NoColumn {

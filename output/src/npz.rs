@@ -24,24 +24,32 @@ pub fn write_npz(trajectory: &Trajectory, to: impl Write + Seek) -> io::Result<(
     archive::finish(archive)
 }
 
-/// Writes one array of the archive.
+/// Writes one array of the archive, of one dimension.
 pub(super) fn write_array<T: npyz::AutoSerialize, W: Write + Seek>(
     archive: &mut ZipWriter<W>,
     name: &str,
     len: usize,
     values: impl Iterator<Item = T>,
 ) -> io::Result<()> {
+    write_shaped(archive, name, &[len as u64], values)
+}
+
+/// Writes one array of several dimensions, the last of which runs fastest.
+pub(super) fn write_shaped<T: npyz::AutoSerialize, W: Write + Seek>(
+    archive: &mut ZipWriter<W>,
+    name: &str,
+    shape: &[u64],
+    values: impl Iterator<Item = T>,
+) -> io::Result<()> {
     // The header of an array takes 128 bytes; beyond 4 GiB an entry needs the 64-bit format.
-    let bytes = (len as u64).saturating_mul(size_of::<T>() as u64).saturating_add(128);
+    let bytes = shape.iter().fold(size_of::<T>() as u64, |n, k| n.saturating_mul(*k)).saturating_add(128);
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Stored)
         .last_modified_time(DateTime::default())
         .unix_permissions(0o644)
         .large_file(bytes >= u64::from(u32::MAX));
     archive.start_file(format!("{name}.npy"), options)?;
-    let shape = [len as u64];
-    let mut array =
-        npyz::WriteOptions::<T>::new().default_dtype().shape(&shape).writer(archive).begin_nd()?;
+    let mut array = npyz::WriteOptions::<T>::new().default_dtype().shape(shape).writer(archive).begin_nd()?;
     array.extend(values)?;
     array.finish()
 }

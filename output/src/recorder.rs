@@ -2,7 +2,7 @@
 
 use super::passing::Passing;
 use super::summary::relative_imbalance;
-use super::{Events, Shapes, Trajectory};
+use super::{Events, Scene, Shapes, Trajectory};
 use flexion::analysis::Violation;
 use flexion::analysis::transient::{Event, Observer, Plan, Step};
 use flexion::system::{Channel, Direction, Role, State, System};
@@ -21,6 +21,7 @@ pub type Watch<'a> = dyn FnMut(&State) -> ControlFlow<()> + 'a;
 pub struct Recorder<'a> {
     trajectory: Trajectory,
     shapes: Option<Shapes>,
+    scene: Scene,
     events: Events,
     /// Of systems with rows of constraints.
     violation: Option<Violation>,
@@ -93,6 +94,7 @@ impl<'a> Recorder<'a> {
         Recorder {
             trajectory,
             shapes: None,
+            scene: Scene::default(),
             events,
             violation,
             modes,
@@ -105,9 +107,9 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// The recorder, taking shapes too.
-    pub fn with_shapes(self, shapes: Option<Shapes>) -> Recorder<'a> {
-        Recorder { shapes, ..self }
+    /// The recorder, taking shapes and the motion in space too.
+    pub fn with_shapes(self, shapes: Option<Shapes>, scene: Scene) -> Recorder<'a> {
+        Recorder { shapes, scene, ..self }
     }
 
     /// What the reader should know of the steps: the run has gained energy that nothing has put in, its energy balance does
@@ -138,8 +140,8 @@ impl<'a> Recorder<'a> {
     }
 
     /// What was recorded.
-    pub fn into_parts(self) -> (Trajectory, Option<Shapes>, Events) {
-        (self.trajectory, self.shapes, self.events)
+    pub fn into_parts(self) -> (Trajectory, Option<Shapes>, Scene, Events) {
+        (self.trajectory, self.shapes, self.scene, self.events)
     }
 }
 
@@ -183,6 +185,7 @@ impl Observer for Recorder<'_> {
         if let Some(shapes) = &mut self.shapes {
             shapes.sample(system, state);
         }
+        self.scene.sample(system, state);
     }
 
     fn event(&mut self, event: &Event) {

@@ -37,11 +37,8 @@ impl Shapes {
     /// No shape yet: of a beam of the given length and height \[m\], at equal intervals and at the given
     /// stations \[m\], to be taken at every `every`-th recorded time (0 counts as 1).
     pub fn new(length: f64, stations: &[f64], height: f64, every: usize) -> Shapes {
-        let equal = (0..=INTERVALS).map(|i| length * i as f64 / INTERVALS as f64);
-        let mut all: Vec<f64> = equal.chain(stations.iter().copied()).collect();
-        all.sort_by(f64::total_cmp);
-        all.dedup_by(|a, b| (*a - *b).abs() <= 1e-9 * length);
-        Shapes { stations: all, height, every: every.max(1), ..Shapes::default() }
+        let stations = self::stations(length, INTERVALS, stations);
+        Shapes { stations, height, every: every.max(1), ..Shapes::default() }
     }
 
     /// The same with obstacles.
@@ -71,8 +68,12 @@ impl Shapes {
         system.frames(0, state, &self.stations, &mut self.frames[start..]);
         if !self.obstacles.is_empty() {
             let size = 0.5 * self.stations.last().copied().unwrap_or(0.0);
-            let outline = |drawn: &Drawn| drawn.outline(system, state, size);
-            self.outlines.push(self.obstacles.iter().map(outline).collect());
+            let mut outline = |drawn: &Drawn| {
+                let mut frames = [Frame::default(); 2];
+                system.frames(0, state, &[0.0, drawn.station], &mut frames);
+                drawn.outline([&frames[0], &frames[1]], state.t, size)
+            };
+            self.outlines.push(self.obstacles.iter().map(&mut outline).collect());
         }
     }
 
@@ -91,4 +92,13 @@ impl Shapes {
     pub fn times(&self) -> &[f64] {
         &self.times
     }
+}
+
+/// Equal intervals along a beam of this length \[m\], and further stations \[m\], ascending, each once.
+pub(super) fn stations(length: f64, intervals: usize, also: &[f64]) -> Vec<f64> {
+    let equal = (0..=intervals).map(|i| length * i as f64 / intervals as f64);
+    let mut all: Vec<f64> = equal.chain(also.iter().copied()).collect();
+    all.sort_by(f64::total_cmp);
+    all.dedup_by(|a, b| (*a - *b).abs() <= 1e-9 * length);
+    all
 }

@@ -2,17 +2,12 @@
 
 use std::io::{self, Read, Seek, Write};
 
-use zip::ZipArchive;
-
 use super::archive;
 use super::npz::write_array;
 use flexion::integrator::Checkpoint;
 
 /// Name of the text that says which model the state belongs to, and which integrator.
 const MODEL: &str = "model";
-
-/// Largest list that is read [bytes].
-const LARGEST: u64 = 1 << 32;
 
 /// Writes a checkpoint as a NumPy archive: one array of f64 for each list, and one of bytes, `model`, with the `text`
 /// that says what it belongs to. The same checkpoint gives the same bytes.
@@ -33,34 +28,16 @@ pub fn write_state(checkpoint: &Checkpoint, text: &str, to: impl Write + Seek) -
 /// # Errors
 /// What is wrong with the file, for people.
 pub fn read_state(from: impl Read + Seek) -> Result<(Checkpoint, String), String> {
-    let mut archive = ZipArchive::new(from).map_err(|error| format!("it is no NumPy archive ({error})"))?;
     let (mut checkpoint, mut text) = (Checkpoint::default(), None);
-    for i in 0..archive.len() {
-        let entry = archive.by_index(i).map_err(|error| error.to_string())?;
-        let file = entry.name().map_err(|error| error.to_string())?.into_owned();
-        let Some(name) = file.strip_suffix(".npy") else {
-            return Err(format!("it holds `{file}`, which is no array"));
-        };
-        let broken = |error: &dyn std::fmt::Display| format!("its array `{name}` cannot be read ({error})");
-        if entry.size() > LARGEST {
-            return Err(broken(&"it is too large"));
-        }
-        // To its end, where its checksum is compared: an array ends before it.
-        let mut bytes = Vec::new();
-        entry.take(LARGEST).read_to_end(&mut bytes).map_err(|error| broken(&error))?;
-        let size = bytes.len() as u64;
-        let array = npyz::NpyFile::new(bytes.as_slice()).map_err(|error| broken(&error))?;
-        let width = if name == MODEL { 1 } else { 8 };
-        if array.shape().iter().try_fold(width, |n: u64, k| n.checked_mul(*k)).is_none_or(|n| n > size) {
-            return Err(broken(&"it is cut short"));
-        }
+    archive::arrays(from, |name, array| {
         if name == MODEL {
-            let bytes = array.into_vec::<u8>().map_err(|error| broken(&error))?;
-            text = Some(String::from_utf8(bytes).map_err(|error| broken(&error))?);
+            let bytes = array.into_vec::<u8>()?;
+            text = Some(String::from_utf8(bytes).map_err(io::Error::other)?);
         } else {
-            checkpoint.put(name, &array.into_vec::<f64>().map_err(|error| broken(&error))?);
+            checkpoint.put(name, &array.into_vec::<f64>()?);
         }
-    }
+        Ok(())
+    })?;
     let text = text.ok_or("it does not say which model it belongs to")?;
     Ok((checkpoint, text))
 }

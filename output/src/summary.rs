@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::{Events, Trajectory};
+use super::{Errors, Events, Trajectory};
 use flexion::integrator::{Counters, Info};
 use flexion::system::Role;
 
@@ -71,8 +71,8 @@ pub struct RunReport<'a> {
     pub warnings: &'a [String],
     /// The integrator.
     pub integrator: Integration<'a>,
-    /// Estimated errors: name of a column, error of the discretization and of the model.
-    pub errors: &'a [(String, f64, Option<f64>)],
+    /// Estimated errors; `None` where nobody asked for them.
+    pub errors: Option<&'a Errors>,
     /// Events at contacts; `None` for a system without contacts.
     pub events: Option<&'a Events>,
     /// Work done.
@@ -122,6 +122,9 @@ impl Summary {
         s.insert("duration", report.duration);
         s.insert("end_time", report.end_time);
         s.insert("columns", columns(trajectory, report.errors));
+        if let Some(errors) = report.errors {
+            s.insert("trust", errors.trust());
+        }
         if let Some(energy) = imbalance(trajectory) {
             s.insert("energy", energy);
         }
@@ -202,14 +205,14 @@ fn imbalance(trajectory: &Trajectory) -> Option<Value> {
     }))
 }
 
-fn columns(trajectory: &Trajectory, errors: &[(String, f64, Option<f64>)]) -> Map<String, Value> {
+fn columns(trajectory: &Trajectory, errors: Option<&Errors>) -> Map<String, Value> {
     let entry = |(i, c): (usize, &flexion::system::Channel)| {
         let e = trajectory.extremes(i);
         let mut value = json!({
             "min": e.min, "t_min": e.t_min, "max": e.max, "t_max": e.t_max, "final": e.last, "unit": c.unit,
         });
-        if let Some((_, discretization, model)) = errors.iter().find(|(name, ..)| *name == c.name) {
-            value["error"] = json!({ "discretization": discretization, "model": model });
+        if let Some(error) = errors.and_then(|errors| errors.of(&c.name)) {
+            value["error"] = error;
         }
         (c.name.clone(), value)
     };
@@ -234,7 +237,7 @@ pub(super) mod tests {
             end_time: 4.0,
             warnings: &[],
             integrator: Integration { info: &RADAU, settings },
-            errors: &[],
+            errors: None,
             events: None,
             counters: Counters { steps: 400, ..Counters::default() },
             size: ProblemSize { unknowns: 33, half_bandwidth: 5, border: 1 },

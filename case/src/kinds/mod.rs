@@ -2,14 +2,19 @@
 
 pub mod amplitude;
 pub mod basis;
+pub mod beam;
 pub mod blade;
+pub mod body;
 pub mod contact;
 pub mod coupling;
 pub mod initial;
 pub mod integrator;
+pub mod joint;
 pub mod load;
 pub mod motion;
+pub mod obstacle;
 mod profile;
 pub mod section;
 mod shape;
+pub mod spatial;
 pub mod torque;

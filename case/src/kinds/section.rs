@@ -31,6 +31,8 @@ pub struct Section {
     pub planar: Arc<dyn section::Section>,
     /// Height in the plane of motion \[m\], at the root if it tapers; `None` when only resultants are known.
     pub height: Option<f64>,
+    /// Shape, at the root if it tapers; `None` when only resultants are known.
+    pub shape: Option<Shape>,
     /// Whether it is known out of the plane, too.
     pub is_blade: bool,
     spatial: Spatial,
@@ -48,7 +50,7 @@ impl Section {
         let planar: Arc<dyn section::Section> = Arc::new(section);
         let blade = Arc::clone(&planar);
         let spatial: Spatial = Arc::new(move |_| Ok(Box::new(PlanarBlade(Box::new(Arc::clone(&blade))))));
-        Section { planar, height: None, is_blade: false, spatial }
+        Section { planar, height: None, shape: None, is_blade: false, spatial }
     }
 
     /// The section of a blade, of a material with this Poisson's ratio.
@@ -79,6 +81,7 @@ fn homogeneous(v: &Values, c: &Context<'_>, shape: Read) -> Made<Section> {
     let planar = Uniform::from_material(modulus, density, shape).at("")?.with_inertia(kept(v)?);
     Ok(Section {
         height: height(shape),
+        shape: Some(shape),
         spatial: blade_of_shapes(v, c, shape, shape)?,
         ..Section::planar(planar)
     })
@@ -90,6 +93,7 @@ fn tapered(v: &Values, c: &Context<'_>, shape: Read) -> Made<Section> {
     let planar = Tapered::new(v.number("modulus")?, v.number("density")?, c.length()?, root, tip).at("")?;
     Ok(Section {
         height: height(root),
+        shape: Some(root),
         spatial: blade_of_shapes(v, c, root, tip)?,
         ..Section::planar(planar.with_inertia(kept(v)?))
     })
@@ -287,6 +291,47 @@ pub static SECTION: Choice<Section> = Choice {
             make: resultants,
         },
         Kind {
+            name: "general",
+            summary: "mass and stiffnesses per length for bending in two planes and torsion",
+            source: "",
+            keys: &[
+                key("mass-per-length", Quantity(&MASS_PER_LENGTH, Positive), Required, "mass per length ρA"),
+                key("axial-stiffness", Quantity(&AXIAL_STIFFNESS, Positive), Required, "axial stiffness EA"),
+                key(
+                    "torsional-stiffness",
+                    Quantity(&BENDING_STIFFNESS, Positive),
+                    Required,
+                    "torsional stiffness GJ",
+                ),
+                key(
+                    "bending-stiffness",
+                    Quantity(&BENDING_STIFFNESS, Positive),
+                    Required,
+                    "bending stiffness EI in the direction of the height",
+                ),
+                key(
+                    "bending-stiffness-across",
+                    Quantity(&BENDING_STIFFNESS, Positive),
+                    Required,
+                    "bending stiffness EI in the direction across",
+                ),
+                key(
+                    "rotary-inertia",
+                    Quantity(&ROTARY_INERTIA, NotNegative),
+                    Default::Number(0.0),
+                    "rotary inertia per length in bending in the direction of the height",
+                ),
+                key(
+                    "rotary-inertia-across",
+                    Quantity(&ROTARY_INERTIA, NotNegative),
+                    Default::Number(0.0),
+                    "rotary inertia per length in bending in the direction across",
+                ),
+            ],
+            example: r#"section={kind="general", mass-per-length="1.2 kg/m", axial-stiffness="28 MN", torsional-stiffness="700 N m²", bending-stiffness="930 N m²", bending-stiffness-across="800 N m²", rotary-inertia=1e-4}"#,
+            make: general_section,
+        },
+        Kind {
             name: "graded",
             summary: "a rectangle graded over its height by a power law, from metal (bottom) to ceramic (top)",
             source: "Reddy 2000, doi:10.1002/(SICI)1097-0207(20000110/30)47:1/3<663::AID-NME787>3.0.CO;2-8",
@@ -435,6 +480,24 @@ fn resultants(v: &Values, _: &Context<'_>) -> Made<Section> {
         ..Resultants::default()
     });
     Ok(Section::planar(section.at("")?))
+}
+
+fn general_section(v: &Values, c: &Context<'_>) -> Made<Section> {
+    let resultants = section::BladeResultants {
+        mass: v.number("mass-per-length")?,
+        axial_stiffness: v.number("axial-stiffness")?,
+        torsional_stiffness: v.number("torsional-stiffness")?,
+        chord_stiffness: v.number("bending-stiffness")?,
+        flap_stiffness: v.number("bending-stiffness-across")?,
+        chord_inertia: v.number("rotary-inertia")?,
+        flap_inertia: v.number("rotary-inertia-across")?,
+        twist: 0.0,
+        twist_rate: 0.0,
+    };
+    let length = c.length()?;
+    let table = section::BladeTable::new(length, &[(0.0, resultants), (length, resultants)]).at("")?;
+    let spatial = Arc::new(move |_| Ok(Box::new(resultants) as Box<dyn BladeSection>));
+    Ok(Section { spatial, ..Section::planar(section::Guided(table)) })
 }
 
 fn graded(v: &Values, _: &Context<'_>) -> Made<Section> {

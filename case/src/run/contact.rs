@@ -15,10 +15,10 @@ const CHANGE: f64 = 0.2;
 impl Reading {
     /// Whether no contact begins inside its obstacle, or closes at the start.
     pub(super) fn check_contacts(&self, system: &mut dyn System, state: &State) -> Result<(), Problems> {
-        let tolerance = TOUCHING * self.case.length;
+        let tolerance = TOUCHING * self.case.size();
         // An equilibrium may rest on elastic contacts.
         let at_rest = !matches!(self.case.initial, Initial::Undeformed);
-        for (touch, key) in system.contacts(state).iter().zip(self.keys_of_contacts()) {
+        for (touch, key) in system.contacts(state).iter().zip(self.case.contact_keys()) {
             let Touch { name, row, gap, rate, .. } = touch;
             if at_rest && row.is_none() {
                 continue;
@@ -41,16 +41,10 @@ impl Reading {
         Ok(())
     }
 
-    /// The key of the table of each contact.
-    fn keys_of_contacts(&self) -> impl Iterator<Item = String> {
-        let tables = self.case.contacts.iter().enumerate();
-        tables.flat_map(|(k, table)| table.stations.iter().map(move |_| format!("contact[{}]", k + 1)))
-    }
-
     /// A warning where twice the functions have another effective mass at a contact with restitution.
     pub(super) fn effective_masses(&self, system: &mut dyn System, state: &State) -> Vec<String> {
         let rigid = |contact: &Contact| !contact.massless && matches!(contact.law, Law::Constraint { .. });
-        if !self.case.contacts.iter().any(rigid) {
+        if !self.case.hub_beam().is_some_and(|beam| beam.contacts.iter().any(rigid)) {
             return Vec::new();
         }
         let masses = |system: &mut dyn System, state: &State| -> Option<Vec<(String, f64)>> {
@@ -59,9 +53,7 @@ impl Reading {
             Some(contacts.into_iter().filter_map(|touch| Some((touch.name, masses[touch.row?]))).collect())
         };
         let doubled = || {
-            let finer: Vec<String> =
-                self.case.bases.finer.iter().map(|(key, value)| format!("basis.{key}={value}")).collect();
-            let mut system = self.with(&finer).ok()?.case.system().ok()?;
+            let mut system = self.with(&self.case.finer()).ok()?.case.system().ok()?;
             let state = State { t: state.t, ..system.initial() };
             masses(system.as_mut(), &state)
         };

@@ -2,15 +2,18 @@
 //!
 //! ```text
 //! discretization = S max_t |y(t) − y_f(t)| + 10⁻¹² max_t |y_f(t)|
-//! model          = max_t |y_f(t) − y_x(t)| + max_t |y_x(t) − y_c(t)|
+//! model          = 1.1 max_t |y_f(t) − y_x(t)|
 //! ```
 //!
 //! y is a column of the run; y_f the same of a companion with twice the elements (functions, nodes) and a more
-//! accurate integration; y_x of one that has the exact coupling as well, y_c of a third with half the elements of it
-//! and a less accurate integration: y_x − y_c covers the error of y_x, which need not be less than that of y_f. With
+//! accurate integration; y_x of one with the exact coupling, the elements of the run and its tolerance. With
 //! errors of the mesh that fall like hᵖ the difference y − y_f is (1 − 2⁻ᵖ) of the error of y: S = 2 covers every order
-//! p ≥ 1, with half as much again in reserve for p ≥ 2. Vibration modes converge more slowly than that when the beam
+//! p ≥ 1, with half as much again in reserve for p ≥ 2. The factor 1.1 is for what y_x is off itself. Vibration modes converge more slowly than that when the beam
 //! rotates fast: S = 4.
+//!
+//! The errors of the smallest, largest and last value are S times the differences of these values, or of the columns
+//! where the run has them if those are larger: a difference that passes through zero is no small error. The last value
+//! counts a part of what its neighbours differ by, for the same reason.
 //!
 //! Half the step would not serve where vibrations are hardly resolved, for errors do not fall like hᵖ there. So `radau`
 //! runs all companions: those of its own runs with a tenth of their tolerance, which makes the error 18 times smaller
@@ -18,16 +21,20 @@
 //! the tolerances 10⁻⁵, 10⁻⁷ and 10⁻⁹ in turn, until two of them differ by half of what the run differs from the
 //! second: a coarse step needs no fine companion, which would follow every wave that the mesh can carry.
 //!
+//! Work is counted in steps times unknowns, not in seconds, so that the same case gives the same files everywhere.
+//!
 //! An estimate, not a bound: a mesh or a step so coarse that the run and its companion miss the same thing shows
 //! nothing.
 
 use super::Run;
-use super::errors::{ColumnError, Errors};
+use super::difference::Pair;
 use crate::kinds::initial::Initial;
 use crate::kinds::integrator::Steps;
 use crate::problem::Problems;
 use crate::reading::Reading;
-use flexion_results::{Status, Trajectory, Watch};
+use flexion::system::{Role, State};
+use flexion_results::{ColumnError, Errors, Status, Watch};
+use std::ops::ControlFlow;
 
 /// Tolerances of the companions of fixed steps, one after the other.
 const LADDER: [f64; 3] = [1e-5, 1e-7, 1e-9];
@@ -35,31 +42,95 @@ const LADDER: [f64; 3] = [1e-5, 1e-7, 1e-9];
 /// error is a thirtieth of the difference or less (100^(3/4), see above).
 const SETTLED: f64 = 0.5;
 /// Tolerance of a companion over that of a run of `radau`.
-const FINER: f64 = 0.1;
-/// Smallest and largest tolerance that is asked of `radau`.
-const TIGHTEST: f64 = 1e-13;
-const LOOSEST: f64 = 0.01;
+pub(super) const FINER: f64 = 0.1;
+/// Smallest tolerance that is asked of `radau`.
+pub(super) const TIGHTEST: f64 = 1e-13;
+/// Largest error of a mesh of elements over its difference from one of twice as many.
+const SAFETY: f64 = 2.0;
 /// Elements of the companion with the exact coupling where the run has no elements.
 const ELEMENTS: usize = 24;
 /// The column whose exact value is known: 0, which a method that conserves energy meets better than its companions.
 const BALANCE: &str = "energy.balance";
+/// Factor on the difference to the exact coupling, for the error of its own run.
+const OWN_ERROR: f64 = 1.1;
+/// Steps times unknowns of a run beyond which its companions are not run unasked: about a second of computing.
+const COSTLY: f64 = 3e6;
+/// Work of all companions beyond which they are given up unasked: over that of the run, and what is always allowed.
+const ALLOWANCE: (f64, f64) = (20.0, 2e6);
 /// Part of a column that rounding may have taken.
 const ROUNDING: f64 = 1e-12;
 
+/// How much an estimate of errors may cost.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Effort {
+    /// A few times the run, decided by counted work; no estimate where it would cost more or cannot be made.
+    Auto,
+    /// Whatever it takes.
+    Full,
+}
+
+/// Counts the work of companions, and gives them up when it exceeds what is allowed.
+struct Allowance<'a, 'b> {
+    watch: &'a mut Watch<'b>,
+    left: f64,
+}
+
+impl Allowance<'_, '_> {
+    fn watch(&mut self, state: &State) -> ControlFlow<()> {
+        self.left -= state.v.len() as f64;
+        if self.left < 0.0 { ControlFlow::Break(()) } else { (self.watch)(state) }
+    }
+}
+
 impl Reading {
-    /// Runs the companions of a run of this case, and compares. `watch` is shown their progress.
+    /// Runs the companions of a run of this case, and compares. `watch` is shown their progress. With [`Effort::Auto`]
+    /// a run whose companions would be costly, or cannot be run, has no estimate, and [`Errors::unknown`] says why.
     ///
     /// # Errors
     /// [`Problems`] when the case cannot be refined: it goes on from the state of an earlier run.
-    pub fn estimate_errors(&self, run: &Run, watch: &mut Watch<'_>) -> Result<Errors, Problems> {
+    pub fn estimate_errors(
+        &self,
+        run: &Run,
+        effort: Effort,
+        watch: &mut Watch<'_>,
+    ) -> Result<Errors, Problems> {
+        let work = run.counters.steps as f64 * run.size.unknowns as f64;
+        if effort == Effort::Auto && work > COSTLY {
+            return Ok(Errors::none(format!(
+                "the run took {:.1e} steps times unknowns, and its companions several times as many: `--error full` runs them",
+                work
+            )));
+        }
         if let Initial::Restart(_) = self.case.initial {
             let message = "the error of a run that goes on from a stored state cannot be estimated: the state belongs to \
                            its mesh; estimate it for the whole run";
-            return Err(self.problem("initial", message));
+            return match effort {
+                Effort::Auto => Ok(Errors::none(message.to_owned())),
+                Effort::Full => Err(self.problem("initial", message)),
+            };
         }
+        let allowed = match effort {
+            Effort::Auto => (ALLOWANCE.0 * work).max(ALLOWANCE.1),
+            Effort::Full => f64::INFINITY,
+        };
+        let mut allowance = Allowance { watch, left: allowed };
+        let errors = self.compare(run, &mut |state| allowance.watch(state));
+        let given_up = allowance.left < 0.0;
+        errors.map(|mut errors| {
+            if given_up {
+                let message =
+                    "a companion was given up for the work it takes: `--error full` runs it to its end";
+                errors.warnings.insert(0, message.to_owned());
+            }
+            errors
+        })
+    }
+
+    fn compare(&self, run: &Run, watch: &mut Watch<'_>) -> Result<Errors, Problems> {
         let mut warnings = Vec::new();
         let (finer, fine) = self.finer_run(run, watch)?;
-        let exact = match (!self.case.coupling.whole_curve).then(|| finer.with_exact_coupling(watch)) {
+        let foreshortened = self.case.hub_beam().is_some_and(|beam| !beam.coupling.whole_curve);
+        let exact = match foreshortened.then(|| finer.with_exact_coupling(self, watch)) {
             Some(Ok(exact)) => Some(exact),
             Some(Err(problems)) => {
                 let why = problems.list.first().map_or("", |problem| problem.message.as_str());
@@ -70,8 +141,8 @@ impl Reading {
             }
             None => None,
         };
-        let runs = exact.as_ref().map(|(exact, coarse)| [("exact", exact), ("coarser exact", coarse)]);
-        for (what, companion) in std::iter::once(("finer", &fine)).chain(runs.into_iter().flatten()) {
+        let exact_run = exact.as_ref().map(|exact| ("exact", exact));
+        for (what, companion) in std::iter::once(("finer", &fine)).chain(exact_run) {
             if companion.status != Status::Finished {
                 let why = companion.message.as_deref().unwrap_or("it was stopped");
                 warnings.push(format!(
@@ -80,23 +151,29 @@ impl Reading {
             }
         }
         warnings.extend(self.trust(run, watch)?);
-        let safety = self.case.bases.safety;
-        let mut columns = Vec::new();
+        let safety = self.case.hub_beam().map_or(SAFETY, |beam| beam.bases.safety);
+        let (mut columns, mut trusted) = (Vec::new(), fine.state.t.min(run.state.t));
         for name in self::columns(run) {
-            let apart = |a: &Trajectory, b: &Trajectory| largest_difference(a, b, name);
-            let Some((difference, size)) = apart(&run.trajectory, &fine.trajectory) else { continue };
-            let model = exact.as_ref().and_then(|(exact, coarse)| {
-                let (difference, _) = apart(&fine.trajectory, &exact.trajectory)?;
-                let (own, _) = apart(&exact.trajectory, &coarse.trajectory)?;
-                Some(difference + own)
+            let Some(pair) = Pair::new(&run.trajectory, &fine.trajectory, name) else { continue };
+            let model = exact.as_ref().and_then(|exact| {
+                Pair::new(&fine.trajectory, &exact.trajectory, name).map(|pair| OWN_ERROR * pair.largest())
             });
+            let rounding = ROUNDING * pair.size();
+            let error = |difference: f64| safety * difference + rounding;
+            let [min, max, last] = pair.of_values().map(error);
+            if pair.ours.channels()[pair.index].role == Role::Primary {
+                trusted = trusted.min(pair.trusted(safety));
+            }
             columns.push(ColumnError {
                 column: name.to_owned(),
-                discretization: safety * difference + ROUNDING * size,
+                min,
+                max,
+                last,
+                discretization: error(pair.largest()),
                 model,
             });
         }
-        Ok(Errors { columns, warnings })
+        Ok(Errors { columns, warnings, trusted, ..Errors::default() })
     }
 
     /// The refined case and its run: for fixed steps the first of the ladder whose own error does not count beside that
@@ -123,19 +200,17 @@ impl Reading {
         Ok(last)
     }
 
-    /// Runs this refined case with the exact coupling: with its own elements, or elements of their own in place of
-    /// another basis, and with half as many and less accurate steps.
-    fn with_exact_coupling(&self, watch: &mut Watch<'_>) -> Result<(Run, Run), Problems> {
-        let elements = self.case.bases.elements.map_or(ELEMENTS, |(elements, _)| elements);
-        let mut run = |elements: usize, factor: f64| {
-            let mut changes = vec![
-                "model.coupling=exact".to_owned(),
-                format!("basis={{kind='finite-elements',elements={elements}}}"),
-            ];
-            changes.extend(self.tolerances(factor, 0.0, LOOSEST));
-            Ok(self.with(&changes)?.prepare()?.run(watch))
-        };
-        Ok((run(elements, 1.0)?, run(elements / 2, 1.0 / FINER)?))
+    /// Runs this refined case with the exact coupling: with the elements of the `coarse` case, or elements of their own
+    /// in place of another basis, and its tolerance.
+    fn with_exact_coupling(&self, coarse: &Reading, watch: &mut Watch<'_>) -> Result<Run, Problems> {
+        let elements = coarse.case.hub_beam().and_then(|beam| beam.bases.elements);
+        let elements = elements.map_or(ELEMENTS, |(elements, _)| elements);
+        let mut changes = vec![
+            "model.coupling=exact".to_owned(),
+            format!("basis={{kind='finite-elements',elements={elements}}}"),
+        ];
+        changes.extend(coarse.tolerances(1.0, 0.0, f64::INFINITY));
+        Ok(self.with(&changes)?.prepare()?.run(watch))
     }
 
     /// The case with twice the functions: of the blade, or else of the bases.
@@ -143,8 +218,11 @@ impl Reading {
     /// # Errors
     /// [`Problems`] when there are too many.
     pub fn with_finer_mesh(&self) -> Result<Reading, Problems> {
-        let finer = self.case.bases.finer.iter().map(|(key, value)| format!("basis.{key}={value}"));
-        let changes = match &self.case.blade {
+        let Some(beam) = self.case.hub_beam() else {
+            return Err(self.problem("", "only the mesh of a beam on a hub is refined as a whole"));
+        };
+        let finer = beam.bases.finer.iter().map(|(key, value)| format!("basis.{key}={value}"));
+        let changes = match &beam.blade {
             Some(blade) => vec![format!("blade.elements={}", 2 * blade.elements())],
             None => finer.collect(),
         };
@@ -153,9 +231,7 @@ impl Reading {
 
     /// The case with twice the functions and a far more accurate integration.
     fn refined(&self) -> Result<Reading, Problems> {
-        let finer = &self.case.bases.finer;
-        let mut changes: Vec<String> =
-            finer.iter().map(|(key, value)| format!("basis.{key}={value}")).collect();
+        let mut changes = self.case.finer();
         match self.case.steps {
             Steps::Controlled { .. } => changes.extend(self.tolerances(FINER, TIGHTEST, f64::INFINITY)),
             Steps::Fixed(_) => changes.push(radau(LADDER[0])),
@@ -182,52 +258,16 @@ fn radau(tolerance: f64) -> String {
 }
 
 /// Whether the errors of all columns of `run` are known from `finer`, which a `coarser` companion confirms.
-fn settled(run: &Run, coarser: &Run, finer: &Run) -> bool {
+fn settled<'a>(run: &'a Run, coarser: &'a Run, finer: &'a Run) -> bool {
     finer.status == Status::Finished
         && columns(run).filter(|name| *name != BALANCE).all(|name| {
-            let apart = |run: &Run| largest_difference(&run.trajectory, &finer.trajectory, name);
-            let (Some((error, size)), Some((own, _))) = (apart(run), apart(coarser)) else { return true };
-            own <= SETTLED * error + ROUNDING * size
+            let pair = |run: &'a Run| Pair::new(&run.trajectory, &finer.trajectory, name);
+            let (Some(ours), Some(theirs)) = (pair(run), pair(coarser)) else { return true };
+            theirs.largest() <= SETTLED * ours.largest() + ROUNDING * ours.size()
         })
 }
 
 /// The columns whose errors are estimated: all but those about the integrator.
 fn columns(run: &Run) -> impl Iterator<Item = &str> {
-    run.trajectory.channels().iter().map(|c| c.name.as_str()).filter(|name| !name.starts_with("step."))
-}
-
-/// Largest difference of a column over the common rows, and the largest value of the second.
-fn largest_difference(a: &Trajectory, b: &Trajectory, column: &str) -> Option<(f64, f64)> {
-    let pairs = a.values(a.index(column)?).zip(b.values(b.index(column)?));
-    let mut largest = (0.0_f64, 0.0_f64);
-    for (x, y) in pairs {
-        // NaN is not hidden, neither here nor by a later row.
-        let difference = (x - y).abs();
-        if !(difference <= largest.0 || largest.0.is_nan()) {
-            largest.0 = difference;
-        }
-        largest.1 = largest.1.max(y.abs());
-    }
-    Some(largest)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use flexion::system::Channel;
-
-    fn column(values: [f64; 3]) -> Trajectory {
-        let mut out = Trajectory::new(vec![Channel { name: "y".into(), unit: "m", ..Channel::default() }]);
-        for (i, value) in values.into_iter().enumerate() {
-            out.push(i as f64, |row| row[0] = value);
-        }
-        out
-    }
-
-    #[test]
-    fn a_difference_that_is_no_number_is_reported_whatever_follows_it() {
-        let (a, b) = (column([0.0, f64::NAN, 3.0]), column([0.0, 1.0, 2.0]));
-        assert!(largest_difference(&a, &b, "y").unwrap().0.is_nan());
-        assert_eq!(largest_difference(&b, &column([0.0, 0.5, 2.25]), "y"), Some((0.5, 2.25)));
-    }
+    run.trajectory.channels().iter().filter(|c| c.role != Role::Integration).map(|c| c.name.as_str())
 }

@@ -3,39 +3,35 @@
 mod cautions;
 mod clock;
 mod contact;
+mod difference;
 pub mod error;
-pub mod errors;
+pub mod refine;
 mod restart;
+mod scene;
 mod trust;
 
 use super::case::Output;
-use super::kinds::contact::Contact;
 use super::kinds::initial::Initial;
 use super::kinds::integrator::Steps;
 use super::problem::Problems;
 use super::reading::{Live, Reading};
 use super::resolved;
 use clock::Clock;
-use errors::Errors;
-use flexion::analysis::equilibrium::equilibrium;
+use flexion::analysis::equilibrium::stable_equilibrium;
 use flexion::analysis::superposition::superpose;
 use flexion::analysis::transient::{Ending, Plan, resume, transient_to_checkpoint};
-use flexion::hub_beam::{Drive, Mount};
+use flexion::hub_beam::Drive;
 use flexion::integrator::{Checkpoint, Counters, Info};
 use flexion::system::{State, System};
-use flexion_results::plot::{contact_figure, trajectory_figure};
+use flexion_results::plot::{contact_figure, spatial_figure, trajectory_figure};
 use flexion_results::{
-    Artifact, Attachments, Directory, Drawn, Events, Integration, OutputError, ProblemSize, Recorder,
-    RunReport, Shapes, Status, Trajectory, Watch, write_run,
+    Artifact, Attachments, Directory, Errors, Events, Integration, OutputError, ProblemSize, Recorder,
+    RunReport, Scene, Shapes, Status, Trajectory, Watch, write_run,
 };
-use std::sync::Arc;
 
 /// Most memory for records [bytes], and columns that every run may have.
 const MOST_BYTES: f64 = 4e9;
 const COMMON: usize = 12;
-
-/// Length over height of a beam drawn without knowing its height.
-const SLENDERNESS: f64 = 50.0;
 
 /// A case with all that its run needs, checked: what remains can only fail in time.
 pub struct Prepared {
@@ -46,6 +42,7 @@ pub struct Prepared {
     modal_shares: bool,
     tables: Vec<(Artifact, Vec<u8>)>,
     shapes: Option<Shapes>,
+    scene: Scene,
     /// The history of the earlier run that this one goes on with.
     history: Option<Checkpoint>,
     /// What its reader should know about the model before it runs.
@@ -63,6 +60,8 @@ pub struct Run {
     pub trajectory: Trajectory,
     /// The shapes of the beam, if the case asks for them.
     pub shapes: Option<Shapes>,
+    /// Its motion in space, at some of the recorded times.
+    pub scene: Scene,
     /// What happened at its contacts.
     pub events: Events,
     /// The tables that the case names, byte for byte, under their names among the results.
@@ -95,12 +94,13 @@ impl Reading {
     pub fn prepare(&self) -> Result<Prepared, Problems> {
         let mut live = self.build()?;
         let mut state = live.system.initial();
-        let history = self.begin(live.system.as_mut(), &mut state)?;
+        let (history, unstable) = self.begin(live.system.as_mut(), &mut state)?;
         if history.is_none() {
             self.check_contacts(live.system.as_mut(), &state)?;
         }
         let mut warnings = self.case.unused_by_run();
         warnings.extend(self.effective_masses(live.system.as_mut(), &state));
+        warnings.extend(unstable);
         let case = &self.case;
         let (step, longest_step) = match case.steps {
             Steps::Fixed(step) => {
@@ -112,11 +112,24 @@ impl Reading {
         self.check_memory(live.system.as_ref())?;
         let plan =
             Plan { end: case.duration, step, longest_step, contact_step: None, sample: case.output.step };
-        let copy = |(key, bytes): (String, &[u8])| Some((resolved::copy(&key)?, bytes.to_vec()));
-        let tables = self.tables().into_iter().filter_map(copy).collect();
+        let tables = self.tables();
+        let keys: Vec<String> = tables.iter().map(|(key, _)| key.clone()).collect();
+        let copy = |(key, bytes): (String, &[u8])| Some((resolved::copy(&key, &keys)?, bytes.to_vec()));
+        let tables = tables.into_iter().filter_map(copy).collect();
         let Output { energy_balance, modal_shares, .. } = case.output;
-        let shapes = self.shapes();
-        Ok(Prepared { live, state, plan, energy_balance, modal_shares, tables, shapes, history, warnings })
+        let (shapes, scene) = (self.shapes(), self.case.scene());
+        Ok(Prepared {
+            live,
+            state,
+            plan,
+            energy_balance,
+            modal_shares,
+            tables,
+            shapes,
+            scene,
+            history,
+            warnings,
+        })
     }
 
     /// Whether the records fit into memory.
@@ -137,29 +150,24 @@ impl Reading {
     }
 
     /// Brings the undeformed `state` into the initial state of the case. Returns the history of an earlier run to go on
-    /// with.
-    fn begin(&self, system: &mut dyn System, state: &mut State) -> Result<Option<Checkpoint>, Problems> {
+    /// with, and a warning of an equilibrium that is unstable.
+    fn begin(
+        &self,
+        system: &mut dyn System,
+        state: &mut State,
+    ) -> Result<(Option<Checkpoint>, Option<String>), Problems> {
+        let mut warning = None;
         match &self.case.initial {
             Initial::Undeformed => {}
-            Initial::Restart(earlier) => return restart::begin(earlier, self, state),
-            Initial::SteadyRotation => self.equilibrium(system, state)?,
+            Initial::Restart(earlier) => return Ok((restart::begin(earlier, self, state)?, None)),
+            Initial::SteadyRotation => warning = self.equilibrium(system, state)?,
             Initial::Static => {
-                let speed = match &self.case.hub.drive {
-                    Drive::Prescribed(motion) => motion.at(0.0).speed,
-                    Drive::Free(hub) => hub.speed,
-                };
-                if speed != 0.0 {
-                    let message = format!(
-                        "the hub rotates at {speed} rad/s at the start, and a rotating beam is not in static equilibrium: use \
-                         `steady-rotation`"
-                    );
-                    return Err(self.problem("initial.kind", message));
-                }
-                self.equilibrium(system, state)?;
+                self.at_rest(&state.v, "initial.kind", "use `steady-rotation`")?;
+                warning = self.equilibrium(system, state)?;
             }
             Initial::Modes(vibrations) => {
-                self.equilibrium(system, state)?;
-                superpose(system, state, vibrations, self.case.length).map_err(|error| {
+                warning = self.equilibrium(system, state)?;
+                superpose(system, state, vibrations, self.case.size()).map_err(|error| {
                     // At the list that was written.
                     let defaults = self.defaults();
                     let written = |key: &&str| defaults.iter().all(|(name, _)| name != key);
@@ -168,17 +176,50 @@ impl Reading {
                 })?;
             }
         }
-        Ok(None)
+        Ok((None, warning))
     }
 
-    /// Brings `state` into the equilibrium at the speed that the hub has.
-    fn equilibrium(&self, system: &mut dyn System, state: &mut State) -> Result<(), Problems> {
+    /// Refuses what moves at the start with the velocities `v`, at a key and with what to do.
+    pub(super) fn at_rest(&self, v: &[f64], key: &str, advice: &str) -> Result<(), Problems> {
+        let speed = self.case.hub_beam().map_or(0.0, |beam| match &beam.hub.drive {
+            Drive::Prescribed(motion) => motion.at(0.0).speed,
+            Drive::Free(hub) => hub.speed,
+        });
+        if speed != 0.0 {
+            let message = format!(
+                "the hub rotates at {speed} rad/s at the start, and a rotating beam is not in static equilibrium: {advice}"
+            );
+            return Err(self.problem(key, message));
+        }
+        if self.case.space().is_some() && v.iter().any(|v| *v != 0.0) {
+            let message = "the parts move at the start, and what moves is not in static equilibrium: take away \
+                           `velocity`, `spin` and prescribed speeds at t = 0";
+            return Err(self.problem(key, message));
+        }
+        Ok(())
+    }
+
+    /// Brings `state` into the equilibrium at the speed that the hub has. Returns a warning of one that is unstable, or that
+    /// growing loads alone do not lead to.
+    fn equilibrium(&self, system: &mut dyn System, state: &mut State) -> Result<Option<String>, Problems> {
         let velocity = state.v.clone();
         system.hold(true);
-        equilibrium(system, state).map_err(|error| self.problem("initial", error.to_string()))?;
+        let found =
+            stable_equilibrium(system, state).map_err(|error| self.problem("initial", error.to_string()))?;
         system.hold(false);
         state.v = velocity;
-        Ok(())
+        Ok(match (found.stability, found.left) {
+            (Some(now), _) if !now.is_stable() => Some(format!(
+                "the equilibrium at the start is {now}: the smallest disturbance leads away from it, and the path of growing \
+                 loads leads to none that is stable; `flexion statics` shows the path"
+            )),
+            (Some(_), Some(left)) => Some(format!(
+                "growing loads alone lead to an equilibrium that is {left}; the run begins in the first stable one on the path \
+                 of the loads, which `flexion statics` shows"
+            )),
+            (None, _) => Some("the stability of the equilibrium at the start was not found".to_owned()),
+            _ => None,
+        })
     }
 
     /// Room for the shapes, if the case asks for them.
@@ -186,14 +227,9 @@ impl Reading {
         let case = &self.case;
         let interval = case.output.vtk?;
         let every = (interval / case.output.step).round().max(1.0) as usize;
-        let height = case.section.height.unwrap_or(case.length / SLENDERNESS);
-        let drawn = |contact: &Contact| Drawn {
-            station: contact.stations.last().copied().unwrap_or(case.length),
-            on_hub: contact.mount == Mount::Hub,
-            obstacle: Arc::clone(&contact.obstacle),
-        };
-        let shapes = Shapes::new(case.length, &case.output.stations, height, every);
-        Some(shapes.with_obstacles(case.contacts.iter().map(drawn).collect()))
+        let beam = case.hub_beam()?;
+        let shapes = Shapes::new(beam.length, &case.output.stations, beam.height(), every);
+        Some(shapes.with_obstacles(beam.drawn()))
     }
 
     /// Writes the results of a run of this case and publishes them.
@@ -202,8 +238,6 @@ impl Reading {
     /// [`OutputError`] for whatever goes wrong on disk or in drawing.
     pub fn write(&self, run: &Run, directory: &Directory) -> Result<Status, OutputError> {
         let file = self.file.file_name().map(|name| name.to_string_lossy());
-        let estimated = run.errors.iter().flat_map(|errors| &errors.columns);
-        let errors: Vec<_> = estimated.map(|e| (e.column.clone(), e.discretization, e.model)).collect();
         let report = RunReport {
             status: run.status,
             message: run.message.as_deref(),
@@ -213,7 +247,7 @@ impl Reading {
             end_time: run.state.t,
             warnings: &run.warnings,
             integrator: Integration { info: &run.info, settings: self.settings("integrator") },
-            errors: &errors,
+            errors: run.errors.as_ref(),
             events: (!run.events.is_empty()).then_some(&run.events),
             counters: run.counters,
             size: run.size,
@@ -222,15 +256,18 @@ impl Reading {
         };
         let identity = self.identity();
         let title = (!self.case.title.is_empty()).then_some(self.case.title.as_str());
-        let figure = match &run.events {
+        let figure = self.case.output.plots.then(|| match &run.events {
+            _ if self.case.space().is_some() => spatial_figure(&run.scene, &run.trajectory, title),
             events if events.is_empty() => trajectory_figure(&run.trajectory, title),
             events => contact_figure(&run.trajectory, events, title),
-        };
+        });
         let attachments = Attachments {
-            figure: Some(&figure),
+            figure: figure.as_ref(),
             tables: &run.tables,
             state: Some((&run.checkpoint, &identity)),
             shapes: run.shapes.as_ref(),
+            scene: Some(&run.scene),
+            solids: self.case.space().is_some() && self.case.output.vtk.is_some(),
         };
         let case = self.resolved_with_copies();
         write_run(directory, &report, &run.trajectory, &case, attachments)
@@ -249,6 +286,7 @@ impl Prepared {
             modal_shares,
             tables,
             shapes,
+            scene,
             history,
             mut warnings,
         } = self;
@@ -256,7 +294,7 @@ impl Prepared {
         let clock = Clock::start();
         let mut recorder =
             Recorder::new(system.as_mut(), &state, &plan, [energy_balance, modal_shares], watch)
-                .with_shapes(shapes);
+                .with_shapes(shapes, scene);
         let parts = (system.as_mut(), integrator.as_mut());
         let (ending, checkpoint) = match &history {
             None => transient_to_checkpoint(parts.0, parts.1, &mut state, &plan, &mut recorder),
@@ -265,11 +303,12 @@ impl Prepared {
         };
         let (wall_time, cpu_time) = clock.elapsed();
         let of_steps = recorder.warnings();
-        let (trajectory, mut shapes, events) = recorder.into_parts();
+        let (trajectory, mut shapes, mut scene, events) = recorder.into_parts();
         warnings.extend(system.cautions(&trajectory.peaks()));
         warnings.extend(of_steps);
-        if let (Ending::Finished, Some(shapes)) = (&ending, &mut shapes) {
-            shapes.finish(system.as_mut(), &state);
+        if let Ending::Finished = ending {
+            shapes.iter_mut().for_each(|shapes| shapes.finish(system.as_mut(), &state));
+            scene.finish(system.as_mut(), &state);
         }
         let (status, message) = match ending {
             Ending::Finished => (Status::Finished, None),
@@ -283,6 +322,7 @@ impl Prepared {
             message,
             trajectory,
             shapes,
+            scene,
             events,
             tables,
             warnings,

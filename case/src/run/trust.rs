@@ -15,7 +15,7 @@ const APART: f64 = 0.01;
 impl Reading {
     /// A warning with the time until which the gaps of a run are those of its companion; none where they are to the end.
     pub(super) fn trust(&self, run: &Run, watch: &mut Watch<'_>) -> Result<Option<String>, Problems> {
-        if self.case.contacts.is_empty() {
+        if !self.case.has_contacts() {
             return Ok(None);
         }
         let (changes, what) = match self.case.steps {

@@ -1,28 +1,25 @@
-//! Equilibrium in the system's own frame: r(t, q, 0, 0, λ) = 0 and g(t, q) = 0 by Newton's method with continuation.
-//!
-//! ```text
-//! ⎡ K  −Gᵀ⎤ ⎡Δq⎤     ⎡ r ⎤
-//! ⎣ G   0 ⎦ ⎣Δλ⎦ = − ⎣ g ⎦      q ← q ⊞ Δq
-//! ```
+//! Equilibrium in the system's own frame: r(t, q, 0, 0, λ) = 0 and g(t, q) = 0 by Newton's method with growing loads.
 //!
 //! K has the multipliers in it, which alone stiffen a mechanism: every level begins with those that balance the most of
-//! the loads.
+//! the loads. Where growing loads end at a limit point, or in an equilibrium that is not stable, the [path](super::path) is
+//! followed.
 
+use super::equations::{Equations, apply};
 use super::joints;
-use crate::linalg::Matrix;
-use crate::system::{Parameter, State, System, Weights};
+use super::path::{Plan, follow};
+use super::stability::{Stability, stability};
+use crate::system::{State, System};
 
-/// Newton iterations allowed at one load level.
-const ITERATIONS: u32 = 25;
 /// Smallest part of the load by which continuation goes on.
 const SMALLEST: f64 = 1e-6;
-/// Scaled size of an increment at which the iteration has converged.
-const TOLERANCE: f64 = 1e-11;
+/// Points of a path on which a stable equilibrium is looked for.
+const POINTS: usize = 400;
 
 /// Why there is no equilibrium.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error(
-    "no equilibrium found at t = {time:.4} s beyond {percent:.3} % of the load: {what} (largest in the {worst})",
+    "no equilibrium found at t = {time:.4} s beyond {percent:.3} % of the load: {what} (largest in the {worst}); take smaller \
+     loads, or hold what can move freely",
     percent = 100.0 * reached
 )]
 pub struct NoEquilibrium {
@@ -51,103 +48,84 @@ pub struct Effort {
 /// The equilibrium is followed from the given configuration as the loads grow: with r_s the residual under the part s
 /// of them and r₀ that without loads in the given configuration, the levels r_s(q) = (1 − s) r₀ are solved for s from
 /// 0 to 1, the increment of s growing and shrinking as Newton's method converges. A follower or a couple rotates with
-/// its section all the way.
+/// its section all the way. Whether it is stable is told by [`stability`].
 ///
 /// # Errors
 /// [`NoEquilibrium`] when the iteration breaks down however small the increments are: a limit point, or a
 /// model that has no equilibrium there.
 pub fn equilibrium(system: &mut dyn System, state: &mut State) -> Result<Effort, NoEquilibrium> {
-    let (n, m) = (state.v.len(), state.lambda.len());
-    state.v.fill(0.0);
-    state.a.fill(0.0);
-    let scale = system.scales().to_vec();
-    let mut tangent = Matrix::new(&system.structure(1));
-    let (mut start, mut r) = (vec![0.0; n], vec![0.0; n + m]);
-    apply(system, 0.0);
-    system.residual(state, &mut start);
+    let mut equations = Equations::new(system, state);
     let mut good = state.clone();
-    let mut moved = state.q.clone();
     let (mut reached, mut part): (f64, f64) = (0.0, 1.0);
-    let mut effort = Effort::default();
+    let mut levels = 0;
     while reached < 1.0 {
-        let level = (reached + part).min(1.0);
-        apply(system, level);
-        joints::balance(system, state);
-        let mut failure = None;
-        let mut last = f64::INFINITY;
-        for iteration in 0..=ITERATIONS {
-            let (motion, rows) = r.split_at_mut(n);
-            system.residual(state, motion);
-            joints::positions(system, state, rows);
-            for (r, start) in motion.iter_mut().zip(&start) {
-                *r -= (1.0 - level) * start;
-            }
-            if r.iter().all(|r| *r == 0.0) {
-                break;
-            }
-            system.tangent(state, Weights::new(0.0, 0.0, 1.0), &mut tangent);
-            joints::add(system, state, n, &mut tangent);
-            if let Err(singular) = tangent.factor() {
-                failure = Some((singular.to_string(), singular.index));
-                break;
-            }
-            tangent.solve(&mut r);
-            r.iter_mut().for_each(|r| *r = -*r);
-            let (r, multipliers) = r.split_at(n);
-            state.lambda.iter_mut().zip(multipliers).for_each(|(lambda, x)| *lambda += x);
-            system.retract(&state.q, r, &mut moved);
-            state.q.copy_from_slice(&moved);
-            effort.iterations += 1;
-            let (worst, size) = largest(r, &scale);
-            // Converged, or as far as rounding lets it come.
-            if size <= TOLERANCE || (size < 1e-7 && size > 0.3 * last) {
-                break;
-            }
-            if !(size < 1e3) || iteration == ITERATIONS {
-                failure = Some((format!("Newton's method does not converge (increment {size:.1e})"), worst));
-                break;
-            }
-            last = size;
-        }
-        if failure.is_none()
-            && let Err(what) = system.admissible(state)
-        {
-            failure = Some((what, 0));
-        }
-        match failure {
-            None => {
-                effort.levels += 1;
+        let mut level = (reached + part).min(1.0);
+        apply(equations.system, level);
+        joints::balance(equations.system, state);
+        match equations.solve(state, &mut level, None) {
+            Ok(_) => {
+                levels += 1;
                 reached = level;
                 part *= 2.0;
                 good.copy_from(state);
             }
-            Some((what, worst)) => {
+            Err(failure) => {
                 state.copy_from(&good);
                 part = 0.25 * (level - reached);
                 if part < SMALLEST {
-                    apply(system, 1.0);
-                    let worst = system.unknown(worst);
-                    return Err(NoEquilibrium { time: state.t, reached, what, worst });
+                    apply(equations.system, 1.0);
+                    let worst = equations.system.unknown(failure.worst);
+                    return Err(NoEquilibrium { time: state.t, reached, what: failure.what, worst });
                 }
             }
         }
     }
-    Ok(effort)
+    apply(equations.system, 1.0);
+    Ok(Effort { levels, iterations: equations.iterations })
 }
 
-/// Applies a part of the loads; a model without loads has none to follow.
-fn apply(system: &mut dyn System, part: f64) {
-    let _ = system.set(Parameter::LoadFactor, part);
+/// An equilibrium, and how it was found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Found {
+    /// Its stability; `None` where it was not found.
+    pub stability: Option<Stability>,
+    /// That of the equilibrium which growing loads alone lead to, where it is unstable and another was found by following the
+    /// path of the loads.
+    pub left: Option<Stability>,
 }
 
-/// Index and scaled size of the largest increment (a NaN counts as largest).
-fn largest(d: &[f64], scale: &[f64]) -> (usize, f64) {
-    let mut worst = (0, 0.0);
-    for (i, (d, scale)) in d.iter().zip(scale).enumerate() {
-        let size = (d / scale).abs();
-        if !(size <= worst.1) {
-            worst = (i, size);
+/// As [`equilibrium`], with its stability; where growing loads end, or lead to an equilibrium that is unstable, the path of the
+/// loads is followed by its arc length to the first that is stable.
+///
+/// # Errors
+/// [`NoEquilibrium`] when there is none at all.
+pub fn stable_equilibrium(system: &mut dyn System, state: &mut State) -> Result<Found, NoEquilibrium> {
+    let start = state.clone();
+    let direct = equilibrium(system, state);
+    let found = direct.as_ref().ok().map(|_| stability(system, state));
+    match found {
+        Some(Ok(stability)) if stability.is_stable() => {
+            return Ok(Found { stability: Some(stability), left: None });
         }
+        Some(Err(_)) => return Ok(Found { stability: None, left: None }),
+        _ => {}
     }
-    worst
+    let left = found.and_then(Result::ok);
+    let mut best = None;
+    let plan = Plan { points: POINTS, ..Plan::to(1.0) };
+    let _ = follow(system, &start, &plan, |_, point| {
+        let stable = point.arrived && point.stability.as_ref().is_ok_and(|found| found.is_stable());
+        if stable {
+            best = Some(point.state.clone());
+        }
+        !stable
+    });
+    apply(system, 1.0);
+    match best {
+        Some(best) => {
+            state.copy_from(&best);
+            Ok(Found { stability: Some(Stability::default()), left })
+        }
+        None => direct.map(|_| Found { stability: left, left: None }),
+    }
 }

@@ -4,11 +4,10 @@
 //! δq = x e^{λt} of (λ² M + λ C + K) x = 0: angular frequency ω = |Im λ|, damping ratio ζ = −Re λ/|λ|. Everything goes
 //! through the tangent, so every model has modes; how they are found is described in [`eigen`](crate::linalg::eigen).
 //!
-//! Rows of constraints that hold allow the motions x = N y, with G N = 0: y has the matrices NᵀMN, NᵀCN and NᵀKN, with the
-//! multipliers of the equilibrium in K. They are dense: the cost grows with the cube of the unknowns.
+//! Rows of constraints that hold are part of K, [K −Gᵀ; −G 0], in which K has the multipliers of the equilibrium: a solution
+//! with it is a motion that G allows, and the cost stays linear in the unknowns where the multipliers stand in the band.
 
-use super::joints::Allowed;
-use super::stiffness::{damping, mass, stiffness};
+use super::stiffness::matrices;
 use crate::linalg::eigen::{EigenError, Kind, Pair, Pencil};
 use crate::linalg::{Matrix, Singular};
 use crate::system::{Direction, Frame, State, System};
@@ -20,6 +19,10 @@ const RESIDUAL: f64 = 1e-7;
 const CORRECTED: f64 = 1e-5;
 /// A rigid motion has |λ| below this part of the lowest frequency of the held system.
 const RIGID: f64 = 1e-4;
+/// Shift, over a frequency that bounds all, with which rigid motions are told from others.
+const SHIFT: f64 = 1e-3;
+/// Rigid motions of a body.
+const RIGID_MOTIONS: usize = 6;
 
 /// One mode.
 #[derive(Clone, Debug, PartialEq)]
@@ -197,31 +200,26 @@ pub(super) fn modes_near(
     near: &[(Complex64, &[Complex64])],
 ) -> Result<Modes, NoModes> {
     let size = system.size();
-    if size.lambda > 0 {
-        let mut allowed = Allowed::new(system, state);
-        let reduced = allowed.state(state);
-        let mut found = modes_near(&mut allowed, &reduced, count, stations, &[])?;
-        for mode in &mut found.modes {
-            mode.vector = allowed.lift(&mode.vector, |y, x| y * x);
-        }
-        return Ok(found);
+    let (all, multipliers) = matrices(system, state);
+    let there = size.v.saturating_sub(multipliers);
+    if count > there {
+        return Err(NoModes::TooMany { asked: count, there });
     }
-    if count > size.v {
-        return Err(NoModes::TooMany { asked: count, there: size.v });
-    }
-    let (mass, damping, stiffness) = (mass(system, state), damping(system, state), stiffness(system, state));
     let mut rigid = 0.0;
-    let mut pencil = match Pencil::new(mass.clone(), damping.clone(), stiffness.clone(), 0.0) {
+    let mut pencil = match Pencil::new(all.clone(), multipliers, 0.0) {
         // Rigid motions: the lowest frequency without them sets a shift.
         Err(EigenError::Singular(singular)) => {
-            let lowest = held_frequency(system, state, singular)?;
+            let lowest = match held_frequency(system, state, singular) {
+                Err(_) => elastic_frequency(&all, multipliers, count.min(there))?,
+                held => held?,
+            };
             rigid = RIGID * lowest;
-            Pencil::new(mass, damping, stiffness, 0.3 * lowest)?
+            Pencil::new(all, multipliers, 0.3 * lowest)?
         }
         other => other?,
     };
     // A rigid motion that neither moves nor stops is an eigenvalue twice: as a place and as a speed.
-    let pairs = pencil.pairs(if rigid > 0.0 { (count + 1).min(size.v) } else { count }, near)?;
+    let pairs = pencil.pairs(if rigid > 0.0 { (count + 1).min(there) } else { count }, near)?;
     let mut modes: Vec<Mode> = Vec::with_capacity(count);
     let scale: Vec<f64> = system.scales().to_vec();
     let corrected = pencil.kind() != Kind::General && system.stiffness_forms(state, &[]).is_some();
@@ -252,6 +250,7 @@ pub(super) fn modes_near(
         modes.push(mode);
     }
     let counted = complete(&pencil, &modes)?;
+    modes.iter_mut().for_each(|mode| mode.vector.truncate(size.v));
     correct(system, state, &pencil, &mut modes);
     for mode in &mut modes {
         describe(mode, system, state, &scale, stations);
@@ -301,14 +300,33 @@ fn parallel(x: &[Complex64], y: &[Complex64]) -> bool {
 /// Lowest frequency of the system with its rigid motions held.
 fn held_frequency(system: &mut dyn System, state: &State, singular: Singular) -> Result<f64, NoModes> {
     system.hold(true);
-    let (mass, stiffness) = (mass(system, state), stiffness(system, state));
+    let (mut held, multipliers) = matrices(system, state);
     system.hold(false);
-    let damping = Matrix::new(&system.structure(0));
-    let pair = Pencil::new(mass, damping, stiffness, 0.0).and_then(|mut pencil| pencil.pairs(1, &[]));
+    held[1].clear();
+    let pair = Pencil::new(held, multipliers, 0.0).and_then(|mut pencil| pencil.pairs(1, &[]));
     match pair.as_ref().map(|pairs| pairs.first()) {
         Ok(Some(pair)) => Ok(pair.value.norm()),
         _ => Err(EigenError::Singular(singular).into()),
     }
+}
+
+/// Lowest frequency that is not of a rigid motion, of a system whose rigid motions nothing holds, seen from a shift far above
+/// rounding and below most frequencies.
+fn elastic_frequency(all: &[Matrix; 3], multipliers: usize, count: usize) -> Result<f64, NoModes> {
+    let largest = |k: usize| {
+        let n = all[k].order() - multipliers;
+        (0..n).map(|i| all[k].get(i, i).abs()).fold(0.0, f64::max)
+    };
+    let top = (largest(2) / largest(0)).sqrt();
+    if !(top > 0.0) {
+        return Ok(1.0);
+    }
+    let there = all[0].order() - 2 * multipliers;
+    let mut pencil = Pencil::new(all.clone(), multipliers, SHIFT * top)?;
+    let found = pencil.pairs((count + RIGID_MOTIONS).min(there), &[])?;
+    let sizes = found.iter().map(|pair| pair.value.norm());
+    let last = sizes.clone().fold(0.0, f64::max);
+    Ok(sizes.filter(|size| *size > RIGID * last).fold(last, f64::min))
 }
 
 /// A mode from its eigenpair, without its shape.
@@ -323,7 +341,8 @@ fn mode(system: &dyn System, pencil: &Pencil, pair: Pair, scale: &[f64], rigid: 
     };
     // Phase by the largest entry, size by the modal mass.
     let size = |i: usize| vector[i].norm() / scale[i];
-    let largest = (0..n).fold(0, |best, i| if size(i) > size(best) * (1.0 + 1e-9) { i } else { best });
+    let largest =
+        (0..scale.len()).fold(0, |best, i| if size(i) > size(best) * (1.0 + 1e-9) { i } else { best });
     let phase = vector.get(largest).map_or(Complex64::ONE, |x| x.conj() / x.norm());
     vector.iter_mut().for_each(|x| *x *= phase);
     let mut shares = Shares::default();
@@ -331,7 +350,7 @@ fn mode(system: &dyn System, pencil: &Pencil, pair: Pair, scale: &[f64], rigid: 
     let mut mx = vec![0.0; n];
     for part in &parts(&vector) {
         pencil.mass().multiply(part, &mut mx);
-        for (i, (x, mx)) in part.iter().zip(&mx).enumerate() {
+        for (i, (x, mx)) in part.iter().zip(&mx).enumerate().take(scale.len()) {
             *shares.of(system.direction(i)) += x * mx;
             mass += x * mx;
         }

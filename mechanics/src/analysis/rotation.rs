@@ -1,8 +1,8 @@
 //! Steady rotation: the equilibrium in the frame of a hub that rotates at a constant speed.
 
 use super::equilibrium::{Effort, NoEquilibrium, equilibrium};
-use super::stiffness::stiffness;
-use crate::linalg::eigen::negative_eigenvalues;
+use super::stability::{Stability, stability};
+use crate::linalg::eigen::EigenError;
 use crate::system::{NotSet, Parameter, State, System};
 
 /// Smallest part of the way to a speed by which continuation goes on.
@@ -32,18 +32,25 @@ pub enum NoRotation {
     },
     /// The equilibrium is unstable.
     #[error(
-        "the steady rotation at {asked} rad/s is buckled: stable up to {reached:.6} rad/s, and beyond its stiffness has \
-         {negative} negative eigenvalue(s){why}"
+        "the steady rotation at {asked} rad/s is buckled, {stability}: stable up to {reached:.6} rad/s{why}"
     )]
     Buckled {
         /// Speed asked for [rad/s].
         asked: f64,
         /// Speed up to which it is stable [rad/s].
         reached: f64,
-        /// Number of negative eigenvalues of the stiffness at the speed asked for.
-        negative: usize,
+        /// Its stability at the speed asked for.
+        stability: Stability,
         /// What the model knows about it, with a colon in front.
         why: String,
+    },
+    /// Its stability was not found.
+    #[error("the stability of the steady rotation at {asked} rad/s was not found: {source}")]
+    Undecided {
+        /// Speed asked for [rad/s].
+        asked: f64,
+        /// Why.
+        source: EigenError,
     },
 }
 
@@ -52,6 +59,7 @@ impl NoRotation {
     pub fn reached(&self) -> f64 {
         match self {
             NoRotation::DoesNotTurn => 0.0,
+            NoRotation::Undecided { asked, .. } => *asked,
             NoRotation::Lost { reached, .. } | NoRotation::Buckled { reached, .. } => *reached,
         }
     }
@@ -105,7 +113,7 @@ pub fn rotate(system: &mut dyn System, state: &mut State, from: f64, to: f64) ->
     Ok(effort)
 }
 
-/// As [`rotate`], and refuses an equilibrium whose stiffness is not positive definite.
+/// As [`rotate`], and refuses an equilibrium from which motions diverge. Flutter is left to the [modes](super::modes).
 ///
 /// # Errors
 /// [`NoRotation`], with the speed up to which the rotation is stable.
@@ -117,8 +125,8 @@ pub fn rotate_stably(
 ) -> Result<Effort, NoRotation> {
     let start = state.clone();
     let effort = rotate(system, state, from, to)?;
-    let negative = negative_stiffness(system, state);
-    if negative == 0 {
+    let found = stability(system, state).map_err(|source| NoRotation::Undecided { asked: to, source })?;
+    if found.divergent == 0 {
         return Ok(effort);
     }
     let why = system.explain(state).map_or_else(String::new, |why| format!(": {why}"));
@@ -128,7 +136,9 @@ pub fn rotate_stably(
     while (high - low).abs() > ACCURACY * high.abs().max(low.abs()) {
         let middle = 0.5 * (low + high);
         let mut next = at.clone();
-        if rotate(system, &mut next, low, middle).is_ok() && negative_stiffness(system, &next) == 0 {
+        if rotate(system, &mut next, low, middle).is_ok()
+            && stability(system, &next).is_ok_and(|found| found.divergent == 0)
+        {
             low = middle;
             at = next;
         } else {
@@ -137,10 +147,5 @@ pub fn rotate_stably(
     }
     let _ = system.set(Parameter::Speed, low);
     state.copy_from(&at);
-    Err(NoRotation::Buckled { asked: to, reached: low, negative, why })
-}
-
-/// Number of negative eigenvalues of a symmetric stiffness ∂r/∂q; zero if it is not symmetric or has a border.
-pub fn negative_stiffness(system: &mut dyn System, state: &State) -> usize {
-    negative_eigenvalues(&stiffness(system, state)).unwrap_or(0)
+    Err(NoRotation::Buckled { asked: to, reached: low, stability: found, why })
 }

@@ -2,7 +2,7 @@
 
 use super::diagram::{Branch, HubState, NoCampbell, Plan};
 use super::modes::{Mode, NoModes, describe, modes_near};
-use super::rotation::{negative_stiffness, rotate, rotate_stably};
+use super::rotation::rotate_stably;
 use super::stiffness::mass;
 use crate::linalg::Matrix;
 use crate::system::{Parameter, State, System};
@@ -127,13 +127,8 @@ impl<'a> Speeds<'a> {
 
     /// The lowest modes at a speed, from those at another.
     fn solve(&mut self, speed: f64, count: usize, from: Option<&Solved>) -> Result<Solved, NoCampbell> {
-        let start = self.state.clone();
         let system = self.system.as_mut();
-        rotate(system, &mut self.state, self.speed, speed)?;
-        if negative_stiffness(system, &self.state) > 0 {
-            self.state.copy_from(&start);
-            rotate_stably(system, &mut self.state, self.speed, speed)?;
-        }
+        rotate_stably(system, &mut self.state, self.speed, speed)?;
         self.speed = speed;
         let mut state = self.state.clone();
         if self.plan.hub == HubState::Free {
@@ -158,22 +153,15 @@ impl<'a> Speeds<'a> {
         Ok(Solved { speed, modes, massed, equilibrium: self.state.clone() })
     }
 
-    /// Gives the modes at both ends of each branch their shapes.
-    pub(super) fn describe_ends(&mut self, solved: &[Solved], branches: &mut [Branch]) {
+    /// Gives the modes of all branches their shapes.
+    pub(super) fn describe(&mut self, solved: &[Solved], branches: &mut [Branch]) {
         let scale: Vec<f64> = self.system.scales().to_vec();
-        for at in solved {
-            let ends = branches.iter_mut().flat_map(|b| {
-                let last = b.points.len().saturating_sub(1);
-                b.points.iter_mut().enumerate().filter(move |(k, _)| *k == 0 || *k == last)
-            });
-            let mut here = ends.filter(|(_, p)| p.speed == at.speed).map(|(_, p)| p).peekable();
-            if here.peek().is_some() {
-                self.system.hold(true);
-                let _ = self.system.set(Parameter::Speed, at.speed);
-                for point in here {
-                    let system = self.system.as_mut();
-                    describe(&mut point.mode, system, &at.equilibrium, &scale, &self.plan.stations);
-                }
+        for (number, at) in solved.iter().enumerate() {
+            self.system.hold(true);
+            let _ = self.system.set(Parameter::Speed, at.speed);
+            for point in branches.iter_mut().filter_map(|branch| branch.points.get_mut(number)) {
+                let system = self.system.as_mut();
+                describe(&mut point.mode, system, &at.equilibrium, &scale, &self.plan.stations);
             }
         }
     }

@@ -54,8 +54,8 @@ pub struct Unresolved {
 
 /// Sweeps allowed.
 const SWEEPS: usize = 200_000;
-/// Change over the largest multiplier at which the relaxation ends.
-const SETTLED: f64 = 2e-16;
+/// Change over the largest multiplier at which the relaxation ends: rounding, which may go to and fro for ever.
+const SETTLED: f64 = 4.0 * f64::EPSILON;
 /// Change that must be reached in all sweeps.
 const TOLERABLE: f64 = 1e-12;
 

@@ -129,20 +129,6 @@ impl LinearCoupling {
         let (_, centrifugal, stiffness) = self.inertia.matrices();
         negative_pivots(stiffness, centrifugal, -speed * speed) == 0
     }
-
-    /// ∫ w₂′² and ∫ w₂′ẇ₂′ over [from, to], both inside one cell, by fresh quadrature.
-    fn partial(&self, s: &State, from: f64, to: f64) -> (f64, f64) {
-        let mut sums = (0.0, 0.0);
-        if to > from {
-            for (x, w) in self.fields.gauss().on(from, to) {
-                let p = self.fields.point(x, w);
-                let (slope, rate) = (p.transverse.field(1, &s.q), p.transverse.field(1, &s.v));
-                sums.0 += w * slope * slope;
-                sums.1 += w * slope * rate;
-            }
-        }
-        sums
-    }
 }
 
 impl Coupling for LinearCoupling {
@@ -209,7 +195,12 @@ impl Coupling for LinearCoupling {
                     }
                     cell += 1;
                 }
-                let rest = self.partial(s, cells[cell], station.point.x);
+                let mut rest = (0.0, 0.0);
+                for p in station.rest.iter() {
+                    let (slope, rate) = (p.transverse.field(1, &s.q), p.transverse.field(1, &s.v));
+                    rest.0 += p.weight * slope * slope;
+                    rest.1 += p.weight * slope * rate;
+                }
                 shortening = -0.5 * (square + rest.0);
                 shortening_rate = -(product + rest.1);
             }

@@ -2,6 +2,7 @@
 
 use super::fields::{Fields, Point};
 use crate::system::State;
+use std::sync::Arc;
 
 /// A station on the axis, with the shape functions there.
 #[derive(Clone, Debug)]
@@ -10,6 +11,8 @@ pub struct Station {
     pub name: String,
     /// Both fields there.
     pub point: Point,
+    /// Quadrature points between the start of its cell and the station, for integrals along the beam.
+    pub rest: Arc<[Point]>,
 }
 
 impl Station {
@@ -17,7 +20,13 @@ impl Station {
     pub fn new(fields: &Fields, x: f64) -> Station {
         let tip = x >= fields.length() * (1.0 - 1e-12);
         let name = if tip { "tip".to_owned() } else { format!("x={x}") };
-        Station { name, point: fields.point(x, 0.0) }
+        let start = fields.cells().iter().rev().find(|start| **start <= x).copied().unwrap_or(x);
+        let rest = if start < x {
+            fields.gauss().on(start, x).map(|(x, w)| fields.point(x, w)).collect()
+        } else {
+            Arc::default()
+        };
+        Station { name, point: fields.point(x, 0.0), rest }
     }
 
     /// Both displacement fields, their slopes and rates at the station.

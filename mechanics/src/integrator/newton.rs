@@ -103,6 +103,16 @@ impl Convergence {
         Convergence { noise, ..self }
     }
 
+    /// Another size of the iteration error from now on.
+    pub(super) fn aim(&mut self, tolerance: f64) {
+        self.tolerance = tolerance;
+    }
+
+    /// Whether this is the size of the iteration error.
+    pub(super) fn aims_at(&self, tolerance: f64) -> bool {
+        self.tolerance == tolerance
+    }
+
     /// Begins the iteration of a new attempt; `fresh`: with a tangent of this step, not of one before.
     pub fn begin(&mut self, fresh: bool) {
         self.iteration = 0;

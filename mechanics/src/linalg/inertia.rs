@@ -1,44 +1,219 @@
 //! Inertia (number of negative eigenvalues) of a Hermitian matrix by Sylvester's law.
+//!
+//! A = L D Lᴴ with D of diagonal blocks has as many negative eigenvalues as D. A pivot is a block of the next unknowns, one
+//! where it can be, more where it is too small: an unknown without stiffness, or a multiplier, whose diagonal is zero, is
+//! eliminated together with what it is coupled with. Blocks of consecutive unknowns leave the band as it is.
 
-use super::{Matrix, Scalar};
+use super::{Matrix, Scalar, Storage};
+use nalgebra::{ComplexField, DMatrix};
 
-/// Number of negative eigenvalues of the symmetric matrix A + w B (equal structures, border ignored), from
-/// the signs of the pivots of its LDLᵀ factorisation without interchanges: O(n·b²) for half-bandwidth b.
+/// Largest growth of a diagonal entry, over the largest entry of its row, by which a pivot is taken.
+const GROWTH: f64 = 1e4;
+
+/// Number of negative eigenvalues of the symmetric matrix A + w B (equal structures): O(n·b²) for half-bandwidth b.
 pub fn negative_pivots(a: &Matrix, b: &Matrix, w: f64) -> usize {
-    let half = match a.storage() {
-        super::Storage::Dense(_) => a.order().saturating_sub(1),
-        super::Storage::Band(m) => m.band().upper(),
-    };
-    negative_pivots_of(a.order(), half, |i, j| a.get(i, j) + w * b.get(i, j))
+    negative_pivots_of(shape(a), |i, j| a.storage().get(i, j) + w * b.storage().get(i, j))
 }
 
-/// Number of negative eigenvalues of a Hermitian matrix of order `n` and half-bandwidth `half` with the entries
-/// `entry(i, j)`, j ≥ i, from LDLᴴ without interchanges.
-pub fn negative_pivots_of<T: Scalar>(n: usize, half: usize, entry: impl Fn(usize, usize) -> T) -> usize {
-    // Rows of the upper triangle of the last `half` pivots, as a ring.
-    let width = half + 1;
-    let mut rows = vec![T::ZERO; width * width];
-    let mut row = vec![T::ZERO; width];
-    let mut count = 0;
-    for k in 0..n {
-        for (j, x) in row.iter_mut().enumerate() {
-            *x = if k + j < n { entry(k, k + j) } else { T::ZERO };
-        }
-        for p in k.saturating_sub(half)..k {
-            let former = &rows[(p % width) * width..(p % width + 1) * width];
-            let offset = k - p;
-            // The entries of a row are over the pivot in front of it.
-            let factor = former[offset].conj() * former[0];
-            for j in offset..width {
-                row[j - offset] -= factor * former[j];
+/// Order, half-bandwidth and border of a matrix, in the order of its places.
+pub(super) fn shape(matrix: &Matrix) -> [usize; 3] {
+    match matrix.storage() {
+        Storage::Dense(a) => [a.order(), a.order().saturating_sub(1), 0],
+        Storage::Band(a) => [a.order(), a.band().upper().max(a.band().lower()), a.order() - a.band().order()],
+    }
+}
+
+/// Number of negative eigenvalues of a Hermitian matrix with the entries `entry(i, j)`, j ≥ i: its order, its half-bandwidth
+/// and the number of dense rows and columns behind the band are given.
+pub fn negative_pivots_of<T>([n, half, border]: [usize; 3], entry: impl Fn(usize, usize) -> T) -> usize
+where
+    T: Scalar + ComplexField<RealField = f64>,
+{
+    let mut window = Window::new([n, half, border], entry);
+    let (mut k, mut count) = (0, 0);
+    while k < n - border {
+        let most = (half + 1).min(n - border - k);
+        window.load(k + most + half);
+        let mut best: Option<Pivot<T>> = None;
+        for size in 1..=most {
+            let pivot = window.pivot(k, size);
+            let good = pivot.growth <= GROWTH;
+            if good || best.as_ref().is_none_or(|best| pivot.growth < best.growth) {
+                best = Some(pivot);
+            }
+            if good {
+                break;
             }
         }
-        // Real but for rounding. An exactly vanishing pivot is counted as positive and kept from dividing.
-        let pivot = if row[0].re() == 0.0 { f64::MIN_POSITIVE.sqrt() } else { row[0].re() };
-        count += usize::from(pivot < 0.0);
-        let kept = &mut rows[(k % width) * width..(k % width + 1) * width];
-        kept.copy_from_slice(&row);
-        kept[0] = T::real(1.0 / pivot);
+        let Some(pivot) = best else { break };
+        window.subtract(k, &pivot);
+        count += pivot.negative;
+        k += pivot.size;
+    }
+    if border > 0 {
+        count += window.corner.symmetric_eigen().eigenvalues.iter().filter(|x| **x < 0.0).count();
     }
     count
+}
+
+/// A block D of unknowns, and what its elimination does to those behind it that it is coupled with.
+struct Pivot<T: Scalar> {
+    size: usize,
+    negative: usize,
+    growth: f64,
+    /// B, the couplings, and D⁻¹ B.
+    coupling: DMatrix<T>,
+    solved: DMatrix<T>,
+}
+
+/// The rows of the upper triangle around the next pivot.
+struct Window<T: Scalar, F> {
+    entry: F,
+    band: usize,
+    half: usize,
+    border: usize,
+    /// Rows from the diagonal on and, behind their band, in the columns of the border; a ring.
+    rows: Vec<Vec<T>>,
+    /// Largest entry of each row.
+    sizes: Vec<f64>,
+    loaded: usize,
+    corner: DMatrix<T>,
+    corner_sizes: Vec<f64>,
+}
+
+impl<T: Scalar + ComplexField<RealField = f64>, F: Fn(usize, usize) -> T> Window<T, F> {
+    fn new([n, half, border]: [usize; 3], entry: F) -> Window<T, F> {
+        let (band, ring) = (n - border, 2 * half + 2);
+        let corner = DMatrix::from_fn(border, border, |i, j| {
+            let x = entry(band + i.min(j), band + i.max(j));
+            if i <= j { x } else { Scalar::conj(x) }
+        });
+        let largest =
+            |b: usize| (0..n).map(|i| entry(i.min(band + b), i.max(band + b)).size()).fold(0.0, f64::max);
+        let corner_sizes = (0..border).map(largest).collect();
+        let rows = vec![vec![T::ZERO; half + 1 + border]; ring];
+        Window { entry, band, half, border, rows, sizes: vec![0.0; ring], loaded: 0, corner, corner_sizes }
+    }
+
+    /// Loads the rows in front of `end`.
+    fn load(&mut self, end: usize) {
+        let (ring, entry) = (self.rows.len(), &self.entry);
+        for i in self.loaded..end.min(self.band) {
+            let row = &mut self.rows[i % ring];
+            for (j, x) in row.iter_mut().enumerate() {
+                *x = match j {
+                    j if j > self.half => entry(i, self.band + j - self.half - 1),
+                    j if i + j < self.band => entry(i, i + j),
+                    _ => T::ZERO,
+                };
+            }
+            let above = (i.saturating_sub(self.half)..i).map(|j| entry(j, i).size());
+            self.sizes[i % ring] = row.iter().map(|x| x.size()).chain(above).fold(0.0, f64::max);
+            self.loaded = i + 1;
+        }
+    }
+
+    /// The unknowns behind a block that it may be coupled with: those of the band, and behind them the border.
+    fn reach(&self, end: usize) -> usize {
+        (end + self.half).min(self.band) - end
+    }
+
+    /// Entry of row i with neighbour number `j` of a block that ends at `end`.
+    fn coupled(&self, i: usize, end: usize, j: usize) -> T {
+        let row = &self.rows[i % self.rows.len()];
+        match j.checked_sub(self.reach(end)) {
+            Some(b) => row[self.half + 1 + b],
+            None if end + j - i <= self.half => row[end + j - i],
+            None => T::ZERO,
+        }
+    }
+
+    fn pivot(&self, k: usize, size: usize) -> Pivot<T> {
+        let (end, ring) = (k + size, self.rows.len());
+        let others = self.reach(end) + self.border;
+        let coupling = DMatrix::from_fn(size, others, |i, j| self.coupled(k + i, end, j));
+        // An eigenvalue that vanishes is counted as positive and kept from dividing.
+        let inverse = |x: f64| 1.0 / if x == 0.0 { f64::MIN_POSITIVE.sqrt() } else { x };
+        let (negative, solved) = if size == 1 {
+            let d = self.rows[k % ring][0].re();
+            (usize::from(d < 0.0), coupling.map(|b| b.times(inverse(d))))
+        } else {
+            let block = DMatrix::from_fn(size, size, |i, j| {
+                let x = self.rows[(k + i.min(j)) % ring][i.abs_diff(j).min(self.half)];
+                if i <= j { x } else { Scalar::conj(x) }
+            });
+            let parts = block.symmetric_eigen();
+            let mut scaled = parts.eigenvectors.ad_mul(&coupling);
+            for (mut row, x) in scaled.row_iter_mut().zip(parts.eigenvalues.iter()) {
+                row.iter_mut().for_each(|b| *b = b.times(inverse(*x)));
+            }
+            let negative = parts.eigenvalues.iter().filter(|x| **x < 0.0).count();
+            (negative, parts.eigenvectors * scaled)
+        };
+        let growth = (0..others).map(|j| {
+            let change: f64 = (0..size).map(|i| coupling[(i, j)].size() * solved[(i, j)].size()).sum();
+            let reach = others - self.border;
+            let largest = if j < reach { self.sizes[(end + j) % ring] } else { self.corner_sizes[j - reach] };
+            if change == 0.0 { 0.0 } else { change.abs() / largest }
+        });
+        let growth = growth.fold(0.0, |worst: f64, x| if x <= worst { worst } else { x });
+        Pivot { size, negative, growth, coupling, solved }
+    }
+
+    /// Subtracts Bᴴ D⁻¹ B from what is behind a block.
+    fn subtract(&mut self, k: usize, pivot: &Pivot<T>) {
+        let (end, ring) = (k + pivot.size, self.rows.len());
+        let reach = self.reach(end);
+        for j in 0..reach + self.border {
+            for i in 0..=j {
+                let mut x = T::ZERO;
+                for l in 0..pivot.size {
+                    x += Scalar::conj(pivot.coupling[(l, i)]) * pivot.solved[(l, j)];
+                }
+                if i >= reach {
+                    self.corner[(i - reach, j - reach)] -= x;
+                    if i != j {
+                        self.corner[(j - reach, i - reach)] -= Scalar::conj(x);
+                    }
+                } else {
+                    let at = if j >= reach { self.half + 1 + j - reach } else { j - i };
+                    self.rows[(end + i) % ring][at] -= x;
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::linalg::vector::noise;
+    use num_complex::Complex64;
+
+    /// Saddle points with unknowns without stiffness, in the band and in the border, against all eigenvalues.
+    #[test]
+    fn it_is_that_of_the_eigenvalues() {
+        for seed in 0..60 {
+            let (n, half, border) = (24, 5, (seed % 4) as usize);
+            let random = noise(2 * n * n, seed + 1);
+            let band = n - border;
+            let multiplier = |i: usize| seed % 3 > 0 && i % 4 == 3 || i >= band && seed % 2 == 1;
+            let free = |i: usize| seed % 5 > 2 && i % 8 < 2;
+            let entry = |i: usize, j: usize| {
+                let none = multiplier(i) && multiplier(j) || free(i) && free(j) || j < band && j - i > half;
+                let im = if i == j { 0.0 } else { random[n * n + i * n + j] };
+                if none { Complex64::ZERO } else { Complex64::new(random[i * n + j], im) }
+            };
+            let real = |i: usize, j: usize| entry(i, j).re;
+            let full = DMatrix::from_fn(n, n, |i, j| {
+                let x = entry(i.min(j), i.max(j));
+                if i <= j { x } else { x.conj() }
+            });
+            let count = |x: &nalgebra::DVector<f64>| x.iter().filter(|x| **x < 0.0).count();
+            let expected = count(&full.clone().symmetric_eigen().eigenvalues);
+            assert_eq!(negative_pivots_of([n, half, border], entry), expected, "complex, seed {seed}");
+            let expected = count(&full.map(|x| x.re).symmetric_eigen().eigenvalues);
+            assert_eq!(negative_pivots_of([n, half, border], real), expected, "real, seed {seed}");
+        }
+    }
 }

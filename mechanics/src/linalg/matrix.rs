@@ -158,6 +158,14 @@ pub enum Storage<T> {
 }
 
 impl<T: Scalar> Storage<T> {
+    /// Entry (i, j).
+    pub fn get(&self, i: usize, j: usize) -> T {
+        match self {
+            Storage::Dense(a) => a.get(i, j),
+            Storage::Band(a) => a.get(i, j),
+        }
+    }
+
     /// Adds to entry (i, j), which the structure must hold.
     #[inline]
     pub fn add(&mut self, i: usize, j: usize, x: T) {
@@ -312,11 +320,12 @@ impl<T: Scalar> Matrix<T> {
 
     /// Entry (i, j).
     pub fn get(&self, i: usize, j: usize) -> T {
-        let (i, j) = (self.place(i), self.place(j));
-        match &self.storage {
-            Storage::Dense(a) => a.get(i, j),
-            Storage::Band(a) => a.get(i, j),
-        }
+        self.storage.get(self.place(i), self.place(j))
+    }
+
+    /// The unknown at a place of the storage.
+    pub fn unknown(&self, place: usize) -> usize {
+        self.ordering.as_ref().map_or(place, |ordering| ordering.unknowns[place])
     }
 
     /// Calls `visit` with the row and the value of every entry of column `j` that is not zero.
@@ -330,7 +339,7 @@ impl<T: Scalar> Matrix<T> {
             _ => (0..n, n..n),
         };
         for i in band.chain(reach) {
-            let i = self.ordering.as_ref().map_or(i, |ordering| ordering.unknowns[i]);
+            let i = self.unknown(i);
             let x = self.get(i, j);
             if x != T::ZERO {
                 visit(i, x);

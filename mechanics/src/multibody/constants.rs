@@ -9,6 +9,7 @@ use super::marker::Part;
 use super::model::Model;
 use super::rotation::{apply, apply_transposed, column, matrix, plus, product, quaternion};
 use super::row::Row;
+use super::slender::ELEMENT_VELOCITIES;
 use crate::drive::force_breaks;
 use crate::linalg::Structure;
 use crate::linalg::vector::{cross, inner};
@@ -21,6 +22,10 @@ pub(super) struct Constants {
     pub(super) model: Model,
     /// Place of each body in the order of the unknowns.
     pub(super) place: Vec<usize>,
+    /// Number of the first coordinate and of the first velocity of each beam.
+    pub(super) beams: Vec<[usize; 2]>,
+    /// Forces of gravity on the beams.
+    pub(super) weight: Vec<f64>,
     /// Part of each marker, and its frame from the centre of mass.
     pub(super) markers: Vec<(Part, Frame)>,
     /// Rows that are kept: joint and constraint.
@@ -42,9 +47,28 @@ pub(super) struct Constants {
 impl Constants {
     /// Of a model with the given rows; and which joints belong to the tree.
     pub(super) fn new(model: Model, rows: Vec<(usize, Row)>, dropped: Vec<String>) -> (Constants, Vec<bool>) {
+        let mut model = model;
+        let bodies = model.bodies.len();
+        // Bodies and nodes of beams as the nodes of a graph.
+        let (mut sizes, mut chains, mut elements) = (vec![6; bodies], Vec::new(), Vec::new());
+        let (mut q, mut v, mut beams) = (7 * bodies, 6 * bodies, Vec::new());
+        for of in &mut model.beams {
+            of.beam.damp(of.damping);
+            of.beam.make_viscous(of.viscosity);
+            chains.push(sizes.len());
+            beams.push([q, v]);
+            for _ in of.beam.elements() {
+                let nodes = [Some(sizes.len()), Some(sizes.len() + 1)];
+                elements.push(Link { nodes, rows: 0 });
+                sizes.push(ELEMENT_VELOCITIES);
+            }
+            sizes.push(ELEMENT_VELOCITIES - 1);
+            (q, v) = (q + of.beam.coordinates(), v + of.beam.velocities());
+        }
         let body = |part| match part {
             Part::Ground => None,
             Part::Body(i) => Some(i),
+            Part::Section { beam, node } => Some(chains[beam] + node),
         };
         let range = |k: usize| {
             let first = rows.partition_point(|(joint, _)| *joint < k);
@@ -55,12 +79,12 @@ impl Constants {
         let mut links: Vec<Link> = joints
             .map(|(j, rows)| Link { nodes: [body(j.from.part), body(j.to.part)], rows: rows.len() })
             .collect();
+        links.extend(elements);
         links.extend(
             model.springs.iter().map(|s| Link { nodes: [body(s.from.part), body(s.to.part)], rows: 0 }),
         );
-        let plan = layout(&vec![6; model.bodies.len()], &links);
-        let place: Vec<usize> = plan.first.iter().map(|first| first / 6).collect();
-        let mut q = 7 * model.bodies.len();
+        let plan = layout(&sizes, bodies, &links);
+        let place: Vec<usize> = plan.first[..bodies].iter().map(|first| first / 6).collect();
         let coordinates: Vec<_> = model.joints.iter().map(|joint| joint.kind.coordinate()).collect();
         let angle: Vec<Option<usize>> = coordinates
             .iter()
@@ -80,22 +104,44 @@ impl Constants {
             .chain(model.points.iter().copied());
         let markers: Vec<(Part, Frame)> = markers
             .map(|marker| {
-                let centre = body(marker.part).map_or([0.0; 3], |i| model.bodies[i].centre);
+                let centre = match marker.part {
+                    Part::Body(i) => model.bodies[i].centre,
+                    _ => [0.0; 3],
+                };
                 let position = plus(marker.frame.position, -1.0, centre);
                 (marker.part, Frame { position, ..marker.frame })
             })
             .collect();
         let arms = markers.iter().filter(|(part, _)| *part != Part::Ground);
-        let length = arms.map(|(_, f)| inner(f.position, f.position).sqrt()).fold(0.0, f64::max);
+        let length = arms.map(|(_, f)| inner(f.position, f.position).sqrt());
+        let spans = model.beams.iter().map(|of| of.beam.elements().iter().map(|e| e.length()).sum());
+        let length = length.chain(spans).fold(0.0, f64::max);
         let length = if length > 0.0 { length } else { 1.0 };
         let mut breaks: Vec<Break> = model.joints.iter().flat_map(|joint| joint.breaks()).collect();
-        let amplitudes = model.loads.iter().filter_map(|load| load.amplitude.as_ref());
-        breaks.extend(amplitudes.flat_map(|amplitude| force_breaks(amplitude.as_ref())));
-        let (bodies, joints) = (model.bodies.len(), model.joints.len());
+        let amplitudes = model.loads.iter().map(|load| &load.amplitude);
+        let amplitudes = amplitudes.chain(model.line_loads.iter().map(|load| &load.amplitude));
+        breaks.extend(amplitudes.flatten().flat_map(|amplitude| force_breaks(amplitude.as_ref())));
+        let mut weight = vec![0.0; v];
+        for (of, [_, at]) in model.beams.iter().zip(&beams) {
+            for (e, element) in of.beam.elements().iter().enumerate() {
+                add_centreline(
+                    &element.body_force(model.gravity),
+                    &mut weight[at + ELEMENT_VELOCITIES * e..],
+                );
+            }
+        }
+        let joints = model.joints.len();
+        let mut scales: Vec<f64> = (0..6 * bodies).map(|i| if i % 6 < 3 { length } else { 1.0 }).collect();
+        for of in &model.beams {
+            let of_node = |i| if i % ELEMENT_VELOCITIES < 3 { length } else { 1.0 };
+            scales.extend((0..of.beam.velocities()).map(of_node));
+        }
         let mut constants = Constants {
-            size: Size { q, v: 6 * bodies, lambda: rows.len(), memory: 0 },
+            size: Size { q, v, lambda: rows.len(), memory: 0 },
             sets: vec![Set::Free; rows.len()],
-            scales: (0..6 * bodies).map(|i| if i % 6 < 3 { length } else { 1.0 }).collect(),
+            scales,
+            beams,
+            weight,
             structures: plan.structures,
             breaks: ordered(breaks),
             channels: Vec::new(),
@@ -124,6 +170,11 @@ impl Constants {
             v[..3].copy_from_slice(&plus(body.velocity, 1.0, cross(body.spin, arm)));
             v[3..6].copy_from_slice(&apply_transposed(r, body.spin));
         }
+        for (of, &[q, v]) in self.model.beams.iter().zip(&self.beams) {
+            let n = of.beam.coordinates();
+            s.q[q..q + n].copy_from_slice(of.beam.initial());
+            of.start(&s.q[q..q + n], &mut s.v[v..]);
+        }
         let mut q = s.q.clone();
         self.count_angles(&s.q, &mut q);
         // A prescribed angle begins in its own turn.
@@ -144,12 +195,17 @@ impl Constants {
 
     /// Writes the angles of joints into `to`, each the nearest to that in `from`.
     pub(super) fn count_angles(&self, from: &[f64], to: &mut [f64]) {
-        let bodies = 7 * self.place.len();
-        let (to, angles) = to.split_at_mut(bodies);
+        let count = self.angle.iter().flatten().count();
+        let before = to.len() - count;
+        let (to, angles) = to.split_at_mut(before);
         let rotation = |marker: usize| {
             let (part, frame) = &self.markers[marker];
             match part {
                 Part::Ground => frame.rotation,
+                Part::Section { beam, node } => {
+                    let triad = self.model.beams[*beam].beam.node(*node, &to[self.beams[*beam][0]..]).1;
+                    product(&triad.rotation(), &frame.rotation)
+                }
                 Part::Body(i) => product(&matrix(four(to, 7 * self.place[*i] + 3)), &frame.rotation),
             }
         };
@@ -157,10 +213,17 @@ impl Constants {
             if let Some(i) = *angle {
                 let (a, b) = (rotation(2 * k), rotation(2 * k + 1));
                 let axis = column;
-                angles[i - bodies] =
+                angles[i - before] =
                     nearest_turn(angle_between(axis(&a, 0), axis(&a, 1), axis(&b, 0)), from[i]);
             }
         }
+    }
+}
+
+/// Adds forces on r₁, r′₁, r₂, r′₂ of an element to those from its first velocity on.
+pub(super) fn add_centreline(forces: &[[f64; 3]; 4], out: &mut [f64]) {
+    for (at, force) in [0, 3, ELEMENT_VELOCITIES, ELEMENT_VELOCITIES + 3].into_iter().zip(forces) {
+        (0..3).for_each(|k| out[at + k] += force[k]);
     }
 }
 

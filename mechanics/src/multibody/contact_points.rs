@@ -1,24 +1,22 @@
-//! Points of bodies that may touch obstacles.
+//! Points of bodies and beams that may touch obstacles.
 
-use super::body::Placed;
+use super::marker::MOST;
 use super::system::Multibody;
 use crate::contact::{PointMotion, Points, Variation};
 use crate::linalg::Matrix;
 use crate::system::State;
 
 impl Multibody {
-    /// Number of the marker of contact point `k`, and the place of its body, which are placed.
-    fn contact(&mut self, k: usize, s: &State) -> (usize, Placed) {
+    /// Number of the marker of contact point `k`, which is placed.
+    fn contact(&mut self, k: usize, s: &State) -> usize {
         self.place(s);
-        let marker = self.poses.len() - self.constants.model.points.len() + k;
-        let body = self.poses[marker].numbers[0] / 6;
-        (marker, self.placed[body])
+        self.poses.len() - self.constants.model.points.len() + k
     }
 }
 
 impl Points for Multibody {
     fn motion(&mut self, k: usize, s: &State) -> PointMotion {
-        let (marker, _) = self.contact(k, s);
+        let marker = self.contact(k, s);
         let pose = &self.poses[marker];
         PointMotion {
             position: pose.position,
@@ -29,8 +27,8 @@ impl Points for Multibody {
     }
 
     fn variations(&mut self, k: usize, s: &State, out: &mut Vec<Variation>) {
-        let (marker, body) = self.contact(k, s);
-        self.poses[marker].transport(&body);
+        let marker = self.contact(k, s);
+        self.poses[marker].transport();
         let pose = &self.poses[marker];
         out.clear();
         out.extend((0..pose.count).map(|j| Variation {
@@ -41,12 +39,12 @@ impl Points for Multibody {
     }
 
     fn add_curvature(&mut self, k: usize, s: &State, force: [f64; 3], w: f64, out: &mut Matrix) {
-        let (marker, _) = self.contact(k, s);
+        let marker = self.contact(k, s);
         let pose = &self.poses[marker];
-        let mut block = [[0.0; 6]; 6];
+        let mut block = [[0.0; MOST]; MOST];
         pose.add_curvature(w, force, [0.0; 3], 0, &mut block);
-        for i in 3..6 {
-            for j in 3..6 {
+        for i in 3..pose.count {
+            for j in 3..pose.count {
                 out.add(pose.numbers[i], pose.numbers[j], block[i][j]);
             }
         }

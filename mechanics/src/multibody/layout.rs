@@ -34,17 +34,18 @@ pub(super) struct Layout {
     pub(super) structures: [Structure; 3],
 }
 
-/// The layout of nodes with `sizes` velocities each.
-pub(super) fn layout(sizes: &[usize], links: &[Link]) -> Layout {
+/// The layout of nodes with `sizes` velocities each. The first `bodies` of them are numbered in their order in the band, the
+/// others, which are those of beams, behind them as they come.
+pub(super) fn layout(sizes: &[usize], bodies: usize, links: &[Link]) -> Layout {
     let tree = Tree::new(sizes.len(), links);
     let mut cut = vec![false; sizes.len()];
-    let mut plan = Plan::new(sizes, links, &tree, &cut);
+    let mut plan = Plan::new((sizes, bodies), links, &tree, &cut);
     // Bodies at the ends of the widest coupling are tried in the border, as long as it pays.
     while let Some([a, b]) = plan.widest {
         let tried = [a, b].map(|node| {
             let mut cut = cut.clone();
             cut[node] = true;
-            (Plan::new(sizes, links, &tree, &cut), cut)
+            (Plan::new((sizes, bodies), links, &tree, &cut), cut)
         });
         let [first, second] = tried;
         let (best, chosen) = if first.0.cost(1) <= second.0.cost(1) { first } else { second };
@@ -149,14 +150,14 @@ struct Plan<'a> {
 }
 
 impl<'a> Plan<'a> {
-    fn new(sizes: &'a [usize], links: &'a [Link], tree: &Tree, cut: &[bool]) -> Plan<'a> {
+    fn new((sizes, bodies): (&'a [usize], usize), links: &'a [Link], tree: &Tree, cut: &[bool]) -> Plan<'a> {
         let mut order: Vec<usize> = tree.order.iter().copied().filter(|node| !cut[*node]).collect();
         let in_band = order.len();
         order.extend(tree.order.iter().copied().filter(|node| cut[*node]));
         let follows = (0..sizes.len()).map(|node| tree.inboard[node].filter(|_| !cut[node])).collect();
         let mut first = vec![0; sizes.len()];
         let mut next = 0;
-        for &node in &order {
+        for node in order.iter().copied().filter(|node| *node < bodies).chain(bodies..sizes.len()) {
             first[node] = next;
             next += sizes[node];
         }
@@ -241,10 +242,10 @@ impl<'a> Plan<'a> {
         if !worthwhile {
             return Structure::dense(whole);
         }
-        if multipliers == 0 {
+        let (nodes, rows) = self.places(multipliers);
+        if multipliers == 0 && nodes == self.first {
             return band;
         }
-        let (nodes, rows) = self.places(multipliers);
         let mut places = Vec::with_capacity(whole);
         let mut velocities = vec![0; self.sizes.iter().sum()];
         for (i, size) in self.sizes.iter().enumerate() {
@@ -293,7 +294,7 @@ mod tests {
             let name = |i: usize| (i * 7) % n;
             let mut links = vec![joint(name(0), None)];
             links.extend((1..n).map(|i| joint(name(i - 1), Some(name(i)))));
-            let plan = layout(&vec![6; n], &links);
+            let plan = layout(&vec![6; n], n, &links);
             assert_eq!(pieces(&plan.structures[0]), [6 * n, 11, 0]);
             assert_eq!(pieces(&plan.structures[1]), [11 * n, 16, 0]);
             assert!(pieces(&plan.structures[2])[1] <= 48, "{:?}", pieces(&plan.structures[2]));
@@ -307,12 +308,12 @@ mod tests {
         let chain = (1..n).map(|i| joint(i - 1, Some(i)));
         let grounded: Vec<Link> =
             [joint(0, None), joint(n - 1, None)].into_iter().chain(chain.clone()).collect();
-        let plan = layout(&vec![6; n], &grounded);
+        let plan = layout(&vec![6; n], n, &grounded);
         // The tree begins at one of the two joints with the ground; the other closes the loop.
         assert_eq!(pieces(&plan.structures[1]), [6 * n + 5 * (n + 1), 16, 5]);
         assert_eq!(plan.in_tree.iter().filter(|tree| !**tree).count(), 1);
         let ring: Vec<Link> = [joint(n - 1, Some(0)), joint(0, None)].into_iter().chain(chain).collect();
-        let [_, half, border] = pieces(&layout(&vec![6; n], &ring).structures[1]);
+        let [_, half, border] = pieces(&layout(&vec![6; n], n, &ring).structures[1]);
         assert!(half == 16 && border <= 16, "half-bandwidth {half}, border {border}");
     }
 
@@ -327,7 +328,8 @@ mod tests {
                 links.push(joint(node, Some(if k == 0 { 0 } else { node - 1 })));
             }
         }
-        let [_, half, border] = pieces(&layout(&vec![6; 1 + arms * length], &links).structures[1]);
+        let [_, half, border] =
+            pieces(&layout(&vec![6; 1 + arms * length], 1 + arms * length, &links).structures[1]);
         assert!(half <= 16 && border == 11, "half-bandwidth {half}, border {border}");
         let mut links = vec![joint(0, None)];
         for k in 0..50 {
@@ -336,7 +338,7 @@ mod tests {
                 links.push(joint(2 * k, Some(2 * k - 2)));
             }
         }
-        let [_, half, border] = pieces(&layout(&vec![6; 100], &links).structures[1]);
+        let [_, half, border] = pieces(&layout(&vec![6; 100], 100, &links).structures[1]);
         assert!(half <= 27 && border == 0, "half-bandwidth {half}, border {border}");
     }
 
@@ -348,7 +350,7 @@ mod tests {
                 links.iter().map(move |l| Link { nodes: l.nodes.map(|n| n.map(|n| n + 4 * k)), rows: l.rows })
             })
             .collect();
-        let plan = layout(&[6; 120], &many);
+        let plan = layout(&[6; 120], 120, &many);
         for (k, structure) in plan.structures.iter().enumerate().skip(1) {
             let Structure::Ordered { places, .. } = structure else { panic!("{structure:?}") };
             let mut sorted = places.to_vec();

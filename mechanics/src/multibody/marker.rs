@@ -1,9 +1,18 @@
 //! Markers: frames fixed to parts, and all that joints and forces know of a part.
+//!
+//! A section of a beam rotates by δθ = B (δr′, δΘ) = r′ × δr′/|r′|² + t δΘ. With the arm p = Λ s of a marker,
+//!
+//! ```text
+//! ω  = w t + σ,  σ = r′ × ṙ′/|r′|²      δω = W δr′,  W = w (1 − t tᵀ)/|r′| − [ṙ′]×/|r′|² − 2 σ tᵀ/|r′|
+//! ẋ  = ṙ + ω × p                        δẋ = −[p]× W δr′ − [ω]× [p]× δθ
+//! Jᵀ(f, m) = (f, Bᵀ M),  M = p × f + m  δ(Bᵀ M) = (∂B)ᵀ M + Bᵀ [f]× [p]× δθ
+//! ```
 
-use super::body::Placed;
+use super::body::{Placed, three};
 use super::rotation::{
-    IDENTITY, Matrix3, Vector, apply, apply_transposed, column, frame, plus, product, skew,
+    IDENTITY, Matrix3, Vector, apply, apply_transposed, column, frame, plus, product, skew, tangent, times,
 };
+use super::slender::Triad;
 use crate::linalg::vector::cross;
 use crate::system::Frame;
 
@@ -17,6 +26,14 @@ pub enum Part {
     Ground,
     /// The body of this number.
     Body(usize),
+    /// The section at a node of a beam: its origin on the centreline, its axes Λ = [t, n, b]. What is fixed to it
+    /// rotates with r′ and does not hold the length of r′.
+    Section {
+        /// Number of the beam.
+        beam: usize,
+        /// Number of the node.
+        node: usize,
+    },
 }
 
 /// A frame fixed to a part.
@@ -62,9 +79,26 @@ pub(super) struct Pose {
     pub(super) count: usize,
     pub(super) jacobian: [[f64; MOST]; 6],
     pub(super) transport: [[f64; MOST]; 6],
-    /// From the part's centre of mass to the marker, and the part's rotation.
-    arm: Vector,
-    rotation: Matrix3,
+    carrier: Carrier,
+}
+
+/// The part that carries a marker.
+#[derive(Clone, Copy, Debug)]
+enum Carrier {
+    Ground,
+    /// From the centre of mass to the marker, rotation and Ω, in the body's axes.
+    Body {
+        arm: Vector,
+        rotation: Matrix3,
+        spin: Vector,
+    },
+    /// From the centreline to the marker in space, axes, ṙ′ and w.
+    Section {
+        arm: Vector,
+        triad: Triad,
+        slope_rate: Vector,
+        spin: f64,
+    },
 }
 
 impl Default for Pose {
@@ -81,8 +115,7 @@ impl Default for Pose {
             count: 0,
             jacobian: [[0.0; MOST]; 6],
             transport: [[0.0; MOST]; 6],
-            arm: zero,
-            rotation: IDENTITY,
+            carrier: Carrier::Ground,
         }
     }
 }
@@ -93,10 +126,10 @@ impl Pose {
         Pose { position: frame.position, axes: frame.rotation, ..Pose::default() }
     }
 
-    /// Of a marker on a body whose velocities begin at `first`; it stands at `arm` from the centre of mass.
-    pub(super) fn on_body(first: usize) -> Pose {
-        let mut pose = Pose { count: 6, ..Pose::default() };
-        (0..6).for_each(|i| pose.numbers[i] = first + i);
+    /// Of a marker that `count` velocities from `first` on move: six of a body, seven of a node of a beam.
+    pub(super) fn moved(first: usize, count: usize) -> Pose {
+        let mut pose = Pose { count, ..Pose::default() };
+        (0..count).for_each(|i| pose.numbers[i] = first + i);
         (0..3).for_each(|i| pose.jacobian[i][i] = 1.0);
         pose
     }
@@ -105,8 +138,7 @@ impl Pose {
     #[inline]
     pub(super) fn place(&mut self, body: &Placed, marker: &Frame) {
         let (r, s, spin) = (&body.rotation, marker.position, body.spin);
-        self.arm = s;
-        self.rotation = *r;
+        self.carrier = Carrier::Body { arm: s, rotation: *r, spin };
         self.position = plus(body.position, 1.0, apply(r, s));
         self.axes = product(r, &marker.rotation);
         let swept = cross(spin, s);
@@ -125,14 +157,64 @@ impl Pose {
         }
     }
 
-    /// Writes B of a marker that has been placed.
-    pub(super) fn transport(&mut self, body: &Placed) {
-        let lever = product(&body.rotation, &skew(cross(body.spin, self.arm)));
-        let turn = product(&body.rotation, &skew(body.spin));
+    /// Moves a marker on the section of a node, whose q, v and a begin at those of the slices.
+    #[inline]
+    pub(super) fn place_on_section(&mut self, [q, v, a]: [&[f64]; 3], marker: &Frame) {
+        let triad = Triad::new(three(q, 3), three(q, 6));
+        let axes = triad.rotation();
+        let arm = apply(&axes, marker.position);
+        self.carrier = Carrier::Section { arm, triad, slope_rate: three(v, 3), spin: v[6] };
+        let rates = |x: &[f64]| [x[3], x[4], x[5], x[6]];
+        [self.spin, self.spin_rate] = triad.angular_motion(rates(v), rates(a));
+        self.position = plus(three(q, 0), 1.0, arm);
+        self.axes = product(&axes, &marker.rotation);
+        let swept = cross(self.spin, arm);
+        self.velocity = plus(three(v, 0), 1.0, swept);
+        let bent = plus(cross(self.spin_rate, arm), 1.0, cross(self.spin, swept));
+        self.acceleration = plus(three(a, 0), 1.0, bent);
+        let rotation = triad.rotation_jacobian();
+        let lever = levered(arm, &rotation);
         for i in 0..3 {
-            for j in 0..3 {
-                self.transport[i][3 + j] = -lever[i][j];
-                self.transport[3 + i][3 + j] = -turn[i][j];
+            for j in 0..4 {
+                self.jacobian[i][3 + j] = -lever[i][j];
+                self.jacobian[3 + i][3 + j] = rotation[i][j];
+            }
+        }
+    }
+
+    /// Writes B of a marker that has been placed.
+    pub(super) fn transport(&mut self) {
+        match self.carrier {
+            Carrier::Ground => {}
+            Carrier::Body { arm, rotation, spin } => {
+                let lever = product(&rotation, &skew(cross(spin, arm)));
+                let turn = product(&rotation, &skew(spin));
+                for i in 0..3 {
+                    for j in 0..3 {
+                        self.transport[i][3 + j] = -lever[i][j];
+                        self.transport[3 + i][3 + j] = -turn[i][j];
+                    }
+                }
+            }
+            Carrier::Section { arm, triad, slope_rate, spin } => {
+                let (inverse, t) = (1.0 / triad.length, triad.tangent);
+                let swing = times(inverse, cross(t, slope_rate));
+                let rate = skew(times(-inverse * inverse, slope_rate));
+                let mut turn = [[0.0; 4]; 3];
+                for i in 0..3 {
+                    for j in 0..3 {
+                        let across = spin * (IDENTITY[i][j] - t[i] * t[j]);
+                        turn[i][j] = inverse * (across - 2.0 * swing[i] * t[j]) + rate[i][j];
+                    }
+                }
+                let by_arm = levered(self.spin, &levered(arm, &triad.rotation_jacobian()));
+                let lever = levered(arm, &turn);
+                for i in 0..3 {
+                    for j in 0..4 {
+                        self.transport[i][3 + j] = -lever[i][j] - by_arm[i][j];
+                        self.transport[3 + i][3 + j] = turn[i][j];
+                    }
+                }
             }
         }
     }
@@ -152,17 +234,63 @@ impl Pose {
         at: usize,
         out: &mut [[f64; N]; N],
     ) {
-        if self.count == 0 {
-            return;
-        }
-        // The generalized moment s × Rᵀf + Rᵀm changes by s̃ (Rᵀf)~ + (Rᵀm)~ with the body's rotation.
-        let force = skew(apply_transposed(&self.rotation, force));
-        let moment = skew(apply_transposed(&self.rotation, moment));
-        let lever = product(&skew(self.arm), &force);
-        for i in 0..3 {
-            for j in 0..3 {
-                out[at + 3 + i][at + 3 + j] += c * (lever[i][j] + moment[i][j]);
+        match self.carrier {
+            Carrier::Ground => {}
+            Carrier::Body { arm, rotation, .. } => {
+                // The generalized moment s × Rᵀf + Rᵀm changes by s̃ (Rᵀf)~ + (Rᵀm)~ with the body's rotation.
+                let force = skew(apply_transposed(&rotation, force));
+                let moment = skew(apply_transposed(&rotation, moment));
+                let lever = product(&skew(arm), &force);
+                for i in 0..3 {
+                    for j in 0..3 {
+                        out[at + 3 + i][at + 3 + j] += c * (lever[i][j] + moment[i][j]);
+                    }
+                }
+            }
+            Carrier::Section { arm, triad, .. } => {
+                let fixed = triad.moment_derivative(plus(moment, 1.0, cross(arm, force)));
+                let rotation = triad.rotation_jacobian();
+                let carried = levered(force, &levered(arm, &rotation));
+                for i in 0..4 {
+                    for j in 0..4 {
+                        let swept: f64 = (0..3).map(|k| rotation[k][i] * carried[k][j]).sum();
+                        out[at + 3 + i][at + 3 + j] += c * (fixed[i][j] + swept);
+                    }
+                }
             }
         }
     }
+
+    /// Replaces derivatives by variations of the part, in the columns from `at` on, by those by the increment d since the
+    /// configuration that was retracted.
+    #[inline]
+    pub(super) fn follow<const N: usize>(&self, d: &[f64], at: usize, rows: &mut [[f64; N]]) {
+        match self.carrier {
+            Carrier::Ground => {}
+            Carrier::Body { .. } => {
+                let chart = tangent(three(d, self.numbers[3]));
+                for row in rows {
+                    let turned = apply_transposed(&chart, three(row, at + 3));
+                    row[at + 3..at + 6].copy_from_slice(&turned);
+                }
+            }
+            Carrier::Section { triad, .. } => {
+                let turn = triad.spin_by_slope(three(d, self.numbers[3]));
+                for row in rows {
+                    (0..3).for_each(|k| row[at + 3 + k] += row[at + 6] * turn[k]);
+                }
+            }
+        }
+    }
+}
+
+/// [x]× A
+#[inline(always)]
+fn levered(x: Vector, a: &[[f64; 4]; 3]) -> [[f64; 4]; 3] {
+    let mut out = [[0.0; 4]; 3];
+    for j in 0..4 {
+        let swept = cross(x, [a[0][j], a[1][j], a[2][j]]);
+        (0..3).for_each(|i| out[i][j] = swept[i]);
+    }
+    out
 }

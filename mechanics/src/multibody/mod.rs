@@ -1,4 +1,4 @@
-//! Rigid bodies in space, joined and driven.
+//! Rigid bodies and slender beams in space, joined and driven.
 //!
 //! A body has the configuration (r, p) on ℝ³ × SO(3): the position r of its centre of mass in the inertial axes and the
 //! unit quaternion p of its rotation R; its velocity is (ṙ, Ω) with ṙ in the inertial axes and the angular velocity Ω in
@@ -9,7 +9,8 @@
 //! m r̈ = F,     J Ω̇ + Ω × J Ω = Rᵀ L
 //! ```
 //!
-//! Joints, springs and loads act between [markers](Marker): frames that are fixed to bodies, of which a joint knows
+//! A [beam](slender) adds its own unknowns. Joints, springs and loads act between [markers](Marker): frames that are fixed to bodies
+//! or to the sections of beams at their nodes, of which a joint knows
 //! position, axes, velocities, accelerations and their derivatives by the velocities of the part, and nothing else.
 //! Constraints use the axes of markers, a·b = 0 and a·(x_B − x_A) = 0, so that no angle is singular.
 //!
@@ -17,17 +18,19 @@
 //! |---|---|
 //! | `rotation` | quaternions, rotation vectors |
 //! | `body` | a rigid body |
+//! | `flexible` | a slender beam as a part, and loads along it |
 //! | `marker` | frames of parts, and their kinematics |
 //! | `row` | scalar constraints between two markers |
 //! | `joint` | joints as lists of rows, with their drives |
 //! | `force` | springs, dampers, actuators and loads as forces between two markers |
 //! | `contact_points` | points that may touch obstacles |
-//! | `layout` | order of bodies and multipliers along the tree |
+//! | `layout` | order of bodies, nodes of beams and multipliers along the tree |
 //! | `model` | what a user builds, with its faults |
 //! | `consistency` | positions, ranks and velocities at the start |
 //! | `constants` | what does not change in a run |
 //! | `slender` | the geometrically exact slender beam |
 //! | `system` | the equations of motion |
+//! | `rotating` | the same in a frame that rotates, for steady rotation and its modes |
 //! | `observed`, `channels` | energies, power, recorded quantities |
 
 mod body;
@@ -35,20 +38,24 @@ mod channels;
 mod consistency;
 mod constants;
 mod contact_points;
+mod flexible;
 mod force;
 mod joint;
 mod layout;
 mod marker;
 mod model;
 mod observed;
+mod rotating;
 pub mod rotation;
 mod row;
 pub mod slender;
 mod system;
 
 pub use body::Body;
+pub use flexible::{Fibre, Flexible, LineLoad};
 pub use force::{Axes, Load, Spring};
 pub use joint::{Drive, Joint, Kind};
 pub use marker::{Marker, Part};
 pub use model::{Model, ModelError, Violation};
+pub use rotating::Rotating;
 pub use system::Multibody;

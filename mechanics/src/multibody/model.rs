@@ -1,6 +1,7 @@
 //! What a user builds: bodies, joints, springs and loads, with their faults.
 
 use super::body::Body;
+use super::flexible::{Flexible, LineLoad};
 use super::force::{Load, Spring};
 use super::joint::{Joint, Kind};
 use super::marker::{Marker, Part};
@@ -9,14 +10,16 @@ use crate::system::Frame;
 use std::collections::BTreeSet;
 use std::fmt;
 
-/// Bodies, joints, springs and loads, as they stand at t = 0.
+/// Bodies, beams, joints, springs and loads, as they stand at t = 0.
 #[derive(Clone, Debug, Default)]
 pub struct Model {
     pub(super) gravity: Vector,
     pub(super) bodies: Vec<Body>,
+    pub(super) beams: Vec<Flexible>,
     pub(super) joints: Vec<Joint>,
     pub(super) springs: Vec<Spring>,
     pub(super) loads: Vec<Load>,
+    pub(super) line_loads: Vec<LineLoad>,
     pub(super) points: Vec<Marker>,
     pub(super) drop_redundant: bool,
 }
@@ -44,7 +47,7 @@ pub enum ModelError {
     /// A number or a reference is wrong.
     #[error("{kind} `{name}` {fault}")]
     Part {
-        /// Body, joint, spring or load.
+        /// Body, beam, joint, spring or load.
         kind: &'static str,
         /// Its name.
         name: String,
@@ -52,7 +55,7 @@ pub enum ModelError {
         fault: String,
     },
     /// There is nothing that moves.
-    #[error("the model has no body")]
+    #[error("the model has no body and no beam")]
     Empty,
     /// Markers of joints do not coincide at the start.
     #[error(
@@ -110,6 +113,12 @@ impl Model {
         Part::Body(self.bodies.len() - 1)
     }
 
+    /// Adds a beam; gives its number for [`Part::Section`].
+    pub fn beam(&mut self, beam: Flexible) -> usize {
+        self.beams.push(beam);
+        self.beams.len() - 1
+    }
+
     /// Adds a joint.
     pub fn joint(&mut self, joint: Joint) {
         self.joints.push(joint);
@@ -125,7 +134,12 @@ impl Model {
         self.loads.push(load);
     }
 
-    /// Adds a point of a body that may touch obstacles; gives its number for [contacts](crate::contact::Contact).
+    /// Adds a load along a beam.
+    pub fn line_load(&mut self, load: LineLoad) {
+        self.line_loads.push(load);
+    }
+
+    /// Adds a point of a body or of a beam's section that may touch obstacles; gives its number for [contacts](crate::contact::Contact).
     pub fn contact_point(&mut self, point: Marker) -> usize {
         self.points.push(point);
         self.points.len() - 1
@@ -135,7 +149,7 @@ impl Model {
     /// towards `first` if that is given.
     ///
     /// # Errors
-    /// [`ModelError::Part`] when the axis has no direction or a body is not there.
+    /// [`ModelError::Part`] when the axis has no direction or a part is not there.
     pub fn join(
         &mut self,
         name: &str,
@@ -148,14 +162,15 @@ impl Model {
             |fault: &str| ModelError::Part { kind: "joint", name: name.to_owned(), fault: fault.to_owned() };
         let rotation = frame(axis, first).ok_or_else(|| fault("has an axis without direction"))?;
         let space = Frame { position: point, rotation };
-        let marker =
-            |part| self.marker(part, space).ok_or_else(|| fault("joins a body that is not in the model"));
+        let marker = |part| {
+            self.marker(part, space).ok_or_else(|| fault("joins a body or a node that is not in the model"))
+        };
         let joint = Joint::new(name, kind, marker(from)?, marker(to)?);
         self.joints.push(joint);
         self.joints.last_mut().ok_or(ModelError::Empty)
     }
 
-    /// The marker of a part that is the frame `space` at the start; `None` for a body that is not there.
+    /// The marker of a part that is the frame `space` at the start; `None` for a part that is not there.
     pub fn marker(&self, part: Part, space: Frame) -> Option<Marker> {
         let own = self.frame(part)?;
         let position = apply_transposed(&own.rotation, plus(space.position, -1.0, own.position));
@@ -168,17 +183,26 @@ impl Model {
         match part {
             Part::Ground => Some(Frame { position: [0.0; 3], rotation: IDENTITY }),
             Part::Body(i) => self.bodies.get(i).map(|body| body.frame),
+            Part::Section { beam, node } => {
+                let beam = &self.beams.get(beam)?.beam;
+                let (position, triad) =
+                    (node < beam.nodes().len()).then(|| beam.node(node, beam.initial()))?;
+                Some(Frame { position, rotation: triad.rotation() })
+            }
         }
     }
 
     /// The first thing that is wrong with a part.
     pub(super) fn check(&self) -> Result<(), ModelError> {
-        if self.bodies.is_empty() {
+        if self.bodies.is_empty() && self.beams.is_empty() {
             return Err(ModelError::Empty);
         }
         let mut names = BTreeSet::new();
         for body in &self.bodies {
             self.examine("body", &body.name, body.fault(), &[], &mut names)?;
+        }
+        for beam in &self.beams {
+            self.examine("beam", &beam.name, beam.fault(), &[], &mut names)?;
         }
         for joint in &self.joints {
             self.examine("joint", &joint.name, joint.fault(), &[joint.from, joint.to], &mut names)?;
@@ -194,6 +218,13 @@ impl Model {
             let sound = load.force.iter().chain(&load.moment).all(|x| x.is_finite());
             let fault = (!sound).then(|| "has a component that is not finite".to_owned());
             self.examine("load", &load.name, fault, &[load.at], &mut names)?;
+        }
+        for load in &self.line_loads {
+            let finite = load.force.iter().all(|x| x.is_finite());
+            let fault = (!finite).then(|| "has a component that is not finite".to_owned());
+            let missing =
+                (load.beam >= self.beams.len()).then(|| "is on a beam that is not in the model".to_owned());
+            self.examine("load", &load.name, fault.or(missing), &[], &mut names)?;
         }
         for (k, point) in self.points.iter().enumerate() {
             self.examine("contact point", &format!("contact point {k}"), None, &[*point], &mut names)?;
@@ -214,7 +245,7 @@ impl Model {
             m.frame.position.iter().chain(m.frame.rotation.iter().flatten()).all(|x| x.is_finite())
         };
         let fault = fault
-            .or_else(|| missing.then(|| "is on a body that is not in the model".to_owned()))
+            .or_else(|| missing.then(|| "is on a body or a node that is not in the model".to_owned()))
             .or_else(|| (!markers.iter().all(numbers)).then(|| "has a marker that is not finite".to_owned()))
             .or_else(|| match markers {
                 [a, b] if a.part == b.part => Some("has both ends on the same part".to_owned()),

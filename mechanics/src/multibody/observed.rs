@@ -8,8 +8,11 @@ use crate::linalg::vector::{cross, inner};
 use crate::profile::HubKinematics;
 use crate::system::{Channel, Energy, Frame, Observed, Power, State};
 
+/// |r′| below which a beam has no direction.
+const LEAST_STRETCH: f64 = 0.05;
+
 impl Multibody {
-    /// Momentum and angular momentum about the origin of all bodies, inertial axes [kg·m/s, kg·m²/s].
+    /// Momentum and angular momentum about the origin of all bodies and beams, inertial axes [kg·m/s, kg·m²/s].
     pub fn momenta(&mut self, s: &State) -> [Vector; 2] {
         self.place(s);
         let constants = &self.constants;
@@ -20,6 +23,10 @@ impl Multibody {
             let own = apply(&placed.rotation, apply(&body.inertia, placed.spin));
             sums[0] = plus(sums[0], 1.0, linear);
             sums[1] = plus(plus(sums[1], 1.0, own), 1.0, cross(placed.position, linear));
+        }
+        for (of, &[i, j]) in constants.model.beams.iter().zip(&constants.beams) {
+            let [linear, angular] = of.beam.momenta(&s.q[i..], &s.v[j..]);
+            sums = [plus(sums[0], 1.0, linear), plus(sums[1], 1.0, angular)];
         }
         sums
     }
@@ -33,6 +40,11 @@ impl Multibody {
             let spin = inner(placed.spin, apply(&body.inertia, placed.spin));
             energy.kinetic += 0.5 * (body.mass * inner(placed.velocity, placed.velocity) + spin);
             energy.gravity -= self.part * body.mass * inner(constants.model.gravity, placed.position);
+        }
+        for (of, &[i, j]) in constants.model.beams.iter().zip(&constants.beams) {
+            energy.kinetic += of.beam.kinetic_energy(&s.q[i..], &s.v[j..]);
+            energy.strain += of.beam.strain_energy(&s.q[i..]);
+            energy.gravity -= self.part * inner(constants.model.gravity, of.beam.first_moment(&s.q[i..]));
         }
         for (k, spring) in constants.model.springs.iter().enumerate() {
             let (a, b) = self.spring_ends(k);
@@ -64,6 +76,18 @@ impl Multibody {
             let placed = &self.placed[place];
             let spin = inner(placed.spin, apply(&body.inertia, placed.spin));
             power.dissipated += body.damping * (body.mass * inner(placed.velocity, placed.velocity) + spin);
+        }
+        for (of, &[i, j]) in model.beams.iter().zip(&constants.beams) {
+            // −β M v does the power −2 β T.
+            power.dissipated += 2.0 * of.damping * of.beam.kinetic_energy(&s.q[i..], &s.v[j..]);
+            if of.viscosity != 0.0 {
+                power.dissipated += of.beam.viscous_power(&s.q[i..], &s.v[j..]);
+            }
+        }
+        for load in &model.line_loads {
+            let [i, j] = constants.beams[load.beam];
+            let (beam, force) = (&model.beams[load.beam].beam, load.at(s.time(), self.part));
+            power.loads += beam.line_power(&s.q[i..], &s.v[j..], force, load.follows());
         }
         for (i, (joint, row)) in constants.rows.iter().enumerate() {
             let (a, b) = self.ends(*joint);
@@ -107,11 +131,20 @@ impl Observed for Multibody {
         (self.energies(s), self.powers(s))
     }
 
-    fn frames(&mut self, body: usize, s: &State, _stations: &[f64], out: &mut [Frame]) {
+    /// `body` numbers the bodies, and behind them the beams.
+    fn frames(&mut self, body: usize, s: &State, stations: &[f64], out: &mut [Frame]) {
         self.place(s);
         let constants = &self.constants;
         if let (Some(of), Some(place)) = (constants.model.bodies.get(body), constants.place.get(body)) {
             out.fill(self.placed[*place].frame(of.centre));
+        }
+        let beam = body.checked_sub(constants.place.len());
+        if let Some((of, [i, _])) =
+            beam.and_then(|k| constants.model.beams.get(k).zip(constants.beams.get(k)))
+        {
+            for (out, station) in out.iter_mut().zip(stations) {
+                *out = of.frame(&s.q[*i..], *station);
+            }
         }
     }
 
@@ -139,6 +172,22 @@ impl Observed for Multibody {
             put(&plus(placed.velocity, -1.0, cross(spin, arm)));
             put(&spin);
             put(&quaternion(&placed.rotation));
+        }
+        for (of, &[i, j]) in constants.model.beams.iter().zip(&constants.beams) {
+            let (q, v) = (&s.q[i..], &s.v[j..]);
+            for &station in &of.stations {
+                let (frame, start) = (of.frame(q, station), of.frame(of.beam.initial(), station));
+                put(&frame.position);
+                put(&plus(frame.position, -1.0, start.position));
+                put(&of.velocity(v, station));
+                put(&quaternion(&frame.rotation));
+                let [strains, forces] = of.strains_and_forces(q, station);
+                put(&forces);
+                put(&strains);
+            }
+            for fibre in &of.fibres {
+                put(&[of.fibre_strain(q, fibre)]);
+            }
         }
         let mut work = Interaction::new();
         for (k, joint) in constants.model.joints.iter().enumerate() {
@@ -170,6 +219,18 @@ impl Observed for Multibody {
 
     fn admissible(&mut self, s: &State) -> Result<(), String> {
         self.place(s);
+        for (of, &[i, _]) in self.constants.model.beams.iter().zip(&self.constants.beams) {
+            for node in 0..of.beam.nodes().len() {
+                let length = of.beam.node(node, &s.q[i..]).1.length;
+                if !(length > LEAST_STRETCH) {
+                    return Err(format!(
+                        "beam `{}` is compressed to {length:.3} of its length at node {node}: its axial stiffness is too small for \
+                         what acts there",
+                        of.name
+                    ));
+                }
+            }
+        }
         for (k, spring) in self.constants.model.springs.iter().enumerate() {
             let (a, b) = self.spring_ends(k);
             if a.position == b.position && spring.length > 0.0 {

@@ -1,12 +1,13 @@
-//! The equations of motion of bodies and joints.
+//! The equations of motion of bodies, beams and joints.
 //!
-//! Unknowns: (ṙ, Ω) of the bodies, in the order of the tree of joints; multipliers in the order of the joints. The
-//! configuration holds (r, p) of the bodies in the same order, and behind them the angle of every revolute and cylindrical
-//! joint, counted on beyond a turn.
+//! Unknowns: (ṙ, Ω) of the bodies, in the order of the tree of joints, and behind them the velocities of the
+//! [beams](super::slender::Beam); multipliers in the order of the joints. The configuration holds (r, p) of the bodies in the same order,
+//! q of the beams, and behind them the angle of every revolute and cylindrical joint, counted on beyond a turn.
 //!
 //! ```text
 //! r = ⎡ m r̈ + β m ṙ − m g          ⎤ − Σ Jᵀ w,     w: wrenches of joints (λ n), springs, actuators and loads
 //!     ⎣ J Ω̇ + Ω × J Ω + β J Ω      ⎦
+//! r of a beam: its forces of strain, inertia and damping, less its weight and the loads along it
 //! ∂(Jᵀ w) = Jᵀ (∂w/∂x J + ∂w/∂ẋ B) + ∂Jᵀ w
 //! ```
 
@@ -18,22 +19,24 @@ use super::joint::Drive;
 use super::marker::{MOST, Part, Pose};
 use super::model::{Model, ModelError};
 use super::rotation::{
-    IDENTITY, Matrix3, Vector, apply, apply_transposed, compose, exponential, inverse, logarithm, normalized,
-    plus, product, rate, skew, tangent, times,
+    Vector, apply, compose, exponential, inverse, logarithm, matrix, normalized, plus, product, rate, skew,
+    times,
 };
 use super::row::{Row, Wrench};
+use super::slender::{self, ELEMENT_COORDINATES, ELEMENT_VELOCITIES};
 use crate::linalg::vector::{cross, inner};
 use crate::linalg::{Matrix, Structure};
 use crate::profile::HubKinematics;
 use crate::system::{
-    Break, Dynamics, Events, NotSet, Parameter, RowWeights, Set, Size, State, Steady, VisitRow, Weights,
+    Break, Corotation, Dynamics, Events, NotSet, Parameter, RowWeights, Set, Size, State, Steady, VisitRow,
+    Weights,
 };
 use std::sync::Arc;
 
 /// Velocities that two markers can have together.
 const PAIR: usize = 2 * MOST;
 
-/// Rigid bodies with joints.
+/// Rigid bodies and beams with joints.
 #[derive(Clone, Debug)]
 pub struct Multibody {
     pub(super) constants: Arc<Constants>,
@@ -45,7 +48,6 @@ pub struct Multibody {
     /// Prescribed motion of each joint, and the time for which it was computed.
     pub(super) motions: Vec<HubKinematics>,
     time: f64,
-    charts: Vec<Matrix3>,
 }
 
 impl Multibody {
@@ -86,7 +88,10 @@ impl Multibody {
     fn with(constants: Constants) -> Multibody {
         let poses = constants.markers.iter().map(|(part, frame)| match part {
             Part::Ground => Pose::grounded(*frame),
-            Part::Body(i) => Pose::on_body(6 * constants.place[*i]),
+            Part::Body(i) => Pose::moved(6 * constants.place[*i], 6),
+            Part::Section { beam, node } => {
+                Pose::moved(constants.beams[*beam][1] + ELEMENT_VELOCITIES * node, MOST)
+            }
         });
         let poses = poses.collect();
         let (bodies, joints) = (constants.place.len(), constants.of_joint.len());
@@ -98,7 +103,6 @@ impl Multibody {
             poses,
             motions: vec![HubKinematics::default(); joints],
             time: f64::NAN,
-            charts: vec![IDENTITY; bodies],
         }
     }
 
@@ -119,8 +123,14 @@ impl Multibody {
             *placed = Placed::new(&s.q[7 * i..], &s.v[6 * i..], &s.a[6 * i..]);
         }
         for (pose, (part, frame)) in poses.iter_mut().zip(&constants.markers) {
-            if let Part::Body(i) = part {
-                pose.place(&placed[constants.place[*i]], frame);
+            match part {
+                Part::Ground => {}
+                Part::Body(i) => pose.place(&placed[constants.place[*i]], frame),
+                Part::Section { beam, node } => {
+                    let [q, v] = constants.beams[*beam];
+                    let (q, v) = (q + ELEMENT_COORDINATES * node, v + ELEMENT_VELOCITIES * node);
+                    pose.place_on_section([&s.q[q..], &s.v[v..], &s.a[v..]], frame);
+                }
             }
         }
         if s.time() != *time {
@@ -209,13 +219,7 @@ fn add_force(c: f64, pose: &Pose, force: Vector, moment: Vector, r: &mut [f64]) 
 }
 
 /// Adds to `out` −w.q ∂(Jᵀ w)/∂q − w.v ∂(Jᵀ w)/∂v of a pair of markers.
-fn add_tangent(
-    (a, b): (&Pose, &Pose),
-    interaction: &Interaction,
-    w: &Weights<'_>,
-    charts: Option<&[Matrix3]>,
-    out: &mut Matrix,
-) {
+fn add_tangent((a, b): (&Pose, &Pose), interaction: &Interaction, w: &Weights<'_>, out: &mut Matrix) {
     let count = a.count + b.count;
     let number = |k: usize| if k < a.count { a.numbers[k] } else { b.numbers[k - a.count] };
     // ∂w by the velocities of both parts: by their positions, and by themselves.
@@ -251,19 +255,22 @@ fn add_tangent(
         let [force, moment] = [interaction.wrench[side / 3], interaction.wrench[side / 3 + 1]];
         pose.add_curvature(1.0, force, moment, at, &mut k_q);
     }
-    for (pose, at) in [(a, 0), (b, a.count)].into_iter().filter(|(pose, _)| pose.count > 0) {
-        if let Some(charts) = charts {
-            let t = &charts[pose.numbers[0] / 6];
-            for row in &mut k_q[..count] {
-                let turned = apply_transposed(t, three(row, at + 3));
-                row[at + 3..at + 6].copy_from_slice(&turned);
-            }
-        }
+    if let Some(d) = w.increment {
+        a.follow(d, 0, &mut k_q[..count]);
+        b.follow(d, a.count, &mut k_q[..count]);
     }
     for i in 0..count {
         for j in 0..count {
             out.add(number(i), number(j), -w.q * k_q[i][j] - w.v * k_v[i][j]);
         }
+    }
+}
+
+/// Adds the matrix of an element whose velocities begin at `at`.
+#[inline]
+fn add_element(at: usize, block: &slender::Tangent, out: &mut Matrix) {
+    for (i, row) in block.iter().enumerate() {
+        row.iter().enumerate().for_each(|(j, x)| out.add(at + i, at + j, *x));
     }
 }
 
@@ -285,8 +292,20 @@ impl Dynamics for Multibody {
         if i >= size.v {
             return self.constants.row_name((i - size.v) % size.lambda.max(1));
         }
-        let body = place.iter().position(|place| *place == i / 6).map_or("", |k| &model.bodies[k].name);
         let axis = ["x", "y", "z"][i % 3];
+        if let Some(k) = self.constants.beams.iter().rposition(|[_, first]| *first <= i) {
+            let (node, at) =
+                ((i - self.constants.beams[k][1]) / ELEMENT_VELOCITIES, self.constants.beams[k][1]);
+            let axis = |i: usize| ["x", "y", "z"][i % 3];
+            let what = match (i - at) % ELEMENT_VELOCITIES {
+                k @ 0..3 => format!("velocity along {} of", axis(k)),
+                k @ 3..6 => format!("rate of the slope along {} of", axis(k)),
+                6 => "spin of".to_owned(),
+                _ => "spin of the middle behind".to_owned(),
+            };
+            return format!("{what} node {node} of `{}`", model.beams[k].name);
+        }
+        let body = place.iter().position(|place| *place == i / 6).map_or("", |k| &model.bodies[k].name);
         let what = if i % 6 < 3 {
             format!("velocity along {axis}")
         } else {
@@ -309,6 +328,9 @@ impl Dynamics for Multibody {
             out[..3].copy_from_slice(&plus(three(q, 0), 1.0, three(d, 0)));
             out[3..7].copy_from_slice(&normalized(compose(four(q, 3), exponential(three(d, 3)))));
         }
+        for (of, &[i, j]) in self.constants.model.beams.iter().zip(&self.constants.beams) {
+            of.beam.retract(&q[i..], &d[j..], &mut out[i..]);
+        }
         self.constants.count_angles(q, out);
     }
 
@@ -318,13 +340,20 @@ impl Dynamics for Multibody {
             d[..3].copy_from_slice(&plus(three(to, 0), -1.0, three(from, 0)));
             d[3..6].copy_from_slice(&logarithm(compose(inverse(four(from, 3)), four(to, 3))));
         }
+        for (of, &[i, j]) in self.constants.model.beams.iter().zip(&self.constants.beams) {
+            of.beam.difference(&from[i..], &to[i..], &mut d[j..]);
+        }
     }
 
-    fn rate(&self, _from: &[f64], d: &[f64], v: &[f64], out: &mut [f64]) {
+    fn rate(&self, from: &[f64], d: &[f64], v: &[f64], out: &mut [f64]) {
         for i in 0..self.placed.len() {
             let (d, v, out) = (&d[6 * i..], &v[6 * i..], &mut out[6 * i..]);
             out[..3].copy_from_slice(&v[..3]);
             out[3..6].copy_from_slice(&rate(three(d, 3), three(v, 3)));
+        }
+        for (of, &[i, j]) in self.constants.model.beams.iter().zip(&self.constants.beams) {
+            let end = j + of.beam.velocities();
+            of.beam.rate(&from[i..], &d[j..], &v[j..end], &mut out[j..end]);
         }
     }
 
@@ -339,6 +368,18 @@ impl Dynamics for Multibody {
             r[6 * place..6 * place + 3].copy_from_slice(&times(body.mass, force));
             r[6 * place + 3..6 * place + 6].copy_from_slice(&plus(rate, 1.0, cross(spin, momentum)));
         }
+        let beams = 6 * self.placed.len();
+        for (r, weight) in r[beams..].iter_mut().zip(&self.constants.weight[beams..]) {
+            *r = -self.part * weight;
+        }
+        for (of, &[i, j]) in model.beams.iter().zip(&self.constants.beams) {
+            of.beam.add_forces(&s.q[i..], &s.v[j..], &s.a[j..], &mut r[j..]);
+        }
+        for load in &model.line_loads {
+            let [i, j] = self.constants.beams[load.beam];
+            let force = times(-1.0, load.at(s.time(), self.part));
+            model.beams[load.beam].beam.add_line_load(&s.q[i..], force, load.follows(), &mut r[j..]);
+        }
         self.interactions(s, false, |a, b, interaction| {
             let [f_a, m_a, f_b, m_b] = interaction.wrench;
             if let Some(a) = a {
@@ -346,6 +387,46 @@ impl Dynamics for Multibody {
             }
             add_force(-1.0, b, f_b, m_b, r);
         });
+    }
+
+    /// Velocities of bodies and nodes, ṙ′, and the forces of joints in a point rotate with their parts.
+    fn corotate(&self, before: &State, now: &State, out: &mut Corotation) {
+        let constants = &*self.constants;
+        out.clear();
+        for i in 0..self.placed.len() {
+            let turned = compose(four(&now.q, 7 * i + 3), inverse(four(&before.q, 7 * i + 3)));
+            out.push_vector(6 * i, matrix(turned));
+        }
+        for (of, &[q, v]) in constants.model.beams.iter().zip(&constants.beams) {
+            for node in 0..of.beam.nodes().len() {
+                let turned = of.rotation(node, &before.q[q..], &now.q[q..]);
+                let at = v + ELEMENT_VELOCITIES * node;
+                out.push_vector(at, turned);
+                out.push_vector(at + 3, turned);
+            }
+        }
+        for (joint, rows) in constants.model.joints.iter().zip(&constants.of_joint) {
+            let in_a_point = |k: usize| {
+                let row = constants.rows[rows.clone()].get(k);
+                row.is_some_and(|(_, row)| *row == Row::Point(k))
+            };
+            if !(0..3).all(in_a_point) {
+                continue;
+            }
+            let part = if joint.to.part == Part::Ground { joint.from.part } else { joint.to.part };
+            let turned = match part {
+                Part::Ground => continue,
+                Part::Body(i) => {
+                    let at = 7 * constants.place[i] + 3;
+                    matrix(compose(four(&now.q, at), inverse(four(&before.q, at))))
+                }
+                Part::Section { beam, node } => {
+                    let q = constants.beams[beam][0];
+                    constants.model.beams[beam].rotation(node, &before.q[q..], &now.q[q..])
+                }
+            };
+            out.push_vector(constants.size.v + rows.start, turned);
+        }
     }
 
     fn rows(&self) -> &[Set] {
@@ -398,21 +479,27 @@ impl Dynamics for Multibody {
                 }
             }
         }
+        for (of, &[i, j]) in model.beams.iter().zip(&constants.beams) {
+            let within = Weights { increment: w.increment.map(|d| &d[j..]), ..w };
+            of.beam.add_tangent(&s.q[i..], &s.v[j..], &s.a[j..], &within, |at, block| {
+                add_element(j + at, block, out);
+            });
+        }
         if w.q == 0.0 && w.v == 0.0 {
             return;
         }
-        for (pose, (part, _)) in self.poses.iter_mut().zip(&constants.markers) {
-            if let Part::Body(i) = part {
-                pose.transport(&self.placed[constants.place[*i]]);
-            }
+        for load in model.line_loads.iter().filter(|load| load.follows()) {
+            let [i, j] = constants.beams[load.beam];
+            let (force, d) = (load.at(s.time(), self.part), w.increment.map(|d| &d[j..]));
+            let force = times(-w.q, force);
+            model.beams[load.beam].beam.add_line_tangent(&s.q[i..], force, d, |at, block| {
+                add_element(j + at, block, out);
+            });
         }
-        if let Some(d) = w.increment {
-            self.charts.iter_mut().enumerate().for_each(|(i, chart)| *chart = tangent(three(d, 6 * i + 3)));
-        }
-        let charts = w.increment.map(|_| &self.charts[..]);
+        self.poses.iter_mut().for_each(|pose| pose.transport());
         let ground = Pose::default();
         self.interactions(s, true, |a, b, interaction| {
-            add_tangent((a.unwrap_or(&ground), b), interaction, &w, charts, out);
+            add_tangent((a.unwrap_or(&ground), b), interaction, &w, out);
         });
     }
 }

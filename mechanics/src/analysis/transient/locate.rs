@@ -205,6 +205,9 @@ impl Locator {
                 }
                 if found > 0.0 || size < SHORTEST * h {
                     // It happens at once.
+                    if found <= 0.0 && !self.forces.accelerations.is_massless() {
+                        self.extrapolate(system, from, size);
+                    }
                     to.copy_from(&self.trial);
                     return Ok((size, true));
                 }
@@ -330,6 +333,19 @@ impl Locator {
         integrator.discard();
         let done = integrator.step(system, from, span, &mut self.trial);
         done.map(|_| ()).map_err(|error| failed(system, from, error))
+    }
+
+    /// The state a time `size` that is next to nothing later: a step would divide the rounding error of a constraint by it.
+    fn extrapolate(&mut self, system: &mut dyn System, from: &State, size: f64) {
+        let trial = &mut self.trial;
+        trial.copy_from(from);
+        trial.t = from.t + size;
+        trial.v.iter_mut().for_each(|v| *v *= size);
+        system.retract(&from.q, &trial.v, &mut trial.q);
+        for ((v, old), a) in trial.v.iter_mut().zip(&from.v).zip(&from.a) {
+            *v = old + size * a;
+        }
+        self.trial_value(system);
     }
 
     /// Where in the step an open gap is least and may be negative, if it falls at the start and rises at the end.

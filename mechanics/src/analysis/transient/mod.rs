@@ -313,7 +313,7 @@ impl Run {
             let neglected = self.contacts.as_ref().map(|contacts| contacts.neglected).unwrap_or_default();
             self.last = Step { size: h, iterations: report.iterations, balance: None, neglected };
             if let Err(what) = system.admissible(&next) {
-                let reason = system.explain(&next);
+                let reason = system.explain(&next).filter(|reason| *reason != what);
                 return Err(RunError::Inadmissible { time: next.t, what, reason });
             }
             integrator.accept(state, &next);
@@ -337,7 +337,7 @@ impl Run {
                 self.cross(system, integrator, state, at_break, event.then_some(h / attempted), observer)?;
                 observer.passing(system, state);
                 if let Some(control) = &mut self.control {
-                    control.restart(h);
+                    control.restart(attempted);
                 }
                 if at_break.is_some()
                     && state.t < plan.end

@@ -78,6 +78,8 @@ pub struct Sums {
     pub slope: Vec<Rates>,
     /// Tails at the points of a cell, times the quadrature weight.
     tension: Vec<Rates>,
+    /// q, v and a that were followed last.
+    followed: Vec<Rates>,
 }
 
 /// S_gk = ∫₀^{ξ_g} ℓ_k dξ on the unit cell with Lagrange's polynomials ℓ_k of the Gauss points, through
@@ -160,13 +162,24 @@ impl Sums {
             at: vec![Point::default(); cells.len() * rows],
             slope: vec![[0.0; 3]; cells.len() * points],
             tension: vec![[0.0; 3]; points],
+            followed: vec![[f64::NAN; 3]; fields.len()],
             cells: cells.into(),
         }
     }
 
-    /// Follows the axis of a state from the root to the tip.
+    /// Follows the axis of a state from the root to the tip, unless it is the last one again: forces, torque, tangent
+    /// and power of one state are asked for one after the other.
     pub fn follow(&mut self, s: &State) {
         let p = self.points;
+        let mut same = true;
+        for (i, followed) in self.followed.iter_mut().enumerate() {
+            let now = [s.q[i], s.v[i], s.a[i]];
+            same &= *followed == now;
+            *followed = now;
+        }
+        if same {
+            return;
+        }
         // w_c and its rates at the start of the cell.
         let mut start = [0.0; 3];
         let axis = self.at.chunks_exact_mut(self.rows);

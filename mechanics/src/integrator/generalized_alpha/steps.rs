@@ -15,10 +15,11 @@ use crate::integrator::Tolerance;
 use crate::system::{Dynamics, State};
 
 impl GeneralizedAlpha {
-    /// The same method with an estimate of its local error, by which a run controls its steps.
+    /// The same method with an estimate of its local error, by which a run controls its steps. Constraints take the
+    /// stabilized form: with index 3 a rounding error ε of g is one of ε/h in v, and a shorter step has the larger error.
     pub fn adaptive(mut self, tolerance: Tolerance) -> GeneralizedAlpha {
         self.info.estimate_order = Some(2);
-        GeneralizedAlpha { tolerance: Some(tolerance), ..self }
+        GeneralizedAlpha { tolerance: Some(tolerance), stabilized: true, ..self }
     }
 
     /// Whether a second multiplier stabilizes the rows.

@@ -78,6 +78,9 @@ pub struct Radau {
     tolerance: Tolerance,
     counters: Counters,
     convergence: Convergence,
+    /// Iteration error of steps, and of those by which something is looked for: one that changes with the step from one
+    /// number of iterations to another makes a root that no step hits.
+    kappa: [f64; 2],
     worst: usize,
     /// Whether an attempt waits for `accept`, and whether any step was accepted since (re)start.
     pending: bool,
@@ -112,6 +115,7 @@ impl Radau {
             tolerance,
             counters: Counters::default(),
             convergence: Convergence::simplified(kappa, floor.max(kappa)),
+            kappa: [kappa, kappa.min(floor)],
             worst: 0,
             pending: false,
             first: true,
@@ -182,6 +186,11 @@ impl Integrator for Radau {
                 work.assemble(system, from, &mut self.counters);
                 continue;
             }
+            if self.convergence.aims_at(self.kappa[1]) && self.kappa[1] < self.kappa[0] {
+                // Rounding is in the way.
+                self.convergence.aim(self.kappa[0]);
+                continue;
+            }
             self.worst = work.worst_increment();
             let worst = system.unknown(self.worst);
             if !size.is_finite() {
@@ -202,9 +211,11 @@ impl Integrator for Radau {
 
     fn discard(&mut self) {
         self.pending = false;
+        self.convergence.aim(self.kappa[1]);
     }
 
     fn accept(&mut self, _from: &State, _to: &State) {
+        self.convergence.aim(self.kappa[0]);
         self.pending = false;
         self.first = false;
         self.accepted_step = self.attempt;

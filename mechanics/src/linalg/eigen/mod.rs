@@ -30,7 +30,7 @@ mod small;
 
 pub use krylov::largest;
 pub use operators::Operator;
-pub use pencil::{Kind, Pencil, each, negative_eigenvalues};
+pub use pencil::{Kind, Pencil, each, is_symmetric, negative_eigenvalues};
 
 use super::Singular;
 use num_complex::Complex64;

@@ -1,8 +1,9 @@
 //! The three matrices of an eigenproblem, their kind, and counts of its eigenvalues.
 
 use super::EigenError;
+use crate::linalg::inertia::{negative_pivots_of, shape};
 use crate::linalg::vector::dot;
-use crate::linalg::{Matrix, Storage, negative_pivots_of};
+use crate::linalg::{Matrix, Storage};
 use num_complex::Complex64;
 
 /// Form of the matrices.
@@ -17,6 +18,9 @@ pub enum Kind {
 }
 
 /// M, C, K of (λ² M + λ C + K) x = 0.
+///
+/// Of a system with multipliers K holds the jacobian too, [K −Gᵀ; −G 0], and M and C are zero there: M and C then are forms on
+/// the motions x that G allows, and the solutions with K lie in them.
 #[derive(Debug)]
 pub struct Pencil {
     mass: Matrix,
@@ -27,6 +31,8 @@ pub struct Pencil {
     /// Q(σ), factored.
     factor: Matrix,
     shift: f64,
+    /// Multipliers of rows that hold.
+    multipliers: usize,
     kind: Kind,
     solutions: usize,
 }
@@ -37,11 +43,16 @@ const ZERO: f64 = 1e-12;
 const MARGIN: f64 = 1e-7;
 
 impl Pencil {
-    /// The pencil of three matrices of equal structure, factored at the shift σ.
+    /// The pencil of three matrices of equal structure, factored at the shift σ; so many of the unknowns are multipliers of
+    /// rows that hold.
     ///
     /// # Errors
     /// [`EigenError::Singular`] when σ is an eigenvalue.
-    pub fn new(mass: Matrix, damping: Matrix, stiffness: Matrix, shift: f64) -> Result<Pencil, EigenError> {
+    pub fn new(
+        [mass, damping, stiffness]: [Matrix; 3],
+        multipliers: usize,
+        shift: f64,
+    ) -> Result<Pencil, EigenError> {
         let mut factor = stiffness.clone();
         if shift != 0.0 {
             factor.combine([&stiffness, &damping, &mass], [1.0, shift, shift * shift]);
@@ -50,8 +61,9 @@ impl Pencil {
         let mut sizes = stiffness.clone();
         sizes.clear();
         each(&stiffness, |i, j| sizes.add(i, j, stiffness.get(i, j).abs()));
+        let kind = Kind::General;
         let mut pencil =
-            Pencil { sizes, mass, damping, stiffness, factor, shift, kind: Kind::General, solutions: 0 };
+            Pencil { sizes, mass, damping, stiffness, factor, shift, multipliers, kind, solutions: 0 };
         pencil.kind = pencil.find_kind();
         Ok(pencil)
     }
@@ -143,7 +155,7 @@ impl Pencil {
             Kind::Symmetric
         } else if c.symmetric <= ZERO * c.largest
             && self.shift == 0.0
-            && negative_eigenvalues(&self.stiffness) == Some(0)
+            && negative_eigenvalues(&self.stiffness) == self.multipliers
         {
             Kind::Gyroscopic
         } else {
@@ -153,21 +165,21 @@ impl Pencil {
 
     /// Number of eigenfrequencies below `frequency` [rad/s], from the inertia of K − ω² M + iω C, without computing
     /// them: for conservative systems ([`Kind::Symmetric`]: of ω² below the square, divergent ones included;
-    /// [`Kind::Gyroscopic`]). `None` for others, and with a border.
+    /// [`Kind::Gyroscopic`]). `None` for others.
     ///
     /// The eigenvalues of the Hermitian matrix fall with ω > 0 through zero once each, since M ≥ 0 and K > 0.
     pub fn count_below(&self, frequency: f64) -> Option<usize> {
-        let (n, half) = (self.order(), half_bandwidth(&self.stiffness)?);
-        let entry =
-            |i: usize, j: usize| self.stiffness.get(i, j) - frequency * frequency * self.mass.get(i, j);
-        match self.kind {
-            Kind::Symmetric => Some(negative_pivots_of(n, half, entry)),
-            Kind::General => None,
-            Kind::Gyroscopic => Some(negative_pivots_of(n, half, |i, j| {
-                let skew = 0.5 * (self.damping.get(i, j) - self.damping.get(j, i));
+        let [mass, damping, stiffness] = [&self.mass, &self.damping, &self.stiffness].map(Matrix::storage);
+        let entry = |i: usize, j: usize| stiffness.get(i, j) - frequency * frequency * mass.get(i, j);
+        let negative = match self.kind {
+            Kind::Symmetric => negative_pivots_of(shape(&self.stiffness), entry),
+            Kind::General => return None,
+            Kind::Gyroscopic => negative_pivots_of(shape(&self.stiffness), |i, j| {
+                let skew = 0.5 * (damping.get(i, j) - damping.get(j, i));
                 Complex64::new(entry(i, j), frequency * skew)
-            })),
-        }
+            }),
+        };
+        Some(negative.saturating_sub(self.multipliers))
     }
 
     /// A frequency below that of a pair by more than its rounding, for [`Pencil::count_below`].
@@ -213,9 +225,10 @@ impl Parts {
     }
 }
 
-/// Calls `f` for every entry that the structure of a matrix stores.
+/// Calls `f` for every entry that the structure of a matrix stores, by the numbers of its unknowns.
 pub fn each(matrix: &Matrix, mut f: impl FnMut(usize, usize)) {
     let n = matrix.order();
+    let mut f = |i, j| f(matrix.unknown(i), matrix.unknown(j));
     match matrix.storage() {
         Storage::Dense(_) => (0..n * n).for_each(|k| f(k / n, k % n)),
         Storage::Band(a) => {
@@ -229,18 +242,16 @@ pub fn each(matrix: &Matrix, mut f: impl FnMut(usize, usize)) {
     }
 }
 
-/// Half-bandwidth of a matrix without border.
-fn half_bandwidth(matrix: &Matrix) -> Option<usize> {
-    match matrix.storage() {
-        Storage::Dense(a) => Some(a.order().saturating_sub(1)),
-        Storage::Band(a) => (a.order() == a.band().order()).then(|| a.band().upper().max(a.band().lower())),
-    }
+/// Number of negative eigenvalues of a symmetric matrix.
+pub fn negative_eigenvalues(matrix: &Matrix) -> usize {
+    negative_pivots_of(shape(matrix), |i, j| matrix.storage().get(i, j))
 }
 
-/// Number of negative eigenvalues of a symmetric matrix; `None` with a border.
-pub fn negative_eigenvalues(matrix: &Matrix) -> Option<usize> {
-    let half = half_bandwidth(matrix)?;
-    Some(negative_pivots_of(matrix.order(), half, |i, j| matrix.get(i, j)))
+/// Whether a matrix is symmetric but for rounding.
+pub fn is_symmetric(matrix: &Matrix) -> bool {
+    let mut parts = Parts::default();
+    each(matrix, |i, j| parts.include(matrix.get(i, j), matrix.get(j, i)));
+    parts.is_symmetric()
 }
 
 /// |x + Q(σ)⁻¹ (λ − σ)((λ + σ) M + C) x| / |x|, since Q(λ) = Q(σ) + (λ − σ)((λ + σ) M + C).

@@ -169,6 +169,16 @@ impl Beam {
         self.elements.iter_mut().for_each(|element| element.damp(damping));
     }
 
+    /// Sets the damping η \[s\] in proportion to the stiffness (Kelvin–Voigt): stresses C (γ − γ₀ + η γ̇).
+    pub fn make_viscous(&mut self, viscosity: f64) {
+        self.elements.iter_mut().for_each(|element| element.make_viscous(viscosity));
+    }
+
+    /// Power \[W\] that the damping in proportion to the stiffness takes.
+    pub fn viscous_power(&self, q: &[f64], v: &[f64]) -> f64 {
+        self.middles().map(|(element, i, j)| element.viscous_power(&part(q, i), &part(v, j))).sum()
+    }
+
     /// Arc lengths of the nodes \[m\].
     pub fn nodes(&self) -> &[f64] {
         &self.nodes
@@ -288,6 +298,60 @@ impl Beam {
             element.add_tangent(&motion, &w, &mut tangent);
             add(j, &tangent);
         }
+    }
+
+    /// Adds the forces of a uniform load per length [N/m] along the whole beam, with components in fixed axes or in those of
+    /// the sections.
+    pub fn add_line_load(&self, q: &[f64], load: Vector, follows: bool, r: &mut [f64]) {
+        for (element, i, j) in self.middles() {
+            element.add_line_load(&part(q, i), load, follows, &mut r[j..]);
+        }
+    }
+
+    /// Hands the derivative of the forces of a load that follows the sections to `add`, element by element, with the number of its
+    /// first velocity: by the increment d since the configuration that was retracted, or by variations.
+    pub fn add_line_tangent(
+        &self,
+        q: &[f64],
+        load: Vector,
+        increment: Option<&[f64]>,
+        mut add: impl FnMut(usize, &Tangent),
+    ) {
+        for (element, i, j) in self.middles() {
+            let mut tangent = [[0.0; VELOCITIES]; VELOCITIES];
+            let increment = increment.map(|d| part(d, j));
+            element.add_line_tangent(&part(q, i), load, increment.as_ref(), &mut tangent);
+            add(j, &tangent);
+        }
+    }
+
+    /// Power \[W\] of a uniform load per length.
+    pub fn line_power(&self, q: &[f64], v: &[f64], load: Vector, follows: bool) -> f64 {
+        let of = |(element, i, j): (&Element, usize, usize)| {
+            let mut forces = [0.0; VELOCITIES];
+            element.add_line_load(&part(q, i), load, follows, &mut forces);
+            inner(forces, part::<VELOCITIES>(v, j))
+        };
+        self.middles().map(of).sum()
+    }
+
+    /// ∫ρA r ds [kg·m], the mass times its centre.
+    pub fn first_moment(&self, q: &[f64]) -> Vector {
+        self.middles()
+            .fold([0.0; 3], |sum, (element, i, _)| plus(sum, 1.0, element.first_moment(&part(q, i))))
+    }
+
+    /// Mass \[kg\].
+    pub fn mass(&self) -> f64 {
+        self.elements.iter().map(|element| element.mass()).sum()
+    }
+
+    /// Momentum and angular momentum about the origin.
+    pub fn momenta(&self, q: &[f64], v: &[f64]) -> [Vector; 2] {
+        self.middles().fold([[0.0; 3]; 2], |[p, l], (element, i, j)| {
+            let [linear, angular] = element.momenta(&part(q, i), &part(v, j));
+            [plus(p, 1.0, linear), plus(l, 1.0, angular)]
+        })
     }
 
     /// Strain energy \[J\].

@@ -88,6 +88,11 @@ impl Rotation {
         [self.angular_velocity, self.angular_acceleration]
     }
 
+    /// H
+    pub fn angular_momentum(&self) -> Vector {
+        self.momentum
+    }
+
     /// ½ ω·H
     pub fn energy(&self) -> f64 {
         0.5 * inner(self.angular_velocity, self.momentum)

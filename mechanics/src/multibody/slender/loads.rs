@@ -7,11 +7,19 @@
 //! ```
 //!
 //! A moment m does the work m·δθ: its forces are Bᵀm, that is m × r′/|r′|² on r′ and m·t on the spin.
+//!
+//! A load p per length with components in the axes of the sections is Λp at both nodes and in the middle, and integrated by
+//! Simpson's rule with the shape functions there: (1, 0, 0, 0), (½, h/8, ½, −h/8) and (0, 0, 1, 0).
 
 use super::inertia::{Rate, Rotation};
 use super::pair::skew;
 use super::triad::{Triad, Vector, plus, times};
 use crate::linalg::vector::{cross, inner};
+
+use super::element::{Element, Tangent};
+use super::strain::{
+    CENTRELINE, COORDINATES, SPINS, Sections, VELOCITIES, centreline, chord, combined, shares,
+};
 
 /// The variations (δr′, δΘ) of a section.
 const VARIATIONS: usize = 4;
@@ -120,5 +128,63 @@ impl Load {
     /// Power \[W\] at the rates (ṙ, ṙ′, w).
     pub fn power(&self, triad: &Triad, rates: &SectionForces) -> f64 {
         inner(self.forces(triad), *rates)
+    }
+}
+
+/// Shape functions of the centreline at the three sections, times the weights of Simpson's rule, for the length h.
+fn shapes(h: f64) -> [[f64; 4]; 3] {
+    let (sixth, third, twelfth) = (h / 6.0, h / 3.0, h * h / 12.0);
+    [[sixth, 0.0, 0.0, 0.0], [third, twelfth, third, -twelfth], [0.0, 0.0, sixth, 0.0]]
+}
+
+impl Element {
+    /// Adds the forces of a uniform load per length [N/m], with components in fixed axes or in those of the sections.
+    pub fn add_line_load(&self, q: &[f64; COORDINATES], load: Vector, follows: bool, r: &mut [f64]) {
+        let sections = Sections::new(self.shapes(), q);
+        for (n, triad) in shapes(self.length()).iter().zip(&sections.triads) {
+            let force = if follows { triad.outward(load) } else { load };
+            for (at, n) in CENTRELINE.into_iter().zip(n) {
+                (0..3).for_each(|k| r[at + k] += n * force[k]);
+            }
+        }
+    }
+
+    /// Adds the derivative of the forces of a load that follows the sections: by the increment d of the element, or by
+    /// variations where there is none.
+    pub fn add_line_tangent(
+        &self,
+        q: &[f64; COORDINATES],
+        load: Vector,
+        increment: Option<&[f64; VELOCITIES]>,
+        out: &mut Tangent,
+    ) {
+        let sections = Sections::new(self.shapes(), q);
+        let parts = shares(self.shapes());
+        for (k, (n, triad)) in shapes(self.length()).iter().zip(&sections.triads).enumerate() {
+            let force = triad.outward(load);
+            let mut rotation = triad.rotation_jacobian();
+            if let Some(d) = increment {
+                let turn = triad.spin_by_slope(combined(&parts[k], &chord(&centreline(d))));
+                rotation.iter_mut().for_each(|row| (0..3).for_each(|j| row[j] += row[3] * turn[j]));
+            }
+            for j in 0..VARIATIONS {
+                // δ(Λp) = δθ × Λp
+                let change = cross([rotation[0][j], rotation[1][j], rotation[2][j]], force);
+                // r′ of the section by r₁, r′₁, r₂, r′₂.
+                let places: [(usize, f64); 4] = match j {
+                    3 => [(SPINS[k], 1.0), (0, 0.0), (0, 0.0), (0, 0.0)],
+                    j => {
+                        let [r, first, second] = parts[k];
+                        let [a, b, c, d] = CENTRELINE.map(|at| at + j);
+                        [(a, -r), (b, first), (c, r), (d, second)]
+                    }
+                };
+                for (at, n) in CENTRELINE.into_iter().zip(n) {
+                    for (column, part) in places {
+                        (0..3).for_each(|i| out[at + i][column] += n * part * change[i]);
+                    }
+                }
+            }
+        }
     }
 }

@@ -1,0 +1,409 @@
+//! Slender beams in space.
+
+use super::section::{SECTION, Section};
+use super::spatial::{name, optional_vector, vector};
+use crate::declaration::{Bound::*, Key, Presence as Default, Presence::*, Type, Type::Quantity, key};
+use crate::fault::{At, Fault, Made, both};
+use crate::kind::{Choice, Context, Kind, Table};
+use crate::units::{ANGLE, ANGULAR_SPEED, FACTOR, LENGTH, RATE, ROTARY_INERTIA, TIME, VELOCITY};
+use crate::values::Values;
+use flexion::linalg::vector::{cross, inner};
+use flexion::multibody::rotation::{Vector, apply, exponential, frame, matrix, plus, times};
+use flexion::multibody::slender::{self, Properties, Station};
+use flexion::quadrature::Gauss;
+use flexion::section::BladeSection;
+use std::fmt;
+use std::sync::Arc;
+
+/// The centreline without stress by its arc length, for one that begins at the origin along `direction` with the height of its
+/// section along `up`.
+pub type Curve = Arc<dyn Fn(f64) -> Station + Send + Sync>;
+
+/// Makes the curve of a length, a direction and the direction of the height.
+type Bent = Box<dyn Fn(f64, Vector, Vector) -> Curve>;
+
+fn straight(_: f64, tangent: Vector, normal: Vector) -> Curve {
+    Arc::new(move |s| Station { position: times(s, tangent), tangent, normal })
+}
+
+/// The kinds of centreline.
+pub static CURVE: Choice<Bent> = Choice {
+    name: "curve",
+    path: "beam.curve",
+    summary: "centreline of a beam in space without stress",
+    kinds: &[
+        Kind {
+            name: "straight",
+            summary: "a straight line",
+            source: "",
+            keys: &[],
+            example: "beam=[{length=1, section={kind='circle', modulus='70 GPa', density=2700, radius='1 cm'}, curve={kind='straight'}, root='clamped'}]",
+            make: |_, _| Ok(Box::new(straight)),
+        },
+        Kind {
+            name: "arc",
+            summary: "an arc of a circle",
+            source: "",
+            keys: &[
+                key("angle", Quantity(&ANGLE, Any), Required, "angle of the arc"),
+                key(
+                    "towards",
+                    Type::Quantities(&FACTOR, Any),
+                    Empty,
+                    "direction to which it bends at the root, `up` if left out",
+                ),
+            ],
+            example: "beam=[{length=1, section={kind='circle', modulus='70 GPa', density=2700, radius='1 cm'}, curve={kind='arc', angle='45 deg', towards=[0, 1, 0]}, root='clamped'}]",
+            make: |v, _| {
+                let (angle, towards) = (v.number("angle")?, optional_vector(v, "towards")?);
+                if angle == 0.0 {
+                    return Err(Fault::new("angle", "an arc of the angle 0 is straight").into());
+                }
+                Ok(Box::new(move |length, tangent, normal| {
+                    let towards = towards.unwrap_or(normal);
+                    let side = plus(towards, -inner(towards, tangent), tangent);
+                    let size = inner(side, side).sqrt();
+                    let side = if size > 0.0 { times(1.0 / size, side) } else { normal };
+                    let (axis, radius) = (cross(tangent, side), length / angle);
+                    Arc::new(move |s| {
+                        let turned = matrix(exponential(times(s / radius, axis)));
+                        let (sin, cos) = (s / radius).sin_cos();
+                        let position = plus(times(radius * sin, tangent), radius * (1.0 - cos), side);
+                        Station { position, tangent: apply(&turned, tangent), normal: apply(&turned, normal) }
+                    })
+                }))
+            },
+        },
+        Kind {
+            name: "helix",
+            summary: "a helix about `direction`, that begins on the side of `up` of its axis; the height points outwards",
+            source: "",
+            keys: &[
+                key("radius", Quantity(&LENGTH, Positive), Required, "radius of the centreline"),
+                key("pitch", Quantity(&LENGTH, Any), Required, "advance along the axis in a turn"),
+            ],
+            example: "beam=[{length=1, section={kind='circle', modulus='70 GPa', density=2700, radius='1 cm'}, curve={kind='helix', radius='20 cm', pitch='10 cm'}, root='clamped'}]",
+            make: |v, _| {
+                let (radius, pitch) = (v.number("radius")?, v.number("pitch")?);
+                Ok(Box::new(move |_, axis, out| {
+                    let (side, rise) = (cross(axis, out), pitch / std::f64::consts::TAU);
+                    let scale = radius.hypot(rise);
+                    Arc::new(move |s| {
+                        let (sin, cos) = (s / scale).sin_cos();
+                        let normal = plus(times(cos, out), sin, side);
+                        let along = plus(times(-sin, out), cos, side);
+                        let radial = plus(times(radius, normal), -radius, out);
+                        let position = plus(radial, rise * s / scale, axis);
+                        let tangent = plus(times(radius / scale, along), rise / scale, axis);
+                        Station { position, tangent, normal }
+                    })
+                }))
+            },
+        },
+    ],
+};
+
+/// What holds an end of a beam.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// Nothing but the joints of the case.
+    Free,
+    /// It is clamped to the ground.
+    Clamped,
+    /// Its point is held.
+    Hinged,
+}
+
+/// The ends of a beam.
+pub static END: Choice<End> = Choice {
+    name: "end",
+    path: "beam.root",
+    summary: "what holds an end of a beam in space, beside its joints",
+    kinds: &[
+        Kind {
+            name: "free",
+            summary: "nothing",
+            source: "",
+            keys: &[],
+            example: "beam=[{length=1, section={kind='circle', modulus='70 GPa', density=2700, radius='1 cm'}, root='free'}]",
+            make: |_, _| Ok(End::Free),
+        },
+        Kind {
+            name: "clamped",
+            summary: "a fixed joint with the ground",
+            source: "",
+            keys: &[],
+            example: "beam=[{length=1, section={kind='circle', modulus='70 GPa', density=2700, radius='1 cm'}, root='clamped', tip='free'}]",
+            make: |_, _| Ok(End::Clamped),
+        },
+        Kind {
+            name: "hinged",
+            summary: "a spherical joint with the ground",
+            source: "",
+            keys: &[],
+            example: "beam=[{length=1, section={kind='circle', modulus='70 GPa', density=2700, radius='1 cm'}, root='hinged'}]",
+            make: |_, _| Ok(End::Hinged),
+        },
+    ],
+};
+
+/// A beam as a case describes it.
+#[derive(Clone)]
+pub struct Beam {
+    /// Name.
+    pub name: String,
+    /// Length \[m\].
+    pub length: f64,
+    /// Centreline.
+    pub curve: Curve,
+    /// The section.
+    pub section: Section,
+    /// The same with its stiffness out of the plane and in torsion.
+    pub blade: Arc<dyn BladeSection>,
+    /// Polar moment of inertia per length where it is given [kg·m].
+    pub polar: Option<f64>,
+    /// Number of elements.
+    pub elements: usize,
+    /// What holds root and tip.
+    pub ends: [End; 2],
+    /// Velocity of the root and angular velocity at the start.
+    pub motion: [Vector; 2],
+    /// Damping in proportion to mass [1/s] and stiffness \[s\].
+    pub damping: [f64; 2],
+    /// Recorded stations \[m\].
+    pub stations: Vec<f64>,
+    /// Recorded fibres: name, station, place.
+    pub fibres: Vec<(String, f64, [f64; 2])>,
+}
+
+impl fmt::Debug for Beam {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.name)
+    }
+}
+
+impl Beam {
+    /// The joints of its ends: name, kind, and the places that they join.
+    pub fn held(&self) -> Vec<(String, String, [String; 2])> {
+        let ends = self.ends.iter().zip(["root", "tip"]).filter(|(end, _)| **end != End::Free);
+        let joint = |(end, name): (&End, &str)| {
+            let kind = if *end == End::Clamped { "clamped" } else { "hinged" };
+            (
+                format!("{}-{name}", self.name),
+                kind.to_owned(),
+                ["ground".to_owned(), format!("{}.{name}", self.name)],
+            )
+        };
+        ends.map(joint).collect()
+    }
+
+    /// Mass \[kg\].
+    pub fn mass(&self) -> f64 {
+        let mut ends = vec![0.0, self.length];
+        ends.extend(self.blade.breaks());
+        ends.sort_by(f64::total_cmp);
+        let gauss = Gauss::new(8);
+        let density = |s: f64| self.blade.resultants(s).mass;
+        ends.windows(2).map(|range| gauss.integrate(range[0], range[1], density)).sum()
+    }
+
+    /// Stiffness and inertia at a station.
+    fn properties(&self, s: f64) -> Properties {
+        let mut of = Properties::from(&self.blade.resultants(s));
+        if self.section.planar.resultants(s).rotary_inertia == 0.0 {
+            of.inertia = [of.inertia[0], 0.0, 0.0];
+        }
+        of.inertia[0] = self.polar.unwrap_or(of.inertia[0]);
+        of
+    }
+
+    /// The beam with elements that end at its jumps and at these stations \[m\], each cut into `parts`.
+    pub fn built(&self, stations: &[f64], parts: usize) -> Made<slender::Beam> {
+        let mut ends = vec![0.0, self.length];
+        ends.extend(self.blade.breaks().iter().chain(stations).copied());
+        ends.sort_by(f64::total_cmp);
+        ends.dedup_by(|a, b| (*a - *b).abs() <= 1e-9 * self.length);
+        let mut nodes = vec![0.0];
+        for range in ends.windows(2) {
+            let (from, to) = (range[0], range[1]);
+            let share = (to - from) / self.length * self.elements as f64;
+            let count = ((share - 1e-9).ceil() as usize).max(1) * parts;
+            nodes.extend((1..=count).map(|i| from + (to - from) * i as f64 / count as f64));
+        }
+        // A little inside its element, so that a section that jumps has the value of that element.
+        let middle = |s: f64| s.clamp(1e-12 * self.length, (1.0 - 1e-12) * self.length);
+        slender::Beam::new(&nodes, |s| (self.curve)(s), |s| self.properties(middle(s))).map_err(|error| {
+            let key = match error {
+                slender::BeamError::Turned { .. } => "elements",
+                slender::BeamError::Section { .. } => "section",
+                _ => "",
+            };
+            Fault::new(key, error.to_string()).into()
+        })
+    }
+}
+
+static FIBRE: [Key; 4] = [
+    key("name", Type::Text, Required, "name, which ends the name of its column"),
+    key("station", Quantity(&LENGTH, NotNegative), Required, "arc length from the root"),
+    key("y", Quantity(&LENGTH, Any), Default::Number(0.0), "place along the height of the section"),
+    key("z", Quantity(&LENGTH, Any), Default::Number(0.0), "place across, along tangent × height"),
+];
+
+/// The tables `[[beam]]`.
+pub static BEAMS: Table<Beam> = Table {
+    key: key(
+        "beam",
+        Type::Tables(&[
+            key("name", Type::Text, Default::Name("beam"), "name, which begins the names of its columns"),
+            key("length", Quantity(&LENGTH, Positive), Required, "length of its centreline"),
+            key(
+                "start",
+                Type::Quantities(&LENGTH, Any),
+                Empty,
+                "its root at the start, the origin if left out",
+            ),
+            key(
+                "direction",
+                Type::Quantities(&FACTOR, Any),
+                Empty,
+                "direction from root to tip, [1, 0, 0] if left out",
+            ),
+            key(
+                "up",
+                Type::Quantities(&FACTOR, Any),
+                Empty,
+                "direction of the height of the section, as far as the beam's allows; [0, 0, 1] if left out, for an upright beam [1, 0, 0]",
+            ),
+            key("curve", Type::Kind(&CURVE), Default::Name("straight"), "centreline without stress"),
+            key(
+                "twist",
+                Quantity(&ANGLE, Any),
+                Default::Number(0.0),
+                "angle of the tip section against the root without stress, linear between",
+            ),
+            key("section", Type::Kind(&SECTION), Required, "cross-section"),
+            key(
+                "poisson-ratio",
+                Type::Number(Between(-0.99, 0.5)),
+                Default::Number(0.3),
+                "Poisson's ratio, for the torsional stiffness of a shape",
+            ),
+            key(
+                "polar-inertia",
+                Quantity(&ROTARY_INERTIA, Positive),
+                Optional,
+                "moment of inertia per length about the axis, that of the section if left out",
+            ),
+            key(
+                "elements",
+                Type::Integer(1, 100_000),
+                Default::Integer(10),
+                "number of elements, if none end at other stations",
+            ),
+            key("root", Type::Choice(&END), Default::Name("free"), "what holds the root, beside its joints"),
+            key("tip", Type::Choice(&END), Default::Name("free"), "what holds the tip, beside its joints"),
+            key("velocity", Type::Quantities(&VELOCITY, Any), Empty, "velocity of the root at the start"),
+            key(
+                "spin",
+                Type::Quantities(&ANGULAR_SPEED, Any),
+                Empty,
+                "angular velocity at the start, in the axes of space",
+            ),
+            key(
+                "mass-damping",
+                Quantity(&RATE, NotNegative),
+                Default::Number(0.0),
+                "force over mass and velocity, β",
+            ),
+            key(
+                "stiffness-damping",
+                Quantity(&TIME, NotNegative),
+                Default::Number(0.0),
+                "viscous over elastic stress and rate of strain, η",
+            ),
+            key(
+                "stations",
+                Type::Quantities(&LENGTH, NotNegative),
+                Empty,
+                "arc lengths that are recorded besides the tip",
+            ),
+            key("fibre", Type::Tables(&FIBRE), Empty, "points of sections whose strain is recorded"),
+        ]),
+        Empty,
+        "slender beams",
+    ),
+    example: "beam=[{name='arm', length=1, start=[0, 0, 1], direction=[1, 1, 0], twist='20 deg', root='clamped', elements=4, polar-inertia=1e-3, \
+              section={kind='rectangle', modulus='70 GPa', density=2700, width='2 cm', height='1 cm', rotary-inertia=true}, \
+              mass-damping=0.1, stiffness-damping='1 ms', stations=[0.5], fibre=[{name='top', station=0, y='5 mm'}]}]",
+    make,
+};
+
+fn make(v: &Values, c: &Context<'_>) -> Made<Beam> {
+    let length = v.number("length")?;
+    let c = &Context { length: Some(length), duration: c.duration, files: c.files, cautions: c.cautions };
+    let (section, curve) = both(SECTION.make(v, "section", c), CURVE.make(v, "curve", c))?;
+    let ends = both(END.make(v, "root", c), END.make(v, "tip", c))?;
+    let blade: Arc<dyn BladeSection> = Arc::from(section.blade(v.number("poisson-ratio")?).at("section")?);
+    let along = |s: f64| blade.resultants(s).torsional_stiffness > 0.0;
+    if !(along(0.0) && along(length)) {
+        let message = "this section says nothing of torsion, and a beam in space twists";
+        let help = "give a shape (`rectangle`, `circle`, `tube`, `ellipse`), `general`, or a `blade` with GJ";
+        return Err(Fault::new("section", message).help(help).into());
+    }
+    let name = name(v, None)?;
+    let direction = optional_vector(v, "direction")?.unwrap_or([1.0, 0.0, 0.0]);
+    let upright = direction[0] == 0.0 && direction[1] == 0.0;
+    let usual = if upright { [1.0, 0.0, 0.0] } else { [0.0, 0.0, 1.0] };
+    let up = optional_vector(v, "up")?;
+    let no_direction = |key| Fault::new(key, "has no direction: one of its components must not be zero");
+    let axes = frame(direction, Some(up.unwrap_or(usual))).ok_or_else(|| no_direction("direction"))?;
+    let (tangent, normal) = (axes.map(|row| row[2]), axes.map(|row| row[0]));
+    if up.is_some_and(|up| inner(cross(up, tangent), cross(up, tangent)) <= 1e-12 * inner(up, up)) {
+        let message = "is along the beam: the height of a section lies across";
+        return Err(Fault::new("up", message).into());
+    }
+    let (start, twist) = (vector(v, "start")?, v.number("twist")?);
+    let bent = curve(length, tangent, normal);
+    let of = Arc::clone(&blade);
+    let curve: Curve = Arc::new(move |s| {
+        let at = bent(s);
+        let (sin, cos) = (twist * s / length + of.resultants(s).twist).sin_cos();
+        let across = cross(at.tangent, at.normal);
+        Station {
+            position: plus(start, 1.0, at.position),
+            normal: plus(times(cos, at.normal), sin, across),
+            ..at
+        }
+    });
+    let mut stations = v.numbers("stations")?.to_vec();
+    for station in &stations {
+        c.on_beam(*station, "stations")?;
+    }
+    if !stations.contains(&length) {
+        stations.push(length);
+    }
+    Ok(Beam {
+        name,
+        length,
+        curve,
+        section,
+        blade,
+        polar: v.optional_number("polar-inertia")?,
+        elements: v.count("elements")?,
+        ends: [ends.0, ends.1],
+        motion: [vector(v, "velocity")?, vector(v, "spin")?],
+        damping: [v.number("mass-damping")?, v.number("stiffness-damping")?],
+        stations,
+        fibres: fibres(v, c)?,
+    })
+}
+
+fn fibres(v: &Values, c: &Context<'_>) -> Made<Vec<(String, f64, [f64; 2])>> {
+    let table: Table<(String, f64, [f64; 2])> = Table {
+        key: key("fibre", Type::Tables(&FIBRE), Empty, ""),
+        example: "",
+        make: |v, c| Ok((name(v, None)?, c.station(v, "station")?, [v.number("y")?, v.number("z")?])),
+    };
+    table.make(v, c)
+}

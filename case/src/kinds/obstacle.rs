@@ -1,0 +1,137 @@
+//! Contacts of a system in space: points of bodies and beams, and the obstacles that they may touch.
+
+use super::contact::LAW;
+use super::spatial::{name, optional_vector, vector};
+use crate::declaration::{Bound::*, Presence as Default, Presence::*, Type, Type::Quantity, key};
+use crate::fault::{Fault, Made, both};
+use crate::kind::{Choice, Context, Kind, Table};
+use crate::units::{FACTOR, LENGTH};
+use crate::values::Values;
+use flexion::contact::{Circle, Law, Obstacle, Plane};
+use flexion::multibody::rotation::{Vector, times};
+use std::sync::Arc;
+
+type Shared = Arc<dyn Obstacle>;
+
+/// The kinds of obstacle in space.
+pub static OBSTACLE: Choice<Shared> = Choice {
+    name: "obstacle in space",
+    path: "contact.obstacle",
+    summary: "rigid obstacle that a point of a system in space may touch",
+    kinds: &[
+        Kind {
+            name: "plane",
+            summary: "half-space behind a plane",
+            source: "",
+            keys: &[
+                key(
+                    "point",
+                    Type::Quantities(&LENGTH, Any),
+                    Empty,
+                    "a point of the plane, the origin if left out",
+                ),
+                key(
+                    "normal",
+                    Type::Quantities(&FACTOR, Any),
+                    Empty,
+                    "direction out of the obstacle, [0, 0, 1] if left out",
+                ),
+            ],
+            example: "contact=[{on='bar', obstacle={kind='plane', point=[0, 0, '-1 mm']}, law={kind='hertz', stiffness=1e4}}]",
+            make: plane,
+        },
+        Kind {
+            name: "cylinder",
+            summary: "circular cylinder along z, or the outside of a hole",
+            source: "",
+            keys: &[
+                key(
+                    "centre",
+                    Type::Quantities(&LENGTH, Any),
+                    Empty,
+                    "a point of its axis, the origin if left out",
+                ),
+                key("radius", Quantity(&LENGTH, Positive), Required, "radius"),
+                key("inside", Type::Boolean, Default::Boolean(false), "the point is inside, in a hole"),
+            ],
+            example: "contact=[{on='bar', at=[1, 0, 0], obstacle={kind='cylinder', centre=[0, '1 mm', 0], radius=1, inside=true}, law={kind='hertz', stiffness=1e4}}]\nbody=[{name='bar', mass=2, position=[0.5, 0, 0], velocity=[0.1, 0, 0], inertia={kind='sphere', radius=0.1}}]\njoint=[]",
+            make: |v, _| {
+                let (centre, radius, hollow) =
+                    (vector(v, "centre")?, v.number("radius")?, v.boolean("inside")?);
+                Ok(Arc::new(Circle { centre, radius, hollow, motion: None }))
+            },
+        },
+    ],
+};
+
+fn plane(v: &Values, _: &Context<'_>) -> Made<Shared> {
+    let normal = optional_vector(v, "normal")?.unwrap_or([0.0, 0.0, 1.0]);
+    let size = normal.iter().map(|x| x * x).sum::<f64>().sqrt();
+    if size == 0.0 {
+        return Err(Fault::new("normal", "has no direction: one of its components must not be zero").into());
+    }
+    Ok(Arc::new(Plane { point: vector(v, "point")?, normal: times(1.0 / size, normal), motion: None }))
+}
+
+/// A point of a part and what it may touch.
+#[derive(Clone, Debug)]
+pub struct Contact {
+    /// Name; empty where none is given.
+    pub name: String,
+    /// Name of the part.
+    pub on: String,
+    /// The point, in space at the start \[m\].
+    pub at: Option<Vector>,
+    /// The obstacle.
+    pub obstacle: Shared,
+    /// What happens at a touch.
+    pub law: Law,
+}
+
+/// The tables `[[contact]]` of a system in space.
+pub static CONTACT: Table<Contact> = Table {
+    key: key(
+        "contact",
+        Type::Tables(&[
+            key(
+                "name",
+                Type::Text,
+                Optional,
+                "name, which begins the names of its columns: `contact`, `contact2`, … if left out",
+            ),
+            key("on", Type::Text, Required, "body, or place of a beam: `ball`, `blade.tip`"),
+            key(
+                "at",
+                Type::Quantities(&LENGTH, Any),
+                Empty,
+                "point of a body that may touch, in space at the start; its centre of mass if left out",
+            ),
+            key("obstacle", Type::Kind(&OBSTACLE), Required, "rigid obstacle, at rest in space"),
+            key("law", Type::Kind(&LAW), Required, "what happens at a touch"),
+        ]),
+        Empty,
+        "points that may touch obstacles",
+    ),
+    example: "contact=[{name='floor', on='bar', at=[1, 0, 0], obstacle={kind='plane', point=[0, 0, '-2 mm'], normal=[0, 0.1, 1]}, law={kind='constraint', restitution=0.5}}]",
+    make: |v, c| {
+        let (obstacle, (law, massless)) = both(OBSTACLE.make(v, "obstacle", c), LAW.make(v, "law", c))?;
+        if massless {
+            let message = "only the tip of a planar beam can do without mass";
+            let help = "write `law = { kind = \"constraint\", restitution = 0.5 }`";
+            return Err(Fault::new("law.kind", message).help(help).into());
+        }
+        let friction = match law {
+            Law::Constraint { friction, .. } => friction,
+            Law::Force(force) => force.friction,
+        };
+        if friction > 0.0 {
+            let message =
+                "friction in space acts in two directions, and the models of friction here have one";
+            return Err(Fault::new("law.friction", message)
+                .help("leave it out, or take a planar case")
+                .into());
+        }
+        let (name, on) = (name(v, Some("contact"))?, v.text("on")?.to_owned());
+        Ok(Contact { name, on, at: optional_vector(v, "at")?, obstacle, law })
+    },
+};

@@ -1,0 +1,90 @@
+//! The difference of a column of two runs.
+
+use flexion_results::Trajectory;
+
+/// Part of the recorded times at the end, and part of the largest difference there, that count for the last value.
+const NEIGHBOURS: (f64, f64) = (0.05, 0.2);
+
+/// Part of the largest value of a column beyond which it is no longer trusted.
+const DISTRUSTED: f64 = 0.1;
+
+/// A column of two runs over their common records.
+pub(super) struct Pair<'a> {
+    pub(super) ours: &'a Trajectory,
+    pub(super) index: usize,
+    theirs: &'a Trajectory,
+    other: usize,
+}
+
+impl<'a> Pair<'a> {
+    pub(super) fn new(ours: &'a Trajectory, theirs: &'a Trajectory, column: &str) -> Option<Pair<'a>> {
+        Some(Pair { ours, index: ours.index(column)?, theirs, other: theirs.index(column)? })
+    }
+
+    fn rows(&self) -> impl Iterator<Item = (f64, f64, f64)> {
+        let values = self.ours.values(self.index).zip(self.theirs.values(self.other));
+        self.ours.times().iter().zip(values).map(|(t, (x, y))| (*t, x, y))
+    }
+
+    /// max_t |y − y_f|; NaN is not hidden, neither by an earlier row nor by a later.
+    pub(super) fn largest(&self) -> f64 {
+        self.rows().fold(0.0, |largest, (_, x, y)| worse(largest, (x - y).abs()))
+    }
+
+    /// max_t |y_f|
+    pub(super) fn size(&self) -> f64 {
+        self.rows().fold(0.0, |size, (.., y)| size.max(y.abs()))
+    }
+
+    /// Differences of the smallest, largest and last value.
+    pub(super) fn of_values(&self) -> [f64; 3] {
+        let (ours, theirs) = (self.ours.extremes(self.index), self.theirs.extremes(self.other));
+        let at = |time: f64| self.rows().find(|(t, ..)| *t >= time).map_or(0.0, |(_, x, y)| (x - y).abs());
+        let end = self.ours.times().last().copied().unwrap_or(0.0);
+        let late = (1.0 - NEIGHBOURS.0) * end;
+        let near =
+            self.rows().filter(|(t, ..)| *t >= late).fold(0.0, |near, (_, x, y)| worse(near, (x - y).abs()));
+        [
+            worse((ours.min - theirs.min).abs(), at(ours.t_min)),
+            worse((ours.max - theirs.max).abs(), at(ours.t_max)),
+            worse(at(end), NEIGHBOURS.1 * near),
+        ]
+    }
+
+    /// The time until which the error stays a small part of the largest value.
+    pub(super) fn trusted(&self, safety: f64) -> f64 {
+        let bound = DISTRUSTED * self.size();
+        let off = self.rows().find(|(_, x, y)| !(safety * (x - y).abs() <= bound));
+        off.map_or(f64::INFINITY, |(t, ..)| t)
+    }
+}
+
+/// The larger of two differences, or NaN.
+fn worse(a: f64, b: f64) -> f64 {
+    if b <= a || a.is_nan() { a } else { b }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use flexion::system::Channel;
+
+    fn column(values: [f64; 3]) -> Trajectory {
+        let mut out = Trajectory::new(vec![Channel { name: "y".into(), unit: "m", ..Channel::default() }]);
+        for (i, value) in values.into_iter().enumerate() {
+            out.push(i as f64, |row| row[0] = value);
+        }
+        out
+    }
+
+    #[test]
+    fn a_difference_that_is_no_number_is_reported_whatever_follows_it() {
+        let (a, b) = (column([0.0, f64::NAN, 3.0]), column([0.0, 1.0, 2.0]));
+        assert!(Pair::new(&a, &b, "y").unwrap().largest().is_nan());
+        let c = column([0.0, 0.5, 2.25]);
+        let pair = Pair::new(&b, &c, "y").unwrap();
+        assert_eq!((pair.largest(), pair.size()), (0.5, 2.25));
+        assert_eq!(pair.of_values(), [0.0, 0.25, 0.25]);
+        assert_eq!(pair.trusted(1.0), 1.0);
+    }
+}

@@ -1,0 +1,89 @@
+//! What is drawn of a case.
+
+use crate::case::{Case, Subject};
+use crate::hub_beam::HubBeam;
+use crate::kinds::beam::Beam;
+use crate::kinds::contact::Contact;
+use crate::space::Space;
+use flexion::hub_beam::Mount;
+use flexion::multibody::Body;
+use flexion::section::Shape;
+use flexion_results::{Drawn, Part, Scene};
+use std::sync::Arc;
+
+/// Length over height of a beam drawn without knowing its height.
+const SLENDERNESS: f64 = 50.0;
+/// Least edge of the box of a body over its largest.
+const THINNEST: f64 = 0.02;
+
+impl Case {
+    /// Its motion in space, not yet taken.
+    pub fn scene(&self) -> Scene {
+        let (parts, obstacles) = match &self.subject {
+            // The beam is as wide as high, for a model in a plane knows no width.
+            Subject::HubBeam(of) => {
+                let contacts = of.drawn();
+                let also: Vec<f64> = contacts.iter().map(|drawn| drawn.station).collect();
+                let section = [of.height(); 2];
+                let beam = Part::beam(("beam", 0), of.length, section, Some(of.hub.radius), &also);
+                (vec![beam], contacts)
+            }
+            Subject::Space(of) => (of.parts(), Vec::new()),
+        };
+        let scene = Scene::new(parts, obstacles, (self.duration / self.output.step) as usize);
+        match (&self.subject, self.output.vtk) {
+            (Subject::Space(_), Some(interval)) => {
+                scene.taken((interval / self.output.step).round() as usize)
+            }
+            _ => scene,
+        }
+    }
+}
+
+impl HubBeam {
+    /// Height of the beam, as it is drawn \[m\].
+    pub(super) fn height(&self) -> f64 {
+        self.section.height.unwrap_or(self.length / SLENDERNESS)
+    }
+
+    /// The obstacles, as they are drawn.
+    pub(super) fn drawn(&self) -> Vec<Drawn> {
+        let drawn = |contact: &Contact| Drawn {
+            name: contact.name.clone().unwrap_or_default(),
+            station: contact.stations.last().copied().unwrap_or(self.length),
+            on_hub: contact.mount == Mount::Hub,
+            obstacle: Arc::clone(&contact.obstacle),
+        };
+        self.contacts.iter().map(drawn).collect()
+    }
+}
+
+impl Space {
+    /// Its bodies as boxes, and its beams.
+    fn parts(&self) -> Vec<Part> {
+        let bodies = self.bodies.iter().enumerate();
+        let bodies = bodies.map(|(i, body)| Part::rigid((&body.name, i), body.centre, edges(body)));
+        let beams = self.beams.iter().zip(self.bodies.len()..);
+        let beams = beams
+            .map(|((beam, _), i)| Part::beam((&beam.name, i), beam.length, size(beam), None, &beam.stations));
+        bodies.chain(beams).collect()
+    }
+}
+
+/// Edges of the homogeneous box with the moments of inertia of a body: a² = 6 (J₂ + J₃ − J₁)/m and so on.
+fn edges(body: &Body) -> [f64; 3] {
+    let [x, y, z] = [0, 1, 2].map(|i| body.inertia[i][i]);
+    let edge = |square: f64| (6.0 * square / body.mass).max(0.0).sqrt();
+    let edges = [edge(y + z - x), edge(x + z - y), edge(x + y - z)];
+    let largest = edges.iter().copied().fold(0.0, f64::max);
+    edges.map(|edge| edge.max(THINNEST * largest))
+}
+
+/// Height and width of a beam's section, as they are drawn \[m\].
+fn size(beam: &Beam) -> [f64; 2] {
+    match beam.section.shape {
+        Some(Shape::Rectangle { width, height }) => [height, width],
+        Some(Shape::Ellipse { semi_width, semi_height }) => [2.0 * semi_height, 2.0 * semi_width],
+        _ => [beam.section.height.unwrap_or(beam.length / SLENDERNESS); 2],
+    }
+}

@@ -1,0 +1,78 @@
+//! Stability of an equilibrium.
+//!
+//! Where K is symmetric the equilibrium is a stationary point of a potential. With n₋ the number of negative eigenvalues of
+//! [K −Gᵀ; −G 0] and m that of the multipliers, the potential falls in n₋ − m independent directions that the rows allow: a minimum,
+//! n₋ = m, is stable (Lagrange, Dirichlet). Elsewhere, with follower loads or with gyroscopic forces about a saddle, the eigenvalues
+//! of λ² M + λ C + K of smallest size decide: a motion grows where Re λ > 0.
+//!
+//! Sources: H. Ziegler, *Principles of Structural Stability*, 2nd ed., Birkhäuser 1977 (follower and gyroscopic forces);
+//! N. Gould, *Math. Program.* 32 (1985) 90–99, doi:10.1007/BF01585660 (inertia of matrices with multipliers).
+
+use super::stiffness::matrices;
+use crate::linalg::eigen::{EigenError, Pencil, each, is_symmetric, negative_eigenvalues};
+use crate::system::{State, System};
+use std::fmt;
+
+/// Eigenvalues that are asked for where the inertia does not decide.
+const EIGENVALUES: usize = 12;
+/// Growth Re λ/|λ| above which a motion counts as growing: where two frequencies meet, rounding makes about √ε of them.
+const GROWTH: f64 = 1e-7;
+
+/// How motions about an equilibrium go on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Stability {
+    /// Directions in which motions leave it without vibrating: buckling, divergence.
+    pub divergent: usize,
+    /// Vibrations that grow: flutter.
+    pub fluttering: usize,
+}
+
+impl Stability {
+    /// Whether nothing grows.
+    pub fn is_stable(&self) -> bool {
+        *self == Stability::default()
+    }
+
+    /// Number of directions and vibrations that grow.
+    pub fn unstable(&self) -> usize {
+        self.divergent + self.fluttering
+    }
+}
+
+impl fmt::Display for Stability {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let plural = |n: usize| if n == 1 { "" } else { "s" };
+        match (self.divergent, self.fluttering) {
+            (0, 0) => write!(f, "stable"),
+            (n, 0) => write!(f, "unstable: {n} direction{}", plural(n)),
+            (0, n) => write!(f, "unstable: {n} vibration{} that grow (flutter)", plural(n)),
+            (n, k) => {
+                write!(f, "unstable: {n} direction{} and {k} vibration{} that grow", plural(n), plural(k))
+            }
+        }
+    }
+}
+
+/// The stability of `state`, which is taken for an equilibrium as it stands.
+///
+/// # Errors
+/// [`EigenError`] where eigenvalues decide and are not found. A critical state, whose tangent is singular, counts as stable
+/// where K is symmetric.
+pub fn stability(system: &mut dyn System, state: &State) -> Result<Stability, EigenError> {
+    let (all, multipliers) = matrices(system, state);
+    let [_, damping, stiffness] = &all;
+    let symmetric = is_symmetric(stiffness);
+    let saddle = if symmetric { negative_eigenvalues(stiffness).saturating_sub(multipliers) } else { 0 };
+    let mut gyroscopic = false;
+    each(damping, |i, j| gyroscopic |= damping.get(i, j) * damping.get(j, i) < 0.0);
+    if symmetric && (saddle == 0 || !gyroscopic) {
+        return Ok(Stability { divergent: saddle, fluttering: 0 });
+    }
+    let count = EIGENVALUES.min(state.v.len().saturating_sub(multipliers));
+    let pairs = Pencil::new(all, multipliers, 0.0)?.pairs(count, &[])?;
+    let grows = |vibrates: bool| {
+        let grown = pairs.iter().filter(|p| p.value.re > GROWTH * p.value.norm());
+        grown.filter(|p| (p.value.im > 0.0) == vibrates).count()
+    };
+    Ok(Stability { divergent: grows(false), fluttering: grows(true) })
+}

@@ -1,0 +1,206 @@
+//! A slender beam as a part of a model, and loads along it.
+
+use super::force::Axes;
+use super::rotation::{Matrix3, Vector, plus, product, times};
+use super::slender::{Beam, COORDINATES, ELEMENT_COORDINATES, ELEMENT_VELOCITIES};
+use crate::linalg::vector::{cross, inner};
+use crate::profile::Profile;
+use crate::system::Frame;
+use std::sync::Arc;
+
+/// A slender beam as it stands at the start: without stress, and moving as a rigid body.
+#[derive(Clone, Debug)]
+pub struct Flexible {
+    /// Name, unique in its model.
+    pub name: String,
+    /// Centreline without stress, mesh and sections. Its own damping is replaced.
+    pub beam: Beam,
+    /// Velocity of its first node at the start, inertial axes \[m/s\].
+    pub velocity: Vector,
+    /// Angular velocity at the start, inertial axes [rad/s].
+    pub spin: Vector,
+    /// Damping β [1/s] in proportion to the mass: forces −β M v.
+    pub damping: f64,
+    /// Damping η \[s\] in proportion to the stiffness (Kelvin–Voigt): stresses C (γ − γ₀ + η γ̇) of the strains γ.
+    pub viscosity: f64,
+    /// Arc lengths \[m\] of the stations that are recorded.
+    pub stations: Vec<f64>,
+    /// Fibres whose strain is recorded.
+    pub fibres: Vec<Fibre>,
+}
+
+/// A point of a section whose strain is recorded.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fibre {
+    /// Name, unique in its beam.
+    pub name: String,
+    /// Arc length \[m\].
+    pub station: f64,
+    /// Place (y, z) along n and b \[m\].
+    pub place: [f64; 2],
+}
+
+impl Flexible {
+    /// A beam at rest and without damping, of which the last node is recorded.
+    pub fn new(name: &str, beam: Beam) -> Flexible {
+        let end = beam.nodes().last().copied().unwrap_or(0.0);
+        Flexible {
+            name: name.to_owned(),
+            beam,
+            velocity: [0.0; 3],
+            spin: [0.0; 3],
+            damping: 0.0,
+            viscosity: 0.0,
+            stations: vec![end],
+            fibres: Vec::new(),
+        }
+    }
+
+    /// The same beam with damping β [1/s] in proportion to its mass.
+    pub fn damped(self, damping: f64) -> Flexible {
+        Flexible { damping, ..self }
+    }
+
+    /// The same beam with damping η \[s\] in proportion to its stiffness.
+    pub fn viscous(self, viscosity: f64) -> Flexible {
+        Flexible { viscosity, ..self }
+    }
+
+    /// The same beam, recorded at these arc lengths \[m\].
+    pub fn recorded_at(self, stations: &[f64]) -> Flexible {
+        Flexible { stations: stations.to_vec(), ..self }
+    }
+
+    /// The same beam with the strain of a fibre recorded.
+    pub fn with_fibre(mut self, name: &str, station: f64, place: [f64; 2]) -> Flexible {
+        self.fibres.push(Fibre { name: name.to_owned(), station, place });
+        self
+    }
+
+    /// What is wrong with the numbers, if anything.
+    pub(super) fn fault(&self) -> Option<String> {
+        if !self.velocity.iter().chain(&self.spin).all(|x| x.is_finite()) {
+            return Some("has a number that is not finite".to_owned());
+        }
+        for (what, x) in [("damping", self.damping), ("viscosity", self.viscosity)] {
+            if !(x >= 0.0 && x.is_finite()) {
+                return Some(format!("has the {what} {x} and must have one ≥ 0"));
+            }
+        }
+        let nodes = self.beam.nodes();
+        let (first, last) = (nodes.first()?, nodes.last()?);
+        let stations = self.stations.iter().chain(self.fibres.iter().map(|fibre| &fibre.station));
+        for station in stations {
+            if !(first..=last).contains(&station) {
+                return Some(format!("has a station at {station} m, outside of {first} m to {last} m"));
+            }
+        }
+        let mut names: Vec<&str> = self.fibres.iter().map(|fibre| fibre.name.as_str()).collect();
+        names.sort_unstable();
+        let twice = names.windows(2).find(|pair| pair[0] == pair[1])?;
+        Some(format!("has two fibres with the name `{}`", twice[0]))
+    }
+
+    /// Writes the velocities of the start.
+    pub(super) fn start(&self, q: &[f64], v: &mut [f64]) {
+        let (origin, _) = self.beam.node(0, q);
+        for node in 0..self.beam.nodes().len() {
+            let (position, triad) = self.beam.node(node, q);
+            let at = ELEMENT_VELOCITIES * node;
+            let slope = triad.tangent.map(|t| triad.length * t);
+            let velocity = plus(self.velocity, 1.0, cross(self.spin, plus(position, -1.0, origin)));
+            v[at..at + 3].copy_from_slice(&velocity);
+            v[at + 3..at + 6].copy_from_slice(&cross(self.spin, slope));
+            v[at + 6] = inner(self.spin, triad.tangent);
+            if let Some(element) = self.beam.elements().get(node) {
+                v[at + 7] = inner(self.spin, element.section(&coordinates(q, node), 0.5).1.tangent);
+            }
+        }
+    }
+
+    /// The element of the arc length `s` and the place 0 … 1 in it.
+    pub(super) fn place(&self, s: f64) -> (usize, f64) {
+        let nodes = self.beam.nodes();
+        let element = nodes.partition_point(|node| *node <= s).clamp(1, nodes.len() - 1) - 1;
+        (element, (s - nodes[element]) / (nodes[element + 1] - nodes[element]))
+    }
+
+    /// The rotation of node `i` from one configuration to another.
+    pub(super) fn rotation(&self, node: usize, before: &[f64], now: &[f64]) -> Matrix3 {
+        let [before, now] = [before, now].map(|q| self.beam.node(node, q).1);
+        let inverse = [before.tangent, before.normal, before.binormal];
+        product(&now.rotation(), &inverse)
+    }
+
+    /// Position and axes at the arc length `s`.
+    pub(super) fn frame(&self, q: &[f64], s: f64) -> Frame {
+        let (element, z) = self.place(s);
+        let (position, triad, _) = self.beam.elements()[element].section(&coordinates(q, element), z);
+        Frame { position, rotation: triad.rotation() }
+    }
+
+    /// Velocity of the centreline at the arc length `s`.
+    pub(super) fn velocity(&self, v: &[f64], s: f64) -> Vector {
+        let (element, z) = self.place(s);
+        let v = std::array::from_fn(|k| v[ELEMENT_VELOCITIES * element + k]);
+        self.beam.elements()[element].velocity(&v, z)
+    }
+
+    /// Strains (ε, κ₁, κ₂, κ₃) less those without stress, and (N, M₁, M₂, M₃), at the arc length `s`; at a node the means of both
+    /// elements.
+    pub(super) fn strains_and_forces(&self, q: &[f64], s: f64) -> [[f64; 4]; 2] {
+        let of = |(element, z): (usize, f64)| {
+            let (q, element) = (coordinates(q, element), &self.beam.elements()[element]);
+            [element.section(&q, z).2, element.section_forces(&q, z)]
+        };
+        let (element, z) = self.place(s);
+        let here = of((element, z));
+        if element == 0 || z > 1e-9 {
+            return here;
+        }
+        let before = of((element - 1, 1.0));
+        [0, 1].map(|k| std::array::from_fn(|i| 0.5 * (here[k][i] + before[k][i])))
+    }
+
+    /// The strain ε + z κ₂ − y κ₃ of a fibre.
+    pub(super) fn fibre_strain(&self, q: &[f64], fibre: &Fibre) -> f64 {
+        let ([axial, _, second, third], [y, z]) = (self.strains_and_forces(q, fibre.station)[0], fibre.place);
+        axial + z * second - y * third
+    }
+
+    /// The name of a station in the names of its columns.
+    pub(super) fn station_name(&self, s: f64) -> String {
+        if self.beam.nodes().last() == Some(&s) { "tip".to_owned() } else { format!("s={s}") }
+    }
+}
+
+/// The coordinates of an element.
+fn coordinates(q: &[f64], element: usize) -> [f64; COORDINATES] {
+    std::array::from_fn(|k| q[ELEMENT_COORDINATES * element + k])
+}
+
+/// A force per length along a whole beam.
+#[derive(Clone, Debug)]
+pub struct LineLoad {
+    /// Name, unique in its model.
+    pub name: String,
+    /// Number of the beam.
+    pub beam: usize,
+    /// Force per length without stress [N/m].
+    pub force: Vector,
+    /// What the components refer to: inertial axes, or the axes of each section.
+    pub axes: Axes,
+    /// Factor f(t); 1 where there is none.
+    pub amplitude: Option<Arc<dyn Profile>>,
+}
+
+impl LineLoad {
+    /// The components at the time `t` when `part` of the loads acts.
+    pub(super) fn at(&self, t: f64, part: f64) -> Vector {
+        times(part * self.amplitude.as_ref().map_or(1.0, |f| f.value(t)), self.force)
+    }
+
+    pub(super) fn follows(&self) -> bool {
+        self.axes == Axes::Follower
+    }
+}

@@ -1,0 +1,167 @@
+//! Slender beams as parts: conformance with every joint and load, and the layout of chains.
+
+use super::conformance::profile;
+use super::{GRAVITY, odd_body, odd_rotation, radau, run, wave};
+use flexion::multibody::slender::{Beam, Properties, Station};
+use flexion::multibody::{
+    Axes, Flexible, Joint, Kind, LineLoad, Load, Marker, Model, Multibody, Part, Spring,
+};
+use flexion::system::{Dynamics, Frame, State};
+use flexion::verify::dynamics;
+
+/// An arc with a pretwist whose root is where the marker of `part` is.
+pub fn arc(elements: usize, root: Frame) -> Beam {
+    let axis = |j: usize| [0, 1, 2].map(|i| root.rotation[i][j]);
+    let [t, n, b] = [0, 1, 2].map(axis);
+    let combine = |x: f64, y: f64, z: f64| [0, 1, 2].map(|i| x * t[i] + y * n[i] + z * b[i]);
+    let curve = |s: f64| {
+        let (sin, cos) = (0.7 * s).sin_cos();
+        let (sine, cosine) = (0.3 * s).sin_cos();
+        let place = combine(sin / 0.7, (1.0 - cos) / 0.7, 0.0);
+        Station {
+            position: [0, 1, 2].map(|i| root.position[i] + place[i]),
+            tangent: combine(cos, sin, 0.0),
+            normal: combine(-sin * cosine, cos * cosine, sine),
+        }
+    };
+    let section = Properties::principal([400.0, 1.1, 0.9, 1.6], 1.2, [0.03, 0.012, 0.018]);
+    let nodes: Vec<f64> = (0..=elements).map(|i| 1.1 * i as f64 / elements as f64).collect();
+    Beam::new(&nodes, curve, |_| section).unwrap()
+}
+
+fn somewhere(k: f64) -> Frame {
+    Frame { position: [wave(1, k), wave(2, k), wave(3, k)], rotation: odd_rotation(k) }
+}
+
+/// Ground – body – beam – beam – body, with a spring, loads of every kind and damping.
+fn system(kind: Kind) -> Multibody {
+    let mut model = Model::new().with_gravity([1.0, 2.0, -GRAVITY]);
+    let body = model.body(odd_body("hub", 0.3));
+    let end = model.body(odd_body("end", 1.7));
+    let root = Frame { position: [0.4, -0.2, 0.3], rotation: odd_rotation(0.8) };
+    let mut first = Flexible::new("first", arc(3, root)).damped(0.4);
+    (first.velocity, first.spin) = ([0.3, -0.2, 0.5], [0.7, -0.4, 0.9]);
+    let (at, triad) = first.beam.node(3, first.beam.initial());
+    let first = model.beam(first);
+    let next = Frame { position: at, rotation: triad.rotation() };
+    let second = model.beam(Flexible::new("second", arc(2, next)).viscous(0.02));
+    let section = |beam, node| Part::Section { beam, node };
+    let mut join = |name: &str, kind, parts, point, k: usize| {
+        let axis = ([wave(k, 0.1), wave(k, 1.2), wave(k, 2.3)], Some([0.3, 1.0, 0.2]));
+        model.join(name, kind, parts, point, axis).unwrap();
+    };
+    join("hinge", Kind::Revolute, [Part::Ground, body], [0.1, 0.2, 0.3], 1);
+    join("clamp", Kind::Fixed, [body, section(first, 0)], root.position, 2);
+    join("elbow", kind, [section(first, 3), section(second, 0)], at, 3);
+    // Off the centreline, at a node within.
+    join("tail", kind, [section(second, 1), end], [0.2, 0.9, -0.4], 4);
+    let marker = |part, k| Marker {
+        part,
+        frame: Frame { position: somewhere(k).position.map(|x| 0.2 * x), ..somewhere(k) },
+    };
+    for (name, parts, k) in [
+        ("to ground", [Part::Ground, section(first, 1)], 0.1),
+        ("between", [section(second, 2), section(first, 2)], 1.3),
+    ] {
+        let [from, to] = [marker(parts[0], k), marker(parts[1], k + 0.4)];
+        model.spring(Spring { name: name.into(), from, to, stiffness: 7.0, damping: 0.8, length: 0.3 });
+    }
+    for (name, axes) in [("dead", Axes::Dead), ("follower", Axes::Follower)] {
+        model.load(Load {
+            name: name.to_owned(),
+            at: marker(section(second, 2), 0.6),
+            force: [1.0, -2.0, 0.7],
+            moment: [0.4, 0.9, -1.1],
+            axes,
+            amplitude: Some(profile("1 + t")),
+        });
+        model.line_load(LineLoad {
+            name: format!("{name} along"),
+            beam: first,
+            force: [0.8, 0.3, -0.9],
+            axes,
+            amplitude: Some(profile("1 - t")),
+        });
+    }
+    Multibody::new(model).unwrap()
+}
+
+fn disturb(s: &mut State) {
+    s.a.iter_mut().enumerate().for_each(|(i, a)| *a = 3.0 * wave(i, 4.0));
+    s.lambda.iter_mut().enumerate().for_each(|(i, x)| *x = 2.0 * wave(i, 5.0));
+}
+
+const KINDS: [Kind; 5] = [Kind::Fixed, Kind::Revolute, Kind::Universal, Kind::Spherical, Kind::Cylindrical];
+
+/// Deformed and moving, but where the constraints hold, so that the power is compared too.
+#[test]
+fn a_system_of_beams_and_bodies_conforms_in_motion() {
+    for kind in KINDS {
+        let mut system = system(kind);
+        let (mut s, _) = run(&mut system, &mut radau(1e-7), 0.1, None, |_, _| {});
+        disturb(&mut s);
+        assert_eq!(dynamics(&mut system, &s), [], "{kind:?}");
+    }
+}
+
+#[test]
+fn a_system_of_beams_and_bodies_conforms_anywhere() {
+    for kind in KINDS {
+        let mut system = system(kind);
+        let mut s = system.initial();
+        let d: Vec<f64> = (0..s.v.len()).map(|i| 0.2 * wave(i, 0.7)).collect();
+        let q = s.q.clone();
+        system.retract(&q, &d, &mut s.q);
+        s.v.iter_mut().enumerate().for_each(|(i, v)| *v = wave(i, 2.1));
+        disturb(&mut s);
+        let mut defects = dynamics(&mut system, &s);
+        defects.retain(|d| d.check != "dE/dt");
+        assert_eq!(defects, [], "{kind:?}");
+    }
+}
+
+/// Newton's tangent by the increment of a step: ∂r/∂d at q₀ ⊞ d, d not small.
+#[test]
+fn the_tangent_of_beams_follows_the_increment_of_a_step() {
+    use flexion::linalg::Matrix;
+    use flexion::system::Weights;
+    let mut system = system(Kind::Revolute);
+    let mut from = system.initial();
+    disturb(&mut from);
+    let n = from.v.len();
+    let mut d: Vec<f64> = (0..n).map(|i| 0.25 * wave(i, 0.7)).collect();
+    let mut s = from.clone();
+    system.retract(&from.q, &d, &mut s.q);
+    let mut matrix = Matrix::new(&system.structure(0));
+    system.tangent(&s, Weights { q: 1.0, v: 0.0, a: 0.0, increment: Some(&d) }, &mut matrix);
+    let step = 1e-4;
+    for j in 0..n {
+        let mut residual = |h: f64, d: &mut Vec<f64>| {
+            let old = d[j];
+            d[j] += h;
+            system.retract(&from.q, d, &mut s.q);
+            d[j] = old;
+            let mut r = vec![0.0; n];
+            system.residual(&s, &mut r);
+            r
+        };
+        let [a, b, c, e] = [-2.0, -1.0, 1.0, 2.0].map(|k| residual(k * step, &mut d));
+        for i in 0..n {
+            let slope = (a[i] - 8.0 * b[i] + 8.0 * c[i] - e[i]) / (12.0 * step);
+            assert!((matrix.get(i, j) - slope).abs() < 3e-6, "{i} {j}: {} {slope}", matrix.get(i, j));
+        }
+    }
+}
+
+/// A clamp holds a motion of its body alone, and lets r′ grow.
+#[test]
+fn a_clamp_has_six_rows() {
+    let mut model = Model::new();
+    let root = Frame { position: [0.0; 3], rotation: odd_rotation(0.2) };
+    let beam = model.beam(Flexible::new("beam", arc(4, root)));
+    let part = Part::Section { beam, node: 0 };
+    let [from, to] = [Marker { part: Part::Ground, frame: root }, Marker::new(part, [0.0; 3])];
+    model.joint(Joint::new("clamp", Kind::Fixed, from, to));
+    let system = Multibody::new(model).unwrap();
+    assert_eq!(system.freedoms(), 4 * 8 + 7 - 6);
+}

@@ -1,0 +1,439 @@
+//! `scene.npz`: the motion of a system in space, for `flexion view` and for NumPy.
+//!
+//! A scene has named parts, and obstacles. With n times, a part has the arrays
+//!
+//! | name | shape | content |
+//! |---|---|---|
+//! | `NAME.pose` | (n, 7) | position \[m\] and quaternion (w, x, y, z) of the root section or of the body, inertial axes |
+//! | `NAME.station` | (m) | of a beam: arc lengths of its sections from the root \[m\] |
+//! | `NAME.displacement` | (n, m, 3) | of a beam: u, from the straight beam along the tangent of the root to the section, in the axes of the root \[m\] |
+//! | `NAME.rotation` | (n, m, 3) | of a beam: θ, rotation vector of the section against the root, in the axes of the root \[rad\] |
+//! | `NAME.section` | (2) | of a beam: size of the section along its second and third axis \[m\] |
+//! | `NAME.hub` | (1) | of a beam on a hub: radius from the axis of the hub to the root \[m\] |
+//! | `NAME.box` | (6) | of a rigid body: centre in its axes, and edges \[m\] |
+//! | `NAME.outline` | (n, p, 3) | of an obstacle: points of its outline \[m\], inertial axes |
+//!
+//! and `time` (n) \[s\]. A section stands at p + R (x e₁ + u), with the pose p, R of the root. Displacements are kept apart from the pose
+//! so that small ones keep their digits: what changes with time is stored in single precision.
+
+use std::io::{self, Seek, Write};
+
+use super::archive;
+use super::npz::{write_array, write_shaped};
+use super::obstacles::Drawn;
+use super::shapes::stations;
+use flexion::multibody::rotation::{
+    Matrix3, Vector, apply, apply_transposed, compose, exponential, inverse, logarithm, matrix, normalized,
+    plus, product, quaternion,
+};
+use flexion::system::{Frame, State, System};
+
+/// Equal intervals along a beam between whose ends it is drawn.
+const INTERVALS: usize = 25;
+/// About the most times that are kept.
+const MOST: usize = 300;
+
+/// A part of a system that is drawn.
+#[derive(Clone, Debug)]
+pub struct Part {
+    name: String,
+    body: usize,
+    form: Form,
+    /// Seven numbers a time.
+    poses: Vec<f32>,
+    /// Three numbers a time and station.
+    displacements: Vec<f32>,
+    rotations: Vec<f32>,
+}
+
+/// What a part looks like.
+#[derive(Clone, Debug)]
+enum Form {
+    Beam { stations: Vec<f64>, section: [f64; 2], hub: Option<f64> },
+    Box { centre: [f64; 3], edges: [f64; 3] },
+}
+
+impl Part {
+    /// Body number `body` of a system as a beam of this length and section \[m\] (its size along the second and the third
+    /// axis), on a hub of this radius \[m\] if on one; drawn at equal intervals and at the stations `also` \[m\].
+    pub fn beam(
+        (name, body): (&str, usize),
+        length: f64,
+        section: [f64; 2],
+        hub: Option<f64>,
+        also: &[f64],
+    ) -> Part {
+        Part::new(name, body, Form::Beam { stations: stations(length, INTERVALS, also), section, hub })
+    }
+
+    /// Body number `body` of a system as a rigid box: its centre in the axes of the body, and its edges \[m\].
+    pub fn rigid((name, body): (&str, usize), centre: [f64; 3], edges: [f64; 3]) -> Part {
+        Part::new(name, body, Form::Box { centre, edges })
+    }
+
+    fn new(name: &str, body: usize, form: Form) -> Part {
+        let (poses, displacements, rotations) = Default::default();
+        Part { name: name.to_owned(), body, form, poses, displacements, rotations }
+    }
+
+    fn stations(&self) -> &[f64] {
+        match &self.form {
+            Form::Beam { stations, .. } => stations,
+            Form::Box { .. } => &[0.0],
+        }
+    }
+
+    /// Takes the frames at its stations.
+    fn push(&mut self, frames: &[Frame]) {
+        let Some(root) = frames.first() else { return };
+        let turned = quaternion(&root.rotation);
+        self.poses.extend(root.position.iter().chain(&turned).map(|x| *x as f32));
+        let Form::Beam { stations, .. } = &self.form else { return };
+        let mut last = [0.0; 3];
+        for (x, frame) in stations.iter().zip(frames) {
+            let mut u = apply_transposed(&root.rotation, plus(frame.position, -1.0, root.position));
+            u[0] -= x - stations[0];
+            // The rotation vector that is nearest to that of the section before, so that it may pass π.
+            let principal = logarithm(compose(inverse(turned), quaternion(&frame.rotation)));
+            let angle = principal.iter().map(|y| y * y).sum::<f64>().sqrt();
+            let along: f64 = principal.iter().zip(last).map(|(a, b)| a * b).sum();
+            let whole = std::f64::consts::TAU;
+            let turns = if angle > 0.0 { ((along / angle - angle) / whole).round() } else { 0.0 };
+            let theta =
+                if turns == 0.0 { principal } else { principal.map(|y| y * (1.0 + turns * whole / angle)) };
+            last = theta;
+            self.displacements.extend(u.map(|x| x as f32));
+            self.rotations.extend(theta.map(|x| x as f32));
+        }
+    }
+}
+
+impl Part {
+    /// Position and axes of the root section or of the body at a time.
+    fn pose(&self, time: usize) -> (Vector, Matrix3) {
+        let at = |i: usize| self.poses.get(7 * time + i).copied().map_or(0.0, f64::from);
+        ([at(0), at(1), at(2)], matrix(normalized([at(3), at(4), at(5), at(6)])))
+    }
+
+    /// Its sections at a time, from one end to the other, with the halves of their sizes along the second and third axis.
+    pub(super) fn sections(&self, time: usize) -> (Vec<Frame>, [f64; 2]) {
+        let (position, axes) = self.pose(time);
+        let in_space = |x: Vector| plus(position, 1.0, apply(&axes, x));
+        match &self.form {
+            Form::Beam { stations, section, .. } => {
+                let of = |list: &[f32], k: usize| {
+                    [0, 1, 2].map(|i| {
+                        list.get(3 * (time * stations.len() + k) + i).copied().map_or(0.0, f64::from)
+                    })
+                };
+                let section_at = |(k, x): (usize, &f64)| {
+                    let u = of(&self.displacements, k);
+                    let turned = matrix(exponential(of(&self.rotations, k)));
+                    let place = [x - stations[0] + u[0], u[1], u[2]];
+                    Frame { position: in_space(place), rotation: product(&axes, &turned) }
+                };
+                (stations.iter().enumerate().map(section_at).collect(), section.map(|size| 0.5 * size))
+            }
+            Form::Box { centre, edges } => {
+                let end = |side: f64| {
+                    let place = plus(*centre, 0.5 * side, [edges[0], 0.0, 0.0]);
+                    Frame { position: in_space(place), rotation: axes }
+                };
+                (vec![end(-1.0), end(1.0)], [0.5 * edges[1], 0.5 * edges[2]])
+            }
+        }
+    }
+
+    /// Lines that show it at a time: the centreline of a beam, the edges of a box.
+    fn lines(&self, time: usize) -> Vec<Vec<Vector>> {
+        let (sections, half) = self.sections(time);
+        if let Form::Beam { .. } = self.form {
+            return vec![sections.iter().map(|section| section.position).collect()];
+        }
+        let corner = |frame: &Frame, [y, z]: [f64; 2]| {
+            plus(frame.position, 1.0, apply(&frame.rotation, [0.0, y * half[0], z * half[1]]))
+        };
+        const AROUND: [[f64; 2]; 5] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0]];
+        let rims = sections.iter().map(|frame| AROUND.iter().map(|at| corner(frame, *at)).collect());
+        let along = AROUND[1..].iter().map(|at| sections.iter().map(|frame| corner(frame, *at)).collect());
+        rims.chain(along).collect()
+    }
+}
+
+/// The motion of a system: its parts and the obstacles at a number of times.
+#[derive(Clone, Debug, Default)]
+pub struct Scene {
+    parts: Vec<Part>,
+    obstacles: Vec<Outline>,
+    every: usize,
+    seen: usize,
+    times: Vec<f64>,
+    frames: Vec<Frame>,
+}
+
+/// The outline of an obstacle.
+#[derive(Clone, Debug)]
+struct Outline {
+    drawn: Drawn,
+    /// Three numbers a time and point.
+    points: Vec<f32>,
+}
+
+impl Scene {
+    /// No time yet: for a run that records `records` times, of which some hundreds are taken.
+    pub fn new(parts: Vec<Part>, obstacles: Vec<Drawn>, records: usize) -> Scene {
+        let obstacles = obstacles.into_iter().map(|drawn| Outline { drawn, points: Vec::new() }).collect();
+        Scene { parts, obstacles, every: records.div_ceil(MOST).max(1), ..Scene::default() }
+    }
+
+    /// The same that takes every `every`-th recorded time.
+    pub fn taken(self, every: usize) -> Scene {
+        Scene { every: every.max(1), ..self }
+    }
+
+    /// Call it with every recorded state: it takes some of them.
+    pub fn sample(&mut self, system: &mut dyn System, state: &State) {
+        if self.seen.is_multiple_of(self.every.max(1)) {
+            self.push(system, state);
+        }
+        self.seen += 1;
+    }
+
+    /// Takes the last state of a run, unless it was taken.
+    pub fn finish(&mut self, system: &mut dyn System, state: &State) {
+        if self.times.last() != Some(&state.t) {
+            self.push(system, state);
+        }
+    }
+
+    fn push(&mut self, system: &mut dyn System, state: &State) {
+        self.times.push(state.t);
+        for (number, part) in self.parts.iter_mut().enumerate() {
+            self.frames.clear();
+            self.frames.resize(part.stations().len(), Frame::default());
+            system.frames(part.body, state, part.stations(), &mut self.frames);
+            part.push(&self.frames);
+            // Obstacles are seen from the first part.
+            for obstacle in self.obstacles.iter_mut().filter(|_| number == 0) {
+                let ends = [part.stations()[0], part.stations()[part.stations().len() - 1]];
+                let at = part.stations().partition_point(|x| *x < obstacle.drawn.station - 1e-9 * ends[1]);
+                let (Some(root), Some(at)) = (self.frames.first(), self.frames.get(at)) else { continue };
+                let outline = obstacle.drawn.outline([root, at], state.t, ends[1] - ends[0]);
+                obstacle.points.extend(outline.into_iter().flatten().map(|x| x as f32));
+            }
+        }
+    }
+
+    /// The times that were taken \[s\].
+    pub fn times(&self) -> &[f64] {
+        &self.times
+    }
+
+    /// The parts.
+    pub fn parts(&self) -> &[Part] {
+        &self.parts
+    }
+
+    /// The lines of each part at the time of this number, with its name \[m\].
+    pub(super) fn lines(&self, time: usize) -> Vec<(&str, Vec<Vec<Vector>>)> {
+        self.parts.iter().map(|part| (part.name.as_str(), part.lines(time))).collect()
+    }
+
+    /// Whether there is nothing to be drawn.
+    pub fn is_empty(&self) -> bool {
+        self.parts.is_empty() || self.times.is_empty()
+    }
+
+    /// Writes the NumPy archive. The same scene gives the same bytes.
+    ///
+    /// # Errors
+    /// Whatever `to` returns.
+    pub fn write(&self, to: impl Write + Seek) -> io::Result<()> {
+        let mut archive = archive::archive(to);
+        let times = self.times.len() as u64;
+        write_array(&mut archive, "time", self.times.len(), self.times.iter().copied())?;
+        for part in &self.parts {
+            let name = |what: &str| format!("{}.{what}", part.name);
+            write_shaped(&mut archive, &name("pose"), &[times, 7], part.poses.iter().copied())?;
+            let numbers: [(&str, Vec<f64>); 3] = match &part.form {
+                Form::Beam { stations, section, hub } => {
+                    let shape = [times, stations.len() as u64, 3];
+                    let fields = [("displacement", &part.displacements), ("rotation", &part.rotations)];
+                    for (what, values) in fields {
+                        write_shaped(&mut archive, &name(what), &shape, values.iter().copied())?;
+                    }
+                    let hub = hub.iter().copied().collect();
+                    [("station", stations.clone()), ("section", section.to_vec()), ("hub", hub)]
+                }
+                Form::Box { centre, edges } => {
+                    [("box", [*centre, *edges].concat()), ("", Vec::new()), ("", Vec::new())]
+                }
+            };
+            for (what, values) in numbers.into_iter().filter(|(_, values)| !values.is_empty()) {
+                write_array(&mut archive, &name(what), values.len(), values.into_iter())?;
+            }
+        }
+        for Outline { drawn, points } in &self.obstacles {
+            let shape = [times, points.len() as u64 / (3 * times).max(1), 3];
+            write_shaped(&mut archive, &format!("{}.outline", drawn.name), &shape, points.iter().copied())?;
+        }
+        archive::finish(archive)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use flexion::contact::Plane;
+    use flexion::multibody::rotation::{apply, exponential, matrix, product};
+    use flexion::system::{Dynamics, Events, Observed, Size, Steady, Weights};
+    use std::collections::BTreeMap;
+    use std::io::Cursor;
+    use std::sync::Arc;
+
+    /// A beam that is bent to an arc of the angle q per length about the third axis of its root, which is turned by the vector d
+    /// and stands at p; every other body stands at p alone.
+    struct Bent {
+        p: [f64; 3],
+        d: [f64; 3],
+    }
+
+    impl Dynamics for Bent {
+        fn size(&self) -> Size {
+            Size::default()
+        }
+        fn scales(&self) -> &[f64] {
+            &[]
+        }
+        fn residual(&mut self, _: &State, _: &mut [f64]) {}
+        fn tangent(&mut self, _: &State, _: Weights<'_>, _: &mut flexion::linalg::Matrix) {}
+    }
+    impl Events for Bent {}
+    impl Steady for Bent {}
+    impl Observed for Bent {
+        fn frames(&mut self, body: usize, s: &State, stations: &[f64], out: &mut [Frame]) {
+            let root = matrix(exponential(self.d));
+            for (x, frame) in stations.iter().zip(out) {
+                let angle = if body == 0 { s.q[0] * x } else { 0.0 };
+                let place = if body == 0 { arc(s.q[0], *x) } else { [0.0; 3] };
+                let turned = matrix(exponential([0.0, 0.0, angle]));
+                *frame = Frame {
+                    position: plus(self.p, 1.0, apply(&root, place)),
+                    rotation: product(&root, &turned),
+                };
+            }
+        }
+    }
+
+    /// Where a section of an arc is: (sin κx, 1 − cos κx)/κ.
+    fn arc(curvature: f64, x: f64) -> [f64; 3] {
+        let half = 0.5 * curvature * x;
+        let chord = half.sin() / (0.5 * curvature);
+        [chord * half.cos(), chord * half.sin(), 0.0]
+    }
+
+    fn written(scene: &Scene) -> BTreeMap<String, (Vec<u64>, Vec<f64>)> {
+        let mut out = Cursor::new(Vec::new());
+        scene.write(&mut out).unwrap();
+        let mut all = BTreeMap::new();
+        archive::arrays(out, |name, array| {
+            let shape = array.shape().to_vec();
+            let values = match array.try_data::<f32>() {
+                Ok(values) => values.map(|x| f64::from(x.unwrap())).collect(),
+                Err(array) => array.into_vec::<f64>()?,
+            };
+            all.insert(name.to_owned(), (shape, values));
+            Ok(())
+        })
+        .unwrap();
+        all
+    }
+
+    fn at(curvature: f64) -> State {
+        State { t: curvature, q: vec![curvature], ..State::default() }
+    }
+
+    #[test]
+    fn small_displacements_keep_their_digits_far_from_the_origin() {
+        let mut system = Bent { p: [300.0, -20.0, 7.0], d: [0.3, -1.2, 2.0] };
+        let mut scene = Scene::new(vec![Part::beam(("arm", 0), 2.0, [0.1, 0.2], None, &[])], Vec::new(), 3);
+        for curvature in [1e-7, 0.4] {
+            scene.sample(&mut system, &at(curvature));
+        }
+        let all = written(&scene);
+        let m = INTERVALS + 1;
+        assert_eq!(all["arm.displacement"].0, [2, m as u64, 3]);
+        assert_eq!(all["arm.pose"].0, [2, 7]);
+        assert_eq!(all["arm.pose"].1[..3], [300.0, -20.0, 7.0]);
+        let quaternion = exponential(system.d);
+        assert!(all["arm.pose"].1[3..7].iter().zip(quaternion).all(|(a, b)| (a - b).abs() < 1e-7));
+        for (time, curvature) in [1e-7, 0.4].into_iter().enumerate() {
+            let [along, across, _] = arc(curvature, 2.0);
+            let tip = |name: &str| &all[name].1[3 * (m * (time + 1) - 1)..3 * m * (time + 1)];
+            let (u, theta) = (tip("arm.displacement"), tip("arm.rotation"));
+            // Doubles at 300 m resolve 6e-14 m.
+            assert!((u[1] - across).abs() < 1e-7 * across + 2e-13, "{u:?} {across}");
+            assert!((u[0] - (along - 2.0)).abs() < 1e-7 * (2.0 - along) + 2e-13, "{u:?} {along}");
+            assert!((theta[2] - 2.0 * curvature).abs() < 2e-7 * curvature + 1e-15, "{theta:?}");
+        }
+    }
+
+    #[test]
+    fn a_section_may_turn_by_more_than_half_a_revolution() {
+        let mut system = Bent { p: [0.0; 3], d: [0.0, 0.5, 0.0] };
+        let mut scene = Scene::new(vec![Part::beam(("arm", 0), 2.0, [0.1; 2], None, &[])], Vec::new(), 1);
+        scene.sample(&mut system, &at(-5.0));
+        let (_, theta) = &written(&scene)["arm.rotation"];
+        for (k, theta) in theta.chunks(3).enumerate() {
+            let exact = -5.0 * 2.0 * k as f64 / INTERVALS as f64;
+            assert!((theta[2] - exact).abs() < 1e-6, "section {k}: {theta:?} instead of {exact}");
+        }
+    }
+
+    #[test]
+    fn long_runs_are_thinned_and_keep_their_last_time() {
+        let mut system = Bent { p: [1.0, 2.0, 3.0], d: [0.0; 3] };
+        let body = Part::rigid(("body", 1), [0.1, 0.0, 0.0], [1.0, 2.0, 3.0]);
+        let mut scene = Scene::new(vec![body], Vec::new(), 10 * MOST);
+        let states: Vec<State> = (1..=10 * MOST).map(|i| at(i as f64)).collect();
+        states.iter().for_each(|state| scene.sample(&mut system, state));
+        scene.finish(&mut system, &states[10 * MOST - 1]);
+        let all = written(&scene);
+        let times = &all["time"].1;
+        assert_eq!((times.len(), times[0], times[MOST]), (MOST + 1, 1.0, 10.0 * MOST as f64));
+        assert_eq!(all["body.pose"].1[..7], [1.0, 2.0, 3.0, 1.0, 0.0, 0.0, 0.0]);
+        assert_eq!(all["body.box"].1, [0.1, 0.0, 0.0, 1.0, 2.0, 3.0]);
+    }
+
+    #[test]
+    fn an_obstacle_is_seen_from_its_station() {
+        let mut system = Bent { p: [0.0; 3], d: [0.0; 3] };
+        let plane = Plane { point: [0.0, -1.0, 0.0], normal: [0.0, 1.0, 0.0], motion: None };
+        let drawn = Drawn { name: "floor".into(), station: 1.5, on_hub: false, obstacle: Arc::new(plane) };
+        let beam = Part::beam(("arm", 0), 2.0, [0.1; 2], Some(0.5), &[1.5]);
+        let mut scene = Scene::new(vec![beam], vec![drawn], 1);
+        scene.sample(&mut system, &at(1e-9));
+        let all = written(&scene);
+        let (shape, ends) = &all["floor.outline"];
+        assert_eq!(shape, &[1, 2, 3]);
+        assert!(
+            (ends[0] - ends[3]).abs() == 4.0 && (0.5 * (ends[0] + ends[3]) - 1.5).abs() < 1e-6,
+            "{ends:?}"
+        );
+        assert!(ends[1] == -1.0 && ends[4] == -1.0);
+        assert_eq!(all["arm.hub"].1, [0.5]);
+    }
+
+    #[test]
+    fn the_same_scene_gives_the_same_bytes() {
+        let bytes = || {
+            let mut system = Bent { p: [0.0; 3], d: [0.1; 3] };
+            let mut scene = Scene::new(vec![Part::beam(("arm", 0), 2.0, [0.1; 2], None, &[])], Vec::new(), 1);
+            scene.sample(&mut system, &at(0.3));
+            let mut out = Cursor::new(Vec::new());
+            scene.write(&mut out).unwrap();
+            out.into_inner()
+        };
+        assert!(bytes() == bytes());
+    }
+}

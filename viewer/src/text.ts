@@ -1,0 +1,23 @@
+// Numbers as text.
+
+/** The largest of 1, 2 and 5 times a power of ten that is not above `x`. */
+export function nice(x: number): number {
+  const power = 10 ** Math.floor(Math.log10(x));
+  return [5, 2, 1].map((step) => step * power).find((step) => step <= x * (1 + 1e-9)) ?? power;
+}
+
+/** A number with some digits, with a true minus. */
+export function text(x: number, digits = 4): string {
+  if (!Number.isFinite(x)) return "–";
+  const [size, short] = [Math.abs(x), Number(x.toPrecision(digits))];
+  const plain = size === 0 || (size >= 1e-3 && size < 1e5);
+  return (plain ? String(short) : short.toExponential()).replace(/-/g, "−").replace("e+", "e");
+}
+
+/** A number with as many digits each time, so that it does not jump. */
+export function steady(x: number): string {
+  if (!Number.isFinite(x)) return "–";
+  const size = Math.abs(x);
+  const digits = size >= 1e5 || (size < 1e-3 && size > 0) ? x.toExponential(3) : x.toFixed(size >= 100 ? 1 : 4);
+  return digits.replace(/-/g, "−").replace("e+", "e");
+}
