@@ -73,7 +73,7 @@ pub fn assemble(system: &mut Speeds<'_>, blocks: Vec<Block>) -> Result<Campbell,
     }
     system.rest();
     let (solved, matches) = refine(system, solved)?;
-    let Tracker { mut branches, entering, .. } = join(&solved, &matches, plan.count);
+    let Tracker { mut branches, .. } = join(&solved, &matches, plan.count);
     let crossings = crossings(system, &solved, &branches, plan.revolutions);
     system.describe(&solved, &mut branches);
     let mut instabilities = flutter(&branches);
@@ -84,13 +84,7 @@ pub fn assemble(system: &mut Speeds<'_>, blocks: Vec<Block>) -> Result<Campbell,
             _ => Instability::Lost { speed, reason },
         });
     }
-    Ok(Campbell {
-        speeds: solved.iter().map(|s| s.speed).collect(),
-        branches,
-        crossings,
-        instabilities,
-        entering,
-    })
+    Ok(Campbell { speeds: solved.iter().map(|s| s.speed).collect(), branches, crossings, instabilities })
 }
 
 /// Inserts speeds where a shape changes too much from one to the next; with the matches of each speed with the next.
