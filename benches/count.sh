@@ -12,7 +12,8 @@ steps=100
 echo "coupling,integrator,elements,instructions per step"
 for elements in "${@:-10}"; do
     for what in "solver none" "first newmark" "exact newmark" "first radau" "exact radau" \
-        "first-free newmark" "exact-free newmark" "first-free radau" "exact-free radau"; do
+        "first-free newmark" "exact-free newmark" "first-free radau" "exact-free radau" \
+        "space alpha" "space radau"; do
         set -- $what
         once=$(instructions "$1" "$2" "$elements" $steps)
         twice=$(instructions "$1" "$2" "$elements" $((2 * steps)))

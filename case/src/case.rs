@@ -56,6 +56,8 @@ pub struct Output {
     pub energy_balance: bool,
     /// Whether the shares of the transverse modes are recorded.
     pub modal_shares: bool,
+    /// Whether the run is drawn.
+    pub plots: bool,
     /// Interval between shapes of the beam for ParaView \[s\]; `None` writes none.
     pub vtk: Option<f64>,
 }
@@ -216,6 +218,7 @@ fn output(v: &Values, c: &Context<'_>) -> Made<Output> {
         strain_heights: list("strain-heights")?.to_vec(),
         energy_balance: output.boolean("energy-balance")?,
         modal_shares,
+        plots: output.boolean("plots")?,
         vtk,
     })
 }

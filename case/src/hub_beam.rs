@@ -2,7 +2,7 @@
 
 use super::case::Found;
 use super::fault::Made;
-use super::kind::{Choice, Context};
+use super::kind::{Choice, Context, Table};
 use super::kinds::basis::{self, Bases};
 use super::kinds::blade::{BLADE, Blade};
 use super::kinds::contact::{self, CONTACT, Contact};
@@ -118,7 +118,13 @@ fn hub(v: &Values, c: &Context<'_>) -> Made<Hub> {
 }
 
 fn loads(v: &Values, c: &Context<'_>, found: &mut Found) -> Option<Vec<Load>> {
-    let made: Vec<_> = LOADS.iter().map(|table| found.part(table.make(v, c))).collect();
+    let named = |table: &Table<Load>| {
+        let made = table.make(v, c);
+        made.map(|list| {
+            list.into_iter().map(|load| Load { table: table.key.name, ..load }).collect::<Vec<_>>()
+        })
+    };
+    let made: Vec<_> = LOADS.iter().map(|table| found.part(named(table))).collect();
     let lists: Option<Vec<Vec<Load>>> = made.into_iter().collect();
     lists.map(|lists| lists.concat())
 }

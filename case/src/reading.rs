@@ -48,13 +48,14 @@ pub struct Reading {
 impl Reading {
     /// The case as a file with every default filled in, in SI, that reads back as the same case.
     pub fn resolved(&self) -> String {
-        resolved::resolved(&self.values, false)
+        resolved::resolved(&self.values, None)
     }
 
     /// As [`Reading::resolved`], beside copies of the tables that the case names: `motion.csv`, `torque.csv` and
     /// `section.csv`.
     pub fn resolved_with_copies(&self) -> String {
-        resolved::resolved(&self.values, true)
+        let files: Vec<String> = self.tables().into_iter().map(|(key, _)| key).collect();
+        resolved::resolved(&self.values, Some(&files))
     }
 
     /// The files that the case names: dotted path of the table and bytes.

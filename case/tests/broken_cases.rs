@@ -262,7 +262,7 @@ const CHANGES: &[Change] = &[
         r#"kind = "table", of = "speed", file = "unsorted.csv""#,
         r#"hub.motion.file"#,
         Some(12),
-        r#"must be later than the row before it"#,
+        r#"must lie behind the row before it"#,
     ),
     (
         r#"kind = "spin-up", speed = "4 rad/s", time = "15 s""#,

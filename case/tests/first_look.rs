@@ -61,7 +61,7 @@ fn a_smooth_blow_is_seen_whatever_the_interval_of_recording() {
     let step = run(&[STILL, &step, "run.duration=53", "output.step=0.01"]);
     let (a, b, c) =
         (last(&coarse, "tip.deflection"), last(&fine, "tip.deflection"), last(&step, "tip.deflection"));
-    assert!(peak(&fine, "tip.deflection") > 0.9);
+    assert!(peak(&fine, "tip.deflection") > 0.3);
     assert!((a - b).abs() < 1e-3 && (b - c).abs() < 0.05, "{a} {b} {c}");
 }
 
@@ -119,11 +119,11 @@ fn tables_stay_within_their_rows_and_a_spline_that_does_not_is_named() {
 
 #[test]
 fn a_fixed_step_that_is_longer_than_a_change_of_the_load_is_named() {
-    let hub = "hub={inertia=1000,motion={kind='free',torque={kind='expression',formula='1e5*exp(-((t-5)/0.005)^2)'}}}";
+    let hub = "hub={inertia=1000,motion={kind='free',torque={kind='expression',formula='1e5*exp(-((t-5.03)/0.005)^2)'}}}";
     let with =
         |step: &str| run(&[hub, "run.duration=6", &format!("integrator={{kind='newmark',step={step}}}")]);
     let warnings = with("0.1").warnings;
-    assert!(warnings.iter().any(|w| w.contains("changes within") && w.contains("t = 4.9")), "{warnings:?}");
+    assert!(warnings.iter().any(|w| w.contains("changes within") && w.contains("t = 5.0")), "{warnings:?}");
     let fine = with("1e-3");
     assert!(fine.warnings.iter().all(|w| !w.contains("changes within")), "{:?}", fine.warnings);
     assert!((last(&fine, "hub.angular_momentum") - 500.0 * PI.sqrt()).abs() < 1.0);
@@ -144,5 +144,75 @@ fn poles_of_a_load_are_refused_and_integrable_slopes_are_not() {
     let run = load("sqrt(1-(x/10)^2)").unwrap_or_else(|problems| panic!("{problems}"));
     // Torque on the hub: ∫ x √(1 − (x/L)²) dx = L²/3.
     let torque = last(&run, "hub.torque");
-    assert!((torque + 100.0 / 3.0).abs() < 1e-3, "{torque}");
+    assert!((torque + 100.0 / 3.0).abs() < 1e-5, "{torque}");
+}
+
+#[test]
+fn a_narrow_load_and_a_section_that_jumps_need_no_fine_mesh() {
+    let at = |changes: &[&str], elements: &str| {
+        let common = [STILL, "beam.length=2", "run.duration=0", "initial.kind='static'", elements];
+        last(&run(&[&common[..], changes].concat()), "tip.deflection")
+    };
+    let narrow =
+        "distributed-load=[{force=[0,1],distribution={kind='expression',formula='exp(-((x-1.03)/0.01)^2)'}}]";
+    let jump = [
+        "section={kind='piecewise',ends=[0.73,2],modulus=[7e10,7e10],density=[2700,2700],area=[4e-4,1e-4],second-moment=[1e-8,2e-10]}",
+        "force=[{station=2,force=[0,1]}]",
+    ];
+    // w(L) = P a² (3L − a)/(6EI), and ∫ (L − x)²/EI dx.
+    let (p, a, length) = (0.01 * PI.sqrt(), 1.03, 2.0_f64);
+    let of_narrow = p * a * a * (3.0 * length - a) / (6.0 * 70e9 * 2e-7);
+    let part = |from: f64, to: f64, ei: f64| ((length - from).powi(3) - (length - to).powi(3)) / (3.0 * ei);
+    let of_jump = part(0.0, 0.73, 700.0) + part(0.73, 2.0, 14.0);
+    for coupling in ["model.coupling=first", "model.coupling=high", "model.coupling=exact"] {
+        for elements in ["basis.elements=10", "basis.elements=7", "basis.elements=200"] {
+            let narrow = at(&[narrow, coupling], elements);
+            assert!((narrow - of_narrow).abs() < 2e-4 * of_narrow, "{narrow} for {of_narrow}");
+            let jump = at(&[jump[0], jump[1], coupling], elements);
+            // The rest is the foreshortening of the lever.
+            assert!((jump - of_jump).abs() < 2e-3 * of_jump, "{coupling} {elements}: {jump} for {of_jump}");
+        }
+    }
+}
+
+#[test]
+fn the_axial_force_is_that_of_equilibrium_beside_a_jump_and_a_mass() {
+    let run = run(&[
+        "beam.length=2",
+        "section={kind='piecewise',ends=[0.73,2],modulus=[7e10,2e11],density=[2700,7800],area=[4e-4,1e-4],second-moment=[1e-8,2e-9]}",
+        "hub={radius=0.3,motion={kind='constant',speed=30}}",
+        "initial.kind='steady-rotation'",
+        "mass=[{station=1.5,mass=0.5}]",
+        "run.duration=0",
+        "output.section-forces=true",
+        "output.stations=[0,0.5,0.73,1,1.4,1.6]",
+        "model.coupling=first",
+    ]);
+    // N(x) = Ω² ∫ₓᴸ ρA (a + ξ) dξ + Ω² m (a + x_m): displacements are below 10⁻⁴ of it.
+    let tail = |from: f64, to: f64| 0.5 * ((0.3 + to).powi(2) - (0.3_f64 + from).powi(2));
+    for x in [0.0_f64, 0.5, 1.0, 1.4, 1.6] {
+        let mass = 1.08 * tail(x.min(0.73), 0.73) + 0.78 * tail(x.max(0.73), 2.0);
+        let expected = 900.0 * (mass + if x < 1.5 { 0.5 * 1.8 } else { 0.0 });
+        let found = last(&run, &format!("x={x}.axial_force"));
+        assert!((found - expected).abs() < 5e-3 * expected, "{x}: {found} for {expected}");
+    }
+}
+
+#[test]
+fn the_extremes_of_a_vibration_do_not_depend_on_the_records() {
+    let run =
+        run(&[STILL, "initial={kind='modes',amplitudes=[0.1]}", "run.duration=20", "output.step=1.6545"]);
+    let extremes = run.trajectory.extremes(run.trajectory.index("tip.deflection").unwrap());
+    assert!((extremes.min + 0.1).abs() < 2e-4 && (extremes.max - 0.1).abs() < 2e-4, "{extremes:?}");
+    assert!(run.trajectory.column("tip.deflection").unwrap().iter().all(|y| *y > 0.0));
+}
+
+#[test]
+fn a_vibration_that_the_step_does_not_resolve_is_named() {
+    let with = |step: &str| {
+        let method = format!("integrator={{kind='newmark',step={step}}}");
+        run(&[STILL, "initial={kind='modes',amplitudes=[0.01]}", "run.duration=20", &method]).warnings
+    };
+    assert!(with("0.7").iter().any(|w| w.contains("steps a period")), "{:?}", with("0.7"));
+    assert_eq!(with("0.02"), [] as [&str; 0]);
 }

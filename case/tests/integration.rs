@@ -18,10 +18,12 @@ mod modal_release;
 mod papers;
 mod pendulum;
 mod random_cases;
+mod random_space;
 mod reported_errors;
 mod restart;
 mod section_forces;
 mod spring;
+mod statics;
 mod twenty_seconds;
 mod verification {
     pub mod run;

@@ -29,9 +29,10 @@ pub struct Arguments {
     #[arg(value_name = "RUN", required = true)]
     runs: Vec<PathBuf>,
     /// Columns, e.g. tip.deflection,tip.axial or 'tip.*' [default: all in common but step.*]
-    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    #[arg(long, short, value_name = "NAMES", value_delimiter = ',')]
     columns: Vec<String>,
-    /// Largest difference allowed, relative to the peak of REFERENCE; beyond it the exit code is 2
+    /// Largest difference allowed, relative to the peak of REFERENCE (of the total energy for the energy balance); beyond it
+    /// the exit code is 2
     #[arg(long, value_name = "X", value_parser = tolerance)]
     tolerance: Option<f64>,
     /// Directory for compare.json, compare.csv and the plots of runs and differences

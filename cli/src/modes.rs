@@ -1,6 +1,6 @@
 //! `flexion modes`: modes of vibration at one speed.
 
-use crate::vibration::{self, Options, Speed, report, stations, title};
+use crate::vibration::{self, Options, Speed, report, stations};
 use crate::{Outcome, case, screen};
 use flexion::analysis::campbell::HubState;
 use flexion::analysis::equilibrium::equilibrium;
@@ -8,18 +8,20 @@ use flexion::analysis::modes::{Mode, Modes, modes as find};
 use flexion::analysis::rotation::rotate_stably;
 use flexion::system::{State, System};
 use flexion_case::{Case, Reading};
-use flexion_results::{Artifact, Directory, Frequencies, Scene, write_modes};
+use flexion_results::{Artifact, Directory, Scene, Units, write_modes};
 use std::path::PathBuf;
 
 /// Displacement of a mode in the files of its scene, over the scale of the unknowns.
 const DISPLACED: f64 = 1e-3;
+/// Damping ratio below which a mode grows.
+const GROWTH: f64 = -1e-7;
 
 /// The case, the speed, and how many modes.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   flexion modes verification/p1_spin_up_4 --speed 4 --count 6
   flexion modes case.toml --speed 300 --unit rpm --output results/modes
-  flexion modes case.toml --speed '12.1 rpm' --unit Hz
+  flexion modes case.toml --speed '12.1 rpm'
 
 The motion of the case is replaced by a steady rotation at the speed; the modes are those of small vibrations about its
 equilibrium. The hub keeps its speed unless --free-hub is given.
@@ -45,6 +47,9 @@ pub struct Arguments {
     force: bool,
 }
 
+/// Parts of the beam at whose ends shapes are given.
+const STATIONS: u32 = 200;
+
 /// Finds and writes modes.
 pub fn modes(arguments: &Arguments) -> Outcome {
     let Some(reading) = arguments.case.read() else { return Outcome::Rejected };
@@ -56,10 +61,10 @@ pub fn modes(arguments: &Arguments) -> Outcome {
 
 fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
     let case = &reading.case;
-    let unit = arguments.options.frequencies(case)?;
-    let speed = arguments.speed.in_radians(&unit);
+    let units = arguments.options.units(case, arguments.speed)?;
+    let speed = arguments.speed.in_radians(&units.speed);
     if !(speed.is_finite() && speed >= 0.0) {
-        return Err(format!("the speed is {} and must be zero or positive", unit.text(speed)));
+        return Err(format!("the speed is {} and must be zero or positive", units.speed.text(speed)));
     }
     let hub = arguments.options.hub(case)?;
     let directory =
@@ -68,14 +73,19 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
     let (steady, mut cautions) =
         if speed > 0.0 { vibration::without_loads_in_space(case) } else { (case.clone(), Vec::new()) };
     cautions.extend(vibration::without_contacts(case));
+    cautions.extend(case.unused_by_modes());
     let (modes, scene) = compute(arguments, &steady, speed, hub)?;
+    let growing = modes.modes.iter().filter(|mode| mode.damping_ratio() < GROWTH).count();
+    if growing > 0 {
+        cautions.push(format!("the equilibrium is unstable: {growing} of the modes grow (negative damping)"));
+    }
     cautions.iter().for_each(|caution| screen::report(&format!("warning: {caution}\n")));
     let about = match case.space() {
         Some(_) => "about the equilibrium".to_owned(),
-        None if hub == HubState::Free => format!("at {}, free hub", unit.text(speed)),
-        None => format!("at {}, hub that keeps its speed", unit.text(speed)),
+        None if hub == HubState::Free => format!("at {}, free hub", units.speed.text(speed)),
+        None => format!("at {}, hub that keeps its speed", units.speed.text(speed)),
     };
-    let out = described(&modes, &unit, &about);
+    let out = described(&modes, &units, &about);
     for (number, mode) in modes.modes.iter().enumerate().filter(|(_, mode)| mode.rounding > 1e-6) {
         screen::report(&format!(
             "warning: the frequency of mode {} may be off by {:.1e} by rounding: the mesh is too fine for this coupling; \
@@ -86,9 +96,10 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
     }
     screen::print(&out);
     let Some(directory) = directory else { return Ok(Outcome::Finished) };
-    let (resolved, stations) = (reading.resolved(), stations(case));
+    let (resolved, stations) = (reading.resolved(), stations(case, STATIONS));
+    let title = arguments.options.title(reading);
     let written = directory.write(Artifact::ModesScene, |f| scene.write(f)).and_then(|()| {
-        write_modes(&directory, (&modes, speed), &stations, &unit, &resolved, title(reading), &cautions)
+        write_modes(&directory, (&modes, speed), &stations, &units, &resolved, title, &cautions)
     });
     screen::print("\n");
     let files = [("modes", Artifact::ModesCsv), ("shapes", Artifact::ModesSvg)];
@@ -112,7 +123,7 @@ fn compute(arguments: &Arguments, case: &Case, speed: f64, hub: HubState) -> Res
         system.hold(false);
         state.v = system.initial().v;
     }
-    let modes = find(system.as_mut(), &state, arguments.count, &stations(case));
+    let modes = find(system.as_mut(), &state, arguments.count, &stations(case, STATIONS));
     let modes = modes.map_err(|error| error.to_string())?;
     let scene = displaced(case, &modes, system.as_mut(), &state);
     Ok((modes, scene))
@@ -136,7 +147,8 @@ fn displaced(case: &Case, modes: &Modes, system: &mut dyn System, state: &State)
 }
 
 /// The table of modes.
-fn described(modes: &Modes, unit: &Frequencies, about: &str) -> String {
+fn described(modes: &Modes, units: &Units, about: &str) -> String {
+    let unit = &units.frequency;
     let mut out = format!("{} modes {about}\n\n", modes.modes.len());
     let head = [
         "mode",

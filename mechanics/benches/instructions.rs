@@ -28,6 +28,9 @@ fn run(coupling: &str, elements: usize, integrator: &str) -> Run {
 #[bench::exact_newmark_1000(args = ("exact", 1000, "newmark"), setup = run)]
 #[bench::first_radau_10(args = ("first", 10, "radau"), setup = run)]
 #[bench::exact_radau_10(args = ("exact", 10, "radau"), setup = run)]
+#[bench::space_alpha_10(args = ("space", 10, "alpha"), setup = run)]
+#[bench::space_alpha_1000(args = ("space", 1000, "alpha"), setup = run)]
+#[bench::space_radau_10(args = ("space", 10, "radau"), setup = run)]
 fn ten_steps(mut run: Run) -> Run {
     run.steps(10);
     black_box(run)

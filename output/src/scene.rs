@@ -186,6 +186,11 @@ impl Scene {
         Scene { parts, obstacles, every: records.div_ceil(MOST).max(1), ..Scene::default() }
     }
 
+    /// The same that takes every `every`-th recorded time.
+    pub fn taken(self, every: usize) -> Scene {
+        Scene { every: every.max(1), ..self }
+    }
+
     /// Call it with every recorded state: it takes some of them.
     pub fn sample(&mut self, system: &mut dyn System, state: &State) {
         if self.seen.is_multiple_of(self.every.max(1)) {

@@ -15,6 +15,8 @@ use std::sync::Arc;
 /// What one table of a case puts onto the beam.
 #[derive(Clone, Debug, Default)]
 pub struct Load {
+    /// The table that it is of.
+    pub table: &'static str,
     /// What acts.
     pub load: Option<Arc<dyn load::Load + Send + Sync>>,
     /// What the beam carries.

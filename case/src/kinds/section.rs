@@ -33,6 +33,8 @@ pub struct Section {
     pub height: Option<f64>,
     /// Shape, at the root if it tapers; `None` when only resultants are known.
     pub shape: Option<Shape>,
+    /// Whether it is known out of the plane, too.
+    pub is_blade: bool,
     spatial: Spatial,
 }
 
@@ -48,7 +50,7 @@ impl Section {
         let planar: Arc<dyn section::Section> = Arc::new(section);
         let blade = Arc::clone(&planar);
         let spatial: Spatial = Arc::new(move |_| Ok(Box::new(PlanarBlade(Box::new(Arc::clone(&blade))))));
-        Section { planar, height: None, shape: None, spatial }
+        Section { planar, height: None, shape: None, is_blade: false, spatial }
     }
 
     /// The section of a blade, of a material with this Poisson's ratio.
@@ -558,11 +560,13 @@ fn table(v: &Values, c: &Context<'_>) -> Made<Section> {
 fn blade(v: &Values, c: &Context<'_>) -> Made<Section> {
     let (name, bytes) = c.file(v, "file")?;
     let length = c.length()?;
-    let rows = files::blade::read(&bytes, name, FORMAT.make(v, "format", c)?, length).at("file")?;
-    let table = section::BladeTable::new(length, &rows).at("file")?;
+    let file = files::blade::read(&bytes, name, FORMAT.make(v, "format", c)?, length).at("file")?;
+    c.cautions.borrow_mut().extend(file.unused);
+    let table = section::BladeTable::new(length, &file.rows).at("file")?;
     let spatial = table.clone();
     Ok(Section {
         spatial: Arc::new(move |_| Ok(Box::new(spatial.clone()))),
+        is_blade: true,
         ..Section::planar(section::Guided(table))
     })
 }

@@ -9,6 +9,8 @@ use flexion::hub_beam::{
 };
 use flexion::integrator::{GeneralizedAlpha, Integrator, Radau, Span, Tolerance};
 use flexion::linalg::Matrix;
+use flexion::multibody::slender::{Beam, Properties, Station};
+use flexion::multibody::{self, Flexible, Joint, Kind, Marker, Model, Multibody, Part};
 use flexion::profile::{Expression, Motion, SpinUp};
 use flexion::section::{Resultants, Uniform};
 use flexion::system::{State, System, Weights};
@@ -25,7 +27,7 @@ pub fn sizes() -> impl Iterator<Item = usize> {
     (0..=10).map(|k| 10 << k)
 }
 
-/// The system of a coupling; `first-free` and `exact-free` are driven by a torque, that of the rigid beam.
+/// The system of a coupling, or with `space` the beam in space; `first-free` and `exact-free` are driven by a torque, that of the rigid beam.
 pub fn system(coupling: &str, elements: usize) -> Box<dyn System> {
     let resultants =
         Resultants { mass: 1.2, axial_stiffness: 2.8e7, bending_stiffness: 1.4e4, ..Default::default() };
@@ -46,8 +48,11 @@ pub fn system(coupling: &str, elements: usize) -> Box<dyn System> {
             },
         })
     } else {
-        Drive::Prescribed(Motion::Speed { profile, initial_angle: 0.0 })
+        Drive::Prescribed(Motion::Speed { profile: profile.clone(), initial_angle: 0.0 })
     };
+    if coupling == "space" {
+        return Box::new(in_space(elements, Motion::Speed { profile, initial_angle: 0.0 }));
+    }
     let hub = Hub { radius: 0.0, inertia: if coupling.ends_with("-free") { 100.0 } else { 0.0 }, drive };
     if coupling.starts_with("exact") {
         let coupling = ExactCoupling::new(LENGTH, elements, &section, &hub).unwrap();
@@ -67,9 +72,23 @@ pub fn system(coupling: &str, elements: usize) -> Box<dyn System> {
     Box::new(HubBeam::new(hub, coupling, &[]))
 }
 
+/// The beam in space on a driven hinge, a metre an element.
+fn in_space(elements: usize, motion: Motion) -> Multibody {
+    let section = Properties::principal([2.8e7, 1.1e4, 1.4e4, 1.4e4], 1.2, [1.2e-3, 0.0, 0.0]);
+    let root = Station { position: [0.0; 3], tangent: [1.0, 0.0, 0.0], normal: [0.0, 1.0, 0.0] };
+    let mut model = Model::new();
+    let beam = Beam::straight(root, elements as f64, elements, section).unwrap();
+    let beam = model.beam(Flexible::new("beam", beam));
+    let to = Marker::new(Part::Section { beam, node: 0 }, [0.0; 3]);
+    let joint = Joint::new("hub", Kind::Revolute, Marker::new(Part::Ground, [0.0; 3]), to);
+    model.joint(joint.driven(multibody::Drive::Prescribed(motion)));
+    Multibody::new(model).unwrap()
+}
+
 pub fn integrator(name: &str) -> Box<dyn Integrator> {
     match name {
         "radau" => Box::new(Radau::new(Tolerance { relative: 1e-6, absolute: 1e-8 }).unwrap()),
+        "alpha" => Box::new(GeneralizedAlpha::chung_hulbert(0.8).unwrap()),
         _ => Box::new(GeneralizedAlpha::newmark(0.25, 0.5).unwrap()),
     }
 }

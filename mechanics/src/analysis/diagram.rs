@@ -10,7 +10,7 @@ pub struct Plan {
     pub speeds: Vec<f64>,
     /// Number of modes, the lowest at the first speed.
     pub count: usize,
-    /// Stations of the shapes \[m\], which the modes at the ends of a branch get.
+    /// Stations of the shapes \[m\].
     pub stations: Vec<f64>,
     /// Whether the hub keeps its speed, or is free to rotate about it.
     pub hub: HubState,

@@ -23,6 +23,16 @@ impl Match {
     pub(super) fn is_clear(self) -> bool {
         self.assurance >= CLEAR || self.edge
     }
+
+    fn is_certain(self) -> bool {
+        self.assurance >= CLEAR
+    }
+}
+
+/// Whether two of the first `count` modes change their order: they cross, or veer so far that the step passes over it.
+pub(super) fn changes_order(matches: &[Match], count: usize) -> bool {
+    let to: Vec<usize> = matches.iter().take(count).filter(|m| m.is_certain()).filter_map(|m| m.to).collect();
+    to.windows(2).any(|pair| pair[0] > pair[1])
 }
 
 /// For each mode at one speed, its continuation at the next: largest assurance first.

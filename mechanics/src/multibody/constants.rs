@@ -54,6 +54,7 @@ impl Constants {
         let (mut q, mut v, mut beams) = (7 * bodies, 6 * bodies, Vec::new());
         for of in &mut model.beams {
             of.beam.damp(of.damping);
+            of.beam.make_viscous(of.viscosity);
             chains.push(sizes.len());
             beams.push([q, v]);
             for _ in of.beam.elements() {

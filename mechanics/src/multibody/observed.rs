@@ -8,6 +8,9 @@ use crate::linalg::vector::{cross, inner};
 use crate::profile::HubKinematics;
 use crate::system::{Channel, Energy, Frame, Observed, Power, State};
 
+/// |r′| below which a beam has no direction.
+const LEAST_STRETCH: f64 = 0.05;
+
 impl Multibody {
     /// Momentum and angular momentum about the origin of all bodies and beams, inertial axes [kg·m/s, kg·m²/s].
     pub fn momenta(&mut self, s: &State) -> [Vector; 2] {
@@ -77,6 +80,9 @@ impl Multibody {
         for (of, &[i, j]) in model.beams.iter().zip(&constants.beams) {
             // −β M v does the power −2 β T.
             power.dissipated += 2.0 * of.damping * of.beam.kinetic_energy(&s.q[i..], &s.v[j..]);
+            if of.viscosity != 0.0 {
+                power.dissipated += of.beam.viscous_power(&s.q[i..], &s.v[j..]);
+            }
         }
         for load in &model.line_loads {
             let [i, j] = constants.beams[load.beam];
@@ -213,6 +219,18 @@ impl Observed for Multibody {
 
     fn admissible(&mut self, s: &State) -> Result<(), String> {
         self.place(s);
+        for (of, &[i, _]) in self.constants.model.beams.iter().zip(&self.constants.beams) {
+            for node in 0..of.beam.nodes().len() {
+                let length = of.beam.node(node, &s.q[i..]).1.length;
+                if !(length > LEAST_STRETCH) {
+                    return Err(format!(
+                        "beam `{}` is compressed to {length:.3} of its length at node {node}: its axial stiffness is too small for \
+                         what acts there",
+                        of.name
+                    ));
+                }
+            }
+        }
         for (k, spring) in self.constants.model.springs.iter().enumerate() {
             let (a, b) = self.spring_ends(k);
             if a.position == b.position && spring.length > 0.0 {

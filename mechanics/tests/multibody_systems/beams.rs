@@ -44,7 +44,7 @@ fn system(kind: Kind) -> Multibody {
     let (at, triad) = first.beam.node(3, first.beam.initial());
     let first = model.beam(first);
     let next = Frame { position: at, rotation: triad.rotation() };
-    let second = model.beam(Flexible::new("second", arc(2, next)));
+    let second = model.beam(Flexible::new("second", arc(2, next)).viscous(0.02));
     let section = |beam, node| Part::Section { beam, node };
     let mut join = |name: &str, kind, parts, point, k: usize| {
         let axis = ([wave(k, 0.1), wave(k, 1.2), wave(k, 2.3)], Some([0.3, 1.0, 0.2]));

@@ -2,14 +2,17 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // in helpers of tests
 
+mod beam_statics;
 mod beams;
 mod chain;
 mod conformance;
 mod contacts;
 mod faults;
+mod flexible;
 mod heavy_top;
 mod mechanisms;
 mod paths;
+mod rotating;
 mod single;
 mod statics;
 

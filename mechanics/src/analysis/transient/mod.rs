@@ -313,7 +313,7 @@ impl Run {
             let neglected = self.contacts.as_ref().map(|contacts| contacts.neglected).unwrap_or_default();
             self.last = Step { size: h, iterations: report.iterations, balance: None, neglected };
             if let Err(what) = system.admissible(&next) {
-                let reason = system.explain(&next);
+                let reason = system.explain(&next).filter(|reason| *reason != what);
                 return Err(RunError::Inadmissible { time: next.t, what, reason });
             }
             integrator.accept(state, &next);
@@ -330,10 +330,12 @@ impl Run {
             if let Some(balance) = &mut self.balance {
                 balance.close();
             }
+            observer.passing(system, &next);
             std::mem::swap(state, &mut next);
             let at_break = jump_at(system, integrator, state.t);
             if event || at_break.is_some() {
                 self.cross(system, integrator, state, at_break, event.then_some(h / attempted), observer)?;
+                observer.passing(system, state);
                 if let Some(control) = &mut self.control {
                     control.restart(attempted);
                 }

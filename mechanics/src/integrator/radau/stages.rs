@@ -200,6 +200,11 @@ impl Stages {
         let n = from.v.len() + from.lambda.len();
         let (h_gamma, mu) = (h * LAMBDA, Complex64::new(h * MU[0], h * MU[1]));
         let (h_gamma, mu) = (h_gamma * h_gamma, mu * mu);
+        // Increments and rates of the predicted accelerations: their first changes are not those of Newton's iterations.
+        let passes = if self.flat { 0 } else { 2 };
+        for i in 0..3 * passes {
+            self.set_stage(system, (from, to), h, i % 3);
+        }
         loop {
             self.shift = 0.0;
             for i in 0..3 {

@@ -169,6 +169,16 @@ impl Beam {
         self.elements.iter_mut().for_each(|element| element.damp(damping));
     }
 
+    /// Sets the damping η \[s\] in proportion to the stiffness (Kelvin–Voigt): stresses C (γ − γ₀ + η γ̇).
+    pub fn make_viscous(&mut self, viscosity: f64) {
+        self.elements.iter_mut().for_each(|element| element.make_viscous(viscosity));
+    }
+
+    /// Power \[W\] that the damping in proportion to the stiffness takes.
+    pub fn viscous_power(&self, q: &[f64], v: &[f64]) -> f64 {
+        self.middles().map(|(element, i, j)| element.viscous_power(&part(q, i), &part(v, j))).sum()
+    }
+
     /// Arc lengths of the nodes \[m\].
     pub fn nodes(&self) -> &[f64] {
         &self.nodes

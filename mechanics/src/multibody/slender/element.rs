@@ -6,8 +6,8 @@ use super::properties::Properties;
 use super::shapes::{MASS_POINTS, POINTS, Point, Shapes, hermite};
 use super::stiffness;
 use super::strain::{
-    CENTRELINE, COORDINATES, Forces, SPINS, Section, Sections, Stiffness, VARIABLES, VELOCITIES, centreline,
-    chord, combined, positions, sampled, shares,
+    self, CENTRELINE, COORDINATES, SPINS, Section, Sections, Stiffness, Stress, VARIABLES, VELOCITIES,
+    centreline, chord, combined, positions, sampled, shares,
 };
 use super::triad::{Triad, Vector, plus, times};
 use crate::linalg::vector::{cross, inner};
@@ -31,6 +31,11 @@ pub type Tangent = [[f64; VELOCITIES]; VELOCITIES];
 /// What a variable of the strains is among the velocities of an element: r₂ − r₁ is two of them.
 const PLACES: [usize; VARIABLES] = [8, 9, 10, 3, 4, 5, 11, 12, 13, 6, 7, 14];
 
+/// The rates of the variables of the strains.
+fn variables(v: &[f64; VELOCITIES]) -> [f64; VARIABLES] {
+    std::array::from_fn(|i| v[PLACES[i]] - if i < 3 { v[i] } else { 0.0 })
+}
+
 /// An element of a slender beam. See the [module documentation](super).
 #[derive(Clone, Debug)]
 pub struct Element {
@@ -49,6 +54,7 @@ pub struct Element {
     inertia: [[f64; 3]; 3],
     has_rotary_inertia: bool,
     damping: f64,
+    viscosity: f64,
 }
 
 impl Element {
@@ -85,12 +91,18 @@ impl Element {
             inertia,
             has_rotary_inertia,
             damping: 0.0,
+            viscosity: 0.0,
         }
     }
 
     /// Sets the damping β [1/s] in proportion to the mass: a force −β M v.
     pub fn damp(&mut self, damping: f64) {
         self.damping = damping;
+    }
+
+    /// Sets the damping η \[s\] in proportion to the stiffness: stresses C (γ − γ₀ + η γ̇).
+    pub fn make_viscous(&mut self, viscosity: f64) {
+        self.viscosity = viscosity;
     }
 
     /// Its shape functions.
@@ -104,7 +116,7 @@ impl Element {
     }
 
     /// r′ in the middle, or its rate, by r₁, r′₁, r₂, r′₂ or theirs.
-    pub(super) fn middle_slope(&self, centreline: &[Vector; 4]) -> Vector {
+    pub(in crate::multibody) fn middle_slope(&self, centreline: &[Vector; 4]) -> Vector {
         combined(&self.shapes.middle, &chord(centreline))
     }
 
@@ -118,16 +130,88 @@ impl Element {
             let strain = std::array::from_fn(|i| strain[i] - self.initial[k][i]);
             energy += 0.5 * inner(stress, strain);
         }
-        let (strain, stress) = (sampled(&self.shapes.rest, &sections), self.rest_stress(&sections));
+        let strain = sampled(&self.shapes.rest, &sections);
+        let stress = self.rest_stress(strain);
         energy + 0.5 * (stress[0] * (strain[0] - self.rest[0]) + stress[1] * (strain[1] - self.rest[1]))
     }
 
     /// Forces on the parts of ε and κ₁ that vanish at the quadrature points.
     #[inline(always)]
-    fn rest_stress(&self, sections: &Sections) -> [f64; 4] {
-        let [axial, torsion] = sampled(&self.shapes.rest, sections);
+    fn rest_stress(&self, [axial, torsion]: [f64; 2]) -> [f64; 2] {
         let initial = [self.rest[0], self.rest[1], 0.0, 0.0];
-        self.middle.stress(&[axial, torsion, 0.0, 0.0], &initial, self.shapes.rest.weight)
+        let stress = self.middle.stress(&[axial, torsion, 0.0, 0.0], &initial, self.shapes.rest.weight);
+        [stress[0], stress[1]]
+    }
+
+    /// Stresses C (γ − γ₀ + η γ̇).
+    #[inline(always)]
+    fn stress(&self, sections: &Sections, points: &[Section; POINTS], v: &[f64; VELOCITIES]) -> Stress {
+        let mut strains = points.map(|point| point.strain);
+        let mut rest = sampled(&self.shapes.rest, sections);
+        if self.viscosity != 0.0 {
+            let (rates, of_rest) = stiffness::rates(&self.shapes, sections, points, &variables(v));
+            for (strain, rate) in strains.iter_mut().zip(rates) {
+                (0..4).for_each(|i| strain[i] += self.viscosity * rate[i]);
+            }
+            (0..2).for_each(|i| rest[i] += self.viscosity * of_rest[i]);
+        }
+        let weights = self.shapes.points.map(|at| at.weight);
+        let of = |k: usize| self.stiffness[k].stress(&strains[k], &self.initial[k], weights[k]);
+        Stress { points: std::array::from_fn(of), rest: self.rest_stress(rest) }
+    }
+
+    /// Power \[W\] that the damping in proportion to the stiffness takes, η ∫γ̇ᵀ C γ̇ ds.
+    pub fn viscous_power(&self, q: &[f64; COORDINATES], v: &[f64; VELOCITIES]) -> f64 {
+        let sections = Sections::new(&self.shapes, q);
+        let points = self.shapes.points.map(|at| Section::new(&at, &sections));
+        let (rates, rest) = stiffness::rates(&self.shapes, &sections, &points, &variables(v));
+        let zero = [0.0; 4];
+        let mut power = 0.0;
+        for (k, rate) in rates.iter().enumerate() {
+            power += inner(self.stiffness[k].stress(rate, &zero, self.shapes.points[k].weight), *rate);
+        }
+        let rest = [rest[0], rest[1], 0.0, 0.0];
+        power += inner(self.middle.stress(&rest, &zero, self.shapes.rest.weight), rest);
+        self.viscosity * power
+    }
+
+    /// Adds `weight` times the part η Bᵀ C ∂(B v)/∂q of the tangent: strain by strain, its forces for a unit of strain and the
+    /// derivative of its rate, which is v·∂b/∂q.
+    fn add_change_of_rates(
+        &self,
+        (sections, points): (&Sections, &[Section; POINTS]),
+        v: &[f64; VELOCITIES],
+        weight: f64,
+        out: &mut [[f64; VARIABLES]; VARIABLES],
+    ) {
+        let (u, none) = (variables(v), Stiffness([[0.0; 4]; 4]));
+        let mut add = |unit: &Stress, stress: &Stress| {
+            let at = (sections, points);
+            let change = stiffness::tangent(&self.shapes, (&[none; POINTS], &none), unit, at, [1.0, 0.0]);
+            let forces = strain::forces(&self.shapes, sections, points, stress);
+            let mut rate = [0.0; VARIABLES];
+            for (u, row) in u.iter().zip(&change) {
+                (0..VARIABLES).for_each(|j| rate[j] += u * row[j]);
+            }
+            for (row, force) in out.iter_mut().zip(forces) {
+                (0..VARIABLES).for_each(|j| row[j] += weight * force * rate[j]);
+            }
+        };
+        for k in 0..POINTS {
+            for i in 0..4 {
+                let (mut unit, mut stress) = (Stress::default(), Stress::default());
+                unit.points[k][i] = 1.0;
+                stress.points[k] =
+                    std::array::from_fn(|l| self.shapes.points[k].weight * self.stiffness[k].0[l][i]);
+                add(&unit, &stress);
+            }
+        }
+        for i in 0..2 {
+            let (mut unit, mut stress) = (Stress::default(), Stress::default());
+            unit.rest[i] = 1.0;
+            stress.rest = std::array::from_fn(|l| self.shapes.rest.weight * self.middle.0[l][i]);
+            add(&unit, &stress);
+        }
     }
 
     /// Kinetic energy \[J\].
@@ -181,15 +265,9 @@ impl Element {
     /// Adds the forces of strain and inertia, ∂U/∂q + M a + …, to `r`.
     pub fn add_forces(&self, m: &Motion<'_>, r: &mut [f64; VELOCITIES]) {
         let sections = Sections::new(&self.shapes, m.q);
-        let mut forces = Forces::ZERO;
-        for ((at, stiffness), initial) in self.shapes.points.iter().zip(&self.stiffness).zip(&self.initial) {
-            let section = Section::new(at, &sections);
-            let stress = stiffness.stress(&section.strain, initial, at.weight);
-            forces.add(at, &section, &sections.triads[1], &section.forces(stress));
-        }
-        let [axial, torsion, ..] = self.rest_stress(&sections);
-        forces.add_sampled(&self.shapes.rest, &axial, &torsion);
-        let mut total = forces.total(&self.shapes, &sections);
+        let points = self.shapes.points.map(|at| Section::new(&at, &sections));
+        let stress = self.stress(&sections, &points, m.v);
+        let mut total = strain::forces(&self.shapes, &sections, &points, &stress);
         if self.has_rotary_inertia {
             for (k, parts) in shares(&self.shapes).iter().enumerate() {
                 let force = self.rotation(k, &sections, m.v, m.a).force();
@@ -223,16 +301,28 @@ impl Element {
             }
         }
         let mut tangent = [[0.0; VARIABLES]; VARIABLES];
-        if w.q != 0.0 {
-            tangent = {
-                let rest = (&self.middle, self.rest_stress(&sections));
-                stiffness::tangent(&self.shapes, &self.stiffness, &self.initial, rest, &sections, w.q)
-            };
+        let viscous = self.viscosity * w.v;
+        if w.q != 0.0 || viscous != 0.0 {
+            let points = self.shapes.points.map(|at| Section::new(&at, &sections));
+            let (at, stiffness) = ((&sections, &points), (&self.stiffness, &self.middle));
+            let stress = self.stress(&sections, &points, m.v);
+            if w.q != 0.0 {
+                tangent = stiffness::tangent(&self.shapes, stiffness, &stress, at, [w.q; 2]);
+                if self.viscosity != 0.0 {
+                    self.add_change_of_rates(at, m.v, w.q * self.viscosity, &mut tangent);
+                }
+            }
             if w.increment.is_some() {
                 for row in &mut tangent {
                     for k in 0..3 {
                         (0..9).for_each(|i| row[i] += row[9 + k] * parts[k][i / 3] * turns[k][i % 3]);
                     }
+                }
+            }
+            if viscous != 0.0 {
+                let rates = stiffness::tangent(&self.shapes, stiffness, &stress, at, [0.0, viscous]);
+                for (row, rates) in tangent.iter_mut().zip(rates) {
+                    (0..VARIABLES).for_each(|j| row[j] += rates[j]);
                 }
             }
         }

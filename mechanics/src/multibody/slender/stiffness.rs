@@ -9,8 +9,11 @@
 
 use super::pair::Block;
 use super::shapes::{POINTS, Point, Shapes};
-use super::strain::{ENDS, Forces, Linear, Local, Section, Sections, Stiffness, VARIABLES, shares};
-use super::triad::{Triad, times};
+use super::strain::{
+    ENDS, Forces, Linear, Local, Section, Sections, Stiffness, Stress, VARIABLES, combined, shares,
+};
+use super::triad::{Triad, times, vector};
+use crate::linalg::vector::inner;
 
 /// A force's derivative by the variables of the strains.
 type Row = [f64; VARIABLES];
@@ -184,26 +187,54 @@ fn add_block(rows: &mut [Row; 3], block: &Block, n: &[f64; 3]) {
     }
 }
 
-/// `weight` times the derivative of the forces of the strain energy on the variables of the strains.
+/// Rates of the strains (ε, κ₁, κ₂, κ₃) at the quadrature points, and of the parts of ε and κ₁ that vanish there, for the rates
+/// `u` of the variables.
+pub(super) fn rates(
+    shapes: &Shapes,
+    sections: &Sections,
+    points: &[Section; POINTS],
+    u: &Row,
+) -> ([[f64; 4]; POINTS], [f64; 2]) {
+    let rows = Rows::new(shapes, sections);
+    let chord = [0, 3, 6].map(|at| vector(u, at));
+    let rates = std::array::from_fn(|k| {
+        let (at, section) = (&shapes.points[k], &points[k]);
+        let [spin, axial, torsion] =
+            rows.at(at, shapes, &sections.triads[1], section).map(|row| inner(row, *u));
+        let [t, n, b] = section.triad.inward(combined(&at.slope, &chord));
+        let [kt, kn, kb] = section.triad.inward(combined(&at.curvature, &chord));
+        let local = [t, n, b, kt, kn, kb, spin, axial, torsion];
+        let [second, third] = bending(section).map(|row| inner(row, local));
+        [axial, torsion, second, third]
+    });
+    let (mut axial, mut torsion) = (0.0, 0.0);
+    for k in 0..3 {
+        axial += shapes.rest.sample[k] * inner(rows.samples[k], *u);
+        torsion += shapes.rest.torsion[k] * inner(rows.angles[k], *u);
+    }
+    (rates, [axial, torsion])
+}
+
+/// The derivative of the forces of stresses on the variables of the strains: `weights[0]` times that of the stresses as they are,
+/// and `weights[1]` times that by the stiffness at the points and in the middle.
 pub(super) fn tangent(
     shapes: &Shapes,
-    stiffness: &[Stiffness; POINTS],
-    initial: &[[f64; 4]; POINTS],
-    rest: (&Stiffness, [f64; 4]),
-    sections: &Sections,
-    weight: f64,
+    (stiffness, middle): (&[Stiffness; POINTS], &Stiffness),
+    stress: &Stress,
+    (sections, points): (&Sections, &[Section; POINTS]),
+    weights: [f64; 2],
 ) -> [Row; VARIABLES] {
+    let [weight, material] = weights;
     let rows = Rows::new(shapes, sections);
     let Sections { triads, pairs, .. } = sections;
     let (mut forces, mut changes) = (Forces::<f64>::ZERO, Forces::<Row>::ZERO);
-    for ((at, stiffness), initial) in shapes.points.iter().zip(stiffness).zip(initial) {
-        let section = Section::new(at, sections);
-        let stress = stiffness.stress(&section.strain, initial, weight * at.weight);
+    for (k, (at, section)) in shapes.points.iter().zip(points).enumerate() {
+        let stress = stress.points[k].map(|x| weight * x);
         let force = section.forces(stress);
-        forces.add(at, &section, &triads[1], &force);
-        let matrix = along_axes(&section, stress, stiffness, weight * at.weight);
+        forces.add(at, section, &triads[1], &force);
+        let matrix = along_axes(section, stress, &stiffness[k], material * at.weight);
         let matrix = along_fixed_axes(&section.triad, matrix);
-        let scalars = rows.at(at, shapes, &triads[1], &section);
+        let scalars = rows.at(at, shapes, &triads[1], section);
         let mut m = [Row::ZERO; LOCAL];
         for (out, row) in m.iter_mut().zip(&matrix) {
             for i in 0..3 {
@@ -221,7 +252,7 @@ pub(super) fn tangent(
         add_block(&mut slope, &here[0], &shapes.middle);
         add_block(&mut slope, &here[1], &at.slope);
         let change = Local { slope, curvature: [m[3], m[4], m[5]], spin: m[6], axial: m[7], torsion: m[8] };
-        changes.add(at, &section, &triads[1], &change);
+        changes.add(at, section, &triads[1], &change);
         changes.add_middle(&on_middle);
     }
     let mut scalars = [Row::ZERO; 2];
@@ -229,11 +260,11 @@ pub(super) fn tangent(
         scalars[0].add(shapes.rest.sample[k], &rows.samples[k]);
         scalars[1].add(shapes.rest.torsion[k], &rows.angles[k]);
     }
-    let (c, [axial, torsion, ..]) = (&rest.0.0, rest.1.map(|x| weight * x));
+    let (c, [axial, torsion]) = (&middle.0, stress.rest.map(|x| weight * x));
     forces.add_sampled(&shapes.rest, &axial, &torsion);
     let mut change = [Row::ZERO; 2];
     for i in 0..2 {
-        (0..2).for_each(|j| change[i].add(weight * shapes.rest.weight * c[i][j], &scalars[j]));
+        (0..2).for_each(|j| change[i].add(material * shapes.rest.weight * c[i][j], &scalars[j]));
     }
     changes.add_sampled(&shapes.rest, &change[0], &change[1]);
     let mut out = changes.total(shapes, sections);

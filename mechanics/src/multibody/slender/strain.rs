@@ -17,7 +17,7 @@
 //! ```
 
 use super::pair::Pair;
-use super::shapes::{Point, Shapes};
+use super::shapes::{POINTS, Point, Shapes};
 use super::triad::{Triad, Vector, plus, times, vector};
 
 /// Coordinates of an element: r₁, r′₁, n₁, nₘ, r₂, r′₂, n₂.
@@ -267,6 +267,29 @@ impl Forces<f64> {
     pub fn of_samples_and_angles(&self) -> ([f64; 3], [f64; 3]) {
         (self.samples, self.angles)
     }
+}
+
+/// Stress resultants (N, M₁, M₂, M₃) at the quadrature points times their weights, and those of the parts of ε and κ₁ that vanish
+/// there.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Stress {
+    pub points: [[f64; 4]; POINTS],
+    pub rest: [f64; 2],
+}
+
+/// The forces of stresses on the [`VARIABLES`].
+pub(super) fn forces(
+    shapes: &Shapes,
+    sections: &Sections,
+    points: &[Section; POINTS],
+    stress: &Stress,
+) -> [f64; VARIABLES] {
+    let mut forces = Forces::ZERO;
+    for ((at, section), stress) in shapes.points.iter().zip(points).zip(&stress.points) {
+        forces.add(at, section, &sections.triads[1], &section.forces(*stress));
+    }
+    forces.add_sampled(&shapes.rest, &stress.rest[0], &stress.rest[1]);
+    forces.total(shapes, sections)
 }
 
 /// The stiffness matrix C of a section.
