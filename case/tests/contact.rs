@@ -4,7 +4,7 @@
 
 use crate::random_cases::draw;
 use crate::written::{SQUARE_BAR, finished, outcome, reading};
-use flexion_case::{Reading, parse};
+use flexion_case::{Effort, Reading, parse};
 use flexion_results::{Directory, Status};
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -294,7 +294,7 @@ fn nonsmooth_methods_tell_their_impacts() {
 fn errors_are_those_before_the_first_impact() {
     let reading = pendulum(&["integrator={kind='radau',tolerance=1e-7}", "run.duration='0.4 s'"]);
     let run = finished(&reading);
-    let errors = reading.estimate_errors(&run, &mut |_| ControlFlow::Continue(())).unwrap();
+    let errors = reading.estimate_errors(&run, Effort::Full, &mut |_| ControlFlow::Continue(())).unwrap();
     assert!(
         errors.warnings.iter().any(|text| text.contains("before the first impact")),
         "{:?}",

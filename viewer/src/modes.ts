@@ -145,7 +145,7 @@ export function modes(results: ReturnType<typeof read>) {
     if (player) draw(player.time);
   }
   element("subtitle").textContent =
-    `${table.modes.length} modes at ${text(table.speed)} ${table.unit}, Flexion ${results.version}`;
+    `${table.modes.length} modes at ${text(table.speed)} ${table["speed-unit"]}, Flexion ${results.version}`;
   element("note").textContent = table.warnings.join(" ");
   button("Fit", "f", fit);
   if (!space.planar) {
