@@ -154,7 +154,7 @@ fn requests_beyond_reason_are_refused_with_the_reason() {
                 "run",
                 "case.toml",
                 "--set",
-                "output.step=2e-7",
+                "output.step=1.2e-7",
                 "--set",
                 "output.stations=[0.1,0.2,0.3,0.4,0.5,0.6,0.7,0.8,0.9,1,1.1,1.2]",
             ][..],
