@@ -22,6 +22,7 @@ mod random_space;
 mod reported_errors;
 mod restart;
 mod section_forces;
+mod space;
 mod spring;
 mod statics;
 mod twenty_seconds;

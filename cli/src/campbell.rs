@@ -153,6 +153,14 @@ fn diagram(arguments: &Arguments, reading: &Reading) -> Result<bool, String> {
         directory.discard();
         error.to_string()
     })?;
+    cautions.extend(diagram.entering.map(|(speed, count)| {
+        format!(
+            "from {} on, {count} mode(s) that begin above those asked for lie among them, and their crossings are not listed: \
+             ask for --modes {}",
+            units.speed.text(speed),
+            plan.count + count
+        )
+    }));
     keep_lowest(&mut diagram, arguments.modes);
     let resonances = resonances(&diagram, plan.revolutions, arguments.margin / 100.0);
     let (resolved, title) = (reading.resolved(), arguments.options.title(reading));

@@ -79,7 +79,7 @@ mod tests {
         };
         let points = speeds.iter().map(|&speed| Point { speed, mode: mode(speed), assurance: 1.0 });
         let branches = vec![Branch { points: points.collect() }];
-        Campbell { speeds, branches, crossings: Vec::new(), instabilities: Vec::new() }
+        Campbell { entering: None, speeds, branches, crossings: Vec::new(), instabilities: Vec::new() }
     }
 
     #[test]

@@ -95,6 +95,9 @@ pub struct Campbell {
     pub crossings: Vec<Crossing>,
     /// Instabilities.
     pub instabilities: Vec<Instability>,
+    /// The first speed [rad/s] at which modes that are not followed lie below the highest that is, and the most of them at
+    /// one speed: their crossings are not among those listed.
+    pub entering: Option<(f64, usize)>,
 }
 
 /// Why there is no diagram.

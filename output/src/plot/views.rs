@@ -94,7 +94,7 @@ fn views(scene: &Scene, height: f64) -> Vec<Panel> {
         let mut series = Vec::new();
         for (k, (time, lines)) in shots.iter().enumerate() {
             let which = if k + 1 == shots.len() { 2 } else { usize::from(k > 0) };
-            let legend = (number == 0 && k != 1 || number == 0 && shots.len() == 2) && (which != 1);
+            let legend = number == 0 && which != 1;
             let name = legend.then(|| format!("t = {} s", rounded(scene.times()[*time])));
             for (first, line) in lines.iter().enumerate() {
                 let points = line.iter().map(|p| (p[i], p[j])).collect();
