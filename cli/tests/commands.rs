@@ -188,7 +188,11 @@ fn modes_and_campbell_write_whole_results_and_refuse_what_cannot_be() {
     // 6 rad/s are 57.29577951308232 rpm.
     let output = flexion(
         folder.path(),
-        &["campbell", "spin-up", "--speeds", "0 rpm:57.29577951308232 rpm:7", "--modes", "3", "-o", "rpm"],
+        &[
+            &["campbell", "spin-up", "--speeds", "0 rpm:57.29577951308232 rpm:7", "--modes", "3"][..],
+            &["--unit", "rad/s", "-o", "rpm"],
+        ]
+        .concat(),
     );
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
     let last = |of: &str| {
