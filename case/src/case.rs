@@ -9,6 +9,7 @@ use super::kinds::integrator::{INTEGRATOR, Method, Steps};
 use super::layout;
 use super::space::{self, Space};
 use super::values::{Filled, Value, Values};
+use std::cell::RefCell;
 
 /// A validated case: each part is built once and shared by all that is made of it.
 #[derive(Clone, Debug)]
@@ -27,6 +28,8 @@ pub struct Case {
     pub accuracy: Option<(f64, Option<String>)>,
     /// What is recorded.
     pub output: Output,
+    /// What its reader should know of its parts.
+    pub cautions: Vec<String>,
 }
 
 /// What moves.
@@ -53,6 +56,8 @@ pub struct Output {
     pub energy_balance: bool,
     /// Whether the shares of the transverse modes are recorded.
     pub modal_shares: bool,
+    /// Whether the run is drawn.
+    pub plots: bool,
     /// Interval between shapes of the beam for ParaView \[s\]; `None` writes none.
     pub vtk: Option<f64>,
 }
@@ -104,7 +109,8 @@ pub(super) fn case(v: &mut Values, files: &super::sources::Files<'_>) -> Made<Ca
     let v = &*v;
     let in_space = layout::is_spatial(v.keys);
     let length = if in_space { None } else { number(v, "beam", "length").ok() };
-    let c = &Context { length, duration, files };
+    let cautions = RefCell::default();
+    let c = &Context { length, duration, files, cautions: &cautions };
     let method = found.part(INTEGRATOR.make(v, "integrator", c));
     let subject = found.part(if in_space {
         space::make(v, c, method.as_ref()).map(|space| Subject::Space(Box::new(space)))
@@ -126,6 +132,7 @@ pub(super) fn case(v: &mut Values, files: &super::sources::Files<'_>) -> Made<Ca
             duration: duration?,
             accuracy: accuracy?,
             output: output?,
+            cautions: cautions.take(),
         })
     };
     match parts() {
@@ -152,6 +159,12 @@ fn check_steps(method: &Method, duration: Option<f64>, found: &mut Found) {
         found.check(duration / step > MOST_STEPS, "integrator.step", || {
             let steps = duration / step;
             format!("the step {step:e} s makes {steps:.1e} steps in {duration} s; at most {MOST_STEPS:.0e} can be run")
+        });
+    }
+    if let (Steps::Controlled { longest: Some(longest), .. }, Some(duration)) = (method.steps, duration) {
+        found.check(duration / longest > MOST_STEPS, "integrator.max-step", || {
+            let steps = duration / longest;
+            format!("steps of {longest:e} s at most make {steps:.1e} steps in {duration} s; at most {MOST_STEPS:.0e} can be run")
         });
     }
 }
@@ -205,6 +218,7 @@ fn output(v: &Values, c: &Context<'_>) -> Made<Output> {
         strain_heights: list("strain-heights")?.to_vec(),
         energy_balance: output.boolean("energy-balance")?,
         modal_shares,
+        plots: output.boolean("plots")?,
         vtk,
     })
 }

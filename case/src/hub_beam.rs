@@ -2,7 +2,7 @@
 
 use super::case::Found;
 use super::fault::Made;
-use super::kind::{Choice, Context};
+use super::kind::{Choice, Context, Table};
 use super::kinds::basis::{self, Bases};
 use super::kinds::blade::{BLADE, Blade};
 use super::kinds::contact::{self, CONTACT, Contact};
@@ -43,19 +43,21 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     let coupling = found.part(model(v, &COUPLING, c));
     let section = found.part(SECTION.make(v, "section", c));
     let hub = found.part(hub(v, c));
-    let bases = found.part(basis::make(v, c));
     let loads = loads(v, c, &mut found);
+    let jumps = section.iter().flat_map(|section| section.planar.jumps().iter().copied());
+    let acting = loads.iter().flatten().flat_map(|load| load.nodes.iter().copied());
+    let bases = found.part(basis::make(v, c, &jumps.chain(acting).collect::<Vec<_>>()));
     let contacts = found.part(CONTACT.make(v, c).and_then(contact::named));
     let damping = found.part(load::DAMPING.make(v, c)).map(|list| list.first().copied().unwrap_or_default());
     let blade = found.part(BLADE.make(v, c)).map(|list| list.into_iter().next());
     if let (Some(method), Some(damping)) = (method, damping) {
         overdamped(method, damping, &mut found);
     }
-    if let (Some(coupling), Some(bases), Some(length)) = (coupling, &bases, c.length)
+    if let (Some(coupling), Some(bases)) = (coupling, &bases)
         && coupling.whole_curve
     {
         let name = v.kind("basis").unwrap_or_default();
-        found.part(fits_whole_curve(bases, name, section.as_ref(), length));
+        found.part(fits_whole_curve(bases, name));
     }
     if let (Some(coupling), Some(bases), Some(section), Some(loads), Some(contacts), Some(length)) =
         (coupling, &bases, &section, &loads, &contacts, c.length)
@@ -116,7 +118,13 @@ fn hub(v: &Values, c: &Context<'_>) -> Made<Hub> {
 }
 
 fn loads(v: &Values, c: &Context<'_>, found: &mut Found) -> Option<Vec<Load>> {
-    let made: Vec<_> = LOADS.iter().map(|table| found.part(table.make(v, c))).collect();
+    let named = |table: &Table<Load>| {
+        let made = table.make(v, c);
+        made.map(|list| {
+            list.into_iter().map(|load| Load { table: table.key.name, ..load }).collect::<Vec<_>>()
+        })
+    };
+    let made: Vec<_> = LOADS.iter().map(|table| found.part(named(table))).collect();
     let lists: Option<Vec<Vec<Load>>> = made.into_iter().collect();
     lists.map(|lists| lists.concat())
 }

@@ -4,6 +4,7 @@ use super::declaration::{Entry, Key, Kinds};
 use super::fault::{At, Fault, Faults, Made};
 use super::sources::Files;
 use super::values::{Value, Values};
+use std::cell::RefCell;
 use std::fmt;
 use std::sync::Arc;
 
@@ -15,6 +16,8 @@ pub struct Context<'a> {
     pub duration: Option<f64>,
     /// The files that the case names.
     pub files: &'a Files<'a>,
+    /// What the reader of a case should know of its parts.
+    pub cautions: &'a RefCell<Vec<String>>,
 }
 
 impl Context<'_> {

@@ -168,6 +168,8 @@ const BALANCE: Key = key(
     Default::Boolean(true),
     "work, losses and the balance of energy are recorded, for an evaluation or more of the power a step",
 );
+const PLOTS: Key =
+    key("plots", Type::Boolean, Default::Boolean(true), "the run is drawn: plot.svg and plot.png");
 const VTK: Key = key(
     "vtk",
     Type::Boolean,
@@ -182,7 +184,7 @@ const VTK_STEP: Key = key(
 );
 
 /// What is recorded of a beam on a hub.
-static RECORDED: [Key; 8] = [
+static RECORDED: [Key; 9] = [
     SAMPLE,
     key(
         "stations",
@@ -209,12 +211,13 @@ static RECORDED: [Key; 8] = [
         Default::Boolean(false),
         "the shares B²/ΣB² of the transverse modes are recorded, for the basis `modes`",
     ),
+    PLOTS,
     VTK,
     VTK_STEP,
 ];
 const OUTPUT: Key = key("output", Type::Table(&RECORDED), Default::Empty, "recording of results");
 
 /// What is recorded of a system in space.
-static RECORDED_IN_SPACE: [Key; 4] = [SAMPLE, BALANCE, VTK, VTK_STEP];
+static RECORDED_IN_SPACE: [Key; 5] = [SAMPLE, BALANCE, PLOTS, VTK, VTK_STEP];
 const SPATIAL_OUTPUT: Key =
     key("output", Type::Table(&RECORDED_IN_SPACE), Default::Empty, "recording of results");

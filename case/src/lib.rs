@@ -31,10 +31,12 @@ mod run;
 mod schema;
 mod sources;
 mod space;
+mod statics;
 mod suggestion;
 mod template;
 mod tree;
 pub mod units;
+mod unused;
 mod values;
 
 pub use campbell::campbell;
@@ -49,7 +51,7 @@ pub use run::refine::{RefineError, Refinement, Target};
 pub use run::{Prepared, Run};
 pub use schema::schema;
 pub use sources::{Contents, Files, Folder, Sources};
-pub use space::Space;
+pub use space::{Link, Space};
 pub use template::{TEMPLATES, Template};
 pub use values::Values;
 
@@ -61,6 +63,14 @@ pub fn choices() -> &'static [&'static dyn declaration::Kinds] {
 /// Those that only systems in space have.
 pub fn spatial_choices() -> &'static [&'static dyn declaration::Kinds] {
     layout::SPATIAL_CHOICES
+}
+
+/// Examples of the tables of systems in space: `KEY = VALUE`, as on the command line.
+pub fn examples_in_space() -> Vec<&'static str> {
+    use kinds::{beam, body, joint, obstacle, spatial};
+    let parts = [body::BODY.example, beam::BEAMS.example, joint::JOINTS.example, spatial::SPRING.example];
+    let loads = [spatial::LOAD.example, spatial::LINE_LOAD.example, obstacle::CONTACT.example];
+    parts.into_iter().chain(loads).collect()
 }
 
 /// Examples of the tables that a case may have and need not: `KEY = VALUE`, as on the command line.

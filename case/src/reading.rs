@@ -12,7 +12,8 @@ use super::sources::{Contents, Files, Folder, Sources};
 use super::tree::{self, Node, Raw};
 use super::values::Values;
 use flexion::integrator::Integrator;
-use flexion::system::{State, System};
+use flexion::system::{Jump, State, System};
+use std::cell::RefCell;
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -47,13 +48,14 @@ pub struct Reading {
 impl Reading {
     /// The case as a file with every default filled in, in SI, that reads back as the same case.
     pub fn resolved(&self) -> String {
-        resolved::resolved(&self.values, false)
+        resolved::resolved(&self.values, None)
     }
 
     /// As [`Reading::resolved`], beside copies of the tables that the case names: `motion.csv`, `torque.csv` and
     /// `section.csv`.
     pub fn resolved_with_copies(&self) -> String {
-        resolved::resolved(&self.values, true)
+        let files: Vec<String> = self.tables().into_iter().map(|(key, _)| key).collect();
+        resolved::resolved(&self.values, Some(&files))
     }
 
     /// The files that the case names: dotted path of the table and bytes.
@@ -101,7 +103,9 @@ impl Reading {
         if let (false, Some(step)) = (explicit.info().implicit, case.steps.step()) {
             // The largest frequency changes with the speed of the hub.
             let among = (0..=STABILITY_TIMES).map(|k| case.duration * k as f64 / STABILITY_TIMES as f64);
-            let within = system.breaks().iter().map(|b| b.time).filter(|t| *t <= case.duration);
+            let breaks =
+                system.breaks().iter().filter(|b| b.jump != Jump::Nothing && b.time <= case.duration);
+            let within = breaks.map(|b| b.time);
             for t in among.chain(within).collect::<Vec<_>>() {
                 let mut state = State { t, ..system.initial() };
                 explicit
@@ -116,7 +120,9 @@ impl Reading {
     fn integrator(&self) -> Result<Box<dyn Integrator>, Problems> {
         let files = Files::new(&self.files);
         let length = self.case.hub_beam().map(|beam| beam.length);
-        let context = Context { length, duration: Some(self.case.duration), files: &files };
+        let cautions = RefCell::default();
+        let context =
+            Context { length, duration: Some(self.case.duration), files: &files, cautions: &cautions };
         let method = INTEGRATOR.make(&self.values, "integrator", &context);
         method.map(|Method { integrator, .. }| integrator).map_err(|faults| self.problems(faults))
     }

@@ -5,23 +5,23 @@ use super::values::{Value, Values, item, join};
 use flexion_results::Artifact;
 use std::fmt::Write;
 
-/// Writes the whole case, with the names of `copies` among the results in place of paths if they are meant.
-pub(super) fn resolved(values: &Values, copies: bool) -> String {
+/// Writes the whole case; with `copies`, the tables that name files, with the names of their copies among the results in place of paths.
+pub(super) fn resolved(values: &Values, copies: Option<&[String]>) -> String {
     let mut out = String::new();
     table(values, None, "", copies, &mut out);
     out
 }
 
 /// The plain keys first, then the tables.
-fn table(values: &Values, kind: Option<&str>, path: &str, copies: bool, out: &mut String) {
+fn table(values: &Values, kind: Option<&str>, path: &str, copies: Option<&[String]>, out: &mut String) {
     if !path.is_empty() {
-        let _ = writeln!(out, "\n[{path}]");
+        let _ = writeln!(out, "\n[{}]", heading(path));
     }
     entries(values, kind, path, copies, out);
 }
 
 /// What stands under the heading of a table.
-fn entries(values: &Values, kind: Option<&str>, path: &str, copies: bool, out: &mut String) {
+fn entries(values: &Values, kind: Option<&str>, path: &str, copies: Option<&[String]>, out: &mut String) {
     if let Some(kind) = kind {
         let _ = writeln!(out, "kind = {}", quoted(kind));
     }
@@ -31,8 +31,8 @@ fn entries(values: &Values, kind: Option<&str>, path: &str, copies: bool, out: &
             Type::Quantity(measure, _) | Type::Quantities(measure, _) => format!("  # {}", measure.unit),
             _ => String::new(),
         };
-        let value = match (filled.key.takes, copy(path)) {
-            (Type::Path, Some(artifact)) if copies => quoted(&artifact.file_name()),
+        let value = match (filled.key.takes, copies.and_then(|all| copy(path, all))) {
+            (Type::Path, Some(artifact)) => quoted(&artifact.file_name()),
             _ => written(&filled.value, &filled.key.takes, false),
         };
         let _ = writeln!(out, "{} = {value}{unit}", filled.key.name);
@@ -42,9 +42,9 @@ fn entries(values: &Values, kind: Option<&str>, path: &str, copies: bool, out: &
         match &filled.value {
             Value::Table(values) => table(values, None, &path, copies, out),
             Value::Tables(list) => {
-                for values in list {
-                    let _ = writeln!(out, "\n[[{path}]]");
-                    entries(values, None, &path, copies, out);
+                for (number, values) in list.iter().enumerate() {
+                    let _ = writeln!(out, "\n[[{}]]", heading(&path));
+                    entries(values, None, &item(&path, number), copies, out);
                 }
             }
             Value::Kind(kind, values) => table(values, Some(kind.name), &path, copies, out),
@@ -53,8 +53,18 @@ fn entries(values: &Values, kind: Option<&str>, path: &str, copies: bool, out: &
     }
 }
 
-/// The copy, among the results, of the file named in the table at `path`.
-pub(super) fn copy(path: &str) -> Option<Artifact> {
+/// The heading of a table: its path without the numbers of lists.
+fn heading(path: &str) -> String {
+    path.split('.').map(|part| part.split('[').next().unwrap_or(part)).collect::<Vec<_>>().join(".")
+}
+
+/// The copy, among the results, of the file named in the table at `path`; `all` are the tables that name files.
+pub(super) fn copy(path: &str, all: &[String]) -> Option<Artifact> {
+    if path.contains('[') {
+        return Artifact::numbered(
+            all.iter().filter(|other| other.contains('[')).position(|other| other == path)?,
+        );
+    }
     Artifact::table(path.rsplit('.').next().unwrap_or(path))
 }
 
@@ -65,6 +75,11 @@ pub(super) fn paths(values: &Values, path: &str, out: &mut Vec<(String, String)>
             (Value::Text(text), Type::Path) => out.push((path.to_owned(), text.clone())),
             (Value::Table(values) | Value::Kind(_, values), _) => {
                 paths(values, &join(path, filled.key.name), out);
+            }
+            (Value::Tables(list), _) => {
+                for (number, values) in list.iter().enumerate() {
+                    paths(values, &item(&join(path, filled.key.name), number), out);
+                }
             }
             _ => {}
         }

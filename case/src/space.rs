@@ -30,12 +30,25 @@ pub struct Space {
     pub bodies: Vec<Body>,
     /// The beams, and as they are built.
     pub beams: Vec<(Beam, slender::Beam)>,
-    /// The joints: name, kind as written, and the two parts as written.
-    pub joints: Vec<(String, String, [String; 2])>,
+    /// The joints.
+    pub joints: Vec<Link>,
     /// Into how many each element of the beams is cut.
     pub refine: usize,
     /// Largest distance between its parts \[m\].
     pub size: f64,
+}
+
+/// A joint as it is shown.
+#[derive(Clone, Debug)]
+pub struct Link {
+    /// Name.
+    pub name: String,
+    /// What it is called in the case.
+    pub kind: String,
+    /// The two parts as written.
+    pub between: [String; 2],
+    /// Its point at the start \[m\].
+    pub point: Vector,
 }
 
 impl Space {
@@ -374,9 +387,16 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     }
     let names: Vec<String> = joints.iter().enumerate().map(|(i, j)| numbered(&j.name, "joint", i)).collect();
     let multibody = Multibody::new(model).map_err(|error| blamed(&error, v, &names))?;
-    let held = beams.iter().flat_map(|(beam, _)| beam.held());
+    let of_ends = beams.iter().flat_map(|(beam, _)| beam.held());
     let joints =
-        names.into_iter().zip(joints).map(|(name, j)| (name, j.written, j.between)).chain(held).collect();
+        names.into_iter().zip(&joints).map(|(name, j)| (name, j.written.clone(), j.between.clone(), j.at));
+    let joints = joints.chain(of_ends.map(|(name, kind, between)| (name, kind, between, None)));
+    let link = |(name, kind, between, at): (String, String, [String; 2], Option<Vector>)| {
+        let own = |place: &String| parts.find(place).ok().and_then(|(_, point)| point);
+        let point = at.or_else(|| own(&between[1])).or_else(|| own(&between[0])).unwrap_or_default();
+        Link { name, kind, between, point }
+    };
+    let joints = joints.map(link).collect();
     let mut extent = 0.0_f64;
     for (.., point) in &parts.bodies {
         extent = point.iter().fold(extent, |extent, x| extent.max(x.abs()));

@@ -2,7 +2,6 @@
 //! there are to choose from is written in from the declarations.
 
 use super::declaration::{Bound, Entry, Key, Kinds, Presence, Type};
-use super::layout;
 use super::problem::Problems;
 use super::reading::parse;
 use super::resolved::written;
@@ -126,6 +125,71 @@ output = { step = "10 ms" }
 "#,
     },
     Template {
+        name: "double-pendulum",
+        summary: "two rigid bars on hinges fall in space",
+        text: r#"
+title = "Double pendulum"
+gravity = [0, 0, "-9.81 m/s^2"]
+integrator = { kind = "radau", tolerance = 1e-8 }
+run = { duration = "5 s" }
+output = { step = "0.01 s" }
+[[body]]
+name = "upper"
+mass = "2 kg"
+inertia = { kind = "box", size = ["1 m", "5 cm", "5 cm"] }
+position = ["50 cm", 0, 0]
+[[body]]
+name = "lower"
+mass = "1 kg"
+inertia = { kind = "box", size = ["1 m", "3 cm", "3 cm"] }
+position = ["150 cm", 0, 0]
+[[joint]]
+name = "shoulder"
+kind = "revolute"
+between = ["ground", "upper"]
+at = [0, 0, 0]
+axis = [0, -1, 0]
+[[joint]]
+name = "elbow"
+kind = "revolute"
+between = ["upper", "lower"]
+at = ["1 m", 0, 0]
+axis = [0, -1, 0]
+"#,
+    },
+    Template {
+        name: "robot-arm",
+        summary: "a motor turns a slender beam in space that carries a mass",
+        text: r#"
+title = "A flexible arm in space"
+gravity = [0, 0, "-9.81 m/s^2"]
+integrator = { kind = "generalized-alpha", step = "1 ms" }
+run = { duration = "2 s" }
+output = { step = "5 ms", vtk = true }
+[[body]]
+name = "payload"
+mass = "200 g"
+inertia = { kind = "sphere", radius = "3 cm" }
+position = ["1 m", 0, 0]
+[[beam]]
+name = "arm"
+length = "1 m"
+section = { kind = "rectangle", modulus = "70 GPa", density = "2700 kg/m^3", width = "20 mm", height = "5 mm" }
+elements = 8
+stations = ["50 cm"]
+[[joint]]
+name = "motor"
+kind = "revolute"
+between = ["ground", "arm.root"]
+motion = { kind = "spin-up", speed = "1 rad/s", time = "1 s" }
+[[joint]]
+name = "grip"
+kind = "fixed"
+between = ["arm.tip", "payload"]
+at = ["1 m", 0, 0]
+"#,
+    },
+    Template {
         name: "modes",
         summary: "a beam described by a few of its vibration modes, fixed steps",
         text: r#"
@@ -172,7 +236,7 @@ impl Template {
             self.name, self.summary
         );
         let writer = Writer { text: self.text };
-        writer.table(&reading.values, layout::keys(), None, "", &mut out);
+        writer.table(&reading.values, reading.values.keys, None, "", &mut out);
         Ok(out)
     }
 }
@@ -221,10 +285,16 @@ impl Writer {
         }
         for key in keys.iter().filter(|key| nested(key)) {
             let Some(Filled { value, place, .. }) = filled(key) else { continue };
-            if matches!(value, Value::Tables(_)) {
+            let path = join(path, key.name);
+            if let (Value::Tables(list), Type::Tables(keys)) = (value, key.takes) {
+                for (number, values) in list.iter().enumerate() {
+                    let what =
+                        if number == 0 { format!("# {}\n", capitalised(key.doc)) } else { String::new() };
+                    let _ = writeln!(out, "\n{what}[[{path}]]");
+                    self.table(values, keys, None, &path, out);
+                }
                 continue;
             }
-            let path = join(path, key.name);
             let mark = if place.is_some() { "" } else { "#" };
             let choice = match key.takes {
                 Type::Kind(choice) => format!("; its kind is one of {}", names(choice)),

@@ -224,6 +224,13 @@ fn every_kind_is_described_in_the_reference_and_named_in_the_readme() {
             assert!(readme.contains(&name), "README.md does not name the {} {name}", choice.name());
         }
     }
+    let page = read("docs/src/spatial.md");
+    for choice in flexion_case::spatial_choices() {
+        for kind in choice.kinds() {
+            let name = format!("`{}`", kind.name);
+            assert!(page.contains(&name), "spatial.md does not describe the {} {name}", choice.name());
+        }
+    }
 }
 
 #[test]

@@ -6,7 +6,9 @@
 use flexion::analysis::modes::modes;
 use flexion::analysis::rotation::rotate_stably;
 use flexion::system::State;
-use flexion_case::{Contents, Reading, choices, examples_of_tables, parse_with, read};
+use flexion_case::{
+    Contents, Reading, choices, examples_in_space, examples_of_tables, parse_with, read, spatial_choices,
+};
 use flexion_results::{Artifact, Directory, Status};
 use std::fs;
 use std::ops::ControlFlow;
@@ -27,6 +29,21 @@ motion = { kind = "spin-up", speed = "4 rad/s", time = "0.1 s" }
 [integrator]
 kind = "newmark"
 step = "1 ms"
+[run]
+duration = "0.05 s"
+[output]
+step = "5 ms"
+"#;
+
+const IN_SPACE: &str = r#"
+title = "in space"
+gravity = [0, 1, -9.81]
+[[body]]
+name = "bar"
+mass = "2 kg"
+position = ["50 cm", 0, 0]
+inertia = { kind = "box", size = ["1 m", "20 mm", "30 mm"] }
+spin = [1, 0, 0]
 [run]
 duration = "0.05 s"
 [output]
@@ -104,10 +121,10 @@ fn contents() -> Contents {
     all.map(|(name, bytes)| (name.to_owned(), bytes.into())).collect()
 }
 
-/// The base case with the changes of an example, one a line.
-fn example(text: &str, files: &Contents) -> Reading {
+/// A base case with the changes of an example, one a line.
+fn example(base: &str, text: &str, files: &Contents) -> Reading {
     let set: Vec<String> = text.lines().map(str::to_owned).collect();
-    parse_with(BASE.to_owned(), Path::new("case.toml"), &set, files).unwrap_or_else(|p| panic!("{text}: {p}"))
+    parse_with(base.to_owned(), Path::new("case.toml"), &set, files).unwrap_or_else(|p| panic!("{text}: {p}"))
 }
 
 /// Every recorded value of a run, and the frequencies of a blade at 30 rad/s.
@@ -129,10 +146,16 @@ fn outcome(reading: &Reading) -> Vec<u64> {
 #[test]
 fn every_example_reads_chooses_its_kind_and_resolves_to_itself() {
     let files = contents();
-    let of_kinds = choices().iter().flat_map(|choice| choice.kinds()).map(|kind| (kind.name, kind.example));
-    let of_tables = examples_of_tables().into_iter().map(|text| ("", text));
-    for (name, text) in of_kinds.chain(of_tables) {
-        let reading = example(text, &files);
+    let mut all = Vec::new();
+    for (base, choices, tables) in
+        [(BASE, choices(), examples_of_tables()), (IN_SPACE, spatial_choices(), examples_in_space())]
+    {
+        let kinds =
+            choices.iter().flat_map(|choice| choice.kinds()).map(|kind| (base, kind.name, kind.example));
+        all.extend(kinds.chain(tables.into_iter().map(|text| (base, "", text))));
+    }
+    for (base, name, text) in all {
+        let reading = example(base, text, &files);
         let resolved = reading.resolved();
         assert!(resolved.contains(&format!("\"{name}\"")) || name.is_empty(), "{text} does not use {name}");
         let again = parse_with(resolved.clone(), Path::new("case.toml"), &[], &files).unwrap();
@@ -144,21 +167,31 @@ fn every_example_reads_chooses_its_kind_and_resolves_to_itself() {
 #[test]
 fn every_kind_makes_a_model_of_its_own() {
     let files = contents();
-    for choice in choices() {
+    let of_beams = choices().iter().map(|choice| (BASE, choice));
+    for (base, choice) in of_beams.chain(spatial_choices().iter().map(|choice| (IN_SPACE, choice))) {
         let mut outcomes: Vec<(&str, Vec<u64>)> = Vec::new();
         for kind in choice.kinds() {
-            let found = outcome(&example(kind.example, &files));
+            let found = outcome(&example(base, kind.example, &files));
             if let Some((other, _)) = outcomes.iter().find(|(_, outcome)| *outcome == found) {
                 panic!("the {} `{}` gives what `{other}` gives", choice.name(), kind.name);
             }
             outcomes.push((kind.name, found));
         }
     }
-    let base = outcome(&example("title=base", &files));
-    for text in examples_of_tables() {
-        assert_ne!(outcome(&example(text, &files)), base, "{text}");
+    for (base, tables) in [(BASE, examples_of_tables()), (IN_SPACE, examples_in_space())] {
+        let plain = outcome(&example(base, "title=base", &files));
+        for text in tables {
+            assert_ne!(outcome(&example(base, text, &files)), plain, "{text}");
+        }
     }
 }
+
+/// The same of a system in space.
+const WRITTEN_IN_SPACE: &[&str] = &[
+    "joint=[{kind='prismatic', between=['ground', 'bar'], travel={kind='table', file='tables/measured.csv', of='speed'}}]",
+    "beam=[{length=2, root='clamped', elements=2, section={kind='rectangle', modulus=7e10, density=2700, width=0.01, height=0.02}, fibre=[{name='top', station=0, y=0.01}]}]",
+    "output={vtk=true, vtk-step='10 ms'}",
+];
 
 /// Changes to the base case whose runs are written: they name files, or are recorded in another way.
 const WRITTEN: &[&str] = &[
@@ -181,14 +214,17 @@ fn a_run_is_repeated_byte_for_byte_from_the_resolved_case_alone() {
     let earlier = folder.path().join("earlier");
     run(&case, &["run.duration='20 ms'"], &earlier);
     let (first, second) = (folder.path().join("first"), folder.path().join("elsewhere/second"));
-    for variation in WRITTEN {
+    let space = folder.path().join("space.toml");
+    fs::write(&space, IN_SPACE).unwrap();
+    let planar = WRITTEN.iter().map(|variation| (&case, variation));
+    for (case, variation) in planar.chain(WRITTEN_IN_SPACE.iter().map(|variation| (&space, variation))) {
         // What the case refers to is there for the first run only.
         fs::create_dir(folder.path().join("tables")).unwrap();
         for (name, bytes) in files() {
             fs::write(folder.path().join("tables").join(name), bytes).unwrap();
         }
         fs::copy(earlier.join("state.npz"), folder.path().join("tables/state.npz")).unwrap();
-        run(&case, &[variation], &first);
+        run(case, &[variation], &first);
         fs::remove_dir_all(folder.path().join("tables")).unwrap();
         run(&first.join("case.resolved.toml"), &[], &second);
         let (a, b) = (written(&first), written(&second));
@@ -197,7 +233,7 @@ fn a_run_is_repeated_byte_for_byte_from_the_resolved_case_alone() {
         for ((name, a), (_, b)) in a.iter().zip(&b) {
             assert!(a == b, "{variation}: {name} differs");
         }
-        let copies = ["motion.csv", "torque.csv", "section.csv", "initial.npz"]
+        let copies = ["motion.csv", "torque.csv", "section.csv", "initial.npz", "table1.csv"]
             .map(|copy| names(&a).contains(&copy.to_owned()));
         assert_eq!(variation.contains("tables"), copies.contains(&true), "{variation}");
         assert_eq!(variation.contains("vtk=true"), names(&a).contains(&"beam.pvd".to_owned()));

@@ -106,6 +106,29 @@ fn every_coupling_vibrates_in_the_mode_in_which_it_is_released() {
     }
 }
 
+/// A beam that bends without stretching is shortened by ½∫w′²: the energy of the release is that of bending, to second order, and
+/// no axial vibration begins.
+#[test]
+fn a_release_of_one_hundredth_of_the_length_makes_no_axial_force() {
+    let still = ["hub={radius=0.1,motion={kind='constant',speed=0}}", "run.duration=0"];
+    let energy = |amplitude: f64| {
+        let initial = format!("initial={{kind='modes',amplitudes=[{amplitude}]}}");
+        let run = run(&[still[0], still[1], &initial]);
+        let last = |name: &str| *run.trajectory.column(name).unwrap().last().unwrap();
+        (last("energy.strain"), last("tip.deflection"), last("tip.axial"))
+    };
+    let length = reading(&still).case.size();
+    let (small, ..) = energy(1e-6 * length);
+    for part in [0.01, 0.1] {
+        let (found, deflection, axial) = energy(part * length);
+        let ratio = found / small * (1e-6 / part).powi(2);
+        assert!((ratio - 1.0).abs() < 0.6 * part, "{part}: energy by {ratio}");
+        assert!((deflection / (part * length) - 1.0).abs() < part * part, "{part}: tip at {deflection}");
+        // The first mode: ½∫w′² = 0.581 A²/L.
+        assert!((axial / (part * part * length) + 0.581).abs() < 0.01, "{part}: {axial}");
+    }
+}
+
 #[test]
 fn a_release_at_rest_is_the_equilibrium() {
     let still = run(&["initial={kind='modes',amplitudes=[0,0]}"]);

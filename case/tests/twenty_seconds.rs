@@ -145,7 +145,8 @@ fn a_free_hub_under_the_torque_of_a_prescribed_motion_moves_as_prescribed() {
             writeln!(table, "{t:?},{torque:?}").unwrap();
         }
         std::fs::write(folder.path().join("torque.csv"), table).unwrap();
-        let motion = "hub.motion={kind='free',torque={kind='table',file='torque.csv'}}";
+        let motion =
+            "hub.motion={kind='free',torque={kind='table',file='torque.csv',interpolation='spline'}}";
         let free = run_in(folder.path(), &[&common[..], &[motion]].concat());
         for name in ["hub.angle", "hub.speed", "tip.deflection", "tip.axial", "energy.total"] {
             let (a, b) = (column(&prescribed, name), column(&free, name));

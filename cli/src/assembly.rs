@@ -4,7 +4,7 @@ use crate::check::row;
 use crate::vibration::title;
 use flexion::linalg::Matrix;
 use flexion::system::{Dynamics, Parameter, State, Steady, Weights};
-use flexion_case::{Reading, Space};
+use flexion_case::{Link, Reading, Space};
 use flexion_results::plot::assembly_figure;
 use flexion_results::write_file;
 use std::path::Path;
@@ -45,7 +45,7 @@ fn branch<'s>(
     used: &mut [bool],
     out: &mut String,
 ) {
-    for (i, (name, kind, between)) in space.joints.iter().enumerate() {
+    for (i, Link { name, kind, between, .. }) in space.joints.iter().enumerate() {
         let [a, b] = between;
         let (here, there) = if part(a) == from { (a, b) } else { (b, a) };
         if part(here) != from || used[i] {
@@ -64,14 +64,15 @@ fn branch<'s>(
 
 /// Draws the parts at the start.
 pub fn draw(reading: &Reading, file: &Path) -> Result<(), String> {
-    if reading.case.space().is_none() {
+    let Some(space) = reading.case.space() else {
         return Err("--draw is for a system in space, and the case is of a beam on a hub".to_owned());
-    }
+    };
     let mut system = reading.case.system().map_err(|error| error.to_string())?;
     let state = system.initial();
     let mut scene = reading.case.scene();
     scene.finish(system.as_mut(), &state);
-    let drawing = assembly_figure(&scene, title(reading)).draw();
+    let joints: Vec<_> = space.joints.iter().map(|joint| (joint.name.as_str(), joint.point)).collect();
+    let drawing = assembly_figure(&scene, &joints, title(reading)).draw();
     let extension = file.extension().map(|text| text.to_string_lossy().to_lowercase());
     let bytes = match extension.as_deref() {
         Some("svg") => drawing.svg().into_bytes(),

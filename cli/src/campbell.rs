@@ -1,10 +1,10 @@
 //! `flexion campbell`: modes of vibration over a range of speeds.
 
-use crate::vibration::{self, Options, Speed, report, speed, stations, title};
+use crate::vibration::{self, Options, Speed, report, speed, stations};
 use crate::{Outcome, case, screen};
-use flexion::analysis::campbell::{Campbell, Instability, NoCampbell, Plan};
+use flexion::analysis::campbell::{Branch, Campbell, Instability, NoCampbell, Plan};
 use flexion_case::Reading;
-use flexion_results::{Artifact, Directory, Frequencies, write_campbell};
+use flexion_results::{Artifact, Directory, Frequencies, Resonance, Units, resonances, write_campbell};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::{Path, PathBuf};
 
@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 #[command(after_help = "Examples:
   flexion campbell verification/p1_spin_up_4 --speeds 0:20:41 --modes 4
   flexion campbell case.toml --speeds 0:600:100 --unit rpm --revolutions 6 --output results/campbell
-  flexion campbell case.toml --speeds '0 rpm:20 rpm:100' --unit Hz
+  flexion campbell case.toml --speeds '0 rpm:20 rpm:100' --margin 10
 
 Speeds are written FROM:TO:NUMBER, ends included, or FROM:TO for 51 of them, in the unit of --unit or with units of
 their own. The motion of the case is replaced by steady rotation at each speed; the hub keeps its speed unless
@@ -28,12 +28,15 @@ pub struct Arguments {
     /// Range of speeds, e.g. 0:50:100 or '0 rpm:20 rpm:100'
     #[arg(long, value_name = "FROM:TO:NUMBER", value_parser = range)]
     speeds: Range,
-    /// Number of modes, the lowest at the first speed
+    /// Number of modes, the lowest at any of the speeds
     #[arg(long, value_name = "N", default_value = "6", value_parser = vibration::count)]
     modes: usize,
     /// Lines ω = kΩ to cross, for k from 1 to this number
-    #[arg(long, value_name = "K", default_value_t = 4)]
+    #[arg(long, value_name = "K", default_value_t = 4, value_parser = clap::value_parser!(u32).range(0..=MOST_REVOLUTIONS))]
     revolutions: u32,
+    /// List the speeds at which a frequency is within this many percent of kΩ
+    #[arg(long, value_name = "PERCENT", default_value = "5", value_parser = margin)]
+    margin: f64,
     #[command(flatten)]
     options: Options,
     /// Directory for campbell.json, .csv, .npz and the diagram [default: results/NAME-campbell]
@@ -55,8 +58,22 @@ pub struct Range {
     count: usize,
 }
 
+/// Most lines ω = kΩ.
+const MOST_REVOLUTIONS: i64 = 1000;
+/// Modes above those asked for that are followed, for they may come down.
+const ABOVE: usize = 3;
 /// Most speeds of a diagram.
 const MOST: usize = 100_000;
+
+/// Parts of the beam at whose ends shapes are given.
+const STATIONS: u32 = 50;
+
+fn margin(text: &str) -> Result<f64, String> {
+    match text.trim_end_matches('%').trim().parse::<f64>() {
+        Ok(percent) if (0.0..100.0).contains(&percent) => Ok(percent),
+        _ => Err("it is a number of percent from 0 to less than 100".to_owned()),
+    }
+}
 
 fn range(text: &str) -> Result<Range, String> {
     let parts: Vec<&str> = text.split(':').collect();
@@ -104,19 +121,22 @@ pub fn campbell(arguments: &Arguments) -> Outcome {
 /// Whether the diagram is whole, and written.
 fn diagram(arguments: &Arguments, reading: &Reading) -> Result<bool, String> {
     let case = &reading.case;
-    let unit = arguments.options.frequencies(case)?;
+    let (steady, mut cautions) = vibration::without_loads_in_space(case);
+    cautions.extend(vibration::without_contacts(case));
+    cautions.extend(case.unused_by_modes());
+    let system = vibration::system(&steady)?;
+    let units = arguments.options.units(case, arguments.speeds.to)?;
+    let unit = &units.speed;
     let plan = Plan {
-        speeds: arguments.speeds.speeds(&unit)?,
-        count: arguments.modes,
-        stations: stations(case),
+        speeds: arguments.speeds.speeds(unit)?,
+        // Those that enter from above are among them.
+        count: arguments.modes.max((arguments.modes + ABOVE).min(system.size().v)),
+        stations: stations(case, STATIONS),
         hub: arguments.options.hub(case)?,
         revolutions: arguments.revolutions,
     };
     let named = format!("{}-campbell", arguments.case.name());
     let output = arguments.output.clone().unwrap_or_else(|| Path::new("results").join(named));
-    let (steady, mut cautions) = vibration::without_loads_in_space(case);
-    cautions.extend(vibration::without_contacts(case));
-    let system = vibration::system(&steady)?;
     let directory = Directory::create_for(Artifact::CAMPBELL, &output, arguments.force)
         .map_err(|error| error.to_string())?;
     let bar = ProgressBar::new(plan.speeds.len() as u64);
@@ -129,14 +149,24 @@ fn diagram(arguments: &Arguments, reading: &Reading) -> Result<bool, String> {
     };
     let diagram = flexion_case::campbell(system, &plan, arguments.threads, &progress);
     bar.finish_and_clear();
-    let diagram = diagram.map_err(|error: NoCampbell| {
+    let mut diagram = diagram.map_err(|error: NoCampbell| {
         directory.discard();
         error.to_string()
     })?;
-    let resolved = reading.resolved();
-    let written =
-        write_campbell(&directory, &diagram, plan.revolutions, &unit, &resolved, title(reading), &cautions);
-    screen::print(&described(&diagram, &unit));
+    cautions.extend(diagram.entering.map(|(speed, count)| {
+        format!(
+            "from {} on, {count} mode(s) that begin above those asked for lie among them, and their crossings are not listed: \
+             ask for --modes {}",
+            units.speed.text(speed),
+            plan.count + count
+        )
+    }));
+    keep_lowest(&mut diagram, arguments.modes);
+    let resonances = resonances(&diagram, plan.revolutions, arguments.margin / 100.0);
+    let (resolved, title) = (reading.resolved(), arguments.options.title(reading));
+    let shown = (&diagram, plan.revolutions, resonances.as_slice());
+    let written = write_campbell(&directory, shown, &units, &plan.stations, &resolved, title, &cautions);
+    screen::print(&described(&diagram, &resonances, arguments.margin, &units));
     let files = [("curves", Artifact::CampbellCsv), ("diagram", Artifact::CampbellSvg)];
     let mut whole = screen::files(&directory, written, &files);
     cautions.iter().for_each(|caution| screen::report(&format!("warning: {caution}\n")));
@@ -144,7 +174,7 @@ fn diagram(arguments: &Arguments, reading: &Reading) -> Result<bool, String> {
         match instability {
             Instability::Divergence { speed, reason } => screen::report(&format!(
                 "warning: divergence at {}: {reason}\nThe diagram ends there.\n",
-                unit.text(*speed)
+                unit.short(*speed)
             )),
             Instability::Lost { reason, .. } => {
                 whole = false;
@@ -161,31 +191,66 @@ fn diagram(arguments: &Arguments, reading: &Reading) -> Result<bool, String> {
     Ok(whole)
 }
 
-/// Modes at both ends, and crossings.
-fn described(diagram: &Campbell, unit: &Frequencies) -> String {
+/// Leaves out the modes that are at no speed among the lowest `count`.
+fn keep_lowest(diagram: &mut Campbell, count: usize) {
+    let frequency = |b: &Branch, i: usize| b.points.get(i).map(|p| p.mode.frequency());
+    let low = |b: &Branch| {
+        (0..b.points.len()).any(|i| {
+            let below = |other: &&Branch| frequency(other, i).is_some_and(|f| Some(f) < frequency(b, i));
+            diagram.branches.iter().filter(below).count() < count
+        })
+    };
+    let low: Vec<bool> = diagram.branches.iter().map(low).collect();
+    let renumbered = |branch: &mut usize| {
+        let kept = low.get(*branch) == Some(&true);
+        *branch = low.iter().take(*branch).filter(|low| **low).count();
+        kept
+    };
+    diagram.crossings.retain_mut(|c| renumbered(&mut c.branch));
+    diagram.instabilities.retain_mut(|i| match i {
+        Instability::Flutter { branch, .. } => renumbered(branch),
+        Instability::Divergence { .. } | Instability::Lost { .. } => true,
+    });
+    let mut kept = low.iter();
+    diagram.branches.retain(|_| kept.next() == Some(&true));
+}
+
+/// Modes at both ends, and speeds near crossings.
+fn described(diagram: &Campbell, near: &[Resonance], margin: f64, units: &Units) -> String {
     let mut out = format!("{} modes at {} speeds\n\n", diagram.branches.len(), diagram.speeds.len());
-    let mut rows = vec![["mode", "first", "last", "up to", "moves at first"].map(str::to_owned).to_vec()];
+    let head = ["mode", "moves", "first", "last", "followed to"];
+    let mut rows = vec![head.map(str::to_owned).to_vec()];
+    let furthest = diagram.speeds.last().copied();
+    let mut moves = Vec::new();
     for (number, branch) in diagram.branches.iter().enumerate() {
         if let (Some(first), Some(last)) = (branch.points.first(), branch.points.last()) {
+            moves.push(first.mode.shares.dominant());
+            let ends = Some(last.speed) != furthest;
             rows.push(vec![
                 format!("{}", number + 1),
-                unit.text(first.mode.frequency()),
-                unit.text(last.mode.frequency()),
-                unit.text(last.speed),
                 first.mode.shares.dominant().to_owned(),
+                units.frequency.text(first.mode.frequency()),
+                units.frequency.text(last.mode.frequency()),
+                if ends { units.speed.text(last.speed) } else { "the end".to_owned() },
             ]);
         }
     }
     out.push_str(&screen::table(&rows));
-    if !diagram.crossings.is_empty() {
-        out.push_str("\ncrossings of mode and revolutions\n");
-        let rows: Vec<Vec<String>> = diagram
-            .crossings
-            .iter()
-            .map(|c| {
-                vec![format!("mode {}", c.branch + 1), format!("{}Ω", c.revolutions), unit.text(c.speed)]
-            })
-            .collect();
+    if !near.is_empty() || !diagram.crossings.is_empty() {
+        out.push_str(&format!("\nspeeds at which a frequency is within {margin} % of kΩ\n"));
+        let head = ["mode", "", "", "crossing", "from", "to"];
+        let mut rows = vec![head.map(str::to_owned).to_vec()];
+        let text = |speed: f64| units.speed.text(speed);
+        for r in near {
+            let crosses = diagram.crossings.iter().filter(|c| {
+                (c.branch, c.revolutions) == (r.branch, r.revolutions) && (r.from..=r.to).contains(&c.speed)
+            });
+            let crossings: Vec<String> = crosses.map(|c| text(c.speed)).collect();
+            let moves = moves.get(r.branch).copied().unwrap_or_default();
+            let mode = format!("{}", r.branch + 1);
+            let line = format!("{}Ω", r.revolutions);
+            rows.push(vec![mode, moves.to_owned(), line, crossings.join(", "), text(r.from), text(r.to)]);
+        }
         out.push_str(&screen::table(&rows));
     }
     out.push('\n');

@@ -71,7 +71,11 @@ fn describe(reading: &Reading) -> Result<String, Problems> {
             rows.extend(equations(system.as_ref(), integrator.as_ref()));
         }
     }
-    rows.extend(system.cautions(&[]).into_iter().map(|caution| row("caution", caution)));
+    let is_blade = case.hub_beam().is_some_and(|beam| beam.blade.is_some());
+    let of_modes = if is_blade { case.unused_by_modes() } else { Vec::new() };
+    let of_modes = of_modes.into_iter().skip(case.cautions.len());
+    let cautions = case.unused_by_run().into_iter().chain(of_modes).chain(system.cautions(&[]));
+    rows.extend(cautions.map(|caution| row("caution", caution)));
     out.push_str(&screen::table(&rows));
     // An empty list says nothing.
     let defaults: Vec<_> = reading.defaults().into_iter().filter(|(_, value)| value != "[]").collect();

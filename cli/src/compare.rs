@@ -19,7 +19,8 @@ use std::path::PathBuf;
 The runs are compared at the times of the first, REFERENCE. A run recorded at other times is interpolated there by
 cubics: name the run recorded most finely last, or record at the same times.
 
-Exit codes: 0 compared, 1 command line rejected, 2 a difference exceeds the tolerance, or the files could not be written.")]
+Exit codes: 0 compared, 1 command line rejected, 2 a difference exceeds the tolerance or a value is not finite, or the files could not be
+written.")]
 pub struct Arguments {
     /// Directory of the results, or CSV file, that the others are compared with
     #[arg(value_name = "REFERENCE")]
@@ -28,9 +29,10 @@ pub struct Arguments {
     #[arg(value_name = "RUN", required = true)]
     runs: Vec<PathBuf>,
     /// Columns, e.g. tip.deflection,tip.axial or 'tip.*' [default: all in common but step.*]
-    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    #[arg(long, short, value_name = "NAMES", value_delimiter = ',')]
     columns: Vec<String>,
-    /// Largest difference allowed, relative to the peak of REFERENCE; beyond it the exit code is 2
+    /// Largest difference allowed, relative to the peak of REFERENCE (of the total energy for the energy balance); beyond it
+    /// the exit code is 2
     #[arg(long, value_name = "X", value_parser = tolerance)]
     tolerance: Option<f64>,
     /// Directory for compare.json, compare.csv and the plots of runs and differences
@@ -85,10 +87,13 @@ pub fn compare(arguments: &Arguments) -> Outcome {
             return Outcome::Incomplete;
         }
     }
-    let Some(tolerance) = arguments.tolerance else { return Outcome::Finished };
     let mut beyond = false;
     for comparison in &comparisons {
-        for what in comparison.beyond(tolerance) {
+        let what = match arguments.tolerance {
+            Some(tolerance) => comparison.beyond(tolerance),
+            None => comparison.not_finite(),
+        };
+        for what in what {
             screen::report(&format!("error: {}: {what}\n", comparison.second));
             beyond = true;
         }

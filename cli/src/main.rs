@@ -16,6 +16,7 @@ mod new;
 mod plot;
 mod run;
 mod screen;
+mod statics;
 mod vibration;
 mod view;
 
@@ -52,6 +53,8 @@ enum Command {
     Modes(modes::Arguments),
     /// Follow the modes of vibration over a range of speeds
     Campbell(campbell::Arguments),
+    /// Follow the equilibrium of a case at rest as its loads grow
+    Statics(statics::Arguments),
     /// Plot columns of one or several runs
     Plot(plot::Arguments),
     /// Write a page that plays the motion or the modes of a result
@@ -93,6 +96,7 @@ fn main() -> ExitCode {
         Command::Compare(arguments) => compare::compare(&arguments),
         Command::Modes(arguments) => modes::modes(&arguments),
         Command::Campbell(arguments) => campbell::campbell(&arguments),
+        Command::Statics(arguments) => statics::statics(&arguments),
         Command::Plot(arguments) => plot::plot(&arguments),
         Command::View(arguments) => view::view(&arguments),
         Command::Completions(arguments) => completions::completions(&arguments),

@@ -10,7 +10,8 @@ use std::path::PathBuf;
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   flexion plot results/p1_spin_up_4 --columns 'tip.*' --output tip.svg
-  flexion plot results/first results/exact --columns tip.deflection,hub.torque --title \"Two couplings\" -o couplings.png")]
+  flexion plot results/first results/exact --columns tip.deflection,hub.torque --title \"Two couplings\" -o couplings.pdf
+  flexion plot results/p1_spin_up_4 --columns tip.deflection --xlim 14:20 --ylim -0.01:0.01 -o end.png")]
 pub struct Arguments {
     /// Directories of results, or CSV files whose first column is `time [s]`
     #[arg(value_name = "RESULT", required = true)]
@@ -18,12 +19,18 @@ pub struct Arguments {
     /// Columns, one panel each, e.g. tip.deflection,hub.speed or 'tip.*' [default: those of the plot of a run]
     #[arg(long, short, value_name = "NAMES", value_delimiter = ',')]
     columns: Vec<String>,
-    /// File to write, .svg or .png
+    /// File to write, .svg, .png or .pdf
     #[arg(long, short, value_name = "FILE", default_value = "plot.svg")]
     output: PathBuf,
     /// Title above the panels
     #[arg(long, value_name = "TEXT")]
     title: Option<String>,
+    /// Range of the times shown, e.g. 0:2
+    #[arg(long, value_name = "FROM:TO", value_parser = range, allow_hyphen_values = true)]
+    xlim: Option<(f64, f64)>,
+    /// Range of the values shown in every panel, in the unit of its column, e.g. -0.5:0.1
+    #[arg(long, value_name = "FROM:TO", value_parser = range, allow_hyphen_values = true)]
+    ylim: Option<(f64, f64)>,
     /// Replace a file that exists
     #[arg(long)]
     force: bool,
@@ -33,6 +40,14 @@ pub struct Arguments {
 const USUAL: usize = 4;
 /// Most panels of a figure.
 const MOST: usize = 24;
+
+fn range(text: &str) -> Result<(f64, f64), String> {
+    let ends = text.split_once(':').map(|(from, to)| (from.trim().parse::<f64>(), to.trim().parse::<f64>()));
+    match ends {
+        Some((Ok(from), Ok(to))) if from < to && (to - from).is_finite() => Ok((from, to)),
+        _ => Err("write FROM:TO, two ascending numbers, e.g. 0:2.5".to_owned()),
+    }
+}
 
 /// Plots results.
 pub fn plot(arguments: &Arguments) -> Outcome {
@@ -50,22 +65,28 @@ pub fn plot(arguments: &Arguments) -> Outcome {
 
 fn plotted(arguments: &Arguments) -> Result<(), String> {
     let extension = arguments.output.extension().map(|text| text.to_string_lossy().to_lowercase());
-    let png = match extension.as_deref() {
-        Some("svg") => false,
-        Some("png") => true,
-        _ => {
-            let name = arguments.output.display();
-            return Err(format!("the plot {name} must end in .svg or .png"));
-        }
-    };
+    let extension = extension.as_deref().unwrap_or_default();
+    if !["svg", "png", "pdf"].contains(&extension) {
+        let name = arguments.output.display();
+        return Err(format!("the plot {name} must end in .svg, .png or .pdf"));
+    }
     if arguments.output.exists() && !arguments.force {
         let name = arguments.output.display();
         return Err(format!("{name} exists; choose another name with --output or replace it with --force"));
     }
     let results = Results::read_all(&arguments.results).map_err(|error| error.to_string())?;
-    let drawing = figure(&results, arguments)?.draw();
-    let bytes =
-        if png { drawing.png().map_err(|error| error.to_string())? } else { drawing.svg().into_bytes() };
+    let mut figure = figure(&results, arguments)?;
+    for panel in &mut figure.panels {
+        panel.x.range = arguments.xlim.or(panel.x.range);
+        panel.y.range = arguments.ylim.or(panel.y.range);
+    }
+    let drawing = figure.draw();
+    let bytes = match extension {
+        "png" => drawing.png(),
+        "pdf" => drawing.pdf(),
+        _ => Ok(drawing.svg().into_bytes()),
+    };
+    let bytes = bytes.map_err(|error| error.to_string())?;
     write_file(&arguments.output, &bytes).map_err(|error| error.to_string())?;
     for caution in results.iter().filter_map(|results| results.caution.as_ref()) {
         screen::report(&format!("warning: {caution}\n"));

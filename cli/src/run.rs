@@ -19,7 +19,8 @@ use std::time::{Duration, Instant};
   flexion run case.toml --tolerance 1e-4 --quantity tip.deflection.min
   flexion run case.toml --set section.modulus=\"30 GPa\" --output results/soft --force
 
-Exit codes: 0 finished, 1 case rejected, 2 stopped or failed (what was computed is kept).")]
+Exit codes: 0 finished, or stopped where --until asks for it; 1 case rejected; 2 stopped or failed (what was computed is
+kept).")]
 pub struct Arguments {
     #[command(flatten)]
     case: case::Selection,
@@ -29,6 +30,9 @@ pub struct Arguments {
     /// Write the shape of the beam for ParaView too, as `--set output.vtk=true`
     #[arg(long)]
     vtk: bool,
+    /// Draw nothing, as `--set output.plots=false`: most of the time of a short run is that of its pictures
+    #[arg(long)]
+    no_plots: bool,
     /// Stop after the step that reaches this time, e.g. "2 s"; `initial.kind = "restart"` goes on from there
     #[arg(long, value_name = "TIME", value_parser = time)]
     until: Option<f64>,
@@ -62,8 +66,9 @@ const TICKS: f64 = 1000.0;
 
 /// Runs a case.
 pub fn run(arguments: &Arguments) -> Outcome {
-    let set: &[&str] = if arguments.vtk { &["output.vtk=true"] } else { &[] };
-    let Some(reading) = arguments.case.read_with(set) else { return Outcome::Rejected };
+    let flags = [(arguments.vtk, "output.vtk=true"), (arguments.no_plots, "output.plots=false")];
+    let set: Vec<&str> = flags.into_iter().filter_map(|(given, set)| given.then_some(set)).collect();
+    let Some(reading) = arguments.case.read_with(&set) else { return Outcome::Rejected };
     let output = arguments.output.clone().unwrap_or_else(|| Path::new("results").join(arguments.case.name()));
     // The case is checked, and the directory tried, before anything is computed.
     let prepared = match reading.prepare() {
@@ -89,7 +94,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         let refined = reading.refine(&target, &mut |state| progress.show(state.t));
         progress.finish();
         return match refined {
-            Ok(Refinement { reading, run, refused }) => write(&reading, &run, &directory, refused),
+            Ok(Refinement { reading, run, refused }) => write(&reading, &run, &directory, false, refused),
             Err(error) => {
                 match error {
                     RefineError::Case(problems) => screen::report(&problems.render(screen::colour())),
@@ -101,9 +106,14 @@ pub fn run(arguments: &Arguments) -> Outcome {
         };
     }
     let until = arguments.until.unwrap_or(f64::INFINITY);
+    let mut reached = false;
     let mut run = prepared.run(&mut |state| {
-        if state.t >= until { ControlFlow::Break(()) } else { progress.show(state.t) }
+        reached = state.t >= until;
+        if reached { ControlFlow::Break(()) } else { progress.show(state.t) }
     });
+    if reached && run.status == Status::Stopped {
+        run.message = Some(format!("stopped at t = {:.6} s, as asked", run.state.t));
+    }
     let effort = match arguments.error {
         ErrorEffort::Off => None,
         ErrorEffort::Auto => Some(Effort::Auto),
@@ -122,14 +132,20 @@ pub fn run(arguments: &Arguments) -> Outcome {
         }
     }
     progress.finish();
-    write(&reading, &run, &directory, None)
+    write(&reading, &run, &directory, reached, None)
 }
 
 /// Writes the results and says how the run went; `refused` is why a tolerance was not reached.
-fn write(reading: &Reading, run: &Run, directory: &Directory, refused: Option<String>) -> Outcome {
+fn write(
+    reading: &Reading,
+    run: &Run,
+    directory: &Directory,
+    reached: bool,
+    refused: Option<String>,
+) -> Outcome {
     match reading.write(run, directory) {
         Ok(status) => {
-            let outcome = finish(status, run, directory);
+            let outcome = finish(status, reached, reading, run, directory);
             match refused {
                 Some(why) => {
                     screen::report(&format!("error: {why}\n"));
@@ -149,7 +165,7 @@ fn write(reading: &Reading, run: &Run, directory: &Directory, refused: Option<St
 }
 
 /// Says how the run went and where its files are.
-fn finish(status: Status, run: &Run, directory: &Directory) -> Outcome {
+fn finish(status: Status, reached: bool, reading: &Reading, run: &Run, directory: &Directory) -> Outcome {
     let trajectory = &run.trajectory;
     let wall_time = run.wall_time;
     let end = format!("{:.6}", trajectory.times().last().copied().unwrap_or(0.0));
@@ -162,15 +178,17 @@ fn finish(status: Status, run: &Run, directory: &Directory) -> Outcome {
     out.push_str(&run.errors.as_ref().map(|errors| sequence(&errors.sequence)).unwrap_or_default());
     out.push_str(&run.errors.as_ref().map(|errors| trust(errors, trajectory)).unwrap_or_default());
     screen::print(&out);
-    let mut files = vec![("summary", Artifact::Summary), ("plot", Artifact::PlotSvg)];
+    let mut files = vec![("summary", Artifact::Summary)];
+    files.extend(reading.case.output.plots.then_some(("plot", Artifact::PlotSvg)));
     files.extend((!run.events.is_empty()).then_some(("events", Artifact::Events)));
-    files.extend(run.shapes.is_some().then_some(("shapes", Artifact::ShapeSeries)));
+    let solid = reading.case.space().is_some() && reading.case.output.vtk.is_some();
+    files.extend((run.shapes.is_some() || solid).then_some(("shapes", Artifact::ShapeSeries)));
     screen::files(directory, Ok(()), &files);
     let estimates = run.errors.iter().flat_map(|errors| &errors.warnings);
     for warning in run.warnings.iter().chain(estimates) {
         screen::report(&format!("warning: {warning}\n"));
     }
-    if status == Status::Finished {
+    if status == Status::Finished || (reached && status == Status::Stopped) {
         return Outcome::Finished;
     }
     let reason = match (&run.message, trajectory.first_not_finite()) {
@@ -261,7 +279,8 @@ fn trust(errors: &Errors, trajectory: &Trajectory) -> String {
 
 /// A time with its unit, or in seconds.
 fn time(text: &str) -> Result<f64, String> {
-    text.parse().or_else(|_| units::parse(text, &units::TIME).map_err(|error| error.message))
+    let time = text.parse().or_else(|_| units::parse(text, &units::TIME).map_err(|error| error.message))?;
+    if time >= 0.0 { Ok(time) } else { Err(format!("`{text}` is no time of a run: zero or later")) }
 }
 
 /// Shows how far a run is, and stops it on Ctrl-C.

@@ -5,7 +5,7 @@ use flexion::analysis::campbell::HubState;
 use flexion::hub_beam::Drive;
 use flexion::system::Fork;
 use flexion_case::{Case, Reading, units};
-use flexion_results::Frequencies;
+use flexion_results::{Frequencies, Units};
 
 /// Units of frequencies and speeds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -21,36 +21,64 @@ pub enum Unit {
     Rpm,
 }
 
+impl Unit {
+    fn frequencies(self) -> Frequencies {
+        match self {
+            Unit::Radians => Frequencies::RADIANS,
+            Unit::Hertz => Frequencies::HERTZ,
+            Unit::Rpm => Frequencies::RPM,
+        }
+    }
+}
+
 /// How frequencies are given, and what the hub does.
 #[derive(clap::Args)]
 pub struct Options {
-    /// Unit of speeds and frequencies, given and written
-    #[arg(long, value_enum, value_name = "UNIT", default_value = "rad/s", conflicts_with = "dimensionless")]
-    unit: Unit,
+    /// Unit of speeds and frequencies, given and written [default: rad/s, or rpm and Hz where the speed is given in rpm]
+    #[arg(long, value_enum, value_name = "UNIT", conflicts_with = "dimensionless")]
+    unit: Option<Unit>,
+    /// Unit of speeds, where it is not that of frequencies
+    #[arg(long, value_enum, value_name = "UNIT", conflicts_with = "dimensionless")]
+    speed_unit: Option<Unit>,
+    /// Unit of frequencies, where it is not that of speeds
+    #[arg(long, value_enum, value_name = "UNIT", conflicts_with = "dimensionless")]
+    frequency_unit: Option<Unit>,
     /// Speeds and frequencies, given and written, are multiples of √(EI/ρAL⁴), by the section at the root
     #[arg(long)]
     dimensionless: bool,
+    /// Title of the figure [default: that of the case]
+    #[arg(long, value_name = "TEXT")]
+    title: Option<String>,
     /// The hub of the case rotates with the beam, under its torques [default: it keeps its speed]
     #[arg(long)]
     free_hub: bool,
 }
 
 impl Options {
-    /// The unit of speeds and frequencies.
-    pub fn frequencies(&self, case: &Case) -> Result<Frequencies, String> {
+    /// The units of speeds and frequencies, where this speed is given.
+    pub fn units(&self, case: &Case, given: Speed) -> Result<Units, String> {
         if self.dimensionless {
-            let beam = case
-                .hub_beam()
+            let resultants = case.hub_beam().map(|beam| (beam.length, beam.section.planar.resultants(0.0)));
+            let (length, r) = resultants
                 .ok_or("--dimensionless is for a beam on a hub: a system in space has no one section")?;
-            let r = beam.section.planar.resultants(0.0);
-            let time = (r.mass * beam.length.powi(4) / r.bending_stiffness).sqrt();
-            return Ok(Frequencies::dimensionless(time));
+            let time = (r.mass * length.powi(4) / r.bending_stiffness).sqrt();
+            let both = Frequencies::dimensionless(time);
+            return Ok(Units { speed: both, frequency: both });
         }
-        Ok(match self.unit {
-            Unit::Radians => Frequencies::RADIANS,
-            Unit::Hertz => Frequencies::HERTZ,
-            Unit::Rpm => Frequencies::RPM,
-        })
+        let written = match given {
+            Speed::Rpm(_) => Unit::Rpm,
+            Speed::Plain(_) | Speed::Radians(_) => Unit::Radians,
+        };
+        let speed = self.speed_unit.or(self.unit).unwrap_or(written);
+        // Nobody counts vibrations by the minute, unless he says so.
+        let usual = if speed == Unit::Rpm { Unit::Hertz } else { speed };
+        let frequency = self.frequency_unit.or(self.unit).unwrap_or(usual);
+        Ok(Units { speed: speed.frequencies(), frequency: frequency.frequencies() })
+    }
+
+    /// The title of a figure.
+    pub fn title<'a>(&'a self, reading: &'a Reading) -> Option<&'a str> {
+        self.title.as_deref().filter(|title| !title.is_empty()).or(title(reading))
     }
 
     /// What the hub does.
@@ -105,8 +133,10 @@ pub fn without_contacts(case: &Case) -> Option<String> {
 pub enum Speed {
     /// A number of the unit chosen.
     Plain(f64),
-    /// rad/s
+    /// With a unit, in rad/s.
     Radians(f64),
+    /// In revolutions a minute, in rad/s.
+    Rpm(f64),
 }
 
 impl Speed {
@@ -114,7 +144,7 @@ impl Speed {
     pub fn in_radians(self, unit: &Frequencies) -> f64 {
         match self {
             Speed::Plain(x) => x / unit.factor,
-            Speed::Radians(x) => x,
+            Speed::Radians(x) | Speed::Rpm(x) => x,
         }
     }
 }
@@ -126,20 +156,22 @@ pub fn speed(text: &str) -> Result<Speed, String> {
         return Ok(Speed::Plain(x));
     }
     match units::parse(text, &units::ANGULAR_SPEED) {
+        Ok(x) if text.ends_with("rpm") => Ok(Speed::Rpm(x)),
         Ok(x) => Ok(Speed::Radians(x)),
         Err(error) => Err(format!("`{text}` is no speed: {}; {}", error.message, error.help)),
     }
 }
 
-/// Stations of the shapes: two hundred equal parts of the beam on a hub, or of the first beam of a system without bodies.
-pub fn stations(case: &Case) -> Vec<f64> {
-    let equal = |length: f64| (0..=200).map(|i| length * f64::from(i) / 200.0).collect();
+/// Stations of the shapes: the ends of so many equal parts of the beam on a hub, or of the first beam of a system without
+/// bodies.
+pub fn stations(case: &Case, parts: u32) -> Vec<f64> {
+    let equal = |length: f64| (0..=parts).map(|i| length * f64::from(i) / f64::from(parts)).collect();
     let of_space = case.space().filter(|space| space.bodies.is_empty()).and_then(|space| space.beams.first());
     let length = case.hub_beam().map(|beam| beam.length).or(of_space.map(|(beam, _)| beam.length));
     length.map_or_else(Vec::new, equal)
 }
 
-/// The title of a figure.
+/// The title of a case, where it has one.
 pub fn title(reading: &Reading) -> Option<&str> {
     Some(reading.case.title.as_str()).filter(|title| !title.is_empty())
 }

@@ -118,6 +118,44 @@ fn an_interrupt_stops_the_run_with_2_and_keeps_what_it_computed() {
 }
 
 #[test]
+fn statics_follow_a_column_past_its_buckling_load() {
+    let folder = folder();
+    let column = |more: &[&str]| {
+        let common = [
+            "statics",
+            "spin-up",
+            "--set",
+            "model.coupling=exact",
+            "--set",
+            "force=[{station='10 m', force=['-400 N', '1 N']}]",
+        ];
+        flexion(folder.path(), &[&common[..], more].concat())
+    };
+    let output = column(&["-o", "column"]);
+    assert_eq!(output.status.code(), Some(0), "{} {}", text(&output.stdout), text(&output.stderr));
+    for file in
+        ["statics.json", "statics.csv", "statics.npz", "statics.svg", "statics.png", "case.resolved.toml"]
+    {
+        assert!(folder.path().join("column").join(file).exists(), "{file}");
+    }
+    let csv = std::fs::read_to_string(folder.path().join("column/statics.csv")).unwrap();
+    let last: Vec<&str> = csv.lines().last().unwrap().split(',').collect();
+    let head: Vec<&str> = csv.lines().next().unwrap().split(',').collect();
+    let at = head.iter().position(|name| *name == "tip.deflection [m]").unwrap();
+    assert_eq!((last[0], last[2]), ("1.0", "0"), "{csv}");
+    // 345.4 N is the load of Euler: bent far, towards the small force.
+    assert!(last[at].parse::<f64>().unwrap() > 1.0, "{}", last[at]);
+    assert_eq!(column(&["-o", "column"]).status.code(), Some(1));
+    let short = column(&["-o", "short", "--points", "5"]);
+    assert_eq!(short.status.code(), Some(2), "{}", text(&short.stderr));
+    assert!(text(&short.stderr).contains("allow more points"), "{}", text(&short.stderr));
+    let turning =
+        flexion(folder.path(), &["statics", "spin-up", "--set", "hub.motion={kind='constant',speed=3}"]);
+    assert_eq!(turning.status.code(), Some(1));
+    assert!(text(&turning.stderr).contains("not in static equilibrium"), "{}", text(&turning.stderr));
+}
+
+#[test]
 fn modes_and_campbell_write_whole_results_and_refuse_what_cannot_be() {
     let folder = folder();
     let output = flexion(folder.path(), &["modes", "spin-up", "--speed", "4", "--count", "4", "-o", "modes"]);
@@ -333,7 +371,7 @@ fn runs_are_compared_and_a_tolerance_decides_the_exit_code() {
     let same = flexion(folder.path(), &["compare", "fine", "same", "--tolerance", "0"]);
     assert_eq!(same.status.code(), Some(0), "{}", text(&same.stderr));
     assert!(text(&same.stdout).contains("the same in both"));
-    let compare = ["compare", "fine", "coarse", "same", "--columns", "tip.*,hub.torque", "-o", "differences"];
+    let compare = ["compare", "fine", "coarse", "same", "-c", "tip.*,hub.torque", "-o", "differences"];
     let compared = flexion(folder.path(), &[&compare[..], &["--tolerance", "0.05"]].concat());
     assert_eq!(compared.status.code(), Some(0), "{}", text(&compared.stderr));
     assert!(text(&compared.stdout).contains("interpolated by cubics"));
@@ -391,8 +429,16 @@ fn results_are_plotted_as_svg_and_png() {
     assert!(code == Some(1) && message.contains("--force"), "{message}");
     let (code, message) = plot(&["a", "--columns", "tip.defelction", "-o", "x.svg"]);
     assert!(code == Some(1) && message.contains("did you mean `tip.deflection`?"), "{message}");
-    let (code, message) = plot(&["a", "-o", "x.pdf"]);
-    assert!(code == Some(1) && message.contains(".svg or .png"), "{message}");
+    let (code, message) = plot(&["a", "-o", "x.jpg"]);
+    assert!(code == Some(1) && message.contains(".svg, .png or .pdf"), "{message}");
+    assert_eq!(plot(&["a", "-o", "a.pdf"]), (Some(0), String::new()));
+    assert!(read("a.pdf").starts_with(b"%PDF"));
+    let limits = ["a", "-c", "tip.deflection", "--xlim", "0:0.5", "--ylim", "-3:1", "-o", "part.svg"];
+    assert_eq!(plot(&limits), (Some(0), String::new()));
+    let part = String::from_utf8(read("part.svg")).unwrap();
+    assert!(part.contains(">0.5<") && part.contains(">−3<"), "{part}");
+    let (code, message) = plot(&["a", "--xlim", "2:1", "-o", "y.svg"]);
+    assert!(code == Some(1) && message.contains("ascending"), "{message}");
     // Results without a summary are plotted, with a warning.
     std::fs::remove_file(folder.path().join("b/summary.json")).unwrap();
     let (code, message) = plot(&["b", "-o", "b.svg"]);
@@ -436,7 +482,8 @@ fn motion_and_modes_become_pages() {
     let modes = data("pages/modes.html");
     assert_eq!(modes["modes"]["table"]["modes"].as_array().unwrap().len(), 3);
     assert_eq!(modes["modes"]["shapes"]["mode3.second.real"]["shape"], serde_json::json!([201]));
-    assert_eq!(modes["scene"]["time"]["shape"], serde_json::json!([1]));
+    // The equilibrium, and two displaced states for each mode.
+    assert_eq!(modes["scene"]["beam.pose"]["shape"], serde_json::json!([7, 7]));
 
     for (arguments, complaint) in [
         (&["run", "-o", "run.html"][..], "--force"),
@@ -452,6 +499,39 @@ fn motion_and_modes_become_pages() {
     let (code, message) = view(&["run", "-o", "x.html"]);
     assert!(code == Some(1) && message.contains("scene.npz"), "{message}");
     assert!(!folder.path().join("x.html").exists());
+}
+
+#[test]
+fn a_run_draws_nothing_and_ends_early_if_it_is_asked_to() {
+    let folder = folder();
+    let output = flexion(folder.path(), &["run", "spin-up", "--no-plots", "--until", "0.5 s", "-o", "out"]);
+    assert_eq!((output.status.code(), text(&output.stderr)), (Some(0), String::new()));
+    assert!(text(&output.stdout).contains("stopped at t = 0.5"), "{}", text(&output.stdout));
+    let held = |name: &str| folder.path().join("out").join(name).exists();
+    assert!(held("summary.json") && !held("plot.svg") && !held("plot.png"));
+    let summary = std::fs::read_to_string(folder.path().join("out/summary.json")).unwrap();
+    assert!(summary.contains("as asked"), "{summary}");
+}
+
+#[test]
+fn a_campbell_diagram_of_speeds_in_rpm_is_in_rpm_and_hertz() {
+    let folder = blade();
+    let common =
+        ["campbell", "blade", "--speeds", "0 rpm:60 rpm:7", "--modes", "3", "--margin", "10", "-o", "out"];
+    let output = flexion(folder.path(), &[&common[..], &["--title", "A blade"]].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert!(text(&output.stdout).contains("within 10 % of kΩ"), "{}", text(&output.stdout));
+    let read = |name: &str| std::fs::read_to_string(folder.path().join("out").join(name)).unwrap();
+    let head = read("campbell.csv").lines().next().unwrap().to_owned();
+    assert!(head.starts_with("speed [rpm],mode1-flap.frequency [Hz],mode1-flap.damping-ratio,"), "{head}");
+    assert!(head.contains("mode1-flap.share.flap") && !head.contains("mode4"), "{head}");
+    let figure = read("campbell.svg");
+    assert!(figure.contains("Speed Ω [rpm]") && figure.contains("Frequency f [Hz]"), "{figure}");
+    assert!(figure.contains("A blade") && read("campbell.json").contains("\"resonances\": [\n"));
+    // The same speeds, all in one unit.
+    let units = ["--speed-unit", "Hz", "--frequency-unit", "rad/s", "--force"];
+    assert_eq!(flexion(folder.path(), &[&common[..], &units].concat()).status.code(), Some(0));
+    assert!(read("campbell.csv").starts_with("speed [Hz],mode1-flap.frequency [rad/s],"));
 }
 
 #[test]

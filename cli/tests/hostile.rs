@@ -301,3 +301,135 @@ fn a_run_killed_at_any_moment_leaves_the_former_or_the_new_results() {
     }
     println!("{replaced} of {kills} runs had replaced the results when they were killed");
 }
+
+/// Two bars on hinges.
+const IN_SPACE: &str = r#"run = { duration = "1 s" }
+gravity = [0, 0, -9.81]
+[[body]]
+name = "upper"
+mass = 1
+position = [0.5, 0, 0]
+inertia = { kind = "sphere", radius = 0.1 }
+[[body]]
+name = "lower"
+mass = 1
+position = [1.5, 0, 0]
+inertia = { kind = "sphere", radius = 0.1 }
+[[joint]]
+kind = "revolute"
+between = ["ground", "upper"]
+at = [0, 0, 0]
+axis = [0, 1, 0]
+[[joint]]
+kind = "revolute"
+between = ["upper", "lower"]
+at = [1, 0, 0]
+axis = [0, 1, 0]
+"#;
+
+const ROD: &str = "section = { kind = \"circle\", modulus = \"70 GPa\", density = 2700, radius = 0.01 }";
+
+#[test]
+fn systems_in_space_that_cannot_be_are_refused_at_their_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("case.toml");
+    let joint = |text: &str| format!("{IN_SPACE}[[joint]]\n{text}\n");
+    for (case, expected) in [
+        (IN_SPACE.replace("\"upper\", \"lower\"", "\"upper\", \"lwoer\""), ["joint[2].between", "`lower`"]),
+        (IN_SPACE.replace("name = \"lower\"", "name = \"upper\""), ["body[2]", "already taken"]),
+        (IN_SPACE.replace("name = \"lower\"", "name = \"a b\""), ["body[2].name", "column"]),
+        (IN_SPACE.replace("mass = 1", "mass = 0"), ["body[1].mass", "positive"]),
+        (IN_SPACE.replace("axis = [0, 1, 0]", "axis = [0, 0, 0]"), ["joint[1].axis", "no direction"]),
+        (IN_SPACE.replace("at = [0, 0, 0]", "at = [0, 0]"), ["joint[1].at", "3 components"]),
+        (
+            IN_SPACE.replace("between = [\"ground\", \"upper\"]", "between = [\"upper\", \"upper\"]"),
+            ["joint[1]", "same"],
+        ),
+        (
+            joint(
+                "kind = \"spherical\"\nbetween = [\"ground\", \"lower\"]\nmotion = { kind = \"constant\", speed = 1 }",
+            ),
+            ["joint[3].motion", "revolute"],
+        ),
+        (joint("kind = \"fixed\"\nbetween = [\"ground\", \"upper\"]"), ["joint[3]", "redundant"]),
+        (
+            format!("{IN_SPACE}[integrator]\nkind = \"runge-kutta-4\"\nstep = 1e-4\n"),
+            ["integrator.kind", "radau"],
+        ),
+        (format!("{IN_SPACE}[initial]\nkind = \"modes\"\namplitudes = [0.1]\n"), ["initial.kind", "static"]),
+        (format!("{IN_SPACE}[hub]\nradius = 1\n"), ["hub", "unknown key"]),
+        (format!("{IN_SPACE}[[load]]\non = \"upper\"\n"), ["load[1]", "neither"]),
+        (
+            format!("{IN_SPACE}[[load]]\non = \"ground\"\nat = [0, 0, 0]\nforce = [1, 0, 0]\n"),
+            ["load[1].on", "moves nothing"],
+        ),
+        (
+            format!(
+                "{IN_SPACE}[[spring]]\nbetween = [\"ground\", \"upper\"]\nfrom = [0.5, 0, 0]\nstiffness = 1\n"
+            ),
+            ["spring[1]", "no direction"],
+        ),
+        (
+            format!(
+                "{IN_SPACE}[[contact]]\non = \"upper\"\nobstacle = {{ kind = \"plane\" }}\nlaw = {{ kind = \"massless\" }}\n"
+            ),
+            ["contact[1].law", "mass"],
+        ),
+        (
+            format!(
+                "{IN_SPACE}[[contact]]\non = \"upper\"\nobstacle = {{ kind = \"plane\", point = [0, 0, 1] }}\nlaw = {{ kind = \"hertz\", stiffness = 1 }}\n"
+            ),
+            ["contact[1].obstacle", "inside"],
+        ),
+        (
+            format!(
+                "{IN_SPACE}[[contact]]\non = \"upper\"\nobstacle = {{ kind = \"plane\", normal = [0, 0, 0] }}\nlaw = {{ kind = \"hertz\", stiffness = 1 }}\n"
+            ),
+            ["contact[1].obstacle.normal", "direction"],
+        ),
+        (
+            format!(
+                "{IN_SPACE}[[contact]]\non = \"upper\"\nobstacle = {{ kind = \"plane\" }}\nlaw = {{ kind = \"constraint\", restitution = 2 }}\n"
+            ),
+            ["contact[1].law.restitution", "from 0 to 1"],
+        ),
+        (
+            format!(
+                "{IN_SPACE}[[beam]]\nlength = 1\nsection = {{ kind = \"resultants\", mass-per-length = 1, axial-stiffness = 1, bending-stiffness = 1 }}\n"
+            ),
+            ["beam[1].section", "torsion"],
+        ),
+        (
+            format!(
+                "{IN_SPACE}[[beam]]\nlength = 1\n{ROD}\nelements = 1\ncurve = {{ kind = \"arc\", angle = \"300 deg\" }}\n"
+            ),
+            ["beam[1].elements", "more elements"],
+        ),
+        (
+            format!("{IN_SPACE}[[beam]]\nlength = 1\n{ROD}\nelements = 1000000000\n"),
+            ["beam[1].elements", "from 1 to"],
+        ),
+        (
+            format!(
+                "{IN_SPACE}[[beam]]\nlength = 1\n{ROD}\n[[joint]]\nkind = \"fixed\"\nbetween = [\"upper\", \"beam@2 m\"]\n"
+            ),
+            ["joint[3].between", "ends at 1 m"],
+        ),
+        (format!("{IN_SPACE}[[beam]]\nlength = 1e300\n{ROD}\n"), ["beam[1]", ""]),
+        (IN_SPACE.replace("mass = 1\n", "mass = 1e308\n"), ["body[1]", ""]),
+    ] {
+        std::fs::write(&file, &case).unwrap();
+        let output = flexion(folder.path(), &["check", "case.toml"]);
+        let message = text(&output.stderr);
+        assert!(!message.contains("panicked"), "{case}{message}");
+        if expected[1].is_empty() {
+            // An enormous number may be a system; a run of it ends without a panic.
+            let output = flexion(folder.path(), &["run", "case.toml", "--force", "--until", "1e-3"]);
+            assert!(!text(&output.stderr).contains("panicked"), "{case}{}", text(&output.stderr));
+            continue;
+        }
+        assert_eq!(output.status.code(), Some(1), "{case}{message}");
+        assert!(expected.iter().all(|words| message.contains(words)), "{expected:?}: {message}");
+        assert!(message.contains("case.toml:") || expected[0] == "joint[3]", "{message}");
+    }
+}

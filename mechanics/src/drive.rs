@@ -85,24 +85,29 @@ impl Actuator {
 
     /// Times at which torque or reference are not smooth.
     pub fn breaks(&self) -> Vec<Break> {
-        let torque = self
-            .torque
-            .breaks()
-            .iter()
-            .map(|&time| Break { time, jump: force_jump(jumping_derivative(self.torque.as_ref(), time)) });
-        let reference = self.controller.iter().flat_map(|controller| {
-            let reference = &controller.reference;
-            reference
-                .breaks()
-                .iter()
-                .map(|&time| Break { time, jump: force_jump(reference.jumping_derivative(time)) })
-        });
-        torque.chain(reference).collect()
+        let mut breaks = force_breaks(self.torque.as_ref());
+        if let Some(Controller { reference, .. }) = &self.controller {
+            let jump = |time| force_jump(reference.jumping_derivative(time));
+            breaks.extend(times(reference.breaks(), reference.resolution(), jump));
+        }
+        breaks
     }
 }
 
+/// The breaks of a force that changes like `profile`.
+pub fn force_breaks(profile: &dyn Profile) -> Vec<Break> {
+    let jump = |time| force_jump(jumping_derivative(profile, time));
+    times(profile.breaks(), profile.resolution(), jump)
+}
+
+/// Breaks with what jumps there, and the times of a resolution.
+fn times(breaks: &[f64], resolution: &[f64], jump: impl Fn(f64) -> Jump) -> Vec<Break> {
+    let smooth = resolution.iter().map(|&time| Break { time, jump: Jump::Nothing });
+    breaks.iter().map(|&time| Break { time, jump: jump(time) }).chain(smooth).collect()
+}
+
 /// What jumps in the motion where the derivative `k` of a force jumps.
-pub fn force_jump(k: usize) -> Jump {
+fn force_jump(k: usize) -> Jump {
     [Jump::Acceleration, Jump::Slope, Jump::Curvature][k.min(2)]
 }
 
@@ -110,5 +115,5 @@ pub fn force_jump(k: usize) -> Jump {
 pub fn motion_breaks(motion: &Motion) -> Vec<Break> {
     let kinds = [Jump::Velocity, Jump::Acceleration, Jump::Slope, Jump::Curvature];
     let jump = |time| kinds[motion.jumping_derivative(time).min(3)];
-    ordered(motion.breaks().iter().map(|&time| Break { time, jump: jump(time) }).collect())
+    ordered(times(motion.breaks(), motion.resolution(), jump))
 }

@@ -5,7 +5,6 @@
 
 use npyz::NpyFile;
 use std::io::{self, Read, Seek, SeekFrom, Write};
-use zip::read::ZipFile;
 use zip::{ZipArchive, ZipWriter};
 
 /// Largest array that is read [bytes].
@@ -43,7 +42,7 @@ pub(super) fn finish<W: Write + Seek>(archive: ZipWriter<Latched<W>>) -> io::Res
 /// What is wrong with the file, for people.
 pub(super) fn arrays<R: Read + Seek>(
     from: R,
-    mut take: impl FnMut(&str, NpyFile<ZipFile<'_, R>>) -> io::Result<()>,
+    mut take: impl FnMut(&str, NpyFile<&[u8]>) -> io::Result<()>,
 ) -> Result<(), String> {
     let mut archive = ZipArchive::new(from).map_err(|error| format!("it is no NumPy archive ({error})"))?;
     for i in 0..archive.len() {
@@ -52,12 +51,15 @@ pub(super) fn arrays<R: Read + Seek>(
         let Some(name) = file.strip_suffix(".npy") else {
             return Err(format!("it holds `{file}`, which is no array"));
         };
-        let size = entry.size();
         let broken = |error: &dyn std::fmt::Display| format!("its array `{name}` cannot be read ({error})");
-        if size > LARGEST {
+        if entry.size() > LARGEST {
             return Err(broken(&"it is too large"));
         }
-        let array = NpyFile::new(entry).map_err(|error| broken(&error))?;
+        // To its end, where its checksum is compared: an array ends before it.
+        let mut bytes = Vec::new();
+        entry.take(LARGEST).read_to_end(&mut bytes).map_err(|error| broken(&error))?;
+        let size = bytes.len() as u64;
+        let array = NpyFile::new(bytes.as_slice()).map_err(|error| broken(&error))?;
         let width = match array.dtype() {
             npyz::DType::Plain(plain) => plain.num_bytes().unwrap_or(1) as u64,
             _ => 1,

@@ -45,6 +45,14 @@ artifacts! {
         MotionTable "motion.csv" "the table that the case takes the motion of the hub from",
         TorqueTable "torque.csv" "the table that the case takes the torque on the hub from",
         SectionTable "section.csv" "the table that the case takes its section from",
+        Table1 "table1.csv" "table 1 that the parts of a system in space are taken from",
+        Table2 "table2.csv" "table 2 that the parts of a system in space are taken from",
+        Table3 "table3.csv" "table 3 that the parts of a system in space are taken from",
+        Table4 "table4.csv" "table 4 that the parts of a system in space are taken from",
+        Table5 "table5.csv" "table 5 that the parts of a system in space are taken from",
+        Table6 "table6.csv" "table 6 that the parts of a system in space are taken from",
+        Table7 "table7.csv" "table 7 that the parts of a system in space are taken from",
+        Table8 "table8.csv" "table 8 that the parts of a system in space are taken from",
         InitialState "initial.npz" "the state that the run began with, if the case takes it from a file",
         State "state.npz" "the last accepted step, from which a run can go on",
         TrajectoryCsv "trajectory.csv" "what was recorded, as text",
@@ -69,7 +77,7 @@ artifacts! {
         ModesJson "modes.json" "frequencies, damping and residuals",
         ModesCsv "modes.csv" "the same as a table",
         ModesNpz "modes.npz" "frequencies and shapes for NumPy",
-        ModesScene "equilibrium.npz" "the equilibrium that the modes vibrate about, for `flexion view`",
+        ModesScene "equilibrium.npz" "the equilibrium, and displaced by every mode, for `flexion view`",
         ModesSvg "modes.svg" "the plot",
         ModesPng "modes.png" "the plot as pixels",
     }
@@ -80,6 +88,14 @@ artifacts! {
         CampbellNpz "campbell.npz" "the branches for NumPy",
         CampbellSvg "campbell.svg" "the diagram",
         CampbellPng "campbell.png" "the diagram as pixels",
+    }
+    /// The files of a path of equilibria; the first marks the directory as complete.
+    STATICS {
+        StaticsJson "statics.json" "critical states, and the equilibria under all loads",
+        StaticsCsv "statics.csv" "the path as a table",
+        StaticsNpz "statics.npz" "the path for NumPy",
+        StaticsSvg "statics.svg" "the plot of load and displacement",
+        StaticsPng "statics.png" "the plot as pixels",
     }
 }
 
@@ -93,6 +109,12 @@ impl Artifact {
             "initial" => Some(Artifact::InitialState),
             _ => None,
         }
+    }
+
+    /// The copy of the file of this number, from 0, that a part of a system in space names; there is room for eight.
+    pub fn numbered(number: usize) -> Option<Artifact> {
+        use Artifact::{Table1, Table2, Table3, Table4, Table5, Table6, Table7, Table8};
+        [Table1, Table2, Table3, Table4, Table5, Table6, Table7, Table8].get(number).copied()
     }
 
     /// The files that mark a directory as complete.

@@ -7,7 +7,7 @@ use serde_json::{Map, Value, json};
 
 use super::csv::io_error;
 use super::{Results, ResultsError, Trajectory};
-use flexion::system::Channel;
+use flexion::system::{Channel, Role};
 
 /// Times closer than this fraction of the span are the same.
 const SAME: f64 = 1e-12;
@@ -27,7 +27,10 @@ pub struct Difference {
     pub rms: f64,
     /// max |a| over the times compared.
     pub peak: f64,
-    /// max |d| / max |a|; 0 when both are 0, infinite when only max |a| is.
+    /// max |a|, or the largest energy of the first run for the error of its energy balance, which is rounding against its own
+    /// peak.
+    pub scale: f64,
+    /// max |d| / `scale`; 0 when both are 0, infinite when only `scale` is.
     pub relative: f64,
     /// First time at which a or b is not a finite number \[s\]; such times are left out of the other figures.
     pub not_finite: Option<f64>,
@@ -58,6 +61,15 @@ pub struct Comparison {
 }
 
 impl Comparison {
+    /// The columns with a value that is not a finite number.
+    pub fn not_finite(&self) -> Vec<String> {
+        let first = |d: &Difference| {
+            let t = d.not_finite?;
+            Some(format!("{} is not a finite number at t = {t} s", d.column))
+        };
+        self.differences.iter().filter_map(first).collect()
+    }
+
     /// What exceeds a relative tolerance: columns, and a second run that ends before the first.
     pub fn beyond(&self, tolerance: f64) -> Vec<String> {
         let mut out = Vec::new();
@@ -69,8 +81,8 @@ impl Comparison {
             if let Some(t) = d.not_finite {
                 out.push(format!("{} is not a finite number at t = {t} s", d.column));
             } else if d.relative.is_nan() || d.relative > tolerance {
-                let relative = d.relative;
-                out.push(format!("{} differs by {relative:.3e} of its peak at t = {} s", d.column, d.at));
+                let of = if d.scale == d.peak { "its peak" } else { "the largest energy" };
+                out.push(format!("{} differs by {:.3e} of {of} at t = {} s", d.column, d.relative, d.at));
             }
         }
         out
@@ -112,6 +124,9 @@ pub fn compare(first: &Results, second: &Results, columns: &[&str]) -> Result<Co
         )));
     };
     let places: Vec<Weights> = times.iter().map(|t| weights(b.times(), *t, slack)).collect();
+    let parts =
+        a.channels().iter().zip(a.peaks()).filter(|(c, _)| matches!(c.role, Role::Energy | Role::Work));
+    let energy = parts.fold(0.0_f64, |largest, (_, peak)| largest.max(peak));
     let mut channels: Vec<Channel> = Vec::new();
     let mut differences = Vec::new();
     let mut values: Vec<Vec<f64>> = Vec::new();
@@ -129,7 +144,7 @@ pub fn compare(first: &Results, second: &Results, columns: &[&str]) -> Result<Co
         let of_second: Vec<f64> = b.values(j).collect();
         let d: Vec<f64> =
             of_first.iter().zip(&places).map(|(y, weights)| weights.apply(&of_second) - y).collect();
-        differences.push(difference(channel, &times, &of_first, &d));
+        differences.push(difference(channel, &times, &of_first, &d, energy));
         channels.push(channel.clone());
         values.push(d);
     }
@@ -154,7 +169,7 @@ pub fn compare(first: &Results, second: &Results, columns: &[&str]) -> Result<Co
     })
 }
 
-fn difference(channel: &Channel, times: &[f64], a: &[f64], d: &[f64]) -> Difference {
+fn difference(channel: &Channel, times: &[f64], a: &[f64], d: &[f64], energy: f64) -> Difference {
     let (mut max, mut at, mut peak) = (f64::NAN, f64::NAN, 0.0_f64);
     let (mut squares, mut count, mut not_finite) = (0.0, 0_usize, None);
     for ((&t, &y), &d) in times.iter().zip(a).zip(d) {
@@ -169,9 +184,11 @@ fn difference(channel: &Channel, times: &[f64], a: &[f64], d: &[f64]) -> Differe
         squares += d * d;
         count += 1;
     }
-    let relative = if max == 0.0 { 0.0 } else { max / peak };
+    let scale = if channel.role == Role::Imbalance { energy.max(peak) } else { peak };
+    let relative = if max == 0.0 { 0.0 } else { max / scale };
     let rms = (squares / count as f64).sqrt();
-    Difference { column: channel.name.clone(), unit: channel.unit, max, at, rms, peak, relative, not_finite }
+    let (column, unit) = (channel.name.clone(), channel.unit);
+    Difference { column, unit, max, at, rms, peak, scale, relative, not_finite }
 }
 
 /// A value at some time as Σ wᵢ yᵢ over a few neighbouring records.
@@ -326,6 +343,24 @@ mod tests {
         };
         let order = (error(40) / error(160)).log2() / 2.0;
         assert!((order - 4.0).abs() < 0.3, "{order}");
+    }
+
+    #[test]
+    fn the_error_of_the_energy_balance_is_compared_with_the_largest_energy() {
+        let run = |name: &str, error: f64| {
+            let mut run =
+                results(name, &grid(10, 1.0), &[("energy", &|t| 8e4 * t), ("balance", &|t| error * t)]);
+            let roles = [Role::Energy, Role::Imbalance];
+            let channels = run.trajectory.channels().iter().zip(roles);
+            let channels = channels.map(|(c, role)| Channel { role, ..c.clone() }).collect();
+            let mut t = Trajectory::new(channels);
+            run.trajectory.rows().for_each(|(time, row)| t.push(time, |out| out.copy_from_slice(row)));
+            run.trajectory = t;
+            run
+        };
+        let c = compare(&run("a", 1e-7), &run("b", 1e-6), &["energy", "balance"]).unwrap();
+        assert!(c.beyond(1e-10).is_empty(), "{:?}", c.beyond(1e-10));
+        assert!(c.beyond(1e-12)[0].contains("of the largest energy"), "{:?}", c.beyond(1e-12));
     }
 
     #[test]

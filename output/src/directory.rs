@@ -12,15 +12,19 @@ use super::staging::{self, NEW};
 ///
 /// Files are written into a hidden folder of it, and moved to their names by [`Directory::publish`] when all of
 /// them are whole: former results stay as they are until then, whatever ends the run. A directory is complete
-/// if and only if it holds its closing file (`summary.json`, `compare.json`, `modes.json` or `campbell.json`), which
-/// is moved last and removed first. The next run finishes a move that was interrupted, and removes what an
+/// if and only if it holds its closing file (`summary.json`, `compare.json`, `modes.json`, `campbell.json` or `statics.json`),
+/// which is moved last and removed first. The next run finishes a move that was interrupted, and removes what an
 /// interrupted run had begun to write.
+///
+/// After a loss of power that holds for former results, which go only when the new files are on the disk; a first run into
+/// a directory may then have to be repeated.
 ///
 /// As long as the value lives no other run can take the same directory, where the file system has locks.
 #[derive(Debug)]
 pub struct Directory {
     path: PathBuf,
-    own: &'static [Artifact],
+    /// Whether there are former results.
+    replaces: bool,
     /// Holds the lock.
     _lock: Option<File>,
 }
@@ -57,7 +61,8 @@ impl Directory {
             refuse_contents(&path)?;
         }
         staging::clear(&path).and_then(|()| probe(&path)).map_err(OutputError::io("write to", &path))?;
-        Ok(Directory { path, own, _lock: lock })
+        let replaces = own.iter().any(|artifact| path.join(&*artifact.file_name()).exists());
+        Ok(Directory { path, replaces, _lock: lock })
     }
 
     /// Where it is, as it was asked for.
@@ -90,7 +95,8 @@ impl Directory {
             let written = fill(&mut buffered).and_then(|()| buffered.flush());
             // Without this the buffer would try to write once more when it is dropped.
             drop(buffered.into_parts());
-            written.and_then(|()| file.sync_all())
+            // A new run has nothing to lose but itself: only where it replaces another is the disk waited for.
+            written.and_then(|()| if self.replaces { file.sync_all() } else { Ok(()) })
         };
         attempt().map_err(|error| {
             let _ = fs::remove_file(&staged);
@@ -116,8 +122,11 @@ impl Directory {
             self.discard();
             return None;
         }
-        let former = self.own.iter().any(|artifact| self.file(*artifact).exists());
-        if !former && staging::place(&self.path).is_ok() { Some(self.path.clone()) } else { Some(staged) }
+        if !self.replaces && staging::place(&self.path).is_ok() {
+            Some(self.path.clone())
+        } else {
+            Some(staged)
+        }
     }
 
     /// Removes what was written and not published.

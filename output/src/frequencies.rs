@@ -9,6 +9,15 @@ pub struct Frequencies {
     pub factor: f64,
 }
 
+/// The units of speeds and of frequencies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Units {
+    /// Of speeds of rotation.
+    pub speed: Frequencies,
+    /// Of frequencies of vibration.
+    pub frequency: Frequencies,
+}
+
 impl Frequencies {
     /// rad/s
     pub const RADIANS: Frequencies = Frequencies { name: "rad/s", factor: 1.0 };
@@ -25,6 +34,13 @@ impl Frequencies {
     /// A frequency in rad/s with its unit.
     pub fn text(&self, frequency: f64) -> String {
         format!("{:.6} {}", frequency * self.factor, self.name).trim_end().to_owned()
+    }
+
+    /// The same with five digits, for headings and messages.
+    pub fn short(&self, frequency: f64) -> String {
+        let value = frequency * self.factor;
+        let whole = value.abs().max(1.0).log10().floor() as usize + 1;
+        format!("{value:.*} {}", 5_usize.saturating_sub(whole), self.name).trim_end().to_owned()
     }
 
     /// The name of a column of such numbers.

@@ -24,7 +24,7 @@ pub fn write_npz(trajectory: &Trajectory, to: impl Write + Seek) -> io::Result<(
     archive::finish(archive)
 }
 
-/// Writes one array of the archive.
+/// Writes one array of the archive, of one dimension.
 pub(super) fn write_array<T: npyz::AutoSerialize, W: Write + Seek>(
     archive: &mut ZipWriter<W>,
     name: &str,

@@ -1,10 +1,17 @@
 //! An observer that records a run.
 
+use super::passing::Passing;
+use super::summary::relative_imbalance;
 use super::{Events, Scene, Shapes, Trajectory};
 use flexion::analysis::Violation;
 use flexion::analysis::transient::{Event, Observer, Plan, Step};
 use flexion::system::{Channel, Direction, Role, State, System};
 use std::ops::ControlFlow;
+
+/// Relative imbalance of the energy that a run may show without a warning.
+const IMBALANCE: f64 = 0.2;
+/// Fewest steps a period of a vibration whose amplitude and phase are followed.
+const STEPS_A_PERIOD: f64 = 10.0;
 
 /// Called after every accepted step; `Break` stops the run.
 pub type Watch<'a> = dyn FnMut(&State) -> ControlFlow<()> + 'a;
@@ -24,6 +31,9 @@ pub struct Recorder<'a> {
     /// Channels of the system that are parts of the total energy.
     energies: Vec<usize>,
     gain: Option<f64>,
+    passing: Passing,
+    /// Whether the steps are fixed.
+    fixed: bool,
     watch: &'a mut Watch<'a>,
 }
 
@@ -78,10 +88,23 @@ impl<'a> Recorder<'a> {
                 &format!("share B²/ΣB² of the transverse mode {k}"),
             );
         }
+        let passing = Passing::new(system, state, plan.end - state.t, !events.is_empty());
         let mut trajectory = Trajectory::new(channels);
         trajectory.reserve((plan.end / plan.sample).min(1e7) as usize + 2);
-        let (shapes, scene, gain) = Default::default();
-        Recorder { trajectory, shapes, scene, events, violation, modes, balance, energies, gain, watch }
+        Recorder {
+            trajectory,
+            shapes: None,
+            scene: Scene::default(),
+            events,
+            violation,
+            modes,
+            balance,
+            energies,
+            gain: None,
+            passing,
+            fixed: plan.step.is_some(),
+            watch,
+        }
     }
 
     /// The recorder, taking shapes and the motion in space too.
@@ -89,13 +112,31 @@ impl<'a> Recorder<'a> {
         Recorder { shapes, scene, ..self }
     }
 
-    /// A warning if the run has gained energy that nothing has put in.
-    pub fn warning(&self) -> Option<String> {
-        let excess = self.gain?;
-        Some(format!(
-            "the energy has grown by {excess:.3e} J more than drives and loads have put in: the steps are too large for \
-             this method, and the motion is not to be trusted; use a smaller step or the adaptive method `radau`"
-        ))
+    /// What the reader should know of the steps: the run has gained energy that nothing has put in, its energy balance does
+    /// not close, or fixed steps do not resolve its vibrations.
+    pub fn warnings(&self) -> Vec<String> {
+        let mut warnings = Vec::new();
+        let imbalance = relative_imbalance(&self.trajectory).filter(|imbalance| *imbalance > IMBALANCE);
+        if let Some(excess) = self.gain {
+            warnings.push(format!(
+                "the energy has grown by {excess:.3e} J more than drives and loads have put in: the steps are too large for \
+                 this method, and the motion is not to be trusted; use a smaller step or the adaptive method `radau`"
+            ));
+        } else if let Some(imbalance) = imbalance {
+            warnings.push(format!(
+                "the energy balance is off by {:.0} % of the largest energy or work of the run: its steps miss what happens, \
+                 and the motion is not to be trusted; use smaller steps or a tighter tolerance",
+                100.0 * imbalance
+            ));
+        }
+        let coarse = self.passing.steps_a_period().filter(|steps| self.fixed && *steps < STEPS_A_PERIOD);
+        if let Some(steps) = coarse {
+            warnings.push(format!(
+                "the motion is mostly a vibration of {steps:.1} steps a period, and its amplitude and phase need \
+                 {STEPS_A_PERIOD} at least: use smaller steps or the adaptive method `radau`"
+            ));
+        }
+        warnings
     }
 
     /// What was recorded.
@@ -117,6 +158,9 @@ impl Observer for Recorder<'_> {
         }
         let largest = self.violation.as_ref().map(|violation| violation.largest);
         let contacts = !self.events.is_empty();
+        if self.trajectory.is_empty() {
+            self.passing.enter(system, state, &mut self.trajectory);
+        }
         self.trajectory.push(state.t, |row| {
             let (own, common) = row.split_at_mut(system.channels().len());
             system.record(state, own);
@@ -152,6 +196,10 @@ impl Observer for Recorder<'_> {
 
     fn gained_energy(&mut self, excess: f64) {
         self.gain = Some(excess);
+    }
+
+    fn passing(&mut self, system: &mut dyn System, state: &State) {
+        self.passing.enter(system, state, &mut self.trajectory);
     }
 
     fn step(&mut self, state: &State) -> ControlFlow<()> {

@@ -6,7 +6,7 @@ use super::plot::Figure;
 use super::state_file::write_state;
 use super::{
     Artifact, Directory, OutputError, RunReport, Scene, Shapes, Status, Summary, Trajectory, resolved_case,
-    write_csv, write_events, write_npz, write_pvd, write_vtp, write_vtu,
+    write_csv, write_events, write_npz, write_pvd, write_solids, write_vtp, write_vtu,
 };
 use flexion::integrator::Checkpoint;
 
@@ -23,6 +23,8 @@ pub struct Attachments<'a> {
     pub shapes: Option<&'a Shapes>,
     /// The motion in space.
     pub scene: Option<&'a Scene>,
+    /// Whether it is written for ParaView too.
+    pub solids: bool,
 }
 
 /// Writes the files of a run into `directory`, publishes them, and returns the status that the
@@ -76,6 +78,12 @@ pub fn write_run(
         directory.write(Artifact::ShapeSeries, |f| write_pvd(shapes.times(), !outlines.is_empty(), f))?;
         #[cfg(feature = "vtkhdf")]
         directory.write(Artifact::ShapeHdf, |f| super::write_vtkhdf(shapes, f))?;
+    }
+    if let Some(scene) = attachments.scene.filter(|_| attachments.solids) {
+        for (time, number) in (0..scene.times().len()).zip(0..) {
+            directory.write(Artifact::Shape(number), |f| write_solids(scene, time, f))?;
+        }
+        directory.write(Artifact::ShapeSeries, |f| write_pvd(scene.times(), false, f))?;
     }
     if let Some(scene) = attachments.scene.filter(|scene| !scene.is_empty()) {
         directory.write(Artifact::Scene, |f| scene.write(f))?;

@@ -72,10 +72,18 @@ mod tests {
         for cut in [0, 10, whole.len() / 2, whole.len() - 1] {
             assert!(read_state(Cursor::new(&whole[..cut])).is_err(), "{cut}");
         }
-        for i in (0..whole.len()).step_by(7) {
+        for i in 0..8 * whole.len() {
             let mut changed = whole.clone();
-            changed[i] ^= 0x55;
-            let _ = read_state(Cursor::new(changed)); // an error or a value, never a panic
+            changed[i / 8] ^= 1 << (i % 8);
+            // An error, or the very state where the byte says nothing about it (as dates and permissions).
+            if let Ok((checkpoint, text)) = read_state(Cursor::new(changed)) {
+                let (before, text_before) = read_state(Cursor::new(&whole)).unwrap();
+                let bits = |c: &Checkpoint| -> Vec<(String, Vec<u64>)> {
+                    let bits = |x: &[f64]| x.iter().map(|x| x.to_bits()).collect();
+                    c.entries().map(|(name, list)| (name.to_owned(), bits(list))).collect()
+                };
+                assert_eq!((bits(&checkpoint), text), (bits(&before), text_before), "bit {i}");
+            }
         }
         let mut other = Cursor::new(Vec::new());
         super::super::write_npz(&crate::trajectory::tests::sample(), &mut other).unwrap();

@@ -180,12 +180,22 @@ impl Summary {
     }
 }
 
+/// Largest value of the energy balance over the largest energy or work of the run.
+pub(super) fn relative_imbalance(trajectory: &Trajectory) -> Option<f64> {
+    let balance = trajectory.extremes(trajectory.with_role(Role::Imbalance).next()?);
+    Some(balance.largest() / largest_energy(trajectory)).filter(|x| x.is_finite())
+}
+
+fn largest_energy(trajectory: &Trajectory) -> f64 {
+    let energies =
+        [Role::Energy, Role::Work, Role::Imbalance].into_iter().flat_map(|r| trajectory.with_role(r));
+    energies.map(|i| trajectory.extremes(i).largest()).fold(0.0, f64::max)
+}
+
 /// The energy balance: its largest and last value, and both over the largest energy or work of the run.
 fn imbalance(trajectory: &Trajectory) -> Option<Value> {
     let balance = trajectory.extremes(trajectory.with_role(Role::Imbalance).next()?);
-    let energies =
-        [Role::Energy, Role::Work, Role::Imbalance].into_iter().flat_map(|r| trajectory.with_role(r));
-    let largest = energies.map(|i| trajectory.extremes(i).largest()).fold(0.0, f64::max);
+    let largest = largest_energy(trajectory);
     let max = balance.largest();
     let over = |x: f64| if largest > 0.0 { x / largest } else { 0.0 };
     Some(json!({

@@ -10,6 +10,8 @@ pub struct Trajectory {
     channels: Vec<Channel>,
     times: Vec<f64>,
     rows: Vec<f64>,
+    /// Smallest and largest value of a channel between the rows, with their times.
+    passed: Vec<[(f64, f64); 2]>,
 }
 
 /// Smallest, largest and last value of one channel, over the values that are finite numbers.
@@ -40,7 +42,8 @@ impl Trajectory {
     /// An empty trajectory of the given channels, whose names must differ from one another and
     /// from `time`, the name of the first column in files.
     pub fn new(channels: Vec<Channel>) -> Trajectory {
-        Trajectory { channels, times: Vec::new(), rows: Vec::new() }
+        let passed = vec![[(0.0, f64::INFINITY), (0.0, f64::NEG_INFINITY)]; channels.len()];
+        Trajectory { channels, times: Vec::new(), rows: Vec::new(), passed }
     }
 
     /// Reserves memory for `rows` more rows, so that recording them allocates nothing.
@@ -56,6 +59,17 @@ impl Trajectory {
         self.times.push(t);
         self.rows.resize(start + self.channels.len(), 0.0);
         write(&mut self.rows[start..]);
+    }
+
+    /// Takes a value of the channel at `index` at time `t` \[s\] that is between the rows: it counts for the extremes.
+    pub fn pass(&mut self, index: usize, t: f64, y: f64) {
+        let [low, high] = &mut self.passed[index];
+        if y.is_finite() && y < low.1 {
+            *low = (t, y);
+        }
+        if y.is_finite() && y > high.1 {
+            *high = (t, y);
+        }
     }
 
     /// The recorded channels, in column order.
@@ -106,7 +120,8 @@ impl Trajectory {
         self.index(name).map(|i| self.values(i).collect())
     }
 
-    /// Extremes of the channel at `index`; the first of equal values counts.
+    /// Extremes of the channel at `index`, between the rows too where a run has [passed](Trajectory::pass) them; the first of
+    /// equal values counts.
     pub fn extremes(&self, index: usize) -> Extremes {
         let nan = f64::NAN;
         let mut e = Extremes { min: nan, t_min: nan, max: nan, t_max: nan, last: nan, not_finite: None };
@@ -124,6 +139,14 @@ impl Trajectory {
                 (e.max, e.t_max) = (y, t);
             }
         }
+        if let Some([low, high]) = self.passed.get(index) {
+            if low.1 < e.min {
+                (e.t_min, e.min) = *low;
+            }
+            if high.1 > e.max {
+                (e.t_max, e.max) = *high;
+            }
+        }
         e
     }
 
@@ -132,6 +155,10 @@ impl Trajectory {
         let mut peaks = vec![0.0_f64; self.channels.len()];
         for (_, row) in self.rows() {
             peaks.iter_mut().zip(row).for_each(|(peak, x)| *peak = peak.max(x.abs()));
+        }
+        for (peak, passed) in peaks.iter_mut().zip(&self.passed) {
+            *peak =
+                passed.iter().filter(|(_, y)| y.is_finite()).fold(*peak, |peak, (_, y)| peak.max(y.abs()));
         }
         peaks
     }

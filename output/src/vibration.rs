@@ -1,16 +1,35 @@
 //! Files of modes and of Campbell diagrams.
 
 use super::archive::{self, Latched};
-use super::frequencies::Frequencies;
-use super::npz::write_array;
+use super::frequencies::{Frequencies, Units};
+use super::npz::{write_array, write_shaped};
 use super::plot::{Figure, campbell_figure, modes_figure};
-use super::{Artifact, Directory, OutputError, VERSION, resolved_case};
-use flexion::analysis::campbell::{Campbell, Instability};
+use super::{Artifact, Directory, OutputError, Resonance, VERSION, resolved_case};
+use flexion::analysis::campbell::{Branch, Campbell, Instability};
 use flexion::analysis::modes::{Mode, Modes};
+use num_complex::Complex64;
 use serde_json::{Value, json};
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use zip::ZipWriter;
+
+/// An archive that is being written.
+pub(super) type Archive<'a, 'b> = ZipWriter<Latched<&'a mut BufWriter<&'b mut File>>>;
+
+/// Writes displacements, along the three axes of the sections, in arrays of the given size.
+fn write_shapes<'u>(
+    archive: &mut Archive<'_, '_>,
+    mode: &str,
+    size: &[u64],
+    displacements: impl Iterator<Item = &'u [Complex64; 3]> + Clone,
+) -> io::Result<()> {
+    for (axis, name) in ["tangent", "second", "third"].iter().enumerate() {
+        let u = displacements.clone().map(|u| u[axis]);
+        write_shaped(archive, &format!("{mode}.{name}.real"), size, u.clone().map(|u| u.re))?;
+        write_shaped(archive, &format!("{mode}.{name}.imaginary"), size, u.map(|u| u.im))?;
+    }
+    Ok(())
+}
 
 /// Writes and publishes the files of modes at a speed [rad/s]. `case` is the resolved case; `cautions` are kept with
 /// the warnings.
@@ -21,11 +40,12 @@ pub fn write_modes(
     directory: &Directory,
     (modes, speed): (&Modes, f64),
     stations: &[f64],
-    unit: &Frequencies,
+    units: &Units,
     case: &str,
     title: Option<&str>,
     cautions: &[String],
 ) -> Result<(), OutputError> {
+    let unit = &units.frequency;
     directory.write(Artifact::ResolvedCase, |f| f.write_all(resolved_case(case).as_bytes()))?;
     directory.write(Artifact::ModesCsv, |f| {
         let names = ["frequency", "residual"]
@@ -51,12 +71,8 @@ pub fn write_modes(
         column(&mut archive, "damping_ratio", all.iter().map(Mode::damping_ratio))?;
         column(&mut archive, "station", stations.iter().copied())?;
         for (number, m) in all.iter().enumerate() {
-            for (axis, name) in ["tangent", "second", "third"].iter().enumerate() {
-                let of = |name: &str| format!("mode{}.{name}", number + 1);
-                let u = m.shape.displacement.iter().map(|u| u[axis]);
-                column(&mut archive, &of(&format!("{name}.real")), u.clone().map(|u| u.re))?;
-                column(&mut archive, &of(&format!("{name}.imaginary")), u.map(|u| u.im))?;
-            }
+            let size = [stations.len() as u64];
+            write_shapes(&mut archive, &format!("mode{}", number + 1), &size, m.shape.displacement.iter())?;
         }
         archive::finish(archive)
     })?;
@@ -79,75 +95,91 @@ pub fn write_modes(
     close(directory, Artifact::ModesJson, &summary)
 }
 
-/// Writes and publishes the files of a Campbell diagram; `case` and `cautions` as of [`write_modes`].
+/// Writes and publishes the files of a Campbell diagram with the lines of 1 to `revolutions`; `case` and `cautions` as of
+/// [`write_modes`].
 ///
 /// # Errors
 /// [`OutputError`] for whatever goes wrong on disk.
 pub fn write_campbell(
     directory: &Directory,
-    campbell: &Campbell,
-    revolutions: u32,
-    unit: &Frequencies,
+    (campbell, revolutions, resonances): (&Campbell, u32, &[Resonance]),
+    units: &Units,
+    stations: &[f64],
     case: &str,
     title: Option<&str>,
     cautions: &[String],
 ) -> Result<(), OutputError> {
+    let (unit, speed) = (&units.frequency, &units.speed);
     directory.write(Artifact::ResolvedCase, |f| f.write_all(resolved_case(case).as_bytes()))?;
-    let at = |branch: usize, speed: f64| {
-        let points = campbell.branches.get(branch).map_or(&[][..], |b| &b.points);
-        points.iter().find(|p| p.speed == speed).map(|p| &p.mode)
+    let curves: Vec<Curve> = (1..).zip(&campbell.branches).map(|(n, b)| Curve::new(n, b, unit)).collect();
+    // A curve that has ended is not a number.
+    let at = |values: &[(f64, f64)], speed: f64| {
+        values.iter().find(|value| value.0 == speed).map_or(f64::NAN, |value| value.1)
     };
-    let frequency = |branch, speed| at(branch, speed).map_or(f64::NAN, |m| m.frequency() * unit.factor);
-    let damping = |branch, speed| at(branch, speed).map_or(f64::NAN, Mode::damping_ratio);
-    let count = campbell.branches.len();
     directory.write(Artifact::CampbellCsv, |f| {
-        write!(f, "{}", unit.column("speed"))?;
-        for k in 1..=count {
-            write!(f, ",{},mode{k}.damping-ratio", unit.column(&format!("mode{k}.frequency")))?;
+        write!(f, "{}", speed.column("speed"))?;
+        let columns = || curves.iter().flat_map(|curve| curve.columns.iter().map(move |c| (curve, c)));
+        for (curve, (name, _)) in columns() {
+            let name = format!("mode{}-{}.{name}", curve.number, curve.moves);
+            write!(f, ",{}", if name.ends_with("frequency") { unit.column(&name) } else { name })?;
         }
         writeln!(f)?;
-        for &speed in &campbell.speeds {
-            write!(f, "{:?}", speed * unit.factor)?;
-            for branch in 0..count {
-                write!(f, ",{:?},{:?}", frequency(branch, speed), damping(branch, speed))?;
-            }
+        for &s in &campbell.speeds {
+            write!(f, "{:?}", s * speed.factor)?;
+            columns().try_for_each(|(_, (_, values))| write!(f, ",{:?}", at(values, s)))?;
             writeln!(f)?;
         }
         Ok(())
     })?;
     directory.write(Artifact::CampbellNpz, |f| {
         let mut archive = archive::archive(f);
-        column(&mut archive, "speed", campbell.speeds.iter().map(|s| s * unit.factor))?;
-        for branch in 0..count {
-            let name = |of: &str| format!("mode{}.{of}", branch + 1);
-            let speeds = campbell.speeds.iter();
-            column(&mut archive, &name("frequency"), speeds.clone().map(|&s| frequency(branch, s)))?;
-            column(&mut archive, &name("damping_ratio"), speeds.map(|&s| damping(branch, s)))?;
+        column(&mut archive, "speed", campbell.speeds.iter().map(|s| s * speed.factor))?;
+        column(&mut archive, "station", stations.iter().copied())?;
+        for (curve, branch) in curves.iter().zip(&campbell.branches) {
+            for (name, values) in &curve.columns {
+                let name = format!("mode{}.{}", curve.number, name.replace('-', "_"));
+                column(&mut archive, &name, campbell.speeds.iter().map(|&s| at(values, s)))?;
+            }
+            // Speed by speed; a curve that has ended is not a number.
+            let size = [campbell.speeds.len() as u64, stations.len() as u64];
+            let missing = vec![[Complex64::new(f64::NAN, f64::NAN); 3]; stations.len()];
+            let shapes = campbell.speeds.iter().enumerate().map(|(i, _)| match branch.points.get(i) {
+                Some(point) if point.mode.shape.displacement.len() == stations.len() => {
+                    &point.mode.shape.displacement
+                }
+                _ => &missing,
+            });
+            write_shapes(&mut archive, &format!("mode{}", curve.number), &size, shapes.flatten())?;
         }
         archive::finish(archive)
     })?;
-    let figure = campbell_figure(campbell, revolutions, unit, title);
+    let figure = campbell_figure(campbell, revolutions, units, title);
     let mut warnings = cautions.to_vec();
     warnings.extend(draw(directory, &figure, [Artifact::CampbellSvg, Artifact::CampbellPng])?);
     let crossings: Vec<Value> = campbell
         .crossings
         .iter()
         .map(
-            |c| json!({ "mode": c.branch + 1, "revolutions": c.revolutions, "speed": c.speed * unit.factor }),
+            |c| json!({ "mode": c.branch + 1, "revolutions": c.revolutions, "speed": c.speed * speed.factor }),
         )
         .collect();
+    let near = |r: &Resonance| {
+        let (from, to) = (r.from * speed.factor, r.to * speed.factor);
+        json!({ "mode": r.branch + 1, "revolutions": r.revolutions, "from": from, "to": to })
+    };
+    let resonances: Vec<Value> = resonances.iter().map(near).collect();
     let instabilities: Vec<Value> = campbell
         .instabilities
         .iter()
         .map(|i| match i {
             Instability::Flutter { branch, from, to } => json!({
-                "kind": "negative damping", "mode": branch + 1, "from": from * unit.factor, "to": to * unit.factor,
+                "kind": "negative damping", "mode": branch + 1, "from": from * speed.factor, "to": to * speed.factor,
             }),
-            Instability::Divergence { speed, reason } => {
-                json!({ "kind": "divergence", "speed": speed * unit.factor, "reason": reason })
+            Instability::Divergence { speed: at, reason } => {
+                json!({ "kind": "divergence", "speed": at * speed.factor, "reason": reason })
             }
-            Instability::Lost { speed, reason } => {
-                json!({ "kind": "no steady rotation", "speed": speed * unit.factor, "reason": reason })
+            Instability::Lost { speed: at, reason } => {
+                json!({ "kind": "no steady rotation", "speed": at * speed.factor, "reason": reason })
             }
         })
         .collect();
@@ -156,20 +188,51 @@ pub fn write_campbell(
         .iter()
         .map(|b| {
             let end = |p: Option<&flexion::analysis::campbell::Point>| p.map(|p| mode_json(&p.mode, unit));
-            let followed = b.points.last().map_or(0.0, |p| p.speed * unit.factor);
+            let followed = b.points.last().map_or(0.0, |p| p.speed * speed.factor);
             json!({ "first": end(b.points.first()), "last": end(b.points.last()), "followed-to": followed })
         })
         .collect();
     let summary = json!({
         "version": VERSION,
         "unit": unit.name,
+        "speed-unit": units.speed.name,
         "speeds": campbell.speeds.len(),
         "modes": ends,
         "crossings": crossings,
+        "resonances": resonances,
         "instabilities": instabilities,
         "warnings": warnings,
     });
     close(directory, Artifact::CampbellJson, &summary)
+}
+
+/// What is written of a branch at each of its speeds.
+struct Curve {
+    number: usize,
+    /// What moves most at its beginning.
+    moves: &'static str,
+    /// Names, and pairs of speed \[rad/s\] and value.
+    columns: Vec<(String, Vec<(f64, f64)>)>,
+}
+
+impl Curve {
+    fn new(number: usize, branch: &Branch, unit: &Frequencies) -> Curve {
+        let values =
+            |of: &dyn Fn(&Mode) -> f64| branch.points.iter().map(|p| (p.speed, of(&p.mode))).collect();
+        let mut columns: Vec<(String, Vec<(f64, f64)>)> = vec![
+            ("frequency".to_owned(), values(&|m| m.frequency() * unit.factor)),
+            ("damping-ratio".to_owned(), values(&Mode::damping_ratio)),
+        ];
+        let first = branch.points.first().map(|point| point.mode.shares);
+        for (i, (name, _)) in first.iter().flat_map(|shares| shares.named()).enumerate() {
+            let share: Vec<(f64, f64)> = values(&|m| m.shares.named()[i].1);
+            // What never moves is left out.
+            if share.iter().any(|(_, share)| share.abs() > 1e-12) {
+                columns.push((format!("share.{name}"), share));
+            }
+        }
+        Curve { number, moves: first.map_or("", |shares| shares.dominant()), columns }
+    }
 }
 
 fn mode_json(m: &Mode, unit: &Frequencies) -> Value {
@@ -185,8 +248,8 @@ fn mode_json(m: &Mode, unit: &Frequencies) -> Value {
     })
 }
 
-fn column(
-    archive: &mut ZipWriter<Latched<&mut BufWriter<&mut File>>>,
+pub(super) fn column(
+    archive: &mut Archive<'_, '_>,
     name: &str,
     values: impl Iterator<Item = f64> + Clone,
 ) -> io::Result<()> {
@@ -194,7 +257,7 @@ fn column(
 }
 
 /// Draws a figure; a picture that cannot be made is a warning.
-fn draw(
+pub(super) fn draw(
     directory: &Directory,
     figure: &Figure,
     [svg, png]: [Artifact; 2],
@@ -207,7 +270,7 @@ fn draw(
     }
 }
 
-fn close(directory: &Directory, artifact: Artifact, summary: &Value) -> Result<(), OutputError> {
+pub(super) fn close(directory: &Directory, artifact: Artifact, summary: &Value) -> Result<(), OutputError> {
     let text = serde_json::to_string_pretty(summary).unwrap_or_default();
     directory.write(artifact, |f| writeln!(f, "{text}"))?;
     directory.publish()

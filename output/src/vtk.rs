@@ -173,12 +173,12 @@ pub(super) fn quads(sections: usize) -> (Vec<i32>, Vec<i32>) {
     (corners, offsets)
 }
 
-fn reals(to: &mut impl Write, name: &str, attributes: &str, values: &[f64]) -> io::Result<()> {
+pub(super) fn reals(to: &mut impl Write, name: &str, attributes: &str, values: &[f64]) -> io::Result<()> {
     array(to, "Float64", name, attributes, values.iter().flat_map(|y| y.to_le_bytes()))
 }
 
 /// A data array: the number of bytes as UInt64, then the bytes, together in base64.
-fn array(
+pub(super) fn array(
     to: &mut impl Write,
     kind: &str,
     name: &str,

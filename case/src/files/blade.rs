@@ -13,8 +13,17 @@ use flexion::section::BladeResultants;
 /// Stations x [m] and the resultants there.
 pub type Rows = Vec<(f64, BladeResultants)>;
 
+/// The rows of a file, and what it says besides them and no blade here uses.
+#[derive(Clone, Debug, Default)]
+pub struct Contents {
+    /// The rows.
+    pub rows: Rows,
+    /// A caution, in one sentence.
+    pub unused: Option<String>,
+}
+
 /// Reads the text of a file that the case calls by the second argument, for a blade of the length [m] of the third.
-pub type Format = fn(&str, &str, f64) -> Result<Rows, String>;
+pub type Format = fn(&str, &str, f64) -> Result<Contents, String>;
 
 /// Share of √(Kᵢᵢ Kⱼⱼ) up to which an entry off the diagonal counts as zero.
 const UNCOUPLED: f64 = 1e-6;
@@ -26,14 +35,24 @@ const SLENDERNESS: f64 = 100.0;
 ///
 /// # Errors
 /// What is wrong with it, in one sentence.
-pub fn read(bytes: &[u8], name: &str, format: Format, length: f64) -> Result<Rows, String> {
+pub fn read(bytes: &[u8], name: &str, format: Format, length: f64) -> Result<Contents, String> {
     // Comments of old files are in whatever encoding their author had.
-    let rows = format(&String::from_utf8_lossy(bytes), name, length)?;
+    let mut contents = format(&String::from_utf8_lossy(bytes), name, length)?;
+    let rows = &contents.rows;
     if rows.is_empty() {
         return Err(format!("{name} holds no station"));
     }
-    Ok(rows)
+    let stiff = |r: &BladeResultants| r.torsional_stiffness > 0.0 && !r.has_torsion();
+    if rows.iter().any(|(_, r)| stiff(r)) && contents.unused.is_none() {
+        contents.unused = Some(format!(
+            "{name} gives a torsional stiffness without rotary inertias, and without these a blade has no torsion"
+        ));
+    }
+    Ok(contents)
 }
+
+/// Largest twist that a file may give [rad]: more of it is in degrees.
+const LARGEST_TWIST: f64 = std::f64::consts::PI;
 
 /// The numbers of a line, or what is wrong with it.
 fn numbers(line: &str, number: usize, name: &str) -> Result<Vec<f64>, String> {
@@ -49,7 +68,7 @@ fn numbers(line: &str, number: usize, name: &str) -> Result<Vec<f64>, String> {
 ///
 /// # Errors
 /// What is wrong with it.
-pub fn csv(text: &str, name: &str, _length: f64) -> Result<Rows, String> {
+pub fn csv(text: &str, name: &str, _length: f64) -> Result<Contents, String> {
     const COLUMNS: [(&str, bool); 9] = [
         ("x", true),
         ("mass", true),
@@ -99,9 +118,16 @@ pub fn csv(text: &str, name: &str, _length: f64) -> Result<Rows, String> {
             twist: v[8],
             twist_rate: 0.0,
         };
+        if v[8].abs() > LARGEST_TWIST {
+            return Err(format!(
+                "the twist of {name} at x = {} is {}, which is in rad and more than half a revolution: divide degrees by \
+                 57.29578",
+                v[0], v[8]
+            ));
+        }
         rows.push((v[0], resultants));
     }
-    Ok(rows)
+    Ok(Contents { rows, unused: None })
 }
 
 /// The number before a keyword of an OpenFAST file, with its line.
@@ -129,7 +155,7 @@ fn stations(text: &str, key: &str, name: &str) -> Result<usize, String> {
 ///
 /// # Errors
 /// What is wrong with it.
-pub fn elastodyn(text: &str, name: &str, length: f64) -> Result<Rows, String> {
+pub fn elastodyn(text: &str, name: &str, length: f64) -> Result<Contents, String> {
     let count = stations(text, "NBlInpSt", name)?;
     let factor = |key: &str| keyword(text, key, name).map(|found| found.unwrap_or(1.0));
     let (mass, flap, edge) = (factor("AdjBlMs")?, factor("AdjFlSt")?, factor("AdjEdSt")?);
@@ -174,14 +200,14 @@ pub fn elastodyn(text: &str, name: &str, length: f64) -> Result<Rows, String> {
     if rows.len() < count {
         return Err(format!("{name} announces {count} stations and holds {}", rows.len()));
     }
-    Ok(rows)
+    Ok(Contents { rows, unused: None })
 }
 
 /// Blade file of BeamDyn.
 ///
 /// # Errors
 /// What is wrong with it.
-pub fn beamdyn(text: &str, name: &str, length: f64) -> Result<Rows, String> {
+pub fn beamdyn(text: &str, name: &str, length: f64) -> Result<Contents, String> {
     let count = stations(text, "station_total", name)?;
     let mut lines = text
         .lines()
@@ -190,7 +216,7 @@ pub fn beamdyn(text: &str, name: &str, length: f64) -> Result<Rows, String> {
         .skip_while(|(_, line)| !line.to_ascii_lowercase().contains("distributed properties"))
         .skip(1)
         .filter(|(_, line)| !line.trim().is_empty());
-    let mut rows = Vec::new();
+    let (mut rows, mut offset) = (Vec::new(), 0.0_f64);
     for station in 1..=count {
         let mut next = |columns: usize, what: &str| -> Result<Vec<f64>, String> {
             let Some((number, line)) = lines.next() else {
@@ -221,6 +247,7 @@ pub fn beamdyn(text: &str, name: &str, length: f64) -> Result<Rows, String> {
                 }
             }
         }
+        offset = [m[0][5], m[1][5]].iter().fold(offset, |most, moment| most.max((moment / m[0][0]).abs()));
         let resultants = BladeResultants {
             mass: m[0][0],
             axial_stiffness: k[2][2],
@@ -234,7 +261,13 @@ pub fn beamdyn(text: &str, name: &str, length: f64) -> Result<Rows, String> {
         };
         rows.push((fraction * length, resultants));
     }
-    Ok(rows)
+    let mut unused = format!("of {name} the stiffness in shear is not used, and it holds no twist");
+    if offset > 0.0 {
+        unused.push_str(&format!(
+            "; the centre of mass lies up to {offset:.4} m off the axis there and on it here"
+        ));
+    }
+    Ok(Contents { rows, unused: Some(unused) })
 }
 
 #[cfg(test)]
@@ -247,7 +280,7 @@ mod tests {
 
     #[test]
     fn an_elastodyn_file_is_read_with_its_factors() {
-        let rows = elastodyn(ELASTODYN, "f", 50.0).unwrap();
+        let rows = elastodyn(ELASTODYN, "f", 50.0).unwrap().rows;
         assert_eq!((rows.len(), rows[1].0), (2, 50.0));
         let root = rows[0].1;
         assert!((root.mass - 1018.35).abs() < 1e-9 && root.flap_stiffness == 1.8e10);
@@ -287,7 +320,7 @@ mod tests {
             station("0.0"),
             station("1.0")
         );
-        let rows = beamdyn(&text, "f", 20.0).unwrap();
+        let rows = beamdyn(&text, "f", 20.0).unwrap().rows;
         let r = rows[1].1;
         assert_eq!((rows.len(), rows[1].0), (2, 20.0));
         assert_eq!(
@@ -315,12 +348,13 @@ mod tests {
     #[test]
     fn a_csv_file_names_its_columns() {
         let text = "# a blade\nx, mass, EA, EI-flap, EI-chord, twist\n0, 1, 2, 3, 4, 0.1\n5, 1, 2, 3, 4, 0\n";
-        let rows = csv(text, "f", 5.0).unwrap();
+        let rows = csv(text, "f", 5.0).unwrap().rows;
         assert_eq!((rows.len(), rows[1].0, rows[0].1.twist, rows[0].1.flap_stiffness), (2, 5.0, 0.1, 3.0));
         for (from, to, says) in [
             ("EI-flap", "EI", "column `EI`"),
             (", EI-chord", "", "no column `EI-chord`"),
             ("5, 1", "5, one", "line 4 of f: `one`"),
+            ("4, 0.1", "4, 13.3", "divide degrees"),
         ] {
             let message = csv(&text.replacen(from, to, 1), "f", 5.0).unwrap_err();
             assert!(message.contains(says), "{message}");

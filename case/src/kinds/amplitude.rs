@@ -7,7 +7,7 @@ use crate::kind::{Choice, Context, Kind};
 use crate::units::{FACTOR, LENGTH, TIME};
 use crate::values::Values;
 use flexion::hub_beam::load::Amplitude;
-use flexion::profile::{End, Polyline, Ramp, Table};
+use flexion::profile::{Polyline, Ramp};
 use std::sync::Arc;
 
 /// The kinds of change with time.
@@ -37,17 +37,17 @@ pub static AMPLITUDE: Choice<Amplitude> = Choice {
         },
         Kind {
             name: "table",
-            summary: "cubic spline through times and factors",
+            summary: "curve through times and factors",
             source: "",
             keys: &[
                 key("times", Type::Quantities(&TIME, Any), Required, "times, ascending"),
                 key("factors", Type::Quantities(&FACTOR, Any), Required, "factor at each time"),
+                profile::INTERPOLATION,
             ],
             example: "couple=[{station=2, couple=1, amplitude={kind='table', times=[0, '20 ms', 0.05], factors=[0, 1, 2]}}]",
             make: |v, c| {
-                let table = Table::new(&profile::factors(v, "times")?, End::default());
-                let table = Arc::new(profile::checked(table, "times")?);
-                profile::covering(table, c, "times").map(Some)
+                let rows = profile::factors(v, "times")?;
+                profile::covering(profile::through(&rows, v, c, "times")?, c, "times").map(Some)
             },
         },
         Kind {

@@ -6,12 +6,15 @@ use crate::kind::{Choice, Context, Kind};
 use crate::values::{Values, join};
 use flexion::basis::{
     self, BSpline, BasisError, Bezier, Field, Hermite, Lagrange, Modes, Polynomial, PolynomialParameters,
-    Radial, RadialParameters,
+    Radial, RadialParameters, mesh,
 };
 use std::sync::Arc;
 
 /// Largest matrices of a run: with its dozens of them it takes some 10 GB.
 const MOST_ENTRIES: f64 = 5e7;
+/// Memory of a run for each function, about, and most that is taken [bytes].
+const BYTES: f64 = 3.5e3;
+const MOST_BYTES: f64 = 4e9;
 /// Factor between the error of a run and its difference from one with twice the functions: 2 covers every order of
 /// convergence, with half as much again in reserve for orders from 2.
 const SAFETY: f64 = 2.0;
@@ -54,7 +57,8 @@ struct Functions {
     table: &'static str,
 }
 
-type Build = Box<dyn Fn(f64) -> Result<Arc<dyn basis::Basis>, BasisError>>;
+/// Builds a basis of the length of the beam and the stations at which elements should end \[m\].
+type Build = Box<dyn Fn(f64, &[f64]) -> Result<Arc<dyn basis::Basis>, BasisError>>;
 
 /// What a kind gives: the functions of either field.
 pub struct Either(Box<dyn Fn(Field) -> Functions>);
@@ -88,13 +92,14 @@ fn shared<B: basis::Basis + 'static>(
     basis.map(|basis| Arc::new(basis) as Arc<dyn basis::Basis>)
 }
 
-/// The bases that the key `basis` of a case chooses.
-pub fn make(v: &Values, c: &Context<'_>) -> Made<Bases> {
+/// The bases that the key `basis` of a case chooses; finite elements also end at `stations` \[m\].
+pub fn make(v: &Values, c: &Context<'_>, stations: &[f64]) -> Made<Bases> {
     let Either(functions) = BASIS.make(v, "basis", c)?;
-    built([functions(Field::Axial), functions(Field::Transverse)], c).map_err(|faults| faults.within("basis"))
+    built([functions(Field::Axial), functions(Field::Transverse)], c, stations)
+        .map_err(|faults| faults.within("basis"))
 }
 
-fn built(fields: [Functions; 2], c: &Context<'_>) -> Made<Bases> {
+fn built(fields: [Functions; 2], c: &Context<'_>, stations: &[f64]) -> Made<Bases> {
     let length = c.length()?;
     let functions = fields[0].extent.0 + fields[1].extent.0;
     // A function that is not zero on a part s of the beam shares it with s n of all n functions.
@@ -106,13 +111,22 @@ fn built(fields: [Functions; 2], c: &Context<'_>) -> Made<Bases> {
         );
         return Err(Fault::new("", message).into());
     }
-    let made = |field: &Functions| (field.build)(length).at(&join(field.table, field.blame));
+    let bytes = BYTES * functions;
+    if bytes > MOST_BYTES {
+        let message = format!(
+            "{functions:.1e} functions take about {:.0} GB of memory, and at most {:.0} GB are taken: take fewer",
+            1e-9 * bytes,
+            1e-9 * MOST_BYTES
+        );
+        return Err(Fault::new(&join(fields[1].table, fields[1].finer.0), message).into());
+    }
+    let made = |field: &Functions| (field.build)(length, stations).at(&join(field.table, field.blame));
     let (axial, transverse) = both(made(&fields[0]), made(&fields[1])).map_err(|mut faults| {
         // One basis for both fields is reported once.
         faults.0.dedup_by(|a, b| a.key == b.key);
         faults
     })?;
-    let with_tip = fields[1].massless.as_ref().and_then(|build| build(length).ok());
+    let with_tip = fields[1].massless.as_ref().and_then(|build| build(length, stations).ok());
     let massless = with_tip.or_else(|| transverse.tip().map(|_| Arc::clone(&transverse)));
     let mut finer = fields.each_ref().map(|f| (join(f.table, f.finer.0), f.finer.1)).to_vec();
     finer.dedup();
@@ -140,9 +154,12 @@ fn finite_elements(v: &Values, _: &Context<'_>) -> Made<Either> {
     Either::new(move |field| {
         let each = if field == Field::Axial { degree } else { 2 };
         let extent = ((elements * each) as f64, 2.0 / elements as f64);
-        let build: Build = Box::new(move |length| match field {
-            Field::Axial => shared(Lagrange::new(length, elements, degree)),
-            Field::Transverse => shared(Hermite::new(length, elements, field)),
+        let build: Build = Box::new(move |length, stations| {
+            let cells = mesh(length, elements, stations)?;
+            match field {
+                Field::Axial => shared(Lagrange::on(cells, degree)),
+                Field::Transverse => shared(Hermite::on(cells, field)),
+            }
         });
         let functions = Functions::new(extent, ("elements", 2 * elements), build);
         Functions { elements: Some((elements, degree)), ..functions }
@@ -154,9 +171,9 @@ fn modes(v: &Values, axial: &'static str, transverse: &'static str) -> Made<Eith
     let counts = [(axial, v.count(axial)?), (transverse, v.count(transverse)?)];
     Either::new(move |field| {
         let (key, count) = counts[usize::from(field == Field::Transverse)];
-        let build: Build = Box::new(move |length| shared(Modes::new(length, count, field)));
+        let build: Build = Box::new(move |length, _| shared(Modes::new(length, count, field)));
         let functions = Functions::new((count as f64, 1.0), (key, 2 * count), build);
-        let massless: Build = Box::new(move |length| shared(Modes::with_residual(length, count)));
+        let massless: Build = Box::new(move |length, _| shared(Modes::with_residual(length, count)));
         Functions { safety: SAFETY_OF_MODES, massless: Some(massless), ..functions }
     })
 }
@@ -176,7 +193,7 @@ fn radial(v: &Values, _: &Context<'_>) -> Made<Either> {
         degree: usize::try_from(v.integer("degree")?).ok(),
     };
     Either::new(move |field| {
-        let build: Build = Box::new(move |length| shared(Radial::new(length, parameters, field)));
+        let build: Build = Box::new(move |length, _| shared(Radial::new(length, parameters, field)));
         Functions { blame: "shape", ..on_nodes(parameters.nodes, parameters.support, build) }
     })
 }
@@ -184,7 +201,7 @@ fn radial(v: &Values, _: &Context<'_>) -> Made<Either> {
 fn polynomial(v: &Values, _: &Context<'_>) -> Made<Either> {
     let parameters = PolynomialParameters { nodes: v.count("nodes")?, support: v.number("support")? };
     Either::new(move |field| {
-        let build: Build = Box::new(move |length| shared(Polynomial::new(length, parameters, field)));
+        let build: Build = Box::new(move |length, _| shared(Polynomial::new(length, parameters, field)));
         Functions { blame: "support", ..on_nodes(parameters.nodes, parameters.support, build) }
     })
 }
@@ -193,7 +210,7 @@ fn b_spline(v: &Values, _: &Context<'_>) -> Made<Either> {
     let (elements, degree) = (v.count("elements")?, v.count("degree")?);
     let extent = ((elements + degree) as f64, (degree + 1) as f64 / elements as f64);
     Either::new(move |field| {
-        let build: Build = Box::new(move |length| shared(BSpline::new(length, elements, degree, field)));
+        let build: Build = Box::new(move |length, _| shared(BSpline::new(length, elements, degree, field)));
         Functions { blame: "degree", ..Functions::new(extent, ("elements", 2 * elements), build) }
     })
 }
@@ -202,7 +219,7 @@ fn bezier(v: &Values, _: &Context<'_>) -> Made<Either> {
     let (elements, degree) = (v.count("elements")?, v.count("degree")?);
     let extent = ((elements * degree) as f64, 2.0 / elements as f64);
     Either::new(move |field| {
-        let build: Build = Box::new(move |length| shared(Bezier::new(length, elements, degree, field)));
+        let build: Build = Box::new(move |length, _| shared(Bezier::new(length, elements, degree, field)));
         Functions { blame: "degree", ..Functions::new(extent, ("elements", 2 * elements), build) }
     })
 }
@@ -211,6 +228,12 @@ const MOST: i64 = 1_000_000;
 
 const ELEMENTS: Key =
     key("elements", Type::Integer(1, MOST), Default::Integer(10), "number of equal elements over the length");
+const CUT_ELEMENTS: Key = key(
+    "elements",
+    Type::Integer(1, MOST),
+    Default::Integer(10),
+    "number of equal elements over the length; they are cut where loads and masses are and the section jumps",
+);
 const AXIAL_DEGREE: Key = key(
     "axial-degree",
     Type::Integer(1, 2),
@@ -229,7 +252,7 @@ const FINITE_ELEMENTS: Kind<Either> = Kind {
     name: "finite-elements",
     summary: "Lagrange elements (axial) and cubic Hermite elements (transverse)",
     source: DU,
-    keys: &[ELEMENTS, AXIAL_DEGREE],
+    keys: &[CUT_ELEMENTS, AXIAL_DEGREE],
     example: "basis={kind='finite-elements', elements=7, axial-degree=2}",
     make: finite_elements,
 };

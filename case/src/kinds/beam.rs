@@ -341,7 +341,7 @@ pub static BEAMS: Table<Beam> = Table {
 
 fn make(v: &Values, c: &Context<'_>) -> Made<Beam> {
     let length = v.number("length")?;
-    let c = &Context { length: Some(length), duration: c.duration, files: c.files };
+    let c = &Context { length: Some(length), duration: c.duration, files: c.files, cautions: c.cautions };
     let (section, curve) = both(SECTION.make(v, "section", c), CURVE.make(v, "curve", c))?;
     let ends = both(END.make(v, "root", c), END.make(v, "tip", c))?;
     let blade: Arc<dyn BladeSection> = Arc::from(section.blade(v.number("poisson-ratio")?).at("section")?);

@@ -35,7 +35,7 @@ pub static INERTIA: Choice<Tensor> = Choice {
             summary: "the axes of the body are principal axes",
             source: "",
             keys: &[moments("principal moments of inertia about the first, second and third axis")],
-            example: "body=[{name='bar', mass=2, position=[0.5, 0, 0], inertia={kind='principal', moments=[0.1, 0.4, '0.5 kg*m^2']}}]",
+            example: "body=[{name='bar', mass=2, position=[0.5, 0, 0], spin=[1, 2, 3], inertia={kind='principal', moments=[0.1, 0.4, '0.5 kg*m^2']}}]",
             make: |v, _| {
                 let moments = three(v, "moments")?;
                 Ok(Box::new(move |_| diagonal(moments)))
@@ -54,7 +54,7 @@ pub static INERTIA: Choice<Tensor> = Choice {
                     "entries J₂₃, J₁₃, J₁₂ of the tensor, −∫ y z dm, −∫ x z dm, −∫ x y dm",
                 ),
             ],
-            example: "body=[{name='bar', mass=2, position=[0.5, 0, 0], inertia={kind='full', moments=[0.1, 0.4, 0.45], products=[0.02, 0, -0.03]}}]",
+            example: "body=[{name='bar', mass=2, position=[0.5, 0, 0], spin=[1, 2, 3], inertia={kind='full', moments=[0.1, 0.4, 0.45], products=[0.02, 0, -0.03]}}]",
             make: |v, _| {
                 let ([xx, yy, zz], [yz, xz, xy]) = (three(v, "moments")?, three(v, "products")?);
                 Ok(Box::new(move |_| [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]))
@@ -65,7 +65,7 @@ pub static INERTIA: Choice<Tensor> = Choice {
             summary: "a homogeneous box",
             source: "",
             keys: &[key("size", Type::Quantities(&LENGTH, Positive), Required, "edges along the three axes")],
-            example: "body=[{name='bar', mass=2, position=[0.5, 0, 0], inertia={kind='box', size=['1 m', '2 cm', 0.1]}}]",
+            example: "body=[{name='bar', mass=2, position=[0.5, 0, 0], spin=[1, 2, 3], inertia={kind='box', size=['1 m', '2 cm', 0.1]}}]",
             make: |v, _| {
                 let [a, b, c] = three(v, "size")?.map(|x| x * x / 12.0);
                 Ok(Box::new(move |mass| diagonal([mass * (b + c), mass * (a + c), mass * (a + b)])))
@@ -79,7 +79,7 @@ pub static INERTIA: Choice<Tensor> = Choice {
                 key("radius", Quantity(&LENGTH, Positive), Required, "radius"),
                 key("length", Quantity(&LENGTH, Positive), Required, "length along the third axis"),
             ],
-            example: "body=[{name='bar', mass=2, position=[0.5, 0, 0], axis=[0, 1, 1], inertia={kind='cylinder', radius='5 cm', length=1}}]",
+            example: "body=[{name='bar', mass=2, position=[0.5, 0, 0], spin=[1, 2, 3], axis=[0, 1, 1], inertia={kind='cylinder', radius='5 cm', length=1}}]",
             make: |v, _| {
                 let (radius, length) = (v.number("radius")?, v.number("length")?);
                 let across = radius * radius / 4.0 + length * length / 12.0;
@@ -92,7 +92,7 @@ pub static INERTIA: Choice<Tensor> = Choice {
             summary: "a homogeneous sphere",
             source: "",
             keys: &[key("radius", Quantity(&LENGTH, Positive), Required, "radius")],
-            example: "body=[{name='bar', mass=2, position=[0.5, 0, 0], inertia={kind='sphere', radius='10 cm'}}]",
+            example: "body=[{name='bar', mass=2, position=[0.5, 0, 0], spin=[1, 2, 3], inertia={kind='sphere', radius='10 cm'}}]",
             make: |v, _| {
                 let radius = v.number("radius")?;
                 Ok(Box::new(move |mass| diagonal([0.4 * mass * radius * radius; 3])))

@@ -2,7 +2,6 @@
 
 use super::basis::Bases;
 use super::contact::{self, Contact};
-use super::section::Section;
 use crate::fault::{At, Fault, Made};
 use crate::kind::{Choice, Kind};
 use flexion::basis::Basis;
@@ -18,8 +17,7 @@ use std::sync::Arc;
 /// A kinematic model.
 #[derive(Clone, Copy, Debug)]
 pub struct Coupling {
-    /// Whether one field describes the whole curve of the beam: it needs finite elements, which end where the section
-    /// jumps.
+    /// Whether one field describes the whole curve of the beam: it needs finite elements.
     pub whole_curve: bool,
     /// Assembles the system of a beam.
     pub assemble: fn(&Assembly<'_>) -> Made<Box<dyn Fork>>,
@@ -86,12 +84,8 @@ impl Assembly<'_> {
         }
         system = system.with_damping(self.damping);
         if self.section_forces || !self.strain_heights.is_empty() {
-            system = system.with_section_forces(
-                self.beam.section,
-                sampling,
-                self.section_forces,
-                self.strain_heights,
-            );
+            system =
+                system.with_section_forces(self.beam, sampling, self.section_forces, self.strain_heights);
         }
         let points: Vec<_> = contact::points(self.contacts).collect();
         if points.is_empty() {
@@ -157,10 +151,11 @@ pub static COUPLING: Choice<Coupling> = Choice {
             example: "model.coupling=exact",
             make: |_, _| {
                 let assemble = |parts: &Assembly<'_>| {
-                    let Some((elements, _)) = parts.bases.elements else {
+                    if parts.bases.elements.is_none() {
                         return Err(Fault::new("basis", "the exact coupling needs finite elements").into());
-                    };
-                    let coupling = ExactCoupling::new(parts.length, elements, parts.beam, &parts.hub);
+                    }
+                    let nodes = parts.bases.transverse.cells().to_vec();
+                    let coupling = ExactCoupling::on(nodes, parts.beam, &parts.hub);
                     Ok(parts.system(coupling.at("section")?, Sampling::Curve))
                 };
                 Ok(Coupling { whole_curve: true, assemble })
@@ -169,29 +164,14 @@ pub static COUPLING: Choice<Coupling> = Choice {
     ],
 };
 
-/// Whether a coupling that describes the whole curve of the beam can use a basis, called `name`, and a section.
-pub fn fits_whole_curve(bases: &Bases, name: &str, section: Option<&Section>, length: f64) -> Made<()> {
-    let Some((elements, _)) = bases.elements else {
-        let message = format!(
-            "the exact coupling describes the whole curve of the beam by one Hermite field and cannot use the basis `{name}`"
-        );
-        let help =
-            "write `kind = \"finite-elements\"` and the number of elements, or use the coupling `first`";
-        return Err(Fault::new("basis", message).help(help).into());
-    };
-    let Some(section) = section else { return Ok(()) };
-    let off = |jump: &&f64| {
-        let nodes = *jump / length * elements as f64;
-        (nodes - nodes.round()).abs() > 1e-6
-    };
-    match section.planar.jumps().iter().find(off) {
-        None => Ok(()),
-        Some(jump) => {
-            let message = format!(
-                "the section jumps at {jump} m, inside one of the {elements} equal elements of {} m; with the exact coupling elements must end at the jumps",
-                length / elements as f64
-            );
-            Err(Fault::new(format!("section.{}", section.changes), message).into())
-        }
+/// Whether a coupling that describes the whole curve of the beam can use a basis, called `name`.
+pub fn fits_whole_curve(bases: &Bases, name: &str) -> Made<()> {
+    if bases.elements.is_some() {
+        return Ok(());
     }
+    let message = format!(
+        "the exact coupling describes the whole curve of the beam by one Hermite field and cannot use the basis `{name}`"
+    );
+    let help = "write `kind = \"finite-elements\"` and the number of elements, or use the coupling `first`";
+    Err(Fault::new("basis", message).help(help).into())
 }

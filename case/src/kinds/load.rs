@@ -15,12 +15,16 @@ use std::sync::Arc;
 /// What one table of a case puts onto the beam.
 #[derive(Clone, Debug, Default)]
 pub struct Load {
+    /// The table that it is of.
+    pub table: &'static str,
     /// What acts.
     pub load: Option<Arc<dyn load::Load + Send + Sync>>,
     /// What the beam carries.
     pub mass: Option<Mass>,
-    /// Stations at which cells must end \[m\].
+    /// Stations at which cells of the quadrature must end \[m\].
     pub stations: Vec<f64>,
+    /// Stations at which elements should end \[m\]: something acts or begins there.
+    pub nodes: Vec<f64>,
     /// What it is called, if its direction is fixed in space: seen from a hub that rotates, it changes with every
     /// revolution.
     pub fixed_in_space: Option<&'static str>,
@@ -28,7 +32,7 @@ pub struct Load {
 
 /// A load that acts on `stations`.
 fn acting(load: impl load::Load + Send + Sync + 'static, stations: Vec<f64>) -> Load {
-    Load { load: Some(Arc::new(load)), stations, ..Load::default() }
+    Load { load: Some(Arc::new(load)), nodes: stations.clone(), stations, ..Load::default() }
 }
 
 /// What a force of these axes is called, if its direction is fixed in space.
@@ -169,7 +173,7 @@ static MASS: Table<Load> = Table {
     make: |v, c| {
         let (mass, inertia) = (v.number("mass")?, v.number("inertia")?);
         let mass = Mass { station: c.station(v, "station")?, mass, inertia };
-        Ok(Load { mass: Some(mass), ..Load::default() })
+        Ok(Load { mass: Some(mass), nodes: vec![mass.station], ..Load::default() })
     },
 };
 
@@ -251,9 +255,11 @@ static DISTRIBUTED: Table<Load> = Table {
         let range = range(v, c);
         let ((axes, distribution), amplitude) =
             both(both(AXES.make(v, "frame", c), DISTRIBUTION.make(v, "distribution", c)), amplitude(v, c))?;
-        let load = DistributedForce { force: components(v)?, axes, distribution, range: range?, amplitude };
+        let (from, to) = range?;
+        let load =
+            DistributedForce { force: components(v)?, axes, distribution, range: (from, to), amplitude };
         let stations = load.stations();
-        Ok(Load { fixed_in_space: in_space(axes), ..acting(load, stations) })
+        Ok(Load { nodes: vec![from, to], fixed_in_space: in_space(axes), ..acting(load, stations) })
     },
 };
 

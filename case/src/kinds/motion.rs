@@ -98,7 +98,11 @@ pub static MOTION: Choice<Drive> = Choice {
             name: "table",
             summary: "table of time and angular speed or angle",
             source: "",
-            keys: &[key("file", Type::Path, Required, "CSV file with the columns t [s] and value"), GIVES],
+            keys: &[
+                key("file", Type::Path, Required, "CSV file with the columns t [s] and value"),
+                GIVES,
+                profile::INTERPOLATION,
+            ],
             example: "hub.motion={kind='table', file='measured.csv', of='speed'}",
             make: |v, c| given(profile::table(v, c), v, c, "file"),
         },

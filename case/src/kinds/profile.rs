@@ -1,10 +1,11 @@
 //! Profiles of a case: tables in files and formulas, for whatever changes with time or along the beam.
 
+use crate::declaration::{Key, Presence as Default, Type, key};
 use crate::fault::{At, Fault, Made};
 use crate::files;
-use crate::kind::Context;
+use crate::kind::{Choice, Context, Kind};
 use crate::values::Values;
-use flexion::profile::{End, Expression, Profile, ProfileError, Table, covers};
+use flexion::profile::{End, Expression, Pieces, Profile, ProfileError, Table, covers};
 use std::sync::Arc;
 
 /// Whatever changes with one variable.
@@ -27,11 +28,73 @@ pub(super) fn checked<T>(result: Result<T, ProfileError>, key: &str) -> Made<T> 
     })
 }
 
-/// The spline through the rows of the file at `file`: times [s] and values.
+/// A curve through rows, and a caution.
+type Through = fn(&[(f64, f64)]) -> Result<(Shared, Option<String>), ProfileError>;
+
+/// Part of the range of its rows by which a spline may leave it without a word.
+const OVERSHOOT: f64 = 0.05;
+
+fn spline(rows: &[(f64, f64)]) -> Result<(Shared, Option<String>), ProfileError> {
+    let table = Table::new(rows, End::default())?;
+    let (overshoot, time) = table.overshoot();
+    let caution = (overshoot > OVERSHOOT).then(|| {
+        format!(
+            "the spline through a table leaves the values of its rows by {:.0} % of their range at t = {time:.4} s; \
+             `interpolation = \"monotone\"` does not",
+            100.0 * overshoot
+        )
+    });
+    Ok((Arc::new(table), caution))
+}
+
+/// The kinds of curve through the rows of a table in time.
+pub static THROUGH: Choice<Through> = Choice {
+    name: "curve through a table",
+    path: "hub.motion.interpolation",
+    summary: "values between the rows of a table of times",
+    kinds: &[
+        Kind {
+            name: "linear",
+            summary: "straight lines",
+            source: "",
+            keys: &[],
+            example: "force=[{station=2, force=[0, 3], amplitude={kind='table', times=[0, 1], factors=[0, 1], interpolation='linear'}}]",
+            make: |_, _| Ok(|rows| Ok((Arc::new(Pieces::linear(rows)?), None))),
+        },
+        Kind {
+            name: "monotone",
+            summary: "monotone cubics, with continuous slopes, which never leave the values of neighbouring rows",
+            source: "Fritsch & Butland 1984, doi:10.1137/0905021",
+            keys: &[],
+            example: "force=[{station=2, force=[0, 3], amplitude={kind='table', times=[0, 1], factors=[0, 1], interpolation='monotone'}}]",
+            make: |_, _| Ok(|rows| Ok((Arc::new(Pieces::monotone(rows)?), None))),
+        },
+        Kind {
+            name: "spline",
+            summary: "a cubic spline, with continuous curvatures, for smooth and dense rows: it overshoots where rows change abruptly",
+            source: "de Boor 2001, chapter IV",
+            keys: &[],
+            example: "force=[{station=2, force=[0, 3], amplitude={kind='table', times=[0, 1, 2], factors=[0, 1, 4], interpolation='spline'}}]",
+            make: |_, _| Ok(spline),
+        },
+    ],
+};
+
+/// The key of the curve through a table.
+pub(super) const INTERPOLATION: Key =
+    key("interpolation", Type::Choice(&THROUGH), Default::Name("monotone"), "values between the rows");
+
+/// The curve through rows of times [s] and values that are at `key`.
+pub(super) fn through(rows: &[(f64, f64)], v: &Values, c: &Context<'_>, key: &str) -> Made<Shared> {
+    let (profile, caution) = checked(THROUGH.make(v, "interpolation", c)?(rows), key)?;
+    c.cautions.borrow_mut().extend(caution);
+    Ok(profile)
+}
+
+/// The curve through the rows of the file at `file`: times [s] and values.
 pub(super) fn table(v: &Values, c: &Context<'_>) -> Made<Shared> {
     let (name, bytes) = c.file(v, "file")?;
-    let rows = files::rows::read(&bytes, name).at("file")?;
-    Ok(Arc::new(checked(Table::new(&rows, End::default()), "file")?))
+    through(&files::rows::read(&bytes, name).at("file")?, v, c, "file")
 }
 
 /// The formula at `formula` in time t [s].

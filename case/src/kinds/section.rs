@@ -33,8 +33,8 @@ pub struct Section {
     pub height: Option<f64>,
     /// Shape, at the root if it tapers; `None` when only resultants are known.
     pub shape: Option<Shape>,
-    /// The key that says where the section changes: the one to blame when elements do not fit it.
-    pub changes: &'static str,
+    /// Whether it is known out of the plane, too.
+    pub is_blade: bool,
     spatial: Spatial,
 }
 
@@ -50,7 +50,7 @@ impl Section {
         let planar: Arc<dyn section::Section> = Arc::new(section);
         let blade = Arc::clone(&planar);
         let spatial: Spatial = Arc::new(move |_| Ok(Box::new(PlanarBlade(Box::new(Arc::clone(&blade))))));
-        Section { planar, height: None, shape: None, changes: "kind", spatial }
+        Section { planar, height: None, shape: None, is_blade: false, spatial }
     }
 
     /// The section of a blade, of a material with this Poisson's ratio.
@@ -546,7 +546,7 @@ fn piecewise(v: &Values, c: &Context<'_>) -> Made<Section> {
         segments.push(Segment { end, section: section.at("ends")?.with_inertia(inertia) });
     }
     let section = Piecewise::new(c.length()?, segments).at("ends")?;
-    Ok(Section { changes: "ends", ..Section::planar(section) })
+    Ok(Section::planar(section))
 }
 
 fn table(v: &Values, c: &Context<'_>) -> Made<Section> {
@@ -554,18 +554,19 @@ fn table(v: &Values, c: &Context<'_>) -> Made<Section> {
     let rows = files::section::read(&bytes, name).at("file")?;
     let interpolation = INTERPOLATION.make(v, "interpolation", c)?;
     let section = section::Table::new(c.length()?, &rows, interpolation).at("file")?;
-    Ok(Section { changes: "file", ..Section::planar(section) })
+    Ok(Section::planar(section))
 }
 
 fn blade(v: &Values, c: &Context<'_>) -> Made<Section> {
     let (name, bytes) = c.file(v, "file")?;
     let length = c.length()?;
-    let rows = files::blade::read(&bytes, name, FORMAT.make(v, "format", c)?, length).at("file")?;
-    let table = section::BladeTable::new(length, &rows).at("file")?;
+    let file = files::blade::read(&bytes, name, FORMAT.make(v, "format", c)?, length).at("file")?;
+    c.cautions.borrow_mut().extend(file.unused);
+    let table = section::BladeTable::new(length, &file.rows).at("file")?;
     let spatial = table.clone();
     Ok(Section {
-        changes: "file",
         spatial: Arc::new(move |_| Ok(Box::new(spatial.clone()))),
+        is_blade: true,
         ..Section::planar(section::Guided(table))
     })
 }

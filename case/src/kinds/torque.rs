@@ -43,7 +43,10 @@ pub static TORQUE_ON_HUB: Choice<Shared> = Choice {
             name: "table",
             summary: "table of time and torque",
             source: "",
-            keys: &[key("file", Type::Path, Required, "CSV file with the columns t [s] and torque [N·m]")],
+            keys: &[
+                key("file", Type::Path, Required, "CSV file with the columns t [s] and torque [N·m]"),
+                profile::INTERPOLATION,
+            ],
             example: "hub={inertia=5, motion={kind='free', torque={kind='table', file='measured.csv'}}}",
             make: |v, c| profile::covering(profile::table(v, c)?, c, "file"),
         },

@@ -213,6 +213,18 @@ impl Reading {
         Ok(self.with(&changes)?.prepare()?.run(watch))
     }
 
+    /// The case with twice the functions: of the blade, or else of the bases.
+    ///
+    /// # Errors
+    /// [`Problems`] when there are too many.
+    pub fn with_finer_mesh(&self) -> Result<Reading, Problems> {
+        let changes = match self.case.hub_beam().and_then(|beam| beam.blade.as_ref()) {
+            Some(blade) => vec![format!("blade.elements={}", 2 * blade.elements())],
+            None => self.case.finer(),
+        };
+        self.with(&changes)
+    }
+
     /// The case with twice the functions and a far more accurate integration.
     fn refined(&self) -> Result<Reading, Problems> {
         let mut changes = self.case.finer();

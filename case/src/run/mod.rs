@@ -1,5 +1,6 @@
 //! A case, run: from its reading to its results.
 
+mod cautions;
 mod clock;
 mod contact;
 mod difference;
@@ -16,7 +17,7 @@ use super::problem::Problems;
 use super::reading::{Live, Reading};
 use super::resolved;
 use clock::Clock;
-use flexion::analysis::equilibrium::equilibrium;
+use flexion::analysis::equilibrium::stable_equilibrium;
 use flexion::analysis::superposition::superpose;
 use flexion::analysis::transient::{Ending, Plan, resume, transient_to_checkpoint};
 use flexion::hub_beam::Drive;
@@ -27,6 +28,10 @@ use flexion_results::{
     Artifact, Attachments, Directory, Errors, Events, Integration, OutputError, ProblemSize, Recorder,
     RunReport, Scene, Shapes, Status, Trajectory, Watch, write_run,
 };
+
+/// Most memory for records [bytes], and columns that every run may have.
+const MOST_BYTES: f64 = 4e9;
+const COMMON: usize = 12;
 
 /// A case with all that its run needs, checked: what remains can only fail in time.
 pub struct Prepared {
@@ -89,20 +94,28 @@ impl Reading {
     pub fn prepare(&self) -> Result<Prepared, Problems> {
         let mut live = self.build()?;
         let mut state = live.system.initial();
-        let history = self.begin(live.system.as_mut(), &mut state)?;
+        let (history, unstable) = self.begin(live.system.as_mut(), &mut state)?;
         if history.is_none() {
             self.check_contacts(live.system.as_mut(), &state)?;
         }
-        let warnings = self.effective_masses(live.system.as_mut(), &state);
+        let mut warnings = self.case.unused_by_run();
+        warnings.extend(self.effective_masses(live.system.as_mut(), &state));
+        warnings.extend(unstable);
         let case = &self.case;
         let (step, longest_step) = match case.steps {
-            Steps::Fixed(step) => (Some(step), None),
+            Steps::Fixed(step) => {
+                warnings.extend(cautions::unseen(live.system.as_ref(), step, case.duration));
+                (Some(step), None)
+            }
             Steps::Controlled { first, longest, .. } => (first, longest),
         };
+        self.check_memory(live.system.as_ref())?;
         let plan =
             Plan { end: case.duration, step, longest_step, contact_step: None, sample: case.output.step };
-        let copy = |(key, bytes): (String, &[u8])| Some((resolved::copy(&key)?, bytes.to_vec()));
-        let tables = self.tables().into_iter().filter_map(copy).collect();
+        let tables = self.tables();
+        let keys: Vec<String> = tables.iter().map(|(key, _)| key.clone()).collect();
+        let copy = |(key, bytes): (String, &[u8])| Some((resolved::copy(&key, &keys)?, bytes.to_vec()));
+        let tables = tables.into_iter().filter_map(copy).collect();
         let Output { energy_balance, modal_shares, .. } = case.output;
         let (shapes, scene) = (self.shapes(), self.case.scene());
         Ok(Prepared {
@@ -119,34 +132,41 @@ impl Reading {
         })
     }
 
+    /// Whether the records fit into memory.
+    fn check_memory(&self, system: &dyn System) -> Result<(), Problems> {
+        let records = self.case.duration / self.case.output.step + 2.0;
+        let bytes = 8.0 * records * (system.channels().len() + COMMON) as f64;
+        if bytes <= MOST_BYTES {
+            return Ok(());
+        }
+        let message = format!(
+            "{records:.1e} records of {} columns take {:.1} GB of memory, and at most {:.0} GB are taken: record less often, \
+             or at fewer stations",
+            system.channels().len() + COMMON,
+            1e-9 * bytes,
+            1e-9 * MOST_BYTES
+        );
+        Err(self.problem("output.step", message))
+    }
+
     /// Brings the undeformed `state` into the initial state of the case. Returns the history of an earlier run to go on
-    /// with.
-    fn begin(&self, system: &mut dyn System, state: &mut State) -> Result<Option<Checkpoint>, Problems> {
+    /// with, and a warning of an equilibrium that is unstable.
+    fn begin(
+        &self,
+        system: &mut dyn System,
+        state: &mut State,
+    ) -> Result<(Option<Checkpoint>, Option<String>), Problems> {
+        let mut warning = None;
         match &self.case.initial {
             Initial::Undeformed => {}
-            Initial::Restart(earlier) => return restart::begin(earlier, self, state),
-            Initial::SteadyRotation => self.equilibrium(system, state)?,
+            Initial::Restart(earlier) => return Ok((restart::begin(earlier, self, state)?, None)),
+            Initial::SteadyRotation => warning = self.equilibrium(system, state)?,
             Initial::Static => {
-                let speed = self.case.hub_beam().map_or(0.0, |beam| match &beam.hub.drive {
-                    Drive::Prescribed(motion) => motion.at(0.0).speed,
-                    Drive::Free(hub) => hub.speed,
-                });
-                if self.case.space().is_some() && state.v.iter().any(|v| *v != 0.0) {
-                    let message = "the parts move at the start, and what moves is not in static equilibrium: take away \
-                                   `velocity`, `spin` and prescribed speeds at t = 0";
-                    return Err(self.problem("initial.kind", message));
-                }
-                if speed != 0.0 {
-                    let message = format!(
-                        "the hub rotates at {speed} rad/s at the start, and a rotating beam is not in static equilibrium: use \
-                         `steady-rotation`"
-                    );
-                    return Err(self.problem("initial.kind", message));
-                }
-                self.equilibrium(system, state)?;
+                self.at_rest(&state.v, "initial.kind", "use `steady-rotation`")?;
+                warning = self.equilibrium(system, state)?;
             }
             Initial::Modes(vibrations) => {
-                self.equilibrium(system, state)?;
+                warning = self.equilibrium(system, state)?;
                 superpose(system, state, vibrations, self.case.size()).map_err(|error| {
                     // At the list that was written.
                     let defaults = self.defaults();
@@ -156,17 +176,50 @@ impl Reading {
                 })?;
             }
         }
-        Ok(None)
+        Ok((None, warning))
     }
 
-    /// Brings `state` into the equilibrium at the speed that the hub has.
-    fn equilibrium(&self, system: &mut dyn System, state: &mut State) -> Result<(), Problems> {
+    /// Refuses what moves at the start with the velocities `v`, at a key and with what to do.
+    pub(super) fn at_rest(&self, v: &[f64], key: &str, advice: &str) -> Result<(), Problems> {
+        let speed = self.case.hub_beam().map_or(0.0, |beam| match &beam.hub.drive {
+            Drive::Prescribed(motion) => motion.at(0.0).speed,
+            Drive::Free(hub) => hub.speed,
+        });
+        if speed != 0.0 {
+            let message = format!(
+                "the hub rotates at {speed} rad/s at the start, and a rotating beam is not in static equilibrium: {advice}"
+            );
+            return Err(self.problem(key, message));
+        }
+        if self.case.space().is_some() && v.iter().any(|v| *v != 0.0) {
+            let message = "the parts move at the start, and what moves is not in static equilibrium: take away \
+                           `velocity`, `spin` and prescribed speeds at t = 0";
+            return Err(self.problem(key, message));
+        }
+        Ok(())
+    }
+
+    /// Brings `state` into the equilibrium at the speed that the hub has. Returns a warning of one that is unstable, or that
+    /// growing loads alone do not lead to.
+    fn equilibrium(&self, system: &mut dyn System, state: &mut State) -> Result<Option<String>, Problems> {
         let velocity = state.v.clone();
         system.hold(true);
-        equilibrium(system, state).map_err(|error| self.problem("initial", error.to_string()))?;
+        let found =
+            stable_equilibrium(system, state).map_err(|error| self.problem("initial", error.to_string()))?;
         system.hold(false);
         state.v = velocity;
-        Ok(())
+        Ok(match (found.stability, found.left) {
+            (Some(now), _) if !now.is_stable() => Some(format!(
+                "the equilibrium at the start is {now}: the smallest disturbance leads away from it, and the path of growing \
+                 loads leads to none that is stable; `flexion statics` shows the path"
+            )),
+            (Some(_), Some(left)) => Some(format!(
+                "growing loads alone lead to an equilibrium that is {left}; the run begins in the first stable one on the path \
+                 of the loads, which `flexion statics` shows"
+            )),
+            (None, _) => Some("the stability of the equilibrium at the start was not found".to_owned()),
+            _ => None,
+        })
     }
 
     /// Room for the shapes, if the case asks for them.
@@ -203,17 +256,18 @@ impl Reading {
         };
         let identity = self.identity();
         let title = (!self.case.title.is_empty()).then_some(self.case.title.as_str());
-        let figure = match &run.events {
+        let figure = self.case.output.plots.then(|| match &run.events {
             _ if self.case.space().is_some() => spatial_figure(&run.scene, &run.trajectory, title),
             events if events.is_empty() => trajectory_figure(&run.trajectory, title),
             events => contact_figure(&run.trajectory, events, title),
-        };
+        });
         let attachments = Attachments {
-            figure: Some(&figure),
+            figure: figure.as_ref(),
             tables: &run.tables,
             state: Some((&run.checkpoint, &identity)),
             shapes: run.shapes.as_ref(),
             scene: Some(&run.scene),
+            solids: self.case.space().is_some() && self.case.output.vtk.is_some(),
         };
         let case = self.resolved_with_copies();
         write_run(directory, &report, &run.trajectory, &case, attachments)
@@ -248,10 +302,10 @@ impl Prepared {
                 .unwrap_or_else(|error| (Ending::Failed(error.into()), history.clone())),
         };
         let (wall_time, cpu_time) = clock.elapsed();
-        let warning = recorder.warning();
+        let of_steps = recorder.warnings();
         let (trajectory, mut shapes, mut scene, events) = recorder.into_parts();
         warnings.extend(system.cautions(&trajectory.peaks()));
-        warnings.extend(warning);
+        warnings.extend(of_steps);
         if let Ending::Finished = ending {
             shapes.iter_mut().for_each(|shapes| shapes.finish(system.as_mut(), &state));
             scene.finish(system.as_mut(), &state);

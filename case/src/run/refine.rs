@@ -243,11 +243,14 @@ impl Reading {
 
     /// The mesh and the steps of the case, as changes.
     fn mesh_and_steps(&self) -> Vec<String> {
-        let values = serde_json::Value::Object(self.values.to_json());
         let now = |change: String| {
             let (key, _) = change.split_once('=')?;
-            let value = values.pointer(&format!("/{}", key.replace('.', "/")))?;
-            Some(format!("{key}={value}"))
+            let (tables, name) = key.rsplit_once('.')?;
+            let mut within = &self.values;
+            for table in tables.split('.') {
+                within = within.inner(table)?;
+            }
+            Some(format!("{key}={}", within.to_json().get(name)?))
         };
         let mut changes: Vec<String> = self.case.finer().into_iter().filter_map(now).collect();
         changes.extend(match self.case.steps {

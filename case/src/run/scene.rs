@@ -30,7 +30,13 @@ impl Case {
             }
             Subject::Space(of) => (of.parts(), Vec::new()),
         };
-        Scene::new(parts, obstacles, (self.duration / self.output.step) as usize)
+        let scene = Scene::new(parts, obstacles, (self.duration / self.output.step) as usize);
+        match (&self.subject, self.output.vtk) {
+            (Subject::Space(_), Some(interval)) => {
+                scene.taken((interval / self.output.step).round() as usize)
+            }
+            _ => scene,
+        }
     }
 }
 

@@ -3,9 +3,9 @@
 #![allow(dead_code)] // each program uses its part
 
 use crate::run::{Run, Span, Variant, case, root, run};
+use flexion::analysis::equilibrium::equilibrium;
 use flexion::analysis::modes::modes;
 use flexion::analysis::rotation::rotate_stably;
-use flexion::system::State;
 use std::path::Path;
 use toml::{Table, Value};
 
@@ -171,8 +171,13 @@ impl Expected<'_> {
             let absolute = table.get("absolute").map(value);
             let expected: Vec<f64> = table["frequencies"].as_array().unwrap().iter().map(value).collect();
             let mut system = case.vibrating().unwrap();
-            let mut state = State::zeros(system.size(), 0.0);
-            rotate_stably(system.as_mut(), &mut state, 0.0, speed).unwrap();
+            let mut state = system.initial();
+            if case.space().is_some() {
+                assert_eq!(speed, 0.0, "{}: a system in space is at rest", self.name);
+                equilibrium(system.as_mut(), &mut state).unwrap();
+            } else {
+                rotate_stably(system.as_mut(), &mut state, 0.0, speed).unwrap();
+            }
             if table.get("free-hub").is_some_and(|free| free.as_bool().unwrap()) {
                 system.hold(false);
             }

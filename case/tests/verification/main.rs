@@ -8,7 +8,7 @@ mod expected;
 mod run;
 
 use expected::Expected;
-use flexion_case::{Reading, choices};
+use flexion_case::{Reading, choices, spatial_choices};
 use libtest_mimic::{Arguments, Failed, Trial};
 use run::Variant;
 use std::fmt::Write;
@@ -98,7 +98,7 @@ fn uses(reading: &Reading, path: &str, kind: &str) -> bool {
 
 fn every_kind_that_a_case_may_choose_is_verified() {
     let readings: Vec<Reading> = run::all().iter().map(|v| run::case(&v.name, &[]).unwrap()).collect();
-    for choice in choices() {
+    for choice in choices().iter().chain(spatial_choices()) {
         for kind in choice.kinds() {
             let used = readings.iter().any(|reading| uses(reading, choice.path(), kind.name));
             assert!(used, "no case of verification uses the {} `{}`", choice.name(), kind.name);

@@ -3,7 +3,8 @@
 //! Modes are joined by their shapes, never by their order: from one speed to the next the pairs with the
 //! largest assurance |xᴴ M y|² / (xᴴ M x · yᴴ M y) belong together, so that curves pass through each other where they
 //! cross and bend where they veer. Where a shape changes too much between two speeds, speeds are
-//! inserted until it does not.
+//! inserted until it does not; where modes change their order, until the interval is 1/8192 of the range: what veers there is
+//! then seen to veer, whatever the speeds asked for.
 //!
 //! Speeds are cut into [blocks](Speeds::block) of fixed length, each of which begins at rest and may be computed by a system
 //! of its own, in parallel; within a block the equilibrium and the modes of the last speed begin the next.
@@ -13,11 +14,13 @@ pub use super::diagram::{Branch, Campbell, Crossing, HubState, Instability, NoCa
 use super::rotation::NoRotation;
 use super::speeds::Solved;
 pub use super::speeds::{Block, Speeds};
-use super::tracking::{Match, Tracker, match_shapes};
+use super::tracking::{Match, Tracker, changes_order, match_shapes};
 use crate::system::System;
 
 /// Halvings of an interval of speed in which a shape changes too much.
 const HALVINGS: u32 = 8;
+/// Interval of speed, over the range, in which modes that change their order cross: in a wider one they may veer.
+const CROSSING: f64 = 1.0 / 8192.0;
 /// Damping ratio below which a motion grows.
 const GROWTH: f64 = -1e-9;
 
@@ -70,9 +73,9 @@ pub fn assemble(system: &mut Speeds<'_>, blocks: Vec<Block>) -> Result<Campbell,
     }
     system.rest();
     let (solved, matches) = refine(system, solved)?;
-    let mut branches = join(&solved, &matches, plan.count);
+    let Tracker { mut branches, entering, .. } = join(&solved, &matches, plan.count);
     let crossings = crossings(system, &solved, &branches, plan.revolutions);
-    system.describe_ends(&solved, &mut branches);
+    system.describe(&solved, &mut branches);
     let mut instabilities = flutter(&branches);
     if let Some(ended) = ended {
         let (speed, reason) = (ended.reached(), ended.to_string());
@@ -81,7 +84,13 @@ pub fn assemble(system: &mut Speeds<'_>, blocks: Vec<Block>) -> Result<Campbell,
             _ => Instability::Lost { speed, reason },
         });
     }
-    Ok(Campbell { speeds: solved.iter().map(|s| s.speed).collect(), branches, crossings, instabilities })
+    Ok(Campbell {
+        speeds: solved.iter().map(|s| s.speed).collect(),
+        branches,
+        crossings,
+        instabilities,
+        entering,
+    })
 }
 
 /// Inserts speeds where a shape changes too much from one to the next; with the matches of each speed with the next.
@@ -89,7 +98,9 @@ fn refine(
     system: &mut Speeds<'_>,
     solved: Vec<Solved>,
 ) -> Result<(Vec<Solved>, Vec<Vec<Match>>), NoCampbell> {
-    let count = system.plan().count;
+    let Plan { count, speeds, .. } = system.plan();
+    let range = speeds.last().zip(speeds.first()).map_or(0.0, |(last, first)| last - first);
+    let count = *count;
     let mut out: Vec<Solved> = Vec::with_capacity(solved.len());
     let mut all = Vec::with_capacity(solved.len());
     for next in solved {
@@ -102,8 +113,10 @@ fn refine(
         let mut ahead = vec![next];
         while let (Some(from), Some(to)) = (out.last(), ahead.last()) {
             let matches = match_shapes(from, to);
-            let clear = matches.iter().take(count).all(|m| m.is_clear());
-            if clear || to.speed - from.speed <= 1.5 * smallest {
+            let interval = to.speed - from.speed;
+            let clear = matches.iter().take(count).all(|m| m.is_clear()) || interval <= 1.5 * smallest;
+            let ordered = interval <= CROSSING * range || !changes_order(&matches, count);
+            if clear && ordered {
                 all.push(matches);
                 out.extend(ahead.pop());
             } else {
@@ -116,12 +129,12 @@ fn refine(
 }
 
 /// The branches that begin as the lowest `count` modes.
-fn join(solved: &[Solved], matches: &[Vec<Match>], count: usize) -> Vec<Branch> {
+fn join(solved: &[Solved], matches: &[Vec<Match>], count: usize) -> Tracker {
     let mut tracker = Tracker::new(solved.first(), count);
     for (to, matches) in solved.iter().skip(1).zip(matches) {
         tracker.step(matches, to);
     }
-    tracker.branches
+    tracker
 }
 
 /// Branches whose damping becomes negative.

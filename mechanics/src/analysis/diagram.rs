@@ -10,7 +10,7 @@ pub struct Plan {
     pub speeds: Vec<f64>,
     /// Number of modes, the lowest at the first speed.
     pub count: usize,
-    /// Stations of the shapes \[m\], which the modes at the ends of a branch get.
+    /// Stations of the shapes \[m\].
     pub stations: Vec<f64>,
     /// Whether the hub keeps its speed, or is free to rotate about it.
     pub hub: HubState,
@@ -95,6 +95,9 @@ pub struct Campbell {
     pub crossings: Vec<Crossing>,
     /// Instabilities.
     pub instabilities: Vec<Instability>,
+    /// The first speed [rad/s] at which modes that are not followed lie below the highest that is, and the most of them at
+    /// one speed: their crossings are not among those listed.
+    pub entering: Option<(f64, usize)>,
 }
 
 /// Why there is no diagram.

@@ -124,7 +124,7 @@ impl Gain {
     fn beyond_bounds(&self) -> Option<f64> {
         let swing = self.gravity[1] - self.gravity[0];
         let bound = EXCESS * self.strain + SWING * swing + ROUNDING * self.kinetic;
-        (self.largest > bound).then_some(self.largest)
+        (self.largest > bound.max(f64::MIN_POSITIVE)).then_some(self.largest)
     }
 }
 

@@ -112,7 +112,7 @@ pub fn stable_equilibrium(system: &mut dyn System, state: &mut State) -> Result<
     }
     let left = found.and_then(Result::ok);
     let mut best = None;
-    let plan = Plan { points: POINTS, critical: false, ..Plan::to(1.0) };
+    let plan = Plan { points: POINTS, ..Plan::to(1.0) };
     let _ = follow(system, &start, &plan, |_, point| {
         let stable = point.arrived && point.stability.as_ref().is_ok_and(|found| found.is_stable());
         if stable {

@@ -3,7 +3,7 @@
 //! The length of a piece of path is (Σ (Δqᵢ/wᵢ)²/n + Δs²)^½, with the scales w of the n velocities and the load factor s. From a
 //! point the path is predicted along its direction and corrected [across it](super::equations); the step grows and shrinks
 //! as Newton's method converges and with the angle between directions. Where the number of unstable motions changes, the
-//! critical state in between is enclosed by dividing the step.
+//! critical state in between is enclosed by dividing the step, which is short there.
 
 use super::equations::{Direction, Equations, Failure, apply};
 use super::stability::{Stability, stability};
@@ -18,6 +18,9 @@ const SMALLEST: f64 = 1e-6;
 const COSINES: [f64; 2] = [0.92, 0.985];
 /// Iterations up to which a step may grow.
 const QUICK: u32 = 4;
+/// Step, over the longest, across which the number of unstable motions may change. A longer one might leave a path that bends in
+/// a short distance, as that of a column with a small force across, for the unstable path that goes straight on.
+const CAREFUL: f64 = 2e-3;
 /// Part of an interval at which it is divided: halves of a step of a round size would meet the very state at which the tangent is
 /// singular.
 const SHARE: f64 = 0.47;
@@ -33,14 +36,12 @@ pub struct Plan {
     pub points: usize,
     /// Longest step.
     pub longest: f64,
-    /// Whether stability is found at every point and critical states are located, or stability only at the load factor `to`.
-    pub critical: bool,
 }
 
 impl Plan {
-    /// To a load factor, with critical states.
+    /// To a load factor.
     pub fn to(to: f64) -> Plan {
-        Plan { to, points: 1000, longest: 0.05, critical: true }
+        Plan { to, points: 1000, longest: 0.05 }
     }
 }
 
@@ -143,18 +144,21 @@ pub fn follow(
         Ok(along) => Place { state, factor, length: 0.0, along },
         Err(failure) => return Err(lost(&equations, 0.0, failure)),
     };
-    let mut before = point(&mut equations, plan, &here);
+    let mut before = point(&mut equations, &here);
     if !visit(equations.system, &before) {
         return Ok(());
     }
     for _ in 1..plan.points.max(2) {
-        let (there, iterations, cosine) = loop {
+        let (there, now, iterations, cosine) = loop {
             match advance(&mut equations, &here, step) {
                 Ok((there, iterations)) => {
                     let (a, b) = (&here.along, &there.along);
                     let cosine = equations.inner((&a.unknowns, a.part), (&b.unknowns, b.part));
                     if cosine > COSINES[0] || step < SMALLEST * plan.longest {
-                        break (there, iterations, cosine);
+                        let now = point(&mut equations, &there);
+                        if now.stability == before.stability || step < CAREFUL * plan.longest {
+                            break (there, now, iterations, cosine);
+                        }
                     }
                 }
                 Err(failure) if step < SMALLEST * plan.longest => {
@@ -164,7 +168,6 @@ pub fn follow(
             }
             step *= 0.5;
         };
-        let now = point(&mut equations, plan, &there);
         if let Some(critical) = between(&mut equations, plan, (&here, &before), (&there, &now))
             && !visit(equations.system, &critical)
         {
@@ -177,7 +180,7 @@ pub fn follow(
             }
         }
         apply(equations.system, there.factor);
-        if plan.critical && !visit(equations.system, &now) {
+        if !visit(equations.system, &now) {
             return Ok(());
         }
         (here, before) = (there, now);
@@ -201,11 +204,11 @@ fn advance(equations: &mut Equations<'_>, from: &Place, step: f64) -> Result<(Pl
     Ok((Place { state, factor, length: from.length + step, along }, iterations))
 }
 
-/// The point of a place, with its stability where it is asked for.
-fn point(equations: &mut Equations<'_>, plan: &Plan, place: &Place) -> Point {
+/// The point of a place, with its stability.
+fn point(equations: &mut Equations<'_>, place: &Place) -> Point {
     let Place { state, factor, length, .. } = place.clone();
     apply(equations.system, factor);
-    let found = if plan.critical { stability(equations.system, &state) } else { Ok(Stability::default()) };
+    let found = stability(equations.system, &state);
     Point { factor, length, state, stability: found, arrived: false, critical: None }
 }
 
@@ -252,10 +255,5 @@ fn between(
         () if limit => Critical::Limit,
         () => Critical::Branching,
     };
-    let found = Point {
-        stability: Ok(far),
-        critical: Some(critical),
-        ..point(equations, &Plan { critical: false, ..plan.clone() }, &best)
-    };
-    Some(found)
+    Some(Point { stability: Ok(far), critical: Some(critical), ..point(equations, &best) })
 }

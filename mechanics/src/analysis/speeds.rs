@@ -1,7 +1,7 @@
 //! Modes at one speed after the other.
 
 use super::diagram::{Branch, HubState, NoCampbell, Plan};
-use super::modes::{Mode, describe, modes_near};
+use super::modes::{Mode, NoModes, describe, modes_near};
 use super::rotation::rotate_stably;
 use super::stiffness::mass;
 use crate::linalg::Matrix;
@@ -138,31 +138,30 @@ impl<'a> Speeds<'a> {
         let count = count.min(system.size().v);
         let near: Vec<_> = from.map_or(&[][..], |s| &s.modes).iter().take(count).collect();
         let near: Vec<_> = near.iter().map(|m| (m.eigenvalue, m.vector.as_slice())).collect();
-        let modes = modes_near(system, &state, count, &[], &near)
-            .map_err(|source| NoCampbell::Modes { speed, source })?
-            .modes;
+        let mut modes = modes_near(system, &state, count, &[], &near);
+        if let Err(NoModes::Inaccurate { number, .. }) = modes
+            && number > self.plan.count
+        {
+            // A mode that was not asked for.
+            let near = &near[..near.len().min(number - 1)];
+            modes = modes_near(system, &state, number - 1, &[], near);
+        }
+        let modes = modes.map_err(|source| NoCampbell::Modes { speed, source })?.modes;
         let mass = mass(system, &state);
         system.hold(true);
         let massed = modes.iter().map(|m| times(&mass, &m.vector)).collect();
         Ok(Solved { speed, modes, massed, equilibrium: self.state.clone() })
     }
 
-    /// Gives the modes at both ends of each branch their shapes.
-    pub(super) fn describe_ends(&mut self, solved: &[Solved], branches: &mut [Branch]) {
+    /// Gives the modes of all branches their shapes.
+    pub(super) fn describe(&mut self, solved: &[Solved], branches: &mut [Branch]) {
         let scale: Vec<f64> = self.system.scales().to_vec();
-        for at in solved {
-            let ends = branches.iter_mut().flat_map(|b| {
-                let last = b.points.len().saturating_sub(1);
-                b.points.iter_mut().enumerate().filter(move |(k, _)| *k == 0 || *k == last)
-            });
-            let mut here = ends.filter(|(_, p)| p.speed == at.speed).map(|(_, p)| p).peekable();
-            if here.peek().is_some() {
-                self.system.hold(true);
-                let _ = self.system.set(Parameter::Speed, at.speed);
-                for point in here {
-                    let system = self.system.as_mut();
-                    describe(&mut point.mode, system, &at.equilibrium, &scale, &self.plan.stations);
-                }
+        for (number, at) in solved.iter().enumerate() {
+            self.system.hold(true);
+            let _ = self.system.set(Parameter::Speed, at.speed);
+            for point in branches.iter_mut().filter_map(|branch| branch.points.get_mut(number)) {
+                let system = self.system.as_mut();
+                describe(&mut point.mode, system, &at.equilibrium, &scale, &self.plan.stations);
             }
         }
     }

@@ -12,10 +12,19 @@
 //! ```text
 //! c = A + i (A Re λ − V) / Im λ
 //! ```
+//!
+//! Of a nonlinear model a displacement δ along the modes would stretch what only bends: to second order in δ a beam is
+//! shortened. With K that of the equilibrium q₀, the state is the equilibrium q under the forces K δ that hold δ in the linear
+//! model, and its velocities those at which these forces change with δ̇:
+//!
+//! ```text
+//! r(q) − r(q₀) = K δ,     K(q) v = K δ̇
+//! ```
 
+use super::joints;
 use super::modes::{Mode, NoModes, modes};
 use super::stability::stability;
-use super::stiffness::mass;
+use super::stiffness::{mass, matrices};
 use crate::system::{Direction, Frame, State, System};
 use num_complex::Complex64;
 
@@ -24,6 +33,10 @@ const DIFFERENCE: f64 = 1e-5;
 /// A mode that moves the tip by less than this part of its largest unknown (both over their scales)
 /// cannot be given by it.
 const STILL: f64 = 1e-6;
+/// Iterations to a displaced shape, and the last increment in scales of the unknowns.
+const ITERATIONS: usize = 30;
+/// See [`ITERATIONS`].
+const SETTLED: f64 = 1e-10;
 /// Largest distance from the equilibrium of a hub that is free, as acceleration over ω².
 const UNBALANCED: f64 = 1e-9;
 
@@ -74,6 +87,11 @@ pub enum NoSuperposition {
         "mode {0} does not move the tip in the frame of the hub, whose amplitude is prescribed; give it 0"
     )]
     Still(usize),
+    /// The amplitudes are too large.
+    #[error(
+        "the amplitudes are so large that no displaced shape is found near that of the modes; give smaller ones"
+    )]
+    Large,
     /// The free hub is not in equilibrium.
     #[error(
         "the free hub is not in equilibrium where it begins, so that there is nothing to vibrate about: a torque of \
@@ -92,7 +110,7 @@ pub enum NoSuperposition {
 /// their order. The displacement of a [`Vibration`] is that component of the displacement of the tip, at `length` \[m\]
 /// from the root and seen from the root section, which the mode moves most. Returns the modes.
 ///
-/// Valid for vibrations that are small: of a nonlinear model the state is right to first order in them.
+/// Valid for vibrations that are small: of a nonlinear model the state is right to second order in them.
 ///
 /// # Errors
 /// [`NoSuperposition`], when there are not so many modes, or a mode that is given something does not vibrate.
@@ -134,12 +152,78 @@ pub fn superpose(
             velocity[i] += (part * rate).re;
         }
     }
-    let from = state.q.clone();
-    system.retract(&from, &displacement, &mut state.q);
-    for (v, rate) in state.v.iter_mut().zip(&velocity) {
-        *v += rate;
-    }
+    displace(system, state, &displacement, &velocity)?;
     Ok(found)
+}
+
+/// Moves an equilibrium to that under the forces of a linear displacement, with the velocities that belong to it.
+fn displace(
+    system: &mut dyn System,
+    state: &mut State,
+    displacement: &[f64],
+    velocity: &[f64],
+) -> Result<(), NoSuperposition> {
+    let (n, from) = (state.v.len(), state.clone());
+    system.retract(&from.q, displacement, &mut state.q);
+    if !system.is_affine() {
+        let free: Vec<usize> = (0..n).filter(|&i| system.direction(i) == Direction::Hub).collect();
+        let stiffness = matrices(system, &from).0[2].clone();
+        let forces = |d: &[f64]| {
+            let (mut d, mut f) = (d.to_vec(), vec![0.0; stiffness.order()]);
+            d.resize(stiffness.order(), 0.0);
+            stiffness.multiply(&d, &mut f);
+            f
+        };
+        let (target, change) = (forces(displacement), forces(velocity));
+        system.hold(true);
+        let result = settle(system, &from, state, (&target, &free));
+        let mut rate = change;
+        if result.is_ok() {
+            // What is free to rotate keeps the velocity of the linear motion.
+            free.iter().for_each(|&i| rate[i] = velocity[i]);
+            let mut tangent = matrices(system, state).0[2].clone();
+            tangent.factor().map_err(|_| NoSuperposition::Large)?;
+            tangent.solve(&mut rate);
+        }
+        system.hold(false);
+        result?;
+        state.v.iter_mut().zip(&rate).for_each(|(v, rate)| *v += rate);
+        return Ok(());
+    }
+    state.v.iter_mut().zip(velocity).for_each(|(v, rate)| *v += rate);
+    Ok(())
+}
+
+/// Solves r(q) − r(q₀) = f by Newton's method; the unknowns `free` stay as they are.
+fn settle(
+    system: &mut dyn System,
+    from: &State,
+    state: &mut State,
+    (forces, free): (&[f64], &[usize]),
+) -> Result<(), NoSuperposition> {
+    let n = state.v.len();
+    let scale: Vec<f64> = system.scales().to_vec();
+    let (mut start, mut r) = (vec![0.0; n], vec![0.0; forces.len()]);
+    system.residual(from, &mut start);
+    for _ in 0..ITERATIONS {
+        system.residual(state, &mut r[..n]);
+        r.iter_mut().zip(forces).for_each(|(r, f)| *r -= f);
+        r.iter_mut().zip(&start).for_each(|(r, start)| *r -= start);
+        free.iter().for_each(|&i| r[i] = 0.0);
+        joints::positions(system, state, &mut r[n..]);
+        let mut tangent = matrices(system, state).0[2].clone();
+        tangent.factor().map_err(|_| NoSuperposition::Large)?;
+        tangent.solve(&mut r);
+        r.iter_mut().for_each(|x| *x = -*x);
+        let at = state.q.clone();
+        system.retract(&at, &r[..n], &mut state.q);
+        state.lambda.iter_mut().zip(&r[n..]).for_each(|(lambda, x)| *lambda += x);
+        let size = r.iter().zip(&scale).map(|(x, s)| (x / s).abs()).fold(0.0, f64::max);
+        if size < SETTLED {
+            return Ok(());
+        }
+    }
+    Err(NoSuperposition::Large)
 }
 
 /// How far the component of the tip's displacement that the mode moves most moves with it: `None` if none does.

@@ -23,6 +23,16 @@ impl Match {
     pub(super) fn is_clear(self) -> bool {
         self.assurance >= CLEAR || self.edge
     }
+
+    fn is_certain(self) -> bool {
+        self.assurance >= CLEAR
+    }
+}
+
+/// Whether two of the first `count` modes change their order: they cross, or veer so far that the step passes over it.
+pub(super) fn changes_order(matches: &[Match], count: usize) -> bool {
+    let to: Vec<usize> = matches.iter().take(count).filter(|m| m.is_certain()).filter_map(|m| m.to).collect();
+    to.windows(2).any(|pair| pair[0] > pair[1])
 }
 
 /// For each mode at one speed, its continuation at the next: largest assurance first.
@@ -77,6 +87,8 @@ fn assurances(from: &Solved, to: &Solved) -> Vec<Vec<f64>> {
 /// Branches that grow speed by speed.
 pub(super) struct Tracker {
     pub branches: Vec<Branch>,
+    /// The first speed [rad/s] at which modes of no branch lie below the highest that has one, and the most of them at once.
+    pub entering: Option<(f64, usize)>,
     /// Number of each branch's mode at the last speed, while it is among those computed.
     at: Vec<Option<usize>>,
 }
@@ -88,7 +100,7 @@ impl Tracker {
         let branch =
             |mode: &_| Branch { points: vec![Point { speed, mode: Clone::clone(mode), assurance: 1.0 }] };
         let branches: Vec<Branch> = modes.iter().take(count).map(branch).collect();
-        Tracker { at: (0..branches.len()).map(Some).collect(), branches }
+        Tracker { at: (0..branches.len()).map(Some).collect(), branches, entering: None }
     }
 
     /// Goes on to the next speed by the matches of the modes.
@@ -103,6 +115,13 @@ impl Tracker {
                 let mode = to.modes[number].clone();
                 branch.points.push(Point { speed: to.speed, mode, assurance });
             }
+        }
+        let followed = self.at.iter().flatten();
+        let highest = followed.clone().max().copied().unwrap_or_default();
+        let others = (highest + 1).saturating_sub(followed.count());
+        if others > 0 {
+            let (first, most) = self.entering.unwrap_or((to.speed, 0));
+            self.entering = Some((first, most.max(others)));
         }
     }
 }

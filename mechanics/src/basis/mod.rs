@@ -253,6 +253,38 @@ pub enum BasisError {
     Invalid(String),
 }
 
+/// Ends of elements on [0, `length`] \[m\]: those of `elements` equal ones, and the `stations`, at which a load acts or a
+/// section jumps. An end of the equal ones that is nearer than two fifths of their length to a station makes room for it; a
+/// station that is nearer than a twentieth to another one, or to an end of the beam, is left out.
+///
+/// # Errors
+/// [`BasisError::Invalid`] if the length is not positive and finite or if there is no element.
+pub fn mesh(length: f64, elements: usize, stations: &[f64]) -> Result<Vec<f64>, BasisError> {
+    let equal = uniform_cells(length, elements)?;
+    let h = length / elements as f64;
+    let mut stations: Vec<f64> = stations.iter().copied().filter(|x| (0.0..length).contains(x)).collect();
+    stations.sort_by(f64::total_cmp);
+    let mut kept = vec![0.0];
+    for x in stations {
+        // An end of the equal elements is written as theirs, to the last digit.
+        let nearest = equal[((x / h).round() as usize).min(elements)];
+        let x = if (x - nearest).abs() < 1e-9 * h { nearest } else { x };
+        if x - kept[kept.len() - 1] > 0.05 * h && length - x > 0.05 * h {
+            kept.push(x);
+        }
+    }
+    kept.push(length);
+    let mut cells = kept.clone();
+    cells.extend(equal.into_iter().filter(|cell| {
+        let i = kept.partition_point(|x| x < cell).min(kept.len() - 1);
+        let before = if i == 0 { f64::INFINITY } else { cell - kept[i - 1] };
+        let room = |distance: f64, end: bool| distance > if end { 1e-9 * h } else { 0.4 * h };
+        room(before, i == 1) && room(kept[i] - cell, i + 1 == kept.len())
+    }));
+    cells.sort_by(f64::total_cmp);
+    Ok(cells)
+}
+
 /// Boundaries of `count` equal cells on [0, `length`].
 fn uniform_cells(length: f64, count: usize) -> Result<Vec<f64>, BasisError> {
     if !(length.is_finite() && length > 0.0) {

@@ -69,7 +69,8 @@ impl Translation {
             2 => Jump::Acceleration,
             _ => Jump::Slope,
         };
-        x.breaks().iter().map(|&time| Break { time, jump: jump(time) }).collect()
+        let smooth = x.resolution().iter().map(|&time| Break { time, jump: Jump::Nothing });
+        x.breaks().iter().map(|&time| Break { time, jump: jump(time) }).chain(smooth).collect()
     }
 }
 

@@ -33,7 +33,7 @@ use super::load::Kinematics;
 use super::lumped::LumpedRotation;
 use super::rule::Rule;
 use super::station::{Placement, Station};
-use crate::basis::{BasisError, Field, Hermite};
+use crate::basis::{BasisError, Field, Hermite, mesh};
 use crate::linalg::Storage;
 use crate::profile::HubKinematics;
 use crate::section::{Resultants, Section};
@@ -42,6 +42,8 @@ use std::sync::Arc;
 
 /// Largest axial strain |ε| accepted for a linear-elastic beam.
 const LARGEST_STRAIN: f64 = 0.5;
+/// Relative difference of lengths that are the same to rounding.
+const SAME_LENGTH: f64 = 1e-12;
 
 /// Geometrically exact planar beam. Its formulas head the source file.
 #[derive(Clone, Debug)]
@@ -49,7 +51,9 @@ pub struct ExactCoupling {
     fields: Arc<Fields>,
     inertia: Arc<Inertia>,
     elements: Arc<[Element]>,
-    rule: Rule,
+    /// Rules of elements of different lengths, and which of them each element has.
+    rules: Arc<[Rule]>,
+    rule_of: Arc<[usize]>,
     radius: f64,
     lumped: Arc<[LumpedRotation]>,
     /// Damping in proportion to the stiffness, η \[s\].
@@ -77,18 +81,45 @@ impl ExactCoupling {
         beam: impl Into<Beam<'a>>,
         hub: &Hub,
     ) -> Result<ExactCoupling, BasisError> {
+        ExactCoupling::on(mesh(length, elements, &[])?, beam, hub)
+    }
+
+    /// A beam of Hermite elements between the given ascending boundaries, the first of which is 0 \[m\].
+    ///
+    /// # Errors
+    /// [`BasisError`] if the boundaries make no mesh.
+    pub fn on<'a>(
+        nodes: Vec<f64>,
+        beam: impl Into<Beam<'a>>,
+        hub: &Hub,
+    ) -> Result<ExactCoupling, BasisError> {
         let Beam { section, masses, breaks } = beam.into();
-        let mesh = |field| Hermite::new(length, elements, field).map(Box::new);
-        let fields = Fields::new(length, mesh(Field::Axial)?, mesh(Field::Transverse)?, &breaks);
+        let field = |field| Hermite::on(nodes.clone(), field).map(Box::new);
+        let length = nodes.last().copied().unwrap_or_default();
+        let fields = Fields::new(length, field(Field::Axial)?, field(Field::Transverse)?, &breaks);
         let lumped = LumpedRotation::of(&fields, &masses, hub.radius).into();
         let points = masses.into_iter().map(|m| Mass { inertia: 0.0, ..m }).collect();
         let quadratic = Beam { section: &MassOnly(section), masses: points, breaks };
         let inertia = Inertia::new(&fields, &quadratic, hub, Foreshortening::None);
-        let nodes = fields.axial().cells().to_vec();
-        let rule = Rule::new(nodes[1] - nodes[0]);
-        let elements = (0..elements).map(|e| Element::new(&fields, section, &nodes, e)).collect();
+        let mut rules: Vec<Rule> = Vec::new();
+        let rule_of = nodes.windows(2).map(|ends| {
+            let length = ends[1] - ends[0];
+            let same = |rule: &Rule| (rule.length - length).abs() <= SAME_LENGTH * length;
+            rules.iter().position(same).unwrap_or_else(|| {
+                rules.push(Rule::new(length));
+                rules.len() - 1
+            })
+        });
+        let rule_of = rule_of.collect();
+        let elements = (0..nodes.len() - 1).map(|e| Element::new(&fields, section, &nodes, e)).collect();
         let (radius, fields, inertia) = (hub.radius, Arc::new(fields), Arc::new(inertia));
-        Ok(ExactCoupling { fields, inertia, elements, rule, radius, lumped, viscosity: 0.0 })
+        let rules = rules.into();
+        Ok(ExactCoupling { fields, inertia, elements, rules, rule_of, radius, lumped, viscosity: 0.0 })
+    }
+
+    /// The elements with their rules.
+    fn each(&self) -> impl Iterator<Item = (&Element, &Rule)> {
+        self.elements.iter().zip(self.rule_of.iter().map(|rule| &self.rules[*rule]))
     }
 }
 
@@ -103,18 +134,18 @@ impl ExactCoupling {
         out: &mut Storage<f64>,
     ) {
         let viscous = self.viscosity > 0.0 && (w.q != 0.0 || w.v != 0.0);
-        for element in &*self.elements {
+        for (element, rule) in self.each() {
             if strain == 0.0 && !viscous && !element.has_section_inertia() {
                 continue;
             }
             let local = element.gather(s, self.radius);
             let mut tangent = [[0.0; 8]; 8];
             if strain != 0.0 {
-                element.strain_tangent(&self.rule, &local, strain, &mut tangent);
+                element.strain_tangent(rule, &local, strain, &mut tangent);
             }
-            element.section_tangent(&self.rule, &local, hub, w, &mut tangent);
+            element.section_tangent(rule, &local, hub, w, &mut tangent);
             if viscous {
-                element.viscous_tangent(&self.rule, &local, self.viscosity, w, &mut tangent);
+                element.viscous_tangent(rule, &local, self.viscosity, w, &mut tangent);
             }
             element.assemble(&tangent, out);
         }
@@ -142,13 +173,13 @@ impl Coupling for ExactCoupling {
     }
 
     fn add_forces(&mut self, s: &State, hub: &HubKinematics, r: &mut [f64]) {
-        for element in &*self.elements {
+        for (element, rule) in self.each() {
             let local = element.gather(s, self.radius);
             let mut force = [0.0; 8];
-            element.strain_force(&self.rule, &local, &mut force);
-            element.section_force(&self.rule, &local, hub, &mut force);
+            element.strain_force(rule, &local, &mut force);
+            element.section_force(rule, &local, hub, &mut force);
             if self.viscosity > 0.0 {
-                element.viscous_force(&self.rule, &local, self.viscosity, &mut force);
+                element.viscous_force(rule, &local, self.viscosity, &mut force);
             }
             element.scatter(&force, r);
         }
@@ -162,8 +193,8 @@ impl Coupling for ExactCoupling {
     }
 
     fn strain_forms(&mut self, s: &State, vectors: &[Vec<f64>], out: &mut [f64]) {
-        for element in &*self.elements {
-            element.strain_forms(&self.rule, &element.gather(s, self.radius), vectors, out);
+        for (element, rule) in self.each() {
+            element.strain_forms(rule, &element.gather(s, self.radius), vectors, out);
         }
     }
 
@@ -180,21 +211,21 @@ impl Coupling for ExactCoupling {
 
     fn strain(&mut self, s: &State) -> f64 {
         let local = |e: &Element| e.gather(s, self.radius);
-        self.elements.iter().map(|e| e.strain_energy(&self.rule, &local(e))).sum()
+        self.each().map(|(e, rule)| e.strain_energy(rule, &local(e))).sum()
     }
 
     fn extra_totals(&mut self, s: &State, hub: &HubKinematics) -> Totals {
-        let of = |e: &Element| e.section_totals(&self.rule, &e.gather(s, self.radius), hub);
-        let rotating = self.elements.iter().filter(|e| e.has_section_inertia());
+        let of = |(e, rule): (&Element, &Rule)| e.section_totals(rule, &e.gather(s, self.radius), hub);
+        let rotating = self.each().filter(|(e, _)| e.has_section_inertia());
         let lumped = self.lumped.iter().map(|mass| mass.totals(s, hub));
         rotating.map(of).chain(lumped).fold(Totals::default(), |sum, t| sum + t)
     }
 
     fn add_border(&mut self, s: &State, hub: &HubKinematics, w: &Weights<'_>, out: &mut Border) {
-        for element in &*self.elements {
+        for (element, rule) in self.each() {
             let (mut column, mut row) = ([0.0; 8], [0.0; 8]);
             let local = element.gather(s, self.radius);
-            out.corner += element.section_border(&self.rule, &local, hub, w, (&mut column, &mut row));
+            out.corner += element.section_border(rule, &local, hub, w, (&mut column, &mut row));
             element.scatter(&column, &mut out.column);
             element.scatter(&row, &mut out.row);
         }
@@ -218,8 +249,10 @@ impl Coupling for ExactCoupling {
     fn dissipated(&mut self, s: &State) -> f64 {
         let mut power = self.inertia.dissipated(&s.v);
         if self.viscosity > 0.0 {
-            let of = |e: &Element| e.viscous_power(&self.rule, &e.gather(s, self.radius), self.viscosity);
-            power += self.elements.iter().map(of).sum::<f64>();
+            let of = |(e, rule): (&Element, &Rule)| {
+                e.viscous_power(rule, &e.gather(s, self.radius), self.viscosity)
+            };
+            power += self.each().map(of).sum::<f64>();
         }
         power
     }

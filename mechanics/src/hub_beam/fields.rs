@@ -243,9 +243,14 @@ impl Fields {
     }
 
     /// Calls `f` at every quadrature point, cell after cell.
-    pub fn integrate(&self, mut f: impl FnMut(&Point)) {
+    pub fn integrate(&self, f: impl FnMut(&Point)) {
+        self.integrate_over(&self.cells, f);
+    }
+
+    /// As [`Fields::integrate`], over `cells` that are parts of those of the fields.
+    pub fn integrate_over(&self, cells: &[f64], mut f: impl FnMut(&Point)) {
         let mut point = Point::default();
-        for ends in self.cells.windows(2) {
+        for ends in cells.windows(2) {
             for (x, weight) in self.gauss.on(ends[0], ends[1]) {
                 (point.x, point.weight) = (x, weight);
                 self.fill(x, 0.5 * (ends[0] + ends[1]), &mut point);
@@ -254,9 +259,17 @@ impl Fields {
         }
     }
 
-    /// The tail integral ∫ₓᴸ f dξ as a function of x: O(1) a call after O(n) preparation.
+    /// The tail integral ∫ₓᴸ f dξ as a function of x: O(log n) a call after O(n) preparation.
     pub fn tail<'a, F: Fn(f64) -> f64 + 'a>(&'a self, f: F) -> impl Fn(f64) -> f64 + 'a {
-        let cells = &self.cells;
+        self.tail_over(&self.cells, f)
+    }
+
+    /// As [`Fields::tail`], over `cells` that are parts of those of the fields.
+    pub fn tail_over<'a, F: Fn(f64) -> f64 + 'a>(
+        &'a self,
+        cells: &'a [f64],
+        f: F,
+    ) -> impl Fn(f64) -> f64 + 'a {
         let mut beyond = vec![0.0; cells.len()];
         for c in (0..cells.len() - 1).rev() {
             beyond[c] = beyond[c + 1] + self.gauss.integrate(cells[c], cells[c + 1], &f);

@@ -66,6 +66,12 @@ impl Hub {
         Hub { radius, inertia, drive: Drive::Prescribed(motion) }
     }
 
+    /// The angle that its controller wants at time `t` \[s\], if it has one \[rad\].
+    pub(super) fn target(&self, t: f64) -> Option<f64> {
+        let Drive::Free(free) = &self.drive else { return None };
+        free.actuator.controller.as_ref().map(|controller| controller.reference.at(t).angle)
+    }
+
     /// Number of unknowns of the hub.
     pub fn unknowns(&self) -> usize {
         usize::from(matches!(self.drive, Drive::Free(_)))

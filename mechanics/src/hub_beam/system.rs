@@ -14,7 +14,6 @@ use crate::drive::motion_breaks;
 use crate::linalg::vector::dot;
 use crate::linalg::{Matrix, Storage, Structure};
 use crate::profile::HubKinematics;
-use crate::section::Section;
 use crate::system::{
     Break, Channel, Corotation, Direction, Dynamics, Energy, Events, Frame, NotSet, Observed, Parameter,
     Power, Role, Size, State, Steady, Weights, ordered,
@@ -88,7 +87,7 @@ impl<C: Coupling> HubBeam<C> {
             hub_inertia,
             small_share: share.filter(|share| *share < SMALL_SHARE),
             scales: scales.into(),
-            channels: Arc::new(channels(&stations)),
+            channels: Arc::new(channels(&stations, hub.target(0.0).is_some())),
             placements: vec![Placement::default(); stations.len()],
             stations: stations.into(),
             shown: Vec::new(),
@@ -142,7 +141,7 @@ impl<C: Coupling> HubBeam<C> {
     /// `section` is the one the coupling was made of. What else is recorded must be known before.
     pub fn with_section_forces(
         mut self,
-        section: &dyn Section,
+        beam: &Beam<'_>,
         sampling: Sampling,
         forces: bool,
         heights: &[f64],
@@ -153,7 +152,7 @@ impl<C: Coupling> HubBeam<C> {
         let at: Vec<(String, f64)> =
             order.map(|i| (self.stations[i].name.clone(), self.stations[i].point.x)).collect();
         let fields = self.coupling.fields();
-        self.section_forces = Arc::new(SectionForces::new(fields, section, sampling, &at, forces, heights));
+        self.section_forces = Arc::new(SectionForces::new(fields, beam, sampling, &at, forces, heights));
         Arc::make_mut(&mut self.channels).extend(self.section_forces.channels());
         self
     }
@@ -262,7 +261,7 @@ fn cleared(out: &mut Matrix, n: usize) -> &mut Storage<f64> {
 }
 
 /// The recorded quantities, in the order of [`HubBeam::record`].
-fn channels(stations: &[Station]) -> Vec<Channel> {
+fn channels(stations: &[Station], controlled: bool) -> Vec<Channel> {
     let mut channels = Vec::new();
     let mut add = |role, name: String, unit: &'static str, meaning: String| {
         channels.push(Channel { name, unit, meaning, role });
@@ -284,14 +283,18 @@ fn channels(stations: &[Station]) -> Vec<Channel> {
         add(other, "rotation_velocity", "rad/s", format!("rate of the rotation {at}"));
     }
     let mut add = |role, name: &str, unit, meaning: &str| add(role, name.into(), unit, meaning.into());
-    add(Role::Secondary, "hub.angle", "rad", "angle of the hub");
-    add(Role::Primary, "hub.speed", "rad/s", "angular speed of the hub");
+    let roles = if controlled { [Role::Primary, Role::Secondary] } else { [Role::Secondary, Role::Primary] };
+    add(roles[0], "hub.angle", "rad", "angle of the hub");
+    add(roles[1], "hub.speed", "rad/s", "angular speed of the hub");
     add(Role::Secondary, "hub.acceleration", "rad/s^2", "angular acceleration of the hub");
     add(Role::Primary, "hub.torque", "N*m", "torque on the hub: needed by its motion, or driving it");
     let meaning = "angular momentum of beam and hub about the axis";
     add(Role::Secondary, "hub.angular_momentum", "kg*m^2/s", meaning);
     add(Role::Energy, "energy.kinetic", "J", "kinetic energy of beam and hub");
     add(Role::Energy, "energy.strain", "J", "strain energy of the beam");
+    if controlled {
+        add(Role::Secondary, "hub.target", "rad", "angle that the controller of the hub wants");
+    }
     channels
 }
 
@@ -520,7 +523,7 @@ impl<C: Coupling> Observed for HubBeam<C> {
                 ]
             })
             .chain([hub.angle, hub.speed, hub.acceleration, torque, totals.momentum, totals.kinetic, strain])
-            .chain(gravity);
+            .chain(self.hub.target(s.time()).into_iter().chain(gravity));
         for out in out {
             *out = values.next().unwrap_or(f64::NAN);
         }

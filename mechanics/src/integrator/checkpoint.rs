@@ -29,6 +29,9 @@ pub enum NotResumed {
         /// Length needed.
         needed: usize,
     },
+    /// A list has numbers that are not finite, or not the ones of a run.
+    #[error("the stored `{0}` has numbers that no run has")]
+    Invalid(String),
     /// The method cannot take up its history again.
     #[error("{0}")]
     Failed(String),
@@ -68,6 +71,16 @@ impl Checkpoint {
             found: list.len(),
             needed: N,
         })
+    }
+
+    /// As [`Checkpoint::numbers`], of finite numbers.
+    ///
+    /// # Errors
+    /// [`NotResumed::Missing`], [`NotResumed::Length`] and [`NotResumed::Invalid`].
+    pub fn finite<const N: usize>(&self, name: &str) -> Result<[f64; N], NotResumed> {
+        let numbers = self.numbers(name)?;
+        let finite = numbers.iter().all(|x: &f64| x.is_finite());
+        finite.then_some(numbers).ok_or_else(|| NotResumed::Invalid(name.to_owned()))
     }
 
     /// Copies the list called `name` into `out`, whose length it must have.

@@ -10,10 +10,9 @@ use super::model::Model;
 use super::rotation::{apply, apply_transposed, column, matrix, plus, product, quaternion};
 use super::row::Row;
 use super::slender::ELEMENT_VELOCITIES;
-use crate::drive::force_jump;
+use crate::drive::force_breaks;
 use crate::linalg::Structure;
 use crate::linalg::vector::{cross, inner};
-use crate::profile::jumping_derivative;
 use crate::system::{Break, Channel, Frame, Set, Size, State, ordered};
 use std::ops::Range;
 
@@ -121,13 +120,7 @@ impl Constants {
         let mut breaks: Vec<Break> = model.joints.iter().flat_map(|joint| joint.breaks()).collect();
         let amplitudes = model.loads.iter().map(|load| &load.amplitude);
         let amplitudes = amplitudes.chain(model.line_loads.iter().map(|load| &load.amplitude));
-        for amplitude in amplitudes.flatten() {
-            let jump = |time| {
-                let derivative = jumping_derivative(amplitude.as_ref(), time);
-                Break { time, jump: force_jump(derivative) }
-            };
-            breaks.extend(amplitude.breaks().iter().map(|time| jump(*time)));
-        }
+        breaks.extend(amplitudes.flatten().flat_map(|amplitude| force_breaks(amplitude.as_ref())));
         let mut weight = vec![0.0; v];
         for (of, [_, at]) in model.beams.iter().zip(&beams) {
             for (e, element) in of.beam.elements().iter().enumerate() {

@@ -30,6 +30,7 @@
 //! | `constants` | what does not change in a run |
 //! | `slender` | the geometrically exact slender beam |
 //! | `system` | the equations of motion |
+//! | `rotating` | the same in a frame that rotates, for steady rotation and its modes |
 //! | `observed`, `channels` | energies, power, recorded quantities |
 
 mod body;
@@ -44,6 +45,7 @@ mod layout;
 mod marker;
 mod model;
 mod observed;
+mod rotating;
 pub mod rotation;
 mod row;
 pub mod slender;
@@ -55,4 +57,5 @@ pub use force::{Axes, Load, Spring};
 pub use joint::{Drive, Joint, Kind};
 pub use marker::{Marker, Part};
 pub use model::{Model, ModelError, Violation};
+pub use rotating::Rotating;
 pub use system::Multibody;

@@ -1,31 +1,20 @@
 //! Profiles written as a formula, with exact derivatives.
 
+use super::panels::{Panels, Refused};
 use super::program::Program;
 use super::{Profile, ProfileError, positive};
-use crate::quadrature::Gauss;
-
-/// Intervals scanned for changes of branch.
-const SCAN: usize = 4096;
-/// Intervals of the integral, besides the breaks.
-const PANELS: usize = 512;
-/// Gauss points an interval.
-const POINTS: usize = 12;
 
 /// A formula in one variable, e.g. `2*sin(pi*t) + if(t < 3, 0, t - 3)`.
 ///
 /// Operators `+ - * / ^ < <= > >=`, constants `pi tau e`, functions `sin cos tan asin acos atan sinh cosh
 /// tanh exp ln log10 sqrt abs sign step floor min max if`. Value and derivatives are exact (automatic
-/// differentiation); the integral is composite Gauss quadrature on a grid fixed by the duration and the
-/// breaks, and so a pure function of time. Breaks (changes of branch) are found by scanning 4096 equal
-/// intervals and bisecting; a branch that opens and closes within one interval may be missed.
+/// differentiation); the integral is composite Gauss quadrature on panels that are halved until the formula is
+/// integrated to 10⁻¹³ of ∫|f|, and so a pure function of time. Bounds by interval arithmetic see to it that nothing is
+/// missed between samples: neither a short pulse nor a branch that opens and closes, down to 10⁻⁹ of the range.
 #[derive(Clone, Debug)]
 pub struct Expression {
     program: Program,
-    breaks: Vec<f64>,
-    grid: Vec<f64>,
-    /// ∫ from 0 to each boundary of the grid.
-    sums: Vec<f64>,
-    gauss: Gauss,
+    panels: Panels,
 }
 
 impl Expression {
@@ -33,65 +22,20 @@ impl Expression {
     /// the run \[s\].
     ///
     /// # Errors
-    /// [`ProfileError::Expression`] says where the text is no formula; [`ProfileError::NotFinite`] when value
-    /// or first derivative is not finite somewhere on the scanned grid.
+    /// [`ProfileError::Expression`] says where the text is no formula; [`ProfileError::NotFinite`] and
+    /// [`ProfileError::Pole`] where it has no finite value or grows beyond all bounds; [`ProfileError::TooFast`].
     pub fn new(text: &str, variable: &str, extent: f64) -> Result<Expression, ProfileError> {
         positive("duration over which an expression is needed [s]", extent)?;
         let program = Program::parse(text, variable)?;
-        let station = |k: usize, n: usize| if k == n { extent } else { extent * (k as f64 / n as f64) };
-        let mut breaks = Vec::new();
-        for k in 0..=SCAN {
-            let time = station(k, SCAN);
-            let (jet, branch) = program.eval(time);
-            for (what, value) in [("itself", jet.value), ("differentiated", jet.rate)] {
-                if !value.is_finite() {
-                    return Err(ProfileError::NotFinite {
-                        text: text.into(),
-                        what,
-                        value,
-                        time,
-                        duration: extent,
-                    });
-                }
+        let (text, variable) = (text.to_owned(), variable.to_owned());
+        match Panels::new(&program, extent) {
+            Ok(panels) => Ok(Expression { program, panels }),
+            Err(Refused::NotFinite(value, at)) => {
+                Err(ProfileError::NotFinite { text, variable, value, at, extent })
             }
-            let mut from = if k == 0 { time } else { station(k - 1, SCAN) };
-            for _ in 0..16 {
-                match first_change(&program, from, time, branch) {
-                    Some(t) => {
-                        breaks.push(t);
-                        from = t;
-                    }
-                    None => break,
-                }
-            }
+            Err(Refused::Pole(at)) => Err(ProfileError::Pole { text, variable, at, extent }),
+            Err(Refused::TooFast) => Err(ProfileError::TooFast { text, variable, extent }),
         }
-        let mut grid: Vec<f64> =
-            (0..=PANELS).map(|k| station(k, PANELS)).chain(breaks.iter().copied()).collect();
-        grid.sort_by(f64::total_cmp);
-        grid.dedup();
-        let gauss = Gauss::new(POINTS);
-        let mut sums = vec![0.0; grid.len()];
-        for i in 1..grid.len() {
-            sums[i] = sums[i - 1] + gauss.integrate(grid[i - 1], grid[i], |t| program.value(t));
-        }
-        Ok(Expression { program, breaks, grid, sums, gauss })
-    }
-}
-
-/// The first double after `from` on which the branch differs from that of `from`, if `to` (whose branch is
-/// given) differs.
-fn first_change(program: &Program, from: f64, to: f64, branch: u64) -> Option<f64> {
-    let start = program.eval(from).1;
-    if start == branch {
-        return None;
-    }
-    let (mut same, mut other) = (from, to);
-    loop {
-        let middle = 0.5 * (same + other);
-        if middle <= same || middle >= other {
-            return Some(other);
-        }
-        if program.eval(middle).1 == start { same = middle } else { other = middle }
     }
 }
 
@@ -109,12 +53,15 @@ impl Profile for Expression {
     }
 
     fn integral(&self, t: f64) -> f64 {
-        let i = self.grid.partition_point(|&start| start <= t).saturating_sub(1);
-        self.sums[i] + self.gauss.integrate(self.grid[i], t, |t| self.value(t))
+        self.panels.integral(&self.program, t)
     }
 
     fn breaks(&self) -> &[f64] {
-        &self.breaks
+        &self.panels.breaks
+    }
+
+    fn resolution(&self) -> &[f64] {
+        &self.panels.resolution
     }
 }
 
@@ -184,6 +131,8 @@ mod tests {
             "ln(2 + t) + log10(1 + t^2) + atan(t) + asin(t/4) - acos(t/5) + tan(t/3)",
             "sinh(t/2) - cosh(t/2) + (t - 1)^3 + pi*tau*e",
             "if(t < 1.234, t^3, 2 - t)",
+            "if(t < 1, 0, if(t < 1.001, 1e2, 0))",
+            "exp(-((t - 1.3)/0.1)^2) + sin(9*t)",
             "abs(sin(5*t)) + max(t, 1.7) + min(t^2, 2) + t*floor(t)",
             "4/3*t - 4/(2*pi)*sin(2*pi*t/3)",
         ] {
@@ -230,11 +179,76 @@ mod tests {
                 "{text}: {message}"
             );
         }
-        for text in ["1/(t - 0.5)", "sqrt(t)", "ln(t)"] {
+        for text in ["1/(t - 0.5)", "sqrt(t - 1e-5)", "ln(t)"] {
             let message = Expression::new(text, "t", 1.0).unwrap_err().to_string();
             assert!(message.contains("must be finite"), "{message}");
         }
         assert!(Expression::new(&"(".repeat(100_000), "t", 1.0).is_err());
         assert!(Expression::new(&"1+(".repeat(100), "t", 1.0).is_err());
+    }
+
+    #[test]
+    fn integrals_of_fast_and_short_functions_are_those_of_their_closed_forms() {
+        let root = std::f64::consts::PI.sqrt();
+        for (text, extent, exact) in [
+            ("sin(100*t)", 600.0, (1.0 - (6e4_f64).cos()) / 100.0),
+            ("exp(-((t-50.05)/0.005)^2)", 100.0, 0.005 * root),
+            ("1e5*exp(-((t-50)/1e-5)^2)", 100.0, root),
+            ("if(t < 50, 0, if(t < 50.001, 1e5, 0))", 100.0, 100.0),
+            ("sqrt(1 - (t/10)^2)", 10.0, 2.5 * std::f64::consts::PI),
+            ("sqrt(t)", 9.0, 18.0),
+            ("if(t > 0, sin(t)/t, 1)", 1.0, 0.946_083_070_367_183),
+            ("abs(t - 1/3)^0.5", 1.0, ((1.0_f64 / 3.0).powf(1.5) + (2.0_f64 / 3.0).powf(1.5)) / 1.5),
+        ] {
+            let profile = Expression::new(text, "t", extent).unwrap_or_else(|e| panic!("{e}"));
+            let found = profile.integral(extent);
+            assert!((found - exact).abs() < 1e-11 * exact.abs().max(1.0), "{text}: {found} for {exact}");
+        }
+    }
+
+    #[test]
+    fn poles_between_samples_are_refused_and_infinite_slopes_are_not() {
+        for text in ["1/(x - 3.3)", "tan(x)", "1/(x - 3.3)^2", "if(x < 4, 1/(4 - x), 0)", "x/(x^2 - 2)"] {
+            let message = Expression::new(text, "x", 10.0).unwrap_err().to_string();
+            assert!(message.contains("finite") && message.contains("x = "), "{text}: {message}");
+        }
+        for text in [
+            "x^2/x + 1",
+            "sqrt(10 - x)",
+            "x^(1/3)",
+            "abs(sin(x))^0.5",
+            "1/(x + 1e-3)",
+            "1/(x^2 - 2*x + 1.001)",
+        ] {
+            let text = if text == "x^2/x + 1" { "if(x > 0, x^2/x, 0)" } else { text };
+            assert!(Expression::new(text, "x", 10.0).is_ok(), "{text}");
+        }
+        let message = Expression::new("sin(1e7*t)", "t", 100.0).unwrap_err().to_string();
+        assert!(message.contains("too fast"), "{message}");
+    }
+
+    #[test]
+    fn every_branch_is_found() {
+        let breaks = |text: &str, extent: f64| Expression::new(text, "t", extent).unwrap().breaks().to_vec();
+        assert_eq!(breaks("if(t < 50, 0, if(t < 50.001, 1e5, 0))", 100.0), [50.0, 50.001]);
+        assert_eq!(breaks("floor(t)", 4.5), [1.0, 2.0, 3.0, 4.0]);
+        assert_eq!(breaks("step(sin(100*t)) + 0*t", 6.0).len(), 190);
+        assert_eq!(breaks("t + (t > 3)*(t < 3.0000001)", 10.0).len(), 2);
+        assert_eq!(breaks("abs((t - 1)^2) + abs(t)", 3.0), [] as [f64; 0]);
+    }
+
+    #[test]
+    fn three_points_between_the_times_of_the_resolution_see_the_function() {
+        let resolution = |text: &str| Expression::new(text, "t", 100.0).unwrap().resolution().to_vec();
+        for text in ["1", "t", "1 + 2*t - t^2", "sin(pi*t/50)", "if(t < 30.3, t, 0)", "if(t < 50, 0, 1)"] {
+            assert_eq!(resolution(text), [] as [f64; 0], "{text}");
+        }
+        for text in ["exp(-((t-50.05)/0.005)^2)", "3*t + 1e-3*exp(-((t-50.05)/0.005)^2)"] {
+            let times = resolution(text);
+            let near = times.iter().filter(|t| (*t - 50.05).abs() < 0.005).count();
+            assert!(near > 0 && times.len() < 60, "{text}: {near} of {}", times.len());
+        }
+        let many = resolution("sin(10*t)").len();
+        assert!((160..1500).contains(&many), "{many}");
     }
 }

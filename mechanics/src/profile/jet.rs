@@ -2,6 +2,7 @@
 //!
 //! For g(f): (g f)′ = g′ f′, (g f)″ = g″ f′² + g′ f″.
 
+use super::number::{Function, Number};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// f, f′ and f″ at one point.
@@ -12,63 +13,9 @@ pub(super) struct Jet {
     pub bend: f64,
 }
 
-/// What a formula can be evaluated with: numbers alone, or with derivatives.
-pub(super) trait Number:
-    Copy
-    + Default
-    + Neg<Output = Self>
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Div<Output = Self>
-{
-    fn constant(value: f64) -> Self;
-    fn variable(value: f64) -> Self;
-    fn value(self) -> f64;
-    fn pow(self, exponent: Self) -> Self;
-    fn apply(self, function: Smooth) -> Self;
-}
-
-/// A smooth function of numbers and of jets.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Smooth {
-    pub number: fn(f64) -> f64,
-    pub jet: fn(Jet) -> Jet,
-}
-
-impl Number for f64 {
-    fn constant(value: f64) -> f64 {
-        value
-    }
-
-    fn variable(value: f64) -> f64 {
-        value
-    }
-
-    fn value(self) -> f64 {
-        self
-    }
-
-    fn pow(self, exponent: f64) -> f64 {
-        self.powf(exponent)
-    }
-
-    fn apply(self, function: Smooth) -> f64 {
-        (function.number)(self)
-    }
-}
-
 impl Number for Jet {
     fn constant(value: f64) -> Jet {
         Jet { value, rate: 0.0, bend: 0.0 }
-    }
-
-    fn variable(value: f64) -> Jet {
-        Jet { value, rate: 1.0, bend: 0.0 }
-    }
-
-    fn value(self) -> f64 {
-        self.value
     }
 
     /// A constant exponent leaves negative bases possible.
@@ -81,12 +28,48 @@ impl Number for Jet {
         self.chain(libm::pow(x, n), term(n, n - 1.0), term(n * (n - 1.0), n - 2.0))
     }
 
-    fn apply(self, function: Smooth) -> Jet {
-        (function.jet)(self)
+    fn apply(self, function: Function) -> Jet {
+        match function {
+            Function::Sin => self.sin(),
+            Function::Cos => self.cos(),
+            Function::Tan => self.tan(),
+            Function::Asin => self.asin(),
+            Function::Acos => self.acos(),
+            Function::Atan => self.atan(),
+            Function::Sinh => self.sinh(),
+            Function::Cosh => self.cosh(),
+            Function::Tanh => self.tanh(),
+            Function::Exp => self.exp(),
+            Function::Ln => self.ln(),
+            Function::Log10 => self.log10(),
+            Function::Sqrt => self.sqrt(),
+        }
+    }
+
+    fn below(self, other: Jet, or_equal: bool) -> Option<bool> {
+        self.value.below(other.value, or_equal)
+    }
+
+    fn differs_from_zero(self) -> Option<bool> {
+        self.value.differs_from_zero()
+    }
+
+    fn floor(self) -> (Jet, Option<f64>) {
+        let (whole, decided) = Number::floor(self.value);
+        (Jet::constant(whole), decided)
+    }
+
+    fn or(self, _: Jet) -> Jet {
+        self
     }
 }
 
 impl Jet {
+    /// The variable itself.
+    pub fn variable(value: f64) -> Jet {
+        Jet { value, rate: 1.0, bend: 0.0 }
+    }
+
     fn is_constant(self) -> bool {
         self.rate == 0.0 && self.bend == 0.0
     }

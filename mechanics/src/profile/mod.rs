@@ -1,8 +1,12 @@
 //! Functions of time: speeds, angles and loads, with their derivatives and integral.
 
 mod expression;
+mod interval;
 mod jet;
 mod motion;
+mod number;
+mod panels;
+mod pieces;
 mod polyline;
 mod program;
 mod simple;
@@ -10,6 +14,7 @@ mod table;
 
 pub use expression::Expression;
 pub use motion::{HubKinematics, Motion};
+pub use pieces::Pieces;
 pub use polyline::Polyline;
 pub use simple::{Constant, Ramp, SpinUp};
 pub use table::{End, Table};
@@ -30,6 +35,12 @@ pub trait Profile: Send + Sync + std::fmt::Debug {
 
     /// Times at which f, f′ or f″ jumps or kinks, ascending \[s\].
     fn breaks(&self) -> &[f64] {
+        &[]
+    }
+
+    /// Times besides the breaks at which steps should end, ascending \[s\]: between two neighbours of them and of the
+    /// breaks three points see f. A function without short features needs none.
+    fn resolution(&self) -> &[f64] {
         &[]
     }
 
@@ -86,10 +97,12 @@ pub enum ProfileError {
         fault: &'static str,
     },
     /// The table is too short.
-    #[error("the table has {rows} rows and a cubic spline needs at least 3")]
+    #[error("the table has {rows} rows and needs at least {least}")]
     TooFewRows {
         /// Number of rows.
         rows: usize,
+        /// How many it needs.
+        least: usize,
     },
     /// The text is not an expression. The byte offset says where.
     #[error("in the expression `{text}`, column {}: {fault}", .offset + 1)]
@@ -101,21 +114,47 @@ pub enum ProfileError {
         /// What is wrong.
         fault: String,
     },
-    /// The expression is not a finite number at some time.
-    #[error(
-        "the expression `{text}` {what} is {value} at t = {time} s; it must be finite from 0 to {duration} s"
-    )]
+    /// The expression is not a finite number somewhere.
+    #[error("the expression `{text}` is {value} at {variable} = {at}; it must be finite from 0 to {extent}")]
     NotFinite {
         /// The whole text.
         text: String,
-        /// Value or derivative.
-        what: &'static str,
+        /// Its variable.
+        variable: String,
         /// Its value.
         value: f64,
-        /// Time \[s\].
-        time: f64,
-        /// Duration of the run \[s\].
-        duration: f64,
+        /// Where.
+        at: f64,
+        /// Largest value of the variable.
+        extent: f64,
+    },
+    /// The expression grows beyond all bounds.
+    #[error(
+        "the expression `{text}` grows beyond all bounds near {variable} = {at:.9}, and so does its integral; it must be \
+         finite from 0 to {extent}"
+    )]
+    Pole {
+        /// The whole text.
+        text: String,
+        /// Its variable.
+        variable: String,
+        /// Where.
+        at: f64,
+        /// Largest value of the variable.
+        extent: f64,
+    },
+    /// The expression has too many waves or branches.
+    #[error(
+        "the expression `{text}` varies too fast to be followed from {variable} = 0 to {extent}: more than 131072 pieces \
+         are needed; shorten the range, or leave out what is that fast"
+    )]
+    TooFast {
+        /// The whole text.
+        text: String,
+        /// Its variable.
+        variable: String,
+        /// Largest value of the variable.
+        extent: f64,
     },
     /// A prescribed motion is not a finite number at some time.
     #[error("the {quantity} is {value} at t = {time} s and must be finite all through the run")]
@@ -159,6 +198,24 @@ pub fn covers(profile: &dyn Profile, duration: f64) -> Result<(), ProfileError> 
         return Ok(());
     }
     Err(ProfileError::OutOfRange { first, last, duration })
+}
+
+/// Abscissae and values of at least `least` rows, which ascend strictly and are finite.
+fn checked_rows(rows: &[(f64, f64)], least: usize) -> Result<(Vec<f64>, Vec<f64>), ProfileError> {
+    if rows.len() < least {
+        return Err(ProfileError::TooFewRows { rows: rows.len(), least });
+    }
+    for (i, &(time, value)) in rows.iter().enumerate() {
+        let fault = if !time.is_finite() || !value.is_finite() {
+            "is not finite"
+        } else if i > 0 && time <= rows[i - 1].0 {
+            "must lie behind the row before it"
+        } else {
+            continue;
+        };
+        return Err(ProfileError::Row { row: i + 1, time, value, fault });
+    }
+    Ok(rows.iter().copied().unzip())
 }
 
 fn finite(quantity: &'static str, value: f64) -> Result<(), ProfileError> {

@@ -53,10 +53,10 @@ impl Motion {
         self.profile().breaks()
     }
 
-    /// Largest |θ̇| [rad/s] from 0 to `duration` \[s\], among 4096 equal intervals and the breaks.
+    /// Largest |θ̇| [rad/s] from 0 to `duration` \[s\], among 4096 equal intervals, the breaks and the times of the resolution.
     pub fn max_speed(&self, duration: f64) -> f64 {
         let speed = |t: f64| self.at(t).speed.abs();
-        let samples = self.samples(duration).map(speed);
+        let samples = self.samples(duration).chain(self.seen(duration)).map(speed);
         // On both sides of a break, where the speed may jump.
         let sides = self.breaks().iter().filter(|t| (0.0..=duration).contains(*t));
         let breaks = sides.flat_map(|t| [t.next_down().max(0.0), *t]).map(speed);
@@ -78,7 +78,7 @@ impl Motion {
                 }
             }
         }
-        for t in self.samples(duration) {
+        for t in self.samples(duration).chain(self.seen(duration)) {
             let hub = self.at(t);
             for (quantity, value) in [
                 ("prescribed angle of the hub [rad]", hub.angle),
@@ -114,6 +114,15 @@ impl Motion {
             if above(middle) { high = middle } else { low = middle }
         }
         high
+    }
+
+    /// Times at which steps should end to see the motion, ascending \[s\].
+    pub fn resolution(&self) -> &[f64] {
+        self.profile().resolution()
+    }
+
+    fn seen(&self, duration: f64) -> impl Iterator<Item = f64> {
+        self.resolution().iter().copied().filter(move |t| *t <= duration)
     }
 
     fn profile(&self) -> &Arc<dyn Profile> {

@@ -1,6 +1,6 @@
 //! Profiles through the rows of a table by straight lines.
 
-use super::{Profile, ProfileError};
+use super::{Profile, ProfileError, checked_rows};
 
 /// Straight lines between rows (x, f), constant before the first and behind the last. Every row is a break.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,20 +17,7 @@ impl Polyline {
     /// # Errors
     /// [`ProfileError::Row`] or [`ProfileError::TooFewRows`].
     pub fn new(rows: &[(f64, f64)]) -> Result<Polyline, ProfileError> {
-        if rows.is_empty() {
-            return Err(ProfileError::TooFewRows { rows: 0 });
-        }
-        for (i, &(time, value)) in rows.iter().enumerate() {
-            let fault = if !time.is_finite() || !value.is_finite() {
-                "is not finite"
-            } else if i > 0 && time <= rows[i - 1].0 {
-                "must lie behind the row before it"
-            } else {
-                continue;
-            };
-            return Err(ProfileError::Row { row: i + 1, time, value, fault });
-        }
-        let (abscissae, values): (Vec<f64>, Vec<f64>) = rows.iter().copied().unzip();
+        let (abscissae, values) = checked_rows(rows, 1)?;
         let mut sums = vec![0.0; abscissae.len()];
         for i in 1..abscissae.len() {
             sums[i] = sums[i - 1] + 0.5 * (values[i - 1] + values[i]) * (abscissae[i] - abscissae[i - 1]);

@@ -12,7 +12,9 @@
 //! ```
 
 use super::ProfileError;
-use super::jet::{Jet, Number, Smooth};
+use super::interval::Interval;
+use super::jet::Jet;
+use super::number::{Function, Number};
 
 /// Most values that may wait on the stack.
 const DEPTH: usize = 48;
@@ -21,7 +23,7 @@ const DEPTH: usize = 48;
 enum Op {
     Number(f64),
     Variable,
-    Smooth(Smooth),
+    Smooth(Function),
     Neg,
     Add,
     Sub,
@@ -73,25 +75,21 @@ fn folded(ops: Vec<Op>) -> Vec<Op> {
 const CONSTANTS: [(&str, f64); 3] =
     [("pi", std::f64::consts::PI), ("tau", std::f64::consts::TAU), ("e", std::f64::consts::E)];
 
-const fn smooth(number: fn(f64) -> f64, jet: fn(Jet) -> Jet) -> Op {
-    Op::Smooth(Smooth { number, jet })
-}
-
 /// Name, number of arguments, operation.
 const FUNCTIONS: [(&str, usize, Op); 20] = [
-    ("sin", 1, smooth(libm::sin, Jet::sin)),
-    ("cos", 1, smooth(libm::cos, Jet::cos)),
-    ("tan", 1, smooth(libm::tan, Jet::tan)),
-    ("asin", 1, smooth(libm::asin, Jet::asin)),
-    ("acos", 1, smooth(libm::acos, Jet::acos)),
-    ("atan", 1, smooth(libm::atan, Jet::atan)),
-    ("sinh", 1, smooth(libm::sinh, Jet::sinh)),
-    ("cosh", 1, smooth(libm::cosh, Jet::cosh)),
-    ("tanh", 1, smooth(libm::tanh, Jet::tanh)),
-    ("exp", 1, smooth(libm::exp, Jet::exp)),
-    ("ln", 1, smooth(libm::log, Jet::ln)),
-    ("log10", 1, smooth(libm::log10, Jet::log10)),
-    ("sqrt", 1, smooth(f64::sqrt, Jet::sqrt)),
+    ("sin", 1, Op::Smooth(Function::Sin)),
+    ("cos", 1, Op::Smooth(Function::Cos)),
+    ("tan", 1, Op::Smooth(Function::Tan)),
+    ("asin", 1, Op::Smooth(Function::Asin)),
+    ("acos", 1, Op::Smooth(Function::Acos)),
+    ("atan", 1, Op::Smooth(Function::Atan)),
+    ("sinh", 1, Op::Smooth(Function::Sinh)),
+    ("cosh", 1, Op::Smooth(Function::Cosh)),
+    ("tanh", 1, Op::Smooth(Function::Tanh)),
+    ("exp", 1, Op::Smooth(Function::Exp)),
+    ("ln", 1, Op::Smooth(Function::Ln)),
+    ("log10", 1, Op::Smooth(Function::Log10)),
+    ("sqrt", 1, Op::Smooth(Function::Sqrt)),
     ("abs", 1, Op::Abs),
     ("sign", 1, Op::Sign),
     ("step", 1, Op::Step),
@@ -152,20 +150,39 @@ impl Program {
     /// or maximum is decided differently.
     pub fn eval(&self, x: f64) -> (Jet, u64) {
         let mut branch = 0xcbf2_9ce4_8422_2325_u64;
-        let jet = self.run(x, |what: u64| branch = (branch ^ what).wrapping_mul(0x0000_0100_0000_01b3));
+        let jet = self.run(Jet::variable(x), |what| {
+            branch = (branch ^ what.unwrap_or_default()).wrapping_mul(0x0000_0100_0000_01b3);
+        });
         (jet, branch)
     }
 
-    fn run<N: Number>(&self, x: f64, mut decide: impl FnMut(u64)) -> N {
+    /// Bounds of the values from `low` to `high`, and whether every comparison is decided in one way there.
+    pub fn bounds(&self, low: f64, high: f64) -> (Interval, bool) {
+        let mut decided = true;
+        let bounds = self.run(Interval { low, high }, |what| decided &= what.is_some());
+        (bounds, decided)
+    }
+
+    fn run<N: Number>(&self, x: N, mut decide: impl FnMut(Option<u64>)) -> N {
         let mut stack = [N::default(); DEPTH];
         let mut top = 0_usize;
+        let constant = N::constant;
         for op in &self.ops {
             let base = top - op.arguments();
             let a = stack[base];
             let b = stack[(base + 1).min(DEPTH - 1)];
+            let is_negative = || a.below(constant(0.0), false);
+            let mut choose = |holds: Option<bool>, yes: N, no: N| {
+                decide(holds.map(u64::from));
+                match holds {
+                    Some(true) => yes,
+                    Some(false) => no,
+                    None => yes.or(no),
+                }
+            };
             let result = match *op {
-                Op::Number(value) => N::constant(value),
-                Op::Variable => N::variable(x),
+                Op::Number(value) => constant(value),
+                Op::Variable => x,
                 Op::Smooth(function) => a.apply(function),
                 Op::Neg => -a,
                 Op::Add => a + b,
@@ -177,39 +194,18 @@ impl Program {
                     (stack[base], stack[base + 1]) = (b, a);
                     continue;
                 }
-                Op::Less { or_equal } => {
-                    let holds = if or_equal { a.value() <= b.value() } else { a.value() < b.value() };
-                    decide(holds.into());
-                    N::constant(holds.into())
-                }
-                Op::Abs => {
-                    decide((a.value() < 0.0).into());
-                    if a.value() < 0.0 { -a } else { a }
-                }
-                Op::Sign => {
-                    decide((a.value() < 0.0).into());
-                    N::constant(if a.value() < 0.0 { -1.0 } else { 1.0 })
-                }
-                Op::Step => {
-                    decide((a.value() < 0.0).into());
-                    N::constant(if a.value() < 0.0 { 0.0 } else { 1.0 })
-                }
+                Op::Less { or_equal } => choose(a.below(b, or_equal), constant(1.0), constant(0.0)),
+                Op::Abs => choose(is_negative(), -a, a),
+                Op::Sign => choose(is_negative(), constant(-1.0), constant(1.0)),
+                Op::Step => choose(is_negative(), constant(0.0), constant(1.0)),
                 Op::Floor => {
-                    decide(a.value().floor().to_bits());
-                    N::constant(a.value().floor())
+                    let (whole, number) = a.floor();
+                    decide(number.map(f64::to_bits));
+                    whole
                 }
-                Op::Min => {
-                    decide((b.value() < a.value()).into());
-                    if b.value() < a.value() { b } else { a }
-                }
-                Op::Max => {
-                    decide((b.value() > a.value()).into());
-                    if b.value() > a.value() { b } else { a }
-                }
-                Op::If => {
-                    decide((a.value() != 0.0).into());
-                    if a.value() != 0.0 { b } else { stack[base + 2] }
-                }
+                Op::Min => choose(b.below(a, false), b, a),
+                Op::Max => choose(a.below(b, false), b, a),
+                Op::If => choose(a.differs_from_zero(), b, stack[base + 2]),
             };
             stack[base] = result;
             top = base + 1;

@@ -8,7 +8,8 @@
 //!
 //! Source: C. de Boor, *A Practical Guide to Splines* (2001), chapter IV.
 
-use super::{Profile, ProfileError};
+use super::{Profile, ProfileError, checked_rows};
+use crate::quadrature::Gauss;
 
 /// What closes the equations of the spline at the two ends.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -21,7 +22,7 @@ pub enum End {
 }
 
 /// A cubic spline through rows (t, f). It is C²; its jumps of f‴ at the rows are not reported as breaks,
-/// so that a finely sampled table does not dictate the steps.
+/// so that a finely sampled table does not dictate the steps. A spline overshoots where rows change abruptly.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
     times: Vec<f64>,
@@ -31,7 +32,13 @@ pub struct Table {
     sums: Vec<f64>,
     /// ∫ from the first row to t = 0.
     origin: f64,
+    /// Rows at which steps should end.
+    resolution: Vec<f64>,
 }
+
+/// What three points may miss between two rows of the resolution, over the sum of |Δ∫f| and of |Δf| from row to row there,
+/// and over these of the whole table.
+const SEEN: (f64, f64) = (0.05, 1e-6);
 
 impl Table {
     /// The spline through at least 3 rows (t \[s\], f) with strictly ascending finite times.
@@ -39,27 +46,48 @@ impl Table {
     /// # Errors
     /// [`ProfileError::Row`] or [`ProfileError::TooFewRows`].
     pub fn new(rows: &[(f64, f64)], end: End) -> Result<Table, ProfileError> {
-        if rows.len() < 3 {
-            return Err(ProfileError::TooFewRows { rows: rows.len() });
-        }
-        for (i, &(time, value)) in rows.iter().enumerate() {
-            let fault = if !time.is_finite() || !value.is_finite() {
-                "is not finite"
-            } else if i > 0 && time <= rows[i - 1].0 {
-                "must be later than the row before it"
-            } else {
-                continue;
-            };
-            return Err(ProfileError::Row { row: i + 1, time, value, fault });
-        }
-        let (times, values): (Vec<f64>, Vec<f64>) = rows.iter().copied().unzip();
+        let (times, values) = checked_rows(rows, 3)?;
         let bends = second_derivatives(&times, &values, end);
-        let mut table = Table { sums: vec![0.0; times.len()], times, values, bends, origin: 0.0 };
+        let sums = vec![0.0; times.len()];
+        let mut table = Table { sums, times, values, bends, origin: 0.0, resolution: Vec::new() };
         for i in 1..table.times.len() {
             table.sums[i] = table.sums[i - 1] + table.piece_integral(i - 1, table.times[i]);
         }
         table.origin = table.since_first(0.0);
+        let mut resolution = Vec::new();
+        table.resolve((0, table.times.len() - 1), &Gauss::new(3), &mut resolution);
+        table.resolution = resolution;
         Ok(table)
+    }
+
+    /// Adds rows between two until three points see the spline and its derivative in between.
+    fn resolve(&self, (i, j): (usize, usize), points: &Gauss, out: &mut Vec<f64>) {
+        let sums = |of: &[f64]| of.windows(2).map(|f| (f[1] - f[0]).abs()).sum::<f64>();
+        let is_seen = |of: &[f64], f: &dyn Fn(f64) -> f64| {
+            let (size, (local, global)) = (sums(&of[i..=j]), SEEN);
+            let found = points.integrate(self.times[i], self.times[j], f);
+            let found_size = points.integrate(self.times[i], self.times[j], |t| f(t).abs());
+            size <= global * sums(of)
+                || (found - (of[j] - of[i])).abs() <= local * size && found_size >= 0.3 * size
+        };
+        if j - i > 1 && !(is_seen(&self.sums, &|t| self.value(t)) && is_seen(&self.values, &|t| self.rate(t)))
+        {
+            let middle = i.midpoint(j);
+            self.resolve((i, middle), points, out);
+            out.push(self.times[middle]);
+            self.resolve((middle, j), points, out);
+        }
+    }
+
+    /// How far the spline leaves the values of its rows, over their range: the largest excess at three points of each piece
+    /// and the time of it \[s\].
+    pub fn overshoot(&self) -> (f64, f64) {
+        let least = self.values.iter().copied().fold(f64::INFINITY, f64::min);
+        let largest = self.values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let places = self.times.windows(2).flat_map(|t| [0.25, 0.5, 0.75].map(|s| t[0] + s * (t[1] - t[0])));
+        let excess = places.map(|t| ((self.value(t) - largest).max(least - self.value(t)), t));
+        let (excess, time) = excess.fold((0.0, 0.0), |most, new| if new.0 > most.0 { new } else { most });
+        (if excess > 0.0 { excess / (largest - least) } else { 0.0 }, time)
     }
 
     /// The piece in which t lies, and (t − t_i, t_{i+1} − t, h).
@@ -142,6 +170,10 @@ impl Profile for Table {
 
     fn integral(&self, t: f64) -> f64 {
         self.since_first(t) - self.origin
+    }
+
+    fn resolution(&self) -> &[f64] {
+        &self.resolution
     }
 
     fn range(&self) -> (f64, f64) {
@@ -251,5 +283,22 @@ mod tests {
         assert!(Table::new(&[(0.0, 1.0), (1.0, 2.0)], End::Natural).is_err());
         let table = Table::new(&[(0.0, 1.0), (1.0, 2.0), (2.0, 3.0)], End::NotAKnot).unwrap();
         assert!(covers(&table, 2.0).is_ok() && covers(&table, 2.1).is_err());
+    }
+
+    #[test]
+    fn an_overshoot_is_measured_and_a_spike_is_resolved() {
+        let (overshoot, time) =
+            Table::new(&[(0.0, 0.0), (1.0, 0.0), (1.1, 1.0), (5.0, 1.0), (20.0, 1.0)], End::NotAKnot)
+                .unwrap()
+                .overshoot();
+        assert!(overshoot > 10.0 && time > 5.0, "{overshoot} at {time}");
+        let wave = |k: i32| f64::from(k) / 10.0;
+        let sine: Vec<_> = (0..=100).map(|k| (wave(k), wave(k).sin())).collect();
+        let table = Table::new(&sine, End::NotAKnot).unwrap();
+        assert!(table.overshoot().0 < 1e-3 && table.resolution().len() < 10, "{:?}", table.resolution());
+        let spike: Vec<_> = (0..=1000).map(|k| (wave(k), f64::from(u8::from(k == 500)))).collect();
+        let times = Table::new(&spike, End::NotAKnot).unwrap().resolution().to_vec();
+        let near = times.iter().filter(|t| (*t - 50.0).abs() < 0.15).count();
+        assert!(near >= 2 && times.len() < 60, "{times:?}");
     }
 }

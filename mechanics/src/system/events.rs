@@ -13,9 +13,11 @@ pub enum Jump {
     Slope,
     /// The second derivative of an acceleration.
     Curvature,
+    /// Nothing: a step with error control ends there to see a load or a motion that changes fast.
+    Nothing,
 }
 
-/// A time that is known before the run and at which the motion is not smooth.
+/// A time that is known before the run: the motion is not smooth there, or changes fast.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Break {
     /// Time \[s\].

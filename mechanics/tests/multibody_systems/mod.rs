@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // in helpers of tests
 
+mod beam_statics;
 mod beams;
 mod chain;
 mod conformance;
@@ -11,6 +12,7 @@ mod flexible;
 mod heavy_top;
 mod mechanisms;
 mod paths;
+mod rotating;
 mod single;
 mod statics;
 

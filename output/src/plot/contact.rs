@@ -67,7 +67,7 @@ fn of_contacts(
             points.retain(|(t, _)| (from..=to).contains(t));
         }
         let name = (shown.len() > 1).then_some(name.as_str());
-        Some(Series { color: Some(color), ..Series::line(name, points) })
+        Some(Series::line(name, points).numbered(color))
     };
     let series = shown.iter().enumerate().filter_map(curve).collect();
     let x = Axis { range: window, ..Axis::time() };

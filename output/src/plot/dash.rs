@@ -1,40 +1,29 @@
 //! Cutting a curve into dashes.
 
-/// A step longer than this leaves the drawing by far [px]: it is left out.
-const LONGEST: f64 = 1e5;
+use super::sketch::Point;
 
-/// The dashes of a curve: `on` pixels drawn, `off` pixels left out, measured along the curve, with
-/// `scale` pixels for each unit of x and y. The library begins its pattern anew at every point, so that
-/// a finely sampled curve would come out solid; here the pattern runs through.
-pub(super) fn dashes(points: &[(f64, f64)], scale: (f64, f64), on: f64, off: f64) -> Vec<Vec<(f64, f64)>> {
+/// The dashes of a line: `lengths` [px] drawn and left out in turn, measured along it.
+pub(super) fn dashes(points: &[Point], lengths: &[f64]) -> Vec<Vec<Point>> {
+    let mut pattern = lengths.iter().copied().cycle();
     let mut out = Vec::new();
-    let mut dash: Vec<(f64, f64)> = points.first().map(|&p| vec![p]).unwrap_or_default();
-    let (mut drawing, mut left) = (true, on);
-    for w in points.windows(2) {
-        let (a, b) = (w[0], w[1]);
-        let length = ((b.0 - a.0) * scale.0).hypot((b.1 - a.1) * scale.1);
-        if length.is_nan() || length > LONGEST {
-            out.push(std::mem::replace(&mut dash, vec![b]));
-            (drawing, left) = (true, on);
-            continue;
-        }
+    let mut dash: Vec<Point> = points.first().map(|&p| vec![p]).unwrap_or_default();
+    let (mut drawing, mut left) = (true, pattern.next().unwrap_or(f64::INFINITY));
+    for (a, b) in points.iter().zip(points.iter().skip(1)) {
+        let length = (b.0 - a.0).hypot(b.1 - a.1);
         let mut done = 0.0;
         while length - done > left {
             done += left;
-            let p = (a.0 + (b.0 - a.0) * done / length, a.1 + (b.1 - a.1) * done / length);
-            dash.push(p);
-            if drawing {
-                out.push(std::mem::take(&mut dash));
-            }
+            dash.push((a.0 + (b.0 - a.0) * done / length, a.1 + (b.1 - a.1) * done / length));
+            let whole = std::mem::take(&mut dash);
+            dash.extend(whole.last());
+            out.extend(drawing.then_some(whole));
             drawing = !drawing;
-            left = if drawing { on } else { off };
+            left = pattern.next().unwrap_or(f64::INFINITY);
         }
         left -= length - done;
-        if drawing {
-            dash.push(b);
-        }
+        dash.push(*b);
     }
-    out.push(dash);
+    out.extend(drawing.then_some(dash));
     out.retain(|dash| dash.len() > 1);
     out
 }
@@ -45,12 +34,12 @@ mod tests {
 
     #[test]
     fn dashes_do_not_depend_on_how_finely_the_curve_is_sampled() {
-        let line = |n: u32| -> Vec<(f64, f64)> {
-            (0..=n).map(|i| f64::from(i) / f64::from(n)).map(|x| (x, 2.0 * x)).collect()
-        };
         // 30 px by 40 px: 50 px long, so six dashes begin, at 0, 9, … 45 px.
+        let line = |n: u32| -> Vec<Point> {
+            (0..=n).map(|i| f64::from(i) / f64::from(n)).map(|x| (30.0 * x, 40.0 * x)).collect()
+        };
         let ends = |n| -> Vec<(f64, f64)> {
-            dashes(&line(n), (30.0, 20.0), 6.0, 3.0).iter().map(|d| (d[0].0, d[d.len() - 1].0)).collect()
+            dashes(&line(n), &[6.0, 3.0]).iter().map(|d| (d[0].0 / 30.0, d[d.len() - 1].0 / 30.0)).collect()
         };
         let (coarse, fine) = (ends(1), ends(1000));
         assert_eq!((coarse.len(), fine.len()), (6, 6));
@@ -59,5 +48,12 @@ mod tests {
             assert!((c.0 - start).abs() < 1e-12 && (c.1 - (start + 0.12).min(1.0)).abs() < 1e-12);
             assert!((c.0 - f.0).abs() < 1e-12 && (c.1 - f.1).abs() < 1e-12);
         }
+    }
+
+    #[test]
+    fn dots_and_dashes_take_turns() {
+        let line = dashes(&[(0.0, 0.0), (30.0, 0.0)], &[8.0, 2.0, 1.0, 2.0]);
+        let ends: Vec<(f64, f64)> = line.iter().map(|d| (d[0].0, d[1].0)).collect();
+        assert_eq!(ends, [(0.0, 8.0), (10.0, 11.0), (13.0, 21.0), (23.0, 24.0), (26.0, 30.0)]);
     }
 }

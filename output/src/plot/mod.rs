@@ -1,4 +1,4 @@
-//! Figures: panels of curves over linear or logarithmic axes, as SVG and PNG.
+//! Figures: panels of curves over linear or logarithmic axes, as SVG, PNG and PDF.
 //!
 //! A [`Figure`] says what to show; [`Figure::draw`] decides ranges, ticks and places. The figure of
 //! a run is [`trajectory_figure`]; anything else (a comparison of runs, a Campbell diagram, a
@@ -6,13 +6,20 @@
 
 mod axis;
 mod contact;
-mod coverage;
 mod dash;
 mod decimate;
 mod draw;
+mod font;
+mod layout;
 mod panels;
+mod pdf;
 mod placed;
+mod raster;
+mod room;
+mod sketch;
+mod statics;
 mod style;
+mod svg;
 #[cfg(test)]
 mod tests;
 mod vibration;
@@ -21,6 +28,7 @@ mod views;
 pub use self::contact::contact_figure;
 pub use self::draw::Drawing;
 pub use self::panels::{compare_figure, difference_figure, trajectory_figure};
+pub use self::statics::statics_figure;
 pub use self::vibration::{campbell_figure, modes_figure};
 pub use self::views::{assembly_figure, spatial_figure};
 
@@ -58,8 +66,11 @@ pub struct Words {
     pub points: Vec<(f64, f64)>,
     /// The words.
     pub text: String,
-    /// Whether they stand to the right of the point instead of above it.
-    pub beside: bool,
+    /// Whether they stand outside of the frame, with a line to the first point: above the frame for a point on its upper
+    /// edge, to its right for any other; without points they are the heading of the panel.
+    pub outside: bool,
+    /// Colour of that line: that of the curve with this number in the palette.
+    pub color: Option<usize>,
 }
 
 /// What an axis shows and how.
@@ -126,6 +137,18 @@ impl Series {
         let marker = (points.len() == 1).then_some(Marker::Circle);
         Series { name: name.map(String::from), points, marker, ..Series::default() }
     }
+
+    /// The line that goes with a colour of this number: with it, curves can be told apart in grey.
+    pub fn numbered(self, number: usize) -> Series {
+        use Line::{DashDotDotted, DashDotted, Dashed, Dotted, LongDashed, Solid};
+        const LINES: [Line; 6] = [Solid, Dashed, DashDotted, LongDashed, Dotted, DashDotDotted];
+        Series { color: Some(number), line: LINES[number % LINES.len()], ..self }
+    }
+
+    /// The number of its colour when it is curve `number` of its panel.
+    pub(self) fn ink(&self, number: usize) -> usize {
+        self.color.unwrap_or(number) % style::COLORS
+    }
 }
 
 /// Line through the points of a series.
@@ -138,6 +161,12 @@ pub enum Line {
     Dashed,
     /// · · ·
     Dotted,
+    /// – · –
+    DashDotted,
+    /// —— ——
+    LongDashed,
+    /// – · · –
+    DashDotDotted,
     /// Marks only.
     None,
 }
@@ -147,6 +176,8 @@ pub enum Line {
 pub enum Marker {
     /// Filled circle.
     Circle,
+    /// Open circle.
+    Ring,
     /// Filled square.
     Square,
     /// Filled triangle.

@@ -1,11 +1,11 @@
 //! The figures of trajectories: which columns, in which panels, under which words.
 
-use super::{Axis, Figure, Line, Panel, Series};
+use super::{Axis, Figure, Panel, Series};
 use crate::{Comparison, Results, Trajectory};
 use flexion::system::{Channel, Role};
 
 /// Quantities of axes that are not the name of their column; nothing else depends on these names.
-const QUANTITIES: [(&str, &str); 10] = [
+const QUANTITIES: [(&str, &str); 14] = [
     ("tip.deflection", "Tip deflection w₂"),
     ("tip.axial", "Axial displacement"),
     ("hub.speed", "Hub speed"),
@@ -15,11 +15,15 @@ const QUANTITIES: [(&str, &str); 10] = [
     ("energy.strain", "Strain energy"),
     ("energy.gravity", "Energy of gravity"),
     ("energy.total", "Total energy"),
+    ("energy.drive", "Work of the drive"),
+    ("energy.loads", "Work of the loads"),
+    ("energy.dissipated", "Energy dissipated"),
+    ("energy.balance", "Error of the energy balance"),
     ("energy.contact_loss", "Energy lost in contacts"),
 ];
 
 /// Primary columns that the figure of a run shows in any case; further ones fill its last row.
-const SHOWN: usize = 3;
+const SHOWN: usize = 4;
 
 /// Energies below this fraction of the largest cannot be read in the same panel.
 const READABLE: f64 = 0.05;
@@ -31,7 +35,8 @@ const PANELS: usize = 4;
 /// there are where there are none of these.
 pub fn trajectory_figure(trajectory: &Trajectory, title: Option<&str>) -> Figure {
     let all = |role| trajectory.with_role(role);
-    let panel = |i: usize| panel(&[(None, trajectory)], &trajectory.channels()[i].name);
+    let panel =
+        |i: usize| with_target(panel(&[(None, trajectory)], &trajectory.channels()[i].name), trajectory, i);
     let mut panels: Vec<Panel> = all(Role::Primary).take(SHOWN).filter_map(panel).collect();
     panels.extend(energies(trajectory));
     let others = [Role::Secondary, Role::Work, Role::Detail, Role::Imbalance, Role::Integration];
@@ -41,6 +46,17 @@ pub fn trajectory_figure(trajectory: &Trajectory, title: Option<&str>) -> Figure
         }
     }
     figure(panels, title)
+}
+
+/// The angle of a controlled hub with what the controller wants.
+fn with_target(panel: Option<Panel>, trajectory: &Trajectory, index: usize) -> Option<Panel> {
+    let mut panel = panel?;
+    let target = trajectory.index("hub.target").filter(|_| trajectory.channels()[index].name == "hub.angle");
+    if let Some(target) = target {
+        panel.series.iter_mut().for_each(|series| series.name = Some("angle".to_owned()));
+        panel.series.push(Series::line(Some("target"), points(trajectory, target)).numbered(1));
+    }
+    Some(panel)
 }
 
 /// Several runs in one figure: one panel for each of the `columns`, one curve for each run in which
@@ -72,9 +88,9 @@ pub fn difference_figure(
             continue;
         };
         apart.y.quantity = format!("Δ {}", apart.y.quantity);
-        // The first run has no difference: colours and dashes are those of the others.
+        // The first run has no difference: colours and lines are those of the others.
         for (series, number) in apart.series.iter_mut().zip(1..) {
-            (series.color, series.line, series.name) = (Some(number), Line::Solid, None);
+            *series = Series { name: None, ..std::mem::take(series).numbered(number) };
         }
         if !panels.is_empty() {
             values.series.iter_mut().for_each(|series| series.name = None);
@@ -101,8 +117,7 @@ pub(super) fn panel(runs: &[(Option<&str>, &Trajectory)], name: &str) -> Option<
         if let Some(i) = trajectory.index(name) {
             y.get_or_insert_with(|| axis(&trajectory.channels()[i]));
             // A later run that covers an earlier one lets it be seen through its gaps.
-            let line = [Line::Solid, Line::Dashed, Line::Dotted][number % 3];
-            series.push(Series { color: Some(number), line, ..Series::line(*run, points(trajectory, i)) });
+            series.push(Series::line(*run, points(trajectory, i)).numbered(number));
         }
     }
     Some(Panel { x: Axis::time(), y: y?, series, words: Vec::new() })
@@ -122,7 +137,7 @@ pub(super) fn energies(trajectory: &Trajectory) -> Vec<Panel> {
         };
         let curve = |(color, (i, _)): &(usize, (usize, f64))| {
             let name = trajectory.channels()[*i].name.rsplit('.').next().filter(|_| group.len() > 1);
-            Series { color: Some(*color), ..Series::line(name, points(trajectory, *i)) }
+            Series::line(name, points(trajectory, *i)).numbered(if group.len() > 1 { *color } else { 0 })
         };
         Panel { x: Axis::time(), y, series: group.iter().map(curve).collect(), words: Vec::new() }
     };
@@ -132,7 +147,7 @@ pub(super) fn energies(trajectory: &Trajectory) -> Vec<Panel> {
 fn axis(channel: &Channel) -> Axis {
     let known = QUANTITIES.iter().find(|(name, _)| *name == channel.name);
     let quantity = known.map_or_else(|| capitalised(&channel.name.replace(['.', '_'], " ")), |k| k.1.into());
-    Axis::new(quantity, channel.unit.replace('*', "·"))
+    Axis::new(quantity, channel.unit.replace('*', "·").replace("^2", "²").replace("^3", "³"))
 }
 
 pub(super) fn points(trajectory: &Trajectory, index: usize) -> Vec<(f64, f64)> {

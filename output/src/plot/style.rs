@@ -1,74 +1,68 @@
-//! Colours, sizes and fonts of every figure, in one place.
+//! Colours, sizes and lines of every figure, in one place.
 
 use super::Line;
 
-/// Okabe–Ito palette, distinguishable with every kind of colour vision and in print, strongest
-/// on white first (Okabe & Ito 2008, "Color Universal Design"; Wong 2011, doi:10.1038/nmeth.1618).
-pub(super) const PALETTE: [&str; 8] =
-    ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#8C8C8C"];
+/// All colours that a figure may have: first the Okabe–Ito palette, distinguishable with every kind of colour vision,
+/// strongest on white first (Okabe & Ito 2008, "Color Universal Design"; Wong 2011, doi:10.1038/nmeth.1618).
+pub(super) const INKS: [[u8; 3]; 11] = [
+    [0x00, 0x72, 0xB2],
+    [0xD5, 0x5E, 0x00],
+    [0x00, 0x9E, 0x73],
+    [0xCC, 0x79, 0xA7],
+    [0xE6, 0x9F, 0x00],
+    [0x56, 0xB4, 0xE9],
+    [0x00, 0x00, 0x00],
+    [0x8C, 0x8C, 0x8C],
+    [0x22, 0x22, 0x22],
+    [0xE4, 0xE4, 0xE4],
+    [0xFF, 0xFF, 0xFF],
+];
+/// Number of colours of curves.
+pub(super) const COLORS: usize = 8;
+/// Axes and text.
+pub(super) const INK: usize = 8;
+/// Lines at the ticks.
+pub(super) const GRID: usize = 9;
+/// Paper.
+pub(super) const WHITE: usize = 10;
 
-/// Colour number `i`, beginning again after the last.
-pub(super) fn color(i: usize) -> &'static str {
-    PALETTE[i % PALETTE.len()]
-}
-
-/// Fonts of the SVG; the PNG has the first of them built in.
+/// Fonts of the SVG; the first is that of the other formats.
 pub(super) const FONTS: &str = "DejaVu Sans, Helvetica, Arial, sans-serif";
+/// The one size of text [px]: 8 pt.
+pub(super) const FONT: f64 = 10.7;
+/// Height of a line of text, and what of it is above and below the base line [px].
+pub(super) const LINE: f64 = 14.0;
+pub(super) const ASCENT: f64 = 0.76 * FONT;
+pub(super) const DESCENT: f64 = 0.24 * FONT;
 
-/// Width of the frame of a panel [px] when it stands alone in its row, and beside others.
-pub(super) const PANEL_WIDTH: [f64; 2] = [560.0, 350.0];
+/// Width of the frame of a panel [px] when it stands alone in its row, and beside others: figures of one panel fit a
+/// column and a half of a journal, those of two a page.
+pub(super) const PANEL_WIDTH: [f64; 2] = [330.0, 250.0];
 /// Height of the frame of a panel [px] when there is one, two to a column, and more.
-pub(super) const PANEL_HEIGHT: [f64; 3] = [340.0, 210.0, 180.0];
-/// Pixels of the PNG for each unit of the SVG.
-pub(super) const PNG_SCALE: f32 = 3.0;
+pub(super) const PANEL_HEIGHT: [f64; 3] = [235.0, 165.0, 125.0];
+/// Pixels of the PNG for each of the drawing: 288 to the inch.
+pub(super) const PNG_SCALE: f64 = 3.0;
 
-pub(super) const TITLE_SIZE: u32 = 15;
-pub(super) const LABEL_SIZE: u32 = 13;
-pub(super) const TICK_SIZE: u32 = 11;
-pub(super) const LEGEND_SIZE: u32 = 11;
-pub(super) const LINE_WIDTH: f64 = 1.5;
-pub(super) const FRAME_WIDTH: f64 = 0.9;
-pub(super) const GRID_WIDTH: f64 = 0.7;
-pub(super) const GRID: &str = "#e4e4e4";
-pub(super) const INK: &str = "#222222";
-pub(super) const MARKER_SIZE: f64 = 3.6;
+pub(super) const LINE_WIDTH: f64 = 1.3;
+pub(super) const FRAME_WIDTH: f64 = 0.8;
+pub(super) const GRID_WIDTH: f64 = 0.6;
+/// Half the size of a mark [px].
+pub(super) const MARK: f64 = 3.0;
+/// Length of a tick [px].
+pub(super) const TICK: f64 = 3.5;
 
 /// Space between panels, and around the figure [px].
-pub(super) const SPACING: f64 = 14.0;
-pub(super) const PADDING: f64 = 8.0;
+pub(super) const SPACING: f64 = 12.0;
+pub(super) const PADDING: f64 = 6.0;
 
-/// Lengths drawn and left out [px]; `None` for a line that is not broken.
-pub(super) fn dash(line: Line) -> Option<(f64, f64)> {
+/// Lengths drawn and left out in turn [px]; none for a line that is not broken.
+pub(super) fn dash(line: Line) -> &'static [f64] {
     match line {
-        Line::Dashed => Some((7.0, 4.0)),
-        Line::Dotted => Some((1.5, 3.5)),
-        Line::Solid | Line::None => None,
+        Line::Dashed => &[6.0, 3.0],
+        Line::Dotted => &[1.3, 2.2],
+        Line::DashDotted => &[8.0, 2.5, 1.5, 2.5],
+        Line::LongDashed => &[13.0, 3.0],
+        Line::DashDotDotted => &[8.0, 2.0, 1.3, 2.0, 1.3, 2.0],
+        Line::Solid | Line::None => &[],
     }
-}
-
-/// Width of a number set in the tick font [px] (advance widths of DejaVu Sans, in em).
-pub(super) fn tick_width(text: &str) -> f64 {
-    let em: f64 = text
-        .chars()
-        .map(|c| match c {
-            '.' | ',' => 0.32,
-            '−' => 0.838,
-            '⁰'..='⁹' | '¹' | '²' | '³' | '⁻' => 0.42,
-            _ => 0.636,
-        })
-        .sum();
-    em * f64::from(TICK_SIZE)
-}
-
-/// Width of words set in the font of legends [px]: an upper estimate.
-pub(super) fn word_width(text: &str) -> f64 {
-    0.6 * f64::from(LEGEND_SIZE) * text.chars().count() as f64
-}
-
-/// Size of a label [px] that has to fit along `length` [px]: smaller for a long one, never below
-/// what can be read.
-pub(super) fn label_size(text: &str, length: f64) -> u32 {
-    const MEAN_WIDTH: f64 = 0.54; // of DejaVu Sans, in em
-    let fitting = (length + SPACING) / (MEAN_WIDTH * text.chars().count().max(1) as f64);
-    (fitting as u32).clamp(8, LABEL_SIZE)
 }

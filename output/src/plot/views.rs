@@ -2,7 +2,7 @@
 
 use super::panels::{energies, panel};
 use super::style::{PANEL_HEIGHT, PANEL_WIDTH};
-use super::{Axis, Figure, Panel, Series, Words};
+use super::{Axis, Figure, Line, Marker, Panel, Series, Words};
 use crate::{Scene, Trajectory};
 use flexion::system::Role;
 
@@ -35,15 +35,29 @@ pub fn spatial_figure(scene: &Scene, trajectory: &Trajectory, title: Option<&str
     Figure { title: title.map(String::from), panels, columns: 2, share_x: false }
 }
 
-/// Three views of a system at one time, with the names of its parts.
-pub fn assembly_figure(scene: &Scene, title: Option<&str>) -> Figure {
+/// Three views of a system at one time, with the names of its parts and of its joints, which stand at the given points \[m\].
+pub fn assembly_figure(scene: &Scene, joints: &[(&str, [f64; 3])], title: Option<&str>) -> Figure {
     let mut panels = views(scene, PANEL_HEIGHT[1]);
     for (panel, [i, j]) in panels.iter_mut().zip(VIEWS) {
         for (name, lines) in scene.lines(0) {
             let points: Vec<(f64, f64)> = lines.iter().flatten().map(|p| (p[i], p[j])).collect();
-            let middle = points.get(points.len() / 2).copied();
-            let points = middle.into_iter().chain(points.first().copied()).chain(points.last().copied());
-            panel.words.push(Words { points: points.collect(), text: name.to_owned(), beside: false });
+            let (lowest, highest) = points
+                .iter()
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), p| (lo.min(p.0), hi.max(p.0)));
+            let top = points.iter().map(|p| p.1).fold(f64::NEG_INFINITY, f64::max);
+            let across = [0.5, 0.25, 0.75].map(|part| (lowest + part * (highest - lowest), top));
+            panel.words.push(Words { points: across.to_vec(), text: name.to_owned(), ..Words::default() });
+        }
+        for (name, point) in joints {
+            let at = (point[i], point[j]);
+            let mark = Series {
+                marker: Some(Marker::Circle),
+                line: Line::None,
+                color: Some(1),
+                ..Series::line(None, vec![at])
+            };
+            panel.series.push(mark);
+            panel.words.push(Words { points: vec![at], text: (*name).to_owned(), ..Words::default() });
         }
     }
     Figure { title: title.map(String::from), panels, columns: 2, share_x: false }
@@ -80,7 +94,7 @@ fn views(scene: &Scene, height: f64) -> Vec<Panel> {
         let mut series = Vec::new();
         for (k, (time, lines)) in shots.iter().enumerate() {
             let which = if k + 1 == shots.len() { 2 } else { usize::from(k > 0) };
-            let legend = (number == 0 && k != 1 || number == 0 && shots.len() == 2) && (which != 1);
+            let legend = number == 0 && which != 1;
             let name = legend.then(|| format!("t = {} s", rounded(scene.times()[*time])));
             for (first, line) in lines.iter().enumerate() {
                 let points = line.iter().map(|p| (p[i], p[j])).collect();

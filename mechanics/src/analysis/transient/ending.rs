@@ -81,5 +81,7 @@ fn because(reason: &Option<String>) -> String {
 
 /// The error of a step, with what the model knows about it.
 pub(super) fn failed(system: &mut dyn System, state: &State, error: StepError) -> RunError {
-    RunError::Step { error, reason: system.explain(state) }
+    // What the error says already is not said again.
+    let reason = system.explain(state).filter(|reason| !error.to_string().contains(reason.as_str()));
+    RunError::Step { error, reason }
 }

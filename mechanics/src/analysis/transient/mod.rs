@@ -2,7 +2,7 @@
 //!
 //! Steps end at the known [breaks](crate::system::Events::breaks) that a method can see, and at events: the closing step
 //! takes the left limit of what jumps there, and the method restarts from the right one. A method with step control sees
-//! every break, one with fixed steps those of velocities and accelerations, for a kink costs it less than its own error.
+//! every break and also ends steps where a load or a motion changes fast, one with fixed steps those of velocities and accelerations, for a kink costs it less than its own error.
 
 mod adaptive;
 mod contacts;
@@ -20,7 +20,7 @@ use crate::contact::{Bounds, Impact, ImpactMap};
 use crate::integrator::{Checkpoint, Integrator, NotResumed, Span, StepControl, StepReport};
 use crate::system::{Crossing, Jump, Side, State, System};
 use adaptive::adapt;
-use contacts::{Contacts, approaches, loss};
+use contacts::{Contacts, approaches, loss, struck};
 use stretch::Stretch;
 
 /// Shortest recording interval, over the length of the run.
@@ -174,17 +174,20 @@ impl Run {
         observer: &dyn Observer,
     ) -> Result<(), NotResumed> {
         from.fill_state("", state)?;
-        let [origin, samples] = from.numbers("run")?;
+        let [origin, samples] = from.finite("run")?;
+        if !(origin <= state.t && samples >= 0.0) {
+            return Err(NotResumed::Invalid("run".to_owned()));
+        }
         (self.origin, self.samples) = (origin, samples as u64);
-        let [size, iterations] = from.numbers("last")?;
+        let [size, iterations] = from.finite("last")?;
         self.last = Step { size, iterations: iterations as u32, ..Step::default() };
-        let [sample] = from.numbers("sample")?;
+        let [sample] = from.finite("sample")?;
         if sample != plan.sample {
             let before = (state.t - origin) / plan.sample;
             self.samples = (before + 1e-9).floor().max(0.0) as u64 + 1;
         }
         if let Some(asked) = plan.step.filter(|_| is_fixed(integrator)) {
-            let stretch = from.numbers("stretch")?;
+            let stretch = from.finite("stretch")?;
             let stop = next_break(system, integrator, state.t, plan.end);
             let recalled = if jump_at(system, integrator, state.t).is_some() {
                 // The run ended at a break: behind it begins another stretch.
@@ -213,7 +216,11 @@ impl Run {
         started.map_err(|error| NotResumed::Failed(error.to_string()))?;
         self.set_control(system, integrator, state, plan);
         if let Some(control) = &mut self.control {
-            control.recall(from.numbers("control")?);
+            let memory: [f64; 4] = from.numbers("control")?;
+            if !(memory[0] > 0.0 && memory[0].is_finite()) {
+                return Err(NotResumed::Invalid("control".to_owned()));
+            }
+            control.recall(memory);
         }
         if let Some(contacts) = &mut self.contacts {
             contacts.recall(from.numbers("contacts")?);
@@ -306,7 +313,7 @@ impl Run {
             let neglected = self.contacts.as_ref().map(|contacts| contacts.neglected).unwrap_or_default();
             self.last = Step { size: h, iterations: report.iterations, balance: None, neglected };
             if let Err(what) = system.admissible(&next) {
-                let reason = system.explain(&next);
+                let reason = system.explain(&next).filter(|reason| *reason != what);
                 return Err(RunError::Inadmissible { time: next.t, what, reason });
             }
             integrator.accept(state, &next);
@@ -323,10 +330,17 @@ impl Run {
             if let Some(balance) = &mut self.balance {
                 balance.close();
             }
+            observer.passing(system, &next);
+            if integrator.resolves_contacts()
+                && let Some(event) = struck(system, state, &next, &mut self.gaps)
+            {
+                observer.event(&event);
+            }
             std::mem::swap(state, &mut next);
             let at_break = jump_at(system, integrator, state.t);
             if event || at_break.is_some() {
                 self.cross(system, integrator, state, at_break, event.then_some(h / attempted), observer)?;
+                observer.passing(system, state);
                 if let Some(control) = &mut self.control {
                     control.restart(attempted);
                 }
@@ -550,5 +564,5 @@ fn stop(system: &dyn System, integrator: &dyn Integrator, t: f64, end: f64) -> (
 fn jump_at(system: &dyn System, integrator: &dyn Integrator, t: f64) -> Option<Jump> {
     let breaks = system.breaks();
     let at = breaks.get(breaks.partition_point(|b| b.time < t))?;
-    (at.time == t && sees(integrator, at.jump)).then_some(at.jump)
+    (at.time == t && at.jump != Jump::Nothing && sees(integrator, at.jump)).then_some(at.jump)
 }

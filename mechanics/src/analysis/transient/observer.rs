@@ -67,6 +67,9 @@ pub trait Observer {
     /// A state at a time to be recorded.
     fn sample(&mut self, system: &mut dyn System, state: &State, step: &Step);
 
+    /// An accepted step ended at `state`, or a jump: what happens between samples is seen here.
+    fn passing(&mut self, _system: &mut dyn System, _state: &State) {}
+
     /// An accepted step ended at `state`; `Break` stops the run there.
     fn step(&mut self, _state: &State) -> ControlFlow<()> {
         ControlFlow::Continue(())

@@ -19,7 +19,7 @@ pub struct Force {
 
 impl Load for Force {
     fn group(&self, site: &Site<'_>) -> Group {
-        let share = Share { density: &|_| 0.0, points: &[(self.station, 1.0)] };
+        let share = Share { density: &|_| 0.0, points: &[(self.station, 1.0)], cells: site.fields.cells() };
         site.group(&share, self.force, self.axes, self.amplitude.clone())
     }
 }

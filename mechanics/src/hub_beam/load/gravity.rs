@@ -30,11 +30,13 @@ impl Load for Gravity {
         let (sin, cos) = libm::sincos(self.direction);
         let force = [self.acceleration * cos, self.acceleration * sin];
         let Beam { section, masses, .. } = site.beam;
-        let points: Vec<(f64, f64)> = masses.iter().map(|m| (m.station, m.mass)).collect();
-        let share = Share { density: &|x| section.resultants(x).mass, points: &points };
+        let mut points: Vec<(f64, f64)> = masses.iter().map(|m| (m.station, m.mass)).collect();
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let cells = site.fields.cells();
+        let share = Share { density: &|x| section.resultants(x).mass, points: &points, cells };
         let mut group = site.group(&share, force, Axes::Dead, None);
         group.set_store(Store::Gravity, 0.0);
-        let moment = Share { density: &|x| section.resultants(x).first_moment, points: &[] };
+        let moment = Share { density: &|x| section.resultants(x).first_moment, points: &[], cells };
         let mut across = Matrix::new(&site.structure());
         let mut eccentric = false;
         moment.each(site.fields, |point, p| {

@@ -14,12 +14,12 @@
 use super::components::Components;
 use super::on_section::{Nature, OnSection};
 use super::{Amplitude, Axes};
-use crate::drive::force_jump;
+use crate::drive::force_breaks;
 use crate::hub_beam::fields::Point;
 use crate::hub_beam::inertia::Border;
 use crate::hub_beam::product::{Bundle, Entry, Vectors};
 use crate::linalg::{Matrix, Storage, Structure};
-use crate::profile::{HubKinematics, jumping_derivative};
+use crate::profile::HubKinematics;
 use crate::system::{Break, State};
 use std::sync::Arc;
 
@@ -136,9 +136,7 @@ impl Group {
     }
 
     pub(super) fn breaks(&self) -> Vec<Break> {
-        let Some(amplitude) = &self.amplitude else { return Vec::new() };
-        let jump = |time| force_jump(jumping_derivative(amplitude.as_ref(), time));
-        amplitude.breaks().iter().map(|&time| Break { time, jump: jump(time) }).collect()
+        self.amplitude.as_ref().map_or_else(Vec::new, |amplitude| force_breaks(amplitude.as_ref()))
     }
 
     fn components(&self, t: f64, hub: &HubKinematics) -> Components {

@@ -32,16 +32,18 @@ pub struct Site<'a> {
     pub border: usize,
 }
 
-/// A share of force along the axis: p(x) per length and p_m at stations.
+/// A share of force along the axis: p(x) per length and p_m at stations, which ascend.
 pub(super) struct Share<'s> {
     pub density: &'s dyn Fn(f64) -> f64,
     pub points: &'s [(f64, f64)],
+    /// Ends of the cells over which p is integrated: those of the fields, or parts of them.
+    pub cells: &'s [f64],
 }
 
 impl Share<'_> {
     /// Calls `f` at every point with its share of the force, quadrature weights included.
     pub fn each(&self, fields: &Fields, mut f: impl FnMut(&Point, f64)) {
-        fields.integrate(|point| {
+        fields.integrate_over(self.cells, |point| {
             let p = point.weight * (self.density)(point.x);
             if p != 0.0 {
                 f(point, p);
@@ -98,10 +100,14 @@ impl Site<'_> {
 
     /// out −= ∫ P φ′φ′ᵀ dξ with P(ξ) = ∫_ξᴸ p dx.
     pub(super) fn add_tail(&self, out: &mut Matrix, share: &Share<'_>) {
-        let spread = self.fields.tail(share.density);
+        let spread = self.fields.tail_over(share.cells, share.density);
         let points = share.points;
-        self.fields.integrate(|point| {
-            let beyond: f64 = points.iter().filter(|(x, _)| *x > point.x).map(|(_, p)| p).sum();
+        let mut beyond = vec![0.0; points.len() + 1];
+        for (i, (_, p)) in points.iter().enumerate().rev() {
+            beyond[i] = beyond[i + 1] + p;
+        }
+        self.fields.integrate_over(share.cells, |point| {
+            let beyond = beyond[points.partition_point(|(x, _)| *x <= point.x)];
             let tail = point.weight * (spread(point.x) + beyond);
             add_outer(out, (&point.transverse, 1), (&point.transverse, 1), -tail);
         });

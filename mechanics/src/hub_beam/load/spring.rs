@@ -36,7 +36,7 @@ impl Load for Spring {
         let (k, distance) = (self.stiffness, site.radius + self.station);
         let share = |p| [(self.station, p)];
         let (one, central) = (share(1.0), share(-k * distance));
-        let share = Share { density: &|_| 0.0, points: &one };
+        let share = Share { density: &|_| 0.0, points: &one, cells: site.fields.cells() };
         let mut group = site.group(&share, self.anchor.map(|a| k * a), Axes::Dead, None);
         let point = site.fields.point(self.station, 1.0);
         let new = || Matrix::new(&site.structure());
@@ -48,7 +48,10 @@ impl Load for Spring {
         let shortened = site.kinematics == Kinematics::Foreshortened;
         if shortened {
             site.add_tail(&mut along, &share);
-            site.add_tail(&mut own, &Share { density: &|_| 0.0, points: &central });
+            site.add_tail(
+                &mut own,
+                &Share { density: &|_| 0.0, points: &central, cells: site.fields.cells() },
+            );
         }
         group.stiffen(&site.structure(), shortened.then_some(&along), None, Some(&own));
         let [x, y] = self.anchor;

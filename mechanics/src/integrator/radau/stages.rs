@@ -348,6 +348,11 @@ impl Stages {
         self.set_stage(system, (from, to), h, 2);
         to.copy_from(&self.stage);
         if !self.rows.is_empty() {
+            for (lambda, (set, mode)) in to.lambda.iter_mut().zip(self.rows.sets().iter().zip(&from.mode)) {
+                if !is_active(*set, *mode) {
+                    *lambda = 0.0;
+                }
+            }
             self.project(system, from, to);
         }
         self.end.copy_from_slice(&self.increment);

@@ -116,7 +116,7 @@ impl Element {
     }
 
     /// r′ in the middle, or its rate, by r₁, r′₁, r₂, r′₂ or theirs.
-    pub(super) fn middle_slope(&self, centreline: &[Vector; 4]) -> Vector {
+    pub(in crate::multibody) fn middle_slope(&self, centreline: &[Vector; 4]) -> Vector {
         combined(&self.shapes.middle, &chord(centreline))
     }
 

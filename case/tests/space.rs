@@ -1,0 +1,159 @@
+//! Systems in space: what their tables mean.
+
+#![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
+
+use flexion_case::{Problems, Reading, Run, parse};
+use flexion_results::Status;
+use std::ops::ControlFlow;
+use std::path::Path;
+
+const ROD: &str = "section = { kind = \"circle\", modulus = \"70 GPa\", density = 2700, radius = \"1 cm\" }";
+
+fn read(text: &str) -> Result<Reading, Problems> {
+    parse(text.to_owned(), Path::new("case.toml"), &[])
+}
+
+fn run(text: &str) -> Run {
+    let reading = read(text).unwrap_or_else(|problems| panic!("{problems}"));
+    let run = reading.prepare().unwrap_or_else(|p| panic!("{p}")).run(&mut |_| ControlFlow::Continue(()));
+    assert_eq!(run.status, Status::Finished, "{:?}", run.message);
+    run
+}
+
+fn last(run: &Run, column: &str) -> f64 {
+    *run.trajectory.column(column).unwrap_or_else(|| panic!("no column {column}")).last().unwrap()
+}
+
+fn columns(run: &Run) -> Vec<&str> {
+    run.trajectory.channels().iter().map(|channel| channel.name.as_str()).collect()
+}
+
+/// A clamped beam of five lines sags by ρA g L⁴/(8 EI), with its height upwards and in the other direction too.
+#[test]
+fn five_lines_make_a_cantilever_under_its_weight() {
+    let case = |up: &str| {
+        let text = format!(
+            "gravity = [0, 0, \"-9.81 m/s^2\"]\nrun = {{ duration = 0 }}\ninitial = {{ kind = \"static\" }}\n\
+             beam = [{{ length = \"1 m\", root = \"clamped\", up = {up}, section = {{ kind = \"rectangle\", \
+             modulus = \"70 GPa\", density = 2700, width = \"20 mm\", height = \"40 mm\" }} }}]"
+        );
+        last(&run(&text), "beam.tip.displacement.z")
+    };
+    for (up, height, width) in [("[]", 0.04_f64, 0.02), ("[0, 1, 0]", 0.02, 0.04)] {
+        let stiffness = 70e9 * width * height.powi(3) / 12.0;
+        let sag = -2700.0 * width * height * 9.81 / (8.0 * stiffness);
+        assert!((case(up) / sag - 1.0).abs() < 1e-5, "{up}: {} for {sag}", case(up));
+    }
+}
+
+/// A place within a beam gets a node, and the load stands there: F a²(3L − a)/(6 EI) at the tip.
+#[test]
+fn a_load_stands_at_the_station_in_its_name() {
+    let stiffness = 70e9 * std::f64::consts::PI * 1e-8 / 4.0;
+    for a in [0.3, 0.71] {
+        let text = format!(
+            "run = {{ duration = 0 }}\ninitial = {{ kind = \"static\" }}\n[[beam]]\nlength = 1\nroot = \"clamped\"\n\
+             elements = 3\n{ROD}\n[[load]]\non = \"beam@{} cm\"\nforce = [0, 0.001, 0]\n",
+            100.0 * a
+        );
+        let found = last(&run(&text), "beam.tip.displacement.y");
+        let exact = 0.001 * a * a * (3.0 - a) / (6.0 * stiffness);
+        assert!((found / exact - 1.0).abs() < 1e-8, "{a}: {found} for {exact}");
+    }
+}
+
+/// Two coaxial rods with a joint between them are one rod.
+#[test]
+fn a_beam_in_two_pieces_is_one_beam() {
+    let load = "[[load]]\non = \"b.tip\"\nforce = [0, 3, 20]\ncouple = [5, 0, 0]\n";
+    let whole = format!(
+        "run = {{ duration = 0 }}\ninitial = {{ kind = \"static\" }}\n[[beam]]\nname = \"b\"\nlength = 2\nroot = \"clamped\"\n\
+         elements = 8\n{ROD}\n{load}"
+    );
+    let pieces = format!(
+        "run = {{ duration = 0 }}\ninitial = {{ kind = \"static\" }}\n[[beam]]\nname = \"a\"\nlength = 1\nroot = \"clamped\"\n\
+         elements = 4\n{ROD}\n[[beam]]\nname = \"b\"\nlength = 1\nstart = [1, 0, 0]\nelements = 4\n{ROD}\n\
+         [[joint]]\nkind = \"fixed\"\nbetween = [\"a.tip\", \"b.root\"]\n{load}"
+    );
+    let (whole, pieces) = (run(&whole), run(&pieces));
+    for column in ["x", "y", "z"].map(|axis| format!("b.tip.displacement.{axis}")) {
+        let (one, two) = (last(&whole, &column), last(&pieces, &column));
+        assert!((one - two).abs() < 1e-8, "{column}: {one} and {two}");
+    }
+    assert!(columns(&pieces).contains(&"joint.force.x"), "{:?}", columns(&pieces));
+}
+
+/// A prescribed angle that begins with 1 rad does not turn the body as it was drawn.
+#[test]
+fn a_joint_begins_with_the_angle_of_its_motion() {
+    let text = "run = { duration = \"1 s\" }\n\
+                body = [{ name = \"bar\", mass = 1, position = [1, 0, 0], inertia = { kind = \"sphere\", radius = 0.1 } }]\n\
+                joint = [{ name = \"axle\", kind = \"revolute\", between = [\"ground\", \"bar\"], at = [0, 0, 0], \
+                motion = { kind = \"expression\", of = \"angle\", formula = \"1 + t\" } }]";
+    let run = run(text);
+    assert_eq!(run.trajectory.column("bar.position.x").unwrap()[0], 1.0);
+    assert!((last(&run, "axle.angle") - 2.0).abs() < 1e-9);
+    assert!((last(&run, "bar.position.x") - 1.0_f64.cos()).abs() < 1e-7);
+    assert!((last(&run, "bar.velocity.y") - 1.0_f64.cos()).abs() < 1e-6);
+}
+
+#[test]
+fn refinement_cuts_every_element() {
+    let case = |refine: usize| {
+        let text = format!(
+            "run = {{ duration = 0 }}\nmodel = {{ refine = {refine} }}\n[[beam]]\nlength = 1\nelements = 3\nroot = \"clamped\"\n{ROD}\n"
+        );
+        read(&text).unwrap().case.system().unwrap().size().v
+    };
+    assert_eq!([1, 2, 4].map(case), [3, 6, 12].map(|elements| 8 * elements + 7));
+}
+
+/// All problems at once, each at its line.
+#[test]
+fn several_faults_are_reported_together() {
+    let text = format!(
+        "run = {{ duration = 1 }}\n[[beam]]\nlength = 1\nroot = \"clampd\"\n{ROD}\n[[body]]\nname = \"ball\"\nmass = 1\n\
+         inertia = {{ kind = \"sphere\", radius = 1 }}\n[[joint]]\nkind = \"revolut\"\nbetween = [\"ground\", \"ball\"]\n"
+    );
+    let problems = read(&text).map(|_| ()).unwrap_err();
+    let keys: Vec<&str> = problems.list.iter().map(|problem| problem.key.as_str()).collect();
+    assert_eq!(keys, ["beam[1].root", "joint[1].kind"], "{problems}");
+    let text = text.replace("clampd", "free").replace("revolut", "revolute").replace("\"ball\"]", "\"bll\"]");
+    let problems = read(&text).map(|_| ()).unwrap_err();
+    assert!(problems.to_string().contains("did you mean `ball`?"), "{problems}");
+    assert_eq!(problems.line_and_column(&problems.list[0]).unwrap().0, 12);
+}
+
+/// A loop of four hinges: two rows more than needed, which can be left out on request.
+#[test]
+fn redundant_rows_of_a_loop_are_named_and_can_be_left_out() {
+    let bar = |name: &str, x: f64, z: f64, size: &str| {
+        format!(
+            "[[body]]\nname = \"{name}\"\nmass = 1\nposition = [{x}, 0, {z}]\ninertia = {{ kind = \"box\", size = {size} }}\n"
+        )
+    };
+    let hinge = |between: &str, x: f64, z: f64| {
+        format!(
+            "[[joint]]\nkind = \"revolute\"\nbetween = [{between}]\nat = [{x}, 0, {z}]\naxis = [0, 1, 0]\n"
+        )
+    };
+    let text = [
+        "gravity = [1, 0, -9.81]\nrun = { duration = \"0.1 s\" }\n".to_owned(),
+        bar("left", 0.0, 0.5, "[0.1, 0.1, 1]"),
+        bar("top", 0.5, 1.0, "[1, 0.1, 0.1]"),
+        bar("right", 1.0, 0.5, "[0.1, 0.1, 1]"),
+        hinge("\"ground\", \"left\"", 0.0, 0.0),
+        hinge("\"left\", \"top\"", 0.0, 1.0),
+        hinge("\"top\", \"right\"", 1.0, 1.0),
+        hinge("\"right\", \"ground\"", 1.0, 0.0),
+    ]
+    .concat();
+    let problems = read(&text).map(|_| ()).unwrap_err();
+    assert!(
+        problems.to_string().contains("redundant") && problems.list[0].key.starts_with("joint["),
+        "{problems}"
+    );
+    let run = run(&format!("model = {{ drop-redundant-rows = true }}\n{text}"));
+    // A parallelogram: the top keeps its direction.
+    assert!(last(&run, "top.spin.y").abs() < 1e-8 && last(&run, "top.velocity.x") > 1e-3);
+}

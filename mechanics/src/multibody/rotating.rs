@@ -1,0 +1,334 @@
+//! A model seen from a frame that rotates steadily.
+//!
+//! The frame rotates at Ω about an axis through c with the unit vector e. With x′ for what it sees, at the instant at which its
+//! axes are the inertial ones, the motion in inertial axes is
+//!
+//! ```text
+//! bodies    ṙ = ṙ′ + Ω e × (r − c),   r̈ = r̈′ + 2Ω e × ṙ′ + Ω² e × (e × (r − c))
+//!           ω = ω′ + Ω Rᵀe,           ω̇ = ω̇′ + Ω Rᵀe × ω′        (body axes)
+//! beams     r and r′ alike, c = 0 for r′;   w = w′ + Ω e·t,   ẇ = ẇ′ + Ω e·ṫ′
+//! ```
+//!
+//! so that the forces of inertia, centrifugal and Coriolis forces among them, are those of the model in inertial axes. Their
+//! derivatives follow by the chain rule: with v = v′ + A(q) and a = a′ + B(q, v′),
+//!
+//! ```text
+//! M′ = M,    C′ = C + M ∂B/∂v′,    K′ = K + C ∂A/∂q + M ∂B/∂q
+//! ```
+//!
+//! The ground rotates with the frame, and so do loads whose components are given in fixed axes: they must lie along the axis.
+
+use super::force::Axes;
+use super::rotation::{Vector, apply_transposed, plus, product, skew, times};
+use super::slender::{ELEMENT_COORDINATES, ELEMENT_VELOCITIES, Triad};
+use super::system::Multibody;
+use crate::linalg::vector::{cross, inner};
+use crate::linalg::{Matrix, Structure};
+use crate::system::{
+    Channel, Direction, Dynamics, Energy, Events, Frame, NotSet, Observed, Parameter, RowWeights, Set, Size,
+    State, Steady, VisitRow, Weights,
+};
+
+/// Part of a load across the axis, over the load, that counts as rounding.
+const ACROSS: f64 = 1e-9;
+
+/// A model in a frame that rotates: for equilibria and modes, whose tangents are right at rest in the frame, v′ = a′ = 0.
+#[derive(Clone, Debug)]
+pub struct Rotating {
+    inner: Multibody,
+    origin: Vector,
+    axis: Vector,
+    speed: f64,
+}
+
+/// A row of the derivatives of v and a: the unknown, and for others ∂A/∂q, ∂B/∂q and ∂B/∂v′.
+type Row = (usize, Vec<(usize, [f64; 3])>);
+
+impl Rotating {
+    /// The model in a frame about the axis through `origin` \[m\] along `axis`; `None` for an axis that is no direction.
+    pub fn new(inner: Multibody, origin: Vector, axis: Vector) -> Option<Rotating> {
+        let length = inner_length(axis);
+        let valid = length > 0.0 && length.is_finite() && origin.iter().all(|x| x.is_finite());
+        valid.then(|| Rotating { inner, origin, axis: times(1.0 / length, axis), speed: 0.0 })
+    }
+
+    /// The model.
+    pub fn model(&mut self) -> &mut Multibody {
+        &mut self.inner
+    }
+
+    /// A load that the frame would see rotate.
+    fn unsteady(&self) -> Option<String> {
+        let across = |x: Vector| inner_length(cross(self.axis, x)) > ACROSS * inner_length(x);
+        let model = &self.inner.constants.model;
+        let fixed = model.loads.iter().filter(|load| load.axes == Axes::Dead);
+        let load = fixed.filter(|load| across(load.force) || across(load.moment)).map(|load| &load.name);
+        let lines = model.line_loads.iter().filter(|load| load.axes == Axes::Dead && across(load.force));
+        let named = load.chain(lines.map(|load| &load.name)).next();
+        let what = match named {
+            Some(name) => format!("the load `{name}`"),
+            None if across(model.gravity) => "gravity".to_owned(),
+            None => return None,
+        };
+        Some(format!(
+            "{what} keeps its direction in space, across the axis: seen from a frame that rotates it changes with every \
+             revolution, and there is no steady state; leave it out, let it act along the axis, or let it follow its part"
+        ))
+    }
+
+    /// The state in inertial axes.
+    fn inertial(&self, s: &State) -> State {
+        let mut out = s.clone();
+        let (e, speed) = (self.axis, self.speed);
+        let point = |out: &mut State, q: usize, v: usize, from: Vector| {
+            let (x, rate) = (plus(three(&s.q, q), -1.0, from), three(&s.v, v));
+            let carried = times(speed, cross(e, x));
+            let change = plus(times(2.0, cross(e, rate)), 1.0, cross(e, carried));
+            for k in 0..3 {
+                out.v[v + k] += carried[k];
+                out.a[v + k] += speed * change[k];
+            }
+        };
+        for (i, placed) in self.inner.placed.iter().enumerate() {
+            point(&mut out, 7 * i, 6 * i, self.origin);
+            let own = self.own_axis(&placed.rotation);
+            let change = cross(own, three(&s.v, 6 * i + 3));
+            for k in 0..3 {
+                out.v[6 * i + 3 + k] += speed * own[k];
+                out.a[6 * i + 3 + k] += speed * change[k];
+            }
+        }
+        self.nodes(|q, v| {
+            point(&mut out, q, v, self.origin);
+            point(&mut out, q + 3, v + 3, [0.0; 3]);
+        });
+        self.sections(s, |unknown, triad, slope_of| {
+            let along = across_tangent(e, &triad);
+            let rate: Vector = slope_of.iter().fold([0.0; 3], |sum, (c, v)| plus(sum, *c, three(&s.v, *v)));
+            out.v[unknown] += speed * inner(e, triad.tangent);
+            out.a[unknown] += speed * inner(along, rate);
+        });
+        out
+    }
+
+    /// Rᵀe
+    fn own_axis(&self, rotation: &[[f64; 3]; 3]) -> Vector {
+        apply_transposed(rotation, self.axis)
+    }
+
+    /// Calls `visit` with the first coordinate and the first velocity of every node.
+    fn nodes(&self, mut visit: impl FnMut(usize, usize)) {
+        let constants = &self.inner.constants;
+        for (of, [q, v]) in constants.model.beams.iter().zip(&constants.beams) {
+            (0..of.beam.nodes().len())
+                .for_each(|node| visit(q + ELEMENT_COORDINATES * node, v + ELEMENT_VELOCITIES * node));
+        }
+    }
+
+    /// Calls `visit` for every section with a spin: its unknown, its axes, and r′ there as a sum of three velocities each, with
+    /// the factors and the numbers of the first.
+    fn sections(&self, s: &State, mut visit: impl FnMut(usize, Triad, &[(f64, usize)])) {
+        let constants = &self.inner.constants;
+        for (of, &[first_q, first_v]) in constants.model.beams.iter().zip(&constants.beams) {
+            for node in 0..of.beam.nodes().len() {
+                let (q, v) = (first_q + ELEMENT_COORDINATES * node, first_v + ELEMENT_VELOCITIES * node);
+                let triad = Triad::new(three(&s.q, q + 3), three(&s.q, q + 6));
+                visit(v + 6, triad, &[(1.0, v + 3)]);
+                let Some(element) = of.beam.elements().get(node) else { continue };
+                // The slope in the middle is linear in r and r′ of both nodes.
+                let numbers = [v, v + 3, v + ELEMENT_VELOCITIES, v + ELEMENT_VELOCITIES + 3];
+                let factor = |k: usize| {
+                    let mut unit = [[0.0; 3]; 4];
+                    unit[k][0] = 1.0;
+                    element.middle_slope(&unit)[0]
+                };
+                let slope_of = [0, 1, 2, 3].map(|k| (factor(k), numbers[k]));
+                let places = [q, q + 3, q + ELEMENT_COORDINATES, q + ELEMENT_COORDINATES + 3];
+                let slope = element.middle_slope(&places.map(|place| three(&s.q, place)));
+                visit(v + 7, Triad::new(slope, three(&s.q, q + 9)), &slope_of);
+            }
+        }
+    }
+
+    /// The derivatives of v and a at rest in the frame.
+    fn derivatives(&self, s: &State) -> Vec<Row> {
+        let (speed, turn) = (self.speed, skew(self.axis));
+        let twice = product(&turn, &turn);
+        let mut rows: Vec<Row> = Vec::with_capacity(s.v.len());
+        let point = |rows: &mut Vec<Row>, v: usize| {
+            for i in 0..3 {
+                let entry =
+                    |j: usize| [speed * turn[i][j], speed * speed * twice[i][j], 2.0 * speed * turn[i][j]];
+                rows.push((v + i, (0..3).map(|j| (v + j, entry(j))).collect()));
+            }
+        };
+        for (k, placed) in self.inner.placed.iter().enumerate() {
+            point(&mut rows, 6 * k);
+            let own = skew(times(speed, self.own_axis(&placed.rotation)));
+            for i in 0..3 {
+                let entry = |j: usize| (6 * k + 3 + j, [own[i][j], 0.0, own[i][j]]);
+                rows.push((6 * k + 3 + i, (0..3).map(entry).collect()));
+            }
+        }
+        self.nodes(|_, v| {
+            point(&mut rows, v);
+            point(&mut rows, v + 3);
+        });
+        self.sections(s, |unknown, triad, slope_of| {
+            let along = times(speed, across_tangent(self.axis, &triad));
+            let entries = slope_of
+                .iter()
+                .flat_map(|(c, v)| (0..3).map(move |k| (v + k, [c * along[k], 0.0, c * along[k]])));
+            rows.push((unknown, entries.collect()));
+        });
+        rows
+    }
+
+    /// Places the bodies of the model, whose rotations are needed.
+    fn place(&mut self, s: &State) {
+        self.inner.place(s);
+    }
+}
+
+fn inner_length(x: Vector) -> f64 {
+    inner(x, x).sqrt()
+}
+
+fn three(x: &[f64], i: usize) -> Vector {
+    [x[i], x[i + 1], x[i + 2]]
+}
+
+/// (e − (e·t) t)/|r′|: e·δt for a change δr′ of the slope.
+fn across_tangent(e: Vector, triad: &Triad) -> Vector {
+    times(1.0 / triad.length, plus(e, -inner(e, triad.tangent), triad.tangent))
+}
+
+impl Dynamics for Rotating {
+    fn size(&self) -> Size {
+        self.inner.size()
+    }
+
+    fn structure(&self, multipliers: usize) -> Structure {
+        self.inner.structure(multipliers)
+    }
+
+    fn scales(&self) -> &[f64] {
+        self.inner.scales()
+    }
+
+    fn unknown(&self, i: usize) -> String {
+        self.inner.unknown(i)
+    }
+
+    /// At rest in the frame.
+    fn initial(&self) -> State {
+        let mut s = self.inner.initial();
+        s.v.fill(0.0);
+        s
+    }
+
+    fn is_vector_space(&self) -> bool {
+        false
+    }
+
+    fn retract(&self, q: &[f64], d: &[f64], out: &mut [f64]) {
+        self.inner.retract(q, d, out);
+    }
+
+    fn difference(&self, from: &[f64], to: &[f64], d: &mut [f64]) {
+        self.inner.difference(from, to, d);
+    }
+
+    fn rate(&self, from: &[f64], d: &[f64], v: &[f64], out: &mut [f64]) {
+        self.inner.rate(from, d, v, out);
+    }
+
+    fn residual(&mut self, s: &State, r: &mut [f64]) {
+        self.place(s);
+        let s = self.inertial(s);
+        self.inner.residual(&s, r);
+    }
+
+    fn rows(&self) -> &[Set] {
+        self.inner.rows()
+    }
+
+    fn constraint(&mut self, s: &State, c: RowWeights, g: &mut [f64]) {
+        self.inner.constraint(s, c, g);
+    }
+
+    fn jacobian(&mut self, s: &State, visit: &mut VisitRow<'_>) {
+        self.inner.jacobian(s, visit);
+    }
+
+    fn tangent(&mut self, s: &State, w: Weights<'_>, out: &mut Matrix) {
+        self.place(s);
+        let (moved, rows) = (self.inertial(s), self.derivatives(s));
+        self.inner.tangent(&moved, w, out);
+        if self.speed == 0.0 || w.q == 0.0 && w.v == 0.0 {
+            return;
+        }
+        let mut of = |a, v| {
+            let mut matrix = Matrix::new(&self.inner.structure(0));
+            self.inner.tangent(&moved, Weights::new(a, v, 0.0), &mut matrix);
+            matrix
+        };
+        let (mass, damping) = (of(1.0, 0.0), of(0.0, 1.0));
+        for (j, entries) in &rows {
+            for (k, [a, by_q, by_v]) in entries {
+                mass.column(*j, |i, m| out.add(i, *k, m * (w.q * by_q + w.v * by_v)));
+                damping.column(*j, |i, c| out.add(i, *k, c * w.q * a));
+            }
+        }
+    }
+}
+
+impl Events for Rotating {}
+
+impl Steady for Rotating {
+    fn set(&mut self, parameter: Parameter, value: f64) -> Result<(), NotSet> {
+        match parameter {
+            Parameter::LoadFactor => self.inner.set(parameter, value),
+            Parameter::Speed => match self.unsteady().filter(|_| value != 0.0) {
+                Some(why) => Err(NotSet::Lost(why)),
+                None => {
+                    self.speed = value;
+                    Ok(())
+                }
+            },
+        }
+    }
+
+    fn release(&mut self) {
+        self.speed = 0.0;
+        self.inner.release();
+    }
+}
+
+impl Observed for Rotating {
+    fn energy(&mut self, s: &State) -> Energy {
+        self.place(s);
+        let s = self.inertial(s);
+        self.inner.energy(&s)
+    }
+
+    fn frames(&mut self, body: usize, s: &State, stations: &[f64], out: &mut [Frame]) {
+        self.inner.frames(body, s, stations, out);
+    }
+
+    fn channels(&self) -> &[Channel] {
+        self.inner.channels()
+    }
+
+    fn record(&mut self, s: &State, out: &mut [f64]) {
+        self.inner.record(s, out);
+    }
+
+    fn direction(&self, i: usize) -> Direction {
+        self.inner.direction(i)
+    }
+
+    fn admissible(&mut self, s: &State) -> Result<(), String> {
+        self.inner.admissible(s)
+    }
+}

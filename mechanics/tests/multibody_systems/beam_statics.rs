@@ -1,0 +1,171 @@
+//! Statics of slender beams in space: paths, critical loads, closed forms.
+
+use flexion::analysis::equilibrium::equilibrium;
+use flexion::analysis::path::{Critical, Plan, Point, follow};
+use flexion::multibody::slender::{Beam, Properties, Station};
+use flexion::multibody::{Axes, Flexible, Kind, Load, Marker, Model, Multibody, Part};
+use flexion::system::{Dynamics, Frame, Observed, Steady};
+use std::f64::consts::PI;
+
+/// A cantilever of length 1 along x, n along y, with a load at its tip.
+fn cantilever(elements: usize, stiffness: [f64; 4], axes: Axes, [force, moment]: [[f64; 3]; 2]) -> Multibody {
+    let root = Station { position: [0.0; 3], tangent: [1.0, 0.0, 0.0], normal: [0.0, 1.0, 0.0] };
+    let section = Properties::principal(stiffness, 1.0, [1e-6; 3]);
+    let mut model = Model::new();
+    let beam = model.beam(Flexible::new("beam", Beam::straight(root, 1.0, elements, section).unwrap()));
+    let part = |node| Part::Section { beam, node };
+    model.join("root", Kind::Fixed, [Part::Ground, part(0)], [0.0; 3], ([0.0, 0.0, 1.0], None)).unwrap();
+    let at = Marker::new(part(elements), [0.0; 3]);
+    model.load(Load { name: "tip".into(), at, force, moment, axes, amplitude: None });
+    Multibody::new(model).unwrap()
+}
+
+fn tip(system: &mut Multibody, s: &flexion::system::State) -> [f64; 3] {
+    let mut frame = [Frame::default()];
+    system.frames(0, s, &[1.0], &mut frame);
+    frame[0].position
+}
+
+/// The points of the path up to the load factor 1, with the place of the tip.
+fn path(system: &mut Multibody, plan: &Plan) -> Vec<(Point, [f64; 3])> {
+    let (mut points, start) = (Vec::new(), system.initial());
+    let mut frame = [Frame::default()];
+    let end = follow(system, &start, plan, |system, point| {
+        system.frames(0, &point.state, &[1.0], &mut frame);
+        points.push((point.clone(), frame[0].position));
+        !point.arrived
+    });
+    system.release();
+    end.unwrap();
+    points
+}
+
+fn critical(points: &[(Point, [f64; 3])]) -> Vec<(Critical, f64)> {
+    points.iter().filter_map(|(p, _)| p.critical.map(|critical| (critical, p.factor))).collect()
+}
+
+#[test]
+fn a_couple_rolls_the_beam_up_at_every_load() {
+    let moment = [[0.0; 3], [0.0, 0.0, 2.0 * PI]];
+    let mut system = cantilever(40, [1e8, 0.7, 1.0, 1.0], Axes::Follower, moment);
+    let points = path(&mut system, &Plan::to(1.0));
+    let mut worst: f64 = 0.0;
+    for (point, [x, y, z]) in points.iter().filter(|(point, _)| point.factor > 0.0) {
+        let curvature = 2.0 * PI * point.factor;
+        let (sin, cos) = curvature.sin_cos();
+        let [along, across] = [sin / curvature, (1.0 - cos) / curvature];
+        worst = worst.max((x - along).abs()).max((y - across).abs()).max(z.abs());
+    }
+    assert!(points.len() > 10 && worst < 1e-5, "{worst:e} at {} points", points.len());
+}
+
+/// A column bent far past its buckling load: with α the angle of its tip and k = sin ½α, P = K² EI/L², x = (2E/K − 1) L and
+/// z = (2k/K) L (Timoshenko & Gere, *Theory of Elastic Stability*, section 2.7).
+#[test]
+fn a_column_past_its_buckling_load_takes_the_shape_of_the_elastica() {
+    for angle in [60.0_f64, 120.0] {
+        let k = (0.5 * angle.to_radians()).sin();
+        let [first, second] = elliptic(k);
+        let load = first * first;
+        let mut system = cantilever(24, [1e8, 0.7, 1.0, 1e3], Axes::Dead, [[-load, 0.0, 1e-5], [0.0; 3]]);
+        let points = path(&mut system, &Plan { longest: 0.1, ..Plan::to(1.0) });
+        let (last, [x, y, z]) = points.last().unwrap();
+        assert!(last.stability.as_ref().unwrap().is_stable(), "{:?}", last.stability);
+        let expected = [2.0 * second / first - 1.0, 2.0 * k / first];
+        let found = [x - expected[0], z - expected[1], *y];
+        assert!(found.iter().all(|d| d.abs() < 5e-5), "{angle}°: ({x}, {z}) for {expected:?}");
+    }
+}
+
+/// Complete elliptic integrals K and E of the modulus k, by means.
+fn elliptic(k: f64) -> [f64; 2] {
+    let (mut a, mut b, mut c, mut sum, mut power) = (1.0, (1.0 - k * k).sqrt(), k, 0.5 * k * k, 1.0);
+    while c > 1e-16 {
+        (a, b, c) = (0.5 * (a + b), f64::sqrt(a * b), 0.5 * (a - b));
+        sum += power * c * c;
+        power *= 2.0;
+    }
+    let first = 0.5 * PI / a;
+    [first, first * (1.0 - sum)]
+}
+
+/// Dead force across the tip, P L²/EI: (w/L, u/L), at the slenderness 1e4.
+#[test]
+fn a_very_slender_beam_under_a_dead_force_does_not_lock() {
+    for (load, across, along) in [
+        (1.0, 0.301721, 0.056433),
+        (2.0, 0.493457, 0.160642),
+        (4.0, 0.669964, 0.328941),
+        (10.0, 0.810609, 0.554996),
+    ] {
+        let mut system = cantilever(32, [12e8, 0.7, 1.0, 1.0], Axes::Dead, [[0.0, load, 0.0], [0.0; 3]]);
+        let mut s = system.initial();
+        equilibrium(&mut system, &mut s).unwrap();
+        let [x, y, _] = tip(&mut system, &s);
+        assert!((y - across).abs() < 2e-6 && (1.0 - x - along).abs() < 2e-6, "{load}: ({x}, {y})");
+    }
+}
+
+/// A force that stays across the tip: from the tip inwards κ′ = −F cos θ/EI, θ′ = κ is a problem of initial values.
+#[test]
+fn a_follower_force_bends_the_beam_past_its_turning_point() {
+    let load = 24.0;
+    let mut system = cantilever(40, [1e8, 0.7, 1.0, 1.0], Axes::Follower, [[0.0, load, 0.0], [0.0; 3]]);
+    let points = path(&mut system, &Plan { longest: 0.1, ..Plan::to(1.0) });
+    let expected = |force: f64| {
+        // s from the tip; θ, κ, and the place against the axes of the tip.
+        let rates = |[angle, curvature, ..]: [f64; 4]| {
+            let (sin, cos) = angle.sin_cos();
+            [curvature, -force * cos, cos, sin]
+        };
+        let n = 4000;
+        let h = 1.0 / n as f64;
+        let mut y = [0.0; 4];
+        for _ in 0..n {
+            let at = |k: [f64; 4], c: f64| std::array::from_fn(|i| y[i] + c * h * k[i]);
+            let k1 = rates(y);
+            let k2 = rates(at(k1, 0.5));
+            let k3 = rates(at(k2, 0.5));
+            let k4 = rates(at(k3, 1.0));
+            y = std::array::from_fn(|i| y[i] + h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]));
+        }
+        // Seen from the root, whose tangent points to the tip.
+        let [angle, _, x, y] = y;
+        let (sin, cos) = angle.sin_cos();
+        [cos * x + sin * y, sin * x - cos * y]
+    };
+    let (mut worst, mut largest): (f64, f64) = (0.0, 0.0);
+    for (point, [x, y, z]) in &points {
+        let [along, across] = expected(load * point.factor);
+        worst = worst.max((x - along).abs()).max((y.abs() - across.abs()).abs()).max(z.abs());
+        largest = largest.max(y.abs());
+    }
+    let last = points.last().unwrap().1[1].abs();
+    assert!(last < largest - 0.1, "no turning point: {last} of {largest}");
+    assert!(worst < 2e-5, "{worst:e}");
+}
+
+/// Beck's column: 20.0509 EI/L² in the plane in which it is softer.
+#[test]
+fn becks_column_flutters() {
+    let force = [[-30.0, 0.0, 0.0], [0.0; 3]];
+    let mut system = cantilever(12, [1e6, 50.0, 1.0, 3.0], Axes::Follower, force);
+    let found = critical(&path(&mut system, &Plan::to(1.0)));
+    assert!(found[0].0 == Critical::Flutter && (found[0].1 * 30.0 / 20.0509 - 1.0).abs() < 1e-4, "{found:?}");
+}
+
+/// Prandtl's load 4.0126 √(EI₂ GJ)/L², raised by what the strip bends edgewise in proportion to EI₂/EI₃.
+#[test]
+fn a_strip_buckles_sideways_where_the_path_branches() {
+    let torsion = 0.6_f64;
+    let load = |ratio: f64| {
+        let force = [[0.0, 6.0 * torsion.sqrt(), 0.0], [0.0; 3]];
+        let mut system = cantilever(16, [1e6 * ratio, torsion, 1.0, ratio], Axes::Dead, force);
+        let found = critical(&path(&mut system, &Plan::to(1.0)));
+        assert_eq!(found[0].0, Critical::Branching);
+        6.0 * found[0].1
+    };
+    let [soft, stiff] = [1e3, 1e4].map(load);
+    let limit = stiff - (soft - stiff) / 9.0;
+    assert!((limit - 4.012_599_3).abs() < 1e-4, "{limit} from {soft} and {stiff}");
+}

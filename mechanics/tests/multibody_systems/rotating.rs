@@ -1,0 +1,234 @@
+//! Beams in a frame that rotates: their modes against series, the planar beam, and the blade.
+
+use super::{odd_body, odd_rotation, wave};
+use flexion::analysis::campbell::{HubState, Plan, campbell};
+use flexion::analysis::modes::modes;
+use flexion::analysis::rotation::{NoRotation, rotate_stably};
+use flexion::blade::{Blade, Model as BladeModel, Setting, Tip};
+use flexion::exact::rotating::flapwise_frequency;
+use flexion::hub_beam::{ExactCoupling, Hub, HubBeam};
+use flexion::multibody::rotation::apply;
+use flexion::multibody::slender::{Beam, Properties, Station};
+use flexion::multibody::{Axes, Body, Flexible, Kind, Load, Marker, Model, Multibody, Part, Rotating};
+use flexion::profile::{Constant, Motion};
+use flexion::section::{BladeResultants, BladeSection, Resultants, Uniform};
+use flexion::system::{Dynamics, Parameter, State, Steady, System};
+use std::sync::Arc;
+
+const Z: [f64; 3] = [0.0, 0.0, 1.0];
+
+/// A blade on the ground, which rotates about z with the frame.
+fn blade(setting: Setting, section: &dyn BladeSection, elements: usize) -> Rotating {
+    let (sin, cos) = setting.precone.sin_cos();
+    let (axis, out) = ([cos, 0.0, sin], [-sin, 0.0, cos]);
+    let curve = |s: f64| {
+        let (sine, cosine) = (setting.pitch + section.resultants(s).twist).sin_cos();
+        Station {
+            position: axis.map(|t| (setting.hub_radius + s) * t),
+            tangent: axis,
+            normal: [sine * out[0], cosine, sine * out[2]],
+        }
+    };
+    let nodes: Vec<f64> = (0..=elements).map(|i| setting.length * i as f64 / elements as f64).collect();
+    let beam = Beam::new(&nodes, curve, |s| Properties::from(&section.resultants(s))).unwrap();
+    let mut model = Model::new();
+    let beam = model.beam(Flexible::new("blade", beam));
+    let section = |node| Part::Section { beam, node };
+    let root = axis.map(|t| setting.hub_radius * t);
+    model.join("root", Kind::Fixed, [Part::Ground, section(0)], root, (Z, None)).unwrap();
+    if setting.tip.mass > 0.0 {
+        let end = axis.map(|t| (setting.hub_radius + setting.length) * t);
+        let tip = model.body(Body::new("tip", setting.tip.mass, [setting.tip.inertia; 3]).at(end));
+        model.join("hold", Kind::Fixed, [section(elements), tip], end, (Z, None)).unwrap();
+    }
+    Rotating::new(Multibody::new(model).unwrap(), [0.0; 3], Z).unwrap()
+}
+
+fn frequencies(system: &mut dyn System, speed: f64, count: usize) -> Vec<f64> {
+    let mut s = system.initial();
+    rotate_stably(system, &mut s, 0.0, speed).unwrap();
+    let found = modes(system, &s, count, &[]).unwrap();
+    found.modes.iter().map(|mode| mode.frequency()).collect()
+}
+
+/// ρA = EI₂ = L = 1, slender, and far stiffer in the plane of rotation and in torsion.
+fn flat() -> BladeResultants {
+    BladeResultants {
+        mass: 1.0,
+        axial_stiffness: 1e9,
+        flap_stiffness: 1.0,
+        chord_stiffness: 1e6,
+        torsional_stiffness: 1e4,
+        flap_inertia: 1e-9,
+        chord_inertia: 1e-9,
+        ..BladeResultants::default()
+    }
+}
+
+#[test]
+fn flapwise_frequencies_are_those_of_wright() {
+    for (speed, radius) in [(0.0, 0.0), (3.0, 0.0), (12.0, 0.0), (4.0, 1.0)] {
+        let setting = Setting { length: 1.0, hub_radius: radius, ..Setting::default() };
+        let found = frequencies(&mut blade(setting, &flat(), 56), speed, 3);
+        for (k, found) in found.iter().enumerate() {
+            let expected = flapwise_frequency(k + 1, speed, radius);
+            assert!((found / expected - 1.0).abs() < 1e-6, "γ {speed}, a {radius}: {found} for {expected}");
+        }
+    }
+}
+
+/// In the plane of rotation: with gyroscopic coupling, the planar beam of exact geometry.
+#[test]
+fn chordwise_frequencies_are_those_of_the_planar_beam() {
+    let section =
+        BladeResultants { axial_stiffness: 4900.0, flap_stiffness: 1e6, chord_stiffness: 1.0, ..flat() };
+    let planar = Uniform::from_resultants(Resultants {
+        mass: 1.0,
+        axial_stiffness: 4900.0,
+        bending_stiffness: 1.0,
+        ..Resultants::default()
+    });
+    let planar = planar.unwrap();
+    for (speed, radius) in [(4.0, 0.0), (10.0, 0.1)] {
+        let profile = Arc::new(Constant::new(0.0).unwrap());
+        let hub = Hub::prescribed(radius, 0.0, Motion::Speed { profile, initial_angle: 0.0 });
+        let coupling = ExactCoupling::new(1.0, 40, &planar, &hub).unwrap();
+        let mut planar = HubBeam::new(hub, coupling, &[]);
+        let mut at_rest = State::zeros(planar.size(), 0.0);
+        rotate_stably(&mut planar, &mut at_rest, 0.0, speed).unwrap();
+        let expected = modes(&mut planar, &at_rest, 3, &[]).unwrap();
+        let setting = Setting { length: 1.0, hub_radius: radius, ..Setting::default() };
+        let found = frequencies(&mut blade(setting, &section, 40), speed, 3);
+        for (found, expected) in found.iter().zip(&expected.modes) {
+            let expected = expected.frequency();
+            assert!((found / expected - 1.0).abs() < 1e-6, "γ {speed}: {found} for {expected}");
+        }
+    }
+}
+
+/// Twist, taper, pitch, precone and a body at the tip.
+#[derive(Debug)]
+struct General;
+
+impl BladeSection for General {
+    fn resultants(&self, x: f64) -> BladeResultants {
+        let taper = 1.0 - 0.4 * x;
+        BladeResultants {
+            mass: taper,
+            axial_stiffness: 3e4 * taper,
+            flap_stiffness: taper * taper,
+            chord_stiffness: 9.0 * taper * taper,
+            torsional_stiffness: 0.8 * taper,
+            flap_inertia: 1e-4 * taper,
+            chord_inertia: 1e-4 * taper,
+            twist: 0.5 - 0.6 * x,
+            twist_rate: -0.6,
+        }
+    }
+}
+
+#[test]
+fn a_general_blade_agrees_with_the_room_of_blades() {
+    let model = BladeModel { tension_torsion: false, ..BladeModel::default() };
+    for (precone, tip) in [(0.0, Tip::default()), (0.05, Tip { mass: 0.3, inertia: 0.004 })] {
+        let setting = Setting { length: 1.0, hub_radius: 0.2, precone, pitch: 0.1, tip };
+        for speed in [0.0, 6.0] {
+            let mut expected = Blade::new(setting, &General, model, 48).unwrap();
+            let expected = frequencies(&mut expected, speed, 5);
+            let found = frequencies(&mut blade(setting, &General, 48), speed, 5);
+            for (found, expected) in found.iter().zip(&expected) {
+                assert!(
+                    (found / expected - 1.0).abs() < 1e-6,
+                    "precone {precone}, Ω {speed}: {found} for {expected}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_campbell_diagram_of_a_spatial_beam_follows_its_modes() {
+    let setting = Setting { length: 1.0, hub_radius: 0.1, ..Setting::default() };
+    let speeds: Vec<f64> = (0..=6).map(|i| 2.0 * f64::from(i)).collect();
+    let plan = Plan { speeds, count: 3, stations: Vec::new(), hub: HubState::Held, revolutions: 2 };
+    let diagram = campbell(Box::new(blade(setting, &flat(), 16)), &plan, |_| true).unwrap();
+    for (k, branch) in diagram.branches.iter().enumerate() {
+        for point in &branch.points {
+            let expected = flapwise_frequency(k + 1, point.speed, 0.1);
+            assert!((point.mode.frequency() / expected - 1.0).abs() < 1e-4);
+        }
+    }
+    assert!(diagram.instabilities.is_empty() && !diagram.crossings.is_empty());
+}
+
+/// The tangents are the differences of the residual, for bodies and beams, about any axis.
+#[test]
+fn the_tangents_are_those_of_the_residual() {
+    let mut model = Model::new();
+    let body = model.body(odd_body("hub", 0.3));
+    let at = [0.3, 0.2, -0.1];
+    let turned = odd_rotation(0.7);
+    let axes = [0, 1].map(|j| [0, 1, 2].map(|i| turned[i][j]));
+    let root = Station { position: at, tangent: axes[0], normal: axes[1] };
+    let section = Properties::principal([400.0, 1.1, 0.9, 1.6], 1.2, [0.03, 0.012, 0.018]);
+    let beam = model.beam(Flexible::new("arm", Beam::straight(root, 0.9, 2, section).unwrap()).damped(0.3));
+    model.join("clamp", Kind::Fixed, [body, Part::Section { beam, node: 0 }], at, (Z, None)).unwrap();
+    let mut system =
+        Rotating::new(Multibody::new(model).unwrap(), [0.1, -0.3, 0.2], apply(&turned, [0.3, 0.5, 0.8]))
+            .unwrap();
+    system.set(Parameter::Speed, 2.3).unwrap();
+    let mut s = system.initial();
+    let n = s.v.len();
+    let d: Vec<f64> = (0..n).map(|i| 0.05 * wave(i, 0.4)).collect();
+    let from = s.q.clone();
+    system.retract(&from, &d, &mut s.q);
+    s.lambda.iter_mut().enumerate().for_each(|(i, x)| *x = wave(i, 0.9));
+    let mut matrix = flexion::linalg::Matrix::new(&system.structure(0));
+    let step = 1e-5;
+    for (q, v) in [(1.0, 0.0), (0.0, 1.0)] {
+        system.tangent(&s, flexion::system::Weights::new(0.0, v, q), &mut matrix);
+        for j in 0..n {
+            let mut at = |sign: f64| {
+                let (mut moved, mut r) = (s.clone(), vec![0.0; n]);
+                let mut d = vec![0.0; n];
+                d[j] = sign * step;
+                system.retract(&s.q, &d.iter().map(|x| q * x).collect::<Vec<_>>(), &mut moved.q);
+                moved.v.iter_mut().zip(&d).for_each(|(x, d)| *x += v * d);
+                system.residual(&moved, &mut r);
+                r
+            };
+            let (ahead, behind) = (at(1.0), at(-1.0));
+            for i in 0..n {
+                let expected = (ahead[i] - behind[i]) / (2.0 * step);
+                let found = matrix.get(i, j);
+                assert!((found - expected).abs() < 2e-5, "({i}, {j}) for q {q}: {found} for {expected}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_load_that_keeps_its_direction_in_space_is_refused() {
+    let mut model = Model::new();
+    let part = model.body(Body::new("rotor", 1.0, [0.1; 3]));
+    model.join("shaft", Kind::Fixed, [Part::Ground, part], [0.0; 3], (Z, None)).unwrap();
+    let load = |force| Load {
+        name: "wind".into(),
+        at: Marker::new(part, [0.0; 3]),
+        force,
+        moment: [0.0; 3],
+        axes: Axes::Dead,
+        amplitude: None,
+    };
+    let mut along = model.clone();
+    along.load(load([0.0, 0.0, 3.0]));
+    model.load(load([1.0, 0.0, 3.0]));
+    let rotate = |model| {
+        let mut system = Rotating::new(Multibody::new(model).unwrap(), [0.0; 3], Z).unwrap();
+        let mut s = system.initial();
+        rotate_stably(&mut system, &mut s, 0.0, 2.0).map(|_| ())
+    };
+    rotate(along).unwrap();
+    let Err(NoRotation::Lost { source, .. }) = rotate(model) else { panic!("it rotates") };
+    assert!(source.to_string().contains("`wind`"), "{source}");
+}

@@ -1,0 +1,103 @@
+//! Speeds at which a frequency is near a multiple of the speed.
+
+use flexion::analysis::campbell::{Campbell, Point};
+
+/// A range of speeds in which a mode is near a line ω = k Ω.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Resonance {
+    /// Number of the branch, from 0.
+    pub branch: usize,
+    /// k
+    pub revolutions: u32,
+    /// First and last speed \[rad/s\].
+    pub from: f64,
+    /// See `from`.
+    pub to: f64,
+}
+
+/// The ranges of speeds in which |ω − k Ω| ≤ `margin` · k Ω, for k from 1 to `revolutions`; between the speeds of the
+/// diagram ω is linear.
+pub fn resonances(campbell: &Campbell, revolutions: u32, margin: f64) -> Vec<Resonance> {
+    let mut out: Vec<Resonance> = Vec::new();
+    for (branch, b) in campbell.branches.iter().enumerate() {
+        for k in 1..=revolutions {
+            let mut open = false;
+            for (a, b) in b.points.iter().zip(b.points.iter().skip(1)) {
+                let Some((from, to)) = near(a, b, f64::from(k), margin) else {
+                    open = false;
+                    continue;
+                };
+                match out.last_mut() {
+                    Some(last) if open && from <= a.speed => last.to = to,
+                    _ => out.push(Resonance { branch, revolutions: k, from, to }),
+                }
+                open = to >= b.speed;
+            }
+        }
+    }
+    out
+}
+
+/// The part of the straight line between two points that lies between (1 ± `margin`) k Ω.
+fn near(a: &Point, b: &Point, k: f64, margin: f64) -> Option<(f64, f64)> {
+    // What has to be positive, at both points.
+    let inside = |p: &Point| {
+        let (frequency, line) = (p.mode.frequency(), k * p.speed);
+        [frequency - (1.0 - margin) * line, (1.0 + margin) * line - frequency]
+    };
+    let (mut from, mut to) = (0.0_f64, 1.0_f64);
+    for (first, last) in inside(a).into_iter().zip(inside(b)) {
+        let zero = first / (first - last);
+        match (first >= 0.0, last >= 0.0) {
+            (true, true) => {}
+            (true, false) => to = to.min(zero),
+            (false, true) => from = from.max(zero),
+            (false, false) => return None,
+        }
+    }
+    let at = |t: f64| if t == 1.0 { b.speed } else { a.speed + t * (b.speed - a.speed) };
+    (from < to).then(|| (at(from), at(to)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use flexion::analysis::campbell::Branch;
+    use flexion::analysis::modes::{Mode, Shape, Shares};
+    use num_complex::Complex64;
+
+    fn diagram(frequency: impl Fn(f64) -> f64) -> Campbell {
+        let speeds: Vec<f64> = (0..=20).map(|i| 0.5 * f64::from(i)).collect();
+        let mode = |speed: f64| Mode {
+            eigenvalue: Complex64::new(0.0, frequency(speed)),
+            vector: Vec::new(),
+            residual: 0.0,
+            rounding: 0.0,
+            shares: Shares::default(),
+            shape: Shape { displacement: Vec::new() },
+            nodes: 0,
+        };
+        let points = speeds.iter().map(|&speed| Point { speed, mode: mode(speed), assurance: 1.0 });
+        let branches = vec![Branch { points: points.collect() }];
+        Campbell { entering: None, speeds, branches, crossings: Vec::new(), instabilities: Vec::new() }
+    }
+
+    #[test]
+    fn the_range_of_a_resonance_is_that_of_its_definition() {
+        // |10 − kΩ| = kΩ/10 at Ω = 10/1.1 k and 10/0.9 k; that of k = 1 is cut off at the last speed.
+        let found = resonances(&diagram(|_| 10.0), 2, 0.1);
+        let ends: Vec<(u32, f64, f64)> = found.iter().map(|r| (r.revolutions, r.from, r.to)).collect();
+        let expected = [(1, 10.0 / 1.1, 10.0), (2, 10.0 / 2.2, 10.0 / 1.8)];
+        assert_eq!(ends.len(), 2, "{ends:?}");
+        for (a, b) in ends.iter().zip(expected) {
+            assert!(a.0 == b.0 && (a.1 - b.1).abs() < 1e-12 && (a.2 - b.2).abs() < 1e-12, "{a:?} {b:?}");
+        }
+    }
+
+    #[test]
+    fn a_mode_that_passes_twice_has_two_ranges_and_a_far_one_none() {
+        let found = resonances(&diagram(|speed| 2.0 * speed + 3.0 * (speed - 3.0) * (speed - 7.0)), 2, 0.02);
+        assert_eq!(found.iter().filter(|r| r.revolutions == 2).count(), 2, "{found:?}");
+        assert!(resonances(&diagram(|_| 100.0), 3, 0.05).is_empty());
+    }
+}

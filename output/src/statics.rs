@@ -1,0 +1,80 @@
+//! Files of a path of equilibria.
+
+use super::archive;
+use super::plot::statics_figure;
+use super::vibration::{close, column, draw};
+use super::{Artifact, Directory, LoadPath, LoadPoint, OutputError, VERSION, resolved_case};
+use flexion::analysis::path::Critical;
+use serde_json::{Value, json};
+use std::io::Write;
+
+/// Writes and publishes the files of a path. `case` is the resolved case; `cautions` are kept with the warnings.
+///
+/// # Errors
+/// [`OutputError`] for whatever goes wrong on disk.
+pub fn write_statics(
+    directory: &Directory,
+    path: &LoadPath,
+    case: &str,
+    title: Option<&str>,
+    cautions: &[String],
+) -> Result<(), OutputError> {
+    directory.write(Artifact::ResolvedCase, |f| f.write_all(resolved_case(case).as_bytes()))?;
+    // Numbers of growing motions; −1 where they were not found.
+    let unstable = |p: &LoadPoint| p.stability.map_or(-1, |found| found.unstable() as i64);
+    directory.write(Artifact::StaticsCsv, |f| {
+        write!(f, "load-factor,length,unstable,critical")?;
+        path.channels.iter().try_for_each(|channel| write!(f, ",{} [{}]", channel.name, channel.unit))?;
+        writeln!(f)?;
+        for p in &path.points {
+            let critical = p.critical.map_or("", Critical::name);
+            write!(f, "{:?},{:?},{},{critical}", p.factor, p.length, unstable(p))?;
+            p.values.iter().try_for_each(|value| write!(f, ",{value:?}"))?;
+            writeln!(f)?;
+        }
+        Ok(())
+    })?;
+    directory.write(Artifact::StaticsNpz, |f| {
+        let mut archive = archive::archive(f);
+        let points = path.points.iter();
+        column(&mut archive, "load_factor", points.clone().map(|p| p.factor))?;
+        column(&mut archive, "length", points.clone().map(|p| p.length))?;
+        column(&mut archive, "unstable", points.clone().map(|p| unstable(p) as f64))?;
+        for (i, channel) in path.channels.iter().enumerate() {
+            column(&mut archive, &channel.name, points.clone().map(|p| p.values[i]))?;
+        }
+        archive::finish(archive)
+    })?;
+    let mut warnings = cautions.to_vec();
+    warnings.extend(draw(
+        directory,
+        &statics_figure(path, title),
+        [Artifact::StaticsSvg, Artifact::StaticsPng],
+    )?);
+    let critical: Vec<Value> = path.critical().map(|(point, _)| json(path, point)).collect();
+    let summary = json!({
+        "version": VERSION,
+        "points": path.points.len(),
+        "to": path.to,
+        "end": path.end,
+        "last": path.points.last().map(|point| json(path, point)),
+        "critical": critical,
+        "warnings": warnings,
+    });
+    close(directory, Artifact::StaticsJson, &summary)
+}
+
+/// A point with the quantities that are printed.
+fn json(path: &LoadPath, point: &LoadPoint) -> Value {
+    let columns: serde_json::Map<String, Value> = path
+        .printed()
+        .map(|(i, channel)| (format!("{} [{}]", channel.name, channel.unit), json!(point.values[i])))
+        .collect();
+    json!({
+        "load-factor": point.factor,
+        "stability": point.stability.map(|found| found.to_string()),
+        "unstable": point.stability.map(|found| found.unstable()),
+        "critical": point.critical.map(Critical::name),
+        "columns": columns,
+    })
+}
