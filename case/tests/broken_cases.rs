@@ -283,7 +283,7 @@ const CHANGES: &[Change] = &[
         r#"kind = "free", torque = { kind = "table", file = "unsorted.csv" }, controller = { kind = "pd" }"#,
         r#"hub.motion.torque.file"#,
         Some(12),
-        r#"must be later than the row before it"#,
+        r#"must lie behind the row before it"#,
     ),
     (
         SECTION,

@@ -63,7 +63,7 @@ fn overrides_replace_values_tables_and_defaults() {
     assert_eq!(case.hub_beam().unwrap().section.planar.resultants(0.0).axial_stiffness, 12e6);
     assert_eq!(case.hub_beam().unwrap().bases.elements, Some((20, 1)));
     assert!(case.hub_beam().unwrap().coupling.whole_curve);
-    assert_eq!(case.steps, Steps::Fixed(1e-3));
+    assert_eq!(case.steps, Steps::Fixed { step: 1e-3, contact: None });
     assert_eq!(case.output.stations, [2.0, 5.0]);
     assert_eq!(case.title, "two");
 }

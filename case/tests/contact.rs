@@ -4,7 +4,7 @@
 
 use crate::random_cases::draw;
 use crate::written::{SQUARE_BAR, finished, outcome, reading};
-use flexion_case::{Reading, parse};
+use flexion_case::{Effort, Reading, parse};
 use flexion_results::{Directory, Status};
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -252,4 +252,55 @@ fn a_contact_without_a_name_has_that_of_its_number() {
     for name in ["contact.gap", "contact.force", "contact2.gap", "contact2.force"] {
         assert!(run.trajectory.index(name).is_some(), "{name}");
     }
+}
+
+/// The step is the shorter one while the contact is closed or near, and the impact is that of equal short steps.
+#[test]
+fn steps_are_those_of_contacts_where_one_is_near() {
+    let run = |integrator: &str| {
+        let integrator = format!("integrator={{kind='generalized-alpha',{integrator}}}");
+        finished(&pendulum(&[&integrator, "run.duration='0.4 s'", "output.step='1 ms'"]))
+    };
+    let (both, long, short) =
+        (run("step='1 ms',contact-step='10 us'"), run("step='1 ms'"), run("step='10 us'"));
+    let first = |run: &flexion_case::Run| run.events.impacts().next().unwrap().clone();
+    let sizes = both.trajectory.column("step.size").unwrap();
+    assert_eq!(sizes[100], 1e-3);
+    assert!(long.counters.steps < both.counters.steps && both.counters.steps < short.counters.steps / 2);
+    assert!((first(&both).time - first(&short).time).abs() < 1e-4, "{:?} {:?}", first(&both), first(&short));
+}
+
+/// Impulse, speed and loss of the first impact, by a method that locates events and by two that do not.
+#[test]
+fn nonsmooth_methods_tell_their_impacts() {
+    let run = |integrator: &str| finished(&pendulum(&[integrator, "run.duration='0.4 s'"]));
+    let located = run("integrator={kind='radau',tolerance=1e-8}");
+    let expected = located.events.impacts().next().unwrap().clone();
+    for kind in ["nonsmooth-generalized-alpha", "moreau-jean"] {
+        let run = run(&format!("integrator={{kind='{kind}',step='10 us'}}"));
+        let found = run.events.impacts().next().unwrap();
+        assert!((found.time - expected.time).abs() < 1e-3, "{kind}: {found:?} {expected:?}");
+        let near = |a: f64, b: f64| (a / b - 1.0).abs() < 0.02;
+        assert!(
+            near(found.impulse, expected.impulse) && near(found.speed, expected.speed),
+            "{found:?} {expected:?}"
+        );
+        assert!(near(found.lost, expected.lost), "{kind}: {found:?} {expected:?}");
+    }
+}
+
+/// Another mesh says nothing of the error behind an impact.
+#[test]
+fn errors_are_those_before_the_first_impact() {
+    let reading = pendulum(&["integrator={kind='radau',tolerance=1e-7}", "run.duration='0.4 s'"]);
+    let run = finished(&reading);
+    let errors = reading.estimate_errors(&run, Effort::Full, &mut |_| ControlFlow::Continue(())).unwrap();
+    assert!(
+        errors.warnings.iter().any(|text| text.contains("before the first impact")),
+        "{:?}",
+        errors.warnings
+    );
+    let of = |name: &str| errors.columns.iter().find(|c| c.column == name).unwrap().discretization;
+    // That behind the impact is 0.3.
+    assert!(of("hub.angle") < 1e-3, "{}", of("hub.angle"));
 }

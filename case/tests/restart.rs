@@ -235,3 +235,42 @@ fn another_model_is_refused_and_another_integrator_begins_anew() {
     assert_eq!(uneven.status, Status::Failed);
     assert!(uneven.message.as_ref().is_some_and(|m| m.contains("multiple")), "{:?}", uneven.message);
 }
+
+/// Numbers that no run has are refused, and nothing panics.
+#[test]
+fn a_state_with_numbers_that_no_run_has_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = folder.path().join("case.toml");
+    std::fs::write(&case, [SQUARE_BAR, REST].concat()).unwrap();
+    for integrator in ["integrator={kind='radau'}", "integrator={kind='newmark',step='2 ms'}"] {
+        let whole = reading(&case, &[integrator]);
+        let results = folder.path().join("first");
+        let directory = Directory::create(&results, true).unwrap();
+        whole.write(&run(&whole, 0.2), &directory).unwrap();
+        drop(directory);
+        let file = results.join("state.npz");
+        let (good, text) = flexion_results::read_state(std::fs::File::open(&file).unwrap()).unwrap();
+        let on =
+            reading(&case, &[integrator, &format!("initial={{kind='restart',file='{}'}}", file.display())]);
+        assert_eq!(run(&on, f64::INFINITY).status, Status::Finished);
+        for name in ["run", "last", "sample", "control", "stretch", "time"] {
+            let Ok(list) = good.list(name) else { continue };
+            for wrong in [f64::NAN, f64::INFINITY, -1.0] {
+                let mut bad = good.clone();
+                bad.put(name, &vec![wrong; list.len()]);
+                flexion_results::write_state(&bad, &text, std::fs::File::create(&file).unwrap()).unwrap();
+                let set = [integrator, &format!("initial={{kind='restart',file='{}'}}", file.display())];
+                let reading = reading(&case, &set);
+                // Refused while it is read, or as soon as it runs; never a panic.
+                if let Ok(prepared) = reading.prepare() {
+                    let run = prepared.run(&mut |_| ControlFlow::Continue(()));
+                    assert!(
+                        wrong == -1.0 || run.status == Status::Failed,
+                        "{name} = {wrong}: {:?}",
+                        run.message
+                    );
+                }
+            }
+        }
+    }
+}

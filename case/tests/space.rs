@@ -2,7 +2,6 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
 
-use flexion::system::Dynamics;
 use flexion_case::{Problems, Reading, Run, parse};
 use flexion_results::Status;
 use std::ops::ControlFlow;

@@ -18,6 +18,8 @@ modulus = "70 GPa"
 density = "3000 kg/m^3"
 area = "4 cm^2"
 second-moment = "2e-7 m^4"
+[hub]
+motion = { kind = "constant", speed = 0 }
 [model]
 coupling = "exact"
 [basis]
@@ -49,9 +51,10 @@ fn a_column_past_its_buckling_load_begins_bent_and_says_so() {
 fn becks_column_is_stable_up_to_its_flutter_load() {
     let text = |force: f64| {
         format!(
-            "[beam]\nlength = 1.0\n[section]\nkind = \"resultants\"\nmass-per-length = 1.0\naxial-stiffness = 1e6\n\
-             bending-stiffness = 1.0\nrotary-inertia = 0.0\n[model]\ncoupling = \"exact\"\n[basis]\n\
-             kind = \"finite-elements\"\nelements = 16\n[[force]]\nstation = 1.0\nforce = [{}, 0.0]\nframe = \"follower\"\n\
+            "[beam]\nlength = 1.0\n[section]\nkind = \"resultants\"\nmass-per-length = 1.0\naxial-stiffness = 1e8\n\
+             bending-stiffness = 1.0\nrotary-inertia = 0.0\n[hub]\n\
+             motion = {{ kind = \"constant\", speed = 0 }}\n[model]\ncoupling = \"exact\"\n[basis]\n\
+             kind = \"finite-elements\"\nelements = 32\n[[force]]\nstation = 1.0\nforce = [{}, 0.0]\nframe = \"follower\"\n\
              [run]\nduration = \"0.1 s\"\n",
             -force
         )

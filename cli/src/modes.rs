@@ -6,13 +6,15 @@ use flexion::analysis::campbell::HubState;
 use flexion::analysis::equilibrium::equilibrium;
 use flexion::analysis::modes::{Mode, Modes, modes as find};
 use flexion::analysis::rotation::rotate_stably;
-use flexion::system::State;
+use flexion::system::{State, System};
 use flexion_case::{Case, Reading};
 use flexion_results::{Artifact, Directory, Scene, Units, write_modes};
 use std::path::PathBuf;
 
 /// Damping ratio below which a mode grows.
 const GROWTH: f64 = -1e-7;
+/// Displacement of a mode in the files of its scene, over the scale of the unknowns.
+const DISPLACED: f64 = 1e-3;
 
 /// The case, the speed, and how many modes.
 #[derive(clap::Args)]
@@ -78,12 +80,21 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
         cautions.push(format!("the equilibrium is unstable: {growing} of the modes grow (negative damping)"));
     }
     cautions.iter().for_each(|caution| screen::report(&format!("warning: {caution}\n")));
+    let errors = mesh_errors(arguments, reading, &modes, speed, hub);
     let about = match case.space() {
         Some(_) => "about the equilibrium".to_owned(),
         None if hub == HubState::Free => format!("at {}, free hub", units.speed.text(speed)),
         None => format!("at {}, hub that keeps its speed", units.speed.text(speed)),
     };
-    let out = described(&modes, &units, &about);
+    let out = described(&modes, &errors, &units, &about);
+    let relative = |(number, (mode, error)): (usize, (&Mode, &f64))| (number + 1, error / mode.frequency());
+    let coarse = modes.modes.iter().zip(&errors).enumerate().map(relative).find(|(_, e)| *e > COARSE);
+    if let Some((number, error)) = coarse {
+        screen::report(&format!(
+            "warning: by the mesh the frequency of mode {number} may be off by {:.1} %: use more elements or functions\n",
+            100.0 * error
+        ));
+    }
     for (number, mode) in modes.modes.iter().enumerate().filter(|(_, mode)| mode.rounding > 1e-6) {
         screen::report(&format!(
             "warning: the frequency of mode {} may be off by {:.1e} by rounding: the mesh is too fine for this coupling; \
@@ -121,19 +132,58 @@ fn compute(arguments: &Arguments, case: &Case, speed: f64, hub: HubState) -> Res
         system.hold(false);
         state.v = system.initial().v;
     }
-    let mut scene = case.scene();
-    scene.finish(system.as_mut(), &state);
     let modes = find(system.as_mut(), &state, arguments.count, &stations(case, STATIONS));
-    Ok((modes.map_err(|error| error.to_string())?, scene))
+    let modes = modes.map_err(|error| error.to_string())?;
+    let scene = displaced(case, &modes, system.as_mut(), &state);
+    Ok((modes, scene))
+}
+
+/// The equilibrium under the time 0, and displaced a little by the real and the imaginary part of every mode under the times
+/// 1, 2, and so on.
+fn displaced(case: &Case, modes: &Modes, system: &mut dyn System, state: &State) -> Scene {
+    let mut scene = case.scene();
+    scene.take(0.0, system, state);
+    let scales = system.scales().to_vec();
+    let mut moved = state.clone();
+    for (time, (mode, part)) in modes.modes.iter().flat_map(|m| [(m, 0), (m, 1)]).enumerate() {
+        let sizes = mode.vector.iter().zip(&scales).map(|(x, scale)| x.norm() / scale);
+        let step = DISPLACED / sizes.fold(f64::MIN_POSITIVE, f64::max);
+        let d: Vec<f64> = mode.vector.iter().map(|x| step * if part == 0 { x.re } else { x.im }).collect();
+        system.retract(&state.q, &d, &mut moved.q);
+        scene.take((time + 1) as f64, system, &moved);
+    }
+    scene
+}
+
+/// Relative error of a frequency by the mesh above which there is a warning.
+const COARSE: f64 = 0.01;
+
+/// Error of each frequency by the mesh \[rad/s\], from its difference to the one with twice the functions; none where that
+/// cannot be computed.
+fn mesh_errors(
+    arguments: &Arguments,
+    reading: &Reading,
+    modes: &Modes,
+    speed: f64,
+    hub: HubState,
+) -> Vec<f64> {
+    let Ok(finer) = reading.with_finer_mesh() else { return Vec::new() };
+    let steady =
+        if speed > 0.0 { vibration::without_loads_in_space(&finer.case).0 } else { finer.case.clone() };
+    let Ok((fine, _)) = compute(arguments, &steady, speed, hub) else { return Vec::new() };
+    let safety = reading.case.hub_beam().map_or(2.0, |beam| beam.bases.safety);
+    let pairs = modes.modes.iter().zip(&fine.modes);
+    pairs.map(|(a, b)| safety * (a.frequency() - b.frequency()).abs()).collect()
 }
 
 /// The table of modes.
-fn described(modes: &Modes, units: &Units, about: &str) -> String {
+fn described(modes: &Modes, errors: &[f64], units: &Units, about: &str) -> String {
     let unit = &units.frequency;
     let mut out = format!("{} modes {about}\n\n", modes.modes.len());
     let head = [
         "mode",
         if unit.name.is_empty() { "frequency" } else { unit.name },
+        "± mesh",
         "damping",
         "nodes",
         "moves",
@@ -144,6 +194,7 @@ fn described(modes: &Modes, units: &Units, about: &str) -> String {
         rows.push(vec![
             format!("{}", number + 1),
             format!("{:.6}", mode.frequency() * unit.factor),
+            errors.get(number).map_or("-".to_owned(), |error| format!("{:.1e}", error * unit.factor)),
             format!("{:.4e}", mode.damping_ratio()),
             mode.nodes.to_string(),
             moves(mode),

@@ -232,8 +232,8 @@ fn extremes(trajectory: &Trajectory, errors: Option<&Errors>) -> String {
         let error = of(&channel.name);
         let unit = if channel.unit.is_empty() { "1" } else { channel.unit };
         let value = |x: f64, error: Option<f64>| match error {
-            Some(error) => screen::with_error(x, error),
-            None => format!("{x:.6e}"),
+            Some(error) if error.is_finite() => screen::with_error(x, error),
+            _ => format!("{x:.6e}"),
         };
         let mut row = vec![
             channel.name.clone(),

@@ -188,7 +188,11 @@ fn modes_and_campbell_write_whole_results_and_refuse_what_cannot_be() {
     // 6 rad/s are 57.29577951308232 rpm.
     let output = flexion(
         folder.path(),
-        &["campbell", "spin-up", "--speeds", "0 rpm:57.29577951308232 rpm:7", "--modes", "3", "-o", "rpm"],
+        &[
+            &["campbell", "spin-up", "--speeds", "0 rpm:57.29577951308232 rpm:7", "--modes", "3"][..],
+            &["--unit", "rad/s", "-o", "rpm"],
+        ]
+        .concat(),
     );
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
     let last = |of: &str| {
@@ -482,7 +486,8 @@ fn motion_and_modes_become_pages() {
     let modes = data("pages/modes.html");
     assert_eq!(modes["modes"]["table"]["modes"].as_array().unwrap().len(), 3);
     assert_eq!(modes["modes"]["shapes"]["mode3.second.real"]["shape"], serde_json::json!([201]));
-    assert_eq!(modes["scene"]["time"]["shape"], serde_json::json!([1]));
+    // The equilibrium, and two displaced states for each mode.
+    assert_eq!(modes["scene"]["beam.pose"]["shape"], serde_json::json!([7, 7]));
 
     for (arguments, complaint) in [
         (&["run", "-o", "run.html"][..], "--force"),

@@ -77,7 +77,7 @@ artifacts! {
         ModesJson "modes.json" "frequencies, damping and residuals",
         ModesCsv "modes.csv" "the same as a table",
         ModesNpz "modes.npz" "frequencies and shapes for NumPy",
-        ModesScene "equilibrium.npz" "the equilibrium that the modes vibrate about, for `flexion view`",
+        ModesScene "equilibrium.npz" "the equilibrium, and displaced by every mode, for `flexion view`",
         ModesSvg "modes.svg" "the plot",
         ModesPng "modes.png" "the plot as pixels",
     }

@@ -16,6 +16,7 @@ mod load_path;
 mod nearest;
 mod npz;
 mod obstacles;
+
 mod page;
 #[cfg(feature = "parquet")]
 mod parquet;

@@ -194,7 +194,7 @@ impl Scene {
     /// Call it with every recorded state: it takes some of them.
     pub fn sample(&mut self, system: &mut dyn System, state: &State) {
         if self.seen.is_multiple_of(self.every.max(1)) {
-            self.push(system, state);
+            self.take(state.t, system, state);
         }
         self.seen += 1;
     }
@@ -202,12 +202,13 @@ impl Scene {
     /// Takes the last state of a run, unless it was taken.
     pub fn finish(&mut self, system: &mut dyn System, state: &State) {
         if self.times.last() != Some(&state.t) {
-            self.push(system, state);
+            self.take(state.t, system, state);
         }
     }
 
-    fn push(&mut self, system: &mut dyn System, state: &State) {
-        self.times.push(state.t);
+    /// Takes a state under a time, whatever its own is.
+    pub fn take(&mut self, time: f64, system: &mut dyn System, state: &State) {
+        self.times.push(time);
         for (number, part) in self.parts.iter_mut().enumerate() {
             self.frames.clear();
             self.frames.resize(part.stations().len(), Frame::default());

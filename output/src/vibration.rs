@@ -14,7 +14,7 @@ use std::io::{self, BufWriter, Write};
 use zip::ZipWriter;
 
 /// An archive that is being written.
-type Archive<'a, 'b> = ZipWriter<Latched<&'a mut BufWriter<&'b mut File>>>;
+pub(super) type Archive<'a, 'b> = ZipWriter<Latched<&'a mut BufWriter<&'b mut File>>>;
 
 /// Writes displacements, along the three axes of the sections, in arrays of the given size.
 fn write_shapes<'u>(
@@ -23,7 +23,7 @@ fn write_shapes<'u>(
     size: &[u64],
     displacements: impl Iterator<Item = &'u [Complex64; 3]> + Clone,
 ) -> io::Result<()> {
-    for (axis, name) in ["axial", "chord", "flap"].iter().enumerate() {
+    for (axis, name) in ["tangent", "second", "third"].iter().enumerate() {
         let u = displacements.clone().map(|u| u[axis]);
         write_shaped(archive, &format!("{mode}.{name}.real"), size, u.clone().map(|u| u.re))?;
         write_shaped(archive, &format!("{mode}.{name}.imaginary"), size, u.map(|u| u.im))?;
@@ -87,8 +87,7 @@ pub fn write_modes(
         "version": VERSION,
         "title": title,
         "unit": unit.name,
-        "speed-unit": units.speed.name,
-        "speed": speed * units.speed.factor,
+        "speed": speed * unit.factor,
         "counted": modes.counted,
         "modes": list,
         "warnings": warnings,

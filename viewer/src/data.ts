@@ -29,7 +29,7 @@ interface Results {
   scene: Record<string, Stored>;
   curves?: { times: Encoded; columns: Column[] };
   modes?: {
-    table: { unit: string; speed: number; modes: Vibration[]; warnings: string[] };
+    table: { unit: string; "speed-unit": string; speed: number; modes: Vibration[]; warnings: string[] };
     shapes: Record<string, Stored>;
   };
 }

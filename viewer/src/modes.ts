@@ -3,11 +3,13 @@ import { Vector3 } from "three";
 import { array, type read, type Vibration } from "./data";
 import { Panel, tag } from "./curves";
 import { Player } from "./player";
-import { scene, sections, type Section } from "./scene";
+import { extent, largest, pose, rotation, scene, sections, type Instant, type Part, type Section } from "./scene";
 import { Stage, type View } from "./stage";
 import { text } from "./text";
 import { button, choice } from "./tools";
 
+/** Pieces of a beam between neighbouring stations. */
+const PIECES = 3;
 /** Seconds of a period, as it is played. */
 const PERIOD = 2;
 const AXES = ["tangent", "second", "third"];
@@ -18,66 +20,98 @@ const element = <T extends HTMLElement>(id: string) => document.getElementById(i
 export function modes(results: ReturnType<typeof read>) {
   const { table, shapes } = results.modes!;
   const space = scene(results.scene);
-  const [part] = space.parts;
   const canvas = element<HTMLCanvasElement>("canvas");
-  const get = (name: string) => array(shapes, name)!;
-  const stations = get("station");
-  // Real and imaginary parts along each axis.
-  const shape = table.modes.map((_, k) =>
-    AXES.map((axis) => ["real", "imaginary"].map((part) => get(`mode${k + 1}.${axis}.${part}`))),
-  );
-  const largest = (values: Float64Array) => values.reduce((most, u) => Math.max(most, Math.abs(u)), 0);
-  const flat = shape.every((axes) => axes[2].every((values) => largest(values) < 1e-12));
-  space.planar &&= flat;
   const stage = new Stage(canvas, element("scale"), space);
   let [mode, amplitude] = [0, 0.1];
 
-  // The equilibrium at the stations of the shapes.
-  const fine = sections(part, { from: 0, to: 0, share: 0 }, 1, 16);
-  const coarse = part.beam!.stations;
-  const rest = Array.from(stations, (x): Section => {
-    let k = 0;
-    while (k + 2 < coarse.length && coarse[k + 1] <= x) k++;
-    const place = 16 * (k + (x - coarse[k]) / (coarse[k + 1] - coarse[k]));
-    const i = Math.min(Math.max(Math.floor(place), 0), fine.length - 2);
-    const position = fine[i].position.clone().lerp(fine[i + 1].position, place - i);
-    return { position, turned: fine[i].turned.clone().slerp(fine[i + 1].turned, place - i) };
-  });
+  // What the real and the imaginary part of every mode make of every part, as differences from the equilibrium.
+  const still: Instant = { from: 0, to: 0, share: 0 };
+  const rest = space.parts.map((part) => pose(part, still));
+  const differences = table.modes.map((_, k) =>
+    space.parts.map((part, p) =>
+      [2 * k + 1, 2 * k + 2].map((time) => {
+        const moved = pose(part, { from: time, to: time, share: 0 });
+        const turned = rest[p].turned.clone().conjugate().multiply(moved.turned);
+        const sine = new Vector3(turned.x, turned.y, turned.z).multiplyScalar(2 * Math.sign(turned.w));
+        const less = (values: Float64Array | undefined) => {
+          const count = 3 * (part.beam?.stations.length ?? 0);
+          const base = values?.subarray(0, count);
+          return values?.slice(count * time, count * (time + 1)).map((u, i) => u - base![i]);
+        };
+        return {
+          position: moved.position.sub(rest[p].position),
+          turned: sine,
+          displacements: less(part.beam?.displacements),
+          rotations: less(part.beam?.rotations),
+        };
+      }),
+    ),
+  );
 
-  function moved(phase: number): Section[] {
-    const [cosine, sine] = [Math.cos(phase), Math.sin(phase)];
-    const scale = amplitude * stage.size;
-    return rest.map(({ position, turned }, k) => {
-      const along = shape[mode].map(([real, imaginary]) => scale * (real[k] * cosine - imaginary[k] * sine));
-      const u = new Vector3().fromArray(along).applyQuaternion(turned);
-      return { position: u.add(position), turned };
-    });
+  /** Part `p` at a phase of mode `k`, with displacements `scale` times those of the files. */
+  function displaced(k: number, p: number, phase: number, scale: number): Part {
+    const part = space.parts[p];
+    const [real, imaginary] = differences[k][p];
+    const [c, s] = [scale * Math.cos(phase), -scale * Math.sin(phase)];
+    const position = rest[p].position.clone().addScaledVector(real.position, c).addScaledVector(imaginary.position, s);
+    const theta = real.turned.clone().multiplyScalar(c).addScaledVector(imaginary.turned, s);
+    const { x, y, z, w } = rest[p].turned.clone().multiply(rotation(theta));
+    const poses = Float64Array.from([...position.toArray(), w, x, y, z]);
+    const sum = (base: Float64Array, a: Float64Array, b: Float64Array) => a.map((u, i) => base[i] + c * u + s * b[i]);
+    const beam = part.beam && {
+      ...part.beam,
+      displacements: sum(part.beam.displacements, real.displacements!, imaginary.displacements!),
+      rotations: sum(part.beam.rotations, real.rotations!, imaginary.rotations!),
+    };
+    return { ...part, poses, beam };
   }
+  const all = space.parts.map((_, p) => p);
+  const places = (k: number, phase: number, scale: number) =>
+    all.flatMap((p) => extent(displaced(k, p, phase, scale), still, 1));
+
+  // What makes the largest displacement of every mode one.
+  const unit = table.modes.map((_, k) => {
+    const base = places(k, 0, 0);
+    const most = Math.max(
+      ...[0, 0.25].flatMap((share) => places(k, 2 * Math.PI * share, 1).map((point, i) => point.distanceTo(base[i]))),
+    );
+    return most > 0 ? 1 / most : 0;
+  });
+  const size = () => amplitude * stage.size * unit[mode];
 
   const frame: Section = { position: new Vector3(), turned: rest[0].turned.clone().identity() };
   function draw(time: number) {
-    stage.place({ poses: [rest[0]], sections: [moved((2 * Math.PI * time) / PERIOD)], outlines: [], frame });
+    const parts = all.map((p) => displaced(mode, p, (2 * Math.PI * time) / PERIOD, size()));
+    const poses = parts.map((part) => pose(part, still));
+    const shown = parts.map((part) => (part.beam ? sections(part, still, 1, PIECES) : undefined));
+    stage.place({ poses, sections: shown, outlines: [], frame });
     stage.render();
   }
 
   function fit() {
-    const all = [0, 0.25, 0.5, 0.75].flatMap((part) => moved(2 * Math.PI * part));
-    stage.fit([...all.map((section) => section.position), frame.position.clone()]);
+    const phases = [0, 0.25, 0.5, 0.75].flatMap((share) => places(mode, 2 * Math.PI * share, size()));
+    stage.fit([...phases, frame.position.clone()]);
   }
 
-  const unit = table.unit || "×";
   const moves = (vibration: Vibration) =>
     Object.entries(vibration.shares)
       .filter(([, share]) => Math.abs(share) > 0.01)
       .sort((a, b) => b[1] - a[1])
       .map(([name, share]) => `${name} ${Math.round(100 * share)} %`)
       .join(", ");
+  // Curves along the beam, where the shape of one beam is recorded.
   const plots = tag("div", { class: "panels" });
-  const curves = shape.map((axes) => {
-    const lists = axes.flatMap((parts, i) =>
-      parts.map((values, j) => ({ name: `${NAMES[i]}${j ? ", a quarter of a period before" : ""}`, unit: "", values })),
+  const get = (name: string) => array(shapes, name) ?? new Float64Array();
+  const stations = get("station");
+  const curves = table.modes.map((_, k) => {
+    const lists = AXES.flatMap((axis, i) =>
+      ["real", "imaginary"].map((part, j) => ({
+        name: `${NAMES[i]}${j ? ", a quarter of a period before" : ""}`,
+        unit: "",
+        values: get(`mode${k + 1}.${axis}.${part}`),
+      })),
     );
-    return lists.filter(({ values }) => largest(values) > 1e-6).slice(0, 6);
+    return lists.filter(({ values }) => largest(values) > 1e-6);
   });
   const rows = table.modes.map((vibration, k) => {
     const radio = tag("input", { type: "radio", name: "mode", id: `mode${k}`, "aria-label": `Mode ${k + 1}` });
@@ -94,7 +128,7 @@ export function modes(results: ReturnType<typeof read>) {
     row.addEventListener("click", () => choose(k));
     return row;
   });
-  const head = ["mode", `frequency [${unit}]`, "damping", "nodes", "moves"].map((name) => tag("th", { scope: "col" }, name));
+  const head = ["mode", table.unit ? `frequency [${table.unit}]` : "frequency", "damping", "nodes", "moves"].map((name) => tag("th", { scope: "col" }, name));
   element("curves").append(
     tag("div", { class: "table" }, tag("table", {}, tag("thead", {}, tag("tr", {}, ...head)), tag("tbody", {}, ...rows))),
     plots,
@@ -103,12 +137,15 @@ export function modes(results: ReturnType<typeof read>) {
     mode = k;
     element<HTMLInputElement>(`mode${k}`).checked = true;
     rows.forEach((row, i) => row.classList.toggle("chosen", i === k));
-    plots.replaceChildren(new Panel(stations, curves[k], undefined).node, tag("p", { class: "abscissa" }, "arc length [m]"));
+    if (stations.length > 0 && curves[k].length > 0) {
+      const panel = new Panel(stations, curves[k], undefined).node;
+      plots.replaceChildren(panel, tag("p", { class: "abscissa" }, "arc length [m]"));
+    }
     fit();
     if (player) draw(player.time);
   }
   element("subtitle").textContent =
-    `${table.modes.length} modes at ${text(table.speed)} ${table.unit}, Flexion ${results.version}`;
+    `${table.modes.length} modes at ${text(table.speed)} ${table["speed-unit"]}, Flexion ${results.version}`;
   element("note").textContent = table.warnings.join(" ");
   button("Fit", "f", fit);
   if (!space.planar) {

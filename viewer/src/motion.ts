@@ -3,7 +3,7 @@ import { Vector3 } from "three";
 import { numbers, type read } from "./data";
 import { Columns } from "./curves";
 import { Player } from "./player";
-import { instant, pose, scene, sections, type Instant, type Section } from "./scene";
+import { extent, instant, largest, pose, scene, sections, type Instant, type Part, type Section } from "./scene";
 import { Stage, type View } from "./stage";
 import { nice, steady, text } from "./text";
 import { button, choice, toggle } from "./tools";
@@ -32,12 +32,17 @@ export function motion(results: ReturnType<typeof read>) {
   const still: Section = { position: new Vector3(), turned: pose(parts[0], { from: 0, to: 0, share: 0 }).turned.identity() };
   const canvas = element<HTMLCanvasElement>("canvas");
   const stage = new Stage(canvas, element("scale"), space);
-  const first = parts.findIndex((part) => part.beam);
+  const beams = parts.filter((part) => part.beam);
+  const straight = beams.length > 0 && beams.every((part) => part.beam!.straight);
+  // Tips of beams, or bodies where there is no beam.
+  const followed = (beams.length > 0 ? beams : parts).slice(0, 12);
   const columns = results.curves!.columns.map((column) => ({ ...column, values: numbers(column.values) }));
+  // Where none is of the usual ones, the first few.
+  if (!columns.some((column) => column.shown)) for (const column of columns.slice(0, 3)) column.shown = true;
   const recorded = numbers(results.curves!.times);
   const revolutions = turns() / (2 * Math.PI);
   // Beyond half a revolution between frames nobody sees which way it turns.
-  let [factor, rotating, path] = [suggested(), revolutions > 0.5, first >= 0];
+  let [factor, rotating, path] = [suggested(), revolutions > 0.5, true];
 
   /** The largest angle [rad] by which the first part or its hub turns between neighbouring times. */
   function turns(): number {
@@ -46,23 +51,18 @@ export function motion(results: ReturnType<typeof read>) {
       const { from, to, share } = instant(recorded, time);
       return angle ? angle[from] + share * (angle[to] - angle[from]) : 0;
     };
-    let largest = 0;
+    let most = 0;
     for (let i = 1; i < times.length; i++) {
       const [before, now] = [i - 1, i].map((k) => pose(parts[0], { from: k, to: k, share: 0 }).turned);
-      largest = Math.max(largest, before.angleTo(now), Math.abs(hub(times[i]) - hub(times[i - 1])));
+      most = Math.max(most, before.angleTo(now), Math.abs(hub(times[i]) - hub(times[i - 1])));
     }
-    return largest;
+    return most;
   }
 
   /** The factor that makes small deflections visible; with obstacles there is none, for gaps are not drawn larger. */
   function suggested(): number {
-    if (space.outlines.length > 0) return 1;
-    const largest = Math.max(
-      ...parts.map(({ beam }) =>
-        beam ? beam.displacements.reduce((most, u) => Math.max(most, Math.abs(u)), 0) : 0,
-      ),
-    );
-    const over = largest / stage.size;
+    if (space.outlines.length > 0 || !straight) return 1;
+    const over = Math.max(...parts.map(({ beam }) => (beam ? largest(beam.displacements) : 0))) / stage.size;
     return over > 0 && over < SEEN / 4 ? nice(SEEN / over) : 1;
   }
 
@@ -94,18 +94,18 @@ export function motion(results: ReturnType<typeof read>) {
   const seen = (point: Vector3, { position, turned }: Section) =>
     point.clone().sub(position).applyQuaternion(turned.clone().conjugate());
 
-  /** The path of the tip of the first beam. */
+  /** The paths of what is followed. */
   function trace() {
-    const tip = (at: Instant) => seen(sections(parts[first], at, factor, 1).at(-1)!.position, frame(at));
-    stage.trace(path ? instants.map(tip) : []);
+    const end = (part: Part, at: Instant) => (part.beam ? sections(part, at, factor, 1).at(-1)! : pose(part, at));
+    const trail = (part: Part) => instants.map((at) => seen(end(part, at).position, frame(at)));
+    stage.trace(path ? followed.map(trail) : []);
   }
 
   function fit() {
     const every = Math.max(1, Math.floor(instants.length / 150));
     const points = instants.filter((_, k) => k % every === 0).flatMap((at) => {
       const now = frame(at);
-      const drawn = parts.flatMap((part) => (part.beam ? sections(part, at, factor, 1) : [pose(part, at)]));
-      const places = drawn.map((section) => section.position);
+      const places = parts.flatMap((part) => extent(part, at, factor));
       const closed = space.outlines.filter(({ points }) => points.length / times.length > 6);
       places.push(...closed.flatMap(({ points }) => outline(points, at)));
       places.push(now.position);
@@ -134,7 +134,7 @@ export function motion(results: ReturnType<typeof read>) {
   });
   const note = () => {
     const larger = factor === 1 ? "" : `Deflections are drawn ${text(factor)} times as large.`;
-    const fast = `The hub turns by up to ${text(revolutions, 2)} revolutions between frames: see it in the rotating frame.`;
+    const fast = `The hub turns by up to ${text(revolutions, 2)} revolutions between frames: see it in its own frame.`;
     const parts = [results.caution ? `${results.caution}.` : "", revolutions > 0.5 ? fast : "", larger];
     element("note").textContent = parts.join(" ").trim();
   };
@@ -152,16 +152,17 @@ export function motion(results: ReturnType<typeof read>) {
       fit();
     });
   }
-  toggle("Rotating frame", "r", rotating, (on) => {
+  const named = parts[0].beam?.hub === undefined ? `Frame of ${parts[0].name}` : "Rotating frame";
+  toggle(named, "r", rotating, (on) => {
     rotating = on;
     again();
   });
-  if (first >= 0) {
-    toggle("Tip path", "p", path, (on) => {
-      path = on;
-      trace();
-      draw(player!.time);
-    });
+  toggle(beams.length > 0 ? "Tip path" : "Paths", "p", path, (on) => {
+    path = on;
+    trace();
+    draw(player!.time);
+  });
+  if (straight) {
     const factors = [...new Set([1, 2, 5, 10, 20, 50, 100, 1000, factor])].sort((a, b) => a - b);
     choice("Deflection", factors.map((x): [string, number] => [`${text(x)} ×`, x]), factor, (x) => {
       factor = x;

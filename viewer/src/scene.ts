@@ -23,6 +23,8 @@ export interface Beam {
   section: Float64Array;
   /** Radius of the hub. */
   hub?: number;
+  /** Whether it is straight where nothing deflects it. */
+  straight: boolean;
 }
 
 export interface Scene {
@@ -47,18 +49,28 @@ export interface Section {
   turned: Quaternion;
 }
 
+/** The largest size of numbers. */
+export function largest(values: ArrayLike<number>): number {
+  let most = 0;
+  for (let i = 0; i < values.length; i++) most = Math.max(most, Math.abs(values[i]));
+  return most;
+}
+
 export function scene(arrays: Arrays): Scene {
   const get = (name: string) => array(arrays, name);
   const names = (suffix: string) =>
     Object.keys(arrays).flatMap((key) => (key.endsWith(suffix) ? [key.slice(0, -suffix.length)] : []));
   const parts = names(".pose").map((name): Part => {
     const stations = get(`${name}.station`);
+    const displacements = get(`${name}.displacement`)!;
+    const hub = get(`${name}.hub`)?.[0];
     const beam = stations && {
       stations,
-      displacements: get(`${name}.displacement`)!,
+      displacements,
       rotations: get(`${name}.rotation`)!,
       section: get(`${name}.section`)!,
-      hub: get(`${name}.hub`)?.[0],
+      hub,
+      straight: hub !== undefined || largest(displacements.subarray(0, 3 * stations.length)) < 1e-3 * stations.at(-1)!,
     };
     return { name, poses: get(`${name}.pose`)!, beam, box: get(`${name}.box`) };
   });
@@ -80,6 +92,22 @@ export function instant(times: Float64Array, time: number): Instant {
   const width = times[high] - times[low];
   const share = width > 0 ? Math.min(Math.max((time - times[low]) / width, 0), 1) : 0;
   return { from: low, to: high, share };
+}
+
+/** Points that a part extends to. */
+export function extent(part: Part, at: Instant, factor: number): Vector3[] {
+  if (part.beam) return sections(part, at, factor, 1).map((section) => section.position);
+  const { position, turned } = pose(part, at);
+  const [x, y, z, a, b, c] = part.box ?? new Float64Array(6);
+  const corner = (i: number) => new Vector3(i & 1 ? a : -a, i & 2 ? b : -b, i & 4 ? c : -c).divideScalar(2);
+  const corners = Array.from({ length: 8 }, (_, i) => corner(i).add(new Vector3(x, y, z)));
+  return corners.map((point) => point.applyQuaternion(turned).add(position));
+}
+
+/** The rotation by a vector. */
+export function rotation(theta: Vector3): Quaternion {
+  const angle = theta.length();
+  return angle > 0 ? new Quaternion().setFromAxisAngle(theta.clone().divideScalar(angle), angle) : new Quaternion();
 }
 
 /** The pose of a part. */
@@ -113,12 +141,6 @@ export function sections(part: Part, at: Instant, factor: number, pieces: number
       return factor * (a + at.share * (b - a));
     };
     return new Vector3(component(0), component(1), component(2));
-  };
-  const rotation = (theta: Vector3) => {
-    const angle = theta.length();
-    return angle > 0
-      ? new Quaternion().setFromAxisAngle(theta.clone().divideScalar(angle), angle)
-      : new Quaternion();
   };
   const local = Array.from({ length: m }, (_, k) => {
     const theta = vector(beam.rotations, k);

@@ -117,7 +117,8 @@ class Body {
       geometry.setIndex(index);
     }
     this.axis.place(sections.map((section) => section.position));
-    const { stations } = this.part.beam!;
+    const { stations, straight } = this.part.beam!;
+    if (!straight) return;
     const along = new THREE.Vector3(stations[stations.length - 1] - stations[0], 0, 0);
     this.rigid.place([root.position, along.applyQuaternion(root.turned).add(root.position)]);
   }
@@ -177,7 +178,7 @@ export class Stage {
   private readonly bodies: (Body | undefined)[];
   private readonly solids: (Solid | undefined)[];
   private readonly outlines: Line[];
-  private readonly path = new Line("path", 1.5);
+  private paths: Line[] = [];
   private readonly axes: Line[];
 
   constructor(
@@ -208,8 +209,7 @@ export class Stage {
     const groups = [...this.bodies, ...this.solids].flatMap((drawn) => (drawn ? [drawn.group] : []));
     const lines = [...this.outlines, ...this.axes];
     this.world.add(...groups, ...lines.map((line) => line.object));
-    // The path is given as it is seen.
-    this.space.add(this.world, this.path.object, new THREE.AmbientLight(0xffffff, 1.6), this.camera);
+    this.space.add(this.world, new THREE.AmbientLight(0xffffff, 1.6), this.camera);
     const light = new THREE.DirectionalLight(0xffffff, 2);
     light.position.set(-0.4, 0.6, 1);
     this.camera.add(light);
@@ -275,15 +275,24 @@ export class Stage {
     picture.outlines.forEach((points, i) => this.outlines[i].place(points));
   }
 
-  /** The path of the tip, as seen from the frame of reference. */
-  trace(points: THREE.Vector3[]) {
-    this.path.place(points);
-    this.path.object.visible = points.length > 1;
+  /** Paths of points, as seen from the frame of reference. */
+  trace(paths: THREE.Vector3[][]) {
+    for (const { object } of this.paths) {
+      this.space.remove(object);
+      object.geometry.dispose();
+    }
+    this.paths = paths.map((points) => {
+      const line = new Line("path", 1.5);
+      line.place(points);
+      line.paint();
+      this.space.add(line.object);
+      return line;
+    });
   }
 
-  /** Draws the first `count` points of the path. */
+  /** Draws the first `count` points of the paths. */
   follow(count: number) {
-    this.path.object.geometry.instanceCount = Math.max(count - 1, 0);
+    for (const { object } of this.paths) object.geometry.instanceCount = Math.max(count - 1, 0);
   }
 
   render() {
@@ -308,7 +317,7 @@ export class Stage {
   }
 
   private paint() {
-    const painted = [...this.bodies, ...this.solids, ...this.outlines, this.path, ...this.axes];
+    const painted = [...this.bodies, ...this.solids, ...this.outlines, ...this.paths, ...this.axes];
     for (const drawn of painted) drawn?.paint();
   }
 }

@@ -27,6 +27,11 @@ pub struct Blade {
 }
 
 impl Blade {
+    /// Number of elements.
+    pub fn elements(&self) -> usize {
+        self.elements
+    }
+
     /// The blade with its section, on a hub of the given radius \[m\], at rest.
     ///
     /// # Errors

@@ -84,12 +84,8 @@ impl Assembly<'_> {
         }
         system = system.with_damping(self.damping);
         if self.section_forces || !self.strain_heights.is_empty() {
-            system = system.with_section_forces(
-                self.beam.section,
-                sampling,
-                self.section_forces,
-                self.strain_heights,
-            );
+            system =
+                system.with_section_forces(self.beam, sampling, self.section_forces, self.strain_heights);
         }
         let points: Vec<_> = contact::points(self.contacts).collect();
         if points.is_empty() {

@@ -22,7 +22,12 @@ pub struct Method {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Steps {
     /// All steps have this length \[s\].
-    Fixed(f64),
+    Fixed {
+        /// The step \[s\].
+        step: f64,
+        /// The step while a contact is closed or comes near \[s\].
+        contact: Option<f64>,
+    },
     /// The method controls its steps, by the tolerances of its table.
     Controlled {
         /// Relative tolerance of the local error.
@@ -40,16 +45,25 @@ impl Steps {
     /// The fixed step \[s\]; `None` for step control.
     pub fn step(self) -> Option<f64> {
         match self {
-            Steps::Fixed(step) => Some(step),
+            Steps::Fixed { step, .. } => Some(step),
             Steps::Controlled { .. } => None,
         }
     }
 }
 
-/// A method with the fixed step of its key `step`.
+/// A method with the fixed step of its key `step`, and another near contacts.
 fn fixed<I: Integrator + 'static>(v: &Values, integrator: Result<I, InvalidParameter>) -> Made<Method> {
-    let integrator = Box::new(checked(integrator)?);
-    Ok(Method { integrator, steps: Steps::Fixed(v.number("step")?) })
+    let contact = v.optional_number(CONTACT_STEP.name)?;
+    Ok(Method {
+        integrator: Box::new(checked(integrator)?),
+        steps: Steps::Fixed { step: v.number("step")?, contact },
+    })
+}
+
+/// A method with the fixed step of its key `step`, which impacts do not change.
+fn nonsmooth<I: Integrator + 'static>(v: &Values, integrator: Result<I, InvalidParameter>) -> Made<Method> {
+    let steps = Steps::Fixed { step: v.number("step")?, contact: None };
+    Ok(Method { integrator: Box::new(checked(integrator)?), steps })
 }
 
 /// The method, or what is wrong at the key of its parameter.
@@ -68,6 +82,12 @@ fn radau(v: &Values) -> Made<Method> {
 }
 
 const STEP: Key = key("step", Quantity(&TIME, Positive), Required, "time step");
+const CONTACT_STEP: Key = key(
+    "contact-step",
+    Quantity(&TIME, Positive),
+    Optional,
+    "time step while a contact is closed or comes near, that of flight if left out",
+);
 const SPECTRAL_RADIUS: Key = key(
     "spectral-radius",
     Type::Number(Between(0.0, 1.0)),
@@ -106,6 +126,7 @@ pub static INTEGRATOR: Choice<Method> = Choice {
             source: "Newmark 1959, doi:10.1061/JMCEA3.0000098",
             keys: &[
                 STEP,
+                CONTACT_STEP,
                 key("beta", Type::Number(Between(0.01, 1.0)), Default::Number(0.25), "β, at least γ/2"),
                 key(
                     "gamma",
@@ -123,6 +144,7 @@ pub static INTEGRATOR: Choice<Method> = Choice {
             source: "Hilber, Hughes & Taylor 1977, doi:10.1002/eqe.4290050306",
             keys: &[
                 STEP,
+                CONTACT_STEP,
                 key(
                     "alpha",
                     Type::Number(Between(0.0, 1.0 / 3.0)),
@@ -137,7 +159,7 @@ pub static INTEGRATOR: Choice<Method> = Choice {
             name: "generalized-alpha",
             summary: "generalized-α, implicit, order 2, dissipates high frequencies",
             source: "Chung & Hulbert 1993, doi:10.1115/1.2900803",
-            keys: &[STEP, SPECTRAL_RADIUS],
+            keys: &[STEP, CONTACT_STEP, SPECTRAL_RADIUS],
             example: "integrator={kind='generalized-alpha', step='1 ms'}",
             make: |v, _| fixed(v, GeneralizedAlpha::chung_hulbert(v.number("spectral-radius")?)),
         },
@@ -162,7 +184,7 @@ pub static INTEGRATOR: Choice<Method> = Choice {
                 let spectral_radius = v.number("spectral-radius")?;
                 let decoupled = v.boolean("decoupled")?;
                 let make = if decoupled { NonsmoothAlpha::decoupled } else { NonsmoothAlpha::coupled };
-                fixed(v, make(spectral_radius))
+                nonsmooth(v, make(spectral_radius))
             },
         },
         Kind {
@@ -179,13 +201,13 @@ pub static INTEGRATOR: Choice<Method> = Choice {
                 ),
             ],
             example: "integrator={kind='moreau-jean', step='1 ms'}",
-            make: |v, _| fixed(v, MoreauJean::new(v.number("theta")?)),
+            make: |v, _| nonsmooth(v, MoreauJean::new(v.number("theta")?)),
         },
         Kind {
             name: "runge-kutta-4",
             summary: "classical Runge–Kutta, explicit, order 4",
             source: "Hairer, Nørsett & Wanner 1993, doi:10.1007/978-3-540-78862-1",
-            keys: &[STEP],
+            keys: &[STEP, CONTACT_STEP],
             example: "integrator={kind='runge-kutta-4', step='1 us'}",
             make: |v, _| fixed(v, Ok(RungeKutta::new())),
         },
@@ -193,7 +215,7 @@ pub static INTEGRATOR: Choice<Method> = Choice {
             name: "adams-4",
             summary: "Adams–Bashforth–Moulton predictor–corrector, explicit, order 4",
             source: "Hairer, Nørsett & Wanner 1993, doi:10.1007/978-3-540-78862-1",
-            keys: &[STEP],
+            keys: &[STEP, CONTACT_STEP],
             example: "integrator={kind='adams-4', step='1 us'}",
             make: |v, _| fixed(v, Ok(Adams::new())),
         },

@@ -36,18 +36,23 @@ impl<'a> Pair<'a> {
         self.rows().fold(0.0, |size, (.., y)| size.max(y.abs()))
     }
 
-    /// Differences of the smallest, largest and last value.
+    /// Differences of the smallest, largest and last value; NaN where the other run ends before them.
     pub(super) fn of_values(&self) -> [f64; 3] {
         let (ours, theirs) = (self.ours.extremes(self.index), self.theirs.extremes(self.other));
-        let at = |time: f64| self.rows().find(|(t, ..)| *t >= time).map_or(0.0, |(_, x, y)| (x - y).abs());
-        let end = self.ours.times().last().copied().unwrap_or(0.0);
-        let late = (1.0 - NEIGHBOURS.0) * end;
+        let last = |of: &Trajectory| of.times().last().copied().unwrap_or(0.0);
+        let (end, reach) = (last(self.ours), last(self.theirs));
+        let whole = reach >= end;
         let near =
-            self.rows().filter(|(t, ..)| *t >= late).fold(0.0, |near, (_, x, y)| worse(near, (x - y).abs()));
+            |time: f64| self.rows().find(|(t, ..)| *t >= time).map_or(f64::NAN, |(_, x, y)| (x - y).abs());
+        let at = |time: f64| if time <= reach { near(time) } else { f64::NAN };
+        let value = |a: f64, b: f64| if whole { (a - b).abs() } else { 0.0 };
+        let late = (1.0 - NEIGHBOURS.0) * end;
+        let neighbours = self.rows().filter(|(t, ..)| *t >= late);
+        let neighbours = neighbours.fold(0.0, |near, (_, x, y)| worse(near, (x - y).abs()));
         [
-            worse((ours.min - theirs.min).abs(), at(ours.t_min)),
-            worse((ours.max - theirs.max).abs(), at(ours.t_max)),
-            worse(at(end), NEIGHBOURS.1 * near),
+            worse(value(ours.min, theirs.min), at(ours.t_min)),
+            worse(value(ours.max, theirs.max), at(ours.t_max)),
+            worse(at(end), NEIGHBOURS.1 * neighbours),
         ]
     }
 

@@ -21,6 +21,8 @@
 //! the tolerances 10⁻⁵, 10⁻⁷ and 10⁻⁹ in turn, until two of them differ by half of what the run differs from the
 //! second: a coarse step needs no fine companion, which would follow every wave that the mesh can carry.
 //!
+//! A run with rigid contacts is compared until its first impact only: behind it another mesh has other masses at its contacts.
+//!
 //! Work is counted in steps times unknowns, not in seconds, so that the same case gives the same files everywhere.
 //!
 //! An estimate, not a bound: a mesh or a step so coarse that the run and its companion miss the same thing shows
@@ -32,6 +34,7 @@ use crate::kinds::initial::Initial;
 use crate::kinds::integrator::Steps;
 use crate::problem::Problems;
 use crate::reading::Reading;
+use flexion::contact::Law;
 use flexion::system::{Role, State};
 use flexion_results::{ColumnError, Errors, Status, Watch};
 use std::ops::ControlFlow;
@@ -128,7 +131,18 @@ impl Reading {
 
     fn compare(&self, run: &Run, watch: &mut Watch<'_>) -> Result<Errors, Problems> {
         let mut warnings = Vec::new();
-        let (finer, fine) = self.finer_run(run, watch)?;
+        let until = self.before_impacts(run);
+        // The recording interval that is left out is a part of the duration.
+        let step = format!("output.step={:e}", self.case.output.step);
+        let until_then = |end| self.with(&[format!("run.duration={end:e}"), step]);
+        let shortened = until.map(until_then).transpose()?;
+        let (finer, fine) = shortened.as_ref().unwrap_or(self).finer_run(run, watch)?;
+        warnings.extend(until.map(|end| {
+            format!(
+                "the errors are those until t = {end} s, before the first impact: what an impact on a beam does is a matter of \
+                 the mesh"
+            )
+        }));
         let foreshortened = self.case.hub_beam().is_some_and(|beam| !beam.coupling.whole_curve);
         let exact = match foreshortened.then(|| finer.with_exact_coupling(self, watch)) {
             Some(Ok(exact)) => Some(exact),
@@ -176,6 +190,22 @@ impl Reading {
         Ok(Errors { columns, warnings, trusted, ..Errors::default() })
     }
 
+    /// The last time recorded before the first impact of a run with a rigid contact; behind it a run on another mesh says
+    /// nothing of the error.
+    fn before_impacts(&self, run: &Run) -> Option<f64> {
+        let rigid = |law: &Law| matches!(law, Law::Constraint { .. });
+        let planar = self
+            .case
+            .hub_beam()
+            .into_iter()
+            .flat_map(|beam| beam.contacts.iter().map(|contact| &contact.law));
+        let spatial =
+            self.case.space().into_iter().flat_map(|space| space.contacts.iter().map(|contact| &contact.law));
+        let first = run.events.list.first().filter(|_| planar.chain(spatial).any(rigid))?;
+        let step = self.case.output.step;
+        Some((first.time / step).floor().max(1.0) * step).filter(|end| *end < self.case.duration)
+    }
+
     /// The refined case and its run: for fixed steps the first of the ladder whose own error does not count beside that
     /// of `run`.
     fn finer_run(&self, run: &Run, watch: &mut Watch<'_>) -> Result<(Reading, Run), Problems> {
@@ -213,12 +243,24 @@ impl Reading {
         Ok(self.with(&changes)?.prepare()?.run(watch))
     }
 
+    /// The case with twice the functions: of the blade, or else of the bases.
+    ///
+    /// # Errors
+    /// [`Problems`] when there are too many.
+    pub fn with_finer_mesh(&self) -> Result<Reading, Problems> {
+        let changes = match self.case.hub_beam().and_then(|beam| beam.blade.as_ref()) {
+            Some(blade) => vec![format!("blade.elements={}", 2 * blade.elements())],
+            None => self.case.finer(),
+        };
+        self.with(&changes)
+    }
+
     /// The case with twice the functions and a far more accurate integration.
     fn refined(&self) -> Result<Reading, Problems> {
         let mut changes = self.case.finer();
         match self.case.steps {
             Steps::Controlled { .. } => changes.extend(self.tolerances(FINER, TIGHTEST, f64::INFINITY)),
-            Steps::Fixed(_) => changes.push(radau(LADDER[0])),
+            Steps::Fixed { .. } => changes.push(radau(LADDER[0])),
         }
         // Shapes are those of the run itself.
         changes.push("output.vtk=false".to_owned());

@@ -102,16 +102,15 @@ impl Reading {
         warnings.extend(self.effective_masses(live.system.as_mut(), &state));
         warnings.extend(unstable);
         let case = &self.case;
-        let (step, longest_step) = match case.steps {
-            Steps::Fixed(step) => {
+        let (step, longest_step, contact_step) = match case.steps {
+            Steps::Fixed { step, contact } => {
                 warnings.extend(cautions::unseen(live.system.as_ref(), step, case.duration));
-                (Some(step), None)
+                (Some(step), None, contact)
             }
-            Steps::Controlled { first, longest, .. } => (first, longest),
+            Steps::Controlled { first, longest, .. } => (first, longest, None),
         };
         self.check_memory(live.system.as_ref())?;
-        let plan =
-            Plan { end: case.duration, step, longest_step, contact_step: None, sample: case.output.step };
+        let plan = Plan { end: case.duration, step, longest_step, contact_step, sample: case.output.step };
         let tables = self.tables();
         let keys: Vec<String> = tables.iter().map(|(key, _)| key.clone()).collect();
         let copy = |(key, bytes): (String, &[u8])| Some((resolved::copy(&key, &keys)?, bytes.to_vec()));

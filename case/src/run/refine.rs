@@ -235,7 +235,7 @@ impl Reading {
     fn next(&self) -> Result<Reading, Problems> {
         let mut changes = self.case.finer();
         match self.case.steps {
-            Steps::Fixed(step) => changes.push(format!("integrator.step={:e}", 0.5 * step)),
+            Steps::Fixed { step, .. } => changes.push(format!("integrator.step={:e}", 0.5 * step)),
             Steps::Controlled { .. } => changes.extend(self.tolerances(FINER, TIGHTEST, f64::INFINITY)),
         }
         self.with(&changes)
@@ -254,7 +254,7 @@ impl Reading {
         };
         let mut changes: Vec<String> = self.case.finer().into_iter().filter_map(now).collect();
         changes.extend(match self.case.steps {
-            Steps::Fixed(step) => vec![format!("integrator.step={step:e}")],
+            Steps::Fixed { step, .. } => vec![format!("integrator.step={step:e}")],
             Steps::Controlled { tolerance, .. } => vec![format!("integrator.tolerance={tolerance:e}")],
         });
         changes

@@ -20,7 +20,11 @@ impl Reading {
         }
         let (changes, what) = match self.case.steps {
             Steps::Controlled { .. } => (self.tolerances(0.1, 1e-13, 1.0), "a tenth of the tolerance"),
-            Steps::Fixed(step) => (vec![format!("integrator.step={:e}", 0.5 * step)], "half the step"),
+            Steps::Fixed { step, contact } => {
+                let half = |key: &str, step: f64| format!("integrator.{key}={:e}", 0.5 * step);
+                let contact = contact.map(|contact| half("contact-step", contact));
+                ([half("step", step)].into_iter().chain(contact).collect(), "half the step")
+            }
         };
         let companion = self.with(&changes)?.prepare()?.run(watch);
         let (ours, theirs) = (&run.trajectory, &companion.trajectory);

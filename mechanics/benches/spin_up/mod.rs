@@ -33,6 +33,10 @@ pub fn system(coupling: &str, elements: usize) -> Box<dyn System> {
         Resultants { mass: 1.2, axial_stiffness: 2.8e7, bending_stiffness: 1.4e4, ..Default::default() };
     let section = Uniform::from_resultants(resultants).unwrap();
     let profile = Arc::new(SpinUp::new(4.0, 15.0).unwrap());
+    let motion = Motion::Speed { profile, initial_angle: 0.0 };
+    if coupling == "space" {
+        return Box::new(in_space(elements, motion));
+    }
     let drive = if coupling.ends_with("-free") {
         let moment = 100.0 + resultants.mass * LENGTH.powi(3) / 3.0;
         let torque = format!("{moment} * 4 / 15 * (1 - cos(2 * pi * t / 15))");
@@ -48,11 +52,8 @@ pub fn system(coupling: &str, elements: usize) -> Box<dyn System> {
             },
         })
     } else {
-        Drive::Prescribed(Motion::Speed { profile: profile.clone(), initial_angle: 0.0 })
+        Drive::Prescribed(motion)
     };
-    if coupling == "space" {
-        return Box::new(in_space(elements, Motion::Speed { profile, initial_angle: 0.0 }));
-    }
     let hub = Hub { radius: 0.0, inertia: if coupling.ends_with("-free") { 100.0 } else { 0.0 }, drive };
     if coupling.starts_with("exact") {
         let coupling = ExactCoupling::new(LENGTH, elements, &section, &hub).unwrap();

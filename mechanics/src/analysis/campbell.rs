@@ -73,7 +73,7 @@ pub fn assemble(system: &mut Speeds<'_>, blocks: Vec<Block>) -> Result<Campbell,
     }
     system.rest();
     let (solved, matches) = refine(system, solved)?;
-    let mut branches = join(&solved, &matches, plan.count);
+    let Tracker { mut branches, .. } = join(&solved, &matches, plan.count);
     let crossings = crossings(system, &solved, &branches, plan.revolutions);
     system.describe(&solved, &mut branches);
     let mut instabilities = flutter(&branches);
@@ -123,12 +123,12 @@ fn refine(
 }
 
 /// The branches that begin as the lowest `count` modes.
-fn join(solved: &[Solved], matches: &[Vec<Match>], count: usize) -> Vec<Branch> {
+fn join(solved: &[Solved], matches: &[Vec<Match>], count: usize) -> Tracker {
     let mut tracker = Tracker::new(solved.first(), count);
     for (to, matches) in solved.iter().skip(1).zip(matches) {
         tracker.step(matches, to);
     }
-    tracker.branches
+    tracker
 }
 
 /// Branches whose damping becomes negative.

@@ -15,6 +15,8 @@ use num_complex::Complex64;
 
 /// Residual above which a mode is refused, unless the rounding of the stiffness explains it.
 const RESIDUAL: f64 = 1e-7;
+/// The same where the frequency is corrected by the strains of the mode: its error is the square of that of the vector.
+const CORRECTED: f64 = 1e-5;
 /// A rigid motion has |λ| below this part of the lowest frequency of the held system.
 const RIGID: f64 = 1e-4;
 /// Shift, over a frequency that bounds all, with which rigid motions are told from others.
@@ -145,7 +147,7 @@ pub enum NoModes {
     Eigen(#[from] EigenError),
     /// A pair is not what it should be.
     #[error(
-        "mode {number} at {frequency:.6} rad/s has a residual of {residual:.1e}, more than {RESIDUAL:.0e}; the matrices are too ill-conditioned, coarsen the basis"
+        "mode {number} at {frequency:.6} rad/s has a residual of {residual:.1e}, more than {allowed:.0e}; the matrices are too ill-conditioned, coarsen the basis"
     )]
     Inaccurate {
         /// Number of the mode, from 1.
@@ -154,6 +156,8 @@ pub enum NoModes {
         frequency: f64,
         /// Its residual.
         residual: f64,
+        /// The largest that is accepted.
+        allowed: f64,
     },
     /// The count of frequencies found more.
     #[error(
@@ -218,6 +222,8 @@ pub(super) fn modes_near(
     let pairs = pencil.pairs(if rigid > 0.0 { (count + 1).min(there) } else { count }, near)?;
     let mut modes: Vec<Mode> = Vec::with_capacity(count);
     let scale: Vec<f64> = system.scales().to_vec();
+    let corrected = pencil.kind() != Kind::General && system.stiffness_forms(state, &[]).is_some();
+    let residual = if corrected { CORRECTED } else { RESIDUAL };
     for pair in pairs {
         let number = modes.len() + 1;
         if number > count {
@@ -232,14 +238,14 @@ pub(super) fn modes_near(
             }
             continue;
         }
-        let allowed = RESIDUAL.max(mode.rounding);
+        let allowed = residual.max(mode.rounding);
         if !(mode.residual <= allowed) {
             mode.residual = pencil.residual_at_its_size(mode.eigenvalue, &mode.vector);
         }
         // Written so that NaN is refused too.
         if !(mode.residual <= allowed) {
             let frequency = mode.eigenvalue.norm();
-            return Err(NoModes::Inaccurate { number, frequency, residual: mode.residual });
+            return Err(NoModes::Inaccurate { number, frequency, residual: mode.residual, allowed });
         }
         modes.push(mode);
     }

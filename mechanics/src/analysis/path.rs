@@ -174,10 +174,11 @@ pub fn follow(
             return Ok(());
         }
         let passes = (here.factor < plan.to) != (there.factor < plan.to);
-        if passes && let Some(arrived) = arrive(&mut equations, plan, &here, &there) {
-            if !visit(equations.system, &arrived) {
-                return Ok(());
-            }
+        if passes
+            && let Some(arrived) = arrive(&mut equations, plan, &here, &there)
+            && !visit(equations.system, &arrived)
+        {
+            return Ok(());
         }
         apply(equations.system, there.factor);
         if !visit(equations.system, &now) {

@@ -45,9 +45,9 @@ impl fmt::Display for Stability {
         match (self.divergent, self.fluttering) {
             (0, 0) => write!(f, "stable"),
             (n, 0) => write!(f, "unstable: {n} direction{}", plural(n)),
-            (0, n) => write!(f, "unstable: {n} vibration{} that grow (flutter)", plural(n)),
+            (0, n) => write!(f, "unstable: {n} growing vibration{} (flutter)", plural(n)),
             (n, k) => {
-                write!(f, "unstable: {n} direction{} and {k} vibration{} that grow", plural(n), plural(k))
+                write!(f, "unstable: {n} direction{} and {k} growing vibration{}", plural(n), plural(k))
             }
         }
     }

@@ -20,17 +20,18 @@
 //!                                                  ⎣−ES   EI⎦ ⎣κ⎦ = ⎣M⎦
 //! ```
 //!
-//! For the exact coupling ε is the cubic through four of the samples of ε at nodes and midpoints. Within two elements of a
-//! point load, where Q jumps, the order is lower. Other bases are smooth: the cubic passes through their values within a
+//! For the exact coupling ε is the cubic through four of the samples of ε at nodes and midpoints. No
+//! element beyond a node at which a load or a mass is, or the section jumps, is used: there Q or N jumps. Other bases are smooth: the cubic passes through their values within a
 //! hundredth of the length around the station.
 //!
 //! Q leaves out the rotary inertia of the section; ε(y) is the strain of the fibre at height y of a section that stays plane.
 
+use super::beam::Beam;
 use super::coupling::Coupling;
 use super::fields::{Fields, Point};
 use crate::linalg::{Matrix, Structure};
 use crate::quadrature::Gauss;
-use crate::section::{Resultants, Section};
+use crate::section::Resultants;
 use crate::system::{Channel, Role, State};
 
 /// Coefficients of the polynomials, and Gauss points of an element.
@@ -82,13 +83,15 @@ impl SectionForces {
     /// basis; `heights` \[m\] are those at which strains are recorded.
     pub fn new(
         fields: &Fields,
-        section: &dyn Section,
+        beam: &Beam<'_>,
         sampling: Sampling,
         at: &[(String, f64)],
         forces: bool,
         heights: &[f64],
     ) -> SectionForces {
+        let section = beam.section;
         let nodes = fields.transverse().cells();
+        let inside = |x: f64| smooth(nodes, &beam.breaks, x);
         let sample = |at: Vec<(f64, f64, f64)>| -> Vec<Sample> {
             let make = |(x, value, slope)| {
                 let point = fields.point(x, 0.0);
@@ -97,7 +100,7 @@ impl SectionForces {
             at.into_iter().map(make).collect()
         };
         let around = |x: f64| through(&around(x, fields.length()), x);
-        let halves: Vec<f64> = {
+        let halves = |nodes: &[f64]| -> Vec<f64> {
             let middles = nodes.windows(2).map(|e| 0.5 * (e[0] + e[1]));
             let mut all: Vec<f64> = nodes.iter().copied().chain(middles).collect();
             all.sort_by(f64::total_cmp);
@@ -105,12 +108,12 @@ impl SectionForces {
         };
         let axial = |x: f64| match sampling {
             Sampling::Station => around(x),
-            Sampling::Elements(count) => by_moments(nodes, count, x),
-            Sampling::Curve => through(&nearest(&halves, x), x),
+            Sampling::Elements(count) => by_moments(inside(x), count, x),
+            Sampling::Curve => through(&nearest(&halves(inside(x)), x), x),
         };
         let bending = |x: f64| match sampling {
             Sampling::Station => around(x),
-            Sampling::Elements(_) | Sampling::Curve => by_moments(nodes, 2, x),
+            Sampling::Elements(_) | Sampling::Curve => by_moments(inside(x), 2, x),
         };
         let stations = at
             .iter()
@@ -195,6 +198,24 @@ impl Sample {
             r.bending_stiffness * curvature - r.coupling_stiffness * strain,
         )
     }
+}
+
+/// The nodes of the elements around `x` between which nothing jumps: from one break at a node to the next, behind a break at
+/// x itself.
+fn smooth<'n>(nodes: &'n [f64], breaks: &[f64], x: f64) -> &'n [f64] {
+    let last = nodes.len() - 1;
+    let near = 1e-9 * nodes[last];
+    let (mut from, mut to) = (0, last);
+    for (i, node) in nodes.iter().enumerate().take(last).skip(1) {
+        if breaks.iter().any(|at| (at - node).abs() <= near) {
+            if *node <= x + near {
+                from = i;
+            } else {
+                to = to.min(i);
+            }
+        }
+    }
+    &nodes[from..=to]
 }
 
 /// Points close around `x`, for smooth functions: the cubic through them is theirs.

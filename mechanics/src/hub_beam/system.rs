@@ -14,7 +14,6 @@ use crate::drive::motion_breaks;
 use crate::linalg::vector::dot;
 use crate::linalg::{Matrix, Storage, Structure};
 use crate::profile::HubKinematics;
-use crate::section::Section;
 use crate::system::{
     Break, Channel, Corotation, Direction, Dynamics, Energy, Events, Frame, NotSet, Observed, Parameter,
     Power, Role, Size, State, Steady, Weights, ordered,
@@ -142,7 +141,7 @@ impl<C: Coupling> HubBeam<C> {
     /// `section` is the one the coupling was made of. What else is recorded must be known before.
     pub fn with_section_forces(
         mut self,
-        section: &dyn Section,
+        beam: &Beam<'_>,
         sampling: Sampling,
         forces: bool,
         heights: &[f64],
@@ -153,7 +152,7 @@ impl<C: Coupling> HubBeam<C> {
         let at: Vec<(String, f64)> =
             order.map(|i| (self.stations[i].name.clone(), self.stations[i].point.x)).collect();
         let fields = self.coupling.fields();
-        self.section_forces = Arc::new(SectionForces::new(fields, section, sampling, &at, forces, heights));
+        self.section_forces = Arc::new(SectionForces::new(fields, beam, sampling, &at, forces, heights));
         Arc::make_mut(&mut self.channels).extend(self.section_forces.channels());
         self
     }

@@ -4,6 +4,7 @@ use super::rows::Rows;
 use super::{Counters, StepError, failure};
 use crate::linalg::{Matrix, Singular};
 use crate::system::{Dynamics, RowWeights, State, Weights, is_active};
+use std::ops::Range;
 
 /// Corrections by which unknowns without mass are put in equilibrium.
 const CORRECTIONS: usize = 20;
@@ -41,6 +42,10 @@ struct Massless {
     /// Unknowns without mass, and the combinations of their equations that are free of multipliers.
     unknowns: Vec<usize>,
     free: Vec<Combination>,
+    /// Reduced rows of G_C, one behind the other, their pivots, and what the combinations hold.
+    reduced: Vec<f64>,
+    pivots: Vec<usize>,
+    held: Vec<(usize, f64)>,
     increment: Vec<f64>,
     q: Vec<f64>,
 }
@@ -50,8 +55,8 @@ struct Massless {
 struct Combination {
     /// c, whose equation it replaces.
     unknown: usize,
-    /// Held unknowns p, with their ratios.
-    held: Vec<(usize, f64)>,
+    /// Where the held unknowns p stand, with their ratios.
+    held: Range<usize>,
     /// Whether the velocity, not the configuration, is in equilibrium.
     damped: bool,
     /// Factor that brings it to the size of the equations with mass.
@@ -60,8 +65,9 @@ struct Combination {
 
 impl Combination {
     /// nᵀ x, scaled.
-    fn of(&self, x: impl Fn(usize) -> f64) -> f64 {
-        self.scale * (x(self.unknown) - self.held.iter().map(|&(p, ratio)| ratio * x(p)).sum::<f64>())
+    fn of(&self, held: &[(usize, f64)], x: impl Fn(usize) -> f64) -> f64 {
+        let held = held[self.held.clone()].iter().map(|&(p, ratio)| ratio * x(p));
+        self.scale * (x(self.unknown) - held.sum::<f64>())
     }
 }
 
@@ -135,6 +141,7 @@ impl Accelerations {
         singular: Singular,
     ) -> Result<(), StepError> {
         let n = state.v.len();
+        let rows = self.rows.len();
         let work = self.massless.get_or_insert_with(|| {
             let matrix = || Matrix::new(&system.structure(0));
             let (increment, q) = (vec![0.0; n], state.q.clone());
@@ -142,7 +149,10 @@ impl Accelerations {
                 stiffness: matrix(),
                 damping: matrix(),
                 unknowns: Vec::with_capacity(n),
-                free: Vec::new(),
+                free: Vec::with_capacity(n),
+                reduced: Vec::with_capacity(n * rows),
+                pivots: Vec::with_capacity(rows),
+                held: Vec::with_capacity(n * rows),
                 increment,
                 q,
             })
@@ -161,7 +171,7 @@ impl Accelerations {
         for combination in &work.free {
             let (c, row) = (combination.unknown, work.row(combination));
             for j in 0..n {
-                let x = combination.of(|i| row.get(i, j));
+                let x = combination.of(&work.held, |i| row.get(i, j));
                 if x != 0.0 {
                     self.matrix.add(c, j, x);
                 }
@@ -170,8 +180,6 @@ impl Accelerations {
         }
         self.matrix.factor().map_err(|e| failure::singular(system, from, step, e))?;
         // Equilibrium of the unknowns without mass: what has mass does not move.
-        let scales = system.scales();
-        let scales: Vec<f64> = work.unknowns.iter().map(|&c| scales[c]).collect();
         let mut size = f64::INFINITY;
         for _ in 0..CORRECTIONS {
             self.rhs.fill(0.0);
@@ -179,7 +187,7 @@ impl Accelerations {
             state.lambda.fill(0.0);
             system.residual(state, &mut work.increment);
             for combination in &work.free {
-                self.rhs[combination.unknown] = -combination.of(|i| work.increment[i]);
+                self.rhs[combination.unknown] = -combination.of(&work.held, |i| work.increment[i]);
             }
             self.matrix.solve(&mut self.rhs);
             counters.residuals += 1;
@@ -187,8 +195,8 @@ impl Accelerations {
             let damped = work.free.iter().any(|combination| combination.damped);
             work.increment.fill(0.0);
             size = 0.0;
-            for (&c, scale) in work.unknowns.iter().zip(&scales) {
-                size = size.max((self.rhs[c] / scale).abs());
+            for &c in &work.unknowns {
+                size = size.max((self.rhs[c] / system.scales()[c]).abs());
                 let moved = if damped { &mut state.v[c] } else { &mut work.increment[c] };
                 *moved += self.rhs[c];
             }
@@ -208,7 +216,8 @@ impl Accelerations {
         system.residual(state, motion);
         work.stiffness.multiply(&state.v, &mut work.increment);
         for combination in &work.free {
-            let rate = if combination.damped { combination.of(|i| work.increment[i]) } else { 0.0 };
+            let rate =
+                if combination.damped { combination.of(&work.held, |i| work.increment[i]) } else { 0.0 };
             motion[combination.unknown] = rate;
         }
         self.rows.weighted(system, state, self.weights, 1.0, constraints);
@@ -231,38 +240,43 @@ impl Massless {
         self.unknowns.clear();
         self.unknowns.extend((0..n).filter(zero));
         // Reduced row echelon form of G_C: pivots are held.
-        let mut pivots: Vec<(usize, Vec<f64>)> = Vec::new();
+        let width = self.unknowns.len().max(1);
+        self.reduced.clear();
+        self.pivots.clear();
         for i in (0..rows.len()).filter(|i| is_active(rows.sets()[*i], state.mode[*i])) {
             let entry = |c: &usize| {
                 let entries = rows.stored().iter().filter(|(row, j, _)| *row == i && j == c);
                 entries.map(|(_, _, x)| x).sum::<f64>()
             };
-            let mut row: Vec<f64> = self.unknowns.iter().map(entry).collect();
-            for (pivot, reduced) in &pivots {
+            self.reduced.extend(self.unknowns.iter().map(entry));
+            let (before, row) = self.reduced.split_at_mut(width * self.pivots.len());
+            for (pivot, reduced) in self.pivots.iter().zip(before.chunks_exact(width)) {
                 let factor = row[*pivot];
                 row.iter_mut().zip(reduced).for_each(|(x, r)| *x -= factor * r);
             }
             let largest = row.iter().enumerate().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
             let Some((pivot, value)) = largest.map(|(k, x)| (k, *x)).filter(|(_, x)| *x != 0.0) else {
+                self.reduced.truncate(width * self.pivots.len());
                 continue;
             };
             row.iter_mut().for_each(|x| *x /= value);
-            for (_, other) in &mut pivots {
+            for other in before.chunks_exact_mut(width) {
                 let factor = other[pivot];
-                other.iter_mut().zip(&row).for_each(|(x, r)| *x -= factor * r);
+                other.iter_mut().zip(&*row).for_each(|(x, r)| *x -= factor * r);
             }
-            pivots.push((pivot, row));
+            self.pivots.push(pivot);
         }
         self.free.clear();
-        for (k, &unknown) in self.unknowns.iter().enumerate() {
-            if pivots.iter().all(|(pivot, _)| *pivot != k) {
-                let held = pivots.iter().map(|(pivot, row)| (self.unknowns[*pivot], row[k])).collect();
-                let damped = self.damping.get(unknown, unknown) != 0.0;
-                let row = if damped { &self.damping } else { &self.stiffness };
-                let largest = (0..n).fold(f64::MIN_POSITIVE, |x, j| x.max(row.get(unknown, j).abs()));
-                let scale = (0..n).fold(0.0_f64, |x, j| x.max(mass.get(j, j))) / largest;
-                self.free.push(Combination { unknown, held, damped, scale });
-            }
+        self.held.clear();
+        for (k, &unknown) in self.unknowns.iter().enumerate().filter(|(k, _)| !self.pivots.contains(k)) {
+            let start = self.held.len();
+            let rows = self.reduced.chunks_exact(width);
+            self.held.extend(self.pivots.iter().zip(rows).map(|(p, row)| (self.unknowns[*p], row[k])));
+            let damped = self.damping.get(unknown, unknown) != 0.0;
+            let row = if damped { &self.damping } else { &self.stiffness };
+            let largest = (0..n).fold(f64::MIN_POSITIVE, |x, j| x.max(row.get(unknown, j).abs()));
+            let scale = (0..n).fold(0.0_f64, |x, j| x.max(mass.get(j, j))) / largest;
+            self.free.push(Combination { unknown, held: start..self.held.len(), damped, scale });
         }
     }
 
@@ -274,7 +288,7 @@ impl Massless {
         self.stiffness.multiply(&state.v, &mut self.increment);
         rhs.fill(0.0);
         for combination in &self.free {
-            rhs[combination.unknown] = -combination.of(|i| self.increment[i]);
+            rhs[combination.unknown] = -combination.of(&self.held, |i| self.increment[i]);
         }
         matrix.solve(rhs);
         for &c in &self.unknowns {

@@ -146,20 +146,29 @@ impl Flexible {
         self.beam.elements()[element].velocity(&v, z)
     }
 
-    /// Strains (ε, κ₁, κ₂, κ₃) less those without stress, and (N, M₁, M₂, M₃), at the arc length `s`; at a node the means of both
-    /// elements.
+    /// Strains (ε, κ₁, κ₂, κ₃) less those without stress, and (N, M₁, M₂, M₃), at the arc length `s`: the cubic through the quadrature
+    /// points of the two elements next to it, where their errors are of higher order than elsewhere.
     pub(super) fn strains_and_forces(&self, q: &[f64], s: f64) -> [[f64; 4]; 2] {
-        let of = |(element, z): (usize, f64)| {
-            let (q, element) = (coordinates(q, element), &self.beam.elements()[element]);
-            [element.section(&q, z).2, element.section_forces(&q, z)]
-        };
-        let (element, z) = self.place(s);
-        let here = of((element, z));
-        if element == 0 || z > 1e-9 {
-            return here;
+        let ((element, z), nodes) = (self.place(s), self.beam.nodes());
+        let first =
+            if z < 0.5 { element.saturating_sub(1) } else { element }.min(nodes.len().saturating_sub(3));
+        let (mut places, mut values) = ([0.0; 4], [[[0.0; 4]; 2]; 4]);
+        let mut count = 0;
+        for (e, element) in self.beam.elements().iter().enumerate().skip(first).take(2) {
+            for (z, strains, forces) in element.samples(&coordinates(q, e)) {
+                (places[count], values[count]) = (nodes[e] + z * element.length(), [strains, forces]);
+                count += 1;
+            }
         }
-        let before = of((element - 1, 1.0));
-        [0, 1].map(|k| std::array::from_fn(|i| 0.5 * (here[k][i] + before[k][i])))
+        let mut out = [[0.0; 4]; 2];
+        for k in 0..count {
+            let others = (0..count).filter(|j| *j != k);
+            let part: f64 = others.map(|j| (s - places[j]) / (places[k] - places[j])).product();
+            for (out, x) in out.iter_mut().flatten().zip(values[k].iter().flatten()) {
+                *out += part * x;
+            }
+        }
+        out
     }
 
     /// The strain ε + z κ₂ − y κ₃ of a fibre.

@@ -8,7 +8,7 @@
 use std::f64::consts::{FRAC_PI_2, LOG10_E, PI, TAU};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::jet::{Number, Smooth};
+use super::number::{Function, Number};
 
 /// All numbers from `low` to `high`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -132,8 +132,22 @@ impl Number for Interval {
         (exponent * self.ln()).exp()
     }
 
-    fn apply(self, function: Smooth) -> Interval {
-        (function.interval)(self)
+    fn apply(self, function: Function) -> Interval {
+        match function {
+            Function::Sin => self.sin(),
+            Function::Cos => self.cos(),
+            Function::Tan => self.tan(),
+            Function::Asin => self.asin(),
+            Function::Acos => self.acos(),
+            Function::Atan => self.atan(),
+            Function::Sinh => self.sinh(),
+            Function::Cosh => self.cosh(),
+            Function::Tanh => self.tanh(),
+            Function::Exp => self.exp(),
+            Function::Ln => self.ln(),
+            Function::Log10 => self.log10(),
+            Function::Sqrt => self.sqrt(),
+        }
     }
 
     fn below(self, other: Interval, or_equal: bool) -> Option<bool> {

@@ -1,9 +1,8 @@
-//! Second-order Taylor coefficients in one variable: value, first and second derivative together; and what all that a
-//! formula is evaluated with has in common.
+//! Second-order Taylor coefficients in one variable: value, first and second derivative together.
 //!
 //! For g(f): (g f)′ = g′ f′, (g f)″ = g″ f′² + g′ f″.
 
-use super::interval::Interval;
+use super::number::{Function, Number};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// f, f′ and f″ at one point.
@@ -12,66 +11,6 @@ pub(super) struct Jet {
     pub value: f64,
     pub rate: f64,
     pub bend: f64,
-}
-
-/// What a formula can be evaluated with: numbers alone, with derivatives, or intervals of them.
-pub(super) trait Number:
-    Copy
-    + Default
-    + Neg<Output = Self>
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Div<Output = Self>
-{
-    fn constant(value: f64) -> Self;
-    fn pow(self, exponent: Self) -> Self;
-    fn apply(self, function: Smooth) -> Self;
-    /// Whether this is less than (or equal to) `other`: `None` for an interval of which only a part is.
-    fn below(self, other: Self, or_equal: bool) -> Option<bool>;
-    fn differs_from_zero(self) -> Option<bool>;
-    /// The largest whole number below, and that number where there is one alone.
-    fn floor(self) -> (Self, Option<f64>);
-    /// What holds one and the other.
-    fn or(self, other: Self) -> Self;
-}
-
-/// A smooth function of numbers, of jets and of intervals.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Smooth {
-    pub number: fn(f64) -> f64,
-    pub jet: fn(Jet) -> Jet,
-    pub interval: fn(Interval) -> Interval,
-}
-
-impl Number for f64 {
-    fn constant(value: f64) -> f64 {
-        value
-    }
-
-    fn pow(self, exponent: f64) -> f64 {
-        self.powf(exponent)
-    }
-
-    fn apply(self, function: Smooth) -> f64 {
-        (function.number)(self)
-    }
-
-    fn below(self, other: f64, or_equal: bool) -> Option<bool> {
-        Some(if or_equal { self <= other } else { self < other })
-    }
-
-    fn differs_from_zero(self) -> Option<bool> {
-        Some(self != 0.0)
-    }
-
-    fn floor(self) -> (f64, Option<f64>) {
-        (f64::floor(self), Some(f64::floor(self)))
-    }
-
-    fn or(self, _: f64) -> f64 {
-        self
-    }
 }
 
 impl Number for Jet {
@@ -89,8 +28,22 @@ impl Number for Jet {
         self.chain(libm::pow(x, n), term(n, n - 1.0), term(n * (n - 1.0), n - 2.0))
     }
 
-    fn apply(self, function: Smooth) -> Jet {
-        (function.jet)(self)
+    fn apply(self, function: Function) -> Jet {
+        match function {
+            Function::Sin => self.sin(),
+            Function::Cos => self.cos(),
+            Function::Tan => self.tan(),
+            Function::Asin => self.asin(),
+            Function::Acos => self.acos(),
+            Function::Atan => self.atan(),
+            Function::Sinh => self.sinh(),
+            Function::Cosh => self.cosh(),
+            Function::Tanh => self.tanh(),
+            Function::Exp => self.exp(),
+            Function::Ln => self.ln(),
+            Function::Log10 => self.log10(),
+            Function::Sqrt => self.sqrt(),
+        }
     }
 
     fn below(self, other: Jet, or_equal: bool) -> Option<bool> {

@@ -4,6 +4,7 @@ mod expression;
 mod interval;
 mod jet;
 mod motion;
+mod number;
 mod panels;
 mod pieces;
 mod polyline;

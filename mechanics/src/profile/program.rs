@@ -13,7 +13,8 @@
 
 use super::ProfileError;
 use super::interval::Interval;
-use super::jet::{Jet, Number, Smooth};
+use super::jet::Jet;
+use super::number::{Function, Number};
 
 /// Most values that may wait on the stack.
 const DEPTH: usize = 48;
@@ -22,7 +23,7 @@ const DEPTH: usize = 48;
 enum Op {
     Number(f64),
     Variable,
-    Smooth(Smooth),
+    Smooth(Function),
     Neg,
     Add,
     Sub,
@@ -74,25 +75,21 @@ fn folded(ops: Vec<Op>) -> Vec<Op> {
 const CONSTANTS: [(&str, f64); 3] =
     [("pi", std::f64::consts::PI), ("tau", std::f64::consts::TAU), ("e", std::f64::consts::E)];
 
-const fn smooth(number: fn(f64) -> f64, jet: fn(Jet) -> Jet, interval: fn(Interval) -> Interval) -> Op {
-    Op::Smooth(Smooth { number, jet, interval })
-}
-
 /// Name, number of arguments, operation.
 const FUNCTIONS: [(&str, usize, Op); 20] = [
-    ("sin", 1, smooth(libm::sin, Jet::sin, Interval::sin)),
-    ("cos", 1, smooth(libm::cos, Jet::cos, Interval::cos)),
-    ("tan", 1, smooth(libm::tan, Jet::tan, Interval::tan)),
-    ("asin", 1, smooth(libm::asin, Jet::asin, Interval::asin)),
-    ("acos", 1, smooth(libm::acos, Jet::acos, Interval::acos)),
-    ("atan", 1, smooth(libm::atan, Jet::atan, Interval::atan)),
-    ("sinh", 1, smooth(libm::sinh, Jet::sinh, Interval::sinh)),
-    ("cosh", 1, smooth(libm::cosh, Jet::cosh, Interval::cosh)),
-    ("tanh", 1, smooth(libm::tanh, Jet::tanh, Interval::tanh)),
-    ("exp", 1, smooth(libm::exp, Jet::exp, Interval::exp)),
-    ("ln", 1, smooth(libm::log, Jet::ln, Interval::ln)),
-    ("log10", 1, smooth(libm::log10, Jet::log10, Interval::log10)),
-    ("sqrt", 1, smooth(f64::sqrt, Jet::sqrt, Interval::sqrt)),
+    ("sin", 1, Op::Smooth(Function::Sin)),
+    ("cos", 1, Op::Smooth(Function::Cos)),
+    ("tan", 1, Op::Smooth(Function::Tan)),
+    ("asin", 1, Op::Smooth(Function::Asin)),
+    ("acos", 1, Op::Smooth(Function::Acos)),
+    ("atan", 1, Op::Smooth(Function::Atan)),
+    ("sinh", 1, Op::Smooth(Function::Sinh)),
+    ("cosh", 1, Op::Smooth(Function::Cosh)),
+    ("tanh", 1, Op::Smooth(Function::Tanh)),
+    ("exp", 1, Op::Smooth(Function::Exp)),
+    ("ln", 1, Op::Smooth(Function::Ln)),
+    ("log10", 1, Op::Smooth(Function::Log10)),
+    ("sqrt", 1, Op::Smooth(Function::Sqrt)),
     ("abs", 1, Op::Abs),
     ("sign", 1, Op::Sign),
     ("step", 1, Op::Step),

@@ -104,7 +104,7 @@ pub trait Dynamics: Send {
 
     /// Writes how the sections rotate from `before` to `now`: with the rotations R, ∂r/∂q(now) is near
     /// R ∂r/∂q(before) Rᵀ though the axial stiffness of a slender beam outweighs all others. Nothing for a system whose
-    /// stiffness does not rotate with its sections.
+    /// stiffness does not rotate with its sections. Multipliers, numbered behind the velocities, may rotate too.
     fn corotate(&self, _before: &State, _now: &State, out: &mut Corotation) {
         out.clear();
     }

@@ -137,7 +137,7 @@ impl Margins {
         };
         let below = |p: &Placed<'_>| {
             let label = lines(&p.x.label, p.size.0, font).len() as f64;
-            if p.x_labelled { 4.0 + style::LINE + 2.0 + label * style::LINE } else { 4.0 }
+            if p.x_labelled { 7.0 + style::LINE + label * style::LINE } else { 4.0 }
         };
         let right = |(p, laid): (&Placed<'_>, &Layout)| laid.right.max(0.5 * widest(&p.x)).max(2.0);
         let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
@@ -176,7 +176,8 @@ impl Drawing {
             self.back.push(grid((x, top), (x, bottom)));
             ticks.push(frame((x, bottom), (x, bottom - style::TICK)));
             if p.x_labelled {
-                let at = (x, bottom + 4.0 + style::ASCENT);
+                // Below a number beside the lowest tick.
+                let at = (x, bottom + 6.0 + style::ASCENT);
                 self.front.push(text_at(at, &p.x.tick(s), 0.5, style::INK));
             }
         }
@@ -199,7 +200,7 @@ impl Drawing {
         });
         if p.x_labelled {
             for (i, line) in lines(&p.x.label, p.size.0, font).iter().enumerate() {
-                let y = bottom + 6.0 + style::ASCENT + style::LINE * (i + 1) as f64;
+                let y = bottom + 7.0 + style::ASCENT + style::LINE * (i + 1) as f64;
                 self.front.push(text_at((left + 0.5 * p.size.0, y), line, 0.5, style::INK));
             }
         }

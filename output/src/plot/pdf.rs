@@ -33,14 +33,14 @@ pub(super) fn pdf<'a>(
     let mut places = Vec::new();
     for (number, object) in (1..).zip(&objects) {
         places.push(out.len());
-        write!(out, "{number} 0 obj\n")?;
+        writeln!(out, "{number} 0 obj")?;
         out.write_all(object)?;
         out.write_all(b"\nendobj\n")?;
     }
     let table = out.len();
     let count = objects.len() + 1;
     write!(out, "xref\n0 {count}\n0000000000 65535 f \n")?;
-    places.iter().try_for_each(|place| write!(out, "{place:010} 00000 n \n"))?;
+    places.iter().try_for_each(|place| writeln!(out, "{place:010} 00000 n "))?;
     write!(out, "trailer\n<< /Size {count} /Root 1 0 R >>\nstartxref\n{table}\n%%EOF\n")?;
     Ok(out)
 }

@@ -32,7 +32,7 @@ pub(super) fn png<'a>(
     let font = Font::new();
     for shape in shapes {
         match shape {
-            Shape::Line { points, ink, width, dash } if dash.is_empty() => {
+            Shape::Line { points, ink, width, dash: [] } => {
                 raster.line(&scaled(points), width * style::PNG_SCALE, *ink);
             }
             Shape::Line { points, ink, width, dash } => {

@@ -115,7 +115,8 @@ fn numbers_of_any_size_can_be_drawn() {
             let drawing = figure.draw();
             let svg = drawing.svg();
             assert!(svg.len() < 200_000 && !svg.contains("NaN") && !svg.contains("inf\""), "{a} {b}");
-            assert!(drawing.png().unwrap().len() < 500_000);
+            // Less than a byte for each of a million pixels, all of which such a curve covers.
+            assert!(drawing.png().unwrap().len() < 1_000_000);
         }
     }
 }

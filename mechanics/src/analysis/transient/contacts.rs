@@ -2,6 +2,7 @@
 
 use super::ending::RunError;
 use super::locate::{Locator, TOUCHING};
+use super::{Event, EventKind};
 use crate::contact::{Bounds, Impact, ImpactMap, Neglected};
 use crate::system::{Mode, RowWeights, Set, State, System};
 
@@ -10,6 +11,8 @@ use crate::system::{Mode, RowWeights, Set, State, System};
 const RESTING: f64 = 1e-5;
 /// Events in a row with next to no time between them at which a run ends.
 const MOST_EVENTS: usize = 1000;
+/// Part of the closing speed above which a contact rebounds in a step of a nonsmooth method.
+const REBOUND: f64 = 1e-6;
 /// Part of an attempted step below which an event follows the one before at once.
 const SHORT: f64 = 1e-6;
 
@@ -127,6 +130,51 @@ pub(super) fn loss(system: &mut dyn System, from: &State, to: &State, rates: &mu
         }
     }
     lost
+}
+
+/// What a step of a nonsmooth method did: an impact where contacts begin to press, and that contacts cease to. The
+/// impulse is that of the step; effective masses are not known.
+pub(super) fn struck(system: &mut dyn System, from: &State, to: &State, rates: &mut [f64]) -> Option<Event> {
+    let contact = |i: usize, sets: &[Set]| match sets[i] {
+        Set::Free => None,
+        Set::Unilateral { .. } => Some(i),
+        Set::Friction { normal, .. } => Some(normal),
+    };
+    let begins = |i: usize| to.lambda[i] > 0.0 && from.lambda[i].max(0.0) == 0.0;
+    let m = rates.len();
+    let sets = system.rows();
+    let of_contacts = || (0..m).filter(|i| matches!(sets[*i], Set::Unilateral { .. }));
+    let impact = of_contacts().any(begins);
+    if !impact && !of_contacts().any(|i| from.lambda[i] > 0.0 && to.lambda[i].max(0.0) == 0.0) {
+        return None;
+    }
+    let mut impulses = vec![0.0; m];
+    let mut modes = to.mode.clone();
+    for i in 0..m {
+        let Some(normal) = contact(i, sets) else { continue };
+        if begins(normal) {
+            impulses[i] = (to.t - from.t) * to.lambda[i];
+        }
+        if normal == i {
+            modes[i] = if to.lambda[i] > 0.0 { Mode::Closed } else { Mode::Open };
+        }
+    }
+    if !impact {
+        return Some(Event { time: to.t, kind: EventKind::Switch, modes });
+    }
+    let lost = loss(system, from, to, rates);
+    system.constraint(to, RowWeights::VELOCITY, rates);
+    let after = rates.to_vec();
+    system.constraint(from, RowWeights::VELOCITY, rates);
+    // A contact that has rebounded is open again.
+    for (i, mode) in modes.iter_mut().enumerate() {
+        let rebounded = |n: usize| impulses[n] > 0.0 && after[n] > REBOUND * rates[n].abs();
+        if contact(i, system.rows()).is_some_and(rebounded) {
+            *mode = Mode::Open;
+        }
+    }
+    let (rates, masses) = (rates.to_vec(), vec![0.0; m]);
+    Some(Event { time: to.t, kind: EventKind::Impact { impulses, lost, rates, masses }, modes })
 }
 
 /// Whether a contact is closed, or may close within two steps of size `h` with the present velocity and acceleration.

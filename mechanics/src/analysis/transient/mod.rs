@@ -20,7 +20,7 @@ use crate::contact::{Bounds, Impact, ImpactMap};
 use crate::integrator::{Checkpoint, Integrator, NotResumed, Span, StepControl, StepReport};
 use crate::system::{Crossing, Jump, Side, State, System};
 use adaptive::adapt;
-use contacts::{Contacts, approaches, loss};
+use contacts::{Contacts, approaches, loss, struck};
 use stretch::Stretch;
 
 /// Shortest recording interval, over the length of the run.
@@ -331,6 +331,11 @@ impl Run {
                 balance.close();
             }
             observer.passing(system, &next);
+            if integrator.resolves_contacts()
+                && let Some(event) = struck(system, state, &next, &mut self.gaps)
+            {
+                observer.event(&event);
+            }
             std::mem::swap(state, &mut next);
             let at_break = jump_at(system, integrator, state.t);
             if event || at_break.is_some() {

@@ -67,7 +67,7 @@ const ITERATION_TOLERANCE: f64 = 1e-10;
 /// much: its error would not fall with the square of the step.
 const KEPT_TOLERANCE: f64 = 1e-13;
 
-/// The same for systems with constraints: the rounding error of a position, for an error δ of g is an error δ/(h²βκ) of λ.
+/// The same for systems with constraints or rotations: the rounding error of a position, for an error δ of g is an error δ/(h²βκ) of λ.
 const ROWS_TOLERANCE: f64 = 1e-16;
 
 /// Largest size of increments that may be rounding errors.
@@ -439,11 +439,14 @@ impl Integrator for GeneralizedAlpha {
             constant: false,
         }));
         self.counters = Counters::default();
-        self.kept = match size.lambda {
-            0 => Convergence::kept(KEPT_TOLERANCE, NOISE),
-            _ => Convergence::measured(ROWS_TOLERANCE, NOISE),
+        // Iteration errors leave the momentum of a system whose tangent is rotated section by section.
+        let exactly = size.lambda > 0 || !system.is_vector_space();
+        self.kept = if exactly {
+            Convergence::measured(ROWS_TOLERANCE, NOISE)
+        } else {
+            Convergence::kept(KEPT_TOLERANCE, NOISE)
         };
-        if size.lambda > 0 {
+        if exactly {
             let places = state.q.iter().zip(&self.inverse_scale).map(|(q, scale)| (q * scale).abs());
             self.kept.learn_rounding(0.25 * f64::EPSILON * places.fold(1.0, f64::max));
         }

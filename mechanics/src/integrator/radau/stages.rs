@@ -6,7 +6,7 @@ use super::super::{Convergence, Counters, Progress, StepError, failure};
 use super::coefficients::{A, A_INVERSE, A2, A2_INVERSE, C, E_Q, E_V, LAMBDA, MU, T, T_INVERSE, lagrange};
 use super::tolerance::Tolerance;
 use crate::linalg::Matrix;
-use crate::system::{Corotation, Dynamics, RowWeights, Set, Side, State, Weights, is_active};
+use crate::system::{Corotation, Dynamics, Mode, RowWeights, Set, Side, State, Weights, is_active};
 use num_complex::Complex64;
 
 /// Unknowns, matrices and buffers of a step: what `start` allocates for a system.
@@ -348,6 +348,12 @@ impl Stages {
         self.set_stage(system, (from, to), h, 2);
         to.copy_from(&self.stage);
         if !self.rows.is_empty() {
+            // What rounding leaves of the force of an open contact.
+            for ((lambda, set), mode) in to.lambda.iter_mut().zip(self.rows.sets()).zip(&from.mode) {
+                if *set != Set::Free && *mode == Mode::Open {
+                    *lambda = 0.0;
+                }
+            }
             self.project(system, from, to);
         }
         self.end.copy_from_slice(&self.increment);

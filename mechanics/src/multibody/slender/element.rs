@@ -412,11 +412,15 @@ impl Element {
         (position, at.triad, strain)
     }
 
-    /// Stress resultants (N, M₁, M₂, M₃) \[N, N·m\] at the place z, linear through the quadrature points.
-    pub fn section_forces(&self, q: &[f64; COORDINATES], z: f64) -> [f64; 4] {
-        let [(a, first), (b, second)] = self.stresses(q);
-        let part = (z - a) / (b - a);
-        std::array::from_fn(|i| first[i] + part * (second[i] - first[i]))
+    /// Place z, strains (ε, κ₁, κ₂, κ₃) less those without stress, and stress resultants (N, M₁, M₂, M₃) at the quadrature points.
+    pub fn samples(&self, q: &[f64; COORDINATES]) -> [(f64, [f64; 4], [f64; 4]); POINTS] {
+        let sections = Sections::new(&self.shapes, q);
+        std::array::from_fn(|k| {
+            let (at, initial) = (&self.shapes.points[k], &self.initial[k]);
+            let strain = Section::new(at, &sections).strain;
+            let stress = self.stiffness[k].stress(&strain, initial, 1.0);
+            (at.place, std::array::from_fn(|i| strain[i] - initial[i]), stress)
+        })
     }
 
     /// Stress resultants (N, M₁, M₂, M₃) \[N, N·m\] at the quadrature points, with their places z.

@@ -1,0 +1,184 @@
+//! Answers of the program that were once wrong and called success.
+
+#![allow(clippy::unwrap_used)] // in helpers of tests
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+const BLADE: &str = r#"
+[beam]
+length = 1.0
+[section]
+kind = "resultants"
+mass-per-length = 1.0
+axial-stiffness = 4900.0
+bending-stiffness = 1.0
+[hub]
+motion = { kind = "constant", speed = 1.0 }
+[blade]
+[run]
+duration = "0.1 s"
+"#;
+
+fn flexion(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
+    let program = env!("CARGO_BIN_EXE_flexion");
+    let Output { status, stdout, stderr } =
+        Command::new(program).args(arguments).current_dir(folder).output().unwrap();
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    (status.code(), text(stdout), text(stderr))
+}
+
+fn folder(case: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("case.toml"), case).unwrap();
+    folder
+}
+
+#[test]
+fn what_a_blade_does_not_use_is_named() {
+    for (table, name) in [
+        ("[[mass]]\nstation = 1.0\nmass = 1.0\n", "`mass`"),
+        ("[damping]\nmass-proportional = 2.0\n", "`damping`"),
+        ("[[force]]\nstation = 1.0\nforce = [-2.0, 0.0]\nframe = 'hub'\n", "`force`"),
+        ("[gravity]\nacceleration = 9.81\n", "`gravity`"),
+    ] {
+        let folder = folder(&format!("{BLADE}{table}"));
+        let named = |text: &str| text.contains("without ") && text.contains(name);
+        let (code, _, said) = flexion(folder.path(), &["modes", "case.toml", "--count", "2", "-o", "out"]);
+        assert!(code == Some(0) && named(&said), "{said}");
+        let written = std::fs::read_to_string(folder.path().join("out/modes.json")).unwrap();
+        assert!(named(&written), "{written}");
+        let (_, said, _) = flexion(folder.path(), &["check", "case.toml"]);
+        assert!(named(&said), "{said}");
+        let (code, _, said) = flexion(folder.path(), &["run", "case.toml", "-o", "run"]);
+        assert!(code == Some(0) && said.contains("[blade] is for `modes`"), "{said}");
+    }
+}
+
+#[test]
+fn a_blade_without_its_table_and_what_its_file_leaves_out_are_named() {
+    let section = "kind = \"blade\"\nfile = \"blade.csv\"\nformat = \"csv\"\n";
+    let case = BLADE.replace("[blade]\n", "");
+    let from = case.find("kind = \"resultants\"").unwrap();
+    let to = case.find("[hub]").unwrap();
+    let case = format!("{}{section}{}", &case[..from], &case[to..]);
+    let folder = folder(&case);
+    let rows = |twist: &str| {
+        format!("x,mass,EA,EI-flap,EI-chord,GJ,twist\n0,1,1e6,1,4,0.3,{twist}\n1,1,1e6,1,4,0.3,0\n")
+    };
+    std::fs::write(folder.path().join("blade.csv"), rows("0.1")).unwrap();
+    let (code, _, said) = flexion(folder.path(), &["modes", "case.toml", "--count", "2"]);
+    assert!(code == Some(0) && said.contains("write [blade]") && said.contains("no torsion"), "{said}");
+    std::fs::write(folder.path().join("blade.csv"), rows("13.3")).unwrap();
+    let (code, _, said) = flexion(folder.path(), &["modes", "case.toml", "--count", "2"]);
+    assert!(code == Some(1) && said.contains("divide degrees"), "{said}");
+}
+
+const VEERING: &str = r#"
+[beam]
+length = 1.0
+[section]
+kind = "rectangle"
+modulus = 6e8
+density = 5000.0
+width = 0.01
+height = 0.02
+[hub]
+motion = { kind = "constant", speed = 1.0 }
+[blade]
+strain-energy = "linear"
+rotary-inertia = false
+torsion = false
+elements = 16
+twist = "30 deg"
+[run]
+duration = "0.1 s"
+"#;
+
+#[test]
+fn a_wide_veering_is_one_whatever_the_speeds() {
+    let folder = folder(VEERING);
+    let last = |count: &str| {
+        let speeds = format!("0:40:{count}");
+        let arguments = ["campbell", "case.toml", "--speeds", &speeds, "--modes", "4", "-o", count];
+        let (code, out, said) = flexion(folder.path(), &arguments);
+        assert_eq!(code, Some(0), "{said}");
+        let table = out.lines().skip_while(|line| !line.contains("moves at first")).skip(1).take(4);
+        table.map(|line| line.split_whitespace().nth(3).unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    let coarse = last("6");
+    for count in ["11", "41", "101"] {
+        for (a, b) in coarse.iter().zip(&last(count)) {
+            let (a, b): (f64, f64) = (a.parse().unwrap(), b.parse().unwrap());
+            assert!((a - b).abs() < 1e-4 * a, "{count} speeds: {a} and {b}");
+        }
+    }
+}
+
+#[test]
+fn a_mesh_that_is_too_coarse_for_a_frequency_is_named() {
+    let straight = VEERING.replace("twist = \"30 deg\"\n", "");
+    let folder = folder(&straight);
+    let (_, out, said) = flexion(
+        folder.path(),
+        &["modes", "case.toml", "--speed", "100", "--count", "3", "--set", "blade.elements=3"],
+    );
+    assert!(out.contains("± mesh") && said.contains("by the mesh the frequency"), "{out}{said}");
+    let (_, _, said) = flexion(folder.path(), &["modes", "case.toml", "--count", "3"]);
+    assert_eq!(said, "");
+}
+
+const RUN: &str = r#"
+[beam]
+length = 2
+[section]
+kind = "uniform"
+modulus = "70 GPa"
+density = 3000
+area = "4 cm^2"
+second-moment = "2e-7 m^4"
+[hub]
+motion = { kind = "constant", speed = 1 }
+[run]
+duration = 1
+"#;
+
+#[test]
+fn requests_beyond_reason_are_refused_with_the_reason() {
+    let folder = folder(RUN);
+    let many = "[[mass]]\nstation = 1\nmass = 0.001\n".repeat(10_000);
+    std::fs::write(folder.path().join("many.toml"), format!("{RUN}{many}")).unwrap();
+    for (arguments, expected) in [
+        (
+            &[
+                "run",
+                "case.toml",
+                "--set",
+                "output.step=1.2e-7",
+                "--set",
+                "output.stations=[0.1,0.2,0.3,0.4,0.5,0.6,0.7,0.8,0.9,1,1.1,1.2]",
+            ][..],
+            "GB",
+        ),
+        (&["check", "case.toml", "--set", "basis.elements=1000000"], "GB"),
+        (&["campbell", "case.toml", "--speeds", "0:1:2", "--revolutions", "1000000000"], "1000"),
+        (&["run", "case.toml", "--set", "integrator={kind='radau',max-step=1e-300}"], "integrator.max-step"),
+        (&["run", "case.toml", "--until", "nan"], "nan"),
+        (&["run", "case.toml", "--set", "section={kind='table',file='/dev/zero'}"], "regular file"),
+    ] {
+        let (code, _, said) = flexion(folder.path(), arguments);
+        assert!(matches!(code, Some(1 | 2)) && said.contains(expected), "{arguments:?}: {code:?} {said}");
+    }
+    let (code, _, said) = flexion(folder.path(), &["check", "many.toml"]);
+    assert_eq!(code, Some(0), "{said}");
+}
+
+#[test]
+fn runs_with_values_that_are_no_numbers_do_not_compare() {
+    let folder = folder(RUN);
+    let csv = |y: &str| format!("time [s],tip.deflection [m]\n0,0\n1,{y}\n2,1\n");
+    std::fs::write(folder.path().join("a.csv"), csv("1")).unwrap();
+    std::fs::write(folder.path().join("b.csv"), csv("NaN")).unwrap();
+    let (code, _, said) = flexion(folder.path(), &["compare", "a.csv", "b.csv"]);
+    assert!(code == Some(2) && said.contains("not a finite number"), "{code:?} {said}");
+}
