@@ -60,7 +60,10 @@ pub fn assembly_figure(scene: &Scene, joints: &[(&str, [f64; 3])], title: Option
                 ..Series::line(None, vec![at])
             };
             panel.series.push(mark);
-            panel.words.push(Words { points: vec![at], text: (*name).to_owned(), ..Words::default() });
+            let apart = panel.y.range.map_or(0.0, |(lo, hi)| APART * (hi - lo));
+            let around = [(0.0, 1.0), (0.0, -2.0), (0.0, 2.0), (0.0, -3.0), (2.0, 1.0), (-2.0, -2.0)];
+            let points = around.map(|(x, y)| (at.0 + apart * x, at.1 + apart * y)).to_vec();
+            panel.words.push(Words { points, text: (*name).to_owned(), ..Words::default() });
         }
     }
     Figure { title: title.map(String::from), panels, columns: 2, share_x: false }
