@@ -68,7 +68,7 @@ struct Parts<'b> {
 }
 
 /// The beam and the station in the name of a place: `blade.root`, `blade.tip`, `blade@2 m`.
-fn place<'n>(name: &'n str, length: impl Fn(&str) -> Option<f64>) -> Result<Option<(&'n str, f64)>, Fault> {
+fn place(name: &str, length: impl Fn(&str) -> Option<f64>) -> Result<Option<(&str, f64)>, Fault> {
     if let Some((beam, station)) = name.split_once('@') {
         let Some(length) = length(beam) else { return Ok(None) };
         let station = units::parse(station, &units::LENGTH)
@@ -430,7 +430,7 @@ fn blamed(error: &ModelError, v: &Values, joints: &[String]) -> Faults {
             let written = values.optional_text("name").ok().flatten().unwrap_or_default();
             numbered(written, table, *i) == name
         };
-        list.iter().enumerate().filter(same).last().map(|(i, _)| item(table, i))
+        list.iter().enumerate().rfind(same).map(|(i, _)| item(table, i))
     };
     let help = |fault: Fault, help: &str| Faults::from(fault.help(help));
     match error {

@@ -228,7 +228,8 @@ impl Beam {
             let (from, to) = (range[0], range[1]);
             let share = (to - from) / self.length * self.elements as f64;
             let count = ((share - 1e-9).ceil() as usize).max(1) * parts;
-            nodes.extend((1..=count).map(|i| from + (to - from) * i as f64 / count as f64));
+            nodes.extend((1..count).map(|i| from + (to - from) * i as f64 / count as f64));
+            nodes.push(to);
         }
         // A little inside its element, so that a section that jumps has the value of that element.
         let middle = |s: f64| s.clamp(1e-12 * self.length, (1.0 - 1e-12) * self.length);

@@ -54,7 +54,7 @@ pub static OBSTACLE: Choice<Shared> = Choice {
                 key("radius", Quantity(&LENGTH, Positive), Required, "radius"),
                 key("inside", Type::Boolean, Default::Boolean(false), "the point is inside, in a hole"),
             ],
-            example: "contact=[{on='bar', at=[1, 0, 0], obstacle={kind='cylinder', centre=[0, '1 mm', 0], radius=1, inside=true}, law={kind='hertz', stiffness=1e4}}]\nbody=[{name='bar', mass=2, position=[0.5, 0, 0], velocity=[0.1, 0, 0], inertia={kind='sphere', radius=0.1}}]\njoint=[]",
+            example: "contact=[{on='bar', at=[1, 0, 0], obstacle={kind='cylinder', centre=[0, '1 mm', 0], radius='1001 mm', inside=true}, law={kind='hertz', stiffness=1e4}}]\nbody=[{name='bar', mass=2, position=[0.5, 0, 0], velocity=[0.1, 0, 0], inertia={kind='sphere', radius=0.1}}]\njoint=[]",
             make: |v, _| {
                 let (centre, radius, hollow) =
                     (vector(v, "centre")?, v.number("radius")?, v.boolean("inside")?);

@@ -14,13 +14,16 @@ const BESIDE: usize = 3;
 const COLORS: [usize; 3] = [6, 7, 0];
 /// Space around what is drawn, over its size.
 const MARGIN: f64 = 0.06;
+/// The same around parts with their names, and the distance of a name from its joint over the height of the view.
+const AROUND_NAMES: f64 = 0.2;
+const APART: f64 = 0.1;
 /// The coordinates of the views.
 const VIEWS: [[usize; 2]; 3] = [[0, 1], [0, 2], [1, 2]];
 const NAMES: [&str; 3] = ["x", "y", "z"];
 
 /// The figure of a run in space: three views at several times, and the first columns against time.
 pub fn spatial_figure(scene: &Scene, trajectory: &Trajectory, title: Option<&str>) -> Figure {
-    let mut panels = views(scene, PANEL_HEIGHT[2]);
+    let mut panels = views(scene, PANEL_HEIGHT[2], MARGIN);
     let column = |i: usize| panel(&[(None, trajectory)], &trajectory.channels()[i].name);
     // A coordinate that does not change says nothing.
     let moves = |i: &usize| {
@@ -37,7 +40,7 @@ pub fn spatial_figure(scene: &Scene, trajectory: &Trajectory, title: Option<&str
 
 /// Three views of a system at one time, with the names of its parts and of its joints, which stand at the given points \[m\].
 pub fn assembly_figure(scene: &Scene, joints: &[(&str, [f64; 3])], title: Option<&str>) -> Figure {
-    let mut panels = views(scene, PANEL_HEIGHT[1]);
+    let mut panels = views(scene, PANEL_HEIGHT[1], AROUND_NAMES);
     for (panel, [i, j]) in panels.iter_mut().zip(VIEWS) {
         for (name, lines) in scene.lines(0) {
             let points: Vec<(f64, f64)> = lines.iter().flatten().map(|p| (p[i], p[j])).collect();
@@ -57,14 +60,17 @@ pub fn assembly_figure(scene: &Scene, joints: &[(&str, [f64; 3])], title: Option
                 ..Series::line(None, vec![at])
             };
             panel.series.push(mark);
-            panel.words.push(Words { points: vec![at], text: (*name).to_owned(), ..Words::default() });
+            let apart = panel.y.range.map_or(0.0, |(lo, hi)| APART * (hi - lo));
+            let around = [(0.0, 1.0), (0.0, -2.0), (0.0, 2.0), (0.0, -3.0), (2.0, 1.0), (-2.0, -2.0)];
+            let points = around.map(|(x, y)| (at.0 + apart * x, at.1 + apart * y)).to_vec();
+            panel.words.push(Words { points, text: (*name).to_owned(), ..Words::default() });
         }
     }
     Figure { title: title.map(String::from), panels, columns: 2, share_x: false }
 }
 
 /// The views, all with one scale and one unit along both axes.
-fn views(scene: &Scene, height: f64) -> Vec<Panel> {
+fn views(scene: &Scene, height: f64, margin: f64) -> Vec<Panel> {
     let count = scene.times().len();
     let taken = TIMES.min(count);
     let mut numbers: Vec<usize> = (0..taken).map(|k| k * (count - 1) / (taken - 1).max(1)).collect();
@@ -82,7 +88,7 @@ fn views(scene: &Scene, height: f64) -> Vec<Panel> {
     let bounds = bounds.map(|(lo, hi)| if lo > hi { (0.0, 0.0) } else { (lo, hi) });
     // Half of what a panel shows along its vertical axis.
     let wide = PANEL_WIDTH[1] / height;
-    let size = |(lo, hi): (f64, f64)| 0.5 * (hi - lo) * (1.0 + 2.0 * MARGIN);
+    let size = |(lo, hi): (f64, f64)| 0.5 * (hi - lo) * (1.0 + 2.0 * margin);
     let needed = VIEWS.map(|[i, j]| (size(bounds[i]) / wide).max(size(bounds[j])));
     let half = needed.into_iter().fold(0.0, f64::max);
     let half = if half > 0.0 { half } else { 1.0 };
