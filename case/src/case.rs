@@ -1,7 +1,7 @@
 //! A validated case: what moves, how it is integrated, and what is recorded.
 
 use super::declaration::Type;
-use super::fault::{Fault, Faults, Made};
+use super::fault::{Fault, Faults, Found, Made};
 use super::hub_beam::HubBeam;
 use super::kind::Context;
 use super::kinds::initial::{INITIAL, Initial};
@@ -74,24 +74,6 @@ const MOST_RECORDS: f64 = 1e7;
 /// Shapes of a run if nothing else is said, and largest number.
 const SHAPES: f64 = 200.0;
 const MOST_SHAPES: f64 = 1e4;
-
-/// What is wrong with a case, as it is found.
-#[derive(Default)]
-pub(super) struct Found(pub(super) Faults);
-
-impl Found {
-    /// The part, or `None`, with its faults noted.
-    pub(super) fn part<T>(&mut self, made: Made<T>) -> Option<T> {
-        made.map_err(|faults| self.0.0.extend(faults.0)).ok()
-    }
-
-    /// Notes a fault if there is one.
-    pub(super) fn check(&mut self, wrong: bool, key: &str, message: impl FnOnce() -> String) {
-        if wrong {
-            self.0.0.push(Fault::new(key, message()));
-        }
-    }
-}
 
 /// The number at `key` of the table at `table`.
 fn number(v: &Values, table: &str, key: &str) -> Made<f64> {

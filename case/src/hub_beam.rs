@@ -1,7 +1,6 @@
 //! A beam on a hub: its parts, and what is checked across them.
 
-use super::case::Found;
-use super::fault::Made;
+use super::fault::{Found, Made};
 use super::kind::{Choice, Context, Table};
 use super::kinds::basis::{self, Bases};
 use super::kinds::blade::{BLADE, Blade};

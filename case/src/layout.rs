@@ -61,10 +61,23 @@ pub(super) fn is_spatial(keys: &[Key]) -> bool {
     keys.iter().any(|key| key.name == IN_SPACE[0])
 }
 
+/// The tables of a system in space, in the order of a case file.
+static TABLES: [&Key; 9] = [
+    &spatial::GRAVITY,
+    &body::BODY.key,
+    &beam::BEAMS.key,
+    &joint::JOINTS.key,
+    &spatial::SPRING.key,
+    &spatial::LOAD.key,
+    &spatial::LINE_LOAD.key,
+    &obstacle::CONTACT.key,
+    &spatial::MODEL,
+];
+
 /// The keys of a system in space.
 pub(super) fn spatial_keys() -> &'static [Key] {
     static KEYS: LazyLock<Vec<Key>> = LazyLock::new(|| {
-        let parts = spatial::TABLES.map(|key| *key);
+        let parts = TABLES.map(|key| *key);
         [&[TITLE][..], &parts, RUN, &[SPATIAL_OUTPUT]].concat()
     });
     &KEYS

@@ -1,7 +1,6 @@
 //! A system in space: its parts by name, and the model that is made of them.
 
-use super::case::Found;
-use super::fault::{Fault, Faults, Made};
+use super::fault::{Fault, Faults, Found, Made};
 use super::kind::Context;
 use super::kinds::beam::{BEAMS, Beam, End};
 use super::kinds::body::BODY;

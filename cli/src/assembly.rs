@@ -1,6 +1,6 @@
 //! A system in space in words: the tree of its parts, its masses and its freedoms.
 
-use crate::check::row;
+use crate::screen::row;
 use crate::vibration::title;
 use flexion::linalg::Matrix;
 use flexion::system::{Dynamics, Parameter, State, Steady, Weights};

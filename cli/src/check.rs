@@ -1,5 +1,6 @@
 //! `flexion check`: validates a case and shows what would be run.
 
+use crate::screen::row;
 use crate::{Outcome, assembly, case, screen};
 use flexion::basis::Basis;
 use flexion::hub_beam::Drive;
@@ -86,10 +87,6 @@ fn describe(reading: &Reading) -> Result<String, Problems> {
     }
     out.push_str(&format!("\n{} is valid\n", reading.file.display()));
     Ok(out)
-}
-
-pub fn row(name: &str, text: String) -> Vec<String> {
-    vec![name.to_owned(), text]
 }
 
 /// Resultants at the root and the largest speed.

@@ -81,6 +81,11 @@ pub fn with_error(value: f64, error: f64) -> String {
     if error > 0.0 { format!("{number} ± {digit}e{last}") } else { number }
 }
 
+/// A row of a table of two columns.
+pub fn row(name: &str, text: String) -> Vec<String> {
+    vec![name.to_owned(), text]
+}
+
 /// A table of text with aligned columns, indented by two spaces.
 pub fn table(rows: &[Vec<String>]) -> String {
     let width = |column: usize| {

@@ -1,7 +1,6 @@
 //! What is common to the tables of a system in space, and its loads and springs.
 
 use super::amplitude::{CHANGE, amplitude};
-use super::{beam, body, joint, obstacle};
 use crate::declaration::{Bound::*, Key, Presence as Default, Presence::*, Type, Type::Quantity, key};
 use crate::fault::{Fault, Made, both};
 use crate::kind::{Choice, Kind, Table};
@@ -10,19 +9,6 @@ use crate::values::Values;
 use flexion::hub_beam::load::Amplitude;
 use flexion::multibody::rotation::{Matrix3, frame};
 use flexion::multibody::{Axes, rotation::Vector};
-
-/// The tables of a system in space, in the order of a case file.
-pub static TABLES: [&Key; 9] = [
-    &GRAVITY,
-    &body::BODY.key,
-    &beam::BEAMS.key,
-    &joint::JOINTS.key,
-    &SPRING.key,
-    &LOAD.key,
-    &LINE_LOAD.key,
-    &obstacle::CONTACT.key,
-    &MODEL,
-];
 
 /// The keys of the axes of a body or joint.
 pub(super) const MARKED: [Key; 2] = [

@@ -59,7 +59,7 @@ impl Interval {
     }
 
     pub fn cos(self) -> Interval {
-        (self + Interval { low: FRAC_PI_2, high: FRAC_PI_2 }).sin()
+        Interval::sin(self + Interval { low: FRAC_PI_2, high: FRAC_PI_2 })
     }
 
     pub fn tan(self) -> Interval {
@@ -72,7 +72,7 @@ impl Interval {
     }
 
     pub fn acos(self) -> Interval {
-        Interval::constant(FRAC_PI_2) - self.asin()
+        Interval::constant(FRAC_PI_2) - Interval::asin(self)
     }
 
     pub fn atan(self) -> Interval {
@@ -101,7 +101,7 @@ impl Interval {
     }
 
     pub fn log10(self) -> Interval {
-        self.ln() * Interval::constant(LOG10_E)
+        Interval::ln(self) * Interval::constant(LOG10_E)
     }
 
     pub fn sqrt(self) -> Interval {
@@ -129,24 +129,24 @@ impl Number for Interval {
         if exponent.high == n && n.fract() == 0.0 {
             return self.power(n);
         }
-        (exponent * self.ln()).exp()
+        Interval::exp(exponent * Interval::ln(self))
     }
 
     fn apply(self, function: Function) -> Interval {
         match function {
-            Function::Sin => self.sin(),
-            Function::Cos => self.cos(),
-            Function::Tan => self.tan(),
-            Function::Asin => self.asin(),
-            Function::Acos => self.acos(),
-            Function::Atan => self.atan(),
-            Function::Sinh => self.sinh(),
-            Function::Cosh => self.cosh(),
-            Function::Tanh => self.tanh(),
-            Function::Exp => self.exp(),
-            Function::Ln => self.ln(),
-            Function::Log10 => self.log10(),
-            Function::Sqrt => self.sqrt(),
+            Function::Sin => Interval::sin(self),
+            Function::Cos => Interval::cos(self),
+            Function::Tan => Interval::tan(self),
+            Function::Asin => Interval::asin(self),
+            Function::Acos => Interval::acos(self),
+            Function::Atan => Interval::atan(self),
+            Function::Sinh => Interval::sinh(self),
+            Function::Cosh => Interval::cosh(self),
+            Function::Tanh => Interval::tanh(self),
+            Function::Exp => Interval::exp(self),
+            Function::Ln => Interval::ln(self),
+            Function::Log10 => Interval::log10(self),
+            Function::Sqrt => Interval::sqrt(self),
         }
     }
 

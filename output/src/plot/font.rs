@@ -2,8 +2,10 @@
 //!
 //! DejaVu Sans, cut down to Latin, Greek, indices and signs; its licence is `dejavu_sans.txt`.
 
-use super::sketch::Point;
 use ttf_parser::{Face, OutlineBuilder};
+
+/// A place [px], y downwards.
+pub(super) type Point = (f64, f64);
 
 static DATA: &[u8] = include_bytes!("dejavu_sans.ttf");
 

@@ -1,10 +1,8 @@
 //! What a drawing consists of, before it is written in one format or another.
 
 use super::font::Font;
+pub(super) use super::font::Point;
 use super::style;
-
-/// A place [px], y downwards.
-pub(super) type Point = (f64, f64);
 
 /// A rectangle: left, top, right, bottom [px].
 pub(super) type Rectangle = [f64; 4];
