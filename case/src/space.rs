@@ -16,6 +16,7 @@ use flexion::multibody::slender;
 use flexion::multibody::{self, Body, Flexible, Marker, Model, ModelError, Multibody, Part};
 use flexion::system::{Fork, Frame};
 use flexion_results::nearest;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// Bodies, joints and beams in space.
@@ -340,6 +341,14 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     }
     let names = |body: &Body| (body.name.clone(), model.body(body.clone()), body.frame.position);
     let parts = Parts { bodies: bodies.iter().map(names).collect(), beams: &beams };
+    let of_bodies = bodies.iter().enumerate().map(|(i, body)| (item("body", i), &body.name));
+    let of_beams = beams.iter().enumerate().map(|(i, (beam, _))| (item("beam", i), &beam.name));
+    let mut taken = BTreeSet::new();
+    for (table, name) in of_bodies.chain(of_beams) {
+        found.check(!taken.insert(name), &format!("{table}.name"), || {
+            format!("the name `{name}` is already taken")
+        });
+    }
     for beam in &beams {
         add_beam(&mut model, beam);
     }

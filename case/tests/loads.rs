@@ -106,7 +106,11 @@ fn a_run_without_duration_is_its_initial_state() {
         let directory = flexion_results::Directory::create(folder.path().join("results"), false).unwrap();
         reading.write(&run, &directory).unwrap();
         let figure = std::fs::read_to_string(folder.path().join("results/plot.svg")).unwrap();
-        assert!(figure.contains("circle"), "a single point is drawn as a mark");
+        // The curve of a single point: a mark in the first colour, which is no colour of words or frames.
+        assert!(
+            figure.contains("<polygon") && figure.contains("fill=\"#0072B2\""),
+            "a single point is drawn as a mark"
+        );
         let again = flexion_case::read(&folder.path().join("results/case.resolved.toml"), &[]);
         assert_eq!(again.unwrap().case.duration, 0.0);
     }

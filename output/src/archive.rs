@@ -4,11 +4,13 @@
 //! full disk, the same error again. Here what follows a failure is discarded, so that there is no second error.
 
 use npyz::NpyFile;
-use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::io::{self, Cursor, Read, Seek, SeekFrom, Write};
 use zip::{ZipArchive, ZipWriter};
 
 /// Largest array that is read [bytes].
 const LARGEST: u64 = 1 << 32;
+/// Bytes of an entry before its name.
+const HEADER: usize = 30;
 
 /// A writer that fails once, and discards what is written after that.
 pub(super) struct Latched<W> {
@@ -40,11 +42,14 @@ pub(super) fn finish<W: Write + Seek>(archive: ZipWriter<Latched<W>>) -> io::Res
 ///
 /// # Errors
 /// What is wrong with the file, for people.
-pub(super) fn arrays<R: Read + Seek>(
-    from: R,
+pub(super) fn arrays(
+    from: impl Read,
     mut take: impl FnMut(&str, NpyFile<&[u8]>) -> io::Result<()>,
 ) -> Result<(), String> {
-    let mut archive = ZipArchive::new(from).map_err(|error| format!("it is no NumPy archive ({error})"))?;
+    let no_archive = |error: &dyn std::fmt::Display| format!("it is no NumPy archive ({error})");
+    let mut whole = Vec::new();
+    from.take(LARGEST).read_to_end(&mut whole).map_err(|error| no_archive(&error))?;
+    let mut archive = ZipArchive::new(Cursor::new(&whole)).map_err(|error| no_archive(&error))?;
     for i in 0..archive.len() {
         let entry = archive.by_index(i).map_err(|error| error.to_string())?;
         let file = entry.name().map_err(|error| error.to_string())?.into_owned();
@@ -54,6 +59,11 @@ pub(super) fn arrays<R: Read + Seek>(
         let broken = |error: &dyn std::fmt::Display| format!("its array `{name}` cannot be read ({error})");
         if entry.size() > LARGEST {
             return Err(broken(&"it is too large"));
+        }
+        // The name stands before the array too, and no checksum guards it.
+        let begin = usize::try_from(entry.header_start()).unwrap_or(usize::MAX).saturating_add(HEADER);
+        if whole.get(begin..begin.saturating_add(file.len())) != Some(file.as_bytes()) {
+            return Err(broken(&"it has two names"));
         }
         // To its end, where its checksum is compared: an array ends before it.
         let mut bytes = Vec::new();
@@ -113,7 +123,6 @@ mod tests {
     use super::*;
     use crate::npz::write_array;
     use std::cell::Cell;
-    use std::io::Cursor;
 
     /// A disk of limited capacity, which counts the writes it refuses.
     struct Disk<'a> {

@@ -2,9 +2,8 @@
 
 use flexion_results::Trajectory;
 
-/// Part of the recorded times at the end, and part of the largest difference there, that count for the last value.
-const NEIGHBOURS: (f64, f64) = (0.05, 0.2);
-
+/// Part of the largest difference until then that a value may be off by at least: differences pass through zero.
+const EARLIER: f64 = 0.25;
 /// Part of the largest value of a column beyond which it is no longer trusted.
 const DISTRUSTED: f64 = 0.1;
 
@@ -41,18 +40,19 @@ impl<'a> Pair<'a> {
         let (ours, theirs) = (self.ours.extremes(self.index), self.theirs.extremes(self.other));
         let last = |of: &Trajectory| of.times().last().copied().unwrap_or(0.0);
         let (end, reach) = (last(self.ours), last(self.theirs));
-        let whole = reach >= end;
-        let near =
-            |time: f64| self.rows().find(|(t, ..)| *t >= time).map_or(f64::NAN, |(_, x, y)| (x - y).abs());
-        let at = |time: f64| if time <= reach { near(time) } else { f64::NAN };
-        let value = |a: f64, b: f64| if whole { (a - b).abs() } else { 0.0 };
-        let late = (1.0 - NEIGHBOURS.0) * end;
-        let neighbours = self.rows().filter(|(t, ..)| *t >= late);
-        let neighbours = neighbours.fold(0.0, |near, (_, x, y)| worse(near, (x - y).abs()));
+        let value = |a: f64, b: f64| if reach >= end { (a - b).abs() } else { 0.0 };
+        let at = |time: f64| {
+            if time > reach {
+                return f64::NAN;
+            }
+            let until = self.rows().take_while(|(t, ..)| *t <= time).map(|(_, x, y)| (x - y).abs());
+            let (earlier, now) = until.fold((0.0, 0.0), |(largest, _), d| (worse(largest, d), d));
+            worse(now, EARLIER * earlier)
+        };
         [
             worse(value(ours.min, theirs.min), at(ours.t_min)),
             worse(value(ours.max, theirs.max), at(ours.t_max)),
-            worse(at(end), NEIGHBOURS.1 * neighbours),
+            at(end),
         ]
     }
 

@@ -12,8 +12,8 @@
 //! rotates fast: S = 4.
 //!
 //! The errors of the smallest, largest and last value are S times the differences of these values, or of the columns
-//! where the run has them if those are larger: a difference that passes through zero is no small error. The last value
-//! counts a part of what its neighbours differ by, for the same reason.
+//! at their times, or a quarter of the largest difference until then, whichever is largest: a difference that passes
+//! through zero is no small error.
 //!
 //! Half the step would not serve where vibrations are hardly resolved, for errors do not fall like hᵖ there. So `radau`
 //! runs all companions: those of its own runs with a tenth of their tolerance, which makes the error 18 times smaller

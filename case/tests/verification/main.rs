@@ -88,6 +88,7 @@ fn uses(reading: &Reading, path: &str, kind: &str) -> bool {
     };
     // Both fields of a mixed basis are chosen from the same kinds, and so are loads of all sorts.
     let others: &[&str] = match path {
+        "section" => &["beam.section"],
         "basis.axial" => &["basis.transverse"],
         "force.frame" => &["distributed-load.frame"],
         "force.amplitude" => &["couple.amplitude", "distributed-load.amplitude"],

@@ -11,7 +11,7 @@
 //! pivot is definite and no rows are exchanged. It is the elimination of the articulated-body method (Featherstone,
 //! *Rigid Body Dynamics Algorithms*, chapter 7, doi 10.1007/978-1-4899-7560-7).
 //!
-//! A joint that closes a loop has its multipliers in the border. A body that couples parts far from each other goes to the
+//! A further joint with the ground has its multipliers beside its body; one that closes another loop has them in the border. A body that couples parts far from each other goes to the
 //! border too, with the multipliers of the joint inside it, where that is cheaper.
 
 use crate::linalg::Structure;
@@ -142,8 +142,8 @@ struct Plan<'a> {
     /// Nodes in their order, those of the border last, and how many are in the band.
     order: Vec<usize>,
     in_band: usize,
-    /// The link whose rows follow each node in the band.
-    follows: Vec<Option<usize>>,
+    /// The links whose rows follow each node in the band.
+    follows: Vec<Vec<usize>>,
     first: Vec<usize>,
     /// The two nodes of the widest coupling in the band.
     widest: Option<[usize; 2]>,
@@ -154,7 +154,15 @@ impl<'a> Plan<'a> {
         let mut order: Vec<usize> = tree.order.iter().copied().filter(|node| !cut[*node]).collect();
         let in_band = order.len();
         order.extend(tree.order.iter().copied().filter(|node| cut[*node]));
-        let follows = (0..sizes.len()).map(|node| tree.inboard[node].filter(|_| !cut[node])).collect();
+        let mut follows: Vec<Vec<usize>> =
+            tree.inboard.iter().map(|link| link.iter().copied().collect()).collect();
+        // What joins a body to the ground joins it to no other, and stands beside it wherever that is.
+        for (k, link) in links.iter().enumerate().filter(|(k, _)| !tree.links[*k]) {
+            if let [Some(node), None] | [None, Some(node)] = link.nodes {
+                follows[node].push(k);
+            }
+        }
+        follows.iter_mut().zip(cut).filter(|(_, cut)| **cut).for_each(|(follows, _)| follows.clear());
         let mut first = vec![0; sizes.len()];
         let mut next = 0;
         for node in order.iter().copied().filter(|node| *node < bodies).chain(bodies..sizes.len()) {
@@ -182,7 +190,7 @@ impl<'a> Plan<'a> {
         for (k, &node) in self.order.iter().enumerate() {
             nodes[node] = next;
             next += self.sizes[node];
-            if let Some(link) = self.follows[node].filter(|_| k < self.in_band) {
+            for &link in self.follows[node].iter().filter(|_| k < self.in_band) {
                 rows[link] = next;
                 next += multipliers * self.links[link].rows;
             }
@@ -268,7 +276,7 @@ impl<'a> Plan<'a> {
 }
 
 /// First place of the rows that follow no node of the band.
-fn rows_outside(follows: &[Option<usize>], links: &[Link], rows: &[usize]) -> Option<usize> {
+fn rows_outside(follows: &[Vec<usize>], links: &[Link], rows: &[usize]) -> Option<usize> {
     let mut inside = vec![false; links.len()];
     follows.iter().flatten().for_each(|link| inside[*link] = true);
     (0..links.len()).filter(|k| !inside[*k] && links[*k].rows > 0).map(|k| rows[k]).min()
@@ -309,8 +317,8 @@ mod tests {
         let grounded: Vec<Link> =
             [joint(0, None), joint(n - 1, None)].into_iter().chain(chain.clone()).collect();
         let plan = layout(&vec![6; n], n, &grounded);
-        // The tree begins at one of the two joints with the ground; the other closes the loop.
-        assert_eq!(pieces(&plan.structures[1]), [6 * n + 5 * (n + 1), 16, 5]);
+        // The tree begins at one of the two joints with the ground; the other stands beside its body.
+        assert_eq!(pieces(&plan.structures[1]), [6 * n + 5 * (n + 1), 21, 0]);
         assert_eq!(plan.in_tree.iter().filter(|tree| !**tree).count(), 1);
         let ring: Vec<Link> = [joint(n - 1, Some(0)), joint(0, None)].into_iter().chain(chain).collect();
         let [_, half, border] = pieces(&layout(&vec![6; n], n, &ring).structures[1]);
