@@ -11,7 +11,7 @@
 //! pivot is definite and no rows are exchanged. It is the elimination of the articulated-body method (Featherstone,
 //! *Rigid Body Dynamics Algorithms*, chapter 7, doi 10.1007/978-1-4899-7560-7).
 //!
-//! A further joint with the ground has its multipliers beside its body; one that closes another loop has them in the border. A body that couples parts far from each other goes to the
+//! A joint that closes a loop has its multipliers in the border. A body that couples parts far from each other goes to the
 //! border too, with the multipliers of the joint inside it, where that is cheaper.
 
 use crate::linalg::Structure;
@@ -82,6 +82,8 @@ impl Tree {
                 _ => {}
             }
         }
+        // What the ground holds most firmly is the root: without the rows of the border it should not move freely.
+        roots.sort_by_key(|(_, link)| std::cmp::Reverse(link.map_or(0, |k| links[k].rows)));
         roots.extend((0..nodes).map(|a| (a, None)));
         let mut tree =
             Tree { order: Vec::new(), inboard: vec![None; nodes], links: vec![false; links.len()] };
@@ -142,8 +144,8 @@ struct Plan<'a> {
     /// Nodes in their order, those of the border last, and how many are in the band.
     order: Vec<usize>,
     in_band: usize,
-    /// The links whose rows follow each node in the band.
-    follows: Vec<Vec<usize>>,
+    /// The link whose rows follow each node in the band.
+    follows: Vec<Option<usize>>,
     first: Vec<usize>,
     /// The two nodes of the widest coupling in the band.
     widest: Option<[usize; 2]>,
@@ -154,15 +156,7 @@ impl<'a> Plan<'a> {
         let mut order: Vec<usize> = tree.order.iter().copied().filter(|node| !cut[*node]).collect();
         let in_band = order.len();
         order.extend(tree.order.iter().copied().filter(|node| cut[*node]));
-        let mut follows: Vec<Vec<usize>> =
-            tree.inboard.iter().map(|link| link.iter().copied().collect()).collect();
-        // What joins a body to the ground joins it to no other, and stands beside it wherever that is.
-        for (k, link) in links.iter().enumerate().filter(|(k, _)| !tree.links[*k]) {
-            if let [Some(node), None] | [None, Some(node)] = link.nodes {
-                follows[node].push(k);
-            }
-        }
-        follows.iter_mut().zip(cut).filter(|(_, cut)| **cut).for_each(|(follows, _)| follows.clear());
+        let follows = (0..sizes.len()).map(|node| tree.inboard[node].filter(|_| !cut[node])).collect();
         let mut first = vec![0; sizes.len()];
         let mut next = 0;
         for node in order.iter().copied().filter(|node| *node < bodies).chain(bodies..sizes.len()) {
@@ -190,7 +184,7 @@ impl<'a> Plan<'a> {
         for (k, &node) in self.order.iter().enumerate() {
             nodes[node] = next;
             next += self.sizes[node];
-            for &link in self.follows[node].iter().filter(|_| k < self.in_band) {
+            if let Some(link) = self.follows[node].filter(|_| k < self.in_band) {
                 rows[link] = next;
                 next += multipliers * self.links[link].rows;
             }
@@ -276,7 +270,7 @@ impl<'a> Plan<'a> {
 }
 
 /// First place of the rows that follow no node of the band.
-fn rows_outside(follows: &[Vec<usize>], links: &[Link], rows: &[usize]) -> Option<usize> {
+fn rows_outside(follows: &[Option<usize>], links: &[Link], rows: &[usize]) -> Option<usize> {
     let mut inside = vec![false; links.len()];
     follows.iter().flatten().for_each(|link| inside[*link] = true);
     (0..links.len()).filter(|k| !inside[*k] && links[*k].rows > 0).map(|k| rows[k]).min()
@@ -317,8 +311,8 @@ mod tests {
         let grounded: Vec<Link> =
             [joint(0, None), joint(n - 1, None)].into_iter().chain(chain.clone()).collect();
         let plan = layout(&vec![6; n], n, &grounded);
-        // The tree begins at one of the two joints with the ground; the other stands beside its body.
-        assert_eq!(pieces(&plan.structures[1]), [6 * n + 5 * (n + 1), 21, 0]);
+        // The tree begins at one of the two joints with the ground; the other closes the loop.
+        assert_eq!(pieces(&plan.structures[1]), [6 * n + 5 * (n + 1), 16, 5]);
         assert_eq!(plan.in_tree.iter().filter(|tree| !**tree).count(), 1);
         let ring: Vec<Link> = [joint(n - 1, Some(0)), joint(0, None)].into_iter().chain(chain).collect();
         let [_, half, border] = pieces(&layout(&vec![6; n], n, &ring).structures[1]);
