@@ -351,7 +351,7 @@ fn systems_in_space_that_cannot_be_are_refused_at_their_line() {
             ),
             ["joint[3].motion", "revolute"],
         ),
-        (joint("kind = \"fixed\"\nbetween = [\"ground\", \"upper\"]"), ["joint[3]", "redundant"]),
+        (joint("kind = \"fixed\"\nbetween = [\"ground\", \"upper\"]"), ["joint3", "redundant"]),
         (
             format!("{IN_SPACE}[integrator]\nkind = \"runge-kutta-4\"\nstep = 1e-4\n"),
             ["integrator.kind", "radau"],

@@ -43,11 +43,12 @@ pub(super) fn finish<W: Write + Seek>(archive: ZipWriter<Latched<W>>) -> io::Res
 /// # Errors
 /// What is wrong with the file, for people.
 pub(super) fn arrays(
-    from: impl Read,
+    mut from: impl Read + Seek,
     mut take: impl FnMut(&str, NpyFile<&[u8]>) -> io::Result<()>,
 ) -> Result<(), String> {
     let no_archive = |error: &dyn std::fmt::Display| format!("it is no NumPy archive ({error})");
     let mut whole = Vec::new();
+    from.rewind().map_err(|error| no_archive(&error))?;
     from.take(LARGEST).read_to_end(&mut whole).map_err(|error| no_archive(&error))?;
     let mut archive = ZipArchive::new(Cursor::new(&whole)).map_err(|error| no_archive(&error))?;
     for i in 0..archive.len() {
