@@ -7,7 +7,6 @@ use flexion::hub_beam::Drive;
 use flexion::integrator::{Adams, Integrator, RungeKutta, StabilityLimit, StepError};
 use flexion::linalg::Structure;
 use flexion::system::{State, System};
-use flexion_case::kinds::initial::Initial;
 use flexion_case::{HubBeam, Live, Problems, Reading, Subject};
 use std::path::PathBuf;
 
@@ -48,9 +47,8 @@ pub fn check(arguments: &Arguments) -> Outcome {
 fn describe(reading: &Reading) -> Result<String, Problems> {
     let case = &reading.case;
     let Live { mut system, integrator } = reading.build()?;
-    if !matches!(case.initial, Initial::Undeformed) {
-        reading.prepare()?;
-    }
+    // What only the start shows: contacts that begin inside obstacles, an equilibrium that is not found.
+    reading.prepare()?;
     let mut out = String::new();
     if !case.title.is_empty() {
         out.push_str(&format!("{}\n", case.title));

@@ -88,7 +88,7 @@ fn vertex([(t0, a), (t1, b), (t2, c)]: [(f64, f64); 3]) -> Option<(f64, f64)> {
     let (first, second) = ((b - a) / (t1 - t0), (c - b) / (t2 - t1));
     let bend = (second - first) / (t2 - t0);
     let t = 0.5 * (t0 + t1) - 0.5 * first / bend;
-    (first * second < 0.0 && t0 < t && t < t2).then(|| (t, a + (t - t0) * (first + bend * (t - t1))))
+    (first * second < 0.0 && t0 < t && t < t2).then_some((t, a + (t - t0) * (first + bend * (t - t1))))
 }
 
 #[cfg(test)]

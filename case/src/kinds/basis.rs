@@ -118,7 +118,7 @@ fn built(fields: [Functions; 2], c: &Context<'_>, stations: &[f64]) -> Made<Base
             1e-9 * bytes,
             1e-9 * MOST_BYTES
         );
-        return Err(Fault::new(&join(fields[1].table, fields[1].finer.0), message).into());
+        return Err(Fault::new(join(fields[1].table, fields[1].finer.0), message).into());
     }
     let made = |field: &Functions| (field.build)(length, stations).at(&join(field.table, field.blame));
     let (axial, transverse) = both(made(&fields[0]), made(&fields[1])).map_err(|mut faults| {
