@@ -1,7 +1,7 @@
 //! The path of equilibria under growing loads, followed by its arc length past limit points and turning points.
 //!
 //! The length of a piece of path is (Σ (Δqᵢ/wᵢ)²/n + Δs²)^½, with the scales w of the n velocities and the load factor s. From a
-//! point the path is predicted along its direction and corrected [across it](super::equations); the step grows and shrinks
+//! point the path is predicted along its direction and corrected across it; the step grows and shrinks
 //! as Newton's method converges and with the angle between directions. Where the number of unstable motions changes, the
 //! critical state in between is enclosed by dividing the step, which is short there.
 
