@@ -2,21 +2,11 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
 
+use crate::written::P1_BEAM as BEAM;
 use flexion_case::{Run, parse};
 use flexion_results::Status;
 use std::ops::ControlFlow;
 use std::path::Path;
-
-const BEAM: &str = r#"
-[beam]
-length = 10
-[section]
-kind = "uniform"
-modulus = "70 GPa"
-density = 3000
-area = "4 cm^2"
-second-moment = "2e-7 m^4"
-"#;
 
 fn run(case: &str, changes: &[&str]) -> Run {
     let changes: Vec<String> = changes.iter().map(|c| (*c).to_owned()).collect();

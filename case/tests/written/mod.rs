@@ -20,6 +20,18 @@ width = "20 mm"
 height = "20 mm"
 "#;
 
+/// P1's beam of ten metres; the rest of a case follows.
+pub const P1_BEAM: &str = r#"
+[beam]
+length = 10
+[section]
+kind = "uniform"
+modulus = "70 GPa"
+density = 3000
+area = "4 cm^2"
+second-moment = "2e-7 m^4"
+"#;
+
 fn owned(set: &[&str]) -> Vec<String> {
     set.iter().map(|text| (*text).to_owned()).collect()
 }

@@ -1,6 +1,6 @@
 //! Slender beams as parts: conformance with every joint and load, and the layout of chains.
 
-use super::conformance::profile;
+use super::conformance::{profile, tangent_follows_the_increment};
 use super::{GRAVITY, odd_body, odd_rotation, radau, run, wave};
 use flexion::multibody::slender::{Beam, Properties, Station};
 use flexion::multibody::{
@@ -123,34 +123,10 @@ fn a_system_of_beams_and_bodies_conforms_anywhere() {
 /// Newton's tangent by the increment of a step: ∂r/∂d at q₀ ⊞ d, d not small.
 #[test]
 fn the_tangent_of_beams_follows_the_increment_of_a_step() {
-    use flexion::linalg::Matrix;
-    use flexion::system::Weights;
     let mut system = system(Kind::Revolute);
     let mut from = system.initial();
     disturb(&mut from);
-    let n = from.v.len();
-    let mut d: Vec<f64> = (0..n).map(|i| 0.25 * wave(i, 0.7)).collect();
-    let mut s = from.clone();
-    system.retract(&from.q, &d, &mut s.q);
-    let mut matrix = Matrix::new(&system.structure(0));
-    system.tangent(&s, Weights { q: 1.0, v: 0.0, a: 0.0, increment: Some(&d) }, &mut matrix);
-    let step = 1e-4;
-    for j in 0..n {
-        let mut residual = |h: f64, d: &mut Vec<f64>| {
-            let old = d[j];
-            d[j] += h;
-            system.retract(&from.q, d, &mut s.q);
-            d[j] = old;
-            let mut r = vec![0.0; n];
-            system.residual(&s, &mut r);
-            r
-        };
-        let [a, b, c, e] = [-2.0, -1.0, 1.0, 2.0].map(|k| residual(k * step, &mut d));
-        for i in 0..n {
-            let slope = (a[i] - 8.0 * b[i] + 8.0 * c[i] - e[i]) / (12.0 * step);
-            assert!((matrix.get(i, j) - slope).abs() < 3e-6, "{i} {j}: {} {slope}", matrix.get(i, j));
-        }
-    }
+    tangent_follows_the_increment(&mut system, &from, 0.25, 3e-6);
 }
 
 /// A clamp holds a motion of its body alone, and lets r′ grow.
