@@ -1,6 +1,7 @@
 //! The program and a case for it.
 
 #![allow(clippy::unwrap_used)]
+#![allow(dead_code)] // each test binary uses its part
 
 use std::path::Path;
 use std::process::{Command, Output};
@@ -28,4 +29,22 @@ pub fn flexion(folder: &Path, arguments: &[&str]) -> Output {
 /// What it printed.
 pub fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+/// What follows the beam.
+const REST: &str = r#"[integrator]
+kind = "newmark"
+step = "5 ms"
+[run]
+duration = "20 s"
+[output]
+step = "10 ms"
+"#;
+
+/// A folder with the case in `spin-up/case.toml`.
+pub fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("spin-up")).unwrap();
+    std::fs::write(folder.path().join("spin-up/case.toml"), [SPIN_UP, REST].concat()).unwrap();
+    folder
 }
