@@ -144,7 +144,8 @@ pub(super) fn energies(trajectory: &Trajectory) -> Vec<Panel> {
     [large, small].into_iter().filter(|group| !group.is_empty()).map(panel).collect()
 }
 
-fn axis(channel: &Channel) -> Axis {
+/// The axis of a column.
+pub(super) fn axis(channel: &Channel) -> Axis {
     let known = QUANTITIES.iter().find(|(name, _)| *name == channel.name);
     let quantity = known.map_or_else(|| capitalised(&channel.name.replace(['.', '_'], " ")), |k| k.1.into());
     Axis::new(quantity, channel.unit.replace('*', "·").replace("^2", "²").replace("^3", "³"))

@@ -1,5 +1,6 @@
 //! Figure of a path of equilibria.
 
+use super::panels::axis;
 use super::{Axis, Figure, Line, Marker, Panel, Series};
 use crate::{LoadPath, LoadPoint};
 use flexion::analysis::path::Critical;
@@ -13,7 +14,7 @@ const MOST: usize = 4;
 pub fn statics_figure(path: &LoadPath, title: Option<&str>) -> Figure {
     let shown = path.channels.iter().enumerate().filter(|(i, c)| c.role == Role::Primary && path.changes(*i));
     let panel = |(i, channel): (usize, &flexion::system::Channel)| Panel {
-        x: Axis::new(channel.meaning.clone(), channel.unit),
+        x: axis(channel),
         y: Axis::new("Load factor", ""),
         series: series(path, i),
         words: Vec::new(),
