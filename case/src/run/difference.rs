@@ -58,7 +58,8 @@ impl<'a> Pair<'a> {
 
     /// The time until which the error stays a small part of the largest value.
     pub(super) fn trusted(&self, safety: f64) -> f64 {
-        let bound = DISTRUSTED * self.size();
+        // That of the whole run, also where the other ends before.
+        let bound = DISTRUSTED * self.size().max(self.ours.extremes(self.index).largest());
         let off = self.rows().find(|(_, x, y)| !(safety * (x - y).abs() <= bound));
         off.map_or(f64::INFINITY, |(t, ..)| t)
     }

@@ -158,7 +158,9 @@ impl Reading {
         let exact_run = exact.as_ref().map(|exact| ("exact", exact));
         for (what, companion) in std::iter::once(("finer", &fine)).chain(exact_run) {
             if companion.status != Status::Finished {
-                let why = companion.message.as_deref().unwrap_or("it was stopped");
+                let stopped = format!("it was given up at t = {:.6} s", companion.state.t);
+                let failed = companion.message.as_ref().filter(|_| companion.status == Status::Failed);
+                let why = failed.unwrap_or(&stopped);
                 warnings.push(format!(
                     "the {what} companion of the run did not finish, and errors are known until then only: {why}"
                 ));
