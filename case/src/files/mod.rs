@@ -1,5 +1,6 @@
 //! Tables in files that a case names: each format a file.
 
 pub mod blade;
+pub mod points;
 pub mod rows;
 pub mod section;
