@@ -127,14 +127,14 @@ impl Beam {
             validate(&section, s, length)?;
             let begin = ELEMENT_COORDINATES * e;
             let mut q: [f64; COORDINATES] = part(&initial, begin);
-            let element = Element::new(length, &q, |z| section(s + z * length));
+            let element = Element::new(length, &q, |z| section(s + z * length), elements.last());
             let slope = element.middle_slope(&positions(&q));
             let middle = curve(s + 0.5 * length);
             let halfway = middle.tangent;
             let middle = Triad::new(middle.tangent, middle.normal).transported(slope, 0.0);
             q[9..12].copy_from_slice(&middle.normal);
             initial[begin + 9..begin + 12].copy_from_slice(&middle.normal);
-            let element = Element::new(length, &q, |z| section(s + z * length));
+            let element = Element::new(length, &q, |z| section(s + z * length), elements.last());
             // By the middle, for the ends alone do not tell 300° from 60°.
             let turned = |at: usize| libm::acos(inner(halfway, vector(&q, at)).clamp(-1.0, 1.0));
             let twist = element.pairs(&q).into_iter().map(|pair| pair.angle.abs()).fold(0.0, f64::max);
