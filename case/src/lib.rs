@@ -13,6 +13,7 @@
 //! To add a kind: write its code in a file of its own in `flexion`, then one entry in the file of its choice in
 //! [`kinds`].
 
+pub mod calibration;
 mod campbell;
 mod case;
 pub mod declaration;

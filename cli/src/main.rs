@@ -4,6 +4,7 @@
 //! it had computed is kept, or runs differ by more than the tolerance, or not all could be written.
 
 mod assembly;
+mod calibrate;
 mod campbell;
 mod case;
 mod check;
@@ -59,6 +60,8 @@ enum Command {
     Plot(plot::Arguments),
     /// Write a page that plays the motion or the modes of a result
     View(view::Arguments),
+    /// Hold stated errors of cases at random against their true errors
+    Calibrate(calibrate::Arguments),
     /// List all kinds that a case may choose, with their keys
     List(list::Arguments),
     /// Print the JSON Schema of case files, for editors
@@ -98,6 +101,7 @@ fn main() -> ExitCode {
         Command::Campbell(arguments) => campbell::campbell(&arguments),
         Command::Statics(arguments) => statics::statics(&arguments),
         Command::Plot(arguments) => plot::plot(&arguments),
+        Command::Calibrate(arguments) => calibrate::calibrate(&arguments),
         Command::View(arguments) => view::view(&arguments),
         Command::Completions(arguments) => completions::completions(&arguments),
         Command::Man(arguments) => man::man(&arguments),

@@ -13,11 +13,13 @@
 //!
 //! The errors of the smallest, largest and last value are S times the differences of these values, or of the columns
 //! at their times, or a quarter of the largest difference until then, whichever is largest: a difference that passes
-//! through zero is no small error.
+//! through zero is no small error. That part grows to the whole where the largest difference is a tenth of the largest value
+//! of the column or more: vibrations that the mesh does not resolve differ in their phases, and at any time.
 //!
 //! Half the step would not serve where vibrations are hardly resolved, for errors do not fall like hᵖ there. So `radau`
 //! runs all companions: those of its own runs with a tenth of their tolerance, which makes the error 18 times smaller
-//! (h ∼ tol^(1/4), error ∼ h⁵), or 6 times where only the stages' order counts (error ∼ h³). Those of fixed steps have
+//! (h ∼ tol^(1/4), error ∼ h⁵), or 6 times where only the stages' order counts (error ∼ h³), and with at most half of its
+//! longest step. Those of fixed steps have
 //! the tolerances 10⁻⁵, 10⁻⁷ and 10⁻⁹ in turn, until two of them differ by half of what the run differs from the
 //! second: a coarse step needs no fine companion, which would follow every wave that the mesh can carry.
 //!
@@ -211,7 +213,7 @@ impl Reading {
     /// The refined case and its run: for fixed steps the first of the ladder whose own error does not count beside that
     /// of `run`.
     fn finer_run(&self, run: &Run, watch: &mut Watch<'_>) -> Result<(Reading, Run), Problems> {
-        let finer = self.refined()?;
+        let finer = self.refined(run)?;
         let fine = finer.prepare()?.run(watch);
         if self.case.steps.step().is_none() {
             return Ok((finer, fine));
@@ -257,16 +259,30 @@ impl Reading {
         self.with(&changes)
     }
 
-    /// The case with twice the functions and a far more accurate integration.
-    fn refined(&self) -> Result<Reading, Problems> {
+    /// The case with twice the functions and a far more accurate integration. Steps of `run` may be as long as they are for
+    /// another reason than its tolerance: those of the companion are half as long at most.
+    fn refined(&self, run: &Run) -> Result<Reading, Problems> {
         let mut changes = self.case.finer();
         match self.case.steps {
-            Steps::Controlled { .. } => changes.extend(self.tolerances(FINER, TIGHTEST, f64::INFINITY)),
+            Steps::Controlled { .. } => {
+                changes.extend(self.tolerances(FINER, TIGHTEST, f64::INFINITY));
+                let longest = run.trajectory.index("step.size").map(|i| run.trajectory.extremes(i).max);
+                let half = longest.filter(|longest| *longest > 0.0).map(|longest| 0.5 * longest);
+                changes.extend(half.map(|half| format!("integrator.max-step={half:e}")));
+            }
             Steps::Fixed { .. } => changes.push(radau(LADDER[0])),
         }
         // Shapes are those of the run itself.
         changes.push("output.vtk=false".to_owned());
         self.with(&changes)
+    }
+
+    /// The relative tolerance of the case; `None` for fixed steps.
+    pub(crate) fn tolerance(&self) -> Option<f64> {
+        match self.case.steps {
+            Steps::Controlled { tolerance, .. } => Some(tolerance),
+            Steps::Fixed { .. } => None,
+        }
     }
 
     /// Changes that multiply the tolerances by `factor` and keep them between the bounds; none for fixed steps.
