@@ -97,6 +97,11 @@ artifacts! {
         StaticsSvg "statics.svg" "the plot of load and displacement",
         StaticsPng "statics.png" "the plot as pixels",
     }
+    /// The files of advice; the first marks the directory as complete.
+    ADVICE {
+        AdviceJson "advice.json" "the cheapest run that holds a tolerance, and all that were tried",
+        AdviceCsv "advice.csv" "all that were tried as a table",
+    }
     /// The files of a calibration; the first marks the directory as complete.
     CALIBRATION {
         CalibrationJson "calibration.json" "counts, and how every case ended",

@@ -10,7 +10,7 @@ use flexion_results::{ColumnError, Status};
 use std::ops::ControlFlow;
 
 /// Work that a finer run may take: steps times (unknowns + 30).
-const BUDGET: f64 = 6e6;
+const BUDGET: f64 = 3e6;
 /// Errors below this part of the largest value of a column are those of rounding.
 const ROUNDING: f64 = 1e-9;
 /// Part of an error by which two finer runs may differ, so that the error is known.
@@ -138,19 +138,23 @@ fn judged(drawn: &Drawn, outcome: &mut Outcome) -> Result<Ending, Problems> {
     if errors.unknown.is_none() && errors.trusted < ours.state.t {
         outcome.warnings.push(format!("trusted until t = {} s", errors.trusted));
     }
-    let finest = match finer(&reading, 2, &[]) {
+    // Errors are stated until the first impact only.
+    let end = reading.before_impacts(&ours);
+    let step = format!("output.step={:e}", reading.case.output.step);
+    let until = end.map(|end| vec![format!("run.duration={end:e}"), step]).unwrap_or_default();
+    let finest = match finer(&reading, 2, &until) {
         Ok(finest) => finest,
         Err(why) => return Ok(Ending::Unknown(why)),
     };
     let whole = reading.case.hub_beam().is_none_or(|beam| beam.coupling.whole_curve);
-    let exact = if whole { None } else { finer(&reading, 1, &exact(&reading)).ok() };
+    let exact = if whole { None } else { finer(&reading, 1, &[exact(&reading), until.clone()].concat()).ok() };
     let stated = |column: &str| errors.columns.iter().find(|error| error.column == column);
     let compare = |finest: &Run| compared(&ours, &stated, finest, exact.as_ref());
     outcome.values = compare(&finest);
     let beyond = |v: &Compared| v.stated.is_finite() && !v.holds();
     if outcome.values.iter().any(beyond) {
         // It may be the finer run that is wrong.
-        match finer(&reading, 3, &[]) {
+        match finer(&reading, 3, &until) {
             Ok(finer) => {
                 let other = compare(&finer);
                 let pairs = outcome.values.iter().zip(other);

@@ -42,8 +42,8 @@ impl<'a> Pair<'a> {
         let (ours, theirs) = (self.ours.extremes(self.index), self.theirs.extremes(self.other));
         let last = |of: &Trajectory| of.times().last().copied().unwrap_or(0.0);
         let (end, reach) = (last(self.ours), last(self.theirs));
-        let unresolved = self.largest() / (UNRESOLVED * self.size());
-        let part = if unresolved.is_finite() { unresolved.clamp(EARLIER, 1.0) } else { EARLIER };
+        let largest = self.largest();
+        let unresolved = (largest / (UNRESOLVED * self.size())).min(1.0) * largest;
         let value = |a: f64, b: f64| if reach >= end { (a - b).abs() } else { 0.0 };
         let at = |time: f64| {
             if time > reach {
@@ -51,7 +51,7 @@ impl<'a> Pair<'a> {
             }
             let until = self.rows().take_while(|(t, ..)| *t <= time).map(|(_, x, y)| (x - y).abs());
             let (earlier, now) = until.fold((0.0, 0.0), |(largest, _), d| (worse(largest, d), d));
-            worse(now, part * earlier)
+            worse(worse(now, EARLIER * earlier), unresolved)
         };
         [
             worse(value(ours.min, theirs.min), at(ours.t_min)),
@@ -94,8 +94,8 @@ mod tests {
         let c = column([0.0, 0.5, 2.25]);
         let pair = Pair::new(&b, &c, "y").unwrap();
         assert_eq!((pair.largest(), pair.size()), (0.5, 2.25));
-        // The difference 0.5 is a fifth of the largest value: no later value is better known.
-        assert_eq!(pair.of_values(), [0.0, 0.5, 0.5]);
+        // The difference 0.5 is a fifth of the largest value: no value is better known.
+        assert_eq!(pair.of_values(), [0.5, 0.5, 0.5]);
         let small = column([0.0, 0.99, 2.0]);
         let differences = Pair::new(&b, &small, "y").unwrap().of_values();
         assert!((differences[2] - 0.0025).abs() < 1e-15, "{differences:?}");

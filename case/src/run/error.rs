@@ -9,12 +9,12 @@
 //! accurate integration; y_x of one with the exact coupling, the elements of the run and its tolerance. With
 //! errors of the mesh that fall like hᵖ the difference y − y_f is (1 − 2⁻ᵖ) of the error of y: S = 2 covers every order
 //! p ≥ 1, with half as much again in reserve for p ≥ 2. The factor 1.1 is for what y_x is off itself. Vibration modes converge more slowly than that when the beam
-//! rotates fast: S = 4.
+//! rotates fast, and functions other than elements where a section jumps or a load or mass sits within them: S = 4.
 //!
 //! The errors of the smallest, largest and last value are S times the differences of these values, or of the columns
 //! at their times, or a quarter of the largest difference until then, whichever is largest: a difference that passes
-//! through zero is no small error. That part grows to the whole where the largest difference is a tenth of the largest value
-//! of the column or more: vibrations that the mesh does not resolve differ in their phases, and at any time.
+//! through zero is no small error. Where the largest difference d of all times is a part of the largest value y of the column, they are
+//! d²/(y/10) at least, and d from y/10 on: vibrations that the mesh does not resolve differ in their phases, at any time.
 //!
 //! Half the step would not serve where vibrations are hardly resolved, for errors do not fall like hᵖ there. So `radau`
 //! runs all companions: those of its own runs with a tenth of their tolerance, which makes the error 18 times smaller
@@ -191,12 +191,21 @@ impl Reading {
                 model,
             });
         }
+        let primary = |error: &&ColumnError| {
+            let channels = run.trajectory.channels();
+            channels.iter().any(|c| c.name == error.column && c.role == Role::Primary)
+        };
+        let principal: Vec<&ColumnError> = columns.iter().filter(primary).collect();
+        if fine.status == Status::Finished {
+            let coarse = self.coarse(run, &principal, (&finer, &fine), safety, watch);
+            warnings.extend(coarse?);
+        }
         Ok(Errors { columns, warnings, trusted, ..Errors::default() })
     }
 
     /// The last time recorded before the first impact of a run with a rigid contact; behind it a run on another mesh says
     /// nothing of the error.
-    fn before_impacts(&self, run: &Run) -> Option<f64> {
+    pub(crate) fn before_impacts(&self, run: &Run) -> Option<f64> {
         let rigid = |law: &Law| matches!(law, Law::Constraint { .. });
         let planar = self
             .case
