@@ -65,8 +65,8 @@ fn all_kinds_are_drawn() {
             "contact.obstacle.mount" => kind == "ground",
             _ => false,
         };
-        for kind in choice.names() {
-            assert!(left_out(kind) || words.contains(kind), "{} {kind}", choice.path());
+        for kind in choice.kinds() {
+            assert!(left_out(kind.name) || words.contains(kind.name), "{} {}", choice.path(), kind.name);
         }
     }
 }

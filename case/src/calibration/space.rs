@@ -7,7 +7,7 @@ use super::{Drawn, add};
 pub(super) fn case(random: &mut Random, touching: bool) -> Drawn {
     let subject = if touching { "space with contacts" } else { "space" };
     let mut drawn = Drawn { subject, length: 1.0, ..Drawn::default() };
-    let duration = random.between(0.1..0.5);
+    let duration = random.between(0.04..0.2);
     let integrator = match random.count(0..3) {
         0 => format!("{{ kind = \"generalized-alpha\", step = {} }}", duration / 400.0),
         _ => format!("{{ kind = \"radau\", tolerance = {:e} }}", random.scale(1e-7..1e-4)),
@@ -73,7 +73,7 @@ fn part(random: &mut Random, drawn: &mut Drawn, k: usize, from: &End) -> End {
     let end = if flexible {
         let up = random.vector(1.0);
         let (elements, width, height) =
-            (random.count(2..5), random.between(0.01..0.03), random.between(0.004..0.02));
+            (random.count(1..4), random.between(0.01..0.03), random.between(0.004..0.02));
         let section = match random.count(0..3) {
             0 => format!("{{ kind = \"circle\", modulus = 7e10, density = 2700, radius = {} }}", 0.5 * height),
             1 => format!(
