@@ -203,10 +203,11 @@ fn a_singular_band_held_by_its_border_is_solved() {
     }
 }
 
-/// A free beam of second differences moves and turns; rounding leaves less on the diagonal of the last pivots than below it.
+/// A free beam of second differences moves and turns; rounding leaves less on the diagonal of the last pivots than below it. (It
+/// grows with n³: a longer beam has pivots that no longer vanish.)
 #[test]
 fn a_band_that_is_singular_twice_is_held_by_its_border() {
-    for n in [8, 30] {
+    for n in [5, 6, 7, 8] {
         let structure = Structure::band(n, 2, 2, 2);
         let (mut a, mut b) = (Matrix::new(&structure), Matrix::new(&Structure::dense(n + 2)));
         for m in [&mut a, &mut b] {
