@@ -69,10 +69,10 @@ pub fn spatial_choices() -> &'static [&'static dyn declaration::Kinds] {
 
 /// Examples of the tables of systems in space: `KEY = VALUE`, as on the command line.
 pub fn examples_in_space() -> Vec<&'static str> {
-    use kinds::{beam, body, joint, obstacle, spatial};
+    use kinds::{beam, body, joint, obstacle, rotation, spatial};
     let parts = [body::BODY.example, beam::BEAMS.example, joint::JOINTS.example, spatial::SPRING.example];
     let loads = [spatial::LOAD.example, spatial::LINE_LOAD.example, obstacle::CONTACT.example];
-    parts.into_iter().chain(loads).collect()
+    parts.into_iter().chain(loads).chain([rotation::ROTATION.example]).collect()
 }
 
 /// Examples of the tables that a case may have and need not: `KEY = VALUE`, as on the command line.

@@ -23,6 +23,7 @@ mod reported_errors;
 mod restart;
 mod section_forces;
 mod space;
+mod space_modes;
 mod spring;
 mod statics;
 mod twenty_seconds;
