@@ -1,5 +1,6 @@
 //! Tables in files that a case names: each format a file.
 
 pub mod blade;
+pub mod columns;
 pub mod rows;
 pub mod section;
