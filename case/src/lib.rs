@@ -18,6 +18,7 @@
 #[doc = include_str!("../../docs/src/tasks/library.md")]
 pub struct Book;
 
+pub mod calibration;
 mod campbell;
 mod case;
 pub mod declaration;
@@ -51,6 +52,7 @@ pub use hub_beam::HubBeam;
 pub use kind::{Choice, Context, Kind, Table};
 pub use problem::{Place, Problem, Problems, Source};
 pub use reading::{Live, Reading, parse, parse_with, read};
+pub use run::advise::{Advice, AdviseError, Tried};
 pub use run::error::Effort;
 pub use run::refine::{RefineError, Refinement, Target};
 pub use run::{Prepared, Run};
@@ -77,10 +79,10 @@ pub fn keys() -> [(&'static str, &'static [declaration::Key]); 2] {
 
 /// Examples of the tables of systems in space: `KEY = VALUE`, as on the command line.
 pub fn examples_in_space() -> Vec<&'static str> {
-    use kinds::{beam, body, joint, obstacle, spatial};
+    use kinds::{beam, body, joint, obstacle, rotation, spatial};
     let parts = [body::BODY.example, beam::BEAMS.example, joint::JOINTS.example, spatial::SPRING.example];
     let loads = [spatial::LOAD.example, spatial::LINE_LOAD.example, obstacle::CONTACT.example];
-    parts.into_iter().chain(loads).collect()
+    parts.into_iter().chain(loads).chain([rotation::ROTATION.example]).collect()
 }
 
 /// Examples of the tables that a case may have and need not: `KEY = VALUE`, as on the command line.

@@ -7,6 +7,7 @@ use super::kinds::body::BODY;
 use super::kinds::integrator::Method;
 use super::kinds::joint::{JOINTS, Joint};
 use super::kinds::obstacle::{CONTACT, Contact};
+use super::kinds::rotation::{ROTATION, Rotation};
 use super::kinds::spatial::{GRAVITY, LINE_LOAD, LOAD, LineLoad, Load, MODEL, SPRING, Spring, vector};
 use super::units;
 use super::values::{Value, Values, item};
@@ -32,6 +33,8 @@ pub struct Space {
     pub beams: Vec<(Beam, slender::Beam)>,
     /// The joints.
     pub joints: Vec<Link>,
+    /// How it rotates steadily, or why it does not.
+    pub rotation: Result<Rotation, String>,
     /// Into how many each element of the beams is cut.
     pub refine: usize,
     /// Largest distance between its parts \[m\].
@@ -318,6 +321,7 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     let loads = found.part(LOAD.make(v, c));
     let lines = found.part(LINE_LOAD.make(v, c));
     let contacts = found.part(CONTACT.make(v, c));
+    let rotation = found.part(ROTATION.make(v, c));
     let gravity = found.part(vector(v, GRAVITY.name));
     let settings = |model: &Values| Ok((model.boolean("drop-redundant-rows")?, model.count("refine")?));
     let settings = found.part(v.table(MODEL.name).and_then(settings));
@@ -328,7 +332,7 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     let (Some(contacts), Some(gravity), Some((drop, refine))) = (contacts, gravity, settings) else {
         return Err(found.0);
     };
-    let (Some(beams), Some(lines)) = (beams, lines) else { return Err(found.0) };
+    let (Some(beams), Some(lines), Some(rotation)) = (beams, lines, rotation) else { return Err(found.0) };
     let build = |(i, beam): (usize, Beam)| {
         let built = beam.built(&stations(v, &beam), refine).map_err(|faults| faults.within(&item("beam", i)));
         found.part(built).map(|built| (beam, built))
@@ -395,6 +399,12 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     }
     let names: Vec<String> = joints.iter().enumerate().map(|(i, j)| numbered(&j.name, "joint", i)).collect();
     let multibody = Multibody::new(model).map_err(|error| blamed(&error, v, &names))?;
+    let rotation =
+        match rotation.first() {
+            Some(about) => Ok(Rotation::given(about, multibody.model())
+                .map_err(|faults| faults.within(ROTATION.key.name))?),
+            None => Rotation::found(multibody.model()),
+        };
     let of_ends = beams.iter().flat_map(|(beam, _)| beam.held());
     let joints =
         names.into_iter().zip(&joints).map(|(name, j)| (name, j.written.clone(), j.between.clone(), j.at));
@@ -411,7 +421,7 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     }
     extent = beams.iter().fold(extent, |extent, (beam, _)| extent.max(beam.length));
     let size = if extent > 0.0 { extent } else { 1.0 };
-    Ok(Space { multibody, contacts: touching, bodies, beams, joints, refine, size })
+    Ok(Space { multibody, contacts: touching, bodies, beams, joints, rotation, refine, size })
 }
 
 /// The initial states that a system in space can have.

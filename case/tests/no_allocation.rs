@@ -280,7 +280,7 @@ fn a_fork_is_independent_and_shares_the_constants() {
             "blade" => run::case("modes_blade_nrel_5mw", &blade).unwrap(),
             _ => run::case("p1_spin_up_4", &planar).unwrap(),
         };
-        let (system, whole) = bytes(|| case.case.vibrating().unwrap());
+        let (system, whole) = bytes(|| case.case.vibrating(true).unwrap().0);
         let (mut fork, own) = bytes(|| system.fork());
         let mut original = system;
         let expected = steps(&mut *original);

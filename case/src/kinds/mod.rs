@@ -14,6 +14,7 @@ pub mod load;
 pub mod motion;
 pub mod obstacle;
 mod profile;
+pub mod rotation;
 pub mod section;
 mod shape;
 pub mod spatial;

@@ -231,7 +231,8 @@ impl<T: Scalar> Band<T> {
             // Compared with its own column, so that unknowns in different units do not make a sound
             // band look singular. A NaN pivot is refused too.
             let small = if deflate { floor.max(VANISHING * self.column_size[k]) } else { floor };
-            if sound && diagonal > small {
+            // What vanishes is replaced where it stands, on the diagonal.
+            if sound && diagonal > small || !(best > small) {
                 (p, best) = (k, diagonal);
             }
             filled = filled.max((p + u).min(n - 1)).max(k);

@@ -106,6 +106,11 @@ impl Multibody {
         }
     }
 
+    /// The model that it is made of.
+    pub fn model(&self) -> &Model {
+        &self.constants.model
+    }
+
     /// Rows that were left out because they follow from others, each with the joints that it follows from.
     pub fn dropped(&self) -> &[String] {
         &self.constants.dropped

@@ -15,6 +15,14 @@ pub enum Direction {
     Torsion,
     /// The hub.
     Hub,
+    /// A point along the first axis of space.
+    X,
+    /// Along the second.
+    Y,
+    /// Along the third.
+    Z,
+    /// A body about its centre of mass.
+    Rotation,
     /// Something else, or several of these.
     Other,
 }
@@ -154,6 +162,18 @@ pub trait Observed {
     /// What unknown `i` (a velocity) moves.
     fn direction(&self, _i: usize) -> Direction {
         Direction::Other
+    }
+
+    /// Calls `add` with the parts of xᵀ(Mx) of a motion x at a state, by what they move.
+    fn shares(&self, _s: &State, x: &[f64], mx: &[f64], add: &mut dyn FnMut(Direction, f64)) {
+        for (i, (x, mx)) in x.iter().zip(mx).enumerate() {
+            add(self.direction(i), x * mx);
+        }
+    }
+
+    /// The body whose stations show the shape of a mode, as [`Observed::frames`] numbers them.
+    fn drawn(&self) -> usize {
+        0
     }
 
     /// `Err` when the state has left what the model can represent, with the reason.

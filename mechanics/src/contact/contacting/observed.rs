@@ -75,6 +75,14 @@ impl<S: Points + Dynamics + Events + Observed> Observed for Contacting<S> {
         self.inner.direction(i)
     }
 
+    fn shares(&self, s: &State, x: &[f64], mx: &[f64], add: &mut dyn FnMut(Direction, f64)) {
+        self.inner.shares(s, x, mx, add);
+    }
+
+    fn drawn(&self) -> usize {
+        self.inner.drawn()
+    }
+
     fn admissible(&mut self, s: &State) -> Result<(), String> {
         self.inner.admissible(s)
     }
