@@ -13,6 +13,7 @@
 //! To add a kind: write its code in a file of its own in `flexion`, then one entry in the file of its choice in
 //! [`kinds`].
 
+pub mod calibration;
 mod campbell;
 mod case;
 pub mod declaration;
@@ -46,6 +47,7 @@ pub use hub_beam::HubBeam;
 pub use kind::{Choice, Context, Kind, Table};
 pub use problem::{Place, Problem, Problems, Source};
 pub use reading::{Live, Reading, parse, parse_with, read};
+pub use run::advise::{Advice, AdviseError, Tried};
 pub use run::error::Effort;
 pub use run::refine::{RefineError, Refinement, Target};
 pub use run::{Prepared, Run};

@@ -110,6 +110,18 @@ impl Case {
         }
     }
 
+    /// Changes that give the case `factor` times the functions, rounded up.
+    pub(super) fn with_functions(&self, factor: f64) -> Vec<String> {
+        let changed = |change: String| {
+            let (key, doubled) = change.split_once('=')?;
+            let doubled: f64 = doubled.parse().ok()?;
+            // Between n equally spaced nodes are n − 1 spaces.
+            let ends = if key.ends_with("nodes") { 1.0 } else { 0.0 };
+            Some(format!("{key}={}", (0.5 * factor * (doubled - ends) - 1e-9).ceil() + ends))
+        };
+        self.finer().into_iter().filter_map(changed).collect()
+    }
+
     /// What vibrates: the blade, the hub–beam of a case without `[blade]`, or the system in space, in any case without contacts;
     /// and what is left out of it. Where it rotates steadily, its motion is replaced by that rotation, and loads of a direction that
     /// is fixed in space are left out.

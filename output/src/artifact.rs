@@ -97,6 +97,18 @@ artifacts! {
         StaticsSvg "statics.svg" "the plot of load and displacement",
         StaticsPng "statics.png" "the plot as pixels",
     }
+    /// The files of advice; the first marks the directory as complete.
+    ADVICE {
+        AdviceJson "advice.json" "the cheapest run that holds a tolerance, and all that were tried",
+        AdviceCsv "advice.csv" "all that were tried as a table",
+    }
+    /// The files of a calibration; the first marks the directory as complete.
+    CALIBRATION {
+        CalibrationJson "calibration.json" "counts, and how every case ended",
+        CalibrationCsv "calibration.csv" "stated and true error of every value",
+        CalibrationSvg "calibration.svg" "the plot of stated against true errors",
+        CalibrationPng "calibration.png" "the plot as pixels",
+    }
 }
 
 impl Artifact {

@@ -1,7 +1,9 @@
 //! A case, run: from its reading to its results.
 
+pub mod advise;
 mod cautions;
 mod clock;
+mod coarse;
 mod contact;
 mod difference;
 pub mod error;

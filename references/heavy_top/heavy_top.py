@@ -42,7 +42,7 @@ def step(y, h):
     return [a + h / 6 * (b + 2 * c + 2 * d + e) for a, b, c, d, e in zip(y, k1, k2, k3, k4)]
 
 
-print("# Same equations, coded independently: references/top.py")
+print("# Same equations, coded independently: references/heavy_top.")
 print("time [s],top.position.x [m],top.position.y [m],top.position.z [m]")
 y = [1.0, 0.0, 0.0, 0.0, 0.0, 150.0, -4.61538]
 for k in range(101):
