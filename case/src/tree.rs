@@ -146,6 +146,11 @@ pub(super) fn lay_over(root: &mut Node, argument: &str, problems: &mut Problems)
             problems.push(Problem::new("", Some(all), "the key of an override is empty"));
             return;
         }
+        if let Raw::Text(_) = target.value {
+            // A name alone is a table with that `kind`.
+            let kind = Line { key: "kind".to_owned(), place: target.place.clone(), node: target.clone() };
+            *target = Node { place: place.clone(), value: Raw::Table(vec![kind]) };
+        }
         let what = target.value.describe();
         let Raw::Table(entries) = &mut target.value else {
             let parent = path.get(..at.saturating_sub(part.len() + 2)).unwrap_or_default();
