@@ -91,7 +91,7 @@ fn motion_and_modes_become_pages() {
     assert_eq!(view(&["modes", "-o", "pages/modes.html"]), (Some(0), String::new()));
     let modes = data("pages/modes.html");
     assert_eq!(modes["modes"]["table"]["modes"].as_array().unwrap().len(), 3);
-    assert_eq!(modes["modes"]["shapes"]["mode3.second.real"]["shape"], serde_json::json!([201]));
+    assert_eq!(modes["modes"]["shapes"]["mode3.chord.real"]["shape"], serde_json::json!([201]));
     // The equilibrium, and two displaced states for each mode.
     assert_eq!(modes["scene"]["beam.pose"]["shape"], serde_json::json!([7, 7]));
 
