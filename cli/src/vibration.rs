@@ -103,6 +103,13 @@ impl Options {
     }
 }
 
+/// Whether a case contains only what its vibrations use; what they do not is reported at its line.
+pub fn fits(reading: &Reading) -> bool {
+    let fits = reading.fits_modes();
+    fits.as_ref().err().into_iter().for_each(|problems| screen::report(&problems.render(screen::colour())));
+    fits.is_ok()
+}
+
 /// What vibrates in a case: its blade, or else its hub–beam.
 pub fn system(case: &Case) -> Result<Box<dyn Fork>, String> {
     case.vibrating().map_err(|error| error.to_string())

@@ -120,6 +120,10 @@ pub fn judge(drawn: &Drawn, number: u64) -> Outcome {
     };
     outcome.ending = match judged(drawn, &mut outcome) {
         Ok(ending) => ending,
+        // No key alone tells whether there is an equilibrium to begin with.
+        Err(problems) if problems.list.iter().all(|p| p.message.contains("no equilibrium")) => {
+            Ending::Failed(problems.to_string())
+        }
         Err(problems) => Ending::Refused(problems.to_string()),
     };
     outcome
@@ -147,7 +151,8 @@ fn judged(drawn: &Drawn, outcome: &mut Outcome) -> Result<Ending, Problems> {
         Err(why) => return Ok(Ending::Unknown(why)),
     };
     let whole = reading.case.hub_beam().is_none_or(|beam| beam.coupling.whole_curve);
-    let exact = if whole { None } else { finer(&reading, 1, &[exact(&reading), until.clone()].concat()).ok() };
+    let exact =
+        if whole { None } else { finer(&reading, 1, &[exact(&reading), until.clone()].concat()).ok() };
     let stated = |column: &str| errors.columns.iter().find(|error| error.column == column);
     let compare = |finest: &Run| compared(&ours, &stated, finest, exact.as_ref());
     outcome.values = compare(&finest);
@@ -177,7 +182,8 @@ fn admitted(drawn: &Drawn) -> Result<Reading, Problems> {
         let step = reading.case.steps.step();
         match reading.prepare().map(drop) {
             Err(problems)
-                if factor > SHORTEST && problems.list.iter().all(|p| p.message.contains("stability limit")) =>
+                if factor > SHORTEST
+                    && problems.list.iter().all(|p| p.message.contains("stability limit")) =>
             {
                 factor *= 0.5;
                 let shorter = step.map(|step| format!("integrator.step={:e}", 0.5 * step));
@@ -211,10 +217,7 @@ fn finer(reading: &Reading, doublings: usize, further: &[String]) -> Result<Run,
 /// The exact coupling, on elements.
 fn exact(reading: &Reading) -> Vec<String> {
     let elements = reading.case.hub_beam().and_then(|beam| beam.bases.elements).map_or(12, |_| 24);
-    vec![
-        "model.coupling=exact".to_owned(),
-        format!("basis={{kind='finite-elements',elements={elements}}}"),
-    ]
+    vec!["model.coupling=exact".to_owned(), format!("basis={{kind='finite-elements',elements={elements}}}")]
 }
 
 fn compared<'a>(
