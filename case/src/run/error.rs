@@ -254,6 +254,11 @@ impl Reading {
             format!("basis={{kind='finite-elements',elements={elements}}}"),
         ];
         changes.extend(coarse.tolerances(1.0, 0.0, f64::INFINITY));
+        if let (Steps::Controlled { longest: Some(longest), .. }, Steps::Controlled { .. }) =
+            (self.case.steps, coarse.case.steps)
+        {
+            changes.push(format!("integrator.max-step={:e}", longest / SHORTER.0));
+        }
         Ok(self.with(&changes)?.prepare()?.run(watch))
     }
 
