@@ -8,7 +8,7 @@ use super::{Matrix, Scalar, Storage};
 use nalgebra::{ComplexField, DMatrix};
 
 /// Largest growth of a diagonal entry, over the largest entry of its row, by which a pivot is taken.
-const GROWTH: f64 = 1e4;
+const GROWTH: f64 = 1e2;
 
 /// Number of negative eigenvalues of the symmetric matrix A + w B (equal structures): O(n·b²) for half-bandwidth b.
 pub fn negative_pivots(a: &Matrix, b: &Matrix, w: f64) -> usize {
