@@ -449,7 +449,17 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     }
     extent = beams.iter().fold(extent, |extent, (beam, _)| extent.max(beam.length));
     let size = if extent > 0.0 { extent } else { 1.0 };
-    Ok(Space { multibody, contacts: touching, touching: places, bodies, beams, joints, rotation, refine, size })
+    Ok(Space {
+        multibody,
+        contacts: touching,
+        touching: places,
+        bodies,
+        beams,
+        joints,
+        rotation,
+        refine,
+        size,
+    })
 }
 
 /// The initial states that a system in space can have.
