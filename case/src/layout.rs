@@ -119,9 +119,9 @@ static MODEL: &[Key] = &[
                 Default::Number(0.0),
                 "moment of inertia of the hub about its axis",
             ),
-            key("motion", Type::Kind(&MOTION), Required, "rotation of the hub: prescribed, or free"),
+            key("motion", Type::Kind(&MOTION), Default::Run, "rotation of the hub: prescribed, or free"),
         ]),
-        Required,
+        Default::Empty,
         "hub and its motion",
     ),
     blade::BLADE.key,
@@ -149,7 +149,7 @@ static RUN: &[Key] = &[
             key(
                 "duration",
                 Quantity(&TIME, NotNegative),
-                Required,
+                Default::Run,
                 "simulated time; 0 for the initial state alone",
             ),
             key(
@@ -165,7 +165,7 @@ static RUN: &[Key] = &[
                 "column of `tolerance`, also its `.min`, `.max` or `.final`; all principal columns if left out",
             ),
         ]),
-        Required,
+        Default::Empty,
         "extent of the run",
     ),
 ];

@@ -13,6 +13,11 @@
 //! To add a kind: write its code in a file of its own in `flexion`, then one entry in the file of its choice in
 //! [`kinds`].
 
+/// The examples of the book.
+#[cfg(doctest)]
+#[doc = include_str!("../../docs/src/tasks/library.md")]
+pub struct Book;
+
 pub mod calibration;
 mod campbell;
 mod case;
@@ -65,6 +70,11 @@ pub fn choices() -> &'static [&'static dyn declaration::Kinds] {
 /// Those that only systems in space have.
 pub fn spatial_choices() -> &'static [&'static dyn declaration::Kinds] {
     layout::SPATIAL_CHOICES
+}
+
+/// What stands at the top of a case: keys and tables of a beam on a hub, and of a system in space.
+pub fn keys() -> [(&'static str, &'static [declaration::Key]); 2] {
+    [("a beam on a hub", layout::keys()), ("a system in space", layout::spatial_keys())]
 }
 
 /// Examples of the tables of systems in space: `KEY = VALUE`, as on the command line.

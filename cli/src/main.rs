@@ -22,6 +22,7 @@ mod statics;
 mod vibration;
 mod view;
 
+use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
@@ -93,6 +94,11 @@ fn main() -> ExitCode {
             // Help and version are no errors and go to standard output.
             let rejected = error.use_stderr();
             let _ = error.print();
+            if error.kind() == ErrorKind::UnknownArgument && std::env::args().any(|word| word == "--set") {
+                screen::report(
+                    "\nA value with a blank stands in quotation marks: --set 'section.modulus=30 GPa'\n",
+                );
+            }
             return ExitCode::from(u8::from(rejected));
         }
     };

@@ -23,7 +23,7 @@ fn write_shapes<'u>(
     size: &[u64],
     displacements: impl Iterator<Item = &'u [Complex64; 3]> + Clone,
 ) -> io::Result<()> {
-    for (axis, name) in ["tangent", "second", "third"].iter().enumerate() {
+    for (axis, name) in ["axial", "chord", "flap"].iter().enumerate() {
         let u = displacements.clone().map(|u| u[axis]);
         write_shaped(archive, &format!("{mode}.{name}.real"), size, u.clone().map(|u| u.re))?;
         write_shaped(archive, &format!("{mode}.{name}.imaginary"), size, u.map(|u| u.im))?;

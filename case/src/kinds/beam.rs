@@ -274,7 +274,7 @@ impl Beam {
 
 static FIBRE: [Key; 4] = [
     key("name", Type::Text, Required, "name, which ends the name of its column"),
-    key("station", Quantity(&LENGTH, NotNegative), Required, "arc length from the root"),
+    key("station", Type::Station(NotNegative), Required, "arc length from the root"),
     key("y", Quantity(&LENGTH, Any), Default::Number(0.0), "place along the height of the section"),
     key("z", Quantity(&LENGTH, Any), Default::Number(0.0), "place across, along tangent × height"),
 ];

@@ -309,7 +309,7 @@ pub static LAW: Choice<(Law, bool)> = Choice {
 /// The stations of a contact: the given one, equidistant ones, or the tip.
 fn stations(v: &Values, c: &Context<'_>) -> Made<Vec<f64>> {
     let length = c.length()?;
-    match (v.optional_number("station")?, v.optional("points")?) {
+    match (v.optional("station")?, v.optional("points")?) {
         (Some(_), Some(_)) => {
             let message = "a contact at a station is one point: give `station` or `points`, not both";
             Err(Fault::new("points", message).into())
@@ -353,12 +353,7 @@ pub static CONTACT: Table<Contact> = Table {
                 Optional,
                 "name, which begins the names of its columns: `contact`, `contact2`, … if left out",
             ),
-            key(
-                "station",
-                Quantity(&LENGTH, Positive),
-                Optional,
-                "station that may touch, the tip if left out",
-            ),
+            key("station", Type::Station(Positive), Optional, "station that may touch, the tip if left out"),
             key(
                 "points",
                 Type::Integer(1, MOST_POINTS),
