@@ -28,7 +28,12 @@ fn advice_on_p1_is_cheap_and_keeps_what_is_asked() {
     assert!(5.0 * work(&run) < work(&as_it_stands), "{} {}", work(&run), work(&as_it_stands));
     assert!((work(&run) - cheapest.work).abs() < 0.5, "the work that was counted");
     // It is the cheapest of those that hold, by the table.
-    let least = advice.tried.iter().filter(|tried| tried.holds()).map(|tried| tried.work).fold(f64::INFINITY, f64::min);
+    let least = advice
+        .tried
+        .iter()
+        .filter(|tried| tried.holds())
+        .map(|tried| tried.work)
+        .fold(f64::INFINITY, f64::min);
     assert_eq!(least, cheapest.work);
 }
 

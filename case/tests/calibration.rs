@@ -35,8 +35,11 @@ fn study() -> Vec<Outcome> {
 #[test]
 fn stated_errors_of_cases_at_random_hold_or_the_run_warns() {
     let outcomes = study();
-    let refused: Vec<_> =
-        outcomes.iter().filter(|o| matches!(o.ending, Ending::Refused(_))).map(|o| (o.number, &o.ending)).collect();
+    let refused: Vec<_> = outcomes
+        .iter()
+        .filter(|o| matches!(o.ending, Ending::Refused(_)))
+        .map(|o| (o.number, &o.ending))
+        .collect();
     assert!(refused.is_empty(), "legal cases are refused: {refused:?}");
     let counts = Counts::of(&outcomes);
     for row in counts.rows() {

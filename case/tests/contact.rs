@@ -215,9 +215,8 @@ fn random_contacts_make_no_energy_and_let_nothing_through() {
     for seed in 0..30 {
         let drawn = draw_with_contacts(7_000_003 + seed);
         let set = ["integrator={kind='radau',tolerance=1e-7,absolute-tolerance=1e-9}".to_owned()];
-        let reading = drawn
-            .read(&set)
-            .unwrap_or_else(|problems| panic!("{seed}: {problems}\n{}", drawn.text));
+        let reading =
+            drawn.read(&set).unwrap_or_else(|problems| panic!("{seed}: {problems}\n{}", drawn.text));
         let Ok(prepared) = reading.prepare() else { continue };
         let mut steps = 0;
         let run = prepared.run(&mut |_| {

@@ -46,11 +46,14 @@ fn a_joint_or_a_line_is_the_axis() {
     for text in [
         beam("", HINGE),
         beam("", &format!("{HINGE}motion = {{ kind = \"spin-up\", speed = 3, time = 1 }}\n")),
-        beam("", &format!("{HINGE}motion = {{ kind = \"free\", angle = 0.4, damping = 2, stiffness = 30 }}\n")),
+        beam(
+            "",
+            &format!("{HINGE}motion = {{ kind = \"free\", angle = 0.4, damping = 2, stiffness = 30 }}\n"),
+        ),
         beam("", &format!("{HINGE}name = \"shaft\"\n[rotation]\nabout = \"shaft\"\n")),
         beam("", &format!("{HINGE}[rotation]\naxis = [0, 0, 1]\n")),
         // A second bearing on the same axis leaves the drive to the first.
-        beam("", &format!("{HINGE}{}\n", HINGE.replace("revolute", "cylindrical")) )
+        beam("", &format!("{HINGE}{}\n", HINGE.replace("revolute", "cylindrical")))
             .replace("[[beam]]", "model.drop-redundant-rows = true\n[[beam]]"),
     ] {
         let (found, _) = frequencies(&read(&text).case, 5.0);

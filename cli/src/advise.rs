@@ -105,7 +105,8 @@ fn error(tried: &Tried) -> String {
 
 fn described(advice: &Advice) -> String {
     let mut out = String::from("asked:\n");
-    let asked = advice.asked.iter().map(|(name, bound, unit)| vec![name.clone(), format!("± {bound:.3e} {unit}")]);
+    let asked =
+        advice.asked.iter().map(|(name, bound, unit)| vec![name.clone(), format!("± {bound:.3e} {unit}")]);
     out += &screen::table(&asked.collect::<Vec<_>>());
     let (changes, part) = &advice.trusted;
     out += &format!(
@@ -135,7 +136,8 @@ fn described(advice: &Advice) -> String {
 }
 
 fn write(directory: &Directory, case: &str, advice: &Advice) -> Result<(), OutputError> {
-    directory.write(Artifact::ResolvedCase, |f| f.write_all(flexion_results::resolved_case(case).as_bytes()))?;
+    directory
+        .write(Artifact::ResolvedCase, |f| f.write_all(flexion_results::resolved_case(case).as_bytes()))?;
     directory.write(Artifact::AdviceCsv, |f| {
         writeln!(f, "coupling,basis,integrator,work,error-over-asked,holds")?;
         for tried in &advice.tried {

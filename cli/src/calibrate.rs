@@ -58,14 +58,13 @@ pub fn calibrate(arguments: &Arguments) -> Outcome {
         }
         return Outcome::Finished;
     }
-    let directory =
-        match Directory::create_for(Artifact::CALIBRATION, &arguments.output, arguments.force) {
-            Ok(directory) => directory,
-            Err(error) => {
-                screen::report(&format!("error: {error}\n"));
-                return Outcome::Rejected;
-            }
-        };
+    let directory = match Directory::create_for(Artifact::CALIBRATION, &arguments.output, arguments.force) {
+        Ok(directory) => directory,
+        Err(error) => {
+            screen::report(&format!("error: {error}\n"));
+            return Outcome::Rejected;
+        }
+    };
     let outcomes = study(arguments);
     let counts = Counts::of(&outcomes);
     let rows: Vec<Vec<String>> = counts.rows().into_iter().map(|row| row.to_vec()).collect();
@@ -147,8 +146,7 @@ fn write(
         };
         json!({ "case": o.number, "of": o.subject, "ending": ending, "why": why, "warnings": o.warnings })
     };
-    let table: Value =
-        counts.rows().iter().map(|[what, count, asked]| json!([what, count, asked])).collect();
+    let table: Value = counts.rows().iter().map(|[what, count, asked]| json!([what, count, asked])).collect();
     let cases: Value = outcomes.iter().map(case).collect();
     let json = json!({
         "seed": arguments.seed, "first": arguments.first, "cases": arguments.cases, "counts": table,

@@ -475,7 +475,10 @@ fn advice_is_written_the_same_each_time_and_has_an_exit_code() {
     let folder = folder();
     let advise = |output: &str, tolerance: &str| {
         let quantity = ["--quantity", "tip.deflection.final", "--output", output];
-        let output = flexion(folder.path(), &[&["advise", "spin-up", "--tolerance", tolerance], &quantity[..]].concat());
+        let output = flexion(
+            folder.path(),
+            &[&["advise", "spin-up", "--tolerance", tolerance], &quantity[..]].concat(),
+        );
         (output.status.code(), text(&output.stdout), text(&output.stderr))
     };
     let (code, printed, message) = advise("a", "1e-2");
@@ -488,7 +491,9 @@ fn advice_is_written_the_same_each_time_and_has_an_exit_code() {
     }
     let json: serde_json::Value =
         serde_json::from_str(&std::fs::read_to_string(folder.path().join("a/advice.json")).unwrap()).unwrap();
-    assert!(json["cheapest"]["error"].as_f64().unwrap() <= 1.0 && json["tried"].as_array().unwrap().len() > 5);
+    assert!(
+        json["cheapest"]["error"].as_f64().unwrap() <= 1.0 && json["tried"].as_array().unwrap().len() > 5
+    );
     let (code, _, message) = advise("c", "much");
     assert!(code == Some(1) && message.contains("much"), "{message}");
 }

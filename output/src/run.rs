@@ -82,8 +82,11 @@ pub fn write_run(
     if let Some(scene) = attachments.scene.filter(|_| attachments.solids) {
         for (time, number) in (0..scene.times().len()).zip(0..) {
             directory.write(Artifact::Shape(number), |f| write_solids(scene, time, f))?;
+            if scene.has_obstacles() {
+                directory.write(Artifact::Obstacles(number), |f| write_vtp(&scene.outlines(time), f))?;
+            }
         }
-        directory.write(Artifact::ShapeSeries, |f| write_pvd(scene.times(), false, f))?;
+        directory.write(Artifact::ShapeSeries, |f| write_pvd(scene.times(), scene.has_obstacles(), f))?;
     }
     if let Some(scene) = attachments.scene.filter(|scene| !scene.is_empty()) {
         directory.write(Artifact::Scene, |f| scene.write(f))?;

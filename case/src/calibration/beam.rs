@@ -48,7 +48,8 @@ impl Beam {
 
 /// The case of a seed, with contacts or without.
 pub(super) fn case(random: &mut Random, touching: bool) -> Drawn {
-    let mut drawn = Drawn { subject: if touching { "beam with contacts" } else { "beam" }, ..Drawn::default() };
+    let mut drawn =
+        Drawn { subject: if touching { "beam with contacts" } else { "beam" }, ..Drawn::default() };
     let beam = Beam { touching, ..beam(random, &mut drawn) };
     drawn.length = beam.length;
     let spring = loads(random, &mut drawn, beam);
@@ -138,7 +139,10 @@ fn section(random: &mut Random, drawn: &mut Drawn, material: Material, [length, 
             modulus * area,
             modulus * second,
         ),
-        5 => add!(drawn, "kind = \"uniform\"\n{of}\narea = {area}\nsecond-moment = {second}\nrotary-inertia = {rotary}"),
+        5 => add!(
+            drawn,
+            "kind = \"uniform\"\n{of}\narea = {area}\nsecond-moment = {second}\nrotary-inertia = {rotary}"
+        ),
         6 => add!(drawn, "kind = \"circle\"\n{of}\nradius = {}\nrotary-inertia = {rotary}", 0.5 * height),
         7 => add!(
             drawn,
@@ -193,7 +197,10 @@ fn section(random: &mut Random, drawn: &mut Drawn, material: Material, [length, 
                 add!(drawn, "interpolation = \"{}\"", random.pick(&["linear", "cubic"]));
             }
         }
-        _ => add!(drawn, "kind = \"rectangle\"\n{of}\nwidth = {width}\nheight = {height}\nrotary-inertia = {rotary}"),
+        _ => add!(
+            drawn,
+            "kind = \"rectangle\"\n{of}\nwidth = {width}\nheight = {height}\nrotary-inertia = {rotary}"
+        ),
     }
 }
 
@@ -226,7 +233,10 @@ fn loads(random: &mut Random, drawn: &mut Drawn, beam: Beam) -> Option<String> {
     }
     if random.one_in(4) {
         let across = size(random, force / length);
-        add!(drawn, "[[distributed-load]]\nforce = [0, {across}]\nframe = \"{frame}\"\namplitude = {amplitude}");
+        add!(
+            drawn,
+            "[[distributed-load]]\nforce = [0, {across}]\nframe = \"{frame}\"\namplitude = {amplitude}"
+        );
         match random.count(0..4) {
             0 => add!(
                 drawn,
@@ -367,7 +377,9 @@ fn hub(random: &mut Random, drawn: &mut Drawn, beam: Beam, spring: Option<String
         ),
         6 => {
             drawn.file("motion.csv", table(random, duration, speed));
-            format!("{{ kind = \"table\", of = \"speed\", file = \"motion.csv\", interpolation = \"{interpolation}\" }}")
+            format!(
+                "{{ kind = \"table\", of = \"speed\", file = \"motion.csv\", interpolation = \"{interpolation}\" }}"
+            )
         }
         7 => {
             drawn.file("torque.csv", table(random, duration, 0.1 * stiffness));
@@ -406,7 +418,8 @@ fn hub(random: &mut Random, drawn: &mut Drawn, beam: Beam, spring: Option<String
 }
 
 fn model(random: &mut Random, drawn: &mut Drawn, beam: Beam) {
-    let coupling = random.pick(&["zeroth", "first", "first", "first", "high", "high", "high", "exact", "exact"]);
+    let coupling =
+        random.pick(&["zeroth", "first", "first", "first", "high", "high", "high", "exact", "exact"]);
     add!(drawn, "[model]\ncoupling = \"{coupling}\"");
     let elements = random.count(3..13);
     let basis = match if coupling == "exact" { 0 } else { random.count(0..9) } {

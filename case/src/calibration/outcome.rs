@@ -147,7 +147,8 @@ fn judged(drawn: &Drawn, outcome: &mut Outcome) -> Result<Ending, Problems> {
         Err(why) => return Ok(Ending::Unknown(why)),
     };
     let whole = reading.case.hub_beam().is_none_or(|beam| beam.coupling.whole_curve);
-    let exact = if whole { None } else { finer(&reading, 1, &[exact(&reading), until.clone()].concat()).ok() };
+    let exact =
+        if whole { None } else { finer(&reading, 1, &[exact(&reading), until.clone()].concat()).ok() };
     let stated = |column: &str| errors.columns.iter().find(|error| error.column == column);
     let compare = |finest: &Run| compared(&ours, &stated, finest, exact.as_ref());
     outcome.values = compare(&finest);
@@ -177,7 +178,8 @@ fn admitted(drawn: &Drawn) -> Result<Reading, Problems> {
         let step = reading.case.steps.step();
         match reading.prepare().map(drop) {
             Err(problems)
-                if factor > SHORTEST && problems.list.iter().all(|p| p.message.contains("stability limit")) =>
+                if factor > SHORTEST
+                    && problems.list.iter().all(|p| p.message.contains("stability limit")) =>
             {
                 factor *= 0.5;
                 let shorter = step.map(|step| format!("integrator.step={:e}", 0.5 * step));
@@ -211,10 +213,7 @@ fn finer(reading: &Reading, doublings: usize, further: &[String]) -> Result<Run,
 /// The exact coupling, on elements.
 fn exact(reading: &Reading) -> Vec<String> {
     let elements = reading.case.hub_beam().and_then(|beam| beam.bases.elements).map_or(12, |_| 24);
-    vec![
-        "model.coupling=exact".to_owned(),
-        format!("basis={{kind='finite-elements',elements={elements}}}"),
-    ]
+    vec!["model.coupling=exact".to_owned(), format!("basis={{kind='finite-elements',elements={elements}}}")]
 }
 
 fn compared<'a>(

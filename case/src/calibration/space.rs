@@ -48,7 +48,10 @@ pub(super) fn case(random: &mut Random, touching: bool) -> Drawn {
         };
         // A floor below the centre of mass of what is last, or the tip.
         let low = centre[2].min(at[2]) - random.between(0.005..0.1);
-        add!(drawn, "[[contact]]\non = \"{last}\"\nobstacle = {{ kind = \"plane\", point = [0, 0, {low}] }}\nlaw = {law}");
+        add!(
+            drawn,
+            "[[contact]]\non = \"{last}\"\nobstacle = {{ kind = \"plane\", point = [0, 0, {low}] }}\nlaw = {law}"
+        );
     }
     drawn
 }
@@ -75,7 +78,9 @@ fn part(random: &mut Random, drawn: &mut Drawn, k: usize, from: &End) -> End {
         let (elements, width, height) =
             (random.count(1..4), random.between(0.01..0.03), random.between(0.004..0.02));
         let section = match random.count(0..3) {
-            0 => format!("{{ kind = \"circle\", modulus = 7e10, density = 2700, radius = {} }}", 0.5 * height),
+            0 => {
+                format!("{{ kind = \"circle\", modulus = 7e10, density = 2700, radius = {} }}", 0.5 * height)
+            }
             1 => format!(
                 "{{ kind = \"ellipse\", modulus = 7e10, density = 2700, semi-width = {width}, semi-height = {height} }}"
             ),
@@ -114,7 +119,10 @@ fn part(random: &mut Random, drawn: &mut Drawn, k: usize, from: &End) -> End {
     );
     match (kind, random.count(0..3)) {
         ("revolute", 0) => {
-            add!(drawn, "motion = {{ kind = \"expression\", of = \"angle\", formula = \"0.5*(1-cos(3*t))\" }}");
+            add!(
+                drawn,
+                "motion = {{ kind = \"expression\", of = \"angle\", formula = \"0.5*(1-cos(3*t))\" }}"
+            );
         }
         ("revolute", 1) => add!(drawn, "motion = {{ kind = \"free\", stiffness = 5, damping = 0.1 }}"),
         ("prismatic", 0) => add!(drawn, "travel = {{ kind = \"free\", stiffness = 100 }}"),

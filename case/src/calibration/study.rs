@@ -71,7 +71,10 @@ impl Counts {
             measured: quotients.len(),
             near: quotients.iter().filter(|q| **q <= FAR).count(),
             median: quotients.get(quotients.len() / 2).copied().unwrap_or(f64::NAN),
-            exact: (exact().count(), exact().filter(|((stated, off), rounding)| *off <= stated + rounding).count()),
+            exact: (
+                exact().count(),
+                exact().filter(|((stated, off), rounding)| *off <= stated + rounding).count(),
+            ),
             // Written so that NaN is counted.
             silent: silently(&|v| !(v.off <= FAR * v.stated + v.rounding())),
             wrong: silently(&|v| v.principal && !(v.off <= v.stated.max(WRONG * v.size))),
@@ -92,7 +95,11 @@ impl Counts {
             row("values off by no more than is stated", part(self.held, self.values), "≥ 95 %"),
             row("stated error at most 10 × the true one", part(self.near, self.measured), "≥ 80 %"),
             row("median of stated over true error", format!("{:.2}", self.median), "≤ 5"),
-            row("within discretization + model of the exact coupling", part(self.exact.1, self.exact.0), "≥ 95 %"),
+            row(
+                "within discretization + model of the exact coupling",
+                part(self.exact.1, self.exact.0),
+                "≥ 95 %",
+            ),
             row("silent, and off by more than 10 × what is stated", self.silent.len().to_string(), "0"),
             row("silent, off by more than 1 % and than is stated", self.wrong.len().to_string(), "0"),
             row("right to 0.1 %, and warned", part(self.warned, self.right), "≤ 5 %"),

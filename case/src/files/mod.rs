@@ -2,5 +2,6 @@
 
 pub mod blade;
 pub mod columns;
+pub mod points;
 pub mod rows;
 pub mod section;

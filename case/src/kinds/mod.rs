@@ -5,6 +5,7 @@ pub mod basis;
 pub mod beam;
 pub mod blade;
 pub mod body;
+pub mod centreline;
 pub mod contact;
 pub mod coupling;
 pub mod initial;

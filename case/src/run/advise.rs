@@ -27,7 +27,10 @@ const COUPLINGS: [&str; 3] = ["first", "high", "exact"];
 /// The bases with what they are refined by.
 const BASES: [(&str, &[&str]); 6] = [
     ("finite-elements", &["elements=2", "elements=4", "elements=8", "elements=16", "elements=32"]),
-    ("modes", &["axial=1,transverse=1", "axial=2,transverse=2", "axial=4,transverse=4", "axial=8,transverse=8"]),
+    (
+        "modes",
+        &["axial=1,transverse=1", "axial=2,transverse=2", "axial=4,transverse=4", "axial=8,transverse=8"],
+    ),
     ("b-spline", &["elements=2", "elements=4", "elements=8", "elements=16"]),
     ("bezier", &["degree=4", "degree=6", "degree=8", "degree=12"]),
     ("polynomial", &["nodes=5", "nodes=9", "nodes=17"]),
@@ -113,7 +116,11 @@ fn kind(table: &str, kind: &str, keys: &str) -> String {
 }
 
 fn radau(tolerance: f64) -> String {
-    kind("integrator", "radau", &format!("tolerance={tolerance:.0e},absolute-tolerance={:.0e}", 0.1 * tolerance))
+    kind(
+        "integrator",
+        "radau",
+        &format!("tolerance={tolerance:.0e},absolute-tolerance={:.0e}", 0.1 * tolerance),
+    )
 }
 
 impl Reading {
@@ -148,7 +155,8 @@ impl Reading {
             })));
         }
         let channels = found.run.trajectory.channels();
-        let asked = goals.iter().map(|goal| (goal.quantity(), goal.bound, channels[goal.index].unit)).collect();
+        let asked =
+            goals.iter().map(|goal| (goal.quantity(), goal.bound, channels[goal.index].unit)).collect();
         let trusted = found.reading.mesh_and_steps();
         let mut climb = Climb {
             reading: &plain,
@@ -163,7 +171,13 @@ impl Reading {
         climb.couplings(&found.reading);
         let holds = climb.tried.iter().enumerate().filter(|(_, tried)| tried.holds());
         let cheapest = holds.min_by(|a, b| a.1.work.total_cmp(&b.1.work)).map(|(index, _)| index);
-        Ok(Advice { trusted: (trusted, error), asked, cheapest, bounded: climb.left < 0.0, tried: climb.tried })
+        Ok(Advice {
+            trusted: (trusted, error),
+            asked,
+            cheapest,
+            bounded: climb.left < 0.0,
+            tried: climb.tried,
+        })
     }
 }
 
@@ -238,9 +252,13 @@ impl Climb<'_, '_> {
         let work = run.as_ref().map_or(0.0, |run| run.counters.residuals as f64 * run.size.unknowns as f64);
         let error = match &run {
             Ok(run) if run.status == Status::Finished => Ok(self.error_of(run)),
-            Ok(run) if run.status == Status::Stopped => Err("costlier than the cheapest that holds".to_owned()),
+            Ok(run) if run.status == Status::Stopped => {
+                Err("costlier than the cheapest that holds".to_owned())
+            }
             Ok(run) => Err(run.message.clone().unwrap_or_default()),
-            Err(problems) => Err(problems.list.first().map_or(String::new(), |problem| problem.message.clone())),
+            Err(problems) => {
+                Err(problems.list.first().map_or(String::new(), |problem| problem.message.clone()))
+            }
         };
         let tried = Tried {
             coupling,

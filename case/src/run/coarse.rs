@@ -32,7 +32,8 @@ impl Reading {
     ) -> Result<Option<String>, Problems> {
         let relative = |error: &ColumnError| {
             let index = fine.trajectory.index(&error.column)?;
-            Some(error.discretization / fine.trajectory.extremes(index).largest()).filter(|part| part.is_finite())
+            Some(error.discretization / fine.trajectory.extremes(index).largest())
+                .filter(|part| part.is_finite())
         };
         let worst = columns.iter().filter_map(|error| Some((error.column.as_str(), relative(error)?)));
         let Some((column, part)) = worst.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|worst| worst.1 > COARSE)
@@ -59,7 +60,8 @@ impl Reading {
             )));
         }
         for factor in TRIED {
-            let changes = self.case.with_functions(factor * (part / (AIM * COARSE)).powf(1.0 / order.min(ORDERS.1)));
+            let changes =
+                self.case.with_functions(factor * (part / (AIM * COARSE)).powf(1.0 / order.min(ORDERS.1)));
             let candidate = self.with(&changes)?.prepare()?.run(watch);
             let holds = |error: &&ColumnError| {
                 let pair = Pair::new(&candidate.trajectory, &finest.trajectory, &error.column);
@@ -67,9 +69,13 @@ impl Reading {
             };
             if candidate.status == Status::Finished && columns.iter().all(holds) {
                 let changes = changes.join("` and `").replace('=', " = ");
-                return Ok(Some(format!("{said}; with `{changes}` it is below 1 % (observed order {order:.1})")));
+                return Ok(Some(format!(
+                    "{said}; with `{changes}` it is below 1 % (observed order {order:.1})"
+                )));
             }
         }
-        Ok(Some(format!("{said}, and a finer mesh alone does not bring it down: `--tolerance {COARSE}` refines mesh and steps")))
+        Ok(Some(format!(
+            "{said}, and a finer mesh alone does not bring it down: `--tolerance {COARSE}` refines mesh and steps"
+        )))
     }
 }

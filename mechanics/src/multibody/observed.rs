@@ -87,7 +87,7 @@ impl Multibody {
         for load in &model.line_loads {
             let [i, j] = constants.beams[load.beam];
             let (beam, force) = (&model.beams[load.beam].beam, load.at(s.time(), self.part));
-            power.loads += beam.line_power(&s.q[i..], &s.v[j..], force, load.follows());
+            power.loads += beam.line_power(load.on(beam), &s.q[i..], &s.v[j..], force, load.follows());
         }
         for (i, (joint, row)) in constants.rows.iter().enumerate() {
             let (a, b) = self.ends(*joint);

@@ -1,6 +1,7 @@
 //! What is observed of a model: recorded quantities, energies, shapes.
 
 use super::State;
+use std::ops::Range;
 
 /// What an unknown moves: for the shares of a mode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -96,8 +97,8 @@ pub struct Touch {
     pub name: String,
     /// Row of its normal force; `None` for a continuous force.
     pub row: Option<usize>,
-    /// Row of its friction.
-    pub friction: Option<usize>,
+    /// Rows of its friction, one a direction of sliding.
+    pub friction: Range<usize>,
     /// Number of the indicator of a continuous force.
     pub indicator: Option<usize>,
     /// Gap g \[m\].
