@@ -42,7 +42,7 @@ fn a_joint_or_a_line_is_the_axis() {
     let (expected, _) = frequencies(&read(&clamped).case, 5.0);
     // Across the plane of rotation it is the beam 1 m from the axis of the closed series.
     let flap = flexion::exact::rotating::flapwise_frequency(1, 5.0, 1.0);
-    assert!((expected[1] / flap - 1.0).abs() < 1e-4, "{expected:?} for {flap}");
+    assert!((expected[0] / flap - 1.0).abs() < 1e-5, "{expected:?} for {flap}");
     for text in [
         beam("", HINGE),
         beam("", &format!("{HINGE}motion = {{ kind = \"spin-up\", speed = 3, time = 1 }}\n")),
@@ -96,7 +96,6 @@ fn a_faulty_rotation_is_reported_at_its_line() {
         ("about = \"hinge\"", "rotation.about", "did you mean `hinge1`"),
         ("about = \"hinge1\"\naxis = [0, 0, 1]", "rotation.axis", "already says"),
         ("about = \"hinge1\"\npoint = [0, 0, 1]", "rotation.point", "belongs to"),
-        ("axes = [0, 0, 1]", "rotation.axes", "unknown"),
     ] {
         let text = beam("", &format!("{HINGE}name = \"hinge1\"\n[rotation]\n{rotation}\n"));
         let problems = parse(text, Path::new("case.toml"), &[]).unwrap_err();

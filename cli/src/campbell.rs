@@ -229,15 +229,14 @@ fn described(diagram: &Campbell, near: &[Resonance], margin: f64, units: &Units)
     for (number, branch) in diagram.branches.iter().enumerate() {
         if let (Some(first), Some(last)) = (branch.points.first(), branch.points.last()) {
             moves.push(first.mode.shares.dominant());
+            let largest = branch.points.iter().filter_map(|point| point.mode.mesh).max_by(f64::total_cmp);
             let ends = Some(last.speed) != furthest;
             rows.push(vec![
                 format!("{}", number + 1),
                 first.mode.shares.dominant().to_owned(),
                 units.frequency.text(first.mode.frequency()),
                 units.frequency.text(last.mode.frequency()),
-                last.mode
-                    .mesh
-                    .map_or("-".to_owned(), |error| format!("{:.1e}", error * units.frequency.factor)),
+                largest.map_or("-".to_owned(), |error| format!("{:.1e}", error * units.frequency.factor)),
                 if ends { units.speed.text(last.speed) } else { "the end".to_owned() },
             ]);
         }

@@ -8,13 +8,16 @@ use flexion::analysis::modes::{Mode, Modes, modes as find};
 use flexion::analysis::rotation::rotate_stably;
 use flexion::system::{State, System};
 use flexion_case::{Case, Reading};
-use flexion_results::{Artifact, Directory, Scene, Units, write_modes};
+use flexion_results::{Artifact, Directory, Scene, Units, write_film, write_modes};
 use std::path::PathBuf;
 
 /// Damping ratio below which a mode grows.
 const GROWTH: f64 = -1e-7;
 /// Displacement of a mode in the files of its scene, over the scale of the unknowns.
 const DISPLACED: f64 = 1e-3;
+/// The same of a mode in motion, and its phases.
+const FILMED: f64 = 0.1;
+const PHASES: u32 = 24;
 
 /// The case, the speed, and how many modes.
 #[derive(clap::Args)]
@@ -42,6 +45,9 @@ pub struct Arguments {
     /// Directory for modes.json, .csv, .npz and the pictures of the shapes
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
+    /// Write every mode in motion for ParaView too: mode k from the time k to k + 1
+    #[arg(long, requires = "output")]
+    vtk: bool,
     /// Replace former results in that directory
     #[arg(long, requires = "output")]
     force: bool,
@@ -70,7 +76,7 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
     let directory =
         arguments.output.as_ref().map(|path| Directory::create_for(Artifact::MODES, path, arguments.force));
     let directory = directory.transpose().map_err(|error| error.to_string())?;
-    let Found { mut modes, scene, mut cautions } = compute(arguments, case, speed, hub)?;
+    let Found { mut modes, scene, film, mut cautions } = compute(arguments, case, speed, hub)?;
     cautions.extend(vibration::without_contacts(case));
     cautions.extend(case.unused_by_modes());
     let growing = modes.modes.iter().filter(|mode| mode.damping_ratio() < GROWTH).count();
@@ -112,9 +118,11 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
         Some(_) => ["along the tangent", "along the height", "across"],
         None => ["axial", "chordwise", "flapwise"],
     };
-    let written = directory.write(Artifact::ModesScene, |f| scene.write(f)).and_then(|()| {
-        write_modes(&directory, (&modes, speed, axes), &stations, &units, &resolved, title, &cautions)
-    });
+    let films = film.iter().try_for_each(|film| write_film(&directory, film, Artifact::ModesSeries));
+    let written =
+        films.and_then(|()| directory.write(Artifact::ModesScene, |f| scene.write(f))).and_then(|()| {
+            write_modes(&directory, (&modes, speed, axes), &stations, &units, &resolved, title, &cautions)
+        });
     screen::print("\n");
     let files = [("modes", Artifact::ModesCsv), ("shapes", Artifact::ModesSvg)];
     let whole = screen::files(&directory, written, &files);
@@ -125,6 +133,7 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
 struct Found {
     modes: Modes,
     scene: Scene,
+    film: Option<Scene>,
     cautions: Vec<String>,
 }
 
@@ -146,7 +155,30 @@ fn compute(arguments: &Arguments, case: &Case, speed: f64, hub: HubState) -> Res
     let modes = find(system.as_mut(), &state, arguments.count, &stations(case, STATIONS));
     let modes = modes.map_err(|error| error.to_string())?;
     let scene = displaced(case, &modes, system.as_mut(), &state);
-    Ok(Found { modes, scene, cautions })
+    let film = arguments.vtk.then(|| film(case, &modes, system.as_mut(), &state));
+    Ok(Found { modes, scene, film, cautions })
+}
+
+/// Every mode at the phases of a cycle.
+fn film(case: &Case, modes: &Modes, system: &mut dyn System, state: &State) -> Scene {
+    let mut scene = case.scene();
+    let mut moved = state.clone();
+    for (number, mode) in modes.modes.iter().enumerate() {
+        for phase in (0..PHASES).map(|phase| f64::from(phase) / f64::from(PHASES)) {
+            let (sin, cos) = (std::f64::consts::TAU * phase).sin_cos();
+            displace(mode, system, state, [FILMED * cos, FILMED * sin], &mut moved);
+            scene.take((number + 1) as f64 + phase, system, &moved);
+        }
+    }
+    scene
+}
+
+/// Moves the equilibrium by a Re x − b Im x, where the largest entry of x is that of the scale of its unknown.
+fn displace(mode: &Mode, system: &mut dyn System, state: &State, [a, b]: [f64; 2], moved: &mut State) {
+    let sizes = mode.vector.iter().zip(system.scales()).map(|(x, scale)| x.norm() / scale);
+    let largest = sizes.fold(f64::MIN_POSITIVE, f64::max);
+    let d: Vec<f64> = mode.vector.iter().map(|x| (a * x.re - b * x.im) / largest).collect();
+    system.retract(&state.q, &d, &mut moved.q);
 }
 
 /// The equilibrium under the time 0, and displaced a little by the real and the imaginary part of every mode under the times
@@ -154,13 +186,10 @@ fn compute(arguments: &Arguments, case: &Case, speed: f64, hub: HubState) -> Res
 fn displaced(case: &Case, modes: &Modes, system: &mut dyn System, state: &State) -> Scene {
     let mut scene = case.scene();
     scene.take(0.0, system, state);
-    let scales = system.scales().to_vec();
     let mut moved = state.clone();
-    for (time, (mode, part)) in modes.modes.iter().flat_map(|m| [(m, 0), (m, 1)]).enumerate() {
-        let sizes = mode.vector.iter().zip(&scales).map(|(x, scale)| x.norm() / scale);
-        let step = DISPLACED / sizes.fold(f64::MIN_POSITIVE, f64::max);
-        let d: Vec<f64> = mode.vector.iter().map(|x| step * if part == 0 { x.re } else { x.im }).collect();
-        system.retract(&state.q, &d, &mut moved.q);
+    let parts = [[DISPLACED, 0.0], [0.0, -DISPLACED]];
+    for (time, (mode, part)) in modes.modes.iter().flat_map(|m| parts.map(|part| (m, part))).enumerate() {
+        displace(mode, system, state, part, &mut moved);
         scene.take((time + 1) as f64, system, &moved);
     }
     scene

@@ -80,6 +80,7 @@ artifacts! {
         ModesScene "equilibrium.npz" "the equilibrium, and displaced by every mode, for `flexion view`",
         ModesSvg "modes.svg" "the plot",
         ModesPng "modes.png" "the plot as pixels",
+        ModesSeries "modes.pvd" "every mode in motion, for ParaView",
     }
     /// The files of a Campbell diagram; the first marks the directory as complete.
     CAMPBELL {

@@ -183,7 +183,7 @@ mod tests {
     use super::*;
 
     fn touch(name: &str, row: Option<usize>, indicator: Option<usize>) -> Touch {
-        let friction = row.map(|row| row + 1);
+        let friction = row.map_or(0..0, |row| row + 1..row + 2);
         Touch { name: name.into(), row, friction, indicator, gap: 1.0, rate: 0.0 }
     }
 

@@ -67,12 +67,15 @@ fn flat() -> BladeResultants {
 
 #[test]
 fn flapwise_frequencies_are_those_of_wright() {
-    for (speed, radius) in [(0.0, 0.0), (3.0, 0.0), (12.0, 0.0), (4.0, 1.0)] {
+    // Far from the axis the deflection is all in a narrow layer at the root.
+    for (speed, radius, off) in
+        [(0.0, 0.0, 1e-6), (3.0, 0.0, 1e-6), (12.0, 0.0, 1e-6), (4.0, 1.0, 1e-6), (12.0, 5.0, 1e-5)]
+    {
         let setting = Setting { length: 1.0, hub_radius: radius, ..Setting::default() };
         let found = frequencies(&mut blade(setting, &flat(), 56), speed, 3);
         for (k, found) in found.iter().enumerate() {
             let expected = flapwise_frequency(k + 1, speed, radius);
-            assert!((found / expected - 1.0).abs() < 1e-6, "γ {speed}, a {radius}: {found} for {expected}");
+            assert!((found / expected - 1.0).abs() < off, "γ {speed}, a {radius}: {found} for {expected}");
         }
     }
 }
