@@ -269,7 +269,8 @@ duration = 1
                 let mut set = vec![format!("model.coupling={coupling}")];
                 set.extend(blade.then(|| format!("blade={{elements=40,strain-energy='{energy}'}}")));
                 let set: Vec<&str> = set.iter().map(String::as_str).collect();
-                let (mut system, _) = crate::written::reading(BEAM, &set).case.vibrating(speed > 0.0).unwrap();
+                let (mut system, _) =
+                    crate::written::reading(BEAM, &set).case.vibrating(speed > 0.0).unwrap();
                 let mut state = system.initial();
                 rotate_stably(system.as_mut(), &mut state, 0.0, speed).unwrap();
                 let found = modes(system.as_mut(), &state, 8, &[0.5, 1.0]).unwrap();
