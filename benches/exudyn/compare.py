@@ -25,8 +25,8 @@ ENVIRONMENT = HERE / ".venv"
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "RAYON_NUM_THREADS")
 
 
-def enter_environment():
-    """Restart inside the script's own virtual environment, made and filled if it is missing or out of date."""
+def enter_environment(script=__file__):
+    """Restart `script` inside the virtual environment beside it, made and filled if it is missing or out of date."""
     wanted = (HERE / "requirements.txt").read_text()
     stamp = ENVIRONMENT / "installed.txt"
     python = ENVIRONMENT / "bin" / "python"
@@ -36,7 +36,7 @@ def enter_environment():
         stamp.write_text(wanted)
     if pathlib.Path(sys.prefix).resolve() != ENVIRONMENT.resolve():
         environment = dict(os.environ, **{name: "1" for name in THREADS})
-        os.execve(python, [str(python), str(HERE / "compare.py"), *sys.argv[1:]], environment)
+        os.execve(python, [str(python), str(script), *sys.argv[1:]], environment)
 
 
 # --- what is run -----------------------------------------------------------------------------------------------------

@@ -7,7 +7,8 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::thread;
 
 /// Computes the diagram of `system` on `threads` threads, 0 for as many as the machine has, each with a fork of it: the same
-/// diagram for any number of them.
+/// diagram for any number of them. With a finer mesh of the same system, whose differences times `safety` estimate the errors of
+/// the frequencies, these are computed too.
 /// `progress` is called with the number of speeds that are done, and stops by `false`.
 ///
 /// # Errors
@@ -17,10 +18,29 @@ use std::thread;
 /// Where a thread does.
 pub fn campbell(
     system: Box<dyn Fork>,
+    finer: Option<(Box<dyn Fork>, f64)>,
     plan: &Plan,
     threads: usize,
     progress: &(dyn Fn(usize) -> bool + Sync),
 ) -> Result<Campbell, NoCampbell> {
+    let (mut speeds, blocks) = computed(system, plan, threads, progress)?;
+    let mut diagram = assemble(&mut speeds, blocks)?;
+    if let Some((finer, safety)) = finer.filter(|_| diagram.speeds.len() > 1) {
+        let plan = Plan { speeds: diagram.speeds.clone(), ..plan.clone() };
+        let (_, blocks) = computed(finer, &plan, threads, &|_| progress(plan.speeds.len()))?;
+        let frequencies: Vec<Vec<f64>> = blocks.iter().flat_map(Block::frequencies).collect();
+        diagram.compare(&frequencies, safety);
+    }
+    Ok(diagram)
+}
+
+/// The modes at all speeds, and the system that found them.
+fn computed<'p>(
+    system: Box<dyn Fork>,
+    plan: &'p Plan,
+    threads: usize,
+    progress: &(dyn Fn(usize) -> bool + Sync),
+) -> Result<(Speeds<'p>, Vec<Block>), NoCampbell> {
     let count = Speeds::blocks(plan);
     let threads = match threads {
         0 => thread::available_parallelism().map_or(1, usize::from),
@@ -63,6 +83,6 @@ pub fn campbell(
         }
         outcome
     })?;
-    let computed = blocks.into_iter().map_while(|slot| slot.into_inner().ok().flatten()).collect();
-    assemble(&mut speeds, computed)
+    let blocks = blocks.into_iter().map_while(|slot| slot.into_inner().ok().flatten()).collect();
+    Ok((speeds, blocks))
 }

@@ -22,7 +22,7 @@ pub struct Case {
     pub initial: Initial,
     /// The steps that the integrator takes.
     pub steps: Steps,
-    /// Duration of the run \[s\].
+    /// Duration of the run, 0 for a case [without one](super::Reading::missing_for_run) \[s\].
     pub duration: f64,
     /// The accuracy to which the run is to be refined: part of the largest value, and column.
     pub accuracy: Option<(f64, Option<String>)>,
@@ -86,7 +86,7 @@ fn number(v: &Values, table: &str, key: &str) -> Made<f64> {
 /// All faults of all parts, at dotted paths of the case.
 pub(super) fn case(v: &mut Values, files: &super::sources::Files<'_>) -> Made<Case> {
     let mut found = Found::default();
-    let duration = number(v, "run", "duration").ok();
+    let duration = v.table("run").and_then(duration).ok();
     fill_output_step(v, duration);
     let v = &*v;
     let in_space = layout::is_spatial(v.keys);
@@ -120,6 +120,15 @@ pub(super) fn case(v: &mut Values, files: &super::sources::Files<'_>) -> Made<Ca
     match parts() {
         Some(case) if found.0.0.is_empty() => Ok(case),
         _ => Err(found.0),
+    }
+}
+
+/// The duration of the run, 0 where the case gives none and so has no run.
+fn duration(run: &Values) -> Made<f64> {
+    match run.optional_number("duration")? {
+        None if run.sound => Ok(0.0),
+        None => Err(Faults::default()),
+        Some(duration) => Ok(duration),
     }
 }
 

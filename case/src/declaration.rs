@@ -53,6 +53,8 @@ pub fn short(x: f64) -> String {
 pub enum Type {
     /// A number with a dimension.
     Quantity(&'static Measure, Bound),
+    /// A station along a beam: a length from its root, or `"tip"`.
+    Station(Bound),
     /// A list of numbers with a dimension.
     Quantities(&'static Measure, Bound),
     /// A number without dimension.
@@ -84,6 +86,8 @@ pub enum Presence {
     Required,
     /// There is no value.
     Optional,
+    /// There is no value, and no run: modes and diagrams do without.
+    Run,
     /// This number.
     Number(f64),
     /// This integer.
@@ -94,6 +98,13 @@ pub enum Presence {
     Name(&'static str),
     /// A table or list without entries, whose keys then take their defaults.
     Empty,
+}
+
+impl Presence {
+    /// Whether a key that is left out has no value.
+    pub fn is_optional(self) -> bool {
+        matches!(self, Presence::Optional | Presence::Run)
+    }
 }
 
 /// A key of a table.

@@ -1,6 +1,6 @@
 //! A beam on a hub: its parts, and what is checked across them.
 
-use super::fault::{Found, Made};
+use super::fault::{At, Found, Made};
 use super::kind::{Choice, Context, Table};
 use super::kinds::basis::{self, Bases};
 use super::kinds::blade::{BLADE, Blade};
@@ -12,6 +12,8 @@ use super::kinds::motion::MOTION;
 use super::kinds::section::{SECTION, Section};
 use super::values::Values;
 use flexion::hub_beam::{Damping, Drive, Hub};
+use flexion::profile::{Constant, Motion};
+use std::sync::Arc;
 
 /// A beam on a hub, in the plane of its rotation or as a blade.
 #[derive(Clone, Debug)]
@@ -36,11 +38,25 @@ pub struct HubBeam {
     pub damping: Damping,
 }
 
+/// Speed √(EA/ρA) of waves of stretch below which there is a caution; in soft rubber it is 30 m/s \[m/s\].
+const SLOWEST: f64 = 10.0;
+
 /// Makes the beam of the values of its case, for a method of integration.
 pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made<HubBeam> {
     let mut found = Found::default();
     let coupling = found.part(model(v, &COUPLING, c));
     let section = found.part(SECTION.make(v, "section", c));
+    if let Some(section) = &section {
+        let r = section.planar.resultants(0.0);
+        let speed = (r.axial_stiffness / r.mass).sqrt();
+        if speed < SLOWEST {
+            c.cautions.borrow_mut().push(format!(
+                "the stiffness of the section, EA = {:.3e} N and EI = {:.3e} N·m², lets waves of stretch run at {speed:.2} m/s \
+                 (steel: 5000 m/s): is a unit missing?",
+                r.axial_stiffness, r.bending_stiffness
+            ));
+        }
+    }
     let hub = found.part(hub(v, c));
     let loads = loads(v, c, &mut found);
     let jumps = section.iter().flat_map(|section| section.planar.jumps().iter().copied());
@@ -112,7 +128,14 @@ fn model<T>(v: &Values, choice: &Choice<T>, c: &Context<'_>) -> Made<T> {
 
 fn hub(v: &Values, c: &Context<'_>) -> Made<Hub> {
     let hub = v.table("hub")?;
-    let drive: Drive = MOTION.make(hub, "motion", c).map_err(|faults| faults.within("hub"))?;
+    let drive = match hub.optional("motion")? {
+        // A case without a motion has no run: its hub is at rest until a speed is given.
+        None if hub.sound => Drive::Prescribed(Motion::Speed {
+            profile: Arc::new(Constant::new(0.0).at("hub")?),
+            initial_angle: 0.0,
+        }),
+        _ => MOTION.make(hub, "motion", c).map_err(|faults| faults.within("hub"))?,
+    };
     Ok(Hub { radius: hub.number("radius")?, inertia: hub.number("inertia")?, drive })
 }
 

@@ -39,7 +39,10 @@ impl Context<'_> {
 
     /// The station at `key`, which lies on the beam.
     pub fn station(&self, v: &Values, key: &str) -> Made<f64> {
-        let station = v.number(key)?;
+        let station = match v.value(key)? {
+            Value::Text(_) => self.length()?,
+            _ => v.number(key)?,
+        };
         self.on_beam(station, key).map(|()| station)
     }
 

@@ -7,7 +7,7 @@ use super::kinds::initial::INITIAL;
 use super::kinds::integrator::INTEGRATOR;
 use super::kinds::motion::MOTION;
 use super::kinds::section::SECTION;
-use super::kinds::{amplitude, beam, blade, body, contact, joint, load, obstacle, spatial, torque};
+use super::kinds::{amplitude, beam, blade, body, contact, joint, load, obstacle, rotation, spatial, torque};
 use super::tree::{Line, Raw};
 use super::units::{INERTIA, LENGTH, TIME};
 use std::sync::LazyLock;
@@ -62,7 +62,7 @@ pub(super) fn is_spatial(keys: &[Key]) -> bool {
 }
 
 /// The tables of a system in space, in the order of a case file.
-static TABLES: [&Key; 9] = [
+static TABLES: [&Key; 10] = [
     &spatial::GRAVITY,
     &body::BODY.key,
     &beam::BEAMS.key,
@@ -71,6 +71,7 @@ static TABLES: [&Key; 9] = [
     &spatial::LOAD.key,
     &spatial::LINE_LOAD.key,
     &obstacle::CONTACT.key,
+    &rotation::ROTATION.key,
     &spatial::MODEL,
 ];
 
@@ -118,9 +119,9 @@ static MODEL: &[Key] = &[
                 Default::Number(0.0),
                 "moment of inertia of the hub about its axis",
             ),
-            key("motion", Type::Kind(&MOTION), Required, "rotation of the hub: prescribed, or free"),
+            key("motion", Type::Kind(&MOTION), Default::Run, "rotation of the hub: prescribed, or free"),
         ]),
-        Required,
+        Default::Empty,
         "hub and its motion",
     ),
     blade::BLADE.key,
@@ -148,7 +149,7 @@ static RUN: &[Key] = &[
             key(
                 "duration",
                 Quantity(&TIME, NotNegative),
-                Required,
+                Default::Run,
                 "simulated time; 0 for the initial state alone",
             ),
             key(
@@ -164,7 +165,7 @@ static RUN: &[Key] = &[
                 "column of `tolerance`, also its `.min`, `.max` or `.final`; all principal columns if left out",
             ),
         ]),
-        Required,
+        Default::Empty,
         "extent of the run",
     ),
 ];

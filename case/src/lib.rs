@@ -13,6 +13,12 @@
 //! To add a kind: write its code in a file of its own in `flexion`, then one entry in the file of its choice in
 //! [`kinds`].
 
+/// The examples of the book.
+#[cfg(doctest)]
+#[doc = include_str!("../../docs/src/tasks/library.md")]
+pub struct Book;
+
+pub mod calibration;
 mod campbell;
 mod case;
 pub mod declaration;
@@ -46,6 +52,7 @@ pub use hub_beam::HubBeam;
 pub use kind::{Choice, Context, Kind, Table};
 pub use problem::{Place, Problem, Problems, Source};
 pub use reading::{Live, Reading, parse, parse_with, read};
+pub use run::advise::{Advice, AdviseError, Tried};
 pub use run::error::Effort;
 pub use run::refine::{RefineError, Refinement, Target};
 pub use run::{Prepared, Run};
@@ -65,12 +72,17 @@ pub fn spatial_choices() -> &'static [&'static dyn declaration::Kinds] {
     layout::SPATIAL_CHOICES
 }
 
+/// What stands at the top of a case: keys and tables of a beam on a hub, and of a system in space.
+pub fn keys() -> [(&'static str, &'static [declaration::Key]); 2] {
+    [("a beam on a hub", layout::keys()), ("a system in space", layout::spatial_keys())]
+}
+
 /// Examples of the tables of systems in space: `KEY = VALUE`, as on the command line.
 pub fn examples_in_space() -> Vec<&'static str> {
-    use kinds::{beam, body, joint, obstacle, spatial};
+    use kinds::{beam, body, joint, obstacle, rotation, spatial};
     let parts = [body::BODY.example, beam::BEAMS.example, joint::JOINTS.example, spatial::SPRING.example];
     let loads = [spatial::LOAD.example, spatial::LINE_LOAD.example, obstacle::CONTACT.example];
-    parts.into_iter().chain(loads).collect()
+    parts.into_iter().chain(loads).chain([rotation::ROTATION.example]).collect()
 }
 
 /// Examples of the tables that a case may have and need not: `KEY = VALUE`, as on the command line.

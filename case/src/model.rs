@@ -1,10 +1,11 @@
 //! The models of a case: what is made of its parts.
 
 use super::case::{Case, Output, Subject};
-use super::fault::Made;
+use super::fault::{Fault, Made};
 use super::hub_beam::HubBeam;
 use super::kinds::coupling::Assembly;
 use super::kinds::load::Load;
+use super::kinds::rotation::vibrating;
 use super::space::Space;
 use super::values::item;
 use flexion::blade::Blade;
@@ -109,29 +110,39 @@ impl Case {
         }
     }
 
-    /// What vibrates about a steady rotation: the blade, the hub–beam of a case without `[blade]`, or the system in space, in any
-    /// case without contacts.
+    /// Changes that give the case `factor` times the functions, rounded up.
+    pub(super) fn with_functions(&self, factor: f64) -> Vec<String> {
+        let changed = |change: String| {
+            let (key, doubled) = change.split_once('=')?;
+            let doubled: f64 = doubled.parse().ok()?;
+            // Between n equally spaced nodes are n − 1 spaces.
+            let ends = if key.ends_with("nodes") { 1.0 } else { 0.0 };
+            Some(format!("{key}={}", (0.5 * factor * (doubled - ends) - 1e-9).ceil() + ends))
+        };
+        self.finer().into_iter().filter_map(changed).collect()
+    }
+
+    /// What vibrates: the blade, the hub–beam of a case without `[blade]`, or the system in space, in any case without contacts;
+    /// and what is left out of it. Where it rotates steadily, its motion is replaced by that rotation, and loads of a direction that
+    /// is fixed in space are left out.
     ///
     /// # Errors
     /// Faults at dotted paths of the case.
-    pub fn vibrating(&self) -> Made<Box<dyn Fork>> {
+    pub fn vibrating(&self, rotates: bool) -> Made<(Box<dyn Fork>, Vec<String>)> {
         match (&self.subject, self.blade()?) {
-            (_, Some(blade)) => Ok(Box::new(blade)),
+            (_, Some(blade)) => Ok((Box::new(blade), Vec::new())),
             (Subject::HubBeam(beam), None) => {
-                HubBeam { contacts: Vec::new(), ..(**beam).clone() }.system(&self.output)
+                let mut beam = HubBeam { contacts: Vec::new(), ..(**beam).clone() };
+                let fixed = |load: &Load| load.fixed_in_space.filter(|_| rotates);
+                let mut names: Vec<String> = beam.loads.iter().filter_map(fixed).map(str::to_owned).collect();
+                names.dedup();
+                beam.loads.retain(|load| fixed(load).is_none());
+                Ok((beam.system(&self.output)?, names))
             }
-            (Subject::Space(space), None) => Ok(Box::new(space.multibody.clone())),
+            (Subject::Space(space), None) => {
+                let Space { multibody, rotation, .. } = &**space;
+                vibrating(multibody, rotation, rotates).map_err(|why| Fault::new("rotation", why).into())
+            }
         }
-    }
-
-    /// The case without the loads whose direction is fixed in space, and what they are called; a system in space keeps its
-    /// loads.
-    pub fn without_loads_in_space(&self) -> (Case, Vec<&'static str>) {
-        let mut case = self.clone();
-        let Subject::HubBeam(beam) = &mut case.subject else { return (case, Vec::new()) };
-        let mut names: Vec<&str> = beam.loads.iter().filter_map(|load| load.fixed_in_space).collect();
-        names.dedup();
-        beam.loads.retain(|load| load.fixed_in_space.is_none());
-        (case, names)
     }
 }

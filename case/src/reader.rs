@@ -36,17 +36,14 @@ fn known(
             Some(entry) => (self::value(key, &entry.node, &path, problems), Some(entry.node.place.clone())),
             None => {
                 if key.presence == Presence::Required && !suspected.contains(&key.name) {
-                    let what =
-                        if is_table(&key.takes) { "this table is missing" } else { "this key is missing" };
-                    let problem = Problem::new(&path, values.place.clone(), what);
-                    problems.push(problem.label(format!("`{}` belongs here", key.name)).help(advice(key)));
+                    problems.push(missing(key, &path, values.place.clone()));
                 }
                 (default(key, &path, problems), None)
             }
         };
         match value {
             Some(value) => values.entries.push(Filled { key, value, place }),
-            None => values.sound &= place.is_none() && key.presence == Presence::Optional,
+            None => values.sound &= place.is_none() && key.presence.is_optional(),
         }
     }
     values
@@ -99,6 +96,13 @@ fn unknown<'k>(
     suspected
 }
 
+/// That a key is missing in the table at `place`.
+pub(super) fn missing(key: &Key, path: &str, place: Option<Place>) -> Problem {
+    let what = if is_table(&key.takes) { "this table is missing" } else { "this key is missing" };
+    let problem = Problem::new(path, place, what);
+    problem.label(format!("`{}` belongs here", key.name)).help(advice(key))
+}
+
 fn is_table(takes: &Type) -> bool {
     matches!(takes, Type::Table(_) | Type::Kind(_))
 }
@@ -130,6 +134,9 @@ fn expected(takes: &Type) -> String {
                 measure.unit
             )
         }
+        Type::Station(_) => {
+            format!("a station: a text such as {} or a number in m", units::STATION.examples)
+        }
         Type::Quantities(measure, _) => {
             format!("a list of quantities such as {} or of numbers in {}", measure.examples, measure.unit)
         }
@@ -159,6 +166,10 @@ fn value(key: &'static Key, node: &Node, path: &str, problems: &mut Problems) ->
     match (&key.takes, &node.value) {
         (Type::Quantity(measure, bound), Raw::Text(_) | Raw::Number(_) | Raw::Integer(_)) => {
             quantity(node, measure, *bound, path, problems).map(Value::Number)
+        }
+        (Type::Station(_), Raw::Text(text)) if text.trim() == "tip" => Some(Value::Text("tip".to_owned())),
+        (Type::Station(bound), Raw::Text(_) | Raw::Number(_) | Raw::Integer(_)) => {
+            quantity(node, &units::STATION, *bound, path, problems).map(Value::Number)
         }
         (Type::Quantities(measure, bound), Raw::List(items)) => {
             quantities(items, measure, *bound, path, problems).map(Value::Numbers)
@@ -194,11 +205,10 @@ fn value(key: &'static Key, node: &Node, path: &str, problems: &mut Problems) ->
             Some(Value::Tables(tables(key, keys, items, path, problems)))
         }
         (Type::Kind(choice), Raw::Table(entries)) => kind(*choice, key, entries, &node.place, path, problems),
-        (Type::Kind(choice), Raw::Text(text)) if choice.kind(text).is_some() => {
-            let problem =
-                Problem::new(path, Some(node.place.clone()), "this key takes a table, not a name alone");
-            problems.push(problem.help(format!("write `{} = {{ kind = \"{text}\", … }}`", key.name)));
-            None
+        // A name alone is a table with that `kind`.
+        (Type::Kind(choice), Raw::Text(text)) => {
+            let kind = chosen(*choice, text, &node.place, path, problems)?;
+            Some(of_kind(*choice, kind, &[], &node.place, path, problems))
         }
         _ => mismatch(problems),
     }
@@ -310,7 +320,13 @@ fn chosen(
     if kind.is_none() {
         let mut problem =
             Problem::new(path, Some(place.clone()), format!("unknown {} `{name}`", choice.name()));
-        if let Some(near) = nearest(name, choice.kinds().iter().map(|kind| kind.name)) {
+        let kinds = choice.kinds();
+        // By its name, or by another that its summary gives: RPIM.
+        let called = |kind: &&Entry| {
+            kind.summary.split(|c: char| !c.is_alphanumeric()).any(|word| word.eq_ignore_ascii_case(name))
+        };
+        let near = nearest(name, kinds.iter().map(|kind| kind.name));
+        if let Some(near) = near.or(kinds.iter().find(called).map(|kind| kind.name)) {
             problem = problem.label(format!("did you mean `{near}`?"));
         }
         problems.push(problem.help(format!("it is one of {}", choice.names())));
@@ -320,7 +336,7 @@ fn chosen(
 
 fn default(key: &'static Key, path: &str, problems: &mut Problems) -> Option<Value> {
     match (key.presence, &key.takes) {
-        (Presence::Required | Presence::Optional, _) => None,
+        (Presence::Required | Presence::Optional | Presence::Run, _) => None,
         (Presence::Number(value), _) => Some(Value::Number(value)),
         (Presence::Integer(value), _) => Some(Value::Integer(value)),
         (Presence::Boolean(value), _) => Some(Value::Boolean(value)),

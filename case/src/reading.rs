@@ -1,6 +1,7 @@
 //! A case that was read: how it was written, and the parts made of it.
 
 use super::case::{self, Case};
+use super::declaration::Presence;
 use super::fault::Faults;
 use super::kind::Context;
 use super::kinds::integrator::{INTEGRATOR, Method};
@@ -10,7 +11,7 @@ use super::reader;
 use super::resolved;
 use super::sources::{Contents, Files, Folder, Sources};
 use super::tree::{self, Node, Raw};
-use super::values::Values;
+use super::values::{Value, Values};
 use flexion::integrator::Integrator;
 use flexion::system::{Jump, State, System};
 use std::cell::RefCell;
@@ -131,6 +132,25 @@ impl Reading {
     pub fn problem(&self, key: &str, message: impl Into<String>) -> Problems {
         let problem = Problem::new(key, self.values.find(key).0, message);
         Problems { sources: self.sources.clone(), list: vec![problem] }
+    }
+
+    /// What a run needs and the case leaves out, which modes and diagrams do without: none, if it can be run.
+    ///
+    /// # Errors
+    /// [`Problems`] at the tables in which the keys are missing.
+    pub fn missing_for_run(&self) -> Result<(), Problems> {
+        let tables = self.values.entries.iter().filter_map(|filled| match &filled.value {
+            Value::Table(values) => Some((filled.key.name, values)),
+            _ => None,
+        });
+        let missing = tables.flat_map(|(name, values)| {
+            let left_out =
+                values.keys.iter().filter(|key| key.presence == Presence::Run && !values.has(key.name));
+            left_out
+                .map(move |key| reader::missing(key, &format!("{name}.{}", key.name), values.place.clone()))
+        });
+        let list: Vec<Problem> = missing.collect();
+        if list.is_empty() { Ok(()) } else { Err(Problems { sources: self.sources.clone(), list }) }
     }
 
     fn problems(&self, faults: Faults) -> Problems {

@@ -29,6 +29,7 @@ fn entries(values: &Values, kind: Option<&str>, path: &str, copies: Option<&[Str
     for filled in values.entries.iter().filter(|filled| !nested(&filled.value)) {
         let unit = match filled.key.takes {
             Type::Quantity(measure, _) | Type::Quantities(measure, _) => format!("  # {}", measure.unit),
+            Type::Station(_) => "  # m".to_owned(),
             _ => String::new(),
         };
         let value = match (filled.key.takes, copies.and_then(|all| copy(path, all))) {
@@ -146,6 +147,7 @@ pub(super) fn written(value: &Value, takes: &Type, unit: bool) -> String {
     };
     match takes {
         Type::Quantity(measure, _) if unit => format!("{text} {}", measure.unit),
+        Type::Station(_) if unit && matches!(value, Value::Number(_)) => format!("{text} m"),
         _ => text,
     }
 }

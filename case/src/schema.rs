@@ -1,7 +1,6 @@
 //! The JSON Schema (draft 2020-12) of case files, for editors.
 
 use super::declaration::{Bound, Entry, Key, Kinds, Presence, Type};
-use super::layout;
 use super::units::{self, Measure};
 use serde_json::{Map, Value, json};
 
@@ -16,8 +15,7 @@ pub fn schema() -> String {
         "description": "A rotating flexible beam, or a system of bodies, joints and beams in space, and how to integrate its motion.",
     });
     if let Some(root) = root.as_object_mut() {
-        let layouts = [("a beam on a hub", layout::keys()), ("a system in space", layout::spatial_keys())];
-        let described = layouts.map(|(what, keys)| {
+        let described = crate::keys().map(|(what, keys)| {
             let mut layout = table(keys, None, false);
             if let Some(layout) = layout.as_object_mut() {
                 layout.insert("description".to_owned(), json!(what));
@@ -60,7 +58,7 @@ fn property(key: &Key) -> Value {
         Presence::Boolean(value) => Some(json!(value)),
         Presence::Name(name) if matches!(key.takes, Type::Kind(_)) => Some(json!({ "kind": name })),
         Presence::Name(name) => Some(json!(name)),
-        Presence::Required | Presence::Optional | Presence::Empty => None,
+        Presence::Required | Presence::Optional | Presence::Run | Presence::Empty => None,
     };
     if let Some(object) = schema.as_object_mut() {
         object.insert("description".to_owned(), json!(key.doc));
@@ -73,6 +71,13 @@ fn property(key: &Key) -> Value {
 fn takes(takes: &Type, default: &str) -> Value {
     match takes {
         Type::Quantity(measure, bound) => quantity(measure, *bound),
+        Type::Station(bound) => {
+            let mut schema = quantity(&units::STATION, *bound);
+            if let Some(Value::Array(forms)) = schema.get_mut("anyOf") {
+                forms.push(json!({ "const": "tip" }));
+            }
+            schema
+        }
         Type::Quantities(measure, bound) => json!({ "type": "array", "items": quantity(measure, *bound) }),
         Type::Number(bound) => number(*bound),
         Type::Integer(low, high) => json!({ "type": "integer", "minimum": low, "maximum": high }),

@@ -7,6 +7,7 @@ use super::kinds::body::BODY;
 use super::kinds::integrator::Method;
 use super::kinds::joint::{JOINTS, Joint};
 use super::kinds::obstacle::{CONTACT, Contact};
+use super::kinds::rotation::{ROTATION, Rotation};
 use super::kinds::spatial::{GRAVITY, LINE_LOAD, LOAD, LineLoad, Load, MODEL, SPRING, Spring, vector};
 use super::units;
 use super::values::{Value, Values, item};
@@ -26,12 +27,16 @@ pub struct Space {
     pub multibody: Multibody,
     /// What its points may touch.
     pub contacts: Vec<touch::Contact>,
+    /// The body of each, beams behind bodies, and its station \[m\].
+    pub touching: Vec<(usize, f64)>,
     /// The bodies.
     pub bodies: Vec<Body>,
     /// The beams, and as they are built.
     pub beams: Vec<(Beam, slender::Beam)>,
     /// The joints.
     pub joints: Vec<Link>,
+    /// How it rotates steadily, or why it does not.
+    pub rotation: Result<Rotation, String>,
     /// Into how many each element of the beams is cut.
     pub refine: usize,
     /// Largest distance between its parts \[m\].
@@ -231,9 +236,18 @@ fn add_line(model: &mut Model, beams: &[(Beam, slender::Beam)], load: &LineLoad,
         let fault = Fault::new("on", format!("there is no beam `{}`{near}", load.on));
         return Err(fault.help(format!("the beams are {}", super::declaration::listed(names()))).into());
     };
+    let (of, built) = &beams[beam];
+    let node = |station: f64, key: &str| {
+        let near = |node: &f64| (node - station).abs() <= 1e-9 * of.length;
+        built.nodes().iter().position(near).ok_or_else(|| {
+            Faults::from(Fault::new(key, format!("is not on the beam, which ends at {} m", of.length)))
+        })
+    };
+    let elements = node(load.range.0, "from")?..node(load.range.1.unwrap_or(of.length), "to")?;
     model.line_load(multibody::LineLoad {
         name: numbered(&load.name, "load", number),
         beam,
+        elements: Some(elements),
         force: load.force,
         axes: load.axes,
         amplitude: load.amplitude.clone(),
@@ -246,22 +260,28 @@ fn add_contact(
     parts: &Parts<'_>,
     contact: &Contact,
     number: usize,
-) -> Made<touch::Contact> {
+) -> Made<(touch::Contact, (usize, f64))> {
     let (part, point) = parts.point(&contact.on, contact.at, "on")?;
     if part == Part::Ground {
         return Err(Fault::new("on", "a point of the ground touches nothing").into());
     }
     let marker = marker(model, part, point)?;
-    Ok(touch::Contact {
+    let place = match part {
+        Part::Section { beam, node } => (parts.bodies.len() + beam, parts.beams[beam].1.nodes()[node]),
+        Part::Body(body) => (body, 0.0),
+        Part::Ground => (0, 0.0),
+    };
+    let contact = touch::Contact {
         name: numbered(&contact.name, "contact", number),
         point: model.contact_point(marker),
         obstacle: Arc::clone(&contact.obstacle),
         law: contact.law,
-    })
+    };
+    Ok((contact, place))
 }
 
-/// The stations of a beam that tables name.
-fn stations(v: &Values, beam: &Beam) -> Vec<f64> {
+/// The stations of a beam that tables name, and those where loads begin and end.
+fn stations(v: &Values, lines: &[LineLoad], beam: &Beam) -> Vec<f64> {
     let mut names: Vec<&str> = Vec::new();
     for table in ["joint", "spring", "load", "contact"] {
         let Ok(Some(Value::Tables(list))) = v.optional(table) else { continue };
@@ -271,11 +291,11 @@ fn stations(v: &Values, beam: &Beam) -> Vec<f64> {
         }
     }
     let length = |name: &str| (name == beam.name).then_some(beam.length);
-    names
-        .into_iter()
-        .filter_map(|name| place(name, length).ok().flatten())
-        .map(|(_, station)| station)
-        .collect()
+    let places = names.into_iter().filter_map(|name| place(name, length).ok().flatten());
+    let ends = lines.iter().filter(|load| load.on == beam.name);
+    let ends = ends.flat_map(|load| [Some(load.range.0), load.range.1]).flatten();
+    let ends = ends.filter(|station| *station <= beam.length);
+    places.map(|(_, station)| station).chain(ends).collect()
 }
 
 /// Adds a beam and the joints of its ends.
@@ -318,6 +338,7 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     let loads = found.part(LOAD.make(v, c));
     let lines = found.part(LINE_LOAD.make(v, c));
     let contacts = found.part(CONTACT.make(v, c));
+    let rotation = found.part(ROTATION.make(v, c));
     let gravity = found.part(vector(v, GRAVITY.name));
     let settings = |model: &Values| Ok((model.boolean("drop-redundant-rows")?, model.count("refine")?));
     let settings = found.part(v.table(MODEL.name).and_then(settings));
@@ -328,9 +349,10 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     let (Some(contacts), Some(gravity), Some((drop, refine))) = (contacts, gravity, settings) else {
         return Err(found.0);
     };
-    let (Some(beams), Some(lines)) = (beams, lines) else { return Err(found.0) };
+    let (Some(beams), Some(lines), Some(rotation)) = (beams, lines, rotation) else { return Err(found.0) };
     let build = |(i, beam): (usize, Beam)| {
-        let built = beam.built(&stations(v, &beam), refine).map_err(|faults| faults.within(&item("beam", i)));
+        let built =
+            beam.built(&stations(v, &lines, &beam), refine).map_err(|faults| faults.within(&item("beam", i)));
         found.part(built).map(|built| (beam, built))
     };
     let beams: Vec<Option<(Beam, slender::Beam)>> = beams.into_iter().enumerate().map(build).collect();
@@ -370,14 +392,15 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     for (i, load) in lines.iter().enumerate() {
         add("distributed-load", i, add_line(&mut model, &beams, load, loads.len() + i));
     }
-    let mut touching: Vec<touch::Contact> = Vec::new();
+    let (mut touching, mut places): (Vec<touch::Contact>, Vec<_>) = Default::default();
     for (i, contact) in contacts.iter().enumerate() {
-        let made = add_contact(&mut model, &parts, contact, i).and_then(|made| {
+        let made = add_contact(&mut model, &parts, contact, i).and_then(|(made, place)| {
             if touching.iter().any(|other| other.name == made.name) {
                 let message = format!("two contacts are called `{}`", made.name);
                 return Err(Fault::new("name", message).into());
             }
             touching.push(made);
+            places.push(place);
             Ok(())
         });
         add("contact", i, made);
@@ -393,8 +416,23 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
         let help = "take `radau`, which controls its steps, or `generalized-alpha` with a step";
         return Err(Fault::new("integrator.kind", message).help(help).into());
     }
+    let disc =
+        |contact: &touch::Contact| matches!(contact.law, touch::Law::Constraint { .. }) && contact.law.rubs();
+    if let (Some(method), Some(i)) = (method, touching.iter().position(disc))
+        && !method.integrator.resolves_contacts()
+    {
+        let message = "friction of a rigid contact in space has a direction of its own at every time, which events do not find";
+        let help = "take `nonsmooth-generalized-alpha` or `moreau-jean`, which resolve contacts in every step, or a law of force";
+        return Err(Fault::new(format!("{}.law.friction", item("contact", i)), message).help(help).into());
+    }
     let names: Vec<String> = joints.iter().enumerate().map(|(i, j)| numbered(&j.name, "joint", i)).collect();
     let multibody = Multibody::new(model).map_err(|error| blamed(&error, v, &names))?;
+    let rotation =
+        match rotation.first() {
+            Some(about) => Ok(Rotation::given(about, multibody.model())
+                .map_err(|faults| faults.within(ROTATION.key.name))?),
+            None => Rotation::found(multibody.model()),
+        };
     let of_ends = beams.iter().flat_map(|(beam, _)| beam.held());
     let joints =
         names.into_iter().zip(&joints).map(|(name, j)| (name, j.written.clone(), j.between.clone(), j.at));
@@ -411,7 +449,17 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     }
     extent = beams.iter().fold(extent, |extent, (beam, _)| extent.max(beam.length));
     let size = if extent > 0.0 { extent } else { 1.0 };
-    Ok(Space { multibody, contacts: touching, bodies, beams, joints, refine, size })
+    Ok(Space {
+        multibody,
+        contacts: touching,
+        touching: places,
+        bodies,
+        beams,
+        joints,
+        rotation,
+        refine,
+        size,
+    })
 }
 
 /// The initial states that a system in space can have.

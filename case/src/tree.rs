@@ -147,8 +147,14 @@ pub(super) fn lay_over(root: &mut Node, argument: &str, problems: &mut Problems)
             return;
         }
         if !matches!(target.value, Raw::Table(_)) {
-            target.value = Raw::Table(Vec::new());
-            target.place = place.clone();
+            // A name alone is a table with that `kind`.
+            let kind = match target.value {
+                Raw::Text(_) => {
+                    vec![Line { key: "kind".to_owned(), place: target.place.clone(), node: target.clone() }]
+                }
+                _ => Vec::new(),
+            };
+            *target = Node { place: place.clone(), value: Raw::Table(kind) };
         }
         let Raw::Table(entries) = &mut target.value else { return };
         let index = entries.iter().position(|e| e.key == name).unwrap_or_else(|| {

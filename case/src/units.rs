@@ -34,6 +34,7 @@ macro_rules! measures {
 
 measures! {
     LENGTH "length" "m" [1, 0, 0, 0] "`10 m`, `250 mm`, `12 in`";
+    STATION "station" "m" [1, 0, 0, 0] "`2 m`, `250 mm`, `tip`";
     AREA "area" "m^2" [2, 0, 0, 0] "`4 cm^2`, `400 mm^2`";
     SECOND_MOMENT "second moment of area" "m^4" [4, 0, 0, 0] "`2e-7 m^4`, `20 cm^4`";
     MODULUS "modulus" "Pa" [-1, 1, -2, 0] "`70 GPa`, `210e9 Pa`";
@@ -166,7 +167,7 @@ pub fn parse(text: &str, measure: &Measure) -> Result<f64, QuantityError> {
     let unit_start = number_end + skip;
     let mut scale = Scale::ONE;
     if unit_start < end {
-        let mut parser = Parser { text: &text[unit_start..end], at: 0 };
+        let mut parser = Parser { text: &text[unit_start..end], at: 0, wanted: measure.dimension };
         scale = parser
             .product(0)
             .map_err(|(span, message)| fail(unit_start + span.start..unit_start + span.end, message))?;
@@ -190,8 +191,11 @@ pub fn parse(text: &str, measure: &Measure) -> Result<f64, QuantityError> {
 /// As [`parse`], or when `unit` is none.
 pub fn parse_in(text: &str, unit: &'static str) -> Result<f64, QuantityError> {
     let fail = |(span, message): (Range<usize>, String)| QuantityError { span, message, help: String::new() };
-    let scale =
-        if unit.is_empty() { Scale::ONE } else { Parser { text: unit, at: 0 }.product(0).map_err(fail)? };
+    let scale = if unit.is_empty() {
+        Scale::ONE
+    } else {
+        Parser { text: unit, at: 0, wanted: [0; 4] }.product(0).map_err(fail)?
+    };
     let measure =
         Measure { name: "quantity", unit, dimension: scale.dimension, examples: "`0.1 mm`, `1e-3 rad`" };
     parse(text, &measure)
@@ -306,6 +310,8 @@ type Fault = (Range<usize>, String);
 struct Parser<'t> {
     text: &'t str,
     at: usize,
+    /// Dimension of the whole unit that is expected.
+    wanted: Dimension,
 }
 
 impl Parser<'_> {
@@ -376,7 +382,7 @@ impl Parser<'_> {
                 }
                 self.at += length;
                 let name = &rest[..length];
-                named(name).ok_or_else(|| (start..self.at, unknown(name)))?
+                named(name).ok_or_else(|| (start..self.at, unknown(name, self.wanted)))?
             }
         };
         Ok((scale, self.power()?))
@@ -414,19 +420,27 @@ impl Parser<'_> {
     }
 }
 
-/// That there is no unit of this name, and the one that was likely meant.
-fn unknown(name: &str) -> String {
-    let prefixed = UNITS.iter().filter(|unit| unit.prefixes);
-    let prefixed =
-        prefixed.flat_map(|u| PREFIXES.iter().map(move |(prefix, _)| format!("{prefix}{}", u.name)));
-    let names: Vec<String> = UNITS.iter().map(|unit| unit.name.to_owned()).chain(prefixed).collect();
-    // Most often only a letter is of the wrong size: `Gpa`, `KG`.
-    let same = names.iter().find(|known| known.to_lowercase() == name.to_lowercase());
-    // A single letter is near to every other one.
-    let near = || nearest(name, names.iter().map(String::as_str)).filter(|_| name.chars().nth(1).is_some());
-    let meant = same.map(String::as_str).or_else(near);
-    match meant {
-        Some(meant) => format!("unknown unit `{name}`; did you mean `{meant}`?"),
+/// That there is no unit of this name, and the one that was likely meant: one of the dimension that is wanted, if any is near.
+fn unknown(name: &str, wanted: Dimension) -> String {
+    let plain = UNITS.iter().map(|u| (u.name.to_owned(), u.dimension));
+    let prefixed = UNITS
+        .iter()
+        .filter(|u| u.prefixes)
+        .flat_map(|u| PREFIXES.iter().map(move |(prefix, _)| (format!("{prefix}{}", u.name), u.dimension)));
+    let known: Vec<_> = plain.chain(prefixed).map(|(name, of)| (name.to_lowercase(), name, of)).collect();
+    let written = name.to_lowercase();
+    let among = |fits: fn(&Dimension, &Dimension) -> bool| {
+        let fitting = || known.iter().filter(|(_, _, of)| fits(of, &wanted));
+        // Most often only a letter is of the wrong size: `Gpa`, `KG`. A single letter is near to every other one.
+        let same = fitting().find(|(lower, ..)| *lower == written);
+        let near = || {
+            let near = nearest(&written, fitting().map(|(lower, ..)| lower.as_str()))?;
+            fitting().find(|(lower, ..)| lower == near).filter(|_| name.chars().nth(1).is_some())
+        };
+        same.or_else(near)
+    };
+    match among(|of, wanted| of == wanted).or_else(|| among(|_, _| true)) {
+        Some((_, meant, _)) => format!("unknown unit `{name}`; did you mean `{meant}`?"),
         None => format!("unknown unit `{name}`"),
     }
 }

@@ -1,6 +1,6 @@
 //! A case as read: typed values in SI, each with the place where it was written.
 
-use super::declaration::{Entry, Key, Presence};
+use super::declaration::{Entry, Key};
 use super::fault::{Fault, Faults, Made};
 use super::problem::Place;
 
@@ -70,6 +70,11 @@ impl Values {
         self.entries.iter().find(|filled| filled.key.name == name)
     }
 
+    /// Whether a key has a value.
+    pub(super) fn has(&self, name: &str) -> bool {
+        self.get(name).is_some()
+    }
+
     /// What a maker gets that asks for a key in a way in which it is not declared.
     pub(super) fn misused(name: &str, what: &str) -> Faults {
         Fault::new("", format!("this is a mistake in the program: the key `{name}` is {what}")).into()
@@ -87,7 +92,7 @@ impl Values {
     pub(super) fn value(&self, name: &str) -> Made<&Value> {
         match self.optional(name)? {
             Some(value) => Ok(value),
-            None if self.keys.iter().any(|key| key.name == name && key.presence == Presence::Optional) => {
+            None if self.keys.iter().any(|key| key.name == name && key.presence.is_optional()) => {
                 Err(Values::misused(name, "one that may be left out"))
             }
             None => Err(Faults::default()),
@@ -191,7 +196,7 @@ pub(super) fn item(path: &str, number: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::declaration::{Bound, Type, key};
+    use crate::declaration::{Bound, Presence, Type, key};
 
     static KEYS: [Key; 2] = [
         key("given", Type::Number(Bound::Any), Presence::Required, ""),

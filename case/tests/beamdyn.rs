@@ -88,7 +88,8 @@ fn diagram(format: &str, text: &str) -> Campbell {
         revolutions: 6,
     };
     let on = |threads| {
-        flexion_case::campbell(reading.case.vibrating().unwrap(), &plan, threads, &|_| true).unwrap()
+        flexion_case::campbell(reading.case.vibrating(true).unwrap().0, None, &plan, threads, &|_| true)
+            .unwrap()
     };
     let alone = on(1);
     assert_eq!(alone, on(3), "the number of threads changes nothing");

@@ -2,8 +2,8 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
 
-use crate::random_cases::draw;
 use crate::written::{SQUARE_BAR, finished, outcome, reading};
+use flexion_case::calibration::draw_with_contacts;
 use flexion_case::{Effort, Reading, parse};
 use flexion_results::{Directory, Status};
 use std::ops::ControlFlow;
@@ -213,10 +213,10 @@ fn the_whole_beam_may_touch_and_obstacles_are_drawn() {
 fn random_contacts_make_no_energy_and_let_nothing_through() {
     let (mut touched, mut failed) = (0, 0);
     for seed in 0..30 {
-        let drawn = draw::case_with_contacts(7_000_003 + seed);
+        let drawn = draw_with_contacts(7_000_003 + seed);
         let set = ["integrator={kind='radau',tolerance=1e-7,absolute-tolerance=1e-9}".to_owned()];
-        let reading = parse(drawn.text.clone(), Path::new("case.toml"), &set)
-            .unwrap_or_else(|problems| panic!("{seed}: {problems}\n{}", drawn.text));
+        let reading =
+            drawn.read(&set).unwrap_or_else(|problems| panic!("{seed}: {problems}\n{}", drawn.text));
         let Ok(prepared) = reading.prepare() else { continue };
         let mut steps = 0;
         let run = prepared.run(&mut |_| {

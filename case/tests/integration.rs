@@ -1,8 +1,10 @@
 //! Cases as a whole, from the file to the results. `verification` and `no_allocation` are programs of their own.
 
+mod advice;
 mod beamdyn;
 mod blade;
 mod broken_cases;
+mod calibration;
 mod case_files;
 mod contact;
 mod convergence;
@@ -17,12 +19,11 @@ mod loads;
 mod modal_release;
 mod papers;
 mod pendulum;
-mod random_cases;
-mod random_space;
 mod reported_errors;
 mod restart;
 mod section_forces;
 mod space;
+mod space_modes;
 mod spring;
 mod statics;
 mod twenty_seconds;

@@ -127,7 +127,7 @@ fn example(base: &str, text: &str, files: &Contents) -> Reading {
     parse_with(base.to_owned(), Path::new("case.toml"), &set, files).unwrap_or_else(|p| panic!("{text}: {p}"))
 }
 
-/// Every recorded value of a run, and the frequencies of a blade at 30 rad/s.
+/// Every recorded value of a run, the frequencies of a blade at 30 rad/s, and the axis of rotation of a system in space.
 fn outcome(reading: &Reading) -> Vec<u64> {
     let run = reading.prepare().unwrap_or_else(|p| panic!("{p}")).run(&mut |_| ControlFlow::Continue(()));
     assert_eq!(run.status, Status::Finished, "{:?}", run.message);
@@ -139,6 +139,9 @@ fn outcome(reading: &Reading) -> Vec<u64> {
         let mut state = State::zeros(flexion::system::Dynamics::size(&blade), 0.0);
         rotate_stably(&mut blade, &mut state, 0.0, 30.0).unwrap();
         all.extend(modes(&mut blade, &state, 3, &[]).unwrap().modes.iter().map(|mode| mode.frequency()));
+    }
+    if let Some(Ok(rotation)) = reading.case.space().map(|space| &space.rotation) {
+        all.extend(rotation.axis.direction.into_iter().chain(rotation.axis.point));
     }
     all.into_iter().map(f64::to_bits).collect()
 }

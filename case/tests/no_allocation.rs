@@ -10,12 +10,14 @@ mod run;
 #[path = "../../mechanics/tests/integrators/systems.rs"]
 mod systems;
 
+use flexion::analysis::transient::{Ending, Observer, Plan, Step, transient};
 use flexion::drive::Actuator;
 use flexion::integrator::{
     Adams, GeneralizedAlpha, Integrator, MoreauJean, NonsmoothAlpha, Radau, RungeKutta, Span, StepControl,
     Tolerance,
 };
-use flexion::multibody::{Body, Drive, Kind, Marker, Model, Multibody, Part, Spring};
+use flexion::multibody::slender::{Beam, Properties, Station};
+use flexion::multibody::{Body, Drive, Flexible, Kind, Marker, Model, Multibody, Part, Spring};
 use flexion::profile::Constant;
 use flexion::system::{Dynamics, Mode, Parameter, State, System};
 use std::alloc::{GlobalAlloc, Layout, System as Heap};
@@ -23,17 +25,22 @@ use std::cell::Cell;
 use std::sync::Arc;
 use systems::{CartesianPendulum, Chain, SpringPendulum, state, wide_chain};
 
-/// Counts the allocations of the thread, and their bytes.
+/// Counts the allocations of the thread, their bytes, and the bytes that were given back.
 struct Counting;
 
 thread_local! {
     static ALLOCATIONS: Cell<u64> = const { Cell::new(0) };
     static BYTES: Cell<usize> = const { Cell::new(0) };
+    static FREED: Cell<usize> = const { Cell::new(0) };
 }
 
 fn count(bytes: usize) {
     let _ = ALLOCATIONS.try_with(|n| n.set(n.get() + 1));
     let _ = BYTES.try_with(|n| n.set(n.get() + bytes));
+}
+
+fn free(bytes: usize) {
+    let _ = FREED.try_with(|n| n.set(n.get() + bytes));
 }
 
 // SAFETY: every call is passed on unchanged to the system's allocator.
@@ -43,10 +50,12 @@ unsafe impl GlobalAlloc for Counting {
         unsafe { Heap.alloc(layout) }
     }
     unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        free(layout.size());
         unsafe { Heap.dealloc(pointer, layout) }
     }
     unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
         count(size);
+        free(layout.size());
         unsafe { Heap.realloc(pointer, layout, size) }
     }
 }
@@ -280,7 +289,7 @@ fn a_fork_is_independent_and_shares_the_constants() {
             "blade" => run::case("modes_blade_nrel_5mw", &blade).unwrap(),
             _ => run::case("p1_spin_up_4", &planar).unwrap(),
         };
-        let (system, whole) = bytes(|| case.case.vibrating().unwrap());
+        let (system, whole) = bytes(|| case.case.vibrating(true).unwrap().0);
         let (mut fork, own) = bytes(|| system.fork());
         let mut original = system;
         let expected = steps(&mut *original);
@@ -294,6 +303,42 @@ fn a_fork_is_independent_and_shares_the_constants() {
         let share = if coupling == "blade" { 1 } else { 10 };
         assert!(share * own.max(again) < whole, "{coupling}: {own} bytes of {whole}");
     }
+}
+
+/// The bytes of a beam of `n` elements in space, and the most that are held in a run of four steps, the system included.
+fn of_a_run(n: usize) -> [usize; 2] {
+    let held = || BYTES.with(Cell::get) - FREED.with(Cell::get);
+    let before = held();
+    let section = Properties::principal([1e6, 1e2, 1e2, 1e2], 1.0, [0.01; 3]);
+    let root = Station { position: [0.0; 3], tangent: [1.0, 0.0, 0.0], normal: [0.0, 0.0, 1.0] };
+    let mut model = Model::new().with_gravity([0.0, 0.0, -9.81]);
+    let beam = Beam::straight(root, 0.1 * n as f64, n, section).unwrap();
+    let beam = model.beam(Flexible::new("beam", beam));
+    let clamped = Part::Section { beam, node: 0 };
+    model.join("clamp", Kind::Fixed, [Part::Ground, clamped], [0.0; 3], ([0.0, 0.0, 1.0], None)).unwrap();
+    let mut system = Multibody::new(model).unwrap();
+    let built = held() - before;
+    struct Most<F: Fn() -> usize>(F, usize);
+    impl<F: Fn() -> usize> Observer for Most<F> {
+        fn sample(&mut self, _: &mut dyn System, _: &State, _: &Step) {
+            self.1 = self.1.max((self.0)());
+        }
+    }
+    let mut most = Most(held, 0);
+    let mut method = GeneralizedAlpha::chung_hulbert(0.8).unwrap();
+    let mut state = system.initial();
+    let plan = Plan { end: 4e-3, step: Some(1e-3), longest_step: None, contact_step: None, sample: 1e-3 };
+    assert_eq!(transient(&mut system, &mut method, &mut state, &plan, &mut most), Ending::Finished);
+    [built, most.1 - before]
+}
+
+/// Twice the elements, twice the memory: that of an element.
+#[test]
+fn an_element_in_space_takes_four_kilobytes_of_a_run() {
+    let [small, large] = [200, 400].map(of_a_run);
+    let [built, run] = [0, 1].map(|i| (large[i] - small[i]) as f64 / 200.0);
+    println!("an element: {built} bytes of the system, {run} in a run of generalized-alpha");
+    assert!(run <= 4000.0, "{run} bytes an element, {built} of them in the system");
 }
 
 /// The counter itself counts.

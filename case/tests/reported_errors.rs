@@ -1,6 +1,6 @@
 //! The error that a run reports of itself, against the error it has.
 
-#![allow(clippy::unwrap_used)] // in helpers of tests
+#![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
 
 use crate::written;
 use flexion_case::{Effort, Reading, Run};
@@ -120,4 +120,52 @@ fn a_coarse_run_has_no_fine_companions() {
     let fine = read(&["run.duration=0.3", finer, finest]);
     let fine = written::outcome(&fine).counters.steps;
     assert!(2 * steps < fine, "{steps} steps of companions, {fine} of one with the tightest tolerance");
+}
+
+/// A mesh that is too coarse is told which would do, and that one does.
+#[test]
+fn a_coarse_mesh_is_told_the_mesh_that_would_do() {
+    const ROLLED: &str = "
+[beam]
+length = 1
+[section]
+kind = 'rectangle'
+modulus = '70 GPa'
+density = 2700
+width = '20 mm'
+height = '5 mm'
+[hub]
+motion = { kind = 'constant', speed = 0 }
+[model]
+coupling = 'exact'
+[[couple]]
+station = 1
+couple = 91
+amplitude = { kind = 'ramp', time = 1 }
+[damping]
+mass-proportional = 20
+[run]
+duration = 1.2
+";
+    const BENT: &str = "[[force]]
+station = 1
+force = [0, -140]
+amplitude = { kind = 'ramp', time = 1 }
+[run]";
+    let bent = ROLLED.replace("[run]", BENT).replace("couple = 91", "couple = 0");
+    // The default mesh rolled up to a circle, and a coarser one bent.
+    for (case, set) in [(ROLLED, "basis.elements=10"), (&bent, "basis.elements=3")] {
+        let reading = written::reading(case, &[set]);
+        let (_, errors, _) = run(&reading);
+        let said = errors.warnings.iter().find(|text| text.contains("coarse")).unwrap();
+        let elements = said.split("basis.elements = ").nth(1).unwrap_or_else(|| panic!("{said}"));
+        let elements: usize = elements.split('`').next().unwrap().parse().unwrap();
+        let (finer, errors, _) = run(&reading.with(&[format!("basis.elements={elements}")]).unwrap());
+        assert!(errors.warnings.is_empty(), "{elements}: {:?}", errors.warnings);
+        for column in ["tip.deflection", "tip.axial", "hub.torque"] {
+            let error = errors.columns.iter().find(|error| error.column == column).unwrap();
+            let largest = finer.trajectory.extremes(finer.trajectory.index(column).unwrap()).largest();
+            assert!(error.discretization <= 0.01 * largest, "{elements}: {column} {error:?} of {largest}");
+        }
+    }
 }

@@ -157,3 +157,95 @@ fn redundant_rows_of_a_loop_are_named_and_can_be_left_out() {
     // A parallelogram: the top keeps its direction.
     assert!(last(&run, "top.spin.y").abs() < 1e-8 && last(&run, "top.velocity.x") > 1e-3);
 }
+
+/// A load between two stations: the elements end there, and a tip bends by q (b³ (4L − b) − a³ (4L − a))/(24 EI).
+#[test]
+fn a_distributed_load_acts_between_its_ends() {
+    let stiffness = 70e9 * std::f64::consts::PI * 1e-8 / 4.0;
+    let case = |range: &str| {
+        format!(
+            "run = {{ duration = 0 }}\ninitial = {{ kind = \"static\" }}\n[[beam]]\nlength = 1\nroot = \"clamped\"\n\
+             elements = 4\n{ROD}\n[[distributed-load]]\non = \"beam\"\nforce = [0, 0.01, 0]\n{range}\n"
+        )
+    };
+    for (range, a, b) in [("", 0.0, 1.0), ("from = 0.3\nto = \"65 cm\"", 0.3, 0.65), ("from = 0.4", 0.4, 1.0)]
+    {
+        let bent = |x: f64| x.powi(3) * (4.0 - x);
+        let exact = 0.01 * (bent(b) - bent(a)) / (24.0 * stiffness);
+        let found = last(&run(&case(range)), "beam.tip.displacement.y");
+        assert!((found / exact - 1.0).abs() < 1e-5, "{range}: {found} for {exact}");
+    }
+    for (range, key) in [("from = 1.2", "from"), ("to = 1.2", "to"), ("from = 0.5\nto = 0.4", "to")] {
+        let Err(problems) = read(&case(range)) else { panic!("{range}") };
+        let text = problems.to_string();
+        assert!(text.contains(key) && text.contains("distributed-load"), "{range}: {text}");
+    }
+}
+
+/// A beam through points of a quarter of a circle is that of `arc`: as long, and it bends as far.
+#[test]
+fn a_centreline_through_points_of_an_arc_is_the_arc() {
+    let angle = std::f64::consts::FRAC_PI_2;
+    let case = |curve: &str| {
+        format!(
+            "gravity = [0, 0, -9.81]\nrun = {{ duration = 0 }}\ninitial = {{ kind = \"static\" }}\n[[beam]]\nroot = \"clamped\"\n\
+             elements = 6\n{ROD}\n{curve}\n"
+        )
+    };
+    let arc = case("length = 2\ncurve = { kind = \"arc\", angle = \"90 deg\", towards = [0, 1, 0] }");
+    let (radius, n) = (2.0 / angle, 20);
+    let list = |f: &dyn Fn(f64) -> f64| {
+        let of = |i: usize| format!("{:?}", radius * f(angle * i as f64 / n as f64));
+        format!("[{}]", (0..=n).map(of).collect::<Vec<_>>().join(", "))
+    };
+    let (x, y) = (list(&|a| a.sin()), list(&|a| 1.0 - a.cos()));
+    let zeros = format!("[{}]", vec!["0"; n + 1].join(", "));
+    let points = case(&format!("curve = {{ kind = \"points\", x = {x}, y = {y}, z = {zeros} }}"));
+    let (arc, points) = (run(&arc), run(&points));
+    for column in ["x", "y", "z"].map(|axis| format!("beam.tip.displacement.{axis}")) {
+        let (a, b) = (last(&arc, &column), last(&points, &column));
+        let size = last(&arc, "beam.tip.displacement.z").abs();
+        assert!((a - b).abs() < 1e-5 * size, "{column}: {a} and {b}");
+    }
+    for (curve, key) in [
+        ("length = 1\ncurve = { kind = \"points\", x = [0, 1, 2], y = [0, 0, 1], z = [0, 0, 0] }", "length"),
+        ("curve = { kind = \"points\", x = [0, 1, 2], y = [0, 0], z = [0, 0, 0] }", "curve.y"),
+        ("curve = { kind = \"points\", x = [0, 1], y = [0, 0], z = [0, 0] }", "curve.x"),
+        (
+            "start = [0, 0, 1]\ncurve = { kind = \"points\", x = [0, 1, 2], y = [0, 0, 1], z = [0, 0, 0] }",
+            "start",
+        ),
+        ("curve = { kind = \"straight\" }", "length"),
+    ] {
+        let Err(problems) = read(&case(curve)) else { panic!("{curve}") };
+        assert!(problems.to_string().contains(key), "{curve}: {problems}");
+    }
+}
+
+/// A block that slides over the floor comes to rest after v²/(2 μ g) in the direction of its velocity; events do not find the
+/// direction, which is said at the key.
+#[test]
+fn friction_in_space_acts_against_the_velocity() {
+    let case = |method: &str| {
+        format!(
+            "gravity = [0, 0, -10]\nrun = {{ duration = \"1 s\" }}\n[[body]]\nname = \"block\"\nmass = 1\n\
+             inertia = {{ kind = \"sphere\", radius = 0.1 }}\nvelocity = [0.6, 0.8, 0]\n\
+             [[contact]]\non = \"block\"\nobstacle = {{ kind = \"plane\", point = [0, 0, 0], normal = [0, 0, 1] }}\n\
+             law = {{ kind = \"constraint\", restitution = 0, friction = 0.25 }}\n[integrator]\nkind = \"{method}\"\n\
+             step = \"1 ms\"\n[output]\nstep = \"0.01 s\"\n"
+        )
+    };
+    for method in ["nonsmooth-generalized-alpha", "moreau-jean"] {
+        let run = run(&case(method));
+        for (axis, part) in [("x", 0.6), ("y", 0.8)] {
+            // v²/(2 μ g) = 0.2 m.
+            let way = last(&run, &format!("block.position.{axis}"));
+            assert!((way - 0.2 * part).abs() < 1e-3, "{method}: {way} for {}", 0.2 * part);
+        }
+        let names = columns(&run);
+        assert!(names.contains(&"contact.friction.x") && names.contains(&"contact.friction.z"), "{names:?}");
+    }
+    let Err(problems) = read(&case("generalized-alpha")) else { panic!("events find no direction") };
+    let text = problems.to_string();
+    assert!(text.contains("friction") && text.contains("moreau-jean"), "{text}");
+}

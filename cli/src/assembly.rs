@@ -99,6 +99,9 @@ pub fn described(space: &Space) -> Vec<Vec<String>> {
     let system = &space.multibody;
     let freedoms = system.freedoms();
     rows.push(row("degrees of freedom", format!("{freedoms}, by {} rows of joints", system.size().lambda)));
+    if let Ok(rotation) = &space.rotation {
+        rows.push(row("steady rotation", rotation.described()));
+    }
     for dropped in system.dropped() {
         rows.push(row("left out", dropped.clone()));
     }

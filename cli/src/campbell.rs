@@ -121,10 +121,9 @@ pub fn campbell(arguments: &Arguments) -> Outcome {
 /// Whether the diagram is whole, and written.
 fn diagram(arguments: &Arguments, reading: &Reading) -> Result<bool, String> {
     let case = &reading.case;
-    let (steady, mut cautions) = vibration::without_loads_in_space(case);
+    let (system, mut cautions) = vibration::system(case, true)?;
     cautions.extend(vibration::without_contacts(case));
     cautions.extend(case.unused_by_modes());
-    let system = vibration::system(&steady)?;
     let units = arguments.options.units(case, arguments.speeds.to)?;
     let unit = &units.speed;
     let plan = Plan {
@@ -147,7 +146,9 @@ fn diagram(arguments: &Arguments, reading: &Reading) -> Result<bool, String> {
         bar.set_position(done as u64);
         true
     };
-    let diagram = flexion_case::campbell(system, &plan, arguments.threads, &progress);
+    let finer = reading.with_finer_mesh().ok().and_then(|finer| vibration::system(&finer.case, true).ok());
+    let finer = finer.map(|(finer, _)| (finer, vibration::safety(case)));
+    let diagram = flexion_case::campbell(system, finer, &plan, arguments.threads, &progress);
     bar.finish_and_clear();
     let mut diagram = diagram.map_err(|error: NoCampbell| {
         directory.discard();
@@ -162,6 +163,17 @@ fn diagram(arguments: &Arguments, reading: &Reading) -> Result<bool, String> {
     let files = [("curves", Artifact::CampbellCsv), ("diagram", Artifact::CampbellSvg)];
     let mut whole = screen::files(&directory, written, &files);
     cautions.iter().for_each(|caution| screen::report(&format!("warning: {caution}\n")));
+    if let Some((branch, point)) = diagram.coarsest()
+        && let Some(error) = point.mode.mesh.map(|error| error / point.mode.frequency())
+        && error > vibration::COARSE
+    {
+        screen::report(&format!(
+            "warning: by the mesh the frequency of mode {} at {} may be off by {:.1} %: use more elements or functions\n",
+            branch + 1,
+            unit.short(point.speed),
+            100.0 * error
+        ));
+    }
     for instability in &diagram.instabilities {
         match instability {
             Instability::Divergence { speed, reason } => screen::report(&format!(
@@ -210,19 +222,21 @@ fn keep_lowest(diagram: &mut Campbell, count: usize) {
 /// Modes at both ends, and speeds near crossings.
 fn described(diagram: &Campbell, near: &[Resonance], margin: f64, units: &Units) -> String {
     let mut out = format!("{} modes at {} speeds\n\n", diagram.branches.len(), diagram.speeds.len());
-    let head = ["mode", "moves", "first", "last", "followed to"];
+    let head = ["mode", "moves", "first", "last", "± mesh", "followed to"];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
     let furthest = diagram.speeds.last().copied();
     let mut moves = Vec::new();
     for (number, branch) in diagram.branches.iter().enumerate() {
         if let (Some(first), Some(last)) = (branch.points.first(), branch.points.last()) {
             moves.push(first.mode.shares.dominant());
+            let largest = branch.points.iter().filter_map(|point| point.mode.mesh).max_by(f64::total_cmp);
             let ends = Some(last.speed) != furthest;
             rows.push(vec![
                 format!("{}", number + 1),
                 first.mode.shares.dominant().to_owned(),
                 units.frequency.text(first.mode.frequency()),
                 units.frequency.text(last.mode.frequency()),
+                largest.map_or("-".to_owned(), |error| format!("{:.1e}", error * units.frequency.factor)),
                 if ends { units.speed.text(last.speed) } else { "the end".to_owned() },
             ]);
         }

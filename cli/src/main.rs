@@ -3,7 +3,9 @@
 //! Exit codes: 0 finished; 1 the case or the command line is rejected; 2 a run failed or was stopped, and what
 //! it had computed is kept, or runs differ by more than the tolerance, or not all could be written.
 
+mod advise;
 mod assembly;
+mod calibrate;
 mod campbell;
 mod case;
 mod check;
@@ -20,6 +22,7 @@ mod statics;
 mod vibration;
 mod view;
 
+use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
@@ -59,6 +62,10 @@ enum Command {
     Plot(plot::Arguments),
     /// Write a page that plays the motion or the modes of a result
     View(view::Arguments),
+    /// Find the cheapest coupling, basis and integrator with which a case holds a tolerance
+    Advise(advise::Arguments),
+    /// Hold stated errors of cases at random against their true errors
+    Calibrate(calibrate::Arguments),
     /// List all kinds that a case may choose, with their keys
     List(list::Arguments),
     /// Print the JSON Schema of case files, for editors
@@ -87,6 +94,11 @@ fn main() -> ExitCode {
             // Help and version are no errors and go to standard output.
             let rejected = error.use_stderr();
             let _ = error.print();
+            if error.kind() == ErrorKind::UnknownArgument && std::env::args().any(|word| word == "--set") {
+                screen::report(
+                    "\nA value with a blank stands in quotation marks: --set 'section.modulus=30 GPa'\n",
+                );
+            }
             return ExitCode::from(u8::from(rejected));
         }
     };
@@ -98,6 +110,8 @@ fn main() -> ExitCode {
         Command::Campbell(arguments) => campbell::campbell(&arguments),
         Command::Statics(arguments) => statics::statics(&arguments),
         Command::Plot(arguments) => plot::plot(&arguments),
+        Command::Advise(arguments) => advise::advise(&arguments),
+        Command::Calibrate(arguments) => calibrate::calibrate(&arguments),
         Command::View(arguments) => view::view(&arguments),
         Command::Completions(arguments) => completions::completions(&arguments),
         Command::Man(arguments) => man::man(&arguments),

@@ -8,13 +8,16 @@ use flexion::analysis::modes::{Mode, Modes, modes as find};
 use flexion::analysis::rotation::rotate_stably;
 use flexion::system::{State, System};
 use flexion_case::{Case, Reading};
-use flexion_results::{Artifact, Directory, Scene, Units, write_modes};
+use flexion_results::{Artifact, Directory, Scene, Units, write_film, write_modes};
 use std::path::PathBuf;
 
 /// Damping ratio below which a mode grows.
 const GROWTH: f64 = -1e-7;
 /// Displacement of a mode in the files of its scene, over the scale of the unknowns.
 const DISPLACED: f64 = 1e-3;
+/// The same of a mode in motion, and its phases.
+const FILMED: f64 = 0.1;
+const PHASES: u32 = 24;
 
 /// The case, the speed, and how many modes.
 #[derive(clap::Args)]
@@ -42,6 +45,9 @@ pub struct Arguments {
     /// Directory for modes.json, .csv, .npz and the pictures of the shapes
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
+    /// Write every mode in motion for ParaView too: mode k from the time k to k + 1
+    #[arg(long, requires = "output")]
+    vtk: bool,
     /// Replace former results in that directory
     #[arg(long, requires = "output")]
     force: bool,
@@ -70,25 +76,26 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
     let directory =
         arguments.output.as_ref().map(|path| Directory::create_for(Artifact::MODES, path, arguments.force));
     let directory = directory.transpose().map_err(|error| error.to_string())?;
-    let (steady, mut cautions) =
-        if speed > 0.0 { vibration::without_loads_in_space(case) } else { (case.clone(), Vec::new()) };
+    let Found { mut modes, scene, film, mut cautions } = compute(arguments, case, speed, hub)?;
     cautions.extend(vibration::without_contacts(case));
     cautions.extend(case.unused_by_modes());
-    let (modes, scene) = compute(arguments, &steady, speed, hub)?;
     let growing = modes.modes.iter().filter(|mode| mode.damping_ratio() < GROWTH).count();
     if growing > 0 {
         cautions.push(format!("the equilibrium is unstable: {growing} of the modes grow (negative damping)"));
     }
     cautions.iter().for_each(|caution| screen::report(&format!("warning: {caution}\n")));
-    let errors = mesh_errors(arguments, reading, &modes, speed, hub);
-    let about = match case.space() {
-        Some(_) => "about the equilibrium".to_owned(),
+    compare(arguments, reading, &mut modes, speed, hub);
+    let about = match case.space().map(|space| &space.rotation) {
+        Some(Ok(rotation)) if speed > 0.0 => {
+            format!("at {} about {}", units.speed.text(speed), rotation.described())
+        }
+        Some(_) => "about the equilibrium at rest".to_owned(),
         None if hub == HubState::Free => format!("at {}, free hub", units.speed.text(speed)),
         None => format!("at {}, hub that keeps its speed", units.speed.text(speed)),
     };
-    let out = described(&modes, &errors, &units, &about);
-    let relative = |(number, (mode, error)): (usize, (&Mode, &f64))| (number + 1, error / mode.frequency());
-    let coarse = modes.modes.iter().zip(&errors).enumerate().map(relative).find(|(_, e)| *e > COARSE);
+    let out = described(&modes, &units, &about);
+    let relative = |(number, mode): (usize, &Mode)| (number + 1, mode.mesh.unwrap_or(0.0) / mode.frequency());
+    let coarse = modes.modes.iter().enumerate().map(relative).find(|(_, e)| *e > vibration::COARSE);
     if let Some((number, error)) = coarse {
         screen::report(&format!(
             "warning: by the mesh the frequency of mode {number} may be off by {:.1} %: use more elements or functions\n",
@@ -107,18 +114,31 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
     let Some(directory) = directory else { return Ok(Outcome::Finished) };
     let (resolved, stations) = (reading.resolved(), stations(case, STATIONS));
     let title = arguments.options.title(reading);
-    let written = directory.write(Artifact::ModesScene, |f| scene.write(f)).and_then(|()| {
-        write_modes(&directory, (&modes, speed), &stations, &units, &resolved, title, &cautions)
-    });
+    let axes = match case.space() {
+        Some(_) => ["along the tangent", "along the height", "across"],
+        None => ["axial", "chordwise", "flapwise"],
+    };
+    let films = film.iter().try_for_each(|film| write_film(&directory, film, Artifact::ModesSeries));
+    let written =
+        films.and_then(|()| directory.write(Artifact::ModesScene, |f| scene.write(f))).and_then(|()| {
+            write_modes(&directory, (&modes, speed, axes), &stations, &units, &resolved, title, &cautions)
+        });
     screen::print("\n");
     let files = [("modes", Artifact::ModesCsv), ("shapes", Artifact::ModesSvg)];
     let whole = screen::files(&directory, written, &files);
     Ok(if whole { Outcome::Finished } else { Outcome::Incomplete })
 }
 
-/// The modes and the equilibrium that they vibrate about.
-fn compute(arguments: &Arguments, case: &Case, speed: f64, hub: HubState) -> Result<(Modes, Scene), String> {
-    let mut system = vibration::system(case)?;
+/// The modes, the equilibrium that they vibrate about, and warnings.
+struct Found {
+    modes: Modes,
+    scene: Scene,
+    film: Option<Scene>,
+    cautions: Vec<String>,
+}
+
+fn compute(arguments: &Arguments, case: &Case, speed: f64, hub: HubState) -> Result<Found, String> {
+    let (mut system, cautions) = vibration::system(case, speed > 0.0)?;
     let mut state = State::zeros(system.size(), 0.0);
     if case.space().is_some() {
         state = system.initial();
@@ -135,7 +155,30 @@ fn compute(arguments: &Arguments, case: &Case, speed: f64, hub: HubState) -> Res
     let modes = find(system.as_mut(), &state, arguments.count, &stations(case, STATIONS));
     let modes = modes.map_err(|error| error.to_string())?;
     let scene = displaced(case, &modes, system.as_mut(), &state);
-    Ok((modes, scene))
+    let film = arguments.vtk.then(|| film(case, &modes, system.as_mut(), &state));
+    Ok(Found { modes, scene, film, cautions })
+}
+
+/// Every mode at the phases of a cycle.
+fn film(case: &Case, modes: &Modes, system: &mut dyn System, state: &State) -> Scene {
+    let mut scene = case.scene();
+    let mut moved = state.clone();
+    for (number, mode) in modes.modes.iter().enumerate() {
+        for phase in (0..PHASES).map(|phase| f64::from(phase) / f64::from(PHASES)) {
+            let (sin, cos) = (std::f64::consts::TAU * phase).sin_cos();
+            displace(mode, system, state, [FILMED * cos, FILMED * sin], &mut moved);
+            scene.take((number + 1) as f64 + phase, system, &moved);
+        }
+    }
+    scene
+}
+
+/// Moves the equilibrium by a Re x − b Im x, where the largest entry of x is that of the scale of its unknown.
+fn displace(mode: &Mode, system: &mut dyn System, state: &State, [a, b]: [f64; 2], moved: &mut State) {
+    let sizes = mode.vector.iter().zip(system.scales()).map(|(x, scale)| x.norm() / scale);
+    let largest = sizes.fold(f64::MIN_POSITIVE, f64::max);
+    let d: Vec<f64> = mode.vector.iter().map(|x| (a * x.re - b * x.im) / largest).collect();
+    system.retract(&state.q, &d, &mut moved.q);
 }
 
 /// The equilibrium under the time 0, and displaced a little by the real and the imaginary part of every mode under the times
@@ -143,41 +186,26 @@ fn compute(arguments: &Arguments, case: &Case, speed: f64, hub: HubState) -> Res
 fn displaced(case: &Case, modes: &Modes, system: &mut dyn System, state: &State) -> Scene {
     let mut scene = case.scene();
     scene.take(0.0, system, state);
-    let scales = system.scales().to_vec();
     let mut moved = state.clone();
-    for (time, (mode, part)) in modes.modes.iter().flat_map(|m| [(m, 0), (m, 1)]).enumerate() {
-        let sizes = mode.vector.iter().zip(&scales).map(|(x, scale)| x.norm() / scale);
-        let step = DISPLACED / sizes.fold(f64::MIN_POSITIVE, f64::max);
-        let d: Vec<f64> = mode.vector.iter().map(|x| step * if part == 0 { x.re } else { x.im }).collect();
-        system.retract(&state.q, &d, &mut moved.q);
+    let parts = [[DISPLACED, 0.0], [0.0, -DISPLACED]];
+    for (time, (mode, part)) in modes.modes.iter().flat_map(|m| parts.map(|part| (m, part))).enumerate() {
+        displace(mode, system, state, part, &mut moved);
         scene.take((time + 1) as f64, system, &moved);
     }
     scene
 }
 
-/// Relative error of a frequency by the mesh above which there is a warning.
-const COARSE: f64 = 0.01;
-
-/// Error of each frequency by the mesh \[rad/s\], from its difference to the one with twice the functions; none where that
-/// cannot be computed.
-fn mesh_errors(
-    arguments: &Arguments,
-    reading: &Reading,
-    modes: &Modes,
-    speed: f64,
-    hub: HubState,
-) -> Vec<f64> {
-    let Ok(finer) = reading.with_finer_mesh() else { return Vec::new() };
-    let steady =
-        if speed > 0.0 { vibration::without_loads_in_space(&finer.case).0 } else { finer.case.clone() };
-    let Ok((fine, _)) = compute(arguments, &steady, speed, hub) else { return Vec::new() };
-    let safety = reading.case.hub_beam().map_or(2.0, |beam| beam.bases.safety);
-    let pairs = modes.modes.iter().zip(&fine.modes);
-    pairs.map(|(a, b)| safety * (a.frequency() - b.frequency()).abs()).collect()
+/// Compares the modes with those of twice the elements or functions, where these can be computed.
+fn compare(arguments: &Arguments, reading: &Reading, modes: &mut Modes, speed: f64, hub: HubState) {
+    let Ok(finer) = reading.with_finer_mesh() else { return };
+    let Ok(Found { modes: fine, .. }) = compute(arguments, &finer.case, speed, hub) else { return };
+    for (mode, finer) in modes.modes.iter_mut().zip(&fine.modes) {
+        mode.compare(finer.frequency(), vibration::safety(&reading.case));
+    }
 }
 
 /// The table of modes.
-fn described(modes: &Modes, errors: &[f64], units: &Units, about: &str) -> String {
+fn described(modes: &Modes, units: &Units, about: &str) -> String {
     let unit = &units.frequency;
     let mut out = format!("{} modes {about}\n\n", modes.modes.len());
     let head = [
@@ -194,7 +222,7 @@ fn described(modes: &Modes, errors: &[f64], units: &Units, about: &str) -> Strin
         rows.push(vec![
             format!("{}", number + 1),
             format!("{:.6}", mode.frequency() * unit.factor),
-            errors.get(number).map_or("-".to_owned(), |error| format!("{:.1e}", error * unit.factor)),
+            mode.mesh.map_or("-".to_owned(), |error| format!("{:.1e}", error * unit.factor)),
             format!("{:.4e}", mode.damping_ratio()),
             mode.nodes.to_string(),
             moves(mode),

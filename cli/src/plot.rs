@@ -2,7 +2,7 @@
 
 use crate::{Outcome, screen};
 use flexion::system::Role;
-use flexion_results::plot::{Figure, compare_figure, trajectory_figure};
+use flexion_results::plot::{Figure, Scale, compare_figure, trajectory_figure};
 use flexion_results::{Results, ResultsError, Trajectory, select, write_file};
 use std::path::PathBuf;
 
@@ -31,6 +31,9 @@ pub struct Arguments {
     /// Range of the values shown in every panel, in the unit of its column, e.g. -0.5:0.1
     #[arg(long, value_name = "FROM:TO", value_parser = range, allow_hyphen_values = true)]
     ylim: Option<(f64, f64)>,
+    /// Values on logarithmic axes; those that are not positive are left out
+    #[arg(long)]
+    log: bool,
     /// Replace a file that exists
     #[arg(long)]
     force: bool,
@@ -79,6 +82,9 @@ fn plotted(arguments: &Arguments) -> Result<(), String> {
     for panel in &mut figure.panels {
         panel.x.range = arguments.xlim.or(panel.x.range);
         panel.y.range = arguments.ylim.or(panel.y.range);
+        if arguments.log {
+            panel.y.scale = Scale::Logarithmic;
+        }
     }
     let drawing = figure.draw();
     let bytes = match extension {

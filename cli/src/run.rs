@@ -284,7 +284,7 @@ fn time(text: &str) -> Result<f64, String> {
 }
 
 /// Shows how far a run is, and stops it on Ctrl-C.
-struct Progress {
+pub(crate) struct Progress {
     bar: ProgressBar,
     shown: Instant,
     end: f64,
@@ -292,7 +292,7 @@ struct Progress {
 }
 
 impl Progress {
-    fn new(end: f64) -> Progress {
+    pub(crate) fn new(end: f64) -> Progress {
         // The bar draws on standard error, and only if that is a terminal.
         let bar = ProgressBar::new(TICKS as u64);
         let template = "{wide_bar} {percent:>3} %  {msg}  {eta} left";
@@ -310,7 +310,7 @@ impl Progress {
         Progress { bar, shown: Instant::now(), end, stop }
     }
 
-    fn show(&mut self, t: f64) -> ControlFlow<()> {
+    pub(crate) fn show(&mut self, t: f64) -> ControlFlow<()> {
         if self.shown.elapsed() > Duration::from_millis(100) {
             self.shown = Instant::now();
             self.bar.set_position((t / self.end * TICKS) as u64);
@@ -319,7 +319,7 @@ impl Progress {
         if self.stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
-    fn finish(&self) {
+    pub(crate) fn finish(&self) {
         self.bar.finish_and_clear();
     }
 }

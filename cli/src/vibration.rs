@@ -103,23 +103,26 @@ impl Options {
     }
 }
 
-/// What vibrates in a case: its blade, or else its hub–beam.
-pub fn system(case: &Case) -> Result<Box<dyn Fork>, String> {
-    case.vibrating().map_err(|error| error.to_string())
-}
-
-/// The case without the loads that are fixed in space, and a warning that names them. In the frame of a rotating hub these
-/// loads are periodic, and there is no steady state to linearize about. Their mean over a revolution is zero: the modes
-/// are those about this mean.
-pub fn without_loads_in_space(case: &Case) -> (Case, Vec<String>) {
-    let (case, left_out) = case.without_loads_in_space();
+/// What vibrates in a case, at rest or in steady rotation, and a warning that names the loads that are left out: in the frame of a
+/// rotating hub those fixed in space are periodic, and there is no steady state to linearize about. Their mean over a revolution
+/// is zero: the modes are those about this mean.
+pub fn system(case: &Case, rotates: bool) -> Result<(Box<dyn Fork>, Vec<String>), String> {
+    let (system, left_out) = case.vibrating(rotates).map_err(|error| error.to_string())?;
+    let across = if case.space().is_some() { "the part across the axis of " } else { "" };
     let caution = format!(
-        "without {}: seen from a hub that rotates it changes with every revolution, a state that is not steady has no modes, \
+        "without {across}{}: seen from a hub that rotates it changes with every revolution, a state that is not steady has no modes, \
          and its mean over a revolution is zero",
         left_out.join(" and ")
     );
-    let cautions = if left_out.is_empty() { Vec::new() } else { vec![caution] };
-    (case, cautions)
+    Ok((system, if left_out.is_empty() { Vec::new() } else { vec![caution] }))
+}
+
+/// Relative error of a frequency by the mesh above which there is a warning.
+pub const COARSE: f64 = 0.01;
+
+/// The error of a frequency by the mesh over its difference to that of twice the elements or functions.
+pub fn safety(case: &Case) -> f64 {
+    case.hub_beam().map_or(2.0, |beam| beam.bases.safety)
 }
 
 /// A warning for a case whose contacts do not matter here.
@@ -162,11 +165,10 @@ pub fn speed(text: &str) -> Result<Speed, String> {
     }
 }
 
-/// Stations of the shapes: the ends of so many equal parts of the beam on a hub, or of the first beam of a system without
-/// bodies.
+/// Stations of the shapes: the ends of so many equal parts of the beam on a hub, or of the first beam in space.
 pub fn stations(case: &Case, parts: u32) -> Vec<f64> {
     let equal = |length: f64| (0..=parts).map(|i| length * f64::from(i) / f64::from(parts)).collect();
-    let of_space = case.space().filter(|space| space.bodies.is_empty()).and_then(|space| space.beams.first());
+    let of_space = case.space().and_then(|space| space.beams.first());
     let length = case.hub_beam().map(|beam| beam.length).or(of_space.map(|(beam, _)| beam.length));
     length.map_or_else(Vec::new, equal)
 }

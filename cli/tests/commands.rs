@@ -471,6 +471,49 @@ fn a_killed_run_leaves_the_former_results_and_the_next_run_works() {
 }
 
 #[test]
+fn advice_is_written_the_same_each_time_and_has_an_exit_code() {
+    let folder = folder();
+    let advise = |output: &str, tolerance: &str| {
+        let quantity = ["--quantity", "tip.deflection.final", "--output", output];
+        let output = flexion(
+            folder.path(),
+            &[&["advise", "spin-up", "--tolerance", tolerance], &quantity[..]].concat(),
+        );
+        (output.status.code(), text(&output.stdout), text(&output.stderr))
+    };
+    let (code, printed, message) = advise("a", "1e-2");
+    assert_eq!(code, Some(0), "{message}");
+    assert!(printed.contains("--set \"model.coupling=") && printed.contains("error over asked"), "{printed}");
+    advise("b", "1e-2");
+    for file in ["advice.json", "advice.csv"] {
+        let read = |name: &str| std::fs::read_to_string(folder.path().join(name).join(file)).unwrap();
+        assert!(read("a") == read("b"), "{file}");
+    }
+    let json: serde_json::Value =
+        serde_json::from_str(&std::fs::read_to_string(folder.path().join("a/advice.json")).unwrap()).unwrap();
+    assert!(
+        json["cheapest"]["error"].as_f64().unwrap() <= 1.0 && json["tried"].as_array().unwrap().len() > 5
+    );
+    let (code, _, message) = advise("c", "much");
+    assert!(code == Some(1) && message.contains("much"), "{message}");
+}
+
+#[test]
+fn cases_at_random_are_calibrated_and_shown() {
+    let folder = folder();
+    let study = ["calibrate", "--cases", "3", "--seed", "9", "--output", "study"];
+    let output = flexion(folder.path(), &study);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let read = |file: &str| std::fs::read_to_string(folder.path().join("study").join(file)).unwrap();
+    let json: serde_json::Value = serde_json::from_str(&read("calibration.json")).unwrap();
+    assert_eq!(json["outcomes"].as_array().unwrap().len(), 3);
+    assert!(read("calibration.csv").lines().count() > 20 && read("calibration.svg").contains("True error"));
+    // What is shown is a case that the program reads.
+    let shown = text(&flexion(folder.path(), &["calibrate", "--seed", "9", "--show", "0"]).stdout);
+    assert!(shown.contains("[beam]") && shown.contains("[integrator]"), "{shown}");
+}
+
+#[test]
 fn completions_and_manual_pages_name_every_command() {
     let folder = folder();
     let help = text(&flexion(folder.path(), &["--help"]).stdout);

@@ -43,6 +43,8 @@ fn results_are_plotted_as_svg_and_png() {
     assert_eq!(plot(&limits), (Some(0), String::new()));
     let part = String::from_utf8(read("part.svg")).unwrap();
     assert!(part.contains(">0.5<") && part.contains(">−3<"), "{part}");
+    assert_eq!(plot(&["a", "-c", "energy.kinetic", "--log", "-o", "log.svg"]), (Some(0), String::new()));
+    assert!(String::from_utf8(read("log.svg")).unwrap().contains("10⁻"));
     let (code, message) = plot(&["a", "--xlim", "2:1", "-o", "y.svg"]);
     assert!(code == Some(1) && message.contains("ascending"), "{message}");
     // Results without a summary are plotted, with a warning.

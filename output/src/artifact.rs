@@ -80,6 +80,7 @@ artifacts! {
         ModesScene "equilibrium.npz" "the equilibrium, and displaced by every mode, for `flexion view`",
         ModesSvg "modes.svg" "the plot",
         ModesPng "modes.png" "the plot as pixels",
+        ModesSeries "modes.pvd" "every mode in motion, for ParaView",
     }
     /// The files of a Campbell diagram; the first marks the directory as complete.
     CAMPBELL {
@@ -96,6 +97,18 @@ artifacts! {
         StaticsNpz "statics.npz" "the path for NumPy",
         StaticsSvg "statics.svg" "the plot of load and displacement",
         StaticsPng "statics.png" "the plot as pixels",
+    }
+    /// The files of advice; the first marks the directory as complete.
+    ADVICE {
+        AdviceJson "advice.json" "the cheapest run that holds a tolerance, and all that were tried",
+        AdviceCsv "advice.csv" "all that were tried as a table",
+    }
+    /// The files of a calibration; the first marks the directory as complete.
+    CALIBRATION {
+        CalibrationJson "calibration.json" "counts, and how every case ended",
+        CalibrationCsv "calibration.csv" "stated and true error of every value",
+        CalibrationSvg "calibration.svg" "the plot of stated against true errors",
+        CalibrationPng "calibration.png" "the plot as pixels",
     }
 }
 

@@ -98,7 +98,10 @@ impl Events {
                 (EventKind::Impact { impulses, rates, masses, .. }, Some(row), _)
                     if impulses[row] > least =>
                 {
-                    let friction = contact.friction.map_or(0.0, |row| impulses[row]);
+                    let friction = match &impulses[contact.friction.clone()] {
+                        [one] => *one,
+                        more => more.iter().map(|x| x * x).sum::<f64>().sqrt(),
+                    };
                     let (impulse, speed, mass) = (impulses[row], -rates[row], masses[row]);
                     push(Entry { impulse, friction, speed, mass, lost: open, ..blank });
                     open = 0.0;
@@ -110,12 +113,12 @@ impl Events {
                 }
                 _ => {}
             }
-            for (row, what) in [(contact.row, ["closed", "opened"]), (contact.friction, ["sticks", "slips"])]
-            {
+            let friction = contact.friction.clone().next();
+            for (row, what) in [(contact.row, ["closed", "opened"]), (friction, ["sticks", "slips"])] {
                 let Some(row) = row else { continue };
                 let (before, now) = (self.modes[row], event.modes[row]);
                 let open = contact.row.is_some_and(|row| event.modes[row] == Mode::Open);
-                if before != now && !(open && contact.friction == Some(row)) {
+                if before != now && !(open && friction == Some(row)) {
                     push(Entry { what: what[usize::from(now != Mode::Closed)], ..blank });
                 }
             }
@@ -180,7 +183,7 @@ mod tests {
     use super::*;
 
     fn touch(name: &str, row: Option<usize>, indicator: Option<usize>) -> Touch {
-        let friction = row.map(|row| row + 1);
+        let friction = row.map_or(0..0, |row| row + 1..row + 2);
         Touch { name: name.into(), row, friction, indicator, gap: 1.0, rate: 0.0 }
     }
 

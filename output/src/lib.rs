@@ -62,7 +62,7 @@ pub use self::results::{Results, select};
 pub use self::run::{Attachments, write_run};
 pub use self::scene::{Part, Scene};
 pub use self::shapes::{Shape, Shapes};
-pub use self::solids::write_solids;
+pub use self::solids::{write_film, write_solids};
 pub use self::state_file::{read_state, write_state};
 pub use self::statics::write_statics;
 pub use self::summary::{Integration, ProblemSize, RunReport, Status, Summary, VERSION};

@@ -9,8 +9,14 @@ use std::sync::Arc;
 pub struct Drawn {
     /// Its name.
     pub name: String,
+    /// Number of the body that may touch it.
+    pub body: usize,
     /// Station of the beam that may touch it \[m\].
     pub station: f64,
+    /// Size of the system \[m\].
+    pub size: f64,
+    /// Whether the system moves in space and not in a plane.
+    pub in_space: bool,
     /// Whether it turns with the hub.
     pub on_hub: bool,
     /// The obstacle.
@@ -19,9 +25,12 @@ pub struct Drawn {
 
 impl Drawn {
     /// Its outline at time `t` \[s\] in inertial axes, seen from its station: `frames` are those of the root and of the station,
-    /// `size` \[m\] is that of the system.
+    /// `size` \[m\] is how far it is drawn.
     pub(super) fn outline(&self, frames: [&Frame; 2], t: f64, size: f64) -> Vec<[f64; 3]> {
         let [root, at] = frames;
+        if self.in_space {
+            return self.obstacle.outline_in_space(at.position, t, size);
+        }
         if !self.on_hub {
             return self.obstacle.outline(at.position, t, size);
         }
@@ -44,7 +53,8 @@ mod tests {
     fn an_obstacle_on_the_hub_turns_with_it() {
         let plane = Plane { point: [0.0, 0.25, 0.0], normal: [0.0, -1.0, 0.0], motion: None };
         let name = "stop".to_owned();
-        let drawn = Drawn { name, station: 2.0, on_hub: true, obstacle: Arc::new(plane) };
+        let obstacle = Arc::new(plane);
+        let drawn = Drawn { name, body: 0, station: 2.0, size: 1.0, in_space: false, on_hub: true, obstacle };
         let rotation = [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
         let [root, tip] = [0.0, 2.0].map(|x| Frame { position: [0.0, x, 0.0], rotation });
         let outline = drawn.outline([&root, &tip], 0.0, 0.5);

@@ -73,11 +73,13 @@ mod tests {
             vector: Vec::new(),
             residual: 0.0,
             rounding: 0.0,
+            mesh: None,
             shares: Shares::default(),
             shape: Shape { displacement: Vec::new() },
             nodes: 0,
         };
-        let points = speeds.iter().map(|&speed| Point { speed, mode: mode(speed), assurance: 1.0 });
+        let points =
+            speeds.iter().map(|&speed| Point { speed, mode: mode(speed), number: 0, assurance: 1.0 });
         let branches = vec![Branch { points: points.collect() }];
         Campbell { speeds, branches, crossings: Vec::new(), instabilities: Vec::new() }
     }

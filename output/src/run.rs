@@ -6,7 +6,7 @@ use super::plot::Figure;
 use super::state_file::write_state;
 use super::{
     Artifact, Directory, OutputError, RunReport, Scene, Shapes, Status, Summary, Trajectory, resolved_case,
-    write_csv, write_events, write_npz, write_pvd, write_solids, write_vtp, write_vtu,
+    write_csv, write_events, write_film, write_npz, write_pvd, write_vtp, write_vtu,
 };
 use flexion::integrator::Checkpoint;
 
@@ -80,10 +80,7 @@ pub fn write_run(
         directory.write(Artifact::ShapeHdf, |f| super::write_vtkhdf(shapes, f))?;
     }
     if let Some(scene) = attachments.scene.filter(|_| attachments.solids) {
-        for (time, number) in (0..scene.times().len()).zip(0..) {
-            directory.write(Artifact::Shape(number), |f| write_solids(scene, time, f))?;
-        }
-        directory.write(Artifact::ShapeSeries, |f| write_pvd(scene.times(), false, f))?;
+        write_film(directory, scene, Artifact::ShapeSeries)?;
     }
     if let Some(scene) = attachments.scene.filter(|scene| !scene.is_empty()) {
         directory.write(Artifact::Scene, |f| scene.write(f))?;

@@ -209,19 +209,17 @@ impl Scene {
     /// Takes a state under a time, whatever its own is.
     pub fn take(&mut self, time: f64, system: &mut dyn System, state: &State) {
         self.times.push(time);
-        for (number, part) in self.parts.iter_mut().enumerate() {
+        for part in &mut self.parts {
             self.frames.clear();
             self.frames.resize(part.stations().len(), Frame::default());
             system.frames(part.body, state, part.stations(), &mut self.frames);
             part.push(&self.frames);
-            // Obstacles are seen from the first part.
-            for obstacle in self.obstacles.iter_mut().filter(|_| number == 0) {
-                let ends = [part.stations()[0], part.stations()[part.stations().len() - 1]];
-                let at = part.stations().partition_point(|x| *x < obstacle.drawn.station - 1e-9 * ends[1]);
-                let (Some(root), Some(at)) = (self.frames.first(), self.frames.get(at)) else { continue };
-                let outline = obstacle.drawn.outline([root, at], state.t, ends[1] - ends[0]);
-                obstacle.points.extend(outline.into_iter().flatten().map(|x| x as f32));
-            }
+        }
+        for Outline { drawn, points } in &mut self.obstacles {
+            let mut frames = [Frame::default(); 2];
+            system.frames(drawn.body, state, &[0.0, drawn.station], &mut frames);
+            let outline = drawn.outline([&frames[0], &frames[1]], state.t, drawn.size);
+            points.extend(outline.into_iter().flatten().map(|x| x as f32));
         }
     }
 
@@ -238,6 +236,22 @@ impl Scene {
     /// The lines of each part at the time of this number, with its name \[m\].
     pub(super) fn lines(&self, time: usize) -> Vec<(&str, Vec<Vec<Vector>>)> {
         self.parts.iter().map(|part| (part.name.as_str(), part.lines(time))).collect()
+    }
+
+    /// The outlines of the obstacles at the time of this number \[m\].
+    pub(super) fn outlines(&self, time: usize) -> Vec<Vec<Vector>> {
+        let at_time = |obstacle: &Outline| {
+            let points = obstacle.points.as_chunks::<3>().0;
+            let count = points.len() / self.times.len().max(1);
+            let points = points.iter().skip(time * count).take(count);
+            points.map(|point| point.map(f64::from)).collect()
+        };
+        self.obstacles.iter().map(at_time).collect()
+    }
+
+    /// Whether there are obstacles.
+    pub(super) fn has_obstacles(&self) -> bool {
+        !self.obstacles.is_empty()
     }
 
     /// Whether there is nothing to be drawn.
@@ -410,7 +424,9 @@ mod tests {
     fn an_obstacle_is_seen_from_its_station() {
         let mut system = Bent { p: [0.0; 3], d: [0.0; 3] };
         let plane = Plane { point: [0.0, -1.0, 0.0], normal: [0.0, 1.0, 0.0], motion: None };
-        let drawn = Drawn { name: "floor".into(), station: 1.5, on_hub: false, obstacle: Arc::new(plane) };
+        let (name, obstacle) = ("floor".into(), Arc::new(plane));
+        let drawn =
+            Drawn { name, body: 0, station: 1.5, size: 2.0, in_space: false, on_hub: false, obstacle };
         let beam = Part::beam(("arm", 0), 2.0, [0.1; 2], Some(0.5), &[1.5]);
         let mut scene = Scene::new(vec![beam], vec![drawn], 1);
         scene.sample(&mut system, &at(1e-9));

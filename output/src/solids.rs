@@ -4,7 +4,8 @@
 //! number of the part in the order of the case, bodies first; `station`, the number of the section in its part.
 
 use super::scene::Scene;
-use super::vtk::{QUAD, array, reals};
+use super::vtk::{QUAD, array, reals, write_pvd};
+use super::{Artifact, Directory, OutputError, write_vtp};
 use flexion::multibody::rotation::{apply, plus};
 use std::io::{self, Write};
 
@@ -60,6 +61,20 @@ pub fn write_solids(scene: &Scene, time: usize, mut to: impl Write) -> io::Resul
     array(&mut to, "Int32", "offsets", "", ends.flat_map(i32::to_le_bytes))?;
     array(&mut to, "UInt8", "types", "", std::iter::repeat_n(QUAD, cells))?;
     writeln!(to, "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>")
+}
+
+/// Writes the parts at every time of a scene, and the `series` of the times.
+///
+/// # Errors
+/// [`OutputError`] for whatever goes wrong on disk.
+pub fn write_film(directory: &Directory, scene: &Scene, series: Artifact) -> Result<(), OutputError> {
+    for (time, number) in (0..scene.times().len()).zip(0..) {
+        directory.write(Artifact::Shape(number), |f| write_solids(scene, time, f))?;
+        if scene.has_obstacles() {
+            directory.write(Artifact::Obstacles(number), |f| write_vtp(&scene.outlines(time), f))?;
+        }
+    }
+    directory.write(series, |f| write_pvd(scene.times(), scene.has_obstacles(), f))
 }
 
 #[cfg(test)]

@@ -23,7 +23,7 @@ fn write_shapes<'u>(
     size: &[u64],
     displacements: impl Iterator<Item = &'u [Complex64; 3]> + Clone,
 ) -> io::Result<()> {
-    for (axis, name) in ["tangent", "second", "third"].iter().enumerate() {
+    for (axis, name) in ["axial", "chord", "flap"].iter().enumerate() {
         let u = displacements.clone().map(|u| u[axis]);
         write_shaped(archive, &format!("{mode}.{name}.real"), size, u.clone().map(|u| u.re))?;
         write_shaped(archive, &format!("{mode}.{name}.imaginary"), size, u.map(|u| u.im))?;
@@ -31,14 +31,14 @@ fn write_shapes<'u>(
     Ok(())
 }
 
-/// Writes and publishes the files of modes at a speed [rad/s]. `case` is the resolved case; `cautions` are kept with
+/// Writes and publishes the files of modes at a speed [rad/s], with the names of the three axes of sections. `case` is the resolved case; `cautions` are kept with
 /// the warnings.
 ///
 /// # Errors
 /// [`OutputError`] for whatever goes wrong on disk.
 pub fn write_modes(
     directory: &Directory,
-    (modes, speed): (&Modes, f64),
+    (modes, speed, axes): (&Modes, f64, [&str; 3]),
     stations: &[f64],
     units: &Units,
     case: &str,
@@ -50,7 +50,7 @@ pub fn write_modes(
     directory.write(Artifact::ModesCsv, |f| {
         let names = ["frequency", "residual"]
             .map(|name| if name == "frequency" { unit.column(name) } else { name.into() });
-        write!(f, "mode,{},damping-ratio,nodes,{}", names[0], names[1])?;
+        write!(f, "mode,{},{},damping-ratio,nodes,{}", names[0], unit.column("mesh-error"), names[1])?;
         let shares = |mode: &Mode| mode.shares.named();
         for (name, _) in modes.modes.first().map(shares).into_iter().flatten() {
             write!(f, ",{name}")?;
@@ -58,7 +58,9 @@ pub fn write_modes(
         writeln!(f)?;
         for (number, m) in modes.modes.iter().enumerate() {
             let frequency = m.frequency() * unit.factor;
-            write!(f, "{},{frequency:?},{:?},{},{:?}", number + 1, m.damping_ratio(), m.nodes, m.residual)?;
+            let mesh = m.mesh.map_or(f64::NAN, |error| error * unit.factor);
+            let damping = m.damping_ratio();
+            write!(f, "{},{frequency:?},{mesh:?},{damping:?},{},{:?}", number + 1, m.nodes, m.residual)?;
             shares(m).iter().try_for_each(|(_, share)| write!(f, ",{share:?}"))?;
             writeln!(f)?;
         }
@@ -68,6 +70,8 @@ pub fn write_modes(
         let mut archive = archive::archive(f);
         let all = &modes.modes;
         column(&mut archive, "frequency", all.iter().map(|m| m.frequency() * unit.factor))?;
+        let mesh = |m: &Mode| m.mesh.map_or(f64::NAN, |error| error * unit.factor);
+        column(&mut archive, "mesh_error", all.iter().map(mesh))?;
         column(&mut archive, "damping_ratio", all.iter().map(Mode::damping_ratio))?;
         column(&mut archive, "station", stations.iter().copied())?;
         for (number, m) in all.iter().enumerate() {
@@ -79,7 +83,7 @@ pub fn write_modes(
     let mut warnings = cautions.to_vec();
     warnings.extend(draw(
         directory,
-        &modes_figure(modes, stations, unit, title),
+        &modes_figure(modes, (stations, axes), unit, title),
         [Artifact::ModesSvg, Artifact::ModesPng],
     )?);
     let list: Vec<Value> = modes.modes.iter().map(|m| mode_json(m, unit)).collect();
@@ -87,7 +91,8 @@ pub fn write_modes(
         "version": VERSION,
         "title": title,
         "unit": unit.name,
-        "speed": speed * unit.factor,
+        "speed-unit": units.speed.name,
+        "speed": speed * units.speed.factor,
         "counted": modes.counted,
         "modes": list,
         "warnings": warnings,
@@ -121,7 +126,15 @@ pub fn write_campbell(
         let columns = || curves.iter().flat_map(|curve| curve.columns.iter().map(move |c| (curve, c)));
         for (curve, (name, _)) in columns() {
             let name = format!("mode{}-{}.{name}", curve.number, curve.moves);
-            write!(f, ",{}", if name.ends_with("frequency") { unit.column(&name) } else { name })?;
+            write!(
+                f,
+                ",{}",
+                if name.ends_with("frequency") || name.ends_with("mesh-error") {
+                    unit.column(&name)
+                } else {
+                    name
+                }
+            )?;
         }
         writeln!(f)?;
         for &s in &campbell.speeds {
@@ -222,6 +235,7 @@ impl Curve {
         let mut columns: Vec<(String, Vec<(f64, f64)>)> = vec![
             ("frequency".to_owned(), values(&|m| m.frequency() * unit.factor)),
             ("damping-ratio".to_owned(), values(&Mode::damping_ratio)),
+            ("mesh-error".to_owned(), values(&|m| m.mesh.map_or(f64::NAN, |error| error * unit.factor))),
         ];
         let first = branch.points.first().map(|point| point.mode.shares);
         for (i, (name, _)) in first.iter().flat_map(|shares| shares.named()).enumerate() {
@@ -240,6 +254,7 @@ fn mode_json(m: &Mode, unit: &Frequencies) -> Value {
         m.shares.named().into_iter().map(|(name, share)| (name.to_owned(), json!(share))).collect();
     json!({
         "frequency": m.frequency() * unit.factor,
+        "mesh-error": m.mesh.map(|error| error * unit.factor),
         "damping-ratio": m.damping_ratio(),
         "nodes": m.nodes,
         "residual": m.residual,

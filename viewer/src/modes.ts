@@ -12,8 +12,8 @@ import { button, choice } from "./tools";
 const PIECES = 3;
 /** Seconds of a period, as it is played. */
 const PERIOD = 2;
-const AXES = ["tangent", "second", "third"];
-const NAMES = ["along the tangent", "second axis", "third axis"];
+const AXES = ["axial", "chord", "flap"];
+const NAMES = ["axial", "chord", "flap"];
 
 const element = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
 

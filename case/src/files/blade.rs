@@ -2,12 +2,15 @@
 //!
 //! | format | station | columns or matrices read |
 //! |---|---|---|
-//! | `csv` | `x` in m | `mass`, `EA`, `EI-flap`, `EI-chord` and, if there, `GJ`, `inertia-flap`, `inertia-chord`, `twist` in rad |
+//! | `csv` | `x` | `mass`, `EA`, `EI-flap`, `EI-chord` and, if there, `GJ`, `inertia-flap`, `inertia-chord`, `twist`, in SI or with units |
 //! | `elastodyn` | `BlFract` of the length | `StrcTwst`, `BMassDen`, `FlpStff`, `EdgStff`, and `GJStff`, `EAStff`, `FlpIner`, `EdgIner` of older files; the factors `AdjBlMs`, `AdjFlSt`, `AdjEdSt` |
 //! | `beamdyn` | fraction of the length | K₃₃ = EA, K₄₄ edgewise, K₅₅ flapwise, K₆₆ = GJ; M₁₁, M₄₄, M₅₅ |
 //!
-//! Offsets of the mass centre in a BeamDyn file are left out; couplings in its stiffness are refused.
+//! Of a BeamDyn file the shear strains are eliminated at zero shear force, and offsets of the mass centre are left out; what
+//! couples the other strains is [told](Contents::coupled).
 
+use super::columns::{self, Column, column};
+use crate::units::{ANGLE, AXIAL_STIFFNESS, BENDING_STIFFNESS, LENGTH, MASS_PER_LENGTH, ROTARY_INERTIA};
 use flexion::section::BladeResultants;
 
 /// Stations x [m] and the resultants there.
@@ -20,6 +23,8 @@ pub struct Contents {
     pub rows: Rows,
     /// A caution, in one sentence.
     pub unused: Option<String>,
+    /// What couples stretch, bending and torsion, which a blade here does not have: as [`Contents::unused`].
+    pub coupled: Option<String>,
 }
 
 /// Reads the text of a file that the case calls by the second argument, for a blade of the length [m] of the third.
@@ -64,49 +69,31 @@ fn numbers(line: &str, number: usize, name: &str) -> Result<Vec<f64>, String> {
     line.split_whitespace().map(parse).collect()
 }
 
+/// The columns of a CSV file.
+static COLUMNS: [Column; 9] = [
+    column("x", &["s", "span", "station"], &LENGTH, true),
+    column("mass", &["massperlength", "bmassden", "rhoa"], &MASS_PER_LENGTH, true),
+    column("EA", &["eastff", "axialstiffness"], &AXIAL_STIFFNESS, true),
+    column("EI-flap", &["flpstff", "flapstiffness", "flapwisestiffness"], &BENDING_STIFFNESS, true),
+    column(
+        "EI-chord",
+        &["edgstff", "eiedge", "edgestiffness", "edgewisestiffness"],
+        &BENDING_STIFFNESS,
+        true,
+    ),
+    column("GJ", &["gjstff", "torsionalstiffness"], &BENDING_STIFFNESS, false),
+    column("inertia-flap", &["flpiner", "flapinertia"], &ROTARY_INERTIA, false),
+    column("inertia-chord", &["edginer", "inertiaedge", "edgeinertia"], &ROTARY_INERTIA, false),
+    column("twist", &["strctwst"], &ANGLE, false),
+];
+
 /// CSV with a line of names.
 ///
 /// # Errors
 /// What is wrong with it.
 pub fn csv(text: &str, name: &str, _length: f64) -> Result<Contents, String> {
-    const COLUMNS: [(&str, bool); 9] = [
-        ("x", true),
-        ("mass", true),
-        ("EA", true),
-        ("EI-flap", true),
-        ("EI-chord", true),
-        ("GJ", false),
-        ("inertia-flap", false),
-        ("inertia-chord", false),
-        ("twist", false),
-    ];
-    let failed = |error: csv::Error| format!("cannot read {name}: {error}");
-    let mut reader =
-        csv::ReaderBuilder::new().comment(Some(b'#')).trim(csv::Trim::All).from_reader(text.as_bytes());
-    let header = reader.headers().map_err(failed)?.clone();
-    let known = || COLUMNS.map(|column| column.0).join(", ");
-    if let Some(title) = header.iter().find(|title| !COLUMNS.iter().any(|column| column.0 == *title)) {
-        return Err(format!("{name} has a column `{title}`; the columns are named {}", known()));
-    }
-    let mut places = [None; 9];
-    for (place, (title, required)) in places.iter_mut().zip(COLUMNS) {
-        *place = header.iter().position(|other| other == title);
-        if required && place.is_none() {
-            return Err(format!("{name} has no column `{title}`; the columns are named {}", known()));
-        }
-    }
     let mut rows = Vec::new();
-    for record in reader.records() {
-        let record = record.map_err(failed)?;
-        let mut v = [0.0; 9];
-        for (value, place) in v.iter_mut().zip(places) {
-            let Some(place) = place else { continue };
-            let text = record.get(place).unwrap_or("");
-            *value = text.parse().map_err(|_| {
-                let line = record.position().map_or(0, csv::Position::line);
-                format!("line {line} of {name}: `{text}` under `{}` is not a number", &header[place])
-            })?;
-        }
+    for v in columns::read(text, name, &COLUMNS)? {
         let resultants = BladeResultants {
             mass: v[1],
             axial_stiffness: v[2],
@@ -120,14 +107,14 @@ pub fn csv(text: &str, name: &str, _length: f64) -> Result<Contents, String> {
         };
         if v[8].abs() > LARGEST_TWIST {
             return Err(format!(
-                "the twist of {name} at x = {} is {}, which is in rad and more than half a revolution: divide degrees by \
-                 57.29578",
+                "the twist of {name} at x = {} m is {} rad, more than half a revolution: for degrees name the column \
+                 `twist [deg]`",
                 v[0], v[8]
             ));
         }
         rows.push((v[0], resultants));
     }
-    Ok(Contents { rows, unused: None })
+    Ok(Contents { rows, ..Contents::default() })
 }
 
 /// The number before a keyword of an OpenFAST file, with its line.
@@ -200,7 +187,25 @@ pub fn elastodyn(text: &str, name: &str, length: f64) -> Result<Contents, String
     if rows.len() < count {
         return Err(format!("{name} announces {count} stations and holds {}", rows.len()));
     }
-    Ok(Contents { rows, unused: None })
+    Ok(Contents { rows, ..Contents::default() })
+}
+
+/// The strains of a section without shear, in the order of BeamDyn.
+const STRAINS: [&str; 4] = ["stretch", "edgewise bending", "flapwise bending", "torsion"];
+
+/// The stiffness for stretch, bending and torsion at zero shear force, K − Kₛᵀ Kₛₛ⁻¹ Kₛ; `None` for one in shear that is not
+/// positive.
+fn without_shear(k: &[Vec<f64>]) -> Option<[[f64; 4]; 4]> {
+    let (a, b, c, d) = (k[0][0], k[0][1], k[1][0], k[1][1]);
+    let determinant = a * d - b * c;
+    if !(a > 0.0 && determinant > 0.0) {
+        return None;
+    }
+    let entry = |i: usize, j: usize| {
+        let solved = [d * k[0][j] - b * k[1][j], a * k[1][j] - c * k[0][j]];
+        k[i][j] - (k[i][0] * solved[0] + k[i][1] * solved[1]) / determinant
+    };
+    Some(std::array::from_fn(|i| std::array::from_fn(|j| entry(i + 2, j + 2))))
 }
 
 /// Blade file of BeamDyn.
@@ -217,6 +222,7 @@ pub fn beamdyn(text: &str, name: &str, length: f64) -> Result<Contents, String> 
         .skip(1)
         .filter(|(_, line)| !line.trim().is_empty());
     let (mut rows, mut offset) = (Vec::new(), 0.0_f64);
+    let mut coupling = (UNCOUPLED, [0, 0], 0.0);
     for station in 1..=count {
         let mut next = |columns: usize, what: &str| -> Result<Vec<f64>, String> {
             let Some((number, line)) = lines.next() else {
@@ -234,26 +240,24 @@ pub fn beamdyn(text: &str, name: &str, length: f64) -> Result<Contents, String> 
         let fraction = next(1, "the place of a station")?[0];
         let mut matrix = |what| (0..6).map(|_| next(6, what)).collect::<Result<Vec<_>, _>>();
         let (k, m) = (matrix("a row of a stiffness matrix")?, matrix("a row of a mass matrix")?);
-        for i in 0..6 {
+        let k = without_shear(&k).ok_or_else(|| {
+            format!("the stiffness in shear of station {station} of {name} is not positive")
+        })?;
+        for i in 0..4 {
             for j in 0..i {
-                let bound = UNCOUPLED * (k[i][i] * k[j][j]).abs().sqrt();
-                if k[i][j].abs().max(k[j][i].abs()) > bound {
-                    return Err(format!(
-                        "station {station} of {name} couples strains {} and {} with {:.3e}: the blade has uncoupled sections only",
-                        j + 1,
-                        i + 1,
-                        k[i][j]
-                    ));
+                let share = k[i][j].abs().max(k[j][i].abs()) / (k[i][i] * k[j][j]).abs().sqrt();
+                if share > coupling.0 {
+                    coupling = (share, [j, i], fraction);
                 }
             }
         }
         offset = [m[0][5], m[1][5]].iter().fold(offset, |most, moment| most.max((moment / m[0][0]).abs()));
         let resultants = BladeResultants {
             mass: m[0][0],
-            axial_stiffness: k[2][2],
-            flap_stiffness: k[4][4],
-            chord_stiffness: k[3][3],
-            torsional_stiffness: k[5][5],
+            axial_stiffness: k[0][0],
+            flap_stiffness: k[2][2],
+            chord_stiffness: k[1][1],
+            torsional_stiffness: k[3][3],
             flap_inertia: m[4][4],
             chord_inertia: m[3][3],
             twist: 0.0,
@@ -267,7 +271,15 @@ pub fn beamdyn(text: &str, name: &str, length: f64) -> Result<Contents, String> 
             "; the centre of mass lies up to {offset:.4} m off the axis there and on it here"
         ));
     }
-    Ok(Contents { rows, unused: Some(unused) })
+    let (share, [a, b], fraction) = coupling;
+    let coupled = format!(
+        "the stiffness of {name} couples {} and {}, by {:.1} % of √(K₁K₂) at {fraction} of the span, and the blade has none of \
+         it",
+        STRAINS[a],
+        STRAINS[b],
+        100.0 * share
+    );
+    Ok(Contents { rows, unused: Some(unused), coupled: (share > UNCOUPLED).then_some(coupled) })
 }
 
 #[cfg(test)]
@@ -337,12 +349,21 @@ mod tests {
         );
         for (from, to, says) in [
             ("2 station_total", "3 station_total", "announces 3 stations and ends in station 3"),
-            ("0 2 0", "1 2 0", "couples strains 1 and 2"),
+            ("1 0 0 0 0 0", "0 0 0 0 0 0", "in shear of station 1"),
             ("0 0 3 0 0 0", "0 0 3 0 0", "has 5 numbers for a row of a stiffness matrix"),
         ] {
             let message = beamdyn(&text.replacen(from, to, 1), "f", 20.0).unwrap_err();
             assert!(message.contains(says), "{message}");
         }
+        assert_eq!(beamdyn(&text, "f", 20.0).unwrap().coupled, None);
+        // Shear and torsion: at zero shear force a force of torsion shears, too.
+        let sheared =
+            text.replacen("1 0 0 0 0 0", "1 0 0 0 0 0.5", 1).replacen("0 0 0 0 0 6", "0.5 0 0 0 0 6", 1);
+        let sheared = beamdyn(&sheared, "f", 20.0).unwrap();
+        assert_eq!((sheared.rows[0].1.torsional_stiffness, sheared.coupled), (6.0 - 0.25, None));
+        let coupled = text.replacen("0 0 3 0 0 0", "0 0 3 0 1.5 0", 1);
+        let coupled = beamdyn(&coupled, "f", 20.0).unwrap().coupled.unwrap();
+        assert!(coupled.contains("couples stretch and flapwise bending, by 38.7 %"), "{coupled}");
     }
 
     #[test]
@@ -354,7 +375,7 @@ mod tests {
             ("EI-flap", "EI", "column `EI`"),
             (", EI-chord", "", "no column `EI-chord`"),
             ("5, 1", "5, one", "line 4 of f: `one`"),
-            ("4, 0.1", "4, 13.3", "divide degrees"),
+            ("4, 0.1", "4, 13.3", "`twist [deg]`"),
         ] {
             let message = csv(&text.replacen(from, to, 1), "f", 5.0).unwrap_err();
             assert!(message.contains(says), "{message}");

@@ -1,5 +1,7 @@
 //! Tables in files that a case names: each format a file.
 
 pub mod blade;
+pub mod columns;
+pub mod points;
 pub mod rows;
 pub mod section;

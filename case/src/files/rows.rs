@@ -22,7 +22,7 @@ pub fn read(bytes: &[u8], name: &str) -> Result<Vec<(f64, f64)>, String> {
                 let line = record.position().map_or(0, csv::Position::line);
                 let text = record.iter().collect::<Vec<_>>().join(",");
                 return Err(format!(
-                    "line {line} of {name}, `{text}`, is not two numbers: a time in s and a value"
+                    "line {line} of {name}, `{text}`, is not two numbers with a comma between: a time in s and a value"
                 ));
             }
         }

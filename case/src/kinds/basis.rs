@@ -18,8 +18,9 @@ const MOST_BYTES: f64 = 4e9;
 /// Factor between the error of a run and its difference from one with twice the functions: 2 covers every order of
 /// convergence, with half as much again in reserve for orders from 2.
 const SAFETY: f64 = 2.0;
-/// Vibration modes converge more slowly than that when the beam rotates fast.
-const SAFETY_OF_MODES: f64 = 4.0;
+/// Vibration modes converge more slowly than that when the beam rotates fast, and so do functions that are smooth where the
+/// curvature of the beam is not: order ½ at least.
+const SAFETY_OF_SLOW: f64 = 4.0;
 
 /// The bases of both fields.
 #[derive(Clone, Debug)]
@@ -130,13 +131,16 @@ fn built(fields: [Functions; 2], c: &Context<'_>, stations: &[f64]) -> Made<Base
     let massless = with_tip.or_else(|| transverse.tip().map(|_| Arc::clone(&transverse)));
     let mut finer = fields.each_ref().map(|f| (join(f.table, f.finer.0), f.finer.1)).to_vec();
     finer.dedup();
+    let within = stations.iter().any(|station| 0.0 < *station && *station < length);
+    let safety = |f: &Functions| if within && f.elements.is_none() { SAFETY_OF_SLOW } else { f.safety };
+    let safety = safety(&fields[0]).max(safety(&fields[1]));
     Ok(Bases {
         axial,
         transverse,
         massless,
         elements: fields[0].elements.filter(|(n, _)| fields[1].elements.is_some_and(|(m, _)| *n == m)),
         finer,
-        safety: fields[0].safety.max(fields[1].safety),
+        safety,
     })
 }
 
@@ -174,7 +178,7 @@ fn modes(v: &Values, axial: &'static str, transverse: &'static str) -> Made<Eith
         let build: Build = Box::new(move |length, _| shared(Modes::new(length, count, field)));
         let functions = Functions::new((count as f64, 1.0), (key, 2 * count), build);
         let massless: Build = Box::new(move |length, _| shared(Modes::with_residual(length, count)));
-        Functions { safety: SAFETY_OF_MODES, massless: Some(massless), ..functions }
+        Functions { safety: SAFETY_OF_SLOW, massless: Some(massless), ..functions }
     })
 }
 

@@ -1,5 +1,6 @@
 //! Slender beams in space.
 
+use super::centreline::Centreline;
 use super::section::{SECTION, Section};
 use super::spatial::{name, optional_vector, vector};
 use crate::declaration::{Bound::*, Key, Presence as Default, Presence::*, Type, Type::Quantity, key};
@@ -20,7 +21,15 @@ use std::sync::Arc;
 pub type Curve = Arc<dyn Fn(f64) -> Station + Send + Sync>;
 
 /// Makes the curve of a length, a direction and the direction of the height.
-type Bent = Box<dyn Fn(f64, Vector, Vector) -> Curve>;
+type Along = Box<dyn Fn(f64, Vector, Vector) -> Curve>;
+
+/// A kind of centreline.
+pub enum Bent {
+    /// Of the length and direction that its beam has.
+    Along(Along),
+    /// Through points.
+    Through(Box<Centreline>),
+}
 
 fn straight(_: f64, tangent: Vector, normal: Vector) -> Curve {
     Arc::new(move |s| Station { position: times(s, tangent), tangent, normal })
@@ -38,7 +47,7 @@ pub static CURVE: Choice<Bent> = Choice {
             source: "",
             keys: &[],
             example: "beam=[{length=1, section={kind='circle', modulus='70 GPa', density=2700, radius='1 cm'}, curve={kind='straight'}, root='clamped'}]",
-            make: |_, _| Ok(Box::new(straight)),
+            make: |_, _| Ok(Bent::Along(Box::new(straight))),
         },
         Kind {
             name: "arc",
@@ -59,7 +68,7 @@ pub static CURVE: Choice<Bent> = Choice {
                 if angle == 0.0 {
                     return Err(Fault::new("angle", "an arc of the angle 0 is straight").into());
                 }
-                Ok(Box::new(move |length, tangent, normal| {
+                Ok(Bent::Along(Box::new(move |length, tangent, normal| {
                     let towards = towards.unwrap_or(normal);
                     let side = plus(towards, -inner(towards, tangent), tangent);
                     let size = inner(side, side).sqrt();
@@ -71,7 +80,7 @@ pub static CURVE: Choice<Bent> = Choice {
                         let position = plus(times(radius * sin, tangent), radius * (1.0 - cos), side);
                         Station { position, tangent: apply(&turned, tangent), normal: apply(&turned, normal) }
                     })
-                }))
+                })))
             },
         },
         Kind {
@@ -85,7 +94,7 @@ pub static CURVE: Choice<Bent> = Choice {
             example: "beam=[{length=1, section={kind='circle', modulus='70 GPa', density=2700, radius='1 cm'}, curve={kind='helix', radius='20 cm', pitch='10 cm'}, root='clamped'}]",
             make: |v, _| {
                 let (radius, pitch) = (v.number("radius")?, v.number("pitch")?);
-                Ok(Box::new(move |_, axis, out| {
+                Ok(Bent::Along(Box::new(move |_, axis, out| {
                     let (side, rise) = (cross(axis, out), pitch / std::f64::consts::TAU);
                     let scale = radius.hypot(rise);
                     Arc::new(move |s| {
@@ -97,8 +106,27 @@ pub static CURVE: Choice<Bent> = Choice {
                         let tangent = plus(times(radius / scale, along), rise / scale, axis);
                         Station { position, tangent, normal }
                     })
-                }))
+                })))
             },
+        },
+        Kind {
+            name: "points",
+            summary: "a cubic spline through points of space, which says the length and the direction of the beam; the height \
+                      follows it without turning about it",
+            source: "",
+            keys: &[
+                key("x", Type::Quantities(&LENGTH, Any), Empty, "x of the points, from the root to the tip"),
+                key("y", Type::Quantities(&LENGTH, Any), Empty, "their y"),
+                key("z", Type::Quantities(&LENGTH, Any), Empty, "their z"),
+                key(
+                    "file",
+                    Type::Text,
+                    Optional,
+                    "CSV file of x, y and z [m] of the points, in place of the lists",
+                ),
+            ],
+            example: "beam=[{section={kind='circle', modulus='70 GPa', density=2700, radius='1 cm'}, curve={kind='points', x=[0, '20 cm', '50 cm'], y=[0, '1 cm', '8 cm'], z=[0, 0, '5 cm']}, root='clamped'}]",
+            make: |v, c| Ok(Bent::Through(Box::new(Centreline::of(v, c)?))),
         },
     ],
 };
@@ -246,7 +274,7 @@ impl Beam {
 
 static FIBRE: [Key; 4] = [
     key("name", Type::Text, Required, "name, which ends the name of its column"),
-    key("station", Quantity(&LENGTH, NotNegative), Required, "arc length from the root"),
+    key("station", Type::Station(NotNegative), Required, "arc length from the root"),
     key("y", Quantity(&LENGTH, Any), Default::Number(0.0), "place along the height of the section"),
     key("z", Quantity(&LENGTH, Any), Default::Number(0.0), "place across, along tangent × height"),
 ];
@@ -257,7 +285,12 @@ pub static BEAMS: Table<Beam> = Table {
         "beam",
         Type::Tables(&[
             key("name", Type::Text, Default::Name("beam"), "name, which begins the names of its columns"),
-            key("length", Quantity(&LENGTH, Positive), Required, "length of its centreline"),
+            key(
+                "length",
+                Quantity(&LENGTH, Positive),
+                Optional,
+                "length of its centreline, which a curve through points says by itself",
+            ),
             key(
                 "start",
                 Type::Quantities(&LENGTH, Any),
@@ -341,9 +374,19 @@ pub static BEAMS: Table<Beam> = Table {
 };
 
 fn make(v: &Values, c: &Context<'_>) -> Made<Beam> {
-    let length = v.number("length")?;
+    let bent = CURVE.make(v, "curve", c)?;
+    let length = match (v.optional_number("length")?, &bent) {
+        (Some(length), Bent::Along(_)) => length,
+        (None, Bent::Through(points)) => points.length(),
+        (None, Bent::Along(_)) => return Err(Fault::new("", "a beam needs a `length`").into()),
+        (Some(_), Bent::Through(points)) => {
+            let message =
+                format!("the points make a curve of {:.6} m: leave the length out", points.length());
+            return Err(Fault::new("length", message).into());
+        }
+    };
     let c = &Context { length: Some(length), duration: c.duration, files: c.files, cautions: c.cautions };
-    let (section, curve) = both(SECTION.make(v, "section", c), CURVE.make(v, "curve", c))?;
+    let section = SECTION.make(v, "section", c)?;
     let ends = both(END.make(v, "root", c), END.make(v, "tip", c))?;
     let blade: Arc<dyn BladeSection> = Arc::from(section.blade(v.number("poisson-ratio")?).at("section")?);
     let along = |s: f64| blade.resultants(s).torsional_stiffness > 0.0;
@@ -353,7 +396,17 @@ fn make(v: &Values, c: &Context<'_>) -> Made<Beam> {
         return Err(Fault::new("section", message).help(help).into());
     }
     let name = name(v, None)?;
-    let direction = optional_vector(v, "direction")?.unwrap_or([1.0, 0.0, 0.0]);
+    let (given, starts) = (optional_vector(v, "direction")?, optional_vector(v, "start")?);
+    if let Bent::Through(_) = bent
+        && let Some(key) =
+            [(given, "direction"), (starts, "start")].iter().find_map(|(v, key)| v.map(|_| *key))
+    {
+        return Err(Fault::new(key, "the points of the curve say it: leave it out").into());
+    }
+    let direction = match &bent {
+        Bent::Through(points) => points.tangent(),
+        Bent::Along(_) => given.unwrap_or([1.0, 0.0, 0.0]),
+    };
     let upright = direction[0] == 0.0 && direction[1] == 0.0;
     let usual = if upright { [1.0, 0.0, 0.0] } else { [0.0, 0.0, 1.0] };
     let up = optional_vector(v, "up")?;
@@ -364,8 +417,11 @@ fn make(v: &Values, c: &Context<'_>) -> Made<Beam> {
         let message = "is along the beam: the height of a section lies across";
         return Err(Fault::new("up", message).into());
     }
-    let (start, twist) = (vector(v, "start")?, v.number("twist")?);
-    let bent = curve(length, tangent, normal);
+    let (start, twist) = (starts.unwrap_or_default(), v.number("twist")?);
+    let bent: Curve = match bent {
+        Bent::Along(curve) => curve(length, tangent, normal),
+        Bent::Through(points) => Arc::new(points.stations(normal)),
+    };
     let of = Arc::clone(&blade);
     let curve: Curve = Arc::new(move |s| {
         let at = bent(s);

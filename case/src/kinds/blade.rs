@@ -7,7 +7,7 @@ use crate::kind::{Choice, Context, Kind, Table};
 use crate::units::{ANGLE, INERTIA, MASS};
 use crate::values::Values;
 use flexion::blade::{self, Model, Setting, StrainEnergy, Terms, Tip};
-use flexion::section::{BladeSection, Twisted};
+use flexion::section::{BladeResultants, BladeSection, Twisted};
 
 /// A blade, but for its section.
 #[derive(Clone, Debug)]
@@ -32,19 +32,51 @@ impl Blade {
         self.elements
     }
 
+    /// The section with the twist of the table.
+    ///
+    /// # Errors
+    /// A fault when the section makes no blade.
+    pub fn section(&self, section: &Section) -> Made<Twisted> {
+        let blade = section.blade(self.poisson_ratio).at("")?;
+        Ok(Twisted { blade, rate: self.twist / self.setting.length })
+    }
+
+    /// Whether a blade of this section has torsion, and why.
+    pub fn torsion(&self, section: &dyn BladeSection) -> (bool, &'static str) {
+        // A section that says enough does so everywhere: at both ends and at every break.
+        let mut stations = vec![0.0, self.setting.length];
+        stations.extend(section.breaks());
+        let lacks = |of: fn(&BladeResultants) -> bool| stations.iter().any(|&x| !of(&section.resultants(x)));
+        match self.torsion {
+            Some(true) => (true, "blade.torsion = true"),
+            Some(false) => (false, "blade.torsion = false"),
+            None if lacks(|r| r.torsional_stiffness > 0.0) => {
+                (false, "the section gives no torsional stiffness GJ")
+            }
+            None if lacks(BladeResultants::has_torsion) => {
+                (false, "the section gives no rotary inertia about its axis")
+            }
+            None => (true, "the section gives stiffness and inertia for it"),
+        }
+    }
+
+    /// Mass of the body at the tip \[kg\].
+    pub fn tip_mass(&self) -> f64 {
+        self.setting.tip.mass
+    }
+
+    /// Pitch of the root section and precone [rad].
+    pub fn angles(&self) -> [f64; 2] {
+        [self.setting.pitch, self.setting.precone]
+    }
+
     /// The blade with its section, on a hub of the given radius \[m\], at rest.
     ///
     /// # Errors
     /// A fault of the table `blade` when section and setting make no blade.
     pub fn built(&self, section: &Section, hub_radius: f64) -> Made<blade::Blade> {
-        let length = self.setting.length;
-        let blade = section.blade(self.poisson_ratio).at("")?;
-        let blade = Twisted { blade, rate: self.twist / length };
-        // A section that says enough does so everywhere: at both ends and at every break.
-        let mut stations = vec![0.0, length];
-        stations.extend(blade.breaks());
-        let known = stations.iter().all(|&x| blade.resultants(x).has_torsion());
-        let model = Model { torsion: self.torsion.unwrap_or(known), ..self.model };
+        let blade = self.section(section)?;
+        let model = Model { torsion: self.torsion(&blade).0, ..self.model };
         blade::Blade::new(Setting { hub_radius, ..self.setting }, &blade, model, self.elements).at("")
     }
 }
@@ -149,7 +181,7 @@ pub static BLADE: Table<Blade> = Table {
         Optional,
         "makes the beam a blade, which also bends out of the plane and twists",
     ),
-    example: "blade={elements=3, gyroscopic=false, rotary-inertia=false, poisson-ratio=0.2, tip-inertia='2 kg*m^2'}",
+    example: "blade={pitch='5 deg', tip-mass='10 g'}",
     make,
 };
 

@@ -368,12 +368,7 @@ pub static CONTACT: Table<Contact> = Table {
                 Optional,
                 "name, which begins the names of its columns: `contact`, `contact2`, … if left out",
             ),
-            key(
-                "station",
-                Quantity(&LENGTH, Positive),
-                Optional,
-                "station that may touch, the tip if left out",
-            ),
+            key("station", Type::Station(Positive), Optional, "station that may touch, the tip if left out"),
             key(
                 "stations",
                 Type::Quantities(&LENGTH, Positive),

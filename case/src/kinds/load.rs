@@ -83,7 +83,7 @@ pub static AXES: Choice<Axes> = Choice {
 };
 
 const STATION: Key =
-    key("station", Quantity(&units::LENGTH, NotNegative), Required, "station along the beam, from the root");
+    key("station", Type::Station(NotNegative), Required, "station along the beam, from the root");
 const FRAME: Key =
     key("frame", Type::Choice(&AXES), Default::Name("dead"), "axes that the components refer to");
 
@@ -117,7 +117,7 @@ static SPRING: Table<Load> = Table {
         Default::Empty,
         "springs between a station and a point fixed in space",
     ),
-    example: "spring=[{station=2, stiffness='200 N/m', damping='2 N s/m', anchor=['2.1 m', 0]}]",
+    example: "spring=[{station='tip', stiffness='200 N/m', damping='2 N s/m', anchor=['2.1 m', 0]}]",
     make: |v, c| {
         let anchor = v.numbers("anchor").and_then(|place| {
             let message = format!("a place in the plane has 2 coordinates, not {}", place.len());
@@ -145,7 +145,7 @@ static GRAVITY: Table<Load> = Table {
         Optional,
         "gravity in the plane of motion",
     ),
-    example: "gravity={acceleration='9.81 m/s^2', direction='-80 deg'}",
+    example: "gravity={acceleration='9.81 m/s^2', direction='-90 deg'}",
     make: |v, _| {
         let gravity =
             load::Gravity { acceleration: v.number("acceleration")?, direction: v.number("direction")? };
@@ -169,7 +169,7 @@ static MASS: Table<Load> = Table {
         Default::Empty,
         "lumped masses on the beam",
     ),
-    example: "mass=[{station='2 m', mass='300 g', inertia=2e-3}, {station=1, mass=1}]",
+    example: "mass=[{station='tip', mass='300 g', inertia=2e-3}]",
     make: |v, c| {
         let (mass, inertia) = (v.number("mass")?, v.number("inertia")?);
         let mass = Mass { station: c.station(v, "station")?, mass, inertia };
@@ -189,7 +189,7 @@ static FORCE: Table<Load> = Table {
         Default::Empty,
         "forces at stations",
     ),
-    example: "force=[{station=2, force=[0, 3]}]",
+    example: "force=[{station='tip', force=['0 N', '3 N']}]",
     make: |v, c| {
         let (station, force) = both(c.station(v, "station"), components(v))?;
         let (axes, amplitude) = both(AXES.make(v, "frame", c), amplitude(v, c))?;
@@ -209,7 +209,7 @@ static COUPLE: Table<Load> = Table {
         Default::Empty,
         "couples at stations",
     ),
-    example: "couple=[{station=1.5, couple='3 N*m'}]",
+    example: "couple=[{station='tip', couple='3 N*m'}]",
     make: |v, c| {
         let (station, amplitude) = both(c.station(v, "station"), amplitude(v, c))?;
         Ok(acting(load::Couple { station, couple: v.number("couple")?, amplitude }, vec![station]))
@@ -250,7 +250,7 @@ static DISTRIBUTED: Table<Load> = Table {
         Default::Empty,
         "forces per length",
     ),
-    example: "distributed-load=[{force=['0 N/m', '-2 N/m'], from=0.5, to='1 m'}]",
+    example: "distributed-load=[{force=['0 N/m', '-2 N/m'], from='0.5 m', to='1 m'}]",
     make: |v, c| {
         let range = range(v, c);
         let ((axes, distribution), amplitude) =

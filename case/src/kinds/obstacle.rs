@@ -120,17 +120,6 @@ pub static CONTACT: Table<Contact> = Table {
             let help = "write `law = { kind = \"constraint\", restitution = 0.5 }`";
             return Err(Fault::new("law.kind", message).help(help).into());
         }
-        let friction = match law {
-            Law::Constraint { friction, .. } => friction,
-            Law::Force(force) => force.friction,
-        };
-        if friction > 0.0 {
-            let message =
-                "friction in space acts in two directions, and the models of friction here have one";
-            return Err(Fault::new("law.friction", message)
-                .help("leave it out, or take a planar case")
-                .into());
-        }
         let (name, on) = (name(v, Some("contact"))?, v.text("on")?.to_owned());
         Ok(Contact { name, on, at: optional_vector(v, "at")?, obstacle, law })
     },

@@ -439,7 +439,7 @@ pub static SECTION: Choice<Section> = Choice {
                     "file",
                     Type::Path,
                     Required,
-                    "CSV file in SI whose first line names the columns x, mass, EA, EI and, if wanted, ES, first-moment, rotary-inertia",
+                    "CSV file whose first line names the columns x, mass, EA, EI and, if wanted, ES, first-moment, rotary-inertia, in SI or as `x [mm]`",
                 ),
                 key(
                     "interpolation",
@@ -458,8 +458,14 @@ pub static SECTION: Choice<Section> = Choice {
             keys: &[
                 key("file", Type::Path, Required, "file of the properties"),
                 key("format", Type::Choice(&FORMAT), Default::Name("csv"), "format of the file"),
+                key(
+                    "ignore-coupling",
+                    Boolean,
+                    Default::Boolean(false),
+                    "what couples stretch, bending and torsion in the file is left out",
+                ),
             ],
-            example: r#"section={kind="blade", file="blade.csv"}"#,
+            example: r#"section={kind="blade", file="blade.csv", ignore-coupling=true}"#,
             make: blade,
         },
     ],
@@ -561,7 +567,13 @@ fn blade(v: &Values, c: &Context<'_>) -> Made<Section> {
     let (name, bytes) = c.file(v, "file")?;
     let length = c.length()?;
     let file = files::blade::read(&bytes, name, FORMAT.make(v, "format", c)?, length).at("file")?;
-    c.cautions.borrow_mut().extend(file.unused);
+    match file.coupled {
+        Some(coupled) if !v.boolean("ignore-coupling")? => {
+            let help = "with `ignore-coupling = true` it is left out, and named among the warnings";
+            return Err(Fault::new("file", coupled).help(help).into());
+        }
+        coupled => c.cautions.borrow_mut().extend(file.unused.into_iter().chain(coupled)),
+    }
     let table = section::BladeTable::new(length, &file.rows).at("file")?;
     let spatial = table.clone();
     Ok(Section {

@@ -188,6 +188,8 @@ pub struct LineLoad {
     pub name: String,
     /// Name of the beam.
     pub on: String,
+    /// Where it begins and ends \[m\]; `None` at the end of the beam.
+    pub range: (f64, Option<f64>),
     /// Force per length [N/m].
     pub force: Vector,
     /// What the components refer to.
@@ -203,6 +205,8 @@ pub static LINE_LOAD: Table<LineLoad> = Table {
         Type::Tables(&[
             NAME,
             key("on", Type::Text, Required, "beam"),
+            key("from", Quantity(&LENGTH, NotNegative), Default::Number(0.0), "arc length where it begins"),
+            key("to", Quantity(&LENGTH, Positive), Optional, "arc length where it ends, the tip if left out"),
             key(
                 "force",
                 Type::Quantities(&FORCE_PER_LENGTH, Any),
@@ -213,14 +217,18 @@ pub static LINE_LOAD: Table<LineLoad> = Table {
             CHANGE,
         ]),
         Empty,
-        "forces per length along whole beams",
+        "forces per length along beams or parts of them",
     ),
     example: "beam=[{length=1, section={kind='circle', modulus='70 GPa', density=2700, radius='1 cm'}, root='clamped'}]\n\
-              distributed-load=[{on='beam', force=[0, 0, '-2 N/m'], axes='follower'}]",
+              distributed-load=[{on='beam', from='20 cm', to='60 cm', force=[0, 0, '-2 N/m'], axes='follower'}]",
     make: |v, c| {
         let (axes, amplitude) = both(AXES.make(v, "axes", c), amplitude(v, c))?;
         let (name, on) = (name(v, Some("load"))?, v.text("on")?.to_owned());
-        Ok(LineLoad { name, on, force: vector(v, "force")?, axes, amplitude })
+        let range = (v.number("from")?, v.optional_number("to")?);
+        if range.1.is_some_and(|to| to <= range.0) {
+            return Err(Fault::new("to", "the load must end behind its begin, `from`").into());
+        }
+        Ok(LineLoad { name, on, range, force: vector(v, "force")?, axes, amplitude })
     },
 };
 

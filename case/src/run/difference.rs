@@ -4,6 +4,8 @@ use flexion_results::Trajectory;
 
 /// Part of the largest difference until then that a value may be off by at least: differences pass through zero.
 const EARLIER: f64 = 0.25;
+/// Largest difference over the largest value from which a value may be off by all of it.
+const UNRESOLVED: f64 = 0.1;
 /// Part of the largest value of a column beyond which it is no longer trusted.
 const DISTRUSTED: f64 = 0.1;
 
@@ -40,6 +42,8 @@ impl<'a> Pair<'a> {
         let (ours, theirs) = (self.ours.extremes(self.index), self.theirs.extremes(self.other));
         let last = |of: &Trajectory| of.times().last().copied().unwrap_or(0.0);
         let (end, reach) = (last(self.ours), last(self.theirs));
+        let largest = self.largest();
+        let unresolved = (largest / (UNRESOLVED * self.size())).min(1.0) * largest;
         let value = |a: f64, b: f64| if reach >= end { (a - b).abs() } else { 0.0 };
         let at = |time: f64| {
             if time > reach {
@@ -47,7 +51,7 @@ impl<'a> Pair<'a> {
             }
             let until = self.rows().take_while(|(t, ..)| *t <= time).map(|(_, x, y)| (x - y).abs());
             let (earlier, now) = until.fold((0.0, 0.0), |(largest, _), d| (worse(largest, d), d));
-            worse(now, EARLIER * earlier)
+            worse(worse(now, EARLIER * earlier), unresolved)
         };
         [
             worse(value(ours.min, theirs.min), at(ours.t_min)),
@@ -90,7 +94,11 @@ mod tests {
         let c = column([0.0, 0.5, 2.25]);
         let pair = Pair::new(&b, &c, "y").unwrap();
         assert_eq!((pair.largest(), pair.size()), (0.5, 2.25));
-        assert_eq!(pair.of_values(), [0.0, 0.25, 0.25]);
+        // The difference 0.5 is a fifth of the largest value: no value is better known.
+        assert_eq!(pair.of_values(), [0.5, 0.5, 0.5]);
+        let small = column([0.0, 0.99, 2.0]);
+        let differences = Pair::new(&b, &small, "y").unwrap().of_values();
+        assert!((differences[2] - 0.0025).abs() < 1e-15, "{differences:?}");
         assert_eq!(pair.trusted(1.0), 1.0);
     }
 }

@@ -9,15 +9,17 @@
 //! accurate integration; y_x of one with the exact coupling, the elements of the run and its tolerance. With
 //! errors of the mesh that fall like hᵖ the difference y − y_f is (1 − 2⁻ᵖ) of the error of y: S = 2 covers every order
 //! p ≥ 1, with half as much again in reserve for p ≥ 2. The factor 1.1 is for what y_x is off itself. Vibration modes converge more slowly than that when the beam
-//! rotates fast: S = 4.
+//! rotates fast, and functions other than elements where a section jumps or a load or mass sits within them: S = 4.
 //!
 //! The errors of the smallest, largest and last value are S times the differences of these values, or of the columns
 //! at their times, or a quarter of the largest difference until then, whichever is largest: a difference that passes
-//! through zero is no small error.
+//! through zero is no small error. Where the largest difference d of all times is a part of the largest value y of the column, they are
+//! d²/(y/10) at least, and d from y/10 on: vibrations that the mesh does not resolve differ in their phases, at any time.
 //!
 //! Half the step would not serve where vibrations are hardly resolved, for errors do not fall like hᵖ there. So `radau`
 //! runs all companions: those of its own runs with a tenth of their tolerance, which makes the error 18 times smaller
-//! (h ∼ tol^(1/4), error ∼ h⁵), or 6 times where only the stages' order counts (error ∼ h³). Those of fixed steps have
+//! (h ∼ tol^(1/4), error ∼ h⁵), or 6 times where only the stages' order counts (error ∼ h³), and with at most half of its
+//! longest step. Those of fixed steps have
 //! the tolerances 10⁻⁵, 10⁻⁷ and 10⁻⁹ in turn, until two of them differ by half of what the run differs from the
 //! second: a coarse step needs no fine companion, which would follow every wave that the mesh can carry.
 //!
@@ -189,12 +191,21 @@ impl Reading {
                 model,
             });
         }
+        let primary = |error: &&ColumnError| {
+            let channels = run.trajectory.channels();
+            channels.iter().any(|c| c.name == error.column && c.role == Role::Primary)
+        };
+        let principal: Vec<&ColumnError> = columns.iter().filter(primary).collect();
+        if fine.status == Status::Finished {
+            let coarse = self.coarse(run, &principal, (&finer, &fine), safety, watch);
+            warnings.extend(coarse?);
+        }
         Ok(Errors { columns, warnings, trusted, ..Errors::default() })
     }
 
     /// The last time recorded before the first impact of a run with a rigid contact; behind it a run on another mesh says
     /// nothing of the error.
-    fn before_impacts(&self, run: &Run) -> Option<f64> {
+    pub(crate) fn before_impacts(&self, run: &Run) -> Option<f64> {
         let rigid = |law: &Law| matches!(law, Law::Constraint { .. });
         let planar = self
             .case
@@ -211,7 +222,7 @@ impl Reading {
     /// The refined case and its run: for fixed steps the first of the ladder whose own error does not count beside that
     /// of `run`.
     fn finer_run(&self, run: &Run, watch: &mut Watch<'_>) -> Result<(Reading, Run), Problems> {
-        let finer = self.refined()?;
+        let finer = self.refined(run)?;
         let fine = finer.prepare()?.run(watch);
         if self.case.steps.step().is_none() {
             return Ok((finer, fine));
@@ -257,16 +268,30 @@ impl Reading {
         self.with(&changes)
     }
 
-    /// The case with twice the functions and a far more accurate integration.
-    fn refined(&self) -> Result<Reading, Problems> {
+    /// The case with twice the functions and a far more accurate integration. Steps of `run` may be as long as they are for
+    /// another reason than its tolerance: those of the companion are half as long at most.
+    fn refined(&self, run: &Run) -> Result<Reading, Problems> {
         let mut changes = self.case.finer();
         match self.case.steps {
-            Steps::Controlled { .. } => changes.extend(self.tolerances(FINER, TIGHTEST, f64::INFINITY)),
+            Steps::Controlled { .. } => {
+                changes.extend(self.tolerances(FINER, TIGHTEST, f64::INFINITY));
+                let longest = run.trajectory.index("step.size").map(|i| run.trajectory.extremes(i).max);
+                let half = longest.filter(|longest| *longest > 0.0).map(|longest| 0.5 * longest);
+                changes.extend(half.map(|half| format!("integrator.max-step={half:e}")));
+            }
             Steps::Fixed { .. } => changes.push(radau(LADDER[0])),
         }
         // Shapes are those of the run itself.
         changes.push("output.vtk=false".to_owned());
         self.with(&changes)
+    }
+
+    /// The relative tolerance of the case; `None` for fixed steps.
+    pub(crate) fn tolerance(&self) -> Option<f64> {
+        match self.case.steps {
+            Steps::Controlled { tolerance, .. } => Some(tolerance),
+            Steps::Fixed { .. } => None,
+        }
     }
 
     /// Changes that multiply the tolerances by `factor` and keep them between the bounds; none for fixed steps.

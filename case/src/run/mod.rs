@@ -1,7 +1,9 @@
 //! A case, run: from its reading to its results.
 
+pub mod advise;
 mod cautions;
 mod clock;
+mod coarse;
 mod contact;
 mod difference;
 pub mod error;
@@ -92,6 +94,7 @@ impl Reading {
     /// # Errors
     /// [`Problems`] at the key that is to blame, also when there is no equilibrium to begin with.
     pub fn prepare(&self) -> Result<Prepared, Problems> {
+        self.missing_for_run()?;
         let mut live = self.build()?;
         let mut state = live.system.initial();
         let (history, unstable) = self.begin(live.system.as_mut(), &mut state)?;

@@ -5,6 +5,7 @@
 //! elements, log₂(e_{k−1}/e_k): mesh and steps together, as they are refined.
 
 use super::Run;
+use super::difference::Pair;
 use super::error::{Effort, FINER, TIGHTEST};
 use crate::kinds::integrator::Steps;
 use crate::problem::Problems;
@@ -34,14 +35,16 @@ enum Part {
 pub struct Target {
     tolerance: String,
     quantity: Option<String>,
+    /// Factor on the tolerance.
+    factor: f64,
 }
 
 /// A column to be refined: its bound in its unit.
-struct Goal {
-    index: usize,
-    name: String,
+pub(super) struct Goal {
+    pub(super) index: usize,
+    pub(super) name: String,
     part: Part,
-    bound: f64,
+    pub(super) bound: f64,
 }
 
 /// A refined case and its run.
@@ -77,11 +80,16 @@ impl Target {
     /// A tolerance of the largest value of each quantity, `1e-4`, or with a unit, `0.1 mm`; and a quantity, `tip.deflection`,
     /// `tip.deflection.min`, `.max` or `.final`. Without one all principal columns are meant.
     pub fn new(tolerance: String, quantity: Option<String>) -> Target {
-        Target { tolerance, quantity }
+        Target { tolerance, quantity, factor: 1.0 }
+    }
+
+    /// The same with a factor on the tolerance.
+    pub(super) fn times(&self, factor: f64) -> Target {
+        Target { factor: factor * self.factor, ..self.clone() }
     }
 
     /// The columns with their bounds.
-    fn goals(&self, run: &Run) -> Result<Vec<Goal>, RefineError> {
+    pub(super) fn goals(&self, run: &Run) -> Result<Vec<Goal>, RefineError> {
         let trajectory = &run.trajectory;
         let mut goals = Vec::new();
         match &self.quantity {
@@ -112,7 +120,7 @@ impl Target {
                 "must be a number > 0, or one with a unit of the quantity, e.g. `0.1 mm`".to_owned(),
             ));
         }
-        Ok(Goal { index, name: channel.name.clone(), part, bound })
+        Ok(Goal { index, name: channel.name.clone(), part, bound: self.factor * bound })
     }
 }
 
@@ -135,7 +143,7 @@ fn unknown(column: &str, trajectory: &Trajectory) -> ResultsError {
 
 impl Goal {
     /// The value, where it is one, and its error.
-    fn reached(&self, run: &Run, errors: &Errors) -> Option<(Option<f64>, f64)> {
+    pub(super) fn reached(&self, run: &Run, errors: &Errors) -> Option<(Option<f64>, f64)> {
         let error = errors.columns.iter().find(|error| error.column == self.name)?;
         let e = run.trajectory.extremes(self.index);
         Some(match self.part {
@@ -146,7 +154,19 @@ impl Goal {
         })
     }
 
-    fn quantity(&self) -> String {
+    /// The difference of the value in two runs.
+    pub(super) fn off(&self, pair: &Pair<'_>) -> f64 {
+        let [min, max, last] = pair.of_values();
+        match self.part {
+            Part::Min => min,
+            Part::Max => max,
+            Part::Final => last,
+            Part::History => pair.largest(),
+        }
+    }
+
+    /// Its name, `tip.deflection.min`.
+    pub(super) fn quantity(&self) -> String {
         let end = match self.part {
             Part::Min => ".min",
             Part::Max => ".max",
@@ -242,7 +262,7 @@ impl Reading {
     }
 
     /// The mesh and the steps of the case, as changes.
-    fn mesh_and_steps(&self) -> Vec<String> {
+    pub(super) fn mesh_and_steps(&self) -> Vec<String> {
         let now = |change: String| {
             let (key, _) = change.split_once('=')?;
             let (tables, name) = key.rsplit_once('.')?;

@@ -5,6 +5,7 @@ use crate::hub_beam::HubBeam;
 use crate::kinds::beam::Beam;
 use crate::kinds::contact::Contact;
 use crate::space::Space;
+use flexion::contact as touch;
 use flexion::hub_beam::Mount;
 use flexion::multibody::Body;
 use flexion::section::Shape;
@@ -28,7 +29,7 @@ impl Case {
                 let beam = Part::beam(("beam", 0), of.length, section, Some(of.hub.radius), &also);
                 (vec![beam], contacts)
             }
-            Subject::Space(of) => (of.parts(), Vec::new()),
+            Subject::Space(of) => (of.parts(), of.drawn()),
         };
         let scene = Scene::new(parts, obstacles, (self.duration / self.output.step) as usize);
         match (&self.subject, self.output.vtk) {
@@ -50,6 +51,9 @@ impl HubBeam {
     pub(super) fn drawn(&self) -> Vec<Drawn> {
         let drawn = |contact: &Contact| Drawn {
             name: contact.name.clone().unwrap_or_default(),
+            body: 0,
+            size: self.length,
+            in_space: false,
             station: contact.stations.last().copied().unwrap_or(self.length),
             on_hub: contact.mount == Mount::Hub,
             obstacle: Arc::clone(&contact.obstacle),
@@ -59,6 +63,20 @@ impl HubBeam {
 }
 
 impl Space {
+    /// The obstacles, as they are drawn.
+    fn drawn(&self) -> Vec<Drawn> {
+        let drawn = |(contact, (body, station)): (&touch::Contact, &(usize, f64))| Drawn {
+            name: contact.name.clone(),
+            body: *body,
+            station: *station,
+            size: 0.5 * self.size,
+            in_space: true,
+            on_hub: false,
+            obstacle: Arc::clone(&contact.obstacle),
+        };
+        self.contacts.iter().zip(&self.touching).map(drawn).collect()
+    }
+
     /// Its bodies as boxes, and its beams.
     fn parts(&self) -> Vec<Part> {
         let bodies = self.bodies.iter().enumerate();

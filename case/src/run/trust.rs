@@ -7,7 +7,7 @@ use super::Run;
 use crate::kinds::integrator::Steps;
 use crate::problem::Problems;
 use crate::reading::Reading;
-use flexion_results::Watch;
+use flexion_results::{Status, Watch};
 
 /// Difference of a gap, over its largest value, from which two runs go different ways.
 const APART: f64 = 0.01;
@@ -37,6 +37,12 @@ impl Reading {
             let rows = ours.times().iter().zip(ours.values(index).zip(theirs.values(other)));
             let apart = rows.into_iter().find(|(_, (a, b))| (a - b).abs() > bound);
             first = apart.map_or(first, |(t, _)| first.min(*t));
+        }
+        let end = companion.state.t;
+        if !first.is_finite() && companion.status != Status::Finished {
+            return Ok(Some(format!(
+                "gaps and impacts are known until t = {end} s only: a run with {what} was given up there"
+            )));
         }
         Ok(first.is_finite().then(|| {
             format!(

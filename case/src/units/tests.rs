@@ -72,6 +72,7 @@ fn a_wrong_unit_is_named_where_it_stands() {
         ("5 m/", &LENGTH, 4..4, "expected a unit"),
         ("5 (m", &LENGTH, 2..4, "not closed"),
         ("5 m)", &LENGTH, 3..4, "expected a unit"),
+        ("70 GP", &MODULUS, 3..5, "unknown unit `GP`; did you mean `GPa`?"),
         ("5 fft", &LENGTH, 2..5, "unknown unit `fft`; did you mean `ft`?"),
         ("5 MM", &LENGTH, 2..4, "did you mean `Mm`?"),
         ("5 kilogram", &LENGTH, 2..10, "unknown unit `kilogram`"),

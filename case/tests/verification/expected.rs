@@ -170,10 +170,9 @@ impl Expected<'_> {
             // Relative, or of the last digit of a printed table [rad/s].
             let absolute = table.get("absolute").map(value);
             let expected: Vec<f64> = table["frequencies"].as_array().unwrap().iter().map(value).collect();
-            let mut system = case.vibrating().unwrap();
+            let (mut system, _) = case.vibrating(speed > 0.0).unwrap();
             let mut state = system.initial();
-            if case.space().is_some() {
-                assert_eq!(speed, 0.0, "{}: a system in space is at rest", self.name);
+            if case.space().is_some() && speed == 0.0 {
                 equilibrium(system.as_mut(), &mut state).unwrap();
             } else {
                 rotate_stably(system.as_mut(), &mut state, 0.0, speed).unwrap();

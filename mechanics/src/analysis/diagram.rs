@@ -34,6 +34,8 @@ pub struct Point {
     pub speed: f64,
     /// The mode.
     pub mode: Mode,
+    /// Its place among the modes at this speed, ascending in |λ|, from 0.
+    pub number: usize,
     /// Assurance against the mode at the speed before; 1 at the first.
     pub assurance: f64,
 }
@@ -95,6 +97,28 @@ pub struct Campbell {
     pub crossings: Vec<Crossing>,
     /// Instabilities.
     pub instabilities: Vec<Instability>,
+}
+
+impl Campbell {
+    /// Notes the frequencies [rad/s] that a finer mesh has at each of the speeds, ascending, as far as there are any: their
+    /// differences times `safety` estimate the errors by the mesh.
+    pub fn compare(&mut self, finer: &[Vec<f64>], safety: f64) {
+        for branch in &mut self.branches {
+            for (point, finer) in branch.points.iter_mut().zip(finer) {
+                if let Some(finer) = finer.get(point.number) {
+                    point.mode.compare(*finer, safety);
+                }
+            }
+        }
+    }
+
+    /// The largest estimated error of a frequency by the mesh, over that frequency: number of its branch, and its point.
+    pub fn coarsest(&self) -> Option<(usize, &Point)> {
+        let relative = |p: &Point| p.mode.mesh.map_or(0.0, |error| error / p.mode.frequency());
+        let points = self.branches.iter().enumerate().flat_map(|(k, b)| b.points.iter().map(move |p| (k, p)));
+        let finite = points.filter(|(_, p)| p.mode.mesh.is_some() && p.mode.frequency() > 0.0);
+        finite.max_by(|a, b| relative(a.1).total_cmp(&relative(b.1)))
+    }
 }
 
 /// Why there is no diagram.

@@ -8,8 +8,9 @@
 //! with it is a motion that G allows, and the cost stays linear in the unknowns where the multipliers stand in the band.
 
 use super::stiffness::matrices;
-use crate::linalg::eigen::{EigenError, Kind, Pair, Pencil};
-use crate::linalg::{Matrix, Singular};
+use crate::linalg::Matrix;
+use crate::linalg::eigen::{EigenError, Kind, Pair, Pencil, UNCERTAIN};
+use crate::linalg::vector::dot;
 use crate::system::{Direction, Frame, State, System};
 use num_complex::Complex64;
 
@@ -38,6 +39,8 @@ pub struct Mode {
     /// Bound of the relative error of the frequency by rounding: δ = ½ ε |x|ᵀ|K||x| / |λ|² by that of the entries of K in
     /// doubles, and δ² where the frequency is corrected by the [strains](crate::system::Dynamics::stiffness_forms) of the mode.
     pub rounding: f64,
+    /// Estimated error of the frequency by the mesh [rad/s], where the modes of a finer one were found.
+    pub mesh: Option<f64>,
     /// Shares of the modal mass.
     pub shares: Shares,
     /// Displacements along the beam.
@@ -50,6 +53,11 @@ impl Mode {
     /// Angular frequency ω = |Im λ| [rad/s]; zero for a motion that only grows or decays.
     pub fn frequency(&self) -> f64 {
         self.eigenvalue.im.abs()
+    }
+
+    /// Notes the frequency that a finer mesh has [rad/s], whose difference times `safety` estimates the error by the mesh.
+    pub fn compare(&mut self, finer: f64, safety: f64) {
+        self.mesh = Some(safety * (self.frequency() - finer).abs());
     }
 
     /// Damping ratio ζ = −Re λ/|λ|: positive decays, negative grows.
@@ -72,19 +80,31 @@ pub struct Shares {
     pub torsion: f64,
     /// The hub.
     pub hub: f64,
+    /// Along the first axis of space.
+    pub x: f64,
+    /// Along the second.
+    pub y: f64,
+    /// Along the third.
+    pub z: f64,
+    /// Rotations of bodies.
+    pub rotation: f64,
     /// What the model does not distinguish.
     pub other: f64,
 }
 
 impl Shares {
     /// Names and values.
-    pub fn named(&self) -> [(&'static str, f64); 6] {
+    pub fn named(&self) -> [(&'static str, f64); 10] {
         [
             ("axial", self.axial),
             ("chord", self.chord),
             ("flap", self.flap),
             ("torsion", self.torsion),
             ("hub", self.hub),
+            ("x", self.x),
+            ("y", self.y),
+            ("z", self.z),
+            ("rotation", self.rotation),
             ("other", self.other),
         ]
     }
@@ -95,13 +115,17 @@ impl Shares {
         self.named().into_iter().fold(("other", f64::NEG_INFINITY), best).0
     }
 
-    pub(super) fn of(&mut self, direction: Direction) -> &mut f64 {
+    fn of(&mut self, direction: Direction) -> &mut f64 {
         match direction {
             Direction::Axial => &mut self.axial,
             Direction::Chord => &mut self.chord,
             Direction::Flap => &mut self.flap,
             Direction::Torsion => &mut self.torsion,
             Direction::Hub => &mut self.hub,
+            Direction::X => &mut self.x,
+            Direction::Y => &mut self.y,
+            Direction::Z => &mut self.z,
+            Direction::Rotation => &mut self.rotation,
             Direction::Other => &mut self.other,
         }
     }
@@ -205,31 +229,37 @@ pub(super) fn modes_near(
     if count > there {
         return Err(NoModes::TooMany { asked: count, there });
     }
+    let corrects = system.stiffness_forms(state, &[]).is_some();
     let mut rigid = 0.0;
-    let mut pencil = match Pencil::new(all.clone(), multipliers, 0.0) {
-        // Rigid motions: the lowest frequency without them sets a shift.
-        Err(EigenError::Singular(singular)) => {
-            let lowest = match held_frequency(system, state, singular) {
-                Err(_) => elastic_frequency(&all, multipliers, count.min(there))?,
-                held => held?,
+    let direct = Pencil::new(all.clone(), multipliers, 0.0);
+    let direct = direct.map(|mut pencil| (corrects || pencil.doubts() == [false; 2]).then_some(pencil));
+    let mut pencil = match direct {
+        Ok(Some(pencil)) => pencil,
+        Err(error) if !matches!(error, EigenError::Singular(_)) => return Err(error.into()),
+        // Rigid motions, or a band that only the border stiffens: the lowest frequency without them sets a shift.
+        unsound => {
+            let held = if unsound.is_err() { held_frequency(system, state) } else { None };
+            let lowest = match held {
+                Some(held) => held,
+                None => elastic_frequency(&all, multipliers, count.min(there))?,
             };
             rigid = RIGID * lowest;
             Pencil::new(all, multipliers, 0.3 * lowest)?
         }
-        other => other?,
     };
     // A rigid motion that neither moves nor stops is an eigenvalue twice: as a place and as a speed.
-    let pairs = pencil.pairs(if rigid > 0.0 { (count + 1).min(there) } else { count }, near)?;
+    let asked = if rigid > 0.0 { (count + RIGID_MOTIONS).min(there) } else { count };
+    let pairs = pencil.pairs(asked, near)?;
     let mut modes: Vec<Mode> = Vec::with_capacity(count);
     let scale: Vec<f64> = system.scales().to_vec();
-    let corrected = pencil.kind() != Kind::General && system.stiffness_forms(state, &[]).is_some();
+    let corrected = pencil.kind() != Kind::General && corrects;
     let residual = if corrected { CORRECTED } else { RESIDUAL };
     for pair in pairs {
         let number = modes.len() + 1;
         if number > count {
             break;
         }
-        let mut mode = mode(system, &pencil, pair, &scale, rigid);
+        let mut mode = mode(system, state, &pencil, pair, &scale, rigid);
         let again = |m: &Mode| m.eigenvalue == Complex64::ZERO && parallel(&m.vector, &mode.vector);
         if mode.eigenvalue == Complex64::ZERO {
             // A defective rigid motion is known to half the digits.
@@ -260,8 +290,9 @@ pub(super) fn modes_near(
 
 /// The number of modes, if it can be counted.
 fn complete(pencil: &Pencil, modes: &[Mode]) -> Result<Option<usize>, NoModes> {
-    let steady = modes.iter().all(|m: &Mode| m.eigenvalue.re == 0.0 && m.eigenvalue.im > 0.0);
-    let Some(last) = modes.last().filter(|_| steady) else { return Ok(None) };
+    let rigid = |m: &Mode| pencil.kind() == Kind::Symmetric && m.eigenvalue == Complex64::ZERO;
+    let steady = modes.iter().all(|m: &Mode| m.eigenvalue.re == 0.0 && m.eigenvalue.im > 0.0 || rigid(m));
+    let Some(last) = modes.last().filter(|m| steady && m.eigenvalue.im > 0.0) else { return Ok(None) };
     // Just below the last, so that copies of it that were not asked for do not count.
     let limit = pencil.just_below(last.eigenvalue, &last.vector);
     let found = modes.iter().filter(|m| m.frequency() < limit).count();
@@ -298,16 +329,13 @@ fn parallel(x: &[Complex64], y: &[Complex64]) -> bool {
 }
 
 /// Lowest frequency of the system with its rigid motions held.
-fn held_frequency(system: &mut dyn System, state: &State, singular: Singular) -> Result<f64, NoModes> {
+fn held_frequency(system: &mut dyn System, state: &State) -> Option<f64> {
     system.hold(true);
     let (mut held, multipliers) = matrices(system, state);
     system.hold(false);
     held[1].clear();
-    let pair = Pencil::new(held, multipliers, 0.0).and_then(|mut pencil| pencil.pairs(1, &[]));
-    match pair.as_ref().map(|pairs| pairs.first()) {
-        Ok(Some(pair)) => Ok(pair.value.norm()),
-        _ => Err(EigenError::Singular(singular).into()),
-    }
+    let pairs = Pencil::new(held, multipliers, 0.0).and_then(|mut pencil| pencil.pairs(1, &[]));
+    pairs.ok()?.first().map(|pair| pair.value.norm())
 }
 
 /// Lowest frequency that is not of a rigid motion, of a system whose rigid motions nothing holds, seen from a shift far above
@@ -324,16 +352,16 @@ fn elastic_frequency(all: &[Matrix; 3], multipliers: usize, count: usize) -> Res
     let there = all[0].order() - 2 * multipliers;
     let mut pencil = Pencil::new(all.clone(), multipliers, SHIFT * top)?;
     let found = pencil.pairs((count + RIGID_MOTIONS).min(there), &[])?;
-    let sizes = found.iter().map(|pair| pair.value.norm());
-    let last = sizes.clone().fold(0.0, f64::max);
-    Ok(sizes.filter(|size| *size > RIGID * last).fold(last, f64::min))
+    let last = found.iter().map(|pair| pair.value.norm()).fold(0.0, f64::max);
+    let elastic = found.iter().filter(|pair| pencil.rounding(pair.value, &pair.vector) < UNCERTAIN);
+    Ok(elastic.map(|pair| pair.value.norm()).filter(|size| *size > RIGID * last).fold(last, f64::min))
 }
 
 /// A mode from its eigenpair, without its shape.
-fn mode(system: &dyn System, pencil: &Pencil, pair: Pair, scale: &[f64], rigid: f64) -> Mode {
+fn mode(system: &dyn System, state: &State, pencil: &Pencil, pair: Pair, scale: &[f64], rigid: f64) -> Mode {
     let Pair { value: mut eigenvalue, mut vector, residual } = pair;
     let n = vector.len();
-    if eigenvalue.norm() < rigid {
+    if eigenvalue.norm() < rigid || rigid > 0.0 && pencil.rounding(eigenvalue, &vector) > UNCERTAIN {
         eigenvalue = Complex64::ZERO;
     }
     let parts = |x: &[Complex64]| -> [Vec<f64>; 2] {
@@ -345,32 +373,22 @@ fn mode(system: &dyn System, pencil: &Pencil, pair: Pair, scale: &[f64], rigid: 
         (0..scale.len()).fold(0, |best, i| if size(i) > size(best) * (1.0 + 1e-9) { i } else { best });
     let phase = vector.get(largest).map_or(Complex64::ONE, |x| x.conj() / x.norm());
     vector.iter_mut().for_each(|x| *x *= phase);
+    let moved = parts(&vector).map(|part| {
+        let mut mx = vec![0.0; n];
+        pencil.mass().multiply(&part, &mut mx);
+        [part, mx].map(|x| x[..scale.len()].to_vec())
+    });
+    let mass: f64 = moved.iter().map(|[x, mx]| dot(x, mx)).sum();
     let mut shares = Shares::default();
-    let mut mass = 0.0;
-    let mut mx = vec![0.0; n];
-    for part in &parts(&vector) {
-        pencil.mass().multiply(part, &mut mx);
-        for (i, (x, mx)) in part.iter().zip(&mx).enumerate().take(scale.len()) {
-            *shares.of(system.direction(i)) += x * mx;
-            mass += x * mx;
-        }
-    }
-    let root = mass.abs().sqrt();
-    if root > 0.0 {
+    if mass != 0.0 {
+        let root = mass.abs().sqrt();
         vector.iter_mut().for_each(|x| *x /= root);
-        for share in [
-            &mut shares.axial,
-            &mut shares.chord,
-            &mut shares.flap,
-            &mut shares.torsion,
-            &mut shares.hub,
-            &mut shares.other,
-        ] {
-            *share /= mass;
+        for [x, mx] in &moved {
+            system.shares(state, x, mx, &mut |direction, part| *shares.of(direction) += part / mass);
         }
     }
     let rounding = if eigenvalue == Complex64::ZERO { 0.0 } else { pencil.rounding(eigenvalue, &vector) };
-    Mode { eigenvalue, vector, residual, rounding, shares, shape: Shape::default(), nodes: 0 }
+    Mode { eigenvalue, vector, residual, rounding, mesh: None, shares, shape: Shape::default(), nodes: 0 }
 }
 
 /// Gives a mode its displacements at the stations and its nodes.
@@ -397,7 +415,7 @@ fn shape(system: &mut dyn System, state: &State, x: &[Complex64], scale: &[f64],
         let mut moved = state.clone();
         system.retract(&state.q, d, &mut moved.q);
         let mut frames = vec![Frame::default(); count];
-        system.frames(0, &moved, stations, &mut frames);
+        system.frames(system.drawn(), &moved, stations, &mut frames);
         frames
     };
     let still = frames(system, &vec![0.0; x.len()]);

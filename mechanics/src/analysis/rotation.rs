@@ -10,6 +10,12 @@ const SMALLEST: f64 = 1e-4;
 /// Relative accuracy of the speed at which an equilibrium ends.
 const ACCURACY: f64 = 1e-6;
 
+/// A number with six decimals at most.
+fn short(x: f64) -> String {
+    let text = format!("{x:.6}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
 /// Why a beam cannot be brought to a speed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NoRotation {
@@ -18,7 +24,8 @@ pub enum NoRotation {
     DoesNotTurn,
     /// There is no equilibrium.
     #[error(
-        "there is no steady rotation at {asked} rad/s: followed up to {reached:.6} rad/s, and beyond {source}{why}"
+        "there is no steady rotation at {} rad/s: followed up to {reached:.6} rad/s, and beyond {source}{why}",
+        short(*.asked)
     )]
     Lost {
         /// Speed asked for [rad/s].
@@ -32,7 +39,8 @@ pub enum NoRotation {
     },
     /// The equilibrium is unstable.
     #[error(
-        "the steady rotation at {asked} rad/s is buckled, {stability}: stable up to {reached:.6} rad/s{why}"
+        "the steady rotation at {} rad/s is buckled, {stability}: stable up to {reached:.6} rad/s{why}",
+        short(*.asked)
     )]
     Buckled {
         /// Speed asked for [rad/s].
@@ -45,7 +53,7 @@ pub enum NoRotation {
         why: String,
     },
     /// Its stability was not found.
-    #[error("the stability of the steady rotation at {asked} rad/s was not found: {source}")]
+    #[error("the stability of the steady rotation at {} rad/s was not found: {source}", short(*.asked))]
     Undecided {
         /// Speed asked for [rad/s].
         asked: f64,

@@ -36,6 +36,11 @@ impl Block {
     pub fn ends(&self) -> bool {
         self.failure.is_some()
     }
+
+    /// The frequencies [rad/s] at its speeds, up to the first failure, in the order of the modes.
+    pub fn frequencies(&self) -> impl Iterator<Item = Vec<f64>> {
+        self.solved.iter().map(|solved| solved.modes.iter().map(Mode::frequency).collect())
+    }
 }
 
 /// A system that rotates at the speeds of a [`Plan`], and its last equilibrium.

@@ -9,7 +9,7 @@
 //! N. Gould, *Math. Program.* 32 (1985) 90–99, doi:10.1007/BF01585660 (inertia of matrices with multipliers).
 
 use super::stiffness::matrices;
-use crate::linalg::eigen::{EigenError, Pencil, each, is_symmetric, negative_eigenvalues};
+use crate::linalg::eigen::{EigenError, Pencil, certain_directions, each, is_symmetric, negative_directions};
 use crate::system::{State, System};
 use std::fmt;
 
@@ -60,9 +60,13 @@ impl fmt::Display for Stability {
 /// where K is symmetric.
 pub fn stability(system: &mut dyn System, state: &State) -> Result<Stability, EigenError> {
     let (all, multipliers) = matrices(system, state);
-    let [_, damping, stiffness] = &all;
+    let [mass, damping, stiffness] = &all;
     let symmetric = is_symmetric(stiffness);
-    let saddle = if symmetric { negative_eigenvalues(stiffness).saturating_sub(multipliers) } else { 0 };
+    let mut saddle = if symmetric { negative_directions(stiffness, multipliers) } else { 0 };
+    // A rigid motion has no stiffness, of whatever sign rounding makes it.
+    if saddle > 0 && Pencil::new(all.clone(), multipliers, 0.0).is_ok_and(|mut pencil| pencil.doubts()[0]) {
+        saddle = certain_directions(stiffness, mass, multipliers);
+    }
     let mut gyroscopic = false;
     each(damping, |i, j| gyroscopic |= damping.get(i, j) * damping.get(j, i) < 0.0);
     if symmetric && (saddle == 0 || !gyroscopic) {

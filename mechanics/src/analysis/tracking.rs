@@ -1,6 +1,7 @@
 //! Joining modes of neighbouring speeds by their shapes.
 
 use super::diagram::{Branch, Point};
+use super::modes::Mode;
 use super::speeds::{Solved, assurance};
 
 /// Assurance above which two shapes are taken for one mode.
@@ -95,9 +96,10 @@ impl Tracker {
     pub(super) fn new(first: Option<&Solved>, count: usize) -> Tracker {
         let modes = first.map_or(&[][..], |s| &s.modes);
         let speed = first.map_or(0.0, |s| s.speed);
-        let branch =
-            |mode: &_| Branch { points: vec![Point { speed, mode: Clone::clone(mode), assurance: 1.0 }] };
-        let branches: Vec<Branch> = modes.iter().take(count).map(branch).collect();
+        let point =
+            |(number, mode): (usize, &Mode)| Point { speed, mode: mode.clone(), number, assurance: 1.0 };
+        let points = modes.iter().take(count).enumerate().map(point);
+        let branches: Vec<Branch> = points.map(|point| Branch { points: vec![point] }).collect();
         Tracker { at: (0..branches.len()).map(Some).collect(), branches }
     }
 
@@ -111,7 +113,7 @@ impl Tracker {
             *at = next.map(|(to, _)| to);
             if let Some((number, assurance)) = next {
                 let mode = to.modes[number].clone();
-                branch.points.push(Point { speed: to.speed, mode, assurance });
+                branch.points.push(Point { speed: to.speed, mode, number, assurance });
             }
         }
     }

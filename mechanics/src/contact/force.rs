@@ -97,7 +97,7 @@ pub struct ContactForce {
     pub factor: f64,
     /// Coefficient of friction μ.
     pub friction: f64,
-    /// Sliding speed v_s of the regularised friction −μ F tanh(v/v_s) \[m/s\].
+    /// Sliding speed v_s of the regularised friction −μ F tanh(|v|/v_s) v/|v| \[m/s\].
     pub slip_speed: f64,
 }
 
@@ -135,13 +135,24 @@ impl ContactForce {
         self.stiffness * power / (self.exponent + 1.0)
     }
 
-    /// Friction over normal force, −μ tanh(v/v_s), and its derivative by the sliding velocity v \[m/s\].
-    pub fn friction(&self, sliding: f64) -> (f64, f64) {
+    /// Friction over normal force, −μ tanh(|v|/v_s) v/|v|, and its derivatives by the components of the sliding velocity v \[m/s\].
+    pub fn friction(&self, sliding: [f64; 2]) -> ([f64; 2], [[f64; 2]; 2]) {
         if self.friction == 0.0 {
-            return (0.0, 0.0);
+            return ([0.0; 2], [[0.0; 2]; 2]);
         }
-        let part = libm::tanh(sliding / self.slip_speed);
-        (-self.friction * part, -self.friction * (1.0 - part * part) / self.slip_speed)
+        let speed = libm::hypot(sliding[0], sliding[1]);
+        let part = libm::tanh(speed / self.slip_speed);
+        let slope = (1.0 - part * part) / self.slip_speed;
+        let (over, along) = if speed > 0.0 {
+            (part / speed, sliding.map(|v| v / speed))
+        } else {
+            (1.0 / self.slip_speed, [0.0; 2])
+        };
+        let entry = |i: usize, j: usize| {
+            let across = if i == j { over } else { 0.0 };
+            -self.friction * (across + (slope - over) * along[i] * along[j])
+        };
+        (sliding.map(|v| -self.friction * over * v), [0, 1].map(|i| [0, 1].map(|j| entry(i, j))))
     }
 }
 
@@ -204,9 +215,17 @@ mod tests {
         let by_v = (law.normal(x, v + d, 0.5).value - law.normal(x, v - d, 0.5).value) / (2.0 * d);
         assert!((now.by_indentation / by_x - 1.0).abs() < 1e-6);
         assert!((now.by_rate / by_v - 1.0).abs() < 1e-6);
-        let (_, slope) = law.friction(0.004);
-        let by = (law.friction(0.004 + d).0 - law.friction(0.004 - d).0) / (2.0 * d);
-        assert!((slope / by - 1.0).abs() < 1e-6);
+        for v in [[0.004, 0.0], [0.004, -0.007], [0.0, 0.0]] {
+            let (_, slope) = law.friction(v);
+            for j in 0..2 {
+                let moved = |d: f64| law.friction([0, 1].map(|i| if i == j { v[i] + d } else { v[i] })).0;
+                let (more, less) = (moved(d), moved(-d));
+                for i in 0..2 {
+                    let by = (more[i] - less[i]) / (2.0 * d);
+                    assert!((slope[i][j] - by).abs() < 1e-6 * 0.4 / 0.01, "{v:?} {i} {j}");
+                }
+            }
+        }
         let stored = (law.stored(x + d) - law.stored(x - d)) / (2.0 * d);
         assert!((stored / law.normal(x, 0.0, 0.5).value - 1.0).abs() < 1e-6);
         // Never adhesive.

@@ -44,6 +44,9 @@ pub trait Obstacle: std::fmt::Debug + Send + Sync {
     /// Points of its surface near `p` \[m\] at time `t` \[s\], to be drawn as a line in the plane of motion; `size` \[m\] is that of
     /// the system.
     fn outline(&self, p: [f64; 3], t: f64, size: f64) -> Vec<[f64; 3]>;
+
+    /// The same to be drawn in space, one line.
+    fn outline_in_space(&self, p: [f64; 3], t: f64, size: f64) -> Vec<[f64; 3]>;
 }
 
 /// A prescribed translation of an obstacle: x(t) d.
@@ -124,6 +127,14 @@ impl Obstacle for Plane {
         let foot = plus(p, surface.normal, -surface.gap);
         [-size, size].map(|x| plus(foot, surface.tangents[0], x)).to_vec()
     }
+
+    /// A square.
+    fn outline_in_space(&self, p: [f64; 3], t: f64, size: f64) -> Vec<[f64; 3]> {
+        let surface = self.surface(p, t);
+        let (foot, [t1, t2]) = (plus(p, surface.normal, -surface.gap), surface.tangents);
+        let corner = |[x, y]: [f64; 2]| plus(plus(foot, t1, size * x), t2, size * y);
+        [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0]].map(corner).to_vec()
+    }
 }
 
 /// A circular cylinder with its axis along z: a circle in the plane of motion.
@@ -174,5 +185,12 @@ impl Obstacle for Circle {
             plus(centre, [cos, sin, 0.0], self.radius)
         };
         (0..=SIDES).map(around).collect()
+    }
+
+    /// A circle on either side of the point.
+    fn outline_in_space(&self, p: [f64; 3], t: f64, size: f64) -> Vec<[f64; 3]> {
+        let circle = self.outline(p, t, size);
+        let at = |side: f64| circle.iter().map(move |x| [x[0], x[1], p[2] + side * size]);
+        at(-1.0).chain(at(1.0)).collect()
     }
 }

@@ -41,6 +41,11 @@ pub trait Points {
     /// Whether point `k` moves by unknowns that are neighbours in the tangent: ∂p/∂q ∂p/∂qᵀ then fits its structure.
     fn is_local(&self, k: usize) -> bool;
 
+    /// Directions in which its points slide on an obstacle: 1 in the plane, 2 in space.
+    fn directions(&self) -> usize {
+        1
+    }
+
     /// Forgets the forces on all points.
     fn begin_forces(&mut self) {}
 

@@ -2,7 +2,7 @@
 
 use super::rows::Rows;
 use super::{Counters, StepError, failure};
-use crate::linalg::{Matrix, Singular};
+use crate::linalg::{Matrix, Singular, Structure};
 use crate::system::{Dynamics, RowWeights, State, Weights, is_active};
 use std::ops::Range;
 
@@ -74,14 +74,35 @@ impl Combination {
 impl Accelerations {
     /// Allocates for `system`.
     pub(crate) fn new(system: &mut dyn Dynamics, state: &State, weights: RowWeights) -> Accelerations {
+        let matrix = Matrix::new(&system.structure(1));
+        Accelerations { matrix, ..Accelerations::borrowing(system, state, weights) }
+    }
+
+    /// The same without a matrix, for [`Accelerations::complete_in`].
+    pub(crate) fn borrowing(system: &mut dyn Dynamics, state: &State, weights: RowWeights) -> Accelerations {
         let size = system.size();
         Accelerations {
-            matrix: Matrix::new(&system.structure(1)),
+            matrix: Matrix::new(&Structure::dense(0)),
             rhs: vec![0.0; size.v + size.lambda],
             rows: Rows::new(system, state),
             weights,
             massless: None,
         }
+    }
+
+    /// As [`Accelerations::complete`], with the memory of a matrix of (v, λ) whose content is lost.
+    pub(crate) fn complete_in(
+        &mut self,
+        matrix: &mut Matrix,
+        system: &mut dyn Dynamics,
+        state: &mut State,
+        place: (f64, f64),
+        counters: &mut Counters,
+    ) -> Result<(), StepError> {
+        std::mem::swap(&mut self.matrix, matrix);
+        let result = self.complete(system, state, place, counters);
+        std::mem::swap(&mut self.matrix, matrix);
+        result
     }
 
     /// Replaces `state.a` and `state.lambda` by the consistent ones. `from` and `step` are the start and

@@ -37,7 +37,7 @@ pub struct Band<T> {
     interchanged: bool,
     /// Pivots that were too small and were replaced: see [`Band::factor`].
     deflated: Vec<(usize, f64)>,
-    /// Largest entry of each column before elimination, for deflation.
+    /// Largest entry of each column before elimination, for [deflation](Band::deflatable).
     column_size: Vec<f64>,
 }
 
@@ -58,8 +58,13 @@ impl<T: Scalar> Band<T> {
             row_length: vec![0; n],
             interchanged: false,
             deflated: Vec::with_capacity(DEFLATIONS),
-            column_size: vec![0.0; n],
+            column_size: Vec::new(),
         }
+    }
+
+    /// The same matrix with the memory that deflation takes.
+    pub(super) fn deflatable(self) -> Band<T> {
+        Band { column_size: vec![0.0; self.n], ..self }
     }
 
     /// Order of the matrix.
@@ -231,7 +236,8 @@ impl<T: Scalar> Band<T> {
             // Compared with its own column, so that unknowns in different units do not make a sound
             // band look singular. A NaN pivot is refused too.
             let small = if deflate { floor.max(VANISHING * self.column_size[k]) } else { floor };
-            if sound && diagonal > small {
+            // What vanishes is replaced where it stands, on the diagonal.
+            if sound && diagonal > small || !(best > small) {
                 (p, best) = (k, diagonal);
             }
             filled = filled.max((p + u).min(n - 1)).max(k);

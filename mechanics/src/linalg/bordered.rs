@@ -35,15 +35,18 @@ pub struct Bordered<T> {
 impl<T: Scalar> Bordered<T> {
     /// The zero matrix with a band of order `n` and a border of width `border`.
     pub fn new(n: usize, lower: usize, upper: usize, border: usize) -> Bordered<T> {
+        // Without a border there is nothing to deflate with.
+        let further = if border > 0 { border + DEFLATIONS } else { 0 };
+        let band = Band::new(n, lower, upper);
         Bordered {
-            band: Band::new(n, lower, upper),
+            band: if border > 0 { band.deflatable() } else { band },
             border,
             columns: vec![T::ZERO; n * border],
             rows: vec![T::ZERO; n * border],
             corner: vec![T::ZERO; border * border],
-            reduced: vec![T::ZERO; n * (border + DEFLATIONS)],
-            schur: (0..=DEFLATIONS).map(|k| Dense::new(border + k)).collect(),
-            small: vec![T::ZERO; border + DEFLATIONS],
+            reduced: vec![T::ZERO; n * further],
+            schur: (border..=further).map(Dense::new).collect(),
+            small: vec![T::ZERO; further],
         }
     }
 

@@ -53,4 +53,8 @@ impl Points for Multibody {
     fn is_local(&self, _k: usize) -> bool {
         true
     }
+
+    fn directions(&self) -> usize {
+        2
+    }
 }

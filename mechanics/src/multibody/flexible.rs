@@ -6,6 +6,7 @@ use super::slender::{Beam, COORDINATES, ELEMENT_COORDINATES, ELEMENT_VELOCITIES}
 use crate::linalg::vector::{cross, inner};
 use crate::profile::Profile;
 use crate::system::Frame;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// A slender beam as it stands at the start: without stress, and moving as a rigid body.
@@ -188,13 +189,15 @@ fn coordinates(q: &[f64], element: usize) -> [f64; COORDINATES] {
     std::array::from_fn(|k| q[ELEMENT_COORDINATES * element + k])
 }
 
-/// A force per length along a whole beam.
+/// A force per length along a beam.
 #[derive(Clone, Debug)]
 pub struct LineLoad {
     /// Name, unique in its model.
     pub name: String,
     /// Number of the beam.
     pub beam: usize,
+    /// Elements on which it acts; `None` for all.
+    pub elements: Option<Range<usize>>,
     /// Force per length without stress [N/m].
     pub force: Vector,
     /// What the components refer to: inertial axes, or the axes of each section.
@@ -204,6 +207,12 @@ pub struct LineLoad {
 }
 
 impl LineLoad {
+    /// The elements of its beam on which it acts.
+    pub(super) fn on(&self, beam: &Beam) -> Range<usize> {
+        let count = beam.elements().len();
+        self.elements.clone().map_or(0..count, |on| on.start.min(count)..on.end.min(count))
+    }
+
     /// The components at the time `t` when `part` of the loads acts.
     pub(super) fn at(&self, t: f64, part: f64) -> Vector {
         times(part * self.amplitude.as_ref().map_or(1.0, |f| f.value(t)), self.force)

@@ -30,9 +30,12 @@
 //! | `constants` | what does not change in a run |
 //! | `slender` | the geometrically exact slender beam |
 //! | `system` | the equations of motion |
+//! | `axis` | axes of rotation, and what on the ground allows it |
 //! | `rotating` | the same in a frame that rotates, for steady rotation and its modes |
 //! | `observed`, `channels` | energies, power, recorded quantities |
+//! | `shares` | what a small motion moves |
 
+mod axis;
 mod body;
 mod channels;
 mod consistency;
@@ -48,9 +51,11 @@ mod observed;
 mod rotating;
 pub mod rotation;
 mod row;
+mod shares;
 pub mod slender;
 mod system;
 
+pub use axis::Axis;
 pub use body::Body;
 pub use flexible::{Fibre, Flexible, LineLoad};
 pub use force::{Axes, Load, Spring};

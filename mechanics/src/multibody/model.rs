@@ -179,7 +179,7 @@ impl Model {
     }
 
     /// The frame of a part at the start.
-    fn frame(&self, part: Part) -> Option<Frame> {
+    pub(super) fn frame(&self, part: Part) -> Option<Frame> {
         match part {
             Part::Ground => Some(Frame { position: [0.0; 3], rotation: IDENTITY }),
             Part::Body(i) => self.bodies.get(i).map(|body| body.frame),

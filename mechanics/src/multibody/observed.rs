@@ -6,7 +6,7 @@ use super::rotation::{Vector, apply, plus, quaternion, times};
 use super::system::Multibody;
 use crate::linalg::vector::{cross, inner};
 use crate::profile::HubKinematics;
-use crate::system::{Channel, Energy, Frame, Observed, Power, State};
+use crate::system::{Channel, Direction, Energy, Frame, Observed, Power, State};
 
 /// |r′| below which a beam has no direction.
 const LEAST_STRETCH: f64 = 0.05;
@@ -87,7 +87,7 @@ impl Multibody {
         for load in &model.line_loads {
             let [i, j] = constants.beams[load.beam];
             let (beam, force) = (&model.beams[load.beam].beam, load.at(s.time(), self.part));
-            power.loads += beam.line_power(&s.q[i..], &s.v[j..], force, load.follows());
+            power.loads += beam.line_power(load.on(beam), &s.q[i..], &s.v[j..], force, load.follows());
         }
         for (i, (joint, row)) in constants.rows.iter().enumerate() {
             let (a, b) = self.ends(*joint);
@@ -146,6 +146,15 @@ impl Observed for Multibody {
                 *out = of.frame(&s.q[*i..], *station);
             }
         }
+    }
+
+    /// The first beam.
+    fn drawn(&self) -> usize {
+        if self.constants.beams.is_empty() { 0 } else { self.constants.place.len() }
+    }
+
+    fn shares(&self, s: &State, x: &[f64], mx: &[f64], add: &mut dyn FnMut(Direction, f64)) {
+        self.shares_about(s, None, [x, mx], add);
     }
 
     fn channels(&self) -> &[Channel] {

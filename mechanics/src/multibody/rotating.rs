@@ -18,6 +18,7 @@
 //!
 //! The ground rotates with the frame, and so do loads whose components are given in fixed axes: they must lie along the axis.
 
+use super::axis::Axis;
 use super::force::Axes;
 use super::rotation::{Vector, apply_transposed, plus, product, skew, times};
 use super::slender::{ELEMENT_COORDINATES, ELEMENT_VELOCITIES, Triad};
@@ -36,8 +37,7 @@ const ACROSS: f64 = 1e-9;
 #[derive(Clone, Debug)]
 pub struct Rotating {
     inner: Multibody,
-    origin: Vector,
-    axis: Vector,
+    axis: Axis,
     speed: f64,
 }
 
@@ -45,11 +45,9 @@ pub struct Rotating {
 type Row = (usize, Vec<(usize, [f64; 3])>);
 
 impl Rotating {
-    /// The model in a frame about the axis through `origin` \[m\] along `axis`; `None` for an axis that is no direction.
-    pub fn new(inner: Multibody, origin: Vector, axis: Vector) -> Option<Rotating> {
-        let length = inner_length(axis);
-        let valid = length > 0.0 && length.is_finite() && origin.iter().all(|x| x.is_finite());
-        valid.then(|| Rotating { inner, origin, axis: times(1.0 / length, axis), speed: 0.0 })
+    /// The model in a frame that rotates about an axis, at rest to begin with.
+    pub fn new(inner: Multibody, axis: Axis) -> Rotating {
+        Rotating { inner, axis, speed: 0.0 }
     }
 
     /// The model.
@@ -59,7 +57,7 @@ impl Rotating {
 
     /// A load that the frame would see rotate.
     fn unsteady(&self) -> Option<String> {
-        let across = |x: Vector| inner_length(cross(self.axis, x)) > ACROSS * inner_length(x);
+        let across = |x: Vector| inner_length(cross(self.axis.direction, x)) > ACROSS * inner_length(x);
         let model = &self.inner.constants.model;
         let fixed = model.loads.iter().filter(|load| load.axes == Axes::Dead);
         let load = fixed.filter(|load| across(load.force) || across(load.moment)).map(|load| &load.name);
@@ -79,7 +77,7 @@ impl Rotating {
     /// The state in inertial axes.
     fn inertial(&self, s: &State) -> State {
         let mut out = s.clone();
-        let (e, speed) = (self.axis, self.speed);
+        let (e, speed) = (self.axis.direction, self.speed);
         let point = |out: &mut State, q: usize, v: usize, from: Vector| {
             let (x, rate) = (plus(three(&s.q, q), -1.0, from), three(&s.v, v));
             let carried = times(speed, cross(e, x));
@@ -90,7 +88,7 @@ impl Rotating {
             }
         };
         for (i, placed) in self.inner.placed.iter().enumerate() {
-            point(&mut out, 7 * i, 6 * i, self.origin);
+            point(&mut out, 7 * i, 6 * i, self.axis.point);
             let own = self.own_axis(&placed.rotation);
             let change = cross(own, three(&s.v, 6 * i + 3));
             for k in 0..3 {
@@ -99,7 +97,7 @@ impl Rotating {
             }
         }
         self.nodes(|q, v| {
-            point(&mut out, q, v, self.origin);
+            point(&mut out, q, v, self.axis.point);
             point(&mut out, q + 3, v + 3, [0.0; 3]);
         });
         self.sections(s, |unknown, triad, slope_of| {
@@ -113,7 +111,7 @@ impl Rotating {
 
     /// Rᵀe
     fn own_axis(&self, rotation: &[[f64; 3]; 3]) -> Vector {
-        apply_transposed(rotation, self.axis)
+        apply_transposed(rotation, self.axis.direction)
     }
 
     /// Calls `visit` with the first coordinate and the first velocity of every node.
@@ -152,7 +150,7 @@ impl Rotating {
 
     /// The derivatives of v and a at rest in the frame.
     fn derivatives(&self, s: &State) -> Vec<Row> {
-        let (speed, turn) = (self.speed, skew(self.axis));
+        let (speed, turn) = (self.speed, skew(self.axis.direction));
         let twice = product(&turn, &turn);
         let mut rows: Vec<Row> = Vec::with_capacity(s.v.len());
         let point = |rows: &mut Vec<Row>, v: usize| {
@@ -175,7 +173,7 @@ impl Rotating {
             point(&mut rows, v + 3);
         });
         self.sections(s, |unknown, triad, slope_of| {
-            let along = times(speed, across_tangent(self.axis, &triad));
+            let along = times(speed, across_tangent(self.axis.direction, &triad));
             let entries = slope_of
                 .iter()
                 .flat_map(|(c, v)| (0..3).map(move |k| (v + k, [c * along[k], 0.0, c * along[k]])));
@@ -324,8 +322,12 @@ impl Observed for Rotating {
         self.inner.record(s, out);
     }
 
-    fn direction(&self, i: usize) -> Direction {
-        self.inner.direction(i)
+    fn drawn(&self) -> usize {
+        self.inner.drawn()
+    }
+
+    fn shares(&self, s: &State, x: &[f64], mx: &[f64], add: &mut dyn FnMut(Direction, f64)) {
+        self.inner.shares_about(s, Some(&self.axis), [x, mx], add);
     }
 
     fn admissible(&mut self, s: &State) -> Result<(), String> {

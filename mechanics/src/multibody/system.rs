@@ -106,6 +106,11 @@ impl Multibody {
         }
     }
 
+    /// The model that it is made of.
+    pub fn model(&self) -> &Model {
+        &self.constants.model
+    }
+
     /// Rows that were left out because they follow from others, each with the joints that it follows from.
     pub fn dropped(&self) -> &[String] {
         &self.constants.dropped
@@ -378,7 +383,8 @@ impl Dynamics for Multibody {
         for load in &model.line_loads {
             let [i, j] = self.constants.beams[load.beam];
             let force = times(-1.0, load.at(s.time(), self.part));
-            model.beams[load.beam].beam.add_line_load(&s.q[i..], force, load.follows(), &mut r[j..]);
+            let beam = &model.beams[load.beam].beam;
+            beam.add_line_load(load.on(beam), &s.q[i..], force, load.follows(), &mut r[j..]);
         }
         self.interactions(s, false, |a, b, interaction| {
             let [f_a, m_a, f_b, m_b] = interaction.wrench;
@@ -492,7 +498,8 @@ impl Dynamics for Multibody {
             let [i, j] = constants.beams[load.beam];
             let (force, d) = (load.at(s.time(), self.part), w.increment.map(|d| &d[j..]));
             let force = times(-w.q, force);
-            model.beams[load.beam].beam.add_line_tangent(&s.q[i..], force, d, |at, block| {
+            let beam = &model.beams[load.beam].beam;
+            beam.add_line_tangent(load.on(beam), &s.q[i..], force, d, |at, block| {
                 add_element(j + at, block, out);
             });
         }

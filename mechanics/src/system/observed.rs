@@ -1,6 +1,7 @@
 //! What is observed of a model: recorded quantities, energies, shapes.
 
 use super::State;
+use std::ops::Range;
 
 /// What an unknown moves: for the shares of a mode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -15,6 +16,14 @@ pub enum Direction {
     Torsion,
     /// The hub.
     Hub,
+    /// A point along the first axis of space.
+    X,
+    /// Along the second.
+    Y,
+    /// Along the third.
+    Z,
+    /// A body about its centre of mass.
+    Rotation,
     /// Something else, or several of these.
     Other,
 }
@@ -88,8 +97,8 @@ pub struct Touch {
     pub name: String,
     /// Row of its normal force; `None` for a continuous force.
     pub row: Option<usize>,
-    /// Row of its friction.
-    pub friction: Option<usize>,
+    /// Rows of its friction, one a direction of sliding.
+    pub friction: Range<usize>,
     /// Number of the indicator of a continuous force.
     pub indicator: Option<usize>,
     /// Gap g \[m\].
@@ -154,6 +163,18 @@ pub trait Observed {
     /// What unknown `i` (a velocity) moves.
     fn direction(&self, _i: usize) -> Direction {
         Direction::Other
+    }
+
+    /// Calls `add` with the parts of xᵀ(Mx) of a motion x at a state, by what they move.
+    fn shares(&self, _s: &State, x: &[f64], mx: &[f64], add: &mut dyn FnMut(Direction, f64)) {
+        for (i, (x, mx)) in x.iter().zip(mx).enumerate() {
+            add(self.direction(i), x * mx);
+        }
+    }
+
+    /// The body whose stations show the shape of a mode, as [`Observed::frames`] numbers them.
+    fn drawn(&self) -> usize {
+        0
     }
 
     /// `Err` when the state has left what the model can represent, with the reason.

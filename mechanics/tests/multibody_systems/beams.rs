@@ -76,6 +76,7 @@ fn system(kind: Kind) -> Multibody {
             amplitude: Some(profile("1 + t")),
         });
         model.line_load(LineLoad {
+            elements: (axes == Axes::Dead).then_some(1..2),
             name: format!("{name} along"),
             beam: first,
             force: [0.8, 0.3, -0.9],

@@ -2,8 +2,8 @@
 
 use super::{GRAVITY, odd_body, radau, wave};
 use flexion::analysis::transient::{Ending, Event, EventKind, Observer, Plan, Step, transient};
-use flexion::contact::{Contact, Contacting, Law, Plane};
-use flexion::integrator::{GeneralizedAlpha, Integrator};
+use flexion::contact::{Circle, Contact, ContactForce, Contacting, Law, Obstacle, Plane};
+use flexion::integrator::{GeneralizedAlpha, Integrator, MoreauJean, NonsmoothAlpha};
 use flexion::linalg::Structure;
 use flexion::multibody::rotation::{exponential, matrix};
 use flexion::multibody::{Body, Kind, Marker, Model, Multibody, Part};
@@ -125,5 +125,88 @@ fn the_end_of_a_chain_lands_on_the_ground() {
         // Of some 40 J that have been set free.
         assert!(watch.imbalance < 0.02, "{:e}", watch.imbalance);
         assert!(s.is_finite());
+    }
+}
+
+/// A point of a body at an obstacle, with a law that rubs.
+fn rubbing(obstacle: Arc<dyn Obstacle>, law: Law) -> Contacting<Multibody> {
+    let mut model = Model::new().with_gravity([0.0, 0.0, -GRAVITY]);
+    let part = model.body(odd_body("box", 0.3));
+    model.contact_point(Marker::new(part, [0.3, -0.2, 0.1]));
+    let contact = Contact { name: "wall".into(), point: 0, obstacle, law };
+    Contacting::new(Multibody::new(model).unwrap(), vec![contact])
+}
+
+/// Two directions of sliding, on a plane and inside a cylinder: forces, rows and tangents against differences.
+#[test]
+fn a_point_that_rubs_in_space_conforms() {
+    let size = (1.0_f64 + 4.0 + 0.25).sqrt();
+    let normal = [1.0, -2.0, 0.5].map(|x| x / size);
+    // The point is 5 cm inside.
+    let plane = |x: f64| Arc::new(Plane { point: normal.map(|n| x * n), normal, motion: None });
+    let hole = |x: f64| Arc::new(Circle { centre: [0.0; 3], radius: -x, hollow: true, motion: None });
+    let free = Law::Constraint { restitution: 0.0, friction: 0.0 };
+    let inside = |obstacle: Arc<dyn Obstacle>| {
+        let mut system = rubbing(obstacle, free);
+        let s = system.initial();
+        system.gaps(&s)[0] + 0.05
+    };
+    let plane = plane(inside(plane(0.0)));
+    let hole = hole(inside(hole(-1.0)) - 1.0);
+    let force = ContactForce { stiffness: 400.0, exponent: 1.5, factor: 0.4, friction: 0.6, slip_speed: 0.7 };
+    for obstacle in [plane as Arc<dyn Obstacle>, hole] {
+        for law in [Law::Force(force), Law::Constraint { restitution: 0.2, friction: 0.6 }] {
+            let mut system = rubbing(Arc::clone(&obstacle), law);
+            let mut s = system.initial();
+            let rows = if matches!(law, Law::Force(_)) { 0 } else { 3 };
+            assert_eq!(s.lambda.len(), rows);
+            s.a.iter_mut().enumerate().for_each(|(i, a)| *a = 3.0 * wave(i, 4.0));
+            s.lambda.iter_mut().enumerate().for_each(|(i, x)| *x = 1.7 * wave(i, 5.0));
+            s.memory.fill(0.9);
+            assert!(system.gaps(&s)[0] < 0.0, "the contact is open: {:?}", system.gaps(&s));
+            let mut defects = dynamics(&mut system, &s);
+            defects.retain(|d| d.check != "dE/dt" || rows == 0);
+            assert_eq!(defects, [], "{obstacle:?} {law:?}");
+        }
+    }
+}
+
+/// A body thrown across a slope whose inclination is its angle of friction: its velocity v and its part u down the slope
+/// have the constant sum v₀, for both grow by g sin α (1 − u/v) and shrink by as much. In the end it slides down with v₀/2.
+#[test]
+fn a_body_thrown_across_a_slope_ends_downhill_with_half_its_speed() {
+    let (slope, speed) = (0.5_f64, 1.3);
+    let (sin, cos) = slope.sin_cos();
+    let plane = Plane { point: [0.0; 3], normal: [sin, 0.0, cos], motion: None };
+    let law = Law::Constraint { restitution: 0.0, friction: slope.tan() };
+    let contact = Contact { name: "slope".into(), point: 0, obstacle: Arc::new(plane), law };
+    let mut model = Model::new().with_gravity([0.0, 0.0, -GRAVITY]);
+    let mut body = Body::new("body", 0.7, [0.1; 3]);
+    body.velocity = [0.0, speed, 0.0];
+    let part = model.body(body);
+    model.contact_point(Marker::new(part, [0.0; 3]));
+    let system = Contacting::new(Multibody::new(model).unwrap(), vec![contact]);
+    let methods: [Box<dyn Integrator>; 2] =
+        [Box::new(MoreauJean::new(0.5).unwrap()), Box::new(NonsmoothAlpha::decoupled(0.8).unwrap())];
+    for mut method in methods {
+        let name = method.info().name;
+        let mut system = system.clone();
+        for end in [0.1, 3.0] {
+            let mut off = |step: f64| {
+                let (s, _) = run(&mut system, method.as_mut(), end, Some(step));
+                let (down, across) = (s.v[0] * cos - s.v[2] * sin, s.v[1]);
+                assert!((s.v[0] * sin + s.v[2] * cos).abs() < 1e-9, "{name}: {:?}", s.v);
+                assert!(end < 1.0 || across.abs() < 1e-6, "{name}: {:?}", s.v);
+                (down.hypot(across) + down - speed).abs()
+            };
+            // A method of first order: within what gravity does in a step.
+            let (coarse, fine) = (off(1e-3), off(2.5e-4));
+            assert!(coarse < 5e-4 * GRAVITY && fine < 0.3 * coarse, "{name}, {end} s: {coarse:e}, {fine:e}");
+        }
+        // Events find no direction of sliding that changes at every time.
+        let mut state = system.initial();
+        let plan = Plan { end: 0.1, step: None, longest_step: None, contact_step: None, sample: 0.1 };
+        let ending = transient(&mut system, &mut radau(1e-6), &mut state, &plan, &mut Watch::default());
+        assert!(matches!(ending, Ending::Failed(_)), "{ending:?}");
     }
 }

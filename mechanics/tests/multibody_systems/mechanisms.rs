@@ -3,7 +3,8 @@
 use super::conformance::profile;
 use super::{GRAVITY, channel, radau, run};
 use flexion::integrator::{GeneralizedAlpha, Integrator, Radau, Tolerance};
-use flexion::multibody::{Body, Drive, Kind, Model, Multibody, Part};
+use flexion::multibody::slender::{Beam, Properties, Station};
+use flexion::multibody::{Body, Drive, Flexible, Kind, Model, Multibody, Part};
 use flexion::profile::Motion;
 use flexion::system::{Dynamics, RowWeights, State};
 use flexion::verify::dynamics;
@@ -23,19 +24,12 @@ fn pushed(s: &State) -> State {
     s
 }
 
-/// Two uniform rods on hinges about y, in the plane of x and z, against Lagrange's equations in two angles.
-#[test]
-fn a_double_pendulum_moves_as_its_two_angles() {
-    let (length, mass) = (1.0, 1.0);
+/// Duration of the swing of the double pendulum \[s\].
+const SWING: f64 = 1.5;
+
+/// Angles of two uniform rods below the horizontal and their rates after the swing, released along a horizontal line.
+fn two_angles(length: f64, mass: f64) -> [f64; 4] {
     let inertia = mass * length * length / 12.0;
-    let mut model = Model::new().with_gravity([0.0, 0.0, -GRAVITY]);
-    let y = ([0.0, 1.0, 0.0], None);
-    let one = model.body(Body::new("one", mass, [0.001, inertia, inertia]).at([0.5, 0.0, 0.0]));
-    let two = model.body(Body::new("two", mass, [0.001, inertia, inertia]).at([1.5, 0.0, 0.0]));
-    model.join("root", Kind::Revolute, [Part::Ground, one], [0.0; 3], y).unwrap();
-    model.join("elbow", Kind::Revolute, [one, two], [1.0, 0.0, 0.0], y).unwrap();
-    let mut system = Multibody::new(model).unwrap();
-    // Angles a, b of the rods below the horizontal.
     let rate = |x: [f64; 4]| {
         let [a, b, u, v] = x;
         let (cos, sin) = ((a - b).cos(), (a - b).sin());
@@ -51,9 +45,8 @@ fn a_double_pendulum_moves_as_its_two_angles() {
         let det = m[0][0] * m[1][1] - m[0][1] * m[1][0];
         [u, v, (m[1][1] * f[0] - m[0][1] * f[1]) / det, (m[0][0] * f[1] - m[1][0] * f[0]) / det]
     };
-    let end = 1.5;
     let steps = 20_000;
-    let h = end / steps as f64;
+    let h = SWING / steps as f64;
     let mut x = [0.0; 4];
     let ahead = |x: [f64; 4], k: [f64; 4], c: f64| [0, 1, 2, 3].map(|i| x[i] + c * k[i]);
     for _ in 0..steps {
@@ -63,6 +56,22 @@ fn a_double_pendulum_moves_as_its_two_angles() {
         let k4 = rate(ahead(x, k3, h));
         x = [0, 1, 2, 3].map(|i| x[i] + h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]));
     }
+    x
+}
+
+/// Two uniform rods on hinges about y, in the plane of x and z, against Lagrange's equations in two angles.
+#[test]
+fn a_double_pendulum_moves_as_its_two_angles() {
+    let (length, mass) = (1.0, 1.0);
+    let inertia = mass * length * length / 12.0;
+    let mut model = Model::new().with_gravity([0.0, 0.0, -GRAVITY]);
+    let y = ([0.0, 1.0, 0.0], None);
+    let one = model.body(Body::new("one", mass, [0.001, inertia, inertia]).at([0.5, 0.0, 0.0]));
+    let two = model.body(Body::new("two", mass, [0.001, inertia, inertia]).at([1.5, 0.0, 0.0]));
+    model.join("root", Kind::Revolute, [Part::Ground, one], [0.0; 3], y).unwrap();
+    model.join("elbow", Kind::Revolute, [one, two], [1.0, 0.0, 0.0], y).unwrap();
+    let mut system = Multibody::new(model).unwrap();
+    let (end, x) = (SWING, two_angles(length, mass));
     for (mut method, step, name) in methods(1e-3) {
         let allowed = if step.is_some() { 2e-4 } else { 1e-7 };
         let (s, imbalance) = run(&mut system, method.as_mut(), end, step, |_, _| {});
@@ -72,6 +81,37 @@ fn a_double_pendulum_moves_as_its_two_angles() {
         assert!(far < allowed, "{name}: {angles:?} for {x:?}");
         assert!(imbalance < 10.0 * allowed, "{name}: {imbalance:e}");
     }
+}
+
+/// Two slender beams on hinges in the place of the rods: they come to the same place as they become stiffer, in proportion to their
+/// flexibility.
+#[test]
+fn a_double_pendulum_of_beams_becomes_that_of_rods() {
+    let x = two_angles(1.0, 1.0);
+    let expected = [x[0].cos() + x[1].cos(), -x[0].sin() - x[1].sin()];
+    let far = |stiffness: f64| {
+        let mut model = Model::new().with_gravity([0.0, 0.0, -GRAVITY]);
+        let elements = 4;
+        let beams = [0.0, 1.0].map(|x| {
+            let root = Station { position: [x, 0.0, 0.0], tangent: [1.0, 0.0, 0.0], normal: [0.0, 0.0, 1.0] };
+            let section =
+                Properties::principal([1e3, 1.0, 1.0, 1.0].map(|x| stiffness * x), 1.0, [1e-3, 0.0, 0.0]);
+            let beam = Beam::straight(root, 1.0, elements, section).unwrap();
+            model.beam(Flexible::new(&format!("beam {x}"), beam))
+        });
+        let [one, two] = beams.map(|beam| [0, elements].map(|node| Part::Section { beam, node }));
+        let y = ([0.0, 1.0, 0.0], None);
+        model.join("root", Kind::Revolute, [Part::Ground, one[0]], [0.0; 3], y).unwrap();
+        model.join("elbow", Kind::Revolute, [one[1], two[0]], [1.0, 0.0, 0.0], y).unwrap();
+        let mut system = Multibody::new(model).unwrap();
+        let mut method = GeneralizedAlpha::chung_hulbert(0.6).unwrap();
+        let (s, _) = run(&mut system, &mut method, SWING, Some(2.5e-4), |_, _| {});
+        let tip = ["x", "z"].map(|axis| channel(&mut system, &s, &format!("beam 1.tip.position.{axis}")));
+        (tip[0] - expected[0]).hypot(tip[1] - expected[1])
+    };
+    let [soft, stiff] = [2e3, 1e4].map(far);
+    println!("double pendulum of beams: {soft:.1e}, {stiff:.1e}");
+    assert!(stiff < 5e-3 && (3.5..7.0).contains(&(soft / stiff)), "{soft:e} {stiff:e}");
 }
 
 /// A hinge, a ball, a cross and a hinge make a plane four-bar without redundant rows; a parallelogram of cranks (m, a) and

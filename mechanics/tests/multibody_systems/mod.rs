@@ -9,6 +9,7 @@ mod conformance;
 mod contacts;
 mod faults;
 mod flexible;
+mod free_motions;
 mod heavy_top;
 mod mechanisms;
 mod paths;

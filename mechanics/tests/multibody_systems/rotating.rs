@@ -9,7 +9,7 @@ use flexion::exact::rotating::flapwise_frequency;
 use flexion::hub_beam::{ExactCoupling, Hub, HubBeam};
 use flexion::multibody::rotation::apply;
 use flexion::multibody::slender::{Beam, Properties, Station};
-use flexion::multibody::{Axes, Body, Flexible, Kind, Load, Marker, Model, Multibody, Part, Rotating};
+use flexion::multibody::{Axes, Axis, Body, Flexible, Kind, Load, Marker, Model, Multibody, Part, Rotating};
 use flexion::profile::{Constant, Motion};
 use flexion::section::{BladeResultants, BladeSection, Resultants, Uniform};
 use flexion::system::{Dynamics, Parameter, State, Steady, System};
@@ -41,7 +41,7 @@ fn blade(setting: Setting, section: &dyn BladeSection, elements: usize) -> Rotat
         let tip = model.body(Body::new("tip", setting.tip.mass, [setting.tip.inertia; 3]).at(end));
         model.join("hold", Kind::Fixed, [section(elements), tip], end, (Z, None)).unwrap();
     }
-    Rotating::new(Multibody::new(model).unwrap(), [0.0; 3], Z).unwrap()
+    Rotating::new(Multibody::new(model).unwrap(), Axis::new([0.0; 3], Z).unwrap())
 }
 
 fn frequencies(system: &mut dyn System, speed: f64, count: usize) -> Vec<f64> {
@@ -67,12 +67,15 @@ fn flat() -> BladeResultants {
 
 #[test]
 fn flapwise_frequencies_are_those_of_wright() {
-    for (speed, radius) in [(0.0, 0.0), (3.0, 0.0), (12.0, 0.0), (4.0, 1.0)] {
+    // Far from the axis the deflection is all in a narrow layer at the root.
+    for (speed, radius, off) in
+        [(0.0, 0.0, 1e-6), (3.0, 0.0, 1e-6), (12.0, 0.0, 1e-6), (4.0, 1.0, 1e-6), (12.0, 5.0, 1e-5)]
+    {
         let setting = Setting { length: 1.0, hub_radius: radius, ..Setting::default() };
         let found = frequencies(&mut blade(setting, &flat(), 56), speed, 3);
         for (k, found) in found.iter().enumerate() {
             let expected = flapwise_frequency(k + 1, speed, radius);
-            assert!((found / expected - 1.0).abs() < 1e-6, "γ {speed}, a {radius}: {found} for {expected}");
+            assert!((found / expected - 1.0).abs() < off, "γ {speed}, a {radius}: {found} for {expected}");
         }
     }
 }
@@ -173,9 +176,10 @@ fn the_tangents_are_those_of_the_residual() {
     let section = Properties::principal([400.0, 1.1, 0.9, 1.6], 1.2, [0.03, 0.012, 0.018]);
     let beam = model.beam(Flexible::new("arm", Beam::straight(root, 0.9, 2, section).unwrap()).damped(0.3));
     model.join("clamp", Kind::Fixed, [body, Part::Section { beam, node: 0 }], at, (Z, None)).unwrap();
-    let mut system =
-        Rotating::new(Multibody::new(model).unwrap(), [0.1, -0.3, 0.2], apply(&turned, [0.3, 0.5, 0.8]))
-            .unwrap();
+    let mut system = Rotating::new(
+        Multibody::new(model).unwrap(),
+        Axis::new([0.1, -0.3, 0.2], apply(&turned, [0.3, 0.5, 0.8])).unwrap(),
+    );
     system.set(Parameter::Speed, 2.3).unwrap();
     let mut s = system.initial();
     let n = s.v.len();
@@ -224,7 +228,7 @@ fn a_load_that_keeps_its_direction_in_space_is_refused() {
     along.load(load([0.0, 0.0, 3.0]));
     model.load(load([1.0, 0.0, 3.0]));
     let rotate = |model| {
-        let mut system = Rotating::new(Multibody::new(model).unwrap(), [0.0; 3], Z).unwrap();
+        let mut system = Rotating::new(Multibody::new(model).unwrap(), Axis::new([0.0; 3], Z).unwrap());
         let mut s = system.initial();
         rotate_stably(&mut system, &mut s, 0.0, 2.0).map(|_| ())
     };

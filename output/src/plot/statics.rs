@@ -19,7 +19,11 @@ pub fn statics_figure(path: &LoadPath, title: Option<&str>) -> Figure {
         series: series(path, i),
         words: Vec::new(),
     };
-    let panels: Vec<Panel> = shown.take(MOST).map(panel).collect();
+    let mut panels: Vec<Panel> = shown.take(MOST).map(panel).collect();
+    // One legend, and none where all is stable.
+    let plain = panels.iter().flat_map(|panel| &panel.series).all(|s| s.line == Line::Solid);
+    let unnamed = panels.iter_mut().skip(usize::from(!plain));
+    unnamed.flat_map(|panel| &mut panel.series).for_each(|series| series.name = None);
     Figure { title: title.map(String::from), columns: panels.len().min(2), share_x: false, panels }
 }
 

@@ -14,16 +14,21 @@ const BRANCHES: usize = 6;
 const BLACK: usize = 6;
 const GREY: usize = 7;
 
-/// The shapes of modes: one panel each, the displacements of the stations along the axes of the sections at
+/// The shapes of modes: one panel each, the displacements of the stations along the axes of the sections, which have names, at
 /// the phase at which the largest is real.
-pub fn modes_figure(modes: &Modes, stations: &[f64], unit: &Frequencies, title: Option<&str>) -> Figure {
+pub fn modes_figure(
+    modes: &Modes,
+    (stations, axes): (&[f64], [&str; 3]),
+    unit: &Frequencies,
+    title: Option<&str>,
+) -> Figure {
     let panel = |(number, mode): (usize, &Mode)| {
         let text = format!("Mode {}: {}", number + 1, unit.short(mode.frequency()));
         let heading = Words { text, outside: true, ..Words::default() };
         Panel {
             x: Axis { tight: true, ..Axis::new("Station x", "m") },
             y: Axis { range: Some((-1.1, 1.1)), ..Axis::new("Shape u / max |u|", "") },
-            series: shape(mode, stations),
+            series: shape(mode, stations, axes),
             words: vec![heading],
         }
     };
@@ -39,11 +44,10 @@ pub fn modes_figure(modes: &Modes, stations: &[f64], unit: &Frequencies, title: 
     Figure { title: title.map(String::from), columns: panels.len().min(2), share_x: true, panels }
 }
 
-fn shape(mode: &Mode, stations: &[f64]) -> Vec<Series> {
+fn shape(mode: &Mode, stations: &[f64], names: [&str; 3]) -> Vec<Series> {
     let all = mode.shape.displacement.iter().flatten();
     let peak = all.fold(Complex64::ZERO, |best, u| if u.norm() > best.norm() { *u } else { best });
     let phase = if peak == Complex64::ZERO { Complex64::ONE } else { peak.conj() / peak.norm() };
-    let names = ["axial", "chordwise", "flapwise"];
     let curve = |axis: usize| {
         let along = stations.iter().zip(&mode.shape.displacement);
         let points = along.map(|(x, u)| (*x, (u[axis] * phase).re)).collect();

@@ -108,6 +108,15 @@ fn views(scene: &Scene, height: f64, margin: f64) -> Vec<Panel> {
                 series.push(Series { color: Some(COLORS[which]), ..Series::line(name, points) });
             }
         }
+        if let Some((time, _)) = shots.last() {
+            let line = |points: Vec<[f64; 3]>| points.iter().map(|p| (p[i], p[j])).collect();
+            let drawn = |points| Series {
+                line: Line::Dashed,
+                color: Some(COLORS[1]),
+                ..Series::line(None, line(points))
+            };
+            series.extend(scene.outlines(*time).into_iter().map(drawn));
+        }
         Panel { x: axis(i, half * wide), y: axis(j, half), series, words: Vec::new() }
     };
     VIEWS.into_iter().enumerate().map(view).collect()

@@ -4,11 +4,12 @@
 //!
 //! ```text
 //! g,   ġ = n·w,   g̈ = n·(p̈ − u̇) + κ₁ (t₁·w)² + κ₂ (t₂·w)²
-//! sliding velocity t₁·w, its rate t₁·(p̈ − u̇) − κ₁ (t₁·w)(n·w)
-//! F = λₙ n + λ_t t₁  or  F = N(δ, δ̇) n + T t₁,   r −= F·∂p/∂q
+//! sliding velocity tᵢ·w, its rate tᵢ·(p̈ − u̇) − κᵢ (tᵢ·w)(n·w)
+//! F = λₙ n + Σ λᵢ tᵢ  or  F = N(δ, δ̇) n + Σ Tᵢ tᵢ,   r −= F·∂p/∂q
 //! ```
 //!
-//! A contact with the law [`Law::Constraint`] gives a row to the system, and one more with friction: drivers and
+//! In the plane t₁ alone counts, in space both tangents. A contact with the law [`Law::Constraint`] gives a row to the
+//! system, and with friction one more for each tangent, which make a disc in space: drivers and
 //! integrators do the rest. A [`Law::Force`] is a load; the closing speed is stored in the state's memory by the event
 //! at which the gap changes its sign.
 
@@ -23,6 +24,7 @@ use crate::system::{
     Break, Channel, Corotation, Crossing, Dynamics, Events, Jump, Mode, NotSet, Observed, Parameter, Power,
     Role, RowWeights, Set, Size, State, Steady, VisitRow, Weights, ordered,
 };
+use std::ops::Range;
 use std::sync::Arc;
 
 /// What happens when a point touches.
@@ -37,6 +39,16 @@ pub enum Law {
     },
     /// A continuous force.
     Force(ContactForce),
+}
+
+impl Law {
+    /// Whether it has friction.
+    pub fn rubs(&self) -> bool {
+        match self {
+            Law::Constraint { friction, .. } => *friction > 0.0,
+            Law::Force(force) => force.friction > 0.0,
+        }
+    }
 }
 
 /// A point and the obstacle that it may touch.
@@ -78,8 +90,8 @@ struct Placed {
     contact: Contact,
     /// Row of the normal force, or number of the indicator and of the memory among those of contacts.
     place: usize,
-    /// Row of the friction.
-    friction: Option<usize>,
+    /// Rows of the friction, one a tangent.
+    friction: Range<usize>,
 }
 
 /// A point and the surface before it.
@@ -90,8 +102,8 @@ struct Touch {
     velocity: [f64; 3],
     /// ġ
     rate: f64,
-    /// t₁·w
-    sliding: f64,
+    /// t₁·w, t₂·w
+    sliding: [f64; 2],
 }
 
 fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
@@ -108,7 +120,7 @@ impl Touch {
         let motion = inner_model.motion(contact.point, s);
         let surface = contact.obstacle.surface(motion.position, s.time());
         let velocity = minus(motion.velocity, surface.velocity);
-        let (rate, sliding) = (inner(surface.normal, velocity), inner(surface.tangents[0], velocity));
+        let (rate, sliding) = (inner(surface.normal, velocity), surface.tangents.map(|t| inner(t, velocity)));
         Touch { motion, surface, velocity, rate, sliding }
     }
 
@@ -119,28 +131,30 @@ impl Touch {
         inner(*normal, minus(self.motion.acceleration, *acceleration)) + turning
     }
 
-    /// Rate of the sliding velocity.
-    fn sliding_rate(&self) -> f64 {
-        let Surface { tangents: [t, _], curvatures: [k, _], acceleration, .. } = self.surface;
-        inner(t, minus(self.motion.acceleration, acceleration)) - k * self.sliding * self.rate
+    /// Rate of the sliding velocity along tangent `i`.
+    fn sliding_rate(&self, i: usize) -> f64 {
+        let Surface { tangents, curvatures, acceleration, .. } = self.surface;
+        let along = inner(tangents[i], minus(self.motion.acceleration, acceleration));
+        along - curvatures[i] * self.sliding[i] * self.rate
     }
 
-    /// ∂n/∂p x and ∂t₁/∂p x.
-    fn turned(&self, x: [f64; 3]) -> [[f64; 3]; 2] {
+    /// ∂n/∂p x, ∂t₁/∂p x and ∂t₂/∂p x.
+    fn turned(&self, x: [f64; 3]) -> [[f64; 3]; 3] {
         let Surface { normal, tangents: [t1, t2], curvatures: [k1, k2], .. } = self.surface;
-        let along = k1 * inner(t1, x);
-        [sum([(along, t1), (k2 * inner(t2, x), t2)]), normal.map(|n| -along * n)]
+        let (first, second) = (k1 * inner(t1, x), k2 * inner(t2, x));
+        [sum([(first, t1), (second, t2)]), normal.map(|n| -first * n), normal.map(|n| -second * n)]
     }
 }
 
 /// Normal force and friction of a contact at a state, with their derivatives by a variation.
 struct Forces {
     normal: f64,
-    friction: f64,
+    friction: [f64; 2],
     /// ∂N by g and ġ.
     by_gap: [f64; 2],
-    /// ∂T by N and by the sliding velocity.
-    by_sliding: [f64; 2],
+    /// ∂T by N, and by the sliding velocity.
+    by_normal: [f64; 2],
+    by_sliding: [[f64; 2]; 2],
 }
 
 impl Placed {
@@ -149,18 +163,20 @@ impl Placed {
         match &self.contact.law {
             Law::Constraint { .. } => Forces {
                 normal: s.lambda[self.place],
-                friction: self.friction.map_or(0.0, |row| s.lambda[row]),
+                friction: [0, 1].map(|i| self.friction.clone().nth(i).map_or(0.0, |row| s.lambda[row])),
                 by_gap: [0.0; 2],
-                by_sliding: [0.0; 2],
+                by_normal: [0.0; 2],
+                by_sliding: [[0.0; 2]; 2],
             },
             Law::Force(law) => {
                 let normal = law.normal(-touch.surface.gap, -touch.rate, s.memory[memory + self.place]);
                 let (part, slope) = law.friction(touch.sliding);
                 Forces {
                     normal: normal.value,
-                    friction: part * normal.value,
+                    friction: part.map(|part| part * normal.value),
                     by_gap: [-normal.by_indentation, -normal.by_rate],
-                    by_sliding: [part, slope * normal.value],
+                    by_normal: part,
+                    by_sliding: slope.map(|row| row.map(|x| x * normal.value)),
                 }
             }
         }
@@ -169,23 +185,25 @@ impl Placed {
 
 impl Forces {
     fn vector(&self, surface: &Surface) -> [f64; 3] {
-        sum([(self.normal, surface.normal), (self.friction, surface.tangents[0])])
+        let ([first, second], [t1, t2]) = (self.friction, surface.tangents);
+        sum([(self.normal, surface.normal), (first, t1), (second, t2)])
     }
 
     fn vanish(&self) -> bool {
-        self.normal == 0.0 && self.friction == 0.0
+        self.normal == 0.0 && self.friction == [0.0; 2]
     }
 
     /// Change of the force by `position` of the point and `velocity`.
     fn change(&self, touch: &Touch, position: [f64; 3], velocity: [f64; 3]) -> [f64; 3] {
-        let Surface { normal: n, tangents: [t, _], .. } = touch.surface;
-        let [dn, dt] = touch.turned(position);
+        let Surface { normal: n, tangents: [t1, t2], .. } = touch.surface;
+        let [dn, d1, d2] = touch.turned(position);
         let gap = inner(n, position);
         let rate = inner(dn, touch.velocity) + inner(n, velocity);
-        let sliding = inner(dt, touch.velocity) + inner(t, velocity);
+        let sliding = [(d1, t1), (d2, t2)].map(|(dt, t)| inner(dt, touch.velocity) + inner(t, velocity));
         let normal = self.by_gap[0] * gap + self.by_gap[1] * rate;
-        let friction = self.by_sliding[0] * normal + self.by_sliding[1] * sliding;
-        sum([(normal, n), (friction, t), (self.normal, dn), (self.friction, dt)])
+        let [first, second] = [0, 1].map(|i| self.by_normal[i] * normal + inner(self.by_sliding[i], sliding));
+        let turned = sum([(self.normal, dn), (self.friction[0], d1), (self.friction[1], d2)]);
+        sum([(normal, n), (first, t1), (second, t2), (1.0, turned)])
     }
 }
 
@@ -193,6 +211,7 @@ impl<S: Points + Dynamics + Events + Observed> Contacting<S> {
     /// `inner` with contacts.
     pub fn new(inner: S, contacts: Vec<Contact>) -> Contacting<S> {
         let Size { lambda: rows, memory, .. } = inner.size();
+        let directions = inner.directions();
         let mut sets = inner.rows().to_vec();
         let mut breaks = inner.breaks().to_vec();
         let mut forces = 0;
@@ -212,18 +231,23 @@ impl<S: Points + Dynamics + Events + Observed> Contacting<S> {
                 Law::Constraint { restitution, friction } => {
                     let place = sets.len();
                     sets.push(Set::Unilateral { restitution });
-                    let row = (friction > 0.0).then_some(sets.len());
-                    sets.extend(row.map(|_| Set::Friction { coefficient: friction, normal: place }));
-                    (place, row)
+                    let directions = if friction > 0.0 { directions } else { 0 };
+                    sets.extend(
+                        (0..directions).map(|_| Set::Friction { coefficient: friction, normal: place }),
+                    );
+                    (place, place + 1..place + 1 + directions)
                 }
                 Law::Force(_) => {
                     forces += 1;
-                    (forces - 1, None)
+                    (forces - 1, 0..0)
                 }
             };
-            let rubs = friction.is_some() || matches!(contact.law, Law::Force(f) if f.friction > 0.0);
-            if rubs {
-                add(&contact, "friction", "N", "friction force");
+            let names: &[&str] = match directions {
+                1 => &["friction"],
+                _ => &["friction.x", "friction.y", "friction.z"],
+            };
+            for name in names.iter().filter(|_| contact.law.rubs()) {
+                add(&contact, name, "N", "friction force");
             }
             placed.push(Placed { contact, place, friction });
         }
@@ -313,7 +337,7 @@ impl<S: Points + Dynamics + Events + Observed> Contacting<S> {
         self.each(s, |placed, touch, forces| {
             let force = forces.vector(&touch.surface);
             power.drive += inner(force, minus(touch.surface.velocity, touch.motion.prescribed));
-            power.contact -= forces.friction * touch.sliding;
+            power.contact -= inner(forces.friction, touch.sliding);
             if let Law::Force(law) = &placed.contact.law {
                 let elastic = law.normal(-touch.surface.gap, 0.0, 0.0).value;
                 power.contact -= (forces.normal - elastic) * touch.rate;
@@ -353,7 +377,9 @@ impl<S: Points + Dynamics + Events + Observed> Dynamics for Contacting<S> {
             let own = matches!(placed.contact.law, Law::Constraint { .. });
             match row + self.rows {
                 row if own && row == placed.place => Some(format!("force of the contact {name}")),
-                row if Some(row) == placed.friction => Some(format!("friction of the contact {name}")),
+                row if own && placed.friction.contains(&row) => {
+                    Some(format!("friction of the contact {name}"))
+                }
                 _ => None,
             }
         });
@@ -412,8 +438,8 @@ impl<S: Points + Dynamics + Events + Observed> Dynamics for Contacting<S> {
             if let Law::Constraint { .. } = placed.contact.law {
                 let touch = Touch::new(&mut self.inner, &placed.contact, s);
                 g[placed.place] = c.combine(touch.surface.gap, touch.rate, touch.acceleration());
-                if let Some(row) = placed.friction {
-                    g[row] = c.combine(0.0, touch.sliding, touch.sliding_rate());
+                for (i, row) in placed.friction.clone().enumerate() {
+                    g[row] = c.combine(0.0, touch.sliding[i], touch.sliding_rate(i));
                 }
             }
         }
@@ -431,8 +457,7 @@ impl<S: Points + Dynamics + Events + Observed> Dynamics for Contacting<S> {
                 self.inner.variations(placed.contact.point, s, &mut self.variations);
                 self.numbers.clear();
                 self.numbers.extend(self.variations.iter().map(|by| by.unknown));
-                let [tangent, _] = touch.surface.tangents;
-                let friction = placed.friction.map(|row| (row, tangent));
+                let friction = placed.friction.clone().zip(touch.surface.tangents);
                 for (row, direction) in [(placed.place, touch.surface.normal)].into_iter().chain(friction) {
                     self.entries.clear();
                     self.entries.extend(self.variations.iter().map(|by| inner(direction, by.position)));

@@ -38,6 +38,7 @@ impl<S: Points + Dynamics + Events + Observed> Observed for Contacting<S> {
         let mut next = contacts.iter_mut();
         let mut write = |x: f64| next.next().into_iter().for_each(|out| *out = x);
         let (mut stored, mut stores) = (0.0, false);
+        let directions = self.inner.directions();
         self.each(s, |placed, touch, forces| {
             write(touch.surface.gap);
             // −0 of a contact that is open becomes 0.
@@ -46,8 +47,14 @@ impl<S: Points + Dynamics + Events + Observed> Observed for Contacting<S> {
                 Law::Constraint { .. } => None,
                 Law::Force(force) => Some(force),
             };
-            if placed.friction.is_some() || force.is_some_and(|force| force.friction > 0.0) {
-                write(forces.friction + 0.0);
+            if placed.contact.law.rubs() {
+                let [first, second] = forces.friction;
+                if directions == 1 {
+                    write(first + 0.0);
+                } else {
+                    let [t1, t2] = touch.surface.tangents;
+                    (0..3).for_each(|k| write(first * t1[k] + second * t2[k] + 0.0));
+                }
             }
             stores |= force.is_some();
             stored += force.map_or(0.0, |force| force.stored(-touch.surface.gap));
@@ -66,13 +73,21 @@ impl<S: Points + Dynamics + Events + Observed> Observed for Contacting<S> {
             };
             let (gap, rate) = (touch.surface.gap, touch.rate);
             let name = placed.contact.name.clone();
-            all.push(Touch { name, row, friction: placed.friction, indicator, gap, rate });
+            all.push(Touch { name, row, friction: placed.friction.clone(), indicator, gap, rate });
         });
         all
     }
 
     fn direction(&self, i: usize) -> Direction {
         self.inner.direction(i)
+    }
+
+    fn shares(&self, s: &State, x: &[f64], mx: &[f64], add: &mut dyn FnMut(Direction, f64)) {
+        self.inner.shares(s, x, mx, add);
+    }
+
+    fn drawn(&self) -> usize {
+        self.inner.drawn()
     }
 
     fn admissible(&mut self, s: &State) -> Result<(), String> {

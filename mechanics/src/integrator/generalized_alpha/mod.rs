@@ -56,7 +56,7 @@ use super::{
     StepError, StepReport, Tolerance, failure, hermite,
 };
 use crate::linalg::Matrix;
-use crate::system::{Corotation, Dynamics, RowWeights, Side, State};
+use crate::system::{Corotation, Dynamics, RowWeights, Side, Size, State};
 use work::{Age, Work};
 
 /// Iteration error, relative to the scales of the unknowns, at which Newton's method stops: far below
@@ -423,7 +423,11 @@ impl Integrator for GeneralizedAlpha {
         self.work = Some(Box::new(Work {
             tangent: Matrix::new(&system.structure(multipliers)),
             rhs: vec![0.0; size.v + multipliers * size.lambda],
-            accelerations: Accelerations::new(system, state, RowWeights::ACCELERATION),
+            accelerations: if stabilized {
+                Accelerations::new(system, state, RowWeights::ACCELERATION)
+            } else {
+                Accelerations::borrowing(system, state, RowWeights::ACCELERATION)
+            },
             rows,
             mu: vec![0.0; size.lambda],
             stiffness: stabilized.then(|| Matrix::new(&system.structure(0))),
@@ -431,7 +435,7 @@ impl Integrator for GeneralizedAlpha {
             affine: system.is_affine() && size.lambda == 0,
             kept: [f64::NAN; 2],
             place: State::zeros(size, state.t),
-            start: State::zeros(size, state.t),
+            start: State::zeros(if stabilized { size } else { Size::default() }, state.t),
             increment: vec![0.0; size.v],
             corotation: Corotation::with_capacity(size.v),
             age: Age::default(),
@@ -502,7 +506,12 @@ impl Integrator for GeneralizedAlpha {
         work.kept = [f64::NAN; 2];
         state.side = Side::Right;
         let place = (state.t, 0.0);
-        work.accelerations.complete(system, state, place, &mut self.counters)?;
+        let Work { accelerations, tangent, stiffness, .. } = &mut **work;
+        if stiffness.is_some() {
+            accelerations.complete(system, state, place, &mut self.counters)?;
+        } else {
+            accelerations.complete_in(tangent, system, state, place, &mut self.counters)?;
+        }
         self.a.copy_from_slice(&state.a);
         Ok(())
     }

@@ -219,12 +219,19 @@ impl Work {
 
     /// The modes of the rows by the forces `lambda`, for those who read the state: impulses decide about contacts.
     fn modes(&self, lambda: &[f64], modes: &mut [Mode]) {
-        for (i, set) in self.rows.sets().iter().enumerate() {
+        let sets = self.rows.sets();
+        // A disc slips as a whole.
+        let rubbing = |normal: usize| {
+            let same = move |set: &Set| matches!(set, Set::Friction { normal: n, .. } if *n == normal);
+            let rows = sets.iter().zip(lambda).filter(move |(set, _)| same(set));
+            rows.map(|(_, x)| x * x).sum::<f64>().sqrt()
+        };
+        for (i, set) in sets.iter().enumerate() {
             modes[i] = match *set {
                 Set::Free => Mode::Closed,
                 Set::Unilateral { .. } if lambda[i] > 0.0 => Mode::Closed,
                 Set::Friction { coefficient, normal } if lambda[normal] > 0.0 => {
-                    if lambda[i].abs() < SLIPPING * coefficient * lambda[normal] {
+                    if rubbing(normal) < SLIPPING * coefficient * lambda[normal] {
                         Mode::Closed
                     } else if lambda[i] < 0.0 {
                         Mode::SlipForward

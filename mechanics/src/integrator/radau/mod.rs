@@ -250,7 +250,9 @@ impl Integrator for Radau {
         self.convergence.forget();
         work.rate = f64::INFINITY;
         state.side = Side::Right;
-        work.accelerations.complete(system, state, (state.t, 0.0), &mut self.counters)
+        work.factored_step = f64::NAN;
+        let place = (state.t, 0.0);
+        work.accelerations.complete_in(&mut work.real, system, state, place, &mut self.counters)
     }
 
     fn save(&self, out: &mut Checkpoint) {

@@ -41,7 +41,7 @@ pub(super) struct Stages {
     stiffness: Matrix,
     corotation: Corotation,
     stage_corotation: [Corotation; 3],
-    real: Matrix,
+    pub(super) real: Matrix,
     complex: Matrix<Complex64>,
     /// Step of the factors; NaN when there are none.
     pub(super) factored_step: f64,
@@ -79,7 +79,7 @@ impl Stages {
         let vector = || vec![0.0; n];
         let three = || [vector(), vector(), vector()];
         Stages {
-            accelerations: Accelerations::new(system, state, RowWeights::ACCELERATION),
+            accelerations: Accelerations::borrowing(system, state, RowWeights::ACCELERATION),
             rows: Rows::new(system, state),
             flat: system.is_vector_space(),
             increments: three(),

@@ -30,7 +30,7 @@ mod small;
 
 pub use krylov::largest;
 pub use operators::Operator;
-pub use pencil::{Kind, Pencil, each, is_symmetric, negative_eigenvalues};
+pub use pencil::{Kind, Pencil, UNCERTAIN, certain_directions, each, is_symmetric, negative_directions};
 
 use super::Singular;
 use num_complex::Complex64;

@@ -2,7 +2,7 @@
 
 use super::EigenError;
 use crate::linalg::inertia::{negative_pivots_of, shape};
-use crate::linalg::vector::dot;
+use crate::linalg::vector::{dot, noise};
 use crate::linalg::{Matrix, Storage};
 use num_complex::Complex64;
 
@@ -39,6 +39,13 @@ pub struct Pencil {
 
 /// Relative size at which an entry counts as zero.
 const ZERO: f64 = 1e-12;
+/// Bound of the relative error by rounding above which an eigenvalue is one of a rigid motion.
+pub const UNCERTAIN: f64 = 0.1;
+/// Residual of a solution, over its right-hand side and over the rounding of its terms, above which an elimination is unstable.
+const UNSTABLE: f64 = 1e-8;
+const GROWTH: f64 = 1e3;
+/// Inverse iterations that find the softest motion.
+const INVERSE_ITERATIONS: usize = 3;
 /// Relative distance below a frequency at which others are counted.
 const MARGIN: f64 = 1e-7;
 
@@ -104,6 +111,31 @@ impl Pencil {
         self.factor.solve(b);
     }
 
+    /// Whether rounding alone decides the softest motion of Q(0) = K, which was factored: a rigid motion; and whether the elimination
+    /// makes rounding errors grow, as it does where only a border of rows stiffens the band. Inverse iterations; O(n).
+    pub fn doubts(&mut self) -> [bool; 2] {
+        let n = self.order();
+        let (mut x, mut b, mut product) = (noise(n, 1), vec![0.0; n], vec![0.0; n]);
+        for _ in 0..INVERSE_ITERATIONS {
+            self.mass.multiply(&x, &mut b);
+            x.copy_from_slice(&b);
+            self.solve(&mut x);
+            let size = x.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            if !(size > 0.0 && size.is_finite()) {
+                return [true; 2];
+            }
+            [&mut x, &mut b].into_iter().flatten().for_each(|x| *x /= size);
+        }
+        self.stiffness.multiply(&x, &mut product);
+        let energy = dot(&x, &b).abs();
+        let sizes: Vec<f64> = x.iter().map(|x| x.abs()).collect();
+        let off: f64 = b.iter().zip(&product).zip(&sizes).map(|((b, kx), x)| (b - kx).abs() * x).sum();
+        self.sizes.multiply(&sizes, &mut product);
+        let largest = dot(&sizes, &product);
+        let rounding = 0.5 * f64::EPSILON * largest;
+        [rounding > UNCERTAIN * energy, off > UNSTABLE * energy + GROWTH * rounding]
+    }
+
     /// Bound of the relative error of an eigenvalue λ ≠ 0 with the vector x by the rounding of the entries of K,
     /// ½ε |x|ᵀ|K||x| / (|λ|² xᴴMx).
     pub fn rounding(&self, value: Complex64, x: &[Complex64]) -> f64 {
@@ -155,7 +187,7 @@ impl Pencil {
             Kind::Symmetric
         } else if c.symmetric <= ZERO * c.largest
             && self.shift == 0.0
-            && negative_eigenvalues(&self.stiffness) == self.multipliers
+            && negative_directions(&self.stiffness, self.multipliers) == 0
         {
             Kind::Gyroscopic
         } else {
@@ -242,9 +274,24 @@ pub fn each(matrix: &Matrix, mut f: impl FnMut(usize, usize)) {
     }
 }
 
-/// Number of negative eigenvalues of a symmetric matrix.
-pub fn negative_eigenvalues(matrix: &Matrix) -> usize {
-    negative_pivots_of(shape(matrix), |i, j| matrix.storage().get(i, j))
+/// Number of directions, allowed by the rows of so many multipliers, in which a symmetric stiffness is negative.
+pub fn negative_directions(stiffness: &Matrix, multipliers: usize) -> usize {
+    negative_directions_of([stiffness, stiffness], multipliers, 0.0)
+}
+
+/// The same without those that rounding alone makes negative: of K + ε ω² M, with ω beyond all frequencies.
+pub fn certain_directions(stiffness: &Matrix, mass: &Matrix, multipliers: usize) -> usize {
+    let ratio = |i: usize| (stiffness.get(i, i) / mass.get(i, i)).abs();
+    let ratios = (0..mass.order()).map(ratio).filter(|x| x.is_finite());
+    negative_directions_of([stiffness, mass], multipliers, f64::EPSILON * ratios.fold(0.0, f64::max))
+}
+
+fn negative_directions_of([a, b]: [&Matrix; 2], multipliers: usize, c: f64) -> usize {
+    let entry = |i: usize, j: usize| {
+        let x = a.storage().get(i, j);
+        if c == 0.0 { x } else { x + c * b.storage().get(i, j) }
+    };
+    negative_pivots_of(shape(a), entry).saturating_sub(multipliers)
 }
 
 /// Whether a matrix is symmetric but for rounding.

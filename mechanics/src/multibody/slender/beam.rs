@@ -18,6 +18,7 @@ use super::strain::{COORDINATES, VELOCITIES, centreline, positions};
 use super::triad::{Triad, Vector, plus, vector};
 use crate::linalg::vector::inner;
 use crate::system::Weights;
+use std::ops::Range;
 
 /// Coordinates of an element that the next one does not share.
 pub const ELEMENT_COORDINATES: usize = 12;
@@ -126,14 +127,14 @@ impl Beam {
             validate(&section, s, length)?;
             let begin = ELEMENT_COORDINATES * e;
             let mut q: [f64; COORDINATES] = part(&initial, begin);
-            let element = Element::new(length, &q, |z| section(s + z * length));
+            let element = Element::new(length, &q, |z| section(s + z * length), elements.last());
             let slope = element.middle_slope(&positions(&q));
             let middle = curve(s + 0.5 * length);
             let halfway = middle.tangent;
             let middle = Triad::new(middle.tangent, middle.normal).transported(slope, 0.0);
             q[9..12].copy_from_slice(&middle.normal);
             initial[begin + 9..begin + 12].copy_from_slice(&middle.normal);
-            let element = Element::new(length, &q, |z| section(s + z * length));
+            let element = Element::new(length, &q, |z| section(s + z * length), elements.last());
             // By the middle, for the ends alone do not tell 300° from 60°.
             let turned = |at: usize| libm::acos(inner(halfway, vector(&q, at)).clamp(-1.0, 1.0));
             let twist = element.pairs(&q).into_iter().map(|pair| pair.angle.abs()).fold(0.0, f64::max);
@@ -210,6 +211,11 @@ impl Beam {
     pub fn node(&self, i: usize, q: &[f64]) -> (Vector, Triad) {
         let at = ELEMENT_COORDINATES * i;
         (vector(q, at), Triad::new(vector(q, at + 3), vector(q, at + 6)))
+    }
+
+    /// Some elements, with the begin of their coordinates and velocities.
+    fn among(&self, elements: Range<usize>) -> impl Iterator<Item = (&Element, usize, usize)> {
+        self.middles().take(elements.end).skip(elements.start)
     }
 
     /// The middle sections of the elements: element, its coordinates' and velocities' begin.
@@ -302,10 +308,10 @@ impl Beam {
         }
     }
 
-    /// Adds the forces of a uniform load per length [N/m] along the whole beam, with components in fixed axes or in those of
+    /// Adds the forces of a uniform load per length [N/m] along some elements, with components in fixed axes or in those of
     /// the sections.
-    pub fn add_line_load(&self, q: &[f64], load: Vector, follows: bool, r: &mut [f64]) {
-        for (element, i, j) in self.middles() {
+    pub fn add_line_load(&self, on: Range<usize>, q: &[f64], load: Vector, follows: bool, r: &mut [f64]) {
+        for (element, i, j) in self.among(on) {
             element.add_line_load(&part(q, i), load, follows, &mut r[j..]);
         }
     }
@@ -314,12 +320,13 @@ impl Beam {
     /// first velocity: by the increment d since the configuration that was retracted, or by variations.
     pub fn add_line_tangent(
         &self,
+        on: Range<usize>,
         q: &[f64],
         load: Vector,
         increment: Option<&[f64]>,
         mut add: impl FnMut(usize, &Tangent),
     ) {
-        for (element, i, j) in self.middles() {
+        for (element, i, j) in self.among(on) {
             let mut tangent = [[0.0; VELOCITIES]; VELOCITIES];
             let increment = increment.map(|d| part(d, j));
             element.add_line_tangent(&part(q, i), load, increment.as_ref(), &mut tangent);
@@ -328,13 +335,13 @@ impl Beam {
     }
 
     /// Power \[W\] of a uniform load per length.
-    pub fn line_power(&self, q: &[f64], v: &[f64], load: Vector, follows: bool) -> f64 {
+    pub fn line_power(&self, on: Range<usize>, q: &[f64], v: &[f64], load: Vector, follows: bool) -> f64 {
         let of = |(element, i, j): (&Element, usize, usize)| {
             let mut forces = [0.0; VELOCITIES];
             element.add_line_load(&part(q, i), load, follows, &mut forces);
             inner(forces, part::<VELOCITIES>(v, j))
         };
-        self.middles().map(of).sum()
+        self.among(on).map(of).sum()
     }
 
     /// ∫ρA r ds [kg·m], the mass times its centre.

@@ -13,6 +13,8 @@ use super::triad::{Triad, Vector, plus, times};
 use crate::linalg::vector::{cross, inner};
 use crate::quadrature::Gauss;
 use crate::system::Weights;
+use std::ops::Deref;
+use std::sync::Arc;
 
 /// Motion of an element: its coordinates, velocities and accelerations in the order of [`VELOCITIES`].
 #[derive(Clone, Copy, Debug)]
@@ -39,13 +41,21 @@ fn variables(v: &[f64; VELOCITIES]) -> [f64; VARIABLES] {
 /// An element of a slender beam. See the [module documentation](super).
 #[derive(Clone, Debug)]
 pub struct Element {
+    constants: Arc<Constants>,
+    /// Strains without stress, and of ε and κ₁ the part that vanishes at the points.
+    initial: [[f64; 4]; POINTS],
+    rest: [f64; 2],
+    damping: f64,
+    viscosity: f64,
+}
+
+/// What elements of one length and one section have in common.
+#[derive(Debug)]
+pub struct Constants {
     shapes: Shapes,
     stiffness: [Stiffness; POINTS],
     /// C in the middle.
     middle: Stiffness,
-    /// Strains without stress, and of ε and κ₁ the part that vanishes at the points.
-    initial: [[f64; 4]; POINTS],
-    rest: [f64; 2],
     /// ∫ρA Nᵢ Nⱼ ds
     mass: [[f64; 4]; 4],
     /// ∫ρA Nᵢ ds
@@ -53,18 +63,16 @@ pub struct Element {
     /// (J₁, J₂, J₃) of the three sections, times the weights of Simpson's rule.
     inertia: [[f64; 3]; 3],
     has_rotary_inertia: bool,
-    damping: f64,
-    viscosity: f64,
 }
 
-impl Element {
-    /// An element of the length `length` \[m\] without stress at the coordinates `q`, whose section at the place 0 ≤ z ≤ 1
-    /// is `section(z)`. C is evaluated at two Gauss points and in the middle, ρA at four, the moments of inertia at the three sections.
-    pub fn new(length: f64, q: &[f64; COORDINATES], section: impl Fn(f64) -> Properties) -> Element {
+/// Relative difference of numbers that are equal but for the rounding of the arc lengths of 10⁴ nodes.
+const SAME: f64 = 1e-11;
+
+impl Constants {
+    /// Of an element of the length `length` \[m\] whose section at the place 0 ≤ z ≤ 1 is `section(z)`. C is evaluated at two Gauss
+    /// points and in the middle, ρA at four, the moments of inertia at the three sections.
+    fn new(length: f64, section: impl Fn(f64) -> Properties) -> Constants {
         let shapes = Shapes::new(length);
-        let sections = Sections::new(&shapes, q);
-        let initial = shapes.points.map(|at| Section::new(&at, &sections).strain);
-        let rest = sampled(&shapes.rest, &sections);
         let middle = Stiffness(section(0.5).stiffness);
         let stiffness = shapes.points.map(|at| Stiffness(section(at.place).stiffness));
         let (mut mass, mut weight) = ([[0.0; 4]; 4], [0.0; 4]);
@@ -80,19 +88,48 @@ impl Element {
         let inertia = [(0.0, 1.0), (0.5, 4.0), (1.0, 1.0)]
             .map(|(z, w)| section(z).inertia.map(|j| w * length / 6.0 * j));
         let has_rotary_inertia = inertia.iter().any(|j| j.iter().any(|j| *j != 0.0));
-        Element {
-            shapes,
-            stiffness,
-            middle,
-            initial,
-            rest,
-            mass,
-            weight,
-            inertia,
-            has_rotary_inertia,
-            damping: 0.0,
-            viscosity: 0.0,
-        }
+        Constants { shapes, stiffness, middle, mass, weight, inertia, has_rotary_inertia }
+    }
+
+    /// Whether they are those of another element but for rounding.
+    fn are_those_of(&self, other: &Constants) -> bool {
+        let close = |a: &f64, b: &f64| (a - b).abs() <= SAME * a.abs().max(b.abs());
+        let all = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| close(a, b));
+        let points = self.stiffness.iter().zip(&other.stiffness);
+        let stiffness = points.chain([(&self.middle, &other.middle)]);
+        close(&self.shapes.length, &other.shapes.length)
+            && stiffness.into_iter().all(|(a, b)| all(a.0.as_flattened(), b.0.as_flattened()))
+            && all(self.mass.as_flattened(), other.mass.as_flattened())
+            && all(self.inertia.as_flattened(), other.inertia.as_flattened())
+    }
+}
+
+impl Deref for Element {
+    type Target = Constants;
+
+    fn deref(&self) -> &Constants {
+        &self.constants
+    }
+}
+
+impl Element {
+    /// An element of the length `length` \[m\] without stress at the coordinates `q`, whose section at the place 0 ≤ z ≤ 1
+    /// is `section(z)`. It shares the constants of the element `like` if they are the same but for rounding.
+    pub fn new(
+        length: f64,
+        q: &[f64; COORDINATES],
+        section: impl Fn(f64) -> Properties,
+        like: Option<&Element>,
+    ) -> Element {
+        let own = Constants::new(length, section);
+        let constants = match like {
+            Some(like) if own.are_those_of(like) => Arc::clone(&like.constants),
+            _ => Arc::new(own),
+        };
+        let sections = Sections::new(&constants.shapes, q);
+        let initial = constants.shapes.points.map(|at| Section::new(&at, &sections).strain);
+        let rest = sampled(&constants.shapes.rest, &sections);
+        Element { constants, initial, rest, damping: 0.0, viscosity: 0.0 }
     }
 
     /// Sets the damping β [1/s] in proportion to the mass: a force −β M v.

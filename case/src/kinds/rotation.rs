@@ -1,0 +1,163 @@
+//! The axis about which `modes` and `campbell` rotate a system in space.
+
+use super::spatial::optional_vector;
+use crate::declaration::{Bound::*, Presence::*, Type, key};
+use crate::fault::{Fault, Made};
+use crate::kind::Table;
+use crate::units::{FACTOR, LENGTH};
+use flexion::multibody::rotation::{Vector, plus, times};
+use flexion::multibody::{Axis, Model, Multibody, Rotating};
+use flexion::system::Fork;
+use flexion_results::nearest;
+
+/// What a case says of the axis.
+#[derive(Clone, Debug, PartialEq)]
+pub enum About {
+    /// That of the joint of this name.
+    Joint(String),
+    /// A line.
+    Line(Axis),
+}
+
+/// The table `[rotation]`.
+pub static ROTATION: Table<About> = Table {
+    key: key(
+        "rotation",
+        Type::Table(&[
+            key(
+                "about",
+                Type::Text,
+                Optional,
+                "name of a revolute or cylindrical joint: the system rotates about its axis",
+            ),
+            key(
+                "axis",
+                Type::Quantities(&FACTOR, Any),
+                Empty,
+                "direction of the axis, in the place of a joint",
+            ),
+            key(
+                "point",
+                Type::Quantities(&LENGTH, Any),
+                Empty,
+                "a point of the axis, the origin if left out",
+            ),
+        ]),
+        Optional,
+        "axis about which `modes` and `campbell` rotate the system, and the ground with it; that of the joint with the ground if \
+         left out",
+    ),
+    example: "rotation={axis=[0, 0.1, 1], point=[0, 0, '5 cm']}",
+    make: |v, _| {
+        let (about, axis, point) =
+            (v.optional_text("about")?, optional_vector(v, "axis")?, optional_vector(v, "point")?);
+        match (about, axis) {
+            (Some(_), Some(_)) => {
+                let help = "leave `axis` and `point` out, or `about`";
+                Err(Fault::new("axis", "`about` already says the axis: that of the joint").help(help).into())
+            }
+            (Some(_), None) if point.is_some() => {
+                Err(Fault::new("point", "belongs to `axis`, and the axis is that of a joint").into())
+            }
+            (Some(name), None) => Ok(About::Joint(name.to_owned())),
+            (None, Some(axis)) => {
+                let message = "has no direction: one of its components must not be zero";
+                let axis =
+                    Axis::new(point.unwrap_or_default(), axis).ok_or_else(|| Fault::new("axis", message));
+                Ok(About::Line(axis?))
+            }
+            (None, None) => {
+                let help = "write `axis = [0, 0, 1]`, or `about` with the name of a joint";
+                Err(Fault::new("", "says no axis").help(help).into())
+            }
+        }
+    },
+};
+
+/// A steady rotation of a system in space.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rotation {
+    /// The axis.
+    pub axis: Axis,
+    /// The joint with the ground that keeps its angle meanwhile.
+    pub keeps: Option<String>,
+}
+
+impl Rotation {
+    /// The rotation of which a case says this.
+    pub(crate) fn given(about: &About, model: &Model) -> Made<Rotation> {
+        let axis = match about {
+            About::Line(axis) => *axis,
+            About::Joint(name) => model.axis_of(name).ok_or_else(|| {
+                let hinges = model.hinges();
+                let near = nearest(name, hinges.iter().copied());
+                let near = near.map_or(String::new(), |near| format!(": did you mean `{near}`?"));
+                let message = format!("there is no revolute or cylindrical joint `{name}`{near}");
+                Fault::new("about", message).help("any other axis is given by `axis` and `point`")
+            })?,
+        };
+        let rotation = Rotation { axis, keeps: model.hinge_about(&axis).map(str::to_owned) };
+        rotation.of(model, true).map_err(|why| Fault::new("", why))?;
+        Ok(rotation)
+    }
+
+    /// The rotation about the only axis that the joints with the ground leave, or why there is none.
+    pub(crate) fn found(model: &Model) -> Result<Rotation, String> {
+        let hinges = model.hinges();
+        let Some(axis) = hinges.first().and_then(|name| model.axis_of(name)) else {
+            return Err("the case has no axis of rotation, for no revolute or cylindrical joint is with the ground: write \
+                        `rotation = { axis = [0, 0, 1] }`, and the ground rotates with the system"
+                .to_owned());
+        };
+        match (model.against(&axis).first(), model.hinge_about(&axis)) {
+            (None, Some(keeps)) => Ok(Rotation { axis, keeps: Some(keeps.to_owned()) }),
+            (against, _) => Err(format!(
+                "the case has no axis of rotation: `{}` is with the ground and does not rotate about that of `{}`; write \
+                 `rotation = {{ about = \"{}\" }}` if the ground rotates with the system, or its `axis` and `point`",
+                against.copied().unwrap_or_default(),
+                hinges[0],
+                hinges[0]
+            )),
+        }
+    }
+
+    /// A model that rotates, and what of its loads is left out; at rest it keeps its loads and joints.
+    fn of(&self, model: &Model, rotates: bool) -> Result<(Rotating, Vec<String>), String> {
+        let (mut model, mut left_out) = (model.clone(), Vec::new());
+        if rotates {
+            left_out = model.keep_along(&self.axis);
+            self.keeps.iter().for_each(|joint| model.keep_angle(joint));
+        }
+        let multibody = Multibody::new(model).map_err(|error| error.to_string())?;
+        Ok((Rotating::new(multibody, self.axis), left_out))
+    }
+
+    /// As it is said: direction, the point of the axis that is next to the origin, and the joint that keeps its angle.
+    pub fn described(&self) -> String {
+        let Axis { point, direction: e } = self.axis;
+        let along: f64 = point.iter().zip(&e).map(|(a, b)| a * b).sum();
+        let foot: Vector = plus(point, -1.0, times(along, e));
+        let text = |x: Vector| x.map(|x| format!("{:.4}", x + 0.0)).join(", ");
+        let keeps = self
+            .keeps
+            .as_ref()
+            .map_or(", with the ground".to_owned(), |joint| format!(", `{joint}` keeps its angle"));
+        format!("the axis ({}) through ({}) m{keeps}", text(e), text(foot))
+    }
+}
+
+/// What vibrates, and what is left out of it.
+pub(crate) fn vibrating(
+    model: &Multibody,
+    rotation: &Result<Rotation, String>,
+    rotates: bool,
+) -> Result<(Box<dyn Fork>, Vec<String>), String> {
+    match rotation {
+        Ok(rotation) => {
+            let (system, left_out) = rotation.of(model.model(), rotates)?;
+            Ok((Box::new(system), left_out))
+        }
+        Err(why) if rotates => Err(why.clone()),
+        Err(_) => Ok((Box::new(model.clone()), Vec::new())),
+    }
+}

@@ -1,0 +1,81 @@
+//! What a mesh that is too coarse is told: its error, and the mesh that would do.
+//!
+//! With d₁ the largest difference of a column of the run and of its companion of twice the functions, and d₂ that of the companion and of
+//! one of twice as many again, the observed order is p = log₂(d₁/d₂), and the error falls to a part r with r^(−1/p) times the
+//! functions. A mesh is named only when a run with it has shown that it does; where it does not, steps are to blame too.
+
+use super::Run;
+use super::difference::Pair;
+use crate::problem::Problems;
+use crate::reading::Reading;
+use flexion_results::{ColumnError, Status, Watch};
+
+/// Error over the largest value of a column from which a mesh is coarse.
+const COARSE: f64 = 0.01;
+/// Part of that bound which is aimed at.
+const AIM: f64 = 0.7;
+/// Lowest order at which errors are said to fall, and highest that is trusted.
+const ORDERS: (f64, f64) = (0.5, 4.0);
+/// Factors on the functions that are tried, one after the other.
+const TRIED: [f64; 2] = [1.0, 1.5];
+
+impl Reading {
+    /// A warning of a mesh with which a principal column is off by more than a hundredth of its largest value. `columns` are the principal
+    /// columns with their errors, `fine` is the run of the companion `finer`.
+    pub(super) fn coarse(
+        &self,
+        run: &Run,
+        columns: &[&ColumnError],
+        (finer, fine): (&Reading, &Run),
+        safety: f64,
+        watch: &mut Watch<'_>,
+    ) -> Result<Option<String>, Problems> {
+        let relative = |error: &ColumnError| {
+            let index = fine.trajectory.index(&error.column)?;
+            Some(error.discretization / fine.trajectory.extremes(index).largest())
+                .filter(|part| part.is_finite())
+        };
+        let worst = columns.iter().filter_map(|error| Some((error.column.as_str(), relative(error)?)));
+        let Some((column, part)) = worst.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|worst| worst.1 > COARSE)
+        else {
+            return Ok(None);
+        };
+        let said = format!(
+            "mesh and steps are coarse: the error of {column} is {:.0} % of its largest value",
+            (100.0 * part).ceil()
+        );
+        let more = finer.case.finer();
+        if more.is_empty() {
+            return Ok(Some(format!("{said}; `--tolerance {COARSE}` refines the steps")));
+        }
+        let finest = finer.with(&more)?.prepare()?.run(watch);
+        let off = |a: &Run, b: &Run, column: &str| {
+            Pair::new(&a.trajectory, &b.trajectory, column).map_or(f64::NAN, |pair| pair.largest())
+        };
+        let order = (off(run, fine, column) / off(fine, &finest, column)).log2();
+        if finest.status != Status::Finished || !(order >= ORDERS.0) {
+            return Ok(Some(format!(
+                "{said}, and twice the functions do not bring it down: the motion has waves that no mesh of this size follows; \
+                 let loads set in more slowly, damp it, or ask for a shorter time"
+            )));
+        }
+        for factor in TRIED {
+            let changes =
+                self.case.with_functions(factor * (part / (AIM * COARSE)).powf(1.0 / order.min(ORDERS.1)));
+            let candidate = self.with(&changes)?.prepare()?.run(watch);
+            let holds = |error: &&ColumnError| {
+                let pair = Pair::new(&candidate.trajectory, &finest.trajectory, &error.column);
+                pair.is_none_or(|pair| safety * pair.largest() <= COARSE * pair.size())
+            };
+            if candidate.status == Status::Finished && columns.iter().all(holds) {
+                let changes = changes.join("` and `").replace('=', " = ");
+                return Ok(Some(format!(
+                    "{said}; with `{changes}` it is below 1 % (observed order {order:.1})"
+                )));
+            }
+        }
+        Ok(Some(format!(
+            "{said}, and a finer mesh alone does not bring it down: `--tolerance {COARSE}` refines mesh and steps"
+        )))
+    }
+}

@@ -1,0 +1,93 @@
+//! Advice on the cheapest coupling, basis and integrator.
+
+#![allow(clippy::unwrap_used)] // in helpers of tests
+
+use crate::verification::run::root;
+use crate::written::{finished, reading};
+use flexion_case::{Advice, Reading, Run, Target, read};
+use std::ops::ControlFlow;
+
+fn advice(reading: &Reading, tolerance: &str, quantity: &str) -> Advice {
+    let target = Target::new(tolerance.to_owned(), Some(quantity.to_owned()));
+    reading.advise(&target, &mut |_| ControlFlow::Continue(())).unwrap()
+}
+
+/// P1's answer is known: −0.40034 m at the largest deflection, of which a thousandth is asked.
+#[test]
+fn advice_on_p1_is_cheap_and_keeps_what_is_asked() {
+    let reading = read(&root().join("p1_spin_up_4"), &[]).unwrap();
+    let advice = advice(&reading, "1e-3", "tip.deflection.min");
+    let cheapest = &advice.tried[advice.cheapest.unwrap()];
+    // The deflection is small: the linear coupling does, and with few functions.
+    assert_eq!(cheapest.coupling, "first", "{cheapest:?}");
+    let run = finished(&reading.with(&cheapest.changes).unwrap());
+    let found = run.trajectory.extremes(run.trajectory.index("tip.deflection").unwrap()).min;
+    assert!((found + 0.400_34).abs() < 1e-3 * 0.400_34, "{found}");
+    let as_it_stands = finished(&reading);
+    let work = |run: &Run| (run.counters.residuals as f64) * run.size.unknowns as f64;
+    assert!(5.0 * work(&run) < work(&as_it_stands), "{} {}", work(&run), work(&as_it_stands));
+    assert!((work(&run) - cheapest.work).abs() < 0.5, "the work that was counted");
+    // It is the cheapest of those that hold, by the table.
+    let least = advice
+        .tried
+        .iter()
+        .filter(|tried| tried.holds())
+        .map(|tried| tried.work)
+        .fold(f64::INFINITY, f64::min);
+    assert_eq!(least, cheapest.work);
+}
+
+/// A force that bends the beam by 0.8 of its length: no coupling but the exact one can follow.
+#[test]
+fn advice_on_a_large_deflection_is_the_exact_coupling() {
+    let reading = reading(LARGE, &[]);
+    let advice = advice(&reading, "1e-3", "tip.deflection");
+    let cheapest = &advice.tried[advice.cheapest.unwrap()];
+    assert_eq!(cheapest.coupling, "exact", "{cheapest:?}");
+    for coupling in ["first", "high"] {
+        let mut others = advice.tried.iter().filter(|tried| tried.coupling == coupling);
+        assert!(others.all(|tried| !tried.holds()), "{coupling}");
+    }
+    let run = finished(&reading.with(&cheapest.changes).unwrap());
+    let refined = ["basis.elements=40", "integrator={kind='radau',tolerance=1e-8,absolute-tolerance=1e-9}"];
+    let fine = finished(&reading.with(&refined.map(str::to_owned)).unwrap());
+    let [a, b] = [&run, &fine].map(|run| run.trajectory.column("tip.deflection").unwrap());
+    let off = a.iter().zip(&b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let largest = b.iter().fold(0.0, |m: f64, b| m.max(b.abs()));
+    assert!(largest > 0.8 && off < 1.1e-3 * largest, "{off} of {largest}");
+}
+
+#[test]
+fn advice_is_refused_where_there_is_none() {
+    let target = Target::new("1e-3".to_owned(), None);
+    let refused = |reading: &Reading| {
+        reading.advise(&target, &mut |_| ControlFlow::Continue(())).unwrap_err().to_string()
+    };
+    let space = read(&root().join("space_free_body"), &[]).unwrap();
+    assert!(refused(&space).contains("beams on a hub without contacts"));
+    let p1 = read(&root().join("p1_spin_up_4"), &[]).unwrap();
+    let unknown = Target::new("1e-3".to_owned(), Some("tip.defelction".to_owned()));
+    let error = p1.advise(&unknown, &mut |_| ControlFlow::Continue(())).unwrap_err();
+    assert!(error.to_string().contains("tip.deflection"), "{error}");
+}
+
+const LARGE: &str = "
+[beam]
+length = 1
+[section]
+kind = 'rectangle'
+modulus = '70 GPa'
+density = 2700
+width = '20 mm'
+height = '5 mm'
+[hub]
+motion = { kind = 'constant', speed = 0 }
+[model]
+coupling = 'exact'
+[[force]]
+station = 1
+force = [0, -140]
+amplitude = { kind = 'ramp', time = 1 }
+[run]
+duration = 1.5
+";

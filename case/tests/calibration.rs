@@ -1,0 +1,75 @@
+//! Cases at random over all kinds: what a run states as its error holds against a far finer run, or the run warns or ends with
+//! an error. `flexion calibrate` does the same for as many cases as one likes.
+
+#![allow(clippy::unwrap_used)] // in helpers of tests
+
+use flexion_case::calibration::{Counts, Ending, Outcome, draw, judge};
+use std::collections::BTreeSet;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Cases of the test, of a seed that no study in the documentation has.
+const CASES: u64 = 60;
+const SEED: u64 = 5;
+
+fn study() -> Vec<Outcome> {
+    let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let (next, outcomes) = (AtomicU64::new(0), Mutex::new(Vec::new()));
+    std::thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(|| {
+                loop {
+                    let k = next.fetch_add(1, Ordering::Relaxed);
+                    if k >= CASES {
+                        break;
+                    }
+                    let outcome = judge(&draw(SEED, k), k);
+                    outcomes.lock().unwrap().push(outcome);
+                }
+            });
+        }
+    });
+    outcomes.into_inner().unwrap()
+}
+
+#[test]
+fn stated_errors_of_cases_at_random_hold_or_the_run_warns() {
+    let outcomes = study();
+    let refused: Vec<_> = outcomes
+        .iter()
+        .filter(|o| matches!(o.ending, Ending::Refused(_)))
+        .map(|o| (o.number, &o.ending))
+        .collect();
+    assert!(refused.is_empty(), "legal cases are refused: {refused:?}");
+    let counts = Counts::of(&outcomes);
+    for row in counts.rows() {
+        eprintln!("{}", row.join("  "));
+    }
+    assert!(counts.silent.is_empty() && counts.wrong.is_empty(), "{:?} {:?}", counts.silent, counts.wrong);
+    assert!(2 * counts.known > counts.cases, "{counts:?}");
+    assert!(counts.held as f64 >= 0.9 * counts.values as f64, "{counts:?}");
+    assert!(counts.median <= 5.0, "{counts:?}");
+}
+
+/// All kinds are drawn that a case may choose, but those that a run cannot be judged by.
+#[test]
+fn all_kinds_are_drawn() {
+    let drawn: Vec<String> = (0..1500).map(|k| draw(1, k).text).collect();
+    let text = drawn.join("\n");
+    let words: BTreeSet<&str> = text.split('"').collect();
+    for choice in flexion_case::choices() {
+        // Blades do not run; a restart belongs to one run.
+        let left_out = |kind: &str| match choice.path() {
+            "blade.strain-energy" => true,
+            "initial" => ["restart", "undeformed"].contains(&kind),
+            "contact.law" => kind == "massless",
+            "hub.motion.controller" => kind == "none",
+            "distributed-load.distribution" => kind == "uniform",
+            "contact.obstacle.mount" => kind == "ground",
+            _ => false,
+        };
+        for kind in choice.kinds() {
+            assert!(left_out(kind.name) || words.contains(kind.name), "{} {}", choice.path(), kind.name);
+        }
+    }
+}

@@ -1,0 +1,177 @@
+//! `flexion advise`: the cheapest coupling, basis and integrator that hold a tolerance.
+
+use crate::run::Progress;
+use crate::{Outcome, case, screen};
+use flexion_case::{Advice, AdviseError, RefineError, Target, Tried};
+use flexion_results::{Artifact, Directory, OutputError};
+use serde_json::{Value, json};
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+/// Most rows that are printed; all are in the files.
+const PRINTED: usize = 12;
+
+/// The case, and what is asked of it.
+#[derive(clap::Args)]
+#[command(after_help = "Examples:
+  flexion advise case.toml --tolerance 1e-3
+  flexion advise case.toml --tolerance \"0.1 mm\" --quantity tip.deflection.min
+
+First the case is run with the exact coupling, refined to a fifth of the tolerance: that is the trusted answer. Then couplings,
+bases of growing size and integrators of shrinking steps are tried on the case, and held against it; the cheapest that holds is
+named, by evaluations of the residual times unknowns, with what to pass to `flexion run`. The ladder takes 3e8 steps times unknowns
+at most, two minutes or so; the same case has the same advice everywhere.
+
+Exit codes: 0 finished, 1 case or command line rejected, 2 nothing holds the tolerance, or there is no trusted answer.")]
+pub struct Arguments {
+    #[command(flatten)]
+    case: case::Selection,
+    /// Largest error: a part of the largest value, \"1e-4\", or with a unit, \"0.1 mm\"
+    #[arg(long, value_name = "ERROR")]
+    tolerance: String,
+    /// What the tolerance is for: a column, or its min, max or final value, e.g. tip.deflection.min [default: all
+    /// principal columns]
+    #[arg(long, value_name = "COLUMN")]
+    quantity: Option<String>,
+    /// Directory for advice.json and advice.csv [default: results/NAME-advice]
+    #[arg(long, short, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Replace former results in that directory
+    #[arg(long)]
+    force: bool,
+}
+
+/// Looks for the cheapest run that holds, and writes what was tried.
+pub fn advise(arguments: &Arguments) -> Outcome {
+    let Some(reading) = arguments.case.read() else { return Outcome::Rejected };
+    let named = format!("{}-advice", arguments.case.name());
+    let output = arguments.output.clone().unwrap_or_else(|| Path::new("results").join(named));
+    let directory = match Directory::create_for(Artifact::ADVICE, &output, arguments.force) {
+        Ok(directory) => directory,
+        Err(error) => {
+            screen::report(&format!("error: {error}\n"));
+            return Outcome::Rejected;
+        }
+    };
+    let target = Target::new(arguments.tolerance.clone(), arguments.quantity.clone());
+    let mut progress = Progress::new(reading.case.duration);
+    let advice = reading.advise(&target, &mut |state| progress.show(state.t));
+    progress.finish();
+    let advice = match advice {
+        Ok(advice) => advice,
+        Err(error) => {
+            directory.discard();
+            return match error {
+                AdviseError::Refine(RefineError::Case(problems)) => {
+                    screen::report(&problems.render(screen::colour()));
+                    Outcome::Rejected
+                }
+                AdviseError::Refine(other) => {
+                    screen::report(&format!("error: {other}\n"));
+                    Outcome::Rejected
+                }
+                AdviseError::NoAnswer(why) => {
+                    screen::report(&format!("error: there is no trusted answer: {why}\n"));
+                    Outcome::Incomplete
+                }
+            };
+        }
+    };
+    screen::print(&described(&advice));
+    let written = write(&directory, &reading.resolved(), &advice);
+    let files = [("advice", Artifact::AdviceJson), ("all runs", Artifact::AdviceCsv)];
+    if !screen::files(&directory, written, &files) {
+        return Outcome::Incomplete;
+    }
+    if advice.bounded {
+        screen::report("warning: the ladder ended early, for the work it takes; a cheaper run may hold\n");
+    }
+    if advice.cheapest.is_some() {
+        return Outcome::Finished;
+    }
+    screen::report(
+        "error: nothing on the ladder holds the tolerance: `flexion run --tolerance` with the exact coupling refines further\n",
+    );
+    Outcome::Incomplete
+}
+
+/// Error over what is asked, or why there is none.
+fn error(tried: &Tried) -> String {
+    match &tried.error {
+        Ok(error) => format!("{error:.2}"),
+        Err(why) => why.clone(),
+    }
+}
+
+fn described(advice: &Advice) -> String {
+    let mut out = String::from("asked:\n");
+    let asked =
+        advice.asked.iter().map(|(name, bound, unit)| vec![name.clone(), format!("± {bound:.3e} {unit}")]);
+    out += &screen::table(&asked.collect::<Vec<_>>());
+    let (changes, part) = &advice.trusted;
+    out += &format!(
+        "\nThe trusted answer is that of the exact coupling with {}, whose error is {part:.2} of what is asked.\n\n",
+        changes.join(", ")
+    );
+    let mut those: Vec<&Tried> = advice.tried.iter().filter(|tried| tried.error.is_ok()).collect();
+    those.sort_by(|a, b| b.holds().cmp(&a.holds()).then(a.work.total_cmp(&b.work)));
+    let mut rows =
+        vec![["coupling", "basis", "integrator", "work", "error over asked"].map(str::to_owned).to_vec()];
+    for tried in those.into_iter().take(PRINTED) {
+        rows.push(vec![
+            tried.coupling.to_owned(),
+            tried.basis.clone(),
+            tried.integrator.clone(),
+            format!("{:.2e}", tried.work),
+            error(tried),
+        ]);
+    }
+    out += &screen::table(&rows);
+    if let Some(tried) = advice.cheapest.and_then(|index| advice.tried.get(index)) {
+        let set: Vec<String> = tried.changes.iter().map(|change| format!("--set \"{change}\"")).collect();
+        out += &format!("\nThe cheapest of {} runs that holds:\n  {}\n", advice.tried.len(), set.join(" "));
+    }
+    out.push('\n');
+    out
+}
+
+fn write(directory: &Directory, case: &str, advice: &Advice) -> Result<(), OutputError> {
+    directory
+        .write(Artifact::ResolvedCase, |f| f.write_all(flexion_results::resolved_case(case).as_bytes()))?;
+    directory.write(Artifact::AdviceCsv, |f| {
+        writeln!(f, "coupling,basis,integrator,work,error-over-asked,holds")?;
+        for tried in &advice.tried {
+            let error = tried.error.as_ref().map_or(f64::NAN, |error| *error);
+            let quoted = [&tried.basis, &tried.integrator].map(|text| format!("\"{text}\""));
+            writeln!(
+                f,
+                "{},{},{:e},{error:e},{}",
+                tried.coupling,
+                quoted.join(","),
+                tried.work,
+                u8::from(tried.holds())
+            )?;
+        }
+        Ok(())
+    })?;
+    let row = |tried: &Tried| {
+        json!({
+            "coupling": tried.coupling, "basis": tried.basis, "integrator": tried.integrator, "set": tried.changes,
+            "work": tried.work, "error": tried.error.as_ref().ok(), "why": tried.error.as_ref().err(), "holds": tried.holds(),
+        })
+    };
+    let asked: Value = advice
+        .asked
+        .iter()
+        .map(|(name, bound, unit)| json!({ "quantity": name, "error": bound, "unit": unit }))
+        .collect();
+    let summary = json!({
+        "asked": asked,
+        "trusted": { "case": advice.trusted.0, "error": advice.trusted.1 },
+        "cheapest": advice.cheapest.and_then(|index| advice.tried.get(index)).map(row),
+        "bounded": advice.bounded,
+        "tried": advice.tried.iter().map(row).collect::<Value>(),
+    });
+    directory.write(Artifact::AdviceJson, |f| writeln!(f, "{summary:#}"))?;
+    directory.publish()
+}

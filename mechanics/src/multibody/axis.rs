@@ -1,0 +1,151 @@
+//! Axes about which a model can rotate steadily, and what on the ground allows it.
+
+use super::force::Axes;
+use super::joint::{Drive, Joint, Kind};
+use super::marker::{Marker, Part};
+use super::model::Model;
+use super::rotation::{Matrix3, Vector, apply, column, plus, product, times};
+use crate::linalg::vector::{cross, inner};
+use crate::profile::{Constant, Motion};
+use crate::system::Frame;
+use std::sync::Arc;
+
+/// Sine of the angle between directions that count as one.
+const ANGLE: f64 = 1e-6;
+/// Distance of points that count as one, over the distance of the axis from the origin and 1 m \[m\].
+const DISTANCE: f64 = 1e-6;
+
+/// A line in space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Axis {
+    /// A point of it \[m\].
+    pub point: Vector,
+    /// Its direction, a unit vector.
+    pub direction: Vector,
+}
+
+impl Axis {
+    /// The axis through a point; `None` for a direction without length, or numbers that are not finite.
+    pub fn new(point: Vector, direction: Vector) -> Option<Axis> {
+        let length = size(direction);
+        let valid = length > 0.0 && length.is_finite() && point.iter().all(|x| x.is_finite());
+        valid.then(|| Axis { point, direction: times(1.0 / length, direction) })
+    }
+
+    fn is_parallel(&self, direction: Vector) -> bool {
+        size(cross(self.direction, direction)) <= ANGLE
+    }
+
+    fn holds(&self, point: Vector) -> bool {
+        let off = size(cross(self.direction, plus(point, -1.0, self.point)));
+        off <= DISTANCE * f64::max(1.0, size(self.point))
+    }
+}
+
+fn size(x: Vector) -> f64 {
+    inner(x, x).sqrt()
+}
+
+fn on_ground(joint: &Joint) -> bool {
+    joint.from.part == Part::Ground || joint.to.part == Part::Ground
+}
+
+fn is_hinge(joint: &Joint) -> bool {
+    matches!(joint.kind, Kind::Revolute | Kind::Cylindrical)
+}
+
+impl Model {
+    /// The axis of a revolute or cylindrical joint.
+    pub fn axis_of(&self, joint: &str) -> Option<Axis> {
+        let joint = self.joints.iter().find(|j| j.name == joint).filter(|j| is_hinge(j))?;
+        let frame = self.in_space(&joint.from)?;
+        Axis::new(frame.position, column(&frame.rotation, 2))
+    }
+
+    /// Names of the revolute and cylindrical joints with the ground, in their order.
+    pub fn hinges(&self) -> Vec<&str> {
+        let hinges = self.joints.iter().filter(|joint| on_ground(joint) && is_hinge(joint));
+        hinges.map(|joint| joint.name.as_str()).collect()
+    }
+
+    /// The joint with the ground that turns about an axis: the first that is driven, or else the first.
+    pub fn hinge_about(&self, axis: &Axis) -> Option<&str> {
+        let names = self.hinges();
+        let about = |name: &&str| self.axis_of(name).is_some_and(|of| coaxial(axis, &of));
+        let driven =
+            |name: &&str| self.joints.iter().any(|j| j.name == **name && !matches!(j.drive, Drive::None));
+        let found: Vec<&str> = names.into_iter().filter(about).collect();
+        found.iter().copied().find(driven).or(found.first().copied())
+    }
+
+    /// Names of the joints and springs that fix a part to the ground in a way that a rotation about the axis changes: they
+    /// rotate only if the ground does.
+    pub fn against(&self, axis: &Axis) -> Vec<&str> {
+        let allows = |joint: &Joint| {
+            let ground = if joint.from.part == Part::Ground { &joint.from } else { &joint.to };
+            let Some(frame) = self.in_space(ground) else { return false };
+            let (on_it, along) = (axis.holds(frame.position), axis.is_parallel(column(&frame.rotation, 2)));
+            match joint.kind {
+                Kind::Revolute | Kind::Cylindrical => on_it && along,
+                Kind::Spherical => on_it,
+                Kind::Planar => along,
+                Kind::Fixed | Kind::Prismatic | Kind::Universal => false,
+            }
+        };
+        let joints = self.joints.iter().filter(|joint| on_ground(joint) && !allows(joint));
+        let off = |marker: &Marker| {
+            marker.part == Part::Ground && self.in_space(marker).is_some_and(|f| !axis.holds(f.position))
+        };
+        let springs = self.springs.iter().filter(|spring| off(&spring.from) || off(&spring.to));
+        joints.map(|joint| joint.name.as_str()).chain(springs.map(|s| s.name.as_str())).collect()
+    }
+
+    /// Makes a revolute or cylindrical joint keep the angle that it has at the start, in the place of its drive.
+    pub fn keep_angle(&mut self, joint: &str) {
+        let Some(number) = self.joints.iter().position(|j| j.name == joint && is_hinge(j)) else { return };
+        let of = &self.joints[number];
+        let (Some(a), Some(b)) = (self.in_space(&of.from), self.in_space(&of.to)) else { return };
+        let along = |j: usize| inner(column(&a.rotation, j), column(&b.rotation, 0));
+        let angle = libm::atan2(along(1), along(0));
+        if let Ok(profile) = Constant::new(angle) {
+            self.joints[number].drive = Drive::Prescribed(Motion::Angle(Arc::new(profile)));
+        }
+    }
+
+    /// Takes from gravity and from the loads of a fixed direction what lies across an axis, whose mean over a revolution is
+    /// zero; the names of what is changed.
+    pub fn keep_along(&mut self, axis: &Axis) -> Vec<String> {
+        let e = axis.direction;
+        let mut names = Vec::new();
+        let mut keep = |name: &str, vectors: &mut [&mut Vector]| {
+            let mut changed = false;
+            for x in vectors {
+                changed |= size(cross(e, **x)) > ANGLE * size(**x);
+                **x = times(inner(e, **x), e);
+            }
+            if changed {
+                names.push(name.to_owned());
+            }
+        };
+        keep("gravity", &mut [&mut self.gravity]);
+        for load in self.loads.iter_mut().filter(|load| load.axes == Axes::Dead) {
+            keep(&format!("`{}`", load.name), &mut [&mut load.force, &mut load.moment]);
+        }
+        for load in self.line_loads.iter_mut().filter(|load| load.axes == Axes::Dead) {
+            keep(&format!("`{}`", load.name), &mut [&mut load.force]);
+        }
+        names
+    }
+
+    /// A marker at the start, in the axes of space.
+    fn in_space(&self, marker: &Marker) -> Option<Frame> {
+        let part = self.frame(marker.part)?;
+        let rotation: Matrix3 = product(&part.rotation, &marker.frame.rotation);
+        let position = plus(part.position, 1.0, apply(&part.rotation, marker.frame.position));
+        Some(Frame { position, rotation })
+    }
+}
+
+fn coaxial(a: &Axis, b: &Axis) -> bool {
+    a.is_parallel(b.direction) && a.holds(b.point)
+}
