@@ -40,8 +40,13 @@ fn a_case_is_read_in_si_with_defaults() {
     assert_eq!((case.hub_beam().unwrap().hub.radius, case.hub_beam().unwrap().hub.inertia), (0.0, 0.0));
     assert!(!case.hub_beam().unwrap().coupling.whole_curve);
     assert_eq!(case.hub_beam().unwrap().bases.elements, Some((10, 1)));
-    let tolerances =
-        Steps::Controlled { tolerance: 1e-6, absolute_tolerance: 1e-8, first: None, longest: None };
+    let tolerances = Steps::Controlled {
+        tolerance: 1e-6,
+        absolute_tolerance: 1e-8,
+        first: None,
+        longest: None,
+        contact: None,
+    };
     assert_eq!(case.steps, tolerances);
     assert_eq!((case.duration, case.output.step), (20.0, 0.02));
     assert!(case.output.stations.is_empty());

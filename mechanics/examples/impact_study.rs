@@ -2,7 +2,7 @@
 //! modes, and the restitution that laws of contact forces deliver.
 //!
 //! `cargo run --release -p flexion --example impact_study [TABLE]`, with `restitution`, `first`, `orders`, `modes`, `speed`, `table`, `table-exact`,
-//! `table-massless` or `balance`; all without.
+//! `table-massless` or `balance`; all without. `table N` is the table for N modes.
 
 #![allow(missing_docs, dead_code, unused_imports, clippy::unwrap_used, clippy::panic, clippy::print_stdout)] // what it is for
 
@@ -15,7 +15,7 @@ use flexion::basis::{Field, Modes};
 use flexion::contact::{Dissipation, Law, delivered};
 use flexion::hub_beam::{ExactCoupling, Fields, Foreshortening, HighCoupling, LinearCoupling};
 use flexion::integrator::{
-    Adams, GeneralizedAlpha, Integrator, MoreauJean, NonsmoothAlpha, Radau, Tolerance,
+    Adams, GeneralizedAlpha, Integrator, MoreauJean, NonsmoothAlpha, Radau, RungeKutta, Tolerance,
 };
 use flexion::system::{Mode, State, System};
 use std::ops::ControlFlow;
@@ -144,9 +144,14 @@ fn clock() -> f64 {
     told.split_whitespace().next().and_then(|x| x.parse::<f64>().ok()).map_or(f64::NAN, |x| 1e-9 * x)
 }
 
-fn plan(end: f64, steps: Option<(f64, f64)>) -> Plan {
+fn plan(end: f64, steps: Option<(f64, f64)>, adaptive: bool) -> Plan {
     let (step, contact_step) = (steps.map(|s| s.0), steps.map(|s| s.1));
-    Plan { end, step, contact_step, longest_step: None, sample: 0.005 }
+    let (step, longest_step) = if adaptive { (None, step) } else { (step, None) };
+    Plan { end, step, contact_step, longest_step, sample: 0.005 }
+}
+
+fn is_adaptive(method: &dyn Integrator) -> bool {
+    method.info().estimate_order.is_some()
 }
 
 fn short(ending: &Ending) -> String {
@@ -208,11 +213,12 @@ fn rebound(watch: &Watch) -> [f64; 4] {
 /// Table 1: every scheme against `radau` with a small tolerance, 1 s, e = 0.
 fn compare(name: &str, make: impl Fn() -> Box<dyn System>, list: Vec<Scheme>) {
     let (_, mut method, _) = radau(1e-10);
-    let (watch, ending, _) = run(make().as_mut(), method.as_mut(), &plan(1.0, None));
+    let (watch, ending, _) = run(make().as_mut(), method.as_mut(), &plan(1.0, None, true));
     let exact = rebound(&watch);
     println!("| {name} | `radau`, 1e-10 | {exact:.6?} | {}", short(&ending));
     for (scheme, mut method, steps) in list {
-        let (watch, ending, time) = run(make().as_mut(), method.as_mut(), &plan(1.0, steps));
+        let plan = plan(1.0, steps, is_adaptive(method.as_ref()));
+        let (watch, ending, time) = run(make().as_mut(), method.as_mut(), &plan);
         let found = rebound(&watch);
         let errors = [0, 1, 2, 3].map(|k| format!("{:.2} %", 100.0 * (found[k] / exact[k] - 1.0)));
         println!(
@@ -229,7 +235,9 @@ const COLUMNS: &str =
 
 fn table() {
     println!("\nTable 1, e = 0: {COLUMNS}\n");
-    for (n, step) in [(3, 2e-6), (5, 1.2e-6), (7, 8e-7), (9, 6e-7)] {
+    let wanted: Option<usize> = std::env::args().nth(2).and_then(|n| n.parse().ok());
+    let all = [(3, 2e-6), (5, 1.2e-6), (7, 8e-7), (9, 6e-7)];
+    for (n, step) in all.into_iter().filter(|(n, _)| wanted.is_none_or(|wanted| wanted == *n)) {
         let mut list = schemes(step);
         // Half a minute each with N = 5, and more with more modes.
         list.retain(|(name, ..)| n == 3 || !name.contains("adams"));
@@ -280,6 +288,10 @@ fn speed() {
         hht(0.15, (1e-5, 1e-6)),
     ];
     list.extend([3e-4, 2e-4, 1e-4, 5e-5, 3e-5, 2e-5, 1e-5, 1e-6].map(radau));
+    for longest in [8e-4, 5e-4, 4e-4] {
+        let (name, method, _) = radau(1e-4);
+        list.push((format!("{name}, {longest:.0e} s at most"), method, Some((longest, longest))));
+    }
     for tolerance in [1e-4, 1e-5] {
         let method = GeneralizedAlpha::chung_hulbert(0.6).unwrap().adaptive(Tolerance::uniform(tolerance));
         list.push((format!("`generalized-alpha`, 0.6, {tolerance:.0e}"), Box::new(method), None));
@@ -293,26 +305,43 @@ fn balance() {
         "\n20 s, N = 2: e | scheme | largest imbalance over the energy of the start | gained [J] | steps | s\n"
     );
     let sharp = |e: f64| -> Box<dyn System> { Box::new(pendulum(2, stop(e))) };
-    let nonsmooth = || -> Scheme {
-        let method = NonsmoothAlpha::decoupled(0.8).unwrap();
-        ("nonsmooth α, decoupled, 0.8, 1e-5 s".into(), Box::new(method), Some((1e-5, 1e-5)))
+    let fixed = |name: &str, method: Method, step: f64| -> Scheme {
+        (format!("{name}, {step:.0e} s"), method, Some((step, step)))
     };
-    let moreau = || -> Scheme {
-        let method = MoreauJean::new(0.5).unwrap();
-        ("Moreau–Jean, ½, 1e-5 s".into(), Box::new(method), Some((1e-5, 1e-5)))
+    let moreau = |step| fixed("Moreau–Jean, ½", Box::new(MoreauJean::new(0.5).unwrap()), step);
+    let trapezium = |step| {
+        fixed("`hht`, α = 0, stabilized", Box::new(GeneralizedAlpha::hht(0.0).unwrap().stabilized()), step)
+    };
+    let limited = |longest: f64| -> Scheme {
+        let (name, method, _) = radau(1e-8);
+        (format!("{name}, {longest:.0e} s at most"), method, Some((longest, longest)))
     };
     let list: Vec<(f64, Scheme, Box<dyn System>)> = vec![
+        (0.0, trapezium(5e-5), sharp(0.0)),
+        (0.0, trapezium(2e-5), sharp(0.0)),
+        (0.0, moreau(5e-5), sharp(0.0)),
+        (0.0, moreau(2e-5), sharp(0.0)),
         (0.0, radau(1e-8), sharp(0.0)),
         (0.0, radau(1e-10), sharp(0.0)),
         (0.5, radau(1e-10), sharp(0.5)),
+        (0.0, limited(5e-6), sharp(0.0)),
         (0.0, radau(1e-10), massless(2)),
         (0.0, radau(1e-11), massless(2)),
-        (0.0, radau(1e-11), sharp(0.0)),
-        (0.0, moreau(), sharp(0.0)),
-        (0.0, nonsmooth(), sharp(0.0)),
+        (
+            0.0,
+            fixed("nonsmooth α, coupled, 1", Box::new(NonsmoothAlpha::coupled(1.0).unwrap()), 1e-5),
+            sharp(0.0),
+        ),
+        (
+            0.0,
+            fixed("`runge-kutta-4`", Box::new(RungeKutta::new().with_baumgarte(0.0, 0.0)), 8e-6),
+            sharp(0.0),
+        ),
+        (0.0, fixed("`adams`", Box::new(Adams::new().with_baumgarte(0.0, 0.0)), 3e-6), sharp(0.0)),
     ];
     for (e, (name, mut method, steps), mut system) in list {
-        let (watch, ending, time) = watched(system.as_mut(), method.as_mut(), &plan(20.0, steps), true);
+        let plan = plan(20.0, steps, is_adaptive(method.as_ref()));
+        let (watch, ending, time) = watched(system.as_mut(), method.as_mut(), &plan, true);
         let part = watch.imbalance / START;
         println!(
             "| {e} | {name} | {part:.1e} | {:.1e} | {} | {time:.1} | {}",
@@ -322,7 +351,7 @@ fn balance() {
         );
     }
     let (name, mut method, steps) = hht(0.0, P4);
-    let (watch, ..) = watched(massless(7).as_mut(), method.as_mut(), &plan(1.0, steps), true);
+    let (watch, ..) = watched(massless(7).as_mut(), method.as_mut(), &plan(1.0, steps, false), true);
     println!("| massless, N = 7, 1 s | {name} | {:.1e} | {:.1e} |", watch.imbalance / START, watch.gained);
 }
 
@@ -336,7 +365,7 @@ fn orders() {
         let step = 2e-5 / f64::from(1 << k);
         let mut method = GeneralizedAlpha::hht(0.0).unwrap().stabilized();
         let mut system = pendulum(2, stop(0.0));
-        let (watch, ending, _) = run(&mut system, &mut method, &plan(0.8, Some((step, step))));
+        let (watch, ending, _) = run(&mut system, &mut method, &plan(0.8, Some((step, step)), false));
         println!(
             "| {step:.2e} | {:.9} | {:.8} | {}",
             watch.second().unwrap_or(0.0),
@@ -349,7 +378,7 @@ fn orders() {
         print!("| {tolerance:.0e} |");
         for e in [0.0, 0.5] {
             let mut method = Radau::new(Tolerance::uniform(tolerance)).unwrap();
-            let (watch, ..) = run(&mut pendulum(2, stop(e)), &mut method, &plan(0.8, None));
+            let (watch, ..) = run(&mut pendulum(2, stop(e)), &mut method, &plan(0.8, None, true));
             print!(" {:.9} | {:.9} |", watch.second().unwrap_or(0.0), watch.energy);
         }
         println!();
@@ -363,14 +392,15 @@ fn modes() {
     for e in [0.0, 0.5, 1.0] {
         for n in [1, 2, 3, 5, 7, 9] {
             let mut method = Radau::new(Tolerance::uniform(1e-8)).unwrap();
-            let (watch, ending, _) = run(&mut pendulum(n, stop(e)), &mut method, &plan(0.85, None));
+            let (watch, ending, _) = run(&mut pendulum(n, stop(e)), &mut method, &plan(0.85, None, true));
             line("high", e, n, &watch, &ending);
         }
     }
     for n in [2, 4, 8] {
         let coupling = ExactCoupling::new(1.0, n, &section(), &hub()).unwrap();
         let mut method = Radau::new(Tolerance::uniform(1e-7)).unwrap();
-        let (watch, ending, _) = run(&mut with_ground(coupling, stop(0.0)), &mut method, &plan(0.85, None));
+        let (watch, ending, _) =
+            run(&mut with_ground(coupling, stop(0.0)), &mut method, &plan(0.85, None, true));
         line("exact", 0.0, n, &watch, &ending);
     }
 }
@@ -396,7 +426,8 @@ fn first_coupling() {
         let fields = Fields::new(1.0, basis(Field::Axial), basis(Field::Transverse), &[]);
         let coupling = LinearCoupling::new(fields, &section(), &hub(), Foreshortening::First);
         let mut method = Radau::new(Tolerance::uniform(1e-8)).unwrap();
-        let (watch, ending, _) = run(&mut with_ground(coupling, stop(0.0)), &mut method, &plan(0.9, None));
+        let (watch, ending, _) =
+            run(&mut with_ground(coupling, stop(0.0)), &mut method, &plan(0.9, None, true));
         println!("| {n} | {} impacts | {}", watch.impacts().count(), short(&ending));
     }
 }

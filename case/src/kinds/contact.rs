@@ -306,20 +306,35 @@ pub static LAW: Choice<(Law, bool)> = Choice {
     ],
 };
 
-/// The stations of a contact: the given one, equidistant ones, or the tip.
+/// The stations of a contact: the given ones, equidistant ones, or the tip.
 fn stations(v: &Values, c: &Context<'_>) -> Made<Vec<f64>> {
     let length = c.length()?;
-    match (v.optional("station")?, v.optional("points")?) {
-        (Some(_), Some(_)) => {
-            let message = "a contact at a station is one point: give `station` or `points`, not both";
-            Err(Fault::new("points", message).into())
+    let mut given = Vec::new();
+    for key in ["station", "stations", "points"] {
+        if v.optional(key)?.is_some() {
+            given.push(key);
         }
-        (Some(_), None) => Ok(vec![c.station(v, "station")?]),
-        (None, Some(_)) => {
+    }
+    match given[..] {
+        [] => Ok(vec![length]),
+        ["station"] => Ok(vec![c.station(v, "station")?]),
+        ["stations"] => {
+            let stations = v.numbers("stations")?;
+            if stations.is_empty() || stations.windows(2).any(|two| two[0] >= two[1]) {
+                let message = "the stations of a contact ascend, and there is one at least";
+                return Err(Fault::new("stations", message).into());
+            }
+            stations.iter().try_for_each(|station| c.on_beam(*station, "stations"))?;
+            Ok(stations.to_vec())
+        }
+        [_] => {
             let n = v.count("points")?;
             Ok((1..=n).map(|k| length * k as f64 / n as f64).collect())
         }
-        (None, None) => Ok(vec![length]),
+        [first, second, ..] => {
+            let message = format!("a contact has one kind of points: give `{first}` or `{second}`, not both");
+            Err(Fault::new(second, message).into())
+        }
     }
 }
 
@@ -354,6 +369,12 @@ pub static CONTACT: Table<Contact> = Table {
                 "name, which begins the names of its columns: `contact`, `contact2`, … if left out",
             ),
             key("station", Type::Station(Positive), Optional, "station that may touch, the tip if left out"),
+            key(
+                "stations",
+                Type::Quantities(&LENGTH, Positive),
+                Optional,
+                "stations that may touch, ascending, each a contact of its own",
+            ),
             key(
                 "points",
                 Type::Integer(1, MOST_POINTS),

@@ -38,6 +38,8 @@ pub enum Steps {
         first: Option<f64>,
         /// Largest step \[s\]; no limit when `None`.
         longest: Option<f64>,
+        /// Largest step while a contact is closed or comes near \[s\].
+        contact: Option<f64>,
     },
 }
 
@@ -60,6 +62,12 @@ fn fixed<I: Integrator + 'static>(v: &Values, integrator: Result<I, InvalidParam
     })
 }
 
+/// A generalized-α method, in the form of its key `stabilized`.
+fn alpha(v: &Values, integrator: Result<GeneralizedAlpha, InvalidParameter>) -> Made<Method> {
+    let stabilized = v.boolean(STABILIZED.name)?;
+    fixed(v, integrator.map(|method| if stabilized { method.stabilized() } else { method }))
+}
+
 /// A method with the fixed step of its key `step`, which impacts do not change.
 fn nonsmooth<I: Integrator + 'static>(v: &Values, integrator: Result<I, InvalidParameter>) -> Made<Method> {
     let steps = Steps::Fixed { step: v.number("step")?, contact: None };
@@ -75,9 +83,10 @@ fn radau(v: &Values) -> Made<Method> {
     let (tolerance, absolute_tolerance) = (v.number("tolerance")?, v.number("absolute-tolerance")?);
     let integrator = Radau::new(Tolerance { relative: tolerance, absolute: absolute_tolerance });
     let (first, longest) = (v.optional_number("initial-step")?, v.optional_number("max-step")?);
+    let contact = v.optional_number(CONTACT_STEP.name)?;
     Ok(Method {
         integrator: Box::new(checked(integrator)?),
-        steps: Steps::Controlled { tolerance, absolute_tolerance, first, longest },
+        steps: Steps::Controlled { tolerance, absolute_tolerance, first, longest, contact },
     })
 }
 
@@ -87,6 +96,12 @@ const CONTACT_STEP: Key = key(
     Quantity(&TIME, Positive),
     Optional,
     "time step while a contact is closed or comes near, that of flight if left out",
+);
+const STABILIZED: Key = key(
+    "stabilized",
+    Type::Boolean,
+    Default::Boolean(false),
+    "joints and closed contacts hold their velocities too, by a second multiplier (Gear, Gupta & Leimkuhler)",
 );
 const SPECTRAL_RADIUS: Key = key(
     "spectral-radius",
@@ -116,6 +131,12 @@ pub static INTEGRATOR: Choice<Method> = Choice {
                 ),
                 key("initial-step", Quantity(&TIME, Positive), Optional, "first step, chosen if left out"),
                 key("max-step", Quantity(&TIME, Positive), Optional, "largest step, free if left out"),
+                key(
+                    CONTACT_STEP.name,
+                    Quantity(&TIME, Positive),
+                    Optional,
+                    "largest step while a contact is closed or comes near, that of flight if left out",
+                ),
             ],
             example: "integrator={kind='radau', tolerance=1e-8, max-step='20 ms'}",
             make: |v, _| radau(v),
@@ -127,6 +148,7 @@ pub static INTEGRATOR: Choice<Method> = Choice {
             keys: &[
                 STEP,
                 CONTACT_STEP,
+                STABILIZED,
                 key("beta", Type::Number(Between(0.01, 1.0)), Default::Number(0.25), "β, at least γ/2"),
                 key(
                     "gamma",
@@ -136,7 +158,7 @@ pub static INTEGRATOR: Choice<Method> = Choice {
                 ),
             ],
             example: "integrator={kind='newmark', step='1 ms'}",
-            make: |v, _| fixed(v, GeneralizedAlpha::newmark(v.number("beta")?, v.number("gamma")?)),
+            make: |v, _| alpha(v, GeneralizedAlpha::newmark(v.number("beta")?, v.number("gamma")?)),
         },
         Kind {
             name: "hht",
@@ -145,6 +167,7 @@ pub static INTEGRATOR: Choice<Method> = Choice {
             keys: &[
                 STEP,
                 CONTACT_STEP,
+                STABILIZED,
                 key(
                     "alpha",
                     Type::Number(Between(0.0, 1.0 / 3.0)),
@@ -153,15 +176,15 @@ pub static INTEGRATOR: Choice<Method> = Choice {
                 ),
             ],
             example: "integrator={kind='hht', step='1 ms', alpha=0.1}",
-            make: |v, _| fixed(v, GeneralizedAlpha::hht(v.number("alpha")?)),
+            make: |v, _| alpha(v, GeneralizedAlpha::hht(v.number("alpha")?)),
         },
         Kind {
             name: "generalized-alpha",
             summary: "generalized-α, implicit, order 2, dissipates high frequencies",
             source: "Chung & Hulbert 1993, doi:10.1115/1.2900803",
-            keys: &[STEP, CONTACT_STEP, SPECTRAL_RADIUS],
+            keys: &[STEP, CONTACT_STEP, STABILIZED, SPECTRAL_RADIUS],
             example: "integrator={kind='generalized-alpha', step='1 ms'}",
-            make: |v, _| fixed(v, GeneralizedAlpha::chung_hulbert(v.number("spectral-radius")?)),
+            make: |v, _| alpha(v, GeneralizedAlpha::chung_hulbert(v.number("spectral-radius")?)),
         },
         Kind {
             name: "nonsmooth-generalized-alpha",

@@ -110,7 +110,7 @@ impl Reading {
                 warnings.extend(cautions::unseen(live.system.as_ref(), step, case.duration));
                 (Some(step), None, contact)
             }
-            Steps::Controlled { first, longest, .. } => (first, longest, None),
+            Steps::Controlled { first, longest, contact, .. } => (first, longest, contact),
         };
         self.check_memory(live.system.as_ref())?;
         let plan = Plan { end: case.duration, step, longest_step, contact_step, sample: case.output.step };

@@ -171,6 +171,11 @@ impl Convergence {
         }
     }
 
+    /// η of this iteration; before its second increment, that carried over from the step before.
+    pub(super) fn eta(&self) -> f64 {
+        self.eta
+    }
+
     /// Whether the size of rounding errors is to be learnt from the second increment of an exact iteration.
     pub(super) fn wants_rounding(&self) -> bool {
         self.stalled

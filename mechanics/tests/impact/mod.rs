@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // in helpers of tests
 
 mod accumulation;
+mod balance;
 mod bars;
 mod bursts;
 mod conformance;

@@ -3,18 +3,18 @@
 use crate::integrator::{Integrator, Span, StepControl, StepError, StepReport};
 use crate::system::{Side, State, System};
 
-/// Attempts steps under step control until one is good.
+/// Attempts steps under step control, not longer than `longest`, until one is good.
 pub(super) fn adapt(
     system: &mut dyn System,
     integrator: &mut dyn Integrator,
-    state: &State,
+    (state, longest): (&State, f64),
     next: &mut State,
     (stop, side): (f64, Side),
     control: &mut StepControl,
 ) -> Result<(f64, StepReport), StepError> {
     loop {
         let left = stop - state.t;
-        let h = control.propose(left);
+        let h = control.propose(left).min(longest);
         let lands = h == left;
         let span = if lands { Span { step: h, end: stop, side } } else { Span::new(state.t, h) };
         match integrator.step(system, state, span, next) {

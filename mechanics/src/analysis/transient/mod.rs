@@ -39,8 +39,8 @@ pub struct Plan {
     /// Longest step of an adaptive method \[s\]; `None` for two recording intervals, or a hundredth of the run if
     /// that is shorter.
     pub longest_step: Option<f64>,
-    /// Step of a fixed-step method while a contact is closed or comes near \[s\], if shorter than `step`: the rest of a step
-    /// is divided into the fewest equal ones not longer than it.
+    /// Step while a contact is closed or comes near \[s\], if shorter than `step`: the rest of a fixed step is divided into
+    /// the fewest equal ones not longer than it; a step under control is not longer than it.
     pub contact_step: Option<f64>,
     /// Interval of recording \[s\]; the end is recorded too.
     pub sample: f64,
@@ -370,7 +370,10 @@ impl Run {
         contact_step: Option<f64>,
     ) -> Result<(f64, StepReport), RunError> {
         if let Some(control) = &mut self.control {
-            return adapt(system, integrator, state, next, (stop, side), control)
+            let h = control.propose(stop - state.t);
+            let near = |short: &f64| *short < h && approaches(system, state, h, &mut self.gaps);
+            let longest = contact_step.filter(near).unwrap_or(f64::INFINITY);
+            return adapt(system, integrator, (state, longest), next, (stop, side), control)
                 .map_err(|error| failed(system, state, error));
         }
         let (h, end) = match &mut self.stretch {

@@ -186,33 +186,30 @@ impl Sums {
         let cells = self.cells.iter().zip(axis).zip(self.slope.chunks_exact_mut(p));
         for ((cell, at), slope) in cells {
             let (na, nt) = (cell.axial.len(), cell.transverse.len());
-            at.fill(Point::default());
-            slope.fill([0.0; 3]);
-            for (j, &number) in cell.axial.iter().enumerate() {
-                let x = [s.q[number], s.v[number], s.a[number]];
-                for (at, phi) in at.iter_mut().zip(cell.phi_x.chunks_exact(na)) {
-                    add(&mut at.w1, phi[j], x);
-                }
+            let sum = |unknowns: &[usize], phi: &[f64]| {
+                let mut sum = [0.0; 3];
+                unknowns.iter().zip(phi).for_each(|(i, phi)| add(&mut sum, *phi, self.followed[*i]));
+                sum
+            };
+            for (g, slope) in slope.iter_mut().enumerate() {
+                *slope = sum(&cell.transverse, &cell.slope[g * nt..]);
             }
-            for (j, &number) in cell.transverse.iter().enumerate() {
-                let x = [s.q[number], s.v[number], s.a[number]];
-                for (at, phi) in at.iter_mut().zip(cell.phi_y.chunks_exact(nt)) {
-                    add(&mut at.w2, phi[j], x);
-                }
-                for (slope, phi) in slope.iter_mut().zip(cell.slope.chunks_exact(nt)) {
-                    add(slope, phi[j], x);
-                }
+            let shortening = &mut self.tension;
+            for (shortening, [u, v, a]) in shortening.iter_mut().zip(&*slope) {
+                *shortening = [-0.5 * u * u, -u * v, -(v * v + u * a)];
             }
-            for at in at.iter_mut() {
-                at.wc = start;
+            let along = |weights: &[f64]| {
+                let mut sum = start;
+                let shortening = weights.iter().zip(&*shortening);
+                shortening.for_each(|(weight, x)| add(&mut sum, cell.length * weight, *x));
+                sum
+            };
+            for (g, (at, _)) in at.iter_mut().zip(&cell.mass).enumerate() {
+                let w1 = sum(&cell.axial, &cell.phi_x[g * na..]);
+                let w2 = sum(&cell.transverse, &cell.phi_y[g * nt..]);
+                *at = Point { w1, w2, wc: along(&self.partial[g * p..][..p]) };
             }
-            for (k, [u, v, a]) in slope.iter().enumerate() {
-                let shortening = [-0.5 * u * u, -u * v, -(v * v + u * a)];
-                for (at, partial) in at.iter_mut().zip(self.partial.chunks_exact(p)) {
-                    add(&mut at.wc, cell.length * partial[k], shortening);
-                }
-                add(&mut start, cell.length * self.weights[k], shortening);
-            }
+            start = along(&self.weights);
         }
     }
 

@@ -18,8 +18,8 @@
 //! K, which the axial stiffness of a slender beam dominates, is carried along with the rotating sections (see
 //! [`Dynamics::corotate`]): in the frames that have rotated with each stage, K of the start serves them all.
 //!
-//! Starting values extrapolate the last step's collocation polynomial. The tangents M, C and K are kept while
-//! convergence is fast, their factors while the step is the same too.
+//! Starting values extrapolate the last step's collocation polynomial, or interpolate that of an attempt from the same
+//! start. The tangents M, C and K are kept while convergence is fast, their factors while the step is the same too.
 //!
 //! Error estimate: the embedded formula of order 3 through f(y₀), filtered by the real system, in
 //! second-order form (γ₀ = λ):
@@ -54,7 +54,7 @@ use super::{
     StepError, StepReport, hermite,
 };
 use crate::system::{Dynamics, Side, State};
-use stages::Stages;
+use stages::{Prediction, Stages};
 pub use tolerance::Tolerance;
 
 /// Name as in a case file.
@@ -67,8 +67,9 @@ const STAGES: [&str; 3] = ["stage.1", "stage.2", "stage.3"];
 const REUSE_RATE: f64 = 0.1;
 
 /// Largest iteration error in units of the tolerance, and relative to the scales of the unknowns. An error that is small
-/// beside a displacement is large as a ratio of the axis: it would make axial vibrations that short steps then follow.
-const LARGEST_KAPPA: f64 = 1e-2;
+/// beside a displacement is large as a strain of the axis: it would make axial vibrations that short steps then follow. The
+/// estimate multiplies it by a hundred: from 3e-3 on it may keep a step from being accepted however short it is.
+const LARGEST_KAPPA: f64 = 1e-3;
 const LARGEST_ITERATION_ERROR: f64 = 1e-5;
 
 /// The 3-stage Radau IIA method. Its formulas head the source file.
@@ -88,6 +89,8 @@ pub struct Radau {
     /// Step of the attempt, and of the accepted step.
     attempt: f64,
     accepted_step: f64,
+    /// Size of an attempt from the same start that has converged.
+    tried: Option<f64>,
     work: Option<Stages>,
 }
 
@@ -121,6 +124,7 @@ impl Radau {
             first: true,
             attempt: 0.0,
             accepted_step: 0.0,
+            tried: None,
             work: None,
         })
     }
@@ -164,7 +168,10 @@ impl Integrator for Radau {
         self.pending = true;
         self.attempt = h;
         work.set_error_weights(from, self.tolerance);
-        let ratio = if self.first { None } else { Some(h / self.accepted_step) };
+        let last = self.accepted_step;
+        let again = if self.first { Prediction::Constant } else { Prediction::Extrapolated { last } };
+        let tried = self.tried.take().filter(|last| h < 2.0 * last);
+        let mut prediction = tried.map_or(again, |last| Prediction::Tried { last });
         if work.rate > REUSE_RATE {
             work.assemble(system, from, &mut self.counters);
         }
@@ -173,12 +180,14 @@ impl Integrator for Radau {
             if work.factored_step != h {
                 work.factor(system, from, h, &mut self.counters)?;
             }
-            work.predict(from, h, ratio);
+            work.predict(from, h, prediction);
+            prediction = again;
             self.convergence.begin(work.fresh);
             let (progress, size) =
                 work.iterate(system, (from, to), h, &mut self.convergence, &mut self.counters);
             if progress == Progress::Converged {
                 work.rate = self.convergence.rate();
+                self.tried = Some(h);
                 break;
             }
             self.convergence.forget();
@@ -216,8 +225,7 @@ impl Integrator for Radau {
 
     fn accept(&mut self, _from: &State, _to: &State) {
         self.convergence.aim(self.kappa[0]);
-        self.pending = false;
-        self.first = false;
+        (self.pending, self.first, self.tried) = (false, false, None);
         self.accepted_step = self.attempt;
         self.counters.steps += 1;
         if let Some(work) = &mut self.work {
@@ -238,8 +246,7 @@ impl Integrator for Radau {
         let Some(work) = &mut self.work else {
             return Err(StepError::NotStarted { method: NAME });
         };
-        self.pending = false;
-        self.first = true;
+        (self.pending, self.first, self.tried) = (false, true, None);
         self.convergence.forget();
         work.rate = f64::INFINITY;
         state.side = Side::Right;

@@ -9,6 +9,21 @@ use crate::linalg::Matrix;
 use crate::system::{Corotation, Dynamics, Mode, RowWeights, Set, Side, State, Weights, is_active};
 use num_complex::Complex64;
 
+/// Largest η with which one iteration is enough: extrapolation multiplies what is left of the error of the starting values by
+/// 22 from step to step, and it must not grow. Control would take it for an error of the step, the same in every shorter one.
+const STABLE: f64 = 0.02;
+
+/// What the starting values of a step are made of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Prediction {
+    /// The acceleration at the start.
+    Constant,
+    /// The last step, of this size.
+    Extrapolated { last: f64 },
+    /// The last attempt from the same start, of this size.
+    Tried { last: f64 },
+}
+
 /// Unknowns, matrices and buffers of a step: what `start` allocates for a system.
 #[derive(Debug)]
 pub(super) struct Stages {
@@ -155,24 +170,27 @@ impl Stages {
         Ok(())
     }
 
-    /// Starting values: the last step's polynomial, `ratio` = h/h_last on, or the acceleration at the
-    /// start.
-    pub(super) fn predict(&mut self, from: &State, h: f64, ratio: Option<f64>) {
-        let Some(ratio) = ratio else {
-            for x in &mut self.a {
-                let (a, lambda) = x.split_at_mut(from.a.len());
-                a.copy_from_slice(&from.a);
-                lambda.copy_from_slice(&from.lambda);
+    /// Starting values: the polynomial of the last attempt from here, or of the last step, or the acceleration at the start.
+    pub(super) fn predict(&mut self, from: &State, h: f64, start: Prediction) {
+        let (steps, start) = match start {
+            Prediction::Constant => {
+                for x in &mut self.a {
+                    let (a, lambda) = x.split_at_mut(from.a.len());
+                    a.copy_from_slice(&from.a);
+                    lambda.copy_from_slice(&from.lambda);
+                }
+                self.start_rates(from, h);
+                return;
             }
-            self.start_rates(from, h);
-            return;
+            Prediction::Extrapolated { last } => (h / last, 1.0),
+            Prediction::Tried { last } => (h / last, 0.0),
         };
-        let [a1, a2, a3] = &self.a_accepted;
-        for (a, c) in self.a.iter_mut().zip(C) {
-            let [l1, l2, l3] = lagrange(1.0 + c * ratio);
-            for i in 0..a.len() {
-                a[i] = l1 * a1[i] + l2 * a2[i] + l3 * a3[i];
-            }
+        let weights = C.map(|c| lagrange(start + c * steps));
+        let [a1, a2, a3] = &mut self.a;
+        let [b1, b2, b3] = &self.a_accepted;
+        for i in 0..a1.len() {
+            let old = if start == 0.0 { [a1[i], a2[i], a3[i]] } else { [b1[i], b2[i], b3[i]] };
+            [a1[i], a2[i], a3[i]] = weights.map(|l| l[0] * old[0] + l[1] * old[1] + l[2] * old[2]);
         }
         self.start_rates(from, h);
     }
@@ -238,7 +256,10 @@ impl Stages {
             match convergence.judge(size) {
                 Progress::Continue => {}
                 // The rate of the last step does not know how far this one rotates.
-                Progress::Converged if !self.flat && convergence.iterations() == 1 && size > 0.0 => {}
+                Progress::Converged
+                    if convergence.iterations() == 1
+                        && size > 0.0
+                        && (!self.flat || convergence.eta() > STABLE) => {}
                 other => return (other, size),
             }
         }
