@@ -114,7 +114,7 @@ fn a_coarse_run_has_no_fine_companions() {
     let basis = "basis={kind='polynomial',nodes=13}";
     let coarse = read(&["run.duration=0.3", basis, "integrator={kind='hht',step=0.05}"]);
     let (_, errors, steps) = run(&coarse);
-    assert!(errors.warnings.is_empty(), "{:?}", errors.warnings);
+    assert!(errors.warnings.iter().all(|text| text.contains("steps are coarse")), "{:?}", errors.warnings);
     let finest = "integrator={kind='radau',tolerance=1e-9,absolute-tolerance=1e-9}";
     let finer = "basis={kind='polynomial',nodes=25}";
     let fine = read(&["run.duration=0.3", finer, finest]);

@@ -55,8 +55,9 @@ impl Reading {
             (100.0 * part).ceil()
         );
         let more = finer.case.finer();
-        if more.is_empty() {
-            return format!("{said}; `--tolerance {COARSE}` refines the steps");
+        // Companions of fixed steps are for those, and would follow every wave of a finer mesh.
+        if more.is_empty() || self.case.steps.step().is_some() {
+            return format!("{said}; `--tolerance {COARSE}` refines them");
         }
         // A mesh may be beyond what its basis or an explicit step allows: that is no fault of the case.
         let run_of = |reading: Result<Reading, Problems>, watch: &mut Watch<'_>| {
