@@ -19,7 +19,7 @@ lint:
 # Build the documentation of the library, and the book where mdbook is installed
 docs:
     cargo doc --no-deps --workspace
-    command -v mdbook >/dev/null && mdbook build docs || echo "mdbook is not installed: read docs/src as it is"
+    command -v mdbook >/dev/null && cd docs/book && npm ci && npm run build || echo "mdbook is not installed: read docs/src as it is"
 
 # Compare speed and accuracy with Exudyn (needs Python)
 bench *options="":

@@ -172,6 +172,9 @@ fn output(v: &Values, c: &Context<'_>) -> Made<Output> {
     for &station in stations {
         found.part(c.on_beam(station, "stations"));
     }
+    let heights = list("strain-heights").unwrap_or_default();
+    let twice = heights.iter().enumerate().find(|(i, height)| heights[..*i].contains(height));
+    found.check(twice.is_some(), "strain-heights", || "a height is given twice".to_owned());
     let (step, duration) = (output.optional_number("step")?, c.duration.unwrap_or(f64::NAN));
     if let Some(step) = step {
         found.check(step > duration && duration > 0.0, "step", || {

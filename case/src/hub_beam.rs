@@ -91,7 +91,7 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
         found.part(contact::fits_massless(contacts, why_not));
     }
     if let (Some(Some(blade)), Some(section)) = (&blade, &section) {
-        found.part(blade.built(section, 0.0).map_err(|faults| faults.within("blade")));
+        found.part(blade.built(section, 0.0, &[]).map_err(|faults| faults.within("blade")));
     }
     let parts = || {
         Some(HubBeam {

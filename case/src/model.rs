@@ -1,15 +1,15 @@
 //! The models of a case: what is made of its parts.
 
 use super::case::{Case, Output, Subject};
-use super::fault::{Fault, Made};
+use super::fault::{Fault, Faults, Made};
 use super::hub_beam::HubBeam;
 use super::kinds::coupling::Assembly;
 use super::kinds::load::Load;
 use super::kinds::rotation::vibrating;
 use super::space::Space;
 use super::values::item;
-use flexion::blade::Blade;
-use flexion::hub_beam::{Beam, load as acting};
+use flexion::blade::{Blade, Body, Tip};
+use flexion::hub_beam::{Beam, Mass, load as acting};
 use flexion::system::Fork;
 
 impl HubBeam {
@@ -41,8 +41,31 @@ impl HubBeam {
 
     /// The blade at rest.
     fn blade(&self) -> Made<Option<Blade>> {
-        let built = self.blade.as_ref().map(|blade| blade.built(&self.section, self.hub.radius));
+        // A mass at the clamp belongs to the hub.
+        let masses = self.loads.iter().filter_map(|load| load.mass).filter(|mass| mass.station > 0.0);
+        let of = |mass: Mass| Tip { mass: mass.mass, inertia: mass.inertia };
+        let bodies: Vec<Body> = masses.map(|mass| Body { station: mass.station, of: of(mass) }).collect();
+        let built = self.blade.as_ref().map(|blade| blade.built(&self.section, self.hub.radius, &bodies));
         built.transpose().map_err(|faults| faults.within("blade"))
+    }
+}
+
+impl HubBeam {
+    /// Refuses what the vibrations of a blade leave out, at its keys; gravity, whose mean over a revolution is zero, is named instead.
+    pub(super) fn loads_of_blade(&self) -> Made<()> {
+        let message = "the vibrations of a [blade] are about its steady rotation alone: it carries masses, but no loads, springs or \
+                       damping";
+        let help = "leave it out, or leave [blade] out for the beam in the plane with all of them";
+        let refused = |load: &&Load| load.mass.is_none() && load.fixed_in_space != Some("gravity");
+        let mut tables: Vec<&str> = self.loads.iter().filter(refused).map(|load| load.table).collect();
+        tables.dedup();
+        if self.damping.mass != 0.0 || self.damping.stiffness != 0.0 {
+            tables.push("damping");
+        }
+        let key = |table: &str| if table == "damping" { table.to_owned() } else { item(table, 0) };
+        let faults: Vec<Fault> =
+            tables.into_iter().map(|table| Fault::new(key(table), message).help(help)).collect();
+        if faults.is_empty() { Ok(()) } else { Err(Faults(faults)) }
     }
 }
 

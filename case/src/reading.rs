@@ -117,6 +117,17 @@ impl Reading {
         Ok(Live { system, integrator: self.integrator()? })
     }
 
+    /// Whether the vibrations of the case are those of all that it contains: a blade carries masses, and nothing else acts on it.
+    ///
+    /// # Errors
+    /// [`Problems`] at the tables that are to blame.
+    pub fn fits_modes(&self) -> Result<(), Problems> {
+        match self.case.hub_beam().filter(|beam| beam.blade.is_some()) {
+            Some(beam) => beam.loads_of_blade().map_err(|faults| self.problems(faults)),
+            None => Ok(()),
+        }
+    }
+
     /// A new integrator: it belongs to one run.
     fn integrator(&self) -> Result<Box<dyn Integrator>, Problems> {
         let files = Files::new(&self.files);

@@ -146,17 +146,17 @@ pub(super) fn lay_over(root: &mut Node, argument: &str, problems: &mut Problems)
             problems.push(Problem::new("", Some(all), "the key of an override is empty"));
             return;
         }
-        if !matches!(target.value, Raw::Table(_)) {
+        if let Raw::Text(_) = target.value {
             // A name alone is a table with that `kind`.
-            let kind = match target.value {
-                Raw::Text(_) => {
-                    vec![Line { key: "kind".to_owned(), place: target.place.clone(), node: target.clone() }]
-                }
-                _ => Vec::new(),
-            };
-            *target = Node { place: place.clone(), value: Raw::Table(kind) };
+            let kind = Line { key: "kind".to_owned(), place: target.place.clone(), node: target.clone() };
+            *target = Node { place: place.clone(), value: Raw::Table(vec![kind]) };
         }
-        let Raw::Table(entries) = &mut target.value else { return };
+        let what = target.value.describe();
+        let Raw::Table(entries) = &mut target.value else {
+            let parent = path.get(..at.saturating_sub(part.len() + 2)).unwrap_or_default();
+            problems.push(Problem::new(parent, Some(place), format!("is {what} and has no keys")));
+            return;
+        };
         let index = entries.iter().position(|e| e.key == name).unwrap_or_else(|| {
             let empty = Node { place: place.clone(), value: Raw::Table(Vec::new()) };
             entries.push(Line { key: name.to_owned(), place: place.clone(), node: empty });

@@ -37,17 +37,11 @@ impl Case {
             }
             return cautions;
         }
-        let mut tables: Vec<&str> = beam.loads.iter().map(|load| load.table).collect();
-        tables.dedup();
-        if beam.damping.mass != 0.0 || beam.damping.stiffness != 0.0 {
-            tables.push("damping");
-        }
-        if !tables.is_empty() {
-            let names = tables.iter().map(|table| format!("`{table}`")).collect::<Vec<_>>().join(", ");
-            cautions.push(format!(
-                "without {names}: the vibrations of a [blade] are about its steady rotation alone, with the body of \
-                 blade.tip-mass at its tip; leave [blade] out for the beam in the plane with all of them"
-            ));
+        if beam.loads.iter().any(|load| load.fixed_in_space == Some("gravity")) {
+            cautions.push(
+                "without `gravity`: the blade is about its steady rotation alone, and undeformed at rest"
+                    .to_owned(),
+            );
         }
         cautions
     }

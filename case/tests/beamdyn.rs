@@ -118,3 +118,50 @@ fn a_blade_of_49_stations_has_the_same_campbell_diagram_from_beamdyn_and_elastod
     assert!((0.65..0.75).contains(&hertz[0]) && (1.0..1.2).contains(&hertz[1]), "{hertz:?}");
     assert!(b.branches.iter().any(|b| b.points[0].mode.shares.dominant() == "torsion"), "{hertz:?}");
 }
+
+/// The same blade as a beam in space: frequencies apart by no more than the errors of both meshes. What `[blade]` adds of the tension
+/// in a section that twists is seen in torsion alone.
+#[test]
+fn a_blade_is_a_beam_in_space_at_every_speed() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("blade.dat"), elastodyn()).unwrap();
+    let section = "kind = 'blade', file = 'blade.dat', format = 'elastodyn'";
+    let room = format!(
+        "section = {{ {section} }}\nrun = {{ duration = 0 }}\n[beam]\nlength = '61.5 m'\n[hub]\nradius = '1.5 m'\n\
+         motion = {{ kind = 'constant', speed = '12.1 rpm' }}\n[blade]\nelements = 40\n"
+    );
+    let space = format!(
+        "rotation = {{ axis = [0, 0, 1] }}\nrun = {{ duration = 0 }}\n[[beam]]\nlength = '61.5 m'\nstart = ['1.5 m', 0, 0]\n\
+         up = [0, 1, 0]\nroot = 'clamped'\nelements = 40\nsection = {{ {section} }}\n"
+    );
+    let plan = Plan {
+        speeds: (0..=5).map(|i| 0.4 * f64::from(i)).collect(),
+        count: 7,
+        stations: Vec::new(),
+        hub: HubState::Held,
+        revolutions: 0,
+    };
+    let [room, space] = [room, space].map(|text| {
+        let file = folder.path().join("case.toml");
+        let reading = parse(text, &file, &[]).unwrap_or_else(|problems| panic!("{problems}"));
+        let finer = reading.with_finer_mesh().unwrap();
+        let [coarse, finer] = [reading, finer].map(|reading| reading.case.vibrating(true).unwrap().0);
+        flexion_case::campbell(coarse, Some((finer, 2.0)), &plan, 1, &|_| true).unwrap()
+    });
+    let names = ["flap", "chord", "flap", "chord", "flap", "torsion", "flap"];
+    for (name, (a, b)) in names.into_iter().zip(room.branches.iter().zip(&space.branches)) {
+        for speed in &plan.speeds {
+            let [a, b] = [a, b].map(|branch| &branch.points.iter().find(|p| p.speed == *speed).unwrap().mode);
+            assert_eq!([a.shares.dominant(), b.shares.dominant()], [name; 2], "{speed}");
+            let off = (a.frequency() - b.frequency()).abs();
+            let mut allowed = a.mesh.unwrap() + b.mesh.unwrap();
+            if name == "torsion" {
+                allowed += 4e-4 * a.frequency();
+            }
+            assert!(
+                off <= allowed && allowed < 1e-3 * a.frequency(),
+                "{name} at {speed}: {off:e} of {allowed:e}"
+            );
+        }
+    }
+}

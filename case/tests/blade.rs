@@ -233,3 +233,54 @@ fn modes_are_found_through_the_system_and_say_which_way_they_swing() {
     let limit = std::f64::consts::FRAC_PI_2 * 70.0;
     assert!((error.reached() / limit - 1.0).abs() < 0.1, "{error}");
 }
+
+/// Masses along a blade against the same beam in its plane: chordwise and axial modes, at rest and at speed.
+#[test]
+fn masses_along_a_blade_are_those_of_the_beam_in_its_plane() {
+    const BEAM: &str = "
+[beam]
+length = 1
+[section]
+kind = 'resultants'
+mass-per-length = 1
+axial-stiffness = 4900
+bending-stiffness = 1
+[hub]
+radius = 0.3
+motion = { kind = 'constant', speed = 0 }
+[model]
+coupling = 'exact'
+[basis]
+kind = 'finite-elements'
+elements = 40
+[[mass]]
+station = 0.53
+mass = 0.7
+inertia = 0.01
+[[mass]]
+station = 1
+mass = 0.2
+[run]
+duration = 1
+";
+    for (energy, coupling) in [("exact", "exact"), ("linear", "first")] {
+        for speed in [0.0, 6.0] {
+            let found = [false, true].map(|blade| {
+                let mut set = vec![format!("model.coupling={coupling}")];
+                set.extend(blade.then(|| format!("blade={{elements=40,strain-energy='{energy}'}}")));
+                let set: Vec<&str> = set.iter().map(String::as_str).collect();
+                let (mut system, _) =
+                    crate::written::reading(BEAM, &set).case.vibrating(speed > 0.0).unwrap();
+                let mut state = system.initial();
+                rotate_stably(system.as_mut(), &mut state, 0.0, speed).unwrap();
+                let found = modes(system.as_mut(), &state, 8, &[0.5, 1.0]).unwrap();
+                let in_plane = found.modes.iter().filter(|mode| mode.shares.flap < 0.5);
+                in_plane.map(|mode| mode.frequency()).take(3).collect::<Vec<_>>()
+            });
+            for (beam, blade) in found[0].iter().zip(&found[1]) {
+                assert!((blade / beam - 1.0).abs() < 1e-5, "{energy} {speed}: {found:?}");
+            }
+            assert!(found[1].len() == 3, "{found:?}");
+        }
+    }
+}

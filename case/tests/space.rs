@@ -62,6 +62,17 @@ fn a_load_stands_at_the_station_in_its_name() {
     }
 }
 
+#[test]
+fn a_station_given_twice_is_recorded_once() {
+    let case = |stations: &str| {
+        format!(
+            "run = {{ duration = 0 }}\n[[beam]]\nlength = 1\nroot = \"clamped\"\n{ROD}\nstations = {stations}\n"
+        )
+    };
+    let (once, twice) = (run(&case("[0.5]")), run(&case("[0.5, 1, 0.5]")));
+    assert_eq!(columns(&twice), columns(&once));
+}
+
 /// Two coaxial rods with a joint between them are one rod.
 #[test]
 fn a_beam_in_two_pieces_is_one_beam() {

@@ -107,7 +107,7 @@ impl Range {
 
 /// Computes the diagram of a case.
 pub fn campbell(arguments: &Arguments) -> Outcome {
-    let Some(reading) = arguments.case.read() else { return Outcome::Rejected };
+    let Some(reading) = arguments.case.read().filter(vibration::fits) else { return Outcome::Rejected };
     match diagram(arguments, &reading) {
         Ok(true) => Outcome::Finished,
         Ok(false) => Outcome::Incomplete,

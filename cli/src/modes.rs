@@ -58,7 +58,7 @@ const STATIONS: u32 = 200;
 
 /// Finds and writes modes.
 pub fn modes(arguments: &Arguments) -> Outcome {
-    let Some(reading) = arguments.case.read() else { return Outcome::Rejected };
+    let Some(reading) = arguments.case.read().filter(vibration::fits) else { return Outcome::Rejected };
     found(arguments, &reading).unwrap_or_else(|message| {
         report(&message);
         Outcome::Rejected

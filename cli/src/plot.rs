@@ -78,6 +78,14 @@ fn plotted(arguments: &Arguments) -> Result<(), String> {
         return Err(format!("{name} exists; choose another name with --output or replace it with --force"));
     }
     let results = Results::read_all(&arguments.results).map_err(|error| error.to_string())?;
+    if let Some((from, to)) = arguments.xlim {
+        let shown = |r: &Results| {
+            r.trajectory.times().iter().any(|&t| t <= to) && r.trajectory.times().iter().any(|&t| t >= from)
+        };
+        if !results.iter().any(shown) {
+            return Err(format!("there are no records from {from} to {to} s"));
+        }
+    }
     let mut figure = figure(&results, arguments)?;
     for panel in &mut figure.panels {
         panel.x.range = arguments.xlim.or(panel.x.range);

@@ -103,6 +103,13 @@ impl Options {
     }
 }
 
+/// Whether a case contains only what its vibrations use; what they do not is reported at its line.
+pub fn fits(reading: &Reading) -> bool {
+    let fits = reading.fits_modes();
+    fits.as_ref().err().into_iter().for_each(|problems| screen::report(&problems.render(screen::colour())));
+    fits.is_ok()
+}
+
 /// What vibrates in a case, at rest or in steady rotation, and a warning that names the loads that are left out: in the frame of a
 /// rotating hub those fixed in space are periodic, and there is no steady state to linearize about. Their mean over a revolution
 /// is zero: the modes are those about this mean.

@@ -35,24 +35,30 @@ fn folder(case: &str) -> tempfile::TempDir {
 }
 
 #[test]
-fn what_a_blade_does_not_use_is_named() {
-    for (table, name) in [
-        ("[[mass]]\nstation = 1.0\nmass = 1.0\n", "`mass`"),
-        ("[damping]\nmass-proportional = 2.0\n", "`damping`"),
-        ("[[force]]\nstation = 1.0\nforce = [-2.0, 0.0]\nframe = 'hub'\n", "`force`"),
-        ("[gravity]\nacceleration = 9.81\n", "`gravity`"),
+fn a_blade_carries_its_masses_and_what_it_does_not_use_is_refused_at_its_line() {
+    // As heavy as the blade, at its tip: 1 + cos z cosh z + z (cos z sinh z − sin z cosh z) = 0, z² = 1.5573.
+    let heavy = folder(&format!("{BLADE}[[mass]]\nstation = 1.0\nmass = 1.0\n"));
+    let (code, said, warned) = flexion(heavy.path(), &["modes", "case.toml", "--count", "2", "--speed", "0"]);
+    assert!(code == Some(0) && said.contains("1.557") && warned.is_empty(), "{said} {warned}");
+    for (table, at) in [
+        ("[damping]\nmass-proportional = 2.0\n", "mass-proportional"),
+        ("[[force]]\nstation = 1.0\nforce = [-2.0, 0.0]\nframe = 'hub'\n", "[[force]]"),
     ] {
         let folder = folder(&format!("{BLADE}{table}"));
-        let named = |text: &str| text.contains("without ") && text.contains(name);
-        let (code, _, said) = flexion(folder.path(), &["modes", "case.toml", "--count", "2", "-o", "out"]);
-        assert!(code == Some(0) && named(&said), "{said}");
-        let written = std::fs::read_to_string(folder.path().join("out/modes.json")).unwrap();
-        assert!(named(&written), "{written}");
-        let (_, said, _) = flexion(folder.path(), &["check", "case.toml"]);
-        assert!(named(&said), "{said}");
+        for command in
+            [&["modes", "case.toml", "--count", "2"][..], &["campbell", "case.toml", "--speeds", "0:1:2"]]
+        {
+            let (code, _, said) = flexion(folder.path(), command);
+            let told =
+                said.contains("carries masses, but no loads") && said.contains("-->") && said.contains(at);
+            assert!(code == Some(1) && told, "{said}");
+        }
         let (code, _, said) = flexion(folder.path(), &["run", "case.toml", "-o", "run"]);
         assert!(code == Some(0) && said.contains("[blade] is for `modes`"), "{said}");
     }
+    let fallen = folder(&format!("{BLADE}[gravity]\nacceleration = 9.81\n"));
+    let (code, _, said) = flexion(fallen.path(), &["modes", "case.toml", "--count", "2"]);
+    assert!(code == Some(0) && said.contains("without `gravity`"), "{said}");
 }
 
 #[test]

@@ -88,6 +88,12 @@ fn enormous_numbers_and_files_are_refused_with_their_place() {
 }
 
 #[test]
+fn a_tolerance_below_the_rounding_of_the_values_is_refused() {
+    let message = refused(folder().path(), &["run", "case.toml", "--no-plots", "--tolerance", "1e-300"]);
+    assert!(message.contains("1e-300") && message.contains("the last digit"), "{message}");
+}
+
+#[test]
 fn a_path_without_a_case_is_refused() {
     let folder = folder();
     std::fs::create_dir_all(folder.path().join("empty")).unwrap();

@@ -43,6 +43,8 @@ fn results_are_plotted_as_svg_and_png() {
     assert_eq!(plot(&limits), (Some(0), String::new()));
     let part = String::from_utf8(read("part.svg")).unwrap();
     assert!(part.contains(">0.5<") && part.contains(">−3<"), "{part}");
+    let (code, message) = plot(&["a", "--xlim", "1e3:1e4", "-o", "y.svg"]);
+    assert!(code == Some(1) && message.contains("no records from 1000 to 10000 s"), "{message}");
     assert_eq!(plot(&["a", "-c", "energy.kinetic", "--log", "-o", "log.svg"]), (Some(0), String::new()));
     assert!(String::from_utf8(read("log.svg")).unwrap().contains("10⁻"));
     let (code, message) = plot(&["a", "--xlim", "2:1", "-o", "y.svg"]);
@@ -89,7 +91,7 @@ fn motion_and_modes_become_pages() {
     assert_eq!(view(&["modes", "-o", "pages/modes.html"]), (Some(0), String::new()));
     let modes = data("pages/modes.html");
     assert_eq!(modes["modes"]["table"]["modes"].as_array().unwrap().len(), 3);
-    assert_eq!(modes["modes"]["shapes"]["mode3.second.real"]["shape"], serde_json::json!([201]));
+    assert_eq!(modes["modes"]["shapes"]["mode3.chord.real"]["shape"], serde_json::json!([201]));
     // The equilibrium, and two displaced states for each mode.
     assert_eq!(modes["scene"]["beam.pose"]["shape"], serde_json::json!([7, 7]));
 

@@ -29,7 +29,7 @@ function page(text, path) {
   const fenced = text.split(/^(```[^\n]*\n[\s\S]*?^```[ ]*$)/m).map((part) => {
     if (part.startsWith("```math")) {
       equations += 1;
-      return `<div class="equation">${typeset(part.slice(7, part.lastIndexOf("```")))}</div>\n`;
+      return `<div class="equation" style="overflow-x: auto">${typeset(part.slice(7, part.lastIndexOf("```")))}</div>\n`;
     }
     if (part.startsWith("```")) return part;
     return part.replace(/(\])\(([^()\s]+)\)/g, link);

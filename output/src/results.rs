@@ -36,7 +36,15 @@ impl Results {
         let unreadable = |reason: String| ResultsError::Unreadable { path: file.clone(), reason };
         let opened = File::open(&file).map_err(|error| unreadable(error.to_string()))?;
         let trajectory = read_csv(BufReader::new(opened)).map_err(unreadable)?;
-        let caution = path.is_dir().then(|| caution(path)).flatten();
+        let times = trajectory.times();
+        if times.is_empty() {
+            return Err(unreadable("it holds no records".to_owned()));
+        }
+        if let Some(pair) = times.windows(2).find(|pair| pair[1] < pair[0]) {
+            return Err(unreadable(format!("its times do not ascend after t = {:e} s", pair[0])));
+        }
+        let caution =
+            path.is_dir().then(|| caution(path, times)).flatten().or_else(|| not_finite(&trajectory, path));
         Ok(Results { name: name(path), path: path.to_path_buf(), trajectory, caution })
     }
 
@@ -69,21 +77,33 @@ fn name(path: &Path) -> String {
     last.map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned())
 }
 
-/// The warning that follows from the summary of a run.
-fn caution(path: &Path) -> Option<String> {
+/// The warning that follows from the summary of a run whose records are of these times.
+fn caution(path: &Path, times: &[f64]) -> Option<String> {
     let summary = current(path, Artifact::Summary);
     let Ok(text) = std::fs::read_to_string(&summary) else {
         return Some(format!("{} has no summary.json: the results may be incomplete", path.display()));
     };
     let value: serde_json::Value = serde_json::from_str(&text).unwrap_or_default();
     match value["status"].as_str() {
-        Some("finished") => None,
+        Some("finished") => {
+            let (end, last) = (value["end_time"].as_f64()?, times.last().copied().unwrap_or_default());
+            let differ = (end - last).abs() > 1e-9 * end.abs();
+            differ.then(|| format!("the run in {} ends at {end} s, its records at {last} s: they are of another run, or not all are there", path.display()))
+        }
         Some(status) => {
             let message = value["message"].as_str().map(|m| format!(": {m}")).unwrap_or_default();
             Some(format!("the run in {} {status}{message}", path.display()))
         }
         None => Some(format!("{} is not the summary of a run", summary.display())),
     }
+}
+
+/// The first value that is no finite number.
+fn not_finite(trajectory: &Trajectory, path: &Path) -> Option<String> {
+    trajectory.channels().iter().enumerate().find_map(|(i, channel)| {
+        let (t, _) = trajectory.times().iter().zip(trajectory.values(i)).find(|(_, x)| !x.is_finite())?;
+        Some(format!("{} in {} is not a finite number at t = {t} s", channel.name, path.display()))
+    })
 }
 
 /// The columns whose names match one of the patterns, in the order of the patterns and then of the columns, each
@@ -164,8 +184,19 @@ mod tests {
         assert!(names.contains("open") && names.contains("trajectory"));
         assert_eq!(all[0].trajectory.column("hub.speed"), sample().column("hub.speed"));
         assert_eq!(all[0].caution, None);
+        let longer = Results::read(&make("longer", Some(r#"{"status":"finished","end_time":9}"#))).unwrap();
+        assert!(longer.caution.unwrap().contains("ends at 9 s"));
         assert!(all[1].caution.as_ref().unwrap().ends_with("failed: it broke"));
         assert!(all[2].caution.as_ref().unwrap().contains("incomplete"));
+        for (rows, words) in [("", "no records"), ("1,2\n0,3\n", "do not ascend after t = 1e0 s")] {
+            let file = dir.path().join("rows.csv");
+            std::fs::write(&file, format!("time [s],a [m]\n{rows}")).unwrap();
+            let error = Results::read(&file).unwrap_err().to_string();
+            assert!(error.contains(words), "{error}");
+        }
+        let file = dir.path().join("rows.csv");
+        std::fs::write(&file, "time [s],a [m]\n0,2\n1,inf\n").unwrap();
+        assert!(Results::read(&file).unwrap().caution.unwrap().contains("not a finite number at t = 1 s"));
         let error = Results::read(&dir.path().join("c")).unwrap_err().to_string();
         assert!(error.contains("holds no trajectory.csv"), "{error}");
     }

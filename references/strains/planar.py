@@ -88,6 +88,22 @@ def history(name, points=None, step=0.02, inertia=0.0):
     return np.array(times), np.array(tips), np.array(torques)
 
 
+def roll_up(rise, points=24, step=0.0025):
+    """Times and tip of a beam of 1 m x 2 mm x 2 mm at rest that a couple at its tip rolls up for `rise` [s] and releases."""
+    area, ei = 4e-6, 70e9 * 2e-3**4 / 12
+    bar = partial(section.constant, mass=2700 * area, ea=70e9 * area, ei=ei)
+    beam = Beam("exact", bar, (0, 1), points, rotary=2700 * 2e-3**4 / 12)
+    couple = lambda t: np.where(t < rise, 2 * np.pi * ei * np.sin(np.pi * t / rise), 0.0)
+    times, tips = [], []
+
+    def observe(t, z, v, a):
+        times.append(t)
+        tips.append(beam.tip(*(y[:, None] for y in (z, v, a)))[0, :, 0])
+
+    solve(lambda t, z, v, a: beam.residual(z, v, a, 0.0, 0.0, couple(t)), np.zeros(beam.size), step, 10.0, observe=observe)
+    return np.array(times), np.array(tips)
+
+
 def steady(shape, length, speed, points=24):
     """Displacement of the tip in steady rotation."""
     beam = Beam("first", shape, (0, length), points)
@@ -126,6 +142,11 @@ def columns(name):
         c, s = np.cos(angle), np.sin(angle)
         names = [f"beam.tip.position.{axis} [m]" for axis in "xy"]
         return "", names, t, [c * (10 + axial) - s * across, s * (10 + axial) + c * across]
+    if name.startswith("space_roll_up_release"):
+        times, tips = roll_up(3.0) if name.endswith("reference") else roll_up(2.0, step=0.00125)
+        every = round(0.1 / times[1])
+        names = [f"beam.tip.position.{axis} [m]" for axis in "xy"]
+        return "", names, times[::every], [1 + tips[::every, 0], tips[::every, 1]]
     times, tips, _ = history(name)
     return figures(times, tips), ["tip.axial [m]", "tip.deflection [m]"], times[::5], tips[::5, 0].T
 

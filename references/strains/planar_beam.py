@@ -82,7 +82,7 @@ class Beam:
         force = -(self.from_tip @ (self.mass * np.array([ax, ay])))
         return x, y, ax, ay, force, by_e, by_p
 
-    def residual(self, z, v, a, speed, acceleration):
+    def residual(self, z, v, a, speed, acceleration, couple=0.0):
         *_, force, by_e, by_p = self.forces(z, v, a, speed, acceleration)
         along, across = (force * by_e).sum(0), (force * by_p).sum(0)
         if self.coupling == "first":
@@ -90,7 +90,7 @@ class Beam:
         if self.rotary:
             across = across - self.rotary * (acceleration + self.rotation(a))
         e, k = z[: self.n], z[self.n : 2 * self.n]
-        out = [self.ea * e - self.es * k - along, self.ei * k - self.es * e - self.from_tip @ across]
+        out = [self.ea * e - self.es * k - along, self.ei * k - self.es * e - self.from_tip @ across - couple]
         if self.gravity is not None:
             out.append((self.inertia * a[-1] - self.w @ across)[None])
         return np.concatenate(out)

@@ -108,7 +108,8 @@ fn section(random: &mut Random, drawn: &mut Drawn, material: Material, [length, 
             modulus * random.between(1.0..2.5),
             density * random.between(0.6..1.4),
             random.between(0.0..6.0),
-            random.coin(),
+            // It needs the rotary inertia.
+            random.coin() && rotary,
         ),
         1 => add!(
             drawn,
@@ -413,7 +414,10 @@ fn hub(random: &mut Random, drawn: &mut Drawn, beam: Beam, spring: Option<String
         add!(drawn, "[initial]\nkind = \"{kind}\"");
     } else if random.one_in(10) {
         let (first, second) = (length * random.scale(1e-3..0.05), length * random.scale(1e-4..2e-3));
-        add!(drawn, "[initial]\nkind = \"modes\"\namplitudes = [{first}, {second}]");
+        // A torque would leave no equilibrium to vibrate about.
+        if !motion.contains("\"free\"") {
+            add!(drawn, "[initial]\nkind = \"modes\"\namplitudes = [{first}, {second}]");
+        }
     }
 }
 
@@ -451,8 +455,8 @@ fn integrator(random: &mut Random, drawn: &mut Drawn, beam: Beam) {
     let step = TAU / beam.frequency / random.scale(15.0..600.0);
     // Explicit methods begin with a step that is often refused.
     let kind = match (beam.explicit, beam.touching) {
-        // No predictor–corrector integrates closed contacts.
-        (true, touching) => random.count(0..if touching { 1 } else { 2 }),
+        (true, false) => random.count(0..2),
+        // No explicit method integrates closed contacts.
         (_, true) => random.count(2..11),
         _ => random.count(2..9),
     };

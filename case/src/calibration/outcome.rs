@@ -120,6 +120,10 @@ pub fn judge(drawn: &Drawn, number: u64) -> Outcome {
     };
     outcome.ending = match judged(drawn, &mut outcome) {
         Ok(ending) => ending,
+        // No key alone tells whether there is an equilibrium to begin with.
+        Err(problems) if problems.list.iter().all(|p| p.message.contains("no equilibrium")) => {
+            Ending::Failed(problems.to_string())
+        }
         Err(problems) => Ending::Refused(problems.to_string()),
     };
     outcome

@@ -6,8 +6,8 @@
 //! | `elastodyn` | `BlFract` of the length | `StrcTwst`, `BMassDen`, `FlpStff`, `EdgStff`, and `GJStff`, `EAStff`, `FlpIner`, `EdgIner` of older files; the factors `AdjBlMs`, `AdjFlSt`, `AdjEdSt` |
 //! | `beamdyn` | fraction of the length | K₃₃ = EA, K₄₄ edgewise, K₅₅ flapwise, K₆₆ = GJ; M₁₁, M₄₄, M₅₅ |
 //!
-//! Of a BeamDyn file the shear strains are eliminated at zero shear force, and offsets of the mass centre are left out; what
-//! couples the other strains is [told](Contents::coupled).
+//! Of a BeamDyn file the shear strains are eliminated at zero shear force, and offsets of the mass centre are left out; where
+//! the others are [coupled](Contents::coupled), each stiffness is that at zero force of the others.
 
 use super::columns::{self, Column, column};
 use crate::units::{ANGLE, AXIAL_STIFFNESS, BENDING_STIFFNESS, LENGTH, MASS_PER_LENGTH, ROTARY_INERTIA};
@@ -208,6 +208,21 @@ fn without_shear(k: &[Vec<f64>]) -> Option<[[f64; 4]; 4]> {
     Some(std::array::from_fn(|i| std::array::from_fn(|j| entry(i + 2, j + 2))))
 }
 
+/// The stiffness for strain `i` at zero force of all others, 1/(K⁻¹)ᵢᵢ: for bending that about the centre of tension.
+fn alone(mut k: [[f64; 4]; 4], i: usize) -> f64 {
+    for other in 0..4 {
+        let pivot = k[other];
+        if other == i || pivot[other] <= 0.0 {
+            continue;
+        }
+        for row in k.iter_mut().filter(|row| **row != pivot) {
+            let factor = row[other] / pivot[other];
+            row.iter_mut().zip(pivot).for_each(|(entry, by)| *entry -= factor * by);
+        }
+    }
+    k[i][i]
+}
+
 /// Blade file of BeamDyn.
 ///
 /// # Errors
@@ -255,9 +270,9 @@ pub fn beamdyn(text: &str, name: &str, length: f64) -> Result<Contents, String> 
         let resultants = BladeResultants {
             mass: m[0][0],
             axial_stiffness: k[0][0],
-            flap_stiffness: k[2][2],
-            chord_stiffness: k[1][1],
-            torsional_stiffness: k[3][3],
+            flap_stiffness: alone(k, 2),
+            chord_stiffness: alone(k, 1),
+            torsional_stiffness: alone(k, 3),
             flap_inertia: m[4][4],
             chord_inertia: m[3][3],
             twist: 0.0,
@@ -361,8 +376,12 @@ mod tests {
             text.replacen("1 0 0 0 0 0", "1 0 0 0 0 0.5", 1).replacen("0 0 0 0 0 6", "0.5 0 0 0 0 6", 1);
         let sheared = beamdyn(&sheared, "f", 20.0).unwrap();
         assert_eq!((sheared.rows[0].1.torsional_stiffness, sheared.coupled), (6.0 - 0.25, None));
-        let coupled = text.replacen("0 0 3 0 0 0", "0 0 3 0 1.5 0", 1);
-        let coupled = beamdyn(&coupled, "f", 20.0).unwrap().coupled.unwrap();
+        let coupled =
+            text.replacen("0 0 3 0 0 0", "0 0 3 0 1.5 0", 1).replacen("0 0 0 0 5 0", "0 0 1.5 0 5 0", 1);
+        let coupled = beamdyn(&coupled, "f", 20.0).unwrap();
+        // The centre of tension lies off the axis: EI about it is less by (EA e)²/EA.
+        assert_eq!((coupled.rows[0].1.flap_stiffness, coupled.rows[0].1.axial_stiffness), (5.0 - 0.75, 3.0));
+        let coupled = coupled.coupled.unwrap();
         assert!(coupled.contains("couples stretch and flapwise bending, by 38.7 %"), "{coupled}");
     }
 

@@ -123,7 +123,7 @@ mod tests {
     #[test]
     fn titles_may_have_units_and_other_names() {
         let read = |text| read(text, "f", &COLUMNS);
-        let si = vec![[0.5, 2e6, 3.0, 0.1]];
+        let si = [[0.5, 2e6, 3.0, 0.1]];
         for text in [
             "x,EA,EI-flap,twist\n0.5,2e6,3,0.1\n",
             "Span [mm], EA [MN], EI_flap (Nm^2), twist [rad]\n500,2,3,0.1\n",

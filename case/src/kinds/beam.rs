@@ -433,12 +433,12 @@ fn make(v: &Values, c: &Context<'_>) -> Made<Beam> {
             ..at
         }
     });
-    let mut stations = v.numbers("stations")?.to_vec();
-    for station in &stations {
-        c.on_beam(*station, "stations")?;
-    }
-    if !stations.contains(&length) {
-        stations.push(length);
+    let mut stations = Vec::new();
+    for &station in v.numbers("stations")?.iter().chain([&length]) {
+        c.on_beam(station, "stations")?;
+        if !stations.contains(&station) {
+            stations.push(station);
+        }
     }
     Ok(Beam {
         name,

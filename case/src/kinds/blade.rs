@@ -6,7 +6,7 @@ use crate::fault::{At, Fault, Faults, Made};
 use crate::kind::{Choice, Context, Kind, Table};
 use crate::units::{ANGLE, INERTIA, MASS};
 use crate::values::Values;
-use flexion::blade::{self, Model, Setting, StrainEnergy, Terms, Tip};
+use flexion::blade::{self, Body, Model, Setting, StrainEnergy, Terms, Tip};
 use flexion::section::{BladeResultants, BladeSection, Twisted};
 
 /// A blade, but for its section.
@@ -70,14 +70,15 @@ impl Blade {
         [self.setting.pitch, self.setting.precone]
     }
 
-    /// The blade with its section, on a hub of the given radius \[m\], at rest.
+    /// The blade with its section and the bodies on it, on a hub of the given radius \[m\], at rest.
     ///
     /// # Errors
     /// A fault of the table `blade` when section and setting make no blade.
-    pub fn built(&self, section: &Section, hub_radius: f64) -> Made<blade::Blade> {
+    pub fn built(&self, section: &Section, hub_radius: f64, bodies: &[Body]) -> Made<blade::Blade> {
         let blade = self.section(section)?;
         let model = Model { torsion: self.torsion(&blade).0, ..self.model };
-        blade::Blade::new(Setting { hub_radius, ..self.setting }, &blade, model, self.elements).at("")
+        let setting = Setting { hub_radius, ..self.setting };
+        blade::Blade::carrying(setting, &blade, model, self.elements, bodies).at("")
     }
 }
 

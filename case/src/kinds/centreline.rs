@@ -51,7 +51,8 @@ impl Centreline {
             }
             (None, _) => {
                 let count = lists[0].len();
-                for (list, key) in lists.iter().zip(["x", "y", "z"]).filter(|(list, _)| list.len() != count) {
+                let other = lists.iter().zip(["x", "y", "z"]).find(|(list, _)| list.len() != count);
+                if let Some((list, key)) = other {
                     let message = format!("there are {} values for {count} points", list.len());
                     return Err(Fault::new(key, message).into());
                 }

@@ -462,7 +462,7 @@ pub static SECTION: Choice<Section> = Choice {
                     "ignore-coupling",
                     Boolean,
                     Default::Boolean(false),
-                    "what couples stretch, bending and torsion in the file is left out",
+                    "what couples stretch, bending and torsion in the file is left out: each stiffness is that at zero force of the others",
                 ),
             ],
             example: r#"section={kind="blade", file="blade.csv", ignore-coupling=true}"#,

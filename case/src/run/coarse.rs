@@ -29,53 +29,67 @@ impl Reading {
         (finer, fine): (&Reading, &Run),
         safety: f64,
         watch: &mut Watch<'_>,
-    ) -> Result<Option<String>, Problems> {
+    ) -> Option<String> {
         let relative = |error: &ColumnError| {
             let index = fine.trajectory.index(&error.column)?;
             Some(error.discretization / fine.trajectory.extremes(index).largest())
                 .filter(|part| part.is_finite())
         };
         let worst = columns.iter().filter_map(|error| Some((error.column.as_str(), relative(error)?)));
-        let Some((column, part)) = worst.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|worst| worst.1 > COARSE)
-        else {
-            return Ok(None);
-        };
+        let (column, part) = worst.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|worst| worst.1 > COARSE)?;
+        Some(self.told(run, columns, (finer, fine), (column, part), safety, watch))
+    }
+
+    /// What is said of a mesh with which `column` is off by a `part` of its largest value.
+    fn told(
+        &self,
+        run: &Run,
+        columns: &[&ColumnError],
+        (finer, fine): (&Reading, &Run),
+        (column, part): (&str, f64),
+        safety: f64,
+        watch: &mut Watch<'_>,
+    ) -> String {
         let said = format!(
             "mesh and steps are coarse: the error of {column} is {:.0} % of its largest value",
             (100.0 * part).ceil()
         );
         let more = finer.case.finer();
         if more.is_empty() {
-            return Ok(Some(format!("{said}; `--tolerance {COARSE}` refines the steps")));
+            return format!("{said}; `--tolerance {COARSE}` refines the steps");
         }
-        let finest = finer.with(&more)?.prepare()?.run(watch);
+        // A mesh may be beyond what its basis or an explicit step allows: that is no fault of the case.
+        let run_of = |reading: Result<Reading, Problems>, watch: &mut Watch<'_>| {
+            let run = reading.and_then(|reading| reading.prepare()).ok()?.run(watch);
+            (run.status == Status::Finished).then_some(run)
+        };
+        let both = format!(
+            "{said}, and a finer mesh alone does not bring it down: `--tolerance {COARSE}` refines mesh and steps"
+        );
+        let Some(finest) = run_of(finer.with(&more), watch) else { return both };
         let off = |a: &Run, b: &Run, column: &str| {
             Pair::new(&a.trajectory, &b.trajectory, column).map_or(f64::NAN, |pair| pair.largest())
         };
         let order = (off(run, fine, column) / off(fine, &finest, column)).log2();
-        if finest.status != Status::Finished || !(order >= ORDERS.0) {
-            return Ok(Some(format!(
+        if !(order >= ORDERS.0) {
+            return format!(
                 "{said}, and twice the functions do not bring it down: the motion has waves that no mesh of this size follows; \
                  let loads set in more slowly, damp it, or ask for a shorter time"
-            )));
+            );
         }
         for factor in TRIED {
             let changes =
                 self.case.with_functions(factor * (part / (AIM * COARSE)).powf(1.0 / order.min(ORDERS.1)));
-            let candidate = self.with(&changes)?.prepare()?.run(watch);
+            let Some(candidate) = run_of(self.with(&changes), watch) else { break };
             let holds = |error: &&ColumnError| {
                 let pair = Pair::new(&candidate.trajectory, &finest.trajectory, &error.column);
                 pair.is_none_or(|pair| safety * pair.largest() <= COARSE * pair.size())
             };
-            if candidate.status == Status::Finished && columns.iter().all(holds) {
+            if columns.iter().all(holds) {
                 let changes = changes.join("` and `").replace('=', " = ");
-                return Ok(Some(format!(
-                    "{said}; with `{changes}` it is below 1 % (observed order {order:.1})"
-                )));
+                return format!("{said}; with `{changes}` it is below 1 % (observed order {order:.1})");
             }
         }
-        Ok(Some(format!(
-            "{said}, and a finer mesh alone does not bring it down: `--tolerance {COARSE}` refines mesh and steps"
-        )))
+        both
     }
 }

@@ -18,8 +18,8 @@
 //!
 //! Half the step would not serve where vibrations are hardly resolved, for errors do not fall like hᵖ there. So `radau`
 //! runs all companions: those of its own runs with a tenth of their tolerance, which makes the error 18 times smaller
-//! (h ∼ tol^(1/4), error ∼ h⁵), or 6 times where only the stages' order counts (error ∼ h³), and with at most half of its
-//! longest step. Those of fixed steps have
+//! (h ∼ tol^(1/4), error ∼ h⁵), or 6 times where only the stages' order counts (error ∼ h³), and with steps
+//! below 0.9 of its longest, or half where there is no mesh to refine. Those of fixed steps have
 //! the tolerances 10⁻⁵, 10⁻⁷ and 10⁻⁹ in turn, until two of them differ by half of what the run differs from the
 //! second: a coarse step needs no fine companion, which would follow every wave that the mesh can carry.
 //!
@@ -48,6 +48,8 @@ const LADDER: [f64; 3] = [1e-5, 1e-7, 1e-9];
 const SETTLED: f64 = 0.5;
 /// Tolerance of a companion over that of a run of `radau`.
 pub(super) const FINER: f64 = 0.1;
+/// Longest step of a companion over that of the run: with a finer mesh, which most of the difference is of, and without.
+const SHORTER: (f64, f64) = (0.9, 0.5);
 /// Smallest tolerance that is asked of `radau`.
 pub(super) const TIGHTEST: f64 = 1e-13;
 /// Largest error of a mesh of elements over its difference from one of twice as many.
@@ -197,8 +199,7 @@ impl Reading {
         };
         let principal: Vec<&ColumnError> = columns.iter().filter(primary).collect();
         if fine.status == Status::Finished {
-            let coarse = self.coarse(run, &principal, (&finer, &fine), safety, watch);
-            warnings.extend(coarse?);
+            warnings.extend(self.coarse(run, &principal, (&finer, &fine), safety, watch));
         }
         Ok(Errors { columns, warnings, trusted, ..Errors::default() })
     }
@@ -253,6 +254,11 @@ impl Reading {
             format!("basis={{kind='finite-elements',elements={elements}}}"),
         ];
         changes.extend(coarse.tolerances(1.0, 0.0, f64::INFINITY));
+        if let (Steps::Controlled { longest: Some(longest), .. }, Steps::Controlled { .. }) =
+            (self.case.steps, coarse.case.steps)
+        {
+            changes.push(format!("integrator.max-step={:e}", longest / SHORTER.0));
+        }
         Ok(self.with(&changes)?.prepare()?.run(watch))
     }
 
@@ -269,15 +275,16 @@ impl Reading {
     }
 
     /// The case with twice the functions and a far more accurate integration. Steps of `run` may be as long as they are for
-    /// another reason than its tolerance: those of the companion are half as long at most.
+    /// another reason than its tolerance: those of the companion are shorter.
     fn refined(&self, run: &Run) -> Result<Reading, Problems> {
         let mut changes = self.case.finer();
         match self.case.steps {
             Steps::Controlled { .. } => {
-                changes.extend(self.tolerances(FINER, TIGHTEST, f64::INFINITY));
                 let longest = run.trajectory.index("step.size").map(|i| run.trajectory.extremes(i).max);
-                let half = longest.filter(|longest| *longest > 0.0).map(|longest| 0.5 * longest);
-                changes.extend(half.map(|half| format!("integrator.max-step={half:e}")));
+                let shorter = if changes.is_empty() { SHORTER.1 } else { SHORTER.0 };
+                let longest = longest.filter(|longest| *longest > 0.0).map(|longest| shorter * longest);
+                changes.extend(self.tolerances(FINER, TIGHTEST, f64::INFINITY));
+                changes.extend(longest.map(|longest| format!("integrator.max-step={longest:e}")));
             }
             Steps::Fixed { .. } => changes.push(radau(LADDER[0])),
         }

@@ -120,6 +120,13 @@ impl Target {
                 "must be a number > 0, or one with a unit of the quantity, e.g. `0.1 mm`".to_owned(),
             ));
         }
+        let rounding = f64::EPSILON * trajectory.extremes(index).largest();
+        if bound < rounding {
+            return Err(fault(format!(
+                "is below {rounding:.1e}, the last digit of the largest `{}`",
+                channel.name
+            )));
+        }
         Ok(Goal { index, name: channel.name.clone(), part, bound: self.factor * bound })
     }
 }

@@ -74,8 +74,7 @@ impl Matrices {
         for matrix in [&mut self.mass, &mut self.gyroscopic, &mut self.stiffness] {
             matrix.clear();
         }
-        let elements = self.mesh.elements.len();
-        for (number, (element, tension)) in self.mesh.elements.iter().zip(&self.tension.at).enumerate() {
+        for (element, tension) in self.mesh.elements.iter().zip(&self.tension.at) {
             let mut local = Local::new();
             let at = element.gather(q);
             let (pitch, model) = (rotation.pitch, &self.model);
@@ -85,7 +84,7 @@ impl Matrices {
                     element.add_straight_strain(pitch, speed * speed, tension, terms, model, &mut local);
                 }
             }
-            self.add_masses(element, number + 1 == elements, &rotation, &at, &mut local);
+            self.add_masses(element, &rotation, &at, &mut local);
             for (i, &row) in element.unknowns.iter().enumerate().filter(|(_, row)| **row != CLAMPED) {
                 self.force[row] += local.force[i];
                 for (j, &column) in element.unknowns.iter().enumerate().filter(|(_, c)| **c != CLAMPED) {
@@ -99,27 +98,20 @@ impl Matrices {
         }
     }
 
-    /// Adds the inertia of an element, and of the body at the tip to the last one.
-    fn add_masses(
-        &self,
-        element: &Element,
-        last: bool,
-        rotation: &Rotation,
-        at: &[f64; LOCAL],
-        out: &mut Local,
-    ) {
+    /// Adds the inertia of an element, and of the body at its outer end.
+    fn add_masses(&self, element: &Element, rotation: &Rotation, at: &[f64; LOCAL], out: &mut Local) {
         for point in &element.points {
             let (s, w) = (&point.section, point.weight);
             let inertia = (w * s.mass, [0.0, w * s.chord_inertia, w * s.flap_inertia]);
             let angle = rotation.pitch + s.twist;
             add_inertia(&Functions::of(point), point.x, angle, inertia, rotation, &self.model, at, out);
         }
-        let tip = self.setting.tip;
-        if last && (tip.mass > 0.0 || tip.inertia > 0.0) {
+        let body = element.body;
+        if body.mass > 0.0 || body.inertia > 0.0 {
             let h = element.ends[1] - element.ends[0];
             let f = Functions { n: hermite(1.0, h), m: quadratic(1.0, h) };
             // Second moments P along the axes give moments of inertia 2P about them.
-            let inertia = (tip.mass, [0.5 * tip.inertia; 3]);
+            let inertia = (body.mass, [0.5 * body.inertia; 3]);
             add_inertia(&f, element.ends[1], rotation.pitch, inertia, rotation, &self.model, at, out);
         }
     }
@@ -128,8 +120,7 @@ impl Matrices {
     pub fn stiffness_forms(&self, speed: f64, q: &[f64], vectors: &[Vec<f64>]) -> Vec<f64> {
         let (rotation, square) = (self.rotation(speed), speed * speed);
         let mut out = vec![0.0; vectors.len()];
-        let elements = self.mesh.elements.len();
-        for (number, (element, tension)) in self.mesh.elements.iter().zip(&self.tension.at).enumerate() {
+        for (element, tension) in self.mesh.elements.iter().zip(&self.tension.at) {
             let at = element.gather(q);
             let (pitch, model) = (rotation.pitch, &self.model);
             let x: Vec<[f64; LOCAL]> = vectors.iter().map(|x| element.gather(x)).collect();
@@ -138,7 +129,7 @@ impl Matrices {
                 Some(terms) => element.straight_forms(pitch, square, tension, terms, model, &x, &mut out),
             }
             let mut local = Local::new();
-            self.add_masses(element, number + 1 == elements, &rotation, &at, &mut local);
+            self.add_masses(element, &rotation, &at, &mut local);
             for (x, out) in x.iter().zip(&mut out) {
                 *out += form(x, |i, j| local.stiffness[i][j]);
             }

@@ -2,10 +2,10 @@
 //!
 //! Each node has u, u′, v, v′, w, w′ (cubic Hermite fields) and, with torsion, φ, which has a node in the middle
 //! of each element too (quadratic). Unknowns are numbered node after node, so that the half bandwidth is 14
-//! (11 without torsion) for any number of elements. Where the section jumps the strain u′ does too: the node has one
+//! (11 without torsion) for any number of elements. Where the section jumps, or a body is, the strain u′ does too: the node has one
 //! on either side.
 
-use super::model::{BladeError, Setting};
+use super::model::{BladeError, Body, Setting, Tip};
 use crate::linalg::Structure;
 use crate::quadrature::Gauss;
 use crate::section::{BladeResultants, BladeSection};
@@ -58,6 +58,8 @@ pub struct Element {
     pub points: Vec<Point>,
     /// ∫EA LᵢLⱼ dx for the strain, sampled at both nodes and the middle.
     pub axial: [[f64; 3]; 3],
+    /// The body at its outer end.
+    pub body: Tip,
 }
 
 /// The mesh of a blade.
@@ -96,7 +98,7 @@ pub fn quadratic(s: f64, h: f64) -> [[f64; 3]; 2] {
 pub const SAMPLES: [f64; 3] = [0.0, 1.0, 0.5];
 
 impl Mesh {
-    /// `elements` equal elements, cut once more where the section jumps.
+    /// `elements` equal elements, cut once more where the section jumps and where bodies are.
     ///
     /// # Errors
     /// [`BladeError::Invalid`] if the length is not positive, if there is no element, or if a section makes none.
@@ -105,6 +107,7 @@ impl Mesh {
         elements: usize,
         section: &dyn BladeSection,
         torsion: bool,
+        bodies: &[Body],
     ) -> Result<Mesh, BladeError> {
         let length = setting.length;
         if !(length.is_finite() && length > 0.0) || elements == 0 {
@@ -115,10 +118,23 @@ impl Mesh {
         }
         let mut nodes: Vec<f64> = (0..=elements).map(|i| length * (i as f64 / elements as f64)).collect();
         let near = 1e-9 * length;
+        if let Some(body) = bodies.iter().find(|body| !(body.station > near && body.station <= length + near))
+        {
+            let message = format!(
+                "the body at {} m is not on a blade of {length} m, or sits in its clamp",
+                body.station
+            );
+            return Err(BladeError::Invalid(message));
+        }
         for &jump in section.jumps() {
             match nodes.iter_mut().find(|node| (**node - jump).abs() < near) {
                 Some(node) => *node = jump,
                 None => nodes.push(jump),
+            }
+        }
+        for body in bodies {
+            if nodes.iter().all(|node| (node - body.station).abs() >= near) {
+                nodes.push(body.station);
             }
         }
         nodes.sort_by(f64::total_cmp);
@@ -127,7 +143,10 @@ impl Mesh {
         let mut node = mesh.node(0.0, torsion, true, false);
         for ends in nodes.windows(2) {
             let middle = mesh.unknown(Component::Torsion, false, 0.5 * (ends[0] + ends[1]), torsion);
-            let jumps = section.jumps().contains(&ends[1]);
+            // The axial force jumps at a body, and the strain with it.
+            let here = |body: &&Body| (body.station - ends[1]).abs() < near;
+            let jumps =
+                section.jumps().contains(&ends[1]) || (bodies.iter().any(|b| here(&b)) && ends[1] < length);
             let next = mesh.node(ends[1], torsion, false, jumps);
             let mut unknowns = [CLAMPED; LOCAL];
             for field in 0..3 {
@@ -137,7 +156,13 @@ impl Mesh {
             // The strain right of a jump is the last number of a node.
             unknowns[1] = node[7];
             (unknowns[12], unknowns[13], unknowns[14]) = (node[6], next[6], middle);
-            mesh.elements.push(Element::new([ends[0], ends[1]], unknowns, section)?);
+            let mut element = Element::new([ends[0], ends[1]], unknowns, section)?;
+            let at_tip = if ends[1] == length { setting.tip } else { Tip::default() };
+            element.body = bodies.iter().filter(here).fold(at_tip, |sum, body| Tip {
+                mass: sum.mass + body.of.mass,
+                inertia: sum.inertia + body.of.inertia,
+            });
+            mesh.elements.push(element);
             node = next;
         }
         for element in &mesh.elements {
@@ -240,7 +265,7 @@ impl Element {
                 points.push(Point { x, weight, n: hermite(s, h), m, section });
             }
         }
-        Ok(Element { unknowns, ends, points, axial })
+        Ok(Element { unknowns, ends, points, axial, body: Tip::default() })
     }
 
     /// The element's unknowns.

@@ -27,5 +27,5 @@ mod terms;
 mod tests;
 
 pub use mesh::Component;
-pub use model::{BladeError, Model, Setting, StrainEnergy, Terms, Tip};
+pub use model::{BladeError, Body, Model, Setting, StrainEnergy, Terms, Tip};
 pub use system::Blade;

@@ -24,6 +24,15 @@ pub struct Tip {
     pub inertia: f64,
 }
 
+/// A body on the blade, its centre of mass on the axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Body {
+    /// Station \[m\], greater than zero and at most the length.
+    pub station: f64,
+    /// Mass and moment of inertia.
+    pub of: Tip,
+}
+
 /// Which terms a blade's model keeps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Model {

@@ -4,7 +4,7 @@ use super::frame::axes;
 use super::jet::Jet;
 use super::matrices::Matrices;
 use super::mesh::{Component, Mesh, hermite, quadratic};
-use super::model::{BladeError, Model, Setting, StrainEnergy};
+use super::model::{BladeError, Body, Model, Setting, StrainEnergy};
 use super::tension::Tension;
 use crate::linalg::{Matrix, Storage, Structure};
 use crate::section::BladeSection;
@@ -42,11 +42,26 @@ impl Blade {
         model: Model,
         elements: usize,
     ) -> Result<Blade, BladeError> {
+        Blade::carrying(setting, section, model, elements, &[])
+    }
+
+    /// The same with bodies along it, besides that at its tip; elements end where they are.
+    ///
+    /// # Errors
+    /// As [`Blade::new`], and [`BladeError::Invalid`] for a body that is not between the clamp and the tip.
+    pub fn carrying(
+        setting: Setting,
+        section: &dyn BladeSection,
+        model: Model,
+        elements: usize,
+        bodies: &[Body],
+    ) -> Result<Blade, BladeError> {
         let invalid = |message: &str| Err(BladeError::Invalid(message.to_owned()));
-        let ranges = [setting.hub_radius, setting.tip.mass, setting.tip.inertia];
-        if ranges.iter().any(|x| !(x.is_finite() && *x >= 0.0)) {
+        let carried = bodies.iter().map(|body| body.of).chain([setting.tip]);
+        let mut ranges = carried.flat_map(|body| [body.mass, body.inertia]).chain([setting.hub_radius]);
+        if ranges.any(|x| !(x.is_finite() && x >= 0.0)) {
             return invalid(
-                "hub radius, mass and moment of inertia of the tip must be zero or positive, and finite",
+                "hub radius, masses and moments of inertia of bodies must be zero or positive, and finite",
             );
         }
         if !(setting.precone.abs() < std::f64::consts::FRAC_PI_2 && setting.pitch.is_finite()) {
@@ -57,7 +72,7 @@ impl Blade {
                 "a blade with precone is bent by its rotation: only the strain energy `exact` finds its steady state",
             );
         }
-        let mesh = Mesh::new(&setting, elements, section, model.torsion)?;
+        let mesh = Mesh::new(&setting, elements, section, model.torsion, bodies)?;
         let stiff = |p: &super::mesh::Point| p.section.has_torsion();
         if model.torsion && !mesh.elements.iter().flat_map(|e| &e.points).all(stiff) {
             return invalid(

@@ -143,7 +143,7 @@ fn an_arch_and_a_truss_are_stiff_though_their_bands_are_mechanisms() {
         arch.join(&format!("hinge {k}"), Kind::Revolute, pair, corners[k], (Z, None)).unwrap();
     }
     // Zigzag of joints 0 … 5, lower ones even; bars from each to the next two.
-    let place = |k: usize| [0.5 * k as f64, if k % 2 == 0 { 0.0 } else { 0.8 }, 0.0];
+    let place = |k: usize| [0.5 * k as f64, if k.is_multiple_of(2) { 0.0 } else { 0.8 }, 0.0];
     let mut at: Vec<Vec<Part>> = vec![Vec::new(); 6];
     for (a, b) in [(0, 1), (1, 2), (0, 2), (2, 3), (1, 3), (3, 4), (2, 4), (4, 5), (3, 5)] {
         let ends = beam(&mut truss, &format!("bar {a}{b}"), place(a), place(b), 2);
