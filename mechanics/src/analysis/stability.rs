@@ -64,7 +64,8 @@ pub fn stability(system: &mut dyn System, state: &State) -> Result<Stability, Ei
     let symmetric = is_symmetric(stiffness);
     let mut saddle = if symmetric { negative_directions(stiffness, multipliers) } else { 0 };
     // A rigid motion has no stiffness, of whatever sign rounding makes it.
-    if saddle > 0 && Pencil::new(all.clone(), multipliers, 0.0).is_ok_and(|mut pencil| pencil.doubts()[0]) {
+    let rigid = |all| Pencil::new(all, multipliers, 0.0).map_or(true, |mut pencil| pencil.doubts()[0]);
+    if saddle > 0 && rigid(all.clone()) {
         saddle = certain_directions(stiffness, mass, multipliers);
     }
     let mut gyroscopic = false;
