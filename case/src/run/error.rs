@@ -141,12 +141,15 @@ impl Reading {
         let until_then = |end| self.with(&[format!("run.duration={end:e}"), step]);
         let shortened = until.map(until_then).transpose()?;
         let (finer, fine) = shortened.as_ref().unwrap_or(self).finer_run(run, watch)?;
+        // Before the exact companion, which may use up what work is allowed.
+        let trust = self.trust(run, watch)?;
         warnings.extend(until.map(|end| {
             format!(
                 "the errors are those until t = {end} s, before the first impact: what an impact on a beam does is a matter of \
                  the mesh"
             )
         }));
+        warnings.extend(trust);
         let foreshortened = self.case.hub_beam().is_some_and(|beam| !beam.coupling.whole_curve);
         let exact = match foreshortened.then(|| finer.with_exact_coupling(self, watch)) {
             Some(Ok(exact)) => Some(exact),
@@ -170,7 +173,6 @@ impl Reading {
                 ));
             }
         }
-        warnings.extend(self.trust(run, watch)?);
         let safety = self.case.hub_beam().map_or(SAFETY, |beam| beam.bases.safety);
         let (mut columns, mut trusted) = (Vec::new(), fine.state.t.min(run.state.t));
         for name in self::columns(run) {

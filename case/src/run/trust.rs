@@ -41,12 +41,12 @@ impl Reading {
         let end = companion.state.t;
         if !first.is_finite() && companion.status != Status::Finished {
             return Ok(Some(format!(
-                "gaps and impacts are known until t = {end} s only: a run with {what} was given up there"
+                "gaps and impacts are known until t = {end:.6} s only: a run with {what} was given up there"
             )));
         }
         Ok(first.is_finite().then(|| {
             format!(
-                "gaps and impacts are trusted until t = {first} s: from there a run with {what} goes another way, for \
+                "gaps and impacts are trusted until t = {first:.6} s: from there a run with {what} goes another way, for \
                  impacts amplify every difference"
             )
         }))
