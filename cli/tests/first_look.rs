@@ -41,7 +41,7 @@ fn a_blade_carries_its_masses_and_what_it_does_not_use_is_refused_at_its_line() 
     let (code, said, warned) = flexion(heavy.path(), &["modes", "case.toml", "--count", "2", "--speed", "0"]);
     assert!(code == Some(0) && said.contains("1.557") && warned.is_empty(), "{said} {warned}");
     for (table, at) in [
-        ("[damping]\nmass-proportional = 2.0\n", "mass-proportional"),
+        ("[damping]\nmass-proportional = 2.0\n", "[damping]"),
         ("[[force]]\nstation = 1.0\nforce = [-2.0, 0.0]\nframe = 'hub'\n", "[[force]]"),
     ] {
         let folder = folder(&format!("{BLADE}{table}"));
@@ -77,7 +77,7 @@ fn a_blade_without_its_table_and_what_its_file_leaves_out_are_named() {
     assert!(code == Some(0) && said.contains("write [blade]") && said.contains("no torsion"), "{said}");
     std::fs::write(folder.path().join("blade.csv"), rows("13.3")).unwrap();
     let (code, _, said) = flexion(folder.path(), &["modes", "case.toml", "--count", "2"]);
-    assert!(code == Some(1) && said.contains("divide degrees"), "{said}");
+    assert!(code == Some(1) && said.contains("for degrees name the column `twist [deg]`"), "{said}");
 }
 
 const VEERING: &str = r#"
