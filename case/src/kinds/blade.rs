@@ -65,7 +65,7 @@ impl Blade {
         self.setting.tip.mass
     }
 
-    /// Pitch of the root section and precone [rad].
+    /// Pitch of the root section and precone \[rad\].
     pub fn angles(&self) -> [f64; 2] {
         [self.setting.pitch, self.setting.precone]
     }
