@@ -2,6 +2,5 @@
 
 pub mod blade;
 pub mod columns;
-pub mod points;
 pub mod rows;
 pub mod section;

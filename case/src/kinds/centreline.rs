@@ -47,7 +47,7 @@ impl Centreline {
             }
             (Some(_), false) => {
                 let (name, bytes) = c.file(v, "file")?;
-                (files::points::read(&bytes, name).at("file")?, "file")
+                (files::rows::read(&bytes, name, "three numbers: x, y and z in m").at("file")?, "file")
             }
             (None, _) => {
                 let count = lists[0].len();

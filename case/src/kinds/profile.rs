@@ -94,7 +94,9 @@ pub(super) fn through(rows: &[(f64, f64)], v: &Values, c: &Context<'_>, key: &st
 /// The curve through the rows of the file at `file`: times [s] and values.
 pub(super) fn table(v: &Values, c: &Context<'_>) -> Made<Shared> {
     let (name, bytes) = c.file(v, "file")?;
-    through(&files::rows::read(&bytes, name).at("file")?, v, c, "file")
+    let what = "two numbers with a comma between: a time in s and a value";
+    let rows = files::rows::read(&bytes, name, what).at("file")?;
+    through(&rows.into_iter().map(<(f64, f64)>::from).collect::<Vec<_>>(), v, c, "file")
 }
 
 /// The formula at `formula` in time t [s].
