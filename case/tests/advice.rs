@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)] // in helpers of tests
 
 use crate::verification::run::root;
-use crate::written::{finished, reading};
+use crate::written::{STRIP, finished, reading};
 use flexion_case::{Advice, Reading, Run, Target, read};
 use std::ops::ControlFlow;
 
@@ -40,7 +40,8 @@ fn advice_on_p1_is_cheap_and_keeps_what_is_asked() {
 /// A force that bends the beam by 0.8 of its length: no coupling but the exact one can follow.
 #[test]
 fn advice_on_a_large_deflection_is_the_exact_coupling() {
-    let reading = reading(LARGE, &[]);
+    let case = "[[force]]\nstation = 1\nforce = [0, -140]\namplitude = { kind = 'ramp', time = 1 }\n[run]\nduration = 1.5\n";
+    let reading = reading(&format!("{STRIP}{case}"), &[]);
     let advice = advice(&reading, "1e-3", "tip.deflection");
     let cheapest = &advice.tried[advice.cheapest.unwrap()];
     assert_eq!(cheapest.coupling, "exact", "{cheapest:?}");
@@ -71,23 +72,22 @@ fn advice_is_refused_where_there_is_none() {
     assert!(error.to_string().contains("tip.deflection"), "{error}");
 }
 
-const LARGE: &str = "
-[beam]
-length = 1
-[section]
-kind = 'rectangle'
-modulus = '70 GPa'
-density = 2700
-width = '20 mm'
-height = '5 mm'
-[hub]
-motion = { kind = 'constant', speed = 0 }
-[model]
-coupling = 'exact'
-[[force]]
-station = 1
-force = [0, -140]
-amplitude = { kind = 'ramp', time = 1 }
-[run]
-duration = 1.5
-";
+/// A ladder that is stopped says so, and keeps what was tried.
+#[test]
+fn advice_that_is_stopped_says_so() {
+    let reading = read(&root().join("p1_spin_up_4"), &[]).unwrap();
+    let target = Target::new("1e-3".to_owned(), Some("tip.deflection.min".to_owned()));
+    // Each run begins anew at the time zero.
+    let (mut last, mut runs) = (0.0, 0);
+    let advice = reading
+        .advise(&target, &mut |state| {
+            runs += usize::from(state.t < last);
+            last = state.t;
+            if runs < 20 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        })
+        .unwrap();
+    assert!(advice.stopped && !advice.bounded && !advice.tried.is_empty(), "{:?}", advice.tried.len());
+    assert!(
+        advice.tried.iter().all(|tried| tried.error.as_ref().err().is_none_or(|why| !why.contains("user")))
+    );
+}

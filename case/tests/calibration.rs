@@ -1,40 +1,16 @@
 //! Cases at random over all kinds: what a run states as its error holds against a far finer run, or the run warns or ends with
 //! an error. `flexion calibrate` does the same for as many cases as one likes.
 
-#![allow(clippy::unwrap_used)] // in helpers of tests
-
-use flexion_case::calibration::{Counts, Ending, Outcome, draw, judge};
+use flexion_case::calibration::{Counts, Ending, draw, study};
 use std::collections::BTreeSet;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Cases of the test, of a seed that no study in the documentation has.
 const CASES: u64 = 60;
 const SEED: u64 = 5;
 
-fn study() -> Vec<Outcome> {
-    let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    let (next, outcomes) = (AtomicU64::new(0), Mutex::new(Vec::new()));
-    std::thread::scope(|scope| {
-        for _ in 0..threads {
-            scope.spawn(|| {
-                loop {
-                    let k = next.fetch_add(1, Ordering::Relaxed);
-                    if k >= CASES {
-                        break;
-                    }
-                    let outcome = judge(&draw(SEED, k), k);
-                    outcomes.lock().unwrap().push(outcome);
-                }
-            });
-        }
-    });
-    outcomes.into_inner().unwrap()
-}
-
 #[test]
 fn stated_errors_of_cases_at_random_hold_or_the_run_warns() {
-    let outcomes = study();
+    let outcomes = study(SEED, 0..CASES, 0, &|| true);
     let refused: Vec<_> = outcomes
         .iter()
         .filter(|o| matches!(o.ending, Ending::Refused(_)))

@@ -22,7 +22,8 @@ bases of growing size and integrators of shrinking steps are tried on the case, 
 named, by evaluations of the residual times unknowns, with what to pass to `flexion run`. The ladder takes 3e8 steps times unknowns
 at most, two minutes or so; the same case has the same advice everywhere.
 
-Exit codes: 0 finished, 1 case or command line rejected, 2 nothing holds the tolerance, or there is no trusted answer.")]
+Exit codes: 0 finished, 1 case or command line rejected, 2 stopped, nothing holds the tolerance, or there is no trusted
+answer.")]
 pub struct Arguments {
     #[command(flatten)]
     case: case::Selection,
@@ -85,6 +86,10 @@ pub fn advise(arguments: &Arguments) -> Outcome {
     }
     if advice.bounded {
         screen::report("warning: the ladder ended early, for the work it takes; a cheaper run may hold\n");
+    }
+    if advice.stopped {
+        screen::report("error: stopped by the user: runs that were not tried may hold, and be cheaper\n");
+        return Outcome::Incomplete;
     }
     if advice.cheapest.is_some() {
         return Outcome::Finished;
@@ -170,6 +175,7 @@ fn write(directory: &Directory, case: &str, advice: &Advice) -> Result<(), Outpu
         "trusted": { "case": advice.trusted.0, "error": advice.trusted.1 },
         "cheapest": advice.cheapest.and_then(|index| advice.tried.get(index)).map(row),
         "bounded": advice.bounded,
+        "stopped": advice.stopped,
         "tried": advice.tried.iter().map(row).collect::<Value>(),
     });
     directory.write(Artifact::AdviceJson, |f| writeln!(f, "{summary:#}"))?;

@@ -1,14 +1,14 @@
 //! `flexion calibrate`: stated against true errors of cases at random.
 
+use crate::run::stop_on_ctrl_c;
 use crate::{Outcome, screen};
-use flexion_case::calibration::{Counts, Ending, Outcome as Judged, draw, figure, judge};
+use flexion_case::calibration::{Counts, Ending, Outcome as Judged, draw, figure, study};
 use flexion_results::{Artifact, Directory, OutputError};
 use indicatif::ProgressBar;
 use serde_json::{Value, json};
 use std::io::Write as _;
 use std::path::PathBuf;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::Ordering;
 
 /// The study.
 #[derive(clap::Args)]
@@ -18,10 +18,10 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 Draws legal cases over all kinds: sections, motions, loads, damping, couplings, bases, integrators, tables, contacts, systems
 in space. Each is run as `flexion run` does, and again far more finely; the true error of the min, max and final value of every
-column is held against the stated one. The same seed gives the same cases. A thousand cases take half an hour on two
-processors.
+column is held against the stated one. The same seed gives the same cases. Ctrl-C ends a
+study after the cases that are running; what was judged is kept.
 
-Exit codes: 0 finished, 1 command line rejected, 2 the files could not be written.")]
+Exit codes: 0 finished, 1 command line rejected, 2 stopped, or the files could not be written.")]
 pub struct Arguments {
     /// Number of cases
     #[arg(long, value_name = "N", default_value = "100", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
@@ -39,8 +39,8 @@ pub struct Arguments {
     #[arg(long, short, value_name = "DIR", default_value = "results/calibration")]
     output: PathBuf,
     /// Number of threads [default: one a processor]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1024))]
-    threads: Option<u64>,
+    #[arg(long, value_name = "N", default_value = "0", hide_default_value = true)]
+    threads: usize,
     /// Replace former results in that directory
     #[arg(long)]
     force: bool,
@@ -65,45 +65,26 @@ pub fn calibrate(arguments: &Arguments) -> Outcome {
             return Outcome::Rejected;
         }
     };
-    let outcomes = study(arguments);
+    let (bar, stop) = (ProgressBar::new(arguments.cases), stop_on_ctrl_c());
+    let numbers = arguments.first..arguments.first.saturating_add(arguments.cases);
+    let outcomes = study(arguments.seed, numbers, arguments.threads, &|| {
+        bar.inc(1);
+        !stop.load(Ordering::Relaxed)
+    });
+    bar.finish_and_clear();
     let counts = Counts::of(&outcomes);
     let rows: Vec<Vec<String>> = counts.rows().into_iter().map(|row| row.to_vec()).collect();
     screen::print(&(screen::table(&rows) + "\n"));
     let written = write(arguments, &directory, &outcomes, &counts);
     let files = [("counts", Artifact::CalibrationJson), ("plot", Artifact::CalibrationSvg)];
-    if screen::files(&directory, written, &files) { Outcome::Finished } else { Outcome::Incomplete }
-}
-
-/// The outcomes in the order of their numbers.
-fn study(arguments: &Arguments) -> Vec<Judged> {
-    let threads = arguments.threads.map_or_else(
-        || std::thread::available_parallelism().map_or(1, std::num::NonZero::get),
-        |threads| threads as usize,
-    );
-    let bar = ProgressBar::new(arguments.cases);
-    let (next, outcomes) = (AtomicU64::new(0), Mutex::new(Vec::new()));
-    std::thread::scope(|scope| {
-        for _ in 0..threads {
-            scope.spawn(|| {
-                loop {
-                    let k = next.fetch_add(1, Ordering::Relaxed);
-                    if k >= arguments.cases {
-                        break;
-                    }
-                    let number = arguments.first + k;
-                    let outcome = judge(&draw(arguments.seed, number), number);
-                    if let Ok(mut outcomes) = outcomes.lock() {
-                        outcomes.push(outcome);
-                    }
-                    bar.inc(1);
-                }
-            });
-        }
-    });
-    bar.finish_and_clear();
-    let mut outcomes = outcomes.into_inner().unwrap_or_default();
-    outcomes.sort_by_key(|outcome| outcome.number);
-    outcomes
+    if !screen::files(&directory, written, &files) {
+        return Outcome::Incomplete;
+    }
+    if (outcomes.len() as u64) < arguments.cases {
+        screen::report(&format!("error: stopped by the user after {} cases\n", outcomes.len()));
+        return Outcome::Incomplete;
+    }
+    Outcome::Finished
 }
 
 fn write(
@@ -149,7 +130,7 @@ fn write(
     let table: Value = counts.rows().iter().map(|[what, count, asked]| json!([what, count, asked])).collect();
     let cases: Value = outcomes.iter().map(case).collect();
     let json = json!({
-        "seed": arguments.seed, "first": arguments.first, "cases": arguments.cases, "counts": table,
+        "seed": arguments.seed, "first": arguments.first, "cases": outcomes.len(), "counts": table,
         "silent": counts.silent, "wrong": counts.wrong, "outcomes": cases,
     });
     directory.write(Artifact::CalibrationJson, |f| writeln!(f, "{json:#}"))?;

@@ -283,6 +283,19 @@ fn time(text: &str) -> Result<f64, String> {
     if time >= 0.0 { Ok(time) } else { Err(format!("`{text}` is no time of a run: zero or later")) }
 }
 
+/// Whether Ctrl-C was pressed. Without a handler it ends the program at once, and the results are not written; the second one
+/// does so.
+pub(crate) fn stop_on_ctrl_c() -> Arc<AtomicBool> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let asked = Arc::clone(&stop);
+    let _ = ctrlc::set_handler(move || {
+        if asked.swap(true, Ordering::Relaxed) {
+            std::process::exit(2);
+        }
+    });
+    stop
+}
+
 /// Shows how far a run is, and stops it on Ctrl-C.
 pub(crate) struct Progress {
     bar: ProgressBar,
@@ -299,15 +312,7 @@ impl Progress {
         if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style);
         }
-        let stop = Arc::new(AtomicBool::new(false));
-        let asked = Arc::clone(&stop);
-        // Without a handler Ctrl-C ends the program at once, and the results are not written.
-        let _ = ctrlc::set_handler(move || {
-            if asked.swap(true, Ordering::Relaxed) {
-                std::process::exit(2);
-            }
-        });
-        Progress { bar, shown: Instant::now(), end, stop }
+        Progress { bar, shown: Instant::now(), end, stop: stop_on_ctrl_c() }
     }
 
     pub(crate) fn show(&mut self, t: f64) -> ControlFlow<()> {

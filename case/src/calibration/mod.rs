@@ -19,6 +19,8 @@ use crate::reading::{Reading, parse_with};
 use crate::sources::Contents;
 use random::Random;
 use std::path::Path;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A case and what is known of it.
 #[derive(Clone, Debug, Default)]
@@ -66,6 +68,40 @@ pub fn draw(seed: u64, number: u64) -> Drawn {
         19 => space::case(random, true),
         _ => beam::case(random, false),
     }
+}
+
+/// The outcomes of cases of a sequence, in the order of their numbers, on so many threads, 0 for as many as the machine has.
+/// `judged` is called after each case; no further one begins when it returns false.
+pub fn study(
+    seed: u64,
+    numbers: std::ops::Range<u64>,
+    threads: usize,
+    judged: &(dyn Fn() -> bool + Sync),
+) -> Vec<Outcome> {
+    let threads = match threads {
+        0 => std::thread::available_parallelism().map_or(1, std::num::NonZero::get),
+        threads => threads,
+    };
+    let (next, outcomes) = (AtomicU64::new(numbers.start), Mutex::new(Vec::new()));
+    let work = || {
+        loop {
+            let number = next.fetch_add(1, Ordering::Relaxed);
+            if number >= numbers.end {
+                break;
+            }
+            let outcome = judge(&draw(seed, number), number);
+            if let Ok(mut outcomes) = outcomes.lock() {
+                outcomes.push(outcome);
+            }
+            if !judged() {
+                next.store(numbers.end, Ordering::Relaxed);
+            }
+        }
+    };
+    std::thread::scope(|scope| (0..threads).for_each(|_| drop(scope.spawn(work))));
+    let mut outcomes = outcomes.into_inner().unwrap_or_default();
+    outcomes.sort_by_key(|outcome| outcome.number);
+    outcomes
 }
 
 /// The case of a beam with contacts of a seed.

@@ -78,6 +78,8 @@ pub struct Advice {
     pub cheapest: Option<usize>,
     /// Whether the ladder ended early for the work it takes.
     pub bounded: bool,
+    /// Whether it was stopped.
+    pub stopped: bool,
 }
 
 /// Why there is no advice.
@@ -107,6 +109,8 @@ struct Climb<'a, 'b> {
     /// Work of the cheapest run that holds.
     least: f64,
     left: f64,
+    /// Whether `watch` has asked for the end.
+    stopped: bool,
     watch: &'a mut Watch<'b>,
 }
 
@@ -166,6 +170,7 @@ impl Reading {
             tried: Vec::new(),
             least: f64::INFINITY,
             left: MOST_WORK,
+            stopped: false,
             watch,
         };
         climb.couplings(&found.reading);
@@ -176,6 +181,7 @@ impl Reading {
             asked,
             cheapest,
             bounded: climb.left < 0.0,
+            stopped: climb.stopped,
             tried: climb.tried,
         })
     }
@@ -234,7 +240,7 @@ impl Climb<'_, '_> {
 
     /// Runs one rung, unless the work is used up: whether it holds.
     fn run(&mut self, coupling: &'static str, basis: (&str, &str), integrator: (&str, String)) -> bool {
-        if self.left < 0.0 {
+        if self.left < 0.0 || self.stopped {
             return false;
         }
         let (method, integrator) = integrator;
@@ -245,10 +251,14 @@ impl Climb<'_, '_> {
         let run = self.reading.with(&changes).and_then(|reading| reading.prepare()).map(|prepared| {
             prepared.run(&mut |state: &State| {
                 steps += state.v.len() as f64;
-                if steps > least { ControlFlow::Break(()) } else { (self.watch)(state) }
+                self.stopped |= (self.watch)(state).is_break();
+                if steps > least || self.stopped { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             })
         });
         self.left -= steps;
+        if self.stopped {
+            return false;
+        }
         let work = run.as_ref().map_or(0.0, |run| run.counters.residuals as f64 * run.size.unknowns as f64);
         let error = match &run {
             Ok(run) if run.status == Status::Finished => Ok(self.error_of(run)),

@@ -20,6 +20,22 @@ width = "20 mm"
 height = "20 mm"
 "#;
 
+/// A metre of aluminium strip on a hub at rest, geometrically exact; loads and the run of a case follow.
+pub const STRIP: &str = "
+[beam]
+length = 1
+[section]
+kind = 'rectangle'
+modulus = '70 GPa'
+density = 2700
+width = '20 mm'
+height = '5 mm'
+[hub]
+motion = { kind = 'constant', speed = 0 }
+[model]
+coupling = 'exact'
+";
+
 /// P1's beam of ten metres; the rest of a case follows.
 pub const P1_BEAM: &str = r#"
 [beam]
