@@ -8,6 +8,7 @@ mod calibration;
 mod case_files;
 mod contact;
 mod convergence;
+mod disturbance;
 mod docs;
 mod energy;
 mod first_look;

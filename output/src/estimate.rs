@@ -34,6 +34,19 @@ pub struct Rung {
     pub order: Option<f64>,
 }
 
+/// A motion that a small disturbance changes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unstable {
+    /// The disturbance over the amplitudes of the run.
+    pub size: f64,
+    /// Name of the column that shows it first.
+    pub column: String,
+    /// When it has grown tenfold \[s\].
+    pub from: f64,
+    /// When it has grown to a hundredth of the largest value \[s\].
+    pub until: f64,
+}
+
 /// Estimated errors of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Errors {
@@ -43,6 +56,8 @@ pub struct Errors {
     pub warnings: Vec<String>,
     /// Time \[s\] until which the errors of the principal columns stay below a tenth of their largest values.
     pub trusted: f64,
+    /// How a small disturbance grows, where it does.
+    pub unstable: Option<Unstable>,
     /// The runs that led to this one, which is the last, where the case was refined.
     pub sequence: Vec<Rung>,
     /// Why there is no estimate, where there is none.
@@ -70,6 +85,10 @@ impl Errors {
         out.insert("estimated".into(), self.unknown.is_none().into());
         out.insert("reason".into(), self.unknown.clone().into());
         out.insert("until".into(), self.unknown.is_none().then_some(self.trusted).into());
+        if let Some(Unstable { size, column, from, until }) = &self.unstable {
+            let entry = json!({ "disturbance": size, "column": column, "from": from, "until": until });
+            out.insert("unstable".into(), entry);
+        }
         if !self.sequence.is_empty() {
             out.insert("refinement".into(), self.sequence.iter().map(Rung::to_json).collect());
         }

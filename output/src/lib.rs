@@ -45,7 +45,7 @@ pub use self::compare::{Comparison, Difference, compare, compare_csv, compare_js
 pub use self::csv::{read_csv, write_csv};
 pub use self::directory::{Directory, write_file};
 pub use self::error::{OutputError, ResultsError};
-pub use self::estimate::{ColumnError, Errors, Rung};
+pub use self::estimate::{ColumnError, Errors, Rung, Unstable};
 pub use self::events::{Entry, Events, write_events};
 pub use self::frequencies::{Frequencies, Units};
 pub use self::load_path::{LoadPath, LoadPoint};

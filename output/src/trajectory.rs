@@ -36,6 +36,11 @@ impl Extremes {
     pub fn largest(&self) -> f64 {
         self.min.abs().max(self.max.abs())
     }
+
+    /// Largest less smallest value; NaN when no value is finite.
+    pub fn range(&self) -> f64 {
+        self.max - self.min
+    }
 }
 
 impl Trajectory {

@@ -143,7 +143,8 @@ def columns(name):
         names = [f"beam.tip.position.{axis} [m]" for axis in "xy"]
         return "", names, t, [c * (10 + axial) - s * across, s * (10 + axial) + c * across]
     if name.startswith("space_roll_up_release"):
-        times, tips = roll_up(3.0) if name.endswith("reference") else roll_up(2.0, step=0.00125)
+        within, step = {"reference": (3.0, 0.0025), "two_seconds": (2.0, 0.00125), "four_seconds": (4.0, 0.0025)}[name.split("/")[1]]
+        times, tips = roll_up(within, step=step)
         every = round(0.1 / times[1])
         names = [f"beam.tip.position.{axis} [m]" for axis in "xy"]
         return "", names, times[::every], [1 + tips[::every, 0], tips[::every, 1]]

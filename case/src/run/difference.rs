@@ -27,6 +27,11 @@ impl<'a> Pair<'a> {
         self.ours.times().iter().zip(values).map(|(t, (x, y))| (*t, x, y))
     }
 
+    /// The values y and y_f at the common records.
+    pub(super) fn values(&self) -> impl Iterator<Item = (f64, f64)> {
+        self.rows().map(|(_, x, y)| (x, y))
+    }
+
     /// max_t |y − y_f|; NaN is not hidden, neither by an earlier row nor by a later.
     pub(super) fn largest(&self) -> f64 {
         self.rows().fold(0.0, |largest, (_, x, y)| worse(largest, (x - y).abs()))

@@ -38,7 +38,7 @@ use crate::problem::Problems;
 use crate::reading::Reading;
 use flexion::contact::Law;
 use flexion::system::{Role, State};
-use flexion_results::{ColumnError, Errors, Status, Watch};
+use flexion_results::{ColumnError, Errors, Status, Unstable, Watch};
 use std::ops::ControlFlow;
 
 /// Tolerances of the companions of fixed steps, one after the other.
@@ -150,6 +150,15 @@ impl Reading {
             )
         }));
         warnings.extend(trust);
+        let safety = self.case.hub_beam().map_or(SAFETY, |beam| beam.bases.safety);
+        let unstable = self.instability(run, &fine, safety, watch)?;
+        warnings.extend(unstable.as_ref().map(|Unstable { size, column, from, until }| {
+            format!(
+                "a disturbance of {size:e} of the amplitudes grows from t = {from:.6} s to {until:.6} s to a hundredth of \
+                 the motion, first in {column}: the motion is unstable, and trusted until then; a small force written into the \
+                 case shows where it leads"
+            )
+        }));
         let foreshortened = self.case.hub_beam().is_some_and(|beam| !beam.coupling.whole_curve);
         let exact = match foreshortened.then(|| finer.with_exact_coupling(self, watch)) {
             Some(Ok(exact)) => Some(exact),
@@ -173,8 +182,8 @@ impl Reading {
                 ));
             }
         }
-        let safety = self.case.hub_beam().map_or(SAFETY, |beam| beam.bases.safety);
-        let (mut columns, mut trusted) = (Vec::new(), fine.state.t.min(run.state.t));
+        let grown = unstable.as_ref().map_or(f64::INFINITY, |unstable| unstable.until);
+        let (mut columns, mut trusted) = (Vec::new(), fine.state.t.min(run.state.t).min(grown));
         for name in self::columns(run) {
             let Some(pair) = Pair::new(&run.trajectory, &fine.trajectory, name) else { continue };
             let model = exact.as_ref().and_then(|exact| {
@@ -203,7 +212,7 @@ impl Reading {
         if fine.status == Status::Finished {
             warnings.extend(self.coarse(run, &principal, (&finer, &fine), safety, watch));
         }
-        Ok(Errors { columns, warnings, trusted, ..Errors::default() })
+        Ok(Errors { columns, warnings, trusted, unstable, ..Errors::default() })
     }
 
     /// The last time recorded before the first impact of a run with a rigid contact; behind it a run on another mesh says

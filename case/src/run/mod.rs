@@ -6,6 +6,7 @@ mod clock;
 mod coarse;
 mod contact;
 mod difference;
+mod disturbance;
 pub mod error;
 pub mod refine;
 mod restart;

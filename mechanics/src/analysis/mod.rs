@@ -3,6 +3,7 @@
 pub mod campbell;
 mod crossings;
 mod diagram;
+mod disturbance;
 mod energy_balance;
 mod equations;
 pub mod equilibrium;
@@ -18,6 +19,7 @@ mod tracking;
 pub mod transient;
 mod violation;
 
+pub use disturbance::disturb;
 pub use energy_balance::EnergyBalance;
 pub use stability::{Stability, stability};
 pub use violation::Violation;
