@@ -6,7 +6,7 @@ use super::matrices::Matrices;
 use super::mesh::{Component, Mesh, hermite, quadratic};
 use super::model::{BladeError, Body, Model, Setting, StrainEnergy};
 use super::tension::Tension;
-use crate::linalg::{Matrix, Storage, Structure};
+use crate::linalg::{Matrix, Structure};
 use crate::section::BladeSection;
 use crate::system::{
     Channel, Direction, Dynamics, Energy, Events, Frame, NotSet, Observed, Parameter, Role, Size, State,
@@ -255,18 +255,10 @@ impl Dynamics for Blade {
             if weight == 0.0 {
                 continue;
             }
-            match (out.begin(), matrix.storage()) {
-                (Storage::Dense(out), Storage::Dense(part)) => {
-                    for (out, part) in out.data_mut().iter_mut().zip(part.data()) {
-                        *out += weight * part;
-                    }
+            for (out, part) in out.begin().rows_mut().zip(matrix.storage().rows()) {
+                for (out, part) in out.iter_mut().zip(part) {
+                    *out += weight * part;
                 }
-                (Storage::Band(out), Storage::Band(part)) => {
-                    for (out, part) in out.band_mut().data_mut().iter_mut().zip(part.band().data()) {
-                        *out += weight * part;
-                    }
-                }
-                _ => debug_assert!(false, "structures differ"),
             }
         }
         out.set_stamp(Some(stamp));

@@ -37,7 +37,7 @@ pub use runge_kutta::RungeKutta;
 pub use stability::{StabilityLimit, largest_frequency};
 pub use step_control::{Law, StepControl};
 
-use crate::system::{Dynamics, Side, State};
+use crate::system::{Corotation, Dynamics, Side, State};
 
 /// What an integrator is: for listings, reports and step control.
 #[derive(Clone, Debug, PartialEq)]
@@ -271,4 +271,11 @@ pub trait Integrator: Send {
 
     /// Work done since `start`.
     fn counters(&self) -> Counters;
+}
+
+/// Memory for the rotations of a system's sections.
+fn corotation(system: &dyn Dynamics, state: &State) -> Corotation {
+    let mut made = Corotation::default();
+    system.corotate(state, state, &mut made);
+    made.emptied()
 }

@@ -1,13 +1,14 @@
 //! Band matrix with LU by threshold pivoting.
 //!
-//! Row-wise storage: row i holds columns i − l … i + u + l (the last l for the fill that row
-//! interchanges bring), so that elimination runs along contiguous memory. Without interchanges the
-//! elimination stays within the band, and the cost is n·l·u multiplications.
+//! Row-wise storage: row i holds columns i − l … i + u, so that elimination runs along contiguous memory. Without
+//! interchanges the elimination stays within the band, and the cost is n·l·u multiplications. The first interchange that
+//! fills a row beyond column i + u gives all rows l columns more.
 //!
 //! The diagonal is the pivot as long as |aᵢₖ|² ≤ τ⁻² |aₖₖ| |aᵢᵢ| for the rows i below it, which holds for
 //! every positive definite matrix, and for any units of the unknowns: it bounds by 1/τ the multipliers
 //! of the matrix that is scaled to a unit diagonal. Otherwise the largest entry of the column is.
 
+use super::vector::weighted_sum;
 use super::{Scalar, Singular};
 
 /// Largest number of vanishing pivots of the band that are moved to the border.
@@ -46,7 +47,7 @@ impl<T: Scalar> Band<T> {
     pub fn new(n: usize, lower: usize, upper: usize) -> Band<T> {
         let lower = lower.min(n.saturating_sub(1));
         let upper = upper.min(n.saturating_sub(1));
-        let width = 2 * lower + upper + 1;
+        let width = lower + upper + 1;
         Band {
             n,
             lower,
@@ -82,7 +83,7 @@ impl<T: Scalar> Band<T> {
         self.upper
     }
 
-    /// Length of a stored row, 2·lower + upper + 1.
+    /// Length of a stored row: lower + upper + 1, and `lower` more once interchanges have needed them.
     pub fn width(&self) -> usize {
         self.width
     }
@@ -95,6 +96,32 @@ impl<T: Scalar> Band<T> {
     /// All stored entries, row after row, to be changed.
     pub fn data_mut(&mut self) -> &mut [T] {
         &mut self.data
+    }
+
+    /// The stored rows, to be changed.
+    pub fn rows_mut(&mut self) -> std::slice::ChunksExactMut<'_, T> {
+        self.data.chunks_exact_mut(self.width.max(1))
+    }
+
+    /// Replaces the content by Σ wₖ Aₖ of real matrices with the same band.
+    pub(super) fn combine(&mut self, terms: [&Band<f64>; 3], weights: [T; 3]) {
+        let band = self.lower + self.upper + 1;
+        let row = |a: &Band<f64>, i: usize| i * a.width..i * a.width + band;
+        for (i, out) in self.data.chunks_exact_mut(self.width).enumerate() {
+            let (out, fill) = out.split_at_mut(band);
+            weighted_sum(out, terms.map(|a| &a.data[row(a, i)]), weights);
+            fill.fill(T::ZERO);
+        }
+    }
+
+    /// Gives every row room for the fill that interchanges bring.
+    fn widen(&mut self) {
+        let width = self.lower + self.upper + 1 + self.lower;
+        let mut data = vec![T::ZERO; self.n * width];
+        for (to, from) in data.chunks_exact_mut(width).zip(self.data.chunks_exact(self.width)) {
+            to[..self.width].copy_from_slice(from);
+        }
+        (self.data, self.width) = (data, width);
     }
 
     /// Sets every entry to zero.
@@ -171,10 +198,10 @@ impl<T: Scalar> Band<T> {
         }
         // The common bands are given to the compiler as constants: it unrolls the loops over them.
         match (self.lower, self.upper) {
-            (3, 3) => self.eliminate::<3, 10>(deflate),
-            (5, 5) => self.eliminate::<5, 16>(deflate),
-            (7, 7) => self.eliminate::<7, 22>(deflate),
-            (9, 9) => self.eliminate::<9, 28>(deflate),
+            (3, 3) if self.width == 7 => self.eliminate::<3, 7>(deflate),
+            (5, 5) if self.width == 11 => self.eliminate::<5, 11>(deflate),
+            (7, 7) if self.width == 15 => self.eliminate::<7, 15>(deflate),
+            (9, 9) if self.width == 19 => self.eliminate::<9, 19>(deflate),
             _ => self.eliminate_from(0, deflate),
         }
     }
@@ -216,7 +243,8 @@ impl<T: Scalar> Band<T> {
 
     /// Elimination of the columns from `start` on, with interchanges where they are needed.
     fn eliminate_from(&mut self, start: usize, deflate: bool) -> Result<(), Singular> {
-        let (n, width, l, u) = (self.n, self.width, self.lower, self.upper);
+        let (n, l, u) = (self.n, self.lower, self.upper);
+        let mut width = self.width;
         let largest = self.data[start * width..].iter().map(|x| x.size()).fold(0.0, f64::max);
         let floor = largest * f64::EPSILON * f64::EPSILON;
         // Columns up to which earlier interchanges have filled the rows.
@@ -242,6 +270,10 @@ impl<T: Scalar> Band<T> {
             }
             filled = filled.max((p + u).min(n - 1)).max(k);
             let count = filled - k;
+            if count > width - l - 1 {
+                self.widen();
+                width = self.width;
+            }
             self.pivots[k] = (p - k) as u32;
             self.row_length[k] = count as u32;
             if !(best > small) {

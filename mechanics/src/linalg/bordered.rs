@@ -115,7 +115,7 @@ impl<T: Scalar> Bordered<T> {
 
     /// Replaces the content by Σ wₖ Aₖ of real matrices of the same structure.
     pub(super) fn combine(&mut self, terms: [&Bordered<f64>; 3], weights: [T; 3]) {
-        weighted_sum(self.band.data_mut(), terms.map(|a| a.band.data()), weights);
+        self.band.combine(terms.map(|a| &a.band), weights);
         weighted_sum(&mut self.columns, terms.map(|a| &a.columns[..]), weights);
         weighted_sum(&mut self.rows, terms.map(|a| &a.rows[..]), weights);
         weighted_sum(&mut self.corner, terms.map(|a| &a.corner[..]), weights);

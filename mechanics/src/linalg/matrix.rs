@@ -232,7 +232,7 @@ impl<T: Scalar> Storage<T> {
         matches!(self, Storage::Dense(_))
     }
 
-    /// The stored entries, row after row: of a band without its border, but with its zone of fill.
+    /// The stored entries, row after row: of a band without its border, but with room for fill where there is any.
     pub fn entries(&self) -> &[T] {
         match self {
             Storage::Dense(a) => a.data(),
@@ -240,13 +240,24 @@ impl<T: Scalar> Storage<T> {
         }
     }
 
+    /// The rows of [`Storage::entries`].
+    pub fn rows(&self) -> std::slice::ChunksExact<'_, T> {
+        let (width, data) = match self {
+            Storage::Dense(a) => (a.order(), a.data()),
+            Storage::Band(a) => (a.band().width(), a.band().data()),
+        };
+        data.chunks_exact(width.max(1))
+    }
+
     /// The rows of [`Storage::entries`], to be changed.
     pub fn rows_mut(&mut self) -> std::slice::ChunksExactMut<'_, T> {
-        let (width, data) = match self {
-            Storage::Dense(a) => (a.order(), a.data_mut()),
-            Storage::Band(a) => (a.band().width(), a.band_mut().data_mut()),
-        };
-        data.chunks_exact_mut(width.max(1))
+        match self {
+            Storage::Dense(a) => {
+                let order = a.order().max(1);
+                a.data_mut().chunks_exact_mut(order)
+            }
+            Storage::Band(a) => a.band_mut().rows_mut(),
+        }
     }
 }
 

@@ -401,14 +401,12 @@ impl Dynamics for Multibody {
         out.clear();
         for i in 0..self.placed.len() {
             let turned = compose(four(&now.q, 7 * i + 3), inverse(four(&before.q, 7 * i + 3)));
-            out.push_vector(6 * i, matrix(turned));
+            out.push_vectors::<1>(6 * i, matrix(turned));
         }
         for (of, &[q, v]) in constants.model.beams.iter().zip(&constants.beams) {
             for node in 0..of.beam.nodes().len() {
                 let turned = of.rotation(node, &before.q[q..], &now.q[q..]);
-                let at = v + ELEMENT_VELOCITIES * node;
-                out.push_vector(at, turned);
-                out.push_vector(at + 3, turned);
+                out.push_vectors::<2>(v + ELEMENT_VELOCITIES * node, turned);
             }
         }
         for (joint, rows) in constants.model.joints.iter().zip(&constants.of_joint) {
@@ -431,7 +429,7 @@ impl Dynamics for Multibody {
                     constants.model.beams[beam].rotation(node, &before.q[q..], &now.q[q..])
                 }
             };
-            out.push_vector(constants.size.v + rows.start, turned);
+            out.push_vectors::<1>(constants.size.v + rows.start, turned);
         }
     }
 

@@ -18,17 +18,21 @@ struct Pair {
     sin: f64,
 }
 
-/// Three unknowns in a row, from `first` on, and their rotation.
+/// Vectors in a row, three unknowns each, from `first` to `end`, and their rotation.
 #[derive(Clone, Copy, Debug)]
 struct Triple {
-    first: usize,
+    first: u32,
+    end: u32,
     rotation: [[f64; 3]; 3],
 }
 
 impl Corotation {
-    /// No rotations, with memory for those of `n` unknowns.
-    pub fn with_capacity(n: usize) -> Corotation {
-        Corotation { pairs: Vec::with_capacity(n / 2), triples: Vec::with_capacity(n / 3) }
+    /// Removes all rotations, and all memory but that for as many.
+    pub fn emptied(mut self) -> Corotation {
+        self.pairs.shrink_to_fit();
+        self.triples.shrink_to_fit();
+        self.clear();
+        self
     }
 
     /// Removes all rotations.
@@ -43,10 +47,10 @@ impl Corotation {
         self.pairs.push(Pair { unknowns, cos, sin });
     }
 
-    /// Adds the rotation of the vector in space whose components are the unknowns from `first` on.
+    /// Adds the rotation of `N` vectors in space whose components are the unknowns from `first` on.
     #[inline]
-    pub fn push_vector(&mut self, first: usize, rotation: [[f64; 3]; 3]) {
-        self.triples.push(Triple { first, rotation });
+    pub fn push_vectors<const N: usize>(&mut self, first: usize, rotation: [[f64; 3]; 3]) {
+        self.triples.push(Triple { first: first as u32, end: (first + 3 * N) as u32, rotation });
     }
 
     /// x ← R x
@@ -54,8 +58,8 @@ impl Corotation {
         for &Pair { unknowns: [i, j], cos, sin } in &self.pairs {
             (x[i], x[j]) = (x[i].times(cos) - x[j].times(sin), x[i].times(sin) + x[j].times(cos));
         }
-        for Triple { first, rotation } in &self.triples {
-            turn(&mut x[*first..], |i, j| rotation[i][j]);
+        for Triple { first, end, rotation } in &self.triples {
+            turn(&mut x[*first as usize..*end as usize], |i, j| rotation[i][j]);
         }
     }
 
@@ -64,17 +68,17 @@ impl Corotation {
         for &Pair { unknowns: [i, j], cos, sin } in &self.pairs {
             (x[i], x[j]) = (x[i].times(cos) + x[j].times(sin), x[j].times(cos) - x[i].times(sin));
         }
-        for Triple { first, rotation } in &self.triples {
-            turn(&mut x[*first..], |i, j| rotation[j][i]);
+        for Triple { first, end, rotation } in &self.triples {
+            turn(&mut x[*first as usize..*end as usize], |i, j| rotation[j][i]);
         }
     }
 }
 
-/// Multiplies the first three entries by a matrix.
+/// Multiplies every three entries by a matrix.
 #[inline(always)]
 fn turn<T: Scalar>(x: &mut [T], entry: impl Fn(usize, usize) -> f64) {
-    let [a, b, c] = [x[0], x[1], x[2]];
-    for (i, x) in x[..3].iter_mut().enumerate() {
-        *x = a.times(entry(i, 0)) + b.times(entry(i, 1)) + c.times(entry(i, 2));
+    for x in x.as_chunks_mut::<3>().0 {
+        let [a, b, c] = *x;
+        *x = [0, 1, 2].map(|i| a.times(entry(i, 0)) + b.times(entry(i, 1)) + c.times(entry(i, 2)));
     }
 }

@@ -16,6 +16,7 @@ mod paths;
 mod rotating;
 mod single;
 mod statics;
+mod turns;
 
 use flexion::analysis::transient::{Ending, Observer, Plan, Step, transient};
 use flexion::integrator::{Integrator, Radau, Tolerance};

@@ -53,10 +53,10 @@ use super::acceleration::Accelerations;
 use super::rows::Rows;
 use super::{
     Checkpoint, Convergence, Counters, Info, Integrator, InvalidParameter, NotResumed, Progress, Span,
-    StepError, StepReport, Tolerance, failure, hermite,
+    StepError, StepReport, Tolerance, corotation, failure, hermite,
 };
 use crate::linalg::Matrix;
-use crate::system::{Corotation, Dynamics, RowWeights, Side, Size, State};
+use crate::system::{Dynamics, RowWeights, Side, Size, State};
 use work::{Age, Work};
 
 /// Iteration error, relative to the scales of the unknowns, at which Newton's method stops: far below
@@ -437,7 +437,7 @@ impl Integrator for GeneralizedAlpha {
             place: State::zeros(size, state.t),
             start: State::zeros(if stabilized { size } else { Size::default() }, state.t),
             increment: vec![0.0; size.v],
-            corotation: Corotation::with_capacity(size.v),
+            corotation: corotation(system, state),
             age: Age::default(),
             renewals: 0,
             constant: false,

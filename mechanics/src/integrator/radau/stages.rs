@@ -2,7 +2,7 @@
 
 use super::super::acceleration::Accelerations;
 use super::super::rows::Rows;
-use super::super::{Convergence, Counters, Progress, StepError, failure};
+use super::super::{Convergence, Counters, Progress, StepError, corotation, failure};
 use super::coefficients::{A, A_INVERSE, A2, A2_INVERSE, C, E_Q, E_V, LAMBDA, MU, T, T_INVERSE, lagrange};
 use super::tolerance::Tolerance;
 use crate::linalg::Matrix;
@@ -88,8 +88,8 @@ impl Stages {
             mass: Matrix::new(&structure),
             damping: Matrix::new(&structure),
             stiffness: Matrix::new(&structure),
-            corotation: Corotation::with_capacity(n),
-            stage_corotation: [(); 3].map(|()| Corotation::with_capacity(n)),
+            corotation: corotation(system, state),
+            stage_corotation: [(); 3].map(|()| corotation(system, state)),
             real: Matrix::new(&structure),
             complex: Matrix::new(&structure),
             factored_step: f64::NAN,
