@@ -244,22 +244,55 @@ pub(super) fn modes_near(
                 None => elastic_frequency(&all, multipliers, count.min(there))?,
             };
             rigid = RIGID * lowest;
-            Pencil::new(all, multipliers, 0.3 * lowest)?
+            Pencil::new(all.clone(), multipliers, 0.3 * lowest)?
         }
     };
     // A rigid motion that neither moves nor stops is an eigenvalue twice: as a place and as a speed.
     let asked = if rigid > 0.0 { (count + RIGID_MOTIONS).min(there) } else { count };
     let pairs = pencil.pairs(asked, near)?;
-    let mut modes: Vec<Mode> = Vec::with_capacity(count);
+    let mut modes = Vec::with_capacity(count);
+    let mut refused = accept(&mut modes, pairs, count, &pencil, system, state, rigid).err();
+    // Q(σ)⁻¹ magnifies the rounding of far softer modes. From a shift at the last of these it does not.
+    while let (Some(_), Some(shift)) = (&refused, modes.last().map(Mode::frequency))
+        && shift > 2.0 * pencil.shift()
+    {
+        pencil = Pencil::new(all.clone(), multipliers, shift)?;
+        modes.clear();
+        let pairs = pencil.pairs(asked, &[])?;
+        refused = accept(&mut modes, pairs, count, &pencil, system, state, rigid).err();
+    }
+    if let Some(refused) = refused {
+        return Err(refused);
+    }
+    let counted = complete(&pencil, &modes)?;
+    modes.iter_mut().for_each(|mode| mode.vector.truncate(size.v));
+    correct(system, state, &pencil, &mut modes);
     let scale: Vec<f64> = system.scales().to_vec();
-    let corrected = pencil.kind() != Kind::General && corrects;
+    for mode in &mut modes {
+        describe(mode, system, state, &scale, stations);
+    }
+    Ok(Modes { modes, kind: pencil.kind(), counted, solutions: pencil.solutions() })
+}
+
+/// Appends the first `count` modes of the pairs, up to the first whose residual is too large.
+fn accept(
+    modes: &mut Vec<Mode>,
+    pairs: Vec<Pair>,
+    count: usize,
+    pencil: &Pencil,
+    system: &mut dyn System,
+    state: &State,
+    rigid: f64,
+) -> Result<(), NoModes> {
+    let corrected = pencil.kind() != Kind::General && system.stiffness_forms(state, &[]).is_some();
     let residual = if corrected { CORRECTED } else { RESIDUAL };
+    let scale: Vec<f64> = system.scales().to_vec();
     for pair in pairs {
         let number = modes.len() + 1;
         if number > count {
             break;
         }
-        let mut mode = mode(system, state, &pencil, pair, &scale, rigid);
+        let mut mode = mode(system, state, pencil, pair, &scale, rigid);
         let again = |m: &Mode| m.eigenvalue == Complex64::ZERO && parallel(&m.vector, &mode.vector);
         if mode.eigenvalue == Complex64::ZERO {
             // A defective rigid motion is known to half the digits.
@@ -279,13 +312,7 @@ pub(super) fn modes_near(
         }
         modes.push(mode);
     }
-    let counted = complete(&pencil, &modes)?;
-    modes.iter_mut().for_each(|mode| mode.vector.truncate(size.v));
-    correct(system, state, &pencil, &mut modes);
-    for mode in &mut modes {
-        describe(mode, system, state, &scale, stations);
-    }
-    Ok(Modes { modes, kind: pencil.kind(), counted, solutions: pencil.solutions() })
+    Ok(())
 }
 
 /// The number of modes, if it can be counted.
