@@ -120,6 +120,35 @@ fn blade(elements: usize, precone: f64) -> Blade {
 }
 
 #[test]
+fn a_torsional_mode_has_the_shape_of_the_torsion() {
+    let section = BladeResultants {
+        mass: 1.0,
+        axial_stiffness: 1e6,
+        flap_stiffness: 1.0,
+        chord_stiffness: 4.0,
+        torsional_stiffness: 0.5,
+        flap_inertia: 1e-3,
+        chord_inertia: 4e-3,
+        ..BladeResultants::default()
+    };
+    let setting = Setting { length: 2.0, ..Setting::default() };
+    let mut blade = Blade::new(setting, &section, Model { torsion: true, ..Model::default() }, 24).unwrap();
+    let stations: Vec<f64> = (0..=20).map(|i| 0.1 * f64::from(i)).collect();
+    let initial = blade.initial();
+    let found = modes(&mut blade, &initial, 10, &stations).unwrap();
+    let torsional: Vec<&Mode> = found.modes.iter().filter(|m| m.shares.torsion > 0.999).collect();
+    assert!(!torsional.is_empty());
+    for (number, mode) in torsional.iter().enumerate() {
+        assert_eq!(mode.nodes, number);
+        for (x, u) in stations.iter().zip(&mode.shape.movement) {
+            let expected = ((f64::from(number as u8) + 0.5) * std::f64::consts::PI * x / 2.0).sin();
+            assert!((u[3].norm() - expected.abs()).abs() < 1e-3, "{x}: {u:?} for {expected}");
+            assert!(u[..3].iter().all(|u| u.norm() < 1e-6), "{x}: {u:?}");
+        }
+    }
+}
+
+#[test]
 fn a_tip_mass_that_is_huge_leaves_the_modes_of_a_beam_clamped_and_pinned() {
     // A million times as heavy as the beam: the tip alone moves at √(3EI/m) and √(EA/m), and stands in the others.
     let tip = Tip { mass: 1e6, inertia: 0.0 };
