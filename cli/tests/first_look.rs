@@ -125,7 +125,7 @@ fn a_wide_veering_is_one_whatever_the_speeds() {
 fn a_range_of_speeds_has_one_unit_and_a_crossing_that_few_speeds_miss_is_shown() {
     let folder = folder(VEERING);
     let table = |speeds: &str| {
-        let arguments = ["campbell", "case.toml", "--speeds", speeds, "--modes", "2"];
+        let arguments = ["campbell", "case.toml", "--speeds", speeds, "--modes", "2", "-o", "out", "--force"];
         let (code, out, said) = flexion(folder.path(), &arguments);
         assert_eq!(code, Some(0), "{said}");
         out
@@ -141,6 +141,9 @@ fn a_range_of_speeds_has_one_unit_and_a_crossing_that_few_speeds_miss_is_shown()
 fn statics_without_a_load_are_refused() {
     let folder = folder(RUN);
     let (code, _, said) = flexion(folder.path(), &["statics", "case.toml"]);
+    assert!(code == Some(1) && said.starts_with("error: hub:"), "{said}");
+    let still = ["statics", "case.toml", "--set", "hub.motion.speed=0"];
+    let (code, _, said) = flexion(folder.path(), &still);
     assert!(code == Some(1) && said.contains("no load moves the system"), "{said}");
 }
 
