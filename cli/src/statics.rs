@@ -73,6 +73,12 @@ fn followed(arguments: &Arguments, reading: &Reading) -> Result<bool, String> {
         directory.discard();
         problems.render(screen::colour())
     })?;
+    if path.end.is_none() && path.points.iter().all(|point| point.values == path.points[0].values) {
+        directory.discard();
+        return Err("no load moves the system: those of t = 0 are zero, or there are none; give it a force, a couple, a \
+                    distributed load or gravity"
+            .to_owned());
+    }
     screen::print(&described(&path));
     let mut cautions = Vec::new();
     if let Some(last) =

@@ -88,7 +88,7 @@ impl<'a> Recorder<'a> {
                 &format!("share B²/ΣB² of the transverse mode {k}"),
             );
         }
-        let passing = Passing::new(system, state, plan.end - state.t, !events.is_empty());
+        let passing = Passing::new(system, state, plan.end - state.t);
         let mut trajectory = Trajectory::new(channels);
         trajectory.reserve((plan.end / plan.sample).min(1e7) as usize + 2);
         Recorder {
@@ -110,6 +110,12 @@ impl<'a> Recorder<'a> {
     /// The recorder, taking shapes and the motion in space too.
     pub fn with_shapes(self, shapes: Option<Shapes>, scene: Scene) -> Recorder<'a> {
         Recorder { shapes, scene, ..self }
+    }
+
+    /// The recorder, for a method in whose steps velocities may jump: no curve is drawn through their ends.
+    pub fn with_jumps_in_steps(mut self, jumps: bool) -> Recorder<'a> {
+        self.passing.rough = jumps && !self.events.is_empty();
+        self
     }
 
     /// What the reader should know of the steps: the run has gained energy that nothing has put in, its energy balance does
