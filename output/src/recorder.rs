@@ -124,9 +124,14 @@ impl<'a> Recorder<'a> {
         let mut warnings = Vec::new();
         let imbalance = relative_imbalance(&self.trajectory).filter(|imbalance| *imbalance > IMBALANCE);
         if let Some(excess) = self.gain {
+            let advice = if self.fixed {
+                "use a smaller step or the adaptive method `radau`"
+            } else {
+                "use a tighter tolerance"
+            };
             warnings.push(format!(
                 "the energy has grown by {excess:.3e} J more than drives and loads have put in: the steps are too large for \
-                 this method, and the motion is not to be trusted; use a smaller step or the adaptive method `radau`"
+                 this method, and the motion is not to be trusted; {advice}"
             ));
         } else if let Some(imbalance) = imbalance {
             warnings.push(format!(
