@@ -13,6 +13,7 @@ use super::kinds::section::{SECTION, Section};
 use super::values::Values;
 use flexion::hub_beam::{Damping, Drive, Hub};
 use flexion::profile::{Constant, Motion};
+use flexion::section::Resultants;
 use std::sync::Arc;
 
 /// A beam on a hub, in the plane of its rotation or as a blade.
@@ -38,8 +39,11 @@ pub struct HubBeam {
     pub damping: Damping,
 }
 
-/// Speed √(EA/ρA) of waves of stretch below which there is a caution; in soft rubber it is 30 m/s \[m/s\].
+/// Speeds √(EA/ρA) of waves of stretch beyond which there is a caution; in soft rubber it is 30 m/s, in diamond 18 000 m/s \[m/s\].
 const SLOWEST: f64 = 10.0;
+const FASTEST: f64 = 30_000.0;
+/// Slenderness L√(EA/EI) below which there is a caution: shear then bends a beam as much as its curvature does.
+const THICKEST: f64 = 5.0;
 
 /// Makes the beam of the values of its case, for a method of integration.
 pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made<HubBeam> {
@@ -47,15 +51,9 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     let coupling = found.part(model(v, &COUPLING, c));
     let section = found.part(SECTION.make(v, "section", c));
     if let Some(section) = &section {
-        let r = section.planar.resultants(0.0);
-        let speed = (r.axial_stiffness / r.mass).sqrt();
-        if speed < SLOWEST {
-            c.cautions.borrow_mut().push(format!(
-                "the stiffness of the section, EA = {:.3e} N and EI = {:.3e} N·m², lets waves of stretch run at {speed:.2} m/s \
-                 (steel: 5000 m/s): is a unit missing?",
-                r.axial_stiffness, r.bending_stiffness
-            ));
-        }
+        // Stiffnesses that are given as such may stand for a beam that does not stretch.
+        let fastest = if v.kind("section") == Some("resultants") { f64::INFINITY } else { FASTEST };
+        implausible(section.planar.resultants(0.0), fastest, c);
     }
     let hub = found.part(hub(v, c));
     let loads = loads(v, c, &mut found);
@@ -109,6 +107,25 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     match parts() {
         Some(beam) if found.0.0.is_empty() => Ok(beam),
         _ => Err(found.0),
+    }
+}
+
+/// Cautions for a section at the root that no material or no slender beam has.
+fn implausible(r: Resultants, fastest: f64, c: &Context<'_>) {
+    let speed = (r.axial_stiffness / r.mass).sqrt();
+    if !(SLOWEST..=fastest).contains(&speed) {
+        c.cautions.borrow_mut().push(format!(
+            "the stiffness of the section, EA = {:.3e} N and EI = {:.3e} N·m², lets waves of stretch run at {speed:.2} m/s \
+             (steel: 5000 m/s): is a unit missing or wrong?",
+            r.axial_stiffness, r.bending_stiffness
+        ));
+    }
+    let radius = (r.bending_stiffness / r.axial_stiffness).sqrt();
+    if let Some(length) = c.length.filter(|length| *length < THICKEST * radius) {
+        c.cautions.borrow_mut().push(format!(
+            "the radius of gyration of the section is {radius:.3} m on a beam of {length} m: the theory is for slender beams; is a \
+             unit missing or wrong?"
+        ));
     }
 }
 

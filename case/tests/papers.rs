@@ -252,7 +252,7 @@ fn integrate_system(reading: &Reading, system: &mut dyn System, integrator: &mut
         _ => None,
     };
     let (events, steps) = (flexion_results::Events::default(), integrator.counters().steps);
-    Run { failure, end: state.t, trajectory: record.0, events, steps }
+    Run { failure, warnings: Vec::new(), end: state.t, trajectory: record.0, events, steps }
 }
 
 struct Record(Trajectory);

@@ -260,3 +260,19 @@ fn friction_in_space_acts_against_the_velocity() {
     let text = problems.to_string();
     assert!(text.contains("friction") && text.contains("moreau-jean"), "{text}");
 }
+
+/// Between the steps of a run with contacts too: the steps of a ball in flight are as long as the run allows, 1 + v²/2g.
+#[test]
+fn the_top_of_a_flight_between_steps_is_found() {
+    let run = run("gravity = [0, 0, \"-9.81 m/s^2\"]\n\
+        body = [{ name = \"ball\", mass = 1, inertia = { kind = \"sphere\", radius = 0.1 }, position = [0, 0, 1], \
+        velocity = [0, 0, 3] }]\n\
+        contact = [{ on = \"ball\", obstacle = { kind = \"plane\", point = [0, 0, 0] }, \
+        law = { kind = \"constraint\", restitution = 0.5 } }]\n\
+        integrator = { kind = \"radau\", tolerance = 1e-8, max-step = 0.2 }\n\
+        run = { duration = \"2 s\" }\n\
+        output = { step = \"1 s\" }\n");
+    let top = run.trajectory.extremes(run.trajectory.index("ball.position.z").unwrap());
+    assert!((top.max - 1.0 - 9.0 / 19.62).abs() < 1e-9, "{top:?}");
+    assert!((top.t_max - 3.0 / 9.81).abs() < 1e-9, "{top:?}");
+}

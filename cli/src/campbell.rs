@@ -2,7 +2,7 @@
 
 use crate::vibration::{self, Options, Speed, report, speed, stations};
 use crate::{Outcome, case, screen};
-use flexion::analysis::campbell::{Branch, Campbell, Instability, NoCampbell, Plan};
+use flexion::analysis::campbell::{Branch, Campbell, Crossing, Instability, NoCampbell, Plan};
 use flexion_case::Reading;
 use flexion_results::{Artifact, Directory, Frequencies, Resonance, Units, resonances, write_campbell};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -77,11 +77,18 @@ fn margin(text: &str) -> Result<f64, String> {
 
 fn range(text: &str) -> Result<Range, String> {
     let parts: Vec<&str> = text.split(':').collect();
+    // The unit of the first is that of the last too, where that has none.
+    let last = |from: &str, to: &str| match to.trim().parse::<f64>() {
+        Ok(_) => {
+            speed(&format!("{to}{}", from.trim().trim_start_matches(|c: char| "0123456789.+-eE".contains(c))))
+        }
+        Err(_) => speed(to),
+    };
     let (from, to, count) = match parts[..] {
-        [from, to] => (speed(from)?, speed(to)?, 51),
+        [from, to] => (speed(from)?, last(from, to)?, 51),
         [from, to, count] => {
             let whole = count.trim().parse::<usize>();
-            (speed(from)?, speed(to)?, whole.map_err(|_| format!("`{count}` is no number of speeds"))?)
+            (speed(from)?, last(from, to)?, whole.map_err(|_| format!("`{count}` is no number of speeds"))?)
         }
         _ => return Err("write FROM:TO:NUMBER, e.g. 0:50:100".to_owned()),
     };
@@ -247,15 +254,23 @@ fn described(diagram: &Campbell, near: &[Resonance], margin: f64, units: &Units)
         let head = ["mode", "", "", "crossing", "from", "to"];
         let mut rows = vec![head.map(str::to_owned).to_vec()];
         let text = |speed: f64| units.speed.text(speed);
+        let mut row = |branch: usize, revolutions: u32, crossings: &[String], ends: [String; 2]| {
+            let moves = moves.get(branch).copied().unwrap_or_default();
+            let (mode, line) = (format!("{}", branch + 1), format!("{revolutions}Ω"));
+            let [from, to] = ends;
+            rows.push(vec![mode, moves.to_owned(), line, crossings.join(", "), from, to]);
+        };
+        let lies = |c: &Crossing, r: &Resonance| {
+            (c.branch, c.revolutions) == (r.branch, r.revolutions) && (r.from..=r.to).contains(&c.speed)
+        };
         for r in near {
-            let crosses = diagram.crossings.iter().filter(|c| {
-                (c.branch, c.revolutions) == (r.branch, r.revolutions) && (r.from..=r.to).contains(&c.speed)
-            });
+            let crosses = diagram.crossings.iter().filter(|c| lies(c, r));
             let crossings: Vec<String> = crosses.map(|c| text(c.speed)).collect();
-            let moves = moves.get(r.branch).copied().unwrap_or_default();
-            let mode = format!("{}", r.branch + 1);
-            let line = format!("{}Ω", r.revolutions);
-            rows.push(vec![mode, moves.to_owned(), line, crossings.join(", "), text(r.from), text(r.to)]);
+            row(r.branch, r.revolutions, &crossings, [text(r.from), text(r.to)]);
+        }
+        // A crossing is computed, and a range lies between speeds of the diagram: few speeds may miss it.
+        for c in diagram.crossings.iter().filter(|c| !near.iter().any(|r| lies(c, r))) {
+            row(c.branch, c.revolutions, &[text(c.speed)], ["-".to_owned(), "-".to_owned()]);
         }
         out.push_str(&screen::table(&rows));
     }

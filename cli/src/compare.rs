@@ -46,7 +46,7 @@ pub struct Arguments {
 /// Most primary columns that are drawn when none are asked for.
 const USUAL: usize = 2;
 /// Most columns that are drawn.
-const MOST_DRAWN: usize = 6;
+const MOST_DRAWN: usize = 12;
 
 fn tolerance(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
@@ -165,12 +165,16 @@ fn fill(
     }
     let drawn: Vec<&str> = drawn.into_iter().map(|c| c.name.as_str()).collect();
     let mut warning = String::new();
+    if !arguments.columns.is_empty() && drawn.len() < compared.len() {
+        warning =
+            format!("warning: the figure shows the first {} of {} columns\n", drawn.len(), compared.len());
+    }
     let drawing = difference_figure(results, comparisons, &drawn, None).draw();
     directory.write(Artifact::CompareCsv, |f| compare_csv(comparisons, f))?;
     directory.write(Artifact::CompareSvg, |f| f.write_all(drawing.svg().as_bytes()))?;
     match drawing.png() {
         Ok(png) => directory.write(Artifact::ComparePng, |f| f.write_all(&png))?,
-        Err(error) => warning = format!("warning: {error}\n"),
+        Err(error) => warning.push_str(&format!("warning: {error}\n")),
     }
     let json = compare_json(comparisons, arguments.tolerance);
     directory.write(Artifact::CompareJson, |f| f.write_all(json.as_bytes()))?;

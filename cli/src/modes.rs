@@ -35,7 +35,7 @@ pub struct Arguments {
     #[command(flatten)]
     case: case::Selection,
     /// Speed of rotation, a number of the unit or with a unit of its own: '12.1 rpm'
-    #[arg(long, value_name = "SPEED", default_value = "0", value_parser = vibration::speed, allow_negative_numbers = true)]
+    #[arg(long, value_name = "SPEED", default_value = "0", value_parser = vibration::speed, allow_hyphen_values = true)]
     speed: Speed,
     /// Number of modes, the lowest
     #[arg(long, value_name = "N", default_value = "10", value_parser = vibration::count)]

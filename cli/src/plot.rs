@@ -11,7 +11,8 @@ use std::path::PathBuf;
 #[command(after_help = "Examples:
   flexion plot results/p1_spin_up_4 --columns 'tip.*' --output tip.svg
   flexion plot results/first results/exact --columns tip.deflection,hub.torque --title \"Two couplings\" -o couplings.pdf
-  flexion plot results/p1_spin_up_4 --columns tip.deflection --xlim 14:20 --ylim -0.01:0.01 -o end.png")]
+  flexion plot results/p1_spin_up_4 --columns tip.deflection --xlim 14:20 --ylim -0.01:0.01 -o end.png
+  flexion plot results/p1_spin_up_4 --width 85 -o column.pdf")]
 pub struct Arguments {
     /// Directories of results, or CSV files whose first column is `time [s]`
     #[arg(value_name = "RESULT", required = true)]
@@ -31,6 +32,9 @@ pub struct Arguments {
     /// Range of the values shown in every panel, in the unit of its column, e.g. -0.5:0.1
     #[arg(long, value_name = "FROM:TO", value_parser = range, allow_hyphen_values = true)]
     ylim: Option<(f64, f64)>,
+    /// Width of the figure in mm, e.g. 85 for a column of a journal; panels stand below each other where it is narrow
+    #[arg(long, value_name = "MM", value_parser = width)]
+    width: Option<f64>,
     /// Values on logarithmic axes; those that are not positive are left out
     #[arg(long)]
     log: bool,
@@ -41,6 +45,9 @@ pub struct Arguments {
 
 /// Most columns of several runs when none are asked for.
 const USUAL: usize = 4;
+/// Widths of a figure [mm].
+const NARROWEST: f64 = 50.0;
+const WIDEST: f64 = 1000.0;
 /// Most panels of a figure.
 const MOST: usize = 24;
 
@@ -49,6 +56,13 @@ fn range(text: &str) -> Result<(f64, f64), String> {
     match ends {
         Some((Ok(from), Ok(to))) if from < to && (to - from).is_finite() => Ok((from, to)),
         _ => Err("write FROM:TO, two ascending numbers, e.g. 0:2.5".to_owned()),
+    }
+}
+
+fn width(text: &str) -> Result<f64, String> {
+    match text.trim().trim_end_matches("mm").trim().parse::<f64>() {
+        Ok(width) if (NARROWEST..=WIDEST).contains(&width) => Ok(width),
+        _ => Err(format!("it is a number of mm from {NARROWEST} to {WIDEST}, e.g. 85")),
     }
 }
 
@@ -86,7 +100,14 @@ fn plotted(arguments: &Arguments) -> Result<(), String> {
             return Err(format!("there are no records from {from} to {to} s"));
         }
     }
+    if arguments.log && arguments.ylim.is_some_and(|(from, _)| from <= 0.0) {
+        return Err(
+            "a logarithmic axis has positive limits: give --ylim without --log, or from a number above 0"
+                .to_owned(),
+        );
+    }
     let mut figure = figure(&results, arguments)?;
+    let cautions = left_out(&figure, arguments, results.len());
     for panel in &mut figure.panels {
         panel.x.range = arguments.xlim.or(panel.x.range);
         panel.y.range = arguments.ylim.or(panel.y.range);
@@ -94,7 +115,7 @@ fn plotted(arguments: &Arguments) -> Result<(), String> {
             panel.y.scale = Scale::Logarithmic;
         }
     }
-    let drawing = figure.draw();
+    let drawing = arguments.width.map_or_else(|| figure.draw(), |width| figure.draw_in(width));
     let bytes = match extension {
         "png" => drawing.png(),
         "pdf" => drawing.pdf(),
@@ -102,10 +123,27 @@ fn plotted(arguments: &Arguments) -> Result<(), String> {
     };
     let bytes = bytes.map_err(|error| error.to_string())?;
     write_file(&arguments.output, &bytes).map_err(|error| error.to_string())?;
-    for caution in results.iter().filter_map(|results| results.caution.as_ref()) {
+    for caution in results.iter().filter_map(|results| results.caution.as_ref()).chain(&cautions) {
         screen::report(&format!("warning: {caution}\n"));
     }
     Ok(())
+}
+
+/// What was asked for and is not in the figure.
+fn left_out(figure: &Figure, arguments: &Arguments, runs: usize) -> Vec<String> {
+    let mut cautions = Vec::new();
+    for panel in &figure.panels {
+        let quantity = &panel.y.quantity;
+        if !arguments.columns.is_empty() && panel.series.len() < runs {
+            cautions.push(format!("{quantity} was recorded in {} of the {runs} runs", panel.series.len()));
+        }
+        let positive = panel.series.iter().flat_map(|series| &series.points).any(|point| point.1 > 0.0);
+        if arguments.log && !positive {
+            cautions
+                .push(format!("{quantity} has no positive value, and none is shown on its logarithmic axis"));
+        }
+    }
+    cautions
 }
 
 fn figure(results: &[Results], arguments: &Arguments) -> Result<Figure, String> {

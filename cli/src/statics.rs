@@ -3,7 +3,7 @@
 use crate::vibration::{report, title};
 use crate::{Outcome, case, screen};
 use flexion::analysis::path::Plan;
-use flexion_case::Reading;
+use flexion_case::{Problems, Reading};
 use flexion_results::{Artifact, Directory, LoadPath, write_statics};
 use std::path::{Path, PathBuf};
 
@@ -52,27 +52,44 @@ pub fn statics(arguments: &Arguments) -> Outcome {
     match followed(arguments, &reading) {
         Ok(true) => Outcome::Finished,
         Ok(false) => Outcome::Incomplete,
-        Err(message) => {
+        Err(Refused::Case(problems)) => {
+            screen::report(&problems.render(screen::colour()));
+            Outcome::Rejected
+        }
+        Err(Refused::Request(message)) => {
             report(&message);
             Outcome::Rejected
         }
     }
 }
 
+/// Why there is no path.
+enum Refused {
+    Request(String),
+    Case(Problems),
+}
+
 /// Whether the path is whole, and written.
-fn followed(arguments: &Arguments, reading: &Reading) -> Result<bool, String> {
+fn followed(arguments: &Arguments, reading: &Reading) -> Result<bool, Refused> {
     let named = format!("{}-statics", arguments.case.name());
     let output = arguments.output.clone().unwrap_or_else(|| Path::new("results").join(named));
     if reading.case.hub_beam().is_some_and(|beam| beam.blade.is_some()) {
-        return Err("statics are those of a beam, but the case has a [blade]: leave it out".to_owned());
+        let message = "statics are those of a beam, but the case has a [blade]: leave it out";
+        return Err(Refused::Request(message.to_owned()));
     }
     let plan = Plan { points: arguments.points as usize, longest: arguments.step, ..Plan::to(arguments.to) };
     let directory = Directory::create_for(Artifact::STATICS, &output, arguments.force)
-        .map_err(|error| error.to_string())?;
+        .map_err(|error| Refused::Request(error.to_string()))?;
     let path = reading.load_path(&plan, |_, _| true).map_err(|problems| {
         directory.discard();
-        problems.render(screen::colour())
+        Refused::Case(problems)
     })?;
+    if path.end.is_none() && path.points.iter().all(|point| point.values == path.points[0].values) {
+        directory.discard();
+        let message = "no load moves the system: those of t = 0 are zero, or there are none; give it a force, a couple, a \
+                       distributed load or gravity";
+        return Err(Refused::Request(message.to_owned()));
+    }
     screen::print(&described(&path));
     let mut cautions = Vec::new();
     if let Some(last) =

@@ -122,6 +122,32 @@ fn a_wide_veering_is_one_whatever_the_speeds() {
 }
 
 #[test]
+fn a_range_of_speeds_has_one_unit_and_a_crossing_that_few_speeds_miss_is_shown() {
+    let folder = folder(VEERING);
+    let table = |speeds: &str| {
+        let arguments = ["campbell", "case.toml", "--speeds", speeds, "--modes", "2", "-o", "out", "--force"];
+        let (code, out, said) = flexion(folder.path(), &arguments);
+        assert_eq!(code, Some(0), "{said}");
+        out
+    };
+    assert_eq!(table("0 rpm:40:3"), table("0:40 rpm:3"));
+    let rows = table("0 rpm:400:3");
+    let crossings: Vec<&str> =
+        rows.lines().filter(|line| line.contains("Ω ") && line.contains("rpm")).collect();
+    assert!(!crossings.is_empty() && rows.contains("crossing"), "{rows}");
+}
+
+#[test]
+fn statics_without_a_load_are_refused() {
+    let folder = folder(RUN);
+    let (code, _, said) = flexion(folder.path(), &["statics", "case.toml"]);
+    assert!(code == Some(1) && said.starts_with("error: hub:"), "{said}");
+    let still = ["statics", "case.toml", "--set", "hub.motion.speed=0"];
+    let (code, _, said) = flexion(folder.path(), &still);
+    assert!(code == Some(1) && said.contains("no load moves the system"), "{said}");
+}
+
+#[test]
 fn a_mesh_that_is_too_coarse_for_a_frequency_is_named() {
     let straight = VEERING.replace("twist = \"30 deg\"\n", "");
     let folder = folder(&straight);

@@ -5,7 +5,7 @@
 use flexion::analysis::modes::{Mode, Modes, modes};
 use flexion::analysis::rotation::{NoRotation, rotate_stably};
 use flexion::basis::{Basis, Field, Hermite, Lagrange};
-use flexion::blade::{Blade, Model, Setting, StrainEnergy, Terms};
+use flexion::blade::{Blade, Model, Setting, StrainEnergy, Terms, Tip};
 use flexion::drive::Actuator;
 use flexion::hub_beam::{
     Damping, Drive, ExactCoupling, Fields, Foreshortening, FreeHub, HighCoupling, Hub, HubBeam,
@@ -117,6 +117,61 @@ fn blade(elements: usize, precone: f64) -> Blade {
     let setting = Setting { length: 1.0, hub_radius: 0.1, precone, ..Setting::default() };
     let model = Model { rotary_inertia: false, ..Model::default() };
     Blade::new(setting, &resultants, model, elements).unwrap()
+}
+
+#[test]
+fn a_torsional_mode_has_the_shape_of_the_torsion() {
+    let section = BladeResultants {
+        mass: 1.0,
+        axial_stiffness: 1e6,
+        flap_stiffness: 1.0,
+        chord_stiffness: 4.0,
+        torsional_stiffness: 0.5,
+        flap_inertia: 1e-3,
+        chord_inertia: 4e-3,
+        ..BladeResultants::default()
+    };
+    let setting = Setting { length: 2.0, ..Setting::default() };
+    let mut blade = Blade::new(setting, &section, Model { torsion: true, ..Model::default() }, 24).unwrap();
+    let stations: Vec<f64> = (0..=20).map(|i| 0.1 * f64::from(i)).collect();
+    let initial = blade.initial();
+    let found = modes(&mut blade, &initial, 10, &stations).unwrap();
+    let torsional: Vec<&Mode> = found.modes.iter().filter(|m| m.shares.torsion > 0.999).collect();
+    assert!(!torsional.is_empty());
+    for (number, mode) in torsional.iter().enumerate() {
+        assert_eq!(mode.nodes, number);
+        for (x, u) in stations.iter().zip(&mode.shape.movement) {
+            let expected = ((f64::from(number as u8) + 0.5) * std::f64::consts::PI * x / 2.0).sin();
+            assert!((u[3].norm() - expected.abs()).abs() < 1e-3, "{x}: {u:?} for {expected}");
+            assert!(u[..3].iter().all(|u| u.norm() < 1e-6), "{x}: {u:?}");
+        }
+    }
+}
+
+#[test]
+fn a_tip_mass_that_is_huge_leaves_the_modes_of_a_beam_clamped_and_pinned() {
+    // A million times as heavy as the beam: the tip alone moves at √(3EI/m) and √(EA/m), and stands in the others.
+    let tip = Tip { mass: 1e6, inertia: 0.0 };
+    let setting = Setting { length: 1.0, tip, ..Setting::default() };
+    let section = BladeResultants {
+        mass: 1.0,
+        axial_stiffness: 1e6,
+        flap_stiffness: 1.0,
+        chord_stiffness: 1.0,
+        ..BladeResultants::default()
+    };
+    let model = Model { rotary_inertia: false, torsion: false, ..Model::default() };
+    for elements in [12, 80] {
+        let mut blade = Blade::new(setting, &section, model, elements).unwrap();
+        let found = at(&mut blade, 0.0, 8);
+        let tan_is_tanh: [f64; 2] = [3.926602312, 7.068582746];
+        let bending = tan_is_tanh.map(|z| z * z);
+        let expected =
+            [3e-6_f64.sqrt(), 3e-6_f64.sqrt(), 1.0, bending[0], bending[0], bending[1], bending[1]];
+        for (found, expected) in frequencies(&found).iter().zip(expected) {
+            assert!((found / expected - 1.0).abs() < 2e-4, "{elements} elements: {found} for {expected}");
+        }
+    }
 }
 
 #[test]

@@ -14,7 +14,7 @@ pub enum OutputError {
     },
     /// The directory holds the results of a former run.
     #[error(
-        "{} already holds the results of a run (summary.json); choose another output directory or replace them with --force",
+        "{} already holds results; choose another output directory or replace them with --force",
         path.display()
     )]
     HoldsResults {

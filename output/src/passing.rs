@@ -15,22 +15,22 @@ pub(super) struct Passing {
     /// The last three rows with their times, and how many of them belong to one smooth motion.
     rows: [(f64, Vec<f64>); 3],
     count: usize,
-    /// Whether velocities may jump at any step.
-    rough: bool,
+    /// Whether velocities may jump in any step.
+    pub(super) rough: bool,
     last: State,
     /// Σ |Δv|² h² and Σ |Δq|² over the steps.
     sums: [f64; 2],
 }
 
 impl Passing {
-    pub(super) fn new(system: &dyn System, state: &State, span: f64, rough: bool) -> Passing {
+    pub(super) fn new(system: &dyn System, state: &State, span: f64) -> Passing {
         let row = || (state.t, vec![0.0; system.channels().len()]);
         Passing {
             interval: span / MOST,
             next: f64::NEG_INFINITY,
             rows: [row(), row(), row()],
             count: 0,
-            rough,
+            rough: false,
             last: state.clone(),
             sums: [0.0; 2],
         }

@@ -88,7 +88,7 @@ impl<'a> Recorder<'a> {
                 &format!("share B²/ΣB² of the transverse mode {k}"),
             );
         }
-        let passing = Passing::new(system, state, plan.end - state.t, !events.is_empty());
+        let passing = Passing::new(system, state, plan.end - state.t);
         let mut trajectory = Trajectory::new(channels);
         trajectory.reserve((plan.end / plan.sample).min(1e7) as usize + 2);
         Recorder {
@@ -112,15 +112,26 @@ impl<'a> Recorder<'a> {
         Recorder { shapes, scene, ..self }
     }
 
+    /// The recorder, for a method in whose steps velocities may jump: no curve is drawn through their ends.
+    pub fn with_jumps_in_steps(mut self, jumps: bool) -> Recorder<'a> {
+        self.passing.rough = jumps && !self.events.is_empty();
+        self
+    }
+
     /// What the reader should know of the steps: the run has gained energy that nothing has put in, its energy balance does
     /// not close, or fixed steps do not resolve its vibrations.
     pub fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
         let imbalance = relative_imbalance(&self.trajectory).filter(|imbalance| *imbalance > IMBALANCE);
         if let Some(excess) = self.gain {
+            let advice = if self.fixed {
+                "use a smaller step or the adaptive method `radau`"
+            } else {
+                "use a tighter tolerance"
+            };
             warnings.push(format!(
                 "the energy has grown by {excess:.3e} J more than drives and loads have put in: the steps are too large for \
-                 this method, and the motion is not to be trusted; use a smaller step or the adaptive method `radau`"
+                 this method, and the motion is not to be trusted; {advice}"
             ));
         } else if let Some(imbalance) = imbalance {
             warnings.push(format!(

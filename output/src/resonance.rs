@@ -16,7 +16,7 @@ pub struct Resonance {
 }
 
 /// The ranges of speeds in which |ω − k Ω| ≤ `margin` · k Ω, for k from 1 to `revolutions`; between the speeds of the
-/// diagram ω is linear.
+/// diagram ω² is linear in Ω², as of a stiffness that grows with the centrifugal force.
 pub fn resonances(campbell: &Campbell, revolutions: u32, margin: f64) -> Vec<Resonance> {
     let mut out: Vec<Resonance> = Vec::new();
     for (branch, b) in campbell.branches.iter().enumerate() {
@@ -38,12 +38,13 @@ pub fn resonances(campbell: &Campbell, revolutions: u32, margin: f64) -> Vec<Res
     out
 }
 
-/// The part of the straight line between two points that lies between (1 ± `margin`) k Ω.
+/// The speeds between two points at which ω lies between (1 ± `margin`) k Ω, with ω² linear in Ω² ≥ 0.
 fn near(a: &Point, b: &Point, k: f64, margin: f64) -> Option<(f64, f64)> {
     // What has to be positive, at both points.
     let inside = |p: &Point| {
-        let (frequency, line) = (p.mode.frequency(), k * p.speed);
-        [frequency - (1.0 - margin) * line, (1.0 + margin) * line - frequency]
+        let square = |x: f64| x * x;
+        let (frequency, line) = (square(p.mode.frequency()), square(k * p.speed));
+        [frequency - square(1.0 - margin) * line, square(1.0 + margin) * line - frequency]
     };
     let (mut from, mut to) = (0.0_f64, 1.0_f64);
     for (first, last) in inside(a).into_iter().zip(inside(b)) {
@@ -55,7 +56,12 @@ fn near(a: &Point, b: &Point, k: f64, margin: f64) -> Option<(f64, f64)> {
             (false, false) => return None,
         }
     }
-    let at = |t: f64| if t == 1.0 { b.speed } else { a.speed + t * (b.speed - a.speed) };
+    let [first, last] = [a.speed * a.speed, b.speed * b.speed];
+    let at = |t: f64| match t {
+        0.0 => a.speed,
+        1.0 => b.speed,
+        _ => (first + t * (last - first)).sqrt(),
+    };
     (from < to).then(|| (at(from), at(to)))
 }
 
@@ -75,7 +81,7 @@ mod tests {
             rounding: 0.0,
             mesh: None,
             shares: Shares::default(),
-            shape: Shape { displacement: Vec::new() },
+            shape: Shape::default(),
             nodes: 0,
         };
         let points =
@@ -94,6 +100,17 @@ mod tests {
         for (a, b) in ends.iter().zip(expected) {
             assert!(a.0 == b.0 && (a.1 - b.1).abs() < 1e-12 && (a.2 - b.2).abs() < 1e-12, "{a:?} {b:?}");
         }
+    }
+
+    #[test]
+    fn the_range_of_a_stiffening_blade_needs_few_speeds() {
+        // ω² = 9 + 1.2 Ω² is (0.95 · 2 Ω)² and (1.05 · 2 Ω)² at the ends.
+        let mut few = diagram(|speed| (9.0 + 1.2 * speed * speed).sqrt());
+        few.branches[0].points.retain(|p| [0.0, 10.0].contains(&p.speed));
+        let found = resonances(&few, 2, 0.05);
+        let end = |k: f64| (9.0 / (k * k - 1.2)).sqrt();
+        let second = found.iter().find(|r| r.revolutions == 2).unwrap();
+        assert!((second.from - end(2.1)).abs() < 1e-12 && (second.to - end(1.9)).abs() < 1e-12, "{second:?}");
     }
 
     #[test]

@@ -16,15 +16,15 @@ use zip::ZipWriter;
 /// An archive that is being written.
 pub(super) type Archive<'a, 'b> = ZipWriter<Latched<&'a mut BufWriter<&'b mut File>>>;
 
-/// Writes displacements, along the three axes of the sections, in arrays of the given size.
+/// Writes displacements along the three axes of the sections, and the rotation about the first, in arrays of the given size.
 fn write_shapes<'u>(
     archive: &mut Archive<'_, '_>,
     mode: &str,
     size: &[u64],
-    displacements: impl Iterator<Item = &'u [Complex64; 3]> + Clone,
+    movement: impl Iterator<Item = &'u [Complex64; 4]> + Clone,
 ) -> io::Result<()> {
-    for (axis, name) in ["axial", "chord", "flap"].iter().enumerate() {
-        let u = displacements.clone().map(|u| u[axis]);
+    for (axis, name) in ["axial", "chord", "flap", "torsion"].iter().enumerate() {
+        let u = movement.clone().map(|u| u[axis]);
         write_shaped(archive, &format!("{mode}.{name}.real"), size, u.clone().map(|u| u.re))?;
         write_shaped(archive, &format!("{mode}.{name}.imaginary"), size, u.map(|u| u.im))?;
     }
@@ -76,7 +76,7 @@ pub fn write_modes(
         column(&mut archive, "station", stations.iter().copied())?;
         for (number, m) in all.iter().enumerate() {
             let size = [stations.len() as u64];
-            write_shapes(&mut archive, &format!("mode{}", number + 1), &size, m.shape.displacement.iter())?;
+            write_shapes(&mut archive, &format!("mode{}", number + 1), &size, m.shape.movement.iter())?;
         }
         archive::finish(archive)
     })?;
@@ -155,10 +155,10 @@ pub fn write_campbell(
             }
             // Speed by speed; a curve that has ended is not a number.
             let size = [campbell.speeds.len() as u64, stations.len() as u64];
-            let missing = vec![[Complex64::new(f64::NAN, f64::NAN); 3]; stations.len()];
+            let missing = vec![[Complex64::new(f64::NAN, f64::NAN); 4]; stations.len()];
             let shapes = campbell.speeds.iter().enumerate().map(|(i, _)| match branch.points.get(i) {
-                Some(point) if point.mode.shape.displacement.len() == stations.len() => {
-                    &point.mode.shape.displacement
+                Some(point) if point.mode.shape.movement.len() == stations.len() => {
+                    &point.mode.shape.movement
                 }
                 _ => &missing,
             });

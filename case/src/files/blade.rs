@@ -21,9 +21,9 @@ pub type Rows = Vec<(f64, BladeResultants)>;
 pub struct Contents {
     /// The rows.
     pub rows: Rows,
-    /// A caution, in one sentence.
-    pub unused: Option<String>,
-    /// What couples stretch, bending and torsion, which a blade here does not have: as [`Contents::unused`].
+    /// Cautions, each in one sentence.
+    pub cautions: Vec<String>,
+    /// What couples stretch, bending and torsion, which a blade here does not have: as [`Contents::cautions`].
     pub coupled: Option<String>,
 }
 
@@ -48,9 +48,16 @@ pub fn read(bytes: &[u8], name: &str, format: Format, length: f64) -> Result<Con
         return Err(format!("{name} holds no station"));
     }
     let stiff = |r: &BladeResultants| r.torsional_stiffness > 0.0 && !r.has_torsion();
-    if rows.iter().any(|(_, r)| stiff(r)) && contents.unused.is_none() {
-        contents.unused = Some(format!(
+    if rows.iter().any(|(_, r)| stiff(r)) && contents.cautions.is_empty() {
+        contents.cautions.push(format!(
             "{name} gives a torsional stiffness without rotary inertias, and without these a blade has no torsion"
+        ));
+    }
+    let twist = contents.rows.iter().fold(0.0_f64, |most, (_, r)| most.max(r.twist.abs()));
+    if twist > MUCH_TWIST {
+        contents.cautions.push(format!(
+            "the twist in {name} reaches {:.1}°: where it is given in degrees, name the column `twist [deg]`",
+            twist.to_degrees()
         ));
     }
     Ok(contents)
@@ -58,6 +65,8 @@ pub fn read(bytes: &[u8], name: &str, format: Format, length: f64) -> Result<Con
 
 /// Largest twist that a file may give [rad]: more of it is in degrees.
 const LARGEST_TWIST: f64 = std::f64::consts::PI;
+/// Twist above which there is a caution [rad]; blades have less than 0.5.
+const MUCH_TWIST: f64 = 1.0;
 
 /// The numbers of a line, or what is wrong with it.
 fn numbers(line: &str, number: usize, name: &str) -> Result<Vec<f64>, String> {
@@ -134,7 +143,10 @@ fn stations(text: &str, key: &str, name: &str) -> Result<usize, String> {
     match keyword(text, key, name)? {
         Some(count) if (2.0..=1e6).contains(&count) && count.fract() == 0.0 => Ok(count as usize),
         Some(count) => Err(format!("{name} says `{key}` = {count}: a blade needs at least two stations")),
-        None => Err(format!("{name} has no line with `{key}`, the number of stations")),
+        None => Err(format!(
+            "{name} has no line with `{key}`, the number of stations: is `format` that of the file, and the file that of \
+                             the blade itself?"
+        )),
     }
 }
 
@@ -280,9 +292,9 @@ pub fn beamdyn(text: &str, name: &str, length: f64) -> Result<Contents, String> 
         };
         rows.push((fraction * length, resultants));
     }
-    let mut unused = format!("of {name} the stiffness in shear is not used, and it holds no twist");
+    let mut caution = format!("of {name} the stiffness in shear is not used, and it holds no twist");
     if offset > 0.0 {
-        unused.push_str(&format!(
+        caution.push_str(&format!(
             "; the centre of mass lies up to {offset:.4} m off the axis there and on it here"
         ));
     }
@@ -294,7 +306,7 @@ pub fn beamdyn(text: &str, name: &str, length: f64) -> Result<Contents, String> 
         STRAINS[b],
         100.0 * share
     );
-    Ok(Contents { rows, unused: Some(unused), coupled: (share > UNCOUPLED).then_some(coupled) })
+    Ok(Contents { rows, cautions: vec![caution], coupled: (share > UNCOUPLED).then_some(coupled) })
 }
 
 #[cfg(test)]

@@ -9,6 +9,9 @@ use crate::values::Values;
 use flexion::blade::{self, Body, Model, Setting, StrainEnergy, Terms, Tip};
 use flexion::section::{BladeResultants, BladeSection, Twisted};
 
+/// Pitch above which there is a caution: a feathered blade is pitched by a right angle \[rad\].
+const LARGEST_PITCH: f64 = 1.7;
+
 /// A blade, but for its section.
 #[derive(Clone, Debug)]
 pub struct Blade {
@@ -187,12 +190,19 @@ pub static BLADE: Table<Blade> = Table {
 };
 
 fn make(v: &Values, c: &Context<'_>) -> Made<Blade> {
+    let pitch = v.number("pitch")?;
+    if pitch.abs() > LARGEST_PITCH {
+        c.cautions.borrow_mut().push(format!(
+            "the blade is pitched by {:.1}°: where degrees are meant, write `pitch = \"{pitch} deg\"`",
+            pitch.to_degrees()
+        ));
+    }
     Ok(Blade {
         setting: Setting {
             length: c.length()?,
             hub_radius: 0.0,
             precone: v.number("precone")?,
-            pitch: v.number("pitch")?,
+            pitch,
             tip: Tip { mass: v.number("tip-mass")?, inertia: v.number("tip-inertia")? },
         },
         twist: v.number("twist")?,

@@ -572,7 +572,7 @@ fn blade(v: &Values, c: &Context<'_>) -> Made<Section> {
             let help = "with `ignore-coupling = true` it is left out, and named among the warnings";
             return Err(Fault::new("file", coupled).help(help).into());
         }
-        coupled => c.cautions.borrow_mut().extend(file.unused.into_iter().chain(coupled)),
+        coupled => c.cautions.borrow_mut().extend(file.cautions.into_iter().chain(coupled)),
     }
     let table = section::BladeTable::new(length, &file.rows).at("file")?;
     let spatial = table.clone();

@@ -63,7 +63,7 @@ impl Reading {
         let far = |(_, coarse, fine): &(&String, f64, f64)| (coarse - fine).abs() > CHANGE * coarse;
         let Some((name, coarse, fine)) = pairs.into_iter().find(far) else { return Vec::new() };
         vec![format!(
-            "the effective mass at the contact {name} is {coarse:.3e} kg and with twice the functions {fine:.3e} kg: restitution \
+            "the effective mass at {name} is {coarse:.3e} kg and with twice the functions {fine:.3e} kg: restitution \
              here is a parameter of the mesh; the impulse of a whole burst, the next touch and heights of rebound stay \
              within a few per cent for e < 1, single impulses and energies do not"
         )]

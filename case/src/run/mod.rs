@@ -297,7 +297,8 @@ impl Prepared {
         let clock = Clock::start();
         let mut recorder =
             Recorder::new(system.as_mut(), &state, &plan, [energy_balance, modal_shares], watch)
-                .with_shapes(shapes, scene);
+                .with_shapes(shapes, scene)
+                .with_jumps_in_steps(integrator.resolves_contacts());
         let parts = (system.as_mut(), integrator.as_mut());
         let (ending, checkpoint) = match &history {
             None => transient_to_checkpoint(parts.0, parts.1, &mut state, &plan, &mut recorder),

@@ -112,8 +112,14 @@ impl Target {
         let fault = |reason: String| RefineError::Tolerance { text: self.tolerance.clone(), reason };
         let bound = match self.tolerance.trim().parse::<f64>() {
             Ok(relative) => relative * trajectory.extremes(index).largest(),
-            Err(_) => units::parse_in(&self.tolerance, channel.unit)
-                .map_err(|error| fault(format!("of `{}` is no number: {}", channel.name, error.message)))?,
+            Err(_) => units::parse_in(&self.tolerance, channel.unit).map_err(|error| {
+                let all = if self.quantity.is_none() {
+                    "; a tolerance with a unit bounds one quantity, which `--quantity` names, e.g. `--quantity tip.deflection`"
+                } else {
+                    ""
+                };
+                fault(format!("of `{}` is no number: {}{all}", channel.name, error.message))
+            })?,
         };
         if bound.is_nan() || bound < 0.0 || self.tolerance.trim().starts_with(['-', '0']) && bound == 0.0 {
             return Err(fault(

@@ -59,6 +59,7 @@ pub fn all() -> Vec<Variant> {
 /// A run: why it failed, if it did, when it ended, and what it recorded.
 pub struct Run {
     pub failure: Option<String>,
+    pub warnings: Vec<String>,
     pub end: f64,
     pub trajectory: Trajectory,
     pub events: Events,
@@ -123,5 +124,5 @@ pub fn integrate(reading: &Reading) -> Result<Run, Problems> {
     let run = reading.prepare()?.run(&mut |_| ControlFlow::Continue(()));
     let failure = (run.status != Status::Finished).then(|| run.message.unwrap());
     let (trajectory, events, steps) = (run.trajectory, run.events, run.counters.steps);
-    Ok(Run { failure, end: run.state.t, trajectory, events, steps })
+    Ok(Run { failure, warnings: run.warnings, end: run.state.t, trajectory, events, steps })
 }

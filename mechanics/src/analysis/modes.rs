@@ -131,12 +131,12 @@ impl Shares {
     }
 }
 
-/// Displacements of the stations in a mode, in the axes of the equilibrium's sections (tangent, then the two
-/// others), the largest of them 1.
+/// How the stations move in a mode, the largest entry 1.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Shape {
-    /// Displacement of each station along the section's axes.
-    pub displacement: Vec<[Complex64; 3]>,
+    /// Of each station: displacements along the axes of the equilibrium's section (tangent, then the two others), and the
+    /// rotation about the tangent times the distance between the first and the last station.
+    pub movement: Vec<[Complex64; 4]>,
 }
 
 /// Modes of a state.
@@ -244,22 +244,55 @@ pub(super) fn modes_near(
                 None => elastic_frequency(&all, multipliers, count.min(there))?,
             };
             rigid = RIGID * lowest;
-            Pencil::new(all, multipliers, 0.3 * lowest)?
+            Pencil::new(all.clone(), multipliers, 0.3 * lowest)?
         }
     };
     // A rigid motion that neither moves nor stops is an eigenvalue twice: as a place and as a speed.
     let asked = if rigid > 0.0 { (count + RIGID_MOTIONS).min(there) } else { count };
     let pairs = pencil.pairs(asked, near)?;
-    let mut modes: Vec<Mode> = Vec::with_capacity(count);
+    let mut modes = Vec::with_capacity(count);
+    let mut refused = accept(&mut modes, pairs, count, &pencil, system, state, rigid).err();
+    // Q(σ)⁻¹ magnifies the rounding of far softer modes. From a shift at the last of these it does not.
+    while let (Some(_), Some(shift)) = (&refused, modes.last().map(Mode::frequency))
+        && shift > 2.0 * pencil.shift()
+    {
+        pencil = Pencil::new(all.clone(), multipliers, shift)?;
+        modes.clear();
+        let pairs = pencil.pairs(asked, &[])?;
+        refused = accept(&mut modes, pairs, count, &pencil, system, state, rigid).err();
+    }
+    if let Some(refused) = refused {
+        return Err(refused);
+    }
+    let counted = complete(&pencil, &modes)?;
+    modes.iter_mut().for_each(|mode| mode.vector.truncate(size.v));
+    correct(system, state, &pencil, &mut modes);
     let scale: Vec<f64> = system.scales().to_vec();
-    let corrected = pencil.kind() != Kind::General && corrects;
+    for mode in &mut modes {
+        describe(mode, system, state, &scale, stations);
+    }
+    Ok(Modes { modes, kind: pencil.kind(), counted, solutions: pencil.solutions() })
+}
+
+/// Appends the first `count` modes of the pairs, up to the first whose residual is too large.
+fn accept(
+    modes: &mut Vec<Mode>,
+    pairs: Vec<Pair>,
+    count: usize,
+    pencil: &Pencil,
+    system: &mut dyn System,
+    state: &State,
+    rigid: f64,
+) -> Result<(), NoModes> {
+    let corrected = pencil.kind() != Kind::General && system.stiffness_forms(state, &[]).is_some();
     let residual = if corrected { CORRECTED } else { RESIDUAL };
+    let scale: Vec<f64> = system.scales().to_vec();
     for pair in pairs {
         let number = modes.len() + 1;
         if number > count {
             break;
         }
-        let mut mode = mode(system, state, &pencil, pair, &scale, rigid);
+        let mut mode = mode(system, state, pencil, pair, &scale, rigid);
         let again = |m: &Mode| m.eigenvalue == Complex64::ZERO && parallel(&m.vector, &mode.vector);
         if mode.eigenvalue == Complex64::ZERO {
             // A defective rigid motion is known to half the digits.
@@ -279,13 +312,7 @@ pub(super) fn modes_near(
         }
         modes.push(mode);
     }
-    let counted = complete(&pencil, &modes)?;
-    modes.iter_mut().for_each(|mode| mode.vector.truncate(size.v));
-    correct(system, state, &pencil, &mut modes);
-    for mode in &mut modes {
-        describe(mode, system, state, &scale, stations);
-    }
-    Ok(Modes { modes, kind: pencil.kind(), counted, solutions: pencil.solutions() })
+    Ok(())
 }
 
 /// The number of modes, if it can be counted.
@@ -403,14 +430,15 @@ pub(super) fn describe(
     mode.nodes = nodes(&mode.shape);
 }
 
-/// Displacements of the stations: central differences of the frames.
+/// Movement of the stations: central differences of the frames.
 fn shape(system: &mut dyn System, state: &State, x: &[Complex64], scale: &[f64], stations: &[f64]) -> Shape {
     let count = stations.len();
     let largest = x.iter().zip(scale).map(|(x, s)| x.norm() / s).fold(0.0, f64::max);
-    let mut displacement = vec![[Complex64::ZERO; 3]; count];
+    let mut movement = vec![[Complex64::ZERO; 4]; count];
     if largest == 0.0 || count == 0 {
-        return Shape { displacement };
+        return Shape { movement };
     }
+    let length = stations[count - 1] - stations[0];
     let frames = |system: &mut dyn System, d: &[f64]| {
         let mut moved = state.clone();
         system.retract(&state.q, d, &mut moved.q);
@@ -427,35 +455,37 @@ fn shape(system: &mut dyn System, state: &State, x: &[Complex64], scale: &[f64],
         }
         let ahead = frames(system, &d);
         let behind = frames(system, &d.iter().map(|d| -d).collect::<Vec<f64>>());
-        for (k, out) in displacement.iter_mut().enumerate() {
-            for (axis, out) in out.iter_mut().enumerate() {
-                let along: f64 = (0..3)
-                    .map(|c| still[k].rotation[c][axis] * (ahead[k].position[c] - behind[k].position[c]))
-                    .sum();
-                *out += unit * along;
+        for (out, ((still, ahead), behind)) in movement.iter_mut().zip(still.iter().zip(&ahead).zip(&behind))
+        {
+            for c in 0..3 {
+                let axes = still.rotation[c];
+                let moved = ahead.position[c] - behind.position[c];
+                let turned: [f64; 3] = std::array::from_fn(|k| ahead.rotation[c][k] - behind.rotation[c][k]);
+                (0..3).for_each(|axis| out[axis] += unit * axes[axis] * moved);
+                out[3] += unit * 0.5 * length * (axes[2] * turned[1] - axes[1] * turned[2]);
             }
         }
     }
-    let size = displacement.iter().flatten().map(|u| u.norm()).fold(0.0, f64::max);
+    let size = movement.iter().flatten().map(|u| u.norm()).fold(0.0, f64::max);
     if size > 0.0 {
-        displacement.iter_mut().flatten().for_each(|u| *u /= size);
+        movement.iter_mut().flatten().for_each(|u| *u /= size);
     }
-    Shape { displacement }
+    Shape { movement }
 }
 
 /// Changes of sign of the component that is largest, at the phase at which it is.
 fn nodes(shape: &Shape) -> usize {
     let peak = |axis: usize| {
-        let sizes = shape.displacement.iter().map(|u| u[axis]);
+        let sizes = shape.movement.iter().map(|u| u[axis]);
         sizes.fold(Complex64::ZERO, |best, u| if u.norm() > best.norm() { u } else { best })
     };
-    let peaks = [peak(0), peak(1), peak(2)];
-    let axis = (0..3).fold(0, |best, axis| if peaks[axis].norm() > peaks[best].norm() { axis } else { best });
+    let peaks = [0, 1, 2, 3].map(peak);
+    let axis = (0..4).fold(0, |best, axis| if peaks[axis].norm() > peaks[best].norm() { axis } else { best });
     if peaks[axis] == Complex64::ZERO {
         return 0;
     }
     let phase = peaks[axis].conj() / peaks[axis].norm();
-    let values = shape.displacement.iter().map(|u| (u[axis] * phase).re);
+    let values = shape.movement.iter().map(|u| (u[axis] * phase).re);
     let (mut sign, mut count) = (0.0, 0);
     for u in values.filter(|u| u.abs() > 1e-4) {
         if sign * u < 0.0 {

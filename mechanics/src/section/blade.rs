@@ -274,7 +274,7 @@ impl BladeTable {
         };
         if !(first.abs() <= 1e-6 * length && (last - length).abs() <= 1e-6 * length) {
             return invalid(format!(
-                "the blade's table runs from {first} m to {last} m and must cover the blade from 0 to {length} m"
+                "the blade's table runs from {first} m to {last} m, and must run from 0 to the length of the blade, {length} m"
             ));
         }
         let mut breaks: Vec<f64> = rows

@@ -4,7 +4,7 @@
 use super::falling_pendulum::pendulum;
 use flexion::analysis::transient::{Ending, Event, EventKind, Observer, Plan, Step, transient};
 use flexion::contact::Law;
-use flexion::integrator::{GeneralizedAlpha, Integrator, MoreauJean};
+use flexion::integrator::{GeneralizedAlpha, Integrator, MoreauJean, NonsmoothAlpha};
 use flexion::system::{Dynamics, State, System};
 
 /// Largest error of the balance over the energy of the start, and number of impacts.
@@ -48,5 +48,35 @@ fn seconds_of_bouncing_keep_the_balance_of_energy_to_a_millionth() {
         assert_eq!(ending, Ending::Finished);
         assert!(balance.error < 1e-6, "{}: {:e}", method.info().name, balance.error);
         assert!(balance.impacts > 10 && balance.lost > 0.3 * balance.initial, "{}", balance.lost);
+    }
+}
+
+/// Set-valued friction in the steps of the nonsmooth methods: what is left of the balance, through the first burst of
+/// impacts with sliding and sticking, falls with the first power of the step at least.
+#[test]
+fn with_friction_the_balance_of_nonsmooth_steps_closes_with_the_step() {
+    let methods: [fn() -> Box<dyn Integrator>; 3] = [
+        || Box::new(MoreauJean::new(0.5).unwrap()),
+        || Box::new(NonsmoothAlpha::decoupled(0.8).unwrap()),
+        || Box::new(NonsmoothAlpha::coupled(0.8).unwrap()),
+    ];
+    for make in methods {
+        let errors = [4e-5, 2e-5, 1e-5].map(|step| {
+            let mut method = make();
+            let mut system = pendulum(2, Law::Constraint { restitution: 0.0, friction: 0.3 });
+            let mut state = Dynamics::initial(&system);
+            let plan =
+                Plan { end: 0.45, step: Some(step), contact_step: None, longest_step: None, sample: 1e-3 };
+            let mut balance = Balance::default();
+            let ending = transient(&mut system, method.as_mut(), &mut state, &plan, &mut balance);
+            assert_eq!(ending, Ending::Finished);
+            (balance.error, balance.lost / balance.initial)
+        });
+        let name = make().info().name;
+        for halved in errors.windows(2) {
+            assert!(halved[0].0 / halved[1].0 > 1.8, "{name}: {errors:?}");
+        }
+        let bound = if name == "moreau-jean" { 1e-7 } else { 1e-3 };
+        assert!(errors[2].0 < bound && errors.iter().all(|(_, lost)| *lost > 0.3), "{name}: {errors:?}");
     }
 }

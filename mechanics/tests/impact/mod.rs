@@ -11,3 +11,4 @@ mod massless;
 mod models;
 mod nonsmooth;
 mod properties;
+mod published;

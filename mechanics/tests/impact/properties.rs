@@ -172,37 +172,57 @@ fn the_effective_mass_of_the_tip_falls_with_the_number_of_modes() {
     }
 }
 
-struct Silent;
+/// Σ J √t and Σ t over the samples from half of the time on, and J at the last one: J is the change of the angular momentum
+/// of the hinge, on an arm of 1 m.
+#[derive(Default)]
+struct Impulse {
+    before: Option<f64>,
+    sums: [f64; 2],
+    last: f64,
+}
 
-impl Observer for Silent {
-    fn sample(&mut self, _: &mut dyn System, _: &State, _: &Step) {}
+impl Observer for Impulse {
+    fn sample(&mut self, system: &mut dyn System, state: &State, _: &Step) {
+        let momentum = dot(&mass(system, state)[state.v.len() - 1], &state.v);
+        self.last = momentum - *self.before.get_or_insert(momentum);
+        if state.t > 5e-5 {
+            self.sums = [self.sums[0] + self.last * state.t.sqrt(), self.sums[1] + state.t];
+        }
+    }
 }
 
 /// A beam that swings rigidly about its hinge meets a stop that holds its tip: until its other end is reached, the beam is
 /// a semi-infinite one whose end is brought from V to rest. With the similarity solution of EI w⁗ + ρA ẅ = 0 for a step of
-/// the end's velocity, J(t) = V EI^¼ (ρA)^¾ √(2t/π). J is taken from the angular momentum about the hinge.
+/// the end's velocity, J(t) = V EI^¼ (ρA)^¾ √(2t/π). The wave is 5 cm long at the end, 0.1 ms: of 16 elements the one at
+/// the tip is 2 cm long, and each is 1.15 times as long as its neighbour. J rises in micro-impacts, by some percent of it
+/// each, so that single values scatter, with other ratios by up to 4 %: √t is fitted to the second half too.
 #[test]
 fn a_stop_that_is_held_begins_with_the_root_of_time() {
     let (speed, time, start) = (0.1, 1e-4, 1e-9);
-    for count in [32, 64] {
-        let hub = free_hub(0.0);
-        let coupling = LinearCoupling::new(elements(count), &section(), &hub, Foreshortening::None);
+    let equal = |count: u32| (0..=count).map(|k| f64::from(k) / f64::from(count)).collect::<Vec<f64>>();
+    let graded = |ratio: f64| -> Vec<f64> {
+        (0..=16).map(|k| 1.0 - (ratio.powi(16 - k) - 1.0) / (ratio.powi(16) - 1.0)).collect()
+    };
+    for cells in [graded(1.15), equal(32), equal(64)] {
+        let (count, hub) = (cells.len() - 1, free_hub(0.0));
+        let basis = |field| Box::new(Hermite::on(cells.clone(), field).unwrap());
+        let fields = Fields::new(1.0, basis(Field::Axial), basis(Field::Transverse), &[]);
+        let coupling = LinearCoupling::new(fields, &section(), &hub, Foreshortening::None);
         let model = HubBeam::new(hub, coupling, &[]).with_contact_points(&[(1.0, Mount::Ground)]);
         let plane = Plane { point: [0.0; 3], normal: [0.0, 1.0, 0.0], motion: None };
         let mut system = with_plane(model, plane, 0.0);
         let mut s = Dynamics::initial(&system);
         let n = s.v.len();
         (s.q[n - 1], s.v[n - 1]) = (speed * start, -speed);
-        let momentum = |system: &mut dyn Dynamics, s: &State| dot(&mass(system, s)[n - 1], &s.v);
-        let before = momentum(&mut system, &s);
         let mut method = Radau::new(Tolerance::uniform(1e-10)).unwrap();
         let plan =
-            Plan { end: start + time, step: None, contact_step: None, longest_step: None, sample: time };
-        let ending = transient(&mut system, &mut method, &mut s, &plan, &mut Silent);
-        assert_eq!(ending, Ending::Finished);
-        let found = momentum(&mut system, &s) - before;
+            Plan { end: start + time, step: None, contact_step: None, longest_step: None, sample: 1e-6 };
+        let mut impulse = Impulse::default();
+        assert_eq!(transient(&mut system, &mut method, &mut s, &plan, &mut impulse), Ending::Finished);
         let (ei, mass) = (6.8952e10_f64 * 7.85e-9, 2766.7_f64 * 3.14e-4);
-        let expected = speed * ei.powf(0.25) * mass.powf(0.75) * (2.0 * time / std::f64::consts::PI).sqrt();
-        assert!((found / expected - 1.0).abs() < 0.01, "{count}: {found} {expected}");
+        let expected = speed * ei.powf(0.25) * mass.powf(0.75) * (2.0 / std::f64::consts::PI).sqrt();
+        let fitted = impulse.sums[0] / impulse.sums[1] / expected - 1.0;
+        let last = impulse.last / time.sqrt() / expected - 1.0;
+        assert!(fitted.abs() < 0.01 && last.abs() < 0.01, "{count}: {fitted} {last}");
     }
 }

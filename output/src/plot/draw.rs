@@ -53,9 +53,33 @@ impl Figure {
     /// Decides ranges, ticks and places, and draws. Never fails: what cannot be shown (values that
     /// are not finite, or not positive on a logarithmic axis) is left out.
     pub fn draw(&self) -> Drawing {
-        let font = Font::new();
         let columns = self.columns.clamp(1, self.panels.len().max(1));
-        let placed = self.place(columns);
+        self.drawing(columns, style::PANEL_WIDTH[usize::from(columns > 1)])
+    }
+
+    /// Draws as [`draw`](Figure::draw), with the same text, in a width in mm: panels stand in one column where there is not room
+    /// for more. A width that has not room for one is exceeded.
+    pub fn draw_in(&self, width: f64) -> Drawing {
+        let width = width * style::PIXELS_A_MILLIMETRE;
+        let mut columns = self.columns.clamp(1, self.panels.len().max(1));
+        loop {
+            let mut frame = style::PANEL_WIDTH[usize::from(columns > 1)];
+            // What stands beside a frame may change with its width.
+            for _ in 0..3 {
+                frame += (width - self.drawing(columns, frame).size.0) / columns as f64;
+                frame = frame.max(style::NARROWEST);
+            }
+            if columns == 1 || frame > style::NARROWEST {
+                return self.drawing(columns, frame);
+            }
+            columns -= 1;
+        }
+    }
+
+    /// The drawing with so many panels in a row, whose frames have the given width [px].
+    fn drawing(&self, columns: usize, frame: f64) -> Drawing {
+        let font = Font::new();
+        let placed = self.place(columns, frame);
         let laid: Vec<Layout> = placed
             .iter()
             .enumerate()
@@ -90,13 +114,13 @@ impl Figure {
         drawing
     }
 
-    fn place(&self, columns: usize) -> Vec<Placed<'_>> {
+    fn place(&self, columns: usize, width: f64) -> Vec<Placed<'_>> {
         let rows = self.panels.len().div_ceil(columns).max(1);
         // Many words beside a frame need its height.
         let beside = |panel: &Panel| panel.words.iter().filter(|words| words.outside).count();
         let words = self.panels.iter().map(beside).max().unwrap_or(0);
         let height = style::PANEL_HEIGHT[(rows - 1).min(2)].max(1.25 * style::LINE * words as f64);
-        let size = (style::PANEL_WIDTH[usize::from(columns > 1)], height);
+        let size = (width, height);
         let place = |i: usize| {
             let panel = &self.panels[i];
             let own = std::slice::from_ref(panel);

@@ -40,6 +40,10 @@ pub(super) const DESCENT: f64 = 0.24 * FONT;
 pub(super) const PANEL_WIDTH: [f64; 2] = [330.0, 250.0];
 /// Height of the frame of a panel [px] when there is one, two to a column, and more.
 pub(super) const PANEL_HEIGHT: [f64; 3] = [235.0, 165.0, 125.0];
+/// Width of a frame below which panels stand in fewer columns [px].
+pub(super) const NARROWEST: f64 = 120.0;
+/// Pixels of the drawing: 96 to the inch.
+pub(super) const PIXELS_A_MILLIMETRE: f64 = 96.0 / 25.4;
 /// Pixels of the PNG for each of the drawing: 288 to the inch.
 pub(super) const PNG_SCALE: f64 = 3.0;
 

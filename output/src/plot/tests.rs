@@ -297,6 +297,22 @@ fn a_free_corner_takes_the_legend_and_a_full_frame_has_it_above() {
 }
 
 #[test]
+fn a_figure_in_a_given_width_has_it_and_stands_in_one_column_where_that_is_narrow() {
+    let figure = trajectory_figure(&spin_up(4.0, 400), Some("Spin-up"));
+    let places = |width: f64| {
+        let drawing = figure.draw_in(width);
+        assert_eq!(faults(&drawing), Vec::<String>::new(), "{width} mm");
+        assert!((drawing.size.0 - width * 96.0 / 25.4).abs() < 0.5, "{:?} for {width} mm", drawing.size);
+        let letters = boxes(&drawing).into_iter().filter(|(text, _)| text.starts_with('('));
+        let mut places: Vec<i64> = letters.map(|(_, place)| place[0] as i64).collect();
+        places.sort_unstable();
+        places.dedup();
+        places.len()
+    };
+    assert_eq!([85.0, 120.0, 180.0].map(places), [1, 2, 2]);
+}
+
+#[test]
 fn a_range_given_along_sets_the_one_across() {
     let points = (0..=100).map(|i| f64::from(i) / 10.0).map(|t| (t, t.exp())).collect();
     let x = Axis { range: Some((0.0, 1.0)), ..Axis::time() };

@@ -2,20 +2,23 @@
 
 use super::{Axis, Figure, Line, Marker, Panel, Series, Words};
 use crate::{Frequencies, Units};
-use flexion::analysis::campbell::{Campbell, Crossing, Instability};
+use flexion::analysis::campbell::{Branch, Campbell, Crossing, Instability, Point};
 use flexion::analysis::modes::{Mode, Modes};
 use num_complex::Complex64;
 
 /// Most modes that are drawn.
 const MOST: usize = 12;
 
+/// Points of a curve, where it has fewer.
+const FINE: usize = 200;
+
 /// Colours of the curves of a Campbell diagram; black and grey are those of marks and of the lines of whole revolutions.
 const BRANCHES: usize = 6;
 const BLACK: usize = 6;
 const GREY: usize = 7;
 
-/// The shapes of modes: one panel each, the displacements of the stations along the axes of the sections, which have names, at
-/// the phase at which the largest is real.
+/// The shapes of modes: one panel each, the displacements of the stations along the axes of the sections, which have names, and the
+/// rotation about the first times the length, at the phase at which the largest is real.
 pub fn modes_figure(
     modes: &Modes,
     (stations, axes): (&[f64], [&str; 3]),
@@ -23,7 +26,11 @@ pub fn modes_figure(
     title: Option<&str>,
 ) -> Figure {
     let panel = |(number, mode): (usize, &Mode)| {
-        let text = format!("Mode {}: {}", number + 1, unit.short(mode.frequency()));
+        let frequency = unit.short(mode.frequency());
+        let text = match mode.shares.dominant() {
+            "other" => format!("Mode {}: {frequency}", number + 1),
+            moves => format!("Mode {}: {frequency}, {moves}", number + 1),
+        };
         let heading = Words { text, outside: true, ..Words::default() };
         Panel {
             x: Axis { tight: true, ..Axis::new("Station x", "m") },
@@ -45,16 +52,16 @@ pub fn modes_figure(
 }
 
 fn shape(mode: &Mode, stations: &[f64], names: [&str; 3]) -> Vec<Series> {
-    let all = mode.shape.displacement.iter().flatten();
+    let all = mode.shape.movement.iter().flatten();
     let peak = all.fold(Complex64::ZERO, |best, u| if u.norm() > best.norm() { *u } else { best });
     let phase = if peak == Complex64::ZERO { Complex64::ONE } else { peak.conj() / peak.norm() };
     let curve = |axis: usize| {
-        let along = stations.iter().zip(&mode.shape.displacement);
+        let along = stations.iter().zip(&mode.shape.movement);
         let points = along.map(|(x, u)| (*x, (u[axis] * phase).re)).collect();
-        Series::line(Some(names[axis]), points).numbered(axis)
+        Series::line(Some(names.get(axis).copied().unwrap_or("torsion")), points).numbered(axis)
     };
     let moves = |series: &Series| series.points.iter().any(|p| p.1.abs() > 1e-6);
-    (0..3).map(curve).filter(moves).collect()
+    (0..4).map(curve).filter(moves).collect()
 }
 
 /// Frequencies against the speed, with the lines of whole revolutions, their crossings and the instabilities marked.
@@ -73,7 +80,7 @@ pub fn campbell_figure(campbell: &Campbell, revolutions: u32, units: &Units, tit
     let begin = if revolutions > 0 { 0.0 } else { first };
     for (number, branch) in campbell.branches.iter().enumerate() {
         let points: Vec<(f64, f64)> =
-            branch.points.iter().map(|p| place(p.speed, p.mode.frequency())).collect();
+            curve(branch).map(|(speed, frequency)| place(speed, frequency)).collect();
         // Beyond the end of its curve, or along it where it ends before the frame.
         if let Some((first, end)) = branch.points.first().zip(branch.points.last()) {
             let text = format!("{} {}", number + 1, first.mode.shares.dominant());
@@ -118,6 +125,23 @@ pub fn campbell_figure(campbell: &Campbell, revolutions: u32, units: &Units, tit
         words,
     };
     Figure { title: title.map(String::from), panels: vec![panel], columns: 1, share_x: false }
+}
+
+/// Speeds and frequencies of a branch; between its points ω² is linear in Ω².
+fn curve(branch: &Branch) -> impl Iterator<Item = (f64, f64)> {
+    let points = &branch.points;
+    let pieces = (FINE / points.len().max(1)).max(1);
+    let between = move |(a, b): (&Point, &Point)| {
+        let [first, last] = [a, b].map(|p| (p.speed * p.speed, p.mode.frequency() * p.mode.frequency()));
+        let (from, width) = (a.speed, (b.speed - a.speed) / pieces as f64);
+        (1..=pieces).map(move |i| {
+            let speed = from + i as f64 * width;
+            let part = (speed * speed - first.0) / (last.0 - first.0);
+            (speed, (first.1 + part * (last.1 - first.1)).max(0.0).sqrt())
+        })
+    };
+    let first = points.first().map(|p| (p.speed, p.mode.frequency()));
+    first.into_iter().chain(points.iter().zip(points.iter().skip(1)).flat_map(between))
 }
 
 /// A line where steady rotation becomes unstable or ends, up to `top`, and marks where a damping becomes negative.

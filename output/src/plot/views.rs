@@ -98,7 +98,11 @@ fn views(scene: &Scene, height: f64, margin: f64) -> Vec<Panel> {
     };
     let view = |(number, [i, j]): (usize, [usize; 2])| {
         let mut series = Vec::new();
-        for (k, (time, lines)) in shots.iter().enumerate() {
+        // The first and the last lie over those between.
+        let ends = [0, shots.len().saturating_sub(1)];
+        let between = (0..shots.len()).filter(|k| !ends.contains(k));
+        for k in between.chain(ends.into_iter().take(shots.len())) {
+            let (time, lines) = &shots[k];
             let which = if k + 1 == shots.len() { 2 } else { usize::from(k > 0) };
             let legend = number == 0 && which != 1;
             let name = legend.then(|| format!("t = {} s", rounded(scene.times()[*time])));

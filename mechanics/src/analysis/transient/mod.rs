@@ -308,7 +308,15 @@ impl Run {
             let attempted = h;
             let mut event = false;
             if let Some(contacts) = &mut self.contacts {
-                (h, event) = contacts.locator.locate(system, integrator, state, h, &mut next)?;
+                match (contacts.locator.locate(system, integrator, state, h, &mut next), &mut self.control) {
+                    (Ok(found), _) => (h, event) = found,
+                    // A step by which an event is looked for does not converge: it is looked for in a shorter one.
+                    (Err(_), Some(control)) if !control.is_too_small(state.t, 0.5 * h) => {
+                        control.failed(h);
+                        continue;
+                    }
+                    (Err(error), _) => return Err(error),
+                }
             }
             let neglected = self.contacts.as_ref().map(|contacts| contacts.neglected).unwrap_or_default();
             self.last = Step { size: h, iterations: report.iterations, balance: None, neglected };
@@ -322,7 +330,8 @@ impl Run {
             }
             if let Some(balance) = &mut self.balance {
                 if integrator.resolves_contacts() {
-                    balance.add_impulse(0.0, loss(system, state, &next, &mut self.gaps));
+                    let [lost, counted] = loss(system, state, &next, &mut self.gaps);
+                    balance.add_impulse(0.0, lost - counted);
                 }
                 balance.enter(system, integrator, (state, &next));
             }
