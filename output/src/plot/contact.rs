@@ -28,7 +28,9 @@ pub fn contact_figure(trajectory: &Trajectory, events: &Events, title: Option<&s
     let loss = panel(&[(None, trajectory)], "energy.contact_loss");
     panels.extend(loss.into_iter().filter(|panel| largest(panel) > negligible));
     panels.retain(|panel| !panel.series.is_empty());
-    if let Some(window) = burst(trajectory, events) {
+    let by_force = !events.impacts().any(|entry| entry.impulse * entry.speed > negligible);
+    let forces: &[(usize, String)] = if by_force { &shown } else { &[] };
+    if let Some(window) = burst(trajectory, events, forces) {
         panels.extend(enlarged(trajectory, events, &shown, window, negligible));
     }
     figure_of(panels, title)
@@ -74,17 +76,23 @@ fn of_contacts(
     Panel { x, y, series, words: Vec::new() }
 }
 
-/// Beginning and end of the first burst of events, with a margin.
-fn burst(trajectory: &Trajectory, events: &Events) -> Option<(f64, f64)> {
+/// Beginning and end of the first burst of events, and of the forces of contacts where these make it, with a margin.
+fn burst(trajectory: &Trajectory, events: &Events, forces: &[(usize, String)]) -> Option<(f64, f64)> {
     let (start, end) = (*trajectory.times().first()?, *trajectory.times().last()?);
     let duration = end - start;
     let first = events.impacts().next()?.time;
+    let mut times: Vec<f64> = events.list.iter().map(|entry| entry.time).collect();
+    for force in forces.iter().filter_map(|(_, name)| trajectory.index(&format!("{name}.force"))) {
+        let rows = trajectory.times().iter().zip(trajectory.values(force));
+        times.extend(rows.filter(|(_, force)| *force != 0.0).map(|(t, _)| *t));
+    }
+    times.sort_by(f64::total_cmp);
     let mut last = first;
-    for entry in events.list.iter().filter(|entry| entry.time >= first) {
-        if entry.time - last > PAUSE * duration {
+    for time in times.into_iter().filter(|time| *time >= first) {
+        if time - last > PAUSE * duration {
             break;
         }
-        last = entry.time;
+        last = time;
     }
     let missing = (SHORTEST * duration - (last - first)).max(0.0);
     let margin = MARGIN * (last - first) + 0.5 * missing;
