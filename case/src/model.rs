@@ -125,15 +125,13 @@ impl Case {
     /// Changes that give the case twice the functions.
     pub(super) fn finer(&self) -> Vec<String> {
         match &self.subject {
-            Subject::HubBeam(beam) => {
-                beam.bases.finer.iter().map(|(key, value)| format!("basis.{key}={value}")).collect()
-            }
+            Subject::HubBeam(beam) => changes(&beam.bases.finer),
             Subject::Space(space) if space.beams.is_empty() => Vec::new(),
             Subject::Space(space) => vec![format!("model.refine={}", 2 * space.refine)],
         }
     }
 
-    /// Changes that give the case `factor` times the functions, rounded up.
+    /// Changes that give the case about `factor` times the functions, rounded up.
     pub(super) fn with_functions(&self, factor: f64) -> Vec<String> {
         let changed = |change: String| {
             let (key, doubled) = change.split_once('=')?;
@@ -142,7 +140,11 @@ impl Case {
             let ends = if key.ends_with("nodes") { 1.0 } else { 0.0 };
             Some(format!("{key}={}", (0.5 * factor * (doubled - ends) - 1e-9).ceil() + ends))
         };
-        self.finer().into_iter().filter_map(changed).collect()
+        let doubled = match &self.subject {
+            Subject::HubBeam(beam) => changes(&beam.bases.more),
+            Subject::Space(_) => self.finer(),
+        };
+        doubled.into_iter().filter_map(changed).collect()
     }
 
     /// What vibrates: the blade, the hub–beam of a case without `[blade]`, or the system in space, in any case without contacts;
@@ -168,4 +170,9 @@ impl Case {
             }
         }
     }
+}
+
+/// Values of keys of the basis as changes.
+fn changes(keys: &[(String, usize)]) -> Vec<String> {
+    keys.iter().map(|(key, value)| format!("basis.{key}={value}")).collect()
 }

@@ -5,6 +5,7 @@
 use crate::written::{SQUARE_BAR, finished, outcome, reading};
 use flexion_case::calibration::draw_with_contacts;
 use flexion_case::{Effort, Reading, parse};
+use flexion_results::plot::contact_figure;
 use flexion_results::{Directory, Status};
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -270,7 +271,8 @@ fn steps_are_those_of_contacts_where_one_is_near() {
     assert!((first(&both).time - first(&short).time).abs() < 1e-4, "{:?} {:?}", first(&both), first(&short));
 }
 
-/// Impulse, speed and loss of the first impact, by a method that locates events and by two that do not.
+/// Impulse, speed and loss of the first impact, by a method that locates events and by two that do not, whose figure
+/// enlarges the burst too.
 #[test]
 fn nonsmooth_methods_tell_their_impacts() {
     let run = |integrator: &str| finished(&pendulum(&[integrator, "run.duration='0.4 s'"]));
@@ -286,6 +288,10 @@ fn nonsmooth_methods_tell_their_impacts() {
             "{found:?} {expected:?}"
         );
         assert!(near(found.lost, expected.lost), "{kind}: {found:?} {expected:?}");
+        let panels = contact_figure(&run.trajectory, &run.events, None).panels;
+        let enlarged = panels.iter().find(|panel| panel.y.quantity == "Gap, first burst").unwrap();
+        let (from, to) = enlarged.x.range.unwrap();
+        assert!(from < found.time && found.time < to && to - from < 0.1, "{kind}: {from} {to}");
     }
 }
 

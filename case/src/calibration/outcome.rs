@@ -78,7 +78,7 @@ pub struct Outcome {
     pub subject: &'static str,
     /// How it ended.
     pub ending: Ending,
-    /// What it was warned of.
+    /// What it was warned of, but for what its case contains and is not used.
     pub warnings: Vec<String>,
     /// Its values.
     pub values: Vec<Compared>,
@@ -138,7 +138,10 @@ fn judged(drawn: &Drawn, outcome: &mut Outcome) -> Result<Ending, Problems> {
         Status::Failed => return Ok(Ending::Failed(ours.message.unwrap_or_default())),
     }
     let errors = reading.estimate_errors(&ours, Effort::Auto, &mut |_| ControlFlow::Continue(()))?;
-    outcome.warnings.extend(ours.warnings.iter().chain(&errors.warnings).chain(&errors.unknown).cloned());
+    // What the case contains and a run does not use is said of the right answer too.
+    let facts = reading.case.unused_by_run();
+    let doubts = ours.warnings.iter().filter(|warning| !facts.contains(warning));
+    outcome.warnings.extend(doubts.chain(&errors.warnings).chain(&errors.unknown).cloned());
     if errors.unknown.is_none() && errors.trusted < ours.state.t {
         outcome.warnings.push(format!("trusted until t = {} s", errors.trusted));
     }

@@ -33,8 +33,10 @@ pub struct Bases {
     pub massless: Option<Arc<dyn basis::Basis>>,
     /// Number and axial degree of the elements, if both fields are of the same finite elements.
     pub elements: Option<(usize, usize)>,
-    /// What makes twice the functions: dotted path within the table and value.
+    /// What makes twice the functions, with every element cut in two: dotted path within the table and value.
     pub finer: Vec<(String, usize)>,
+    /// What makes about twice the functions by the number that a user would change, likewise.
+    pub more: Vec<(String, usize)>,
     /// Factor between the error of a run and its difference from one with twice the functions.
     pub safety: f64,
 }
@@ -47,6 +49,8 @@ struct Functions {
     elements: Option<(usize, usize)>,
     /// The key that makes twice the functions, and its value then.
     finer: (&'static str, usize),
+    /// The key of the number of functions, and twice its value.
+    more: (&'static str, usize),
     /// As in [`Bases`].
     safety: f64,
     /// The key that most likely is to blame.
@@ -76,6 +80,7 @@ impl Functions {
         Functions {
             extent,
             finer,
+            more: finer,
             build,
             massless: None,
             elements: None,
@@ -119,7 +124,7 @@ fn built(fields: [Functions; 2], c: &Context<'_>, stations: &[f64]) -> Made<Base
             1e-9 * bytes,
             1e-9 * MOST_BYTES
         );
-        return Err(Fault::new(join(fields[1].table, fields[1].finer.0), message).into());
+        return Err(Fault::new(join(fields[1].table, fields[1].more.0), message).into());
     }
     let made = |field: &Functions| (field.build)(length, stations).at(&join(field.table, field.blame));
     let (axial, transverse) = both(made(&fields[0]), made(&fields[1])).map_err(|mut faults| {
@@ -129,8 +134,12 @@ fn built(fields: [Functions; 2], c: &Context<'_>, stations: &[f64]) -> Made<Base
     })?;
     let with_tip = fields[1].massless.as_ref().and_then(|build| build(length, stations).ok());
     let massless = with_tip.or_else(|| transverse.tip().map(|_| Arc::clone(&transverse)));
-    let mut finer = fields.each_ref().map(|f| (join(f.table, f.finer.0), f.finer.1)).to_vec();
-    finer.dedup();
+    let keys = |of: fn(&Functions) -> (&'static str, usize)| {
+        let key = |f: &Functions| (join(f.table, of(f).0), of(f).1);
+        let mut keys = fields.each_ref().map(key).to_vec();
+        keys.dedup();
+        keys
+    };
     let within = stations.iter().any(|station| 0.0 < *station && *station < length);
     let safety = |f: &Functions| if within && f.elements.is_none() { SAFETY_OF_SLOW } else { f.safety };
     let safety = safety(&fields[0]).max(safety(&fields[1]));
@@ -139,7 +148,8 @@ fn built(fields: [Functions; 2], c: &Context<'_>, stations: &[f64]) -> Made<Base
         transverse,
         massless,
         elements: fields[0].elements.filter(|(n, _)| fields[1].elements.is_some_and(|(m, _)| *n == m)),
-        finer,
+        finer: keys(|f| f.finer),
+        more: keys(|f| f.more),
         safety,
     })
 }
@@ -154,20 +164,32 @@ fn mixed(v: &Values, c: &Context<'_>) -> Made<Either> {
 }
 
 fn finite_elements(v: &Values, _: &Context<'_>) -> Made<Either> {
-    let (elements, degree) = (v.count("elements")?, v.count("axial-degree")?);
+    let (elements, degree, parts) = (v.count("elements")?, v.count("axial-degree")?, v.count("refine")?);
     Either::new(move |field| {
         let each = if field == Field::Axial { degree } else { 2 };
-        let extent = ((elements * each) as f64, 2.0 / elements as f64);
+        let all = elements * parts;
+        let extent = (all as f64 * each as f64, 2.0 / all as f64);
         let build: Build = Box::new(move |length, stations| {
-            let cells = mesh(length, elements, stations)?;
+            let cells = cut(&mesh(length, elements, stations)?, parts);
             match field {
                 Field::Axial => shared(Lagrange::on(cells, degree)),
                 Field::Transverse => shared(Hermite::on(cells, field)),
             }
         });
-        let functions = Functions::new(extent, ("elements", 2 * elements), build);
-        Functions { elements: Some((elements, degree)), ..functions }
+        // Twice the number would leave an element beside a station as it is.
+        let functions = Functions::new(extent, ("refine", 2 * parts), build);
+        Functions { elements: Some((all, degree)), more: ("elements", 2 * elements), ..functions }
     })
+}
+
+/// Every cell in so many equal parts.
+fn cut(cells: &[f64], parts: usize) -> Vec<f64> {
+    let part = |i: usize| {
+        let (cell, k) = (i / parts, i % parts);
+        let from = cells[cell];
+        if k == 0 { from } else { from + (cells[cell + 1] - from) * k as f64 / parts as f64 }
+    };
+    (0..=(cells.len() - 1) * parts).map(part).collect()
 }
 
 /// Vibration modes; `axial` and `transverse` are the keys of their numbers.
@@ -238,6 +260,12 @@ const CUT_ELEMENTS: Key = key(
     Default::Integer(10),
     "number of equal elements over the length; they are cut where loads and masses are and the section jumps",
 );
+const REFINE: Key = key(
+    "refine",
+    Type::Integer(1, 1000),
+    Default::Integer(1),
+    "into how many equal parts each element is cut, those beside loads, masses and jumps too",
+);
 const AXIAL_DEGREE: Key = key(
     "axial-degree",
     Type::Integer(1, 2),
@@ -256,7 +284,7 @@ const FINITE_ELEMENTS: Kind<Either> = Kind {
     name: "finite-elements",
     summary: "Lagrange elements (axial) and cubic Hermite elements (transverse)",
     source: DU,
-    keys: &[CUT_ELEMENTS, AXIAL_DEGREE],
+    keys: &[CUT_ELEMENTS, REFINE, AXIAL_DEGREE],
     example: "basis={kind='finite-elements', elements=7, axial-degree=2}",
     make: finite_elements,
 };

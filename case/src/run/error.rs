@@ -61,7 +61,7 @@ const BALANCE: &str = "energy.balance";
 /// Factor on the difference to the exact coupling, for the error of its own run.
 const OWN_ERROR: f64 = 1.1;
 /// Half-bandwidth above which the factorisation of the tangent counts more than the rest of a step.
-const BROAD: f64 = 20.0;
+const BROAD: f64 = 10.0;
 /// [Work](work) of a run beyond which its companions are not run unasked: about a second of computing.
 const COSTLY: f64 = 3e6;
 /// Work of all companions beyond which they are given up unasked: over that of the run, and what is always allowed.
@@ -78,7 +78,7 @@ pub enum Effort {
     Full,
 }
 
-/// Counted work of a step: the unknowns n times 1 + (b/20)² with the half-bandwidth b of their tangent, n where it is dense.
+/// Counted work of a step: the unknowns n times 1 + (b/10)² with the half-bandwidth b of their tangent, n where it is dense.
 fn work(unknowns: usize, half_bandwidth: usize) -> f64 {
     let broad = half_bandwidth as f64 / BROAD;
     unknowns as f64 * (1.0 + broad * broad)

@@ -88,6 +88,9 @@ const SWING: f64 = 0.05;
 /// counts as that of a swing.
 const RIGID: f64 = 1e-6;
 
+/// The same over the potential of gravity, which rounding takes of a body that stays where it is.
+const ROUNDING: f64 = 1e-12;
+
 /// Integrates the energy balance along a run.
 #[derive(Clone, Debug)]
 pub(super) struct Integral {
@@ -130,7 +133,9 @@ impl Gain {
     fn beyond_bounds(&self) -> Option<f64> {
         let Gain { strain, gravity, kinetic, .. } = self;
         let moving = if *strain < RIGID * kinetic { SWING } else { RIGID };
-        let bound = EXCESS * strain + SWING * (gravity[1] - gravity[0]) + moving * kinetic;
+        let [low, high] = *gravity;
+        let rounding = ROUNDING * low.abs().max(high.abs());
+        let bound = EXCESS * strain + SWING * (high - low) + moving * kinetic + rounding;
         (self.rise > bound.max(f64::MIN_POSITIVE)).then_some(self.rise)
     }
 }
@@ -281,6 +286,9 @@ mod tests {
         assert_eq!(gain(&impacts[..3]), None);
         assert_eq!(gain(&[(20.0, 0.0, -1e-4), (48.0, 0.0, 0.044)]), None);
         assert_eq!(gain(&[(48.0, 0.0, 5.0)]), Some(5.0));
+        let mut still = Gain::default();
+        still.enter(&Energy { gravity: -4.0, ..Energy::default() }, 4.4e-16);
+        assert_eq!(still.beyond_bounds(), None);
         // A spin-up: 1000 times the strain energy is kinetic.
         assert_eq!(gain(&[(3.2e3, 3.5, 1.0)]), Some(1.0));
         assert_eq!(gain(&[(3.2e3, 3.5, 0.5)]), None);
