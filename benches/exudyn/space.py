@@ -128,7 +128,18 @@ def couple(options):
     mbs.AddLoad(items.LoadTorqueVector(markerNumber=tip, loadVector=[0, 0, 1], loadVectorUserFunction=load))
     sensor = position(mbs, nodes[-1])
     compared = {"beam.tip.position.y": lambda: column(mbs, sensor, 1)}
-    return mbs, compared, (container, load)
+    if not options.push:
+        return mbs, compared, (container, load)
+    # Across the plane, for a twentieth of a second.
+    size = options.push
+
+    def pushing(mbs, t, loadVector):
+        return [0, 0, sym.IfThenElse(t < 0.05, size + 0 * t, 0 * t)]
+
+    across = CreateSymbolicUserFunction(mbs, pushing, "loadVectorUserFunction", itemTypeName="LoadForceVector")
+    mbs.AddLoad(items.LoadForceVector(markerNumber=tip, loadVector=[0, 0, 1], loadVectorUserFunction=across))
+    compared["beam.tip.position.z"] = lambda: column(mbs, sensor, 2)
+    return mbs, compared, (container, load, across)
 
 
 def column(mbs, sensor, k):
@@ -261,6 +272,7 @@ def main():
     parser.add_argument("--end", type=float, default=10.0)
     parser.add_argument("--period", type=float, default=0.01, help="time between samples [s]")
     parser.add_argument("--radius", type=float, default=0.8)
+    parser.add_argument("--push", type=float, default=0.0, help="force across the plane of the couple at first [N]")
     parser.add_argument("--modified", action="store_true", help="keep the jacobian")
     parser.add_argument("--relative", type=float, default=1e-6)
     parser.add_argument("--absolute", type=float, default=1e-4)

@@ -167,14 +167,6 @@ impl Reading {
         }));
         warnings.extend(trust);
         let safety = self.case.hub_beam().map_or(SAFETY, |beam| beam.bases.safety);
-        let unstable = self.instability(run, &fine, safety, watch)?;
-        warnings.extend(unstable.as_ref().map(|Unstable { size, column, from, until }| {
-            format!(
-                "a disturbance of {size:e} of the amplitudes grows from t = {from:.6} s to {until:.6} s to a hundredth of \
-                 the motion, first in {column}: the motion is unstable, and trusted until then; a small force written into the \
-                 case shows where it leads"
-            )
-        }));
         let foreshortened = self.case.hub_beam().is_some_and(|beam| !beam.coupling.whole_curve);
         let exact = match foreshortened.then(|| finer.with_exact_coupling(self, watch)) {
             Some(Ok(exact)) => Some(exact),
@@ -187,6 +179,14 @@ impl Reading {
             }
             None => None,
         };
+        let unstable = self.instability(run, &fine, safety, watch)?;
+        warnings.extend(unstable.as_ref().map(|Unstable { size, column, from, until }| {
+            format!(
+                "a disturbance of {size:e} of the amplitudes grows from t = {from:.6} s to {until:.6} s to a hundredth of \
+                 the motion, first in {column}: the motion is unstable, and trusted until then; a small force written into the \
+                 case shows where it leads"
+            )
+        }));
         let exact_run = exact.as_ref().map(|exact| ("exact", exact));
         for (what, companion) in std::iter::once(("finer", &fine)).chain(exact_run) {
             if companion.status != Status::Finished {

@@ -74,34 +74,36 @@ impl Combination {
 impl Accelerations {
     /// Allocates for `system`.
     pub(crate) fn new(system: &mut dyn Dynamics, state: &State, weights: RowWeights) -> Accelerations {
-        let matrix = Matrix::new(&system.structure(1));
-        Accelerations { matrix, ..Accelerations::borrowing(system, state, weights) }
+        let size = system.size();
+        let (matrix, rhs) = (Matrix::new(&system.structure(1)), vec![0.0; size.v + size.lambda]);
+        Accelerations { matrix, rhs, ..Accelerations::borrowing(system, state, weights) }
     }
 
-    /// The same without a matrix, for [`Accelerations::complete_in`].
+    /// The same without matrix and vector, for [`Accelerations::complete_in`].
     pub(crate) fn borrowing(system: &mut dyn Dynamics, state: &State, weights: RowWeights) -> Accelerations {
-        let size = system.size();
         Accelerations {
             matrix: Matrix::new(&Structure::dense(0)),
-            rhs: vec![0.0; size.v + size.lambda],
+            rhs: Vec::new(),
             rows: Rows::new(system, state),
             weights,
             massless: None,
         }
     }
 
-    /// As [`Accelerations::complete`], with the memory of a matrix of (v, λ) whose content is lost.
+    /// As [`Accelerations::complete`], with the memory of a matrix and a vector of (v, λ) whose content is lost.
     pub(crate) fn complete_in(
         &mut self,
-        matrix: &mut Matrix,
+        (matrix, rhs): (&mut Matrix, &mut Vec<f64>),
         system: &mut dyn Dynamics,
         state: &mut State,
         place: (f64, f64),
         counters: &mut Counters,
     ) -> Result<(), StepError> {
         std::mem::swap(&mut self.matrix, matrix);
+        std::mem::swap(&mut self.rhs, rhs);
         let result = self.complete(system, state, place, counters);
         std::mem::swap(&mut self.matrix, matrix);
+        std::mem::swap(&mut self.rhs, rhs);
         result
     }
 

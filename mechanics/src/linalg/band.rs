@@ -1,8 +1,8 @@
 //! Band matrix with LU by threshold pivoting.
 //!
 //! Row-wise storage: row i holds columns i − l … i + u, so that elimination runs along contiguous memory. Without
-//! interchanges the elimination stays within the band, and the cost is n·l·u multiplications. The first interchange that
-//! fills a row beyond column i + u gives all rows l columns more.
+//! interchanges the elimination stays within the band, and the cost is n·l·u multiplications. The factors hold 1/Uₖₖ on the diagonal. The first interchange that
+//! fills a row beyond column i + u gives all rows l columns more, where they have not had them from the start.
 //!
 //! The diagonal is the pivot as long as |aᵢₖ|² ≤ τ⁻² |aₖₖ| |aᵢᵢ| for the rows i below it, which holds for
 //! every positive definite matrix, and for any units of the unknowns: it bounds by 1/τ the multipliers
@@ -30,8 +30,6 @@ pub struct Band<T> {
     data: Vec<T>,
     /// Row exchanged with row k at step k, minus k.
     pivots: Vec<u32>,
-    /// 1 / U_kk.
-    inverse: Vec<T>,
     /// Number of entries of row k of U right of the diagonal.
     row_length: Vec<u32>,
     /// Whether any rows were exchanged.
@@ -55,7 +53,6 @@ impl<T: Scalar> Band<T> {
             width,
             data: vec![T::ZERO; n * width],
             pivots: vec![0; n],
-            inverse: vec![T::ZERO; n],
             row_length: vec![0; n],
             interchanged: false,
             deflated: Vec::with_capacity(DEFLATIONS),
@@ -115,7 +112,7 @@ impl<T: Scalar> Band<T> {
     }
 
     /// Gives every row room for the fill that interchanges bring.
-    fn widen(&mut self) {
+    pub(super) fn widen(&mut self) {
         let width = self.lower + self.upper + 1 + self.lower;
         let mut data = vec![T::ZERO; self.n * width];
         for (to, from) in data.chunks_exact_mut(width).zip(self.data.chunks_exact(self.width)) {
@@ -225,7 +222,7 @@ impl<T: Scalar> Band<T> {
                 break;
             }
             let inverse = T::ONE / pivot;
-            self.inverse[k] = inverse;
+            pivot_row[HALF] = inverse;
             self.pivots[k] = 0;
             self.row_length[k] = HALF as u32;
             for r in 0..HALF {
@@ -294,7 +291,7 @@ impl<T: Scalar> Band<T> {
             }
             let (pivot_row, below) = rows.split_at_mut(width);
             let inverse = T::ONE / pivot_row[l];
-            self.inverse[k] = inverse;
+            pivot_row[l] = inverse;
             let pivot_row = &pivot_row[l + 1..l + 1 + count];
             for (r, row) in below.chunks_exact_mut(width).enumerate() {
                 let (first, rest) = row[l - 1 - r..].split_at_mut(1);
@@ -404,7 +401,7 @@ impl<T: Scalar> Band<T> {
             } else {
                 backward_products(*x, row, &tail[..length])
             };
-            *x = sum * self.inverse[k];
+            *x = sum * self.data[k * width + l];
         }
     }
 

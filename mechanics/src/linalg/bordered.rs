@@ -145,7 +145,7 @@ impl<T: Scalar> Bordered<T> {
     }
 
     /// The same for x and y in another order: place k belongs to their entry `unknowns[k]`.
-    pub(super) fn multiply_ordered(&self, unknowns: &[usize], x: &[T], y: &mut [T]) {
+    pub(super) fn multiply_ordered(&self, unknowns: &[u32], x: &[T], y: &mut [T]) {
         let (n, whole) = (self.band.order(), self.order());
         for (i, &unknown) in unknowns.iter().enumerate() {
             let columns = if i < n {
@@ -155,9 +155,9 @@ impl<T: Scalar> Bordered<T> {
             };
             let mut sum = T::ZERO;
             for j in columns.chain(n..whole) {
-                sum += self.get(i, j) * x[unknowns[j]];
+                sum += self.get(i, j) * x[unknowns[j] as usize];
             }
-            y[unknown] = sum;
+            y[unknown as usize] = sum;
         }
     }
 

@@ -26,9 +26,11 @@ pub enum Structure {
     /// Another structure in which the unknowns stand in another order: multipliers between the bodies that they couple.
     Ordered {
         /// The place of each unknown, a permutation.
-        places: Arc<[usize]>,
+        places: Arc<[u32]>,
         /// The structure of the places: dense or a band.
         of: Box<Structure>,
+        /// Whether rows will be exchanged anywhere, for which a band then has room from the start.
+        exchanges: bool,
     },
 }
 
@@ -43,11 +45,11 @@ impl Structure {
         Structure::Band { order: n, lower, upper, border }
     }
 
-    /// The structure `of` with unknown i at the place `places[i]`.
-    pub fn ordered(places: Arc<[usize]>, of: Structure) -> Structure {
+    /// The structure `of` with unknown i at the place `places[i]`, and room for exchanged rows.
+    pub fn ordered(places: Arc<[u32]>, of: Structure, exchanges: bool) -> Structure {
         debug_assert_eq!(places.len(), of.order());
         match of {
-            Structure::Band { .. } => Structure::Ordered { places, of: Box::new(of) },
+            Structure::Band { .. } => Structure::Ordered { places, of: Box::new(of), exchanges },
             of => of,
         }
     }
@@ -61,11 +63,13 @@ impl Structure {
                 debug_assert!(at >= order, "unknown {at} stands in the band");
                 Structure::Band { order, lower, upper, border: border + more }
             }
-            Structure::Ordered { places, of } => {
+            Structure::Ordered { places, of, exchanges } => {
                 let (before, behind) = places.split_at(at);
                 let order = places.len();
-                let places = before.iter().copied().chain(order..order + more).chain(behind.iter().copied());
-                Structure::Ordered { places: places.collect(), of: Box::new(of.widened(order, more)) }
+                let added = (order..order + more).map(|place| place as u32);
+                let places = before.iter().copied().chain(added).chain(behind.iter().copied());
+                let of = Box::new(of.widened(order, more));
+                Structure::Ordered { places: places.collect(), of, exchanges }
             }
         }
     }
@@ -126,24 +130,24 @@ pub struct Matrix<T = f64> {
 /// The place of each unknown in the storage, and memory for a vector in the order of the places.
 #[derive(Clone, Debug)]
 struct Ordering<T> {
-    places: Arc<[usize]>,
-    unknowns: Vec<usize>,
+    places: Arc<[u32]>,
+    unknowns: Vec<u32>,
     vector: Vec<T>,
 }
 
 impl<T: Scalar> Ordering<T> {
-    fn new(places: Arc<[usize]>) -> Ordering<T> {
+    fn new(places: Arc<[u32]>) -> Ordering<T> {
         let mut unknowns = vec![0; places.len()];
-        places.iter().enumerate().for_each(|(i, place)| unknowns[*place] = i);
+        places.iter().enumerate().for_each(|(i, place)| unknowns[*place as usize] = i as u32);
         let vector = vec![T::ZERO; places.len()];
         Ordering { places, unknowns, vector }
     }
 
     /// Takes `b` into the order of the places, changes it, and writes it back.
     fn apply(&mut self, b: &mut [T], change: impl FnOnce(&mut [T])) {
-        self.unknowns.iter().zip(&mut self.vector).for_each(|(i, x)| *x = b[*i]);
+        self.unknowns.iter().zip(&mut self.vector).for_each(|(i, x)| *x = b[*i as usize]);
         change(&mut self.vector);
-        self.unknowns.iter().zip(&self.vector).for_each(|(i, x)| b[*i] = *x);
+        self.unknowns.iter().zip(&self.vector).for_each(|(i, x)| b[*i as usize] = *x);
     }
 }
 
@@ -269,8 +273,12 @@ impl<T: Scalar> Matrix<T> {
             Structure::Band { order, lower, upper, border } => {
                 Storage::Band(Bordered::new(order, lower, upper, border))
             }
-            Structure::Ordered { ref places, ref of } => {
-                return Matrix { ordering: Some(Ordering::new(places.clone())), ..Matrix::new(of) };
+            Structure::Ordered { ref places, ref of, exchanges } => {
+                let mut made = Matrix::new(of);
+                if let (Storage::Band(a), true) = (&mut made.storage, exchanges) {
+                    a.band_mut().widen();
+                }
+                return Matrix { ordering: Some(Ordering::new(places.clone())), ..made };
             }
         };
         Matrix { storage, ordering: None, stamp: None, source: None, factored: false }
@@ -279,7 +287,7 @@ impl<T: Scalar> Matrix<T> {
     /// The place of unknown `i` in the storage.
     #[inline]
     fn place(&self, i: usize) -> usize {
-        self.ordering.as_ref().map_or(i, |ordering| ordering.places[i])
+        self.ordering.as_ref().map_or(i, |ordering| ordering.places[i] as usize)
     }
 
     /// Order of the matrix.
@@ -336,7 +344,7 @@ impl<T: Scalar> Matrix<T> {
 
     /// The unknown at a place of the storage.
     pub fn unknown(&self, place: usize) -> usize {
-        self.ordering.as_ref().map_or(place, |ordering| ordering.unknowns[place])
+        self.ordering.as_ref().map_or(place, |ordering| ordering.unknowns[place] as usize)
     }
 
     /// Calls `visit` with the row and the value of every entry of column `j` that is not zero.
@@ -389,7 +397,7 @@ impl<T: Scalar> Matrix<T> {
         if let Err(cause) = result {
             self.stamp = None;
             self.source = None;
-            let index = self.ordering.as_ref().map_or(cause.index, |o| o.unknowns[cause.index]);
+            let index = self.ordering.as_ref().map_or(cause.index, |o| o.unknowns[cause.index] as usize);
             return Err(Singular { index, ..cause });
         }
         self.factored = true;

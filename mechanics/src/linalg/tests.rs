@@ -107,7 +107,11 @@ fn multipliers_are_placed_between_the_bodies_that_they_join() {
     // Mass i at 2i, the multiplier to the next at 2i + 1, the last one in the border.
     let places: Vec<usize> =
         (0..2 * masses).map(|i| if i < masses { 2 * i } else { 2 * (i - masses) + 1 }).collect();
-    let ordered = Structure::ordered(places.into(), Structure::band(2 * masses - 1, 2, 2, 1));
+    let ordered = Structure::ordered(
+        places.into_iter().map(|place| place as u32).collect(),
+        Structure::band(2 * masses - 1, 2, 2, 1),
+        false,
+    );
     let dense = Structure::dense(2 * masses);
     assert_eq!((ordered.order(), ordered.half_bandwidth(), ordered.border()), (2 * masses, 2, 1));
     let (mut a, b) = (chain::<f64>(masses, &ordered), chain::<f64>(masses, &dense));
@@ -174,7 +178,7 @@ fn multipliers_are_placed_between_the_bodies_that_they_join() {
     assert!(right.iter().zip(&other).all(|(x, y)| (x - y).abs() < 1e-12));
     // What is singular is named by its own number, not by its place.
     let mut empty: Matrix =
-        Matrix::new(&Structure::ordered(vec![2, 0, 1].into(), Structure::band(3, 1, 1, 0)));
+        Matrix::new(&Structure::ordered(vec![2, 0, 1].into(), Structure::band(3, 1, 1, 0), true));
     empty.add(0, 0, 1.0);
     empty.add(1, 1, 1.0);
     assert_eq!(empty.factor().unwrap_err().index, 2);

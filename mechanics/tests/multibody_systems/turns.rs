@@ -83,34 +83,36 @@ fn half_a_turn_is_an_angle_like_any_other() {
     assert!(imbalance < 1e-4, "{imbalance:e}");
 }
 
-/// The flying beam of Simo & Vu-Quoc (1986, doi 10.1115/1.3171871) in its plane: it stays there, and has the momenta that force and
-/// couple gave, to 1e-10.
+/// The flying beam of Simo & Vu-Quoc (1988, doi 10.1016/0045-7825(88)90073-4) under the parts of its loads that lie in its plane: it stays
+/// there, and has the momenta that force and couple gave, to 1e-10.
 #[test]
 fn a_beam_that_flies_in_a_plane_stays_in_it() {
     let section = Properties::principal([1e4, 500.0, 500.0, 500.0], 1.0, [20.0, 10.0, 10.0]);
     let root = Station { position: [6.0, 0.0, 0.0], tangent: [-0.6, 0.8, 0.0], normal: [-0.8, -0.6, 0.0] };
     let mut model = Model::new();
-    let beam = model.beam(Flexible::new("beam", Beam::straight(root, 10.0, 8, section).unwrap()));
+    let beam = model.beam(Flexible::new("beam", Beam::straight(root, 10.0, 6, section).unwrap()));
     model.load(Load {
         name: "push".into(),
         at: Marker::new(part(beam, 0), [0.0; 3]),
-        force: [8.0, 0.0, 0.0],
-        moment: [0.0, 0.0, -80.0],
+        force: [20.0, 0.0, 0.0],
+        moment: [0.0, 0.0, -200.0],
         axes: Axes::Dead,
-        amplitude: Some(profile("if(t < 2.5, 1, 0)")),
+        amplitude: Some(profile("if(t < 0.5, t/0.5, if(t < 1, 2 - t/0.5, 0))")),
     });
     let mut system = Multibody::new(model).unwrap();
     let mut method = radau(1e-10);
     let start = system.initial();
-    let middle = fixed(&mut method, &mut system, start, 2.5, 2000, |_, _, _, _| {}).unwrap();
-    let s = fixed(&mut method, &mut system, middle.clone(), 1.5, 1200, |_, _, _, _| {}).unwrap();
-    let ([p, l], [_, before]) = (system.momenta(&s), system.momenta(&middle));
-    assert!((p[0] - 20.0).abs() < 1e-9 && p[1].abs() < 1e-9 && p[2].abs() < 1e-10, "{p:?}");
+    let middle = fixed(&mut method, &mut system, start, 1.0, 400, |_, _, _, _| {}).unwrap();
+    let s = fixed(&mut method, &mut system, middle.clone(), 1.0, 400, |_, _, _, _| {}).unwrap();
+    let ([p, l], [earlier, before]) = (system.momenta(&s), system.momenta(&middle));
+    // While loads act what iterations leave of a force is lost.
+    assert!((earlier[0] - 10.0).abs() < 1e-8 && earlier[1].abs() < 1e-8 && p[2] == 0.0, "{earlier:?}");
+    let changed = (0..2).map(|i| (p[i] - earlier[i]).abs()).fold(0.0, f64::max);
+    println!("momenta: {earlier:?} by the loads, changed by {changed:e}, {:e}", l[2] - before[2]);
+    assert!(changed < 1e-10 * earlier[0], "{p:?} for {earlier:?}");
     assert!(l[2].abs() > 50.0 && (l[2] - before[2]).abs() < 1e-10 * l[2].abs(), "{l:?} for {before:?}");
     assert!(system.energy(&s).strain > 1.0, "{:?}", system.energy(&s));
-    let out =
-        |name: &str, system: &mut Multibody| channel(system, &s, &format!("beam.tip.position.{name}")).abs();
-    assert!(out("z", &mut system) < 1e-12);
+    assert_eq!(channel(&mut system, &s, "beam.tip.position.z"), 0.0);
 }
 
 /// A beam that sags under its weight is spun up about the vertical: it comes to rest, in the axes that rotate, in the equilibrium of the

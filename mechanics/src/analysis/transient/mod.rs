@@ -107,8 +107,6 @@ struct Run {
     control: Option<StepControl>,
     balance: Option<Integral>,
     contacts: Option<Contacts>,
-    /// Impulse of a prescribed velocity.
-    impulse: Vec<f64>,
     /// Dense output.
     middle: State,
     /// Gaps, to see whether a contact comes near.
@@ -126,7 +124,6 @@ impl Run {
             control: None,
             balance: None,
             contacts,
-            impulse: vec![0.0; state.v.len()],
             middle: state.clone(),
             gaps: vec![0.0; state.lambda.len()],
         }
@@ -438,8 +435,8 @@ impl Run {
                 }
             }
         }
-        self.impulse.fill(0.0);
-        let jump = jump && system.impulse(&before, &mut self.impulse);
+        let mut impulse = vec![0.0; state.v.len()];
+        let jump = jump && system.impulse(&before, &mut impulse);
         let (mut work, mut lost) = (0.0, 0.0);
         if event.is_some() || jump {
             let mut fallback;
@@ -447,7 +444,7 @@ impl Run {
                 Some(contacts) => contacts,
                 None => {
                     fallback = ImpactMap::new(system);
-                    let impact = fallback.strike(system, state, &self.impulse, Bounds::default());
+                    let impact = fallback.strike(system, state, &impulse, Bounds::default());
                     impact.map_err(|cause| RunError::Contact { time: state.t, cause })?;
                     work = system.impulse_work(&before, state);
                     happened.push(EventKind::Jump { work });
@@ -460,7 +457,7 @@ impl Run {
             if contacts.resolved && !jump {
                 return self.restart(system, integrator, state, (work, lost), happened, observer);
             }
-            let impact = contacts.strike(system, state, &self.impulse)?;
+            let impact = contacts.strike(system, state, &impulse)?;
             // A prescribed motion does work in every impact.
             work += system.impulse_work(&before, state);
             if jump {

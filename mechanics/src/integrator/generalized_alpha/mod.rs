@@ -96,15 +96,12 @@ pub struct GeneralizedAlpha {
     /// Auxiliary acceleration aₙ, and aₙ₊₁ of the attempt.
     a: Vec<f64>,
     a_next: Vec<f64>,
-    /// aₙ for another step than the last, and the steps accepted last and attempted.
-    scaled: Vec<f64>,
+    /// The steps accepted last and attempted.
     spacing: [f64; 2],
     tolerance: Option<Tolerance>,
     /// Increment d of the attempt, and of the accepted step.
     d: Vec<f64>,
     d_accepted: Vec<f64>,
-    /// 1/scale of the unknowns.
-    inverse_scale: Vec<f64>,
     work: Option<Box<Work>>,
 }
 
@@ -177,12 +174,10 @@ impl GeneralizedAlpha {
             history: 0,
             a: Vec::new(),
             a_next: Vec::new(),
-            scaled: Vec::new(),
             spacing: [0.0; 2],
             tolerance: None,
             d: Vec::new(),
             d_accepted: Vec::new(),
-            inverse_scale: Vec::new(),
             work: None,
         }
     }
@@ -308,7 +303,7 @@ impl GeneralizedAlpha {
                     if !size.is_finite() {
                         return Err(failure::not_finite(system, from.t, h, to));
                     }
-                    self.worst = worst(&work.rhs[..from.v.len()], &self.inverse_scale);
+                    self.worst = worst(&work.rhs[..from.v.len()], system.scales());
                     return Err(StepError::NotConverged {
                         time: from.t,
                         step: h,
@@ -364,14 +359,14 @@ impl GeneralizedAlpha {
         let (n, kappa) = (from.v.len(), self.kappa());
         let (x, multipliers) = work.rhs.split_at(n);
         let (a_next, d) = (&mut self.a_next[..n], &mut self.d[..n]);
-        let (out_a, out_v, scale) = (&mut to.a[..n], &mut to.v[..n], &self.inverse_scale[..n]);
+        let (out_a, out_v, scale) = (&mut to.a[..n], &mut to.v[..n], &system.scales()[..n]);
         let mut square = 0.0;
         for i in 0..n {
             out_a[i] -= x[i];
             a_next[i] -= kappa * x[i];
             out_v[i] -= to_v * x[i];
             d[i] -= to_q * x[i];
-            let scaled = x[i] * scale[i];
+            let scaled = x[i] / scale[i];
             square += scaled * scaled;
         }
         let mut finite = true;
@@ -404,15 +399,12 @@ impl Integrator for GeneralizedAlpha {
             &mut self.earlier,
             &mut self.a,
             &mut self.a_next,
-            &mut self.scaled,
             &mut self.d,
             &mut self.d_accepted,
         ] {
             buffer.clear();
             buffer.resize(size.v, 0.0);
         }
-        self.inverse_scale.clear();
-        self.inverse_scale.extend(system.scales().iter().map(|scale| 1.0 / scale));
         let multipliers = if self.stabilized { 2 } else { 1 };
         let stabilized = self.stabilized && size.lambda > 0;
         let rows = Rows::new(system, state);
@@ -451,7 +443,7 @@ impl Integrator for GeneralizedAlpha {
             Convergence::kept(KEPT_TOLERANCE, NOISE)
         };
         if exactly {
-            let places = state.q.iter().zip(&self.inverse_scale).map(|(q, scale)| (q * scale).abs());
+            let places = state.q.iter().zip(system.scales()).map(|(q, scale)| (q / scale).abs());
             self.kept.learn_rounding(0.25 * f64::EPSILON * places.fold(1.0, f64::max));
         }
         self.restart(system, state)
@@ -473,7 +465,7 @@ impl Integrator for GeneralizedAlpha {
         self.pending = true;
         let result = self.solve(&mut work, system, from, h, to);
         self.work = Some(work);
-        Ok(StepReport { error: self.estimate(from, h), ..result? })
+        Ok(StepReport { error: self.estimate(system.scales(), from, h), ..result? })
     }
 
     fn discard(&mut self) {
@@ -506,11 +498,11 @@ impl Integrator for GeneralizedAlpha {
         work.kept = [f64::NAN; 2];
         state.side = Side::Right;
         let place = (state.t, 0.0);
-        let Work { accelerations, tangent, stiffness, .. } = &mut **work;
+        let Work { accelerations, tangent, rhs, stiffness, .. } = &mut **work;
         if stiffness.is_some() {
             accelerations.complete(system, state, place, &mut self.counters)?;
         } else {
-            accelerations.complete_in(tangent, system, state, place, &mut self.counters)?;
+            accelerations.complete_in((tangent, rhs), system, state, place, &mut self.counters)?;
         }
         self.a.copy_from_slice(&state.a);
         Ok(())
@@ -571,8 +563,8 @@ impl Integrator for GeneralizedAlpha {
 }
 
 /// Index of the largest entry of `x` in units of the scales.
-fn worst(x: &[f64], inverse_scale: &[f64]) -> usize {
-    let sizes = x.iter().zip(inverse_scale).map(|(x, scale)| (x * scale).abs());
+fn worst(x: &[f64], scales: &[f64]) -> usize {
+    let sizes = x.iter().zip(scales).map(|(x, scale)| (x / scale).abs());
     let largest = sizes.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
     largest.map_or(0, |(i, _)| i)
 }

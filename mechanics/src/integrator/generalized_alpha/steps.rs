@@ -27,19 +27,24 @@ impl GeneralizedAlpha {
         self.stabilized = stabilized;
     }
 
+    /// The step `h` over the last one, or 1.
+    fn ratio(&self, h: f64) -> f64 {
+        if self.spacing[0] > 0.0 { h / self.spacing[0] } else { 1.0 }
+    }
+
     /// The estimated local error of the attempt over the tolerance.
-    pub(super) fn estimate(&self, from: &State, h: f64) -> Option<f64> {
+    pub(super) fn estimate(&self, scales: &[f64], from: &State, h: f64) -> Option<f64> {
         let tolerance = self.tolerance?;
         let part = h * h * (self.beta + 0.5 * (self.alpha_m - self.alpha_f) - 1.0 / 6.0).abs();
         let n = from.v.len();
-        let lagging = if self.spacing[0] > 0.0 && self.spacing[0] != h { &self.scaled } else { &self.a };
+        let ratio = self.ratio(h);
         // Where q has more entries than v they do not correspond, and the scale alone counts.
         let relative = if from.q.len() == n { tolerance.relative } else { 0.0 };
         let mut square = 0.0;
         for i in 0..n {
             let size = relative * from.q[i].abs();
-            let weight = self.inverse_scale[i] / (tolerance.absolute + size * self.inverse_scale[i]);
-            square += (part * (self.a_next[i] - lagging[i]) * weight).powi(2);
+            let lagging = lagging(ratio, self.a[i], from.a[i]);
+            square += (part * (self.a_next[i] - lagging) / (tolerance.absolute * scales[i] + size)).powi(2);
         }
         Some((square / n.max(1) as f64).sqrt())
     }
@@ -57,30 +62,29 @@ impl GeneralizedAlpha {
             1 => (from_a, &self.before[..n]),
             _ => (&self.before[..n], &self.earlier[..n]),
         };
-        // The lag of a behind q̈ is a part of the step.
-        let ratio = if self.spacing[0] > 0.0 { h / self.spacing[0] } else { 1.0 };
+        let ratio = self.ratio(h);
         self.spacing[1] = h;
-        let a = if ratio == 1.0 {
-            &self.a[..n]
-        } else {
-            for ((scaled, a), q) in self.scaled.iter_mut().zip(&self.a).zip(from_a) {
-                *scaled = q + ratio * (a - q);
-            }
-            &self.scaled[..n]
-        };
+        let a = &self.a[..n];
         let (a_next, d) = (&mut self.a_next[..n], &mut self.d[..n]);
         let (out_a, out_v) = (&mut to.a[..n], &mut to.v[..n]);
         let lag = 1.0 / (1.0 - alpha_m);
         for i in 0..n {
             let change = later[i] - sooner[i];
-            let next = (from_a[i] - alpha_m * a[i]) * lag + kappa * change;
+            let a = lagging(ratio, a[i], from_a[i]);
+            let next = (from_a[i] - alpha_m * a) * lag + kappa * change;
             a_next[i] = next;
             out_a[i] = from_a[i] + change;
-            out_v[i] = from_v[i] + v_old * a[i] + v_new * next;
-            d[i] = h * from_v[i] + d_old * a[i] + d_new * next;
+            out_v[i] = from_v[i] + v_old * a + v_new * next;
+            d[i] = h * from_v[i] + d_old * a + d_new * next;
         }
         to.lambda.copy_from_slice(&from.lambda);
         to.copy_modes(from);
         system.retract(&from.q, d, &mut to.q);
     }
+}
+
+/// aₙ behind q̈ₙ for a step of another size: the lag is a part of the step.
+#[inline(always)]
+fn lagging(ratio: f64, a: f64, exact: f64) -> f64 {
+    if ratio == 1.0 { a } else { exact + ratio * (a - exact) }
 }

@@ -252,7 +252,8 @@ impl Integrator for Radau {
         state.side = Side::Right;
         work.factored_step = f64::NAN;
         let place = (state.t, 0.0);
-        work.accelerations.complete_in(&mut work.real, system, state, place, &mut self.counters)
+        let memory = (&mut work.real, &mut work.rhs);
+        work.accelerations.complete_in(memory, system, state, place, &mut self.counters)
     }
 
     fn save(&self, out: &mut Checkpoint) {

@@ -68,7 +68,7 @@ pub(super) struct Stages {
     source: Vec<f64>,
     product: Vec<f64>,
     rotated: Vec<f64>,
-    rhs: Vec<f64>,
+    pub(super) rhs: Vec<f64>,
 }
 
 impl Stages {
