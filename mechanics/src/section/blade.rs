@@ -351,7 +351,7 @@ mod tests {
             (vec![(0.0, good)], "at least two rows"),
             (vec![(0.0, good), (2.0, good), (1.0, good), (3.0, good)], "row 3"),
             (vec![(0.0, good), (1.0, good), (1.0, good), (1.0, good), (3.0, good)], "rows 2 to 4"),
-            (vec![(0.0, good), (2.0, good)], "cover the blade"),
+            (vec![(0.0, good), (2.0, good)], "the length of the blade"),
             (vec![(0.0, good), (f64::NAN, good), (3.0, good)], "row 2"),
             (vec![(0.0, good), (3.0, BladeResultants { flap_stiffness: 0.0, ..good })], "flapwise bending"),
         ] {
