@@ -169,6 +169,13 @@ fn messages_say_what_to_write() {
     }
     let named = check(&["--set", "basis=radial"]);
     assert_eq!(named.status.code(), Some(0), "{}", text(&named.stderr));
-    let soft = check(&["--set", "section.modulus=70"]);
-    assert!(text(&soft.stdout).contains("is a unit missing?"), "{}", text(&soft.stdout));
+    let metres = "section={kind='rectangle', modulus='70 GPa', density=2.7, width=30, height=50}";
+    for (set, says) in [
+        ("section.modulus=70", "waves of stretch run at 0.15 m/s"),
+        ("section.modulus=7e13", "waves of stretch run at 152752.52 m/s"),
+        (metres, "the radius of gyration of the section is 14.434 m"),
+    ] {
+        let suspected = text(&check(&["--set", set]).stdout);
+        assert!(suspected.contains(says) && suspected.contains("unit missing or wrong?"), "{suspected}");
+    }
 }

@@ -452,7 +452,7 @@ fn model(random: &mut Random, drawn: &mut Drawn, beam: Beam) {
 }
 
 fn integrator(random: &mut Random, drawn: &mut Drawn, beam: Beam) {
-    let step = (TAU / beam.frequency / random.scale(15.0..600.0)).min(0.1 * beam.duration);
+    let step = TAU / beam.frequency / random.scale(15.0..600.0);
     // Explicit methods begin with a step that is often refused.
     let kind = match (beam.explicit, beam.touching) {
         (true, false) => random.count(0..2),

@@ -16,6 +16,8 @@ const COARSE: f64 = 0.01;
 const AIM: f64 = 0.7;
 /// Lowest order at which errors are said to fall, and highest that is trusted.
 const ORDERS: (f64, f64) = (0.5, 4.0);
+/// Times the functions from which on no mesh is tried: a dense tangent is 4000 times as costly then.
+const MOST: f64 = 16.0;
 /// Factors on the functions that are tried, one after the other.
 const TRIED: [f64; 2] = [1.0, 1.5];
 
@@ -78,9 +80,9 @@ impl Reading {
                  let loads set in more slowly, damp it, or ask for a shorter time"
             );
         }
-        for factor in TRIED {
-            let changes =
-                self.case.with_functions(factor * (part / (AIM * COARSE)).powf(1.0 / order.min(ORDERS.1)));
+        let wanted = (part / (AIM * COARSE)).powf(1.0 / order.min(ORDERS.1));
+        for factor in TRIED.map(|factor| factor * wanted).into_iter().filter(|factor| *factor < MOST) {
+            let changes = self.case.with_functions(factor);
             let Some(candidate) = run_of(self.with(&changes), watch) else { break };
             let holds = |error: &&ColumnError| {
                 let pair = Pair::new(&candidate.trajectory, &finest.trajectory, &error.column);

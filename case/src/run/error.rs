@@ -25,7 +25,7 @@
 //!
 //! A run with rigid contacts is compared until its first impact only: behind it another mesh has other masses at its contacts.
 //!
-//! Work is counted in steps times unknowns, dense tangents by their factorisation, not in seconds, so that the same case gives the same files everywhere.
+//! Work is counted in steps times unknowns, not in seconds, so that the same case gives the same files everywhere.
 //!
 //! An estimate, not a bound: a mesh or a step so coarse that the run and its companion miss the same thing shows
 //! nothing.
@@ -38,7 +38,7 @@ use crate::problem::Problems;
 use crate::reading::Reading;
 use flexion::contact::Law;
 use flexion::system::{Role, State};
-use flexion_results::{ColumnError, Errors, ProblemSize, Status, Unstable, Watch};
+use flexion_results::{ColumnError, Errors, Status, Unstable, Watch};
 use std::ops::ControlFlow;
 
 /// Tolerances of the companions of fixed steps, one after the other.
@@ -60,9 +60,7 @@ const ELEMENTS: usize = 24;
 const BALANCE: &str = "energy.balance";
 /// Factor on the difference to the exact coupling, for the error of its own run.
 const OWN_ERROR: f64 = 1.1;
-/// Half-bandwidth above which the factorisation of the tangent counts more than the rest of a step.
-const BROAD: f64 = 10.0;
-/// [Work](work) of a run beyond which its companions are not run unasked: about a second of computing.
+/// Steps times unknowns of a run beyond which its companions are not run unasked: about a second of computing.
 const COSTLY: f64 = 3e6;
 /// Work of all companions beyond which they are given up unasked: over that of the run, and what is always allowed.
 const ALLOWANCE: (f64, f64) = (20.0, 2e6);
@@ -78,24 +76,15 @@ pub enum Effort {
     Full,
 }
 
-/// Counted work of a step: the unknowns n times 1 + (b/10)² with the half-bandwidth b of their tangent, n where it is dense.
-fn work(unknowns: usize, half_bandwidth: usize) -> f64 {
-    let broad = half_bandwidth as f64 / BROAD;
-    unknowns as f64 * (1.0 + broad * broad)
-}
-
 /// Counts the work of companions, and gives them up when it exceeds what is allowed.
 struct Allowance<'a, 'b> {
     watch: &'a mut Watch<'b>,
     left: f64,
-    /// Half-bandwidth of the tangents; `None` where they are dense.
-    half_bandwidth: Option<usize>,
 }
 
 impl Allowance<'_, '_> {
     fn watch(&mut self, state: &State) -> ControlFlow<()> {
-        let unknowns = state.v.len();
-        self.left -= work(unknowns, self.half_bandwidth.unwrap_or(unknowns));
+        self.left -= state.v.len() as f64;
         if self.left < 0.0 { ControlFlow::Break(()) } else { (self.watch)(state) }
     }
 }
@@ -112,15 +101,10 @@ impl Reading {
         effort: Effort,
         watch: &mut Watch<'_>,
     ) -> Result<Errors, Problems> {
-        let ProblemSize { unknowns, half_bandwidth, .. } = run.size;
-        let dense = half_bandwidth + 1 >= unknowns;
-        let work = run.counters.steps as f64 * work(unknowns, half_bandwidth);
+        let work = run.counters.steps as f64 * run.size.unknowns as f64;
         if effort == Effort::Auto && work > COSTLY {
-            let of_dense = if dense { ", and its tangent is dense" } else { "" };
             return Ok(Errors::none(format!(
-                "the run took {:.1e} steps times unknowns{of_dense}, and its companions several times as many: `--error full` runs \
-                 them",
-                run.counters.steps as f64 * unknowns as f64
+                "the run took {work:.1e} steps times unknowns, and its companions several times as many: `--error full` runs them"
             )));
         }
         if let Initial::Restart(_) = self.case.initial {
@@ -131,12 +115,16 @@ impl Reading {
                 Effort::Full => Err(self.problem("initial", message)),
             };
         }
+        if let (Some(end), Some(step)) = (self.before_impacts(run), self.case.steps.step())
+            && step > end
+        {
+            return Ok(Errors::none("the first impact comes within the first step".to_owned()));
+        }
         let allowed = match effort {
             Effort::Auto => (ALLOWANCE.0 * work).max(ALLOWANCE.1),
             Effort::Full => f64::INFINITY,
         };
-        let half_bandwidth = (!dense).then_some(half_bandwidth);
-        let mut allowance = Allowance { watch, left: allowed, half_bandwidth };
+        let mut allowance = Allowance { watch, left: allowed };
         let errors = self.compare(run, &mut |state| allowance.watch(state));
         let given_up = allowance.left < 0.0;
         errors.map(|mut errors| {
