@@ -6,8 +6,10 @@ use std::f64::consts::TAU;
 
 /// Most rows that are evaluated besides the records.
 const MOST: f64 = 20_000.0;
+/// Part of the shortest time between rows that is none.
+const SAME: f64 = 1e-3;
 
-/// Follows the accepted steps of a run.
+/// Follows the accepted steps of a run, and its records.
 pub(super) struct Passing {
     /// Shortest time between rows, and the time of the next \[s\].
     interval: f64,
@@ -15,6 +17,8 @@ pub(super) struct Passing {
     /// The last three rows with their times, and how many of them belong to one smooth motion.
     rows: [(f64, Vec<f64>); 3],
     count: usize,
+    /// Whether the last row is a record.
+    recorded: bool,
     /// Whether velocities may jump in any step.
     pub(super) rough: bool,
     last: State,
@@ -30,6 +34,7 @@ impl Passing {
             next: f64::NEG_INFINITY,
             rows: [row(), row(), row()],
             count: 0,
+            recorded: false,
             rough: false,
             last: state.clone(),
             sums: [0.0; 2],
@@ -40,21 +45,45 @@ impl Passing {
     pub(super) fn enter(&mut self, system: &mut dyn System, state: &State, trajectory: &mut Trajectory) {
         self.measure(state);
         let ends = state.side == Side::Left;
-        let restarts = state.t == self.rows[2].0 && self.count > 0;
-        if restarts {
+        let since = state.t - self.rows[2].0;
+        let recorded = std::mem::take(&mut self.recorded);
+        if recorded && since <= SAME * self.interval {
+            // It was recorded, at this time but for rounding.
+            self.rows[2].0 = state.t;
+            return;
+        }
+        if since == 0.0 && self.count > 0 {
             self.count = 0;
         } else if state.t < self.next && !ends {
             return;
         }
-        self.next = state.t + self.interval;
-        self.rows.rotate_left(1);
-        let (time, row) = &mut self.rows[2];
-        *time = state.t;
-        system.record(state, row);
-        self.count += 1;
+        system.record(state, self.add(state.t));
         for (i, y) in self.rows[2].1.iter().enumerate() {
             trajectory.pass(i, state.t, *y);
         }
+        self.find_vertices(trajectory);
+    }
+
+    /// Takes the row of a record; [`Passing::find_vertices`] is to follow where it says so.
+    pub(super) fn take(&mut self, t: f64, row: &[f64]) -> bool {
+        if t < self.next {
+            return false;
+        }
+        self.add(t).copy_from_slice(row);
+        self.recorded = true;
+        true
+    }
+
+    fn add(&mut self, t: f64) -> &mut [f64] {
+        self.next = t + self.interval;
+        self.rows.rotate_left(1);
+        self.count += 1;
+        self.rows[2].0 = t;
+        &mut self.rows[2].1
+    }
+
+    /// `trajectory` learns the vertices of the parabolas through the last three rows.
+    pub(super) fn find_vertices(&self, trajectory: &mut Trajectory) {
         if self.count > 2 && !self.rough {
             let [(t0, a), (t1, b), (t2, c)] = &self.rows;
             for (i, ((a, b), c)) in a.iter().zip(b).zip(c).enumerate() {
@@ -94,6 +123,36 @@ fn vertex([(t0, a), (t1, b), (t2, c)]: [(f64, f64); 3]) -> Option<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Behind a restart at t = 0 the end of the first step lies beyond the crest of 3t − 10t², and a record before it.
+    #[test]
+    fn a_crest_within_the_first_step_is_found_by_the_records() {
+        let mut trajectory = Trajectory::new(vec![crate::trajectory::tests::channel("y", "m")]);
+        let mut passing = Passing {
+            interval: 1e-6,
+            next: f64::NEG_INFINITY,
+            rows: std::array::from_fn(|_| (0.0, vec![0.0])),
+            count: 0,
+            recorded: false,
+            rough: false,
+            last: State::default(),
+            sums: [0.0; 2],
+        };
+        for t in [0.0, 0.1, 0.1 + 1e-8, 0.4] {
+            let y = 3.0 * t - 10.0 * t * t;
+            if passing.take(t, &[y]) {
+                passing.find_vertices(&mut trajectory);
+            }
+            if t == 0.0 || t == 0.4 {
+                trajectory.push(t, |row| row[0] = y);
+            }
+        }
+        let extremes = trajectory.extremes(0);
+        assert!(
+            (extremes.t_max - 0.15).abs() < 1e-12 && (extremes.max - 0.225).abs() < 1e-12,
+            "{extremes:?}"
+        );
+    }
 
     #[test]
     fn the_vertex_of_a_parabola_is_found_and_that_of_a_line_is_not() {

@@ -172,9 +172,12 @@ impl Observer for Recorder<'_> {
         if self.trajectory.is_empty() {
             self.passing.enter(system, state, &mut self.trajectory);
         }
+        let passing = &mut self.passing;
+        let mut taken = false;
         self.trajectory.push(state.t, |row| {
             let (own, common) = row.split_at_mut(system.channels().len());
             system.record(state, own);
+            taken = passing.take(state.t, own);
             let total = match self.energies.as_slice() {
                 [] => system.energy(state).total(),
                 recorded => recorded.iter().map(|&i| own[i]).sum(),
@@ -193,6 +196,9 @@ impl Observer for Recorder<'_> {
                 *out = value;
             }
         });
+        if taken {
+            self.passing.find_vertices(&mut self.trajectory);
+        }
         if let Some(shapes) = &mut self.shapes {
             shapes.sample(system, state);
         }
