@@ -122,6 +122,18 @@ fn a_coarse_run_has_no_fine_companions() {
     assert!(2 * steps < fine, "{steps} steps of companions, {fine} of one with the tightest tolerance");
 }
 
+/// A case that is sound has its results, also where twice its functions are more than a key allows.
+#[test]
+fn a_run_without_a_finer_one_says_so() {
+    let short = ["run.duration=1e-3", "output.step=1e-4"];
+    let reading = read(&[&["basis={kind='finite-elements',elements=1,refine=600}"], &short[..]].concat());
+    let ours = written::outcome(&reading);
+    let errors = reading.estimate_errors(&ours, Effort::Auto, &mut |_| ControlFlow::Continue(())).unwrap();
+    let why = errors.unknown.unwrap();
+    assert!(why.contains("there is no finer run: must be from 1 to 1000, but is 1200"), "{why}");
+    assert!(reading.estimate_errors(&ours, Effort::Full, &mut |_| ControlFlow::Continue(())).is_err());
+}
+
 /// A mesh that is too coarse is told which would do, and that one does.
 #[test]
 fn a_coarse_mesh_is_told_the_mesh_that_would_do() {
