@@ -30,8 +30,6 @@ pub struct Band<T> {
     data: Vec<T>,
     /// Row exchanged with row k at step k, minus k.
     pivots: Vec<u32>,
-    /// Number of entries of row k of U right of the diagonal.
-    row_length: Vec<u32>,
     /// Whether any rows were exchanged.
     interchanged: bool,
     /// Pivots that were too small and were replaced: see [`Band::factor`].
@@ -53,7 +51,6 @@ impl<T: Scalar> Band<T> {
             width,
             data: vec![T::ZERO; n * width],
             pivots: vec![0; n],
-            row_length: vec![0; n],
             interchanged: false,
             deflated: Vec::with_capacity(DEFLATIONS),
             column_size: Vec::new(),
@@ -224,7 +221,6 @@ impl<T: Scalar> Band<T> {
             let inverse = T::ONE / pivot;
             pivot_row[HALF] = inverse;
             self.pivots[k] = 0;
-            self.row_length[k] = HALF as u32;
             for r in 0..HALF {
                 let first = HALF - 1 - r;
                 let factor = below[r][first] * inverse;
@@ -272,7 +268,6 @@ impl<T: Scalar> Band<T> {
                 width = self.width;
             }
             self.pivots[k] = (p - k) as u32;
-            self.row_length[k] = count as u32;
             if !(best > small) {
                 if !deflate || !best.is_finite() || self.deflated.len() == DEFLATIONS {
                     return Err(Singular { index: k, pivot: best / largest });
@@ -387,8 +382,9 @@ impl<T: Scalar> Band<T> {
     /// `UPPER` is the common length of a row, or 0.
     fn backward_by_rows<const UPPER: usize>(&self, b: &mut [T]) {
         let (l, width) = (self.lower, self.width);
+        let longest = if self.interchanged { width - l - 1 } else { self.upper };
         for k in (0..self.n).rev() {
-            let length = self.row_length[k] as usize;
+            let length = longest.min(self.n - 1 - k);
             let row = &self.data[k * width + l + 1..k * width + l + 1 + length];
             let (head, tail) = b.split_at_mut(k + 1);
             let Some(x) = head.last_mut() else { return };

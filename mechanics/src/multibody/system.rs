@@ -40,7 +40,8 @@ const PAIR: usize = 2 * MOST;
 #[derive(Clone, Debug)]
 pub struct Multibody {
     pub(super) constants: Arc<Constants>,
-    pub(super) initial: State,
+    /// Velocities at the start.
+    pub(super) velocities: Vec<f64>,
     /// Part of the loads that acts.
     pub(super) part: f64,
     pub(super) placed: Vec<Placed>,
@@ -66,7 +67,7 @@ impl Multibody {
             .collect();
         let (constants, in_tree) = Constants::new(model, rows, Vec::new());
         let mut system = Multibody::with(constants);
-        let (constants, start) = (system.constants.clone(), system.initial.clone());
+        let (constants, start) = (system.constants.clone(), system.constants.start());
         consistency::positions(&mut system, &constants, &start)?;
         let found = consistency::redundant(&mut system, &constants, &start, &in_tree)?;
         if !found.is_empty() {
@@ -80,7 +81,7 @@ impl Multibody {
             let (constants, _) = Constants::new(constants.model.clone(), kept.collect(), names);
             system = Multibody::with(constants);
         }
-        consistency::velocities(&mut system, &start).map(|v| system.initial.v = v)?;
+        system.velocities = consistency::velocities(&mut system, &start)?;
         Ok(system)
     }
 
@@ -96,7 +97,7 @@ impl Multibody {
         let poses = poses.collect();
         let (bodies, joints) = (constants.place.len(), constants.of_joint.len());
         Multibody {
-            initial: constants.start(),
+            velocities: Vec::new(),
             constants: Arc::new(constants),
             part: 1.0,
             placed: vec![Placed::default(); bodies],
@@ -320,7 +321,7 @@ impl Dynamics for Multibody {
     }
 
     fn initial(&self) -> State {
-        self.initial.clone()
+        State { v: self.velocities.clone(), ..self.constants.start() }
     }
 
     fn is_vector_space(&self) -> bool {
