@@ -44,6 +44,8 @@ pub struct Multibody {
     pub(super) velocities: Vec<f64>,
     /// Part of the loads that acts.
     pub(super) part: f64,
+    /// Whether kept angles are held.
+    held: bool,
     pub(super) placed: Vec<Placed>,
     pub(super) poses: Vec<Pose>,
     /// Prescribed motion of each joint, and the time for which it was computed.
@@ -100,6 +102,7 @@ impl Multibody {
             velocities: Vec::new(),
             constants: Arc::new(constants),
             part: 1.0,
+            held: true,
             placed: vec![Placed::default(); bodies],
             poses,
             motions: vec![HubKinematics::default(); joints],
@@ -142,7 +145,7 @@ impl Multibody {
         if s.time() != *time {
             *time = s.time();
             for (joint, motion) in constants.model.joints.iter().zip(motions) {
-                if let Drive::Prescribed(prescribed) = &joint.drive {
+                if let Some(prescribed) = joint.prescribed() {
                     *motion = prescribed.at(*time);
                 }
             }
@@ -176,8 +179,9 @@ impl Multibody {
                 row.add_gradient(lambda, (a, b), motion, &mut work.gradient);
             }
         }
-        if let (Drive::Actuated(actuator), Some(coordinate)) =
-            (&constants.model.joints[k].drive, constants.coordinates[k])
+        let joint = &constants.model.joints[k];
+        if let (Drive::Actuated(actuator), Some(coordinate)) = (&joint.drive, constants.coordinates[k])
+            && !(self.held && joint.kept.is_some())
         {
             let motion = coordinate.motion(a, b, constants.angle[k].map(|i| s.q[i]));
             coordinate.interact(actuator, (a, b), &motion, s.time(), work, differentiate);
@@ -435,7 +439,7 @@ impl Dynamics for Multibody {
     }
 
     fn rows(&self) -> &[Set] {
-        &self.constants.sets
+        &self.constants.sets[usize::from(!self.held)]
     }
 
     fn constraint(&mut self, s: &State, c: RowWeights, g: &mut [f64]) {
@@ -523,6 +527,10 @@ impl Steady for Multibody {
             Parameter::Speed => return Err(NotSet::Unknown("frame that could turn steadily")),
         }
         Ok(())
+    }
+
+    fn hold(&mut self, held: bool) {
+        self.held = held;
     }
 
     fn release(&mut self) {
