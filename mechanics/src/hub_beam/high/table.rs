@@ -2,8 +2,6 @@
 //! over the points with each function. Four points lie side by side, so that both sums take four at a time; behind the
 //! last point are zeros.
 
-use super::sums::Rates;
-
 /// Points that lie side by side.
 pub const LANES: usize = 4;
 
@@ -41,9 +39,9 @@ impl Table {
         self.data[first..first + self.functions].iter().map(move |entry| entry[g % LANES])
     }
 
-    /// Calls `put` with Σᵢ φᵢ(x_g) cᵢ at every point g.
+    /// Calls `put` with Σᵢ φᵢ(x_g) cᵢ at every point g, for three sets of coefficients at once.
     #[inline(always)]
-    pub fn values(&self, coefficients: &[Rates], mut put: impl FnMut(usize, Rates)) {
+    pub fn values(&self, coefficients: &[[f64; 3]], mut put: impl FnMut(usize, [f64; 3])) {
         for (b, block) in self.data.chunks_exact(self.functions.max(1)).enumerate() {
             let [mut s0, mut s1, mut s2] = [[0.0; LANES]; 3];
             for (phi, &[c0, c1, c2]) in block.iter().zip(coefficients) {
@@ -90,7 +88,7 @@ mod tests {
                 table.push(&row);
                 assert_eq!(table.at(g).collect::<Vec<_>>(), row);
             }
-            let c: Vec<Rates> = (0..functions).map(|i| [1.0, i as f64, -0.5 * i as f64]).collect();
+            let c: Vec<[f64; 3]> = (0..functions).map(|i| [1.0, i as f64, -0.5 * i as f64]).collect();
             let mut count = 0;
             table.values(&c, |g, found| {
                 for (r, found) in found.iter().enumerate() {
