@@ -5,7 +5,11 @@
 //! iteration (with a kept tangent) stops
 //!
 //! - as converged, when η‖Δₖ‖ ≤ tolerance; the first increment is judged by the η of the last step, raised to a power;
-//! - as diverged, when θ ≥ 1, or when θ^(kₘₐₓ−k) η‖Δₖ‖ > tolerance: the iterations left will not do.
+//! - as diverged, from the third increment on, when θ ≥ 1, or when θ^(kₘₐₓ−k) η‖Δₖ‖ > tolerance: the iterations left will not do.
+//!
+//! Tangents that have turned away from the axis of a slender beam by a small angle make errors along it of errors across it and
+//! the other way, so that increments shrink at every second iteration only: from the third increment on θ is the geometric mean
+//! of the last two ratios, η is that of the larger one, and the second increment may be twice the first.
 //!
 //! Source: Hairer & Wanner, *Solving Ordinary Differential Equations II*, section IV.8
 //! (doi 10.1007/978-3-642-05221-7).
