@@ -5,19 +5,22 @@ use crate::kinds::initial::Initial;
 use crate::problem::Problems;
 use crate::reading::Reading;
 use flexion::contact::{ImpactMap, Law};
-use flexion::system::{State, System, Touch};
+use flexion::system::{Mode, State, System, Touch};
 
 /// Gap over the length of the beam below which a contact touches at the start.
 const TOUCHING: f64 = 1e-11;
+/// Velocity, over the largest of the system, that counts as zero.
+const STILL: f64 = 1e-9;
 /// Change of an effective mass on doubling the basis that is worth a warning.
 const CHANGE: f64 = 0.2;
 
 impl Reading {
-    /// Whether no contact begins inside its obstacle, or closes at the start.
+    /// Whether no contact begins inside its obstacle, closes at the start, or carries an equilibrium that moves past its obstacle.
     pub(super) fn check_contacts(&self, system: &mut dyn System, state: &State) -> Result<(), Problems> {
         let tolerance = TOUCHING * self.case.size();
         // An equilibrium may rest on elastic contacts.
         let at_rest = !matches!(self.case.initial, Initial::Undeformed);
+        let fastest = state.v.iter().fold(0.0_f64, |x, v| x.max(v.abs()));
         for (touch, key) in system.contacts(state).iter().zip(self.case.contact_keys()) {
             let Touch { name, row, gap, rate, .. } = touch;
             if at_rest && row.is_none() {
@@ -29,6 +32,17 @@ impl Reading {
                     -gap
                 );
                 return Err(self.problem(&format!("{key}.obstacle"), message));
+            }
+            if row.is_some_and(|row| state.mode[row] == Mode::Closed) {
+                if rate.abs() > STILL * self.case.size() * fastest {
+                    let message = format!(
+                        "the equilibrium presses on the obstacle of the contact `{name}`, which it leaves or enters with {:.3e} m/s: \
+                         what rests on it must move with it",
+                        rate.abs()
+                    );
+                    return Err(self.problem(&format!("{key}.obstacle"), message));
+                }
+                continue;
             }
             if *gap <= tolerance && *rate < 0.0 && state.t == 0.0 {
                 let message = format!(
