@@ -12,6 +12,7 @@ mod disturbance;
 mod docs;
 mod energy;
 mod first_look;
+mod four_bar;
 mod frequency_orders;
 mod fuzz;
 mod jumps;

@@ -100,7 +100,7 @@ pub fn described(space: &Space) -> Vec<Vec<String>> {
     let freedoms = system.freedoms();
     rows.push(row("degrees of freedom", format!("{freedoms}, by {} rows of joints", system.size().lambda)));
     if let Ok(rotation) = &space.rotation {
-        rows.push(row("steady rotation", rotation.described()));
+        rows.push(row("steady rotation", rotation.described(false)));
     }
     for dropped in system.dropped() {
         rows.push(row("left out", dropped.to_owned()));

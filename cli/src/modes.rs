@@ -85,8 +85,9 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
     compare(arguments, reading, &mut modes, speed, hub);
     let about = match case.space().map(|space| &space.rotation) {
         Some(Ok(rotation)) if speed > 0.0 => {
-            format!("at {} about {}", units.speed.text(speed), rotation.described())
+            format!("at {} about {}", units.speed.text(speed), rotation.described(hub == HubState::Free))
         }
+        Some(_) if hub == HubState::Free => "about the equilibrium at rest, free hub".to_owned(),
         Some(_) => "about the equilibrium at rest".to_owned(),
         None if hub == HubState::Free => format!("at {}, free hub", units.speed.text(speed)),
         None => format!("at {}, hub that keeps its speed", units.speed.text(speed)),

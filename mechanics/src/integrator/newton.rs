@@ -47,6 +47,8 @@ pub struct Convergence {
     /// Whether the tangent is of this step.
     fresh: bool,
     previous: f64,
+    /// Ratio of the last two increments, and the rate.
+    ratio: f64,
     rate: f64,
     eta: f64,
     /// Size of increments that are rounding errors, as far as known, and whether it has grown.
@@ -59,6 +61,9 @@ const PART: f64 = 1e-5;
 
 /// An increment that is not reduced to this part has stopped shrinking, where the tangent is new.
 const STALLED: f64 = 0.5;
+
+/// An increment that grows by this factor shows that the iteration diverges.
+const GROWN: f64 = 2.0;
 
 impl Convergence {
     /// Full Newton iteration (a new tangent every time) to the iteration error `tolerance`: at most 20
@@ -75,6 +80,7 @@ impl Convergence {
             iteration: 0,
             fresh: true,
             previous: 0.0,
+            ratio: 0.0,
             rate: 0.0,
             eta: 1.0,
             rounding: 0.0,
@@ -142,23 +148,28 @@ impl Convergence {
         }
         let tolerance = self.allowed;
         if self.iteration > 1 {
-            self.rate = if self.previous > 0.0 { size / self.previous } else { 0.0 };
-            let small = if self.fresh { self.noise } else { 10.0 * self.rounding };
-            if self.rate >= STALLED && size <= small {
+            let ratio = if self.previous > 0.0 { size / self.previous } else { 0.0 };
+            let small = if self.fresh { self.noise } else { self.noise.min(10.0 * self.rounding) };
+            if ratio >= STALLED && size <= small {
                 self.rounding = self.rounding.max(size);
                 return Progress::Converged;
             }
-            self.stalled |= self.rate >= STALLED && size <= self.noise;
-            if self.rate < 1.0 {
-                self.eta = self.rate / (1.0 - self.rate);
-                let left = self.max_iterations.saturating_sub(self.iteration) as i32;
-                if self.simplified && self.rate.powi(left) * self.eta * size > tolerance {
-                    return Progress::Diverged;
-                }
-            } else if self.simplified || (self.iteration > 3 && self.rate >= 2.0) {
-                return Progress::Diverged;
+            self.stalled |= ratio >= STALLED && size <= self.noise;
+            let alternates = self.simplified && self.iteration > 2;
+            self.rate = if alternates { (ratio * self.ratio).sqrt() } else { ratio };
+            let worst = if alternates { ratio.max(self.ratio) } else { ratio };
+            self.eta = if worst < 1.0 { worst / (1.0 - worst) } else { f64::INFINITY };
+            self.ratio = ratio;
+            let left = self.max_iterations.saturating_sub(self.iteration) as i32;
+            let diverges = if self.iteration <= 2 {
+                self.simplified && ratio >= GROWN
+            } else if self.simplified {
+                self.rate >= 1.0 || self.rate.powi(left) * self.eta * size > tolerance
             } else {
-                self.eta = f64::INFINITY;
+                self.iteration > 3 && ratio >= GROWN
+            };
+            if diverges {
+                return Progress::Diverged;
             }
         }
         self.previous = size;

@@ -3,7 +3,7 @@
 use super::body::four;
 use super::channels::channels;
 use super::force::angle_between;
-use super::joint::{Coordinate, Drive};
+use super::joint::Coordinate;
 use super::layout::{Link, layout};
 use super::marker::Part;
 use super::model::Model;
@@ -35,7 +35,8 @@ pub(super) struct Constants {
     pub(super) coordinates: Vec<Option<Coordinate>>,
     /// Number in q of each joint's angle.
     pub(super) angle: Vec<Option<usize>>,
-    pub(super) sets: Vec<Set>,
+    /// The sets of the multipliers, and the same with the [kept angles](super::joint::Joint) free.
+    pub(super) sets: [Vec<Set>; 2],
     pub(super) scales: Vec<f64>,
     pub(super) structures: [Structure; 3],
     pub(super) breaks: Vec<Break>,
@@ -143,7 +144,7 @@ impl Constants {
         }
         let mut constants = Constants {
             size: Size { q, v, lambda: rows.len(), memory: 0 },
-            sets: vec![Set::Free; rows.len()],
+            sets: [true, false].map(|held| sets(&model, &rows, held)),
             scales,
             beams,
             weight,
@@ -184,7 +185,7 @@ impl Constants {
         self.count_angles(&s.q, &mut q);
         // A prescribed angle begins in its own turn.
         for (joint, angle) in self.model.joints.iter().zip(&self.angle) {
-            if let (Drive::Prescribed(motion), Some(i)) = (&joint.drive, *angle) {
+            if let (Some(motion), Some(i)) = (joint.prescribed(), *angle) {
                 q[i] = nearest_turn(q[i], motion.at(0.0).angle);
             }
         }
@@ -223,6 +224,16 @@ impl Constants {
             }
         }
     }
+}
+
+/// The sets of multipliers. A kept angle that is not held has none of the rows of a joint: its equation is λ = 0, as that of friction
+/// with the coefficient zero.
+fn sets(model: &Model, rows: &[(usize, Row)], held: bool) -> Vec<Set> {
+    let is_free =
+        |(joint, row): &(usize, Row)| !held && *row == Row::Angle && model.joints[*joint].kept.is_some();
+    let friction = |normal| Set::Friction { coefficient: 0.0, normal };
+    let set = |(i, row)| if is_free(row) { friction(i) } else { Set::Free };
+    rows.iter().enumerate().map(set).collect()
 }
 
 /// Adds forces on r₁, r′₁, r₂, r′₂ of an element to those from its first velocity on.

@@ -40,11 +40,14 @@ const PAIR: usize = 2 * MOST;
 #[derive(Clone, Debug)]
 pub struct Multibody {
     pub(super) constants: Arc<Constants>,
-    pub(super) initial: State,
-    /// What the joints have changed of the velocities given.
+    /// Velocities at the start.
+    pub(super) velocities: Vec<f64>,
+    /// What the joints have changed of those given.
     pub(super) changes: Arc<[String]>,
     /// Part of the loads that acts.
     pub(super) part: f64,
+    /// Whether kept angles are held.
+    held: bool,
     pub(super) placed: Vec<Placed>,
     pub(super) poses: Vec<Pose>,
     /// Prescribed motion of each joint, and the time for which it was computed.
@@ -68,7 +71,7 @@ impl Multibody {
             .collect();
         let (constants, in_tree) = Constants::new(model, rows, Vec::new());
         let mut system = Multibody::with(constants);
-        let (constants, start) = (system.constants.clone(), system.initial.clone());
+        let (constants, start) = (system.constants.clone(), system.constants.start());
         consistency::positions(&mut system, &constants, &start)?;
         let found = consistency::redundant(&mut system, &constants, &start, &in_tree)?;
         if !found.is_empty() {
@@ -83,9 +86,9 @@ impl Multibody {
             let (constants, _) = Constants::new(constants.model.clone(), kept.collect(), dropped);
             system = Multibody::with(constants);
         }
-        let given = system.initial.clone();
-        system.initial.v = consistency::velocities(&mut system, &given)?;
-        system.changes = consistency::changes(&system.constants, &given, &system.initial.v).into();
+        let given = system.constants.start();
+        system.velocities = consistency::velocities(&mut system, &given)?;
+        system.changes = consistency::changes(&system.constants, &given, &system.velocities).into();
         Ok(system)
     }
 
@@ -101,10 +104,11 @@ impl Multibody {
         let poses = poses.collect();
         let (bodies, joints) = (constants.place.len(), constants.of_joint.len());
         Multibody {
-            initial: constants.start(),
+            velocities: Vec::new(),
             changes: Arc::default(),
             constants: Arc::new(constants),
             part: 1.0,
+            held: true,
             placed: vec![Placed::default(); bodies],
             poses,
             motions: vec![HubKinematics::default(); joints],
@@ -155,7 +159,7 @@ impl Multibody {
         if s.time() != *time {
             *time = s.time();
             for (joint, motion) in constants.model.joints.iter().zip(motions) {
-                if let Drive::Prescribed(prescribed) = &joint.drive {
+                if let Some(prescribed) = joint.prescribed() {
                     *motion = prescribed.at(*time);
                 }
             }
@@ -189,8 +193,9 @@ impl Multibody {
                 row.add_gradient(lambda, (a, b), motion, &mut work.gradient);
             }
         }
-        if let (Drive::Actuated(actuator), Some(coordinate)) =
-            (&constants.model.joints[k].drive, constants.coordinates[k])
+        let joint = &constants.model.joints[k];
+        if let (Drive::Actuated(actuator), Some(coordinate)) = (&joint.drive, constants.coordinates[k])
+            && !(self.held && joint.kept.is_some())
         {
             let motion = coordinate.motion(a, b, constants.angle[k].map(|i| s.q[i]));
             coordinate.interact(actuator, (a, b), &motion, s.time(), work, differentiate);
@@ -334,7 +339,7 @@ impl Dynamics for Multibody {
     }
 
     fn initial(&self) -> State {
-        self.initial.clone()
+        State { v: self.velocities.clone(), ..self.constants.start() }
     }
 
     fn is_vector_space(&self) -> bool {
@@ -448,7 +453,7 @@ impl Dynamics for Multibody {
     }
 
     fn rows(&self) -> &[Set] {
-        &self.constants.sets
+        &self.constants.sets[usize::from(!self.held)]
     }
 
     fn constraint(&mut self, s: &State, c: RowWeights, g: &mut [f64]) {
@@ -547,6 +552,10 @@ impl Steady for Multibody {
             Parameter::Speed => return Err(NotSet::Unknown("frame that could turn steadily")),
         }
         Ok(())
+    }
+
+    fn hold(&mut self, held: bool) {
+        self.held = held;
     }
 
     fn release(&mut self) {
