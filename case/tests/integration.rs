@@ -28,6 +28,7 @@ mod space;
 mod space_modes;
 mod spring;
 mod statics;
+mod supports;
 mod twenty_seconds;
 mod verification {
     pub mod run;

@@ -67,8 +67,10 @@ pub static OBSTACLE: Choice<Shared> = Choice {
 fn plane(v: &Values, _: &Context<'_>) -> Made<Shared> {
     let normal = optional_vector(v, "normal")?.unwrap_or([0.0, 0.0, 1.0]);
     let size = normal.iter().map(|x| x * x).sum::<f64>().sqrt();
-    if size == 0.0 {
-        return Err(Fault::new("normal", "has no direction: one of its components must not be zero").into());
+    if !(size > 0.0 && size.is_finite()) {
+        let message =
+            "has no direction: its components are all zero, or too large or too small to be squared";
+        return Err(Fault::new("normal", message).into());
     }
     Ok(Arc::new(Plane { point: vector(v, "point")?, normal: times(1.0 / size, normal), motion: None }))
 }

@@ -41,13 +41,18 @@ pub(super) struct Constants {
     pub(super) structures: [Structure; 3],
     pub(super) breaks: Vec<Break>,
     pub(super) channels: Vec<Channel>,
-    pub(super) dropped: Vec<String>,
+    /// Rows that are left out: names, joints and constraints.
+    pub(super) dropped: Vec<(String, (usize, Row))>,
     pub(super) size: Size,
 }
 
 impl Constants {
     /// Of a model with the given rows; and which joints belong to the tree.
-    pub(super) fn new(model: Model, rows: Vec<(usize, Row)>, dropped: Vec<String>) -> (Constants, Vec<bool>) {
+    pub(super) fn new(
+        model: Model,
+        rows: Vec<(usize, Row)>,
+        dropped: Vec<(String, (usize, Row))>,
+    ) -> (Constants, Vec<bool>) {
         let mut model = model;
         let bodies = model.bodies.len();
         // Bodies and nodes of beams as the nodes of a graph.

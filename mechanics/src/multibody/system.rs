@@ -22,7 +22,7 @@ use super::rotation::{
     Vector, apply, compose, exponential, inverse, logarithm, matrix, normalized, plus, product, rate, skew,
     times,
 };
-use super::row::{Row, Wrench};
+use super::row::{Row, Value, Wrench};
 use super::slender::{self, ELEMENT_COORDINATES, ELEMENT_VELOCITIES};
 use crate::linalg::vector::{cross, inner};
 use crate::linalg::{Matrix, Structure};
@@ -42,6 +42,8 @@ pub struct Multibody {
     pub(super) constants: Arc<Constants>,
     /// Velocities at the start.
     pub(super) velocities: Vec<f64>,
+    /// What the joints have changed of those given.
+    pub(super) changes: Arc<[String]>,
     /// Part of the loads that acts.
     pub(super) part: f64,
     /// Whether kept angles are held.
@@ -55,7 +57,7 @@ pub struct Multibody {
 
 impl Multibody {
     /// The system of a model. Bodies must fit their joints at the start; velocities that do not obey them are replaced by the nearest that do, in the norm
-    /// of kinetic energy.
+    /// of kinetic energy, and [cautions](crate::system::Observed::cautions) tell which.
     ///
     /// # Errors
     /// [`ModelError`].
@@ -73,17 +75,20 @@ impl Multibody {
         consistency::positions(&mut system, &constants, &start)?;
         let found = consistency::redundant(&mut system, &constants, &start, &in_tree)?;
         if !found.is_empty() {
-            let names: Vec<String> = found.iter().map(|(_, name)| name.clone()).collect();
             if !constants.model.drop_redundant {
                 let freedoms = constants.size.v + found.len() - constants.size.lambda;
-                return Err(ModelError::Redundant { rows: names, freedoms });
+                let rows = found.iter().map(|of| of.describe()).collect();
+                return Err(ModelError::Redundant { rows, freedoms });
             }
             let kept = constants.rows.iter().enumerate();
-            let kept = kept.filter(|(i, _)| found.iter().all(|(row, _)| row != i)).map(|(_, row)| *row);
-            let (constants, _) = Constants::new(constants.model.clone(), kept.collect(), names);
+            let kept = kept.filter(|(i, _)| found.iter().all(|of| of.row != *i)).map(|(_, row)| *row);
+            let dropped = found.iter().map(|of| (of.describe(), constants.rows[of.row])).collect();
+            let (constants, _) = Constants::new(constants.model.clone(), kept.collect(), dropped);
             system = Multibody::with(constants);
         }
-        system.velocities = consistency::velocities(&mut system, &start)?;
+        let given = system.constants.start();
+        system.velocities = consistency::velocities(&mut system, &given)?;
+        system.changes = consistency::changes(&system.constants, &given, &system.velocities).into();
         Ok(system)
     }
 
@@ -100,6 +105,7 @@ impl Multibody {
         let (bodies, joints) = (constants.place.len(), constants.of_joint.len());
         Multibody {
             velocities: Vec::new(),
+            changes: Arc::default(),
             constants: Arc::new(constants),
             part: 1.0,
             held: true,
@@ -116,8 +122,16 @@ impl Multibody {
     }
 
     /// Rows that were left out because they follow from others, each with the joints that it follows from.
-    pub fn dropped(&self) -> &[String] {
-        &self.constants.dropped
+    pub fn dropped(&self) -> impl ExactSizeIterator<Item = &str> {
+        self.constants.dropped.iter().map(|(name, _)| name.as_str())
+    }
+
+    /// The rows that were left out, with their values at the state for which markers are placed.
+    pub(super) fn values_of_dropped(&self) -> impl Iterator<Item = (&str, Row, Value)> {
+        self.constants.dropped.iter().map(|(name, (joint, row))| {
+            let (a, b) = self.ends(*joint);
+            (name.as_str(), *row, row.value(a, b, &self.motions[*joint]))
+        })
     }
 
     /// Number of degrees of freedom: velocities less rows.
@@ -448,6 +462,17 @@ impl Dynamics for Multibody {
             let (a, b) = self.ends(*joint);
             *g = row.value(a, b, &self.motions[*joint]).combine(c);
         }
+    }
+
+    fn dropped(&mut self, s: &State) -> [f64; 3] {
+        if self.constants.dropped.is_empty() {
+            return [0.0; 3];
+        }
+        self.place(s);
+        self.values_of_dropped().fold([0.0; 3], |largest, (_, _, value)| {
+            let [g, rate, bend] = largest;
+            [g.max(value.g.abs()), rate.max(value.rate.abs()), bend.max(value.acceleration.abs())]
+        })
     }
 
     fn jacobian(&mut self, s: &State, visit: &mut VisitRow<'_>) {
