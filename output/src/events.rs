@@ -130,6 +130,11 @@ impl Events {
         self.contacts.get(i).map_or("", |contact| contact.name.as_str())
     }
 
+    /// Names of the contacts.
+    pub(super) fn names(&self) -> impl Iterator<Item = &str> {
+        self.contacts.iter().map(|contact| contact.name.as_str())
+    }
+
     /// Name of the contact with this row.
     pub(super) fn name_of_row(&self, row: usize) -> &str {
         let found = self.contacts.iter().find(|contact| contact.row == Some(row));

@@ -21,6 +21,8 @@ pub(super) struct Passing {
     recorded: bool,
     /// Whether something has happened at the last row or behind it: no curve goes on through that.
     cut: bool,
+    /// Channels of forces that only press.
+    pub(super) pressing: Vec<usize>,
     /// Whether velocities may jump in any step.
     pub(super) rough: bool,
     last: State,
@@ -38,6 +40,7 @@ impl Passing {
             count: 0,
             recorded: false,
             cut: false,
+            pressing: Vec::new(),
             rough: false,
             last: state.clone(),
             sums: [0.0; 2],
@@ -99,7 +102,8 @@ impl Passing {
             let [(t0, a), (t1, b), (t2, c)] = &self.rows;
             for (i, ((a, b), c)) in a.iter().zip(b).zip(c).enumerate() {
                 if let Some((t, y)) = vertex([(*t0, *a), (*t1, *b), (*t2, *c)]) {
-                    trajectory.pass(i, t, y);
+                    let least = if self.pressing.contains(&i) { 0.0 } else { f64::NEG_INFINITY };
+                    trajectory.pass(i, t, y.max(least));
                 }
             }
         }
@@ -146,6 +150,7 @@ mod tests {
             count: 0,
             recorded: false,
             cut: false,
+            pressing: Vec::new(),
             rough: false,
             last: State::default(),
             sums: [0.0; 2],

@@ -90,7 +90,10 @@ impl<'a> Recorder<'a> {
                 &format!("share B²/ΣB² of the transverse mode {k}"),
             );
         }
-        let passing = Passing::new(system, state, plan.end - state.t);
+        let mut passing = Passing::new(system, state, plan.end - state.t);
+        let forces: Vec<String> = events.names().map(|name| format!("{name}.force")).collect();
+        let of_contact = |(_, channel): &(usize, &Channel)| forces.contains(&channel.name);
+        passing.pressing = system.channels().iter().enumerate().filter(of_contact).map(|(i, _)| i).collect();
         let mut trajectory = Trajectory::new(channels);
         trajectory.reserve((plan.end / plan.sample).min(1e7) as usize + 2);
         Recorder {

@@ -190,6 +190,7 @@ impl Locator {
         self.begin(system, from);
         self.whole = (to.t, to.side);
         let mut value = self.value(system, to);
+        self.press(to);
         let (mut low, mut high) = (0.0, h);
         if value > 0.0 {
             let Some(dip) = self.dip(system, integrator, from, h, to)? else { return Ok((h, false)) };
@@ -214,6 +215,7 @@ impl Locator {
                         self.extrapolate(system, from, size);
                     }
                     to.copy_from(&self.trial);
+                    self.press(to);
                     return Ok((size, true));
                 }
                 (high, value) = (size, found);
@@ -254,7 +256,19 @@ impl Locator {
             self.trial_value(system);
         }
         to.copy_from(&self.trial);
+        self.press(to);
         Ok((size, true))
+    }
+
+    /// Gives closed contacts that the method's own multipliers pull at `to`, by their error, the force of the accelerations
+    /// there.
+    fn press(&self, to: &mut State) {
+        for (i, set) in self.sets.iter().enumerate() {
+            let closed = matches!(set, Set::Unilateral { .. }) && to.mode[i] != Mode::Open;
+            if closed && to.lambda[i] < 0.0 {
+                to.lambda[i] = self.end.indicator[i].max(0.0);
+            }
+        }
     }
 
     /// Numbers of the model's indicators that are not positive at the end of the step located last.
