@@ -19,6 +19,10 @@ pub(super) struct Passing {
     count: usize,
     /// Whether the last row is a record.
     recorded: bool,
+    /// Whether something has happened at the last row or behind it: no curve goes on through that.
+    cut: bool,
+    /// Channels of forces that only press.
+    pub(super) pressing: Vec<usize>,
     /// Whether velocities may jump in any step.
     pub(super) rough: bool,
     last: State,
@@ -35,6 +39,8 @@ impl Passing {
             rows: [row(), row(), row()],
             count: 0,
             recorded: false,
+            cut: false,
+            pressing: Vec::new(),
             rough: false,
             last: state.clone(),
             sums: [0.0; 2],
@@ -44,6 +50,9 @@ impl Passing {
     /// Takes a state; `trajectory` learns the extremes, also those of the parabola through three of them.
     pub(super) fn enter(&mut self, system: &mut dyn System, state: &State, trajectory: &mut Trajectory) {
         self.measure(state);
+        if std::mem::take(&mut self.cut) {
+            (self.count, self.recorded) = (0, false);
+        }
         let ends = state.side == Side::Left;
         let since = state.t - self.rows[2].0;
         let recorded = std::mem::take(&mut self.recorded);
@@ -62,6 +71,11 @@ impl Passing {
             trajectory.pass(i, state.t, *y);
         }
         self.find_vertices(trajectory);
+    }
+
+    /// An event has happened: the row of its time is the last of a smooth motion.
+    pub(super) fn cut(&mut self) {
+        self.cut = true;
     }
 
     /// Takes the row of a record; [`Passing::find_vertices`] is to follow where it says so.
@@ -88,7 +102,8 @@ impl Passing {
             let [(t0, a), (t1, b), (t2, c)] = &self.rows;
             for (i, ((a, b), c)) in a.iter().zip(b).zip(c).enumerate() {
                 if let Some((t, y)) = vertex([(*t0, *a), (*t1, *b), (*t2, *c)]) {
-                    trajectory.pass(i, t, y);
+                    let least = if self.pressing.contains(&i) { 0.0 } else { f64::NEG_INFINITY };
+                    trajectory.pass(i, t, y.max(least));
                 }
             }
         }
@@ -113,7 +128,7 @@ impl Passing {
 }
 
 /// The vertex of the parabola through three points, if it lies between them.
-fn vertex([(t0, a), (t1, b), (t2, c)]: [(f64, f64); 3]) -> Option<(f64, f64)> {
+pub(super) fn vertex([(t0, a), (t1, b), (t2, c)]: [(f64, f64); 3]) -> Option<(f64, f64)> {
     let (first, second) = ((b - a) / (t1 - t0), (c - b) / (t2 - t1));
     let bend = (second - first) / (t2 - t0);
     let t = 0.5 * (t0 + t1) - 0.5 * first / bend;
@@ -134,6 +149,8 @@ mod tests {
             rows: std::array::from_fn(|_| (0.0, vec![0.0])),
             count: 0,
             recorded: false,
+            cut: false,
+            pressing: Vec::new(),
             rough: false,
             last: State::default(),
             sums: [0.0; 2],

@@ -31,6 +31,8 @@ pub struct Recorder<'a> {
     /// Channels of the system that are parts of the total energy.
     energies: Vec<usize>,
     gain: Option<f64>,
+    /// The first time at which a point may have stepped over an obstacle, and the name of its contact.
+    stepped_over: Option<(f64, String)>,
     passing: Passing,
     /// Whether the steps are fixed.
     fixed: bool,
@@ -88,7 +90,10 @@ impl<'a> Recorder<'a> {
                 &format!("share B²/ΣB² of the transverse mode {k}"),
             );
         }
-        let passing = Passing::new(system, state, plan.end - state.t);
+        let mut passing = Passing::new(system, state, plan.end - state.t);
+        let forces: Vec<String> = events.names().map(|name| format!("{name}.force")).collect();
+        let of_contact = |(_, channel): &(usize, &Channel)| forces.contains(&channel.name);
+        passing.pressing = system.channels().iter().enumerate().filter(of_contact).map(|(i, _)| i).collect();
         let mut trajectory = Trajectory::new(channels);
         trajectory.reserve((plan.end / plan.sample).min(1e7) as usize + 2);
         Recorder {
@@ -101,6 +106,7 @@ impl<'a> Recorder<'a> {
             balance,
             energies,
             gain: None,
+            stepped_over: None,
             passing,
             fixed: plan.step.is_some(),
             watch,
@@ -138,6 +144,13 @@ impl<'a> Recorder<'a> {
                 "the energy balance is off by {:.0} % of the largest energy or work of the run: its steps miss what happens, \
                  and the motion is not to be trusted; use smaller steps or a tighter tolerance",
                 100.0 * imbalance
+            ));
+        }
+        if let Some((time, contact)) = &self.stepped_over {
+            warnings.push(format!(
+                "the contact `{contact}` may have passed through its obstacle in the step that ends at t = {time:.6} s: this \
+                 method locates no events, and its steps are too large for an obstacle of this size; use smaller steps, or \
+                 `radau`"
             ));
         }
         let coarse = self.passing.steps_a_period().filter(|steps| self.fixed && *steps < STEPS_A_PERIOD);
@@ -206,6 +219,7 @@ impl Observer for Recorder<'_> {
     }
 
     fn event(&mut self, event: &Event) {
+        self.passing.cut();
         if !self.events.is_empty() {
             self.events.add(event);
         }
@@ -215,8 +229,23 @@ impl Observer for Recorder<'_> {
         self.gain = Some(excess);
     }
 
+    fn stepped_over(&mut self, time: f64, row: usize) {
+        if self.stepped_over.is_none() {
+            self.stepped_over = Some((time, self.events.name_of_row(row).to_owned()));
+        }
+    }
+
     fn passing(&mut self, system: &mut dyn System, state: &State) {
         self.passing.enter(system, state, &mut self.trajectory);
+        self.events.pass(system, state);
+    }
+
+    fn wants_within(&self) -> bool {
+        self.events.touching()
+    }
+
+    fn within(&mut self, system: &mut dyn System, state: &State, weight: f64) {
+        self.events.within(system, state, weight);
     }
 
     fn step(&mut self, state: &State) -> ControlFlow<()> {

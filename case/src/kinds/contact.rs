@@ -25,8 +25,10 @@ pub struct Contact {
     pub mount: Mount,
     /// The obstacle, in axes of what it is fixed to.
     pub obstacle: Arc<dyn Obstacle>,
-    /// What happens at a touch.
+    /// What happens at a touch; the stiffness of a force on points along the whole beam is one per length.
     pub law: Law,
+    /// Whether the stations are points along the whole beam.
+    pub whole: bool,
     /// Whether the tip loses its mass for it.
     pub massless: bool,
 }
@@ -46,7 +48,11 @@ fn place(v: &Values, name: &str) -> Made<[f64; 3]> {
 }
 
 /// The motion of an obstacle; `None` for one at rest.
-fn motion(v: &Values, c: &Context<'_>) -> Made<Option<Translation>> {
+pub(super) fn motion(
+    v: &Values,
+    c: &Context<'_>,
+    place: fn(&Values, &str) -> Made<[f64; 3]>,
+) -> Made<Option<Translation>> {
     let Some(_) = v.optional("motion")? else { return Ok(None) };
     let v = v.table("motion")?;
     let made = || {
@@ -82,11 +88,11 @@ static MOVED: [Key; 2] = [
         "displacement",
         Type::Quantities(&LENGTH, Any),
         Required,
-        "x and y of the displacement at the amplitude 1",
+        "components of the displacement at the amplitude 1",
     ),
     CHANGE,
 ];
-const MOTION: Key = key(
+pub(super) const MOTION: Key = key(
     "motion",
     Type::Table(&MOVED),
     Optional,
@@ -143,7 +149,7 @@ pub static OBSTACLE: Choice<Placed> = Choice {
             example: "contact=[{obstacle={kind='plane', point=[0, '1 mm'], angle='180 deg'}, law={kind='hertz', stiffness=1e5}}]",
             make: |v, c| {
                 let ((point, motion), mount) =
-                    both(both(place(v, "point"), motion(v, c)), MOUNT.make(v, "mount", c))?;
+                    both(both(place(v, "point"), motion(v, c, place)), MOUNT.make(v, "mount", c))?;
                 Ok((Arc::new(Plane::inclined(point, v.number("angle")?, motion)), mount))
             },
         },
@@ -166,9 +172,9 @@ pub static OBSTACLE: Choice<Placed> = Choice {
             example: "contact=[{obstacle={kind='circle', centre=[2, '501 mm'], radius='500 mm'}, law={kind='hertz', stiffness=1e5}}]",
             make: |v, c| {
                 let ((centre, motion), mount) =
-                    both(both(place(v, "centre"), motion(v, c)), MOUNT.make(v, "mount", c))?;
+                    both(both(place(v, "centre"), motion(v, c, place)), MOUNT.make(v, "mount", c))?;
                 let (radius, hollow) = (v.number("radius")?, v.boolean("inside")?);
-                Ok((Arc::new(Circle { centre, radius, hollow, motion }), mount))
+                Ok((Arc::new(Circle { centre, axis: [0.0, 0.0, 1.0], radius, hollow, motion }), mount))
             },
         },
         Kind {
@@ -200,7 +206,8 @@ pub static OBSTACLE: Choice<Placed> = Choice {
 
 const RESTITUTION: Key =
     key("restitution", Type::Number(Between(0.0, 1.0)), Required, "nominal coefficient of restitution e");
-const STIFFNESS: Key = key("stiffness", Type::Number(Positive), Required, "K in N/mⁿ");
+const STIFFNESS: Key =
+    key("stiffness", Type::Number(Positive), Required, "K in N/mⁿ, with `points` that of a length of 1 m");
 const EXPONENT: Key = key("exponent", Type::Number(Between(1.0, 4.0)), Default::Number(1.5), "n");
 const FRICTION: Key =
     key("friction", Type::Number(NotNegative), Default::Number(0.0), "coefficient of friction μ");
@@ -399,7 +406,8 @@ pub static CONTACT: Table<Contact> = Table {
                 .help("write `law = { kind = \"constraint\", restitution = 0.5 }`")
                 .into());
         }
-        Ok(Contact { name, stations, mount, obstacle, law, massless })
+        let whole = v.optional("points")?.is_some();
+        Ok(Contact { name, stations, mount, obstacle, law, whole, massless })
     },
 };
 
@@ -420,13 +428,31 @@ pub fn named(mut contacts: Vec<Contact>) -> Made<Vec<Contact>> {
     Ok(contacts)
 }
 
-/// Names, stations and parts of the points of all contacts, in the order of the system's.
-pub fn points(contacts: &[Contact]) -> impl Iterator<Item = (String, f64, &Contact)> {
+impl Contact {
+    /// The law of its `k`th station: the force per length on a whole beam is summed up by the trapezium rule, L/n at each of n
+    /// points and half of it at the tip.
+    fn law_at(&self, k: usize) -> Law {
+        match (self.law, self.stations.first()) {
+            (Law::Force(force), Some(&spacing)) if self.whole => {
+                let part = if k + 1 == self.stations.len() { 0.5 } else { 1.0 };
+                Law::Force(ContactForce { stiffness: part * spacing * force.stiffness, ..force })
+            }
+            (law, _) => law,
+        }
+    }
+}
+
+/// Names, stations, laws and contacts of the points of all contacts, in the order of the system's.
+pub fn points(contacts: &[Contact]) -> impl Iterator<Item = (String, f64, Law, &Contact)> {
     contacts.iter().flat_map(|contact| {
         let name = contact.name.as_deref().unwrap_or("contact");
         let several = contact.stations.len() > 1;
         let named = move |k: usize| if several { format!("{name}.{}", k + 1) } else { name.to_owned() };
-        contact.stations.iter().enumerate().map(move |(k, station)| (named(k), *station, contact))
+        contact
+            .stations
+            .iter()
+            .enumerate()
+            .map(move |(k, station)| (named(k), *station, contact.law_at(k), contact))
     })
 }
 

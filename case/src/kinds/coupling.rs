@@ -91,12 +91,9 @@ impl Assembly<'_> {
         if points.is_empty() {
             return Box::new(system);
         }
-        let at: Vec<_> = points.iter().map(|(_, station, contact)| (*station, contact.mount)).collect();
-        let made = |(point, (name, _, contact)): (usize, (String, f64, &Contact))| touch::Contact {
-            name,
-            point,
-            obstacle: Arc::clone(&contact.obstacle),
-            law: contact.law,
+        let at: Vec<_> = points.iter().map(|(_, station, _, contact)| (*station, contact.mount)).collect();
+        let made = |(point, (name, _, law, contact)): (usize, (String, f64, touch::Law, &Contact))| {
+            touch::Contact { name, point, obstacle: Arc::clone(&contact.obstacle), law }
         };
         let contacts = points.into_iter().enumerate().map(made).collect();
         Box::new(Contacting::new(system.with_contact_points(&at), contacts))

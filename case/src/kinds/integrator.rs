@@ -68,6 +68,15 @@ fn alpha(v: &Values, integrator: Result<GeneralizedAlpha, InvalidParameter>) -> 
     fixed(v, integrator.map(|method| if stabilized { method.stabilized() } else { method }))
 }
 
+/// An explicit method, with the constants of its key `baumgarte`.
+fn explicit<I: Integrator + 'static>(v: &Values, method: I, held: impl Fn(I, f64, f64) -> I) -> Made<Method> {
+    if v.optional(BAUMGARTE.name)?.is_none() {
+        return fixed(v, Ok(method));
+    }
+    let constants = v.table(BAUMGARTE.name)?;
+    fixed(v, Ok(held(method, constants.number("velocity")?, constants.number("position")?)))
+}
+
 /// A method with the fixed step of its key `step`, which impacts do not change.
 fn nonsmooth<I: Integrator + 'static>(v: &Values, integrator: Result<I, InvalidParameter>) -> Made<Method> {
     let steps = Steps::Fixed { step: v.number("step")?, contact: None };
@@ -102,6 +111,17 @@ const STABILIZED: Key = key(
     Type::Boolean,
     Default::Boolean(false),
     "joints and closed contacts hold their velocities too, by a second multiplier (Gear, Gupta & Leimkuhler)",
+);
+static CONSTANTS: [Key; 2] = [
+    key("position", Type::Number(NotNegative), Required, "ε in 1/s"),
+    key("velocity", Type::Number(NotNegative), Required, "δ in 1/s"),
+];
+const BAUMGARTE: Key = key(
+    "baumgarte",
+    Type::Table(&CONSTANTS),
+    Optional,
+    "constants by which joints and closed contacts are held, g̈ + 2δ ġ + ε² g = 0 (Baumgarte 1972, \
+     doi:10.1016/0045-7825(72)90018-7); without them a case with joints or rigid contacts is refused",
 );
 const SPECTRAL_RADIUS: Key = key(
     "spectral-radius",
@@ -230,17 +250,17 @@ pub static INTEGRATOR: Choice<Method> = Choice {
             name: "runge-kutta-4",
             summary: "classical Runge–Kutta, explicit, order 4",
             source: "Hairer, Nørsett & Wanner 1993, doi:10.1007/978-3-540-78862-1",
-            keys: &[STEP, CONTACT_STEP],
+            keys: &[STEP, CONTACT_STEP, BAUMGARTE],
             example: "integrator={kind='runge-kutta-4', step='1 us'}",
-            make: |v, _| fixed(v, Ok(RungeKutta::new())),
+            make: |v, _| explicit(v, RungeKutta::new(), RungeKutta::with_baumgarte),
         },
         Kind {
             name: "adams-4",
             summary: "Adams–Bashforth–Moulton predictor–corrector, explicit, order 4",
             source: "Hairer, Nørsett & Wanner 1993, doi:10.1007/978-3-540-78862-1",
-            keys: &[STEP, CONTACT_STEP],
+            keys: &[STEP, CONTACT_STEP, BAUMGARTE],
             example: "integrator={kind='adams-4', step='1 us'}",
-            make: |v, _| fixed(v, Ok(Adams::new())),
+            make: |v, _| explicit(v, Adams::new(), Adams::with_baumgarte),
         },
     ],
 };

@@ -1,6 +1,6 @@
 //! Contacts of a system in space: points of bodies and beams, and the obstacles that they may touch.
 
-use super::contact::LAW;
+use super::contact::{LAW, MOTION, motion};
 use super::spatial::{name, optional_vector, vector};
 use crate::declaration::{Bound::*, Presence as Default, Presence::*, Type, Type::Quantity, key};
 use crate::fault::{Fault, Made, both};
@@ -36,13 +36,14 @@ pub static OBSTACLE: Choice<Shared> = Choice {
                     Empty,
                     "direction out of the obstacle, [0, 0, 1] if left out",
                 ),
+                MOTION,
             ],
             example: "contact=[{on='bar', obstacle={kind='plane', point=[0, 0, '-1 mm']}, law={kind='hertz', stiffness=1e4}}]",
             make: plane,
         },
         Kind {
             name: "cylinder",
-            summary: "circular cylinder along z, or the outside of a hole",
+            summary: "circular cylinder, or the outside of a hole",
             source: "",
             keys: &[
                 key(
@@ -51,28 +52,43 @@ pub static OBSTACLE: Choice<Shared> = Choice {
                     Empty,
                     "a point of its axis, the origin if left out",
                 ),
+                key(
+                    "axis",
+                    Type::Quantities(&FACTOR, Any),
+                    Empty,
+                    "direction of its axis, [0, 0, 1] if left out",
+                ),
                 key("radius", Quantity(&LENGTH, Positive), Required, "radius"),
                 key("inside", Type::Boolean, Default::Boolean(false), "the point is inside, in a hole"),
+                MOTION,
             ],
             example: "contact=[{on='bar', at=[1, 0, 0], obstacle={kind='cylinder', centre=[0, '1 mm', 0], radius='1001 mm', inside=true}, law={kind='hertz', stiffness=1e4}}]\nbody=[{name='bar', mass=2, position=[0.5, 0, 0], velocity=[0.1, 0, 0], inertia={kind='sphere', radius=0.1}}]\njoint=[]",
-            make: |v, _| {
-                let (centre, radius, hollow) =
-                    (vector(v, "centre")?, v.number("radius")?, v.boolean("inside")?);
-                Ok(Arc::new(Circle { centre, radius, hollow, motion: None }))
+            make: |v, c| {
+                let ((centre, axis), motion) =
+                    both(both(vector(v, "centre"), direction(v, "axis")), motion(v, c, vector))?;
+                let (radius, hollow) = (v.number("radius")?, v.boolean("inside")?);
+                Ok(Arc::new(Circle { centre, axis, radius, hollow, motion }))
             },
         },
     ],
 };
 
-fn plane(v: &Values, _: &Context<'_>) -> Made<Shared> {
-    let normal = optional_vector(v, "normal")?.unwrap_or([0.0, 0.0, 1.0]);
-    let size = normal.iter().map(|x| x * x).sum::<f64>().sqrt();
+/// A unit vector, along z where the key is left out.
+fn direction(v: &Values, key: &str) -> Made<Vector> {
+    let vector = optional_vector(v, key)?.unwrap_or([0.0, 0.0, 1.0]);
+    let size = vector.iter().map(|x| x * x).sum::<f64>().sqrt();
     if !(size > 0.0 && size.is_finite()) {
         let message =
             "has no direction: its components are all zero, or too large or too small to be squared";
-        return Err(Fault::new("normal", message).into());
+        return Err(Fault::new(key, message).into());
     }
-    Ok(Arc::new(Plane { point: vector(v, "point")?, normal: times(1.0 / size, normal), motion: None }))
+    Ok(times(1.0 / size, vector))
+}
+
+fn plane(v: &Values, c: &Context<'_>) -> Made<Shared> {
+    let ((point, normal), motion) =
+        both(both(vector(v, "point"), direction(v, "normal")), motion(v, c, vector))?;
+    Ok(Arc::new(Plane { point, normal, motion }))
 }
 
 /// A point of a part and what it may touch.
@@ -108,7 +124,7 @@ pub static CONTACT: Table<Contact> = Table {
                 Empty,
                 "point of a body that may touch, in space at the start; its centre of mass if left out",
             ),
-            key("obstacle", Type::Kind(&OBSTACLE), Required, "rigid obstacle, at rest in space"),
+            key("obstacle", Type::Kind(&OBSTACLE), Required, "rigid obstacle"),
             key("law", Type::Kind(&LAW), Required, "what happens at a touch"),
         ]),
         Empty,

@@ -63,10 +63,10 @@ impl Reading {
     /// What the beam bears at its contacts.
     pub(super) fn limits(&self) -> Vec<Limit> {
         let limits = |beam: &HubBeam| {
-            let limit = |(name, station, contact): (String, f64, &Contact)| Limit {
+            let limit = |(name, station, law, _): (String, f64, Law, &Contact)| Limit {
                 name,
                 stiffness: beam.section.planar.resultants(station).axial_stiffness,
-                depth: if let Law::Force(_) = contact.law { beam.height() } else { f64::INFINITY },
+                depth: if let Law::Force(_) = law { beam.height() } else { f64::INFINITY },
             };
             points(&beam.contacts).map(limit).collect()
         };
@@ -75,8 +75,11 @@ impl Reading {
 
     /// A warning where twice the functions have another effective mass at a contact with restitution.
     pub(super) fn effective_masses(&self, system: &mut dyn System, state: &State) -> Vec<String> {
-        let rigid = |contact: &Contact| !contact.massless && matches!(contact.law, Law::Constraint { .. });
-        if !self.case.hub_beam().is_some_and(|beam| beam.contacts.iter().any(rigid)) {
+        let rigid = |law: &Law| matches!(law, Law::Constraint { .. });
+        let planar = |contact: &Contact| !contact.massless && rigid(&contact.law);
+        let planar = self.case.hub_beam().is_some_and(|beam| beam.contacts.iter().any(planar));
+        let space = self.case.space().filter(|space| !space.beams.is_empty());
+        if !planar && !space.is_some_and(|space| space.contacts.iter().any(|contact| rigid(&contact.law))) {
             return Vec::new();
         }
         let masses = |system: &mut dyn System, state: &State| -> Option<Vec<(String, f64)>> {

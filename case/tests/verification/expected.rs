@@ -130,9 +130,9 @@ impl Expected<'_> {
                 "amplitude" => run.amplitude(column, span),
                 "middle" => 0.5 * (run.extreme(column, 1.0, span).0 + run.extreme(column, -1.0, span).0),
                 "first-impact-time" => first().time,
-                "first-impact-speed" => first().speed,
-                "first-impact-impulse" => first().impulse,
-                "first-impact-loss" => first().lost,
+                "first-impact-speed" => first().speed.unwrap(),
+                "first-impact-impulse" => first().impulse.unwrap(),
+                "first-impact-loss" => first().lost.unwrap(),
                 other => panic!("{}: unknown figure `{other}`", self.name),
             };
             let (expected, tolerance) = (number(figure, "value"), number(figure, "tolerance"));

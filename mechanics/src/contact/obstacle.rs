@@ -9,7 +9,7 @@
 //!
 //! Obstacles of planar systems are cylinders over the plane of motion: their normals have no component along z.
 
-use crate::linalg::vector::inner;
+use crate::linalg::vector::{cross, inner};
 use crate::profile::{Profile, jumping_derivative};
 use crate::system::{Break, Jump};
 use std::sync::Arc;
@@ -137,11 +137,13 @@ impl Obstacle for Plane {
     }
 }
 
-/// A circular cylinder with its axis along z: a circle in the plane of motion.
+/// A circular cylinder: with its axis along z a circle in the plane of motion.
 #[derive(Clone, Debug)]
 pub struct Circle {
-    /// Centre \[m\].
+    /// Centre, a point of the axis \[m\].
     pub centre: [f64; 3],
+    /// Unit vector along the axis.
+    pub axis: [f64; 3],
     /// Radius \[m\].
     pub radius: f64,
     /// Whether the points are inside it, in a hole, rather than outside.
@@ -154,18 +156,19 @@ impl Obstacle for Circle {
     fn surface(&self, p: [f64; 3], t: f64) -> Surface {
         let [place, velocity, acceleration] = Translation::at(self.motion.as_ref(), t);
         let from = plus(plus(p, self.centre, -1.0), place, -1.0);
-        let distance = libm::hypot(from[0], from[1]);
+        let from = plus(from, self.axis, -inner(self.axis, from));
+        let distance = libm::hypot(libm::hypot(from[0], from[1]), from[2]);
         let side = if self.hollow { -1.0 } else { 1.0 };
-        // At the centre every direction is as near.
+        // On the axis every direction is as near.
         let normal = match distance {
-            0.0 => [side, 0.0, 0.0],
-            _ => [side * from[0] / distance, side * from[1] / distance, 0.0],
+            0.0 => tangents(self.axis)[0].map(|x| side * x),
+            _ => from.map(|x| side * x / distance),
         };
         let curvature = side / distance.max(1e-3 * self.radius);
         Surface {
             gap: side * (distance - self.radius),
             normal,
-            tangents: tangents(normal),
+            tangents: [cross(self.axis, normal), self.axis],
             curvatures: [curvature, 0.0],
             velocity,
             acceleration,
@@ -180,9 +183,10 @@ impl Obstacle for Circle {
         const SIDES: usize = 72;
         let [place, ..] = Translation::at(self.motion.as_ref(), t);
         let centre = plus(self.centre, place, 1.0);
+        let [first, second] = tangents(self.axis);
         let around = |k: usize| {
             let (sin, cos) = libm::sincos(k as f64 * std::f64::consts::TAU / SIDES as f64);
-            plus(centre, [cos, sin, 0.0], self.radius)
+            plus(plus(centre, first, self.radius * cos), second, self.radius * sin)
         };
         (0..=SIDES).map(around).collect()
     }
@@ -190,7 +194,9 @@ impl Obstacle for Circle {
     /// A circle on either side of the point.
     fn outline_in_space(&self, p: [f64; 3], t: f64, size: f64) -> Vec<[f64; 3]> {
         let circle = self.outline(p, t, size);
-        let at = |side: f64| circle.iter().map(move |x| [x[0], x[1], p[2] + side * size]);
+        let at = |side: f64| {
+            circle.iter().map(move |x| plus(*x, self.axis, inner(self.axis, plus(p, *x, -1.0)) + side * size))
+        };
         at(-1.0).chain(at(1.0)).collect()
     }
 }

@@ -76,7 +76,10 @@ impl Scratch {
     ) -> Result<Scratch, StepError> {
         let size = system.size();
         if size.lambda > 0 && baumgarte.is_none() {
-            let (feature, instead) = ("constraints", "Baumgarte's constants, generalized-alpha or radau");
+            let (feature, instead) = (
+                "constraints",
+                "Baumgarte's constants (key `baumgarte` of the integrator), generalized-alpha or radau",
+            );
             return Err(StepError::Unsupported { method, feature, instead });
         }
         let weights = baumgarte.unwrap_or(RowWeights::ACCELERATION);

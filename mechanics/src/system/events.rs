@@ -78,6 +78,12 @@ pub trait Events {
     /// Writes the indicators: an event is found where one of them changes its sign.
     fn indicate(&mut self, _s: &State, _out: &mut [f64]) {}
 
+    /// Writes the rates of the indicators; zero where a rate is not known, or where it does not matter that the indicator
+    /// changes its sign twice in a step.
+    fn indicator_rates(&mut self, _s: &State, out: &mut [f64]) {
+        out.fill(0.0);
+    }
+
     /// What follows when the indicators `fired` have changed their sign at `s`.
     fn cross(&mut self, _fired: &[usize], _s: &mut State) -> Crossing {
         Crossing::Continue

@@ -33,7 +33,7 @@ mod steady;
 pub use corotation::Corotation;
 pub use dynamics::{Dynamics, VisitRow, Weights};
 pub use events::{Break, Crossing, Events, Jump, ordered};
-pub use observed::{Channel, Direction, Energy, Frame, Observed, Power, Role, Touch};
+pub use observed::{Channel, Direction, Energy, Frame, Observed, Power, Pressing, Role, Touch};
 pub use rows::{RowWeights, Set, is_active, replace_inactive, slip};
 pub use state::{Mode, Side, Size, State};
 pub use steady::{NotSet, Parameter, Steady};

@@ -107,6 +107,21 @@ pub struct Touch {
     pub rate: f64,
 }
 
+/// What presses at a contact.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pressing {
+    /// Where its point is, in the axes in which its obstacle is given \[m\].
+    pub place: [f64; 3],
+    /// Gap g \[m\].
+    pub gap: f64,
+    /// Its rate ġ \[m/s\].
+    pub rate: f64,
+    /// Normal force \[N\].
+    pub force: f64,
+    /// Power lost in friction and damping \[W\].
+    pub lost: f64,
+}
+
 /// What a recorded quantity is to its readers: which are added up, drawn and printed follows from this, not from names.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Role {
@@ -158,6 +173,11 @@ pub trait Observed {
     /// The contacts, in the order of their columns.
     fn contacts(&mut self, _s: &State) -> Vec<Touch> {
         Vec::new()
+    }
+
+    /// Writes what presses at each of the [contacts](Observed::contacts), in their order.
+    fn pressing(&mut self, _s: &State, out: &mut Vec<Pressing>) {
+        out.clear();
     }
 
     /// What unknown `i` (a velocity) moves.

@@ -58,8 +58,20 @@ fn obstacles() -> Vec<Arc<dyn Obstacle>> {
     let (sin, cos) = 0.7_f64.sin_cos();
     vec![
         Arc::new(Plane { point: [-1.0, 4.0, 0.0], normal: [-sin, cos, 0.0], motion: wave() }),
-        Arc::new(Circle { centre: [1.0, 1.0, 0.0], radius: 1.6, hollow: false, motion: wave() }),
-        Arc::new(Circle { centre: [0.3, 0.1, 0.0], radius: 0.6, hollow: true, motion: None }),
+        Arc::new(Circle {
+            centre: [1.0, 1.0, 0.0],
+            axis: [0.0, 0.0, 1.0],
+            radius: 1.6,
+            hollow: false,
+            motion: wave(),
+        }),
+        Arc::new(Circle {
+            centre: [0.3, 0.1, 0.0],
+            axis: [0.0, 0.0, 1.0],
+            radius: 0.6,
+            hollow: true,
+            motion: None,
+        }),
     ]
 }
 

@@ -2,11 +2,12 @@
 
 use super::{GRAVITY, odd_body, radau, wave};
 use flexion::analysis::transient::{Ending, Event, EventKind, Observer, Plan, Step, transient};
-use flexion::contact::{Circle, Contact, ContactForce, Contacting, Law, Obstacle, Plane};
+use flexion::contact::{Circle, Contact, ContactForce, Contacting, Law, Obstacle, Plane, Translation};
 use flexion::integrator::{GeneralizedAlpha, Integrator, MoreauJean, NonsmoothAlpha};
 use flexion::linalg::Structure;
 use flexion::multibody::rotation::{exponential, matrix};
 use flexion::multibody::{Body, Kind, Marker, Model, Multibody, Part};
+use flexion::profile::Expression;
 use flexion::system::{Dynamics, Mode, State, System};
 use flexion::verify::dynamics;
 use std::sync::Arc;
@@ -144,7 +145,9 @@ fn a_point_that_rubs_in_space_conforms() {
     let normal = [1.0, -2.0, 0.5].map(|x| x / size);
     // The point is 5 cm inside.
     let plane = |x: f64| Arc::new(Plane { point: normal.map(|n| x * n), normal, motion: None });
-    let hole = |x: f64| Arc::new(Circle { centre: [0.0; 3], radius: -x, hollow: true, motion: None });
+    let hole = |x: f64| {
+        Arc::new(Circle { centre: [0.0; 3], axis: [0.0, 0.0, 1.0], radius: -x, hollow: true, motion: None })
+    };
     let free = Law::Constraint { restitution: 0.0, friction: 0.0 };
     let inside = |obstacle: Arc<dyn Obstacle>| {
         let mut system = rubbing(obstacle, free);
@@ -154,7 +157,16 @@ fn a_point_that_rubs_in_space_conforms() {
     let plane = plane(inside(plane(0.0)));
     let hole = hole(inside(hole(-1.0)) - 1.0);
     let force = ContactForce { stiffness: 400.0, exponent: 1.5, factor: 0.4, friction: 0.6, slip_speed: 0.7 };
-    for obstacle in [plane as Arc<dyn Obstacle>, hole] {
+    // A hole along an axis of any direction, which moves.
+    let moved = Translation {
+        direction: [0.0, 0.6, 0.8],
+        displacement: Arc::new(Expression::new("0.1*sin(3*t)", "t", 1.0).unwrap()),
+    };
+    let tilted = |radius: f64| {
+        Arc::new(Circle { centre: [0.0; 3], axis: normal, radius, hollow: true, motion: Some(moved.clone()) })
+    };
+    let tilted = tilted(1.0 - inside(tilted(1.0)));
+    for obstacle in [plane as Arc<dyn Obstacle>, hole, tilted] {
         for law in [Law::Force(force), Law::Constraint { restitution: 0.2, friction: 0.6 }] {
             let mut system = rubbing(Arc::clone(&obstacle), law);
             let mut s = system.initial();

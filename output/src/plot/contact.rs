@@ -28,7 +28,7 @@ pub fn contact_figure(trajectory: &Trajectory, events: &Events, title: Option<&s
     let loss = panel(&[(None, trajectory)], "energy.contact_loss");
     panels.extend(loss.into_iter().filter(|panel| largest(panel) > negligible));
     panels.retain(|panel| !panel.series.is_empty());
-    let by_force = !events.impacts().any(|entry| entry.impulse * entry.speed > negligible);
+    let by_force = !events.impacts().any(|entry| entry.work() > negligible);
     let forces: &[(usize, String)] = if by_force { &shown } else { &[] };
     if let Some(window) = burst(trajectory, events, forces) {
         panels.extend(enlarged(trajectory, events, &shown, window, negligible));
@@ -41,14 +41,23 @@ fn largest(panel: &Panel) -> f64 {
     panel.series.iter().flat_map(|series| &series.points).fold(0.0, |m, (_, y)| m.max(y.abs()))
 }
 
-/// Numbers and names of the contacts that are drawn: those that touched first, or the first.
+/// Numbers and names of the contacts that are drawn: those that touched first, or, where none did, those that press from the
+/// start.
 fn drawn(trajectory: &Trajectory, events: &Events) -> Vec<(usize, String)> {
     let mut numbers: Vec<usize> = Vec::new();
     let all = (0..).take_while(|i| !events.name(*i).is_empty());
-    for i in events.list.iter().map(|entry| entry.contact).chain(all) {
+    let presses = |i: &usize| {
+        let force = trajectory.index(&format!("{}.force", events.name(*i)));
+        force.is_some_and(|force| trajectory.values(force).any(|force| force != 0.0))
+    };
+    let pressing = all.clone().filter(presses);
+    for i in events.list.iter().map(|entry| entry.contact).chain(pressing) {
         if numbers.len() < DRAWN && !numbers.contains(&i) {
             numbers.push(i);
         }
+    }
+    if numbers.is_empty() {
+        numbers.extend(all.take(DRAWN));
     }
     numbers.sort_unstable();
     let named = numbers.into_iter().map(|i| (i, events.name(i).to_owned()));
@@ -116,11 +125,11 @@ fn enlarged(
         series.points.sort_by(|a, b| a.0.total_cmp(&b.0));
     }
     let impulses = |(color, (number, name)): (usize, &(usize, String))| {
-        let strikes = |entry: &&Entry| entry.contact == *number && entry.impulse * entry.speed > negligible;
+        let strikes = |entry: &&Entry| entry.contact == *number && entry.work() > negligible;
         let points = events.list.iter().filter(inside).filter(strikes);
         Series {
             name: (shown.len() > 1).then(|| name.clone()),
-            points: points.map(|entry| (entry.time, entry.impulse)).collect(),
+            points: points.filter_map(|entry| Some((entry.time, entry.impulse?))).collect(),
             line: Line::None,
             marker: Some(Marker::Circle),
             color: Some(color),

@@ -1,7 +1,7 @@
 //! Contacts of a run: impacts, and which contacts are closed.
 
 use super::ending::RunError;
-use super::locate::{Locator, TOUCHING};
+use super::locate::{Locator, TOUCHING, lowest};
 use super::{Event, EventKind};
 use crate::contact::{Bounds, Impact, ImpactMap, Neglected};
 use crate::system::{Mode, RowWeights, Set, State, System};
@@ -197,4 +197,51 @@ pub(super) fn approaches(system: &mut dyn System, s: &State, h: f64, gaps: &mut 
         let closes = s.mode[i] != Mode::Open || s.lambda[i] > 0.0 || gaps[i] <= 0.0;
         matches!(set, Set::Unilateral { .. }) && closes
     })
+}
+
+/// Looks for obstacles that a method without location of events has stepped over.
+pub(super) struct Unseen {
+    /// g and ġ of each row at the start and at the end of a step.
+    values: [[Vec<f64>; 2]; 2],
+    bends: Vec<f64>,
+}
+
+impl Unseen {
+    /// For systems with contacts.
+    pub(super) fn new(system: &dyn System) -> Option<Unseen> {
+        let zeros = || vec![0.0; system.rows().len()];
+        let contacts = system.rows().iter().any(|set| matches!(set, Set::Unilateral { .. }));
+        contacts.then(|| Unseen { values: [(); 2].map(|()| [zeros(), zeros()]), bends: zeros() })
+    }
+
+    /// The row of a contact whose gap has fallen and risen in a step without force, and may have been negative between: more
+    /// sharply than the accelerations at both ends tell.
+    pub(super) fn find(&mut self, system: &mut dyn System, from: &State, to: &State) -> Option<usize> {
+        for (s, [gap, rate]) in [from, to].into_iter().zip(&mut self.values) {
+            system.constraint(s, RowWeights::POSITION, gap);
+            system.constraint(s, RowWeights::VELOCITY, rate);
+        }
+        let h = to.t - from.t;
+        let at = |k: usize, i: usize| self.values[k].each_ref().map(|x| x[i]);
+        for i in 0..self.bends.len() {
+            let free = |s: &State| s.lambda[i].max(0.0) == 0.0;
+            let ([g0, v0], [g1, v1]) = (at(0, i), at(1, i));
+            let contact = matches!(system.rows()[i], Set::Unilateral { .. });
+            if !(contact && free(from) && free(to) && g0 > 0.0 && g1 > 0.0) {
+                continue;
+            }
+            let Some([_, meet]) = lowest((0.0, [g0, v0]), (h, [g1, v1])) else { continue };
+            let sharp = |s: &State, system: &mut dyn System, bends: &mut [f64]| {
+                system.constraint(s, RowWeights::ACCELERATION, bends);
+                h * bends[i] < 0.5 * (v1 - v0)
+            };
+            if g0 + meet * v0 <= 0.0
+                && sharp(from, system, &mut self.bends)
+                && sharp(to, system, &mut self.bends)
+            {
+                return Some(i);
+            }
+        }
+        None
+    }
 }

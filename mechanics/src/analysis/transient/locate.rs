@@ -14,9 +14,10 @@
 //! bound in steps that are next to nothing): what is closed behind an event is decided by the latter, and the same contact
 //! would close and open in turn, for no time. Where unknowns have no mass, the multipliers of the method are taken.
 //!
-//! A gap that is positive at both ends of a step may have been negative inside: where it first falls and then rises, the
-//! cubic through g and ġ at both ends says where it is least, and a step to that time decides. The time of an event is
-//! refined by steps from the same state until φ vanishes to rounding.
+//! A gap that is positive at both ends of a step may have been negative inside: where it first falls and then rises, its
+//! least value is sought by steps to times inside, ġ there saying on which side of them it is, until a bound from below is
+//! positive ([`lowest`]): however thin an obstacle is against the way of a step, it is found. The time of an event is refined
+//! by steps from the same state until φ vanishes to rounding.
 
 use super::ending::{RunError, failed};
 use crate::integrator::{Accelerations, Counters, Integrator, Span};
@@ -32,6 +33,10 @@ const SMALLEST: f64 = 1e-30;
 const SHORTEST: f64 = 1e-9;
 /// Least scaled indicator of a contact that has just opened and separates: above 1, which is rounding.
 const SEPARATING: f64 = 2.0;
+/// Attempts to find the least value of a gap inside a step.
+const DIVISIONS: usize = 60;
+/// Part of the change of h ġ by which a gap may fall below its tangents: its point does not move along a straight line.
+const BENDING: f64 = 0.1;
 /// Attempts to refine the time of an event.
 const ATTEMPTS: usize = 200;
 
@@ -47,6 +52,8 @@ pub(super) struct Locator {
     pub(super) strongest: f64,
     start: Values,
     end: Values,
+    /// At the end of the part of the step in which dips are sought.
+    far: Values,
     signs: Vec<f64>,
     /// Open contacts that touch and do not approach at the start of the step: open as they are, they separate.
     leaving: Vec<bool>,
@@ -77,7 +84,7 @@ impl Forces {
     }
 }
 
-/// g, ġ, indicators, and the scale of each indicator.
+/// g, ġ and behind them the rates of the model's own indicators, indicators, and the scale of each indicator.
 #[derive(Clone, Debug, Default)]
 struct Values {
     gap: Vec<f64>,
@@ -89,7 +96,12 @@ struct Values {
 impl Values {
     fn new(rows: usize, own: usize) -> Values {
         let zeros = |n| vec![0.0; n];
-        Values { gap: zeros(rows), rate: zeros(rows), indicator: zeros(rows + own), zero: zeros(rows + own) }
+        Values {
+            gap: zeros(rows),
+            rate: zeros(rows + own),
+            indicator: zeros(rows + own),
+            zero: zeros(rows + own),
+        }
     }
 
     fn evaluate(
@@ -103,9 +115,9 @@ impl Values {
         let m = sets.len();
         let lambda = forces.at(system, s, sets);
         system.constraint(s, RowWeights::POSITION, &mut self.gap);
-        system.constraint(s, RowWeights::VELOCITY, &mut self.rate);
+        system.constraint(s, RowWeights::VELOCITY, &mut self.rate[..m]);
         let largest = |x: &[f64]| x.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-        let (force, rate) = (VANISHING * strongest, VANISHING * largest(&s.v).max(largest(&self.rate)));
+        let (force, rate) = (VANISHING * strongest, VANISHING * largest(&s.v).max(largest(&self.rate[..m])));
         for (i, set) in sets.iter().enumerate() {
             let (value, zero) = match (*set, s.mode[i]) {
                 (Set::Free, _) => (f64::INFINITY, 0.0),
@@ -121,6 +133,7 @@ impl Values {
             (self.indicator[i], self.zero[i]) = (value, zero);
         }
         system.indicate(s, &mut self.indicator[m..]);
+        system.indicator_rates(s, &mut self.rate[m..]);
     }
 }
 
@@ -134,7 +147,7 @@ impl Locator {
         }
         let length = system.scales().iter().fold(0.0_f64, |m, x| m.max(*x));
         let values = || Values::new(sets.len(), own);
-        let (start, end, signs) = (values(), values(), vec![1.0; own]);
+        let (start, end, far, signs) = (values(), values(), values(), vec![1.0; own]);
         let leaving = vec![false; sets.len()];
         Some(Locator {
             leaving,
@@ -144,6 +157,7 @@ impl Locator {
             strongest: 0.0,
             start,
             end,
+            far,
             signs,
             trial: state.clone(),
             forces: Forces {
@@ -176,19 +190,11 @@ impl Locator {
         self.begin(system, from);
         self.whole = (to.t, to.side);
         let mut value = self.value(system, to);
+        self.press(to);
         let (mut low, mut high) = (0.0, h);
         if value > 0.0 {
-            let Some(dip) = self.dip(h) else { return Ok((h, false)) };
-            self.retry(system, integrator, from, dip)?;
-            let at_dip = self.trial_value(system);
-            if at_dip > 0.0 {
-                // The step as it was.
-                let span = Span { step: h, end: self.whole.0, side: self.whole.1 };
-                integrator.discard();
-                integrator.step(system, from, span, to).map_err(|error| failed(system, from, error))?;
-                return Ok((h, false));
-            }
-            (high, value) = (dip, at_dip);
+            let Some(dip) = self.dip(system, integrator, from, h, to)? else { return Ok((h, false)) };
+            (high, value) = dip;
         }
         // A time at which nothing has happened yet.
         let mut below = self.least(&self.start);
@@ -209,6 +215,7 @@ impl Locator {
                         self.extrapolate(system, from, size);
                     }
                     to.copy_from(&self.trial);
+                    self.press(to);
                     return Ok((size, true));
                 }
                 (high, value) = (size, found);
@@ -249,7 +256,19 @@ impl Locator {
             self.trial_value(system);
         }
         to.copy_from(&self.trial);
+        self.press(to);
         Ok((size, true))
+    }
+
+    /// Gives closed contacts that the method's own multipliers pull at `to`, by their error, the force of the accelerations
+    /// there.
+    fn press(&self, to: &mut State) {
+        for (i, set) in self.sets.iter().enumerate() {
+            let closed = matches!(set, Set::Unilateral { .. }) && to.mode[i] != Mode::Open;
+            if closed && to.lambda[i] < 0.0 {
+                to.lambda[i] = self.end.indicator[i].max(0.0);
+            }
+        }
     }
 
     /// Numbers of the model's indicators that are not positive at the end of the step located last.
@@ -283,7 +302,8 @@ impl Locator {
                 *sign = x.signum();
             }
         }
-        let still = VANISHING * self.start.rate.iter().chain(&from.v).fold(0.0_f64, |m, x| m.max(x.abs()));
+        let still =
+            VANISHING * self.start.rate[..m].iter().chain(&from.v).fold(0.0_f64, |m, x| m.max(x.abs()));
         for i in 0..m {
             let touches =
                 self.start.indicator[i] == self.start.gap[i] && self.start.gap[i] <= self.start.zero[i];
@@ -348,27 +368,85 @@ impl Locator {
         self.trial_value(system);
     }
 
-    /// Where in the step an open gap is least and may be negative, if it falls at the start and rises at the end.
-    fn dip(&self, h: f64) -> Option<f64> {
-        let mut found: Option<f64> = None;
-        for (i, set) in self.sets.iter().enumerate() {
-            let open = matches!(set, Set::Unilateral { .. }) && self.start.indicator[i] == self.start.gap[i];
-            let (g0, g1) = (self.start.gap[i], self.end.gap[i]);
-            let (v0, v1) = (h * self.start.rate[i], h * self.end.rate[i]);
-            if !open || v0 >= 0.0 || v1 <= 0.0 {
-                continue;
+    /// The gap of an open contact, or an indicator of the model with the sign that it has at the start, and its rate.
+    fn distance(&self, values: &Values, i: usize) -> Option<[f64; 2]> {
+        match self.sets.get(i) {
+            None => {
+                let sign = self.signs[i - self.sets.len()];
+                Some([sign * values.indicator[i], sign * values.rate[i]])
             }
-            // g(s) = g0 + v0 s + c s² + d s³, g′ = 0
-            let (c, d) = (3.0 * (g1 - g0) - 2.0 * v0 - v1, 2.0 * (g0 - g1) + v0 + v1);
-            let root = (c * c - 3.0 * d * v0).max(0.0).sqrt();
-            let s = -v0 / (c + root);
-            let least = g0 + s * (v0 + s * (c + s * d));
-            // The cubic may be wrong by some part of the way the gap moves.
-            let margin = 0.1 * (v0.abs() + v1.abs());
-            if s > 0.0 && s < 1.0 && least < margin.min(0.5 * g0.min(g1)) && least < 0.02 * margin {
-                found = Some(found.map_or(s * h, |x| x.min(s * h)));
+            Some(Set::Unilateral { .. }) if self.start.indicator[i] == self.start.gap[i] => {
+                Some([values.gap[i], values.rate[i]])
+            }
+            Some(_) => None,
+        }
+    }
+
+    /// A time inside a step of size `h`, at whose end nothing has happened, at which something has, with the least indicator
+    /// there. Where there is none, `to` is the state at the end of the step.
+    fn dip(
+        &mut self,
+        system: &mut dyn System,
+        integrator: &mut dyn Integrator,
+        from: &State,
+        h: f64,
+        to: &mut State,
+    ) -> Result<Option<(f64, f64)>, RunError> {
+        let (mut high, mut found, mut tried) = (h, None, false);
+        std::mem::swap(&mut self.far, &mut self.end);
+        for i in 0..self.sets.len() + self.own {
+            let (Some(start), Some(end)) = (self.distance(&self.start, i), self.distance(&self.far, i))
+            else {
+                continue;
+            };
+            let (mut low, mut up) = ((0.0, start), (high, end));
+            for k in 0..DIVISIONS {
+                let Some([cubic, tangents]) = lowest(low, up) else { break };
+                let size = if k % 2 == 0 { cubic } else { tangents };
+                self.retry(system, integrator, from, size)?;
+                tried = true;
+                let value = self.trial_value(system);
+                if value <= 0.0 {
+                    (high, found) = (size, Some((size, value)));
+                    std::mem::swap(&mut self.far, &mut self.end);
+                    break;
+                }
+                let Some(inside) = self.distance(&self.end, i) else { break };
+                if inside[1] < 0.0 {
+                    low = (size, inside)
+                } else {
+                    up = (size, inside)
+                }
+                if up.0 - low.0 < SHORTEST * h {
+                    break;
+                }
             }
         }
-        found
+        if tried && found.is_none() {
+            // The step as it was.
+            let span = Span { step: h, end: self.whole.0, side: self.whole.1 };
+            integrator.discard();
+            integrator.step(system, from, span, to).map_err(|error| failed(system, from, error))?;
+        }
+        Ok(found)
     }
+}
+
+/// Where a gap may be least between two times, if it falls at the first, rises at the second and may be negative between
+/// them: the least value of the cubic through g and ġ of both, and the time at which the two tangents meet. A gap over a
+/// convex obstacle lies over its tangents while its point moves along a straight line, however sharp the dip is.
+pub(super) fn lowest((t0, [g0, v0]): (f64, [f64; 2]), (t1, [g1, v1]): (f64, [f64; 2])) -> Option<[f64; 2]> {
+    let h = t1 - t0;
+    let (v0, v1) = (h * v0, h * v1);
+    if !(v0 < 0.0 && v1 > 0.0) {
+        return None;
+    }
+    // g(s) = g0 + v0 s + c s² + d s³, g′ = 0
+    let (c, d) = (3.0 * (g1 - g0) - 2.0 * v0 - v1, 2.0 * (g0 - g1) + v0 + v1);
+    let root = (c * c - 3.0 * d * v0).max(0.0).sqrt();
+    let smooth = (-v0 / (c + root)).clamp(0.02, 0.98);
+    let sharp = ((g0 - g1 + v1) / (v1 - v0)).clamp(0.02, 0.98);
+    let cubic = g0 + smooth * (v0 + smooth * (c + smooth * d));
+    let tangents = (g0 + sharp * v0).max(g1 - (1.0 - sharp) * v1);
+    (cubic.min(tangents) < BENDING * (v1 - v0)).then_some([t0 + h * smooth, t0 + h * sharp])
 }

@@ -20,13 +20,16 @@ use crate::contact::{Bounds, Impact, ImpactMap};
 use crate::integrator::{Checkpoint, Integrator, NotResumed, Span, StepControl, StepReport};
 use crate::system::{Crossing, Jump, Side, State, System};
 use adaptive::adapt;
-use contacts::{Contacts, approaches, loss, struck};
+use contacts::{Contacts, Unseen, approaches, loss, struck};
 use stretch::Stretch;
 
 /// Shortest recording interval, over the length of the run.
 const SMALLEST_SAMPLE: f64 = 1e-9;
 /// Part of a fixed step that is not taken as a step of its own.
 const SLIVER: f64 = 1e-6;
+/// Nodes and weights of Gauss's rule of order 6 on 0 … 1.
+const GAUSS: [(f64, f64); 3] =
+    [(0.112_701_665_379_258_3, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
 /// What a run is asked to do.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
@@ -108,6 +111,8 @@ struct Run {
     control: Option<StepControl>,
     balance: Option<Integral>,
     contacts: Option<Contacts>,
+    /// For methods that locate no contacts.
+    unseen: Option<Unseen>,
     /// Dense output.
     middle: State,
     /// Gaps, to see whether a contact comes near.
@@ -125,6 +130,7 @@ impl Run {
             control: None,
             balance: None,
             contacts,
+            unseen: Unseen::new(system),
             middle: state.clone(),
             gaps: vec![0.0; state.lambda.len()],
         }
@@ -337,11 +343,21 @@ impl Run {
             if let Some(balance) = &mut self.balance {
                 balance.close();
             }
+            if observer.wants_within() {
+                for (node, weight) in GAUSS {
+                    let t = state.t + node * h;
+                    integrator.interpolate(system, state, &next, t, &mut self.middle);
+                    observer.within(system, &self.middle, weight * h);
+                }
+            }
             observer.passing(system, &next);
-            if integrator.resolves_contacts()
-                && let Some(event) = struck(system, state, &next, &mut self.gaps)
-            {
-                observer.event(&event);
+            if integrator.resolves_contacts() {
+                if let Some(event) = struck(system, state, &next, &mut self.gaps) {
+                    observer.event(&event);
+                }
+                if let Some(row) = self.unseen.as_mut().and_then(|unseen| unseen.find(system, state, &next)) {
+                    observer.stepped_over(next.t, row);
+                }
             }
             std::mem::swap(state, &mut next);
             let at_break = jump_at(system, integrator, state.t);

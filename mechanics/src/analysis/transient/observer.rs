@@ -70,6 +70,15 @@ pub trait Observer {
     /// An accepted step ended at `state`, or a jump: what happens between samples is seen here.
     fn passing(&mut self, _system: &mut dyn System, _state: &State) {}
 
+    /// Whether states [within](Observer::within) the steps are shown.
+    fn wants_within(&self) -> bool {
+        false
+    }
+
+    /// A state in an accepted step: the integral of a quantity over the step is the sum of its values times `weight` \[s\]
+    /// (Gauss's rule).
+    fn within(&mut self, _system: &mut dyn System, _state: &State, _weight: f64) {}
+
     /// An accepted step ended at `state`; `Break` stops the run there.
     fn step(&mut self, _state: &State) -> ControlFlow<()> {
         ControlFlow::Continue(())
@@ -80,4 +89,8 @@ pub trait Observer {
 
     /// The run has gained the energy `excess` \[J\] beyond the work done on it: its steps are too large for its method.
     fn gained_energy(&mut self, _excess: f64) {}
+
+    /// The gap of the row `row` has fallen and risen in the step that ends at `time`, and may have been negative inside: the
+    /// method locates no events, and a point may have passed through an obstacle.
+    fn stepped_over(&mut self, _time: f64, _row: usize) {}
 }

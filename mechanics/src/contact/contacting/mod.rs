@@ -183,6 +183,16 @@ impl Placed {
     }
 }
 
+impl Placed {
+    /// Power lost in friction and damping.
+    fn lost(&self, touch: &Touch, forces: &Forces) -> f64 {
+        let friction = -inner(forces.friction, touch.sliding);
+        let Law::Force(law) = &self.contact.law else { return friction };
+        let elastic = law.normal(-touch.surface.gap, 0.0, 0.0).value;
+        friction - (forces.normal - elastic) * touch.rate
+    }
+}
+
 impl Forces {
     fn vector(&self, surface: &Surface) -> [f64; 3] {
         let ([first, second], [t1, t2]) = (self.friction, surface.tangents);
@@ -337,11 +347,7 @@ impl<S: Points + Dynamics + Events + Observed> Contacting<S> {
         self.each(s, |placed, touch, forces| {
             let force = forces.vector(&touch.surface);
             power.drive += inner(force, minus(touch.surface.velocity, touch.motion.prescribed));
-            power.contact -= inner(forces.friction, touch.sliding);
-            if let Law::Force(law) = &placed.contact.law {
-                let elastic = law.normal(-touch.surface.gap, 0.0, 0.0).value;
-                power.contact -= (forces.normal - elastic) * touch.rate;
-            }
+            power.contact += placed.lost(touch, forces);
         });
     }
 }
@@ -542,6 +548,16 @@ impl<S: Points + Dynamics + Events + Observed> Events for Contacting<S> {
         self.each(s, |placed, touch, _| {
             if let Law::Force(_) = placed.contact.law {
                 gaps[placed.place] = touch.surface.gap;
+            }
+        });
+    }
+
+    fn indicator_rates(&mut self, s: &State, out: &mut [f64]) {
+        let (own, rates) = out.split_at_mut(self.indicators);
+        self.inner.indicator_rates(s, own);
+        self.each(s, |placed, touch, _| {
+            if let Law::Force(_) = placed.contact.law {
+                rates[placed.place] = touch.rate;
             }
         });
     }

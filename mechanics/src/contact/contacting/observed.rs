@@ -1,8 +1,10 @@
 //! What a model with contacts shows of itself.
 
-use super::{Contacting, Law};
+use super::{Contacting, Law, Placed};
 use crate::contact::points::Points;
-use crate::system::{Channel, Direction, Dynamics, Energy, Events, Frame, Observed, Power, State, Touch};
+use crate::system::{
+    Channel, Direction, Dynamics, Energy, Events, Frame, Mode, Observed, Power, Pressing, State, Touch,
+};
 
 impl<S: Points + Dynamics + Events + Observed> Observed for Contacting<S> {
     fn energy(&mut self, s: &State) -> Energy {
@@ -78,6 +80,15 @@ impl<S: Points + Dynamics + Events + Observed> Observed for Contacting<S> {
         all
     }
 
+    fn pressing(&mut self, s: &State, out: &mut Vec<Pressing>) {
+        self.inner.pressing(s, out);
+        self.each(s, |placed, touch, forces| {
+            let (place, gap) = (touch.motion.position, touch.surface.gap);
+            let lost = placed.lost(touch, forces);
+            out.push(Pressing { place, gap, rate: touch.rate, force: forces.normal + 0.0, lost });
+        });
+    }
+
     fn direction(&self, i: usize) -> Direction {
         self.inner.direction(i)
     }
@@ -95,7 +106,18 @@ impl<S: Points + Dynamics + Events + Observed> Observed for Contacting<S> {
     }
 
     fn explain(&mut self, s: &State) -> Option<String> {
-        self.inner.explain(s)
+        let of_row = |placed: &&Placed| matches!(placed.contact.law, Law::Constraint { .. });
+        let closed = self.contacts.iter().filter(of_row).filter(|placed| s.mode[placed.place] != Mode::Open);
+        let closed: Vec<&str> = closed.map(|placed| placed.contact.name.as_str()).collect();
+        let own = self.inner.explain(s);
+        let many = || {
+            let names = closed.join(", ");
+            format!(
+                "the rigid contacts {names} are closed at once, and their forces may follow from each other, as those of four \
+                 corners of a body do: use `radau` or a nonsmooth method, fewer contacts, or a continuous contact force"
+            )
+        };
+        own.or_else(|| (closed.len() > 1).then(many))
     }
 
     fn cautions(&self, peaks: &[f64]) -> Vec<String> {
