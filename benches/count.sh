@@ -8,22 +8,25 @@ instructions() {
     valgrind --tool=callgrind --callgrind-out-file=/dev/null "$binary" "$@" 2>&1 |
         sed -n 's/.*Collected : //p'
 }
-steps=100
+# COUPLING INTEGRATOR ELEMENTS STEPS
+count() {
+    once=$(instructions "$1" "$2" "$3" "$4")
+    twice=$(instructions "$1" "$2" "$3" $((2 * $4)))
+    echo "$1,$2,$3,$(((twice - once) / $4))"
+}
 echo "coupling,integrator,elements,instructions per step"
 for elements in "${@:-10}"; do
     for what in "solver none" "first newmark" "exact newmark" "first radau" "exact radau" \
         "first-free newmark" "exact-free newmark" "first-free radau" "exact-free radau" \
         "space alpha" "space radau"; do
-        set -- $what
-        once=$(instructions "$1" "$2" "$elements" $steps)
-        twice=$(instructions "$1" "$2" "$elements" $((2 * steps)))
-        echo "$1,$2,$elements,$(((twice - once) / steps))"
+        count $what "$elements" 100
     done
 done
 # Ten modes of forty elements at one speed, and a speed of their Campbell diagram.
 for what in "first modes" "exact modes" "first campbell" "exact campbell"; do
-    set -- $what
-    once=$(instructions "$1" "$2" 40 $steps)
-    twice=$(instructions "$1" "$2" 40 $((2 * steps)))
-    echo "$1,$2,40,$(((twice - once) / steps))"
+    count $what 40 100
+done
+# A beam of many elements in space, doubled.
+for elements in 2000 4000; do
+    count waves alpha "$elements" 10
 done

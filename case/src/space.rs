@@ -489,6 +489,11 @@ fn blamed(error: &ModelError, v: &Values, joints: &[String]) -> Faults {
         list.iter().enumerate().rfind(same).map(|(i, _)| item(table, i))
     };
     let help = |fault: Fault, help: &str| Faults::from(fault.help(help));
+    // The last joint of which a row is named.
+    let last = |rows: &[String]| {
+        let named = |name: &String| rows.iter().any(|row| row.contains(&format!("in joint `{name}`")));
+        joints.iter().rposition(named).map_or(String::new(), |i| item("joint", i))
+    };
     match error {
         ModelError::Part { kind, name, fault } => {
             Fault::new(named(kind, name).unwrap_or_default(), format!("{kind} `{name}` {fault}")).into()
@@ -502,21 +507,27 @@ fn blamed(error: &ModelError, v: &Values, joints: &[String]) -> Faults {
             help(Fault::new(worst.unwrap_or_default(), message), "move the parts or the joints")
         }
         ModelError::Redundant { rows, freedoms } => {
-            let last = joints
-                .iter()
-                .rposition(|name| rows.iter().any(|row| row.contains(&format!("in joint `{name}`"))));
-            let key = last.map_or(String::new(), |i| item("joint", i));
+            let key = last(rows);
             let message = format!(
                 "{} redundant: the joints of a loop hold a motion twice, and {freedoms} degrees of freedom are left",
                 rows.join(", ")
             );
-            let fault = Fault::new(key, message);
             help(
-                fault,
+                Fault::new(key, message),
                 "give a joint of the loop more freedom (spherical, universal or cylindrical in the place of revolute), take \
                  away the prescribed motion of what is locked, or write `model.drop-redundant-rows = true`",
             )
         }
+        ModelError::Contradictory { rows } => help(
+            Fault::new(last(rows), format!("joints that contradict each other: {}", rows.join(", "))),
+            "what they prescribe at the start differs in velocity or acceleration: take away a prescribed motion, let them agree, \
+             or give a joint more freedom",
+        ),
+        ModelError::Singular { rows } => help(
+            Fault::new(last(rows), format!("the start is a singular configuration of {}", rows.join(", "))),
+            "bars that are stretched out or folded flat may move on in more than one way or in none: begin elsewhere, or give a \
+             joint more freedom",
+        ),
         ModelError::Velocities(_) => Fault::new("joint", error.to_string()).into(),
     }
 }

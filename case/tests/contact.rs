@@ -496,3 +496,47 @@ fn contacts_whose_forces_follow_from_each_other_are_named() {
     );
     assert_eq!(outcome(&reading(&text, &["integrator={kind='radau'}"])).status, Status::Finished);
 }
+
+/// A wall that rises past the reach of a beam of a metre stretches it by a quarter.
+#[test]
+fn a_wall_that_overtakes_the_beam_is_named() {
+    let text = "
+[beam]
+length = 1
+[section]
+kind = 'rectangle'
+modulus = 70e9
+density = 2700
+width = 0.02
+height = 0.01
+[hub]
+motion = { kind = 'constant', speed = 0 }
+[[mass]]
+station = 'tip'
+mass = 1
+[[contact]]
+name = 'wall'
+obstacle = {kind='plane',point=[0,-0.05],motion={displacement=[0,1],amplitude={kind='expression',formula='t'}}}
+law = {kind='constraint',restitution=0.5}
+[model]
+coupling = 'exact'
+[basis]
+kind = 'finite-elements'
+elements = 4
+[run]
+duration = 1.3
+";
+    let names = |warning: &&String| warning.contains("the contact `wall` presses with");
+    let told = |set: &[&str]| finished(&reading(text, set)).warnings.iter().filter(names).count();
+    assert_eq!([told(&[]), told(&["run.duration=0.5"])], [1, 0]);
+    // A continuous force lets it in.
+    let run = finished(&reading(
+        text,
+        &[
+            "contact=[{name='wall',obstacle={kind='plane',point=[0,-1e-3]},law={kind='hertz',stiffness=10}}]",
+            "force=[{station=1,force=[0,-50]}]",
+            "run.duration=0.3",
+        ],
+    ));
+    assert!(run.warnings.iter().any(|w| w.contains("inside its obstacle")), "{:?}", run.warnings);
+}

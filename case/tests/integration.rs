@@ -12,6 +12,7 @@ mod disturbance;
 mod docs;
 mod energy;
 mod first_look;
+mod four_bar;
 mod frequency_orders;
 mod fuzz;
 mod jumps;
@@ -27,6 +28,7 @@ mod space;
 mod space_modes;
 mod spring;
 mod statics;
+mod supports;
 mod twenty_seconds;
 mod verification {
     pub mod run;

@@ -164,6 +164,18 @@ fn redundant_rows_of_a_loop_are_named_and_can_be_left_out() {
         problems.to_string().contains("redundant") && problems.list[0].key.starts_with("joint["),
         "{problems}"
     );
+    // Cranks that are driven at 1 and 2 rad/s.
+    let motor =
+        |speed: u32| format!("axis = [0, 1, 0]\nmotion = {{ kind = \"constant\", speed = {speed} }}\n");
+    let driven = text.replacen("axis = [0, 1, 0]\n", &motor(1), 1) + &motor(2)["axis = [0, 1, 0]\n".len()..];
+    for case in [driven.clone(), format!("model = {{ drop-redundant-rows = true }}\n{driven}")] {
+        let problems = read(&case).map(|_| ()).unwrap_err();
+        let (key, told) = (&problems.list[0].key, problems.to_string());
+        assert!(
+            key == "joint[4]" && told.contains("contradict each other") && !told.contains("drop-"),
+            "{problems}"
+        );
+    }
     let run = run(&format!("model = {{ drop-redundant-rows = true }}\n{text}"));
     // A parallelogram: the top keeps its direction.
     assert!(last(&run, "top.spin.y").abs() < 1e-8 && last(&run, "top.velocity.x") > 1e-3);
@@ -275,4 +287,16 @@ fn the_top_of_a_flight_between_steps_is_found() {
     let top = run.trajectory.extremes(run.trajectory.index("ball.position.z").unwrap());
     assert!((top.max - 1.0 - 9.0 / 19.62).abs() < 1e-9, "{top:?}");
     assert!((top.t_max - 3.0 / 9.81).abs() < 1e-9, "{top:?}");
+}
+
+#[test]
+fn a_plane_has_a_normal_with_a_direction() {
+    for normal in ["[0, 0, 0]", "[0.1, 0, -1e308]", "[0, 0, 1e-300]"] {
+        let text = format!(
+            "run = {{ duration = 1 }}\n[[body]]\nname = \"ball\"\nmass = 1\nposition = [0, 0, 1]\ninertia = {{ kind = \"sphere\", radius = 1 }}\n\
+             [[contact]]\non = \"ball\"\nobstacle = {{ kind = \"plane\", normal = {normal} }}\nlaw = {{ kind = \"constraint\", restitution = 0.5 }}\n"
+        );
+        let problems = read(&text).map(|_| ()).unwrap_err();
+        assert!(problems.to_string().contains("has no direction"), "{problems}");
+    }
 }

@@ -139,3 +139,22 @@ fn a_campbell_diagram_knows_the_errors_of_its_mesh() {
     }
     assert!(diagram.coarsest().is_some_and(|(_, point)| point.mode.mesh.is_some()));
 }
+
+/// An overhung disc on an undamped shaft: its motions neither grow nor decay.
+#[test]
+fn rounding_is_no_negative_damping() {
+    let text = "run = { duration = 1 }
+        [[beam]]\nname = \"shaft\"\nlength = 0.5\nelements = 8\npolar-inertia = 1e-8
+        section = { kind = \"general\", mass-per-length = 1e-4, axial-stiffness = 1e7, torsional-stiffness = 1e4, \
+        bending-stiffness = 100, bending-stiffness-across = 100 }
+        [[body]]\nname = \"disc\"\nmass = 1\nposition = [0.5, 0, 0]\naxis = [1, 0, 0]
+        inertia = { kind = \"principal\", moments = [0.01, 0.01, 0.02] }
+        [[joint]]\nkind = \"revolute\"\nbetween = [\"ground\", \"shaft.root\"]\naxis = [1, 0, 0]
+        motion = { kind = \"constant\", speed = 20 }
+        [[joint]]\nkind = \"fixed\"\nbetween = [\"shaft.tip\", \"disc\"]\n";
+    let speeds = (0..=30).map(|k| 2.0 * f64::from(k)).collect();
+    let plan = Plan { speeds, count: 4, stations: Vec::new(), hub: HubState::Held, revolutions: 0 };
+    let diagram = campbell(read(text).case.vibrating(true).unwrap().0, None, &plan, 1, &|_| true).unwrap();
+    assert_eq!(diagram.instabilities, []);
+    assert!(diagram.branches.iter().flat_map(|b| &b.points).all(|p| p.mode.damping_ratio().abs() < 1e-7));
+}

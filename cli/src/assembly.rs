@@ -100,10 +100,10 @@ pub fn described(space: &Space) -> Vec<Vec<String>> {
     let freedoms = system.freedoms();
     rows.push(row("degrees of freedom", format!("{freedoms}, by {} rows of joints", system.size().lambda)));
     if let Ok(rotation) = &space.rotation {
-        rows.push(row("steady rotation", rotation.described()));
+        rows.push(row("steady rotation", rotation.described(false)));
     }
     for dropped in system.dropped() {
-        rows.push(row("left out", dropped.clone()));
+        rows.push(row("left out", dropped.to_owned()));
     }
     if system.size().v <= COUNTED {
         rows.push(row(

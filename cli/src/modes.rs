@@ -11,8 +11,6 @@ use flexion_case::{Case, Reading};
 use flexion_results::{Artifact, Directory, Scene, Units, write_film, write_modes};
 use std::path::PathBuf;
 
-/// Damping ratio below which a mode grows.
-const GROWTH: f64 = -1e-7;
 /// Displacement of a mode in the files of its scene, over the scale of the unknowns.
 const DISPLACED: f64 = 1e-3;
 /// The same of a mode in motion, and its phases.
@@ -79,7 +77,7 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
     let Found { mut modes, scene, film, mut cautions } = compute(arguments, case, speed, hub)?;
     cautions.extend(vibration::without_contacts(case));
     cautions.extend(case.unused_by_modes());
-    let growing = modes.modes.iter().filter(|mode| mode.damping_ratio() < GROWTH).count();
+    let growing = modes.modes.iter().filter(|mode| mode.grows()).count();
     if growing > 0 {
         cautions.push(format!("the equilibrium is unstable: {growing} of the modes grow (negative damping)"));
     }
@@ -87,8 +85,9 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
     compare(arguments, reading, &mut modes, speed, hub);
     let about = match case.space().map(|space| &space.rotation) {
         Some(Ok(rotation)) if speed > 0.0 => {
-            format!("at {} about {}", units.speed.text(speed), rotation.described())
+            format!("at {} about {}", units.speed.text(speed), rotation.described(hub == HubState::Free))
         }
+        Some(_) if hub == HubState::Free => "about the equilibrium at rest, free hub".to_owned(),
         Some(_) => "about the equilibrium at rest".to_owned(),
         None if hub == HubState::Free => format!("at {}, free hub", units.speed.text(speed)),
         None => format!("at {}, hub that keeps its speed", units.speed.text(speed)),

@@ -49,7 +49,7 @@ pub struct Options {
     /// Title of the figure [default: that of the case]
     #[arg(long, value_name = "TEXT")]
     title: Option<String>,
-    /// The hub of the case rotates with the beam, under its torques [default: it keeps its speed]
+    /// The hub of the case, in space the joint that is the axis, rotates with the beam, under its torques [default: it keeps its speed]
     #[arg(long)]
     free_hub: bool,
 }
@@ -86,9 +86,14 @@ impl Options {
         if !self.free_hub {
             return Ok(HubState::Held);
         }
-        let beam = case
-            .hub_beam()
-            .ok_or("--free-hub is for a beam on a hub: a system in space has the joints of its case")?;
+        let Some(beam) = case.hub_beam() else {
+            let rotation = case.space().and_then(|space| space.rotation.as_ref().ok());
+            return match rotation.and_then(|rotation| rotation.keeps.as_ref()) {
+                Some(_) => Ok(HubState::Free),
+                None => Err("--free-hub needs a revolute or cylindrical joint with the ground about the axis of rotation: the                              case has none that could be free"
+                    .to_owned()),
+            };
+        };
         if beam.blade.is_some() {
             return Err("--free-hub is for a beam in the plane of rotation, but the case has a [blade]: its hub keeps its \
                         speed; leave one of the two out"

@@ -64,6 +64,37 @@ fn a_rotor_has_modes_and_a_diagram_with_their_errors() {
     }
 }
 
+/// The shaft lets its prescribed motion go: a rotation without stiffness, and higher frequencies than with the angle kept.
+#[test]
+fn a_shaft_that_is_let_go_rotates_with_the_blade() {
+    let folder = folder();
+    std::fs::write(folder.path().join("rotor.toml"), ROTOR).unwrap();
+    for at in [&["--speed", "40 rpm"][..], &[]] {
+        let frequencies = |more: &[&str]| {
+            let arguments = [&["modes", "rotor.toml", "--unit", "Hz", "--count", "4"], at, more].concat();
+            let output = flexion(folder.path(), &arguments);
+            let out = text(&output.stdout);
+            assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+            let row = |line: &str| line.split_whitespace().nth(1)?.parse().ok();
+            (out.lines().filter_map(row).collect::<Vec<f64>>(), out)
+        };
+        let ((kept, _), (free, out)) = (frequencies(&[]), frequencies(&["--free-hub"]));
+        assert!(out.contains(if at.is_empty() { "free hub" } else { "`shaft` is free" }), "{out}");
+        // The lowest across the plane stays, but for its sag; the lowest in the plane is the rotation now, and the next far higher.
+        assert_eq!((kept.len(), free.len(), free[0]), (4, 4, 0.0), "{kept:?} {free:?}");
+        assert!((free[1] / kept[0] - 1.0).abs() < 1e-3, "{kept:?} {free:?}");
+        assert!(kept[1] < 9.0 && free[2] > 10.0, "{kept:?} {free:?}");
+    }
+    let speeds = ["campbell", "rotor.toml", "--speeds", "0 rpm:120 rpm:3", "--modes", "3", "--free-hub"];
+    let output = flexion(folder.path(), &speeds);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let turntable = format!("{ROTOR}[rotation]\naxis = [0, 0, 1]\npoint = [1, 0, 0]\n");
+    std::fs::write(folder.path().join("turntable.toml"), turntable).unwrap();
+    let output = flexion(folder.path(), &["modes", "turntable.toml", "--speed", "3", "--free-hub"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(text(&output.stderr).contains("--free-hub needs a revolute"), "{}", text(&output.stderr));
+}
+
 #[test]
 fn a_case_without_an_axis_says_what_to_write() {
     let folder = folder();

@@ -155,7 +155,7 @@ pub static INTEGRATOR: Choice<Method> = Choice {
                     CONTACT_STEP.name,
                     Quantity(&TIME, Positive),
                     Optional,
-                    "largest step while a contact is closed or comes near, that of flight if left out",
+                    "largest step while a contact comes near and, in flight too, from the first impact on; no such limit if left out",
                 ),
             ],
             example: "integrator={kind='radau', tolerance=1e-8, max-step='20 ms'}",

@@ -77,8 +77,10 @@ pub static OBSTACLE: Choice<Shared> = Choice {
 fn direction(v: &Values, key: &str) -> Made<Vector> {
     let vector = optional_vector(v, key)?.unwrap_or([0.0, 0.0, 1.0]);
     let size = vector.iter().map(|x| x * x).sum::<f64>().sqrt();
-    if size == 0.0 {
-        return Err(Fault::new(key, "has no direction: one of its components must not be zero").into());
+    if !(size > 0.0 && size.is_finite()) {
+        let message =
+            "has no direction: its components are all zero, or too large or too small to be squared";
+        return Err(Fault::new(key, message).into());
     }
     Ok(times(1.0 / size, vector))
 }

@@ -79,7 +79,7 @@ pub static ROTATION: Table<About> = Table {
 pub struct Rotation {
     /// The axis.
     pub axis: Axis,
-    /// The joint with the ground that keeps its angle meanwhile.
+    /// The joint with the ground that keeps its angle meanwhile, until the rigid motions are let go.
     pub keeps: Option<String>,
 }
 
@@ -121,27 +121,26 @@ impl Rotation {
         }
     }
 
-    /// A model that rotates, and what of its loads is left out; at rest it keeps its loads and joints.
+    /// A model that rotates, and what of its loads is left out; at rest it keeps its loads and the joints that nothing moves.
     fn of(&self, model: &Model, rotates: bool) -> Result<(Rotating, Vec<String>), String> {
-        let (mut model, mut left_out) = (model.clone(), Vec::new());
-        if rotates {
-            left_out = model.keep_along(&self.axis);
-            self.keeps.iter().for_each(|joint| model.keep_angle(joint));
+        let mut model = model.clone();
+        let left_out = if rotates { model.keep_along(&self.axis) } else { Vec::new() };
+        if let Some(joint) = self.keeps.as_ref().filter(|joint| rotates || model.prescribes(joint)) {
+            model.keep_angle(joint);
         }
         let multibody = Multibody::new(model).map_err(|error| error.to_string())?;
         Ok((Rotating::new(multibody, self.axis), left_out))
     }
 
-    /// As it is said: direction, the point of the axis that is next to the origin, and the joint that keeps its angle.
-    pub fn described(&self) -> String {
+    /// As it is said: direction, the point of the axis that is next to the origin, and the joint that keeps its angle, or is free.
+    pub fn described(&self, free: bool) -> String {
         let Axis { point, direction: e } = self.axis;
         let along: f64 = point.iter().zip(&e).map(|(a, b)| a * b).sum();
         let foot: Vector = plus(point, -1.0, times(along, e));
         let text = |x: Vector| x.map(|x| format!("{:.4}", x + 0.0)).join(", ");
-        let keeps = self
-            .keeps
-            .as_ref()
-            .map_or(", with the ground".to_owned(), |joint| format!(", `{joint}` keeps its angle"));
+        let how = if free { "is free" } else { "keeps its angle" };
+        let keeps =
+            self.keeps.as_ref().map_or(", with the ground".to_owned(), |joint| format!(", `{joint}` {how}"));
         format!("the axis ({}) through ({}) m{keeps}", text(e), text(foot))
     }
 }

@@ -37,8 +37,8 @@ static MODEL_KEYS: [Key; 2] = [
         "drop-redundant-rows",
         Type::Boolean,
         Default::Boolean(false),
-        "rows of joints that follow from others at the start are left out, in place of an error: the motion is the same, \
-         their forces are zero",
+        "rows of joints that follow from others are left out, in place of an error, and have no forces; a run ends where they no \
+         longer follow",
     ),
     key(
         "refine",

@@ -12,6 +12,8 @@ use flexion_results::{ColumnError, Status, Watch};
 
 /// Error over the largest value of a column from which a mesh is coarse.
 const COARSE: f64 = 0.01;
+/// Largest value of a column, over those in its unit, that counts as zero.
+const ROUNDING: f64 = 1e-9;
 /// Part of that bound which is aimed at.
 const AIM: f64 = 0.7;
 /// Lowest order at which errors are said to fall, and highest that is trusted.
@@ -32,10 +34,15 @@ impl Reading {
         safety: f64,
         watch: &mut Watch<'_>,
     ) -> Option<String> {
-        let relative = |error: &ColumnError| {
+        let size = |error: &ColumnError| {
             let index = fine.trajectory.index(&error.column)?;
-            Some(error.discretization / fine.trajectory.extremes(index).largest())
-                .filter(|part| part.is_finite())
+            Some((fine.trajectory.channels()[index].unit, fine.trajectory.extremes(index).largest()))
+        };
+        let sizes: Vec<_> = columns.iter().filter_map(|error| size(error)).collect();
+        let relative = |error: &ColumnError| {
+            let (unit, largest) = size(error)?;
+            let most = sizes.iter().filter(|other| other.0 == unit).fold(0.0_f64, |m, other| m.max(other.1));
+            Some(error.discretization / largest).filter(|part| part.is_finite() && largest > ROUNDING * most)
         };
         let worst = columns.iter().filter_map(|error| Some((error.column.as_str(), relative(error)?)));
         let (column, part) = worst.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|worst| worst.1 > COARSE)?;
@@ -52,10 +59,11 @@ impl Reading {
         safety: f64,
         watch: &mut Watch<'_>,
     ) -> String {
-        let said = format!(
-            "mesh and steps are coarse: the error of {column} is {:.0} % of its largest value",
-            (100.0 * part).ceil()
-        );
+        let much = match (100.0 * part).ceil() {
+            percent if percent < 100.0 => format!("is {percent:.0} %"),
+            _ => "is as large as all".to_owned(),
+        };
+        let said = format!("mesh and steps are coarse: the error of {column} {much} of its largest value");
         let more = finer.case.finer();
         // Companions of fixed steps are for those, and would follow every wave of a finer mesh.
         if more.is_empty() || self.case.steps.step().is_some() {

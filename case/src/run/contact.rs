@@ -1,23 +1,31 @@
-//! Contacts of a case before its run: nothing begins inside an obstacle, and masses at contacts are those of the beam.
+//! Contacts of a case: before its run nothing begins inside an obstacle, and masses at contacts are those of the beam; behind it
+//! nothing was pressed further than a beam bears.
 
-use crate::kinds::contact::Contact;
+use crate::hub_beam::HubBeam;
+use crate::kinds::contact::{Contact, points};
 use crate::kinds::initial::Initial;
 use crate::problem::Problems;
 use crate::reading::Reading;
 use flexion::contact::{ImpactMap, Law};
-use flexion::system::{State, System, Touch};
+use flexion::system::{Mode, State, System, Touch};
+use flexion_results::Trajectory;
 
 /// Gap over the length of the beam below which a contact touches at the start.
 const TOUCHING: f64 = 1e-11;
+/// Velocity, over the largest of the system, that counts as zero.
+const STILL: f64 = 1e-9;
+/// Force over EA from which a contact stretches a beam further than linear elasticity goes.
+const STRETCHED: f64 = 0.05;
 /// Change of an effective mass on doubling the basis that is worth a warning.
 const CHANGE: f64 = 0.2;
 
 impl Reading {
-    /// Whether no contact begins inside its obstacle, or closes at the start.
+    /// Whether no contact begins inside its obstacle, closes at the start, or carries an equilibrium that moves past its obstacle.
     pub(super) fn check_contacts(&self, system: &mut dyn System, state: &State) -> Result<(), Problems> {
         let tolerance = TOUCHING * self.case.size();
         // An equilibrium may rest on elastic contacts.
         let at_rest = !matches!(self.case.initial, Initial::Undeformed);
+        let fastest = state.v.iter().fold(0.0_f64, |x, v| x.max(v.abs()));
         for (touch, key) in system.contacts(state).iter().zip(self.case.contact_keys()) {
             let Touch { name, row, gap, rate, .. } = touch;
             if at_rest && row.is_none() {
@@ -30,6 +38,17 @@ impl Reading {
                 );
                 return Err(self.problem(&format!("{key}.obstacle"), message));
             }
+            if row.is_some_and(|row| state.mode[row] == Mode::Closed) {
+                if rate.abs() > STILL * self.case.size() * fastest {
+                    let message = format!(
+                        "the equilibrium presses on the obstacle of the contact `{name}`, which it leaves or enters with {:.3e} m/s: \
+                         what rests on it must move with it",
+                        rate.abs()
+                    );
+                    return Err(self.problem(&format!("{key}.obstacle"), message));
+                }
+                continue;
+            }
             if *gap <= tolerance && *rate < 0.0 && state.t == 0.0 {
                 let message = format!(
                     "the contact `{name}` touches at the start and closes with {:.3e} m/s: begin with a gap, or at rest",
@@ -39,6 +58,19 @@ impl Reading {
             }
         }
         Ok(())
+    }
+
+    /// What the beam bears at its contacts.
+    pub(super) fn limits(&self) -> Vec<Limit> {
+        let limits = |beam: &HubBeam| {
+            let limit = |(name, station, _, contact): (String, f64, Law, &Contact)| Limit {
+                name,
+                stiffness: beam.section.planar.resultants(station).axial_stiffness,
+                depth: if let Law::Force(_) = contact.law { beam.height() } else { f64::INFINITY },
+            };
+            points(&beam.contacts).map(limit).collect()
+        };
+        self.case.hub_beam().map_or_else(Vec::new, limits)
     }
 
     /// A warning where twice the functions have another effective mass at a contact with restitution.
@@ -66,9 +98,51 @@ impl Reading {
         let far = |(_, coarse, fine): &(&String, f64, f64)| (coarse - fine).abs() > CHANGE * coarse;
         let Some((name, coarse, fine)) = pairs.into_iter().find(far) else { return Vec::new() };
         vec![format!(
-            "the effective mass at {name} is {coarse:.3e} kg and with twice the functions {fine:.3e} kg: restitution \
+            "the effective mass at {name} is {coarse:.3e} kg at the start and with twice the functions {fine:.3e} kg: restitution \
              here is a parameter of the mesh; the impulse of a whole burst, the next touch and heights of rebound stay \
              within a few per cent for e < 1, single impulses and energies do not"
         )]
+    }
+}
+
+/// What a beam bears at a contact.
+#[derive(Clone, Debug)]
+pub(super) struct Limit {
+    /// Name of the contact.
+    name: String,
+    /// Axial stiffness EA \[N\].
+    stiffness: f64,
+    /// Largest indentation \[m\].
+    depth: f64,
+}
+
+impl Limit {
+    /// A warning of a force or an indentation beyond it: of an obstacle that moves on where the beam cannot follow.
+    pub(super) fn exceeded(&self, trajectory: &Trajectory) -> Option<String> {
+        let extremes = |quantity: &str| {
+            trajectory.index(&format!("{}.{quantity}", self.name)).map(|index| trajectory.extremes(index))
+        };
+        let (force, gap) = (extremes("force")?, extremes("gap")?);
+        let strain = force.max / self.stiffness;
+        let how = if strain > STRETCHED {
+            format!(
+                "presses with {:.3e} N at t = {:.4} s, {:.0} % of EA",
+                force.max,
+                force.t_max,
+                100.0 * strain
+            )
+        } else if -gap.min > self.depth {
+            let depth = -gap.min;
+            format!(
+                "is {depth:.3e} m inside its obstacle at t = {:.4} s, more than the beam is high",
+                gap.t_min
+            )
+        } else {
+            return None;
+        };
+        Some(format!(
+            "the contact `{}` {how}, which no linear-elastic beam bears: does the obstacle move on where the beam cannot follow?",
+            self.name
+        ))
     }
 }

@@ -50,6 +50,8 @@ pub struct Prepared {
     history: Option<Checkpoint>,
     /// What its reader should know about the model before it runs.
     warnings: Vec<String>,
+    /// What the beam bears at its contacts.
+    limits: Vec<contact::Limit>,
 }
 
 /// What a run gave.
@@ -132,6 +134,7 @@ impl Reading {
             scene,
             history,
             warnings,
+            limits: self.limits(),
         })
     }
 
@@ -292,6 +295,7 @@ impl Prepared {
             scene,
             history,
             mut warnings,
+            limits,
         } = self;
         let Live { mut system, mut integrator } = live;
         let clock = Clock::start();
@@ -309,6 +313,7 @@ impl Prepared {
         let of_steps = recorder.warnings();
         let (trajectory, mut shapes, mut scene, events) = recorder.into_parts();
         warnings.extend(system.cautions(&trajectory.peaks()));
+        warnings.extend(limits.iter().filter_map(|limit| limit.exceeded(&trajectory)));
         warnings.extend(of_steps);
         if let Ending::Finished = ending {
             shapes.iter_mut().for_each(|shapes| shapes.finish(system.as_mut(), &state));

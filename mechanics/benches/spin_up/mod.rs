@@ -9,7 +9,7 @@ use flexion::hub_beam::{
 };
 use flexion::integrator::{GeneralizedAlpha, Integrator, Radau, Span, Tolerance};
 use flexion::linalg::Matrix;
-use flexion::multibody::slender::{Beam, Properties, Station};
+use flexion::multibody::slender::{Beam, ELEMENT_VELOCITIES, Properties, Station};
 use flexion::multibody::{self, Flexible, Joint, Kind, Marker, Model, Multibody, Part};
 use flexion::profile::{Expression, Motion, SpinUp};
 use flexion::section::{Resultants, Uniform};
@@ -27,14 +27,14 @@ pub fn sizes() -> impl Iterator<Item = usize> {
     (0..=10).map(|k| 10 << k)
 }
 
-/// The system of a coupling, or with `space` the beam in space; `first-free` and `exact-free` are driven by a torque, that of the rigid beam.
+/// The system of a coupling, or with `space` and `waves` the beam in space; `first-free` and `exact-free` are driven by a torque, that of the rigid beam.
 pub fn system(coupling: &str, elements: usize) -> Box<dyn System> {
     let resultants =
         Resultants { mass: 1.2, axial_stiffness: 2.8e7, bending_stiffness: 1.4e4, ..Default::default() };
     let section = Uniform::from_resultants(resultants).unwrap();
     let profile = Arc::new(SpinUp::new(4.0, 15.0).unwrap());
     let motion = Motion::Speed { profile, initial_angle: 0.0 };
-    if coupling == "space" {
+    if ["space", "waves"].contains(&coupling) {
         return Box::new(in_space(elements, motion));
     }
     let drive = if coupling.ends_with("-free") {
@@ -103,14 +103,20 @@ pub struct Run {
 }
 
 impl Run {
-    /// The run, a second after its start from rest.
+    /// The run, a second after its start from rest; with `waves` a tenth of a second after its start with a velocity across the
+    /// beam that has a wave in ten elements, so that all of them have the same to do, however many there are.
     pub fn new(coupling: &str, elements: usize, integrator_name: &str) -> Run {
         let mut system = system(coupling, elements);
         let mut integrator = integrator(integrator_name);
         let mut from = system.initial();
+        let waves = coupling == "waves";
+        for (i, v) in from.v.chunks_mut(ELEMENT_VELOCITIES).enumerate().filter(|_| waves) {
+            let number = 0.2 * std::f64::consts::PI;
+            (v[1], v[4]) = (0.1 * (number * i as f64).sin(), 0.1 * number * (number * i as f64).cos());
+        }
         integrator.start(&mut *system, &mut from, STEP).unwrap();
         let mut run = Run { system, integrator, to: from.clone(), from };
-        run.steps(200);
+        run.steps(if waves { 20 } else { 200 });
         run
     }
 

@@ -21,8 +21,6 @@ use crate::system::System;
 const HALVINGS: u32 = 8;
 /// Interval of speed, over the range, in which modes that change their order cross: in a wider one they may veer.
 const CROSSING: f64 = 1.0 / 8192.0;
-/// Damping ratio below which a motion grows.
-const GROWTH: f64 = -1e-9;
 
 /// Computes the diagram of a system. `progress` is called with the number of speeds that are done, and stops by `false`.
 ///
@@ -135,7 +133,7 @@ fn join(solved: &[Solved], matches: &[Vec<Match>], count: usize) -> Tracker {
 fn flutter(branches: &[Branch]) -> Vec<Instability> {
     let mut out = Vec::new();
     for (branch, b) in branches.iter().enumerate() {
-        let grows = |p: &Point| p.mode.damping_ratio() < GROWTH;
+        let grows = |p: &Point| p.mode.grows();
         if let Some(first) = b.points.iter().position(grows) {
             let from = b.points[first.saturating_sub(1)].speed;
             out.push(Instability::Flutter { branch, from, to: b.points[first].speed });

@@ -11,6 +11,10 @@
 //! the path, (Δq, Δs)·t = 0 (Riks's normal plane): two solutions with J, which is singular at limit points alone. Loads are
 //! linear in s, so that ∂F/∂s = r_{s+½} − r_{s−½} + r₀.
 //!
+//! A contact is a row as long as it is closed: g ≥ 0, λ ≥ 0, λ g = 0. Behind every solution the one deepest inside its obstacle is
+//! closed, or else the one that pulls most is opened, and the equations are solved again, until there is none. Contacts have no
+//! friction here.
+//!
 //! Source: E. Riks, *Int. J. Solids Struct.* 15 (1979) 529–551, doi:10.1016/0020-7683(79)90081-7.
 
 use super::joints;
@@ -19,6 +23,8 @@ use crate::system::{Parameter, State, System, Weights};
 
 /// Iterations allowed at one level, and at one point of a path.
 const ITERATIONS: [u32; 2] = [25, 10];
+/// Changes of contacts at one level, for each row.
+const CHANGES: usize = 4;
 /// Scaled size of an increment at which the iteration has converged.
 const TOLERANCE: f64 = 1e-11;
 
@@ -135,8 +141,26 @@ impl<'a> Equations<'a> {
         state.lambda.iter_mut().zip(multipliers).for_each(|(lambda, x)| *lambda += x);
     }
 
-    /// Solves for an equilibrium from a state near it: at the part of the loads given, or in the plane across a path.
+    /// Solves for an equilibrium from a state near it: at the part of the loads given, or in the plane across a path. Contacts
+    /// close and open.
     pub(super) fn solve(
+        &mut self,
+        state: &mut State,
+        part: &mut f64,
+        path: Option<&Direction>,
+    ) -> Result<u32, Failure> {
+        let mut taken = 0;
+        for _ in 0..CHANGES * (1 + state.lambda.len()) {
+            taken += self.converge(state, part, path)?;
+            if !joints::change_contact(self.system, state) {
+                return Ok(taken);
+            }
+        }
+        Err(Failure { what: "contacts open and close in turn".to_owned(), worst: 0 })
+    }
+
+    /// [`solve`](Equations::solve) with the contacts that are closed.
+    fn converge(
         &mut self,
         state: &mut State,
         part: &mut f64,

@@ -43,7 +43,8 @@ pub struct Effort {
 }
 
 /// Brings `state` to equilibrium at its time, beginning from the configuration it has: q and λ such that
-/// r(t, q, 0, 0, λ) = 0, and g = 0 of joints and closed contacts. On return v = a = 0.
+/// r(t, q, 0, 0, λ) = 0, with g = 0 of joints and g ≥ 0 ⟂ λ ≥ 0 of contacts, without friction. On return v = a = 0, and the modes
+/// tell which contacts are closed.
 ///
 /// The equilibrium is followed from the given configuration as the loads grow: with r_s the residual under the part s
 /// of them and r₀ that without loads in the given configuration, the levels r_s(q) = (1 − s) r₀ are solved for s from

@@ -1,7 +1,10 @@
 //! The rows of joints and closed contacts in the equations of an equilibrium.
 
 use crate::linalg::Matrix;
-use crate::system::{Dynamics, RowWeights, Set, State, is_active};
+use crate::system::{Dynamics, Mode, RowWeights, Set, State, is_active};
+
+/// Depth, over the largest scale of an unknown, that counts as rounding.
+const DEPTH: f64 = 1e-12;
 
 /// Whether the position of a row is imposed.
 fn holds(set: Set, s: &State, row: usize) -> bool {
@@ -33,6 +36,29 @@ pub(super) fn add(system: &mut dyn Dynamics, s: &State, n: usize, matrix: &mut M
         matrix.add(n + i, n + i, -1.0);
     }
     held.len()
+}
+
+/// Closes the open contact that is deepest inside its obstacle, or else opens the closed one that pulls most. `false` where there
+/// is none.
+pub(super) fn change_contact(system: &mut dyn Dynamics, s: &mut State) -> bool {
+    let mut g = vec![0.0; s.lambda.len()];
+    if g.is_empty() {
+        return false;
+    }
+    system.constraint(s, RowWeights::POSITION, &mut g);
+    let rounding = DEPTH * system.scales().iter().fold(0.0_f64, |x, scale| x.max(*scale));
+    let least = |mode: Mode, x: &[f64]| {
+        let contact = |i: &usize| matches!(system.rows()[*i], Set::Unilateral { .. }) && s.mode[*i] == mode;
+        (0..x.len()).filter(contact).min_by(|i, j| x[*i].total_cmp(&x[*j]))
+    };
+    let inside = least(Mode::Open, &g).filter(|i| g[*i] < -rounding);
+    let pulls = least(Mode::Closed, &s.lambda).filter(|i| s.lambda[*i] < 0.0);
+    match (inside, pulls) {
+        (Some(i), _) => s.mode[i] = Mode::Closed,
+        (None, Some(i)) => (s.mode[i], s.lambda[i]) = (Mode::Open, 0.0),
+        (None, None) => return false,
+    }
+    true
 }
 
 /// Adds to the multipliers those that leave the least of the residual, |S (r − Gᵀ Δλ)| with the scales S of the unknowns.

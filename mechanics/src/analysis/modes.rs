@@ -7,6 +7,7 @@
 //! Rows of constraints that hold are part of K, [K −Gᵀ; −G 0], in which K has the multipliers of the equilibrium: a solution
 //! with it is a motion that G allows, and the cost stays linear in the unknowns where the multipliers stand in the band.
 
+use super::stability::GROWTH;
 use super::stiffness::matrices;
 use crate::linalg::Matrix;
 use crate::linalg::eigen::{EigenError, Kind, Pair, Pencil, UNCERTAIN};
@@ -64,6 +65,11 @@ impl Mode {
     pub fn damping_ratio(&self) -> f64 {
         let size = self.eigenvalue.norm();
         if size == 0.0 || self.eigenvalue.re == 0.0 { 0.0 } else { -self.eigenvalue.re / size }
+    }
+
+    /// Whether it grows, by more than rounding makes it.
+    pub fn grows(&self) -> bool {
+        self.damping_ratio() < -GROWTH
     }
 }
 

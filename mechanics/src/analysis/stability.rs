@@ -16,7 +16,7 @@ use std::fmt;
 /// Eigenvalues that are asked for where the inertia does not decide.
 const EIGENVALUES: usize = 12;
 /// Growth Re λ/|λ| above which a motion counts as growing: where two frequencies meet, rounding makes about √ε of them.
-const GROWTH: f64 = 1e-7;
+pub(super) const GROWTH: f64 = 1e-7;
 
 /// How motions about an equilibrium go on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

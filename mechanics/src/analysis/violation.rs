@@ -12,7 +12,7 @@ pub struct Violation {
     /// g̈ \[m/s², rad/s²\]
     pub acceleration: Vec<f64>,
     /// Largest |g|, |ġ| and |g̈| of the rows that are active: of joints, closed contacts, and ġ and g̈ of friction that
-    /// sticks. A contact that is open counts with the penetration −g > 0.
+    /// sticks, and of rows that are left out because they follow from others. A contact that is open counts with the penetration −g > 0.
     pub largest: [f64; 3],
 }
 
@@ -25,7 +25,7 @@ impl Violation {
 
     /// Evaluates the rows at `s`; allocates nothing.
     pub fn evaluate(&mut self, system: &mut dyn Dynamics, s: &State) {
-        self.largest = [0.0; 3];
+        self.largest = system.dropped(s);
         if self.position.is_empty() {
             return;
         }

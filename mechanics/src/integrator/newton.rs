@@ -5,7 +5,11 @@
 //! iteration (with a kept tangent) stops
 //!
 //! - as converged, when η‖Δₖ‖ ≤ tolerance; the first increment is judged by the η of the last step, raised to a power;
-//! - as diverged, when θ ≥ 1, or when θ^(kₘₐₓ−k) η‖Δₖ‖ > tolerance: the iterations left will not do.
+//! - as diverged, from the third increment on, when θ ≥ 1, or when θ^(kₘₐₓ−k) η‖Δₖ‖ > tolerance: the iterations left will not do.
+//!
+//! Tangents that have turned away from the axis of a slender beam by a small angle make errors along it of errors across it and
+//! the other way, so that increments shrink at every second iteration only: from the third increment on θ is the geometric mean
+//! of the last two ratios, η is that of the larger one, and the second increment may be twice the first.
 //!
 //! Source: Hairer & Wanner, *Solving Ordinary Differential Equations II*, section IV.8
 //! (doi 10.1007/978-3-642-05221-7).
@@ -47,6 +51,8 @@ pub struct Convergence {
     /// Whether the tangent is of this step.
     fresh: bool,
     previous: f64,
+    /// Ratio of the last two increments, and the rate.
+    ratio: f64,
     rate: f64,
     eta: f64,
     /// Size of increments that are rounding errors, as far as known, and whether it has grown.
@@ -59,6 +65,9 @@ const PART: f64 = 1e-5;
 
 /// An increment that is not reduced to this part has stopped shrinking, where the tangent is new.
 const STALLED: f64 = 0.5;
+
+/// An increment that grows by this factor shows that the iteration diverges.
+const GROWN: f64 = 2.0;
 
 impl Convergence {
     /// Full Newton iteration (a new tangent every time) to the iteration error `tolerance`: at most 20
@@ -75,6 +84,7 @@ impl Convergence {
             iteration: 0,
             fresh: true,
             previous: 0.0,
+            ratio: 0.0,
             rate: 0.0,
             eta: 1.0,
             rounding: 0.0,
@@ -142,23 +152,28 @@ impl Convergence {
         }
         let tolerance = self.allowed;
         if self.iteration > 1 {
-            self.rate = if self.previous > 0.0 { size / self.previous } else { 0.0 };
-            let small = if self.fresh { self.noise } else { 10.0 * self.rounding };
-            if self.rate >= STALLED && size <= small {
+            let ratio = if self.previous > 0.0 { size / self.previous } else { 0.0 };
+            let small = if self.fresh { self.noise } else { self.noise.min(10.0 * self.rounding) };
+            if ratio >= STALLED && size <= small {
                 self.rounding = self.rounding.max(size);
                 return Progress::Converged;
             }
-            self.stalled |= self.rate >= STALLED && size <= self.noise;
-            if self.rate < 1.0 {
-                self.eta = self.rate / (1.0 - self.rate);
-                let left = self.max_iterations.saturating_sub(self.iteration) as i32;
-                if self.simplified && self.rate.powi(left) * self.eta * size > tolerance {
-                    return Progress::Diverged;
-                }
-            } else if self.simplified || (self.iteration > 3 && self.rate >= 2.0) {
-                return Progress::Diverged;
+            self.stalled |= ratio >= STALLED && size <= self.noise;
+            let alternates = self.simplified && self.iteration > 2;
+            self.rate = if alternates { (ratio * self.ratio).sqrt() } else { ratio };
+            let worst = if alternates { ratio.max(self.ratio) } else { ratio };
+            self.eta = if worst < 1.0 { worst / (1.0 - worst) } else { f64::INFINITY };
+            self.ratio = ratio;
+            let left = self.max_iterations.saturating_sub(self.iteration) as i32;
+            let diverges = if self.iteration <= 2 {
+                self.simplified && ratio >= GROWN
+            } else if self.simplified {
+                self.rate >= 1.0 || self.rate.powi(left) * self.eta * size > tolerance
             } else {
-                self.eta = f64::INFINITY;
+                self.iteration > 3 && ratio >= GROWN
+            };
+            if diverges {
+                return Progress::Diverged;
             }
         }
         self.previous = size;

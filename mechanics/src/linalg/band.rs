@@ -30,10 +30,8 @@ pub struct Band<T> {
     data: Vec<T>,
     /// Row exchanged with row k at step k, minus k.
     pivots: Vec<u32>,
-    /// Number of entries of row k of U right of the diagonal.
-    row_length: Vec<u32>,
-    /// Whether any rows were exchanged.
-    interchanged: bool,
+    /// The first row that was exchanged with another, or n.
+    first_exchange: usize,
     /// Pivots that were too small and were replaced: see [`Band::factor`].
     deflated: Vec<(usize, f64)>,
     /// Largest entry of each column before elimination, for [deflation](Band::deflatable).
@@ -53,8 +51,7 @@ impl<T: Scalar> Band<T> {
             width,
             data: vec![T::ZERO; n * width],
             pivots: vec![0; n],
-            row_length: vec![0; n],
-            interchanged: false,
+            first_exchange: n,
             deflated: Vec::with_capacity(DEFLATIONS),
             column_size: Vec::new(),
         }
@@ -189,7 +186,7 @@ impl<T: Scalar> Band<T> {
     /// factors are then those of A + Σ δ_k (L e_k) e_kᵀ, and the caller's border undoes the change.
     pub fn factor(&mut self, deflate: bool) -> Result<(), Singular> {
         self.deflated.clear();
-        self.interchanged = false;
+        self.first_exchange = self.n;
         if deflate {
             self.measure_columns();
         }
@@ -199,6 +196,7 @@ impl<T: Scalar> Band<T> {
             (5, 5) if self.width == 11 => self.eliminate::<5, 11>(deflate),
             (7, 7) if self.width == 15 => self.eliminate::<7, 15>(deflate),
             (9, 9) if self.width == 19 => self.eliminate::<9, 19>(deflate),
+            (15, 15) if self.width == 31 => self.eliminate::<15, 31>(deflate),
             _ => self.eliminate_from(0, deflate),
         }
     }
@@ -224,7 +222,6 @@ impl<T: Scalar> Band<T> {
             let inverse = T::ONE / pivot;
             pivot_row[HALF] = inverse;
             self.pivots[k] = 0;
-            self.row_length[k] = HALF as u32;
             for r in 0..HALF {
                 let first = HALF - 1 - r;
                 let factor = below[r][first] * inverse;
@@ -272,7 +269,6 @@ impl<T: Scalar> Band<T> {
                 width = self.width;
             }
             self.pivots[k] = (p - k) as u32;
-            self.row_length[k] = count as u32;
             if !(best > small) {
                 if !deflate || !best.is_finite() || self.deflated.len() == DEFLATIONS {
                     return Err(Singular { index: k, pivot: best / largest });
@@ -283,7 +279,7 @@ impl<T: Scalar> Band<T> {
             }
             let rows = &mut self.data[k * width..(last_row + 1) * width];
             if p != k {
-                self.interchanged = true;
+                self.first_exchange = self.first_exchange.min(k);
                 // Entry (k, k + j) against entry (p, k + j).
                 let (head, tail) = rows.split_at_mut((p - k) * width);
                 let start = l - (p - k);
@@ -324,22 +320,23 @@ impl<T: Scalar> Band<T> {
 
     /// b ← L⁻¹ P b after factoring.
     pub fn forward(&self, b: &mut [T]) {
-        if self.interchanged {
-            return self.forward_interchanged(b);
-        }
         match self.lower {
             3 => self.forward_by_rows::<3>(b),
             5 => self.forward_by_rows::<5>(b),
             7 => self.forward_by_rows::<7>(b),
             9 => self.forward_by_rows::<9>(b),
+            15 => self.forward_by_rows::<15>(b),
             _ => self.forward_by_rows::<0>(b),
+        }
+        if self.first_exchange < self.n {
+            self.forward_interchanged(b);
         }
     }
 
-    /// Row by row, where no rows were exchanged; `LOWER` is the half-bandwidth, or 0.
+    /// Row by row up to the first exchange; `LOWER` is the half-bandwidth, or 0.
     fn forward_by_rows<const LOWER: usize>(&self, b: &mut [T]) {
         let l = if LOWER > 0 { LOWER } else { self.lower };
-        for (i, row) in self.data.chunks_exact(self.width).enumerate() {
+        for (i, row) in self.data[..self.first_exchange * self.width].chunks_exact(self.width).enumerate() {
             let sum = if LOWER > 0
                 && i >= LOWER
                 && let Some(row) = row.first_chunk::<LOWER>()
@@ -354,10 +351,15 @@ impl<T: Scalar> Band<T> {
         }
     }
 
-    /// Column by column, each after its interchange.
+    /// From the first exchange on: the columns before it, and then column by column, each after its exchange.
     fn forward_interchanged(&self, b: &mut [T]) {
-        let (l, width) = (self.lower, self.width);
-        for k in 0..self.n {
+        let (l, width, start) = (self.lower, self.width, self.first_exchange);
+        for i in start..(start + l).min(self.n) {
+            let first = i.saturating_sub(l);
+            let row = &self.data[i * width + l + first - i..i * width + l + start - i];
+            b[i] = forward_products(b[i], row, &b[first..start]);
+        }
+        for k in start..self.n {
             let p = self.pivots[k] as usize;
             if p != 0 {
                 b.swap(k, k + p);
@@ -380,28 +382,26 @@ impl<T: Scalar> Band<T> {
             5 => self.backward_by_rows::<5>(b),
             7 => self.backward_by_rows::<7>(b),
             9 => self.backward_by_rows::<9>(b),
+            15 => self.backward_by_rows::<15>(b),
             _ => self.backward_by_rows::<0>(b),
         }
     }
 
-    /// `UPPER` is the common length of a row, or 0.
+    /// `UPPER` is the length of the rows before the first exchange, but for the last ones, or 0.
     fn backward_by_rows<const UPPER: usize>(&self, b: &mut [T]) {
-        let (l, width) = (self.lower, self.width);
-        for k in (0..self.n).rev() {
-            let length = self.row_length[k] as usize;
-            let row = &self.data[k * width + l + 1..k * width + l + 1 + length];
-            let (head, tail) = b.split_at_mut(k + 1);
-            let Some(x) = head.last_mut() else { return };
-            let sum = if UPPER > 0
-                && length == UPPER
-                && let Some(row) = row.first_chunk::<UPPER>()
-                && let Some(tail) = tail.first_chunk::<UPPER>()
-            {
-                backward_products(*x, row, tail)
-            } else {
-                backward_products(*x, row, &tail[..length])
-            };
-            *x = sum * self.data[k * width + l];
+        let (n, l, width) = (self.n, self.lower, self.width);
+        let common = if UPPER > 0 { self.first_exchange.min(n.saturating_sub(UPPER)) } else { 0 };
+        for k in (common..n).rev() {
+            let longest = if k < self.first_exchange { self.upper } else { width - l - 1 };
+            let row = &self.data[k * width + l..k * width + l + 1 + longest.min(n - 1 - k)];
+            b[k] = backward_products(b[k], &row[1..], &b[k + 1..k + row.len()]) * row[0];
+        }
+        for (k, row) in self.data[..common * width].chunks_exact(width).enumerate().rev() {
+            let (x, tail) = b[k..].split_at_mut(1);
+            let (pivot, row) = (row[l], &row[l + 1..]);
+            if let (Some(row), Some(tail)) = (row.first_chunk::<UPPER>(), tail.first_chunk::<UPPER>()) {
+                x[0] = backward_products(x[0], row, tail) * pivot;
+            }
         }
     }
 

@@ -58,6 +58,22 @@ fn band_and_dense_give_the_same_solution() {
     }
 }
 
+/// Rows are eliminated in place up to the first exchange, and in the order of the exchanges from there on.
+#[test]
+fn exchanges_may_begin_anywhere() {
+    for (lower, upper) in [(3, 3), (5, 5), (15, 15), (15, 4), (2, 9)] {
+        for start in [1, 20, 33, 49] {
+            let (mut a, mut b) = random_pair(&Structure::band(50, lower, upper, 0), 8.0, 17);
+            for i in start..50 {
+                a.add(i, i, -8.0);
+                b.add(i, i, -8.0);
+            }
+            let error = solve_error(a, b);
+            assert!(error < 1e-11, "bands {lower} {upper}, exchanges from {start} on: {error:e}");
+        }
+    }
+}
+
 #[test]
 fn multipliers_inside_the_band_survive_pivoting() {
     // Saddle point [[2, 1], [1, 0]] blocks chained: zero diagonals at every second unknown.

@@ -100,7 +100,14 @@ impl Model {
         joints.map(|joint| joint.name.as_str()).chain(springs.map(|s| s.name.as_str())).collect()
     }
 
-    /// Makes a revolute or cylindrical joint keep the angle that it has at the start, in the place of its drive.
+    /// Whether the motion of a joint is prescribed.
+    pub fn prescribes(&self, joint: &str) -> bool {
+        self.joints.iter().any(|j| j.name == joint && matches!(j.drive, Drive::Prescribed(_)))
+    }
+
+    /// Makes a revolute or cylindrical joint keep the angle that it has at the start in the place of its drive, as long as the
+    /// [rigid motions](crate::system::Steady::hold) are held: free, it has its motor, spring, damper and controller, or nothing where its motion
+    /// is prescribed.
     pub fn keep_angle(&mut self, joint: &str) {
         let Some(number) = self.joints.iter().position(|j| j.name == joint && is_hinge(j)) else { return };
         let of = &self.joints[number];
@@ -108,7 +115,11 @@ impl Model {
         let along = |j: usize| inner(column(&a.rotation, j), column(&b.rotation, 0));
         let angle = libm::atan2(along(1), along(0));
         if let Ok(profile) = Constant::new(angle) {
-            self.joints[number].drive = Drive::Prescribed(Motion::Angle(Arc::new(profile)));
+            let joint = &mut self.joints[number];
+            joint.kept = Some(Motion::Angle(Arc::new(profile)));
+            if matches!(joint.drive, Drive::Prescribed(_)) {
+                joint.drive = Drive::None;
+            }
         }
     }
 

@@ -1,15 +1,20 @@
 //! The start: whether the bodies fit their joints, which rows follow from others, and velocities that obey the rows.
 
+use super::body::three;
 use super::constants::Constants;
 use super::model::{ModelError, Violation};
+use super::rotation::{Vector, apply, plus};
 use crate::linalg::Matrix;
-use crate::linalg::vector::{axpy, dot};
+use crate::linalg::vector::{axpy, cross, dot};
 use crate::system::{Dynamics, RowWeights, State, Weights};
+use std::ops::Range;
 
 /// Displacement of markers, over the largest arm, and cosine of an angle that count as rounding.
 const FITTING: f64 = 1e-9;
 /// Part of a row that must be independent of the others.
 const INDEPENDENT: f64 = 1e-9;
+/// Part by which velocities and accelerations that redundant rows ask for may differ.
+const SAME: f64 = 1e-6;
 
 /// Refuses joints whose markers do not coincide.
 pub(super) fn positions(
@@ -44,16 +49,35 @@ fn rows(system: &mut dyn Dynamics, s: &State) -> Vec<Vec<(usize, f64)>> {
     out
 }
 
-/// The rows that follow from others, each with its name and the joints that it follows from.
+/// A row that follows from others.
+pub(super) struct Redundant {
+    pub(super) row: usize,
+    /// Its name, and the joints that it follows from.
+    name: String,
+    others: String,
+    /// c with c G = 0.
+    combination: Vec<f64>,
+}
+
+impl Redundant {
+    /// For people.
+    pub(super) fn describe(&self) -> String {
+        format!("{} (which follows from {})", self.name, self.others)
+    }
+}
+
+/// The rows that follow from others.
 ///
 /// Rows of the tree of joints are independent. A row of a joint that closes a loop is projected on the motions x that the
-/// tree allows, x = g + Gᵀ λ, G x = 0, and on what the rows before it leave of them: nothing is left of a redundant one.
+/// tree allows, x = g + Gᵀ λ, G x = 0, and on what the rows before it leave of them: nothing is left of a redundant one, c G = 0.
+/// Then c ġ = c ∂g/∂t and c g̈ are zero too, for all velocities that the rows allow: otherwise prescribed motions contradict each
+/// other, or the start is a singular configuration, where c g̈ changes with the velocity.
 pub(super) fn redundant(
     system: &mut dyn Dynamics,
     constants: &Constants,
     s: &State,
     in_tree: &[bool],
-) -> Result<Vec<(usize, String)>, ModelError> {
+) -> Result<Vec<Redundant>, ModelError> {
     if in_tree.iter().all(|tree| *tree) {
         return Ok(Vec::new());
     }
@@ -78,7 +102,7 @@ pub(super) fn redundant(
     matrix.factor().map_err(|e| ModelError::Velocities(format!("{} ({e})", system.unknown(e.index))))?;
     // Orthonormal, each with its combination of rows.
     let mut basis: Vec<(Vec<f64>, Vec<f64>)> = Vec::new();
-    let mut found = Vec::new();
+    let mut found: Vec<Redundant> = Vec::new();
     for (i, row) in g.iter().enumerate().filter(|(i, _)| !of_tree(*i)) {
         let mut x = vec![0.0; n + m];
         row.iter().for_each(|&(j, entry)| x[j] += entry * scale[j]);
@@ -112,9 +136,57 @@ pub(super) fn redundant(
         joints.dedup();
         let others: Vec<String> =
             joints.iter().map(|k| format!("`{}`", constants.model.joints[*k].name)).collect();
-        found.push((i, format!("{} (which follows from {})", constants.row_name(i), others.join(", "))));
+        found.push(Redundant { row: i, name: constants.row_name(i), others: others.join(", "), combination });
     }
-    Ok(found)
+    // Velocities that the rows allow: of the tree, and then of the loops.
+    let mut allowed = |s: &mut State, rates: &mut [f64]| {
+        system.constraint(s, RowWeights::VELOCITY, rates);
+        let mut x = vec![0.0; n + m];
+        for i in (0..m).filter(|i| of_tree(*i)) {
+            x[n + i] = -rates[i];
+        }
+        matrix.solve(&mut x);
+        (0..n).for_each(|j| s.v[j] += scale[j] * x[j]);
+        for (unit, of_unit) in &basis {
+            system.constraint(s, RowWeights::VELOCITY, rates);
+            let excess = dot(of_unit, rates);
+            (0..n).for_each(|j| s.v[j] -= excess * scale[j] * unit[j]);
+        }
+        let fastest = s.v.iter().zip(&scale).fold(0.0_f64, |x, (v, scale)| x.max((v / scale).abs()));
+        let mut bends = vec![0.0; m];
+        system.constraint(s, RowWeights::VELOCITY, rates);
+        system.constraint(s, RowWeights::ACCELERATION, &mut bends);
+        (bends, fastest)
+    };
+    let mut given = State { a: vec![0.0; n], ..s.clone() };
+    let mut rates = vec![0.0; m];
+    let (bends, fastest) = allowed(&mut given, &mut rates);
+    let mut other = given.clone();
+    for (j, v) in other.v.iter_mut().enumerate() {
+        *v += (1.0 + fastest) * scale[j] * libm::sin(1.0 + j as f64);
+    }
+    let (other, faster) = allowed(&mut other, &mut vec![0.0; m]);
+    let (mut contradictory, mut singular) = (Vec::new(), Vec::new());
+    for of in &found {
+        let c = &of.combination;
+        let unit = |k: usize| if constants.rows[k].1.is_length() { scale[0] } else { 1.0 };
+        let sum = |of: &dyn Fn(usize) -> f64| (0..m).map(|k| c[k].abs() * of(k)).sum::<f64>();
+        // What counts as rounding.
+        let speed = SAME * sum(&|k| rates[k].abs() + unit(k) * fastest);
+        let bend = SAME * sum(&|k| bends[k].abs() + other[k].abs() + unit(k) * faster * faster);
+        let text = || format!("{} against {}", of.name, of.others);
+        let differs = (dot(c, &other) - dot(c, &bends)).abs() > bend;
+        if dot(c, &rates).abs() > speed || (!differs && dot(c, &bends).abs() > bend) {
+            contradictory.push(text());
+        } else if differs {
+            singular.push(text());
+        }
+    }
+    match (contradictory.is_empty(), singular.is_empty()) {
+        (true, true) => Ok(found),
+        (true, false) => Err(ModelError::Singular { rows: singular }),
+        _ => Err(ModelError::Contradictory { rows: contradictory }),
+    }
 }
 
 /// The velocities nearest to those of `s` that obey the rows: M Δv = Gᵀ Λ, G Δv = −ġ.
@@ -138,4 +210,40 @@ pub(super) fn velocities(system: &mut dyn Dynamics, s: &State) -> Result<Vec<f64
     matrix.solve(&mut rhs);
     axpy(-1.0, &rhs[..n], &mut v);
     Ok(v)
+}
+
+/// What the joints have changed of velocities that the model gives, where it is more than rounding.
+pub(super) fn changes(constants: &Constants, given: &State, used: &[f64]) -> Vec<String> {
+    let scaled = |v: &[f64]| v.iter().zip(&constants.scales).map(|(v, scale)| v / scale).collect::<Vec<_>>();
+    let (before, after) = (scaled(&given.v), scaled(used));
+    let most = SAME * before.iter().fold(0.0_f64, |x, v| x.max(v.abs()));
+    let changed = |mut numbers: Range<usize>| numbers.any(|j| !((after[j] - before[j]).abs() <= most));
+    let nothing = |velocity: &Vector, spin: &Vector| velocity.iter().chain(spin).all(|x| *x == 0.0);
+    let why = "the joints do not allow all that is given, and what is left out is zero (also the velocity of a body on a hinge, whose \
+               centre moves with its spin)";
+    let mut out = Vec::new();
+    for (body, place) in constants.model.bodies.iter().zip(&constants.place) {
+        let at = 6 * place;
+        if nothing(&body.velocity, &body.spin) || !changed(at..at + 6) {
+            continue;
+        }
+        let r = &body.frame.rotation;
+        let spin = apply(r, three(used, at + 3));
+        let velocity = plus(three(used, at), -1.0, cross(spin, apply(r, body.centre)));
+        let text = |[x, y, z]: Vector| format!("({x:.4}, {y:.4}, {z:.4})");
+        out.push(format!(
+            "body `{}` has the velocity {} m/s and the spin {} rad/s at t = 0, and not {} and {}: {why}",
+            body.name,
+            text(velocity),
+            text(spin),
+            text(body.velocity),
+            text(body.spin)
+        ));
+    }
+    for (of, [_, at]) in constants.model.beams.iter().zip(&constants.beams) {
+        if !nothing(&of.velocity, &of.spin) && changed(*at..at + of.beam.velocities()) {
+            out.push(format!("beam `{}` has other velocities at t = 0 than are given: {why}", of.name));
+        }
+    }
+    out
 }

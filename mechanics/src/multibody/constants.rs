@@ -3,7 +3,7 @@
 use super::body::four;
 use super::channels::channels;
 use super::force::angle_between;
-use super::joint::{Coordinate, Drive};
+use super::joint::Coordinate;
 use super::layout::{Link, layout};
 use super::marker::Part;
 use super::model::Model;
@@ -35,18 +35,24 @@ pub(super) struct Constants {
     pub(super) coordinates: Vec<Option<Coordinate>>,
     /// Number in q of each joint's angle.
     pub(super) angle: Vec<Option<usize>>,
-    pub(super) sets: Vec<Set>,
+    /// The sets of the multipliers, and the same with the [kept angles](super::joint::Joint) free.
+    pub(super) sets: [Vec<Set>; 2],
     pub(super) scales: Vec<f64>,
     pub(super) structures: [Structure; 3],
     pub(super) breaks: Vec<Break>,
     pub(super) channels: Vec<Channel>,
-    pub(super) dropped: Vec<String>,
+    /// Rows that are left out: names, joints and constraints.
+    pub(super) dropped: Vec<(String, (usize, Row))>,
     pub(super) size: Size,
 }
 
 impl Constants {
     /// Of a model with the given rows; and which joints belong to the tree.
-    pub(super) fn new(model: Model, rows: Vec<(usize, Row)>, dropped: Vec<String>) -> (Constants, Vec<bool>) {
+    pub(super) fn new(
+        model: Model,
+        rows: Vec<(usize, Row)>,
+        dropped: Vec<(String, (usize, Row))>,
+    ) -> (Constants, Vec<bool>) {
         let mut model = model;
         let bodies = model.bodies.len();
         // Bodies and nodes of beams as the nodes of a graph.
@@ -138,7 +144,7 @@ impl Constants {
         }
         let mut constants = Constants {
             size: Size { q, v, lambda: rows.len(), memory: 0 },
-            sets: vec![Set::Free; rows.len()],
+            sets: [true, false].map(|held| sets(&model, &rows, held)),
             scales,
             beams,
             weight,
@@ -179,7 +185,7 @@ impl Constants {
         self.count_angles(&s.q, &mut q);
         // A prescribed angle begins in its own turn.
         for (joint, angle) in self.model.joints.iter().zip(&self.angle) {
-            if let (Drive::Prescribed(motion), Some(i)) = (&joint.drive, *angle) {
+            if let (Some(motion), Some(i)) = (joint.prescribed(), *angle) {
                 q[i] = nearest_turn(q[i], motion.at(0.0).angle);
             }
         }
@@ -218,6 +224,16 @@ impl Constants {
             }
         }
     }
+}
+
+/// The sets of multipliers. A kept angle that is not held has none of the rows of a joint: its equation is λ = 0, as that of friction
+/// with the coefficient zero.
+fn sets(model: &Model, rows: &[(usize, Row)], held: bool) -> Vec<Set> {
+    let is_free =
+        |(joint, row): &(usize, Row)| !held && *row == Row::Angle && model.joints[*joint].kept.is_some();
+    let friction = |normal| Set::Friction { coefficient: 0.0, normal };
+    let set = |(i, row)| if is_free(row) { friction(i) } else { Set::Free };
+    rows.iter().enumerate().map(set).collect()
 }
 
 /// Adds forces on r₁, r′₁, r₂, r′₂ of an element to those from its first velocity on.

@@ -51,6 +51,8 @@ pub struct Joint {
     pub to: Marker,
     /// What moves it.
     pub drive: Drive,
+    /// The angle that it keeps in the place of its drive while the [rigid motions](crate::system::Steady::hold) are held.
+    pub(super) kept: Option<Motion>,
 }
 
 /// The coordinate of a joint's third axis.
@@ -87,7 +89,7 @@ impl Kind {
 impl Joint {
     /// A joint without drive.
     pub fn new(name: &str, kind: Kind, from: Marker, to: Marker) -> Joint {
-        Joint { name: name.to_owned(), kind, from, to, drive: Drive::None }
+        Joint { name: name.to_owned(), kind, from, to, drive: Drive::None, kept: None }
     }
 
     /// The same joint with a drive.
@@ -98,13 +100,21 @@ impl Joint {
     /// Its rows.
     pub(super) fn rows(&self) -> Vec<Row> {
         let mut rows = self.kind.rows().to_vec();
-        if let Drive::Prescribed(_) = self.drive {
+        if self.prescribed().is_some() {
             rows.extend(self.kind.coordinate().map(|coordinate| match coordinate {
                 Coordinate::Angle => Row::Angle,
                 Coordinate::Displacement => Row::Displacement,
             }));
         }
         rows
+    }
+
+    /// The motion of its last row.
+    pub(super) fn prescribed(&self) -> Option<&Motion> {
+        match &self.drive {
+            Drive::Prescribed(motion) => Some(motion),
+            _ => self.kept.as_ref(),
+        }
     }
 
     /// Times at which its drive is not smooth.

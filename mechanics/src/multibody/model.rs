@@ -70,7 +70,7 @@ pub enum ModelError {
     #[error(
         "{} redundant: the joints of a loop hold a motion twice, and {freedoms} degrees of freedom are left. Give a joint of the loop more freedom \
          (spherical, universal or cylindrical in the place of revolute), take away the prescribed motion of what is locked, or drop the rows \
-         (`Model::drop_redundant_rows`): the motion is the same, their forces are then zero",
+         (`Model::drop_redundant_rows`): their forces are then zero",
         list(rows)
     )]
     Redundant {
@@ -78,6 +78,26 @@ pub enum ModelError {
         rows: Vec<String>,
         /// Degrees of freedom.
         freedoms: usize,
+    },
+    /// Prescribed motions that cannot happen together.
+    #[error(
+        "joints that contradict each other: {}: what they prescribe at the start differs in velocity or acceleration; take away a prescribed motion, \
+         let them agree, or give a joint more freedom",
+        list(rows)
+    )]
+    Contradictory {
+        /// Each row with the joints that it contradicts.
+        rows: Vec<String>,
+    },
+    /// Rows that follow from others at the start only.
+    #[error(
+        "the start is a singular configuration of {}: bars that are stretched out or folded flat, which the joints let move on in more than one \
+         way or in none; begin elsewhere, or give a joint more freedom",
+        list(rows)
+    )]
+    Singular {
+        /// Each row with the joints that it depends on.
+        rows: Vec<String>,
     },
     /// No velocities obey the joints.
     #[error("the joints allow no velocities at the start: {0}")]
@@ -100,8 +120,8 @@ impl Model {
         self
     }
 
-    /// The same model, of which rows that follow from others are left out, where they would be an error. They are those
-    /// that are redundant at the start: a mechanism that leaves that geometry needs them again.
+    /// The same model, of which rows that follow from others are left out, where they would be an error. A run ends where
+    /// they no longer follow.
     pub fn drop_redundant_rows(mut self) -> Model {
         self.drop_redundant = true;
         self

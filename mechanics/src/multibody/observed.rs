@@ -3,11 +3,15 @@
 use super::force::Interaction;
 use super::joint::Drive;
 use super::rotation::{Vector, apply, plus, quaternion, times};
+use super::row::Row;
 use super::system::Multibody;
 use crate::linalg::vector::{cross, inner};
 use crate::profile::HubKinematics;
 use crate::system::{Channel, Direction, Energy, Frame, Observed, Power, State};
 
+/// Size of a row that was left out, over the length of the system, at which it no longer follows from the others; and over the
+/// largest of the rows that are kept.
+const DEPARTED: [f64; 2] = [1e-6, 100.0];
 /// |r′| below which a beam has no direction.
 const LEAST_STRETCH: f64 = 0.05;
 
@@ -66,6 +70,14 @@ impl Multibody {
         let (a, b) = self.ends(k);
         let motion = coordinate.motion(a, b, self.constants.angle[k].map(|i| s.q[i]));
         Some((motion.position, motion.rate))
+    }
+
+    /// Largest |g| of the rows that are kept, over the unit of each.
+    fn largest_of_kept(&self, unit: impl Fn(Row) -> f64) -> f64 {
+        self.constants.rows.iter().fold(0.0, |largest, (joint, row)| {
+            let (a, b) = self.ends(*joint);
+            largest.max(row.value(a, b, &self.motions[*joint]).g.abs() / unit(*row))
+        })
     }
 
     fn powers(&self, s: &State) -> Power {
@@ -240,6 +252,19 @@ impl Observed for Multibody {
                 }
             }
         }
+        let unit = |row: Row| if row.is_length() { self.constants.scales[0] } else { 1.0 };
+        for (name, row, value) in self.values_of_dropped() {
+            let size = value.g.abs() / unit(row);
+            if size > DEPARTED[0] && size > DEPARTED[1] * self.largest_of_kept(unit) {
+                return Err(format!(
+                    "{name} is violated by {:.3e} {}: it was left out since it followed from the others at the start, and it no \
+                     longer does. Prescribed motions contradict each other, or the configuration at the start was singular: change \
+                     them, or begin elsewhere",
+                    value.g.abs(),
+                    if row.is_length() { "m" } else { "rad" }
+                ));
+            }
+        }
         for (k, spring) in self.constants.model.springs.iter().enumerate() {
             let (a, b) = self.spring_ends(k);
             if a.position == b.position && spring.length > 0.0 {
@@ -250,5 +275,9 @@ impl Observed for Multibody {
             }
         }
         Ok(())
+    }
+
+    fn cautions(&self, _peaks: &[f64]) -> Vec<String> {
+        self.changes.to_vec()
     }
 }

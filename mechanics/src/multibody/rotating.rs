@@ -297,6 +297,10 @@ impl Steady for Rotating {
         }
     }
 
+    fn hold(&mut self, held: bool) {
+        self.inner.hold(held);
+    }
+
     fn release(&mut self) {
         self.speed = 0.0;
         self.inner.release();

@@ -22,7 +22,7 @@ use super::rotation::{
     Vector, apply, compose, exponential, inverse, logarithm, matrix, normalized, plus, product, rate, skew,
     times,
 };
-use super::row::{Row, Wrench};
+use super::row::{Row, Value, Wrench};
 use super::slender::{self, ELEMENT_COORDINATES, ELEMENT_VELOCITIES};
 use crate::linalg::vector::{cross, inner};
 use crate::linalg::{Matrix, Structure};
@@ -40,9 +40,14 @@ const PAIR: usize = 2 * MOST;
 #[derive(Clone, Debug)]
 pub struct Multibody {
     pub(super) constants: Arc<Constants>,
-    pub(super) initial: State,
+    /// Velocities at the start.
+    pub(super) velocities: Vec<f64>,
+    /// What the joints have changed of those given.
+    pub(super) changes: Arc<[String]>,
     /// Part of the loads that acts.
     pub(super) part: f64,
+    /// Whether kept angles are held.
+    held: bool,
     pub(super) placed: Vec<Placed>,
     pub(super) poses: Vec<Pose>,
     /// Prescribed motion of each joint, and the time for which it was computed.
@@ -52,7 +57,7 @@ pub struct Multibody {
 
 impl Multibody {
     /// The system of a model. Bodies must fit their joints at the start; velocities that do not obey them are replaced by the nearest that do, in the norm
-    /// of kinetic energy.
+    /// of kinetic energy, and [cautions](crate::system::Observed::cautions) tell which.
     ///
     /// # Errors
     /// [`ModelError`].
@@ -66,21 +71,24 @@ impl Multibody {
             .collect();
         let (constants, in_tree) = Constants::new(model, rows, Vec::new());
         let mut system = Multibody::with(constants);
-        let (constants, start) = (system.constants.clone(), system.initial.clone());
+        let (constants, start) = (system.constants.clone(), system.constants.start());
         consistency::positions(&mut system, &constants, &start)?;
         let found = consistency::redundant(&mut system, &constants, &start, &in_tree)?;
         if !found.is_empty() {
-            let names: Vec<String> = found.iter().map(|(_, name)| name.clone()).collect();
             if !constants.model.drop_redundant {
                 let freedoms = constants.size.v + found.len() - constants.size.lambda;
-                return Err(ModelError::Redundant { rows: names, freedoms });
+                let rows = found.iter().map(|of| of.describe()).collect();
+                return Err(ModelError::Redundant { rows, freedoms });
             }
             let kept = constants.rows.iter().enumerate();
-            let kept = kept.filter(|(i, _)| found.iter().all(|(row, _)| row != i)).map(|(_, row)| *row);
-            let (constants, _) = Constants::new(constants.model.clone(), kept.collect(), names);
+            let kept = kept.filter(|(i, _)| found.iter().all(|of| of.row != *i)).map(|(_, row)| *row);
+            let dropped = found.iter().map(|of| (of.describe(), constants.rows[of.row])).collect();
+            let (constants, _) = Constants::new(constants.model.clone(), kept.collect(), dropped);
             system = Multibody::with(constants);
         }
-        consistency::velocities(&mut system, &start).map(|v| system.initial.v = v)?;
+        let given = system.constants.start();
+        system.velocities = consistency::velocities(&mut system, &given)?;
+        system.changes = consistency::changes(&system.constants, &given, &system.velocities).into();
         Ok(system)
     }
 
@@ -96,9 +104,11 @@ impl Multibody {
         let poses = poses.collect();
         let (bodies, joints) = (constants.place.len(), constants.of_joint.len());
         Multibody {
-            initial: constants.start(),
+            velocities: Vec::new(),
+            changes: Arc::default(),
             constants: Arc::new(constants),
             part: 1.0,
+            held: true,
             placed: vec![Placed::default(); bodies],
             poses,
             motions: vec![HubKinematics::default(); joints],
@@ -112,8 +122,16 @@ impl Multibody {
     }
 
     /// Rows that were left out because they follow from others, each with the joints that it follows from.
-    pub fn dropped(&self) -> &[String] {
-        &self.constants.dropped
+    pub fn dropped(&self) -> impl ExactSizeIterator<Item = &str> {
+        self.constants.dropped.iter().map(|(name, _)| name.as_str())
+    }
+
+    /// The rows that were left out, with their values at the state for which markers are placed.
+    pub(super) fn values_of_dropped(&self) -> impl Iterator<Item = (&str, Row, Value)> {
+        self.constants.dropped.iter().map(|(name, (joint, row))| {
+            let (a, b) = self.ends(*joint);
+            (name.as_str(), *row, row.value(a, b, &self.motions[*joint]))
+        })
     }
 
     /// Number of degrees of freedom: velocities less rows.
@@ -141,7 +159,7 @@ impl Multibody {
         if s.time() != *time {
             *time = s.time();
             for (joint, motion) in constants.model.joints.iter().zip(motions) {
-                if let Drive::Prescribed(prescribed) = &joint.drive {
+                if let Some(prescribed) = joint.prescribed() {
                     *motion = prescribed.at(*time);
                 }
             }
@@ -175,8 +193,9 @@ impl Multibody {
                 row.add_gradient(lambda, (a, b), motion, &mut work.gradient);
             }
         }
-        if let (Drive::Actuated(actuator), Some(coordinate)) =
-            (&constants.model.joints[k].drive, constants.coordinates[k])
+        let joint = &constants.model.joints[k];
+        if let (Drive::Actuated(actuator), Some(coordinate)) = (&joint.drive, constants.coordinates[k])
+            && !(self.held && joint.kept.is_some())
         {
             let motion = coordinate.motion(a, b, constants.angle[k].map(|i| s.q[i]));
             coordinate.interact(actuator, (a, b), &motion, s.time(), work, differentiate);
@@ -320,7 +339,7 @@ impl Dynamics for Multibody {
     }
 
     fn initial(&self) -> State {
-        self.initial.clone()
+        State { v: self.velocities.clone(), ..self.constants.start() }
     }
 
     fn is_vector_space(&self) -> bool {
@@ -434,7 +453,7 @@ impl Dynamics for Multibody {
     }
 
     fn rows(&self) -> &[Set] {
-        &self.constants.sets
+        &self.constants.sets[usize::from(!self.held)]
     }
 
     fn constraint(&mut self, s: &State, c: RowWeights, g: &mut [f64]) {
@@ -443,6 +462,17 @@ impl Dynamics for Multibody {
             let (a, b) = self.ends(*joint);
             *g = row.value(a, b, &self.motions[*joint]).combine(c);
         }
+    }
+
+    fn dropped(&mut self, s: &State) -> [f64; 3] {
+        if self.constants.dropped.is_empty() {
+            return [0.0; 3];
+        }
+        self.place(s);
+        self.values_of_dropped().fold([0.0; 3], |largest, (_, _, value)| {
+            let [g, rate, bend] = largest;
+            [g.max(value.g.abs()), rate.max(value.rate.abs()), bend.max(value.acceleration.abs())]
+        })
     }
 
     fn jacobian(&mut self, s: &State, visit: &mut VisitRow<'_>) {
@@ -522,6 +552,10 @@ impl Steady for Multibody {
             Parameter::Speed => return Err(NotSet::Unknown("frame that could turn steadily")),
         }
         Ok(())
+    }
+
+    fn hold(&mut self, held: bool) {
+        self.held = held;
     }
 
     fn release(&mut self) {

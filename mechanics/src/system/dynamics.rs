@@ -89,6 +89,11 @@ pub trait Dynamics: Send {
     /// Writes c₀ g + c₁ ġ + c₂ g̈ of every row, active or not, `Size::lambda` entries.
     fn constraint(&mut self, _s: &State, _c: RowWeights, _g: &mut [f64]) {}
 
+    /// Largest |g|, |ġ| and |g̈| of constraints that the model leaves out because they follow from its rows.
+    fn dropped(&mut self, _s: &State) -> [f64; 3] {
+        [0.0; 3]
+    }
+
     /// The set of each multiplier.
     fn rows(&self) -> &[Set] {
         &[]

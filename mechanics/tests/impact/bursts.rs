@@ -3,11 +3,12 @@
 #![allow(missing_docs)]
 
 use super::falling_pendulum::{hub, pendulum, run, section, with_ground};
-use flexion::analysis::transient::{Ending, EventKind, Plan};
+use flexion::analysis::transient::{Ending, Event, EventKind, Observer, Plan, Step, transient};
 use flexion::contact::Law;
 use flexion::hub_beam::ExactCoupling;
 use flexion::integrator::{GeneralizedAlpha, Radau, Tolerance};
-use flexion::system::Mode;
+use flexion::system::{Dynamics, Mode, State, System};
+use std::ops::ControlFlow;
 
 /// Time, impulse and loss of the impacts with more than 1e-4 N·s, and times at which the contact opens.
 fn events(modes: usize, restitution: f64, tolerance: f64, end: f64) -> (Vec<[f64; 3]>, Vec<f64>) {
@@ -192,4 +193,52 @@ fn second_touch_and_second_burst_with_restitution_in_steps_that_resolve_the_axia
         }
         assert!(found.len() >= expected.len());
     }
+}
+
+/// N = 5, e = 0: a step under control is not longer than `contact_step` from the first impact on, in flight too, and then keeps
+/// the energy of the bending modes though the tolerance is loose. Second touch and energy at 0.6 s against the tolerance 1e-10.
+#[test]
+fn steps_behind_the_first_impact_keep_the_energy_of_bending() {
+    #[derive(Default)]
+    struct Steps {
+        times: Vec<f64>,
+        energy: f64,
+        second: Option<f64>,
+    }
+    impl Observer for Steps {
+        fn sample(&mut self, system: &mut dyn System, state: &State, _: &Step) {
+            if state.t < 0.6 {
+                self.energy = system.energy(state).total();
+            }
+        }
+        fn step(&mut self, state: &State) -> ControlFlow<()> {
+            self.times.push(state.t);
+            ControlFlow::Continue(())
+        }
+        fn event(&mut self, event: &Event) {
+            if event.time > 0.6 {
+                self.second.get_or_insert(event.time);
+            }
+        }
+    }
+    let first = 0.3700103;
+    let run = |contact_step: Option<f64>| {
+        let mut system = pendulum(5, Law::Constraint { restitution: 0.0, friction: 0.0 });
+        let mut method = Radau::new(Tolerance::uniform(5e-4)).unwrap();
+        let plan = Plan { end: 0.8, step: None, contact_step, longest_step: None, sample: 0.005 };
+        let (mut state, mut seen) = (system.initial(), Steps::default());
+        let ending = transient(&mut system, &mut method, &mut state, &plan, &mut seen);
+        assert_eq!(ending, Ending::Finished);
+        seen
+    };
+    let longest = |seen: &Steps, after: f64, before: f64| {
+        let inside = seen.times.windows(2).filter(|w| w[0] > after && w[1] < before);
+        inside.map(|w| w[1] - w[0]).fold(0.0, f64::max)
+    };
+    let (short, long) = (run(Some(4.5e-4)), run(None));
+    assert!(longest(&short, 0.0, first) > 5e-3 && longest(&long, first, 0.7) > 1e-3);
+    assert!(longest(&short, first + 1e-6, 0.8) < 4.5e-4 * (1.0 + 1e-9));
+    let lost = |seen: &Steps| 1.0 - seen.energy / 2.127437;
+    assert!(lost(&short) < 0.05 && lost(&long) > 0.1, "{} {}", lost(&short), lost(&long));
+    assert!((short.second.unwrap() / 0.787736 - 1.0).abs() < 0.015, "{:?}", short.second);
 }

@@ -1,10 +1,12 @@
 //! What cannot be built is refused with names.
 
 use super::conformance::profile;
-use super::odd_body;
+use super::{Watch, odd_body, radau};
+use flexion::analysis::Violation;
+use flexion::analysis::transient::{Ending, Plan, transient};
 use flexion::multibody::{Body, Drive, Joint, Kind, Marker, Model, ModelError, Multibody, Part, Spring};
 use flexion::profile::Motion;
-use flexion::system::Dynamics;
+use flexion::system::{Dynamics, Observed, State, System};
 
 fn message(model: Model) -> String {
     Multibody::new(model).map(|_| ()).unwrap_err().to_string()
@@ -105,6 +107,76 @@ fn redundant_rows_are_named_with_the_joints_that_they_follow_from() {
     assert_eq!((dropped.dropped().len(), dropped.freedoms(), dropped.size().lambda), (3, 1, 17));
 }
 
+/// The square of bars with motors at both cranks.
+fn two_motors(motions: [&str; 2]) -> Model {
+    let mut model = four_bar([Kind::Revolute; 4]);
+    for (k, (at, motion)) in [[0.0; 3], [1.0, 0.0, 0.0]].into_iter().zip(motions).enumerate() {
+        let ends = [Part::Ground, Part::Body(2 * k)];
+        let joint = model.join(&format!("motor {k}"), Kind::Cylindrical, ends, at, ([0.0, 0.0, 1.0], None));
+        joint.unwrap().drive = Drive::Prescribed(Motion::Angle(profile(motion)));
+    }
+    model
+}
+
+#[test]
+fn motions_that_contradict_each_other_are_refused_with_their_names() {
+    for motions in [["t", "2*t"], ["t", "t + 0.1*t^2"]] {
+        for model in [two_motors(motions), two_motors(motions).drop_redundant_rows()] {
+            let error = Multibody::new(model).map(|_| ()).unwrap_err();
+            let ModelError::Contradictory { rows } = &error else { panic!("{error}") };
+            assert_eq!(rows.len(), 1, "{rows:?}");
+            assert!(rows[0].starts_with("prescribed angle in joint `motor 1` against"), "{rows:?}");
+            assert!(rows[0].contains("`motor 0`") && !error.to_string().contains("drop"), "{error}");
+        }
+    }
+    assert!(Multibody::new(two_motors(["t", "t"]).drop_redundant_rows()).is_ok());
+}
+
+/// The motors agree at the start, with their accelerations, and no longer.
+#[test]
+fn a_run_ends_where_a_dropped_row_is_violated() {
+    let mut system = Multibody::new(two_motors(["t", "t + 0.1*t^3"]).drop_redundant_rows()).unwrap();
+    let mut state = system.initial();
+    let plan = Plan { end: 1.0, step: None, longest_step: None, contact_step: None, sample: 0.01 };
+    let mut watch = Watch { each: |_: &mut dyn System, _: &State| (), imbalance: 0.0 };
+    let ending = transient(&mut system, &mut radau(1e-10), &mut state, &plan, &mut watch);
+    let Ending::Failed(error) = ending else { panic!("{ending:?}") };
+    let text = error.to_string();
+    assert!(
+        text.contains("prescribed angle in joint `motor 1`") && text.contains("is violated by"),
+        "{text}"
+    );
+    // Before it the violation is what the motors differ by.
+    let mut violation = Violation::new(&system);
+    violation.evaluate(&mut system, &state);
+    let expected = (0.1 * state.t.powi(3)).sin();
+    assert!(state.t > 0.0 && expected < 1e-6, "{}", state.t);
+    assert!((violation.largest[0] - expected).abs() < 1e-9, "{:?} {expected}", violation.largest);
+}
+
+/// Bars along one line: stretched between two pivots, where nothing can move, and a parallelogram that is folded flat.
+#[test]
+fn a_singular_start_is_refused() {
+    for pivots in [[0.0, 1.0, 2.0, 3.0], [0.0, 1.0, 3.0, 2.0]] {
+        let mut model = Model::new();
+        let mut body = |k: usize| {
+            let at = [0.5 * (pivots[k] + pivots[k + 1]), 0.0, 0.0];
+            model.body(Body::new(&format!("bar {k}"), 1.0, [0.1; 3]).at(at))
+        };
+        let parts = [Part::Ground, body(0), body(1), body(2), Part::Ground];
+        for k in 0..4 {
+            let ends = [parts[k], parts[k + 1]];
+            let at = [pivots[k], 0.0, 0.0];
+            model.join(["A", "B", "C", "D"][k], Kind::Revolute, ends, at, ([0.0, 1.0, 0.0], None)).unwrap();
+        }
+        for model in [model.clone(), model.drop_redundant_rows()] {
+            let error = Multibody::new(model).map(|_| ()).unwrap_err();
+            let ModelError::Singular { rows } = &error else { panic!("{error}") };
+            assert!(rows.len() == 1 && rows[0].contains("along"), "{rows:?}");
+        }
+    }
+}
+
 #[test]
 fn a_locked_mechanism_is_refused() {
     // A motion that is prescribed at both cranks.
@@ -124,4 +196,29 @@ fn a_locked_mechanism_is_refused() {
     model.join("along x", Kind::Revolute, [Part::Ground, part], [0.0; 3], ([1.0, 0.0, 0.0], None)).unwrap();
     let text = message(model);
     assert!(text.contains("redundant") && text.contains("0 degrees of freedom are left"), "{text}");
+}
+
+/// A bar on a hinge at its end, with a spin and without the velocity of its centre: what is left is J/(J + m a²) of it.
+#[test]
+fn velocities_that_the_joints_change_are_told() {
+    let arm = |velocity: f64| {
+        let mut model = Model::new();
+        let body =
+            Body { spin: [0.0, 0.0, 3.0], velocity: [0.0, velocity, 0.0], ..Body::new("arm", 2.0, [0.2; 3]) };
+        let part = model.body(body.at([0.5, 0.0, 0.0]));
+        model.join("h", Kind::Revolute, [Part::Ground, part], [0.0; 3], ([0.0, 0.0, 1.0], None)).unwrap();
+        Multibody::new(model).unwrap()
+    };
+    let system = arm(0.0);
+    let [caution] = &system.cautions(&[])[..] else { panic!("{:?}", system.cautions(&[])) };
+    let spin: f64 = 3.0 * 0.2 / (0.2 + 2.0 * 0.25);
+    for words in [
+        "body `arm`",
+        "(0.0000, 0.0000, 3.0000)",
+        &format!("{:.4}) rad/s", spin),
+        &format!("{:.4}", 0.5 * spin),
+    ] {
+        assert!(caution.contains(words), "{words}: {caution}");
+    }
+    assert_eq!(arm(1.5).cautions(&[]), Vec::<String>::new());
 }

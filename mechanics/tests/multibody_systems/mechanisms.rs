@@ -250,3 +250,33 @@ fn a_slider_crank_moves_by_its_closed_form() {
         assert!(imbalance < 1e-3, "{name}: {imbalance:e}");
     }
 }
+
+/// A body of 2 kg that rotates evenly about a hinge, with its centre of mass off the axis and its weight along it: the hinge
+/// takes up the moment m g r across the axis, which moves nothing.
+#[test]
+fn the_moment_that_a_hinge_takes_up_is_that_of_the_weight() {
+    let (mass, arm, speed) = (2.0, 0.5, 3.0);
+    let mut model = Model::new().with_gravity([0.0, 0.0, -GRAVITY]);
+    let mut body = Body::new("arm", mass, [0.01, 0.1, 0.1]);
+    body.frame.position = [arm, 0.0, 0.0];
+    let body = model.body(body);
+    let hinge = model.join("hinge", Kind::Revolute, [Part::Ground, body], [0.0; 3], ([0.0, 0.0, 1.0], None));
+    hinge.unwrap().drive = Drive::Prescribed(Motion::Speed { profile: profile("3"), initial_angle: 0.0 });
+    let mut system = Multibody::new(model).unwrap();
+    for tolerance in [1e-6, 1e-8] {
+        let mut furthest = 0.0_f64;
+        let (end, imbalance) = run(&mut system, &mut radau(tolerance), 20.0, None, |system, s| {
+            let mut values = vec![0.0; system.channels().len()];
+            system.record(s, &mut values);
+            let of = |name: &str| values[system.channels().iter().position(|c| c.name == name).unwrap()];
+            // The moment lies along the tangent of the circle.
+            let (sin, cos) = (speed * s.t).sin_cos();
+            let moment = mass * GRAVITY * arm;
+            let [x, y] = [of("hinge.moment.x") / moment, of("hinge.moment.y") / moment];
+            furthest = furthest.max((x.abs() - sin.abs()).abs().max((y.abs() - cos.abs()).abs()));
+        });
+        // λ is that of a stage: of order 3.
+        assert!(furthest < 5e-3, "{furthest:e} at {tolerance:e}");
+        assert!(imbalance < 1e-3 && end.t == 20.0, "{imbalance:e}");
+    }
+}

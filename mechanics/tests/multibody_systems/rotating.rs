@@ -5,14 +5,18 @@ use flexion::analysis::campbell::{HubState, Plan, campbell};
 use flexion::analysis::modes::modes;
 use flexion::analysis::rotation::{NoRotation, rotate_stably};
 use flexion::blade::{Blade, Model as BladeModel, Setting, Tip};
+use flexion::drive::Actuator;
 use flexion::exact::rotating::flapwise_frequency;
-use flexion::hub_beam::{ExactCoupling, Hub, HubBeam};
+use flexion::hub_beam::{self, ExactCoupling, FreeHub, Hub, HubBeam};
 use flexion::multibody::rotation::apply;
 use flexion::multibody::slender::{Beam, Properties, Station};
-use flexion::multibody::{Axes, Axis, Body, Flexible, Kind, Load, Marker, Model, Multibody, Part, Rotating};
+use flexion::multibody::{
+    self, Axes, Axis, Body, Flexible, Kind, Load, Marker, Model, Multibody, Part, Rotating,
+};
 use flexion::profile::{Constant, Motion};
 use flexion::section::{BladeResultants, BladeSection, Resultants, Uniform};
 use flexion::system::{Dynamics, Parameter, State, Steady, System};
+use num_complex::Complex64;
 use std::sync::Arc;
 
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
@@ -105,6 +109,72 @@ fn chordwise_frequencies_are_those_of_the_planar_beam() {
         for (found, expected) in found.iter().zip(&expected.modes) {
             let expected = expected.frequency();
             assert!((found / expected - 1.0).abs() < 1e-6, "γ {speed}: {found} for {expected}");
+        }
+    }
+}
+
+/// A motor that is off, with a spring and a damper.
+fn restraint(stiffness: f64, damping: f64) -> Actuator {
+    Actuator {
+        torque: Arc::new(Constant::new(0.0).unwrap()),
+        damping,
+        stiffness,
+        rest_angle: 0.0,
+        controller: None,
+    }
+}
+
+/// Eigenvalues in steady rotation with the hub held at first, and free or held then.
+fn eigenvalues(system: &mut dyn System, free: bool, count: usize) -> Vec<Complex64> {
+    let mut s = system.initial();
+    rotate_stably(system, &mut s, 0.0, 4.0).unwrap();
+    if free {
+        system.hold(false);
+        s.v = system.initial().v;
+    }
+    let found = modes(system, &s, count, &[]).unwrap();
+    found.modes.iter().map(|mode| mode.eigenvalue).collect()
+}
+
+/// P1's beam on a hub that rotates with it, free, on a spring, and with a damper: the joint whose angle is kept meanwhile is let go
+/// for the modes. Across the plane the beam in space is so stiff that its lowest modes are those in the plane.
+#[test]
+fn a_joint_that_is_let_go_vibrates_as_the_free_hub_in_the_plane() {
+    let (length, radius, inertia) = (10.0, 0.5, 150.0);
+    let resultants =
+        Resultants { mass: 1.2, axial_stiffness: 2.8e7, bending_stiffness: 1.4e4, ..Resultants::default() };
+    let section = Properties::principal([2.8e7, 1e7, 1.4e8, 1.4e4], 1.2, [1e-3, 0.0, 0.0]);
+    for (stiffness, damping) in [(0.0, 0.0), (900.0, 0.0), (900.0, 40.0)] {
+        let actuator = restraint(stiffness, damping);
+        let free = FreeHub { angle: 0.0, speed: 0.0, actuator: actuator.clone() };
+        let hub = Hub { radius, inertia, drive: hub_beam::Drive::Free(free) };
+        let uniform = Uniform::from_resultants(resultants).unwrap();
+        let coupling = ExactCoupling::new(length, 40, &uniform, &hub).unwrap();
+        let mut planar = HubBeam::new(hub, coupling, &[]);
+
+        let mut model = Model::new();
+        let hub = model.body(Body::new("hub", 3.0, [0.7 * inertia, 0.7 * inertia, inertia]));
+        let root =
+            Station { position: [radius, 0.0, 0.0], tangent: [1.0, 0.0, 0.0], normal: [0.0, 1.0, 0.0] };
+        let beam = Beam::straight(root, length, 40, section).unwrap();
+        let beam = model.beam(Flexible::new("beam", beam));
+        let clamped = Part::Section { beam, node: 0 };
+        model.join("clamp", Kind::Fixed, [hub, clamped], root.position, (Z, None)).unwrap();
+        let hinge = model.join("hinge", Kind::Revolute, [Part::Ground, hub], [0.0; 3], (Z, None)).unwrap();
+        hinge.drive = multibody::Drive::Actuated(actuator);
+        model.keep_angle("hinge");
+        let axis = Axis::new([0.0; 3], Z).unwrap();
+        let mut spatial = Rotating::new(Multibody::new(model).unwrap(), axis);
+
+        for free in [false, true, false] {
+            let expected = eigenvalues(&mut planar, free, 4);
+            let found = eigenvalues(&mut spatial, free, 4);
+            for (found, expected) in found.iter().zip(&expected) {
+                let close = (found - expected).norm() <= 1e-6 * expected.norm();
+                assert!(close, "k {stiffness}, c {damping}, free {free}: {found} for {expected}");
+            }
+            assert_eq!(found[0].norm() == 0.0, free && stiffness == 0.0);
+            assert_eq!(found[0].re < 0.0, free && damping > 0.0);
         }
     }
 }

@@ -75,7 +75,7 @@ fn half_a_turn_is_an_angle_like_any_other() {
     let [from, to] = ends;
     model.joint(Joint::new("hinge", Kind::Revolute, from, to).driven(Drive::Prescribed(motion)));
     let mut system = Multibody::new(model).unwrap();
-    let (s, imbalance) = run(&mut system, &mut radau(1e-8), 8.0, None, |_, _| {});
+    let (s, imbalance) = run(&mut system, &mut radau(1e-9), 8.0, None, |_, _| {});
     let frame = tip(&mut system, &s);
     turned(frame, 1e-6);
     let [x, y, z] = frame.position;

@@ -93,6 +93,11 @@ impl Contacts {
         Ok(impact)
     }
 
+    /// Whether a contact has closed with a speed.
+    pub(super) fn has_struck(&self) -> bool {
+        self.fastest > 0.0
+    }
+
     /// What later steps depend on, as numbers.
     pub(super) fn memory(&self) -> [f64; 7] {
         let Neglected { count, time, gap, energy } = self.neglected;

@@ -43,7 +43,8 @@ pub struct Plan {
     /// that is shorter.
     pub longest_step: Option<f64>,
     /// Step while a contact is closed or comes near \[s\], if shorter than `step`: the rest of a fixed step is divided into
-    /// the fewest equal ones not longer than it; a step under control is not longer than it.
+    /// the fewest equal ones not longer than it. A step under control is not longer than it from the first impact on: what
+    /// impacts set vibrating is damped by longer steps, in flight too.
     pub contact_step: Option<f64>,
     /// Interval of recording \[s\]; the end is recorded too.
     pub sample: f64,
@@ -393,7 +394,8 @@ impl Run {
     ) -> Result<(f64, StepReport), RunError> {
         if let Some(control) = &mut self.control {
             let h = control.propose(stop - state.t);
-            let near = |short: &f64| *short < h && approaches(system, state, h, &mut self.gaps);
+            let struck = self.contacts.as_ref().is_some_and(Contacts::has_struck);
+            let near = |short: &f64| *short < h && (struck || approaches(system, state, h, &mut self.gaps));
             let longest = contact_step.filter(near).unwrap_or(f64::INFINITY);
             return adapt(system, integrator, (state, longest), next, (stop, side), control)
                 .map_err(|error| failed(system, state, error));

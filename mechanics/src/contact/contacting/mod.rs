@@ -451,6 +451,10 @@ impl<S: Points + Dynamics + Events + Observed> Dynamics for Contacting<S> {
         }
     }
 
+    fn dropped(&mut self, s: &State) -> [f64; 3] {
+        self.inner.dropped(s)
+    }
+
     fn rows(&self) -> &[Set] {
         &self.sets
     }

@@ -21,6 +21,7 @@
 //! inertia ρI and first mass moment ρS are kept to second order, as in the first-order coupling.
 
 mod sums;
+mod table;
 mod tangent;
 #[cfg(test)]
 mod tests;
@@ -131,16 +132,16 @@ impl Coupling for HighCoupling {
     fn extra_totals(&mut self, s: &State, hub: &HubKinematics) -> Totals {
         let (om, al) = (hub.speed, hub.acceleration);
         self.sums.follow(s);
-        let mut totals = Totals::default();
+        let [mut kinetic, mut momentum, mut torque] = [0.0; 3];
         self.sums.each(|m, Point { w1, w2, wc }| {
             let moment = (2.0 * w1[0] + wc[0]) * wc[0];
             let relative = wc[0] * w2[1] - w2[0] * wc[1];
             let rate = w1[1] * wc[0] + (w1[0] + wc[0]) * wc[1];
-            totals.kinetic += m * ((w1[1] + 0.5 * wc[1]) * wc[1] + om * relative + 0.5 * om * om * moment);
-            totals.momentum += m * (relative + om * moment);
-            totals.torque += m * (al * moment + 2.0 * om * rate + wc[0] * w2[2] - w2[0] * wc[2]);
+            kinetic += m * ((w1[1] + 0.5 * wc[1]) * wc[1] + om * relative + 0.5 * om * om * moment);
+            momentum += m * (relative + om * moment);
+            torque += m * (al * moment + 2.0 * om * rate + wc[0] * w2[2] - w2[0] * wc[2]);
         });
-        totals
+        Totals { kinetic, momentum, torque }
     }
 
     fn add_border(&mut self, s: &State, hub: &HubKinematics, w: &Weights<'_>, out: &mut Border) {

@@ -8,8 +8,9 @@
 //! A lumped mass is at the end of a cell, which is a further point of the cell for the mass but not for the slope: the
 //! sum up to there is that over the whole cell, and its axial force enters the tails as a jump.
 
+use super::table::{LANES, Table};
 use crate::hub_beam::beam::Beam;
-use crate::hub_beam::fields::{Fields, Shapes};
+use crate::hub_beam::fields::Fields;
 use crate::profile::HubKinematics;
 use crate::quadrature::Gauss;
 use crate::system::State;
@@ -40,7 +41,7 @@ impl Point {
     }
 }
 
-/// A cell: unknowns and shapes at its points, by rows.
+/// A cell: unknowns and shapes at its points.
 #[derive(Clone, Debug)]
 pub struct Cell {
     /// Length h \[m\].
@@ -52,11 +53,11 @@ pub struct Cell {
     /// ρA times the quadrature weight [kg] at each point, then the lumped mass at the end of the cell if there is one.
     pub mass: Vec<f64>,
     /// φx at each point of mass.
-    pub phi_x: Vec<f64>,
+    pub phi_x: Table,
     /// φy at each point of mass.
-    pub phi_y: Vec<f64>,
+    pub phi_y: Table,
     /// φy′ at each point.
-    pub slope: Vec<f64>,
+    pub slope: Table,
 }
 
 /// The points of a beam and what the running sums give there.
@@ -66,8 +67,8 @@ pub struct Sums {
     pub points: usize,
     /// Points of mass of a cell in `at`: its points and, on a beam with lumped masses, its end.
     pub rows: usize,
-    /// S by rows, for a cell of unit length; the last row, for its end, holds the weights.
-    pub partial: Arc<[f64]>,
+    /// S of a cell of unit length, whose functions are Lagrange's, at its points of mass.
+    pub partial: Arc<Table>,
     /// Quadrature weights of a cell of unit length.
     pub weights: Arc<[f64]>,
     /// The cells, root first.
@@ -76,8 +77,14 @@ pub struct Sums {
     pub at: Vec<Point>,
     /// w₂′ and its rates at every point.
     pub slope: Vec<Rates>,
-    /// Tails at the points of a cell, times the quadrature weight.
+    /// What is integrated along a cell, or tails at its points times the quadrature weight.
     tension: Vec<Rates>,
+    /// Unknowns of a cell.
+    unknowns: Vec<Rates>,
+    /// Forces at the points of mass of a cell.
+    forces: [Vec<[f64; LANES]>; 5],
+    /// Forces on the slopes at the points of a cell.
+    bending: Vec<[f64; LANES]>,
     /// q, v and a that were followed last.
     followed: Vec<Rates>,
 }
@@ -118,7 +125,6 @@ impl Sums {
         let points = gauss.len();
         let mut cells: Vec<Cell> = Vec::with_capacity(fields.cells().len());
         let mut count = 0;
-        let copy = |shapes: &Shapes, d: usize, out: &mut Vec<f64>| out.extend_from_slice(&shapes.value[d]);
         fields.integrate(|p| {
             if count % points == 0 {
                 let ends = &fields.cells()[cells.len()..];
@@ -127,17 +133,17 @@ impl Sums {
                     axial: p.axial.index.clone(),
                     transverse: p.transverse.index.clone(),
                     mass: Vec::with_capacity(points),
-                    phi_x: Vec::new(),
-                    phi_y: Vec::new(),
-                    slope: Vec::new(),
+                    phi_x: Table::new(p.axial.index.len()),
+                    phi_y: Table::new(p.transverse.index.len()),
+                    slope: Table::new(p.transverse.index.len()),
                 });
             }
             count += 1;
             let Some(cell) = cells.last_mut() else { return };
             cell.mass.push(p.weight * beam.section.resultants(p.x).mass);
-            copy(&p.axial, 0, &mut cell.phi_x);
-            copy(&p.transverse, 0, &mut cell.phi_y);
-            copy(&p.transverse, 1, &mut cell.slope);
+            cell.phi_x.push(&p.axial.value[0]);
+            cell.phi_y.push(&p.transverse.value[0]);
+            cell.slope.push(&p.transverse.value[1]);
         });
         let lumped = &beam.masses;
         for (c, cell) in cells.iter_mut().enumerate() {
@@ -146,14 +152,18 @@ impl Sums {
             let mass: f64 = here.map(|m| m.mass).sum();
             if mass != 0.0 {
                 cell.mass.push(mass);
-                copy(&end.axial, 0, &mut cell.phi_x);
-                copy(&end.transverse, 0, &mut cell.phi_y);
+                cell.phi_x.push(&end.axial.value[0]);
+                cell.phi_y.push(&end.transverse.value[0]);
             }
         }
         let rows = points + usize::from(!lumped.is_empty());
         let weights: Vec<f64> = gauss.on(0.0, 1.0).map(|(_, w)| w).collect();
-        let mut partial = partial_integrals(gauss);
-        partial.extend_from_slice(&weights);
+        let mut partial = Table::new(points);
+        partial_integrals(gauss).chunks_exact(points).for_each(|row| partial.push(row));
+        if rows > points {
+            partial.push(&weights);
+        }
+        let forces = || vec![[0.0; LANES]; rows.div_ceil(LANES)];
         Sums {
             points,
             rows,
@@ -162,6 +172,9 @@ impl Sums {
             at: vec![Point::default(); cells.len() * rows],
             slope: vec![[0.0; 3]; cells.len() * points],
             tension: vec![[0.0; 3]; points],
+            unknowns: Vec::with_capacity(fields.len()),
+            forces: [(); 5].map(|()| forces()),
+            bending: forces(),
             followed: vec![[f64::NAN; 3]; fields.len()],
             cells: cells.into(),
         }
@@ -185,35 +198,32 @@ impl Sums {
         let axis = self.at.chunks_exact_mut(self.rows);
         let cells = self.cells.iter().zip(axis).zip(self.slope.chunks_exact_mut(p));
         for ((cell, at), slope) in cells {
-            let (na, nt) = (cell.axial.len(), cell.transverse.len());
-            let sum = |unknowns: &[usize], phi: &[f64]| {
-                let mut sum = [0.0; 3];
-                unknowns.iter().zip(phi).for_each(|(i, phi)| add(&mut sum, *phi, self.followed[*i]));
-                sum
+            let of_cell = |unknowns: &[usize], out: &mut Vec<Rates>| {
+                out.clear();
+                out.extend(unknowns.iter().map(|i| self.followed[*i]));
             };
-            for (g, slope) in slope.iter_mut().enumerate() {
-                *slope = sum(&cell.transverse, &cell.slope[g * nt..]);
+            of_cell(&cell.transverse, &mut self.unknowns);
+            cell.slope.values(&self.unknowns, |g, found| {
+                let [u, v, a] = found;
+                slope[g] = found;
+                self.tension[g] = [-0.5 * u * u, -u * v, -(v * v + u * a)];
+            });
+            cell.phi_y.values(&self.unknowns, |g, w2| at[g].w2 = w2);
+            of_cell(&cell.axial, &mut self.unknowns);
+            cell.phi_x.values(&self.unknowns, |g, w1| at[g].w1 = w1);
+            self.partial.values(&self.tension, |g, sum| {
+                let mut wc = start;
+                add(&mut wc, cell.length, sum);
+                at[g].wc = wc;
+            });
+            for (weight, x) in self.weights.iter().zip(&self.tension) {
+                add(&mut start, cell.length * weight, *x);
             }
-            let shortening = &mut self.tension;
-            for (shortening, [u, v, a]) in shortening.iter_mut().zip(&*slope) {
-                *shortening = [-0.5 * u * u, -u * v, -(v * v + u * a)];
-            }
-            let along = |weights: &[f64]| {
-                let mut sum = start;
-                let shortening = weights.iter().zip(&*shortening);
-                shortening.for_each(|(weight, x)| add(&mut sum, cell.length * weight, *x));
-                sum
-            };
-            for (g, (at, _)) in at.iter_mut().zip(&cell.mass).enumerate() {
-                let w1 = sum(&cell.axial, &cell.phi_x[g * na..]);
-                let w2 = sum(&cell.transverse, &cell.phi_y[g * nt..]);
-                *at = Point { w1, w2, wc: along(&self.partial[g * p..][..p]) };
-            }
-            start = along(&self.weights);
         }
     }
 
     /// Calls `f` with the mass [kg] and the axis of every point of mass.
+    #[inline]
     pub fn each(&self, mut f: impl FnMut(f64, &Point)) {
         for (cell, at) in self.cells.iter().zip(self.at.chunks_exact(self.rows)) {
             for (m, at) in cell.mass.iter().zip(at) {
@@ -224,75 +234,68 @@ impl Sums {
 
     /// Adds to `y` the part of cell `c` in ∂w_c/∂qᵢ = −∫ w₂′ φy′ᵢ and its rates, with the quadrature weights `partial` of
     /// a cell of unit length.
-    pub fn add_derivatives(&self, c: usize, partial: &[f64], y: &mut [Rates]) {
+    pub fn add_derivatives(&self, c: usize, partial: impl Iterator<Item = f64>, y: &mut [Rates]) {
         let cell = &self.cells[c];
-        let shapes = cell.slope.chunks_exact(cell.transverse.len().max(1));
-        for ((s, slope), phi) in partial.iter().zip(&self.slope[c * self.points..]).zip(shapes) {
-            for (&i, phi) in cell.transverse.iter().zip(phi) {
+        for (g, (s, slope)) in partial.zip(&self.slope[c * self.points..][..self.points]).enumerate() {
+            for (&i, phi) in cell.transverse.iter().zip(cell.slope.at(g)) {
                 add(&mut y[i], -cell.length * s * phi, *slope);
             }
         }
     }
 
-    /// Calls `f` with every cell, its slopes, and the tails ∫ₓᴸ dm `along` at its points times the quadrature weights of a
-    /// cell of unit length; from the tip to the root.
+    /// Calls `f` with every cell, its slopes, and the tails ∫ₓᴸ dm N at its points times the quadrature weights of a cell of
+    /// unit length; from the tip to the root. Of the accelerations `of`(point) = ([on w₁, on w₂], [N]), m times the first two
+    /// are handed over too.
     pub fn tails<const N: usize>(
         &mut self,
-        along: impl Fn(&Point) -> [f64; N],
-        mut f: impl FnMut(&Cell, &[Rates], &[Rates]),
+        of: impl Fn(&Point) -> ([f64; 2], [f64; N]),
+        mut f: impl FnMut(&Cell, &[Rates], &[Rates], [&[[f64; LANES]]; 2]),
     ) {
         let p = self.points;
         // Tails at the end of the cell.
         let mut beyond = [0.0; N];
         for (c, cell) in self.cells.iter().enumerate().rev() {
+            let [on_axial, on_transverse, along @ ..] = &mut self.forces;
+            // A cell without lumped mass has a point of mass less.
+            let last = (self.rows - 1) / LANES;
+            on_axial[last] = [0.0; LANES];
+            on_transverse[last] = [0.0; LANES];
+            along.iter_mut().take(N).for_each(|along| along[last] = [0.0; LANES]);
             for (tension, weight) in self.tension.iter_mut().zip(&*self.weights) {
                 for (tension, beyond) in tension.iter_mut().zip(beyond) {
                     *tension = weight * beyond;
                 }
             }
-            let at = &self.at[c * self.rows..(c + 1) * self.rows];
-            for ((m, at), partial) in cell.mass.iter().zip(at).zip(self.partial.chunks_exact(p)) {
-                let along = along(at).map(|x| m * x);
-                for (tension, partial) in self.tension.iter_mut().zip(partial) {
-                    for (tension, along) in tension.iter_mut().zip(along) {
-                        *tension += partial * along;
-                    }
-                }
-                for (beyond, along) in beyond.iter_mut().zip(along) {
-                    *beyond += along;
+            for (g, (m, at)) in cell.mass.iter().zip(&self.at[c * self.rows..]).enumerate() {
+                let (block, lane) = (g / LANES, g % LANES);
+                let (on, tails) = of(at);
+                (on_axial[block][lane], on_transverse[block][lane]) = (m * on[0], m * on[1]);
+                for ((along, beyond), tail) in along.iter_mut().zip(&mut beyond).zip(tails) {
+                    along[block][lane] = m * tail;
+                    *beyond += m * tail;
                 }
             }
-            f(cell, &self.slope[c * p..(c + 1) * p], &self.tension);
+            for (n, along) in along.iter().take(N).enumerate() {
+                self.partial.moments(along, |k, sum| self.tension[k][n] += sum);
+            }
+            f(cell, &self.slope[c * p..][..p], &self.tension, [on_axial, on_transverse]);
         }
     }
 
     /// Adds to `r` the forces of accelerations `of`(point) = ([on w₁, on w₂], [along the axis, by N]):
     /// Σ m a₁ φx, Σ m a₂ φy, and −∫ (N₀ w₂′ + N₁ ẇ₂′ + …) φy′ with the tails N of the last ones.
     pub fn scatter<const N: usize>(&mut self, r: &mut [f64], of: impl Fn(&Point) -> ([f64; 2], [f64; N])) {
-        for (cell, at) in self.cells.iter().zip(self.at.chunks_exact(self.rows)) {
-            let (na, nt) = (cell.axial.len(), cell.transverse.len());
-            for (g, (&m, at)) in cell.mass.iter().zip(at).enumerate() {
-                let (on, _) = of(at);
-                for (&i, phi) in cell.axial.iter().zip(&cell.phi_x[g * na..]) {
-                    r[i] += m * on[0] * phi;
-                }
-                for (&i, phi) in cell.transverse.iter().zip(&cell.phi_y[g * nt..]) {
-                    r[i] += m * on[1] * phi;
-                }
+        let mut bending = std::mem::take(&mut self.bending);
+        self.tails(of, |cell, slope, tension, [on_axial, on_transverse]| {
+            for (g, (tension, slope)) in tension.iter().zip(slope).enumerate() {
+                let force: f64 = tension.iter().zip(slope).take(N).map(|(n, slope)| n * slope).sum();
+                bending[g / LANES][g % LANES] = -cell.length * force;
             }
-        }
-        self.tails(
-            |at| of(at).1,
-            |cell, slope, tension| {
-                let shapes = cell.slope.chunks_exact(cell.transverse.len().max(1));
-                for ((tension, slope), phi) in tension.iter().zip(slope).zip(shapes) {
-                    let force: f64 = tension.iter().zip(slope).take(N).map(|(n, slope)| n * slope).sum();
-                    for (&i, phi) in cell.transverse.iter().zip(phi) {
-                        r[i] -= cell.length * force * phi;
-                    }
-                }
-            },
-        );
+            cell.phi_x.moments(on_axial, |i, sum| r[cell.axial[i]] += sum);
+            cell.phi_y.moments(on_transverse, |i, sum| r[cell.transverse[i]] += sum);
+            cell.slope.moments(&bending, |i, sum| r[cell.transverse[i]] += sum);
+        });
+        self.bending = bending;
     }
 }
 

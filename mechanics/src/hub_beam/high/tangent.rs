@@ -69,21 +69,20 @@ impl Tangent {
         let mut n = 0;
         for (c, cell) in sums.cells.iter().enumerate() {
             n = cell.axial.iter().chain(&cell.transverse).fold(n, |n, i| n.max(i + 1));
-            let (na, nt) = (cell.axial.len(), cell.transverse.len());
             self.of_cell[..n].fill(0.0);
             for (g, &m) in cell.mass.iter().enumerate() {
-                let (phi_x, phi_y) = (&cell.phi_x[g * na..][..na], &cell.phi_y[g * nt..][..nt]);
+                let (phi_x, phi_y) = (cell.phi_x.at(g), cell.phi_y.at(g));
                 self.y[..n].copy_from_slice(&self.start[..n]);
-                sums.add_derivatives(c, &sums.partial[g * sums.points..], &mut self.y);
+                sums.add_derivatives(c, sums.partial.at(g), &mut self.y);
                 for (j, y) in self.y[..n].iter().enumerate() {
                     self.z1[j] = inertial * y[0] + 2.0 * w.v * y[1] + w.q * y[2];
                     self.z2[j] = coriolis * y[0] + 2.0 * om * w.q * y[1];
                 }
                 self.acceleration[..n].copy_from_slice(&self.z1[..n]);
-                for (&j, phi) in cell.axial.iter().zip(phi_x) {
+                for (&j, phi) in cell.axial.iter().zip(phi_x.clone()) {
                     self.acceleration[j] += inertial * phi;
                 }
-                for (&j, phi) in cell.transverse.iter().zip(phi_y) {
+                for (&j, phi) in cell.transverse.iter().zip(phi_y.clone()) {
                     self.acceleration[j] -= coriolis * phi;
                 }
                 for (&i, phi) in cell.axial.iter().zip(phi_x) {
@@ -100,17 +99,16 @@ impl Tangent {
             for (i, y) in self.start[..n].iter().enumerate().filter(|(_, y)| y[0] != 0.0) {
                 out.add_row(i, y[0], &self.of_cell[..n]);
             }
-            sums.add_derivatives(c, &sums.weights, &mut self.start);
+            sums.add_derivatives(c, sums.weights.iter().copied(), &mut self.start);
         }
         sums.tails(
-            |at| [at.axial_acceleration(hub)],
-            |cell, _, tension| {
-                let nt = cell.transverse.len();
+            |at| ([0.0; 2], [at.axial_acceleration(hub)]),
+            |cell, _, tension, _| {
                 for (k, [tension, ..]) in tension.iter().enumerate() {
-                    let slope = &cell.slope[k * nt..][..nt];
-                    for (&i, phi) in cell.transverse.iter().zip(slope) {
+                    let slope = cell.slope.at(k);
+                    for (&i, phi) in cell.transverse.iter().zip(slope.clone()) {
                         let force = -w.q * cell.length * tension * phi;
-                        for (&j, phi) in cell.transverse.iter().zip(slope) {
+                        for (&j, phi) in cell.transverse.iter().zip(slope.clone()) {
                             out.add(i, j, force * phi);
                         }
                     }

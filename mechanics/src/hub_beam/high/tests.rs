@@ -178,6 +178,23 @@ fn forces_are_lagranges_of_an_energy_with_nothing_dropped() {
 }
 
 #[test]
+fn the_points_of_modes_integrate_products_of_four_of_them_to_rounding() {
+    for n in [1, 3, 5, 9] {
+        // Breaks of the section cut every cell in two, which doubles the points.
+        let halves: Vec<f64> = (0..n).map(|i| LENGTH * (i as f64 + 0.5) / n as f64).collect();
+        let [few, many] = [&[], &halves[..]].map(|breaks| {
+            let basis = |field| Box::new(Modes::new(LENGTH, n, field).unwrap());
+            let fields = Fields::new(LENGTH, basis(Field::Axial), basis(Field::Transverse), breaks);
+            let mut system = high(fields, &MassOnly, free_hub());
+            let s = state(&system, 0.3);
+            residual(&mut system, &s)
+        });
+        let error = relative(&few, &many);
+        assert!(error < 1e-13, "{n} modes: {error:e}");
+    }
+}
+
+#[test]
 fn tangents_equal_finite_differences_on_every_basis() {
     // The free hub's equations hold those of the prescribed one.
     for fields in fields_of_every_basis() {

@@ -93,15 +93,13 @@ pub struct GeneralizedAlpha {
     /// The same one step earlier, and how many of the two there are.
     earlier: Vec<f64>,
     history: u8,
-    /// Auxiliary acceleration aₙ, and aₙ₊₁ of the attempt.
+    /// Auxiliary acceleration aₙ.
     a: Vec<f64>,
-    a_next: Vec<f64>,
     /// The steps accepted last and attempted.
     spacing: [f64; 2],
     tolerance: Option<Tolerance>,
-    /// Increment d of the attempt, and of the accepted step.
+    /// Increment d of the attempt.
     d: Vec<f64>,
-    d_accepted: Vec<f64>,
     work: Option<Box<Work>>,
 }
 
@@ -173,11 +171,9 @@ impl GeneralizedAlpha {
             earlier: Vec::new(),
             history: 0,
             a: Vec::new(),
-            a_next: Vec::new(),
             spacing: [0.0; 2],
             tolerance: None,
             d: Vec::new(),
-            d_accepted: Vec::new(),
             work: None,
         }
     }
@@ -356,14 +352,13 @@ impl GeneralizedAlpha {
         self.counters.residuals += 1;
         self.counters.solves += 1;
         self.counters.iterations += 1;
-        let (n, kappa) = (from.v.len(), self.kappa());
+        let n = from.v.len();
         let (x, multipliers) = work.rhs.split_at(n);
-        let (a_next, d) = (&mut self.a_next[..n], &mut self.d[..n]);
+        let d = &mut self.d[..n];
         let (out_a, out_v, scale) = (&mut to.a[..n], &mut to.v[..n], &system.scales()[..n]);
         let mut square = 0.0;
         for i in 0..n {
             out_a[i] -= x[i];
-            a_next[i] -= kappa * x[i];
             out_v[i] -= to_v * x[i];
             d[i] -= to_q * x[i];
             let scaled = x[i] / scale[i];
@@ -394,14 +389,7 @@ impl Integrator for GeneralizedAlpha {
 
     fn start(&mut self, system: &mut dyn Dynamics, state: &mut State, _step: f64) -> Result<(), StepError> {
         let size = system.size();
-        for buffer in [
-            &mut self.before,
-            &mut self.earlier,
-            &mut self.a,
-            &mut self.a_next,
-            &mut self.d,
-            &mut self.d_accepted,
-        ] {
+        for buffer in [&mut self.before, &mut self.earlier, &mut self.a, &mut self.d] {
             buffer.clear();
             buffer.resize(size.v, 0.0);
         }
@@ -465,26 +453,27 @@ impl Integrator for GeneralizedAlpha {
         self.pending = true;
         let result = self.solve(&mut work, system, from, h, to);
         self.work = Some(work);
-        Ok(StepReport { error: self.estimate(system.scales(), from, h), ..result? })
+        Ok(StepReport { error: self.estimate(system.scales(), (from, to), h), ..result? })
     }
 
     fn discard(&mut self) {
         self.pending = false;
     }
 
-    fn accept(&mut self, from: &State, _to: &State) {
+    fn accept(&mut self, from: &State, to: &State) {
+        let next = self.auxiliary(self.spacing[1]);
+        let accelerations = from.a.iter().zip(&to.a);
+        self.a.iter_mut().zip(accelerations).for_each(|(a, (from, to))| *a = next(*a, *from, *to));
         std::mem::swap(&mut self.before, &mut self.earlier);
         self.before.copy_from_slice(&from.a);
         self.history = (self.history + 1).min(2);
         self.spacing[0] = self.spacing[1];
-        std::mem::swap(&mut self.a, &mut self.a_next);
-        std::mem::swap(&mut self.d, &mut self.d_accepted);
         self.pending = false;
         self.counters.steps += 1;
     }
 
     fn interpolate(&self, system: &dyn Dynamics, from: &State, to: &State, t: f64, out: &mut State) {
-        hermite::cubic(system, from, to, &self.d_accepted, t, out);
+        hermite::cubic(system, from, to, &self.d, t, out);
     }
 
     fn restart(&mut self, system: &mut dyn Dynamics, state: &mut State) -> Result<(), StepError> {

@@ -32,19 +32,26 @@ impl GeneralizedAlpha {
         if self.spacing[0] > 0.0 { h / self.spacing[0] } else { 1.0 }
     }
 
+    /// aₙ₊₁ of a step `h`, by aₙ, q̈ₙ and q̈ₙ₊₁.
+    pub(super) fn auxiliary(&self, h: f64) -> impl Fn(f64, f64, f64) -> f64 + use<> {
+        let (ratio, kappa) = (self.ratio(h), self.kappa());
+        let (of_a, of_from) = (self.alpha_m / (1.0 - self.alpha_m), self.alpha_f / (1.0 - self.alpha_m));
+        move |a, from, to| kappa * to + of_from * from - of_a * lagging(ratio, a, from)
+    }
+
     /// The estimated local error of the attempt over the tolerance.
-    pub(super) fn estimate(&self, scales: &[f64], from: &State, h: f64) -> Option<f64> {
+    pub(super) fn estimate(&self, scales: &[f64], (from, to): (&State, &State), h: f64) -> Option<f64> {
         let tolerance = self.tolerance?;
         let part = h * h * (self.beta + 0.5 * (self.alpha_m - self.alpha_f) - 1.0 / 6.0).abs();
         let n = from.v.len();
-        let ratio = self.ratio(h);
+        let (ratio, next) = (self.ratio(h), self.auxiliary(h));
         // Where q has more entries than v they do not correspond, and the scale alone counts.
         let relative = if from.q.len() == n { tolerance.relative } else { 0.0 };
         let mut square = 0.0;
         for i in 0..n {
             let size = relative * from.q[i].abs();
-            let lagging = lagging(ratio, self.a[i], from.a[i]);
-            square += (part * (self.a_next[i] - lagging) / (tolerance.absolute * scales[i] + size)).powi(2);
+            let change = next(self.a[i], from.a[i], to.a[i]) - lagging(ratio, self.a[i], from.a[i]);
+            square += (part * change / (tolerance.absolute * scales[i] + size)).powi(2);
         }
         Some((square / n.max(1) as f64).sqrt())
     }
@@ -52,7 +59,7 @@ impl GeneralizedAlpha {
     /// Starting values of the step: the accelerations of the last three steps, continued.
     pub(super) fn predict(&mut self, system: &dyn Dynamics, from: &State, h: f64, to: &mut State) {
         let n = from.v.len();
-        let (alpha_m, beta, gamma, kappa) = (self.alpha_m, self.beta, self.gamma, self.kappa());
+        let (beta, gamma, ratio, next) = (self.beta, self.gamma, self.ratio(h), self.auxiliary(h));
         let (v_old, v_new) = (h * (1.0 - gamma), h * gamma);
         let (d_old, d_new) = (h * h * (0.5 - beta), h * h * beta);
         let (from_a, from_v) = (&from.a[..n], &from.v[..n]);
@@ -62,18 +69,13 @@ impl GeneralizedAlpha {
             1 => (from_a, &self.before[..n]),
             _ => (&self.before[..n], &self.earlier[..n]),
         };
-        let ratio = self.ratio(h);
         self.spacing[1] = h;
-        let a = &self.a[..n];
-        let (a_next, d) = (&mut self.a_next[..n], &mut self.d[..n]);
+        let (a, d) = (&self.a[..n], &mut self.d[..n]);
         let (out_a, out_v) = (&mut to.a[..n], &mut to.v[..n]);
-        let lag = 1.0 / (1.0 - alpha_m);
         for i in 0..n {
-            let change = later[i] - sooner[i];
+            out_a[i] = from_a[i] + (later[i] - sooner[i]);
+            let next = next(a[i], from_a[i], out_a[i]);
             let a = lagging(ratio, a[i], from_a[i]);
-            let next = (from_a[i] - alpha_m * a) * lag + kappa * change;
-            a_next[i] = next;
-            out_a[i] = from_a[i] + change;
             out_v[i] = from_v[i] + v_old * a + v_new * next;
             d[i] = h * from_v[i] + d_old * a + d_new * next;
         }

@@ -40,7 +40,7 @@
 //! Order: 5 in q and v (measured 5.0), 3 of the stages, on which stiff problems depend; of the error
 //! estimate 3. Stability: A- and L-stable; frequencies far above 1/h are annihilated, those below are
 //! integrated with a dissipation of O((hω)⁶). Dense output: quintic Hermite through q, v, a at both ends;
-//! measured four to eight times as accurate as the collocation polynomial.
+//! measured four to eight times as accurate as the collocation polynomial; forces of joints by this polynomial.
 //!
 //! Sources: Hairer & Wanner, *Solving Ordinary Differential Equations II*, sections IV.5 and IV.8
 //! (doi 10.1007/978-3-642-05221-7); Hairer & Wanner (1999, doi 10.1016/S0377-0427(99)00134-X).
@@ -63,8 +63,10 @@ const NAME: &str = "radau";
 /// Names of the stages' accelerations in a checkpoint.
 const STAGES: [&str; 3] = ["stage.1", "stage.2", "stage.3"];
 
-/// Rate of convergence below which the tangents serve the next step too.
-const REUSE_RATE: f64 = 0.1;
+/// Rate of convergence below which the tangents serve the next step too, and a number of iterations that new ones would not
+/// make less.
+const REUSE_RATE: f64 = 0.03;
+const FEW: u32 = 2;
 
 /// Largest iteration error in units of the tolerance, and relative to the scales of the unknowns. An error that is small
 /// beside a displacement is large as a strain of the axis: it would make axial vibrations that short steps then follow. The
@@ -110,7 +112,7 @@ impl Radau {
             return Err(InvalidParameter { parameter: "relative tolerance", value: relative, range });
         }
         // Iteration error κ and rounding error, in units of the tolerance.
-        let size = relative.max(absolute);
+        let size = tolerance.size();
         let floor = 100.0 * f64::EPSILON / size;
         let kappa = size.sqrt().min(LARGEST_KAPPA).min(LARGEST_ITERATION_ERROR / size).max(0.1 * floor);
         Ok(Radau {
@@ -147,7 +149,7 @@ impl Integrator for Radau {
             // The iteration of an affine system does not become slow by anything but rounding.
             self.convergence = self.convergence.with_noise(1.0);
         }
-        self.work = Some(Stages::new(system, state));
+        self.work = Some(Stages::new(system, state, self.tolerance));
         self.restart(system, state)
     }
 
@@ -172,27 +174,29 @@ impl Integrator for Radau {
         let again = if self.first { Prediction::Constant } else { Prediction::Extrapolated { last } };
         let tried = self.tried.take().filter(|last| h < 2.0 * last);
         let mut prediction = tried.map_or(again, |last| Prediction::Tried { last });
-        if work.rate > REUSE_RATE {
-            work.assemble(system, from, &mut self.counters);
-        }
-        work.corotate(system, from);
+        let mut renew = work.rate > REUSE_RATE;
         loop {
+            work.predict(system, from, h, prediction);
+            prediction = again;
+            if renew {
+                work.renew(system, (from, to), h, &mut self.counters);
+            }
+            work.corotate(system, from);
             if work.factored_step != h {
                 work.factor(system, from, h, &mut self.counters)?;
             }
-            work.predict(from, h, prediction);
-            prediction = again;
             self.convergence.begin(work.fresh);
             let (progress, size) =
                 work.iterate(system, (from, to), h, &mut self.convergence, &mut self.counters);
             if progress == Progress::Converged {
-                work.rate = self.convergence.rate();
+                let few = self.convergence.iterations() <= FEW;
+                work.rate = if few { 0.0 } else { self.convergence.rate().max(work.force_rate) };
                 self.tried = Some(h);
                 break;
             }
             self.convergence.forget();
             if !work.fresh {
-                work.assemble(system, from, &mut self.counters);
+                renew = true;
                 continue;
             }
             if self.convergence.aims_at(self.kappa[1]) && self.kappa[1] < self.kappa[0] {
@@ -237,7 +241,10 @@ impl Integrator for Radau {
 
     fn interpolate(&self, system: &dyn Dynamics, from: &State, to: &State, t: f64, out: &mut State) {
         match &self.work {
-            Some(work) => hermite::quintic(system, from, to, &work.end_accepted, t, out),
+            Some(work) => {
+                hermite::quintic(system, from, to, &work.end_accepted, t, out);
+                work.interpolate_forces((t - from.t) / (to.t - from.t), out);
+            }
             None => out.copy_from(to),
         }
     }
@@ -281,9 +288,9 @@ impl Integrator for Radau {
         let [step, rate] = from.numbers("factors")?;
         if step.is_finite() {
             // The same tangents at the same place have the same factors.
-            let mut place = work.place.clone();
-            from.fill_state("factors.", &mut place)?;
-            work.assemble(system, &place, &mut self.counters);
+            from.fill_state("factors.", &mut work.place)?;
+            work.assemble(system, &mut self.counters);
+            let place = work.place.clone();
             let factored = work.factor(system, &place, step, &mut self.counters);
             factored.map_err(|error| NotResumed::Failed(error.to_string()))?;
             (work.rate, work.fresh) = (rate, false);

@@ -53,6 +53,11 @@ pub(super) struct Stages {
     pub(super) rate: f64,
     scale: Vec<f64>,
     inverse_weight: Vec<f64>,
+    /// Largest change of a multiplier in an iteration, over the largest multiplier, and what it may be.
+    forces: f64,
+    allowed_forces: f64,
+    /// How fast they converge, where this counts.
+    pub(super) force_rate: f64,
     stage: State,
     increment: Vec<f64>,
     /// Stage accelerations of the attempt and of the accepted step; q₁ ⊟ q₀ likewise.
@@ -72,7 +77,7 @@ pub(super) struct Stages {
 }
 
 impl Stages {
-    pub(super) fn new(system: &mut dyn Dynamics, state: &State) -> Stages {
+    pub(super) fn new(system: &mut dyn Dynamics, state: &State, tolerance: Tolerance) -> Stages {
         let size = system.size();
         let n = size.v + size.lambda;
         let structure = system.structure(1);
@@ -98,6 +103,9 @@ impl Stages {
             rate: f64::INFINITY,
             scale: system.scales().to_vec(),
             inverse_weight: vec![0.0; size.v],
+            forces: 0.0,
+            force_rate: 0.0,
+            allowed_forces: tolerance.size().sqrt(),
             stage: State::zeros(size, 0.0),
             increment: vec![0.0; size.v],
             a: three(),
@@ -117,31 +125,44 @@ impl Stages {
 
     /// Weights of the norms, 1/(absolute·scale + relative·|q|).
     pub(super) fn set_error_weights(&mut self, from: &State, tolerance: Tolerance) {
-        // Where q has more entries than v they do not correspond, and the scale alone counts.
-        let relative = if from.q.len() == from.v.len() { tolerance.relative } else { 0.0 };
         for (i, w) in self.inverse_weight.iter_mut().enumerate() {
-            *w = 1.0 / (tolerance.absolute * self.scale[i] + relative * from.q[i].abs());
+            *w = 1.0
+                / if self.flat {
+                    tolerance.absolute * self.scale[i] + tolerance.relative * from.q[i].abs()
+                } else {
+                    // Off a vector space q is not the size of what d changes.
+                    tolerance.absolute.max(tolerance.relative) * self.scale[i]
+                };
         }
     }
 
-    /// Assembles the tangents at the start of the step.
-    pub(super) fn assemble(&mut self, system: &mut dyn Dynamics, from: &State, counters: &mut Counters) {
-        system.tangent(from, Weights::new(1.0, 0.0, 0.0), &mut self.mass);
-        system.tangent(from, Weights::new(0.0, 1.0, 0.0), &mut self.damping);
-        system.tangent(from, Weights::new(0.0, 0.0, 1.0), &mut self.stiffness);
+    /// Assembles the tangents at the predicted stage in the middle of the step.
+    pub(super) fn renew(
+        &mut self,
+        system: &mut dyn Dynamics,
+        (from, to): (&State, &State),
+        h: f64,
+        counters: &mut Counters,
+    ) {
+        self.set_stage(system, (from, to), h, 1);
+        self.place.copy_from(&self.stage);
+        self.assemble(system, counters);
+    }
+
+    /// Assembles the tangents at their place.
+    pub(super) fn assemble(&mut self, system: &mut dyn Dynamics, counters: &mut Counters) {
+        system.tangent(&self.place, Weights::new(1.0, 0.0, 0.0), &mut self.mass);
+        system.tangent(&self.place, Weights::new(0.0, 1.0, 0.0), &mut self.damping);
+        system.tangent(&self.place, Weights::new(0.0, 0.0, 1.0), &mut self.stiffness);
         counters.tangents += 3;
-        self.place.copy_from(from);
-        self.corotation.clear();
         self.factored_step = f64::NAN;
         self.fresh = true;
         self.rate = 0.0;
     }
 
-    /// Rotates tangents of a former step with the sections.
+    /// Rotates the tangents with the sections, to the start of the step.
     pub(super) fn corotate(&mut self, system: &dyn Dynamics, from: &State) {
-        if !self.fresh {
-            system.corotate(&self.place, from, &mut self.corotation);
-        }
+        system.corotate(&self.place, from, &mut self.corotation);
     }
 
     /// Factors of the tangents for steps of size `h`.
@@ -171,37 +192,41 @@ impl Stages {
     }
 
     /// Starting values: the polynomial of the last attempt from here, or of the last step, or the acceleration at the start.
-    pub(super) fn predict(&mut self, from: &State, h: f64, start: Prediction) {
+    pub(super) fn predict(&mut self, system: &dyn Dynamics, from: &State, h: f64, start: Prediction) {
         let (steps, start) = match start {
-            Prediction::Constant => {
-                for x in &mut self.a {
-                    let (a, lambda) = x.split_at_mut(from.a.len());
-                    a.copy_from_slice(&from.a);
-                    lambda.copy_from_slice(&from.lambda);
-                }
-                self.start_rates(from, h);
-                return;
-            }
+            Prediction::Constant => (0.0, 2.0),
             Prediction::Extrapolated { last } => (h / last, 1.0),
             Prediction::Tried { last } => (h / last, 0.0),
         };
-        let weights = C.map(|c| lagrange(start + c * steps));
-        let [a1, a2, a3] = &mut self.a;
-        let [b1, b2, b3] = &self.a_accepted;
-        for i in 0..a1.len() {
-            let old = if start == 0.0 { [a1[i], a2[i], a3[i]] } else { [b1[i], b2[i], b3[i]] };
-            [a1[i], a2[i], a3[i]] = weights.map(|l| l[0] * old[0] + l[1] * old[1] + l[2] * old[2]);
+        if start == 2.0 {
+            for x in &mut self.a {
+                let (a, lambda) = x.split_at_mut(from.a.len());
+                a.copy_from_slice(&from.a);
+                lambda.copy_from_slice(&from.lambda);
+            }
+        } else {
+            let weights = C.map(|c| lagrange(start + c * steps));
+            let [a1, a2, a3] = &mut self.a;
+            let [b1, b2, b3] = &self.a_accepted;
+            for i in 0..a1.len() {
+                let old = if start == 0.0 { [a1[i], a2[i], a3[i]] } else { [b1[i], b2[i], b3[i]] };
+                [a1[i], a2[i], a3[i]] = weights.map(|l| l[0] * old[0] + l[1] * old[1] + l[2] * old[2]);
+            }
         }
-        self.start_rates(from, h);
+        if !self.flat {
+            self.start_rates(from, h);
+            // Their first changes are not those of Newton's iterations.
+            for i in 0..6 {
+                self.set_motion(system, from, h, i % 3);
+            }
+        }
     }
 
     /// Increments and their rates, as on a vector space at first.
     fn start_rates(&mut self, from: &State, h: f64) {
-        if !self.flat {
-            for ((rate, increment), c) in self.rates.iter_mut().zip(&mut self.increments).zip(C) {
-                for i in 0..from.v.len() {
-                    (rate[i], increment[i]) = (from.v[i], c * h * from.v[i]);
-                }
+        for ((rate, increment), c) in self.rates.iter_mut().zip(&mut self.increments).zip(C) {
+            for i in 0..from.v.len() {
+                (rate[i], increment[i]) = (from.v[i], c * h * from.v[i]);
             }
         }
     }
@@ -218,13 +243,9 @@ impl Stages {
         let n = from.v.len() + from.lambda.len();
         let (h_gamma, mu) = (h * LAMBDA, Complex64::new(h * MU[0], h * MU[1]));
         let (h_gamma, mu) = (h_gamma * h_gamma, mu * mu);
-        // Increments and rates of the predicted accelerations: their first changes are not those of Newton's iterations.
-        let passes = if self.flat { 0 } else { 2 };
-        for i in 0..3 * passes {
-            self.set_stage(system, (from, to), h, i % 3);
-        }
         loop {
             self.shift = 0.0;
+            let before = self.forces;
             for i in 0..3 {
                 self.set_stage(system, (from, to), h, i);
                 if convergence.iterations() == 0 {
@@ -253,6 +274,8 @@ impl Stages {
             counters.iterations += 1;
             counters.residuals += 3;
             counters.solves += 2;
+            let slow = convergence.iterations() > 0 && before > self.allowed_forces;
+            self.force_rate = if slow { self.forces / before } else { 0.0 };
             match convergence.judge(size) {
                 Progress::Continue => {}
                 // The rate of the last step does not know how far this one rotates.
@@ -260,6 +283,14 @@ impl Stages {
                     if convergence.iterations() == 1
                         && size > 0.0
                         && (!self.flat || convergence.eta() > STABLE) => {}
+                // What a joint takes up moves nothing: its forces converge on their own, or not where they have turned away from
+                // the tangents. With new ones they do, down to rounding errors.
+                Progress::Converged if self.forces > self.allowed_forces => {
+                    if self.force_rate > 0.5 {
+                        let verdict = if self.fresh { Progress::Converged } else { Progress::Diverged };
+                        return (verdict, size);
+                    }
+                }
                 other => return (other, size),
             }
         }
@@ -285,8 +316,8 @@ impl Stages {
         }
     }
 
-    /// Sets the stage state to stage `i`. Off a vector space Dᵢ = h Σ Aᵢⱼ Ḋⱼ, with the rates of the last iteration.
-    fn set_stage(&mut self, system: &dyn Dynamics, (from, to): (&State, &State), h: f64, i: usize) {
+    /// Sets the velocity and the increment of stage `i`. Off a vector space Dᵢ = h Σ Aᵢⱼ Ḋⱼ, with the rates of the last iteration.
+    fn set_motion(&mut self, system: &dyn Dynamics, from: &State, h: f64, i: usize) {
         let n = from.v.len();
         let [a1, a2, a3] = &self.a;
         let (a1, a2, a3) = (&a1[..n], &a2[..n], &a3[..n]);
@@ -305,6 +336,12 @@ impl Stages {
                 (self.increment[k], self.increments[i][k]) = (d, d);
             }
         }
+    }
+
+    /// Sets the stage state to stage `i`.
+    fn set_stage(&mut self, system: &dyn Dynamics, (from, to): (&State, &State), h: f64, i: usize) {
+        self.set_motion(system, from, h, i);
+        let (n, h_gamma) = (from.v.len(), h * C[i]);
         let (a, lambda) = self.a[i].split_at(n);
         self.stage.a.copy_from_slice(a);
         self.stage.lambda.copy_from_slice(lambda);
@@ -340,12 +377,15 @@ impl Stages {
         let [a1, a2, a3] = &mut self.a;
         let mut square = self.shift;
         let velocities = self.inverse_weight.len();
+        let (mut change, mut largest) = (0.0_f64, f64::MIN_POSITIVE);
         for i in velocities..n {
             let [x, y, z] = rows(&A2_INVERSE, [d1[i], d2[i], d3[i]]).map(|x| inverse * x);
             a1[i] -= x;
             a2[i] -= y;
             a3[i] -= z;
             square += 0.0 * (x + y + z); // a multiplier that is not finite is found
+            change = change.max(x.abs()).max(y.abs()).max(z.abs());
+            largest = largest.max(a1[i].abs()).max(a2[i].abs()).max(a3[i].abs());
         }
         for i in 0..velocities {
             let d = [d1[i], d2[i], d3[i]];
@@ -361,6 +401,7 @@ impl Stages {
             let w = self.inverse_weight[i];
             square += (squares(d) + squares(speed)) * (w * w);
         }
+        self.forces = change / largest;
         (square / (6 * velocities.max(1)) as f64).sqrt()
     }
 
@@ -397,12 +438,28 @@ impl Stages {
                 }
                 self.solve_real();
                 let x = &self.rhs[..n];
+                let close = |(x, scale): (&f64, &f64)| x.abs() <= f64::EPSILON * scale;
+                let done = x.iter().zip(&self.scale).all(close);
                 if position {
                     self.increment.iter_mut().zip(x).for_each(|(d, x)| *d -= x);
                     system.retract(&from.q, &self.increment, &mut to.q);
                 } else {
                     to.v.iter_mut().zip(x).for_each(|(v, x)| *v -= x);
                 }
+                if done {
+                    break;
+                }
+            }
+        }
+    }
+
+    /// λ of the joints at the part `s` of the accepted step, by the polynomial through the stages.
+    pub(super) fn interpolate_forces(&self, s: f64, out: &mut State) {
+        let n = out.v.len();
+        let weights = lagrange(s);
+        for (k, set) in self.rows.sets().iter().enumerate() {
+            if *set == Set::Free {
+                out.lambda[k] = (0..3).map(|i| weights[i] * self.a_accepted[i][n + k]).sum();
             }
         }
     }

@@ -14,4 +14,9 @@ impl Tolerance {
     pub fn uniform(tolerance: f64) -> Tolerance {
         Tolerance { relative: tolerance, absolute: tolerance }
     }
+
+    /// The larger of the two.
+    pub fn size(&self) -> f64 {
+        self.relative.max(self.absolute)
+    }
 }
