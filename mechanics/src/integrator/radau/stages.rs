@@ -53,7 +53,8 @@ pub(super) struct Stages {
     pub(super) rate: f64,
     scale: Vec<f64>,
     inverse_weight: Vec<f64>,
-    /// Largest change of a multiplier in an iteration, over the largest multiplier, and what it may be.
+    /// Largest change of a joint's multiplier in an iteration, over the largest multiplier, and what it may be. (Those of several
+    /// contacts of one body may not be determined.)
     forces: f64,
     allowed_forces: f64,
     /// How fast they converge, where this counts.
@@ -384,7 +385,9 @@ impl Stages {
             a2[i] -= y;
             a3[i] -= z;
             square += 0.0 * (x + y + z); // a multiplier that is not finite is found
-            change = change.max(x.abs()).max(y.abs()).max(z.abs());
+            if self.rows.sets()[i - velocities] == Set::Free {
+                change = change.max(x.abs()).max(y.abs()).max(z.abs());
+            }
             largest = largest.max(a1[i].abs()).max(a2[i].abs()).max(a3[i].abs());
         }
         for i in 0..velocities {
