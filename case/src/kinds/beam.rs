@@ -6,7 +6,9 @@ use super::spatial::{name, optional_vector, vector};
 use crate::declaration::{Bound::*, Key, Presence as Default, Presence::*, Type, Type::Quantity, key};
 use crate::fault::{At, Fault, Made, both};
 use crate::kind::{Choice, Context, Kind, Table};
-use crate::units::{ANGLE, ANGULAR_SPEED, FACTOR, LENGTH, RATE, ROTARY_INERTIA, TIME, VELOCITY};
+use crate::units::{
+    ANGLE, ANGULAR_SPEED, BENDING_STIFFNESS, FACTOR, LENGTH, RATE, ROTARY_INERTIA, TIME, VELOCITY,
+};
 use crate::values::Values;
 use flexion::linalg::vector::{cross, inner};
 use flexion::multibody::rotation::{Vector, apply, exponential, frame, matrix, plus, times};
@@ -192,6 +194,10 @@ pub struct Beam {
     pub polar: Option<f64>,
     /// Number of elements.
     pub elements: usize,
+    /// Place of the tension centre along n and b \[m\].
+    pub tension_centre: [f64; 2],
+    /// Stiffnesses that couple torsion and bending \[N·m²\].
+    pub coupling: [f64; 3],
     /// What holds root and tip.
     pub ends: [End; 2],
     /// Velocity of the root and angular velocity at the start.
@@ -242,7 +248,7 @@ impl Beam {
             of.inertia = [of.inertia[0], 0.0, 0.0];
         }
         of.inertia[0] = self.polar.unwrap_or(of.inertia[0]);
-        of
+        of.with_tension_centre(self.tension_centre).with_coupling(self.coupling)
     }
 
     /// The beam with elements that end at its jumps and at these stations \[m\], each cut into `parts`.
@@ -328,6 +334,19 @@ pub static BEAMS: Table<Beam> = Table {
                 Quantity(&ROTARY_INERTIA, Positive),
                 Optional,
                 "moment of inertia per length about the axis, that of the section if left out",
+            ),
+            key(
+                "tension-centre",
+                Type::Quantities(&LENGTH, Any),
+                Empty,
+                "place of the section's tension centre, [along the height, across], against the centreline, which goes through the centres of mass; \
+                 bending stiffnesses are about axes through it",
+            ),
+            key(
+                "coupling",
+                Type::Quantities(&BENDING_STIFFNESS, Any),
+                Empty,
+                "stiffnesses that couple [torsion and bending across, torsion and bending along the height, the two bendings]",
             ),
             key(
                 "elements",
@@ -447,6 +466,8 @@ fn make(v: &Values, c: &Context<'_>) -> Made<Beam> {
         section,
         blade,
         polar: v.optional_number("polar-inertia")?,
+        tension_centre: components(v, "tension-centre")?,
+        coupling: components(v, "coupling")?,
         elements: v.count("elements")?,
         ends: [ends.0, ends.1],
         motion: [vector(v, "velocity")?, vector(v, "spin")?],
@@ -454,6 +475,16 @@ fn make(v: &Values, c: &Context<'_>) -> Made<Beam> {
         stations,
         fibres: fibres(v, c)?,
     })
+}
+
+/// As many numbers as asked for, or zeros where the key is left out.
+fn components<const N: usize>(v: &Values, key: &str) -> Made<[f64; N]> {
+    let given = v.numbers(key)?;
+    if given.is_empty() {
+        return Ok([0.0; N]);
+    }
+    let counted = <[f64; N]>::try_from(&given[..]);
+    counted.map_err(|_| Fault::new(key, format!("has {N} numbers, not {}", given.len())).into())
 }
 
 fn fibres(v: &Values, c: &Context<'_>) -> Made<Vec<(String, f64, [f64; 2])>> {

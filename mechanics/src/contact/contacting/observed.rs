@@ -114,7 +114,7 @@ impl<S: Points + Dynamics + Events + Observed> Observed for Contacting<S> {
             let names = closed.join(", ");
             format!(
                 "the rigid contacts {names} are closed at once, and their forces may follow from each other, as those of four \
-                 corners of a body do: use `radau`, `moreau-jean` or `nonsmooth-generalized-alpha`, fewer contacts, or a continuous contact force"
+                 corners of a body do: use `moreau-jean` or `nonsmooth-generalized-alpha`, fewer contacts, or a continuous contact force"
             )
         };
         own.or_else(|| (closed.len() > 1).then(many))

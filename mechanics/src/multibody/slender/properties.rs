@@ -28,6 +28,29 @@ impl Properties {
         Properties { stiffness: matrix, mass, inertia }
     }
 
+    /// The section whose axis of no bending under tension, the tension centre, is at the place (y, z) \[m\] along n and b of the
+    /// centreline, and whose bending stiffnesses are about axes through it: with the strain ε − y κ₃ + z κ₂ there,
+    /// N = EA (ε − y κ₃ + z κ₂), M₂ = EI₂ κ₂ + z N and M₃ = EI₃ κ₃ − y N.
+    pub fn with_tension_centre(mut self, [y, z]: [f64; 2]) -> Properties {
+        let (arm, axial) = ([1.0, 0.0, z, -y], self.stiffness[0][0]);
+        for i in 0..4 {
+            for j in (0..4).filter(|j| (i, *j) != (0, 0)) {
+                self.stiffness[i][j] += axial * arm[i] * arm[j];
+            }
+        }
+        self
+    }
+
+    /// The section with the stiffnesses \[N·m²\] by which torsion and bending about n, torsion and bending about b, and the two
+    /// bendings are coupled: they are added to C₁₂, C₁₃ and C₂₃ (and C₂₁ …), counted from 0.
+    pub fn with_coupling(mut self, coupling: [f64; 3]) -> Properties {
+        for ([i, j], c) in [[1, 2], [1, 3], [2, 3]].into_iter().zip(coupling) {
+            self.stiffness[i][j] += c;
+            self.stiffness[j][i] += c;
+        }
+        self
+    }
+
     /// The section rotated by `angle` about t against the axes [t, n, b], so that a beam with a pretwist need not twist
     /// its axes: C and ρI of the section in the axes of the beam. The moments of inertia about n and b must be equal or
     /// zero where the angle is not zero: their product of inertia is left out.
