@@ -483,7 +483,7 @@ fn components<const N: usize>(v: &Values, key: &str) -> Made<[f64; N]> {
     if given.is_empty() {
         return Ok([0.0; N]);
     }
-    let counted = <[f64; N]>::try_from(&given[..]);
+    let counted = <[f64; N]>::try_from(given);
     counted.map_err(|_| Fault::new(key, format!("has {N} numbers, not {}", given.len())).into())
 }
 

@@ -120,8 +120,8 @@ const BAUMGARTE: Key = key(
     "baumgarte",
     Type::Table(&CONSTANTS),
     Optional,
-    "constants by which joints and closed contacts are held, g̈ + 2δ ġ + ε² g = 0 (Baumgarte 1972, \
-     doi:10.1016/0045-7825(72)90018-7); without them a case with joints or rigid contacts is refused",
+    "constants by which closed contacts are held, g̈ + 2δ ġ + ε² g = 0 (Baumgarte 1972, \
+     doi:10.1016/0045-7825(72)90018-7); without them a case with rigid contacts is refused, with joints always",
 );
 const SPECTRAL_RADIUS: Key = key(
     "spectral-radius",
