@@ -116,7 +116,7 @@ impl Case {
     pub(super) fn contact_keys(&self) -> Vec<String> {
         let several = match &self.subject {
             Subject::HubBeam(beam) => beam.contacts.iter().map(|contact| contact.stations.len()).collect(),
-            Subject::Space(space) => vec![1; space.contacts.len()],
+            Subject::Space(space) => space.points.clone(),
         };
         let tables = several.into_iter().enumerate();
         tables.flat_map(|(table, points)| std::iter::repeat_n(item("contact", table), points)).collect()

@@ -11,7 +11,7 @@ use super::kinds::rotation::{ROTATION, Rotation};
 use super::kinds::spatial::{GRAVITY, LINE_LOAD, LOAD, LineLoad, Load, MODEL, SPRING, Spring, vector};
 use super::units;
 use super::values::{Value, Values, item};
-use flexion::contact::{self as touch, Contacting};
+use flexion::contact::{self as touch, ContactForce, Contacting, Law};
 use flexion::multibody::rotation::{IDENTITY, Vector, exponential, matrix, plus, product};
 use flexion::multibody::slender;
 use flexion::multibody::{self, Body, Flexible, Marker, Model, ModelError, Multibody, Part};
@@ -27,6 +27,8 @@ pub struct Space {
     pub multibody: Multibody,
     /// What its points may touch.
     pub contacts: Vec<touch::Contact>,
+    /// How many of them each table describes.
+    pub points: Vec<usize>,
     /// The body of each, beams behind bodies, and its station \[m\].
     pub touching: Vec<(usize, f64)>,
     /// The bodies.
@@ -280,10 +282,40 @@ fn add_contact(
     Ok((contact, place))
 }
 
+/// The contacts of the points of a beam that may touch everywhere, or the one contact of a place. Forces are summed up along the
+/// beam by the trapezium rule.
+fn touches(contact: Contact, number: usize, beams: &[Beam], joints: &[Joint]) -> Made<Vec<Contact>> {
+    let Some(parts) = contact.points else { return Ok(vec![contact]) };
+    if contact.at.is_some() {
+        return Err(Fault::new("at", "is one place: leave it out, or `points`").into());
+    }
+    let Some(beam) = beams.iter().find(|beam| beam.name == contact.on) else {
+        let message = format!("belong to a whole beam, and `{}` is none", contact.on);
+        return Err(Fault::new("points", message).into());
+    };
+    let (root, name) = (format!("{}.root", beam.name), numbered(&contact.name, "contact", number));
+    let held = beam.ends[0] != End::Free || joints.iter().any(|joint| joint.between.contains(&root));
+    let spacing = beam.length / parts as f64;
+    let point = |(i, k): (usize, usize)| {
+        let (end, station) =
+            (k == 0 || k == parts, if k == parts { beam.length } else { spacing * k as f64 });
+        let law = match contact.law {
+            Law::Force(force) => {
+                let share = if end { 0.5 * spacing } else { spacing };
+                Law::Force(ContactForce { stiffness: share * force.stiffness, ..force })
+            }
+            law => law,
+        };
+        let (name, on) = (format!("{name}.{}", i + 1), format!("{}@{station} m", beam.name));
+        Contact { name, on, law, ..contact.clone() }
+    };
+    Ok((usize::from(held)..=parts).enumerate().map(point).collect())
+}
+
 /// The stations of a beam that tables name, and those where loads begin and end.
-fn stations(v: &Values, lines: &[LineLoad], beam: &Beam) -> Vec<f64> {
-    let mut names: Vec<&str> = Vec::new();
-    for table in ["joint", "spring", "load", "contact"] {
+fn stations(v: &Values, lines: &[LineLoad], contacts: &[Vec<Contact>], beam: &Beam) -> Vec<f64> {
+    let mut names: Vec<&str> = contacts.iter().flatten().map(|contact| contact.on.as_str()).collect();
+    for table in ["joint", "spring", "load"] {
         let Ok(Some(Value::Tables(list))) = v.optional(table) else { continue };
         for values in list {
             names.extend(values.texts("between").unwrap_or_default().iter().map(String::as_str));
@@ -350,9 +382,16 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
         return Err(found.0);
     };
     let (Some(beams), Some(lines), Some(rotation)) = (beams, lines, rotation) else { return Err(found.0) };
+    let along = |(i, contact): (usize, Contact)| {
+        let made = touches(contact, i, &beams, &joints).map_err(|faults| faults.within(&item("contact", i)));
+        found.part(made)
+    };
+    let contacts: Option<Vec<Vec<Contact>>> = contacts.into_iter().enumerate().map(along).collect();
+    let Some(contacts) = contacts else { return Err(found.0) };
     let build = |(i, beam): (usize, Beam)| {
-        let built =
-            beam.built(&stations(v, &lines, &beam), refine).map_err(|faults| faults.within(&item("beam", i)));
+        let built = beam
+            .built(&stations(v, &lines, &contacts, &beam), refine)
+            .map_err(|faults| faults.within(&item("beam", i)));
         found.part(built).map(|built| (beam, built))
     };
     let beams: Vec<Option<(Beam, slender::Beam)>> = beams.into_iter().enumerate().map(build).collect();
@@ -393,7 +432,9 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
         add("distributed-load", i, add_line(&mut model, &beams, load, loads.len() + i));
     }
     let (mut touching, mut places): (Vec<touch::Contact>, Vec<_>) = Default::default();
-    for (i, contact) in contacts.iter().enumerate() {
+    let points: Vec<usize> = contacts.iter().map(Vec::len).collect();
+    let each = contacts.iter().enumerate().flat_map(|(i, list)| list.iter().map(move |contact| (i, contact)));
+    for (i, contact) in each {
         let made = add_contact(&mut model, &parts, contact, i).and_then(|(made, place)| {
             if touching.iter().any(|other| other.name == made.name) {
                 let message = format!("two contacts are called `{}`", made.name);
@@ -423,7 +464,9 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     {
         let message = "friction of a rigid contact in space has a direction of its own at every time, which events do not find";
         let help = "take `nonsmooth-generalized-alpha` or `moreau-jean`, which resolve contacts in every step, or a law of force";
-        return Err(Fault::new(format!("{}.law.friction", item("contact", i)), message).help(help).into());
+        let tables = points.iter().enumerate().flat_map(|(table, n)| std::iter::repeat_n(table, *n));
+        let table = item("contact", tables.skip(i).next().unwrap_or(0));
+        return Err(Fault::new(format!("{table}.law.friction"), message).help(help).into());
     }
     let names: Vec<String> = joints.iter().enumerate().map(|(i, j)| numbered(&j.name, "joint", i)).collect();
     let multibody = Multibody::new(model).map_err(|error| blamed(&error, v, &names))?;
@@ -452,6 +495,7 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     Ok(Space {
         multibody,
         contacts: touching,
+        points,
         touching: places,
         bodies,
         beams,

@@ -12,7 +12,7 @@ use flexion::profile::jumping_derivative;
 use std::sync::Arc;
 
 /// Most points of the whole beam.
-const MOST_POINTS: i64 = 1000;
+pub(super) const MOST_POINTS: i64 = 1000;
 
 /// Stations of the beam and the obstacle that they may touch.
 #[derive(Clone, Debug)]

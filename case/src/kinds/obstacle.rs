@@ -1,6 +1,6 @@
 //! Contacts of a system in space: points of bodies and beams, and the obstacles that they may touch.
 
-use super::contact::{LAW, MOTION, motion};
+use super::contact::{LAW, MOST_POINTS, MOTION, motion};
 use super::spatial::{name, optional_vector, vector};
 use crate::declaration::{Bound::*, Presence as Default, Presence::*, Type, Type::Quantity, key};
 use crate::fault::{Fault, Made, both};
@@ -100,6 +100,8 @@ pub struct Contact {
     pub on: String,
     /// The point, in space at the start \[m\].
     pub at: Option<Vector>,
+    /// Into how many equal parts its points cut a beam that may touch everywhere; the stiffness of a force is then one per length.
+    pub points: Option<usize>,
     /// The obstacle.
     pub obstacle: Shared,
     /// What happens at a touch.
@@ -117,12 +119,24 @@ pub static CONTACT: Table<Contact> = Table {
                 Optional,
                 "name, which begins the names of its columns: `contact`, `contact2`, … if left out",
             ),
-            key("on", Type::Text, Required, "body, or place of a beam: `ball`, `blade.tip`"),
+            key(
+                "on",
+                Type::Text,
+                Required,
+                "body, place of a beam, or with `points` a beam: `ball`, `blade.tip`, `blade`",
+            ),
             key(
                 "at",
                 Type::Quantities(&LENGTH, Any),
                 Empty,
                 "point of a body that may touch, in space at the start; its centre of mass if left out",
+            ),
+            key(
+                "points",
+                Type::Integer(1, MOST_POINTS),
+                Optional,
+                "of a beam that may touch everywhere (`on` names it alone): number of equidistant points, the last at the tip, and one more at \
+                 the root where no joint holds it",
             ),
             key("obstacle", Type::Kind(&OBSTACLE), Required, "rigid obstacle"),
             key("law", Type::Kind(&LAW), Required, "what happens at a touch"),
@@ -139,6 +153,7 @@ pub static CONTACT: Table<Contact> = Table {
             return Err(Fault::new("law.kind", message).help(help).into());
         }
         let (name, on) = (name(v, Some("contact"))?, v.text("on")?.to_owned());
-        Ok(Contact { name, on, at: optional_vector(v, "at")?, obstacle, law })
+        let points = if v.optional("points")?.is_some() { Some(v.count("points")?) } else { None };
+        Ok(Contact { name, on, at: optional_vector(v, "at")?, points, obstacle, law })
     },
 };
