@@ -464,8 +464,8 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     {
         let message = "friction of a rigid contact in space has a direction of its own at every time, which events do not find";
         let help = "take `nonsmooth-generalized-alpha` or `moreau-jean`, which resolve contacts in every step, or a law of force";
-        let tables = points.iter().enumerate().flat_map(|(table, n)| std::iter::repeat_n(table, *n));
-        let table = item("contact", tables.skip(i).next().unwrap_or(0));
+        let mut tables = points.iter().enumerate().flat_map(|(table, n)| std::iter::repeat_n(table, *n));
+        let table = item("contact", tables.nth(i).unwrap_or(0));
         return Err(Fault::new(format!("{table}.law.friction"), message).help(help).into());
     }
     let names: Vec<String> = joints.iter().enumerate().map(|(i, j)| numbered(&j.name, "joint", i)).collect();
