@@ -4,6 +4,7 @@ use super::fault::{Fault, Faults, Found, Made};
 use super::kind::Context;
 use super::kinds::beam::{BEAMS, Beam, End};
 use super::kinds::body::BODY;
+use super::kinds::contact::share;
 use super::kinds::integrator::Method;
 use super::kinds::joint::{JOINTS, Joint};
 use super::kinds::obstacle::{CONTACT, Contact};
@@ -11,7 +12,7 @@ use super::kinds::rotation::{ROTATION, Rotation};
 use super::kinds::spatial::{GRAVITY, LINE_LOAD, LOAD, LineLoad, Load, MODEL, SPRING, Spring, vector};
 use super::units;
 use super::values::{Value, Values, item};
-use flexion::contact::{self as touch, ContactForce, Contacting, Law};
+use flexion::contact::{self as touch, Contacting};
 use flexion::multibody::rotation::{IDENTITY, Vector, exponential, matrix, plus, product};
 use flexion::multibody::slender;
 use flexion::multibody::{self, Body, Flexible, Marker, Model, ModelError, Multibody, Part};
@@ -299,13 +300,7 @@ fn touches(contact: Contact, number: usize, beams: &[Beam], joints: &[Joint]) ->
     let point = |(i, k): (usize, usize)| {
         let (end, station) =
             (k == 0 || k == parts, if k == parts { beam.length } else { spacing * k as f64 });
-        let law = match contact.law {
-            Law::Force(force) => {
-                let share = if end { 0.5 * spacing } else { spacing };
-                Law::Force(ContactForce { stiffness: share * force.stiffness, ..force })
-            }
-            law => law,
-        };
+        let law = share(contact.law, spacing, end);
         let (name, on) = (format!("{name}.{}", i + 1), format!("{}@{station} m", beam.name));
         Contact { name, on, law, ..contact.clone() }
     };

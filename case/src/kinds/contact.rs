@@ -432,13 +432,20 @@ impl Contact {
     /// The law of its `k`th station: the force per length on a whole beam is summed up by the trapezium rule, L/n at each of n
     /// points and half of it at the tip.
     fn law_at(&self, k: usize) -> Law {
-        match (self.law, self.stations.first()) {
-            (Law::Force(force), Some(&spacing)) if self.whole => {
-                let part = if k + 1 == self.stations.len() { 0.5 } else { 1.0 };
-                Law::Force(ContactForce { stiffness: part * spacing * force.stiffness, ..force })
-            }
-            (law, _) => law,
+        match self.stations.first() {
+            Some(&spacing) if self.whole => share(self.law, spacing, k + 1 == self.stations.len()),
+            _ => self.law,
         }
+    }
+}
+
+/// The law of one of the points, `spacing` \[m\] apart, by which a beam may touch everywhere and whose force is one per length: by the
+/// trapezium rule, half of it at an end.
+pub fn share(law: Law, spacing: f64, end: bool) -> Law {
+    let length = if end { 0.5 * spacing } else { spacing };
+    match law {
+        Law::Force(force) => Law::Force(ContactForce { stiffness: length * force.stiffness, ..force }),
+        law => law,
     }
 }
 

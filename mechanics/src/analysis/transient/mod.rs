@@ -18,6 +18,7 @@ pub use observer::{Event, EventKind, Observer, Step};
 use super::energy_balance::Integral;
 use crate::contact::{Bounds, Impact, ImpactMap};
 use crate::integrator::{Checkpoint, Integrator, NotResumed, Span, StepControl, StepReport};
+use crate::quadrature::Gauss;
 use crate::system::{Crossing, Jump, Side, State, System};
 use adaptive::adapt;
 use contacts::{Contacts, Unseen, approaches, loss, struck};
@@ -27,9 +28,6 @@ use stretch::Stretch;
 const SMALLEST_SAMPLE: f64 = 1e-9;
 /// Part of a fixed step that is not taken as a step of its own.
 const SLIVER: f64 = 1e-6;
-/// Nodes and weights of Gauss's rule of order 6 on 0 … 1.
-const GAUSS: [(f64, f64); 3] =
-    [(0.112_701_665_379_258_3, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
 /// What a run is asked to do.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
@@ -113,6 +111,8 @@ struct Run {
     contacts: Option<Contacts>,
     /// For methods that locate no contacts.
     unseen: Option<Unseen>,
+    /// Where states within steps are shown.
+    within: Gauss,
     /// Dense output.
     middle: State,
     /// Gaps, to see whether a contact comes near.
@@ -131,6 +131,7 @@ impl Run {
             balance: None,
             contacts,
             unseen: Unseen::new(system),
+            within: Gauss::new(3),
             middle: state.clone(),
             gaps: vec![0.0; state.lambda.len()],
         }
@@ -344,7 +345,7 @@ impl Run {
                 balance.close();
             }
             if observer.wants_within() {
-                for (node, weight) in GAUSS {
+                for (node, weight) in self.within.on(0.0, 1.0) {
                     let t = state.t + node * h;
                     integrator.interpolate(system, state, &next, t, &mut self.middle);
                     observer.within(system, &self.middle, weight * h);

@@ -16,10 +16,12 @@
 //! ```
 //!
 //! K, which the axial stiffness of a slender beam dominates, is carried along with the rotating sections (see
-//! [`Dynamics::corotate`]): in the frames that have rotated with each stage, K of the start serves them all.
+//! [`Dynamics::corotate`]): in the frames that have rotated with each stage, K of the second serves them all. It is formed there,
+//! as predicted: at half the rotation of the step.
 //!
 //! Starting values extrapolate the last step's collocation polynomial, or interpolate that of an attempt from the same
-//! start. The tangents M, C and K are kept while convergence is fast, their factors while the step is the same too.
+//! start. The tangents M, C and K are kept while convergence is fast, their factors while the step is the same too. Multipliers
+//! of joints must converge as well: what a joint takes up moves nothing.
 //!
 //! Error estimate: the embedded formula of order 3 through f(y₀), filtered by the real system, in
 //! second-order form (γ₀ = λ):
@@ -30,7 +32,8 @@
 //! ```
 //!
 //! filtered a second time on a first or repeated step when it exceeds the tolerance. Errors are measured
-//! by the weighted root mean square of ε_q and h ε_v with weights absolute·scaleᵢ + relative·|qᵢ|: an error of
+//! by the weighted root mean square of ε_q and h ε_v with weights absolute·scaleᵢ + relative·|qᵢ|, off a vector space the larger of both
+//! tolerances times scaleᵢ: an error of
 //! velocity counts as the displacement it makes in one step.
 //!
 //! Constraints are imposed in the form of index 2, ġ(Qᵢ, Vᵢ) = 0 with a multiplier in every stage, which adds to both
@@ -178,7 +181,7 @@ impl Integrator for Radau {
         loop {
             work.predict(system, from, h, prediction);
             prediction = again;
-            if renew {
+            if std::mem::take(&mut renew) {
                 work.renew(system, (from, to), h, &mut self.counters);
             }
             work.corotate(system, from);

@@ -194,25 +194,21 @@ impl Stages {
 
     /// Starting values: the polynomial of the last attempt from here, or of the last step, or the acceleration at the start.
     pub(super) fn predict(&mut self, system: &dyn Dynamics, from: &State, h: f64, start: Prediction) {
-        let (steps, start) = match start {
-            Prediction::Constant => (0.0, 2.0),
-            Prediction::Extrapolated { last } => (h / last, 1.0),
-            Prediction::Tried { last } => (h / last, 0.0),
-        };
-        if start == 2.0 {
-            for x in &mut self.a {
-                let (a, lambda) = x.split_at_mut(from.a.len());
-                a.copy_from_slice(&from.a);
-                lambda.copy_from_slice(&from.lambda);
+        match start {
+            Prediction::Constant => {
+                for x in &mut self.a {
+                    let (a, lambda) = x.split_at_mut(from.a.len());
+                    a.copy_from_slice(&from.a);
+                    lambda.copy_from_slice(&from.lambda);
+                }
             }
-        } else {
-            let weights = C.map(|c| lagrange(start + c * steps));
-            let [a1, a2, a3] = &mut self.a;
-            let [b1, b2, b3] = &self.a_accepted;
-            for i in 0..a1.len() {
-                let old = if start == 0.0 { [a1[i], a2[i], a3[i]] } else { [b1[i], b2[i], b3[i]] };
-                [a1[i], a2[i], a3[i]] = weights.map(|l| l[0] * old[0] + l[1] * old[1] + l[2] * old[2]);
+            Prediction::Extrapolated { last } => {
+                for (a, accepted) in self.a.iter_mut().zip(&self.a_accepted) {
+                    a.copy_from_slice(accepted);
+                }
+                self.continue_polynomial(1.0, h / last);
             }
+            Prediction::Tried { last } => self.continue_polynomial(0.0, h / last),
         }
         if !self.flat {
             self.start_rates(from, h);
@@ -220,6 +216,16 @@ impl Stages {
             for i in 0..6 {
                 self.set_motion(system, from, h, i % 3);
             }
+        }
+    }
+
+    /// The polynomial through the stages of a step at those of one that is `steps` times as long and begins at the part `start` of it.
+    fn continue_polynomial(&mut self, start: f64, steps: f64) {
+        let weights = C.map(|c| lagrange(start + c * steps));
+        let [a1, a2, a3] = &mut self.a;
+        for i in 0..a1.len() {
+            let old = [a1[i], a2[i], a3[i]];
+            [a1[i], a2[i], a3[i]] = weights.map(|l| l[0] * old[0] + l[1] * old[1] + l[2] * old[2]);
         }
     }
 
