@@ -153,6 +153,26 @@ impl<T: Scalar> Band<T> {
         &mut self.data[at..at + N]
     }
 
+    /// The first column of row `i`, and its entries from there on.
+    pub(super) fn row(&self, i: usize) -> (usize, &[T]) {
+        let first = i.saturating_sub(self.lower);
+        let last = (i + self.upper + 1).min(self.n);
+        let at = i * self.width + self.lower - i;
+        (first, &self.data[at + first..at + last])
+    }
+
+    /// Adds `block` to the rows and columns `places`, which must lie within the band.
+    #[inline]
+    pub(super) fn add_block<const N: usize>(&mut self, places: &[usize; N], block: &[[T; N]; N]) {
+        for (&i, entries) in places.iter().zip(block) {
+            let row = &mut self.data[i * self.width..(i + 1) * self.width];
+            for (&j, x) in places.iter().zip(entries) {
+                debug_assert!(j + self.lower >= i && j <= i + self.upper, "({i}, {j}) is outside the band");
+                row[j + self.lower - i] += *x;
+            }
+        }
+    }
+
     /// y = A x, before factoring.
     pub fn multiply(&self, x: &[T], y: &mut [T]) {
         y.fill(T::ZERO);
@@ -225,6 +245,9 @@ impl<T: Scalar> Band<T> {
             for r in 0..HALF {
                 let first = HALF - 1 - r;
                 let factor = below[r][first] * inverse;
+                if factor == T::ZERO {
+                    continue;
+                }
                 below[r][first] = factor;
                 for j in 1..=HALF {
                     below[r][first + j] -= factor * pivot_row[HALF + j];

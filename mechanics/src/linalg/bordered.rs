@@ -146,18 +146,22 @@ impl<T: Scalar> Bordered<T> {
 
     /// The same for x and y in another order: place k belongs to their entry `unknowns[k]`.
     pub(super) fn multiply_ordered(&self, unknowns: &[u32], x: &[T], y: &mut [T]) {
-        let (n, whole) = (self.band.order(), self.order());
-        for (i, &unknown) in unknowns.iter().enumerate() {
-            let columns = if i < n {
-                i.saturating_sub(self.band.lower())..(i + self.band.upper() + 1).min(n)
-            } else {
-                0..n
-            };
-            let mut sum = T::ZERO;
-            for j in columns.chain(n..whole) {
-                sum += self.get(i, j) * x[unknowns[j] as usize];
+        let (n, m) = (self.band.order(), self.border);
+        let (inside, outside) = unknowns.split_at(n);
+        let of = |row: &[T], unknowns: &[u32]| {
+            row.iter().zip(unknowns).fold(T::ZERO, |sum, (a, j)| sum + *a * x[*j as usize])
+        };
+        for (i, &unknown) in inside.iter().enumerate() {
+            let (first, row) = self.band.row(i);
+            let mut sum = of(row, &inside[first..]);
+            for (k, &j) in outside.iter().enumerate() {
+                sum += self.columns[k * n + i] * x[j as usize];
             }
             y[unknown as usize] = sum;
+        }
+        for (k, &unknown) in outside.iter().enumerate() {
+            let row = of(&self.rows[k * n..(k + 1) * n], inside);
+            y[unknown as usize] = row + of(&self.corner[k * m..(k + 1) * m], outside);
         }
     }
 

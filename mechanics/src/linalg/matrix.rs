@@ -373,6 +373,22 @@ impl<T: Scalar> Matrix<T> {
         self.storage.add(i, j, x);
     }
 
+    /// Adds `block` to the rows and columns of the unknowns from `at` on.
+    pub fn add_block<const N: usize>(&mut self, at: usize, block: &[[T; N]; N]) {
+        self.factored = false;
+        let places: [usize; N] = std::array::from_fn(|k| self.place(at + k));
+        match &mut self.storage {
+            Storage::Band(a) if places.iter().all(|place| *place < a.band().order()) => {
+                a.band_mut().add_block(&places, block);
+            }
+            storage => {
+                for (i, row) in places.iter().zip(block) {
+                    row.iter().zip(&places).for_each(|(x, j)| storage.add(*i, *j, *x));
+                }
+            }
+        }
+    }
+
     /// y = A x. Only before factoring.
     pub fn multiply(&self, x: &[T], y: &mut [T]) {
         debug_assert!(!self.factored, "the entries are overwritten by the factors");

@@ -23,7 +23,7 @@ use super::rotation::{
     times,
 };
 use super::row::{Row, Value, Wrench};
-use super::slender::{self, ELEMENT_COORDINATES, ELEMENT_VELOCITIES};
+use super::slender::{ELEMENT_COORDINATES, ELEMENT_VELOCITIES};
 use crate::linalg::vector::{cross, inner};
 use crate::linalg::{Matrix, Structure};
 use crate::profile::HubKinematics;
@@ -290,14 +290,6 @@ fn add_tangent((a, b): (&Pose, &Pose), interaction: &Interaction, w: &Weights<'_
     }
 }
 
-/// Adds the matrix of an element whose velocities begin at `at`.
-#[inline]
-fn add_element(at: usize, block: &slender::Tangent, out: &mut Matrix) {
-    for (i, row) in block.iter().enumerate() {
-        row.iter().enumerate().for_each(|(j, x)| out.add(at + i, at + j, *x));
-    }
-}
-
 impl Dynamics for Multibody {
     fn size(&self) -> Size {
         self.constants.size
@@ -516,7 +508,7 @@ impl Dynamics for Multibody {
         for (of, &[i, j]) in model.beams.iter().zip(&constants.beams) {
             let within = Weights { increment: w.increment.map(|d| &d[j..]), ..w };
             of.beam.add_tangent(&s.q[i..], &s.v[j..], &s.a[j..], &within, |at, block| {
-                add_element(j + at, block, out);
+                out.add_block(j + at, block);
             });
         }
         if w.q == 0.0 && w.v == 0.0 {
@@ -528,7 +520,7 @@ impl Dynamics for Multibody {
             let force = times(-w.q, force);
             let beam = &model.beams[load.beam].beam;
             beam.add_line_tangent(load.on(beam), &s.q[i..], force, d, |at, block| {
-                add_element(j + at, block, out);
+                out.add_block(j + at, block);
             });
         }
         self.poses.iter_mut().for_each(|pose| pose.transport());

@@ -12,7 +12,7 @@
 //! ([`Pair`]): that is v = T(d) ḋ.
 
 use super::element::{Element, Motion, Tangent};
-use super::pair::Pair;
+use super::pair::{Pair, spin_by_slope};
 use super::properties::Properties;
 use super::strain::{COORDINATES, VELOCITIES, centreline, positions};
 use super::triad::{Triad, Vector, plus, vector};
@@ -126,7 +126,7 @@ impl Beam {
             let (s, length) = (ends[0], ends[1] - ends[0]);
             validate(&section, s, length)?;
             let begin = ELEMENT_COORDINATES * e;
-            let mut q: [f64; COORDINATES] = part(&initial, begin);
+            let mut q: [f64; COORDINATES] = *part(&initial, begin);
             let element = Element::new(length, &q, |z| section(s + z * length), elements.last());
             let slope = element.middle_slope(&positions(&q));
             let middle = curve(s + 0.5 * length);
@@ -179,7 +179,7 @@ impl Beam {
 
     /// Power \[W\] that the damping in proportion to the stiffness takes.
     pub fn viscous_power(&self, q: &[f64], v: &[f64]) -> f64 {
-        self.middles().map(|(element, i, j)| element.viscous_power(&part(q, i), &part(v, j))).sum()
+        self.middles().map(|(element, i, j)| element.viscous_power(part(q, i), part(v, j))).sum()
     }
 
     /// Arc lengths of the nodes \[m\].
@@ -226,7 +226,7 @@ impl Beam {
 
     /// r′ in the middle of an element whose coordinates begin at `at`.
     fn middle_slope(element: &Element, q: &[f64], at: usize) -> Vector {
-        element.middle_slope(&positions(&part(q, at)))
+        element.middle_slope(&positions(part(q, at)))
     }
 
     /// `out` = q ⊞ d
@@ -265,16 +265,13 @@ impl Beam {
     /// `out` = ḋ = T(d)⁻¹ v, the rate of the increment d in `from` ⊞ d where the velocity is v.
     pub fn rate(&self, from: &[f64], d: &[f64], v: &[f64], out: &mut [f64]) {
         out.copy_from_slice(v);
-        let turn = |from: Vector, d: Vector, rate: Vector| {
-            let now = Triad::new(plus(from, 1.0, d), [0.0; 3]);
-            inner(now.spin_by_slope(d), rate)
-        };
+        let turn = |from: Vector, d: Vector, rate: Vector| inner(spin_by_slope(from, d), rate);
         for node in 0..=self.elements.len() {
             let (i, j) = (ELEMENT_COORDINATES * node, ELEMENT_VELOCITIES * node);
             out[j + 6] -= turn(vector(from, i + 3), vector(d, j + 3), vector(v, j + 3));
         }
         for (element, i, j) in self.middles() {
-            let rates = |x: &[f64]| element.middle_slope(&centreline(&part(x, j)));
+            let rates = |x: &[f64]| element.middle_slope(&centreline(part(x, j)));
             out[j + 7] -= turn(Beam::middle_slope(element, from, i), rates(d), rates(v));
         }
     }
@@ -282,7 +279,7 @@ impl Beam {
     /// Adds the forces of strain and inertia to `r`: r = M a + … + ∂U/∂q.
     pub fn add_forces(&self, q: &[f64], v: &[f64], a: &[f64], r: &mut [f64]) {
         for (element, i, j) in self.middles() {
-            let motion = Motion { q: &part(q, i), v: &part(v, j), a: &part(a, j) };
+            let motion = Motion { q: part(q, i), v: part(v, j), a: part(a, j) };
             let mut forces = [0.0; VELOCITIES];
             element.add_forces(&motion, &mut forces);
             r[j..].iter_mut().zip(forces).for_each(|(r, force)| *r += force);
@@ -300,7 +297,7 @@ impl Beam {
         mut add: impl FnMut(usize, &Tangent),
     ) {
         for (element, i, j) in self.middles() {
-            let motion = Motion { q: &part(q, i), v: &part(v, j), a: &part(a, j) };
+            let motion = Motion { q: part(q, i), v: part(v, j), a: part(a, j) };
             let mut tangent = [[0.0; VELOCITIES]; VELOCITIES];
             let w = Weights { increment: w.increment.map(|d| &d[j..]), ..*w };
             element.add_tangent(&motion, &w, &mut tangent);
@@ -312,7 +309,7 @@ impl Beam {
     /// the sections.
     pub fn add_line_load(&self, on: Range<usize>, q: &[f64], load: Vector, follows: bool, r: &mut [f64]) {
         for (element, i, j) in self.among(on) {
-            element.add_line_load(&part(q, i), load, follows, &mut r[j..]);
+            element.add_line_load(part(q, i), load, follows, &mut r[j..]);
         }
     }
 
@@ -329,7 +326,7 @@ impl Beam {
         for (element, i, j) in self.among(on) {
             let mut tangent = [[0.0; VELOCITIES]; VELOCITIES];
             let increment = increment.map(|d| part(d, j));
-            element.add_line_tangent(&part(q, i), load, increment.as_ref(), &mut tangent);
+            element.add_line_tangent(part(q, i), load, increment, &mut tangent);
             add(j, &tangent);
         }
     }
@@ -338,16 +335,15 @@ impl Beam {
     pub fn line_power(&self, on: Range<usize>, q: &[f64], v: &[f64], load: Vector, follows: bool) -> f64 {
         let of = |(element, i, j): (&Element, usize, usize)| {
             let mut forces = [0.0; VELOCITIES];
-            element.add_line_load(&part(q, i), load, follows, &mut forces);
-            inner(forces, part::<VELOCITIES>(v, j))
+            element.add_line_load(part(q, i), load, follows, &mut forces);
+            inner(forces, *part(v, j))
         };
         self.among(on).map(of).sum()
     }
 
     /// ∫ρA r ds [kg·m], the mass times its centre.
     pub fn first_moment(&self, q: &[f64]) -> Vector {
-        self.middles()
-            .fold([0.0; 3], |sum, (element, i, _)| plus(sum, 1.0, element.first_moment(&part(q, i))))
+        self.middles().fold([0.0; 3], |sum, (element, i, _)| plus(sum, 1.0, element.first_moment(part(q, i))))
     }
 
     /// Mass \[kg\].
@@ -358,19 +354,19 @@ impl Beam {
     /// Momentum and angular momentum about the origin.
     pub fn momenta(&self, q: &[f64], v: &[f64]) -> [Vector; 2] {
         self.middles().fold([[0.0; 3]; 2], |[p, l], (element, i, j)| {
-            let [linear, angular] = element.momenta(&part(q, i), &part(v, j));
+            let [linear, angular] = element.momenta(part(q, i), part(v, j));
             [plus(p, 1.0, linear), plus(l, 1.0, angular)]
         })
     }
 
     /// Strain energy \[J\].
     pub fn strain_energy(&self, q: &[f64]) -> f64 {
-        self.middles().map(|(element, i, _)| element.strain_energy(&part(q, i))).sum()
+        self.middles().map(|(element, i, _)| element.strain_energy(part(q, i))).sum()
     }
 
     /// Kinetic energy \[J\].
     pub fn kinetic_energy(&self, q: &[f64], v: &[f64]) -> f64 {
-        self.middles().map(|(element, i, j)| element.kinetic_energy(&part(q, i), &part(v, j))).sum()
+        self.middles().map(|(element, i, j)| element.kinetic_energy(part(q, i), part(v, j))).sum()
     }
 }
 
@@ -418,6 +414,6 @@ fn is_positive_definite(matrix: &[[f64; 4]; 4]) -> bool {
 
 /// The `N` entries from `at` on.
 #[inline(always)]
-fn part<const N: usize>(x: &[f64], at: usize) -> [f64; N] {
-    std::array::from_fn(|k| x[at + k])
+fn part<const N: usize>(x: &[f64], at: usize) -> &[f64; N] {
+    x[at..at + N].first_chunk().unwrap_or(const { &[0.0; N] })
 }

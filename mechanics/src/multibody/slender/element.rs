@@ -7,7 +7,7 @@ use super::shapes::{MASS_POINTS, POINTS, Point, Shapes, hermite};
 use super::stiffness;
 use super::strain::{
     self, CENTRELINE, COORDINATES, SPINS, Section, Sections, Stiffness, Stress, VARIABLES, VELOCITIES,
-    centreline, chord, combined, positions, sampled, shares,
+    centreline, chord, combined, positions, sampled, shares, slopes,
 };
 use super::triad::{Triad, Vector, plus, times};
 use crate::linalg::vector::{cross, inner};
@@ -127,7 +127,7 @@ impl Element {
             _ => Arc::new(own),
         };
         let sections = Sections::new(&constants.shapes, q);
-        let initial = constants.shapes.points.map(|at| Section::new(&at, &sections).strain);
+        let initial = sections.points(&constants.shapes).map(|point| point.strain);
         let rest = sampled(&constants.shapes.rest, &sections);
         Element { constants, initial, rest, damping: 0.0, viscosity: 0.0 }
     }
@@ -153,6 +153,7 @@ impl Element {
     }
 
     /// r′ in the middle, or its rate, by r₁, r′₁, r₂, r′₂ or theirs.
+    #[inline]
     pub(in crate::multibody) fn middle_slope(&self, centreline: &[Vector; 4]) -> Vector {
         combined(&self.shapes.middle, &chord(centreline))
     }
@@ -183,7 +184,7 @@ impl Element {
     /// Stresses C (γ − γ₀ + η γ̇).
     #[inline(always)]
     fn stress(&self, sections: &Sections, points: &[Section; POINTS], v: &[f64; VELOCITIES]) -> Stress {
-        let mut strains = points.map(|point| point.strain);
+        let mut strains = [points[0].strain, points[1].strain];
         let mut rest = sampled(&self.shapes.rest, sections);
         if self.viscosity != 0.0 {
             let (rates, of_rest) = stiffness::rates(&self.shapes, sections, points, &variables(v));
@@ -192,15 +193,15 @@ impl Element {
             }
             (0..2).for_each(|i| rest[i] += self.viscosity * of_rest[i]);
         }
-        let weights = self.shapes.points.map(|at| at.weight);
-        let of = |k: usize| self.stiffness[k].stress(&strains[k], &self.initial[k], weights[k]);
-        Stress { points: std::array::from_fn(of), rest: self.rest_stress(rest) }
+        let of =
+            |k: usize| self.stiffness[k].stress(&strains[k], &self.initial[k], self.shapes.points[k].weight);
+        Stress { points: [of(0), of(1)], rest: self.rest_stress(rest) }
     }
 
     /// Power \[W\] that the damping in proportion to the stiffness takes, η ∫γ̇ᵀ C γ̇ ds.
     pub fn viscous_power(&self, q: &[f64; COORDINATES], v: &[f64; VELOCITIES]) -> f64 {
         let sections = Sections::new(&self.shapes, q);
-        let points = self.shapes.points.map(|at| Section::new(&at, &sections));
+        let points = sections.points(&self.shapes);
         let (rates, rest) = stiffness::rates(&self.shapes, &sections, &points, &variables(v));
         let zero = [0.0; 4];
         let mut power = 0.0;
@@ -262,8 +263,8 @@ impl Element {
         }
         let sections = Sections::new(&self.shapes, q);
         let rest = [0.0; VELOCITIES];
-        let of = |k| self.rotation(k, &sections, v, &rest).energy();
-        energy + (0..3).map(of).sum::<f64>()
+        let rotations = self.rotations(&sections, v, &rest);
+        energy + rotations.iter().map(Rotation::energy).sum::<f64>()
     }
 
     /// ∫ρA r ds [kg·m], the mass times its centre.
@@ -280,8 +281,8 @@ impl Element {
             angular = plus(angular, 1.0, cross(place, combined(mass, &velocity)));
         }
         let (sections, rest) = (Sections::new(&self.shapes, q), [0.0; VELOCITIES]);
-        for k in 0..3 {
-            angular = plus(angular, 1.0, self.rotation(k, &sections, v, &rest).angular_momentum());
+        for rotation in self.rotations(&sections, v, &rest) {
+            angular = plus(angular, 1.0, rotation.angular_momentum());
         }
         [linear, angular]
     }
@@ -291,33 +292,44 @@ impl Element {
         self.weight[0] + self.weight[2]
     }
 
-    /// Rotation of section `k` of the three.
+    /// Rotations of the three sections.
     #[inline(always)]
-    fn rotation(&self, k: usize, s: &Sections, v: &[f64; VELOCITIES], a: &[f64; VELOCITIES]) -> Rotation {
-        let parts = &shares(&self.shapes)[k];
-        let rate = |x| Rate { slope: combined(parts, &chord(&centreline(x))), spin: x[SPINS[k]] };
-        Rotation::new(&s.triads[k], rate(v), rate(a), self.inertia[k], self.damping)
+    fn rotations(&self, s: &Sections, v: &[f64; VELOCITIES], a: &[f64; VELOCITIES]) -> [Rotation; 3] {
+        let slopes = |x| slopes(&self.shapes, &chord(&centreline(x)));
+        let ([v1, v2, v3], [a1, a2, a3]) = (slopes(v), slopes(a));
+        let of = |k: usize, speed: Vector, change: Vector| {
+            let (velocity, acceleration) =
+                (Rate { slope: speed, spin: v[SPINS[k]] }, Rate { slope: change, spin: a[SPINS[k]] });
+            Rotation::new(&s.triads[k], velocity, acceleration, self.inertia[k], self.damping)
+        };
+        [of(0, v1, a1), of(1, v2, a2), of(2, v3, a3)]
     }
 
     /// Adds the forces of strain and inertia, ∂U/∂q + M a + …, to `r`.
     pub fn add_forces(&self, m: &Motion<'_>, r: &mut [f64; VELOCITIES]) {
         let sections = Sections::new(&self.shapes, m.q);
-        let points = self.shapes.points.map(|at| Section::new(&at, &sections));
+        let points = sections.points(&self.shapes);
         let stress = self.stress(&sections, &points, m.v);
         let mut total = strain::forces(&self.shapes, &sections, &points, &stress);
         if self.has_rotary_inertia {
-            for (k, parts) in shares(&self.shapes).iter().enumerate() {
-                let force = self.rotation(k, &sections, m.v, m.a).force();
-                total[9 + k] += force.spin;
-                (0..9).for_each(|i| total[i] += parts[i / 3] * force.slope[i % 3]);
+            let [first, middle, second] = self.rotations(&sections, m.v, m.a);
+            let [first, middle, second] = [first.force(), middle.force(), second.force()];
+            for k in 0..3 {
+                (0..3).for_each(|i| total[3 * i + k] += self.shapes.middle[i] * middle.slope[k]);
+                total[3 + k] += first.slope[k];
+                total[6 + k] += second.slope[k];
             }
+            total[9] += first.spin;
+            total[10] += middle.spin;
+            total[11] += second.spin;
         }
         for i in 0..VARIABLES {
             r[PLACES[i]] += total[i];
         }
         (0..3).for_each(|k| r[k] -= total[k]);
         let (v, a) = (centreline(m.v), centreline(m.a));
-        let rate: [Vector; 4] = std::array::from_fn(|i| plus(a[i], self.damping, v[i]));
+        let rate = |i: usize| plus(a[i], self.damping, v[i]);
+        let rate = [rate(0), rate(1), rate(2), rate(3)];
         for i in 0..4 {
             let force = combined(&self.mass[i], &rate);
             (0..3).for_each(|k| r[CENTRELINE[i] + k] += force[k]);
@@ -340,7 +352,7 @@ impl Element {
         let mut tangent = [[0.0; VARIABLES]; VARIABLES];
         let viscous = self.viscosity * w.v;
         if w.q != 0.0 || viscous != 0.0 {
-            let points = self.shapes.points.map(|at| Section::new(&at, &sections));
+            let points = sections.points(&self.shapes);
             let (at, stiffness) = ((&sections, &points), (&self.stiffness, &self.middle));
             let stress = self.stress(&sections, &points, m.v);
             if w.q != 0.0 {
@@ -364,30 +376,21 @@ impl Element {
             }
         }
         if self.has_rotary_inertia {
-            for k in 0..3 {
-                let rotation = self.rotation(k, &sections, m.v, m.a);
-                for direction in 0..4 {
-                    let mut unit = Rate::default();
-                    match direction {
-                        3 => unit.spin = 1.0,
-                        axis => unit.slope[axis] = 1.0,
-                    }
-                    let rate = |c: f64, spin: f64| Rate {
-                        slope: times(c, unit.slope),
-                        spin: c * (unit.spin + spin),
-                    };
-                    let turn = inner(turns[k], unit.slope);
-                    let change = rotation.derivative(rate(w.q, turn), rate(w.v, 0.0), rate(w.a, 0.0));
-                    let mut add = |column: usize, part: f64| {
-                        tangent[9 + k][column] += part * change.spin;
-                        (0..9)
-                            .for_each(|i| tangent[i][column] += part * parts[k][i / 3] * change.slope[i % 3]);
-                    };
-                    match direction {
-                        3 => add(9 + k, 1.0),
-                        axis => (0..3).for_each(|j| add(3 * j + axis, parts[k][j])),
+            for (k, rotation) in self.rotations(&sections, m.v, m.a).iter().enumerate() {
+                let block = rotation.tangent(turns[k], [w.q, w.v, w.a]);
+                let has_part = |i: &usize| parts[k][*i] != 0.0;
+                for i in (0..3).filter(has_part) {
+                    let part = parts[k][i];
+                    for a in 0..3 {
+                        for j in (0..3).filter(has_part) {
+                            let part = part * parts[k][j];
+                            (0..3).for_each(|b| tangent[3 * i + a][3 * j + b] += part * block[a][b]);
+                        }
+                        tangent[3 * i + a][9 + k] += part * block[a][3];
+                        tangent[9 + k][3 * i + a] += part * block[3][a];
                     }
                 }
+                tangent[9 + k][9 + k] += block[3][3];
             }
         }
         for (i, row) in tangent.iter().enumerate() {

@@ -1,15 +1,24 @@
 //! Inertia of the rotation of a section.
 //!
 //! The section rotates with the spin w = ω·t and with its tangent, and H = J ω is its angular momentum per length, J = Λ
-//! diag(J₁, J₂, J₃) Λᵀ:
+//! diag(J₁, J₂, J₃) Λᵀ. With the rates of r′ in the axes of the section, u = Λᵀ ṙ′/|r′| and p = Λᵀ r̈′/|r′|, the components of ω
+//! and of ω̇ along t, n, b are
 //!
 //! ```text
-//! ω = w t + r′ × ṙ′/|r′|²,    ω̇ = ẇ t + w ṫ + r′ × r̈′/|r′|² − 2 (r′·ṙ′)/|r′|⁴ r′ × ṙ′
+//! ω = w t + r′ × ṙ′/|r′|²                                       = (w, −u₃, u₂)
+//! ω̇ = ẇ t + w ṫ + r′ × r̈′/|r′|² − 2 (r′·ṙ′)/|r′|⁴ r′ × ṙ′    = (ẇ, −p₃ + w u₂ + 2u₁u₃, p₂ + w u₃ − 2u₁u₂)
 //! δW = δθ·Y,   Y = J ω̇ + ω × J ω + β J ω,   δθ = δΘ t + r′ × δr′/|r′|²
 //! ```
 //!
-//! so that Y·t belongs to the spin and Y × r′/|r′|² to r′; β is the damping in proportion to the mass. With J₂ = J₃ = 0
+//! so that Y₁ belongs to the spin and Λ (0, Y₃, −Y₂)/|r′| to r′; β is the damping in proportion to the mass. With J₂ = J₃ = 0
 //! only the spin has inertia.
+//!
+//! Components of a vector change by what it changes itself and by the rotation of the axes. With d = Λᵀ δr′/|r′| that is
+//! δθ = (δΘ, −d₃, d₂), and
+//!
+//! ```text
+//! δu = Λᵀ δṙ′/|r′| − d₁ u − δθ × u,   δp = Λᵀ δr̈′/|r′| − d₁ p − δθ × p
+//! ```
 
 use super::triad::{Triad, Vector, plus, times};
 use crate::linalg::vector::{cross, inner};
@@ -21,76 +30,67 @@ pub(super) struct Rate {
     pub spin: f64,
 }
 
-/// A section in motion.
+/// A section in motion; vectors by their components along t, n, b.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rotation {
     triad: Triad,
-    /// r′
-    slope: Vector,
-    velocity: Rate,
-    acceleration: Rate,
+    /// 1/|r′|
+    inverse: f64,
     /// J₁, J₂, J₃ and β.
-    inertia: [f64; 3],
+    inertia: Vector,
     damping: f64,
-    /// ω, ω̇, H and Y.
+    /// u, p, ω, ω̇, H and Y.
+    velocity: Vector,
+    acceleration: Vector,
     angular_velocity: Vector,
     angular_acceleration: Vector,
     momentum: Vector,
     moment: Vector,
 }
 
+/// t × x
+#[inline(always)]
+fn across([_, y, z]: Vector) -> Vector {
+    [0.0, -z, y]
+}
+
 impl Rotation {
     /// The section with these axes and rates; J₁, J₂, J₃ and β.
-    #[inline]
-    pub fn new(
-        triad: &Triad,
-        velocity: Rate,
-        acceleration: Rate,
-        inertia: [f64; 3],
-        damping: f64,
-    ) -> Rotation {
-        let slope = times(triad.length, triad.tangent);
-        let inverse = 1.0 / (triad.length * triad.length);
-        let swing = times(inverse, cross(slope, velocity.slope));
-        let omega = plus(swing, velocity.spin, triad.tangent);
-        let rate = cross(omega, triad.tangent);
-        let mut omega_rate = plus(times(acceleration.spin, triad.tangent), velocity.spin, rate);
-        omega_rate = plus(omega_rate, inverse, cross(slope, acceleration.slope));
-        omega_rate = plus(omega_rate, -2.0 * inverse * inner(slope, velocity.slope), swing);
-        let mut out = Rotation {
+    #[inline(always)]
+    pub fn new(triad: &Triad, velocity: Rate, acceleration: Rate, inertia: Vector, damping: f64) -> Rotation {
+        let inverse = 1.0 / triad.length;
+        let u = times(inverse, triad.inward(velocity.slope));
+        let p = times(inverse, triad.inward(acceleration.slope));
+        let omega = plus(across(u), velocity.spin, [1.0, 0.0, 0.0]);
+        let omega_rate = [
+            acceleration.spin,
+            -p[2] + velocity.spin * u[1] + 2.0 * u[0] * u[2],
+            p[1] + velocity.spin * u[2] - 2.0 * u[0] * u[1],
+        ];
+        let momentum = product(inertia, omega);
+        let moment = plus(product(inertia, omega_rate), damping, momentum);
+        Rotation {
             triad: *triad,
-            slope,
-            velocity,
-            acceleration,
+            inverse,
             inertia,
             damping,
+            velocity: u,
+            acceleration: p,
             angular_velocity: omega,
             angular_acceleration: omega_rate,
-            momentum: [0.0; 3],
-            moment: [0.0; 3],
-        };
-        out.momentum = out.times_inertia(omega);
-        let moment = plus(out.times_inertia(omega_rate), damping, out.momentum);
-        out.moment = plus(moment, 1.0, cross(omega, out.momentum));
-        out
-    }
-
-    /// J x
-    #[inline(always)]
-    fn times_inertia(&self, x: Vector) -> Vector {
-        let [x, y, z] = self.triad.inward(x);
-        let [a, b, c] = self.inertia;
-        self.triad.outward([a * x, b * y, c * z])
+            momentum,
+            moment: plus(moment, 1.0, cross(omega, momentum)),
+        }
     }
 
     /// ω and ω̇
     pub fn angular_motion(&self) -> [Vector; 2] {
-        [self.angular_velocity, self.angular_acceleration]
+        [self.angular_velocity, self.angular_acceleration].map(|x| self.triad.outward(x))
     }
 
     /// H
     pub fn angular_momentum(&self) -> Vector {
-        self.momentum
+        self.triad.outward(self.momentum)
     }
 
     /// ½ ω·H
@@ -99,53 +99,60 @@ impl Rotation {
     }
 
     /// The forces on r′ and on the spin.
-    #[inline]
+    #[inline(always)]
     pub fn force(&self) -> Rate {
-        let inverse = 1.0 / (self.triad.length * self.triad.length);
-        Rate {
-            slope: times(inverse, cross(self.moment, self.slope)),
-            spin: inner(self.triad.tangent, self.moment),
+        let slope = times(-self.inverse, across(self.moment));
+        Rate { slope: self.triad.outward(slope), spin: self.moment[0] }
+    }
+
+    /// The derivative of the forces on r′ and on the spin by both, `[of][by]`: by w\[0\] (δr′, δΘ + turn·δr′) in the configuration,
+    /// by w\[1\] (δr′, δΘ) in the velocity and by w\[2\] (δr′, δΘ) in the acceleration.
+    #[inline]
+    pub fn tangent(&self, turn: Vector, w: Vector) -> [[f64; 4]; 4] {
+        let mut out = [[0.0; 4]; 4];
+        for by in 0..4 {
+            let mut unit = Rate::default();
+            match by {
+                3 => unit.spin = 1.0,
+                axis => unit.slope[axis] = 1.0,
+            }
+            let rate = |c: f64, turn: f64| Rate { slope: times(c, unit.slope), spin: c * (unit.spin + turn) };
+            let turn = inner(turn, unit.slope);
+            let change = self.derivative(rate(w[0], turn), rate(w[1], 0.0), rate(w[2], 0.0));
+            (0..3).for_each(|of| out[of][by] = change.slope[of]);
+            out[3][by] = change.spin;
         }
+        out
     }
 
     /// How the forces change with variations of configuration, velocity and acceleration.
-    #[inline]
-    pub fn derivative(&self, q: Rate, v: Rate, a: Rate) -> Rate {
-        let (g, t, length) = (self.slope, self.triad.tangent, self.triad.length);
-        let inverse = 1.0 / (length * length);
-        let (spin, speed) = (self.velocity.spin, self.velocity.slope);
-        let stretch = inner(t, q.slope) / length;
-        let dt = times(1.0 / length, plus(q.slope, -inner(t, q.slope), t));
-        let dtheta = plus(times(inverse, cross(g, q.slope)), q.spin, t);
-        // r′ × ṙ′/|r′|² and its variation.
-        let swing = times(inverse, cross(g, speed));
-        let moved = plus(cross(q.slope, speed), 1.0, cross(g, v.slope));
-        let dswing = plus(times(inverse, moved), -2.0 * stretch, swing);
-        let domega = plus(plus(dswing, v.spin, t), spin, dt);
-        // ṫ = ω × t.
-        let rate = cross(self.angular_velocity, t);
-        let drate = plus(cross(domega, t), 1.0, cross(self.angular_velocity, dt));
-        // ω̇ in its four parts.
-        let mut dacceleration = plus(times(a.spin, t), self.acceleration.spin, dt);
-        dacceleration = plus(plus(dacceleration, v.spin, rate), spin, drate);
-        let swept = cross(g, self.acceleration.slope);
-        let dswept = plus(cross(q.slope, self.acceleration.slope), 1.0, cross(g, a.slope));
-        dacceleration = plus(plus(dacceleration, inverse, dswept), -2.0 * stretch * inverse, swept);
-        let growth = inner(g, speed) * inverse;
-        let dgrowth = (inner(q.slope, speed) + inner(g, v.slope)) * inverse - 2.0 * stretch * growth;
-        dacceleration = plus(plus(dacceleration, -2.0 * dgrowth, swing), -2.0 * growth, dswing);
-        // J turns with the section: δ(J x) = δθ × J x + J (δx − δθ × x).
-        let of = |x: Vector, jx: Vector, dx: Vector| {
-            plus(cross(dtheta, jx), 1.0, self.times_inertia(plus(dx, -1.0, cross(dtheta, x))))
-        };
-        let dmomentum = of(self.angular_velocity, self.momentum, domega);
-        let acceleration = self.angular_acceleration;
-        let mut dmoment = of(acceleration, self.times_inertia(acceleration), dacceleration);
-        dmoment = plus(dmoment, self.damping, dmomentum);
+    #[inline(always)]
+    fn derivative(&self, q: Rate, v: Rate, a: Rate) -> Rate {
+        let inward = |x: Rate| times(self.inverse, self.triad.inward(x.slope));
+        let (d, dv, da) = (inward(q), inward(v), inward(a));
+        let turn = plus(across(d), q.spin, [1.0, 0.0, 0.0]);
+        let moved = |change: Vector, x: Vector| plus(plus(change, -d[0], x), -1.0, cross(turn, x));
+        let (u, w) = (self.velocity, self.angular_velocity[0]);
+        let (du, dp) = (moved(dv, u), moved(da, self.acceleration));
+        let domega = plus(across(du), v.spin, [1.0, 0.0, 0.0]);
+        let dacceleration = [
+            a.spin,
+            -dp[2] + v.spin * u[1] + w * du[1] + 2.0 * (du[0] * u[2] + u[0] * du[2]),
+            dp[1] + v.spin * u[2] + w * du[2] - 2.0 * (du[0] * u[1] + u[0] * du[1]),
+        ];
+        let dmomentum = product(self.inertia, domega);
+        let mut dmoment = plus(product(self.inertia, dacceleration), self.damping, dmomentum);
         dmoment = plus(dmoment, 1.0, cross(domega, self.momentum));
         dmoment = plus(dmoment, 1.0, cross(self.angular_velocity, dmomentum));
-        let force = plus(cross(dmoment, g), 1.0, cross(self.moment, q.slope));
-        let force = plus(times(inverse, force), -2.0 * stretch * inverse, cross(self.moment, g));
-        Rate { slope: force, spin: inner(dt, self.moment) + inner(t, dmoment) }
+        let force = times(-self.inverse, across(self.moment));
+        let mut dforce = plus(times(-self.inverse, across(dmoment)), -d[0], force);
+        dforce = plus(dforce, 1.0, cross(turn, force));
+        Rate { slope: self.triad.outward(dforce), spin: dmoment[0] }
     }
+}
+
+/// Component by component.
+#[inline(always)]
+fn product(x: Vector, y: Vector) -> Vector {
+    [x[0] * y[0], x[1] * y[1], x[2] * y[2]]
 }

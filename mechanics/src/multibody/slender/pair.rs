@@ -78,13 +78,19 @@ impl Pair {
 }
 
 impl Triad {
-    /// The vector x in δΘ = δφ + x·δr′ for increments (δr′, φ) of a configuration whose r′ was less by `increment`: x = −c/|r′|
-    /// with c of the tangents before and now.
+    /// [`spin_by_slope`] where r′ was less by `increment`.
     pub fn spin_by_slope(&self, increment: Vector) -> Vector {
-        let before = plus(times(self.length, self.tangent), -1.0, increment);
-        let before = times(1.0 / inner(before, before).sqrt(), before);
-        times(-1.0 / self.length, Pair::of_tangents(before, self.tangent).c)
+        spin_by_slope(plus(times(self.length, self.tangent), -1.0, increment), increment)
     }
+}
+
+/// The vector x in δΘ = δφ + x·δr′ for increments (δr′, φ) of a configuration whose r′ was `before`, and has grown by `increment`:
+/// x = −c/|r′| with c of the tangents before and now, −(r′₀ × r′)/(|r′| (|r′₀||r′| + r′₀·r′)).
+#[inline]
+pub(super) fn spin_by_slope(before: Vector, increment: Vector) -> Vector {
+    let now = plus(before, 1.0, increment);
+    let (old, new) = (inner(before, before).sqrt(), inner(now, now).sqrt());
+    times(-1.0 / (new * (old * new + inner(before, now))), cross(before, increment))
 }
 
 /// \[x\]×, with \[x\]× y = x × y.

@@ -46,19 +46,26 @@ pub(super) fn combined<const N: usize>(n: &[f64; N], x: &[Vector; N]) -> Vector 
 /// r₁, r′₁, r₂, r′₂ of the coordinates of an element.
 #[inline(always)]
 pub(super) fn positions(q: &[f64; COORDINATES]) -> [Vector; 4] {
-    [0, 3, 12, 15].map(|at| vector(q, at))
+    [vector(q, 0), vector(q, 3), vector(q, 12), vector(q, 15)]
 }
 
 /// r₁, r′₁, r₂, r′₂ among the velocities of an element, or their rates.
 #[inline(always)]
 pub(super) fn centreline(v: &[f64; VELOCITIES]) -> [Vector; 4] {
-    CENTRELINE.map(|at| vector(v, at))
+    let [a, b, c, d] = CENTRELINE;
+    [vector(v, a), vector(v, b), vector(v, c), vector(v, d)]
 }
 
 /// (r₂ − r₁, r′₁, r′₂)
 #[inline(always)]
 pub(super) fn chord(x: &[Vector; 4]) -> [Vector; 3] {
     [plus(x[2], -1.0, x[0]), x[1], x[3]]
+}
+
+/// r′ at the three sections, or its rate, by (r₂ − r₁, r′₁, r′₂) or theirs.
+#[inline(always)]
+pub(super) fn slopes(shapes: &Shapes, chord: &[Vector; 3]) -> [Vector; 3] {
+    [chord[1], combined(&shapes.middle, chord), chord[2]]
 }
 
 /// The parts that (r₂ − r₁, r′₁, r′₂) have in r′ at the three sections.
@@ -79,11 +86,22 @@ impl Sections {
     #[inline]
     pub fn new(shapes: &Shapes, q: &[f64; COORDINATES]) -> Sections {
         let chord = chord(&positions(q));
-        let slopes = [chord[1], combined(&shapes.middle, &chord), chord[2]];
-        let normals = [6, 9, 18].map(|at| vector(q, at));
-        let triads: [Triad; 3] = std::array::from_fn(|i| Triad::new(slopes[i], normals[i]));
-        let pairs = ENDS.map(|[a, b]| Pair::new(&triads[a], &triads[b]));
+        let [first, middle, second] = slopes(shapes, &chord);
+        let triads = [
+            Triad::new(first, vector(q, 6)),
+            Triad::new(middle, vector(q, 9)),
+            Triad::new(second, vector(q, 18)),
+        ];
+        let pair = |[a, b]: [usize; 2]| Pair::new(&triads[a], &triads[b]);
+        let pairs = [pair(ENDS[0]), pair(ENDS[1]), pair(ENDS[2])];
         Sections { chord, triads, pairs }
+    }
+
+    /// The sections at the quadrature points.
+    #[inline(always)]
+    pub fn points(&self, shapes: &Shapes) -> [Section; POINTS] {
+        let [first, second] = &shapes.points;
+        [Section::new(first, self), Section::new(second, self)]
     }
 }
 
@@ -245,18 +263,21 @@ impl<T: Linear> Forces<T> {
                 }
             }
         }
+        for ((slope, triad), sample) in slopes.iter_mut().zip(triads).zip(&self.samples) {
+            for k in 0..3 {
+                slope[k].add(triad.tangent[k], sample);
+            }
+        }
         let mut out = [T::ZERO; VARIABLES];
         out[9..].copy_from_slice(&spins);
-        for (k, out) in out[..9].iter_mut().enumerate() {
-            *out = self.chord[k / 3][k % 3];
-        }
-        for (i, parts) in shares(shapes).iter().enumerate() {
-            for k in 0..3 {
-                slopes[i][k].add(triads[i].tangent[k], &self.samples[i]);
-                for j in (0..3).filter(|j| parts[*j] != 0.0) {
-                    out[3 * j + k].add(parts[j], &slopes[i][k]);
-                }
+        for k in 0..3 {
+            let [first, middle, second] = [&slopes[0][k], &slopes[1][k], &slopes[2][k]];
+            for i in 0..3 {
+                out[3 * i + k] = self.chord[i][k];
+                out[3 * i + k].add(shapes.middle[i], middle);
             }
+            out[3 + k].add(1.0, first);
+            out[6 + k].add(1.0, second);
         }
         out
     }
