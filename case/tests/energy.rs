@@ -176,8 +176,8 @@ fn the_true_error_lies_within_the_reported_one() {
     }
 }
 
-/// P4's pendulum onto the ground. Massless contact with steps that `hht` without dissipation is unstable in gains 1.3 J of
-/// 3 J in 50 ms behind the first touch; `radau` with a loose tolerance gains in some runs in the second burst of impacts,
+/// P4's pendulum onto the ground. With a massless contact and steps that do not follow what the impact excites `hht` without dissipation gains
+/// 1.1 J of 3 J in 50 ms behind the first touch; `radau` with a loose tolerance gains in some runs in the second burst of impacts,
 /// on elements whose axial displacements are no larger than the tolerance. A run says what it has gained, and only that.
 #[test]
 fn impacts_that_gain_energy_are_warned_of() {
@@ -190,19 +190,18 @@ fn impacts_that_gain_energy_are_warned_of() {
             low = low.min(imbalance);
             rise = rise.max(imbalance - low);
         }
-        let warned = run.warnings.iter().find(|warning| warning.contains("energy has grown")).cloned();
+        let of_energy = ["energy has grown", "energy balance is off"];
+        let warned =
+            run.warnings.iter().find(|warning| of_energy.iter().any(|words| warning.contains(words)));
+        let warned = warned.cloned();
         (rise / largest(&run, "energy.strain"), warned)
     };
     let massless = "contact=[{name='ground',obstacle={kind='plane',point=[0,0]}}]";
     let modes = ["basis.axial=7", "basis.transverse=7", "run.duration=0.42", massless];
-    let (rise, warned) = gain(
-        &[&modes[..], &["integrator={kind='hht',step=1e-4,contact-step=1e-6,alpha=0,stabilized=true}"]]
-            .concat(),
-    );
-    assert!(
-        rise > 0.4 && warned.unwrap().ends_with("use a smaller step or the adaptive method `radau`"),
-        "{rise}"
-    );
+    let many = ["basis.axial=9", "basis.transverse=9", "run.duration=0.42", massless];
+    let (rise, warned) =
+        gain(&[&many[..], &["integrator={kind='hht',step=4e-4,alpha=0,stabilized=true}"]].concat());
+    assert!(rise > 0.3 && warned.as_ref().unwrap().contains("use smaller steps"), "{rise}");
     let (rise, warned) =
         gain(&[&modes[..], &["integrator={kind='radau',tolerance=1e-5,absolute-tolerance=1e-5}"]].concat());
     assert!(rise < 0.05 && warned.is_none(), "{rise} {warned:?}");

@@ -18,7 +18,7 @@
 //! to its prediction: the iteration error is then far below the error of the step.
 //!
 //! Increments that are rounding errors of the residual do not shrink: with a new tangent, an increment that is not
-//! halved any more and is smaller than `noise` ends the iteration. Its size is the least that later iterations are asked
+//! halved any more, for the second time, and is smaller than `noise` ends the iteration. Its size is the least that later iterations are asked
 //! for. For an affine system the first increment with a new tangent is exact, so the second one measures it.
 
 /// What to do after an iteration.
@@ -154,7 +154,11 @@ impl Convergence {
         if self.iteration > 1 {
             let ratio = if self.previous > 0.0 { size / self.previous } else { 0.0 };
             let small = if self.fresh { self.noise } else { self.noise.min(10.0 * self.rounding) };
-            if ratio >= STALLED && size <= small {
+            // Not by the second increment alone, unless the first was as small: it may be an error of the tangent, which the third one
+            // shows.
+            let again = if self.iteration > 2 { self.ratio >= STALLED } else { self.previous <= tolerance };
+            let stalls = ratio >= STALLED && size <= small;
+            if stalls && again {
                 self.rounding = self.rounding.max(size);
                 return Progress::Converged;
             }
@@ -168,7 +172,7 @@ impl Convergence {
             let diverges = if self.iteration <= 2 {
                 self.simplified && ratio >= GROWN
             } else if self.simplified {
-                self.rate >= 1.0 || self.rate.powi(left) * self.eta * size > tolerance
+                !stalls && (self.rate >= 1.0 || self.rate.powi(left) * self.eta * size > tolerance)
             } else {
                 self.iteration > 3 && ratio >= GROWN
             };
@@ -219,5 +223,28 @@ impl Convergence {
     /// Last measured rate θ; 0 when one iteration was enough.
     pub fn rate(&self) -> f64 {
         self.rate
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn verdicts(sizes: &[f64]) -> Vec<Progress> {
+        let mut convergence = Convergence::measured(1e-16, 1e-7);
+        convergence.reset();
+        convergence.learn_rounding(1e-16);
+        convergence.begin(true);
+        sizes.iter().map(|size| convergence.judge(*size)).collect()
+    }
+
+    #[test]
+    fn two_increments_of_one_size_are_no_rounding_errors_and_three_are() {
+        use Progress::{Continue, Converged};
+        // The second is an error of the tangent along the axis of a beam.
+        assert_eq!(verdicts(&[3e-8, 2e-8, 1e-14, 1e-21]), [Continue, Continue, Continue, Converged]);
+        assert_eq!(verdicts(&[3e-8, 2e-8, 1.5e-8]), [Continue, Continue, Converged]);
+        assert_eq!(verdicts(&[1e-3, 2e-8, 1.5e-8, 1.2e-8]), [Continue, Continue, Continue, Converged]);
+        assert_eq!(verdicts(&[1e-17, 3e-17])[1], Converged);
     }
 }
