@@ -2,7 +2,7 @@
 
 use super::centreline::Centreline;
 use super::section::{SECTION, Section};
-use super::spatial::{name, optional_vector, vector};
+use super::spatial::{name, optional_vector};
 use crate::declaration::{Bound::*, Key, Presence as Default, Presence::*, Type, Type::Quantity, key};
 use crate::fault::{At, Fault, Made, both};
 use crate::kind::{Choice, Context, Kind, Table};
@@ -201,7 +201,7 @@ pub struct Beam {
     /// What holds root and tip.
     pub ends: [End; 2],
     /// Velocity of the root and angular velocity at the start.
-    pub motion: [Vector; 2],
+    pub motion: [Option<Vector>; 2],
     /// Damping in proportion to mass [1/s] and stiffness \[s\].
     pub damping: [f64; 2],
     /// Recorded stations \[m\].
@@ -356,12 +356,17 @@ pub static BEAMS: Table<Beam> = Table {
             ),
             key("root", Type::Choice(&END), Default::Name("free"), "what holds the root, beside its joints"),
             key("tip", Type::Choice(&END), Default::Name("free"), "what holds the tip, beside its joints"),
-            key("velocity", Type::Quantities(&VELOCITY, Any), Empty, "velocity of the root at the start"),
+            key(
+                "velocity",
+                Type::Quantities(&VELOCITY, Any),
+                Empty,
+                "velocity of the root at the start; what joints and spin ask for, if left out",
+            ),
             key(
                 "spin",
                 Type::Quantities(&ANGULAR_SPEED, Any),
                 Empty,
-                "angular velocity at the start, in the axes of space",
+                "angular velocity at the start, in the axes of space; what the joints ask for, if left out",
             ),
             key(
                 "mass-damping",
@@ -470,7 +475,7 @@ fn make(v: &Values, c: &Context<'_>) -> Made<Beam> {
         coupling: components(v, "coupling")?,
         elements: v.count("elements")?,
         ends: [ends.0, ends.1],
-        motion: [vector(v, "velocity")?, vector(v, "spin")?],
+        motion: [optional_vector(v, "velocity")?, optional_vector(v, "spin")?],
         damping: [v.number("mass-damping")?, v.number("stiffness-damping")?],
         stations,
         fibres: fibres(v, c)?,

@@ -1,6 +1,6 @@
 //! Rigid bodies in space.
 
-use super::spatial::{MARKED, direction, name, vector};
+use super::spatial::{MARKED, direction, name, optional_vector, vector};
 use crate::declaration::{Bound::*, Key, Presence as Default, Presence::*, Type, Type::Quantity, key};
 use crate::fault::{Fault, Made};
 use crate::kind::{Choice, Context, Kind, Table};
@@ -121,13 +121,13 @@ pub static BODY: Table<multibody::Body> = Table {
                 "velocity",
                 Type::Quantities(&VELOCITY, Any),
                 Empty,
-                "velocity of the centre of mass at the start",
+                "velocity of the centre of mass at the start; what the joints and the spin ask for, if left out",
             ),
             key(
                 "spin",
                 Type::Quantities(&ANGULAR_SPEED, Any),
                 Empty,
-                "angular velocity at the start, in the axes of space",
+                "angular velocity at the start, in the axes of space; what the joints ask for, if left out",
             ),
             key(
                 "damping",
@@ -151,8 +151,8 @@ fn body(v: &Values, c: &Context<'_>) -> Made<multibody::Body> {
     body.inertia = tensor(mass);
     body.frame.position = vector(v, "position")?;
     body.frame.rotation = direction(v)?;
-    body.velocity = vector(v, "velocity")?;
-    body.spin = vector(v, "spin")?;
+    body.velocity = optional_vector(v, "velocity")?;
+    body.spin = optional_vector(v, "spin")?;
     body.damping = v.number("damping")?;
     Ok(body)
 }

@@ -17,10 +17,10 @@ pub struct Body {
     pub inertia: Matrix3,
     /// The body's frame at the start.
     pub frame: Frame,
-    /// Velocity of the frame's origin at the start, inertial axes \[m/s\].
-    pub velocity: Vector,
-    /// Angular velocity at the start, inertial axes [rad/s].
-    pub spin: Vector,
+    /// Velocity of the frame's origin at the start, inertial axes \[m/s\]; where it is not given, that which the joints ask for.
+    pub velocity: Option<Vector>,
+    /// Angular velocity at the start, inertial axes [rad/s]; likewise.
+    pub spin: Option<Vector>,
     /// Damping β [1/s] by forces −β m ṙ and moments −β J Ω.
     pub damping: f64,
 }
@@ -37,8 +37,8 @@ impl Body {
             centre: [0.0; 3],
             inertia: tensor,
             frame: Frame { position: [0.0; 3], rotation: IDENTITY },
-            velocity: [0.0; 3],
-            spin: [0.0; 3],
+            velocity: None,
+            spin: None,
             damping: 0.0,
         }
     }
@@ -52,7 +52,8 @@ impl Body {
     /// What is wrong with the numbers, if anything.
     pub(super) fn fault(&self) -> Option<String> {
         let j = &self.inertia;
-        let numbers = j.iter().flatten().chain(&self.centre).chain(&self.velocity).chain(&self.spin);
+        let motion = self.velocity.iter().chain(&self.spin).flatten();
+        let numbers = j.iter().flatten().chain(&self.centre).chain(motion);
         let mut numbers = numbers.chain(&self.frame.position).chain(self.frame.rotation.iter().flatten());
         if !numbers.all(|x| x.is_finite()) {
             return Some("has a number that is not finite".to_owned());
@@ -91,6 +92,9 @@ impl Body {
         None
     }
 }
+
+/// Velocity of the origin of a part and its angular velocity, in the axes of space.
+pub(super) type Twist = [Vector; 2];
 
 /// A body at a state.
 #[derive(Clone, Copy, Debug)]

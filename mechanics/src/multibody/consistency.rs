@@ -218,32 +218,40 @@ pub(super) fn changes(constants: &Constants, given: &State, used: &[f64]) -> Vec
     let (before, after) = (scaled(&given.v), scaled(used));
     let most = SAME * before.iter().fold(0.0_f64, |x, v| x.max(v.abs()));
     let changed = |mut numbers: Range<usize>| numbers.any(|j| !((after[j] - before[j]).abs() <= most));
-    let nothing = |velocity: &Vector, spin: &Vector| velocity.iter().chain(spin).all(|x| *x == 0.0);
-    let why = "the joints do not allow all that is given, and what is left out is zero (also the velocity of a body on a hinge, whose \
-               centre moves with its spin)";
+    let why = "the joints do not allow what is given";
+    let text = |[x, y, z]: Vector| format!("({x:.4}, {y:.4}, {z:.4})");
     let mut out = Vec::new();
     for (body, place) in constants.model.bodies.iter().zip(&constants.place) {
-        let at = 6 * place;
-        if nothing(&body.velocity, &body.spin) || !changed(at..at + 6) {
+        let (at, r) = (6 * place, &body.frame.rotation);
+        if !changed(at..at + 6) {
             continue;
         }
-        let r = &body.frame.rotation;
         let spin = apply(r, three(used, at + 3));
         let velocity = plus(three(used, at), -1.0, cross(spin, apply(r, body.centre)));
-        let text = |[x, y, z]: Vector| format!("({x:.4}, {y:.4}, {z:.4})");
-        out.push(format!(
-            "body `{}` has the velocity {} m/s and the spin {} rad/s at t = 0, and not {} and {}: {why}",
-            body.name,
-            text(velocity),
-            text(spin),
-            text(body.velocity),
-            text(body.spin)
-        ));
+        let mut tell = |what: &str, given: Option<Vector>, used: Vector, unit: &str| {
+            if let Some(given) = given {
+                let (name, used, given) = (&body.name, text(used), text(given));
+                out.push(format!(
+                    "body `{name}` has the {what} {used} {unit} at t = 0, and not {given}: {why}"
+                ));
+            }
+        };
+        tell("velocity", body.velocity, velocity, "m/s");
+        tell("spin", body.spin, spin, "rad/s");
     }
     for (of, [_, at]) in constants.model.beams.iter().zip(&constants.beams) {
-        if !nothing(&of.velocity, &of.spin) && changed(*at..at + of.beam.velocities()) {
-            out.push(format!("beam `{}` has other velocities at t = 0 than are given: {why}", of.name));
+        if !changed(*at..at + of.beam.velocities()) {
+            continue;
         }
+        out.push(if of.velocity.is_some() || of.spin.is_some() {
+            format!("beam `{}` has other velocities at t = 0 than are given: {why}", of.name)
+        } else {
+            format!(
+                "beam `{}` does not begin with the motion of a rigid body, which what the joints prescribe at t = 0 does not allow, but with \
+                 the nearest velocities: its ends start with a shock",
+                of.name
+            )
+        });
     }
     out
 }

@@ -1,13 +1,13 @@
 //! What does not change in a run: the model, the order of its unknowns, and what follows from both.
 
-use super::body::four;
+use super::body::{Twist, four};
 use super::channels::channels;
 use super::force::angle_between;
 use super::joint::Coordinate;
 use super::layout::{Link, layout};
 use super::marker::Part;
 use super::model::Model;
-use super::rotation::{apply, apply_transposed, column, matrix, plus, product, quaternion};
+use super::rotation::{Vector, apply, apply_transposed, column, matrix, plus, product, quaternion};
 use super::row::Row;
 use super::slender::ELEMENT_VELOCITIES;
 use crate::drive::force_breaks;
@@ -164,22 +164,29 @@ impl Constants {
         (constants, plan.in_tree[..joints].to_vec())
     }
 
-    /// The state of the bodies as the model has them.
-    pub(super) fn start(&self) -> State {
+    /// The state of the bodies and beams as the model has them; what it does not give of their velocities is that of these twists, bodies
+    /// first, or zero.
+    pub(super) fn start(&self, twists: &[Twist]) -> State {
         let mut s = State::zeros(self.size, 0.0);
-        for (body, place) in self.model.bodies.iter().zip(&self.place) {
+        let bodies = self.model.bodies.len();
+        let twist = |i: usize, velocity: Option<Vector>, spin: Option<Vector>| {
+            let [v, w] = twists.get(i).copied().unwrap_or_default();
+            [velocity.unwrap_or(v), spin.unwrap_or(w)]
+        };
+        for (i, (body, place)) in self.model.bodies.iter().zip(&self.place).enumerate() {
+            let [velocity, spin] = twist(i, body.velocity, body.spin);
             let r = &body.frame.rotation;
             let arm = apply(r, body.centre);
             let (q, v) = (&mut s.q[7 * place..], &mut s.v[6 * place..]);
             q[..3].copy_from_slice(&plus(body.frame.position, 1.0, arm));
             q[3..7].copy_from_slice(&quaternion(r));
-            v[..3].copy_from_slice(&plus(body.velocity, 1.0, cross(body.spin, arm)));
-            v[3..6].copy_from_slice(&apply_transposed(r, body.spin));
+            v[..3].copy_from_slice(&plus(velocity, 1.0, cross(spin, arm)));
+            v[3..6].copy_from_slice(&apply_transposed(r, spin));
         }
-        for (of, &[q, v]) in self.model.beams.iter().zip(&self.beams) {
+        for (i, (of, &[q, v])) in self.model.beams.iter().zip(&self.beams).enumerate() {
             let n = of.beam.coordinates();
             s.q[q..q + n].copy_from_slice(of.beam.initial());
-            of.start(&s.q[q..q + n], &mut s.v[v..]);
+            of.set_twist(twist(bodies + i, of.velocity, of.spin), &s.q[q..q + n], &mut s.v[v..]);
         }
         let mut q = s.q.clone();
         self.count_angles(&s.q, &mut q);

@@ -1,5 +1,6 @@
 //! A slender beam as a part of a model, and loads along it.
 
+use super::body::Twist;
 use super::force::Axes;
 use super::rotation::{Matrix3, Vector, plus, product, times};
 use super::slender::{Beam, COORDINATES, ELEMENT_COORDINATES, ELEMENT_VELOCITIES};
@@ -17,9 +18,9 @@ pub struct Flexible {
     /// Centreline without stress, mesh and sections. Its own damping is replaced.
     pub beam: Beam,
     /// Velocity of its first node at the start, inertial axes \[m/s\].
-    pub velocity: Vector,
+    pub velocity: Option<Vector>,
     /// Angular velocity at the start, inertial axes [rad/s].
-    pub spin: Vector,
+    pub spin: Option<Vector>,
     /// Damping β [1/s] in proportion to the mass: forces −β M v.
     pub damping: f64,
     /// Damping η \[s\] in proportion to the stiffness (Kelvin–Voigt): stresses C (γ − γ₀ + η γ̇) of the strains γ.
@@ -48,8 +49,8 @@ impl Flexible {
         Flexible {
             name: name.to_owned(),
             beam,
-            velocity: [0.0; 3],
-            spin: [0.0; 3],
+            velocity: None,
+            spin: None,
             damping: 0.0,
             viscosity: 0.0,
             stations: vec![end],
@@ -80,7 +81,7 @@ impl Flexible {
 
     /// What is wrong with the numbers, if anything.
     pub(super) fn fault(&self) -> Option<String> {
-        if !self.velocity.iter().chain(&self.spin).all(|x| x.is_finite()) {
+        if !self.velocity.iter().chain(&self.spin).flatten().all(|x| x.is_finite()) {
             return Some("has a number that is not finite".to_owned());
         }
         for (what, x) in [("damping", self.damping), ("viscosity", self.viscosity)] {
@@ -102,19 +103,19 @@ impl Flexible {
         Some(format!("has two fibres with the name `{}`", twice[0]))
     }
 
-    /// Writes the velocities of the start.
-    pub(super) fn start(&self, q: &[f64], v: &mut [f64]) {
+    /// Writes the velocities of a rigid motion: the velocity of the root and the angular velocity.
+    pub(super) fn set_twist(&self, [velocity, spin]: Twist, q: &[f64], v: &mut [f64]) {
         let (origin, _) = self.beam.node(0, q);
         for node in 0..self.beam.nodes().len() {
             let (position, triad) = self.beam.node(node, q);
             let at = ELEMENT_VELOCITIES * node;
             let slope = triad.tangent.map(|t| triad.length * t);
-            let velocity = plus(self.velocity, 1.0, cross(self.spin, plus(position, -1.0, origin)));
+            let velocity = plus(velocity, 1.0, cross(spin, plus(position, -1.0, origin)));
             v[at..at + 3].copy_from_slice(&velocity);
-            v[at + 3..at + 6].copy_from_slice(&cross(self.spin, slope));
-            v[at + 6] = inner(self.spin, triad.tangent);
+            v[at + 3..at + 6].copy_from_slice(&cross(spin, slope));
+            v[at + 6] = inner(spin, triad.tangent);
             if let Some(element) = self.beam.elements().get(node) {
-                v[at + 7] = inner(self.spin, element.section(&coordinates(q, node), 0.5).1.tangent);
+                v[at + 7] = inner(spin, element.section(&coordinates(q, node), 0.5).1.tangent);
             }
         }
     }

@@ -53,6 +53,7 @@ pub mod rotation;
 mod row;
 mod shares;
 pub mod slender;
+mod start;
 mod system;
 
 pub use axis::Axis;

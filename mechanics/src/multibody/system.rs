@@ -12,7 +12,6 @@
 //! ```
 
 use super::body::{Placed, four, three};
-use super::consistency;
 use super::constants::Constants;
 use super::force::Interaction;
 use super::joint::Drive;
@@ -24,6 +23,7 @@ use super::rotation::{
 };
 use super::row::{Row, Value, Wrench};
 use super::slender::{ELEMENT_COORDINATES, ELEMENT_VELOCITIES};
+use super::{consistency, start};
 use crate::linalg::vector::{cross, inner};
 use crate::linalg::{Matrix, Structure};
 use crate::profile::HubKinematics;
@@ -56,13 +56,27 @@ pub struct Multibody {
 }
 
 impl Multibody {
-    /// The system of a model. Bodies must fit their joints at the start; velocities that do not obey them are replaced by the nearest that do, in the norm
-    /// of kinetic energy, and [cautions](crate::system::Observed::cautions) tell which.
+    /// The system of a model. Bodies must fit their joints at the start; velocities that are not given are those of rigid motions that the joints ask
+    /// for, and those that do not obey the joints are replaced by the nearest that do, in the norm of kinetic energy:
+    /// [cautions](crate::system::Observed::cautions) tell which.
     ///
     /// # Errors
     /// [`ModelError`].
     pub fn new(model: Model) -> Result<Multibody, ModelError> {
         model.check()?;
+        let mut system = Multibody::assembled(model)?;
+        let assemble = |model| {
+            let system = Multibody::assembled(model).ok()?;
+            let constants = system.constants.clone();
+            Some((Box::new(system) as Box<dyn Dynamics>, constants))
+        };
+        let constants = system.constants.clone();
+        let (velocities, changes) = start::velocities(&mut system, &constants, assemble)?;
+        Ok(Multibody { velocities, changes: changes.into(), ..system })
+    }
+
+    /// The system at rest.
+    pub(super) fn assembled(model: Model) -> Result<Multibody, ModelError> {
         let rows: Vec<(usize, Row)> = model
             .joints
             .iter()
@@ -71,7 +85,7 @@ impl Multibody {
             .collect();
         let (constants, in_tree) = Constants::new(model, rows, Vec::new());
         let mut system = Multibody::with(constants);
-        let (constants, start) = (system.constants.clone(), system.constants.start());
+        let (constants, start) = (system.constants.clone(), system.constants.start(&[]));
         consistency::positions(&mut system, &constants, &start)?;
         let found = consistency::redundant(&mut system, &constants, &start, &in_tree)?;
         if !found.is_empty() {
@@ -86,9 +100,6 @@ impl Multibody {
             let (constants, _) = Constants::new(constants.model.clone(), kept.collect(), dropped);
             system = Multibody::with(constants);
         }
-        let given = system.constants.start();
-        system.velocities = consistency::velocities(&mut system, &given)?;
-        system.changes = consistency::changes(&system.constants, &given, &system.velocities).into();
         Ok(system)
     }
 
@@ -331,7 +342,7 @@ impl Dynamics for Multibody {
     }
 
     fn initial(&self) -> State {
-        State { v: self.velocities.clone(), ..self.constants.start() }
+        State { v: self.velocities.clone(), ..self.constants.start(&[]) }
     }
 
     fn is_vector_space(&self) -> bool {

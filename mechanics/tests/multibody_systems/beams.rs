@@ -40,7 +40,7 @@ fn system(kind: Kind) -> Multibody {
     let end = model.body(odd_body("end", 1.7));
     let root = Frame { position: [0.4, -0.2, 0.3], rotation: odd_rotation(0.8) };
     let mut first = Flexible::new("first", arc(3, root)).damped(0.4);
-    (first.velocity, first.spin) = ([0.3, -0.2, 0.5], [0.7, -0.4, 0.9]);
+    (first.velocity, first.spin) = (Some([0.3, -0.2, 0.5]), Some([0.7, -0.4, 0.9]));
     let (at, triad) = first.beam.node(3, first.beam.initial());
     let first = model.beam(first);
     let next = Frame { position: at, rotation: triad.rotation() };

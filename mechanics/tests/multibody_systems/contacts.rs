@@ -194,7 +194,7 @@ fn a_body_thrown_across_a_slope_ends_downhill_with_half_its_speed() {
     let contact = Contact { name: "slope".into(), point: 0, obstacle: Arc::new(plane), law };
     let mut model = Model::new().with_gravity([0.0, 0.0, -GRAVITY]);
     let mut body = Body::new("body", 0.7, [0.1; 3]);
-    body.velocity = [0.0, speed, 0.0];
+    body.velocity = Some([0.0, speed, 0.0]);
     let part = model.body(body);
     model.contact_point(Marker::new(part, [0.0; 3]));
     let system = Contacting::new(Multibody::new(model).unwrap(), vec![contact]);

@@ -4,7 +4,10 @@ use super::conformance::profile;
 use super::{Watch, odd_body, radau};
 use flexion::analysis::Violation;
 use flexion::analysis::transient::{Ending, Plan, transient};
-use flexion::multibody::{Body, Drive, Joint, Kind, Marker, Model, ModelError, Multibody, Part, Spring};
+use flexion::multibody::slender::{Beam, Properties, Station};
+use flexion::multibody::{
+    Body, Drive, Flexible, Joint, Kind, Marker, Model, ModelError, Multibody, Part, Spring,
+};
 use flexion::profile::Motion;
 use flexion::system::{Dynamics, Observed, State, System};
 
@@ -198,19 +201,21 @@ fn a_locked_mechanism_is_refused() {
     assert!(text.contains("redundant") && text.contains("0 degrees of freedom are left"), "{text}");
 }
 
-/// A bar on a hinge at its end, with a spin and without the velocity of its centre: what is left is J/(J + m a²) of it.
+/// A bar on a hinge at its end.
+fn arm(velocity: Option<f64>) -> Multibody {
+    let mut model = Model::new();
+    let velocity = velocity.map(|velocity| [0.0, velocity, 0.0]);
+    let body = Body { spin: Some([0.0, 0.0, 3.0]), velocity, ..Body::new("arm", 2.0, [0.2; 3]) };
+    let part = model.body(body.at([0.5, 0.0, 0.0]));
+    model.join("h", Kind::Revolute, [Part::Ground, part], [0.0; 3], ([0.0, 0.0, 1.0], None)).unwrap();
+    Multibody::new(model).unwrap()
+}
+
+/// With a spin, and at the same time the velocity zero of its centre: what is left is J/(J + m a²) of it.
 #[test]
 fn velocities_that_the_joints_change_are_told() {
-    let arm = |velocity: f64| {
-        let mut model = Model::new();
-        let body =
-            Body { spin: [0.0, 0.0, 3.0], velocity: [0.0, velocity, 0.0], ..Body::new("arm", 2.0, [0.2; 3]) };
-        let part = model.body(body.at([0.5, 0.0, 0.0]));
-        model.join("h", Kind::Revolute, [Part::Ground, part], [0.0; 3], ([0.0, 0.0, 1.0], None)).unwrap();
-        Multibody::new(model).unwrap()
-    };
-    let system = arm(0.0);
-    let [caution] = &system.cautions(&[])[..] else { panic!("{:?}", system.cautions(&[])) };
+    let cautions = arm(Some(0.0)).cautions(&[]);
+    assert_eq!(cautions.len(), 2, "{cautions:?}");
     let spin: f64 = 3.0 * 0.2 / (0.2 + 2.0 * 0.25);
     for words in [
         "body `arm`",
@@ -218,7 +223,52 @@ fn velocities_that_the_joints_change_are_told() {
         &format!("{:.4}) rad/s", spin),
         &format!("{:.4}", 0.5 * spin),
     ] {
-        assert!(caution.contains(words), "{words}: {caution}");
+        assert!(cautions.concat().contains(words), "{words}: {cautions:?}");
     }
-    assert_eq!(arm(1.5).cautions(&[]), Vec::<String>::new());
+    assert_eq!(arm(Some(1.5)).cautions(&[]), Vec::<String>::new());
+}
+
+/// The velocity of the centre follows from the spin where it is not given.
+#[test]
+fn a_velocity_that_is_not_given_follows_from_the_spin_and_the_joints() {
+    let system = arm(None);
+    assert_eq!(system.cautions(&[]), Vec::<String>::new());
+    for (used, expected) in system.initial().v.iter().zip([0.0, 1.5, 0.0, 0.0, 0.0, 3.0]) {
+        assert!((used - expected).abs() < 1e-14, "{used} {expected}");
+    }
+}
+
+/// A beam on a hinge whose motion is prescribed, with a body at its tip, begins to turn with the hinge as a rigid one, in a loop too; not so where
+/// its tip is held.
+#[test]
+fn beams_begin_with_the_motion_that_joints_prescribe() {
+    let (speed, length, axis) = (10.0, 2.0, ([0.0, 0.0, 1.0], None));
+    let beam = |held: bool| {
+        let mut model = Model::new();
+        let root = Station { position: [0.5, 0.0, 0.0], tangent: [1.0, 0.0, 0.0], normal: [0.0, 1.0, 0.0] };
+        let section = Properties::principal([1e6, 20.0, 30.0, 40.0], 0.3, [3e-4, 1e-4, 2e-4]);
+        let beam = model.beam(Flexible::new("b", Beam::straight(root, length, 6, section).unwrap()));
+        let (first, last) = (Part::Section { beam, node: 0 }, Part::Section { beam, node: 6 });
+        let hub = model.body(Body::new("hub", 1.0, [0.1; 3]));
+        let turned = model.join("motor", Kind::Revolute, [Part::Ground, hub], [0.0; 3], axis).unwrap();
+        turned.drive = Drive::Prescribed(Motion::Angle(profile("10*t")));
+        model.join("clamp", Kind::Fixed, [hub, first], root.position, axis).unwrap();
+        let tip = [2.5, 0.0, 0.0];
+        if held {
+            model.join("hold", Kind::Spherical, [Part::Ground, last], tip, axis).unwrap();
+        } else {
+            let body = model.body(Body::new("tip", 0.2, [0.01; 3]).at(tip));
+            model.join("weld", Kind::Fixed, [last, body], tip, axis).unwrap();
+        }
+        Multibody::new(model).unwrap()
+    };
+    let mut system = beam(false);
+    assert_eq!(system.cautions(&[]), Vec::<String>::new());
+    let state = system.initial();
+    let line = 0.3 * ((2.5_f64.powi(3) - 0.5_f64.powi(3)) / 3.0) + 2e-4 * length;
+    let kinetic = 0.5 * speed * speed * (0.1 + line + 0.2 * 2.5 * 2.5 + 0.01);
+    let found = system.energy(&state).kinetic;
+    assert!((found - kinetic).abs() < 1e-9 * kinetic, "{found} {kinetic}");
+    let held = beam(true).cautions(&[]);
+    assert!(matches!(&held[..], [one] if one.contains("`b`") && one.contains("shock")), "{held:?}");
 }

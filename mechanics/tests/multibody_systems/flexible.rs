@@ -161,7 +161,7 @@ fn a_spinning_shaft_whirls_by_its_closed_form() {
     let (elements, spin, rotary) = (8, 50.0, 0.01);
     let section = Properties::principal([1e4, 1.0, 1.0, 1.0], 1.0, [2.0 * rotary, rotary, rotary]);
     let mut shaft = Flexible::new("shaft", Beam::straight(ALONG_X, 1.0, elements, section).unwrap());
-    shaft.spin = [spin, 0.0, 0.0];
+    shaft.spin = Some([spin, 0.0, 0.0]);
     shaft.stations = vec![0.5];
     let mut model = Model::new();
     let beam = model.beam(shaft);

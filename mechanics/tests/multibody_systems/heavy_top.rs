@@ -17,9 +17,9 @@ const SPIN: [f64; 3] = [0.0, 150.0, -4.61538];
 fn top() -> Multibody {
     let mut model = Model::new().with_gravity([0.0, 0.0, -GRAVITY]);
     let mut body = Body::new("top", MASS, INERTIA).at([0.0, 1.0, 0.0]);
-    body.spin = SPIN;
+    body.spin = Some(SPIN);
     // Ω × X
-    body.velocity = [-SPIN[2], 0.0, 0.0];
+    body.velocity = Some([-SPIN[2], 0.0, 0.0]);
     let part = model.body(body);
     let axis = ([0.0, 0.0, 1.0], None);
     model.join("tip", Kind::Spherical, [Part::Ground, part], [0.0; 3], axis).unwrap();

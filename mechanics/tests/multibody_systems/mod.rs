@@ -55,8 +55,8 @@ pub fn odd_body(name: &str, k: f64) -> Body {
     body.centre = [0.2 * wave(3, k), 0.15 * wave(4, k), -0.1 * wave(5, k)];
     body.frame.position = [wave(6, k), wave(7, k), wave(8, k)];
     body.frame.rotation = odd_rotation(k + 2.0);
-    body.velocity = [wave(9, k), wave(10, k), wave(11, k)];
-    body.spin = [1.5 * wave(12, k), wave(13, k), 1.2 * wave(14, k)];
+    body.velocity = Some([wave(9, k), wave(10, k), wave(11, k)]);
+    body.spin = Some([1.5 * wave(12, k), wave(13, k), 1.2 * wave(14, k)]);
     body
 }
 

@@ -25,8 +25,8 @@ fn a_free_body_tumbles_and_keeps_energy_and_momentum() {
     let mut body = Body::new("book", 2.0, [0.1, 0.2, 0.25]);
     body.centre = [0.3, -0.2, 0.1];
     body.frame.rotation = odd_rotation(0.4);
-    body.spin = apply(&body.frame.rotation, [0.05, 5.0, 0.02]);
-    body.velocity = [0.3, -0.1, 0.2];
+    body.spin = Some(apply(&body.frame.rotation, [0.05, 5.0, 0.02]));
+    body.velocity = Some([0.3, -0.1, 0.2]);
     model.body(body);
     let mut system = Multibody::new(model).unwrap();
     let start = system.initial();
@@ -48,8 +48,8 @@ fn a_symmetric_body_precesses_by_its_closed_form() {
     let mut model = Model::new().with_gravity([0.0, 0.0, -GRAVITY]);
     let mut body = Body::new("plate", 1.0, [0.2, 0.2, 0.35]).at([0.0, 0.0, 1.0]);
     let (along, across) = (3.0, 0.8);
-    body.spin = [across, 0.0, along];
-    body.velocity = [1.0, 0.0, 2.0];
+    body.spin = Some([across, 0.0, along]);
+    body.velocity = Some([1.0, 0.0, 2.0]);
     model.body(body);
     let mut system = Multibody::new(model).unwrap();
     let end = 1.7;

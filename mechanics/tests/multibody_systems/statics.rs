@@ -123,7 +123,7 @@ fn a_hanging_chain_finds_its_shape_and_its_tension() {
 fn a_body_on_springs_finds_its_place_and_its_rotation() {
     let mut model = Model::new().with_gravity([0.0, 0.0, -GRAVITY]);
     let mut body = odd_body("box", 0.4);
-    (body.velocity, body.spin) = ([0.0; 3], [0.0; 3]);
+    (body.velocity, body.spin) = (None, None);
     let (centre, own) = (body.frame.position, body.frame.rotation);
     let part = model.body(body);
     for k in 0..8 {
