@@ -466,6 +466,36 @@ fn every_change_is_refused_at_its_key_and_line() {
 }
 
 #[test]
+fn tables_in_lists_are_changed_by_number_by_name_and_the_only_one_by_its_keys() {
+    let beam = |name: &str| {
+        format!(
+            "[[beam]]\n{name}length=1\nup=[0,1,0]\nsection={{kind='circle',radius=0.01,modulus=1e9,density=1e3}}\n"
+        )
+    };
+    let one = format!("run.duration=1\n{}", beam(""));
+    let two = format!("run.duration=1\n{}{}", beam("name='left'\n"), beam("name='right'\n"));
+    let read = |text: &str, set: &str| {
+        flexion_case::parse(text.to_owned(), Path::new("case.toml"), &[set.to_owned()])
+    };
+    for set in ["beam.elements=7", "beam.0.elements=7", "beam.0.section.radius=0.02"] {
+        assert!(read(&one, set).is_ok(), "{set}");
+    }
+    for set in ["beam.1.elements=7", "beam.right.elements=7", "beam.left.section.radius='2 cm'"] {
+        assert!(read(&two, set).is_ok(), "{set}");
+    }
+    for (text, set, words) in [
+        (&one, "beam.elements=-7", "elements"),
+        (&two, "beam.elements=7", "2 tables, of which none has the name `elements`"),
+        (&two, "beam.2.elements=7", "none has the name `2`"),
+    ] {
+        let problems = read(text, set).map(|_| ()).unwrap_err().to_string();
+        assert!(problems.contains(words), "{set}: {problems}");
+    }
+    let problems = read(&two, "beam.middle.elements=7").map(|_| ()).unwrap_err().to_string();
+    assert!(problems.contains("`left`, `right`") && problems.contains("from 0 to 1"), "{problems}");
+}
+
+#[test]
 fn problems_stand_at_their_lines_and_columns() {
     let text = "[beam]\nlength = \"10 s\"\n[section]\nkind = \"circle\"\nmodulus = 1e9\ndensity = -1\nradius = \"1 cm\"\n[hub.motion]\nkind = \"constant\"\nspeed = \"4 Hz\"\n[run]\nduration = 1\n";
     let problems = flexion_case::parse(text.to_owned(), Path::new("case.toml"), &[]).unwrap_err();

@@ -42,7 +42,7 @@ pub static AMPLITUDE: Choice<Amplitude> = Choice {
             keys: &[
                 key("times", Type::Quantities(&TIME, Any), Required, "times, ascending"),
                 key("factors", Type::Quantities(&FACTOR, Any), Required, "factor at each time"),
-                profile::INTERPOLATION,
+                profile::OF_LOADS,
             ],
             example: "couple=[{station=2, couple=1, amplitude={kind='table', times=[0, '20 ms', 0.05], factors=[0, 1, 2]}}]",
             make: |v, c| {

@@ -80,9 +80,14 @@ pub static THROUGH: Choice<Through> = Choice {
     ],
 };
 
-/// The key of the curve through a table.
-pub(super) const INTERPOLATION: Key =
-    key("interpolation", Type::Choice(&THROUGH), Default::Name("monotone"), "values between the rows");
+const fn between(default: &'static str) -> Key {
+    key("interpolation", Type::Choice(&THROUGH), Default::Name(default), "values between the rows")
+}
+
+/// The key of the curve through a table of a motion, which must be smooth, and of a load, which is what its rows and straight lines between
+/// them say.
+pub(super) const INTERPOLATION: Key = between("monotone");
+pub(super) const OF_LOADS: Key = between("linear");
 
 /// The curve through rows of times [s] and values that are at `key`.
 pub(super) fn through(rows: &[(f64, f64)], v: &Values, c: &Context<'_>, key: &str) -> Made<Shared> {

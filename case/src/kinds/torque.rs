@@ -45,7 +45,7 @@ pub static TORQUE_ON_HUB: Choice<Shared> = Choice {
             source: "",
             keys: &[
                 key("file", Type::Path, Required, "CSV file with the columns t [s] and torque [N·m]"),
-                profile::INTERPOLATION,
+                profile::OF_LOADS,
             ],
             example: "hub={inertia=5, motion={kind='free', torque={kind='table', file='measured.csv'}}}",
             make: |v, c| profile::covering(profile::table(v, c)?, c, "file"),
