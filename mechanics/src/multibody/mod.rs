@@ -35,6 +35,7 @@
 //! | `rotating` | the same in a frame that rotates, for steady rotation and its modes |
 //! | `observed`, `channels` | energies, power, recorded quantities |
 //! | `shares` | what a small motion moves |
+//! | `reason` | why a run may have failed |
 
 mod axis;
 mod body;
@@ -51,6 +52,7 @@ mod marker;
 mod model;
 mod nearest;
 mod observed;
+mod reason;
 mod rotating;
 pub mod rotation;
 mod row;
