@@ -117,6 +117,11 @@ struct Forces {
 }
 
 impl Placed {
+    /// The point and the surface before it at a state.
+    fn touch(&self, model: &mut impl Points, s: &State) -> Touch {
+        Touch::new(model, self.contact.point, self.contact.obstacle.as_ref(), s)
+    }
+
     /// The forces at a state.
     fn forces(&self, touch: &Touch, s: &State, memory: usize) -> Forces {
         match &self.contact.law {
@@ -276,7 +281,7 @@ impl<S: Points + Dynamics + Events + Observed> Contacting<S> {
 
     /// The gap of each contact \[m\].
     pub fn gaps(&mut self, s: &State) -> Vec<f64> {
-        let gap = |placed: &Placed, model: &mut S| Touch::new(model, &placed.contact, s).surface.gap;
+        let gap = |placed: &Placed, model: &mut S| placed.touch(model, s).surface.gap;
         self.contacts.iter().map(|placed| gap(placed, &mut self.inner)).collect()
     }
 
@@ -288,7 +293,7 @@ impl<S: Points + Dynamics + Events + Observed> Contacting<S> {
     /// Calls `f` for every contact with its point, surface and forces.
     fn each(&mut self, s: &State, mut f: impl FnMut(&Placed, &Touch, &Forces)) {
         for placed in &self.contacts {
-            let touch = Touch::new(&mut self.inner, &placed.contact, s);
+            let touch = placed.touch(&mut self.inner, s);
             f(placed, &touch, &placed.forces(&touch, s, self.memory));
         }
     }
@@ -297,7 +302,7 @@ impl<S: Points + Dynamics + Events + Observed> Contacting<S> {
     fn set_forces(&mut self, s: &State) {
         self.inner.begin_forces();
         for placed in &self.contacts {
-            let touch = Touch::new(&mut self.inner, &placed.contact, s);
+            let touch = placed.touch(&mut self.inner, s);
             let force = placed.forces(&touch, s, self.memory).vector(&touch.surface);
             self.inner.add_force(placed.contact.point, s, force);
         }
@@ -397,7 +402,7 @@ impl<S: Points + Dynamics + Events + Observed> Dynamics for Contacting<S> {
     fn residual(&mut self, s: &State, r: &mut [f64]) {
         self.inner.residual(s, r);
         for placed in &self.contacts {
-            let touch = Touch::new(&mut self.inner, &placed.contact, s);
+            let touch = placed.touch(&mut self.inner, s);
             let forces = placed.forces(&touch, s, self.memory);
             if forces.vanish() {
                 continue;
@@ -414,7 +419,7 @@ impl<S: Points + Dynamics + Events + Observed> Dynamics for Contacting<S> {
         self.inner.constraint(s, c, &mut g[..self.rows]);
         for placed in &self.contacts {
             if let Law::Constraint { .. } = placed.contact.law {
-                let touch = Touch::new(&mut self.inner, &placed.contact, s);
+                let touch = placed.touch(&mut self.inner, s);
                 g[placed.place] = c.combine(touch.surface.gap, touch.rate, touch.acceleration());
                 for (i, row) in placed.friction.clone().enumerate() {
                     g[row] = c.combine(0.0, touch.sliding[i], touch.sliding_rate(i));
@@ -435,7 +440,7 @@ impl<S: Points + Dynamics + Events + Observed> Dynamics for Contacting<S> {
         self.inner.jacobian(s, visit);
         for placed in &self.contacts {
             if let Law::Constraint { .. } = placed.contact.law {
-                let touch = Touch::new(&mut self.inner, &placed.contact, s);
+                let touch = placed.touch(&mut self.inner, s);
                 self.inner.variations(placed.contact.point, s, &mut self.variations);
                 self.numbers.clear();
                 self.numbers.extend(self.variations.iter().map(|by| by.unknown));
@@ -460,7 +465,7 @@ impl<S: Points + Dynamics + Events + Observed> Dynamics for Contacting<S> {
             return;
         }
         for placed in &self.contacts {
-            let touch = Touch::new(&mut self.inner, &placed.contact, s);
+            let touch = placed.touch(&mut self.inner, s);
             let forces = placed.forces(&touch, s, self.memory);
             if forces.vanish() {
                 continue;

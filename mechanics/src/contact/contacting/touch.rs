@@ -1,7 +1,6 @@
 //! A point and the surface before it: gap, sliding velocity and their rates.
 
-use super::Contact;
-use crate::contact::obstacle::Surface;
+use crate::contact::obstacle::{Obstacle, Surface};
 use crate::contact::points::{Curve, PointMotion, Points};
 use crate::linalg::vector::{cross, inner};
 use crate::system::State;
@@ -32,10 +31,11 @@ pub(super) fn sum<const N: usize>(terms: [(f64, [f64; 3]); N]) -> [f64; 3] {
 }
 
 impl Touch {
-    pub fn new(inner_model: &mut impl Points, contact: &Contact, s: &State) -> Touch {
-        inner_model.approach(contact.point, s, contact.obstacle.as_ref());
-        let (motion, station) = (inner_model.motion(contact.point, s), inner_model.station(contact.point));
-        let mut surface = contact.obstacle.surface(motion.position, s.time());
+    /// Of point `k` of a model before an obstacle.
+    pub fn new(model: &mut impl Points, k: usize, obstacle: &dyn Obstacle, s: &State) -> Touch {
+        model.approach(k, s, obstacle);
+        let (motion, station) = (model.motion(k, s), model.station(k));
+        let mut surface = obstacle.surface(motion.position, s.time());
         surface.gap -= motion.radius;
         let velocity = minus(motion.velocity, surface.velocity);
         let swept = cross(motion.spin, surface.normal);
