@@ -12,7 +12,7 @@ use super::kinds::rotation::{ROTATION, Rotation};
 use super::kinds::spatial::{GRAVITY, LINE_LOAD, LOAD, LineLoad, Load, MODEL, SPRING, Spring, vector};
 use super::units;
 use super::values::{Value, Values, item};
-use flexion::contact::{self as touch, Contacting};
+use flexion::contact::{self as touch, Contacting, Surface};
 use flexion::multibody::rotation::{IDENTITY, Vector, exponential, matrix, plus, product};
 use flexion::multibody::slender;
 use flexion::multibody::{self, Body, Flexible, Marker, Model, ModelError, Multibody, Part};
@@ -264,6 +264,16 @@ fn add_contact(
     contact: &Contact,
     number: usize,
 ) -> Made<(touch::Contact, (usize, f64))> {
+    let made = |point: usize| touch::Contact {
+        name: numbered(&contact.name, "contact", number),
+        point,
+        obstacle: Arc::clone(&contact.obstacle),
+        law: contact.law,
+    };
+    if let Some(beam) = parts.beams.iter().position(|(beam, _)| beam.name == contact.on) {
+        let middle = 0.5 * parts.beams[beam].0.length;
+        return Ok((made(model.contact_beam(beam, contact.radius)), (parts.bodies.len() + beam, middle)));
+    }
     let (part, point) = parts.point(&contact.on, contact.at, "on")?;
     if part == Part::Ground {
         return Err(Fault::new("on", "a point of the ground touches nothing").into());
@@ -274,23 +284,27 @@ fn add_contact(
         Part::Body(body) => (body, 0.0),
         Part::Ground => (0, 0.0),
     };
-    let contact = touch::Contact {
-        name: numbered(&contact.name, "contact", number),
-        point: model.contact_point(marker),
-        obstacle: Arc::clone(&contact.obstacle),
-        law: contact.law,
-    };
-    Ok((contact, place))
+    Ok((made(model.contact_ball(marker, contact.radius)), place))
 }
 
-/// The contacts of the points of a beam that may touch everywhere, or the one contact of a place. Forces are summed up along the
-/// beam by the trapezium rule.
+/// The contacts of the points of a beam that may touch everywhere, or the one contact of a place or of a whole beam. Forces are
+/// summed up along the beam by the trapezium rule.
 fn touches(contact: Contact, number: usize, beams: &[Beam], joints: &[Joint]) -> Made<Vec<Contact>> {
-    let Some(parts) = contact.points else { return Ok(vec![contact]) };
-    if contact.at.is_some() {
-        return Err(Fault::new("at", "is one place: leave it out, or `points`").into());
+    let beam = beams.iter().find(|beam| beam.name == contact.on);
+    if contact.at.is_some() && (beam.is_some() || contact.points.is_some()) {
+        let help = "write `on = \"blade@2 m\"` for one place of a beam";
+        return Err(Fault::new("at", "is a point of a body, and a whole beam may touch").help(help).into());
     }
-    let Some(beam) = beams.iter().find(|beam| beam.name == contact.on) else {
+    let Some(parts) = contact.points else {
+        let bulges = |surface: Surface| surface.curvatures.iter().any(|k| *k > 0.0);
+        if beam.is_some() && !bulges(contact.obstacle.surface([0.0; 3], 0.0)) {
+            let message = "is flat or hollow: a beam touches it at many places, and none is the nearest";
+            let help = "let the beam touch by points, `points = 20`, or name one place: `on = \"blade.tip\"`";
+            return Err(Fault::new("obstacle", message).help(help).into());
+        }
+        return Ok(vec![contact]);
+    };
+    let Some(beam) = beam else {
         let message = format!("belong to a whole beam, and `{}` is none", contact.on);
         return Err(Fault::new("points", message).into());
     };

@@ -300,3 +300,52 @@ fn a_plane_has_a_normal_with_a_direction() {
         assert!(problems.to_string().contains("has no direction"), "{problems}");
     }
 }
+
+#[test]
+fn a_section_that_makes_no_beam_in_space_says_which_key_is_missing() {
+    let beam = |section: &str| {
+        let text = format!(
+            "run = {{ duration = 1 }}\n[[beam]]\nname = \"arm\"\nlength = 2\nroot = \"clamped\"\nsection = {{ {section} }}\n"
+        );
+        read(&text).map(|_| ()).unwrap_err().to_string()
+    };
+    let general = "kind = \"general\", mass-per-length = 1, axial-stiffness = 1e6, bending-stiffness = 100, \
+                   bending-stiffness-across = 100, torsional-stiffness = 100";
+    let message = beam(general);
+    for word in ["beam `arm`", "give `polar-inertia`"] {
+        assert!(message.contains(word), "{message}");
+    }
+    let message = beam(
+        "kind = \"graded\", width = 0.01, height = 0.02, ceramic-modulus = 380e9, metal-modulus = 70e9, \
+         ceramic-density = 3800, metal-density = 2700, exponent = 1",
+    );
+    assert!(message.contains("beams in space and blades do without; take `general`"), "{message}");
+}
+
+/// A whole beam is struck by what bulges; by what is flat or hollow it is touched at many places.
+#[test]
+fn a_beam_is_struck_anywhere_by_what_bulges_alone() {
+    let touched = |contact: &str| {
+        let text = format!(
+            "run = {{ duration = \"1 ms\" }}\n[[beam]]\nname = \"arm\"\nlength = 2\nroot = \"clamped\"\n{ROD}\nelements = 2\n\
+             [[contact]]\nname = \"stop\"\non = \"arm\"\nlaw = {{ kind = \"constraint\", restitution = 0.5 }}\n{contact}\n"
+        );
+        text
+    };
+    let run = run(&touched(
+        "radius = 0.01\nobstacle = { kind = \"sphere\", centre = [1.3, 0, -0.1], radius = 0.05 }",
+    ));
+    let last = |column: &str| last(&run, column);
+    assert!((last("stop.gap") - 0.04).abs() < 1e-6 && (last("stop.station") - 1.3).abs() < 1e-6);
+    for (contact, word) in [
+        ("obstacle = { kind = \"plane\", point = [0, 0, -1] }", "let the beam touch by points"),
+        ("obstacle = { kind = \"sphere\", radius = 5, inside = true }", "let the beam touch by points"),
+        (
+            "at = [1, 0, 0]\nobstacle = { kind = \"sphere\", centre = [0, 0, 1], radius = 0.5 }",
+            "is a point of a body",
+        ),
+    ] {
+        let message = read(&touched(contact)).map(|_| ()).unwrap_err().to_string();
+        assert!(message.contains(word), "{message}");
+    }
+}

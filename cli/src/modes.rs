@@ -81,6 +81,15 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
     if growing > 0 {
         cautions.push(format!("the equilibrium is unstable: {growing} of the modes grow (negative damping)"));
     }
+    let still: Vec<&Mode> = modes.modes.iter().take_while(|mode| mode.eigenvalue.norm() == 0.0).collect();
+    if case.space().is_some() && speed == 0.0 && !still.is_empty() {
+        let which = if still.len() == 1 { "mode 1 has" } else { &format!("modes 1 to {} have", still.len()) };
+        let moved: Vec<String> = still.iter().map(|mode| moves(mode)).collect();
+        cautions.push(format!(
+            "{which} no stiffness ({}): the equilibrium is one of many, of which that near the parts as they are written was taken",
+            moved.join("; ")
+        ));
+    }
     cautions.iter().for_each(|caution| screen::report(&format!("warning: {caution}\n")));
     compare(arguments, reading, &mut modes, speed, hub);
     let about = match case.space().map(|space| &space.rotation) {

@@ -273,7 +273,15 @@ impl Beam {
                 slender::BeamError::Section { .. } => "section",
                 _ => "",
             };
-            Fault::new(key, error.to_string()).into()
+            let fault = Fault::new(key, format!("beam `{}`: {error}", self.name));
+            match (&error, self.properties(0.5 * self.length).inertia) {
+                (slender::BeamError::Section { .. }, [polar, ..]) if !(polar > 0.0) => {
+                    let help = "give `polar-inertia` in [[beam]], the moment of inertia per length about the tangent [kg·m], which \
+                                the section does not say: ρ (I₂ + I₃) of its shape";
+                    fault.help(help).into()
+                }
+                _ => fault.into(),
+            }
         })
     }
 }

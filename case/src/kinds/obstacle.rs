@@ -7,7 +7,7 @@ use crate::fault::{Fault, Made, both};
 use crate::kind::{Choice, Context, Kind, Table};
 use crate::units::{FACTOR, LENGTH};
 use crate::values::Values;
-use flexion::contact::{Circle, Law, Obstacle, Plane};
+use flexion::contact::{Circle, Law, Obstacle, Plane, Sphere};
 use flexion::multibody::rotation::{Vector, times};
 use std::sync::Arc;
 
@@ -70,6 +70,23 @@ pub static OBSTACLE: Choice<Shared> = Choice {
                 Ok(Arc::new(Circle { centre, axis, radius, hollow, motion }))
             },
         },
+        Kind {
+            name: "sphere",
+            summary: "ball, a stop of a beam for one, or the inside of a hollow one",
+            source: "",
+            keys: &[
+                key("centre", Type::Quantities(&LENGTH, Any), Empty, "its centre, the origin if left out"),
+                key("radius", Quantity(&LENGTH, Positive), Required, "radius"),
+                key("inside", Type::Boolean, Default::Boolean(false), "the point is inside"),
+                MOTION,
+            ],
+            example: "contact=[{on='bar', obstacle={kind='sphere', centre=[0, 0, '-51 mm'], radius='50 mm'}, law={kind='hertz', stiffness=1e4}}]",
+            make: |v, c| {
+                let (centre, motion) = both(vector(v, "centre"), motion(v, c, vector))?;
+                let (radius, hollow) = (v.number("radius")?, v.boolean("inside")?);
+                Ok(Arc::new(Sphere { centre, radius, hollow, motion }))
+            },
+        },
     ],
 };
 
@@ -100,6 +117,8 @@ pub struct Contact {
     pub on: String,
     /// The point, in space at the start \[m\].
     pub at: Option<Vector>,
+    /// Radius of the ball about the point, or of the beam \[m\].
+    pub radius: f64,
     /// Into how many equal parts its points cut a beam that may touch everywhere; the stiffness of a force is then one per length.
     pub points: Option<usize>,
     /// The obstacle.
@@ -123,7 +142,8 @@ pub static CONTACT: Table<Contact> = Table {
                 "on",
                 Type::Text,
                 Required,
-                "body, place of a beam, or with `points` a beam: `ball`, `blade.tip`, `blade`",
+                "body, place of a beam, or a beam, which touches where it is nearest to the obstacle, or with `points`: `ball`, `blade.tip`, \
+                 `blade`",
             ),
             key(
                 "at",
@@ -132,10 +152,16 @@ pub static CONTACT: Table<Contact> = Table {
                 "point of a body that may touch, in space at the start; its centre of mass if left out",
             ),
             key(
+                "radius",
+                Quantity(&LENGTH, NotNegative),
+                Default::Number(0.0),
+                "radius of the ball about the point, which slides and rolls on the obstacle, or of a beam that is round",
+            ),
+            key(
                 "points",
                 Type::Integer(1, MOST_POINTS),
                 Optional,
-                "of a beam that may touch everywhere (`on` names it alone): number of equidistant points, the last at the tip, and one more at \
+                "of a beam that may touch at many places at once (`on` names it alone): number of equidistant points, the last at the tip, and one more at \
                  the root where no joint holds it",
             ),
             key("obstacle", Type::Kind(&OBSTACLE), Required, "rigid obstacle"),
@@ -154,6 +180,7 @@ pub static CONTACT: Table<Contact> = Table {
         }
         let (name, on) = (name(v, Some("contact"))?, v.text("on")?.to_owned());
         let points = if v.optional("points")?.is_some() { Some(v.count("points")?) } else { None };
-        Ok(Contact { name, on, at: optional_vector(v, "at")?, points, obstacle, law })
+        let (at, radius) = (optional_vector(v, "at")?, v.number("radius")?);
+        Ok(Contact { name, on, at, radius, points, obstacle, law })
     },
 };

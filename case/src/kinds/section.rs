@@ -522,7 +522,8 @@ fn graded(v: &Values, _: &Context<'_>) -> Made<Section> {
     Ok(Section {
         height: Some(height),
         spatial: Arc::new(|_| {
-            let message = "a graded section bends and stretches together, which the blade leaves out";
+            let message = "a `graded` section, which bends and stretches together, belongs to the planar hub and beam: beams in space and \
+                           blades do without; take `general` with the stiffnesses about its tension centre";
             Err(SectionError::Invalid(message.to_owned()))
         }),
         ..Section::planar(section.with_inertia(inertia))

@@ -224,6 +224,11 @@ impl Reading {
                  of the loads, which `flexion statics` shows"
             )),
             (None, _) => Some("the stability of the equilibrium at the start was not found".to_owned()),
+            _ if found.neutral => Some(
+                "the equilibrium at the start is one of many, for some motion has no stiffness (`flexion modes` shows it with the \
+                 frequency zero): the one near the parts as they are written was taken"
+                    .to_owned(),
+            ),
             _ => None,
         })
     }

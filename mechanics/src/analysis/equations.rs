@@ -18,6 +18,7 @@
 //! Source: E. Riks, *Int. J. Solids Struct.* 15 (1979) 529–551, doi:10.1016/0020-7683(79)90081-7.
 
 use super::joints;
+use super::stiffness::matrices;
 use crate::linalg::Matrix;
 use crate::system::{Parameter, State, System, Weights};
 
@@ -31,6 +32,8 @@ const TOLERANCE: f64 = 1e-11;
 /// Why an iteration has ended.
 pub(super) struct Failure {
     pub what: String,
+    /// Whether J was singular.
+    pub singular: bool,
     /// Number of the worst unknown.
     pub worst: usize,
 }
@@ -46,6 +49,8 @@ pub(super) struct Direction {
 pub(super) struct Equations<'a> {
     pub system: &'a mut dyn System,
     pub iterations: u32,
+    /// Weight σ of the masses in J, K + σM in the place of K: it holds motions that have no stiffness.
+    pub hold: f64,
     scales: Vec<f64>,
     start: Vec<f64>,
     tangent: Matrix,
@@ -65,7 +70,7 @@ impl<'a> Equations<'a> {
         apply(system, 0.0);
         system.residual(state, &mut start);
         let (r, by_part, moved) = (vec![0.0; n + m], vec![0.0; n + m], state.q.clone());
-        Equations { system, iterations: 0, scales, start, tangent, r, by_part, moved }
+        Equations { system, iterations: 0, hold: 0.0, scales, start, tangent, r, by_part, moved }
     }
 
     /// Writes F into `r`.
@@ -82,10 +87,10 @@ impl<'a> Equations<'a> {
     /// Factors J at a state and a part of the loads.
     fn factor(&mut self, state: &State, part: f64) -> Result<(), Failure> {
         apply(self.system, part);
-        self.system.tangent(state, Weights::new(0.0, 0.0, 1.0), &mut self.tangent);
+        self.system.tangent(state, Weights::new(self.hold, 0.0, 1.0), &mut self.tangent);
         joints::add(self.system, state, state.v.len(), &mut self.tangent);
         let factored = self.tangent.factor();
-        factored.map(|_| ()).map_err(|e| Failure { what: e.to_string(), worst: e.index })
+        factored.map(|_| ()).map_err(|e| Failure { what: e.to_string(), singular: true, worst: e.index })
     }
 
     /// Writes J⁻¹ ∂F/∂s into `by_part`, with J factored.
@@ -156,7 +161,7 @@ impl<'a> Equations<'a> {
                 return Ok(taken);
             }
         }
-        Err(Failure { what: "contacts open and close in turn".to_owned(), worst: 0 })
+        Err(Failure { what: "contacts open and close in turn".to_owned(), singular: false, worst: 0 })
     }
 
     /// [`solve`](Equations::solve) with the contacts that are closed.
@@ -194,20 +199,27 @@ impl<'a> Equations<'a> {
             // Converged, or as far as rounding lets it come.
             if size <= TOLERANCE || (size < 1e-7 && size > 0.3 * last) {
                 apply(self.system, *part);
-                return self
-                    .system
-                    .admissible(state)
-                    .map(|()| iteration + 1)
-                    .map_err(|what| Failure { what, worst: 0 });
+                return self.system.admissible(state).map(|()| iteration + 1).map_err(|what| Failure {
+                    what,
+                    singular: false,
+                    worst: 0,
+                });
             }
             if !(size < 1e3) || iteration == allowed {
                 let what = format!("Newton's method does not converge (increment {size:.1e})");
-                return Err(Failure { what, worst });
+                return Err(Failure { what, singular: false, worst });
             }
             last = size;
         }
         Ok(allowed)
     }
+}
+
+/// The largest ratio of the entries of K and M on the diagonal, about the square of the highest frequency [1/s²].
+pub(super) fn highest(system: &mut dyn System, state: &State) -> f64 {
+    let ([mass, _, stiffness], _) = matrices(system, state);
+    let ratios = (0..state.v.len()).map(|i| (stiffness.get(i, i) / mass.get(i, i)).abs());
+    ratios.filter(|x| x.is_finite()).fold(0.0, f64::max)
 }
 
 /// Applies a part of the loads; a model without loads has none to follow.

@@ -3,15 +3,22 @@
 //! K has the multipliers in it, which alone stiffen a mechanism: every level begins with those that balance the most of
 //! the loads. Where growing loads end at a limit point, or in an equilibrium that is not stable, the [path](super::path) is
 //! followed.
+//!
+//! A motion without stiffness, as of a mast on a ball joint about the vertical, makes J singular, and the equilibrium one of many. With
+//! K + σM in the place of K Newton's method takes the one near the start: σ, small against the squares of all frequencies that are not
+//! zero, leaves its solution as it is, and a load in such a direction has none.
 
-use super::equations::{Equations, apply};
+use super::equations::{Equations, apply, highest};
 use super::joints;
 use super::path::{Plan, follow};
-use super::stability::{Stability, stability};
+use super::stability::{Stability, is_neutral, stability};
 use crate::system::{State, System};
 
 /// Smallest part of the load by which continuation goes on.
 const SMALLEST: f64 = 1e-6;
+/// Weights of the masses that hold motions without stiffness, over the square of the highest frequency, one after the other: rounding
+/// moves them the less, and soft motions converge the slower.
+const HOLDS: [f64; 3] = [1e-12, 1e-10, 1e-8];
 /// Points of a path on which a stable equilibrium is looked for.
 const POINTS: usize = 400;
 
@@ -55,7 +62,31 @@ pub struct Effort {
 /// [`NoEquilibrium`] when the iteration breaks down however small the increments are: a limit point, or a
 /// model that has no equilibrium there.
 pub fn equilibrium(system: &mut dyn System, state: &mut State) -> Result<Effort, NoEquilibrium> {
+    let start = state.clone();
+    let (mut result, singular) = follow_loads(system, state, 0.0);
+    if singular && result.is_err() {
+        let highest = highest(system, &start);
+        for hold in HOLDS.map(|part| part * highest).into_iter().filter(|hold| *hold > 0.0) {
+            let mut held = start.clone();
+            if let (Ok(effort), _) = follow_loads(system, &mut held, hold) {
+                state.copy_from(&held);
+                result = Ok(effort);
+                break;
+            }
+        }
+    }
+    result
+}
+
+/// The same with the weight `hold` of the masses beside K; and whether a matrix was singular.
+fn follow_loads(
+    system: &mut dyn System,
+    state: &mut State,
+    hold: f64,
+) -> (Result<Effort, NoEquilibrium>, bool) {
     let mut equations = Equations::new(system, state);
+    equations.hold = hold;
+    let mut singular = false;
     let mut good = state.clone();
     let (mut reached, mut part): (f64, f64) = (0.0, 1.0);
     let mut levels = 0;
@@ -71,18 +102,20 @@ pub fn equilibrium(system: &mut dyn System, state: &mut State) -> Result<Effort,
                 good.copy_from(state);
             }
             Err(failure) => {
+                singular |= failure.singular;
                 state.copy_from(&good);
                 part = 0.25 * (level - reached);
                 if part < SMALLEST {
                     apply(equations.system, 1.0);
                     let worst = equations.system.unknown(failure.worst);
-                    return Err(NoEquilibrium { time: state.t, reached, what: failure.what, worst });
+                    let none = NoEquilibrium { time: state.t, reached, what: failure.what, worst };
+                    return (Err(none), singular);
                 }
             }
         }
     }
     apply(equations.system, 1.0);
-    Ok(Effort { levels, iterations: equations.iterations })
+    (Ok(Effort { levels, iterations: equations.iterations }), singular)
 }
 
 /// An equilibrium, and how it was found.
@@ -93,6 +126,8 @@ pub struct Found {
     /// That of the equilibrium which growing loads alone lead to, where it is unstable and another was found by following the
     /// path of the loads.
     pub left: Option<Stability>,
+    /// Whether some motion has no stiffness: the equilibrium is one of many.
+    pub neutral: bool,
 }
 
 /// As [`equilibrium`], with its stability; where growing loads end, or lead to an equilibrium that is unstable, the path of the
@@ -103,12 +138,13 @@ pub struct Found {
 pub fn stable_equilibrium(system: &mut dyn System, state: &mut State) -> Result<Found, NoEquilibrium> {
     let start = state.clone();
     let direct = equilibrium(system, state);
+    let neutral = direct.is_ok() && is_neutral(system, state);
     let found = direct.as_ref().ok().map(|_| stability(system, state));
     match found {
         Some(Ok(stability)) if stability.is_stable() => {
-            return Ok(Found { stability: Some(stability), left: None });
+            return Ok(Found { stability: Some(stability), left: None, neutral });
         }
-        Some(Err(_)) => return Ok(Found { stability: None, left: None }),
+        Some(Err(_)) => return Ok(Found { stability: None, left: None, neutral }),
         _ => {}
     }
     let left = found.and_then(Result::ok);
@@ -125,8 +161,8 @@ pub fn stable_equilibrium(system: &mut dyn System, state: &mut State) -> Result<
     match best {
         Some(best) => {
             state.copy_from(&best);
-            Ok(Found { stability: Some(Stability::default()), left })
+            Ok(Found { stability: Some(Stability::default()), left, neutral: false })
         }
-        None => direct.map(|_| Found { stability: left, left: None }),
+        None => direct.map(|_| Found { stability: left, left: None, neutral }),
     }
 }

@@ -9,6 +9,7 @@
 //! N. Gould, *Math. Program.* 32 (1985) 90–99, doi:10.1007/BF01585660 (inertia of matrices with multipliers).
 
 use super::stiffness::matrices;
+use crate::linalg::Matrix;
 use crate::linalg::eigen::{EigenError, Pencil, certain_directions, each, is_symmetric, negative_directions};
 use crate::system::{State, System};
 use std::fmt;
@@ -53,6 +54,17 @@ impl fmt::Display for Stability {
     }
 }
 
+/// Whether some motion about `state` that the rows allow has no stiffness but by rounding.
+pub fn is_neutral(system: &mut dyn System, state: &State) -> bool {
+    let (all, multipliers) = matrices(system, state);
+    rounds(all, multipliers)
+}
+
+/// Whether rounding alone decides the softest motion: one that is rigid has no stiffness, of whatever sign rounding makes it.
+fn rounds(all: [Matrix; 3], multipliers: usize) -> bool {
+    Pencil::new(all, multipliers, 0.0).map_or(true, |mut pencil| pencil.doubts()[0])
+}
+
 /// The stability of `state`, which is taken for an equilibrium as it stands.
 ///
 /// # Errors
@@ -63,9 +75,7 @@ pub fn stability(system: &mut dyn System, state: &State) -> Result<Stability, Ei
     let [mass, damping, stiffness] = &all;
     let symmetric = is_symmetric(stiffness);
     let mut saddle = if symmetric { negative_directions(stiffness, multipliers) } else { 0 };
-    // A rigid motion has no stiffness, of whatever sign rounding makes it.
-    let rigid = |all| Pencil::new(all, multipliers, 0.0).map_or(true, |mut pencil| pencil.doubts()[0]);
-    if saddle > 0 && rigid(all.clone()) {
+    if saddle > 0 && rounds(all.clone(), multipliers) {
         saddle = certain_directions(stiffness, mass, multipliers);
     }
     let mut gyroscopic = false;

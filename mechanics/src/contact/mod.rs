@@ -20,5 +20,5 @@ pub use cone::{RowLaw, Unresolved, solve};
 pub use contacting::{Contact, Contacting, Law};
 pub use force::{ContactForce, Dissipation, Response, delivered};
 pub use impact::{Bounds, Impact, ImpactError, ImpactMap, Neglected};
-pub use obstacle::{Circle, Obstacle, Plane, Surface, Translation};
-pub use points::{PointMotion, Points, Variation};
+pub use obstacle::{Circle, Obstacle, Plane, Sphere, Surface, Translation};
+pub use points::{Curve, PointMotion, Points, Variation};

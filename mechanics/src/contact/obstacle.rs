@@ -5,7 +5,10 @@
 //!
 //! ```text
 //! ∇∇g = κ₁ t₁t₁ᵀ + κ₂ t₂t₂ᵀ,   ∂g/∂t = −n·u,   t₁ = e_z × n in the plane
+//! ∂t₁/∂p x = −κ₁ (t₁·x) n + (τ·x) t₂,   ∂t₂/∂p x = −κ₂ (t₂·x) n − (τ·x) t₁
 //! ```
+//!
+//! τ, the rotation of the tangents about the normal, vanishes on planes and cylinders; a sphere has no tangents without it.
 //!
 //! Obstacles of planar systems are cylinders over the plane of motion: their normals have no component along z.
 
@@ -25,6 +28,8 @@ pub struct Surface {
     pub tangents: [[f64; 3]; 2],
     /// Curvatures κ₁, κ₂ \[1/m\].
     pub curvatures: [f64; 2],
+    /// Rotation τ of the tangents about the normal \[1/m\].
+    pub twist: [f64; 3],
     /// Velocity u of the obstacle \[m/s\].
     pub velocity: [f64; 3],
     /// Acceleration u̇ of the obstacle \[m/s²\].
@@ -35,6 +40,12 @@ pub struct Surface {
 pub trait Obstacle: std::fmt::Debug + Send + Sync {
     /// The surface as seen from the point `p` \[m\] at time `t` \[s\].
     fn surface(&self, p: [f64; 3], t: f64) -> Surface;
+
+    /// The number of the point that is nearest to it, or deepest in it; 0 where there is none.
+    fn nearest(&self, points: &[[f64; 3]], t: f64) -> usize {
+        let gap = |(i, p): (usize, &[f64; 3])| (i, self.surface(*p, t).gap);
+        points.iter().enumerate().map(gap).min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(i, _)| i)
+    }
 
     /// Times at which its motion is not smooth.
     fn breaks(&self) -> Vec<Break> {
@@ -115,7 +126,8 @@ impl Obstacle for Plane {
         let [place, velocity, acceleration] = Translation::at(self.motion.as_ref(), t);
         let gap = inner(self.normal, plus(plus(p, self.point, -1.0), place, -1.0));
         let tangents = tangents(self.normal);
-        Surface { gap, normal: self.normal, tangents, curvatures: [0.0; 2], velocity, acceleration }
+        let (curvatures, twist) = ([0.0; 2], [0.0; 3]);
+        Surface { gap, normal: self.normal, tangents, curvatures, twist, velocity, acceleration }
     }
 
     fn breaks(&self) -> Vec<Break> {
@@ -170,6 +182,7 @@ impl Obstacle for Circle {
             normal,
             tangents: [cross(self.axis, normal), self.axis],
             curvatures: [curvature, 0.0],
+            twist: [0.0; 3],
             velocity,
             acceleration,
         }
@@ -198,5 +211,64 @@ impl Obstacle for Circle {
             circle.iter().map(move |x| plus(*x, self.axis, inner(self.axis, plus(p, *x, -1.0)) + side * size))
         };
         at(-1.0).chain(at(1.0)).collect()
+    }
+}
+
+/// A ball, or the outside of a hollow one.
+#[derive(Clone, Debug)]
+pub struct Sphere {
+    /// Centre \[m\].
+    pub centre: [f64; 3],
+    /// Radius \[m\].
+    pub radius: f64,
+    /// Whether the points are inside it rather than outside.
+    pub hollow: bool,
+    /// How it moves; `None` at rest.
+    pub motion: Option<Translation>,
+}
+
+impl Obstacle for Sphere {
+    fn surface(&self, p: [f64; 3], t: f64) -> Surface {
+        let [place, velocity, acceleration] = Translation::at(self.motion.as_ref(), t);
+        let from = plus(plus(p, self.centre, -1.0), place, -1.0);
+        let distance = libm::hypot(libm::hypot(from[0], from[1]), from[2]);
+        let side = if self.hollow { -1.0 } else { 1.0 };
+        // In the centre every direction is as near.
+        let normal = match distance {
+            0.0 => [0.0, 0.0, side],
+            _ => from.map(|x| side * x / distance),
+        };
+        let tangents = tangents(normal);
+        let curvature = side / distance.max(1e-3 * self.radius);
+        // t₁ is along the circles of latitude, which turn at the poles.
+        let across = libm::hypot(normal[0], normal[1]);
+        let turn = if across > 0.0 { curvature * normal[2] / across } else { 0.0 };
+        Surface {
+            gap: side * (distance - self.radius),
+            normal,
+            tangents,
+            curvatures: [curvature; 2],
+            twist: tangents[0].map(|x| turn * x),
+            velocity,
+            acceleration,
+        }
+    }
+
+    fn breaks(&self) -> Vec<Break> {
+        Translation::breaks(self.motion.as_ref())
+    }
+
+    fn outline(&self, p: [f64; 3], t: f64, size: f64) -> Vec<[f64; 3]> {
+        let Sphere { centre, radius, hollow, motion } = self.clone();
+        Circle { centre, axis: [0.0, 0.0, 1.0], radius, hollow, motion }.outline(p, t, size)
+    }
+
+    /// The equator and a circle of longitude, which begin at one point.
+    fn outline_in_space(&self, p: [f64; 3], t: f64, size: f64) -> Vec<[f64; 3]> {
+        let Sphere { centre, radius, hollow, motion } = self.clone();
+        let circle = |axis: [f64; 3]| {
+            Circle { centre, axis, radius, hollow, motion: motion.clone() }.outline(p, t, size)
+        };
+        [[0.0, 0.0, 1.0], [0.0, -1.0, 0.0]].into_iter().flat_map(circle).collect()
     }
 }

@@ -1,5 +1,6 @@
 //! Points of a model that may touch obstacles.
 
+use super::obstacle::Obstacle;
 use crate::linalg::Matrix;
 use crate::system::State;
 
@@ -14,6 +15,25 @@ pub struct PointMotion {
     pub acceleration: [f64; 3],
     /// Part of ṗ that a prescribed motion of the model makes, ∂p/∂t \[m/s\].
     pub prescribed: [f64; 3],
+    /// Radius R of the ball about the point that touches in its place \[m\].
+    pub radius: f64,
+    /// Angular velocity ω of the ball [rad/s].
+    pub spin: [f64; 3],
+    /// ω̇ [rad/s²]
+    pub spin_rate: [f64; 3],
+    /// The curve of which it is the point nearest to the obstacle, unless it is a fixed point or at an end.
+    pub curve: Option<Curve>,
+}
+
+/// A curve p(s) of material points at the point nearest to an obstacle.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Curve {
+    /// p′
+    pub slope: [f64; 3],
+    /// p″ \[1/m\]
+    pub bend: [f64; 3],
+    /// ṗ′ \[1/s\]
+    pub slope_rate: [f64; 3],
 }
 
 /// Derivatives of a point's motion by one unknown.
@@ -25,18 +45,32 @@ pub struct Variation {
     pub position: [f64; 3],
     /// ∂ṗ/∂qⱼ \[1/s\]
     pub velocity: [f64; 3],
+    /// ∂ω/∂vⱼ of a ball.
+    pub rotation: [f64; 3],
+    /// ∂ω/∂qⱼ of a ball.
+    pub spin: [f64; 3],
+    /// ∂p′/∂qⱼ on a curve.
+    pub slope: [f64; 3],
 }
 
 /// A model with points that may touch obstacles. Points are numbered.
 pub trait Points {
+    /// Moves point `k`, if it is any point of a curve, to that nearest to `obstacle` at `s`: the others then speak of it.
+    fn approach(&mut self, _k: usize, _s: &State, _obstacle: &dyn Obstacle) {}
+
+    /// Arc length \[m\] of point `k` on its curve, as [`Points::approach`] found it; `None` for a fixed point.
+    fn station(&self, _k: usize) -> Option<f64> {
+        None
+    }
+
     /// Motion of point `k`.
     fn motion(&mut self, k: usize, s: &State) -> PointMotion;
 
     /// Writes the derivatives of the motion of point `k` that do not vanish.
     fn variations(&mut self, k: usize, s: &State, out: &mut Vec<Variation>);
 
-    /// out += w ∂²(F·p)/∂q², with the components `force` of F.
-    fn add_curvature(&mut self, k: usize, s: &State, force: [f64; 3], w: f64, out: &mut Matrix);
+    /// out += w ∂(∂p/∂qᵀ F + ∂ω/∂vᵀ M)/∂q, with the components of F and M, of which M counts for a ball alone, held fixed.
+    fn add_curvature(&mut self, k: usize, s: &State, wrench: [[f64; 3]; 2], w: f64, out: &mut Matrix);
 
     /// Whether point `k` moves by unknowns that are neighbours in the tangent: ∂p/∂q ∂p/∂qᵀ then fits its structure.
     fn is_local(&self, k: usize) -> bool;

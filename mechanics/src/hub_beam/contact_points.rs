@@ -44,6 +44,7 @@ impl<C: Coupling> Points for HubBeam<C> {
             acceleration: place
                 .vector(x2 - dw * y - w * (place.y[1] + across), y2 + dw * x + w * (place.x[1] + along)),
             prescribed,
+            ..PointMotion::default()
         }
     }
 
@@ -57,7 +58,7 @@ impl<C: Coupling> Points for HubBeam<C> {
         let (axial, transverse) = (&point.shapes[0], &point.shapes[1]);
         let mut push = |unknown: usize, x: f64, y: f64, rate: f64| {
             let (position, velocity) = (place.vector(x, y), place.vector(rate - w * y, w * x));
-            out.push(Variation { unknown, position, velocity });
+            out.push(Variation { unknown, position, velocity, ..Variation::default() });
         };
         if point.shortening.is_empty() {
             axial.index.iter().zip(&axial.value[0]).for_each(|(&i, phi)| push(i, *phi, 0.0, 0.0));
@@ -86,11 +87,12 @@ impl<C: Coupling> Points for HubBeam<C> {
         if let (Some(unknown), Mount::Ground) = (angle, point.mount) {
             let [along, across] = place.velocity();
             let position = place.vector(-place.y[0], place.x[0]);
-            out.push(Variation { unknown, position, velocity: place.vector(-across, along) });
+            let velocity = place.vector(-across, along);
+            out.push(Variation { unknown, position, velocity, ..Variation::default() });
         }
     }
 
-    fn add_curvature(&mut self, k: usize, s: &State, force: [f64; 3], w: f64, out: &mut Matrix) {
+    fn add_curvature(&mut self, k: usize, s: &State, [force, _]: [[f64; 3]; 2], w: f64, out: &mut Matrix) {
         let (hub, angle) = (self.kinematics(s), self.angle());
         let point = &self.contact_points[k];
         let place = point.place(s, &hub);

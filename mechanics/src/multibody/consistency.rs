@@ -41,7 +41,7 @@ pub(super) fn positions(
 }
 
 /// A row of the jacobian as a vector.
-fn rows(system: &mut dyn Dynamics, s: &State) -> Vec<Vec<(usize, f64)>> {
+pub(super) fn rows(system: &mut dyn Dynamics, s: &State) -> Vec<Vec<(usize, f64)>> {
     let mut out = vec![Vec::new(); system.size().lambda];
     system.jacobian(s, &mut |row, velocities, entries| {
         out[row].extend(velocities.iter().copied().zip(entries.iter().copied()));

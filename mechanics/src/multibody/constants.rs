@@ -107,7 +107,7 @@ impl Constants {
         let markers = joints
             .chain(springs)
             .chain(model.loads.iter().map(|load| load.at))
-            .chain(model.points.iter().copied());
+            .chain(model.points.iter().map(|point| point.at));
         let markers: Vec<(Part, Frame)> = markers
             .map(|marker| {
                 let centre = match marker.part {

@@ -23,7 +23,8 @@
 //! | `row` | scalar constraints between two markers |
 //! | `joint` | joints as lists of rows, with their drives |
 //! | `force` | springs, dampers, actuators and loads as forces between two markers |
-//! | `contact_points` | points that may touch obstacles |
+//! | `contact_point`, `nearest` | a point that may touch obstacles; that of a beam nearest to one |
+//! | `contact_points` | what contacts ask of them |
 //! | `layout` | order of bodies, nodes of beams and multipliers along the tree |
 //! | `model` | what a user builds, with its faults |
 //! | `consistency` | positions, ranks and velocities at the start |
@@ -34,12 +35,14 @@
 //! | `rotating` | the same in a frame that rotates, for steady rotation and its modes |
 //! | `observed`, `channels` | energies, power, recorded quantities |
 //! | `shares` | what a small motion moves |
+//! | `reason` | why a run may have failed |
 
 mod axis;
 mod body;
 mod channels;
 mod consistency;
 mod constants;
+mod contact_point;
 mod contact_points;
 mod flexible;
 mod force;
@@ -47,7 +50,9 @@ mod joint;
 mod layout;
 mod marker;
 mod model;
+mod nearest;
 mod observed;
+mod reason;
 mod rotating;
 pub mod rotation;
 mod row;

@@ -1,6 +1,7 @@
 //! What a user builds: bodies, joints, springs and loads, with their faults.
 
 use super::body::Body;
+use super::contact_point::ContactPoint;
 use super::flexible::{Flexible, LineLoad};
 use super::force::{Load, Spring};
 use super::joint::{Joint, Kind};
@@ -20,7 +21,7 @@ pub struct Model {
     pub(super) springs: Vec<Spring>,
     pub(super) loads: Vec<Load>,
     pub(super) line_loads: Vec<LineLoad>,
-    pub(super) points: Vec<Marker>,
+    pub(super) points: Vec<ContactPoint>,
     pub(super) drop_redundant: bool,
 }
 
@@ -161,7 +162,20 @@ impl Model {
 
     /// Adds a point of a body or of a beam's section that may touch obstacles; gives its number for [contacts](crate::contact::Contact).
     pub fn contact_point(&mut self, point: Marker) -> usize {
-        self.points.push(point);
+        self.contact_ball(point, 0.0)
+    }
+
+    /// The same of a ball of this radius \[m\] about the point, which slides and rolls on obstacles with its surface.
+    pub fn contact_ball(&mut self, at: Marker, radius: f64) -> usize {
+        self.points.push(ContactPoint { at, radius, anywhere: false });
+        self.points.len() - 1
+    }
+
+    /// The same of the point of a beam that is nearest to the obstacle, wherever it is. The beam is round with this radius \[m\];
+    /// friction acts on its centreline.
+    pub fn contact_beam(&mut self, beam: usize, radius: f64) -> usize {
+        let at = Marker::new(Part::Section { beam, node: 0 }, [0.0; 3]);
+        self.points.push(ContactPoint { at, radius, anywhere: true });
         self.points.len() - 1
     }
 
@@ -247,7 +261,9 @@ impl Model {
             self.examine("load", &load.name, fault.or(missing), &[], &mut names)?;
         }
         for (k, point) in self.points.iter().enumerate() {
-            self.examine("contact point", &format!("contact point {k}"), None, &[*point], &mut names)?;
+            let sound = point.radius >= 0.0 && point.radius.is_finite();
+            let fault = (!sound).then(|| format!("has the radius {} m and must have one ≥ 0", point.radius));
+            self.examine("contact point", &format!("contact point {k}"), fault, &[point.at], &mut names)?;
         }
         Ok(())
     }

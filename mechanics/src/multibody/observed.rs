@@ -2,6 +2,7 @@
 
 use super::force::Interaction;
 use super::joint::Drive;
+use super::reason;
 use super::rotation::{Vector, apply, plus, quaternion, times};
 use super::row::Row;
 use super::system::Multibody;
@@ -277,7 +278,11 @@ impl Observed for Multibody {
         Ok(())
     }
 
+    fn explain(&mut self, s: &State) -> Option<String> {
+        reason::singular(self, s)
+    }
+
     fn cautions(&self, _peaks: &[f64]) -> Vec<String> {
-        self.changes.to_vec()
+        self.changes.iter().cloned().chain(reason::without_inertia(&self.constants)).collect()
     }
 }

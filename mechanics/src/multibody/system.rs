@@ -13,10 +13,12 @@
 
 use super::body::{Placed, four, three};
 use super::constants::Constants;
+use super::contact_point::ContactPoint;
 use super::force::Interaction;
 use super::joint::Drive;
 use super::marker::{MOST, Part, Pose};
 use super::model::{Model, ModelError};
+use super::nearest::Nearest;
 use super::rotation::{
     Vector, apply, compose, exponential, inverse, logarithm, matrix, normalized, plus, product, rate, skew,
     times,
@@ -52,6 +54,8 @@ pub struct Multibody {
     pub(super) poses: Vec<Pose>,
     /// Prescribed motion of each joint, and the time for which it was computed.
     pub(super) motions: Vec<HubKinematics>,
+    /// Of the contact points that may be any of a beam, the one at hand.
+    pub(super) nearest: Vec<Nearest>,
     time: f64,
 }
 
@@ -114,6 +118,9 @@ impl Multibody {
         });
         let poses = poses.collect();
         let (bodies, joints) = (constants.place.len(), constants.of_joint.len());
+        let beam = |point: &ContactPoint| point.beam().map(|beam| &constants.model.beams[beam].beam);
+        let nearest = |point: &ContactPoint| beam(point).map_or_else(Nearest::default, Nearest::of);
+        let nearest = constants.model.points.iter().map(nearest).collect();
         Multibody {
             velocities: Vec::new(),
             changes: Arc::default(),
@@ -123,6 +130,7 @@ impl Multibody {
             placed: vec![Placed::default(); bodies],
             poses,
             motions: vec![HubKinematics::default(); joints],
+            nearest,
             time: f64::NAN,
         }
     }

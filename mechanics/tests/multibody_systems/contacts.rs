@@ -20,9 +20,9 @@ fn ground(model: Model, restitution: f64) -> Contacting<Multibody> {
 }
 
 #[derive(Default)]
-struct Watch {
-    events: Vec<Event>,
-    imbalance: f64,
+pub struct Watch {
+    pub events: Vec<Event>,
+    pub imbalance: f64,
     lowest: f64,
 }
 
@@ -43,7 +43,12 @@ impl Observer for Watch {
     }
 }
 
-fn run(system: &mut dyn System, method: &mut dyn Integrator, end: f64, step: Option<f64>) -> (State, Watch) {
+pub fn run(
+    system: &mut dyn System,
+    method: &mut dyn Integrator,
+    end: f64,
+    step: Option<f64>,
+) -> (State, Watch) {
     let (mut state, mut watch) = (system.initial(), Watch::default());
     state.mode.iter_mut().zip(system.rows()).for_each(|(mode, set)| {
         *mode = if *set == flexion::system::Set::Free { Mode::Closed } else { Mode::Open };

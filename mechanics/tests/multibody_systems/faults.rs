@@ -272,3 +272,44 @@ fn beams_begin_with_the_motion_that_joints_prescribe() {
     let held = beam(true).cautions(&[]);
     assert!(matches!(&held[..], [one] if one.contains("`b`") && one.contains("shock")), "{held:?}");
 }
+
+/// A slider-crank whose slider is driven beyond its dead centre, and a body whose inertia is all but zero: failure and
+/// warning have their names and what to try.
+#[test]
+fn a_run_that_cannot_go_on_names_the_loop_or_the_body() {
+    let fails = |model: Model, end: f64| {
+        let mut system = Multibody::new(model).unwrap();
+        let mut s = system.initial();
+        let plan = Plan { end, step: None, longest_step: None, contact_step: None, sample: end / 10.0 };
+        let mut watch = Watch { each: |_: &mut dyn System, _: &State| {}, imbalance: 0.0 };
+        let Ending::Failed(error) = transient(&mut system, &mut radau(1e-6), &mut s, &plan, &mut watch)
+        else {
+            panic!("no failure")
+        };
+        error.to_string()
+    };
+    // With a crank and a rod of 1 m the slider reaches 2 m at t = 0.713 s.
+    let mut model = Model::new();
+    let (height, half) = (0.6, 0.4);
+    let crank = model.body(Body::new("crank", 1.0, [0.1; 3]).at([0.5 * 0.8, 0.5 * height, 0.0]));
+    let rod = model.body(Body::new("rod", 1.0, [0.1; 3]).at([0.8 + half, 0.5 * height, 0.0]));
+    let slider = model.body(Body::new("slider", 1.0, [0.1; 3]).at([1.6, 0.0, 0.0]));
+    let z = ([0.0, 0.0, 1.0], None);
+    model.join("hinge", Kind::Revolute, [Part::Ground, crank], [0.0; 3], z).unwrap();
+    let across = ([1.0, 0.0, 0.0], Some([0.0, 0.0, 1.0]));
+    model.join("pin", Kind::Universal, [crank, rod], [0.8, height, 0.0], across).unwrap();
+    model.join("wrist", Kind::Spherical, [rod, slider], [1.6, 0.0, 0.0], z).unwrap();
+    let x = ([1.0, 0.0, 0.0], None);
+    let guide = model.join("guide", Kind::Prismatic, [Part::Ground, slider], [1.6, 0.0, 0.0], x).unwrap();
+    guide.drive = Drive::Prescribed(Motion::Angle(profile("t^2*(3 - 2*t)/2")));
+    let message = fails(model, 2.0);
+    for word in ["`hinge`, `pin`, `wrist`, `guide`", "close to a singular configuration", "t = 0.71"] {
+        assert!(message.contains(word), "{word}: {message}");
+    }
+    let mut model = Model::new();
+    model.body(Body::new("bob", 1.0, [1e-30; 3]));
+    let cautions = Multibody::new(model).unwrap().cautions(&[]);
+    for word in ["body `bob` has the moment of inertia 1.0e-30 kg·m²", "give it that of its shape"] {
+        assert!(cautions[0].contains(word), "{cautions:?}");
+    }
+}

@@ -12,6 +12,8 @@ mod flexible;
 mod free_motions;
 mod heavy_top;
 mod mechanisms;
+mod neutral;
+mod obstacles;
 mod paths;
 mod rotating;
 mod single;

@@ -8,17 +8,27 @@
 //! F = λₙ n + Σ λᵢ tᵢ  or  F = N(δ, δ̇) n + Σ Tᵢ tᵢ,   r −= F·∂p/∂q
 //! ```
 //!
+//! A ball of radius R about the point has the gap g − R, slides with c = w − R ω × n in the place of w, and gets the moment
+//! −R n × F. The point nearest to an obstacle on a curve p(s) of material points, n·p′ = 0, moves along it:
+//!
+//! ```text
+//! ṡ = −(n·ṗ′ + p′·∇n w)/(n·p″ + p′·∇n p′),   g̈ = n·(p̈ + ṗ′ṡ − u̇) + w·∇n (w + p′ṡ),   ∂s/∂q alike
+//! ```
+//!
+//! ġ and F·∂p/∂q are those of the material point, for n·p′ = 0.
+//!
 //! In the plane t₁ alone counts, in space both tangents. A contact with the law [`Law::Constraint`] gives a row to the
 //! system, and with friction one more for each tangent, which make a disc in space: drivers and
 //! integrators do the rest. A [`Law::Force`] is a load; the closing speed is stored in the state's memory by the event
 //! at which the gap changes its sign.
 
 mod observed;
+mod touch;
 
 use super::force::ContactForce;
 use super::obstacle::{Obstacle, Surface};
-use super::points::{PointMotion, Points, Variation};
-use crate::linalg::vector::inner;
+use super::points::{Curve, Points, Variation};
+use crate::linalg::vector::{cross, inner};
 use crate::linalg::{Matrix, Structure};
 use crate::system::{
     Break, Channel, Corotation, Crossing, Dynamics, Events, Jump, Mode, NotSet, Observed, Parameter, Power,
@@ -26,6 +36,7 @@ use crate::system::{
 };
 use std::ops::Range;
 use std::sync::Arc;
+use touch::{Touch, minus, sum};
 
 /// What happens when a point touches.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -94,58 +105,6 @@ struct Placed {
     friction: Range<usize>,
 }
 
-/// A point and the surface before it.
-struct Touch {
-    motion: PointMotion,
-    surface: Surface,
-    /// w = ṗ − u
-    velocity: [f64; 3],
-    /// ġ
-    rate: f64,
-    /// t₁·w, t₂·w
-    sliding: [f64; 2],
-}
-
-fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [0, 1, 2].map(|i| a[i] - b[i])
-}
-
-/// Σ xᵢ aᵢ
-fn sum<const N: usize>(terms: [(f64, [f64; 3]); N]) -> [f64; 3] {
-    [0, 1, 2].map(|i| terms.iter().map(|(x, a)| x * a[i]).sum())
-}
-
-impl Touch {
-    fn new(inner_model: &mut impl Points, contact: &Contact, s: &State) -> Touch {
-        let motion = inner_model.motion(contact.point, s);
-        let surface = contact.obstacle.surface(motion.position, s.time());
-        let velocity = minus(motion.velocity, surface.velocity);
-        let (rate, sliding) = (inner(surface.normal, velocity), surface.tangents.map(|t| inner(t, velocity)));
-        Touch { motion, surface, velocity, rate, sliding }
-    }
-
-    /// g̈
-    fn acceleration(&self) -> f64 {
-        let Surface { normal, tangents, curvatures, acceleration, .. } = &self.surface;
-        let turning: f64 = (0..2).map(|i| curvatures[i] * inner(tangents[i], self.velocity).powi(2)).sum();
-        inner(*normal, minus(self.motion.acceleration, *acceleration)) + turning
-    }
-
-    /// Rate of the sliding velocity along tangent `i`.
-    fn sliding_rate(&self, i: usize) -> f64 {
-        let Surface { tangents, curvatures, acceleration, .. } = self.surface;
-        let along = inner(tangents[i], minus(self.motion.acceleration, acceleration));
-        along - curvatures[i] * self.sliding[i] * self.rate
-    }
-
-    /// ∂n/∂p x, ∂t₁/∂p x and ∂t₂/∂p x.
-    fn turned(&self, x: [f64; 3]) -> [[f64; 3]; 3] {
-        let Surface { normal, tangents: [t1, t2], curvatures: [k1, k2], .. } = self.surface;
-        let (first, second) = (k1 * inner(t1, x), k2 * inner(t2, x));
-        [sum([(first, t1), (second, t2)]), normal.map(|n| -first * n), normal.map(|n| -second * n)]
-    }
-}
-
 /// Normal force and friction of a contact at a state, with their derivatives by a variation.
 struct Forces {
     normal: f64,
@@ -158,6 +117,11 @@ struct Forces {
 }
 
 impl Placed {
+    /// The point and the surface before it at a state.
+    fn touch(&self, model: &mut impl Points, s: &State) -> Touch {
+        Touch::new(model, self.contact.point, self.contact.obstacle.as_ref(), s)
+    }
+
     /// The forces at a state.
     fn forces(&self, touch: &Touch, s: &State, memory: usize) -> Forces {
         match &self.contact.law {
@@ -203,17 +167,27 @@ impl Forces {
         self.normal == 0.0 && self.friction == [0.0; 2]
     }
 
-    /// Change of the force by `position` of the point and `velocity`.
-    fn change(&self, touch: &Touch, position: [f64; 3], velocity: [f64; 3]) -> [f64; 3] {
-        let Surface { normal: n, tangents: [t1, t2], .. } = touch.surface;
+    /// Change of the force and its moment by changes of the `position` of the point, its `velocity` and the `spin`.
+    fn change(&self, touch: &Touch, [position, velocity, spin]: [[f64; 3]; 3]) -> [[f64; 3]; 2] {
+        let (Surface { normal: n, tangents: [t1, t2], .. }, radius) = (touch.surface, touch.motion.radius);
         let [dn, d1, d2] = touch.turned(position);
         let gap = inner(n, position);
         let rate = inner(dn, touch.velocity) + inner(n, velocity);
-        let sliding = [(d1, t1), (d2, t2)].map(|(dt, t)| inner(dt, touch.velocity) + inner(t, velocity));
+        let touching = if radius == 0.0 {
+            velocity
+        } else {
+            sum([(1.0, velocity), (-radius, cross(spin, n)), (-radius, cross(touch.motion.spin, dn))])
+        };
+        let sliding = [(d1, t1), (d2, t2)].map(|(dt, t)| inner(dt, touch.touching) + inner(t, touching));
         let normal = self.by_gap[0] * gap + self.by_gap[1] * rate;
         let [first, second] = [0, 1].map(|i| self.by_normal[i] * normal + inner(self.by_sliding[i], sliding));
         let turned = sum([(self.normal, dn), (self.friction[0], d1), (self.friction[1], d2)]);
-        sum([(normal, n), (first, t1), (second, t2), (1.0, turned)])
+        let force = sum([(normal, n), (first, t1), (second, t2), (1.0, turned)]);
+        if radius == 0.0 {
+            return [force, [0.0; 3]];
+        }
+        let turned = cross(dn, self.vector(&touch.surface));
+        [force, sum([(-radius, cross(n, force)), (-radius, turned)])]
     }
 }
 
@@ -258,6 +232,9 @@ impl<S: Points + Dynamics + Events + Observed> Contacting<S> {
             };
             for name in names.iter().filter(|_| contact.law.rubs()) {
                 add(&contact, name, "N", "friction force");
+            }
+            if inner.station(contact.point).is_some() {
+                add(&contact, "station", "m", "arc length of the nearest point");
             }
             placed.push(Placed { contact, place, friction });
         }
@@ -304,7 +281,7 @@ impl<S: Points + Dynamics + Events + Observed> Contacting<S> {
 
     /// The gap of each contact \[m\].
     pub fn gaps(&mut self, s: &State) -> Vec<f64> {
-        let gap = |placed: &Placed, model: &mut S| Touch::new(model, &placed.contact, s).surface.gap;
+        let gap = |placed: &Placed, model: &mut S| placed.touch(model, s).surface.gap;
         self.contacts.iter().map(|placed| gap(placed, &mut self.inner)).collect()
     }
 
@@ -316,7 +293,7 @@ impl<S: Points + Dynamics + Events + Observed> Contacting<S> {
     /// Calls `f` for every contact with its point, surface and forces.
     fn each(&mut self, s: &State, mut f: impl FnMut(&Placed, &Touch, &Forces)) {
         for placed in &self.contacts {
-            let touch = Touch::new(&mut self.inner, &placed.contact, s);
+            let touch = placed.touch(&mut self.inner, s);
             f(placed, &touch, &placed.forces(&touch, s, self.memory));
         }
     }
@@ -325,7 +302,7 @@ impl<S: Points + Dynamics + Events + Observed> Contacting<S> {
     fn set_forces(&mut self, s: &State) {
         self.inner.begin_forces();
         for placed in &self.contacts {
-            let touch = Touch::new(&mut self.inner, &placed.contact, s);
+            let touch = placed.touch(&mut self.inner, s);
             let force = placed.forces(&touch, s, self.memory).vector(&touch.surface);
             self.inner.add_force(placed.contact.point, s, force);
         }
@@ -425,15 +402,15 @@ impl<S: Points + Dynamics + Events + Observed> Dynamics for Contacting<S> {
     fn residual(&mut self, s: &State, r: &mut [f64]) {
         self.inner.residual(s, r);
         for placed in &self.contacts {
-            let touch = Touch::new(&mut self.inner, &placed.contact, s);
+            let touch = placed.touch(&mut self.inner, s);
             let forces = placed.forces(&touch, s, self.memory);
             if forces.vanish() {
                 continue;
             }
-            let force = forces.vector(&touch.surface);
+            let [force, moment] = touch.wrench(forces.vector(&touch.surface));
             self.inner.variations(placed.contact.point, s, &mut self.variations);
             for by in &self.variations {
-                r[by.unknown] -= inner(force, by.position);
+                r[by.unknown] -= inner(force, by.position) + inner(moment, by.rotation);
             }
         }
     }
@@ -442,7 +419,7 @@ impl<S: Points + Dynamics + Events + Observed> Dynamics for Contacting<S> {
         self.inner.constraint(s, c, &mut g[..self.rows]);
         for placed in &self.contacts {
             if let Law::Constraint { .. } = placed.contact.law {
-                let touch = Touch::new(&mut self.inner, &placed.contact, s);
+                let touch = placed.touch(&mut self.inner, s);
                 g[placed.place] = c.combine(touch.surface.gap, touch.rate, touch.acceleration());
                 for (i, row) in placed.friction.clone().enumerate() {
                     g[row] = c.combine(0.0, touch.sliding[i], touch.sliding_rate(i));
@@ -463,14 +440,16 @@ impl<S: Points + Dynamics + Events + Observed> Dynamics for Contacting<S> {
         self.inner.jacobian(s, visit);
         for placed in &self.contacts {
             if let Law::Constraint { .. } = placed.contact.law {
-                let touch = Touch::new(&mut self.inner, &placed.contact, s);
+                let touch = placed.touch(&mut self.inner, s);
                 self.inner.variations(placed.contact.point, s, &mut self.variations);
                 self.numbers.clear();
                 self.numbers.extend(self.variations.iter().map(|by| by.unknown));
                 let friction = placed.friction.clone().zip(touch.surface.tangents);
                 for (row, direction) in [(placed.place, touch.surface.normal)].into_iter().chain(friction) {
+                    let [force, moment] = touch.wrench(direction);
+                    let entry = |by: &Variation| inner(force, by.position) + inner(moment, by.rotation);
                     self.entries.clear();
-                    self.entries.extend(self.variations.iter().map(|by| inner(direction, by.position)));
+                    self.entries.extend(self.variations.iter().map(entry));
                     visit(row, &self.numbers, &self.entries);
                 }
             }
@@ -486,7 +465,7 @@ impl<S: Points + Dynamics + Events + Observed> Dynamics for Contacting<S> {
             return;
         }
         for placed in &self.contacts {
-            let touch = Touch::new(&mut self.inner, &placed.contact, s);
+            let touch = placed.touch(&mut self.inner, s);
             let forces = placed.forces(&touch, s, self.memory);
             if forces.vanish() {
                 continue;
@@ -494,20 +473,28 @@ impl<S: Points + Dynamics + Events + Observed> Dynamics for Contacting<S> {
             let point = placed.contact.point;
             self.inner.variations(point, s, &mut self.variations);
             let rigid = matches!(placed.contact.law, Law::Constraint { .. });
+            let wrench = touch.wrench(forces.vector(&touch.surface));
             if !rigid || touch.surface.curvatures != [0.0; 2] {
+                let Curve { slope, slope_rate, .. } = touch.motion.curve.unwrap_or_default();
                 for column in &self.variations {
-                    let by_position = forces.change(&touch, column.position, column.velocity);
-                    let by_velocity = forces.change(&touch, [0.0; 3], column.position);
-                    let change = sum([(w.q, by_position), (w.v, by_velocity)]);
+                    let moved = touch.moved(column.position, column.slope);
+                    let position = sum([(1.0, column.position), (moved, slope)]);
+                    let velocity = sum([(1.0, column.velocity), (moved, slope_rate)]);
+                    let by_position = forces.change(&touch, [position, velocity, column.spin]);
+                    let by_velocity = forces.change(&touch, [[0.0; 3], column.position, column.rotation]);
+                    let [force, moment] = [0, 1].map(|i| sum([(w.q, by_position[i]), (w.v, by_velocity[i])]));
+                    let on_slope = wrench[0].map(|f| w.q * moved * f);
                     for row in &self.variations {
-                        let x = inner(row.position, change);
+                        let x = inner(row.position, force)
+                            + inner(row.rotation, moment)
+                            + inner(row.slope, on_slope);
                         if x != 0.0 {
                             out.add(row.unknown, column.unknown, -x);
                         }
                     }
                 }
             }
-            self.inner.add_curvature(point, s, forces.vector(&touch.surface), -w.q, out);
+            self.inner.add_curvature(point, s, wrench, -w.q, out);
         }
     }
 

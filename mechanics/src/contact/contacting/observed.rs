@@ -58,6 +58,7 @@ impl<S: Points + Dynamics + Events + Observed> Observed for Contacting<S> {
                     (0..3).for_each(|k| write(first * t1[k] + second * t2[k] + 0.0));
                 }
             }
+            touch.station.into_iter().for_each(&mut write);
             stores |= force.is_some();
             stored += force.map_or(0.0, |force| force.stored(-touch.surface.gap));
         });

@@ -60,6 +60,8 @@ mod stiffness;
 mod strain;
 mod triad;
 
+pub(super) use shapes::hermite;
+
 pub use beam::{Beam, BeamError, ELEMENT_COORDINATES, ELEMENT_VELOCITIES, Station};
 pub use element::{Element, Motion, Tangent};
 pub use loads::{Load, SectionForces};

@@ -68,7 +68,7 @@ impl Shapes {
 }
 
 /// N, N′, N″ at the place z of an element of length h.
-pub(super) fn hermite(z: f64, h: f64) -> [[f64; 4]; 3] {
+pub(in crate::multibody) fn hermite(z: f64, h: f64) -> [[f64; 4]; 3] {
     let y = 1.0 - z;
     [
         [(1.0 + 2.0 * z) * y * y, h * z * y * y, z * z * (3.0 - 2.0 * z), -h * z * z * y],

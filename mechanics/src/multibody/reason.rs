@@ -1,0 +1,84 @@
+//! What makes a run fail: bodies almost without inertia, loops close to a singular configuration.
+
+use super::consistency::rows;
+use super::constants::Constants;
+use super::system::Multibody;
+use crate::linalg::vector::{axpy, dot};
+use crate::system::{Dynamics, State};
+
+/// Mass over the largest, and moment of inertia over m L² with the size L of the system, below which a body counts as one without.
+const LIGHT: f64 = 1e-14;
+/// Part of a row that is independent of the others, below which a configuration is close to a singular one.
+const DEPENDENT: f64 = 0.1;
+/// Most operations that are worth an explanation.
+const COSTLY: usize = 1_000_000_000;
+
+/// A body that has almost no mass or no moment of inertia.
+pub(super) fn without_inertia(constants: &Constants) -> Option<String> {
+    let bodies = &constants.model.bodies;
+    let (size, largest) = (constants.scales.first()?, bodies.iter().map(|b| b.mass).fold(0.0, f64::max));
+    let cure = "give it that of its shape, or join it to a body by `fixed`";
+    bodies.iter().find_map(|body| {
+        let least = (0..3).map(|i| body.inertia[i][i]).fold(f64::INFINITY, f64::min);
+        let name = &body.name;
+        if body.mass < LIGHT * largest {
+            let part = body.mass / largest;
+            return Some(format!(
+                "body `{name}` has the mass {:.1e} kg, {part:.1e} of the largest: {cure}",
+                body.mass
+            ));
+        }
+        let part = least / (body.mass * size * size);
+        (part < LIGHT).then(|| {
+            format!(
+                "body `{name}` has the moment of inertia {least:.1e} kg·m², {part:.1e} of m L² with the size {size:.2} m of the system, \
+                 and any moment turns it at once: {cure}"
+            )
+        })
+    })
+}
+
+/// The joints whose rows almost follow from each other at `s`.
+pub(super) fn singular(system: &mut Multibody, s: &State) -> Option<String> {
+    let constants = system.constants.clone();
+    let (n, m) = (s.v.len(), s.lambda.len());
+    if m.saturating_mul(m).saturating_mul(n) > COSTLY {
+        return None;
+    }
+    let scale = system.scales().to_vec();
+    // What the rows before leave of each, and the combination of rows that makes it.
+    let mut basis: Vec<(Vec<f64>, Vec<f64>)> = Vec::new();
+    let mut least = (DEPENDENT, None);
+    for (i, row) in rows(system, s).iter().enumerate() {
+        let (mut x, mut combination) = (vec![0.0; n], vec![0.0; m]);
+        row.iter().for_each(|&(j, entry)| x[j] += entry * scale[j]);
+        combination[i] = 1.0;
+        let size = dot(&x, &x).sqrt();
+        for (unit, of_unit) in &basis {
+            let along = dot(&x, unit);
+            axpy(-along, unit, &mut x);
+            axpy(-along, of_unit, &mut combination);
+        }
+        let left = dot(&x, &x).sqrt();
+        if left <= least.0 * size {
+            least = (left / size, Some((i, combination.clone())));
+        }
+        if left > 0.0 {
+            x.iter_mut().chain(&mut combination).for_each(|x| *x /= left);
+            basis.push((x, combination));
+        }
+    }
+    let (left, Some((row, combination))) = least else { return None };
+    let mut joints: Vec<usize> =
+        (0..m).filter(|k| combination[*k].abs() > 1e-3).map(|k| constants.rows[k].0).collect();
+    joints.dedup();
+    let names: Vec<String> =
+        joints.iter().map(|k| format!("`{}`", constants.model.joints[*k].name)).collect();
+    Some(format!(
+        "the joints {} are close to a singular configuration, in which {} follows from the others (a part {left:.1e} of it does not): \
+         bars that are stretched out or folded flat move on in more than one way or in none; keep a prescribed motion away from \
+         there, or give a joint more freedom",
+        names.join(", "),
+        constants.row_name(row)
+    ))
+}
