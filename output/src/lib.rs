@@ -6,6 +6,7 @@
 mod archive;
 mod artifact;
 mod compare;
+mod contour;
 mod csv;
 mod directory;
 mod error;
@@ -42,6 +43,7 @@ mod vtkhdf;
 
 pub use self::artifact::Artifact;
 pub use self::compare::{Comparison, Difference, compare, compare_csv, compare_json};
+pub use self::contour::Contour;
 pub use self::csv::{read_csv, write_csv};
 pub use self::directory::{Directory, write_file};
 pub use self::error::{OutputError, ResultsError};

@@ -9,7 +9,7 @@ use flexion::contact as touch;
 use flexion::hub_beam::Mount;
 use flexion::multibody::Body;
 use flexion::section::Shape;
-use flexion_results::{Drawn, Part, Scene};
+use flexion_results::{Contour, Drawn, Part, Scene};
 use std::sync::Arc;
 
 /// Length over height of a beam drawn without knowing its height.
@@ -25,8 +25,9 @@ impl Case {
             Subject::HubBeam(of) => {
                 let contacts = of.drawn();
                 let also: Vec<f64> = contacts.iter().map(|drawn| drawn.station).collect();
-                let section = [of.height(); 2];
-                let beam = Part::beam(("beam", 0), of.length, section, Some(of.hub.radius), &also);
+                let section = Shape::Rectangle { height: of.height(), width: of.height() };
+                let contour = |_: f64| Contour::of(&section);
+                let beam = Part::beam(("beam", 0), (of.length, 1), contour, Some(of.hub.radius), &also);
                 (vec![beam], contacts)
             }
             Subject::Space(of) => (of.parts(), of.drawn()),
@@ -82,9 +83,11 @@ impl Space {
         let bodies = self.bodies.iter().enumerate();
         let bodies = bodies.map(|(i, body)| Part::rigid((&body.name, i), body.centre, edges(body)));
         let beams = self.beams.iter().zip(self.bodies.len()..);
-        let beams = beams
-            .map(|((beam, _), i)| Part::beam((&beam.name, i), beam.length, size(beam), None, &beam.stations));
-        bodies.chain(beams).collect()
+        let beam = |((beam, _), i): (&(Beam, _), usize)| {
+            let also = [beam.blade.breaks(), &beam.stations].concat();
+            Part::beam((&beam.name, i), (beam.length, beam.elements), |s| beam.contour(s), None, &also)
+        };
+        bodies.chain(beams.map(beam)).collect()
     }
 }
 
@@ -95,13 +98,4 @@ fn edges(body: &Body) -> [f64; 3] {
     let edges = [edge(y + z - x), edge(x + z - y), edge(x + y - z)];
     let largest = edges.iter().copied().fold(0.0, f64::max);
     edges.map(|edge| edge.max(THINNEST * largest))
-}
-
-/// Height and width of a beam's section, as they are drawn \[m\].
-fn size(beam: &Beam) -> [f64; 2] {
-    match beam.section.shape {
-        Some(Shape::Rectangle { width, height }) => [height, width],
-        Some(Shape::Ellipse { semi_width, semi_height }) => [2.0 * semi_height, 2.0 * semi_width],
-        _ => [beam.section.height.unwrap_or(beam.length / SLENDERNESS); 2],
-    }
 }
