@@ -254,6 +254,11 @@ impl Scene {
         self.parts.iter().map(|part| (part.name.as_str(), part.lines(time))).collect()
     }
 
+    /// The obstacles.
+    pub(super) fn obstacles(&self) -> impl Iterator<Item = &Drawn> {
+        self.obstacles.iter().map(|obstacle| &obstacle.drawn)
+    }
+
     /// The outlines of the obstacles at the time of this number \[m\].
     pub(super) fn outlines(&self, time: usize) -> Vec<Vec<Vector>> {
         let at_time = |obstacle: &Outline| {
@@ -446,8 +451,16 @@ mod tests {
         let mut system = Bent { p: [0.0; 3], d: [0.0; 3] };
         let plane = Plane { point: [0.0, -1.0, 0.0], normal: [0.0, 1.0, 0.0], motion: None };
         let (name, obstacle) = ("floor".into(), Arc::new(plane));
-        let drawn =
-            Drawn { name, body: 0, station: 1.5, size: 2.0, in_space: false, on_hub: false, obstacle };
+        let drawn = Drawn {
+            name,
+            body: 0,
+            station: 1.5,
+            points: Vec::new(),
+            size: 2.0,
+            in_space: false,
+            on_hub: false,
+            obstacle,
+        };
         let beam = Part::beam(("arm", 0), (2.0, 1), flat, Some(0.5), &[1.5]);
         let mut scene = Scene::new(vec![beam], vec![drawn], 1);
         scene.sample(&mut system, &at(1e-9));

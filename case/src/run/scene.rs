@@ -5,7 +5,6 @@ use crate::hub_beam::HubBeam;
 use crate::kinds::beam::Beam;
 use crate::kinds::contact::Contact;
 use crate::space::Space;
-use flexion::contact as touch;
 use flexion::hub_beam::Mount;
 use flexion::multibody::Body;
 use flexion::section::Shape;
@@ -56,6 +55,7 @@ impl HubBeam {
             size: self.length,
             in_space: false,
             station: contact.stations.last().copied().unwrap_or(self.length),
+            points: if contact.stations.len() > 1 { contact.stations.clone() } else { Vec::new() },
             on_hub: contact.mount == Mount::Hub,
             obstacle: Arc::clone(&contact.obstacle),
         };
@@ -64,18 +64,31 @@ impl HubBeam {
 }
 
 impl Space {
-    /// The obstacles, as they are drawn.
+    /// The obstacles, as they are drawn: once each, however many points of a beam may touch it.
     fn drawn(&self) -> Vec<Drawn> {
-        let drawn = |(contact, (body, station)): (&touch::Contact, &(usize, f64))| Drawn {
-            name: contact.name.clone(),
-            body: *body,
-            station: *station,
-            size: 0.5 * self.size,
-            in_space: true,
-            on_hub: false,
-            obstacle: Arc::clone(&contact.obstacle),
+        let mut first = 0;
+        let drawn = |count: &usize| {
+            let points = self.touching.get(first..first + count)?;
+            let contact = self.contacts.get(first)?;
+            first += count;
+            let (body, station) = *points.get(count / 2)?;
+            // A point along the whole beam has its number behind the name of the contact.
+            let (name, points) = match contact.name.split_once('.') {
+                Some((name, _)) => (name, points.iter().map(|(_, station)| *station).collect()),
+                None => (contact.name.as_str(), Vec::new()),
+            };
+            Some(Drawn {
+                name: name.to_owned(),
+                body,
+                station,
+                points,
+                size: 0.5 * self.size,
+                in_space: true,
+                on_hub: false,
+                obstacle: Arc::clone(&contact.obstacle),
+            })
         };
-        self.contacts.iter().zip(&self.touching).map(drawn).collect()
+        self.points.iter().filter_map(drawn).collect()
     }
 
     /// Its bodies as boxes, and its beams.

@@ -69,6 +69,8 @@ pub struct Words {
     /// Whether they stand outside of the frame, with a line to the first point: above the frame for a point on its upper
     /// edge, to its right for any other; without points they are the heading of the panel.
     pub outside: bool,
+    /// Whether they may stand away from their points where no room is beside them, with a line to the first.
+    pub leader: bool,
     /// Colour of that line: that of the curve with this number in the palette.
     pub color: Option<usize>,
 }
