@@ -60,7 +60,7 @@ enum Form {
 
 impl Part {
     /// Body number `body` of a system as a beam of this length \[m\], with so many elements, and of the contour at each of its
-    /// stations \[m\], on a hub of this radius \[m\] if on one; drawn at equal intervals, about one an element, and at the stations
+    /// stations \[m\], on a hub of this radius \[m\] if on one; drawn at equal intervals, about two an element, and at the stations
     /// `also` \[m\].
     pub fn beam(
         (name, body): (&str, usize),
@@ -69,7 +69,7 @@ impl Part {
         hub: Option<f64>,
         also: &[f64],
     ) -> Part {
-        let stations = stations(length, elements.clamp(INTERVALS, MOST_INTERVALS), also);
+        let stations = stations(length, (2 * elements).clamp(INTERVALS, MOST_INTERVALS), also);
         let contours = stations.iter().map(|s| contour(*s)).collect();
         Part::new(name, body, Form::Beam { stations, hub }, contours)
     }

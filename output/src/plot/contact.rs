@@ -113,14 +113,16 @@ fn of_contacts(
         let column = format!("{}.{quantity}", events.name(*number));
         let mut points = points(trajectory, trajectory.index(&column)?);
         if let Some((from, to)) = window {
-            points.retain(|(t, _)| (from..=to).contains(t));
+            // One record beyond either end, for the curve to reach the frame.
+            points.truncate(points.partition_point(|(t, _)| *t <= to) + 1);
+            points.drain(..points.partition_point(|(t, _)| *t < from).saturating_sub(1));
         }
         let name = name.as_deref();
         Some(Series::line(name, points).numbered(*color))
     };
     let series = shown.iter().filter_map(curve).collect();
     let x = Axis { range: window, ..Axis::time() };
-    Panel { x, y, series, words: Vec::new() }
+    Panel { x, y, series, ..Panel::default() }
 }
 
 /// Which of the points along a beam are in contact with an obstacle, against time: a line at the station of each while it presses,
@@ -150,7 +152,7 @@ fn in_contact(obstacle: &Drawn, trajectory: &Trajectory, events: &Events) -> Opt
     let x = Axis { range: Some((*times.first()?, *times.last()?)), ..Axis::time() };
     let heading = Words { text: obstacle.name.clone(), outside: true, ..Words::default() };
     let series = vec![Series::line(None, points)];
-    (!series[0].points.is_empty()).then_some(Panel { x, y, series, words: vec![heading] })
+    (!series[0].points.is_empty()).then_some(Panel { x, y, series, words: vec![heading], ..Panel::default() })
 }
 
 /// Beginning and end of the first burst of events, and of the forces of contacts where these make it (`by_force`), with a margin.
@@ -217,7 +219,7 @@ fn enlarged(
     } else {
         let x = Axis { range: Some((from, to)), ..Axis::time() };
         let y = Axis::logarithmic("Impulses, first burst", "N·s");
-        Panel { x, y, series, words: Vec::new() }
+        Panel { x, y, series, ..Panel::default() }
     };
     vec![gap, second]
 }

@@ -57,6 +57,8 @@ pub struct Panel {
     pub series: Vec<Series>,
     /// Words written at points of the panel, those that would overlap left out.
     pub words: Vec<Words>,
+    /// Whether the axes have one scale: the given range that is too short for the frame grows on both sides.
+    pub equal: bool,
 }
 
 /// Words in a panel.

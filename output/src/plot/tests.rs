@@ -354,8 +354,13 @@ fn names_stand_at_their_point_or_at_the_end_of_a_line_from_it() {
         |text: &&str| Words { points: vec![at], text: (*text).to_owned(), leader: true, ..Words::default() };
     let mark = Series { marker: Some(Marker::Circle), line: Line::None, ..Series::line(None, vec![at]) };
     let beam = Series::line(None, vec![at, (0.9, 0.6)]);
-    let panel =
-        Panel { x: axis(), y: axis(), series: vec![mark, beam], words: names.iter().map(name).collect() };
+    let panel = Panel {
+        x: axis(),
+        y: axis(),
+        series: vec![mark, beam],
+        words: names.iter().map(name).collect(),
+        ..Panel::default()
+    };
     let drawing = Figure { panels: vec![panel], ..Figure::default() }.draw();
     assert_eq!(faults(&drawing), Vec::<String>::new());
     let lines: Vec<[Point; 2]> = drawing
@@ -382,5 +387,25 @@ fn names_stand_at_their_point_or_at_the_end_of_a_line_from_it() {
             crosses && outside(*end, *rectangle) > 1e-9
         });
         assert!(!crossed, "{text}");
+    }
+}
+
+#[test]
+fn equal_axes_have_one_scale_in_frames_of_any_shape() {
+    let axis = |range| Axis { range: Some(range), ..Axis::new("x", "m") };
+    let diagonal = Series::line(None, vec![(0.0, 0.0), (1.0, 1.0)]);
+    let (x, y) = (axis((0.0, 1.0)), axis((-0.5, 2.0)));
+    let panel = Panel { x, y, series: vec![diagonal], equal: true, ..Panel::default() };
+    for count in [1, 3, 5] {
+        let figure = Figure { panels: vec![panel.clone(); count], columns: 2, ..Figure::default() };
+        for drawing in [figure.draw(), figure.draw_in(80.0), figure.draw_in(300.0)] {
+            let line = drawing.curves.iter().find_map(|shape| match shape {
+                Shape::Line { points, .. } => Some((points[0], points[points.len() - 1])),
+                _ => None,
+            });
+            let (from, to) = line.unwrap();
+            let (along, up) = (to.0 - from.0, from.1 - to.1);
+            assert!(along > 10.0 && (along - up).abs() < 1e-9 * along, "{count}: {along} {up}");
+        }
     }
 }

@@ -40,6 +40,7 @@ pub fn modes_figure(
             y: Axis { range: Some((-1.1, 1.1)), ..Axis::new("Shape u / max |u|", "") },
             series: shape(mode, stations, axes),
             words: vec![heading],
+            ..Panel::default()
         }
     };
     let mut panels: Vec<Panel> = modes.modes.iter().take(MOST).enumerate().map(panel).collect();
@@ -132,6 +133,7 @@ pub fn campbell_figure(campbell: &Campbell, revolutions: u32, units: &Units, tit
         y: axis(symbol, &units.frequency, (low, high)),
         series,
         words,
+        ..Panel::default()
     };
     Figure { title: title.map(String::from), panels: vec![panel], columns: 1, share_x: false }
 }

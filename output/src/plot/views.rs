@@ -145,7 +145,7 @@ fn views(scene: &Scene, also: &[[f64; 3]], height: f64, margin: f64) -> Vec<Pane
                 series.push(Series { color: Some(COLORS[which]), ..Series::line(name, points) });
             }
         }
-        Panel { x: axis(i, half * wide), y: axis(j, half), series, words: Vec::new() }
+        Panel { x: axis(i, half * wide), y: axis(j, half), series, equal: true, words: Vec::new() }
     };
     VIEWS.into_iter().enumerate().map(view).collect()
 }
