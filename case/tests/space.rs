@@ -341,3 +341,20 @@ fn the_figure_of_a_whole_beam_in_contact_shows_the_points_that_press() {
     let dashed = |panel: &Panel| panel.series.iter().filter(|series| series.line == Line::Dashed).count();
     assert_eq!(panels[..3].iter().map(dashed).collect::<Vec<_>>(), [0, 1, 1]);
 }
+
+/// A spring is drawn from its place on the ground to its place on a ball, and has the length that the case gives it.
+#[test]
+fn a_spring_is_drawn_between_its_ends() {
+    let text = "run = { duration = 1 }\noutput = { step = 0.1 }\n[[body]]\nname = \"ball\"\nmass = 1\nposition = [1, 0, 0]\n\
+                inertia = { kind = \"sphere\", radius = 0.05 }\n\
+                [[spring]]\nname = \"cord\"\nbetween = [\"ground\", \"ball\"]\nfrom = [0, 0, 0]\nto = [0.9, 0, 0]\nstiffness = 4\nlength = 0.5\n";
+    let run = run(text);
+    let panels = spatial_figure(&run.scene, &run.trajectory, &run.events, None).panels;
+    let ends =
+        panels[0].series.iter().filter(|series| series.points.len() == 2 && series.points[0] == (0.0, 0.0));
+    let drawn: Vec<f64> = ends.map(|series| series.points[1].0).collect();
+    let ball = run.trajectory.column("ball.position.x").unwrap();
+    let near = |x: f64| ball.iter().any(|ball| (x - (ball - 0.1)).abs() < 1e-6);
+    assert!(drawn.len() == 9 && drawn.iter().all(|x| near(*x)), "{drawn:?} {ball:?}");
+    assert!(drawn.iter().any(|x| *x < 0.8), "{drawn:?}");
+}

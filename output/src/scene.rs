@@ -23,6 +23,7 @@ use super::contour::Contour;
 use super::npz::{write_array, write_shaped};
 use super::obstacles::Drawn;
 use super::shapes::stations;
+use super::spring::Spring;
 use flexion::multibody::rotation::{
     Matrix3, Vector, apply, apply_transposed, compose, exponential, inverse, logarithm, matrix, normalized,
     plus, product, quaternion,
@@ -181,6 +182,8 @@ impl Part {
 pub struct Scene {
     parts: Vec<Part>,
     obstacles: Vec<Outline>,
+    /// Springs, with a line a time.
+    springs: Vec<(Spring, Vec<[Vector; 2]>)>,
     every: usize,
     seen: usize,
     times: Vec<f64>,
@@ -200,6 +203,11 @@ impl Scene {
     pub fn new(parts: Vec<Part>, obstacles: Vec<Drawn>, records: usize) -> Scene {
         let obstacles = obstacles.into_iter().map(|drawn| Outline { drawn, points: Vec::new() }).collect();
         Scene { parts, obstacles, every: records.div_ceil(MOST).max(1), ..Scene::default() }
+    }
+
+    /// The same with springs, for figures and ParaView's files.
+    pub fn with_springs(self, springs: Vec<Spring>) -> Scene {
+        Scene { springs: springs.into_iter().map(|spring| (spring, Vec::new())).collect(), ..self }
     }
 
     /// The same that takes every `every`-th recorded time.
@@ -231,6 +239,9 @@ impl Scene {
             system.frames(part.body, state, part.stations(), &mut self.frames);
             part.push(&self.frames);
         }
+        for (spring, lines) in &mut self.springs {
+            lines.push(spring.line(system, state));
+        }
         for Outline { drawn, points } in &mut self.obstacles {
             let mut frames = [Frame::default(); 2];
             system.frames(drawn.body, state, &[0.0, drawn.station], &mut frames);
@@ -249,9 +260,16 @@ impl Scene {
         &self.parts
     }
 
-    /// The lines of each part at the time of this number, with its name \[m\].
+    /// The lines of each part and spring at the time of this number, with its name \[m\].
     pub(super) fn lines(&self, time: usize) -> Vec<(&str, Vec<Vec<Vector>>)> {
-        self.parts.iter().map(|part| (part.name.as_str(), part.lines(time))).collect()
+        let parts = self.parts.iter().map(|part| (part.name.as_str(), part.lines(time)));
+        let springs = self.springs.iter().zip(self.lines_of_springs(time));
+        parts.chain(springs.map(|((spring, _), line)| (spring.name.as_str(), vec![line]))).collect()
+    }
+
+    /// The lines of the springs at the time of this number \[m\].
+    pub(super) fn lines_of_springs(&self, time: usize) -> impl Iterator<Item = Vec<Vector>> {
+        self.springs.iter().map(move |(_, lines)| lines.get(time).map_or(Vec::new(), |line| line.to_vec()))
     }
 
     /// The obstacles.
@@ -270,9 +288,9 @@ impl Scene {
         self.obstacles.iter().map(at_time).collect()
     }
 
-    /// Whether there are obstacles.
-    pub(super) fn has_obstacles(&self) -> bool {
-        !self.obstacles.is_empty()
+    /// Whether there are obstacles or springs.
+    pub(super) fn has_lines(&self) -> bool {
+        !self.obstacles.is_empty() || !self.springs.is_empty()
     }
 
     /// Whether there is nothing to be drawn.

@@ -103,11 +103,13 @@ pub fn write_solids(scene: &Scene, time: usize, mut to: impl Write) -> io::Resul
 pub fn write_film(directory: &Directory, scene: &Scene, series: Artifact) -> Result<(), OutputError> {
     for (time, number) in (0..scene.times().len()).zip(0..) {
         directory.write(Artifact::Shape(number), |f| write_solids(scene, time, f))?;
-        if scene.has_obstacles() {
-            directory.write(Artifact::Obstacles(number), |f| write_vtp(&scene.outlines(time), f))?;
+        if scene.has_lines() {
+            let lines: Vec<_> =
+                scene.outlines(time).into_iter().chain(scene.lines_of_springs(time)).collect();
+            directory.write(Artifact::Obstacles(number), |f| write_vtp(&lines, f))?;
         }
     }
-    directory.write(series, |f| write_pvd(scene.times(), scene.has_obstacles(), f))
+    directory.write(series, |f| write_pvd(scene.times(), scene.has_lines(), f))
 }
 
 #[cfg(test)]

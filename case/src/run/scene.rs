@@ -6,9 +6,9 @@ use crate::kinds::beam::Beam;
 use crate::kinds::contact::Contact;
 use crate::space::Space;
 use flexion::hub_beam::Mount;
-use flexion::multibody::Body;
+use flexion::multibody::{self, Body, Marker};
 use flexion::section::Shape;
-use flexion_results::{Contour, Drawn, Part, Scene};
+use flexion_results::{Contour, Drawn, Part, Scene, Spring};
 use std::sync::Arc;
 
 /// Length over height of a beam drawn without knowing its height.
@@ -32,11 +32,11 @@ impl Case {
             Subject::Space(of) => (of.parts(), of.drawn()),
         };
         let scene = Scene::new(parts, obstacles, (self.duration / self.output.step) as usize);
-        match (&self.subject, self.output.vtk) {
-            (Subject::Space(_), Some(interval)) => {
-                scene.taken((interval / self.output.step).round() as usize)
-            }
-            _ => scene,
+        let Subject::Space(of) = &self.subject else { return scene };
+        let scene = scene.with_springs(of.springs());
+        match self.output.vtk {
+            Some(interval) => scene.taken((interval / self.output.step).round() as usize),
+            None => scene,
         }
     }
 }
@@ -89,6 +89,23 @@ impl Space {
             })
         };
         self.points.iter().filter_map(drawn).collect()
+    }
+
+    /// The springs, as they are drawn.
+    fn springs(&self) -> Vec<Spring> {
+        let end = |marker: &Marker| {
+            let fixed = match marker.part {
+                multibody::Part::Ground => None,
+                multibody::Part::Body(i) => Some((i, 0.0)),
+                multibody::Part::Section { beam, node } => {
+                    let station = self.beams.get(beam).and_then(|(_, built)| built.nodes().get(node));
+                    Some((self.bodies.len() + beam, station.copied().unwrap_or(0.0)))
+                }
+            };
+            (fixed, marker.frame.position)
+        };
+        let springs = self.multibody.model().springs().iter();
+        springs.map(|s| Spring { name: s.name.clone(), ends: [end(&s.from), end(&s.to)] }).collect()
     }
 
     /// Its bodies as boxes, and its beams.
