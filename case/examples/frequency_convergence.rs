@@ -40,7 +40,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             ..Axis::new("Relative error of ω₂ at γ = 10", "")
         },
         series,
-        words: Vec::new(),
+        ..Panel::default()
     };
     let figure = Figure { title: None, panels: vec![panel], columns: 1, share_x: false };
     std::fs::write(format!("{folder}/frequency_convergence.png"), figure.draw().png()?)?;

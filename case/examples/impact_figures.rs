@@ -146,7 +146,7 @@ fn panel(heading: &str, y: Axis, curves: Vec<(&str, Vec<(f64, f64)>)>) -> Panel 
     let series = series.map(|(k, (name, points))| Series::line(Some(name), points).numbered(k)).collect();
     let words =
         flexion_results::plot::Words { text: heading.to_owned(), outside: true, ..Default::default() };
-    Panel { x: Axis::time(), y, series, words: vec![words] }
+    Panel { x: Axis::time(), y, series, words: vec![words], ..Panel::default() }
 }
 
 fn draw(name: &str, panels: Vec<Panel>) {

@@ -86,7 +86,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             x: Axis { tight: true, ..Axis::new("Strain at the root ε₀", "%") },
             y: Axis { range: Some(range), ..Axis::new("ω₁ over that of linear, less one", "%") },
             series: Vec::new(),
-            words: Vec::new(),
+            ..Panel::default()
         };
         println!("slenderness {slenderness}: strain, γ, then ω₁ by {:?}", options.map(|o| o.0));
         let mut curves: Vec<Vec<(f64, f64)>> = vec![Vec::new(); options.len()];

@@ -296,7 +296,7 @@ fn nonsmooth_methods_tell_their_impacts() {
             "{found:?} {expected:?}"
         );
         assert!(near(found.lost.unwrap(), expected.lost.unwrap()), "{kind}: {found:?} {expected:?}");
-        let panels = contact_figure(&run.trajectory, &run.events, None).panels;
+        let panels = contact_figure(&run.scene, &run.trajectory, &run.events, None).panels;
         let enlarged = panels.iter().find(|panel| panel.y.quantity == "Gap, first burst").unwrap();
         let (from, to) = enlarged.x.range.unwrap();
         assert!(from < found.time && found.time < to && to - from < 0.1, "{kind}: {from} {to}");

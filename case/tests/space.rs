@@ -4,6 +4,7 @@
 
 use flexion_case::{Problems, Reading, Run, parse};
 use flexion_results::Status;
+use flexion_results::plot::{Line, Panel, spatial_figure};
 use std::ops::ControlFlow;
 use std::path::Path;
 
@@ -348,4 +349,61 @@ fn a_beam_is_struck_anywhere_by_what_bulges_alone() {
         let message = read(&touched(contact)).map(|_| ()).unwrap_err().to_string();
         assert!(message.contains(word), "{message}");
     }
+}
+
+/// The figure of a beam that falls on a floor by its tip: the points that press most, which points are in contact at every time, the
+/// first burst, and the floor, once, where it is seen from its edge.
+#[test]
+fn the_figure_of_a_whole_beam_in_contact_shows_the_points_that_press() {
+    let text = format!(
+        "gravity = [0, 0, -9.81]\nintegrator = {{ kind = \"radau\", tolerance = 1e-4 }}\nrun = {{ duration = 0.1 }}\n\
+         output = {{ step = 0.002 }}\n[[beam]]\nlength = 2\nstart = [0, 0, 0.02]\nroot = \"clamped\"\nelements = 5\n{ROD}\n\
+         [[contact]]\nname = \"floor\"\non = \"beam\"\npoints = 10\n\
+         obstacle = {{ kind = \"plane\", point = [0, 0, 0], normal = [0, 0, 1] }}\nlaw = {{ kind = \"hertz\", stiffness = 1e6 }}\n"
+    );
+    let run = run(&text);
+    let panels = spatial_figure(&run.scene, &run.trajectory, &run.events, None).panels;
+    let panel = |quantity: &str| panels.iter().find(|panel| panel.y.quantity == quantity).unwrap();
+    let mut pressing: Vec<(f64, String)> = (1..=10)
+        .map(|k| format!("floor.{k}"))
+        .map(|name| (run.trajectory.column(&format!("{name}.force")).unwrap(), name))
+        .map(|(force, name)| (force.iter().fold(0.0, |a: f64, b| a.max(*b)), name))
+        .filter(|(force, _)| *force > 0.0)
+        .collect();
+    pressing.sort_by(|a, b| b.0.total_cmp(&a.0));
+    assert!((2..10).contains(&pressing.len()), "{pressing:?}");
+    let mut names: Vec<&str> = pressing.iter().take(4).map(|(_, name)| name.as_str()).collect();
+    names.sort_by_key(|name| name[6..].parse::<u32>().unwrap());
+    for quantity in ["Gap g", "Normal force λ"] {
+        let shown: Vec<&str> = panel(quantity).series.iter().filter_map(|s| s.name.as_deref()).collect();
+        assert_eq!(shown, names, "{quantity}");
+    }
+    let mut stations: Vec<f64> = panel("Station in contact").series[0].points.iter().map(|p| p.1).collect();
+    stations.sort_by(f64::total_cmp);
+    stations.dedup();
+    let mut expected: Vec<f64> =
+        pressing.iter().map(|(_, name)| 0.2 * name[6..].parse::<f64>().unwrap()).collect();
+    expected.sort_by(f64::total_cmp);
+    assert!(stations.len() == expected.len());
+    assert!(stations.iter().zip(&expected).all(|(a, b)| (a - b).abs() < 1e-12), "{stations:?} {expected:?}");
+    assert!(!panel("Gap, first burst").series[0].points.is_empty());
+    let dashed = |panel: &Panel| panel.series.iter().filter(|series| series.line == Line::Dashed).count();
+    assert_eq!(panels[..3].iter().map(dashed).collect::<Vec<_>>(), [0, 1, 1]);
+}
+
+/// A spring is drawn from its place on the ground to its place on a ball, and has the length that the case gives it.
+#[test]
+fn a_spring_is_drawn_between_its_ends() {
+    let text = "run = { duration = 1 }\noutput = { step = 0.1 }\n[[body]]\nname = \"ball\"\nmass = 1\nposition = [1, 0, 0]\n\
+                inertia = { kind = \"sphere\", radius = 0.05 }\n\
+                [[spring]]\nname = \"cord\"\nbetween = [\"ground\", \"ball\"]\nfrom = [0, 0, 0]\nto = [0.9, 0, 0]\nstiffness = 4\nlength = 0.5\n";
+    let run = run(text);
+    let panels = spatial_figure(&run.scene, &run.trajectory, &run.events, None).panels;
+    let ends =
+        panels[0].series.iter().filter(|series| series.points.len() == 2 && series.points[0] == (0.0, 0.0));
+    let drawn: Vec<f64> = ends.map(|series| series.points[1].0).collect();
+    let ball = run.trajectory.column("ball.position.x").unwrap();
+    let near = |x: f64| ball.iter().any(|ball| (x - (ball - 0.1)).abs() < 1e-6);
+    assert!(drawn.len() == 9 && drawn.iter().all(|x| near(*x)), "{drawn:?} {ball:?}");
+    assert!(drawn.iter().any(|x| *x < 0.8), "{drawn:?}");
 }

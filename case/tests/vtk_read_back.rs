@@ -5,7 +5,7 @@
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use flexion_case::{Run, read};
-use flexion_results::{Directory, Status};
+use flexion_results::{Directory, Status, write_solids};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
@@ -75,6 +75,43 @@ fn points_and_arrays_of_every_frame_are_those_of_the_trajectory() {
     }
     assert!(bent > 4.0, "{bent}");
     assert!(worst < TOLERANCE, "{worst:.1e}");
+}
+
+/// Beams along x with their heights upwards, whose tip sections are as wide and as high as their cases say: a shape that tapers; an
+/// outline, which tapers with it; the rectangle of stiffnesses alone, √(12 EI/EA).
+#[test]
+fn sections_of_beams_in_space_have_the_sizes_of_their_cases() {
+    let shape = r#"section={kind="tapered-rectangle", modulus=1e9, density=1000, root-width=0.4, tip-width=0.1, root-height=0.2, tip-height=0.1}"#;
+    let general = r#"section={kind="general", mass-per-length=1, axial-stiffness=12, torsional-stiffness=1, bending-stiffness=0.09, bending-stiffness-across=0.04, rotary-inertia=1}"#;
+    let outline = "outline={y=[-0.1, 0, 0.1], z=[0, 0.2, 0]}";
+    let beams = [shape.to_owned(), format!("{shape}, {outline}"), general.to_owned()];
+    let beams = (1..).zip(&beams).map(|(i, keys)| format!("{{name='beam{i}', length=2, {keys}}}"));
+    let text = format!("beam=[{}]\nrun.duration=1\n", beams.collect::<Vec<_>>().join(", "));
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("case.toml"), text).unwrap();
+    let case = read(folder.path(), &[]).unwrap().case;
+    let (mut system, mut scene) = (case.system().unwrap(), case.scene());
+    let state = system.initial();
+    scene.finish(system.as_mut(), &state);
+    let mut grid = Vec::new();
+    write_solids(&scene, 0, &mut grid).unwrap();
+    let grid = String::from_utf8(grid).unwrap();
+    let grid = roxmltree::Document::parse(&grid).unwrap();
+    let (points, parts) = (numbers(&grid, "Points"), numbers(&grid, "part"));
+    for (part, [wide, high]) in [[0.1, 0.1], [0.05, 0.1], [0.2, 0.3]].into_iter().enumerate() {
+        let tip: Vec<&[f64]> = points
+            .chunks(3)
+            .zip(&parts)
+            .filter(|(point, of)| **of == part as f64 && point[0] == 2.0)
+            .map(|(point, _)| point)
+            .collect();
+        assert!(tip.len() > 2);
+        for (k, size) in [(1, wide), (2, high)] {
+            let of = tip.iter().map(|point| point[k]);
+            let found = of.clone().fold(f64::NEG_INFINITY, f64::max) - of.fold(f64::INFINITY, f64::min);
+            assert!((found - size).abs() < 1e-12, "beam {part}, axis {k}: {found} for {size}");
+        }
+    }
 }
 
 #[cfg(feature = "vtkhdf")]

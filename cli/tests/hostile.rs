@@ -406,6 +406,14 @@ fn systems_in_space_that_cannot_be_are_refused_at_their_line() {
             ["beam[1].section", "torsion"],
         ),
         (
+            format!("{IN_SPACE}[[beam]]\nlength = 1\n{ROD}\noutline = {{ y = [0, 1, 2], z = [0, 1, 2] }}\n"),
+            ["beam[1].outline", "enclose no area"],
+        ),
+        (
+            format!("{IN_SPACE}[[beam]]\nlength = 1\n{ROD}\noutline = {{ y = [0, 1, 2], z = [0] }}\n"),
+            ["beam[1].outline.z", "3 corners"],
+        ),
+        (
             format!(
                 "{IN_SPACE}[[beam]]\nlength = 1\n{ROD}\nelements = 1\ncurve = {{ kind = \"arc\", angle = \"300 deg\" }}\n"
             ),

@@ -11,8 +11,10 @@ pub struct Drawn {
     pub name: String,
     /// Number of the body that may touch it.
     pub body: usize,
-    /// Station of the beam that may touch it \[m\].
+    /// Station of the beam that may touch it \[m\]; one in the middle where there are several.
     pub station: f64,
+    /// Stations of its contacts `NAME.1`, `NAME.2`, …, where there are several \[m\].
+    pub points: Vec<f64>,
     /// Size of the system \[m\].
     pub size: f64,
     /// Whether the system moves in space and not in a plane.
@@ -54,7 +56,16 @@ mod tests {
         let plane = Plane { point: [0.0, 0.25, 0.0], normal: [0.0, -1.0, 0.0], motion: None };
         let name = "stop".to_owned();
         let obstacle = Arc::new(plane);
-        let drawn = Drawn { name, body: 0, station: 2.0, size: 1.0, in_space: false, on_hub: true, obstacle };
+        let drawn = Drawn {
+            name,
+            body: 0,
+            station: 2.0,
+            points: Vec::new(),
+            size: 1.0,
+            in_space: false,
+            on_hub: true,
+            obstacle,
+        };
         let rotation = [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
         let [root, tip] = [0.0, 2.0].map(|x| Frame { position: [0.0, x, 0.0], rotation });
         let outline = drawn.outline([&root, &tip], 0.0, 0.5);

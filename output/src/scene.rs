@@ -8,7 +8,7 @@
 //! | `NAME.station` | (m) | of a beam: arc lengths of its sections from the root \[m\] |
 //! | `NAME.displacement` | (n, m, 3) | of a beam: u, from the straight beam along the tangent of the root to the section, in the axes of the root \[m\] |
 //! | `NAME.rotation` | (n, m, 3) | of a beam: θ, rotation vector of the section against the root, in the axes of the root \[rad\] |
-//! | `NAME.section` | (2) | of a beam: size of the section along its second and third axis \[m\] |
+//! | `NAME.section` | (2) | of a beam: size of the root section along its second and third axis \[m\] |
 //! | `NAME.hub` | (1) | of a beam on a hub: radius from the axis of the hub to the root \[m\] |
 //! | `NAME.box` | (6) | of a rigid body: centre in its axes, and edges \[m\] |
 //! | `NAME.outline` | (n, p, 3) | of an obstacle: points of its outline \[m\], inertial axes |
@@ -19,17 +19,21 @@
 use std::io::{self, Seek, Write};
 
 use super::archive;
+use super::contour::Contour;
 use super::npz::{write_array, write_shaped};
 use super::obstacles::Drawn;
 use super::shapes::stations;
+use super::spring::Spring;
 use flexion::multibody::rotation::{
     Matrix3, Vector, apply, apply_transposed, compose, exponential, inverse, logarithm, matrix, normalized,
     plus, product, quaternion,
 };
+use flexion::section::Shape;
 use flexion::system::{Frame, State, System};
 
-/// Equal intervals along a beam between whose ends it is drawn.
+/// Equal intervals along a beam between whose ends it is drawn: at least, and at most.
 const INTERVALS: usize = 25;
+const MOST_INTERVALS: usize = 100;
 /// About the most times that are kept.
 const MOST: usize = 300;
 
@@ -39,6 +43,8 @@ pub struct Part {
     name: String,
     body: usize,
     form: Form,
+    /// Contour of each section.
+    contours: Vec<Contour>,
     /// Seven numbers a time.
     poses: Vec<f32>,
     /// Three numbers a time and station.
@@ -49,31 +55,40 @@ pub struct Part {
 /// What a part looks like.
 #[derive(Clone, Debug)]
 enum Form {
-    Beam { stations: Vec<f64>, section: [f64; 2], hub: Option<f64> },
+    Beam { stations: Vec<f64>, hub: Option<f64> },
     Box { centre: [f64; 3], edges: [f64; 3] },
 }
 
 impl Part {
-    /// Body number `body` of a system as a beam of this length and section \[m\] (its size along the second and the third
-    /// axis), on a hub of this radius \[m\] if on one; drawn at equal intervals and at the stations `also` \[m\].
+    /// Body number `body` of a system as a beam of this length \[m\], with so many elements, and of the contour at each of its
+    /// stations \[m\], on a hub of this radius \[m\] if on one; drawn at equal intervals, about two an element, and at the stations
+    /// `also` \[m\].
     pub fn beam(
         (name, body): (&str, usize),
-        length: f64,
-        section: [f64; 2],
+        (length, elements): (f64, usize),
+        contour: impl Fn(f64) -> Contour,
         hub: Option<f64>,
         also: &[f64],
     ) -> Part {
-        Part::new(name, body, Form::Beam { stations: stations(length, INTERVALS, also), section, hub })
+        let stations = stations(length, (2 * elements).clamp(INTERVALS, MOST_INTERVALS), also);
+        let contours = stations.iter().map(|s| contour(*s)).collect();
+        Part::new(name, body, Form::Beam { stations, hub }, contours)
     }
 
     /// Body number `body` of a system as a rigid box: its centre in the axes of the body, and its edges \[m\].
     pub fn rigid((name, body): (&str, usize), centre: [f64; 3], edges: [f64; 3]) -> Part {
-        Part::new(name, body, Form::Box { centre, edges })
+        let contour = Contour::of(&Shape::Rectangle { height: edges[1], width: edges[2] });
+        Part::new(name, body, Form::Box { centre, edges }, vec![contour; 2])
     }
 
-    fn new(name: &str, body: usize, form: Form) -> Part {
+    fn new(name: &str, body: usize, form: Form, contours: Vec<Contour>) -> Part {
         let (poses, displacements, rotations) = Default::default();
-        Part { name: name.to_owned(), body, form, poses, displacements, rotations }
+        Part { name: name.to_owned(), body, form, contours, poses, displacements, rotations }
+    }
+
+    /// Contours of its sections, from one end to the other.
+    pub(super) fn contours(&self) -> &[Contour] {
+        &self.contours
     }
 
     fn stations(&self) -> &[f64] {
@@ -115,12 +130,12 @@ impl Part {
         ([at(0), at(1), at(2)], matrix(normalized([at(3), at(4), at(5), at(6)])))
     }
 
-    /// Its sections at a time, from one end to the other, with the halves of their sizes along the second and third axis.
-    pub(super) fn sections(&self, time: usize) -> (Vec<Frame>, [f64; 2]) {
+    /// Its sections at a time, from one end to the other.
+    pub(super) fn sections(&self, time: usize) -> Vec<Frame> {
         let (position, axes) = self.pose(time);
         let in_space = |x: Vector| plus(position, 1.0, apply(&axes, x));
         match &self.form {
-            Form::Beam { stations, section, .. } => {
+            Form::Beam { stations, .. } => {
                 let of = |list: &[f32], k: usize| {
                     [0, 1, 2].map(|i| {
                         list.get(3 * (time * stations.len() + k) + i).copied().map_or(0.0, f64::from)
@@ -132,31 +147,33 @@ impl Part {
                     let place = [x - stations[0] + u[0], u[1], u[2]];
                     Frame { position: in_space(place), rotation: product(&axes, &turned) }
                 };
-                (stations.iter().enumerate().map(section_at).collect(), section.map(|size| 0.5 * size))
+                stations.iter().enumerate().map(section_at).collect()
             }
             Form::Box { centre, edges } => {
                 let end = |side: f64| {
                     let place = plus(*centre, 0.5 * side, [edges[0], 0.0, 0.0]);
                     Frame { position: in_space(place), rotation: axes }
                 };
-                (vec![end(-1.0), end(1.0)], [0.5 * edges[1], 0.5 * edges[2]])
+                vec![end(-1.0), end(1.0)]
             }
         }
     }
 
     /// Lines that show it at a time: the centreline of a beam, the edges of a box.
     fn lines(&self, time: usize) -> Vec<Vec<Vector>> {
-        let (sections, half) = self.sections(time);
+        let sections = self.sections(time);
         if let Form::Beam { .. } = self.form {
             return vec![sections.iter().map(|section| section.position).collect()];
         }
-        let corner = |frame: &Frame, [y, z]: [f64; 2]| {
-            plus(frame.position, 1.0, apply(&frame.rotation, [0.0, y * half[0], z * half[1]]))
+        let rim = |(frame, contour): (&Frame, &Contour)| -> Vec<Vector> {
+            let corners = contour.outer.iter();
+            corners.map(|[y, z]| plus(frame.position, 1.0, apply(&frame.rotation, [0.0, *y, *z]))).collect()
         };
-        const AROUND: [[f64; 2]; 5] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0]];
-        let rims = sections.iter().map(|frame| AROUND.iter().map(|at| corner(frame, *at)).collect());
-        let along = AROUND[1..].iter().map(|at| sections.iter().map(|frame| corner(frame, *at)).collect());
-        rims.chain(along).collect()
+        let mut rims: Vec<Vec<Vector>> = sections.iter().zip(&self.contours).map(rim).collect();
+        let along = (0..rims[0].len()).map(|i| rims.iter().map(|rim| rim[i]).collect());
+        let along: Vec<Vec<Vector>> = along.collect();
+        rims.iter_mut().for_each(|rim| rim.push(rim[0]));
+        rims.into_iter().chain(along).collect()
     }
 }
 
@@ -165,6 +182,8 @@ impl Part {
 pub struct Scene {
     parts: Vec<Part>,
     obstacles: Vec<Outline>,
+    /// Springs, with a line a time.
+    springs: Vec<(Spring, Vec<[Vector; 2]>)>,
     every: usize,
     seen: usize,
     times: Vec<f64>,
@@ -184,6 +203,11 @@ impl Scene {
     pub fn new(parts: Vec<Part>, obstacles: Vec<Drawn>, records: usize) -> Scene {
         let obstacles = obstacles.into_iter().map(|drawn| Outline { drawn, points: Vec::new() }).collect();
         Scene { parts, obstacles, every: records.div_ceil(MOST).max(1), ..Scene::default() }
+    }
+
+    /// The same with springs, for figures and ParaView's files.
+    pub fn with_springs(self, springs: Vec<Spring>) -> Scene {
+        Scene { springs: springs.into_iter().map(|spring| (spring, Vec::new())).collect(), ..self }
     }
 
     /// The same that takes every `every`-th recorded time.
@@ -215,6 +239,9 @@ impl Scene {
             system.frames(part.body, state, part.stations(), &mut self.frames);
             part.push(&self.frames);
         }
+        for (spring, lines) in &mut self.springs {
+            lines.push(spring.line(system, state));
+        }
         for Outline { drawn, points } in &mut self.obstacles {
             let mut frames = [Frame::default(); 2];
             system.frames(drawn.body, state, &[0.0, drawn.station], &mut frames);
@@ -233,9 +260,21 @@ impl Scene {
         &self.parts
     }
 
-    /// The lines of each part at the time of this number, with its name \[m\].
+    /// The lines of each part and spring at the time of this number, with its name \[m\].
     pub(super) fn lines(&self, time: usize) -> Vec<(&str, Vec<Vec<Vector>>)> {
-        self.parts.iter().map(|part| (part.name.as_str(), part.lines(time))).collect()
+        let parts = self.parts.iter().map(|part| (part.name.as_str(), part.lines(time)));
+        let springs = self.springs.iter().zip(self.lines_of_springs(time));
+        parts.chain(springs.map(|((spring, _), line)| (spring.name.as_str(), vec![line]))).collect()
+    }
+
+    /// The lines of the springs at the time of this number \[m\].
+    pub(super) fn lines_of_springs(&self, time: usize) -> impl Iterator<Item = Vec<Vector>> {
+        self.springs.iter().map(move |(_, lines)| lines.get(time).map_or(Vec::new(), |line| line.to_vec()))
+    }
+
+    /// The obstacles.
+    pub(super) fn obstacles(&self) -> impl Iterator<Item = &Drawn> {
+        self.obstacles.iter().map(|obstacle| &obstacle.drawn)
     }
 
     /// The outlines of the obstacles at the time of this number \[m\].
@@ -249,9 +288,9 @@ impl Scene {
         self.obstacles.iter().map(at_time).collect()
     }
 
-    /// Whether there are obstacles.
-    pub(super) fn has_obstacles(&self) -> bool {
-        !self.obstacles.is_empty()
+    /// Whether there are obstacles or springs.
+    pub(super) fn has_lines(&self) -> bool {
+        !self.obstacles.is_empty() || !self.springs.is_empty()
     }
 
     /// Whether there is nothing to be drawn.
@@ -271,14 +310,15 @@ impl Scene {
             let name = |what: &str| format!("{}.{what}", part.name);
             write_shaped(&mut archive, &name("pose"), &[times, 7], part.poses.iter().copied())?;
             let numbers: [(&str, Vec<f64>); 3] = match &part.form {
-                Form::Beam { stations, section, hub } => {
+                Form::Beam { stations, hub } => {
                     let shape = [times, stations.len() as u64, 3];
                     let fields = [("displacement", &part.displacements), ("rotation", &part.rotations)];
                     for (what, values) in fields {
                         write_shaped(&mut archive, &name(what), &shape, values.iter().copied())?;
                     }
                     let hub = hub.iter().copied().collect();
-                    [("station", stations.clone()), ("section", section.to_vec()), ("hub", hub)]
+                    let section = part.contours.first().map_or(Vec::new(), |contour| contour.size().to_vec());
+                    [("station", stations.clone()), ("section", section), ("hub", hub)]
                 }
                 Form::Box { centre, edges } => {
                     [("box", [*centre, *edges].concat()), ("", Vec::new()), ("", Vec::new())]
@@ -364,6 +404,10 @@ mod tests {
         all
     }
 
+    fn flat(_: f64) -> Contour {
+        Contour::of(&Shape::Rectangle { height: 0.1, width: 0.2 })
+    }
+
     fn at(curvature: f64) -> State {
         State { t: curvature, q: vec![curvature], ..State::default() }
     }
@@ -371,7 +415,7 @@ mod tests {
     #[test]
     fn small_displacements_keep_their_digits_far_from_the_origin() {
         let mut system = Bent { p: [300.0, -20.0, 7.0], d: [0.3, -1.2, 2.0] };
-        let mut scene = Scene::new(vec![Part::beam(("arm", 0), 2.0, [0.1, 0.2], None, &[])], Vec::new(), 3);
+        let mut scene = Scene::new(vec![Part::beam(("arm", 0), (2.0, 1), flat, None, &[])], Vec::new(), 3);
         for curvature in [1e-7, 0.4] {
             scene.sample(&mut system, &at(curvature));
         }
@@ -396,7 +440,7 @@ mod tests {
     #[test]
     fn a_section_may_turn_by_more_than_half_a_revolution() {
         let mut system = Bent { p: [0.0; 3], d: [0.0, 0.5, 0.0] };
-        let mut scene = Scene::new(vec![Part::beam(("arm", 0), 2.0, [0.1; 2], None, &[])], Vec::new(), 1);
+        let mut scene = Scene::new(vec![Part::beam(("arm", 0), (2.0, 1), flat, None, &[])], Vec::new(), 1);
         scene.sample(&mut system, &at(-5.0));
         let (_, theta) = &written(&scene)["arm.rotation"];
         for (k, theta) in theta.chunks(3).enumerate() {
@@ -425,9 +469,17 @@ mod tests {
         let mut system = Bent { p: [0.0; 3], d: [0.0; 3] };
         let plane = Plane { point: [0.0, -1.0, 0.0], normal: [0.0, 1.0, 0.0], motion: None };
         let (name, obstacle) = ("floor".into(), Arc::new(plane));
-        let drawn =
-            Drawn { name, body: 0, station: 1.5, size: 2.0, in_space: false, on_hub: false, obstacle };
-        let beam = Part::beam(("arm", 0), 2.0, [0.1; 2], Some(0.5), &[1.5]);
+        let drawn = Drawn {
+            name,
+            body: 0,
+            station: 1.5,
+            points: Vec::new(),
+            size: 2.0,
+            in_space: false,
+            on_hub: false,
+            obstacle,
+        };
+        let beam = Part::beam(("arm", 0), (2.0, 1), flat, Some(0.5), &[1.5]);
         let mut scene = Scene::new(vec![beam], vec![drawn], 1);
         scene.sample(&mut system, &at(1e-9));
         let all = written(&scene);
@@ -445,7 +497,8 @@ mod tests {
     fn the_same_scene_gives_the_same_bytes() {
         let bytes = || {
             let mut system = Bent { p: [0.0; 3], d: [0.1; 3] };
-            let mut scene = Scene::new(vec![Part::beam(("arm", 0), 2.0, [0.1; 2], None, &[])], Vec::new(), 1);
+            let mut scene =
+                Scene::new(vec![Part::beam(("arm", 0), (2.0, 1), flat, None, &[])], Vec::new(), 1);
             scene.sample(&mut system, &at(0.3));
             let mut out = Cursor::new(Vec::new());
             scene.write(&mut out).unwrap();

@@ -14,7 +14,8 @@ use flexion::linalg::vector::{cross, inner};
 use flexion::multibody::rotation::{Vector, apply, exponential, frame, matrix, plus, times};
 use flexion::multibody::slender::{self, Properties, Station};
 use flexion::quadrature::Gauss;
-use flexion::section::BladeSection;
+use flexion::section::{BladeSection, Shape};
+use flexion_results::Contour;
 use std::fmt;
 use std::sync::Arc;
 
@@ -198,6 +199,8 @@ pub struct Beam {
     pub tension_centre: [f64; 2],
     /// Stiffnesses that couple torsion and bending \[N·m²\].
     pub coupling: [f64; 3],
+    /// Outline of the root section that is drawn, where one is given.
+    pub outline: Option<Contour>,
     /// What holds root and tip.
     pub ends: [End; 2],
     /// Velocity of the root and angular velocity at the start.
@@ -239,6 +242,24 @@ impl Beam {
         let gauss = Gauss::new(8);
         let density = |s: f64| self.blade.resultants(s).mass;
         ends.windows(2).map(|range| gauss.integrate(range[0], range[1], density)).sum()
+    }
+
+    /// Outline of the section at a station: that of its shape; the given one, in proportion to the radii √(EI/EA) of the section;
+    /// or that of the homogeneous rectangle of the same EA and EI.
+    pub fn contour(&self, s: f64) -> Contour {
+        let radii = |s: f64| {
+            let of = self.blade.resultants(s);
+            [of.chord_stiffness, of.flap_stiffness].map(|stiffness| (stiffness / of.axial_stiffness).sqrt())
+        };
+        let ([high, wide], [root_high, root_wide]) = (radii(s), radii(0.0));
+        let shape = self.section.shapes.and_then(|[root, tip]| root.between(tip, s / self.length));
+        match (&self.outline, shape) {
+            (Some(outline), _) => outline.scaled([high / root_high, wide / root_wide]),
+            (None, Some(shape)) => Contour::of(&shape),
+            (None, None) => {
+                Contour::of(&Shape::Rectangle { height: 12_f64.sqrt() * high, width: 12_f64.sqrt() * wide })
+            }
+        }
     }
 
     /// Stiffness and inertia at a station.
@@ -293,6 +314,11 @@ static FIBRE: [Key; 4] = [
     key("z", Quantity(&LENGTH, Any), Default::Number(0.0), "place across, along tangent × height"),
 ];
 
+static OUTLINE: [Key; 2] = [
+    key("y", Type::Quantities(&LENGTH, Any), Empty, "places of its corners along the height of the section"),
+    key("z", Type::Quantities(&LENGTH, Any), Empty, "places across, along tangent × height"),
+];
+
 /// The tables `[[beam]]`.
 pub static BEAMS: Table<Beam> = Table {
     key: key(
@@ -331,6 +357,12 @@ pub static BEAMS: Table<Beam> = Table {
                 "angle of the tip section against the root without stress, linear between",
             ),
             key("section", Type::Kind(&SECTION), Required, "cross-section"),
+            key(
+                "outline",
+                Type::Table(&OUTLINE),
+                Empty,
+                "outline of its root section, for pictures; that of the shape if left out",
+            ),
             key(
                 "poisson-ratio",
                 Type::Number(Between(-0.99, 0.5)),
@@ -401,7 +433,7 @@ pub static BEAMS: Table<Beam> = Table {
     ),
     example: "beam=[{name='arm', length=1, start=[0, 0, 1], direction=[1, 1, 0], twist='20 deg', root='clamped', elements=4, polar-inertia=1e-3, \
               section={kind='rectangle', modulus='70 GPa', density=2700, width='2 cm', height='1 cm', rotary-inertia=true}, \
-              mass-damping=0.1, stiffness-damping='1 ms', stations=[0.5], fibre=[{name='top', station=0, y='5 mm'}]}]",
+              mass-damping=0.1, stiffness-damping='1 ms', stations=[0.5], outline={y=['-5 mm', '5 mm', 0], z=[0, 0, '2 cm']}, fibre=[{name='top', station=0, y='5 mm'}]}]",
     make,
 };
 
@@ -481,6 +513,7 @@ fn make(v: &Values, c: &Context<'_>) -> Made<Beam> {
         polar: v.optional_number("polar-inertia")?,
         tension_centre: components(v, "tension-centre")?,
         coupling: components(v, "coupling")?,
+        outline: outline(v.table("outline")?)?,
         elements: v.count("elements")?,
         ends: [ends.0, ends.1],
         motion: [optional_vector(v, "velocity")?, optional_vector(v, "spin")?],
@@ -498,6 +531,21 @@ fn components<const N: usize>(v: &Values, key: &str) -> Made<[f64; N]> {
     }
     let counted = <[f64; N]>::try_from(given);
     counted.map_err(|_| Fault::new(key, format!("has {N} numbers, not {}", given.len())).into())
+}
+
+/// The polygon through the corners that a case gives.
+fn outline(v: &Values) -> Made<Option<Contour>> {
+    let (y, z) = (v.numbers("y")?, v.numbers("z")?);
+    if y.is_empty() && z.is_empty() {
+        return Ok(None);
+    }
+    if y.len() != z.len() {
+        let message = format!("there are {} values for {} corners", z.len(), y.len());
+        return Err(Fault::new("outline.z", message).into());
+    }
+    let corners = y.iter().zip(z).map(|(y, z)| [*y, *z]).collect();
+    let contour = Contour::through(corners);
+    contour.map(Some).ok_or_else(|| Fault::new("outline", "its corners enclose no area").into())
 }
 
 fn fibres(v: &Values, c: &Context<'_>) -> Made<Vec<(String, f64, [f64; 2])>> {

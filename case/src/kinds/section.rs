@@ -31,8 +31,8 @@ pub struct Section {
     pub planar: Arc<dyn section::Section>,
     /// Height in the plane of motion \[m\], at the root if it tapers; `None` when only resultants are known.
     pub height: Option<f64>,
-    /// Shape, at the root if it tapers; `None` when only resultants are known.
-    pub shape: Option<Shape>,
+    /// Shape at root and tip, linear between; `None` when only resultants are known.
+    pub shapes: Option<[Shape; 2]>,
     /// Whether it is known out of the plane, too.
     pub is_blade: bool,
     spatial: Spatial,
@@ -50,7 +50,7 @@ impl Section {
         let planar: Arc<dyn section::Section> = Arc::new(section);
         let blade = Arc::clone(&planar);
         let spatial: Spatial = Arc::new(move |_| Ok(Box::new(PlanarBlade(Box::new(Arc::clone(&blade))))));
-        Section { planar, height: None, shape: None, is_blade: false, spatial }
+        Section { planar, height: None, shapes: None, is_blade: false, spatial }
     }
 
     /// The section of a blade, of a material with this Poisson's ratio.
@@ -81,7 +81,7 @@ fn homogeneous(v: &Values, c: &Context<'_>, shape: Read) -> Made<Section> {
     let planar = Uniform::from_material(modulus, density, shape).at("")?.with_inertia(kept(v)?);
     Ok(Section {
         height: height(shape),
-        shape: Some(shape),
+        shapes: Some([shape; 2]),
         spatial: blade_of_shapes(v, c, shape, shape)?,
         ..Section::planar(planar)
     })
@@ -93,7 +93,7 @@ fn tapered(v: &Values, c: &Context<'_>, shape: Read) -> Made<Section> {
     let planar = Tapered::new(v.number("modulus")?, v.number("density")?, c.length()?, root, tip).at("")?;
     Ok(Section {
         height: height(root),
-        shape: Some(root),
+        shapes: Some([root, tip]),
         spatial: blade_of_shapes(v, c, root, tip)?,
         ..Section::planar(planar.with_inertia(kept(v)?))
     })

@@ -268,9 +268,11 @@ impl Reading {
         let identity = self.identity();
         let title = (!self.case.title.is_empty()).then_some(self.case.title.as_str());
         let figure = self.case.output.plots.then(|| match &run.events {
-            _ if self.case.space().is_some() => spatial_figure(&run.scene, &run.trajectory, title),
+            events if self.case.space().is_some() => {
+                spatial_figure(&run.scene, &run.trajectory, events, title)
+            }
             events if events.is_empty() => trajectory_figure(&run.trajectory, title),
-            events => contact_figure(&run.trajectory, events, title),
+            events => contact_figure(&run.scene, &run.trajectory, events, title),
         });
         let attachments = Attachments {
             figure: figure.as_ref(),

@@ -5,11 +5,10 @@ use crate::hub_beam::HubBeam;
 use crate::kinds::beam::Beam;
 use crate::kinds::contact::Contact;
 use crate::space::Space;
-use flexion::contact as touch;
 use flexion::hub_beam::Mount;
-use flexion::multibody::Body;
+use flexion::multibody::{self, Body, Marker};
 use flexion::section::Shape;
-use flexion_results::{Drawn, Part, Scene};
+use flexion_results::{Contour, Drawn, Part, Scene, Spring};
 use std::sync::Arc;
 
 /// Length over height of a beam drawn without knowing its height.
@@ -25,18 +24,19 @@ impl Case {
             Subject::HubBeam(of) => {
                 let contacts = of.drawn();
                 let also: Vec<f64> = contacts.iter().map(|drawn| drawn.station).collect();
-                let section = [of.height(); 2];
-                let beam = Part::beam(("beam", 0), of.length, section, Some(of.hub.radius), &also);
+                let section = Shape::Rectangle { height: of.height(), width: of.height() };
+                let contour = |_: f64| Contour::of(&section);
+                let beam = Part::beam(("beam", 0), (of.length, 1), contour, Some(of.hub.radius), &also);
                 (vec![beam], contacts)
             }
             Subject::Space(of) => (of.parts(), of.drawn()),
         };
         let scene = Scene::new(parts, obstacles, (self.duration / self.output.step) as usize);
-        match (&self.subject, self.output.vtk) {
-            (Subject::Space(_), Some(interval)) => {
-                scene.taken((interval / self.output.step).round() as usize)
-            }
-            _ => scene,
+        let Subject::Space(of) = &self.subject else { return scene };
+        let scene = scene.with_springs(of.springs());
+        match self.output.vtk {
+            Some(interval) => scene.taken((interval / self.output.step).round() as usize),
+            None => scene,
         }
     }
 }
@@ -55,6 +55,7 @@ impl HubBeam {
             size: self.length,
             in_space: false,
             station: contact.stations.last().copied().unwrap_or(self.length),
+            points: if contact.stations.len() > 1 { contact.stations.clone() } else { Vec::new() },
             on_hub: contact.mount == Mount::Hub,
             obstacle: Arc::clone(&contact.obstacle),
         };
@@ -63,18 +64,48 @@ impl HubBeam {
 }
 
 impl Space {
-    /// The obstacles, as they are drawn.
+    /// The obstacles, as they are drawn: once each, however many points of a beam may touch it.
     fn drawn(&self) -> Vec<Drawn> {
-        let drawn = |(contact, (body, station)): (&touch::Contact, &(usize, f64))| Drawn {
-            name: contact.name.clone(),
-            body: *body,
-            station: *station,
-            size: 0.5 * self.size,
-            in_space: true,
-            on_hub: false,
-            obstacle: Arc::clone(&contact.obstacle),
+        let mut first = 0;
+        let drawn = |count: &usize| {
+            let points = self.touching.get(first..first + count)?;
+            let contact = self.contacts.get(first)?;
+            first += count;
+            let (body, station) = *points.get(count / 2)?;
+            // A point along the whole beam has its number behind the name of the contact.
+            let (name, points) = match contact.name.split_once('.') {
+                Some((name, _)) => (name, points.iter().map(|(_, station)| *station).collect()),
+                None => (contact.name.as_str(), Vec::new()),
+            };
+            Some(Drawn {
+                name: name.to_owned(),
+                body,
+                station,
+                points,
+                size: 0.5 * self.size,
+                in_space: true,
+                on_hub: false,
+                obstacle: Arc::clone(&contact.obstacle),
+            })
         };
-        self.contacts.iter().zip(&self.touching).map(drawn).collect()
+        self.points.iter().filter_map(drawn).collect()
+    }
+
+    /// The springs, as they are drawn.
+    fn springs(&self) -> Vec<Spring> {
+        let end = |marker: &Marker| {
+            let fixed = match marker.part {
+                multibody::Part::Ground => None,
+                multibody::Part::Body(i) => Some((i, 0.0)),
+                multibody::Part::Section { beam, node } => {
+                    let station = self.beams.get(beam).and_then(|(_, built)| built.nodes().get(node));
+                    Some((self.bodies.len() + beam, station.copied().unwrap_or(0.0)))
+                }
+            };
+            (fixed, marker.frame.position)
+        };
+        let springs = self.multibody.model().springs().iter();
+        springs.map(|s| Spring { name: s.name.clone(), ends: [end(&s.from), end(&s.to)] }).collect()
     }
 
     /// Its bodies as boxes, and its beams.
@@ -82,9 +113,11 @@ impl Space {
         let bodies = self.bodies.iter().enumerate();
         let bodies = bodies.map(|(i, body)| Part::rigid((&body.name, i), body.centre, edges(body)));
         let beams = self.beams.iter().zip(self.bodies.len()..);
-        let beams = beams
-            .map(|((beam, _), i)| Part::beam((&beam.name, i), beam.length, size(beam), None, &beam.stations));
-        bodies.chain(beams).collect()
+        let beam = |((beam, _), i): (&(Beam, _), usize)| {
+            let also = [beam.blade.breaks(), &beam.stations].concat();
+            Part::beam((&beam.name, i), (beam.length, beam.elements), |s| beam.contour(s), None, &also)
+        };
+        bodies.chain(beams.map(beam)).collect()
     }
 }
 
@@ -95,13 +128,4 @@ fn edges(body: &Body) -> [f64; 3] {
     let edges = [edge(y + z - x), edge(x + z - y), edge(x + y - z)];
     let largest = edges.iter().copied().fold(0.0, f64::max);
     edges.map(|edge| edge.max(THINNEST * largest))
-}
-
-/// Height and width of a beam's section, as they are drawn \[m\].
-fn size(beam: &Beam) -> [f64; 2] {
-    match beam.section.shape {
-        Some(Shape::Rectangle { width, height }) => [height, width],
-        Some(Shape::Ellipse { semi_width, semi_height }) => [2.0 * semi_height, 2.0 * semi_width],
-        _ => [beam.section.height.unwrap_or(beam.length / SLENDERNESS); 2],
-    }
 }

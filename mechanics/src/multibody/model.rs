@@ -212,6 +212,11 @@ impl Model {
         Some(Marker { part, frame: Frame { position, rotation: product(&inverse, &space.rotation) } })
     }
 
+    /// Its springs.
+    pub fn springs(&self) -> &[Spring] {
+        &self.springs
+    }
+
     /// The frame of a part at the start.
     pub(super) fn frame(&self, part: Part) -> Option<Frame> {
         match part {

@@ -111,7 +111,7 @@ fn a_ball_slides_and_then_rolls_with_five_sevenths_of_its_speed() {
     let direction = [0.6, 0.8];
     let mut model = Model::new().with_gravity([0.0, 0.0, -GRAVITY]);
     let mut ball = Body::new("ball", mass, [0.4 * mass * radius * radius; 3]).at([0.0, 0.0, radius]);
-    ball.velocity = [speed * direction[0], speed * direction[1], 0.0];
+    ball.velocity = Some([speed * direction[0], speed * direction[1], 0.0]);
     let part = model.body(ball);
     model.contact_ball(Marker::new(part, [0.0; 3]), radius);
     let rolls = 2.0 * speed / (7.0 * mu * GRAVITY);

@@ -5,7 +5,7 @@ use super::font::Font;
 use super::layout::{Layout, layout, lines, mark, text_at};
 use super::placed::Placed;
 use super::sketch::{Point, Shape};
-use super::{Figure, Line, Panel, pdf, raster, style, svg};
+use super::{Axis, Figure, Line, Panel, pdf, raster, style, svg};
 use crate::OutputError;
 
 /// A figure with every line in its place.
@@ -125,16 +125,31 @@ impl Figure {
             let panel = &self.panels[i];
             let own = std::slice::from_ref(panel);
             let shown = if self.share_x { &self.panels[..] } else { own };
-            let x = Resolved::new(&panel.x, points(shown).map(|p| p.0), 5);
+            let [x, y] = axes(panel, size);
+            let x = Resolved::new(&x, points(shown).map(|p| p.0), 5);
             // The range across is that of what is shown along.
             let shown =
                 |p: &&(f64, f64)| panel.x.range.is_none_or(|(a, b)| (a.min(b)..=a.max(b)).contains(&p.0));
-            let y = Resolved::new(&panel.y, points(own).filter(shown).map(|p| p.1), 5);
+            let y = Resolved::new(&y, points(own).filter(shown).map(|p| p.1), 5);
             let x_labelled = !self.share_x || i + columns >= self.panels.len();
             Placed { panel, x, y, x_labelled, size }
         };
         (0..self.panels.len()).map(place).collect()
     }
+}
+
+/// The axes of a panel with a frame of this size, with one scale where it is to have that.
+fn axes(panel: &Panel, (width, height): Point) -> [Axis; 2] {
+    let (mut x, mut y) = (panel.x.clone(), panel.y.clone());
+    if let (true, Some(along), Some(across)) = (panel.equal, x.range, y.range) {
+        let scale = ((along.1 - along.0) / width).max((across.1 - across.0) / height);
+        let grown = |(lo, hi): (f64, f64), size: f64| {
+            let (middle, half) = (0.5 * (lo + hi), 0.5 * scale * size);
+            Some((middle - half, middle + half))
+        };
+        (x.range, y.range) = (grown(along, width), grown(across, height));
+    }
+    [x, y]
 }
 
 fn points(panels: &[Panel]) -> impl Iterator<Item = &(f64, f64)> {

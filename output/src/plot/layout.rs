@@ -13,6 +13,9 @@ const CLEAR_LEGEND: f64 = 5.0;
 const BESIDE: f64 = 5.0;
 /// Length of the line from the frame to words outside of it [px].
 const LEADER: f64 = 14.0;
+/// Directions of lines to words in the frame, and their greatest length over that length.
+const TURNS: u32 = 16;
+const FURTHEST: u32 = 8;
 /// The same above the frame.
 const RISE: f64 = 9.0;
 /// Length of a line in a legend, and the space behind it and behind the name [px].
@@ -94,21 +97,52 @@ impl Layout {
         }
     }
 
-    /// Words at the first of their points beside which there is room; left out where there is none.
+    /// Words at the first of their points beside which there is room; where there is none, at the end of a line to the first point,
+    /// or else left out.
     fn words_inside(&mut self, p: &Placed<'_>, font: &Font, room: &mut Room) {
+        let rise = 0.5 * (style::ASCENT - style::DESCENT);
+        // What words and their lines take: other lines may cross curves, but not these.
+        let mut written = Room::new(p.size);
         for words in p.panel.words.iter().filter(|words| !words.outside) {
             let width = font.width(&words.text, style::FONT);
-            let around = |(x, y): Point| {
-                let (up, down) = (y - BESIDE - style::DESCENT, y + BESIDE + style::ASCENT);
-                let level = y + 0.5 * (style::ASCENT - style::DESCENT);
+            let around = |(x, y): Point, beside: f64| {
+                let (up, down) = (y - beside - style::DESCENT, y + beside + style::ASCENT);
                 let left = x - 0.5 * width;
-                [(left, up), (left, down), (x + BESIDE, level), (x - BESIDE - width, level)]
+                [(left, up), (left, down), (x + beside, y + rise), (x - beside - width, y + rise)]
             };
             let rectangle = |(x, y): Point| [x, y - style::ASCENT, x + width, y + style::DESCENT];
-            let mut places = words.points.iter().filter_map(|point| p.pixel(*point)).flat_map(around);
-            if let Some(at) = places.find(|at| room.is_free(rectangle(*at), CLEAR)) {
-                room.take(rectangle(at));
+            let free = |room: &Room, at: Point| room.is_free(rectangle(at), CLEAR);
+            let points = words.points.iter().filter_map(|point| p.pixel(*point));
+            let marked = BESIDE + style::MARK;
+            let place = points.clone().flat_map(|point| around(point, BESIDE)).find(|at| free(room, *at));
+            let beside_mark =
+                || points.clone().flat_map(|point| around(point, marked)).find(|at| free(room, *at));
+            let place = place.or_else(beside_mark);
+            if let Some(at) = place {
+                [&mut *room, &mut written].into_iter().for_each(|room| room.take(rectangle(at)));
                 self.shapes.push(text_at(at, &words.text, 0.0, style::INK));
+                continue;
+            }
+            let Some((x, y)) = points.clone().next().filter(|_| words.leader) else { continue };
+            // The place of the words, and the line to it, which begins clear of a mark.
+            let away = |(turn, radius): (u32, u32)| {
+                let (sin, cos) = (std::f64::consts::TAU * f64::from(turn) / f64::from(TURNS)).sin_cos();
+                let at = |radius: f64| (x + radius * cos, y - radius * sin);
+                let end = at(f64::from(radius) * LEADER);
+                let words = (end.0 - 0.5 * width * (1.0 - cos), end.1 + rise);
+                let [left, top, right, bottom] = rectangle(words);
+                (words, [at(marked), (end.0.clamp(left, right), end.1.clamp(top, bottom))])
+            };
+            let all =
+                || (2..=FURTHEST).flat_map(|radius| (0..TURNS).map(move |turn| (turn, radius))).map(away);
+            let clear = |of: &Room| all().find(|(at, line)| free(room, *at) && of.is_clear(line));
+            if let Some((at, line)) = clear(room).or_else(|| clear(&written)) {
+                self.shapes.push(Shape::line((x, y), line[1], style::INK, style::GRID_WIDTH));
+                self.shapes.push(text_at(at, &words.text, 0.0, style::INK));
+                for room in [&mut *room, &mut written] {
+                    room.take_line(&line);
+                    room.take(rectangle(at));
+                }
             }
         }
     }

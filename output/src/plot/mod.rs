@@ -57,6 +57,8 @@ pub struct Panel {
     pub series: Vec<Series>,
     /// Words written at points of the panel, those that would overlap left out.
     pub words: Vec<Words>,
+    /// Whether the axes have one scale: the given range that is too short for the frame grows on both sides.
+    pub equal: bool,
 }
 
 /// Words in a panel.
@@ -69,6 +71,8 @@ pub struct Words {
     /// Whether they stand outside of the frame, with a line to the first point: above the frame for a point on its upper
     /// edge, to its right for any other; without points they are the heading of the panel.
     pub outside: bool,
+    /// Whether they may stand away from their points where no room is beside them, with a line to the first.
+    pub leader: bool,
     /// Colour of that line: that of the curve with this number in the palette.
     pub color: Option<usize>,
 }

@@ -120,7 +120,7 @@ pub(super) fn panel(runs: &[(Option<&str>, &Trajectory)], name: &str) -> Option<
             series.push(Series::line(*run, points(trajectory, i)).numbered(number));
         }
     }
-    Some(Panel { x: Axis::time(), y: y?, series, words: Vec::new() })
+    Some(Panel { x: Axis::time(), y: y?, series, ..Panel::default() })
 }
 
 /// The parts of the energy: in one panel, or in two where some are small.
@@ -139,7 +139,7 @@ pub(super) fn energies(trajectory: &Trajectory) -> Vec<Panel> {
             let name = trajectory.channels()[*i].name.rsplit('.').next().filter(|_| group.len() > 1);
             Series::line(name, points(trajectory, *i)).numbered(if group.len() > 1 { *color } else { 0 })
         };
-        Panel { x: Axis::time(), y, series: group.iter().map(curve).collect(), words: Vec::new() }
+        Panel { x: Axis::time(), y, series: group.iter().map(curve).collect(), ..Panel::default() }
     };
     [large, small].into_iter().filter(|group| !group.is_empty()).map(panel).collect()
 }

@@ -23,14 +23,12 @@ impl Room {
 
     /// Takes the cells along a line.
     pub(super) fn take_line(&mut self, points: &[Point]) {
-        for (a, b) in points.iter().zip(points.iter().skip(1)) {
-            let pieces = ((b.0 - a.0).abs().max((b.1 - a.1).abs()) / CELL).ceil().max(1.0);
-            for i in 0..=pieces as usize {
-                let part = i as f64 / pieces;
-                let (x, y) = (a.0 + part * (b.0 - a.0), a.1 + part * (b.1 - a.1));
-                self.take([x, y, x, y]);
-            }
-        }
+        along(points).for_each(|(x, y)| self.take([x, y, x, y]));
+    }
+
+    /// Whether a line meets nothing that is taken.
+    pub(super) fn is_clear(&self, points: &[Point]) -> bool {
+        along(points).all(|(x, y)| !self.cells([x, y, x, y]).any(|cell| self.taken[cell]))
     }
 
     /// Takes a rectangle.
@@ -56,6 +54,17 @@ impl Room {
         let width = self.columns;
         rows.flat_map(move |row| columns.clone().map(move |column| row * width + column))
     }
+}
+
+/// Points of a line, no further apart than a cell.
+fn along(points: &[Point]) -> impl Iterator<Item = Point> {
+    points.iter().zip(points.iter().skip(1)).flat_map(|(a, b)| {
+        let pieces = ((b.0 - a.0).abs().max((b.1 - a.1).abs()) / CELL).ceil().max(1.0);
+        (0..=pieces as usize).map(move |i| {
+            let part = i as f64 / pieces;
+            (a.0 + part * (b.0 - a.0), a.1 + part * (b.1 - a.1))
+        })
+    })
 }
 
 /// Places along an edge for things of given sizes, as near as possible to where they are wanted, in ascending order,
@@ -94,6 +103,7 @@ mod tests {
         room.take_line(&[(0.0, 0.0), (100.0, 50.0)]);
         assert!(!room.is_free([45.0, 20.0, 55.0, 30.0], 0.0));
         assert!(room.is_free([60.0, 5.0, 90.0, 20.0], 2.0));
+        assert!(!room.is_clear(&[(0.0, 50.0), (100.0, 0.0)]) && room.is_clear(&[(20.0, 0.0), (100.0, 40.0)]));
         assert!(!room.is_free([60.0, 5.0, 90.0, 29.0], 20.0) && !room.is_free([90.0, 5.0, 101.0, 20.0], 0.0));
     }
 

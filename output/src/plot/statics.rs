@@ -17,7 +17,7 @@ pub fn statics_figure(path: &LoadPath, title: Option<&str>) -> Figure {
         x: axis(channel),
         y: Axis::new("Load factor", ""),
         series: series(path, i),
-        words: Vec::new(),
+        ..Panel::default()
     };
     let mut panels: Vec<Panel> = shown.take(MOST).map(panel).collect();
     // One legend, and none where all is stable.

@@ -262,7 +262,8 @@ fn no_text_or_legend_meets_a_curve_or_another_text_in_random_figures() {
                 let last = series.points[series.points.len() - 1];
                 let outside = random.bool();
                 let points = if outside { vec![last] } else { series.points.clone() };
-                panel.words.push(Words { points, text: format!("{i} word"), outside, color: Some(i) });
+                let (text, color, leader) = (format!("{i} word"), Some(i), i % 2 == 0);
+                panel.words.push(Words { points, text, outside, leader, color });
                 if random.u8(0..5) == 0 {
                     (series.line, series.marker) = (Line::None, Some(Marker::Ring));
                     series.points.retain(|_| random.u8(0..20) == 0);
@@ -341,4 +342,70 @@ fn a_pdf_is_what_its_table_says() {
     let content = flate2::read::ZlibDecoder::new(&pdf[start..start + length]);
     std::io::Read::read_to_string(&mut { content }, &mut page).unwrap();
     assert!(page.contains(" cm") && page.matches(" S\n").count() > 20 && !page.contains("NaN"));
+}
+
+/// Five names of one point: beside it as long as there is room, then at the ends of lines from it that cross no other name.
+#[test]
+fn names_stand_at_their_point_or_at_the_end_of_a_line_from_it() {
+    let at = (0.3, 0.4);
+    let axis = || Axis { range: Some((0.0, 1.0)), ..Axis::new("x", "m") };
+    let names = ["first-joint", "second-joint", "third-joint", "fourth-joint", "fifth-joint"];
+    let name =
+        |text: &&str| Words { points: vec![at], text: (*text).to_owned(), leader: true, ..Words::default() };
+    let mark = Series { marker: Some(Marker::Circle), line: Line::None, ..Series::line(None, vec![at]) };
+    let beam = Series::line(None, vec![at, (0.9, 0.6)]);
+    let panel = Panel {
+        x: axis(),
+        y: axis(),
+        series: vec![mark, beam],
+        words: names.iter().map(name).collect(),
+        ..Panel::default()
+    };
+    let drawing = Figure { panels: vec![panel], ..Figure::default() }.draw();
+    assert_eq!(faults(&drawing), Vec::<String>::new());
+    let lines: Vec<[Point; 2]> = drawing
+        .front
+        .iter()
+        .filter_map(|shape| match shape {
+            Shape::Line { points, .. } => Some([points[0], points[1]]),
+            _ => None,
+        })
+        .collect();
+    let boxes: Vec<(String, Rectangle)> =
+        boxes(&drawing).into_iter().filter(|(text, _)| names.contains(&text.as_str())).collect();
+    assert_eq!(boxes.len(), names.len());
+    let place = lines[0][0];
+    assert!(lines.iter().all(|[from, _]| *from == place));
+    let outside = |(x, y): Point, [left, top, right, bottom]: Rectangle| {
+        (left - x).max(x - right).max(0.0).hypot((top - y).max(y - bottom).max(0.0))
+    };
+    for (text, rectangle) in &boxes {
+        let to = lines.iter().filter(|[_, end]| outside(*end, *rectangle) < 1e-9).count();
+        assert!(to == 1 || to == 0 && outside(place, *rectangle) < 10.0, "{text}: {rectangle:?}");
+        let crossed = lines.iter().any(|[from, end]| {
+            let crosses = meets((*from, *end), *rectangle);
+            crosses && outside(*end, *rectangle) > 1e-9
+        });
+        assert!(!crossed, "{text}");
+    }
+}
+
+#[test]
+fn equal_axes_have_one_scale_in_frames_of_any_shape() {
+    let axis = |range| Axis { range: Some(range), ..Axis::new("x", "m") };
+    let diagonal = Series::line(None, vec![(0.0, 0.0), (1.0, 1.0)]);
+    let (x, y) = (axis((0.0, 1.0)), axis((-0.5, 2.0)));
+    let panel = Panel { x, y, series: vec![diagonal], equal: true, ..Panel::default() };
+    for count in [1, 3, 5] {
+        let figure = Figure { panels: vec![panel.clone(); count], columns: 2, ..Figure::default() };
+        for drawing in [figure.draw(), figure.draw_in(80.0), figure.draw_in(300.0)] {
+            let line = drawing.curves.iter().find_map(|shape| match shape {
+                Shape::Line { points, .. } => Some((points[0], points[points.len() - 1])),
+                _ => None,
+            });
+            let (from, to) = line.unwrap();
+            let (along, up) = (to.0 - from.0, from.1 - to.1);
+            assert!(along > 10.0 && (along - up).abs() < 1e-9 * along, "{count}: {along} {up}");
+        }
+    }
 }

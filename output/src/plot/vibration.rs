@@ -9,6 +9,9 @@ use num_complex::Complex64;
 /// Most modes that are drawn.
 const MOST: usize = 12;
 
+/// Part of the largest displacement from which on a curve is told from zero.
+const SEEN: f64 = 5e-3;
+
 /// Points of a curve, where it has fewer.
 const FINE: usize = 200;
 
@@ -37,6 +40,7 @@ pub fn modes_figure(
             y: Axis { range: Some((-1.1, 1.1)), ..Axis::new("Shape u / max |u|", "") },
             series: shape(mode, stations, axes),
             words: vec![heading],
+            ..Panel::default()
         }
     };
     let mut panels: Vec<Panel> = modes.modes.iter().take(MOST).enumerate().map(panel).collect();
@@ -60,7 +64,7 @@ fn shape(mode: &Mode, stations: &[f64], names: [&str; 3]) -> Vec<Series> {
         let points = along.map(|(x, u)| (*x, (u[axis] * phase).re)).collect();
         Series::line(Some(names.get(axis).copied().unwrap_or("torsion")), points).numbered(axis)
     };
-    let moves = |series: &Series| series.points.iter().any(|p| p.1.abs() > 1e-6);
+    let moves = |series: &Series| series.points.iter().any(|p| p.1.abs() > SEEN * peak.norm());
     (0..4).map(curve).filter(moves).collect()
 }
 
@@ -86,7 +90,7 @@ pub fn campbell_figure(campbell: &Campbell, revolutions: u32, units: &Units, tit
             let text = format!("{} {}", number + 1, first.mode.shares.dominant());
             let outside = end.speed >= last && furthest <= last;
             let points = points.iter().rev().copied().collect();
-            words.push(Words { points, text, outside, color: Some(number % BRANCHES) });
+            words.push(Words { points, text, outside, color: Some(number % BRANCHES), ..Words::default() });
         }
         let line = [Line::Solid, Line::Dashed][(number / BRANCHES) % 2];
         series.push(Series { color: Some(number % BRANCHES), line, ..Series::line(None, points) });
@@ -95,7 +99,13 @@ pub fn campbell_figure(campbell: &Campbell, revolutions: u32, units: &Units, tit
         let end = furthest.min(top / f64::from(k));
         let points = vec![place(0.0, 0.0), place(end, f64::from(k) * end)];
         let text = format!("{k}Ω");
-        words.push(Words { points: vec![points[1]], text, outside: true, color: Some(GREY) });
+        words.push(Words {
+            points: vec![points[1]],
+            text,
+            outside: true,
+            color: Some(GREY),
+            ..Words::default()
+        });
         series.push(Series { points, line: Line::Dotted, color: Some(GREY), ..Series::default() });
     }
     let at = |c: &Crossing| place(c.speed, f64::from(c.revolutions) * c.speed);
@@ -123,6 +133,7 @@ pub fn campbell_figure(campbell: &Campbell, revolutions: u32, units: &Units, tit
         y: axis(symbol, &units.frequency, (low, high)),
         series,
         words,
+        ..Panel::default()
     };
     Figure { title: title.map(String::from), panels: vec![panel], columns: 1, share_x: false }
 }

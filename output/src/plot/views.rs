@@ -1,9 +1,10 @@
 //! A system in space in three views, at several times.
 
+use super::contact::contact_panels;
 use super::panels::{energies, panel};
 use super::style::{PANEL_HEIGHT, PANEL_WIDTH};
 use super::{Axis, Figure, Line, Marker, Panel, Series, Words};
-use crate::{Scene, Trajectory};
+use crate::{Events, Scene, Trajectory};
 use flexion::system::Role;
 
 /// Most times that are drawn.
@@ -14,42 +15,75 @@ const BESIDE: usize = 3;
 const COLORS: [usize; 3] = [6, 7, 0];
 /// Space around what is drawn, over its size.
 const MARGIN: f64 = 0.06;
-/// The same around parts with their names, and the distance of a name from its joint over the height of the view.
+/// The same around parts with their names.
 const AROUND_NAMES: f64 = 0.2;
-const APART: f64 = 0.1;
+/// Change of a coordinate over the largest of its kind below which it is not drawn.
+const SMALL: f64 = 0.02;
+/// Part of its area that a plane shows from which on it is seen from the front; it is seen from its edge where it shows no more than
+/// the rest.
+const FRONT: f64 = 0.99;
+/// How far a plane is drawn beyond its outline, over that.
+const BEYOND: f64 = 10.0;
 /// The coordinates of the views.
 const VIEWS: [[usize; 2]; 3] = [[0, 1], [0, 2], [1, 2]];
 const NAMES: [&str; 3] = ["x", "y", "z"];
 
-/// The figure of a run in space: three views at several times, and the first columns against time.
-pub fn spatial_figure(scene: &Scene, trajectory: &Trajectory, title: Option<&str>) -> Figure {
-    let mut panels = views(scene, PANEL_HEIGHT[2], MARGIN);
+/// The figure of a run in space: three views at several times, and the first columns against time; with contacts their gaps, forces and
+/// first burst.
+pub fn spatial_figure(
+    scene: &Scene,
+    trajectory: &Trajectory,
+    events: &Events,
+    title: Option<&str>,
+) -> Figure {
+    let mut panels = views(scene, &[], PANEL_HEIGHT[2], MARGIN);
     let column = |i: usize| panel(&[(None, trajectory)], &trajectory.channels()[i].name);
-    // A coordinate that does not change says nothing.
-    let moves = |i: &usize| {
-        let extremes = trajectory.extremes(*i);
-        extremes.max - extremes.min > 1e-9 * extremes.largest()
+    // A coordinate that does not change, or little beside others, says nothing.
+    let change = |i: usize| {
+        let extremes = trajectory.extremes(i);
+        let change = extremes.max - extremes.min;
+        if change > 1e-9 * extremes.largest() { change } else { 0.0 }
     };
-    let energies = energies(trajectory);
+    let channels = trajectory.channels();
+    let changes: Vec<f64> = (0..channels.len()).map(change).collect();
+    let moves = |i: &usize| {
+        let kind = |k: usize| (channels[k].role, &channels[k].unit);
+        let alike = (0..channels.len()).filter(|k| kind(*k) == kind(*i)).map(|k| changes[k]);
+        changes[*i] > 0.0 && changes[*i] >= SMALL * alike.fold(0.0, f64::max)
+    };
     let of = |role| trajectory.with_role(role).filter(moves);
-    let columns = of(Role::Secondary).chain(of(Role::Primary)).filter_map(column);
-    panels.extend(columns.take(BESIDE - energies.len().min(1)));
-    panels.extend(energies.into_iter().take(1));
+    // Those of contacts have panels of their own.
+    let contact = |i: &usize| {
+        events.names().any(|name| trajectory.channels()[*i].name.starts_with(&format!("{name}.")))
+    };
+    let columns = of(Role::Secondary).chain(of(Role::Primary)).filter(|i| !contact(i)).filter_map(column);
+    if events.is_empty() {
+        let energies = energies(trajectory);
+        panels.extend(columns.take(BESIDE - energies.len().min(1)));
+        panels.extend(energies.into_iter().take(1));
+    } else {
+        let contacts = contact_panels(scene, trajectory, events);
+        panels.extend(columns.take((panels.len() + contacts.len()) % 2));
+        panels.extend(contacts);
+    }
     Figure { title: title.map(String::from), panels, columns: 2, share_x: false }
 }
 
 /// Three views of a system at one time, with the names of its parts and of its joints, which stand at the given points \[m\].
 pub fn assembly_figure(scene: &Scene, joints: &[(&str, [f64; 3])], title: Option<&str>) -> Figure {
-    let mut panels = views(scene, PANEL_HEIGHT[1], AROUND_NAMES);
+    let points: Vec<[f64; 3]> = joints.iter().map(|(_, point)| *point).collect();
+    let mut panels = views(scene, &points, PANEL_HEIGHT[1], AROUND_NAMES);
     for (panel, [i, j]) in panels.iter_mut().zip(VIEWS) {
         for (name, lines) in scene.lines(0) {
-            let points: Vec<(f64, f64)> = lines.iter().flatten().map(|p| (p[i], p[j])).collect();
-            let (lowest, highest) = points
-                .iter()
-                .fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), p| (lo.min(p.0), hi.max(p.0)));
-            let top = points.iter().map(|p| p.1).fold(f64::NEG_INFINITY, f64::max);
-            let across = [0.5, 0.25, 0.75].map(|part| (lowest + part * (highest - lowest), top));
-            panel.words.push(Words { points: across.to_vec(), text: name.to_owned(), ..Words::default() });
+            let middle =
+                |pair: &[[f64; 3]]| (0.5 * (pair[0][i] + pair[1][i]), 0.5 * (pair[0][j] + pair[1][j]));
+            let mut points: Vec<(f64, f64)> =
+                lines.iter().flat_map(|line| line.windows(2).map(middle)).collect();
+            let sum = points.iter().fold((0.0, 0.0), |sum, p| (sum.0 + p.0, sum.1 + p.1));
+            let centre = (sum.0 / points.len() as f64, sum.1 / points.len() as f64);
+            let distance = |p: &(f64, f64)| (p.0 - centre.0).hypot(p.1 - centre.1);
+            points.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
+            panel.words.push(Words { points, text: name.to_owned(), leader: true, ..Words::default() });
         }
         for (name, point) in joints {
             let at = (point[i], point[j]);
@@ -60,17 +94,15 @@ pub fn assembly_figure(scene: &Scene, joints: &[(&str, [f64; 3])], title: Option
                 ..Series::line(None, vec![at])
             };
             panel.series.push(mark);
-            let apart = panel.y.range.map_or(0.0, |(lo, hi)| APART * (hi - lo));
-            let around = [(0.0, 1.0), (0.0, -2.0), (0.0, 2.0), (0.0, -3.0), (2.0, 1.0), (-2.0, -2.0)];
-            let points = around.map(|(x, y)| (at.0 + apart * x, at.1 + apart * y)).to_vec();
-            panel.words.push(Words { points, text: (*name).to_owned(), ..Words::default() });
+            let (points, text) = (vec![at], (*name).to_owned());
+            panel.words.push(Words { points, text, leader: true, ..Words::default() });
         }
     }
     Figure { title: title.map(String::from), panels, columns: 2, share_x: false }
 }
 
-/// The views, all with one scale and one unit along both axes.
-fn views(scene: &Scene, height: f64, margin: f64) -> Vec<Panel> {
+/// The views, all with one scale and one unit along both axes, which show these points \[m\] too.
+fn views(scene: &Scene, also: &[[f64; 3]], height: f64, margin: f64) -> Vec<Panel> {
     let count = scene.times().len();
     let taken = TIMES.min(count);
     let mut numbers: Vec<usize> = (0..taken).map(|k| k * (count - 1) / (taken - 1).max(1)).collect();
@@ -80,7 +112,7 @@ fn views(scene: &Scene, height: f64, margin: f64) -> Vec<Panel> {
         .map(|n| (*n, scene.lines(*n).into_iter().flat_map(|(_, lines)| lines).collect()))
         .collect();
     let mut bounds = [(f64::INFINITY, f64::NEG_INFINITY); 3];
-    for point in shots.iter().flat_map(|(_, lines)| lines.iter().flatten()) {
+    for point in shots.iter().flat_map(|(_, lines)| lines.iter().flatten()).chain(also) {
         for (bound, x) in bounds.iter_mut().zip(point).filter(|(_, x)| x.is_finite()) {
             *bound = (bound.0.min(*x), bound.1.max(*x));
         }
@@ -96,8 +128,9 @@ fn views(scene: &Scene, height: f64, margin: f64) -> Vec<Panel> {
         let middle = 0.5 * (bounds[i].0 + bounds[i].1);
         Axis { range: Some((middle - half, middle + half)), ..Axis::new(NAMES[i], "m") }
     };
+    let outlines = shots.last().map_or(Vec::new(), |(time, _)| scene.outlines(*time));
     let view = |(number, [i, j]): (usize, [usize; 2])| {
-        let mut series = Vec::new();
+        let mut series: Vec<Series> = outlines.iter().flat_map(|outline| seen(outline, [i, j])).collect();
         // The first and the last lie over those between.
         let ends = [0, shots.len().saturating_sub(1)];
         let between = (0..shots.len()).filter(|k| !ends.contains(k));
@@ -112,18 +145,45 @@ fn views(scene: &Scene, height: f64, margin: f64) -> Vec<Panel> {
                 series.push(Series { color: Some(COLORS[which]), ..Series::line(name, points) });
             }
         }
-        if let Some((time, _)) = shots.last() {
-            let line = |points: Vec<[f64; 3]>| points.iter().map(|p| (p[i], p[j])).collect();
-            let drawn = |points| Series {
-                line: Line::Dashed,
-                color: Some(COLORS[1]),
-                ..Series::line(None, line(points))
-            };
-            series.extend(scene.outlines(*time).into_iter().map(drawn));
-        }
-        Panel { x: axis(i, half * wide), y: axis(j, half), series, words: Vec::new() }
+        Panel { x: axis(i, half * wide), y: axis(j, half), series, equal: true, words: Vec::new() }
     };
     VIEWS.into_iter().enumerate().map(view).collect()
+}
+
+/// The outline of an obstacle in a view: of a plane a line where it is seen from its edge, nothing where it is seen from the front; of
+/// a cylinder two circles and the edges between them.
+fn seen(outline: &[[f64; 3]], [i, j]: [usize; 2]) -> Vec<Series> {
+    let points: Vec<(f64, f64)> = outline.iter().map(|p| (p[i], p[j])).collect();
+    let apart = |a: (f64, f64), b: (f64, f64)| (b.0 - a.0).hypot(b.1 - a.1);
+    let lines = if let [a, b, c, d, _] = points[..] {
+        let area = 0.5 * ((c.0 - a.0) * (d.1 - b.1) - (c.1 - a.1) * (d.0 - b.0)).abs();
+        let square = 0.5 * (0..3).map(|k| (outline[2][k] - outline[0][k]).powi(2)).sum::<f64>();
+        match area / square {
+            front if front > FRONT => Vec::new(),
+            edge if edge < 1.0 - FRONT => {
+                // It has no end.
+                let (from, to) = if apart(a, c) > apart(b, d) { (a, c) } else { (b, d) };
+                let further = |a: f64, b: f64| a + BEYOND * (a - b);
+                vec![vec![
+                    (further(from.0, to.0), further(from.1, to.1)),
+                    (further(to.0, from.0), further(to.1, from.1)),
+                ]]
+            }
+            _ => vec![points],
+        }
+    } else {
+        let (one, other) = points.split_at(points.len() / 2);
+        let (Some(first), Some(last)) = (one.first(), other.first()) else { return Vec::new() };
+        let along = (last.0 - first.0, last.1 - first.1);
+        let side = |p: &(f64, f64)| along.0 * p.1 - along.1 * p.0;
+        let ends = |pair: &(&(f64, f64), &(f64, f64))| vec![*pair.0, *pair.1];
+        let edges = || one.iter().zip(other);
+        let by_side = |a: &(&(f64, f64), _), b: &(&(f64, f64), _)| side(a.0).total_cmp(&side(b.0));
+        let edges = [edges().min_by(by_side), edges().max_by(by_side)];
+        edges.iter().flatten().map(ends).chain([one.to_vec(), other.to_vec()]).collect()
+    };
+    let drawn = |points| Series { line: Line::Dashed, color: Some(COLORS[1]), ..Series::line(None, points) };
+    lines.into_iter().map(drawn).collect()
 }
 
 /// A time with four digits.
