@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
 
 use crate::written;
-use flexion_case::{Effort, Reading, Run};
+use flexion_case::{Effort, Reading, Run, Target};
 use flexion_results::Errors;
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
@@ -157,5 +157,41 @@ fn a_coarse_mesh_is_told_the_mesh_that_would_do() {
             let largest = finer.trajectory.extremes(finer.trajectory.index(column).unwrap()).largest();
             assert!(error.discretization <= 0.01 * largest, "{elements}: {column} {error:?} of {largest}");
         }
+    }
+}
+
+/// Two clamped beams that cross in a joint, and a hub on its axis: displacements that rounding alone makes have no relative error.
+#[test]
+fn what_rounding_leaves_of_zero_is_neither_coarse_nor_distrusted() {
+    let circle = "section = { kind = 'circle', modulus = 70e9, density = 2700, radius = 5e-3 }";
+    let ends = "root = 'clamped'\ntip = 'clamped'";
+    let crossed = format!(
+        "run = {{ duration = 0 }}\ninitial = {{ kind = 'static' }}\n\
+         [[beam]]\nname = 'a'\nlength = 2\nstart = [-1, 0, 0]\n{circle}\n{ends}\n\
+         [[beam]]\nname = 'b'\nlength = 2\nstart = [0, -1, 0]\ndirection = [0, 1, 0]\n{circle}\n{ends}\n\
+         [[joint]]\nkind = 'spherical'\nbetween = ['a@1 m', 'b@1 m']\n\
+         [[load]]\non = 'a@1 m'\nforce = [0, 0, -1]\n"
+    );
+    let strip =
+        "section = { kind = 'rectangle', modulus = 69e9, density = 2766, height = 2.5e-3, width = 0.1 }";
+    let hub = format!(
+        "gravity = [0, 0, -9.81]\nrun = {{ duration = 0.3 }}\n\
+         [[body]]\nname = 'hub'\nmass = 10\ninertia = {{ kind = 'principal', moments = [5, 5, 9.557] }}\n\
+         [[joint]]\nname = 'bearing'\nkind = 'revolute'\nbetween = ['ground', 'hub']\naxis = [0, 0, 1]\n\
+         motion = {{ kind = 'free' }}\n\
+         [[beam]]\nname = 'blade'\nstart = [0.35, 0, 0]\nlength = 1.45\nup = [0, 1, 1]\n{strip}\nelements = 8\n\
+         [[joint]]\nkind = 'fixed'\nbetween = ['hub', 'blade.root']\n"
+    );
+    for (case, column) in [(&crossed, "b.tip.displacement.z"), (&hub, "hub.position.x")] {
+        let reading = written::reading(case, &[]);
+        let (ours, errors, _) = run(&reading);
+        let largest = ours.trajectory.extremes(ours.trajectory.index(column).unwrap()).largest();
+        assert!(largest > 0.0 && largest < 1e-20, "{column}: {largest:e} is no rounding");
+        assert!(errors.warnings.is_empty(), "{column}: {:?}", errors.warnings);
+        assert_eq!((errors.trusted, errors.distrusted), (ours.state.t, None));
+        // Not asked to be accurate to a part of itself either.
+        let target = Target::new("0.05".to_owned(), None);
+        let refined = reading.refine(&target, &mut |_| ControlFlow::Continue(())).unwrap();
+        assert_eq!(refined.refused, None);
     }
 }

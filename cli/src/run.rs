@@ -272,7 +272,13 @@ fn trust(errors: &Errors, trajectory: &Trajectory) -> String {
     let end = trajectory.times().last().copied().unwrap_or(0.0);
     match &errors.unknown {
         Some(why) => format!("  errors are not known: {why}\n\n"),
-        None if errors.trusted < end => format!("  trusted until t = {:.4} s\n\n", errors.trusted),
+        None if errors.trusted < end => {
+            let column = errors.distrusted.as_ref();
+            let why = column.map_or_else(String::new, |column| {
+                format!(": from there the error of {column} exceeds a tenth of its largest value")
+            });
+            format!("  trusted until t = {:.4} s{why}\n\n", errors.trusted)
+        }
         None => "  ± is the error of mesh and steps, estimated by a finer run\n\n".to_owned(),
     }
 }

@@ -84,6 +84,10 @@ fn followed(arguments: &Arguments, reading: &Reading) -> Result<bool, Refused> {
         directory.discard();
         Refused::Case(problems)
     })?;
+    if let (Some(end), []) = (&path.end, path.points.as_slice()) {
+        directory.discard();
+        return Err(Refused::Request(end.clone()));
+    }
     if path.end.is_none() && path.points.iter().all(|point| point.values == path.points[0].values) {
         directory.discard();
         let message = "no load moves the system: those of t = 0 are zero, or there are none; give it a force, a couple, a \

@@ -91,7 +91,8 @@ impl Comparison {
 
 /// Compares two runs in the `columns`, at the times of the first within the span of the second. Where the
 /// second was recorded at other times it is interpolated: the cubic through the two times before and the two
-/// after (fewer, one-sided, at the ends), whose error is of fourth order in the recording interval.
+/// after (fewer, one-sided, at the ends), whose error is of fourth order in the recording interval. Unit quaternions are compared
+/// as rotations, whatever their signs, over one.
 ///
 /// # Errors
 /// [`ResultsError::Incomparable`] when the runs have no time in common, times that do not ascend, or other units.
@@ -124,6 +125,20 @@ pub fn compare(first: &Results, second: &Results, columns: &[&str]) -> Result<Co
         )));
     };
     let places: Vec<Weights> = times.iter().map(|t| weights(b.times(), *t, slack)).collect();
+    let quaternions = a.quaternions();
+    let continued = (!quaternions.is_empty()).then(|| {
+        let mut continued = b.clone();
+        continued.continue_quaternions(&b.quaternions(), 0..b.len());
+        continued
+    });
+    let b = continued.as_ref().unwrap_or(b);
+    let ours = |i: usize| -> Vec<f64> {
+        a.times().iter().zip(a.values(i)).filter(|(t, _)| inside(**t)).map(|(_, y)| y).collect()
+    };
+    let theirs = |j: usize| -> Vec<f64> {
+        let values: Vec<f64> = b.values(j).collect();
+        places.iter().map(|weights| weights.apply(&values)).collect()
+    };
     let parts =
         a.channels().iter().zip(a.peaks()).filter(|(c, _)| matches!(c.role, Role::Energy | Role::Work));
     let energy = parts.fold(0.0_f64, |largest, (_, peak)| largest.max(peak));
@@ -139,12 +154,21 @@ pub fn compare(first: &Results, second: &Results, columns: &[&str]) -> Result<Co
                 channel.unit, other.unit
             )));
         }
-        let of_first: Vec<f64> =
-            a.times().iter().zip(a.values(i)).filter(|(t, _)| inside(**t)).map(|(_, y)| y).collect();
-        let of_second: Vec<f64> = b.values(j).collect();
-        let d: Vec<f64> =
-            of_first.iter().zip(&places).map(|(y, weights)| weights.apply(&of_second) - y).collect();
-        differences.push(difference(channel, &times, &of_first, &d, energy));
+        let (of_first, mut of_second) = (ours(i), theirs(j));
+        let quaternion = quaternions.iter().map(|first| *first..first + 4).find(|all| all.contains(&i));
+        if let Some(all) = &quaternion {
+            // q and −q are one rotation.
+            let mut products = vec![0.0; times.len()];
+            for (k, l) in all.clone().filter_map(|k| Some((k, b.index(&a.channels()[k].name)?))) {
+                let pairs = ours(k).into_iter().zip(theirs(l));
+                products.iter_mut().zip(pairs).for_each(|(sum, (x, y))| *sum += x * y);
+            }
+            of_second.iter_mut().zip(&products).filter(|(_, p)| **p < 0.0).for_each(|(y, _)| *y = -*y);
+        }
+        let d: Vec<f64> = of_first.iter().zip(&of_second).map(|(x, y)| y - x).collect();
+        let least = if quaternion.is_some() { 1.0 } else { 0.0 };
+        let least = if channel.role == Role::Imbalance { energy } else { least };
+        differences.push(difference(channel, &times, &of_first, &d, least));
         channels.push(channel.clone());
         values.push(d);
     }
@@ -169,7 +193,8 @@ pub fn compare(first: &Results, second: &Results, columns: &[&str]) -> Result<Co
     })
 }
 
-fn difference(channel: &Channel, times: &[f64], a: &[f64], d: &[f64], energy: f64) -> Difference {
+/// The figures of the difference `d`, which is measured by the largest value of `a`, or by `least` where that is more.
+fn difference(channel: &Channel, times: &[f64], a: &[f64], d: &[f64], least: f64) -> Difference {
     let (mut max, mut at, mut peak) = (f64::NAN, f64::NAN, 0.0_f64);
     let (mut squares, mut count, mut not_finite) = (0.0, 0_usize, None);
     for ((&t, &y), &d) in times.iter().zip(a).zip(d) {
@@ -184,7 +209,7 @@ fn difference(channel: &Channel, times: &[f64], a: &[f64], d: &[f64], energy: f6
         squares += d * d;
         count += 1;
     }
-    let scale = if channel.role == Role::Imbalance { energy.max(peak) } else { peak };
+    let scale = peak.max(least);
     let relative = if max == 0.0 { 0.0 } else { max / scale };
     let rms = (squares / count as f64).sqrt();
     let (column, unit) = (channel.name.clone(), channel.unit);
@@ -343,6 +368,42 @@ mod tests {
         };
         let order = (error(40) / error(160)).log2() / 2.0;
         assert!((order - 4.0).abs() < 0.3, "{order}");
+    }
+
+    #[test]
+    fn a_rotation_is_compared_whatever_the_signs_of_its_quaternions() {
+        let angle = |t: f64| 20.0 * t.sin().powi(2);
+        let component = |k: usize, t: f64| match k {
+            0 => (0.5 * angle(t)).cos(),
+            3 => 0.0,
+            k => [0.6, 0.8][k - 1] * (0.5 * angle(t)).sin(),
+        };
+        let names = ["b.rotation.w", "b.rotation.x", "b.rotation.y", "b.rotation.z"];
+        let run = |intervals: usize, sign: &dyn Fn(f64) -> f64| {
+            let of = |k: usize| move |t: f64| sign(t) * component(k, t);
+            let [w, x, y, z] = [0, 1, 2, 3].map(of);
+            let columns: [(&str, &dyn Fn(f64) -> f64); 4] =
+                [(names[0], &w), (names[1], &x), (names[2], &y), (names[3], &z)];
+            results("r", &grid(intervals, 4.0), &columns)
+        };
+        let positive = run(400, &|t| component(0, t).signum());
+        let alternating = run(400, &|t| if (100.0 * t).round() % 2.0 == 0.0 { -1.0 } else { 1.0 });
+        let finer = run(1600, &|t| -component(0, t).signum());
+        for (other, bound) in [(&alternating, 1e-15), (&finer, 1e-15)] {
+            let c = compare(&positive, other, &names).unwrap();
+            assert!(c.differences.iter().all(|d| d.max <= bound), "{:?}", c.differences);
+        }
+        // 20 intervals more than a record each: interpolated, over one also where the component is zero.
+        let c = compare(&run(1620, &|_| 1.0), &finer, &names).unwrap();
+        assert!(
+            c.interpolated && c.differences.iter().all(|d| d.max < 1e-5 && d.scale == 1.0),
+            "{:?}",
+            c.differences
+        );
+        let mut continued = alternating.trajectory;
+        continued.continue_quaternions(&continued.quaternions(), 0..continued.len());
+        let w = continued.column(names[0]).unwrap();
+        assert!(w[0] == 1.0 && w.windows(2).all(|pair| (pair[1] - pair[0]).abs() < 0.11), "{w:?}");
     }
 
     #[test]

@@ -56,6 +56,8 @@ pub struct Errors {
     pub warnings: Vec<String>,
     /// Time \[s\] until which the errors of the principal columns stay below a tenth of their largest values.
     pub trusted: f64,
+    /// The column whose error exceeds that first, where one does.
+    pub distrusted: Option<String>,
     /// How a small disturbance grows, where it does.
     pub unstable: Option<Unstable>,
     /// The runs that led to this one, which is the last, where the case was refined.
@@ -85,6 +87,7 @@ impl Errors {
         out.insert("estimated".into(), self.unknown.is_none().into());
         out.insert("reason".into(), self.unknown.clone().into());
         out.insert("until".into(), self.unknown.is_none().then_some(self.trusted).into());
+        out.insert("column".into(), self.distrusted.clone().into());
         if let Some(Unstable { size, column, from, until }) = &self.unstable {
             let entry = json!({ "disturbance": size, "column": column, "from": from, "until": until });
             out.insert("unstable".into(), entry);

@@ -30,6 +30,8 @@ pub struct Recorder<'a> {
     balance: bool,
     /// Channels of the system that are parts of the total energy.
     energies: Vec<usize>,
+    /// First columns of unit quaternions.
+    quaternions: Vec<usize>,
     gain: Option<f64>,
     /// The first time at which a point may have stepped over an obstacle, and the name of its contact.
     stepped_over: Option<(f64, String)>,
@@ -97,6 +99,7 @@ impl<'a> Recorder<'a> {
         let mut trajectory = Trajectory::new(channels);
         trajectory.reserve((plan.end / plan.sample).min(1e7) as usize + 2);
         Recorder {
+            quaternions: trajectory.quaternions(),
             trajectory,
             shapes: None,
             scene: Scene::default(),
@@ -209,6 +212,8 @@ impl Observer for Recorder<'_> {
                 *out = value;
             }
         });
+        let rows = self.trajectory.len();
+        self.trajectory.continue_quaternions(&self.quaternions, rows - 1..rows);
         if taken {
             self.passing.find_vertices(&mut self.trajectory);
         }

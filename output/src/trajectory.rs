@@ -1,6 +1,12 @@
 //! What a run recorded: one row of channel values for each recorded time.
 
 use flexion::system::{Channel, Role};
+use std::ops::Range;
+
+/// Ends of the names of the components of a unit quaternion, in their order.
+const QUATERNION: [&str; 4] = [".rotation.w", ".rotation.x", ".rotation.y", ".rotation.z"];
+/// Component of a unit quaternion that is no rounding.
+const CERTAIN: f64 = 1e-6;
 
 /// Recorded times and, for each, one value of every channel.
 ///
@@ -64,6 +70,31 @@ impl Trajectory {
         self.times.push(t);
         self.rows.resize(start + self.channels.len(), 0.0);
         write(&mut self.rows[start..]);
+    }
+
+    /// First of the four columns of each unit quaternion.
+    pub fn quaternions(&self) -> Vec<usize> {
+        let is = |columns: &[Channel]| columns.iter().zip(QUATERNION).all(|(c, end)| c.name.ends_with(end));
+        let windows = self.channels.windows(QUATERNION.len()).enumerate();
+        windows.filter(|(_, columns)| is(columns)).map(|(i, _)| i).collect()
+    }
+
+    /// Chooses between the signs of unit quaternions, which mean the same rotation, in some rows: each is continued from
+    /// the row before; in the first row the first component that is not zero is positive. `first` are their
+    /// [columns](Trajectory::quaternions).
+    pub fn continue_quaternions(&mut self, first: &[usize], rows: Range<usize>) {
+        let width = self.channels.len();
+        for at in rows.flat_map(|row| first.iter().map(move |i| row * width + i)) {
+            let (before, now) = self.rows.split_at_mut(at);
+            let now = &mut now[..QUATERNION.len()];
+            let turned = match at.checked_sub(width) {
+                Some(last) => before[last..].iter().zip(&*now).map(|(a, b)| a * b).sum::<f64>() < 0.0,
+                None => now.iter().find(|x| x.abs() > CERTAIN).is_some_and(|x| *x < 0.0),
+            };
+            if turned {
+                now.iter_mut().for_each(|x| *x = -*x);
+            }
+        }
     }
 
     /// Takes a value of the channel at `index` at time `t` \[s\] that is between the rows: it counts for the extremes.

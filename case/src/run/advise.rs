@@ -146,7 +146,7 @@ impl Reading {
             radau(1e-6),
         ])?;
         let found = begin.refine(&target.times(TRUSTED), watch)?;
-        let goals = target.goals(&found.run)?;
+        let goals = target.goals(&found.run, self.case.size())?;
         if found.run.status != Status::Finished {
             return Err(AdviseError::NoAnswer(found.run.message.unwrap_or_default()));
         }
@@ -229,7 +229,7 @@ impl Climb<'_, '_> {
     /// A tolerance at which the error of the steps does not count.
     fn accurate(&self) -> f64 {
         let bound = |goal: &Goal| goal.bound / self.trusted.trajectory.extremes(goal.index).largest();
-        let goals = self.target.goals(&self.trusted).unwrap_or_default();
+        let goals = self.target.goals(&self.trusted, self.reading.case.size()).unwrap_or_default();
         (ACCURATE * goals.iter().map(bound).fold(1.0, f64::min)).clamp(1e-10, 1e-5)
     }
 
@@ -288,7 +288,7 @@ impl Climb<'_, '_> {
 
     /// The largest error over its bound.
     fn error_of(&self, run: &Run) -> f64 {
-        let goals = self.target.goals(&self.trusted).unwrap_or_default();
+        let goals = self.target.goals(&self.trusted, self.reading.case.size()).unwrap_or_default();
         let part = |goal: &Goal| {
             let pair = Pair::new(&run.trajectory, &self.trusted.trajectory, &goal.name);
             // What stands still has a bound of zero.

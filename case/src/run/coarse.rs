@@ -5,15 +5,13 @@
 //! functions. A mesh is named only when a run with it has shown that it does; where it does not, steps are to blame too.
 
 use super::Run;
-use super::difference::Pair;
+use super::difference::{Pair, vanishes};
 use crate::problem::Problems;
 use crate::reading::Reading;
 use flexion_results::{ColumnError, Status, Watch};
 
 /// Error over the largest value of a column from which a mesh is coarse.
 const COARSE: f64 = 0.01;
-/// Largest value of a column, over those in its unit, that counts as zero.
-const ROUNDING: f64 = 1e-9;
 /// Part of that bound which is aimed at.
 const AIM: f64 = 0.7;
 /// Lowest order at which errors are said to fall, and highest that is trusted.
@@ -34,15 +32,11 @@ impl Reading {
         safety: f64,
         watch: &mut Watch<'_>,
     ) -> Option<String> {
-        let size = |error: &ColumnError| {
-            let index = fine.trajectory.index(&error.column)?;
-            Some((fine.trajectory.channels()[index].unit, fine.trajectory.extremes(index).largest()))
-        };
-        let sizes: Vec<_> = columns.iter().filter_map(|error| size(error)).collect();
         let relative = |error: &ColumnError| {
-            let (unit, largest) = size(error)?;
-            let most = sizes.iter().filter(|other| other.0 == unit).fold(0.0_f64, |m, other| m.max(other.1));
-            Some(error.discretization / largest).filter(|part| part.is_finite() && largest > ROUNDING * most)
+            let index = fine.trajectory.index(&error.column)?;
+            let largest = fine.trajectory.extremes(index).largest();
+            let part = Some(error.discretization / largest).filter(|part| part.is_finite());
+            part.filter(|_| !vanishes(&fine.trajectory, index, self.case.size()))
         };
         let worst = columns.iter().filter_map(|error| Some((error.column.as_str(), relative(error)?)));
         let (column, part) = worst.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|worst| worst.1 > COARSE)?;

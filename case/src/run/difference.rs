@@ -1,5 +1,6 @@
-//! The difference of a column of two runs.
+//! The difference of a column of two runs, and what is none.
 
+use flexion::system::Role;
 use flexion_results::Trajectory;
 
 /// Part of the largest difference until then that a value may be off by at least: differences pass through zero.
@@ -8,6 +9,25 @@ const EARLIER: f64 = 0.25;
 const UNRESOLVED: f64 = 0.1;
 /// Part of the largest value of a column beyond which it is no longer trusted.
 const DISTRUSTED: f64 = 0.1;
+
+/// Largest value of a column, over the largest of its unit, that counts as zero.
+const VANISHING: f64 = 1e-9;
+/// The same over the length of the model, or over one radian or a strain of one: what rounding leaves.
+const ROUNDING: f64 = 1e-12;
+
+/// Whether a column never differs from zero by more than rounding may: it has no relative error. Zero is judged by the
+/// size of its kind, the principal columns of the same unit and the length `size` \[m\] of the model.
+pub(super) fn vanishes(of: &Trajectory, index: usize, size: f64) -> bool {
+    let unit = of.channels()[index].unit;
+    let alike = of.channels().iter().enumerate().filter(|(_, c)| c.unit == unit && c.role == Role::Primary);
+    let largest = alike.fold(0.0_f64, |most, (i, _)| most.max(of.extremes(i).largest()));
+    let natural = match unit {
+        "m" => size,
+        "rad" | "" => 1.0,
+        _ => 0.0,
+    };
+    of.extremes(index).largest() <= (VANISHING * largest).max(ROUNDING * natural)
+}
 
 /// A column of two runs over their common records.
 pub(super) struct Pair<'a> {

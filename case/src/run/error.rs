@@ -31,7 +31,7 @@
 //! nothing.
 
 use super::Run;
-use super::difference::Pair;
+use super::difference::{Pair, vanishes};
 use crate::kinds::initial::Initial;
 use crate::kinds::integrator::Steps;
 use crate::problem::Problems;
@@ -196,6 +196,7 @@ impl Reading {
         }
         let grown = unstable.as_ref().map_or(f64::INFINITY, |unstable| unstable.until);
         let (mut columns, mut trusted) = (Vec::new(), fine.state.t.min(run.state.t).min(grown));
+        let mut distrusted = None;
         for name in self::columns(run) {
             let Some(pair) = Pair::new(&run.trajectory, &fine.trajectory, name) else { continue };
             let model = exact.as_ref().and_then(|exact| {
@@ -204,8 +205,12 @@ impl Reading {
             let rounding = ROUNDING * pair.size();
             let error = |difference: f64| safety * difference + rounding;
             let [min, max, last] = pair.of_values().map(error);
-            if pair.ours.channels()[pair.index].role == Role::Primary {
-                trusted = trusted.min(pair.trusted(safety));
+            let principal = pair.ours.channels()[pair.index].role == Role::Primary;
+            if principal && !vanishes(pair.ours, pair.index, self.case.size()) {
+                let until = pair.trusted(safety);
+                if until < trusted {
+                    (trusted, distrusted) = (until, Some(name.to_owned()));
+                }
             }
             columns.push(ColumnError {
                 column: name.to_owned(),
@@ -224,7 +229,7 @@ impl Reading {
         if fine.status == Status::Finished {
             warnings.extend(self.coarse(run, &principal, (&finer, &fine), safety, watch));
         }
-        Ok(Errors { columns, warnings, trusted, unstable, ..Errors::default() })
+        Ok(Errors { columns, warnings, trusted, distrusted, unstable, ..Errors::default() })
     }
 
     /// The last time recorded before the first impact of a run with a rigid contact; behind it a run on another mesh says

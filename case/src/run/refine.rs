@@ -5,7 +5,7 @@
 //! elements, log₂(e_{k−1}/e_k): mesh and steps together, as they are refined.
 
 use super::Run;
-use super::difference::Pair;
+use super::difference::{Pair, vanishes};
 use super::error::{Effort, FINER, TIGHTEST};
 use crate::kinds::integrator::Steps;
 use crate::problem::Problems;
@@ -88,8 +88,8 @@ impl Target {
         Target { factor: factor * self.factor, ..self.clone() }
     }
 
-    /// The columns with their bounds.
-    pub(super) fn goals(&self, run: &Run) -> Result<Vec<Goal>, RefineError> {
+    /// The columns with their bounds. Of all principal ones those that vanish have none; `size` \[m\] is that of the model.
+    pub(super) fn goals(&self, run: &Run, size: f64) -> Result<Vec<Goal>, RefineError> {
         let trajectory = &run.trajectory;
         let mut goals = Vec::new();
         match &self.quantity {
@@ -100,7 +100,9 @@ impl Target {
             }
             None => {
                 let principal = trajectory.channels().iter().enumerate();
-                let principal = principal.filter(|(_, channel)| channel.role == Role::Primary);
+                let principal = principal.filter(|(index, channel)| {
+                    channel.role == Role::Primary && !vanishes(trajectory, *index, size)
+                });
                 goals.extend(principal.map(|(index, _)| (index, Part::History)));
             }
         }
@@ -199,7 +201,7 @@ impl Reading {
         let (mut reading, mut rungs) = (self.clone(), Vec::<Rung>::new());
         loop {
             let mut run = reading.prepare()?.run(watch);
-            let goals = target.goals(&run)?;
+            let goals = target.goals(&run, self.case.size())?;
             if run.status != Status::Finished {
                 return Ok(Refinement { reading, run, refused: None });
             }

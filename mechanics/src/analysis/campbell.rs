@@ -1,7 +1,7 @@
 //! Campbell diagram: the modes of a steadily rotating system as functions of its speed.
 //!
 //! Modes are joined by their shapes, never by their order: from one speed to the next the pairs with the
-//! largest assurance |xᴴ M y|² / (xᴴ M x · yᴴ M y) belong together, so that curves pass through each other where they
+//! largest assurance |xᴴ M y|² / (xᴴ M x · yᴴ M y), or its [like](super::likeness) with gyroscopic forces, belong together, so that curves pass through each other where they
 //! cross and bend where they veer. Where a shape changes too much between two speeds, speeds are
 //! inserted until it does not; where modes change their order, until the interval is 1/8192 of the range: what veers there is
 //! then seen to veer, whatever the speeds asked for.
@@ -10,6 +10,7 @@
 //! of its own, in parallel; within a block the equilibrium and the modes of the last speed begin the next.
 
 use super::crossings::crossings;
+use super::degenerate::align;
 pub use super::diagram::{Branch, Campbell, Crossing, HubState, Instability, NoCampbell, Plan, Point};
 use super::rotation::NoRotation;
 use super::speeds::Solved;
@@ -103,7 +104,12 @@ fn refine(
         let smallest = (next.speed - before.speed) * 0.5_f64.powi(HALVINGS as i32);
         // Speeds still to be passed, the nearest last.
         let mut ahead = vec![next];
-        while let (Some(from), Some(to)) = (out.last(), ahead.last()) {
+        // Degenerate modes are like those before; at the first speed, like those behind.
+        if let ([first], Some(to)) = (out.as_mut_slice(), ahead.last()) {
+            align(to, first);
+        }
+        while let (Some(from), Some(to)) = (out.last(), ahead.last_mut()) {
+            align(from, to);
             let matches = match_shapes(from, to);
             let interval = to.speed - from.speed;
             let clear = matches.iter().take(count).all(|m| m.is_clear()) || interval <= 1.5 * smallest;

@@ -36,7 +36,7 @@ pub struct Point {
     pub mode: Mode,
     /// Its place among the modes at this speed, ascending in |λ|, from 0.
     pub number: usize,
-    /// Assurance against the mode at the speed before; 1 at the first.
+    /// Assurance against the mode at the speed before, with gyroscopic forces in their inner product; 1 at the first.
     pub assurance: f64,
 }
 

@@ -2,12 +2,15 @@
 
 pub mod campbell;
 mod crossings;
+mod degenerate;
 mod diagram;
 mod disturbance;
 mod energy_balance;
 mod equations;
 pub mod equilibrium;
 mod joints;
+mod likeness;
+mod mechanism;
 pub mod modes;
 pub mod path;
 pub mod rotation;

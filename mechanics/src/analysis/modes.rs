@@ -121,6 +121,13 @@ impl Shares {
         self.named().into_iter().fold(("other", f64::NEG_INFINITY), best).0
     }
 
+    /// Adds those of the parts x of a vector, each with M x, whose modal mass is `mass`.
+    fn add(&mut self, system: &dyn System, state: &State, moved: &[[Vec<f64>; 2]; 2], mass: f64) {
+        for [x, mx] in moved {
+            system.shares(state, x, mx, &mut |direction, part| *self.of(direction) += part / mass);
+        }
+    }
+
     fn of(&mut self, direction: Direction) -> &mut f64 {
         match direction {
             Direction::Axial => &mut self.axial,
@@ -390,6 +397,19 @@ fn elastic_frequency(all: &[Matrix; 3], multipliers: usize, count: usize) -> Res
     Ok(elastic.map(|pair| pair.value.norm()).filter(|size| *size > RIGID * last).fold(last, f64::min))
 }
 
+/// Real and imaginary part.
+fn parts(x: &[Complex64]) -> [Vec<f64>; 2] {
+    [x.iter().map(|x| x.re).collect(), x.iter().map(|x| x.im).collect()]
+}
+
+/// Shares of a vector x of modal mass 1, from x and M x.
+pub(super) fn shares(system: &dyn System, state: &State, x: &[Complex64], mx: &[Complex64]) -> Shares {
+    let ([x, imaginary], [mx, of_imaginary]) = (parts(x), parts(mx));
+    let mut shares = Shares::default();
+    shares.add(system, state, &[[x, mx], [imaginary, of_imaginary]], 1.0);
+    shares
+}
+
 /// A mode from its eigenpair, without its shape.
 fn mode(system: &dyn System, state: &State, pencil: &Pencil, pair: Pair, scale: &[f64], rigid: f64) -> Mode {
     let Pair { value: mut eigenvalue, mut vector, residual } = pair;
@@ -397,9 +417,6 @@ fn mode(system: &dyn System, state: &State, pencil: &Pencil, pair: Pair, scale: 
     if eigenvalue.norm() < rigid || rigid > 0.0 && pencil.rounding(eigenvalue, &vector) > UNCERTAIN {
         eigenvalue = Complex64::ZERO;
     }
-    let parts = |x: &[Complex64]| -> [Vec<f64>; 2] {
-        [x.iter().map(|x| x.re).collect(), x.iter().map(|x| x.im).collect()]
-    };
     // Phase by the largest entry, size by the modal mass.
     let size = |i: usize| vector[i].norm() / scale[i];
     let largest =
@@ -416,9 +433,7 @@ fn mode(system: &dyn System, state: &State, pencil: &Pencil, pair: Pair, scale: 
     if mass != 0.0 {
         let root = mass.abs().sqrt();
         vector.iter_mut().for_each(|x| *x /= root);
-        for [x, mx] in &moved {
-            system.shares(state, x, mx, &mut |direction, part| *shares.of(direction) += part / mass);
-        }
+        shares.add(system, state, &moved, mass);
     }
     let rounding = if eigenvalue == Complex64::ZERO { 0.0 } else { pencil.rounding(eigenvalue, &vector) };
     Mode { eigenvalue, vector, residual, rounding, mesh: None, shares, shape: Shape::default(), nodes: 0 }

@@ -6,6 +6,7 @@
 //! critical state in between is enclosed by dividing the step, which is short there.
 
 use super::equations::{Direction, Equations, Failure, apply};
+use super::mechanism::driven_motion;
 use super::stability::{Stability, stability};
 use crate::linalg::eigen::EigenError;
 use crate::system::{State, System};
@@ -87,6 +88,15 @@ pub struct Point {
 /// Why a path ends.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PathEnd {
+    /// There is no path: the loads drive a motion that nothing holds.
+    #[error(
+        "there is no equilibrium under the loads near the start: they drive a motion that has no stiffness, largest in the \
+         {largest}; hold it, or begin where the loads do no work on it"
+    )]
+    Mechanism {
+        /// Label of the largest unknown of the motion.
+        largest: String,
+    },
     /// Newton's method fails.
     #[error(
         "the path of equilibria ends at the load factor {factor:.6}: {what} (largest in the {worst}); hold what can move freely, \
@@ -136,6 +146,9 @@ pub fn follow(
     mut visit: impl FnMut(&mut dyn System, &Point) -> bool,
 ) -> Result<(), PathEnd> {
     let mut state = start.clone();
+    if let Some(largest) = driven_motion(system, &state) {
+        return Err(PathEnd::Mechanism { largest });
+    }
     let mut equations = Equations::new(system, &mut state);
     let (mut factor, mut step) = (0.0, FIRST.min(plan.longest));
     let first =

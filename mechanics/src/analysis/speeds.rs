@@ -1,15 +1,18 @@
 //! Modes at one speed after the other.
 
 use super::diagram::{Branch, HubState, NoCampbell, Plan};
-use super::modes::{Mode, NoModes, describe, modes_near};
+use super::likeness::{assurance, gyroscopic};
+use super::modes::{Mode, NoModes, describe, modes_near, shares};
 use super::rotation::rotate_stably;
-use super::stiffness::mass;
+use super::stiffness::{damping, mass};
 use crate::linalg::Matrix;
 use crate::system::{Parameter, State, System};
 use num_complex::Complex64;
 
 /// Modes computed beyond those asked for, so that curves may cross the last one.
 const SPARE: usize = 4;
+/// Difference of two assurances that does not tell which of two modes it is.
+const AMBIGUOUS: f64 = 0.1;
 /// Speeds in a block.
 const BLOCK: usize = 25;
 
@@ -21,6 +24,8 @@ pub(super) struct Solved {
     pub modes: Vec<Mode>,
     /// M x of each mode.
     pub massed: Vec<Vec<Complex64>>,
+    /// G x of each mode, with the skew part G of the damping; empty without one.
+    pub gyroscopic: Vec<Vec<Complex64>>,
     pub equilibrium: State,
 }
 
@@ -115,19 +120,23 @@ impl<'a> Speeds<'a> {
         self.solve(speed, self.plan.count + SPARE, Some(from))
     }
 
-    /// The mode at a speed, among those up to `number`, that is most like the vector `near`, and its assurance.
+    /// The mode at a speed, among those up to `number`, that is like the vector `near`, and its assurance; of several, that
+    /// with a frequency next to `frequency` [rad/s].
     pub(super) fn mode_like(
         &mut self,
         speed: f64,
         from: &Solved,
         number: usize,
-        near: &[Complex64],
+        (near, frequency): (&[Complex64], f64),
     ) -> Option<(Mode, f64)> {
         self.state.copy_from(&from.equilibrium);
         self.speed = from.speed;
         let solved = self.solve(speed, number + 1, Some(from)).ok()?;
-        let likeness = solved.massed.iter().map(|massed| assurance(near, massed));
-        solved.modes.iter().cloned().zip(likeness).max_by(|a, b| a.1.total_cmp(&b.1))
+        let likeness: Vec<f64> = solved.massed.iter().map(|massed| assurance(near, massed)).collect();
+        let most = likeness.iter().fold(0.0_f64, |most, x| most.max(*x));
+        let alike = solved.modes.into_iter().zip(likeness).filter(|(_, x)| *x > most - AMBIGUOUS);
+        let off = |mode: &Mode| (mode.frequency() - frequency).abs();
+        alike.min_by(|a, b| off(&a.0).total_cmp(&off(&b.0)))
     }
 
     /// The lowest modes at a speed, from those at another.
@@ -153,9 +162,11 @@ impl<'a> Speeds<'a> {
         }
         let modes = modes.map_err(|source| NoCampbell::Modes { speed, source })?.modes;
         let mass = mass(system, &state);
+        let damping = damping(system, &state);
         system.hold(true);
         let massed = modes.iter().map(|m| times(&mass, &m.vector)).collect();
-        Ok(Solved { speed, modes, massed, equilibrium: self.state.clone() })
+        let gyroscopic = gyroscopic(&damping, modes.iter().map(|m| m.vector.as_slice()));
+        Ok(Solved { speed, modes, massed, gyroscopic, equilibrium: self.state.clone() })
     }
 
     /// Gives the modes of all branches their shapes.
@@ -166,20 +177,15 @@ impl<'a> Speeds<'a> {
             let _ = self.system.set(Parameter::Speed, at.speed);
             for point in branches.iter_mut().filter_map(|branch| branch.points.get_mut(number)) {
                 let system = self.system.as_mut();
+                // Degenerate modes have been chosen since.
+                system.hold(self.plan.hub == HubState::Held);
+                point.mode.shares =
+                    shares(system, &at.equilibrium, &point.mode.vector, &at.massed[point.number]);
+                system.hold(true);
                 describe(&mut point.mode, system, &at.equilibrium, &scale, &self.plan.stations);
             }
         }
     }
-}
-
-/// The modal assurance |xᴴ M y|² of two vectors of modal mass 1, from x and M y.
-pub(super) fn assurance(x: &[Complex64], my: &[Complex64]) -> f64 {
-    let (mut re, mut im) = (0.0, 0.0);
-    for (x, y) in x.iter().zip(my) {
-        re += x.re * y.re + x.im * y.im;
-        im += x.re * y.im - x.im * y.re;
-    }
-    re * re + im * im
 }
 
 /// A z

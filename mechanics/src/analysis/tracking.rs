@@ -1,8 +1,9 @@
 //! Joining modes of neighbouring speeds by their shapes.
 
 use super::diagram::{Branch, Point};
+use super::likeness::likeness;
 use super::modes::Mode;
-use super::speeds::{Solved, assurance};
+use super::speeds::Solved;
 
 /// Assurance above which two shapes are taken for one mode.
 const CLEAR: f64 = 0.6;
@@ -64,11 +65,11 @@ fn assign(pairs: &[Vec<f64>], rows: usize, columns: usize) -> Vec<Match> {
     matches
 }
 
-/// Assurances of all pairs; the vectors have modal mass 1. Where those of equal number are
+/// Likeness of all pairs. Where those of equal number are
 /// alike, the others are left at zero: a mode is like one other at most.
 fn assurances(from: &Solved, to: &Solved) -> Vec<Vec<f64>> {
     let (rows, columns) = (from.modes.len(), to.modes.len());
-    let of = |i: usize, j: usize| assurance(&from.modes[i].vector, &to.massed[j]);
+    let of = |i: usize, j: usize| likeness(from, i, to, j);
     let mut pairs = vec![vec![0.0; columns]; rows];
     let mut in_order = true;
     for k in 0..rows.min(columns) {

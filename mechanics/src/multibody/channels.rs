@@ -106,6 +106,16 @@ pub(super) fn channels(model: &Model, coordinates: &[Option<Coordinate>]) -> Vec
             }
         }
     }
+    for spring in &model.springs {
+        let name = &spring.name;
+        add(Role::Secondary, format!("{name}.length"), "m", format!("length of {name}"));
+        add(
+            Role::Secondary,
+            format!("{name}.force"),
+            "N",
+            format!("force of {name}, positive where it pulls its ends together"),
+        );
+    }
     for axis in axes {
         add(
             Role::Detail,

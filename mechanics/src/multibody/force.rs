@@ -93,6 +93,16 @@ impl Spring {
         (length, n, plus(b.velocity, -1.0, a.velocity))
     }
 
+    fn force(&self, length: f64, rate: f64) -> f64 {
+        self.stiffness * (length - self.length) + self.damping * rate
+    }
+
+    /// The length ℓ \[m\] and the force F \[N\], positive where it pulls.
+    pub(super) fn length_and_force(&self, a: &Pose, b: &Pose) -> [f64; 2] {
+        let (length, n, velocity) = Spring::stretched(a, b);
+        [length, self.force(length, inner(n, velocity))]
+    }
+
     pub(super) fn energy(&self, a: &Pose, b: &Pose) -> f64 {
         let (length, ..) = Spring::stretched(a, b);
         0.5 * self.stiffness * (length - self.length) * (length - self.length)
@@ -108,7 +118,7 @@ impl Spring {
     pub(super) fn interact(&self, a: &Pose, b: &Pose, out: &mut Interaction, differentiate: bool) {
         let (length, n, velocity) = Spring::stretched(a, b);
         let rate = inner(n, velocity);
-        let force = self.stiffness * (length - self.length) + self.damping * rate;
+        let force = self.force(length, rate);
         let none = [0.0; 3];
         out.add(force, &[n, none, times(-1.0, n), none]);
         if !differentiate || length == 0.0 {

@@ -233,6 +233,10 @@ impl Observed for Multibody {
                 }
             }
         }
+        for (k, spring) in constants.model.springs.iter().enumerate() {
+            let (a, b) = self.spring_ends(k);
+            put(&spring.length_and_force(a, b));
+        }
         put(&momenta[0]);
         put(&momenta[1]);
         let energy = self.energies(s);

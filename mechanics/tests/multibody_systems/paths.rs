@@ -172,3 +172,25 @@ fn what_moves_freely_is_named() {
     let message = equilibrium(&mut system, &mut s).unwrap_err().to_string();
     assert!(message.contains("rod") || message.contains("hinge"), "{message}");
 }
+
+/// A bar on a hinge that a force pushes across falls; held by a spring at the hinge, however soft, it has its path.
+#[test]
+fn a_mechanism_that_loads_drive_has_no_path_and_is_named() {
+    let bar = |drive: Drive| {
+        let mut model = Model::new();
+        let bar = model.body(Body::new("bar", 1.0, [0.1; 3]).at([0.5, 0.0, 0.0]));
+        let about = ([0.0, 1.0, 0.0], None);
+        model.join("hinge", Kind::Revolute, [Part::Ground, bar], [0.0; 3], about).unwrap().drive = drive;
+        model.load(load(Marker::new(bar, [0.0; 3]), [0.0, 0.0, -0.1], Axes::Dead));
+        Multibody::new(model).unwrap()
+    };
+    let (free, end) = points(&mut bar(Drive::None), &Plan::to(1.0));
+    assert!(free.is_empty(), "{} equilibria of a bar that falls", free.len());
+    let Err(PathEnd::Mechanism { largest }) = end else { panic!("{end:?}") };
+    assert!(largest.ends_with("of `bar`"), "{largest}");
+    // k θ = F a cos θ, to the third order in F a/k = 1/20.
+    let (held, end) = points(&mut bar(spring(1.0)), &Plan::to(1.0));
+    assert_eq!(end, Ok(()));
+    let angle = -held.last().unwrap().state.q[2].atan2(held.last().unwrap().state.q[0]);
+    assert!((angle - 0.05 * angle.cos()).abs() < 1e-9, "{angle}");
+}

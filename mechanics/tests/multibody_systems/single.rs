@@ -175,6 +175,13 @@ fn a_mass_on_a_spring_vibrates_by_its_closed_form() {
     let exact = 1.0 + 0.3 * (-decay * end).exp() * (cos + decay / omega * sin);
     let length = s.q[..3].iter().map(|x| x * x).sum::<f64>().sqrt();
     assert!((length - exact).abs() < 1e-9, "{length} for {exact}");
+    let rate = -0.3 * (-decay * end).exp() * stiffness / (mass * omega) * sin;
+    let force = stiffness * (exact - 1.0) + damping * rate;
+    let found = ["spring.length", "spring.force"].map(|name| channel(&mut system, &s, name));
+    assert!(
+        (found[0] - exact).abs() < 1e-9 && (found[1] - force).abs() < 1e-7,
+        "{found:?} for {exact} {force}"
+    );
     assert!(imbalance < 1e-6, "{imbalance:e}");
 }
 
