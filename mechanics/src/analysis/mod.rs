@@ -13,6 +13,7 @@ mod likeness;
 mod mechanism;
 pub mod modes;
 pub mod path;
+mod rigid;
 pub mod rotation;
 mod speeds;
 mod stability;
