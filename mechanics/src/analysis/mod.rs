@@ -15,6 +15,7 @@ pub mod modes;
 pub mod path;
 mod rigid;
 pub mod rotation;
+mod solved;
 mod speeds;
 mod stability;
 mod stiffness;

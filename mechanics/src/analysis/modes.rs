@@ -10,7 +10,6 @@
 use super::rigid::{BELOW, RIGID, RIGID_MOTIONS, elastic_frequency};
 use super::stability::GROWTH;
 use super::stiffness::matrices;
-use crate::linalg::Matrix;
 use crate::linalg::eigen::{EigenError, Kind, Pair, Pencil, UNCERTAIN};
 use crate::linalg::vector::dot;
 use crate::system::{Direction, Frame, State, System};
