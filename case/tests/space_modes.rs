@@ -158,3 +158,75 @@ fn rounding_is_no_negative_damping() {
     assert_eq!(diagram.instabilities, []);
     assert!(diagram.branches.iter().flat_map(|b| &b.points).all(|p| p.mode.damping_ratio().abs() < 1e-7));
 }
+
+/// A slender shaft on two bearings, with ρA = L = 1 and the bending stiffnesses 1 and `across`.
+fn shaft(across: f64, left: &str) -> Reading {
+    read(&format!(
+        "[rotation]\naxis = [1, 0, 0]\n[[beam]]\nname = \"shaft\"\nlength = 1\nelements = 16\npolar-inertia = 1e-9\n\
+         section = {{ kind = \"general\", mass-per-length = 1, axial-stiffness = 1e6, torsional-stiffness = 1, \
+         bending-stiffness = 1, bending-stiffness-across = {across} }}\n\
+         [[joint]]\nbetween = [\"ground\", \"shaft.root\"]\n{left}\n\
+         [[joint]]\nkind = \"spherical\"\nbetween = [\"ground\", \"shaft.tip\"]\n"
+    ))
+}
+
+/// ωₙ of a beam on two supports, ρA = EI = L = 1.
+fn simply_supported(n: u32) -> f64 {
+    (f64::from(n) * std::f64::consts::PI).powi(2)
+}
+
+/// In the rotating frame the whirls of a round shaft have the frequencies |ωₙ ± Ω|: beyond the critical speed both of a pair have
+/// one shape, and the lines of different pairs cross.
+#[test]
+fn the_whirls_of_a_round_shaft_are_followed_past_its_critical_speeds() {
+    let left = "kind = \"universal\"\naxis = [1, 0, 0]\nacross = [0, 0, 1]";
+    let reading = shaft(1.0, left);
+    let speeds: Vec<f64> = (0..=12).map(|i| 5.0 * f64::from(i)).collect();
+    let plan = Plan { speeds, count: 4, stations: vec![], hub: HubState::Held, revolutions: 2 };
+    let system = reading.case.vibrating(true).unwrap().0;
+    let diagram = campbell(system, None, &plan, 1, &|_| true).unwrap();
+    let mut expected = Vec::new();
+    for (pair, n) in [(0, 1), (2, 2)] {
+        let whirl = |sign: f64| move |speed: f64| (simply_supported(n) + sign * speed).abs();
+        let [forward, backward] = [whirl(-1.0), whirl(1.0)];
+        let fits = |branch: usize, frequency: &dyn Fn(f64) -> f64| {
+            let points = diagram.branches[branch].points.iter();
+            points.clone().count() == diagram.speeds.len()
+                && points.clone().all(|p| (p.mode.frequency() - frequency(p.speed)).abs() < 1e-2)
+        };
+        assert!(
+            fits(pair, &forward) && fits(pair + 1, &backward)
+                || fits(pair, &backward) && fits(pair + 1, &forward)
+        );
+        // |ω − Ω| = kΩ at ω/(1 + k), and ω + Ω = kΩ at ω/(k − 1).
+        let at = [1.0 / 2.0, 1.0 / 3.0, 1.0].map(|part| part * simply_supported(n));
+        expected.extend(at);
+    }
+    expected.sort_by(f64::total_cmp);
+    let found: Vec<f64> = diagram.crossings.iter().map(|crossing| crossing.speed).collect();
+    assert!(found.len() == expected.len() && close(&found, &expected, 1e-3), "{found:?} for {expected:?}");
+    // Each of the crossings of two lines, Ω = (ω₂ − ω₁)/2 and (ω₂ + ω₁)/2, takes 1/8192 of the range.
+    assert!(diagram.speeds.len() < 13 + 4 * 13, "{} speeds", diagram.speeds.len());
+}
+
+/// A shaft with two bending stiffnesses is unstable between its first two critical speeds, and stable beyond, with the frequencies
+/// ω⁴ − (ω_a² + ω_b² + 2Ω²) ω² + (ω_a² − Ω²)(ω_b² − Ω²) = 0, also where nothing holds its rotation about its axis.
+#[test]
+fn a_flat_shaft_is_stable_below_and_above_both_critical_speeds() {
+    let reading = shaft(9.0, "kind = \"spherical\"");
+    let (a, b) = (simply_supported(1).powi(2), 9.0 * simply_supported(1).powi(2));
+    // Below and above the first of both planes, π² and 3π², and below the second of the softer one, 4π².
+    for speed in [5.0, 35.0_f64] {
+        let (found, _) = frequencies(&reading.case, speed);
+        let square = speed * speed;
+        let (half, product) = (0.5 * (a + b + 2.0 * square), (a - square) * (b - square));
+        let root = (half * half - product).sqrt();
+        let expected = [(half - root).sqrt(), (half + root).sqrt()];
+        let there = |x: &f64| found.iter().any(|found| (found / x - 1.0).abs() < 1e-4);
+        assert!(found[0] == 0.0 && expected.iter().all(there), "{found:?} for {expected:?}");
+    }
+    let (mut system, _) = reading.case.vibrating(true).unwrap();
+    let mut state = system.initial();
+    let refused = rotate_stably(system.as_mut(), &mut state, 0.0, 20.0).unwrap_err();
+    assert!((refused.reached() / a.sqrt() - 1.0).abs() < 1e-4, "{refused}");
+}

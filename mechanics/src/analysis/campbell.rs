@@ -13,7 +13,7 @@ use super::crossings::crossings;
 use super::degenerate::align;
 pub use super::diagram::{Branch, Campbell, Crossing, HubState, Instability, NoCampbell, Plan, Point};
 use super::rotation::NoRotation;
-use super::speeds::Solved;
+use super::solved::Solved;
 pub use super::speeds::{Block, Speeds};
 use super::tracking::{Match, Tracker, changes_order, match_shapes};
 use crate::system::System;

@@ -6,7 +6,8 @@
 //! Source: M. Dowell & P. Jarratt, *BIT* 11 (1971) 168–174, doi:10.1007/BF01934364.
 
 use super::diagram::{Branch, Crossing, Point};
-use super::speeds::{Solved, Speeds};
+use super::solved::Solved;
+use super::speeds::Speeds;
 use num_complex::Complex64;
 
 /// Relative accuracy of a speed.

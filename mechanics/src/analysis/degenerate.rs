@@ -4,7 +4,7 @@
 //! before on their space, in the inner product of M, so that what stays degenerate keeps its shapes.
 
 use super::likeness::product;
-use super::speeds::Solved;
+use super::solved::Solved;
 use num_complex::Complex64;
 use std::ops::Range;
 

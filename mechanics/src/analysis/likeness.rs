@@ -14,7 +14,7 @@
 //!
 //! Source: L. Meirovitch, *AIAA Journal* 12 (1974) 1337–1342, doi:10.2514/3.49486 (modes of gyroscopic systems).
 
-use super::speeds::Solved;
+use super::solved::Solved;
 use crate::linalg::Matrix;
 use crate::linalg::eigen::each;
 use num_complex::Complex64;

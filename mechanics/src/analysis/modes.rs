@@ -7,9 +7,9 @@
 //! Rows of constraints that hold are part of K, [K −Gᵀ; −G 0], in which K has the multipliers of the equilibrium: a solution
 //! with it is a motion that G allows, and the cost stays linear in the unknowns where the multipliers stand in the band.
 
+use super::rigid::{BELOW, RIGID, RIGID_MOTIONS, elastic_frequency};
 use super::stability::GROWTH;
 use super::stiffness::matrices;
-use crate::linalg::Matrix;
 use crate::linalg::eigen::{EigenError, Kind, Pair, Pencil, UNCERTAIN};
 use crate::linalg::vector::dot;
 use crate::system::{Direction, Frame, State, System};
@@ -19,12 +19,6 @@ use num_complex::Complex64;
 const RESIDUAL: f64 = 1e-7;
 /// The same where the frequency is corrected by the strains of the mode: its error is the square of that of the vector.
 const CORRECTED: f64 = 1e-5;
-/// A rigid motion has |λ| below this part of the lowest frequency of the held system.
-const RIGID: f64 = 1e-4;
-/// Shift, over a frequency that bounds all, with which rigid motions are told from others.
-const SHIFT: f64 = 1e-3;
-/// Rigid motions of a body.
-const RIGID_MOTIONS: usize = 6;
 
 /// One mode.
 #[derive(Clone, Debug, PartialEq)]
@@ -257,7 +251,7 @@ pub(super) fn modes_near(
                 None => elastic_frequency(&all, multipliers, count.min(there))?,
             };
             rigid = RIGID * lowest;
-            Pencil::new(all.clone(), multipliers, 0.3 * lowest)?
+            Pencil::new(all.clone(), multipliers, BELOW * lowest)?
         }
     };
     // A rigid motion that neither moves nor stops is an eigenvalue twice: as a place and as a speed.
@@ -376,25 +370,6 @@ fn held_frequency(system: &mut dyn System, state: &State) -> Option<f64> {
     held[1].clear();
     let pairs = Pencil::new(held, multipliers, 0.0).and_then(|mut pencil| pencil.pairs(1, &[]));
     pairs.ok()?.first().map(|pair| pair.value.norm())
-}
-
-/// Lowest frequency that is not of a rigid motion, of a system whose rigid motions nothing holds, seen from a shift far above
-/// rounding and below most frequencies.
-fn elastic_frequency(all: &[Matrix; 3], multipliers: usize, count: usize) -> Result<f64, NoModes> {
-    let largest = |k: usize| {
-        let n = all[k].order() - multipliers;
-        (0..n).map(|i| all[k].get(i, i).abs()).fold(0.0, f64::max)
-    };
-    let top = (largest(2) / largest(0)).sqrt();
-    if !(top > 0.0) {
-        return Ok(1.0);
-    }
-    let there = all[0].order() - 2 * multipliers;
-    let mut pencil = Pencil::new(all.clone(), multipliers, SHIFT * top)?;
-    let found = pencil.pairs((count + RIGID_MOTIONS).min(there), &[])?;
-    let last = found.iter().map(|pair| pair.value.norm()).fold(0.0, f64::max);
-    let elastic = found.iter().filter(|pair| pencil.rounding(pair.value, &pair.vector) < UNCERTAIN);
-    Ok(elastic.map(|pair| pair.value.norm()).filter(|size| *size > RIGID * last).fold(last, f64::min))
 }
 
 /// Real and imaginary part.

@@ -4,6 +4,7 @@ use super::diagram::{Branch, HubState, NoCampbell, Plan};
 use super::likeness::{assurance, gyroscopic};
 use super::modes::{Mode, NoModes, describe, modes_near, shares};
 use super::rotation::rotate_stably;
+use super::solved::Solved;
 use super::stiffness::{damping, mass};
 use crate::linalg::Matrix;
 use crate::system::{Parameter, State, System};
@@ -15,19 +16,6 @@ const SPARE: usize = 4;
 const AMBIGUOUS: f64 = 0.1;
 /// Speeds in a block.
 const BLOCK: usize = 25;
-
-/// Modes at one speed, with what the next one begins with.
-#[derive(Clone, Debug)]
-pub(super) struct Solved {
-    pub speed: f64,
-    /// The modes, ascending.
-    pub modes: Vec<Mode>,
-    /// M x of each mode.
-    pub massed: Vec<Vec<Complex64>>,
-    /// G x of each mode, with the skew part G of the damping; empty without one.
-    pub gyroscopic: Vec<Vec<Complex64>>,
-    pub equilibrium: State,
-}
 
 /// The modes at the speeds of a block, up to the first failure.
 #[derive(Debug)]

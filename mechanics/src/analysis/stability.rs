@@ -8,9 +8,12 @@
 //! Sources: H. Ziegler, *Principles of Structural Stability*, 2nd ed., Birkhäuser 1977 (follower and gyroscopic forces);
 //! N. Gould, *Math. Program.* 32 (1985) 90–99, doi:10.1007/BF01585660 (inertia of matrices with multipliers).
 
+use super::rigid::{BELOW, elastic_frequency};
 use super::stiffness::matrices;
 use crate::linalg::Matrix;
-use crate::linalg::eigen::{EigenError, Pencil, certain_directions, each, is_symmetric, negative_directions};
+use crate::linalg::eigen::{
+    EigenError, Pencil, UNCERTAIN, certain_directions, each, is_symmetric, negative_directions,
+};
 use crate::system::{State, System};
 use std::fmt;
 
@@ -84,9 +87,17 @@ pub fn stability(system: &mut dyn System, state: &State) -> Result<Stability, Ei
         return Ok(Stability { divergent: saddle, fluttering: 0 });
     }
     let count = EIGENVALUES.min(state.v.len().saturating_sub(multipliers));
-    let pairs = Pencil::new(all, multipliers, 0.0)?.pairs(count, &[])?;
+    let direct = Pencil::new(all.clone(), multipliers, 0.0);
+    let mut pencil = match direct.map(|mut pencil| (!pencil.doubts()[0]).then_some(pencil)) {
+        Ok(Some(pencil)) => pencil,
+        Err(error) if !matches!(error, EigenError::Singular(_)) => return Err(error),
+        _ => Pencil::new(all.clone(), multipliers, BELOW * elastic_frequency(&all, multipliers, count)?)?,
+    };
+    let pairs = pencil.pairs(count, &[])?;
     let grows = |vibrates: bool| {
         let grown = pairs.iter().filter(|p| p.value.re > GROWTH * p.value.norm());
+        // A rigid motion is none that grows, whatever rounding makes of its eigenvalue zero.
+        let grown = grown.filter(|p| pencil.rounding(p.value, &p.vector) < UNCERTAIN);
         grown.filter(|p| (p.value.im > 0.0) == vibrates).count()
     };
     Ok(Stability { divergent: grows(false), fluttering: grows(true) })

@@ -3,7 +3,7 @@
 use super::diagram::{Branch, Point};
 use super::likeness::likeness;
 use super::modes::Mode;
-use super::speeds::Solved;
+use super::solved::Solved;
 
 /// Assurance above which two shapes are taken for one mode.
 const CLEAR: f64 = 0.6;
