@@ -4,6 +4,7 @@ use super::case::{Case, Output, Subject};
 use super::fault::{Fault, Faults, Made};
 use super::hub_beam::HubBeam;
 use super::kinds::coupling::Assembly;
+use super::kinds::initial::Initial;
 use super::kinds::load::Load;
 use super::kinds::rotation::vibrating;
 use super::space::Space;
@@ -78,6 +79,11 @@ impl Case {
     /// The system in space, if the case is of one.
     pub fn space(&self) -> Option<&Space> {
         if let Subject::Space(space) = &self.subject { Some(space) } else { None }
+    }
+
+    /// Whether its run begins in static equilibrium.
+    pub fn begins_in_static_equilibrium(&self) -> bool {
+        matches!(self.initial, Initial::Static)
     }
 
     /// The mechanical system.

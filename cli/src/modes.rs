@@ -3,7 +3,7 @@
 use crate::vibration::{self, Options, Speed, report, stations};
 use crate::{Outcome, case, screen};
 use flexion::analysis::campbell::HubState;
-use flexion::analysis::equilibrium::equilibrium;
+use flexion::analysis::equilibrium::{equilibrium, stable_equilibrium};
 use flexion::analysis::modes::{Mode, Modes, modes as find};
 use flexion::analysis::rotation::rotate_stably;
 use flexion::system::{State, System};
@@ -146,12 +146,20 @@ struct Found {
 }
 
 fn compute(arguments: &Arguments, case: &Case, speed: f64, hub: HubState) -> Result<Found, String> {
-    let (mut system, cautions) = vibration::system(case, speed > 0.0)?;
+    let (mut system, mut cautions) = vibration::system(case, speed > 0.0)?;
     let mut state = State::zeros(system.size(), 0.0);
     if case.space().is_some() {
         state = system.initial();
     }
-    if case.space().is_some() && speed == 0.0 {
+    if case.space().is_some() && speed == 0.0 && case.begins_in_static_equilibrium() {
+        let found = stable_equilibrium(system.as_mut(), &mut state).map_err(|error| error.to_string())?;
+        cautions.extend(found.left.map(|left| {
+            format!(
+                "growing loads alone lead to an equilibrium that is {left}; the modes are those about the first stable one on the path of \
+                 the loads, in which a run begins by `initial.kind = \"static\"`"
+            )
+        }));
+    } else if case.space().is_some() && speed == 0.0 {
         equilibrium(system.as_mut(), &mut state).map_err(|error| error.to_string())?;
     } else {
         rotate_stably(system.as_mut(), &mut state, 0.0, speed).map_err(|error| error.to_string())?;

@@ -115,3 +115,29 @@ fn a_case_without_an_axis_says_what_to_write() {
     let axis = ["modes", "clamped.toml", "--speed", "3", "--set", "rotation={axis=[0, 0, 1]}"];
     assert_eq!(flexion(folder.path(), &axis).status.code(), Some(0));
 }
+
+/// A column of EI = 1 N·m² and 2 N·m² beyond the first of its loads π²EI/4L²: bent it has modes without growth, straight it has one.
+#[test]
+fn a_buckled_column_has_the_modes_of_the_equilibrium_in_which_its_run_begins() {
+    let folder = folder();
+    let column = |initial: &str| {
+        format!(
+            "run = {{ duration = 0 }}\n{initial}\n[[beam]]\nlength = 1\nroot = \"clamped\"\nelements = 8\n\
+             section = {{ kind = \"general\", mass-per-length = 1, axial-stiffness = 1e6, torsional-stiffness = 1, bending-stiffness = 1, \
+             bending-stiffness-across = 2, rotary-inertia = 1e-5, rotary-inertia-across = 1e-5 }}\n\
+             [[load]]\non = \"beam.tip\"\nforce = [-3, 0, 0.001]\n"
+        )
+    };
+    for (initial, words, unstable) in [
+        ("", "the equilibrium is unstable", true),
+        ("initial = { kind = \"static\" }", "the first stable one on the path", false),
+    ] {
+        std::fs::write(folder.path().join("column.toml"), column(initial)).unwrap();
+        let output =
+            flexion(folder.path(), &["modes", "column.toml", "--count", "4", "-o", "modes", "--force"]);
+        let said = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(0), "{said}");
+        assert!(said.contains(words), "{said}");
+        assert_eq!(said.contains("modes grow"), unstable, "{said}");
+    }
+}
