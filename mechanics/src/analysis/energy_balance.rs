@@ -16,7 +16,7 @@
 //! | 3, 4 | 0, ½, 1 (Simpson) | 4 | 2 |
 //! | 5 | 0 (of no weight at the end), (4 ∓ √6)/10, 1 (Radau) | 5 | 3 |
 //!
-//! Between the times the dense output is used. The power at the start is that at the end of the step before, or that
+//! Between the times the dense output is used; at (4 ∓ √6)/10 that of Radau's method is its stages. The power at the start is that at the end of the step before, or that
 //! behind a jump; the end of a step takes the left limit. The balance closes to the order of the method (tested), and
 //! what is left is the error of the run: its truncation, and the numerical dissipation of methods that have some.
 

@@ -43,12 +43,14 @@
 //! Order: 5 in q and v (measured 5.0), 3 of the stages, on which stiff problems depend; of the error
 //! estimate 3. Stability: A- and L-stable; frequencies far above 1/h are annihilated, those below are
 //! integrated with a dissipation of O((hω)⁶). Dense output: quintic Hermite through q, v, a at both ends;
-//! measured four to eight times as accurate as the collocation polynomial; forces of joints by this polynomial.
+//! measured four to eight times as accurate as the collocation polynomial; forces of joints by this polynomial. At the times of the
+//! stages it is the stages.
 //!
 //! Sources: Hairer & Wanner, *Solving Ordinary Differential Equations II*, sections IV.5 and IV.8
 //! (doi 10.1007/978-3-642-05221-7); Hairer & Wanner (1999, doi 10.1016/S0377-0427(99)00134-X).
 
 mod coefficients;
+mod prediction;
 mod stages;
 mod tolerance;
 
@@ -57,7 +59,8 @@ use super::{
     StepError, StepReport, hermite,
 };
 use crate::system::{Dynamics, Side, State};
-use stages::{Prediction, Stages};
+use prediction::Prediction;
+use stages::Stages;
 pub use tolerance::Tolerance;
 
 /// Name as in a case file.
@@ -244,6 +247,7 @@ impl Integrator for Radau {
 
     fn interpolate(&self, system: &dyn Dynamics, from: &State, to: &State, t: f64, out: &mut State) {
         match &self.work {
+            Some(work) if work.write_stage(system, (from, to), t, out) => {}
             Some(work) => {
                 hermite::quintic(system, from, to, &work.end_accepted, t, out);
                 work.interpolate_forces((t - from.t) / (to.t - from.t), out);

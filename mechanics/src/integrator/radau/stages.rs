@@ -4,6 +4,7 @@ use super::super::acceleration::Accelerations;
 use super::super::rows::Rows;
 use super::super::{Convergence, Counters, Progress, StepError, corotation, failure};
 use super::coefficients::{A, A_INVERSE, A2, A2_INVERSE, C, E_Q, E_V, LAMBDA, MU, T, T_INVERSE, lagrange};
+use super::prediction::Prediction;
 use super::tolerance::Tolerance;
 use crate::linalg::Matrix;
 use crate::system::{Corotation, Dynamics, Mode, RowWeights, Set, Side, State, Weights, is_active};
@@ -13,16 +14,8 @@ use num_complex::Complex64;
 /// 22 from step to step, and it must not grow. Control would take it for an error of the step, the same in every shorter one.
 const STABLE: f64 = 0.02;
 
-/// What the starting values of a step are made of.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Prediction {
-    /// The acceleration at the start.
-    Constant,
-    /// The last step, of this size.
-    Extrapolated { last: f64 },
-    /// The last attempt from the same start, of this size.
-    Tried { last: f64 },
-}
+/// Difference of two parts of a step that are the same but for rounding.
+const SAME: f64 = 1e-9;
 
 /// Unknowns, matrices and buffers of a step: what `start` allocates for a system.
 #[derive(Debug)]
@@ -460,6 +453,36 @@ impl Stages {
                 }
             }
         }
+    }
+
+    /// Writes the stage of the accepted step at the time `t`, if there is one inside it: its state as it was found, and not one of the dense
+    /// output, which knows the ends of the step alone. What is integrated through the stages has the order and the damping of the method.
+    pub(super) fn write_stage(
+        &self,
+        system: &dyn Dynamics,
+        (from, to): (&State, &State),
+        t: f64,
+        out: &mut State,
+    ) -> bool {
+        let h = to.t - from.t;
+        let Some(i) = (0..2).find(|i| ((t - from.t) / h - C[*i]).abs() <= SAME) else { return false };
+        let n = from.v.len();
+        let (row, row2) = (A[i].map(|x| h * x), A2[i].map(|x| h * h * x));
+        let stages = &self.a_accepted;
+        let along =
+            |row: [f64; 3], k: usize| row[0] * stages[0][k] + row[1] * stages[1][k] + row[2] * stages[2][k];
+        for k in 0..n {
+            // The acceleration's slot holds the increment until the configuration is retracted.
+            out.a[k] = if self.flat { C[i] * h * from.v[k] + along(row2, k) } else { self.increments[i][k] };
+            out.v[k] = from.v[k] + along(row, k);
+        }
+        system.retract(&from.q, &out.a, &mut out.q);
+        let (a, lambda) = stages[i].split_at(n);
+        out.a.copy_from_slice(a);
+        out.lambda.copy_from_slice(lambda);
+        out.copy_modes(from);
+        (out.t, out.side) = (t, Side::Right);
+        true
     }
 
     /// λ of the joints at the part `s` of the accepted step, by the polynomial through the stages.
