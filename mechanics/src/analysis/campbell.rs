@@ -1,7 +1,7 @@
 //! Campbell diagram: the modes of a steadily rotating system as functions of its speed.
 //!
 //! Modes are joined by their shapes, never by their order: from one speed to the next the pairs with the
-//! largest assurance |xᴴ M y|² / (xᴴ M x · yᴴ M y), or its [like](super::likeness) with gyroscopic forces, belong together, so that curves pass through each other where they
+//! largest assurance |xᴴ M y|² / (xᴴ M x · yᴴ M y), or its like with gyroscopic forces, belong together, so that curves pass through each other where they
 //! cross and bend where they veer. Where a shape changes too much between two speeds, speeds are
 //! inserted until it does not; where modes change their order, until the interval is 1/8192 of the range: what veers there is
 //! then seen to veer, whatever the speeds asked for.

@@ -78,7 +78,7 @@ impl Pair {
 }
 
 impl Triad {
-    /// [`spin_by_slope`] where r′ was less by `increment`.
+    /// The vector x in δΘ = δφ + x·δr′ for increments (δr′, φ) of a configuration whose r′ was less by `increment`.
     pub fn spin_by_slope(&self, increment: Vector) -> Vector {
         spin_by_slope(plus(times(self.length, self.tangent), -1.0, increment), increment)
     }
