@@ -29,6 +29,39 @@ fn columns(run: &Run) -> Vec<&str> {
     run.trajectory.channels().iter().map(|channel| channel.name.as_str()).collect()
 }
 
+/// A motor whose target begins to move at once, on a bare root that follows within microseconds; and damping in proportion to the stiffness that takes all that a
+/// blow of a tenth of a second has given. Powers between the ends of a step are those of its stages.
+#[test]
+fn the_energy_balance_closes_behind_sudden_torques_and_with_stiff_damping() {
+    let arm = format!(
+        "gravity = [0, 0, -9.81]\nrun = {{ duration = 1 }}\n[[beam]]\nname = \"arm\"\nlength = 1\nup = [0, 0, 1]\n{ROD}\n\
+         [[joint]]\nkind = \"revolute\"\nbetween = [\"ground\", \"arm.root\"]\naxis = [0, -1, 0]\n\
+         motion = {{ kind = \"free\", controller = {{ kind = \"pd\", proportional = 50, derivative = 10, target = \"45 deg\", rate = \"1 rad/s\" }} }}\n"
+    );
+    let damped = "run = { duration = 3 }\n[[beam]]\nlength = 1\nroot = \"clamped\"\nelements = 12\nstiffness-damping = 0.02\nmass-damping = 0.3\n\
+                  section = { kind = \"general\", mass-per-length = 1, axial-stiffness = 1e6, torsional-stiffness = 1, bending-stiffness = 1, \
+                  bending-stiffness-across = 1, rotary-inertia = 1e-4, rotary-inertia-across = 1e-4 }\n\
+                  [[load]]\non = \"beam.tip\"\nforce = [0, 0, 0.01]\namplitude = { kind = \"expression\", formula = \"if(t < 0.1, 1, 0)\" }\n";
+    for text in [arm.as_str(), damped] {
+        let run = run(text);
+        let most = |column: &str| {
+            run.trajectory.column(column).unwrap().iter().fold(0.0, |m: f64, x| m.max(x.abs()))
+        };
+        let worked = most("energy.drive").max(most("energy.loads"));
+        assert!(most("energy.balance") < 2e-3 * worked, "{} of {worked}", most("energy.balance"));
+        assert!(run.warnings.iter().all(|warning| !warning.contains("energy")), "{:?}", run.warnings);
+    }
+}
+
+/// The momentum of a ball behind half of a force that grows along a line from 0 to 1 N in 1 s: t²/2 = 1/8 N s. Monotone cubics give 0.1510.
+#[test]
+fn tables_of_loads_are_straight_lines_between_their_rows() {
+    let text = "run = { duration = 0.5 }\n[[body]]\nname = \"ball\"\nmass = 2\ninertia = { kind = \"sphere\", radius = 0.1 }\n\
+                [[load]]\non = \"ball\"\nforce = [1, 0, 0]\namplitude = { kind = \"table\", times = [0, 1, 2, 30], factors = [0, 1, 0, 0] }\n";
+    let momentum = last(&run(text), "momentum.x");
+    assert!((momentum - 0.125).abs() < 1e-9, "{momentum}");
+}
+
 /// A clamped beam of five lines sags by ρA g L⁴/(8 EI), with its height upwards and in the other direction too.
 #[test]
 fn five_lines_make_a_cantilever_under_its_weight() {
