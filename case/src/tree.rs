@@ -151,33 +151,24 @@ pub(super) fn lay_over(root: &mut Node, argument: &str, problems: &mut Problems)
             let kind = Line { key: "kind".to_owned(), place: target.place.clone(), node: target.clone() };
             *target = Node { place: place.clone(), value: Raw::Table(vec![kind]) };
         }
-        let found = match &target.value {
-            Raw::List(items) => {
-                let of_name = numbered(items, name).or_else(|| named(items, name));
-                let tables = items.iter().filter(|item| matches!(item.value, Raw::Table(_))).count();
-                if of_name.is_none() && tables > 1 {
-                    let parent = path.get(..at.saturating_sub(part.len() + 2)).unwrap_or_default();
-                    let message =
-                        format!("is a list of {tables} tables, of which none has the name `{name}`");
-                    let help =
-                        format!("write a number from 0 to {}, or a name: {}", tables - 1, names(items));
-                    problems.push(Problem::new(parent, Some(place), message).help(help));
-                    return;
-                }
-                of_name.map(|i| (i, true)).or((tables == 1 && items.len() == 1).then_some((0, false)))
+        let parent = path.get(..at.saturating_sub(part.len() + 2)).unwrap_or_default();
+        let found = if let Raw::List(items) = &target.value { choose(items, name) } else { Ok(None) };
+        match found {
+            Err([message, help]) => {
+                problems.push(Problem::new(parent, Some(place), message).help(help));
+                return;
             }
-            _ => None,
-        };
-        if let Some((i, is_name)) = found {
-            let Raw::List(items) = &mut target.value else { return };
-            target = &mut items[i];
-            if is_name {
-                continue;
+            Ok(None) => {}
+            Ok(Some((i, is_name))) => {
+                let Raw::List(items) = &mut target.value else { return };
+                target = &mut items[i];
+                if is_name {
+                    continue;
+                }
             }
         }
         let what = target.value.describe();
         let Raw::Table(entries) = &mut target.value else {
-            let parent = path.get(..at.saturating_sub(part.len() + 2)).unwrap_or_default();
             problems.push(Problem::new(parent, Some(place), format!("is {what} and has no keys")));
             return;
         };
@@ -194,9 +185,30 @@ pub(super) fn lay_over(root: &mut Node, argument: &str, problems: &mut Problems)
     *target = node;
 }
 
-/// The place in a list that a part of a path numbers, from 0.
-fn numbered(items: &[Node], part: &str) -> Option<usize> {
-    part.parse().ok().filter(|i| *i < items.len())
+/// The item of a list that a part of a path means, and whether the part is its number, from 0, or its name: the only table of a list
+/// needs neither.
+///
+/// # Errors
+/// Of several tables none is meant: what is wrong, and what to write.
+fn choose(items: &[Node], part: &str) -> Result<Option<(usize, bool)>, [String; 2]> {
+    let numbered = part.parse().ok().filter(|i| *i < items.len());
+    let named = || items.iter().position(|item| name_of(item) == Some(part));
+    if let Some(i) = numbered.or_else(named) {
+        return Ok(Some((i, true)));
+    }
+    match items.iter().filter(|item| matches!(item.value, Raw::Table(_))).count() {
+        1 if items.len() == 1 => Ok(Some((0, false))),
+        tables @ 2.. => {
+            let names: Vec<String> =
+                items.iter().filter_map(name_of).map(|name| format!("`{name}`")).collect();
+            let names = if names.is_empty() { "none has one".to_owned() } else { names.join(", ") };
+            Err([
+                format!("is a list of {tables} tables, of which none has the name `{part}`"),
+                format!("write a number from 0 to {}, or a name: {names}", tables - 1),
+            ])
+        }
+        _ => Ok(None),
+    }
 }
 
 /// The name of a table in a list.
@@ -206,17 +218,6 @@ fn name_of(item: &Node) -> Option<&str> {
         Raw::Text(name) => Some(name.as_str()),
         _ => None,
     })
-}
-
-/// The table with a name.
-fn named(items: &[Node], part: &str) -> Option<usize> {
-    items.iter().position(|item| name_of(item) == Some(part))
-}
-
-/// The names in a list, for people.
-fn names(items: &[Node]) -> String {
-    let names: Vec<String> = items.iter().filter_map(name_of).map(|name| format!("`{name}`")).collect();
-    if names.is_empty() { "none has one".to_owned() } else { names.join(", ") }
 }
 
 /// Moves the places of a value that was parsed from the middle of its source.

@@ -127,16 +127,8 @@ pub(super) fn redundant(
             basis.push((x, combination));
             continue;
         }
-        let own = constants.rows[i].0;
-        let mut joints: Vec<usize> = (0..m)
-            .filter(|k| combination[*k].abs() > 1e-6)
-            .map(|k| constants.rows[k].0)
-            .filter(|joint| *joint != own)
-            .collect();
-        joints.dedup();
-        let others: Vec<String> =
-            joints.iter().map(|k| format!("`{}`", constants.model.joints[*k].name)).collect();
-        found.push(Redundant { row: i, name: constants.row_name(i), others: others.join(", "), combination });
+        let others = constants.joint_names(&combination, 1e-6, Some(constants.rows[i].0));
+        found.push(Redundant { row: i, name: constants.row_name(i), others, combination });
     }
     // Velocities that the rows allow: of the tree, and then of the loops.
     let mut allowed = |s: &mut State, rates: &mut [f64]| {

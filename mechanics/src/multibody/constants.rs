@@ -199,6 +199,16 @@ impl Constants {
         State { q, ..s }
     }
 
+    /// The joints whose rows have more than `least` in a combination of rows, but for one joint, for messages.
+    pub(super) fn joint_names(&self, combination: &[f64], least: f64, but: Option<usize>) -> String {
+        let parts = self.rows.iter().zip(combination).filter(|(_, c)| c.abs() > least);
+        let mut joints: Vec<usize> =
+            parts.map(|((joint, _), _)| *joint).filter(|joint| Some(*joint) != but).collect();
+        joints.dedup();
+        let names = joints.iter().map(|joint| format!("`{}`", self.model.joints[*joint].name));
+        names.collect::<Vec<_>>().join(", ")
+    }
+
     /// A row, for messages.
     pub(super) fn row_name(&self, i: usize) -> String {
         self.rows.get(i).map_or_else(String::new, |(joint, row)| {

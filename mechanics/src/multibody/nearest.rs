@@ -11,8 +11,8 @@
 //! to state: the point depends on the configuration alone.
 
 use super::body::three;
-use super::rotation::{Vector, plus, times};
-use super::slender::{Beam, ELEMENT_COORDINATES, ELEMENT_VELOCITIES, hermite};
+use super::rotation::{Vector, times};
+use super::slender::{Beam, ELEMENT_COORDINATES, ELEMENT_VELOCITIES, combined, hermite};
 use crate::contact::Obstacle;
 use crate::linalg::vector::inner;
 
@@ -35,11 +35,6 @@ pub(super) struct Nearest {
 fn ends(x: &[f64], stride: usize, element: usize) -> [Vector; 4] {
     let (first, second) = (stride * element, stride * (element + 1));
     [first, first + 3, second, second + 3].map(|at| three(x, at))
-}
-
-/// Σ Nᵢ xᵢ
-fn combined(functions: &[f64; 4], x: &[Vector; 4]) -> Vector {
-    functions.iter().zip(x).fold([0.0; 3], |sum, (n, x)| plus(sum, *n, *x))
 }
 
 /// r, r′ and r″ at the place z of an element of the length h \[m\], by its coordinates.

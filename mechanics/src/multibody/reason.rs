@@ -69,16 +69,11 @@ pub(super) fn singular(system: &mut Multibody, s: &State) -> Option<String> {
         }
     }
     let (left, Some((row, combination))) = least else { return None };
-    let mut joints: Vec<usize> =
-        (0..m).filter(|k| combination[*k].abs() > 1e-3).map(|k| constants.rows[k].0).collect();
-    joints.dedup();
-    let names: Vec<String> =
-        joints.iter().map(|k| format!("`{}`", constants.model.joints[*k].name)).collect();
     Some(format!(
         "the joints {} are close to a singular configuration, in which {} follows from the others (a part {left:.1e} of it does not): \
          bars that are stretched out or folded flat move on in more than one way or in none; keep a prescribed motion away from \
          there, or give a joint more freedom",
-        names.join(", "),
+        constants.joint_names(&combination, 1e-3, None),
         constants.row_name(row)
     ))
 }

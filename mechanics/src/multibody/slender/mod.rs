@@ -61,6 +61,7 @@ mod strain;
 mod triad;
 
 pub(super) use shapes::hermite;
+pub(super) use strain::combined;
 
 pub use beam::{Beam, BeamError, ELEMENT_COORDINATES, ELEMENT_VELOCITIES, Station};
 pub use element::{Element, Motion, Tangent};

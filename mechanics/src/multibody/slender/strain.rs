@@ -35,7 +35,7 @@ pub(super) const VARIABLES: usize = 12;
 
 /// Σ nᵢ xᵢ
 #[inline(always)]
-pub(super) fn combined<const N: usize>(n: &[f64; N], x: &[Vector; N]) -> Vector {
+pub(in crate::multibody) fn combined<const N: usize>(n: &[f64; N], x: &[Vector; N]) -> Vector {
     let mut out = [0.0; 3];
     for i in 0..N {
         out = plus(out, n[i], x[i]);
