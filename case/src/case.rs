@@ -7,7 +7,9 @@ use super::kind::Context;
 use super::kinds::initial::{INITIAL, Initial};
 use super::kinds::integrator::{INTEGRATOR, Method, Steps};
 use super::layout;
+use super::places::Parts;
 use super::space::{self, Space};
+use super::stations::stations;
 use super::values::{Filled, Value, Values};
 use std::cell::RefCell;
 
@@ -91,8 +93,9 @@ pub(super) fn case(v: &mut Values, files: &super::sources::Files<'_>) -> Made<Ca
     let v = &*v;
     let in_space = layout::is_spatial(v.keys);
     let length = if in_space { None } else { number(v, "beam", "length").ok() };
+    let parts = length.map(|length| Parts { bodies: Vec::new(), beams: vec![("beam".to_owned(), length)] });
     let cautions = RefCell::default();
-    let c = &Context { length, duration, files, cautions: &cautions };
+    let c = &Context { length, duration, parts: parts.as_ref(), files, cautions: &cautions };
     let method = found.part(INTEGRATOR.make(v, "integrator", c));
     let subject = found.part(if in_space {
         space::make(v, c, method.as_ref()).map(|space| Subject::Space(Box::new(space)))
@@ -167,11 +170,8 @@ fn output(v: &Values, c: &Context<'_>) -> Made<Output> {
     // Stations belong to the beams of a system in space.
     let list = |name| if in_space { Ok(&[][..]) } else { output.numbers(name) };
     let said = |name| if in_space { Ok(false) } else { output.boolean(name) };
-    let stations = list("stations").unwrap_or_default();
     let mut found = Found::default();
-    for &station in stations {
-        found.part(c.on_beam(station, "stations"));
-    }
+    let stations = if in_space { Some(Vec::new()) } else { found.part(stations(output, c)) };
     let heights = list("strain-heights").unwrap_or_default();
     let twice = heights.iter().enumerate().find(|(i, height)| heights[..*i].contains(height));
     found.check(twice.is_some(), "strain-heights", || "a height is given twice".to_owned());
@@ -207,7 +207,7 @@ fn output(v: &Values, c: &Context<'_>) -> Made<Output> {
     }
     Ok(Output {
         step: step.ok_or_else(Faults::default)?,
-        stations: list("stations")?.to_vec(),
+        stations: stations.unwrap_or_default().into_iter().map(|(_, station)| station).collect(),
         section_forces: said("section-forces")?,
         strain_heights: list("strain-heights")?.to_vec(),
         energy_balance: output.boolean("energy-balance")?,

@@ -53,8 +53,12 @@ pub fn short(x: f64) -> String {
 pub enum Type {
     /// A number with a dimension.
     Quantity(&'static Measure, Bound),
-    /// A station along a beam: a length from its root, or `"tip"`.
-    Station(Bound),
+    /// A place: a body, a beam or a station of it, as [`crate::places`] describes.
+    Place,
+    /// A place, or a list of places.
+    Places,
+    /// A number with a dimension, or a list of such numbers.
+    Moment(&'static Measure),
     /// A list of numbers with a dimension.
     Quantities(&'static Measure, Bound),
     /// A number without dimension.

@@ -1,17 +1,27 @@
 //! A beam on a hub: its parts, and what is checked across them.
 
-use super::fault::{At, Found, Made};
-use super::kind::{Choice, Context, Table};
+use super::fault::{At, Fault, Faults, Found, Made};
+use super::features;
+use super::kind::{Choice, Context};
 use super::kinds::basis::{self, Bases};
 use super::kinds::blade::{BLADE, Blade};
-use super::kinds::contact::{self, CONTACT, Contact};
+use super::kinds::contact::{Contact, OnBeam, Touching, contacts};
 use super::kinds::coupling::{COUPLING, Coupling, fits_whole_curve};
+use super::kinds::damping::DAMPING;
 use super::kinds::integrator::Method;
-use super::kinds::load::{self, LOADS, Load};
+use super::kinds::load::{Acts, LOAD, Load};
+use super::kinds::mass::MASS;
 use super::kinds::motion::MOTION;
 use super::kinds::section::{SECTION, Section};
-use super::values::Values;
-use flexion::hub_beam::{Damping, Drive, Hub};
+use super::kinds::spring::{Joins, SPRING, Spring};
+use super::kinds::vector::vector;
+use super::layout::GRAVITY;
+use super::places::Place;
+use super::values::{Values, item};
+use flexion::contact::Law;
+use flexion::hub_beam::load::{self as acting, Axes};
+use flexion::hub_beam::{Damping, Drive, Hub, Mass};
+use flexion::linalg::Vec3;
 use flexion::profile::{Constant, Motion};
 use flexion::section::Resultants;
 use std::sync::Arc;
@@ -32,11 +42,41 @@ pub struct HubBeam {
     /// The bases of the two displacement fields.
     pub bases: Bases,
     /// What acts on the beam and what it carries.
-    pub loads: Vec<Load>,
+    pub loads: Vec<Acting>,
     /// What the beam may touch.
-    pub contacts: Vec<Contact>,
+    pub contacts: Vec<OnBeam>,
     /// Damping of the beam.
     pub damping: Damping,
+}
+
+/// What one table of a case puts onto the beam.
+#[derive(Clone, Debug, Default)]
+pub struct Acting {
+    /// The table.
+    pub table: String,
+    /// What acts.
+    pub load: Option<Arc<dyn acting::Load + Send + Sync>>,
+    /// What the beam carries.
+    pub mass: Option<Mass>,
+    /// Stations at which cells of the quadrature must end \[m\].
+    pub stations: Vec<f64>,
+    /// Stations at which elements should end \[m\]: something acts or begins there.
+    pub nodes: Vec<f64>,
+    /// What it is called, if its direction is fixed in space: seen from a hub that rotates, it changes with every
+    /// revolution.
+    pub fixed_in_space: Option<&'static str>,
+}
+
+impl Acting {
+    /// A load that acts on `stations`, of which elements end at `nodes`.
+    fn new(
+        table: String,
+        load: impl acting::Load + Send + Sync + 'static,
+        [stations, nodes]: [Vec<f64>; 2],
+        fixed_in_space: Option<&'static str>,
+    ) -> Acting {
+        Acting { table, load: Some(Arc::new(load)), mass: None, stations, nodes, fixed_in_space }
+    }
 }
 
 /// Speeds √(EA/ρA) of waves of stretch beyond which there is a caution; in soft rubber it is 30 m/s, in diamond 18 000 m/s \[m/s\].
@@ -57,11 +97,27 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     }
     let hub = found.part(hub(v, c));
     let loads = loads(v, c, &mut found);
-    let jumps = section.iter().flat_map(|section| section.planar.jumps().iter().copied());
-    let acting = loads.iter().flatten().flat_map(|load| load.nodes.iter().copied());
-    let bases = found.part(basis::make(v, c, &jumps.chain(acting).collect::<Vec<_>>()));
-    let contacts = found.part(CONTACT.make(v, c).and_then(contact::named));
-    let damping = found.part(load::DAMPING.make(v, c)).map(|list| list.first().copied().unwrap_or_default());
+    let acting: Vec<f64> = loads.iter().flatten().flat_map(|load| load.nodes.iter().copied()).collect();
+    let ends = |h: f64| {
+        let of_section =
+            c.length.zip(section.as_ref()).map(|(length, section)| section.planar.ends(length, h));
+        of_section.into_iter().flatten().chain(acting.iter().copied()).collect::<Vec<_>>()
+    };
+    let bases = found.part(basis::make(v, c, &ends));
+    if let (Some(length), Some(section)) = (c.length, &section) {
+        found.part(features::apart(section.planar.jumps(), length));
+        let width = bases.as_ref().and_then(|bases| bases.width);
+        c.cautions
+            .borrow_mut()
+            .extend(width.and_then(|width| features::hidden(&section.planar, length, width)));
+    }
+    let on_beam = |list: Vec<Contact>| {
+        let each = list.into_iter().enumerate();
+        each.map(|(i, contact)| on_beam(contact, c).map_err(|faults| faults.within(&item("contact", i))))
+            .collect::<Made<Vec<OnBeam>>>()
+    };
+    let contacts = found.part(contacts(v, c).and_then(on_beam));
+    let damping = found.part(DAMPING.make(v, c)).map(|list| list.first().copied().unwrap_or_default());
     let blade = found.part(BLADE.make(v, c)).map(|list| list.into_iter().next());
     if let (Some(method), Some(damping)) = (method, damping) {
         overdamped(method, damping, &mut found);
@@ -75,7 +131,7 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     if let (Some(coupling), Some(bases), Some(section), Some(loads), Some(contacts), Some(length)) =
         (coupling, &bases, &section, &loads, &contacts, c.length)
     {
-        let at_tip = |load: &Load| load.mass.is_some_and(|mass| mass.station == length);
+        let at_tip = |load: &Acting| load.mass.is_some_and(|mass| mass.station == length);
         let has_mass = [
             (coupling.whole_curve, "the exact coupling needs it: use `first` or `high`"),
             (
@@ -86,7 +142,7 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
             (loads.iter().any(at_tip), "a mass is fixed there"),
         ];
         let why_not = has_mass.iter().find(|(has, _)| *has).map(|(_, why)| *why);
-        found.part(contact::fits_massless(contacts, why_not));
+        found.part(fits_massless(contacts, why_not));
     }
     if let (Some(Some(blade)), Some(section)) = (&blade, &section) {
         found.part(blade.built(section, 0.0, &[]).map_err(|faults| faults.within("blade")));
@@ -132,7 +188,7 @@ fn implausible(r: Resultants, fastest: f64, c: &Context<'_>) {
 /// Damping that the method can follow.
 fn overdamped(method: &Method, damping: Damping, found: &mut Found) {
     let overdamped = !method.integrator.info().implicit && damping.stiffness > 0.0;
-    found.check(overdamped, "damping.stiffness-proportional", || {
+    found.check(overdamped, "damping.stiffness", || {
         "damping in proportion to the stiffness overdamps the shortest waves, and no explicit method follows them: use \
          an implicit one, `radau` or `generalized-alpha`"
             .to_owned()
@@ -156,14 +212,144 @@ fn hub(v: &Values, c: &Context<'_>) -> Made<Hub> {
     Ok(Hub { radius: hub.number("radius")?, inertia: hub.number("inertia")?, drive })
 }
 
-fn loads(v: &Values, c: &Context<'_>, found: &mut Found) -> Option<Vec<Load>> {
-    let named = |table: &Table<Load>| {
-        let made = table.make(v, c);
-        made.map(|list| {
-            list.into_iter().map(|load| Load { table: table.key.name, ..load }).collect::<Vec<_>>()
-        })
+/// The components along x and y of what lies in the plane of motion.
+fn in_plane(Vec3([x, y, z]): Vec3, key: &str) -> Made<[f64; 2]> {
+    if z == 0.0 {
+        return Ok([x, y]);
+    }
+    let fault = Fault::new(key, "points out of the plane of motion, that of x and y");
+    Err(fault.help("leave the third component out").into())
+}
+
+/// What a force of these axes is called, if its direction is fixed in space.
+fn in_space(axes: Axes) -> Option<&'static str> {
+    (axes == Axes::Dead).then_some("forces of fixed direction")
+}
+
+/// Everything that acts on the beam and that it carries: the weight, masses, forces, couples, forces per length and springs.
+fn loads(v: &Values, c: &Context<'_>, found: &mut Found) -> Option<Vec<Acting>> {
+    let gravity = found.part(gravity(v));
+    let masses = found.part(MASS.make(v, c));
+    let loads = found.part(LOAD.make(v, c));
+    let springs = found.part(SPRING.make(v, c));
+    let (gravity, masses, loads, springs) = (gravity?, masses?, loads?, springs?);
+    let mut all: Vec<Acting> = gravity.into_iter().collect();
+    for (i, mass) in masses.iter().enumerate() {
+        let carried = Mass { station: mass.station, mass: mass.mass, inertia: mass.inertia };
+        let nodes = vec![mass.station];
+        all.push(Acting { table: item("mass", i), mass: Some(carried), nodes, ..Acting::default() });
+    }
+    let mut made: [Vec<Acting>; 3] = Default::default();
+    let mut whole = true;
+    let mut within = |table: &str, made: Made<()>| {
+        whole &= found.part(made.map_err(|faults| faults.within(table))).is_some();
     };
-    let made: Vec<_> = LOADS.iter().map(|table| found.part(named(table))).collect();
-    let lists: Option<Vec<Vec<Load>>> = made.into_iter().collect();
-    lists.map(|lists| lists.concat())
+    for (i, load) in loads.iter().enumerate() {
+        let table = item("load", i);
+        within(&table, add_load(load, &table, &mut made));
+    }
+    all.extend(made.into_iter().flatten());
+    for (i, of) in springs.iter().enumerate() {
+        let table = item("spring", i);
+        let made = spring(of, &table).map(|spring| all.push(spring));
+        within(&table, made);
+    }
+    whole.then_some(all)
+}
+
+fn gravity(v: &Values) -> Made<Option<Acting>> {
+    let [x, y] = in_plane(vector(v, GRAVITY.name)?, GRAVITY.name)?;
+    let gravity = acting::Gravity { acceleration: libm::hypot(x, y), direction: libm::atan2(y, x) };
+    let acting = Acting::new(GRAVITY.name.to_owned(), gravity, Default::default(), Some("gravity"));
+    Ok((gravity.acceleration != 0.0).then_some(acting))
+}
+
+/// Adds a load to the forces, the couples or the forces per length.
+fn add_load(load: &Load, table: &str, [forces, couples, lines]: &mut [Vec<Acting>; 3]) -> Made<()> {
+    let (axes, amplitude) = (load.axes, || load.amplitude.clone());
+    match &load.acts {
+        Acts::At { on, force, couple, .. } => {
+            let &Place::Station { s, .. } = on else { return Err(Faults::default()) };
+            let force = in_plane(*force, "force")?;
+            if couple[0] != 0.0 || couple[1] != 0.0 {
+                let fault =
+                    Fault::new("couple", "turns the beam out of the plane of motion, that of x and y");
+                return Err(fault.help("write one number, the couple about z").into());
+            }
+            let at = || [vec![s], vec![s]];
+            if force != [0.0; 2] || couple[2] == 0.0 {
+                let load = acting::Force { station: s, force, axes, amplitude: amplitude() };
+                forces.push(Acting::new(table.to_owned(), load, at(), in_space(axes)));
+            }
+            if couple[2] != 0.0 {
+                let load = acting::Couple { station: s, couple: couple[2], amplitude: amplitude() };
+                couples.push(Acting::new(table.to_owned(), load, at(), None));
+            }
+        }
+        Acts::Along { range, force, distribution, .. } => {
+            let force = in_plane(*force, "force-per-length")?;
+            let distribution = distribution.clone();
+            let load =
+                acting::DistributedForce { force, axes, distribution, range: *range, amplitude: amplitude() };
+            let at = [load.stations(), vec![range.0, range.1]];
+            lines.push(Acting::new(table.to_owned(), load, at, in_space(axes)));
+        }
+    }
+    Ok(())
+}
+
+fn spring(spring: &Spring, table: &str) -> Made<Acting> {
+    let Joins::Point { on: (_, station), to } = spring.joins else {
+        return Err(Fault::new("kind", "a beam on a hub has springs of the kind `point` only").into());
+    };
+    let (stiffness, damping, anchor) = (spring.stiffness, spring.damping, in_plane(to, "to")?);
+    let load = acting::Spring { station, stiffness, damping, anchor };
+    let at = [vec![station], vec![station]];
+    Ok(Acting::new(table.to_owned(), load, at, Some("springs to the ground")))
+}
+
+/// The points of a contact of the beam.
+fn on_beam(contact: Contact, c: &Context<'_>) -> Made<OnBeam> {
+    if let Touching::Beam(_) = contact.on {
+        let message = "is the whole beam, which touches a surface in the plane by points";
+        return Err(Fault::new("on", message).help("give their number, `points = 20`").into());
+    }
+    if contact.radius != 0.0 {
+        let message = "the axis of a beam on a hub touches, and has no radius";
+        return Err(Fault::new("radius", message).help("move the obstacle by the radius").into());
+    }
+    if !contact.obstacle.planar {
+        let message = "stands or moves across the plane of motion, that of x and y";
+        return Err(Fault::new("obstacle", message).help("let what it is made of lie in the plane").into());
+    }
+    let station = |place| if let Place::Station { s, .. } = place { s } else { f64::NAN };
+    let points = contact.points(c.parts()?, true).into_iter();
+    let points: Vec<(String, f64, Law)> =
+        points.map(|(name, place, law)| (name, station(place), law)).collect();
+    if points.windows(2).any(|two| two[0].1 >= two[1].1) {
+        return Err(Fault::new("on", "the stations of a contact ascend").into());
+    }
+    if points[0].1 == 0.0 {
+        return Err(Fault::new("on", "the root is clamped to the hub and touches nothing").into());
+    }
+    if contact.massless && points.iter().any(|(_, station, _)| Some(*station) != c.length) {
+        let message =
+            "only the tip can do without mass: at other stations a law with restitution or a force is needed";
+        let help = "write `law = { kind = \"constraint\", restitution = 0.5 }`";
+        return Err(Fault::new("law", message).help(help).into());
+    }
+    Ok(OnBeam { contact, points })
+}
+
+/// Whether the tip of a beam can do without mass where a contact wants it so; `why_not` says what gives it mass.
+fn fits_massless(contacts: &[OnBeam], why_not: Option<&str>) -> Made<()> {
+    match (contacts.iter().position(|of| of.contact.massless), why_not) {
+        (Some(i), Some(why)) => {
+            let message =
+                format!("a contact without a law of its own takes the mass from the tip, but {why}");
+            let help = "give it a law: `law = { kind = \"constraint\", restitution = 0.5 }`";
+            Err(Fault::new(format!("contact[{}].law", i + 1), message).help(help).into())
+        }
+        _ => Ok(()),
+    }
 }

@@ -2,6 +2,7 @@
 
 use super::declaration::{Entry, Key, Kinds};
 use super::fault::{At, Fault, Faults, Made};
+use super::places::{Parts, Place};
 use super::sources::Files;
 use super::values::{Value, Values};
 use std::cell::RefCell;
@@ -9,11 +10,14 @@ use std::fmt;
 use std::sync::Arc;
 
 /// What a maker knows of the rest of the case.
+#[derive(Clone, Copy)]
 pub struct Context<'a> {
     /// Length of the beam \[m\]; `None` if it has a problem of its own.
     pub length: Option<f64>,
     /// Duration of the run \[s\]; `None` if it has a problem of its own.
     pub duration: Option<f64>,
+    /// The bodies and beams of the case; `None` if one of them has a problem of its own.
+    pub parts: Option<&'a Parts>,
     /// The files that the case names.
     pub files: &'a Files<'a>,
     /// What the reader of a case should know of its parts.
@@ -37,13 +41,15 @@ impl Context<'_> {
         Ok((name, self.files.bytes(name).at(key)?))
     }
 
-    /// The station at `key`, which lies on the beam.
-    pub fn station(&self, v: &Values, key: &str) -> Made<f64> {
-        let station = match v.value(key)? {
-            Value::Text(_) => self.length()?,
-            _ => v.number(key)?,
-        };
-        self.on_beam(station, key).map(|()| station)
+    /// The bodies and beams of the case.
+    pub fn parts(&self) -> Made<&Parts> {
+        self.parts.ok_or_else(Faults::default)
+    }
+
+    /// The place at `key`.
+    pub fn place(&self, v: &Values, key: &str) -> Made<Place> {
+        let found = self.parts()?.find(v.text(key)?);
+        found.map_err(|fault| Faults::from(fault).within(key))
     }
 
     /// Whether a station lies on the beam.

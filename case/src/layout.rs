@@ -7,9 +7,11 @@ use super::kinds::initial::INITIAL;
 use super::kinds::integrator::INTEGRATOR;
 use super::kinds::motion::MOTION;
 use super::kinds::section::SECTION;
-use super::kinds::{amplitude, beam, blade, body, contact, joint, load, obstacle, rotation, spatial, torque};
+use super::kinds::{
+    amplitude, beam, blade, body, contact, damping, joint, load, mass, obstacle, rotation, spring, torque,
+};
 use super::tree::{Line, Raw};
-use super::units::{INERTIA, LENGTH, TIME};
+use super::units::{ACCELERATION, INERTIA, LENGTH, TIME};
 use std::sync::LazyLock;
 
 /// The choices, in the order of a case file.
@@ -21,27 +23,22 @@ pub(super) static CHOICES: &[&dyn Kinds] = &[
     &load::AXES,
     &amplitude::AMPLITUDE,
     &amplitude::DISTRIBUTION,
-    &contact::OBSTACLE,
+    &obstacle::OBSTACLE,
     &contact::MOUNT,
     &contact::LAW,
+    &spring::SPRING_KIND,
     &blade::STRAIN_ENERGY,
     &COUPLING,
     &BASIS,
     &FIELD,
     &INITIAL,
     &INTEGRATOR,
-];
-
-/// The choices that only systems in space have.
-pub(super) static SPATIAL_CHOICES: &[&dyn Kinds] = &[
     &body::INERTIA,
     &beam::CURVE,
     &beam::END,
     &joint::JOINT,
     &joint::TRAVEL,
     &joint::TRAVEL_OF,
-    &spatial::AXES,
-    &obstacle::OBSTACLE,
 ];
 
 /// The tables of which any makes a case one of a system in space.
@@ -61,25 +58,19 @@ pub(super) fn is_spatial(keys: &[Key]) -> bool {
     keys.iter().any(|key| key.name == IN_SPACE[0])
 }
 
+/// What both have: what acts, what is carried, and what may be touched.
+static ACTING: [&Key; 5] =
+    [&GRAVITY, &mass::MASS.key, &spring::SPRING.key, &load::LOAD.key, &contact::CONTACT.key];
+
 /// The tables of a system in space, in the order of a case file.
-static TABLES: [&Key; 10] = [
-    &spatial::GRAVITY,
-    &body::BODY.key,
-    &beam::BEAMS.key,
-    &joint::JOINTS.key,
-    &spatial::SPRING.key,
-    &spatial::LOAD.key,
-    &spatial::LINE_LOAD.key,
-    &obstacle::CONTACT.key,
-    &rotation::ROTATION.key,
-    &spatial::MODEL,
-];
+static TABLES: [&Key; 3] = [&body::BODY.key, &beam::BEAMS.key, &joint::JOINTS.key];
 
 /// The keys of a system in space.
 pub(super) fn spatial_keys() -> &'static [Key] {
     static KEYS: LazyLock<Vec<Key>> = LazyLock::new(|| {
-        let parts = TABLES.map(|key| *key);
-        [&[TITLE][..], &parts, RUN, &[SPATIAL_OUTPUT]].concat()
+        let (parts, acting) = (TABLES.map(|key| *key), ACTING.map(|key| *key));
+        let more = [beam::FIBRES.key, rotation::ROTATION.key, MODEL];
+        [&[TITLE][..], &acting[..1], &parts, &acting[1..], &more, RUN, &[SPATIAL_OUTPUT]].concat()
     });
     &KEYS
 }
@@ -87,16 +78,43 @@ pub(super) fn spatial_keys() -> &'static [Key] {
 /// The keys of a beam on a hub.
 pub(super) fn keys() -> &'static [Key] {
     static KEYS: LazyLock<Vec<Key>> = LazyLock::new(|| {
-        let loads: Vec<Key> = load::LOADS.iter().map(|table| table.key).collect();
-        [&[TITLE], MODEL, &loads, &[contact::CONTACT.key, load::DAMPING.key], RUN, &[OUTPUT]].concat()
+        let acting = ACTING.map(|key| *key);
+        [&[TITLE], &acting[..1], PLANAR, &acting[1..], &[damping::DAMPING.key], RUN, &[OUTPUT]].concat()
     });
     &KEYS
 }
 
+/// Gravity, at the top of a case.
+pub(super) const GRAVITY: Key = key(
+    "gravity",
+    Type::Quantities(&ACCELERATION, Any),
+    Empty,
+    "acceleration of gravity along x, y and z, none if left out; z may be left out",
+);
+
+static MODEL_KEYS: [Key; 2] = [
+    key(
+        "drop-redundant-rows",
+        Type::Boolean,
+        Default::Boolean(false),
+        "rows of joints that follow from others are left out, in place of an error, and have no forces; a run ends where they no \
+         longer follow",
+    ),
+    key(
+        "refine",
+        Type::Integer(1, 1000),
+        Default::Integer(1),
+        "into how many each element of the beams is cut",
+    ),
+];
+
+/// What is kept of the equations.
+pub(super) const MODEL: Key = key("model", Type::Table(&MODEL_KEYS), Empty, "model of the system");
+
 const TITLE: Key = key("title", Type::Text, Default::Name(""), "title for plots and reports");
 
 /// Keys of the beam, its hub and its model.
-static MODEL: &[Key] = &[
+static PLANAR: &[Key] = &[
     key(
         "beam",
         Type::Table(&[key("length", Quantity(&LENGTH, Positive), Required, "length L of the beam")]),
@@ -176,6 +194,8 @@ const SAMPLE: Key = key(
     Optional,
     "interval between records, a thousandth of the duration if left out",
 );
+const STATIONS: Key =
+    key("stations", Type::Places, Default::Empty, "stations of beams that are recorded besides the tip");
 const BALANCE: Key = key(
     "energy-balance",
     Type::Boolean,
@@ -200,12 +220,7 @@ const VTK_STEP: Key = key(
 /// What is recorded of a beam on a hub.
 static RECORDED: [Key; 9] = [
     SAMPLE,
-    key(
-        "stations",
-        Type::Quantities(&LENGTH, NotNegative),
-        Default::Empty,
-        "stations along the beam, from the root, recorded besides the tip",
-    ),
+    STATIONS,
     key(
         "section-forces",
         Type::Boolean,
@@ -232,6 +247,6 @@ static RECORDED: [Key; 9] = [
 const OUTPUT: Key = key("output", Type::Table(&RECORDED), Default::Empty, "recording of results");
 
 /// What is recorded of a system in space.
-static RECORDED_IN_SPACE: [Key; 5] = [SAMPLE, BALANCE, PLOTS, VTK, VTK_STEP];
+static RECORDED_IN_SPACE: [Key; 6] = [SAMPLE, STATIONS, BALANCE, PLOTS, VTK, VTK_STEP];
 const SPATIAL_OUTPUT: Key =
     key("output", Type::Table(&RECORDED_IN_SPACE), Default::Empty, "recording of results");

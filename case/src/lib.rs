@@ -23,12 +23,14 @@ mod campbell;
 mod case;
 pub mod declaration;
 mod fault;
+mod features;
 mod files;
 mod hub_beam;
 mod kind;
 pub mod kinds;
 mod layout;
 mod model;
+pub mod places;
 mod problem;
 mod reader;
 mod reading;
@@ -38,6 +40,7 @@ mod schema;
 mod sources;
 mod space;
 mod statics;
+mod stations;
 mod suggestion;
 mod template;
 mod tree;
@@ -67,27 +70,16 @@ pub fn choices() -> &'static [&'static dyn declaration::Kinds] {
     layout::CHOICES
 }
 
-/// Those that only systems in space have.
-pub fn spatial_choices() -> &'static [&'static dyn declaration::Kinds] {
-    layout::SPATIAL_CHOICES
-}
-
 /// What stands at the top of a case: keys and tables of a beam on a hub, and of a system in space.
 pub fn keys() -> [(&'static str, &'static [declaration::Key]); 2] {
     [("a beam on a hub", layout::keys()), ("a system in space", layout::spatial_keys())]
 }
 
-/// Examples of the tables of systems in space: `KEY = VALUE`, as on the command line.
-pub fn examples_in_space() -> Vec<&'static str> {
-    use kinds::{beam, body, joint, obstacle, rotation, spatial};
-    let parts = [body::BODY.example, beam::BEAMS.example, joint::JOINTS.example, spatial::SPRING.example];
-    let loads = [spatial::LOAD.example, spatial::LINE_LOAD.example, obstacle::CONTACT.example];
-    parts.into_iter().chain(loads).chain([rotation::ROTATION.example]).collect()
-}
-
 /// Examples of the tables that a case may have and need not: `KEY = VALUE`, as on the command line.
 pub fn examples_of_tables() -> Vec<&'static str> {
-    let loads = kinds::load::LOADS.iter().map(|table| table.example);
-    let others = [kinds::contact::CONTACT.example, kinds::load::DAMPING.example, kinds::blade::BLADE.example];
-    loads.chain(others).collect()
+    use kinds::{beam, blade, body, contact, damping, joint, load, mass, rotation, spring};
+    let parts = [body::BODY.example, beam::BEAMS.example, joint::JOINTS.example, beam::FIBRES.example];
+    let acting = [mass::MASS.example, spring::SPRING.example, load::LOAD.example, contact::CONTACT.example];
+    let others = [damping::DAMPING.example, blade::BLADE.example, rotation::ROTATION.example];
+    parts.into_iter().chain(acting).chain(others).collect()
 }

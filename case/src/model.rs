@@ -2,10 +2,9 @@
 
 use super::case::{Case, Output, Subject};
 use super::fault::{Fault, Faults, Made};
-use super::hub_beam::HubBeam;
+use super::hub_beam::{Acting, HubBeam};
 use super::kinds::coupling::Assembly;
 use super::kinds::initial::Initial;
-use super::kinds::load::Load;
 use super::kinds::rotation::vibrating;
 use super::space::Space;
 use super::values::item;
@@ -18,10 +17,10 @@ impl HubBeam {
     fn system(&self, output: &Output) -> Made<Box<dyn Fork>> {
         let masses = self.loads.iter().filter_map(|load| load.mass).collect();
         let loaded = self.loads.iter().flat_map(|load| load.stations.iter().copied());
-        let touching = self.contacts.iter().flat_map(|contact| contact.stations.iter().copied());
+        let touching = self.contacts.iter().flat_map(|of| of.points.iter().map(|(_, station, _)| *station));
         let stations: Vec<f64> = loaded.chain(touching).collect();
         let beam = Beam::new(self.section.planar.as_ref(), masses, &stations);
-        let act = |load: &'_ Load| load.load.clone();
+        let act = |load: &'_ Acting| load.load.clone();
         let loads: Vec<_> = self.loads.iter().filter_map(act).collect();
         let loads: Vec<&dyn acting::Load> =
             loads.iter().map(|load| load.as_ref() as &dyn acting::Load).collect();
@@ -57,15 +56,15 @@ impl HubBeam {
         let message = "the vibrations of a [blade] are about its steady rotation alone: it carries masses, but no loads, springs or \
                        damping";
         let help = "leave it out, or leave [blade] out for the beam in the plane with all of them";
-        let refused = |load: &&Load| load.mass.is_none() && load.fixed_in_space != Some("gravity");
-        let mut tables: Vec<&str> = self.loads.iter().filter(refused).map(|load| load.table).collect();
+        let refused = |load: &&Acting| load.mass.is_none() && load.fixed_in_space != Some("gravity");
+        let mut tables: Vec<String> =
+            self.loads.iter().filter(refused).map(|load| load.table.clone()).collect();
         tables.dedup();
         if self.damping.mass != 0.0 || self.damping.stiffness != 0.0 {
-            tables.push("damping");
+            tables.push("damping".to_owned());
         }
-        let key = |table: &str| if table == "damping" { table.to_owned() } else { item(table, 0) };
         let faults: Vec<Fault> =
-            tables.into_iter().map(|table| Fault::new(key(table), message).help(help)).collect();
+            tables.into_iter().map(|table| Fault::new(table, message).help(help)).collect();
         if faults.is_empty() { Ok(()) } else { Err(Faults(faults)) }
     }
 }
@@ -121,7 +120,7 @@ impl Case {
     /// The key of the table of each contact, in the order of the system.
     pub(super) fn contact_keys(&self) -> Vec<String> {
         let several = match &self.subject {
-            Subject::HubBeam(beam) => beam.contacts.iter().map(|contact| contact.stations.len()).collect(),
+            Subject::HubBeam(beam) => beam.contacts.iter().map(|of| of.points.len()).collect(),
             Subject::Space(space) => space.points.clone(),
         };
         let tables = several.into_iter().enumerate();
@@ -164,7 +163,7 @@ impl Case {
             (_, Some(blade)) => Ok((Box::new(blade), Vec::new())),
             (Subject::HubBeam(beam), None) => {
                 let mut beam = HubBeam { contacts: Vec::new(), ..(**beam).clone() };
-                let fixed = |load: &Load| load.fixed_in_space.filter(|_| rotates);
+                let fixed = |load: &Acting| load.fixed_in_space.filter(|_| rotates);
                 let mut names: Vec<String> = beam.loads.iter().filter_map(fixed).map(str::to_owned).collect();
                 names.dedup();
                 beam.loads.retain(|load| fixed(load).is_none());

@@ -66,7 +66,8 @@ fn unknown<'k>(
         let all = keys.iter().map(|key| key.name);
         let free = all.clone().filter(|key| !entries.iter().any(|e| e.key == *key));
         let mut problem = Problem::new(join(path, name), Some(entry.place.clone()), "unknown key");
-        if let Some(name) = nearest(name, free).or_else(|| nearest(name, all)) {
+        let synonym = suggestion::synonym(name, all.clone());
+        if let Some(name) = synonym.or_else(|| nearest(name, free)).or_else(|| nearest(name, all)) {
             problem = problem.label(format!("did you mean `{name}`?"));
             suspected.push(name);
         } else if let Some((choice, kind)) = of {
@@ -134,9 +135,14 @@ fn expected(takes: &Type) -> String {
                 measure.unit
             )
         }
-        Type::Station(_) => {
-            format!("a station: a text such as {} or a number in m", units::STATION.examples)
-        }
+        Type::Place => format!("a place: {PLACES}"),
+        Type::Places => format!("a place or a list of places: {PLACES}"),
+        Type::Moment(measure) => format!(
+            "{} such as {} or a number in {}, or a list of three",
+            units::article(measure),
+            measure.examples,
+            measure.unit
+        ),
         Type::Quantities(measure, _) => {
             format!("a list of quantities such as {} or of numbers in {}", measure.examples, measure.unit)
         }
@@ -156,6 +162,10 @@ fn expected(takes: &Type) -> String {
     }
 }
 
+/// What a place is, in words.
+const PLACES: &str =
+    "a text such as `tip`, `2 m` of the only beam, `arm@2 m`, `arm.tip`, or the name of a part";
+
 fn value(key: &'static Key, node: &Node, path: &str, problems: &mut Problems) -> Option<Value> {
     let mismatch = |problems: &mut Problems| {
         let message = format!("{} is not what this key takes", node.value.describe());
@@ -167,9 +177,13 @@ fn value(key: &'static Key, node: &Node, path: &str, problems: &mut Problems) ->
         (Type::Quantity(measure, bound), Raw::Text(_) | Raw::Number(_) | Raw::Integer(_)) => {
             quantity(node, measure, *bound, path, problems).map(Value::Number)
         }
-        (Type::Station(_), Raw::Text(text)) if text.trim() == "tip" => Some(Value::Text("tip".to_owned())),
-        (Type::Station(bound), Raw::Text(_) | Raw::Number(_) | Raw::Integer(_)) => {
-            quantity(node, &units::STATION, *bound, path, problems).map(Value::Number)
+        (Type::Place, Raw::Text(text)) => Some(Value::Text(text.clone())),
+        (Type::Places, Raw::Text(text)) => Some(Value::Texts(vec![text.clone()])),
+        (Type::Moment(measure), Raw::Text(_) | Raw::Number(_) | Raw::Integer(_)) => {
+            quantity(node, measure, Bound::Any, path, problems).map(|number| Value::Numbers(vec![number]))
+        }
+        (Type::Moment(measure), Raw::List(items)) => {
+            quantities(items, measure, Bound::Any, path, problems).map(Value::Numbers)
         }
         (Type::Quantities(measure, bound), Raw::List(items)) => {
             quantities(items, measure, *bound, path, problems).map(Value::Numbers)
@@ -190,7 +204,7 @@ fn value(key: &'static Key, node: &Node, path: &str, problems: &mut Problems) ->
         }
         (Type::Boolean, Raw::Boolean(value)) => Some(Value::Boolean(*value)),
         (Type::Text | Type::Path, Raw::Text(text)) => Some(Value::Text(text.clone())),
-        (Type::Texts, Raw::List(items)) => {
+        (Type::Texts | Type::Places, Raw::List(items)) => {
             let text =
                 |item: &Node| if let Raw::Text(text) = &item.value { Some(text.clone()) } else { None };
             items.iter().map(text).collect::<Option<_>>().map(Value::Texts).or_else(|| mismatch(problems))
@@ -347,6 +361,7 @@ fn default(key: &'static Key, path: &str, problems: &mut Problems) -> Option<Val
         (Presence::Name(name), _) => Some(Value::Text(name.to_owned())),
         (Presence::Empty, Type::Table(keys)) => Some(Value::Table(table(&[], None, keys, path, problems))),
         (Presence::Empty, Type::Tables(_)) => Some(Value::Tables(Vec::new())),
+        (Presence::Empty, Type::Texts | Type::Places) => Some(Value::Texts(Vec::new())),
         (Presence::Empty, _) => Some(Value::Numbers(Vec::new())),
     }
 }
@@ -371,7 +386,7 @@ fn quantity(
         },
         _ => return None,
     };
-    bounded(number, measure.unit, bound, path, &node.place, problems)
+    bounded(number, &measure.unit, bound, path, &node.place, problems)
 }
 
 fn bounded(

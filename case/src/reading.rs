@@ -100,7 +100,7 @@ impl Reading {
     pub fn build(&self) -> Result<Live, Problems> {
         let case = &self.case;
         let mut system = case.system().map_err(|faults| self.problems(faults))?;
-        let mut explicit = self.integrator()?;
+        let explicit = self.integrator()?;
         if let (false, Some(step)) = (explicit.info().implicit, case.steps.step()) {
             // The largest frequency changes with the speed of the hub.
             let among = (0..=STABILITY_TIMES).map(|k| case.duration * k as f64 / STABILITY_TIMES as f64);
@@ -117,15 +117,18 @@ impl Reading {
         Ok(Live { system, integrator: self.integrator()? })
     }
 
-    /// Whether the vibrations of the case are those of all that it contains: a blade carries masses, and nothing else acts on it.
+    /// Whether the vibrations of the case are those of all that it contains: a blade carries masses, and nothing else acts on it; a system
+    /// in space is at rest or rotates as a whole.
     ///
     /// # Errors
     /// [`Problems`] at the tables that are to blame.
     pub fn fits_modes(&self) -> Result<(), Problems> {
-        match self.case.hub_beam().filter(|beam| beam.blade.is_some()) {
-            Some(beam) => beam.loads_of_blade().map_err(|faults| self.problems(faults)),
-            None => Ok(()),
-        }
+        let fits = match (self.case.hub_beam().filter(|beam| beam.blade.is_some()), self.case.space()) {
+            (Some(beam), _) => beam.loads_of_blade(),
+            (None, Some(space)) => space.moves_steadily(),
+            (None, None) => Ok(()),
+        };
+        fits.map_err(|faults| self.problems(faults))
     }
 
     /// A new integrator: it belongs to one run.
@@ -133,8 +136,13 @@ impl Reading {
         let files = Files::new(&self.files);
         let length = self.case.hub_beam().map(|beam| beam.length);
         let cautions = RefCell::default();
-        let context =
-            Context { length, duration: Some(self.case.duration), files: &files, cautions: &cautions };
+        let context = Context {
+            length,
+            duration: Some(self.case.duration),
+            parts: None,
+            files: &files,
+            cautions: &cautions,
+        };
         let method = INTEGRATOR.make(&self.values, "integrator", &context);
         method.map(|Method { integrator, .. }| integrator).map_err(|faults| self.problems(faults))
     }

@@ -28,8 +28,9 @@ fn entries(values: &Values, kind: Option<&str>, path: &str, copies: Option<&[Str
     let nested = |value: &Value| matches!(value, Value::Table(_) | Value::Tables(_) | Value::Kind(..));
     for filled in values.entries.iter().filter(|filled| !nested(&filled.value)) {
         let unit = match filled.key.takes {
-            Type::Quantity(measure, _) | Type::Quantities(measure, _) => format!("  # {}", measure.unit),
-            Type::Station(_) => "  # m".to_owned(),
+            Type::Quantity(measure, _) | Type::Quantities(measure, _) | Type::Moment(measure) => {
+                format!("  # {}", measure.unit)
+            }
             _ => String::new(),
         };
         let value = match (filled.key.takes, copies.and_then(|all| copy(path, all))) {
@@ -62,9 +63,8 @@ fn heading(path: &str) -> String {
 /// The copy, among the results, of the file named in the table at `path`; `all` are the tables that name files.
 pub(super) fn copy(path: &str, all: &[String]) -> Option<Artifact> {
     if path.contains('[') {
-        return Artifact::numbered(
-            all.iter().filter(|other| other.contains('[')).position(|other| other == path)?,
-        );
+        let place = all.iter().filter(|other| other.contains('[')).position(|other| other == path)?;
+        return u32::try_from(place).ok().map(Artifact::Table);
     }
     Artifact::table(path.rsplit('.').next().unwrap_or(path))
 }
@@ -147,7 +147,6 @@ pub(super) fn written(value: &Value, takes: &Type, unit: bool) -> String {
     };
     match takes {
         Type::Quantity(measure, _) if unit => format!("{text} {}", measure.unit),
-        Type::Station(_) if unit && matches!(value, Value::Number(_)) => format!("{text} m"),
         _ => text,
     }
 }

@@ -71,12 +71,13 @@ fn property(key: &Key) -> Value {
 fn takes(takes: &Type, default: &str) -> Value {
     match takes {
         Type::Quantity(measure, bound) => quantity(measure, *bound),
-        Type::Station(bound) => {
-            let mut schema = quantity(&units::STATION, *bound);
-            if let Some(Value::Array(forms)) = schema.get_mut("anyOf") {
-                forms.push(json!({ "const": "tip" }));
-            }
-            schema
+        Type::Place => json!({ "type": "string" }),
+        Type::Places => {
+            json!({ "anyOf": [{ "type": "string" }, { "type": "array", "items": { "type": "string" } }] })
+        }
+        Type::Moment(measure) => {
+            let one = quantity(measure, Bound::Any);
+            json!({ "anyOf": [one, { "type": "array", "items": one }] })
         }
         Type::Quantities(measure, bound) => json!({ "type": "array", "items": quantity(measure, *bound) }),
         Type::Number(bound) => number(*bound),
@@ -111,7 +112,7 @@ fn kinds(choice: &dyn Kinds, default: &str) -> Vec<Value> {
 }
 
 fn quantity(measure: &Measure, bound: Bound) -> Value {
-    let unit = measure.unit;
+    let unit = &measure.unit;
     let examples: Vec<&str> = measure.examples.split(", ").map(|example| example.trim_matches('`')).collect();
     json!({
         "anyOf": [number(bound), { "type": "string", "pattern": QUANTITY }],

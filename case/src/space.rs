@@ -1,24 +1,30 @@
-//! A system in space: its parts by name, and the model that is made of them.
+//! A system in space: the model that is made of its parts.
 
 use super::fault::{Fault, Faults, Found, Made};
 use super::kind::Context;
-use super::kinds::beam::{BEAMS, Beam, End};
+use super::kinds::beam::{BEAMS, Beam, End, FIBRES, Fibre};
 use super::kinds::body::BODY;
-use super::kinds::contact::share;
+use super::kinds::contact::{Contact, Point, Touching, contacts};
 use super::kinds::integrator::Method;
 use super::kinds::joint::{JOINTS, Joint};
-use super::kinds::obstacle::{CONTACT, Contact};
+use super::kinds::load::{Acts, LOAD, Load};
+use super::kinds::mass::{MASS, Mass};
+use super::kinds::name::numbered;
 use super::kinds::rotation::{ROTATION, Rotation};
-use super::kinds::spatial::{GRAVITY, LINE_LOAD, LOAD, LineLoad, Load, MODEL, SPRING, Spring, vector};
-use super::units;
+use super::kinds::spring::{Joins, SPRING, Spring};
+use super::kinds::vector::vector;
+use super::layout::{GRAVITY, MODEL};
+use super::places::{Parts, Place};
+use super::stations::stations;
 use super::values::{Value, Values, item};
 use flexion::contact::{self as touch, Contacting, Surface};
-use flexion::multibody::rotation::{IDENTITY, Vector, exponential, matrix, plus, product};
+use flexion::hub_beam::Mount;
+use flexion::hub_beam::load::Axes;
+use flexion::linalg::{Mat3, Vec3};
+use flexion::multibody::rotation::about;
 use flexion::multibody::slender;
 use flexion::multibody::{self, Body, Flexible, Marker, Model, ModelError, Multibody, Part};
 use flexion::system::{Fork, Frame};
-use flexion_results::nearest;
-use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// Bodies, joints and beams in space.
@@ -56,7 +62,7 @@ pub struct Link {
     /// The two parts as written.
     pub between: [String; 2],
     /// Its point at the start \[m\].
-    pub point: Vector,
+    pub point: Vec3,
 }
 
 impl Space {
@@ -69,117 +75,53 @@ impl Space {
     }
 }
 
-/// The parts that a case names, and where they stand.
-struct Parts<'b> {
-    bodies: Vec<(String, Part, Vector)>,
+/// The parts of a model, and where they stand.
+struct Placed<'b> {
+    bodies: Vec<(Part, Vec3)>,
     beams: &'b [(Beam, slender::Beam)],
 }
 
-/// The beam and the station in the name of a place: `blade.root`, `blade.tip`, `blade@2 m`.
-fn place(name: &str, length: impl Fn(&str) -> Option<f64>) -> Result<Option<(&str, f64)>, Fault> {
-    if let Some((beam, station)) = name.split_once('@') {
-        let Some(length) = length(beam) else { return Ok(None) };
-        let station = units::parse(station, &units::LENGTH)
-            .map_err(|error| Fault::new("", format!("`{name}`: {}", error.message)).help(error.help))?;
-        if !(0.0..=length).contains(&station) {
-            let message = format!("`{name}` is not on the beam, which ends at {length} m");
-            return Err(Fault::new("", message));
+impl Placed<'_> {
+    /// The part at a place, and its own point if it has one.
+    fn at(&self, place: Place) -> (Part, Option<Vec3>) {
+        match place {
+            Place::Ground | Place::Beam(_) => (Part::Ground, None),
+            Place::Body(i) => (self.bodies[i].0, Some(self.bodies[i].1)),
+            Place::Station { beam, s } => {
+                let built = &self.beams[beam].1;
+                let apart = |node: &usize| (built.nodes()[*node] - s).abs();
+                let nearest = (0..built.nodes().len()).min_by(|a, b| apart(a).total_cmp(&apart(b)));
+                let node = nearest.unwrap_or(0);
+                (Part::Section { beam, node }, Some(built.node(node, built.initial()).0))
+            }
         }
-        return Ok(Some((beam, station)));
-    }
-    let Some((beam, end)) = name.split_once('.') else { return Ok(None) };
-    Ok(match (length(beam), end) {
-        (Some(_), "root") => Some((beam, 0.0)),
-        (Some(length), "tip") => Some((beam, length)),
-        _ => None,
-    })
-}
-
-impl Parts<'_> {
-    /// The part of this name, and its own point if it has one.
-    fn find(&self, name: &str) -> Result<(Part, Option<Vector>), Fault> {
-        if name == "ground" {
-            return Ok((Part::Ground, None));
-        }
-        if let Some((_, part, point)) = self.bodies.iter().find(|(known, ..)| known == name) {
-            return Ok((*part, Some(*point)));
-        }
-        let length =
-            |name: &str| self.beams.iter().find(|(beam, _)| beam.name == name).map(|(beam, _)| beam.length);
-        if let Some((of, station)) = place(name, length)?
-            && let Some(number) = self.beams.iter().position(|(beam, _)| beam.name == of)
-        {
-            let built = &self.beams[number].1;
-            let apart = |node: &f64| (node - station).abs();
-            let nearest =
-                |a: &usize, b: &usize| apart(&built.nodes()[*a]).total_cmp(&apart(&built.nodes()[*b]));
-            let node = (0..built.nodes().len()).min_by(nearest).unwrap_or(0);
-            let point = built.node(node, built.initial()).0;
-            return Ok((Part::Section { beam: number, node }, Some(point)));
-        }
-        let places =
-            |(beam, _): &(Beam, slender::Beam)| ["root", "tip"].map(|end| format!("{}.{end}", beam.name));
-        let bodies = self.bodies.iter().map(|(name, ..)| name.clone());
-        let all: Vec<String> = std::iter::once("ground".to_owned())
-            .chain(bodies)
-            .chain(self.beams.iter().flat_map(places))
-            .collect();
-        let near = nearest(name, all.iter().map(String::as_str));
-        let near = near.map_or(String::new(), |near| format!(": did you mean `{near}`?"));
-        let mut listed = super::declaration::listed(all.iter().map(String::as_str));
-        if let Some((beam, _)) = self.beams.first() {
-            listed += &format!(", and stations such as `{}@{} m`", beam.name, 0.5 * beam.length);
-        }
-        Err(Fault::new("", format!("there is no part `{name}`{near}"))
-            .help(format!("the parts are {listed}")))
-    }
-
-    /// The part of this name and the point given, or its own.
-    fn point(&self, name: &str, given: Option<Vector>, key: &str) -> Made<(Part, Vector)> {
-        let (part, own) = self.find(name).map_err(|fault| Faults::from(fault).within(key))?;
-        let point =
-            given.or(own).ok_or_else(|| Fault::new("at", "the ground has no point of its own: give one"));
-        Ok((part, point?))
-    }
-
-    /// Both parts of a table with `between`.
-    fn pair(&self, names: &[String; 2]) -> Made<[(Part, Option<Vector>); 2]> {
-        let find = |name: &String| self.find(name).map_err(|fault| Faults::from(fault).within("between"));
-        let [a, b] = [find(&names[0])?, find(&names[1])?];
-        if a.0 == b.0 {
-            return Err(Fault::new("between", "both parts are the same").into());
-        }
-        Ok([a, b])
     }
 }
 
 /// The marker of a part with the axes of space at a point.
-fn marker(model: &Model, part: Part, position: Vector) -> Made<Marker> {
-    let space = Frame { position, rotation: IDENTITY };
+fn marker(model: &Model, part: Part, position: Vec3) -> Made<Marker> {
+    let space = Frame { position, rotation: Mat3::IDENTITY };
     model.marker(part, space).ok_or_else(|| Fault::new("", "is on a part that is not there").into())
 }
 
-/// `name`, or that of its number: `joint`, `joint2`, ….
-fn numbered(name: &str, what: &str, number: usize) -> String {
-    match (name.is_empty(), number) {
-        (false, _) => name.to_owned(),
-        (_, 0) => what.to_owned(),
-        (_, i) => format!("{what}{}", i + 1),
-    }
+/// The point given, or that of the part.
+fn point(given: Option<Vec3>, own: Option<Vec3>, key: &str) -> Made<Vec3> {
+    let message = "the ground has no point of its own: give one";
+    given.or(own).ok_or_else(|| Faults::from(Fault::new(key, message)))
 }
 
-fn add_joint(model: &mut Model, parts: &Parts<'_>, joint: &Joint, number: usize) -> Made<()> {
-    let [(from, first), (to, second)] = parts.pair(&joint.between)?;
+fn add_joint(model: &mut Model, parts: &Placed<'_>, joint: &Joint, number: usize) -> Made<()> {
+    let [(from, first), (to, second)] = joint.between.map(|place| parts.at(place));
     let point = joint.at.or(second).or(first).ok_or_else(Faults::default)?;
     let space = Frame { position: point, rotation: joint.axes };
     let [a, mut b] = [from, to].map(|part| model.marker(part, space));
     if let Some(b) = &mut b {
         // The joint begins with its coordinate of the start.
         if matches!(joint.kind, multibody::Kind::Prismatic) {
-            let along = b.frame.rotation.map(|row| joint.start * row[2]);
-            b.frame.position = plus(b.frame.position, 1.0, along);
+            let along = joint.start * b.frame.rotation.column(2);
+            b.frame.position += along;
         } else {
-            b.frame.rotation = product(&b.frame.rotation, &matrix(exponential([0.0, 0.0, joint.start])));
+            b.frame.rotation = b.frame.rotation * about([0.0, 0.0, joint.start]);
         }
     }
     let (Some(a), Some(b)) = (a, b) else { return Err(Faults::default()) };
@@ -188,14 +130,13 @@ fn add_joint(model: &mut Model, parts: &Parts<'_>, joint: &Joint, number: usize)
     Ok(())
 }
 
-fn add_spring(model: &mut Model, parts: &Parts<'_>, spring: &Spring, number: usize) -> Made<()> {
-    let [(from, first), (to, second)] = parts.pair(&spring.between)?;
-    let end = |given: Option<Vector>, own: Option<Vector>, key: &str| {
-        let message = "the ground has no point of its own: give one";
-        given.or(own).ok_or_else(|| Faults::from(Fault::new(key, message)))
+fn add_spring(model: &mut Model, parts: &Placed<'_>, spring: &Spring, number: usize) -> Made<()> {
+    let Joins::Line { between, ends, length } = &spring.joins else {
+        return Err(Fault::new("kind", "a system in space has springs of the kind `line` only").into());
     };
-    let (a, b) = (end(spring.ends[0], first, "from")?, end(spring.ends[1], second, "to")?);
-    let apart = plus(b, -1.0, a).iter().map(|x| x * x).sum::<f64>().sqrt();
+    let [(from, first), (to, second)] = between.map(|place| parts.at(place));
+    let (a, b) = (point(ends[0], first, "from")?, point(ends[1], second, "to")?);
+    let apart = (b - a).norm();
     if apart == 0.0 {
         return Err(Fault::new("", "has both ends at one point, and its force no direction").into());
     }
@@ -205,80 +146,86 @@ fn add_spring(model: &mut Model, parts: &Parts<'_>, spring: &Spring, number: usi
         to: marker(model, to, b)?,
         stiffness: spring.stiffness,
         damping: spring.damping,
-        length: spring.length.unwrap_or(apart),
+        length: length.unwrap_or(apart),
+        directions: multibody::Directions::Line,
     });
     Ok(())
 }
 
-fn add_load(model: &mut Model, parts: &Parts<'_>, load: &Load, number: usize) -> Made<()> {
-    let (part, point) = parts.point(&load.on, load.at, "on")?;
-    if part == Part::Ground {
-        return Err(Fault::new("on", "a load on the ground moves nothing").into());
-    }
-    let mut at = marker(model, part, point)?;
-    if load.axes == multibody::Axes::Follower {
-        // The components are those in the axes of the part.
-        at.frame.rotation = IDENTITY;
-    }
-    model.load(multibody::Load {
-        name: numbered(&load.name, "load", number),
-        at,
-        force: load.force,
-        moment: load.couple,
-        axes: load.axes,
-        amplitude: load.amplitude.clone(),
-    });
-    Ok(())
-}
-
-fn add_line(model: &mut Model, beams: &[(Beam, slender::Beam)], load: &LineLoad, number: usize) -> Made<()> {
-    let names = || beams.iter().map(|(beam, _)| beam.name.as_str());
-    let Some(beam) = names().position(|name| name == load.on) else {
-        let near =
-            nearest(&load.on, names()).map_or(String::new(), |near| format!(": did you mean `{near}`?"));
-        let fault = Fault::new("on", format!("there is no beam `{}`{near}", load.on));
-        return Err(fault.help(format!("the beams are {}", super::declaration::listed(names()))).into());
+fn add_load(model: &mut Model, parts: &Placed<'_>, load: &Load, number: usize) -> Made<()> {
+    let axes = match load.axes {
+        Axes::Dead => multibody::Axes::Dead,
+        Axes::Follower => multibody::Axes::Follower,
+        Axes::Hub => {
+            let fault = Fault::new("axes", "a system in space has loads with the axes `dead` or `follower`");
+            return Err(fault.into());
+        }
     };
-    let (of, built) = &beams[beam];
-    let node = |station: f64, key: &str| {
-        let near = |node: &f64| (node - station).abs() <= 1e-9 * of.length;
-        built.nodes().iter().position(near).ok_or_else(|| {
-            Faults::from(Fault::new(key, format!("is not on the beam, which ends at {} m", of.length)))
-        })
-    };
-    let elements = node(load.range.0, "from")?..node(load.range.1.unwrap_or(of.length), "to")?;
-    model.line_load(multibody::LineLoad {
-        name: numbered(&load.name, "load", number),
-        beam,
-        elements: Some(elements),
-        force: load.force,
-        axes: load.axes,
-        amplitude: load.amplitude.clone(),
-    });
+    let (name, amplitude) = (numbered(&load.name, "load", number), load.amplitude.clone());
+    match &load.acts {
+        Acts::At { on, at, force, couple } => {
+            let (part, own) = parts.at(*on);
+            let mut at = marker(model, part, point(*at, own, "at")?)?;
+            if axes == multibody::Axes::Follower {
+                // The components are those in the axes of the part.
+                at.frame.rotation = Mat3::IDENTITY;
+            }
+            model.load(multibody::Load { name, at, force: *force, moment: *couple, axes, amplitude });
+        }
+        Acts::Along { beam, range, force, distribution } => {
+            if distribution.is_some() {
+                let message = "a system in space has uniform forces per length only";
+                return Err(Fault::new("distribution", message).into());
+            }
+            let (of, built) = &parts.beams[*beam];
+            let node = |station: f64| {
+                let near = |node: &f64| (node - station).abs() <= 1e-9 * of.length;
+                built.nodes().iter().position(near).ok_or_else(Faults::default)
+            };
+            let elements = Some(node(range.0)?..node(range.1)?);
+            model.line_load(multibody::LineLoad {
+                name,
+                beam: *beam,
+                elements,
+                distribution: None,
+                force: *force,
+                axes,
+                amplitude,
+            });
+        }
+    }
     Ok(())
 }
 
-fn add_contact(
+/// Adds a mass as a body that is fixed to its station.
+fn add_mass(model: &mut Model, parts: &Placed<'_>, mass: &Mass, number: usize) -> Made<()> {
+    let (part, own) = parts.at(Place::Station { beam: mass.beam, s: mass.station });
+    let at = own.unwrap_or_default();
+    let name = numbered(&mass.name, "mass", number);
+    let body = Body::new(&name, mass.mass, [mass.inertia; 3]).at(at);
+    let body = model.body(body);
+    let ends = [part, body];
+    model
+        .join(&format!("{name}-joint"), multibody::Kind::Fixed, ends, at, (Vec3([0.0, 0.0, 1.0]), None))
+        .map_err(|error| Fault::new("", error.to_string()))?;
+    Ok(())
+}
+
+/// Adds a point that may touch; gives it with the number of its body, beams behind bodies, and its station \[m\].
+fn add_point(
     model: &mut Model,
-    parts: &Parts<'_>,
+    parts: &Placed<'_>,
     contact: &Contact,
-    number: usize,
+    (name, place, law): &Point,
 ) -> Made<(touch::Contact, (usize, f64))> {
-    let made = |point: usize| touch::Contact {
-        name: numbered(&contact.name, "contact", number),
-        point,
-        obstacle: Arc::clone(&contact.obstacle),
-        law: contact.law,
-    };
-    if let Some(beam) = parts.beams.iter().position(|(beam, _)| beam.name == contact.on) {
+    let obstacle = Arc::clone(&contact.obstacle.obstacle);
+    let made = |point: usize| touch::Contact { name: name.clone(), point, obstacle, law: *law };
+    if let Place::Beam(beam) = *place {
         let middle = 0.5 * parts.beams[beam].0.length;
         return Ok((made(model.contact_beam(beam, contact.radius)), (parts.bodies.len() + beam, middle)));
     }
-    let (part, point) = parts.point(&contact.on, contact.at, "on")?;
-    if part == Part::Ground {
-        return Err(Fault::new("on", "a point of the ground touches nothing").into());
-    }
-    let marker = marker(model, part, point)?;
+    let (part, own) = parts.at(*place);
+    let marker = marker(model, part, point(contact.at, own, "at")?)?;
     let place = match part {
         Part::Section { beam, node } => (parts.bodies.len() + beam, parts.beams[beam].1.nodes()[node]),
         Part::Body(body) => (body, 0.0),
@@ -287,56 +234,73 @@ fn add_contact(
     Ok((made(model.contact_ball(marker, contact.radius)), place))
 }
 
-/// The contacts of the points of a beam that may touch everywhere, or the one contact of a place or of a whole beam. Forces are
-/// summed up along the beam by the trapezium rule.
-fn touches(contact: Contact, number: usize, beams: &[Beam], joints: &[Joint]) -> Made<Vec<Contact>> {
-    let beam = beams.iter().find(|beam| beam.name == contact.on);
-    if contact.at.is_some() && (beam.is_some() || contact.points.is_some()) {
-        let help = "write `on = \"blade@2 m\"` for one place of a beam";
-        return Err(Fault::new("at", "is a point of a body, and a whole beam may touch").help(help).into());
+/// The points of a contact. Forces along a beam are summed up by the trapezium rule.
+fn points_of(contact: &Contact, parts: &Parts, beams: &[Beam], joints: &[Joint]) -> Made<Vec<Point>> {
+    if contact.massless {
+        let message = "only the tip of a planar beam can do without mass";
+        let help = "write `law = { kind = \"constraint\", restitution = 0.5 }`";
+        return Err(Fault::new("law", message).help(help).into());
     }
-    let Some(parts) = contact.points else {
-        let bulges = |surface: Surface| surface.curvatures.iter().any(|k| *k > 0.0);
-        if beam.is_some() && !bulges(contact.obstacle.surface([0.0; 3], 0.0)) {
+    if contact.mount == Mount::Hub {
+        let message = "a system in space has obstacles that are fixed to the ground, or moved";
+        return Err(Fault::new(if contact.obstacle.stop { "obstacle" } else { "mount" }, message).into());
+    }
+    let bulges = |surface: Surface| surface.curvatures.iter().any(|k| *k > 0.0);
+    let held = match contact.on {
+        Touching::Beam(_) if !bulges(contact.obstacle.obstacle.surface(Vec3::ZERO, 0.0)) => {
             let message = "is flat or hollow: a beam touches it at many places, and none is the nearest";
-            let help = "let the beam touch by points, `points = 20`, or name one place: `on = \"blade.tip\"`";
+            let help = "let the beam touch by points, `points = 20`, or name one place: `on = \"beam.tip\"`";
             return Err(Fault::new("obstacle", message).help(help).into());
         }
-        return Ok(vec![contact]);
+        Touching::Points { beam, .. } => {
+            let root = Place::Station { beam, s: 0.0 };
+            beams[beam].ends[0] != End::Free || joints.iter().any(|joint| joint.between.contains(&root))
+        }
+        _ => false,
     };
-    let Some(beam) = beam else {
-        let message = format!("belong to a whole beam, and `{}` is none", contact.on);
-        return Err(Fault::new("points", message).into());
-    };
-    let (root, name) = (format!("{}.root", beam.name), numbered(&contact.name, "contact", number));
-    let held = beam.ends[0] != End::Free || joints.iter().any(|joint| joint.between.contains(&root));
-    let spacing = beam.length / parts as f64;
-    let point = |(i, k): (usize, usize)| {
-        let (end, station) =
-            (k == 0 || k == parts, if k == parts { beam.length } else { spacing * k as f64 });
-        let law = share(contact.law, spacing, end);
-        let (name, on) = (format!("{name}.{}", i + 1), format!("{}@{station} m", beam.name));
-        Contact { name, on, law, ..contact.clone() }
-    };
-    Ok((usize::from(held)..=parts).enumerate().map(point).collect())
+    Ok(contact.points(parts, held))
 }
 
-/// The stations of a beam that tables name, and those where loads begin and end.
-fn stations(v: &Values, lines: &[LineLoad], contacts: &[Vec<Contact>], beam: &Beam) -> Vec<f64> {
-    let mut names: Vec<&str> = contacts.iter().flatten().map(|contact| contact.on.as_str()).collect();
-    for table in ["joint", "spring", "load"] {
-        let Ok(Some(Value::Tables(list))) = v.optional(table) else { continue };
-        for values in list {
-            names.extend(values.texts("between").unwrap_or_default().iter().map(String::as_str));
-            names.extend(values.text("on").ok());
+/// What places the parts of a case name.
+#[derive(Default)]
+struct Named(Vec<Place>);
+
+impl Named {
+    /// Of joints, springs, loads, masses and points that may touch.
+    fn of(
+        joints: &[Joint],
+        springs: &[Spring],
+        loads: &[Load],
+        masses: &[Mass],
+        points: &[Vec<Point>],
+    ) -> Named {
+        let mut all: Vec<Place> = points.iter().flatten().map(|(_, place, _)| *place).collect();
+        all.extend(joints.iter().flat_map(|joint| joint.between));
+        for spring in springs {
+            if let Joins::Line { between, .. } = spring.joins {
+                all.extend(between);
+            }
         }
+        all.extend(masses.iter().map(|mass| Place::Station { beam: mass.beam, s: mass.station }));
+        for load in loads {
+            match load.acts {
+                Acts::At { on, .. } => all.push(on),
+                Acts::Along { beam, range, .. } => {
+                    all.extend([range.0, range.1].map(|s| Place::Station { beam, s }));
+                }
+            }
+        }
+        Named(all)
     }
-    let length = |name: &str| (name == beam.name).then_some(beam.length);
-    let places = names.into_iter().filter_map(|name| place(name, length).ok().flatten());
-    let ends = lines.iter().filter(|load| load.on == beam.name);
-    let ends = ends.flat_map(|load| [Some(load.range.0), load.range.1]).flatten();
-    let ends = ends.filter(|station| *station <= beam.length);
-    places.map(|(_, station)| station).chain(ends).collect()
+
+    /// The stations on a beam \[m\].
+    fn on(&self, number: usize) -> Vec<f64> {
+        let station = |place: &Place| match *place {
+            Place::Station { beam, s } if beam == number => Some(s),
+            _ => None,
+        };
+        self.0.iter().filter_map(station).collect()
+    }
 }
 
 /// Adds a beam and the joints of its ends.
@@ -363,44 +327,83 @@ fn add_ends(model: &mut Model, number: usize, (beam, built): &(Beam, slender::Be
         let parts = [Part::Ground, Part::Section { beam: number, node }];
         let name = format!("{}-{name}", beam.name);
         model
-            .join(&name, kind, parts, point, ([0.0, 0.0, 1.0], None))
+            .join(&name, kind, parts, point, (Vec3([0.0, 0.0, 1.0]), None))
             .map_err(|error| Fault::new("", error.to_string()))?;
     }
     Ok(())
 }
 
+/// The names of the bodies and beams, each of which is one.
+fn parts(bodies: &[Body], beams: &[Beam], found: &mut Found) -> Parts {
+    let of_bodies = bodies.iter().enumerate().map(|(i, body)| (item("body", i), &body.name));
+    let of_beams = beams.iter().enumerate().map(|(i, beam)| (item("beam", i), &beam.name));
+    let mut taken: Vec<&String> = Vec::new();
+    for (table, name) in of_bodies.chain(of_beams) {
+        let twice = taken.contains(&name);
+        found.check(twice, &format!("{table}.name"), || format!("the name `{name}` is already taken"));
+        taken.push(name);
+    }
+    Parts {
+        bodies: bodies.iter().map(|body| body.name.clone()).collect(),
+        beams: beams.iter().map(|beam| (beam.name.clone(), beam.length)).collect(),
+    }
+}
+
+/// Lets beams record stations, the tips behind them, and fibres.
+fn record(beams: &mut [Beam], stations: &[(usize, f64)], fibres: Vec<Fibre>) {
+    for (i, beam) in beams.iter_mut().enumerate() {
+        let on = stations.iter().filter(|(beam, _)| *beam == i).map(|(_, s)| *s);
+        let all: Vec<f64> = on.chain([beam.length]).collect();
+        let first = |(k, s): (usize, &f64)| (!all[..k].contains(s)).then_some(*s);
+        beam.stations = all.iter().enumerate().filter_map(first).collect();
+    }
+    for Fibre { name, on: (beam, s), place } in fibres {
+        beams[beam].fibres.push((name, s, place));
+    }
+}
+
 /// Makes the system of the values of its case, for a method of integration.
 pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made<Space> {
     let mut found = Found::default();
-    let bodies = found.part(BODY.make(v, c));
-    let beams = found.part(BEAMS.make(v, c));
+    let (bodies, beams) = (found.part(BODY.make(v, c)), found.part(BEAMS.make(v, c)));
+    let mut beams = beams;
+    let names = bodies.as_ref().zip(beams.as_ref()).map(|(bodies, beams)| parts(bodies, beams, &mut found));
+    let c = &Context { parts: names.as_ref(), ..*c };
     let joints = found.part(JOINTS.make(v, c));
     let springs = found.part(SPRING.make(v, c));
+    let masses = found.part(MASS.make(v, c));
     let loads = found.part(LOAD.make(v, c));
-    let lines = found.part(LINE_LOAD.make(v, c));
-    let contacts = found.part(CONTACT.make(v, c));
+    let contacts = found.part(contacts(v, c));
+    let stations =
+        v.table("output").and_then(|output| stations(output, c).map_err(|faults| faults.within("output")));
+    if let (Some(stations), Some(fibres), Some(beams)) =
+        (found.part(stations), found.part(FIBRES.make(v, c)), &mut beams)
+    {
+        record(beams, &stations, fibres);
+    }
     let rotation = found.part(ROTATION.make(v, c));
     let gravity = found.part(vector(v, GRAVITY.name));
     let settings = |model: &Values| Ok((model.boolean("drop-redundant-rows")?, model.count("refine")?));
     let settings = found.part(v.table(MODEL.name).and_then(settings));
     initial(v, &mut found);
-    let (Some(bodies), Some(joints), Some(springs), Some(loads)) = (bodies, joints, springs, loads) else {
+    let (Some(bodies), Some(beams), Some(names), Some(joints)) = (bodies, beams, &names, joints) else {
         return Err(found.0);
     };
-    let (Some(contacts), Some(gravity), Some((drop, refine))) = (contacts, gravity, settings) else {
+    let (Some(springs), Some(masses), Some(loads), Some(gravity)) = (springs, masses, loads, gravity) else {
         return Err(found.0);
     };
-    let (Some(beams), Some(lines), Some(rotation)) = (beams, lines, rotation) else { return Err(found.0) };
-    let along = |(i, contact): (usize, Contact)| {
-        let made = touches(contact, i, &beams, &joints).map_err(|faults| faults.within(&item("contact", i)));
-        found.part(made)
+    let (Some(contacts), Some((drop, refine)), Some(rotation)) = (contacts, settings, rotation) else {
+        return Err(found.0);
     };
-    let contacts: Option<Vec<Vec<Contact>>> = contacts.into_iter().enumerate().map(along).collect();
-    let Some(contacts) = contacts else { return Err(found.0) };
+    let along = |(i, contact): (usize, &Contact)| {
+        let points = points_of(contact, names, &beams, &joints);
+        found.part(points.map_err(|faults| faults.within(&item("contact", i))))
+    };
+    let points: Option<Vec<Vec<Point>>> = contacts.iter().enumerate().map(along).collect();
+    let Some(points) = points else { return Err(found.0) };
+    let named = Named::of(&joints, &springs, &loads, &masses, &points);
     let build = |(i, beam): (usize, Beam)| {
-        let built = beam
-            .built(&stations(v, &lines, &contacts, &beam), refine)
-            .map_err(|faults| faults.within(&item("beam", i)));
+        let built = beam.built(&named.on(i), refine).map_err(|faults| faults.within(&item("beam", i)));
         found.part(built).map(|built| (beam, built))
     };
     let beams: Vec<Option<(Beam, slender::Beam)>> = beams.into_iter().enumerate().map(build).collect();
@@ -409,16 +412,8 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     if drop {
         model = model.drop_redundant_rows();
     }
-    let names = |body: &Body| (body.name.clone(), model.body(body.clone()), body.frame.position);
-    let parts = Parts { bodies: bodies.iter().map(names).collect(), beams: &beams };
-    let of_bodies = bodies.iter().enumerate().map(|(i, body)| (item("body", i), &body.name));
-    let of_beams = beams.iter().enumerate().map(|(i, (beam, _))| (item("beam", i), &beam.name));
-    let mut taken = BTreeSet::new();
-    for (table, name) in of_bodies.chain(of_beams) {
-        found.check(!taken.insert(name), &format!("{table}.name"), || {
-            format!("the name `{name}` is already taken")
-        });
-    }
+    let place = |body: &Body| (model.body(body.clone()), body.frame.position);
+    let parts = Placed { bodies: bodies.iter().map(place).collect(), beams: &beams };
     for beam in &beams {
         add_beam(&mut model, beam);
     }
@@ -434,27 +429,23 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     for (i, spring) in springs.iter().enumerate() {
         add("spring", i, add_spring(&mut model, &parts, spring, i));
     }
+    for (i, mass) in masses.iter().enumerate() {
+        add("mass", i, add_mass(&mut model, &parts, mass, i));
+    }
     for (i, load) in loads.iter().enumerate() {
         add("load", i, add_load(&mut model, &parts, load, i));
     }
-    for (i, load) in lines.iter().enumerate() {
-        add("distributed-load", i, add_line(&mut model, &beams, load, loads.len() + i));
-    }
     let (mut touching, mut places): (Vec<touch::Contact>, Vec<_>) = Default::default();
-    let points: Vec<usize> = contacts.iter().map(Vec::len).collect();
-    let each = contacts.iter().enumerate().flat_map(|(i, list)| list.iter().map(move |contact| (i, contact)));
-    for (i, contact) in each {
-        let made = add_contact(&mut model, &parts, contact, i).and_then(|(made, place)| {
-            if touching.iter().any(|other| other.name == made.name) {
-                let message = format!("two contacts are called `{}`", made.name);
-                return Err(Fault::new("name", message).into());
-            }
-            touching.push(made);
-            places.push(place);
-            Ok(())
-        });
-        add("contact", i, made);
+    for (i, (contact, list)) in contacts.iter().zip(&points).enumerate() {
+        for point in list {
+            let made = add_point(&mut model, &parts, contact, point).map(|(made, place)| {
+                touching.push(made);
+                places.push(place);
+            });
+            add("contact", i, made);
+        }
     }
+    let points: Vec<usize> = points.iter().map(Vec::len).collect();
     if !found.0.0.is_empty() {
         return Err(found.0);
     }
@@ -477,8 +468,9 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
         let table = item("contact", tables.nth(i).unwrap_or(0));
         return Err(Fault::new(format!("{table}.law.friction"), message).help(help).into());
     }
-    let names: Vec<String> = joints.iter().enumerate().map(|(i, j)| numbered(&j.name, "joint", i)).collect();
-    let multibody = Multibody::new(model).map_err(|error| blamed(&error, v, &names))?;
+    let named = |(i, joint): (usize, &Joint)| numbered(&joint.name, "joint", i);
+    let names_of_joints: Vec<String> = joints.iter().enumerate().map(named).collect();
+    let multibody = Multibody::new(model).map_err(|error| blamed(&error, v, &names_of_joints))?;
     let rotation =
         match rotation.first() {
             Some(about) => Ok(Rotation::given(about, multibody.model())
@@ -486,18 +478,22 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
             None => Rotation::found(multibody.model()),
         };
     let of_ends = beams.iter().flat_map(|(beam, _)| beam.held());
-    let joints =
-        names.into_iter().zip(&joints).map(|(name, j)| (name, j.written.clone(), j.between.clone(), j.at));
-    let joints = joints.chain(of_ends.map(|(name, kind, between)| (name, kind, between, None)));
-    let link = |(name, kind, between, at): (String, String, [String; 2], Option<Vector>)| {
-        let own = |place: &String| parts.find(place).ok().and_then(|(_, point)| point);
-        let point = at.or_else(|| own(&between[1])).or_else(|| own(&between[0])).unwrap_or_default();
+    let own = |place: Place| parts.at(place).1;
+    let link = |(name, joint): (String, &Joint)| {
+        let [a, b] = joint.between;
+        let point = joint.at.or_else(|| own(b)).or_else(|| own(a)).unwrap_or_default();
+        let [kind, from, to] = joint.written.clone();
+        Link { name, kind, between: [from, to], point }
+    };
+    let held = |(name, kind, between): (String, String, [String; 2])| {
+        let place = c.parts.and_then(|names| names.find(&between[1]).ok());
+        let point = place.and_then(own).unwrap_or_default();
         Link { name, kind, between, point }
     };
-    let joints = joints.map(link).collect();
+    let joints = names_of_joints.into_iter().zip(&joints).map(link).chain(of_ends.map(held)).collect();
     let mut extent = 0.0_f64;
-    for (.., point) in &parts.bodies {
-        extent = point.iter().fold(extent, |extent, x| extent.max(x.abs()));
+    for (_, point) in &parts.bodies {
+        extent = point.into_iter().fold(extent, |extent, x| extent.max(x.abs()));
     }
     extent = beams.iter().fold(extent, |extent, (beam, _)| extent.max(beam.length));
     let size = if extent > 0.0 { extent } else { 1.0 };

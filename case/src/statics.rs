@@ -2,9 +2,11 @@
 
 use super::problem::Problems;
 use super::reading::Reading;
+use super::run::coarse::{COARSE, much};
+use super::run::error::{Effort, ROUNDING, SAFETY};
 use flexion::analysis::path::{Plan, Point, follow};
-use flexion::system::System;
-use flexion_results::{LoadPath, LoadPoint};
+use flexion::system::{Role, System};
+use flexion_results::{LoadPath, LoadPoint, PointError};
 
 impl Reading {
     /// Follows the equilibrium of the case, its hub at rest and held, under the loads of t = 0 times a factor that grows from
@@ -22,7 +24,7 @@ impl Reading {
         self.at_rest(&system.initial().v, key, "`flexion modes` and `campbell` find its equilibrium")?;
         system.hold(true);
         let start = system.initial();
-        let channels = system.channels().to_vec();
+        let channels = system.channels();
         let mut points: Vec<LoadPoint> = Vec::new();
         let mut stopped = false;
         let visit = |system: &mut dyn System, point: &Point| {
@@ -34,12 +36,122 @@ impl Reading {
                 stability: point.stability.as_ref().ok().copied(),
                 critical: point.critical,
                 values,
+                error: None,
             });
             stopped = !progress(points.len(), point.factor);
             !point.arrived && !stopped
         };
         let end = follow(system.as_mut(), &start, plan, visit).err().map(|end| end.to_string());
         let end = if stopped { Some("stopped by the user".to_owned()) } else { end };
-        Ok(LoadPath { channels, points, to: plan.to, end })
+        Ok(LoadPath { channels, points, to: plan.to, end, unknown: None })
+    }
+
+    /// Estimates the errors of a path of this case by the same path on a mesh of twice the functions: S = 2 times the difference of the
+    /// last points, and of critical states of one kind in their order, as [for a run](Reading::estimate_errors). Returns a warning of a
+    /// coarse mesh, with one that would do where a path on it has shown that.
+    pub fn estimate_path_errors(
+        &self,
+        path: &mut LoadPath,
+        plan: &Plan,
+        effort: Effort,
+        mut progress: impl FnMut(usize, f64) -> bool,
+    ) -> Option<String> {
+        let changes = self.case.finer();
+        let unknowns = self.case.system().map_or(0, |system| system.size().v);
+        let work = (path.points.len() * unknowns) as f64;
+        let why = match () {
+            () if path.end.is_some() => Some("the path has ended".to_owned()),
+            () if changes.is_empty() => Some("the case has no mesh".to_owned()),
+            () if effort == Effort::Auto && work > COSTLY => Some(format!(
+                "the path took {work:.1e} points times unknowns, and that of a finer mesh several times as many: `--error full` follows it"
+            )),
+            () => None,
+        };
+        let mut followed = |of: &Reading| -> Result<LoadPath, String> {
+            let first =
+                |problems: Problems| problems.list.into_iter().next().map_or(String::new(), |p| p.message);
+            let path = of.load_path(plan, &mut progress).map_err(first)?;
+            match &path.end {
+                Some(end) => Err(end.clone()),
+                None => Ok(path),
+            }
+        };
+        let twice = |of: &Reading| of.with(&of.case.finer()).map_err(|_| "it is too fine".to_owned());
+        let finer = twice(self).and_then(|finer| Ok((followed(&finer)?, finer)));
+        let (fine, finer) = match why.map_or(finer, Err) {
+            Ok(found) => found,
+            Err(why) => {
+                path.unknown = Some(why);
+                return None;
+            }
+        };
+        let safety = self.case.hub_beam().map_or(SAFETY, |beam| beam.bases.safety);
+        let coarse = Coarse::of(path, &fine, safety, self.case.size());
+        set_errors(path, &fine, safety);
+        let Coarse { column, part } = coarse?;
+        let said = format!("the mesh is coarse: the error of {column} {} of its largest value", much(part));
+        let finest = twice(&finer).and_then(|finest| followed(&finest)).ok()?;
+        let enough = Coarse::of(&fine, &finest, safety, self.case.size()).is_none();
+        let changes = changes.join("` and `").replace('=', " = ");
+        Some(if enough {
+            format!("{said}; with `{changes}` it is below 1 %")
+        } else {
+            format!("{said}, and with `{changes}` still above 1 %: use a finer one")
+        })
+    }
+}
+
+/// Points times unknowns of a path beyond which its companion is not followed unasked: some seconds of computing.
+const COSTLY: f64 = 2e4;
+
+/// The points whose errors are stated, in pairs of two paths: the critical states of one kind in their order, and the last points.
+fn pairs<'a>(ours: &'a LoadPath, theirs: &'a LoadPath) -> impl Iterator<Item = (usize, &'a LoadPoint)> {
+    let critical = |path: &'a LoadPath| {
+        path.points.iter().enumerate().filter_map(|(i, point)| Some((i, point, point.critical?)))
+    };
+    let alike = critical(ours).zip(critical(theirs)).take_while(|(a, b)| a.2 == b.2);
+    let last = ours.points.len().checked_sub(1).zip(theirs.points.last());
+    alike.map(|((i, ..), (_, point, _))| (i, point)).chain(last)
+}
+
+fn set_errors(path: &mut LoadPath, fine: &LoadPath, safety: f64) {
+    let errors: Vec<(usize, PointError)> = pairs(path, fine)
+        .map(|(i, theirs)| {
+            let ours = &path.points[i];
+            let error = |x: f64, y: f64| safety * (x - y).abs() + ROUNDING * y.abs();
+            let values = ours.values.iter().zip(&theirs.values).map(|(x, y)| error(*x, *y)).collect();
+            (i, PointError { factor: error(ours.factor, theirs.factor), values })
+        })
+        .collect();
+    for (i, error) in errors {
+        path.points[i].error = Some(error);
+    }
+}
+
+/// The principal column that is off by the largest part of its largest value, if that is more than a hundredth.
+struct Coarse {
+    column: String,
+    part: f64,
+}
+
+impl Coarse {
+    fn of(ours: &LoadPath, theirs: &LoadPath, safety: f64, size: f64) -> Option<Coarse> {
+        let principal = ours.channels.iter().enumerate().filter(|(_, channel)| channel.role == Role::Primary);
+        let largest =
+            |i: usize| theirs.points.iter().fold(0.0_f64, |most, point| most.max(point.values[i].abs()));
+        // What is zero but for rounding has no relative error.
+        let natural = |unit: &str| match unit {
+            "m" => ROUNDING * size,
+            "rad" | "" => ROUNDING,
+            _ => 0.0,
+        };
+        let there = principal.filter(|(i, channel)| largest(*i) > natural(&channel.unit));
+        let part = |i: usize| {
+            let off =
+                pairs(ours, theirs).map(|(k, point)| (ours.points[k].values[i] - point.values[i]).abs());
+            safety * off.fold(0.0, f64::max) / largest(i)
+        };
+        let worst = there.map(|(i, channel)| Coarse { column: channel.name.clone(), part: part(i) });
+        worst.max_by(|a, b| a.part.total_cmp(&b.part)).filter(|worst| worst.part > COARSE)
     }
 }

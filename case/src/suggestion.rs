@@ -10,6 +10,41 @@ const MOST: usize = 4;
 /// Tables within tables that are looked into.
 const DEEPEST: usize = 5;
 
+/// Words for keys that other programs, and people, use in their place.
+const SYNONYMS: &[(&str, &str)] = &[
+    ("force", "load"),
+    ("forces", "load"),
+    ("couple", "load"),
+    ("moment", "couple"),
+    ("torque", "couple"),
+    ("distributed-load", "load"),
+    ("station", "on"),
+    ("stations", "on"),
+    ("location", "on"),
+    ("frame", "axes"),
+    ("anchor", "to"),
+    ("mass-proportional", "mass"),
+    ("stiffness-proportional", "stiffness"),
+    ("mass-damping", "damping"),
+    ("stiffness-damping", "damping"),
+    ("acceleration", "gravity"),
+    ("rigid-body", "body"),
+    ("constraint", "joint"),
+    ("obstacles", "contact"),
+    ("strain-gauge", "fibre"),
+];
+
+/// The key among `keys` for which `name` is another word.
+pub(super) fn synonym<'k>(name: &str, keys: impl Iterator<Item = &'k str>) -> Option<&'k str> {
+    let meant: Vec<&str> = SYNONYMS
+        .iter()
+        .filter(|(word, _)| word.chars().eq(name.chars().map(dash)))
+        .map(|(_, key)| *key)
+        .collect();
+    let mut keys = keys;
+    keys.find(|key| meant.contains(key))
+}
+
 /// What to write instead of `name`, a key that does not belong in the table `path`: the places at which a key of this
 /// name does.
 pub(super) fn advice(name: &str, path: &str) -> Option<String> {

@@ -6,6 +6,7 @@
 //! it is read, so that `"70 GPa"` is exactly the number `70e9`.
 
 use flexion_results::nearest;
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// Exponents of length, mass, time and angle.
@@ -17,7 +18,7 @@ pub struct Measure {
     /// Name for people, e.g. `angular speed`.
     pub name: &'static str,
     /// SI unit, in which plain numbers are read.
-    pub unit: &'static str,
+    pub unit: Cow<'static, str>,
     /// Exponents of length, mass, time and angle.
     pub dimension: Dimension,
     /// Examples of accepted values, for messages.
@@ -28,13 +29,13 @@ macro_rules! measures {
     ($($ident:ident $name:literal $unit:literal $dimension:tt $examples:literal;)*) => {
         $(#[doc = concat!("The measure ", $name, " \\[", $unit, "\\].")]
         pub static $ident: Measure =
-            Measure { name: $name, unit: $unit, dimension: $dimension, examples: $examples };)*
+            Measure { name: $name, unit: Cow::Borrowed($unit), dimension: $dimension, examples: $examples };)*
     };
 }
 
 measures! {
     LENGTH "length" "m" [1, 0, 0, 0] "`10 m`, `250 mm`, `12 in`";
-    STATION "station" "m" [1, 0, 0, 0] "`2 m`, `250 mm`, `tip`";
+    STATION "station" "m" [1, 0, 0, 0] "`2 m`, `250 mm`";
     AREA "area" "m^2" [2, 0, 0, 0] "`4 cm^2`, `400 mm^2`";
     SECOND_MOMENT "second moment of area" "m^4" [4, 0, 0, 0] "`2e-7 m^4`, `20 cm^4`";
     MODULUS "modulus" "Pa" [-1, 1, -2, 0] "`70 GPa`, `210e9 Pa`";
@@ -189,15 +190,19 @@ pub fn parse(text: &str, measure: &Measure) -> Result<f64, QuantityError> {
 ///
 /// # Errors
 /// As [`parse`], or when `unit` is none.
-pub fn parse_in(text: &str, unit: &'static str) -> Result<f64, QuantityError> {
+pub fn parse_in(text: &str, unit: &str) -> Result<f64, QuantityError> {
     let fail = |(span, message): (Range<usize>, String)| QuantityError { span, message, help: String::new() };
     let scale = if unit.is_empty() {
         Scale::ONE
     } else {
         Parser { text: unit, at: 0, wanted: [0; 4] }.product(0).map_err(fail)?
     };
-    let measure =
-        Measure { name: "quantity", unit, dimension: scale.dimension, examples: "`0.1 mm`, `1e-3 rad`" };
+    let measure = Measure {
+        name: "quantity",
+        unit: Cow::Owned(unit.to_owned()),
+        dimension: scale.dimension,
+        examples: "`0.1 mm`, `1e-3 rad`",
+    };
     parse(text, &measure)
 }
 
@@ -230,7 +235,7 @@ fn wrong_dimension(scale: &Scale, measure: &Measure, written: &str) -> String {
         &ANGULAR_SPEED,
     ];
     // A force is meant where the measure is called an axial stiffness, and so on: name the plain quantity.
-    let name = known.iter().find(|m| m.dimension == scale.dimension).map(|m| match m.unit {
+    let name = known.iter().find(|m| m.dimension == scale.dimension).map(|m| match m.unit.as_ref() {
         "N" => "force",
         "N*m" => "moment or energy",
         "Pa" => "stress",

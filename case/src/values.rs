@@ -75,6 +75,18 @@ impl Values {
         self.get(name).is_some()
     }
 
+    /// Whether a key is written, and not a default or an empty list.
+    pub(super) fn is_written(&self, name: &str) -> bool {
+        self.get(name).is_some_and(|filled| {
+            let empty = match &filled.value {
+                Value::Numbers(list) => list.is_empty(),
+                Value::Texts(list) => list.is_empty(),
+                _ => false,
+            };
+            filled.place.is_some() && !empty
+        })
+    }
+
     /// What a maker gets that asks for a key in a way in which it is not declared.
     pub(super) fn misused(name: &str, what: &str) -> Faults {
         Fault::new("", format!("this is a mistake in the program: the key `{name}` is {what}")).into()

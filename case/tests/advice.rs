@@ -40,7 +40,7 @@ fn advice_on_p1_is_cheap_and_keeps_what_is_asked() {
 /// A force that bends the beam by 0.8 of its length: no coupling but the exact one can follow.
 #[test]
 fn advice_on_a_large_deflection_is_the_exact_coupling() {
-    let case = "[[force]]\nstation = 1\nforce = [0, -140]\namplitude = { kind = 'ramp', time = 1 }\n[run]\nduration = 1.5\n";
+    let case = "[[load]]\non = '1 m'\nforce = [0, -140]\namplitude = { kind = 'ramp', time = 1 }\n[run]\nduration = 1.5\n";
     let reading = reading(&format!("{STRIP}{case}"), &[]);
     let advice = advice(&reading, "1e-3", "tip.deflection");
     let cheapest = &advice.tried[advice.cheapest.unwrap()];

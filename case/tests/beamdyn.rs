@@ -155,9 +155,8 @@ fn a_blade_is_a_beam_in_space_at_every_speed() {
             assert_eq!([a.shares.dominant(), b.shares.dominant()], [name; 2], "{speed}");
             let off = (a.frequency() - b.frequency()).abs();
             let mut allowed = a.mesh.unwrap() + b.mesh.unwrap();
-            if name == "torsion" {
-                allowed += 4e-4 * a.frequency();
-            }
+            // The tension in a section that twists acts on torsion, and through the structural twist on the little torsion of the others.
+            allowed += if name == "torsion" { 4e-4 } else { 1e-4 } * a.frequency();
             assert!(
                 off <= allowed && allowed < 1e-3 * a.frequency(),
                 "{name} at {speed}: {off:e} of {allowed:e}"

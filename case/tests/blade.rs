@@ -255,11 +255,11 @@ coupling = 'exact'
 kind = 'finite-elements'
 elements = 40
 [[mass]]
-station = 0.53
+on = '0.53 m'
 mass = 0.7
 inertia = 0.01
 [[mass]]
-station = 1
+on = '1 m'
 mass = 0.2
 [run]
 duration = 1

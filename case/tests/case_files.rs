@@ -60,7 +60,7 @@ fn overrides_replace_values_tables_and_defaults() {
         "basis.kind=finite-elements",
         "model.coupling=exact",
         "integrator={ kind = \"newmark\", step = \"1 ms\" }",
-        "output.stations=[\"2 m\", 5]",
+        "output.stations=[\"2 m\", \"5 m\"]",
         "title=one two",
         "title=two",
     ];
@@ -169,10 +169,11 @@ fn a_station_at_the_tip_is_not_recorded_twice() {
     let reading = parse(
         SPIN_UP.to_owned(),
         Path::new("case.toml"),
-        &["output.stations=[\"9.999999999999999 m\", 5]".to_owned()],
+        &["output.stations=[\"9.999999999999999 m\", \"5 m\"]".to_owned()],
     );
-    let live = reading.unwrap().build().unwrap();
-    let names: Vec<&str> = live.system.channels().iter().map(|c| c.name.as_str()).collect();
+    let mut live = reading.unwrap().build().unwrap();
+    let channels = live.system.channels();
+    let names: Vec<&str> = channels.iter().map(|c| c.name.as_str()).collect();
     assert_eq!(names.iter().filter(|name| **name == "tip.deflection").count(), 1);
     assert!(names.contains(&"x=5.deflection"));
 }

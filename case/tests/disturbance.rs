@@ -55,10 +55,10 @@ hub = { motion = { kind = 'constant', speed = 0 } }
 model = { coupling = 'exact' }
 basis = { kind = 'finite-elements', elements = 4 }
 beam = { length = 1 }
-damping = { stiffness-proportional = 1e-3 }
+damping = { stiffness = 1e-3 }
 section = { kind = 'resultants', mass-per-length = 1, axial-stiffness = 1e5, bending-stiffness = 100 }
-[[force]]
-station = 1
+[[load]]
+on = '1 m'
 force = [-300, 0]
 amplitude = { kind = 'expression', formula = 'if(t < 0.4, (1 - cos(pi*t/0.4))/2, 1)' }
 ";
@@ -67,7 +67,7 @@ run = { duration = 1.4 }
 output = { step = 0.01 }
 [[beam]]
 length = 1
-stiffness-damping = 1e-3
+damping = { stiffness = 1e-3 }
 root = 'clamped'
 elements = 4
 section = { kind = 'rectangle', modulus = 1e10, density = 940, width = 0.1, height = 0.0106265857 }

@@ -216,19 +216,19 @@ fn the_check_of_links_sees_broken_ones() {
 
 #[test]
 fn every_kind_is_described_in_the_reference_and_named_in_the_readme() {
-    let (reference, readme) = (read("docs/src/guide/reference.md"), read("README.md"));
+    let reference = read("docs/src/guide/reference.md") + &read("docs/src/spatial.md");
+    let readme = read("README.md");
     for choice in flexion_case::choices() {
         for kind in choice.kinds() {
             let name = format!("`{}`", kind.name);
             assert!(reference.contains(&name), "reference.md does not describe the {} {name}", choice.name());
-            assert!(readme.contains(&name), "README.md does not name the {} {name}", choice.name());
-        }
-    }
-    let page = read("docs/src/spatial.md");
-    for choice in flexion_case::spatial_choices() {
-        for kind in choice.kinds() {
-            let name = format!("`{}`", kind.name);
-            assert!(page.contains(&name), "spatial.md does not describe the {} {name}", choice.name());
+            // The parts of systems in space are named there by their tables.
+            let of_part = ["body.", "beam.", "joint."].iter().any(|table| choice.path().starts_with(table));
+            assert!(
+                of_part || readme.contains(&name),
+                "README.md does not name the {} {name}",
+                choice.name()
+            );
         }
     }
 }

@@ -38,13 +38,14 @@ const STILL: &str = "hub={motion={kind='constant',speed=0}}";
 
 #[test]
 fn a_smooth_blow_is_seen_whatever_the_interval_of_recording() {
-    let load = "force=[{station=10,force=[0,1000],amplitude={kind='expression',formula='exp(-((t-50.05)/0.005)^2)'}}]";
+    let load =
+        "load=[{on='10 m',force=[0,1000],amplitude={kind='expression',formula='exp(-((t-50.05)/0.005)^2)'}}]";
     let at = |step: &str| run(&[STILL, load, "run.duration=53", step]);
     let (coarse, fine) = (at("output.step=0.1"), at("output.step=0.01"));
     // The same blow as a step load that lasts as long as its impulse says.
     let length = 0.005 * PI.sqrt();
     let step = format!(
-        "force=[{{station=10,force=[0,1000],amplitude={{kind='expression',formula='if(t<{},0,if(t<{},1,0))'}}}}]",
+        "load=[{{on='10 m',force=[0,1000],amplitude={{kind='expression',formula='if(t<{},0,if(t<{},1,0))'}}}}]",
         50.05 - 0.5 * length,
         50.05 + 0.5 * length
     );
@@ -89,11 +90,11 @@ fn the_angle_of_a_fast_speed_is_its_integral() {
 fn tables_stay_within_their_rows_and_a_spline_that_does_not_is_named() {
     let table = |interpolation: &str| {
         format!(
-            "force=[{{station=10,force=[0,0.05],amplitude={{kind='table',times=[0,1,1.1,5,20],factors=[0,0,1,1,1]{interpolation}}}}}]"
+            "load=[{{on='10 m',force=[0,0.05],amplitude={{kind='table',times=[0,1,1.1,5,20],factors=[0,0,1,1,1]{interpolation}}}}}]"
         )
     };
     let with = |interpolation: &str| {
-        run(&[STILL, &table(interpolation), "run.duration=20", "damping={stiffness-proportional=0.3}"])
+        run(&[STILL, &table(interpolation), "run.duration=20", "damping={stiffness=0.3}"])
     };
     // P L³/(3EI), and twice that at most for a load that acts at once.
     let fixed = 0.05 * 1000.0 / (3.0 * 70e9 * 2e-7);
@@ -123,7 +124,7 @@ fn a_fixed_step_that_is_longer_than_a_change_of_the_load_is_named() {
 fn poles_of_a_load_are_refused_and_integrable_slopes_are_not() {
     let load = |formula: &str| {
         let load = format!(
-            "distributed-load=[{{force=[0,1],distribution={{kind='expression',formula='{formula}'}}}}]"
+            "load=[{{on='beam',force-per-length=[0,1],distribution={{kind='expression',formula='{formula}'}}}}]"
         );
         attempt(&[STILL, &load, "run.duration=0", "initial.kind='static'", "model.coupling=zeroth"])
     };
@@ -143,11 +144,10 @@ fn a_narrow_load_and_a_section_that_jumps_need_no_fine_mesh() {
         let common = [STILL, "beam.length=2", "run.duration=0", "initial.kind='static'", elements];
         last(&run(&[&common[..], changes].concat()), "tip.deflection")
     };
-    let narrow =
-        "distributed-load=[{force=[0,1],distribution={kind='expression',formula='exp(-((x-1.03)/0.01)^2)'}}]";
+    let narrow = "load=[{on='beam',force-per-length=[0,1],distribution={kind='expression',formula='exp(-((x-1.03)/0.01)^2)'}}]";
     let jump = [
         "section={kind='piecewise',ends=[0.73,2],modulus=[7e10,7e10],density=[2700,2700],area=[4e-4,1e-4],second-moment=[1e-8,2e-10]}",
-        "force=[{station=2,force=[0,1]}]",
+        "load=[{on='2 m',force=[0,1]}]",
     ];
     // w(L) = P a² (3L − a)/(6EI), and ∫ (L − x)²/EI dx.
     let (p, a, length) = (0.01 * PI.sqrt(), 1.03, 2.0_f64);
@@ -172,10 +172,10 @@ fn the_axial_force_is_that_of_equilibrium_beside_a_jump_and_a_mass() {
         "section={kind='piecewise',ends=[0.73,2],modulus=[7e10,2e11],density=[2700,7800],area=[4e-4,1e-4],second-moment=[1e-8,2e-9]}",
         "hub={radius=0.3,motion={kind='constant',speed=30}}",
         "initial.kind='steady-rotation'",
-        "mass=[{station=1.5,mass=0.5}]",
+        "mass=[{on='1.5 m',mass=0.5}]",
         "run.duration=0",
         "output.section-forces=true",
-        "output.stations=[0,0.5,0.73,1,1.4,1.6]",
+        "output.stations=['0 m', '0.5 m', '0.73 m', '1 m', '1.4 m', '1.6 m']",
         "model.coupling=first",
     ]);
     // N(x) = Ω² ∫ₓᴸ ρA (a + ξ) dξ + Ω² m (a + x_m): displacements are below 10⁻⁴ of it.

@@ -24,6 +24,7 @@ mod pendulum;
 mod reported_errors;
 mod restart;
 mod section_forces;
+mod short_features;
 mod space;
 mod space_modes;
 mod spring;

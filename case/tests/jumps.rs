@@ -33,6 +33,24 @@ fn jump(formula: &str, of: &str) -> String {
     )
 }
 
+/// A speed that jumps right after t = 0 strikes as one that jumps a nanosecond later; a step to it would be divided by next to nothing.
+#[test]
+fn a_speed_that_jumps_at_once_strikes_the_beam() {
+    for integrator in ["{kind=\"radau\"}", "{kind=\"newmark\",step=1e-3}"] {
+        let integrator = format!("integrator={integrator}");
+        let peak_of = |formula: &str| {
+            let run = run(&jump(formula, "speed"), &[&integrator]);
+            assert_eq!(run.status, Status::Finished, "{formula}: {:?}", run.message);
+            peak(&run, "tip.deflection")
+        };
+        let expected = peak_of("if(t<1e-9,0,0.1)");
+        for formula in ["if(t>0,0.1,0)", "if(t>1e-300,0.1,0)", "if(t<=0,0,0.1)"] {
+            let found = peak_of(formula);
+            assert!((found / expected - 1.0).abs() < 1e-6, "{integrator} {formula}: {found} for {expected}");
+        }
+    }
+}
+
 /// A speed that jumps, an angle with a kink and a speed that rises within half a millisecond are the same blow.
 #[test]
 fn a_speed_that_jumps_strikes_the_beam() {

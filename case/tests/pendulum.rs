@@ -9,6 +9,7 @@ use flexion_results::Status;
 
 /// The beam of Guo, Zhang & Chen 2017, doi:10.7498/aps.66.164501.
 const BASE: &str = r#"
+gravity = [0, "-9.81 m/s^2"]
 [beam]
 length = "1 m"
 [section]
@@ -23,8 +24,6 @@ motion = { kind = "free", angle = "45 deg" }
 kind = "finite-elements"
 elements = 2
 axial-degree = 2
-[gravity]
-acceleration = "9.81 m/s^2"
 [integrator]
 tolerance = 1e-8
 absolute-tolerance = 1e-12

@@ -4,7 +4,7 @@
 
 use crate::written;
 use flexion_case::{Effort, Reading, Run, Target};
-use flexion_results::Errors;
+use flexion_results::{Directory, Errors, Status};
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
@@ -24,8 +24,8 @@ axial-stiffness = 1e5
 bending-stiffness = 40
 [hub]
 motion = { kind = 'constant', speed = 0 }
-[[force]]
-station = 2
+[[load]]
+on = '2 m'
 force = [0, 0.4]
 [run]
 duration = 0.8
@@ -138,11 +138,10 @@ fn a_run_without_a_finer_one_says_so() {
 #[test]
 fn a_coarse_mesh_is_told_the_mesh_that_would_do() {
     let case = |load: &str, rest: &str| {
-        format!("{}{load}\nstation = 1\namplitude = {{ kind = 'ramp', time = 1 }}\n{rest}", written::STRIP)
+        format!("{}{load}\non = '1 m'\namplitude = {{ kind = 'ramp', time = 1 }}\n{rest}", written::STRIP)
     };
-    let rolled =
-        case("[[couple]]\ncouple = 183", "[damping]\nmass-proportional = 10\n[run]\nduration = 1.2\n");
-    let bent = case("[[force]]\nforce = [0, -140]", "[run]\nduration = 1.5\n");
+    let rolled = case("[[load]]\ncouple = 183", "[damping]\nmass = 10\n[run]\nduration = 1.2\n");
+    let bent = case("[[load]]\nforce = [0, -140]", "[run]\nduration = 1.5\n");
     // The default mesh rolled up to two circles, and a coarser one bent.
     for (case, set) in [(&rolled, &[][..]), (&bent, &["basis.elements=3"])] {
         let reading = written::reading(case, set);
@@ -191,7 +190,128 @@ fn what_rounding_leaves_of_zero_is_neither_coarse_nor_distrusted() {
         assert_eq!((errors.trusted, errors.distrusted), (ours.state.t, None));
         // Not asked to be accurate to a part of itself either.
         let target = Target::new("0.05".to_owned(), None);
-        let refined = reading.refine(&target, &mut |_| ControlFlow::Continue(())).unwrap();
+        let refined = reading.refine(&target, &mut |_| ControlFlow::Continue(()), &mut |_| {}).unwrap();
         assert_eq!(refined.refused, None);
     }
+}
+
+/// A pendulum of three modes falls on a floor at 0.37001 s; the record at 0.37 s is the last before it. Its speed there differs from
+/// that of six modes by 0.005 rad/s, and by 15 rad/s after the impact, which no error before it may show.
+#[test]
+fn errors_before_an_impact_do_not_show_what_comes_after_it() {
+    let case = "
+beam = { length = 1 }
+hub = { motion = { kind = 'free', angle = '45 deg' } }
+gravity = [0, -9.81]
+model = { coupling = 'high' }
+basis = { kind = 'modes', axial = 3, transverse = 3 }
+section = { kind = 'uniform', modulus = '68.952 GPa', density = 2766.7, area = '3.14 cm^2', second-moment = 7.85e-9 }
+run = { duration = 0.3702 }
+output = { step = '20 us' }
+[[contact]]
+name = 'floor'
+obstacle = { kind = 'plane', point = [0, 0] }
+law = { kind = 'constraint', restitution = 0 }
+";
+    let reading = written::reading(case, &[]);
+    let run = written::outcome(&reading);
+    let errors = reading.estimate_errors(&run, Effort::Auto, &mut |_| ControlFlow::Continue(())).unwrap();
+    let speed = errors.columns.iter().find(|error| error.column == "hub.speed").unwrap();
+    assert!((0.004..0.2).contains(&speed.discretization), "{speed:?}");
+    let until: Vec<_> =
+        errors.warnings.iter().filter(|text| text.contains("before the first impact")).collect();
+    assert!(until.len() == 1 && until[0].contains("t = 0.370000 s"), "{:?}", errors.warnings);
+}
+
+/// A ball that falls from h = 0.45 m has v = √(2gh) at t₁ = √(2h/g), and with e = 1 is at v (t − t₁) − g (t − t₁)²/2 after that. It has
+/// no mesh: its errors are known after the impact too.
+#[test]
+fn errors_of_bodies_without_a_mesh_are_known_after_impacts() {
+    let case = "
+gravity = [0, 0, -9.81]
+run = { duration = 0.45 }
+[[body]]
+name = 'b'
+mass = 2
+inertia = { kind = 'sphere', radius = 0.1 }
+position = [0, 0, 0.45]
+[[contact]]
+on = 'b'
+obstacle = { kind = 'plane', normal = [0, 0, 1] }
+law = { kind = 'constraint', restitution = 1 }
+";
+    let (run, errors, _) = run(&written::reading(case, &[]));
+    assert!(errors.warnings.is_empty() && errors.unknown.is_none(), "{:?}", errors.warnings);
+    assert_eq!(errors.trusted, 0.45);
+    let first = (2.0 * 0.45 / 9.81_f64).sqrt();
+    let since = 0.45 - first;
+    let exact = 9.81 * first * since - 0.5 * 9.81 * since * since;
+    let height = run.trajectory.extremes(run.trajectory.index("b.position.z").unwrap()).last;
+    let stated = errors.columns.iter().find(|error| error.column == "b.position.z").unwrap().last;
+    assert!((height - exact).abs() <= stated && stated < 1e-9, "{height} {exact} {stated}");
+}
+
+/// Work is counted in evaluations of the residual where impacts take more of them than steps do.
+#[test]
+fn a_run_that_took_long_at_its_contacts_is_not_repeated_unasked() {
+    let reading = read(&["run.duration=0.01", "output.step=1e-3"]);
+    let mut run = written::outcome(&reading);
+    run.counters.residuals = (1.3e7 / run.size.unknowns as f64) as u64;
+    let errors = reading.estimate_errors(&run, Effort::Auto, &mut |_| ControlFlow::Continue(())).unwrap();
+    assert!(errors.unknown.is_some_and(|why| why.contains("--error full")));
+}
+
+/// What an estimate warns of stands in `summary.json` too.
+#[test]
+fn warnings_of_the_estimate_are_in_the_summary() {
+    let reading = read(&["basis={kind='finite-elements',elements=1}", "output.plots=false"]);
+    let (mut run, errors, _) = run(&reading);
+    let warning = errors.warnings.iter().find(|text| text.contains("coarse")).unwrap().clone();
+    run.errors = Some(errors);
+    let folder = tempfile::tempdir().unwrap();
+    reading.write(&run, &Directory::create(folder.path(), true).unwrap()).unwrap();
+    let summary = std::fs::read_to_string(folder.path().join("summary.json")).unwrap();
+    let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
+    let written = summary["warnings"].as_array().unwrap();
+    assert!(written.iter().any(|text| *text == *warning), "{written:?}");
+}
+
+/// A refinement that is stopped keeps what is finished, says every run, and the best of them is the result.
+#[test]
+fn a_refinement_that_is_stopped_keeps_its_best_run() {
+    let reading = read(&["basis={kind='finite-elements',elements=1}"]);
+    let target = Target::new("1e-9".to_owned(), Some("tip.deflection".to_owned()));
+    let (said, mut steps) = (std::cell::RefCell::new(Vec::new()), 0_u32);
+    let mut watch = |_: &flexion::system::State| {
+        // 200 steps into what follows the second refinement.
+        steps += u32::from(said.borrow().len() == 2);
+        if steps > 200 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    };
+    let refined =
+        reading.refine(&target, &mut watch, &mut |rung| said.borrow_mut().push(rung.clone())).unwrap();
+    assert_eq!(refined.refused.as_deref(), Some("stopped by the user"));
+    let errors = refined.run.errors.unwrap();
+    assert_eq!((refined.run.status, errors.sequence.len()), (Status::Finished, 2));
+    assert_eq!(errors.sequence, said.into_inner());
+    let error = errors.columns.iter().find(|error| error.column == "tip.deflection").unwrap();
+    assert_eq!(error.discretization, errors.sequence[1].error);
+}
+
+/// Where errors cannot fall to what is asked the sequence ends by itself, with the run of the smallest error, and calls a smooth motion
+/// neither chaotic nor unstable. A tolerance with a unit bounds the columns that it fits.
+#[test]
+fn a_refinement_ends_at_rounding_with_its_best_run() {
+    let smooth = "load=[{on='2 m',force=[0,0.4],amplitude={kind='ramp',time=0.4}}]";
+    let reading = read(&[smooth, "run.duration=0.5"]);
+    let target = Target::new("4e-13 m".to_owned(), None);
+    let mut runs = 0;
+    let refined = reading.refine(&target, &mut |_| ControlFlow::Continue(()), &mut |_| runs += 1).unwrap();
+    let errors = refined.run.errors.unwrap();
+    let refused = refined.refused.unwrap();
+    assert!(!refused.contains("amplifies") && runs <= 9, "{refused} {:?}", errors.sequence);
+    assert!(errors.sequence.iter().all(|rung| rung.quantity.starts_with("tip.")), "{:?}", errors.sequence);
+    let least = errors.sequence.iter().map(|rung| rung.error).fold(f64::INFINITY, f64::min);
+    let best = errors.sequence.iter().find(|rung| rung.error == least).unwrap();
+    let column = errors.columns.iter().find(|error| error.column == best.quantity).unwrap();
+    assert_eq!(column.discretization, least, "{:?}", errors.sequence);
 }

@@ -134,7 +134,7 @@ fn a_run_that_is_stopped_in_contact_goes_on_as_if_it_had_never_stopped() {
     let case = folder.path().join("case.toml");
     std::fs::write(&case, [SQUARE_BAR, REST].concat()).unwrap();
     let contacts = "contact=[{obstacle={kind='stop',offset='-1 mm'},law={kind='constraint',restitution=0.4,friction=0.1}},\
-                    {station=1,obstacle={kind='stop',offset='-0.2 mm'},law={kind='hunt-crossley',stiffness=1e6,restitution=0.5}}]";
+                    {on='1 m',obstacle={kind='stop',offset='-0.2 mm'},law={kind='hunt-crossley',stiffness=1e6,restitution=0.5}}]";
     for integrator in ["integrator={kind='radau'}", "integrator={kind='generalized-alpha',step='1 ms'}"] {
         let whole = reading(&case, &[contacts, integrator]);
         let complete = run(&whole, f64::INFINITY);
@@ -150,7 +150,9 @@ fn a_run_that_is_stopped_in_contact_goes_on_as_if_it_had_never_stopped() {
             assert_eq!(rest.status, Status::Finished, "{:?}", rest.message);
             assert_same(&complete, &rest, since, integrator);
             let later = |run: &Run| {
-                let later = run.events.list.iter().filter(|entry| entry.time > since);
+                // A burst that began before is known to the whole run alone.
+                let later =
+                    run.events.list.iter().filter(|entry| entry.time > since && entry.what != "burst");
                 later.map(|entry| (entry.what, entry.time.to_bits())).collect::<Vec<_>>()
             };
             assert_eq!(later(&complete), later(&rest), "{integrator} {part}");
@@ -253,14 +255,14 @@ fn a_state_with_numbers_that_no_run_has_is_refused() {
         let on =
             reading(&case, &[integrator, &format!("initial={{kind='restart',file='{}'}}", file.display())]);
         assert_eq!(run(&on, f64::INFINITY).status, Status::Finished);
-        for name in ["run", "last", "sample", "control", "stretch", "time"] {
+        for name in ["run", "last", "sample", "control", "segment", "time", "format"] {
             let Ok(list) = good.list(name) else { continue };
             for wrong in [f64::NAN, f64::INFINITY, -1.0] {
                 let mut bad = good.clone();
                 bad.put(name, &vec![wrong; list.len()]);
                 flexion_results::write_state(&bad, &text, std::fs::File::create(&file).unwrap()).unwrap();
                 let set = [integrator, &format!("initial={{kind='restart',file='{}'}}", file.display())];
-                let reading = reading(&case, &set);
+                let Ok(reading) = flexion_case::read(&case, &set.map(str::to_owned)) else { continue };
                 // Refused while it is read, or as soon as it runs; never a panic.
                 if let Ok(prepared) = reading.prepare() {
                     let run = prepared.run(&mut |_| ControlFlow::Continue(()));

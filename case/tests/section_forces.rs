@@ -23,7 +23,7 @@ kind = "static"
 [run]
 duration = "0.01 s"
 [output]
-stations = [0, 2.3, 5, 7.77]
+stations = ['0 m', '2.3 m', '5 m', '7.77 m']
 section-forces = true
 strain-heights = ["40 mm", "-10 mm"]
 "#;
@@ -120,8 +120,8 @@ fn on_either_side_of_a_point_load_the_forces_are_right_and_at_it_they_are_those_
     let load = MASS * ACCELERATION;
     for elements in [10, 20] {
         let basis = format!("basis.elements={elements}");
-        let stations = "output.stations=[0,2.3,5,6,7.77]";
-        let value = first_row(&[&basis, stations, "force=[{station=6,force=[0,3],frame='hub'}]"]);
+        let stations = "output.stations=['0 m', '2.3 m', '5 m', '6 m', '7.77 m']";
+        let value = first_row(&[&basis, stations, "load=[{on='6 m',force=[0,3],axes='hub'}]"]);
         for (name, x) in STATIONS.into_iter().chain([("x=6", place)]) {
             let (arm, part) = if x < place { (place - x, 1.0) } else { (0.0, 0.0) };
             let shear = force * part - load * (LENGTH * LENGTH - x * x) / 2.0;

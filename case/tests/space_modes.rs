@@ -82,7 +82,7 @@ fn a_case_without_one_axis_says_what_it_needs() {
         Err(faults) => faults.to_string(),
     };
     assert!(why(&beam("root = \"clamped\"", "")).contains("`rotation = { axis = [0, 0, 1] }`"));
-    let spring = "[[spring]]\nbetween = [\"ground\", \"beam.tip\"]\nfrom = [2, 1, 0]\nstiffness = 3\n";
+    let spring = "[[spring]]\nkind = \"line\"\nbetween = [\"ground\", \"beam.tip\"]\nfrom = [2, 1, 0]\nstiffness = 3\n";
     let held = why(&beam("", &format!("{HINGE}{spring}")));
     assert!(held.contains("`spring`") && held.contains("about = \"joint\""), "{held}");
 }
@@ -92,7 +92,7 @@ fn a_faulty_rotation_is_reported_at_its_line() {
     for (rotation, key, words) in [
         ("", "rotation", "says no axis"),
         ("axis = [0, 0, 0]", "rotation.axis", "no direction"),
-        ("axis = [0, 1]", "rotation.axis", "3 components"),
+        ("axis = [1]", "rotation.axis", "3 in space"),
         ("about = \"hinge\"", "rotation.about", "did you mean `hinge1`"),
         ("about = \"hinge1\"\naxis = [0, 0, 1]", "rotation.axis", "already says"),
         ("about = \"hinge1\"\npoint = [0, 0, 1]", "rotation.point", "belongs to"),
@@ -229,4 +229,44 @@ fn a_flat_shaft_is_stable_below_and_above_both_critical_speeds() {
     let mut state = system.initial();
     let refused = rotate_stably(system.as_mut(), &mut state, 0.0, 20.0).unwrap_err();
     assert!((refused.reached() / a.sqrt() - 1.0).abs() < 1e-4, "{refused}");
+}
+
+/// A part that spins against the frame, a joint that moves against it, and a frame about a joint inside the system are no steady state
+/// of a system that rotates as a whole.
+#[test]
+fn a_motion_that_is_no_rotation_of_the_whole_system_is_refused_at_its_key() {
+    let body = |name: &str, x: f64, more: &str| {
+        format!(
+            "[[body]]\nname = \"{name}\"\nmass = 2\nposition = [{x}, 0, 1]\n{more}\
+             inertia = {{ kind = \"principal\", moments = [0.02, 0.02, 0.03] }}\n"
+        )
+    };
+    let joint = |name: &str, kind: &str, parts: &str, axis: &str, more: &str| {
+        format!(
+            "[[joint]]\nname = \"{name}\"\nkind = \"{kind}\"\nbetween = {parts}\nat = [0, 0, 0]\naxis = {axis}\n{more}\n"
+        )
+    };
+    let run = "run = { duration = 0 }\n";
+    let ball = joint("ball", "spherical", "[\"ground\", \"top\"]", "[0, 0, 1]", "");
+    let about_z = "[rotation]\naxis = [0, 0, 1]\n";
+    let top = |spin: &str| format!("{run}{}{ball}", body("top", 0.0, &format!("spin = {spin}\n")));
+    let refused = |text: &str| read(text).fits_modes().err().map(|problems| problems.to_string());
+    let message = refused(&top("[0, 0, 200]")).unwrap();
+    assert!(message.contains("spin") && message.contains("steady rotation of the whole system"), "{message}");
+    // About the axis of the rotation it is that of the whole system, which `--speed` replaces.
+    let whole = format!("{}{about_z}", top("[0, 0, 200]"));
+    assert_eq!((refused(&whole), read(&whole).case.rotates_at()), (None, Some(200.0)));
+    assert!(refused(&format!("{}{about_z}", top("[0, 10, 200]"))).is_some());
+
+    let rotor = |motion: &str| {
+        let main = joint("main", "revolute", "[\"nacelle\", \"rotor\"]", "[1, 0, 0]", motion);
+        let tower = joint("tower", "spherical", "[\"ground\", \"nacelle\"]", "[0, 0, 1]", "");
+        format!("{run}{}{}{tower}{main}", body("nacelle", 0.0, ""), body("rotor", 1.0, ""))
+    };
+    let message = refused(&rotor("motion = { kind = \"constant\", speed = 10 }")).unwrap();
+    assert!(message.contains("`main` has a speed at the start"), "{message}");
+    assert_eq!(refused(&rotor("")), None);
+    let about = format!("{}[rotation]\nabout = \"main\"\n", rotor(""));
+    let problems = parse(about, Path::new("case.toml"), &[]).unwrap_err().to_string();
+    assert!(problems.contains("`main` is not a joint with the ground"), "{problems}");
 }

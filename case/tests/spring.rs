@@ -15,8 +15,9 @@ const STIFFNESS: f64 = 150.0;
 const REST: &str = "[hub]\nradius = 0.3\nmotion = { kind = 'constant', speed = 0 }\n[run]\nduration = 0\n";
 
 fn with_spring(change: &str) -> flexion_case::Reading {
-    let text =
-        format!("{SQUARE_BAR}{REST}[[spring]]\nstation = 2\nstiffness = {STIFFNESS}\nanchor = [2.3, 0]\n");
+    let text = format!(
+        "{SQUARE_BAR}{REST}[[spring]]\nkind = 'point'\non = '2 m'\nstiffness = {STIFFNESS}\nto = [2.3, 0]\n"
+    );
     reading(&text, &[change, "initial.kind=static"])
 }
 
@@ -25,9 +26,9 @@ fn a_force_at_the_tip_deflects_beam_and_spring_side_by_side() {
     // δ = P L³/(3 EI + k L³); cubic elements are exact under a force at the tip.
     for coupling in ["zeroth", "first", "high"] {
         let text = format!(
-            "{SQUARE_BAR}{REST}[model]\ncoupling = '{coupling}'\n[[force]]\nstation = 2\nforce = [0, 1e-3]\n"
+            "{SQUARE_BAR}{REST}[model]\ncoupling = '{coupling}'\n[[load]]\non = '2 m'\nforce = [0, 1e-3]\n"
         );
-        let spring = format!("spring=[{{station=2,stiffness={STIFFNESS},anchor=[2.3,0]}}]");
+        let spring = format!("spring=[{{kind='point',on='2 m',stiffness={STIFFNESS},to=[2.3,0]}}]");
         let run = finished(&reading(&text, &["initial.kind=static", &spring]));
         let tip = run.trajectory.column("tip.deflection").unwrap()[0];
         let expected = 1e-3 * L.powi(3) / (3.0 * EI + STIFFNESS * L.powi(3));
@@ -64,7 +65,7 @@ fn a_spring_at_the_tip_raises_the_frequency_as_the_characteristic_equation_says(
 fn what_a_damper_loses_is_what_the_energy_lacks() {
     let text = format!(
         "{SQUARE_BAR}[hub]\nradius = 0.3\nmotion = {{ kind = 'spin-up', speed = 3, time = 0.5 }}\n[run]\nduration = 0.5\n\
-         [[spring]]\nstation = 2\nstiffness = {STIFFNESS}\ndamping = 4\nanchor = [2.3, 0]\n"
+         [[spring]]\nkind = 'point'\non = '2 m'\nstiffness = {STIFFNESS}\ndamping = 4\nto = [2.3, 0]\n"
     );
     for coupling in ["first", "exact"] {
         let set = [format!("model.coupling={coupling}"), "integrator.tolerance=1e-9".to_owned()];

@@ -44,9 +44,9 @@ fn supported() -> [f64; 2] {
 #[test]
 fn a_cantilever_rests_on_its_supports() {
     let [force, tip] = supported();
-    let gravity = format!("{CANTILEVER}gravity.acceleration = 9.81\n");
-    let plane = "obstacle={kind='plane',mount='hub',point=[0,0]}";
-    let middle = format!("{gravity}contact=[{{station=0.5,{plane},{RIGID}}}]\n");
+    let gravity = format!("{CANTILEVER}gravity = [0, -9.81]\n");
+    let plane = "mount='hub',obstacle={kind='plane',point=[0,0]}";
+    let middle = format!("{gravity}contact=[{{on='0.5 m',{plane},{RIGID}}}]\n");
     near(last(&middle, "contact.force"), force, 1e-5);
     near(last(&middle, "tip.deflection"), tip, 1e-5);
     // A support under the tip carries 3/8 of the weight; a tip without mass gives its own to the elements before it.
@@ -55,7 +55,7 @@ fn a_cantilever_rests_on_its_supports() {
     let space = format!(
         "run = {{ duration = 0 }}\ngravity = [0, 0, -9.81]\n[[beam]]\nlength = 1\nroot = 'clamped'\nelements = 4\n\
          section = {{ kind = 'rectangle', modulus = 70e9, density = 2700, width = 0.02, height = 0.01 }}\n\
-         [[contact]]\non = 'beam@0.5 m'\nobstacle = {{ kind = 'plane' }}\n{}\n",
+         [[contact]]\non = 'beam@0.5 m'\nobstacle = {{ kind = 'plane', normal = [0, 0, 1] }}\n{}\n",
         RIGID.replace('=', " = ")
     );
     near(last(&space, "contact.force"), force, 1e-5);
@@ -66,8 +66,8 @@ fn a_cantilever_rests_on_its_supports() {
 fn a_run_that_begins_on_its_supports_stays_there() {
     let [force, tip] = supported();
     let text = format!(
-        "{CANTILEVER}gravity.acceleration = 9.81\ninitial.kind = 'static'\n\
-         contact=[{{station=0.5,obstacle={{kind='plane',mount='hub',point=[0,0]}},{RIGID}}}]\n"
+        "{CANTILEVER}gravity = [0, -9.81]\ninitial.kind = 'static'\n\
+         contact=[{{on='0.5 m',mount='hub',obstacle={{kind='plane',point=[0,0]}},{RIGID}}}]\n"
     );
     let run = finished(&reading(&text, &[]));
     assert_eq!(run.events.impacts().count(), 0, "{:?}", run.events);
@@ -81,8 +81,8 @@ fn a_run_that_begins_on_its_supports_stays_there() {
 fn a_contact_opens_where_it_would_pull() {
     let force = 2e-3 * 3.0 * STIFFNESS;
     let text = format!(
-        "{CANTILEVER}force=[{{station=1,force=[0,{force}]}}]\n\
-         contact=[{{obstacle={{kind='plane',mount='hub',point=[0,1e-3]}},{RIGID}}}]\n"
+        "{CANTILEVER}load=[{{on='1 m',force=[0,{force}]}}]\n\
+         contact=[{{mount='hub',obstacle={{kind='plane',point=[0,1e-3]}},{RIGID}}}]\n"
     );
     let forces = path(&text, "contact.force");
     assert!(forces.iter().filter(|(factor, _)| *factor < 0.5).count() > 3, "{forces:?}");
@@ -96,7 +96,7 @@ fn a_contact_opens_where_it_would_pull() {
 #[test]
 fn a_steady_rotation_does_not_rest_on_what_it_slides_off() {
     let text = format!(
-        "{CANTILEVER}hub.motion.speed = 1\nforce=[{{station=1,force=[0,-1],frame='follower'}}]\ninitial.kind = 'steady-rotation'\n\
+        "{CANTILEVER}hub.motion.speed = 1\nload=[{{on='1 m',force=[0,-1],axes='follower'}}]\ninitial.kind = 'steady-rotation'\n\
          contact=[{{obstacle={{kind='plane',point=[0,0]}},{RIGID}}}]\n"
     )
     .replace("hub.motion = { kind = 'constant', speed = 0 }\nbasis", "hub.motion.kind = 'constant'\nbasis");

@@ -83,9 +83,9 @@ fn angular_momentum_and_energy_stay_without_torque() {
 /// Motor, damper, spring, gravity, a follower force and material damping: every kind of power there is.
 const DRIVEN: &[&str] = &[
     "hub={radius=0.2,inertia=3,motion={kind='free',damping=0.5,stiffness=4,torque={kind='expression',formula='3*sin(0.9*t)'}}}",
-    "gravity={acceleration='2 m/s^2',direction='-90 deg'}",
-    "force=[{station=2,force=[0.1,0.5],frame='follower',amplitude={kind='expression',formula='sin(1.1*t)'}}]",
-    "damping={mass-proportional='0.05 1/s'}",
+    "gravity=[0, '-2 m/s^2']",
+    "load=[{on='2 m',force=[0.1,0.5],axes='follower',amplitude={kind='expression',formula='sin(1.1*t)'}}]",
+    "damping={mass='0.05 1/s'}",
     "initial={kind='undeformed'}",
 ];
 

@@ -15,8 +15,11 @@ const TOLERANCE: f64 = 1e-12;
 /// A beam that bends by more than half its length while it rotates.
 fn results(folder: &Path) -> (PathBuf, Run) {
     let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("../verification/p1_spin_up_4_at_5_gpa");
-    let set =
-        ["model.coupling=exact", "run.duration=6", "output={step=0.5,vtk=true,vtk-step=1,stations=[2.5,7]}"];
+    let set = [
+        "model.coupling=exact",
+        "run.duration=6",
+        "output={step=0.5,vtk=true,vtk-step=1,stations=['2.5 m', '7 m']}",
+    ];
     let reading = read(&case, &set.map(str::to_owned)).unwrap();
     let run = reading.prepare().unwrap().run(&mut |_| ControlFlow::Continue(()));
     assert_eq!(run.status, Status::Finished, "{:?}", run.message);

@@ -86,7 +86,7 @@ pub fn draw(reading: &Reading, file: &Path) -> Result<(), String> {
 pub fn described(space: &Space) -> Vec<Vec<String>> {
     let mut rows = Vec::new();
     for body in &space.bodies {
-        let [x, y, z] = body.frame.position;
+        let [x, y, z] = body.frame.position.0;
         rows.push(row(&body.name, format!("{:.6} kg at ({x:.6}, {y:.6}, {z:.6}) m", body.mass)));
     }
     for (beam, built) in &space.beams {

@@ -20,6 +20,10 @@ their own. The motion of the case is replaced by steady rotation at each speed; 
 --free-hub is given. Modes are followed by their shapes through crossings and veerings; speeds are inserted where a
 shape changes fast.
 
+Frequencies are those seen from the rotating frame. There a load that is fixed in space, such as weight, excites with 1Ω. A frequency
+that reaches zero is a critical speed: a whirl forward with the rotation, which unbalance excites. A shaft that whirls backward with
+its speed has the frequency 2Ω.
+
 Exit codes: 0 finished, 1 case or command line rejected, 2 no steady rotation was found within the range,
 and what lies below is kept, or the files could not be written. A divergence or a flutter within the range is a result.")]
 pub struct Arguments {
@@ -182,34 +186,39 @@ fn diagram(arguments: &Arguments, reading: &Reading) -> Result<bool, String> {
         ));
     }
     for instability in &diagram.instabilities {
+        let range = |from: f64, until: Option<f64>| {
+            let until = until.map_or("the last speed".to_owned(), |until| unit.text(until));
+            format!("from {} to {until}", unit.text(from))
+        };
         match instability {
-            Instability::Divergence { speed, reason } => screen::report(&format!(
-                "warning: divergence at {}: {reason}\nThe diagram ends there.\n",
-                unit.short(*speed)
+            Instability::Divergence { speed, until } => screen::report(&format!(
+                "warning: the steady rotation is unstable {}: motions diverge without vibrating\n",
+                range(*speed, *until)
             )),
             Instability::Lost { reason, .. } => {
                 whole = false;
                 screen::report(&format!("error: {reason}\nWhat lies below is kept.\n"));
             }
-            Instability::Flutter { branch, from, to } => screen::report(&format!(
-                "warning: the damping of mode {} becomes negative between {} and {}\n",
+            Instability::Flutter { branch, from, to, until } => screen::report(&format!(
+                "warning: the damping of mode {} is negative {}; it becomes so beyond {}\n",
                 branch + 1,
-                unit.text(*from),
-                unit.text(*to)
+                range(*to, *until),
+                unit.text(*from)
             )),
         }
     }
     Ok(whole)
 }
 
-/// Leaves out the modes that are at no speed among the lowest `count`.
+/// Leaves out the modes that are at no speed among the lowest `count` and at none grow.
 fn keep_lowest(diagram: &mut Campbell, count: usize) {
     let frequency = |b: &Branch, i: usize| b.points.get(i).map(|p| p.mode.frequency());
     let low = |b: &Branch| {
-        (0..b.points.len()).any(|i| {
-            let below = |other: &&Branch| frequency(other, i).is_some_and(|f| Some(f) < frequency(b, i));
-            diagram.branches.iter().filter(below).count() < count
-        })
+        b.points.iter().any(|point| point.mode.grows())
+            || (0..b.points.len()).any(|i| {
+                let below = |other: &&Branch| frequency(other, i).is_some_and(|f| Some(f) < frequency(b, i));
+                diagram.branches.iter().filter(below).count() < count
+            })
     };
     let low: Vec<bool> = diagram.branches.iter().map(low).collect();
     let renumbered = |branch: &mut usize| {
@@ -249,8 +258,17 @@ fn described(diagram: &Campbell, near: &[Resonance], margin: f64, units: &Units)
         }
     }
     out.push_str(&screen::table(&rows));
+    if !diagram.criticals.is_empty() {
+        let speeds: Vec<String> = diagram.criticals.iter().map(|c| units.speed.text(c.speed)).collect();
+        out.push_str(&format!(
+            "\ncritical speeds, at which a forward whirl has the speed of rotation and unbalance is in resonance\n  {}\n",
+            speeds.join(", ")
+        ));
+    }
     if !near.is_empty() || !diagram.crossings.is_empty() {
-        out.push_str(&format!("\nspeeds at which a frequency is within {margin} % of kΩ\n"));
+        out.push_str(&format!(
+            "\nspeeds at which a frequency in the rotating frame is within {margin} % of kΩ\n"
+        ));
         let head = ["mode", "", "", "crossing", "from", "to"];
         let mut rows = vec![head.map(str::to_owned).to_vec()];
         let text = |speed: f64| units.speed.text(speed);

@@ -69,7 +69,7 @@ fn describe(reading: &Reading) -> Result<String, Problems> {
         }
         Subject::HubBeam(of) => {
             rows.extend(beam(of, case.duration));
-            rows.extend(equations(system.as_ref(), integrator.as_ref()));
+            rows.extend(equations(system.as_mut(), integrator.as_ref()));
             rows.extend(conditioning(of));
             let ends = if case.duration > 0.0 { vec![0.0, case.duration] } else { vec![0.0] };
             for t in ends {
@@ -80,7 +80,7 @@ fn describe(reading: &Reading) -> Result<String, Problems> {
             out.push_str(&assembly::tree(space));
             out.push('\n');
             rows.extend(assembly::described(space));
-            rows.extend(equations(system.as_ref(), integrator.as_ref()));
+            rows.extend(equations(system.as_mut(), integrator.as_ref()));
         }
     }
     if let Some(missing) = &incomplete {
@@ -169,7 +169,7 @@ fn mass(section: &dyn BladeSection, length: f64) -> f64 {
 }
 
 /// Sizes and structure.
-fn equations(system: &dyn System, integrator: &dyn Integrator) -> Vec<Vec<String>> {
+fn equations(system: &mut dyn System, integrator: &dyn Integrator) -> Vec<Vec<String>> {
     let structure = system.structure(1);
     let structure = match structure {
         Structure::Dense { order } => format!("dense, order {order}"),
@@ -216,17 +216,17 @@ fn conditioning(of: &HubBeam) -> Vec<Vec<String>> {
 /// Largest stable steps of the explicit integrators about the undeformed beam at time `t`.
 fn stability(system: &mut dyn System, t: f64) -> Vec<Vec<String>> {
     let mut state = State::zeros(system.size(), t);
-    let (mut runge_kutta, mut adams) = (RungeKutta::new(), Adams::new());
-    let limit = |started: Result<(), StepError>, limit: Option<StabilityLimit>| {
+    let (runge_kutta, adams) = (RungeKutta::new(), Adams::new());
+    let limit = |found: Result<StabilityLimit, StepError>| {
         let at = format!("t = {t} s");
-        match (started, limit) {
-            (Ok(()), Some(limit)) if limit.step.is_finite() => {
+        match found {
+            Ok(limit) if limit.step.is_finite() => {
                 let text =
                     format!("{:.4e} s at {at} (largest frequency {:.4e} rad/s)", limit.step, limit.frequency);
                 row(&format!("stable step, {}", limit.method), text)
             }
-            (Err(error), _) => row("stable step", format!("none at {at}: {error}")),
-            (Ok(()), _) => row(
+            Err(error) => row("stable step", format!("none at {at}: {error}")),
+            Ok(_) => row(
                 "stable step",
                 format!(
                     "unknown at {at}: no frequency above zero, the centrifugal force outgrows the stiffness"
@@ -234,9 +234,7 @@ fn stability(system: &mut dyn System, t: f64) -> Vec<Vec<String>> {
             ),
         }
     };
-    let started = runge_kutta.start(system, &mut state, f64::MIN_POSITIVE);
-    let first = limit(started, runge_kutta.stability_limit());
-    let started = adams.start(system, &mut state, f64::MIN_POSITIVE);
-    let second = limit(started, adams.stability_limit());
+    let first = limit(runge_kutta.stability_limit(system, &mut state));
+    let second = limit(adams.stability_limit(system, &mut state));
     vec![first, second]
 }

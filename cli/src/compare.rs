@@ -133,7 +133,7 @@ fn described(c: &Comparison) -> String {
     let head = ["", "unit", "max |Δ|", "at t [s]", "RMS", "peak", "relative"];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
     for d in &c.differences {
-        let unit = if d.unit.is_empty() { "1" } else { d.unit };
+        let unit = if d.unit.is_empty() { "1" } else { &d.unit };
         let mut row = vec![d.column.clone(), unit.to_owned()];
         row.extend([format!("{:.4e}", d.max), format!("{:.4}", d.at)]);
         row.extend([d.rms, d.peak, d.relative].map(|y| format!("{y:.4e}")));

@@ -40,7 +40,7 @@ pub fn list(arguments: &Arguments) -> Outcome {
 }
 
 fn choices() -> impl Iterator<Item = &'static &'static dyn Kinds> {
-    flexion_case::choices().iter().chain(flexion_case::spatial_choices())
+    flexion_case::choices().iter()
 }
 
 /// What can be listed, which shells complete: tables and keys at the top, and choices by their places or the last part of these.
@@ -156,8 +156,10 @@ fn row(key: &Key) -> Vec<String> {
 /// What a key takes, in a few words.
 fn takes(key: &Key) -> String {
     let takes = match key.takes {
-        Type::Quantity(measure, _) => measure.unit.to_owned(),
-        Type::Station(_) => "m, or \"tip\"".to_owned(),
+        Type::Quantity(measure, _) => measure.unit.to_string(),
+        Type::Place => "place".to_owned(),
+        Type::Places => "place, or list of places".to_owned(),
+        Type::Moment(measure) => format!("{0}, or list, {0}", measure.unit),
         Type::Quantities(measure, _) => format!("list, {}", measure.unit),
         Type::Number(_) => "number".to_owned(),
         Type::Integer(low, high) => format!("integer {low} … {high}"),

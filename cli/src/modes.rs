@@ -9,6 +9,7 @@ use flexion::analysis::rotation::rotate_stably;
 use flexion::system::{State, System};
 use flexion_case::{Case, Reading};
 use flexion_results::{Artifact, Directory, Scene, Units, write_film, write_modes};
+use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 /// Displacement of a mode in the files of its scene, over the scale of the unknowns.
@@ -77,6 +78,10 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
     let Found { mut modes, scene, film, mut cautions } = compute(arguments, case, speed, hub)?;
     cautions.extend(vibration::without_contacts(case));
     cautions.extend(case.unused_by_modes());
+    if let Some(given) = case.rotates_at().filter(|_| speed == 0.0) {
+        let given = units.speed.text(given.abs());
+        cautions.push(format!("the modes are those at rest, without the rotation at {given} with which the case begins: give it by --speed"));
+    }
     let growing = modes.modes.iter().filter(|mode| mode.grows()).count();
     if growing > 0 {
         cautions.push(format!("the equilibrium is unstable: {growing} of the modes grow (negative damping)"));
@@ -101,7 +106,7 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
         None if hub == HubState::Free => format!("at {}, free hub", units.speed.text(speed)),
         None => format!("at {}, hub that keeps its speed", units.speed.text(speed)),
     };
-    let out = described(&modes, &units, &about);
+    let out = described(&modes, arguments.count, &units, &about);
     let relative = |(number, mode): (usize, &Mode)| (number + 1, mode.mesh.unwrap_or(0.0) / mode.frequency());
     let coarse = modes.modes.iter().enumerate().map(relative).find(|(_, e)| *e > vibration::COARSE);
     if let Some((number, error)) = coarse {
@@ -152,7 +157,8 @@ fn compute(arguments: &Arguments, case: &Case, speed: f64, hub: HubState) -> Res
         state = system.initial();
     }
     if case.space().is_some() && speed == 0.0 && case.begins_in_static_equilibrium() {
-        let found = stable_equilibrium(system.as_mut(), &mut state).map_err(|error| error.to_string())?;
+        let found = stable_equilibrium(system.as_mut(), &mut state, &mut |_| ControlFlow::Continue(()))
+            .map_err(|error| error.to_string())?;
         cautions.extend(found.left.map(|left| {
             format!(
                 "growing loads alone lead to an equilibrium that is {left}; the modes are those about the first stable one on the path of \
@@ -221,7 +227,7 @@ fn compare(arguments: &Arguments, reading: &Reading, modes: &mut Modes, speed: f
 }
 
 /// The table of modes.
-fn described(modes: &Modes, units: &Units, about: &str) -> String {
+fn described(modes: &Modes, asked: usize, units: &Units, about: &str) -> String {
     let unit = &units.frequency;
     let mut out = format!("{} modes {about}\n\n", modes.modes.len());
     let head = [
@@ -247,7 +253,24 @@ fn described(modes: &Modes, units: &Units, about: &str) -> String {
     }
     out.push_str(&screen::table(&rows));
     if modes.counted.is_some() {
-        out.push_str("\nNone is missing among them, by the inertia of the stiffness.\n");
+        out.push_str("\nA Sturm count confirms that no mode below the last is missing.\n");
+    }
+    if modes.modes.len() < asked {
+        let (found, plural) = (modes.modes.len(), if modes.modes.len() == 1 { "" } else { "s" });
+        let rest = if modes.overdamped.is_empty() {
+            "the system has no more"
+        } else {
+            "the other motions found are overdamped"
+        };
+        out.push_str(&format!("\n{asked} modes were asked for, {found} mode{plural} found: {rest}.\n"));
+    }
+    if !modes.overdamped.is_empty() {
+        let rates: Vec<String> =
+            modes.overdamped.iter().map(|mode| format!("{:.6}", -mode.eigenvalue.re)).collect();
+        out.push_str(&format!(
+            "\nOverdamped motions, which decay without vibrating, by their rates [1/s]: {}\n",
+            rates.join(", ")
+        ));
     }
     out
 }

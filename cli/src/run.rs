@@ -55,14 +55,25 @@ pub struct Arguments {
 
 /// How much the estimate of errors may cost.
 #[derive(Clone, Copy, clap::ValueEnum)]
-enum ErrorEffort {
+pub(crate) enum ErrorEffort {
     Off,
     Auto,
     Full,
 }
 
-/// Positions of the progress bar.
+impl ErrorEffort {
+    pub(crate) fn effort(self) -> Option<Effort> {
+        match self {
+            ErrorEffort::Off => None,
+            ErrorEffort::Auto => Some(Effort::Auto),
+            ErrorEffort::Full => Some(Effort::Full),
+        }
+    }
+}
+
+/// Positions of the progress bar, and the part of a run from which its end can be told.
 const TICKS: f64 = 1000.0;
+const CERTAIN: f64 = 0.05;
 
 /// Runs a case.
 pub fn run(arguments: &Arguments) -> Outcome {
@@ -70,10 +81,12 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let set: Vec<&str> = flags.into_iter().filter_map(|(given, set)| given.then_some(set)).collect();
     let Some(reading) = arguments.case.read_with(&set) else { return Outcome::Rejected };
     let output = arguments.output.clone().unwrap_or_else(|| Path::new("results").join(arguments.case.name()));
+    let mut progress = Progress::new(reading.case.duration);
     // The case is checked, and the directory tried, before anything is computed.
-    let prepared = match reading.prepare() {
+    let prepared = match reading.prepare_watched(&mut |factor| progress.show_search(factor)) {
         Ok(prepared) => prepared,
         Err(problems) => {
+            progress.finish();
             screen::report(&problems.render(screen::colour()));
             return Outcome::Rejected;
         }
@@ -81,17 +94,19 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let directory = match Directory::create(&output, arguments.force) {
         Ok(directory) => directory,
         Err(error) => {
+            progress.finish();
             screen::report(&format!("error: {error}\n"));
             return Outcome::Rejected;
         }
     };
-    let mut progress = Progress::new(reading.case.duration);
     let of_case = reading.case.accuracy.clone();
     let of_case = of_case.map(|(tolerance, quantity)| (format!("{tolerance:e}"), quantity));
     let asked = arguments.tolerance.clone().map(|tolerance| (tolerance, arguments.quantity.clone()));
     if let Some((tolerance, quantity)) = asked.or(of_case) {
         let target = Target::new(tolerance, quantity);
-        let refined = reading.refine(&target, &mut |state| progress.show(state.t));
+        let lines = progress.lines();
+        let refined = reading
+            .refine(&target, &mut |state| progress.show(state.t), &mut |rung| lines.say(&refined(rung)));
         progress.finish();
         return match refined {
             Ok(Refinement { reading, run, refused }) => write(&reading, &run, &directory, false, refused),
@@ -114,11 +129,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     if reached && run.status == Status::Stopped {
         run.message = Some(format!("stopped at t = {:.6} s, as asked", run.state.t));
     }
-    let effort = match arguments.error {
-        ErrorEffort::Off => None,
-        ErrorEffort::Auto => Some(Effort::Auto),
-        ErrorEffort::Full => Some(Effort::Full),
-    };
+    let effort = arguments.error.effort();
     // What a run that was stopped holds has no end to compare.
     if let Some(effort) = effort.filter(|_| run.status == Status::Finished) {
         match reading.estimate_errors(&run, effort, &mut |state| progress.show(state.t)) {
@@ -184,8 +195,7 @@ fn finish(status: Status, reached: bool, reading: &Reading, run: &Run, directory
     let solid = reading.case.space().is_some() && reading.case.output.vtk.is_some();
     files.extend((run.shapes.is_some() || solid).then_some(("shapes", Artifact::ShapeSeries)));
     screen::files(directory, Ok(()), &files);
-    let estimates = run.errors.iter().flat_map(|errors| &errors.warnings);
-    for warning in run.warnings.iter().chain(estimates) {
+    for warning in run.all_warnings() {
         screen::report(&format!("warning: {warning}\n"));
     }
     if status == Status::Finished || (reached && status == Status::Stopped) {
@@ -230,7 +240,7 @@ fn extremes(trajectory: &Trajectory, errors: Option<&Errors>) -> String {
         }
         let e = trajectory.extremes(index);
         let error = of(&channel.name);
-        let unit = if channel.unit.is_empty() { "1" } else { channel.unit };
+        let unit = if channel.unit.is_empty() { "1" } else { &channel.unit };
         let value = |x: f64, error: Option<f64>| match error {
             Some(error) if error.is_finite() => screen::with_error(x, error),
             _ => format!("{x:.6e}"),
@@ -267,18 +277,29 @@ fn sequence(rungs: &[Rung]) -> String {
     screen::table(&rows) + "\n"
 }
 
+/// What is said of a refined run at once, for the next may take long.
+fn refined(rung: &Rung) -> String {
+    format!("{}: the error of {} is {:.1e}\n", rung.changes.join(" "), rung.quantity, rung.error)
+}
+
 /// What the estimate of errors says of the run as a whole.
 fn trust(errors: &Errors, trajectory: &Trajectory) -> String {
     let end = trajectory.times().last().copied().unwrap_or(0.0);
     match &errors.unknown {
         Some(why) => format!("  errors are not known: {why}\n\n"),
-        None if errors.trusted < end => {
-            let column = errors.distrusted.as_ref();
-            let why = column.map_or_else(String::new, |column| {
-                format!(": from there the error of {column} exceeds a tenth of its largest value")
-            });
-            format!("  trusted until t = {:.4} s{why}\n\n", errors.trusted)
-        }
+        None if errors.trusted < end => match (&errors.distrusted, &errors.unstable) {
+            (Some(column), _) => format!(
+                "  trusted until t = {:.4} s: from there the error of {column} exceeds a tenth of its largest value\n\n",
+                errors.trusted
+            ),
+            (None, Some(_)) => {
+                format!(
+                    "  trusted until t = {:.4} s: from there a disturbance leads elsewhere\n\n",
+                    errors.trusted
+                )
+            }
+            (None, None) => format!("  errors are known until t = {:.4} s\n\n", errors.trusted),
+        },
         None => "  ± is the error of mesh and steps, estimated by a finer run\n\n".to_owned(),
     }
 }
@@ -302,11 +323,16 @@ pub(crate) fn stop_on_ctrl_c() -> Arc<AtomicBool> {
     stop
 }
 
-/// Shows how far a run is, and stops it on Ctrl-C.
+/// Shows how far a run is, and those that follow it, and stops them on Ctrl-C.
 pub(crate) struct Progress {
     bar: ProgressBar,
+    /// When it was shown, and when the run began that it shows.
     shown: Instant,
+    began: Instant,
     end: f64,
+    last: f64,
+    /// Number of the run.
+    run: usize,
     stop: Arc<AtomicBool>,
 }
 
@@ -314,23 +340,62 @@ impl Progress {
     pub(crate) fn new(end: f64) -> Progress {
         // The bar draws on standard error, and only if that is a terminal.
         let bar = ProgressBar::new(TICKS as u64);
-        let template = "{wide_bar} {percent:>3} %  {msg}  {eta} left";
-        if let Ok(style) = ProgressStyle::with_template(template) {
+        if let Ok(style) = ProgressStyle::with_template("{wide_bar} {percent:>3} %  {msg}") {
             bar.set_style(style);
         }
-        Progress { bar, shown: Instant::now(), end, stop: stop_on_ctrl_c() }
+        let now = Instant::now();
+        Progress { bar, shown: now, began: now, end, last: 0.0, run: 1, stop: stop_on_ctrl_c() }
     }
 
     pub(crate) fn show(&mut self, t: f64) -> ControlFlow<()> {
+        // A companion or a refined run begins.
+        if t < self.last {
+            (self.began, self.run) = (Instant::now(), self.run + 1);
+        }
+        self.last = t;
+        let part = if self.end > 0.0 { t / self.end } else { 0.0 };
+        self.draw(part, |began, run| {
+            let left = began.elapsed().as_secs_f64() * (1.0 / part - 1.0);
+            let left = if part > CERTAIN { format!("  {left:.0} s left of this run") } else { String::new() };
+            format!("run {run}: t = {t:.3} s{left}")
+        })
+    }
+
+    /// Shows the load factor at which a stable equilibrium is looked for.
+    pub(crate) fn show_search(&mut self, factor: f64) -> ControlFlow<()> {
+        self.draw(0.0, |_, _| format!("equilibrium: load factor {factor:.3}"))
+    }
+
+    /// Shows the number of equilibria on a path and the load factor of the last.
+    pub(crate) fn show_points(&mut self, points: usize, factor: f64) -> ControlFlow<()> {
+        let part = (factor / self.end).clamp(0.0, 1.0);
+        self.draw(part, |_, _| format!("{points} equilibria, load factor {factor:.4}"))
+    }
+
+    fn draw(&mut self, part: f64, text: impl Fn(Instant, usize) -> String) -> ControlFlow<()> {
         if self.shown.elapsed() > Duration::from_millis(100) {
             self.shown = Instant::now();
-            self.bar.set_position((t / self.end * TICKS) as u64);
-            self.bar.set_message(format!("t = {t:.3} s"));
+            self.bar.set_position((part * TICKS) as u64);
+            self.bar.set_message(text(self.began, self.run));
         }
         if self.stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
+    /// What writes lines beside the bar.
+    pub(crate) fn lines(&self) -> Lines {
+        Lines(self.bar.clone())
+    }
+
     pub(crate) fn finish(&self) {
         self.bar.finish_and_clear();
+    }
+}
+
+/// Lines on standard error, above the bar where there is one.
+pub(crate) struct Lines(ProgressBar);
+
+impl Lines {
+    pub(crate) fn say(&self, line: &str) {
+        self.0.suspend(|| screen::report(line));
     }
 }

@@ -1,5 +1,6 @@
 //! `flexion statics`: the path of equilibria as the loads grow.
 
+use crate::run::{ErrorEffort, Progress};
 use crate::vibration::{report, title};
 use crate::{Outcome, case, screen};
 use flexion::analysis::path::Plan;
@@ -11,7 +12,7 @@ use std::path::{Path, PathBuf};
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   flexion statics case.toml --output results/statics
-  flexion statics case.toml --to 3 --set 'force=[{station=\"2 m\", force=[\"-400 N\", \"1 N\"]}]'
+  flexion statics case.toml --to 3 --set 'load=[{on=\"2 m\", force=[\"-400 N\", \"1 N\"]}]'
 
 The loads of t = 0 are multiplied by a factor that grows from zero; the equilibrium is followed by the length of its path, past
 limit points at which the load falls again, until the factor is reached. Every equilibrium is judged: stable, or in how many
@@ -34,6 +35,9 @@ pub struct Arguments {
     /// Directory for statics.json, .csv, .npz and the picture [default: results/NAME-statics]
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
+    /// Estimate errors by the path on a finer mesh: never, where it takes some seconds at most, or always
+    #[arg(long, value_name = "EFFORT", value_enum, default_value = "auto")]
+    error: ErrorEffort,
     /// Replace former results in that directory
     #[arg(long)]
     force: bool,
@@ -80,10 +84,19 @@ fn followed(arguments: &Arguments, reading: &Reading) -> Result<bool, Refused> {
     let plan = Plan { points: arguments.points as usize, longest: arguments.step, ..Plan::to(arguments.to) };
     let directory = Directory::create_for(Artifact::STATICS, &output, arguments.force)
         .map_err(|error| Refused::Request(error.to_string()))?;
-    let path = reading.load_path(&plan, |_, _| true).map_err(|problems| {
+    let mut progress = Progress::new(arguments.to);
+    let path = reading.load_path(&plan, |points, factor| progress.show_points(points, factor).is_continue());
+    let mut path = path.map_err(|problems| {
+        progress.finish();
         directory.discard();
         Refused::Case(problems)
     })?;
+    let mut cautions = Vec::new();
+    if let Some(effort) = arguments.error.effort() {
+        let show = |points, factor| progress.show_points(points, factor).is_continue();
+        cautions.extend(reading.estimate_path_errors(&mut path, &plan, effort, show));
+    }
+    progress.finish();
     if let (Some(end), []) = (&path.end, path.points.as_slice()) {
         directory.discard();
         return Err(Refused::Request(end.clone()));
@@ -95,7 +108,6 @@ fn followed(arguments: &Arguments, reading: &Reading) -> Result<bool, Refused> {
         return Err(Refused::Request(message.to_owned()));
     }
     screen::print(&described(&path));
-    let mut cautions = Vec::new();
     if let Some(last) =
         path.points.last().and_then(|point| point.stability).filter(|found| !found.is_stable())
     {
@@ -120,11 +132,26 @@ fn described(path: &LoadPath) -> String {
     let last = path.points.last().map(|point| (point, "last"));
     for (point, what) in path.critical().map(|(point, critical)| (point, critical.name())).chain(last) {
         let stability = point.stability.map_or_else(|| "unknown".to_owned(), |found| found.to_string());
-        let mut row = vec![format!("{:.6}", point.factor), what.to_owned(), stability];
-        row.extend(printed.iter().map(|(i, _)| format!("{:.6}", point.values[*i])));
+        let error = point.error.as_ref();
+        let stated = |value: f64, error: Option<f64>| match error {
+            Some(error) => screen::with_error(value, error),
+            None => format!("{value:.6}"),
+        };
+        // The load factor of the last point is the one that was asked for.
+        let of_factor = error.filter(|_| point.critical.is_some()).map(|error| error.factor);
+        let mut row = vec![stated(point.factor, of_factor), what.to_owned(), stability];
+        row.extend(
+            printed.iter().map(|(i, _)| stated(point.values[*i], error.map(|error| error.values[*i]))),
+        );
         rows.push(row);
     }
     out.push_str(&screen::table(&rows));
+    let stated = path.points.iter().any(|point| point.error.is_some());
+    match &path.unknown {
+        Some(why) => out.push_str(&format!("\n  errors are not known: {why}\n")),
+        None if stated => out.push_str("\n  ± is the error of the mesh, estimated by a finer one\n"),
+        None => {}
+    }
     out.push('\n');
     out
 }

@@ -37,12 +37,12 @@ fn folder(case: &str) -> tempfile::TempDir {
 #[test]
 fn a_blade_carries_its_masses_and_what_it_does_not_use_is_refused_at_its_line() {
     // As heavy as the blade, at its tip: 1 + cos z cosh z + z (cos z sinh z − sin z cosh z) = 0, z² = 1.5573.
-    let heavy = folder(&format!("{BLADE}[[mass]]\nstation = 1.0\nmass = 1.0\n"));
+    let heavy = folder(&format!("{BLADE}[[mass]]\non = '1 m'\nmass = 1.0\n"));
     let (code, said, warned) = flexion(heavy.path(), &["modes", "case.toml", "--count", "2", "--speed", "0"]);
     assert!(code == Some(0) && said.contains("1.557") && warned.is_empty(), "{said} {warned}");
     for (table, at) in [
-        ("[damping]\nmass-proportional = 2.0\n", "[damping]"),
-        ("[[force]]\nstation = 1.0\nforce = [-2.0, 0.0]\nframe = 'hub'\n", "[[force]]"),
+        ("[damping]\nmass = 2.0\n", "[damping]"),
+        ("[[load]]\non = '1 m'\nforce = [-2.0, 0.0]\naxes = 'hub'\n", "[[load]]"),
     ] {
         let folder = folder(&format!("{BLADE}{table}"));
         for command in
@@ -56,7 +56,7 @@ fn a_blade_carries_its_masses_and_what_it_does_not_use_is_refused_at_its_line() 
         let (code, _, said) = flexion(folder.path(), &["run", "case.toml", "-o", "run"]);
         assert!(code == Some(0) && said.contains("[blade] is for `modes`"), "{said}");
     }
-    let fallen = folder(&format!("{BLADE}[gravity]\nacceleration = 9.81\n"));
+    let fallen = folder(&format!("gravity = [0, -9.81]\n{BLADE}"));
     let (code, _, said) = flexion(fallen.path(), &["modes", "case.toml", "--count", "2"]);
     assert!(code == Some(0) && said.contains("without `gravity`"), "{said}");
 }
@@ -178,7 +178,7 @@ duration = 1
 #[test]
 fn requests_beyond_reason_are_refused_with_the_reason() {
     let folder = folder(RUN);
-    let many = "[[mass]]\nstation = 1\nmass = 0.001\n".repeat(10_000);
+    let many = "[[mass]]\non = '1 m'\nmass = 0.001\n".repeat(10_000);
     std::fs::write(folder.path().join("many.toml"), format!("{RUN}{many}")).unwrap();
     for (arguments, expected) in [
         (
@@ -188,7 +188,7 @@ fn requests_beyond_reason_are_refused_with_the_reason() {
                 "--set",
                 "output.step=1.2e-7",
                 "--set",
-                "output.stations=[0.1,0.2,0.3,0.4,0.5,0.6,0.7,0.8,0.9,1,1.1,1.2]",
+                "output.stations=['0.1 m', '0.2 m', '0.3 m', '0.4 m', '0.5 m', '0.6 m', '0.7 m', '0.8 m', '0.9 m', '1 m', '1.1 m', '1.2 m']",
             ][..],
             "GB",
         ),

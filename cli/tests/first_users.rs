@@ -80,7 +80,7 @@ fn the_template_of_a_blade_says_what_it_is() {
 fn the_arm_comes_to_rest_where_its_motor_balances_gravity() {
     let folder = folder();
     printed(folder.path(), &["new", "arm", "-o", "arm.toml"]);
-    let stations = ["--set", "output.stations=[0.5]", "--no-plots", "--error", "off"];
+    let stations = ["--set", "output.stations=['0.5 m']", "--no-plots", "--error", "off"];
     let printed = printed(folder.path(), &[&["run", "arm.toml", "-o", "arm"], &stations[..]].concat());
     assert!(folder.path().join("arm/trajectory.csv").exists(), "{printed}");
     let csv = std::fs::read_to_string(folder.path().join("arm/trajectory.csv")).unwrap();
@@ -99,10 +99,10 @@ fn the_arm_comes_to_rest_where_its_motor_balances_gravity() {
 fn each_table_of_a_case_can_be_listed() {
     let folder = folder();
     for (name, line) in [
-        ("force", "two components of the force"),
-        ("gravity", "acceleration g"),
+        ("load", "components of the force"),
+        ("gravity", "acceleration of gravity"),
         ("mass", "moment of inertia about its centre"),
-        ("damping", "stiffness-proportional"),
+        ("damping", "stiffness"),
         ("output", "strain-heights"),
         ("beam", "[[beam]] of a system in space"),
         ("body", "[[body]] of a system in space"),
@@ -115,7 +115,7 @@ fn each_table_of_a_case_can_be_listed() {
         let listed = printed(folder.path(), &["list", name]);
         assert!(listed.contains(line), "{name}: {listed}");
     }
-    assert!(rejected(folder.path(), &["list", "forces"]).contains("'force'"));
+    assert!(rejected(folder.path(), &["list", "loads"]).contains("'load'"));
 }
 
 #[test]
@@ -133,12 +133,12 @@ fn the_page_of_keys_is_current() {
 fn frequencies_need_neither_a_motion_nor_a_duration() {
     let folder = folder();
     let case = "beam = { length = \"1 m\" }\nsection = { kind = \"rectangle\", modulus = \"70 GPa\", density = \"2700 kg/m^3\", \
-                width = \"20 mm\", height = \"5 mm\" }\nmass = [{ station = \"tip\", mass = \"10 g\" }]\n";
+                width = \"20 mm\", height = \"5 mm\" }\nmass = [{ on = \"tip\", mass = \"10 g\" }]\n";
     std::fs::write(folder.path().join("short.toml"), case).unwrap();
     for arguments in [
         &["modes", "short.toml", "--count", "3"][..],
         &["campbell", "short.toml", "--speeds", "0:10:3", "--modes", "2"],
-        &["statics", "short.toml", "--set", "force=[{station='tip', force=[0, 1]}]"],
+        &["statics", "short.toml", "--set", "load=[{on='tip', force=[0, 1]}]"],
         &["check", "short.toml"],
     ] {
         printed(folder.path(), arguments);
@@ -161,7 +161,7 @@ fn messages_say_what_to_write() {
         (&["--set", "section.modulus=70 GP"][..], "did you mean `GPa`?"),
         (&["--set", "section.modulus=70", "GPa"], "--set 'section.modulus=30 GPa'"),
         (&["--set", "basis=RPIM"], "did you mean `radial`?"),
-        (&["--set", "mass=[{station='top', mass=1}]"], "`tip`"),
+        (&["--set", "mass=[{on='top', mass=1}]"], "`tip`"),
     ] {
         let output = check(set);
         assert_eq!(output.status.code(), Some(1), "{set:?}");

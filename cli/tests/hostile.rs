@@ -346,7 +346,7 @@ fn systems_in_space_that_cannot_be_are_refused_at_their_line() {
         (IN_SPACE.replace("name = \"lower\"", "name = \"a b\""), ["body[2].name", "column"]),
         (IN_SPACE.replace("mass = 1", "mass = 0"), ["body[1].mass", "positive"]),
         (IN_SPACE.replace("axis = [0, 1, 0]", "axis = [0, 0, 0]"), ["joint[1].axis", "no direction"]),
-        (IN_SPACE.replace("at = [0, 0, 0]", "at = [0, 0]"), ["joint[1].at", "3 components"]),
+        (IN_SPACE.replace("at = [0, 0, 0]", "at = [0]"), ["joint[1].at", "3 in space"]),
         (
             IN_SPACE.replace("between = [\"ground\", \"upper\"]", "between = [\"upper\", \"upper\"]"),
             ["joint[1]", "same"],
@@ -371,19 +371,19 @@ fn systems_in_space_that_cannot_be_are_refused_at_their_line() {
         ),
         (
             format!(
-                "{IN_SPACE}[[spring]]\nbetween = [\"ground\", \"upper\"]\nfrom = [0.5, 0, 0]\nstiffness = 1\n"
+                "{IN_SPACE}[[spring]]\nkind = \"line\"\nbetween = [\"ground\", \"upper\"]\nfrom = [0.5, 0, 0]\nstiffness = 1\n"
             ),
             ["spring[1]", "no direction"],
         ),
         (
             format!(
-                "{IN_SPACE}[[contact]]\non = \"upper\"\nobstacle = {{ kind = \"plane\" }}\nlaw = {{ kind = \"massless\" }}\n"
+                "{IN_SPACE}[[contact]]\non = \"upper\"\nobstacle = {{ kind = \"plane\", normal = [0, 0, 1] }}\nlaw = {{ kind = \"massless\" }}\n"
             ),
             ["contact[1].law", "mass"],
         ),
         (
             format!(
-                "{IN_SPACE}[[contact]]\non = \"upper\"\nobstacle = {{ kind = \"plane\", point = [0, 0, 1] }}\nlaw = {{ kind = \"hertz\", stiffness = 1 }}\n"
+                "{IN_SPACE}[[contact]]\non = \"upper\"\nobstacle = {{ kind = \"plane\", normal = [0, 0, 1], point = [0, 0, 1] }}\nlaw = {{ kind = \"hertz\", stiffness = 1 }}\n"
             ),
             ["contact[1].obstacle", "inside"],
         ),
@@ -395,7 +395,7 @@ fn systems_in_space_that_cannot_be_are_refused_at_their_line() {
         ),
         (
             format!(
-                "{IN_SPACE}[[contact]]\non = \"upper\"\nobstacle = {{ kind = \"plane\" }}\nlaw = {{ kind = \"constraint\", restitution = 2 }}\n"
+                "{IN_SPACE}[[contact]]\non = \"upper\"\nobstacle = {{ kind = \"plane\", normal = [0, 0, 1] }}\nlaw = {{ kind = \"constraint\", restitution = 2 }}\n"
             ),
             ["contact[1].law.restitution", "from 0 to 1"],
         ),

@@ -88,7 +88,8 @@ fn a_shaft_that_is_let_go_rotates_with_the_blade() {
     let speeds = ["campbell", "rotor.toml", "--speeds", "0 rpm:120 rpm:3", "--modes", "3", "--free-hub"];
     let output = flexion(folder.path(), &speeds);
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    let turntable = format!("{ROTOR}[rotation]\naxis = [0, 0, 1]\npoint = [1, 0, 0]\n");
+    let at_rest = ROTOR.replace("speed = \"30 rpm\"", "speed = 0");
+    let turntable = format!("{at_rest}[rotation]\naxis = [0, 0, 1]\npoint = [1, 0, 0]\n");
     std::fs::write(folder.path().join("turntable.toml"), turntable).unwrap();
     let output = flexion(folder.path(), &["modes", "turntable.toml", "--speed", "3", "--free-hub"]);
     assert_eq!(output.status.code(), Some(1));

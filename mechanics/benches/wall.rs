@@ -65,13 +65,13 @@ fn runs(c: &mut Criterion) {
         [("first", "newmark"), ("exact", "newmark"), ("first", "radau"), ("exact", "radau")]
     {
         let mut system = spin_up::system(coupling, 10);
-        let mut integrator = spin_up::integrator(name);
+        let integrator = spin_up::integrator(name);
         let step = (name == "newmark").then_some(spin_up::STEP);
         let plan = Plan { end: 20.0, step, longest_step: None, contact_step: None, sample: 0.01 };
         group.bench_function(format!("{coupling}, {name}"), |b| {
             b.iter(|| {
                 let mut state = State::zeros(system.size(), 0.0);
-                transient(&mut *system, &mut *integrator, &mut state, &plan, &mut Watch(Vec::new()))
+                transient(&mut *system, &*integrator, &mut state, &plan, &mut Watch(Vec::new()))
             });
         });
     }

@@ -5,9 +5,10 @@
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::print_stdout)] // what it is for
 
-use flexion::analysis::transient::{Ending, Observer, Plan, Step, transient};
+use flexion::analysis::transient::{Ending, Observer, Plan, Step, transient_to_checkpoint};
 use flexion::hub_beam::{self, ExactCoupling, Hub, HubBeam};
 use flexion::integrator::{GeneralizedAlpha, Integrator, Radau, Tolerance};
+use flexion::linalg::Vec3;
 use flexion::multibody::slender::{Beam, Properties, Station};
 use flexion::multibody::{Axes, Body, Drive, Flexible, Joint, Kind, Load, Marker, Model, Multibody, Part};
 use flexion::profile::{Expression, Motion, SpinUp};
@@ -57,7 +58,7 @@ struct Run {
 
 fn run(
     system: &mut dyn System,
-    method: &mut dyn Integrator,
+    method: &dyn Integrator,
     (end, step): (f64, Option<f64>),
     sample: f64,
     names: &[&str],
@@ -66,8 +67,9 @@ fn run(
     let mut watch = Watch::new(names);
     let plan = Plan { end, step, longest_step: None, contact_step: None, sample };
     let start = Instant::now();
-    let ending = transient(system, method, &mut state, &plan, &mut watch);
-    Run { rows: watch.rows, seconds: start.elapsed().as_secs_f64(), counters: method.counters(), ending }
+    let (ending, checkpoint) = transient_to_checkpoint(system, method, &mut state, &plan, &mut watch);
+    let (seconds, counters) = (start.elapsed().as_secs_f64(), checkpoint.counters().unwrap());
+    Run { rows: watch.rows, seconds, counters, ending }
 }
 
 fn radau(tolerance: f64) -> Radau {
@@ -105,10 +107,10 @@ fn plane(elements: usize, tolerance: f64) {
     let section = Uniform::from_resultants(resultants).unwrap();
     let coupling = ExactCoupling::new(10.0, elements, &section, &hub).unwrap();
     let mut planar = HubBeam::new(hub, coupling, &[10.0]);
-    let of_planar = run(&mut planar, &mut radau(1e-9), (20.0, None), 0.02, &["tip.deflection", "tip.axial"]);
+    let of_planar = run(&mut planar, &radau(1e-9), (20.0, None), 0.02, &["tip.deflection", "tip.axial"]);
     let mut spatial = spun(elements, motion.clone());
     let names = ["beam.tip.position.x", "beam.tip.position.y"];
-    let mut of_space = run(&mut spatial, &mut radau(tolerance), (20.0, None), 0.02, &names);
+    let mut of_space = run(&mut spatial, &radau(tolerance), (20.0, None), 0.02, &names);
     for row in &mut of_space.rows {
         let (sin, cos) = motion.at(row[0]).angle.sin_cos();
         let (x, y) = (row[1], row[2]);
@@ -124,7 +126,8 @@ fn plane(elements: usize, tolerance: f64) {
 /// Wu & Haug's beam on a revolute joint with the ground that is driven.
 fn spun(elements: usize, motion: Motion) -> Multibody {
     let section = Properties::principal([2.8e7, 1.1e4, 1.4e4, 1.4e4], 1.2, [1.2e-3, 0.0, 0.0]);
-    let root = Station { position: [0.0; 3], tangent: [1.0, 0.0, 0.0], normal: [0.0, 1.0, 0.0] };
+    let root =
+        Station { position: Vec3([0.0; 3]), tangent: Vec3([1.0, 0.0, 0.0]), normal: Vec3([0.0, 1.0, 0.0]) };
     let mut model = Model::new();
     let beam = Flexible::new("beam", Beam::straight(root, 10.0, elements, section).unwrap());
     let beam = model.beam(beam);
@@ -144,7 +147,8 @@ fn cantilever(elements: usize, period: f64, across: f64) -> Multibody {
     let (mass, rotary) = (density * side * side, density * side.powi(4) / 12.0);
     let stiffness = [modulus * side * side, torsion, bending, bending];
     let section = Properties::principal(stiffness, mass, [2.0 * rotary, rotary, rotary]);
-    let root = Station { position: [0.0; 3], tangent: [1.0, 0.0, 0.0], normal: [0.0, 1.0, 0.0] };
+    let root =
+        Station { position: Vec3([0.0; 3]), tangent: Vec3([1.0, 0.0, 0.0]), normal: Vec3([0.0, 1.0, 0.0]) };
     let mut model = Model::new();
     let beam = model.beam(Flexible::new("beam", Beam::straight(root, 1.0, elements, section).unwrap()));
     let clamped = Marker::new(Part::Section { beam, node: 0 }, [0.0; 3]);
@@ -154,8 +158,8 @@ fn cantilever(elements: usize, period: f64, across: f64) -> Multibody {
     model.load(Load {
         name: "couple".into(),
         at: Marker::new(Part::Section { beam, node: elements }, [0.0; 3]),
-        force: [0.0; 3],
-        moment: [0.0, across * couple, couple],
+        force: Vec3([0.0; 3]),
+        moment: Vec3([0.0, across * couple, couple]),
         axes: Axes::Dead,
         amplitude: Some(Arc::new(amplitude)),
     });
@@ -197,9 +201,9 @@ fn plate(elements: usize) -> Multibody {
     let inertia = [density * (flat + edge), density * edge, density * flat];
     let section = Properties::principal(stiffness, density * area, inertia);
     let root = Station {
-        position: [0.35, 0.0, 0.0],
-        tangent: [1.0, 0.0, 0.0],
-        normal: [0.0, FRAC_1_SQRT_2, FRAC_1_SQRT_2],
+        position: Vec3([0.35, 0.0, 0.0]),
+        tangent: Vec3([1.0, 0.0, 0.0]),
+        normal: Vec3([0.0, FRAC_1_SQRT_2, FRAC_1_SQRT_2]),
     };
     let mut model = Model::new().with_gravity([0.0, 0.0, -9.81]);
     let mut hub = Body::new("hub", 10.0, [9.557; 3]);

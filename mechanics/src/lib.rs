@@ -1,24 +1,16 @@
-//! **Flexion**: rigid–flexible coupled dynamics of rotating and slender beams, in the plane of rotation.
+//! **Flexion**: rigid–flexible coupled dynamics of rotating and slender beams, in the plane and in space.
 //!
 //! From a section to the history of the tip: a beam of 10 m is clamped to a hub that spins up to 4 rad/s in 15 s, and
 //! lags behind by 0.4 m (Wu & Haug 1988, doi 10.1002/nme.1620260202).
 //!
 //! ```
-//! use flexion::analysis::transient::{Ending, Observer, Plan, Step, transient};
+//! use flexion::analysis::recording::record;
+//! use flexion::analysis::transient::{Ending, Plan};
 //! use flexion::basis::{Field, Hermite, Lagrange};
 //! use flexion::hub_beam::{Drive, Fields, Foreshortening, Hub, HubBeam, LinearCoupling};
 //! use flexion::integrator::{Radau, Tolerance};
 //! use flexion::profile::{Motion, SpinUp};
 //! use flexion::section::{Resultants, Uniform};
-//! use flexion::system::{Dynamics, State, System};
-//! struct Tip(Vec<(f64, f64)>);
-//! impl Observer for Tip {
-//!     fn sample(&mut self, system: &mut dyn System, state: &State, _step: &Step) {
-//!         let mut row = vec![0.0; system.channels().len()];
-//!         system.record(state, &mut row); // `tip.deflection [m]` is the first of the channels.
-//!         self.0.push((state.t, row[0]));
-//!     }
-//! }
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let (mass, axial_stiffness, bending_stiffness) = (1.2, 2.8e7, 1.4e4); // kg/m, N, N·m²
@@ -29,12 +21,37 @@
 //! let hub = Hub { radius: 0.0, inertia: 0.0, drive: Drive::Prescribed(motion) }; // m, kg·m²
 //! let coupling = LinearCoupling::new(fields, &section, &hub, Foreshortening::First);
 //! let mut system = HubBeam::new(hub, coupling, &[]);
-//! let mut radau = Radau::new(Tolerance { relative: 1e-6, absolute: 1e-8 })?;
-//! let (mut state, mut tip) = (system.initial(), Tip(Vec::new()));
-//! let plan = Plan { end: 20.0, step: None, longest_step: None, contact_step: None, sample: 0.02 }; // s
-//! assert_eq!(transient(&mut system, &mut radau, &mut state, &plan, &mut tip), Ending::Finished);
-//! let &(time, peak) = tip.0.iter().min_by(|a, b| a.1.total_cmp(&b.1)).ok_or("no sample")?;
-//! assert!((peak + 0.40034).abs() < 1e-5 && (time - 6.95).abs() < 0.02, "{peak} m at {time} s");
+//! let radau = Radau::new(Tolerance { relative: 1e-6, absolute: 1e-8 })?;
+//! let run = record(&mut system, &radau, &Plan::new(20.0, 0.02)); // s
+//! assert_eq!(run.ending, Ending::Finished);
+//! let index = run.trajectory.index("tip.deflection").ok_or("no such column")?;
+//! let tip = run.trajectory.extremes(index); // `run.column("tip.deflection")` has all values.
+//! assert!((tip.min + 0.40034).abs() < 1e-5 && (tip.t_min - 6.95).abs() < 0.02, "{tip:?}");
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! In space a model has bodies, beams and joints. A stiff rod of length L that hangs on a ball joint and begins to fall from the
+//! horizontal comes to its lowest place after K(½)/√(3g/2L) = 0.4834 s:
+//!
+//! ```
+//! use flexion::multibody::slender::{Beam, Properties, Station};
+//! use flexion::multibody::{Flexible, Joint, Kind, Marker, Model, Multibody, Part};
+//! use flexion::prelude::*;
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let section = Properties::principal([1e7, 800.0, 1e3, 1e3], 0.8, [1e-4, 0.0, 0.0]); // EA, GJ, EI₂, EI₃, ρA, inertia
+//! let root = Station { position: [0.0; 3].into(), tangent: [1.0, 0.0, 0.0].into(), normal: [0.0, 1.0, 0.0].into() };
+//! let mut model = Model::new().with_gravity([0.0, 0.0, -9.81]);
+//! let beam = model.beam(Flexible::new("rod", Beam::straight(root, 1.0, 4, section)?));
+//! let [ground, end] = [Part::Ground, Part::Section { beam, node: 0 }].map(|part| Marker::new(part, [0.0; 3]));
+//! model.joint(Joint::new("ball", Kind::Spherical, ground, end));
+//! let mut system = Multibody::new(model)?;
+//! let radau = Radau::new(Tolerance { relative: 1e-6, absolute: 1e-8 })?;
+//! let run = record(&mut system, &radau, &Plan::new(0.6, 0.005));
+//! let height = run.trajectory.index("rod.tip.position.z").ok_or("no such column")?;
+//! let tip = run.trajectory.extremes(height);
+//! assert!((tip.min + 1.0).abs() < 1e-3 && (tip.t_min - 0.4834).abs() < 2e-3, "{tip:?}");
 //! # Ok(())
 //! # }
 //! ```
@@ -46,21 +63,22 @@
 //! | describe a cross-section | [`section`] | [`section::Section`] |
 //! | choose the functions of a displacement field | [`basis`] | [`basis::Basis`] |
 //! | prescribe a motion, a torque or a load in time | [`profile`] | [`profile::Profile`] |
-//! | make a beam on a rotating hub, with its loads | [`hub_beam`] | [`hub_beam::Coupling`], [`hub_beam::load::Load`] |
+//! | make a beam on a rotating hub, with its loads | [`hub_beam`] | [`hub_beam::Coupling`] |
+//! | let forces depend on place and velocity | [`law`] | [`law::ForceLaw`] |
 //! | find the small vibrations of a rotating blade in space | [`blade`] | [`section::BladeSection`] |
-//! | join and drive rigid bodies in space | [`multibody`] | |
-//! | compute a slender beam in space, large rotations and all | [`multibody::slender`] | |
+//! | join and drive bodies and slender beams in space | [`multibody`] | |
 //! | write a model of one's own | [`system`] | [`system::Dynamics`], [`system::Events`], [`system::Steady`], [`system::Observed`] |
-//! | integrate in time | [`integrator`] | [`integrator::Integrator`] |
-//! | run, record, find equilibria, modes and Campbell diagrams | [`analysis`] | [`analysis::transient::Observer`] |
+//! | integrate in time | [`integrator`] | [`integrator::Integrator`], [`integrator::Stepper`] |
+//! | run, find equilibria, modes and Campbell diagrams | [`analysis`] | [`analysis::transient::Observer`] |
+//! | have the columns of a run | [`analysis::recording`] | |
 //! | check what one has written | [`verify`] | |
 //! | compare with closed forms | [`exact`] | |
 //! | compute impulses of contacts with friction | [`contact`] | |
 //! | solve band matrices and eigenproblems, integrate over a cell | [`linalg`], [`quadrature`] | |
 //!
-//! What the library does not do: a beam on a hub has no shear and moves in one plane; a blade in space has only small
-//! vibrations about its steady rotation; bodies with joints are rigid; materials are linear and
-//! elastic. Nothing here reads a case, writes a file, asks for the time or starts a thread: that is left to the
+//! What the library does not do: beams have no shear; a beam on a hub moves in one plane; a blade has only small vibrations about
+//! its steady rotation; materials are linear and elastic. Nothing here reads a case, writes a file, asks for the time or starts a
+//! thread: that is left to the
 //! program.
 
 pub mod analysis;
@@ -71,6 +89,7 @@ pub mod drive;
 pub mod exact;
 pub mod hub_beam;
 pub mod integrator;
+pub mod law;
 pub mod linalg;
 pub mod multibody;
 pub mod profile;
@@ -78,3 +97,11 @@ pub mod quadrature;
 pub mod section;
 pub mod system;
 pub mod verify;
+
+/// What most programs need: the traits of a system and of a method, runs and their records.
+pub mod prelude {
+    pub use crate::analysis::recording::{Record, Trajectory, record, record_from};
+    pub use crate::analysis::transient::{Ending, Observer, Plan, Step, resume, transient};
+    pub use crate::integrator::{GeneralizedAlpha, Integrator, Radau, Tolerance};
+    pub use crate::system::{Dynamics, Events, Observed, State, Steady, System};
+}

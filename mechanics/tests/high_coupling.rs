@@ -60,8 +60,8 @@ fn energy_and_angular_momentum_stay_for_twenty_seconds() {
     let mut drift = |steps: usize| {
         let mut off = (0.0_f64, 0.0_f64);
         // Explicit: no tolerance of an iteration leaves its mark on every step.
-        let mut method = RungeKutta::new();
-        drive::fixed(&mut method, &mut system, from.clone(), 20.0, steps, |_, system, _, to| {
+        let method = RungeKutta::new();
+        drive::fixed(&method, &mut system, from.clone(), 20.0, steps, |_, system, _, to| {
             let (e, h, tip) = measure(system, to);
             off = (off.0.max((e / energy - 1.0).abs()), off.1.max((h / angular - 1.0).abs()));
             largest = largest.max(tip.abs());

@@ -3,6 +3,7 @@
 mod architecture;
 mod basis_orders;
 mod campbell;
+mod drag;
 mod high_coupling;
 mod impact;
 mod integrators;

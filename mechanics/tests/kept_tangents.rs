@@ -98,11 +98,11 @@ fn turning_back_undoes_turning() {
 }
 
 /// Work of twelve seconds of the spin-up in equal steps of `h`.
-fn work(mut integrator: impl Integrator, h: f64) -> Counters {
+fn work(integrator: impl Integrator, h: f64) -> Counters {
     let mut system = beam();
     let mut from = system.initial();
     let mut to = from.clone();
-    integrator.start(&mut system, &mut from, h).unwrap();
+    let mut integrator = integrator.start(&mut system, &mut from, h).unwrap();
     for _ in 0..(12.0 / h).round() as usize {
         integrator.step(&mut system, &from, Span::new(from.t, h), &mut to).unwrap();
         integrator.accept(&from, &to);

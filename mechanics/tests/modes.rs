@@ -327,6 +327,25 @@ fn damping_in_proportion_to_mass_and_stiffness_gives_the_ratios_of_the_textbook(
     }
 }
 
+/// λ² + ηω² λ + ω² = 0 vibrates up to ω = 2/η; the roots of the others are all beyond 1/η.
+#[test]
+fn overdamped_motions_are_no_modes() {
+    let eta = 0.05;
+    let (hub, damping) = (hub(0.0), Damping { mass: 0.0, stiffness: eta });
+    let mut system = HubBeam::new(hub.clone(), coupling(20, &hub), &[]).with_damping(damping);
+    let found = at(&mut system, 0.0, 4);
+    assert_eq!(found.modes.len(), 2, "{:?}", frequencies(&found));
+    for (mode, omega) in found.modes.iter().zip(CANTILEVER) {
+        let zeta = 0.5 * eta * omega;
+        let expected = omega * (1.0 - zeta * zeta).sqrt();
+        assert!((mode.frequency() / expected - 1.0).abs() < 1e-4, "{} for {expected}", mode.frequency());
+    }
+    assert!(!found.overdamped.is_empty() && found.overdamped.len() <= 4);
+    for motion in &found.overdamped {
+        assert!(motion.eigenvalue.im == 0.0 && motion.eigenvalue.re < -(1.0 - 1e-6) / eta);
+    }
+}
+
 #[test]
 fn a_free_hub_without_inertia_makes_a_pinned_beam() {
     let torque = Arc::new(Constant::new(0.0).unwrap());
@@ -347,6 +366,51 @@ fn a_free_hub_without_inertia_makes_a_pinned_beam() {
         assert_eq!(found[0].frequency(), 0.0, "{:?}", found[0].eigenvalue);
         for (mode, expected) in found[1..].iter().zip([15.418205716, 49.964862031]) {
             assert!((mode.frequency() / expected - 1.0).abs() < tolerance, "{} {expected}", mode.frequency());
+        }
+    }
+}
+
+/// A round cantilever with a mass at its tip a hundred times its own: soft modes far below the others, each twice. With z⁴ = ω² and
+/// μ = 100 they are the roots of 1 + cos z cosh z + μ z (cos z sinh z − sin z cosh z) = 0.
+#[test]
+fn modes_far_apart_are_all_found_twice() {
+    let equation = |z: f64| 1.0 + z.cos() * z.cosh() + 100.0 * z * (z.cos() * z.sinh() - z.sin() * z.cosh());
+    let pi = std::f64::consts::PI;
+    // One root below 1, and one in each interval (nπ, nπ + π/2).
+    let root = |(mut low, mut high): (f64, f64)| {
+        let sign = equation(low) > 0.0;
+        while high - low > 1e-14 * high {
+            let middle = 0.5 * (low + high);
+            if (equation(middle) > 0.0) == sign { low = middle } else { high = middle }
+        }
+        low * low
+    };
+    let expected = [(0.1, 1.0), (pi, 1.5 * pi), (2.0 * pi, 2.5 * pi), (3.0 * pi, 3.5 * pi)].map(root);
+    let resultants = BladeResultants {
+        mass: 1.0,
+        axial_stiffness: 1e8,
+        flap_stiffness: 1.0,
+        chord_stiffness: 1.0,
+        ..BladeResultants::default()
+    };
+    let setting = Setting { length: 1.0, tip: Tip { mass: 100.0, inertia: 0.0 }, ..Setting::default() };
+    let model = Model { torsion: false, tension_torsion: false, rotary_inertia: false, ..Model::default() };
+    for elements in [20, 32, 36, 40, 44, 48, 64] {
+        let mut blade = Blade::new(setting, &resultants, model, elements).unwrap();
+        for count in 1..=8 {
+            let found = at(&mut blade, 0.0, count);
+            assert_eq!(found.counted, Some(count));
+            for (i, mode) in found.modes.iter().enumerate() {
+                let off = mode.frequency() / expected[i / 2] - 1.0;
+                // Cubic elements miss (z/n)⁴/720 of ω², and rounding of K some more.
+                let missed = expected[i / 2].powi(2) / (elements as f64).powi(4) / 720.0;
+                assert!(
+                    off.abs() < missed + 1e-6,
+                    "{elements} elements, mode {}: {}",
+                    i + 1,
+                    mode.frequency()
+                );
+            }
         }
     }
 }

@@ -13,6 +13,8 @@ macro_rules! artifacts {
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum Artifact {
             $($(#[doc = concat!("`", $file, "`: ", $what, ".")] $variant,)*)*
+            /// `table1.csv` and so on, by the number from 0: a table that the parts of a system in space are taken from.
+            Table(u32),
             /// `vtk/frame_00000.vtu` and so on: the shape of the beam at one time.
             Shape(u32),
             /// `vtk/obstacles_00000.vtp` and so on: the obstacles at the same time.
@@ -29,6 +31,7 @@ macro_rules! artifacts {
             pub fn file_name(self) -> Cow<'static, str> {
                 match self {
                     $($(Artifact::$variant => $file.into(),)*)*
+                    Artifact::Table(number) => format!("table{}.csv", u64::from(number) + 1).into(),
                     Artifact::Shape(number) => format!("{SHAPES}/frame_{number:05}.vtu").into(),
                     Artifact::Obstacles(number) => format!("{SHAPES}/obstacles_{number:05}.vtp").into(),
                 }
@@ -45,14 +48,6 @@ artifacts! {
         MotionTable "motion.csv" "the table that the case takes the motion of the hub from",
         TorqueTable "torque.csv" "the table that the case takes the torque on the hub from",
         SectionTable "section.csv" "the table that the case takes its section from",
-        Table1 "table1.csv" "table 1 that the parts of a system in space are taken from",
-        Table2 "table2.csv" "table 2 that the parts of a system in space are taken from",
-        Table3 "table3.csv" "table 3 that the parts of a system in space are taken from",
-        Table4 "table4.csv" "table 4 that the parts of a system in space are taken from",
-        Table5 "table5.csv" "table 5 that the parts of a system in space are taken from",
-        Table6 "table6.csv" "table 6 that the parts of a system in space are taken from",
-        Table7 "table7.csv" "table 7 that the parts of a system in space are taken from",
-        Table8 "table8.csv" "table 8 that the parts of a system in space are taken from",
         InitialState "initial.npz" "the state that the run began with, if the case takes it from a file",
         State "state.npz" "the last accepted step, from which a run can go on",
         TrajectoryCsv "trajectory.csv" "what was recorded, as text",
@@ -124,15 +119,16 @@ impl Artifact {
         }
     }
 
-    /// The copy of the file of this number, from 0, that a part of a system in space names; there is room for eight.
-    pub fn numbered(number: usize) -> Option<Artifact> {
-        use Artifact::{Table1, Table2, Table3, Table4, Table5, Table6, Table7, Table8};
-        [Table1, Table2, Table3, Table4, Table5, Table6, Table7, Table8].get(number).copied()
-    }
-
     /// The files that mark a directory as complete.
     pub(super) fn closing() -> impl Iterator<Item = Artifact> {
         Artifact::SETS.iter().filter_map(|set| set.first().copied())
+    }
+
+    /// Whether a file of this name is a [table](Artifact::Table).
+    pub(super) fn is_table(name: &str) -> bool {
+        let number = name.strip_prefix("table").and_then(|rest| rest.strip_suffix(".csv"));
+        let digits = number.filter(|digits| !digits.starts_with(['0', '+']));
+        digits.is_some_and(|digits| digits.parse::<u32>().is_ok())
     }
 
     /// Whether a file of this name in the folder of the shapes is one of them.
@@ -146,6 +142,19 @@ impl Artifact {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_names_of_tables_are_recognised_and_no_other() {
+        for number in [0, 8, 99] {
+            let name = Artifact::Table(number).file_name();
+            assert!(Artifact::is_table(&name), "{name}");
+        }
+        for name in
+            ["table.csv", "table0.csv", "table01.csv", "mytable1.csv", "table1.csv.bak", "table+1.csv"]
+        {
+            assert!(!Artifact::is_table(name), "{name}");
+        }
+    }
 
     #[test]
     fn the_names_of_shapes_are_recognised_and_no_other() {

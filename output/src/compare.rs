@@ -8,6 +8,7 @@ use serde_json::{Map, Value, json};
 use super::csv::io_error;
 use super::{Results, ResultsError, Trajectory};
 use flexion::system::{Channel, Role};
+use std::borrow::Cow;
 
 /// Times closer than this fraction of the span are the same.
 const SAME: f64 = 1e-12;
@@ -18,7 +19,7 @@ pub struct Difference {
     /// Name of the column.
     pub column: String,
     /// SI unit.
-    pub unit: &'static str,
+    pub unit: Cow<'static, str>,
     /// max |d|, in the unit; NaN when no value is finite.
     pub max: f64,
     /// Time at which `max` first occurs \[s\].
@@ -212,7 +213,7 @@ fn difference(channel: &Channel, times: &[f64], a: &[f64], d: &[f64], least: f64
     let scale = peak.max(least);
     let relative = if max == 0.0 { 0.0 } else { max / scale };
     let rms = (squares / count as f64).sqrt();
-    let (column, unit) = (channel.name.clone(), channel.unit);
+    let (column, unit) = (channel.name.clone(), channel.unit.clone());
     Difference { column, unit, max, at, rms, peak, scale, relative, not_finite }
 }
 
@@ -305,7 +306,7 @@ fn write(comparisons: &[Comparison], to: impl Write) -> ::csv::Result<()> {
                 &c.first,
                 &c.second,
                 &d.column,
-                d.unit,
+                &d.unit.to_string(),
                 &number(d.max),
                 &number(d.at),
                 &number(d.rms),
@@ -320,7 +321,8 @@ fn write(comparisons: &[Comparison], to: impl Write) -> ::csv::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trajectory::tests::channel;
+    use crate::samples::channel;
+    use flexion::system::Kind;
 
     fn results(name: &str, times: &[f64], columns: &[(&str, &dyn Fn(f64) -> f64)]) -> Results {
         let mut t = Trajectory::new(columns.iter().map(|(name, _)| channel(name, "m")).collect());
@@ -384,7 +386,9 @@ mod tests {
             let [w, x, y, z] = [0, 1, 2, 3].map(of);
             let columns: [(&str, &dyn Fn(f64) -> f64); 4] =
                 [(names[0], &w), (names[1], &x), (names[2], &y), (names[3], &z)];
-            results("r", &grid(intervals, 4.0), &columns)
+            let mut results = results("r", &grid(intervals, 4.0), &columns);
+            (0..4).for_each(|i| results.trajectory.describe(i, Role::Detail, Kind::Quaternion));
+            results
         };
         let positive = run(400, &|t| component(0, t).signum());
         let alternating = run(400, &|t| if (100.0 * t).round() % 2.0 == 0.0 { -1.0 } else { 1.0 });

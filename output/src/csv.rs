@@ -1,12 +1,10 @@
 //! `trajectory.csv`: one line for each recorded time, for people and spreadsheets.
 
-use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::io::{self, Read, Write};
-use std::sync::{Mutex, PoisonError};
 
 use super::Trajectory;
-use flexion::system::{Channel, Role};
+use flexion::system::{Channel, Kind, Role};
 
 /// Writes a trajectory as comma-separated values: a header `time [s],tip.deflection [m],…` (a pure
 /// number has no brackets), then the rows. Every number is the shortest text that reads back as the
@@ -63,13 +61,7 @@ pub fn read_csv(from: impl Read) -> Result<Trajectory, String> {
             return Err(format!("the first column is `{first}`, not `time [s]`: this is no trajectory"));
         }
     }
-    let channel = |(name, unit): (&str, &str)| Channel {
-        name: name.to_owned(),
-        unit: lasting(unit),
-        meaning: String::new(),
-        role: role(name),
-    };
-    let mut trajectory = Trajectory::new(names.map(channel).collect());
+    let mut trajectory = Trajectory::new(names.map(|(name, unit)| channel(name, unit)).collect());
     for (index, channel) in trajectory.channels().iter().enumerate() {
         if channel.name == "time" || trajectory.index(&channel.name) != Some(index) {
             return Err(format!("two columns are called `{}`", channel.name));
@@ -94,9 +86,10 @@ pub fn read_csv(from: impl Read) -> Result<Trajectory, String> {
     Ok(trajectory)
 }
 
-/// The role of a column of a file, in which channels have names only: for figures and tables.
-pub(super) fn role(name: &str) -> Role {
-    match name.split_once('.') {
+/// The channel of a column of a file of another program, in which columns have names and units only. The summary of a run says what
+/// they are.
+pub(super) fn channel(name: &str, unit: &str) -> Channel {
+    let role = match name.split_once('.') {
         Some(("tip", "deflection" | "axial" | "chordwise" | "flapwise" | "torsion")) => Role::Primary,
         Some(("hub", "speed" | "torque")) => Role::Primary,
         Some(("tip" | "hub", _)) => Role::Secondary,
@@ -106,7 +99,11 @@ pub(super) fn role(name: &str) -> Role {
         Some(("step" | "constraint", _)) => Role::Integration,
         Some((_, "gap" | "force" | "friction")) => Role::Secondary,
         _ => Role::Detail,
-    }
+    };
+    let component =
+        [".rotation.w", ".rotation.x", ".rotation.y", ".rotation.z"].iter().any(|end| name.ends_with(end));
+    let kind = if component && unit.is_empty() { Kind::Quaternion } else { Kind::Real };
+    Channel::new(role, name, unit.to_owned(), "").with_kind(kind)
 }
 
 /// Name and unit of a column.
@@ -117,22 +114,10 @@ fn split(header: &str) -> (&str, &str) {
     }
 }
 
-/// The same text for the rest of the program: each unit that is ever read is kept once.
-fn lasting(unit: &str) -> &'static str {
-    static UNITS: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
-    let mut units = UNITS.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some(known) = units.get(unit) {
-        return known;
-    }
-    let kept: &'static str = Box::leak(unit.into());
-    units.insert(kept);
-    kept
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trajectory::tests::{channel, sample};
+    use crate::samples::{channel, sample};
 
     fn text(t: &Trajectory) -> String {
         let mut out = Vec::new();
@@ -183,7 +168,7 @@ mod tests {
             assert!(a == b || (f64::from_bits(a).is_nan() && f64::from_bits(b).is_nan()));
         }
         for (a, b) in read.channels().iter().zip(t.channels()) {
-            assert_eq!((&a.name, a.unit), (&b.name, b.unit));
+            assert_eq!((&a.name, &a.unit), (&b.name, &b.unit));
         }
     }
 

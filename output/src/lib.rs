@@ -21,13 +21,13 @@ mod obstacles;
 mod page;
 #[cfg(feature = "parquet")]
 mod parquet;
-mod passing;
 pub mod plot;
 mod provenance;
-mod recorder;
 mod resonance;
 mod results;
 mod run;
+#[cfg(test)]
+mod samples;
 mod scene;
 mod shapes;
 mod solids;
@@ -36,7 +36,6 @@ mod staging;
 mod state_file;
 mod statics;
 mod summary;
-mod trajectory;
 mod vibration;
 mod vtk;
 #[cfg(feature = "vtkhdf")]
@@ -49,9 +48,9 @@ pub use self::csv::{read_csv, write_csv};
 pub use self::directory::{Directory, write_file};
 pub use self::error::{OutputError, ResultsError};
 pub use self::estimate::{ColumnError, Errors, Rung, Unstable};
-pub use self::events::{Entry, Events, write_events};
+pub use self::events::write_events;
 pub use self::frequencies::{Frequencies, Units};
-pub use self::load_path::{LoadPath, LoadPoint};
+pub use self::load_path::{LoadPath, LoadPoint, PointError};
 pub use self::nearest::nearest;
 pub use self::npz::write_npz;
 pub use self::obstacles::Drawn;
@@ -59,7 +58,6 @@ pub use self::page::view_page;
 #[cfg(feature = "parquet")]
 pub use self::parquet::write_parquet;
 pub use self::provenance::resolved_case;
-pub use self::recorder::{Recorder, Watch};
 pub use self::resonance::{Resonance, resonances};
 pub use self::results::{Results, select};
 pub use self::run::{Attachments, write_run};
@@ -70,8 +68,8 @@ pub use self::spring::Spring;
 pub use self::state_file::{read_state, write_state};
 pub use self::statics::write_statics;
 pub use self::summary::{Integration, ProblemSize, RunReport, Status, Summary, VERSION};
-pub use self::trajectory::{Extremes, Trajectory};
 pub use self::vibration::{write_campbell, write_modes};
 pub use self::vtk::{write_pvd, write_vtp, write_vtu};
 #[cfg(feature = "vtkhdf")]
 pub use self::vtkhdf::write_vtkhdf;
+pub use flexion::analysis::recording::{Entry, Events, Extremes, Trajectory};

@@ -15,6 +15,8 @@ pub struct LoadPath {
     pub to: f64,
     /// Why the path ends before, if it does.
     pub end: Option<String>,
+    /// Why its errors are not known, where they are not.
+    pub unknown: Option<String>,
 }
 
 /// An equilibrium on a path.
@@ -29,6 +31,17 @@ pub struct LoadPoint {
     /// What it is, if it is critical.
     pub critical: Option<Critical>,
     /// Value of each channel.
+    pub values: Vec<f64>,
+    /// Estimated errors, where they are known: of the critical states and the last point.
+    pub error: Option<PointError>,
+}
+
+/// Estimated errors of an equilibrium.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PointError {
+    /// Of the load factor.
+    pub factor: f64,
+    /// Of each channel.
     pub values: Vec<f64>,
 }
 

@@ -57,7 +57,7 @@ pub(super) fn write_shaped<T: npyz::AutoSerialize, W: Write + Seek>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trajectory::tests::sample;
+    use crate::samples::sample;
     use std::io::Cursor;
 
     fn bytes(t: &Trajectory) -> Vec<u8> {

@@ -1,6 +1,7 @@
 //! Obstacles beside the shapes of the beam.
 
 use flexion::contact::Obstacle;
+use flexion::linalg::Vec3;
 use flexion::system::Frame;
 use std::sync::Arc;
 
@@ -28,7 +29,7 @@ pub struct Drawn {
 impl Drawn {
     /// Its outline at time `t` \[s\] in inertial axes, seen from its station: `frames` are those of the root and of the station,
     /// `size` \[m\] is how far it is drawn.
-    pub(super) fn outline(&self, frames: [&Frame; 2], t: f64, size: f64) -> Vec<[f64; 3]> {
+    pub(super) fn outline(&self, frames: [&Frame; 2], t: f64, size: f64) -> Vec<Vec3> {
         let [root, at] = frames;
         if self.in_space {
             return self.obstacle.outline_in_space(at.position, t, size);
@@ -38,10 +39,8 @@ impl Drawn {
         }
         // The root is clamped: its axes are those of the hub, whose axis is the origin.
         let axes = root.rotation;
-        let into_hub = |p: [f64; 3]| [0, 1, 2].map(|j| (0..3).map(|i| axes[i][j] * p[i]).sum());
-        let out_of_hub = |p: [f64; 3]| axes.map(|row| row.iter().zip(p).map(|(a, x)| a * x).sum());
-        let outline = self.obstacle.outline(into_hub(at.position), t, size);
-        outline.into_iter().map(out_of_hub).collect()
+        let outline = self.obstacle.outline(axes.transpose() * at.position, t, size);
+        outline.into_iter().map(|p| axes * p).collect()
     }
 }
 
@@ -49,11 +48,12 @@ impl Drawn {
 mod tests {
     use super::*;
     use flexion::contact::Plane;
+    use flexion::linalg::Mat3;
 
     /// A stop over the beam stands to the left of one that points upwards.
     #[test]
     fn an_obstacle_on_the_hub_turns_with_it() {
-        let plane = Plane { point: [0.0, 0.25, 0.0], normal: [0.0, -1.0, 0.0], motion: None };
+        let plane = Plane { point: Vec3([0.0, 0.25, 0.0]), normal: Vec3([0.0, -1.0, 0.0]), motion: None };
         let name = "stop".to_owned();
         let obstacle = Arc::new(plane);
         let drawn = Drawn {
@@ -67,7 +67,8 @@ mod tests {
             obstacle,
         };
         let rotation = [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
-        let [root, tip] = [0.0, 2.0].map(|x| Frame { position: [0.0, x, 0.0], rotation });
+        let [root, tip] =
+            [0.0, 2.0].map(|x| Frame { position: Vec3([0.0, x, 0.0]), rotation: Mat3(rotation) });
         let outline = drawn.outline([&root, &tip], 0.0, 0.5);
         let mut ends: Vec<f64> = outline.iter().map(|p| p[1]).collect();
         ends.sort_by(f64::total_cmp);

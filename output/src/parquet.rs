@@ -52,7 +52,7 @@ fn write(trajectory: &Trajectory, to: impl Write + Send, group: usize) -> Result
     let mut notes = vec![note("time", "unit", "s")];
     for c in channels {
         names.push(&c.name);
-        notes.push(note(&c.name, "unit", c.unit));
+        notes.push(note(&c.name, "unit", &c.unit));
         if !c.meaning.is_empty() {
             notes.push(note(&c.name, "meaning", &c.meaning));
         }
@@ -94,7 +94,7 @@ fn note(column: &str, what: &str, text: &str) -> KeyValue {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trajectory::tests::{channel, sample};
+    use crate::samples::{channel, sample};
     use flexion::system::{Channel, Role};
     use parquet::file::reader::{FileReader, SerializedFileReader};
     use parquet::record::Field;
@@ -148,7 +148,7 @@ mod tests {
     #[test]
     fn columns_carry_names_units_and_meanings() {
         let t = Trajectory::new(vec![
-            Channel { name: "x=2.5.w".into(), unit: "m", meaning: "deflection".into(), role: Role::Detail },
+            Channel::new(Role::Detail, "x=2.5.w", "m", "deflection"),
             channel("share", ""),
         ]);
         let file = open(&bytes(&t, GROUP));

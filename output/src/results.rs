@@ -9,6 +9,7 @@ use super::csv::read_csv;
 use super::staging::current;
 use super::{ResultsError, Trajectory};
 use crate::nearest::nearest;
+use flexion::system::{Kind, Role};
 
 /// What a run left behind.
 #[derive(Clone, Debug)]
@@ -35,7 +36,10 @@ impl Results {
         }
         let unreadable = |reason: String| ResultsError::Unreadable { path: file.clone(), reason };
         let opened = File::open(&file).map_err(|error| unreadable(error.to_string()))?;
-        let trajectory = read_csv(BufReader::new(opened)).map_err(unreadable)?;
+        let mut trajectory = read_csv(BufReader::new(opened)).map_err(unreadable)?;
+        if path.is_dir() {
+            describe(path, &mut trajectory);
+        }
         let times = trajectory.times();
         if times.is_empty() {
             return Err(unreadable("it holds no records".to_owned()));
@@ -68,6 +72,19 @@ impl Results {
             }
         }
         Ok(all)
+    }
+}
+
+/// Takes what the columns are from the summary of the run.
+fn describe(path: &Path, trajectory: &mut Trajectory) {
+    let text = std::fs::read_to_string(current(path, Artifact::Summary)).unwrap_or_default();
+    let summary: serde_json::Value = serde_json::from_str(&text).unwrap_or_default();
+    for i in 0..trajectory.channels().len() {
+        let column = &summary["columns"][&trajectory.channels()[i].name];
+        let is = |key: &str, name: &str| column[key].as_str() == Some(name);
+        let Some(role) = Role::ALL.into_iter().find(|role| is("role", role.name())) else { continue };
+        let kind = Kind::ALL.into_iter().find(|kind| is("kind", kind.name())).unwrap_or_default();
+        trajectory.describe(i, role, kind);
     }
 }
 
@@ -141,7 +158,7 @@ pub fn select<'n>(columns: &[&'n str], patterns: &[String], of: &str) -> Result<
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trajectory::tests::sample;
+    use crate::samples::sample;
     use crate::write_csv;
 
     fn chosen(patterns: &[&str]) -> Result<Vec<&'static str>, String> {
@@ -184,6 +201,10 @@ mod tests {
         assert!(names.contains("open") && names.contains("trajectory"));
         assert_eq!(all[0].trajectory.column("hub.speed"), sample().column("hub.speed"));
         assert_eq!(all[0].caution, None);
+        let role = |r: &Results, name: &str| r.trajectory.channels()[r.trajectory.index(name).unwrap()].role;
+        let columns = r#"{"status":"finished","columns":{"hub.speed":{"role":"detail"}}}"#;
+        let told = Results::read(&make("told", Some(columns))).unwrap();
+        assert_eq!((role(&told, "hub.speed"), role(&all[0], "hub.speed")), (Role::Detail, Role::Primary));
         let longer = Results::read(&make("longer", Some(r#"{"status":"finished","end_time":9}"#))).unwrap();
         assert!(longer.caution.unwrap().contains("ends at 9 s"));
         assert!(all[1].caution.as_ref().unwrap().ends_with("failed: it broke"));

@@ -95,8 +95,8 @@ pub fn write_run(
 mod tests {
     use super::*;
     use crate::plot::trajectory_figure;
+    use crate::samples::sample;
     use crate::summary::tests::report;
-    use crate::trajectory::tests::sample;
 
     fn with_figure(figure: &Figure) -> Attachments<'_> {
         Attachments { figure: Some(figure), ..Attachments::default() }

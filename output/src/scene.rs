@@ -24,10 +24,8 @@ use super::npz::{write_array, write_shaped};
 use super::obstacles::Drawn;
 use super::shapes::stations;
 use super::spring::Spring;
-use flexion::multibody::rotation::{
-    Matrix3, Vector, apply, apply_transposed, compose, exponential, inverse, logarithm, matrix, normalized,
-    plus, product, quaternion,
-};
+use flexion::linalg::{Mat3, Vec3};
+use flexion::multibody::rotation::{Quaternion, about};
 use flexion::section::Shape;
 use flexion::system::{Frame, State, System};
 
@@ -56,7 +54,7 @@ pub struct Part {
 #[derive(Clone, Debug)]
 enum Form {
     Beam { stations: Vec<f64>, hub: Option<f64> },
-    Box { centre: [f64; 3], edges: [f64; 3] },
+    Box { centre: Vec3, edges: [f64; 3] },
 }
 
 impl Part {
@@ -76,7 +74,7 @@ impl Part {
     }
 
     /// Body number `body` of a system as a rigid box: its centre in the axes of the body, and its edges \[m\].
-    pub fn rigid((name, body): (&str, usize), centre: [f64; 3], edges: [f64; 3]) -> Part {
+    pub fn rigid((name, body): (&str, usize), centre: Vec3, edges: [f64; 3]) -> Part {
         let contour = Contour::of(&Shape::Rectangle { height: edges[1], width: edges[2] });
         Part::new(name, body, Form::Box { centre, edges }, vec![contour; 2])
     }
@@ -101,57 +99,55 @@ impl Part {
     /// Takes the frames at its stations.
     fn push(&mut self, frames: &[Frame]) {
         let Some(root) = frames.first() else { return };
-        let turned = quaternion(&root.rotation);
-        self.poses.extend(root.position.iter().chain(&turned).map(|x| *x as f32));
+        let turned = Quaternion::from(root.rotation);
+        self.poses.extend(root.position.0.iter().chain(&turned.0).map(|x| *x as f32));
         let Form::Beam { stations, .. } = &self.form else { return };
-        let mut last = [0.0; 3];
+        let mut last = Vec3::ZERO;
         for (x, frame) in stations.iter().zip(frames) {
-            let mut u = apply_transposed(&root.rotation, plus(frame.position, -1.0, root.position));
+            let mut u = root.rotation.transpose() * (frame.position - root.position);
             u[0] -= x - stations[0];
             // The rotation vector that is nearest to that of the section before, so that it may pass π.
-            let principal = logarithm(compose(inverse(turned), quaternion(&frame.rotation)));
-            let angle = principal.iter().map(|y| y * y).sum::<f64>().sqrt();
-            let along: f64 = principal.iter().zip(last).map(|(a, b)| a * b).sum();
+            let principal = (turned.inverse() * Quaternion::from(frame.rotation)).logarithm();
+            let (angle, along) = (principal.norm(), principal.dot(last));
             let whole = std::f64::consts::TAU;
             let turns = if angle > 0.0 { ((along / angle - angle) / whole).round() } else { 0.0 };
-            let theta =
-                if turns == 0.0 { principal } else { principal.map(|y| y * (1.0 + turns * whole / angle)) };
+            let theta = if turns == 0.0 { principal } else { (1.0 + turns * whole / angle) * principal };
             last = theta;
-            self.displacements.extend(u.map(|x| x as f32));
-            self.rotations.extend(theta.map(|x| x as f32));
+            self.displacements.extend(u.0.map(|x| x as f32));
+            self.rotations.extend(theta.0.map(|x| x as f32));
         }
     }
 }
 
 impl Part {
     /// Position and axes of the root section or of the body at a time.
-    fn pose(&self, time: usize) -> (Vector, Matrix3) {
+    fn pose(&self, time: usize) -> (Vec3, Mat3) {
         let at = |i: usize| self.poses.get(7 * time + i).copied().map_or(0.0, f64::from);
-        ([at(0), at(1), at(2)], matrix(normalized([at(3), at(4), at(5), at(6)])))
+        (Vec3([at(0), at(1), at(2)]), Quaternion([at(3), at(4), at(5), at(6)]).normalized().matrix())
     }
 
     /// Its sections at a time, from one end to the other.
     pub(super) fn sections(&self, time: usize) -> Vec<Frame> {
         let (position, axes) = self.pose(time);
-        let in_space = |x: Vector| plus(position, 1.0, apply(&axes, x));
+        let in_space = |x: Vec3| position + axes * x;
         match &self.form {
             Form::Beam { stations, .. } => {
                 let of = |list: &[f32], k: usize| {
-                    [0, 1, 2].map(|i| {
+                    Vec3([0, 1, 2].map(|i| {
                         list.get(3 * (time * stations.len() + k) + i).copied().map_or(0.0, f64::from)
-                    })
+                    }))
                 };
                 let section_at = |(k, x): (usize, &f64)| {
                     let u = of(&self.displacements, k);
-                    let turned = matrix(exponential(of(&self.rotations, k)));
-                    let place = [x - stations[0] + u[0], u[1], u[2]];
-                    Frame { position: in_space(place), rotation: product(&axes, &turned) }
+                    let turned = about(of(&self.rotations, k));
+                    let place = Vec3([x - stations[0] + u[0], u[1], u[2]]);
+                    Frame { position: in_space(place), rotation: axes * turned }
                 };
                 stations.iter().enumerate().map(section_at).collect()
             }
             Form::Box { centre, edges } => {
                 let end = |side: f64| {
-                    let place = plus(*centre, 0.5 * side, [edges[0], 0.0, 0.0]);
+                    let place = *centre + 0.5 * side * edges[0] * Vec3::AXES[0];
                     Frame { position: in_space(place), rotation: axes }
                 };
                 vec![end(-1.0), end(1.0)]
@@ -160,18 +156,18 @@ impl Part {
     }
 
     /// Lines that show it at a time: the centreline of a beam, the edges of a box.
-    fn lines(&self, time: usize) -> Vec<Vec<Vector>> {
+    fn lines(&self, time: usize) -> Vec<Vec<Vec3>> {
         let sections = self.sections(time);
         if let Form::Beam { .. } = self.form {
             return vec![sections.iter().map(|section| section.position).collect()];
         }
-        let rim = |(frame, contour): (&Frame, &Contour)| -> Vec<Vector> {
+        let rim = |(frame, contour): (&Frame, &Contour)| -> Vec<Vec3> {
             let corners = contour.outer.iter();
-            corners.map(|[y, z]| plus(frame.position, 1.0, apply(&frame.rotation, [0.0, *y, *z]))).collect()
+            corners.map(|[y, z]| frame.position + frame.rotation * Vec3([0.0, *y, *z])).collect()
         };
-        let mut rims: Vec<Vec<Vector>> = sections.iter().zip(&self.contours).map(rim).collect();
+        let mut rims: Vec<Vec<Vec3>> = sections.iter().zip(&self.contours).map(rim).collect();
         let along = (0..rims[0].len()).map(|i| rims.iter().map(|rim| rim[i]).collect());
-        let along: Vec<Vec<Vector>> = along.collect();
+        let along: Vec<Vec<Vec3>> = along.collect();
         rims.iter_mut().for_each(|rim| rim.push(rim[0]));
         rims.into_iter().chain(along).collect()
     }
@@ -183,7 +179,7 @@ pub struct Scene {
     parts: Vec<Part>,
     obstacles: Vec<Outline>,
     /// Springs, with a line a time.
-    springs: Vec<(Spring, Vec<[Vector; 2]>)>,
+    springs: Vec<(Spring, Vec<[Vec3; 2]>)>,
     every: usize,
     seen: usize,
     times: Vec<f64>,
@@ -261,14 +257,14 @@ impl Scene {
     }
 
     /// The lines of each part and spring at the time of this number, with its name \[m\].
-    pub(super) fn lines(&self, time: usize) -> Vec<(&str, Vec<Vec<Vector>>)> {
+    pub(super) fn lines(&self, time: usize) -> Vec<(&str, Vec<Vec<Vec3>>)> {
         let parts = self.parts.iter().map(|part| (part.name.as_str(), part.lines(time)));
         let springs = self.springs.iter().zip(self.lines_of_springs(time));
         parts.chain(springs.map(|((spring, _), line)| (spring.name.as_str(), vec![line]))).collect()
     }
 
     /// The lines of the springs at the time of this number \[m\].
-    pub(super) fn lines_of_springs(&self, time: usize) -> impl Iterator<Item = Vec<Vector>> {
+    pub(super) fn lines_of_springs(&self, time: usize) -> impl Iterator<Item = Vec<Vec3>> {
         self.springs.iter().map(move |(_, lines)| lines.get(time).map_or(Vec::new(), |line| line.to_vec()))
     }
 
@@ -278,12 +274,12 @@ impl Scene {
     }
 
     /// The outlines of the obstacles at the time of this number \[m\].
-    pub(super) fn outlines(&self, time: usize) -> Vec<Vec<Vector>> {
+    pub(super) fn outlines(&self, time: usize) -> Vec<Vec<Vec3>> {
         let at_time = |obstacle: &Outline| {
             let points = obstacle.points.as_chunks::<3>().0;
             let count = points.len() / self.times.len().max(1);
             let points = points.iter().skip(time * count).take(count);
-            points.map(|point| point.map(f64::from)).collect()
+            points.map(|point| Vec3(point.map(f64::from))).collect()
         };
         self.obstacles.iter().map(at_time).collect()
     }
@@ -321,7 +317,7 @@ impl Scene {
                     [("station", stations.clone()), ("section", section), ("hub", hub)]
                 }
                 Form::Box { centre, edges } => {
-                    [("box", [*centre, *edges].concat()), ("", Vec::new()), ("", Vec::new())]
+                    [("box", [centre.0, *edges].concat()), ("", Vec::new()), ("", Vec::new())]
                 }
             };
             for (what, values) in numbers.into_iter().filter(|(_, values)| !values.is_empty()) {
@@ -340,7 +336,7 @@ impl Scene {
 mod tests {
     use super::*;
     use flexion::contact::Plane;
-    use flexion::multibody::rotation::{apply, exponential, matrix, product};
+    use flexion::multibody::rotation::{Quaternion, about};
     use flexion::system::{Dynamics, Events, Observed, Size, Steady, Weights};
     use std::collections::BTreeMap;
     use std::io::Cursor;
@@ -349,8 +345,8 @@ mod tests {
     /// A beam that is bent to an arc of the angle q per length about the third axis of its root, which is turned by the vector d
     /// and stands at p; every other body stands at p alone.
     struct Bent {
-        p: [f64; 3],
-        d: [f64; 3],
+        p: Vec3,
+        d: Vec3,
     }
 
     impl Dynamics for Bent {
@@ -367,24 +363,21 @@ mod tests {
     impl Steady for Bent {}
     impl Observed for Bent {
         fn frames(&mut self, body: usize, s: &State, stations: &[f64], out: &mut [Frame]) {
-            let root = matrix(exponential(self.d));
+            let root = about(self.d);
             for (x, frame) in stations.iter().zip(out) {
                 let angle = if body == 0 { s.q[0] * x } else { 0.0 };
-                let place = if body == 0 { arc(s.q[0], *x) } else { [0.0; 3] };
-                let turned = matrix(exponential([0.0, 0.0, angle]));
-                *frame = Frame {
-                    position: plus(self.p, 1.0, apply(&root, place)),
-                    rotation: product(&root, &turned),
-                };
+                let place = if body == 0 { arc(s.q[0], *x) } else { Vec3::ZERO };
+                let turned = about([0.0, 0.0, angle]);
+                *frame = Frame { position: self.p + root * place, rotation: root * turned };
             }
         }
     }
 
     /// Where a section of an arc is: (sin κx, 1 − cos κx)/κ.
-    fn arc(curvature: f64, x: f64) -> [f64; 3] {
+    fn arc(curvature: f64, x: f64) -> Vec3 {
         let half = 0.5 * curvature * x;
         let chord = half.sin() / (0.5 * curvature);
-        [chord * half.cos(), chord * half.sin(), 0.0]
+        Vec3([chord * half.cos(), chord * half.sin(), 0.0])
     }
 
     fn written(scene: &Scene) -> BTreeMap<String, (Vec<u64>, Vec<f64>)> {
@@ -414,7 +407,7 @@ mod tests {
 
     #[test]
     fn small_displacements_keep_their_digits_far_from_the_origin() {
-        let mut system = Bent { p: [300.0, -20.0, 7.0], d: [0.3, -1.2, 2.0] };
+        let mut system = Bent { p: Vec3([300.0, -20.0, 7.0]), d: Vec3([0.3, -1.2, 2.0]) };
         let mut scene = Scene::new(vec![Part::beam(("arm", 0), (2.0, 1), flat, None, &[])], Vec::new(), 3);
         for curvature in [1e-7, 0.4] {
             scene.sample(&mut system, &at(curvature));
@@ -424,10 +417,10 @@ mod tests {
         assert_eq!(all["arm.displacement"].0, [2, m as u64, 3]);
         assert_eq!(all["arm.pose"].0, [2, 7]);
         assert_eq!(all["arm.pose"].1[..3], [300.0, -20.0, 7.0]);
-        let quaternion = exponential(system.d);
+        let quaternion = Quaternion::exponential(system.d).0;
         assert!(all["arm.pose"].1[3..7].iter().zip(quaternion).all(|(a, b)| (a - b).abs() < 1e-7));
         for (time, curvature) in [1e-7, 0.4].into_iter().enumerate() {
-            let [along, across, _] = arc(curvature, 2.0);
+            let Vec3([along, across, _]) = arc(curvature, 2.0);
             let tip = |name: &str| &all[name].1[3 * (m * (time + 1) - 1)..3 * m * (time + 1)];
             let (u, theta) = (tip("arm.displacement"), tip("arm.rotation"));
             // Doubles at 300 m resolve 6e-14 m.
@@ -439,7 +432,7 @@ mod tests {
 
     #[test]
     fn a_section_may_turn_by_more_than_half_a_revolution() {
-        let mut system = Bent { p: [0.0; 3], d: [0.0, 0.5, 0.0] };
+        let mut system = Bent { p: Vec3([0.0; 3]), d: Vec3([0.0, 0.5, 0.0]) };
         let mut scene = Scene::new(vec![Part::beam(("arm", 0), (2.0, 1), flat, None, &[])], Vec::new(), 1);
         scene.sample(&mut system, &at(-5.0));
         let (_, theta) = &written(&scene)["arm.rotation"];
@@ -451,8 +444,8 @@ mod tests {
 
     #[test]
     fn long_runs_are_thinned_and_keep_their_last_time() {
-        let mut system = Bent { p: [1.0, 2.0, 3.0], d: [0.0; 3] };
-        let body = Part::rigid(("body", 1), [0.1, 0.0, 0.0], [1.0, 2.0, 3.0]);
+        let mut system = Bent { p: Vec3([1.0, 2.0, 3.0]), d: Vec3([0.0; 3]) };
+        let body = Part::rigid(("body", 1), Vec3([0.1, 0.0, 0.0]), [1.0, 2.0, 3.0]);
         let mut scene = Scene::new(vec![body], Vec::new(), 10 * MOST);
         let states: Vec<State> = (1..=10 * MOST).map(|i| at(i as f64)).collect();
         states.iter().for_each(|state| scene.sample(&mut system, state));
@@ -466,8 +459,8 @@ mod tests {
 
     #[test]
     fn an_obstacle_is_seen_from_its_station() {
-        let mut system = Bent { p: [0.0; 3], d: [0.0; 3] };
-        let plane = Plane { point: [0.0, -1.0, 0.0], normal: [0.0, 1.0, 0.0], motion: None };
+        let mut system = Bent { p: Vec3([0.0; 3]), d: Vec3([0.0; 3]) };
+        let plane = Plane { point: Vec3([0.0, -1.0, 0.0]), normal: Vec3([0.0, 1.0, 0.0]), motion: None };
         let (name, obstacle) = ("floor".into(), Arc::new(plane));
         let drawn = Drawn {
             name,
@@ -496,7 +489,7 @@ mod tests {
     #[test]
     fn the_same_scene_gives_the_same_bytes() {
         let bytes = || {
-            let mut system = Bent { p: [0.0; 3], d: [0.1; 3] };
+            let mut system = Bent { p: Vec3([0.0; 3]), d: Vec3([0.1; 3]) };
             let mut scene =
                 Scene::new(vec![Part::beam(("arm", 0), (2.0, 1), flat, None, &[])], Vec::new(), 1);
             scene.sample(&mut system, &at(0.3));

@@ -1,6 +1,7 @@
 //! The shape of the beam at some of the recorded times, for pictures in space.
 
 use super::obstacles::Drawn;
+use flexion::linalg::Vec3;
 use flexion::system::{Frame, State, System};
 
 /// Equal intervals along the beam between whose ends it is drawn.
@@ -17,7 +18,7 @@ pub struct Shapes {
     frames: Vec<Frame>,
     obstacles: Vec<Drawn>,
     /// Outlines of the obstacles at each time.
-    outlines: Vec<Vec<Vec<[f64; 3]>>>,
+    outlines: Vec<Vec<Vec<Vec3>>>,
 }
 
 /// The shape at one time.
@@ -84,7 +85,7 @@ impl Shapes {
     }
 
     /// The outlines of all obstacles at each time \[m\]; nothing without obstacles.
-    pub fn outlines(&self) -> &[Vec<Vec<[f64; 3]>>] {
+    pub fn outlines(&self) -> &[Vec<Vec<Vec3>>] {
         &self.outlines
     }
 

@@ -8,7 +8,7 @@ use super::contour::Contour;
 use super::scene::{Part, Scene};
 use super::vtk::{array, reals, write_pvd};
 use super::{Artifact, Directory, OutputError, write_vtp};
-use flexion::multibody::rotation::{apply, plus};
+use flexion::linalg::Vec3;
 use std::io::{self, Write};
 
 /// Number of VTK's polygon.
@@ -39,7 +39,7 @@ impl Surface {
         let sections = part.sections(time);
         for (k, (section, contour)) in sections.iter().zip(part.contours()).enumerate() {
             for [y, z] in contour.outer.iter().chain(&contour.inner) {
-                self.points.extend(plus(section.position, 1.0, apply(&section.rotation, [0.0, *y, *z])));
+                self.points.extend((section.position + section.rotation * Vec3([0.0, *y, *z])).0);
                 self.part.push(number as f64);
                 self.station.push(k as f64);
             }
@@ -116,8 +116,7 @@ pub fn write_film(directory: &Directory, scene: &Scene, series: Artifact) -> Res
 mod tests {
     use super::*;
     use base64::Engine;
-    use flexion::linalg::vector::cross;
-    use flexion::multibody::rotation::{Vector, exponential, matrix, product};
+    use flexion::multibody::rotation::about;
     use flexion::multibody::{Body, Model, Multibody};
     use flexion::section::Shape;
     use flexion::system::{Dynamics, Events, Frame, Observed, Size, State, Steady, System, Weights};
@@ -141,20 +140,13 @@ mod tests {
     impl Observed for Bent {
         fn frames(&mut self, _: usize, s: &State, stations: &[f64], out: &mut [Frame]) {
             let (bend, twist) = (s.q[0].max(1e-9), s.q[1]);
-            let turned = matrix(exponential([0.4, -1.1, 0.7]));
+            let turned = about([0.4, -1.1, 0.7]);
             for (x, frame) in stations.iter().zip(out) {
                 let (sin, cos) = (bend * x).sin_cos();
-                let section = product(
-                    &matrix(exponential([0.0, 0.0, bend * x])),
-                    &matrix(exponential([twist * x, 0.0, 0.0])),
-                );
+                let section = about([0.0, 0.0, bend * x]) * about([twist * x, 0.0, 0.0]);
                 *frame = Frame {
-                    position: plus(
-                        [3.0, -2.0, 1.0],
-                        1.0,
-                        apply(&turned, [sin / bend, (1.0 - cos) / bend, 0.0]),
-                    ),
-                    rotation: product(&turned, &section),
+                    position: Vec3([3.0, -2.0, 1.0]) + turned * Vec3([sin / bend, (1.0 - cos) / bend, 0.0]),
+                    rotation: turned * section,
                 };
             }
         }
@@ -189,14 +181,14 @@ mod tests {
         }
         assert!(edges.iter().all(|((a, b), count)| *count == 1 && edges.get(&(*b, *a)) == Some(&1)));
         // Divergence theorem, ∮ x·n dA = 3V, over triangles about the mean of the corners of each polygon.
-        let at = |i: usize| -> Vector { [points[3 * i], points[3 * i + 1], points[3 * i + 2]] };
+        let at = |i: usize| -> Vec3 { Vec3::at(&points, 3 * i) };
         let mut sum = 0.0;
         for polygon in polygons {
             let share = 1.0 / polygon.len() as f64;
-            let middle = polygon.iter().fold([0.0; 3], |sum, i| plus(sum, share, at(*i)));
+            let middle = polygon.iter().fold(Vec3::ZERO, |sum, i| sum + share * at(*i));
             for (a, b) in polygon.iter().zip(polygon.iter().cycle().skip(1)) {
-                let normal = cross(at(*a), at(*b));
-                sum += (0..3).map(|i| middle[i] * normal[i]).sum::<f64>() / 6.0;
+                let normal = at(*a).cross(at(*b));
+                sum += middle.dot(normal) / 6.0;
             }
         }
         sum
@@ -218,12 +210,13 @@ mod tests {
     fn the_box_of_a_body_is_closed_and_has_its_volume() {
         let mut model = Model::new();
         let mut body = Body::new("box", 2.0, [0.4, 0.5, 0.6]).at([1.0, -2.0, 0.5]);
-        body.frame.rotation = matrix(exponential([0.4, -1.1, 0.7]));
+        body.frame.rotation = about([0.4, -1.1, 0.7]);
         model.body(body);
         let mut system = Multibody::new(model).unwrap();
         let state = Dynamics::initial(&system);
         let edges = [0.4, 0.2, 0.1];
-        let mut scene = Scene::new(vec![Part::rigid(("box", 0), [0.1, 0.0, 0.0], edges)], Vec::new(), 1);
+        let mut scene =
+            Scene::new(vec![Part::rigid(("box", 0), Vec3([0.1, 0.0, 0.0]), edges)], Vec::new(), 1);
         scene.finish(&mut system as &mut dyn System, &state);
         assert_near(volume(&scene), 0.4 * 0.2 * 0.1);
     }

@@ -1,6 +1,6 @@
 //! Springs beside the parts of a scene.
 
-use flexion::multibody::rotation::{Vector, apply, plus};
+use flexion::linalg::Vec3;
 use flexion::system::{Frame, State, System};
 
 /// A spring to be drawn, as a line between its ends.
@@ -10,17 +10,17 @@ pub struct Spring {
     pub name: String,
     /// Of each end what it is fixed to, the number of a body and a station \[m\], or nothing that moves; and its place in the axes
     /// there \[m\].
-    pub ends: [(Option<(usize, f64)>, Vector); 2],
+    pub ends: [(Option<(usize, f64)>, Vec3); 2],
 }
 
 impl Spring {
     /// Its line in a state.
-    pub(super) fn line(&self, system: &mut dyn System, state: &State) -> [Vector; 2] {
+    pub(super) fn line(&self, system: &mut dyn System, state: &State) -> [Vec3; 2] {
         self.ends.map(|(fixed, place)| {
             let Some((body, station)) = fixed else { return place };
             let mut frame = [Frame::default()];
             system.frames(body, state, &[station], &mut frame);
-            plus(frame[0].position, 1.0, apply(&frame[0].rotation, place))
+            frame[0].position + frame[0].rotation * place
         })
     }
 }

@@ -75,7 +75,7 @@ pub(super) fn current(path: &Path, artifact: Artifact) -> PathBuf {
     hidden.into_iter().find(|file| file.is_file()).unwrap_or_else(|| path.join(&*name))
 }
 
-/// The files of `set` and their shapes that a folder holds, relative to it, the closing file last.
+/// The files of `set`, their tables and shapes that a folder holds, relative to it, the closing file last.
 fn held(folder: &Path, set: &[Artifact]) -> io::Result<Vec<PathBuf>> {
     let mut found = Vec::new();
     let shapes = folder.join(SHAPES);
@@ -84,6 +84,12 @@ fn held(folder: &Path, set: &[Artifact]) -> io::Result<Vec<PathBuf>> {
             let name = entry?.file_name();
             found
                 .extend(name.to_str().is_some_and(Artifact::is_shape).then(|| Path::new(SHAPES).join(&name)));
+        }
+    }
+    if set.contains(&Artifact::SectionTable) && folder.is_dir() {
+        for entry in fs::read_dir(folder)? {
+            let name = entry?.file_name();
+            found.extend(name.to_str().is_some_and(Artifact::is_table).then(|| PathBuf::from(&name)));
         }
     }
     let names = set.iter().rev().map(|artifact| PathBuf::from(&*artifact.file_name()));

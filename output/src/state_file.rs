@@ -86,7 +86,7 @@ mod tests {
             }
         }
         let mut other = Cursor::new(Vec::new());
-        super::super::write_npz(&crate::trajectory::tests::sample(), &mut other).unwrap();
+        super::super::write_npz(&crate::samples::sample(), &mut other).unwrap();
         let reason = read_state(Cursor::new(other.into_inner())).unwrap_err();
         assert!(reason.contains("which model"), "{reason}");
     }

@@ -59,6 +59,7 @@ pub fn write_statics(
         "end": path.end,
         "last": path.points.last().map(|point| json(path, point)),
         "critical": critical,
+        "errors": { "estimated": path.unknown.is_none(), "reason": path.unknown },
         "warnings": warnings,
     });
     close(directory, Artifact::StaticsJson, &summary)
@@ -70,11 +71,20 @@ fn json(path: &LoadPath, point: &LoadPoint) -> Value {
         .printed()
         .map(|(i, channel)| (format!("{} [{}]", channel.name, channel.unit), json!(point.values[i])))
         .collect();
+    let errors = point.error.as_ref().map(|error| {
+        let columns = path
+            .printed()
+            .map(|(i, channel)| (format!("{} [{}]", channel.name, channel.unit), json!(error.values[i])));
+        let mut all = serde_json::Map::from_iter([("load-factor".to_owned(), json!(error.factor))]);
+        all.extend(columns);
+        all
+    });
     json!({
         "load-factor": point.factor,
         "stability": point.stability.map(|found| found.to_string()),
         "unstable": point.stability.map(|found| found.unstable()),
         "critical": point.critical.map(Critical::name),
         "columns": columns,
+        "error": errors,
     })
 }

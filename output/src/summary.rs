@@ -2,9 +2,10 @@
 
 use serde_json::{Map, Value, json};
 
+use super::events::to_json;
 use super::{Errors, Events, Trajectory};
 use flexion::integrator::{Counters, Info};
-use flexion::system::Role;
+use flexion::system::{Kind, Role};
 
 /// Version of the program, as stated in every summary.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
@@ -129,7 +130,7 @@ impl Summary {
             s.insert("energy", energy);
         }
         if let Some(events) = report.events {
-            s.insert("events", events.to_json());
+            s.insert("events", to_json(events));
         }
         s.insert("warnings", report.warnings);
         let info = report.integrator.info;
@@ -180,22 +181,10 @@ impl Summary {
     }
 }
 
-/// Largest value of the energy balance over the largest energy or work of the run.
-pub(super) fn relative_imbalance(trajectory: &Trajectory) -> Option<f64> {
-    let balance = trajectory.extremes(trajectory.with_role(Role::Imbalance).next()?);
-    Some(balance.largest() / largest_energy(trajectory)).filter(|x| x.is_finite())
-}
-
-fn largest_energy(trajectory: &Trajectory) -> f64 {
-    let energies =
-        [Role::Energy, Role::Work, Role::Imbalance].into_iter().flat_map(|r| trajectory.with_role(r));
-    energies.map(|i| trajectory.extremes(i).largest()).fold(0.0, f64::max)
-}
-
 /// The energy balance: its largest and last value, and both over the largest energy or work of the run.
 fn imbalance(trajectory: &Trajectory) -> Option<Value> {
     let balance = trajectory.extremes(trajectory.with_role(Role::Imbalance).next()?);
-    let largest = largest_energy(trajectory);
+    let largest = trajectory.largest_energy();
     let max = balance.largest();
     let over = |x: f64| if largest > 0.0 { x / largest } else { 0.0 };
     Some(json!({
@@ -210,7 +199,11 @@ fn columns(trajectory: &Trajectory, errors: Option<&Errors>) -> Map<String, Valu
         let e = trajectory.extremes(i);
         let mut value = json!({
             "min": e.min, "t_min": e.t_min, "max": e.max, "t_max": e.t_max, "final": e.last, "unit": c.unit,
+            "role": c.role.name(),
         });
+        if c.kind != Kind::Real {
+            value["kind"] = c.kind.name().into();
+        }
         if let Some(error) = errors.and_then(|errors| errors.of(&c.name)) {
             value["error"] = error;
         }
@@ -222,7 +215,7 @@ fn columns(trajectory: &Trajectory, errors: Option<&Errors>) -> Map<String, Valu
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
-    use crate::trajectory::tests::{channel, sample};
+    use crate::samples::{channel, sample};
 
     pub(crate) fn report() -> RunReport<'static> {
         const RADAU: Info = Info { name: "radau", order: 5, estimate_order: Some(3), implicit: true };

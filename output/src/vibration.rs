@@ -95,6 +95,7 @@ pub fn write_modes(
         "speed": speed * units.speed.factor,
         "counted": modes.counted,
         "modes": list,
+        "overdamped": modes.overdamped.iter().map(|m| -m.eigenvalue.re).collect::<Vec<f64>>(),
         "warnings": warnings,
     });
     close(directory, Artifact::ModesJson, &summary)
@@ -176,6 +177,11 @@ pub fn write_campbell(
             |c| json!({ "mode": c.branch + 1, "revolutions": c.revolutions, "speed": c.speed * speed.factor }),
         )
         .collect();
+    let criticals: Vec<Value> = campbell
+        .criticals
+        .iter()
+        .map(|c| json!({ "speed": c.speed * speed.factor, "directions": c.directions }))
+        .collect();
     let near = |r: &Resonance| {
         let (from, to) = (r.from * speed.factor, r.to * speed.factor);
         json!({ "mode": r.branch + 1, "revolutions": r.revolutions, "from": from, "to": to })
@@ -185,12 +191,13 @@ pub fn write_campbell(
         .instabilities
         .iter()
         .map(|i| match i {
-            Instability::Flutter { branch, from, to } => json!({
+            Instability::Flutter { branch, from, to, until } => json!({
                 "kind": "negative damping", "mode": branch + 1, "from": from * speed.factor, "to": to * speed.factor,
+                "until": until.map(|until| until * speed.factor),
             }),
-            Instability::Divergence { speed: at, reason } => {
-                json!({ "kind": "divergence", "speed": at * speed.factor, "reason": reason })
-            }
+            Instability::Divergence { speed: at, until } => json!({
+                "kind": "divergence", "speed": at * speed.factor, "until": until.map(|until| until * speed.factor),
+            }),
             Instability::Lost { speed: at, reason } => {
                 json!({ "kind": "no steady rotation", "speed": at * speed.factor, "reason": reason })
             }
@@ -211,6 +218,7 @@ pub fn write_campbell(
         "speed-unit": units.speed.name,
         "speeds": campbell.speeds.len(),
         "modes": ends,
+        "critical-speeds": criticals,
         "crossings": crossings,
         "resonances": resonances,
         "instabilities": instabilities,

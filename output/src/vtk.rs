@@ -21,6 +21,7 @@ use base64::engine::general_purpose::STANDARD;
 
 use super::artifact::Artifact;
 use super::shapes::Shape;
+use flexion::linalg::Vec3;
 use flexion::system::Frame;
 
 /// Number of VTK's quadrilateral.
@@ -70,7 +71,7 @@ pub fn write_vtu(shape: &Shape<'_>, mut to: impl Write) -> io::Result<()> {
 ///
 /// # Errors
 /// Whatever `to` returns.
-pub fn write_vtp(lines: &[Vec<[f64; 3]>], mut to: impl Write) -> io::Result<()> {
+pub fn write_vtp(lines: &[Vec<Vec3>], mut to: impl Write) -> io::Result<()> {
     let points: Vec<f64> = lines.iter().flatten().flatten().copied().collect();
     let connectivity = (0..points.len() as i32 / 3).flat_map(i32::to_le_bytes);
     let mut end = 0;
@@ -119,46 +120,33 @@ pub fn write_pvd(times: &[f64], obstacles: bool, mut to: impl Write) -> io::Resu
 /// How a section has moved against the root.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Relative {
-    pub(super) displacement: [f64; 3],
+    pub(super) displacement: Vec3,
     pub(super) axial: f64,
     pub(super) deflection: f64,
     pub(super) rotation: f64,
 }
 
-/// Columns of a rotation matrix: the axes of the section.
-fn axis(frame: &Frame, column: usize) -> [f64; 3] {
-    frame.rotation.map(|row| row[column])
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
 pub(super) fn relative(shape: &Shape<'_>) -> Vec<Relative> {
     let Some(root) = shape.frames.first() else { return Vec::new() };
-    let (tangent, normal) = (axis(root, 0), axis(root, 1));
+    let (tangent, normal) = (root.rotation.column(0), root.rotation.column(1));
     let first = shape.stations.first().copied().unwrap_or(0.0);
     let mut turned = 0.0;
     let one = |(frame, x): (&Frame, &f64)| {
-        let mut displacement = [0.0; 3];
-        for (i, d) in displacement.iter_mut().enumerate() {
-            *d = frame.position[i] - (root.position[i] + (x - first) * tangent[i]);
-        }
-        let section = axis(frame, 0);
-        let angle = f64::atan2(dot(section, normal), dot(section, tangent));
+        let displacement = frame.position - (root.position + (x - first) * tangent);
+        let section = frame.rotation.column(0);
+        let angle = f64::atan2(section.dot(normal), section.dot(tangent));
         // Followed from the root, so that it may pass π.
         let whole = std::f64::consts::TAU;
         turned = angle + whole * ((turned - angle) / whole).round();
-        let (axial, deflection) = (dot(displacement, tangent), dot(displacement, normal));
+        let (axial, deflection) = (displacement.dot(tangent), displacement.dot(normal));
         Relative { displacement, axial, deflection, rotation: turned }
     };
     shape.frames.iter().zip(shape.stations).map(one).collect()
 }
 
 /// Lower fibre, axis and upper fibre of a section.
-pub(super) fn fibres(frame: &Frame, height: f64) -> [[f64; 3]; 3] {
-    let normal = axis(frame, 1);
-    let at = |s: f64| std::array::from_fn(|i| frame.position[i] + s * height * normal[i]);
+pub(super) fn fibres(frame: &Frame, height: f64) -> [Vec3; 3] {
+    let at = |s: f64| frame.position + s * height * frame.rotation.column(1);
     [at(-0.5), frame.position, at(0.5)]
 }
 
@@ -196,6 +184,7 @@ pub(super) fn array(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use flexion::linalg::Mat3;
 
     /// A quarter circle of length L in a frame turned by `angle` whose root stands at `radius` from the axis.
     fn quarter_circle(angle: f64, radius: f64, length: f64) -> (Vec<f64>, Vec<Frame>) {
@@ -207,8 +196,8 @@ mod tests {
             let (s, c) = angle.sin_cos();
             let (ss, cs) = (angle + turn).sin_cos();
             Frame {
-                position: [u * c - w * s, u * s + w * c, 0.0],
-                rotation: [[cs, -ss, 0.0], [ss, cs, 0.0], [0.0, 0.0, 1.0]],
+                position: Vec3([u * c - w * s, u * s + w * c, 0.0]),
+                rotation: Mat3([[cs, -ss, 0.0], [ss, cs, 0.0], [0.0, 0.0, 1.0]]),
             }
         };
         let frames = stations.iter().map(frame).collect();

@@ -8,13 +8,14 @@
 #[allow(unsafe_code)]
 pub mod exports;
 
-use flexion::analysis::transient::{Ending, Observer, Plan, Step, transient};
+use flexion::analysis::recording::record;
+use flexion::analysis::transient::{Ending, Plan};
 use flexion::basis::{Field, Hermite, Lagrange};
 use flexion::hub_beam::{Drive, Fields, Foreshortening, Hub, HubBeam, LinearCoupling};
 use flexion::integrator::{Radau, Tolerance};
 use flexion::profile::{Motion, SpinUp};
 use flexion::section::{Resultants, Section, Uniform};
-use flexion::system::{Dynamics, Observed, State, System};
+use flexion::system::Channel;
 use std::error::Error;
 use std::sync::Arc;
 
@@ -30,40 +31,6 @@ pub struct Trajectory {
     pub columns: usize,
     /// The values in SI units, row after row.
     pub values: Vec<f64>,
-}
-
-/// Names and units of the columns after those of the system.
-const COMMON: [(&str, &str); 7] = [
-    ("energy.total", "J"),
-    ("energy.drive", "J"),
-    ("energy.loads", "J"),
-    ("energy.dissipated", "J"),
-    ("energy.balance", "J"),
-    ("step.size", "s"),
-    ("step.iterations", ""),
-];
-
-impl Observer for Trajectory {
-    fn wants_energy_balance(&self) -> bool {
-        true
-    }
-
-    fn sample(&mut self, system: &mut dyn System, state: &State, step: &Step) {
-        self.values.push(state.t);
-        let start = self.values.len();
-        self.values.resize(start + system.channels().len(), 0.0);
-        system.record(state, &mut self.values[start..]);
-        let total = system.energy(state).total();
-        let balance = step.balance.unwrap_or_default();
-        self.values.extend([
-            total,
-            balance.drive,
-            balance.loads,
-            balance.dissipated,
-            balance.imbalance(total),
-        ]);
-        self.values.extend([step.size, f64::from(step.iterations)]);
-    }
 }
 
 /// Runs the case with so many finite elements.
@@ -85,22 +52,19 @@ pub fn spin_up(elements: usize) -> Result<Trajectory, Box<dyn Error>> {
     let hub = Hub { radius: 0.0, inertia: 0.0, drive: Drive::Prescribed(motion) };
     let coupling = LinearCoupling::new(fields, &section, &hub, Foreshortening::First);
     let mut system = HubBeam::new(hub, coupling, &[]);
-    let mut integrator = Radau::new(Tolerance { relative: 1e-6, absolute: 1e-8 })?;
-    let plan = Plan { end: 20.0, step: None, longest_step: None, contact_step: None, sample: 0.02 };
-
-    let own = system.channels().iter().map(|c| (c.name.as_str(), c.unit));
-    let columns: Vec<_> = std::iter::once(("time", "s")).chain(own).chain(COMMON).collect();
-    let names: Vec<String> = columns
-        .iter()
-        .map(|(name, unit)| if unit.is_empty() { (*name).to_owned() } else { format!("{name} [{unit}]") })
-        .collect();
-    let mut trajectory = Trajectory { heading: names.join(","), columns: columns.len(), values: Vec::new() };
-    let mut state = system.initial();
-    match transient(&mut system, &mut integrator, &mut state, &plan, &mut trajectory) {
-        Ending::Finished => Ok(trajectory),
-        Ending::Stopped => Err("the run was stopped".into()),
-        Ending::Failed(error) => Err(error.into()),
+    let integrator = Radau::new(Tolerance { relative: 1e-6, absolute: 1e-8 })?;
+    let run = record(&mut system, &integrator, &Plan::new(20.0, 0.02));
+    match run.ending {
+        Ending::Finished => {}
+        Ending::Stopped => return Err("the run was stopped".into()),
+        Ending::Failed(error) => return Err(error.into()),
     }
+    let mut names = vec!["time [s]".to_owned()];
+    let name =
+        |c: &Channel| if c.unit.is_empty() { c.name.clone() } else { format!("{} [{}]", c.name, c.unit) };
+    names.extend(run.trajectory.channels().iter().map(name));
+    let values = run.trajectory.rows().flat_map(|(t, row)| std::iter::once(t).chain(row.iter().copied()));
+    Ok(Trajectory { heading: names.join(","), columns: names.len(), values: values.collect() })
 }
 
 #[cfg(test)]

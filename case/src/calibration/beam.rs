@@ -215,7 +215,8 @@ fn loads(random: &mut Random, drawn: &mut Drawn, beam: Beam) -> Option<String> {
     if beam.sudden && random.coin() {
         let acceleration = size(random, force / (mass * length)).min(9.81);
         let direction = random.between(-3.0..3.0);
-        add!(drawn, "[gravity]\nacceleration = {acceleration}\ndirection = {direction}");
+        let [x, y] = [acceleration * direction.cos(), acceleration * direction.sin()];
+        drawn.text.insert_str(0, &format!("gravity = [{x}, {y}]\n"));
     }
     let frame = random.pick(&["dead", "hub", "follower"]);
     let amplitude = amplitude(random, duration, beam.sudden);
@@ -224,19 +225,19 @@ fn loads(random: &mut Random, drawn: &mut Drawn, beam: Beam) -> Option<String> {
         let station = place(random);
         add!(
             drawn,
-            "[[force]]\nstation = {station}\nforce = [{along}, {across}]\nframe = \"{frame}\"\namplitude = {amplitude}"
+            "[[load]]\non = \"{station} m\"\nforce = [{along}, {across}]\naxes = \"{frame}\"\namplitude = {amplitude}"
         );
     }
     if random.one_in(4) {
         let couple = size(random, force * length);
         let station = place(random);
-        add!(drawn, "[[couple]]\nstation = {station}\ncouple = {couple}\namplitude = {amplitude}");
+        add!(drawn, "[[load]]\non = '{station} m'\ncouple = {couple}\namplitude = {amplitude}");
     }
     if random.one_in(4) {
         let across = size(random, force / length);
         add!(
             drawn,
-            "[[distributed-load]]\nforce = [0, {across}]\nframe = \"{frame}\"\namplitude = {amplitude}"
+            "[[load]]\non = \"beam\"\nforce-per-length = [0, {across}]\naxes = \"{frame}\"\namplitude = {amplitude}"
         );
         match random.count(0..4) {
             0 => add!(
@@ -264,18 +265,18 @@ fn loads(random: &mut Random, drawn: &mut Drawn, beam: Beam) -> Option<String> {
         let body = mass * length * random.scale(0.01..1.0);
         let station = place(random);
         let inertia = if random.coin() { body * height * height } else { 0.0 };
-        add!(drawn, "[[mass]]\nstation = {station}\nmass = {body}\ninertia = {inertia}");
+        add!(drawn, "[[mass]]\non = '{station} m'\nmass = {body}\ninertia = {inertia}");
     }
     let spring = random.one_in(10).then(|| {
         let stiffness = 3.0 * beam.bending / length.powi(3) * random.scale(0.01..1.0);
         let damping = [0.0, 0.1 * stiffness / beam.frequency][random.count(0..2)];
-        format!("[[spring]]\nstation = {length}\nstiffness = {stiffness}\ndamping = {damping}")
+        format!("[[spring]]\nkind = 'point'\non = '{length} m'\nstiffness = {stiffness}\ndamping = {damping}")
     });
     if random.one_in(3) {
         let proportional = random.scale(0.01..3.0) / duration;
-        add!(drawn, "[damping]\nmass-proportional = {proportional}");
+        add!(drawn, "[damping]\nmass = {proportional}");
         if random.coin() && !beam.explicit {
-            add!(drawn, "stiffness-proportional = {}", random.scale(1e-4..0.05) / beam.frequency);
+            add!(drawn, "stiffness = {}", random.scale(1e-4..0.05) / beam.frequency);
         }
     }
     spring
@@ -400,7 +401,7 @@ fn hub(random: &mut Random, drawn: &mut Drawn, beam: Beam, spring: Option<String
     };
     add!(drawn, "motion = {motion}");
     if let Some(spring) = spring {
-        add!(drawn, "{spring}\nanchor = [{}, {}]", radius + 1.5 * length, 0.2 * length);
+        add!(drawn, "{spring}\nto = [{}, {}]", radius + 1.5 * length, 0.2 * length);
     }
     if beam.touching {
         return;
@@ -443,7 +444,7 @@ fn model(random: &mut Random, drawn: &mut Drawn, beam: Beam) {
     };
     add!(drawn, "[basis]\n{basis}");
     if random.one_in(3) {
-        add!(drawn, "[output]\nstations = [{}]", beam.length * random.between(0.1..0.9));
+        add!(drawn, "[output]\nstations = ['{} m']", beam.length * random.between(0.1..0.9));
         add!(drawn, "section-forces = {}", random.coin());
     } else {
         add!(drawn, "[output]");
@@ -485,12 +486,12 @@ fn contacts(random: &mut Random, drawn: &mut Drawn, beam: Beam) {
         let obstacle = match random.count(0..3) {
             0 => format!("kind = \"stop\", offset = {}", side * gap),
             1 => format!(
-                "kind = \"plane\", mount = \"hub\", point = [0, {}], angle = \"{} deg\"",
+                "kind = \"plane\", point = [0, {}], angle = \"{} deg\"",
                 side * gap,
                 if side > 0.0 { 180.0 } else { 0.0 }
             ),
             _ => format!(
-                "kind = \"circle\", mount = \"hub\", centre = [{length}, {}], radius = {length}",
+                "kind = \"cylinder\", centre = [{length}, {}], radius = {length}",
                 side * (length + gap)
             ),
         };
@@ -508,6 +509,9 @@ fn contacts(random: &mut Random, drawn: &mut Drawn, beam: Beam) {
             _ => format!("kind = \"constraint\", restitution = {restitution}, friction = {friction}"),
         };
         let station = if random.coin() { length } else { length * random.between(0.3..1.0) };
-        add!(drawn, "[[contact]]\nstation = {station}\nobstacle = {{ {obstacle} }}\nlaw = {{ {law} }}");
+        add!(
+            drawn,
+            "[[contact]]\non = '{station} m'\nmount = 'hub'\nobstacle = {{ {obstacle} }}\nlaw = {{ {law} }}"
+        );
     }
 }

@@ -34,7 +34,7 @@ pub(super) fn case(random: &mut Random, touching: bool) -> Drawn {
         let far = [at[0] + 0.5, at[1] - 0.4, at[2] + 0.7];
         add!(
             drawn,
-            "[[spring]]\nbetween = [\"ground\", \"{last}\"]\nfrom = {far:?}\nstiffness = 20\ndamping = 1"
+            "[[spring]]\nkind = \"line\"\nbetween = [\"ground\", \"{last}\"]\nfrom = {far:?}\nstiffness = 20\ndamping = 1"
         );
     }
     if touching {
@@ -50,7 +50,7 @@ pub(super) fn case(random: &mut Random, touching: bool) -> Drawn {
         let low = centre[2].min(at[2]) - random.between(0.005..0.1);
         add!(
             drawn,
-            "[[contact]]\non = \"{last}\"\nobstacle = {{ kind = \"plane\", point = [0, 0, {low}] }}\nlaw = {law}"
+            "[[contact]]\non = \"{last}\"\nobstacle = {{ kind = \"plane\", normal = [0, 0, 1], point = [0, 0, {low}] }}\nlaw = {law}"
         );
     }
     drawn
@@ -106,7 +106,7 @@ fn part(random: &mut Random, drawn: &mut Drawn, k: usize, from: &End) -> End {
         add!(
             drawn,
             "[[body]]\nname = \"body{k}\"\nmass = {mass}\nposition = {centre:?}\naxis = {way:?}\ninertia = {inertia}\n\
-             damping = {damping}"
+             damping = {{ mass = {damping} }}"
         );
         End { part: format!("body{k}"), at: [0, 1, 2].map(|i| at[i] + way[i]), centre }
     };

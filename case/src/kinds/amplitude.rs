@@ -13,7 +13,7 @@ use std::sync::Arc;
 /// The kinds of change with time.
 pub static AMPLITUDE: Choice<Amplitude> = Choice {
     name: "amplitude",
-    path: "force.amplitude",
+    path: "load.amplitude",
     summary: "change of a load with time, as a factor of it",
     kinds: &[
         Kind {
@@ -21,7 +21,7 @@ pub static AMPLITUDE: Choice<Amplitude> = Choice {
             summary: "constant",
             source: "",
             keys: &[],
-            example: "force=[{station=2, force=[0, 3], amplitude={kind='constant'}}]",
+            example: "load=[{on='2 m', force=[0, 3], amplitude={kind='constant'}}]",
             make: |_, _| Ok(None),
         },
         Kind {
@@ -29,7 +29,7 @@ pub static AMPLITUDE: Choice<Amplitude> = Choice {
             summary: "growing linearly from zero, then constant",
             source: "",
             keys: &[key("time", Quantity(&TIME, Positive), Required, "time in which it is reached")],
-            example: "force=[{station=2, force=[0, 3], amplitude={kind='ramp', time='30 ms'}}]",
+            example: "load=[{on='2 m', force=[0, 3], amplitude={kind='ramp', time='30 ms'}}]",
             make: |v, _| {
                 let ramp = Ramp::new(0.0, 1.0, v.number("time")?);
                 Ok(Some(Arc::new(profile::checked(ramp, "time")?)))
@@ -44,7 +44,7 @@ pub static AMPLITUDE: Choice<Amplitude> = Choice {
                 key("factors", Type::Quantities(&FACTOR, Any), Required, "factor at each time"),
                 profile::OF_LOADS,
             ],
-            example: "couple=[{station=2, couple=1, amplitude={kind='table', times=[0, '20 ms', 0.05], factors=[0, 1, 2]}}]",
+            example: "load=[{on='2 m', couple=1, amplitude={kind='table', times=[0, '20 ms', 0.05], factors=[0, 1, 2]}}]",
             make: |v, c| {
                 let rows = profile::factors(v, "times")?;
                 profile::covering(profile::through(&rows, v, c, "times")?, c, "times").map(Some)
@@ -55,7 +55,7 @@ pub static AMPLITUDE: Choice<Amplitude> = Choice {
             summary: "formula of time t [s] for the factor",
             source: "",
             keys: &[key("formula", Type::Text, Required, "formula in t")],
-            example: "distributed-load=[{force=['0 N/m', '-2 N/m'], amplitude={kind='expression', formula='sin(t)'}}]",
+            example: "load=[{on='beam', force-per-length=['0 N/m', '-2 N/m'], amplitude={kind='expression', formula='sin(t)'}}]",
             make: |v, c| profile::covering(profile::of_time(v, c)?, c, "formula").map(Some),
         },
     ],
@@ -64,7 +64,7 @@ pub static AMPLITUDE: Choice<Amplitude> = Choice {
 /// The kinds of change along the beam.
 pub static DISTRIBUTION: Choice<Amplitude> = Choice {
     name: "distribution",
-    path: "distributed-load.distribution",
+    path: "load.distribution",
     summary: "change of a force per length along the beam, as a factor of it",
     kinds: &[
         Kind {
@@ -72,7 +72,7 @@ pub static DISTRIBUTION: Choice<Amplitude> = Choice {
             summary: "the same everywhere",
             source: "",
             keys: &[],
-            example: "distributed-load=[{force=[0, 3], from=0.5, to='1 m', distribution={kind='uniform'}}]",
+            example: "load=[{on='beam', force-per-length=[0, 3], from=0.5, to='1 m', distribution={kind='uniform'}}]",
             make: |_, _| Ok(None),
         },
         Kind {
@@ -83,7 +83,7 @@ pub static DISTRIBUTION: Choice<Amplitude> = Choice {
                 key("stations", Type::Quantities(&LENGTH, NotNegative), Required, "stations, ascending"),
                 key("factors", Type::Quantities(&FACTOR, Any), Required, "factor at each station"),
             ],
-            example: "distributed-load=[{force=[0, 3], distribution={kind='table', stations=[0, 1, 2], factors=[0, 1, 0]}}]",
+            example: "load=[{on='beam', force-per-length=[0, 3], distribution={kind='table', stations=[0, 1, 2], factors=[0, 1, 0]}}]",
             make: |v, _| {
                 let line = Polyline::new(&profile::factors(v, "stations")?);
                 Ok(Some(Arc::new(profile::checked(line, "stations")?)))
@@ -94,7 +94,7 @@ pub static DISTRIBUTION: Choice<Amplitude> = Choice {
             summary: "formula of the station x [m] for the factor",
             source: "",
             keys: &[key("formula", Type::Text, Required, "formula in x")],
-            example: "distributed-load=[{force=[0, 3], frame='hub', distribution={kind='expression', formula='x^2'}}]",
+            example: "load=[{on='beam', force-per-length=[0, 3], axes='hub', distribution={kind='expression', formula='x^2'}}]",
             make: |v, c| profile::formula(v, "x", c.length()?).map(Some),
         },
     ],

@@ -33,6 +33,8 @@ pub struct Bases {
     pub massless: Option<Arc<dyn basis::Basis>>,
     /// Number and axial degree of the elements, if both fields are of the same finite elements.
     pub elements: Option<(usize, usize)>,
+    /// Width of the transverse functions \[m\] where they are no elements, which end at stations.
+    pub width: Option<f64>,
     /// What makes twice the functions, with every element cut in two: dotted path within the table and value.
     pub finer: Vec<(String, usize)>,
     /// What makes about twice the functions by the number that a user would change, likewise.
@@ -62,8 +64,11 @@ struct Functions {
     table: &'static str,
 }
 
-/// Builds a basis of the length of the beam and the stations at which elements should end \[m\].
-type Build = Box<dyn Fn(f64, &[f64]) -> Result<Arc<dyn basis::Basis>, BasisError>>;
+/// Builds a basis of the length of the beam \[m\] and the stations at which elements should end.
+type Build = Box<dyn Fn(f64, &Stations<'_>) -> Result<Arc<dyn basis::Basis>, BasisError>>;
+
+/// The stations at which elements of a length \[m\] should end \[m\].
+type Stations<'a> = dyn Fn(f64) -> Vec<f64> + 'a;
 
 /// What a kind gives: the functions of either field.
 pub struct Either(Box<dyn Fn(Field) -> Functions>);
@@ -98,14 +103,14 @@ fn shared<B: basis::Basis + 'static>(
     basis.map(|basis| Arc::new(basis) as Arc<dyn basis::Basis>)
 }
 
-/// The bases that the key `basis` of a case chooses; finite elements also end at `stations` \[m\].
-pub fn make(v: &Values, c: &Context<'_>, stations: &[f64]) -> Made<Bases> {
+/// The bases that the key `basis` of a case chooses; finite elements also end at `stations`.
+pub fn make(v: &Values, c: &Context<'_>, stations: &Stations<'_>) -> Made<Bases> {
     let Either(functions) = BASIS.make(v, "basis", c)?;
     built([functions(Field::Axial), functions(Field::Transverse)], c, stations)
         .map_err(|faults| faults.within("basis"))
 }
 
-fn built(fields: [Functions; 2], c: &Context<'_>, stations: &[f64]) -> Made<Bases> {
+fn built(fields: [Functions; 2], c: &Context<'_>, stations: &Stations<'_>) -> Made<Bases> {
     let length = c.length()?;
     let functions = fields[0].extent.0 + fields[1].extent.0;
     // A function that is not zero on a part s of the beam shares it with s n of all n functions.
@@ -140,7 +145,7 @@ fn built(fields: [Functions; 2], c: &Context<'_>, stations: &[f64]) -> Made<Base
         keys.dedup();
         keys
     };
-    let within = stations.iter().any(|station| 0.0 < *station && *station < length);
+    let within = stations(0.1 * length).iter().any(|station| 0.0 < *station && *station < length);
     let safety = |f: &Functions| if within && f.elements.is_none() { SAFETY_OF_SLOW } else { f.safety };
     let safety = safety(&fields[0]).max(safety(&fields[1]));
     Ok(Bases {
@@ -148,6 +153,7 @@ fn built(fields: [Functions; 2], c: &Context<'_>, stations: &[f64]) -> Made<Base
         transverse,
         massless,
         elements: fields[0].elements.filter(|(n, _)| fields[1].elements.is_some_and(|(m, _)| *n == m)),
+        width: fields[1].elements.is_none().then(|| length / fields[1].extent.0),
         finer: keys(|f| f.finer),
         more: keys(|f| f.more),
         safety,
@@ -170,7 +176,8 @@ fn finite_elements(v: &Values, _: &Context<'_>) -> Made<Either> {
         let all = elements * parts;
         let extent = (all as f64 * each as f64, 2.0 / all as f64);
         let build: Build = Box::new(move |length, stations| {
-            let cells = cut(&mesh(length, elements, stations)?, parts);
+            let ends = stations(length / elements as f64);
+            let cells = cut(&mesh(length, elements, &ends)?, parts);
             match field {
                 Field::Axial => shared(Lagrange::on(cells, degree)),
                 Field::Transverse => shared(Hermite::on(cells, field)),

@@ -1,17 +1,18 @@
 //! Slender beams in space.
 
 use super::centreline::Centreline;
+use super::damping::{DAMPED, damping};
+use super::mass::station;
+use super::name::name;
 use super::section::{SECTION, Section};
-use super::spatial::{name, optional_vector};
+use super::vector::optional_vector;
 use crate::declaration::{Bound::*, Key, Presence as Default, Presence::*, Type, Type::Quantity, key};
 use crate::fault::{At, Fault, Made, both};
 use crate::kind::{Choice, Context, Kind, Table};
-use crate::units::{
-    ANGLE, ANGULAR_SPEED, BENDING_STIFFNESS, FACTOR, LENGTH, RATE, ROTARY_INERTIA, TIME, VELOCITY,
-};
+use crate::units::{ANGLE, ANGULAR_SPEED, BENDING_STIFFNESS, FACTOR, LENGTH, ROTARY_INERTIA, VELOCITY};
 use crate::values::Values;
-use flexion::linalg::vector::{cross, inner};
-use flexion::multibody::rotation::{Vector, apply, exponential, frame, matrix, plus, times};
+use flexion::linalg::Vec3;
+use flexion::multibody::rotation::{about, frame};
 use flexion::multibody::slender::{self, Properties, Station};
 use flexion::quadrature::Gauss;
 use flexion::section::{BladeSection, Shape};
@@ -24,7 +25,7 @@ use std::sync::Arc;
 pub type Curve = Arc<dyn Fn(f64) -> Station + Send + Sync>;
 
 /// Makes the curve of a length, a direction and the direction of the height.
-type Along = Box<dyn Fn(f64, Vector, Vector) -> Curve>;
+type Along = Box<dyn Fn(f64, Vec3, Vec3) -> Curve>;
 
 /// A kind of centreline.
 pub enum Bent {
@@ -34,8 +35,8 @@ pub enum Bent {
     Through(Box<Centreline>),
 }
 
-fn straight(_: f64, tangent: Vector, normal: Vector) -> Curve {
-    Arc::new(move |s| Station { position: times(s, tangent), tangent, normal })
+fn straight(_: f64, tangent: Vec3, normal: Vec3) -> Curve {
+    Arc::new(move |s| Station { position: s * tangent, tangent, normal })
 }
 
 /// The kinds of centreline.
@@ -73,15 +74,15 @@ pub static CURVE: Choice<Bent> = Choice {
                 }
                 Ok(Bent::Along(Box::new(move |length, tangent, normal| {
                     let towards = towards.unwrap_or(normal);
-                    let side = plus(towards, -inner(towards, tangent), tangent);
-                    let size = inner(side, side).sqrt();
-                    let side = if size > 0.0 { times(1.0 / size, side) } else { normal };
-                    let (axis, radius) = (cross(tangent, side), length / angle);
+                    let side = towards - towards.dot(tangent) * tangent;
+                    let size = side.dot(side).sqrt();
+                    let side = if size > 0.0 { 1.0 / size * side } else { normal };
+                    let (axis, radius) = (tangent.cross(side), length / angle);
                     Arc::new(move |s| {
-                        let turned = matrix(exponential(times(s / radius, axis)));
+                        let turned = about(s / radius * axis);
                         let (sin, cos) = (s / radius).sin_cos();
-                        let position = plus(times(radius * sin, tangent), radius * (1.0 - cos), side);
-                        Station { position, tangent: apply(&turned, tangent), normal: apply(&turned, normal) }
+                        let position = radius * sin * tangent + radius * (1.0 - cos) * side;
+                        Station { position, tangent: turned * tangent, normal: turned * normal }
                     })
                 })))
             },
@@ -98,15 +99,15 @@ pub static CURVE: Choice<Bent> = Choice {
             make: |v, _| {
                 let (radius, pitch) = (v.number("radius")?, v.number("pitch")?);
                 Ok(Bent::Along(Box::new(move |_, axis, out| {
-                    let (side, rise) = (cross(axis, out), pitch / std::f64::consts::TAU);
+                    let (side, rise) = (axis.cross(out), pitch / std::f64::consts::TAU);
                     let scale = radius.hypot(rise);
                     Arc::new(move |s| {
                         let (sin, cos) = (s / scale).sin_cos();
-                        let normal = plus(times(cos, out), sin, side);
-                        let along = plus(times(-sin, out), cos, side);
-                        let radial = plus(times(radius, normal), -radius, out);
-                        let position = plus(radial, rise * s / scale, axis);
-                        let tangent = plus(times(radius / scale, along), rise / scale, axis);
+                        let normal = cos * out + sin * side;
+                        let along = -sin * out + cos * side;
+                        let radial = radius * normal - radius * out;
+                        let position = radial + rise * s / scale * axis;
+                        let tangent = radius / scale * along + rise / scale * axis;
                         Station { position, tangent, normal }
                     })
                 })))
@@ -204,7 +205,7 @@ pub struct Beam {
     /// What holds root and tip.
     pub ends: [End; 2],
     /// Velocity of the root and angular velocity at the start.
-    pub motion: [Option<Vector>; 2],
+    pub motion: [Option<Vec3>; 2],
     /// Damping in proportion to mass [1/s] and stiffness \[s\].
     pub damping: [f64; 2],
     /// Recorded stations \[m\].
@@ -218,6 +219,9 @@ impl fmt::Debug for Beam {
         f.write_str(&self.name)
     }
 }
+
+/// Rows of a table for each element asked for up to which elements end at all of them.
+const MOST_ROWS: usize = 4;
 
 impl Beam {
     /// The joints of its ends: name, kind, and the places that they join.
@@ -272,10 +276,16 @@ impl Beam {
         of.with_tension_centre(self.tension_centre).with_coupling(self.coupling)
     }
 
-    /// The beam with elements that end at its jumps and at these stations \[m\], each cut into `parts`.
+    /// The beam with elements that end where its section asks for it and at these stations \[m\], each cut into `parts`.
     pub fn built(&self, stations: &[f64], parts: usize) -> Made<slender::Beam> {
+        crate::features::apart(self.blade.jumps(), self.length)?;
         let mut ends = vec![0.0, self.length];
-        ends.extend(self.blade.breaks().iter().chain(stations).copied());
+        // The sections of an element are seen at few points: it ends at every row, but for tables of very many.
+        if self.blade.breaks().len() <= MOST_ROWS * self.elements {
+            ends.extend(self.blade.breaks());
+        }
+        ends.extend(self.blade.ends(self.length, self.length / self.elements as f64));
+        ends.extend(stations);
         ends.sort_by(f64::total_cmp);
         ends.dedup_by(|a, b| (*a - *b).abs() <= 1e-9 * self.length);
         let mut nodes = vec![0.0];
@@ -306,13 +316,6 @@ impl Beam {
         })
     }
 }
-
-static FIBRE: [Key; 4] = [
-    key("name", Type::Text, Required, "name, which ends the name of its column"),
-    key("station", Type::Station(NotNegative), Required, "arc length from the root"),
-    key("y", Quantity(&LENGTH, Any), Default::Number(0.0), "place along the height of the section"),
-    key("z", Quantity(&LENGTH, Any), Default::Number(0.0), "place across, along tangent × height"),
-];
 
 static OUTLINE: [Key; 2] = [
     key("y", Type::Quantities(&LENGTH, Any), Empty, "places of its corners along the height of the section"),
@@ -408,32 +411,14 @@ pub static BEAMS: Table<Beam> = Table {
                 Empty,
                 "angular velocity at the start, in the axes of space; what the joints ask for, if left out",
             ),
-            key(
-                "mass-damping",
-                Quantity(&RATE, NotNegative),
-                Default::Number(0.0),
-                "force over mass and velocity, β",
-            ),
-            key(
-                "stiffness-damping",
-                Quantity(&TIME, NotNegative),
-                Default::Number(0.0),
-                "viscous over elastic stress and rate of strain, η",
-            ),
-            key(
-                "stations",
-                Type::Quantities(&LENGTH, NotNegative),
-                Empty,
-                "arc lengths that are recorded besides the tip",
-            ),
-            key("fibre", Type::Tables(&FIBRE), Empty, "points of sections whose strain is recorded"),
+            key("damping", Type::Table(&DAMPED), Empty, "damping against the ground"),
         ]),
         Empty,
         "slender beams",
     ),
     example: "beam=[{name='arm', length=1, start=[0, 0, 1], direction=[1, 1, 0], twist='20 deg', root='clamped', elements=4, polar-inertia=1e-3, \
               section={kind='rectangle', modulus='70 GPa', density=2700, width='2 cm', height='1 cm', rotary-inertia=true}, \
-              mass-damping=0.1, stiffness-damping='1 ms', stations=[0.5], outline={y=['-5 mm', '5 mm', 0], z=[0, 0, '2 cm']}, fibre=[{name='top', station=0, y='5 mm'}]}]",
+              damping={mass=0.1, stiffness='1 ms'}, outline={y=['-5 mm', '5 mm', 0], z=[0, 0, '2 cm']}}]",
     make,
 };
 
@@ -449,7 +434,7 @@ fn make(v: &Values, c: &Context<'_>) -> Made<Beam> {
             return Err(Fault::new("length", message).into());
         }
     };
-    let c = &Context { length: Some(length), duration: c.duration, files: c.files, cautions: c.cautions };
+    let c = &Context { length: Some(length), ..*c };
     let section = SECTION.make(v, "section", c)?;
     let ends = both(END.make(v, "root", c), END.make(v, "tip", c))?;
     let blade: Arc<dyn BladeSection> = Arc::from(section.blade(v.number("poisson-ratio")?).at("section")?);
@@ -459,7 +444,7 @@ fn make(v: &Values, c: &Context<'_>) -> Made<Beam> {
         let help = "give a shape (`rectangle`, `circle`, `tube`, `ellipse`), `general`, or a `blade` with GJ";
         return Err(Fault::new("section", message).help(help).into());
     }
-    let name = name(v, None)?;
+    let name = name(v, &["ground", "hub"])?;
     let (given, starts) = (optional_vector(v, "direction")?, optional_vector(v, "start")?);
     if let Bent::Through(_) = bent
         && let Some(key) =
@@ -469,15 +454,15 @@ fn make(v: &Values, c: &Context<'_>) -> Made<Beam> {
     }
     let direction = match &bent {
         Bent::Through(points) => points.tangent(),
-        Bent::Along(_) => given.unwrap_or([1.0, 0.0, 0.0]),
+        Bent::Along(_) => given.unwrap_or(Vec3([1.0, 0.0, 0.0])),
     };
     let upright = direction[0] == 0.0 && direction[1] == 0.0;
     let usual = if upright { [1.0, 0.0, 0.0] } else { [0.0, 0.0, 1.0] };
     let up = optional_vector(v, "up")?;
     let no_direction = |key| Fault::new(key, "has no direction: one of its components must not be zero");
-    let axes = frame(direction, Some(up.unwrap_or(usual))).ok_or_else(|| no_direction("direction"))?;
-    let (tangent, normal) = (axes.map(|row| row[2]), axes.map(|row| row[0]));
-    if up.is_some_and(|up| inner(cross(up, tangent), cross(up, tangent)) <= 1e-12 * inner(up, up)) {
+    let axes = frame(direction, Some(up.unwrap_or(Vec3(usual)))).ok_or_else(|| no_direction("direction"))?;
+    let (tangent, normal) = (axes.column(2), axes.column(0));
+    if up.is_some_and(|up| up.cross(tangent).dot(up.cross(tangent)) <= 1e-12 * up.dot(up)) {
         let message = "is along the beam: the height of a section lies across";
         return Err(Fault::new("up", message).into());
     }
@@ -490,20 +475,9 @@ fn make(v: &Values, c: &Context<'_>) -> Made<Beam> {
     let curve: Curve = Arc::new(move |s| {
         let at = bent(s);
         let (sin, cos) = (twist * s / length + of.resultants(s).twist).sin_cos();
-        let across = cross(at.tangent, at.normal);
-        Station {
-            position: plus(start, 1.0, at.position),
-            normal: plus(times(cos, at.normal), sin, across),
-            ..at
-        }
+        let across = at.tangent.cross(at.normal);
+        Station { position: start + at.position, normal: cos * at.normal + sin * across, ..at }
     });
-    let mut stations = Vec::new();
-    for &station in v.numbers("stations")?.iter().chain([&length]) {
-        c.on_beam(station, "stations")?;
-        if !stations.contains(&station) {
-            stations.push(station);
-        }
-    }
     Ok(Beam {
         name,
         length,
@@ -517,9 +491,9 @@ fn make(v: &Values, c: &Context<'_>) -> Made<Beam> {
         elements: v.count("elements")?,
         ends: [ends.0, ends.1],
         motion: [optional_vector(v, "velocity")?, optional_vector(v, "spin")?],
-        damping: [v.number("mass-damping")?, v.number("stiffness-damping")?],
-        stations,
-        fibres: fibres(v, c)?,
+        damping: damping(v)?,
+        stations: vec![length],
+        fibres: Vec::new(),
     })
 }
 
@@ -548,11 +522,34 @@ fn outline(v: &Values) -> Made<Option<Contour>> {
     contour.map(Some).ok_or_else(|| Fault::new("outline", "its corners enclose no area").into())
 }
 
-fn fibres(v: &Values, c: &Context<'_>) -> Made<Vec<(String, f64, [f64; 2])>> {
-    let table: Table<(String, f64, [f64; 2])> = Table {
-        key: key("fibre", Type::Tables(&FIBRE), Empty, ""),
-        example: "",
-        make: |v, c| Ok((name(v, None)?, c.station(v, "station")?, [v.number("y")?, v.number("z")?])),
-    };
-    table.make(v, c)
+/// A point of a section whose strain is recorded.
+#[derive(Clone, Debug)]
+pub struct Fibre {
+    /// Name.
+    pub name: String,
+    /// Number of the beam, and arc length \[m\].
+    pub on: (usize, f64),
+    /// Place along the height and across \[m\].
+    pub place: [f64; 2],
 }
+
+/// The tables `[[fibre]]`.
+pub static FIBRES: Table<Fibre> = Table {
+    key: key(
+        "fibre",
+        Type::Tables(&[
+            key("name", Type::Text, Required, "name, which ends the name of its column"),
+            key("on", Type::Place, Required, "station of a beam"),
+            key("y", Quantity(&LENGTH, Any), Default::Number(0.0), "place along the height of the section"),
+            key("z", Quantity(&LENGTH, Any), Default::Number(0.0), "place across, along tangent × height"),
+        ]),
+        Empty,
+        "points of sections of beams in space whose strain is recorded",
+    ),
+    example: "beam=[{length=1, section={kind='circle', modulus='70 GPa', density=2700, radius='1 cm'}, root='clamped'}]\n\
+              load=[{on='tip', force=[0, 0, 1]}]\n\
+              fibre=[{name='top', on='root', z='5 mm'}]",
+    make: |v, c| {
+        Ok(Fibre { name: name(v, &[])?, on: station(v, "on", c)?, place: [v.number("y")?, v.number("z")?] })
+    },
+};

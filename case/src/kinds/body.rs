@@ -1,18 +1,21 @@
 //! Rigid bodies in space.
 
-use super::spatial::{MARKED, direction, name, optional_vector, vector};
-use crate::declaration::{Bound::*, Key, Presence as Default, Presence::*, Type, Type::Quantity, key};
+use super::damping::RIGID;
+use super::name::name;
+use super::vector::{MARKED, direction, optional_vector, vector};
+use crate::declaration::{Bound::*, Key, Presence::*, Type, Type::Quantity, key};
 use crate::fault::{Fault, Made};
 use crate::kind::{Choice, Context, Kind, Table};
-use crate::units::{ANGULAR_SPEED, INERTIA as MOMENT, LENGTH, MASS, RATE, VELOCITY};
+use crate::units::{ANGULAR_SPEED, INERTIA as MOMENT, LENGTH, MASS, VELOCITY};
 use crate::values::Values;
-use flexion::multibody::{self, rotation::Matrix3};
+use flexion::linalg::Mat3;
+use flexion::multibody;
 
 /// The inertia tensor about the centre of mass of a body with this mass [kg·m²].
-pub type Tensor = Box<dyn Fn(f64) -> Matrix3>;
+pub type Tensor = Box<dyn Fn(f64) -> Mat3>;
 
-fn diagonal([x, y, z]: [f64; 3]) -> Matrix3 {
-    [[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]]
+fn diagonal([x, y, z]: [f64; 3]) -> Mat3 {
+    Mat3([[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]])
 }
 
 const fn moments(doc: &'static str) -> Key {
@@ -57,7 +60,7 @@ pub static INERTIA: Choice<Tensor> = Choice {
             example: "body=[{name='bar', mass=2, position=[0.5, 0, 0], spin=[1, 2, 3], inertia={kind='full', moments=[0.1, 0.4, 0.45], products=[0.02, 0, -0.03]}}]",
             make: |v, _| {
                 let ([xx, yy, zz], [yz, xz, xy]) = (three(v, "moments")?, three(v, "products")?);
-                Ok(Box::new(move |_| [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]))
+                Ok(Box::new(move |_| Mat3([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])))
             },
         },
         Kind {
@@ -129,17 +132,12 @@ pub static BODY: Table<multibody::Body> = Table {
                 Empty,
                 "angular velocity at the start, in the axes of space; what the joints ask for, if left out",
             ),
-            key(
-                "damping",
-                Quantity(&RATE, NotNegative),
-                Default::Number(0.0),
-                "force over mass and velocity, and moment over inertia and angular velocity, β",
-            ),
+            key("damping", Type::Table(&RIGID), Empty, "damping against the ground"),
         ]),
         Empty,
         "rigid bodies, as they stand and move at the start",
     ),
-    example: "body=[{name='bar', mass=2, position=[0.5, 0, 0], across=[1, 1, 0], inertia={kind='sphere', radius=0.1}, velocity=[0, '1 m/s', 0], spin=['10 deg/s', 0, 2], damping='0.1 1/s'}]\n\
+    example: "body=[{name='bar', mass=2, position=[0.5, 0, 0], across=[1, 1, 0], inertia={kind='sphere', radius=0.1}, velocity=[0, '1 m/s', 0], spin=['10 deg/s', 0, 2], damping={mass='0.1 1/s'}}]\n\
               joint=[{kind='spherical', between=['ground', 'bar'], at=[0, 0, 0]}]",
     make: body,
 };
@@ -147,12 +145,12 @@ pub static BODY: Table<multibody::Body> = Table {
 fn body(v: &Values, c: &Context<'_>) -> Made<multibody::Body> {
     let mass = v.number("mass")?;
     let tensor = INERTIA.make(v, "inertia", c)?;
-    let mut body = multibody::Body::new(name(v, None)?.as_str(), mass, [1.0; 3]);
+    let mut body = multibody::Body::new(name(v, &["ground"])?.as_str(), mass, [1.0; 3]);
     body.inertia = tensor(mass);
     body.frame.position = vector(v, "position")?;
     body.frame.rotation = direction(v)?;
     body.velocity = optional_vector(v, "velocity")?;
     body.spin = optional_vector(v, "spin")?;
-    body.damping = v.number("damping")?;
+    body.damping = v.table("damping")?.number("mass")?;
     Ok(body)
 }

@@ -15,8 +15,7 @@ use crate::fault::{At, Fault, Made};
 use crate::files;
 use crate::kind::Context;
 use crate::values::Values;
-use flexion::linalg::vector::inner;
-use flexion::multibody::rotation::{Vector, plus, times};
+use flexion::linalg::Vec3;
 use flexion::multibody::slender::Station;
 use flexion::profile::{End, Profile, Table};
 use flexion::quadrature::Gauss;
@@ -47,7 +46,8 @@ impl Centreline {
             }
             (Some(_), false) => {
                 let (name, bytes) = c.file(v, "file")?;
-                (files::rows::read(&bytes, name, "three numbers: x, y and z in m").at("file")?, "file")
+                let rows = files::rows::read(&bytes, name, "three numbers: x, y and z in m").at("file")?;
+                (rows.into_iter().map(Vec3).collect::<Vec<_>>(), "file")
             }
             (None, _) => {
                 let count = lists[0].len();
@@ -56,21 +56,21 @@ impl Centreline {
                     let message = format!("there are {} values for {count} points", list.len());
                     return Err(Fault::new(key, message).into());
                 }
-                ((0..count).map(|i| lists.map(|list| list[i])).collect(), "x")
+                ((0..count).map(|i| Vec3(lists.map(|list| list[i]))).collect(), "x")
             }
         };
         Centreline::through(&points).at(key)
     }
 
     /// The curve through three points or more.
-    fn through(points: &[Vector]) -> Result<Centreline, String> {
+    fn through(points: &[Vec3]) -> Result<Centreline, String> {
         if points.len() < 3 {
             let count = points.len();
             return Err(format!("a curve needs three points or more, not {count}: two make a straight beam"));
         }
         let mut u = vec![0.0];
         for (i, pair) in points.windows(2).enumerate() {
-            let chord = length(plus(pair[1], -1.0, pair[0]));
+            let chord = (pair[1] - pair[0]).norm();
             if !(chord > 0.0 && chord.is_finite()) {
                 return Err(format!("points {} and {} are the same, or no numbers", i + 1, i + 2));
             }
@@ -90,23 +90,23 @@ impl Centreline {
         Ok(curve)
     }
 
-    fn position(&self, u: f64) -> Vector {
-        [0, 1, 2].map(|k| self.coordinates[k].value(u))
+    fn position(&self, u: f64) -> Vec3 {
+        Vec3([0, 1, 2].map(|k| self.coordinates[k].value(u)))
     }
 
-    fn slope(&self, u: f64) -> Vector {
-        [0, 1, 2].map(|k| self.coordinates[k].rate(u))
+    fn slope(&self, u: f64) -> Vec3 {
+        Vec3([0, 1, 2].map(|k| self.coordinates[k].rate(u)))
     }
 
     /// The unit tangent; of a curve that turns back in itself, that of a chord.
-    fn direction(&self, u: f64) -> Vector {
+    fn direction(&self, u: f64) -> Vec3 {
         let slope = self.slope(u);
-        times(1.0 / length(slope).max(f64::MIN_POSITIVE), slope)
+        1.0 / slope.norm().max(f64::MIN_POSITIVE) * slope
     }
 
     /// Arc length between two places.
     fn between(&self, from: f64, to: f64) -> f64 {
-        Gauss::new(GAUSS).integrate(from, to, |u| length(self.slope(u)))
+        Gauss::new(GAUSS).integrate(from, to, |u| self.slope(u).norm())
     }
 
     /// Its length \[m\].
@@ -115,7 +115,7 @@ impl Centreline {
     }
 
     /// The tangent of its root.
-    pub(super) fn tangent(&self) -> Vector {
+    pub(super) fn tangent(&self) -> Vec3 {
         self.direction(0.0)
     }
 
@@ -125,7 +125,7 @@ impl Centreline {
         let ([from, before], [to, behind]) = (self.ends[piece], self.ends[piece + 1]);
         let mut u = from + (to - from) * ((s - before) / (behind - before)).clamp(0.0, 1.0);
         for _ in 0..CORRECTIONS {
-            let step = (before + self.between(from, u) - s) / length(self.slope(u)).max(f64::MIN_POSITIVE);
+            let step = (before + self.between(from, u) - s) / self.slope(u).norm().max(f64::MIN_POSITIVE);
             u = (u - step).clamp(from, to);
             if step.abs() <= 4.0 * f64::EPSILON * to {
                 break;
@@ -135,7 +135,7 @@ impl Centreline {
     }
 
     /// Its stations by the arc length, if the height begins along `normal`.
-    pub(super) fn stations(self, normal: Vector) -> impl Fn(f64) -> Station + Send + Sync {
+    pub(super) fn stations(self, normal: Vec3) -> impl Fn(f64) -> Station + Send + Sync {
         let at = |curve: &Centreline, u: f64| (curve.position(u), curve.direction(u));
         let mut normals = vec![normal];
         for pair in self.ends.windows(2) {
@@ -147,30 +147,26 @@ impl Centreline {
             let (position, tangent) = at(&self, u);
             let normal = carried(normals[piece], at(&self, self.ends[piece][0]), (position, tangent));
             // Rounding aside, it is across.
-            let normal = plus(normal, -inner(normal, tangent), tangent);
-            Station { position, tangent, normal: times(1.0 / length(normal), normal) }
+            let normal = normal.across(tangent);
+            Station { position, tangent, normal: 1.0 / normal.norm() * normal }
         }
     }
 }
 
-fn length(x: Vector) -> f64 {
-    inner(x, x).sqrt()
-}
-
 /// `x` reflected at the plane across `by`; `x` itself where that has no direction.
-fn reflected(x: Vector, by: Vector) -> Vector {
-    let square = inner(by, by);
-    if square > 0.0 { plus(x, -2.0 * inner(by, x) / square, by) } else { x }
+fn reflected(x: Vec3, by: Vec3) -> Vec3 {
+    let square = by.dot(by);
+    if square > 0.0 { x - 2.0 * by.dot(x) / square * by } else { x }
 }
 
 /// The normal at one place, carried to another.
-fn carried(normal: Vector, (r, t): (Vector, Vector), (to, tangent): (Vector, Vector)) -> Vector {
-    let chord = plus(to, -1.0, r);
-    if inner(chord, chord) == 0.0 {
+fn carried(normal: Vec3, (r, t): (Vec3, Vec3), (to, tangent): (Vec3, Vec3)) -> Vec3 {
+    let chord = to - r;
+    if chord.dot(chord) == 0.0 {
         return normal;
     }
     let [n, t] = [normal, t].map(|x| reflected(x, chord));
-    reflected(n, plus(tangent, -1.0, t))
+    reflected(n, tangent - t)
 }
 
 #[cfg(test)]
@@ -183,20 +179,20 @@ mod tests {
     fn a_curve_through_the_points_of_a_helix_is_the_helix() {
         let (radius, rise): (f64, f64) = (0.5, 0.1);
         let scale = radius.hypot(rise);
-        let at = |x: f64| [radius * x.cos(), radius * x.sin(), rise * x];
+        let at = |x: f64| Vec3([radius * x.cos(), radius * x.sin(), rise * x]);
         let error = |count: usize| {
-            let points: Vec<Vector> = (0..=count).map(|i| at(6.0 * i as f64 / count as f64)).collect();
+            let points: Vec<Vec3> = (0..=count).map(|i| at(6.0 * i as f64 / count as f64)).collect();
             let curve = Centreline::through(&points).unwrap();
             let whole = curve.length();
-            let inward = |x: f64| [-x.cos(), -x.sin(), 0.0];
-            let start = plus(inward(0.0), -inner(inward(0.0), curve.tangent()), curve.tangent());
-            let stations = curve.stations(times(1.0 / length(start), start));
+            let inward = |x: f64| Vec3([-x.cos(), -x.sin(), 0.0]);
+            let start = inward(0.0).across(curve.tangent());
+            let stations = curve.stations(1.0 / start.norm() * start);
             let (mut place, mut angle) = ((whole - 6.0 * scale).abs(), 0.0_f64);
             for k in 0..=20 {
                 let x = 6.0 * f64::from(k) / 20.0;
                 let station = stations(x * scale);
-                place = place.max(length(plus(station.position, -1.0, at(x))));
-                let turned = inner(station.normal, inward(x)).clamp(-1.0, 1.0).acos();
+                place = place.max((station.position - at(x)).norm());
+                let turned = station.normal.dot(inward(x)).clamp(-1.0, 1.0).acos();
                 let torsion = rise / (scale * scale);
                 angle = angle.max((turned - torsion * x * scale).abs());
             }
@@ -210,8 +206,12 @@ mod tests {
 
     #[test]
     fn points_that_make_no_curve_are_refused() {
-        assert!(Centreline::through(&[[0.0; 3], [1.0, 0.0, 0.0]]).unwrap_err().contains("three points"));
-        let twice = [[0.0; 3], [1.0, 0.0, 0.0], [1.0, 0.0, 0.0]];
+        assert!(
+            Centreline::through(&[Vec3([0.0; 3]), Vec3([1.0, 0.0, 0.0])])
+                .unwrap_err()
+                .contains("three points")
+        );
+        let twice = [Vec3::ZERO, Vec3::AXES[0], Vec3::AXES[0]];
         assert!(Centreline::through(&twice).unwrap_err().contains("points 2 and 3 are the same"));
     }
 }

@@ -1,116 +1,106 @@
-//! Contacts of the beam with rigid obstacles: where, with what, and what happens then.
+//! Contacts: what may touch which obstacle, and what happens then.
 
-use super::amplitude::{CHANGE, amplitude};
+use super::name::{NAME, name, numbered};
+use super::obstacle::{OBSTACLE, Placed};
+use super::vector::optional_vector;
 use crate::declaration::{Bound::*, Key, Presence as Default, Presence::*, Type, Type::Quantity, key};
-use crate::fault::{Fault, Faults, Made, both};
+use crate::fault::{Fault, Made, both};
 use crate::kind::{Choice, Context, Kind, Table};
-use crate::units::{ANGLE, LENGTH, VELOCITY};
+use crate::places::{Parts, Place};
+use crate::units::{LENGTH, VELOCITY};
 use crate::values::Values;
-use flexion::contact::{Circle, ContactForce, Dissipation, Law, Obstacle, Plane, Translation};
+use flexion::contact::{ContactForce, Dissipation, Law};
 use flexion::hub_beam::Mount;
-use flexion::profile::jumping_derivative;
-use std::sync::Arc;
+use flexion::linalg::Vec3;
 
 /// Most points of the whole beam.
-pub(super) const MOST_POINTS: i64 = 1000;
+const MOST_POINTS: i64 = 1000;
 
-/// Stations of the beam and the obstacle that they may touch.
+/// What may touch an obstacle.
 #[derive(Clone, Debug)]
 pub struct Contact {
-    /// Name, which begins the names of its columns; `None` for that of its number.
-    pub name: Option<String>,
-    /// Stations \[m\].
-    pub stations: Vec<f64>,
+    /// Name, which begins the names of its columns; empty until its number is known.
+    pub name: String,
+    /// What may touch.
+    pub on: Touching,
+    /// Point of a body, in space at the start \[m\].
+    pub at: Option<Vec3>,
+    /// Radius of the ball about the point, or of the beam \[m\].
+    pub radius: f64,
     /// What the obstacle is fixed to.
     pub mount: Mount,
     /// The obstacle, in axes of what it is fixed to.
-    pub obstacle: Arc<dyn Obstacle>,
-    /// What happens at a touch; the stiffness of a force on points along the whole beam is one per length.
+    pub obstacle: Placed,
+    /// What happens at a touch; the stiffness of a force on points along a whole beam is one per length.
     pub law: Law,
-    /// Whether the stations are points along the whole beam.
-    pub whole: bool,
     /// Whether the tip loses its mass for it.
     pub massless: bool,
 }
 
-/// An obstacle, and what it is fixed to.
-type Placed = (Arc<dyn Obstacle>, Mount);
+/// A contact of the beam.
+#[derive(Clone, Debug)]
+pub struct OnBeam {
+    /// What the case says of it.
+    pub contact: Contact,
+    /// Names, stations \[m\] and laws of its points.
+    pub points: Vec<(String, f64, Law)>,
+}
 
-/// Two coordinates in the plane, the third being zero.
-fn place(v: &Values, name: &str) -> Made<[f64; 3]> {
-    match *v.numbers(name)? {
-        [x, y] => Ok([x, y, 0.0]),
-        ref other => {
-            let message = format!("a place in the plane has 2 coordinates, not {}", other.len());
-            Err(Fault::new(name, message).into())
+/// What may touch.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Touching {
+    /// Places, each a contact of its own.
+    Places(Vec<Place>),
+    /// A whole beam, where it is nearest to the obstacle.
+    Beam(usize),
+    /// The points that cut a beam into so many equal parts.
+    Points {
+        /// Number of the beam.
+        beam: usize,
+        /// Number of the parts.
+        parts: usize,
+    },
+}
+
+/// A point that may touch: its name, place and law.
+pub type Point = (String, Place, Law);
+
+impl Contact {
+    /// Its points; that at the root of a beam is none where the root is `held`.
+    pub fn points(&self, parts: &Parts, held: bool) -> Vec<Point> {
+        let name = |k: usize| format!("{}.{}", self.name, k + 1);
+        match &self.on {
+            Touching::Beam(beam) => vec![(self.name.clone(), Place::Beam(*beam), self.law)],
+            Touching::Places(places) if places.len() == 1 => vec![(self.name.clone(), places[0], self.law)],
+            Touching::Places(places) => {
+                places.iter().enumerate().map(|(k, place)| (name(k), *place, self.law)).collect()
+            }
+            Touching::Points { beam, parts: n } => {
+                let length = parts.beams[*beam].1;
+                let point = |(i, k): (usize, usize)| {
+                    let s = if k == *n { length } else { length * k as f64 / *n as f64 };
+                    let law = share(self.law, length / *n as f64, k == 0 || k == *n);
+                    let name = if *n == 1 && held { self.name.clone() } else { name(i) };
+                    (name, Place::Station { beam: *beam, s }, law)
+                };
+                (usize::from(held)..=*n).enumerate().map(point).collect()
+            }
         }
     }
 }
 
-/// The motion of an obstacle; `None` for one at rest.
-pub(super) fn motion(
-    v: &Values,
-    c: &Context<'_>,
-    place: fn(&Values, &str) -> Made<[f64; 3]>,
-) -> Made<Option<Translation>> {
-    let Some(_) = v.optional("motion")? else { return Ok(None) };
-    let v = v.table("motion")?;
-    let made = || {
-        let (direction, profile) = both(place(v, "displacement"), amplitude(v, c))?;
-        let Some(displacement) = profile else {
-            let message = "a constant amplitude is no motion: the obstacle keeps its place";
-            let help =
-                "give the amplitude as a `ramp`, a `table` or an `expression`, or leave the motion out";
-            return Err(Fault::new(CHANGE.name, message).help(help).into());
-        };
-        let duration = c.duration()?;
-        let within = |t: &&f64| **t > 0.0 && **t <= duration;
-        let jumps = |t: &&f64| jumping_derivative(displacement.as_ref(), **t) == 0;
-        if let Some(time) = displacement.breaks().iter().filter(within).find(jumps) {
-            let message =
-                format!("the displacement of the obstacle jumps at t = {time} s, which no motion does");
-            return Err(Fault::new(CHANGE.name, message).into());
-        }
-        Ok(Some(Translation { direction, displacement }))
-    };
-    made().map_err(|faults: Faults| faults.within("motion"))
-}
-
-const MOUNT_KEY: Key = key(
-    "mount",
-    Type::Choice(&MOUNT),
-    Default::Name("ground"),
-    "what the obstacle is fixed to, in whose axes it is given",
-);
-/// Keys of the motion of an obstacle.
-static MOVED: [Key; 2] = [
-    key(
-        "displacement",
-        Type::Quantities(&LENGTH, Any),
-        Required,
-        "components of the displacement at the amplitude 1",
-    ),
-    CHANGE,
-];
-pub(super) const MOTION: Key = key(
-    "motion",
-    Type::Table(&MOVED),
-    Optional,
-    "prescribed translation of the obstacle, at rest if left out",
-);
-
 /// What an obstacle is fixed to.
 pub static MOUNT: Choice<Mount> = Choice {
     name: "mount",
-    path: "contact.obstacle.mount",
+    path: "contact.mount",
     summary: "what an obstacle is fixed to",
     kinds: &[
         Kind {
             name: "ground",
-            summary: "inertial axes, from the axis of the hub",
+            summary: "axes of space",
             source: "",
             keys: &[],
-            example: "contact=[{obstacle={kind='plane', mount='ground', point=[0, '-1 mm']}, law={kind='hertz', stiffness=1e4}}]\n\
+            example: "contact=[{mount='ground', obstacle={kind='plane', point=[0, '-1 mm']}, law={kind='hertz', stiffness=1e4}}]\n\
                       hub.motion={kind='constant', speed='-0.1 rad/s'}",
             make: |_, _| Ok(Mount::Ground),
         },
@@ -119,87 +109,8 @@ pub static MOUNT: Choice<Mount> = Choice {
             summary: "radial and transverse axis of the hub, from its axis: the obstacle turns with it",
             source: "",
             keys: &[],
-            example: "contact=[{obstacle={kind='plane', mount='hub', point=[0, '-1 um']}, law={kind='hertz', stiffness=1e5}}]",
+            example: "contact=[{mount='hub', obstacle={kind='plane', point=[0, '-1 um']}, law={kind='hertz', stiffness=1e5}}]",
             make: |_, _| Ok(Mount::Hub),
-        },
-    ],
-};
-
-/// The kinds of obstacle.
-pub static OBSTACLE: Choice<Placed> = Choice {
-    name: "obstacle",
-    path: "contact.obstacle",
-    summary: "rigid obstacle that the beam may touch",
-    kinds: &[
-        Kind {
-            name: "plane",
-            summary: "half-plane behind a straight surface",
-            source: "",
-            keys: &[
-                key("point", Type::Quantities(&LENGTH, Any), Required, "x and y of a point of the surface"),
-                key(
-                    "angle",
-                    Quantity(&ANGLE, Any),
-                    Default::Number(0.0),
-                    "angle of the surface against the x axis; the free side is to its left",
-                ),
-                MOUNT_KEY,
-                MOTION,
-            ],
-            example: "contact=[{obstacle={kind='plane', point=[0, '1 mm'], angle='180 deg'}, law={kind='hertz', stiffness=1e5}}]",
-            make: |v, c| {
-                let ((point, motion), mount) =
-                    both(both(place(v, "point"), motion(v, c, place)), MOUNT.make(v, "mount", c))?;
-                Ok((Arc::new(Plane::inclined(point, v.number("angle")?, motion)), mount))
-            },
-        },
-        Kind {
-            name: "circle",
-            summary: "disc, or the outside of a hole",
-            source: "",
-            keys: &[
-                key("centre", Type::Quantities(&LENGTH, Any), Required, "x and y of the centre"),
-                key("radius", Quantity(&LENGTH, Positive), Required, "radius"),
-                key(
-                    "inside",
-                    Type::Boolean,
-                    Default::Boolean(false),
-                    "the beam is inside the circle, in a hole",
-                ),
-                MOUNT_KEY,
-                MOTION,
-            ],
-            example: "contact=[{obstacle={kind='circle', centre=[2, '501 mm'], radius='500 mm'}, law={kind='hertz', stiffness=1e5}}]",
-            make: |v, c| {
-                let ((centre, motion), mount) =
-                    both(both(place(v, "centre"), motion(v, c, place)), MOUNT.make(v, "mount", c))?;
-                let (radius, hollow) = (v.number("radius")?, v.boolean("inside")?);
-                Ok((Arc::new(Circle { centre, axis: [0.0, 0.0, 1.0], radius, hollow, motion }), mount))
-            },
-        },
-        Kind {
-            name: "stop",
-            summary: "stop beside the beam, fixed to the hub: bounds the deflection of the station",
-            source: "",
-            keys: &[key(
-                "offset",
-                Quantity(&LENGTH, Any),
-                Required,
-                "height of the stop over the axis of the undeformed beam: positive on the side of y, negative on the other",
-            )],
-            example: "contact=[{obstacle={kind='stop', offset='-1 um'}, law={kind='hertz', stiffness=1e5}}]",
-            make: |v, _| {
-                let offset = v.number("offset")?;
-                if offset == 0.0 {
-                    let message = "a stop at the offset 0 is on neither side of the beam";
-                    let help =
-                        "for a stop that touches the undeformed beam take a `plane` with the mount `hub`";
-                    return Err(Fault::new("offset", message).help(help).into());
-                }
-                let plane =
-                    Plane { point: [0.0, offset, 0.0], normal: [0.0, -offset.signum(), 0.0], motion: None };
-                Ok((Arc::new(plane), Mount::Hub))
-            },
         },
     ],
 };
@@ -313,55 +224,38 @@ pub static LAW: Choice<(Law, bool)> = Choice {
     ],
 };
 
-/// The stations of a contact: the given ones, equidistant ones, or the tip.
-fn stations(v: &Values, c: &Context<'_>) -> Made<Vec<f64>> {
-    let length = c.length()?;
-    let mut given = Vec::new();
-    for key in ["station", "stations", "points"] {
-        if v.optional(key)?.is_some() {
-            given.push(key);
+/// What may touch: the places of `on`, the whole beam that it names, or the tip of the only beam.
+fn touching(v: &Values, c: &Context<'_>) -> Made<Touching> {
+    let parts = c.parts()?;
+    let tip = ["tip".to_owned()];
+    let names = if v.is_written("on") { v.texts("on")? } else { &tip };
+    let find = |name: &String| parts.find(name).map_err(|fault| Fault { key: "on".to_owned(), ..fault });
+    let places = names.iter().map(find).collect::<Result<Vec<_>, _>>()?;
+    let points = if v.optional("points")?.is_some() { Some(v.count("points")?) } else { None };
+    match (&places[..], points) {
+        ([], _) => Err(Fault::new("on", "names no place").into()),
+        ([Place::Beam(beam)], Some(parts)) => Ok(Touching::Points { beam: *beam, parts }),
+        (_, Some(_)) => {
+            let message = "belong to a whole beam, and `on` names none";
+            Err(Fault::new("points", message).help("write for example `on = \"beam\"`").into())
         }
-    }
-    match given[..] {
-        [] => Ok(vec![length]),
-        ["station"] => Ok(vec![c.station(v, "station")?]),
-        ["stations"] => {
-            let stations = v.numbers("stations")?;
-            if stations.is_empty() || stations.windows(2).any(|two| two[0] >= two[1]) {
-                let message = "the stations of a contact ascend, and there is one at least";
-                return Err(Fault::new("stations", message).into());
+        ([Place::Beam(beam)], None) => Ok(Touching::Beam(*beam)),
+        (places, None) => {
+            for (i, place) in places.iter().enumerate() {
+                let name = &names[i];
+                let message = match place {
+                    Place::Ground => "a point of the ground touches nothing".to_owned(),
+                    Place::Beam(_) => format!("`{name}` is a whole beam, and one of several places is meant"),
+                    _ if places[..i].contains(place) => {
+                        format!("`{name}` is the same place as one before it")
+                    }
+                    _ => continue,
+                };
+                return Err(Fault::new("on", message).into());
             }
-            stations.iter().try_for_each(|station| c.on_beam(*station, "stations"))?;
-            Ok(stations.to_vec())
-        }
-        [_] => {
-            let n = v.count("points")?;
-            Ok((1..=n).map(|k| length * k as f64 / n as f64).collect())
-        }
-        [first, second, ..] => {
-            let message = format!("a contact has one kind of points: give `{first}` or `{second}`, not both");
-            Err(Fault::new(second, message).into())
+            Ok(Touching::Places(places.to_vec()))
         }
     }
-}
-
-/// Parts of the names of columns that are not those of contacts.
-const TAKEN: [&str; 6] = ["tip", "hub", "energy", "step", "time", "constraint"];
-
-/// The name of a contact, which begins the names of its columns.
-fn name(v: &Values) -> Made<Option<String>> {
-    let Some(_) = v.optional("name")? else { return Ok(None) };
-    let name = v.text("name")?;
-    let plain = |c: char| c.is_alphanumeric() || c == '-' || c == '_';
-    if !name.starts_with(char::is_alphabetic) || !name.chars().all(plain) {
-        let message = format!("`{name}` cannot begin the name of a column");
-        let help = "begin with a letter, and go on with letters, digits, `-` and `_`";
-        return Err(Fault::new("name", message).help(help).into());
-    }
-    if TAKEN.contains(&name) {
-        return Err(Fault::new("name", format!("columns of another kind begin with `{name}`")).into());
-    }
-    Ok(Some(name.to_owned()))
 }
 
 /// The tables `[[contact]]`.
@@ -369,109 +263,92 @@ pub static CONTACT: Table<Contact> = Table {
     key: key(
         "contact",
         Type::Tables(&[
+            NAME,
             key(
-                "name",
-                Type::Text,
+                "on",
+                Type::Places,
                 Optional,
-                "name, which begins the names of its columns: `contact`, `contact2`, … if left out",
+                "what may touch: a body, a place of a beam, a list of them, or a whole beam, where it is nearest to the obstacle or by \
+                 `points`; the tip of the only beam if left out",
             ),
-            key("station", Type::Station(Positive), Optional, "station that may touch, the tip if left out"),
             key(
-                "stations",
-                Type::Quantities(&LENGTH, Positive),
-                Optional,
-                "stations that may touch, ascending, each a contact of its own",
+                "at",
+                Type::Quantities(&LENGTH, Any),
+                Empty,
+                "point of a body that may touch, in space at the start; its centre of mass if left out",
+            ),
+            key(
+                "radius",
+                Quantity(&LENGTH, NotNegative),
+                Default::Number(0.0),
+                "radius of the ball about the point, which slides and rolls on the obstacle, or of a beam that is round",
             ),
             key(
                 "points",
                 Type::Integer(1, MOST_POINTS),
                 Optional,
-                "number of equidistant points, the last at the tip, by which the whole beam may touch",
+                "number of equidistant points, the last at the tip, by which a whole beam may touch, and one more at the root where \
+                 nothing holds it",
             ),
             key("obstacle", Type::Kind(&OBSTACLE), Required, "rigid obstacle"),
+            key(
+                "mount",
+                Type::Choice(&MOUNT),
+                Optional,
+                "what the obstacle is fixed to, in whose axes it is given: the ground if left out, the hub of a stop",
+            ),
             key("law", Type::Kind(&LAW), Default::Name("massless"), "what happens at a touch"),
         ]),
-        Default::Empty,
-        "contacts of the beam with obstacles",
+        Empty,
+        "contacts with obstacles",
     ),
-    example: "contact=[{name='ground', points=4, obstacle={kind='plane', point=[0, '-2 mm']}, law={kind='constraint', restitution=0, friction=0.3}}]",
+    example: "contact=[{name='floor', on='beam', points=4, obstacle={kind='plane', point=[0, '-2 mm']}, law={kind='constraint', restitution=0, friction=0.3}}]",
     make: |v, c| {
-        let ((name, stations), ((obstacle, mount), (law, massless))) = both(
-            both(name(v), stations(v, c)),
-            both(OBSTACLE.make(v, "obstacle", c), LAW.make(v, "law", c)),
-        )?;
-        if massless && stations != [c.length()?] {
-            let message = "only the tip can do without mass: at other stations a law with restitution or a force is needed";
-            return Err(Fault::new("law", message)
-                .help("write `law = { kind = \"constraint\", restitution = 0.5 }`")
-                .into());
+        let (on, (obstacle, (law, massless))) =
+            both(touching(v, c), both(OBSTACLE.make(v, "obstacle", c), LAW.make(v, "law", c)))?;
+        let mount = match v.optional("mount")? {
+            None if obstacle.stop => Mount::Hub,
+            None => Mount::Ground,
+            Some(_) => MOUNT.make(v, "mount", c)?,
+        };
+        if obstacle.stop && mount == Mount::Ground {
+            let help = "leave the mount out, or take a `plane`";
+            return Err(Fault::new("mount", "a stop is fixed to the hub").help(help).into());
         }
-        let whole = v.optional("points")?.is_some();
-        Ok(Contact { name, stations, mount, obstacle, law, whole, massless })
+        let at = optional_vector(v, "at")?;
+        if at.is_some() && !matches!(&on, Touching::Places(places) if matches!(places[..], [Place::Body(_)]))
+        {
+            let help = "write `on = \"beam@2 m\"` for one place of a beam";
+            return Err(Fault::new("at", "is a point of a body, and `on` names none").help(help).into());
+        }
+        let (name, radius) = (name(v, &["hub"])?, v.number("radius")?);
+        Ok(Contact { name, on, at, radius, mount, obstacle, law, massless })
     },
 };
 
-/// Gives every contact its name: `contact`, `contact2`, … where none is given.
+/// All contacts with their names: `contact`, `contact2`, … where none is given.
 ///
 /// # Errors
 /// At a name that two contacts have.
-pub fn named(mut contacts: Vec<Contact>) -> Made<Vec<Contact>> {
+pub fn contacts(v: &Values, c: &Context<'_>) -> Made<Vec<Contact>> {
+    let mut contacts = CONTACT.make(v, c)?;
     for k in 0..contacts.len() {
-        let number = if k == 0 { String::new() } else { (k + 1).to_string() };
-        let name = contacts[k].name.take().unwrap_or_else(|| format!("contact{number}"));
-        if contacts[..k].iter().any(|other| other.name.as_ref() == Some(&name)) {
+        let name = numbered(&contacts[k].name, "contact", k);
+        if contacts[..k].iter().any(|other| other.name == name) {
             let message = format!("two contacts are called `{name}`");
             return Err(Fault::new(format!("contact[{}].name", k + 1), message).into());
         }
-        contacts[k].name = Some(name);
+        contacts[k].name = name;
     }
     Ok(contacts)
 }
 
-impl Contact {
-    /// The law of its `k`th station: the force per length on a whole beam is summed up by the trapezium rule, L/n at each of n
-    /// points and half of it at the tip.
-    fn law_at(&self, k: usize) -> Law {
-        match self.stations.first() {
-            Some(&spacing) if self.whole => share(self.law, spacing, k + 1 == self.stations.len()),
-            _ => self.law,
-        }
-    }
-}
-
 /// The law of one of the points, `spacing` \[m\] apart, by which a beam may touch everywhere and whose force is one per length: by the
 /// trapezium rule, half of it at an end.
-pub fn share(law: Law, spacing: f64, end: bool) -> Law {
+fn share(law: Law, spacing: f64, end: bool) -> Law {
     let length = if end { 0.5 * spacing } else { spacing };
     match law {
         Law::Force(force) => Law::Force(ContactForce { stiffness: length * force.stiffness, ..force }),
         law => law,
-    }
-}
-
-/// Names, stations, laws and contacts of the points of all contacts, in the order of the system's.
-pub fn points(contacts: &[Contact]) -> impl Iterator<Item = (String, f64, Law, &Contact)> {
-    contacts.iter().flat_map(|contact| {
-        let name = contact.name.as_deref().unwrap_or("contact");
-        let several = contact.stations.len() > 1;
-        let named = move |k: usize| if several { format!("{name}.{}", k + 1) } else { name.to_owned() };
-        contact
-            .stations
-            .iter()
-            .enumerate()
-            .map(move |(k, station)| (named(k), *station, contact.law_at(k), contact))
-    })
-}
-
-/// Whether the tip of a beam can do without mass where a contact wants it so; `why_not` says what gives it mass.
-pub fn fits_massless(contacts: &[Contact], why_not: Option<&str>) -> Made<()> {
-    match (contacts.iter().position(|contact| contact.massless), why_not) {
-        (Some(i), Some(why)) => {
-            let message =
-                format!("a contact without a law of its own takes the mass from the tip, but {why}");
-            let help = "give it a law: `law = { kind = \"constraint\", restitution = 0.5 }`";
-            Err(Fault::new(format!("contact[{}].law", i + 1), message).help(help).into())
-        }
-        _ => Ok(()),
     }
 }

@@ -1,11 +1,11 @@
 //! The kinematic model of the beam: kinds and how the system of each is assembled.
 
 use super::basis::Bases;
-use super::contact::{self, Contact};
+use super::contact::{Contact, OnBeam};
 use crate::fault::{At, Fault, Made};
 use crate::kind::{Choice, Kind};
 use flexion::basis::Basis;
-use flexion::contact::{self as touch, Contacting};
+use flexion::contact::{self as touch, Contacting, Law};
 use flexion::hub_beam::load::Load;
 use flexion::hub_beam::{
     self, Damping, ExactCoupling, Fields, Foreshortening, HighCoupling, Hub, HubBeam, LinearCoupling,
@@ -36,7 +36,7 @@ pub struct Assembly<'a> {
     /// What acts on the beam.
     pub loads: &'a [&'a dyn Load],
     /// What the beam may touch.
-    pub contacts: &'a [Contact],
+    pub contacts: &'a [OnBeam],
     /// Damping of the beam.
     pub damping: Damping,
     /// Stations that are recorded besides the tip \[m\].
@@ -55,7 +55,7 @@ impl Assembly<'_> {
             Fields::new(self.length, Box::new(axial), Box::new(transverse), &self.beam.breaks)
         };
         match &bases.massless {
-            Some(transverse) if self.contacts.iter().any(|contact| contact.massless) => {
+            Some(transverse) if self.contacts.iter().any(|of| of.contact.massless) => {
                 fields(transverse).with_massless_tip().at("basis")
             }
             _ => Ok(fields(&bases.transverse)),
@@ -87,15 +87,20 @@ impl Assembly<'_> {
             system =
                 system.with_section_forces(self.beam, sampling, self.section_forces, self.strain_heights);
         }
-        let points: Vec<_> = contact::points(self.contacts).collect();
-        if points.is_empty() {
+        let points =
+            || self.contacts.iter().flat_map(|of| of.points.iter().map(move |point| (point, &of.contact)));
+        let at: Vec<_> = points().map(|((_, station, _), contact)| (*station, contact.mount)).collect();
+        if at.is_empty() {
             return Box::new(system);
         }
-        let at: Vec<_> = points.iter().map(|(_, station, _, contact)| (*station, contact.mount)).collect();
-        let made = |(point, (name, _, law, contact)): (usize, (String, f64, touch::Law, &Contact))| {
-            touch::Contact { name, point, obstacle: Arc::clone(&contact.obstacle), law }
-        };
-        let contacts = points.into_iter().enumerate().map(made).collect();
+        let made =
+            |(point, ((name, _, law), contact)): (usize, (&(String, f64, Law), &Contact))| touch::Contact {
+                name: name.clone(),
+                point,
+                obstacle: Arc::clone(&contact.obstacle.obstacle),
+                law: *law,
+            };
+        let contacts = points().enumerate().map(made).collect();
         Box::new(Contacting::new(system.with_contact_points(&at), contacts))
     }
 }

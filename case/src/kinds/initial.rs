@@ -63,7 +63,7 @@ pub static INITIAL: Choice<Initial> = Choice {
             summary: "static equilibrium under the loads of the start, the hub at rest and held",
             source: "",
             keys: &[],
-            example: "initial.kind=static\ngravity={acceleration=9.81}",
+            example: "initial.kind=static\ngravity=[0, -9.81]",
             make: |_, _| Ok(Initial::Static),
         },
         Kind {
@@ -111,6 +111,7 @@ fn restart(v: &Values, c: &Context<'_>) -> Made<Initial> {
     })?;
     let (checkpoint, identity) = read_state(Cursor::new(&*bytes))
         .map_err(|reason| refuse(format!("{name} is not the state of a run: {reason}")))?;
+    checkpoint.check_format().map_err(|error| refuse(format!("{name}: {error}")))?;
     Ok(Initial::Restart(Arc::new(Earlier { checkpoint, identity })))
 }
 

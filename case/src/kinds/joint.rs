@@ -1,16 +1,19 @@
 //! Joints of a system in space, and what drives them.
 
 use super::motion::MOTION;
+use super::name::{NAME, name};
 use super::profile::{self, Shared};
-use super::spatial::{BETWEEN, MARKED, between, direction, name, optional_vector};
+use super::spring::between;
+use super::vector::{MARKED, direction, optional_vector};
 use crate::declaration::{Bound::*, Key, Presence as Default, Presence::*, Type, Type::Quantity, key};
 use crate::fault::{Fault, Made};
 use crate::kind::{Choice, Context, Kind, Table};
+use crate::places::Place;
 use crate::units::{DAMPING, FORCE, FORCE_PER_LENGTH, LENGTH, VELOCITY};
 use crate::values::Values;
 use flexion::drive::Actuator;
 use flexion::hub_beam;
-use flexion::multibody::rotation::{Matrix3, Vector};
+use flexion::linalg::{Mat3, Vec3};
 use flexion::multibody::{Drive, Kind as Freedom};
 use flexion::profile::{Constant, Motion};
 use std::sync::Arc;
@@ -192,14 +195,14 @@ pub struct Joint {
     pub name: String,
     /// What it leaves free.
     pub kind: Freedom,
-    /// The same as written.
-    pub written: String,
-    /// Names of the parts.
-    pub between: [String; 2],
+    /// The same as written, and the parts.
+    pub written: [String; 3],
+    /// The parts.
+    pub between: [Place; 2],
     /// Its point in space at the start \[m\].
-    pub at: Option<Vector>,
+    pub at: Option<Vec3>,
     /// Its axes.
-    pub axes: Matrix3,
+    pub axes: Mat3,
     /// What moves it.
     pub drive: Drive,
     /// Angle or displacement that it has at the start.
@@ -211,14 +214,14 @@ pub static JOINTS: Table<Joint> = Table {
     key: key(
         "joint",
         Type::Tables(&[
-            key(
-                "name",
-                Type::Text,
-                Optional,
-                "name, which begins the names of its columns: `joint`, `joint2`, … if left out",
-            ),
+            NAME,
             key("kind", Type::Choice(&JOINT), Required, "what it leaves free"),
-            BETWEEN,
+            key(
+                "between",
+                Type::Texts,
+                Required,
+                "the two parts: `ground`, bodies, or places of beams such as `blade.root` and `blade.tip`",
+            ),
             key(
                 "at",
                 Type::Quantities(&LENGTH, Any),
@@ -248,8 +251,9 @@ pub static JOINTS: Table<Joint> = Table {
     make: |v, c| {
         let kind = JOINT.make(v, "kind", c)?;
         let (drive, start) = drive(v, c, kind)?;
-        let (name, between) = (name(v, Some("joint"))?, between(v)?);
-        let written = v.text("kind")?.to_owned();
+        let (name, between) = (name(v, &["ground"])?, between(v, c)?);
+        let parts = v.texts("between")?;
+        let written = [v.text("kind")?.to_owned(), parts[0].clone(), parts[1].clone()];
         Ok(Joint {
             name,
             kind,

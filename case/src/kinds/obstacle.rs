@@ -1,23 +1,83 @@
-//! Contacts of a system in space: points of bodies and beams, and the obstacles that they may touch.
+//! Rigid obstacles.
 
-use super::contact::{LAW, MOST_POINTS, MOTION, motion};
-use super::spatial::{name, optional_vector, vector};
-use crate::declaration::{Bound::*, Presence as Default, Presence::*, Type, Type::Quantity, key};
-use crate::fault::{Fault, Made, both};
-use crate::kind::{Choice, Context, Kind, Table};
-use crate::units::{FACTOR, LENGTH};
+use super::amplitude::{CHANGE, amplitude};
+use super::vector::{unit, vector};
+use crate::declaration::{Bound::*, Key, Presence as Default, Presence::*, Type, Type::Quantity, key};
+use crate::fault::{Fault, Faults, Made, both};
+use crate::kind::{Choice, Context, Kind};
+use crate::units::{ANGLE, FACTOR, LENGTH};
 use crate::values::Values;
-use flexion::contact::{Circle, Law, Obstacle, Plane, Sphere};
-use flexion::multibody::rotation::{Vector, times};
+use flexion::contact::{Circle, Obstacle, Plane, Sphere, Translation};
+use flexion::linalg::Vec3;
+use flexion::profile::jumping_derivative;
 use std::sync::Arc;
 
-type Shared = Arc<dyn Obstacle>;
+/// An obstacle.
+#[derive(Clone, Debug)]
+pub struct Placed {
+    /// Its surface, in axes of what it is fixed to.
+    pub obstacle: Arc<dyn Obstacle>,
+    /// Whether its part in the plane of x and y is all that a point of this plane sees of it.
+    pub planar: bool,
+    /// Whether it is a stop beside the beam, which the hub carries.
+    pub stop: bool,
+}
 
-/// The kinds of obstacle in space.
-pub static OBSTACLE: Choice<Shared> = Choice {
-    name: "obstacle in space",
+/// The motion of an obstacle; `None` for one at rest.
+fn motion(v: &Values, c: &Context<'_>) -> Made<Option<Translation>> {
+    let Some(_) = v.optional("motion")? else { return Ok(None) };
+    let v = v.table("motion")?;
+    let made = || {
+        let (direction, profile) = both(vector(v, "displacement"), amplitude(v, c))?;
+        let Some(displacement) = profile else {
+            let message = "a constant amplitude is no motion: the obstacle keeps its place";
+            let help =
+                "give the amplitude as a `ramp`, a `table` or an `expression`, or leave the motion out";
+            return Err(Fault::new(CHANGE.name, message).help(help).into());
+        };
+        let duration = c.duration()?;
+        let within = |t: &&f64| **t > 0.0 && **t <= duration;
+        let jumps = |t: &&f64| jumping_derivative(displacement.as_ref(), **t) == 0;
+        if let Some(time) = displacement.breaks().iter().filter(within).find(jumps) {
+            let message =
+                format!("the displacement of the obstacle jumps at t = {time} s, which no motion does");
+            return Err(Fault::new(CHANGE.name, message).into());
+        }
+        Ok(Some(Translation { direction, displacement }))
+    };
+    made().map_err(|faults: Faults| faults.within("motion"))
+}
+
+/// Keys of the motion of an obstacle.
+static MOVED: [Key; 2] = [
+    key(
+        "displacement",
+        Type::Quantities(&LENGTH, Any),
+        Required,
+        "components of the displacement at the amplitude 1",
+    ),
+    CHANGE,
+];
+const MOTION: Key = key(
+    "motion",
+    Type::Table(&MOVED),
+    Optional,
+    "prescribed translation of the obstacle, at rest if left out",
+);
+
+/// An obstacle that is fixed where its mount is said.
+fn placed(obstacle: Arc<dyn Obstacle>, motion: &Option<Translation>, planar: bool) -> Placed {
+    let stays = motion.as_ref().is_none_or(|motion| motion.direction[2] == 0.0);
+    Placed { obstacle, planar: planar && stays, stop: false }
+}
+
+const CENTRE: &str = "centre";
+
+/// The kinds of obstacle.
+pub static OBSTACLE: Choice<Placed> = Choice {
+    name: "obstacle",
     path: "contact.obstacle",
-    summary: "rigid obstacle that a point of a system in space may touch",
+    summary: "rigid obstacle that a point may touch",
     kinds: &[
         Kind {
             name: "plane",
@@ -34,20 +94,38 @@ pub static OBSTACLE: Choice<Shared> = Choice {
                     "normal",
                     Type::Quantities(&FACTOR, Any),
                     Empty,
-                    "direction out of the obstacle, [0, 0, 1] if left out",
+                    "direction out of the obstacle, [0, 1, 0] if left out",
+                ),
+                key(
+                    "angle",
+                    Quantity(&ANGLE, Any),
+                    Optional,
+                    "angle about z from the x axis to the plane, in the place of `normal`; the free side is to its left",
                 ),
                 MOTION,
             ],
-            example: "contact=[{on='bar', obstacle={kind='plane', point=[0, 0, '-1 mm']}, law={kind='hertz', stiffness=1e4}}]",
-            make: plane,
+            example: "contact=[{obstacle={kind='plane', point=[0, '1 mm'], angle='180 deg'}, law={kind='hertz', stiffness=1e5}}]",
+            make: |v, c| {
+                let (point, motion) = both(vector(v, "point"), motion(v, c))?;
+                let plane = match (unit(v, "normal")?, v.optional_number("angle")?) {
+                    (Some(_), Some(_)) => {
+                        let fault = Fault::new("angle", "says the same as `normal`: leave one of them out");
+                        return Err(fault.into());
+                    }
+                    (Some(normal), None) => Plane { point, normal, motion: motion.clone() },
+                    (None, angle) => Plane::inclined(point, angle.unwrap_or(0.0), motion.clone()),
+                };
+                let planar = plane.normal[2] == 0.0;
+                Ok(placed(Arc::new(plane), &motion, planar))
+            },
         },
         Kind {
             name: "cylinder",
-            summary: "circular cylinder, or the outside of a hole",
+            summary: "circular cylinder, or the outside of a hole; in the plane a disc",
             source: "",
             keys: &[
                 key(
-                    "centre",
+                    CENTRE,
                     Type::Quantities(&LENGTH, Any),
                     Empty,
                     "a point of its axis, the origin if left out",
@@ -62,125 +140,59 @@ pub static OBSTACLE: Choice<Shared> = Choice {
                 key("inside", Type::Boolean, Default::Boolean(false), "the point is inside, in a hole"),
                 MOTION,
             ],
-            example: "contact=[{on='bar', at=[1, 0, 0], obstacle={kind='cylinder', centre=[0, '1 mm', 0], radius='1001 mm', inside=true}, law={kind='hertz', stiffness=1e4}}]\nbody=[{name='bar', mass=2, position=[0.5, 0, 0], velocity=[0.1, 0, 0], inertia={kind='sphere', radius=0.1}}]\njoint=[]",
+            example: "contact=[{obstacle={kind='cylinder', centre=[2, '501 mm'], radius='500 mm'}, law={kind='hertz', stiffness=1e5}}]",
             make: |v, c| {
-                let ((centre, axis), motion) =
-                    both(both(vector(v, "centre"), direction(v, "axis")), motion(v, c, vector))?;
+                let ((centre, axis), motion) = both(both(vector(v, CENTRE), unit(v, "axis")), motion(v, c))?;
+                let axis = axis.unwrap_or(Vec3([0.0, 0.0, 1.0]));
                 let (radius, hollow) = (v.number("radius")?, v.boolean("inside")?);
-                Ok(Arc::new(Circle { centre, axis, radius, hollow, motion }))
+                let cylinder = Circle { centre, axis, radius, hollow, motion: motion.clone() };
+                Ok(placed(Arc::new(cylinder), &motion, axis[0] == 0.0 && axis[1] == 0.0))
             },
         },
         Kind {
             name: "sphere",
-            summary: "ball, a stop of a beam for one, or the inside of a hollow one",
+            summary: "ball, or the inside of a hollow one",
             source: "",
             keys: &[
-                key("centre", Type::Quantities(&LENGTH, Any), Empty, "its centre, the origin if left out"),
+                key(CENTRE, Type::Quantities(&LENGTH, Any), Empty, "its centre, the origin if left out"),
                 key("radius", Quantity(&LENGTH, Positive), Required, "radius"),
                 key("inside", Type::Boolean, Default::Boolean(false), "the point is inside"),
                 MOTION,
             ],
-            example: "contact=[{on='bar', obstacle={kind='sphere', centre=[0, 0, '-51 mm'], radius='50 mm'}, law={kind='hertz', stiffness=1e4}}]",
+            example: "contact=[{obstacle={kind='sphere', centre=[1.9, '-51 mm'], radius='50 mm'}, law={kind='hertz', stiffness=1e4}}]",
             make: |v, c| {
-                let (centre, motion) = both(vector(v, "centre"), motion(v, c, vector))?;
+                let (centre, motion) = both(vector(v, CENTRE), motion(v, c))?;
                 let (radius, hollow) = (v.number("radius")?, v.boolean("inside")?);
-                Ok(Arc::new(Sphere { centre, radius, hollow, motion }))
+                let sphere = Sphere { centre, radius, hollow, motion: motion.clone() };
+                Ok(placed(Arc::new(sphere), &motion, centre[2] == 0.0))
+            },
+        },
+        Kind {
+            name: "stop",
+            summary: "stop beside the beam, fixed to the hub: bounds the deflection of the station",
+            source: "",
+            keys: &[key(
+                "offset",
+                Quantity(&LENGTH, Any),
+                Required,
+                "height of the stop over the axis of the undeformed beam: positive on the side of y, negative on the other",
+            )],
+            example: "contact=[{obstacle={kind='stop', offset='-1 um'}, law={kind='hertz', stiffness=1e5}}]",
+            make: |v, _| {
+                let offset = v.number("offset")?;
+                if offset == 0.0 {
+                    let message = "a stop at the offset 0 is on neither side of the beam";
+                    let help =
+                        "for a stop that touches the undeformed beam take a `plane` with the mount `hub`";
+                    return Err(Fault::new("offset", message).help(help).into());
+                }
+                let plane = Plane {
+                    point: Vec3([0.0, offset, 0.0]),
+                    normal: Vec3([0.0, -offset.signum(), 0.0]),
+                    motion: None,
+                };
+                Ok(Placed { obstacle: Arc::new(plane), planar: true, stop: true })
             },
         },
     ],
-};
-
-/// A unit vector, along z where the key is left out.
-fn direction(v: &Values, key: &str) -> Made<Vector> {
-    let vector = optional_vector(v, key)?.unwrap_or([0.0, 0.0, 1.0]);
-    let size = vector.iter().map(|x| x * x).sum::<f64>().sqrt();
-    if !(size > 0.0 && size.is_finite()) {
-        let message =
-            "has no direction: its components are all zero, or too large or too small to be squared";
-        return Err(Fault::new(key, message).into());
-    }
-    Ok(times(1.0 / size, vector))
-}
-
-fn plane(v: &Values, c: &Context<'_>) -> Made<Shared> {
-    let ((point, normal), motion) =
-        both(both(vector(v, "point"), direction(v, "normal")), motion(v, c, vector))?;
-    Ok(Arc::new(Plane { point, normal, motion }))
-}
-
-/// A point of a part and what it may touch.
-#[derive(Clone, Debug)]
-pub struct Contact {
-    /// Name; empty where none is given.
-    pub name: String,
-    /// Name of the part.
-    pub on: String,
-    /// The point, in space at the start \[m\].
-    pub at: Option<Vector>,
-    /// Radius of the ball about the point, or of the beam \[m\].
-    pub radius: f64,
-    /// Into how many equal parts its points cut a beam that may touch everywhere; the stiffness of a force is then one per length.
-    pub points: Option<usize>,
-    /// The obstacle.
-    pub obstacle: Shared,
-    /// What happens at a touch.
-    pub law: Law,
-}
-
-/// The tables `[[contact]]` of a system in space.
-pub static CONTACT: Table<Contact> = Table {
-    key: key(
-        "contact",
-        Type::Tables(&[
-            key(
-                "name",
-                Type::Text,
-                Optional,
-                "name, which begins the names of its columns: `contact`, `contact2`, … if left out",
-            ),
-            key(
-                "on",
-                Type::Text,
-                Required,
-                "body, place of a beam, or a beam, which touches where it is nearest to the obstacle, or with `points`: `ball`, `blade.tip`, \
-                 `blade`",
-            ),
-            key(
-                "at",
-                Type::Quantities(&LENGTH, Any),
-                Empty,
-                "point of a body that may touch, in space at the start; its centre of mass if left out",
-            ),
-            key(
-                "radius",
-                Quantity(&LENGTH, NotNegative),
-                Default::Number(0.0),
-                "radius of the ball about the point, which slides and rolls on the obstacle, or of a beam that is round",
-            ),
-            key(
-                "points",
-                Type::Integer(1, MOST_POINTS),
-                Optional,
-                "of a beam that may touch at many places at once (`on` names it alone): number of equidistant points, the last at the tip, and one more at \
-                 the root where no joint holds it",
-            ),
-            key("obstacle", Type::Kind(&OBSTACLE), Required, "rigid obstacle"),
-            key("law", Type::Kind(&LAW), Required, "what happens at a touch"),
-        ]),
-        Empty,
-        "points that may touch obstacles",
-    ),
-    example: "contact=[{name='floor', on='bar', at=[1, 0, 0], obstacle={kind='plane', point=[0, 0, '-2 mm'], normal=[0, 0.1, 1]}, law={kind='constraint', restitution=0.5}}]",
-    make: |v, c| {
-        let (obstacle, (law, massless)) = both(OBSTACLE.make(v, "obstacle", c), LAW.make(v, "law", c))?;
-        if massless {
-            let message = "only the tip of a planar beam can do without mass";
-            let help = "write `law = { kind = \"constraint\", restitution = 0.5 }`";
-            return Err(Fault::new("law.kind", message).help(help).into());
-        }
-        let (name, on) = (name(v, Some("contact"))?, v.text("on")?.to_owned());
-        let points = if v.optional("points")?.is_some() { Some(v.count("points")?) } else { None };
-        let (at, radius) = (optional_vector(v, "at")?, v.number("radius")?);
-        Ok(Contact { name, on, at, radius, points, obstacle, law })
-    },
 };

@@ -58,7 +58,7 @@ pub static THROUGH: Choice<Through> = Choice {
             summary: "straight lines",
             source: "",
             keys: &[],
-            example: "force=[{station=2, force=[0, 3], amplitude={kind='table', times=[0, 1], factors=[0, 1], interpolation='linear'}}]",
+            example: "load=[{on='2 m', force=[0, 3], amplitude={kind='table', times=[0, 1], factors=[0, 1], interpolation='linear'}}]",
             make: |_, _| Ok(|rows| Ok((Arc::new(Pieces::linear(rows)?), None))),
         },
         Kind {
@@ -66,7 +66,7 @@ pub static THROUGH: Choice<Through> = Choice {
             summary: "monotone cubics, with continuous slopes, which never leave the values of neighbouring rows",
             source: "Fritsch & Butland 1984, doi:10.1137/0905021",
             keys: &[],
-            example: "force=[{station=2, force=[0, 3], amplitude={kind='table', times=[0, 1], factors=[0, 1], interpolation='monotone'}}]",
+            example: "load=[{on='2 m', force=[0, 3], amplitude={kind='table', times=[0, 1], factors=[0, 1], interpolation='monotone'}}]",
             make: |_, _| Ok(|rows| Ok((Arc::new(Pieces::monotone(rows)?), None))),
         },
         Kind {
@@ -74,7 +74,7 @@ pub static THROUGH: Choice<Through> = Choice {
             summary: "a cubic spline, with continuous curvatures, for smooth and dense rows: it overshoots where rows change abruptly",
             source: "de Boor 2001, chapter IV",
             keys: &[],
-            example: "force=[{station=2, force=[0, 3], amplitude={kind='table', times=[0, 1, 2], factors=[0, 1, 4], interpolation='spline'}}]",
+            example: "load=[{on='2 m', force=[0, 3], amplitude={kind='table', times=[0, 1, 2], factors=[0, 1, 4], interpolation='spline'}}]",
             make: |_, _| Ok(spline),
         },
     ],

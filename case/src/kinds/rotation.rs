@@ -1,11 +1,11 @@
 //! The axis about which `modes` and `campbell` rotate a system in space.
 
-use super::spatial::optional_vector;
+use super::vector::optional_vector;
 use crate::declaration::{Bound::*, Presence::*, Type, key};
 use crate::fault::{Fault, Made};
 use crate::kind::Table;
 use crate::units::{FACTOR, LENGTH};
-use flexion::multibody::rotation::{Vector, plus, times};
+use flexion::linalg::Vec3;
 use flexion::multibody::{Axis, Model, Multibody, Rotating};
 use flexion::system::Fork;
 use flexion_results::nearest;
@@ -28,7 +28,7 @@ pub static ROTATION: Table<About> = Table {
                 "about",
                 Type::Text,
                 Optional,
-                "name of a revolute or cylindrical joint: the system rotates about its axis",
+                "name of a revolute or cylindrical joint with the ground: the system rotates about its axis",
             ),
             key(
                 "axis",
@@ -88,13 +88,26 @@ impl Rotation {
     pub(crate) fn given(about: &About, model: &Model) -> Made<Rotation> {
         let axis = match about {
             About::Line(axis) => *axis,
-            About::Joint(name) => model.axis_of(name).ok_or_else(|| {
+            About::Joint(name) => {
                 let hinges = model.hinges();
-                let near = nearest(name, hinges.iter().copied());
-                let near = near.map_or(String::new(), |near| format!(": did you mean `{near}`?"));
-                let message = format!("there is no revolute or cylindrical joint `{name}`{near}");
-                Fault::new("about", message).help("any other axis is given by `axis` and `point`")
-            })?,
+                let Some(axis) = model.axis_of(name) else {
+                    let near = nearest(name, hinges.iter().copied());
+                    let near = near.map_or(String::new(), |near| format!(": did you mean `{near}`?"));
+                    let message = format!("there is no revolute or cylindrical joint `{name}`{near}");
+                    let help = "any other axis is given by `axis` and `point`";
+                    return Err(Fault::new("about", message).help(help).into());
+                };
+                if !hinges.contains(&name.as_str()) {
+                    let message = format!(
+                        "`{name}` is not a joint with the ground: modes and diagrams are of systems that rotate as a whole, and both \
+                         parts of this joint would"
+                    );
+                    let help = "a rotor on a support that stands still is analysed in time, by `flexion run` with a `motion` of the \
+                                joint; if all parts and the ground rotate, give the axis by `axis` and `point`";
+                    return Err(Fault::new("about", message).help(help).into());
+                }
+                axis
+            }
         };
         let rotation = Rotation { axis, keeps: model.hinge_about(&axis).map(str::to_owned) };
         rotation.of(model, true).map_err(|why| Fault::new("", why))?;
@@ -106,7 +119,7 @@ impl Rotation {
         let hinges = model.hinges();
         let Some(axis) = hinges.first().and_then(|name| model.axis_of(name)) else {
             return Err("the case has no axis of rotation, for no revolute or cylindrical joint is with the ground: write \
-                        `rotation = { axis = [0, 0, 1] }`, and the ground rotates with the system"
+                        `rotation = { axis = [0, 0, 1] }` if all parts and the ground rotate as a whole"
                 .to_owned());
         };
         match (model.against(&axis).first(), model.hinge_about(&axis)) {
@@ -135,9 +148,9 @@ impl Rotation {
     /// As it is said: direction, the point of the axis that is next to the origin, and the joint that keeps its angle, or is free.
     pub fn described(&self, free: bool) -> String {
         let Axis { point, direction: e } = self.axis;
-        let along: f64 = point.iter().zip(&e).map(|(a, b)| a * b).sum();
-        let foot: Vector = plus(point, -1.0, times(along, e));
-        let text = |x: Vector| x.map(|x| format!("{:.4}", x + 0.0)).join(", ");
+        let along: f64 = point.dot(e);
+        let foot: Vec3 = point - along * e;
+        let text = |x: Vec3| x.0.map(|x| format!("{:.4}", x + 0.0)).join(", ");
         let how = if free { "is free" } else { "keeps its angle" };
         let keeps =
             self.keeps.as_ref().map_or(", with the ground".to_owned(), |joint| format!(", `{joint}` {how}"));

@@ -11,8 +11,10 @@ use super::difference::Pair;
 use super::refine::{Goal, RefineError, Target};
 use crate::problem::Problems;
 use crate::reading::Reading;
+use flexion::analysis::recording::Watch;
 use flexion::system::State;
-use flexion_results::{Status, Watch};
+use flexion_results::Status;
+use std::borrow::Cow;
 use std::ops::ControlFlow;
 
 /// Error of the trusted answer over what is asked.
@@ -71,7 +73,7 @@ pub struct Advice {
     /// The case of the trusted answer, as changes, and its estimated error over the bound.
     pub trusted: (Vec<String>, f64),
     /// The quantities with their bounds: name, bound, unit.
-    pub asked: Vec<(String, f64, &'static str)>,
+    pub asked: Vec<(String, f64, Cow<'static, str>)>,
     /// All runs, in the order in which they were tried.
     pub tried: Vec<Tried>,
     /// The number of the cheapest that holds among them.
@@ -145,7 +147,7 @@ impl Reading {
             kind("basis", "finite-elements", &format!("elements={elements}")),
             radau(1e-6),
         ])?;
-        let found = begin.refine(&target.times(TRUSTED), watch)?;
+        let found = begin.refine(&target.times(TRUSTED), watch, &mut |_| {})?;
         let goals = target.goals(&found.run, self.case.size())?;
         if found.run.status != Status::Finished {
             return Err(AdviseError::NoAnswer(found.run.message.unwrap_or_default()));
@@ -159,8 +161,10 @@ impl Reading {
             })));
         }
         let channels = found.run.trajectory.channels();
-        let asked =
-            goals.iter().map(|goal| (goal.quantity(), goal.bound, channels[goal.index].unit)).collect();
+        let asked = goals
+            .iter()
+            .map(|goal| (goal.quantity(), goal.bound, channels[goal.index].unit.clone()))
+            .collect();
         let trusted = found.reading.mesh_and_steps();
         let mut climb = Climb {
             reading: &plain,

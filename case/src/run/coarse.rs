@@ -8,10 +8,11 @@ use super::Run;
 use super::difference::{Pair, vanishes};
 use crate::problem::Problems;
 use crate::reading::Reading;
-use flexion_results::{ColumnError, Status, Watch};
+use flexion::analysis::recording::Watch;
+use flexion_results::{ColumnError, Status};
 
 /// Error over the largest value of a column from which a mesh is coarse.
-const COARSE: f64 = 0.01;
+pub(crate) const COARSE: f64 = 0.01;
 /// Part of that bound which is aimed at.
 const AIM: f64 = 0.7;
 /// Lowest order at which errors are said to fall, and highest that is trusted.
@@ -53,11 +54,8 @@ impl Reading {
         safety: f64,
         watch: &mut Watch<'_>,
     ) -> String {
-        let much = match (100.0 * part).ceil() {
-            percent if percent < 100.0 => format!("is {percent:.0} %"),
-            _ => "is as large as all".to_owned(),
-        };
-        let said = format!("mesh and steps are coarse: the error of {column} {much} of its largest value");
+        let said =
+            format!("mesh and steps are coarse: the error of {column} {} of its largest value", much(part));
         let more = finer.case.finer();
         // Companions of fixed steps are for those, and would follow every wave of a finer mesh.
         if more.is_empty() || self.case.steps.step().is_some() {
@@ -65,7 +63,8 @@ impl Reading {
         }
         // A mesh may be beyond what its basis or an explicit step allows: that is no fault of the case.
         let run_of = |reading: Result<Reading, Problems>, watch: &mut Watch<'_>| {
-            let run = reading.and_then(|reading| reading.prepare()).ok()?.run(watch);
+            let mut run = reading.and_then(|reading| reading.prepare()).ok()?.run(watch);
+            self.cut_at_impact(&mut run);
             (run.status == Status::Finished).then_some(run)
         };
         let both = format!(
@@ -96,5 +95,13 @@ impl Reading {
             }
         }
         both
+    }
+}
+
+/// How large a part of a value is, in words.
+pub(crate) fn much(part: f64) -> String {
+    match (100.0 * part).ceil() {
+        percent if percent < 100.0 => format!("is {percent:.0} %"),
+        _ => "is as large as all".to_owned(),
     }
 }

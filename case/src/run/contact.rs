@@ -2,7 +2,7 @@
 //! nothing was pressed further than a beam bears.
 
 use crate::hub_beam::HubBeam;
-use crate::kinds::contact::{Contact, points};
+use crate::kinds::contact::OnBeam;
 use crate::kinds::initial::Initial;
 use crate::problem::Problems;
 use crate::reading::Reading;
@@ -63,12 +63,12 @@ impl Reading {
     /// What the beam bears at its contacts.
     pub(super) fn limits(&self) -> Vec<Limit> {
         let limits = |beam: &HubBeam| {
-            let limit = |(name, station, law, _): (String, f64, Law, &Contact)| Limit {
-                name,
-                stiffness: beam.section.planar.resultants(station).axial_stiffness,
+            let limit = |(name, station, law): &(String, f64, Law)| Limit {
+                name: name.clone(),
+                stiffness: beam.section.planar.resultants(*station).axial_stiffness,
                 depth: if let Law::Force(_) = law { beam.height() } else { f64::INFINITY },
             };
-            points(&beam.contacts).map(limit).collect()
+            beam.contacts.iter().flat_map(|of| &of.points).map(limit).collect()
         };
         self.case.hub_beam().map_or_else(Vec::new, limits)
     }
@@ -76,7 +76,7 @@ impl Reading {
     /// A warning where twice the functions have another effective mass at a contact with restitution.
     pub(super) fn effective_masses(&self, system: &mut dyn System, state: &State) -> Vec<String> {
         let rigid = |law: &Law| matches!(law, Law::Constraint { .. });
-        let planar = |contact: &Contact| !contact.massless && rigid(&contact.law);
+        let planar = |of: &OnBeam| !of.contact.massless && rigid(&of.contact.law);
         let planar = self.case.hub_beam().is_some_and(|beam| beam.contacts.iter().any(planar));
         let space = self.case.space().filter(|space| !space.beams.is_empty());
         if !planar && !space.is_some_and(|space| space.contacts.iter().any(|contact| rigid(&contact.law))) {

@@ -7,6 +7,8 @@ use flexion_results::Trajectory;
 const EARLIER: f64 = 0.25;
 /// Largest difference over the largest value from which a value may be off by all of it.
 const UNRESOLVED: f64 = 0.1;
+/// Part of a time that rounding may have taken.
+const SAME_TIME: f64 = 1e-9;
 /// Part of the largest value of a column beyond which it is no longer trusted.
 const DISTRUSTED: f64 = 0.1;
 
@@ -18,10 +20,10 @@ const ROUNDING: f64 = 1e-12;
 /// Whether a column never differs from zero by more than rounding may: it has no relative error. Zero is judged by the
 /// size of its kind, the principal columns of the same unit and the length `size` \[m\] of the model.
 pub(super) fn vanishes(of: &Trajectory, index: usize, size: f64) -> bool {
-    let unit = of.channels()[index].unit;
-    let alike = of.channels().iter().enumerate().filter(|(_, c)| c.unit == unit && c.role == Role::Primary);
+    let unit = &of.channels()[index].unit;
+    let alike = of.channels().iter().enumerate().filter(|(_, c)| c.unit == *unit && c.role == Role::Primary);
     let largest = alike.fold(0.0_f64, |most, (i, _)| most.max(of.extremes(i).largest()));
-    let natural = match unit {
+    let natural = match unit.as_ref() {
         "m" => size,
         "rad" | "" => 1.0,
         _ => 0.0,
@@ -42,9 +44,12 @@ impl<'a> Pair<'a> {
         Some(Pair { ours, index: ours.index(column)?, theirs, other: theirs.index(column)? })
     }
 
+    /// The common records. Where one run ends between two records of the other, its last row has no partner.
     fn rows(&self) -> impl Iterator<Item = (f64, f64, f64)> {
         let values = self.ours.values(self.index).zip(self.theirs.values(self.other));
-        self.ours.times().iter().zip(values).map(|(t, (x, y))| (*t, x, y))
+        let times = self.ours.times().iter().zip(self.theirs.times());
+        let common = times.zip(values).filter(|((t, other), _)| (*t - *other).abs() <= SAME_TIME * t.abs());
+        common.map(|((t, _), (x, y))| (*t, x, y))
     }
 
     /// The values y and y_f at the common records.
@@ -105,7 +110,7 @@ mod tests {
     use flexion::system::Channel;
 
     fn column(values: [f64; 3]) -> Trajectory {
-        let mut out = Trajectory::new(vec![Channel { name: "y".into(), unit: "m", ..Channel::default() }]);
+        let mut out = Trajectory::new(vec![Channel::new(Role::Detail, "y", "m", "")]);
         for (i, value) in values.into_iter().enumerate() {
             out.push(i as f64, |row| row[0] = value);
         }
@@ -121,6 +126,11 @@ mod tests {
         assert_eq!((pair.largest(), pair.size()), (0.5, 2.25));
         // The difference 0.5 is a fifth of the largest value: no value is better known.
         assert_eq!(pair.of_values(), [0.5, 0.5, 0.5]);
+        // A run that ends at 1.5 has no partner for its last record, however far it is.
+        let mut short = column([0.0, 1.0, 9.0]);
+        short.cut(2.0);
+        short.push(1.5, |row| row[0] = 9.0);
+        assert_eq!(Pair::new(&b, &short, "y").unwrap().largest(), 0.0);
         let small = column([0.0, 0.99, 2.0]);
         let differences = Pair::new(&b, &small, "y").unwrap().of_values();
         assert!((differences[2] - 0.0025).abs() < 1e-15, "{differences:?}");

@@ -11,8 +11,9 @@ use super::difference::Pair;
 use crate::problem::Problems;
 use crate::reading::Reading;
 use flexion::analysis::disturb;
+use flexion::analysis::recording::Watch;
 use flexion::system::{Channel, Role};
-use flexion_results::{Unstable, Watch};
+use flexion_results::Unstable;
 use std::ops::ControlFlow;
 
 /// ε

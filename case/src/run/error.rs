@@ -23,7 +23,8 @@
 //! the tolerances 10⁻⁵, 10⁻⁷ and 10⁻⁹ in turn, until two of them differ by half of what the run differs from the
 //! second: a coarse step needs no fine companion, which would follow every wave that the mesh can carry.
 //!
-//! A run with rigid contacts is compared until its first impact only: behind it another mesh has other masses at its contacts.
+//! A run of a mesh with rigid contacts is compared until the first impact of both only: after it another mesh has other masses at its
+//! contacts, and between the two impacts one run has struck and the other has not. Bodies without a mesh have the same masses in both.
 //!
 //! Work is counted in steps times unknowns, not in seconds, so that the same case gives the same files everywhere.
 //!
@@ -36,9 +37,10 @@ use crate::kinds::initial::Initial;
 use crate::kinds::integrator::Steps;
 use crate::problem::Problems;
 use crate::reading::Reading;
+use flexion::analysis::recording::Watch;
 use flexion::contact::Law;
 use flexion::system::{Role, State};
-use flexion_results::{ColumnError, Errors, Status, Unstable, Watch};
+use flexion_results::{ColumnError, Errors, Status, Unstable};
 use std::ops::ControlFlow;
 
 /// Tolerances of the companions of fixed steps, one after the other.
@@ -53,7 +55,7 @@ const SHORTER: (f64, f64) = (0.9, 0.5);
 /// Smallest tolerance that is asked of `radau`.
 pub(super) const TIGHTEST: f64 = 1e-13;
 /// Largest error of a mesh of elements over its difference from one of twice as many.
-const SAFETY: f64 = 2.0;
+pub(crate) const SAFETY: f64 = 2.0;
 /// Elements of the companion with the exact coupling where the run has no elements.
 const ELEMENTS: usize = 24;
 /// The column whose exact value is known: 0, which a method that conserves energy meets better than its companions.
@@ -62,10 +64,14 @@ const BALANCE: &str = "energy.balance";
 const OWN_ERROR: f64 = 1.1;
 /// Steps times unknowns of a run beyond which its companions are not run unasked: about a second of computing.
 const COSTLY: f64 = 3e6;
+/// Evaluations of the residual that a step has: location of impacts takes more, and counts as so many more steps.
+const RESIDUALS: f64 = 4.0;
 /// Work of all companions beyond which they are given up unasked: over that of the run, and what is always allowed.
 const ALLOWANCE: (f64, f64) = (20.0, 2e6);
 /// Part of a column that rounding may have taken.
-const ROUNDING: f64 = 1e-12;
+pub(crate) const ROUNDING: f64 = 1e-12;
+/// Part of the recording interval in which a record and an impact are at the same time.
+const SAME: f64 = 1e-9;
 
 /// How much an estimate of errors may cost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -101,7 +107,8 @@ impl Reading {
         effort: Effort,
         watch: &mut Watch<'_>,
     ) -> Result<Errors, Problems> {
-        let work = run.counters.steps as f64 * run.size.unknowns as f64;
+        let steps = (run.counters.steps as f64).max(run.counters.residuals as f64 / RESIDUALS);
+        let work = steps * run.size.unknowns as f64;
         if effort == Effort::Auto && work > COSTLY {
             return Ok(Errors::none(format!(
                 "the run took {work:.1e} steps times unknowns, and its companions several times as many: `--error full` runs them"
@@ -115,10 +122,9 @@ impl Reading {
                 Effort::Full => Err(self.problem("initial", message)),
             };
         }
-        if let (Some(end), Some(step)) = (self.before_impacts(run), self.case.steps.step())
-            && step > end
-        {
-            return Ok(Errors::none("the first impact comes within the first step".to_owned()));
+        let first = self.case.steps.step().unwrap_or(0.0).max(self.case.output.step);
+        if self.before_impacts(run).is_some_and(|end| end < first) {
+            return Ok(Errors::none("the first impact comes within the first step or record".to_owned()));
         }
         let allowed = match effort {
             Effort::Auto => (ALLOWANCE.0 * work).max(ALLOWANCE.1),
@@ -155,17 +161,22 @@ impl Reading {
         let (finer, fine) = shortened.as_ref().unwrap_or(self).finer_run(run, watch)?;
         // Before the exact companion, which may use up what work is allowed.
         let trust = self.trust(run, watch)?;
-        warnings.extend(until.map(|end| {
+        let reach = |run: &Run| run.trajectory.times().last().copied().unwrap_or(0.0);
+        warnings.extend(until.map(|_| {
             format!(
-                "the errors are those until t = {end} s, before the first impact: what an impact on a beam does is a matter of \
-                 the mesh"
+                "the errors are those until t = {:.6} s, before the first impact: what an impact on a beam does is a matter of \
+                 the mesh",
+                reach(&fine)
             )
         }));
         warnings.extend(trust);
         let safety = self.case.hub_beam().map_or(SAFETY, |beam| beam.bases.safety);
         let foreshortened = self.case.hub_beam().is_some_and(|beam| !beam.coupling.whole_curve);
         let exact = match foreshortened.then(|| finer.with_exact_coupling(self, watch)) {
-            Some(Ok(exact)) => Some(exact),
+            Some(Ok(mut exact)) => {
+                self.cut_at_impact(&mut exact);
+                Some(exact)
+            }
             Some(Err(problems)) => {
                 let why = problems.list.first().map_or("", |problem| problem.message.as_str());
                 warnings.push(format!(
@@ -179,7 +190,7 @@ impl Reading {
         warnings.extend(unstable.as_ref().map(|Unstable { size, column, from, until }| {
             format!(
                 "a disturbance of {size:e} of the amplitudes grows from t = {from:.6} s to {until:.6} s to a hundredth of \
-                 the motion, first in {column}: the motion is unstable, and trusted until then; a small force written into the \
+                 the motion, first in {column}: the motion is unstable; a small force written into the \
                  case shows where it leads"
             )
         }));
@@ -195,7 +206,7 @@ impl Reading {
             }
         }
         let grown = unstable.as_ref().map_or(f64::INFINITY, |unstable| unstable.until);
-        let (mut columns, mut trusted) = (Vec::new(), fine.state.t.min(run.state.t).min(grown));
+        let (mut columns, mut trusted) = (Vec::new(), reach(&fine).min(run.state.t).min(grown));
         let mut distrusted = None;
         for name in self::columns(run) {
             let Some(pair) = Pair::new(&run.trajectory, &fine.trajectory, name) else { continue };
@@ -232,27 +243,39 @@ impl Reading {
         Ok(Errors { columns, warnings, trusted, distrusted, unstable, ..Errors::default() })
     }
 
-    /// The last time recorded before the first impact of a run with a rigid contact; behind it a run on another mesh says
-    /// nothing of the error.
+    /// The last time recorded before the first impact of a run of a mesh with a rigid contact: after it a run on another mesh says nothing
+    /// of the error.
     pub(crate) fn before_impacts(&self, run: &Run) -> Option<f64> {
+        let step = self.case.output.step;
+        let end = (self.first_impact(run)? / step - SAME).floor().max(0.0) * step;
+        Some(end).filter(|end| *end < self.case.duration)
+    }
+
+    /// The time of the first impact of a run of a mesh with a rigid contact.
+    fn first_impact(&self, run: &Run) -> Option<f64> {
         let rigid = |law: &Law| matches!(law, Law::Constraint { .. });
-        let planar = self
-            .case
-            .hub_beam()
-            .into_iter()
-            .flat_map(|beam| beam.contacts.iter().map(|contact| &contact.law));
+        let planar =
+            self.case.hub_beam().into_iter().flat_map(|beam| beam.contacts.iter().map(|of| &of.contact.law));
         let spatial =
             self.case.space().into_iter().flat_map(|space| space.contacts.iter().map(|contact| &contact.law));
-        let first = run.events.list.first().filter(|_| planar.chain(spatial).any(rigid))?;
-        let step = self.case.output.step;
-        Some((first.time / step).floor().max(1.0) * step).filter(|end| *end < self.case.duration)
+        let has_mesh = !self.case.finer().is_empty();
+        let first = run.events.list.first().filter(|_| has_mesh && planar.chain(spatial).any(rigid))?;
+        Some(first.time)
+    }
+
+    /// Leaves out what a companion records from its first impact on.
+    pub(super) fn cut_at_impact(&self, companion: &mut Run) {
+        if let Some(time) = self.first_impact(companion) {
+            companion.trajectory.cut(time);
+        }
     }
 
     /// The refined case and its run: for fixed steps the first of the ladder whose own error does not count beside that
     /// of `run`.
     fn finer_run(&self, run: &Run, watch: &mut Watch<'_>) -> Result<(Reading, Run), Problems> {
         let finer = self.refined(run)?;
-        let fine = finer.prepare()?.run(watch);
+        let mut fine = finer.prepare()?.run(watch);
+        self.cut_at_impact(&mut fine);
         if self.case.steps.step().is_none() {
             return Ok((finer, fine));
         }
@@ -262,7 +285,8 @@ impl Reading {
                 break;
             }
             let finer = last.0.with(&[radau(*rung)])?;
-            let fine = finer.prepare()?.run(watch);
+            let mut fine = finer.prepare()?.run(watch);
+            self.cut_at_impact(&mut fine);
             let settled = settled(run, &last.1, &fine);
             last = (finer, fine);
             if settled {

@@ -3,7 +3,7 @@
 pub mod advise;
 mod cautions;
 mod clock;
-mod coarse;
+pub(crate) mod coarse;
 mod contact;
 mod difference;
 mod disturbance;
@@ -21,6 +21,7 @@ use super::reading::{Live, Reading};
 use super::resolved;
 use clock::Clock;
 use flexion::analysis::equilibrium::stable_equilibrium;
+use flexion::analysis::recording::{Columns, Events, Recorder, Trajectory, Watch};
 use flexion::analysis::superposition::superpose;
 use flexion::analysis::transient::{Ending, Plan, resume, transient_to_checkpoint};
 use flexion::hub_beam::Drive;
@@ -28,9 +29,10 @@ use flexion::integrator::{Checkpoint, Counters, Info};
 use flexion::system::{State, System};
 use flexion_results::plot::{contact_figure, spatial_figure, trajectory_figure};
 use flexion_results::{
-    Artifact, Attachments, Directory, Errors, Events, Integration, OutputError, ProblemSize, Recorder,
-    RunReport, Scene, Shapes, Status, Trajectory, Watch, write_run,
+    Artifact, Attachments, Directory, Errors, Integration, OutputError, ProblemSize, RunReport, Scene,
+    Shapes, Status, write_run,
 };
+use std::ops::ControlFlow;
 
 /// Most memory for records [bytes], and columns that every run may have.
 const MOST_BYTES: f64 = 4e9;
@@ -52,6 +54,8 @@ pub struct Prepared {
     warnings: Vec<String>,
     /// What the beam bears at its contacts.
     limits: Vec<contact::Limit>,
+    /// Time that this took \[s\], and that of the processor.
+    taken: (f64, Option<f64>),
 }
 
 /// What a run gave.
@@ -59,7 +63,7 @@ pub struct Prepared {
 pub struct Run {
     /// How it ended.
     pub status: Status,
-    /// Why it ended early.
+    /// Why it ended early, or before the accuracy that was asked.
     pub message: Option<String>,
     /// What it recorded.
     pub trajectory: Trajectory,
@@ -85,10 +89,18 @@ pub struct Run {
     pub counters: Counters,
     /// Size of the equations solved in each iteration.
     pub size: ProblemSize,
-    /// Time of computing \[s\]. It and `cpu_time` are the figures that differ from run to run.
+    /// Time of computing, preparation included \[s\]. It and `cpu_time` are the figures that differ from run to run.
     pub wall_time: f64,
     /// Time of computing of the processor \[s\], where the system gives it.
     pub cpu_time: Option<f64>,
+}
+
+impl Run {
+    /// What its reader should know: of the model, of its steps and of its errors.
+    pub fn all_warnings(&self) -> impl Iterator<Item = &str> {
+        let estimates = self.errors.iter().flat_map(|errors| &errors.warnings);
+        self.warnings.iter().chain(estimates).map(String::as_str)
+    }
 }
 
 impl Reading {
@@ -97,10 +109,23 @@ impl Reading {
     /// # Errors
     /// [`Problems`] at the key that is to blame, also when there is no equilibrium to begin with.
     pub fn prepare(&self) -> Result<Prepared, Problems> {
+        self.prepare_watched(&mut |_| ControlFlow::Continue(()))
+    }
+
+    /// As [`Reading::prepare`]; `watch` is shown the load factors of the path on which a stable equilibrium is looked for, and ends the
+    /// search by `Break`.
+    ///
+    /// # Errors
+    /// As [`Reading::prepare`], and where the search was ended.
+    pub fn prepare_watched(
+        &self,
+        watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> Result<Prepared, Problems> {
+        let clock = Clock::start();
         self.missing_for_run()?;
         let mut live = self.build()?;
         let mut state = live.system.initial();
-        let (history, unstable) = self.begin(live.system.as_mut(), &mut state)?;
+        let (history, unstable) = self.begin(live.system.as_mut(), &mut state, watch)?;
         if history.is_none() {
             self.check_contacts(live.system.as_mut(), &state)?;
         }
@@ -115,7 +140,7 @@ impl Reading {
             }
             Steps::Controlled { first, longest, contact, .. } => (first, longest, contact),
         };
-        self.check_memory(live.system.as_ref())?;
+        self.check_memory(live.system.as_mut())?;
         let plan = Plan { end: case.duration, step, longest_step, contact_step, sample: case.output.step };
         let tables = self.tables();
         let keys: Vec<String> = tables.iter().map(|(key, _)| key.clone()).collect();
@@ -135,20 +160,21 @@ impl Reading {
             history,
             warnings,
             limits: self.limits(),
+            taken: clock.elapsed(),
         })
     }
 
     /// Whether the records fit into memory.
-    fn check_memory(&self, system: &dyn System) -> Result<(), Problems> {
+    fn check_memory(&self, system: &mut dyn System) -> Result<(), Problems> {
         let records = self.case.duration / self.case.output.step + 2.0;
-        let bytes = 8.0 * records * (system.channels().len() + COMMON) as f64;
+        let columns = system.channels().len() + COMMON;
+        let bytes = 8.0 * records * columns as f64;
         if bytes <= MOST_BYTES {
             return Ok(());
         }
         let message = format!(
-            "{records:.1e} records of {} columns take {:.1} GB of memory, and at most {:.0} GB are taken: record less often, \
+            "{records:.1e} records of {columns} columns take {:.1} GB of memory, and at most {:.0} GB are taken: record less often, \
              or at fewer stations",
-            system.channels().len() + COMMON,
             1e-9 * bytes,
             1e-9 * MOST_BYTES
         );
@@ -161,18 +187,19 @@ impl Reading {
         &self,
         system: &mut dyn System,
         state: &mut State,
+        watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Result<(Option<Checkpoint>, Option<String>), Problems> {
         let mut warning = None;
         match &self.case.initial {
             Initial::Undeformed => {}
             Initial::Restart(earlier) => return Ok((restart::begin(earlier, self, state)?, None)),
-            Initial::SteadyRotation => warning = self.equilibrium(system, state)?,
+            Initial::SteadyRotation => warning = self.equilibrium(system, state, watch)?,
             Initial::Static => {
                 self.at_rest(&state.v, "initial.kind", "use `steady-rotation`")?;
-                warning = self.equilibrium(system, state)?;
+                warning = self.equilibrium(system, state, watch)?;
             }
             Initial::Modes(vibrations) => {
-                warning = self.equilibrium(system, state)?;
+                warning = self.equilibrium(system, state, watch)?;
                 superpose(system, state, vibrations, self.case.size()).map_err(|error| {
                     // At the list that was written.
                     let defaults = self.defaults();
@@ -207,11 +234,16 @@ impl Reading {
 
     /// Brings `state` into the equilibrium at the speed that the hub has. Returns a warning of one that is unstable, or that
     /// growing loads alone do not lead to.
-    fn equilibrium(&self, system: &mut dyn System, state: &mut State) -> Result<Option<String>, Problems> {
+    fn equilibrium(
+        &self,
+        system: &mut dyn System,
+        state: &mut State,
+        watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> Result<Option<String>, Problems> {
         let velocity = state.v.clone();
         system.hold(true);
-        let found =
-            stable_equilibrium(system, state).map_err(|error| self.problem("initial", error.to_string()))?;
+        let found = stable_equilibrium(system, state, watch)
+            .map_err(|error| self.problem("initial", error.to_string()))?;
         system.hold(false);
         state.v = velocity;
         Ok(match (found.stability, found.left) {
@@ -249,6 +281,7 @@ impl Reading {
     /// [`OutputError`] for whatever goes wrong on disk or in drawing.
     pub fn write(&self, run: &Run, directory: &Directory) -> Result<Status, OutputError> {
         let file = self.file.file_name().map(|name| name.to_string_lossy());
+        let warnings: Vec<String> = run.all_warnings().map(str::to_owned).collect();
         let report = RunReport {
             status: run.status,
             message: run.message.as_deref(),
@@ -256,7 +289,7 @@ impl Reading {
             file: file.as_deref(),
             duration: self.case.duration,
             end_time: run.state.t,
-            warnings: &run.warnings,
+            warnings: &warnings,
             integrator: Integration { info: &run.info, settings: self.settings("integrator") },
             errors: run.errors.as_ref(),
             events: (!run.events.is_empty()).then_some(&run.events),
@@ -298,30 +331,38 @@ impl Prepared {
             energy_balance,
             modal_shares,
             tables,
-            shapes,
-            scene,
+            mut shapes,
+            mut scene,
             history,
             mut warnings,
             limits,
+            taken,
         } = self;
-        let Live { mut system, mut integrator } = live;
+        let Live { mut system, integrator } = live;
         let clock = Clock::start();
-        let mut recorder =
-            Recorder::new(system.as_mut(), &state, &plan, [energy_balance, modal_shares], watch)
-                .with_shapes(shapes, scene)
-                .with_jumps_in_steps(integrator.resolves_contacts());
-        let parts = (system.as_mut(), integrator.as_mut());
+        let mut pictures = |system: &mut dyn System, state: &State| {
+            shapes.iter_mut().for_each(|shapes| shapes.sample(system, state));
+            scene.sample(system, state);
+        };
+        let columns = Columns { energy_balance, modal_shares };
+        let mut recorder = Recorder::new(system.as_mut(), &state, &plan, columns)
+            .with_watch(watch)
+            .with_sampled(&mut pictures)
+            .with_jumps_in_steps(integrator.resolves_contacts());
+        let parts = (system.as_mut(), integrator.as_ref());
         let (ending, checkpoint) = match &history {
             None => transient_to_checkpoint(parts.0, parts.1, &mut state, &plan, &mut recorder),
             Some(history) => resume(parts.0, parts.1, history, &mut state, &plan, &mut recorder)
                 .unwrap_or_else(|error| (Ending::Failed(error.into()), history.clone())),
         };
         let (wall_time, cpu_time) = clock.elapsed();
-        let of_steps = recorder.warnings();
-        let (trajectory, mut shapes, mut scene, events) = recorder.into_parts();
+        let (wall_time, cpu_time) =
+            (wall_time + taken.0, cpu_time.zip(taken.1).map(|(run, before)| run + before));
+        let of_steps = recorder.warnings(system.as_mut(), &state);
+        let (trajectory, events) = recorder.into_parts();
         warnings.extend(system.cautions(&trajectory.peaks()));
         warnings.extend(limits.iter().filter_map(|limit| limit.exceeded(&trajectory)));
-        warnings.extend(of_steps);
+        warnings.extend(of_steps.iter().map(|warning| cautions::of_run(warning, plan.step.is_some())));
         if let Ending::Finished = ending {
             shapes.iter_mut().for_each(|shapes| shapes.finish(system.as_mut(), &state));
             scene.finish(system.as_mut(), &state);
@@ -343,7 +384,7 @@ impl Prepared {
             tables,
             warnings,
             info: integrator.info().clone(),
-            counters: integrator.counters(),
+            counters: checkpoint.counters().unwrap_or_default(),
             size: size(system.as_ref()),
             state,
             checkpoint,

@@ -3,7 +3,7 @@
 use crate::case::{Case, Subject};
 use crate::hub_beam::HubBeam;
 use crate::kinds::beam::Beam;
-use crate::kinds::contact::Contact;
+use crate::kinds::contact::OnBeam;
 use crate::space::Space;
 use flexion::hub_beam::Mount;
 use flexion::multibody::{self, Body, Marker};
@@ -49,15 +49,16 @@ impl HubBeam {
 
     /// The obstacles, as they are drawn.
     pub(super) fn drawn(&self) -> Vec<Drawn> {
-        let drawn = |contact: &Contact| Drawn {
-            name: contact.name.clone().unwrap_or_default(),
+        let stations = |of: &OnBeam| of.points.iter().map(|(_, station, _)| *station).collect::<Vec<_>>();
+        let drawn = |of: &OnBeam| Drawn {
+            name: of.contact.name.clone(),
             body: 0,
             size: self.length,
             in_space: false,
-            station: contact.stations.last().copied().unwrap_or(self.length),
-            points: if contact.stations.len() > 1 { contact.stations.clone() } else { Vec::new() },
-            on_hub: contact.mount == Mount::Hub,
-            obstacle: Arc::clone(&contact.obstacle),
+            station: stations(of).last().copied().unwrap_or(self.length),
+            points: if of.points.len() > 1 { stations(of) } else { Vec::new() },
+            on_hub: of.contact.mount == Mount::Hub,
+            obstacle: Arc::clone(&of.contact.obstacle.obstacle),
         };
         self.contacts.iter().map(drawn).collect()
     }

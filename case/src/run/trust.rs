@@ -7,7 +7,8 @@ use super::Run;
 use crate::kinds::integrator::Steps;
 use crate::problem::Problems;
 use crate::reading::Reading;
-use flexion_results::{Status, Watch};
+use flexion::analysis::recording::Watch;
+use flexion_results::Status;
 
 /// Difference of a gap, over its largest value, from which two runs go different ways.
 const APART: f64 = 0.01;
@@ -46,8 +47,8 @@ impl Reading {
         }
         Ok(first.is_finite().then(|| {
             format!(
-                "gaps and impacts are trusted until t = {first:.6} s: from there a run with {what} goes another way, for \
-                 impacts amplify every difference"
+                "from t = {first:.6} s gaps and impacts are not those of a run with {what}: impacts amplify every \
+                 difference"
             )
         }))
     }

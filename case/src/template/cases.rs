@@ -69,9 +69,9 @@ blade = { pitch = "2 deg", precone = "2.5 deg" }
 title = "A flexible arm with a payload"
 beam = { length = "1 m" }
 section = { kind = "rectangle", modulus = "70 GPa", density = "2700 kg/m^3", width = "30 mm", height = "5 mm" }
-gravity = { acceleration = "9.81 m/s^2" }
-mass = [{ station = "tip", mass = "100 g" }]
-damping = { stiffness-proportional = "0.5 ms" }
+gravity = [0, "-9.81 m/s^2"]
+mass = [{ on = "tip", mass = "100 g" }]
+damping = { stiffness = "0.5 ms" }
 run = { duration = "5 s" }
 output = { step = "0.01 s" }
 [hub]
@@ -179,7 +179,7 @@ title = "A flexible arm in space"
 gravity = [0, 0, "-9.81 m/s^2"]
 integrator = { kind = "generalized-alpha", step = "1 ms" }
 run = { duration = "2 s" }
-output = { step = "5 ms", vtk = true }
+output = { step = "5 ms", stations = ["50 cm"], vtk = true }
 [[body]]
 name = "payload"
 mass = "200 g"
@@ -190,7 +190,6 @@ name = "arm"
 length = "1 m"
 section = { kind = "rectangle", modulus = "70 GPa", density = "2700 kg/m^3", width = "20 mm", height = "5 mm" }
 elements = 8
-stations = ["50 cm"]
 [[joint]]
 name = "motor"
 kind = "revolute"

@@ -110,7 +110,8 @@ impl Writer {
         }
         let filled = |key: &Key| values.entries.iter().find(|filled| filled.key.name == key.name);
         for key in keys.iter().filter(|key| !nested(key)) {
-            let comment = meaning(key);
+            let given = filled(key).is_some_and(|filled| filled.place.is_some());
+            let comment = meaning(key, given);
             match filled(key) {
                 Some(Filled { place: Some(place), .. }) => {
                     let text = self.texts.get(place.source).copied().unwrap_or_default();
@@ -166,17 +167,17 @@ fn nested(key: &Key) -> bool {
     matches!(key.takes, Type::Table(_) | Type::Tables(_) | Type::Kind(_))
 }
 
-/// What a key means, its unit and limits, and what it can be chosen from.
-fn meaning(key: &Key) -> String {
+/// What a key means, its unit and limits, what it can be chosen from, and whether it can be left out where it is not given.
+fn meaning(key: &Key, given: bool) -> String {
     let mut text = key.doc.to_owned();
     match key.takes {
         Type::Quantity(measure, bound) | Type::Quantities(measure, bound) => {
             let _ = write!(text, " [{}]", measure.unit);
             limits(bound, &mut text);
         }
-        Type::Station(bound) => {
-            text.push_str(" [m], or \"tip\"");
-            limits(bound, &mut text);
+        Type::Place => text.push_str(", such as \"tip\" or \"2 m\""),
+        Type::Moment(measure) => {
+            let _ = write!(text, " [{}]", measure.unit);
         }
         Type::Number(bound) => limits(bound, &mut text),
         Type::Choice(choice) => {
@@ -184,7 +185,7 @@ fn meaning(key: &Key) -> String {
         }
         _ => {}
     }
-    if key.presence.is_optional() {
+    if key.presence.is_optional() && !given {
         text.push_str(" (optional)");
     }
     text
@@ -209,7 +210,7 @@ fn example(takes: &Type) -> String {
             let small = examples.get(1).or(examples.first()).copied().unwrap_or_default();
             format!("\"{}\"", small.trim_matches(['`', '"']))
         }
-        Type::Station(_) => "\"tip\"".to_owned(),
+        Type::Place | Type::Places => "\"tip\"".to_owned(),
         _ => "…".to_owned(),
     }
 }

@@ -97,6 +97,14 @@ impl Run {
         (y[i] - 0.5 * curvature * shift * shift, t[i] + shift * (t[i + 1] - t[i]))
     }
 
+    /// FNV-1a of the bits of all times and values, row by row.
+    pub fn fingerprint(&self) -> u64 {
+        let words = self.trajectory.rows().flat_map(|(t, row)| std::iter::once(t).chain(row.iter().copied()));
+        let bytes = words.flat_map(f64::to_le_bytes);
+        bytes
+            .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
+    }
+
     /// (max − min)/2 of a column within a span.
     pub fn amplitude(&self, name: &str, span: Span) -> f64 {
         0.5 * (self.extreme(name, 1.0, span).0 - self.extreme(name, -1.0, span).0)

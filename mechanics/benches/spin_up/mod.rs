@@ -7,8 +7,8 @@ use flexion::drive::Actuator;
 use flexion::hub_beam::{
     Drive, ExactCoupling, Fields, Foreshortening, FreeHub, HighCoupling, Hub, HubBeam, LinearCoupling,
 };
-use flexion::integrator::{GeneralizedAlpha, Integrator, Radau, Span, Tolerance};
-use flexion::linalg::Matrix;
+use flexion::integrator::{GeneralizedAlpha, Integration, Integrator, Radau, Span, Tolerance};
+use flexion::linalg::{Matrix, Vec3};
 use flexion::multibody::slender::{Beam, ELEMENT_VELOCITIES, Properties, Station};
 use flexion::multibody::{self, Flexible, Joint, Kind, Marker, Model, Multibody, Part};
 use flexion::profile::{Expression, Motion, SpinUp};
@@ -76,7 +76,8 @@ pub fn system(coupling: &str, elements: usize) -> Box<dyn System> {
 /// The beam in space on a driven hinge, a metre an element.
 fn in_space(elements: usize, motion: Motion) -> Multibody {
     let section = Properties::principal([2.8e7, 1.1e4, 1.4e4, 1.4e4], 1.2, [1.2e-3, 0.0, 0.0]);
-    let root = Station { position: [0.0; 3], tangent: [1.0, 0.0, 0.0], normal: [0.0, 1.0, 0.0] };
+    let root =
+        Station { position: Vec3([0.0; 3]), tangent: Vec3([1.0, 0.0, 0.0]), normal: Vec3([0.0, 1.0, 0.0]) };
     let mut model = Model::new();
     let beam = Beam::straight(root, elements as f64, elements, section).unwrap();
     let beam = model.beam(Flexible::new("beam", beam));
@@ -97,7 +98,7 @@ pub fn integrator(name: &str) -> Box<dyn Integrator> {
 /// A run that can be continued step by step.
 pub struct Run {
     pub system: Box<dyn System>,
-    pub integrator: Box<dyn Integrator>,
+    pub integrator: Integration,
     pub from: State,
     to: State,
 }
@@ -107,14 +108,14 @@ impl Run {
     /// beam that has a wave in ten elements, so that all of them have the same to do, however many there are.
     pub fn new(coupling: &str, elements: usize, integrator_name: &str) -> Run {
         let mut system = system(coupling, elements);
-        let mut integrator = integrator(integrator_name);
+        let method = integrator(integrator_name);
         let mut from = system.initial();
         let waves = coupling == "waves";
         for (i, v) in from.v.chunks_mut(ELEMENT_VELOCITIES).enumerate().filter(|_| waves) {
             let number = 0.2 * std::f64::consts::PI;
             (v[1], v[4]) = (0.1 * (number * i as f64).sin(), 0.1 * number * (number * i as f64).cos());
         }
-        integrator.start(&mut *system, &mut from, STEP).unwrap();
+        let integrator = method.start(&mut *system, &mut from, STEP).unwrap();
         let mut run = Run { system, integrator, to: from.clone(), from };
         run.steps(if waves { 20 } else { 200 });
         run

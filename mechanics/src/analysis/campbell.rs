@@ -6,18 +6,25 @@
 //! inserted until it does not; where modes change their order, until the interval is 1/8192 of the range: what veers there is
 //! then seen to veer, whatever the speeds asked for.
 //!
+//! The stiffness of a critical speed is singular: K x = 0 in the rotating frame is a forward whirl with the rotation, 1Ω in the frame of
+//! the ground. The diagram goes on through unstable ranges and names them.
+//!
 //! Speeds are cut into [blocks](Speeds::block) of fixed length, each of which begins at rest and may be computed by a system
 //! of its own, in parallel; within a block the equilibrium and the modes of the last speed begin the next.
 
 use super::crossings::crossings;
 use super::degenerate::align;
-pub use super::diagram::{Branch, Campbell, Crossing, HubState, Instability, NoCampbell, Plan, Point};
+pub use super::diagram::{
+    Branch, Campbell, Critical, Crossing, HubState, Instability, NoCampbell, Plan, Point,
+};
 use super::rotation::NoRotation;
 use super::solved::Solved;
 pub use super::speeds::{Block, Speeds};
 use super::tracking::{Match, Tracker, changes_order, match_shapes};
 use crate::system::System;
 
+/// Relative distance of critical speeds that count as one.
+const ONE: f64 = 1e-5;
 /// Halvings of an interval of speed in which a shape changes too much.
 const HALVINGS: u32 = 8;
 /// Interval of speed, over the range, in which modes that change their order cross: in a wider one they may veer.
@@ -26,7 +33,7 @@ const CROSSING: f64 = 1.0 / 8192.0;
 /// Computes the diagram of a system. `progress` is called with the number of speeds that are done, and stops by `false`.
 ///
 /// # Errors
-/// [`NoCampbell`]. A divergence, or the end of steady rotation, beyond the first speed is no error: the diagram ends there and
+/// [`NoCampbell`]. Instability is no error. Neither is the end of steady rotation beyond the first speed: the diagram ends there and
 /// says so.
 pub fn campbell(
     system: Box<dyn System>,
@@ -61,29 +68,60 @@ pub fn assemble(system: &mut Speeds<'_>, blocks: Vec<Block>) -> Result<Campbell,
         solved.extend(block.solved);
         match block.failure {
             None => continue,
-            Some(NoCampbell::Rotation(reason)) if reason != NoRotation::DoesNotTurn => ended = Some(reason),
+            Some(NoCampbell::Rotation(NoRotation::DoesNotTurn)) => return Err(NoRotation::DoesNotTurn.into()),
+            Some(failure) if solved.is_empty() => return Err(failure),
+            Some(failure @ (NoCampbell::Rotation(_) | NoCampbell::Modes { .. })) => ended = Some(failure),
             Some(failure) => return Err(failure),
         }
         break;
-    }
-    match ended {
-        Some(reason) if solved.is_empty() => return Err(reason.into()),
-        _ => {}
     }
     system.rest();
     let (solved, matches) = refine(system, solved)?;
     let Tracker { mut branches, .. } = join(&solved, &matches, plan.count);
     let crossings = crossings(system, &solved, &branches, plan.revolutions);
     system.describe(&solved, &mut branches);
-    let mut instabilities = flutter(&branches);
-    if let Some(ended) = ended {
-        let (speed, reason) = (ended.reached(), ended.to_string());
-        instabilities.push(match ended {
-            NoRotation::Buckled { .. } => Instability::Divergence { speed, reason },
-            _ => Instability::Lost { speed, reason },
-        });
+    let criticals = criticals(system, &solved);
+    let mut instabilities = divergence(system, &solved);
+    instabilities.extend(flutter(&branches));
+    if let (Some(ended), Some(last)) = (ended, solved.last()) {
+        instabilities.push(Instability::Lost { speed: last.speed, reason: ended.to_string() });
     }
-    Ok(Campbell { speeds: solved.iter().map(|s| s.speed).collect(), branches, crossings, instabilities })
+    let speeds = solved.iter().map(|s| s.speed).collect();
+    Ok(Campbell { speeds, branches, crossings, criticals, instabilities })
+}
+
+/// Speeds at which directions of the stiffness change their sign.
+fn criticals(system: &mut Speeds<'_>, solved: &[Solved]) -> Vec<Critical> {
+    let mut out: Vec<Critical> = Vec::new();
+    for pair in solved.windows(2) {
+        for (speed, [below, above]) in system.changes([&pair[0], &pair[1]], |_, negative| negative) {
+            let directions = below.abs_diff(above);
+            // Rounding parts the two directions of a round shaft.
+            match out.last_mut().filter(|last| speed - last.speed <= ONE * speed) {
+                Some(last) => last.directions += directions,
+                None => out.push(Critical { speed, directions }),
+            }
+        }
+    }
+    out
+}
+
+/// Ranges of speed in which motions leave the steady rotation without vibrating.
+fn divergence(system: &mut Speeds<'_>, solved: &[Solved]) -> Vec<Instability> {
+    let diverges = |s: &Solved| s.stability.divergent > 0;
+    let first = solved.first().filter(|s| diverges(s));
+    let mut out: Vec<Instability> =
+        first.map(|s| Instability::Divergence { speed: s.speed, until: None }).into_iter().collect();
+    for pair in solved.windows(2) {
+        let ends = [&pair[0], &pair[1]];
+        for (speed, _) in system.changes(ends, |stability, _| usize::from(stability.divergent > 0)) {
+            match out.last_mut() {
+                Some(Instability::Divergence { until: until @ None, .. }) => *until = Some(speed),
+                _ => out.push(Instability::Divergence { speed, until: None }),
+            }
+        }
+    }
+    out
 }
 
 /// Inserts speeds where a shape changes too much from one to the next; with the matches of each speed with the next.
@@ -135,14 +173,17 @@ fn join(solved: &[Solved], matches: &[Vec<Match>], count: usize) -> Tracker {
     tracker
 }
 
-/// Branches whose damping becomes negative.
+/// Ranges of speed in which the damping of a branch is negative.
 fn flutter(branches: &[Branch]) -> Vec<Instability> {
     let mut out = Vec::new();
     for (branch, b) in branches.iter().enumerate() {
-        let grows = |p: &Point| p.mode.grows();
-        if let Some(first) = b.points.iter().position(grows) {
-            let from = b.points[first.saturating_sub(1)].speed;
-            out.push(Instability::Flutter { branch, from, to: b.points[first].speed });
+        let grows = |p: &Point| p.mode.frequency() > 0.0 && p.mode.grows();
+        let mut i = 0;
+        while let Some(first) = (i..b.points.len()).find(|i| grows(&b.points[*i])) {
+            let end = (first..b.points.len()).find(|i| !grows(&b.points[*i]));
+            let (from, to) = (b.points[first.saturating_sub(1)].speed, b.points[first].speed);
+            out.push(Instability::Flutter { branch, from, to, until: end.map(|end| b.points[end].speed) });
+            i = end.unwrap_or(b.points.len());
         }
     }
     out

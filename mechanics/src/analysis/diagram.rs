@@ -58,7 +58,17 @@ pub struct Crossing {
     pub speed: f64,
 }
 
-/// Where motion begins to grow.
+/// A speed at which the stiffness is singular in the rotating frame: there is a shape that rotates with the frame, forward, once a
+/// revolution, with no restoring force. Unbalance is in resonance with it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Critical {
+    /// Speed Ω [rad/s], to six digits.
+    pub speed: f64,
+    /// Number of directions whose stiffness changes its sign: two of a round shaft in round bearings, one of others.
+    pub directions: usize,
+}
+
+/// Where motions grow.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Instability {
     /// The damping of a branch becomes negative between the two speeds [rad/s].
@@ -69,15 +79,17 @@ pub enum Instability {
         from: f64,
         /// First unstable speed.
         to: f64,
+        /// First speed at which it decays again, unless it grows to the end of the branch.
+        until: Option<f64>,
     },
-    /// The stiffness is exhausted at a speed: ω = 0 there, the steady rotation beyond is unstable.
+    /// Motions leave the steady rotation without vibrating.
     Divergence {
-        /// The critical speed [rad/s], to six digits.
+        /// The speed at which that begins [rad/s], to six digits; the first one if there is no stable one below.
         speed: f64,
-        /// The message.
-        reason: String,
+        /// The speed at which it ends, unless it lasts to the end of the diagram.
+        until: Option<f64>,
     },
-    /// No steady rotation was found beyond a speed.
+    /// No steady rotation, or no modes, were found beyond a speed.
     Lost {
         /// Speed that was reached [rad/s].
         speed: f64,
@@ -89,12 +101,14 @@ pub enum Instability {
 /// A Campbell diagram.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Campbell {
-    /// Speeds [rad/s]: those asked for, up to a divergence, and those inserted.
+    /// Speeds [rad/s]: those asked for, and those inserted.
     pub speeds: Vec<f64>,
     /// The modes, ascending in their frequency at the first speed.
     pub branches: Vec<Branch>,
     /// Crossings with the lines of whole revolutions.
     pub crossings: Vec<Crossing>,
+    /// Critical speeds of forward whirl, ascending.
+    pub criticals: Vec<Critical>,
     /// Instabilities.
     pub instabilities: Vec<Instability>,
 }
@@ -123,6 +137,7 @@ impl Campbell {
 
 /// Why there is no diagram.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum NoCampbell {
     /// The speeds make no axis.
     #[error("a Campbell diagram needs at least two ascending speeds of at least zero")]

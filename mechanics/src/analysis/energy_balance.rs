@@ -19,8 +19,12 @@
 //! Between the times the dense output is used; at (4 ∓ √6)/10 that of Radau's method is its stages. The power at the start is that at the end of the step before, or that
 //! behind a jump; the end of a step takes the left limit. The balance closes to the order of the method (tested), and
 //! what is left is the error of the run: its truncation, and the numerical dissipation of methods that have some.
+//!
+//! A nonsmooth method knows no time of an impact within its step. It counts at the end of the step, and so does what it loses:
+//! states recorded inside the step are those before the impact.
 
-use crate::integrator::{Checkpoint, Integrator, NotResumed};
+use super::stiffness;
+use crate::integrator::{Checkpoint, Integration, NotResumed};
 use crate::system::{Energy, Power, State, System};
 
 /// What has been done to a system and lost by it since the start, in joules.
@@ -88,8 +92,17 @@ const SWING: f64 = 0.05;
 /// counts as that of a swing.
 const RIGID: f64 = 1e-6;
 
-/// The same over the potential of gravity, which rounding takes of a body that stays where it is.
+/// The same over the potential of gravity, which rounding takes of a body that stays where it is; and displacement over its scale that
+/// rounding makes.
 const ROUNDING: f64 = 1e-12;
+
+/// Energy that rounding makes of a system at rest \[J\]: ½ Σ Kᵢᵢ (10⁻¹² wᵢ)², with the stiffness K at `state` and the scales w of the
+/// unknowns.
+pub fn rounding_energy(system: &mut dyn System, state: &State) -> f64 {
+    let stiffness = stiffness::stiffness(system, state);
+    let scales = system.scales().iter().enumerate();
+    scales.map(|(i, scale)| 0.5 * stiffness.get(i, i).abs() * (ROUNDING * scale) * (ROUNDING * scale)).sum()
+}
 
 /// Integrates the energy balance along a run.
 #[derive(Clone, Debug)]
@@ -147,7 +160,8 @@ impl Integral {
         let balance = EnergyBalance { initial: energy.total(), ..EnergyBalance::default() };
         let (nodes, powers) = (TRAPEZIUM, [power; MOST]);
         let gain = Gain { gravity: [energy.gravity; 2], ..Gain::default() };
-        Integral { order, balance, power, end: (balance, power), nodes, powers, gain, middle: state.clone() }
+        let end = (balance, power);
+        Integral { order, balance, power, end, nodes, powers, gain, middle: state.clone() }
     }
 
     /// At the last accepted step.
@@ -161,8 +175,8 @@ impl Integral {
     }
 
     /// The energy \[J\] that the run has gained beyond the work done, where it is more than its steps explain.
-    pub(super) fn gain(&self) -> Option<f64> {
-        self.gain.beyond_bounds()
+    pub(super) fn gain(&self, system: &mut dyn System, state: &State) -> Option<f64> {
+        self.gain.beyond_bounds().filter(|gain| *gain > rounding_energy(system, state))
     }
 
     /// At time `t`, inside the step from `from` to `to` that was entered.
@@ -178,12 +192,13 @@ impl Integral {
         balance
     }
 
-    /// Enters the accepted step from `from` to `to`.
+    /// Enters the accepted step from `from` to `to`, at the end of which impacts have `lost` an energy \[J\].
     pub(super) fn enter(
         &mut self,
         system: &mut dyn System,
-        integrator: &dyn Integrator,
+        integrator: &Integration,
         (from, to): (&State, &State),
+        lost: f64,
     ) {
         self.nodes = match self.order {
             0..=2 => TRAPEZIUM,
@@ -201,7 +216,9 @@ impl Integral {
                 system.power(&self.middle)
             };
         }
-        self.end = (self.until((from, to), to.t), at_end);
+        let mut end = self.until((from, to), to.t);
+        end.contact += lost;
+        self.end = (end, at_end);
         self.gain.enter(&energy, self.end.0.imbalance(energy.total()));
     }
 

@@ -10,9 +10,10 @@
 
 use super::equations::{Equations, apply, highest};
 use super::joints;
-use super::path::{Plan, follow};
+use super::path::{Plan, first_stable};
 use super::stability::{Stability, is_neutral, stability};
 use crate::system::{State, System};
+use std::ops::ControlFlow;
 
 /// Smallest part of the load by which continuation goes on.
 const SMALLEST: f64 = 1e-6;
@@ -64,7 +65,7 @@ pub struct Effort {
 pub fn equilibrium(system: &mut dyn System, state: &mut State) -> Result<Effort, NoEquilibrium> {
     let start = state.clone();
     let (mut result, singular) = follow_loads(system, state, 0.0);
-    if singular && result.is_err() {
+    if result.is_err() && (singular || is_neutral(system, &start)) {
         let highest = highest(system, &start);
         for hold in HOLDS.map(|part| part * highest).into_iter().filter(|hold| *hold > 0.0) {
             let mut held = start.clone();
@@ -131,11 +132,16 @@ pub struct Found {
 }
 
 /// As [`equilibrium`], with its stability; where growing loads end, or lead to an equilibrium that is unstable, the path of the
-/// loads is followed by its arc length to the first that is stable.
+/// loads is followed by its arc length to the first that is stable. `watch` is shown the load factors of the points of the path and
+/// ends the search by `Break`.
 ///
 /// # Errors
-/// [`NoEquilibrium`] when there is none at all.
-pub fn stable_equilibrium(system: &mut dyn System, state: &mut State) -> Result<Found, NoEquilibrium> {
+/// [`NoEquilibrium`] when there is none at all, or the search is ended.
+pub fn stable_equilibrium(
+    system: &mut dyn System,
+    state: &mut State,
+    watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Found, NoEquilibrium> {
     let start = state.clone();
     let direct = equilibrium(system, state);
     let neutral = direct.is_ok() && is_neutral(system, state);
@@ -148,20 +154,23 @@ pub fn stable_equilibrium(system: &mut dyn System, state: &mut State) -> Result<
         _ => {}
     }
     let left = found.and_then(Result::ok);
-    let mut best = None;
     let plan = Plan { points: POINTS, ..Plan::to(1.0) };
-    let _ = follow(system, &start, &plan, |_, point| {
-        let stable = point.arrived && point.stability.as_ref().is_ok_and(|found| found.is_stable());
-        if stable {
-            best = Some(point.state.clone());
-        }
-        !stable
+    let (mut ended, mut last) = (false, 0.0);
+    let best = first_stable(system, &start, &plan, &mut |factor| {
+        last = factor;
+        let flow = watch(factor);
+        ended = flow.is_break();
+        flow
     });
     apply(system, 1.0);
     match best {
         Some(best) => {
             state.copy_from(&best);
             Ok(Found { stability: Some(Stability::default()), left, neutral: false })
+        }
+        None if ended => {
+            let (what, worst) = ("the search was stopped".to_owned(), system.unknown(0));
+            Err(NoEquilibrium { time: state.t, reached: last, what, worst })
         }
         None => direct.map(|_| Found { stability: left, left: None, neutral }),
     }

@@ -13,6 +13,7 @@ mod likeness;
 mod mechanism;
 pub mod modes;
 pub mod path;
+pub mod recording;
 mod rigid;
 pub mod rotation;
 mod solved;
@@ -25,6 +26,6 @@ pub mod transient;
 mod violation;
 
 pub use disturbance::disturb;
-pub use energy_balance::EnergyBalance;
+pub use energy_balance::{EnergyBalance, rounding_energy};
 pub use stability::{Stability, stability};
 pub use violation::Violation;

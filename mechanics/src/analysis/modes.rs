@@ -40,7 +40,8 @@ pub struct Mode {
     pub shares: Shares,
     /// Displacements along the beam.
     pub shape: Shape,
-    /// Number of nodes: places between root and tip at which the largest displacement changes its sign.
+    /// Number of nodes: places between root and tip at which the largest displacement, or the rotation where torsion has the largest
+    /// share, changes its sign.
     pub nodes: usize,
 }
 
@@ -138,19 +139,21 @@ impl Shares {
     }
 }
 
-/// How the stations move in a mode, the largest entry 1.
+/// How the stations move in a mode: the largest displacement is 1 m, or the largest rotation 1 rad where torsion has the largest share.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Shape {
-    /// Of each station: displacements along the axes of the equilibrium's section (tangent, then the two others), and the
-    /// rotation about the tangent times the distance between the first and the last station.
+    /// Of each station: displacements along the axes of the equilibrium's section \[m\] (tangent, then the two others), and the
+    /// rotation about the tangent \[rad\].
     pub movement: Vec<[Complex64; 4]>,
 }
 
 /// Modes of a state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Modes {
-    /// The modes, ascending in |λ|.
+    /// The modes that vibrate, that grow, and that are without stiffness, ascending in |λ|.
     pub modes: Vec<Mode>,
+    /// Overdamped motions, real λ < 0, with |λ| up to that of the last mode: as many as modes were asked for at most.
+    pub overdamped: Vec<Mode>,
     /// What the matrices are.
     pub kind: Kind,
     /// Number of modes up to the last one as the inertia of K − ω² M + iω C counts them, where it can be
@@ -162,17 +165,8 @@ pub struct Modes {
 
 /// Why there are no modes.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum NoModes {
-    /// More were asked for than there are.
-    #[error(
-        "{asked} modes were asked for, but the system has {there} unknowns; refine the basis or ask for fewer"
-    )]
-    TooMany {
-        /// Number asked for.
-        asked: usize,
-        /// Number of unknowns.
-        there: usize,
-    },
     /// The eigenproblem was not solved.
     #[error("the eigenproblem was not solved: {0}")]
     Eigen(#[from] EigenError),
@@ -204,7 +198,8 @@ pub enum NoModes {
     },
 }
 
-/// The `count` modes of smallest |λ| of `system` about `state`, with their shapes at `stations` \[m\].
+/// The `count` modes of smallest |λ| of `system` about `state`, or all that it has, with their shapes at `stations` \[m\]. Motions that
+/// decay without vibrating are not counted among them.
 ///
 /// The state is taken for an equilibrium as it stands: bring it there by
 /// [`equilibrium`](super::equilibrium::equilibrium) or [`rotate`](super::rotation::rotate). With the hub
@@ -233,9 +228,7 @@ pub(super) fn modes_near(
     let size = system.size();
     let (all, multipliers) = matrices(system, state);
     let there = size.v.saturating_sub(multipliers);
-    if count > there {
-        return Err(NoModes::TooMany { asked: count, there });
-    }
+    let count = count.min(there);
     let corrects = system.stiffness_forms(state, &[]).is_some();
     let mut rigid = 0.0;
     let direct = Pencil::new(all.clone(), multipliers, 0.0);
@@ -257,33 +250,43 @@ pub(super) fn modes_near(
     // A rigid motion that neither moves nor stops is an eigenvalue twice: as a place and as a speed.
     let asked = if rigid > 0.0 { (count + RIGID_MOTIONS).min(there) } else { count };
     let pairs = pencil.pairs(asked, near)?;
-    let mut modes = Vec::with_capacity(count);
-    let mut refused = accept(&mut modes, pairs, count, &pencil, system, state, rigid).err();
-    // Q(σ)⁻¹ magnifies the rounding of far softer modes. From a shift at the last of these it does not.
-    while let (Some(_), Some(shift)) = (&refused, modes.last().map(Mode::frequency))
-        && shift > 2.0 * pencil.shift()
-    {
+    let (mut modes, mut overdamped) = (Vec::with_capacity(count), Vec::new());
+    let mut refused =
+        accept([&mut modes, &mut overdamped], pairs, count, &pencil, system, state, rigid).err();
+    // Q(σ)⁻¹ magnifies the rounding of far softer modes. From a shift among the others it does not.
+    while let Some(NoModes::Inaccurate { frequency, .. }) = refused {
+        let shift = modes.last().map_or(0.0, Mode::frequency).max(BELOW * frequency);
+        if shift <= 2.0 * pencil.shift() {
+            break;
+        }
         pencil = Pencil::new(all.clone(), multipliers, shift)?;
         modes.clear();
+        overdamped.clear();
         let pairs = pencil.pairs(asked, &[])?;
-        refused = accept(&mut modes, pairs, count, &pencil, system, state, rigid).err();
+        refused = accept([&mut modes, &mut overdamped], pairs, count, &pencil, system, state, rigid).err();
     }
     if let Some(refused) = refused {
         return Err(refused);
     }
-    let counted = complete(&pencil, &modes)?;
-    modes.iter_mut().for_each(|mode| mode.vector.truncate(size.v));
+    let counted = match complete(&pencil, &modes) {
+        // Vectors to begin with may have nothing of a mode that is new among the lowest.
+        Err(NoModes::Missed { .. }) if !near.is_empty() => {
+            return modes_near(system, state, count, stations, &[]);
+        }
+        counted => counted?,
+    };
+    modes.iter_mut().chain(&mut overdamped).for_each(|mode| mode.vector.truncate(size.v));
     correct(system, state, &pencil, &mut modes);
     let scale: Vec<f64> = system.scales().to_vec();
-    for mode in &mut modes {
+    for mode in modes.iter_mut().chain(&mut overdamped) {
         describe(mode, system, state, &scale, stations);
     }
-    Ok(Modes { modes, kind: pencil.kind(), counted, solutions: pencil.solutions() })
+    Ok(Modes { modes, overdamped, kind: pencil.kind(), counted, solutions: pencil.solutions() })
 }
 
-/// Appends the first `count` modes of the pairs, up to the first whose residual is too large.
+/// Appends the first `count` modes of the pairs, up to the first whose residual is too large, and the overdamped motions among them.
 fn accept(
-    modes: &mut Vec<Mode>,
+    [modes, overdamped]: [&mut Vec<Mode>; 2],
     pairs: Vec<Pair>,
     count: usize,
     pencil: &Pencil,
@@ -294,10 +297,14 @@ fn accept(
     let corrected = pencil.kind() != Kind::General && system.stiffness_forms(state, &[]).is_some();
     let residual = if corrected { CORRECTED } else { RESIDUAL };
     let scale: Vec<f64> = system.scales().to_vec();
-    for pair in pairs {
+    for mut pair in pairs {
         let number = modes.len() + 1;
         if number > count {
             break;
+        }
+        // What errors of a vector in stiff directions make is no sign of a rigid motion.
+        if pair.residual > RESIDUAL && pair.value.norm() > rigid {
+            pair = pencil.purified_at_its_size(pair.value, pair.vector);
         }
         let mut mode = mode(system, state, pencil, pair, &scale, rigid);
         let again = |m: &Mode| m.eigenvalue == Complex64::ZERO && parallel(&m.vector, &mode.vector);
@@ -309,8 +316,16 @@ fn accept(
             continue;
         }
         let allowed = residual.max(mode.rounding);
+        if mode.eigenvalue.im == 0.0 && mode.eigenvalue.re < 0.0 {
+            if overdamped.len() < count && mode.residual <= allowed {
+                overdamped.push(mode);
+            }
+            continue;
+        }
         if !(mode.residual <= allowed) {
-            mode.residual = pencil.residual_at_its_size(mode.eigenvalue, &mode.vector);
+            let Pair { vector, residual, .. } =
+                pencil.purified_at_its_size(mode.eigenvalue, std::mem::take(&mut mode.vector));
+            (mode.vector, mode.residual) = (vector, residual);
         }
         // Written so that NaN is refused too.
         if !(mode.residual <= allowed) {
@@ -422,19 +437,26 @@ pub(super) fn describe(
     scale: &[f64],
     stations: &[f64],
 ) {
-    mode.shape = shape(system, state, &mode.vector, scale, stations);
-    mode.nodes = nodes(&mode.shape);
+    let torsion = mode.shares.dominant() == "torsion";
+    mode.shape = shape(system, state, &mode.vector, scale, stations, torsion);
+    mode.nodes = nodes(&mode.shape, torsion);
 }
 
 /// Movement of the stations: central differences of the frames.
-fn shape(system: &mut dyn System, state: &State, x: &[Complex64], scale: &[f64], stations: &[f64]) -> Shape {
+fn shape(
+    system: &mut dyn System,
+    state: &State,
+    x: &[Complex64],
+    scale: &[f64],
+    stations: &[f64],
+    torsion: bool,
+) -> Shape {
     let count = stations.len();
     let largest = x.iter().zip(scale).map(|(x, s)| x.norm() / s).fold(0.0, f64::max);
     let mut movement = vec![[Complex64::ZERO; 4]; count];
     if largest == 0.0 || count == 0 {
         return Shape { movement };
     }
-    let length = stations[count - 1] - stations[0];
     let frames = |system: &mut dyn System, d: &[f64]| {
         let mut moved = state.clone();
         system.retract(&state.q, d, &mut moved.q);
@@ -458,25 +480,27 @@ fn shape(system: &mut dyn System, state: &State, x: &[Complex64], scale: &[f64],
                 let moved = ahead.position[c] - behind.position[c];
                 let turned: [f64; 3] = std::array::from_fn(|k| ahead.rotation[c][k] - behind.rotation[c][k]);
                 (0..3).for_each(|axis| out[axis] += unit * axes[axis] * moved);
-                out[3] += unit * 0.5 * length * (axes[2] * turned[1] - axes[1] * turned[2]);
+                out[3] += unit * 0.5 * (axes[2] * turned[1] - axes[1] * turned[2]);
             }
         }
     }
-    let size = movement.iter().flatten().map(|u| u.norm()).fold(0.0, f64::max);
+    let measured = if torsion { 3..4 } else { 0..3 };
+    let size = movement.iter().flat_map(|u| &u[measured.clone()]).map(|u| u.norm()).fold(0.0, f64::max);
     if size > 0.0 {
         movement.iter_mut().flatten().for_each(|u| *u /= size);
     }
     Shape { movement }
 }
 
-/// Changes of sign of the component that is largest, at the phase at which it is.
-fn nodes(shape: &Shape) -> usize {
+/// Changes of sign of the largest displacement, or of the rotation, at the phase at which it is largest.
+fn nodes(shape: &Shape, torsion: bool) -> usize {
     let peak = |axis: usize| {
         let sizes = shape.movement.iter().map(|u| u[axis]);
         sizes.fold(Complex64::ZERO, |best, u| if u.norm() > best.norm() { u } else { best })
     };
     let peaks = [0, 1, 2, 3].map(peak);
-    let axis = (0..4).fold(0, |best, axis| if peaks[axis].norm() > peaks[best].norm() { axis } else { best });
+    let larger = |best: usize, axis: usize| if peaks[axis].norm() > peaks[best].norm() { axis } else { best };
+    let axis = if torsion { 3 } else { (0..3).fold(0, larger) };
     if peaks[axis] == Complex64::ZERO {
         return 0;
     }

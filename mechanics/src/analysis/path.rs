@@ -7,9 +7,10 @@
 
 use super::equations::{Direction, Equations, Failure, apply};
 use super::mechanism::driven_motion;
-use super::stability::{Stability, stability};
+use super::stability::{Stability, negative_parts, stability};
 use crate::linalg::eigen::EigenError;
 use crate::system::{State, System};
+use std::ops::ControlFlow;
 
 /// First step.
 const FIRST: f64 = 0.01;
@@ -87,6 +88,7 @@ pub struct Point {
 
 /// Why a path ends.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum PathEnd {
     /// There is no path: the loads drive a motion that nothing holds.
     #[error(
@@ -145,6 +147,77 @@ pub fn follow(
     plan: &Plan,
     mut visit: impl FnMut(&mut dyn System, &Point) -> bool,
 ) -> Result<(), PathEnd> {
+    walk(system, start, plan, point, |equations, (from, to)| {
+        let Some(((here, before), (there, now))) = from.zip(Some(to)) else {
+            return visit(equations.system, to.1);
+        };
+        if let Some(critical) = between(equations, plan, (here, before), (there, now))
+            && !visit(equations.system, &critical)
+        {
+            return false;
+        }
+        if let Some(arrived) = arrive(equations, plan, here, there)
+            && !visit(equations.system, &arrived)
+        {
+            return false;
+        }
+        apply(equations.system, there.factor);
+        visit(equations.system, now)
+    })
+}
+
+/// The first stable equilibrium with the load factor of the plan on the path from `start`; `None` where the path leads to none. Of the
+/// other points only the definiteness of K is followed, which O(n) operations tell. `watch` is shown the load factor of each and stops by
+/// `Break`.
+pub(super) fn first_stable(
+    system: &mut dyn System,
+    start: &State,
+    plan: &Plan,
+    watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Option<State> {
+    let mut found = None;
+    let definiteness = |equations: &mut Equations<'_>, place: &Place| {
+        apply(equations.system, place.factor);
+        Definiteness(negative_parts(equations.system, &place.state))
+    };
+    // A path that ends has shown what lies before.
+    let _ = walk(system, start, plan, definiteness, |equations, (from, (there, _))| {
+        let arrived = from.and_then(|(here, _)| arrive(equations, plan, here, there));
+        let stable = |point: &Point| point.stability.as_ref().is_ok_and(Stability::is_stable);
+        found = arrived.filter(stable).map(|point| point.state);
+        found.is_none() && watch(there.factor).is_continue()
+    });
+    found
+}
+
+/// What is found at a place, and compared with what is found at the next: a step across which it changes is short.
+trait Judgement {
+    fn is_as(&self, other: &Self) -> bool;
+}
+
+impl Judgement for Point {
+    fn is_as(&self, other: &Point) -> bool {
+        self.stability == other.stability
+    }
+}
+
+/// Number of directions in which the quadratic form of K is negative.
+struct Definiteness(usize);
+
+impl Judgement for Definiteness {
+    fn is_as(&self, other: &Definiteness) -> bool {
+        self.0 == other.0
+    }
+}
+
+/// Follows a path, judges its places, and shows them to `visit`, each with the one before it.
+fn walk<J: Judgement>(
+    system: &mut dyn System,
+    start: &State,
+    plan: &Plan,
+    judge: impl Fn(&mut Equations<'_>, &Place) -> J,
+    mut visit: impl FnMut(&mut Equations<'_>, (Option<(&Place, &J)>, (&Place, &J))) -> bool,
+) -> Result<(), PathEnd> {
     let mut state = start.clone();
     if let Some(largest) = driven_motion(system, &state) {
         return Err(PathEnd::Mechanism { largest });
@@ -157,8 +230,8 @@ pub fn follow(
         Ok(along) => Place { state, factor, length: 0.0, along },
         Err(failure) => return Err(lost(&equations, 0.0, failure)),
     };
-    let mut before = point(&mut equations, &here);
-    if !visit(equations.system, &before) {
+    let mut before = judge(&mut equations, &here);
+    if !visit(&mut equations, (None, (&here, &before))) {
         return Ok(());
     }
     for _ in 1..plan.points.max(2) {
@@ -168,8 +241,8 @@ pub fn follow(
                     let (a, b) = (&here.along, &there.along);
                     let cosine = equations.inner((&a.unknowns, a.part), (&b.unknowns, b.part));
                     if cosine > COSINES[0] || step < SMALLEST * plan.longest {
-                        let now = point(&mut equations, &there);
-                        if now.stability == before.stability || step < CAREFUL * plan.longest {
+                        let now = judge(&mut equations, &there);
+                        if now.is_as(&before) || step < CAREFUL * plan.longest {
                             break (there, now, iterations, cosine);
                         }
                     }
@@ -181,20 +254,7 @@ pub fn follow(
             }
             step *= 0.5;
         };
-        if let Some(critical) = between(&mut equations, plan, (&here, &before), (&there, &now))
-            && !visit(equations.system, &critical)
-        {
-            return Ok(());
-        }
-        let passes = (here.factor < plan.to) != (there.factor < plan.to);
-        if passes
-            && let Some(arrived) = arrive(&mut equations, plan, &here, &there)
-            && !visit(equations.system, &arrived)
-        {
-            return Ok(());
-        }
-        apply(equations.system, there.factor);
-        if !visit(equations.system, &now) {
+        if !visit(&mut equations, (Some((&here, &before)), (&there, &now))) {
             return Ok(());
         }
         (here, before) = (there, now);
@@ -226,8 +286,11 @@ fn point(equations: &mut Equations<'_>, place: &Place) -> Point {
     Point { factor, length, state, stability: found, arrived: false, critical: None }
 }
 
-/// The point with the load factor of the plan between two places.
+/// The point with the load factor of the plan between two places, if it lies there.
 fn arrive(equations: &mut Equations<'_>, plan: &Plan, here: &Place, there: &Place) -> Option<Point> {
+    if (here.factor < plan.to) == (there.factor < plan.to) {
+        return None;
+    }
     let share = (plan.to - here.factor) / (there.factor - here.factor);
     let length = here.length + share * (there.length - here.length);
     let (mut state, mut factor) = (here.state.clone(), here.factor);

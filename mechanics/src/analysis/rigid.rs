@@ -12,25 +12,52 @@ pub(super) const BELOW: f64 = 0.3;
 /// Rigid motions of a body.
 pub(super) const RIGID_MOTIONS: usize = 6;
 
-/// Lowest frequency that is not of a rigid motion, of a system whose rigid motions nothing holds, seen from a shift far above
-/// rounding and below most frequencies.
-pub(super) fn elastic_frequency(
-    all: &[Matrix; 3],
-    multipliers: usize,
-    count: usize,
-) -> Result<f64, EigenError> {
+/// Eigenvalues next to zero among which rigid motions are looked for where there are negative ones.
+const NEAREST: usize = 6;
+
+/// Pencil whose shift is far above rounding and below most frequencies; `None` without masses or stiffness.
+fn shifted(all: &[Matrix; 3], multipliers: usize) -> Result<Option<Pencil>, EigenError> {
     let largest = |k: usize| {
         let n = all[k].order() - multipliers;
         (0..n).map(|i| all[k].get(i, i).abs()).fold(0.0, f64::max)
     };
     let top = (largest(2) / largest(0)).sqrt();
-    if !(top > 0.0) {
-        return Ok(1.0);
-    }
+    if top > 0.0 { Pencil::new(all.clone(), multipliers, SHIFT * top).map(Some) } else { Ok(None) }
+}
+
+/// Lowest frequency that is not of a rigid motion, of a system whose rigid motions nothing holds.
+pub(super) fn elastic_frequency(
+    all: &[Matrix; 3],
+    multipliers: usize,
+    count: usize,
+) -> Result<f64, EigenError> {
+    let Some(mut pencil) = shifted(all, multipliers)? else { return Ok(1.0) };
     let there = all[0].order() - 2 * multipliers;
-    let mut pencil = Pencil::new(all.clone(), multipliers, SHIFT * top)?;
     let found = pencil.pairs((count + RIGID_MOTIONS).min(there), &[])?;
     let last = found.iter().map(|pair| pair.value.norm()).fold(0.0, f64::max);
     let elastic = found.iter().filter(|pair| pencil.rounding(pair.value, &pair.vector) < UNCERTAIN);
     Ok(elastic.map(|pair| pair.value.norm()).filter(|size| *size > RIGID * last).fold(last, f64::min))
+}
+
+/// Number of directions in which a symmetric K is negative by more than rounding, where `negative` pivots of it are: of the eigenvalues
+/// of K x = μ M x next to zero those that rounding decides do not count.
+pub(super) fn certain_directions(
+    [mass, damping, stiffness]: &[Matrix; 3],
+    multipliers: usize,
+    negative: usize,
+) -> Result<usize, EigenError> {
+    let mut none = damping.clone();
+    none.clear();
+    let all = [mass.clone(), none, stiffness.clone()];
+    let Some(mut pencil) = shifted(&all, multipliers)? else { return Ok(0) };
+    let there = mass.order() - 2 * multipliers;
+    let (mut certain, mut rounded) = (0, 0);
+    for pair in pencil.pairs((NEAREST + RIGID_MOTIONS).min(there), &[])? {
+        if pencil.rounding(pair.value, &pair.vector) >= UNCERTAIN {
+            rounded += 1;
+        } else if pair.value.re > 0.0 {
+            certain += 1;
+        }
+    }
+    Ok(certain.max(negative.saturating_sub(rounded)))
 }

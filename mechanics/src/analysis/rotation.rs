@@ -18,6 +18,7 @@ fn short(x: f64) -> String {
 
 /// Why a beam cannot be brought to a speed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum NoRotation {
     /// The system does not rotate.
     #[error("the system has no hub that could rotate steadily")]

@@ -1,6 +1,7 @@
 //! What is known of one speed of a Campbell diagram.
 
 use super::modes::Mode;
+use super::stability::Stability;
 use crate::system::State;
 use num_complex::Complex64;
 
@@ -15,4 +16,7 @@ pub(super) struct Solved {
     /// G x of each mode, with the skew part G of the damping; empty without one.
     pub gyroscopic: Vec<Vec<Complex64>>,
     pub equilibrium: State,
+    pub stability: Stability,
+    /// Number of directions in which the symmetric part of K is negative.
+    pub negative: usize,
 }

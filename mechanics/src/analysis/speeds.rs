@@ -3,8 +3,9 @@
 use super::diagram::{Branch, HubState, NoCampbell, Plan};
 use super::likeness::{assurance, gyroscopic};
 use super::modes::{Mode, NoModes, describe, modes_near, shares};
-use super::rotation::rotate_stably;
+use super::rotation::{NoRotation, rotate};
 use super::solved::Solved;
+use super::stability::{Stability, judge};
 use super::stiffness::{damping, mass};
 use crate::linalg::Matrix;
 use crate::system::{Parameter, State, System};
@@ -14,6 +15,8 @@ use num_complex::Complex64;
 const SPARE: usize = 4;
 /// Difference of two assurances that does not tell which of two modes it is.
 const AMBIGUOUS: f64 = 0.1;
+/// Relative accuracy of a speed at which stability or the sign of the stiffness changes.
+const ACCURACY: f64 = 1e-7;
 /// Speeds in a block.
 const BLOCK: usize = 25;
 
@@ -130,14 +133,16 @@ impl<'a> Speeds<'a> {
     /// The lowest modes at a speed, from those at another.
     fn solve(&mut self, speed: f64, count: usize, from: Option<&Solved>) -> Result<Solved, NoCampbell> {
         let system = self.system.as_mut();
-        rotate_stably(system, &mut self.state, self.speed, speed)?;
+        rotate(system, &mut self.state, self.speed, speed)?;
         self.speed = speed;
+        let judged = judge(system, &self.state);
+        let (stability, negative) =
+            judged.map_err(|source| NoRotation::Undecided { asked: speed, source })?;
         let mut state = self.state.clone();
         if self.plan.hub == HubState::Free {
             system.hold(false);
             state.v = system.initial().v;
         }
-        let count = count.min(system.size().v);
         let near: Vec<_> = from.map_or(&[][..], |s| &s.modes).iter().take(count).collect();
         let near: Vec<_> = near.iter().map(|m| (m.eigenvalue, m.vector.as_slice())).collect();
         let mut modes = modes_near(system, &state, count, &[], &near);
@@ -154,7 +159,37 @@ impl<'a> Speeds<'a> {
         system.hold(true);
         let massed = modes.iter().map(|m| times(&mass, &m.vector)).collect();
         let gyroscopic = gyroscopic(&damping, modes.iter().map(|m| m.vector.as_slice()));
-        Ok(Solved { speed, modes, massed, gyroscopic, equilibrium: self.state.clone() })
+        Ok(Solved { speed, modes, massed, gyroscopic, equilibrium: self.state.clone(), stability, negative })
+    }
+
+    /// The speeds between those of two solutions at which a number that depends on the equilibrium changes, each with the numbers below
+    /// and above it: by bisection. Ends early where there is no equilibrium in between.
+    pub(super) fn changes(
+        &mut self,
+        [from, to]: [&Solved; 2],
+        number: impl Fn(Stability, usize) -> usize,
+    ) -> Vec<(f64, [usize; 2])> {
+        let of = |solved: &Solved| number(solved.stability, solved.negative);
+        let (mut low, mut at, last) = ((from.speed, of(from)), from.equilibrium.clone(), of(to));
+        let mut found = Vec::new();
+        while low.1 != last {
+            let mut high = (to.speed, last);
+            let mut beyond = to.equilibrium.clone();
+            while high.0 - low.0 > ACCURACY * high.0 {
+                let middle = 0.5 * (low.0 + high.0);
+                let mut next = at.clone();
+                let judged = rotate(self.system.as_mut(), &mut next, low.0, middle).ok();
+                let judged = judged.and_then(|_| judge(self.system.as_mut(), &next).ok());
+                match judged.map(|(stability, negative)| number(stability, negative)) {
+                    Some(n) if n == low.1 => (low.0, at) = (middle, next),
+                    Some(n) => (high, beyond) = ((middle, n), next),
+                    None => return found,
+                }
+            }
+            found.push((0.5 * (low.0 + high.0), [low.1, high.1]));
+            (low, at) = (high, beyond);
+        }
+        found
     }
 
     /// Gives the modes of all branches their shapes.

@@ -8,12 +8,10 @@
 //! Sources: H. Ziegler, *Principles of Structural Stability*, 2nd ed., Birkhäuser 1977 (follower and gyroscopic forces);
 //! N. Gould, *Math. Program.* 32 (1985) 90–99, doi:10.1007/BF01585660 (inertia of matrices with multipliers).
 
-use super::rigid::{BELOW, elastic_frequency};
+use super::rigid::{BELOW, certain_directions, elastic_frequency};
 use super::stiffness::matrices;
 use crate::linalg::Matrix;
-use crate::linalg::eigen::{
-    EigenError, Pencil, UNCERTAIN, certain_directions, each, is_symmetric, negative_directions,
-};
+use crate::linalg::eigen::{EigenError, Pencil, UNCERTAIN, each, is_symmetric, negative_directions};
 use crate::system::{State, System};
 use std::fmt;
 
@@ -68,23 +66,33 @@ fn rounds(all: [Matrix; 3], multipliers: usize) -> bool {
     Pencil::new(all, multipliers, 0.0).map_or(true, |mut pencil| pencil.doubts()[0])
 }
 
+/// Number of directions, allowed by the rows, in which xᵀKx is negative by more than rounding: a tangent with none is not singular,
+/// symmetric or not.
+pub(super) fn negative_parts(system: &mut dyn System, state: &State) -> usize {
+    let (all, multipliers) = matrices(system, state);
+    saddle(&symmetrized(&all), multipliers).unwrap_or_else(|_| negative_directions(&all[2], multipliers))
+}
+
 /// The stability of `state`, which is taken for an equilibrium as it stands.
 ///
 /// # Errors
 /// [`EigenError`] where eigenvalues decide and are not found. A critical state, whose tangent is singular, counts as stable
 /// where K is symmetric.
 pub fn stability(system: &mut dyn System, state: &State) -> Result<Stability, EigenError> {
+    judge(system, state).map(|(stability, _)| stability)
+}
+
+/// The stability of an equilibrium, and the number of directions in which the symmetric part of K is negative.
+pub(super) fn judge(system: &mut dyn System, state: &State) -> Result<(Stability, usize), EigenError> {
     let (all, multipliers) = matrices(system, state);
-    let [mass, damping, stiffness] = &all;
+    let (damping, stiffness) = (&all[1], &all[2]);
     let symmetric = is_symmetric(stiffness);
-    let mut saddle = if symmetric { negative_directions(stiffness, multipliers) } else { 0 };
-    if saddle > 0 && rounds(all.clone(), multipliers) {
-        saddle = certain_directions(stiffness, mass, multipliers);
-    }
+    let saddle =
+        if symmetric { saddle(&all, multipliers)? } else { saddle(&symmetrized(&all), multipliers)? };
     let mut gyroscopic = false;
     each(damping, |i, j| gyroscopic |= damping.get(i, j) * damping.get(j, i) < 0.0);
     if symmetric && (saddle == 0 || !gyroscopic) {
-        return Ok(Stability { divergent: saddle, fluttering: 0 });
+        return Ok((Stability { divergent: saddle, fluttering: 0 }, saddle));
     }
     let count = EIGENVALUES.min(state.v.len().saturating_sub(multipliers));
     let direct = Pencil::new(all.clone(), multipliers, 0.0);
@@ -100,5 +108,22 @@ pub fn stability(system: &mut dyn System, state: &State) -> Result<Stability, Ei
         let grown = grown.filter(|p| pencil.rounding(p.value, &p.vector) < UNCERTAIN);
         grown.filter(|p| (p.value.im > 0.0) == vibrates).count()
     };
-    Ok(Stability { divergent: grows(false), fluttering: grows(true) })
+    Ok((Stability { divergent: grows(false), fluttering: grows(true) }, saddle))
+}
+
+/// Number of directions in which a symmetric K is negative but for rounding.
+fn saddle(all: &[Matrix; 3], multipliers: usize) -> Result<usize, EigenError> {
+    match negative_directions(&all[2], multipliers) {
+        0 => Ok(0),
+        saddle if rounds(all.clone(), multipliers) => certain_directions(all, multipliers, saddle),
+        saddle => Ok(saddle),
+    }
+}
+
+/// M, C and the symmetric part of K.
+fn symmetrized([mass, damping, stiffness]: &[Matrix; 3]) -> [Matrix; 3] {
+    let mut symmetric = stiffness.clone();
+    symmetric.clear();
+    each(stiffness, |i, j| symmetric.add(i, j, 0.5 * (stiffness.get(i, j) + stiffness.get(j, i))));
+    [mass.clone(), damping.clone(), symmetric]
 }

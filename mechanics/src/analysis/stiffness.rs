@@ -14,6 +14,11 @@ pub(super) fn damping(system: &mut dyn System, state: &State) -> Matrix {
     tangent(system, state, Weights::new(0.0, 1.0, 0.0), 0)
 }
 
+/// The stiffness ∂r/∂q at a state.
+pub(super) fn stiffness(system: &mut dyn System, state: &State) -> Matrix {
+    tangent(system, state, Weights::new(0.0, 0.0, 1.0), 0)
+}
+
 /// M, C and K of the unknowns (v, λ), with the jacobian in K: [M 0; 0 0], [C 0; 0 0] and [K −Gᵀ; −G 0]; and the number of
 /// multipliers.
 pub(super) fn matrices(system: &mut dyn System, state: &State) -> ([Matrix; 3], usize) {

@@ -57,10 +57,19 @@ impl Vibration {
 
 /// Why modes cannot be superposed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum NoSuperposition {
     /// There are no such modes.
     #[error(transparent)]
     Modes(#[from] NoModes),
+    /// There are fewer modes that vibrate, or are rigid motions, than were given something.
+    #[error("{asked} modes were asked for, but the unknowns have {found}")]
+    Few {
+        /// Modes that were asked for.
+        asked: usize,
+        /// Modes that there are.
+        found: usize,
+    },
     /// A mode is a rigid motion.
     #[error(
         "mode {0} is the rigid motion of the free hub, which does not vibrate: give it 0, and the hub its angle and \
@@ -121,6 +130,9 @@ pub fn superpose(
     length: f64,
 ) -> Result<Vec<Mode>, NoSuperposition> {
     let found = modes(system, state, vibrations.len(), &[])?.modes;
+    if found.len() < vibrations.len() {
+        return Err(NoSuperposition::Few { asked: vibrations.len(), found: found.len() });
+    }
     balanced(system, state, &found)?;
     let n = state.v.len();
     let (mut displacement, mut velocity) = (vec![0.0; n], vec![0.0; n]);
@@ -235,7 +247,7 @@ fn moved(system: &mut dyn System, state: &State, mode: &Mode, length: f64) -> Op
         let mut at = state.clone();
         system.retract(&state.q, direction, &mut at.q);
         let mut frames = [Frame::default(); 2];
-        system.frames(0, &at, &[0.0, length], &mut frames);
+        system.frames(system.drawn(), &at, &[0.0, length], &mut frames);
         let [root, tip] = frames;
         let apart: [f64; 3] = std::array::from_fn(|i| tip.position[i] - root.position[i]);
         // Components along the axes of the root section, which are the columns of its rotation.

@@ -115,7 +115,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_mesh_has_nodes_where_it_must_and_no_short_elements() {
+    fn a_mesh_has_nodes_at_all_stations() {
         use super::super::mesh;
         let near = |found: Vec<f64>, expected: &[f64]| {
             let same = found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12);
@@ -124,13 +124,17 @@ mod tests {
         near(mesh(2.0, 4, &[]).unwrap(), &[0.0, 0.5, 1.0, 1.5, 2.0]);
         near(mesh(2.0, 4, &[0.5 + 1e-13, 2.0, 0.0]).unwrap(), &[0.0, 0.5, 1.0, 1.5, 2.0]);
         near(mesh(2.0, 4, &[0.73]).unwrap(), &[0.0, 0.5, 0.73, 1.0, 1.5, 2.0]);
-        near(mesh(2.0, 4, &[0.65, 1.99, 1.2, 1.201]).unwrap(), &[0.0, 0.65, 1.2, 1.5, 2.0]);
+        near(mesh(2.0, 4, &[0.65, 1.99, 1.2, 1.201]).unwrap(), &[0.0, 0.65, 1.2, 1.201, 1.5, 1.99, 2.0]);
+        near(mesh(2.0, 4, &[1.2, 1.2 + 1e-10]).unwrap(), &[0.0, 0.5, 1.2, 1.5, 2.0]);
         for elements in 1..40 {
             let stations: Vec<f64> = (0..30).map(|k| (f64::from(k * k) * 0.37) % 2.0).collect();
             let cells = mesh(2.0, elements, &stations).unwrap();
             let h = 2.0 / elements as f64;
             assert!(Hermite::on(cells.clone(), Field::Transverse).is_ok());
-            assert!(cells.windows(2).all(|c| c[1] - c[0] > 0.049 * h && c[1] - c[0] < 1.81 * h), "{cells:?}");
+            assert!(cells.windows(2).all(|c| c[1] > c[0] && c[1] - c[0] < 1.81 * h), "{cells:?}");
+            for x in stations {
+                assert!(cells.iter().any(|cell| (cell - x).abs() < 1e-9), "{x} in {cells:?}");
+            }
         }
     }
 

@@ -231,6 +231,7 @@ impl Basis for std::sync::Arc<dyn Basis> {
 
 /// A basis that cannot be built.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum BasisError {
     /// The moment matrix is singular to working precision.
     #[error(
@@ -253,9 +254,13 @@ pub enum BasisError {
     Invalid(String),
 }
 
+/// Stations nearer to each other than this part of the length are one: the stiffness of an element is as the inverse of the cube of its
+/// length, and rounding with it.
+const ONE: f64 = 1e-5;
+
 /// Ends of elements on [0, `length`] \[m\]: those of `elements` equal ones, and the `stations`, at which a load acts or a
-/// section jumps. An end of the equal ones that is nearer than two fifths of their length to a station makes room for it; a
-/// station that is nearer than a twentieth to another one, or to an end of the beam, is left out.
+/// section jumps. An end of the equal ones that is nearer than two fifths of their length to a station makes room for it. Stations that
+/// differ by less than 1e-5 of the length are one.
 ///
 /// # Errors
 /// [`BasisError::Invalid`] if the length is not positive and finite or if there is no element.
@@ -269,7 +274,7 @@ pub fn mesh(length: f64, elements: usize, stations: &[f64]) -> Result<Vec<f64>, 
         // An end of the equal elements is written as theirs, to the last digit.
         let nearest = equal[((x / h).round() as usize).min(elements)];
         let x = if (x - nearest).abs() < 1e-9 * h { nearest } else { x };
-        if x - kept[kept.len() - 1] > 0.05 * h && length - x > 0.05 * h {
+        if x - kept[kept.len() - 1] > ONE * length && length - x > ONE * length {
             kept.push(x);
         }
     }

@@ -98,7 +98,7 @@ pub fn quadratic(s: f64, h: f64) -> [[f64; 3]; 2] {
 pub const SAMPLES: [f64; 3] = [0.0, 1.0, 0.5];
 
 impl Mesh {
-    /// `elements` equal elements, cut once more where the section jumps and where bodies are.
+    /// `elements` equal elements, cut once more where the section [asks for it](BladeSection::ends) and where bodies are.
     ///
     /// # Errors
     /// [`BladeError::Invalid`] if the length is not positive, if there is no element, or if a section makes none.
@@ -126,10 +126,10 @@ impl Mesh {
             );
             return Err(BladeError::Invalid(message));
         }
-        for &jump in section.jumps() {
-            match nodes.iter_mut().find(|node| (**node - jump).abs() < near) {
-                Some(node) => *node = jump,
-                None => nodes.push(jump),
+        for end in section.ends(length, length / elements as f64) {
+            match nodes.iter_mut().find(|node| (**node - end).abs() < near) {
+                Some(node) => *node = end,
+                None => nodes.push(end),
             }
         }
         for body in bodies {

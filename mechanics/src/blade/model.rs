@@ -121,6 +121,7 @@ impl Terms {
 
 /// Why there is no blade, or no steady state of it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum BladeError {
     /// The quantities make no blade.
     #[error("{0}")]

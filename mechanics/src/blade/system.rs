@@ -6,13 +6,12 @@ use super::matrices::Matrices;
 use super::mesh::{Component, Mesh, hermite, quadratic};
 use super::model::{BladeError, Body, Model, Setting, StrainEnergy};
 use super::tension::Tension;
-use crate::linalg::{Matrix, Structure};
+use crate::linalg::{Mat3, Matrix, Structure, Vec3};
 use crate::section::BladeSection;
 use crate::system::{
-    Channel, Direction, Dynamics, Energy, Events, Frame, NotSet, Observed, Parameter, Role, Size, State,
-    Steady, Weights,
+    Channel, Direction, Dynamics, Energy, Events, Frame, NotSet, Observed, Parameter, Role, Sink, Size,
+    State, Steady, Weights,
 };
-use std::sync::Arc;
 
 /// A rotating blade. See the [module documentation](super).
 ///
@@ -27,7 +26,6 @@ pub struct Blade {
     /// The speed before the present one and its steady state.
     earlier: Option<(f64, Vec<f64>)>,
     scratch: Vec<f64>,
-    channels: Arc<[Channel]>,
 }
 
 impl Blade {
@@ -82,7 +80,6 @@ impl Blade {
         let tension = Tension::new(&mesh, section, &setting);
         let size = mesh.len();
         let mut blade = Blade {
-            channels: channels(&mesh).into(),
             matrices: Matrices::new(mesh, setting, model, tension),
             setting,
             speed: 0.0,
@@ -180,37 +177,6 @@ impl Blade {
     }
 }
 
-/// Recorded quantities: the tip's vibration.
-fn channels(mesh: &Mesh) -> Vec<Channel> {
-    let mut all = vec![
-        (Role::Primary, "tip.axial", "m", "axial displacement of the tip from the steady state"),
-        (
-            Role::Primary,
-            "tip.chordwise",
-            "m",
-            "displacement of the tip in the direction of motion, from the steady state",
-        ),
-        (
-            Role::Primary,
-            "tip.flapwise",
-            "m",
-            "displacement of the tip along the angular velocity, from the steady state",
-        ),
-    ];
-    if mesh.components.contains(&Component::Torsion) {
-        all.push((Role::Primary, "tip.torsion", "rad", "torsion of the tip from the steady state"));
-    }
-    all.push((Role::Energy, "energy.kinetic", "J", "½vᵀMv of the vibration"));
-    all.push((Role::Energy, "energy.strain", "J", "½qᵀKq of the vibration, centrifugal work included"));
-    let channel = |(role, name, unit, meaning): (Role, &str, &'static str, &str)| Channel {
-        name: name.to_owned(),
-        unit,
-        meaning: meaning.to_owned(),
-        role,
-    };
-    all.into_iter().map(channel).collect()
-}
-
 impl Dynamics for Blade {
     fn size(&self) -> Size {
         Size { q: self.steady.len(), v: self.steady.len(), lambda: 0, memory: 0 }
@@ -274,7 +240,7 @@ impl Events for Blade {}
 impl Steady for Blade {
     fn set(&mut self, parameter: Parameter, speed: f64) -> Result<(), NotSet> {
         if parameter != Parameter::Speed {
-            return Ok(());
+            return Err(NotSet::Unknown(parameter));
         }
         // At rest the blade is undeformed.
         if speed == 0.0 {
@@ -321,11 +287,11 @@ impl Observed for Blade {
         // From the blade's frame through the hub's frame to the inertial frame.
         let inertial = |r: [f64; 3]| {
             let hub = [cos * r[0] - sin * r[2], r[1], sin * r[0] + cos * r[2]];
-            [
+            Vec3([
                 cos_rotation * hub[0] - sin_rotation * hub[1],
                 sin_rotation * hub[0] + cos_rotation * hub[1],
                 hub[2],
-            ]
+            ])
         };
         for (&x, frame) in stations.iter().zip(out) {
             let (u, slope, torsion) = self.displacement(&whole, x);
@@ -333,24 +299,28 @@ impl Observed for Blade {
             let twist = self.twist(x);
             let axes = axes(&variables, &Jet::constant(self.setting.pitch + twist + torsion));
             frame.position = inertial([self.setting.hub_radius + x + u[0], u[1], u[2]]);
-            let columns = axes.map(|axis| inertial([axis[0].x, axis[1].x, axis[2].x]));
-            frame.rotation = std::array::from_fn(|i| std::array::from_fn(|k| columns[k][i]));
+            frame.rotation = Mat3::columns(axes.map(|axis| inertial([axis[0].x, axis[1].x, axis[2].x])));
         }
     }
 
-    fn channels(&self) -> &[Channel] {
-        &self.channels
-    }
-
-    fn record(&mut self, s: &State, out: &mut [f64]) {
+    /// The vibration of the tip.
+    fn observe(&mut self, s: &State, sink: &mut Sink<'_>) {
         let (u, _, torsion) = self.displacement(&s.q, self.setting.length);
         let energy = self.energy(s);
-        let with_torsion = self.components().contains(&Component::Torsion);
-        let tail = [torsion, energy.kinetic, energy.strain];
-        let values = u.iter().chain(&tail[usize::from(!with_torsion)..]);
-        for (out, value) in out.iter_mut().zip(values) {
-            *out = *value;
+        let mut put = |value, role, name, unit: &'static str, meaning| {
+            sink.put(value, || Channel::new(role, name, unit, meaning));
+        };
+        put(u[0], Role::Primary, "tip.axial", "m", "axial displacement of the tip from the steady state");
+        let meaning = "displacement of the tip in the direction of motion, from the steady state";
+        put(u[1], Role::Primary, "tip.chordwise", "m", meaning);
+        let meaning = "displacement of the tip along the angular velocity, from the steady state";
+        put(u[2], Role::Primary, "tip.flapwise", "m", meaning);
+        if self.components().contains(&Component::Torsion) {
+            put(torsion, Role::Primary, "tip.torsion", "rad", "torsion of the tip from the steady state");
         }
+        put(energy.kinetic, Role::Energy, "energy.kinetic", "J", "½vᵀMv of the vibration");
+        let meaning = "½qᵀKq of the vibration, centrifugal work included";
+        put(energy.strain, Role::Energy, "energy.strain", "J", meaning);
     }
 }
 

@@ -7,6 +7,9 @@
 //! M (v⁺ − v⁻) = p + Gᵀ Λ,     u⁺ = u⁻ + G (v⁺ − v⁻),     u⁺ + e u⁻ ⟂ Λ in the set of each row (Newton)
 //! ```
 //!
+//! A joint whose prescribed speed ω jumps, or is held in an impact, gives the impulse Λ of its row, with G v⁺ = ω⁺, and does the work
+//! ½ (ω⁺ + ω⁻) Λ.
+//!
 //! The contacts give the energy ½ Λᵀ(Gv⁺ + Gv⁻) to the system: −½ Λᵀ(u⁺ + u⁻) is lost, and what moving obstacles give is
 //! −Λᵀ ∂g/∂t. Behind the impact the same problem for accelerations, g̈ ⟂ λ, says which contacts stay closed.
 //!
@@ -37,7 +40,7 @@ pub struct Impact {
     pub masses: Vec<f64>,
     /// Energy lost in the contacts \[J\].
     pub lost: f64,
-    /// Work of moving obstacles \[J\].
+    /// Work of moving obstacles and of prescribed motions that are rows \[J\].
     pub work: f64,
     /// What the contacts that closed too slowly for restitution would still have done.
     pub neglected: Neglected,
@@ -99,6 +102,7 @@ impl Neglected {
 
 /// Why an impact has no solution.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ImpactError {
     /// The mass matrix, with the joints, is singular.
     #[error("the mass matrix is singular at the {unknown}: {cause}")]
@@ -159,8 +163,8 @@ impl ImpactMap {
         }
     }
 
-    /// Changes the velocities of `state` by the impulse `p` and those of all rows that are closed or touch, and [sets the modes](ImpactMap::settle)
-    /// of the rows.
+    /// Changes the velocities of `state` by the impulse and the jumps of rows in `p`, as [`Events::impulse`](crate::system::Events::impulse)
+    /// writes them, and by the impulses of all rows that are closed or touch, and [sets the modes](ImpactMap::settle) of the rows.
     ///
     /// # Errors
     /// [`ImpactError`].
@@ -193,7 +197,8 @@ impl ImpactMap {
         let before: Vec<f64> = self.rates.iter().map(rounded).collect();
         // The change of velocity by p, with the joints.
         let mut change = vec![0.0; n];
-        self.respond(p, |_| 0.0, &mut change);
+        let (p, jumps) = p.split_at(n);
+        self.respond(p, |i| jumps[i], &mut change);
         let w = self.delassus(&part);
         // u⁺ + e u⁻ = b + W Λ; e counts for contacts that close, and friction takes the sliding velocity itself.
         let target = |i: usize| match self.sets[i] {
@@ -213,9 +218,10 @@ impl ImpactMap {
             impact.lost -= 0.5 * x * (after + before[i]);
             impact.work -= x * moving;
         }
+        impact.work += self.work_of_joints(p, jumps, (&part, &impulses), &state.v, RESTING * largest);
         state.v.iter_mut().zip(&change).for_each(|(v, dv)| *v += dv);
         let struck: Vec<bool> = before.iter().map(|rate| *rate < -resting).collect();
-        self.settle(system, state, touching, &struck)?;
+        self.settle_after(system, state, touching, &struck, largest)?;
         let m = part.rows.len();
         for (k, &i) in part.rows.iter().enumerate() {
             if let Set::Unilateral { restitution } = self.sets[i]
@@ -231,6 +237,34 @@ impl ImpactMap {
         }
         impact.rates = before;
         Ok(impact)
+    }
+
+    /// Work −½ Λ (∂g/∂t⁺ + ∂g/∂t⁻) of the joints, whose ∂g/∂t jumps by `jumps`, with `v` before the impact; rates up to `least` are
+    /// rounding.
+    fn work_of_joints(
+        &mut self,
+        p: &[f64],
+        jumps: &[f64],
+        (part, impulses): (&Part, &[f64]),
+        v: &[f64],
+        least: f64,
+    ) -> f64 {
+        let joints = (0..self.sets.len()).filter(|i| self.sets[*i] == Set::Free);
+        let moving = |i: usize| {
+            let rate = 2.0 * (self.rates[i] - self.along(i, v)) - jumps[i];
+            (i, if rate.abs() > least { rate } else { 0.0 })
+        };
+        let moving: Vec<(usize, f64)> = joints.map(moving).filter(|(_, rate)| *rate != 0.0).collect();
+        if moving.is_empty() {
+            return 0.0;
+        }
+        let n = self.velocities;
+        let (mut f, mut change) = (p.to_vec(), vec![0.0; n]);
+        for (&i, x) in part.rows.iter().zip(impulses) {
+            f.iter_mut().zip(&self.jacobian[i * n..(i + 1) * n]).for_each(|(f, g)| *f += x * g);
+        }
+        self.respond(&f, |i| jumps[i], &mut change);
+        moving.iter().map(|(i, rate)| -0.5 * self.rhs[n + i] * rate).sum()
     }
 
     /// Effective mass 1/(G M⁻¹ Gᵀ) \[kg\] of every contact at `state`, each by itself; 0 for other rows.
@@ -259,13 +293,25 @@ impl ImpactMap {
         touching: f64,
         struck: &[bool],
     ) -> Result<(), ImpactError> {
+        self.settle_after(system, state, touching, struck, 0.0)
+    }
+
+    /// The same behind an impact: rounding is measured by the largest velocity before it, of which nothing may be left.
+    fn settle_after(
+        &mut self,
+        system: &mut dyn Dynamics,
+        state: &mut State,
+        touching: f64,
+        struck: &[bool],
+        before: f64,
+    ) -> Result<(), ImpactError> {
         self.factor(system, state)?;
         let n = self.velocities;
         let m = self.sets.len();
         let (mut gaps, mut rates, mut bends) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
         system.constraint(state, RowWeights::POSITION, &mut gaps);
         system.constraint(state, RowWeights::VELOCITY, &mut rates);
-        let largest = rates.iter().chain(&state.v).fold(0.0_f64, |x, v| x.max(v.abs()));
+        let largest = rates.iter().chain(&state.v).fold(before, |x, v| x.max(v.abs()));
         let resting = RESTING * largest;
         let slip = |i: usize| match self.sets[i] {
             Set::Friction { coefficient, .. } if rates[i].abs() > resting => {

@@ -1,26 +1,26 @@
 //! Points of a model that may touch obstacles.
 
 use super::obstacle::Obstacle;
-use crate::linalg::Matrix;
+use crate::linalg::{Matrix, Vec3};
 use crate::system::State;
 
 /// Motion of a point, in the axes in which its obstacle is given.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PointMotion {
     /// Position p \[m\].
-    pub position: [f64; 3],
+    pub position: Vec3,
     /// Velocity ṗ \[m/s\].
-    pub velocity: [f64; 3],
+    pub velocity: Vec3,
     /// Acceleration p̈ \[m/s²\].
-    pub acceleration: [f64; 3],
+    pub acceleration: Vec3,
     /// Part of ṗ that a prescribed motion of the model makes, ∂p/∂t \[m/s\].
-    pub prescribed: [f64; 3],
+    pub prescribed: Vec3,
     /// Radius R of the ball about the point that touches in its place \[m\].
     pub radius: f64,
     /// Angular velocity ω of the ball [rad/s].
-    pub spin: [f64; 3],
+    pub spin: Vec3,
     /// ω̇ [rad/s²]
-    pub spin_rate: [f64; 3],
+    pub spin_rate: Vec3,
     /// The curve of which it is the point nearest to the obstacle, unless it is a fixed point or at an end.
     pub curve: Option<Curve>,
 }
@@ -29,11 +29,11 @@ pub struct PointMotion {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Curve {
     /// p′
-    pub slope: [f64; 3],
+    pub slope: Vec3,
     /// p″ \[1/m\]
-    pub bend: [f64; 3],
+    pub bend: Vec3,
     /// ṗ′ \[1/s\]
-    pub slope_rate: [f64; 3],
+    pub slope_rate: Vec3,
 }
 
 /// Derivatives of a point's motion by one unknown.
@@ -42,15 +42,15 @@ pub struct Variation {
     /// Number of the velocity vⱼ.
     pub unknown: usize,
     /// ∂p/∂qⱼ = ∂ṗ/∂vⱼ
-    pub position: [f64; 3],
+    pub position: Vec3,
     /// ∂ṗ/∂qⱼ \[1/s\]
-    pub velocity: [f64; 3],
+    pub velocity: Vec3,
     /// ∂ω/∂vⱼ of a ball.
-    pub rotation: [f64; 3],
+    pub rotation: Vec3,
     /// ∂ω/∂qⱼ of a ball.
-    pub spin: [f64; 3],
+    pub spin: Vec3,
     /// ∂p′/∂qⱼ on a curve.
-    pub slope: [f64; 3],
+    pub slope: Vec3,
 }
 
 /// A model with points that may touch obstacles. Points are numbered.
@@ -70,7 +70,7 @@ pub trait Points {
     fn variations(&mut self, k: usize, s: &State, out: &mut Vec<Variation>);
 
     /// out += w ∂(∂p/∂qᵀ F + ∂ω/∂vᵀ M)/∂q, with the components of F and M, of which M counts for a ball alone, held fixed.
-    fn add_curvature(&mut self, k: usize, s: &State, wrench: [[f64; 3]; 2], w: f64, out: &mut Matrix);
+    fn add_curvature(&mut self, k: usize, s: &State, wrench: [Vec3; 2], w: f64, out: &mut Matrix);
 
     /// Whether point `k` moves by unknowns that are neighbours in the tangent: ∂p/∂q ∂p/∂qᵀ then fits its structure.
     fn is_local(&self, k: usize) -> bool;
@@ -84,5 +84,5 @@ pub trait Points {
     fn begin_forces(&mut self) {}
 
     /// Notes a force on point `k`, for the reactions that the model records.
-    fn add_force(&mut self, _k: usize, _s: &State, _force: [f64; 3]) {}
+    fn add_force(&mut self, _k: usize, _s: &State, _force: Vec3) {}
 }

@@ -6,12 +6,13 @@ use super::coupling::Coupling;
 use super::hub::Drive;
 use super::system::HubBeam;
 use crate::contact::{PointMotion, Points, Variation};
-use crate::linalg::Matrix;
+use crate::linalg::{Matrix, Vec3};
 use crate::system::State;
 
 impl<C: Coupling> HubBeam<C> {
     /// The same system with stations \[m\] that may touch obstacles, which are boundaries of cells: they are the
     /// points of [`Points`], in this order.
+    #[must_use]
     pub fn with_contact_points(mut self, stations: &[(f64, Mount)]) -> HubBeam<C> {
         let (fields, kinematics) = (self.coupling().fields(), self.coupling().kinematics());
         let radius = self.hub().radius;
@@ -39,11 +40,12 @@ impl<C: Coupling> Points for HubBeam<C> {
             Some(_) => [0.0; 3],
         };
         PointMotion {
-            position: place.vector(x, y),
-            velocity: place.vector(along, across),
-            acceleration: place
-                .vector(x2 - dw * y - w * (place.y[1] + across), y2 + dw * x + w * (place.x[1] + along)),
-            prescribed,
+            position: Vec3(place.vector(x, y)),
+            velocity: Vec3(place.vector(along, across)),
+            acceleration: Vec3(
+                place.vector(x2 - dw * y - w * (place.y[1] + across), y2 + dw * x + w * (place.x[1] + along)),
+            ),
+            prescribed: Vec3(prescribed),
             ..PointMotion::default()
         }
     }
@@ -58,7 +60,12 @@ impl<C: Coupling> Points for HubBeam<C> {
         let (axial, transverse) = (&point.shapes[0], &point.shapes[1]);
         let mut push = |unknown: usize, x: f64, y: f64, rate: f64| {
             let (position, velocity) = (place.vector(x, y), place.vector(rate - w * y, w * x));
-            out.push(Variation { unknown, position, velocity, ..Variation::default() });
+            out.push(Variation {
+                unknown,
+                position: Vec3(position),
+                velocity: Vec3(velocity),
+                ..Variation::default()
+            });
         };
         if point.shortening.is_empty() {
             axial.index.iter().zip(&axial.value[0]).for_each(|(&i, phi)| push(i, *phi, 0.0, 0.0));
@@ -88,11 +95,16 @@ impl<C: Coupling> Points for HubBeam<C> {
             let [along, across] = place.velocity();
             let position = place.vector(-place.y[0], place.x[0]);
             let velocity = place.vector(-across, along);
-            out.push(Variation { unknown, position, velocity, ..Variation::default() });
+            out.push(Variation {
+                unknown,
+                position: Vec3(position),
+                velocity: Vec3(velocity),
+                ..Variation::default()
+            });
         }
     }
 
-    fn add_curvature(&mut self, k: usize, s: &State, [force, _]: [[f64; 3]; 2], w: f64, out: &mut Matrix) {
+    fn add_curvature(&mut self, k: usize, s: &State, [force, _]: [Vec3; 2], w: f64, out: &mut Matrix) {
         let (hub, angle) = (self.kinematics(s), self.angle());
         let point = &self.contact_points[k];
         let place = point.place(s, &hub);
@@ -122,7 +134,7 @@ impl<C: Coupling> Points for HubBeam<C> {
         self.contact_torque = 0.0;
     }
 
-    fn add_force(&mut self, k: usize, s: &State, force: [f64; 3]) {
+    fn add_force(&mut self, k: usize, s: &State, force: Vec3) {
         let hub = self.kinematics(s);
         let point = &self.contact_points[k];
         if point.mount == Mount::Ground {

@@ -44,6 +44,14 @@ impl Shapes {
     pub fn field(&self, d: usize, q: &[f64]) -> f64 {
         self.index.iter().zip(&self.value[d]).map(|(&i, phi)| phi * q[i]).sum()
     }
+
+    /// out += c φ
+    #[inline]
+    pub fn add(&self, c: f64, out: &mut [f64]) {
+        for (&i, phi) in self.index.iter().zip(&self.value[0]) {
+            out[i] += c * phi;
+        }
+    }
 }
 
 /// Both fields at one quadrature point or station.

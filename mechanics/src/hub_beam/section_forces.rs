@@ -32,7 +32,7 @@ use super::fields::{Fields, Point};
 use crate::linalg::{Matrix, Structure};
 use crate::quadrature::Gauss;
 use crate::section::Resultants;
-use crate::system::{Channel, Role, State};
+use crate::system::{Channel, Role, Sink, State};
 
 /// Coefficients of the polynomials, and Gauss points of an element.
 const POINTS: usize = 4;
@@ -127,46 +127,8 @@ impl SectionForces {
         SectionForces { stations, heights: heights.to_vec(), forces }
     }
 
-    /// Number of values recorded.
-    pub fn len(&self) -> usize {
-        let forces = if self.forces { 3 } else { 0 };
-        self.stations.len() * (forces + self.heights.len())
-    }
-
-    /// Whether nothing is recorded.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
-    /// The recorded quantities, in the order of [`SectionForces::record`].
-    pub fn channels(&self) -> Vec<Channel> {
-        let mut channels = Vec::new();
-        for station in &self.stations {
-            let name = &station.name;
-            let role = if name == "tip" { Role::Secondary } else { Role::Detail };
-            let mut add = |column: String, unit: &'static str, meaning: &str| {
-                channels.push(Channel { name: column, unit, meaning: format!("{meaning} at {name}"), role });
-            };
-            if self.forces {
-                add(format!("{name}.axial_force"), "N", "axial force N");
-                add(format!("{name}.shear_force"), "N", "shear force Q = −dM/dx");
-                add(format!("{name}.bending_moment"), "N*m", "bending moment M");
-            }
-            for y in &self.heights {
-                add(format!("{name}.strain_y={y}"), "", &format!("strain of the fibre at the height {y} m"));
-            }
-        }
-        channels
-    }
-
-    /// Writes one value for each channel.
-    pub fn record(&self, coupling: &impl Coupling, s: &State, out: &mut [f64]) {
-        let mut out = out.iter_mut();
-        let mut put = |x: f64| {
-            if let Some(out) = out.next() {
-                *out = x;
-            }
-        };
+    /// Records forces and strains at a state.
+    pub(super) fn observe(&self, coupling: &impl Coupling, s: &State, sink: &mut Sink<'_>) {
         for station in &self.stations {
             let axial = station.axial.iter().map(|p| p.value * p.forces(coupling, s).0).sum();
             let (mut moment, mut slope) = (0.0, 0.0);
@@ -175,15 +137,30 @@ impl SectionForces {
                 moment += p.value * m;
                 slope += p.slope * m;
             }
+            let name = &station.name;
+            let role = if name == "tip" { Role::Secondary } else { Role::Detail };
             if self.forces {
-                [axial, -slope, moment].into_iter().for_each(&mut put);
+                let mut put = |value, quantity, unit: &'static str, meaning| {
+                    let channel = || {
+                        Channel::new(role, format!("{name}.{quantity}"), unit, format!("{meaning} at {name}"))
+                    };
+                    sink.put(value, channel);
+                };
+                put(axial, "axial_force", "N", "axial force N");
+                put(-slope, "shear_force", "N", "shear force Q = −dM/dx");
+                put(moment, "bending_moment", "N*m", "bending moment M");
             }
             let r = &station.section;
             let (ea, es, ei) = (r.axial_stiffness, r.coupling_stiffness, r.bending_stiffness);
             let determinant = ea * ei - es * es;
             let strain = (ei * axial + es * moment) / determinant;
             let curvature = (es * axial + ea * moment) / determinant;
-            self.heights.iter().for_each(|y| put(strain - y * curvature));
+            for y in &self.heights {
+                sink.put(strain - y * curvature, || {
+                    let meaning = format!("strain of the fibre at the height {y} m at {name}");
+                    Channel::new(role, format!("{name}.strain_y={y}"), "", meaning)
+                });
+            }
         }
     }
 }

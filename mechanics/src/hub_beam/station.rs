@@ -1,7 +1,7 @@
 //! Stations: points of the axis at which displacements are recorded.
 
 use super::fields::{Fields, Point};
-use crate::system::State;
+use crate::system::{Channel, Role, Sink, State};
 use std::sync::Arc;
 
 /// A station on the axis, with the shape functions there.
@@ -43,6 +43,30 @@ impl Station {
             a.field(1, &s.v),
             b.field(1, &s.v),
         ]
+    }
+}
+
+impl Station {
+    /// Records where the section of the station is.
+    pub(super) fn observe(&self, now: &Placement, sink: &mut Sink<'_>) {
+        let Station { name, point, .. } = self;
+        let tip = name == "tip";
+        let [displacement, other] =
+            if tip { [Role::Primary, Role::Secondary] } else { [Role::Detail, Role::Detail] };
+        let mut put = |value, role, quantity, unit: &'static str, what, frame| {
+            sink.put(value, || {
+                let at = if tip { "of the tip".to_owned() } else { format!("at x = {} m", point.x) };
+                Channel::new(role, format!("{name}.{quantity}"), unit, format!("{what} {at}{frame}"))
+            });
+        };
+        let frame = " in the hub's frame";
+        put(now.deflection, displacement, "deflection", "m", "transverse displacement", frame);
+        put(now.axial, displacement, "axial", "m", "axial displacement", frame);
+        put(now.rotation, other, "rotation", "rad", "rotation of the section", " against the hub");
+        let rate = "rate of the transverse displacement";
+        put(now.deflection_velocity, other, "deflection_velocity", "m/s", rate, "");
+        put(now.axial_velocity, other, "axial_velocity", "m/s", "rate of the axial displacement", "");
+        put(now.rotation_velocity, other, "rotation_velocity", "rad/s", "rate of the rotation", "");
     }
 }
 

@@ -12,11 +12,11 @@ use super::section_forces::{Sampling, SectionForces};
 use super::station::{Placement, Station};
 use crate::drive::motion_breaks;
 use crate::linalg::vector::dot;
-use crate::linalg::{Matrix, Storage, Structure};
+use crate::linalg::{Mat3, Matrix, Storage, Structure, Vec3};
 use crate::profile::HubKinematics;
 use crate::system::{
     Break, Channel, Corotation, Direction, Dynamics, Energy, Events, Frame, NotSet, Observed, Parameter,
-    Power, Role, Size, State, Steady, Weights, ordered,
+    Power, Role, Sink, Size, State, Steady, Weights, ordered,
 };
 use std::sync::Arc;
 
@@ -27,7 +27,6 @@ pub struct HubBeam<C> {
     hub: Hub,
     coupling: C,
     scales: Arc<[f64]>,
-    channels: Arc<Vec<Channel>>,
     /// Recorded stations, ascending along the beam; the tip is the last.
     stations: Arc<[Station]>,
     /// Stations that were last requested by [`Observed::frames`].
@@ -87,7 +86,6 @@ impl<C: Coupling> HubBeam<C> {
             hub_inertia,
             small_share: share.filter(|share| *share < SMALL_SHARE),
             scales: scales.into(),
-            channels: Arc::new(channels(&stations, hub.target(0.0).is_some())),
             placements: vec![Placement::default(); stations.len()],
             stations: stations.into(),
             shown: Vec::new(),
@@ -108,6 +106,7 @@ impl<C: Coupling> HubBeam<C> {
     }
 
     /// The same system under `loads`; `beam` is the one the coupling was made of.
+    #[must_use]
     pub fn with_loads<'a>(mut self, beam: impl Into<Beam<'a>>, loads: &[&dyn Load]) -> HubBeam<C> {
         let site = Site {
             fields: self.coupling.fields(),
@@ -118,19 +117,11 @@ impl<C: Coupling> HubBeam<C> {
         };
         self.loads = Loads::new(&site, loads);
         self.breaks = ordered([&*self.breaks, self.loads.breaks()].concat()).into();
-        if self.loads.has_gravity() {
-            let meaning = "potential energy of gravity on the beam, zero at the height of the axis";
-            Arc::make_mut(&mut self.channels).push(Channel {
-                name: "energy.gravity".to_owned(),
-                unit: "J",
-                meaning: meaning.to_owned(),
-                role: Role::Energy,
-            });
-        }
         self
     }
 
     /// The same system with damping of the beam.
+    #[must_use]
     pub fn with_damping(mut self, damping: Damping) -> HubBeam<C> {
         self.coupling.damp(damping);
         self.damped = !damping.is_none();
@@ -138,7 +129,8 @@ impl<C: Coupling> HubBeam<C> {
     }
 
     /// The same system, recording at its stations the section forces, if `forces`, and the strains at `heights` \[m\];
-    /// `section` is the one the coupling was made of. What else is recorded must be known before.
+    /// `section` is the one the coupling was made of.
+    #[must_use]
     pub fn with_section_forces(
         mut self,
         beam: &Beam<'_>,
@@ -153,7 +145,6 @@ impl<C: Coupling> HubBeam<C> {
             order.map(|i| (self.stations[i].name.clone(), self.stations[i].point.x)).collect();
         let fields = self.coupling.fields();
         self.section_forces = Arc::new(SectionForces::new(fields, beam, sampling, &at, forces, heights));
-        Arc::make_mut(&mut self.channels).extend(self.section_forces.channels());
         self
     }
 
@@ -260,44 +251,6 @@ fn cleared(out: &mut Matrix, n: usize) -> &mut Storage<f64> {
     storage
 }
 
-/// The recorded quantities, in the order of [`HubBeam::record`].
-fn channels(stations: &[Station], controlled: bool) -> Vec<Channel> {
-    let mut channels = Vec::new();
-    let mut add = |role, name: String, unit: &'static str, meaning: String| {
-        channels.push(Channel { name, unit, meaning, role });
-    };
-    for station in stations.iter().rev().take(1).chain(&stations[..stations.len() - 1]) {
-        let (name, x) = (&station.name, station.point.x);
-        let (displacement, other, at) = match name.as_str() {
-            "tip" => (Role::Primary, Role::Secondary, "of the tip".to_owned()),
-            _ => (Role::Detail, Role::Detail, format!("at x = {x} m")),
-        };
-        let mut add = |role, quantity: &str, unit, meaning: String| {
-            add(role, format!("{name}.{quantity}"), unit, meaning);
-        };
-        add(displacement, "deflection", "m", format!("transverse displacement {at} in the hub's frame"));
-        add(displacement, "axial", "m", format!("axial displacement {at} in the hub's frame"));
-        add(other, "rotation", "rad", format!("rotation of the section {at} against the hub"));
-        add(other, "deflection_velocity", "m/s", format!("rate of the transverse displacement {at}"));
-        add(other, "axial_velocity", "m/s", format!("rate of the axial displacement {at}"));
-        add(other, "rotation_velocity", "rad/s", format!("rate of the rotation {at}"));
-    }
-    let mut add = |role, name: &str, unit, meaning: &str| add(role, name.into(), unit, meaning.into());
-    let roles = if controlled { [Role::Primary, Role::Secondary] } else { [Role::Secondary, Role::Primary] };
-    add(roles[0], "hub.angle", "rad", "angle of the hub");
-    add(roles[1], "hub.speed", "rad/s", "angular speed of the hub");
-    add(Role::Secondary, "hub.acceleration", "rad/s^2", "angular acceleration of the hub");
-    add(Role::Primary, "hub.torque", "N*m", "torque on the hub: needed by its motion, or driving it");
-    let meaning = "angular momentum of beam and hub about the axis";
-    add(Role::Secondary, "hub.angular_momentum", "kg*m^2/s", meaning);
-    add(Role::Energy, "energy.kinetic", "J", "kinetic energy of beam and hub");
-    add(Role::Energy, "energy.strain", "J", "strain energy of the beam");
-    if controlled {
-        add(Role::Secondary, "hub.target", "rad", "angle that the controller of the hub wants");
-    }
-    channels
-}
-
 impl<C: Coupling> Dynamics for HubBeam<C> {
     fn size(&self) -> Size {
         let n = self.coupling.fields().len() + self.hub.unknowns();
@@ -327,7 +280,7 @@ impl<C: Coupling> Dynamics for HubBeam<C> {
     }
 
     fn is_affine(&self) -> bool {
-        self.coupling.is_affine() && self.hub.unknowns() == 0
+        self.coupling.is_affine() && self.hub.unknowns() == 0 && self.loads.is_affine()
     }
 
     fn residual(&mut self, s: &State, r: &mut [f64]) {
@@ -405,17 +358,17 @@ impl<C: Coupling> Events for HubBeam<C> {
         let mut without = vec![0.0; p.len()];
         self.beam_forces(s, &hub, &mut without);
         self.beam_forces(s, &HubKinematics { acceleration: 1.0, ..hub }, p);
-        for (p, without) in p.iter_mut().zip(&without) {
-            *p = -(after - before) * (*p - without);
-        }
+        p.iter_mut().zip(&without).for_each(|(p, without)| *p = -(after - before) * (*p - without));
         after != before
+    }
+
+    fn turning(&mut self, s: &State) -> f64 {
+        self.kinematics(s).speed.abs()
     }
 
     /// ½ (ω⁺ + ω⁻) times the change of angular momentum; 0 for a free hub, which nothing turns.
     fn impulse_work(&mut self, before: &State, after: &State) -> f64 {
-        if matches!(self.hub().drive, Drive::Free(_)) {
-            return 0.0;
-        }
+        let Drive::Prescribed(_) = self.hub().drive else { return 0.0 };
         let (first, last) = (self.kinematics(before), self.kinematics(after));
         let change = self.totals(after, &last).momentum - self.totals(before, &first).momentum;
         0.5 * (first.speed + last.speed) * change
@@ -485,20 +438,13 @@ impl<C: Coupling> Observed for HubBeam<C> {
             let x = self.hub.radius + station.point.x + p.axial;
             let (sin, cos) = libm::sincos(angle);
             let (sin_section, cos_section) = libm::sincos(angle + p.rotation);
-            frame.position = [x * cos - p.deflection * sin, x * sin + p.deflection * cos, 0.0];
+            frame.position = Vec3([x * cos - p.deflection * sin, x * sin + p.deflection * cos, 0.0]);
             frame.rotation =
-                [[cos_section, -sin_section, 0.0], [sin_section, cos_section, 0.0], [0.0, 0.0, 1.0]];
+                Mat3([[cos_section, -sin_section, 0.0], [sin_section, cos_section, 0.0], [0.0, 0.0, 1.0]]);
         }
     }
 
-    fn channels(&self) -> &[Channel] {
-        &self.channels
-    }
-
-    fn record(&mut self, s: &State, out: &mut [f64]) {
-        let recovered = self.section_forces.len().min(out.len());
-        let (out, sections) = out.split_at_mut(out.len() - recovered);
-        self.section_forces.record(&self.coupling, s, sections);
+    fn observe(&mut self, s: &State, sink: &mut Sink<'_>) {
         self.coupling.placements(s, &self.stations, &mut self.placements);
         let hub = self.kinematics(s);
         let totals = self.totals(s, &hub);
@@ -508,25 +454,43 @@ impl<C: Coupling> Observed for HubBeam<C> {
         };
         let strain = self.strain(s, &hub);
         let gravity = self.loads.has_gravity().then(|| self.loads.gravity(s, &hub));
-        let (tip, rest) = (self.placements.len() - 1, self.placements.len());
-        let order = std::iter::once(tip).chain(0..rest - 1);
-        let mut values = order
-            .flat_map(|i| {
-                let p = &self.placements[i];
-                [
-                    p.deflection,
-                    p.axial,
-                    p.rotation,
-                    p.deflection_velocity,
-                    p.axial_velocity,
-                    p.rotation_velocity,
-                ]
-            })
-            .chain([hub.angle, hub.speed, hub.acceleration, torque, totals.momentum, totals.kinetic, strain])
-            .chain(self.hub.target(s.time()).into_iter().chain(gravity));
-        for out in out {
-            *out = values.next().unwrap_or(f64::NAN);
+        let target = self.hub.target(s.time());
+
+        if let (Some((tip, stations)), Some((at_tip, placements))) =
+            (self.stations.split_last(), self.placements.split_last())
+        {
+            tip.observe(at_tip, sink);
+            stations.iter().zip(placements).for_each(|(station, placement)| station.observe(placement, sink));
         }
+        let mut put = |value, role, name, unit: &'static str, meaning| {
+            sink.put(value, || Channel::new(role, name, unit, meaning));
+        };
+        let controlled = target.is_some();
+        let [of_angle, of_speed] =
+            if controlled { [Role::Primary, Role::Secondary] } else { [Role::Secondary, Role::Primary] };
+        put(hub.angle, of_angle, "hub.angle", "rad", "angle of the hub");
+        put(hub.speed, of_speed, "hub.speed", "rad/s", "angular speed of the hub");
+        put(
+            hub.acceleration,
+            Role::Secondary,
+            "hub.acceleration",
+            "rad/s^2",
+            "angular acceleration of the hub",
+        );
+        let meaning = "torque on the hub: needed by its motion, or driving it";
+        put(torque, Role::Primary, "hub.torque", "N*m", meaning);
+        let meaning = "angular momentum of beam and hub about the axis";
+        put(totals.momentum, Role::Secondary, "hub.angular_momentum", "kg*m^2/s", meaning);
+        put(totals.kinetic, Role::Energy, "energy.kinetic", "J", "kinetic energy of beam and hub");
+        put(strain, Role::Energy, "energy.strain", "J", "strain energy of the beam");
+        if let Some(target) = target {
+            put(target, Role::Secondary, "hub.target", "rad", "angle that the controller of the hub wants");
+        }
+        if let Some(gravity) = gravity {
+            let meaning = "potential energy of gravity on the beam, zero at the height of the axis";
+            put(gravity, Role::Energy, "energy.gravity", "J", meaning);
+        }
+        self.section_forces.observe(&self.coupling, s, sink);
     }
 
     fn admissible(&mut self, s: &State) -> Result<(), String> {

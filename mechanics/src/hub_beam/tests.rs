@@ -519,9 +519,10 @@ fn angular_momentum_changes_by_the_torque_alone() {
     for mut system in systems() {
         let s = state(&*system, 0.05);
         let n = s.q.len();
-        let channel =
-            |system: &dyn System, name: &str| system.channels().iter().position(|c| c.name == name).unwrap();
-        let momentum = channel(&*system, "hub.angular_momentum");
+        let channel = |system: &mut dyn System, name: &str| {
+            system.channels().iter().position(|c| c.name == name).unwrap()
+        };
+        let momentum = channel(&mut *system, "hub.angular_momentum");
         let mut row = vec![0.0; system.channels().len()];
         let mut record = |t: f64| {
             let mut moved = s.clone();
@@ -536,7 +537,7 @@ fn angular_momentum_changes_by_the_torque_alone() {
         let h = 1e-4;
         let rate = (record(-2.0 * h) - 8.0 * record(-h) + 8.0 * record(h) - record(2.0 * h)) / (12.0 * h);
         // A free hub's residual is the torque needed less the torque applied.
-        let torque = channel(&*system, "hub.torque");
+        let torque = channel(&mut *system, "hub.torque");
         system.record(&s, &mut row);
         let free = system.unknown(system.size().v - 1).contains("hub");
         let needed = row[torque] + if free { residual(&mut *system, &s)[n - 1] } else { 0.0 };

@@ -268,7 +268,7 @@ impl Massless {
         self.pivots.clear();
         for i in (0..rows.len()).filter(|i| is_active(rows.sets()[*i], state.mode[*i])) {
             let entry = |c: &usize| {
-                let entries = rows.stored().iter().filter(|(row, j, _)| *row == i && j == c);
+                let entries = rows.of_row(i).iter().filter(|(_, j, _)| j == c);
                 entries.map(|(_, _, x)| x).sum::<f64>()
             };
             self.reduced.extend(self.unknowns.iter().map(entry));

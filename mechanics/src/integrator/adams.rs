@@ -28,9 +28,10 @@
 //! (doi 10.1007/978-3-540-78862-1); Lambert, *Numerical Methods for Ordinary Differential Systems*,
 //! section 4.5 (ISBN 978-0-471-92990-1).
 
+use super::runge_kutta::RungeKuttaSteps;
 use super::{
-    Checkpoint, Counters, Info, Integrator, NotResumed, RungeKutta, Span, StabilityLimit, StepError,
-    StepReport,
+    Attempt, Checkpoint, Counters, Info, Integrator, NotResumed, RungeKutta, Span, StabilityLimit, StepError,
+    StepReport, Stepper,
 };
 use crate::system::{Dynamics, State};
 
@@ -44,17 +45,23 @@ const LIMIT: f64 = 0.0925;
 const HISTORY: [[&str; 2]; 3] = [["v.1", "a.1"], ["v.2", "a.2"], ["v.3", "a.3"]];
 
 /// Velocities and accelerations at one former time.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 struct Slope {
     v: Vec<f64>,
     a: Vec<f64>,
 }
 
 /// The Adams–Bashforth–Moulton pair of order 4. Its formulas head the source file.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Adams {
     /// The first steps, and all that explicit methods have in common.
     start: RungeKutta,
+}
+
+/// The method with its memory.
+#[derive(Debug)]
+struct AdamsSteps {
+    start: RungeKuttaSteps,
     /// Slopes at tₙ₋₁, tₙ₋₂, tₙ₋₃.
     history: [Slope; 3],
     /// How many of them are valid, and the step they are apart.
@@ -65,26 +72,38 @@ pub struct Adams {
 }
 
 impl Adams {
-    /// The method, not yet started.
+    /// The method.
     pub fn new() -> Adams {
-        Adams {
-            start: RungeKutta::starting(NAME, LIMIT),
-            history: Default::default(),
-            known: 0,
-            spacing: 0.0,
-            attempt: 0.0,
-        }
+        Adams { start: RungeKutta::starting(NAME, LIMIT) }
     }
 
     /// The same method, with constraints stabilized by Baumgarte's constants δ and ε [1/s].
+    #[must_use]
     pub fn with_baumgarte(self, delta: f64, epsilon: f64) -> Adams {
-        Adams { start: self.start.with_baumgarte(delta, epsilon), ..self }
+        Adams { start: self.start.with_baumgarte(delta, epsilon) }
     }
 
-    /// The stability limit found by `start`.
-    pub fn stability_limit(&self) -> Option<StabilityLimit> {
-        self.start.stability_limit()
+    /// The largest stable step at `state`, whose accelerations are completed.
+    ///
+    /// # Errors
+    /// As [`RungeKutta::stability_limit`], and [`StepError::Unsupported`] for rotations.
+    pub fn stability_limit(
+        &self,
+        system: &mut dyn Dynamics,
+        state: &mut State,
+    ) -> Result<StabilityLimit, StepError> {
+        refuse_rotations(system)?;
+        self.start.stability_limit(system, state)
     }
+}
+
+/// Slopes of a configuration with rotations do not add up.
+fn refuse_rotations(system: &dyn Dynamics) -> Result<(), StepError> {
+    if system.is_vector_space() {
+        return Ok(());
+    }
+    let (feature, instead) = ("rotations, whose increments do not add up", "runge-kutta-4");
+    Err(StepError::Unsupported { method: NAME, feature, instead })
 }
 
 impl Default for Adams {
@@ -98,33 +117,39 @@ impl Integrator for Adams {
         self.start.info()
     }
 
-    fn start(&mut self, system: &mut dyn Dynamics, state: &mut State, step: f64) -> Result<(), StepError> {
-        if !system.is_vector_space() {
-            let (feature, instead) = ("rotations, whose increments do not add up", "runge-kutta-4");
-            return Err(StepError::Unsupported { method: NAME, feature, instead });
-        }
-        for slope in &mut self.history {
-            slope.v.resize(state.v.len(), 0.0);
-            slope.a.resize(state.a.len(), 0.0);
-        }
-        self.known = 0;
-        self.start.start(system, state, step)
+    fn stepper(
+        &self,
+        system: &mut dyn Dynamics,
+        state: &mut State,
+        step: f64,
+        counters: &mut Counters,
+    ) -> Result<Box<dyn Stepper>, StepError> {
+        refuse_rotations(system)?;
+        let n = state.v.len();
+        let slope = || Slope { v: vec![0.0; n], a: vec![0.0; n] };
+        let history = [slope(), slope(), slope()];
+        let start = self.start.memory(system, state, counters)?;
+        StabilityLimit::find(NAME, LIMIT, system, state)?.check(step)?;
+        Ok(Box::new(AdamsSteps { start, history, known: 0, spacing: 0.0, attempt: 0.0 }))
     }
+}
 
+impl Stepper for AdamsSteps {
     fn step(
         &mut self,
         system: &mut dyn Dynamics,
         from: &State,
-        span: Span,
+        attempt: (Span, Attempt),
         to: &mut State,
+        counters: &mut Counters,
     ) -> Result<StepReport, StepError> {
-        let h = span.step;
+        let h = attempt.0.step;
         self.attempt = h;
         let equidistant = (h - self.spacing).abs() <= 1e-9 * h.abs();
         if self.known < 3 || !equidistant {
-            return self.start.step(system, from, span, to);
+            return self.start.step(system, from, attempt, to, counters);
         }
-        let (scratch, increment, counters) = self.start.attempt(span, to)?;
+        let RungeKuttaSteps { accelerations, increment, .. } = &mut self.start;
         let n = from.v.len();
         let place = (from.t, h);
         let w = h / 24.0;
@@ -136,18 +161,14 @@ impl Integrator for Adams {
         }
         to.copy_modes(from);
         system.retract(&from.q, increment, &mut to.q);
-        scratch.accelerations.complete(system, to, place, counters)?;
+        accelerations.complete(system, to, place, counters)?;
         for i in 0..n {
             increment[i] = w * (9.0 * to.v[i] + 19.0 * from.v[i] - 5.0 * f1.v[i] + f2.v[i]);
             to.v[i] = from.v[i] + w * (9.0 * to.a[i] + 19.0 * from.a[i] - 5.0 * f1.a[i] + f2.a[i]);
         }
         system.retract(&from.q, increment, &mut to.q);
-        scratch.accelerations.complete(system, to, place, counters)?;
-        Ok(StepReport { iterations: 0, error: None })
-    }
-
-    fn discard(&mut self) {
-        self.start.discard();
+        accelerations.complete(system, to, place, counters)?;
+        Ok(StepReport::default())
     }
 
     fn accept(&mut self, from: &State, to: &State) {
@@ -167,13 +188,17 @@ impl Integrator for Adams {
         self.start.interpolate(system, from, to, t, out);
     }
 
-    fn restart(&mut self, system: &mut dyn Dynamics, state: &mut State) -> Result<(), StepError> {
+    fn restart(
+        &mut self,
+        system: &mut dyn Dynamics,
+        state: &mut State,
+        counters: &mut Counters,
+    ) -> Result<(), StepError> {
         self.known = 0;
-        self.start.restart(system, state)
+        self.start.restart(system, state, counters)
     }
 
     fn save(&self, out: &mut Checkpoint) {
-        self.start.save(out);
         out.put("known", &[self.known as f64, self.spacing]);
         for (slope, [v, a]) in self.history.iter().zip(HISTORY) {
             out.put(v, &slope.v);
@@ -181,8 +206,7 @@ impl Integrator for Adams {
         }
     }
 
-    fn resume(&mut self, system: &mut dyn Dynamics, from: &Checkpoint) -> Result<(), NotResumed> {
-        self.start.resume(system, from)?;
+    fn resume(&mut self, _system: &mut dyn Dynamics, from: &Checkpoint) -> Result<(), NotResumed> {
         let [known, spacing] = from.numbers("known")?;
         (self.known, self.spacing) = (known as usize, spacing);
         for (slope, [v, a]) in self.history.iter_mut().zip(HISTORY) {
@@ -190,13 +214,5 @@ impl Integrator for Adams {
             from.fill(a, &mut slope.a)?;
         }
         Ok(())
-    }
-
-    fn worst(&self) -> usize {
-        0
-    }
-
-    fn counters(&self) -> Counters {
-        self.start.counters()
     }
 }

@@ -2,6 +2,9 @@
 
 use crate::system::{Mode, Side, State};
 
+/// The format of what methods and drivers keep: it changes when they keep something else.
+const FORMAT: f64 = 2.0;
+
 /// Named lists of numbers, in the order in which they were put.
 ///
 /// A run that goes on from a checkpoint takes the very steps it would have taken without it, bit by bit: counts are
@@ -12,8 +15,20 @@ pub struct Checkpoint {
 }
 
 /// A checkpoint from which a run cannot go on.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum NotResumed {
+    /// It was written in another format.
+    #[error(
+        "the stored state is one of format {found}, and this version of the program goes on from format {needed}: run the case \
+         from its start"
+    )]
+    Format {
+        /// Its format; 1 where none is written.
+        found: f64,
+        /// The format of this version.
+        needed: f64,
+    },
     /// A list is missing.
     #[error(
         "the stored state lacks `{0}`: it was written by another method or another version of the program"
@@ -38,6 +53,22 @@ pub enum NotResumed {
 }
 
 impl Checkpoint {
+    /// An empty checkpoint in the format of this version.
+    pub fn of_this_format() -> Checkpoint {
+        let mut checkpoint = Checkpoint::default();
+        checkpoint.put("format", &[FORMAT]);
+        checkpoint
+    }
+
+    /// Whether this version can go on from it.
+    ///
+    /// # Errors
+    /// [`NotResumed::Format`].
+    pub fn check_format(&self) -> Result<(), NotResumed> {
+        let [found] = self.numbers("format").unwrap_or([1.0]);
+        if found == FORMAT { Ok(()) } else { Err(NotResumed::Format { found, needed: FORMAT }) }
+    }
+
     /// Adds a list, or replaces it in its place.
     pub fn put(&mut self, name: &str, values: &[f64]) {
         match self.entries.iter_mut().find(|(known, _)| known == name) {
@@ -97,6 +128,17 @@ impl Checkpoint {
         Ok(())
     }
 
+    /// The work done until the checkpoint.
+    ///
+    /// # Errors
+    /// [`NotResumed::Missing`] and [`NotResumed::Length`].
+    pub fn counters(&self) -> Result<super::Counters, NotResumed> {
+        let numbers: [f64; 7] = self.numbers("counters")?;
+        let mut counters = super::Counters::default();
+        counters.all().into_iter().zip(numbers).for_each(|(count, number)| *count = number as u64);
+        Ok(counters)
+    }
+
     /// Adds a state under names that begin with `prefix`.
     pub fn put_state(&mut self, prefix: &str, state: &State) {
         let left = f64::from(u8::from(state.side == Side::Left));
@@ -128,24 +170,29 @@ impl Checkpoint {
 }
 
 impl super::Counters {
-    /// As numbers, for a [`Checkpoint`].
-    pub(super) fn to_numbers(self) -> [f64; 7] {
-        let all = [
-            self.steps,
-            self.rejected,
-            self.iterations,
-            self.residuals,
-            self.tangents,
-            self.factorizations,
-            self.solves,
-        ];
-        all.map(|count| count as f64)
+    fn all(&mut self) -> [&mut u64; 7] {
+        let super::Counters { steps, rejected, iterations, residuals, tangents, factorizations, solves } =
+            self;
+        [steps, rejected, iterations, residuals, tangents, factorizations, solves]
     }
 
-    /// From the numbers of a [`Checkpoint`].
-    pub(super) fn from_numbers(numbers: [f64; 7]) -> super::Counters {
-        let [steps, rejected, iterations, residuals, tangents, factorizations, solves] =
-            numbers.map(|count| count as u64);
-        super::Counters { steps, rejected, iterations, residuals, tangents, factorizations, solves }
+    /// As numbers, for a [`Checkpoint`].
+    pub(super) fn to_numbers(mut self) -> [f64; 7] {
+        self.all().map(|count| *count as f64)
+    }
+
+    /// Counts an iteration with one residual and one solution.
+    pub(super) fn add_iteration(&mut self) {
+        self.iterations += 1;
+        self.residuals += 1;
+        self.solves += 1;
+    }
+
+    /// Counts an iteration with a tangent of its own, factored, and the given number of solutions.
+    pub(super) fn add_full_iteration(&mut self, solves: u64) {
+        self.add_iteration();
+        self.tangents += 1;
+        self.factorizations += 1;
+        self.solves += solves - 1;
     }
 }

@@ -1,6 +1,6 @@
 //! Errors of a step, with the name of the unknown that shows them.
 
-use super::StepError;
+use super::{Convergence, StepError};
 use crate::linalg::Singular;
 use crate::system::{Dynamics, State};
 
@@ -27,4 +27,33 @@ pub(super) fn not_finite(system: &dyn Dynamics, time: f64, step: f64, state: &St
         .or_else(|| first_bad(&state.lambda).map(|i| i + velocities))
         .unwrap_or(0);
     StepError::NotFinite { time, step, worst: system.unknown(index) }
+}
+
+/// The error of a Newton iteration that does not converge, whose last increment `x` is `size` times its tolerance.
+pub(super) fn not_converged(
+    system: &dyn Dynamics,
+    (time, step): (f64, f64),
+    convergence: &Convergence,
+    size: f64,
+    x: &[f64],
+) -> StepError {
+    let worst = system.unknown(largest(x.iter().zip(system.scales()).map(|(x, scale)| (x / scale).abs())));
+    if !size.is_finite() {
+        return StepError::NotFinite { time, step, worst };
+    }
+    StepError::NotConverged { time, step, iterations: convergence.iterations(), size, worst }
+}
+
+/// Index of the largest number, or of the first that is none.
+pub(super) fn largest(sizes: impl Iterator<Item = f64>) -> usize {
+    let mut found = (0, 0.0);
+    for (i, size) in sizes.enumerate() {
+        if size.is_nan() {
+            return i;
+        }
+        if size > found.1 {
+            found = (i, size);
+        }
+    }
+    found.0
 }

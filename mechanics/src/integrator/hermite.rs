@@ -87,10 +87,9 @@ pub(super) fn quintic(
     finish(from, to, s, t, out);
 }
 
-/// Writes what is linear between both ends: for steps in which velocities may jump.
+/// Writes what is linear between both ends: for steps in which velocities may jump. `out.v` holds the increment D.
 pub(super) fn linear(system: &dyn Dynamics, from: &State, to: &State, t: f64, out: &mut State) {
     let s = fraction(from, to, t);
-    system.difference(&from.q, &to.q, &mut out.v);
     out.v.iter_mut().for_each(|d| *d *= s);
     system.retract(&from.q, &out.v, &mut out.q);
     for i in 0..out.v.len() {

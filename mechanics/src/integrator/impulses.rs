@@ -9,6 +9,7 @@
 //!
 //! and the increment becomes x + A⁻¹ Gᵀ (P − P₀). See the [cone problem](crate::contact::solve).
 
+use super::rows::Rows;
 use crate::contact::{RowLaw, Unresolved, solve};
 use crate::linalg::Matrix;
 use crate::system::Set;
@@ -70,11 +71,11 @@ impl Impulses {
     }
 
     /// Solves for the multipliers `p` of the rows that take part and adds what their change does to the increment `x`;
-    /// `jacobian` holds (row, velocity, entry), and `value` gives the value of a row before the increment.
+    /// `jacobian` are the stored ones, and `value` gives the value of a row before the increment.
     pub(super) fn solve(
         &mut self,
         matrix: &mut Matrix,
-        jacobian: &[(usize, usize, f64)],
+        jacobian: &Rows,
         value: impl Fn(usize) -> f64,
         p: &mut [f64],
         x: &mut [f64],
@@ -84,14 +85,14 @@ impl Impulses {
             return Ok(());
         }
         let along = |row: usize, x: &[f64]| -> f64 {
-            jacobian.iter().filter(|(i, ..)| *i == row).map(|&(_, j, entry)| entry * x[j]).sum()
+            jacobian.of_row(row).iter().map(|&(_, j, entry)| entry * x[j]).sum()
         };
         self.w.clear();
         self.w.resize(m * m, 0.0);
         for (k, &row) in self.rows.iter().enumerate() {
             let image = &mut self.images[k * n..(k + 1) * n];
             image.fill(0.0);
-            for &(_, j, entry) in jacobian.iter().filter(|(i, ..)| *i == row) {
+            for &(_, j, entry) in jacobian.of_row(row) {
                 image[j] += entry;
             }
             matrix.solve(image);

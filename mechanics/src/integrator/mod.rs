@@ -1,4 +1,6 @@
-//! Time integrators: each a file, each behind the one trait [`Integrator`].
+//! Time integrators: each a file, each behind two traits. An [`Integrator`] is a method with its parameters; its [`Stepper`] is the
+//! method with its memory for one system: predict, iterate, accept, interpolate. An [`Integration`] drives a stepper and owns
+//! what all methods have in common. Methods share the auxiliary acceleration (`auxiliary.rs`) and tangents that are kept (`kept.rs`).
 //!
 //! | method | file | order (q, v) | steps | equations solved a step |
 //! |---|---|---|---|---|
@@ -6,16 +8,19 @@
 //! | [`GeneralizedAlpha`]: Newmark, HHT-α, Chung–Hulbert | `generalized_alpha/` | 2 | fixed | one system per iteration |
 //! | [`RungeKutta`], classical | `runge_kutta.rs` | 4 | fixed | mass matrix only |
 //! | [`MoreauJean`], nonsmooth | `moreau_jean.rs` | 1 | fixed | one system per iteration, and one per contact |
-//! | [`NonsmoothAlpha`], nonsmooth | `nonsmooth_alpha.rs` | 2 in smooth motion, 1 across impacts | fixed | one system per iteration, and one per contact |
+//! | [`NonsmoothAlpha`], nonsmooth | `nonsmooth_alpha/` | 2 in smooth motion, 1 across impacts | fixed | one system per iteration, and one per contact |
 //! | [`Adams`]–Bashforth–Moulton PECE | `adams.rs` | 4 | fixed | mass matrix only |
 
 mod acceleration;
 mod adams;
+mod auxiliary;
 mod checkpoint;
 mod failure;
 mod generalized_alpha;
 mod hermite;
 mod impulses;
+mod integration;
+mod kept;
 mod moreau_jean;
 mod newton;
 mod nonsmooth_alpha;
@@ -29,6 +34,7 @@ pub(crate) use acceleration::Accelerations;
 pub use adams::Adams;
 pub use checkpoint::{Checkpoint, NotResumed};
 pub use generalized_alpha::GeneralizedAlpha;
+pub use integration::Integration;
 pub use moreau_jean::MoreauJean;
 pub use newton::{Convergence, Progress};
 pub use nonsmooth_alpha::NonsmoothAlpha;
@@ -37,7 +43,7 @@ pub use runge_kutta::RungeKutta;
 pub use stability::{StabilityLimit, largest_frequency};
 pub use step_control::{Law, StepControl};
 
-use crate::system::{Corotation, Dynamics, Side, State};
+use crate::system::{Dynamics, Side, State};
 
 /// What an integrator is: for listings, reports and step control.
 #[derive(Clone, Debug, PartialEq)]
@@ -96,10 +102,13 @@ pub struct StepReport {
     pub iterations: u32,
     /// Estimated local error over the tolerance (≤ 1 is acceptable); `None` without an estimate.
     pub error: Option<f64>,
+    /// The unknown with the largest estimated error.
+    pub worst: usize,
 }
 
 /// Why a step failed. Every variant says when, how large and what to try.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum StepError {
     /// Newton's method did not converge.
     #[error(
@@ -183,12 +192,6 @@ pub enum StepError {
         /// Why.
         cause: crate::contact::Unresolved,
     },
-    /// `step` or `restart` was called before `start`.
-    #[error("{method} was asked for a step before it was started")]
-    NotStarted {
-        /// Method as in a case file.
-        method: &'static str,
-    },
     /// The method cannot integrate this kind of system.
     #[error("{method} cannot integrate a system with {feature}; use {instead}")]
     Unsupported {
@@ -213,69 +216,97 @@ pub struct InvalidParameter {
     pub range: &'static str,
 }
 
-/// A time integrator. Its history and scratch are its own; the states are the caller's.
-///
-/// Protocol: [`start`](Integrator::start) once; then [`step`](Integrator::step) any number of times
-/// from the same state (a rejected attempt leaves the history as it was), and
-/// [`accept`](Integrator::accept) when the attempt is kept. After `accept`, and until the next
-/// `step`, [`interpolate`](Integrator::interpolate) gives the solution anywhere in the accepted step.
-/// No method but `start` and `restart` allocates.
+/// What an attempt of a step is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Attempt {
+    /// The first from its state.
+    First,
+    /// The one before, from the same state, was rejected or failed.
+    Repeated,
+    /// A trial step of the location of events: the one before was discarded.
+    Trial,
+}
+
+/// A time integrator: a method and its parameters.
 pub trait Integrator: Send {
     /// What this method is.
     fn info(&self) -> &Info;
-
-    /// Prepares for integrating `system` from `state` with steps of about `step`; completes
-    /// `state` with consistent accelerations (and multipliers).
-    fn start(&mut self, system: &mut dyn Dynamics, state: &mut State, step: f64) -> Result<(), StepError>;
-
-    /// Attempts one step from `from`, writing the new state to `to`.
-    fn step(
-        &mut self,
-        system: &mut dyn Dynamics,
-        from: &State,
-        span: Span,
-        to: &mut State,
-    ) -> Result<StepReport, StepError>;
-
-    /// Takes note that the last attempt was a trial, by which something was looked for: it does not count as rejected.
-    fn discard(&mut self);
-
-    /// Commits the last attempt to the history.
-    fn accept(&mut self, from: &State, to: &State);
-
-    /// The solution at time `t` inside the last accepted step, between `from` and `to`. The system
-    /// lends its [`retract`](Dynamics::retract): the polynomial lives in the space of increments.
-    fn interpolate(&self, system: &dyn Dynamics, from: &State, to: &State, t: f64, out: &mut State);
-
-    /// Forgets the history after a discontinuity; completes `state`, from now on its right limit, as
-    /// [`Integrator::start`] does.
-    fn restart(&mut self, system: &mut dyn Dynamics, state: &mut State) -> Result<(), StepError>;
-
-    /// Adds to `out` all that later steps depend on besides the state.
-    fn save(&self, out: &mut Checkpoint);
-
-    /// Takes up the history that [`Integrator::save`] wrote, after a [`start`](Integrator::start): the next steps are
-    /// bit by bit those that would have followed.
-    ///
-    /// # Errors
-    /// [`NotResumed`] when the history is not one of this method and this system.
-    fn resume(&mut self, system: &mut dyn Dynamics, from: &Checkpoint) -> Result<(), NotResumed>;
 
     /// Whether the method resolves contacts in its own steps, so that a driver looks for no events of theirs.
     fn resolves_contacts(&self) -> bool {
         false
     }
 
-    /// Index of the unknown with the largest scaled error or increment in the last attempt.
-    fn worst(&self) -> usize;
+    /// The memory of the method for integrating `system` from `state` with steps of about `step`; completes `state` as
+    /// [`Stepper::restart`] does.
+    ///
+    /// # Errors
+    /// [`StepError`] for a system that the method cannot integrate, or a state without accelerations.
+    fn stepper(
+        &self,
+        system: &mut dyn Dynamics,
+        state: &mut State,
+        step: f64,
+        counters: &mut Counters,
+    ) -> Result<Box<dyn Stepper>, StepError>;
 
-    /// Work done since `start`.
-    fn counters(&self) -> Counters;
+    /// Begins an integration of `system` from `state` with steps of about `step`; completes `state` with consistent
+    /// accelerations and multipliers.
+    ///
+    /// # Errors
+    /// As [`Integrator::stepper`].
+    fn start(
+        &self,
+        system: &mut dyn Dynamics,
+        state: &mut State,
+        step: f64,
+    ) -> Result<Integration, StepError> {
+        let mut counters = Counters::default();
+        state.side = Side::Right;
+        let stepper = self.stepper(system, state, step, &mut counters)?;
+        Ok(Integration::new(stepper, self.info().clone(), self.resolves_contacts(), counters))
+    }
 }
 
-/// Memory for the rotations of a system's sections.
-fn corotation(system: &dyn Dynamics, state: &State) -> Corotation {
-    let mut made = Corotation::default();
-    system.corotate(state, state, &mut made);
-    made.emptied()
+/// The formulas of a method with their memory: an attempt changes no history, which [`Stepper::accept`] does.
+/// [`Integration`] says in which order the calls come, counts attempts, and sets time and side of `to`.
+pub trait Stepper: Send {
+    /// Attempts one step from `from`, writing the new state to `to`.
+    ///
+    /// # Errors
+    /// [`StepError`].
+    fn step(
+        &mut self,
+        system: &mut dyn Dynamics,
+        from: &State,
+        attempt: (Span, Attempt),
+        to: &mut State,
+        counters: &mut Counters,
+    ) -> Result<StepReport, StepError>;
+
+    /// Commits the last attempt to the history.
+    fn accept(&mut self, from: &State, to: &State);
+
+    /// The solution at time `t` inside the last accepted step.
+    fn interpolate(&self, system: &dyn Dynamics, from: &State, to: &State, t: f64, out: &mut State);
+
+    /// Forgets the history; completes `state` with consistent accelerations and multipliers.
+    ///
+    /// # Errors
+    /// [`StepError`] where there are none.
+    fn restart(
+        &mut self,
+        system: &mut dyn Dynamics,
+        state: &mut State,
+        counters: &mut Counters,
+    ) -> Result<(), StepError>;
+
+    /// Adds the history to `out`.
+    fn save(&self, out: &mut Checkpoint);
+
+    /// Takes up the history that [`Stepper::save`] wrote.
+    ///
+    /// # Errors
+    /// [`NotResumed`] when it is not one of this method and this system.
+    fn resume(&mut self, system: &mut dyn Dynamics, from: &Checkpoint) -> Result<(), NotResumed>;
 }

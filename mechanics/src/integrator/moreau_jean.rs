@@ -19,8 +19,8 @@
 use super::impulses::Impulses;
 use super::rows::Rows;
 use super::{
-    Checkpoint, Convergence, Counters, Info, Integrator, InvalidParameter, NotResumed, Progress, Span,
-    StepError, StepReport, failure, hermite,
+    Attempt, Checkpoint, Convergence, Counters, Info, Integrator, InvalidParameter, NotResumed, Progress,
+    Span, StepError, StepReport, Stepper, failure, hermite,
 };
 use crate::linalg::Matrix;
 use crate::system::{Dynamics, Mode, RowWeights, Set, Side, State, Weights};
@@ -32,20 +32,17 @@ const NAME: &str = "moreau-jean";
 const TOLERANCE: f64 = 1e-12;
 
 /// Moreau's scheme. Its formulas head the source file.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct MoreauJean {
     info: Info,
     theta: f64,
-    counters: Counters,
-    convergence: Convergence,
-    pending: bool,
-    worst: usize,
-    work: Option<Work>,
 }
 
-/// What `start` allocates for a system.
+/// The scheme with its memory.
 #[derive(Debug)]
-struct Work {
+struct MoreauSteps {
+    theta: f64,
+    convergence: Convergence,
     matrix: Matrix,
     rows: Rows,
     middle: State,
@@ -68,85 +65,18 @@ impl MoreauJean {
         if !(0.5..=1.0).contains(&theta) {
             return Err(InvalidParameter { parameter: "theta", value: theta, range: "1/2 ≤ θ ≤ 1" });
         }
-        Ok(MoreauJean {
-            info: Info { name: NAME, order: 1, estimate_order: None, implicit: true },
-            theta,
-            counters: Counters::default(),
-            convergence: Convergence::full(TOLERANCE, 1e-9),
-            pending: false,
-            worst: 0,
-            work: None,
-        })
-    }
-
-    /// Solves the equations of a step.
-    fn solve(
-        &mut self,
-        work: &mut Work,
-        system: &mut dyn Dynamics,
-        from: &State,
-        h: f64,
-        to: &mut State,
-    ) -> Result<u32, StepError> {
-        let (n, theta) = (from.v.len(), self.theta);
-        work.choose(system, from, h);
-        to.v.copy_from_slice(&from.v);
-        to.copy_modes(from);
-        work.impulses.fill(0.0);
-        self.convergence.begin(true);
-        loop {
-            // The residual at t₀ + θh.
-            for i in 0..n {
-                work.middle.v[i] = (1.0 - theta) * from.v[i] + theta * to.v[i];
-                work.middle.a[i] = (to.v[i] - from.v[i]) / h;
-                work.increment[i] = theta * h * work.middle.v[i];
-            }
-            (work.middle.t, work.middle.side) = (from.t + theta * h, Side::Right);
-            system.retract(&from.q, &work.increment, &mut work.middle.q);
-            for (lambda, p) in work.middle.lambda.iter_mut().zip(&work.impulses) {
-                *lambda = p / h;
-            }
-            system.residual(&work.middle, &mut work.rhs);
-            let weights =
-                Weights { a: 1.0, v: theta * h, q: (theta * h).powi(2), increment: Some(&work.increment) };
-            system.tangent(&work.middle, weights, &mut work.matrix);
-            work.matrix.factor().map_err(|e| failure::singular(system, from.t, h, e))?;
-            work.rhs.iter_mut().for_each(|r| *r *= -h);
-            work.matrix.solve(&mut work.rhs);
-            work.rows.store_jacobian(system, &work.middle);
-            work.respond(system, from, h, to, theta)?;
-            let square: f64 = work.rhs.iter().zip(&work.scale).map(|(x, s)| (h * x / s).powi(2)).sum();
-            let size = (square / n.max(1) as f64).sqrt();
-            self.counters.residuals += 1;
-            self.counters.tangents += 1;
-            self.counters.factorizations += 1;
-            self.counters.solves += 1 + work.part.len() as u64;
-            self.counters.iterations += 1;
-            match self.convergence.judge(size) {
-                Progress::Converged => break,
-                Progress::Continue => {}
-                Progress::Diverged => {
-                    let iterations = self.convergence.iterations();
-                    let worst = system.unknown(self.worst);
-                    return Err(StepError::NotConverged { time: from.t, step: h, iterations, size, worst });
-                }
-            }
-        }
-        work.finish(system, from, h, to, theta);
-        if to.is_finite() {
-            Ok(self.convergence.iterations())
-        } else {
-            Err(failure::not_finite(system, from.t, h, to))
-        }
+        Ok(MoreauJean { info: Info { name: NAME, order: 1, estimate_order: None, implicit: true }, theta })
     }
 }
 
-impl Work {
-    fn new(system: &mut dyn Dynamics, state: &State) -> Work {
+impl MoreauSteps {
+    fn new(theta: f64, system: &mut dyn Dynamics, state: &State) -> MoreauSteps {
         let size = system.size();
         let (n, m) = (size.v, size.lambda);
         let zeros = |n| vec![0.0; n];
-        Work {
+        MoreauSteps {
+            theta,
+            convergence: Convergence::full(TOLERANCE, 1e-9),
             matrix: Matrix::new(&system.structure(0)),
             rows: Rows::new(system, state),
             middle: State::zeros(size, state.t),
@@ -158,6 +88,68 @@ impl Work {
             rates: zeros(m),
             part: Impulses::new(m, n),
             scale: system.scales().to_vec(),
+        }
+    }
+
+    /// Solves the equations of a step.
+    fn solve(
+        &mut self,
+        system: &mut dyn Dynamics,
+        from: &State,
+        h: f64,
+        to: &mut State,
+        counters: &mut Counters,
+    ) -> Result<u32, StepError> {
+        let (n, theta) = (from.v.len(), self.theta);
+        self.choose(system, from, h);
+        to.v.copy_from_slice(&from.v);
+        to.copy_modes(from);
+        self.impulses.fill(0.0);
+        self.convergence.begin(true);
+        loop {
+            // The residual at t₀ + θh.
+            for i in 0..n {
+                self.middle.v[i] = (1.0 - theta) * from.v[i] + theta * to.v[i];
+                self.middle.a[i] = (to.v[i] - from.v[i]) / h;
+                self.increment[i] = theta * h * self.middle.v[i];
+            }
+            (self.middle.t, self.middle.side) = (from.t + theta * h, Side::Right);
+            system.retract(&from.q, &self.increment, &mut self.middle.q);
+            for (lambda, p) in self.middle.lambda.iter_mut().zip(&self.impulses) {
+                *lambda = p / h;
+            }
+            system.residual(&self.middle, &mut self.rhs);
+            let weights =
+                Weights { a: 1.0, v: theta * h, q: (theta * h).powi(2), increment: Some(&self.increment) };
+            system.tangent(&self.middle, weights, &mut self.matrix);
+            self.matrix.factor().map_err(|e| failure::singular(system, from.t, h, e))?;
+            self.rhs.iter_mut().for_each(|r| *r *= -h);
+            self.matrix.solve(&mut self.rhs);
+            self.rows.store_jacobian(system, &self.middle);
+            self.respond(system, from, h, to)?;
+            let square: f64 = self.rhs.iter().zip(&self.scale).map(|(x, s)| (h * x / s).powi(2)).sum();
+            let size = (square / n.max(1) as f64).sqrt();
+            counters.add_full_iteration(1 + self.part.len() as u64);
+            match self.convergence.judge(size) {
+                Progress::Converged => break,
+                Progress::Continue => {}
+                Progress::Diverged => {
+                    let size = size / TOLERANCE;
+                    return Err(failure::not_converged(
+                        system,
+                        (from.t, h),
+                        &self.convergence,
+                        size,
+                        &self.rhs,
+                    ));
+                }
+            }
+        }
+        self.finish(system, from, h, to);
+        if to.is_finite() {
+            Ok(self.convergence.iterations())
+        } else {
+            Err(failure::not_finite(system, from.t, h, to))
         }
     }
 
@@ -178,10 +170,9 @@ impl Work {
         from: &State,
         h: f64,
         to: &mut State,
-        theta: f64,
     ) -> Result<(), StepError> {
         if self.part.len() > 0 {
-            self.finish(system, from, h, to, theta);
+            self.finish(system, from, h, to);
             system.constraint(to, RowWeights::VELOCITY, &mut self.rates);
             let (sets, rates, start) = (self.rows.sets(), &self.rates, &self.start);
             let value = |row: usize| match sets[row] {
@@ -189,7 +180,7 @@ impl Work {
                 _ => rates[row],
             };
             self.part
-                .solve(&mut self.matrix, self.rows.stored(), value, &mut self.impulses, &mut self.rhs)
+                .solve(&mut self.matrix, &self.rows, value, &mut self.impulses, &mut self.rhs)
                 .map_err(|cause| StepError::Contacts { time: from.t, step: h, cause })?;
         }
         to.v.iter_mut().zip(&self.rhs).for_each(|(v, x)| *v += x);
@@ -197,7 +188,8 @@ impl Work {
     }
 
     /// Position, mean accelerations and multipliers that belong to the velocities of `to`.
-    fn finish(&mut self, system: &dyn Dynamics, from: &State, h: f64, to: &mut State, theta: f64) {
+    fn finish(&mut self, system: &dyn Dynamics, from: &State, h: f64, to: &mut State) {
+        let theta = self.theta;
         for i in 0..self.increment.len() {
             self.increment[i] = h * ((1.0 - theta) * from.v[i] + theta * to.v[i]);
             to.a[i] = (to.v[i] - from.v[i]) / h;
@@ -214,77 +206,65 @@ impl Integrator for MoreauJean {
         &self.info
     }
 
-    fn start(&mut self, system: &mut dyn Dynamics, state: &mut State, _step: f64) -> Result<(), StepError> {
-        self.counters = Counters::default();
-        self.convergence.reset();
-        self.work = Some(Work::new(system, state));
-        self.restart(system, state)
+    fn resolves_contacts(&self) -> bool {
+        true
     }
 
+    fn stepper(
+        &self,
+        system: &mut dyn Dynamics,
+        state: &mut State,
+        _step: f64,
+        counters: &mut Counters,
+    ) -> Result<Box<dyn Stepper>, StepError> {
+        let mut steps = MoreauSteps::new(self.theta, system, state);
+        steps.restart(system, state, counters)?;
+        Ok(Box::new(steps))
+    }
+}
+
+impl Stepper for MoreauSteps {
     fn step(
         &mut self,
         system: &mut dyn Dynamics,
         from: &State,
-        span: Span,
+        (span, _): (Span, Attempt),
         to: &mut State,
+        counters: &mut Counters,
     ) -> Result<StepReport, StepError> {
-        let h = span.step;
-        (to.t, to.side) = (span.end, span.side);
-        let Some(mut work) = self.work.take() else {
-            return Err(StepError::NotStarted { method: NAME });
-        };
-        self.counters.rejected += u64::from(self.pending);
-        self.pending = true;
-        let solved = self.solve(&mut work, system, from, h, to);
-        self.work = Some(work);
-        Ok(StepReport { iterations: solved?, error: None })
+        let iterations = self.solve(system, from, span.step, to, counters)?;
+        Ok(StepReport { iterations, ..StepReport::default() })
     }
 
-    fn discard(&mut self) {
-        self.pending = false;
-    }
-
-    fn accept(&mut self, _from: &State, _to: &State) {
-        self.pending = false;
-        self.counters.steps += 1;
-    }
+    fn accept(&mut self, _from: &State, _to: &State) {}
 
     fn interpolate(&self, system: &dyn Dynamics, from: &State, to: &State, t: f64, out: &mut State) {
+        let h = to.t - from.t;
+        for (d, (v0, v1)) in out.v.iter_mut().zip(from.v.iter().zip(&to.v)) {
+            *d = h * ((1.0 - self.theta) * v0 + self.theta * v1);
+        }
         hermite::linear(system, from, to, t, out);
     }
 
-    fn restart(&mut self, _system: &mut dyn Dynamics, state: &mut State) -> Result<(), StepError> {
-        self.pending = false;
-        state.side = Side::Right;
-        // Impulses decide about contacts, not modes.
-        if let Some(work) = &self.work {
-            for (mode, set) in state.mode.iter_mut().zip(work.rows.sets()) {
-                *mode = if *set == Set::Free { Mode::Closed } else { Mode::Open };
-            }
+    /// Impulses decide about contacts, not modes.
+    fn restart(
+        &mut self,
+        _system: &mut dyn Dynamics,
+        state: &mut State,
+        _counters: &mut Counters,
+    ) -> Result<(), StepError> {
+        for (mode, set) in state.mode.iter_mut().zip(self.rows.sets()) {
+            *mode = if *set == Set::Free { Mode::Closed } else { Mode::Open };
         }
         Ok(())
     }
 
     fn save(&self, out: &mut Checkpoint) {
-        out.put("counters", &self.counters.to_numbers());
         out.put("convergence", &self.convergence.memory());
     }
 
     fn resume(&mut self, _system: &mut dyn Dynamics, from: &Checkpoint) -> Result<(), NotResumed> {
-        self.counters = Counters::from_numbers(from.numbers("counters")?);
         self.convergence.recall(from.numbers("convergence")?);
         Ok(())
-    }
-
-    fn resolves_contacts(&self) -> bool {
-        true
-    }
-
-    fn worst(&self) -> usize {
-        self.worst
-    }
-
-    fn counters(&self) -> Counters {
-        self.counters
     }
 }

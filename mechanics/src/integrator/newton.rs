@@ -109,6 +109,7 @@ impl Convergence {
     }
 
     /// The same, with another largest size of increments that may be rounding errors.
+    #[must_use]
     pub fn with_noise(self, noise: f64) -> Convergence {
         Convergence { noise, ..self }
     }
@@ -129,11 +130,6 @@ impl Convergence {
         self.fresh = fresh;
         self.rate = 0.0;
         self.eta = if self.simplified { libm::pow(self.eta.max(f64::EPSILON), self.fading) } else { 1.0 };
-    }
-
-    /// Forgets all that former runs have shown.
-    pub(super) fn reset(&mut self) {
-        (self.eta, self.rate, self.rounding, self.stalled) = (1.0, 0.0, 0.0, false);
     }
 
     /// Forgets the rates of former steps.
@@ -232,7 +228,6 @@ mod tests {
 
     fn verdicts(sizes: &[f64]) -> Vec<Progress> {
         let mut convergence = Convergence::measured(1e-16, 1e-7);
-        convergence.reset();
         convergence.learn_rounding(1e-16);
         convergence.begin(true);
         sizes.iter().map(|size| convergence.judge(*size)).collect()

@@ -18,6 +18,10 @@ pub(super) struct Rows {
     rates: Vec<f64>,
     /// Row, velocity and entry of a jacobian that was stored.
     jacobian: Vec<(usize, usize, f64)>,
+    /// The same, row by row.
+    by_row: Vec<(usize, usize, f64)>,
+    /// Where the entries of each row begin there, and their end.
+    begins: Vec<usize>,
 }
 
 impl Rows {
@@ -25,7 +29,8 @@ impl Rows {
         let sets = system.rows().to_vec();
         let friction = sets.iter().any(|set| matches!(set, Set::Friction { .. }));
         let rates = vec![0.0; sets.len()];
-        let mut rows = Rows { sets, friction, rates, jacobian: Vec::new() };
+        let begins = vec![0; sets.len() + 1];
+        let mut rows = Rows { sets, friction, rates, begins, ..Rows::default() };
         rows.store_jacobian(system, state);
         rows
     }
@@ -119,16 +124,33 @@ impl Rows {
 
     /// Stores the jacobian at `s`.
     pub(super) fn store_jacobian(&mut self, system: &mut dyn Dynamics, s: &State) {
-        let stored = &mut self.jacobian;
-        stored.clear();
+        let Rows { jacobian, by_row, begins, .. } = self;
+        jacobian.clear();
         system.jacobian(s, &mut |row, velocities, entries| {
-            stored.extend(velocities.iter().zip(entries).map(|(&j, &x)| (row, j, x)));
+            jacobian.extend(velocities.iter().zip(entries).map(|(&j, &x)| (row, j, x)));
         });
+        // A row may be shown in parts: they are counted, and then put in their places.
+        begins.fill(0);
+        jacobian.iter().for_each(|(row, ..)| begins[row + 1] += 1);
+        (1..begins.len()).for_each(|row| begins[row] += begins[row - 1]);
+        by_row.resize(jacobian.len(), (0, 0, 0.0));
+        for entry in jacobian.iter() {
+            by_row[begins[entry.0]] = *entry;
+            begins[entry.0] += 1;
+        }
+        // Each begin is the end of its row now, and so the begin of the next.
+        begins.rotate_right(1);
+        begins[0] = 0;
     }
 
     /// Entries (row, velocity, value) of the stored jacobian.
     pub(super) fn stored(&self) -> &[(usize, usize, f64)] {
         &self.jacobian
+    }
+
+    /// The stored entries of a row.
+    pub(super) fn of_row(&self, row: usize) -> &[(usize, usize, f64)] {
+        &self.by_row[self.begins[row]..self.begins[row + 1]]
     }
 
     /// Adds `c` Gᵀ x with the stored jacobian.

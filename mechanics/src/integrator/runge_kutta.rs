@@ -25,7 +25,8 @@
 
 use super::acceleration::Accelerations;
 use super::{
-    Checkpoint, Counters, Info, Integrator, NotResumed, Span, StabilityLimit, StepError, StepReport, hermite,
+    Attempt, Checkpoint, Counters, Info, Integrator, NotResumed, Span, StabilityLimit, StepError, StepReport,
+    Stepper, hermite,
 };
 use crate::system::{Dynamics, RowWeights, Side, State};
 
@@ -36,155 +37,92 @@ const NAME: &str = "runge-kutta-4";
 const LIMIT: f64 = 2.828_427_124_746_190_3;
 
 /// The classical Runge–Kutta method. Its formulas head the source file.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct RungeKutta {
     info: Info,
     /// Largest stable hω.
     stable: f64,
-    counters: Counters,
-    limit: Option<StabilityLimit>,
     baumgarte: Option<RowWeights>,
-    pending: bool,
-    increment: Vec<f64>,
-    accepted: Vec<f64>,
-    scratch: Option<Scratch>,
 }
 
-/// One explicit step's memory.
+/// The method with its memory.
 #[derive(Debug)]
-pub(super) struct Scratch {
+pub(super) struct RungeKuttaSteps {
     pub(super) accelerations: Accelerations,
     stage: State,
-    flat: bool,
+    is_vector_space: bool,
     /// Rate ḋ of the increment at the stage.
     rate: Vec<f64>,
     /// Weighted sums of the stages' accelerations and rates.
     sum_v: Vec<f64>,
     sum_d: Vec<f64>,
-}
-
-impl Scratch {
-    /// Allocates for `system`.
-    ///
-    /// # Errors
-    /// [`StepError::Unsupported`] for constraints without Baumgarte's constants.
-    fn new(
-        method: &'static str,
-        system: &mut dyn Dynamics,
-        state: &State,
-        baumgarte: Option<RowWeights>,
-    ) -> Result<Scratch, StepError> {
-        let size = system.size();
-        if size.lambda > 0 && baumgarte.is_none() {
-            let (feature, instead) = (
-                "constraints",
-                "Baumgarte's constants (key `baumgarte` of the integrator), generalized-alpha or radau",
-            );
-            return Err(StepError::Unsupported { method, feature, instead });
-        }
-        let weights = baumgarte.unwrap_or(RowWeights::ACCELERATION);
-        Ok(Scratch {
-            accelerations: Accelerations::new(system, state, weights),
-            stage: State::zeros(size, 0.0),
-            flat: system.is_vector_space(),
-            rate: vec![0.0; size.v],
-            sum_v: vec![0.0; size.v],
-            sum_d: vec![0.0; size.v],
-        })
-    }
-
-    /// One step of size `h` to the time of `to`; `increment` receives qₙ₊₁ ⊟ qₙ.
-    fn step(
-        &mut self,
-        system: &mut dyn Dynamics,
-        from: &State,
-        h: f64,
-        to: &mut State,
-        increment: &mut [f64],
-        counters: &mut Counters,
-    ) -> Result<(), StepError> {
-        let n = from.v.len();
-        let place = (from.t, h);
-        self.stage.copy_modes(from);
-        self.stage.a.copy_from_slice(&from.a);
-        self.rate.copy_from_slice(&from.v);
-        self.sum_v.copy_from_slice(&from.a);
-        self.sum_d.copy_from_slice(&from.v);
-        // Part of the step and weight of the stages 2, 3, 4.
-        for (c, weight) in [(0.5, 2.0), (0.5, 2.0), (1.0, 1.0)] {
-            let step = c * h;
-            for i in 0..n {
-                self.stage.v[i] = from.v[i] + step * self.stage.a[i];
-                increment[i] = step * self.rate[i];
-            }
-            (self.stage.t, self.stage.side) =
-                if c < 1.0 { (from.t + step, Side::Right) } else { (to.t, to.side) };
-            system.retract(&from.q, increment, &mut self.stage.q);
-            self.accelerations.complete(system, &mut self.stage, place, counters)?;
-            if self.flat {
-                self.rate.copy_from_slice(&self.stage.v);
-            } else {
-                system.rate(&from.q, increment, &self.stage.v, &mut self.rate);
-            }
-            for i in 0..n {
-                self.sum_v[i] += weight * self.stage.a[i];
-                self.sum_d[i] += weight * self.rate[i];
-            }
-        }
-        for i in 0..n {
-            to.v[i] = from.v[i] + h / 6.0 * self.sum_v[i];
-            increment[i] = h / 6.0 * self.sum_d[i];
-        }
-        to.copy_modes(from);
-        system.retract(&from.q, increment, &mut to.q);
-        self.accelerations.complete(system, to, place, counters)
-    }
+    /// qₙ₊₁ ⊟ qₙ of the attempt and of the accepted step.
+    pub(super) increment: Vec<f64>,
+    accepted: Vec<f64>,
 }
 
 impl RungeKutta {
-    /// The method, not yet started.
+    /// The method.
     pub fn new() -> RungeKutta {
         RungeKutta::starting(NAME, LIMIT)
     }
 
     /// The same, as the start of the explicit method of order 4 with this name and this largest stable hω.
     pub(super) fn starting(name: &'static str, stable: f64) -> RungeKutta {
-        RungeKutta {
-            info: Info { name, order: 4, estimate_order: None, implicit: false },
-            stable,
-            counters: Counters::default(),
-            limit: None,
-            baumgarte: None,
-            pending: false,
-            increment: Vec::new(),
-            accepted: Vec::new(),
-            scratch: None,
-        }
+        let info = Info { name, order: 4, estimate_order: None, implicit: false };
+        RungeKutta { info, stable, baumgarte: None }
     }
 
     /// The same method, with constraints stabilized by Baumgarte's constants δ and ε [1/s].
+    #[must_use]
     pub fn with_baumgarte(self, delta: f64, epsilon: f64) -> RungeKutta {
         RungeKutta { baumgarte: Some(RowWeights::baumgarte(delta, epsilon)), ..self }
     }
 
-    /// The stability limit found by `start`.
-    pub fn stability_limit(&self) -> Option<StabilityLimit> {
-        self.limit
+    /// The largest stable step at `state`, whose accelerations are completed.
+    ///
+    /// # Errors
+    /// [`StepError::Unsupported`] for constraints without Baumgarte's constants; [`StepError`] for a state without accelerations.
+    pub fn stability_limit(
+        &self,
+        system: &mut dyn Dynamics,
+        state: &mut State,
+    ) -> Result<StabilityLimit, StepError> {
+        self.memory(system, state, &mut Counters::default())?;
+        StabilityLimit::find(self.info.name, self.stable, system, state)
     }
 
-    /// Begins an attempt of a step: its memory, the increment and the counters.
-    pub(super) fn attempt(
-        &mut self,
-        span: Span,
-        to: &mut State,
-    ) -> Result<(&mut Scratch, &mut [f64], &mut Counters), StepError> {
-        let Some(scratch) = &mut self.scratch else {
-            return Err(StepError::NotStarted { method: self.info.name });
+    /// The method with its memory; completes `state`.
+    pub(super) fn memory(
+        &self,
+        system: &mut dyn Dynamics,
+        state: &mut State,
+        counters: &mut Counters,
+    ) -> Result<RungeKuttaSteps, StepError> {
+        let size = system.size();
+        if size.lambda > 0 && self.baumgarte.is_none() {
+            let (method, feature) = (self.info.name, "constraints");
+            let instead =
+                "Baumgarte's constants (key `baumgarte` of the integrator), generalized-alpha or radau";
+            return Err(StepError::Unsupported { method, feature, instead });
+        }
+        let vector = || vec![0.0; size.v];
+        let mut steps = RungeKuttaSteps {
+            accelerations: Accelerations::new(
+                system,
+                state,
+                self.baumgarte.unwrap_or(RowWeights::ACCELERATION),
+            ),
+            stage: State::zeros(size, 0.0),
+            is_vector_space: system.is_vector_space(),
+            rate: vector(),
+            sum_v: vector(),
+            sum_d: vector(),
+            increment: vector(),
+            accepted: vector(),
         };
-        (to.t, to.side) = (span.end, span.side);
-        self.counters.rejected += u64::from(self.pending);
-        self.pending = true;
-        Ok((scratch, &mut self.increment, &mut self.counters))
+        steps.restart(system, state, counters)?;
+        Ok(steps)
     }
 }
 
@@ -199,69 +137,87 @@ impl Integrator for RungeKutta {
         &self.info
     }
 
-    fn start(&mut self, system: &mut dyn Dynamics, state: &mut State, step: f64) -> Result<(), StepError> {
-        let size = system.size();
-        self.counters = Counters::default();
-        self.increment.resize(size.v, 0.0);
-        self.accepted.resize(size.v, 0.0);
-        self.limit = None;
-        self.scratch = Some(Scratch::new(self.info.name, system, state, self.baumgarte)?);
-        self.restart(system, state)?;
-        let limit = StabilityLimit::find(self.info.name, self.stable, system, state)?;
-        self.limit = Some(limit);
-        limit.check(step)
+    fn stepper(
+        &self,
+        system: &mut dyn Dynamics,
+        state: &mut State,
+        step: f64,
+        counters: &mut Counters,
+    ) -> Result<Box<dyn Stepper>, StepError> {
+        let steps = self.memory(system, state, counters)?;
+        StabilityLimit::find(self.info.name, self.stable, system, state)?.check(step)?;
+        Ok(Box::new(steps))
     }
+}
 
+impl Stepper for RungeKuttaSteps {
     fn step(
         &mut self,
         system: &mut dyn Dynamics,
         from: &State,
-        span: Span,
+        (span, _): (Span, Attempt),
         to: &mut State,
+        counters: &mut Counters,
     ) -> Result<StepReport, StepError> {
-        let (scratch, increment, counters) = self.attempt(span, to)?;
-        scratch.step(system, from, span.step, to, increment, counters)?;
-        Ok(StepReport { iterations: 0, error: None })
-    }
-
-    fn discard(&mut self) {
-        self.pending = false;
+        let (n, h) = (from.v.len(), span.step);
+        let place = (from.t, h);
+        self.stage.copy_modes(from);
+        self.stage.a.copy_from_slice(&from.a);
+        self.rate.copy_from_slice(&from.v);
+        self.sum_v.copy_from_slice(&from.a);
+        self.sum_d.copy_from_slice(&from.v);
+        // Part of the step and weight of the stages 2, 3, 4.
+        for (c, weight) in [(0.5, 2.0), (0.5, 2.0), (1.0, 1.0)] {
+            let step = c * h;
+            for i in 0..n {
+                self.stage.v[i] = from.v[i] + step * self.stage.a[i];
+                self.increment[i] = step * self.rate[i];
+            }
+            (self.stage.t, self.stage.side) =
+                if c < 1.0 { (from.t + step, Side::Right) } else { (to.t, to.side) };
+            system.retract(&from.q, &self.increment, &mut self.stage.q);
+            self.accelerations.complete(system, &mut self.stage, place, counters)?;
+            if self.is_vector_space {
+                self.rate.copy_from_slice(&self.stage.v);
+            } else {
+                system.rate(&from.q, &self.increment, &self.stage.v, &mut self.rate);
+            }
+            for i in 0..n {
+                self.sum_v[i] += weight * self.stage.a[i];
+                self.sum_d[i] += weight * self.rate[i];
+            }
+        }
+        for i in 0..n {
+            to.v[i] = from.v[i] + h / 6.0 * self.sum_v[i];
+            self.increment[i] = h / 6.0 * self.sum_d[i];
+        }
+        to.copy_modes(from);
+        system.retract(&from.q, &self.increment, &mut to.q);
+        self.accelerations.complete(system, to, place, counters)?;
+        Ok(StepReport::default())
     }
 
     fn accept(&mut self, _from: &State, _to: &State) {
         std::mem::swap(&mut self.increment, &mut self.accepted);
-        self.pending = false;
-        self.counters.steps += 1;
     }
 
     fn interpolate(&self, system: &dyn Dynamics, from: &State, to: &State, t: f64, out: &mut State) {
         hermite::quintic(system, from, to, &self.accepted, t, out);
     }
 
-    fn restart(&mut self, system: &mut dyn Dynamics, state: &mut State) -> Result<(), StepError> {
-        let Some(scratch) = &mut self.scratch else {
-            return Err(StepError::NotStarted { method: self.info.name });
-        };
-        self.pending = false;
-        state.side = Side::Right;
+    fn restart(
+        &mut self,
+        system: &mut dyn Dynamics,
+        state: &mut State,
+        counters: &mut Counters,
+    ) -> Result<(), StepError> {
         let place = (state.t, 0.0);
-        scratch.accelerations.complete(system, state, place, &mut self.counters)
+        self.accelerations.complete(system, state, place, counters)
     }
 
-    fn save(&self, out: &mut Checkpoint) {
-        out.put("counters", &self.counters.to_numbers());
-    }
+    fn save(&self, _out: &mut Checkpoint) {}
 
-    fn resume(&mut self, _system: &mut dyn Dynamics, from: &Checkpoint) -> Result<(), NotResumed> {
-        self.counters = Counters::from_numbers(from.numbers("counters")?);
+    fn resume(&mut self, _system: &mut dyn Dynamics, _from: &Checkpoint) -> Result<(), NotResumed> {
         Ok(())
-    }
-
-    fn worst(&self) -> usize {
-        0
-    }
-
-    fn counters(&self) -> Counters {
-        self.counters
     }
 }

@@ -86,12 +86,14 @@ impl StepControl {
     }
 
     /// Another law.
+    #[must_use]
     pub fn with_law(mut self, law: Law) -> StepControl {
         self.law = law;
         self
     }
 
     /// Other limits of the step \[s\]. An upper limit keeps step control from passing over short events.
+    #[must_use]
     pub fn with_limits(mut self, shortest: f64, longest: f64) -> StepControl {
         self.shortest = shortest;
         self.longest = longest.max(shortest);

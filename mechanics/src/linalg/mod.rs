@@ -10,6 +10,7 @@ pub mod eigen;
 mod inertia;
 mod matrix;
 mod scalar;
+mod space;
 #[cfg(test)]
 mod tests;
 pub mod vector;
@@ -20,6 +21,7 @@ pub use dense::Dense;
 pub use inertia::{negative_pivots, negative_pivots_of};
 pub use matrix::{Matrix, Stamp, Storage, Structure};
 pub use scalar::Scalar;
+pub use space::{Mat3, Vec3};
 
 /// A matrix that cannot be factored: its pivot `pivot` (relative to the largest entry) is too small
 /// at unknown `index`.

@@ -4,8 +4,7 @@ use super::force::Axes;
 use super::joint::{Drive, Joint, Kind};
 use super::marker::{Marker, Part};
 use super::model::Model;
-use super::rotation::{Matrix3, Vector, apply, column, plus, product, times};
-use crate::linalg::vector::{cross, inner};
+use crate::linalg::{Mat3, Vec3};
 use crate::profile::{Constant, Motion};
 use crate::system::Frame;
 use std::sync::Arc;
@@ -19,31 +18,28 @@ const DISTANCE: f64 = 1e-6;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axis {
     /// A point of it \[m\].
-    pub point: Vector,
+    pub point: Vec3,
     /// Its direction, a unit vector.
-    pub direction: Vector,
+    pub direction: Vec3,
 }
 
 impl Axis {
     /// The axis through a point; `None` for a direction without length, or numbers that are not finite.
-    pub fn new(point: Vector, direction: Vector) -> Option<Axis> {
-        let length = size(direction);
-        let valid = length > 0.0 && length.is_finite() && point.iter().all(|x| x.is_finite());
-        valid.then(|| Axis { point, direction: times(1.0 / length, direction) })
+    pub fn new(point: impl Into<Vec3>, direction: impl Into<Vec3>) -> Option<Axis> {
+        let (point, direction) = (point.into(), direction.into());
+        let length = direction.norm();
+        let valid = length > 0.0 && length.is_finite() && point.is_finite();
+        valid.then(|| Axis { point: Vec3(point.0), direction: 1.0 / length * direction })
     }
 
-    fn is_parallel(&self, direction: Vector) -> bool {
-        size(cross(self.direction, direction)) <= ANGLE
+    fn is_parallel(&self, direction: Vec3) -> bool {
+        self.direction.cross(direction).norm() <= ANGLE
     }
 
-    fn holds(&self, point: Vector) -> bool {
-        let off = size(cross(self.direction, plus(point, -1.0, self.point)));
-        off <= DISTANCE * f64::max(1.0, size(self.point))
+    fn holds(&self, point: Vec3) -> bool {
+        let off = self.direction.cross(point - self.point).norm();
+        off <= DISTANCE * f64::max(1.0, self.point.norm())
     }
-}
-
-fn size(x: Vector) -> f64 {
-    inner(x, x).sqrt()
 }
 
 fn on_ground(joint: &Joint) -> bool {
@@ -59,7 +55,7 @@ impl Model {
     pub fn axis_of(&self, joint: &str) -> Option<Axis> {
         let joint = self.joints.iter().find(|j| j.name == joint).filter(|j| is_hinge(j))?;
         let frame = self.in_space(&joint.from)?;
-        Axis::new(frame.position, column(&frame.rotation, 2))
+        Axis::new(frame.position, frame.rotation.column(2))
     }
 
     /// Names of the revolute and cylindrical joints with the ground, in their order.
@@ -84,7 +80,7 @@ impl Model {
         let allows = |joint: &Joint| {
             let ground = if joint.from.part == Part::Ground { &joint.from } else { &joint.to };
             let Some(frame) = self.in_space(ground) else { return false };
-            let (on_it, along) = (axis.holds(frame.position), axis.is_parallel(column(&frame.rotation, 2)));
+            let (on_it, along) = (axis.holds(frame.position), axis.is_parallel(frame.rotation.column(2)));
             match joint.kind {
                 Kind::Revolute | Kind::Cylindrical => on_it && along,
                 Kind::Spherical => on_it,
@@ -100,6 +96,15 @@ impl Model {
         joints.map(|joint| joint.name.as_str()).chain(springs.map(|s| s.name.as_str())).collect()
     }
 
+    /// Names of the joints whose prescribed motion has a speed at the start.
+    pub fn moving(&self) -> Vec<&str> {
+        let moves = |joint: &&Joint| match &joint.drive {
+            Drive::Prescribed(motion) => motion.at(0.0).speed != 0.0,
+            Drive::None | Drive::Actuated(_) => false,
+        };
+        self.joints.iter().filter(moves).map(|joint| joint.name.as_str()).collect()
+    }
+
     /// Whether the motion of a joint is prescribed.
     pub fn prescribes(&self, joint: &str) -> bool {
         self.joints.iter().any(|j| j.name == joint && matches!(j.drive, Drive::Prescribed(_)))
@@ -112,7 +117,7 @@ impl Model {
         let Some(number) = self.joints.iter().position(|j| j.name == joint && is_hinge(j)) else { return };
         let of = &self.joints[number];
         let (Some(a), Some(b)) = (self.in_space(&of.from), self.in_space(&of.to)) else { return };
-        let along = |j: usize| inner(column(&a.rotation, j), column(&b.rotation, 0));
+        let along = |j: usize| a.rotation.column(j).dot(b.rotation.column(0));
         let angle = libm::atan2(along(1), along(0));
         if let Ok(profile) = Constant::new(angle) {
             let joint = &mut self.joints[number];
@@ -128,11 +133,11 @@ impl Model {
     pub fn keep_along(&mut self, axis: &Axis) -> Vec<String> {
         let e = axis.direction;
         let mut names = Vec::new();
-        let mut keep = |name: &str, vectors: &mut [&mut Vector]| {
+        let mut keep = |name: &str, vectors: &mut [&mut Vec3]| {
             let mut changed = false;
             for x in vectors {
-                changed |= size(cross(e, **x)) > ANGLE * size(**x);
-                **x = times(inner(e, **x), e);
+                changed |= e.cross(**x).norm() > ANGLE * x.norm();
+                **x = e.dot(**x) * e;
             }
             if changed {
                 names.push(name.to_owned());
@@ -151,8 +156,8 @@ impl Model {
     /// A marker at the start, in the axes of space.
     fn in_space(&self, marker: &Marker) -> Option<Frame> {
         let part = self.frame(marker.part)?;
-        let rotation: Matrix3 = product(&part.rotation, &marker.frame.rotation);
-        let position = plus(part.position, 1.0, apply(&part.rotation, marker.frame.position));
+        let rotation: Mat3 = part.rotation * marker.frame.rotation;
+        let position = part.position + part.rotation * marker.frame.position;
         Some(Frame { position, rotation })
     }
 }

@@ -1,7 +1,7 @@
 //! A rigid body.
 
-use super::rotation::{IDENTITY, Matrix3, Quaternion, Vector, apply, matrix, plus};
-use crate::linalg::vector::{cross, inner};
+use super::rotation::Quaternion;
+use crate::linalg::{Mat3, Vec3};
 use crate::system::Frame;
 
 /// A rigid body as it stands at the start.
@@ -12,15 +12,15 @@ pub struct Body {
     /// Mass m \[kg\], > 0.
     pub mass: f64,
     /// Centre of mass in the body's frame \[m\].
-    pub centre: Vector,
+    pub centre: Vec3,
     /// Inertia J about the centre of mass, in the axes of the body's frame [kg·m²]: symmetric, positive definite.
-    pub inertia: Matrix3,
+    pub inertia: Mat3,
     /// The body's frame at the start.
     pub frame: Frame,
     /// Velocity of the frame's origin at the start, inertial axes \[m/s\]; where it is not given, that which the joints ask for.
-    pub velocity: Option<Vector>,
+    pub velocity: Option<Vec3>,
     /// Angular velocity at the start, inertial axes [rad/s]; likewise.
-    pub spin: Option<Vector>,
+    pub spin: Option<Vec3>,
     /// Damping β [1/s] by forces −β m ṙ and moments −β J Ω.
     pub damping: f64,
 }
@@ -34,9 +34,9 @@ impl Body {
         Body {
             name: name.to_owned(),
             mass,
-            centre: [0.0; 3],
-            inertia: tensor,
-            frame: Frame { position: [0.0; 3], rotation: IDENTITY },
+            centre: Vec3::ZERO,
+            inertia: Mat3(tensor),
+            frame: Frame { position: Vec3::ZERO, rotation: Mat3::IDENTITY },
             velocity: None,
             spin: None,
             damping: 0.0,
@@ -44,18 +44,16 @@ impl Body {
     }
 
     /// The same body with its frame at `position`.
-    pub fn at(mut self, position: Vector) -> Body {
-        self.frame.position = position;
+    pub fn at(mut self, position: impl Into<Vec3>) -> Body {
+        self.frame.position = position.into();
         self
     }
 
     /// What is wrong with the numbers, if anything.
     pub(super) fn fault(&self) -> Option<String> {
         let j = &self.inertia;
-        let motion = self.velocity.iter().chain(&self.spin).flatten();
-        let numbers = j.iter().flatten().chain(&self.centre).chain(motion);
-        let mut numbers = numbers.chain(&self.frame.position).chain(self.frame.rotation.iter().flatten());
-        if !numbers.all(|x| x.is_finite()) {
+        let mut vectors = self.velocity.iter().chain(&self.spin).chain([&self.centre, &self.frame.position]);
+        if !(vectors.all(|x| x.is_finite()) && j.is_finite() && self.frame.rotation.is_finite()) {
             return Some("has a number that is not finite".to_owned());
         }
         if !(self.mass > 0.0 && self.mass.is_finite()) {
@@ -67,9 +65,9 @@ impl Body {
         if !(self.damping >= 0.0 && self.damping.is_finite()) {
             return Some(format!("has the damping {} 1/s and must have one ≥ 0", self.damping));
         }
-        let size = j.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
+        let size = j.0.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
         let skew = (0..3).map(|i| (j[i][(i + 1) % 3] - j[(i + 1) % 3][i]).abs()).fold(0.0, f64::max);
-        let minors = [j[0][0], j[0][0] * j[1][1] - j[0][1] * j[1][0], inner(j[0], cross(j[1], j[2]))];
+        let minors = [j[0][0], j[0][0] * j[1][1] - j[0][1] * j[1][0], j.determinant()];
         if skew > 1e-12 * size || !minors.iter().all(|x| *x > 0.0) {
             return Some("has an inertia tensor that is not symmetric and positive definite".to_owned());
         }
@@ -84,9 +82,10 @@ impl Body {
             ));
         }
         let r = &self.frame.rotation;
+        let product = *r * r.transpose();
         let defect = (0..3).flat_map(|i| (0..3).map(move |k| (i, k)));
-        let defect = defect.map(|(i, k)| (inner(r[i], r[k]) - IDENTITY[i][k]).abs()).fold(0.0, f64::max);
-        if defect > 1e-9 || inner(r[0], cross(r[1], r[2])) < 0.0 {
+        let defect = defect.map(|(i, k)| (product[i][k] - Mat3::IDENTITY[i][k]).abs()).fold(0.0, f64::max);
+        if defect > 1e-9 || r.determinant() < 0.0 {
             return Some(format!("has axes that are no rotation (R Rᵀ − I = {defect:.1e})"));
         }
         None
@@ -94,26 +93,26 @@ impl Body {
 }
 
 /// Velocity of the origin of a part and its angular velocity, in the axes of space.
-pub(super) type Twist = [Vector; 2];
+pub(super) type Twist = [Vec3; 2];
 
 /// A body at a state.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Placed {
-    pub(super) position: Vector,
-    pub(super) rotation: Matrix3,
-    pub(super) velocity: Vector,
+    pub(super) position: Vec3,
+    pub(super) rotation: Mat3,
+    pub(super) velocity: Vec3,
     /// Ω, body axes.
-    pub(super) spin: Vector,
-    pub(super) acceleration: Vector,
-    pub(super) spin_rate: Vector,
+    pub(super) spin: Vec3,
+    pub(super) acceleration: Vec3,
+    pub(super) spin_rate: Vec3,
 }
 
 impl Default for Placed {
     fn default() -> Placed {
-        let zero = [0.0; 3];
+        let zero = Vec3::ZERO;
         Placed {
             position: zero,
-            rotation: IDENTITY,
+            rotation: Mat3::IDENTITY,
             velocity: zero,
             spin: zero,
             acceleration: zero,
@@ -122,34 +121,22 @@ impl Default for Placed {
     }
 }
 
-/// Three entries from `i` on.
-#[inline(always)]
-pub(super) fn three(x: &[f64], i: usize) -> Vector {
-    [x[i], x[i + 1], x[i + 2]]
-}
-
-/// The quaternion in the entries from `i` on.
-#[inline(always)]
-pub(super) fn four(x: &[f64], i: usize) -> Quaternion {
-    [x[i], x[i + 1], x[i + 2], x[i + 3]]
-}
-
 impl Placed {
     /// From the entries of q, v and a that belong to the body.
     #[inline]
     pub(super) fn new(q: &[f64], v: &[f64], a: &[f64]) -> Placed {
         Placed {
-            position: three(q, 0),
-            rotation: matrix(four(q, 3)),
-            velocity: three(v, 0),
-            spin: three(v, 3),
-            acceleration: three(a, 0),
-            spin_rate: three(a, 3),
+            position: Vec3::at(q, 0),
+            rotation: Quaternion::at(q, 3).matrix(),
+            velocity: Vec3::at(v, 0),
+            spin: Vec3::at(v, 3),
+            acceleration: Vec3::at(a, 0),
+            spin_rate: Vec3::at(a, 3),
         }
     }
 
     /// The body's frame, whose origin is at −`centre` from the centre of mass.
-    pub(super) fn frame(&self, centre: Vector) -> Frame {
-        Frame { position: plus(self.position, -1.0, apply(&self.rotation, centre)), rotation: self.rotation }
+    pub(super) fn frame(&self, centre: Vec3) -> Frame {
+        Frame { position: self.position - self.rotation * centre, rotation: self.rotation }
     }
 }

@@ -1,11 +1,9 @@
 //! The start: whether the bodies fit their joints, which rows follow from others, and velocities that obey the rows.
 
-use super::body::three;
 use super::constants::Constants;
 use super::model::{ModelError, Violation};
-use super::rotation::{Vector, apply, plus};
-use crate::linalg::Matrix;
-use crate::linalg::vector::{axpy, cross, dot};
+use crate::linalg::vector::{axpy, dot};
+use crate::linalg::{Matrix, Vec3};
 use crate::system::{Dynamics, RowWeights, State, Weights};
 use std::ops::Range;
 
@@ -211,16 +209,16 @@ pub(super) fn changes(constants: &Constants, given: &State, used: &[f64]) -> Vec
     let most = SAME * before.iter().fold(0.0_f64, |x, v| x.max(v.abs()));
     let changed = |mut numbers: Range<usize>| numbers.any(|j| !((after[j] - before[j]).abs() <= most));
     let why = "the joints do not allow what is given";
-    let text = |[x, y, z]: Vector| format!("({x:.4}, {y:.4}, {z:.4})");
+    let text = |Vec3([x, y, z]): Vec3| format!("({x:.4}, {y:.4}, {z:.4})");
     let mut out = Vec::new();
     for (body, place) in constants.model.bodies.iter().zip(&constants.place) {
-        let (at, r) = (6 * place, &body.frame.rotation);
+        let (at, r) = (6 * place, body.frame.rotation);
         if !changed(at..at + 6) {
             continue;
         }
-        let spin = apply(r, three(used, at + 3));
-        let velocity = plus(three(used, at), -1.0, cross(spin, apply(r, body.centre)));
-        let mut tell = |what: &str, given: Option<Vector>, used: Vector, unit: &str| {
+        let spin = r * Vec3::at(used, at + 3);
+        let velocity = Vec3::at(used, at) - spin.cross(r * body.centre);
+        let mut tell = |what: &str, given: Option<Vec3>, used: Vec3, unit: &str| {
             if let Some(given) = given {
                 let (name, used, given) = (&body.name, text(used), text(given));
                 out.push(format!(

@@ -1,19 +1,17 @@
 //! What does not change in a run: the model, the order of its unknowns, and what follows from both.
 
-use super::body::{Twist, four};
-use super::channels::channels;
+use super::body::Twist;
 use super::force::angle_between;
 use super::joint::Coordinate;
 use super::layout::{Link, layout};
 use super::marker::Part;
 use super::model::Model;
-use super::rotation::{Vector, apply, apply_transposed, column, matrix, plus, product, quaternion};
+use super::rotation::Quaternion;
 use super::row::Row;
-use super::slender::ELEMENT_VELOCITIES;
+use super::slender::{ELEMENT_VELOCITIES, LineDistribution};
 use crate::drive::force_breaks;
-use crate::linalg::Structure;
-use crate::linalg::vector::{cross, inner};
-use crate::system::{Break, Channel, Frame, Set, Size, State, ordered};
+use crate::linalg::{Mat3, Structure, Vec3};
+use crate::system::{Break, Frame, Set, Size, State, ordered};
 use std::ops::Range;
 
 /// What does not change in a run.
@@ -24,6 +22,8 @@ pub(super) struct Constants {
     pub(super) place: Vec<usize>,
     /// Number of the first coordinate and of the first velocity of each beam.
     pub(super) beams: Vec<[usize; 2]>,
+    /// Of each load along a beam where and with which weights it acts.
+    pub(super) lines: Vec<LineDistribution>,
     /// Forces of gravity on the beams.
     pub(super) weight: Vec<f64>,
     /// Part of each marker, and its frame from the centre of mass.
@@ -40,7 +40,6 @@ pub(super) struct Constants {
     pub(super) scales: Vec<f64>,
     pub(super) structures: [Structure; 3],
     pub(super) breaks: Vec<Break>,
-    pub(super) channels: Vec<Channel>,
     /// Rows that are left out: names, joints and constraints.
     pub(super) dropped: Vec<(String, (usize, Row))>,
     pub(super) size: Size,
@@ -112,14 +111,14 @@ impl Constants {
             .map(|marker| {
                 let centre = match marker.part {
                     Part::Body(i) => model.bodies[i].centre,
-                    _ => [0.0; 3],
+                    _ => Vec3::ZERO,
                 };
-                let position = plus(marker.frame.position, -1.0, centre);
+                let position = marker.frame.position - centre;
                 (marker.part, Frame { position, ..marker.frame })
             })
             .collect();
         let arms = markers.iter().filter(|(part, _)| *part != Part::Ground);
-        let length = arms.map(|(_, f)| inner(f.position, f.position).sqrt());
+        let length = arms.map(|(_, f)| f.position.dot(f.position).sqrt());
         let spans = model.beams.iter().map(|of| of.beam.elements().iter().map(|e| e.length()).sum());
         let length = length.chain(spans).fold(0.0, f64::max);
         let length = if length > 0.0 { length } else { 1.0 };
@@ -142,15 +141,15 @@ impl Constants {
             let of_node = |i| if i % ELEMENT_VELOCITIES < 3 { length } else { 1.0 };
             scales.extend((0..of.beam.velocities()).map(of_node));
         }
-        let mut constants = Constants {
+        let constants = Constants {
             size: Size { q, v, lambda: rows.len(), memory: 0 },
             sets: [true, false].map(|held| sets(&model, &rows, held)),
             scales,
             beams,
+            lines: model.line_loads.iter().map(|load| load.along(&model.beams[load.beam].beam)).collect(),
             weight,
             structures: plan.structures,
             breaks: ordered(breaks),
-            channels: Vec::new(),
             place,
             markers,
             rows,
@@ -160,7 +159,6 @@ impl Constants {
             dropped,
             model,
         };
-        constants.channels = channels(&constants.model, &constants.coordinates);
         (constants, plan.in_tree[..joints].to_vec())
     }
 
@@ -169,19 +167,19 @@ impl Constants {
     pub(super) fn start(&self, twists: &[Twist]) -> State {
         let mut s = State::zeros(self.size, 0.0);
         let bodies = self.model.bodies.len();
-        let twist = |i: usize, velocity: Option<Vector>, spin: Option<Vector>| {
+        let twist = |i: usize, velocity: Option<Vec3>, spin: Option<Vec3>| {
             let [v, w] = twists.get(i).copied().unwrap_or_default();
             [velocity.unwrap_or(v), spin.unwrap_or(w)]
         };
         for (i, (body, place)) in self.model.bodies.iter().zip(&self.place).enumerate() {
             let [velocity, spin] = twist(i, body.velocity, body.spin);
-            let r = &body.frame.rotation;
-            let arm = apply(r, body.centre);
+            let r = body.frame.rotation;
+            let arm = r * body.centre;
             let (q, v) = (&mut s.q[7 * place..], &mut s.v[6 * place..]);
-            q[..3].copy_from_slice(&plus(body.frame.position, 1.0, arm));
-            q[3..7].copy_from_slice(&quaternion(r));
-            v[..3].copy_from_slice(&plus(velocity, 1.0, cross(spin, arm)));
-            v[3..6].copy_from_slice(&apply_transposed(r, spin));
+            (body.frame.position + arm).put(q, 0);
+            q[3..7].copy_from_slice(&Quaternion::from(r).0);
+            (velocity + spin.cross(arm)).put(v, 0);
+            (r.transpose() * spin).put(v, 3);
         }
         for (i, (of, &[q, v])) in self.model.beams.iter().zip(&self.beams).enumerate() {
             let n = of.beam.coordinates();
@@ -189,7 +187,7 @@ impl Constants {
             of.set_twist(twist(bodies + i, of.velocity, of.spin), &s.q[q..q + n], &mut s.v[v..]);
         }
         let mut q = s.q.clone();
-        self.count_angles(&s.q, &mut q);
+        self.count_angles(&s.q, &vec![0.0; s.v.len()], &mut q);
         // A prescribed angle begins in its own turn.
         for (joint, angle) in self.model.joints.iter().zip(&self.angle) {
             if let (Some(motion), Some(i)) = (joint.prescribed(), *angle) {
@@ -216,30 +214,58 @@ impl Constants {
         })
     }
 
-    /// Writes the angles of joints into `to`, each the nearest to that in `from`.
-    pub(super) fn count_angles(&self, from: &[f64], to: &mut [f64]) {
+    /// Writes the angles of joints into `to` = `from` ⊞ `d`. The rotations of both parts give an angle but for whole turns; these are
+    /// those that bring it nearest to θ + a·(δθ_B − δθ_A), with the axis a of the joint at `from` and the rotation vectors of the
+    /// increment, which may be of several turns.
+    pub(super) fn count_angles(&self, from: &[f64], d: &[f64], to: &mut [f64]) {
         let count = self.angle.iter().flatten().count();
         let before = to.len() - count;
         let (to, angles) = to.split_at_mut(before);
-        let rotation = |marker: usize| {
-            let (part, frame) = &self.markers[marker];
-            match part {
-                Part::Ground => frame.rotation,
-                Part::Section { beam, node } => {
-                    let triad = self.model.beams[*beam].beam.node(*node, &to[self.beams[*beam][0]..]).1;
-                    product(&triad.rotation(), &frame.rotation)
-                }
-                Part::Body(i) => product(&matrix(four(to, 7 * self.place[*i] + 3)), &frame.rotation),
-            }
-        };
         for (k, angle) in self.angle.iter().enumerate() {
             if let Some(i) = *angle {
-                let (a, b) = (rotation(2 * k), rotation(2 * k + 1));
-                let axis = column;
-                angles[i - before] =
-                    nearest_turn(angle_between(axis(&a, 0), axis(&a, 1), axis(&b, 0)), from[i]);
+                let (a, b) = (self.axes_of(2 * k, to), self.axes_of(2 * k + 1, to));
+                let found = angle_between(a.column(0), a.column(1), b.column(0));
+                angles[i - before] = nearest_turn(found, from[i] + self.turned(k, from, d, to));
             }
         }
+    }
+
+    /// The axes of a marker.
+    fn axes_of(&self, marker: usize, q: &[f64]) -> Mat3 {
+        let (part, frame) = &self.markers[marker];
+        match part {
+            Part::Ground => frame.rotation,
+            Part::Section { beam, node } => {
+                let triad = self.model.beams[*beam].beam.node(*node, &q[self.beams[*beam][0]..]).1;
+                triad.rotation() * frame.rotation
+            }
+            Part::Body(i) => Quaternion::at(q, 7 * self.place[*i] + 3).matrix() * frame.rotation,
+        }
+    }
+
+    /// a·(δθ_B − δθ_A) of a joint, 0 where less than a radian. The rotation of a section is the smallest one of its tangent, which is no
+    /// more than half a turn, and a twist about it.
+    fn turned(&self, k: usize, from: &[f64], d: &[f64], to: &[f64]) -> f64 {
+        let increment = |marker: usize| match self.markers[marker].0 {
+            Part::Ground => None,
+            Part::Body(i) => {
+                let vector = Vec3::at(d, 6 * self.place[i] + 3);
+                let turns = vector.dot(vector) > 1.0;
+                turns.then(|| Quaternion::at(from, 7 * self.place[i] + 3).matrix() * vector)
+            }
+            Part::Section { beam, node } => {
+                let [q, v] = self.beams[beam];
+                let twist = d[v + ELEMENT_VELOCITIES * node + 6];
+                let tangent = || self.model.beams[beam].beam.node(node, &to[q..]).1.tangent;
+                (twist.abs() > 1.0).then(|| twist * tangent())
+            }
+        };
+        let (a, b) = (increment(2 * k), increment(2 * k + 1));
+        if a.is_none() && b.is_none() {
+            return 0.0;
+        }
+        let axis = self.axes_of(2 * k, from).column(2);
+        axis.dot(b.unwrap_or_default()) - axis.dot(a.unwrap_or_default())
     }
 }
 
@@ -254,13 +280,13 @@ fn sets(model: &Model, rows: &[(usize, Row)], held: bool) -> Vec<Set> {
 }
 
 /// Adds forces on r₁, r′₁, r₂, r′₂ of an element to those from its first velocity on.
-pub(super) fn add_centreline(forces: &[[f64; 3]; 4], out: &mut [f64]) {
+pub(super) fn add_centreline(forces: &[Vec3; 4], out: &mut [f64]) {
     for (at, force) in [0, 3, ELEMENT_VELOCITIES, ELEMENT_VELOCITIES + 3].into_iter().zip(forces) {
         (0..3).for_each(|k| out[at + k] += force[k]);
     }
 }
 
 /// `angle` with the number of turns that brings it nearest to `to`.
-fn nearest_turn(angle: f64, to: f64) -> f64 {
+pub(super) fn nearest_turn(angle: f64, to: f64) -> f64 {
     angle + std::f64::consts::TAU * libm::round((to - angle) / std::f64::consts::TAU)
 }

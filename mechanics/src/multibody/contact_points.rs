@@ -4,7 +4,7 @@ use super::marker::MOST;
 use super::slender::Beam;
 use super::system::Multibody;
 use crate::contact::{Curve, Obstacle, PointMotion, Points, Variation};
-use crate::linalg::Matrix;
+use crate::linalg::{Matrix, Vec3};
 use crate::system::State;
 
 impl Multibody {
@@ -71,22 +71,15 @@ impl Points for Multibody {
         let column = |of: &[[f64; MOST]; 6], first: usize, j: usize| [0, 1, 2].map(|i| of[first + i][j]);
         out.extend((0..pose.count).map(|j| Variation {
             unknown: pose.numbers[j],
-            position: column(&pose.jacobian, 0, j),
-            velocity: column(&pose.transport, 0, j),
-            rotation: column(&pose.jacobian, 3, j),
-            spin: column(&pose.transport, 3, j),
+            position: Vec3(column(&pose.jacobian, 0, j)),
+            velocity: Vec3(column(&pose.transport, 0, j)),
+            rotation: Vec3(column(&pose.jacobian, 3, j)),
+            spin: Vec3(column(&pose.transport, 3, j)),
             ..Variation::default()
         }));
     }
 
-    fn add_curvature(
-        &mut self,
-        k: usize,
-        s: &State,
-        [force, moment]: [[f64; 3]; 2],
-        w: f64,
-        out: &mut Matrix,
-    ) {
+    fn add_curvature(&mut self, k: usize, s: &State, [force, moment]: [Vec3; 2], w: f64, out: &mut Matrix) {
         if self.struck(k).is_some() {
             // Its point is linear in the coordinates.
             return;

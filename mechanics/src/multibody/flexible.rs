@@ -2,9 +2,11 @@
 
 use super::body::Twist;
 use super::force::Axes;
-use super::rotation::{Matrix3, Vector, plus, product, times};
-use super::slender::{Beam, COORDINATES, ELEMENT_COORDINATES, ELEMENT_VELOCITIES};
-use crate::linalg::vector::{cross, inner};
+use super::slender::{
+    Beam, COORDINATES, ELEMENT_COORDINATES, ELEMENT_VELOCITIES, LineDistribution, distributed_weights,
+    uniform_weights,
+};
+use crate::linalg::{Mat3, Vec3};
 use crate::profile::Profile;
 use crate::system::Frame;
 use std::ops::Range;
@@ -18,9 +20,9 @@ pub struct Flexible {
     /// Centreline without stress, mesh and sections. Its own damping is replaced.
     pub beam: Beam,
     /// Velocity of its first node at the start, inertial axes \[m/s\].
-    pub velocity: Option<Vector>,
+    pub velocity: Option<Vec3>,
     /// Angular velocity at the start, inertial axes [rad/s].
-    pub spin: Option<Vector>,
+    pub spin: Option<Vec3>,
     /// Damping β [1/s] in proportion to the mass: forces −β M v.
     pub damping: f64,
     /// Damping η \[s\] in proportion to the stiffness (Kelvin–Voigt): stresses C (γ − γ₀ + η γ̇) of the strains γ.
@@ -74,6 +76,7 @@ impl Flexible {
     }
 
     /// The same beam with the strain of a fibre recorded.
+    #[must_use]
     pub fn with_fibre(mut self, name: &str, station: f64, place: [f64; 2]) -> Flexible {
         self.fibres.push(Fibre { name: name.to_owned(), station, place });
         self
@@ -81,7 +84,7 @@ impl Flexible {
 
     /// What is wrong with the numbers, if anything.
     pub(super) fn fault(&self) -> Option<String> {
-        if !self.velocity.iter().chain(&self.spin).flatten().all(|x| x.is_finite()) {
+        if !self.velocity.iter().chain(&self.spin).all(|x| x.is_finite()) {
             return Some("has a number that is not finite".to_owned());
         }
         for (what, x) in [("damping", self.damping), ("viscosity", self.viscosity)] {
@@ -109,13 +112,13 @@ impl Flexible {
         for node in 0..self.beam.nodes().len() {
             let (position, triad) = self.beam.node(node, q);
             let at = ELEMENT_VELOCITIES * node;
-            let slope = triad.tangent.map(|t| triad.length * t);
-            let velocity = plus(velocity, 1.0, cross(spin, plus(position, -1.0, origin)));
-            v[at..at + 3].copy_from_slice(&velocity);
-            v[at + 3..at + 6].copy_from_slice(&cross(spin, slope));
-            v[at + 6] = inner(spin, triad.tangent);
+            let slope = triad.length * triad.tangent;
+            let velocity = velocity + spin.cross(position - origin);
+            velocity.put(v, at);
+            spin.cross(slope).put(v, at + 3);
+            v[at + 6] = spin.dot(triad.tangent);
             if let Some(element) = self.beam.elements().get(node) {
-                v[at + 7] = inner(spin, element.section(&coordinates(q, node), 0.5).1.tangent);
+                v[at + 7] = spin.dot(element.section(&coordinates(q, node), 0.5).1.tangent);
             }
         }
     }
@@ -128,10 +131,9 @@ impl Flexible {
     }
 
     /// The rotation of node `i` from one configuration to another.
-    pub(super) fn rotation(&self, node: usize, before: &[f64], now: &[f64]) -> Matrix3 {
+    pub(super) fn rotation(&self, node: usize, before: &[f64], now: &[f64]) -> Mat3 {
         let [before, now] = [before, now].map(|q| self.beam.node(node, q).1);
-        let inverse = [before.tangent, before.normal, before.binormal];
-        product(&now.rotation(), &inverse)
+        now.rotation() * before.rotation().transpose()
     }
 
     /// Position and axes at the arc length `s`.
@@ -142,7 +144,7 @@ impl Flexible {
     }
 
     /// Velocity of the centreline at the arc length `s`.
-    pub(super) fn velocity(&self, v: &[f64], s: f64) -> Vector {
+    pub(super) fn velocity(&self, v: &[f64], s: f64) -> Vec3 {
         let (element, z) = self.place(s);
         let v = std::array::from_fn(|k| v[ELEMENT_VELOCITIES * element + k]);
         self.beam.elements()[element].velocity(&v, z)
@@ -199,8 +201,10 @@ pub struct LineLoad {
     pub beam: usize,
     /// Elements on which it acts; `None` for all.
     pub elements: Option<Range<usize>>,
+    /// Factor f(s) of the force by the arc length s \[m\]; 1 where there is none.
+    pub distribution: Option<Arc<dyn Profile>>,
     /// Force per length without stress [N/m].
-    pub force: Vector,
+    pub force: Vec3,
     /// What the components refer to: inertial axes, or the axes of each section.
     pub axes: Axes,
     /// Factor f(t); 1 where there is none.
@@ -208,15 +212,24 @@ pub struct LineLoad {
 }
 
 impl LineLoad {
-    /// The elements of its beam on which it acts.
-    pub(super) fn on(&self, beam: &Beam) -> Range<usize> {
+    /// Its weights on its beam.
+    pub(super) fn along(&self, beam: &Beam) -> LineDistribution {
         let count = beam.elements().len();
-        self.elements.clone().map_or(0..count, |on| on.start.min(count)..on.end.min(count))
+        let on = self.elements.clone().map_or(0..count, |on| on.start.min(count)..on.end.min(count));
+        let weights = |element: usize| {
+            let (start, end, h) =
+                (beam.nodes()[element], beam.nodes()[element + 1], beam.elements()[element].length());
+            let Some(f) = &self.distribution else { return uniform_weights(h) };
+            let within = f.breaks().iter().copied().filter(|s| *s > start && *s < end);
+            let cuts: Vec<f64> = [start].into_iter().chain(within).chain([end]).collect();
+            distributed_weights(h, start, &cuts, |s| f.value(s))
+        };
+        LineDistribution { first: on.start, weights: on.map(weights).collect() }
     }
 
     /// The components at the time `t` when `part` of the loads acts.
-    pub(super) fn at(&self, t: f64, part: f64) -> Vector {
-        times(part * self.amplitude.as_ref().map_or(1.0, |f| f.value(t)), self.force)
+    pub(super) fn at(&self, t: f64, part: f64) -> Vec3 {
+        part * self.amplitude.as_ref().map_or(1.0, |f| f.value(t)) * self.force
     }
 
     pub(super) fn follows(&self) -> bool {

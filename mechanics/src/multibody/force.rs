@@ -2,14 +2,23 @@
 
 use super::joint::Coordinate;
 use super::marker::{Marker, Pose};
-use super::rotation::{IDENTITY, Vector, apply, plus, skew, times};
 use super::row::{Gradient, Row, Wrench, add_block};
 use crate::drive::Actuator;
-use crate::linalg::vector::{cross, inner};
+use crate::linalg::{Mat3, Vec3};
 use crate::profile::{HubKinematics, Profile};
 use std::sync::Arc;
 
-/// A spring and a damper between two points, with the force F = k (ℓ − ℓ₀) + c ℓ̇ along the line that joins them.
+/// In which directions a spring acts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Directions {
+    /// Along the line that joins its ends: F = k (ℓ − ℓ₀) + c ℓ̇.
+    #[default]
+    Line,
+    /// Equally in all three, without a length of its own: the force k d + c ḋ with d from one end to the other.
+    All,
+}
+
+/// A spring and a damper between two points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spring {
     /// Name, unique in its model.
@@ -22,8 +31,10 @@ pub struct Spring {
     pub stiffness: f64,
     /// Damping c [N·s/m], ≥ 0.
     pub damping: f64,
-    /// Length ℓ₀ without force \[m\], ≥ 0.
+    /// Length ℓ₀ without force \[m\], ≥ 0; 0 of one that acts in all directions.
     pub length: f64,
+    /// In which directions it acts.
+    pub directions: Directions,
 }
 
 /// What the components of a load refer to.
@@ -43,9 +54,9 @@ pub struct Load {
     /// Where it acts.
     pub at: Marker,
     /// Force \[N\].
-    pub force: Vector,
+    pub force: Vec3,
     /// Couple [N·m].
-    pub moment: Vector,
+    pub moment: Vec3,
     /// What the components refer to.
     pub axes: Axes,
     /// Factor f(t); 1 where there is none.
@@ -65,7 +76,7 @@ pub(super) struct Interaction {
 impl Interaction {
     pub(super) fn new() -> Interaction {
         let zero = [[0.0; 12]; 12];
-        Interaction { wrench: [[0.0; 3]; 4], gradient: zero, damping: zero, damps: false }
+        Interaction { wrench: [Vec3::ZERO; 4], gradient: zero, damping: zero, damps: false }
     }
 
     /// Sets the wrench to zero, and its derivatives if they are wanted.
@@ -73,24 +84,27 @@ impl Interaction {
         if differentiate {
             *self = Interaction::new();
         }
-        self.wrench = [[0.0; 3]; 4];
+        self.wrench = [Vec3::ZERO; 4];
     }
 
     /// Adds c n to the wrench.
     pub(super) fn add(&mut self, c: f64, n: &Wrench) {
         for (out, n) in self.wrench.iter_mut().zip(n) {
-            *out = plus(*out, c, *n);
+            *out += c * *n;
         }
     }
 }
 
+/// The blocks of a wrench's derivatives by the distance of the ends: force on A and on B, by the place of A and of B.
+const SIGNS: [(usize, usize, f64); 4] = [(0, 0, -1.0), (0, 2, 1.0), (2, 0, 1.0), (2, 2, -1.0)];
+
 impl Spring {
     /// Length, unit vector from A to B and ℓ̇. A spring of no length has no direction and no force.
-    fn stretched(a: &Pose, b: &Pose) -> (f64, Vector, Vector) {
-        let d = plus(b.position, -1.0, a.position);
-        let length = inner(d, d).sqrt();
-        let n = if length > 0.0 { times(1.0 / length, d) } else { [0.0; 3] };
-        (length, n, plus(b.velocity, -1.0, a.velocity))
+    fn stretched(a: &Pose, b: &Pose) -> (f64, Vec3, Vec3) {
+        let d = b.position - a.position;
+        let length = d.dot(d).sqrt();
+        let n = if length > 0.0 { 1.0 / length * d } else { Vec3::ZERO };
+        (length, n, b.velocity - a.velocity)
     }
 
     fn force(&self, length: f64, rate: f64) -> f64 {
@@ -100,7 +114,7 @@ impl Spring {
     /// The length ℓ \[m\] and the force F \[N\], positive where it pulls.
     pub(super) fn length_and_force(&self, a: &Pose, b: &Pose) -> [f64; 2] {
         let (length, n, velocity) = Spring::stretched(a, b);
-        [length, self.force(length, inner(n, velocity))]
+        [length, self.force(length, n.dot(velocity))]
     }
 
     pub(super) fn energy(&self, a: &Pose, b: &Pose) -> f64 {
@@ -108,36 +122,54 @@ impl Spring {
         0.5 * self.stiffness * (length - self.length) * (length - self.length)
     }
 
-    /// c ℓ̇²
+    /// c ℓ̇², or c |ḋ|²
     pub(super) fn dissipation(&self, a: &Pose, b: &Pose) -> f64 {
         let (_, n, velocity) = Spring::stretched(a, b);
-        let rate = inner(n, velocity);
+        if self.directions == Directions::All {
+            return self.damping * velocity.dot(velocity);
+        }
+        let rate = n.dot(velocity);
         self.damping * rate * rate
     }
 
     pub(super) fn interact(&self, a: &Pose, b: &Pose, out: &mut Interaction, differentiate: bool) {
+        if self.directions == Directions::All {
+            return self.interact_in_all_directions(a, b, out, differentiate);
+        }
         let (length, n, velocity) = Spring::stretched(a, b);
-        let rate = inner(n, velocity);
+        let rate = n.dot(velocity);
         let force = self.force(length, rate);
-        let none = [0.0; 3];
-        out.add(force, &[n, none, times(-1.0, n), none]);
+        let none = Vec3::ZERO;
+        out.add(force, &[n, none, -n, none]);
         if !differentiate || length == 0.0 {
             return;
         }
-        let across = plus(velocity, -rate, n);
-        let (mut stiffness, mut damping) = ([[0.0; 3]; 3], [[0.0; 3]; 3]);
+        let across = velocity - rate * n;
+        let (mut stiffness, mut damping) = (Mat3::ZERO, Mat3::ZERO);
         for i in 0..3 {
             for j in 0..3 {
                 let slope = self.stiffness * n[j] + self.damping / length * across[j];
-                stiffness[i][j] = n[i] * slope + force / length * (IDENTITY[i][j] - n[i] * n[j]);
+                stiffness[i][j] = n[i] * slope + force / length * (Mat3::IDENTITY[i][j] - n[i] * n[j]);
                 damping[i][j] = self.damping * n[i] * n[j];
             }
         }
-        for (i, j, sign) in [(0, 0, -1.0), (0, 2, 1.0), (2, 0, 1.0), (2, 2, -1.0)] {
+        for (i, j, sign) in SIGNS {
             add_block(&mut out.gradient, [i, j], sign, &stiffness);
             add_block(&mut out.damping, [i, j], sign, &damping);
         }
         out.damps |= self.damping != 0.0;
+    }
+
+    fn interact_in_all_directions(&self, a: &Pose, b: &Pose, out: &mut Interaction, differentiate: bool) {
+        let force = self.stiffness * (b.position - a.position) + self.damping * (b.velocity - a.velocity);
+        out.add(1.0, &[force, Vec3::ZERO, -force, Vec3::ZERO]);
+        if differentiate {
+            for (i, j, sign) in SIGNS {
+                add_block(&mut out.gradient, [i, j], sign * self.stiffness, &Mat3::IDENTITY);
+                add_block(&mut out.damping, [i, j], sign * self.damping, &Mat3::IDENTITY);
+            }
+            out.damps |= self.damping != 0.0;
+        }
     }
 }
 
@@ -149,13 +181,13 @@ impl Load {
     /// On marker B.
     pub(super) fn interact(&self, b: &Pose, (t, part): (f64, f64), out: &mut Interaction) {
         let factor = part * self.factor(t);
-        let (mut force, mut moment) = (times(factor, self.force), times(factor, self.moment));
+        let (mut force, mut moment) = (factor * self.force, factor * self.moment);
         if self.axes == Axes::Follower {
-            (force, moment) = (apply(&b.axes, force), apply(&b.axes, moment));
-            add_block(&mut out.gradient, [2, 3], -1.0, &skew(force));
-            add_block(&mut out.gradient, [3, 3], -1.0, &skew(moment));
+            (force, moment) = (b.axes * force, b.axes * moment);
+            add_block(&mut out.gradient, [2, 3], -1.0, &Mat3::skew(force));
+            add_block(&mut out.gradient, [3, 3], -1.0, &Mat3::skew(moment));
         }
-        out.add(1.0, &[[0.0; 3], [0.0; 3], force, moment]);
+        out.add(1.0, &[Vec3::ZERO, Vec3::ZERO, force, moment]);
     }
 }
 
@@ -177,15 +209,15 @@ impl Coordinate {
         let z = a.axis(2);
         let (position, normal) = match self {
             Coordinate::Angle => {
-                let none = [0.0; 3];
-                (angle.unwrap_or_else(|| principal(a, b)), [none, times(-1.0, z), none, z])
+                let none = Vec3::ZERO;
+                (angle.unwrap_or_else(|| principal(a, b)), [none, -z, none, z])
             }
             Coordinate::Displacement => {
-                let d = plus(b.position, -1.0, a.position);
-                (inner(z, d), Row::Along(2).normal(a, b, &HubKinematics::default()))
+                let d = b.position - a.position;
+                (z.dot(d), Row::Along(2).normal(a, b, &HubKinematics::default()))
             }
         };
-        let rate = normal.iter().zip(velocities(a, b)).map(|(n, v)| inner(*n, v)).sum();
+        let rate = normal.iter().zip(velocities(a, b)).map(|(n, v)| (*n).dot(v)).sum();
         Motion { position, rate, normal }
     }
 
@@ -210,15 +242,15 @@ impl Coordinate {
         let mut slope: Vec12 = flat(&motion.normal);
         match self {
             Coordinate::Angle => {
-                let z = skew(a.axis(2));
+                let z = Mat3::skew(a.axis(2));
                 add_block(&mut change, [1, 1], 1.0, &z);
                 add_block(&mut change, [3, 1], -1.0, &z);
                 let (x, y, other) = (a.axis(0), a.axis(1), b.axis(0));
-                let (cos, sin) = (inner(x, other), inner(y, other));
-                let turned = plus(times(cos, y), -sin, x);
-                let h = times(1.0 / (cos * cos + sin * sin), cross(turned, other));
-                let none = [0.0; 3];
-                slope = flat(&[none, h, none, times(-1.0, h)]);
+                let (cos, sin) = (x.dot(other), y.dot(other));
+                let turned = cos * y - sin * x;
+                let h = 1.0 / (cos * cos + sin * sin) * turned.cross(other);
+                let none = Vec3::ZERO;
+                slope = flat(&[none, h, none, -h]);
             }
             Coordinate::Displacement => {
                 Row::Along(2).add_gradient(1.0, (a, b), &HubKinematics::default(), &mut change);
@@ -251,6 +283,6 @@ fn principal(a: &Pose, b: &Pose) -> f64 {
 }
 
 /// The angle of `other` in the plane of x and y.
-pub(super) fn angle_between(x: Vector, y: Vector, other: Vector) -> f64 {
-    libm::atan2(inner(y, other), inner(x, other))
+pub(super) fn angle_between(x: Vec3, y: Vec3, other: Vec3) -> f64 {
+    libm::atan2(y.dot(other), x.dot(other))
 }

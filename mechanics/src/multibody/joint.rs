@@ -55,6 +55,9 @@ pub struct Joint {
     pub(super) kept: Option<Motion>,
 }
 
+/// Smallest jump of an angle \[rad\] or a displacement \[m\] that is one.
+const STEP: f64 = 1e-9;
+
 /// The coordinate of a joint's third axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Coordinate {
@@ -134,9 +137,13 @@ impl Joint {
                 self.kind
             ));
         }
-        let jump = self.breaks().into_iter().find(|b| b.time > 0.0 && b.jump == Jump::Velocity)?;
+        let motion = self.prescribed()?;
+        let step = |t: f64| motion.at(t).angle - motion.at(t.next_down()).angle;
+        let mut struck = self.breaks().into_iter().filter(|b| b.time > 0.0 && b.jump == Jump::Velocity);
+        let jump = struck.find(|b| step(b.time).abs() > STEP)?;
         Some(format!(
-            "has a prescribed speed that jumps at t = {} s, which takes an infinite force: use a ramp or a smooth profile",
+            "has a prescribed angle or displacement that jumps by {:.3e} at t = {} s, which is no motion: use a ramp or a smooth profile",
+            step(jump.time),
             jump.time
         ))
     }

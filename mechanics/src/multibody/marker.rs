@@ -8,12 +8,10 @@
 //! Jᵀ(f, m) = (f, Bᵀ M),  M = p × f + m  δ(Bᵀ M) = (∂B)ᵀ M + Bᵀ [f]× [p]× δθ
 //! ```
 
-use super::body::{Placed, three};
-use super::rotation::{
-    IDENTITY, Matrix3, Vector, apply, apply_transposed, column, frame, plus, product, skew, tangent, times,
-};
+use super::body::Placed;
+use super::rotation::{frame, tangent};
 use super::slender::Triad;
-use crate::linalg::vector::cross;
+use crate::linalg::{Mat3, Vec3};
 use crate::system::Frame;
 
 /// Largest number of velocities that move a marker: a node of a beam has seven.
@@ -47,14 +45,14 @@ pub struct Marker {
 
 impl Marker {
     /// A marker with the axes of its part at `position` \[m\] in the part's frame.
-    pub fn new(part: Part, position: Vector) -> Marker {
-        Marker { part, frame: Frame { position, rotation: IDENTITY } }
+    pub fn new(part: Part, position: impl Into<Vec3>) -> Marker {
+        Marker { part, frame: Frame { position: position.into(), rotation: Mat3::IDENTITY } }
     }
 
     /// The same with its third axis along `axis`, in the part's frame, and its first axis towards `first` as far as the
     /// third allows. `None` for an axis without direction.
-    pub fn with_axis(mut self, axis: Vector, first: Option<Vector>) -> Option<Marker> {
-        self.frame.rotation = frame(axis, first)?;
+    pub fn with_axis(mut self, axis: impl Into<Vec3>, first: Option<Vec3>) -> Option<Marker> {
+        self.frame.rotation = frame(axis.into(), first)?;
         Some(self)
     }
 }
@@ -67,13 +65,13 @@ impl Marker {
 /// ```
 #[derive(Clone, Debug)]
 pub(super) struct Pose {
-    pub(super) position: Vector,
+    pub(super) position: Vec3,
     /// The axes are its columns.
-    pub(super) axes: Matrix3,
-    pub(super) velocity: Vector,
-    pub(super) spin: Vector,
-    pub(super) acceleration: Vector,
-    pub(super) spin_rate: Vector,
+    pub(super) axes: Mat3,
+    pub(super) velocity: Vec3,
+    pub(super) spin: Vec3,
+    pub(super) acceleration: Vec3,
+    pub(super) spin_rate: Vec3,
     /// Numbers of the velocities that move it.
     pub(super) numbers: [usize; MOST],
     pub(super) count: usize,
@@ -88,25 +86,25 @@ enum Carrier {
     Ground,
     /// From the centre of mass to the marker, rotation and Ω, in the body's axes.
     Body {
-        arm: Vector,
-        rotation: Matrix3,
-        spin: Vector,
+        arm: Vec3,
+        rotation: Mat3,
+        spin: Vec3,
     },
     /// From the centreline to the marker in space, axes, ṙ′ and w.
     Section {
-        arm: Vector,
+        arm: Vec3,
         triad: Triad,
-        slope_rate: Vector,
+        slope_rate: Vec3,
         spin: f64,
     },
 }
 
 impl Default for Pose {
     fn default() -> Pose {
-        let zero = [0.0; 3];
+        let zero = Vec3::ZERO;
         Pose {
             position: zero,
-            axes: IDENTITY,
+            axes: Mat3::IDENTITY,
             velocity: zero,
             spin: zero,
             acceleration: zero,
@@ -137,18 +135,18 @@ impl Pose {
     /// Moves a marker on a body: ẋ = ṙ + R (Ω × s), ω = R Ω and so on, with its frame (s, A) from the centre of mass.
     #[inline]
     pub(super) fn place(&mut self, body: &Placed, marker: &Frame) {
-        let (r, s, spin) = (&body.rotation, marker.position, body.spin);
-        self.carrier = Carrier::Body { arm: s, rotation: *r, spin };
-        self.position = plus(body.position, 1.0, apply(r, s));
-        self.axes = product(r, &marker.rotation);
-        let swept = cross(spin, s);
-        self.velocity = plus(body.velocity, 1.0, apply(r, swept));
-        self.spin = apply(r, spin);
-        let bent = plus(cross(body.spin_rate, s), 1.0, cross(spin, swept));
-        self.acceleration = plus(body.acceleration, 1.0, apply(r, bent));
-        self.spin_rate = apply(r, body.spin_rate);
+        let (r, s, spin) = (body.rotation, marker.position, body.spin);
+        self.carrier = Carrier::Body { arm: s, rotation: r, spin };
+        self.position = body.position + r * s;
+        self.axes = r * marker.rotation;
+        let swept = spin.cross(s);
+        self.velocity = body.velocity + r * swept;
+        self.spin = r * spin;
+        let bent = body.spin_rate.cross(s) + spin.cross(swept);
+        self.acceleration = body.acceleration + r * bent;
+        self.spin_rate = r * body.spin_rate;
         // −R s̃ and R; −R (Ω × s)~ and −R Ω̃.
-        let lever = product(r, &skew(s));
+        let lever = r * Mat3::skew(s);
         for i in 0..3 {
             for j in 0..3 {
                 self.jacobian[i][3 + j] = -lever[i][j];
@@ -160,18 +158,18 @@ impl Pose {
     /// Moves a marker on the section of a node, whose q, v and a begin at those of the slices.
     #[inline]
     pub(super) fn place_on_section(&mut self, [q, v, a]: [&[f64]; 3], marker: &Frame) {
-        let triad = Triad::new(three(q, 3), three(q, 6));
+        let triad = Triad::new(Vec3::at(q, 3), Vec3::at(q, 6));
         let axes = triad.rotation();
-        let arm = apply(&axes, marker.position);
-        self.carrier = Carrier::Section { arm, triad, slope_rate: three(v, 3), spin: v[6] };
+        let arm = axes * marker.position;
+        self.carrier = Carrier::Section { arm, triad, slope_rate: Vec3::at(v, 3), spin: v[6] };
         let rates = |x: &[f64]| [x[3], x[4], x[5], x[6]];
         [self.spin, self.spin_rate] = triad.angular_motion(rates(v), rates(a));
-        self.position = plus(three(q, 0), 1.0, arm);
-        self.axes = product(&axes, &marker.rotation);
-        let swept = cross(self.spin, arm);
-        self.velocity = plus(three(v, 0), 1.0, swept);
-        let bent = plus(cross(self.spin_rate, arm), 1.0, cross(self.spin, swept));
-        self.acceleration = plus(three(a, 0), 1.0, bent);
+        self.position = Vec3::at(q, 0) + arm;
+        self.axes = axes * marker.rotation;
+        let swept = self.spin.cross(arm);
+        self.velocity = Vec3::at(v, 0) + swept;
+        let bent = self.spin_rate.cross(arm) + self.spin.cross(swept);
+        self.acceleration = Vec3::at(a, 0) + bent;
         let rotation = triad.rotation_jacobian();
         let lever = levered(arm, &rotation);
         for i in 0..3 {
@@ -187,8 +185,8 @@ impl Pose {
         match self.carrier {
             Carrier::Ground => {}
             Carrier::Body { arm, rotation, spin } => {
-                let lever = product(&rotation, &skew(cross(spin, arm)));
-                let turn = product(&rotation, &skew(spin));
+                let lever = rotation * Mat3::skew(spin.cross(arm));
+                let turn = rotation * Mat3::skew(spin);
                 for i in 0..3 {
                     for j in 0..3 {
                         self.transport[i][3 + j] = -lever[i][j];
@@ -198,12 +196,12 @@ impl Pose {
             }
             Carrier::Section { arm, triad, slope_rate, spin } => {
                 let (inverse, t) = (1.0 / triad.length, triad.tangent);
-                let swing = times(inverse, cross(t, slope_rate));
-                let rate = skew(times(-inverse * inverse, slope_rate));
+                let swing = inverse * t.cross(slope_rate);
+                let rate = Mat3::skew(-inverse * inverse * slope_rate);
                 let mut turn = [[0.0; 4]; 3];
                 for i in 0..3 {
                     for j in 0..3 {
-                        let across = spin * (IDENTITY[i][j] - t[i] * t[j]);
+                        let across = spin * (Mat3::IDENTITY[i][j] - t[i] * t[j]);
                         turn[i][j] = inverse * (across - 2.0 * swing[i] * t[j]) + rate[i][j];
                     }
                 }
@@ -221,16 +219,16 @@ impl Pose {
 
     /// Axis j.
     #[inline(always)]
-    pub(super) fn axis(&self, j: usize) -> Vector {
-        column(&self.axes, j)
+    pub(super) fn axis(&self, j: usize) -> Vec3 {
+        self.axes.column(j)
     }
 
     /// Adds c ∂(Jᵀ w)/∂δ of the force and moment w, held fixed, to the block of a matrix at (`at`, `at`).
     pub(super) fn add_curvature<const N: usize>(
         &self,
         c: f64,
-        force: Vector,
-        moment: Vector,
+        force: Vec3,
+        moment: Vec3,
         at: usize,
         out: &mut [[f64; N]; N],
     ) {
@@ -238,9 +236,9 @@ impl Pose {
             Carrier::Ground => {}
             Carrier::Body { arm, rotation, .. } => {
                 // The generalized moment s × Rᵀf + Rᵀm changes by s̃ (Rᵀf)~ + (Rᵀm)~ with the body's rotation.
-                let force = skew(apply_transposed(&rotation, force));
-                let moment = skew(apply_transposed(&rotation, moment));
-                let lever = product(&skew(arm), &force);
+                let force = Mat3::skew(rotation.transpose() * force);
+                let moment = Mat3::skew(rotation.transpose() * moment);
+                let lever = Mat3::skew(arm) * force;
                 for i in 0..3 {
                     for j in 0..3 {
                         out[at + 3 + i][at + 3 + j] += c * (lever[i][j] + moment[i][j]);
@@ -248,7 +246,7 @@ impl Pose {
                 }
             }
             Carrier::Section { arm, triad, .. } => {
-                let fixed = triad.moment_derivative(plus(moment, 1.0, cross(arm, force)));
+                let fixed = triad.moment_derivative(moment + arm.cross(force));
                 let rotation = triad.rotation_jacobian();
                 let carried = levered(force, &levered(arm, &rotation));
                 for i in 0..4 {
@@ -268,14 +266,14 @@ impl Pose {
         match self.carrier {
             Carrier::Ground => {}
             Carrier::Body { .. } => {
-                let chart = tangent(three(d, self.numbers[3]));
+                let chart = tangent(Vec3::at(d, self.numbers[3]));
                 for row in rows {
-                    let turned = apply_transposed(&chart, three(row, at + 3));
-                    row[at + 3..at + 6].copy_from_slice(&turned);
+                    let turned = chart.transpose() * Vec3::at(row, at + 3);
+                    turned.put(row, at + 3);
                 }
             }
             Carrier::Section { triad, .. } => {
-                let turn = triad.spin_by_slope(three(d, self.numbers[3]));
+                let turn = triad.spin_by_slope(Vec3::at(d, self.numbers[3]));
                 for row in rows {
                     (0..3).for_each(|k| row[at + 3 + k] += row[at + 6] * turn[k]);
                 }
@@ -286,10 +284,10 @@ impl Pose {
 
 /// [x]× A
 #[inline(always)]
-fn levered(x: Vector, a: &[[f64; 4]; 3]) -> [[f64; 4]; 3] {
+fn levered(x: Vec3, a: &[[f64; 4]; 3]) -> [[f64; 4]; 3] {
     let mut out = [[0.0; 4]; 3];
     for j in 0..4 {
-        let swept = cross(x, [a[0][j], a[1][j], a[2][j]]);
+        let swept = x.cross(Vec3([a[0][j], a[1][j], a[2][j]]));
         (0..3).for_each(|i| out[i][j] = swept[i]);
     }
     out

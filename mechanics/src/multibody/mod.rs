@@ -31,8 +31,10 @@
 //! | `constants` | what does not change in a run |
 //! | `slender` | the geometrically exact slender beam |
 //! | `system` | the equations of motion |
+//! | `events` | breaks, and the jumps of prescribed speeds |
 //! | `axis` | axes of rotation, and what on the ground allows it |
 //! | `rotating` | the same in a frame that rotates, for steady rotation and its modes |
+//! | `line_law` | force laws along beams |
 //! | `observed`, `channels` | energies, power, recorded quantities |
 //! | `shares` | what a small motion moves |
 //! | `reason` | why a run may have failed |
@@ -44,10 +46,12 @@ mod consistency;
 mod constants;
 mod contact_point;
 mod contact_points;
+mod events;
 mod flexible;
 mod force;
 mod joint;
 mod layout;
+mod line_law;
 mod marker;
 mod model;
 mod nearest;
@@ -64,8 +68,9 @@ mod system;
 pub use axis::Axis;
 pub use body::Body;
 pub use flexible::{Fibre, Flexible, LineLoad};
-pub use force::{Axes, Load, Spring};
+pub use force::{Axes, Directions, Load, Spring};
 pub use joint::{Drive, Joint, Kind};
+pub use line_law::LineLaw;
 pub use marker::{Marker, Part};
 pub use model::{Model, ModelError, Violation};
 pub use rotating::Rotating;

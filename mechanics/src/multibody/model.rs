@@ -3,10 +3,12 @@
 use super::body::Body;
 use super::contact_point::ContactPoint;
 use super::flexible::{Flexible, LineLoad};
-use super::force::{Load, Spring};
+use super::force::{Directions, Load, Spring};
 use super::joint::{Joint, Kind};
+use super::line_law::LineLaw;
 use super::marker::{Marker, Part};
-use super::rotation::{IDENTITY, Vector, apply_transposed, frame, plus, product};
+use super::rotation::frame;
+use crate::linalg::{Mat3, Vec3};
 use crate::system::Frame;
 use std::collections::BTreeSet;
 use std::fmt;
@@ -14,13 +16,14 @@ use std::fmt;
 /// Bodies, beams, joints, springs and loads, as they stand at t = 0.
 #[derive(Clone, Debug, Default)]
 pub struct Model {
-    pub(super) gravity: Vector,
+    pub(super) gravity: Vec3,
     pub(super) bodies: Vec<Body>,
     pub(super) beams: Vec<Flexible>,
     pub(super) joints: Vec<Joint>,
     pub(super) springs: Vec<Spring>,
     pub(super) loads: Vec<Load>,
     pub(super) line_loads: Vec<LineLoad>,
+    pub(super) line_laws: Vec<LineLaw>,
     pub(super) points: Vec<ContactPoint>,
     pub(super) drop_redundant: bool,
 }
@@ -116,8 +119,9 @@ impl Model {
     }
 
     /// The same model with the acceleration of gravity, e.g. (0, 0, −9.81) m/s².
-    pub fn with_gravity(mut self, gravity: Vector) -> Model {
-        self.gravity = gravity;
+    #[must_use]
+    pub fn with_gravity(mut self, gravity: impl Into<Vec3>) -> Model {
+        self.gravity = gravity.into();
         self
     }
 
@@ -160,6 +164,11 @@ impl Model {
         self.line_loads.push(load);
     }
 
+    /// Adds a force law along a beam.
+    pub fn line_law(&mut self, law: LineLaw) {
+        self.line_laws.push(law);
+    }
+
     /// Adds a point of a body or of a beam's section that may touch obstacles; gives its number for [contacts](crate::contact::Contact).
     pub fn contact_point(&mut self, point: Marker) -> usize {
         self.contact_ball(point, 0.0)
@@ -189,13 +198,13 @@ impl Model {
         name: &str,
         kind: Kind,
         [from, to]: [Part; 2],
-        point: Vector,
-        (axis, first): (Vector, Option<Vector>),
+        point: impl Into<Vec3>,
+        (axis, first): (impl Into<Vec3>, Option<Vec3>),
     ) -> Result<&mut Joint, ModelError> {
         let fault =
             |fault: &str| ModelError::Part { kind: "joint", name: name.to_owned(), fault: fault.to_owned() };
-        let rotation = frame(axis, first).ok_or_else(|| fault("has an axis without direction"))?;
-        let space = Frame { position: point, rotation };
+        let rotation = frame(axis.into(), first).ok_or_else(|| fault("has an axis without direction"))?;
+        let space = Frame { position: point.into(), rotation };
         let marker = |part| {
             self.marker(part, space).ok_or_else(|| fault("joins a body or a node that is not in the model"))
         };
@@ -207,9 +216,9 @@ impl Model {
     /// The marker of a part that is the frame `space` at the start; `None` for a part that is not there.
     pub fn marker(&self, part: Part, space: Frame) -> Option<Marker> {
         let own = self.frame(part)?;
-        let position = apply_transposed(&own.rotation, plus(space.position, -1.0, own.position));
-        let inverse = [0, 1, 2].map(|i| [0, 1, 2].map(|j| own.rotation[j][i]));
-        Some(Marker { part, frame: Frame { position, rotation: product(&inverse, &space.rotation) } })
+        let inverse = own.rotation.transpose();
+        let position = inverse * (space.position - own.position);
+        Some(Marker { part, frame: Frame { position, rotation: inverse * space.rotation } })
     }
 
     /// Its springs.
@@ -220,7 +229,7 @@ impl Model {
     /// The frame of a part at the start.
     pub(super) fn frame(&self, part: Part) -> Option<Frame> {
         match part {
-            Part::Ground => Some(Frame { position: [0.0; 3], rotation: IDENTITY }),
+            Part::Ground => Some(Frame { position: Vec3::ZERO, rotation: Mat3::IDENTITY }),
             Part::Body(i) => self.bodies.get(i).map(|body| body.frame),
             Part::Section { beam, node } => {
                 let beam = &self.beams.get(beam)?.beam;
@@ -250,20 +259,28 @@ impl Model {
             let Spring { stiffness, damping, length, .. } = spring;
             let sound = [stiffness, damping, length].iter().all(|x| **x >= 0.0 && x.is_finite());
             let fault = "has a stiffness, damping or length that is not a number ≥ 0";
-            let fault = (!sound).then(|| fault.to_owned());
+            let fault = (!sound).then(|| fault.to_owned()).or_else(|| {
+                let long = spring.directions == Directions::All && *length != 0.0;
+                long.then(|| format!("acts in all directions and has the length {length} m without force"))
+            });
             self.examine("spring", &spring.name, fault, &[spring.from, spring.to], &mut names)?;
         }
         for load in &self.loads {
-            let sound = load.force.iter().chain(&load.moment).all(|x| x.is_finite());
+            let sound = load.force.is_finite() && load.moment.is_finite();
             let fault = (!sound).then(|| "has a component that is not finite".to_owned());
             self.examine("load", &load.name, fault, &[load.at], &mut names)?;
         }
         for load in &self.line_loads {
-            let finite = load.force.iter().all(|x| x.is_finite());
+            let finite = load.force.is_finite();
             let fault = (!finite).then(|| "has a component that is not finite".to_owned());
             let missing =
                 (load.beam >= self.beams.len()).then(|| "is on a beam that is not in the model".to_owned());
             self.examine("load", &load.name, fault.or(missing), &[], &mut names)?;
+        }
+        for law in &self.line_laws {
+            let missing =
+                (law.beam >= self.beams.len()).then(|| "is on a beam that is not in the model".to_owned());
+            self.examine("load", &law.name, missing, &[], &mut names)?;
         }
         for (k, point) in self.points.iter().enumerate() {
             let sound = point.radius >= 0.0 && point.radius.is_finite();
@@ -282,9 +299,7 @@ impl Model {
         names: &mut BTreeSet<String>,
     ) -> Result<(), ModelError> {
         let missing = markers.iter().any(|m| self.frame(m.part).is_none());
-        let numbers = |m: &Marker| {
-            m.frame.position.iter().chain(m.frame.rotation.iter().flatten()).all(|x| x.is_finite())
-        };
+        let numbers = |m: &Marker| m.frame.position.is_finite() && m.frame.rotation.is_finite();
         let fault = fault
             .or_else(|| missing.then(|| "is on a body or a node that is not in the model".to_owned()))
             .or_else(|| (!markers.iter().all(numbers)).then(|| "has a marker that is not finite".to_owned()))

@@ -10,11 +10,9 @@
 //! it leaves them; φ′ is continuous where elements meet. Beyond an end of the beam, the end is nearest. Nothing is kept from state
 //! to state: the point depends on the configuration alone.
 
-use super::body::three;
-use super::rotation::{Vector, times};
 use super::slender::{Beam, ELEMENT_COORDINATES, ELEMENT_VELOCITIES, combined, hermite};
 use crate::contact::Obstacle;
-use crate::linalg::vector::inner;
+use crate::linalg::Vec3;
 
 /// Most iterations: bisection of half an element down to rounding.
 const ITERATIONS: usize = 60;
@@ -28,24 +26,24 @@ pub(super) struct Nearest {
     /// Whether it is between the ends of the beam.
     pub inside: bool,
     /// The nodes and the middles of elements.
-    samples: Vec<Vector>,
+    samples: Vec<Vec3>,
 }
 
 /// r₁, r′₁, r₂, r′₂ of an element, or their rates, whose nodes have `stride` entries in `x`.
-fn ends(x: &[f64], stride: usize, element: usize) -> [Vector; 4] {
+fn ends(x: &[f64], stride: usize, element: usize) -> [Vec3; 4] {
     let (first, second) = (stride * element, stride * (element + 1));
-    [first, first + 3, second, second + 3].map(|at| three(x, at))
+    [first, first + 3, second, second + 3].map(|at| Vec3::at(x, at))
 }
 
 /// r, r′ and r″ at the place z of an element of the length h \[m\], by its coordinates.
-fn curve(q: &[f64], element: usize, z: f64, h: f64) -> [Vector; 3] {
+fn curve(q: &[f64], element: usize, z: f64, h: f64) -> [Vec3; 3] {
     hermite(z, h).map(|n| combined(&n, &ends(q, ELEMENT_COORDINATES, element)))
 }
 
 impl Nearest {
     /// With memory for the samples of a beam.
     pub fn of(beam: &Beam) -> Nearest {
-        Nearest { samples: vec![[0.0; 3]; 2 * beam.elements().len() + 1], ..Nearest::default() }
+        Nearest { samples: vec![Vec3::ZERO; 2 * beam.elements().len() + 1], ..Nearest::default() }
     }
 
     /// Finds the point of `beam` with the coordinates `q`.
@@ -65,9 +63,9 @@ impl Nearest {
             let h = elements[self.element].length();
             let [r, slope, bend] = curve(q, self.element, self.place, h);
             let surface = obstacle.surface(r, t);
-            let gradient = inner(surface.normal, slope);
-            let across = [0, 1].map(|i| surface.curvatures[i] * inner(surface.tangents[i], slope).powi(2));
-            let second = inner(surface.normal, bend) + across[0] + across[1];
+            let gradient = surface.normal.dot(slope);
+            let across = [0, 1].map(|i| surface.curvatures[i] * surface.tangents[i].dot(slope).powi(2));
+            let second = surface.normal.dot(bend) + across[0] + across[1];
             self.inside = second > 0.0 && at > 0.0 && at < count as f64;
             *(if gradient > 0.0 { &mut high } else { &mut low }) = at;
             let newton = at - gradient / (second * h);
@@ -80,24 +78,23 @@ impl Nearest {
     }
 
     /// Hands the numbers of the velocities ṙ₁, ṙ′₁, ṙ₂, ṙ′₂ in those of the beam to `visit`, each with N, N′ and its direction.
-    pub fn unknowns(&self, beam: &Beam, mut visit: impl FnMut(usize, Vector, Vector)) {
+    pub fn unknowns(&self, beam: &Beam, mut visit: impl FnMut(usize, Vec3, Vec3)) {
         let [value, slope, _] = hermite(self.place, beam.elements()[self.element].length());
         for i in 0..4 {
             let first = ELEMENT_VELOCITIES * (self.element + i / 2) + 3 * (i % 2);
-            for k in 0..3 {
-                let axis = std::array::from_fn(|l| f64::from(u8::from(k == l)));
-                visit(first + k, times(value[i], axis), times(slope[i], axis));
+            for (k, axis) in Vec3::AXES.into_iter().enumerate() {
+                visit(first + k, value[i] * axis, slope[i] * axis);
             }
         }
     }
 
     /// r, r′, r″ there by the coordinates of the beam.
-    pub fn shape(&self, beam: &Beam, q: &[f64]) -> [Vector; 3] {
+    pub fn shape(&self, beam: &Beam, q: &[f64]) -> [Vec3; 3] {
         curve(q, self.element, self.place, beam.elements()[self.element].length())
     }
 
     /// The rates of r and r′ by those of the coordinates.
-    pub fn rates(&self, beam: &Beam, v: &[f64]) -> [Vector; 2] {
+    pub fn rates(&self, beam: &Beam, v: &[f64]) -> [Vec3; 2] {
         let [value, slope, _] = hermite(self.place, beam.elements()[self.element].length());
         [value, slope].map(|n| combined(&n, &ends(v, ELEMENT_VELOCITIES, self.element)))
     }

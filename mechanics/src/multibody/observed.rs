@@ -1,14 +1,14 @@
 //! Energies, power and recorded quantities.
 
+use super::constants::nearest_turn;
 use super::force::Interaction;
 use super::joint::Drive;
 use super::reason;
-use super::rotation::{Vector, apply, plus, quaternion, times};
 use super::row::Row;
 use super::system::Multibody;
-use crate::linalg::vector::{cross, inner};
+use crate::linalg::Vec3;
 use crate::profile::HubKinematics;
-use crate::system::{Channel, Direction, Energy, Frame, Observed, Power, State};
+use crate::system::{Direction, Energy, Frame, Observed, Power, Sink, State};
 
 /// Size of a row that was left out, over the length of the system, at which it no longer follows from the others; and over the
 /// largest of the rows that are kept.
@@ -18,38 +18,38 @@ const LEAST_STRETCH: f64 = 0.05;
 
 impl Multibody {
     /// Momentum and angular momentum about the origin of all bodies and beams, inertial axes [kg·m/s, kg·m²/s].
-    pub fn momenta(&mut self, s: &State) -> [Vector; 2] {
+    pub fn momenta(&mut self, s: &State) -> [Vec3; 2] {
         self.place(s);
         let constants = &self.constants;
-        let mut sums = [[0.0; 3]; 2];
+        let mut sums = [Vec3::ZERO; 2];
         for (body, &place) in constants.model.bodies.iter().zip(&constants.place) {
             let placed = &self.placed[place];
-            let linear = times(body.mass, placed.velocity);
-            let own = apply(&placed.rotation, apply(&body.inertia, placed.spin));
-            sums[0] = plus(sums[0], 1.0, linear);
-            sums[1] = plus(plus(sums[1], 1.0, own), 1.0, cross(placed.position, linear));
+            let linear = body.mass * placed.velocity;
+            let own = placed.rotation * (body.inertia * placed.spin);
+            sums[0] += linear;
+            sums[1] = sums[1] + own + placed.position.cross(linear);
         }
         for (of, &[i, j]) in constants.model.beams.iter().zip(&constants.beams) {
             let [linear, angular] = of.beam.momenta(&s.q[i..], &s.v[j..]);
-            sums = [plus(sums[0], 1.0, linear), plus(sums[1], 1.0, angular)];
+            sums = [sums[0] + linear, sums[1] + angular];
         }
         sums
     }
 
     /// Energies at a state for which bodies and markers are placed.
-    fn energies(&self, s: &State) -> Energy {
+    pub(super) fn energies(&self, s: &State) -> Energy {
         let constants = &*self.constants;
         let mut energy = Energy::default();
         for (body, &place) in constants.model.bodies.iter().zip(&constants.place) {
             let placed = &self.placed[place];
-            let spin = inner(placed.spin, apply(&body.inertia, placed.spin));
-            energy.kinetic += 0.5 * (body.mass * inner(placed.velocity, placed.velocity) + spin);
-            energy.gravity -= self.part * body.mass * inner(constants.model.gravity, placed.position);
+            let spin = placed.spin.dot(body.inertia * placed.spin);
+            energy.kinetic += 0.5 * (body.mass * placed.velocity.dot(placed.velocity) + spin);
+            energy.gravity -= self.part * body.mass * constants.model.gravity.dot(placed.position);
         }
         for (of, &[i, j]) in constants.model.beams.iter().zip(&constants.beams) {
             energy.kinetic += of.beam.kinetic_energy(&s.q[i..], &s.v[j..]);
             energy.strain += of.beam.strain_energy(&s.q[i..]);
-            energy.gravity -= self.part * inner(constants.model.gravity, of.beam.first_moment(&s.q[i..]));
+            energy.gravity -= self.part * constants.model.gravity.dot(of.beam.first_moment(&s.q[i..]));
         }
         for (k, spring) in constants.model.springs.iter().enumerate() {
             let (a, b) = self.spring_ends(k);
@@ -66,10 +66,13 @@ impl Multibody {
     }
 
     /// Coordinate of joint `k` and its rate.
-    fn coordinate(&self, s: &State, k: usize) -> Option<(f64, f64)> {
+    pub(super) fn coordinate(&self, s: &State, k: usize) -> Option<(f64, f64)> {
         let coordinate = self.constants.coordinates[k]?;
         let (a, b) = self.ends(k);
-        let motion = coordinate.motion(a, b, self.constants.angle[k].map(|i| s.q[i]));
+        // A prescribed angle says its turn by itself.
+        let prescribed = matches!(self.constants.model.joints[k].drive, Drive::Prescribed(_));
+        let turn = |angle: f64| if prescribed { nearest_turn(angle, self.motions[k].angle) } else { angle };
+        let motion = coordinate.motion(a, b, self.constants.angle[k].map(|i| turn(s.q[i])));
         Some((motion.position, motion.rate))
     }
 
@@ -81,14 +84,23 @@ impl Multibody {
         })
     }
 
-    fn powers(&self, s: &State) -> Power {
+    fn powers(&mut self, s: &State) -> Power {
+        let mut power = Power::default();
+        for (law, sampled) in self.constants.model.line_laws.iter().zip(&mut self.sampled) {
+            let [i, j] = self.constants.beams[law.beam];
+            let of_law = self.part * sampled.power(law.law.as_ref(), s.time(), [&s.q[i..], &s.v[j..]]);
+            if law.law.dissipates() {
+                power.dissipated -= of_law;
+            } else {
+                power.loads += of_law;
+            }
+        }
         let constants = &*self.constants;
         let model = &constants.model;
-        let mut power = Power::default();
         for (body, &place) in model.bodies.iter().zip(&constants.place) {
             let placed = &self.placed[place];
-            let spin = inner(placed.spin, apply(&body.inertia, placed.spin));
-            power.dissipated += body.damping * (body.mass * inner(placed.velocity, placed.velocity) + spin);
+            let spin = placed.spin.dot(body.inertia * placed.spin);
+            power.dissipated += body.damping * (body.mass * placed.velocity.dot(placed.velocity) + spin);
         }
         for (of, &[i, j]) in model.beams.iter().zip(&constants.beams) {
             // −β M v does the power −2 β T.
@@ -97,10 +109,10 @@ impl Multibody {
                 power.dissipated += of.beam.viscous_power(&s.q[i..], &s.v[j..]);
             }
         }
-        for load in &model.line_loads {
+        for (load, on) in model.line_loads.iter().zip(&constants.lines) {
             let [i, j] = constants.beams[load.beam];
             let (beam, force) = (&model.beams[load.beam].beam, load.at(s.time(), self.part));
-            power.loads += beam.line_power(load.on(beam), &s.q[i..], &s.v[j..], force, load.follows());
+            power.loads += beam.line_power(on, &s.q[i..], &s.v[j..], force, load.follows());
         }
         for (i, (joint, row)) in constants.rows.iter().enumerate() {
             let (a, b) = self.ends(*joint);
@@ -122,7 +134,7 @@ impl Multibody {
             work.clear(false);
             let b = self.load_end(k);
             load.interact(b, (s.time(), self.part), &mut work);
-            power.loads += inner(work.wrench[2], b.velocity) + inner(work.wrench[3], b.spin);
+            power.loads += work.wrench[2].dot(b.velocity) + work.wrench[3].dot(b.spin);
         }
         power
     }
@@ -170,77 +182,8 @@ impl Observed for Multibody {
         self.shares_about(s, None, [x, mx], add);
     }
 
-    fn channels(&self) -> &[Channel] {
-        &self.constants.channels
-    }
-
-    fn record(&mut self, s: &State, out: &mut [f64]) {
-        let momenta = self.momenta(s);
-        let constants = &*self.constants;
-        let mut at = 0;
-        let mut put = |values: &[f64]| {
-            for x in values {
-                if let Some(out) = out.get_mut(at) {
-                    *out = *x;
-                }
-                at += 1;
-            }
-        };
-        for (body, &place) in constants.model.bodies.iter().zip(&constants.place) {
-            let placed = &self.placed[place];
-            let spin = apply(&placed.rotation, placed.spin);
-            let arm = apply(&placed.rotation, body.centre);
-            put(&placed.frame(body.centre).position);
-            put(&plus(placed.velocity, -1.0, cross(spin, arm)));
-            put(&spin);
-            put(&quaternion(&placed.rotation));
-        }
-        for (of, &[i, j]) in constants.model.beams.iter().zip(&constants.beams) {
-            let (q, v) = (&s.q[i..], &s.v[j..]);
-            for &station in &of.stations {
-                let (frame, start) = (of.frame(q, station), of.frame(of.beam.initial(), station));
-                put(&frame.position);
-                put(&plus(frame.position, -1.0, start.position));
-                put(&of.velocity(v, station));
-                put(&quaternion(&frame.rotation));
-                let [strains, forces] = of.strains_and_forces(q, station);
-                put(&forces);
-                put(&strains);
-            }
-            for fibre in &of.fibres {
-                put(&[of.fibre_strain(q, fibre)]);
-            }
-        }
-        let mut work = Interaction::new();
-        for (k, joint) in constants.model.joints.iter().enumerate() {
-            self.interact_joint(s, k, false, &mut work);
-            put(&work.wrench[2]);
-            put(&work.wrench[3]);
-            if let Some((position, rate)) = self.coordinate(s, k) {
-                put(&[position, rate]);
-                match &joint.drive {
-                    Drive::None => {}
-                    // The prescribed motion is the last row.
-                    Drive::Prescribed(_) => {
-                        let last = constants.of_joint[k].clone().next_back();
-                        let driving = last.filter(|i| constants.rows[*i].1.is_prescribed());
-                        put(&[driving.map_or(0.0, |i| s.lambda[i])]);
-                    }
-                    Drive::Actuated(actuator) => {
-                        let motion = HubKinematics { angle: position, speed: rate, acceleration: 0.0 };
-                        put(&[actuator.torque(&motion, s.time()).value]);
-                    }
-                }
-            }
-        }
-        for (k, spring) in constants.model.springs.iter().enumerate() {
-            let (a, b) = self.spring_ends(k);
-            put(&spring.length_and_force(a, b));
-        }
-        put(&momenta[0]);
-        put(&momenta[1]);
-        let energy = self.energies(s);
-        put(&[energy.kinetic, energy.strain, energy.gravity]);
+    fn observe(&mut self, s: &State, sink: &mut Sink<'_>) {
+        self.put(s, sink);
     }
 
     fn admissible(&mut self, s: &State) -> Result<(), String> {
@@ -255,6 +198,21 @@ impl Observed for Multibody {
                         of.name
                     ));
                 }
+            }
+        }
+        // The row g = sin(θ − θ(t)) is zero half a turn away too.
+        for (k, joint) in self.constants.model.joints.iter().enumerate() {
+            let (a, b) = self.ends(k);
+            let motion = &self.motions[k];
+            let (sin, cos) = libm::sincos(motion.angle);
+            let along = (cos * a.axis(0) + sin * a.axis(1)).dot(b.axis(0));
+            let drives = matches!(joint.drive, Drive::Prescribed(_)) && self.constants.angle[k].is_some();
+            if drives && along < 0.0 {
+                return Err(format!(
+                    "joint `{}` is half a turn away from its prescribed angle {:.4} rad: the step is too large for what the angle \
+                     changes in it; take a smaller step",
+                    joint.name, motion.angle
+                ));
             }
         }
         let unit = |row: Row| if row.is_length() { self.constants.scales[0] } else { 1.0 };
@@ -287,6 +245,8 @@ impl Observed for Multibody {
     }
 
     fn cautions(&self, _peaks: &[f64]) -> Vec<String> {
-        self.changes.iter().cloned().chain(reason::without_inertia(&self.constants)).collect()
+        let parts = reason::without_inertia(&self.constants).into_iter();
+        let parts = parts.chain(reason::not_held(&self.constants.model));
+        self.changes.iter().cloned().chain(parts).collect()
     }
 }

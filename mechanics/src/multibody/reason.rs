@@ -1,7 +1,9 @@
-//! What makes a run fail: bodies almost without inertia, loops close to a singular configuration.
+//! What makes a run fail or go astray: bodies almost without inertia, parts that nothing holds, loops close to a singular configuration.
 
 use super::consistency::rows;
 use super::constants::Constants;
+use super::marker::Part;
+use super::model::Model;
 use super::system::Multibody;
 use crate::linalg::vector::{axpy, dot};
 use crate::system::{Dynamics, State};
@@ -35,6 +37,43 @@ pub(super) fn without_inertia(constants: &Constants) -> Option<String> {
                  and any moment turns it at once: {cure}"
             )
         })
+    })
+}
+
+/// Parts that no chain of joints and springs leads to the ground from, and that touch nothing: in a model in which others are held, one was
+/// perhaps forgotten.
+pub(super) fn not_held(model: &Model) -> Option<String> {
+    let bodies = model.bodies.len();
+    let number = |part: Part| match part {
+        Part::Ground => 0,
+        Part::Body(i) => 1 + i,
+        Part::Section { beam, .. } => 1 + bodies + beam,
+    };
+    let joints = model.joints.iter().map(|joint| [joint.from.part, joint.to.part]);
+    let springs = model.springs.iter().map(|spring| [spring.from.part, spring.to.part]);
+    let links: Vec<[usize; 2]> = joints.chain(springs).map(|ends| ends.map(number)).collect();
+    let mut held = vec![false; 1 + bodies + model.beams.len()];
+    held[0] = true;
+    model.points.iter().for_each(|point| held[number(point.at.part)] = true);
+    while let Some(link) = links.iter().find(|[a, b]| held[*a] != held[*b]) {
+        link.iter().for_each(|i| held[*i] = true);
+    }
+    let bodies = model.bodies.iter().map(|body| ("body", &body.name));
+    let parts = bodies.chain(model.beams.iter().map(|beam| ("beam", &beam.name)));
+    let free: Vec<String> = parts
+        .zip(&held[1..])
+        .filter(|(_, held)| !**held)
+        .map(|((kind, name), _)| format!("{kind} `{name}`"))
+        .collect();
+    let all = held.len() - 1;
+    (!free.is_empty() && free.len() < all).then(|| {
+        let (is, it) = if free.len() == 1 { ("is", "it moves") } else { ("are", "they move") };
+        format!(
+            "{} {is} held by no joint or spring: {it} freely; name {} in the `between` of a joint to hold {}",
+            free.join(", "),
+            if free.len() == 1 { "it" } else { "them" },
+            if free.len() == 1 { "it" } else { "them" }
+        )
     })
 }
 

@@ -20,13 +20,11 @@
 
 use super::axis::Axis;
 use super::force::Axes;
-use super::rotation::{Vector, apply_transposed, plus, product, skew, times};
 use super::slender::{ELEMENT_COORDINATES, ELEMENT_VELOCITIES, Triad};
 use super::system::Multibody;
-use crate::linalg::vector::{cross, inner};
-use crate::linalg::{Matrix, Structure};
+use crate::linalg::{Mat3, Matrix, Structure, Vec3};
 use crate::system::{
-    Channel, Direction, Dynamics, Energy, Events, Frame, NotSet, Observed, Parameter, RowWeights, Set, Size,
+    Direction, Dynamics, Energy, Events, Frame, NotSet, Observed, Parameter, RowWeights, Set, Sink, Size,
     State, Steady, VisitRow, Weights,
 };
 
@@ -55,9 +53,16 @@ impl Rotating {
         &mut self.inner
     }
 
+    /// The state in inertial axes, which are those of the frame at this instant: the configuration `s` with the velocities and
+    /// accelerations of the rotation added. A [`Multibody`] that begins with it goes on as the frame sees `s`, with drives that hold the speed.
+    pub fn in_space(&mut self, s: &State) -> State {
+        self.place(s);
+        self.inertial(s)
+    }
+
     /// A load that the frame would see rotate.
     fn unsteady(&self) -> Option<String> {
-        let across = |x: Vector| inner_length(cross(self.axis.direction, x)) > ACROSS * inner_length(x);
+        let across = |x: Vec3| self.axis.direction.cross(x).norm() > ACROSS * x.norm();
         let model = &self.inner.constants.model;
         let fixed = model.loads.iter().filter(|load| load.axes == Axes::Dead);
         let load = fixed.filter(|load| across(load.force) || across(load.moment)).map(|load| &load.name);
@@ -65,6 +70,7 @@ impl Rotating {
         let named = load.chain(lines.map(|load| &load.name)).next();
         let what = match named {
             Some(name) => format!("the load `{name}`"),
+            None if model.line_laws.iter().any(|of| !of.law.is_isotropic()) => "a force law".to_owned(),
             None if across(model.gravity) => "gravity".to_owned(),
             None => return None,
         };
@@ -78,10 +84,10 @@ impl Rotating {
     fn inertial(&self, s: &State) -> State {
         let mut out = s.clone();
         let (e, speed) = (self.axis.direction, self.speed);
-        let point = |out: &mut State, q: usize, v: usize, from: Vector| {
-            let (x, rate) = (plus(three(&s.q, q), -1.0, from), three(&s.v, v));
-            let carried = times(speed, cross(e, x));
-            let change = plus(times(2.0, cross(e, rate)), 1.0, cross(e, carried));
+        let point = |out: &mut State, q: usize, v: usize, from: Vec3| {
+            let (x, rate) = (Vec3::at(&s.q, q) - from, Vec3::at(&s.v, v));
+            let carried = speed * e.cross(x);
+            let change = 2.0 * e.cross(rate) + e.cross(carried);
             for k in 0..3 {
                 out.v[v + k] += carried[k];
                 out.a[v + k] += speed * change[k];
@@ -90,7 +96,7 @@ impl Rotating {
         for (i, placed) in self.inner.placed.iter().enumerate() {
             point(&mut out, 7 * i, 6 * i, self.axis.point);
             let own = self.own_axis(&placed.rotation);
-            let change = cross(own, three(&s.v, 6 * i + 3));
+            let change = own.cross(Vec3::at(&s.v, 6 * i + 3));
             for k in 0..3 {
                 out.v[6 * i + 3 + k] += speed * own[k];
                 out.a[6 * i + 3 + k] += speed * change[k];
@@ -98,20 +104,20 @@ impl Rotating {
         }
         self.nodes(|q, v| {
             point(&mut out, q, v, self.axis.point);
-            point(&mut out, q + 3, v + 3, [0.0; 3]);
+            point(&mut out, q + 3, v + 3, Vec3::ZERO);
         });
         self.sections(s, |unknown, triad, slope_of| {
             let along = across_tangent(e, &triad);
-            let rate: Vector = slope_of.iter().fold([0.0; 3], |sum, (c, v)| plus(sum, *c, three(&s.v, *v)));
-            out.v[unknown] += speed * inner(e, triad.tangent);
-            out.a[unknown] += speed * inner(along, rate);
+            let rate: Vec3 = slope_of.iter().fold(Vec3::ZERO, |sum, (c, v)| sum + *c * Vec3::at(&s.v, *v));
+            out.v[unknown] += speed * e.dot(triad.tangent);
+            out.a[unknown] += speed * along.dot(rate);
         });
         out
     }
 
     /// Rᵀe
-    fn own_axis(&self, rotation: &[[f64; 3]; 3]) -> Vector {
-        apply_transposed(rotation, self.axis.direction)
+    fn own_axis(&self, rotation: &Mat3) -> Vec3 {
+        rotation.transpose() * self.axis.direction
     }
 
     /// Calls `visit` with the first coordinate and the first velocity of every node.
@@ -130,28 +136,28 @@ impl Rotating {
         for (of, &[first_q, first_v]) in constants.model.beams.iter().zip(&constants.beams) {
             for node in 0..of.beam.nodes().len() {
                 let (q, v) = (first_q + ELEMENT_COORDINATES * node, first_v + ELEMENT_VELOCITIES * node);
-                let triad = Triad::new(three(&s.q, q + 3), three(&s.q, q + 6));
+                let triad = Triad::new(Vec3::at(&s.q, q + 3), Vec3::at(&s.q, q + 6));
                 visit(v + 6, triad, &[(1.0, v + 3)]);
                 let Some(element) = of.beam.elements().get(node) else { continue };
                 // The slope in the middle is linear in r and r′ of both nodes.
                 let numbers = [v, v + 3, v + ELEMENT_VELOCITIES, v + ELEMENT_VELOCITIES + 3];
                 let factor = |k: usize| {
-                    let mut unit = [[0.0; 3]; 4];
+                    let mut unit = [Vec3::ZERO; 4];
                     unit[k][0] = 1.0;
                     element.middle_slope(&unit)[0]
                 };
                 let slope_of = [0, 1, 2, 3].map(|k| (factor(k), numbers[k]));
                 let places = [q, q + 3, q + ELEMENT_COORDINATES, q + ELEMENT_COORDINATES + 3];
-                let slope = element.middle_slope(&places.map(|place| three(&s.q, place)));
-                visit(v + 7, Triad::new(slope, three(&s.q, q + 9)), &slope_of);
+                let slope = element.middle_slope(&places.map(|place| Vec3::at(&s.q, place)));
+                visit(v + 7, Triad::new(slope, Vec3::at(&s.q, q + 9)), &slope_of);
             }
         }
     }
 
     /// The derivatives of v and a at rest in the frame.
     fn derivatives(&self, s: &State) -> Vec<Row> {
-        let (speed, turn) = (self.speed, skew(self.axis.direction));
-        let twice = product(&turn, &turn);
+        let (speed, turn) = (self.speed, Mat3::skew(self.axis.direction));
+        let twice = turn * turn;
         let mut rows: Vec<Row> = Vec::with_capacity(s.v.len());
         let point = |rows: &mut Vec<Row>, v: usize| {
             for i in 0..3 {
@@ -162,7 +168,7 @@ impl Rotating {
         };
         for (k, placed) in self.inner.placed.iter().enumerate() {
             point(&mut rows, 6 * k);
-            let own = skew(times(speed, self.own_axis(&placed.rotation)));
+            let own = Mat3::skew(speed * self.own_axis(&placed.rotation));
             for i in 0..3 {
                 let entry = |j: usize| (6 * k + 3 + j, [own[i][j], 0.0, own[i][j]]);
                 rows.push((6 * k + 3 + i, (0..3).map(entry).collect()));
@@ -173,7 +179,7 @@ impl Rotating {
             point(&mut rows, v + 3);
         });
         self.sections(s, |unknown, triad, slope_of| {
-            let along = times(speed, across_tangent(self.axis.direction, &triad));
+            let along = speed * across_tangent(self.axis.direction, &triad);
             let entries = slope_of
                 .iter()
                 .flat_map(|(c, v)| (0..3).map(move |k| (v + k, [c * along[k], 0.0, c * along[k]])));
@@ -188,17 +194,9 @@ impl Rotating {
     }
 }
 
-fn inner_length(x: Vector) -> f64 {
-    inner(x, x).sqrt()
-}
-
-fn three(x: &[f64], i: usize) -> Vector {
-    [x[i], x[i + 1], x[i + 2]]
-}
-
 /// (e − (e·t) t)/|r′|: e·δt for a change δr′ of the slope.
-fn across_tangent(e: Vector, triad: &Triad) -> Vector {
-    times(1.0 / triad.length, plus(e, -inner(e, triad.tangent), triad.tangent))
+fn across_tangent(e: Vec3, triad: &Triad) -> Vec3 {
+    1.0 / triad.length * e.across(triad.tangent)
 }
 
 impl Dynamics for Rotating {
@@ -318,12 +316,8 @@ impl Observed for Rotating {
         self.inner.frames(body, s, stations, out);
     }
 
-    fn channels(&self) -> &[Channel] {
-        self.inner.channels()
-    }
-
-    fn record(&mut self, s: &State, out: &mut [f64]) {
-        self.inner.record(s, out);
+    fn observe(&mut self, s: &State, sink: &mut Sink<'_>) {
+        self.inner.observe(s, sink);
     }
 
     fn drawn(&self) -> usize {

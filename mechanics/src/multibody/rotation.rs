@@ -8,134 +8,111 @@
 //! T(d)⁻¹ = I + ½ d̃ + (1 − (a/2) cot(a/2))/a² d̃²
 //! ```
 
-use crate::linalg::vector::{cross, inner};
+use crate::linalg::vector::inner;
+use crate::linalg::{Mat3, Vec3};
+use std::ops::Mul;
 
-/// Components of a vector.
-pub type Vector = [f64; 3];
-
-/// A matrix by rows; as a rotation its columns are the rotated axes.
-pub type Matrix3 = [[f64; 3]; 3];
-
-/// A unit quaternion (w, x, y, z).
-pub type Quaternion = [f64; 4];
-
-/// The identity.
-pub const IDENTITY: Matrix3 = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+/// A unit quaternion (w, x, y, z). The product p q is the rotation q after p, both in rotated axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quaternion(pub [f64; 4]);
 
 /// Below this square of an angle the quotients are taken from their series.
 const SMALL: f64 = 1e-6;
 
-/// x + c y
-#[inline(always)]
-pub fn plus(x: Vector, c: f64, y: Vector) -> Vector {
-    [x[0] + c * y[0], x[1] + c * y[1], x[2] + c * y[2]]
+impl Mul for Quaternion {
+    type Output = Quaternion;
+
+    fn mul(self, Quaternion(q): Quaternion) -> Quaternion {
+        let p = self.0;
+        Quaternion([
+            p[0] * q[0] - p[1] * q[1] - p[2] * q[2] - p[3] * q[3],
+            p[0] * q[1] + p[1] * q[0] + p[2] * q[3] - p[3] * q[2],
+            p[0] * q[2] - p[1] * q[3] + p[2] * q[0] + p[3] * q[1],
+            p[0] * q[3] + p[1] * q[2] - p[2] * q[1] + p[3] * q[0],
+        ])
+    }
 }
 
-/// c x
-#[inline(always)]
-pub fn times(c: f64, x: Vector) -> Vector {
-    x.map(|x| c * x)
-}
+impl Quaternion {
+    /// The four entries of `x` from `i` on.
+    #[inline(always)]
+    pub fn at(x: &[f64], i: usize) -> Quaternion {
+        Quaternion([x[i], x[i + 1], x[i + 2], x[i + 3]])
+    }
 
-/// A x
-#[inline(always)]
-pub fn apply(a: &Matrix3, x: Vector) -> Vector {
-    a.map(|row| inner(row, x))
-}
+    /// The quaternion of unit length in the same direction.
+    pub fn normalized(self) -> Quaternion {
+        let size = inner(self.0, self.0).sqrt();
+        Quaternion(self.0.map(|x| x / size))
+    }
 
-/// Aᵀ x
-#[inline(always)]
-pub fn apply_transposed(a: &Matrix3, x: Vector) -> Vector {
-    [0, 1, 2].map(|j| a[0][j] * x[0] + a[1][j] * x[1] + a[2][j] * x[2])
-}
+    /// The inverse rotation.
+    pub fn inverse(self) -> Quaternion {
+        let [w, x, y, z] = self.0;
+        Quaternion([w, -x, -y, -z])
+    }
 
-/// A B
-#[inline(always)]
-pub fn product(a: &Matrix3, b: &Matrix3) -> Matrix3 {
-    a.map(|row| apply_transposed(b, row))
-}
+    /// R(q).
+    pub fn matrix(self) -> Mat3 {
+        let [w, x, y, z] = self.0;
+        let (xx, yy, zz, xy, xz, yz) = (x * x, y * y, z * z, x * y, x * z, y * z);
+        let (wx, wy, wz) = (w * x, w * y, w * z);
+        Mat3([
+            [1.0 - 2.0 * (yy + zz), 2.0 * (xy - wz), 2.0 * (xz + wy)],
+            [2.0 * (xy + wz), 1.0 - 2.0 * (xx + zz), 2.0 * (yz - wx)],
+            [2.0 * (xz - wy), 2.0 * (yz + wx), 1.0 - 2.0 * (xx + yy)],
+        ])
+    }
 
-/// Column j, the axis j of a rotation.
-#[inline(always)]
-pub fn column(a: &Matrix3, j: usize) -> Vector {
-    [a[0][j], a[1][j], a[2][j]]
-}
+    /// exp(d)
+    pub fn exponential(d: Vec3) -> Quaternion {
+        let square = d.dot(d);
+        let half = 0.5 * square.sqrt();
+        let part = if square > SMALL { 0.5 * libm::sin(half) / half } else { 0.5 - square / 48.0 };
+        Quaternion([libm::cos(half), part * d[0], part * d[1], part * d[2]])
+    }
 
-/// x̃, the matrix of x ×.
-#[inline(always)]
-pub fn skew(x: Vector) -> Matrix3 {
-    [[0.0, -x[2], x[1]], [x[2], 0.0, -x[0]], [-x[1], x[0], 0.0]]
-}
-
-/// The quaternion of the rotation `q` after that of `p`, both in rotated axes: p q.
-pub fn compose(p: Quaternion, q: Quaternion) -> Quaternion {
-    [
-        p[0] * q[0] - p[1] * q[1] - p[2] * q[2] - p[3] * q[3],
-        p[0] * q[1] + p[1] * q[0] + p[2] * q[3] - p[3] * q[2],
-        p[0] * q[2] - p[1] * q[3] + p[2] * q[0] + p[3] * q[1],
-        p[0] * q[3] + p[1] * q[2] - p[2] * q[1] + p[3] * q[0],
-    ]
-}
-
-/// The quaternion of unit length in the direction of `q`.
-pub fn normalized(q: Quaternion) -> Quaternion {
-    let size = inner(q, q).sqrt();
-    q.map(|x| x / size)
-}
-
-/// The inverse of a unit quaternion.
-pub fn inverse(q: Quaternion) -> Quaternion {
-    [q[0], -q[1], -q[2], -q[3]]
-}
-
-/// R(q).
-pub fn matrix(q: Quaternion) -> Matrix3 {
-    let [w, x, y, z] = q;
-    let (xx, yy, zz, xy, xz, yz) = (x * x, y * y, z * z, x * y, x * z, y * z);
-    let (wx, wy, wz) = (w * x, w * y, w * z);
-    [
-        [1.0 - 2.0 * (yy + zz), 2.0 * (xy - wz), 2.0 * (xz + wy)],
-        [2.0 * (xy + wz), 1.0 - 2.0 * (xx + zz), 2.0 * (yz - wx)],
-        [2.0 * (xz - wy), 2.0 * (yz + wx), 1.0 - 2.0 * (xx + yy)],
-    ]
+    /// The rotation vector, of an angle up to π.
+    pub fn logarithm(self) -> Vec3 {
+        let [w, x, y, z] = if self.0[0] < 0.0 { self.0.map(|x| -x) } else { self.0 };
+        let axis = Vec3([x, y, z]);
+        let sine = axis.norm();
+        let part = if sine > 1e-8 { 2.0 * libm::atan2(sine, w) / sine } else { 2.0 };
+        part * axis
+    }
 }
 
 /// The quaternion of a rotation matrix, from its largest component (Shepperd 1978, doi 10.2514/3.55767b).
-pub fn quaternion(r: &Matrix3) -> Quaternion {
-    let trace = r[0][0] + r[1][1] + r[2][2];
-    let squares =
-        [1.0 + trace, 1.0 + 2.0 * r[0][0] - trace, 1.0 + 2.0 * r[1][1] - trace, 1.0 + 2.0 * r[2][2] - trace];
-    let largest = (0..4).fold(0, |best, i| if squares[i] > squares[best] { i } else { best });
-    let (w, x, y, z) = (r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1], squares[largest]);
-    let (xy, xz, yz) = (r[0][1] + r[1][0], r[0][2] + r[2][0], r[1][2] + r[2][1]);
-    normalized(match largest {
-        0 => [z, w, x, y],
-        1 => [w, z, xy, xz],
-        2 => [x, xy, z, yz],
-        _ => [y, xz, yz, z],
-    })
+impl From<Mat3> for Quaternion {
+    fn from(Mat3(r): Mat3) -> Quaternion {
+        let trace = r[0][0] + r[1][1] + r[2][2];
+        let squares = [
+            1.0 + trace,
+            1.0 + 2.0 * r[0][0] - trace,
+            1.0 + 2.0 * r[1][1] - trace,
+            1.0 + 2.0 * r[2][2] - trace,
+        ];
+        let largest = (0..4).fold(0, |best, i| if squares[i] > squares[best] { i } else { best });
+        let (w, x, y, z) = (r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1], squares[largest]);
+        let (xy, xz, yz) = (r[0][1] + r[1][0], r[0][2] + r[2][0], r[1][2] + r[2][1]);
+        let q = match largest {
+            0 => [z, w, x, y],
+            1 => [w, z, xy, xz],
+            2 => [x, xy, z, yz],
+            _ => [y, xz, yz, z],
+        };
+        Quaternion(q).normalized()
+    }
 }
 
-/// exp(d)
-pub fn exponential(d: Vector) -> Quaternion {
-    let square = inner(d, d);
-    let half = 0.5 * square.sqrt();
-    let part = if square > SMALL { 0.5 * libm::sin(half) / half } else { 0.5 - square / 48.0 };
-    [libm::cos(half), part * d[0], part * d[1], part * d[2]]
-}
-
-/// The rotation vector of a unit quaternion, of an angle up to π.
-pub fn logarithm(q: Quaternion) -> Vector {
-    let q = if q[0] < 0.0 { q.map(|x| -x) } else { q };
-    let axis = [q[1], q[2], q[3]];
-    let sine = inner(axis, axis).sqrt();
-    let part = if sine > 1e-8 { 2.0 * libm::atan2(sine, q[0]) / sine } else { 2.0 };
-    times(part, axis)
+/// R(exp d), the rotation about d by the angle |d|.
+pub fn about(d: impl Into<Vec3>) -> Mat3 {
+    Quaternion::exponential(d.into()).matrix()
 }
 
 /// T(d)
-pub fn tangent(d: Vector) -> Matrix3 {
-    let square = inner(d, d);
+pub fn tangent(d: Vec3) -> Mat3 {
+    let square = d.dot(d);
     let (once, twice) = if square > SMALL {
         let a = square.sqrt();
         let half = libm::sin(0.5 * a);
@@ -143,72 +120,64 @@ pub fn tangent(d: Vector) -> Matrix3 {
     } else {
         (0.5 - square / 24.0, 1.0 / 6.0 - square / 120.0)
     };
-    let d = skew(d);
-    let dd = product(&d, &d);
-    let mut out = IDENTITY;
-    for i in 0..3 {
-        for j in 0..3 {
-            out[i][j] += twice * dd[i][j] - once * d[i][j];
-        }
-    }
-    out
+    let d = Mat3::skew(d);
+    Mat3::IDENTITY + (twice * (d * d) - once * d)
 }
 
 /// T(d)⁻¹ v
-pub fn rate(d: Vector, v: Vector) -> Vector {
-    let square = inner(d, d);
+pub fn rate(d: Vec3, v: Vec3) -> Vec3 {
+    let square = d.dot(d);
     let half = 0.5 * square.sqrt();
     let part =
         if square > SMALL { (1.0 - half / libm::tan(half)) / square } else { 1.0 / 12.0 + square / 720.0 };
-    let once = cross(d, v);
-    plus(plus(v, 0.5, once), part, cross(d, once))
+    let once = d.cross(v);
+    v + 0.5 * once + part * d.cross(once)
 }
 
 /// A rotation whose third axis is along `axis` and whose first lies in the plane of `axis` and `first`; without
 /// `first`, or where it is parallel, in that of the coordinate axis that is farthest from `axis`. `None` for an axis
 /// that has no direction.
-pub fn frame(axis: Vector, first: Option<Vector>) -> Option<Matrix3> {
-    let unit = |x: Vector| {
-        let size = inner(x, x).sqrt();
-        (size.is_finite() && size > 0.0).then(|| times(1.0 / size, x))
-    };
-    let z = unit(axis)?;
-    let across = |x: Vector| {
-        let along = inner(x, z);
-        let rest = plus(x, -along, z);
-        (inner(rest, rest) > 1e-12 * inner(x, x)).then_some(rest).and_then(unit)
+pub fn frame(axis: Vec3, first: Option<Vec3>) -> Option<Mat3> {
+    let z = axis.unit()?;
+    let across = |x: Vec3| {
+        let across = x.across(z);
+        (across.dot(across) > 1e-12 * x.dot(x)).then_some(across).and_then(Vec3::unit)
     };
     let farthest = (0..3).fold(0, |best, i| if z[i].abs() < z[best].abs() { i } else { best });
-    let x = first.and_then(across).or_else(|| across(IDENTITY[farthest]))?;
-    let y = cross(z, x);
-    Some([0, 1, 2].map(|i| [x[i], y[i], z[i]]))
+    let x = first.and_then(across).or_else(|| across(Vec3::AXES[farthest]))?;
+    Some(Mat3::columns([x, z.cross(x), z]))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const VECTORS: [Vector; 5] =
-        [[0.3, -0.7, 1.1], [2.0, 1.5, -1.2], [1e-4, 2e-4, -3e-4], [1e-9, 0.0, 0.0], [0.0, 3.1, 0.0]];
+    const VECTORS: [Vec3; 5] = [
+        Vec3([0.3, -0.7, 1.1]),
+        Vec3([2.0, 1.5, -1.2]),
+        Vec3([1e-4, 2e-4, -3e-4]),
+        Vec3([1e-9, 0.0, 0.0]),
+        Vec3([0.0, 3.1, 0.0]),
+    ];
 
-    fn close(a: Vector, b: Vector, allowed: f64) -> bool {
-        a.iter().zip(b).all(|(a, b)| (a - b).abs() < allowed)
+    fn close(a: Vec3, b: Vec3, allowed: f64) -> bool {
+        (a - b).0.iter().all(|x| x.abs() < allowed)
     }
 
     #[test]
     fn matrix_quaternion_and_vector_are_the_same_rotation() {
         for d in VECTORS {
-            let q = exponential(d);
-            let r = matrix(q);
-            let back = quaternion(&r);
-            assert!(close(logarithm(q), d, 1e-14), "{d:?}");
-            assert!(close(logarithm(back), d, 1e-13), "{d:?} {:?}", logarithm(back));
-            let identity = product(&r, &[0, 1, 2].map(|j| column(&r, j)));
+            let q = Quaternion::exponential(d);
+            let r = q.matrix();
+            let back = Quaternion::from(r);
+            assert!(close(q.logarithm(), d, 1e-14), "{d:?}");
+            assert!(close(back.logarithm(), d, 1e-13), "{d:?} {:?}", back.logarithm());
+            let identity = r * r.transpose();
             for i in 0..3 {
-                assert!(close(identity[i], IDENTITY[i], 1e-15));
+                assert!(close(identity.column(i), Vec3::AXES[i], 1e-15));
             }
             // The axis stays where it is.
-            assert!(close(apply(&r, d), d, 1e-14));
+            assert!(close(r * d, d, 1e-14));
         }
     }
 
@@ -219,29 +188,25 @@ mod tests {
             let t = tangent(d);
             for j in 0..3 {
                 let at = |h: f64| {
-                    let mut moved = d;
-                    moved[j] += h;
-                    logarithm(compose(inverse(exponential(d)), exponential(moved)))
+                    let moved = Quaternion::exponential(d + h * Vec3::AXES[j]);
+                    (Quaternion::exponential(d).inverse() * moved).logarithm()
                 };
                 let h = 1e-3;
-                let [far, near] = [2.0 * h, h].map(|h| plus(at(h), -1.0, at(-h)));
-                let difference = times(1.0 / (12.0 * h), plus(times(8.0, near), -1.0, far));
-                assert!(close(column(&t, j), difference, 1e-10), "{d:?} {j}");
-                assert!(close(rate(d, column(&t, j)), IDENTITY[j], 1e-13), "{d:?} {j}");
+                let [far, near] = [2.0 * h, h].map(|h| at(h) - at(-h));
+                let difference = 1.0 / (12.0 * h) * (8.0 * near - far);
+                assert!(close(t.column(j), difference, 1e-10), "{d:?} {j}");
+                assert!(close(rate(d, t.column(j)), Vec3::AXES[j], 1e-13), "{d:?} {j}");
             }
         }
     }
 
     #[test]
     fn a_frame_has_the_axis_asked_for() {
-        let r = frame([1.0, 2.0, -2.0], Some([1.0, 0.0, 0.0])).unwrap();
-        assert!(close(column(&r, 2), [1.0 / 3.0, 2.0 / 3.0, -2.0 / 3.0], 1e-15));
-        let determinant = inner(column(&r, 0), cross(column(&r, 1), column(&r, 2)));
-        assert!((determinant - 1.0).abs() < 1e-15 && column(&r, 0)[0] > 0.9);
-        assert!(frame([0.0; 3], None).is_none() && frame([f64::NAN, 0.0, 0.0], None).is_none());
-        assert_eq!(
-            frame([0.0, 0.0, 3.0], Some([0.0, 0.0, 1.0])).map(|r| column(&r, 2)),
-            Some([0.0, 0.0, 1.0])
-        );
+        let r = frame(Vec3([1.0, 2.0, -2.0]), Some(Vec3::AXES[0])).unwrap();
+        assert!(close(r.column(2), 1.0 / 3.0 * Vec3([1.0, 2.0, -2.0]), 1e-15));
+        let determinant = r.column(0).dot(r.column(1).cross(r.column(2)));
+        assert!((determinant - 1.0).abs() < 1e-15 && r.column(0)[0] > 0.9);
+        assert!(frame(Vec3::ZERO, None).is_none() && frame(Vec3([f64::NAN, 0.0, 0.0]), None).is_none());
+        assert_eq!(frame(3.0 * Vec3::AXES[2], Some(Vec3::AXES[2])).map(|r| r.column(2)), Some(Vec3::AXES[2]));
     }
 }

@@ -14,8 +14,7 @@
 //! ∂g/∂x_B, ∂g/∂θ_B). Prescribed angles and displacements give B the multiplier as torque or force in the positive direction.
 
 use super::marker::Pose;
-use super::rotation::{IDENTITY, Matrix3, Vector, plus, product, skew, times};
-use crate::linalg::vector::{cross, inner};
+use crate::linalg::{Mat3, Vec3};
 use crate::profile::HubKinematics;
 use crate::system::RowWeights;
 
@@ -35,14 +34,14 @@ pub(super) enum Row {
 }
 
 /// A force and moment on A and on B.
-pub(super) type Wrench = [Vector; 4];
+pub(super) type Wrench = [Vec3; 4];
 
 /// Derivatives of a wrench by the positions and rotations of A and B, in blocks of 3 × 3.
 pub(super) type Gradient = [[f64; 12]; 12];
 
 /// c block += c m at block (i, j).
 #[inline]
-pub(super) fn add_block(out: &mut Gradient, [i, j]: [usize; 2], c: f64, m: &Matrix3) {
+pub(super) fn add_block(out: &mut Gradient, [i, j]: [usize; 2], c: f64, m: &Mat3) {
     for k in 0..3 {
         for l in 0..3 {
             out[3 * i + k][3 * j + l] += c * m[k][l];
@@ -67,7 +66,7 @@ impl Value {
 }
 
 /// An axis of a marker with what it moves in the marker: a, a_t, a_tt.
-struct Axis([Vector; 3]);
+struct Axis([Vec3; 3]);
 
 impl Row {
     /// For messages.
@@ -93,18 +92,18 @@ impl Row {
     }
 
     fn axis(self, a: &Pose, motion: &HubKinematics) -> Axis {
-        let zero = [0.0; 3];
+        let zero = Vec3::ZERO;
         match self {
-            Row::Point(i) => Axis([IDENTITY[i], zero, zero]),
+            Row::Point(i) => Axis([Vec3::AXES[i], zero, zero]),
             Row::Along(i) | Row::Across(i, _) => Axis([a.axis(i), zero, zero]),
             Row::Displacement => Axis([a.axis(2), zero, zero]),
             Row::Angle => {
                 let (sin, cos) = libm::sincos(motion.angle);
                 let (x, y) = (a.axis(0), a.axis(1));
-                let normal = plus(times(cos, y), -sin, x);
-                let turned = plus(times(-sin, y), -cos, x);
-                let bent = plus(times(motion.acceleration, turned), -motion.speed * motion.speed, normal);
-                Axis([normal, times(motion.speed, turned), bent])
+                let normal = cos * y - sin * x;
+                let turned = -sin * y - cos * x;
+                let bent = motion.acceleration * turned - motion.speed * motion.speed * normal;
+                Axis([normal, motion.speed * turned, bent])
             }
         }
     }
@@ -113,19 +112,19 @@ impl Row {
     pub(super) fn normal(self, a: &Pose, b: &Pose, motion: &HubKinematics) -> Wrench {
         let Axis([axis, ..]) = self.axis(a, motion);
         match self {
-            Row::Point(_) => [times(-1.0, axis), [0.0; 3], axis, [0.0; 3]],
+            Row::Point(_) => [-axis, Vec3::ZERO, axis, Vec3::ZERO],
             Row::Along(_) | Row::Displacement => {
-                let d = plus(b.position, -1.0, a.position);
-                [times(-1.0, axis), cross(axis, d), axis, [0.0; 3]]
+                let d = b.position - a.position;
+                [-axis, axis.cross(d), axis, Vec3::ZERO]
             }
             Row::Across(_, j) => Row::perpendicular(axis, b.axis(j)),
             Row::Angle => Row::perpendicular(axis, b.axis(0)),
         }
     }
 
-    fn perpendicular(a: Vector, b: Vector) -> Wrench {
-        let moment = cross(a, b);
-        [[0.0; 3], moment, [0.0; 3], times(-1.0, moment)]
+    fn perpendicular(a: Vec3, b: Vec3) -> Wrench {
+        let moment = a.cross(b);
+        [Vec3::ZERO, moment, Vec3::ZERO, -moment]
     }
 
     /// g, ġ and g̈.
@@ -134,23 +133,23 @@ impl Row {
         let fixed = matches!(self, Row::Point(_));
         // Of the axis in space.
         let (rate, acceleration) = if fixed {
-            ([0.0; 3], [0.0; 3])
+            (Vec3::ZERO, Vec3::ZERO)
         } else {
-            let swept = cross(a.spin, axis);
-            let rate = plus(swept, 1.0, drift);
-            let twice = plus(cross(a.spin, swept), 2.0, cross(a.spin, drift));
-            (rate, plus(plus(cross(a.spin_rate, axis), 1.0, twice), 1.0, bend))
+            let swept = a.spin.cross(axis);
+            let rate = swept + drift;
+            let twice = a.spin.cross(swept) + 2.0 * a.spin.cross(drift);
+            (rate, a.spin_rate.cross(axis) + twice + bend)
         };
         // What it is multiplied by.
         let (other, moved, [x, x_rate, x_acceleration]) = match self {
             Row::Across(..) | Row::Angle => {
                 let other = b.axis(if let Row::Across(_, j) = self { j } else { 0 });
-                let swept = cross(b.spin, other);
-                let moved = plus(cross(b.spin_rate, other), 1.0, cross(b.spin, swept));
+                let swept = b.spin.cross(other);
+                let moved = b.spin_rate.cross(other) + b.spin.cross(swept);
                 (other, [swept, moved], [0.0; 3])
             }
             _ => {
-                let difference = |x: Vector, y: Vector| plus(y, -1.0, x);
+                let difference = |x: Vec3, y: Vec3| y - x;
                 let moved = [difference(a.velocity, b.velocity), difference(a.acceleration, b.acceleration)];
                 let prescribed = if self == Row::Displacement {
                     [motion.angle, motion.speed, motion.acceleration]
@@ -161,11 +160,11 @@ impl Row {
             }
         };
         Value {
-            g: inner(axis, other) - x,
-            rate: inner(rate, other) + inner(axis, moved[0]) - x_rate,
-            acceleration: inner(acceleration, other) + 2.0 * inner(rate, moved[0]) + inner(axis, moved[1])
+            g: axis.dot(other) - x,
+            rate: rate.dot(other) + axis.dot(moved[0]) - x_rate,
+            acceleration: acceleration.dot(other) + 2.0 * rate.dot(moved[0]) + axis.dot(moved[1])
                 - x_acceleration,
-            by_time: inner(drift, other) - x_rate,
+            by_time: drift.dot(other) - x_rate,
         }
     }
 
@@ -178,22 +177,22 @@ impl Row {
         out: &mut Gradient,
     ) {
         let Axis([axis, ..]) = self.axis(a, motion);
-        let along = skew(axis);
+        let along = Mat3::skew(axis);
         match self {
             Row::Point(_) => {}
             Row::Along(_) | Row::Displacement => {
                 // Moment on A: δ(a × d) = d̃ ã δθ_A + ã (δx_B − δx_A); force ∓ã δθ_A.
-                let d = skew(plus(b.position, -1.0, a.position));
+                let d = Mat3::skew(b.position - a.position);
                 add_block(out, [0, 1], lambda, &along);
                 add_block(out, [2, 1], -lambda, &along);
                 add_block(out, [1, 0], -lambda, &along);
                 add_block(out, [1, 2], lambda, &along);
-                add_block(out, [1, 1], lambda, &product(&d, &along));
+                add_block(out, [1, 1], lambda, &(d * along));
             }
             Row::Across(..) | Row::Angle => {
-                let other = skew(b.axis(if let Row::Across(_, j) = self { j } else { 0 }));
+                let other = Mat3::skew(b.axis(if let Row::Across(_, j) = self { j } else { 0 }));
                 // δ(a × b) = b̃ ã δθ_A − ã b̃ δθ_B.
-                let (by_a, by_b) = (product(&other, &along), product(&along, &other));
+                let (by_a, by_b) = (other * along, along * other);
                 add_block(out, [1, 1], lambda, &by_a);
                 add_block(out, [1, 3], -lambda, &by_b);
                 add_block(out, [3, 1], -lambda, &by_a);

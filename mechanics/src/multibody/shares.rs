@@ -5,11 +5,9 @@
 //! circumference.
 
 use super::axis::Axis;
-use super::body::three;
-use super::rotation::{Vector, plus, times};
 use super::slender::ELEMENT_VELOCITIES;
 use super::system::Multibody;
-use crate::linalg::vector::inner;
+use crate::linalg::Vec3;
 use crate::system::{Direction, State};
 
 /// Sine of the angle with the axis of rotation below which a direction across a beam is no more one of flap than one of chord.
@@ -24,28 +22,28 @@ impl Multibody {
         [x, mx]: [&[f64]; 2],
         add: &mut dyn FnMut(Direction, f64),
     ) {
-        let mut point = |at: usize, along: Vector| {
-            let (u, mu) = (three(x, at), three(mx, at));
+        let mut point = |at: usize, along: Vec3| {
+            let (u, mu) = (Vec3::at(x, at), Vec3::at(mx, at));
             let Some(axis) = axis else {
                 let names = [Direction::X, Direction::Y, Direction::Z];
                 names.into_iter().enumerate().for_each(|(k, direction)| add(direction, u[k] * mu[k]));
                 return;
             };
             let e = axis.direction;
-            let across = plus(e, -inner(e, along), along);
-            let size = inner(across, across).sqrt();
-            let flap = if size > ALONG { times(1.0 / size, across) } else { [0.0; 3] };
-            let part = |d: Vector| inner(u, d) * inner(mu, d);
+            let across = e - e.dot(along) * along;
+            let size = across.dot(across).sqrt();
+            let flap = if size > ALONG { 1.0 / size * across } else { Vec3::ZERO };
+            let part = |d: Vec3| u.dot(d) * mu.dot(d);
             add(Direction::Axial, part(along));
             add(Direction::Flap, part(flap));
-            add(Direction::Chord, inner(u, mu) - part(along) - part(flap));
+            add(Direction::Chord, u.dot(mu) - part(along) - part(flap));
         };
         for i in 0..self.placed.len() {
-            let radial = axis.map_or([0.0; 3], |axis| {
-                let arm = plus(three(&s.q, 7 * i), -1.0, axis.point);
-                let arm = plus(arm, -inner(arm, axis.direction), axis.direction);
-                let length = inner(arm, arm).sqrt();
-                if length > 0.0 { times(1.0 / length, arm) } else { [0.0; 3] }
+            let radial = axis.map_or(Vec3::ZERO, |axis| {
+                let arm = Vec3::at(&s.q, 7 * i) - axis.point;
+                let arm = arm - arm.dot(axis.direction) * axis.direction;
+                let length = arm.dot(arm).sqrt();
+                if length > 0.0 { 1.0 / length * arm } else { Vec3::ZERO }
             });
             point(6 * i, radial);
         }
@@ -58,7 +56,7 @@ impl Multibody {
             }
         }
         for i in 0..self.placed.len() {
-            add(Direction::Rotation, inner(three(x, 6 * i + 3), three(mx, 6 * i + 3)));
+            add(Direction::Rotation, Vec3::at(x, 6 * i + 3).dot(Vec3::at(mx, 6 * i + 3)));
         }
         for (of, &[_, v]) in self.constants.model.beams.iter().zip(&self.constants.beams) {
             for node in 0..of.beam.nodes().len() {

@@ -4,14 +4,13 @@
 //! the twist (velocity of its origin, angular velocity) of least kinetic energy among those that obey the joints, and of what is given of it
 //! it keeps all that the joints allow. What then is left of the rates of the rows goes to the nearest velocities.
 
-use super::body::{Body, Twist, three};
+use super::body::{Body, Twist};
 use super::constants::Constants;
 use super::flexible::Flexible;
 use super::marker::{Marker, Part};
 use super::model::{Model, ModelError};
-use super::rotation::{IDENTITY, Matrix3, Vector, apply, plus, product, times};
 use super::{consistency, joint::Joint};
-use crate::linalg::vector::cross;
+use crate::linalg::{Mat3, Vec3};
 use crate::system::{Dynamics, Frame, RowWeights, State};
 use std::sync::Arc;
 
@@ -60,8 +59,8 @@ fn rigid(model: &Model, assemble: impl Fn(Model) -> Option<Assembled>) -> Option
     let marker = |of: Marker| match of.part {
         Part::Section { beam, .. } => {
             let section = model.frame(of.part)?;
-            let position = plus(section.position, 1.0, apply(&section.rotation, of.frame.position));
-            let rotation = product(&section.rotation, &of.frame.rotation);
+            let position = section.position + section.rotation * of.frame.position;
+            let rotation = section.rotation * of.frame.rotation;
             rigid.marker(Part::Body(model.bodies.len() + beam), Frame { position, rotation })
         }
         _ => Some(of),
@@ -80,9 +79,9 @@ fn rigid(model: &Model, assemble: impl Fn(Model) -> Option<Assembled>) -> Option
     for _ in 0..2 {
         let v = consistency::velocities(system.as_mut(), &constants.start(&twists)).ok()?;
         let twist = |(body, place): (&Body, &usize)| {
-            let r = &body.frame.rotation;
-            let spin = apply(r, three(&v, 6 * place + 3));
-            [plus(three(&v, 6 * place), -1.0, cross(spin, apply(r, body.centre))), spin]
+            let r = body.frame.rotation;
+            let spin = r * Vec3::at(&v, 6 * place + 3);
+            [Vec3::at(&v, 6 * place) - spin.cross(r * body.centre), spin]
         };
         twists = constants.model.bodies.iter().zip(&constants.place).map(twist).collect();
     }
@@ -91,8 +90,8 @@ fn rigid(model: &Model, assemble: impl Fn(Model) -> Option<Assembled>) -> Option
 
 /// A body that keeps what is given.
 fn weighted(body: &Body) -> Body {
-    let weight = |given: Option<Vector>| if given.is_some() { GIVEN } else { 1.0 };
-    let inertia = body.inertia.map(|row| times(weight(body.spin), row));
+    let weight = |given: Option<Vec3>| if given.is_some() { GIVEN } else { 1.0 };
+    let inertia = weight(body.spin) * body.inertia;
     Body { mass: weight(body.velocity) * body.mass, inertia, ..body.clone() }
 }
 
@@ -102,20 +101,18 @@ fn as_body(of: &Flexible) -> Body {
     let (root, _) = of.beam.node(0, q);
     let mass = of.beam.mass();
     let given = of.velocity.is_some() || of.spin.is_some();
-    let centre = if given { root } else { times(1.0 / mass, of.beam.first_moment(q)) };
-    let arm = plus(root, -1.0, centre);
+    let centre = if given { root } else { 1.0 / mass * of.beam.first_moment(q) };
+    let arm = root - centre;
     let mut v = vec![0.0; of.beam.velocities()];
-    let mut inertia: Matrix3 = [[0.0; 3]; 3];
-    for axis in 0..3 {
-        let spin = IDENTITY[axis];
-        of.set_twist([cross(spin, arm), spin], q, &mut v);
+    let inertia = Mat3(Vec3::AXES.map(|spin| {
+        of.set_twist([spin.cross(arm), spin], q, &mut v);
         let [momentum, angular] = of.beam.momenta(q, &v);
-        inertia[axis] = plus(angular, -1.0, cross(centre, momentum));
-    }
+        (angular - centre.cross(momentum)).0
+    }));
     weighted(&Body {
-        centre: times(-1.0, arm),
+        centre: -arm,
         inertia,
-        frame: Frame { position: root, rotation: IDENTITY },
+        frame: Frame { position: root, rotation: Mat3::IDENTITY },
         velocity: of.velocity,
         spin: of.spin,
         ..Body::new(&of.name, mass, [1.0; 3])

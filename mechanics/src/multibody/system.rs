@@ -11,27 +11,23 @@
 //! ∂(Jᵀ w) = Jᵀ (∂w/∂x J + ∂w/∂ẋ B) + ∂Jᵀ w
 //! ```
 
-use super::body::{Placed, four, three};
+use super::body::Placed;
 use super::constants::Constants;
 use super::contact_point::ContactPoint;
 use super::force::Interaction;
 use super::joint::Drive;
+use super::line_law::Sampled;
 use super::marker::{MOST, Part, Pose};
 use super::model::{Model, ModelError};
 use super::nearest::Nearest;
-use super::rotation::{
-    Vector, apply, compose, exponential, inverse, logarithm, matrix, normalized, plus, product, rate, skew,
-    times,
-};
+use super::rotation::{Quaternion, rate};
 use super::row::{Row, Value, Wrench};
 use super::slender::{ELEMENT_COORDINATES, ELEMENT_VELOCITIES};
 use super::{consistency, start};
-use crate::linalg::vector::{cross, inner};
-use crate::linalg::{Matrix, Structure};
+use crate::linalg::{Mat3, Matrix, Structure, Vec3};
 use crate::profile::HubKinematics;
 use crate::system::{
-    Break, Corotation, Dynamics, Events, NotSet, Parameter, RowWeights, Set, Size, State, Steady, VisitRow,
-    Weights,
+    Corotation, Dynamics, NotSet, Parameter, RowWeights, Set, Size, State, Steady, VisitRow, Weights,
 };
 use std::sync::Arc;
 
@@ -56,6 +52,8 @@ pub struct Multibody {
     pub(super) motions: Vec<HubKinematics>,
     /// Of the contact points that may be any of a beam, the one at hand.
     pub(super) nearest: Vec<Nearest>,
+    /// Force laws at the points of their beams.
+    pub(super) sampled: Vec<Sampled>,
     time: f64,
 }
 
@@ -121,6 +119,9 @@ impl Multibody {
         let beam = |point: &ContactPoint| point.beam().map(|beam| &constants.model.beams[beam].beam);
         let nearest = |point: &ContactPoint| beam(point).map_or_else(Nearest::default, Nearest::of);
         let nearest = constants.model.points.iter().map(nearest).collect();
+        let beams = &constants.model.beams;
+        let laws = constants.model.line_laws.iter();
+        let sampled = laws.map(|law| Sampled::new(law, &beams[law.beam].beam)).collect();
         Multibody {
             velocities: Vec::new(),
             changes: Arc::default(),
@@ -131,6 +132,7 @@ impl Multibody {
             poses,
             motions: vec![HubKinematics::default(); joints],
             nearest,
+            sampled,
             time: f64::NAN,
         }
     }
@@ -252,7 +254,7 @@ impl Multibody {
 
 /// Adds c Jᵀ w of one marker.
 #[inline]
-fn add_force(c: f64, pose: &Pose, force: Vector, moment: Vector, r: &mut [f64]) {
+fn add_force(c: f64, pose: &Pose, force: Vec3, moment: Vec3, r: &mut [f64]) {
     for k in 0..pose.count {
         let column = |i: usize| pose.jacobian[i][k];
         let sum = force[0] * column(0) + force[1] * column(1) + force[2] * column(2);
@@ -360,20 +362,21 @@ impl Dynamics for Multibody {
     fn retract(&self, q: &[f64], d: &[f64], out: &mut [f64]) {
         for i in 0..self.placed.len() {
             let (q, d, out) = (&q[7 * i..], &d[6 * i..], &mut out[7 * i..]);
-            out[..3].copy_from_slice(&plus(three(q, 0), 1.0, three(d, 0)));
-            out[3..7].copy_from_slice(&normalized(compose(four(q, 3), exponential(three(d, 3)))));
+            (Vec3::at(q, 0) + Vec3::at(d, 0)).put(out, 0);
+            let turned = Quaternion::at(q, 3) * Quaternion::exponential(Vec3::at(d, 3));
+            out[3..7].copy_from_slice(&turned.normalized().0);
         }
         for (of, &[i, j]) in self.constants.model.beams.iter().zip(&self.constants.beams) {
             of.beam.retract(&q[i..], &d[j..], &mut out[i..]);
         }
-        self.constants.count_angles(q, out);
+        self.constants.count_angles(q, d, out);
     }
 
     fn difference(&self, from: &[f64], to: &[f64], d: &mut [f64]) {
         for i in 0..self.placed.len() {
             let (from, to, d) = (&from[7 * i..], &to[7 * i..], &mut d[6 * i..]);
-            d[..3].copy_from_slice(&plus(three(to, 0), -1.0, three(from, 0)));
-            d[3..6].copy_from_slice(&logarithm(compose(inverse(four(from, 3)), four(to, 3))));
+            (Vec3::at(to, 0) - Vec3::at(from, 0)).put(d, 0);
+            (Quaternion::at(from, 3).inverse() * Quaternion::at(to, 3)).logarithm().put(d, 3);
         }
         for (of, &[i, j]) in self.constants.model.beams.iter().zip(&self.constants.beams) {
             of.beam.difference(&from[i..], &to[i..], &mut d[j..]);
@@ -384,7 +387,7 @@ impl Dynamics for Multibody {
         for i in 0..self.placed.len() {
             let (d, v, out) = (&d[6 * i..], &v[6 * i..], &mut out[6 * i..]);
             out[..3].copy_from_slice(&v[..3]);
-            out[3..6].copy_from_slice(&rate(three(d, 3), three(v, 3)));
+            rate(Vec3::at(d, 3), Vec3::at(v, 3)).put(out, 3);
         }
         for (of, &[i, j]) in self.constants.model.beams.iter().zip(&self.constants.beams) {
             let end = j + of.beam.velocities();
@@ -397,11 +400,11 @@ impl Dynamics for Multibody {
         let model = &self.constants.model;
         for (body, &place) in model.bodies.iter().zip(&self.constants.place) {
             let Placed { velocity, spin, acceleration, spin_rate, .. } = self.placed[place];
-            let force = plus(plus(acceleration, body.damping, velocity), -self.part, model.gravity);
-            let momentum = apply(&body.inertia, spin);
-            let rate = apply(&body.inertia, plus(spin_rate, body.damping, spin));
-            r[6 * place..6 * place + 3].copy_from_slice(&times(body.mass, force));
-            r[6 * place + 3..6 * place + 6].copy_from_slice(&plus(rate, 1.0, cross(spin, momentum)));
+            let (m, beta) = (body.mass, body.damping);
+            let force = m * (acceleration + beta * velocity - self.part * model.gravity);
+            let moment = body.inertia * (spin_rate + beta * spin) + spin.cross(body.inertia * spin);
+            force.put(r, 6 * place);
+            moment.put(r, 6 * place + 3);
         }
         let beams = 6 * self.placed.len();
         for (r, weight) in r[beams..].iter_mut().zip(&self.constants.weight[beams..]) {
@@ -410,11 +413,16 @@ impl Dynamics for Multibody {
         for (of, &[i, j]) in model.beams.iter().zip(&self.constants.beams) {
             of.beam.add_forces(&s.q[i..], &s.v[j..], &s.a[j..], &mut r[j..]);
         }
-        for load in &model.line_loads {
+        for (load, on) in model.line_loads.iter().zip(&self.constants.lines) {
             let [i, j] = self.constants.beams[load.beam];
-            let force = times(-1.0, load.at(s.time(), self.part));
+            let force = -load.at(s.time(), self.part);
             let beam = &model.beams[load.beam].beam;
-            beam.add_line_load(load.on(beam), &s.q[i..], force, load.follows(), &mut r[j..]);
+            beam.add_line_load(on, &s.q[i..], force, load.follows(), &mut r[j..]);
+        }
+        for (law, sampled) in model.line_laws.iter().zip(&mut self.sampled) {
+            let [i, j] = self.constants.beams[law.beam];
+            let acting = (law.law.as_ref(), s.time(), -self.part);
+            sampled.add_forces(acting, [&s.q[i..], &s.v[j..]], &mut r[j..]);
         }
         self.interactions(s, false, |a, b, interaction| {
             let [f_a, m_a, f_b, m_b] = interaction.wrench;
@@ -430,13 +438,13 @@ impl Dynamics for Multibody {
         let constants = &*self.constants;
         out.clear();
         for i in 0..self.placed.len() {
-            let turned = compose(four(&now.q, 7 * i + 3), inverse(four(&before.q, 7 * i + 3)));
-            out.push_vectors::<1>(6 * i, matrix(turned));
+            let turned = Quaternion::at(&now.q, 7 * i + 3) * Quaternion::at(&before.q, 7 * i + 3).inverse();
+            out.push_vectors::<1>(6 * i, turned.matrix().0);
         }
         for (of, &[q, v]) in constants.model.beams.iter().zip(&constants.beams) {
             for node in 0..of.beam.nodes().len() {
                 let turned = of.rotation(node, &before.q[q..], &now.q[q..]);
-                out.push_vectors::<2>(v + ELEMENT_VELOCITIES * node, turned);
+                out.push_vectors::<2>(v + ELEMENT_VELOCITIES * node, turned.0);
             }
         }
         for (joint, rows) in constants.model.joints.iter().zip(&constants.of_joint) {
@@ -452,14 +460,14 @@ impl Dynamics for Multibody {
                 Part::Ground => continue,
                 Part::Body(i) => {
                     let at = 7 * constants.place[i] + 3;
-                    matrix(compose(four(&now.q, at), inverse(four(&before.q, at))))
+                    (Quaternion::at(&now.q, at) * Quaternion::at(&before.q, at).inverse()).matrix()
                 }
                 Part::Section { beam, node } => {
                     let q = constants.beams[beam][0];
                     constants.model.beams[beam].rotation(node, &before.q[q..], &now.q[q..])
                 }
             };
-            out.push_vectors::<1>(constants.size.v + rows.start, turned);
+            out.push_vectors::<1>(constants.size.v + rows.start, turned.0);
         }
     }
 
@@ -498,7 +506,7 @@ impl Dynamics for Multibody {
                 for k in 0..pose.count {
                     numbers[at + k] = pose.numbers[k];
                     let column = |first: usize| [0, 1, 2].map(|l| pose.jacobian[first + l][k]);
-                    entries[at + k] = inner(force, column(0)) + inner(moment, column(3));
+                    entries[at + k] = force.dot(Vec3(column(0))) + moment.dot(Vec3(column(3)));
                 }
             }
             let count = a.count + b.count;
@@ -513,8 +521,8 @@ impl Dynamics for Multibody {
         let model = &constants.model;
         for (body, &place) in model.bodies.iter().zip(&constants.place) {
             let (at, spin) = (6 * place, self.placed[place].spin);
-            let gyro = product(&skew(spin), &body.inertia);
-            let momentum = skew(apply(&body.inertia, spin));
+            let gyro = Mat3::skew(spin) * body.inertia;
+            let momentum = Mat3::skew(body.inertia * spin);
             let inertia = w.a + w.v * body.damping;
             for i in 0..3 {
                 out.add(at + i, at + i, inertia * body.mass);
@@ -533,14 +541,20 @@ impl Dynamics for Multibody {
         if w.q == 0.0 && w.v == 0.0 {
             return;
         }
-        for load in model.line_loads.iter().filter(|load| load.follows()) {
+        let lines = model.line_loads.iter().zip(&constants.lines);
+        for (load, on) in lines.filter(|(load, _)| load.follows()) {
             let [i, j] = constants.beams[load.beam];
             let (force, d) = (load.at(s.time(), self.part), w.increment.map(|d| &d[j..]));
-            let force = times(-w.q, force);
+            let force = -w.q * force;
             let beam = &model.beams[load.beam].beam;
-            beam.add_line_tangent(load.on(beam), &s.q[i..], force, d, |at, block| {
+            beam.add_line_tangent(on, &s.q[i..], force, d, |at, block| {
                 out.add_block(j + at, block);
             });
+        }
+        for (law, sampled) in model.line_laws.iter().zip(&mut self.sampled) {
+            let [i, j] = constants.beams[law.beam];
+            let acting = (law.law.as_ref(), s.time(), -self.part);
+            sampled.add_tangent(acting, [&s.q[i..], &s.v[j..]], &w, (j, out));
         }
         self.poses.iter_mut().for_each(|pose| pose.transport());
         let ground = Pose::default();
@@ -550,17 +564,11 @@ impl Dynamics for Multibody {
     }
 }
 
-impl Events for Multibody {
-    fn breaks(&self) -> &[Break] {
-        &self.constants.breaks
-    }
-}
-
 impl Steady for Multibody {
     fn set(&mut self, parameter: Parameter, value: f64) -> Result<(), NotSet> {
         match parameter {
             Parameter::LoadFactor => self.part = value,
-            Parameter::Speed => return Err(NotSet::Unknown("frame that could turn steadily")),
+            Parameter::Speed => return Err(NotSet::Unknown(parameter)),
         }
         Ok(())
     }

@@ -73,6 +73,7 @@ pub fn jumping_derivative(profile: &dyn Profile, t: f64) -> usize {
 
 /// A profile that cannot be built, or does not cover a run.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ProfileError {
     /// A quantity is out of its range.
     #[error("the {quantity} is {value} and must be {needed}")]

@@ -1,5 +1,6 @@
 //! Sections of a blade: stiffness and inertia for extension, bending in two planes and torsion.
 
+use super::ends::ends;
 use super::{Resultants, Section, SectionError, Shape, positive};
 
 /// Stiffness and inertia per length of a blade at a station, about its principal axes: η along the chord (at no
@@ -77,6 +78,25 @@ pub trait BladeSection: Send + Sync + std::fmt::Debug {
     /// Those of the breaks at which the resultants jump.
     fn jumps(&self) -> &[f64] {
         &[]
+    }
+
+    /// Stations inside (0, `length`) at which elements of the length `h` \[m\] should end, as [`Section::ends`] has them; the twist counts by
+    /// the directions of the axes.
+    fn ends(&self, length: f64, h: f64) -> Vec<f64> {
+        let values = |x: f64| {
+            let r = self.resultants(x);
+            [
+                r.mass,
+                r.axial_stiffness,
+                r.flap_stiffness,
+                r.chord_stiffness,
+                r.torsional_stiffness,
+                r.flap_inertia,
+                r.chord_inertia,
+                1.0 + r.twist,
+            ]
+        };
+        ends(length, h, (self.breaks(), self.jumps()), values)
     }
 }
 

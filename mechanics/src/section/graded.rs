@@ -96,6 +96,7 @@ impl Graded {
     }
 
     /// The same section with the given part of its inertia.
+    #[must_use]
     pub fn with_inertia(self, inertia: Inertia) -> Graded {
         Graded { kept: inertia.of(self.full), ..self }
     }

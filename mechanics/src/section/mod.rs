@@ -1,6 +1,7 @@
 //! Cross-sections: each a file; all give [`Resultants`] along the beam.
 
 mod blade;
+mod ends;
 mod graded;
 mod piecewise;
 mod shape;
@@ -105,6 +106,7 @@ impl Inertia {
 
 /// A quantity that makes no section.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum SectionError {
     /// A quantity is out of its range.
     #[error("the {quantity} is {value} {unit} and must be {needed}")]
@@ -194,9 +196,26 @@ pub trait Section: Send + Sync + std::fmt::Debug {
         &[]
     }
 
-    /// Those of the breaks at which the resultants jump: an element whose curvature is smooth must end there.
+    /// Those of the breaks at which the resultants jump.
     fn jumps(&self) -> &[f64] {
         &[]
+    }
+
+    /// Stations inside (0, `length`) at which elements of the length `h` \[m\] should end: the jumps, and of the other breaks those
+    /// without which the section within an element would be far from a straight line.
+    fn ends(&self, length: f64, h: f64) -> Vec<f64> {
+        let values = |x: f64| {
+            let r = self.resultants(x);
+            [
+                r.mass,
+                r.first_moment,
+                r.rotary_inertia,
+                r.axial_stiffness,
+                r.coupling_stiffness,
+                r.bending_stiffness,
+            ]
+        };
+        ends::ends(length, h, (self.breaks(), self.jumps()), values)
     }
 
     /// Heights of the lower and upper fibre \[m\] if the shape of the section is known.
@@ -216,6 +235,10 @@ impl Section for std::sync::Arc<dyn Section> {
 
     fn jumps(&self) -> &[f64] {
         (**self).jumps()
+    }
+
+    fn ends(&self, length: f64, h: f64) -> Vec<f64> {
+        (**self).ends(length, h)
     }
 
     fn fibres(&self, x: f64) -> Option<(f64, f64)> {

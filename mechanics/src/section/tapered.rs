@@ -50,6 +50,7 @@ impl Tapered {
     }
 
     /// The same section with the given part of its inertia.
+    #[must_use]
     pub fn with_inertia(self, inertia: Inertia) -> Tapered {
         Tapered { inertia, ..self }
     }

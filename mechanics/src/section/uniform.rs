@@ -45,13 +45,9 @@ impl Uniform {
     }
 
     /// The same section with the given part of its inertia.
+    #[must_use]
     pub fn with_inertia(self, inertia: Inertia) -> Uniform {
         Uniform { kept: inertia.of(self.full), ..self }
-    }
-
-    /// The same section with its lower and upper fibre at the given heights \[m\], for recovering strains.
-    pub fn with_fibres(self, lower: f64, upper: f64) -> Uniform {
-        Uniform { fibres: Some((lower, upper)), ..self }
     }
 }
 

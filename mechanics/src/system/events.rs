@@ -59,14 +59,22 @@ pub trait Events {
         &[]
     }
 
-    /// Writes the impulse p [N·s, N·m·s] that acts at the time of `s` by a jump of a prescribed velocity; `s` is the
-    /// state before it: M Δv = p + Gᵀ Λ. `false` where there is none.
+    /// Writes the impulse p [N·s, N·m·s] that acts at the time of `s` by a jump of a prescribed velocity, and in the entries after
+    /// those of the velocities by how much ∂g/∂t of each row jumps; `s` is the state before it: M Δv = p + Gᵀ Λ,
+    /// G Δv = −Δ∂g/∂t of the rows of joints. `false` where there is none.
     fn impulse(&mut self, _s: &State, _p: &mut [f64]) -> bool {
         false
     }
 
-    /// Work \[J\] of what enforces a prescribed velocity, between the states before and after a jump of it or an impact.
+    /// Work \[J\] of what enforces a prescribed velocity without a row, between the states before and after a jump of it or an
+    /// impact.
     fn impulse_work(&mut self, _before: &State, _after: &State) -> f64 {
+        0.0
+    }
+
+    /// Largest rate of rotation of what carries contact points or obstacles [rad/s]: over an arc of more than a radian a gap may fall and rise
+    /// without its ends telling.
+    fn turning(&mut self, _s: &State) -> f64 {
         0.0
     }
 

@@ -27,14 +27,16 @@ mod dynamics;
 mod events;
 mod observed;
 mod rows;
+mod sink;
 mod state;
 mod steady;
 
 pub use corotation::Corotation;
 pub use dynamics::{Dynamics, VisitRow, Weights};
 pub use events::{Break, Crossing, Events, Jump, ordered};
-pub use observed::{Channel, Direction, Energy, Frame, Observed, Power, Pressing, Role, Touch};
+pub use observed::{Direction, Energy, Frame, Observed, Power, Pressing, Touch};
 pub use rows::{RowWeights, Set, is_active, replace_inactive, slip};
+pub use sink::{Channel, Kind, Role, Sink};
 pub use state::{Mode, Side, Size, State};
 pub use steady::{NotSet, Parameter, Steady};
 

@@ -1,6 +1,7 @@
 //! What is observed of a model: recorded quantities, energies, shapes.
 
-use super::State;
+use super::{Channel, Dynamics, Sink, State};
+use crate::linalg::{Mat3, Vec3};
 use std::ops::Range;
 
 /// What an unknown moves: for the shares of a mode.
@@ -72,22 +73,9 @@ impl Power {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Frame {
     /// Position in the inertial frame \[m\].
-    pub position: [f64; 3],
+    pub position: Vec3,
     /// Rotation matrix whose columns are the section's axes (tangent first) in the inertial frame.
-    pub rotation: [[f64; 3]; 3],
-}
-
-/// One recorded quantity.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Channel {
-    /// Column name, e.g. `tip.deflection`.
-    pub name: String,
-    /// SI unit, e.g. `m`.
-    pub unit: &'static str,
-    /// One line for people: what it is.
-    pub meaning: String,
-    /// What it is to its readers.
-    pub role: Role,
+    pub rotation: Mat3,
 }
 
 /// A contact at a state.
@@ -111,7 +99,7 @@ pub struct Touch {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pressing {
     /// Where its point is, in the axes in which its obstacle is given \[m\].
-    pub place: [f64; 3],
+    pub place: Vec3,
     /// Gap g \[m\].
     pub gap: f64,
     /// Its rate ġ \[m/s\].
@@ -122,28 +110,8 @@ pub struct Pressing {
     pub lost: f64,
 }
 
-/// What a recorded quantity is to its readers: which are added up, drawn and printed follows from this, not from names.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Role {
-    /// One of the few that most readers look for: drawn in the figure of a run, and printed after it.
-    Primary,
-    /// Printed after a run.
-    Secondary,
-    /// Only recorded, e.g. at a station.
-    #[default]
-    Detail,
-    /// A part of the total energy \[J\]: all parts together are [`Energy::total`].
-    Energy,
-    /// The total energy, work, or a loss \[J\].
-    Work,
-    /// Error of the energy balance, E(t) − E(0) − work + losses \[J\]: zero if exact.
-    Imbalance,
-    /// Describes the time integration, not the motion.
-    Integration,
-}
-
 /// What a model shows of itself. Nothing here changes what a run computes: work memory at most is written.
-pub trait Observed {
+pub trait Observed: Dynamics {
     /// Kinetic, strain, gravity and contact energy.
     fn energy(&mut self, _s: &State) -> Energy {
         Energy::default()
@@ -162,13 +130,21 @@ pub trait Observed {
     /// Frames of the sections of body `body` at the given stations (arc lengths from its root, in metres).
     fn frames(&mut self, _body: usize, _s: &State, _stations: &[f64], _out: &mut [Frame]) {}
 
-    /// The recorded quantities, in the order in which [`Observed::record`] writes them.
-    fn channels(&self) -> &[Channel] {
-        &[]
+    /// Puts the recorded quantities of a state into a sink. Their number and order do not depend on the state.
+    fn observe(&mut self, _s: &State, _sink: &mut Sink<'_>) {}
+
+    /// What the recorded quantities are, in the order of [`Observed::record`].
+    fn channels(&mut self) -> Vec<Channel> {
+        let mut channels = Vec::new();
+        let s = self.initial();
+        self.observe(&s, &mut Sink::channels(&mut channels));
+        channels
     }
 
     /// Writes one value for each channel.
-    fn record(&mut self, _s: &State, _out: &mut [f64]) {}
+    fn record(&mut self, s: &State, out: &mut [f64]) {
+        self.observe(s, &mut Sink::row(out));
+    }
 
     /// The contacts, in the order of their columns.
     fn contacts(&mut self, _s: &State) -> Vec<Touch> {

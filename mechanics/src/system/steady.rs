@@ -2,6 +2,7 @@
 
 /// A parameter of a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Parameter {
     /// Angular speed Ω [rad/s] with which the frame of the model rotates steadily.
     Speed,
@@ -11,10 +12,14 @@ pub enum Parameter {
 
 /// Why a parameter does not take a value.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum NotSet {
     /// The model has no such parameter.
-    #[error("the model has no {0}")]
-    Unknown(&'static str),
+    #[error("the model has no {}", match .0 {
+        Parameter::Speed => "frame that could rotate steadily",
+        Parameter::LoadFactor => "loads",
+    })]
+    Unknown(Parameter),
     /// There is no steady state at this value.
     #[error("{0}")]
     Lost(String),
@@ -28,10 +33,7 @@ pub trait Steady {
     /// # Errors
     /// [`NotSet`]; the model stays as it was.
     fn set(&mut self, parameter: Parameter, _value: f64) -> Result<(), NotSet> {
-        Err(NotSet::Unknown(match parameter {
-            Parameter::Speed => "frame that could rotate steadily",
-            Parameter::LoadFactor => "loads",
-        }))
+        Err(NotSet::Unknown(parameter))
     }
 
     /// Holds rigid motions at the values they have in the rotating frame, or lets them go: the equation of a held

@@ -184,7 +184,7 @@ impl Checker<'_> {
 
     fn power(&mut self, s: &State) {
         let mut s = s.clone();
-        let Ok(mut method) = GeneralizedAlpha::newmark(0.25, 0.5) else { return };
+        let Ok(method) = GeneralizedAlpha::newmark(0.25, 0.5) else { return };
         if let Err(error) = method.start(self.system, &mut s, 1e-3) {
             let (check, place) = ("accelerations", error.to_string());
             self.defects.push(Defect { check, place, found: f64::NAN, expected: 0.0 });

@@ -3,7 +3,7 @@
 use super::models::Rod;
 use super::nonsmooth::{ball, methods};
 use crate::integrators::multibody::{BallsOnWall, GRAVITY};
-use flexion::analysis::transient::{Ending, Event, EventKind, Observer, Plan, Step, transient};
+use flexion::analysis::transient::{Ending, Event, EventKind, Observer, Plan, Step, transient_to_checkpoint};
 use flexion::contact::Neglected;
 use flexion::exact::pendulum::rod_angle;
 use flexion::integrator::{Counters, GeneralizedAlpha, Integrator, Radau, Tolerance};
@@ -37,13 +37,14 @@ impl Observer for Watch {
 
 fn run(
     system: &mut dyn System,
-    method: &mut dyn Integrator,
+    method: &dyn Integrator,
     mut state: State,
     plan: &Plan,
 ) -> (State, Watch, Counters) {
     let mut watch = Watch::default();
-    assert_eq!(transient(system, method, &mut state, plan, &mut watch), Ending::Finished);
-    (state, watch, method.counters())
+    let (ending, checkpoint) = transient_to_checkpoint(system, method, &mut state, plan, &mut watch);
+    assert_eq!(ending, Ending::Finished);
+    (state, watch, checkpoint.counters().unwrap())
 }
 
 fn event_driven() -> [(Box<dyn Integrator>, Option<f64>); 2] {

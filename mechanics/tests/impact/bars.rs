@@ -134,8 +134,8 @@ fn a_bar_whose_contact_node_has_no_mass_keeps_its_energy() {
     let (mut bar, mut state) = bouncing(true);
     let mut watch = Watch { phases: Phases::default(), energies: [f64::INFINITY, f64::NEG_INFINITY] };
     let plan = Plan { end: 5.0, step: Some(5e-4), longest_step: None, contact_step: None, sample: 1e-3 };
-    let mut method = GeneralizedAlpha::newmark(0.25, 0.5).unwrap();
-    let ending = transient(&mut bar, &mut method, &mut state, &plan, &mut watch);
+    let method = GeneralizedAlpha::newmark(0.25, 0.5).unwrap();
+    let ending = transient(&mut bar, &method, &mut state, &plan, &mut watch);
     assert_eq!(ending, Ending::Finished);
     // E − E(0) over the energy of the fall.
     let [low, high] = watch.energies;
@@ -198,7 +198,7 @@ fn a_cantilever_is_released_above_a_stop() {
     let (n, h) = (4, 1e-4);
     let (tip, place) = (2 * n - 2, -0.05);
     let make = || Linear::beam(n, 1.0, [1.0, 1.0], true).with_gravity_across(1.0).with_stop(tip, place, 0.0);
-    let run = |method: &mut dyn Integrator| {
+    let run = |method: &dyn Integrator| {
         let mut beam = make();
         let mut state = moving(&beam, 0.0);
         let mut watch = Tip { unknown: tip, ..Tip::default() };
@@ -241,10 +241,10 @@ fn the_energy_balance_of_a_step_of_moreau_and_jean_is_exact() {
         let mut bar =
             Linear::bar(20, 1.0, [1.0, 1.0], false).with_gravity(0.3).with_stop(0, -0.01, restitution);
         let start = moving(&bar, -1.0);
-        let mut method = MoreauJean::new(theta).unwrap();
+        let method = MoreauJean::new(theta).unwrap();
         let mut energy = bar.energy(&start).total();
         let (initial, mut touched) = (energy, 0);
-        steps(&mut method, &mut bar, start, (4.0, 0.01), |bar, from, to| {
+        steps(&method, &mut bar, start, (4.0, 0.01), |bar, from, to| {
             let now = bar.energy(to).total();
             let impulse = 0.01 * to.lambda[0];
             let change = State {

@@ -10,6 +10,7 @@ use flexion::hub_beam::{
     Coupling, Drive, ExactCoupling, Fields, Foreshortening, FreeHub, HighCoupling, Hub, HubBeam,
     LinearCoupling, Mount,
 };
+use flexion::linalg::Vec3;
 use flexion::profile::{Constant, Expression, Motion};
 use flexion::section::{Resultants, Uniform};
 use flexion::system::{Mode, State, System};
@@ -51,23 +52,23 @@ fn hub(free: bool) -> Hub {
 
 fn wave() -> Option<Translation> {
     let displacement = Arc::new(Expression::new("0.1*sin(3*t)", "t", 1.0).unwrap());
-    Some(Translation { direction: [0.6, 0.8, 0.0], displacement })
+    Some(Translation { direction: Vec3([0.6, 0.8, 0.0]), displacement })
 }
 
 fn obstacles() -> Vec<Arc<dyn Obstacle>> {
     let (sin, cos) = 0.7_f64.sin_cos();
     vec![
-        Arc::new(Plane { point: [-1.0, 4.0, 0.0], normal: [-sin, cos, 0.0], motion: wave() }),
+        Arc::new(Plane { point: Vec3([-1.0, 4.0, 0.0]), normal: Vec3([-sin, cos, 0.0]), motion: wave() }),
         Arc::new(Circle {
-            centre: [1.0, 1.0, 0.0],
-            axis: [0.0, 0.0, 1.0],
+            centre: Vec3([1.0, 1.0, 0.0]),
+            axis: Vec3([0.0, 0.0, 1.0]),
             radius: 1.6,
             hollow: false,
             motion: wave(),
         }),
         Arc::new(Circle {
-            centre: [0.3, 0.1, 0.0],
-            axis: [0.0, 0.0, 1.0],
+            centre: Vec3([0.3, 0.1, 0.0]),
+            axis: Vec3([0.0, 0.0, 1.0]),
             radius: 0.6,
             hollow: true,
             motion: None,

@@ -8,6 +8,7 @@ use flexion::drive::Actuator;
 use flexion::hub_beam::load::Gravity;
 use flexion::hub_beam::{Coupling, Drive, Fields, FreeHub, HighCoupling, Hub, HubBeam, Mount};
 use flexion::integrator::{Integrator, Radau, Tolerance};
+use flexion::linalg::Vec3;
 use flexion::profile::Constant;
 use flexion::section::{Resultants, Uniform};
 use flexion::system::{Energy, State, System};
@@ -47,7 +48,7 @@ pub fn with_ground<C: Coupling>(coupling: C, law: Law) -> Contacting<HubBeam<C>>
     let model = HubBeam::new(hub(), coupling, &[])
         .with_loads(&section(), &[&gravity])
         .with_contact_points(&[(1.0, Mount::Ground)]);
-    let plane = Plane { point: [0.0; 3], normal: [0.0, 1.0, 0.0], motion: None };
+    let plane = Plane { point: Vec3([0.0; 3]), normal: Vec3([0.0, 1.0, 0.0]), motion: None };
     let contact = Contact { name: "ground".into(), point: 0, obstacle: Arc::new(plane), law };
     Contacting::new(model, vec![contact])
 }
@@ -74,7 +75,7 @@ impl Observer for Watch {
     }
 }
 
-pub fn run(system: &mut dyn System, method: &mut dyn Integrator, plan: &Plan) -> (Watch, State, Ending) {
+pub fn run(system: &mut dyn System, method: &dyn Integrator, plan: &Plan) -> (Watch, State, Ending) {
     let mut state = system.initial();
     let mut watch = Watch::default();
     let ending = transient(system, method, &mut state, plan, &mut watch);
@@ -85,9 +86,9 @@ pub fn run(system: &mut dyn System, method: &mut dyn Integrator, plan: &Plan) ->
 #[test]
 fn the_first_touch_is_that_of_an_independent_program() {
     let mut system = pendulum(2, Law::Constraint { restitution: 0.0, friction: 0.0 });
-    let mut method = Radau::new(Tolerance::uniform(1e-9)).unwrap();
+    let method = Radau::new(Tolerance::uniform(1e-9)).unwrap();
     let plan = Plan { end: 0.3701, step: None, contact_step: None, longest_step: None, sample: 0.01 };
-    let (watch, _, ending) = run(&mut system, &mut method, &plan);
+    let (watch, _, ending) = run(&mut system, &method, &plan);
     assert_eq!(ending, Ending::Finished, "{:?}", watch.events);
     let first = watch.events.first().unwrap();
     let EventKind::Impact { impulses, lost, .. } = &first.kind else { panic!("{first:?}") };

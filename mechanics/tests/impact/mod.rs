@@ -6,7 +6,7 @@ mod balance;
 mod bars;
 mod bursts;
 mod conformance;
-mod falling_pendulum;
+pub mod falling_pendulum;
 mod massless;
 mod models;
 mod nonsmooth;

@@ -175,13 +175,13 @@ impl Observed for Linear {
 
 /// Steps of size `step` from `from` to `end`; the callback sees the states at both ends of each.
 pub fn steps(
-    integrator: &mut dyn Integrator,
+    integrator: &dyn Integrator,
     system: &mut dyn System,
     mut from: State,
     (end, step): (f64, f64),
     mut each: impl FnMut(&mut dyn System, &State, &State),
 ) -> State {
-    integrator.start(system, &mut from, step).unwrap();
+    let mut integrator = integrator.start(system, &mut from, step).unwrap();
     let mut to = from.clone();
     let origin = from.t;
     let count = ((end - origin) / step).round() as u64;
@@ -203,7 +203,7 @@ impl Observer for Blind {
 }
 
 /// A run to its end.
-pub fn rest(system: &mut dyn System, method: &mut dyn Integrator, state: &mut State, plan: &Plan) {
+pub fn rest(system: &mut dyn System, method: &dyn Integrator, state: &mut State, plan: &Plan) {
     assert_eq!(transient(system, method, state, plan, &mut Blind), Ending::Finished);
 }
 

@@ -59,7 +59,7 @@ fn the_rotating_bouncing_ball_slides_and_rolls() {
         state.mode[..4].fill(Mode::Open);
         let exact = thrown([e, 0.2], start, end);
         assert!((exact[1] - rolls).abs() < 1e-12 && (exact[1] + 0.1 * exact[2]).abs() < 1e-12, "{exact:?}");
-        let mut far = |method: &mut dyn Integrator, step: Option<f64>| {
+        let mut far = |method: &dyn Integrator, step: Option<f64>| {
             let mut last = state.clone();
             let plan = Plan { end, step, longest_step: None, contact_step: None, sample: end };
             assert_eq!(transient(&mut system, method, &mut last, &plan, &mut Blind), Ending::Finished);
@@ -147,10 +147,10 @@ fn a_swinging_cantilever_strikes_a_stop_as_a_clamped_and_pinned_beam() {
             let slope = (free(x + 1e-5) - free(x - 1e-5)) / 2e-5;
             (state.v[2 * k - 2], state.v[2 * k - 1]) = (-free(x), -h * slope);
         }
-        let mut method = MoreauJean::new(0.5).unwrap();
+        let method = MoreauJean::new(0.5).unwrap();
         let (mut worst, mut largest, mut pressed) = ([0.0_f64; 2], [0.0_f64; 2], 0.0);
         let middle = elements - 2;
-        steps(&mut method, &mut beam, state, (0.035, 2e-5), |_, from, to| {
+        steps(&method, &mut beam, state, (0.035, 2e-5), |_, from, to| {
             pressed += to.lambda[0] * (to.t - from.t);
             let exact = [deflection(0.5, to.t), impulse(to.t)];
             for (k, found) in [to.q[middle], pressed].into_iter().enumerate() {

@@ -2,13 +2,17 @@
 
 use super::drive::adaptive;
 use super::systems::{Chain, Pendulum, SpringPendulum, TwoFrequencies, state, wide_chain};
-use flexion::integrator::{Counters, GeneralizedAlpha, Integrator, NonsmoothAlpha, Radau, Span, Tolerance};
+use flexion::integrator::{
+    Counters, GeneralizedAlpha, Integration, Integrator, NonsmoothAlpha, Radau, Span, Tolerance,
+};
 use flexion::system::{State, System};
 
 fn run(system: &mut dyn System, from: &State, end: f64, tolerance: f64) -> (State, Counters) {
-    let mut method = Radau::new(Tolerance::uniform(tolerance)).unwrap();
-    let last = adaptive(&mut method, system, from.clone(), end, tolerance, |_, _, _, _| {}).unwrap();
-    (last, method.counters())
+    let method = Radau::new(Tolerance::uniform(tolerance)).unwrap();
+    let mut counters = Counters::default();
+    let each = |run: &Integration, _: &mut dyn System, _: &State, _: &State| counters = run.counters();
+    let last = adaptive(&method, system, from.clone(), end, tolerance, each).unwrap();
+    (last, counters)
 }
 
 #[test]
@@ -101,8 +105,8 @@ fn a_rejected_attempt_leaves_no_trace_in_the_history() {
     for waste in [false, true] {
         let mut system = wide_chain(6);
         let mut from = state(&system, &[0.01; 6], &[0.0; 6]);
-        let mut method = flexion::integrator::GeneralizedAlpha::chung_hulbert(0.7).unwrap();
-        method.start(&mut system, &mut from, 1e-3).unwrap();
+        let method = flexion::integrator::GeneralizedAlpha::chung_hulbert(0.7).unwrap();
+        let mut method = method.start(&mut system, &mut from, 1e-3).unwrap();
         let mut to = from.clone();
         for _ in 0..50 {
             if waste {
@@ -131,9 +135,9 @@ fn steps_that_change_their_size_keep_the_order_of_generalized_alpha() {
     ];
     for make in methods {
         let mut error = |count: usize| {
-            let mut method = make();
+            let method = make();
             let (h, mut from) = (2.0 / (3 * count) as f64, start.clone());
-            method.start(&mut system, &mut from, h).unwrap();
+            let mut method = method.start(&mut system, &mut from, h).unwrap();
             let mut to = from.clone();
             for _ in 0..count {
                 for part in [1.0, 0.5, 1.5] {
@@ -147,28 +151,5 @@ fn steps_that_change_their_size_keep_the_order_of_generalized_alpha() {
         let (coarse, fine) = (error(200), error(400));
         let order = (coarse / fine).log2();
         assert!((order - 2.0).abs() < 0.1, "{order}: {coarse:e} {fine:e}");
-    }
-}
-
-/// A local error of order 3 gives a global one of the tolerance to the power 2/3.
-#[test]
-fn generalized_alpha_controls_its_steps() {
-    let period = Pendulum::period(2.0);
-    let mut points = Vec::new();
-    for tolerance in [1e-4, 1e-6, 1e-8] {
-        let mut system = Pendulum::new();
-        let from = state(&system, &[2.0], &[0.0]);
-        let mut method =
-            GeneralizedAlpha::chung_hulbert(0.6).unwrap().adaptive(Tolerance::uniform(tolerance));
-        let last = adaptive(&mut method, &mut system, from, period, tolerance, |_, _, _, _| {}).unwrap();
-        let counters = method.counters();
-        assert!(4 * counters.rejected < counters.steps, "{counters:?}");
-        points.push(((last.q[0] - 2.0).hypot(last.v[0]), counters.steps as f64));
-    }
-    for pair in points.windows(2) {
-        let slope = (pair[0].0 / pair[1].0).log10() / 2.0;
-        assert!((slope - 2.0 / 3.0).abs() < 0.15, "{points:?}");
-        let growth = (pair[1].1 / pair[0].1).log10() / 2.0;
-        assert!((growth - 1.0 / 3.0).abs() < 0.05, "{points:?}");
     }
 }

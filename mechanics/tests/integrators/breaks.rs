@@ -87,7 +87,7 @@ impl Observer for Watch {
 }
 
 /// Error of q and q̇ at the end, and of the energy balance, of a run with steps of about `h`.
-fn error(method: &mut dyn Integrator, h: f64) -> [f64; 2] {
+fn error(method: &dyn Integrator, h: f64) -> [f64; 2] {
     let mut system = StepLoad::new();
     let mut state = system.initial();
     let end = 2.0;

@@ -2,25 +2,25 @@
 
 #![allow(dead_code)]
 
-use flexion::integrator::{Integrator, Span, StepControl, StepError};
+use flexion::integrator::{Integration, Integrator, Span, StepControl, StepError};
 use flexion::system::{State, System};
 
 /// `steps` equal steps to `end`; the callback sees (integrator, system, from, to) of each.
 pub fn fixed(
-    integrator: &mut dyn Integrator,
+    integrator: &dyn Integrator,
     system: &mut dyn System,
     mut from: State,
     end: f64,
     steps: usize,
-    mut each: impl FnMut(&dyn Integrator, &mut dyn System, &State, &State),
+    mut each: impl FnMut(&Integration, &mut dyn System, &State, &State),
 ) -> Result<State, StepError> {
     let h = end / steps as f64;
-    integrator.start(system, &mut from, h)?;
+    let mut integrator = integrator.start(system, &mut from, h)?;
     let mut to = from.clone();
     for _ in 0..steps {
         integrator.step(system, &from, Span::new(from.t, h), &mut to)?;
         integrator.accept(&from, &to);
-        each(integrator, system, &from, &to);
+        each(&integrator, system, &from, &to);
         std::mem::swap(&mut from, &mut to);
     }
     Ok(from)
@@ -28,15 +28,15 @@ pub fn fixed(
 
 /// Adaptive run to `end`.
 pub fn adaptive(
-    integrator: &mut dyn Integrator,
+    integrator: &dyn Integrator,
     system: &mut dyn System,
     mut from: State,
     end: f64,
     tolerance: f64,
-    mut each: impl FnMut(&dyn Integrator, &mut dyn System, &State, &State),
+    mut each: impl FnMut(&Integration, &mut dyn System, &State, &State),
 ) -> Result<State, StepError> {
     let order = integrator.info().estimate_order.unwrap_or(1);
-    integrator.start(system, &mut from, 0.0)?;
+    let mut integrator = integrator.start(system, &mut from, 0.0)?;
     let first = StepControl::first_step(order, &from, system.scales(), tolerance, end);
     let mut control = StepControl::new(order, end, first);
     let mut to = from.clone();
@@ -49,7 +49,7 @@ pub fn adaptive(
                 if error <= 1.0 {
                     integrator.accept(&from, &to);
                     control.accepted(h, error, report.iterations);
-                    each(integrator, system, &from, &to);
+                    each(&integrator, system, &from, &to);
                     std::mem::swap(&mut from, &mut to);
                 } else {
                     control.rejected(h, error, report.iterations);

@@ -25,11 +25,11 @@ fn errors(
     steps: usize,
     exact: &dyn Fn(f64) -> (Vec<f64>, Vec<f64>),
 ) -> [f64; 3] {
-    let mut integrator = make();
+    let integrator = make();
     let distance = |x: &[f64], y: &[f64]| x.iter().zip(y).fold(0.0, |m: f64, (x, y)| m.max((x - y).abs()));
     let mut largest = [0.0_f64; 3];
     let mut inside = from.clone();
-    fixed(&mut *integrator, system, from.clone(), end, steps, |integrator, system, from, to| {
+    fixed(&*integrator, system, from.clone(), end, steps, |integrator, system, from, to| {
         let (q, v) = exact(to.t);
         largest[0] = largest[0].max(distance(&to.q, &q));
         largest[1] = largest[1].max(distance(&to.v, &v));
@@ -95,9 +95,9 @@ fn every_method_has_its_order_on_a_nonlinear_system() {
     let end = 3.0;
     let steps = 12_800;
     let mut table: Vec<(Vec<f64>, Vec<f64>)> = Vec::new();
-    let mut reference = RungeKutta::new();
+    let reference = RungeKutta::new();
     table.push((from.q.clone(), from.v.clone()));
-    fixed(&mut reference, &mut system, from.clone(), end, steps, |_, _, _, to| {
+    fixed(&reference, &mut system, from.clone(), end, steps, |_, _, _, to| {
         table.push((to.q.clone(), to.v.clone()));
     })
     .unwrap();
@@ -118,8 +118,8 @@ fn the_pendulum_returns_after_its_elliptic_period() {
     let period = Pendulum::period(2.0);
     for (name, make, _, steps) in METHODS {
         let n = 8 * steps[1];
-        let mut integrator = make();
-        let last = fixed(&mut *integrator, &mut system, from.clone(), period, n, |_, _, _, _| {}).unwrap();
+        let integrator = make();
+        let last = fixed(&*integrator, &mut system, from.clone(), period, n, |_, _, _, _| {}).unwrap();
         let (dq, dv) = ((last.q[0] - 2.0).abs(), last.v[0].abs());
 
         assert!(dq < 1e-6 && dv < 1e-4, "{name}: {dq:e}, {dv:e}");
@@ -133,10 +133,10 @@ fn dense_output_of_radau_is_as_accurate_as_its_steps() {
     let from = state(&system, &[1.0], &[0.0]);
     let mut orders = Vec::new();
     for steps in [8, 16] {
-        let mut integrator = Radau::new(Tolerance::uniform(1e-13)).unwrap();
+        let integrator = Radau::new(Tolerance::uniform(1e-13)).unwrap();
         let mut worst = [0.0_f64; 3];
         let mut inside = from.clone();
-        fixed(&mut integrator, &mut system, from.clone(), 6.0, steps, |integrator, system, from, to| {
+        fixed(&integrator, &mut system, from.clone(), 6.0, steps, |integrator, system, from, to| {
             for k in 1..20 {
                 let t = from.t + f64::from(k) / 20.0 * (to.t - from.t);
                 integrator.interpolate(system, from, to, t, &mut inside);

@@ -33,7 +33,7 @@ impl Observer for Watch {
 /// An event-driven run.
 fn run(
     system: &mut dyn System,
-    method: &mut dyn Integrator,
+    method: &dyn Integrator,
     mut state: State,
     end: f64,
     step: Option<f64>,
@@ -131,9 +131,8 @@ fn two_balls_strike_the_floor_at_once_with_friction() {
         assert!(*lost > 0.0 && watch.imbalance < 1e-9, "{lost} {:e}", watch.imbalance);
     }
     let mut far = |steps: usize| {
-        let mut method = MoreauJean::new(0.5).unwrap();
-        let end =
-            fixed(&mut method, &mut system, start.clone(), time + after, steps, |_, _, _, _| {}).unwrap();
+        let method = MoreauJean::new(0.5).unwrap();
+        let end = fixed(&method, &mut system, start.clone(), time + after, steps, |_, _, _, _| {}).unwrap();
         assert!((end.v[0] - v_x).abs() < 1e-2 * v_x, "{} for {v_x}", end.v[0]);
         (end.q[1] - exact_y).abs()
     };
@@ -152,8 +151,7 @@ fn balls_that_stick_roll_on_with_five_sevenths_of_their_speed() {
     start.v = vec![1.4, 0.0, 0.0, 1.4, 0.0, 0.0];
     start.mode[..4].fill(Mode::Open);
     let mut alpha = GeneralizedAlpha::chung_hulbert(0.8).unwrap();
-    let mut methods: [(&mut dyn Integrator, Option<f64>); 2] =
-        [(&mut radau(), None), (&mut alpha, Some(1e-3))];
+    let mut methods: [(&dyn Integrator, Option<f64>); 2] = [(&mut radau(), None), (&mut alpha, Some(1e-3))];
     for (method, step) in &mut methods {
         let (end, watch) = run(&mut system, *method, start.clone(), 0.6, *step);
         assert_eq!(impacts(&watch), 1, "{:?}", watch.events);
@@ -171,8 +169,8 @@ fn the_nonsmooth_scheme_runs_under_the_driver_too() {
     system.amplitude = 0.0;
     let mut start = system.initial();
     (start.q[0], start.mode[0]) = (0.1, Mode::Open);
-    let mut method = MoreauJean::new(0.5).unwrap();
-    let (last, watch) = run(&mut system, &mut method, start, 2.0, Some(1e-3));
+    let method = MoreauJean::new(0.5).unwrap();
+    let (last, watch) = run(&mut system, &method, start, 2.0, Some(1e-3));
     assert!(last.q[0].abs() < 1e-3 && last.v[0].abs() < 0.02, "{last:?}");
     // It tells of the impact at the end of a step at whose middle the ball touches.
     let first = watch.events.first().unwrap();
@@ -187,8 +185,8 @@ fn a_ball_that_lands_at_the_end_of_a_step_stays() {
     system.amplitude = 0.0;
     let mut start = system.initial();
     (start.q[0], start.mode[0]) = (0.5 * GRAVITY * 0.3 * 0.3, Mode::Open);
-    let mut alpha = GeneralizedAlpha::chung_hulbert(0.8).unwrap();
-    let (last, watch) = run(&mut system, &mut alpha, start, 1.0, Some(1e-3));
+    let alpha = GeneralizedAlpha::chung_hulbert(0.8).unwrap();
+    let (last, watch) = run(&mut system, &alpha, start, 1.0, Some(1e-3));
     assert_eq!(watch.events.len(), 1, "{:?}", watch.events);
     assert!(last.q[0].abs() < 1e-12 && last.v[0].abs() < 1e-9, "{last:?}");
 }
@@ -209,7 +207,7 @@ fn the_heavy_top_precesses_at_the_order_of_each_method() {
     let end = 2.0;
     let angle = precession * end;
     let exact = [sin * angle.sin(), -sin * angle.cos(), cos];
-    let mut error = |method: &mut dyn Integrator, steps| {
+    let mut error = |method: &dyn Integrator, steps| {
         let last = fixed(method, &mut top, start.clone(), end, steps, |_, _, _, _| {}).unwrap();
         let axis = HeavyTop::axis(&last.q);
         axis.iter().zip(exact).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
@@ -229,7 +227,7 @@ fn the_heavy_top_precesses_at_the_order_of_each_method() {
     let mut start = anywhere(&top);
     start.t = 0.0;
     let (energy, momentum) = (top.energy(&start).total(), top.momentum(&start));
-    let (last, _) = run(&mut top, &mut radau(), start, 3.0, None);
+    let (last, _) = run(&mut top, &radau(), start, 3.0, None);
     assert!((top.energy(&last).total() - energy).abs() < 1e-7);
     assert!((top.momentum(&last) - momentum).abs() < 1e-7);
 }
@@ -245,8 +243,8 @@ fn the_closed_four_bar_swings_like_its_pendulum() {
     let angle = {
         let mut pendulum = super::systems::Pendulum::new();
         let from = super::systems::state(&pendulum, &[theta], &[0.0]);
-        let mut method = Radau::new(Tolerance::uniform(1e-13)).unwrap();
-        fixed(&mut method, &mut pendulum, from, end * square.sqrt(), 800, |_, _, _, _| {}).unwrap().q[0]
+        let method = Radau::new(Tolerance::uniform(1e-13)).unwrap();
+        fixed(&method, &mut pendulum, from, end * square.sqrt(), 800, |_, _, _, _| {}).unwrap().q[0]
     };
     let start = bars.swung(theta, 0.0);
     let exact = bars.swung(angle, 0.0);
@@ -279,8 +277,8 @@ fn a_node_without_mass_meets_a_stop_and_all_energy_comes_back() {
     let half = std::f64::consts::PI * (system.mass / system.stiffness).sqrt();
     let end = touch + half + 0.1;
     let exact = system.length + speed * 0.1;
-    let mut alpha = GeneralizedAlpha::chung_hulbert(1.0).unwrap();
-    let (last, watch) = run(&mut system, &mut alpha, start.clone(), end, Some(1e-4));
+    let alpha = GeneralizedAlpha::chung_hulbert(1.0).unwrap();
+    let (last, watch) = run(&mut system, &alpha, start.clone(), end, Some(1e-4));
     assert_eq!(watch.events.len(), 2, "{:?}", watch.events);
     assert!((watch.events[0].time - touch).abs() < 1e-10);
     assert!((watch.events[1].time - touch - half).abs() < 1e-6);
@@ -292,8 +290,8 @@ fn a_node_without_mass_meets_a_stop_and_all_energy_comes_back() {
     );
     // The method's error of energy in a contact is some (hω)²/12 = 2e-6 of the whole.
     assert!(watch.imbalance < 1e-5 * 0.5 * system.mass * speed * speed, "{:e}", watch.imbalance);
-    let mut method = MoreauJean::new(0.5).unwrap();
-    let last = fixed(&mut method, &mut system, start, end, 20_000, |_, _, _, _| {}).unwrap();
+    let method = MoreauJean::new(0.5).unwrap();
+    let last = fixed(&method, &mut system, start, end, 20_000, |_, _, _, _| {}).unwrap();
     assert!((last.q[0] - exact).abs() < 1e-3, "{:?}", last.q);
 }
 
@@ -329,8 +327,7 @@ fn a_ball_bounces_on_a_moving_plate_and_the_balance_counts_its_work() {
     let mut start = system.initial();
     (start.q[0], start.mode[0]) = (0.25, Mode::Open);
     let mut alpha = GeneralizedAlpha::chung_hulbert(0.8).unwrap();
-    let mut methods: [(&mut dyn Integrator, Option<f64>); 2] =
-        [(&mut radau(), None), (&mut alpha, Some(2e-3))];
+    let mut methods: [(&dyn Integrator, Option<f64>); 2] = [(&mut radau(), None), (&mut alpha, Some(2e-3))];
     for (method, step) in &mut methods {
         let (last, watch) = run(&mut system, *method, start.clone(), end, *step);
         let times: Vec<f64> = watch.events.iter().map(|e| e.time).collect();
@@ -339,7 +336,7 @@ fn a_ball_bounces_on_a_moving_plate_and_the_balance_counts_its_work() {
         assert!((last.q[0] - exact).abs() < 1e-8, "{} for {exact}", last.q[0]);
         assert!(watch.imbalance < 1e-9, "{:e}", watch.imbalance);
     }
-    let mut method = MoreauJean::new(0.5).unwrap();
-    let last = fixed(&mut method, &mut system, start, end, 40_000, |_, _, _, _| {}).unwrap();
+    let method = MoreauJean::new(0.5).unwrap();
+    let last = fixed(&method, &mut system, start, end, 40_000, |_, _, _, _| {}).unwrap();
     assert!((last.q[0] - exact).abs() < 5e-3, "{} for {exact}", last.q[0]);
 }

@@ -1,33 +1,45 @@
 //! Statics of slender beams in space: paths, critical loads, closed forms.
 
+use super::conformance::profile;
 use flexion::analysis::equilibrium::equilibrium;
 use flexion::analysis::path::{Critical, Plan, Point, follow};
+use flexion::linalg::Vec3;
 use flexion::multibody::slender::{Beam, Properties, Station};
-use flexion::multibody::{Axes, Flexible, Kind, Load, Marker, Model, Multibody, Part};
+use flexion::multibody::{Axes, Flexible, Kind, LineLoad, Load, Marker, Model, Multibody, Part};
 use flexion::system::{Dynamics, Frame, Observed, Steady};
 use std::f64::consts::PI;
 
 /// A cantilever of length 1 along x, n along y, with a load at its tip.
 fn cantilever(elements: usize, stiffness: [f64; 4], axes: Axes, [force, moment]: [[f64; 3]; 2]) -> Multibody {
-    let root = Station { position: [0.0; 3], tangent: [1.0, 0.0, 0.0], normal: [0.0, 1.0, 0.0] };
+    let root =
+        Station { position: Vec3([0.0; 3]), tangent: Vec3([1.0, 0.0, 0.0]), normal: Vec3([0.0, 1.0, 0.0]) };
     let section = Properties::principal(stiffness, 1.0, [1e-6; 3]);
     let mut model = Model::new();
     let beam = model.beam(Flexible::new("beam", Beam::straight(root, 1.0, elements, section).unwrap()));
     let part = |node| Part::Section { beam, node };
-    model.join("root", Kind::Fixed, [Part::Ground, part(0)], [0.0; 3], ([0.0, 0.0, 1.0], None)).unwrap();
+    model
+        .join("root", Kind::Fixed, [Part::Ground, part(0)], Vec3([0.0; 3]), (Vec3([0.0, 0.0, 1.0]), None))
+        .unwrap();
     let at = Marker::new(part(elements), [0.0; 3]);
-    model.load(Load { name: "tip".into(), at, force, moment, axes, amplitude: None });
+    model.load(Load {
+        name: "tip".into(),
+        at,
+        force: Vec3(force),
+        moment: Vec3(moment),
+        axes,
+        amplitude: None,
+    });
     Multibody::new(model).unwrap()
 }
 
 fn tip(system: &mut Multibody, s: &flexion::system::State) -> [f64; 3] {
     let mut frame = [Frame::default()];
     system.frames(0, s, &[1.0], &mut frame);
-    frame[0].position
+    frame[0].position.0
 }
 
 /// The points of the path up to the load factor 1, with the place of the tip.
-fn path(system: &mut Multibody, plan: &Plan) -> Vec<(Point, [f64; 3])> {
+fn path(system: &mut Multibody, plan: &Plan) -> Vec<(Point, Vec3)> {
     let (mut points, start) = (Vec::new(), system.initial());
     let mut frame = [Frame::default()];
     let end = follow(system, &start, plan, |system, point| {
@@ -40,8 +52,49 @@ fn path(system: &mut Multibody, plan: &Plan) -> Vec<(Point, [f64; 3])> {
     points
 }
 
-fn critical(points: &[(Point, [f64; 3])]) -> Vec<(Critical, f64)> {
+fn critical(points: &[(Point, Vec3)]) -> Vec<(Critical, f64)> {
     points.iter().filter_map(|(p, _)| p.critical.map(|critical| (critical, p.factor))).collect()
+}
+
+/// w(L) = 11 p₀ L⁴/(120 EI) under p₀ s/L, and p₀ (L⁴/8 − b⁴/8 − b³ (L − b)/6)/EI under p₀ from b to L; nodes of cubic elements are exact.
+#[test]
+fn distributed_loads_bend_a_cantilever_by_their_closed_forms() {
+    let (length, bending, load) = (2.0_f64, 3.0, 1e-5);
+    let triangle = 11.0 / 120.0 * load * length.powi(4) / bending;
+    let (all, begin) = (length.powi(4) / 8.0, 0.5_f64);
+    let part = load * (all - begin.powi(4) / 8.0 - begin.powi(3) * (length - begin) / 6.0) / bending;
+    for (axes, distribution, elements, expected) in [
+        (Axes::Dead, Some("t/2"), None, triangle),
+        (Axes::Follower, Some("t/2"), None, triangle),
+        (Axes::Dead, None, Some(1..4), part),
+        (Axes::Follower, Some("if(t < 0.5, 0, 1)"), None, part),
+    ] {
+        let root = Station { position: Vec3::ZERO, tangent: Vec3::AXES[0], normal: Vec3::AXES[1] };
+        let section = Properties::principal([1e4, 2.0, bending, bending], 1.0, [1e-3, 0.0, 0.0]);
+        let mut model = Model::new();
+        let beam = model.beam(Flexible::new("beam", Beam::straight(root, length, 4, section).unwrap()));
+        let clamped = Part::Section { beam, node: 0 };
+        let z = ([0.0, 0.0, 1.0], None);
+        model.join("clamp", Kind::Fixed, [Part::Ground, clamped], [0.0; 3], z).unwrap();
+        let distribution = distribution.map(profile);
+        let force = load * Vec3::AXES[1];
+        model.line_load(LineLoad {
+            name: "pressure".into(),
+            beam,
+            elements,
+            distribution,
+            force,
+            axes,
+            amplitude: None,
+        });
+        let mut system = Multibody::new(model).unwrap();
+        let mut s = system.initial();
+        equilibrium(&mut system, &mut s).unwrap();
+        let mut tip = [Frame::default()];
+        system.frames(0, &s, &[length], &mut tip);
+        let found = tip[0].position[1];
+        assert!((found / expected - 1.0).abs() < 1e-6, "{axes:?}: {found} for {expected}");
+    }
 }
 
 #[test]
@@ -50,7 +103,7 @@ fn a_couple_rolls_the_beam_up_at_every_load() {
     let mut system = cantilever(40, [1e8, 0.7, 1.0, 1.0], Axes::Follower, moment);
     let points = path(&mut system, &Plan::to(1.0));
     let mut worst: f64 = 0.0;
-    for (point, [x, y, z]) in points.iter().filter(|(point, _)| point.factor > 0.0) {
+    for (point, Vec3([x, y, z])) in points.iter().filter(|(point, _)| point.factor > 0.0) {
         let curvature = 2.0 * PI * point.factor;
         let (sin, cos) = curvature.sin_cos();
         let [along, across] = [sin / curvature, (1.0 - cos) / curvature];
@@ -69,7 +122,7 @@ fn a_column_past_its_buckling_load_takes_the_shape_of_the_elastica() {
         let load = first * first;
         let mut system = cantilever(24, [1e8, 0.7, 1.0, 1e3], Axes::Dead, [[-load, 0.0, 1e-5], [0.0; 3]]);
         let points = path(&mut system, &Plan { longest: 0.1, ..Plan::to(1.0) });
-        let (last, [x, y, z]) = points.last().unwrap();
+        let (last, Vec3([x, y, z])) = points.last().unwrap();
         assert!(last.stability.as_ref().unwrap().is_stable(), "{:?}", last.stability);
         let expected = [2.0 * second / first - 1.0, 2.0 * k / first];
         let found = [x - expected[0], z - expected[1], *y];
@@ -135,7 +188,7 @@ fn a_follower_force_bends_the_beam_past_its_turning_point() {
         [cos * x + sin * y, sin * x - cos * y]
     };
     let (mut worst, mut largest): (f64, f64) = (0.0, 0.0);
-    for (point, [x, y, z]) in &points {
+    for (point, Vec3([x, y, z])) in &points {
         let [along, across] = expected(load * point.factor);
         worst = worst.max((x - along).abs()).max((y.abs() - across.abs()).abs()).max(z.abs());
         largest = largest.max(y.abs());

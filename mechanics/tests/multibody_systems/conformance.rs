@@ -2,8 +2,12 @@
 
 use super::{odd_body, odd_rotation, wave};
 use flexion::drive::{Actuator, Controller};
-use flexion::linalg::Matrix;
-use flexion::multibody::{Axes, Drive, Joint, Kind, Load, Marker, Model, Multibody, Part, Spring};
+use flexion::law::{ForceLaw, LinearDrag, Place, Response};
+use flexion::linalg::{Matrix, Vec3};
+use flexion::multibody::slender::{Beam, Properties, Station};
+use flexion::multibody::{
+    Axes, Directions, Drive, Flexible, Joint, Kind, LineLaw, Load, Marker, Model, Multibody, Part, Spring,
+};
 use flexion::profile::{Expression, Motion, Profile};
 use flexion::system::{Dynamics, Frame, State, Weights};
 use flexion::verify::dynamics;
@@ -31,7 +35,8 @@ fn pair(kind: Kind, drive: Drive) -> Multibody {
         let kind = if kind == Kind::Fixed && name == "root" { Kind::Spherical } else { kind };
         let point = [0.3 * wave(1, k), 0.4 * wave(2, k), 0.5 * wave(3, k)];
         let axis = [wave(4, k), wave(5, k), wave(6, k)];
-        let joint = model.join(name, kind, parts, point, (axis, Some([0.3, 1.0, 0.2]))).unwrap();
+        let joint =
+            model.join(name, kind, parts, Vec3(point), (Vec3(axis), Some(Vec3([0.3, 1.0, 0.2])))).unwrap();
         joint.drive = drive.clone();
     }
     Multibody::new(model).unwrap()
@@ -106,21 +111,24 @@ fn springs_and_loads_conform() {
     });
     let marker = |part, k| Marker {
         part,
-        frame: Frame { position: [0.3 * wave(1, k), 0.4, 0.5 * wave(3, k)], rotation: odd_rotation(k) },
+        frame: Frame { position: Vec3([0.3 * wave(1, k), 0.4, 0.5 * wave(3, k)]), rotation: odd_rotation(k) },
     };
-    for (name, parts, k) in
-        [("to ground", [Part::Ground, bodies[0]], 0.1), ("between", [bodies[1], bodies[0]], 1.3)]
-    {
+    for (name, parts, k, length, directions) in [
+        ("to ground", [Part::Ground, bodies[0]], 0.1, 0.3, Directions::Line),
+        ("between", [bodies[1], bodies[0]], 1.3, 0.3, Directions::Line),
+        ("in all directions", [bodies[1], bodies[0]], 0.7, 0.0, Directions::All),
+    ] {
         let [from, to] = [marker(parts[0], k), marker(parts[1], k + 0.4)];
-        let spring = Spring { name: name.to_owned(), from, to, stiffness: 20.0, damping: 0.8, length: 0.3 };
+        let spring =
+            Spring { name: name.to_owned(), from, to, stiffness: 20.0, damping: 0.8, length, directions };
         model.spring(spring);
     }
     for (name, axes) in [("dead", Axes::Dead), ("follower", Axes::Follower)] {
         model.load(Load {
             name: name.to_owned(),
             at: marker(bodies[1], 0.6),
-            force: [1.0, -2.0, 0.7],
-            moment: [0.4, 0.9, -1.1],
+            force: Vec3([1.0, -2.0, 0.7]),
+            moment: Vec3([0.4, 0.9, -1.1]),
             axes,
             amplitude: Some(profile("1 + t")),
         });
@@ -128,6 +136,44 @@ fn springs_and_loads_conform() {
     let mut system = Multibody::new(model).unwrap();
     let s = anywhere(&system);
     assert_eq!(dynamics(&mut system, &s), []);
+}
+
+/// A law that depends on place, velocity and time.
+#[derive(Debug)]
+struct Swirl;
+
+impl ForceLaw for Swirl {
+    fn response(&self, place: &Place) -> Response {
+        let ([x, y, z], [u, v, w], f) = (place.position, place.velocity, 1.0 + place.time);
+        Response {
+            force: [f * x * v, f * (y - z * w), f * u * u],
+            by_position: [[f * v, 0.0, 0.0], [0.0, f, -f * w], [0.0; 3]],
+            by_velocity: [[0.0, f * x, 0.0], [0.0, 0.0, -f * z], [2.0 * f * u, 0.0, 0.0]],
+        }
+    }
+}
+
+#[test]
+fn force_laws_along_beams_conform() {
+    let root = Station {
+        position: [0.3, -0.2, 0.1].into(),
+        tangent: [0.6, 0.8, 0.0].into(),
+        normal: [-0.8, 0.6, 0.0].into(),
+    };
+    let section = Properties::principal([1e3, 20.0, 30.0, 40.0], 1.3, [0.2, 0.1, 0.1]);
+    let laws: [Arc<dyn ForceLaw>; 2] = [Arc::new(LinearDrag { coefficient: 0.7 }), Arc::new(Swirl)];
+    for law in laws {
+        let mut model = Model::new().with_gravity([0.0, 0.0, -9.81]);
+        let beam = model.beam(Flexible::new("beam", Beam::straight(root, 2.0, 3, section).unwrap()));
+        model.line_law(LineLaw { name: "law".into(), beam, elements: Some(1..3), law });
+        let mut system = Multibody::new(model).unwrap();
+        let mut s = anywhere(&system);
+        let d: Vec<f64> = (0..s.v.len()).map(|i| 0.02 * wave(i, 0.3)).collect();
+        let from = s.q.clone();
+        system.retract(&from, &d, &mut s.q);
+        s.v.iter_mut().enumerate().for_each(|(i, v)| *v = wave(i, 2.0));
+        assert_eq!(dynamics(&mut system, &s), []);
+    }
 }
 
 /// Newton's tangent by the increment of a step, ∂r/∂d at q₀ ⊞ d with d not small, against differences.
@@ -170,11 +216,11 @@ fn a_prismatic_joint_with_markers_of_its_own_conforms() {
     let mut model = Model::new();
     let mut body = odd_body("slider", 0.4);
     body.frame.rotation = odd_rotation(1.0);
-    let along = flexion::multibody::rotation::column(&body.frame.rotation, 2);
+    let along = body.frame.rotation.column(2);
     body.frame.position = along.map(|x| 0.7 * x);
     let part = model.body(body);
     let from =
-        Marker { part: Part::Ground, frame: Frame { position: [0.0; 3], rotation: odd_rotation(1.0) } };
+        Marker { part: Part::Ground, frame: Frame { position: Vec3([0.0; 3]), rotation: odd_rotation(1.0) } };
     model.joint(Joint::new("rail", Kind::Prismatic, from, Marker::new(part, [0.0; 3])));
     let mut system = Multibody::new(model).unwrap();
     let s = anywhere(&system);

@@ -4,8 +4,8 @@ use super::{GRAVITY, odd_body, radau, wave};
 use flexion::analysis::transient::{Ending, Event, EventKind, Observer, Plan, Step, transient};
 use flexion::contact::{Circle, Contact, ContactForce, Contacting, Law, Obstacle, Plane, Translation};
 use flexion::integrator::{GeneralizedAlpha, Integrator, MoreauJean, NonsmoothAlpha};
-use flexion::linalg::Structure;
-use flexion::multibody::rotation::{exponential, matrix};
+use flexion::linalg::{Structure, Vec3};
+use flexion::multibody::rotation::about;
 use flexion::multibody::{Body, Kind, Marker, Model, Multibody, Part};
 use flexion::profile::Expression;
 use flexion::system::{Dynamics, Mode, State, System};
@@ -13,7 +13,7 @@ use flexion::verify::dynamics;
 use std::sync::Arc;
 
 fn ground(model: Model, restitution: f64) -> Contacting<Multibody> {
-    let plane = Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], motion: None };
+    let plane = Plane { point: Vec3([0.0; 3]), normal: Vec3([0.0, 0.0, 1.0]), motion: None };
     let law = Law::Constraint { restitution, friction: 0.0 };
     let contact = Contact { name: "ground".into(), point: 0, obstacle: Arc::new(plane), law };
     Contacting::new(Multibody::new(model).unwrap(), vec![contact])
@@ -43,12 +43,7 @@ impl Observer for Watch {
     }
 }
 
-pub fn run(
-    system: &mut dyn System,
-    method: &mut dyn Integrator,
-    end: f64,
-    step: Option<f64>,
-) -> (State, Watch) {
+pub fn run(system: &mut dyn System, method: &dyn Integrator, end: f64, step: Option<f64>) -> (State, Watch) {
     let (mut state, mut watch) = (system.initial(), Watch::default());
     state.mode.iter_mut().zip(system.rows()).for_each(|(mode, set)| {
         *mode = if *set == flexion::system::Set::Free { Mode::Closed } else { Mode::Open };
@@ -79,7 +74,7 @@ fn a_rod_that_falls_on_its_end_is_thrown_into_rotation() {
     let (mass, inertia, half, height, tilt, e) = (1.5, 0.2, 0.6, 0.4, 0.7_f64, 0.5);
     let mut model = Model::new().with_gravity([0.0, 0.0, -GRAVITY]);
     let mut rod = Body::new("rod", mass, [0.002, inertia, inertia]);
-    rod.frame.rotation = matrix(exponential([0.0, tilt, 0.0]));
+    rod.frame.rotation = about([0.0, tilt, 0.0]);
     rod.frame.position[2] = height + half * tilt.sin();
     let part = model.body(rod);
     model.contact_point(Marker::new(part, [half, 0.0, 0.0]));
@@ -88,7 +83,7 @@ fn a_rod_that_falls_on_its_end_is_thrown_into_rotation() {
     let arm = half * tilt.cos();
     let impulse = (1.0 + e) * fall / (1.0 / mass + arm * arm / inertia);
     let time = fall / GRAVITY;
-    let (s, watch) = run(&mut system, &mut radau(1e-10), time + 1e-3, None);
+    let (s, watch) = run(&mut system, &radau(1e-10), time + 1e-3, None);
     assert_eq!(watch.events.len(), 1);
     let EventKind::Impact { impulses, .. } = &watch.events[0].kind else { panic!("{:?}", watch.events) };
     assert!((watch.events[0].time - time).abs() < 1e-9);
@@ -123,8 +118,8 @@ fn the_end_of_a_chain_lands_on_the_ground() {
     }
     for stabilized in [false, true] {
         let method = GeneralizedAlpha::chung_hulbert(0.7).unwrap();
-        let mut method = if stabilized { method.stabilized() } else { method };
-        let (s, watch) = run(&mut system, &mut method, 0.4, Some(5e-4));
+        let method = if stabilized { method.stabilized() } else { method };
+        let (s, watch) = run(&mut system, &method, 0.4, Some(5e-4));
         let impact = watch.events.iter().any(|e| matches!(e.kind, EventKind::Impact { .. }));
         assert!(impact, "{:?}", watch.events);
         assert!(watch.lowest > -1e-6, "{:e}", watch.lowest);
@@ -149,9 +144,16 @@ fn a_point_that_rubs_in_space_conforms() {
     let size = (1.0_f64 + 4.0 + 0.25).sqrt();
     let normal = [1.0, -2.0, 0.5].map(|x| x / size);
     // The point is 5 cm inside.
-    let plane = |x: f64| Arc::new(Plane { point: normal.map(|n| x * n), normal, motion: None });
+    let plane =
+        |x: f64| Arc::new(Plane { point: Vec3(normal.map(|n| x * n)), normal: Vec3(normal), motion: None });
     let hole = |x: f64| {
-        Arc::new(Circle { centre: [0.0; 3], axis: [0.0, 0.0, 1.0], radius: -x, hollow: true, motion: None })
+        Arc::new(Circle {
+            centre: Vec3([0.0; 3]),
+            axis: Vec3([0.0, 0.0, 1.0]),
+            radius: -x,
+            hollow: true,
+            motion: None,
+        })
     };
     let free = Law::Constraint { restitution: 0.0, friction: 0.0 };
     let inside = |obstacle: Arc<dyn Obstacle>| {
@@ -164,11 +166,17 @@ fn a_point_that_rubs_in_space_conforms() {
     let force = ContactForce { stiffness: 400.0, exponent: 1.5, factor: 0.4, friction: 0.6, slip_speed: 0.7 };
     // A hole along an axis of any direction, which moves.
     let moved = Translation {
-        direction: [0.0, 0.6, 0.8],
+        direction: Vec3([0.0, 0.6, 0.8]),
         displacement: Arc::new(Expression::new("0.1*sin(3*t)", "t", 1.0).unwrap()),
     };
     let tilted = |radius: f64| {
-        Arc::new(Circle { centre: [0.0; 3], axis: normal, radius, hollow: true, motion: Some(moved.clone()) })
+        Arc::new(Circle {
+            centre: Vec3([0.0; 3]),
+            axis: Vec3(normal),
+            radius,
+            hollow: true,
+            motion: Some(moved.clone()),
+        })
     };
     let tilted = tilted(1.0 - inside(tilted(1.0)));
     for obstacle in [plane as Arc<dyn Obstacle>, hole, tilted] {
@@ -194,12 +202,12 @@ fn a_point_that_rubs_in_space_conforms() {
 fn a_body_thrown_across_a_slope_ends_downhill_with_half_its_speed() {
     let (slope, speed) = (0.5_f64, 1.3);
     let (sin, cos) = slope.sin_cos();
-    let plane = Plane { point: [0.0; 3], normal: [sin, 0.0, cos], motion: None };
+    let plane = Plane { point: Vec3([0.0; 3]), normal: Vec3([sin, 0.0, cos]), motion: None };
     let law = Law::Constraint { restitution: 0.0, friction: slope.tan() };
     let contact = Contact { name: "slope".into(), point: 0, obstacle: Arc::new(plane), law };
     let mut model = Model::new().with_gravity([0.0, 0.0, -GRAVITY]);
     let mut body = Body::new("body", 0.7, [0.1; 3]);
-    body.velocity = Some([0.0, speed, 0.0]);
+    body.velocity = Some(Vec3([0.0, speed, 0.0]));
     let part = model.body(body);
     model.contact_point(Marker::new(part, [0.0; 3]));
     let system = Contacting::new(Multibody::new(model).unwrap(), vec![contact]);
@@ -223,7 +231,7 @@ fn a_body_thrown_across_a_slope_ends_downhill_with_half_its_speed() {
         // Events find no direction of sliding that changes at every time.
         let mut state = system.initial();
         let plan = Plan { end: 0.1, step: None, longest_step: None, contact_step: None, sample: 0.1 };
-        let ending = transient(&mut system, &mut radau(1e-6), &mut state, &plan, &mut Watch::default());
+        let ending = transient(&mut system, &radau(1e-6), &mut state, &plan, &mut Watch::default());
         assert!(matches!(ending, Ending::Failed(_)), "{ending:?}");
     }
 }

@@ -3,11 +3,12 @@
 
 use flexion::analysis::equilibrium::{equilibrium, stable_equilibrium};
 use flexion::analysis::modes::{Modes, modes};
-use flexion::linalg::Matrix;
+use flexion::linalg::{Matrix, Vec3};
 use flexion::multibody::slender::{Beam, Properties, Station};
 use flexion::multibody::{Axis, Flexible, Kind, Model, Multibody, Part, Rotating};
 use flexion::system::{Dynamics, State, System, Weights};
 use nalgebra::DMatrix;
+use std::ops::ControlFlow;
 
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
 /// EA, GJ, EI₂, EI₃ with L = ρA = 1.
@@ -22,7 +23,12 @@ fn beam(model: &mut Model, name: &str, from: [f64; 3], to: [f64; 3], elements: u
     let tangent = d.map(|x| x / length);
     let normal = if tangent[2].abs() > 0.9 { [1.0, 0.0, 0.0] } else { Z };
     let section = Properties::principal(STIFFNESS, 1.0, [POLAR, 0.0, 0.0]);
-    let built = Beam::straight(Station { position: from, tangent, normal }, length, elements, section);
+    let built = Beam::straight(
+        Station { position: Vec3(from), tangent: Vec3(tangent), normal: Vec3(normal) },
+        length,
+        elements,
+        section,
+    );
     let beam = model.beam(Flexible::new(name, built.unwrap()));
     [0, elements].map(|node| Part::Section { beam, node })
 }
@@ -81,7 +87,15 @@ fn a_beam_between_two_hinges_turns_freely_about_its_axis() {
         let ends = beam(&mut model, "beam", [0.0; 3], [1.0, 0.0, 0.0], elements);
         for (k, end) in ends.into_iter().enumerate() {
             let name = format!("end {k}");
-            model.join(&name, Kind::Spherical, [Part::Ground, end], [k as f64, 0.0, 0.0], (Z, None)).unwrap();
+            model
+                .join(
+                    &name,
+                    Kind::Spherical,
+                    [Part::Ground, end],
+                    Vec3([k as f64, 0.0, 0.0]),
+                    (Vec3(Z), None),
+                )
+                .unwrap();
         }
         let mut system = Multibody::new(model).unwrap();
         let (mut s, found) = found(&mut system, 6);
@@ -92,7 +106,7 @@ fn a_beam_between_two_hinges_turns_freely_about_its_axis() {
         expected.sort_by(f64::total_cmp);
         // Rounding takes n⁴ε of the lowest square.
         compare(&found, &expected, 1, if elements == 10 { 2e-3 } else { 1e-4 });
-        let stable = stable_equilibrium(&mut system, &mut s).unwrap();
+        let stable = stable_equilibrium(&mut system, &mut s, &mut |_| ControlFlow::Continue(())).unwrap();
         assert!(stable.stability.is_some_and(|found| found.is_stable()) && stable.left.is_none());
     }
 }
@@ -124,7 +138,7 @@ fn a_four_bar_of_beams_folds_without_stiffness() {
         [bars[2][1], Part::Ground],
     ];
     for (k, pair) in pairs.into_iter().enumerate() {
-        model.join(&format!("hinge {k}"), Kind::Revolute, pair, corners[k], (Z, None)).unwrap();
+        model.join(&format!("hinge {k}"), Kind::Revolute, pair, Vec3(corners[k]), (Vec3(Z), None)).unwrap();
     }
     let mut system = Multibody::new(model).unwrap();
     let (s, found) = found(&mut system, 8);
@@ -140,7 +154,7 @@ fn an_arch_and_a_truss_are_stiff_though_their_bands_are_mechanisms() {
     let bars = [0, 1].map(|k| beam(&mut arch, &format!("bar {k}"), corners[k], corners[k + 1], 6));
     let pairs = [[Part::Ground, bars[0][0]], [bars[0][1], bars[1][0]], [bars[1][1], Part::Ground]];
     for (k, pair) in pairs.into_iter().enumerate() {
-        arch.join(&format!("hinge {k}"), Kind::Revolute, pair, corners[k], (Z, None)).unwrap();
+        arch.join(&format!("hinge {k}"), Kind::Revolute, pair, Vec3(corners[k]), (Vec3(Z), None)).unwrap();
     }
     // Zigzag of joints 0 … 5, lower ones even; bars from each to the next two.
     let place = |k: usize| [0.5 * k as f64, if k.is_multiple_of(2) { 0.0 } else { 0.8 }, 0.0];
@@ -155,7 +169,7 @@ fn an_arch_and_a_truss_are_stiff_though_their_bands_are_mechanisms() {
     for (k, parts) in at.iter().enumerate() {
         for (l, part) in parts.iter().enumerate().skip(1) {
             let name = format!("hinge {k}{l}");
-            truss.join(&name, Kind::Revolute, [parts[0], *part], place(k), (Z, None)).unwrap();
+            truss.join(&name, Kind::Revolute, [parts[0], *part], Vec3(place(k)), (Vec3(Z), None)).unwrap();
         }
     }
     for model in [arch, truss.drop_redundant_rows()] {
@@ -170,12 +184,14 @@ fn an_arch_and_a_truss_are_stiff_though_their_bands_are_mechanisms() {
 fn a_shaft_that_turns_freely_whirls_forward_and_backward() {
     let mut model = Model::new();
     let section = Properties::principal([1e5, 0.7, 1.0, 1.0], 1.0, [1e-9, 0.0, 0.0]);
-    let root = Station { position: [0.0; 3], tangent: Z, normal: [1.0, 0.0, 0.0] };
+    let root = Station { position: Vec3([0.0; 3]), tangent: Vec3(Z), normal: Vec3([1.0, 0.0, 0.0]) };
     let built = Beam::straight(root, 1.0, 16, section).unwrap();
     let beam = model.beam(Flexible::new("shaft", built));
     for (k, node) in [0, 16].into_iter().enumerate() {
         let parts = [Part::Ground, Part::Section { beam, node }];
-        model.join(&format!("end {k}"), Kind::Spherical, parts, [0.0, 0.0, k as f64], (Z, None)).unwrap();
+        model
+            .join(&format!("end {k}"), Kind::Spherical, parts, Vec3([0.0, 0.0, k as f64]), (Vec3(Z), None))
+            .unwrap();
     }
     let mut system = Rotating::new(Multibody::new(model).unwrap(), Axis::new([0.0; 3], Z).unwrap());
     let mut s = system.initial();

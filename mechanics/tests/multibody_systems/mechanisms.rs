@@ -3,6 +3,7 @@
 use super::conformance::profile;
 use super::{GRAVITY, channel, radau, run};
 use flexion::integrator::{GeneralizedAlpha, Integrator, Radau, Tolerance};
+use flexion::linalg::Vec3;
 use flexion::multibody::slender::{Beam, Properties, Station};
 use flexion::multibody::{Body, Drive, Flexible, Kind, Model, Multibody, Part};
 use flexion::profile::Motion;
@@ -93,7 +94,11 @@ fn a_double_pendulum_of_beams_becomes_that_of_rods() {
         let mut model = Model::new().with_gravity([0.0, 0.0, -GRAVITY]);
         let elements = 4;
         let beams = [0.0, 1.0].map(|x| {
-            let root = Station { position: [x, 0.0, 0.0], tangent: [1.0, 0.0, 0.0], normal: [0.0, 0.0, 1.0] };
+            let root = Station {
+                position: Vec3([x, 0.0, 0.0]),
+                tangent: Vec3([1.0, 0.0, 0.0]),
+                normal: Vec3([0.0, 0.0, 1.0]),
+            };
             let section =
                 Properties::principal([1e3, 1.0, 1.0, 1.0].map(|x| stiffness * x), 1.0, [1e-3, 0.0, 0.0]);
             let beam = Beam::straight(root, 1.0, elements, section).unwrap();
@@ -104,8 +109,8 @@ fn a_double_pendulum_of_beams_becomes_that_of_rods() {
         model.join("root", Kind::Revolute, [Part::Ground, one[0]], [0.0; 3], y).unwrap();
         model.join("elbow", Kind::Revolute, [one[1], two[0]], [1.0, 0.0, 0.0], y).unwrap();
         let mut system = Multibody::new(model).unwrap();
-        let mut method = GeneralizedAlpha::chung_hulbert(0.6).unwrap();
-        let (s, _) = run(&mut system, &mut method, SWING, Some(2.5e-4), |_, _| {});
+        let method = GeneralizedAlpha::chung_hulbert(0.6).unwrap();
+        let (s, _) = run(&mut system, &method, SWING, Some(2.5e-4), |_, _| {});
         let tip = ["x", "z"].map(|axis| channel(&mut system, &s, &format!("beam 1.tip.position.{axis}")));
         (tip[0] - expected[0]).hypot(tip[1] - expected[1])
     };
@@ -141,7 +146,9 @@ fn a_closed_four_bar_swings_like_its_pendulum() {
         .zip(kinds)
         {
             // The arms of the cross lie in the plane of its bars and across it.
-            model.join(name, kind, ends, point, ([0.0, -1.0, 0.0], Some([1.0, 0.0, 0.0]))).unwrap();
+            model
+                .join(name, kind, ends, Vec3(point), (Vec3([0.0, -1.0, 0.0]), Some(Vec3([1.0, 0.0, 0.0]))))
+                .unwrap();
         }
         Multibody::new(if drop { model.drop_redundant_rows() } else { model }).unwrap()
     };
@@ -192,20 +199,35 @@ fn a_universal_joint_turns_its_shafts_at_the_ratio_of_its_angle() {
     let out_axis = [cos, 0.0, sin];
     let input = model.body(Body::new("input", 1.0, [0.1; 3]).at([-0.5, 0.0, 0.0]));
     let output = model.body(Body::new("output", 1.0, [0.1; 3]).at([0.5 * cos, 0.0, 0.5 * sin]));
-    let motor =
-        model.join("motor", Kind::Revolute, [Part::Ground, input], [-1.0, 0.0, 0.0], ([1.0, 0.0, 0.0], None));
+    let motor = model.join(
+        "motor",
+        Kind::Revolute,
+        [Part::Ground, input],
+        Vec3([-1.0, 0.0, 0.0]),
+        (Vec3([1.0, 0.0, 0.0]), None),
+    );
     motor.unwrap().drive = Drive::Prescribed(Motion::Angle(profile("2*t + 0.3*t^2")));
     let bearing = [cos, 0.0, sin];
-    model.join("bearing", Kind::Cylindrical, [Part::Ground, output], bearing, (out_axis, None)).unwrap();
+    model
+        .join("bearing", Kind::Cylindrical, [Part::Ground, output], Vec3(bearing), (Vec3(out_axis), None))
+        .unwrap();
     // Arms: along y on the input, in the plane of the shafts and across the output on the other.
     let normal = [-cos, 0.0, -sin];
-    model.join("cross", Kind::Universal, [input, output], [0.0; 3], (normal, Some([0.0, 1.0, 0.0]))).unwrap();
+    model
+        .join(
+            "cross",
+            Kind::Universal,
+            [input, output],
+            Vec3([0.0; 3]),
+            (Vec3(normal), Some(Vec3([0.0, 1.0, 0.0]))),
+        )
+        .unwrap();
     // The cross holds a point of the output shaft, so that the bearing holds its direction twice.
     let mut system = Multibody::new(model.drop_redundant_rows()).unwrap();
     assert_eq!((system.freedoms(), system.dropped().len()), (0, 2));
     let start = pushed(&system.initial());
     assert_eq!(dynamics(&mut system, &start), []);
-    let (s, _) = run(&mut system, &mut radau(1e-11), 4.0, None, |_, _| {});
+    let (s, _) = run(&mut system, &radau(1e-11), 4.0, None, |_, _| {});
     let angle: f64 = 2.0 * 4.0 + 0.3 * 16.0;
     let speed = 2.0 + 0.6 * 4.0;
     // The arm of the input starts across the plane of the shafts: tan θ₂ = cos β tan θ₁.
@@ -234,10 +256,24 @@ fn a_slider_crank_moves_by_its_closed_form() {
     let z = ([0.0, 0.0, 1.0], None);
     let motor = model.join("motor", Kind::Revolute, [Part::Ground, crank], [0.0; 3], z).unwrap();
     motor.drive = Drive::Prescribed(Motion::Angle(profile("5*t")));
-    model.join("pin", Kind::Universal, [crank, rod], pin, ([1.0, 0.0, 0.0], Some([0.0, 0.0, 1.0]))).unwrap();
+    model
+        .join(
+            "pin",
+            Kind::Universal,
+            [crank, rod],
+            Vec3(pin),
+            (Vec3([1.0, 0.0, 0.0]), Some(Vec3([0.0, 0.0, 1.0]))),
+        )
+        .unwrap();
     model.join("wrist", Kind::Spherical, [rod, slider], [x, 0.0, 0.0], z).unwrap();
     model
-        .join("guide", Kind::Prismatic, [Part::Ground, slider], [x, 0.0, 0.0], ([1.0, 0.0, 0.0], None))
+        .join(
+            "guide",
+            Kind::Prismatic,
+            [Part::Ground, slider],
+            Vec3([x, 0.0, 0.0]),
+            (Vec3([1.0, 0.0, 0.0]), None),
+        )
         .unwrap();
     let mut system = Multibody::new(model).unwrap();
     assert_eq!(system.freedoms(), 0);
@@ -258,17 +294,24 @@ fn the_moment_that_a_hinge_takes_up_is_that_of_the_weight() {
     let (mass, arm, speed) = (2.0, 0.5, 3.0);
     let mut model = Model::new().with_gravity([0.0, 0.0, -GRAVITY]);
     let mut body = Body::new("arm", mass, [0.01, 0.1, 0.1]);
-    body.frame.position = [arm, 0.0, 0.0];
+    body.frame.position = Vec3([arm, 0.0, 0.0]);
     let body = model.body(body);
-    let hinge = model.join("hinge", Kind::Revolute, [Part::Ground, body], [0.0; 3], ([0.0, 0.0, 1.0], None));
+    let hinge = model.join(
+        "hinge",
+        Kind::Revolute,
+        [Part::Ground, body],
+        Vec3([0.0; 3]),
+        (Vec3([0.0, 0.0, 1.0]), None),
+    );
     hinge.unwrap().drive = Drive::Prescribed(Motion::Speed { profile: profile("3"), initial_angle: 0.0 });
     let mut system = Multibody::new(model).unwrap();
     for tolerance in [1e-6, 1e-8] {
         let mut furthest = 0.0_f64;
-        let (end, imbalance) = run(&mut system, &mut radau(tolerance), 20.0, None, |system, s| {
-            let mut values = vec![0.0; system.channels().len()];
+        let (end, imbalance) = run(&mut system, &radau(tolerance), 20.0, None, |system, s| {
+            let channels = system.channels();
+            let mut values = vec![0.0; channels.len()];
             system.record(s, &mut values);
-            let of = |name: &str| values[system.channels().iter().position(|c| c.name == name).unwrap()];
+            let of = |name: &str| values[channels.iter().position(|c| c.name == name).unwrap()];
             // The moment lies along the tangent of the circle.
             let (sin, cos) = (speed * s.t).sin_cos();
             let moment = mass * GRAVITY * arm;

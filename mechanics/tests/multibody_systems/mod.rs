@@ -7,22 +7,26 @@ mod beams;
 mod chain;
 mod conformance;
 mod contacts;
+mod extremes;
 mod faults;
 mod flexible;
 mod free_motions;
 mod heavy_top;
+mod jumps;
 mod mechanisms;
 mod neutral;
 mod obstacles;
 mod paths;
 mod rotating;
+mod rotors;
 mod single;
 mod statics;
 mod turns;
 
 use flexion::analysis::transient::{Ending, Observer, Plan, Step, transient};
 use flexion::integrator::{Integrator, Radau, Tolerance};
-use flexion::multibody::rotation::{Matrix3, exponential, matrix};
+use flexion::linalg::{Mat3, Vec3};
+use flexion::multibody::rotation::about;
 use flexion::multibody::{Body, Multibody};
 use flexion::system::{Observed, State, System};
 
@@ -35,8 +39,8 @@ pub fn wave(i: usize, k: f64) -> f64 {
 }
 
 /// A rotation about no special axis.
-pub fn odd_rotation(k: f64) -> Matrix3 {
-    matrix(exponential([1.1 * wave(0, k), 1.9 * wave(1, k), 1.4 * wave(2, k)]))
+pub fn odd_rotation(k: f64) -> Mat3 {
+    about([1.1 * wave(0, k), 1.9 * wave(1, k), 1.4 * wave(2, k)])
 }
 
 /// A body of no symmetry.
@@ -54,11 +58,11 @@ pub fn odd_body(name: &str, k: f64) -> Body {
             body.inertia[i][j] = body.inertia[j][i];
         }
     }
-    body.centre = [0.2 * wave(3, k), 0.15 * wave(4, k), -0.1 * wave(5, k)];
-    body.frame.position = [wave(6, k), wave(7, k), wave(8, k)];
+    body.centre = Vec3([0.2 * wave(3, k), 0.15 * wave(4, k), -0.1 * wave(5, k)]);
+    body.frame.position = Vec3([wave(6, k), wave(7, k), wave(8, k)]);
     body.frame.rotation = odd_rotation(k + 2.0);
-    body.velocity = Some([wave(9, k), wave(10, k), wave(11, k)]);
-    body.spin = Some([1.5 * wave(12, k), wave(13, k), 1.2 * wave(14, k)]);
+    body.velocity = Some(Vec3([wave(9, k), wave(10, k), wave(11, k)]));
+    body.spin = Some(Vec3([1.5 * wave(12, k), wave(13, k), 1.2 * wave(14, k)]));
     body
 }
 
@@ -94,7 +98,7 @@ impl<F: FnMut(&mut dyn System, &State)> Observer for Watch<F> {
 /// A run from the start; gives the end and the largest imbalance of energy.
 pub fn run(
     system: &mut Multibody,
-    method: &mut dyn Integrator,
+    method: &dyn Integrator,
     end: f64,
     step: Option<f64>,
     each: impl FnMut(&mut dyn System, &State),

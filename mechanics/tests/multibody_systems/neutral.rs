@@ -3,20 +3,22 @@
 use super::GRAVITY;
 use flexion::analysis::equilibrium::{equilibrium, stable_equilibrium};
 use flexion::analysis::modes::modes;
+use flexion::linalg::Vec3;
 use flexion::multibody::slender::{Beam, Properties, Station};
 use flexion::multibody::{Body, Flexible, Kind, Model, Multibody, Part};
 use flexion::system::Dynamics;
+use std::ops::ControlFlow;
 
 const LENGTH: f64 = 2.0;
 
 /// A soft beam on a ball joint at its first end, along `tangent`; gravity along `down`.
 fn mast(tangent: [f64; 3], normal: [f64; 3], down: [f64; 3]) -> Multibody {
     let section = Properties::principal([1e5, 0.2, 1e-4, 1e-4], 0.08, [2e-6, 1e-6, 1e-6]);
-    let root = Station { position: [0.0; 3], tangent, normal };
+    let root = Station { position: Vec3([0.0; 3]), tangent: Vec3(tangent), normal: Vec3(normal) };
     let mut model = Model::new().with_gravity(down.map(|x| GRAVITY * x));
     model.beam(Flexible::new("mast", Beam::straight(root, LENGTH, 12, section).unwrap()));
     let parts = [Part::Ground, Part::Section { beam: 0, node: 0 }];
-    model.join("ball", Kind::Spherical, parts, [0.0; 3], ([0.0, 0.0, 1.0], None)).unwrap();
+    model.join("ball", Kind::Spherical, parts, Vec3([0.0; 3]), (Vec3([0.0, 0.0, 1.0]), None)).unwrap();
     Multibody::new(model).unwrap()
 }
 
@@ -29,7 +31,7 @@ fn a_hanging_beam_on_a_ball_joint_vibrates_as_a_chain_and_spins_freely() {
     for (down, normal) in [([0.0, 0.0, -1.0], [1.0, 0.0, 0.0]), odd] {
         let mut system = mast(down, normal, down);
         let mut s = system.initial();
-        assert!(stable_equilibrium(&mut system, &mut s).unwrap().neutral);
+        assert!(stable_equilibrium(&mut system, &mut s, &mut |_| ControlFlow::Continue(())).unwrap().neutral);
         // The weight of what hangs below stretches it.
         let found = modes(&mut system, &s, 5, &[]).unwrap().modes;
         assert_eq!(found[0].frequency(), 0.0);
@@ -47,7 +49,7 @@ fn a_hanging_beam_on_a_ball_joint_vibrates_as_a_chain_and_spins_freely() {
 fn a_mast_that_stands_on_a_ball_joint_is_found_and_is_unstable() {
     let mut system = mast([0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 0.0, -1.0]);
     let mut s = system.initial();
-    let found = stable_equilibrium(&mut system, &mut s).unwrap();
+    let found = stable_equilibrium(&mut system, &mut s, &mut |_| ControlFlow::Continue(())).unwrap();
     assert!(found.neutral);
     assert!(found.stability.is_some_and(|stability| stability.divergent >= 2), "{found:?}");
 }

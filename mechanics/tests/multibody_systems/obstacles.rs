@@ -7,6 +7,7 @@ use flexion::contact::{
     Circle, Contact, ContactForce, Contacting, Law, Obstacle, Plane, Sphere, Translation,
 };
 use flexion::integrator::{Integrator, MoreauJean, NonsmoothAlpha};
+use flexion::linalg::Vec3;
 use flexion::multibody::slender::{Beam, Properties, Station};
 use flexion::multibody::{Body, Flexible, Kind, Marker, Model, Multibody, Part};
 use flexion::profile::Expression;
@@ -22,7 +23,7 @@ type Made = dyn Fn(f64) -> Arc<dyn Obstacle>;
 
 fn moved() -> Option<Translation> {
     let displacement = Arc::new(Expression::new("0.1*sin(3*t)", "t", 1.0).unwrap());
-    Some(Translation { direction: [0.0, 0.6, 0.8], displacement })
+    Some(Translation { direction: Vec3([0.0, 0.6, 0.8]), displacement })
 }
 
 /// Forces, rows and tangents of a contact that is 5 cm deep, against differences.
@@ -43,7 +44,7 @@ fn conforms(model: &Model, made: &Made, deform: impl Fn(&Multibody, &mut State))
         let mut touching = system(0.5);
         let s = state(&touching);
         let gap = touching.gaps(&s)[0];
-        let grown = if made(0.5).surface([9.0; 3], 0.0).gap > 0.0 { gap } else { -gap - 0.1 };
+        let grown = if made(0.5).surface(Vec3([9.0; 3]), 0.0).gap > 0.0 { gap } else { -gap - 0.1 };
         let mut touching = system(0.5 + grown + 0.05);
         let s = state(&touching);
         assert!((touching.gaps(&s)[0] + 0.05).abs() < 1e-12, "{:?}", touching.gaps(&s));
@@ -60,10 +61,20 @@ fn a_ball_that_rubs_conforms_on_every_obstacle() {
     model.contact_ball(Marker::new(part, [0.3, -0.2, 0.1]), 0.23);
     let axis = [2.0 / 3.0, -1.0 / 3.0, 2.0 / 3.0];
     let obstacles: [&Made; 4] = [
-        &move |x| Arc::new(Plane { point: axis.map(|n| x * n), normal: axis, motion: moved() }),
-        &move |radius| Arc::new(Circle { centre: [0.1; 3], axis, radius, hollow: true, motion: moved() }),
-        &move |radius| Arc::new(Sphere { centre: [2.0, 1.5, 0.3], radius, hollow: false, motion: moved() }),
-        &move |radius| Arc::new(Sphere { centre: [0.2; 3], radius, hollow: true, motion: moved() }),
+        &move |x| Arc::new(Plane { point: Vec3(axis.map(|n| x * n)), normal: Vec3(axis), motion: moved() }),
+        &move |radius| {
+            Arc::new(Circle {
+                centre: Vec3([0.1; 3]),
+                axis: Vec3(axis),
+                radius,
+                hollow: true,
+                motion: moved(),
+            })
+        },
+        &move |radius| {
+            Arc::new(Sphere { centre: Vec3([2.0, 1.5, 0.3]), radius, hollow: false, motion: moved() })
+        },
+        &move |radius| Arc::new(Sphere { centre: Vec3([0.2; 3]), radius, hollow: true, motion: moved() }),
     ];
     for made in obstacles {
         conforms(&model, made, |_, _| {});
@@ -71,7 +82,7 @@ fn a_ball_that_rubs_conforms_on_every_obstacle() {
 }
 
 fn station() -> Station {
-    Station { position: [0.0; 3], tangent: [1.0, 0.0, 0.0], normal: [0.0, 1.0, 0.0] }
+    Station { position: Vec3([0.0; 3]), tangent: Vec3([1.0, 0.0, 0.0]), normal: Vec3([0.0, 1.0, 0.0]) }
 }
 
 fn flexible(elements: usize) -> Flexible {
@@ -88,10 +99,16 @@ fn an_obstacle_that_touches_anywhere_conforms() {
     let axis = [0.0, 0.8, 0.6];
     let obstacles: [&Made; 3] = [
         // Within an element, beside an end, and a rod across.
-        &|radius| Arc::new(Sphere { centre: [1.2, 0.3, 0.7], radius, hollow: false, motion: moved() }),
-        &|radius| Arc::new(Sphere { centre: [2.7, 0.1, 0.6], radius, hollow: false, motion: moved() }),
+        &|radius| Arc::new(Sphere { centre: Vec3([1.2, 0.3, 0.7]), radius, hollow: false, motion: moved() }),
+        &|radius| Arc::new(Sphere { centre: Vec3([2.7, 0.1, 0.6]), radius, hollow: false, motion: moved() }),
         &move |radius| {
-            Arc::new(Circle { centre: [0.5, 0.1, 0.7], axis, radius, hollow: false, motion: moved() })
+            Arc::new(Circle {
+                centre: Vec3([0.5, 0.1, 0.7]),
+                axis: Vec3(axis),
+                radius,
+                hollow: false,
+                motion: moved(),
+            })
         },
     ];
     for made in obstacles {
@@ -111,11 +128,11 @@ fn a_ball_slides_and_then_rolls_with_five_sevenths_of_its_speed() {
     let direction = [0.6, 0.8];
     let mut model = Model::new().with_gravity([0.0, 0.0, -GRAVITY]);
     let mut ball = Body::new("ball", mass, [0.4 * mass * radius * radius; 3]).at([0.0, 0.0, radius]);
-    ball.velocity = Some([speed * direction[0], speed * direction[1], 0.0]);
+    ball.velocity = Some(Vec3([speed * direction[0], speed * direction[1], 0.0]));
     let part = model.body(ball);
     model.contact_ball(Marker::new(part, [0.0; 3]), radius);
     let rolls = 2.0 * speed / (7.0 * mu * GRAVITY);
-    let plane = Arc::new(Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], motion: None });
+    let plane = Arc::new(Plane { point: Vec3([0.0; 3]), normal: Vec3([0.0, 0.0, 1.0]), motion: None });
     let table = |law: Law| {
         let contact = Contact { name: "table".into(), point: 0, obstacle: plane.clone(), law };
         Contacting::new(Multibody::new(model.clone()).unwrap(), vec![contact])
@@ -141,7 +158,7 @@ fn a_ball_slides_and_then_rolls_with_five_sevenths_of_its_speed() {
     // A stiff force from the depth at which it carries the ball: friction is regularised, so that rolling is approached.
     let force = ContactForce { stiffness: 1e6, exponent: 1.0, factor: 0.0, friction: mu, slip_speed: 1e-3 };
     let mut system = table(Law::Force(force));
-    let (s, watch) = run(&mut system, &mut radau(1e-8), 2.0 * rolls, None);
+    let (s, watch) = run(&mut system, &radau(1e-8), 2.0 * rolls, None);
     assert!((along(&s.v) - 5.0 / 7.0 * speed).abs() < 1e-3 * speed, "{:?}", s.v);
     assert!(watch.imbalance < 1e-4, "{:e}", watch.imbalance);
 }
@@ -159,20 +176,20 @@ fn a_block_on_a_slope_of_any_direction_stays_or_slides_straight_down() {
             let mut model = Model::new().with_gravity([0.0, 0.0, -GRAVITY]);
             let part = model.body(Body::new("block", 0.7, [0.1; 3]).at(normal.map(|n| -depth * n)));
             model.contact_point(Marker::new(part, [0.0; 3]));
-            let obstacle = Arc::new(Plane { point: [0.0; 3], normal, motion: None });
+            let obstacle = Arc::new(Plane { point: Vec3([0.0; 3]), normal: Vec3(normal), motion: None });
             let contact = Contact { name: "slope".into(), point: 0, obstacle, law };
             Contacting::new(Multibody::new(model).unwrap(), vec![contact])
         };
         let expected = (GRAVITY * (sin - mu * cos)).max(0.0) * end;
         let mut system = contact(Law::Constraint { restitution: 0.0, friction: mu }, 0.0);
-        let (s, _) = run(&mut system, &mut MoreauJean::new(0.5).unwrap(), end, Some(1e-3));
+        let (s, _) = run(&mut system, &MoreauJean::new(0.5).unwrap(), end, Some(1e-3));
         for k in 0..3 {
             assert!((s.v[k] - expected * down[k]).abs() < 1e-9, "{azimuth} {mu}: {:?}", s.v);
         }
         // Regularised, and at the depth at which the force carries it, it creeps where tanh(v/v_s) = tan α/μ.
         let (slip_speed, depth) = (1e-4, 0.7 * GRAVITY * cos / 1e6);
         let force = ContactForce { stiffness: 1e6, exponent: 1.0, factor: 0.0, friction: mu, slip_speed };
-        let (s, _) = run(&mut contact(Law::Force(force), depth), &mut radau(1e-9), end, None);
+        let (s, _) = run(&mut contact(Law::Force(force), depth), &radau(1e-9), end, None);
         let speed: f64 = (0..3).map(|k| s.v[k] * down[k]).sum();
         let creep = if expected > 0.0 { 0.0 } else { slip_speed * (slope.tan() / mu).atanh() };
         let tolerance = if expected > 0.0 { 1e-3 * expected } else { 1e-6 * creep };
@@ -202,11 +219,11 @@ fn a_swinging_beam_strikes_a_ball_where_it_is() {
                 model.contact_point(Marker::new(node(station), [0.0; 3]));
             }
             let centre = [place, 0.0, -radius - 5e-4];
-            let obstacle = Arc::new(Sphere { centre, radius, hollow: false, motion: None });
+            let obstacle = Arc::new(Sphere { centre: Vec3(centre), radius, hollow: false, motion: None });
             let law = Law::Constraint { restitution: 0.3, friction: 0.0 };
             let contact = Contact { name: "stop".into(), point: 0, obstacle, law };
             let mut system = Contacting::new(Multibody::new(model).unwrap(), vec![contact]);
-            let (_, watch) = run(&mut system, &mut radau(1e-8), end, None);
+            let (_, watch) = run(&mut system, &radau(1e-8), end, None);
             assert!(watch.imbalance < 1e-5, "{:e}", watch.imbalance);
             watch.events
         });

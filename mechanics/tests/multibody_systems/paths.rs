@@ -5,9 +5,11 @@ use flexion::analysis::modes::modes;
 use flexion::analysis::path::{Critical, PathEnd, Plan, Point, follow};
 use flexion::analysis::stability;
 use flexion::drive::Actuator;
+use flexion::linalg::Vec3;
 use flexion::multibody::{Axes, Body, Drive, Kind, Load, Marker, Model, Multibody, Part, Spring};
 use flexion::profile::Constant;
 use flexion::system::{Dynamics, Parameter, Steady};
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 fn spring(stiffness: f64) -> Drive {
@@ -16,7 +18,7 @@ fn spring(stiffness: f64) -> Drive {
 }
 
 fn load(at: Marker, force: [f64; 3], axes: Axes) -> Load {
-    Load { name: "load".into(), at, force, moment: [0.0; 3], axes, amplitude: None }
+    Load { name: "load".into(), at, force: Vec3(force), moment: Vec3([0.0; 3]), axes, amplitude: None }
 }
 
 /// The points of a path up to its load factor.
@@ -43,7 +45,15 @@ fn truss(force: f64) -> Multibody {
     for (name, x) in [("left", -WIDTH), ("right", WIDTH)] {
         let [from, to] = [Marker::new(Part::Ground, [x, 0.0, 0.0]), Marker::new(slide, [0.0; 3])];
         let length = WIDTH.hypot(HEIGHT);
-        model.spring(Spring { name: name.into(), from, to, stiffness: STIFFNESS, damping: 0.0, length });
+        model.spring(Spring {
+            name: name.into(),
+            from,
+            to,
+            stiffness: STIFFNESS,
+            damping: 0.0,
+            length,
+            directions: flexion::multibody::Directions::Line,
+        });
     }
     model.load(load(Marker::new(slide, [0.0; 3]), [0.0, 0.0, -force], Axes::Dead));
     Multibody::new(model).unwrap()
@@ -78,7 +88,7 @@ fn a_shallow_truss_snaps_through() {
     }
     // What hangs below its supports is found from the load alone.
     let mut s = system.initial();
-    let found = stable_equilibrium(&mut system, &mut s).unwrap();
+    let found = stable_equilibrium(&mut system, &mut s, &mut |_| ControlFlow::Continue(())).unwrap();
     assert!(found.stability.unwrap().is_stable() && s.q[2] < -at_limit);
     assert!((supports(s.q[2]) + 1.5 * limit).abs() < 1e-8);
 }
@@ -90,7 +100,7 @@ fn a_standing_rod_branches_at_its_buckling_load() {
     let mut model = Model::new();
     let rod = model.body(Body::new("rod", 1.0, [0.05, 0.05, 0.01]).at([0.0, 0.0, 0.5 * length]));
     model
-        .join("hinge", Kind::Revolute, [Part::Ground, rod], [0.0; 3], ([0.0, 1.0, 0.0], None))
+        .join("hinge", Kind::Revolute, [Part::Ground, rod], Vec3([0.0; 3]), (Vec3([0.0, 1.0, 0.0]), None))
         .unwrap()
         .drive = spring(stiffness);
     let tip = Marker::new(rod, [0.0, 0.0, 0.5 * length]);
@@ -104,7 +114,7 @@ fn a_standing_rod_branches_at_its_buckling_load() {
     assert!((critical[0].factor - 0.5).abs() < 1e-7, "{}", critical[0].factor);
     // No path leads from the straight rod to the bent one: it is said to be unstable.
     let mut s = system.initial();
-    let found = stable_equilibrium(&mut system, &mut s).unwrap();
+    let found = stable_equilibrium(&mut system, &mut s, &mut |_| ControlFlow::Continue(())).unwrap();
     assert_eq!(found.stability.unwrap().to_string(), "unstable: 1 direction");
 }
 
@@ -150,8 +160,10 @@ fn bodies_that_float_have_rigid_motions() {
     let mut model = Model::new();
     let [one, two] =
         [("one", 0.3), ("two", 0.5)].map(|(name, j)| model.body(Body::new(name, 1.0, [0.3, 0.35, j])));
-    model.join("hinge", Kind::Revolute, [one, two], [0.0; 3], ([0.0, 0.0, 1.0], None)).unwrap().drive =
-        spring(7.0);
+    model
+        .join("hinge", Kind::Revolute, [one, two], Vec3([0.0; 3]), (Vec3([0.0, 0.0, 1.0]), None))
+        .unwrap()
+        .drive = spring(7.0);
     let mut system = Multibody::new(model).unwrap();
     let s = system.initial();
     let found = modes(&mut system, &s, 7, &[]).unwrap();
@@ -165,7 +177,9 @@ fn bodies_that_float_have_rigid_motions() {
 fn what_moves_freely_is_named() {
     let mut model = Model::new();
     let rod = model.body(Body::new("rod", 1.0, [0.05; 3]).at([0.5, 0.0, 0.0]));
-    model.join("hinge", Kind::Revolute, [Part::Ground, rod], [0.0; 3], ([0.0, 0.0, 1.0], None)).unwrap();
+    model
+        .join("hinge", Kind::Revolute, [Part::Ground, rod], Vec3([0.0; 3]), (Vec3([0.0, 0.0, 1.0]), None))
+        .unwrap();
     model.load(load(Marker::new(rod, [0.0; 3]), [0.0, 1.0, 0.0], Axes::Follower));
     let mut system = Multibody::new(model).unwrap();
     let mut s = system.initial();

@@ -1,21 +1,24 @@
 //! Beams in a frame that rotates: their modes against series, the planar beam, and the blade.
 
 use super::{odd_body, odd_rotation, wave};
+use crate::integrators::drive::fixed;
 use flexion::analysis::campbell::{HubState, Plan, campbell};
 use flexion::analysis::modes::modes;
 use flexion::analysis::rotation::{NoRotation, rotate_stably};
+use flexion::analysis::superposition::{Vibration, superpose};
 use flexion::blade::{Blade, Model as BladeModel, Setting, Tip};
 use flexion::drive::Actuator;
 use flexion::exact::rotating::flapwise_frequency;
 use flexion::hub_beam::{self, ExactCoupling, FreeHub, Hub, HubBeam};
-use flexion::multibody::rotation::apply;
+use flexion::integrator::{Radau, Tolerance};
+use flexion::linalg::Vec3;
 use flexion::multibody::slender::{Beam, Properties, Station};
 use flexion::multibody::{
-    self, Axes, Axis, Body, Flexible, Kind, Load, Marker, Model, Multibody, Part, Rotating,
+    self, Axes, Axis, Body, Drive, Flexible, Kind, Load, Marker, Model, Multibody, Part, Rotating,
 };
 use flexion::profile::{Constant, Motion};
 use flexion::section::{BladeResultants, BladeSection, Resultants, Uniform};
-use flexion::system::{Dynamics, Parameter, State, Steady, System};
+use flexion::system::{Dynamics, Frame, Observed, Parameter, State, Steady, System};
 use num_complex::Complex64;
 use std::sync::Arc;
 
@@ -28,9 +31,9 @@ fn blade(setting: Setting, section: &dyn BladeSection, elements: usize) -> Rotat
     let curve = |s: f64| {
         let (sine, cosine) = (setting.pitch + section.resultants(s).twist).sin_cos();
         Station {
-            position: axis.map(|t| (setting.hub_radius + s) * t),
-            tangent: axis,
-            normal: [sine * out[0], cosine, sine * out[2]],
+            position: Vec3(axis.map(|t| (setting.hub_radius + s) * t)),
+            tangent: Vec3(axis),
+            normal: Vec3([sine * out[0], cosine, sine * out[2]]),
         }
     };
     let nodes: Vec<f64> = (0..=elements).map(|i| setting.length * i as f64 / elements as f64).collect();
@@ -39,11 +42,11 @@ fn blade(setting: Setting, section: &dyn BladeSection, elements: usize) -> Rotat
     let beam = model.beam(Flexible::new("blade", beam));
     let section = |node| Part::Section { beam, node };
     let root = axis.map(|t| setting.hub_radius * t);
-    model.join("root", Kind::Fixed, [Part::Ground, section(0)], root, (Z, None)).unwrap();
+    model.join("root", Kind::Fixed, [Part::Ground, section(0)], Vec3(root), (Vec3(Z), None)).unwrap();
     if setting.tip.mass > 0.0 {
         let end = axis.map(|t| (setting.hub_radius + setting.length) * t);
         let tip = model.body(Body::new("tip", setting.tip.mass, [setting.tip.inertia; 3]).at(end));
-        model.join("hold", Kind::Fixed, [section(elements), tip], end, (Z, None)).unwrap();
+        model.join("hold", Kind::Fixed, [section(elements), tip], Vec3(end), (Vec3(Z), None)).unwrap();
     }
     Rotating::new(Multibody::new(model).unwrap(), Axis::new([0.0; 3], Z).unwrap())
 }
@@ -154,13 +157,18 @@ fn a_joint_that_is_let_go_vibrates_as_the_free_hub_in_the_plane() {
 
         let mut model = Model::new();
         let hub = model.body(Body::new("hub", 3.0, [0.7 * inertia, 0.7 * inertia, inertia]));
-        let root =
-            Station { position: [radius, 0.0, 0.0], tangent: [1.0, 0.0, 0.0], normal: [0.0, 1.0, 0.0] };
+        let root = Station {
+            position: Vec3([radius, 0.0, 0.0]),
+            tangent: Vec3([1.0, 0.0, 0.0]),
+            normal: Vec3([0.0, 1.0, 0.0]),
+        };
         let beam = Beam::straight(root, length, 40, section).unwrap();
         let beam = model.beam(Flexible::new("beam", beam));
         let clamped = Part::Section { beam, node: 0 };
-        model.join("clamp", Kind::Fixed, [hub, clamped], root.position, (Z, None)).unwrap();
-        let hinge = model.join("hinge", Kind::Revolute, [Part::Ground, hub], [0.0; 3], (Z, None)).unwrap();
+        model.join("clamp", Kind::Fixed, [hub, clamped], root.position, (Vec3(Z), None)).unwrap();
+        let hinge = model
+            .join("hinge", Kind::Revolute, [Part::Ground, hub], Vec3([0.0; 3]), (Vec3(Z), None))
+            .unwrap();
         hinge.drive = multibody::Drive::Actuated(actuator);
         model.keep_angle("hinge");
         let axis = Axis::new([0.0; 3], Z).unwrap();
@@ -219,6 +227,59 @@ fn a_general_blade_agrees_with_the_room_of_blades() {
     }
 }
 
+/// A beam on a hub that is driven at 6 rad/s begins in its steady rotation with its first mode, which is flapwise: the tip moves by
+/// A cos ωt out of the plane, and nothing else moves in the frame of the hub.
+#[test]
+fn a_motion_begins_with_a_steady_rotation_and_its_modes() {
+    let (speed, amplitude, length) = (6.0, 1e-3, 1.0);
+    let section = Properties::principal([3e4, 0.8, 1.0, 9.0], 1.0, [1e-3, 0.0, 0.0]);
+    let root = Station { position: Vec3([0.2, 0.0, 0.0]), tangent: Vec3::AXES[0], normal: Vec3::AXES[1] };
+    let mut model = Model::new();
+    let hub = model.body(Body::new("hub", 1.0, [0.1; 3]));
+    let beam = model.beam(Flexible::new("beam", Beam::straight(root, length, 8, section).unwrap()));
+    model.join("hinge", Kind::Revolute, [Part::Ground, hub], [0.0; 3], (Z, None)).unwrap().drive =
+        Drive::Prescribed(Motion::Speed {
+            profile: Arc::new(Constant::new(speed).unwrap()),
+            initial_angle: 0.0,
+        });
+    let clamp = [hub, Part::Section { beam, node: 0 }];
+    model.join("clamp", Kind::Fixed, clamp, root.position, (Z, None)).unwrap();
+    let mut moving = Multibody::new(model.clone()).unwrap();
+    let axis = model.axis_of("hinge").unwrap();
+    model.keep_angle("hinge");
+    let mut frame = Rotating::new(Multibody::new(model).unwrap(), axis);
+    let mut s = frame.initial();
+    rotate_stably(&mut frame, &mut s, 0.0, speed).unwrap();
+    let steady = frame.in_space(&s);
+    let found =
+        superpose(&mut frame, &mut s, &[Vibration { displacement: amplitude, velocity: 0.0 }], length)
+            .unwrap();
+    let begin = frame.in_space(&s);
+    let place = |system: &mut Multibody, s: &State| {
+        let mut tip = [Frame::default()];
+        system.frames(1, s, &[length], &mut tip);
+        let angle = speed * s.t;
+        let Vec3([x, y, z]) = tip[0].position;
+        [x * angle.cos() + y * angle.sin(), y * angle.cos() - x * angle.sin(), z]
+    };
+    let period = std::f64::consts::TAU / found[0].frequency();
+    let method = Radau::new(Tolerance::uniform(1e-9)).unwrap();
+    let still = place(&mut moving, &steady);
+    let mut of = |begin: &State, end: f64| {
+        let end = fixed(&method, &mut moving, begin.clone(), end, 200, |_, _, _, _| {}).unwrap();
+        place(&mut moving, &end)
+    };
+    for k in 0..3 {
+        assert!((of(&steady, period)[k] - still[k]).abs() < 1e-9);
+    }
+    for (part, expected) in [(0.25, 0.0), (0.5, -amplitude), (1.0, amplitude)] {
+        let [x, y, z] = of(&begin, part * period);
+        assert!((z - expected).abs() < 2e-4 * amplitude, "{part}: {z} for {expected}");
+        // The foreshortening is A²/L by order.
+        assert!((x - still[0]).abs() < 2.0 * amplitude * amplitude && y.abs() < 1e-2 * amplitude, "{x} {y}");
+    }
+}
+
 #[test]
 fn a_campbell_diagram_of_a_spatial_beam_follows_its_modes() {
     let setting = Setting { length: 1.0, hub_radius: 0.1, ..Setting::default() };
@@ -242,13 +303,15 @@ fn the_tangents_are_those_of_the_residual() {
     let at = [0.3, 0.2, -0.1];
     let turned = odd_rotation(0.7);
     let axes = [0, 1].map(|j| [0, 1, 2].map(|i| turned[i][j]));
-    let root = Station { position: at, tangent: axes[0], normal: axes[1] };
+    let root = Station { position: Vec3(at), tangent: Vec3(axes[0]), normal: Vec3(axes[1]) };
     let section = Properties::principal([400.0, 1.1, 0.9, 1.6], 1.2, [0.03, 0.012, 0.018]);
     let beam = model.beam(Flexible::new("arm", Beam::straight(root, 0.9, 2, section).unwrap()).damped(0.3));
-    model.join("clamp", Kind::Fixed, [body, Part::Section { beam, node: 0 }], at, (Z, None)).unwrap();
+    model
+        .join("clamp", Kind::Fixed, [body, Part::Section { beam, node: 0 }], Vec3(at), (Vec3(Z), None))
+        .unwrap();
     let mut system = Rotating::new(
         Multibody::new(model).unwrap(),
-        Axis::new([0.1, -0.3, 0.2], apply(&turned, [0.3, 0.5, 0.8])).unwrap(),
+        Axis::new([0.1, -0.3, 0.2], turned * Vec3([0.3, 0.5, 0.8])).unwrap(),
     );
     system.set(Parameter::Speed, 2.3).unwrap();
     let mut s = system.initial();
@@ -285,18 +348,18 @@ fn the_tangents_are_those_of_the_residual() {
 fn a_load_that_keeps_its_direction_in_space_is_refused() {
     let mut model = Model::new();
     let part = model.body(Body::new("rotor", 1.0, [0.1; 3]));
-    model.join("shaft", Kind::Fixed, [Part::Ground, part], [0.0; 3], (Z, None)).unwrap();
+    model.join("shaft", Kind::Fixed, [Part::Ground, part], Vec3([0.0; 3]), (Vec3(Z), None)).unwrap();
     let load = |force| Load {
         name: "wind".into(),
         at: Marker::new(part, [0.0; 3]),
         force,
-        moment: [0.0; 3],
+        moment: Vec3([0.0; 3]),
         axes: Axes::Dead,
         amplitude: None,
     };
     let mut along = model.clone();
-    along.load(load([0.0, 0.0, 3.0]));
-    model.load(load([1.0, 0.0, 3.0]));
+    along.load(load(Vec3([0.0, 0.0, 3.0])));
+    model.load(load(Vec3([1.0, 0.0, 3.0])));
     let rotate = |model| {
         let mut system = Rotating::new(Multibody::new(model).unwrap(), Axis::new([0.0; 3], Z).unwrap());
         let mut s = system.initial();

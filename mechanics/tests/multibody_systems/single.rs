@@ -4,8 +4,8 @@ use super::conformance::profile;
 use super::{GRAVITY, channel, odd_rotation, radau, run};
 use flexion::drive::{Actuator, Controller};
 use flexion::integrator::{GeneralizedAlpha, RungeKutta};
-use flexion::multibody::rotation::{apply, column};
-use flexion::multibody::{Axes, Body, Drive, Kind, Load, Marker, Model, Multibody, Part, Spring};
+use flexion::linalg::Vec3;
+use flexion::multibody::{Axes, Body, Directions, Drive, Kind, Load, Marker, Model, Multibody, Part, Spring};
 use flexion::profile::Motion;
 use flexion::system::{Dynamics, Observed};
 
@@ -13,7 +13,8 @@ use flexion::system::{Dynamics, Observed};
 fn on_ground(body: Body, kind: Kind, axis: [f64; 3], drive: Drive) -> Multibody {
     let mut model = Model::new().with_gravity([0.0, 0.0, -GRAVITY]);
     let part = model.body(body);
-    model.join("joint", kind, [Part::Ground, part], [0.0; 3], (axis, None)).unwrap().drive = drive;
+    model.join("joint", kind, [Part::Ground, part], Vec3([0.0; 3]), (Vec3(axis), None)).unwrap().drive =
+        drive;
     Multibody::new(model).unwrap()
 }
 
@@ -23,16 +24,16 @@ fn on_ground(body: Body, kind: Kind, axis: [f64; 3], drive: Drive) -> Multibody 
 fn a_free_body_tumbles_and_keeps_energy_and_momentum() {
     let mut model = Model::new();
     let mut body = Body::new("book", 2.0, [0.1, 0.2, 0.25]);
-    body.centre = [0.3, -0.2, 0.1];
+    body.centre = Vec3([0.3, -0.2, 0.1]);
     body.frame.rotation = odd_rotation(0.4);
-    body.spin = Some(apply(&body.frame.rotation, [0.05, 5.0, 0.02]));
-    body.velocity = Some([0.3, -0.1, 0.2]);
+    body.spin = Some(body.frame.rotation * Vec3([0.05, 5.0, 0.02]));
+    body.velocity = Some(Vec3([0.3, -0.1, 0.2]));
     model.body(body);
     let mut system = Multibody::new(model).unwrap();
     let start = system.initial();
     let (energy, [linear, angular]) = (system.energy(&start).total(), system.momenta(&start));
     let mut turned = false;
-    let (end, _) = run(&mut system, &mut radau(1e-12), 10.0, None, |_, s| turned |= s.v[4] < -4.9);
+    let (end, _) = run(&mut system, &radau(1e-12), 10.0, None, |_, s| turned |= s.v[4] < -4.9);
     assert!(turned, "a body that turns about its middle axis turns over");
     let [p, l] = system.momenta(&end);
     assert!((system.energy(&end).total() / energy - 1.0).abs() < 1e-10);
@@ -48,12 +49,12 @@ fn a_symmetric_body_precesses_by_its_closed_form() {
     let mut model = Model::new().with_gravity([0.0, 0.0, -GRAVITY]);
     let mut body = Body::new("plate", 1.0, [0.2, 0.2, 0.35]).at([0.0, 0.0, 1.0]);
     let (along, across) = (3.0, 0.8);
-    body.spin = Some([across, 0.0, along]);
-    body.velocity = Some([1.0, 0.0, 2.0]);
+    body.spin = Some(Vec3([across, 0.0, along]));
+    body.velocity = Some(Vec3([1.0, 0.0, 2.0]));
     model.body(body);
     let mut system = Multibody::new(model).unwrap();
     let end = 1.7;
-    let (s, _) = run(&mut system, &mut radau(1e-11), end, None, |_, _| {});
+    let (s, _) = run(&mut system, &radau(1e-11), end, None, |_, _| {});
     let angle = (0.35 - 0.2) / 0.2 * along * end;
     for (x, exact) in s.v[3..6].iter().zip([across * angle.cos(), across * angle.sin(), along]) {
         assert!((x - exact).abs() < 1e-9, "{:?}", &s.v[3..]);
@@ -68,7 +69,7 @@ fn a_symmetric_body_precesses_by_its_closed_form() {
 fn a_body_slides_down_a_rail_without_friction() {
     let axis = [0.6, 0.0, 0.8];
     let mut body = Body::new("slider", 3.0, [0.1, 0.2, 0.3]);
-    body.centre = [0.1, 0.2, -0.05];
+    body.centre = Vec3([0.1, 0.2, -0.05]);
     let mut system = on_ground(body, Kind::Prismatic, axis, Drive::None);
     let methods: [(Box<dyn flexion::integrator::Integrator>, Option<f64>); 2] = [
         (Box::new(radau(1e-10)), None),
@@ -91,12 +92,12 @@ fn a_body_slides_down_a_rail_without_friction() {
 fn a_prescribed_hinge_takes_the_torque_of_its_inertia() {
     let (mass, arm, inertia) = (2.0, 0.7, 0.3);
     let mut body = Body::new("arm", mass, [0.05, inertia, inertia]);
-    body.centre = [arm, 0.0, 0.0];
+    body.centre = Vec3([arm, 0.0, 0.0]);
     // About −y, so that a positive angle lifts the arm.
     let motion = Motion::Angle(profile("1.5*t^2 + 0.2*sin(3*t)"));
     let mut system = on_ground(body, Kind::Revolute, [0.0, -1.0, 0.0], Drive::Prescribed(motion));
     let end = 2.6;
-    let (s, imbalance) = run(&mut system, &mut radau(1e-11), end, None, |_, _| {});
+    let (s, imbalance) = run(&mut system, &radau(1e-11), end, None, |_, _| {});
     let (angle, speed) = (1.5 * end * end + 0.2 * (3.0 * end).sin(), 3.0 * end + 0.6 * (3.0 * end).cos());
     let acceleration = 3.0 - 1.8 * (3.0 * end).sin();
     let torque = (inertia + mass * arm * arm) * acceleration + mass * GRAVITY * arm * angle.cos();
@@ -132,7 +133,7 @@ fn a_motor_drives_a_rotor_as_its_equation_says() {
     let body = Body::new("rotor", 1.0, [0.3, 0.3, inertia]);
     let mut system = on_ground(body, Kind::Revolute, [0.0, 0.0, 1.0], Drive::Actuated(actuator));
     let end = 4.0;
-    let (s, imbalance) = run(&mut system, &mut radau(1e-11), end, None, |_, _| {});
+    let (s, imbalance) = run(&mut system, &radau(1e-11), end, None, |_, _| {});
     let rate = |t: f64, x: f64, v: f64| {
         let torque =
             0.4 * (2.0 * t).sin() - 0.1 * v - 0.5 * (x - 0.2) + 6.0 * (6.0 * t - x) + 1.5 * (6.0 - v);
@@ -156,19 +157,50 @@ fn a_motor_drives_a_rotor_as_its_equation_says() {
     assert!(imbalance < 1e-5, "{imbalance:e}");
 }
 
+/// A mass on a spring that acts in all directions: each of the three is a damped oscillator of its own, also through the anchor.
+#[test]
+fn a_mass_on_a_spring_in_all_directions_is_three_oscillators() {
+    let (mass, stiffness, damping, end) = (1.5, 60.0, 1.2, 3.0);
+    let anchor = Vec3([0.2, -0.1, 0.4]);
+    let (place, velocity) = (Vec3([0.3, 0.0, -0.2]), Vec3([0.0, 1.1, -0.7]));
+    let mut model = Model::new();
+    let body = Body { velocity: Some(velocity), ..Body::new("mass", mass, [0.1; 3]) };
+    let part = model.body(body.at(anchor + place));
+    let [from, to] = [Marker::new(Part::Ground, anchor), Marker::new(part, [0.0; 3])];
+    let directions = Directions::All;
+    model.spring(Spring { name: "spring".into(), from, to, stiffness, damping, length: 0.0, directions });
+    let mut system = Multibody::new(model).unwrap();
+    let (s, imbalance) = run(&mut system, &RungeKutta::new(), end, Some(1e-3), |_, _| {});
+    let decay = damping / (2.0 * mass);
+    let omega = (stiffness / mass - decay * decay).sqrt();
+    let (sin, cos) = (omega * end).sin_cos();
+    let exact = (-decay * end).exp() * (cos * place + sin / omega * (velocity + decay * place));
+    let found = Vec3::at(&s.q, 0) - anchor;
+    assert!((found - exact).norm() < 1e-9, "{found:?} for {exact:?}");
+    assert!(imbalance < 1e-7, "{imbalance:e}");
+}
+
 /// A mass on a spring to the ground, along a line that is no axis: ω = √(k/m), with damping.
 #[test]
 fn a_mass_on_a_spring_vibrates_by_its_closed_form() {
     let (mass, stiffness, damping) = (1.5, 60.0, 1.2);
-    let direction = column(&odd_rotation(0.3), 0);
+    let direction = odd_rotation(0.3).column(0);
     let mut model = Model::new();
     let part = model.body(Body::new("mass", mass, [0.1; 3]).at(direction.map(|x| 1.3 * x)));
     let [from, to] = [Marker::new(Part::Ground, [0.0; 3]), Marker::new(part, [0.0; 3])];
-    model.spring(Spring { name: "spring".into(), from, to, stiffness, damping, length: 1.0 });
+    model.spring(Spring {
+        name: "spring".into(),
+        from,
+        to,
+        stiffness,
+        damping,
+        length: 1.0,
+        directions: Directions::Line,
+    });
     let mut system = Multibody::new(model).unwrap();
     let end = 3.0;
-    let mut method = RungeKutta::new();
-    let (s, imbalance) = run(&mut system, &mut method, end, Some(1e-3), |_, _| {});
+    let method = RungeKutta::new();
+    let (s, imbalance) = run(&mut system, &method, end, Some(1e-3), |_, _| {});
     let decay = damping / (2.0 * mass);
     let omega = (stiffness / mass - decay * decay).sqrt();
     let (sin, cos) = (omega * end).sin_cos();
@@ -198,11 +230,11 @@ fn a_follower_force_turns_with_its_body_and_a_dead_couple_does_not() {
         axes,
         amplitude: None,
     };
-    model.load(load("thrust", Axes::Follower, [4.0, 0.0, 0.0], [0.0; 3]));
-    model.load(load("couple", Axes::Dead, [0.0; 3], [0.0, 0.0, 0.2]));
+    model.load(load("thrust", Axes::Follower, Vec3([4.0, 0.0, 0.0]), Vec3([0.0; 3])));
+    model.load(load("couple", Axes::Dead, Vec3([0.0; 3]), Vec3([0.0, 0.0, 0.2])));
     let mut system = Multibody::new(model).unwrap();
     let end: f64 = 2.0;
-    let (s, imbalance) = run(&mut system, &mut radau(1e-11), end, None, |_, _| {});
+    let (s, imbalance) = run(&mut system, &radau(1e-11), end, None, |_, _| {});
     assert!((s.v[5] - 0.5 * end).abs() < 1e-10);
     // v = ∫ F/m (cos, sin)(¼ t²) dt by Simpson's rule.
     let n = 2000;

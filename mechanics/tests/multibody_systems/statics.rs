@@ -4,7 +4,8 @@ use super::{GRAVITY, channel, odd_body};
 use flexion::analysis::equilibrium::equilibrium;
 use flexion::analysis::modes::modes;
 use flexion::drive::Actuator;
-use flexion::multibody::rotation::{apply, exponential, matrix};
+use flexion::linalg::Vec3;
+use flexion::multibody::rotation::about;
 use flexion::multibody::{Body, Drive, Kind, Marker, Model, Multibody, Part, Spring};
 use flexion::profile::Constant;
 use flexion::system::{Dynamics, State};
@@ -21,7 +22,13 @@ fn a_rod_on_a_hinge_with_a_spring_sinks_to_its_equilibrium() {
     let (mass, length, stiffness) = (2.0, 1.2, 9.0);
     let mut model = Model::new().with_gravity([0.0, 0.0, -GRAVITY]);
     let rod = model.body(Body::new("rod", mass, [0.01, 0.24, 0.24]).at([0.5 * length, 0.0, 0.0]));
-    let hinge = model.join("hinge", Kind::Revolute, [Part::Ground, rod], [0.0; 3], ([0.0, 1.0, 0.0], None));
+    let hinge = model.join(
+        "hinge",
+        Kind::Revolute,
+        [Part::Ground, rod],
+        Vec3([0.0; 3]),
+        (Vec3([0.0, 1.0, 0.0]), None),
+    );
     hinge.unwrap().drive = spring(stiffness, 0.0);
     let mut system = Multibody::new(model).unwrap();
     let mut s = system.initial();
@@ -128,9 +135,9 @@ fn a_body_on_springs_finds_its_place_and_its_rotation() {
     let part = model.body(body);
     for k in 0..8 {
         let sign = |bit: usize| if k >> bit & 1 == 0 { 1.0 } else { -1.0 };
-        let corner = [0.4 * sign(0), 0.3 * sign(1), 0.2 * sign(2)];
-        let turned = apply(&own, apply(&matrix(exponential([0.3, -0.5, 0.6])), corner));
-        let anchor = [0, 1, 2].map(|i| centre[i] + 3.0 * turned[i]);
+        let corner = Vec3([0.4 * sign(0), 0.3 * sign(1), 0.2 * sign(2)]);
+        let turned = own * (about([0.3, -0.5, 0.6]) * corner);
+        let anchor = centre + 3.0 * turned;
         let [from, to] = [Marker::new(Part::Ground, anchor), Marker::new(part, corner)];
         model.spring(Spring {
             name: format!("spring {k}"),
@@ -139,6 +146,7 @@ fn a_body_on_springs_finds_its_place_and_its_rotation() {
             stiffness: 80.0,
             damping: 0.0,
             length: 0.4,
+            directions: flexion::multibody::Directions::Line,
         });
     }
     let mut system = Multibody::new(model).unwrap();

@@ -2,7 +2,7 @@
 //! (Prandtl 1899; the first zero z of J₋₁/₄ gives 4z/2).
 
 use super::newton::cantilever;
-use flexion::linalg::Matrix;
+use flexion::linalg::{Matrix, Vec3};
 use flexion::multibody::slender::{Load, Properties};
 
 /// The load, over √(EI₂ GJ)/L², at which the tangent loses definiteness, with EI₃ = `ratio` EI₂.
@@ -11,7 +11,7 @@ fn critical(elements: usize, ratio: f64) -> f64 {
     let section = Properties::principal([1e6 * ratio, torsion, bending, ratio], 1.0, [1.0; 3]);
     let unstable = |force: f64| {
         let mut statics = cantilever(1.0, elements, section);
-        statics.loads.push((elements, Load::Force([0.0, force * torsion.sqrt(), 0.0])));
+        statics.loads.push((elements, Load::Force(Vec3([0.0, force * torsion.sqrt(), 0.0]))));
         statics.load(2);
         let matrix = statics.tangent(1.0);
         let n = statics.fixed.len();

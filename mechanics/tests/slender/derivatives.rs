@@ -1,5 +1,6 @@
 //! Forces and tangents against differences.
 
+use flexion::linalg::Vec3;
 use flexion::linalg::vector::noise;
 use flexion::multibody::slender::{Beam, Load, Properties, Station};
 use flexion::system::Weights;
@@ -10,14 +11,10 @@ pub fn general() -> Beam {
         let (sin, cos) = s.sin_cos();
         let root = 0.5_f64.sqrt();
         // A helix of radius ½, and its principal normal turned about the tangent by s/2.
-        let (t, n) = ([-sin * root, cos * root, root], [-cos, -sin, 0.0]);
-        let b = [t[1] * n[2] - t[2] * n[1], t[2] * n[0] - t[0] * n[2], t[0] * n[1] - t[1] * n[0]];
+        let (t, n) = (Vec3([-sin * root, cos * root, root]), Vec3([-cos, -sin, 0.0]));
+        let b = t.cross(n);
         let (c, d) = ((0.5 * s).cos(), (0.5 * s).sin());
-        Station {
-            position: [root * cos, root * sin, root * s],
-            tangent: t,
-            normal: std::array::from_fn(|k| c * n[k] + d * b[k]),
-        }
+        Station { position: Vec3([root * cos, root * sin, root * s]), tangent: t, normal: c * n + d * b }
     };
     Beam::new(&[0.0, 0.5, 0.9, 1.6], curve, |s| Properties {
         stiffness: stiffness(s),
@@ -191,10 +188,10 @@ fn loads_have_the_derivatives_of_their_forces() {
     let (q, ..) = far(&beam, 31);
     let n = beam.velocities();
     for load in [
-        Load::Force([0.3, -0.8, 0.5]),
-        Load::FollowerForce([0.3, -0.8, 0.5]),
-        Load::Couple([-0.6, 0.2, 0.9]),
-        Load::FollowerCouple([-0.6, 0.2, 0.9]),
+        Load::Force(Vec3([0.3, -0.8, 0.5])),
+        Load::FollowerForce(Vec3([0.3, -0.8, 0.5])),
+        Load::Couple(Vec3([-0.6, 0.2, 0.9])),
+        Load::FollowerCouple(Vec3([-0.6, 0.2, 0.9])),
     ] {
         let block = load.derivative(&beam.node(2, &q).1);
         for j in 0..7 {

@@ -4,9 +4,9 @@ use super::derivatives::far;
 use super::newton::{distance, equal};
 use crate::integrators::drive::fixed;
 use flexion::integrator::{GeneralizedAlpha, Integrator, Radau, Tolerance};
-use flexion::linalg::vector::{cross, inner, noise};
-use flexion::linalg::{Matrix, Structure};
-use flexion::multibody::slender::{Beam, Load, Properties, Station};
+use flexion::linalg::vector::noise;
+use flexion::linalg::{Matrix, Structure, Vec3};
+use flexion::multibody::slender::{Beam, Element, Load, Properties, Station};
 use flexion::system::{Dynamics, Energy, Events, Observed, Power, Size, State, Steady, Weights};
 use flexion::verify;
 
@@ -69,7 +69,7 @@ impl Dynamics for Single {
         let forces = self.load.forces(&self.beam.node(node, &s.q).1);
         (0..7).for_each(|k| r[at + k] -= forces[k]);
         for (e, element) in self.beam.elements().iter().enumerate() {
-            let forces = element.body_force([0.0, 0.0, -self.gravity]);
+            let forces = element.body_force(Vec3([0.0, 0.0, -self.gravity]));
             for (i, force) in [0, 3, 8, 11].into_iter().zip(forces) {
                 (0..3).for_each(|k| r[8 * e + i + k] -= force[k]);
             }
@@ -89,7 +89,7 @@ impl Dynamics for Single {
         let triad = self.beam.node(node, &s.q).1;
         let mut block = self.load.derivative(&triad);
         if let Some(d) = w.increment {
-            let turn = triad.spin_by_slope([d[at + 3], d[at + 4], d[at + 5]]);
+            let turn = triad.spin_by_slope(Vec3([d[at + 3], d[at + 4], d[at + 5]]));
             block.iter_mut().for_each(|row| (0..3).for_each(|k| row[3 + k] += row[6] * turn[k]));
         }
         (0..7).for_each(|i| (0..7).for_each(|j| out.add(at + i, at + j, -w.q * block[i][j])));
@@ -135,9 +135,9 @@ fn bowed(elements: usize) -> Beam {
     let curve = |s: f64| {
         let (sin, cos) = (0.8 * s).sin_cos();
         Station {
-            position: [sin / 0.8, (1.0 - cos) / 0.8, 0.0],
-            tangent: [cos, sin, 0.0],
-            normal: [0.0, 0.0, 1.0],
+            position: Vec3([sin / 0.8, (1.0 - cos) / 0.8, 0.0]),
+            tangent: Vec3([cos, sin, 0.0]),
+            normal: Vec3([0.0, 0.0, 1.0]),
         }
     };
     let section = Properties::principal([300.0, 1.0, 0.7, 2.0], 1.0, [0.02, 0.008, 0.012]);
@@ -147,9 +147,9 @@ fn bowed(elements: usize) -> Beam {
 #[test]
 fn the_beam_is_what_the_integrators_take_it_for() {
     for load in [
-        Load::Force([0.2, 0.3, -0.5]),
-        Load::FollowerForce([0.2, 0.3, -0.5]),
-        Load::FollowerCouple([0.3, 0.6, -0.2]),
+        Load::Force(Vec3([0.2, 0.3, -0.5])),
+        Load::FollowerForce(Vec3([0.2, 0.3, -0.5])),
+        Load::FollowerCouple(Vec3([0.3, 0.6, -0.2])),
     ] {
         let mut system = Single::new(bowed(2), true, load, 3.0, 0.4);
         let (q, mut v, a) = far(&system.beam, 61);
@@ -168,18 +168,18 @@ fn the_beam_is_what_the_integrators_take_it_for() {
 }
 
 /// A beam that flies and spins freely: the states at begin and end of equal steps.
-fn fly(method: &mut dyn Integrator, end: f64, steps: usize) -> (Single, State, State) {
-    let mut system = Single::new(bowed(3), false, Load::Force([0.0; 3]), 2.0, 0.0);
+fn fly(method: &dyn Integrator, end: f64, steps: usize) -> (Single, State, State) {
+    let mut system = Single::new(bowed(3), false, Load::Force(Vec3([0.0; 3])), 2.0, 0.0);
     let mut begin = system.initial();
-    let omega = [1.0, -2.0, 3.0];
+    let omega = Vec3([1.0, -2.0, 3.0]);
     for node in 0..=3 {
         let (position, triad) = system.beam.node(node, &begin.q);
-        begin.v[8 * node..8 * node + 3].copy_from_slice(&cross(omega, position));
-        begin.v[8 * node + 3..8 * node + 6].copy_from_slice(&cross(omega, triad.tangent));
-        begin.v[8 * node + 6] = inner(omega, triad.tangent);
+        omega.cross(position).put(&mut begin.v, 8 * node);
+        omega.cross(triad.tangent).put(&mut begin.v, 8 * node + 3);
+        begin.v[8 * node + 6] = omega.dot(triad.tangent);
         if node < 3 {
             let q = begin.q[12 * node..12 * node + 21].try_into().unwrap();
-            begin.v[8 * node + 7] = inner(omega, system.beam.elements()[node].section(q, 0.5).1.tangent);
+            begin.v[8 * node + 7] = omega.dot(system.beam.elements()[node].section(q, 0.5).1.tangent);
         }
     }
     let end = fixed(method, &mut system, begin.clone(), end, steps, |_, _, _, _| {}).unwrap();
@@ -188,7 +188,7 @@ fn fly(method: &mut dyn Integrator, end: f64, steps: usize) -> (Single, State, S
 
 #[test]
 fn a_free_beam_keeps_its_energy_and_its_momenta() {
-    let (mut system, begin, end) = fly(&mut Radau::new(Tolerance::uniform(1e-11)).unwrap(), 0.5, 400);
+    let (mut system, begin, end) = fly(&Radau::new(Tolerance::uniform(1e-11)).unwrap(), 0.5, 400);
     let energy = |system: &mut Single, s: &State| system.energy(s);
     let (before, after) = (energy(&mut system, &begin), energy(&mut system, &end));
     assert!(after.strain > 0.004 * before.kinetic, "it deforms: {after:?}");
@@ -201,21 +201,19 @@ fn a_free_beam_keeps_its_energy_and_its_momenta() {
         let mut strain = p.clone();
         system.beam.add_forces(&s.q, &zero, &s.v, &mut p);
         system.beam.add_forces(&s.q, &zero, &zero, &mut strain);
-        let (mut linear, mut angular) = ([0.0; 3], [0.0; 3]);
-        let add = |to: &mut [f64; 3], x: [f64; 3]| (0..3).for_each(|k| to[k] += x[k]);
+        let (mut linear, mut angular) = (Vec3::ZERO, Vec3::ZERO);
         for node in 0..=3 {
             let (position, triad) = system.beam.node(node, &s.q);
-            let of = |at: usize| std::array::from_fn(|k| p[8 * node + at + k] - strain[8 * node + at + k]);
-            add(&mut linear, of(0));
-            add(&mut angular, cross(position, of(0)));
-            add(&mut angular, cross(triad.tangent.map(|t| triad.length * t), of(3)));
+            let of = |at: usize| Vec3::at(&p, 8 * node + at) - Vec3::at(&strain, 8 * node + at);
+            linear += of(0);
+            angular += position.cross(of(0)) + (triad.length * triad.tangent).cross(of(3));
             let spins = [(6, triad)].into_iter().chain((node < 3).then(|| {
                 let q = s.q[12 * node..12 * node + 21].try_into().unwrap();
                 (7, system.beam.elements()[node].section(q, 0.5).1)
             }));
             for (at, triad) in spins {
                 let spin = p[8 * node + at] - strain[8 * node + at];
-                add(&mut angular, triad.tangent.map(|t| spin * t));
+                angular += spin * triad.tangent;
             }
         }
         (linear, angular)
@@ -223,24 +221,21 @@ fn a_free_beam_keeps_its_energy_and_its_momenta() {
     let mass: f64 = system.beam.elements().iter().map(|e| e.mass()).sum();
     let centre = |s: &State| {
         let parts = system.beam.elements().iter().enumerate();
-        parts.fold([0.0; 3], |sum: [f64; 3], (e, element)| {
-            let x = element.first_moment(s.q[12 * e..12 * e + 21].try_into().unwrap());
-            std::array::from_fn(|k| sum[k] + x[k] / mass)
-        })
+        let moment = |(e, element): (usize, &Element)| {
+            element.first_moment(s.q[12 * e..12 * e + 21].try_into().unwrap()) / mass
+        };
+        parts.map(moment).sum::<Vec3>()
     };
     let ((linear, angular), (linear_end, angular_end)) = (momenta(&begin), momenta(&end));
     let t = end.t;
-    let expected = [linear[0], linear[1], linear[2] - 2.0 * mass * t];
+    let expected = linear - 2.0 * mass * t * Vec3::AXES[2];
     assert!(distance(linear_end, expected) < 1e-11, "{linear_end:?} for {expected:?}");
     // The centre falls in a parabola.
     let (from, to) = (centre(&begin), centre(&end));
-    let fallen: [f64; 3] = std::array::from_fn(|k| from[k] + t * linear[k] / mass - [0.0, 0.0, t * t][k]);
+    let fallen = from + t / mass * linear - t * t * Vec3::AXES[2];
     assert!(distance(to, fallen) < 1e-11, "{to:?} for {fallen:?}");
     // About the centre, the angular momentum stays.
-    let about = |centre: [f64; 3], linear: [f64; 3], angular: [f64; 3]| -> [f64; 3] {
-        let moved = cross(centre, linear);
-        std::array::from_fn(|k| angular[k] - moved[k])
-    };
+    let about = |centre: Vec3, linear: Vec3, angular: Vec3| angular - centre.cross(linear);
     let (spin, spin_end) = (about(from, linear, angular), about(to, linear_end, angular_end));
     assert!(distance(spin, spin_end) < 1e-9, "{spin_end:?} for {spin:?}");
 }
@@ -250,9 +245,9 @@ fn integrators_agree_and_keep_their_orders_on_a_free_beam() {
     let apart = |a: &State, b: &State| {
         a.q.iter().zip(&b.q).chain(a.v.iter().zip(&b.v)).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max)
     };
-    let radau = |steps| fly(&mut Radau::new(Tolerance::uniform(1e-12)).unwrap(), 0.1, steps).2;
+    let radau = |steps| fly(&Radau::new(Tolerance::uniform(1e-12)).unwrap(), 0.1, steps).2;
     let fine = radau(800);
-    let alpha = |steps| fly(&mut GeneralizedAlpha::chung_hulbert(0.8).unwrap(), 0.1, steps).2;
+    let alpha = |steps| fly(&GeneralizedAlpha::chung_hulbert(0.8).unwrap(), 0.1, steps).2;
     let errors = [800, 1600].map(|n| apart(&alpha(n), &fine));
     let order = (errors[0] / errors[1]).log2();
     assert!((1.8..2.2).contains(&order), "{errors:?} of order {order}");

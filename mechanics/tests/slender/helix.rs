@@ -5,7 +5,8 @@
 //! its axis, F = (GJ Δτ cos α − EI Δκ sin α)/R (Love 1927, art. 271).
 
 use super::newton::{Statics, distance, equal, orders};
-use flexion::multibody::slender::{Beam, Load, Properties, Station, Vector};
+use flexion::linalg::Vec3;
+use flexion::multibody::slender::{Beam, Load, Properties, Station};
 
 const LENGTH: f64 = 6.0;
 const STIFFNESS: [f64; 4] = [500.0, 0.8, 1.0, 1.0];
@@ -25,21 +26,21 @@ impl Helix {
     }
 
     /// Position, t, principal normal and binormal.
-    fn at(&self, s: f64) -> [Vector; 4] {
+    fn at(&self, s: f64) -> [Vec3; 4] {
         let (sin, cos) = self.pitch.sin_cos();
         let along = self.stretch * s;
         let (y, x) = (along * cos / self.radius).sin_cos();
         [
-            [self.radius * x, self.radius * y, along * sin],
-            [-cos * y, cos * x, sin],
-            [-x, -y, 0.0],
-            [sin * y, -sin * x, cos],
+            Vec3([self.radius * x, self.radius * y, along * sin]),
+            Vec3([-cos * y, cos * x, sin]),
+            Vec3([-x, -y, 0.0]),
+            Vec3([sin * y, -sin * x, cos]),
         ]
     }
 }
 
 /// The drawn helix with its stretch, and the force and the couple at its end.
-fn drawn(before: Helix, mut now: Helix) -> (Helix, Vector, Vector) {
+fn drawn(before: Helix, mut now: Helix) -> (Helix, Vec3, Vec3) {
     let (sin, cos) = now.pitch.sin_cos();
     let [k0, t0] = before.curvatures();
     let (mut force, mut moments) = (0.0, [0.0; 2]);
@@ -50,7 +51,7 @@ fn drawn(before: Helix, mut now: Helix) -> (Helix, Vector, Vector) {
         now.stretch = 1.0 + force * sin / STIFFNESS[0];
     }
     let [_, t, _, b] = now.at(LENGTH);
-    (now, [0.0, 0.0, force], std::array::from_fn(|k| moments[0] * t[k] + moments[1] * b[k]))
+    (now, Vec3([0.0, 0.0, force]), moments[0] * t + moments[1] * b)
 }
 
 /// The error of the tip and of the axes there, from the drawn helix as the first guess.
@@ -67,10 +68,10 @@ fn error(elements: usize) -> f64 {
     let h = LENGTH / elements as f64;
     for i in 0..=elements {
         let [r, t, n, _] = now.at(i as f64 * h);
-        let slope = t.map(|t| now.stretch * t);
-        statics.q[12 * i..12 * i + 9].copy_from_slice(&[r, slope, n].concat());
+        let slope = now.stretch * t;
+        statics.q[12 * i..12 * i + 9].copy_from_slice(&[r.0, slope.0, n.0].concat());
         if i < elements {
-            statics.q[12 * i + 9..12 * i + 12].copy_from_slice(&now.at((i as f64 + 0.5) * h)[2]);
+            statics.q[12 * i + 9..12 * i + 12].copy_from_slice(&now.at((i as f64 + 0.5) * h)[2].0);
         }
     }
     // The normals in the middle are made normal to the tangents by a retraction without increment.

@@ -2,20 +2,19 @@
 
 use super::derivatives::{far, general};
 use super::newton::{Statics, cantilever, distance};
+use flexion::linalg::Vec3;
 use flexion::linalg::vector::noise;
-use flexion::multibody::slender::{Beam, Load, Properties, Triad, Vector};
+use flexion::multibody::slender::{Beam, Load, Properties, Triad};
 
 /// The rotation by |ω| about ω, by Rodrigues' formula.
-fn rotated(omega: Vector, x: Vector) -> Vector {
-    let angle = omega.iter().map(|w| w * w).sum::<f64>().sqrt();
-    let k = omega.map(|w| w / angle);
-    let cross = [k[1] * x[2] - k[2] * x[1], k[2] * x[0] - k[0] * x[2], k[0] * x[1] - k[1] * x[0]];
-    let along: f64 = (0..3).map(|i| k[i] * x[i]).sum();
+fn rotated(omega: Vec3, x: Vec3) -> Vec3 {
+    let angle = omega.norm();
+    let k = omega / angle;
     let (sin, cos) = angle.sin_cos();
-    std::array::from_fn(|i| x[i] * cos + cross[i] * sin + k[i] * along * (1.0 - cos))
+    cos * x + sin * k.cross(x) + (1.0 - cos) * k.dot(x) * k
 }
 
-fn moved(beam: &Beam, q: &[f64], omega: Vector, by: Vector) -> Vec<f64> {
+fn moved(beam: &Beam, q: &[f64], omega: Vec3, by: Vec3) -> Vec<f64> {
     let mut out = q.to_vec();
     for e in 0..=beam.elements().len() {
         // r, r′, n of the node and n of the middle behind it.
@@ -24,8 +23,8 @@ fn moved(beam: &Beam, q: &[f64], omega: Vector, by: Vector) -> Vec<f64> {
             if at + 3 > q.len() {
                 break;
             }
-            let x = rotated(omega, [q[at], q[at + 1], q[at + 2]]);
-            let shift = if k == 0 { by } else { [0.0; 3] };
+            let x = rotated(omega, Vec3::at(q, at));
+            let shift = if k == 0 { by } else { Vec3([0.0; 3]) };
             (0..3).for_each(|i| out[at + i] = x[i] + shift[i]);
         }
     }
@@ -45,20 +44,19 @@ fn energy_and_forces_are_objective() {
     };
     let (energy, force) = (beam.strain_energy(&q), forces(&q));
     let largest = force.iter().fold(0.0, |a: f64, f| a.max(f.abs()));
-    for omega in [[0.1, 0.0, 0.0], [1.3, -0.7, 2.2], [0.0, 3.1, 0.0], [40.0, -90.0, 60.0]] {
-        let there = moved(&beam, &q, omega, [5.0, -3.0, 2.0]);
+    for omega in [[0.1, 0.0, 0.0], [1.3, -0.7, 2.2], [0.0, 3.1, 0.0], [40.0, -90.0, 60.0]].map(Vec3) {
+        let there = moved(&beam, &q, omega, Vec3([5.0, -3.0, 2.0]));
         assert!((beam.strain_energy(&there) - energy).abs() < 1e-12 * energy, "{omega:?}");
         let found = forces(&there);
         for e in 0..=beam.elements().len() {
             for at in [8 * e, 8 * e + 3] {
-                let expected = rotated(omega, [force[at], force[at + 1], force[at + 2]]);
-                let found = [found[at], found[at + 1], found[at + 2]];
-                assert!(distance(found, expected) < 1e-12 * largest, "{omega:?}");
+                let expected = rotated(omega, Vec3::at(&force, at));
+                assert!(distance(Vec3::at(&found, at), expected) < 1e-12 * largest, "{omega:?}");
             }
             assert!((found[8 * e + 6] - force[8 * e + 6]).abs() < 1e-12 * largest, "{omega:?}");
         }
         // Without deformation there is no force in any place and orientation.
-        let rigid = moved(&beam, beam.initial(), omega, [5.0, -3.0, 2.0]);
+        let rigid = moved(&beam, beam.initial(), omega, Vec3([5.0, -3.0, 2.0]));
         assert!(beam.strain_energy(&rigid) < 1e-24 && forces(&rigid).iter().all(|f| f.abs() < 1e-11));
     }
 }
@@ -100,7 +98,7 @@ fn oblique() -> Statics {
 
 #[test]
 fn a_closed_cycle_of_loads_returns_and_ways_to_a_load_agree() {
-    let (force, couple) = (Load::Force([-0.4, 0.9, 0.8]), Load::FollowerCouple([0.5, 0.2, -0.6]));
+    let (force, couple) = (Load::Force(Vec3([-0.4, 0.9, 0.8])), Load::FollowerCouple(Vec3([0.5, 0.2, -0.6])));
     let run = |stages: &[Vec<(usize, Load)>]| {
         let mut statics = oblique();
         for stage in stages {
@@ -114,7 +112,7 @@ fn a_closed_cycle_of_loads_returns_and_ways_to_a_load_agree() {
     let other = run(&[vec![(8, couple)], both.clone()]);
     let apart = one.q.iter().zip(&other.q).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     assert!(apart < 1e-11, "{apart}");
-    assert!(distance(one.tip().0, [1.0, 0.0, 0.0]) > 0.5);
+    assert!(distance(one.tip().0, Vec3([1.0, 0.0, 0.0])) > 0.5);
     let back = run(&[vec![(8, force)], both, vec![(8, couple)], vec![]]);
     let apart = back.q.iter().zip(back.beam.initial()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     assert!(apart < 1e-11, "{apart}");

@@ -1,7 +1,7 @@
 //! Equilibria of a beam by Newton's method.
 
-use flexion::linalg::{Matrix, Structure};
-use flexion::multibody::slender::{Beam, Load, Properties, Station, Triad, Vector};
+use flexion::linalg::{Matrix, Structure, Vec3};
+use flexion::multibody::slender::{Beam, Load, Properties, Station, Triad};
 use flexion::system::Weights;
 
 /// The unknowns of a node that a clamp holds.
@@ -24,7 +24,8 @@ pub fn equal(length: f64, n: usize) -> Vec<f64> {
 
 /// A straight beam along x with n along y, clamped at its root.
 pub fn cantilever(length: f64, elements: usize, section: Properties) -> Statics {
-    let root = Station { position: [0.0; 3], tangent: [1.0, 0.0, 0.0], normal: [0.0, 1.0, 0.0] };
+    let root =
+        Station { position: Vec3([0.0; 3]), tangent: Vec3([1.0, 0.0, 0.0]), normal: Vec3([0.0, 1.0, 0.0]) };
     Statics::clamped(Beam::straight(root, length, elements, section).unwrap())
 }
 
@@ -52,7 +53,7 @@ impl Statics {
         unknowns.iter().for_each(|k| self.fixed[8 * node + k] = true);
     }
 
-    pub fn tip(&self) -> (Vector, Triad) {
+    pub fn tip(&self) -> (Vec3, Triad) {
         self.beam.node(self.last(), &self.q)
     }
 
@@ -120,7 +121,7 @@ impl Statics {
 }
 
 /// Largest difference of the components.
-pub fn distance(a: Vector, b: Vector) -> f64 {
+pub fn distance(a: Vec3, b: Vec3) -> f64 {
     (0..3).map(|k| (a[k] - b[k]).abs()).fold(0.0, f64::max)
 }
 
@@ -130,6 +131,6 @@ pub fn orders(errors: &[f64]) -> Vec<f64> {
 }
 
 /// Orders from solutions on meshes of twice the elements alone, by the ratios of their differences.
-pub fn orders_of(tips: &[Vector]) -> Vec<f64> {
+pub fn orders_of(tips: &[Vec3]) -> Vec<f64> {
     orders(&tips.windows(2).map(|t| distance(t[0], t[1])).collect::<Vec<_>>())
 }

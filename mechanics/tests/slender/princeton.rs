@@ -1,7 +1,8 @@
 //! The Princeton beam: a flat cantilever under a force at its tip, oblique to its section (Dowell and Traybar 1975).
 
 use super::newton::{cantilever, orders_of};
-use flexion::multibody::slender::{Load, Properties, Vector};
+use flexion::linalg::Vec3;
+use flexion::multibody::slender::{Load, Properties};
 
 /// Length, height and thickness \[m\], Young's modulus \[Pa\], force \[N\].
 const LENGTH: f64 = 0.508;
@@ -11,16 +12,16 @@ const MODULUS: f64 = 71.7e9;
 const FORCE: f64 = 8.896;
 
 /// Displacement of the tip, the force at `angle` \[°\] to the height; GJ = `factor` G J.
-fn tip(elements: usize, angle: f64, factor: f64) -> Vector {
+fn tip(elements: usize, angle: f64, factor: f64) -> Vec3 {
     let [high, flat] = [THICKNESS * HEIGHT.powi(3) / 12.0, HEIGHT * THICKNESS.powi(3) / 12.0];
     let torsion = factor * MODULUS / (2.0 * 1.31) * 0.198 * (high + flat);
     let stiffness = [MODULUS * HEIGHT * THICKNESS, torsion, MODULUS * flat, MODULUS * high];
     let mut statics = cantilever(LENGTH, elements, Properties::principal(stiffness, 1.0, [1.0; 3]));
     let (sin, cos) = angle.to_radians().sin_cos();
-    statics.loads.push((elements, Load::Force([0.0, FORCE * cos, FORCE * sin])));
+    statics.loads.push((elements, Load::Force(Vec3([0.0, FORCE * cos, FORCE * sin]))));
     statics.load(4);
     let tip = statics.tip().0;
-    [tip[0] - LENGTH, tip[1], tip[2]]
+    Vec3([tip[0] - LENGTH, tip[1], tip[2]])
 }
 
 #[test]
@@ -60,7 +61,7 @@ fn a_ribbon_that_is_stiff_edgewise_does_not_lock() {
         let tip = |n: usize| {
             let section = Properties::principal([1e6, 0.7, 1.0, ratio], 1.0, [1.0; 3]);
             let mut statics = cantilever(1.0, n, section);
-            statics.loads.push((n, Load::Force([0.0, 1.0, 1.0])));
+            statics.loads.push((n, Load::Force(Vec3([0.0, 1.0, 1.0]))));
             statics.load(8);
             statics.tip().0
         };

@@ -1,6 +1,7 @@
 //! Beams that cannot be made.
 
 use super::newton::equal;
+use flexion::linalg::Vec3;
 use flexion::multibody::slender::{Beam, BeamError, Properties, Station};
 
 fn section() -> Properties {
@@ -8,7 +9,7 @@ fn section() -> Properties {
 }
 
 fn straight(s: f64) -> Station {
-    Station { position: [s, 0.0, 0.0], tangent: [1.0, 0.0, 0.0], normal: [0.0, 1.0, 0.0] }
+    Station { position: Vec3([s, 0.0, 0.0]), tangent: Vec3([1.0, 0.0, 0.0]), normal: Vec3([0.0, 1.0, 0.0]) }
 }
 
 #[test]
@@ -21,7 +22,7 @@ fn nodes_must_ascend() {
 
 #[test]
 fn axes_must_be_axes() {
-    let skew = |s: f64| Station { normal: [0.1, 1.0, 0.0], ..straight(s) };
+    let skew = |s: f64| Station { normal: Vec3([0.1, 1.0, 0.0]), ..straight(s) };
     let error = Beam::new(&equal(1.0, 2), skew, |_| section()).unwrap_err();
     assert!(matches!(error, BeamError::Axes { at: 0.0 }), "{error}");
 }
@@ -29,15 +30,15 @@ fn axes_must_be_axes() {
 #[test]
 fn an_element_must_not_turn_by_a_right_angle() {
     let circle = |s: f64| Station {
-        position: [s.sin(), 1.0 - s.cos(), 0.0],
-        tangent: [s.cos(), s.sin(), 0.0],
-        normal: [0.0, 0.0, 1.0],
+        position: Vec3([s.sin(), 1.0 - s.cos(), 0.0]),
+        tangent: Vec3([s.cos(), s.sin(), 0.0]),
+        normal: Vec3([0.0, 0.0, 1.0]),
     };
     assert!(Beam::new(&equal(3.0, 2), circle, |_| section()).is_ok());
     let error = Beam::new(&equal(3.3, 2), circle, |_| section()).unwrap_err();
     assert!(error.to_string().contains("95°") && error.to_string().contains("more elements"), "{error}");
     // Axes that twist by as much.
-    let screw = |s: f64| Station { normal: [0.0, s.cos(), s.sin()], ..straight(s) };
+    let screw = |s: f64| Station { normal: Vec3([0.0, s.cos(), s.sin()]), ..straight(s) };
     let error = Beam::new(&equal(4.0, 2), screw, |_| section()).unwrap_err();
     assert!(matches!(error, BeamError::Turned { .. }), "{error}");
 }

@@ -4,12 +4,7 @@ use super::font::Font;
 use super::sketch::{Point, Rectangle, Shape};
 use super::*;
 use crate::Trajectory;
-use crate::csv::role;
-use flexion::system::Channel;
-
-fn channel(name: &str, unit: &'static str) -> Channel {
-    Channel { name: name.into(), unit, role: role(name), ..Channel::default() }
-}
+use crate::csv::channel;
 
 /// A spin-up to `speed` in 15 s: a dip of the tip to about −0.4 m and a small vibration afterwards.
 fn spin_up(speed: f64, rows: usize) -> Trajectory {

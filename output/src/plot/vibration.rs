@@ -20,30 +20,39 @@ const BRANCHES: usize = 6;
 const BLACK: usize = 6;
 const GREY: usize = 7;
 
-/// The shapes of modes: one panel each, the displacements of the stations along the axes of the sections, which have names, and the
-/// rotation about the first times the length, at the phase at which the largest is real.
+/// The shapes of modes: a panel each with the displacements of the stations along the axes of the sections, which have names, and where
+/// a mode has torsion one beside it with the rotation about the first, at the phase at which the largest is real.
 pub fn modes_figure(
     modes: &Modes,
     (stations, axes): (&[f64], [&str; 3]),
     unit: &Frequencies,
     title: Option<&str>,
 ) -> Figure {
-    let panel = |(number, mode): (usize, &Mode)| {
+    let torsion = modes.modes.iter().take(MOST).any(|mode| mode.shares.torsion > SEEN);
+    let panels = |(number, mode): (usize, &Mode)| {
         let frequency = unit.short(mode.frequency());
-        let text = match mode.shares.dominant() {
+        let moves = mode.shares.dominant();
+        let text = match moves {
             "other" => format!("Mode {}: {frequency}", number + 1),
             moves => format!("Mode {}: {frequency}, {moves}", number + 1),
         };
         let heading = Words { text, outside: true, ..Words::default() };
-        Panel {
+        let range = |measured: bool| if measured { Some((-1.1, 1.1)) } else { None };
+        let panel = |components: std::ops::Range<usize>, quantity: &str, unit: &str, measured: bool| Panel {
             x: Axis { tight: true, ..Axis::new("Station x", "m") },
-            y: Axis { range: Some((-1.1, 1.1)), ..Axis::new("Shape u / max |u|", "") },
-            series: shape(mode, stations, axes),
-            words: vec![heading],
+            y: Axis { range: range(measured), ..Axis::new(quantity, unit) },
+            series: shape(mode, stations, axes, components),
+            words: vec![heading.clone()],
             ..Panel::default()
+        };
+        let twists = moves == "torsion";
+        let mut panels = vec![panel(0..3, "Displacement", "m", !twists)];
+        if torsion {
+            panels.push(panel(3..4, "Rotation", "rad", twists));
         }
+        panels
     };
-    let mut panels: Vec<Panel> = modes.modes.iter().take(MOST).enumerate().map(panel).collect();
+    let mut panels: Vec<Panel> = modes.modes.iter().take(MOST).enumerate().flat_map(panels).collect();
     // The name of a curve once.
     let mut named = Vec::new();
     for series in panels.iter_mut().flat_map(|panel| &mut panel.series) {
@@ -55,8 +64,9 @@ pub fn modes_figure(
     Figure { title: title.map(String::from), columns: panels.len().min(2), share_x: true, panels }
 }
 
-fn shape(mode: &Mode, stations: &[f64], names: [&str; 3]) -> Vec<Series> {
-    let all = mode.shape.movement.iter().flatten();
+/// Curves of components that are not small against the largest of them.
+fn shape(mode: &Mode, stations: &[f64], names: [&str; 3], components: std::ops::Range<usize>) -> Vec<Series> {
+    let all = mode.shape.movement.iter().flat_map(|u| &u[components.clone()]);
     let peak = all.fold(Complex64::ZERO, |best, u| if u.norm() > best.norm() { *u } else { best });
     let phase = if peak == Complex64::ZERO { Complex64::ONE } else { peak.conj() / peak.norm() };
     let curve = |axis: usize| {
@@ -65,7 +75,7 @@ fn shape(mode: &Mode, stations: &[f64], names: [&str; 3]) -> Vec<Series> {
         Series::line(Some(names.get(axis).copied().unwrap_or("torsion")), points).numbered(axis)
     };
     let moves = |series: &Series| series.points.iter().any(|p| p.1.abs() > SEEN * peak.norm());
-    (0..4).map(curve).filter(moves).collect()
+    components.map(curve).filter(moves).collect()
 }
 
 /// Frequencies against the speed, with the lines of whole revolutions, their crossings and the instabilities marked.
@@ -78,8 +88,8 @@ pub fn campbell_figure(campbell: &Campbell, revolutions: u32, units: &Units, tit
     let highest = all.map(|p| p.mode.frequency()).fold(0.0, f64::max);
     let top = if highest > 0.0 { 1.05 * highest } else { 1.0 / units.frequency.factor };
     let furthest = campbell.instabilities.iter().fold(last, |furthest, instability| match instability {
-        Instability::Divergence { speed, .. } | Instability::Lost { speed, .. } => speed.max(furthest),
-        Instability::Flutter { .. } => furthest,
+        Instability::Lost { speed, .. } => speed.max(furthest),
+        Instability::Divergence { .. } | Instability::Flutter { .. } => furthest,
     });
     let begin = if revolutions > 0 { 0.0 } else { first };
     for (number, branch) in campbell.branches.iter().enumerate() {
@@ -115,6 +125,15 @@ pub fn campbell_figure(campbell: &Campbell, revolutions: u32, units: &Units, tit
             points: campbell.crossings.iter().map(at).collect(),
             line: Line::None,
             marker: Some(Marker::Ring),
+            color: Some(BLACK),
+        });
+    }
+    if !campbell.criticals.is_empty() {
+        series.push(Series {
+            name: Some("critical speeds".to_owned()),
+            points: campbell.criticals.iter().map(|c| place(c.speed, 0.0)).collect(),
+            line: Line::None,
+            marker: Some(Marker::Circle),
             color: Some(BLACK),
         });
     }
@@ -155,31 +174,38 @@ fn curve(branch: &Branch) -> impl Iterator<Item = (f64, f64)> {
     first.into_iter().chain(points.iter().zip(points.iter().skip(1)).flat_map(between))
 }
 
-/// A line where steady rotation becomes unstable or ends, up to `top`, and marks where a damping becomes negative.
+/// Lines, up to `top`, at the ends of the ranges in which motions diverge and where steady rotation ends, and marks at the ends of those
+/// in which a damping is negative.
 fn instabilities(campbell: &Campbell, top: f64, place: &dyn Fn(f64, f64) -> (f64, f64)) -> Vec<Series> {
-    let (mut series, mut flutter) = (Vec::new(), Vec::new());
+    let (mut series, mut flutter): (Vec<Series>, Vec<_>) = (Vec::new(), Vec::new());
     for instability in &campbell.instabilities {
-        let (speed, name) = match instability {
-            Instability::Divergence { speed, .. } => (speed, "divergence"),
-            Instability::Lost { speed, .. } => (speed, "end of steady rotation"),
-            Instability::Flutter { branch, to, .. } => {
+        let (name, speeds) = match instability {
+            Instability::Divergence { speed, until } => {
+                ("divergence begins or ends", vec![*speed, until.unwrap_or(*speed)])
+            }
+            Instability::Lost { speed, .. } => ("end of steady rotation", vec![*speed]),
+            Instability::Flutter { branch, to, until, .. } => {
                 let points = campbell.branches.get(*branch).map_or(&[][..], |b| &b.points);
-                let at = points.iter().find(|p| p.speed == *to);
-                flutter.extend(at.map(|p| place(*to, p.mode.frequency())));
+                let last = points.iter().rfind(|p| until.is_none_or(|until| p.speed < until));
+                let at = points.iter().find(|p| p.speed == *to).into_iter().chain(last);
+                flutter.extend(at.map(|p| place(p.speed, p.mode.frequency())));
                 continue;
             }
         };
-        series.push(Series {
-            name: Some(name.to_owned()),
-            points: vec![place(*speed, 0.0), place(*speed, top)],
-            line: Line::Dashed,
-            color: Some(BLACK),
-            ..Series::default()
-        });
+        for speed in speeds {
+            let named = series.iter().any(|series| series.name.as_deref() == Some(name));
+            series.push(Series {
+                name: (!named).then(|| name.to_owned()),
+                points: vec![place(speed, 0.0), place(speed, top)],
+                line: Line::Dashed,
+                color: Some(BLACK),
+                ..Series::default()
+            });
+        }
     }
     if !flutter.is_empty() {
         series.push(Series {
-            name: Some("negative damping".to_owned()),
+            name: Some("negative damping begins, ends".to_owned()),
             points: flutter,
             line: Line::None,
             marker: Some(Marker::Triangle),

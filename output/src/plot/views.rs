@@ -5,6 +5,7 @@ use super::panels::{energies, panel};
 use super::style::{PANEL_HEIGHT, PANEL_WIDTH};
 use super::{Axis, Figure, Line, Marker, Panel, Series, Words};
 use crate::{Events, Scene, Trajectory};
+use flexion::linalg::Vec3;
 use flexion::system::Role;
 
 /// Most times that are drawn.
@@ -70,13 +71,12 @@ pub fn spatial_figure(
 }
 
 /// Three views of a system at one time, with the names of its parts and of its joints, which stand at the given points \[m\].
-pub fn assembly_figure(scene: &Scene, joints: &[(&str, [f64; 3])], title: Option<&str>) -> Figure {
-    let points: Vec<[f64; 3]> = joints.iter().map(|(_, point)| *point).collect();
+pub fn assembly_figure(scene: &Scene, joints: &[(&str, Vec3)], title: Option<&str>) -> Figure {
+    let points: Vec<Vec3> = joints.iter().map(|(_, point)| *point).collect();
     let mut panels = views(scene, &points, PANEL_HEIGHT[1], AROUND_NAMES);
     for (panel, [i, j]) in panels.iter_mut().zip(VIEWS) {
         for (name, lines) in scene.lines(0) {
-            let middle =
-                |pair: &[[f64; 3]]| (0.5 * (pair[0][i] + pair[1][i]), 0.5 * (pair[0][j] + pair[1][j]));
+            let middle = |pair: &[Vec3]| (0.5 * (pair[0][i] + pair[1][i]), 0.5 * (pair[0][j] + pair[1][j]));
             let mut points: Vec<(f64, f64)> =
                 lines.iter().flat_map(|line| line.windows(2).map(middle)).collect();
             let sum = points.iter().fold((0.0, 0.0), |sum, p| (sum.0 + p.0, sum.1 + p.1));
@@ -102,12 +102,12 @@ pub fn assembly_figure(scene: &Scene, joints: &[(&str, [f64; 3])], title: Option
 }
 
 /// The views, all with one scale and one unit along both axes, which show these points \[m\] too.
-fn views(scene: &Scene, also: &[[f64; 3]], height: f64, margin: f64) -> Vec<Panel> {
+fn views(scene: &Scene, also: &[Vec3], height: f64, margin: f64) -> Vec<Panel> {
     let count = scene.times().len();
     let taken = TIMES.min(count);
     let mut numbers: Vec<usize> = (0..taken).map(|k| k * (count - 1) / (taken - 1).max(1)).collect();
     numbers.dedup();
-    let shots: Vec<(usize, Vec<Vec<[f64; 3]>>)> = numbers
+    let shots: Vec<(usize, Vec<Vec<Vec3>>)> = numbers
         .iter()
         .map(|n| (*n, scene.lines(*n).into_iter().flat_map(|(_, lines)| lines).collect()))
         .collect();
@@ -152,7 +152,7 @@ fn views(scene: &Scene, also: &[[f64; 3]], height: f64, margin: f64) -> Vec<Pane
 
 /// The outline of an obstacle in a view: of a plane a line where it is seen from its edge, nothing where it is seen from the front; of
 /// a cylinder two circles and the edges between them.
-fn seen(outline: &[[f64; 3]], [i, j]: [usize; 2]) -> Vec<Series> {
+fn seen(outline: &[Vec3], [i, j]: [usize; 2]) -> Vec<Series> {
     let points: Vec<(f64, f64)> = outline.iter().map(|p| (p[i], p[j])).collect();
     let apart = |a: (f64, f64), b: (f64, f64)| (b.0 - a.0).hypot(b.1 - a.1);
     let lines = if let [a, b, c, d, _] = points[..] {

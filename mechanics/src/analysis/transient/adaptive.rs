@@ -1,12 +1,12 @@
 //! Steps under step control.
 
-use crate::integrator::{Integrator, Span, StepControl, StepError, StepReport};
+use crate::integrator::{Integration, Span, StepControl, StepError, StepReport};
 use crate::system::{Side, State, System};
 
 /// Attempts steps under step control, not longer than `longest`, until one is good.
 pub(super) fn adapt(
     system: &mut dyn System,
-    integrator: &mut dyn Integrator,
+    integrator: &mut Integration,
     (state, longest): (&State, f64),
     next: &mut State,
     (stop, side): (f64, Side),
@@ -25,7 +25,7 @@ pub(super) fn adapt(
                     return Ok((h, report));
                 }
                 control.rejected(h, error, report.iterations);
-                give_up(system, integrator, control, (state.t, left), error)?;
+                give_up(system, control, (state.t, left), (error, report.worst))?;
             }
             Err(
                 error @ (StepError::NotConverged { .. }
@@ -44,15 +44,14 @@ pub(super) fn adapt(
 
 fn give_up(
     system: &dyn System,
-    integrator: &dyn Integrator,
     control: &StepControl,
     (time, left): (f64, f64),
-    error: f64,
+    (error, worst): (f64, usize),
 ) -> Result<(), StepError> {
     let step = control.propose(left);
     if !control.is_too_small(time, step) {
         return Ok(());
     }
-    let worst = system.unknown(integrator.worst());
+    let worst = system.unknown(worst);
     Err(StepError::StepTooSmall { time, step, error, worst })
 }

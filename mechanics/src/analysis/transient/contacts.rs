@@ -6,6 +6,8 @@ use super::{Event, EventKind};
 use crate::contact::{Bounds, Impact, ImpactMap, Neglected};
 use crate::system::{Mode, RowWeights, Set, State, System};
 
+/// Arc over which a gap falls and rises no more than once \[rad\]: steps between which contacts are looked for are not longer.
+pub(super) const ARC: f64 = 0.5;
 /// Closing speed, over the largest met in the run, below which an impact is taken without restitution: bounces that
 /// accumulate end there, and the run goes past their limit.
 const RESTING: f64 = 1e-5;
@@ -215,13 +217,14 @@ impl Unseen {
     }
 
     /// The row of a contact whose gap has fallen and risen in a step without force, and may have been negative between: more
-    /// sharply than the accelerations at both ends tell.
+    /// sharply than the accelerations at both ends tell, or over an [`ARC`] on which its ends tell nothing.
     pub(super) fn find(&mut self, system: &mut dyn System, from: &State, to: &State) -> Option<usize> {
         for (s, [gap, rate]) in [from, to].into_iter().zip(&mut self.values) {
             system.constraint(s, RowWeights::POSITION, gap);
             system.constraint(s, RowWeights::VELOCITY, rate);
         }
         let h = to.t - from.t;
+        let turns = h * system.turning(from).min(system.turning(to)) > ARC;
         let at = |k: usize, i: usize| self.values[k].each_ref().map(|x| x[i]);
         for i in 0..self.bends.len() {
             let free = |s: &State| s.lambda[i].max(0.0) == 0.0;
@@ -229,6 +232,9 @@ impl Unseen {
             let contact = matches!(system.rows()[i], Set::Unilateral { .. });
             if !(contact && free(from) && free(to) && g0 > 0.0 && g1 > 0.0) {
                 continue;
+            }
+            if turns {
+                return Some(i);
             }
             let Some([_, meet]) = lowest((0.0, [g0, v0]), (h, [g1, v1])) else { continue };
             let sharp = |s: &State, system: &mut dyn System, bends: &mut [f64]| {

@@ -17,6 +17,7 @@ pub enum Ending {
 
 /// Why a run could not go on.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum RunError {
     /// The integrator gave up.
     #[error("{error}{}", because(.reason))]

@@ -20,7 +20,7 @@
 //! by steps from the same state until φ vanishes to rounding.
 
 use super::ending::{RunError, failed};
-use crate::integrator::{Accelerations, Counters, Integrator, Span};
+use crate::integrator::{Accelerations, Counters, Integration, Span};
 use crate::system::{Mode, RowWeights, Set, Side, State, System, is_active};
 
 /// Gap at which a contact touches, over the length of the system.
@@ -180,7 +180,7 @@ impl Locator {
     pub(super) fn locate(
         &mut self,
         system: &mut dyn System,
-        integrator: &mut dyn Integrator,
+        integrator: &mut Integration,
         from: &State,
         h: f64,
         to: &mut State,
@@ -343,7 +343,7 @@ impl Locator {
     fn retry(
         &mut self,
         system: &mut dyn System,
-        integrator: &mut dyn Integrator,
+        integrator: &mut Integration,
         from: &State,
         size: f64,
     ) -> Result<(), RunError> {
@@ -387,7 +387,7 @@ impl Locator {
     fn dip(
         &mut self,
         system: &mut dyn System,
-        integrator: &mut dyn Integrator,
+        integrator: &mut Integration,
         from: &State,
         h: f64,
         to: &mut State,

@@ -9,44 +9,30 @@ mod contacts;
 mod ending;
 mod locate;
 mod observer;
-mod stretch;
+mod plan;
+mod segment;
+mod show;
 
 use ending::failed;
 pub use ending::{Ending, RunError};
 pub use observer::{Event, EventKind, Observer, Step};
+pub use plan::Plan;
 
 use super::energy_balance::Integral;
 use crate::contact::{Bounds, Impact, ImpactMap};
-use crate::integrator::{Checkpoint, Integrator, NotResumed, Span, StepControl, StepReport};
+use crate::integrator::{
+    Checkpoint, Info, Integration, Integrator, NotResumed, Span, StepControl, StepReport,
+};
 use crate::quadrature::Gauss;
 use crate::system::{Crossing, Jump, Side, State, System};
 use adaptive::adapt;
-use contacts::{Contacts, Unseen, approaches, loss, struck};
-use stretch::Stretch;
+use contacts::{ARC, Contacts, Unseen, approaches, loss, struck};
+use segment::Segment;
 
-/// Shortest recording interval, over the length of the run.
-const SMALLEST_SAMPLE: f64 = 1e-9;
 /// Part of a fixed step that is not taken as a step of its own.
 const SLIVER: f64 = 1e-6;
-/// What a run is asked to do.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Plan {
-    /// End of the run \[s\].
-    pub end: f64,
-    /// Step of a fixed-step method \[s\]: each stretch between breaks is divided into the
-    /// fewest equal steps not longer than it.
-    /// For an adaptive method, its first step; `None` lets the method choose.
-    pub step: Option<f64>,
-    /// Longest step of an adaptive method \[s\]; `None` for two recording intervals, or a hundredth of the run if
-    /// that is shorter.
-    pub longest_step: Option<f64>,
-    /// Step while a contact is closed or comes near \[s\], if shorter than `step`: the rest of a fixed step is divided into
-    /// the fewest equal ones not longer than it. A step under control is not longer than it from the first impact on: what
-    /// impacts set vibrating is damped by longer steps, in flight too.
-    pub contact_step: Option<f64>,
-    /// Interval of recording \[s\]; the end is recorded too.
-    pub sample: f64,
-}
+/// Part of a run that is too short for a step: what a step divides by its square would be rounding.
+const INSTANT: f64 = 1e-12;
 
 /// Integrates `system` from `state`, which is left at the last accepted step, and shows the observer the
 /// start, every multiple of the recording interval, and the end.
@@ -54,7 +40,7 @@ pub struct Plan {
 /// A run that fails or is stopped has shown everything up to its last accepted step.
 pub fn transient(
     system: &mut dyn System,
-    integrator: &mut dyn Integrator,
+    integrator: &dyn Integrator,
     state: &mut State,
     plan: &Plan,
     observer: &mut dyn Observer,
@@ -65,17 +51,19 @@ pub fn transient(
 /// As [`transient`], and gives a checkpoint of the last accepted step, from which [`resume`] goes on.
 pub fn transient_to_checkpoint(
     system: &mut dyn System,
-    integrator: &mut dyn Integrator,
+    integrator: &dyn Integrator,
     state: &mut State,
     plan: &Plan,
     observer: &mut dyn Observer,
 ) -> (Ending, Checkpoint) {
     let mut run = Run::new(system, state);
-    let ending = match run.begin(system, integrator, state, plan, observer) {
-        Ok(()) => run.go_on(system, integrator, state, plan, observer),
-        Err(error) => Ending::Failed(error),
-    };
-    (ending, run.checkpoint(integrator, state, plan.sample))
+    match run.begin(system, integrator, state, plan, observer) {
+        Ok(mut integration) => {
+            let ending = run.go_on(system, &mut integration, state, plan, observer);
+            (ending, run.checkpoint(Some(&integration), state, plan.sample))
+        }
+        Err(error) => (Ending::Failed(error), run.checkpoint(None, state, plan.sample)),
+    }
 }
 
 /// Goes on from a checkpoint of a run of the same system with the same integrator, of which `state` receives the
@@ -86,16 +74,16 @@ pub fn transient_to_checkpoint(
 /// [`NotResumed`] when the checkpoint is not one of such a run, or a fixed step would change by the new end.
 pub fn resume(
     system: &mut dyn System,
-    integrator: &mut dyn Integrator,
+    integrator: &dyn Integrator,
     from: &Checkpoint,
     state: &mut State,
     plan: &Plan,
     observer: &mut dyn Observer,
 ) -> Result<(Ending, Checkpoint), NotResumed> {
     let mut run = Run::new(system, state);
-    run.resume(system, integrator, from, state, plan, observer)?;
-    let ending = run.go_on(system, integrator, state, plan, observer);
-    Ok((ending, run.checkpoint(integrator, state, plan.sample)))
+    let mut integration = run.resume(system, integrator, from, state, plan, observer)?;
+    let ending = run.go_on(system, &mut integration, state, plan, observer);
+    Ok((ending, run.checkpoint(Some(&integration), state, plan.sample)))
 }
 
 /// The moving parts of one run.
@@ -105,7 +93,7 @@ struct Run {
     samples: u64,
     last: Step,
     /// Steps of a fixed-step method until the next break.
-    stretch: Option<Stretch>,
+    segment: Option<Segment>,
     control: Option<StepControl>,
     balance: Option<Integral>,
     contacts: Option<Contacts>,
@@ -117,6 +105,8 @@ struct Run {
     middle: State,
     /// Gaps, to see whether a contact comes near.
     gaps: Vec<f64>,
+    /// Whether the next step is the first of a smooth motion.
+    begins: bool,
 }
 
 impl Run {
@@ -126,7 +116,7 @@ impl Run {
             origin: state.t,
             samples: 1,
             last: Step::default(),
-            stretch: None,
+            segment: None,
             control: None,
             balance: None,
             contacts,
@@ -134,6 +124,7 @@ impl Run {
             within: Gauss::new(3),
             middle: state.clone(),
             gaps: vec![0.0; state.lambda.len()],
+            begins: true,
         }
     }
 
@@ -141,43 +132,43 @@ impl Run {
     fn begin(
         &mut self,
         system: &mut dyn System,
-        integrator: &mut dyn Integrator,
+        integrator: &dyn Integrator,
         state: &mut State,
         plan: &Plan,
         observer: &mut dyn Observer,
-    ) -> Result<(), RunError> {
+    ) -> Result<Integration, RunError> {
         if integrator.resolves_contacts() {
             self.contacts = self.contacts.take().and_then(Contacts::of_indicators);
         }
         if let Some(contacts) = &mut self.contacts {
             contacts.settle(system, state)?;
         }
-        self.stretch = plan.step.filter(|_| is_fixed(integrator)).map(|h| {
-            let stop = next_break(system, integrator, state.t, plan.end);
-            Stretch::new(state.t, stop, h)
+        self.segment = plan.step.filter(|_| is_fixed(integrator.info())).map(|h| {
+            let stop = next_break(system, integrator.info(), state.t, plan.end);
+            Segment::new(state.t, stop, h)
         });
-        let step = self.stretch.map_or(plan.end - self.origin, |stretch| stretch.step);
-        if let Err(error) = integrator.start(system, state, step) {
-            return Err(failed(system, state, error));
-        }
-        self.set_control(system, integrator, state, plan);
+        let step = self.segment.map_or(plan.end - self.origin, |segment| segment.step);
+        let started = integrator.start(system, state, step);
+        let integration = started.map_err(|error| failed(system, state, error))?;
+        self.set_control(system, integrator.info(), state, plan);
         let order = integrator.info().order;
         self.balance = observer.wants_energy_balance().then(|| Integral::new(system, order, state));
         let balance = self.balance.as_ref().map(Integral::balance);
         observer.sample(system, state, &Step { balance, ..self.last });
-        Ok(())
+        Ok(integration)
     }
 
     /// Takes up a run where a checkpoint was made.
     fn resume(
         &mut self,
         system: &mut dyn System,
-        integrator: &mut dyn Integrator,
+        integrator: &dyn Integrator,
         from: &Checkpoint,
         state: &mut State,
         plan: &Plan,
         observer: &dyn Observer,
-    ) -> Result<(), NotResumed> {
+    ) -> Result<Integration, NotResumed> {
+        from.check_format()?;
         from.fill_state("", state)?;
         let [origin, samples] = from.finite("run")?;
         if !(origin <= state.t && samples >= 0.0) {
@@ -191,16 +182,16 @@ impl Run {
             let before = (state.t - origin) / plan.sample;
             self.samples = (before + 1e-9).floor().max(0.0) as u64 + 1;
         }
-        if let Some(asked) = plan.step.filter(|_| is_fixed(integrator)) {
-            let stretch = from.finite("stretch")?;
-            let stop = next_break(system, integrator, state.t, plan.end);
-            let recalled = if jump_at(system, integrator, state.t).is_some() {
-                // The run ended at a break: behind it begins another stretch.
-                Ok((Stretch::new(state.t, stop, asked), state.t))
+        if let Some(asked) = plan.step.filter(|_| is_fixed(integrator.info())) {
+            let segment = from.finite("segment")?;
+            let stop = next_break(system, integrator.info(), state.t, plan.end);
+            let recalled = if jump_at(system, integrator.info(), state.t).is_some() {
+                // The run ended at a break: behind it begins another segment.
+                Ok((Segment::new(state.t, stop, asked), state.t))
             } else {
-                Stretch::recall(stretch, stop, asked)
+                Segment::recall(segment, stop, asked)
             };
-            let (stretch, at) = recalled.map_err(|[before, now]| {
+            let (segment, at) = recalled.map_err(|[before, now]| {
                 NotResumed::Failed(format!(
                     "the run was made with steps of {before} s, and until {} s steps would be {now} s: give the step \
                      and a duration that is a multiple of it",
@@ -208,18 +199,18 @@ impl Run {
                 ))
             })?;
             // Where the run ended inside a step, that step goes on.
-            if (state.t - at).abs() <= 1e-9 * stretch.step {
+            if (state.t - at).abs() <= 1e-9 * segment.step {
                 state.t = at;
             }
-            self.stretch = Some(stretch);
+            self.segment = Some(segment);
         }
         if integrator.resolves_contacts() {
             self.contacts = self.contacts.take().and_then(Contacts::of_indicators);
         }
-        let step = self.stretch.map_or(plan.end - origin, |stretch| stretch.step);
+        let step = self.segment.map_or(plan.end - origin, |segment| segment.step);
         let started = integrator.start(system, &mut state.clone(), step);
-        started.map_err(|error| NotResumed::Failed(error.to_string()))?;
-        self.set_control(system, integrator, state, plan);
+        let mut integration = started.map_err(|error| NotResumed::Failed(error.to_string()))?;
+        self.set_control(system, integrator.info(), state, plan);
         if let Some(control) = &mut self.control {
             let memory: [f64; 4] = from.numbers("control")?;
             if !(memory[0] > 0.0 && memory[0].is_finite()) {
@@ -235,18 +226,19 @@ impl Run {
             balance.recall(from)?;
             self.balance = Some(balance);
         }
-        integrator.resume(system, from)
+        integration.resume(system, from)?;
+        Ok(integration)
     }
 
     /// What [`Run::resume`] needs.
-    fn checkpoint(&self, integrator: &dyn Integrator, state: &State, sample: f64) -> Checkpoint {
-        let mut out = Checkpoint::default();
+    fn checkpoint(&self, integration: Option<&Integration>, state: &State, sample: f64) -> Checkpoint {
+        let mut out = Checkpoint::of_this_format();
         out.put_state("", state);
         out.put("run", &[self.origin, self.samples as f64]);
         out.put("sample", &[sample]);
         out.put("last", &[self.last.size, f64::from(self.last.iterations)]);
-        if let Some(stretch) = &self.stretch {
-            out.put("stretch", &stretch.memory());
+        if let Some(segment) = &self.segment {
+            out.put("segment", &segment.memory());
         }
         if let Some(control) = &self.control {
             out.put("control", &control.memory());
@@ -257,19 +249,15 @@ impl Run {
         if let Some(balance) = &self.balance {
             balance.save(&mut out);
         }
-        integrator.save(&mut out);
+        if let Some(integration) = integration {
+            integration.save(&mut out);
+        }
         out
     }
 
-    fn set_control(
-        &mut self,
-        system: &mut dyn System,
-        integrator: &dyn Integrator,
-        state: &State,
-        plan: &Plan,
-    ) {
+    fn set_control(&mut self, system: &mut dyn System, info: &Info, state: &State, plan: &Plan) {
         let span = plan.end - self.origin;
-        self.control = integrator.info().estimate_order.map(|order| {
+        self.control = info.estimate_order.map(|order| {
             let first = plan
                 .step
                 .unwrap_or_else(|| StepControl::first_step(order, state, system.scales(), 1e-4, span));
@@ -285,13 +273,13 @@ impl Run {
     fn go_on(
         &mut self,
         system: &mut dyn System,
-        integrator: &mut dyn Integrator,
+        integrator: &mut Integration,
         state: &mut State,
         plan: &Plan,
         observer: &mut dyn Observer,
     ) -> Ending {
         let ending = self.integrate(system, integrator, state, plan, observer);
-        if let Some(excess) = self.balance.as_ref().and_then(Integral::gain) {
+        if let Some(excess) = self.balance.as_ref().and_then(|balance| balance.gain(system, state)) {
             observer.gained_energy(excess);
         }
         ending.unwrap_or_else(Ending::Failed)
@@ -300,14 +288,18 @@ impl Run {
     fn integrate(
         &mut self,
         system: &mut dyn System,
-        integrator: &mut dyn Integrator,
+        integrator: &mut Integration,
         state: &mut State,
         plan: &Plan,
         observer: &mut dyn Observer,
     ) -> Result<Ending, RunError> {
         let mut next = state.clone();
         while state.t < plan.end {
-            let stop = stop(system, integrator, state.t, plan.end);
+            let stop = stop(system, integrator.info(), state.t, plan.end);
+            if stop.0 < plan.end && stop.0 - state.t <= INSTANT * (plan.end - self.origin) {
+                self.leap(system, integrator, state, stop, plan, observer)?;
+                continue;
+            }
             let (mut h, report) =
                 self.attempt(system, integrator, state, &mut next, stop, plan.contact_step)?;
             let attempted = h;
@@ -330,17 +322,28 @@ impl Run {
                 return Err(RunError::Inadmissible { time: next.t, what, reason });
             }
             integrator.accept(state, &next);
-            if let Some(stretch) = self.stretch.as_mut().filter(|stretch| next.t == stretch.next()) {
-                stretch.advance();
+            if let Some(segment) = self.segment.as_mut().filter(|segment| next.t == segment.next()) {
+                segment.advance();
             }
+            let resolves = integrator.resolves_contacts();
+            let struck = if resolves { struck(system, state, &next, &mut self.gaps) } else { None };
+            let impact = struck.as_ref().is_some_and(|event| matches!(event.kind, EventKind::Impact { .. }));
             if let Some(balance) = &mut self.balance {
-                if integrator.resolves_contacts() {
+                let mut at_end = 0.0;
+                if resolves {
                     let [lost, counted] = loss(system, state, &next, &mut self.gaps);
-                    balance.add_impulse(0.0, lost - counted);
+                    if impact {
+                        at_end = lost - counted;
+                    } else {
+                        balance.add_impulse(0.0, lost - counted);
+                    }
                 }
-                balance.enter(system, integrator, (state, &next));
+                balance.enter(system, integrator, (state, &next), at_end);
             }
-            self.show(system, integrator, state, &next, plan, observer);
+            let at_break = jump_at(system, integrator.info(), next.t);
+            let ends = event || at_break.is_some() || next.t >= plan.end;
+            self.show(system, integrator, (state, &next), (ends, impact), plan, observer);
+            self.begins = event || at_break.is_some();
             if let Some(balance) = &mut self.balance {
                 balance.close();
             }
@@ -352,8 +355,8 @@ impl Run {
                 }
             }
             observer.passing(system, &next);
-            if integrator.resolves_contacts() {
-                if let Some(event) = struck(system, state, &next, &mut self.gaps) {
+            if resolves {
+                if let Some(event) = struck {
                     observer.event(&event);
                 }
                 if let Some(row) = self.unseen.as_mut().and_then(|unseen| unseen.find(system, state, &next)) {
@@ -361,19 +364,14 @@ impl Run {
                 }
             }
             std::mem::swap(state, &mut next);
-            let at_break = jump_at(system, integrator, state.t);
             if event || at_break.is_some() {
                 self.cross(system, integrator, state, at_break, event.then_some(h / attempted), observer)?;
                 observer.passing(system, state);
                 if let Some(control) = &mut self.control {
                     control.restart(attempted);
                 }
-                if at_break.is_some()
-                    && state.t < plan.end
-                    && let (Some(stretch), Some(asked)) = (&mut self.stretch, plan.step)
-                {
-                    *stretch =
-                        Stretch::new(state.t, next_break(system, integrator, state.t, plan.end), asked);
+                if at_break.is_some() && state.t < plan.end {
+                    self.divide(system, integrator, state.t, plan);
                 }
             }
             if observer.step(state).is_break() && state.t < plan.end {
@@ -383,40 +381,74 @@ impl Run {
         Ok(Ending::Finished)
     }
 
+    /// Goes on to a break that is next to nothing away, q ⊞ h v and v + h a, and across it.
+    fn leap(
+        &mut self,
+        system: &mut dyn System,
+        integrator: &mut Integration,
+        state: &mut State,
+        (to, side): (f64, Side),
+        plan: &Plan,
+        observer: &mut dyn Observer,
+    ) -> Result<(), RunError> {
+        let h = to - state.t;
+        let way: Vec<f64> = state.v.iter().map(|v| h * v).collect();
+        system.retract(&state.q.clone(), &way, &mut state.q);
+        let State { v, a, .. } = state;
+        v.iter_mut().zip(a.iter()).for_each(|(v, a)| *v += h * a);
+        (state.t, state.side) = (to, side);
+        let at_break = jump_at(system, integrator.info(), to);
+        self.cross(system, integrator, state, at_break, None, observer)?;
+        observer.passing(system, state);
+        self.begins = true;
+        self.divide(system, integrator, to, plan);
+        Ok(())
+    }
+
+    /// Divides the time from `t` to the next break into fixed steps.
+    fn divide(&mut self, system: &dyn System, integrator: &Integration, t: f64, plan: &Plan) {
+        if let (Some(segment), Some(asked)) = (&mut self.segment, plan.step) {
+            *segment = Segment::new(t, next_break(system, integrator.info(), t, plan.end), asked);
+        }
+    }
+
     /// Attempts the next step.
     fn attempt(
         &mut self,
         system: &mut dyn System,
-        integrator: &mut dyn Integrator,
+        integrator: &mut Integration,
         state: &State,
         next: &mut State,
         (stop, side): (f64, Side),
         contact_step: Option<f64>,
     ) -> Result<(f64, StepReport), RunError> {
+        let looked_for = self.contacts.as_ref().is_some_and(|contacts| !contacts.resolved);
+        let arc = if looked_for { ARC / system.turning(state) } else { f64::INFINITY };
         if let Some(control) = &mut self.control {
             let h = control.propose(stop - state.t);
             let struck = self.contacts.as_ref().is_some_and(Contacts::has_struck);
             let near = |short: &f64| *short < h && (struck || approaches(system, state, h, &mut self.gaps));
-            let longest = contact_step.filter(near).unwrap_or(f64::INFINITY);
+            let longest = contact_step.filter(near).unwrap_or(f64::INFINITY).min(arc);
             return adapt(system, integrator, (state, longest), next, (stop, side), control)
                 .map_err(|error| failed(system, state, error));
         }
-        let (h, end) = match &mut self.stretch {
-            Some(stretch) => {
+        let (h, end) = match &mut self.segment {
+            Some(segment) => {
                 // A step that an event has shortened goes on to where it would have ended, or a step further where
                 // next to nothing is left.
-                while stretch.next() < stop && stretch.next() - state.t < SLIVER * stretch.step {
-                    stretch.advance();
+                while segment.next() < stop && segment.next() - state.t < SLIVER * segment.step {
+                    segment.advance();
                 }
-                let left = stretch.next() - state.t;
-                let whole = (left - stretch.step).abs() <= 1e-9 * stretch.step;
-                let h = if whole { stretch.step } else { left };
-                match contact_step.filter(|_| approaches(system, state, h, &mut self.gaps)) {
-                    Some(short) if short < h * (1.0 - 1e-9) => {
-                        let h = h / (h / short - 1e-9).ceil();
-                        (h, state.t + h)
-                    }
-                    _ => (h, stretch.next()),
+                let left = segment.next() - state.t;
+                let whole = (left - segment.step).abs() <= 1e-9 * segment.step;
+                let h = if whole { segment.step } else { left };
+                let near = contact_step.filter(|_| approaches(system, state, h, &mut self.gaps));
+                let short = near.unwrap_or(f64::INFINITY).min(arc);
+                if short < h * (1.0 - 1e-9) {
+                    let h = h / (h / short - 1e-9).ceil();
+                    (h, state.t + h)
+                } else {
+                    (h, segment.next())
                 }
             }
             None => (stop - state.t, stop),
@@ -430,7 +462,7 @@ impl Run {
     fn cross(
         &mut self,
         system: &mut dyn System,
-        integrator: &mut dyn Integrator,
+        integrator: &mut Integration,
         state: &mut State,
         at_break: Option<Jump>,
         event: Option<f64>,
@@ -454,7 +486,7 @@ impl Run {
                 }
             }
         }
-        let mut impulse = vec![0.0; state.v.len()];
+        let mut impulse = vec![0.0; state.v.len() + state.lambda.len()];
         let jump = jump && system.impulse(&before, &mut impulse);
         let (mut work, mut lost) = (0.0, 0.0);
         if event.is_some() || jump {
@@ -464,8 +496,8 @@ impl Run {
                 None => {
                     fallback = ImpactMap::new(system);
                     let impact = fallback.strike(system, state, &impulse, Bounds::default());
-                    impact.map_err(|cause| RunError::Contact { time: state.t, cause })?;
-                    work = system.impulse_work(&before, state);
+                    let impact = impact.map_err(|cause| RunError::Contact { time: state.t, cause })?;
+                    work = system.impulse_work(&before, state) + impact.work;
                     happened.push(EventKind::Jump { work });
                     return self.restart(system, integrator, state, (work, lost), happened, observer);
                 }
@@ -478,11 +510,10 @@ impl Run {
             }
             let impact = contacts.strike(system, state, &impulse)?;
             // A prescribed motion does work in every impact.
-            work += system.impulse_work(&before, state);
+            work += system.impulse_work(&before, state) + impact.work;
             if jump {
                 happened.push(EventKind::Jump { work });
             }
-            work += impact.work;
             lost = impact.lost;
             happened.push(if impact.impulses.iter().any(|x| *x != 0.0) {
                 let Impact { impulses, rates, masses, .. } = impact;
@@ -497,7 +528,7 @@ impl Run {
     fn restart(
         &mut self,
         system: &mut dyn System,
-        integrator: &mut dyn Integrator,
+        integrator: &mut Integration,
         state: &mut State,
         (work, lost): (f64, f64),
         happened: Vec<EventKind>,
@@ -513,84 +544,35 @@ impl Run {
         }
         Ok(())
     }
-
-    /// Shows the observer the samples in the step.
-    fn show(
-        &mut self,
-        system: &mut dyn System,
-        integrator: &dyn Integrator,
-        from: &State,
-        to: &State,
-        plan: &Plan,
-        observer: &mut dyn Observer,
-    ) {
-        let interval = plan.sample.max(SMALLEST_SAMPLE * (plan.end - self.origin));
-        let slack = 1e-9 * interval;
-        loop {
-            let t = (self.origin + multiple(self.samples, interval)).min(plan.end);
-            if t > to.t + slack {
-                return;
-            }
-            let mut balance = None;
-            if t >= to.t - slack {
-                self.middle.copy_from(to);
-                balance = self.balance.as_ref().map(Integral::end);
-            } else {
-                integrator.interpolate(system, from, to, t, &mut self.middle);
-                if let Some(integral) = &self.balance {
-                    balance = Some(integral.until((from, to), t));
-                }
-            }
-            // The very multiple, not a sum of steps that comes close to it.
-            self.middle.t = t;
-            observer.sample(system, &self.middle, &Step { balance, ..self.last });
-            // An end that is no multiple is not counted: a run that goes on records the next multiple.
-            self.samples += u64::from(self.origin + multiple(self.samples, interval) <= plan.end + slack);
-            if t >= plan.end {
-                return;
-            }
-        }
-    }
 }
 
-/// k times the interval; k over a whole number where the interval is the inverse of one, so that samples
-/// every 0.02 s fall on 13.28 s and not on its neighbour.
-fn multiple(k: u64, interval: f64) -> f64 {
-    let inverse = (1.0 / interval).round();
-    if inverse >= 1.0 && (inverse * interval - 1.0).abs() < 1e-14 {
-        k as f64 / inverse
-    } else {
-        k as f64 * interval
-    }
-}
-
-fn is_fixed(integrator: &dyn Integrator) -> bool {
-    integrator.info().estimate_order.is_none()
+fn is_fixed(info: &Info) -> bool {
+    info.estimate_order.is_none()
 }
 
 /// Whether steps of this method end at a jump.
-fn sees(integrator: &dyn Integrator, jump: Jump) -> bool {
-    !is_fixed(integrator) || jump <= Jump::Acceleration
+fn sees(info: &Info, jump: Jump) -> bool {
+    !is_fixed(info) || jump <= Jump::Acceleration
 }
 
 /// The first break after `t` that the method sees, or the end of the run.
-fn next_break(system: &dyn System, integrator: &dyn Integrator, t: f64, end: f64) -> f64 {
+fn next_break(system: &dyn System, info: &Info, t: f64, end: f64) -> f64 {
     let breaks = system.breaks();
     let later = &breaks[breaks.partition_point(|b| b.time <= t)..];
-    let found = later.iter().find(|b| sees(integrator, b.jump));
+    let found = later.iter().find(|b| sees(info, b.jump));
     found.map_or(end, |b| b.time.min(end))
 }
 
 /// Where a step after `t` must end, and the side of that time: the left one of a break.
-fn stop(system: &dyn System, integrator: &dyn Integrator, t: f64, end: f64) -> (f64, Side) {
-    let stop = next_break(system, integrator, t, end);
-    let side = if jump_at(system, integrator, stop).is_some() { Side::Left } else { Side::Right };
+fn stop(system: &dyn System, info: &Info, t: f64, end: f64) -> (f64, Side) {
+    let stop = next_break(system, info, t, end);
+    let side = if jump_at(system, info, stop).is_some() { Side::Left } else { Side::Right };
     (stop, side)
 }
 
 /// What jumps at `t`, if the method sees it.
-fn jump_at(system: &dyn System, integrator: &dyn Integrator, t: f64) -> Option<Jump> {
+fn jump_at(system: &dyn System, info: &Info, t: f64) -> Option<Jump> {
     let breaks = system.breaks();
     let at = breaks.get(breaks.partition_point(|b| b.time < t))?;
-    (at.time == t && at.jump != Jump::Nothing && sees(integrator, at.jump)).then_some(at.jump)
+    (at.time == t && at.jump != Jump::Nothing && sees(info, at.jump)).then_some(at.jump)
 }

@@ -70,6 +70,9 @@ pub trait Observer {
     /// An accepted step ended at `state`, or a jump: what happens between samples is seen here.
     fn passing(&mut self, _system: &mut dyn System, _state: &State) {}
 
+    /// A state between the ends of a step that is the first or the last of a smooth motion, in order of time with the samples.
+    fn between(&mut self, _system: &mut dyn System, _state: &State) {}
+
     /// Whether states [within](Observer::within) the steps are shown.
     fn wants_within(&self) -> bool {
         false

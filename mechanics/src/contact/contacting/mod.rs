@@ -28,15 +28,15 @@ mod touch;
 use super::force::ContactForce;
 use super::obstacle::{Obstacle, Surface};
 use super::points::{Curve, Points, Variation};
-use crate::linalg::vector::{cross, inner};
-use crate::linalg::{Matrix, Structure};
+use crate::linalg::vector::inner;
+use crate::linalg::{Matrix, Structure, Vec3};
 use crate::system::{
-    Break, Channel, Corotation, Crossing, Dynamics, Events, Jump, Mode, NotSet, Observed, Parameter, Power,
-    Role, RowWeights, Set, Size, State, Steady, VisitRow, Weights, ordered,
+    Break, Corotation, Crossing, Dynamics, Events, Jump, Mode, NotSet, Observed, Parameter, Power,
+    RowWeights, Set, Size, State, Steady, VisitRow, Weights, ordered,
 };
 use std::ops::Range;
 use std::sync::Arc;
-use touch::{Touch, minus, sum};
+use touch::Touch;
 
 /// What happens when a point touches.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,12 +82,10 @@ pub struct Contacting<S> {
     contacts: Vec<Placed>,
     /// Rows of the model and of the contacts.
     sets: Vec<Set>,
-    /// Numbers of rows, memory, indicators and channels of the model itself.
+    /// Numbers of rows, memory and indicators of the model itself.
     rows: usize,
     memory: usize,
     indicators: usize,
-    channels: Vec<Channel>,
-    recorded: usize,
     breaks: Vec<Break>,
     /// Of the point at hand.
     variations: Vec<Variation>,
@@ -158,9 +156,9 @@ impl Placed {
 }
 
 impl Forces {
-    fn vector(&self, surface: &Surface) -> [f64; 3] {
+    fn vector(&self, surface: &Surface) -> Vec3 {
         let ([first, second], [t1, t2]) = (self.friction, surface.tangents);
-        sum([(self.normal, surface.normal), (first, t1), (second, t2)])
+        self.normal * surface.normal + first * t1 + second * t2
     }
 
     fn vanish(&self) -> bool {
@@ -168,26 +166,26 @@ impl Forces {
     }
 
     /// Change of the force and its moment by changes of the `position` of the point, its `velocity` and the `spin`.
-    fn change(&self, touch: &Touch, [position, velocity, spin]: [[f64; 3]; 3]) -> [[f64; 3]; 2] {
+    fn change(&self, touch: &Touch, [position, velocity, spin]: [Vec3; 3]) -> [Vec3; 2] {
         let (Surface { normal: n, tangents: [t1, t2], .. }, radius) = (touch.surface, touch.motion.radius);
         let [dn, d1, d2] = touch.turned(position);
-        let gap = inner(n, position);
-        let rate = inner(dn, touch.velocity) + inner(n, velocity);
+        let gap = n.dot(position);
+        let rate = dn.dot(touch.velocity) + n.dot(velocity);
         let touching = if radius == 0.0 {
             velocity
         } else {
-            sum([(1.0, velocity), (-radius, cross(spin, n)), (-radius, cross(touch.motion.spin, dn))])
+            velocity - radius * spin.cross(n) - radius * touch.motion.spin.cross(dn)
         };
-        let sliding = [(d1, t1), (d2, t2)].map(|(dt, t)| inner(dt, touch.touching) + inner(t, touching));
+        let sliding = [(d1, t1), (d2, t2)].map(|(dt, t)| dt.dot(touch.touching) + t.dot(touching));
         let normal = self.by_gap[0] * gap + self.by_gap[1] * rate;
         let [first, second] = [0, 1].map(|i| self.by_normal[i] * normal + inner(self.by_sliding[i], sliding));
-        let turned = sum([(self.normal, dn), (self.friction[0], d1), (self.friction[1], d2)]);
-        let force = sum([(normal, n), (first, t1), (second, t2), (1.0, turned)]);
+        let turned = self.normal * dn + self.friction[0] * d1 + self.friction[1] * d2;
+        let force = normal * n + first * t1 + second * t2 + turned;
         if radius == 0.0 {
-            return [force, [0.0; 3]];
+            return [force, Vec3([0.0; 3])];
         }
-        let turned = cross(dn, self.vector(&touch.surface));
-        [force, sum([(-radius, cross(n, force)), (-radius, turned)])]
+        let turned = dn.cross(self.vector(&touch.surface));
+        [force, -radius * n.cross(force) - radius * turned]
     }
 }
 
@@ -199,18 +197,9 @@ impl<S: Points + Dynamics + Events + Observed> Contacting<S> {
         let mut sets = inner.rows().to_vec();
         let mut breaks = inner.breaks().to_vec();
         let mut forces = 0;
-        let mut channels = inner.channels().to_vec();
-        let recorded = channels.len();
-        let mut add = |contact: &Contact, quantity: &str, unit, meaning: &str| {
-            let name = format!("{}.{quantity}", contact.name);
-            let meaning = format!("{meaning} of the contact {}", contact.name);
-            channels.push(Channel { name, unit, meaning, role: Role::Secondary });
-        };
         let mut placed = Vec::new();
         for contact in contacts {
             breaks.extend(contact.obstacle.breaks());
-            add(&contact, "gap", "m", "gap");
-            add(&contact, "force", "N", "normal force");
             let (place, friction) = match contact.law {
                 Law::Constraint { restitution, friction } => {
                     let place = sets.len();
@@ -226,26 +215,7 @@ impl<S: Points + Dynamics + Events + Observed> Contacting<S> {
                     (forces - 1, 0..0)
                 }
             };
-            let names: &[&str] = match directions {
-                1 => &["friction"],
-                _ => &["friction.x", "friction.y", "friction.z"],
-            };
-            for name in names.iter().filter(|_| contact.law.rubs()) {
-                add(&contact, name, "N", "friction force");
-            }
-            if inner.station(contact.point).is_some() {
-                add(&contact, "station", "m", "arc length of the nearest point");
-            }
             placed.push(Placed { contact, place, friction });
-        }
-        if forces > 0 {
-            let meaning = "energy stored in contacts".to_owned();
-            channels.push(Channel {
-                name: "energy.contact".to_owned(),
-                unit: "J",
-                meaning,
-                role: Role::Energy,
-            });
         }
         let n = inner.size().v;
         Contacting {
@@ -255,8 +225,6 @@ impl<S: Points + Dynamics + Events + Observed> Contacting<S> {
             sets,
             rows,
             memory,
-            channels,
-            recorded,
             breaks: ordered(breaks),
             variations: Vec::with_capacity(n),
             numbers: Vec::with_capacity(n),
@@ -323,7 +291,7 @@ impl<S: Points + Dynamics + Events + Observed> Contacting<S> {
     fn add_power(&mut self, s: &State, power: &mut Power) {
         self.each(s, |placed, touch, forces| {
             let force = forces.vector(&touch.surface);
-            power.drive += inner(force, minus(touch.surface.velocity, touch.motion.prescribed));
+            power.drive += force.dot(touch.surface.velocity - touch.motion.prescribed);
             power.contact += placed.lost(touch, forces);
         });
     }
@@ -342,7 +310,7 @@ impl<S: Points + Dynamics + Events + Observed> Dynamics for Contacting<S> {
             structure.widened(n + copy * self.rows + (copy - 1) * own, own)
         });
         let full = self.contacts.iter().any(|placed| {
-            let surface = placed.contact.obstacle.surface([0.0; 3], 0.0);
+            let surface = placed.contact.obstacle.surface(Vec3([0.0; 3]), 0.0);
             let stiff = matches!(placed.contact.law, Law::Force(_)) || surface.curvatures != [0.0; 2];
             stiff && !self.inner.is_local(placed.contact.point)
         });
@@ -410,7 +378,7 @@ impl<S: Points + Dynamics + Events + Observed> Dynamics for Contacting<S> {
             let [force, moment] = touch.wrench(forces.vector(&touch.surface));
             self.inner.variations(placed.contact.point, s, &mut self.variations);
             for by in &self.variations {
-                r[by.unknown] -= inner(force, by.position) + inner(moment, by.rotation);
+                r[by.unknown] -= force.dot(by.position) + moment.dot(by.rotation);
             }
         }
     }
@@ -429,7 +397,7 @@ impl<S: Points + Dynamics + Events + Observed> Dynamics for Contacting<S> {
     }
 
     fn dropped(&mut self, s: &State) -> [f64; 3] {
-        self.inner.dropped(s)
+        Vec3(self.inner.dropped(s)).0
     }
 
     fn rows(&self) -> &[Set] {
@@ -447,7 +415,7 @@ impl<S: Points + Dynamics + Events + Observed> Dynamics for Contacting<S> {
                 let friction = placed.friction.clone().zip(touch.surface.tangents);
                 for (row, direction) in [(placed.place, touch.surface.normal)].into_iter().chain(friction) {
                     let [force, moment] = touch.wrench(direction);
-                    let entry = |by: &Variation| inner(force, by.position) + inner(moment, by.rotation);
+                    let entry = |by: &Variation| force.dot(by.position) + moment.dot(by.rotation);
                     self.entries.clear();
                     self.entries.extend(self.variations.iter().map(entry));
                     visit(row, &self.numbers, &self.entries);
@@ -478,16 +446,15 @@ impl<S: Points + Dynamics + Events + Observed> Dynamics for Contacting<S> {
                 let Curve { slope, slope_rate, .. } = touch.motion.curve.unwrap_or_default();
                 for column in &self.variations {
                     let moved = touch.moved(column.position, column.slope);
-                    let position = sum([(1.0, column.position), (moved, slope)]);
-                    let velocity = sum([(1.0, column.velocity), (moved, slope_rate)]);
+                    let position = column.position + moved * slope;
+                    let velocity = column.velocity + moved * slope_rate;
                     let by_position = forces.change(&touch, [position, velocity, column.spin]);
-                    let by_velocity = forces.change(&touch, [[0.0; 3], column.position, column.rotation]);
-                    let [force, moment] = [0, 1].map(|i| sum([(w.q, by_position[i]), (w.v, by_velocity[i])]));
-                    let on_slope = wrench[0].map(|f| w.q * moved * f);
+                    let by_velocity =
+                        forces.change(&touch, [Vec3([0.0; 3]), column.position, column.rotation]);
+                    let [force, moment] = [0, 1].map(|i| w.q * by_position[i] + w.v * by_velocity[i]);
+                    let on_slope = w.q * moved * wrench[0];
                     for row in &self.variations {
-                        let x = inner(row.position, force)
-                            + inner(row.rotation, moment)
-                            + inner(row.slope, on_slope);
+                        let x = row.position.dot(force) + row.rotation.dot(moment) + row.slope.dot(on_slope);
                         if x != 0.0 {
                             out.add(row.unknown, column.unknown, -x);
                         }
@@ -516,13 +483,18 @@ impl<S: Points + Dynamics + Events + Observed> Events for Contacting<S> {
 
     /// An obstacle whose velocity jumps strikes too, without an impulse of its own.
     fn impulse(&mut self, s: &State, p: &mut [f64]) -> bool {
-        let own = self.inner.impulse(s, p);
+        // Its rows come first.
+        let own = self.inner.impulse(s, &mut p[..s.v.len() + self.rows]);
         let moved = |b: &Break| b.time == s.t && b.jump == Jump::Velocity;
         own || self.contacts.iter().any(|placed| placed.contact.obstacle.breaks().iter().any(moved))
     }
 
     fn impulse_work(&mut self, before: &State, after: &State) -> f64 {
         self.inner.impulse_work(before, after)
+    }
+
+    fn turning(&mut self, s: &State) -> f64 {
+        self.inner.turning(s)
     }
 
     fn indicators(&self) -> usize {

@@ -1,9 +1,10 @@
 //! What a model with contacts shows of itself.
 
-use super::{Contacting, Law, Placed};
+use super::{Contact, Contacting, Law, Placed};
 use crate::contact::points::Points;
 use crate::system::{
-    Channel, Direction, Dynamics, Energy, Events, Frame, Mode, Observed, Power, Pressing, State, Touch,
+    Channel, Direction, Dynamics, Energy, Events, Frame, Kind, Mode, Observed, Power, Pressing, Role, Sink,
+    State, Touch,
 };
 
 impl<S: Points + Dynamics + Events + Observed> Observed for Contacting<S> {
@@ -29,41 +30,43 @@ impl<S: Points + Dynamics + Events + Observed> Observed for Contacting<S> {
         self.inner.frames(body, s, stations, out);
     }
 
-    fn channels(&self) -> &[Channel] {
-        &self.channels
-    }
-
-    fn record(&mut self, s: &State, out: &mut [f64]) {
-        let (own, contacts) = out.split_at_mut(self.recorded.min(out.len()));
+    fn observe(&mut self, s: &State, sink: &mut Sink<'_>) {
         self.set_forces(s);
-        self.inner.record(s, own);
-        let mut next = contacts.iter_mut();
-        let mut write = |x: f64| next.next().into_iter().for_each(|out| *out = x);
-        let (mut stored, mut stores) = (0.0, false);
+        self.inner.observe(s, sink);
+        let mut stored = None;
         let directions = self.inner.directions();
         self.each(s, |placed, touch, forces| {
-            write(touch.surface.gap);
-            // −0 of a contact that is open becomes 0.
-            write(forces.normal + 0.0);
-            let force = match &placed.contact.law {
-                Law::Constraint { .. } => None,
-                Law::Force(force) => Some(force),
+            let Contact { name, law, .. } = &placed.contact;
+            let channel = |quantity, unit: &'static str, what| {
+                let meaning = format!("{what} of the contact {name}");
+                Channel::new(Role::Secondary, format!("{name}.{quantity}"), unit, meaning)
             };
-            if placed.contact.law.rubs() {
+            sink.put(touch.surface.gap, || channel("gap", "m", "gap"));
+            // −0 of a contact that is open becomes 0.
+            sink.put(forces.normal + 0.0, || {
+                channel("force", "N", "normal force").with_kind(Kind::NonNegative)
+            });
+            if law.rubs() {
                 let [first, second] = forces.friction;
                 if directions == 1 {
-                    write(first + 0.0);
+                    sink.put(first + 0.0, || channel("friction", "N", "friction force"));
                 } else {
                     let [t1, t2] = touch.surface.tangents;
-                    (0..3).for_each(|k| write(first * t1[k] + second * t2[k] + 0.0));
+                    let force = [0, 1, 2].map(|k| first * t1[k] + second * t2[k] + 0.0);
+                    let names = ["friction.x", "friction.y", "friction.z"];
+                    sink.put_all(force, names, |name| channel(name, "N", "friction force"));
                 }
             }
-            touch.station.into_iter().for_each(&mut write);
-            stores |= force.is_some();
-            stored += force.map_or(0.0, |force| force.stored(-touch.surface.gap));
+            if let Some(station) = touch.station {
+                sink.put(station, || channel("station", "m", "arc length of the nearest point"));
+            }
+            if let Law::Force(force) = law {
+                *stored.get_or_insert(0.0) += force.stored(-touch.surface.gap);
+            }
         });
-        if stores {
-            write(stored);
+        if let Some(stored) = stored {
+            let channel = || Channel::new(Role::Energy, "energy.contact", "J", "energy stored in contacts");
+            sink.put(stored, channel);
         }
     }
 
@@ -122,6 +125,6 @@ impl<S: Points + Dynamics + Events + Observed> Observed for Contacting<S> {
     }
 
     fn cautions(&self, peaks: &[f64]) -> Vec<String> {
-        self.inner.cautions(peaks.get(..self.recorded).unwrap_or(&[]))
+        self.inner.cautions(peaks)
     }
 }

@@ -17,7 +17,7 @@ pub struct Couple {
 }
 
 impl Load for Couple {
-    fn group(&self, site: &Site<'_>) -> Group {
+    fn group(&self, site: &Site<'_>) -> Option<Group> {
         let point = site.fields.point(self.station, 1.0);
         let mut group = Group::new(site.fields.len(), [0.0; 2], Axes::Hub, self.amplitude.clone());
         if site.kinematics == Kinematics::Curve {
@@ -26,6 +26,6 @@ impl Load for Couple {
             add_vector(&mut group.m, &point.transverse, 1, self.couple);
             group.moment = self.couple;
         }
-        group
+        Some(group)
     }
 }

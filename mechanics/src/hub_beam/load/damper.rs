@@ -44,7 +44,7 @@ impl Damper {
     pub(super) fn add_force(&self, s: &State, hub: &HubKinematics, factor: f64, out: &mut [f64]) {
         let (_, v) = self.moving(s, hub);
         for (shapes, v) in self.shapes.iter().zip(v) {
-            add(shapes, -factor * self.coefficient * v, out);
+            shapes.add(-factor * self.coefficient * v, out);
         }
     }
 
@@ -95,16 +95,9 @@ impl Damper {
         let c = factor * self.coefficient;
         let (along, across) = (-c * w.q * (v[1] + hub.speed * x), -c * w.q * (hub.speed * y - v[0]));
         for (shapes, arm, by_place) in [(&self.shapes[0], -y, along), (&self.shapes[1], x, across)] {
-            add(shapes, -c * w.v * arm, &mut out.column);
-            add(shapes, -c * w.v * arm + by_place, &mut out.row);
+            shapes.add(-c * w.v * arm, &mut out.column);
+            shapes.add(-c * w.v * arm + by_place, &mut out.row);
         }
         out.corner -= c * w.v * (x * x + y * y);
-    }
-}
-
-/// out += weight φ
-fn add(shapes: &Shapes, weight: f64, out: &mut [f64]) {
-    for (&i, phi) in shapes.index.iter().zip(&shapes.value[0]) {
-        out[i] += weight * phi;
     }
 }

@@ -32,7 +32,7 @@ impl DistributedForce {
 }
 
 impl Load for DistributedForce {
-    fn group(&self, site: &Site<'_>) -> Group {
+    fn group(&self, site: &Site<'_>) -> Option<Group> {
         let density = |x: f64| {
             if x < self.range.0 || x > self.range.1 {
                 return 0.0;
@@ -44,7 +44,7 @@ impl Load for DistributedForce {
             None => site.fields.cells().to_vec(),
         };
         let share = Share { density: &density, points: &[], cells: &cells };
-        site.group(&share, self.force, self.axes, self.amplitude.clone())
+        Some(site.group(&share, self.force, self.axes, self.amplitude.clone()))
     }
 }
 

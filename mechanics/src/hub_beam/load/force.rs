@@ -18,8 +18,8 @@ pub struct Force {
 }
 
 impl Load for Force {
-    fn group(&self, site: &Site<'_>) -> Group {
+    fn group(&self, site: &Site<'_>) -> Option<Group> {
         let share = Share { density: &|_| 0.0, points: &[(self.station, 1.0)], cells: site.fields.cells() };
-        site.group(&share, self.force, self.axes, self.amplitude.clone())
+        Some(site.group(&share, self.force, self.axes, self.amplitude.clone()))
     }
 }

@@ -24,7 +24,7 @@ pub struct Gravity {
 }
 
 impl Load for Gravity {
-    fn group(&self, site: &Site<'_>) -> Group {
+    fn group(&self, site: &Site<'_>) -> Option<Group> {
         // The weight is where the mass is.
         let site = &Site { fields: site.fields.inertial(), ..*site };
         let (sin, cos) = libm::sincos(self.direction);
@@ -57,6 +57,6 @@ impl Load for Gravity {
             }
             group.stiffen(&site.structure(), shortened.then_some(&along), Some(&across), None);
         }
-        group
+        Some(group)
     }
 }

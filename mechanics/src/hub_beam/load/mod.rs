@@ -10,7 +10,8 @@
 //! ```
 //!
 //! Each kind of load is made into a `Group` when a system is built: the shapes are
-//! evaluated then and not in a run. How C depends on q is the coupling's [`Kinematics`]:
+//! evaluated then and not in a run. A [`LineLaw`], whose force depends on place and velocity, is evaluated at the points of the
+//! quadrature. How C depends on q is the coupling's [`Kinematics`]:
 //!
 //! | kinematics | X − a − x, Y | C | section |
 //! |---|---|---|---|
@@ -25,6 +26,7 @@ mod distributed;
 mod force;
 mod gravity;
 mod group;
+mod line_law;
 mod on_section;
 mod site;
 mod spring;
@@ -37,6 +39,7 @@ pub use damper::Damper;
 pub use distributed::DistributedForce;
 pub use force::Force;
 pub use gravity::Gravity;
+pub use line_law::{LineLaw, Sampled};
 pub use site::{Kinematics, Site};
 pub use spring::Spring;
 
@@ -46,15 +49,35 @@ use crate::profile::HubKinematics;
 use crate::system::{Break, State, Weights};
 use group::{Group, Store};
 
-/// A load: what it does to a beam with the given kinematics.
-pub trait Load: std::fmt::Debug {
-    /// The load on a beam, ready to be evaluated.
-    fn group(&self, site: &Site<'_>) -> Group;
+/// A load: what it does to a beam with the given kinematics. The kinds of loads are those of this module; a load of one's own is a
+/// [force law](crate::law) on a [`LineLaw`].
+pub trait Load: std::fmt::Debug + sealed::Sealed {
+    /// Moments of the load over the shapes, times an amplitude: of loads that do not depend on velocities.
+    fn group(&self, _site: &Site<'_>) -> Option<Group> {
+        None
+    }
 
-    /// The damper that comes with it, if there is one.
+    /// The damper that comes with it.
     fn damper(&self, _site: &Site<'_>) -> Option<Damper> {
         None
     }
+
+    /// A force law at the points of the beam.
+    fn sampled(&self, _site: &Site<'_>) -> Option<Sampled> {
+        None
+    }
+}
+
+mod sealed {
+    /// What the loads of this library alone are.
+    pub trait Sealed {}
+
+    impl Sealed for super::Couple {}
+    impl Sealed for super::DistributedForce {}
+    impl Sealed for super::Force {}
+    impl Sealed for super::Gravity {}
+    impl Sealed for super::LineLaw {}
+    impl Sealed for super::Spring {}
 }
 
 /// The loads of a system. Empty, they cost nothing.
@@ -62,6 +85,7 @@ pub trait Load: std::fmt::Debug {
 pub struct Loads {
     groups: Vec<Group>,
     dampers: Vec<Damper>,
+    laws: Vec<Sampled>,
     breaks: Vec<Break>,
     /// Part of the loads that is not applied: 0 except during the continuation of an equilibrium.
     missing: f64,
@@ -72,15 +96,21 @@ pub struct Loads {
 impl Loads {
     /// Loads on the beam at `site`.
     pub fn new(site: &Site<'_>, loads: &[&dyn Load]) -> Loads {
-        let groups: Vec<Group> = loads.iter().map(|load| load.group(site)).collect();
+        let groups: Vec<Group> = loads.iter().filter_map(|load| load.group(site)).collect();
         let breaks = groups.iter().flat_map(Group::breaks).collect();
         let dampers = loads.iter().filter_map(|load| load.damper(site)).collect();
-        Loads { groups, dampers, breaks, missing: 0.0, force: vec![0.0; site.fields.len()] }
+        let laws = loads.iter().filter_map(|load| load.sampled(site)).collect();
+        Loads { groups, dampers, laws, breaks, missing: 0.0, force: vec![0.0; site.fields.len()] }
     }
 
     /// Whether there is no load.
     pub fn is_empty(&self) -> bool {
-        self.groups.is_empty()
+        self.groups.is_empty() && self.laws.is_empty()
+    }
+
+    /// Whether all forces are affine in displacements and velocities.
+    pub fn is_affine(&self) -> bool {
+        self.laws.iter().all(Sampled::is_affine)
     }
 
     /// Whether gravity is among them.
@@ -107,10 +137,19 @@ impl Loads {
         for damper in &self.dampers {
             damper.add_force(s, hub, self.missing - 1.0, r);
         }
+        for law in &mut self.laws {
+            law.add_force(s, hub, self.missing - 1.0, r);
+        }
     }
 
     /// Subtracts ∂Q_q/∂q, weighted, from the tangent.
-    pub fn subtract_tangent(&self, s: &State, hub: &HubKinematics, w: &Weights<'_>, out: &mut Storage<f64>) {
+    pub fn subtract_tangent(
+        &mut self,
+        s: &State,
+        hub: &HubKinematics,
+        w: &Weights<'_>,
+        out: &mut Storage<f64>,
+    ) {
         if w.q != 0.0 {
             for group in &self.groups {
                 group.add_tangent(s, hub, -w.q, out);
@@ -118,6 +157,9 @@ impl Loads {
         }
         for damper in &self.dampers {
             damper.add_tangent(hub, w, self.missing - 1.0, out);
+        }
+        for law in &mut self.laws {
+            law.add_tangent(s, hub, w, self.missing - 1.0, out);
         }
     }
 
@@ -131,17 +173,25 @@ impl Loads {
         for damper in &self.dampers {
             damper.add_border(s, hub, w, self.missing - 1.0, out);
         }
+        for law in &mut self.laws {
+            law.add_border(s, hub, w, self.missing - 1.0, out);
+        }
     }
 
     /// Torque Q_θ on the hub [N·m].
     pub fn torque(&mut self, s: &State, hub: &HubKinematics) -> f64 {
-        let resisting: f64 = self.dampers.iter().map(|d| (1.0 - self.missing) * d.torque(s, hub)).sum();
-        self.groups.iter_mut().map(|g| g.torque(s, hub)).sum::<f64>() + resisting
+        let part = 1.0 - self.missing;
+        let resisting: f64 = self.dampers.iter().map(|d| part * d.torque(s, hub)).sum();
+        let of_laws: f64 = self.laws.iter_mut().map(|law| part * law.torque(s, hub)).sum();
+        self.groups.iter_mut().map(|g| g.torque(s, hub)).sum::<f64>() + resisting + of_laws
     }
 
-    /// Power lost in dampers \[W\].
-    pub fn dissipated(&self, s: &State, hub: &HubKinematics) -> f64 {
-        self.dampers.iter().map(|d| (1.0 - self.missing) * d.dissipated(s, hub)).sum()
+    /// Power lost in dampers and by force laws \[W\].
+    pub fn dissipated(&mut self, s: &State, hub: &HubKinematics) -> f64 {
+        let part = 1.0 - self.missing;
+        let in_dampers: f64 = self.dampers.iter().map(|d| part * d.dissipated(s, hub)).sum();
+        let laws = self.laws.iter_mut().filter(|law| law.dissipates());
+        in_dampers - laws.map(|law| part * law.power(s, hub)).sum::<f64>()
     }
 
     /// Potential energy of gravity \[J\].
@@ -161,7 +211,9 @@ impl Loads {
 
     /// Power of the loads, gravity and springs aside \[W\].
     pub fn power(&mut self, s: &State, hub: &HubKinematics) -> f64 {
-        let mut power = 0.0;
+        let part = 1.0 - self.missing;
+        let laws = self.laws.iter_mut().filter(|law| !law.dissipates());
+        let mut power: f64 = laws.map(|law| part * law.power(s, hub)).sum();
         if self.groups.iter().all(|g| g.store().is_some()) {
             return power;
         }
@@ -180,7 +232,7 @@ impl Loads {
         if self.missing != 0.0 {
             // No number: a tangent with part of the loads is never taken for another.
             f64::NAN
-        } else if !self.dampers.is_empty() || stiff().any(Group::varies) {
+        } else if !self.dampers.is_empty() || !self.laws.is_empty() || stiff().any(Group::varies) {
             s.time()
         } else if stiff().any(|g| g.axes() == Axes::Dead) {
             hub.angle

@@ -32,7 +32,7 @@ pub struct Spring {
 }
 
 impl Load for Spring {
-    fn group(&self, site: &Site<'_>) -> Group {
+    fn group(&self, site: &Site<'_>) -> Option<Group> {
         let (k, distance) = (self.stiffness, site.radius + self.station);
         let share = |p| [(self.station, p)];
         let (one, central) = (share(1.0), share(-k * distance));
@@ -56,7 +56,7 @@ impl Load for Spring {
         group.stiffen(&site.structure(), shortened.then_some(&along), None, Some(&own));
         let [x, y] = self.anchor;
         group.set_store(Store::Spring, 0.5 * k * (distance * distance + x * x + y * y));
-        group
+        Some(group)
     }
     fn damper(&self, site: &Site<'_>) -> Option<Damper> {
         (self.damping > 0.0).then(|| Damper::new(site, self.station, self.damping))

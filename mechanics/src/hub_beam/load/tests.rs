@@ -9,6 +9,7 @@ use crate::hub_beam::{
     Beam, Coupling, Damping, ExactCoupling, Foreshortening, HighCoupling, Hub, HubBeam, LinearCoupling, Mass,
     Placement, Station,
 };
+use crate::law::{ForceLaw, LinearDrag, Place, Response};
 use crate::profile::Expression;
 use crate::system::{Observed, System};
 use std::sync::Arc;
@@ -39,6 +40,25 @@ const SPRING: Spring = Spring { station: STATION, stiffness: 40.0, damping: 0.0,
 const GRAVITY: Gravity = Gravity { acceleration: 9.81, direction: -1.2 };
 const AXES: [Axes; 3] = [Axes::Dead, Axes::Hub, Axes::Follower];
 
+/// A law that depends on all that it may depend on.
+#[derive(Debug)]
+struct Swirl;
+
+impl ForceLaw for Swirl {
+    fn response(&self, place: &Place) -> Response {
+        let ([x, y, _], [u, v, _], f) = (place.position, place.velocity, 1.0 + place.time);
+        Response {
+            force: [f * (x * v - y), f * (x * x - u * v), 0.0],
+            by_position: [[f * v, -f, 0.0], [2.0 * f * x, 0.0, 0.0], [0.0; 3]],
+            by_velocity: [[0.0, f * x, 0.0], [-f * v, -f * u, 0.0], [0.0; 3]],
+        }
+    }
+}
+
+fn laws() -> [Arc<dyn ForceLaw>; 2] {
+    [Arc::new(LinearDrag { coefficient: 0.8 }), Arc::new(Swirl)]
+}
+
 /// One load of each kind and axes.
 fn loads() -> Vec<Box<dyn Load>> {
     let mut loads: Vec<Box<dyn Load>> = vec![
@@ -48,6 +68,9 @@ fn loads() -> Vec<Box<dyn Load>> {
         Box::new(Spring { station: LENGTH, anchor: [0.0, 0.0], ..SPRING }),
         Box::new(Spring { damping: 3.0, ..SPRING }),
     ];
+    for law in laws() {
+        loads.push(Box::new(LineLaw { law, range: (0.2 * LENGTH, STATION) }));
+    }
     for axes in AXES {
         loads.push(Box::new(force(axes, LENGTH)));
         loads.push(Box::new(force(axes, STATION)));

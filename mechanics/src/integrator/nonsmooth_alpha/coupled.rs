@@ -17,48 +17,48 @@
 //! this is left to the iteration.
 
 use super::memory::Coupled;
-use super::{Level, NAME, NonsmoothAlpha, Set, Work, failure, open};
-use crate::integrator::{Progress, Span, StepError, StepReport};
+use super::{Level, Set, Work, failure, open};
+use crate::integrator::auxiliary::Formulas;
+use crate::integrator::{Counters, Progress, Span, StepError, StepReport};
 use crate::system::{Dynamics, RowWeights, State, Weights};
 
-impl NonsmoothAlpha {
-    /// Attempts a step of the coupled scheme.
-    pub(super) fn attempt_coupled(
+impl Coupled {
+    /// Attempts a step.
+    pub(super) fn step(
         &mut self,
-        coupled: &mut Coupled,
         work: &mut Work,
         system: &mut dyn Dynamics,
         span: Span,
         to: &mut State,
+        counters: &mut Counters,
     ) -> Result<StepReport, StepError> {
-        let h = span.step;
-        let p = self.smooth.parameters();
-        let [alpha_m, alpha_f, beta, gamma] = p;
-        let kappa = (1.0 - alpha_f) / (1.0 - alpha_m);
-        let (to_v, to_q, half) = (h * gamma * kappa, h * h * beta * kappa, 0.5 * h * h);
+        let (h, t) = (span.step, work.from.t);
+        let parameters = self.auxiliary.parameters;
+        let (kappa, beta) = (parameters.kappa(), parameters.beta);
+        let ([to_v, to_q], half) = (parameters.weights(h), 0.5 * h * h);
+        let formulas = self.auxiliary.attempt(h);
         let (n, m) = (work.alpha.len(), work.forces.len());
-        let Some(mut mass) = coupled.mass.take() else { return Err(StepError::NotStarted { method: NAME }) };
         system.constraint(&work.from, RowWeights::VELOCITY, &mut work.start);
         to.copy_from(&work.from);
         (to.t, to.side) = (span.end, span.side);
         work.smooth.copy_from(to);
         work.takes_part.fill(false);
-        for list in [&mut work.alpha, &mut work.forces, &mut coupled.velocity, &mut coupled.impulses] {
+        for list in [&mut work.alpha, &mut work.forces, &mut self.velocity, &mut self.impulses] {
             list.fill(0.0);
         }
         let joints = work.rows.sets().contains(&Set::Free);
-        self.convergence.begin(true);
-        let result = loop {
-            work.place(p, coupled, system, h, to);
+        work.convergence.begin(true);
+        loop {
+            self.place(work, formulas, system, h, to);
             system.constraint(to, RowWeights::POSITION, &mut work.gaps);
             let new = work.admit(|work, i| work.gaps[i] <= 0.0);
-            self.corrected = work.takes_part.contains(&true);
-            system.residual(to, &mut coupled.residual);
+            work.corrected = work.takes_part.contains(&true);
+            system.residual(to, &mut self.residual);
             // r₂, with which the position is corrected.
-            work.difference(system, to, None, &coupled.residual);
+            work.difference(system, to, None, &self.residual);
             for (i, r) in work.rhs[..n].iter_mut().enumerate() {
-                coupled.rhs[i] = -*r;
-                *r = -2.0 * beta * kappa * coupled.residual[i] - *r;
+                self.rhs[i] = -*r;
+                *r = -2.0 * beta * kappa * self.residual[i] - *r;
             }
             for i in 0..n {
                 work.trial.v[i] = work.smooth.v[i] + h * work.alpha[i];
@@ -67,131 +67,112 @@ impl NonsmoothAlpha {
             for (k, set) in work.rows.sets().iter().enumerate() {
                 work.rhs[n + k] = if *set == Set::Free { -work.gaps[k] / half } else { 0.0 };
             }
-            let weights = Weights { a: 1.0, v: to_v, q: to_q, increment: Some(&coupled.d) };
+            let weights = Weights { a: 1.0, v: to_v, q: to_q, increment: Some(&self.d) };
             system.tangent(to, weights, &mut work.matrix);
             work.rows.add_border(system, to, n, &mut work.matrix);
-            if let Err(cause) = work.matrix.factor() {
-                break Err(failure::singular(system, work.from.t, h, cause));
-            }
+            work.matrix.factor().map_err(|cause| failure::singular(system, t, h, cause))?;
             work.matrix.solve(&mut work.rhs);
             work.rows.store_jacobian(system, to);
-            coupled.before.copy_from_slice(&work.forces);
-            if let Err(cause) = work.solve_cone(Level::Position, [h, half], None) {
-                break Err(StepError::Contacts { time: work.from.t, step: h, cause });
-            }
-            self.counters.iterations += 1;
-            self.counters.residuals += 1;
-            self.counters.tangents += 1;
-            self.counters.factorizations += 1;
-            self.counters.solves += 1 + work.impulses.len() as u64;
+            self.before.copy_from_slice(&work.forces);
+            let solved = work.solve_cone(Level::Position, [h, half], None);
+            solved.map_err(|cause| work.unresolved(h, cause))?;
+            counters.add_full_iteration(1 + work.impulses.len() as u64);
             let mut square: f64 = work.rhs[..n].iter().zip(&work.scale).map(|(x, s)| (x / s).powi(2)).sum();
-            let active = joints || self.corrected;
+            let active = joints || work.corrected;
             if active {
-                let increment = Some(&coupled.d[..]);
-                system.tangent(to, Weights { a: 1.0, v: 0.0, q: 0.0, increment }, &mut mass);
-                work.rows.add_border(system, to, n, &mut mass);
-                if let Err(cause) = mass.factor() {
-                    break Err(failure::singular(system, work.from.t, h, cause));
-                }
-                self.counters.factorizations += 1;
+                let increment = Some(&self.d[..]);
+                system.tangent(to, Weights { a: 1.0, v: 0.0, q: 0.0, increment }, &mut self.mass);
+                work.rows.add_border(system, to, n, &mut self.mass);
+                self.mass.factor().map_err(|cause| failure::singular(system, t, h, cause))?;
+                counters.factorizations += 1;
                 // Δα with G Δα from G Δq̈ = −ġ(q, ṽ)/(hγκ).
                 system.constraint(&work.smooth, RowWeights::VELOCITY, &mut work.rates);
                 for k in 0..m {
                     let free = work.rows.sets()[k] == Set::Free;
-                    coupled.rhs[n + k] = if free { 2.0 * beta * kappa * work.rates[k] / to_v } else { 0.0 };
+                    self.rhs[n + k] = if free { 2.0 * beta * kappa * work.rates[k] / to_v } else { 0.0 };
                 }
                 for &(row, j, x) in work.rows.stored() {
                     if work.rows.sets()[row] == Set::Free {
-                        coupled.rhs[n + row] += x * work.rhs[j];
+                        self.rhs[n + row] += x * work.rhs[j];
                     } else {
-                        coupled.rhs[j] += x * (work.forces[row] - coupled.before[row]);
+                        self.rhs[j] += x * (work.forces[row] - self.before[row]);
                     }
                 }
-                mass.solve(&mut coupled.rhs);
+                self.mass.solve(&mut self.rhs);
             } else {
-                coupled.rhs.fill(0.0);
+                self.rhs.fill(0.0);
             }
             for i in 0..n {
-                work.alpha[i] += coupled.rhs[i];
-                to.a[i] += (work.rhs[i] - coupled.rhs[i]) / (2.0 * beta * kappa);
+                work.alpha[i] += self.rhs[i];
+                to.a[i] += (work.rhs[i] - self.rhs[i]) / (2.0 * beta * kappa);
             }
             for k in (0..m).filter(|k| work.rows.sets()[*k] == Set::Free) {
                 // The multipliers of the position, and what is left for those of the smooth motion.
-                work.forces[k] += coupled.rhs[n + k];
-                to.lambda[k] += (work.rhs[n + k] - coupled.rhs[n + k]) / (2.0 * beta * kappa);
+                work.forces[k] += self.rhs[n + k];
+                to.lambda[k] += (work.rhs[n + k] - self.rhs[n + k]) / (2.0 * beta * kappa);
             }
             if active {
-                work.place(p, coupled, system, h, to);
-                system.residual(to, &mut coupled.residual);
-                work.difference(system, to, Some((&coupled.velocity, &coupled.impulses)), &coupled.residual);
+                self.place(work, formulas, system, h, to);
+                system.residual(to, &mut self.residual);
+                work.difference(system, to, Some((&self.velocity, &self.impulses)), &self.residual);
                 system.constraint(to, RowWeights::VELOCITY, &mut work.rates);
                 for (k, set) in work.rows.sets().iter().enumerate() {
                     work.rhs[n + k] = if *set == Set::Free { work.rates[k] / h } else { 0.0 };
                 }
                 work.rhs.iter_mut().for_each(|r| *r = -*r);
-                mass.solve(&mut work.rhs);
-                let swapped = (&mut mass, &mut coupled.impulses[..]);
-                if let Err(cause) = work.solve_cone(Level::Velocity, [h, half], Some(swapped)) {
-                    break Err(StepError::Contacts { time: work.from.t, step: h, cause });
-                }
-                self.counters.solves += 3 + work.impulses.len() as u64;
+                self.mass.solve(&mut work.rhs);
+                let swapped = (&mut self.mass, &mut self.impulses[..]);
+                let solved = work.solve_cone(Level::Velocity, [h, half], Some(swapped));
+                solved.map_err(|cause| work.unresolved(h, cause))?;
+                counters.solves += 3 + work.impulses.len() as u64;
                 for i in 0..n {
-                    coupled.velocity[i] += work.rhs[i];
+                    self.velocity[i] += work.rhs[i];
                     square += (work.rhs[i] / work.scale[i]).powi(2);
                 }
                 for k in (0..m).filter(|k| work.rows.sets()[*k] == Set::Free) {
-                    coupled.impulses[k] += work.rhs[n + k];
+                    self.impulses[k] += work.rhs[n + k];
                 }
             }
             let size = h * h * (square / n.max(1) as f64).sqrt();
-            match self.convergence.judge(size) {
-                Progress::Converged if !new => break Ok(()),
+            match work.convergence.judge(size) {
+                Progress::Converged if !new => break,
                 Progress::Converged | Progress::Continue => {}
-                Progress::Diverged => break Err(self.not_converged(work, system, h, size)),
+                Progress::Diverged => return Err(work.not_converged(system, h, size)),
             }
-        };
-        coupled.mass = Some(mass);
-        result?;
-        work.place(p, coupled, system, h, to);
+        }
+        self.place(work, formulas, system, h, to);
         // What the smooth motion remembers, and what the state shows.
         work.smooth.a.copy_from_slice(&to.a);
         work.smooth.lambda.copy_from_slice(&to.lambda);
         open(work.rows.sets(), &mut work.smooth);
         for i in 0..n {
-            to.a[i] += coupled.velocity[i];
+            to.a[i] += self.velocity[i];
         }
         for k in 0..m {
-            to.lambda[k] += coupled.impulses[k];
+            to.lambda[k] += self.impulses[k];
         }
         work.modes(&to.lambda, &mut to.mode);
         if !to.is_finite() {
             return Err(failure::not_finite(system, work.from.t, h, to));
         }
-        Ok(StepReport { iterations: self.convergence.iterations(), error: None })
+        Ok(StepReport { iterations: work.convergence.iterations(), ..StepReport::default() })
+    }
+
+    /// Makes position, velocities and accelerations of the attempt from the unknowns: `to` becomes the end of the step,
+    /// `work.smooth` has ṽ and the same position.
+    fn place(&mut self, work: &mut Work, formulas: Formulas, system: &dyn Dynamics, h: f64, to: &mut State) {
+        for i in 0..self.d.len() {
+            let [v, d] = formulas.motion(self.auxiliary.a[i], work.from.v[i], work.from.a[i], to.a[i]);
+            self.d[i] = d + 0.5 * h * h * work.alpha[i];
+            work.smooth.v[i] = v;
+            to.v[i] = v + h * self.velocity[i];
+        }
+        system.retract(&work.from.q, &self.d, &mut to.q);
+        work.smooth.q.copy_from_slice(&to.q);
     }
 }
 
 impl Work {
-    /// Makes position, velocities and accelerations of the attempt from the unknowns: `to` becomes the end of the step,
-    /// `self.smooth` has ṽ and the same position.
-    fn place(&mut self, p: [f64; 4], memory: &mut Coupled, system: &dyn Dynamics, h: f64, to: &mut State) {
-        let [alpha_m, alpha_f, beta, gamma] = p;
-        let ratio = if memory.spacing[0] > 0.0 { h / memory.spacing[0] } else { 1.0 };
-        memory.spacing[1] = h;
-        for i in 0..memory.a.len() {
-            let (from, v) = (self.from.a[i], self.from.v[i]);
-            // The lag of a behind q̈ is a part of the step.
-            let a = if ratio == 1.0 { memory.a[i] } else { from + ratio * (memory.a[i] - from) };
-            let next = ((1.0 - alpha_f) * to.a[i] + alpha_f * from - alpha_m * a) / (1.0 - alpha_m);
-            memory.a_next[i] = next;
-            memory.d[i] = h * v + h * h * ((0.5 - beta) * a + beta * next) + 0.5 * h * h * self.alpha[i];
-            self.smooth.v[i] = v + h * ((1.0 - gamma) * a + gamma * next);
-            to.v[i] = self.smooth.v[i] + h * memory.velocity[i];
-        }
-        system.retract(&self.from.q, &memory.d, &mut to.q);
-        self.smooth.q.copy_from_slice(&to.q);
-    }
-
     /// `rhs` = r(…, q̈ + x, λ̃ + f) − r₁ with x and f of the position, or those given.
     fn difference(
         &mut self,

@@ -1,19 +1,18 @@
 //! What the coupled scheme remembers and works with.
 
-use crate::integrator::{Checkpoint, NotResumed};
+use crate::integrator::acceleration::Accelerations;
+use crate::integrator::auxiliary::Auxiliary;
+use crate::integrator::{Counters, GeneralizedAlpha, StepError};
 use crate::linalg::Matrix;
-use crate::system::Dynamics;
+use crate::system::{Dynamics, RowWeights, State};
 
 /// Memory of the coupled scheme.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Coupled {
+    pub(super) auxiliary: Auxiliary,
+    pub(super) accelerations: Accelerations,
     /// M with the joints.
-    pub(super) mass: Option<Matrix>,
-    /// Auxiliary acceleration aₙ, and aₙ₊₁ of the attempt.
-    pub(super) a: Vec<f64>,
-    pub(super) a_next: Vec<f64>,
-    /// Size of the step accepted last, and of the attempt.
-    pub(super) spacing: [f64; 2],
+    pub(super) mass: Matrix,
     /// Increment of the position in the attempt, and in the step accepted.
     pub(super) d: Vec<f64>,
     pub(super) accepted: Vec<f64>,
@@ -28,36 +27,36 @@ pub(super) struct Coupled {
 }
 
 impl Coupled {
-    pub(super) fn start(&mut self, system: &dyn Dynamics) {
+    pub(super) fn new(system: &mut dyn Dynamics, state: &State, method: &GeneralizedAlpha) -> Coupled {
         let size = system.size();
         let (n, m) = (size.v, size.lambda);
-        self.mass = Some(Matrix::new(&system.structure(1)));
-        for list in [&mut self.a, &mut self.a_next, &mut self.d, &mut self.accepted, &mut self.velocity] {
-            *list = vec![0.0; n];
+        Coupled {
+            auxiliary: method.auxiliary(n),
+            accelerations: Accelerations::new(system, state, RowWeights::ACCELERATION),
+            mass: Matrix::new(&system.structure(1)),
+            d: vec![0.0; n],
+            accepted: vec![0.0; n],
+            velocity: vec![0.0; n],
+            impulses: vec![0.0; m],
+            residual: vec![0.0; n],
+            before: vec![0.0; m],
+            rhs: vec![0.0; n + m],
         }
-        (self.impulses, self.before) = (vec![0.0; m], vec![0.0; m]);
-        (self.residual, self.rhs) = (vec![0.0; n], vec![0.0; n + m]);
     }
 
-    pub(super) fn accept(&mut self) {
-        std::mem::swap(&mut self.a, &mut self.a_next);
+    pub(super) fn accept(&mut self, from: &State, smooth: &State) {
+        self.auxiliary.accept(&from.a, &smooth.a);
         std::mem::swap(&mut self.d, &mut self.accepted);
-        self.spacing[0] = self.spacing[1];
     }
 
-    /// Begins anew with the accelerations `a`.
-    pub(super) fn restart(&mut self, a: &[f64]) {
-        self.a.copy_from_slice(a);
-        self.spacing = [0.0; 2];
-    }
-
-    pub(super) fn save(&self, out: &mut Checkpoint) {
-        out.put("smooth.auxiliary", &self.a);
-        out.put("smooth.spacing", &self.spacing[..1]);
-    }
-
-    pub(super) fn resume(&mut self, from: &Checkpoint) -> Result<(), NotResumed> {
-        from.fill("smooth.auxiliary", &mut self.a)?;
-        from.fill("smooth.spacing", &mut self.spacing[..1])
+    pub(super) fn restart(
+        &mut self,
+        system: &mut dyn Dynamics,
+        state: &mut State,
+        counters: &mut Counters,
+    ) -> Result<(), StepError> {
+        self.accelerations.complete(system, state, (state.t, 0.0), counters)?;
+        self.auxiliary.restart(&state.a);
+        Ok(())
     }
 }

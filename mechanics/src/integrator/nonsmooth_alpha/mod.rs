@@ -44,11 +44,12 @@ mod coupled;
 mod decoupled;
 mod memory;
 
+use super::generalized_alpha::AlphaSteps;
 use super::impulses::Impulses;
 use super::rows::Rows;
 use super::{
-    Checkpoint, Convergence, Counters, GeneralizedAlpha, Info, Integrator, InvalidParameter, NotResumed,
-    Span, StepError, StepReport, failure, hermite,
+    Attempt, Checkpoint, Convergence, Counters, GeneralizedAlpha, Info, Integrator, InvalidParameter,
+    NotResumed, Span, StepError, StepReport, Stepper, failure, hermite,
 };
 use crate::contact::Unresolved;
 use crate::linalg::Matrix;
@@ -65,18 +66,23 @@ const TOLERANCE: f64 = 1e-12;
 const SLIPPING: f64 = 1.0 - 1e-9;
 
 /// The nonsmooth generalized-α method. Its formulas head the source file.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct NonsmoothAlpha {
     info: Info,
     smooth: GeneralizedAlpha,
-    convergence: Convergence,
-    /// Work of the corrections.
-    counters: Counters,
-    /// Whether a contact acted in the last step.
-    corrected: bool,
-    work: Option<Box<Work>>,
-    /// Memory of the coupled scheme.
-    coupled: Option<Coupled>,
+    coupled: bool,
+}
+
+/// The method with its memory.
+struct NonsmoothSteps {
+    scheme: Scheme,
+    work: Work,
+}
+
+/// The memory of the smooth motion.
+enum Scheme {
+    Decoupled(Box<AlphaSteps>),
+    Coupled(Box<Coupled>),
 }
 
 /// What a correction imposes.
@@ -86,9 +92,12 @@ enum Level {
     Velocity,
 }
 
-/// What `start` allocates for a system.
+/// Memory that both schemes need.
 #[derive(Debug)]
 struct Work {
+    convergence: Convergence,
+    /// Whether a contact acted in the last step.
+    corrected: bool,
     matrix: Matrix,
     rows: Rows,
     impulses: Impulses,
@@ -119,11 +128,7 @@ impl NonsmoothAlpha {
         Ok(NonsmoothAlpha {
             info: Info { name: NAME, order: 2, estimate_order: None, implicit: true },
             smooth: GeneralizedAlpha::chung_hulbert(spectral_radius)?,
-            convergence: Convergence::full(TOLERANCE, 1e-9),
-            counters: Counters::default(),
-            corrected: false,
-            work: None,
-            coupled: None,
+            coupled: false,
         })
     }
 
@@ -132,21 +137,7 @@ impl NonsmoothAlpha {
     /// # Errors
     /// Outside 0 ≤ ρ∞ ≤ 1.
     pub fn coupled(spectral_radius: f64) -> Result<NonsmoothAlpha, InvalidParameter> {
-        let coupled = Some(Coupled::default());
-        Ok(NonsmoothAlpha { coupled, ..NonsmoothAlpha::decoupled(spectral_radius)? })
-    }
-
-    /// The error of corrections that do not converge.
-    fn not_converged(&self, work: &Work, system: &dyn Dynamics, step: f64, size: f64) -> StepError {
-        let sizes = work.rhs.iter().zip(&work.scale).map(|(x, scale)| (x / scale).abs());
-        let largest = sizes.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
-        StepError::NotConverged {
-            time: work.from.t,
-            step,
-            iterations: self.convergence.iterations(),
-            size: size / TOLERANCE,
-            worst: system.unknown(largest.map_or(0, |(i, _)| i)),
-        }
+        Ok(NonsmoothAlpha { coupled: true, ..NonsmoothAlpha::decoupled(spectral_radius)? })
     }
 }
 
@@ -157,6 +148,8 @@ impl Work {
         let zeros = |n| vec![0.0; n];
         let state = || State::zeros(size, state.t);
         Work {
+            convergence: Convergence::full(TOLERANCE, 1e-9),
+            corrected: false,
             matrix: Matrix::new(&system.structure(1)),
             rows: Rows::new(system, &state()),
             impulses: Impulses::new(m, n + m),
@@ -173,6 +166,27 @@ impl Work {
             takes_part: vec![false; m],
             scale: system.scales().to_vec(),
         }
+    }
+
+    /// The start of a step: `from` with all contacts open and the accelerations of the smooth motion.
+    fn begin(&mut self, from: &State) {
+        (self.from.t, self.from.side) = (from.t, from.side);
+        self.from.q.copy_from_slice(&from.q);
+        self.from.v.copy_from_slice(&from.v);
+        self.from.lambda.copy_from_slice(&from.lambda);
+        self.from.copy_modes(from);
+        open(self.rows.sets(), &mut self.from);
+    }
+
+    /// The error of corrections that do not converge.
+    fn not_converged(&self, system: &dyn Dynamics, step: f64, size: f64) -> StepError {
+        let place = (self.from.t, step);
+        failure::not_converged(system, place, &self.convergence, size / TOLERANCE, &self.rhs)
+    }
+
+    /// The error of contacts without a solution.
+    fn unresolved(&self, step: f64, cause: Unresolved) -> StepError {
+        StepError::Contacts { time: self.from.t, step, cause }
     }
 
     /// Whether row `i` is a unilateral contact.
@@ -214,7 +228,7 @@ impl Work {
             Some((matrix, forces)) => (matrix, forces),
             None => (&mut self.matrix, &mut self.forces[..]),
         };
-        self.impulses.solve(matrix, self.rows.stored(), value, forces, &mut self.rhs)
+        self.impulses.solve(matrix, &self.rows, value, forces, &mut self.rhs)
     }
 
     /// The modes of the rows by the forces `lambda`, for those who read the state: impulses decide about contacts.
@@ -261,129 +275,101 @@ impl Integrator for NonsmoothAlpha {
         &self.info
     }
 
-    fn start(&mut self, system: &mut dyn Dynamics, state: &mut State, step: f64) -> Result<(), StepError> {
-        self.counters = Counters::default();
-        self.convergence.reset();
-        self.work = Some(Box::new(Work::new(system, state)));
-        if let Some(coupled) = &mut self.coupled {
-            coupled.start(system);
-        }
-        open(system.rows(), state);
-        // Without joints nothing is to be stabilized.
-        self.smooth.stabilize(system.rows().contains(&Set::Free));
-        self.smooth.start(system, state, step)?;
-        self.restart(system, state)
-    }
-
-    fn step(
-        &mut self,
-        system: &mut dyn Dynamics,
-        from: &State,
-        span: Span,
-        to: &mut State,
-    ) -> Result<StepReport, StepError> {
-        let Some(mut work) = self.work.take() else {
-            return Err(StepError::NotStarted { method: NAME });
-        };
-        (work.from.t, work.from.side) = (from.t, from.side);
-        work.from.q.copy_from_slice(&from.q);
-        work.from.v.copy_from_slice(&from.v);
-        work.from.lambda.copy_from_slice(&from.lambda);
-        work.from.copy_modes(from);
-        open(work.rows.sets(), &mut work.from);
-        let result = match self.coupled.take() {
-            Some(mut coupled) => {
-                let result = self.attempt_coupled(&mut coupled, &mut work, system, span, to);
-                self.coupled = Some(coupled);
-                result
-            }
-            None => self.attempt_decoupled(&mut work, system, from, span, to),
-        };
-        self.work = Some(work);
-        result
-    }
-
-    fn discard(&mut self) {
-        self.smooth.discard();
-    }
-
-    fn accept(&mut self, _from: &State, _to: &State) {
-        if let Some(work) = &mut self.work {
-            match &mut self.coupled {
-                Some(coupled) => {
-                    coupled.accept();
-                    self.counters.steps += 1;
-                }
-                None => self.smooth.accept(&work.from, &work.smooth),
-            }
-            work.from.a.copy_from_slice(&work.smooth.a);
-        }
-    }
-
-    fn interpolate(&self, system: &dyn Dynamics, from: &State, to: &State, t: f64, out: &mut State) {
-        if self.corrected {
-            hermite::linear(system, from, to, t, out);
-        } else if let Some(coupled) = &self.coupled {
-            hermite::cubic(system, from, to, &coupled.accepted, t, out);
-        } else {
-            self.smooth.interpolate(system, from, to, t, out);
-        }
-    }
-
-    fn restart(&mut self, system: &mut dyn Dynamics, state: &mut State) -> Result<(), StepError> {
-        open(system.rows(), state);
-        self.smooth.restart(system, state)?;
-        if let Some(work) = &mut self.work {
-            work.from.copy_from(state);
-        }
-        if let Some(coupled) = &mut self.coupled {
-            coupled.restart(&state.a);
-        }
-        Ok(())
-    }
-
-    fn save(&self, out: &mut Checkpoint) {
-        self.smooth.save(out);
-        out.put("corrections.counters", &self.counters.to_numbers());
-        out.put("corrections.convergence", &self.convergence.memory());
-        if let Some(work) = &self.work {
-            out.put("smooth.a", &work.from.a);
-        }
-        if let Some(coupled) = &self.coupled {
-            coupled.save(out);
-        }
-    }
-
-    fn resume(&mut self, system: &mut dyn Dynamics, from: &Checkpoint) -> Result<(), NotResumed> {
-        self.smooth.resume(system, from)?;
-        self.counters = Counters::from_numbers(from.numbers("corrections.counters")?);
-        self.convergence.recall(from.numbers("corrections.convergence")?);
-        let Some(work) = &mut self.work else {
-            return Err(NotResumed::Failed(format!("{NAME} was not started")));
-        };
-        from.fill("smooth.a", &mut work.from.a)?;
-        match &mut self.coupled {
-            Some(coupled) => coupled.resume(from),
-            None => Ok(()),
-        }
-    }
-
     fn resolves_contacts(&self) -> bool {
         true
     }
 
-    fn worst(&self) -> usize {
-        self.smooth.worst()
+    fn stepper(
+        &self,
+        system: &mut dyn Dynamics,
+        state: &mut State,
+        _step: f64,
+        counters: &mut Counters,
+    ) -> Result<Box<dyn Stepper>, StepError> {
+        open(system.rows(), state);
+        // Without joints nothing is to be stabilized.
+        let joints = system.rows().contains(&Set::Free);
+        let smooth = if joints { self.smooth.clone().stabilized() } else { self.smooth.clone() };
+        let scheme = if self.coupled {
+            Scheme::Coupled(Box::new(Coupled::new(system, state, &smooth)))
+        } else {
+            Scheme::Decoupled(Box::new(smooth.memory(system, state)))
+        };
+        let mut steps = NonsmoothSteps { scheme, work: Work::new(system, state) };
+        steps.restart(system, state, counters)?;
+        Ok(Box::new(steps))
+    }
+}
+
+impl Stepper for NonsmoothSteps {
+    fn step(
+        &mut self,
+        system: &mut dyn Dynamics,
+        from: &State,
+        (span, _): (Span, Attempt),
+        to: &mut State,
+        counters: &mut Counters,
+    ) -> Result<StepReport, StepError> {
+        self.work.begin(from);
+        match &mut self.scheme {
+            Scheme::Coupled(coupled) => coupled.step(&mut self.work, system, span, to, counters),
+            Scheme::Decoupled(smooth) => self.work.step(smooth, system, (from, to), span, counters),
+        }
     }
 
-    fn counters(&self) -> Counters {
-        let (mut all, own) = (self.smooth.counters(), self.counters);
-        all.steps += own.steps;
-        all.iterations += own.iterations;
-        all.residuals += own.residuals;
-        all.tangents += own.tangents;
-        all.factorizations += own.factorizations;
-        all.solves += own.solves;
-        all
+    fn accept(&mut self, _from: &State, _to: &State) {
+        let Work { from, smooth, .. } = &mut self.work;
+        match &mut self.scheme {
+            Scheme::Coupled(coupled) => coupled.accept(from, smooth),
+            Scheme::Decoupled(steps) => steps.accept(from, smooth),
+        }
+        from.a.copy_from_slice(&smooth.a);
+    }
+
+    fn interpolate(&self, system: &dyn Dynamics, from: &State, to: &State, t: f64, out: &mut State) {
+        // Behind an impulse too, for the acceleration at `from` has that impulse in it.
+        let mut contacts = from.lambda.iter().zip(system.rows()).filter(|(_, set)| **set != Set::Free);
+        let behind = contacts.any(|(force, _)| *force != 0.0);
+        match &self.scheme {
+            _ if self.work.corrected || behind => {
+                system.difference(&from.q, &to.q, &mut out.v);
+                hermite::linear(system, from, to, t, out);
+            }
+            Scheme::Coupled(coupled) => hermite::cubic(system, from, to, &coupled.accepted, t, out),
+            Scheme::Decoupled(smooth) => smooth.interpolate(system, from, to, t, out),
+        }
+    }
+
+    fn restart(
+        &mut self,
+        system: &mut dyn Dynamics,
+        state: &mut State,
+        counters: &mut Counters,
+    ) -> Result<(), StepError> {
+        open(system.rows(), state);
+        match &mut self.scheme {
+            Scheme::Coupled(coupled) => coupled.restart(system, state, counters)?,
+            Scheme::Decoupled(smooth) => smooth.restart(system, state, counters)?,
+        }
+        self.work.from.copy_from(state);
+        Ok(())
+    }
+
+    fn save(&self, out: &mut Checkpoint) {
+        match &self.scheme {
+            Scheme::Coupled(coupled) => coupled.auxiliary.save(out),
+            Scheme::Decoupled(smooth) => smooth.save(out),
+        }
+        out.put("corrections.convergence", &self.work.convergence.memory());
+        out.put("smooth.a", &self.work.from.a);
+    }
+
+    fn resume(&mut self, system: &mut dyn Dynamics, from: &Checkpoint) -> Result<(), NotResumed> {
+        match &mut self.scheme {
+            Scheme::Coupled(coupled) => coupled.auxiliary.resume(from)?,
+            Scheme::Decoupled(smooth) => smooth.resume(system, from)?,
+        }
+        self.work.convergence.recall(from.numbers("corrections.convergence")?);
+        from.fill("smooth.a", &mut self.work.from.a)
     }
 }

@@ -32,20 +32,20 @@ pub(super) const A_INVERSE: [[f64; 3]; 3] = [
 /// A⁻².
 pub(super) const A2_INVERSE: [[f64; 3]; 3] = square(A_INVERSE);
 
-/// Real eigenvalue of A⁻¹; λ = γ₀ = 1/γ is that of A.
-const GAMMA: f64 = 3.637_834_252_744_495_7;
+/// Real eigenvalue 1/γ of A⁻¹.
+const INVERSE_GAMMA: f64 = 3.637_834_252_744_495_7;
 /// Complex eigenvalues α ± iβ of A⁻¹.
 const ALPHA: f64 = 2.681_082_873_627_752;
 const BETA: f64 = 3.050_430_199_247_410_6;
 
-/// λ = γ₀, the real eigenvalue of A.
-pub(super) const LAMBDA: f64 = 1.0 / GAMMA;
+/// γ, the real eigenvalue of A.
+pub(super) const GAMMA: f64 = 1.0 / INVERSE_GAMMA;
 
 /// μ = 1/(α + iβ), the complex eigenvalue of A: real and imaginary parts.
 pub(super) const MU: [f64; 2] =
     [ALPHA / (ALPHA * ALPHA + BETA * BETA), -BETA / (ALPHA * ALPHA + BETA * BETA)];
 
-/// T, with A = T Λ T⁻¹, Λ = diag(λ, [μ]), [μ] = ⎡Re μ  −Im μ⎤
+/// T, with A = T Λ T⁻¹, Λ = diag(γ, [μ]), [μ] = ⎡Re μ  −Im μ⎤
 ///                                               ⎣Im μ   Re μ⎦.
 pub(super) const T: [[f64; 3]; 3] = [
     [9.123_239_487_089_294e-2, -0.141_255_295_020_954_2, -3.002_919_410_514_742_4e-2],
@@ -60,14 +60,14 @@ pub(super) const T_INVERSE: [[f64; 3]; 3] = [
     [-0.502_872_634_945_786_9, 2.571_926_949_855_605_4, -0.596_039_204_828_224_9],
 ];
 
-/// Weights e of the stage increments in the error estimate ŷ − y = γ₀ h f(y₀) + Σ eᵢ Zᵢ.
-const E: [f64; 3] = [LAMBDA / 3.0 * (-13.0 - 7.0 * ROOT), LAMBDA / 3.0 * (-13.0 + 7.0 * ROOT), -LAMBDA / 3.0];
+/// Weights e of the stage increments in the error estimate ŷ − y = γ h f(y₀) + Σ eᵢ Zᵢ.
+const E: [f64; 3] = [GAMMA / 3.0 * (-13.0 - 7.0 * ROOT), GAMMA / 3.0 * (-13.0 + 7.0 * ROOT), -GAMMA / 3.0];
 
 /// eᵀA: weights of the stage accelerations in the velocity's estimate, over h.
 pub(super) const E_V: [f64; 3] = row_times(E, A);
 
 /// eᵀA²: weights of the stage accelerations in the position's estimate, over h². (The weight of v₀,
-/// γ₀ + Σ eᵢ cᵢ, is zero.)
+/// γ + Σ eᵢ cᵢ, is zero.)
 pub(super) const E_Q: [f64; 3] = row_times(E, A2);
 
 const fn row_times(e: [f64; 3], a: [[f64; 3]; 3]) -> [f64; 3] {
@@ -112,7 +112,7 @@ mod tests {
 
     #[test]
     fn the_decoupling_reproduces_the_coefficients() {
-        let lambda = [[LAMBDA, 0.0, 0.0], [0.0, MU[0], -MU[1]], [0.0, MU[1], MU[0]]];
+        let lambda = [[GAMMA, 0.0, 0.0], [0.0, MU[0], -MU[1]], [0.0, MU[1], MU[0]]];
         assert_close(product(product(T, lambda), T_INVERSE), A);
         assert_close(product(T, T_INVERSE), [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
     }
@@ -137,7 +137,7 @@ mod tests {
                 assert!((sum - C[i].powi(k) / f64::from(k)).abs() < 1e-15, "C({k}), row {i}");
             }
         }
-        let sum: f64 = LAMBDA + (0..3).map(|i| E[i] * C[i]).sum::<f64>();
+        let sum: f64 = GAMMA + (0..3).map(|i| E[i] * C[i]).sum::<f64>();
         assert!(sum.abs() < 1e-15, "the estimate is consistent");
     }
 }

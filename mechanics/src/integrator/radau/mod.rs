@@ -8,11 +8,11 @@
 //! ```
 //!
 //! The last stage is the end of the step. Simplified Newton iterations for ΔQ = h²A² Δa,
-//! ((hA)⁻²⊗M + (hA)⁻¹⊗C + I⊗K) ΔQ = −r, decouple with A = T Λ T⁻¹ into a real and a complex system of the size of the
+//! ((hA)⁻²⊗M + (hA)⁻¹⊗C + I⊗K) ΔQ = −r, decouple with A = T Λ T⁻¹, Λ = diag(γ, μ, μ̄), into a real and a complex system of the size of the
 //! model,
 //!
 //! ```text
-//! (M + hλ C + h²λ² K) w₁ = h²λ² (T⁻¹r)₁,   (M + hμ C + h²μ² K)(w₂ + i w₃) = h²μ² ((T⁻¹r)₂ + i (T⁻¹r)₃),   ΔQ = −T w
+//! (M + hγ C + h²γ² K) w₁ = h²γ² (T⁻¹r)₁,   (M + hμ C + h²μ² K)(w₂ + i w₃) = h²μ² ((T⁻¹r)₂ + i (T⁻¹r)₃),   ΔQ = −T w
 //! ```
 //!
 //! K, which the axial stiffness of a slender beam dominates, is carried along with the rotating sections (see
@@ -24,11 +24,11 @@
 //! of joints must converge as well: what a joint takes up moves nothing.
 //!
 //! Error estimate: the embedded formula of order 3 through f(y₀), filtered by the real system, in
-//! second-order form (γ₀ = λ):
+//! second-order form:
 //!
 //! ```text
-//! e_q = h² Σ (eᵀA²)ⱼ aⱼ,   e_v = h (γ₀ a₀ + Σ (eᵀA)ⱼ aⱼ)
-//! (M + hγ₀ C + h²γ₀² K) ε_v = M e_v − hγ₀ K e_q,   ε_q = e_q + hγ₀ ε_v
+//! e_q = h² Σ (eᵀA²)ⱼ aⱼ,   e_v = h (γ a₀ + Σ (eᵀA)ⱼ aⱼ)
+//! (M + hγ C + h²γ² K) ε_v = M e_v − hγ K e_q,   ε_q = e_q + hγ ε_v
 //! ```
 //!
 //! filtered a second time on a first or repeated step when it exceeds the tolerance. Errors are measured
@@ -55,23 +55,18 @@ mod stages;
 mod tolerance;
 
 use super::{
-    Checkpoint, Convergence, Counters, Info, Integrator, InvalidParameter, NotResumed, Progress, Span,
-    StepError, StepReport, hermite,
+    Attempt, Checkpoint, Convergence, Counters, Info, Integrator, InvalidParameter, NotResumed, Progress,
+    Span, StepError, StepReport, Stepper, hermite,
 };
-use crate::system::{Dynamics, Side, State};
+use crate::system::{Dynamics, State};
 use prediction::Prediction;
-use stages::Stages;
+use stages::{Stages, weights};
 pub use tolerance::Tolerance;
 
 /// Name as in a case file.
 const NAME: &str = "radau";
 
-/// Names of the stages' accelerations in a checkpoint.
-const STAGES: [&str; 3] = ["stage.1", "stage.2", "stage.3"];
-
-/// Rate of convergence below which the tangents serve the next step too, and a number of iterations that new ones would not
-/// make less.
-const REUSE_RATE: f64 = 0.03;
+/// A number of iterations that new tangents would not make less.
 const FEW: u32 = 2;
 
 /// Largest iteration error in units of the tolerance, and relative to the scales of the unknowns. An error that is small
@@ -81,25 +76,25 @@ const LARGEST_KAPPA: f64 = 1e-3;
 const LARGEST_ITERATION_ERROR: f64 = 1e-5;
 
 /// The 3-stage Radau IIA method. Its formulas head the source file.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Radau {
     info: Info,
     tolerance: Tolerance,
-    counters: Counters,
+}
+
+/// The method with its memory.
+struct RadauSteps {
+    tolerance: Tolerance,
     convergence: Convergence,
-    /// Iteration error of steps, and of those by which something is looked for: one that changes with the step from one
-    /// number of iterations to another makes a root that no step hits.
+    /// Newton tolerance of regular steps, and of trial steps during the location of events: a tolerance that depends on
+    /// the step makes the event function discontinuous.
     kappa: [f64; 2],
-    worst: usize,
-    /// Whether an attempt waits for `accept`, and whether any step was accepted since (re)start.
-    pending: bool,
-    first: bool,
-    /// Step of the attempt, and of the accepted step.
+    /// Steps of the attempt and of the last accepted one; none since a restart.
     attempt: f64,
-    accepted_step: f64,
+    accepted: Option<f64>,
     /// Size of an attempt from the same start that has converged.
     tried: Option<f64>,
-    work: Option<Stages>,
+    stages: Stages,
 }
 
 impl Radau {
@@ -117,24 +112,7 @@ impl Radau {
             let range = "≥ 0";
             return Err(InvalidParameter { parameter: "relative tolerance", value: relative, range });
         }
-        // Iteration error κ and rounding error, in units of the tolerance.
-        let size = tolerance.size();
-        let floor = 100.0 * f64::EPSILON / size;
-        let kappa = size.sqrt().min(LARGEST_KAPPA).min(LARGEST_ITERATION_ERROR / size).max(0.1 * floor);
-        Ok(Radau {
-            info: Info { name: NAME, order: 5, estimate_order: Some(3), implicit: true },
-            tolerance,
-            counters: Counters::default(),
-            convergence: Convergence::simplified(kappa, floor.max(kappa)),
-            kappa: [kappa, kappa.min(floor)],
-            worst: 0,
-            pending: false,
-            first: true,
-            attempt: 0.0,
-            accepted_step: 0.0,
-            tried: None,
-            work: None,
-        })
+        Ok(Radau { info: Info { name: NAME, order: 5, estimate_order: Some(3), implicit: true }, tolerance })
     }
 
     /// The tolerance of local errors.
@@ -143,65 +121,84 @@ impl Radau {
     }
 }
 
+/// Iteration error κ and rounding error, in units of the tolerance.
+fn iteration_errors(tolerance: Tolerance) -> [f64; 2] {
+    let size = tolerance.size();
+    let floor = 100.0 * f64::EPSILON / size;
+    let kappa = size.sqrt().min(LARGEST_KAPPA).min(LARGEST_ITERATION_ERROR / size).max(0.1 * floor);
+    [kappa, floor]
+}
+
 impl Integrator for Radau {
     fn info(&self) -> &Info {
         &self.info
     }
 
-    fn start(&mut self, system: &mut dyn Dynamics, state: &mut State, _step: f64) -> Result<(), StepError> {
-        self.counters = Counters::default();
-        self.convergence.reset();
-        if system.is_affine() {
-            // The iteration of an affine system does not become slow by anything but rounding.
-            self.convergence = self.convergence.with_noise(1.0);
-        }
-        self.work = Some(Stages::new(system, state, self.tolerance));
-        self.restart(system, state)
+    fn stepper(
+        &self,
+        system: &mut dyn Dynamics,
+        state: &mut State,
+        _step: f64,
+        counters: &mut Counters,
+    ) -> Result<Box<dyn Stepper>, StepError> {
+        let [kappa, floor] = iteration_errors(self.tolerance);
+        // The iteration of an affine system does not become slow by anything but rounding.
+        let noise = if system.is_affine() { 1.0 } else { floor.max(kappa) };
+        let mut steps = RadauSteps {
+            tolerance: self.tolerance,
+            convergence: Convergence::simplified(kappa, noise),
+            kappa: [kappa, kappa.min(floor)],
+            attempt: 0.0,
+            accepted: None,
+            tried: None,
+            stages: Stages::new(system, state, self.tolerance),
+        };
+        steps.restart(system, state, counters)?;
+        Ok(Box::new(steps))
     }
+}
 
+impl Stepper for RadauSteps {
     fn step(
         &mut self,
         system: &mut dyn Dynamics,
         from: &State,
-        span: Span,
+        (span, attempt): (Span, Attempt),
         to: &mut State,
+        counters: &mut Counters,
     ) -> Result<StepReport, StepError> {
-        let h = span.step;
-        (to.t, to.side) = (span.end, span.side);
-        let Some(work) = &mut self.work else {
-            return Err(StepError::NotStarted { method: NAME });
-        };
-        let repeated = self.pending;
-        self.counters.rejected += u64::from(repeated);
-        self.pending = true;
+        let (h, work) = (span.step, &mut self.stages);
+        let filter_twice = self.accepted.is_none() || attempt == Attempt::Repeated;
+        if attempt == Attempt::Trial {
+            self.convergence.aim(self.kappa[1]);
+        }
         self.attempt = h;
         work.set_error_weights(from, self.tolerance);
-        let last = self.accepted_step;
-        let again = if self.first { Prediction::Constant } else { Prediction::Extrapolated { last } };
+        let again = self.accepted.map_or(Prediction::Constant, |last| Prediction::Extrapolated { last });
         let tried = self.tried.take().filter(|last| h < 2.0 * last);
         let mut prediction = tried.map_or(again, |last| Prediction::Tried { last });
-        let mut renew = work.rate > REUSE_RATE;
+        let mut renew = work.kept.due;
         loop {
             work.predict(system, from, h, prediction);
             prediction = again;
             if std::mem::take(&mut renew) {
-                work.renew(system, (from, to), h, &mut self.counters);
+                work.renew(system, (from, to), h, counters);
             }
-            work.corotate(system, from);
-            if work.factored_step != h {
-                work.factor(system, from, h, &mut self.counters)?;
+            work.kept.rotate_to(system, from);
+            if work.kept.weights != weights(h) {
+                work.factor(system, from, h, counters)?;
             }
-            self.convergence.begin(work.fresh);
-            let (progress, size) =
-                work.iterate(system, (from, to), h, &mut self.convergence, &mut self.counters);
+            self.convergence.begin(work.kept.fresh);
+            let (progress, size) = work.iterate(system, (from, to), h, &mut self.convergence, counters);
             if progress == Progress::Converged {
                 let few = self.convergence.iterations() <= FEW;
-                work.rate = if few { 0.0 } else { self.convergence.rate().max(work.force_rate) };
+                let rate = self.convergence.rate().max(work.force_rate);
+                work.kept.judge_rate(if few { 0.0 } else { rate });
                 self.tried = Some(h);
                 break;
             }
             self.convergence.forget();
-            if !work.fresh {
+            if !work.kept.fresh {
                 renew = true;
                 continue;
             }
@@ -210,8 +207,7 @@ impl Integrator for Radau {
                 self.convergence.aim(self.kappa[0]);
                 continue;
             }
-            self.worst = work.worst_increment();
-            let worst = system.unknown(self.worst);
+            let worst = system.unknown(work.worst_increment());
             if !size.is_finite() {
                 return Err(StepError::NotFinite { time: from.t, step: h, worst });
             }
@@ -219,99 +215,48 @@ impl Integrator for Radau {
             return Err(StepError::NotConverged { time: from.t, step: h, iterations, size, worst });
         }
         work.finish(system, from, h, to);
-        let error = work.estimate(system, from, h, self.first || repeated, &mut self.counters);
-        self.worst = work.worst_error(h);
+        let error = work.estimate(system, from, h, filter_twice, counters);
+        let worst = work.worst_error(h);
         if !error.is_finite() {
-            let worst = system.unknown(self.worst);
-            return Err(StepError::NotFinite { time: from.t, step: h, worst });
+            return Err(StepError::NotFinite { time: from.t, step: h, worst: system.unknown(worst) });
         }
-        Ok(StepReport { iterations: self.convergence.iterations(), error: Some(error) })
-    }
-
-    fn discard(&mut self) {
-        self.pending = false;
-        self.convergence.aim(self.kappa[1]);
+        Ok(StepReport { iterations: self.convergence.iterations(), error: Some(error), worst })
     }
 
     fn accept(&mut self, _from: &State, _to: &State) {
         self.convergence.aim(self.kappa[0]);
-        (self.pending, self.first, self.tried) = (false, false, None);
-        self.accepted_step = self.attempt;
-        self.counters.steps += 1;
-        if let Some(work) = &mut self.work {
-            std::mem::swap(&mut work.a, &mut work.a_accepted);
-            std::mem::swap(&mut work.end, &mut work.end_accepted);
-            work.fresh = false;
-        }
+        (self.accepted, self.tried) = (Some(self.attempt), None);
+        self.stages.accept();
     }
 
     fn interpolate(&self, system: &dyn Dynamics, from: &State, to: &State, t: f64, out: &mut State) {
-        match &self.work {
-            Some(work) if work.write_stage(system, (from, to), t, out) => {}
-            Some(work) => {
-                hermite::quintic(system, from, to, &work.end_accepted, t, out);
-                work.interpolate_forces((t - from.t) / (to.t - from.t), out);
-            }
-            None => out.copy_from(to),
+        if !self.stages.write_stage(system, (from, to), t, out) {
+            hermite::quintic(system, from, to, &self.stages.end_accepted, t, out);
+            self.stages.interpolate_forces((t - from.t) / (to.t - from.t), out);
         }
     }
 
-    fn restart(&mut self, system: &mut dyn Dynamics, state: &mut State) -> Result<(), StepError> {
-        let Some(work) = &mut self.work else {
-            return Err(StepError::NotStarted { method: NAME });
-        };
-        (self.pending, self.first, self.tried) = (false, true, None);
+    fn restart(
+        &mut self,
+        system: &mut dyn Dynamics,
+        state: &mut State,
+        counters: &mut Counters,
+    ) -> Result<(), StepError> {
+        (self.accepted, self.tried) = (None, None);
         self.convergence.forget();
-        work.rate = f64::INFINITY;
-        state.side = Side::Right;
-        work.factored_step = f64::NAN;
-        let place = (state.t, 0.0);
-        let memory = (&mut work.real, &mut work.rhs);
-        work.accelerations.complete_in(memory, system, state, place, &mut self.counters)
+        self.stages.restart(system, state, counters)
     }
 
     fn save(&self, out: &mut Checkpoint) {
-        out.put("counters", &self.counters.to_numbers());
-        out.put("first", &[f64::from(u8::from(self.first)), self.accepted_step]);
+        out.put("accepted", &[self.accepted.unwrap_or(f64::NAN)]);
         out.put("convergence", &self.convergence.memory());
-        if let Some(work) = &self.work {
-            for (a, name) in work.a_accepted.iter().zip(STAGES) {
-                out.put(name, a);
-            }
-            out.put("factors", &[work.factored_step, work.rate]);
-            out.put_state("factors.", &work.place);
-        }
+        self.stages.save(out);
     }
 
     fn resume(&mut self, system: &mut dyn Dynamics, from: &Checkpoint) -> Result<(), NotResumed> {
-        let Some(work) = &mut self.work else {
-            return Err(NotResumed::Failed(format!("{NAME} was not started")));
-        };
-        let [first, accepted] = from.numbers("first")?;
-        (self.first, self.accepted_step) = (first != 0.0, accepted);
-        for (a, name) in work.a_accepted.iter_mut().zip(STAGES) {
-            from.fill(name, a)?;
-        }
-        let [step, rate] = from.numbers("factors")?;
-        if step.is_finite() {
-            // The same tangents at the same place have the same factors.
-            from.fill_state("factors.", &mut work.place)?;
-            work.assemble(system, &mut self.counters);
-            let place = work.place.clone();
-            let factored = work.factor(system, &place, step, &mut self.counters);
-            factored.map_err(|error| NotResumed::Failed(error.to_string()))?;
-            (work.rate, work.fresh) = (rate, false);
-        }
+        let [accepted] = from.numbers("accepted")?;
+        self.accepted = Some(accepted).filter(|step| step.is_finite());
         self.convergence.recall(from.numbers("convergence")?);
-        self.counters = Counters::from_numbers(from.numbers("counters")?);
-        Ok(())
-    }
-
-    fn worst(&self) -> usize {
-        self.worst
-    }
-
-    fn counters(&self) -> Counters {
-        self.counters
+        self.stages.resume(system, from)
     }
 }

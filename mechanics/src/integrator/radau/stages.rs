@@ -1,10 +1,10 @@
 //! The stages of one Radau step: starting values, iteration, end, error estimate.
 
 use super::super::acceleration::Accelerations;
+use super::super::kept::{KeptTangent, corotation};
 use super::super::rows::Rows;
-use super::super::{Convergence, Counters, Progress, StepError, corotation, failure};
-use super::coefficients::{A, A_INVERSE, A2, A2_INVERSE, C, E_Q, E_V, LAMBDA, MU, T, T_INVERSE, lagrange};
-use super::prediction::Prediction;
+use super::super::{Checkpoint, Convergence, Counters, NotResumed, Progress, StepError, failure};
+use super::coefficients::{A, A_INVERSE, A2, A2_INVERSE, C, E_Q, E_V, GAMMA, MU, T, T_INVERSE, lagrange};
 use super::tolerance::Tolerance;
 use crate::linalg::Matrix;
 use crate::system::{Corotation, Dynamics, Mode, RowWeights, Set, Side, State, Weights, is_active};
@@ -14,36 +14,36 @@ use num_complex::Complex64;
 /// 22 from step to step, and it must not grow. Control would take it for an error of the step, the same in every shorter one.
 const STABLE: f64 = 0.02;
 
+/// Names of the stages' accelerations in a checkpoint.
+const NAMES: [&str; 3] = ["stage.1", "stage.2", "stage.3"];
+
 /// Difference of two parts of a step that are the same but for rounding.
 const SAME: f64 = 1e-9;
+
+/// What stands for the step in kept factors: they serve a step of the very same size.
+pub(super) fn weights(h: f64) -> [f64; 2] {
+    [h, h * h]
+}
 
 /// Unknowns, matrices and buffers of a step: what `start` allocates for a system.
 #[derive(Debug)]
 pub(super) struct Stages {
-    pub(super) accelerations: Accelerations,
+    accelerations: Accelerations,
     rows: Rows,
-    flat: bool,
+    pub(super) is_vector_space: bool,
     /// Increments D of the stages, their rates Ḋ, and the scaled square of their last change, where the configuration is
     /// no vector space.
-    increments: [Vec<f64>; 3],
-    rates: [Vec<f64>; 3],
+    pub(super) increments: [Vec<f64>; 3],
+    pub(super) rates: [Vec<f64>; 3],
     shift: f64,
-    /// M, C and K, and how the sections have rotated since: at the start of the step and at the stages.
+    /// M, C and K, kept, and how the sections have rotated since: at the start of the step and at the stages.
     mass: Matrix,
     damping: Matrix,
     stiffness: Matrix,
-    corotation: Corotation,
+    pub(super) kept: KeptTangent,
     stage_corotation: [Corotation; 3],
-    pub(super) real: Matrix,
+    real: Matrix,
     complex: Matrix<Complex64>,
-    /// Step of the factors; NaN when there are none.
-    pub(super) factored_step: f64,
-    /// Where the tangents were assembled.
-    pub(super) place: State,
-    /// Whether the tangents belong to the start of this step.
-    pub(super) fresh: bool,
-    /// Last rate of convergence with these tangents; infinite when there are none.
-    pub(super) rate: f64,
     scale: Vec<f64>,
     inverse_weight: Vec<f64>,
     /// Largest change of a joint's multiplier in an iteration, over the largest multiplier, and what it may be. (Those of several
@@ -57,7 +57,7 @@ pub(super) struct Stages {
     /// Stage accelerations of the attempt and of the accepted step; q₁ ⊟ q₀ likewise.
     pub(super) a: [Vec<f64>; 3],
     pub(super) a_accepted: [Vec<f64>; 3],
-    pub(super) end: Vec<f64>,
+    end: Vec<f64>,
     pub(super) end_accepted: Vec<f64>,
     r: [Vec<f64>; 3],
     z: Vec<Complex64>,
@@ -67,7 +67,7 @@ pub(super) struct Stages {
     source: Vec<f64>,
     product: Vec<f64>,
     rotated: Vec<f64>,
-    pub(super) rhs: Vec<f64>,
+    rhs: Vec<f64>,
 }
 
 impl Stages {
@@ -80,21 +80,17 @@ impl Stages {
         Stages {
             accelerations: Accelerations::borrowing(system, state, RowWeights::ACCELERATION),
             rows: Rows::new(system, state),
-            flat: system.is_vector_space(),
+            is_vector_space: system.is_vector_space(),
             increments: three(),
             rates: three(),
             shift: 0.0,
             mass: Matrix::new(&structure),
             damping: Matrix::new(&structure),
             stiffness: Matrix::new(&structure),
-            corotation: corotation(system, state),
+            kept: KeptTangent::new(system, state),
             stage_corotation: [(); 3].map(|()| corotation(system, state)),
             real: Matrix::new(&structure),
             complex: Matrix::new(&structure),
-            factored_step: f64::NAN,
-            place: State::zeros(size, 0.0),
-            fresh: false,
-            rate: f64::INFINITY,
             scale: system.scales().to_vec(),
             inverse_weight: vec![0.0; size.v],
             forces: 0.0,
@@ -117,11 +113,54 @@ impl Stages {
         }
     }
 
+    /// Keeps the stages of the attempt.
+    pub(super) fn accept(&mut self) {
+        std::mem::swap(&mut self.a, &mut self.a_accepted);
+        std::mem::swap(&mut self.end, &mut self.end_accepted);
+        self.kept.fresh = false;
+    }
+
+    /// Forgets the tangents, and completes `state`.
+    pub(super) fn restart(
+        &mut self,
+        system: &mut dyn Dynamics,
+        state: &mut State,
+        counters: &mut Counters,
+    ) -> Result<(), StepError> {
+        self.kept.forget(true);
+        let memory = (&mut self.real, &mut self.rhs);
+        self.accelerations.complete_in(memory, system, state, (state.t, 0.0), counters)
+    }
+
+    pub(super) fn save(&self, out: &mut Checkpoint) {
+        for (a, name) in self.a_accepted.iter().zip(NAMES) {
+            out.put(name, a);
+        }
+        self.kept.save(out);
+    }
+
+    /// What [`Stages::save`] wrote: the same tangents at the same place have the same factors.
+    pub(super) fn resume(&mut self, system: &mut dyn Dynamics, from: &Checkpoint) -> Result<(), NotResumed> {
+        for (a, name) in self.a_accepted.iter_mut().zip(NAMES) {
+            from.fill(name, a)?;
+        }
+        self.kept.resume(from)?;
+        let [step, _] = self.kept.weights;
+        if step.is_finite() {
+            let (mut counters, place) = (Counters::default(), self.kept.place.clone());
+            self.assemble(system, &mut counters);
+            let factored = self.factor(system, &place, step, &mut counters);
+            factored.map_err(|error| NotResumed::Failed(error.to_string()))?;
+            self.kept.resume(from)?;
+        }
+        Ok(())
+    }
+
     /// Weights of the norms, 1/(absolute·scale + relative·|q|).
     pub(super) fn set_error_weights(&mut self, from: &State, tolerance: Tolerance) {
         for (i, w) in self.inverse_weight.iter_mut().enumerate() {
             *w = 1.0
-                / if self.flat {
+                / if self.is_vector_space {
                     tolerance.absolute * self.scale[i] + tolerance.relative * from.q[i].abs()
                 } else {
                     // Off a vector space q is not the size of what d changes.
@@ -139,24 +178,19 @@ impl Stages {
         counters: &mut Counters,
     ) {
         self.set_stage(system, (from, to), h, 1);
-        self.place.copy_from(&self.stage);
+        self.kept.place.copy_from(&self.stage);
         self.assemble(system, counters);
     }
 
     /// Assembles the tangents at their place.
-    pub(super) fn assemble(&mut self, system: &mut dyn Dynamics, counters: &mut Counters) {
-        system.tangent(&self.place, Weights::new(1.0, 0.0, 0.0), &mut self.mass);
-        system.tangent(&self.place, Weights::new(0.0, 1.0, 0.0), &mut self.damping);
-        system.tangent(&self.place, Weights::new(0.0, 0.0, 1.0), &mut self.stiffness);
+    fn assemble(&mut self, system: &mut dyn Dynamics, counters: &mut Counters) {
+        let place = &self.kept.place;
+        system.tangent(place, Weights::new(1.0, 0.0, 0.0), &mut self.mass);
+        system.tangent(place, Weights::new(0.0, 1.0, 0.0), &mut self.damping);
+        system.tangent(place, Weights::new(0.0, 0.0, 1.0), &mut self.stiffness);
         counters.tangents += 3;
-        self.factored_step = f64::NAN;
-        self.fresh = true;
-        self.rate = 0.0;
-    }
-
-    /// Rotates the tangents with the sections, to the start of the step.
-    pub(super) fn corotate(&mut self, system: &dyn Dynamics, from: &State) {
-        system.corotate(&self.place, from, &mut self.corotation);
+        self.kept.weights = [f64::NAN; 2];
+        self.kept.renewed();
     }
 
     /// Factors of the tangents for steps of size `h`.
@@ -167,68 +201,22 @@ impl Stages {
         h: f64,
         counters: &mut Counters,
     ) -> Result<(), StepError> {
-        self.factored_step = f64::NAN;
+        self.kept.weights = [f64::NAN; 2];
         let terms = [&self.mass, &self.damping, &self.stiffness];
-        let (h_gamma, mu) = (h * LAMBDA, Complex64::new(h * MU[0], h * MU[1]));
+        let (h_gamma, h_mu) = (h * GAMMA, Complex64::new(h * MU[0], h * MU[1]));
         self.real.combine(terms, [1.0, h_gamma, h_gamma * h_gamma]);
-        self.complex.combine(terms, [Complex64::ONE, mu, mu * mu]);
+        self.complex.combine(terms, [Complex64::ONE, h_mu, h_mu * h_mu]);
         if !self.rows.is_empty() {
             let n = from.v.len();
-            self.rows.add_border(system, &self.place, n, &mut self.real);
-            self.rows.add_border(system, &self.place, n, &mut self.complex);
+            self.rows.add_border(system, &self.kept.place, n, &mut self.real);
+            self.rows.add_border(system, &self.kept.place, n, &mut self.complex);
         }
         let error = |cause| failure::singular(system, from.t, h, cause);
         let real = self.real.factor().map_err(error)?;
         let complex = self.complex.factor().map_err(error)?;
         counters.factorizations += u64::from(real) + u64::from(complex);
-        self.factored_step = h;
+        self.kept.weights = weights(h);
         Ok(())
-    }
-
-    /// Starting values: the polynomial of the last attempt from here, or of the last step, or the acceleration at the start.
-    pub(super) fn predict(&mut self, system: &dyn Dynamics, from: &State, h: f64, start: Prediction) {
-        match start {
-            Prediction::Constant => {
-                for x in &mut self.a {
-                    let (a, lambda) = x.split_at_mut(from.a.len());
-                    a.copy_from_slice(&from.a);
-                    lambda.copy_from_slice(&from.lambda);
-                }
-            }
-            Prediction::Extrapolated { last } => {
-                for (a, accepted) in self.a.iter_mut().zip(&self.a_accepted) {
-                    a.copy_from_slice(accepted);
-                }
-                self.continue_polynomial(1.0, h / last);
-            }
-            Prediction::Tried { last } => self.continue_polynomial(0.0, h / last),
-        }
-        if !self.flat {
-            self.start_rates(from, h);
-            // Their first changes are not those of Newton's iterations.
-            for i in 0..6 {
-                self.set_motion(system, from, h, i % 3);
-            }
-        }
-    }
-
-    /// The polynomial through the stages of a step at those of one that is `steps` times as long and begins at the part `start` of it.
-    fn continue_polynomial(&mut self, start: f64, steps: f64) {
-        let weights = C.map(|c| lagrange(start + c * steps));
-        let [a1, a2, a3] = &mut self.a;
-        for i in 0..a1.len() {
-            let old = [a1[i], a2[i], a3[i]];
-            [a1[i], a2[i], a3[i]] = weights.map(|l| l[0] * old[0] + l[1] * old[1] + l[2] * old[2]);
-        }
-    }
-
-    /// Increments and their rates, as on a vector space at first.
-    fn start_rates(&mut self, from: &State, h: f64) {
-        for ((rate, increment), c) in self.rates.iter_mut().zip(&mut self.increments).zip(C) {
-            for i in 0..from.v.len() {
-                (rate[i], increment[i]) = (from.v[i], c * h * from.v[i]);
-            }
-        }
     }
 
     /// Simplified Newton iterations; returns the verdict and the size of the last increment.
@@ -241,15 +229,18 @@ impl Stages {
         counters: &mut Counters,
     ) -> (Progress, f64) {
         let n = from.v.len() + from.lambda.len();
-        let (h_gamma, mu) = (h * LAMBDA, Complex64::new(h * MU[0], h * MU[1]));
-        let (h_gamma, mu) = (h_gamma * h_gamma, mu * mu);
+        // h²γ² and h²μ².
+        let (real_part, complex_part) = {
+            let (h_gamma, h_mu) = (h * GAMMA, Complex64::new(h * MU[0], h * MU[1]));
+            (h_gamma * h_gamma, h_mu * h_mu)
+        };
         loop {
             self.shift = 0.0;
             let before = self.forces;
             for i in 0..3 {
                 self.set_stage(system, (from, to), h, i);
                 if convergence.iterations() == 0 {
-                    system.corotate(&self.place, &self.stage, &mut self.stage_corotation[i]);
+                    system.corotate(&self.kept.place, &self.stage, &mut self.stage_corotation[i]);
                 }
                 let (motion, rows) = self.r[i].split_at_mut(from.v.len());
                 system.residual(&self.stage, motion);
@@ -264,9 +255,9 @@ impl Stages {
             let [p, q, s] = &T_INVERSE;
             for i in 0..n {
                 let (x, y, z) = (r1[i], r2[i], r3[i]);
-                self.rhs[i] = h_gamma * (p[0] * x + p[1] * y + p[2] * z);
-                self.z[i] =
-                    mu * Complex64::new(q[0] * x + q[1] * y + q[2] * z, s[0] * x + s[1] * y + s[2] * z);
+                self.rhs[i] = real_part * (p[0] * x + p[1] * y + p[2] * z);
+                self.z[i] = complex_part
+                    * Complex64::new(q[0] * x + q[1] * y + q[2] * z, s[0] * x + s[1] * y + s[2] * z);
             }
             self.real.solve(&mut self.rhs);
             self.complex.solve(&mut self.z);
@@ -282,25 +273,18 @@ impl Stages {
                 Progress::Converged
                     if convergence.iterations() == 1
                         && size > 0.0
-                        && (!self.flat || convergence.eta() > STABLE) => {}
+                        && (!self.is_vector_space || convergence.eta() > STABLE) => {}
                 // What a joint takes up moves nothing: its forces converge on their own, or not where they have turned away from
                 // the tangents. With new ones they do, down to rounding errors.
                 Progress::Converged if self.forces > self.allowed_forces => {
                     if self.force_rate > 0.5 {
-                        let verdict = if self.fresh { Progress::Converged } else { Progress::Diverged };
+                        let verdict = if self.kept.fresh { Progress::Converged } else { Progress::Diverged };
                         return (verdict, size);
                     }
                 }
                 other => return (other, size),
             }
         }
-    }
-
-    /// Solves the real system for `rhs`.
-    fn solve_real(&mut self) {
-        self.corotation.rotate_back(&mut self.rhs);
-        self.real.solve(&mut self.rhs);
-        self.corotation.rotate(&mut self.rhs);
     }
 
     /// Writes (hA)⁻¹ ġ of the three stages in the place of ġ, for the rows that impose it.
@@ -317,18 +301,18 @@ impl Stages {
     }
 
     /// Sets the velocity and the increment of stage `i`. Off a vector space Dᵢ = h Σ Aᵢⱼ Ḋⱼ, with the rates of the last iteration.
-    fn set_motion(&mut self, system: &dyn Dynamics, from: &State, h: f64, i: usize) {
+    pub(super) fn set_motion(&mut self, system: &dyn Dynamics, from: &State, h: f64, i: usize) {
         let n = from.v.len();
         let [a1, a2, a3] = &self.a;
         let (a1, a2, a3) = (&a1[..n], &a2[..n], &a3[..n]);
         let (row, row2) = (A[i].map(|x| h * x), A2[i].map(|x| h * h * x));
-        let h_gamma = h * C[i];
+        let elapsed = h * C[i];
         let (v, d) = (&mut self.stage.v[..n], &mut self.increment[..n]);
         for k in 0..n {
             v[k] = from.v[k] + row[0] * a1[k] + row[1] * a2[k] + row[2] * a3[k];
-            d[k] = h_gamma * from.v[k] + row2[0] * a1[k] + row2[1] * a2[k] + row2[2] * a3[k];
+            d[k] = elapsed * from.v[k] + row2[0] * a1[k] + row2[1] * a2[k] + row2[2] * a3[k];
         }
-        if !self.flat {
+        if !self.is_vector_space {
             system.rate(&from.q, &self.increments[i][..n], &self.stage.v, &mut self.rates[i][..n]);
             for k in 0..n {
                 let d: f64 = (0..3).map(|j| row[j] * self.rates[j][k]).sum();
@@ -341,14 +325,13 @@ impl Stages {
     /// Sets the stage state to stage `i`.
     fn set_stage(&mut self, system: &dyn Dynamics, (from, to): (&State, &State), h: f64, i: usize) {
         self.set_motion(system, from, h, i);
-        let (n, h_gamma) = (from.v.len(), h * C[i]);
-        let (a, lambda) = self.a[i].split_at(n);
+        let (a, lambda) = self.a[i].split_at(from.v.len());
         self.stage.a.copy_from_slice(a);
         self.stage.lambda.copy_from_slice(lambda);
         self.stage.copy_modes(from);
         // The last stage is the end of the step, with its side.
         (self.stage.t, self.stage.side) =
-            if i == 2 { (to.t, to.side) } else { (from.t + h_gamma, Side::Right) };
+            if i == 2 { (to.t, to.side) } else { (from.t + h * C[i], Side::Right) };
         system.retract(&from.q, &self.increment, &mut self.stage.q);
     }
 
@@ -365,7 +348,7 @@ impl Stages {
         for (d, corotation) in [&mut *d1, &mut *d2, &mut *d3].into_iter().zip(&self.stage_corotation) {
             corotation.rotate(d);
         }
-        if !self.flat {
+        if !self.is_vector_space {
             for (increment, d) in self.increments.iter_mut().zip([&*d1, &*d2, &*d3]) {
                 increment.iter_mut().zip(d).for_each(|(x, d)| *x -= d);
             }
@@ -396,7 +379,7 @@ impl Stages {
             a2[i] -= inverse * y;
             a3[i] -= inverse * z;
             let speed = rows(&A_INVERSE, d);
-            if !self.flat {
+            if !self.is_vector_space {
                 // The rates of later stages are not yet those of the new velocities.
                 self.rates.iter_mut().zip(speed).for_each(|(rate, x)| rate[i] -= x / h);
             }
@@ -438,7 +421,7 @@ impl Stages {
                         rows[k] = 0.0;
                     }
                 }
-                self.solve_real();
+                self.kept.solve(&mut self.real, &mut self.rhs);
                 let x = &self.rhs[..n];
                 let close = |(x, scale): (&f64, &f64)| x.abs() <= f64::EPSILON * scale;
                 let done = x.iter().zip(&self.scale).all(close);
@@ -473,7 +456,11 @@ impl Stages {
             |row: [f64; 3], k: usize| row[0] * stages[0][k] + row[1] * stages[1][k] + row[2] * stages[2][k];
         for k in 0..n {
             // The acceleration's slot holds the increment until the configuration is retracted.
-            out.a[k] = if self.flat { C[i] * h * from.v[k] + along(row2, k) } else { self.increments[i][k] };
+            out.a[k] = if self.is_vector_space {
+                C[i] * h * from.v[k] + along(row2, k)
+            } else {
+                self.increments[i][k]
+            };
             out.v[k] = from.v[k] + along(row, k);
         }
         system.retract(&from.q, &out.a, &mut out.q);
@@ -506,11 +493,11 @@ impl Stages {
         counters: &mut Counters,
     ) -> f64 {
         let n = from.v.len();
-        let h_gamma = h * LAMBDA;
+        let h_gamma = h * GAMMA;
         let [a1, a2, a3] = &self.a;
         for i in 0..n {
             self.error_q[i] = h * h * (E_Q[0] * a1[i] + E_Q[1] * a2[i] + E_Q[2] * a3[i]);
-            self.error_v[i] = h * (LAMBDA * from.a[i] + E_V[0] * a1[i] + E_V[1] * a2[i] + E_V[2] * a3[i]);
+            self.error_v[i] = h * (GAMMA * from.a[i] + E_V[0] * a1[i] + E_V[1] * a2[i] + E_V[2] * a3[i]);
         }
         self.mass.multiply(&self.error_v, &mut self.source);
         counters.solves += 1;
@@ -520,8 +507,8 @@ impl Stages {
         if !filter_twice || error < 1.0 {
             return error.max(1e-10);
         }
-        // Once more, through f at the estimate: M e_v′ = M e_v − γ₀ h r(q₀ ⊞ ε_q, v₀ + ε_v, a₀),
-        // e_q′ = e_q + γ₀ h ε_v = ε_q.
+        // Once more, through f at the estimate: M e_v′ = M e_v − γ h r(q₀ ⊞ ε_q, v₀ + ε_v, a₀),
+        // e_q′ = e_q + γh ε_v = ε_q.
         for i in 0..n {
             self.stage.v[i] = from.v[i] + self.error_v[i];
         }
@@ -543,17 +530,15 @@ impl Stages {
     /// `rhs` = `source` − `h_gamma`·K e_q
     fn subtract_stiffness_times_error(&mut self, h_gamma: f64) {
         self.rotated.copy_from_slice(&self.error_q);
-        self.corotation.rotate_back(&mut self.rotated);
-        self.stiffness.multiply(&self.rotated, &mut self.product);
-        self.corotation.rotate(&mut self.product);
+        self.kept.multiply(&self.stiffness, &mut self.rotated, &mut self.product);
         for ((rhs, source), product) in self.rhs.iter_mut().zip(&self.source).zip(&self.product) {
             *rhs = source - h_gamma * product;
         }
     }
 
-    /// ε_v from `rhs`, ε_q = e_q + hγ₀ ε_v.
+    /// ε_v from `rhs`, ε_q = e_q + hγ ε_v.
     fn filter(&mut self, h_gamma: f64) {
-        self.solve_real();
+        self.kept.solve(&mut self.real, &mut self.rhs);
         self.error_v.copy_from_slice(&self.rhs);
         for (q, v) in self.error_q.iter_mut().zip(&self.error_v) {
             *q += h_gamma * v;
@@ -570,7 +555,7 @@ impl Stages {
 
     /// Unknown with the largest scaled error.
     pub(super) fn worst_error(&self, h: f64) -> usize {
-        largest(
+        failure::largest(
             (0..self.inverse_weight.len())
                 .map(|i| self.inverse_weight[i] * (self.error_q[i].abs() + h * self.error_v[i].abs())),
         )
@@ -578,23 +563,9 @@ impl Stages {
 
     /// Unknown with the largest scaled increment.
     pub(super) fn worst_increment(&self) -> usize {
-        largest(
+        failure::largest(
             (0..self.inverse_weight.len())
                 .map(|i| self.inverse_weight[i] * (self.rhs[i].abs() + self.z[i].norm())),
         )
     }
-}
-
-/// Index of the largest number, or of the first that is none.
-fn largest(sizes: impl Iterator<Item = f64>) -> usize {
-    let mut found = (0, 0.0);
-    for (i, size) in sizes.enumerate() {
-        if size.is_nan() {
-            return i;
-        }
-        if size > found.1 {
-            found = (i, size);
-        }
-    }
-    found.0
 }

@@ -86,10 +86,12 @@ fn combine(vectors: &[Vec<f64>], coefficients: &[f64]) -> Vec<f64> {
 }
 
 /// The eigenpairs to find.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub(super) struct Search<'a> {
-    /// Number of the largest eigenpairs; of conjugate pairs both count as one.
+    /// Number of the largest eigenpairs that count; of conjugate pairs both count as one.
     pub wanted: usize,
+    /// Whether an eigenvalue θ counts.
+    pub counts: &'a dyn Fn(Complex64) -> bool,
     pub projection: Projection,
     /// Relative error estimate |A z − θ z|/|θ| at which an eigenvalue has converged.
     pub tolerance: f64,
@@ -99,10 +101,13 @@ pub(super) struct Search<'a> {
     pub seed: u64,
 }
 
-/// Result: the largest eigenpairs in the coefficients of a space, and how many of them have converged.
+/// Result: the largest eigenpairs in the coefficients of a space, those that do not count as far as they have converged; and how many
+/// that count have converged.
 pub(super) struct Found {
     pub space: Space,
     pub pairs: Vec<Ritz>,
+    /// Number of pairs that count.
+    pub counting: usize,
     pub converged: usize,
 }
 
@@ -124,7 +129,7 @@ pub(super) fn krylov(
     locked: &Space,
     search: Search<'_>,
 ) -> Result<Found, EigenError> {
-    let Search { wanted, projection, tolerance, start, seed } = search;
+    let Search { wanted, counts, projection, tolerance, start, seed } = search;
     let n = operator.dimension();
     let copies = if projection == Projection::Symmetric { 1 } else { 2 };
     let limit = (copies * (8 * wanted + 120)).min(n);
@@ -152,9 +157,9 @@ pub(super) fn krylov(
         norm(w, dual_w) > 1e-10 * before
     };
     if !begin(operator, &space, &mut w, &mut dual_w) {
-        return Ok(Found { space, pairs: Vec::new(), converged: wanted });
+        return Ok(Found { space, pairs: Vec::new(), counting: 0, converged: wanted });
     }
-    let mut largest: f64 = 0.0;
+    let (mut largest, mut last): (f64, Option<(Vec<Ritz>, usize, usize)>) = (0.0, None);
     loop {
         space.push(w.clone(), dual_w.clone());
         let m = space.vectors.len();
@@ -170,6 +175,8 @@ pub(super) fn krylov(
             if h[m] > 0.1 * before {
                 break;
             }
+            // Cancellation leaves rounding errors of the dual that are not those of the vector.
+            operator.dual(&w, &mut dual_w);
         }
         if !before.is_finite() {
             return Err(EigenError::Projection(m));
@@ -187,18 +194,37 @@ pub(super) fn krylov(
         let ritz = match projection {
             Projection::Symmetric => symmetric(&columns),
             Projection::Skew => skew(&columns),
-            Projection::Hessenberg => hessenberg(&columns)?,
+            Projection::Hessenberg => match (hessenberg(&columns), last.take()) {
+                (Ok(ritz), _) => ritz,
+                // The iteration for the eigenvalues of a projected matrix may fail where the last one was solved.
+                (Err(_), Some((pairs, counting, converged))) => {
+                    return Ok(Found { space, pairs, counting, converged });
+                }
+                (Err(error), None) => return Err(error),
+            },
         };
         // Of a conjugate pair the one in the upper half plane of λ, that is below the real axis of θ, counts.
-        let counted: Vec<Ritz> =
-            ritz.into_iter().filter(|r| projection == Projection::Symmetric || r.value.im <= 0.0).collect();
+        let upper = ritz.into_iter().filter(|r| projection == Projection::Symmetric || r.value.im <= 0.0);
         let good = |r: &Ritz| r.error <= tolerance * r.value.norm();
-        let converged = counted.iter().take(wanted).take_while(|r| good(r)).count();
+        let mut pairs: Vec<Ritz> = Vec::new();
+        let (mut number, mut converged) = (0, 0);
+        for r in upper {
+            if counts(r.value) {
+                if number == wanted {
+                    break;
+                }
+                converged += usize::from(converged == number && good(&r));
+                number += 1;
+            } else if !good(&r) {
+                continue;
+            }
+            pairs.push(r);
+        }
         if converged >= wanted || exhausted || m >= limit {
             let converged = if exhausted { wanted } else { converged };
-            let pairs = counted.into_iter().take(wanted).collect();
-            return Ok(Found { space, pairs, converged });
+            return Ok(Found { space, pairs, counting: number, converged });
         }
+        last = Some((pairs, number, converged));
     }
 }
 
@@ -208,7 +234,8 @@ pub(super) fn krylov(
 /// # Errors
 /// [`EigenError::Projection`] for numbers that are not finite.
 pub fn largest(operator: &mut dyn Operator, tolerance: f64) -> Result<f64, EigenError> {
-    let search = Search { wanted: 1, projection: Projection::Symmetric, tolerance, start: None, seed: 0 };
+    let projection = Projection::Symmetric;
+    let search = Search { wanted: 1, counts: &|_| true, projection, tolerance, start: None, seed: 0 };
     let found = krylov(operator, &Space::default(), search)?;
     Ok(found.pairs.first().map_or(0.0, |pair| pair.value.re))
 }

@@ -7,9 +7,9 @@
 //! |---|---|---|---|
 //! | C = 0, M and K symmetric | K⁻¹ M | xᵀ M x′ | symmetric |
 //! | C skew, M ≥ 0 and K > 0 symmetric | (x, y) ↦ (−K⁻¹(C x + M y), x) | xᵀ K x′ + yᵀ M y′ | skew |
-//! | others | (x, y) ↦ (−Q(σ)⁻¹(C x + M (σ x + y)), x + σ·…) | s² xᵀ M x′ + yᵀ M y′ | Hessenberg |
+//! | others | (x, y) ↦ (−Q(σ)⁻¹(C x + M (σ x + y)), x + σ·…) | xᵀ (s² M + s D) x′ + yᵀ M y′ | Hessenberg |
 //!
-//! with y = λ x. In the energy product of the second row the inverse of a conservative gyroscopic system is skew:
+//! with y = λ x and D = ½ (C + Cᵀ). In the energy product of the second row the inverse of a conservative gyroscopic system is skew:
 //! its eigenvalues stay on the imaginary axis to the last digit. The dual K x of a vector is known before x is, so
 //! that K itself multiplies nothing.
 //!
@@ -30,7 +30,7 @@ mod small;
 
 pub use krylov::largest;
 pub use operators::Operator;
-pub use pencil::{Kind, Pencil, UNCERTAIN, certain_directions, each, is_symmetric, negative_directions};
+pub use pencil::{Kind, Pencil, UNCERTAIN, each, is_symmetric, negative_directions};
 
 use super::Singular;
 use num_complex::Complex64;
@@ -48,6 +48,7 @@ pub struct Pair {
 
 /// Why eigenpairs were not found.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum EigenError {
     /// The shifted matrix cannot be factored.
     #[error("the {0}")]

@@ -1,7 +1,8 @@
 //! The inverse operators whose largest eigenvalues are computed. The dual of a vector gives the inner product.
 
-use super::Pencil;
-use crate::linalg::vector::{dot, noise, scale};
+use super::{Pencil, each};
+use crate::linalg::Matrix;
+use crate::linalg::vector::{axpy, dot, noise, scale};
 
 /// A linear operator with an inner product ⟨z, z′⟩ = z · dual(z′).
 pub trait Operator {
@@ -62,9 +63,11 @@ impl Operator for Gyroscopic<'_> {
     }
 }
 
-/// (x, y) ↦ (w, x + σ w) with Q(σ) w = −(C x + M (σ x + y)), and the dual (s² M x, M y).
+/// (x, y) ↦ (w, x + σ w) with Q(σ) w = −(C x + M (σ x + y)), and the dual (s² M x + s D x, M y) with the dissipation D, the symmetric
+/// part of C where its diagonal is not negative: M alone does not bound C x of directions that are damped and have little mass.
 pub(super) struct General<'a> {
     pencil: &'a mut Pencil,
+    dissipation: Option<Matrix>,
     /// s², about the square of the lowest frequency: makes both halves of a vector comparable.
     scale: f64,
 }
@@ -82,7 +85,9 @@ impl<'a> General<'a> {
             pencil.mass().multiply(&x, &mut mx);
             scale = (before / dot(&x, &mx)).sqrt();
         }
-        General { pencil, scale: if scale.is_finite() && scale > 0.0 { scale } else { 1.0 } }
+        let scale = if scale.is_finite() && scale > 0.0 { scale } else { 1.0 };
+        let dissipation = if pencil.is_conservative() { None } else { symmetric_part(pencil.damping()) };
+        General { pencil, dissipation, scale }
     }
 
     fn duals(&self, w: &[f64], dual: &mut [f64]) {
@@ -90,8 +95,20 @@ impl<'a> General<'a> {
         let (dual_x, dual_y) = dual.split_at_mut(n);
         self.pencil.mass().multiply(&w[..n], dual_x);
         scale(self.scale, dual_x);
+        if let Some(dissipation) = &self.dissipation {
+            dissipation.multiply(&w[..n], dual_y);
+            axpy(self.scale.sqrt(), dual_y, dual_x);
+        }
         self.pencil.mass().multiply(&w[n..], dual_y);
     }
+}
+
+/// ½ (C + Cᵀ), unless its diagonal has a negative entry.
+fn symmetric_part(c: &Matrix) -> Option<Matrix> {
+    let mut out = c.clone();
+    out.clear();
+    each(c, |i, j| out.add(i, j, 0.5 * (c.get(i, j) + c.get(j, i))));
+    (0..c.order()).all(|i| out.get(i, i) >= 0.0).then_some(out)
 }
 
 impl Operator for General<'_> {
@@ -104,8 +121,12 @@ impl Operator for General<'_> {
         let shift = self.pencil.shift();
         let (wx, wy) = w.split_at_mut(n);
         self.pencil.damping().multiply(&z[..n], wx);
-        for (i, f) in wx.iter_mut().enumerate() {
-            *f = -(*f + shift / self.scale * dual[i] + dual[n + i]);
+        if shift != 0.0 {
+            self.pencil.mass().multiply(&z[..n], wy);
+            axpy(shift, wy, wx);
+        }
+        for (f, my) in wx.iter_mut().zip(&dual[n..]) {
+            *f = -(*f + my);
         }
         self.pencil.solve(wx);
         for ((wy, wx), x) in wy.iter_mut().zip(wx.iter()).zip(&z[..n]) {

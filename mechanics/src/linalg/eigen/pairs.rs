@@ -2,12 +2,20 @@
 
 use super::krylov::{Projection, Search, Space, TOLERANCE, krylov};
 use super::operators::{General, Gyroscopic, Symmetric};
-use super::{EigenError, Kind, Pair, Pencil};
+use super::{EigenError, Kind, Pair, Pencil, UNCERTAIN};
 use num_complex::Complex64;
+
+/// Growth |Re λ|/|λ| of a conservative vibration that rounding makes.
+const NOISE: f64 = 1e-7;
+/// |Im λ|/|λ| below which an eigenvalue counts as real: √ε of a double one, and some.
+const REAL: f64 = 1e-6;
+/// Relative difference of eigenvalues that count as one.
+const EQUAL: f64 = 1e-6;
 
 impl Pencil {
     /// At least `count` eigenpairs next to the shift (fewer if there are fewer), ascending in |λ|, Im λ ≥ 0. Of a real
-    /// pair ±λ of a symmetric pencil the growing one is given. `near` are approximate pairs, with which a conservative
+    /// pair ±λ of a conservative pencil the growing one is given. With damping, real λ < 0 are not counted and given too, as far as they
+    /// are nearer to the shift than the last that counts. `near` are approximate pairs, with which a conservative
     /// pencil begins: the Krylov space of a sum of eigenvectors is spanned by them.
     ///
     /// # Errors
@@ -21,12 +29,24 @@ impl Pencil {
             Kind::Symmetric | Kind::Gyroscopic => self.conservative(count, near)?,
             Kind::General => self.general(count)?,
         };
-        let mut pairs = Vec::with_capacity(found.len());
-        for (value, vector) in found {
-            let residual = self.residual(value, &vector);
-            pairs.push(Pair { residual, value, vector });
+        let snaps = self.kind() == Kind::General && self.is_conservative();
+        let mut pairs: Vec<Pair> =
+            found.into_iter().map(|(value, vector)| self.purified(value, vector)).collect();
+        for pair in pairs.iter_mut().filter(|pair| snaps && pair.value.im > 0.0) {
+            // Where two frequencies meet, a relative error δ of K makes √δ of them.
+            let noise = NOISE.max(2.0 * self.rounding(pair.value, &pair.vector).sqrt());
+            if pair.value.re.abs() <= noise * pair.value.norm() {
+                pair.value.re = 0.0;
+            }
         }
         pairs.sort_by(|a, b| a.value.norm().total_cmp(&b.value.norm()));
+        // Of vibrations that grow and decay with one frequency, in the flutter of a conservative system, the growing one is first.
+        for i in 1..pairs.len() {
+            let [a, b] = [pairs[i - 1].value, pairs[i].value];
+            if (a - Complex64::new(-b.re, b.im)).norm() <= EQUAL * b.norm() && b.re > 0.0 && a.re < 0.0 {
+                pairs.swap(i - 1, i);
+            }
+        }
         Ok(pairs)
     }
 
@@ -49,7 +69,9 @@ impl Pencil {
             // Copies are found one at a time.
             let wanted = if round == 0 { count } else { 1 };
             let start = warm.as_deref().filter(|_| round == 0);
-            let search = Search { wanted, projection, tolerance: TOLERANCE, start, seed: round };
+            let counts = |theta: Complex64| projection == Projection::Symmetric || theta.im <= 0.0;
+            let search =
+                Search { wanted, counts: &counts, projection, tolerance: TOLERANCE, start, seed: round };
             let ritz = if self.kind() == Kind::Symmetric {
                 krylov(&mut Symmetric(self), &locked, search)?
             } else {
@@ -98,35 +120,59 @@ impl Pencil {
     /// Whether nothing is missing among the first `count` eigenvalues found.
     fn is_complete(&self, found: &[(Complex64, Vec<Complex64>)], count: usize) -> bool {
         let Some((last, x)) = found.get(count.min(found.len()).saturating_sub(1)) else { return true };
-        // With divergent eigenvalues those found need not be the lowest: nothing is counted.
-        if found.iter().any(|(value, _)| value.re != 0.0) {
-            return true;
-        }
         let limit = self.just_below(*last, x);
+        // Divergent ones, ω² < 0, are below.
         let below = found.iter().filter(|(value, _)| value.im < limit).count();
         self.count_below(limit).is_none_or(|counted| counted <= below)
     }
 
     fn general(&mut self, count: usize) -> Result<Vec<(Complex64, Vec<Complex64>)>, EigenError> {
-        let (n, shift) = (self.order(), self.shift());
+        let (n, shift, conservative) = (self.order(), self.shift(), self.is_conservative());
+        let value = |theta: Complex64| {
+            let value = 1.0 / theta + shift;
+            // Of a double real eigenvalue rounding makes a pair.
+            if value.im.abs() <= REAL * value.norm() { value.re.into() } else { value }
+        };
         let mut operator = General::new(self);
         let search = Search {
             wanted: count,
+            counts: &|theta| theta.norm() > 0.0 && !decays(value(theta)),
             projection: Projection::Hessenberg,
             tolerance: TOLERANCE,
             start: None,
             seed: 0,
         };
-        let ritz = krylov(&mut operator, &Space::default(), search)?.all(count)?;
-        let values = ritz.pairs.iter().filter(|r| r.value.norm() > 0.0);
-        Ok(values
-            .map(|r| (1.0 / r.value + shift, r))
-            .filter(|(value, _)| value.im >= 0.0)
-            .map(|(value, r)| {
-                let mut vector = ritz.space.vector(r);
-                vector.truncate(n);
-                (value, vector)
-            })
-            .collect())
+        let found = krylov(&mut operator, &Space::default(), search)?;
+        let decaying = found.pairs.iter().filter(|r| r.value.norm() > 0.0 && decays(value(r.value))).count();
+        // Overdamped motions may leave fewer vibrations than are asked for.
+        let fewer = decaying > 0 && !conservative && found.converged == found.counting;
+        let wanted = if fewer { found.converged } else { count };
+        let found = found.all(wanted)?;
+        let mut number = 0;
+        let mut pairs = Vec::with_capacity(found.pairs.len());
+        for r in found.pairs.iter().filter(|r| r.value.norm() > 0.0) {
+            let value = value(r.value);
+            let mut vector = found.space.vector(r);
+            vector.truncate(n);
+            if decays(value) {
+                // The other of a pair ±λ, unless it is zero but for rounding.
+                if conservative && self.rounding(value, &vector) < UNCERTAIN {
+                    continue;
+                }
+            } else if number == wanted {
+                break;
+            } else {
+                number += 1;
+            }
+            if value.im >= 0.0 {
+                pairs.push((value, vector));
+            }
+        }
+        Ok(pairs)
     }
+}
+
+/// Whether a motion decays without vibrating.
+fn decays(value: Complex64) -> bool {
+    value.im == 0.0 && value.re < 0.0
 }

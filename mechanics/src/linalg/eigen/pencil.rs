@@ -1,6 +1,6 @@
 //! The three matrices of an eigenproblem, their kind, and counts of its eigenvalues.
 
-use super::EigenError;
+use super::{EigenError, Pair};
 use crate::linalg::inertia::{negative_pivots_of, shape};
 use crate::linalg::vector::{dot, noise};
 use crate::linalg::{Matrix, Storage};
@@ -34,6 +34,8 @@ pub struct Pencil {
     /// Multipliers of rows that hold.
     multipliers: usize,
     kind: Kind,
+    /// Whether M and K are symmetric and C is skew.
+    conservative: bool,
     solutions: usize,
 }
 
@@ -46,6 +48,8 @@ const UNSTABLE: f64 = 1e-8;
 const GROWTH: f64 = 1e3;
 /// Inverse iterations that find the softest motion.
 const INVERSE_ITERATIONS: usize = 3;
+/// Residual of a vector that the inverse purifies.
+const PURE: f64 = 1e-9;
 /// Relative distance below a frequency at which others are counted.
 const MARGIN: f64 = 1e-7;
 
@@ -68,10 +72,20 @@ impl Pencil {
         let mut sizes = stiffness.clone();
         sizes.clear();
         each(&stiffness, |i, j| sizes.add(i, j, stiffness.get(i, j).abs()));
-        let kind = Kind::General;
-        let mut pencil =
-            Pencil { sizes, mass, damping, stiffness, factor, shift, multipliers, kind, solutions: 0 };
-        pencil.kind = pencil.find_kind();
+        let (kind, conservative, solutions) = (Kind::General, false, 0);
+        let mut pencil = Pencil {
+            sizes,
+            mass,
+            damping,
+            stiffness,
+            factor,
+            shift,
+            multipliers,
+            kind,
+            conservative,
+            solutions,
+        };
+        (pencil.kind, pencil.conservative) = pencil.find_kind();
         Ok(pencil)
     }
 
@@ -98,6 +112,11 @@ impl Pencil {
     /// Form of the matrices.
     pub fn kind(&self) -> Kind {
         self.kind
+    }
+
+    /// Whether M and K are symmetric and C is skew: eigenvalues lie on the imaginary axis, in real pairs ±λ, or in fours ±λ, ±λ̄.
+    pub fn is_conservative(&self) -> bool {
+        self.conservative
     }
 
     /// Number of solutions with Q(σ) so far, each O(n).
@@ -174,25 +193,24 @@ impl Pencil {
         Complex64::new(dot(&re, &a_re) + dot(&im, &a_im), dot(&re, &a_im) - dot(&im, &a_re))
     }
 
-    fn find_kind(&self) -> Kind {
+    fn find_kind(&self) -> (Kind, bool) {
         let (mut m, mut c, mut k) = (Parts::default(), Parts::default(), Parts::default());
         each(&self.mass, |i, j| {
             m.include(self.mass.get(i, j), self.mass.get(j, i));
             c.include(self.damping.get(i, j), self.damping.get(j, i));
             k.include(self.stiffness.get(i, j), self.stiffness.get(j, i));
         });
-        if !(m.is_symmetric() && k.is_symmetric()) {
+        let conservative = m.is_symmetric() && k.is_symmetric() && c.symmetric <= ZERO * c.largest;
+        let kind = if !conservative {
             Kind::General
         } else if c.largest == 0.0 {
             Kind::Symmetric
-        } else if c.symmetric <= ZERO * c.largest
-            && self.shift == 0.0
-            && negative_directions(&self.stiffness, self.multipliers) == 0
-        {
+        } else if self.shift == 0.0 && negative_directions(&self.stiffness, self.multipliers) == 0 {
             Kind::Gyroscopic
         } else {
             Kind::General
-        }
+        };
+        (kind, conservative)
     }
 
     /// Number of eigenfrequencies below `frequency` [rad/s], from the inertia of K − ω² M + iω C, without computing
@@ -219,21 +237,38 @@ impl Pencil {
         value.norm() * (1.0 - f64::max(MARGIN, 4.0 * self.rounding(value, x)))
     }
 
-    /// The residual of a pair, |x + Q(σ)⁻¹ (Q(λ) − Q(σ)) x| / |x| in the norm of M.
-    pub(super) fn residual(&mut self, value: Complex64, vector: &[Complex64]) -> f64 {
+    /// A pair whose vector x becomes −Q(σ)⁻¹ (Q(λ) − Q(σ)) x, and the difference of both over |x| in the norm of M: the residual.
+    ///
+    /// The norm of M does not see errors of x in stiff directions of little mass; the inverse divides them by their stiffness. A vector
+    /// with a large residual stays as it is: there the inverse magnifies errors along far softer modes.
+    ///
+    /// Source: B. Nour-Omid, B. N. Parlett, T. Ericsson & P. S. Jensen, *Math. Comp.* 48 (1987) 663–673,
+    /// doi:10.1090/S0025-5718-1987-0878698-1 (purification).
+    pub(super) fn purified(&mut self, value: Complex64, vector: Vec<Complex64>) -> Pair {
         self.solutions += 2;
-        residual([&self.mass, &self.damping], &mut self.factor, self.shift, value, vector)
+        let matrices = [&self.mass, &self.damping];
+        let (off, residual) = residual(matrices, &mut self.factor, self.shift, value, &vector);
+        let pair = Pair { value, vector, residual };
+        if residual <= PURE { pair.less(&off) } else { pair }
     }
 
-    /// The residual of a pair seen through Q(|λ|) instead of Q(σ). Where K is nearly singular, K⁻¹ magnifies by (λ/λ₁)²
+    /// The same by the inverse of Q(|λ|) in the place of Q(σ). Where K is nearly singular, K⁻¹ magnifies by (λ/λ₁)²
     /// what rounding leaves of the lowest mode in the others; the inverse of K + |λ|C + |λ|²M magnifies nothing. O(n).
-    pub fn residual_at_its_size(&self, value: Complex64, vector: &[Complex64]) -> f64 {
+    pub fn purified_at_its_size(&self, value: Complex64, vector: Vec<Complex64>) -> Pair {
         let (mut factor, shift) = (self.stiffness.clone(), value.norm());
         factor.combine([&self.stiffness, &self.damping, &self.mass], [1.0, shift, shift * shift]);
         if factor.factor().is_err() {
-            return f64::NAN;
+            return Pair { value, vector, residual: f64::NAN };
         }
-        residual([&self.mass, &self.damping], &mut factor, shift, value, vector)
+        let (off, residual) = residual([&self.mass, &self.damping], &mut factor, shift, value, &vector);
+        Pair { value, vector, residual }.less(&off)
+    }
+}
+
+impl Pair {
+    fn less(mut self, off: &[Complex64]) -> Pair {
+        self.vector.iter_mut().zip(off).for_each(|(x, off)| *x -= off);
+        self
     }
 }
 
@@ -274,24 +309,11 @@ pub fn each(matrix: &Matrix, mut f: impl FnMut(usize, usize)) {
     }
 }
 
-/// Number of directions, allowed by the rows of so many multipliers, in which a symmetric stiffness is negative.
+/// Number of directions x, allowed by the rows of so many multipliers, in which the quadratic form xᵀKx of a stiffness is negative.
 pub fn negative_directions(stiffness: &Matrix, multipliers: usize) -> usize {
-    negative_directions_of([stiffness, stiffness], multipliers, 0.0)
-}
-
-/// The same without those that rounding alone makes negative: of K + ε ω² M, with ω beyond all frequencies.
-pub fn certain_directions(stiffness: &Matrix, mass: &Matrix, multipliers: usize) -> usize {
-    let ratio = |i: usize| (stiffness.get(i, i) / mass.get(i, i)).abs();
-    let ratios = (0..mass.order()).map(ratio).filter(|x| x.is_finite());
-    negative_directions_of([stiffness, mass], multipliers, f64::EPSILON * ratios.fold(0.0, f64::max))
-}
-
-fn negative_directions_of([a, b]: [&Matrix; 2], multipliers: usize, c: f64) -> usize {
-    let entry = |i: usize, j: usize| {
-        let x = a.storage().get(i, j);
-        if c == 0.0 { x } else { x + c * b.storage().get(i, j) }
-    };
-    negative_pivots_of(shape(a), entry).saturating_sub(multipliers)
+    let of = stiffness.storage();
+    let negative = negative_pivots_of(shape(stiffness), |i, j| 0.5 * (of.get(i, j) + of.get(j, i)));
+    negative.saturating_sub(multipliers)
 }
 
 /// Whether a matrix is symmetric but for rounding.
@@ -301,14 +323,14 @@ pub fn is_symmetric(matrix: &Matrix) -> bool {
     parts.is_symmetric()
 }
 
-/// |x + Q(σ)⁻¹ (λ − σ)((λ + σ) M + C) x| / |x|, since Q(λ) = Q(σ) + (λ − σ)((λ + σ) M + C).
+/// r = x + Q(σ)⁻¹ (λ − σ)((λ + σ) M + C) x, and |r|/|x|, since Q(λ) = Q(σ) + (λ − σ)((λ + σ) M + C).
 fn residual(
     [mass, damping]: [&Matrix; 2],
     factor: &mut Matrix,
     shift: f64,
     value: Complex64,
     x: &[Complex64],
-) -> f64 {
+) -> (Vec<Complex64>, f64) {
     let n = x.len();
     let (mut mx, mut cx) = ([vec![0.0; n], vec![0.0; n]], [vec![0.0; n], vec![0.0; n]]);
     let parts = parts(x);
@@ -333,7 +355,9 @@ fn residual(
         off += dot(&r[part], &mr);
         size += dot(&parts[part], &mx[part]);
     }
-    (off.abs() / size).sqrt()
+    let [re, im] = r;
+    let r = re.into_iter().zip(im).map(|(re, im)| Complex64::new(re, im)).collect();
+    (r, (off.abs() / size).sqrt())
 }
 
 /// Real and imaginary part.

@@ -12,13 +12,14 @@
 //! ([`Pair`]): that is v = T(d) ḋ.
 
 use super::element::{Element, Motion, Tangent};
+use super::loads::{LineDistribution, LineWeights};
 use super::pair::{Pair, spin_by_slope};
 use super::properties::Properties;
 use super::strain::{COORDINATES, VELOCITIES, centreline, positions};
-use super::triad::{Triad, Vector, plus, vector};
+use super::triad::Triad;
+use crate::linalg::Vec3;
 use crate::linalg::vector::inner;
 use crate::system::Weights;
-use std::ops::Range;
 
 /// Coordinates of an element that the next one does not share.
 pub const ELEMENT_COORDINATES: usize = 12;
@@ -29,15 +30,16 @@ pub const ELEMENT_VELOCITIES: usize = 8;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Station {
     /// r \[m\]
-    pub position: Vector,
+    pub position: Vec3,
     /// t, a unit vector.
-    pub tangent: Vector,
+    pub tangent: Vec3,
     /// n, a unit vector across t.
-    pub normal: Vector,
+    pub normal: Vec3,
 }
 
 /// Why no beam can be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum BeamError {
     /// The nodes are not ascending, or fewer than two.
     #[error("the nodes of a beam must be two or more ascending arc lengths: node {node} is at {at} m")]
@@ -99,10 +101,10 @@ impl Beam {
         let mut initial = Vec::with_capacity(ELEMENT_COORDINATES * nodes.len());
         let station = |s: f64| {
             let at = curve(s);
-            let one = |x: Vector, y: Vector, c: f64| (inner(x, y) - c).abs() < 1e-9;
+            let one = |x: Vec3, y: Vec3, c: f64| (x.dot(y) - c).abs() < 1e-9;
             let (t, n) = (at.tangent, at.normal);
             let axes = one(t, t, 1.0) && one(n, n, 1.0) && one(t, n, 0.0);
-            if axes && inner(at.position, at.position).is_finite() {
+            if axes && at.position.dot(at.position).is_finite() {
                 Ok(at)
             } else {
                 Err(BeamError::Axes { at: s })
@@ -132,11 +134,11 @@ impl Beam {
             let middle = curve(s + 0.5 * length);
             let halfway = middle.tangent;
             let middle = Triad::new(middle.tangent, middle.normal).transported(slope, 0.0);
-            q[9..12].copy_from_slice(&middle.normal);
-            initial[begin + 9..begin + 12].copy_from_slice(&middle.normal);
+            middle.normal.put(&mut q, 9);
+            middle.normal.put(&mut initial, begin + 9);
             let element = Element::new(length, &q, |z| section(s + z * length), elements.last());
             // By the middle, for the ends alone do not tell 300° from 60°.
-            let turned = |at: usize| libm::acos(inner(halfway, vector(&q, at)).clamp(-1.0, 1.0));
+            let turned = |at: usize| libm::acos(halfway.dot(Vec3::at(&q, at)).clamp(-1.0, 1.0));
             let twist = element.pairs(&q).into_iter().map(|pair| pair.angle.abs()).fold(0.0, f64::max);
             let angle = (turned(3) + turned(15)).max(twist).to_degrees();
             if !(angle < 90.0) {
@@ -158,7 +160,7 @@ impl Beam {
         section: Properties,
     ) -> Result<Beam, BeamError> {
         let nodes: Vec<f64> = (0..=elements).map(|i| length * i as f64 / elements.max(1) as f64).collect();
-        let at = |s: f64| Station { position: plus(root.position, s, root.tangent), ..root };
+        let at = |s: f64| Station { position: root.position + s * root.tangent, ..root };
         Beam::new(&nodes, at, |_| section)
     }
 
@@ -208,14 +210,17 @@ impl Beam {
     }
 
     /// Position and axes of node `i`; its velocities begin at 8 i.
-    pub fn node(&self, i: usize, q: &[f64]) -> (Vector, Triad) {
+    pub fn node(&self, i: usize, q: &[f64]) -> (Vec3, Triad) {
         let at = ELEMENT_COORDINATES * i;
-        (vector(q, at), Triad::new(vector(q, at + 3), vector(q, at + 6)))
+        (Vec3::at(q, at), Triad::new(Vec3::at(q, at + 3), Vec3::at(q, at + 6)))
     }
 
-    /// Some elements, with the begin of their coordinates and velocities.
-    fn among(&self, elements: Range<usize>) -> impl Iterator<Item = (&Element, usize, usize)> {
-        self.middles().take(elements.end).skip(elements.start)
+    /// The elements under a load, with the begin of their coordinates and velocities and the weights of the load.
+    fn under<'a>(
+        &'a self,
+        on: &'a LineDistribution,
+    ) -> impl Iterator<Item = ((&'a Element, usize, usize), &'a LineWeights)> {
+        self.middles().skip(on.first).zip(&on.weights)
     }
 
     /// The middle sections of the elements: element, its coordinates' and velocities' begin.
@@ -225,7 +230,7 @@ impl Beam {
     }
 
     /// r′ in the middle of an element whose coordinates begin at `at`.
-    fn middle_slope(element: &Element, q: &[f64], at: usize) -> Vector {
+    fn middle_slope(element: &Element, q: &[f64], at: usize) -> Vec3 {
         element.middle_slope(&positions(part(q, at)))
     }
 
@@ -236,14 +241,14 @@ impl Beam {
             for k in 0..6 {
                 out[i + k] = q[i + k] + d[j + k];
             }
-            let before = Triad::new(vector(q, i + 3), vector(q, i + 6));
-            let now = before.transported(vector(out, i + 3), d[j + 6]);
-            out[i + 6..i + 9].copy_from_slice(&now.normal);
+            let before = Triad::new(Vec3::at(q, i + 3), Vec3::at(q, i + 6));
+            let now = before.transported(Vec3::at(out, i + 3), d[j + 6]);
+            now.normal.put(out, i + 6);
         }
         for (element, i, j) in self.middles() {
-            let before = Triad::new(Beam::middle_slope(element, q, i), vector(q, i + 9));
+            let before = Triad::new(Beam::middle_slope(element, q, i), Vec3::at(q, i + 9));
             let now = before.transported(Beam::middle_slope(element, out, i), d[j + 7]);
-            out[i + 9..i + 12].copy_from_slice(&now.normal);
+            now.normal.put(out, i + 9);
         }
     }
 
@@ -257,7 +262,7 @@ impl Beam {
             d[j + 6] = Pair::new(&self.node(node, from).1, &self.node(node, to).1).angle;
         }
         for (element, i, j) in self.middles() {
-            let triad = |q: &[f64]| Triad::new(Beam::middle_slope(element, q, i), vector(q, i + 9));
+            let triad = |q: &[f64]| Triad::new(Beam::middle_slope(element, q, i), Vec3::at(q, i + 9));
             d[j + 7] = Pair::new(&triad(from), &triad(to)).angle;
         }
     }
@@ -265,10 +270,10 @@ impl Beam {
     /// `out` = ḋ = T(d)⁻¹ v, the rate of the increment d in `from` ⊞ d where the velocity is v.
     pub fn rate(&self, from: &[f64], d: &[f64], v: &[f64], out: &mut [f64]) {
         out.copy_from_slice(v);
-        let turn = |from: Vector, d: Vector, rate: Vector| inner(spin_by_slope(from, d), rate);
+        let turn = |from: Vec3, d: Vec3, rate: Vec3| spin_by_slope(from, d).dot(rate);
         for node in 0..=self.elements.len() {
             let (i, j) = (ELEMENT_COORDINATES * node, ELEMENT_VELOCITIES * node);
-            out[j + 6] -= turn(vector(from, i + 3), vector(d, j + 3), vector(v, j + 3));
+            out[j + 6] -= turn(Vec3::at(from, i + 3), Vec3::at(d, j + 3), Vec3::at(v, j + 3));
         }
         for (element, i, j) in self.middles() {
             let rates = |x: &[f64]| element.middle_slope(&centreline(part(x, j)));
@@ -305,11 +310,11 @@ impl Beam {
         }
     }
 
-    /// Adds the forces of a uniform load per length [N/m] along some elements, with components in fixed axes or in those of
-    /// the sections.
-    pub fn add_line_load(&self, on: Range<usize>, q: &[f64], load: Vector, follows: bool, r: &mut [f64]) {
-        for (element, i, j) in self.among(on) {
-            element.add_line_load(part(q, i), load, follows, &mut r[j..]);
+    /// Adds the forces of a load per length [N/m], with components in fixed axes or in those of the sections, and with its weights
+    /// element by element.
+    pub fn add_line_load(&self, on: &LineDistribution, q: &[f64], load: Vec3, follows: bool, r: &mut [f64]) {
+        for ((element, i, j), weights) in self.under(on) {
+            element.add_line_load(part(q, i), weights, load, follows, &mut r[j..]);
         }
     }
 
@@ -317,33 +322,33 @@ impl Beam {
     /// first velocity: by the increment d since the configuration that was retracted, or by variations.
     pub fn add_line_tangent(
         &self,
-        on: Range<usize>,
+        on: &LineDistribution,
         q: &[f64],
-        load: Vector,
+        load: Vec3,
         increment: Option<&[f64]>,
         mut add: impl FnMut(usize, &Tangent),
     ) {
-        for (element, i, j) in self.among(on) {
+        for ((element, i, j), weights) in self.under(on) {
             let mut tangent = [[0.0; VELOCITIES]; VELOCITIES];
             let increment = increment.map(|d| part(d, j));
-            element.add_line_tangent(part(q, i), load, increment, &mut tangent);
+            element.add_line_tangent(part(q, i), weights, load, increment, &mut tangent);
             add(j, &tangent);
         }
     }
 
-    /// Power \[W\] of a uniform load per length.
-    pub fn line_power(&self, on: Range<usize>, q: &[f64], v: &[f64], load: Vector, follows: bool) -> f64 {
-        let of = |(element, i, j): (&Element, usize, usize)| {
+    /// Power \[W\] of a load per length.
+    pub fn line_power(&self, on: &LineDistribution, q: &[f64], v: &[f64], load: Vec3, follows: bool) -> f64 {
+        let of = |((element, i, j), weights): ((&Element, usize, usize), &LineWeights)| {
             let mut forces = [0.0; VELOCITIES];
-            element.add_line_load(part(q, i), load, follows, &mut forces);
+            element.add_line_load(part(q, i), weights, load, follows, &mut forces);
             inner(forces, *part(v, j))
         };
-        self.among(on).map(of).sum()
+        self.under(on).map(of).sum()
     }
 
     /// ∫ρA r ds [kg·m], the mass times its centre.
-    pub fn first_moment(&self, q: &[f64]) -> Vector {
-        self.middles().fold([0.0; 3], |sum, (element, i, _)| plus(sum, 1.0, element.first_moment(part(q, i))))
+    pub fn first_moment(&self, q: &[f64]) -> Vec3 {
+        self.middles().fold(Vec3::ZERO, |sum, (element, i, _)| sum + element.first_moment(part(q, i)))
     }
 
     /// Mass \[kg\].
@@ -352,10 +357,10 @@ impl Beam {
     }
 
     /// Momentum and angular momentum about the origin.
-    pub fn momenta(&self, q: &[f64], v: &[f64]) -> [Vector; 2] {
-        self.middles().fold([[0.0; 3]; 2], |[p, l], (element, i, j)| {
+    pub fn momenta(&self, q: &[f64], v: &[f64]) -> [Vec3; 2] {
+        self.middles().fold([Vec3::ZERO; 2], |[p, l], (element, i, j)| {
             let [linear, angular] = element.momenta(part(q, i), part(v, j));
-            [plus(p, 1.0, linear), plus(l, 1.0, angular)]
+            [p + linear, l + angular]
         })
     }
 

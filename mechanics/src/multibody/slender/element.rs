@@ -9,8 +9,9 @@ use super::strain::{
     self, CENTRELINE, COORDINATES, SPINS, Section, Sections, Stiffness, Stress, VARIABLES, VELOCITIES,
     centreline, chord, combined, positions, sampled, shares, slopes,
 };
-use super::triad::{Triad, Vector, plus, times};
-use crate::linalg::vector::{cross, inner};
+use super::triad::Triad;
+use crate::linalg::Vec3;
+use crate::linalg::vector::inner;
 use crate::quadrature::Gauss;
 use crate::system::Weights;
 use std::ops::Deref;
@@ -154,7 +155,7 @@ impl Element {
 
     /// r′ in the middle, or its rate, by r₁, r′₁, r₂, r′₂ or theirs.
     #[inline]
-    pub(in crate::multibody) fn middle_slope(&self, centreline: &[Vector; 4]) -> Vector {
+    pub(in crate::multibody) fn middle_slope(&self, centreline: &[Vec3; 4]) -> Vec3 {
         combined(&self.shapes.middle, &chord(centreline))
     }
 
@@ -258,7 +259,7 @@ impl Element {
         let mut energy = 0.0;
         for i in 0..4 {
             for j in 0..4 {
-                energy += 0.5 * self.mass[i][j] * inner(velocity[i], velocity[j]);
+                energy += 0.5 * self.mass[i][j] * velocity[i].dot(velocity[j]);
             }
         }
         let sections = Sections::new(&self.shapes, q);
@@ -268,21 +269,21 @@ impl Element {
     }
 
     /// ∫ρA r ds [kg·m], the mass times its centre.
-    pub fn first_moment(&self, q: &[f64; COORDINATES]) -> Vector {
+    pub fn first_moment(&self, q: &[f64; COORDINATES]) -> Vec3 {
         combined(&self.weight, &positions(q))
     }
 
     /// Momentum and angular momentum about the origin.
-    pub fn momenta(&self, q: &[f64; COORDINATES], v: &[f64; VELOCITIES]) -> [Vector; 2] {
+    pub fn momenta(&self, q: &[f64; COORDINATES], v: &[f64; VELOCITIES]) -> [Vec3; 2] {
         let (place, velocity) = (positions(q), centreline(v));
         let linear = combined(&self.weight, &velocity);
-        let mut angular = [0.0; 3];
+        let mut angular = Vec3::ZERO;
         for (place, mass) in place.into_iter().zip(&self.mass) {
-            angular = plus(angular, 1.0, cross(place, combined(mass, &velocity)));
+            angular += place.cross(combined(mass, &velocity));
         }
         let (sections, rest) = (Sections::new(&self.shapes, q), [0.0; VELOCITIES]);
         for rotation in self.rotations(&sections, v, &rest) {
-            angular = plus(angular, 1.0, rotation.angular_momentum());
+            angular += rotation.angular_momentum();
         }
         [linear, angular]
     }
@@ -297,10 +298,10 @@ impl Element {
     fn rotations(&self, s: &Sections, v: &[f64; VELOCITIES], a: &[f64; VELOCITIES]) -> [Rotation; 3] {
         let slopes = |x| slopes(&self.shapes, &chord(&centreline(x)));
         let ([v1, v2, v3], [a1, a2, a3]) = (slopes(v), slopes(a));
-        let of = |k: usize, speed: Vector, change: Vector| {
+        let of = |k: usize, speed: Vec3, change: Vec3| {
             let (velocity, acceleration) =
                 (Rate { slope: speed, spin: v[SPINS[k]] }, Rate { slope: change, spin: a[SPINS[k]] });
-            Rotation::new(&s.triads[k], velocity, acceleration, self.inertia[k], self.damping)
+            Rotation::new(&s.triads[k], velocity, acceleration, Vec3(self.inertia[k]), self.damping)
         };
         [of(0, v1, a1), of(1, v2, a2), of(2, v3, a3)]
     }
@@ -328,7 +329,7 @@ impl Element {
         }
         (0..3).for_each(|k| r[k] -= total[k]);
         let (v, a) = (centreline(m.v), centreline(m.a));
-        let rate = |i: usize| plus(a[i], self.damping, v[i]);
+        let rate = |i: usize| a[i] + self.damping * v[i];
         let rate = [rate(0), rate(1), rate(2), rate(3)];
         for i in 0..4 {
             let force = combined(&self.mass[i], &rate);
@@ -342,7 +343,7 @@ impl Element {
         let sections = Sections::new(&self.shapes, m.q);
         let parts = shares(&self.shapes);
         // δΘ = δφ + turn·δr′ at the three sections.
-        let mut turns = [[0.0; 3]; 3];
+        let mut turns = [Vec3::ZERO; 3];
         if let Some(d) = w.increment.and_then(|d| d.first_chunk()) {
             let d = chord(&centreline(d));
             for k in 0..3 {
@@ -377,7 +378,7 @@ impl Element {
         }
         if self.has_rotary_inertia {
             for (k, rotation) in self.rotations(&sections, m.v, m.a).iter().enumerate() {
-                let block = rotation.tangent(turns[k], [w.q, w.v, w.a]);
+                let block = rotation.tangent(turns[k], Vec3([w.q, w.v, w.a]));
                 let has_part = |i: &usize| parts[k][*i] != 0.0;
                 for i in (0..3).filter(has_part) {
                     let part = parts[k][i];
@@ -418,17 +419,17 @@ impl Element {
     }
 
     /// Forces of a field of acceleration b, ∫ρA Nᵢ b ds, on r₁, r′₁, r₂, r′₂: gravity.
-    pub fn body_force(&self, acceleration: Vector) -> [Vector; 4] {
-        self.weight.map(|w| times(w, acceleration))
+    pub fn body_force(&self, acceleration: Vec3) -> [Vec3; 4] {
+        self.weight.map(|w| w * acceleration)
     }
 
     /// Forces of a load p(z) per length [N/m] at the place z, ∫Nᵢ p ds, on r₁, r′₁, r₂, r′₂.
-    pub fn line_load(&self, load: impl Fn(f64) -> Vector) -> [Vector; 4] {
-        let mut out = [[0.0; 3]; 4];
+    pub fn line_load(&self, load: impl Fn(f64) -> Vec3) -> [Vec3; 4] {
+        let mut out = [Vec3::ZERO; 4];
         for (z, w) in Gauss::new(MASS_POINTS).on(0.0, 1.0) {
             let ([n, ..], p) = (hermite(z, self.shapes.length), load(z));
             for i in 0..4 {
-                out[i] = plus(out[i], w * self.shapes.length * n[i], p);
+                out[i] += w * self.shapes.length * n[i] * p;
             }
         }
         out
@@ -436,7 +437,7 @@ impl Element {
 
     /// The place z, 0 to 1, of the element: position, axes and strains (ε, κ₁, κ₂, κ₃) less those without stress. The strains
     /// are linear through the quadrature points, where their errors are of higher order than elsewhere.
-    pub fn section(&self, q: &[f64; COORDINATES], z: f64) -> (Vector, Triad, [f64; 4]) {
+    pub fn section(&self, q: &[f64; COORDINATES], z: f64) -> (Vec3, Triad, [f64; 4]) {
         let sections = Sections::new(&self.shapes, q);
         let mut strain = [0.0; 4];
         let places = self.shapes.points.map(|at| at.place);
@@ -474,7 +475,7 @@ impl Element {
     }
 
     /// ṙ at the place z.
-    pub fn velocity(&self, v: &[f64; VELOCITIES], z: f64) -> Vector {
+    pub fn velocity(&self, v: &[f64; VELOCITIES], z: f64) -> Vec3 {
         combined(&hermite(z, self.shapes.length)[0], &centreline(v))
     }
 

@@ -20,13 +20,13 @@
 //! δu = Λᵀ δṙ′/|r′| − d₁ u − δθ × u,   δp = Λᵀ δr̈′/|r′| − d₁ p − δθ × p
 //! ```
 
-use super::triad::{Triad, Vector, plus, times};
-use crate::linalg::vector::{cross, inner};
+use super::triad::Triad;
+use crate::linalg::Vec3;
 
 /// Rates of the slope r′ and of the rotation about t: (ṙ′, w) or (r̈′, ẇ), or variations (δr′, δΘ).
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Rate {
-    pub slope: Vector,
+    pub slope: Vec3,
     pub spin: f64,
 }
 
@@ -37,38 +37,41 @@ pub(super) struct Rotation {
     /// 1/|r′|
     inverse: f64,
     /// J₁, J₂, J₃ and β.
-    inertia: Vector,
+    inertia: Vec3,
     damping: f64,
     /// u, p, ω, ω̇, H and Y.
-    velocity: Vector,
-    acceleration: Vector,
-    angular_velocity: Vector,
-    angular_acceleration: Vector,
-    momentum: Vector,
-    moment: Vector,
+    velocity: Vec3,
+    acceleration: Vec3,
+    angular_velocity: Vec3,
+    angular_acceleration: Vec3,
+    momentum: Vec3,
+    moment: Vec3,
 }
+
+/// t, in the axes of the section.
+const TANGENT: Vec3 = Vec3::AXES[0];
 
 /// t × x
 #[inline(always)]
-fn across([_, y, z]: Vector) -> Vector {
-    [0.0, -z, y]
+fn across(Vec3([_, y, z]): Vec3) -> Vec3 {
+    Vec3([0.0, -z, y])
 }
 
 impl Rotation {
     /// The section with these axes and rates; J₁, J₂, J₃ and β.
     #[inline(always)]
-    pub fn new(triad: &Triad, velocity: Rate, acceleration: Rate, inertia: Vector, damping: f64) -> Rotation {
+    pub fn new(triad: &Triad, velocity: Rate, acceleration: Rate, inertia: Vec3, damping: f64) -> Rotation {
         let inverse = 1.0 / triad.length;
-        let u = times(inverse, triad.inward(velocity.slope));
-        let p = times(inverse, triad.inward(acceleration.slope));
-        let omega = plus(across(u), velocity.spin, [1.0, 0.0, 0.0]);
-        let omega_rate = [
+        let u = inverse * triad.inward(velocity.slope);
+        let p = inverse * triad.inward(acceleration.slope);
+        let omega = across(u) + velocity.spin * TANGENT;
+        let omega_rate = Vec3([
             acceleration.spin,
             -p[2] + velocity.spin * u[1] + 2.0 * u[0] * u[2],
             p[1] + velocity.spin * u[2] - 2.0 * u[0] * u[1],
-        ];
+        ]);
         let momentum = product(inertia, omega);
-        let moment = plus(product(inertia, omega_rate), damping, momentum);
+        let moment = product(inertia, omega_rate) + damping * momentum;
         Rotation {
             triad: *triad,
             inverse,
@@ -79,36 +82,36 @@ impl Rotation {
             angular_velocity: omega,
             angular_acceleration: omega_rate,
             momentum,
-            moment: plus(moment, 1.0, cross(omega, momentum)),
+            moment: moment + omega.cross(momentum),
         }
     }
 
     /// ω and ω̇
-    pub fn angular_motion(&self) -> [Vector; 2] {
+    pub fn angular_motion(&self) -> [Vec3; 2] {
         [self.angular_velocity, self.angular_acceleration].map(|x| self.triad.outward(x))
     }
 
     /// H
-    pub fn angular_momentum(&self) -> Vector {
+    pub fn angular_momentum(&self) -> Vec3 {
         self.triad.outward(self.momentum)
     }
 
     /// ½ ω·H
     pub fn energy(&self) -> f64 {
-        0.5 * inner(self.angular_velocity, self.momentum)
+        0.5 * self.angular_velocity.dot(self.momentum)
     }
 
     /// The forces on r′ and on the spin.
     #[inline(always)]
     pub fn force(&self) -> Rate {
-        let slope = times(-self.inverse, across(self.moment));
+        let slope = -self.inverse * across(self.moment);
         Rate { slope: self.triad.outward(slope), spin: self.moment[0] }
     }
 
     /// The derivative of the forces on r′ and on the spin by both, `[of][by]`: by w\[0\] (δr′, δΘ + turn·δr′) in the configuration,
     /// by w\[1\] (δr′, δΘ) in the velocity and by w\[2\] (δr′, δΘ) in the acceleration.
     #[inline]
-    pub fn tangent(&self, turn: Vector, w: Vector) -> [[f64; 4]; 4] {
+    pub fn tangent(&self, turn: Vec3, w: Vec3) -> [[f64; 4]; 4] {
         let mut out = [[0.0; 4]; 4];
         for by in 0..4 {
             let mut unit = Rate::default();
@@ -116,8 +119,8 @@ impl Rotation {
                 3 => unit.spin = 1.0,
                 axis => unit.slope[axis] = 1.0,
             }
-            let rate = |c: f64, turn: f64| Rate { slope: times(c, unit.slope), spin: c * (unit.spin + turn) };
-            let turn = inner(turn, unit.slope);
+            let rate = |c: f64, turn: f64| Rate { slope: c * unit.slope, spin: c * (unit.spin + turn) };
+            let turn = turn.dot(unit.slope);
             let change = self.derivative(rate(w[0], turn), rate(w[1], 0.0), rate(w[2], 0.0));
             (0..3).for_each(|of| out[of][by] = change.slope[of]);
             out[3][by] = change.spin;
@@ -128,31 +131,31 @@ impl Rotation {
     /// How the forces change with variations of configuration, velocity and acceleration.
     #[inline(always)]
     fn derivative(&self, q: Rate, v: Rate, a: Rate) -> Rate {
-        let inward = |x: Rate| times(self.inverse, self.triad.inward(x.slope));
+        let inward = |x: Rate| self.inverse * self.triad.inward(x.slope);
         let (d, dv, da) = (inward(q), inward(v), inward(a));
-        let turn = plus(across(d), q.spin, [1.0, 0.0, 0.0]);
-        let moved = |change: Vector, x: Vector| plus(plus(change, -d[0], x), -1.0, cross(turn, x));
+        let turn = across(d) + q.spin * TANGENT;
+        let moved = |change: Vec3, x: Vec3| change - d[0] * x - turn.cross(x);
         let (u, w) = (self.velocity, self.angular_velocity[0]);
         let (du, dp) = (moved(dv, u), moved(da, self.acceleration));
-        let domega = plus(across(du), v.spin, [1.0, 0.0, 0.0]);
-        let dacceleration = [
+        let domega = across(du) + v.spin * TANGENT;
+        let dacceleration = Vec3([
             a.spin,
             -dp[2] + v.spin * u[1] + w * du[1] + 2.0 * (du[0] * u[2] + u[0] * du[2]),
             dp[1] + v.spin * u[2] + w * du[2] - 2.0 * (du[0] * u[1] + u[0] * du[1]),
-        ];
+        ]);
         let dmomentum = product(self.inertia, domega);
-        let mut dmoment = plus(product(self.inertia, dacceleration), self.damping, dmomentum);
-        dmoment = plus(dmoment, 1.0, cross(domega, self.momentum));
-        dmoment = plus(dmoment, 1.0, cross(self.angular_velocity, dmomentum));
-        let force = times(-self.inverse, across(self.moment));
-        let mut dforce = plus(times(-self.inverse, across(dmoment)), -d[0], force);
-        dforce = plus(dforce, 1.0, cross(turn, force));
+        let mut dmoment = product(self.inertia, dacceleration) + self.damping * dmomentum;
+        dmoment += domega.cross(self.momentum);
+        dmoment += self.angular_velocity.cross(dmomentum);
+        let force = -self.inverse * across(self.moment);
+        let mut dforce = -self.inverse * across(dmoment) - d[0] * force;
+        dforce += turn.cross(force);
         Rate { slope: self.triad.outward(dforce), spin: dmoment[0] }
     }
 }
 
 /// Component by component.
 #[inline(always)]
-fn product(x: Vector, y: Vector) -> Vector {
-    [x[0] * y[0], x[1] * y[1], x[2] * y[2]]
+fn product(x: Vec3, y: Vec3) -> Vec3 {
+    Vec3([x[0] * y[0], x[1] * y[1], x[2] * y[2]])
 }

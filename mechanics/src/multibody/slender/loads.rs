@@ -12,11 +12,13 @@
 //! Simpson's rule with the shape functions there: (1, 0, 0, 0), (½, h/8, ½, −h/8) and (0, 0, 1, 0).
 
 use super::inertia::{Rate, Rotation};
-use super::pair::skew;
-use super::triad::{Triad, Vector, plus, times};
-use crate::linalg::vector::{cross, inner};
+use super::triad::Triad;
+use crate::linalg::vector::inner;
+use crate::linalg::{Mat3, Vec3};
+use crate::quadrature::Gauss;
 
 use super::element::{Element, Tangent};
+use super::shapes::{hermite, sample};
 use super::strain::{
     CENTRELINE, COORDINATES, SPINS, Sections, VELOCITIES, centreline, chord, combined, shares,
 };
@@ -27,22 +29,22 @@ const VARIATIONS: usize = 4;
 impl Triad {
     /// B: the rotation δθ by (δr′, δΘ), and in the same way ω by (ṙ′, w).
     pub fn rotation_jacobian(&self) -> [[f64; VARIATIONS]; 3] {
-        let swing = skew(times(1.0 / self.length, self.tangent));
+        let swing = Mat3::skew(1.0 / self.length * self.tangent);
         std::array::from_fn(|i| [swing[i][0], swing[i][1], swing[i][2], self.tangent[i]])
     }
 
     /// Bᵀ m: the forces of a moment m on (r′, Θ).
-    pub fn moment_forces(&self, m: Vector) -> [f64; VARIATIONS] {
-        let [x, y, z] = times(1.0 / self.length, cross(m, self.tangent));
-        [x, y, z, inner(m, self.tangent)]
+    pub fn moment_forces(&self, m: Vec3) -> [f64; VARIATIONS] {
+        let Vec3([x, y, z]) = 1.0 / self.length * m.cross(self.tangent);
+        [x, y, z, m.dot(self.tangent)]
     }
 
     /// The derivative of Bᵀ m by (δr′, δΘ) for a moment m that stays as it is.
-    pub fn moment_derivative(&self, m: Vector) -> [[f64; VARIATIONS]; VARIATIONS] {
+    pub fn moment_derivative(&self, m: Vec3) -> [[f64; VARIATIONS]; VARIATIONS] {
         let (inverse, t) = (1.0 / self.length, self.tangent);
         let square = inverse * inverse;
-        let (turned, swept) = (skew(times(square, m)), times(2.0 * square, cross(m, t)));
-        let across = times(inverse, plus(m, -inner(m, t), t));
+        let (turned, swept) = (Mat3::skew(square * m), 2.0 * square * m.cross(t));
+        let across = inverse * (m - m.dot(t) * t);
         std::array::from_fn(|i| {
             std::array::from_fn(|j| match (i, j) {
                 (3, 3) => 0.0,
@@ -54,13 +56,9 @@ impl Triad {
     }
 
     /// ω and ω̇ for the rates (ṙ′, w) and (r̈′, ẇ).
-    pub fn angular_motion(
-        &self,
-        velocity: [f64; VARIATIONS],
-        acceleration: [f64; VARIATIONS],
-    ) -> [Vector; 2] {
-        let rate = |x: [f64; VARIATIONS]| Rate { slope: [x[0], x[1], x[2]], spin: x[3] };
-        Rotation::new(self, rate(velocity), rate(acceleration), [0.0; 3], 0.0).angular_motion()
+    pub fn angular_motion(&self, velocity: [f64; VARIATIONS], acceleration: [f64; VARIATIONS]) -> [Vec3; 2] {
+        let rate = |x: [f64; VARIATIONS]| Rate { slope: Vec3([x[0], x[1], x[2]]), spin: x[3] };
+        Rotation::new(self, rate(velocity), rate(acceleration), Vec3::ZERO, 0.0).angular_motion()
     }
 }
 
@@ -68,13 +66,13 @@ impl Triad {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Load {
     /// A force \[N\] with components in fixed axes.
-    Force(Vector),
+    Force(Vec3),
     /// A force \[N\] with components in the axes of the section, which it follows.
-    FollowerForce(Vector),
+    FollowerForce(Vec3),
     /// A couple [N·m] with components in fixed axes.
-    Couple(Vector),
+    Couple(Vec3),
     /// A couple [N·m] with components in the axes of the section, which it follows.
-    FollowerCouple(Vector),
+    FollowerCouple(Vec3),
 }
 
 /// Forces on the unknowns (r, r′, Θ) of a section.
@@ -84,10 +82,10 @@ impl Load {
     /// Forces on (r, r′, Θ) of the section with these axes.
     pub fn forces(&self, triad: &Triad) -> SectionForces {
         let (f, m) = match *self {
-            Load::Force(f) => (f, [0.0; 3]),
-            Load::FollowerForce(f) => (triad.outward(f), [0.0; 3]),
-            Load::Couple(m) => ([0.0; 3], m),
-            Load::FollowerCouple(m) => ([0.0; 3], triad.outward(m)),
+            Load::Force(f) => (f, Vec3::ZERO),
+            Load::FollowerForce(f) => (triad.outward(f), Vec3::ZERO),
+            Load::Couple(m) => (Vec3::ZERO, m),
+            Load::FollowerCouple(m) => (Vec3::ZERO, triad.outward(m)),
         };
         let [x, y, z, spin] = triad.moment_forces(m);
         [f[0], f[1], f[2], x, y, z, spin]
@@ -98,8 +96,9 @@ impl Load {
         let mut out = [[0.0; 7]; 7];
         let jacobian = triad.rotation_jacobian();
         // δ(Λ x) = δθ × Λ x
-        let followed =
-            |x: Vector, j: usize| cross([jacobian[0][j], jacobian[1][j], jacobian[2][j]], triad.outward(x));
+        let followed = |x: Vec3, j: usize| {
+            Vec3([jacobian[0][j], jacobian[1][j], jacobian[2][j]]).cross(triad.outward(x))
+        };
         match *self {
             Load::Force(_) => {}
             Load::FollowerForce(f) => {
@@ -131,17 +130,55 @@ impl Load {
     }
 }
 
-/// Shape functions of the centreline at the three sections, times the weights of Simpson's rule, for the length h.
-fn shapes(h: f64) -> [[f64; 4]; 3] {
+/// Weights \[m\] with which a load per length at the three sections of an element acts on r₁, r′₁, r₂, r′₂.
+pub type LineWeights = [[f64; 4]; 3];
+
+/// The weights of a load along a beam, from the element `first` on.
+#[derive(Clone, Debug, Default)]
+pub struct LineDistribution {
+    /// Number of the first element on which it acts.
+    pub first: usize,
+    /// Of each element from there on.
+    pub weights: Vec<LineWeights>,
+}
+
+/// Points of Gauss' rule for a distribution, which is integrated between its breaks.
+const DISTRIBUTION_POINTS: usize = 6;
+
+/// Those of a uniform load on an element of the length h: shape functions at the sections, times the weights of Simpson's rule.
+pub fn uniform_weights(h: f64) -> LineWeights {
     let (sixth, third, twelfth) = (h / 6.0, h / 3.0, h * h / 12.0);
     [[sixth, 0.0, 0.0, 0.0], [third, twelfth, third, -twelfth], [0.0, 0.0, sixth, 0.0]]
 }
 
+/// Those of a load f(s) times that of the sections, interpolated quadratically, on an element from the arc length s₀ on: ∫f Lₖ Nᵢ ds between the
+/// ascending arc lengths `cuts` \[m\].
+pub fn distributed_weights(h: f64, start: f64, cuts: &[f64], f: impl Fn(f64) -> f64) -> LineWeights {
+    let (mut out, gauss) = ([[0.0; 4]; 3], Gauss::new(DISTRIBUTION_POINTS));
+    for piece in cuts.windows(2) {
+        for (s, weight) in gauss.on(piece[0], piece[1]) {
+            let z = (s - start) / h;
+            let ([n, ..], l) = (hermite(z, h), sample(z));
+            for (out, l) in out.iter_mut().zip(l) {
+                out.iter_mut().zip(n).for_each(|(out, n)| *out += weight * f(s) * l * n);
+            }
+        }
+    }
+    out
+}
+
 impl Element {
-    /// Adds the forces of a uniform load per length [N/m], with components in fixed axes or in those of the sections.
-    pub fn add_line_load(&self, q: &[f64; COORDINATES], load: Vector, follows: bool, r: &mut [f64]) {
+    /// Adds the forces of a load per length [N/m], with components in fixed axes or in those of the sections.
+    pub fn add_line_load(
+        &self,
+        q: &[f64; COORDINATES],
+        weights: &LineWeights,
+        load: Vec3,
+        follows: bool,
+        r: &mut [f64],
+    ) {
         let sections = Sections::new(self.shapes(), q);
-        for (n, triad) in shapes(self.length()).iter().zip(&sections.triads) {
+        for (n, triad) in weights.iter().zip(&sections.triads) {
             let force = if follows { triad.outward(load) } else { load };
             for (at, n) in CENTRELINE.into_iter().zip(n) {
                 (0..3).for_each(|k| r[at + k] += n * force[k]);
@@ -154,13 +191,14 @@ impl Element {
     pub fn add_line_tangent(
         &self,
         q: &[f64; COORDINATES],
-        load: Vector,
+        weights: &LineWeights,
+        load: Vec3,
         increment: Option<&[f64; VELOCITIES]>,
         out: &mut Tangent,
     ) {
         let sections = Sections::new(self.shapes(), q);
         let parts = shares(self.shapes());
-        for (k, (n, triad)) in shapes(self.length()).iter().zip(&sections.triads).enumerate() {
+        for (k, (n, triad)) in weights.iter().zip(&sections.triads).enumerate() {
             let force = triad.outward(load);
             let mut rotation = triad.rotation_jacobian();
             if let Some(d) = increment {
@@ -169,7 +207,7 @@ impl Element {
             }
             for j in 0..VARIATIONS {
                 // δ(Λp) = δθ × Λp
-                let change = cross([rotation[0][j], rotation[1][j], rotation[2][j]], force);
+                let change = Vec3([rotation[0][j], rotation[1][j], rotation[2][j]]).cross(force);
                 // r′ of the section by r₁, r′₁, r₂, r′₂.
                 let places: [(usize, f64); 4] = match j {
                     3 => [(SPINS[k], 1.0), (0, 0.0), (0, 0.0), (0, 0.0)],

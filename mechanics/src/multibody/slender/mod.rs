@@ -65,8 +65,8 @@ pub(super) use strain::combined;
 
 pub use beam::{Beam, BeamError, ELEMENT_COORDINATES, ELEMENT_VELOCITIES, Station};
 pub use element::{Element, Motion, Tangent};
-pub use loads::{Load, SectionForces};
+pub use loads::{LineDistribution, LineWeights, Load, SectionForces, distributed_weights, uniform_weights};
 pub use pair::Pair;
 pub use properties::Properties;
 pub use strain::{COORDINATES, VELOCITIES};
-pub use triad::{Triad, Vector};
+pub use triad::Triad;

@@ -7,11 +7,8 @@
 //! ∂c/∂r′_a = −([t_b]× + c (t_a + t_b)ᵀ)/((1 + t_a·t_b) |r′_a|),    ∂c/∂r′_b = ([t_a]× − c (t_a + t_b)ᵀ)/((1 + t_a·t_b) |r′_b|)
 //! ```
 
-use super::triad::{Triad, Vector, plus, times};
-use crate::linalg::vector::{cross, inner};
-
-/// A 3 × 3 matrix, by rows.
-pub(super) type Block = [[f64; 3]; 3];
+use super::triad::Triad;
+use crate::linalg::{Mat3, Vec3};
 
 /// The twist of section b against section a.
 ///
@@ -34,7 +31,7 @@ pub struct Pair {
     /// φ \[rad\]
     pub angle: f64,
     /// c
-    pub c: Vector,
+    pub c: Vec3,
     /// 1/(1 + t_a·t_b)
     factor: f64,
 }
@@ -43,35 +40,31 @@ impl Pair {
     /// The twist of `b` against `a`.
     #[inline]
     pub fn new(a: &Triad, b: &Triad) -> Pair {
-        let sin = inner(a.binormal, b.normal) - inner(a.normal, b.binormal);
-        let cos = inner(a.normal, b.normal) + inner(a.binormal, b.binormal);
+        let sin = a.binormal.dot(b.normal) - a.normal.dot(b.binormal);
+        let cos = a.normal.dot(b.normal) + a.binormal.dot(b.binormal);
         Pair { angle: libm::atan2(sin, cos), ..Pair::of_tangents(a.tangent, b.tangent) }
     }
 
     /// c alone; the angle is 0.
     #[inline]
-    pub fn of_tangents(a: Vector, b: Vector) -> Pair {
-        let factor = 1.0 / (1.0 + inner(a, b));
-        Pair { angle: 0.0, c: times(factor, cross(a, b)), factor }
+    pub fn of_tangents(a: Vec3, b: Vec3) -> Pair {
+        let factor = 1.0 / (1.0 + a.dot(b));
+        Pair { angle: 0.0, c: factor * a.cross(b), factor }
     }
 
     /// The derivatives of (c/|r′_a|, c/|r′_b|) by r′_a and r′_b, times `weight`: `[i][j]` is that of the entry i by r′ of j.
     #[inline]
-    pub(super) fn second(&self, a: &Triad, b: &Triad, weight: f64) -> [[Block; 2]; 2] {
+    pub(super) fn second(&self, a: &Triad, b: &Triad, weight: f64) -> [[Mat3; 2]; 2] {
         let ends = [a, b];
-        let sum = plus(a.tangent, 1.0, b.tangent);
-        let swept = [times(-1.0, b.tangent), a.tangent];
+        let sum = a.tangent + b.tangent;
+        let swept = [-b.tangent, a.tangent];
         std::array::from_fn(|i| {
             std::array::from_fn(|j| {
                 let scale = weight / (ends[i].length * ends[j].length);
                 let own = if i == j { 1.0 } else { 0.0 };
-                let mut out = skew(times(scale * self.factor, swept[j]));
                 // The length in front of c changes only with its own end.
-                let row = times(scale, plus(times(self.factor, sum), own, ends[j].tangent));
-                for (out, c) in out.iter_mut().zip(self.c) {
-                    *out = plus(*out, -c, row);
-                }
-                out
+                let row = scale * (self.factor * sum + own * ends[j].tangent);
+                Mat3::skew(scale * self.factor * swept[j]) - Mat3::outer(self.c, row)
             })
         })
     }
@@ -79,24 +72,18 @@ impl Pair {
 
 impl Triad {
     /// The vector x in δΘ = δφ + x·δr′ for increments (δr′, φ) of a configuration whose r′ was less by `increment`.
-    pub fn spin_by_slope(&self, increment: Vector) -> Vector {
-        spin_by_slope(plus(times(self.length, self.tangent), -1.0, increment), increment)
+    pub fn spin_by_slope(&self, increment: Vec3) -> Vec3 {
+        spin_by_slope(self.length * self.tangent - increment, increment)
     }
 }
 
 /// The vector x in δΘ = δφ + x·δr′ for increments (δr′, φ) of a configuration whose r′ was `before`, and has grown by `increment`:
 /// x = −c/|r′| with c of the tangents before and now, −(r′₀ × r′)/(|r′| (|r′₀||r′| + r′₀·r′)).
 #[inline]
-pub(super) fn spin_by_slope(before: Vector, increment: Vector) -> Vector {
-    let now = plus(before, 1.0, increment);
-    let (old, new) = (inner(before, before).sqrt(), inner(now, now).sqrt());
-    times(-1.0 / (new * (old * new + inner(before, now))), cross(before, increment))
-}
-
-/// \[x\]×, with \[x\]× y = x × y.
-#[inline(always)]
-pub(super) fn skew(x: Vector) -> Block {
-    [[0.0, -x[2], x[1]], [x[2], 0.0, -x[0]], [-x[1], x[0], 0.0]]
+pub(super) fn spin_by_slope(before: Vec3, increment: Vec3) -> Vec3 {
+    let now = before + increment;
+    let (old, new) = (before.norm(), now.norm());
+    -1.0 / (new * (old * new + before.dot(now))) * before.cross(increment)
 }
 
 #[cfg(test)]
@@ -104,9 +91,9 @@ mod tests {
     use super::*;
     use std::f64::consts::FRAC_PI_2;
 
-    const X: Vector = [1.0, 0.0, 0.0];
-    const Y: Vector = [0.0, 1.0, 0.0];
-    const Z: Vector = [0.0, 0.0, 1.0];
+    const X: Vec3 = Vec3::AXES[0];
+    const Y: Vec3 = Vec3::AXES[1];
+    const Z: Vec3 = Vec3::AXES[2];
 
     #[test]
     fn transport_around_an_octant_turns_by_its_solid_angle() {
@@ -118,9 +105,9 @@ mod tests {
 
     #[test]
     fn the_twist_is_the_angle_behind_the_transport_and_changes_its_sign_with_the_order() {
-        let a = Triad::new([0.3, -1.2, 0.4], times(1.0 / 1.53_f64.sqrt(), [1.2, 0.3, 0.0]));
+        let a = Triad::new(Vec3([0.3, -1.2, 0.4]), 1.0 / 1.53_f64.sqrt() * Vec3([1.2, 0.3, 0.0]));
         for angle in [-3.0, -0.4, 0.0, 1e-9, 2.5] {
-            let b = a.transported([0.9, 0.1, -0.7], angle);
+            let b = a.transported(Vec3([0.9, 0.1, -0.7]), angle);
             assert!((Pair::new(&a, &b).angle - angle).abs() < 4e-16 * 8.0);
             assert!((Pair::new(&b, &a).angle + angle).abs() < 4e-16 * 8.0);
         }

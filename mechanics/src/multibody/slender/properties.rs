@@ -31,6 +31,7 @@ impl Properties {
     /// The section whose axis of no bending under tension, the tension centre, is at the place (y, z) \[m\] along n and b of the
     /// centreline, and whose bending stiffnesses are about axes through it: with the strain ε − y κ₃ + z κ₂ there,
     /// N = EA (ε − y κ₃ + z κ₂), M₂ = EI₂ κ₂ + z N and M₃ = EI₃ κ₃ − y N.
+    #[must_use]
     pub fn with_tension_centre(mut self, [y, z]: [f64; 2]) -> Properties {
         let (arm, axial) = ([1.0, 0.0, z, -y], self.stiffness[0][0]);
         for i in 0..4 {
@@ -43,6 +44,7 @@ impl Properties {
 
     /// The section with the stiffnesses \[N·m²\] by which torsion and bending about n, torsion and bending about b, and the two
     /// bendings are coupled: they are added to C₁₂, C₁₃ and C₂₃ (and C₂₁ …), counted from 0.
+    #[must_use]
     pub fn with_coupling(mut self, coupling: [f64; 3]) -> Properties {
         for ([i, j], c) in [[1, 2], [1, 3], [2, 3]].into_iter().zip(coupling) {
             self.stiffness[i][j] += c;

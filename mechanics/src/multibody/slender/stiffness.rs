@@ -7,13 +7,13 @@
 //! δt = (n n·δr′ + b b·δr′)/|r′|, δn = δΘ b − t n·δr′/|r′|, δb = −δΘ n − t b·δr′/|r′|, a 7 × 7 matrix of few entries, and
 //! ω times the variation of δΘ itself: that of the vectors c of the pairs.
 
-use super::pair::Block;
 use super::shapes::{POINTS, Point, Shapes};
 use super::strain::{
     ENDS, Forces, Linear, Local, Section, Sections, Stiffness, Stress, VARIABLES, combined, shares,
 };
-use super::triad::{Triad, times, vector};
+use super::triad::Triad;
 use crate::linalg::vector::inner;
+use crate::linalg::{Mat3, Vec3};
 
 /// A force's derivative by the variables of the strains.
 type Row = [f64; VARIABLES];
@@ -112,14 +112,13 @@ fn along_axes(
 fn along_fixed_axes(triad: &Triad, mut matrix: [[f64; LOCAL]; LOCAL]) -> [[f64; LOCAL]; LOCAL] {
     for at in [SLOPE, CURVATURE] {
         for row in &mut matrix {
-            let turned = triad.outward([row[at], row[at + 1], row[at + 2]]);
-            row[at..at + 3].copy_from_slice(&turned);
+            triad.outward(Vec3::at(row, at)).put(row, at);
         }
     }
     let mut out = matrix;
     for at in [SLOPE, CURVATURE] {
         for k in 0..LOCAL {
-            let turned = triad.outward([matrix[at][k], matrix[at + 1][k], matrix[at + 2][k]]);
+            let turned = triad.outward(Vec3([matrix[at][k], matrix[at + 1][k], matrix[at + 2][k]]));
             for i in 0..3 {
                 out[at + i][k] = turned[i];
             }
@@ -145,7 +144,7 @@ impl Rows {
             row[9 + a] -= 1.0;
             row[9 + b] += 1.0;
             for i in [a, b] {
-                add_vector(row, &parts[i], times(1.0 / sections.triads[i].length, pair.c));
+                add_vector(row, &parts[i], 1.0 / sections.triads[i].length * pair.c);
             }
         }
         Rows { samples, angles }
@@ -171,7 +170,7 @@ impl Rows {
 
 /// row += n ⊗ x on (r₂ − r₁, r′₁, r′₂)
 #[inline(always)]
-fn add_vector(row: &mut Row, n: &[f64; 3], x: [f64; 3]) {
+fn add_vector(row: &mut Row, n: &[f64; 3], x: Vec3) {
     for i in 0..3 {
         for k in 0..3 {
             row[3 * i + k] += n[i] * x[k];
@@ -181,9 +180,9 @@ fn add_vector(row: &mut Row, n: &[f64; 3], x: [f64; 3]) {
 
 /// rows += block · (n ⊗ 1) on (r₂ − r₁, r′₁, r′₂)
 #[inline(always)]
-fn add_block(rows: &mut [Row; 3], block: &Block, n: &[f64; 3]) {
+fn add_block(rows: &mut [Row; 3], block: &Mat3, n: &[f64; 3]) {
     for k in 0..3 {
-        add_vector(&mut rows[k], n, block[k]);
+        add_vector(&mut rows[k], n, Vec3(block.0[k]));
     }
 }
 
@@ -196,13 +195,13 @@ pub(super) fn rates(
     u: &Row,
 ) -> ([[f64; 4]; POINTS], [f64; 2]) {
     let rows = Rows::new(shapes, sections);
-    let chord = [0, 3, 6].map(|at| vector(u, at));
+    let chord = [0, 3, 6].map(|at| Vec3::at(u, at));
     let rates = std::array::from_fn(|k| {
         let (at, section) = (&shapes.points[k], &points[k]);
         let [spin, axial, torsion] =
             rows.at(at, shapes, &sections.triads[1], section).map(|row| inner(row, *u));
-        let [t, n, b] = section.triad.inward(combined(&at.slope, &chord));
-        let [kt, kn, kb] = section.triad.inward(combined(&at.curvature, &chord));
+        let Vec3([t, n, b]) = section.triad.inward(combined(&at.slope, &chord));
+        let Vec3([kt, kn, kb]) = section.triad.inward(combined(&at.curvature, &chord));
         let local = [t, n, b, kt, kn, kb, spin, axial, torsion];
         let [second, third] = bending(section).map(|row| inner(row, local));
         [axial, torsion, second, third]
@@ -240,8 +239,8 @@ pub(super) fn tangent(
             for i in 0..3 {
                 out.add(row[SPIN + i], &scalars[i]);
             }
-            add_vector(out, &at.slope, [row[SLOPE], row[SLOPE + 1], row[SLOPE + 2]]);
-            add_vector(out, &at.curvature, [row[CURVATURE], row[CURVATURE + 1], row[CURVATURE + 2]]);
+            add_vector(out, &at.slope, Vec3::at(row, SLOPE));
+            add_vector(out, &at.curvature, Vec3::at(row, CURVATURE));
         }
         let mut slope = [m[0], m[1], m[2]];
         // c of the middle and the point, on which the moment −ω acts.
@@ -270,7 +269,7 @@ pub(super) fn tangent(
     let mut out = changes.total(shapes, sections);
     let (samples, angles) = forces.of_samples_and_angles();
     // The derivatives of t and c at the sections, by r′ at the sections.
-    let mut blocks = [[[[0.0; 3]; 3]; 3]; 3];
+    let mut blocks = [[Mat3::ZERO; 3]; 3];
     for ((pair, ends), force) in pairs.iter().zip(ENDS).zip(angles) {
         let second = pair.second(&triads[ends[0]], &triads[ends[1]], force);
         for (i, row) in ends.into_iter().zip(second) {

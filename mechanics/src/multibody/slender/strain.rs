@@ -18,7 +18,8 @@
 
 use super::pair::Pair;
 use super::shapes::{POINTS, Point, Shapes};
-use super::triad::{Triad, Vector, plus, times, vector};
+use super::triad::Triad;
+use crate::linalg::Vec3;
 
 /// Coordinates of an element: r₁, r′₁, n₁, nₘ, r₂, r′₂, n₂.
 pub const COORDINATES: usize = 21;
@@ -35,36 +36,36 @@ pub(super) const VARIABLES: usize = 12;
 
 /// Σ nᵢ xᵢ
 #[inline(always)]
-pub(in crate::multibody) fn combined<const N: usize>(n: &[f64; N], x: &[Vector; N]) -> Vector {
-    let mut out = [0.0; 3];
+pub(in crate::multibody) fn combined<const N: usize>(n: &[f64; N], x: &[Vec3; N]) -> Vec3 {
+    let mut out = Vec3::ZERO;
     for i in 0..N {
-        out = plus(out, n[i], x[i]);
+        out += n[i] * x[i];
     }
     out
 }
 
 /// r₁, r′₁, r₂, r′₂ of the coordinates of an element.
 #[inline(always)]
-pub(super) fn positions(q: &[f64; COORDINATES]) -> [Vector; 4] {
-    [vector(q, 0), vector(q, 3), vector(q, 12), vector(q, 15)]
+pub(super) fn positions(q: &[f64; COORDINATES]) -> [Vec3; 4] {
+    [Vec3::at(q, 0), Vec3::at(q, 3), Vec3::at(q, 12), Vec3::at(q, 15)]
 }
 
 /// r₁, r′₁, r₂, r′₂ among the velocities of an element, or their rates.
 #[inline(always)]
-pub(super) fn centreline(v: &[f64; VELOCITIES]) -> [Vector; 4] {
+pub(super) fn centreline(v: &[f64; VELOCITIES]) -> [Vec3; 4] {
     let [a, b, c, d] = CENTRELINE;
-    [vector(v, a), vector(v, b), vector(v, c), vector(v, d)]
+    [Vec3::at(v, a), Vec3::at(v, b), Vec3::at(v, c), Vec3::at(v, d)]
 }
 
 /// (r₂ − r₁, r′₁, r′₂)
 #[inline(always)]
-pub(super) fn chord(x: &[Vector; 4]) -> [Vector; 3] {
-    [plus(x[2], -1.0, x[0]), x[1], x[3]]
+pub(super) fn chord(x: &[Vec3; 4]) -> [Vec3; 3] {
+    [x[2] - x[0], x[1], x[3]]
 }
 
 /// r′ at the three sections, or its rate, by (r₂ − r₁, r′₁, r′₂) or theirs.
 #[inline(always)]
-pub(super) fn slopes(shapes: &Shapes, chord: &[Vector; 3]) -> [Vector; 3] {
+pub(super) fn slopes(shapes: &Shapes, chord: &[Vec3; 3]) -> [Vec3; 3] {
     [chord[1], combined(&shapes.middle, chord), chord[2]]
 }
 
@@ -77,7 +78,7 @@ pub(super) fn shares(shapes: &Shapes) -> [[f64; 3]; 3] {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sections {
     /// (r₂ − r₁, r′₁, r′₂)
-    pub chord: [Vector; 3],
+    pub chord: [Vec3; 3],
     pub triads: [Triad; 3],
     pub pairs: [Pair; 3],
 }
@@ -88,9 +89,9 @@ impl Sections {
         let chord = chord(&positions(q));
         let [first, middle, second] = slopes(shapes, &chord);
         let triads = [
-            Triad::new(first, vector(q, 6)),
-            Triad::new(middle, vector(q, 9)),
-            Triad::new(second, vector(q, 18)),
+            Triad::new(first, Vec3::at(q, 6)),
+            Triad::new(middle, Vec3::at(q, 9)),
+            Triad::new(second, Vec3::at(q, 18)),
         ];
         let pair = |[a, b]: [usize; 2]| Pair::new(&triads[a], &triads[b]);
         let pairs = [pair(ENDS[0]), pair(ENDS[1]), pair(ENDS[2])];
@@ -126,7 +127,7 @@ impl Section {
         let twist = l[2] * pairs[1].angle - l[0] * pairs[0].angle;
         let triad = triads[1].transported(slope, twist);
         let pair = Pair::of_tangents(triads[1].tangent, triad.tangent);
-        let [along, second, third] = triad.inward(times(1.0 / triad.length, curvature));
+        let Vec3([along, second, third]) = triad.inward(1.0 / triad.length * curvature);
         let [axial, torsion] = sampled(at, sections);
         Section { triad, pair, along, strain: [axial, torsion, -third, second] }
     }
@@ -137,11 +138,11 @@ impl Section {
         let [axial, torsion, m2, m3] = stress;
         let [_, _, k2, k3] = self.strain;
         let (inverse, mu) = (1.0 / self.triad.length, self.along);
-        let slope = [-(m2 * k2 + m3 * k3), -mu * m3, mu * m2];
-        let curvature = [0.0, m3, -m2];
+        let slope = Vec3([-(m2 * k2 + m3 * k3), -mu * m3, mu * m2]);
+        let curvature = Vec3([0.0, m3, -m2]);
         Local {
-            slope: times(inverse, self.triad.outward(slope)),
-            curvature: times(inverse, self.triad.outward(curvature)),
+            slope: (inverse * self.triad.outward(slope)).0,
+            curvature: (inverse * self.triad.outward(curvature)).0,
             spin: m2 * k3 - m3 * k2,
             axial,
             torsion,

@@ -1,7 +1,7 @@
 //! What a run passes through between its records: extremes of the channels, and how fast it vibrates.
 
-use super::Trajectory;
-use flexion::system::{Side, State, System};
+use super::trajectory::{Trajectory, continue_quaternions};
+use crate::system::{Channel, Kind, Side, State, System};
 use std::f64::consts::TAU;
 
 /// Most rows that are evaluated besides the records.
@@ -14,15 +14,17 @@ pub(super) struct Passing {
     /// Shortest time between rows, and the time of the next \[s\].
     interval: f64,
     next: f64,
-    /// The last three rows with their times, and how many of them belong to one smooth motion.
-    rows: [(f64, Vec<f64>); 3],
+    /// The last four rows with their times, and how many of them belong to one smooth motion.
+    rows: [(f64, Vec<f64>); 4],
     count: usize,
     /// Whether the last row is a record.
     recorded: bool,
     /// Whether something has happened at the last row or behind it: no curve goes on through that.
     cut: bool,
-    /// Channels of forces that only press.
-    pub(super) pressing: Vec<usize>,
+    /// Channels that are never negative.
+    pressing: Vec<usize>,
+    /// First channels of unit quaternions.
+    pub(super) quaternions: Vec<usize>,
     /// Whether velocities may jump in any step.
     pub(super) rough: bool,
     last: State,
@@ -31,34 +33,41 @@ pub(super) struct Passing {
 }
 
 impl Passing {
-    pub(super) fn new(system: &dyn System, state: &State, span: f64) -> Passing {
-        let row = || (state.t, vec![0.0; system.channels().len()]);
+    pub(super) fn new(channels: &[Channel], state: &State, span: f64) -> Passing {
+        let row = || (state.t, vec![0.0; channels.len()]);
+        let pressing = channels.iter().enumerate().filter(|(_, c)| c.kind == Kind::NonNegative);
         Passing {
             interval: span / MOST,
             next: f64::NEG_INFINITY,
-            rows: [row(), row(), row()],
+            rows: [row(), row(), row(), row()],
             count: 0,
             recorded: false,
             cut: false,
-            pressing: Vec::new(),
+            pressing: pressing.map(|(i, _)| i).collect(),
+            quaternions: Vec::new(),
             rough: false,
             last: state.clone(),
             sums: [0.0; 2],
         }
     }
 
-    /// Takes a state; `trajectory` learns the extremes, also those of the parabola through three of them.
+    /// Takes the end of a step.
     pub(super) fn enter(&mut self, system: &mut dyn System, state: &State, trajectory: &mut Trajectory) {
         self.measure(state);
+        self.show(system, state, trajectory);
+    }
+
+    /// Takes a state; `trajectory` learns the extremes, also those of the parabola through three of them.
+    pub(super) fn show(&mut self, system: &mut dyn System, state: &State, trajectory: &mut Trajectory) {
         if std::mem::take(&mut self.cut) {
             (self.count, self.recorded) = (0, false);
         }
         let ends = state.side == Side::Left;
-        let since = state.t - self.rows[2].0;
+        let since = state.t - self.rows[3].0;
         let recorded = std::mem::take(&mut self.recorded);
         if recorded && since <= SAME * self.interval {
             // It was recorded, at this time but for rounding.
-            self.rows[2].0 = state.t;
+            self.rows[3].0 = state.t;
             return;
         }
         if since == 0.0 && self.count > 0 {
@@ -67,7 +76,9 @@ impl Passing {
             return;
         }
         system.record(state, self.add(state.t));
-        for (i, y) in self.rows[2].1.iter().enumerate() {
+        let [.., (_, before), (_, now)] = &mut self.rows;
+        continue_quaternions(&self.quaternions, before, now);
+        for (i, y) in self.rows[3].1.iter().enumerate() {
             trajectory.pass(i, state.t, *y);
         }
         self.find_vertices(trajectory);
@@ -78,8 +89,10 @@ impl Passing {
         self.cut = true;
     }
 
-    /// Takes the row of a record; [`Passing::find_vertices`] is to follow where it says so.
-    pub(super) fn take(&mut self, t: f64, row: &[f64]) -> bool {
+    /// Takes the row of a record, in which it chooses the signs of unit quaternions; [`Passing::find_vertices`] is to follow where it
+    /// says so.
+    pub(super) fn take(&mut self, t: f64, row: &mut [f64]) -> bool {
+        continue_quaternions(&self.quaternions, &self.rows[3].1, row);
         if t < self.next {
             return false;
         }
@@ -92,19 +105,38 @@ impl Passing {
         self.next = t + self.interval;
         self.rows.rotate_left(1);
         self.count += 1;
-        self.rows[2].0 = t;
-        &mut self.rows[2].1
+        self.rows[3].0 = t;
+        &mut self.rows[3].1
     }
 
-    /// `trajectory` learns the vertices of the parabolas through the last three rows.
+    /// `trajectory` learns the vertices of the parabolas through the last three rows, where these resolve the motion: the row before them
+    /// tells how far the parabola may be off, and a vertex counts that rises by more than twice that. Forces that only press stay
+    /// above zero, and components of unit quaternions within ±1.
     pub(super) fn find_vertices(&self, trajectory: &mut Trajectory) {
-        if self.count > 2 && !self.rough {
-            let [(t0, a), (t1, b), (t2, c)] = &self.rows;
-            for (i, ((a, b), c)) in a.iter().zip(b).zip(c).enumerate() {
-                if let Some((t, y)) = vertex([(*t0, *a), (*t1, *b), (*t2, *c)]) {
-                    let least = if self.pressing.contains(&i) { 0.0 } else { f64::NEG_INFINITY };
-                    trajectory.pass(i, t, y.max(least));
-                }
+        if self.count <= 2 || self.rough {
+            return;
+        }
+        let [(t, y), (t0, a), (t1, b), (t2, c)] = &self.rows;
+        for (i, (y, ((a, b), c))) in y.iter().zip(a.iter().zip(b).zip(c)).enumerate() {
+            let rows = [(*t0, *a), (*t1, *b), (*t2, *c)];
+            let Some(vertex) = vertex(rows) else { continue };
+            let [low, high] = [a.min(*b).min(*c), a.max(*b).max(*c)];
+            let excess = (low - vertex.1).max(vertex.1 - high);
+            // Without a row before them, what rows at equal distances allow at most.
+            let before = (self.count > 3).then_some((*t, *y));
+            let resolved = match before {
+                Some(row) => 2.0 * error(rows, row, vertex.0) <= excess,
+                None => 8.0 * excess <= high - low,
+            };
+            if resolved {
+                let [least, most] = if self.pressing.contains(&i) {
+                    [0.0, f64::INFINITY]
+                } else if self.quaternions.iter().any(|first| (*first..first + 4).contains(&i)) {
+                    [-1.0, 1.0]
+                } else {
+                    [f64::NEG_INFINITY, f64::INFINITY]
+                };
+                trajectory.pass(i, vertex.0, vertex.1.clamp(least, most));
             }
         }
     }
@@ -135,6 +167,16 @@ pub(super) fn vertex([(t0, a), (t1, b), (t2, c)]: [(f64, f64); 3]) -> Option<(f6
     (first * second < 0.0 && t0 < t && t < t2).then_some((t, a + (t - t0) * (first + bend * (t - t1))))
 }
 
+/// Error at `t` of the parabola through three points, by that of the cubic through another one: f[t₋₁, t₀, t₁, t₂] (t − t₀)(t − t₁)(t − t₂).
+fn error(points: [(f64, f64); 3], (before, y): (f64, f64), t: f64) -> f64 {
+    let [(t0, a), (t1, b), (t2, c)] = points;
+    let (first, second) = ((b - a) / (t1 - t0), (c - b) / (t2 - t1));
+    let bend = (second - first) / (t2 - t0);
+    let parabola = a + (before - t0) * (first + bend * (before - t1));
+    let product = |t: f64| (t - t0) * (t - t1) * (t - t2);
+    ((y - parabola) / product(before) * product(t)).abs()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -142,7 +184,7 @@ mod tests {
     /// Behind a restart at t = 0 the end of the first step lies beyond the crest of 3t − 10t², and a record before it.
     #[test]
     fn a_crest_within_the_first_step_is_found_by_the_records() {
-        let mut trajectory = Trajectory::new(vec![crate::trajectory::tests::channel("y", "m")]);
+        let mut trajectory = Trajectory::new(vec![super::super::trajectory::tests::channel("y", "m")]);
         let mut passing = Passing {
             interval: 1e-6,
             next: f64::NEG_INFINITY,
@@ -151,13 +193,14 @@ mod tests {
             recorded: false,
             cut: false,
             pressing: Vec::new(),
+            quaternions: Vec::new(),
             rough: false,
             last: State::default(),
             sums: [0.0; 2],
         };
         for t in [0.0, 0.1, 0.1 + 1e-8, 0.4] {
             let y = 3.0 * t - 10.0 * t * t;
-            if passing.take(t, &[y]) {
+            if passing.take(t, &mut [y]) {
                 passing.find_vertices(&mut trajectory);
             }
             if t == 0.0 || t == 0.4 {

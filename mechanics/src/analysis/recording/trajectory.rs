@@ -1,10 +1,12 @@
 //! What a run recorded: one row of channel values for each recorded time.
 
-use flexion::system::{Channel, Role};
+use crate::system::{Channel, Kind, Role};
 use std::ops::Range;
 
-/// Ends of the names of the components of a unit quaternion, in their order.
-const QUATERNION: [&str; 4] = [".rotation.w", ".rotation.x", ".rotation.y", ".rotation.z"];
+/// Components of a quaternion.
+const COMPONENTS: usize = 4;
+/// No value between the rows.
+const NOTHING_PASSED: [(f64, f64); 2] = [(0.0, f64::INFINITY), (0.0, f64::NEG_INFINITY)];
 /// Component of a unit quaternion that is no rounding.
 const CERTAIN: f64 = 1e-6;
 
@@ -49,11 +51,29 @@ impl Extremes {
     }
 }
 
+/// Chooses between the signs of the unit quaternions that begin in the columns `first` of a row: each is continued from the row before; where
+/// that has none, the first component that is not zero is positive.
+pub(super) fn continue_quaternions(first: &[usize], before: &[f64], now: &mut [f64]) {
+    for &i in first {
+        let of = i..i + COMPONENTS;
+        let now = &mut now[of.clone()];
+        let cosine: f64 = before.get(of).map_or(0.0, |q| q.iter().zip(&*now).map(|(a, b)| a * b).sum());
+        let turned = if cosine == 0.0 {
+            now.iter().find(|x| x.abs() > CERTAIN).is_some_and(|x| *x < 0.0)
+        } else {
+            cosine < 0.0
+        };
+        if turned {
+            now.iter_mut().for_each(|x| *x = -*x);
+        }
+    }
+}
+
 impl Trajectory {
     /// An empty trajectory of the given channels, whose names must differ from one another and
     /// from `time`, the name of the first column in files.
     pub fn new(channels: Vec<Channel>) -> Trajectory {
-        let passed = vec![[(0.0, f64::INFINITY), (0.0, f64::NEG_INFINITY)]; channels.len()];
+        let passed = vec![NOTHING_PASSED; channels.len()];
         Trajectory { channels, times: Vec::new(), rows: Vec::new(), passed }
     }
 
@@ -74,9 +94,15 @@ impl Trajectory {
 
     /// First of the four columns of each unit quaternion.
     pub fn quaternions(&self) -> Vec<usize> {
-        let is = |columns: &[Channel]| columns.iter().zip(QUATERNION).all(|(c, end)| c.name.ends_with(end));
-        let windows = self.channels.windows(QUATERNION.len()).enumerate();
-        windows.filter(|(_, columns)| is(columns)).map(|(i, _)| i).collect()
+        let mut first = Vec::new();
+        let mut rest = 0;
+        for (i, columns) in self.channels.windows(COMPONENTS).enumerate() {
+            if i >= rest && columns.iter().all(|c| c.kind == Kind::Quaternion) {
+                first.push(i);
+                rest = i + COMPONENTS;
+            }
+        }
+        first
     }
 
     /// Chooses between the signs of unit quaternions, which mean the same rotation, in some rows: each is continued from
@@ -84,16 +110,10 @@ impl Trajectory {
     /// [columns](Trajectory::quaternions).
     pub fn continue_quaternions(&mut self, first: &[usize], rows: Range<usize>) {
         let width = self.channels.len();
-        for at in rows.flat_map(|row| first.iter().map(move |i| row * width + i)) {
-            let (before, now) = self.rows.split_at_mut(at);
-            let now = &mut now[..QUATERNION.len()];
-            let turned = match at.checked_sub(width) {
-                Some(last) => before[last..].iter().zip(&*now).map(|(a, b)| a * b).sum::<f64>() < 0.0,
-                None => now.iter().find(|x| x.abs() > CERTAIN).is_some_and(|x| *x < 0.0),
-            };
-            if turned {
-                now.iter_mut().for_each(|x| *x = -*x);
-            }
+        for row in rows {
+            let (before, now) = self.rows.split_at_mut(row * width);
+            let last = before.len().saturating_sub(width);
+            continue_quaternions(first, &before[last..], &mut now[..width]);
         }
     }
 
@@ -105,6 +125,21 @@ impl Trajectory {
         }
         if y.is_finite() && y > high.1 {
             *high = (t, y);
+        }
+    }
+
+    /// Leaves out the rows at `t` \[s\] and later, and what was passed between rows.
+    pub fn cut(&mut self, t: f64) {
+        let rows = self.times.partition_point(|time| *time < t);
+        self.times.truncate(rows);
+        self.rows.truncate(rows * self.channels.len());
+        self.passed.fill(NOTHING_PASSED);
+    }
+
+    /// Says what the channel at `index` is, of a trajectory that was read.
+    pub fn describe(&mut self, index: usize, role: Role, kind: Kind) {
+        if let Some(channel) = self.channels.get_mut(index) {
+            (channel.role, channel.kind) = (role, kind);
         }
     }
 
@@ -199,6 +234,19 @@ impl Trajectory {
         peaks
     }
 
+    /// Largest energy or work of the run \[J\].
+    pub fn largest_energy(&self) -> f64 {
+        let energies =
+            [Role::Energy, Role::Work, Role::Imbalance].into_iter().flat_map(|r| self.with_role(r));
+        energies.map(|i| self.extremes(i).largest()).fold(0.0, f64::max)
+    }
+
+    /// Largest value of the energy balance over the [largest energy](Trajectory::largest_energy), where it was recorded.
+    pub fn relative_imbalance(&self) -> Option<f64> {
+        let balance = self.extremes(self.with_role(Role::Imbalance).next()?);
+        Some(balance.largest() / self.largest_energy()).filter(|x| x.is_finite())
+    }
+
     /// The channel and time of the first value that is not a finite number, if there is one.
     pub fn first_not_finite(&self) -> Option<(&Channel, f64)> {
         self.rows().find_map(|(t, row)| {
@@ -212,17 +260,17 @@ impl Trajectory {
 pub(super) mod tests {
     use super::*;
 
-    pub(crate) fn channel(name: &str, unit: &'static str) -> Channel {
-        Channel { name: name.into(), unit, meaning: format!("the {name}"), role: Role::Detail }
+    pub(in crate::analysis::recording) fn channel(name: &str, unit: &'static str) -> Channel {
+        Channel::new(Role::Detail, name, unit, format!("the {name}"))
     }
 
     /// Two channels: a cosine with its lowest point at t = 2 s, and a constant.
-    pub(crate) fn sample() -> Trajectory {
+    fn sample() -> Trajectory {
         let mut t = Trajectory::new(vec![channel("tip.deflection", "m"), channel("hub.speed", "rad/s")]);
         for i in 0..=4 {
             let time = f64::from(i);
             t.push(time, |row| {
-                row.copy_from_slice(&[(std::f64::consts::FRAC_PI_2 * time).cos(), 4.0]);
+                row.copy_from_slice(&[libm::cos(std::f64::consts::FRAC_PI_2 * time), 4.0]);
             });
         }
         t

@@ -1,0 +1,20 @@
+//! The stations of beams that a case records.
+
+use super::fault::{Fault, Faults, Made};
+use super::kind::Context;
+use super::places::Place;
+use super::values::Values;
+
+/// The stations of beams that are recorded besides their tips: number of the beam and arc length \[m\].
+pub(super) fn stations(output: &Values, c: &Context<'_>) -> Made<Vec<(usize, f64)>> {
+    let parts = c.parts()?;
+    let station = |name: &String| match parts.find(name) {
+        Ok(Place::Station { beam, s }) => Ok((beam, s)),
+        Ok(_) => {
+            let fault = Fault::new("stations", format!("`{name}` is no station of a beam"));
+            Err(fault.help("write for example `stations = [\"2 m\"]`").into())
+        }
+        Err(fault) => Err(Faults::from(fault).within("stations")),
+    };
+    output.texts("stations")?.iter().map(station).collect()
+}

@@ -1,0 +1,267 @@
+//! An observer that records a run.
+
+use super::events::Events;
+use super::passing::Passing;
+use super::trajectory::Trajectory;
+use super::warning::Warning;
+use crate::analysis::energy_balance::rounding_energy;
+use crate::analysis::transient::{Event, Observer, Plan, Step};
+use crate::analysis::violation::Violation;
+use crate::system::{Channel, Direction, Role, Sink, State, System};
+use std::ops::ControlFlow;
+
+/// Relative imbalance of the energy that a run may show without a warning.
+const IMBALANCE: f64 = 0.2;
+/// Fewest steps a period of a vibration whose amplitude and phase are followed.
+const STEPS_A_PERIOD: f64 = 10.0;
+
+/// Called after every accepted step; `Break` stops the run.
+pub type Watch<'a> = dyn FnMut(&State) -> ControlFlow<()> + 'a;
+
+/// Called with every recorded state, e.g. to take pictures.
+pub type Sampled<'a> = dyn FnMut(&mut dyn System, &State) + 'a;
+
+/// What a [`Recorder`] records besides the channels of the system.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Columns {
+    /// Work, losses and the energy balance.
+    pub energy_balance: bool,
+    /// Shares of the unknowns across the beam, W_i = B_i²/ΣB².
+    pub modal_shares: bool,
+}
+
+/// Records the channels of a system and what every run has: the total energy, the size of the step and
+/// the iterations it took.
+pub struct Recorder<'a> {
+    trajectory: Trajectory,
+    events: Events,
+    common: Common,
+    /// Number of channels of the system.
+    own: usize,
+    /// Channels of the system that are parts of the total energy.
+    energies: Vec<usize>,
+    gain: Option<f64>,
+    /// The first time at which a point may have stepped over an obstacle, and the name of its contact.
+    stepped_over: Option<(f64, String)>,
+    passing: Passing,
+    /// Whether the steps are fixed.
+    fixed: bool,
+    watch: Option<&'a mut Watch<'a>>,
+    sampled: Option<&'a mut Sampled<'a>>,
+}
+
+/// What every run has besides the channels of its system.
+struct Common {
+    /// Whether work and losses are recorded.
+    balance: bool,
+    contacts: bool,
+    /// Of systems with rows of constraints.
+    violation: Option<Violation>,
+    /// Unknowns of the transverse modes whose shares are recorded.
+    modes: Vec<usize>,
+}
+
+impl Common {
+    /// Puts what belongs to a state with the energy `total` \[J\] into a sink.
+    fn observe(&self, state: &State, step: &Step, total: f64, sink: &mut Sink<'_>) {
+        let mut put = |value, role, name, unit: &'static str, meaning| {
+            sink.put(value, || Channel::new(role, name, unit, meaning));
+        };
+        put(total, Role::Work, "energy.total", "J", "kinetic, strain, gravity and contact energy");
+        if self.balance {
+            let balance = step.balance.unwrap_or_default();
+            let meaning = "work of what moves the hub since the start";
+            put(balance.drive, Role::Work, "energy.drive", "J", meaning);
+            let meaning = "work of the loads since the start, gravity aside";
+            put(balance.loads, Role::Work, "energy.loads", "J", meaning);
+            let meaning = "energy lost in dampers since the start";
+            put(balance.dissipated, Role::Work, "energy.dissipated", "J", meaning);
+            if self.contacts {
+                let meaning = "energy lost in contacts since the start";
+                put(balance.contact, Role::Work, "energy.contact_loss", "J", meaning);
+            }
+            let meaning = "error of the energy balance, E(t) − E(0) − work + losses: zero if exact";
+            put(balance.imbalance(total), Role::Imbalance, "energy.balance", "J", meaning);
+        }
+        let of_steps = Role::Integration;
+        put(step.size, of_steps, "step.size", "s", "size of the time step that covers this time");
+        put(f64::from(step.iterations), of_steps, "step.iterations", "", "Newton iterations of that step");
+        if let Some(Violation { largest: [position, velocity, acceleration], .. }) = self.violation {
+            let meaning =
+                "largest violation of constraints and closed contacts, and penetration of open ones";
+            put(position, of_steps, "constraint.position", "m", meaning);
+            let meaning = "largest velocity against constraints and closed contacts";
+            put(velocity, of_steps, "constraint.velocity", "m/s", meaning);
+            let meaning = "largest acceleration against constraints and closed contacts";
+            put(acceleration, of_steps, "constraint.acceleration", "m/s^2", meaning);
+        }
+        let square = |i: &usize| state.q[*i] * state.q[*i];
+        let sum = self.modes.iter().map(square).sum::<f64>().max(f64::MIN_POSITIVE);
+        for (k, i) in self.modes.iter().enumerate() {
+            sink.put(square(i) / sum, || {
+                let (name, meaning) = (
+                    format!("mode.{}.share", k + 1),
+                    format!("share B²/ΣB² of the transverse mode {}", k + 1),
+                );
+                Channel::new(Role::Detail, name, "", meaning)
+            });
+        }
+    }
+}
+
+impl<'a> Recorder<'a> {
+    /// A recorder for runs of `system` from `state` by `plan`.
+    pub fn new(system: &mut dyn System, state: &State, plan: &Plan, columns: Columns) -> Recorder<'a> {
+        let Columns { energy_balance: balance, modal_shares: shares } = columns;
+        let mut events = Events::new(system, state);
+        events.apart = plan.sample;
+        let mut channels = system.channels();
+        let parts = channels.iter().enumerate().filter(|(_, c)| c.role == Role::Energy);
+        let energies = parts.map(|(i, _)| i).collect();
+        let across = |i: &usize| shares && system.direction(*i) == Direction::Chord;
+        let common = Common {
+            balance,
+            contacts: !events.is_empty(),
+            violation: (system.size().lambda > 0).then(|| Violation::new(system)),
+            modes: (0..system.size().v).filter(across).collect(),
+        };
+        let mut passing = Passing::new(&channels, state, plan.end - state.t);
+        let own = channels.len();
+        common.observe(state, &Step::default(), 0.0, &mut Sink::channels(&mut channels));
+        let mut trajectory = Trajectory::new(channels);
+        passing.quaternions = trajectory.quaternions();
+        trajectory.reserve((plan.end / plan.sample).min(1e7) as usize + 2);
+        Recorder {
+            trajectory,
+            events,
+            common,
+            own,
+            energies,
+            gain: None,
+            stepped_over: None,
+            passing,
+            fixed: plan.step.is_some(),
+            watch: None,
+            sampled: None,
+        }
+    }
+
+    /// The recorder, calling `watch` after every step.
+    #[must_use]
+    pub fn with_watch(self, watch: &'a mut Watch<'a>) -> Recorder<'a> {
+        Recorder { watch: Some(watch), ..self }
+    }
+
+    /// The recorder, calling `sampled` with every recorded state.
+    #[must_use]
+    pub fn with_sampled(self, sampled: &'a mut Sampled<'a>) -> Recorder<'a> {
+        Recorder { sampled: Some(sampled), ..self }
+    }
+
+    /// The recorder, for a method in whose steps velocities may jump: no curve is drawn through their ends.
+    #[must_use]
+    pub fn with_jumps_in_steps(mut self, jumps: bool) -> Recorder<'a> {
+        self.passing.rough = jumps && !self.events.is_empty();
+        self.events.by_step = jumps;
+        self
+    }
+
+    /// What makes the motion doubtful: the run has gained energy that nothing has put in, its energy balance does not close,
+    /// a point may have stepped over an obstacle, or fixed steps do not resolve a vibration.
+    pub fn warnings(&self, system: &mut dyn System, state: &State) -> Vec<Warning> {
+        let gain = self.gain.map(|excess| Warning::EnergyGained { excess });
+        let imbalance = || {
+            let balances = self.trajectory.with_role(Role::Imbalance);
+            let largest = balances.map(|i| self.trajectory.extremes(i).largest()).fold(0.0, f64::max);
+            let relative = self.trajectory.relative_imbalance().filter(|imbalance| *imbalance > IMBALANCE)?;
+            let certain = largest > rounding_energy(system, state);
+            certain.then_some(Warning::EnergyImbalance { relative })
+        };
+        let stepped_over = self.stepped_over.clone();
+        let stepped_over = stepped_over.map(|(time, contact)| Warning::SteppedOver { time, contact });
+        let coarse = self.passing.steps_a_period().filter(|steps| self.fixed && *steps < STEPS_A_PERIOD);
+        let coarse = coarse.map(|steps| Warning::FewStepsAPeriod { steps, wanted: STEPS_A_PERIOD });
+        gain.or_else(imbalance).into_iter().chain(stepped_over).chain(coarse).collect()
+    }
+
+    /// What was recorded.
+    pub fn into_parts(self) -> (Trajectory, Events) {
+        let Recorder { trajectory, mut events, .. } = self;
+        events.end(trajectory.times().last().copied().unwrap_or_default());
+        (trajectory, events)
+    }
+}
+
+impl Observer for Recorder<'_> {
+    fn wants_energy_balance(&self) -> bool {
+        self.common.balance
+    }
+
+    fn sample(&mut self, system: &mut dyn System, state: &State, step: &Step) {
+        self.events.begin(state);
+        self.events.neglected = step.neglected;
+        if let Some(violation) = &mut self.common.violation {
+            violation.evaluate(system, state);
+        }
+        if self.trajectory.is_empty() {
+            self.passing.enter(system, state, &mut self.trajectory);
+        }
+        let passing = &mut self.passing;
+        let mut taken = false;
+        self.trajectory.push(state.t, |row| {
+            let (own, common) = row.split_at_mut(self.own);
+            system.record(state, own);
+            taken = passing.take(state.t, own);
+            let total = match self.energies.as_slice() {
+                [] => system.energy(state).total(),
+                recorded => recorded.iter().map(|&i| own[i]).sum(),
+            };
+            self.common.observe(state, step, total, &mut Sink::row(common));
+        });
+        if taken {
+            self.passing.find_vertices(&mut self.trajectory);
+        }
+        if let Some(sampled) = &mut self.sampled {
+            sampled(system, state);
+        }
+    }
+
+    fn event(&mut self, event: &Event) {
+        self.passing.cut();
+        if !self.events.is_empty() {
+            self.events.add(event);
+        }
+    }
+
+    fn gained_energy(&mut self, excess: f64) {
+        self.gain = Some(excess);
+    }
+
+    fn stepped_over(&mut self, time: f64, row: usize) {
+        if self.stepped_over.is_none() {
+            self.stepped_over = Some((time, self.events.name_of_row(row).to_owned()));
+        }
+    }
+
+    fn passing(&mut self, system: &mut dyn System, state: &State) {
+        self.passing.enter(system, state, &mut self.trajectory);
+        self.events.pass(system, state);
+    }
+
+    fn between(&mut self, system: &mut dyn System, state: &State) {
+        self.passing.show(system, state, &mut self.trajectory);
+        self.events.look(system, state);
+    }
+
+    fn wants_within(&self) -> bool {
+        self.events.touching()
+    }
+
+    fn within(&mut self, system: &mut dyn System, state: &State, weight: f64) {
+        self.events.within(system, state, weight);
+    }
+
+    fn step(&mut self, state: &State) -> ControlFlow<()> {
+        self.watch.as_mut().map_or(ControlFlow::Continue(()), |watch| watch(state))
+    }
+}

@@ -1,0 +1,76 @@
+//! What a rigid contact gives while it is closed, and in a burst of impacts.
+
+/// Impulses of one contact of the law `constraint`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Rigid {
+    /// While it is closed.
+    pub(super) closed: Option<Closed>,
+    burst: Option<Burst>,
+    /// λ at the state passed last \[N\].
+    pub(super) lambda: f64,
+    /// Of all impacts and closures of the run [N·s].
+    pub(super) impulse: f64,
+}
+
+/// A contact while it is closed.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Closed {
+    /// When it closed \[s\]; `None` where it did before the run began.
+    pub(super) since: Option<f64>,
+    /// ∫λ dt [N·s]
+    pub(super) impulse: f64,
+    /// Largest λ \[N\].
+    pub(super) force: f64,
+}
+
+/// Impacts and times of closure that follow each other closely.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Burst {
+    /// When it began and ended \[s\].
+    pub(super) range: [f64; 2],
+    /// Of all impacts and closures [N·s].
+    pub(super) impulse: f64,
+    /// Number of impacts and closures.
+    pub(super) parts: usize,
+}
+
+impl Rigid {
+    /// Adds a step of the size h \[s\] with the force λ at its end, if it is closed: h (λ₀ + λ₁)/2.
+    pub(super) fn press(&mut self, lambda: f64, h: f64) {
+        let before = std::mem::replace(&mut self.lambda, lambda);
+        if let Some(closed) = &mut self.closed {
+            let impulse = 0.5 * h * (before + lambda);
+            closed.impulse += impulse;
+            self.impulse += impulse;
+            closed.force = closed.force.max(lambda);
+        }
+    }
+
+    /// Adds a step from `since` until `time` \[s\] whose impulse is hλ, open or closed; gives the burst that has ended before it.
+    pub(super) fn push(&mut self, lambda: f64, [since, time]: [f64; 2], apart: f64) -> Option<Burst> {
+        let impulse = (time - since) * lambda;
+        self.impulse += impulse;
+        if let Some(closed) = &mut self.closed {
+            closed.impulse += impulse;
+            closed.force = closed.force.max(lambda);
+        }
+        if lambda > 0.0 { self.add([time; 2], impulse, apart) } else { None }
+    }
+
+    /// Adds an impact or a closure of an impulse from `since` until `time`; gives the burst that has ended before it, `apart` \[s\] or more.
+    pub(super) fn add(&mut self, [since, time]: [f64; 2], impulse: f64, apart: f64) -> Option<Burst> {
+        match &mut self.burst {
+            Some(burst) if since - burst.range[1] < apart => {
+                (burst.range[1], burst.impulse) = (time, burst.impulse + impulse);
+                burst.parts += 1;
+                None
+            }
+            burst => burst.replace(Burst { range: [since, time], impulse, parts: 1 }),
+        }
+    }
+
+    /// The burst that goes on at the end of a run.
+    pub(super) fn end(&mut self) -> Option<Burst> {
+        self.burst.take()
+    }
+}

@@ -1,0 +1,47 @@
+//! What makes a recorded motion doubtful.
+
+/// A reason to doubt a recorded motion, found while it was computed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Warning {
+    /// The energy has grown by `excess` \[J\] more than drives and loads have put in: the steps are too large for the method.
+    #[error(
+        "the energy has grown by {excess:.3e} J more than drives and loads have put in: the steps are too large for this \
+         method, and the motion is not to be trusted"
+    )]
+    EnergyGained {
+        /// Excess of energy \[J\].
+        excess: f64,
+    },
+    /// The energy balance does not close.
+    #[error(
+        "the energy balance is off by {:.0} % of the largest energy or work of the run: its steps miss what happens, and the \
+         motion is not to be trusted",
+        100.0 * relative
+    )]
+    EnergyImbalance {
+        /// Its largest value over the largest energy or work of the run.
+        relative: f64,
+    },
+    /// A point may have passed through an obstacle within a step of a method that locates no events.
+    #[error(
+        "the contact `{contact}` may have passed through its obstacle in the step that ends at t = {time:.6} s: this method \
+         locates no events, and its steps are too large for an obstacle of this size"
+    )]
+    SteppedOver {
+        /// End of the first such step \[s\].
+        time: f64,
+        /// Name of the contact.
+        contact: String,
+    },
+    /// Fixed steps do not resolve the vibration that makes up most of the motion.
+    #[error(
+        "the motion is mostly a vibration of {steps:.1} steps a period, and its amplitude and phase need {wanted} at least"
+    )]
+    FewStepsAPeriod {
+        /// Steps a period.
+        steps: f64,
+        /// Steps a period that amplitude and phase need.
+        wanted: f64,
+    },
+}
