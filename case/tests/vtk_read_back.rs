@@ -116,21 +116,3 @@ fn sections_of_beams_in_space_have_the_sizes_of_their_cases() {
         }
     }
 }
-
-#[cfg(feature = "vtkhdf")]
-#[test]
-fn the_points_of_all_times_follow_one_another_in_one_file() {
-    let folder = tempfile::tempdir().unwrap();
-    let (out, _) = results(folder.path());
-    let file = std::fs::read(out.join("beam.vtkhdf")).unwrap();
-    assert!(file.starts_with(b"\x89HDF\r\n\x1a\n"));
-    for name in ["Points", "displacement", "deflection", "axial", "rotation"] {
-        let mut expected = Vec::new();
-        for frame in 0..7 {
-            let text = std::fs::read_to_string(out.join(format!("vtk/frame_{frame:05}.vtu"))).unwrap();
-            let grid = roxmltree::Document::parse(&text).unwrap();
-            expected.extend(numbers(&grid, name).into_iter().flat_map(f64::to_le_bytes));
-        }
-        assert!((0..file.len()).any(|at| file[at..].starts_with(&expected)), "{name}");
-    }
-}

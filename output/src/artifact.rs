@@ -52,13 +52,11 @@ artifacts! {
         State "state.npz" "the last accepted step, from which a run can go on",
         TrajectoryCsv "trajectory.csv" "what was recorded, as text",
         TrajectoryNpz "trajectory.npz" "the same for NumPy",
-        TrajectoryParquet "trajectory.parquet" "the same, written with the feature `parquet`",
         Scene "scene.npz" "the motion in space, for `flexion view`",
         Events "events.csv" "impacts, and contacts that close, open, slip or stick",
         PlotSvg "plot.svg" "the plot",
         PlotPng "plot.png" "the plot as pixels",
         ShapeSeries "beam.pvd" "the times of the shapes, for ParaView",
-        ShapeHdf "beam.vtkhdf" "the shapes of all times, written with the feature `vtkhdf`",
     }
     /// The files of a comparison; the first marks the directory as complete.
     COMPARISON {

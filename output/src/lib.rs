@@ -19,8 +19,6 @@ mod npz;
 mod obstacles;
 
 mod page;
-#[cfg(feature = "parquet")]
-mod parquet;
 pub mod plot;
 mod provenance;
 mod resonance;
@@ -38,8 +36,6 @@ mod statics;
 mod summary;
 mod vibration;
 mod vtk;
-#[cfg(feature = "vtkhdf")]
-mod vtkhdf;
 
 pub use self::artifact::Artifact;
 pub use self::compare::{Comparison, Difference, compare, compare_csv, compare_json};
@@ -55,8 +51,6 @@ pub use self::nearest::nearest;
 pub use self::npz::write_npz;
 pub use self::obstacles::Drawn;
 pub use self::page::view_page;
-#[cfg(feature = "parquet")]
-pub use self::parquet::write_parquet;
 pub use self::provenance::resolved_case;
 pub use self::resonance::{Resonance, resonances};
 pub use self::results::{Results, select};
@@ -70,6 +64,4 @@ pub use self::statics::write_statics;
 pub use self::summary::{Integration, ProblemSize, RunReport, Status, Summary, VERSION};
 pub use self::vibration::{write_campbell, write_modes};
 pub use self::vtk::{write_pvd, write_vtp, write_vtu};
-#[cfg(feature = "vtkhdf")]
-pub use self::vtkhdf::write_vtkhdf;
 pub use flexion::analysis::recording::{Entry, Events, Extremes, Trajectory};

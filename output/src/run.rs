@@ -53,8 +53,6 @@ pub fn write_run(
     // The smaller one first: it may still fit on a disk that is nearly full.
     directory.write(Artifact::TrajectoryNpz, |f| write_npz(trajectory, f))?;
     directory.write(Artifact::TrajectoryCsv, |f| write_csv(trajectory, f))?;
-    #[cfg(feature = "parquet")]
-    directory.write(Artifact::TrajectoryParquet, |f| super::write_parquet(trajectory, f))?;
     if let Some(events) = report.events {
         directory.write(Artifact::Events, |f| write_events(events, f))?;
     }
@@ -76,8 +74,6 @@ pub fn write_run(
             directory.write(Artifact::Obstacles(number), |f| write_vtp(lines, f))?;
         }
         directory.write(Artifact::ShapeSeries, |f| write_pvd(shapes.times(), !outlines.is_empty(), f))?;
-        #[cfg(feature = "vtkhdf")]
-        directory.write(Artifact::ShapeHdf, |f| super::write_vtkhdf(shapes, f))?;
     }
     if let Some(scene) = attachments.scene.filter(|_| attachments.solids) {
         write_film(directory, scene, Artifact::ShapeSeries)?;
@@ -124,7 +120,7 @@ mod tests {
     fn a_run_leaves_its_files_and_nothing_else() {
         let files = files(Status::Stopped);
         let names: Vec<&str> = files.iter().map(|(n, _)| n.as_str()).collect();
-        let mut expected = vec![
+        let expected = vec![
             "case.resolved.toml",
             "plot.png",
             "plot.svg",
@@ -132,7 +128,6 @@ mod tests {
             "trajectory.csv",
             "trajectory.npz",
         ];
-        expected.extend(cfg!(feature = "parquet").then_some("trajectory.parquet"));
         assert_eq!(names, expected);
     }
 
