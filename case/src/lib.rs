@@ -18,7 +18,6 @@
 #[doc = include_str!("../../docs/src/tasks/library.md")]
 pub struct Book;
 
-pub mod calibration;
 mod campbell;
 mod case;
 pub mod declaration;

@@ -127,8 +127,8 @@ impl Case {
         tables.flat_map(|(table, points)| std::iter::repeat_n(item("contact", table), points)).collect()
     }
 
-    /// Changes that give the case twice the functions.
-    pub(super) fn finer(&self) -> Vec<String> {
+    /// Changes that give the case twice the functions; none for a system without a mesh.
+    pub fn finer(&self) -> Vec<String> {
         match &self.subject {
             Subject::HubBeam(beam) => changes(&beam.bases.finer),
             Subject::Space(space) if space.beams.is_empty() => Vec::new(),

@@ -4,7 +4,6 @@ mod advice;
 mod beamdyn;
 mod blade;
 mod broken_cases;
-mod calibration;
 mod case_files;
 mod contact;
 mod convergence;

@@ -5,7 +5,6 @@
 
 mod advise;
 mod assembly;
-mod calibrate;
 mod campbell;
 mod case;
 mod check;
@@ -64,8 +63,6 @@ enum Command {
     View(view::Arguments),
     /// Find the cheapest coupling, basis and integrator with which a case holds a tolerance
     Advise(advise::Arguments),
-    /// Hold stated errors of cases at random against their true errors
-    Calibrate(calibrate::Arguments),
     /// List all kinds that a case may choose, with their keys
     List(list::Arguments),
     /// Print the JSON Schema of case files, for editors
@@ -111,7 +108,6 @@ fn main() -> ExitCode {
         Command::Statics(arguments) => statics::statics(&arguments),
         Command::Plot(arguments) => plot::plot(&arguments),
         Command::Advise(arguments) => advise::advise(&arguments),
-        Command::Calibrate(arguments) => calibrate::calibrate(&arguments),
         Command::View(arguments) => view::view(&arguments),
         Command::Completions(arguments) => completions::completions(&arguments),
         Command::Man(arguments) => man::man(&arguments),

@@ -500,21 +500,6 @@ fn advice_is_written_the_same_each_time_and_has_an_exit_code() {
 }
 
 #[test]
-fn cases_at_random_are_calibrated_and_shown() {
-    let folder = folder();
-    let study = ["calibrate", "--cases", "3", "--seed", "9", "--output", "study"];
-    let output = flexion(folder.path(), &study);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    let read = |file: &str| std::fs::read_to_string(folder.path().join("study").join(file)).unwrap();
-    let json: serde_json::Value = serde_json::from_str(&read("calibration.json")).unwrap();
-    assert_eq!(json["outcomes"].as_array().unwrap().len(), 3);
-    assert!(read("calibration.csv").lines().count() > 20 && read("calibration.svg").contains("True error"));
-    // What is shown is a case that the program reads.
-    let shown = text(&flexion(folder.path(), &["calibrate", "--seed", "9", "--show", "0"]).stdout);
-    assert!(shown.contains("[beam]") && shown.contains("[integrator]"), "{shown}");
-}
-
-#[test]
 fn completions_and_manual_pages_name_every_command() {
     let folder = folder();
     let help = text(&flexion(folder.path(), &["--help"]).stdout);

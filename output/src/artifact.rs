@@ -96,13 +96,6 @@ artifacts! {
         AdviceJson "advice.json" "the cheapest run that holds a tolerance, and all that were tried",
         AdviceCsv "advice.csv" "all that were tried as a table",
     }
-    /// The files of a calibration; the first marks the directory as complete.
-    CALIBRATION {
-        CalibrationJson "calibration.json" "counts, and how every case ended",
-        CalibrationCsv "calibration.csv" "stated and true error of every value",
-        CalibrationSvg "calibration.svg" "the plot of stated against true errors",
-        CalibrationPng "calibration.png" "the plot as pixels",
-    }
 }
 
 impl Artifact {

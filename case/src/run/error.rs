@@ -245,7 +245,7 @@ impl Reading {
 
     /// The last time recorded before the first impact of a run of a mesh with a rigid contact: after it a run on another mesh says nothing
     /// of the error.
-    pub(crate) fn before_impacts(&self, run: &Run) -> Option<f64> {
+    pub fn before_impacts(&self, run: &Run) -> Option<f64> {
         let step = self.case.output.step;
         let end = (self.first_impact(run)? / step - SAME).floor().max(0.0) * step;
         Some(end).filter(|end| *end < self.case.duration)
@@ -346,7 +346,7 @@ impl Reading {
     }
 
     /// The relative tolerance of the case; `None` for fixed steps.
-    pub(crate) fn tolerance(&self) -> Option<f64> {
+    pub fn tolerance(&self) -> Option<f64> {
         match self.case.steps {
             Steps::Controlled { tolerance, .. } => Some(tolerance),
             Steps::Fixed { .. } => None,

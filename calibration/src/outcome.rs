@@ -1,11 +1,8 @@
 //! A case that was drawn, run and held against a finer run.
 
 use super::Drawn;
-use crate::problem::Problems;
-use crate::reading::Reading;
-use crate::run::Run;
-use crate::run::error::Effort;
 use flexion::system::{Role, State};
+use flexion_case::{Effort, Problems, Reading, Run};
 use flexion_results::{ColumnError, Status};
 use std::ops::ControlFlow;
 
@@ -29,6 +26,18 @@ pub enum Ending {
     Failed(String),
     /// It is a legal case and was refused.
     Refused(String),
+}
+
+impl Ending {
+    /// One word for it.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Ending::Known => "known",
+            Ending::Unknown(_) => "unknown",
+            Ending::Failed(_) => "failed",
+            Ending::Refused(_) => "refused",
+        }
+    }
 }
 
 /// A value with its stated and its true error.

@@ -14,9 +14,7 @@ mod study;
 pub use outcome::{Compared, Ending, Outcome, judge};
 pub use study::{Counts, figure};
 
-use crate::problem::Problems;
-use crate::reading::{Reading, parse_with};
-use crate::sources::Contents;
+use flexion_case::{Contents, Problems, Reading, parse_with};
 use random::Random;
 use std::path::Path;
 use std::sync::Mutex;
@@ -71,12 +69,12 @@ pub fn draw(seed: u64, number: u64) -> Drawn {
 }
 
 /// The outcomes of cases of a sequence, in the order of their numbers, on so many threads, 0 for as many as the machine has.
-/// `judged` is called after each case; no further one begins when it returns false.
+/// `judged` is called after each case.
 pub fn study(
     seed: u64,
     numbers: std::ops::Range<u64>,
     threads: usize,
-    judged: &(dyn Fn() -> bool + Sync),
+    judged: &(dyn Fn(&Outcome) + Sync),
 ) -> Vec<Outcome> {
     let threads = match threads {
         0 => std::thread::available_parallelism().map_or(1, std::num::NonZero::get),
@@ -90,11 +88,9 @@ pub fn study(
                 break;
             }
             let outcome = judge(&draw(seed, number), number);
+            judged(&outcome);
             if let Ok(mut outcomes) = outcomes.lock() {
                 outcomes.push(outcome);
-            }
-            if !judged() {
-                next.store(numbers.end, Ordering::Relaxed);
             }
         }
     };

@@ -1,8 +1,12 @@
 //! Cases at random over all kinds: what a run states as its error holds against a far finer run, or the run warns or ends with
-//! an error. `flexion calibrate` does the same for as many cases as one likes.
+//! an error. The program does the same for as many cases as one likes.
 
-use flexion_case::calibration::{Counts, Ending, draw, study};
+#![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
+
+use flexion_calibration::{Counts, Ending, draw, draw_with_contacts, study};
+use flexion_results::Status;
 use std::collections::BTreeSet;
+use std::ops::ControlFlow;
 
 /// Cases of the test, of a seed that no study in the documentation has.
 const CASES: u64 = 60;
@@ -10,7 +14,7 @@ const SEED: u64 = 5;
 
 #[test]
 fn stated_errors_of_cases_at_random_hold_or_the_run_warns() {
-    let outcomes = study(SEED, 0..CASES, 0, &|| true);
+    let outcomes = study(SEED, 0..CASES, 0, &|_| ());
     let refused: Vec<_> = outcomes
         .iter()
         .filter(|o| matches!(o.ending, Ending::Refused(_)))
@@ -54,4 +58,38 @@ fn all_kinds_are_drawn() {
             assert!(left_out(kind.name) || words.contains(kind.name), "{} {}", choice.path(), kind.name);
         }
     }
+}
+
+/// Contacts in random cases: energy is not made, rigid obstacles are not entered, or the run ends with an error.
+#[test]
+fn random_contacts_make_no_energy_and_let_nothing_through() {
+    let (mut touched, mut failed) = (0, 0);
+    for seed in 0..30 {
+        let drawn = draw_with_contacts(7_000_003 + seed);
+        let set = ["integrator={kind='radau',tolerance=1e-7,absolute-tolerance=1e-9}".to_owned()];
+        let reading =
+            drawn.read(&set).unwrap_or_else(|problems| panic!("{seed}: {problems}\n{}", drawn.text));
+        let Ok(prepared) = reading.prepare() else { continue };
+        let mut steps = 0;
+        let run = prepared.run(&mut |_| {
+            steps += 1;
+            if steps > 6_000 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        failed += usize::from(run.status == Status::Failed);
+        if run.events.impacts().next().is_none() {
+            continue;
+        }
+        touched += 1;
+        let columns = |name: &str| run.trajectory.column(name).unwrap();
+        let total = columns("energy.total").into_iter().fold(0.0, f64::max);
+        let work = columns("energy.drive").into_iter().chain(columns("energy.loads"));
+        let scale = work.fold(total, |m, x| m.max(x.abs()));
+        let gained = columns("energy.balance").into_iter().fold(0.0, f64::max);
+        assert!(gained < 1e-3 * scale, "{seed}: {gained} of {scale}\n{}", drawn.text);
+        let entered =
+            run.trajectory.column("constraint.position").unwrap_or_default().into_iter().fold(0.0, f64::max);
+        assert!(entered < 1e-6 * drawn.length, "{seed}: {entered} of {}\n{}", drawn.length, drawn.text);
+    }
+    eprintln!("{touched} cases touch, {failed} end with an error");
+    assert!(touched > 10 && failed < 10, "{touched} cases touch, {failed} end with an error");
 }

@@ -1,0 +1,103 @@
+//! Stated against true errors of cases at random: `cargo run --release -p flexion-calibration -- --cases 100 --seed 2`.
+
+use clap::Parser as _;
+use flexion_calibration::{Counts, Drawn, Ending, Outcome, draw, figure, study};
+use serde_json::{Value, json};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// Holds the stated errors of cases at random against their true errors
+///
+/// Draws legal cases over all kinds, runs each as `flexion run` does, and again far more finely; the true error of the min, max and
+/// final value of every column is held against the stated one. The same seed gives the same cases.
+#[derive(clap::Parser)]
+struct Arguments {
+    /// Number of cases
+    #[arg(long, value_name = "N", default_value = "100")]
+    cases: u64,
+    /// Number of the first case
+    #[arg(long, value_name = "N", default_value = "0")]
+    first: u64,
+    /// Seed of the sequence of cases
+    #[arg(long, value_name = "N", default_value = "1")]
+    seed: u64,
+    /// Print the case of this number, and the files that it names, and run nothing
+    #[arg(long, value_name = "N")]
+    show: Option<u64>,
+    /// Directory for calibration.json, .csv and the picture, which replace former ones
+    #[arg(long, short, value_name = "DIR", default_value = "results/calibration")]
+    output: PathBuf,
+    /// Number of threads [default: one a processor]
+    #[arg(long, value_name = "N", default_value = "0", hide_default_value = true)]
+    threads: usize,
+}
+
+fn main() -> io::Result<()> {
+    let arguments = Arguments::parse();
+    if let Some(number) = arguments.show {
+        return show(&draw(arguments.seed, number));
+    }
+    std::fs::create_dir_all(&arguments.output)?;
+    let numbers = arguments.first..arguments.first.saturating_add(arguments.cases);
+    let outcomes = study(arguments.seed, numbers, arguments.threads, &|outcome| {
+        // What is seen of the progress only.
+        let _ = writeln!(io::stderr(), "{} {}: {}", outcome.number, outcome.subject, outcome.ending.name());
+    });
+    let counts = Counts::of(&outcomes);
+    for [what, count, asked] in counts.rows() {
+        writeln!(io::stdout(), "  {what:<52} {count:<28} {asked}")?;
+    }
+    write(&arguments, &outcomes, &counts)
+}
+
+fn show(drawn: &Drawn) -> io::Result<()> {
+    let mut out = io::stdout().lock();
+    out.write_all(drawn.text.as_bytes())?;
+    for (name, bytes) in &drawn.files {
+        writeln!(out, "# {name}")?;
+        for line in String::from_utf8_lossy(bytes).lines() {
+            writeln!(out, "#   {line}")?;
+        }
+    }
+    Ok(())
+}
+
+fn write(arguments: &Arguments, outcomes: &[Outcome], counts: &Counts) -> io::Result<()> {
+    let file = |name: &str| arguments.output.join(Path::new("calibration").with_extension(name));
+    let mut csv =
+        "case,column,value,principal,warned,largest,stated,true,stated_with_model,off_exact\n".to_owned();
+    for o in outcomes {
+        for v in &o.values {
+            let (with_model, off) = v.exact.unwrap_or((f64::NAN, f64::NAN));
+            csv += &format!(
+                "{},{},{},{},{},{:e},{:e},{:e},{with_model:e},{off:e}\n",
+                o.number,
+                v.column,
+                v.part,
+                u8::from(v.principal),
+                u8::from(!o.warnings.is_empty()),
+                v.size,
+                v.stated,
+                v.off
+            );
+        }
+    }
+    std::fs::write(file("csv"), csv)?;
+    let drawing = figure(outcomes).draw();
+    std::fs::write(file("svg"), drawing.svg())?;
+    std::fs::write(file("png"), drawing.png().map_err(io::Error::other)?)?;
+    let case = |o: &Outcome| {
+        let why = match &o.ending {
+            Ending::Known => None,
+            Ending::Unknown(why) | Ending::Failed(why) | Ending::Refused(why) => Some(why),
+        };
+        json!({ "case": o.number, "of": o.subject, "ending": o.ending.name(), "why": why, "warnings": o.warnings })
+    };
+    let table: Value = counts.rows().iter().map(|[what, count, asked]| json!([what, count, asked])).collect();
+    let cases: Value = outcomes.iter().map(case).collect();
+    let json = json!({
+        "seed": arguments.seed, "first": arguments.first, "cases": outcomes.len(), "counts": table,
+        "silent": counts.silent, "wrong": counts.wrong, "outcomes": cases,
+    });
+    std::fs::write(file("json"), format!("{json:#}\n"))
+}
