@@ -577,6 +577,6 @@ fn blamed(error: &ModelError, v: &Values, joints: &[String]) -> Faults {
             "bars that are stretched out or folded flat may move on in more than one way or in none: begin elsewhere, or give a \
              joint more freedom",
         ),
-        ModelError::Velocities(_) => Fault::new("joint", error.to_string()).into(),
+        _ => Fault::new("joint", error.to_string()).into(),
     }
 }

@@ -501,7 +501,7 @@ fn contacts_whose_forces_follow_from_each_other_are_named() {
     let message = outcome(&reading(&text, &[])).message.unwrap();
     assert!(
         message.contains("contact, contact2, contact3, contact4 are closed at once")
-            && message.contains("use `moreau-jean`"),
+            && message.contains("use a nonsmooth method (Moreau–Jean"),
         "{message}"
     );
     assert_eq!(

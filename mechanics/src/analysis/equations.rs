@@ -199,8 +199,8 @@ impl<'a> Equations<'a> {
             // Converged, or as far as rounding lets it come.
             if size <= TOLERANCE || (size < 1e-7 && size > 0.3 * last) {
                 apply(self.system, *part);
-                return self.system.admissible(state).map(|()| iteration + 1).map_err(|what| Failure {
-                    what,
+                return self.system.admissible(state).map(|()| iteration + 1).map_err(|limit| Failure {
+                    what: limit.to_string(),
                     singular: false,
                     worst: 0,
                 });

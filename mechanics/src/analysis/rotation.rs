@@ -3,7 +3,7 @@
 use super::equilibrium::{Effort, NoEquilibrium, equilibrium};
 use super::stability::{Stability, stability};
 use crate::linalg::eigen::EigenError;
-use crate::system::{NotSet, Parameter, State, System};
+use crate::system::{Limit, NotSet, Parameter, State, System};
 
 /// Smallest part of the way to a speed by which continuation goes on.
 const SMALLEST: f64 = 1e-4;
@@ -25,8 +25,9 @@ pub enum NoRotation {
     DoesNotTurn,
     /// There is no equilibrium.
     #[error(
-        "there is no steady rotation at {} rad/s: followed up to {reached:.6} rad/s, and beyond {source}{why}",
-        short(*.asked)
+        "there is no steady rotation at {} rad/s: followed up to {reached:.6} rad/s, and beyond {source}{}",
+        short(*.asked),
+        because(.why)
     )]
     Lost {
         /// Speed asked for [rad/s].
@@ -35,13 +36,14 @@ pub enum NoRotation {
         reached: f64,
         /// What happened beyond.
         source: NoEquilibrium,
-        /// What the model knows about it, with a colon in front.
-        why: String,
+        /// What the model knows about it.
+        why: Option<Limit>,
     },
     /// The equilibrium is unstable.
     #[error(
-        "the steady rotation at {} rad/s is buckled, {stability}: stable up to {reached:.6} rad/s{why}",
-        short(*.asked)
+        "the steady rotation at {} rad/s is buckled, {stability}: stable up to {reached:.6} rad/s{}",
+        short(*.asked),
+        because(.why)
     )]
     Buckled {
         /// Speed asked for [rad/s].
@@ -50,8 +52,8 @@ pub enum NoRotation {
         reached: f64,
         /// Its stability at the speed asked for.
         stability: Stability,
-        /// What the model knows about it, with a colon in front.
-        why: String,
+        /// What the model knows about it.
+        why: Option<Limit>,
     },
     /// Its stability was not found.
     #[error("the stability of the steady rotation at {} rad/s was not found: {source}", short(*.asked))]
@@ -112,7 +114,7 @@ pub fn rotate(system: &mut dyn System, state: &mut State, from: f64, to: f64) ->
                 part = 0.25 * (next - reached);
                 if part < SMALLEST {
                     let reached = speed(reached);
-                    let why = system.explain(state).map_or_else(String::new, |why| format!(": {why}"));
+                    let why = system.explain(state);
                     let _ = system.set(Parameter::Speed, reached);
                     return Err(NoRotation::Lost { asked: to, reached, source, why });
                 }
@@ -120,6 +122,10 @@ pub fn rotate(system: &mut dyn System, state: &mut State, from: f64, to: f64) ->
         }
     }
     Ok(effort)
+}
+
+fn because(why: &Option<Limit>) -> String {
+    why.as_ref().map(|why| format!(": {why}")).unwrap_or_default()
 }
 
 /// As [`rotate`], and refuses an equilibrium from which motions diverge. Flutter is left to the [modes](super::modes).
@@ -138,7 +144,7 @@ pub fn rotate_stably(
     if found.divergent == 0 {
         return Ok(effort);
     }
-    let why = system.explain(state).map_or_else(String::new, |why| format!(": {why}"));
+    let why = system.explain(state);
     // Where it is lost, by bisection.
     let (mut low, mut high) = (from, to);
     let mut at = start;

@@ -7,7 +7,7 @@ use super::load::Kinematics;
 use super::station::{Placement, Station};
 use crate::linalg::{Storage, Structure};
 use crate::profile::HubKinematics;
-use crate::system::{Corotation, State, Weights};
+use crate::system::{Corotation, Limit, State, Weights};
 
 /// A kinematic model of the beam: everything that differs between `zeroth`, `first`, `high` and `exact`.
 ///
@@ -92,7 +92,7 @@ pub trait Coupling: Send {
     }
 
     /// `Err` when the state is beyond what the model can represent.
-    fn admissible(&mut self, s: &State) -> Result<(), String>;
+    fn admissible(&mut self, s: &State) -> Result<(), Limit>;
 
     /// Limits of validity worth a warning at the largest tip deflection of a run (`deflection` \[m\]).
     fn cautions(&self, deflection: f64) -> Vec<String>;

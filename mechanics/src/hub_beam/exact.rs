@@ -37,7 +37,7 @@ use crate::basis::{BasisError, Field, Hermite, mesh};
 use crate::linalg::Storage;
 use crate::profile::HubKinematics;
 use crate::section::{Resultants, Section};
-use crate::system::{Corotation, State, Weights};
+use crate::system::{Corotation, Limit, State, Weights};
 use std::sync::Arc;
 
 /// Largest axial strain |ε| accepted for a linear-elastic beam.
@@ -292,19 +292,14 @@ impl Coupling for ExactCoupling {
         ((u1 * (2.0 + u1) + y1 * y1) / (square.sqrt() + 1.0), (x1 * y2 - y1 * x2) / square)
     }
 
-    fn admissible(&mut self, s: &State) -> Result<(), String> {
+    fn admissible(&mut self, s: &State) -> Result<(), Limit> {
         for element in &*self.elements {
             let (u, v) = element.end_slopes(&s.q);
             let strain = libm::hypot(1.0 + u, v) - 1.0;
             // NaN is refused too.
             if !(strain.abs() <= LARGEST_STRAIN) {
-                return Err(format!(
-                    "the axial strain is {:.1} % at x = {:.3} m and exceeds the limit of a linear-elastic beam, {:.0} %: \
-                     the step is likely too large, or the load",
-                    100.0 * strain,
-                    element.end(),
-                    100.0 * LARGEST_STRAIN
-                ));
+                let station = element.end();
+                return Err(Limit::Strain { strain, station, largest: LARGEST_STRAIN });
             }
         }
         Ok(())

@@ -16,7 +16,7 @@ use super::load::Kinematics;
 use super::station::{Placement, Station};
 use crate::basis::Role;
 use crate::linalg::{Matrix, negative_pivots};
-use crate::system::State;
+use crate::system::{Limit, State};
 use std::sync::Arc;
 
 /// Deflection over length beyond which dropping higher-order terms is no longer harmless.
@@ -215,25 +215,21 @@ impl Coupling for LinearCoupling {
         }
     }
 
-    fn admissible(&mut self, s: &State) -> Result<(), String> {
+    fn admissible(&mut self, s: &State) -> Result<(), Limit> {
         let length = self.fields.length();
         // Cheap and basis-free: no coefficient that is a displacement may exceed its bound.
         let beyond = |&(number, bound): &(usize, f64)| !(s.q[number].abs() <= bound);
         let Some(&(number, bound)) = self.bounds.iter().find(|bound| beyond(bound)) else { return Ok(()) };
         let (axial, transverse) = self.fields.indices();
-        let (what, at) = match transverse.iter().position(|&i| i == number) {
+        let (field, station) = match transverse.iter().position(|&i| i == number) {
             Some(i) => ("deflection", self.fields.transverse().anchor(i)),
             None => {
                 let i = axial.iter().position(|&i| i == number).unwrap_or(0);
                 ("axial displacement", self.fields.axial().anchor(i))
             }
         };
-        Err(format!(
-            "the {what} ({:.3e} m at x = {at:.3} m) exceeds {bound} m on a beam of {length} m: the {}-order coupling has \
-             lost its meaning",
-            s.q[number],
-            self.name()
-        ))
+        let (size, coupling) = (s.q[number], self.name());
+        Err(Limit::Displacement { field, size, station, bound, length, coupling })
     }
 
     fn has_positive_kinetic_energy(&self) -> bool {
@@ -245,7 +241,7 @@ impl Coupling for LinearCoupling {
         let large = (ratio > SMALL).then(|| {
             format!(
                 "the tip deflects by {:.0} % of the length; the {}-order coupling is meant for less than {:.0} %: \
-                 compare with coupling = \"exact\"",
+                 compare with the exact coupling",
                 100.0 * ratio,
                 self.name(),
                 100.0 * SMALL
@@ -257,7 +253,7 @@ impl Coupling for LinearCoupling {
         let fine = (rounding > ROUNDING).then(|| {
             format!(
                 "with {elements} elements, rounding of the assembled stiffness is up to n⁴ε = {rounding:.1e} of the \
-                 deflection in a run (frequencies are not affected): use fewer elements, or coupling = \"exact\""
+                 deflection in a run (frequencies are not affected): use fewer elements, or the exact coupling"
             )
         });
         large.into_iter().chain(fine).collect()

@@ -15,8 +15,8 @@ use crate::linalg::vector::dot;
 use crate::linalg::{Mat3, Matrix, Storage, Structure, Vec3};
 use crate::profile::HubKinematics;
 use crate::system::{
-    Break, Channel, Corotation, Direction, Dynamics, Energy, Events, Frame, NotSet, Observed, Parameter,
-    Power, Role, Sink, Size, State, Steady, Weights, ordered,
+    Break, Channel, Corotation, Direction, Dynamics, Energy, Events, Frame, Limit, NotSet, Observed,
+    Parameter, Power, Role, Sink, Size, State, Steady, Weights, ordered,
 };
 use std::sync::Arc;
 
@@ -493,7 +493,7 @@ impl<C: Coupling> Observed for HubBeam<C> {
         self.section_forces.observe(&self.coupling, s, sink);
     }
 
-    fn admissible(&mut self, s: &State) -> Result<(), String> {
+    fn admissible(&mut self, s: &State) -> Result<(), Limit> {
         self.coupling.admissible(s)?;
         self.lost_inertia(s, 0.0).map_or(Ok(()), Err)
     }
@@ -503,14 +503,14 @@ impl<C: Coupling> Observed for HubBeam<C> {
             format!(
                 "the effective inertia of the free hub is {share:.1e} of the inertia of hub and beam: the \
                  {}-order coupling keeps its kinetic energy positive only while foreshortening takes less than that, and \
-                 stops the run beyond; give the hub more inertia, or use coupling = \"high\" or \"exact\"",
+                 stops the run beyond; give the hub more inertia, or use the high-order or the exact coupling",
                 self.coupling.name()
             )
         });
         share.into_iter().chain(self.coupling.cautions(peaks.first().copied().unwrap_or(0.0))).collect()
     }
 
-    fn explain(&mut self, s: &State) -> Option<String> {
+    fn explain(&mut self, s: &State) -> Option<Limit> {
         if let Some(lost) = self.lost_inertia(s, VANISHING) {
             return Some(lost);
         }
@@ -518,38 +518,26 @@ impl<C: Coupling> Observed for HubBeam<C> {
         let critical = self.coupling.critical_speed(speed)?;
         let since = match &self.hub.drive {
             Drive::Prescribed(motion) if s.t > 0.0 && self.steady.is_none() => {
-                format!("since t = {:.3} s ", motion.first_time_above(critical, s.t))
+                Some(motion.first_time_above(critical, s.t))
             }
-            _ => String::new(),
+            _ => None,
         };
-        let why = match self.coupling.name() {
-            "zeroth" => {
-                "the stiffness K − ω²M of the zeroth-order coupling is exhausted (dynamic softening: it leaves out the \
-                 centrifugal stiffening); use coupling = \"first\" or \"exact\""
-            }
-            _ => {
-                "the centrifugal force outgrows the stiffness of the beam, centrifugal stiffening included: a beam \
-                 of this stiffness has no steady rotation at this speed; check the modulus, the section and the speed, and their units"
-            }
-        };
-        Some(format!("{since}the speed of the hub exceeds {critical:.4} rad/s, where {why}"))
+        Some(match self.coupling.name() {
+            "zeroth" => Limit::Softened { critical, since },
+            _ => Limit::Overpowered { critical, since },
+        })
     }
 }
 
 impl<C: Coupling> HubBeam<C> {
-    /// The message where a free hub has at most this part of its inertia left.
-    fn lost_inertia(&mut self, s: &State, part: f64) -> Option<String> {
+    /// Where a free hub has at most this part of its inertia left.
+    fn lost_inertia(&mut self, s: &State, part: f64) -> Option<Limit> {
         if self.held {
             return None;
         }
         let watch = self.hub_inertia.as_mut()?;
         let (left, start) = watch.at_most(part, (self.coupling.inertia(), &mut self.scratch), s)?;
-        Some(format!(
-            "the {}-order coupling is losing its positive kinetic energy: the effective inertia of the free \
-             hub has fallen from {start:.2e} to {left:.2e} kg·m² by the foreshortening; give the hub more \
-             inertia, or use coupling = \"high\" or \"exact\"",
-            self.coupling.name()
-        ))
+        Some(Limit::HubInertia { coupling: self.coupling.name(), start, left })
     }
 
     /// Strain energy of the beam and of the hub's spring.

@@ -1,5 +1,6 @@
 //! A rigid body.
 
+use super::error::PartFault;
 use super::rotation::Quaternion;
 use crate::linalg::{Mat3, Vec3};
 use crate::system::Frame;
@@ -50,43 +51,37 @@ impl Body {
     }
 
     /// What is wrong with the numbers, if anything.
-    pub(super) fn fault(&self) -> Option<String> {
+    pub(super) fn fault(&self) -> Option<PartFault> {
         let j = &self.inertia;
         let mut vectors = self.velocity.iter().chain(&self.spin).chain([&self.centre, &self.frame.position]);
         if !(vectors.all(|x| x.is_finite()) && j.is_finite() && self.frame.rotation.is_finite()) {
-            return Some("has a number that is not finite".to_owned());
+            return Some(PartFault::NotFinite("number"));
         }
         if !(self.mass > 0.0 && self.mass.is_finite()) {
-            return Some(format!(
-                "has the mass {} kg and must have one > 0: join what has no mass to a body",
-                self.mass
-            ));
+            return Some(PartFault::NoMass(self.mass));
         }
         if !(self.damping >= 0.0 && self.damping.is_finite()) {
-            return Some(format!("has the damping {} 1/s and must have one ≥ 0", self.damping));
+            return Some(PartFault::Negative { what: "damping", value: self.damping, unit: "1/s" });
         }
         let size = j.0.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
         let skew = (0..3).map(|i| (j[i][(i + 1) % 3] - j[(i + 1) % 3][i]).abs()).fold(0.0, f64::max);
         let minors = [j[0][0], j[0][0] * j[1][1] - j[0][1] * j[1][0], j.determinant()];
         if skew > 1e-12 * size || !minors.iter().all(|x| *x > 0.0) {
-            return Some("has an inertia tensor that is not symmetric and positive definite".to_owned());
+            return Some(PartFault::Inertia);
         }
         // Principal moments obey J₁ ≤ J₂ + J₃: the tensor ½ tr(J) I − J of ∫ x xᵀ dm has no negative eigenvalue.
         let half = 0.5 * (j[0][0] + j[1][1] + j[2][2]);
         let second = nalgebra::Matrix3::from_fn(|i, k| if i == k { half - j[i][i] } else { -j[i][k] });
         let least = second.symmetric_eigenvalues().min();
         if least < -1e-9 * half {
-            return Some(format!(
-                "has principal moments of inertia of which one exceeds the sum of the others by {:.3e} kg·m²",
-                -2.0 * least
-            ));
+            return Some(PartFault::Moments(-2.0 * least));
         }
         let r = &self.frame.rotation;
         let product = *r * r.transpose();
         let defect = (0..3).flat_map(|i| (0..3).map(move |k| (i, k)));
         let defect = defect.map(|(i, k)| (product[i][k] - Mat3::IDENTITY[i][k]).abs()).fold(0.0, f64::max);
         if defect > 1e-9 || r.determinant() < 0.0 {
-            return Some(format!("has axes that are no rotation (R Rᵀ − I = {defect:.1e})"));
+            return Some(PartFault::Axes(defect));
         }
         None
     }

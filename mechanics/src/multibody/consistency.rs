@@ -1,7 +1,7 @@
 //! The start: whether the bodies fit their joints, which rows follow from others, and velocities that obey the rows.
 
 use super::constants::Constants;
-use super::model::{ModelError, Violation};
+use super::error::{ModelError, Violation};
 use crate::linalg::vector::{axpy, dot};
 use crate::linalg::{Matrix, Vec3};
 use crate::system::{Dynamics, RowWeights, State, Weights};

@@ -1,6 +1,7 @@
 //! A slender beam as a part of a model, and loads along it.
 
 use super::body::Twist;
+use super::error::PartFault;
 use super::force::Axes;
 use super::slender::{
     Beam, COORDINATES, ELEMENT_COORDINATES, ELEMENT_VELOCITIES, LineDistribution, distributed_weights,
@@ -83,13 +84,13 @@ impl Flexible {
     }
 
     /// What is wrong with the numbers, if anything.
-    pub(super) fn fault(&self) -> Option<String> {
+    pub(super) fn fault(&self) -> Option<PartFault> {
         if !self.velocity.iter().chain(&self.spin).all(|x| x.is_finite()) {
-            return Some("has a number that is not finite".to_owned());
+            return Some(PartFault::NotFinite("number"));
         }
-        for (what, x) in [("damping", self.damping), ("viscosity", self.viscosity)] {
-            if !(x >= 0.0 && x.is_finite()) {
-                return Some(format!("has the {what} {x} and must have one ≥ 0"));
+        for (what, value) in [("damping", self.damping), ("viscosity", self.viscosity)] {
+            if !(value >= 0.0 && value.is_finite()) {
+                return Some(PartFault::Negative { what, value, unit: "" });
             }
         }
         let nodes = self.beam.nodes();
@@ -97,13 +98,13 @@ impl Flexible {
         let stations = self.stations.iter().chain(self.fibres.iter().map(|fibre| &fibre.station));
         for station in stations {
             if !(first..=last).contains(&station) {
-                return Some(format!("has a station at {station} m, outside of {first} m to {last} m"));
+                return Some(PartFault::Station { station: *station, first: *first, last: *last });
             }
         }
         let mut names: Vec<&str> = self.fibres.iter().map(|fibre| fibre.name.as_str()).collect();
         names.sort_unstable();
         let twice = names.windows(2).find(|pair| pair[0] == pair[1])?;
-        Some(format!("has two fibres with the name `{}`", twice[0]))
+        Some(PartFault::Fibres(twice[0].to_owned()))
     }
 
     /// Writes the velocities of a rigid motion: the velocity of the root and the angular velocity.

@@ -1,5 +1,6 @@
 //! Joints as lists of scalar constraints, with their drives.
 
+use super::error::PartFault;
 use super::marker::Marker;
 use super::row::Row;
 use crate::drive::{Actuator, motion_breaks};
@@ -130,21 +131,14 @@ impl Joint {
     }
 
     /// What is wrong with the drive, if anything.
-    pub(super) fn fault(&self) -> Option<String> {
+    pub(super) fn fault(&self) -> Option<PartFault> {
         if !matches!(self.drive, Drive::None) && self.kind.coordinate().is_none() {
-            return Some(format!(
-                "is {:?} and has a drive: only revolute, cylindrical and prismatic joints have",
-                self.kind
-            ));
+            return Some(PartFault::Drive(self.kind));
         }
         let motion = self.prescribed()?;
         let step = |t: f64| motion.at(t).angle - motion.at(t.next_down()).angle;
         let mut struck = self.breaks().into_iter().filter(|b| b.time > 0.0 && b.jump == Jump::Velocity);
         let jump = struck.find(|b| step(b.time).abs() > STEP)?;
-        Some(format!(
-            "has a prescribed angle or displacement that jumps by {:.3e} at t = {} s, which is no motion: use a ramp or a smooth profile",
-            step(jump.time),
-            jump.time
-        ))
+        Some(PartFault::Jump { jump: step(jump.time), time: jump.time })
     }
 }

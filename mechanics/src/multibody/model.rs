@@ -2,6 +2,7 @@
 
 use super::body::Body;
 use super::contact_point::ContactPoint;
+use super::error::{ModelError, PartFault};
 use super::flexible::{Flexible, LineLoad};
 use super::force::{Directions, Load, Spring};
 use super::joint::{Joint, Kind};
@@ -11,7 +12,6 @@ use super::rotation::frame;
 use crate::linalg::{Mat3, Vec3};
 use crate::system::Frame;
 use std::collections::BTreeSet;
-use std::fmt;
 
 /// Bodies, beams, joints, springs and loads, as they stand at t = 0.
 #[derive(Clone, Debug, Default)]
@@ -26,90 +26,6 @@ pub struct Model {
     pub(super) line_laws: Vec<LineLaw>,
     pub(super) points: Vec<ContactPoint>,
     pub(super) drop_redundant: bool,
-}
-
-/// A joint whose markers do not fit together at the start.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Violation {
-    /// Name of the joint.
-    pub joint: String,
-    /// Largest displacement that it forbids \[m\].
-    pub length: f64,
-    /// Largest cosine of axes that must be perpendicular.
-    pub angle: f64,
-}
-
-impl fmt::Display for Violation {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "`{}` by {:.3e} m and {:.3e} rad", self.joint, self.length, self.angle)
-    }
-}
-
-/// Why a model has no equations of motion.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum ModelError {
-    /// A number or a reference is wrong.
-    #[error("{kind} `{name}` {fault}")]
-    Part {
-        /// Body, beam, joint, spring or load.
-        kind: &'static str,
-        /// Its name.
-        name: String,
-        /// What is wrong with it.
-        fault: String,
-    },
-    /// There is nothing that moves.
-    #[error("the model has no body and no beam")]
-    Empty,
-    /// Markers of joints do not coincide at the start.
-    #[error(
-        "the bodies do not fit their joints at the start: {}; move the bodies or the markers",
-        list(violations)
-    )]
-    Positions {
-        /// The joints, the worst first.
-        violations: Vec<Violation>,
-    },
-    /// Rows of joints follow from those of other joints.
-    #[error(
-        "{} redundant: the joints of a loop hold a motion twice, and {freedoms} degrees of freedom are left. Give a joint of the loop more freedom \
-         (spherical, universal or cylindrical in the place of revolute), take away the prescribed motion of what is locked, or drop the rows \
-         (`Model::drop_redundant_rows`): their forces are then zero",
-        list(rows)
-    )]
-    Redundant {
-        /// Each row with the joints that it follows from.
-        rows: Vec<String>,
-        /// Degrees of freedom.
-        freedoms: usize,
-    },
-    /// Prescribed motions that cannot happen together.
-    #[error(
-        "joints that contradict each other: {}: what they prescribe at the start differs in velocity or acceleration; take away a prescribed motion, \
-         let them agree, or give a joint more freedom",
-        list(rows)
-    )]
-    Contradictory {
-        /// Each row with the joints that it contradicts.
-        rows: Vec<String>,
-    },
-    /// Rows that follow from others at the start only.
-    #[error(
-        "the start is a singular configuration of {}: bars that are stretched out or folded flat, which the joints let move on in more than one \
-         way or in none; begin elsewhere, or give a joint more freedom",
-        list(rows)
-    )]
-    Singular {
-        /// Each row with the joints that it depends on.
-        rows: Vec<String>,
-    },
-    /// No velocities obey the joints.
-    #[error("the joints allow no velocities at the start: {0}")]
-    Velocities(String),
-}
-
-fn list<T: fmt::Display>(of: &[T]) -> String {
-    of.iter().map(|x| x.to_string()).collect::<Vec<_>>().join(", ")
 }
 
 impl Model {
@@ -201,13 +117,10 @@ impl Model {
         point: impl Into<Vec3>,
         (axis, first): (impl Into<Vec3>, Option<Vec3>),
     ) -> Result<&mut Joint, ModelError> {
-        let fault =
-            |fault: &str| ModelError::Part { kind: "joint", name: name.to_owned(), fault: fault.to_owned() };
-        let rotation = frame(axis.into(), first).ok_or_else(|| fault("has an axis without direction"))?;
+        let fault = |fault| ModelError::Part { kind: "joint", name: name.to_owned(), fault };
+        let rotation = frame(axis.into(), first).ok_or_else(|| fault(PartFault::NoDirection))?;
         let space = Frame { position: point.into(), rotation };
-        let marker = |part| {
-            self.marker(part, space).ok_or_else(|| fault("joins a body or a node that is not in the model"))
-        };
+        let marker = |part| self.marker(part, space).ok_or_else(|| fault(PartFault::NoPart));
         let joint = Joint::new(name, kind, marker(from)?, marker(to)?);
         self.joints.push(joint);
         self.joints.last_mut().ok_or(ModelError::Empty)
@@ -258,33 +171,31 @@ impl Model {
         for spring in &self.springs {
             let Spring { stiffness, damping, length, .. } = spring;
             let sound = [stiffness, damping, length].iter().all(|x| **x >= 0.0 && x.is_finite());
-            let fault = "has a stiffness, damping or length that is not a number ≥ 0";
-            let fault = (!sound).then(|| fault.to_owned()).or_else(|| {
+            let fault = (!sound).then_some(PartFault::Spring).or_else(|| {
                 let long = spring.directions == Directions::All && *length != 0.0;
-                long.then(|| format!("acts in all directions and has the length {length} m without force"))
+                long.then_some(PartFault::Length(*length))
             });
             self.examine("spring", &spring.name, fault, &[spring.from, spring.to], &mut names)?;
         }
         for load in &self.loads {
             let sound = load.force.is_finite() && load.moment.is_finite();
-            let fault = (!sound).then(|| "has a component that is not finite".to_owned());
+            let fault = (!sound).then_some(PartFault::NotFinite("component"));
             self.examine("load", &load.name, fault, &[load.at], &mut names)?;
         }
         for load in &self.line_loads {
             let finite = load.force.is_finite();
-            let fault = (!finite).then(|| "has a component that is not finite".to_owned());
-            let missing =
-                (load.beam >= self.beams.len()).then(|| "is on a beam that is not in the model".to_owned());
+            let fault = (!finite).then_some(PartFault::NotFinite("component"));
+            let missing = (load.beam >= self.beams.len()).then_some(PartFault::NoBeam);
             self.examine("load", &load.name, fault.or(missing), &[], &mut names)?;
         }
         for law in &self.line_laws {
-            let missing =
-                (law.beam >= self.beams.len()).then(|| "is on a beam that is not in the model".to_owned());
+            let missing = (law.beam >= self.beams.len()).then_some(PartFault::NoBeam);
             self.examine("load", &law.name, missing, &[], &mut names)?;
         }
         for (k, point) in self.points.iter().enumerate() {
             let sound = point.radius >= 0.0 && point.radius.is_finite();
-            let fault = (!sound).then(|| format!("has the radius {} m and must have one ≥ 0", point.radius));
+            let fault =
+                (!sound).then_some(PartFault::Negative { what: "radius", value: point.radius, unit: "m" });
             self.examine("contact point", &format!("contact point {k}"), fault, &[point.at], &mut names)?;
         }
         Ok(())
@@ -294,23 +205,21 @@ impl Model {
         &self,
         kind: &'static str,
         name: &str,
-        fault: Option<String>,
+        fault: Option<PartFault>,
         markers: &[Marker],
         names: &mut BTreeSet<String>,
     ) -> Result<(), ModelError> {
         let missing = markers.iter().any(|m| self.frame(m.part).is_none());
         let numbers = |m: &Marker| m.frame.position.is_finite() && m.frame.rotation.is_finite();
         let fault = fault
-            .or_else(|| missing.then(|| "is on a body or a node that is not in the model".to_owned()))
-            .or_else(|| (!markers.iter().all(numbers)).then(|| "has a marker that is not finite".to_owned()))
+            .or_else(|| missing.then_some(PartFault::NoPart))
+            .or_else(|| (!markers.iter().all(numbers)).then_some(PartFault::NotFinite("marker")))
             .or_else(|| match markers {
-                [a, b] if a.part == b.part => Some("has both ends on the same part".to_owned()),
-                [a] if a.part == Part::Ground => Some("is on the ground and moves nothing".to_owned()),
+                [a, b] if a.part == b.part => Some(PartFault::SamePart),
+                [a] if a.part == Part::Ground => Some(PartFault::OnGround),
                 _ => None,
             })
-            .or_else(|| {
-                (!names.insert(name.to_owned())).then(|| "has a name that is already taken".to_owned())
-            });
+            .or_else(|| (!names.insert(name.to_owned())).then_some(PartFault::NameTaken));
         match fault {
             Some(fault) => Err(ModelError::Part { kind, name: name.to_owned(), fault }),
             None => Ok(()),

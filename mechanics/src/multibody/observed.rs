@@ -8,7 +8,7 @@ use super::row::Row;
 use super::system::Multibody;
 use crate::linalg::Vec3;
 use crate::profile::HubKinematics;
-use crate::system::{Direction, Energy, Frame, Observed, Power, Sink, State};
+use crate::system::{Direction, Energy, Frame, Limit, Observed, Power, Sink, State};
 
 /// Size of a row that was left out, over the length of the system, at which it no longer follows from the others; and over the
 /// largest of the rows that are kept.
@@ -186,17 +186,14 @@ impl Observed for Multibody {
         self.put(s, sink);
     }
 
-    fn admissible(&mut self, s: &State) -> Result<(), String> {
+    fn admissible(&mut self, s: &State) -> Result<(), Limit> {
         self.place(s);
         for (of, &[i, _]) in self.constants.model.beams.iter().zip(&self.constants.beams) {
             for node in 0..of.beam.nodes().len() {
                 let length = of.beam.node(node, &s.q[i..]).1.length;
                 if !(length > LEAST_STRETCH) {
-                    return Err(format!(
-                        "beam `{}` is compressed to {length:.3} of its length at node {node}: its axial stiffness is too small for \
-                         what acts there",
-                        of.name
-                    ));
+                    let (beam, stretch) = (of.name.clone(), length);
+                    return Err(Limit::Compressed { beam, stretch, node });
                 }
             }
         }
@@ -208,39 +205,27 @@ impl Observed for Multibody {
             let along = (cos * a.axis(0) + sin * a.axis(1)).dot(b.axis(0));
             let drives = matches!(joint.drive, Drive::Prescribed(_)) && self.constants.angle[k].is_some();
             if drives && along < 0.0 {
-                return Err(format!(
-                    "joint `{}` is half a turn away from its prescribed angle {:.4} rad: the step is too large for what the angle \
-                     changes in it; take a smaller step",
-                    joint.name, motion.angle
-                ));
+                return Err(Limit::HalfTurn { joint: joint.name.clone(), angle: motion.angle });
             }
         }
         let unit = |row: Row| if row.is_length() { self.constants.scales[0] } else { 1.0 };
         for (name, row, value) in self.values_of_dropped() {
             let size = value.g.abs() / unit(row);
             if size > DEPARTED[0] && size > DEPARTED[1] * self.largest_of_kept(unit) {
-                return Err(format!(
-                    "{name} is violated by {:.3e} {}: it was left out since it followed from the others at the start, and it no \
-                     longer does. Prescribed motions contradict each other, or the configuration at the start was singular: change \
-                     them, or begin elsewhere",
-                    value.g.abs(),
-                    if row.is_length() { "m" } else { "rad" }
-                ));
+                let unit = if row.is_length() { "m" } else { "rad" };
+                return Err(Limit::LeftOut { row: name.to_owned(), violation: value.g.abs(), unit });
             }
         }
         for (k, spring) in self.constants.model.springs.iter().enumerate() {
             let (a, b) = self.spring_ends(k);
             if a.position == b.position && spring.length > 0.0 {
-                return Err(format!(
-                    "spring `{}` has no length left, and its force no direction",
-                    spring.name
-                ));
+                return Err(Limit::SpringWithoutLength { spring: spring.name.clone() });
             }
         }
         Ok(())
     }
 
-    fn explain(&mut self, s: &State) -> Option<String> {
+    fn explain(&mut self, s: &State) -> Option<Limit> {
         reason::singular(self, s)
     }
 

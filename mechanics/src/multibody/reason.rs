@@ -6,7 +6,7 @@ use super::marker::Part;
 use super::model::Model;
 use super::system::Multibody;
 use crate::linalg::vector::{axpy, dot};
-use crate::system::{Dynamics, State};
+use crate::system::{Dynamics, Limit, State};
 
 /// Mass over the largest, and moment of inertia over m L² with the size L of the system, below which a body counts as one without.
 const LIGHT: f64 = 1e-14;
@@ -78,7 +78,7 @@ pub(super) fn not_held(model: &Model) -> Option<String> {
 }
 
 /// The joints whose rows almost follow from each other at `s`.
-pub(super) fn singular(system: &mut Multibody, s: &State) -> Option<String> {
+pub(super) fn singular(system: &mut Multibody, s: &State) -> Option<Limit> {
     let constants = system.constants.clone();
     let (n, m) = (s.v.len(), s.lambda.len());
     if m.saturating_mul(m).saturating_mul(n) > COSTLY {
@@ -107,12 +107,7 @@ pub(super) fn singular(system: &mut Multibody, s: &State) -> Option<String> {
             basis.push((x, combination));
         }
     }
-    let (left, Some((row, combination))) = least else { return None };
-    Some(format!(
-        "the joints {} are close to a singular configuration, in which {} follows from the others (a part {left:.1e} of it does not): \
-         bars that are stretched out or folded flat move on in more than one way or in none; keep a prescribed motion away from \
-         there, or give a joint more freedom",
-        constants.joint_names(&combination, 1e-3, None),
-        constants.row_name(row)
-    ))
+    let (part, Some((row, combination))) = least else { return None };
+    let joints = constants.joint_names(&combination, 1e-3, None);
+    Some(Limit::Singular { joints, row: constants.row_name(row), part })
 }

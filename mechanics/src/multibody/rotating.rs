@@ -24,8 +24,8 @@ use super::slender::{ELEMENT_COORDINATES, ELEMENT_VELOCITIES, Triad};
 use super::system::Multibody;
 use crate::linalg::{Mat3, Matrix, Structure, Vec3};
 use crate::system::{
-    Direction, Dynamics, Energy, Events, Frame, NotSet, Observed, Parameter, RowWeights, Set, Sink, Size,
-    State, Steady, VisitRow, Weights,
+    Direction, Dynamics, Energy, Events, Frame, Limit, NotSet, Observed, Parameter, RowWeights, Set, Sink,
+    Size, State, Steady, VisitRow, Weights,
 };
 
 /// Part of a load across the axis, over the load, that counts as rounding.
@@ -328,7 +328,7 @@ impl Observed for Rotating {
         self.inner.shares_about(s, Some(&self.axis), [x, mx], add);
     }
 
-    fn admissible(&mut self, s: &State) -> Result<(), String> {
+    fn admissible(&mut self, s: &State) -> Result<(), Limit> {
         self.inner.admissible(s)
     }
 }

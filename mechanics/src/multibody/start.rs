@@ -6,9 +6,10 @@
 
 use super::body::{Body, Twist};
 use super::constants::Constants;
+use super::error::ModelError;
 use super::flexible::Flexible;
 use super::marker::{Marker, Part};
-use super::model::{Model, ModelError};
+use super::model::Model;
 use super::{consistency, joint::Joint};
 use crate::linalg::{Mat3, Vec3};
 use crate::system::{Dynamics, Frame, RowWeights, State};

@@ -14,11 +14,12 @@
 use super::body::Placed;
 use super::constants::Constants;
 use super::contact_point::ContactPoint;
+use super::error::ModelError;
 use super::force::Interaction;
 use super::joint::Drive;
 use super::line_law::Sampled;
 use super::marker::{MOST, Part, Pose};
-use super::model::{Model, ModelError};
+use super::model::Model;
 use super::nearest::Nearest;
 use super::rotation::{Quaternion, rate};
 use super::row::{Row, Value, Wrench};

@@ -1,6 +1,6 @@
 //! What happens at single times: jumps that are known before, and events that are found.
 
-use super::State;
+use super::{Limit, State};
 
 /// What jumps at a [`Break`]. A smoother function counts as greater.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -49,7 +49,7 @@ pub enum Crossing {
     /// With velocities changed by the [impulse](Events::impulse) at this time.
     Jump,
     /// Not at all, for the reason given.
-    Stop(String),
+    Stop(Limit),
 }
 
 /// The single times of a model. Contacts are no events of the model: a driver finds them from the rows.

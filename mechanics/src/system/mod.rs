@@ -25,6 +25,7 @@
 mod corotation;
 mod dynamics;
 mod events;
+mod limit;
 mod observed;
 mod rows;
 mod sink;
@@ -34,6 +35,7 @@ mod steady;
 pub use corotation::Corotation;
 pub use dynamics::{Dynamics, VisitRow, Weights};
 pub use events::{Break, Crossing, Events, Jump, ordered};
+pub use limit::Limit;
 pub use observed::{Direction, Energy, Frame, Observed, Power, Pressing, Touch};
 pub use rows::{RowWeights, Set, is_active, replace_inactive, slip};
 pub use sink::{Channel, Kind, Role, Sink};

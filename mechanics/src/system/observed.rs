@@ -1,6 +1,6 @@
 //! What is observed of a model: recorded quantities, energies, shapes.
 
-use super::{Channel, Dynamics, Sink, State};
+use super::{Channel, Dynamics, Limit, Sink, State};
 use crate::linalg::{Mat3, Vec3};
 use std::ops::Range;
 
@@ -173,13 +173,13 @@ pub trait Observed: Dynamics {
         0
     }
 
-    /// `Err` when the state has left what the model can represent, with the reason.
-    fn admissible(&mut self, _s: &State) -> Result<(), String> {
+    /// `Err` when the state has left what the model can represent.
+    fn admissible(&mut self, _s: &State) -> Result<(), Limit> {
         Ok(())
     }
 
     /// What the model knows about why a run may break down at this state, for messages.
-    fn explain(&mut self, _s: &State) -> Option<String> {
+    fn explain(&mut self, _s: &State) -> Option<Limit> {
         None
     }
 

@@ -2,7 +2,7 @@
 
 use crate::contact::ImpactError;
 use crate::integrator::{NotResumed, StepError};
-use crate::system::{State, System};
+use crate::system::{Limit, State, System};
 
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,7 +25,7 @@ pub enum RunError {
         /// What the integrator says.
         error: StepError,
         /// What the model knows about it.
-        reason: Option<String>,
+        reason: Option<Limit>,
     },
     /// The model left its range.
     #[error("the run broke down at t = {time:.4} s: {what}{}", because(.reason))]
@@ -33,9 +33,9 @@ pub enum RunError {
         /// Time \[s\].
         time: f64,
         /// What is out of range.
-        what: String,
+        what: Limit,
         /// What the model knows about it.
-        reason: Option<String>,
+        reason: Option<Limit>,
     },
     /// The history of an earlier run could not be taken up.
     #[error("the run cannot go on: {0}")]
@@ -72,17 +72,17 @@ pub enum RunError {
         /// Time \[s\].
         time: f64,
         /// Why.
-        reason: String,
+        reason: Limit,
     },
 }
 
-fn because(reason: &Option<String>) -> String {
+fn because(reason: &Option<Limit>) -> String {
     reason.as_ref().map(|r| format!("; {r}")).unwrap_or_default()
 }
 
 /// The error of a step, with what the model knows about it.
 pub(super) fn failed(system: &mut dyn System, state: &State, error: StepError) -> RunError {
     // What the error says already is not said again.
-    let reason = system.explain(state).filter(|reason| !error.to_string().contains(reason.as_str()));
+    let reason = system.explain(state).filter(|reason| !error.to_string().contains(&reason.to_string()));
     RunError::Step { error, reason }
 }

@@ -3,8 +3,8 @@
 use super::{Contact, Contacting, Law, Placed};
 use crate::contact::points::Points;
 use crate::system::{
-    Channel, Direction, Dynamics, Energy, Events, Frame, Kind, Mode, Observed, Power, Pressing, Role, Sink,
-    State, Touch,
+    Channel, Direction, Dynamics, Energy, Events, Frame, Kind, Limit, Mode, Observed, Power, Pressing, Role,
+    Sink, State, Touch,
 };
 
 impl<S: Points + Dynamics + Events + Observed> Observed for Contacting<S> {
@@ -105,23 +105,16 @@ impl<S: Points + Dynamics + Events + Observed> Observed for Contacting<S> {
         self.inner.drawn()
     }
 
-    fn admissible(&mut self, s: &State) -> Result<(), String> {
+    fn admissible(&mut self, s: &State) -> Result<(), Limit> {
         self.inner.admissible(s)
     }
 
-    fn explain(&mut self, s: &State) -> Option<String> {
+    fn explain(&mut self, s: &State) -> Option<Limit> {
         let of_row = |placed: &&Placed| matches!(placed.contact.law, Law::Constraint { .. });
         let closed = self.contacts.iter().filter(of_row).filter(|placed| s.mode[placed.place] != Mode::Open);
-        let closed: Vec<&str> = closed.map(|placed| placed.contact.name.as_str()).collect();
+        let contacts: Vec<String> = closed.map(|placed| placed.contact.name.clone()).collect();
         let own = self.inner.explain(s);
-        let many = || {
-            let names = closed.join(", ");
-            format!(
-                "the rigid contacts {names} are closed at once, and their forces may follow from each other, as those of four \
-                 corners of a body do: use `moreau-jean` or `nonsmooth-generalized-alpha`, fewer contacts, or a continuous contact force"
-            )
-        };
-        own.or_else(|| (closed.len() > 1).then(many))
+        own.or_else(|| (contacts.len() > 1).then_some(Limit::DependentContacts { contacts }))
     }
 
     fn cautions(&self, peaks: &[f64]) -> Vec<String> {

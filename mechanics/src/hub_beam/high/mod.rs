@@ -37,7 +37,7 @@ use super::station::{Placement, Station};
 use crate::basis::{Basis, BasisError};
 use crate::linalg::{Storage, Structure};
 use crate::profile::HubKinematics;
-use crate::system::{State, Weights};
+use crate::system::{Limit, State, Weights};
 use sums::{Point, Sums};
 use tangent::Tangent;
 
@@ -184,7 +184,7 @@ impl Coupling for HighCoupling {
         self.linear.placements(s, stations, out);
     }
 
-    fn admissible(&mut self, s: &State) -> Result<(), String> {
+    fn admissible(&mut self, s: &State) -> Result<(), Limit> {
         self.linear.admissible(s)
     }
 

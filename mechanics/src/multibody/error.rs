@@ -1,0 +1,170 @@
+//! What is wrong with a model.
+
+use super::joint::Kind;
+use std::fmt;
+
+/// What is wrong with a part of a model.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PartFault {
+    /// A number is infinite or NaN.
+    #[error("has a {0} that is not finite")]
+    NotFinite(&'static str),
+    /// A quantity is negative or not finite.
+    #[error("has the {what} {value}{} and must have one ≥ 0", if unit.is_empty() { String::new() } else { format!(" {unit}") })]
+    Negative {
+        /// Name of the quantity.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+        /// Its unit, if it is said.
+        unit: &'static str,
+    },
+    /// A body has no mass.
+    #[error("has the mass {0} kg and must have one > 0: join what has no mass to a body")]
+    NoMass(f64),
+    /// An inertia tensor is not one.
+    #[error("has an inertia tensor that is not symmetric and positive definite")]
+    Inertia,
+    /// A principal moment of inertia exceeds the sum of the others.
+    #[error("has principal moments of inertia of which one exceeds the sum of the others by {0:.3e} kg·m²")]
+    Moments(f64),
+    /// Axes are not orthonormal.
+    #[error("has axes that are no rotation (R Rᵀ − I = {0:.1e})")]
+    Axes(f64),
+    /// A joint of this kind has no coordinate that could be driven.
+    #[error("is {0:?} and has a drive: only revolute, cylindrical and prismatic joints have")]
+    Drive(Kind),
+    /// A prescribed angle or displacement jumps.
+    #[error(
+        "has a prescribed angle or displacement that jumps by {jump:.3e} at t = {time} s, which is no motion: use a ramp or a smooth profile"
+    )]
+    Jump {
+        /// Size \[rad\] or \[m\].
+        jump: f64,
+        /// Time \[s\].
+        time: f64,
+    },
+    /// A station lies off the beam.
+    #[error("has a station at {station} m, outside of {first} m to {last} m")]
+    Station {
+        /// The station \[m\].
+        station: f64,
+        /// The root \[m\].
+        first: f64,
+        /// The tip \[m\].
+        last: f64,
+    },
+    /// Two fibres have one name.
+    #[error("has two fibres with the name `{0}`")]
+    Fibres(String),
+    /// A number of a spring is negative or not finite.
+    #[error("has a stiffness, damping or length that is not a number ≥ 0")]
+    Spring,
+    /// A spring in all directions has a length without force.
+    #[error("acts in all directions and has the length {0} m without force")]
+    Length(f64),
+    /// Its axis is zero.
+    #[error("has an axis without direction")]
+    NoDirection,
+    /// Its body or node is not in the model.
+    #[error("is on a body or a node that is not in the model")]
+    NoPart,
+    /// Its beam is not in the model.
+    #[error("is on a beam that is not in the model")]
+    NoBeam,
+    /// It joins a part to itself.
+    #[error("has both ends on the same part")]
+    SamePart,
+    /// It acts on the ground.
+    #[error("is on the ground and moves nothing")]
+    OnGround,
+    /// Its name is taken.
+    #[error("has a name that is already taken")]
+    NameTaken,
+}
+
+/// A joint whose markers do not fit together at the start.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Violation {
+    /// Name of the joint.
+    pub joint: String,
+    /// Largest displacement that it forbids \[m\].
+    pub length: f64,
+    /// Largest cosine of axes that must be perpendicular.
+    pub angle: f64,
+}
+
+impl fmt::Display for Violation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "`{}` by {:.3e} m and {:.3e} rad", self.joint, self.length, self.angle)
+    }
+}
+
+/// Why a model has no equations of motion.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ModelError {
+    /// A number or a reference is wrong.
+    #[error("{kind} `{name}` {fault}")]
+    Part {
+        /// Body, beam, joint, spring or load.
+        kind: &'static str,
+        /// Its name.
+        name: String,
+        /// What is wrong with it.
+        fault: PartFault,
+    },
+    /// There is nothing that moves.
+    #[error("the model has no body and no beam")]
+    Empty,
+    /// Markers of joints do not coincide at the start.
+    #[error(
+        "the bodies do not fit their joints at the start: {}; move the bodies or the markers",
+        list(violations)
+    )]
+    Positions {
+        /// The joints, the worst first.
+        violations: Vec<Violation>,
+    },
+    /// Rows of joints follow from those of other joints.
+    #[error(
+        "{} redundant: the joints of a loop hold a motion twice, and {freedoms} degrees of freedom are left. Give a joint of the loop more freedom \
+         (spherical, universal or cylindrical in the place of revolute), take away the prescribed motion of what is locked, or drop the rows \
+         (`Model::drop_redundant_rows`): their forces are then zero",
+        list(rows)
+    )]
+    Redundant {
+        /// Each row with the joints that it follows from.
+        rows: Vec<String>,
+        /// Degrees of freedom.
+        freedoms: usize,
+    },
+    /// Prescribed motions that cannot happen together.
+    #[error(
+        "joints that contradict each other: {}: what they prescribe at the start differs in velocity or acceleration; take away a prescribed motion, \
+         let them agree, or give a joint more freedom",
+        list(rows)
+    )]
+    Contradictory {
+        /// Each row with the joints that it contradicts.
+        rows: Vec<String>,
+    },
+    /// Rows that follow from others at the start only.
+    #[error(
+        "the start is a singular configuration of {}: bars that are stretched out or folded flat, which the joints let move on in more than one \
+         way or in none; begin elsewhere, or give a joint more freedom",
+        list(rows)
+    )]
+    Singular {
+        /// Each row with the joints that it depends on.
+        rows: Vec<String>,
+    },
+    /// No velocities obey the joints.
+    #[error("the joints allow no velocities at the start: {0}")]
+    Velocities(String),
+}
+
+fn list<T: fmt::Display>(of: &[T]) -> String {
+    of.iter().map(|x| x.to_string()).collect::<Vec<_>>().join(", ")
+}
