@@ -209,7 +209,8 @@ pub fn exact_energy(
             let strain = e.stretch - Jet::constant(1.0);
             let square = e.twist * (e.twist + Jet::constant(2.0 * section.twist_rate));
             let polar = section.chord_stiffness + section.flap_stiffness;
-            energy = energy + (strain * square).scaled(0.5 * polar);
+            let whole = strain.scaled(section.axial_stiffness) + square.scaled(0.25 * polar);
+            energy = energy + (whole * square).scaled(0.5 * polar / section.axial_stiffness);
         }
     }
     energy

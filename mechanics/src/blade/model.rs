@@ -44,8 +44,8 @@ pub struct Model {
     pub rotary_inertia: bool,
     /// Torsion φ, with its inertia and the propeller moment.
     pub torsion: bool,
-    /// The axial force's share in the torsional stiffness: twist lengthens fibres off the axis,
-    /// ½∫E(η²+ζ²) dA · ε (θ′ + τ)² − θ′².
+    /// The axial force's share in the torsional stiffness: twist lengthens fibres off the axis, on the mean by
+    /// w = ½K² ((θ′ + τ)² − θ′²), K² = (EI_c + EI_f)/EA. The energy ½EA (ε + w)² stands in place of ½EA ε².
     pub tension_torsion: bool,
 }
 

@@ -4,7 +4,7 @@
 //! angle of the section, per length
 //!
 //! ```text
-//! ½EA u′² + ½f (EI_c κ₂² + EI_f κ₃²) + ½(N − EA g)(v′² + w′²) + ½GJ φ′² [+ ½(EI_c + EI_f)(e φ′² + 2θ′ u′φ′)]
+//! ½EA u′² + ½f (EI_c κ₂² + EI_f κ₃²) + ½(N − EA g)(v′² + w′²) + ½GJ φ′² [+ ½(EI_c + EI_f)(e φ′² + 2θ′ u′φ′) + ½(EI_c + EI_f)²θ′²φ′²/EA]
 //! κ₂ = v″ cos θ + w″ sin θ,   κ₃ = w″ cos θ − v″ sin θ,   f = 1 (+ 3e) (+ 3e²/2),   g = 0 (+ e²) (+ e³/2)
 //! ```
 //!
@@ -39,7 +39,8 @@ fn energy(section: &BladeResultants, pitch: f64, tension: (f64, f64), terms: Ter
         if model.tension_torsion {
             let polar = section.chord_stiffness + section.flap_stiffness;
             let both = Jet::variable(0.0, 0) * Jet::variable(0.0, 7);
-            sum = sum + square(7, 1.0, 7, 0.0, polar * e) + both.scaled(polar * section.twist_rate);
+            let lever = polar * section.twist_rate;
+            sum = sum + square(7, 1.0, 7, 0.0, polar * e + lever * lever / ea) + both.scaled(lever);
         }
     }
     sum

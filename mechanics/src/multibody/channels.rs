@@ -117,8 +117,9 @@ fn put_station(of: &Flexible, station: f64, [q, v]: [&[f64]; 2], sink: &mut Sink
         let meaning = format!("rotation of the section {}: component {part} of the unit quaternion", at());
         Channel::new(Role::Detail, name(&format!("rotation.{part}")), "", meaning).with_kind(Kind::Quaternion)
     });
-    let [[strain, torsion, about_n, about_b], [force, torque, moment_n, moment_b]] =
-        of.strains_and_forces(q, station);
+    let sample = of.sample(q, station);
+    let [strain, torsion, about_n, about_b] = sample.strain;
+    let [force, torque, moment_n, moment_b] = sample.stress;
     let mut put = |value, quantity: &str, unit: &'static str, what: &str| {
         sink.put(value, || Channel::new(Role::Detail, name(quantity), unit, format!("{what} {}", at())));
     };

@@ -4,8 +4,8 @@ use super::body::Twist;
 use super::error::PartFault;
 use super::force::Axes;
 use super::slender::{
-    Beam, COORDINATES, ELEMENT_COORDINATES, ELEMENT_VELOCITIES, LineDistribution, distributed_weights,
-    uniform_weights,
+    Beam, COORDINATES, ELEMENT_COORDINATES, ELEMENT_VELOCITIES, LineDistribution, Sample,
+    distributed_weights, uniform_weights,
 };
 use crate::linalg::{Mat3, Vec3};
 use crate::profile::Profile;
@@ -140,7 +140,7 @@ impl Flexible {
     /// Position and axes at the arc length `s`.
     pub(super) fn frame(&self, q: &[f64], s: f64) -> Frame {
         let (element, z) = self.place(s);
-        let (position, triad, _) = self.beam.elements()[element].section(&coordinates(q, element), z);
+        let (position, triad) = self.beam.elements()[element].section(&coordinates(q, element), z);
         Frame { position, rotation: triad.rotation() }
     }
 
@@ -151,35 +151,39 @@ impl Flexible {
         self.beam.elements()[element].velocity(&v, z)
     }
 
-    /// Strains (ε, κ₁, κ₂, κ₃) less those without stress, and (N, M₁, M₂, M₃), at the arc length `s`: the cubic through the quadrature
-    /// points of the two elements next to it, where their errors are of higher order than elsewhere.
-    pub(super) fn strains_and_forces(&self, q: &[f64], s: f64) -> [[f64; 4]; 2] {
+    /// Strains and stress resultants at the arc length `s`: the cubic through the quadrature points of the two elements next to it,
+    /// where their errors are of higher order than elsewhere. The place is the arc length.
+    pub(super) fn sample(&self, q: &[f64], s: f64) -> Sample {
         let ((element, z), nodes) = (self.place(s), self.beam.nodes());
         let first =
             if z < 0.5 { element.saturating_sub(1) } else { element }.min(nodes.len().saturating_sub(3));
-        let (mut places, mut values) = ([0.0; 4], [[[0.0; 4]; 2]; 4]);
+        let mut values = [Sample::default(); 4];
         let mut count = 0;
         for (e, element) in self.beam.elements().iter().enumerate().skip(first).take(2) {
-            for (z, strains, forces) in element.samples(&coordinates(q, e)) {
-                (places[count], values[count]) = (nodes[e] + z * element.length(), [strains, forces]);
+            for sample in element.samples(&coordinates(q, e)) {
+                values[count] = Sample { place: nodes[e] + sample.place * element.length(), ..sample };
                 count += 1;
             }
         }
-        let mut out = [[0.0; 4]; 2];
-        for k in 0..count {
-            let others = (0..count).filter(|j| *j != k);
-            let part: f64 = others.map(|j| (s - places[j]) / (places[k] - places[j])).product();
-            for (out, x) in out.iter_mut().flatten().zip(values[k].iter().flatten()) {
-                *out += part * x;
+        let mut out = Sample { place: s, ..Sample::default() };
+        for (k, value) in values[..count].iter().enumerate() {
+            let others = values[..count].iter().enumerate().filter(|(j, _)| *j != k);
+            let part: f64 =
+                others.map(|(_, other)| (s - other.place) / (value.place - other.place)).product();
+            for i in 0..4 {
+                out.strain[i] += part * value.strain[i];
+                out.stress[i] += part * value.stress[i];
             }
+            out.winding += part * value.winding;
         }
         out
     }
 
-    /// The strain ε + z κ₂ − y κ₃ of a fibre.
+    /// The strain ε + z κ₂ − y κ₃ + ½ (y² + z²) (κ₁² − κ₁₀²) of a fibre.
     pub(super) fn fibre_strain(&self, q: &[f64], fibre: &Fibre) -> f64 {
-        let ([axial, _, second, third], [y, z]) = (self.strains_and_forces(q, fibre.station)[0], fibre.place);
-        axial + z * second - y * third
+        let (of, [y, z]) = (self.sample(q, fibre.station), fibre.place);
+        let [axial, _, second, third] = of.strain;
+        axial + z * second - y * third + (y * y + z * z) * of.winding
     }
 
     /// The name of a station in the names of its columns.

@@ -141,7 +141,12 @@ fn strains(q: &[Vec3; 7], h: f64) -> [[Number; 4]; 3] {
     ];
     // The part of the values at 0, ½, 1 along P₂: a parabola y₀ + … + c x², x = 2z − 1, has 2c/3 of it.
     let part = |y: [Number; 3]| number(2.0 / 3.0) * (number(0.5) * (y[0] + y[2]) - y[1]);
-    let axial = slopes.map(|g| dot(g, g).sqrt() - number(1.0));
+    // ε of the axis and the mean ½K²κ₁² of the fibres beside it.
+    let axial = std::array::from_fn(|k| {
+        let stiffness = super::derivatives::stiffness(0.5 * h * k as f64);
+        let polar = number(0.5 * (stiffness[2][2] + stiffness[3][3]) / stiffness[0][0]);
+        dot(slopes[k], slopes[k]).sqrt() - number(1.0) + polar * torsion[k] * torsion[k]
+    });
     let rest = [part(axial), part(torsion), number(0.0), number(0.0)];
     let outer = 0.5 * (1.0 - (1.0 / 3.0_f64).sqrt());
     let [first_point, second_point] = [outer, 1.0 - outer].map(|z| {

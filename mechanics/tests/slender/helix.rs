@@ -1,8 +1,9 @@
 //! A helical spring that is drawn out: from one helix to another, in closed form.
 //!
 //! A helix of radius R and pitch angle α has the curvature κ = cos²α/R and the torsion τ = sin α cos α/R. With the moments
-//! EI (κ₁ − κ₀) about its binormal and GJ (τ₁ − τ₀) about its tangent it is in equilibrium under a force F and a couple along
-//! its axis, F = (GJ Δτ cos α − EI Δκ sin α)/R (Love 1927, art. 271).
+//! M = EI (κ₁ − κ₀) about its binormal and T = GJ (τ₁ − τ₀) about its tangent it is in equilibrium under a force F and a couple along
+//! its axis, F = (T cos α − M sin α)/R (Love 1927, art. 271). With the tension N = F sin α in fibres that are helices themselves,
+//! T has N K² τ₁ beside and the axis the strain N/EA − ½K² (τ₁² − τ₀²), K² = 2EI/EA.
 
 use super::newton::{Statics, distance, equal, orders};
 use flexion::linalg::Vec3;
@@ -44,11 +45,12 @@ fn drawn(before: Helix, mut now: Helix) -> (Helix, Vec3, Vec3) {
     let (sin, cos) = now.pitch.sin_cos();
     let [k0, t0] = before.curvatures();
     let (mut force, mut moments) = (0.0, [0.0; 2]);
+    let polar = (STIFFNESS[2] + STIFFNESS[3]) / STIFFNESS[0];
     for _ in 0..60 {
         let [k, t] = now.curvatures();
-        moments = [STIFFNESS[1] * (t - t0), STIFFNESS[2] * (k - k0)];
+        moments = [STIFFNESS[1] * (t - t0) + force * sin * polar * t, STIFFNESS[2] * (k - k0)];
         force = (moments[0] * cos - moments[1] * sin) / now.radius;
-        now.stretch = 1.0 + force * sin / STIFFNESS[0];
+        now.stretch = 1.0 + force * sin / STIFFNESS[0] - 0.5 * polar * (t * t - t0 * t0);
     }
     let [_, t, _, b] = now.at(LENGTH);
     (now, Vec3([0.0, 0.0, force]), moments[0] * t + moments[1] * b)
@@ -78,10 +80,8 @@ fn error(elements: usize) -> f64 {
     let mut q = statics.q.clone();
     statics.beam.retract(&statics.q, &vec![0.0; statics.fixed.len()], &mut q);
     statics.q = q;
-    // r′ at the clamp is free along the tangent.
-    let [_, t, ..] = now.at(0.0);
-    assert!(t[1] > 0.8);
-    statics.fixed[4] = true;
+    // r′ at the clamp is held as that of the drawn helix.
+    statics.hold(0, &[3]);
     statics.loads = vec![(elements, Load::Force(force)), (elements, Load::Couple(couple))];
     statics.solve(1.0);
     let (position, triad) = statics.tip();

@@ -99,11 +99,25 @@ fn oblique() -> Statics {
 #[test]
 fn a_closed_cycle_of_loads_returns_and_ways_to_a_load_agree() {
     let (force, couple) = (Load::Force(Vec3([-0.4, 0.9, 0.8])), Load::FollowerCouple(Vec3([0.5, 0.2, -0.6])));
+    let scaled = |loads: &[(usize, Load)], factor: f64| -> Vec<(usize, Load)> {
+        let one = |load: &Load| match load {
+            Load::Force(x) => Load::Force(factor * *x),
+            Load::FollowerForce(x) => Load::FollowerForce(factor * *x),
+            Load::Couple(x) => Load::Couple(factor * *x),
+            Load::FollowerCouple(x) => Load::FollowerCouple(factor * *x),
+        };
+        loads.iter().map(|(node, load)| (*node, one(load))).collect()
+    };
+    // From the loads of one stage to those of the next in eight steps.
     let run = |stages: &[Vec<(usize, Load)>]| {
         let mut statics = oblique();
+        let mut last: &[(usize, Load)] = &[];
         for stage in stages {
-            statics.loads = stage.clone();
-            statics.solve(1.0);
+            for part in (1..=8).map(|k| f64::from(k) / 8.0) {
+                statics.loads = [scaled(last, 1.0 - part), scaled(stage, part)].concat();
+                statics.solve(1.0);
+            }
+            last = stage;
         }
         statics
     };

@@ -4,8 +4,8 @@ use flexion::linalg::{Matrix, Structure, Vec3};
 use flexion::multibody::slender::{Beam, Load, Properties, Station, Triad};
 use flexion::system::Weights;
 
-/// The unknowns of a node that a clamp holds.
-pub const CLAMP: [usize; 7] = [0, 1, 2, 3, 4, 5, 6];
+/// The unknowns of a node that a clamp of a tangent along x holds. The length of r′ is the axial strain and not held.
+pub const CLAMP: [usize; 6] = [0, 1, 2, 4, 5, 6];
 
 /// A beam with held unknowns, loads at nodes and a configuration.
 pub struct Statics {

@@ -103,11 +103,11 @@ fn strain(blade: &Blade, q: &[f64]) -> f64 {
             let whole = dot(rate(x, 1), d3);
             let twist = whole - r.twist_rate;
             let polar = r.chord_stiffness + r.flap_stiffness;
-            0.5 * (r.axial_stiffness * sampled * sampled
+            let wound = 0.5 * polar / r.axial_stiffness * (whole * whole - r.twist_rate * r.twist_rate);
+            0.5 * (r.axial_stiffness * (sampled * sampled + wound * (2.0 * stretch(x) + wound))
                 + r.chord_stiffness * dot(rate(x, 0), d2).powi(2)
                 + r.flap_stiffness * dot(rate(x, 0), d3).powi(2)
-                + r.torsional_stiffness * twist * twist
-                + polar * stretch(x) * (whole * whole - r.twist_rate * r.twist_rate))
+                + r.torsional_stiffness * twist * twist)
         });
     }
     sum

@@ -31,6 +31,19 @@ pub struct Motion<'a> {
 /// Matrix of an element, by rows.
 pub type Tangent = [[f64; VELOCITIES]; VELOCITIES];
 
+/// Strains and stress resultants of a section.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sample {
+    /// Place z in the element, 0 to 1.
+    pub place: f64,
+    /// (ε, κ₁, κ₂, κ₃) less those without stress.
+    pub strain: [f64; 4],
+    /// ½ (κ₁² − κ₁₀²) [1/m²]: a fibre at the distance r from the axis is lengthened by r² times it.
+    pub winding: f64,
+    /// (N, M₁, M₂, M₃) \[N, N·m\]
+    pub stress: [f64; 4],
+}
+
 /// What a variable of the strains is among the velocities of an element: r₂ − r₁ is two of them.
 const PLACES: [usize; VARIABLES] = [8, 9, 10, 3, 4, 5, 11, 12, 13, 6, 7, 14];
 
@@ -43,9 +56,11 @@ fn variables(v: &[f64; VELOCITIES]) -> [f64; VARIABLES] {
 #[derive(Clone, Debug)]
 pub struct Element {
     constants: Arc<Constants>,
-    /// Strains without stress, and of ε and κ₁ the part that vanishes at the points.
+    /// Strains (ε̄, κ₁, κ₂, κ₃) without stress, and of ε̄ and κ₁ the part that vanishes at the points.
     initial: [[f64; 4]; POINTS],
     rest: [f64; 2],
+    /// κ₁ of the three sections without stress.
+    windings: [f64; 3],
     damping: f64,
     viscosity: f64,
 }
@@ -64,6 +79,8 @@ pub struct Constants {
     /// (J₁, J₂, J₃) of the three sections, times the weights of Simpson's rule.
     inertia: [[f64; 3]; 3],
     has_rotary_inertia: bool,
+    /// K² of the three sections.
+    polar: [f64; 3],
 }
 
 /// Relative difference of numbers that are equal but for the rounding of the arc lengths of 10⁴ nodes.
@@ -89,7 +106,8 @@ impl Constants {
         let inertia = [(0.0, 1.0), (0.5, 4.0), (1.0, 1.0)]
             .map(|(z, w)| section(z).inertia.map(|j| w * length / 6.0 * j));
         let has_rotary_inertia = inertia.iter().any(|j| j.iter().any(|j| *j != 0.0));
-        Constants { shapes, stiffness, middle, mass, weight, inertia, has_rotary_inertia }
+        let polar = [0.0, 0.5, 1.0].map(|z| Stiffness(section(z).stiffness).polar_radius_squared());
+        Constants { shapes, stiffness, middle, mass, weight, inertia, has_rotary_inertia, polar }
     }
 
     /// Whether they are those of another element but for rounding.
@@ -102,6 +120,7 @@ impl Constants {
             && stiffness.into_iter().all(|(a, b)| all(a.0.as_flattened(), b.0.as_flattened()))
             && all(self.mass.as_flattened(), other.mass.as_flattened())
             && all(self.inertia.as_flattened(), other.inertia.as_flattened())
+            && all(&self.polar, &other.polar)
     }
 }
 
@@ -127,10 +146,11 @@ impl Element {
             Some(like) if own.are_those_of(like) => Arc::clone(&like.constants),
             _ => Arc::new(own),
         };
-        let sections = Sections::new(&constants.shapes, q);
+        let sections = Sections::new(&constants.shapes, constants.polar, q);
         let initial = sections.points(&constants.shapes).map(|point| point.strain);
         let rest = sampled(&constants.shapes.rest, &sections);
-        Element { constants, initial, rest, damping: 0.0, viscosity: 0.0 }
+        let windings = sections.windings;
+        Element { constants, initial, rest, windings, damping: 0.0, viscosity: 0.0 }
     }
 
     /// Sets the damping β [1/s] in proportion to the mass: a force −β M v.
@@ -148,6 +168,12 @@ impl Element {
         &self.shapes
     }
 
+    /// The sections at the coordinates `q`.
+    #[inline]
+    pub(super) fn sections(&self, q: &[f64; COORDINATES]) -> Sections {
+        Sections::new(&self.shapes, self.polar, q)
+    }
+
     /// Length of the element \[m\].
     pub fn length(&self) -> f64 {
         self.shapes.length
@@ -161,7 +187,7 @@ impl Element {
 
     /// Strain energy \[J\].
     pub fn strain_energy(&self, q: &[f64; COORDINATES]) -> f64 {
-        let sections = Sections::new(&self.shapes, q);
+        let sections = self.sections(q);
         let mut energy = 0.0;
         for (k, at) in self.shapes.points.iter().enumerate() {
             let strain = Section::new(at, &sections).strain;
@@ -201,7 +227,7 @@ impl Element {
 
     /// Power \[W\] that the damping in proportion to the stiffness takes, η ∫γ̇ᵀ C γ̇ ds.
     pub fn viscous_power(&self, q: &[f64; COORDINATES], v: &[f64; VELOCITIES]) -> f64 {
-        let sections = Sections::new(&self.shapes, q);
+        let sections = self.sections(q);
         let points = sections.points(&self.shapes);
         let (rates, rest) = stiffness::rates(&self.shapes, &sections, &points, &variables(v));
         let zero = [0.0; 4];
@@ -262,7 +288,7 @@ impl Element {
                 energy += 0.5 * self.mass[i][j] * velocity[i].dot(velocity[j]);
             }
         }
-        let sections = Sections::new(&self.shapes, q);
+        let sections = self.sections(q);
         let rest = [0.0; VELOCITIES];
         let rotations = self.rotations(&sections, v, &rest);
         energy + rotations.iter().map(Rotation::energy).sum::<f64>()
@@ -281,7 +307,7 @@ impl Element {
         for (place, mass) in place.into_iter().zip(&self.mass) {
             angular += place.cross(combined(mass, &velocity));
         }
-        let (sections, rest) = (Sections::new(&self.shapes, q), [0.0; VELOCITIES]);
+        let (sections, rest) = (self.sections(q), [0.0; VELOCITIES]);
         for rotation in self.rotations(&sections, v, &rest) {
             angular += rotation.angular_momentum();
         }
@@ -308,7 +334,7 @@ impl Element {
 
     /// Adds the forces of strain and inertia, ∂U/∂q + M a + …, to `r`.
     pub fn add_forces(&self, m: &Motion<'_>, r: &mut [f64; VELOCITIES]) {
-        let sections = Sections::new(&self.shapes, m.q);
+        let sections = self.sections(m.q);
         let points = sections.points(&self.shapes);
         let stress = self.stress(&sections, &points, m.v);
         let mut total = strain::forces(&self.shapes, &sections, &points, &stress);
@@ -340,7 +366,7 @@ impl Element {
     /// Adds w.q ∂r/∂d + w.v ∂r/∂v + w.a ∂r/∂a to `out`: by the increment d of the element since the configuration that was
     /// retracted, or by variations (δr, δr′, δΘ) where `w.increment` is `None`.
     pub fn add_tangent(&self, m: &Motion<'_>, w: &Weights<'_>, out: &mut Tangent) {
-        let sections = Sections::new(&self.shapes, m.q);
+        let sections = self.sections(m.q);
         let parts = shares(&self.shapes);
         // δΘ = δφ + turn·δr′ at the three sections.
         let mut turns = [Vec3::ZERO; 3];
@@ -435,42 +461,27 @@ impl Element {
         out
     }
 
-    /// The place z, 0 to 1, of the element: position, axes and strains (ε, κ₁, κ₂, κ₃) less those without stress. The strains
-    /// are linear through the quadrature points, where their errors are of higher order than elsewhere.
-    pub fn section(&self, q: &[f64; COORDINATES], z: f64) -> (Vec3, Triad, [f64; 4]) {
-        let sections = Sections::new(&self.shapes, q);
-        let mut strain = [0.0; 4];
-        let places = self.shapes.points.map(|at| at.place);
+    /// The place z, 0 to 1, of the element: position and axes.
+    pub fn section(&self, q: &[f64; COORDINATES], z: f64) -> (Vec3, Triad) {
         let position = combined(&hermite(z, self.shapes.length)[0], &positions(q));
-        for (k, point) in self.shapes.points.iter().enumerate() {
-            let weight = (z - places[1 - k]) / (places[k] - places[1 - k]);
-            let there = Section::new(point, &sections).strain;
-            for i in 0..4 {
-                strain[i] += weight * (there[i] - self.initial[k][i]);
-            }
-        }
-        let at = Section::new(&Point::at(z, 0.0, self.shapes.length), &sections);
-        (position, at.triad, strain)
+        let at = Section::new(&Point::at(z, 0.0, self.shapes.length), &self.sections(q));
+        (position, at.triad)
     }
 
-    /// Place z, strains (ε, κ₁, κ₂, κ₃) less those without stress, and stress resultants (N, M₁, M₂, M₃) at the quadrature points.
-    pub fn samples(&self, q: &[f64; COORDINATES]) -> [(f64, [f64; 4], [f64; 4]); POINTS] {
-        let sections = Sections::new(&self.shapes, q);
+    /// Strains and stress resultants at the quadrature points.
+    pub fn samples(&self, q: &[f64; COORDINATES]) -> [Sample; POINTS] {
+        let sections = self.sections(q);
+        let square = |k: f64, initial: f64| 0.5 * (k * k - initial * initial);
         std::array::from_fn(|k| {
             let (at, initial) = (&self.shapes.points[k], &self.initial[k]);
-            let strain = Section::new(at, &sections).strain;
-            let stress = self.stiffness[k].stress(&strain, initial, 1.0);
-            (at.place, std::array::from_fn(|i| strain[i] - initial[i]), stress)
-        })
-    }
-
-    /// Stress resultants (N, M₁, M₂, M₃) \[N, N·m\] at the quadrature points, with their places z.
-    pub fn stresses(&self, q: &[f64; COORDINATES]) -> [(f64, [f64; 4]); POINTS] {
-        let sections = Sections::new(&self.shapes, q);
-        std::array::from_fn(|k| {
-            let at = &self.shapes.points[k];
-            let strain = Section::new(at, &sections).strain;
-            (at.place, self.stiffness[k].stress(&strain, &self.initial[k], 1.0))
+            let there = Section::new(at, &sections).strain;
+            let mut strain = std::array::from_fn(|i| there[i] - initial[i]);
+            for i in 0..3 {
+                strain[0] -= at.sample[i] * self.polar[i] * square(sections.windings[i], self.windings[i]);
+            }
+            let mut stress = self.stiffness[k].stress(&there, initial, 1.0);
+            stress[1] += stress[0] * self.stiffness[k].polar_radius_squared() * there[1];
+            Sample { place: at.place, strain, winding: square(there[1], initial[1]), stress }
         })
     }
 
@@ -481,6 +492,6 @@ impl Element {
 
     /// The twist of the ends and the middle against each other, φ₁ₘ, φₘ₂, φ₁₂.
     pub fn pairs(&self, q: &[f64; COORDINATES]) -> [Pair; 3] {
-        Sections::new(&self.shapes, q).pairs
+        self.sections(q).pairs
     }
 }

@@ -19,9 +19,7 @@ use crate::quadrature::Gauss;
 
 use super::element::{Element, Tangent};
 use super::shapes::{hermite, sample};
-use super::strain::{
-    CENTRELINE, COORDINATES, SPINS, Sections, VELOCITIES, centreline, chord, combined, shares,
-};
+use super::strain::{CENTRELINE, COORDINATES, SPINS, VELOCITIES, centreline, chord, combined, shares};
 
 /// The variations (δr′, δΘ) of a section.
 const VARIATIONS: usize = 4;
@@ -177,7 +175,7 @@ impl Element {
         follows: bool,
         r: &mut [f64],
     ) {
-        let sections = Sections::new(self.shapes(), q);
+        let sections = self.sections(q);
         for (n, triad) in weights.iter().zip(&sections.triads) {
             let force = if follows { triad.outward(load) } else { load };
             for (at, n) in CENTRELINE.into_iter().zip(n) {
@@ -196,7 +194,7 @@ impl Element {
         increment: Option<&[f64; VELOCITIES]>,
         out: &mut Tangent,
     ) {
-        let sections = Sections::new(self.shapes(), q);
+        let sections = self.sections(q);
         let parts = shares(self.shapes());
         for (k, (n, triad)) in weights.iter().zip(&sections.triads).enumerate() {
             let force = triad.outward(load);

@@ -5,11 +5,17 @@
 //!
 //! ```text
 //! ε = |r′| − 1,    κ = axial(ΛᵀΛ′):  κ₁ = b·n′ (torsion),  κ₂ = −b·r″/|r′|,  κ₃ = n·r″/|r′| (bending)
-//! U = ½ ∫ (γ − γ₀)ᵀ C (γ − γ₀) ds,   γ = (ε, κ₁, κ₂, κ₃)
+//! U = ½ ∫ (γ − γ₀)ᵀ C (γ − γ₀) ds,   γ = (ε̄, κ₁, κ₂, κ₃),   ε̄ = ε + ½ K² κ₁²
 //! ```
 //!
 //! with any symmetric C (see [`Properties`]) and the strains γ₀ of a curved and twisted beam without stress, of any size of
 //! displacement and rotation.
+//!
+//! **Tension and torsion.** A fibre at the distance r from the axis is a helix in a section that twists, and longer by ½ r² κ₁² (Wagner
+//! 1929; Hodges 1980). ε̄ is the mean of ε + ½ r² κ₁² over the section, K² = (C₂₂ + C₃₃)/C₀₀ the square of its radius of gyration: a tension N adds N K² to
+//! the torsional stiffness and untwists a beam that is twisted without stress. Left out is what the deviations of r² from K² cost,
+//! ⅛ (∫E r⁴ dA − EA K⁴)(κ₁² − κ₁₀²)² per length, which matters for a thin strip that twists by about its thickness or more over
+//! its width, and ½ ∫E r² (z κ₂ − y κ₃) dA (κ₁² − κ₁₀²) of sections without two axes of symmetry.
 //!
 //! **Unknowns.** r is a cubic Hermite curve by r and r′ at the nodes. An axis n, and with it Λ, is given at the nodes and in the
 //! middle of each element: seven velocities a node, ṙ, ṙ′ and the spin w = ω·t, and one a middle. Without the section in the
@@ -26,7 +32,7 @@
 //! δφ = δΘ_b − δΘ_a + c·(δt_a + δt_b). Three such angles an element give the torsion as a quadratic polynomial that is exact for
 //! a twisted straight bar (the source of `shapes` has the formulas).
 //!
-//! **No membrane locking.** A cubic curve cannot bend without axial strain. ε is sampled at both nodes and in the middle, and
+//! **No membrane locking.** A cubic curve cannot bend without axial strain. ε̄ is sampled at both nodes and in the middle, and
 //! interpolated quadratically: two constraints an element to six new unknowns of the centreline (Meier, Popp & Wall 2015, doi
 //! 10.1016/j.cma.2015.02.029). Curvatures are taken at two Gauss points, where the second derivative of a cubic
 //! interpolant is best. With three points a ribbon locks that is much stiffer edgewise than flatwise.
@@ -64,7 +70,7 @@ pub(super) use shapes::hermite;
 pub(super) use strain::combined;
 
 pub use beam::{Beam, BeamError, ELEMENT_COORDINATES, ELEMENT_VELOCITIES, Station};
-pub use element::{Element, Motion, Tangent};
+pub use element::{Element, Motion, Sample, Tangent};
 pub use loads::{LineDistribution, LineWeights, Load, SectionForces, distributed_weights, uniform_weights};
 pub use pair::Pair;
 pub use properties::Properties;

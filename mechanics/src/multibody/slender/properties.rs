@@ -54,7 +54,7 @@ impl Properties {
     }
 
     /// The section rotated by `angle` about t against the axes [t, n, b], so that a beam with a pretwist need not twist
-    /// its axes: C and ρI of the section in the axes of the beam. The moments of inertia about n and b must be equal or
+    /// its axes: C and ρI of the section in the axes of the beam, and fibres along them, which tension does not untwist. The moments of inertia about n and b must be equal or
     /// zero where the angle is not zero: their product of inertia is left out.
     pub fn rolled(self, angle: f64) -> Properties {
         let (sin, cos) = libm::sincos(angle);

@@ -27,6 +27,8 @@ pub(super) struct Shapes {
     pub rest: Point,
     /// r′ in the middle by (r₂ − r₁, r′₁, r′₂).
     pub middle: [f64; 3],
+    /// P at the three sections.
+    pub windings: [[f64; 3]; 3],
 }
 
 /// Shape functions at a quadrature point.
@@ -63,7 +65,8 @@ impl Shapes {
         let torsion = [2.0 * third / length, 2.0 * third / length, -2.0 * third / length];
         let sample = [third, -2.0 * third, third];
         let rest = Point { weight: length / 5.0, sample, torsion, ..Point::default() };
-        Shapes { length, points, rest, middle: [1.5 / length, -0.25, -0.25] }
+        let windings = [0.0, 0.5, 1.0].map(|z| self::torsion(z, length));
+        Shapes { length, points, rest, middle: [1.5 / length, -0.25, -0.25], windings }
     }
 }
 

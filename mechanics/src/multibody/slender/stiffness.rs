@@ -127,7 +127,7 @@ fn along_fixed_axes(triad: &Triad, mut matrix: [[f64; LOCAL]; LOCAL]) -> [[f64; 
     out
 }
 
-/// Variations of the samples of ε and of the angles of the pairs, as rows.
+/// Variations of the samples of ε̄ and of the angles of the pairs, as rows.
 struct Rows {
     samples: [Row; 3],
     angles: [Row; 3],
@@ -147,10 +147,23 @@ impl Rows {
                 add_vector(row, &parts[i], 1.0 / sections.triads[i].length * pair.c);
             }
         }
-        Rows { samples, angles }
+        let mut rows = Rows { samples, angles };
+        for i in 0..3 {
+            let winding = rows.winding(shapes, i);
+            rows.samples[i].add(sections.lever(i), &winding);
+        }
+        rows
     }
 
-    /// δΘ, δε, δκ₁ at a point.
+    /// δκ₁ of the section `i`.
+    #[inline(always)]
+    fn winding(&self, shapes: &Shapes, i: usize) -> Row {
+        let mut row = Row::ZERO;
+        (0..3).for_each(|j| row.add(shapes.windings[i][j], &self.angles[j]));
+        row
+    }
+
+    /// δΘ, δε̄, δκ₁ at a point.
     #[inline(always)]
     fn at(&self, at: &Point, shapes: &Shapes, middle: &Triad, section: &Section) -> [Row; 3] {
         let [mut spin, mut axial, mut torsion] = [Row::ZERO; 3];
@@ -186,7 +199,7 @@ fn add_block(rows: &mut [Row; 3], block: &Mat3, n: &[f64; 3]) {
     }
 }
 
-/// Rates of the strains (ε, κ₁, κ₂, κ₃) at the quadrature points, and of the parts of ε and κ₁ that vanish there, for the rates
+/// Rates of the strains (ε̄, κ₁, κ₂, κ₃) at the quadrature points, and of the parts of ε̄ and κ₁ that vanish there, for the rates
 /// `u` of the variables.
 pub(super) fn rates(
     shapes: &Shapes,
@@ -266,8 +279,15 @@ pub(super) fn tangent(
         (0..2).for_each(|j| change[i].add(material * shapes.rest.weight * c[i][j], &scalars[j]));
     }
     changes.add_sampled(&shapes.rest, &change[0], &change[1]);
+    let (samples, angles) = forces.of_samples_and_angles(shapes, sections);
+    // N K² (δκ₁)²
+    let windings = std::array::from_fn(|i| {
+        let mut row = Row::ZERO;
+        row.add(samples[i] * sections.polar[i], &rows.winding(shapes, i));
+        row
+    });
+    changes.add_windings(shapes, &windings);
     let mut out = changes.total(shapes, sections);
-    let (samples, angles) = forces.of_samples_and_angles();
     // The derivatives of t and c at the sections, by r′ at the sections.
     let mut blocks = [[Mat3::ZERO; 3]; 3];
     for ((pair, ends), force) in pairs.iter().zip(ENDS).zip(angles) {

@@ -7,7 +7,9 @@
 //! ```
 //!
 //! ε and κ₁ are sampled and interpolated (see [`super::shapes`]), κ₂ and κ₃ are evaluated at two Gauss points, where those of a
-//! cubic curve are best. ε and κ₁ have a part beside, which vanishes at both and is integrated apart. The
+//! cubic curve are best. ε and κ₁ have a part beside, which vanishes at both and is integrated apart. The samples are those of the
+//! mean strain of the fibres, ε̄ = ε + ½ K² κ₁²: with κ₁ of the same sections, a beam that twists may shorten at all of them and have
+//! no ε̄ anywhere. δε̄ = t·δr′ + K² κ₁ δκ₁. The
 //! axes there are those of the middle, transported to t by the smallest rotation and twisted by φ = −L₁ φ₁ₘ + L₂ φₘ₂. With
 //! μ = t·r″/|r′| and c of the pair of the middle and the point,
 //!
@@ -81,11 +83,15 @@ pub(super) struct Sections {
     pub chord: [Vec3; 3],
     pub triads: [Triad; 3],
     pub pairs: [Pair; 3],
+    /// κ₁ of the three sections.
+    pub windings: [f64; 3],
+    /// K² of the three sections \[m²\].
+    pub polar: [f64; 3],
 }
 
 impl Sections {
     #[inline]
-    pub fn new(shapes: &Shapes, q: &[f64; COORDINATES]) -> Sections {
+    pub fn new(shapes: &Shapes, polar: [f64; 3], q: &[f64; COORDINATES]) -> Sections {
         let chord = chord(&positions(q));
         let [first, middle, second] = slopes(shapes, &chord);
         let triads = [
@@ -95,7 +101,20 @@ impl Sections {
         ];
         let pair = |[a, b]: [usize; 2]| Pair::new(&triads[a], &triads[b]);
         let pairs = [pair(ENDS[0]), pair(ENDS[1]), pair(ENDS[2])];
-        Sections { chord, triads, pairs }
+        let windings = shapes.windings.map(|p| (0..3).map(|j| p[j] * pairs[j].angle).sum());
+        Sections { chord, triads, pairs, windings, polar }
+    }
+
+    /// ε̄ of the section `i`.
+    #[inline(always)]
+    fn mean_strain(&self, i: usize) -> f64 {
+        self.triads[i].length - 1.0 + 0.5 * self.polar[i] * self.windings[i] * self.windings[i]
+    }
+
+    /// K² κ₁ of the section `i`, the derivative of ε̄ by κ₁.
+    #[inline(always)]
+    pub fn lever(&self, i: usize) -> f64 {
+        self.polar[i] * self.windings[i]
     }
 
     /// The sections at the quadrature points.
@@ -114,14 +133,14 @@ pub(super) struct Section {
     pub pair: Pair,
     /// μ
     pub along: f64,
-    /// (ε, κ₁, κ₂, κ₃)
+    /// (ε̄, κ₁, κ₂, κ₃)
     pub strain: [f64; 4],
 }
 
 impl Section {
     #[inline]
     pub fn new(at: &Point, sections: &Sections) -> Section {
-        let Sections { chord, triads, pairs } = sections;
+        let Sections { chord, triads, pairs, .. } = sections;
         let (slope, curvature) = (combined(&at.slope, chord), combined(&at.curvature, chord));
         let l = &at.sample;
         let twist = l[2] * pairs[1].angle - l[0] * pairs[0].angle;
@@ -132,7 +151,7 @@ impl Section {
         Section { triad, pair, along, strain: [axial, torsion, -third, second] }
     }
 
-    /// Forces on (r′, r″, Θ, ε, κ₁) here of the stress resultants (N, M₁, M₂, M₃), and the moment ω on Θ.
+    /// Forces on (r′, r″, Θ, ε̄, κ₁) here of the stress resultants (N, M₁, M₂, M₃), and the moment ω on Θ.
     #[inline]
     pub fn forces(&self, stress: [f64; 4]) -> Local<f64> {
         let [axial, torsion, m2, m3] = stress;
@@ -150,14 +169,13 @@ impl Section {
     }
 }
 
-/// ε and κ₁ by the functions of a point.
+/// ε̄ and κ₁ by the functions of a point.
 #[inline(always)]
 pub(super) fn sampled(at: &Point, sections: &Sections) -> [f64; 2] {
-    let Sections { triads, pairs, .. } = sections;
     let (mut axial, mut torsion) = (0.0, 0.0);
     for i in 0..3 {
-        axial += at.sample[i] * (triads[i].length - 1.0);
-        torsion += at.torsion[i] * pairs[i].angle;
+        axial += at.sample[i] * sections.mean_strain(i);
+        torsion += at.torsion[i] * sections.pairs[i].angle;
     }
     [axial, torsion]
 }
@@ -191,9 +209,9 @@ pub(super) struct Local<T> {
 /// Forces on what the strains of an element are made of, summed over the quadrature points.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Forces<T> {
-    /// On the samples of ε.
+    /// On the samples of ε̄.
     samples: [T; 3],
-    /// On the angles of the pairs.
+    /// On the angles of the pairs, beside those by the samples.
     angles: [T; 3],
     /// On Θₘ and r′ₘ, beside those by the pairs.
     spin: T,
@@ -233,13 +251,30 @@ impl<T: Linear> Forces<T> {
         }
     }
 
-    /// Adds the forces on ε and κ₁ alone.
+    /// Adds the forces on ε̄ and κ₁ alone.
     #[inline(always)]
     pub fn add_sampled(&mut self, at: &Point, axial: &T, torsion: &T) {
         for k in 0..3 {
             self.samples[k].add(at.sample[k], axial);
             self.angles[k].add(at.torsion[k], torsion);
         }
+    }
+
+    /// Adds forces on the κ₁ of the three sections.
+    pub fn add_windings(&mut self, shapes: &Shapes, forces: &[T; 3]) {
+        for (force, p) in forces.iter().zip(&shapes.windings) {
+            (0..3).for_each(|j| self.angles[j].add(p[j], force));
+        }
+    }
+
+    /// All forces on the angles of the pairs.
+    #[inline(always)]
+    fn on_angles(&self, shapes: &Shapes, sections: &Sections) -> [T; 3] {
+        let mut angles = self.angles;
+        for (i, p) in shapes.windings.iter().enumerate() {
+            (0..3).for_each(|j| angles[j].add(sections.lever(i) * p[j], &self.samples[i]));
+        }
+        angles
     }
 
     /// Adds forces on r′ₘ.
@@ -256,7 +291,7 @@ impl<T: Linear> Forces<T> {
         let Sections { triads, pairs, .. } = sections;
         let mut spins = [T::ZERO, self.spin, T::ZERO];
         let mut slopes = [[T::ZERO; 3], self.middle, [T::ZERO; 3]];
-        for ((pair, ends), force) in pairs.iter().zip(ENDS).zip(&self.angles) {
+        for ((pair, ends), force) in pairs.iter().zip(ENDS).zip(&self.on_angles(shapes, sections)) {
             for (end, sign) in ends.into_iter().zip([-1.0, 1.0]) {
                 spins[end].add(sign, force);
                 for k in 0..3 {
@@ -285,14 +320,14 @@ impl<T: Linear> Forces<T> {
 }
 
 impl Forces<f64> {
-    /// The forces on the samples of ε and on the angles of the pairs.
-    pub fn of_samples_and_angles(&self) -> ([f64; 3], [f64; 3]) {
-        (self.samples, self.angles)
+    /// The forces on the samples of ε̄ and on the angles of the pairs.
+    pub fn of_samples_and_angles(&self, shapes: &Shapes, sections: &Sections) -> ([f64; 3], [f64; 3]) {
+        (self.samples, self.on_angles(shapes, sections))
     }
 }
 
-/// Stress resultants (N, M₁, M₂, M₃) at the quadrature points times their weights, and those of the parts of ε and κ₁ that vanish
-/// there.
+/// C (γ − γ₀) with γ = (ε̄, κ₁, κ₂, κ₃) at the quadrature points times their weights, and those of the parts of ε̄ and κ₁ that vanish
+/// there. The torque M₁ has N K² κ₁ beside its entry, by ε̄.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Stress {
     pub points: [[f64; 4]; POINTS],
@@ -319,6 +354,12 @@ pub(super) fn forces(
 pub(super) struct Stiffness(pub [[f64; 4]; 4]);
 
 impl Stiffness {
+    /// K² = (C₂₂ + C₃₃)/C₀₀ \[m²\], counted from 0: the square of the radius of gyration of the axial stiffness about the centreline,
+    /// ∫E (y² + z²) dA/EA.
+    pub fn polar_radius_squared(&self) -> f64 {
+        (self.0[2][2] + self.0[3][3]) / self.0[0][0]
+    }
+
     /// weight · C (γ − γ₀)
     #[inline(always)]
     pub fn stress(&self, strain: &[f64; 4], initial: &[f64; 4], weight: f64) -> [f64; 4] {
