@@ -11,6 +11,7 @@ use flexion::multibody::{Axis, Body, Drive, Flexible, Kind, Model, Multibody, Pa
 use flexion::profile::Constant;
 use flexion::system::{Dynamics, State};
 use nalgebra::DMatrix;
+use num_complex::Complex64;
 use std::sync::Arc;
 
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
@@ -32,6 +33,8 @@ struct Shaft {
     discs: Vec<(usize, f64, [f64; 3])>,
     /// What holds both ends on the ground.
     ends: [Option<Kind>; 2],
+    /// Damping of the shaft in proportion to its stiffness \[s\], and of the discs in proportion to their mass [1/s].
+    damping: [f64; 2],
 }
 
 impl Shaft {
@@ -42,7 +45,7 @@ impl Shaft {
             Properties::principal([self.axial, self.torsion, ex, ey], self.mass, [self.polar, 0.0, 0.0]);
         let beam = Beam::straight(root, self.length, self.elements, properties).unwrap();
         let mut model = Model::new();
-        let beam = model.beam(Flexible::new("shaft", beam));
+        let beam = model.beam(Flexible { viscosity: self.damping[0], ..Flexible::new("shaft", beam) });
         let place = |node: usize| [0.0, 0.0, self.length * node as f64 / self.elements as f64];
         for (end, kind) in [0, self.elements].into_iter().zip(self.ends) {
             if let Some(kind) = kind {
@@ -51,7 +54,9 @@ impl Shaft {
             }
         }
         for (i, (node, mass, moments)) in self.discs.iter().enumerate() {
-            let body = model.body(Body::new(&format!("disc{i}"), *mass, *moments).at(place(*node)));
+            let mut disc = Body::new(&format!("disc{i}"), *mass, *moments).at(place(*node));
+            disc.damping = self.damping[1];
+            let body = model.body(disc);
             let parts = [Part::Section { beam, node: *node }, body];
             model.join(&format!("fix{i}"), Kind::Fixed, parts, place(*node), (Z, None)).unwrap();
         }
@@ -83,17 +88,19 @@ fn overhung() -> Shaft {
         polar: 1e-7,
         discs: vec![(12, 2.0, [0.05, 0.05, 0.09])],
         ends: [Some(Kind::Fixed), None],
+        damping: [0.0; 2],
     }
 }
 
-/// A disc without inertia of rotation in the middle of a shaft on two hinges, almost without mass.
+/// A disc without inertia of rotation in the middle of a shaft on two hinges, almost without mass. One of them holds its rotation about
+/// its axis: of a rotation that is free rounding would leave an eigenvalue λ² = ε GJ/(h I) ~ 10⁻² s⁻² of the inertia I of disc and shaft.
 fn jeffcott(bending: [f64; 2]) -> Shaft {
     Shaft {
         length: 1.0,
         axial: 1e9,
         bending,
         discs: vec![(6, 3.0, [1e-6; 3])],
-        ends: [Some(Kind::Spherical), Some(Kind::Spherical)],
+        ends: [Some(Kind::Universal), Some(Kind::Spherical)],
         ..overhung()
     }
 }
@@ -170,19 +177,22 @@ fn the_critical_speed_of_an_overhung_disc_is_that_of_its_forward_whirl() {
     assert_eq!(diagram.speeds.last(), Some(&60.0));
 }
 
-/// m λ² + 2 m Ω λ J + (k_x − m Ω², k_y − m Ω²): stable up to √(k_x/m), divergent up to √(k_y/m), and stable above.
+/// m λ² + 2 m Ω λ J + (k_x − m Ω², k_y − m Ω²): stable up to √(k_x/m), divergent up to √(k_y/m), and stable above. 17/35 of the mass of the
+/// shaft moves with the disc (Rayleigh).
 #[test]
 fn a_shaft_of_two_stiffnesses_is_unstable_between_its_two_critical_speeds() {
-    let shaft = jeffcott([140.0, 100.0]);
-    let [first, second] = [100.0, 140.0].map(|e| (48.0 * e / 3.0_f64).sqrt());
+    let shaft = Shaft { mass: 1e-3, ..jeffcott([140.0, 100.0]) };
+    let mass = 3.0 + 17.0 / 35.0 * shaft.mass * shaft.length;
+    let [first, second] = [100.0, 140.0].map(|e| (48.0 * e / mass).sqrt());
     let diagram = shaft.campbell((0..=30).map(|i| 2.0 * f64::from(i)).collect(), 4);
     let [Instability::Divergence { speed, until: Some(until) }] = diagram.instabilities[..] else {
         panic!("{:?}", diagram.instabilities);
     };
     let speeds: Vec<f64> = diagram.criticals.iter().map(|c| c.speed).collect();
-    // Of λ² ≈ 6 s⁻² for 1 rad/s off a critical speed the rounding of the axial stiffness, 10⁷ times the bending one, leaves 10⁻² s⁻².
+    // Rayleigh's quotient leaves (3e-4)² of a critical speed, and a speed is enclosed to 1e-7 of it. Divergence ends where Re λ < 1e-7 |λ|,
+    // of λ² that is zero at the critical speed: one or two times 1e-7 beyond it.
     for (found, expected) in [(speed, first), (until, second), (speeds[0], first), (speeds[1], second)] {
-        assert!((found / expected - 1.0).abs() < 1e-4, "{found} for {expected}");
+        assert!((found / expected - 1.0).abs() < 5e-7, "{found} for {expected}");
     }
     assert_eq!(speeds.len(), 2);
     let last = *diagram.speeds.last().unwrap();
@@ -197,6 +207,38 @@ fn a_shaft_of_two_stiffnesses_is_unstable_between_its_two_critical_speeds() {
     found.sort_by(f64::total_cmp);
     for (found, expected) in found.iter().zip([(half - root).sqrt(), (half + root).sqrt()]) {
         assert!((found / expected - 1.0).abs() < 1e-5, "{found} for {expected}");
+    }
+}
+
+/// Damping c_i that rotates with the shaft and c_e that does not: in the rotating frame
+/// m λ² + (c_e + c_i + 2iΩm) λ + k − mΩ² + iΩ c_e = 0, unstable beyond Ω = (1 + c_e/c_i) √(k/m).
+#[test]
+fn a_shaft_with_internal_damping_flutters_beyond_its_critical_speed() {
+    let (m, k, viscosity) = (3.0, 4800.0, 1e-3);
+    for external in [0.0, 0.8] {
+        let shaft = Shaft { damping: [viscosity, external], ..jeffcott([100.0; 2]) };
+        let (ci, ce) = (viscosity * k, external * m);
+        let limit = (1.0 + ce / ci) * (k / m).sqrt();
+        for speed in [20.0, 0.98 * limit, 1.02 * limit, 70.0_f64] {
+            let b = Complex64::new(ce + ci, 2.0 * m * speed);
+            let c = Complex64::new(k - m * speed * speed, ce * speed);
+            let root = (b * b - 4.0 * m * c).sqrt();
+            for (mode, expected) in shaft.modes(speed, 2).modes.iter().zip([root - b, -root - b]) {
+                let expected = expected / (2.0 * m);
+                let off = mode.eigenvalue - Complex64::new(expected.re, expected.im.abs());
+                // A part 2e-7 of the mass is that of the shaft.
+                assert!(
+                    off.norm() < 4e-7 * (k / m).sqrt(),
+                    "{speed} rad/s: {} for {expected}",
+                    mode.eigenvalue
+                );
+            }
+            assert_eq!(
+                shaft.modes(speed, 2).modes.iter().any(|mode| mode.grows()),
+                speed > limit,
+                "{speed} rad/s"
+            );
+        }
     }
 }
 
@@ -314,6 +356,23 @@ fn ground_resonance_is_found_between_the_speeds_of_coleman() {
     let plan = Plan { speeds, count: 8, stations: Vec::new(), hub: HubState::Held, revolutions: 0 };
     let diagram = campbell(Box::new(system), &plan, |_| true).unwrap();
     assert_eq!(diagram.branches.len(), 5);
+    // Two critical speeds, for the slider moves with the hub in one direction alone: (K − M Ω²)(k + S e Ω²) = 3/2 S² Ω⁴ of both masses.
+    let critical = |mass: f64| {
+        let (mut low, mut high) = (6.0_f64, 8.0_f64);
+        let (s, k) = (blade_mass * r, support);
+        while high - low > 1e-12 {
+            let square = (0.5 * (low + high)).powi(2);
+            let positive = (k - mass * square) * (lag + s * e * square) > 1.5 * (s * square).powi(2);
+            if positive { low = square.sqrt() } else { high = square.sqrt() }
+        }
+        low
+    };
+    let mass = hub_mass + 3.0 * blade_mass;
+    assert_eq!(diagram.criticals.len(), 2, "{:?}", diagram.criticals);
+    for (found, expected) in diagram.criticals.iter().zip([critical(mass), critical(mass - 1e-3)]) {
+        assert!((found.speed / expected - 1.0).abs() < 1e-6, "{} for {expected}", found.speed);
+        assert_eq!(found.directions, 1);
+    }
     let [Instability::Flutter { from, to, until: Some(until), .. }] = diagram.instabilities[..] else {
         panic!("{:?} for {bounds:?}", diagram.instabilities);
     };
