@@ -2,6 +2,7 @@
 
 use super::Drawn;
 use flexion::system::{Role, State};
+use flexion::analysis::error::{Refinable, before_impacts};
 use flexion_case::{Effort, Problems, Reading, Run};
 use flexion_results::{ColumnError, Status};
 use std::ops::ControlFlow;
@@ -155,7 +156,7 @@ fn judged(drawn: &Drawn, outcome: &mut Outcome) -> Result<Ending, Problems> {
         outcome.warnings.push(format!("trusted until t = {} s", errors.trusted));
     }
     // Errors are stated until the first impact only.
-    let end = reading.before_impacts(&ours);
+    let end = before_impacts(&reading, &reading.variant().plan, ours.as_ref());
     let step = format!("output.step={:e}", reading.case.output.step);
     let until = end.map(|end| vec![format!("run.duration={end:e}"), step]).unwrap_or_default();
     let finest = match finer(&reading, 2, &until) {
@@ -213,7 +214,7 @@ fn finer(reading: &Reading, doublings: usize, further: &[String]) -> Result<Run,
         finer = finer.with(&finer.case.finer()).map_err(|problems| problems.to_string())?;
     }
     let tightest = if doublings > 2 { 1e-9 } else { 1e-8 };
-    let tolerance = 0.01 * reading.tolerance().unwrap_or(1e-6);
+    let tolerance = 0.01 * reading.variant().tolerance.map_or(1e-6, |tolerance| tolerance.relative);
     let tolerance = tolerance.min(tightest).max(1e-2 * tightest);
     let integrator =
         format!("integrator={{kind='radau',tolerance={tolerance:e},absolute-tolerance={tolerance:e}}}");

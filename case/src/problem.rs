@@ -100,6 +100,11 @@ impl Problems {
         self.list.push(problem);
     }
 
+    /// What the first of them says.
+    pub fn reason(&self) -> String {
+        self.list.first().map_or_else(String::new, |problem| problem.message.clone())
+    }
+
     /// Puts the problems into the order of their places; those without a place come last.
     pub(super) fn sort(&mut self) {
         self.list.sort_by_key(|p| (p.place.is_none(), p.place.clone()));

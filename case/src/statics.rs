@@ -2,8 +2,8 @@
 
 use super::problem::Problems;
 use super::reading::Reading;
-use super::run::coarse::{COARSE, much};
-use super::run::error::{Effort, ROUNDING, SAFETY};
+use super::run::error::much;
+use flexion::analysis::error::{COARSE, Effort, ROUNDING, Refinable};
 use flexion::analysis::path::{Plan, Point, follow};
 use flexion::system::{Role, System};
 use flexion_results::{LoadPath, LoadPoint, PointError};
@@ -85,7 +85,7 @@ impl Reading {
                 return None;
             }
         };
-        let safety = self.case.hub_beam().map_or(SAFETY, |beam| beam.bases.safety);
+        let safety = self.safety();
         let coarse = Coarse::of(path, &fine, safety, self.case.size());
         set_errors(path, &fine, safety);
         let Coarse { column, part } = coarse?;

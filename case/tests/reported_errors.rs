@@ -256,7 +256,7 @@ law = { kind = 'constraint', restitution = 1 }
 fn a_run_that_took_long_at_its_contacts_is_not_repeated_unasked() {
     let reading = read(&["run.duration=0.01", "output.step=1e-3"]);
     let mut run = written::outcome(&reading);
-    run.counters.residuals = (1.3e7 / run.size.unknowns as f64) as u64;
+    run.record.counters.residuals = (1.3e7 / run.size.unknowns as f64) as u64;
     let errors = reading.estimate_errors(&run, Effort::Auto, &mut |_| ControlFlow::Continue(())).unwrap();
     assert!(errors.unknown.is_some_and(|why| why.contains("--error full")));
 }

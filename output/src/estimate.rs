@@ -1,23 +1,7 @@
 //! Estimated errors of the columns of a run.
 
+use flexion::analysis::error::{ColumnError, Unstable};
 use serde_json::{Map, Value, json};
-
-/// Estimated errors of one column, in its unit.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ColumnError {
-    /// Name of the column.
-    pub column: String,
-    /// Error of mesh and time integration of the smallest value.
-    pub min: f64,
-    /// The same of the largest value.
-    pub max: f64,
-    /// The same of the last value.
-    pub last: f64,
-    /// The same at any recorded time.
-    pub discretization: f64,
-    /// Difference to the exact coupling, where there is one.
-    pub model: Option<f64>,
-}
 
 /// A run of a sequence that is refined until its error is small enough.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,19 +16,6 @@ pub struct Rung {
     pub error: f64,
     /// Observed order p: log₂ of the error of the run before over this, where that had the same quantity.
     pub order: Option<f64>,
-}
-
-/// A motion that a small disturbance changes.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Unstable {
-    /// The disturbance over the amplitudes of the run.
-    pub size: f64,
-    /// Name of the column that shows it first.
-    pub column: String,
-    /// When it has grown tenfold \[s\].
-    pub from: f64,
-    /// When it has grown to a hundredth of the largest value \[s\].
-    pub until: f64,
 }
 
 /// Estimated errors of a run.

@@ -4,6 +4,7 @@ use crate::declaration::{Bound::*, Key, Presence as Default, Presence::Required,
 use crate::fault::{At, Fault, Made, both};
 use crate::kind::{Choice, Context, Kind};
 use crate::values::{Values, join};
+use flexion::analysis::error::SAFETY;
 use flexion::basis::{
     self, BSpline, BasisError, Bezier, Field, Hermite, Lagrange, Modes, Polynomial, PolynomialParameters,
     Radial, RadialParameters, mesh,
@@ -15,9 +16,6 @@ const MOST_ENTRIES: f64 = 5e7;
 /// Memory of a run for each function, about, and most that is taken [bytes].
 const BYTES: f64 = 3.5e3;
 const MOST_BYTES: f64 = 4e9;
-/// Factor between the error of a run and its difference from one with twice the functions: 2 covers every order of
-/// convergence, with half as much again in reserve for orders from 2.
-const SAFETY: f64 = 2.0;
 /// Vibration modes converge more slowly than that when the beam rotates fast, and so do functions that are smooth where the
 /// curvature of the beam is not: order ½ at least.
 const SAFETY_OF_SLOW: f64 = 4.0;

@@ -7,10 +7,10 @@
 //! advice is the same everywhere; a run that becomes costlier than the cheapest that holds is given up.
 
 use super::Run;
-use super::difference::Pair;
-use super::refine::{Goal, RefineError, Target};
+use super::refine::{RefineError, Target};
 use crate::problem::Problems;
 use crate::reading::Reading;
+use flexion::analysis::error::{Goal, Pair};
 use flexion::analysis::recording::Watch;
 use flexion::system::State;
 use flexion_results::Status;
@@ -148,23 +148,23 @@ impl Reading {
             radau(1e-6),
         ])?;
         let found = begin.refine(&target.times(TRUSTED), watch, &mut |_| {})?;
-        let goals = target.goals(&found.run, self.case.size())?;
+        let goals = target.goals(&found.run.trajectory, self.case.size())?;
         if found.run.status != Status::Finished {
             return Err(AdviseError::NoAnswer(found.run.message.unwrap_or_default()));
         }
         let errors = found.run.errors.as_ref();
-        let part = |goal: &Goal| Some(goal.reached(&found.run, errors?)?.1 / goal.bound);
+        let part = |goal: &Goal| Some(goal.reached(&found.run.trajectory, &errors?.columns)?.1 / goal.bound);
         let error = goals.iter().filter_map(part).fold(0.0, f64::max);
         if !(error <= 0.5) {
             return Err(AdviseError::NoAnswer(found.refused.unwrap_or_else(|| {
                 format!("the error of the exact coupling is {error:.1} of what is asked")
             })));
         }
-        let channels = found.run.trajectory.channels();
-        let asked = goals
-            .iter()
-            .map(|goal| (goal.quantity(), goal.bound, channels[goal.index].unit.clone()))
-            .collect();
+        let trajectory = &found.run.trajectory;
+        let unit =
+            |goal: &Goal| trajectory.index(&goal.column).map(|i| trajectory.channels()[i].unit.clone());
+        let asked = |goal: &Goal| Some((goal.quantity(), goal.bound, unit(goal)?));
+        let asked = goals.iter().filter_map(asked).collect();
         let trusted = found.reading.mesh_and_steps();
         let mut climb = Climb {
             reading: &plain,
@@ -232,8 +232,10 @@ impl Climb<'_, '_> {
 
     /// A tolerance at which the error of the steps does not count.
     fn accurate(&self) -> f64 {
-        let bound = |goal: &Goal| goal.bound / self.trusted.trajectory.extremes(goal.index).largest();
-        let goals = self.target.goals(&self.trusted, self.reading.case.size()).unwrap_or_default();
+        let of = &self.trusted.trajectory;
+        let largest = |goal: &Goal| of.index(&goal.column).map_or(f64::NAN, |i| of.extremes(i).largest());
+        let bound = |goal: &Goal| goal.bound / largest(goal);
+        let goals = self.target.goals(&self.trusted.trajectory, self.reading.case.size()).unwrap_or_default();
         (ACCURATE * goals.iter().map(bound).fold(1.0, f64::min)).clamp(1e-10, 1e-5)
     }
 
@@ -292,9 +294,9 @@ impl Climb<'_, '_> {
 
     /// The largest error over its bound.
     fn error_of(&self, run: &Run) -> f64 {
-        let goals = self.target.goals(&self.trusted, self.reading.case.size()).unwrap_or_default();
+        let goals = self.target.goals(&self.trusted.trajectory, self.reading.case.size()).unwrap_or_default();
         let part = |goal: &Goal| {
-            let pair = Pair::new(&run.trajectory, &self.trusted.trajectory, &goal.name);
+            let pair = Pair::new(&run.trajectory, &self.trusted.trajectory, &goal.column);
             // What stands still has a bound of zero.
             let off = pair.map_or(f64::NAN, |pair| goal.off(&pair));
             if off == 0.0 { 0.0 } else { off / goal.bound }

@@ -3,36 +3,33 @@
 pub mod advise;
 mod cautions;
 mod clock;
-pub(crate) mod coarse;
 mod contact;
-mod difference;
-mod disturbance;
-pub mod error;
+pub(crate) mod error;
 pub mod refine;
 mod restart;
 mod scene;
-mod trust;
+mod variant;
 
 use super::case::Output;
 use super::kinds::initial::Initial;
-use super::kinds::integrator::Steps;
 use super::problem::Problems;
 use super::reading::{Live, Reading};
 use super::resolved;
 use clock::Clock;
 use flexion::analysis::equilibrium::stable_equilibrium;
-use flexion::analysis::recording::{Columns, Events, Recorder, Trajectory, Watch};
+use flexion::analysis::error::Refinable;
+use flexion::analysis::recording::{Columns, Record, Recorder, Watch};
 use flexion::analysis::superposition::superpose;
 use flexion::analysis::transient::{Ending, Plan, resume, transient_to_checkpoint};
 use flexion::hub_beam::Drive;
-use flexion::integrator::{Checkpoint, Counters, Info};
+use flexion::integrator::{Checkpoint, Info};
 use flexion::system::{State, System};
 use flexion_results::plot::{contact_figure, spatial_figure, trajectory_figure};
 use flexion_results::{
     Artifact, Attachments, Directory, Errors, Integration, OutputError, ProblemSize, RunReport, Scene,
     Shapes, Status, write_run,
 };
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Deref};
 
 /// Most memory for records [bytes], and columns that every run may have.
 const MOST_BYTES: f64 = 4e9;
@@ -65,19 +62,15 @@ pub struct Run {
     pub status: Status,
     /// Why it ended early, or before the accuracy that was asked.
     pub message: Option<String>,
-    /// What it recorded.
-    pub trajectory: Trajectory,
+    /// What it recorded, and its last state.
+    pub record: Record,
     /// The shapes of the beam, if the case asks for them.
     pub shapes: Option<Shapes>,
     /// Its motion in space, at some of the recorded times.
     pub scene: Scene,
-    /// What happened at its contacts.
-    pub events: Events,
     /// The tables that the case names, byte for byte, under their names among the results.
     pub tables: Vec<(Artifact, Vec<u8>)>,
-    /// The last accepted step.
-    pub state: State,
-    /// The same with all that a run needs to go on from it.
+    /// The last accepted step with all that a run needs to go on from it.
     pub checkpoint: Checkpoint,
     /// Estimated errors, once someone has [estimated them](Reading::estimate_errors).
     pub errors: Option<Errors>,
@@ -85,14 +78,33 @@ pub struct Run {
     pub warnings: Vec<String>,
     /// The integrator.
     pub info: Info,
-    /// Work done.
-    pub counters: Counters,
     /// Size of the equations solved in each iteration.
     pub size: ProblemSize,
     /// Time of computing, preparation included \[s\]. It and `cpu_time` are the figures that differ from run to run.
     pub wall_time: f64,
     /// Time of computing of the processor \[s\], where the system gives it.
     pub cpu_time: Option<f64>,
+}
+
+/// A run is its record, and more.
+impl Deref for Run {
+    type Target = Record;
+
+    fn deref(&self) -> &Record {
+        &self.record
+    }
+}
+
+impl AsRef<Record> for Run {
+    fn as_ref(&self) -> &Record {
+        &self.record
+    }
+}
+
+impl From<Run> for Record {
+    fn from(run: Run) -> Record {
+        run.record
+    }
 }
 
 impl Run {
@@ -133,15 +145,11 @@ impl Reading {
         warnings.extend(self.effective_masses(live.system.as_mut(), &state));
         warnings.extend(unstable);
         let case = &self.case;
-        let (step, longest_step, contact_step) = match case.steps {
-            Steps::Fixed { step, contact } => {
-                warnings.extend(cautions::unseen(live.system.as_ref(), step, case.duration));
-                (Some(step), None, contact)
-            }
-            Steps::Controlled { first, longest, contact, .. } => (first, longest, contact),
-        };
+        if let Some(step) = case.steps.step() {
+            warnings.extend(cautions::unseen(live.system.as_ref(), step, case.duration));
+        }
         self.check_memory(live.system.as_mut())?;
-        let plan = Plan { end: case.duration, step, longest_step, contact_step, sample: case.output.step };
+        let plan = self.variant().plan;
         let tables = self.tables();
         let keys: Vec<String> = tables.iter().map(|(key, _)| key.clone()).collect();
         let copy = |(key, bytes): (String, &[u8])| Some((resolved::copy(&key, &keys)?, bytes.to_vec()));
@@ -358,35 +366,32 @@ impl Prepared {
         let (wall_time, cpu_time) = clock.elapsed();
         let (wall_time, cpu_time) =
             (wall_time + taken.0, cpu_time.zip(taken.1).map(|(run, before)| run + before));
-        let of_steps = recorder.warnings(system.as_mut(), &state);
-        let (trajectory, events) = recorder.into_parts();
-        warnings.extend(system.cautions(&trajectory.peaks()));
-        warnings.extend(limits.iter().filter_map(|limit| limit.exceeded(&trajectory)));
-        warnings.extend(of_steps.iter().map(|warning| cautions::of_run(warning, plan.step.is_some())));
-        if let Ending::Finished = ending {
-            shapes.iter_mut().for_each(|shapes| shapes.finish(system.as_mut(), &state));
-            scene.finish(system.as_mut(), &state);
+        let counters = checkpoint.counters().unwrap_or_default();
+        let record = recorder.into_record(system.as_mut(), state, counters, ending);
+        warnings.extend(system.cautions(&record.trajectory.peaks()));
+        warnings.extend(limits.iter().filter_map(|limit| limit.exceeded(&record.trajectory)));
+        warnings.extend(record.warnings.iter().map(|warning| cautions::of_run(warning, plan.step.is_some())));
+        if let Ending::Finished = record.ending {
+            shapes.iter_mut().for_each(|shapes| shapes.finish(system.as_mut(), &record.state));
+            scene.finish(system.as_mut(), &record.state);
         }
-        let (status, message) = match ending {
+        let (status, message) = match &record.ending {
             Ending::Finished => (Status::Finished, None),
             Ending::Stopped => {
-                (Status::Stopped, Some(format!("stopped by the user at t = {:.6} s", state.t)))
+                (Status::Stopped, Some(format!("stopped by the user at t = {:.6} s", record.state.t)))
             }
             Ending::Failed(error) => (Status::Failed, Some(error.to_string())),
         };
         Run {
             status,
             message,
-            trajectory,
+            record,
             shapes,
             scene,
-            events,
             tables,
             warnings,
             info: integrator.info().clone(),
-            counters: checkpoint.counters().unwrap_or_default(),
             size: size(system.as_ref()),
-            state,
             checkpoint,
             errors: None,
             wall_time,

@@ -3,6 +3,7 @@
 #![allow(dead_code)] // each test binary uses its part
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+use flexion::analysis::recording::Record;
 use flexion_case::{Problems, Reading, read};
 use flexion_results::{Events, Status, Trajectory};
 use std::ops::ControlFlow;
@@ -131,6 +132,6 @@ pub fn run(name: &str, overrides: &[&str]) -> Run {
 pub fn integrate(reading: &Reading) -> Result<Run, Problems> {
     let run = reading.prepare()?.run(&mut |_| ControlFlow::Continue(()));
     let failure = (run.status != Status::Finished).then(|| run.message.unwrap());
-    let (trajectory, events, steps) = (run.trajectory, run.events, run.counters.steps);
-    Ok(Run { failure, warnings: run.warnings, end: run.state.t, trajectory, events, steps })
+    let Record { trajectory, events, state, counters, .. } = run.record;
+    Ok(Run { failure, warnings: run.warnings, end: state.t, trajectory, events, steps: counters.steps })
 }

@@ -8,6 +8,7 @@ mod disturbance;
 mod energy_balance;
 mod equations;
 pub mod equilibrium;
+pub mod error;
 mod joints;
 mod likeness;
 mod mechanism;

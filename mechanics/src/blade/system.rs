@@ -9,7 +9,7 @@ use super::tension::Tension;
 use crate::linalg::{Mat3, Matrix, Structure, Vec3};
 use crate::section::BladeSection;
 use crate::system::{
-    Channel, Direction, Dynamics, Energy, Events, Frame, NotSet, Observed, Parameter, Role, Sink, Size,
+    Channel, Direction, Dynamics, Energy, Events, Frame, Kind, NotSet, Observed, Parameter, Role, Sink, Size,
     State, Steady, Weights,
 };
 
@@ -318,9 +318,12 @@ impl Observed for Blade {
         if self.components().contains(&Component::Torsion) {
             put(torsion, Role::Primary, "tip.torsion", "rad", "torsion of the tip from the steady state");
         }
-        put(energy.kinetic, Role::Energy, "energy.kinetic", "J", "½vᵀMv of the vibration");
+        let mut put = |value, kind, name, meaning| {
+            sink.put(value, || Channel::new(Role::Energy, name, "J", meaning).with_kind(kind));
+        };
+        put(energy.kinetic, Kind::KineticEnergy, "energy.kinetic", "½vᵀMv of the vibration");
         let meaning = "½qᵀKq of the vibration, centrifugal work included";
-        put(energy.strain, Role::Energy, "energy.strain", "J", meaning);
+        put(energy.strain, Kind::StrainEnergy, "energy.strain", meaning);
     }
 }
 

@@ -1,7 +1,7 @@
 //! Stations: points of the axis at which displacements are recorded.
 
 use super::fields::{Fields, Point};
-use crate::system::{Channel, Role, Sink, State};
+use crate::system::{Channel, Kind, Role, Sink, State};
 use std::sync::Arc;
 
 /// A station on the axis, with the shape functions there.
@@ -53,14 +53,18 @@ impl Station {
         let tip = name == "tip";
         let [displacement, other] =
             if tip { [Role::Primary, Role::Secondary] } else { [Role::Detail, Role::Detail] };
-        let mut put = |value, role, quantity, unit: &'static str, what, frame| {
-            sink.put(value, || {
-                let at = if tip { "of the tip".to_owned() } else { format!("at x = {} m", point.x) };
-                Channel::new(role, format!("{name}.{quantity}"), unit, format!("{what} {at}{frame}"))
-            });
+        let channel = |role, quantity, unit: &'static str, what, frame| {
+            let at = if tip { "of the tip".to_owned() } else { format!("at x = {} m", point.x) };
+            Channel::new(role, format!("{name}.{quantity}"), unit, format!("{what} {at}{frame}"))
         };
         let frame = " in the hub's frame";
-        put(now.deflection, displacement, "deflection", "m", "transverse displacement", frame);
+        sink.put(now.deflection, || {
+            let what = "transverse displacement";
+            channel(displacement, "deflection", "m", what, frame).with_kind(Kind::Deflection)
+        });
+        let mut put = |value, role, quantity, unit: &'static str, what, frame| {
+            sink.put(value, || channel(role, quantity, unit, what, frame));
+        };
         put(now.axial, displacement, "axial", "m", "axial displacement", frame);
         put(now.rotation, other, "rotation", "rad", "rotation of the section", " against the hub");
         let rate = "rate of the transverse displacement";

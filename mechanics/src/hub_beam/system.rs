@@ -15,7 +15,7 @@ use crate::linalg::vector::dot;
 use crate::linalg::{Mat3, Matrix, Storage, Structure, Vec3};
 use crate::profile::HubKinematics;
 use crate::system::{
-    Break, Channel, Corotation, Direction, Dynamics, Energy, Events, Frame, Limit, NotSet, Observed,
+    Break, Channel, Corotation, Direction, Dynamics, Energy, Events, Frame, Kind, Limit, NotSet, Observed,
     Parameter, Power, Role, Sink, Size, State, Steady, Weights, ordered,
 };
 use std::sync::Arc;
@@ -481,14 +481,17 @@ impl<C: Coupling> Observed for HubBeam<C> {
         put(torque, Role::Primary, "hub.torque", "N*m", meaning);
         let meaning = "angular momentum of beam and hub about the axis";
         put(totals.momentum, Role::Secondary, "hub.angular_momentum", "kg*m^2/s", meaning);
-        put(totals.kinetic, Role::Energy, "energy.kinetic", "J", "kinetic energy of beam and hub");
-        put(strain, Role::Energy, "energy.strain", "J", "strain energy of the beam");
+        let energy = |kind, name, meaning| Channel::new(Role::Energy, name, "J", meaning).with_kind(kind);
+        let meaning = "kinetic energy of beam and hub";
+        sink.put(totals.kinetic, || energy(Kind::KineticEnergy, "energy.kinetic", meaning));
+        sink.put(strain, || energy(Kind::StrainEnergy, "energy.strain", "strain energy of the beam"));
         if let Some(target) = target {
-            put(target, Role::Secondary, "hub.target", "rad", "angle that the controller of the hub wants");
+            let meaning = "angle that the controller of the hub wants";
+            sink.put(target, || Channel::new(Role::Secondary, "hub.target", "rad", meaning));
         }
         if let Some(gravity) = gravity {
             let meaning = "potential energy of gravity on the beam, zero at the height of the axis";
-            put(gravity, Role::Energy, "energy.gravity", "J", meaning);
+            sink.put(gravity, || energy(Kind::Real, "energy.gravity", meaning));
         }
         self.section_forces.observe(&self.coupling, s, sink);
     }

@@ -73,12 +73,12 @@ impl Multibody {
             Channel::new(Role::Detail, format!("angular_momentum.{axis}"), "kg*m^2/s", meaning)
         });
         let energy = self.energies(s);
-        let mut put = |value, name, meaning| {
-            sink.put(value, || Channel::new(Role::Energy, name, "J", meaning));
+        let mut put = |value, kind, name, meaning| {
+            sink.put(value, || Channel::new(Role::Energy, name, "J", meaning).with_kind(kind));
         };
-        put(energy.kinetic, "energy.kinetic", "kinetic energy of all bodies and beams");
-        put(energy.strain, "energy.strain", "energy of beams and springs");
-        put(energy.gravity, "energy.gravity", "potential energy, zero at the origin");
+        put(energy.kinetic, Kind::KineticEnergy, "energy.kinetic", "kinetic energy of all bodies and beams");
+        put(energy.strain, Kind::StrainEnergy, "energy.strain", "energy of beams and springs");
+        put(energy.gravity, Kind::Real, "energy.gravity", "potential energy, zero at the origin");
     }
 }
 

@@ -28,11 +28,27 @@ pub enum Kind {
     NonNegative,
     /// One of four consecutive components (w, x, y, z) of a unit quaternion, which has the same meaning with the other sign.
     Quaternion,
+    /// Gap of a contact \[m\].
+    Gap,
+    /// Displacement across the axis of a beam in the plane \[m\]: zero while the beam stays straight.
+    Deflection,
+    /// Kinetic energy \[J\].
+    KineticEnergy,
+    /// Strain energy \[J\].
+    StrainEnergy,
 }
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Kind; 3] = [Kind::Real, Kind::NonNegative, Kind::Quaternion];
+    pub const ALL: [Kind; 7] = [
+        Kind::Real,
+        Kind::NonNegative,
+        Kind::Quaternion,
+        Kind::Gap,
+        Kind::Deflection,
+        Kind::KineticEnergy,
+        Kind::StrainEnergy,
+    ];
 
     /// Its name in files.
     pub fn name(self) -> &'static str {
@@ -40,6 +56,10 @@ impl Kind {
             Kind::Real => "real",
             Kind::NonNegative => "non-negative",
             Kind::Quaternion => "quaternion",
+            Kind::Gap => "gap",
+            Kind::Deflection => "deflection",
+            Kind::KineticEnergy => "kinetic-energy",
+            Kind::StrainEnergy => "strain-energy",
         }
     }
 }

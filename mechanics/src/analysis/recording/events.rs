@@ -134,6 +134,11 @@ impl Events {
         self.contacts.is_empty()
     }
 
+    /// Whether a contact is rigid: its normal force is a multiplier.
+    pub fn is_rigid(&self) -> bool {
+        self.contacts.iter().any(|contact| contact.row.is_some())
+    }
+
     /// Name of contact `i`.
     pub fn name(&self, i: usize) -> &str {
         self.contacts.get(i).map_or("", |contact| contact.name.as_str())

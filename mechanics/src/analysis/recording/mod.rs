@@ -18,6 +18,7 @@ pub use warning::Warning;
 use super::transient::{Ending, Plan, transient_to_checkpoint};
 use crate::integrator::{Counters, Integrator};
 use crate::system::{State, System};
+use std::ops::ControlFlow;
 
 /// A run and its records.
 #[derive(Clone, Debug)]
@@ -44,6 +45,12 @@ impl Record {
     }
 }
 
+impl AsRef<Record> for Record {
+    fn as_ref(&self) -> &Record {
+        self
+    }
+}
+
 /// Integrates `system` from its [initial state](crate::system::Dynamics::initial) and records its channels and the energy
 /// balance.
 pub fn record(system: &mut dyn System, integrator: &dyn Integrator, plan: &Plan) -> Record {
@@ -58,13 +65,22 @@ pub fn record_from(
     start: &State,
     plan: &Plan,
 ) -> Record {
+    record_watched(system, integrator, start, plan, &mut |_| ControlFlow::Continue(()))
+}
+
+/// As [`record_from`]; `watch` is shown every step and ends the run by `Break`.
+pub fn record_watched(
+    system: &mut dyn System,
+    integrator: &dyn Integrator,
+    start: &State,
+    plan: &Plan,
+    watch: &mut Watch<'_>,
+) -> Record {
     let mut state = start.clone();
     let columns = Columns { energy_balance: true, ..Columns::default() };
-    let mut recorder =
-        Recorder::new(system, &state, plan, columns).with_jumps_in_steps(integrator.resolves_contacts());
+    let mut recorder = Recorder::new(system, &state, plan, columns)
+        .with_watch(watch)
+        .with_jumps_in_steps(integrator.resolves_contacts());
     let (ending, checkpoint) = transient_to_checkpoint(system, integrator, &mut state, plan, &mut recorder);
-    let warnings = recorder.warnings(system, &state);
-    let (trajectory, events) = recorder.into_parts();
-    let counters = checkpoint.counters().unwrap_or_default();
-    Record { trajectory, events, warnings, state, counters, ending }
+    recorder.into_record(system, state, checkpoint.counters().unwrap_or_default(), ending)
 }

@@ -1,12 +1,14 @@
 //! An observer that records a run.
 
+use super::Record;
 use super::events::Events;
 use super::passing::Passing;
 use super::trajectory::Trajectory;
 use super::warning::Warning;
 use crate::analysis::energy_balance::rounding_energy;
-use crate::analysis::transient::{Event, Observer, Plan, Step};
+use crate::analysis::transient::{Ending, Event, Observer, Plan, Step};
 use crate::analysis::violation::Violation;
+use crate::integrator::Counters;
 use crate::system::{Channel, Direction, Role, Sink, State, System};
 use std::ops::ControlFlow;
 
@@ -168,7 +170,7 @@ impl<'a> Recorder<'a> {
 
     /// What makes the motion doubtful: the run has gained energy that nothing has put in, its energy balance does not close,
     /// a point may have stepped over an obstacle, or fixed steps do not resolve a vibration.
-    pub fn warnings(&self, system: &mut dyn System, state: &State) -> Vec<Warning> {
+    fn warnings(&self, system: &mut dyn System, state: &State) -> Vec<Warning> {
         let gain = self.gain.map(|excess| Warning::EnergyGained { excess });
         let imbalance = || {
             let balances = self.trajectory.with_role(Role::Imbalance);
@@ -184,11 +186,18 @@ impl<'a> Recorder<'a> {
         gain.or_else(imbalance).into_iter().chain(stepped_over).chain(coarse).collect()
     }
 
-    /// What was recorded.
-    pub fn into_parts(self) -> (Trajectory, Events) {
+    /// The record of a run that has ended at `state`.
+    pub fn into_record(
+        self,
+        system: &mut dyn System,
+        state: State,
+        counters: Counters,
+        ending: Ending,
+    ) -> Record {
+        let warnings = self.warnings(system, &state);
         let Recorder { trajectory, mut events, .. } = self;
         events.end(trajectory.times().last().copied().unwrap_or_default());
-        (trajectory, events)
+        Record { trajectory, events, warnings, state, counters, ending }
     }
 }
 

@@ -41,7 +41,7 @@ impl<S: Points + Dynamics + Events + Observed> Observed for Contacting<S> {
                 let meaning = format!("{what} of the contact {name}");
                 Channel::new(Role::Secondary, format!("{name}.{quantity}"), unit, meaning)
             };
-            sink.put(touch.surface.gap, || channel("gap", "m", "gap"));
+            sink.put(touch.surface.gap, || channel("gap", "m", "gap").with_kind(Kind::Gap));
             // −0 of a contact that is open becomes 0.
             sink.put(forces.normal + 0.0, || {
                 channel("force", "N", "normal force").with_kind(Kind::NonNegative)

@@ -1,7 +1,7 @@
 //! The difference of a column of two runs, and what is none.
 
-use flexion::system::Role;
-use flexion_results::Trajectory;
+use crate::analysis::recording::Trajectory;
+use crate::system::Role;
 
 /// Part of the largest difference until then that a value may be off by at least: differences pass through zero.
 const EARLIER: f64 = 0.25;
@@ -31,8 +31,26 @@ pub(super) fn vanishes(of: &Trajectory, index: usize, size: f64) -> bool {
     of.extremes(index).largest() <= (VANISHING * largest).max(ROUNDING * natural)
 }
 
+/// Estimated errors of one column, in its unit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ColumnError {
+    /// Name of the column.
+    pub column: String,
+    /// Error of mesh and time integration of the smallest value.
+    pub min: f64,
+    /// The same of the largest value.
+    pub max: f64,
+    /// The same of the last value.
+    pub last: f64,
+    /// The same at any recorded time.
+    pub discretization: f64,
+    /// Difference to the reference model, where there is one.
+    pub model: Option<f64>,
+}
+
 /// A column of two runs over their common records.
-pub(super) struct Pair<'a> {
+#[derive(Clone, Copy, Debug)]
+pub struct Pair<'a> {
     pub(super) ours: &'a Trajectory,
     pub(super) index: usize,
     theirs: &'a Trajectory,
@@ -40,7 +58,8 @@ pub(super) struct Pair<'a> {
 }
 
 impl<'a> Pair<'a> {
-    pub(super) fn new(ours: &'a Trajectory, theirs: &'a Trajectory, column: &str) -> Option<Pair<'a>> {
+    /// The column called `column` of `ours` and of the more accurate `theirs`; `None` where one of them has none.
+    pub fn new(ours: &'a Trajectory, theirs: &'a Trajectory, column: &str) -> Option<Pair<'a>> {
         Some(Pair { ours, index: ours.index(column)?, theirs, other: theirs.index(column)? })
     }
 
@@ -58,7 +77,7 @@ impl<'a> Pair<'a> {
     }
 
     /// max_t |y − y_f|; NaN is not hidden, neither by an earlier row nor by a later.
-    pub(super) fn largest(&self) -> f64 {
+    pub fn largest(&self) -> f64 {
         self.rows().fold(0.0, |largest, (_, x, y)| worse(largest, (x - y).abs()))
     }
 
@@ -68,7 +87,7 @@ impl<'a> Pair<'a> {
     }
 
     /// Differences of the smallest, largest and last value; NaN where the other run ends before them.
-    pub(super) fn of_values(&self) -> [f64; 3] {
+    pub fn of_values(&self) -> [f64; 3] {
         let (ours, theirs) = (self.ours.extremes(self.index), self.theirs.extremes(self.other));
         let last = |of: &Trajectory| of.times().last().copied().unwrap_or(0.0);
         let (end, reach) = (last(self.ours), last(self.theirs));
@@ -107,7 +126,7 @@ fn worse(a: f64, b: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use flexion::system::Channel;
+    use crate::system::Channel;
 
     fn column(values: [f64; 3]) -> Trajectory {
         let mut out = Trajectory::new(vec![Channel::new(Role::Detail, "y", "m", "")]);

@@ -1,0 +1,70 @@
+//! Until when the contacts of a run are those of a more accurate one.
+//!
+//! Impacts of a beam are chaotic: a difference in the last digits grows from burst to burst, and no tolerance makes all of
+//! a long run right. A companion on the same mesh, with a tenth of the tolerance or half the step, says how far it is.
+
+use super::{Refinable, Variant};
+use crate::analysis::recording::{Record, Watch};
+use crate::analysis::transient::{Ending, Plan};
+use crate::system::Kind;
+
+/// Difference of a gap, over its largest value, from which two runs go different ways.
+const APART: f64 = 0.01;
+
+/// What makes a companion on the same mesh more accurate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Finer {
+    /// A tenth of the tolerance.
+    Tolerance,
+    /// Half the step.
+    Step,
+}
+
+/// From when on gaps and impacts are not those of a more accurate run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parting {
+    /// When a gap differs by a hundredth of its largest value, or the other run ends \[s\].
+    pub time: f64,
+    /// Whether that is because the other run was given up there.
+    pub given_up: bool,
+    /// What makes the other run more accurate.
+    pub by: Finer,
+}
+
+/// The time until which the gaps of a run are those of its companion; `None` where they are to the end.
+pub(super) fn parting<P: Refinable>(
+    problem: &P,
+    variant: &Variant,
+    run: &Record,
+    watch: &mut Watch<'_>,
+) -> Result<Option<Parting>, P::Fault> {
+    if run.events.is_empty() {
+        return Ok(None);
+    }
+    let (finer, by) = match variant.fixed_step() {
+        None => (variant.with_tolerances(0.1, 1e-13, 1.0), Finer::Tolerance),
+        Some(_) => {
+            let half = |step: Option<f64>| step.map(|step| 0.5 * step);
+            let (step, contact_step) = (half(variant.plan.step), half(variant.plan.contact_step));
+            (
+                Variant { plan: Plan { step, contact_step, ..variant.plan.clone() }, ..variant.clone() },
+                Finer::Step,
+            )
+        }
+    };
+    let companion = problem.record(&finer, watch)?;
+    let (ours, theirs) = (&run.trajectory, &companion.trajectory);
+    let mut time = f64::INFINITY;
+    for (index, channel) in ours.channels().iter().enumerate().filter(|(_, c)| c.kind == Kind::Gap) {
+        let Some(other) = theirs.index(&channel.name) else { continue };
+        let bound = APART * ours.extremes(index).largest();
+        let rows = ours.times().iter().zip(ours.values(index).zip(theirs.values(other)));
+        let apart = rows.into_iter().find(|(_, (a, b))| (a - b).abs() > bound);
+        time = apart.map_or(time, |(t, _)| time.min(*t));
+    }
+    if time.is_finite() {
+        return Ok(Some(Parting { time, given_up: false, by }));
+    }
+    let early = companion.ending != Ending::Finished;
+    Ok(early.then_some(Parting { time: companion.state.t, given_up: true, by }))
+}
