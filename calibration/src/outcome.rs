@@ -1,8 +1,8 @@
 //! A case that was drawn, run and held against a finer run.
 
 use super::Drawn;
-use flexion::system::{Role, State};
 use flexion::analysis::error::{Refinable, before_impacts};
+use flexion::system::{Role, State};
 use flexion_case::{Effort, Problems, Reading, Run};
 use flexion_results::{ColumnError, Status};
 use std::ops::ControlFlow;

@@ -32,26 +32,45 @@
 //! ```
 //!
 //! In space a model has bodies, beams and joints. A stiff rod of length L that hangs on a ball joint and begins to fall from the
-//! horizontal comes to its lowest place after K(½)/√(3g/2L) = 0.4834 s:
+//! horizontal comes to its lowest place after K(½)/√(3g/2L) = 0.4834 s. What can be run on other meshes has its error beside every value:
 //!
 //! ```
+//! use flexion::analysis::error::{Effort, Refinable, Variant, estimate};
 //! use flexion::multibody::slender::{Beam, Properties, Station};
 //! use flexion::multibody::{Flexible, Joint, Kind, Marker, Model, Multibody, Part};
 //! use flexion::prelude::*;
+//! use std::{error::Error, ops::ControlFlow};
 //!
-//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
-//! let section = Properties::principal([1e7, 800.0, 1e3, 1e3], 0.8, [1e-4, 0.0, 0.0]); // EA, GJ, EI₂, EI₃, ρA, inertia
-//! let root = Station { position: [0.0; 3].into(), tangent: [1.0, 0.0, 0.0].into(), normal: [0.0, 1.0, 0.0].into() };
-//! let mut model = Model::new().with_gravity([0.0, 0.0, -9.81]);
-//! let beam = model.beam(Flexible::new("rod", Beam::straight(root, 1.0, 4, section)?));
-//! let [ground, end] = [Part::Ground, Part::Section { beam, node: 0 }].map(|part| Marker::new(part, [0.0; 3]));
-//! model.joint(Joint::new("ball", Kind::Spherical, ground, end));
-//! let mut system = Multibody::new(model)?;
-//! let radau = Radau::new(Tolerance { relative: 1e-6, absolute: 1e-8 })?;
-//! let run = record(&mut system, &radau, &Plan::new(0.6, 0.005));
+//! struct Rod;
+//!
+//! impl Refinable for Rod {
+//!     type Run = Record;
+//!     type Fault = Box<dyn Error>;
+//!
+//!     fn variant(&self) -> Variant {
+//!         Variant::new(Plan::new(0.6, 0.005)).with_tolerance(Tolerance { relative: 1e-6, absolute: 1e-8 })
+//!     }
+//!
+//!     fn run(&self, variant: &Variant, watch: &mut Watch<'_>) -> Result<Record, Box<dyn Error>> {
+//!         let section = Properties::principal([1e7, 800.0, 1e3, 1e3], 0.8, [1e-4, 0.0, 0.0]); // EA, GJ, EI₂, EI₃, ρA, inertia
+//!         let root = Station { position: [0.0; 3].into(), tangent: [1.0, 0.0, 0.0].into(), normal: [0.0, 1.0, 0.0].into() };
+//!         let mut model = Model::new().with_gravity([0.0, 0.0, -9.81]);
+//!         let beam = model.beam(Flexible::new("rod", Beam::straight(root, 1.0, variant.mesh.cells(4), section)?));
+//!         let [ground, end] = [Part::Ground, Part::Section { beam, node: 0 }].map(|part| Marker::new(part, [0.0; 3]));
+//!         model.joint(Joint::new("ball", Kind::Spherical, ground, end));
+//!         Ok(variant.record(&mut Multibody::new(model)?, watch)?)
+//!     }
+//! }
+//!
+//! # fn main() -> Result<(), Box<dyn Error>> {
+//! let mut watch = |_: &State| ControlFlow::Continue(());
+//! let run = Rod.run(&Rod.variant(), &mut watch)?;
+//! let errors = estimate(&Rod, &Rod.variant(), &run, Effort::Full, &mut watch)?;
 //! let height = run.trajectory.index("rod.tip.position.z").ok_or("no such column")?;
-//! let tip = run.trajectory.extremes(height);
+//! let (tip, error) = (run.trajectory.extremes(height), errors.of("rod.tip.position.z").ok_or("no error")?);
+//! println!("{:.6} ± {:.0e} m", tip.min, error.min);
 //! assert!((tip.min + 1.0).abs() < 1e-3 && (tip.t_min - 0.4834).abs() < 2e-3, "{tip:?}");
+//! assert!(error.min < 1e-4 && errors.doubts.is_empty(), "{errors:?}");
 //! # Ok(())
 //! # }
 //! ```
@@ -71,6 +90,7 @@
 //! | integrate in time | [`integrator`] | [`integrator::Integrator`], [`integrator::Stepper`] |
 //! | run, find equilibria, modes and Campbell diagrams | [`analysis`] | [`analysis::transient::Observer`] |
 //! | have the columns of a run | [`analysis::recording`] | |
+//! | have the error of every value, and refine to a tolerance | [`analysis::error`] | [`analysis::error::Refinable`] |
 //! | check what one has written | [`verify`] | |
 //! | compare with closed forms | [`exact`] | |
 //! | compute impulses of contacts with friction | [`contact`] | |
@@ -100,7 +120,7 @@ pub mod verify;
 
 /// What most programs need: the traits of a system and of a method, runs and their records.
 pub mod prelude {
-    pub use crate::analysis::recording::{Record, Trajectory, record, record_from};
+    pub use crate::analysis::recording::{Record, Trajectory, Watch, record, record_from};
     pub use crate::analysis::transient::{Ending, Observer, Plan, Step, resume, transient};
     pub use crate::integrator::{GeneralizedAlpha, Integrator, Radau, Tolerance};
     pub use crate::system::{Dynamics, Events, Observed, State, Steady, System};

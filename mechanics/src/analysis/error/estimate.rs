@@ -32,8 +32,8 @@
 //! nothing.
 
 use super::coarse::{Coarse, coarse};
-use super::instability::{Unstable, instability};
 use super::impacts::{before_impacts, until_impact};
+use super::instability::{Unstable, instability};
 use super::pair::{ColumnError, Pair, vanishes};
 use super::trust::{Parting, parting};
 use super::{Refinable, Variant};
@@ -140,14 +140,17 @@ impl<F> Estimate<F> {
 }
 
 /// Why there is no estimate.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NoEstimate<F> {
     /// The run took this many steps times unknowns, and its companions take several times as many: [`Effort::Full`] runs them.
+    #[error("the run took {0:.1e} steps times unknowns, and its companions several times as many")]
     Costly(f64),
     /// The first impact comes within the first step or record.
+    #[error("the first impact comes within the first step or record")]
     Impact,
     /// There is no finer run.
+    #[error("there is no finer run: {0}")]
     Refused(F),
 }
 

@@ -4,46 +4,7 @@
 //! [`estimate`] then gives every recorded value its error, and says what makes it doubtful; [`refine`] refines mesh and steps until what is
 //! asked is accurate enough. Both return data: what is said of them, and in what words, is left to the program.
 //!
-//! ```
-//! use flexion::analysis::error::{Effort, Refinable, Variant, estimate};
-//! use flexion::analysis::recording::Watch;
-//! use flexion::integrator::InvalidParameter;
-//! use flexion::multibody::slender::{Beam, Properties, Station};
-//! use flexion::multibody::{Flexible, Joint, Kind, Marker, Model, Multibody, Part};
-//! use flexion::prelude::*;
-//! use std::ops::ControlFlow;
-//!
-//! /// A soft rod of 1 m that falls from the horizontal about a ball joint.
-//! struct Rod(usize);
-//!
-//! impl Refinable for Rod {
-//!     type Run = Record;
-//!     type Fault = Box<dyn std::error::Error>;
-//!
-//!     fn variant(&self) -> Variant {
-//!         Variant::new(Plan::new(0.4, 0.005)).with_tolerance(Tolerance::uniform(1e-6))
-//!     }
-//!
-//!     fn run(&self, variant: &Variant, watch: &mut Watch<'_>) -> Result<Record, Self::Fault> {
-//!         let section = Properties::principal([1e4, 0.5, 1.0, 1.0], 0.8, [1e-4, 0.0, 0.0]); // EA, GJ, EI₂, EI₃, ρA, inertia
-//!         let root = Station { position: [0.0; 3].into(), tangent: [1.0, 0.0, 0.0].into(), normal: [0.0, 1.0, 0.0].into() };
-//!         let mut model = Model::new().with_gravity([0.0, 0.0, -9.81]);
-//!         let beam = model.beam(Flexible::new("rod", Beam::straight(root, 1.0, variant.mesh.cells(self.0), section)?));
-//!         let [ground, end] = [Part::Ground, Part::Section { beam, node: 0 }].map(|part| Marker::new(part, [0.0; 3]));
-//!         model.joint(Joint::new("ball", Kind::Spherical, ground, end));
-//!         Ok(variant.record(&mut Multibody::new(model)?, None, watch)?)
-//!     }
-//! }
-//!
-//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
-//! let rod = Rod(4);
-//! let mut watch = |_: &State| ControlFlow::Continue(());
-//! let run = rod.run(&rod.variant(), &mut watch)?;
-//! let errors = estimate(&rod, &rod.variant(), &run, Effort::Full, &mut watch).map_err(|_| "no finer run")?;
-//! let height = errors.of("rod.tip.position.z").ok_or("no such column")?;
-//! # Ok(())
-//! # }
-//! ```
+//! The [front page](crate) has an example.
 
 mod coarse;
 mod estimate;

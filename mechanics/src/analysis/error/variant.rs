@@ -66,15 +66,23 @@ impl Variant {
         Variant { tolerance: Some(tolerance), ..self }
     }
 
-    /// Integrates a system of this mesh and model from its initial state by `method`, or by [`Radau`] where the variant has a tolerance,
-    /// and records it.
+    /// Integrates a system of this mesh and model from its initial state by [`Radau`], and records it.
+    ///
+    /// # Errors
+    /// [`InvalidParameter`] of the tolerance, also where there is none: then [`Variant::record_by`] has the method of the fixed steps.
+    pub fn record(&self, system: &mut dyn System, watch: &mut Watch<'_>) -> Result<Record, InvalidParameter> {
+        let radau = Radau::new(self.tolerance.unwrap_or(Tolerance::uniform(f64::NAN)))?;
+        self.record_by(&radau, system, watch)
+    }
+
+    /// As [`Variant::record`], by `method` where the variant has no tolerance.
     ///
     /// # Errors
     /// [`InvalidParameter`] of the tolerance.
-    pub fn record(
+    pub fn record_by(
         &self,
-        system: &mut dyn System,
         method: &dyn Integrator,
+        system: &mut dyn System,
         watch: &mut Watch<'_>,
     ) -> Result<Record, InvalidParameter> {
         let mut start = system.initial();
