@@ -4,6 +4,7 @@ mod architecture;
 mod basis_orders;
 mod campbell;
 mod drag;
+mod errors;
 mod high_coupling;
 mod impact;
 mod integrators;
