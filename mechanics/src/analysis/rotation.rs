@@ -37,7 +37,7 @@ pub enum NoRotation {
         /// What happened beyond.
         source: NoEquilibrium,
         /// What the model knows about it.
-        why: Option<Limit>,
+        why: Option<Box<Limit>>,
     },
     /// The equilibrium is unstable.
     #[error(
@@ -53,7 +53,7 @@ pub enum NoRotation {
         /// Its stability at the speed asked for.
         stability: Stability,
         /// What the model knows about it.
-        why: Option<Limit>,
+        why: Option<Box<Limit>>,
     },
     /// Its stability was not found.
     #[error("the stability of the steady rotation at {} rad/s was not found: {source}", short(*.asked))]
@@ -116,7 +116,7 @@ pub fn rotate(system: &mut dyn System, state: &mut State, from: f64, to: f64) ->
                     let reached = speed(reached);
                     let why = system.explain(state);
                     let _ = system.set(Parameter::Speed, reached);
-                    return Err(NoRotation::Lost { asked: to, reached, source, why });
+                    return Err(NoRotation::Lost { asked: to, reached, source, why: why.map(Box::new) });
                 }
             }
         }
@@ -124,7 +124,7 @@ pub fn rotate(system: &mut dyn System, state: &mut State, from: f64, to: f64) ->
     Ok(effort)
 }
 
-fn because(why: &Option<Limit>) -> String {
+fn because(why: &Option<Box<Limit>>) -> String {
     why.as_ref().map(|why| format!(": {why}")).unwrap_or_default()
 }
 
@@ -162,5 +162,5 @@ pub fn rotate_stably(
     }
     let _ = system.set(Parameter::Speed, low);
     state.copy_from(&at);
-    Err(NoRotation::Buckled { asked: to, reached: low, stability: found, why })
+    Err(NoRotation::Buckled { asked: to, reached: low, stability: found, why: why.map(Box::new) })
 }

@@ -25,7 +25,7 @@ pub enum RunError {
         /// What the integrator says.
         error: StepError,
         /// What the model knows about it.
-        reason: Option<Limit>,
+        reason: Option<Box<Limit>>,
     },
     /// The model left its range.
     #[error("the run broke down at t = {time:.4} s: {what}{}", because(.reason))]
@@ -35,7 +35,7 @@ pub enum RunError {
         /// What is out of range.
         what: Limit,
         /// What the model knows about it.
-        reason: Option<Limit>,
+        reason: Option<Box<Limit>>,
     },
     /// The history of an earlier run could not be taken up.
     #[error("the run cannot go on: {0}")]
@@ -76,7 +76,7 @@ pub enum RunError {
     },
 }
 
-fn because(reason: &Option<Limit>) -> String {
+fn because(reason: &Option<Box<Limit>>) -> String {
     reason.as_ref().map(|r| format!("; {r}")).unwrap_or_default()
 }
 
@@ -84,5 +84,5 @@ fn because(reason: &Option<Limit>) -> String {
 pub(super) fn failed(system: &mut dyn System, state: &State, error: StepError) -> RunError {
     // What the error says already is not said again.
     let reason = system.explain(state).filter(|reason| !error.to_string().contains(&reason.to_string()));
-    RunError::Step { error, reason }
+    RunError::Step { error, reason: reason.map(Box::new) }
 }

@@ -319,7 +319,7 @@ impl Run {
             self.last = Step { size: h, iterations: report.iterations, balance: None, neglected };
             if let Err(what) = system.admissible(&next) {
                 let reason = system.explain(&next).filter(|reason| *reason != what);
-                return Err(RunError::Inadmissible { time: next.t, what, reason });
+                return Err(RunError::Inadmissible { time: next.t, what, reason: reason.map(Box::new) });
             }
             integrator.accept(state, &next);
             if let Some(segment) = self.segment.as_mut().filter(|segment| next.t == segment.next()) {
