@@ -21,7 +21,7 @@ pub struct Drawing {
 }
 
 impl Drawing {
-    fn shapes(&self) -> impl Iterator<Item = &Shape> {
+    pub(super) fn shapes(&self) -> impl Iterator<Item = &Shape> {
         self.back.iter().chain(&self.curves).chain(&self.front)
     }
 

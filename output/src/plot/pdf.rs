@@ -52,7 +52,9 @@ fn page<'a>(height: f64, shapes: impl Iterator<Item = &'a Shape>) -> String {
     for shape in shapes {
         let _ = match shape {
             Shape::Line { points, ink, width, dash } => {
-                let _ = writeln!(out, "{} RG {width} w {dash:?} 0 d", color(*ink));
+                // Numbers of an array are parted by spaces.
+                let dash = dash.iter().map(f64::to_string).collect::<Vec<_>>().join(" ");
+                let _ = writeln!(out, "{} RG {width} w [{dash}] 0 d", color(*ink));
                 path(&mut out, points);
                 writeln!(out, "S")
             }

@@ -318,25 +318,38 @@ fn a_range_given_along_sets_the_one_across() {
     assert!(texts.contains(&"2.5".to_owned()) && !texts.iter().any(|text| text.contains('×')), "{texts:?}");
 }
 
-/// The objects of a PDF begin where its table says, and its page holds as many bytes as it says.
+/// A reader of PDF finds one page with every line of the drawing, each with its dashes.
 #[test]
-fn a_pdf_is_what_its_table_says() {
-    let pdf = trajectory_figure(&spin_up(4.0, 100), Some("Spin-up")).draw().pdf().unwrap();
-    let text = String::from_utf8_lossy(&pdf).into_owned();
-    let position = |what: &[u8]| pdf.windows(what.len()).position(|w| w == what).unwrap();
-    let table = position(b"xref\n0 5");
-    assert!(text.contains(&format!("startxref\n{table}\n")));
-    let lines: Vec<&str> = std::str::from_utf8(&pdf[table..]).unwrap().lines().skip(3).take(4).collect();
-    for (number, line) in (1..).zip(lines) {
-        let place: usize = line.split(' ').next().unwrap().parse().unwrap();
-        assert!(pdf[place..].starts_with(format!("{number} 0 obj").as_bytes()), "{line}");
-    }
-    let length: usize = text.split("/Length ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
-    let start = position(b"stream\n") + 7;
-    let mut page = String::new();
-    let content = flate2::read::ZlibDecoder::new(&pdf[start..start + length]);
-    std::io::Read::read_to_string(&mut { content }, &mut page).unwrap();
-    assert!(page.contains(" cm") && page.matches(" S\n").count() > 20 && !page.contains("NaN"));
+fn a_reader_of_pdf_finds_every_line_with_its_dashes() {
+    let line = |k: u32, line: Line| Series {
+        line,
+        ..Series::line(Some(&format!("{line:?}")), (0..9).map(|i| (f64::from(i), f64::from(k * i))).collect())
+    };
+    let series =
+        (1..).zip([Line::Solid, Line::Dashed, Line::Dotted]).map(|(k, style)| line(k, style)).collect();
+    let drawing = Figure { panels: vec![Panel { series, ..Panel::default() }], ..Figure::default() }.draw();
+    let document = lopdf::Document::load_mem(&drawing.pdf().unwrap()).unwrap();
+    let pages = document.get_pages();
+    assert_eq!(pages.len(), 1);
+    let content = document.get_and_decode_page_content(pages[&1]).unwrap();
+    let operands = |operator: &'static str| {
+        content.operations.iter().filter(move |o| o.operator == operator).map(|o| &o.operands)
+    };
+    let lengths = |operands: &Vec<lopdf::Object>| -> Vec<f32> {
+        assert!(operands.len() == 2 && operands[1].as_float().unwrap() == 0.0, "{operands:?}");
+        operands[0].as_array().unwrap().iter().map(|length| length.as_float().unwrap()).collect()
+    };
+    let found: Vec<Vec<f32>> = operands("d").map(lengths).collect();
+    let drawn: Vec<Vec<f32>> = drawing
+        .shapes()
+        .filter_map(|shape| match shape {
+            Shape::Line { dash, .. } => Some(dash.iter().map(|length| *length as f32).collect()),
+            _ => None,
+        })
+        .collect();
+    assert_eq!(found, drawn);
+    assert_eq!(operands("S").count(), drawn.len());
+    assert!(drawn.iter().filter(|dash| dash.len() > 1).count() >= 2, "{drawn:?}");
 }
 
 /// Five names of one point: beside it as long as there is room, then at the ends of lines from it that cross no other name.
