@@ -21,6 +21,8 @@ pub(super) struct Passing {
     recorded: bool,
     /// Whether something has happened at the last row or behind it: no curve goes on through that.
     cut: bool,
+    /// Whether the last step's end was too near to the row before it to become one.
+    skipped: bool,
     /// Channels that are never negative.
     pressing: Vec<usize>,
     /// First channels of unit quaternions.
@@ -43,6 +45,7 @@ impl Passing {
             count: 0,
             recorded: false,
             cut: false,
+            skipped: false,
             pressing: pressing.map(|(i, _)| i).collect(),
             quaternions: Vec::new(),
             rough: false,
@@ -51,17 +54,24 @@ impl Passing {
         }
     }
 
-    /// Takes the end of a step.
+    /// Takes the end of a step. The states before and behind an event count, however near to a row.
     pub(super) fn enter(&mut self, system: &mut dyn System, state: &State, trajectory: &mut Trajectory) {
+        if self.cut && self.skipped {
+            let before = std::mem::take(&mut self.last);
+            self.evaluate(system, &before, trajectory);
+            self.last = before;
+        }
         self.measure(state);
         self.show(system, state, trajectory);
     }
 
     /// Takes a state; `trajectory` learns the extremes, also those of the parabola through three of them.
     pub(super) fn show(&mut self, system: &mut dyn System, state: &State, trajectory: &mut Trajectory) {
-        if std::mem::take(&mut self.cut) {
+        let behind = std::mem::take(&mut self.cut);
+        if behind {
             (self.count, self.recorded) = (0, false);
         }
+        self.skipped = false;
         let ends = state.side == Side::Left;
         let since = state.t - self.rows[3].0;
         let recorded = std::mem::take(&mut self.recorded);
@@ -72,16 +82,22 @@ impl Passing {
         }
         if since == 0.0 && self.count > 0 {
             self.count = 0;
-        } else if state.t < self.next && !ends {
+        } else if state.t < self.next && !ends && !behind {
+            self.skipped = true;
             return;
         }
+        self.evaluate(system, state, trajectory);
+        self.find_vertices(trajectory);
+    }
+
+    /// Makes a state a row, whose values `trajectory` learns.
+    fn evaluate(&mut self, system: &mut dyn System, state: &State, trajectory: &mut Trajectory) {
         system.record(state, self.add(state.t));
         let [.., (_, before), (_, now)] = &mut self.rows;
         continue_quaternions(&self.quaternions, before, now);
         for (i, y) in self.rows[3].1.iter().enumerate() {
             trajectory.pass(i, state.t, *y);
         }
-        self.find_vertices(trajectory);
     }
 
     /// An event has happened: the row of its time is the last of a smooth motion.
@@ -192,6 +208,7 @@ mod tests {
             count: 0,
             recorded: false,
             cut: false,
+            skipped: false,
             pressing: Vec::new(),
             quaternions: Vec::new(),
             rough: false,
