@@ -11,6 +11,11 @@ run case="verification/p1_spin_up_4" *options="":
 test *filter="":
     cargo test --release --workspace {{ filter }}
 
+# The tests to run after every change: half a minute of one processor
+quick:
+    cargo test --release -p flexion --lib
+    cargo test --release -p flexion-case --test integration -- kinds docs broken_cases case_files short_features first_look pendulum spring supports
+
 # Check formatting and lints
 lint:
     cargo fmt --all -- --check
