@@ -4,8 +4,11 @@
 //! the functions and a tolerance of 10⁻⁸ or a hundredth of the case's; where a value is off by more than is stated, one of eight times
 //! the functions and a tenth of that tolerance decides. A case of a coupling with foreshortening is held against the exact coupling as well: off by
 //! no more than discretization + model.
+//!
+//! Cases of [families] are held against answers that are known without any run, or by another case.
 
 mod beam;
+pub mod families;
 mod outcome;
 mod random;
 mod space;
@@ -68,13 +71,11 @@ pub fn draw(seed: u64, number: u64) -> Drawn {
     }
 }
 
-/// The outcomes of cases of a sequence, in the order of their numbers, on so many threads, 0 for as many as the machine has.
-/// `judged` is called after each case.
+/// The outcomes of cases of a sequence by `judge`, in the order of their numbers, on so many threads, 0 for as many as the machine has.
 pub fn study(
-    seed: u64,
     numbers: std::ops::Range<u64>,
     threads: usize,
-    judged: &(dyn Fn(&Outcome) + Sync),
+    judge: &(dyn Fn(u64) -> Outcome + Sync),
 ) -> Vec<Outcome> {
     let threads = match threads {
         0 => std::thread::available_parallelism().map_or(1, std::num::NonZero::get),
@@ -87,8 +88,7 @@ pub fn study(
             if number >= numbers.end {
                 break;
             }
-            let outcome = judge(&draw(seed, number), number);
-            judged(&outcome);
+            let outcome = judge(number);
             if let Ok(mut outcomes) = outcomes.lock() {
                 outcomes.push(outcome);
             }

@@ -1,7 +1,8 @@
 //! Stated against true errors of cases at random: `cargo run --release -p flexion-calibration -- --cases 100 --seed 2`.
 
 use clap::Parser as _;
-use flexion_calibration::{Counts, Drawn, Ending, Outcome, draw, figure, study};
+use flexion_calibration::families::{self, Answer, pose};
+use flexion_calibration::{Counts, Drawn, Ending, Outcome, draw, figure, judge, study};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -21,6 +22,9 @@ struct Arguments {
     /// Seed of the sequence of cases
     #[arg(long, value_name = "N", default_value = "1")]
     seed: u64,
+    /// Draw cases whose answer is known, by families, and hold them against it
+    #[arg(long)]
+    families: bool,
     /// Print the case of this number, and the files that it names, and run nothing
     #[arg(long, value_name = "N")]
     show: Option<u64>,
@@ -35,19 +39,47 @@ struct Arguments {
 fn main() -> io::Result<()> {
     let arguments = Arguments::parse();
     if let Some(number) = arguments.show {
-        return show(&draw(arguments.seed, number));
+        if !arguments.families {
+            return show(&draw(arguments.seed, number));
+        }
+        let posed = pose(arguments.seed, number);
+        show(&posed.case)?;
+        return match &posed.answer {
+            Answer::Other(other, relation) => {
+                writeln!(io::stdout(), "# {relation:?}:")?;
+                show(other)
+            }
+            answer => writeln!(io::stdout(), "# {answer:?}"),
+        };
     }
     std::fs::create_dir_all(&arguments.output)?;
     let numbers = arguments.first..arguments.first.saturating_add(arguments.cases);
-    let outcomes = study(arguments.seed, numbers, arguments.threads, &|outcome| {
-        // What is seen of the progress only.
-        let _ = writeln!(io::stderr(), "{} {}: {}", outcome.number, outcome.subject, outcome.ending.name());
+    let outcomes = study(numbers, arguments.threads, &|number| {
+        let outcome = if arguments.families {
+            families::judge(&pose(arguments.seed, number), number)
+        } else {
+            judge(&draw(arguments.seed, number), number)
+        };
+        // A study whose progress cannot be shown goes on.
+        let _ = progress(&outcome);
+        outcome
     });
     let counts = Counts::of(&outcomes);
     for [what, count, asked] in counts.rows() {
         writeln!(io::stdout(), "  {what:<52} {count:<28} {asked}")?;
     }
     write(&arguments, &outcomes, &counts)
+}
+
+/// One line for a case, and one for each value that is wrong in silence.
+fn progress(outcome: &Outcome) -> io::Result<()> {
+    let mut out = io::stderr().lock();
+    let warned = if outcome.warnings.is_empty() { "" } else { ", warned" };
+    writeln!(out, "{} {}: {}{warned}", outcome.number, outcome.subject, outcome.ending.name())?;
+    for v in outcome.silent().chain(outcome.wrong()) {
+        writeln!(out, "  {} {} {:e} ± {:.0e} is off by {:.2e}", v.column, v.part, v.value, v.stated, v.off)?;
+    }
+    Ok(())
 }
 
 fn show(drawn: &Drawn) -> io::Result<()> {

@@ -13,6 +13,10 @@ const BUDGET: f64 = 3e6;
 const ROUNDING: f64 = 1e-9;
 /// Part of an error by which two finer runs may differ, so that the error is known.
 const KNOWN: f64 = 0.3;
+/// True over stated error that nobody may hide.
+const FAR: f64 = 10.0;
+/// Part of the largest value by which a case is wrong that says nothing.
+const WRONG: f64 = 1e-2;
 /// Smallest factor on an explicit step that is refused for its stability.
 const SHORTEST: f64 = 1e-6;
 
@@ -95,6 +99,21 @@ pub struct Outcome {
 }
 
 impl Outcome {
+    /// Values off by more than ten times what is stated, of a case without a warning.
+    pub fn silent(&self) -> impl Iterator<Item = &Compared> {
+        // Written so that NaN is counted.
+        self.unwarned().filter(|v| !(v.off <= FAR * v.stated + v.rounding()))
+    }
+
+    /// Principal values off by more than a hundredth of the largest value and by more than is stated, of a case without a warning.
+    pub fn wrong(&self) -> impl Iterator<Item = &Compared> {
+        self.unwarned().filter(|v| v.principal && !(v.off <= v.stated.max(WRONG * v.size)))
+    }
+
+    fn unwarned(&self) -> impl Iterator<Item = &Compared> {
+        self.values.iter().filter(|_| self.warnings.is_empty())
+    }
+
     /// Whether all principal values are right to this part of the largest value of their columns, by the exact coupling where
     /// there is one.
     pub fn right_to(&self, part: f64) -> bool {
@@ -114,7 +133,8 @@ impl Work {
     }
 }
 
-fn run(reading: &Reading) -> Result<Run, Problems> {
+/// Runs a case, with a limit of work.
+pub(crate) fn run(reading: &Reading) -> Result<Run, Problems> {
     let mut work = Work(BUDGET);
     Ok(reading.prepare()?.run(&mut |state| work.watch(state)))
 }

@@ -115,7 +115,7 @@ fn part(random: &mut Random, drawn: &mut Drawn, k: usize, from: &End) -> End {
     let (axis, across) = (random.vector(1.0), random.vector(1.0));
     add!(
         drawn,
-        "[[joint]]\nkind = \"{kind}\"\nbetween = [\"{from}\", \"{to}\"]\nat = {at:?}\naxis = {axis:?}\nacross = {across:?}"
+        "[[joint]]\nname = \"joint{k}\"\nkind = \"{kind}\"\nbetween = [\"{from}\", \"{to}\"]\nat = {at:?}\naxis = {axis:?}\nacross = {across:?}"
     );
     match (kind, random.count(0..3)) {
         ("revolute", 0) => {

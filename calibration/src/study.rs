@@ -3,12 +3,10 @@
 use super::outcome::{Compared, Ending, Outcome};
 use flexion_results::plot::{Axis, Figure, Line, Marker, Panel, Series};
 
-/// Stated over true error beyond which the statement is of little use, and true over stated error that nobody may hide.
+/// Stated over true error beyond which the statement is of little use.
 const FAR: f64 = 10.0;
 /// Part of the largest value to which a case is right that needs no warning.
 const RIGHT: f64 = 1e-3;
-/// Part of the largest value by which a case is wrong that says nothing.
-const WRONG: f64 = 1e-2;
 /// Most points of the figure.
 const POINTS: usize = 4000;
 
@@ -55,10 +53,6 @@ impl Counts {
         let mut quotients: Vec<f64> = values().filter_map(Compared::quotient).collect();
         quotients.sort_by(f64::total_cmp);
         let exact = || values().filter_map(|v| Some((v.exact?, v.rounding())));
-        let silently = |off: &dyn Fn(&Compared) -> bool| {
-            let silent = outcomes.iter().filter(|o| o.warnings.is_empty());
-            silent.filter(|o| o.values.iter().any(off)).map(|o| o.number).collect()
-        };
         let right = || outcomes.iter().filter(|o| o.right_to(RIGHT));
         Counts {
             cases: outcomes.len(),
@@ -75,9 +69,8 @@ impl Counts {
                 exact().count(),
                 exact().filter(|((stated, off), rounding)| *off <= stated + rounding).count(),
             ),
-            // Written so that NaN is counted.
-            silent: silently(&|v| !(v.off <= FAR * v.stated + v.rounding())),
-            wrong: silently(&|v| v.principal && !(v.off <= v.stated.max(WRONG * v.size))),
+            silent: outcomes.iter().filter(|o| o.silent().next().is_some()).map(|o| o.number).collect(),
+            wrong: outcomes.iter().filter(|o| o.wrong().next().is_some()).map(|o| o.number).collect(),
             right: right().count(),
             warned: right().filter(|o| !o.warnings.is_empty()).count(),
         }
