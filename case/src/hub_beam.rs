@@ -15,9 +15,9 @@ use super::kinds::motion::MOTION;
 use super::kinds::section::{SECTION, Section};
 use super::kinds::spring::{Joins, SPRING, Spring};
 use super::kinds::vector::vector;
-use super::layout::GRAVITY;
+use super::layout::{GRAVITY, SPATIAL_TABLES};
 use super::places::Place;
-use super::values::{Values, item};
+use super::values::{Values, item, join};
 use flexion::contact::Law;
 use flexion::hub_beam::load::{self as acting, Axes};
 use flexion::hub_beam::{Damping, Drive, Hub, Mass};
@@ -88,7 +88,8 @@ const THICKEST: f64 = 5.0;
 /// Makes the beam of the values of its case, for a method of integration.
 pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made<HubBeam> {
     let mut found = Found::default();
-    let coupling = found.part(model(v, &COUPLING, c));
+    let coupling = found.part(model(v, &COUPLING, c)).flatten();
+    found.part(planar(v));
     let section = found.part(SECTION.make(v, "section", c));
     if let Some(section) = &section {
         // Stiffnesses that are given as such may stand for a beam that does not stretch.
@@ -164,6 +165,23 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
         Some(beam) if found.0.0.is_empty() => Ok(beam),
         _ => Err(found.0),
     }
+}
+
+/// Refuses what only a model in space carries.
+fn planar(v: &Values) -> Made<()> {
+    let model = v.table("model")?;
+    let coupling = model.text("coupling")?;
+    let of_model = ["refine", "drop-redundant-rows"].iter().map(|key| (model, *key, join("model", key)));
+    let tables = SPATIAL_TABLES.iter().map(|key| (v, key.name, key.name.to_owned()));
+    let refused = tables.chain(of_model).filter(|(values, key, _)| values.is_written(key));
+    let faults: Vec<Fault> = refused
+        .map(|(_, _, path)| {
+            let message =
+                format!("`{coupling}` is a model of one beam on a hub in the plane, and does not carry this");
+            Fault::new(path, message).help("write `model.coupling = \"space\"`, or leave it out")
+        })
+        .collect();
+    if faults.is_empty() { Ok(()) } else { Err(Faults(faults)) }
 }
 
 /// Cautions for a section at the root that no material or no slender beam has.

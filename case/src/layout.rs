@@ -41,22 +41,27 @@ pub(super) static CHOICES: &[&dyn Kinds] = &[
     &joint::TRAVEL_OF,
 ];
 
-/// The tables of which any makes a case one of a system in space.
-const IN_SPACE: [&str; 2] = ["body", "joint"];
+/// The table that only a case of a beam on a hub has.
+const ON_HUB: &str = "hub";
 
-/// The keys of the case with these lines.
+/// The keys of the case with these lines: those of a beam on a hub where `[beam]` is one table, and of a system in space where bodies,
+/// joints and beams are lists.
 pub(super) fn keys_of(entries: &[Line]) -> &'static [Key] {
-    let list = |entry: &Line| matches!(entry.node.value, Raw::List(_));
-    let spatial = |entry: &Line| {
-        IN_SPACE.contains(&entry.key.as_str()) || ["beam"].contains(&entry.key.as_str()) && list(entry)
-    };
-    if entries.iter().any(spatial) { spatial_keys() } else { keys() }
+    let is_list = |entry: &Line| matches!(entry.node.value, Raw::List(_));
+    let beam = entries.iter().find(|entry| entry.key == beam::BEAMS.key.name);
+    let named = |entry: &Line| [body::BODY.key.name, joint::JOINTS.key.name].contains(&entry.key.as_str());
+    let in_space = beam.map_or_else(|| entries.iter().any(named), is_list);
+    if in_space { spatial_keys() } else { keys() }
 }
 
 /// Whether keys are those of a system in space.
 pub(super) fn is_spatial(keys: &[Key]) -> bool {
-    keys.iter().any(|key| key.name == IN_SPACE[0])
+    keys.iter().all(|key| key.name != ON_HUB)
 }
+
+/// The tables of a beam on a hub that only a model in space carries.
+pub(super) const SPATIAL_TABLES: [Key; 4] =
+    [body::BODY.key, joint::JOINTS.key, beam::FIBRES.key, rotation::ROTATION.key];
 
 /// What both have: what acts, what is carried, and what may be touched.
 static ACTING: [&Key; 5] =
@@ -79,7 +84,9 @@ pub(super) fn spatial_keys() -> &'static [Key] {
 pub(super) fn keys() -> &'static [Key] {
     static KEYS: LazyLock<Vec<Key>> = LazyLock::new(|| {
         let acting = ACTING.map(|key| *key);
-        [&[TITLE], &acting[..1], PLANAR, &acting[1..], &[damping::DAMPING.key], RUN, &[OUTPUT]].concat()
+        let damping = &[damping::DAMPING.key];
+        let (all, one) = (&acting[1..], &acting[..1]);
+        [&[TITLE], one, PLANAR, all, damping, &SPATIAL_TABLES, RUN, &[OUTPUT]].concat()
     });
     &KEYS
 }
@@ -92,21 +99,27 @@ pub(super) const GRAVITY: Key = key(
     "acceleration of gravity along x, y and z, none if left out; z may be left out",
 );
 
-static MODEL_KEYS: [Key; 2] = [
+const fn coupling(default: &'static str) -> Key {
+    key("coupling", Type::Choice(&COUPLING), Default::Name(default), "kinematic model")
+}
+
+const fn redundant(presence: Default) -> Key {
     key(
         "drop-redundant-rows",
         Type::Boolean,
-        Default::Boolean(false),
+        presence,
         "rows of joints that follow from others are left out, in place of an error, and have no forces; a run ends where they no \
          longer follow",
-    ),
-    key(
-        "refine",
-        Type::Integer(1, 1000),
-        Default::Integer(1),
-        "into how many each element of the beams is cut",
-    ),
-];
+    )
+}
+
+const fn refine(presence: Default) -> Key {
+    key("refine", Type::Integer(1, 1000), presence, "into how many each element of beams in space is cut")
+}
+
+static MODEL_KEYS: [Key; 3] =
+    [coupling("space"), redundant(Default::Boolean(false)), refine(Default::Integer(1))];
+static MODEL_KEYS_ON_HUB: [Key; 3] = [coupling("first"), redundant(Optional), refine(Optional)];
 
 /// What is kept of the equations.
 pub(super) const MODEL: Key = key("model", Type::Table(&MODEL_KEYS), Empty, "model of the system");
@@ -143,17 +156,7 @@ static PLANAR: &[Key] = &[
         "hub and its motion",
     ),
     blade::BLADE.key,
-    key(
-        "model",
-        Type::Table(&[key(
-            "coupling",
-            Type::Choice(&COUPLING),
-            Default::Name("first"),
-            "kinematic model of the beam",
-        )]),
-        Default::Empty,
-        "model of the beam",
-    ),
+    key("model", Type::Table(&MODEL_KEYS_ON_HUB), Default::Empty, "model of the beam"),
     key("basis", Type::Kind(&BASIS), Default::Name("finite-elements"), "basis of the displacements"),
 ];
 
@@ -247,6 +250,19 @@ static RECORDED: [Key; 9] = [
 const OUTPUT: Key = key("output", Type::Table(&RECORDED), Default::Empty, "recording of results");
 
 /// What is recorded of a system in space.
-static RECORDED_IN_SPACE: [Key; 6] = [SAMPLE, STATIONS, BALANCE, PLOTS, VTK, VTK_STEP];
+static RECORDED_IN_SPACE: [Key; 7] = [
+    SAMPLE,
+    STATIONS,
+    key(
+        "root-axes",
+        Type::Boolean,
+        Default::Boolean(false),
+        "stations are recorded in the axes of their root too, as those of a beam in the plane: deflection, axial, across, rotation",
+    ),
+    BALANCE,
+    PLOTS,
+    VTK,
+    VTK_STEP,
+];
 const SPATIAL_OUTPUT: Key =
     key("output", Type::Table(&RECORDED_IN_SPACE), Default::Empty, "recording of results");

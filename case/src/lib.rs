@@ -18,6 +18,7 @@
 #[doc = include_str!("../../docs/src/tasks/library.md")]
 pub struct Book;
 
+mod blame;
 mod campbell;
 mod case;
 pub mod declaration;
@@ -36,6 +37,7 @@ mod reading;
 mod resolved;
 mod run;
 mod schema;
+mod short;
 mod sources;
 mod space;
 mod statics;

@@ -2,13 +2,14 @@
 
 use super::case::{self, Case};
 use super::declaration::Presence;
-use super::fault::Faults;
+use super::fault::{Fault, Faults};
 use super::kind::Context;
 use super::kinds::integrator::{INTEGRATOR, Method};
 use super::layout;
 use super::problem::{Problem, Problems, Source, inside};
 use super::reader;
 use super::resolved;
+use super::short;
 use super::sources::{Contents, Files, Folder, Sources};
 use super::tree::{self, Node, Raw};
 use super::values::{Value, Values};
@@ -42,6 +43,8 @@ pub struct Reading {
     pub file: PathBuf,
     root: Node,
     pub(super) values: Values,
+    /// The values of the short spelling, of a case that has one, and what its keys are called there.
+    short: Option<(Values, Vec<[String; 2]>)>,
     sources: Vec<Source>,
     pub(super) files: Contents,
 }
@@ -149,8 +152,7 @@ impl Reading {
 
     /// A problem with the case that was found later, when it was built: `key` is a dotted path.
     pub fn problem(&self, key: &str, message: impl Into<String>) -> Problems {
-        let problem = Problem::new(key, self.values.find(key).0, message);
-        Problems { sources: self.sources.clone(), list: vec![problem] }
+        self.problems(Fault::new(key, message).into())
     }
 
     /// What a run needs and the case leaves out, which modes and diagrams do without: none, if it can be run.
@@ -158,7 +160,8 @@ impl Reading {
     /// # Errors
     /// [`Problems`] at the tables in which the keys are missing.
     pub fn missing_for_run(&self) -> Result<(), Problems> {
-        let tables = self.values.entries.iter().filter_map(|filled| match &filled.value {
+        let values = self.short.as_ref().map_or(&self.values, |(values, _)| values);
+        let tables = values.entries.iter().filter_map(|filled| match &filled.value {
             Value::Table(values) => Some((filled.key.name, values)),
             _ => None,
         });
@@ -174,22 +177,32 @@ impl Reading {
 
     fn problems(&self, faults: Faults) -> Problems {
         let mut problems = Problems { sources: self.sources.clone(), list: Vec::new() };
-        report(faults, &self.values, &mut problems);
+        let renamed = self.short.as_ref().map_or(&[][..], |(_, renamed)| renamed);
+        report(faults, &self.values, renamed, &mut problems);
         problems
     }
 }
 
-/// Notes the faults of makers at the places of their keys.
-fn report(faults: Faults, values: &Values, problems: &mut Problems) {
+/// Notes the faults of makers at the places of their keys, with the names that these have in the short spelling of a case.
+fn report(faults: Faults, values: &Values, renamed: &[[String; 2]], problems: &mut Problems) {
     for fault in faults.0 {
         let (mut place, text) = values.find(&fault.key);
         if let (Some(span), Some(whole), Some(text)) = (fault.span, &place, text) {
             place = Some(inside(whole, text, span, problems));
         }
-        let mut problem = Problem::new(fault.key, place, fault.message);
+        let mut problem = Problem::new(named(&fault.key, renamed), place, fault.message);
         problem.help.extend(fault.help);
         problems.push(problem);
     }
+}
+
+/// The name of a key by the beginnings of paths that have another.
+fn named(key: &str, renamed: &[[String; 2]]) -> String {
+    let other = renamed.iter().find_map(|[long, short]| {
+        let rest = key.strip_prefix(long.as_str())?;
+        (rest.is_empty() || rest.starts_with('.')).then(|| format!("{short}{rest}"))
+    });
+    other.unwrap_or_else(|| key.to_owned())
 }
 
 /// Reads a case: a file, or a folder that holds a `case.toml`. Each override is `KEY=VALUE`.
@@ -244,14 +257,31 @@ fn interpreted(
     if let (true, Raw::Table(entries)) = (problems.list.is_empty(), &root.value) {
         let mut values = reader::table(entries, None, layout::keys_of(entries), "", &mut problems);
         let files = Files::new(sources);
+        let (mut short, mut cautions) = (None, Vec::new());
+        if short::asks_for_space(&values) && !layout::is_spatial(values.keys) && problems.list.is_empty() {
+            match short::long(entries, &values, &files) {
+                Ok(long) => {
+                    let of = reader::table(&long.lines, None, layout::spatial_keys(), "", &mut problems);
+                    short = Some((std::mem::replace(&mut values, of), long.renamed));
+                    cautions = long.cautions;
+                }
+                Err(faults) => {
+                    report(faults, &values, &[], &mut problems);
+                    problems.sort();
+                    return Err(problems);
+                }
+            }
+        }
+        let renamed = short.as_ref().map_or(&[][..], |(_, renamed)| renamed);
         match case::case(&mut values, &files) {
-            Ok(case) if problems.list.is_empty() => {
+            Ok(mut case) if problems.list.is_empty() => {
+                case.cautions.append(&mut cautions);
                 let files = files.into_contents();
                 let (file, sources) = (file.to_owned(), problems.sources);
-                return Ok(Reading { case, file, root, values, sources, files });
+                return Ok(Reading { case, file, root, values, short, sources, files });
             }
             Ok(_) => {}
-            Err(faults) => report(faults, &values, &mut problems),
+            Err(faults) => report(faults, &values, renamed, &mut problems),
         }
     }
     if problems.list.is_empty() {

@@ -1,5 +1,6 @@
 //! A system in space: the model that is made of its parts.
 
+use super::blame::{blamed, leaves_the_plane};
 use super::fault::{Fault, Faults, Found, Made};
 use super::kind::Context;
 use super::kinds::beam::{BEAMS, Beam, End, FIBRES, Fibre};
@@ -16,14 +17,14 @@ use super::kinds::vector::vector;
 use super::layout::{GRAVITY, MODEL};
 use super::places::{Parts, Place};
 use super::stations::stations;
-use super::values::{Value, Values, item};
+use super::values::{Values, item};
 use flexion::contact::{self as touch, Contacting, Surface};
 use flexion::hub_beam::Mount;
 use flexion::hub_beam::load::Axes;
 use flexion::linalg::{Mat3, Vec3};
 use flexion::multibody::rotation::about;
 use flexion::multibody::slender;
-use flexion::multibody::{self, Body, Flexible, Marker, Model, ModelError, Multibody, Part};
+use flexion::multibody::{self, Body, Directions, Flexible, Marker, Model, Multibody, Part};
 use flexion::system::{Fork, Frame};
 use std::sync::Arc;
 
@@ -131,23 +132,29 @@ fn add_joint(model: &mut Model, parts: &Placed<'_>, joint: &Joint, number: usize
 }
 
 fn add_spring(model: &mut Model, parts: &Placed<'_>, spring: &Spring, number: usize) -> Made<()> {
-    let Joins::Line { between, ends, length } = &spring.joins else {
-        return Err(Fault::new("kind", "a system in space has springs of the kind `line` only").into());
+    let ((from, a), (to, b), length, directions) = match &spring.joins {
+        Joins::Line { between, ends, length } => {
+            let [(from, first), (to, second)] = between.map(|place| parts.at(place));
+            let (a, b) = (point(ends[0], first, "from")?, point(ends[1], second, "to")?);
+            let apart = (b - a).norm();
+            if apart == 0.0 {
+                return Err(Fault::new("", "has both ends at one point, and its force no direction").into());
+            }
+            ((from, a), (to, b), length.unwrap_or(apart), Directions::Line)
+        }
+        Joins::Point { on: (beam, s), to } => {
+            let (part, own) = parts.at(Place::Station { beam: *beam, s: *s });
+            ((Part::Ground, *to), (part, own.unwrap_or_default()), 0.0, Directions::All)
+        }
     };
-    let [(from, first), (to, second)] = between.map(|place| parts.at(place));
-    let (a, b) = (point(ends[0], first, "from")?, point(ends[1], second, "to")?);
-    let apart = (b - a).norm();
-    if apart == 0.0 {
-        return Err(Fault::new("", "has both ends at one point, and its force no direction").into());
-    }
     model.spring(multibody::Spring {
         name: numbered(&spring.name, "spring", number),
         from: marker(model, from, a)?,
         to: marker(model, to, b)?,
         stiffness: spring.stiffness,
         damping: spring.damping,
-        length: length.unwrap_or(apart),
-        directions: multibody::Directions::Line,
+        length,
+        directions,
     });
     Ok(())
 }
@@ -173,10 +180,6 @@ fn add_load(model: &mut Model, parts: &Placed<'_>, load: &Load, number: usize) -
             model.load(multibody::Load { name, at, force: *force, moment: *couple, axes, amplitude });
         }
         Acts::Along { beam, range, force, distribution } => {
-            if distribution.is_some() {
-                let message = "a system in space has uniform forces per length only";
-                return Err(Fault::new("distribution", message).into());
-            }
             let (of, built) = &parts.beams[*beam];
             let node = |station: f64| {
                 let near = |node: &f64| (node - station).abs() <= 1e-9 * of.length;
@@ -187,7 +190,7 @@ fn add_load(model: &mut Model, parts: &Placed<'_>, load: &Load, number: usize) -
                 name,
                 beam: *beam,
                 elements,
-                distribution: None,
+                distribution: distribution.clone(),
                 force: *force,
                 axes,
                 amplitude,
@@ -197,12 +200,17 @@ fn add_load(model: &mut Model, parts: &Placed<'_>, load: &Load, number: usize) -
     Ok(())
 }
 
+/// Radius, over the length of its beam, of the ball that a mass without inertia of its own is: its inertia is below rounding.
+const POINT: f64 = 1e-7;
+
 /// Adds a mass as a body that is fixed to its station.
 fn add_mass(model: &mut Model, parts: &Placed<'_>, mass: &Mass, number: usize) -> Made<()> {
     let (part, own) = parts.at(Place::Station { beam: mass.beam, s: mass.station });
     let at = own.unwrap_or_default();
     let name = numbered(&mass.name, "mass", number);
-    let body = Body::new(&name, mass.mass, [mass.inertia; 3]).at(at);
+    let radius = POINT * parts.beams[mass.beam].0.length;
+    let inertia = mass.inertia.max(0.4 * mass.mass * radius * radius);
+    let body = Body::new(&name, mass.mass, [inertia; 3]).at(at);
     let body = model.body(body);
     let ends = [part, body];
     model
@@ -277,8 +285,9 @@ impl Named {
         let mut all: Vec<Place> = points.iter().flatten().map(|(_, place, _)| *place).collect();
         all.extend(joints.iter().flat_map(|joint| joint.between));
         for spring in springs {
-            if let Joins::Line { between, .. } = spring.joins {
-                all.extend(between);
+            match spring.joins {
+                Joins::Line { between, .. } => all.extend(between),
+                Joins::Point { on: (beam, s), .. } => all.push(Place::Station { beam, s }),
             }
         }
         all.extend(masses.iter().map(|mass| Place::Station { beam: mass.beam, s: mass.station }));
@@ -304,11 +313,11 @@ impl Named {
 }
 
 /// Adds a beam and the joints of its ends.
-fn add_beam(model: &mut Model, (beam, built): &(Beam, slender::Beam)) {
+fn add_beam(model: &mut Model, (beam, built): &(Beam, slender::Beam), in_root_axes: bool) {
     let [velocity, spin] = beam.motion;
     let [damping, viscosity] = beam.damping;
     let flexible = Flexible::new(&beam.name, built.clone()).damped(damping).viscous(viscosity);
-    let mut flexible = Flexible { velocity, spin, ..flexible.recorded_at(&beam.stations) };
+    let mut flexible = Flexible { velocity, spin, in_root_axes, ..flexible.recorded_at(&beam.stations) };
     for (name, station, place) in &beam.fibres {
         flexible = flexible.with_fibre(name, *station, *place);
     }
@@ -383,8 +392,7 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     }
     let rotation = found.part(ROTATION.make(v, c));
     let gravity = found.part(vector(v, GRAVITY.name));
-    let settings = |model: &Values| Ok((model.boolean("drop-redundant-rows")?, model.count("refine")?));
-    let settings = found.part(v.table(MODEL.name).and_then(settings));
+    let settings = found.part(settings(v));
     initial(v, &mut found);
     let (Some(bodies), Some(beams), Some(names), Some(joints)) = (bodies, beams, &names, joints) else {
         return Err(found.0);
@@ -392,9 +400,14 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     let (Some(springs), Some(masses), Some(loads), Some(gravity)) = (springs, masses, loads, gravity) else {
         return Err(found.0);
     };
-    let (Some(contacts), Some((drop, refine)), Some(rotation)) = (contacts, settings, rotation) else {
+    let (Some(contacts), Some((drop, refine, in_root_axes)), Some(rotation)) = (contacts, settings, rotation)
+    else {
         return Err(found.0);
     };
+    let acting = (gravity, &loads[..], &springs[..], &contacts[..]);
+    if beams.iter().any(|beam| beam.planar) {
+        found.part(leaves_the_plane(acting));
+    }
     let along = |(i, contact): (usize, &Contact)| {
         let points = points_of(contact, names, &beams, &joints);
         found.part(points.map_err(|faults| faults.within(&item("contact", i))))
@@ -415,7 +428,7 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     let place = |body: &Body| (model.body(body.clone()), body.frame.position);
     let parts = Placed { bodies: bodies.iter().map(place).collect(), beams: &beams };
     for beam in &beams {
-        add_beam(&mut model, beam);
+        add_beam(&mut model, beam, in_root_axes);
     }
     let mut add = |table: &str, number: usize, added: Made<()>| {
         found.part(added.map_err(|faults| faults.within(&item(table, number))));
@@ -511,72 +524,25 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     })
 }
 
+/// Whether redundant rows are left out, into how many each element is cut, and whether stations are recorded in the axes of their root.
+fn settings(v: &Values) -> Made<(bool, usize, bool)> {
+    let model = v.table(MODEL.name)?;
+    let coupling = model.text("coupling")?;
+    if coupling != "space" {
+        let message = format!(
+            "`{coupling}` is a model of one beam on a hub in the plane, and this case has bodies, joints or beams by name"
+        );
+        let help = "leave it out, or describe the beam by [beam], [section] and [hub]";
+        return Err(Fault::new("model.coupling", message).help(help).into());
+    }
+    let in_root_axes = v.table("output")?.boolean("root-axes")?;
+    Ok((model.boolean("drop-redundant-rows")?, model.count("refine")?, in_root_axes))
+}
+
 /// The initial states that a system in space can have.
 fn initial(v: &Values, found: &mut Found) {
     let kind = v.kind("initial").unwrap_or("undeformed");
     found.check(matches!(kind, "steady-rotation" | "modes"), "initial.kind", || {
         format!("`{kind}` is for a beam on a hub: a system in space begins as its parts are written, or in `static` equilibrium")
     });
-}
-
-/// A fault of the model at the table that is to blame.
-fn blamed(error: &ModelError, v: &Values, joints: &[String]) -> Faults {
-    let joint = |name: &str| joints.iter().position(|known| known == name).map(|i| item("joint", i));
-    let named = |table: &str, name: &str| {
-        if let Some(name) = name.strip_suffix("-root").or_else(|| name.strip_suffix("-tip"))
-            && table == "joint"
-            && let Ok(Some(Value::Tables(list))) = v.optional("beam")
-            && let Some(i) = list.iter().position(|values| values.text("name") == Ok(name))
-        {
-            return Some(item("beam", i));
-        }
-        let list = if let Ok(Some(Value::Tables(list))) = v.optional(table) { list.as_slice() } else { &[] };
-        let same = |(i, values): &(usize, &Values)| {
-            let written = values.optional_text("name").ok().flatten().unwrap_or_default();
-            numbered(written, table, *i) == name
-        };
-        list.iter().enumerate().rfind(same).map(|(i, _)| item(table, i))
-    };
-    let help = |fault: Fault, help: &str| Faults::from(fault.help(help));
-    // The last joint of which a row is named.
-    let last = |rows: &[String]| {
-        let named = |name: &String| rows.iter().any(|row| row.contains(&format!("in joint `{name}`")));
-        joints.iter().rposition(named).map_or(String::new(), |i| item("joint", i))
-    };
-    match error {
-        ModelError::Part { kind, name, fault } => {
-            Fault::new(named(kind, name).unwrap_or_default(), format!("{kind} `{name}` {fault}")).into()
-        }
-        ModelError::Empty => Fault::new("body", "a system in space has at least one body or beam").into(),
-        ModelError::Positions { violations } => {
-            let worst = violations.first().and_then(|violation| joint(&violation.joint));
-            let message = "the parts do not fit this joint at the start";
-            let off = violations.iter().map(|violation| violation.to_string()).collect::<Vec<_>>().join(", ");
-            let message = format!("{message}: {off}");
-            help(Fault::new(worst.unwrap_or_default(), message), "move the parts or the joints")
-        }
-        ModelError::Redundant { rows, freedoms } => {
-            let key = last(rows);
-            let message = format!(
-                "{} redundant: the joints of a loop hold a motion twice, and {freedoms} degrees of freedom are left",
-                rows.join(", ")
-            );
-            help(
-                Fault::new(key, message),
-                "give a joint of the loop more freedom (spherical, universal or cylindrical in the place of revolute), take \
-                 away the prescribed motion of what is locked, or write `model.drop-redundant-rows = true`",
-            )
-        }
-        ModelError::Contradictory { rows } => help(
-            Fault::new(last(rows), format!("joints that contradict each other: {}", rows.join(", "))),
-            "what they prescribe at the start differs in velocity or acceleration: take away a prescribed motion, let them agree, \
-             or give a joint more freedom",
-        ),
-        ModelError::Singular { rows } => help(
-            Fault::new(last(rows), format!("the start is a singular configuration of {}", rows.join(", "))),
-            "bars that are stretched out or folded flat may move on in more than one way or in none: begin elsewhere, or give a \
-             joint more freedom",
-        ),
-        _ => Fault::new("joint", error.to_string()).into(),
-    }
 }

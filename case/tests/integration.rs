@@ -24,6 +24,7 @@ mod reported_errors;
 mod restart;
 mod section_forces;
 mod short_features;
+mod short_in_space;
 mod space;
 mod space_modes;
 mod spring;

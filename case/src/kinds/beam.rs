@@ -15,7 +15,7 @@ use flexion::linalg::Vec3;
 use flexion::multibody::rotation::{about, frame};
 use flexion::multibody::slender::{self, Properties, Station};
 use flexion::quadrature::Gauss;
-use flexion::section::{BladeSection, Shape};
+use flexion::section::{AsStiffAcross, BladeSection, Shape};
 use flexion_results::Contour;
 use std::fmt;
 use std::sync::Arc;
@@ -208,6 +208,8 @@ pub struct Beam {
     pub motion: [Option<Vec3>; 2],
     /// Damping in proportion to mass [1/s] and stiffness \[s\].
     pub damping: [f64; 2],
+    /// Whether it stays in a plane, for its section is not known out of it.
+    pub planar: bool,
     /// Recorded stations \[m\].
     pub stations: Vec<f64>,
     /// Recorded fibres: name, station, place.
@@ -367,6 +369,13 @@ pub static BEAMS: Table<Beam> = Table {
                 "outline of its root section, for pictures; that of the shape if left out",
             ),
             key(
+                "planar",
+                Type::Boolean,
+                Default::Boolean(false),
+                "it stays in the plane of x and y: a section that says nothing of torsion is as stiff in torsion and across as in the plane, \
+                 and nothing acts out of it",
+            ),
+            key(
                 "poisson-ratio",
                 Type::Number(Between(-0.99, 0.5)),
                 Default::Number(0.3),
@@ -437,12 +446,23 @@ fn make(v: &Values, c: &Context<'_>) -> Made<Beam> {
     let c = &Context { length: Some(length), ..*c };
     let section = SECTION.make(v, "section", c)?;
     let ends = both(END.make(v, "root", c), END.make(v, "tip", c))?;
-    let blade: Arc<dyn BladeSection> = Arc::from(section.blade(v.number("poisson-ratio")?).at("section")?);
+    let mut blade: Arc<dyn BladeSection> =
+        Arc::from(section.blade(v.number("poisson-ratio")?).at("section")?);
     let along = |s: f64| blade.resultants(s).torsional_stiffness > 0.0;
+    let planar = v.boolean("planar")?;
     if !(along(0.0) && along(length)) {
-        let message = "this section says nothing of torsion, and a beam in space twists";
-        let help = "give a shape (`rectangle`, `circle`, `tube`, `ellipse`), `general`, or a `blade` with GJ";
-        return Err(Fault::new("section", message).help(help).into());
+        if !planar {
+            let message = "this section says nothing of torsion, and a beam in space twists";
+            let help = "give a shape (`rectangle`, `circle`, `tube`, `ellipse`), `general`, or a `blade` with GJ; for a motion in the plane \
+                        of x and y write `planar = true` in [[beam]]";
+            return Err(Fault::new("section", message).help(help).into());
+        }
+        blade = Arc::new(AsStiffAcross(blade));
+        c.cautions.borrow_mut().push(format!(
+            "the section of beam `{}` says nothing of torsion and of bending across: GJ and the stiffness across are taken as EI, which no \
+             motion in the plane of x and y depends on",
+            v.text("name")?
+        ));
     }
     let name = name(v, &["ground", "hub"])?;
     let (given, starts) = (optional_vector(v, "direction")?, optional_vector(v, "start")?);
@@ -492,6 +512,7 @@ fn make(v: &Values, c: &Context<'_>) -> Made<Beam> {
         ends: [ends.0, ends.1],
         motion: [optional_vector(v, "velocity")?, optional_vector(v, "spin")?],
         damping: damping(v)?,
+        planar,
         stations: vec![length],
         fibres: Vec::new(),
     })

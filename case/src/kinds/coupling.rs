@@ -105,8 +105,8 @@ impl Assembly<'_> {
     }
 }
 
-/// The kinds of coupling.
-pub static COUPLING: Choice<Coupling> = Choice {
+/// The kinds of coupling; `None` is a system in space, which is no model of a beam on a hub alone.
+pub static COUPLING: Choice<Option<Coupling>> = Choice {
     name: "coupling",
     path: "model.coupling",
     summary: "kinematic model of the beam",
@@ -118,7 +118,10 @@ pub static COUPLING: Choice<Coupling> = Choice {
             keys: &[],
             example: "model.coupling=zeroth",
             make: |_, _| {
-                Ok(Coupling { whole_curve: false, assemble: |parts| parts.linear(Foreshortening::None) })
+                Ok(Some(Coupling {
+                    whole_curve: false,
+                    assemble: |parts| parts.linear(Foreshortening::None),
+                }))
             },
         },
         Kind {
@@ -128,7 +131,10 @@ pub static COUPLING: Choice<Coupling> = Choice {
             keys: &[],
             example: "model.coupling=first",
             make: |_, _| {
-                Ok(Coupling { whole_curve: false, assemble: |parts| parts.linear(Foreshortening::First) })
+                Ok(Some(Coupling {
+                    whole_curve: false,
+                    assemble: |parts| parts.linear(Foreshortening::First),
+                }))
             },
         },
         Kind {
@@ -142,7 +148,7 @@ pub static COUPLING: Choice<Coupling> = Choice {
                     let coupling = HighCoupling::new(parts.fields()?, parts.beam, &parts.hub);
                     Ok(parts.system(coupling.at("basis")?, parts.sampling()))
                 };
-                Ok(Coupling { whole_curve: false, assemble })
+                Ok(Some(Coupling { whole_curve: false, assemble }))
             },
         },
         Kind {
@@ -160,8 +166,16 @@ pub static COUPLING: Choice<Coupling> = Choice {
                     let coupling = ExactCoupling::on(nodes, parts.beam, &parts.hub);
                     Ok(parts.system(coupling.at("section")?, Sampling::Curve))
                 };
-                Ok(Coupling { whole_curve: true, assemble })
+                Ok(Some(Coupling { whole_curve: true, assemble }))
             },
+        },
+        Kind {
+            name: "space",
+            summary: "geometrically exact in space, without shear, of bodies, joints and beams: any motion",
+            source: "Meier, Popp & Wall 2014, doi:10.1016/j.cma.2014.05.017",
+            keys: &[],
+            example: "model.coupling=space",
+            make: |_, _| Ok(None),
         },
     ],
 };

@@ -4,6 +4,7 @@ use super::body::Body;
 use super::flexible::Flexible;
 use super::force::{Interaction, Spring};
 use super::joint::{Coordinate, Drive, Joint};
+use super::root_axes::put_seen;
 use super::rotation::Quaternion;
 use super::system::Multibody;
 use crate::linalg::Vec3;
@@ -28,7 +29,12 @@ impl Multibody {
         }
         for (of, &[i, j]) in model.beams.iter().zip(&constants.beams) {
             let (q, v) = (&s.q[i..], &s.v[j..]);
-            of.stations.iter().for_each(|&station| put_station(of, station, [q, v], sink));
+            for &station in &of.stations {
+                if of.in_root_axes {
+                    put_seen(of, station, [q, v], model.beams.len() == 1, sink);
+                }
+                put_station(of, station, [q, v], sink);
+            }
             for fibre in &of.fibres {
                 sink.put(of.fibre_strain(q, fibre), || {
                     let ([y, z], s, beam) = (fibre.place, fibre.station, &of.name);
@@ -111,7 +117,8 @@ fn put_station(of: &Flexible, station: f64, [q, v]: [&[f64]; 2], sink: &mut Sink
     };
     put(frame.position, Role::Detail, "position", "m", "position");
     let displacement = frame.position - start.position;
-    put(displacement, Role::Primary, "displacement", "m", "displacement since the state without stress");
+    let role = if of.in_root_axes { Role::Detail } else { Role::Primary };
+    put(displacement, role, "displacement", "m", "displacement since the state without stress");
     put(of.velocity(v, station), Role::Detail, "velocity", "m/s", "velocity");
     sink.put_all(Quaternion::from(frame.rotation).0, PARTS, |part| {
         let meaning = format!("rotation of the section {}: component {part} of the unit quaternion", at());

@@ -4,7 +4,7 @@ use super::body::Twist;
 use super::error::PartFault;
 use super::force::Axes;
 use super::slender::{
-    Beam, COORDINATES, ELEMENT_COORDINATES, ELEMENT_VELOCITIES, LineDistribution, Sample,
+    Beam, COORDINATES, ELEMENT_COORDINATES, ELEMENT_VELOCITIES, LineDistribution, Sample, Triad,
     distributed_weights, uniform_weights,
 };
 use crate::linalg::{Mat3, Vec3};
@@ -30,6 +30,8 @@ pub struct Flexible {
     pub viscosity: f64,
     /// Arc lengths \[m\] of the stations that are recorded.
     pub stations: Vec<f64>,
+    /// Whether they are recorded in the axes of the root too, as those of a beam in the plane.
+    pub in_root_axes: bool,
     /// Fibres whose strain is recorded.
     pub fibres: Vec<Fibre>,
 }
@@ -57,6 +59,7 @@ impl Flexible {
             damping: 0.0,
             viscosity: 0.0,
             stations: vec![end],
+            in_root_axes: false,
             fibres: Vec::new(),
         }
     }
@@ -74,6 +77,12 @@ impl Flexible {
     /// The same beam, recorded at these arc lengths \[m\].
     pub fn recorded_at(self, stations: &[f64]) -> Flexible {
         Flexible { stations: stations.to_vec(), ..self }
+    }
+
+    /// The same beam, its stations recorded in the axes of its root too.
+    #[must_use]
+    pub fn seen_from_its_root(self) -> Flexible {
+        Flexible { in_root_axes: true, ..self }
     }
 
     /// The same beam with the strain of a fibre recorded.
@@ -139,9 +148,14 @@ impl Flexible {
 
     /// Position and axes at the arc length `s`.
     pub(super) fn frame(&self, q: &[f64], s: f64) -> Frame {
-        let (element, z) = self.place(s);
-        let (position, triad) = self.beam.elements()[element].section(&coordinates(q, element), z);
+        let (position, triad) = self.section(q, s);
         Frame { position, rotation: triad.rotation() }
+    }
+
+    /// Position and axes at the arc length `s`.
+    pub(super) fn section(&self, q: &[f64], s: f64) -> (Vec3, Triad) {
+        let (element, z) = self.place(s);
+        self.beam.elements()[element].section(&coordinates(q, element), z)
     }
 
     /// Velocity of the centreline at the arc length `s`.

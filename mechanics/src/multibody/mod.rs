@@ -36,6 +36,7 @@
 //! | `rotating` | the same in a frame that rotates, for steady rotation and its modes |
 //! | `line_law` | force laws along beams |
 //! | `observed`, `channels` | energies, power, recorded quantities |
+//! | `root_axes` | a beam as its root sees it |
 //! | `shares` | what a small motion moves |
 //! | `reason` | why a run may have failed |
 
@@ -58,6 +59,7 @@ mod model;
 mod nearest;
 mod observed;
 mod reason;
+mod root_axes;
 mod rotating;
 pub mod rotation;
 mod row;

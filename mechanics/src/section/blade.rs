@@ -2,6 +2,7 @@
 
 use super::ends::ends;
 use super::{Resultants, Section, SectionError, Shape, positive};
+use std::sync::Arc;
 
 /// Stiffness and inertia per length of a blade at a station, about its principal axes: η along the chord (at no
 /// twist the direction of motion), ζ normal to it (at no twist along the axis of rotation). Centre of mass and
@@ -187,6 +188,34 @@ impl BladeSection for PlanarBlade {
             flap_inertia: r.rotary_inertia,
             chord_inertia: r.rotary_inertia,
             ..BladeResultants::default()
+        }
+    }
+
+    fn breaks(&self) -> &[f64] {
+        self.0.breaks()
+    }
+
+    fn jumps(&self) -> &[f64] {
+        self.0.jumps()
+    }
+}
+
+/// A section of which bending in the plane alone is known, for motions in that plane: in torsion and across it is as stiff, GJ = EI_f =
+/// EI_c, with the inertia ρI of the plane in both directions, ρA EI/EA where it is left out.
+#[derive(Debug)]
+pub struct AsStiffAcross(pub Arc<dyn BladeSection>);
+
+impl BladeSection for AsStiffAcross {
+    fn resultants(&self, x: f64) -> BladeResultants {
+        let of = self.0.resultants(x);
+        let (stiffness, inertia) = (of.chord_stiffness, of.chord_inertia);
+        let inertia = if inertia > 0.0 { inertia } else { of.mass * stiffness / of.axial_stiffness };
+        BladeResultants {
+            flap_stiffness: stiffness,
+            torsional_stiffness: stiffness,
+            flap_inertia: inertia,
+            chord_inertia: inertia,
+            ..of
         }
     }
 

@@ -9,7 +9,9 @@ mod table;
 mod tapered;
 mod uniform;
 
-pub use blade::{BladeResultants, BladeSection, BladeTable, Guided, HomogeneousBlade, PlanarBlade, Twisted};
+pub use blade::{
+    AsStiffAcross, BladeResultants, BladeSection, BladeTable, Guided, HomogeneousBlade, PlanarBlade, Twisted,
+};
 pub use graded::{Graded, Material};
 pub use piecewise::{Piecewise, Segment};
 pub use shape::Shape;

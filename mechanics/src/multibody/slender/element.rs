@@ -490,6 +490,11 @@ impl Element {
         combined(&hermite(z, self.shapes.length)[0], &centreline(v))
     }
 
+    /// ṙ′ at the place z.
+    pub fn slope_rate(&self, v: &[f64; VELOCITIES], z: f64) -> Vec3 {
+        combined(&hermite(z, self.shapes.length)[1], &centreline(v))
+    }
+
     /// The twist of the ends and the middle against each other, φ₁ₘ, φₘ₂, φ₁₂.
     pub fn pairs(&self, q: &[f64; COORDINATES]) -> [Pair; 3] {
         self.sections(q).pairs

@@ -1,0 +1,427 @@
+//! A beam on a hub as a system in space: the short spelling of a case turned into the long one.
+//!
+//! | short | long |
+//! |---|---|
+//! | `[beam]`, `[section]`, `basis.elements`, `[damping]` | the beam `beam`, which begins at the radius of the hub, with the height of its section in the plane of motion |
+//! | `[hub]` | the revolute joint `hub` about z, between the ground and the root |
+//! | `hub.inertia` J | the body `hub-body` on the axis, to which the root is fixed; its mass J/L² moves nothing |
+//! | `output.stations`, `.strain-heights` | stations in the axes of the root, and fibres |
+//! | everything else | itself |
+//!
+//! The tree of the short spelling is turned, so that each value keeps the place where it was written. What space does not carry is
+//! refused at its key.
+
+use super::fault::{Fault, Faults, Found, Made};
+use super::kind::Context;
+use super::kinds::motion::MOTION;
+use super::kinds::section::{SECTION, Section};
+use super::problem::Place;
+use super::sources::Files;
+use super::tree::{Line, Node, Raw};
+use super::values::{Value, Values, item};
+use flexion::hub_beam::Drive;
+use flexion::profile::HubKinematics;
+use std::cell::RefCell;
+
+/// Name of the beam.
+const BEAM: &str = "beam";
+/// Name of the joint.
+const HUB: &str = "hub";
+/// Name of the body.
+const BODY: &str = "hub-body";
+/// Name of the joint between body and root.
+const CLAMP: &str = "clamp";
+/// First moments over ρA √(EI/EA), or ES over √(EA EI), that are rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// What to write instead of what space does not carry.
+const PLANAR: &str = "take a planar model, `model.coupling = \"exact\"`";
+
+/// A case in its long spelling.
+pub(super) struct Long {
+    /// Its tables.
+    pub lines: Vec<Line>,
+    /// What its keys are called in the short spelling: beginnings of dotted paths.
+    pub renamed: Vec<[String; 2]>,
+    /// What its reader should know.
+    pub cautions: Vec<String>,
+}
+
+/// Whether a case of a beam on a hub asks for space.
+pub(super) fn asks_for_space(v: &Values) -> bool {
+    v.inner("model").is_some_and(|model| model.text("coupling") == Ok("space"))
+}
+
+/// The lines of a table that take the place of one that was written at a place.
+struct Lines {
+    place: Place,
+    lines: Vec<Line>,
+}
+
+impl Lines {
+    fn at(place: &Place) -> Lines {
+        Lines { place: place.clone(), lines: Vec::new() }
+    }
+
+    fn raw(mut self, key: &str, value: Raw) -> Lines {
+        let node = Node { place: self.place.clone(), value };
+        self.lines.push(Line { key: key.to_owned(), place: self.place.clone(), node });
+        self
+    }
+
+    fn text(self, key: &str, text: &str) -> Lines {
+        self.raw(key, Raw::Text(text.to_owned()))
+    }
+
+    fn number(self, key: &str, x: f64) -> Lines {
+        self.raw(key, Raw::Number(x))
+    }
+
+    fn texts<const N: usize>(self, key: &str, texts: [&str; N]) -> Lines {
+        let node = |text: &str| Node { place: self.place.clone(), value: Raw::Text(text.to_owned()) };
+        let list = texts.map(node).to_vec();
+        self.raw(key, Raw::List(list))
+    }
+
+    fn vector(self, key: &str, x: [f64; 3]) -> Lines {
+        let list = x.map(|x| Node { place: self.place.clone(), value: Raw::Number(x + 0.0) }).to_vec();
+        self.raw(key, Raw::List(list))
+    }
+
+    /// A node that was written, under another key.
+    fn node(mut self, key: &str, node: Option<&Node>) -> Lines {
+        if let Some(node) = node {
+            self.lines.push(Line { key: key.to_owned(), place: node.place.clone(), node: node.clone() });
+        }
+        self
+    }
+
+    fn table(self) -> Node {
+        Node { place: self.place, value: Raw::Table(self.lines) }
+    }
+}
+
+/// The node at a dotted path.
+fn written<'n>(lines: &'n [Line], path: &str) -> Option<&'n Node> {
+    let (first, rest) = path.split_once('.').map_or((path, None), |(first, rest)| (first, Some(rest)));
+    let node = &lines.iter().find(|line| line.key == first)?.node;
+    match (rest, &node.value) {
+        (None, _) => Some(node),
+        (Some(rest), Raw::Table(lines)) => written(lines, rest),
+        _ => None,
+    }
+}
+
+/// The tables of a list that were written, and how many.
+fn tables(lines: &[Line], key: &str) -> Vec<Node> {
+    match written(lines, key).map(|node| &node.value) {
+        Some(Raw::List(nodes)) => nodes.clone(),
+        _ => Vec::new(),
+    }
+}
+
+/// How the hub moves at the start.
+struct Start {
+    angle: f64,
+    /// Of a hub that is free; a prescribed speed is that of its joint.
+    speed: f64,
+    /// Whether it stays at the angle 0.
+    rests: bool,
+    /// Whether it sets off with an acceleration.
+    sets_off: bool,
+}
+
+fn start(v: &Values, c: &Context<'_>) -> Made<Start> {
+    let hub = v.table("hub")?;
+    if hub.optional("motion")?.is_none() {
+        return Ok(Start { angle: 0.0, speed: 0.0, rests: true, sets_off: false });
+    }
+    let drive = MOTION.make(hub, "motion", c).map_err(|faults| faults.within("hub"))?;
+    let still = || {
+        let Ok(Some(Value::Kind(kind, motion))) = hub.optional("motion") else { return false };
+        kind.name == "constant" && motion.number("speed") == Ok(0.0)
+    };
+    Ok(match drive {
+        Drive::Prescribed(motion) => {
+            let HubKinematics { angle, acceleration, .. } = motion.at(0.0);
+            Start { angle, speed: 0.0, rests: still(), sets_off: acceleration != 0.0 }
+        }
+        Drive::Free(hub) => Start { angle: hub.angle, speed: hub.speed, rests: false, sets_off: false },
+    })
+}
+
+/// The long spelling of a case whose short one is `lines`, with the values `v`.
+///
+/// # Errors
+/// Faults at the keys of what space does not carry.
+pub(super) fn long(lines: &[Line], v: &Values, files: &Files<'_>) -> Made<Long> {
+    let mut found = Found::default();
+    let (length, cautions) = (v.table("beam")?.number("length")?, RefCell::default());
+    let duration = Some(v.table("run")?.optional_number("duration")?.unwrap_or(0.0));
+    let c = &Context { length: Some(length), duration, parts: None, files, cautions: &cautions };
+    let section = found.part(SECTION.make(v, "section", c));
+    let start = found.part(start(v, c));
+    if let Some(section) = &section {
+        found.part(centred(section));
+    }
+    if let Some(start) = &start {
+        found.part(turning(v, start));
+        found.check(start.sets_off && v.kind("initial") == Some("static"), "initial.kind", || {
+            "the hub sets off with an acceleration, which the static equilibrium of a system in space leaves out".to_owned()
+        });
+    }
+    found.part(carried(v));
+    let (Some(section), Some(start)) = (section, start) else { return Err(found.0) };
+    if !found.0.0.is_empty() {
+        return Err(found.0);
+    }
+    let hub = v.table("hub")?;
+    let (radius, inertia) = (hub.number("radius")?, hub.number("inertia")?);
+    let place = |key: &str| v.find(key).0.unwrap_or_default();
+    let (sin, cos) = libm::sincos(start.angle);
+    let kept =
+        ["title", "gravity", "spring", "mass", "load", "contact", "rotation", "initial", "integrator", "run"];
+    let kept = |line: &&Line| kept.contains(&line.key.as_str());
+    let mut kept: Vec<Line> = lines.iter().filter(kept).cloned().collect();
+    if start.rests {
+        kept.iter_mut().for_each(|line| fix(line, v));
+    }
+    let mut long = Lines { place: Place::default(), lines: kept };
+
+    let mut bodies = tables(lines, "body");
+    let mut joints = tables(lines, "joint");
+    let renamed = vec![
+        ["beam[1].section".to_owned(), "section".to_owned()],
+        ["beam[1].elements".to_owned(), "basis.elements".to_owned()],
+        ["beam[1].damping".to_owned(), "damping".to_owned()],
+        ["beam[1]".to_owned(), "beam".to_owned()],
+        [item("body", bodies.len()), "hub".to_owned()],
+        [format!("{}.motion", item("joint", joints.len())), "hub.motion".to_owned()],
+        [item("joint", joints.len()), "hub".to_owned()],
+        [item("joint", joints.len() + 1), "hub".to_owned()],
+    ];
+
+    let silent = is_silent(&section);
+    let basis = v.inner("basis");
+    let count = |key: &str| basis.and_then(|basis| basis.integer(key).ok());
+    let mut beam = Lines::at(&place("beam"))
+        .text("name", BEAM)
+        .node("length", written(lines, "beam.length"))
+        .vector("start", [radius * cos, radius * sin, 0.0])
+        .vector("direction", [cos, sin, 0.0])
+        .vector("up", [-sin, cos, 0.0])
+        .node("section", written(lines, "section"))
+        .raw("elements", Raw::Integer(count("elements").unwrap_or(1)))
+        .raw("planar", Raw::Boolean(silent))
+        .node("damping", written(lines, "damping"));
+    let spin = [0.0, 0.0, start.speed];
+    if start.speed != 0.0 {
+        let velocity = [-start.speed * radius * sin, start.speed * radius * cos, 0.0];
+        beam = beam.vector("velocity", velocity).vector("spin", spin);
+    }
+
+    let at_hub = place("hub");
+    let root = format!("{BEAM}.root");
+    let carrier = if inertia > 0.0 { BODY } else { root.as_str() };
+    let joint = Lines::at(&at_hub)
+        .text("name", HUB)
+        .text("kind", "revolute")
+        .texts("between", ["ground", carrier])
+        .vector("at", [0.0; 3]);
+    joints.push(
+        match written(lines, "hub.motion") {
+            Some(motion) => joint.node("motion", Some(&without(motion, "speed", start.speed != 0.0))),
+            None => joint.node(
+                "motion",
+                Some(&Lines::at(&at_hub).text("kind", "constant").number("speed", 0.0).table()),
+            ),
+        }
+        .table(),
+    );
+    if inertia > 0.0 {
+        let moments = Lines::at(&at_hub).text("kind", "principal").vector("moments", [inertia; 3]).table();
+        let mut body = Lines::at(&at_hub)
+            .text("name", BODY)
+            .number("mass", inertia / (length * length))
+            .node("inertia", Some(&moments));
+        if start.speed != 0.0 {
+            body = body.vector("spin", spin);
+        }
+        bodies.push(body.table());
+        let clamp = Lines::at(&at_hub)
+            .text("name", CLAMP)
+            .text("kind", "fixed")
+            .texts("between", [BODY, &root])
+            .table();
+        joints.push(clamp);
+    }
+
+    let model = v.table("model")?;
+    let refine = model.optional("refine")?.map_or(Ok(1), |_| model.integer("refine"))?;
+    let model = Lines::at(&place("model"))
+        .text("coupling", "space")
+        .node("drop-redundant-rows", written(lines, "model.drop-redundant-rows"))
+        .raw("refine", Raw::Integer(refine.saturating_mul(count("refine").unwrap_or(1))));
+    let mut output = Lines::at(&place("output")).raw("root-axes", Raw::Boolean(true));
+    for key in ["step", "stations", "energy-balance", "plots", "vtk", "vtk-step"] {
+        output = output.node(key, written(lines, &format!("output.{key}")));
+    }
+    let fibres = fibres(lines, v)?;
+    let list = |nodes: Vec<Node>| Raw::List(nodes);
+    long = long.raw("beam", list(vec![beam.table()])).raw("joint", list(joints));
+    if !bodies.is_empty() {
+        long = long.raw("body", list(bodies));
+    }
+    if !fibres.is_empty() {
+        long = long.raw("fibre", list(fibres));
+    }
+    let long = long.node("model", Some(&model.table())).node("output", Some(&output.table()));
+    let on_hub = (0..tables(lines, "contact").len()).any(|i| is_on_hub(v, i));
+    let caution = "an obstacle of the hub, which is at rest, stands on the ground in space: `hub.torque` is without what pushes against it";
+    let cautions = on_hub.then(|| caution.to_owned()).into_iter().collect();
+    Ok(Long { lines: long.lines, renamed, cautions })
+}
+
+/// Fixes to the ground what loads and contacts fix to a hub at rest: its axes are those of the ground.
+fn fix(line: &mut Line, v: &Values) {
+    let Raw::List(tables) = &mut line.node.value else { return };
+    for (i, table) in tables.iter_mut().enumerate() {
+        let Raw::Table(lines) = &mut table.value else { continue };
+        let offset =
+            v.inner(&item(&line.key, i)).and_then(|values| values.inner("obstacle")?.number("offset").ok());
+        for Line { key, node, .. } in lines {
+            match (key.as_str(), &mut node.value, offset) {
+                ("axes", Raw::Text(axes), _) if axes == HUB => *axes = "dead".to_owned(),
+                ("mount", Raw::Text(mount), _) if mount == HUB => *mount = "ground".to_owned(),
+                ("obstacle", Raw::Table(_), Some(offset)) => *node = plane(&node.place, offset),
+                _ => {}
+            }
+        }
+    }
+}
+
+/// The plane that a stop at a height over the axis is.
+fn plane(place: &Place, offset: f64) -> Node {
+    let plane = Lines::at(place).text("kind", "plane").vector("point", [0.0, offset, 0.0]);
+    plane.vector("normal", [0.0, -offset.signum(), 0.0]).table()
+}
+
+/// A table less one of its keys.
+fn without(node: &Node, key: &str, drop: bool) -> Node {
+    let mut node = node.clone();
+    if let (true, Raw::Table(lines)) = (drop, &mut node.value) {
+        lines.retain(|line| line.key != key);
+    }
+    node
+}
+
+/// Whether a section says nothing of torsion.
+fn is_silent(section: &Section) -> bool {
+    section.blade(0.0).is_ok_and(|blade| !(blade.resultants(0.0).torsional_stiffness > 0.0))
+}
+
+/// Whether centre of mass and tension centre are on the axis, which is that of the centres of mass in space.
+fn centred(section: &Section) -> Made<()> {
+    let r = section.planar.resultants(0.0);
+    let radius = (r.bending_stiffness / r.axial_stiffness).sqrt();
+    let offset = [
+        r.first_moment.abs() > ROUNDING * r.mass * radius,
+        r.coupling_stiffness.abs() > ROUNDING * r.axial_stiffness * radius,
+    ];
+    if offset == [false; 2] {
+        return Ok(());
+    }
+    let message = "has its centre of mass or its tension centre off the axis, and in space the axis goes through the centres of mass";
+    Err(Fault::new("section", message).help(PLANAR).into())
+}
+
+/// Whether the hub carries the obstacle of a contact.
+fn is_on_hub(v: &Values, contact: usize) -> bool {
+    v.inner(&item("contact", contact)).is_some_and(|contact| {
+        contact.optional_text("mount") == Ok(Some(HUB)) || contact.kind("obstacle") == Some("stop")
+    })
+}
+
+/// What turns with the hub is carried by a hub that stays at the angle 0 alone.
+fn turning(v: &Values, start: &Start) -> Made<()> {
+    if start.rests {
+        return Ok(());
+    }
+    let mut faults = Faults::default();
+    let mut refuse = |key: String, message: &str| faults.0.push(Fault::new(key, message).help(PLANAR));
+    if v.inner("damping").is_some_and(|damping| damping.number("mass").is_ok_and(|mass| mass > 0.0)) {
+        let message =
+            "acts on velocities relative to the hub, which turns, and in space on those against the ground";
+        refuse("damping.mass".to_owned(), message);
+    }
+    let tables = |key: &str| match v.optional(key) {
+        Ok(Some(Value::Tables(list))) => list.as_slice(),
+        _ => &[],
+    };
+    for (i, load) in tables("load").iter().enumerate() {
+        if load.text("axes") == Ok(HUB) {
+            refuse(
+                format!("{}.axes", item("load", i)),
+                "turns with the hub, and loads in space are `dead` or follow their section",
+            );
+        }
+    }
+    for (i, contact) in tables("contact").iter().enumerate() {
+        if is_on_hub(v, i) {
+            let key = if contact.has("mount") { "mount" } else { "obstacle" };
+            refuse(
+                format!("{}.{key}", item("contact", i)),
+                "turns with the hub, and obstacles in space are fixed to the ground, or moved",
+            );
+        }
+    }
+    if faults.0.is_empty() { Ok(()) } else { Err(faults) }
+}
+
+/// Refuses what belongs to the plane alone.
+fn carried(v: &Values) -> Made<()> {
+    let mut faults = Faults::default();
+    let mut refuse =
+        |key: &str, message: String, help: &str| faults.0.push(Fault::new(key, message).help(help));
+    if v.has("blade") {
+        let message = "is of the small vibrations of a beam on a hub; in space pitch, precone and twist are those of the beam".to_owned();
+        refuse("blade", message, "write `direction`, `up` and `twist` of a [[beam]], or take a planar model");
+    }
+    if let Some(kind) = v.kind("basis").filter(|kind| *kind != "finite-elements") {
+        let message =
+            format!("`{kind}` is a basis of the planar models, and beams in space are of finite elements");
+        refuse("basis", message, "write `kind = \"finite-elements\"` and the number of elements");
+    }
+    let output = v.table("output")?;
+    if output.boolean("modal-shares")? {
+        refuse("output.modal-shares", "is of the basis `modes` of the planar models".to_owned(), PLANAR);
+    }
+    if output.boolean("section-forces")? {
+        let message = "is of the planar models: in space axial force, torque and bending moments are recorded at every station, and the \
+                       shear force is not";
+        refuse("output.section-forces", message.to_owned(), "leave it out");
+    }
+    if faults.0.is_empty() { Ok(()) } else { Err(faults) }
+}
+
+/// The fibres that were written, and those at the stations and the tip at each height of `output.strain-heights`.
+fn fibres(lines: &[Line], v: &Values) -> Made<Vec<Node>> {
+    let mut all = tables(lines, "fibre");
+    let output = v.table("output")?;
+    let heights = output.numbers("strain-heights")?;
+    let place = v.find("output.strain-heights").0.unwrap_or_default();
+    let mut stations = output.texts("stations")?.to_vec();
+    if !stations.iter().any(|station| station == "tip") {
+        stations.push("tip".to_owned());
+    }
+    for (i, station) in stations.iter().enumerate() {
+        for (k, height) in heights.iter().enumerate() {
+            let fibre = Lines::at(&place)
+                .text("name", &format!("fibre{}-{}", i + 1, k + 1))
+                .text("on", station)
+                .number("y", *height);
+            all.push(fibre.table());
+        }
+    }
+    Ok(all)
+}

@@ -1,0 +1,107 @@
+//! A beam as its root sees it: the displacements of a planar beam on a hub, and those across its plane.
+//!
+//! With the root at r₀, its axes [t, n, b] = Λ₀ and its angular velocity ω₀, a station at r is displaced by
+//!
+//! ```text
+//! (u, v, w) = Λ₀ᵀ (r − r₀) − the same without stress,     d/dt = Λ₀ᵀ (ṙ − ṙ₀ − ω₀ × (r − r₀))
+//! ```
+//!
+//! and its section is rotated in the plane of t and n by the angle of the tangent r′, less that without stress. The angle is followed
+//! from node to node along the beam, so that it may pass π.
+
+use super::flexible::Flexible;
+use super::slender::ELEMENT_VELOCITIES;
+use crate::linalg::Vec3;
+use crate::system::{Channel, Role, Sink};
+use std::f64::consts::TAU;
+
+/// What the root sees of a section.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Seen {
+    /// Displacements u, v, w along t, n and b \[m\].
+    displacement: Vec3,
+    /// Their rates \[m/s\].
+    velocity: Vec3,
+    /// Rotation of the section in the plane of t and n \[rad\], and its rate \[rad/s\].
+    rotation: [f64; 2],
+}
+
+/// The angle next to `to` that differs from `angle` by whole turns.
+fn nearest(angle: f64, to: f64) -> f64 {
+    angle + TAU * ((to - angle) / TAU).round()
+}
+
+impl Flexible {
+    /// Place of the station at the arc length `s` and angle of its tangent, in the axes of the root.
+    fn placed(&self, q: &[f64], s: f64) -> (Vec3, f64) {
+        let (origin, root) = self.beam.node(0, q);
+        let angle = |slope: Vec3| libm::atan2(root.normal.dot(slope), root.tangent.dot(slope));
+        let (mut followed, frame) = (0.0, self.frame(q, s));
+        for (node, at) in self.beam.nodes().iter().enumerate().skip(1) {
+            if *at > s {
+                break;
+            }
+            followed = nearest(angle(self.beam.node(node, q).1.tangent), followed);
+        }
+        let tangent = frame.rotation.column(0);
+        (root.inward(frame.position - origin), nearest(angle(tangent), followed))
+    }
+
+    /// What the root sees of the station at the arc length `s`.
+    fn seen(&self, [q, v]: [&[f64]; 2], s: f64) -> Seen {
+        let (origin, root) = self.beam.node(0, q);
+        let [spin, _] = root.angular_motion([v[3], v[4], v[5], v[6]], [0.0; 4]);
+        let (place, angle) = self.placed(q, s);
+        let (straight, without) = self.placed(self.beam.initial(), s);
+        let frame = self.frame(q, s);
+        let relative = self.velocity(v, s) - Vec3::at(v, 0) - spin.cross(frame.position - origin);
+        let [slope, rate] = self.slopes([q, v], s);
+        let (slope, rate) = (root.inward(slope), root.inward(rate - spin.cross(slope)));
+        let square = slope[0] * slope[0] + slope[1] * slope[1];
+        Seen {
+            displacement: place - straight,
+            velocity: root.inward(relative),
+            rotation: [angle - without, (slope[0] * rate[1] - slope[1] * rate[0]) / square],
+        }
+    }
+
+    /// r′ and its rate at the arc length `s`.
+    fn slopes(&self, [q, v]: [&[f64]; 2], s: f64) -> [Vec3; 2] {
+        let (element, z) = self.place(s);
+        let (_, triad) = self.section(q, s);
+        let v = std::array::from_fn(|k| v[ELEMENT_VELOCITIES * element + k]);
+        [triad.length * triad.tangent, self.beam.elements()[element].slope_rate(&v, z)]
+    }
+}
+
+/// Puts what the root of a beam sees of one of its stations, by the names that it has in the plane; `alone` where the model has no
+/// other beam, which leaves its name out.
+pub(super) fn put_seen(of: &Flexible, station: f64, motion: [&[f64]; 2], alone: bool, sink: &mut Sink<'_>) {
+    let seen = of.seen(motion, station);
+    let tip = of.station_name(station) == "tip";
+    let mut put = |value, role, quantity, unit: &'static str, what: &str| {
+        sink.put(value, || {
+            let of_beam = if alone { String::new() } else { format!("{}.", of.name) };
+            let place = if tip { "tip".to_owned() } else { format!("x={station}") };
+            let meaning = format!("{what} of {} at s = {station} m, in the axes of its root", of.name);
+            let role = if tip { role } else { Role::Detail };
+            Channel::new(role, format!("{of_beam}{place}.{quantity}"), unit, meaning)
+        });
+    };
+    let [u, v, w] = seen.displacement.0;
+    put(v, Role::Primary, "deflection", "m", "displacement along the height of the section");
+    put(u, Role::Primary, "axial", "m", "axial displacement");
+    put(w, Role::Secondary, "across", "m", "displacement across the height of the section");
+    put(
+        seen.rotation[0],
+        Role::Secondary,
+        "rotation",
+        "rad",
+        "rotation of the section in the plane of axis and height",
+    );
+    let [u, v, w] = seen.velocity.0;
+    put(v, Role::Secondary, "deflection_velocity", "m/s", "rate of the deflection");
+    put(u, Role::Secondary, "axial_velocity", "m/s", "rate of the axial displacement");
+    put(w, Role::Detail, "across_velocity", "m/s", "rate of the displacement across");
+    put(seen.rotation[1], Role::Secondary, "rotation_velocity", "rad/s", "rate of the rotation");
+}
