@@ -34,6 +34,8 @@ const INTERVALS: usize = 25;
 const MOST_INTERVALS: usize = 100;
 /// About the most times that are kept.
 const MOST: usize = 300;
+/// Most numbers of states that wait to be drawn.
+const MOST_WAITING: usize = 1 << 22;
 
 /// A part of a system that is drawn.
 #[derive(Clone, Debug)]
@@ -182,6 +184,8 @@ pub struct Scene {
     springs: Vec<(Spring, Vec<[Vec3; 2]>)>,
     every: usize,
     seen: usize,
+    /// States that were sampled and whose frames are still to be found: a run is not to wait for its pictures.
+    waiting: Vec<State>,
     times: Vec<f64>,
     frames: Vec<Frame>,
 }
@@ -211,16 +215,27 @@ impl Scene {
         Scene { every: every.max(1), ..self }
     }
 
-    /// Call it with every recorded state: it takes some of them.
+    /// Call it with every recorded state: it keeps some of them. [`Scene::draw`] takes those that it keeps.
     pub fn sample(&mut self, system: &mut dyn System, state: &State) {
         if self.seen.is_multiple_of(self.every.max(1)) {
-            self.take(state.t, system, state);
+            self.waiting.push(state.clone());
+            if self.waiting.len() * (state.q.len() + 2 * state.v.len()) > MOST_WAITING {
+                self.draw(system);
+            }
         }
         self.seen += 1;
     }
 
-    /// Takes the last state of a run, unless it was taken.
+    /// Takes the sampled states that it has not taken yet.
+    pub fn draw(&mut self, system: &mut dyn System) {
+        for state in std::mem::take(&mut self.waiting) {
+            self.take(state.t, system, &state);
+        }
+    }
+
+    /// Takes the sampled states and the last one of a run, unless it was sampled.
     pub fn finish(&mut self, system: &mut dyn System, state: &State) {
+        self.draw(system);
         if self.times.last() != Some(&state.t) {
             self.take(state.t, system, state);
         }
@@ -412,6 +427,7 @@ mod tests {
         for curvature in [1e-7, 0.4] {
             scene.sample(&mut system, &at(curvature));
         }
+        scene.draw(&mut system);
         let all = written(&scene);
         let m = INTERVALS + 1;
         assert_eq!(all["arm.displacement"].0, [2, m as u64, 3]);
@@ -435,6 +451,7 @@ mod tests {
         let mut system = Bent { p: Vec3([0.0; 3]), d: Vec3([0.0, 0.5, 0.0]) };
         let mut scene = Scene::new(vec![Part::beam(("arm", 0), (2.0, 1), flat, None, &[])], Vec::new(), 1);
         scene.sample(&mut system, &at(-5.0));
+        scene.draw(&mut system);
         let (_, theta) = &written(&scene)["arm.rotation"];
         for (k, theta) in theta.chunks(3).enumerate() {
             let exact = -5.0 * 2.0 * k as f64 / INTERVALS as f64;
@@ -475,6 +492,7 @@ mod tests {
         let beam = Part::beam(("arm", 0), (2.0, 1), flat, Some(0.5), &[1.5]);
         let mut scene = Scene::new(vec![beam], vec![drawn], 1);
         scene.sample(&mut system, &at(1e-9));
+        scene.draw(&mut system);
         let all = written(&scene);
         let (shape, ends) = &all["floor.outline"];
         assert_eq!(shape, &[1, 2, 3]);
@@ -493,6 +511,7 @@ mod tests {
             let mut scene =
                 Scene::new(vec![Part::beam(("arm", 0), (2.0, 1), flat, None, &[])], Vec::new(), 1);
             scene.sample(&mut system, &at(0.3));
+            scene.draw(&mut system);
             let mut out = Cursor::new(Vec::new());
             scene.write(&mut out).unwrap();
             out.into_inner()

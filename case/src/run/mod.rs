@@ -371,6 +371,7 @@ impl Prepared {
         warnings.extend(system.cautions(&record.trajectory.peaks()));
         warnings.extend(limits.iter().filter_map(|limit| limit.exceeded(&record.trajectory)));
         warnings.extend(record.warnings.iter().map(|warning| cautions::of_run(warning, plan.step.is_some())));
+        scene.draw(system.as_mut());
         if let Ending::Finished = record.ending {
             shapes.iter_mut().for_each(|shapes| shapes.finish(system.as_mut(), &record.state));
             scene.finish(system.as_mut(), &record.state);

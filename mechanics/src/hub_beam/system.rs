@@ -431,12 +431,12 @@ impl<C: Coupling> Observed for HubBeam<C> {
             self.shown = stations.iter().map(|&x| Station::new(self.coupling.fields(), x)).collect();
         }
         let angle = self.kinematics(s).angle;
+        let (sin, cos) = libm::sincos(angle);
         let stations = &self.shown;
         let mut placements = vec![Placement::default(); stations.len()];
         self.coupling.placements(s, stations, &mut placements);
         for ((station, p), frame) in stations.iter().zip(&placements).zip(out) {
             let x = self.hub.radius + station.point.x + p.axial;
-            let (sin, cos) = libm::sincos(angle);
             let (sin_section, cos_section) = libm::sincos(angle + p.rotation);
             frame.position = Vec3([x * cos - p.deflection * sin, x * sin + p.deflection * cos, 0.0]);
             frame.rotation =
