@@ -22,6 +22,7 @@ mod fields;
 mod high;
 mod hub;
 mod inertia;
+mod isotropic;
 mod linear;
 pub mod load;
 mod lumped;

@@ -4,6 +4,7 @@
 //! them with as many vectors, and any weighted sum of them. Row i of a band meets the entries i − l … i + u of a vector;
 //! with l zeros in front of the vector and u behind it every row meets a full window, the first and last rows too.
 
+use super::isotropic::Isotropic;
 use crate::linalg::{Matrix, Storage, Structure};
 use std::sync::Arc;
 
@@ -27,6 +28,8 @@ pub(super) struct Bundle {
     lead: usize,
     /// Term k of the entry at position j of row i is at (i·width + j)·terms + k.
     data: Arc<[f64]>,
+    /// The first two matrices, where they are those of fields of one basis along both axes and the others are not there.
+    isotropic: Option<Arc<Isotropic>>,
 }
 
 /// As many vectors to multiply with a [`Bundle`], entry by entry, with zeros in front and behind.
@@ -38,6 +41,12 @@ pub(super) struct Vectors {
 }
 
 impl Vectors {
+    /// `N` entries of two vectors, from this one on, the zeros in front counted.
+    #[inline(always)]
+    pub(super) fn window<const N: usize>(&self, start: usize) -> &[[f64; 2]] {
+        &self.data.as_chunks::<2>().0[start..][..N]
+    }
+
     /// Sets entry i of the vectors to `of(i)`.
     #[inline]
     pub(super) fn set(&mut self, of: impl Fn(usize) -> Entry) {
@@ -65,7 +74,7 @@ impl Bundle {
         };
         let terms = if matrices[2].is_none() && matrices[3].is_none() { 2 } else { TERMS };
         let mut data = Vec::with_capacity(order * width * terms);
-        let bundle = Bundle { order, terms, width, advance, lead, data: Arc::new([]) };
+        let bundle = Bundle { order, terms, width, advance, lead, data: Arc::new([]), isotropic: None };
         for i in 0..order {
             for j in 0..width {
                 let column = bundle.column(i, j);
@@ -73,7 +82,14 @@ impl Bundle {
                 data.extend(matrices[..terms].iter().map(entry));
             }
         }
-        Bundle { data: data.into(), ..bundle }
+        let isotropic = match matrices {
+            [Some(mass), Some(gyroscopic), None, None] => {
+                let reach = if advance == 0 { order } else { lead };
+                Isotropic::of(order, reach, mass, gyroscopic).map(Arc::new)
+            }
+            _ => None,
+        };
+        Bundle { data: data.into(), isotropic, ..bundle }
     }
 
     /// Column of the entry at position `j` of row `i`, if it is one of the matrix.
@@ -89,8 +105,11 @@ impl Bundle {
     /// Vectors of zeros to multiply with.
     pub(super) fn vectors(&self) -> Vectors {
         let terms = self.terms;
-        let range = self.lead * terms..(self.lead + self.order) * terms;
-        let behind = self.advance * (self.width - self.lead.min(self.width));
+        let [lead, behind] = match &self.isotropic {
+            Some(isotropic) => isotropic.padding(),
+            None => [self.lead, self.advance * (self.width - self.lead.min(self.width))],
+        };
+        let range = lead * terms..(lead + self.order) * terms;
         Vectors { terms, data: vec![0.0; range.end + behind * terms], range }
     }
 
@@ -100,6 +119,9 @@ impl Bundle {
 
     /// Writes the products (Aₖ xₖ)ᵢ, row after row; zero for terms that are not stored.
     pub(super) fn products(&self, x: &Vectors, out: &mut [Entry]) {
+        if let Some(isotropic) = &self.isotropic {
+            return isotropic.products(x, out);
+        }
         match (self.terms, self.width) {
             // Hermite functions with linear ones, and with Hermite ones.
             (TERMS, 11) => self.sums::<TERMS, TERMS, 11>(x, out),
@@ -140,13 +162,24 @@ impl Bundle {
         if k >= self.terms {
             return 0.0;
         }
-        let row = |(i, row): (usize, &[f64])| -> f64 {
+        if let Some(isotropic) = self.isotropic.as_ref().filter(|_| k == 0) {
+            return isotropic.mass_form(&x[..self.order]);
+        }
+        if self.terms == TERMS { self.form_of::<TERMS>(k, x) } else { self.form_of::<2>(k, x) }
+    }
+
+    fn form_of<const T: usize>(&self, k: usize, x: &[f64]) -> f64 {
+        let mut sum = 0.0;
+        for (i, row) in self.rows().enumerate() {
             let first = (self.advance * i).saturating_sub(self.lead);
-            let skipped = first + self.lead - self.advance * i;
-            let row = row[skipped * self.terms..].chunks_exact(self.terms);
-            x[i] * row.zip(&x[first..self.order]).map(|(a, x)| a[k] * x).sum::<f64>()
-        };
-        self.rows().enumerate().map(row).sum()
+            let row = &row.as_chunks::<T>().0[first + self.lead - self.advance * i..];
+            let mut product = 0.0;
+            for (a, x) in row.iter().zip(&x[first..self.order]) {
+                product += a[k] * x;
+            }
+            sum += x[i] * product;
+        }
+        sum
     }
 
     /// Writes Σ wₖ Aₖ over the content of `out`, border aside.
