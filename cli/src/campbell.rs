@@ -174,8 +174,7 @@ fn diagram(arguments: &Arguments, reading: &Reading) -> Result<bool, String> {
     let files = [("curves", Artifact::CampbellCsv), ("diagram", Artifact::CampbellSvg)];
     let mut whole = screen::files(&directory, written, &files);
     cautions.iter().for_each(|caution| screen::report(&format!("warning: {caution}\n")));
-    if let Some((branch, point)) = diagram.coarsest()
-        && let Some(error) = point.mode.mesh.map(|error| error / point.mode.frequency())
+    if let Some((branch, point, error)) = diagram.coarsest()
         && error > vibration::COARSE
     {
         screen::report(&format!(

@@ -126,12 +126,15 @@ impl Campbell {
         }
     }
 
-    /// The largest estimated error of a frequency by the mesh, over that frequency: number of its branch, and its point.
-    pub fn coarsest(&self) -> Option<(usize, &Point)> {
-        let relative = |p: &Point| p.mode.mesh.map_or(0.0, |error| error / p.mode.frequency());
+    /// The largest estimated error of a frequency by the mesh, over the frequency or the speed, whichever is larger: number of its branch,
+    /// its point, and the relative error. A whirl has almost no frequency in the rotating frame near its critical speed, and that of the
+    /// rotation seen from the ground.
+    pub fn coarsest(&self) -> Option<(usize, &Point, f64)> {
         let points = self.branches.iter().enumerate().flat_map(|(k, b)| b.points.iter().map(move |p| (k, p)));
-        let finite = points.filter(|(_, p)| p.mode.mesh.is_some() && p.mode.frequency() > 0.0);
-        finite.max_by(|a, b| relative(a.1).total_cmp(&relative(b.1)))
+        let vibrating = points.filter(|(_, p)| p.mode.frequency() > 0.0);
+        let relative = |p: &Point| Some(p.mode.mesh? / p.mode.frequency().max(p.speed.abs()));
+        let errors = vibrating.filter_map(|(k, p)| Some((k, p, relative(p)?)));
+        errors.max_by(|a, b| a.2.total_cmp(&b.2))
     }
 }
 

@@ -200,6 +200,13 @@ impl Flexible {
         axial + z * second - y * third + (y * y + z * z) * of.winding
     }
 
+    /// The ends of an element that is twisted by more than half a turn.
+    pub(super) fn twisted(&self, q: &[f64]) -> Option<[f64; 2]> {
+        let mut elements = self.beam.elements().iter().enumerate();
+        let (number, _) = elements.find(|(e, element)| element.is_wound(&coordinates(q, *e)))?;
+        Some([self.beam.nodes()[number], self.beam.nodes()[number + 1]])
+    }
+
     /// The name of a station in the names of its columns.
     pub(super) fn station_name(&self, s: f64) -> String {
         if self.beam.nodes().last() == Some(&s) { "tip".to_owned() } else { format!("s={s}") }

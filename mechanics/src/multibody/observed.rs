@@ -196,6 +196,9 @@ impl Observed for Multibody {
                     return Err(Limit::Compressed { beam, stretch, node });
                 }
             }
+            if let Some([from, to]) = of.twisted(&s.q[i..]) {
+                return Err(Limit::Twisted { beam: of.name.clone(), from, to });
+            }
         }
         // The row g = sin(θ − θ(t)) is zero half a turn away too.
         for (k, joint) in self.constants.model.joints.iter().enumerate() {

@@ -88,6 +88,19 @@ pub enum Limit {
         /// Number of the node.
         node: usize,
     },
+    /// An element of a beam in space is twisted by more than the angle between its ends can show.
+    #[error(
+        "beam `{beam}` is twisted by more than half a turn between its stations {from:.4} m and {to:.4} m, which are one element: take \
+         more elements, or check the torque or the angle that twists it"
+    )]
+    Twisted {
+        /// Name of the beam.
+        beam: String,
+        /// Where the element begins \[m\].
+        from: f64,
+        /// Where it ends \[m\].
+        to: f64,
+    },
     /// A joint is half a turn away from where it is prescribed to be.
     #[error(
         "joint `{joint}` is half a turn away from its prescribed angle {angle:.4} rad: the step is too large for what the angle changes \

@@ -5,7 +5,8 @@ use flexion::analysis::equilibrium::equilibrium;
 use flexion::analysis::path::{Critical, Plan, Point, follow};
 use flexion::linalg::Vec3;
 use flexion::multibody::slender::{Beam, Properties, Station};
-use flexion::multibody::{Axes, Flexible, Kind, LineLoad, Load, Marker, Model, Multibody, Part};
+use flexion::multibody::{Axes, Drive, Flexible, Kind, LineLoad, Load, Marker, Model, Multibody, Part};
+use flexion::profile::Motion;
 use flexion::system::{Dynamics, Frame, Observed, Steady};
 use std::f64::consts::PI;
 
@@ -54,6 +55,42 @@ fn path(system: &mut Multibody, plan: &Plan) -> Vec<(Point, Vec3)> {
 
 fn critical(points: &[(Point, Vec3)]) -> Vec<(Critical, f64)> {
     points.iter().filter_map(|(p, _)| p.critical.map(|critical| (critical, p.factor))).collect()
+}
+
+/// A bar of length 1 whose tip is rotated about its axis, slowly: φ = 4 rad is more than one element can be twisted by. In two the torque is
+/// GJ φ + N K² φ with the tension N = ½ EA K² φ² of fibres that both ends hold.
+#[test]
+fn an_element_is_not_twisted_beyond_half_a_turn() {
+    for (elements, expected) in [(1, None), (2, Some(2.0 * 4.0 + 0.5 * 6.0 * 6.0 / 1e6 * 64.0))] {
+        let root = Station { position: Vec3::ZERO, tangent: Vec3::AXES[0], normal: Vec3::AXES[1] };
+        let section = Properties::principal([1e6, 2.0, 3.0, 3.0], 1.0, [0.01; 3]);
+        let mut model = Model::new();
+        let beam = model.beam(Flexible::new("bar", Beam::straight(root, 1.0, elements, section).unwrap()));
+        let part = |node| Part::Section { beam, node };
+        let x = (Vec3::AXES[0].0, None);
+        model.join("clamp", Kind::Fixed, [Part::Ground, part(0)], [0.0; 3], x).unwrap();
+        let tip = [Part::Ground, part(elements)];
+        model.join("tip", Kind::Revolute, tip, [1.0, 0.0, 0.0], x).unwrap().drive =
+            Drive::Prescribed(Motion::Angle(profile("4*min(t, 1)")));
+        let mut system = Multibody::new(model).unwrap();
+        let mut s = system.initial();
+        let mut reached = Ok(());
+        for k in 1..=40 {
+            s.t = f64::from(k) / 40.0;
+            if let Err(error) = equilibrium(&mut system, &mut s) {
+                reached = Err(error.to_string());
+                break;
+            }
+        }
+        match expected {
+            Some(torque) => {
+                reached.unwrap();
+                let found = super::channel(&mut system, &s, "tip.torque");
+                assert!((found - torque).abs() < 1e-9, "{found} for {torque}");
+            }
+            None => assert!(reached.clone().is_err_and(|said| said.contains("half a turn")), "{reached:?}"),
+        }
+    }
 }
 
 /// w(L) = 11 p₀ L⁴/(120 EI) under p₀ s/L, and p₀ (L⁴/8 − b⁴/8 − b³ (L − b)/6)/EI under p₀ from b to L; nodes of cubic elements are exact.

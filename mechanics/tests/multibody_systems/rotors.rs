@@ -242,6 +242,19 @@ fn a_shaft_with_internal_damping_flutters_beyond_its_critical_speed() {
     }
 }
 
+/// At the critical speed a whirl stands still in the rotating frame: an error of its frequency is small against the speed.
+#[test]
+fn a_critical_speed_is_no_coarse_mesh() {
+    let mut diagram = jeffcott([100.0; 2]).campbell(vec![0.0, 20.0, 39.999, 40.001, 60.0], 2);
+    for point in diagram.branches.iter_mut().flat_map(|branch| &mut branch.points) {
+        let finer = point.mode.frequency() + 1e-3;
+        point.mode.compare(finer, 1.0);
+    }
+    let (.., error) = diagram.coarsest().unwrap();
+    // At rest: of 40 rad/s.
+    assert!((error - 1e-3 / 40.0).abs() < 1e-9, "{error}");
+}
+
 /// Three blades at any azimuth on a hub on a clamped shaft: a minimum of the potential, whatever the rounding of its tangents.
 #[test]
 fn a_hub_with_blades_on_a_flexible_shaft_is_stable_at_rest() {

@@ -495,6 +495,20 @@ impl Element {
         combined(&hermite(z, self.shapes.length)[1], &centreline(v))
     }
 
+    /// Whether both halves together are twisted by more than half a turn, where the angle between the ends jumps by a whole one:
+    /// sin(φ₁ₘ + φₘ₂) has another sign than the sines of both, by Λ_aᵀΛ_b alone.
+    pub fn is_wound(&self, q: &[f64; COORDINATES]) -> bool {
+        let [first, middle, second] = slopes(&self.shapes, &chord(&positions(q)));
+        let middle = Triad::new(middle, Vec3::at(q, 9));
+        let ends = [Triad::new(first, Vec3::at(q, 6)), Triad::new(second, Vec3::at(q, 18))];
+        let [[before, along_before], [behind, along_behind]] = ends.map(|end| {
+            let sin = middle.binormal.dot(end.normal) - middle.normal.dot(end.binormal);
+            [sin, middle.normal.dot(end.normal) + middle.binormal.dot(end.binormal)]
+        });
+        let sum = behind * along_before - before * along_behind;
+        before * behind < 0.0 && sum * behind < 0.0
+    }
+
     /// The twist of the ends and the middle against each other, φ₁ₘ, φₘ₂, φ₁₂.
     pub fn pairs(&self, q: &[f64; COORDINATES]) -> [Pair; 3] {
         self.sections(q).pairs
