@@ -1,6 +1,5 @@
 //! What is wrong with a model.
 
-use super::joint::Kind;
 use std::fmt;
 
 /// What is wrong with a part of a model.
@@ -32,9 +31,9 @@ pub enum PartFault {
     /// Axes are not orthonormal.
     #[error("has axes that are no rotation (R Rᵀ − I = {0:.1e})")]
     Axes(f64),
-    /// A joint of this kind has no coordinate that could be driven.
-    #[error("is {0:?} and has a drive: only revolute, cylindrical and prismatic joints have")]
-    Drive(Kind),
+    /// A joint of this kind, by its name, has no coordinate that could be driven.
+    #[error("is {0} and has a drive: only revolute, cylindrical and prismatic joints have")]
+    Drive(String),
     /// A prescribed angle or displacement jumps.
     #[error(
         "has a prescribed angle or displacement that jumps by {jump:.3e} at t = {time} s, which is no motion: use a ramp or a smooth profile"

@@ -133,7 +133,7 @@ impl Joint {
     /// What is wrong with the drive, if anything.
     pub(super) fn fault(&self) -> Option<PartFault> {
         if !matches!(self.drive, Drive::None) && self.kind.coordinate().is_none() {
-            return Some(PartFault::Drive(self.kind));
+            return Some(PartFault::Drive(format!("{:?}", self.kind)));
         }
         let motion = self.prescribed()?;
         let step = |t: f64| motion.at(t).angle - motion.at(t.next_down()).angle;
