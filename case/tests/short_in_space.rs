@@ -209,6 +209,8 @@ const REFUSED: &[(&str, &[&str])] = &[
             "p1_spin_up_4/mixed_radial",
             "p1_spin_up_4/runge_kutta",
             "p1_spin_up_4/adams",
+            "varying_section",
+            "varying_section/tapered_rectangle",
         ],
     ),
     (
@@ -222,10 +224,12 @@ const REFUSED: &[(&str, &[&str])] = &[
             "p3_spin_up/high",
             "p3_spin_up/at_10_rad_s",
             "p3_spin_up/at_20_rad_s",
+            "steady_rotation_graded",
         ],
     ),
     ("beams in space and blades do without", &["p3_spin_up/n0", "p3_spin_up/soft_ceramic"]),
-    (STARTS, &["modes_cantilever", "modes_chordwise_gyroscopic"]),
+    (STARTS, &["modes_cantilever", "modes_chordwise_gyroscopic", "steady_rotation", "steady_rotation/first"]),
+    ("the state is one of another model", &["steady_rotation/restart"]),
     ("which the static equilibrium of a system in space leaves out", &["initial_static"]),
     (
         "is of the small vibrations of a beam on a hub",
@@ -242,9 +246,6 @@ const REFUSED: &[(&str, &[&str])] = &[
         &["contact_friction", "contact_friction/sticks", "contact_friction/radau"],
     ),
 ];
-
-/// Cases that are not held here yet: nobody has looked at their differences.
-const NOT_YET: [&str; 5] = ["roll_up", "simo_vu_quoc_spin_up", "steady_rotation", "tip_", "varying_section"];
 
 /// What differs: cases, column, and why.
 const OTHERWISE: &[(&str, &str, &str)] = &[
@@ -273,9 +274,6 @@ enum Outcome {
 }
 
 fn outcome(name: &str, seen: &Mutex<Vec<String>>) -> Option<Outcome> {
-    if NOT_YET.iter().any(|cases| name.starts_with(cases)) {
-        return None;
-    }
     let planar = case(name, &[]).unwrap();
     planar.case.hub_beam()?;
     let refused = |problems: &Problems| {
@@ -351,7 +349,7 @@ fn planar_cases_in_space_are_those_of_the_exact_coupling() {
     let of_list = REFUSED.iter().flat_map(|(_, names)| names.iter());
     let gone: Vec<_> = of_list.filter(|name| !found.contains_key(**name)).collect();
     assert!(gone.is_empty(), "there are no such cases, or they are as another: {gone:?}");
-    assert!(wrong.is_empty() && ran >= 40, "{ran} ran\n{wrong}");
+    assert!(wrong.is_empty() && ran >= 55, "{ran} ran\n{wrong}");
 }
 
 /// What is wrong with a case is said at its place in the spelling in which it is written.
