@@ -26,6 +26,7 @@ mod isotropic;
 mod linear;
 pub mod load;
 mod lumped;
+mod measured;
 mod positive;
 mod product;
 mod rule;

@@ -7,6 +7,7 @@ use super::damping::Damping;
 use super::hub::{Drive, Hub, Recent};
 use super::inertia::{Border, Scratch, Totals};
 use super::load::{Load, Loads, Site};
+use super::measured::Measured;
 use super::positive::HubInertia;
 use super::section_forces::{Sampling, SectionForces};
 use super::station::{Placement, Station};
@@ -34,6 +35,7 @@ pub struct HubBeam<C> {
     placements: Vec<Placement>,
     scratch: Scratch,
     recent: Recent,
+    measured: Measured,
     border: Border,
     /// Times at which drive and loads are not smooth.
     breaks: Arc<[Break]>,
@@ -91,6 +93,7 @@ impl<C: Coupling> HubBeam<C> {
             shown: Vec::new(),
             scratch,
             recent: Recent::new(),
+            measured: Measured::new(scales.len()),
             border: Border::new(fields.len()),
             breaks: breaks.into(),
             steady: None,
@@ -213,6 +216,16 @@ impl<C: Coupling> HubBeam<C> {
     /// Kinetic energy, angular momentum and torque of beam and hub.
     fn totals(&mut self, s: &State, hub: &HubKinematics) -> Totals {
         self.coupling.inertia().totals(s, hub, &mut self.scratch) + self.coupling.extra_totals(s, hub)
+    }
+
+    /// The same, and the strain energy of the beam and of the hub's spring \[J\].
+    fn totals_and_strain(&mut self, s: &State, hub: &HubKinematics) -> (Totals, f64) {
+        if let Some(found) = self.measured.of(s, hub) {
+            return found;
+        }
+        let found = (self.totals(s, hub), self.strain(s, hub));
+        self.measured.keep(s, hub, found);
+        found
     }
 
     /// Residual of the beam alone, without loads.
@@ -408,8 +421,8 @@ impl<C: Coupling> Observed for HubBeam<C> {
 
     fn energy(&mut self, s: &State) -> Energy {
         let hub = self.kinematics(s);
-        let kinetic = self.totals(s, &hub).kinetic;
-        Energy { kinetic, strain: self.strain(s, &hub), gravity: self.loads.gravity(s, &hub), contact: 0.0 }
+        let (totals, strain) = self.totals_and_strain(s, &hub);
+        Energy { kinetic: totals.kinetic, strain, gravity: self.loads.gravity(s, &hub), contact: 0.0 }
     }
 
     fn power(&mut self, s: &State) -> Power {
@@ -419,8 +432,8 @@ impl<C: Coupling> Observed for HubBeam<C> {
 
     fn energy_and_power(&mut self, s: &State) -> (Energy, Power) {
         let hub = self.kinematics(s);
-        let totals = self.totals(s, &hub);
-        let (strain, gravity) = (self.strain(s, &hub), self.loads.gravity(s, &hub));
+        let (totals, strain) = self.totals_and_strain(s, &hub);
+        let gravity = self.loads.gravity(s, &hub);
         let energy = Energy { kinetic: totals.kinetic, strain, gravity, contact: 0.0 };
         (energy, self.power_with(s, &hub, Some(totals.torque)))
     }
@@ -447,12 +460,11 @@ impl<C: Coupling> Observed for HubBeam<C> {
     fn observe(&mut self, s: &State, sink: &mut Sink<'_>) {
         self.coupling.placements(s, &self.stations, &mut self.placements);
         let hub = self.kinematics(s);
-        let totals = self.totals(s, &hub);
+        let (totals, strain) = self.totals_and_strain(s, &hub);
         let torque = match &self.hub.drive {
             Drive::Prescribed(_) => totals.torque - self.loads.torque(s, &hub) - self.contact_torque,
             Drive::Free(free) => free.actuator.torque(&hub, s.time()).value,
         };
-        let strain = self.strain(s, &hub);
         let gravity = self.loads.has_gravity().then(|| self.loads.gravity(s, &hub));
         let target = self.hub.target(s.time());
 
