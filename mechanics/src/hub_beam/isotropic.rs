@@ -11,7 +11,7 @@
 //! and m is block-tridiagonal with blocks of 2 × 2, an eighth of the entries of the band that holds M and Pᵀ − P. At the clamped root
 //! U′, the strain there, may be an unknown.
 
-use super::product::{Entry, Vectors};
+use super::vectors::{Entry, Vectors};
 use crate::linalg::Matrix;
 
 /// Unknowns of a node along one axis, and of a node.
@@ -136,77 +136,5 @@ impl Block {
             out[i + HALF] = [second[0], 2.0 * first[1], 0.0, 0.0];
         }
         out
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::product::Bundle;
-    use super::*;
-    use crate::linalg::Structure;
-
-    /// M and Pᵀ − P of three nodes, with U′ of the root or without it, and an entry that is of another form.
-    fn matrices(root: usize, odd: f64) -> (Structure, [Matrix; 2]) {
-        let (order, structure) = (12 + root, Structure::band(12 + root, 7, 7, 0));
-        let [mut mass, mut gyroscopic] = [(); 2].map(|()| Matrix::new(&structure));
-        // U and U′ node after node, beginning with the U′ of the root.
-        let unknown = |k: usize, second: bool| {
-            if k < root {
-                k
-            } else {
-                root + NODE * ((k - root) / HALF) + (k - root) % HALF + HALF * usize::from(second)
-            }
-        };
-        for i in 0..6 + root {
-            for j in 0..6 + root {
-                let node = |k: usize| if k < root { 0 } else { 1 + (k - root) / HALF };
-                if node(i).abs_diff(node(j)) > 1 {
-                    continue;
-                }
-                let m = 1.0 / (1 + i + j) as f64 + if i == j { 3.0 } else { 0.0 };
-                let there = |k: usize, second: bool| (k >= root || !second).then(|| unknown(k, second));
-                for (second, sign) in [(false, -2.0), (true, 2.0)] {
-                    if let (Some(row), Some(column)) = (there(i, second), there(j, second)) {
-                        mass.add(row, column, m);
-                    }
-                    if let (Some(row), Some(column)) = (there(i, second), there(j, !second)) {
-                        gyroscopic.add(row, column, sign * m);
-                    }
-                }
-            }
-        }
-        mass.add(order - 1, order - 1, odd);
-        (structure, [mass, gyroscopic])
-    }
-
-    #[test]
-    fn products_and_forms_are_those_of_the_matrices() {
-        for root in [0, 1] {
-            let (structure, [mass, gyroscopic]) = matrices(root, 0.0);
-            let order = 12 + root;
-            assert!(Isotropic::of(order, 7, &mass, &gyroscopic).is_some(), "{root}");
-            let bundle = Bundle::new(&structure, order, [Some(&mass), Some(&gyroscopic), None, None]);
-            let [x, y]: [Vec<f64>; 2] =
-                [2.3, 0.7].map(|w| (0..order).map(|i| libm::sin(1.0 + w * i as f64)).collect());
-            let mut vectors = bundle.vectors();
-            vectors.set(|i| [x[i], y[i], 0.0, 0.0]);
-            let mut products = vec![Entry::default(); order];
-            bundle.products(&vectors, &mut products);
-            let [mut mx, mut gy] = [vec![0.0; order], vec![0.0; order]];
-            mass.multiply(&x, &mut mx);
-            gyroscopic.multiply(&y, &mut gy);
-            for i in 0..order {
-                let [m, g, ..] = products[i];
-                assert!((m - mx[i]).abs() < 1e-14 && (g - gy[i]).abs() < 1e-14, "{root} {i}: {m} {g}");
-            }
-            let form: f64 = x.iter().zip(&mx).map(|(a, b)| a * b).sum();
-            assert!((bundle.form(0, &x) - form).abs() < 1e-13 * form, "{root}");
-        }
-    }
-
-    #[test]
-    fn a_mass_that_is_another_along_the_second_axis_is_not_isotropic() {
-        let (_, [mass, gyroscopic]) = matrices(1, 1e-9);
-        assert!(Isotropic::of(13, 7, &mass, &gyroscopic).is_none());
     }
 }

@@ -36,6 +36,7 @@ mod station;
 mod system;
 #[cfg(test)]
 mod tests;
+mod vectors;
 
 pub use beam::{Beam, Mass};
 pub use contact_point::{ContactPoint, Mount};
