@@ -4,8 +4,8 @@ use super::inertia::Totals;
 use crate::profile::HubKinematics;
 use crate::system::State;
 
-/// Totals and strain energy \[J\] of one state.
-#[derive(Clone, Debug)]
+/// Totals and strain energy \[J\] of one state. Its memory is taken when a state is kept first; a clone has none.
+#[derive(Debug, Default)]
 pub(super) struct Measured {
     hub: HubKinematics,
     state: [Vec<f64>; 3],
@@ -13,18 +13,17 @@ pub(super) struct Measured {
     strain: f64,
 }
 
-impl Measured {
-    /// Nothing yet, for n unknowns.
-    pub(super) fn new(n: usize) -> Measured {
-        // NaN equals no state.
-        let state = std::array::from_fn(|_| vec![f64::NAN; n]);
-        Measured { hub: HubKinematics::default(), state, totals: Totals::default(), strain: 0.0 }
+impl Clone for Measured {
+    fn clone(&self) -> Measured {
+        Measured::default()
     }
+}
 
+impl Measured {
     /// What was found for this state, if it was the last.
     pub(super) fn of(&self, s: &State, hub: &HubKinematics) -> Option<(Totals, f64)> {
         let [q, v, a] = &self.state;
-        let same = self.hub == *hub && *q == s.q && *v == s.v && *a == s.a;
+        let same = !q.is_empty() && self.hub == *hub && *q == s.q && *v == s.v && *a == s.a;
         same.then_some((self.totals, self.strain))
     }
 

@@ -84,7 +84,6 @@ impl<C: Coupling> HubBeam<C> {
             .then(|| HubInertia::new(coupling.inertia(), &coupling.structure(0), &mut scratch, hub.inertia))
             .flatten();
         let share = hub_inertia.as_mut().map(|watch| watch.share(coupling.inertia(), &mut scratch));
-        let measured = Measured::new(scales.len());
         HubBeam {
             hub_inertia,
             small_share: share.filter(|share| *share < SMALL_SHARE),
@@ -94,7 +93,7 @@ impl<C: Coupling> HubBeam<C> {
             shown: Vec::new(),
             scratch,
             recent: Recent::new(),
-            measured,
+            measured: Measured::default(),
             border: Border::new(fields.len()),
             breaks: breaks.into(),
             steady: None,
