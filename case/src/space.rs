@@ -470,8 +470,9 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
         let help = "take `radau`, which controls its steps, or `generalized-alpha` with a step";
         return Err(Fault::new("integrator.kind", message).help(help).into());
     }
-    let disc =
-        |contact: &touch::Contact| matches!(contact.law, touch::Law::Constraint { .. }) && contact.law.rubs();
+    let disc = |contact: &touch::Contact| {
+        matches!(contact.law, touch::Law::Constraint { .. }) && contact.law.has_friction()
+    };
     if let (Some(method), Some(i)) = (method, touching.iter().position(disc))
         && !method.integrator.resolves_contacts()
     {

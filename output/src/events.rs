@@ -70,12 +70,13 @@ pub fn write_events(events: &Events, to: impl Write) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use flexion::system::Touch;
+    use flexion::system::ContactInfo;
 
     #[test]
     fn a_row_is_empty_where_a_quantity_does_not_apply_and_a_summary_shows_both_ends_of_the_list() {
-        let mut events =
-            Events::of(["a", "b"].map(|name| Touch { name: name.into(), ..Touch::default() }).into());
+        let mut events = Events::of(
+            ["a", "b"].map(|name| ContactInfo { name: name.into(), ..ContactInfo::default() }).into(),
+        );
         let impact = Entry {
             time: 0.5,
             what: "impact",

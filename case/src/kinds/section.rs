@@ -503,7 +503,7 @@ fn general_section(v: &Values, c: &Context<'_>) -> Made<Section> {
     let length = c.length()?;
     let table = section::BladeTable::new(length, &[(0.0, resultants), (length, resultants)]).at("")?;
     let spatial = Arc::new(move |_| Ok(Box::new(resultants) as Box<dyn BladeSection>));
-    Ok(Section { spatial, ..Section::planar(section::Guided(table)) })
+    Ok(Section { spatial, ..Section::planar(section::PlanarProjection(table)) })
 }
 
 fn graded(v: &Values, _: &Context<'_>) -> Made<Section> {
@@ -580,6 +580,6 @@ fn blade(v: &Values, c: &Context<'_>) -> Made<Section> {
     Ok(Section {
         spatial: Arc::new(move |_| Ok(Box::new(spatial.clone()))),
         is_blade: true,
-        ..Section::planar(section::Guided(table))
+        ..Section::planar(section::PlanarProjection(table))
     })
 }

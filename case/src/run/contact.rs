@@ -7,7 +7,7 @@ use crate::kinds::initial::Initial;
 use crate::problem::Problems;
 use crate::reading::Reading;
 use flexion::contact::{ImpactMap, Law};
-use flexion::system::{Mode, State, System, Touch};
+use flexion::system::{ContactInfo, Mode, State, System};
 use flexion_results::Trajectory;
 
 /// Gap over the length of the beam below which a contact touches at the start.
@@ -27,7 +27,7 @@ impl Reading {
         let at_rest = !matches!(self.case.initial, Initial::Undeformed);
         let fastest = state.v.iter().fold(0.0_f64, |x, v| x.max(v.abs()));
         for (touch, key) in system.contacts(state).iter().zip(self.case.contact_keys()) {
-            let Touch { name, row, gap, rate, .. } = touch;
+            let ContactInfo { name, row, gap, rate, .. } = touch;
             if at_rest && row.is_none() {
                 continue;
             }

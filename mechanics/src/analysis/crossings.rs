@@ -58,8 +58,8 @@ fn located(system: &mut Speeds<'_>, at: &Solved, ends: [&Point; 2], k: u32) -> O
         let part = (speed - ends[0].speed) / (ends[1].speed - ends[0].speed);
         let near = blend(x, mx, &ends[1].mode.vector, part)?;
         // Some modes beyond it, so that it may cross them.
-        let (mode, likeness) = system.mode_like(speed, at, number + 2, (&near, f64::from(k) * speed))?;
-        if likeness < 0.8 {
+        let (mode, mac) = system.mode_like(speed, at, number + 2, (&near, f64::from(k) * speed))?;
+        if mac < 0.8 {
             return None;
         }
         let value = mode.frequency() - f64::from(k) * speed;

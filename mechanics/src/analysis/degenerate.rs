@@ -3,7 +3,7 @@
 //! Any combination of modes of one eigenvalue is a mode. From speed to speed they are chosen as the projections of the modes
 //! before on their space, in the inner product of M, so that what stays degenerate keeps its shapes.
 
-use super::likeness::product;
+use super::mac::product;
 use super::solved::Solved;
 use num_complex::Complex64;
 use std::ops::Range;

@@ -10,7 +10,7 @@ mod equations;
 pub mod equilibrium;
 pub mod error;
 mod joints;
-mod likeness;
+mod mac;
 mod mechanism;
 pub mod modes;
 pub mod path;

@@ -1,7 +1,7 @@
 //! Modes at one speed after the other.
 
 use super::diagram::{Branch, HubState, NoCampbell, Plan};
-use super::likeness::{assurance, gyroscopic};
+use super::mac::{assurance, gyroscopic};
 use super::modes::{Mode, NoModes, describe, modes_near, shares};
 use super::rotation::{NoRotation, rotate};
 use super::solved::Solved;
@@ -123,9 +123,9 @@ impl<'a> Speeds<'a> {
         self.state.copy_from(&from.equilibrium);
         self.speed = from.speed;
         let solved = self.solve(speed, number + 1, Some(from)).ok()?;
-        let likeness: Vec<f64> = solved.massed.iter().map(|massed| assurance(near, massed)).collect();
-        let most = likeness.iter().fold(0.0_f64, |most, x| most.max(*x));
-        let alike = solved.modes.into_iter().zip(likeness).filter(|(_, x)| *x > most - AMBIGUOUS);
+        let mac: Vec<f64> = solved.massed.iter().map(|massed| assurance(near, massed)).collect();
+        let most = mac.iter().fold(0.0_f64, |most, x| most.max(*x));
+        let alike = solved.modes.into_iter().zip(mac).filter(|(_, x)| *x > most - AMBIGUOUS);
         let off = |mode: &Mode| (mode.frequency() - frequency).abs();
         alike.min_by(|a, b| off(&a.0).total_cmp(&off(&b.0)))
     }

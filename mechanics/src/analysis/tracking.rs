@@ -1,7 +1,7 @@
 //! Joining modes of neighbouring speeds by their shapes.
 
 use super::diagram::{Branch, Point};
-use super::likeness::likeness;
+use super::mac::mac;
 use super::modes::Mode;
 use super::solved::Solved;
 
@@ -69,7 +69,7 @@ fn assign(pairs: &[Vec<f64>], rows: usize, columns: usize) -> Vec<Match> {
 /// alike, the others are left at zero: a mode is like one other at most.
 fn assurances(from: &Solved, to: &Solved) -> Vec<Vec<f64>> {
     let (rows, columns) = (from.modes.len(), to.modes.len());
-    let of = |i: usize, j: usize| likeness(from, i, to, j);
+    let of = |i: usize, j: usize| mac(from, i, to, j);
     let mut pairs = vec![vec![0.0; columns]; rows];
     let mut in_order = true;
     for k in 0..rows.min(columns) {

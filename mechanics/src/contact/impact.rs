@@ -308,7 +308,7 @@ impl ImpactMap {
         self.factor(system, state)?;
         let n = self.velocities;
         let m = self.sets.len();
-        let (mut gaps, mut rates, mut bends) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
+        let (mut gaps, mut rates, mut accelerations) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
         system.constraint(state, RowWeights::POSITION, &mut gaps);
         system.constraint(state, RowWeights::VELOCITY, &mut rates);
         let largest = rates.iter().chain(&state.v).fold(before, |x, v| x.max(v.abs()));
@@ -332,16 +332,16 @@ impl ImpactMap {
         let mut force = vec![0.0; n];
         system.residual(state, &mut force);
         force.iter_mut().for_each(|r| *r = -*r);
-        system.constraint(state, RowWeights::ACCELERATION, &mut bends);
-        let free = bends.clone();
+        system.constraint(state, RowWeights::ACCELERATION, &mut accelerations);
+        let free = accelerations.clone();
         let mut a = vec![0.0; n];
         self.respond(&force, |i| free[i], &mut a);
         let w = self.delassus(&part);
-        let b: Vec<f64> = part.rows.iter().map(|&i| bends[i] + self.along(i, &a)).collect();
+        let b: Vec<f64> = part.rows.iter().map(|&i| accelerations[i] + self.along(i, &a)).collect();
         self.pressing.fill(0.0);
         part.rows.iter().zip(&b).for_each(|(&i, b)| self.pressing[i] = -b);
         let massless = |k: usize| self.weight > 0.0 && w[k * part.rows.len() + k] * self.inertia > MASSLESS;
-        let largest_bend = a.iter().chain(&bends).fold(0.0_f64, |x, a| x.max(a.abs()));
+        let largest_acceleration = a.iter().chain(&accelerations).fold(0.0_f64, |x, a| x.max(a.abs()));
         let mut forces = vec![0.0; part.rows.len()];
         solve(&part.laws, &w, &b, &mut forces)?;
         for (mode, set) in state.mode.iter_mut().zip(&self.sets) {
@@ -353,7 +353,8 @@ impl ImpactMap {
                 RowLaw::Unilateral if forces[k] > 0.0 => Mode::Closed,
                 // The force on a point without mass grows with its path, whatever its acceleration is.
                 RowLaw::Unilateral
-                    if struck.get(i) == Some(&true) && (massless(k) || b[k] <= RESTING * largest_bend) =>
+                    if struck.get(i) == Some(&true)
+                        && (massless(k) || b[k] <= RESTING * largest_acceleration) =>
                 {
                     Mode::Closed
                 }

@@ -31,7 +31,7 @@ pub struct Curve {
     /// p′
     pub slope: Vec3,
     /// p″ \[1/m\]
-    pub bend: Vec3,
+    pub curvature: Vec3,
     /// ṗ′ \[1/s\]
     pub slope_rate: Vec3,
 }

@@ -143,14 +143,14 @@ pub(super) fn redundant(
             (0..n).for_each(|j| s.v[j] -= excess * scale[j] * unit[j]);
         }
         let fastest = s.v.iter().zip(&scale).fold(0.0_f64, |x, (v, scale)| x.max((v / scale).abs()));
-        let mut bends = vec![0.0; m];
+        let mut accelerations = vec![0.0; m];
         system.constraint(s, RowWeights::VELOCITY, rates);
-        system.constraint(s, RowWeights::ACCELERATION, &mut bends);
-        (bends, fastest)
+        system.constraint(s, RowWeights::ACCELERATION, &mut accelerations);
+        (accelerations, fastest)
     };
     let mut given = State { a: vec![0.0; n], ..s.clone() };
     let mut rates = vec![0.0; m];
-    let (bends, fastest) = allowed(&mut given, &mut rates);
+    let (accelerations, fastest) = allowed(&mut given, &mut rates);
     let mut other = given.clone();
     for (j, v) in other.v.iter_mut().enumerate() {
         *v += (1.0 + fastest) * scale[j] * libm::sin(1.0 + j as f64);
@@ -163,10 +163,11 @@ pub(super) fn redundant(
         let sum = |of: &dyn Fn(usize) -> f64| (0..m).map(|k| c[k].abs() * of(k)).sum::<f64>();
         // What counts as rounding.
         let speed = SAME * sum(&|k| rates[k].abs() + unit(k) * fastest);
-        let bend = SAME * sum(&|k| bends[k].abs() + other[k].abs() + unit(k) * faster * faster);
+        let acceleration =
+            SAME * sum(&|k| accelerations[k].abs() + other[k].abs() + unit(k) * faster * faster);
         let text = || format!("{} against {}", of.name, of.others);
-        let differs = (dot(c, &other) - dot(c, &bends)).abs() > bend;
-        if dot(c, &rates).abs() > speed || (!differs && dot(c, &bends).abs() > bend) {
+        let differs = (dot(c, &other) - dot(c, &accelerations)).abs() > acceleration;
+        if dot(c, &rates).abs() > speed || (!differs && dot(c, &accelerations).abs() > acceleration) {
             contradictory.push(text());
         } else if differs {
             singular.push(text());

@@ -38,10 +38,10 @@ impl Points for Multibody {
         let radius = self.constants.model.points[k].radius;
         if let Some((beam, [q, v])) = self.struck(k) {
             let nearest = &self.nearest[k];
-            let [position, slope, bend] = nearest.shape(beam, &s.q[q..]);
+            let [position, slope, curvature] = nearest.shape(beam, &s.q[q..]);
             let ([velocity, slope_rate], [acceleration, _]) =
                 (nearest.rates(beam, &s.v[v..]), nearest.rates(beam, &s.a[v..]));
-            let curve = nearest.inside.then_some(Curve { slope, bend, slope_rate });
+            let curve = nearest.inside.then_some(Curve { slope, curvature, slope_rate });
             return PointMotion { position, velocity, acceleration, radius, curve, ..PointMotion::default() };
         }
         let marker = self.contact(k, s);

@@ -61,11 +61,11 @@ impl Nearest {
         for _ in 0..ITERATIONS {
             (self.element, self.place) = split(at, count);
             let h = elements[self.element].length();
-            let [r, slope, bend] = curve(q, self.element, self.place, h);
+            let [r, slope, curvature] = curve(q, self.element, self.place, h);
             let surface = obstacle.surface(r, t);
             let gradient = surface.normal.dot(slope);
             let across = [0, 1].map(|i| surface.curvatures[i] * surface.tangents[i].dot(slope).powi(2));
-            let second = surface.normal.dot(bend) + across[0] + across[1];
+            let second = surface.normal.dot(curvature) + across[0] + across[1];
             self.inside = second > 0.0 && at > 0.0 && at < count as f64;
             *(if gradient > 0.0 { &mut high } else { &mut low }) = at;
             let newton = at - gradient / (second * h);

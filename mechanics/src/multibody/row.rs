@@ -129,7 +129,7 @@ impl Row {
 
     /// g, ġ and g̈.
     pub(super) fn value(self, a: &Pose, b: &Pose, motion: &HubKinematics) -> Value {
-        let Axis([axis, drift, bend]) = self.axis(a, motion);
+        let Axis([axis, drift, acceleration]) = self.axis(a, motion);
         let fixed = matches!(self, Row::Point(_));
         // Of the axis in space.
         let (rate, acceleration) = if fixed {
@@ -138,7 +138,7 @@ impl Row {
             let swept = a.spin.cross(axis);
             let rate = swept + drift;
             let twice = a.spin.cross(swept) + 2.0 * a.spin.cross(drift);
-            (rate, a.spin_rate.cross(axis) + twice + bend)
+            (rate, a.spin_rate.cross(axis) + twice + acceleration)
         };
         // What it is multiplied by.
         let (other, moved, [x, x_rate, x_acceleration]) = match self {

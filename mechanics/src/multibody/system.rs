@@ -490,8 +490,8 @@ impl Dynamics for Multibody {
         }
         self.place(s);
         self.values_of_dropped().fold([0.0; 3], |largest, (_, _, value)| {
-            let [g, rate, bend] = largest;
-            [g.max(value.g.abs()), rate.max(value.rate.abs()), bend.max(value.acceleration.abs())]
+            let [g, rate, acceleration] = largest;
+            [g.max(value.g.abs()), rate.max(value.rate.abs()), acceleration.max(value.acceleration.abs())]
         })
     }
 

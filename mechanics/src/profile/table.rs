@@ -27,7 +27,7 @@ pub enum End {
 pub struct Table {
     times: Vec<f64>,
     values: Vec<f64>,
-    bends: Vec<f64>,
+    curvatures: Vec<f64>,
     /// ∫ from the first row to each row.
     sums: Vec<f64>,
     /// ∫ from the first row to t = 0.
@@ -47,9 +47,9 @@ impl Table {
     /// [`ProfileError::Row`] or [`ProfileError::TooFewRows`].
     pub fn new(rows: &[(f64, f64)], end: End) -> Result<Table, ProfileError> {
         let (times, values) = checked_rows(rows, 3)?;
-        let bends = second_derivatives(&times, &values, end);
+        let curvatures = second_derivatives(&times, &values, end);
         let sums = vec![0.0; times.len()];
-        let mut table = Table { sums, times, values, bends, origin: 0.0, resolution: Vec::new() };
+        let mut table = Table { sums, times, values, curvatures, origin: 0.0, resolution: Vec::new() };
         for i in 1..table.times.len() {
             table.sums[i] = table.sums[i - 1] + table.piece_integral(i - 1, table.times[i]);
         }
@@ -100,7 +100,7 @@ impl Table {
     /// ∫ from t_i to t on piece i.
     fn piece_integral(&self, i: usize, t: f64) -> f64 {
         let (h, s) = (self.times[i + 1] - self.times[i], t - self.times[i]);
-        let (m, n) = (self.bends[i], self.bends[i + 1]);
+        let (m, n) = (self.curvatures[i], self.curvatures[i + 1]);
         let slope = (self.values[i + 1] - self.values[i]) / h - h * (2.0 * m + n) / 6.0;
         s * (self.values[i] + s * (slope / 2.0 + s * (m / 6.0 + s * (n - m) / (24.0 * h))))
     }
@@ -152,20 +152,20 @@ fn second_derivatives(t: &[f64], f: &[f64], end: End) -> Vec<f64> {
 impl Profile for Table {
     fn value(&self, t: f64) -> f64 {
         let (i, a, b, h) = self.piece(t);
-        let (m, n) = (self.bends[i], self.bends[i + 1]);
+        let (m, n) = (self.curvatures[i], self.curvatures[i + 1]);
         (self.values[i] * b + self.values[i + 1] * a) / h
             - a * b / 6.0 * (m * (1.0 + b / h) + n * (1.0 + a / h))
     }
 
     fn rate(&self, t: f64) -> f64 {
         let (i, a, b, h) = self.piece(t);
-        let (m, n) = (self.bends[i], self.bends[i + 1]);
+        let (m, n) = (self.curvatures[i], self.curvatures[i + 1]);
         (self.values[i + 1] - self.values[i]) / h + (n * a * a - m * b * b) / (2.0 * h) - h * (n - m) / 6.0
     }
 
     fn acceleration(&self, t: f64) -> f64 {
         let (i, a, b, h) = self.piece(t);
-        (self.bends[i] * b + self.bends[i + 1] * a) / h
+        (self.curvatures[i] * b + self.curvatures[i + 1] * a) / h
     }
 
     fn integral(&self, t: f64) -> f64 {

@@ -230,9 +230,9 @@ impl BladeSection for AsStiffAcross {
 
 /// A blade that is guided in the plane of rotation, as a planar section: EI = EI_c cos²θ + EI_f sin²θ.
 #[derive(Debug)]
-pub struct Guided<B>(pub B);
+pub struct PlanarProjection<B>(pub B);
 
-impl<B: BladeSection> Section for Guided<B> {
+impl<B: BladeSection> Section for PlanarProjection<B> {
     fn resultants(&self, x: f64) -> Resultants {
         let r = self.0.resultants(x);
         let (sin, cos) = libm::sincos(r.twist);

@@ -10,7 +10,8 @@ mod tapered;
 mod uniform;
 
 pub use blade::{
-    AsStiffAcross, BladeResultants, BladeSection, BladeTable, Guided, HomogeneousBlade, PlanarBlade, Twisted,
+    AsStiffAcross, BladeResultants, BladeSection, BladeTable, HomogeneousBlade, PlanarBlade,
+    PlanarProjection, Twisted,
 };
 pub use graded::{Graded, Material};
 pub use piecewise::{Piecewise, Segment};

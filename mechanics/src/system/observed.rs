@@ -80,7 +80,7 @@ pub struct Frame {
 
 /// A contact at a state.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Touch {
+pub struct ContactInfo {
     /// Prefix of its columns.
     pub name: String,
     /// Row of its normal force; `None` for a continuous force.
@@ -97,7 +97,7 @@ pub struct Touch {
 
 /// What presses at a contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Pressing {
+pub struct ContactSample {
     /// Where its point is, in the axes in which its obstacle is given \[m\].
     pub place: Vec3,
     /// Gap g \[m\].
@@ -147,12 +147,12 @@ pub trait Observed: Dynamics {
     }
 
     /// The contacts, in the order of their columns.
-    fn contacts(&mut self, _s: &State) -> Vec<Touch> {
+    fn contacts(&mut self, _s: &State) -> Vec<ContactInfo> {
         Vec::new()
     }
 
     /// Writes what presses at each of the [contacts](Observed::contacts), in their order.
-    fn pressing(&mut self, _s: &State, out: &mut Vec<Pressing>) {
+    fn contact_samples(&mut self, _s: &State, out: &mut Vec<ContactSample>) {
         out.clear();
     }
 

@@ -5,7 +5,7 @@ use super::rigid::{Burst, Closed, Rigid};
 use crate::analysis::transient::{Event, EventKind};
 use crate::contact::Neglected;
 use crate::linalg::Vec3;
-use crate::system::{Mode, Pressing, State, System, Touch};
+use crate::system::{ContactInfo, ContactSample, Mode, State, System};
 
 /// Impulse over the largest of the run below which it is rounding.
 const ROUNDING: f64 = 1e-12;
@@ -88,11 +88,11 @@ impl Largest {
 /// The events of a run at its contacts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Events {
-    contacts: Vec<Touch>,
+    contacts: Vec<ContactInfo>,
     modes: Vec<Mode>,
     /// What presses at the state passed last, and work memory.
-    pressing: Vec<Pressing>,
-    inside: Vec<Pressing>,
+    samples: Vec<ContactSample>,
+    inside: Vec<ContactSample>,
     /// Of each contact.
     pressed: Vec<Pressed>,
     /// Of each contact.
@@ -115,15 +115,15 @@ impl Events {
     /// None yet, of a run that begins with `state`.
     pub fn new(system: &mut dyn System, state: &State) -> Events {
         let mut events = Events::of(system.contacts(state));
-        system.pressing(state, &mut events.pressing);
-        events.inside.clone_from(&events.pressing);
+        system.contact_samples(state, &mut events.samples);
+        events.inside.clone_from(&events.samples);
         events.modes.clone_from(&state.mode);
         events.passed = state.t;
         events
     }
 
     /// None yet, of these contacts.
-    pub fn of(contacts: Vec<Touch>) -> Events {
+    pub fn of(contacts: Vec<ContactInfo>) -> Events {
         let (pressed, rigid) =
             (vec![Pressed::default(); contacts.len()], vec![Rigid::default(); contacts.len()]);
         Events { pressed, rigid, contacts, ..Events::default() }
@@ -187,7 +187,7 @@ impl Events {
 
     /// Takes a state inside a step with its weight in an integral over time \[s\].
     pub(super) fn within(&mut self, system: &mut dyn System, state: &State, weight: f64) {
-        system.pressing(state, &mut self.inside);
+        system.contact_samples(state, &mut self.inside);
         for ((contact, now), pressed) in self.contacts.iter().zip(&self.inside).zip(&mut self.pressed) {
             if contact.indicator.is_some() && contact.gap < 0.0 {
                 pressed.impulse += weight * now.force;
@@ -221,8 +221,8 @@ impl Events {
         if self.is_empty() {
             return;
         }
-        system.pressing(state, &mut self.pressing);
-        for ((contact, now), pressed) in self.contacts.iter().zip(&self.pressing).zip(&mut self.pressed) {
+        system.contact_samples(state, &mut self.samples);
+        for ((contact, now), pressed) in self.contacts.iter().zip(&self.samples).zip(&mut self.pressed) {
             if contact.indicator.is_some() && contact.gap < 0.0 {
                 pressed.enter(state.t, now);
             }
@@ -238,7 +238,7 @@ impl Events {
         }
         let (least, apart) = (ROUNDING * self.strongest, self.apart);
         for (i, contact) in self.contacts.iter_mut().enumerate() {
-            let now = self.pressing.get(i).copied();
+            let now = self.samples.get(i).copied();
             let place = now.map(|now| now.place);
             let rigid = &mut self.rigid[i];
             let mut push = |entry: Entry| self.list.push(Entry { time, contact: i, place, ..entry });
@@ -354,7 +354,7 @@ impl Events {
 }
 
 impl Pressed {
-    fn enter(&mut self, t: f64, now: &Pressing) {
+    fn enter(&mut self, t: f64, now: &ContactSample) {
         self.force.enter(t, now.force);
         self.indentation.enter(t, -now.gap);
     }
@@ -364,9 +364,9 @@ impl Pressed {
 mod tests {
     use super::*;
 
-    fn touch(name: &str, row: Option<usize>, indicator: Option<usize>) -> Touch {
+    fn touch(name: &str, row: Option<usize>, indicator: Option<usize>) -> ContactInfo {
         let friction = row.map_or(0..0, |row| row + 1..row + 2);
-        Touch { name: name.into(), row, friction, indicator, gap: 1.0, rate: 0.0 }
+        ContactInfo { name: name.into(), row, friction, indicator, gap: 1.0, rate: 0.0 }
     }
 
     /// The entry in a line.
@@ -389,10 +389,15 @@ mod tests {
         let modes = vec![Mode::Open, Mode::Open, Mode::Closed, Mode::SlipForward];
         events.add(&Event { time: 0.5, kind, modes: modes.clone() });
         let crossing = || EventKind::Crossing { indicators: vec![0] };
-        let at =
-            |gap: f64, rate, force| Pressing { place: Vec3([1.0, gap, 0.0]), gap, rate, force, lost: 0.0 };
+        let at = |gap: f64, rate, force| ContactSample {
+            place: Vec3([1.0, gap, 0.0]),
+            gap,
+            rate,
+            force,
+            lost: 0.0,
+        };
         events.pressed = vec![Pressed::default(); 3];
-        events.pressing = vec![at(0.0, 0.0, 0.0), at(0.0, 0.0, 0.0), at(0.0, -2.0, 0.0)];
+        events.samples = vec![at(0.0, 0.0, 0.0), at(0.0, 0.0, 0.0), at(0.0, -2.0, 0.0)];
         events.add(&Event { time: 0.6, kind: crossing(), modes: modes.clone() });
         assert!(events.touching());
         // The parabola through 1, 4 and 3 has its vertex 4.125 between them.

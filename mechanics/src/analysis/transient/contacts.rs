@@ -59,10 +59,10 @@ impl Contacts {
             return Ok(());
         }
         let sets = system.rows();
-        let rubs = |normal: usize| {
+        let friction_rows = |normal: usize| {
             sets.iter().filter(|set| matches!(set, Set::Friction { normal: n, .. } if *n == normal)).count()
         };
-        if let Some(normal) = (0..sets.len()).find(|i| rubs(*i) > 1) {
+        if let Some(normal) = (0..sets.len()).find(|i| friction_rows(*i) > 1) {
             return Err(RunError::Disc { normal: system.unknown(state.v.len() + normal) });
         }
         let touching = 100.0 * TOUCHING * self.locator.length;
@@ -205,7 +205,7 @@ pub(super) fn approaches(system: &mut dyn System, s: &State, h: f64, gaps: &mut 
 pub(super) struct Unseen {
     /// g and ġ of each row at the start and at the end of a step.
     values: [[Vec<f64>; 2]; 2],
-    bends: Vec<f64>,
+    accelerations: Vec<f64>,
 }
 
 impl Unseen {
@@ -213,7 +213,7 @@ impl Unseen {
     pub(super) fn new(system: &dyn System) -> Option<Unseen> {
         let zeros = || vec![0.0; system.rows().len()];
         let contacts = system.rows().iter().any(|set| matches!(set, Set::Unilateral { .. }));
-        contacts.then(|| Unseen { values: [(); 2].map(|()| [zeros(), zeros()]), bends: zeros() })
+        contacts.then(|| Unseen { values: [(); 2].map(|()| [zeros(), zeros()]), accelerations: zeros() })
     }
 
     /// The row of a contact whose gap has fallen and risen in a step without force, and may have been negative between: more
@@ -226,7 +226,7 @@ impl Unseen {
         let h = to.t - from.t;
         let turns = h * system.turning(from).min(system.turning(to)) > ARC;
         let at = |k: usize, i: usize| self.values[k].each_ref().map(|x| x[i]);
-        for i in 0..self.bends.len() {
+        for i in 0..self.accelerations.len() {
             let free = |s: &State| s.lambda[i].max(0.0) == 0.0;
             let ([g0, v0], [g1, v1]) = (at(0, i), at(1, i));
             let contact = matches!(system.rows()[i], Set::Unilateral { .. });
@@ -237,13 +237,13 @@ impl Unseen {
                 return Some(i);
             }
             let Some([_, meet]) = lowest((0.0, [g0, v0]), (h, [g1, v1])) else { continue };
-            let sharp = |s: &State, system: &mut dyn System, bends: &mut [f64]| {
-                system.constraint(s, RowWeights::ACCELERATION, bends);
-                h * bends[i] < 0.5 * (v1 - v0)
+            let sharp = |s: &State, system: &mut dyn System, accelerations: &mut [f64]| {
+                system.constraint(s, RowWeights::ACCELERATION, accelerations);
+                h * accelerations[i] < 0.5 * (v1 - v0)
             };
             if g0 + meet * v0 <= 0.0
-                && sharp(from, system, &mut self.bends)
-                && sharp(to, system, &mut self.bends)
+                && sharp(from, system, &mut self.accelerations)
+                && sharp(to, system, &mut self.accelerations)
             {
                 return Some(i);
             }

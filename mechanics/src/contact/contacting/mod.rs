@@ -23,7 +23,7 @@
 //! at which the gap changes its sign.
 
 mod observed;
-mod touch;
+mod proximity;
 
 use super::force::ContactForce;
 use super::obstacle::{Obstacle, Surface};
@@ -34,9 +34,9 @@ use crate::system::{
     Break, Corotation, Crossing, Dynamics, Events, Jump, Mode, NotSet, Observed, Parameter, Power,
     RowWeights, Set, Size, State, Steady, VisitRow, Weights, ordered,
 };
+use proximity::Proximity;
 use std::ops::Range;
 use std::sync::Arc;
-use touch::Touch;
 
 /// What happens when a point touches.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,7 +54,7 @@ pub enum Law {
 
 impl Law {
     /// Whether it has friction.
-    pub fn rubs(&self) -> bool {
+    pub fn has_friction(&self) -> bool {
         match self {
             Law::Constraint { friction, .. } => *friction > 0.0,
             Law::Force(force) => force.friction > 0.0,
@@ -116,12 +116,12 @@ struct Forces {
 
 impl Placed {
     /// The point and the surface before it at a state.
-    fn touch(&self, model: &mut impl Points, s: &State) -> Touch {
-        Touch::new(model, self.contact.point, self.contact.obstacle.as_ref(), s)
+    fn proximity(&self, model: &mut impl Points, s: &State) -> Proximity {
+        Proximity::new(model, self.contact.point, self.contact.obstacle.as_ref(), s)
     }
 
     /// The forces at a state.
-    fn forces(&self, touch: &Touch, s: &State, memory: usize) -> Forces {
+    fn forces(&self, near: &Proximity, s: &State, memory: usize) -> Forces {
         match &self.contact.law {
             Law::Constraint { .. } => Forces {
                 normal: s.lambda[self.place],
@@ -131,8 +131,8 @@ impl Placed {
                 by_sliding: [[0.0; 2]; 2],
             },
             Law::Force(law) => {
-                let normal = law.normal(-touch.surface.gap, -touch.rate, s.memory[memory + self.place]);
-                let (part, slope) = law.friction(touch.sliding);
+                let normal = law.normal(-near.surface.gap, -near.rate, s.memory[memory + self.place]);
+                let (part, slope) = law.friction(near.sliding);
                 Forces {
                     normal: normal.value,
                     friction: part.map(|part| part * normal.value),
@@ -147,11 +147,11 @@ impl Placed {
 
 impl Placed {
     /// Power lost in friction and damping.
-    fn lost(&self, touch: &Touch, forces: &Forces) -> f64 {
-        let friction = -inner(forces.friction, touch.sliding);
+    fn lost(&self, near: &Proximity, forces: &Forces) -> f64 {
+        let friction = -inner(forces.friction, near.sliding);
         let Law::Force(law) = &self.contact.law else { return friction };
-        let elastic = law.normal(-touch.surface.gap, 0.0, 0.0).value;
-        friction - (forces.normal - elastic) * touch.rate
+        let elastic = law.normal(-near.surface.gap, 0.0, 0.0).value;
+        friction - (forces.normal - elastic) * near.rate
     }
 }
 
@@ -166,17 +166,17 @@ impl Forces {
     }
 
     /// Change of the force and its moment by changes of the `position` of the point, its `velocity` and the `spin`.
-    fn change(&self, touch: &Touch, [position, velocity, spin]: [Vec3; 3]) -> [Vec3; 2] {
-        let (Surface { normal: n, tangents: [t1, t2], .. }, radius) = (touch.surface, touch.motion.radius);
-        let [dn, d1, d2] = touch.turned(position);
+    fn change(&self, near: &Proximity, [position, velocity, spin]: [Vec3; 3]) -> [Vec3; 2] {
+        let (Surface { normal: n, tangents: [t1, t2], .. }, radius) = (near.surface, near.motion.radius);
+        let [dn, d1, d2] = near.turned(position);
         let gap = n.dot(position);
-        let rate = dn.dot(touch.velocity) + n.dot(velocity);
+        let rate = dn.dot(near.velocity) + n.dot(velocity);
         let touching = if radius == 0.0 {
             velocity
         } else {
-            velocity - radius * spin.cross(n) - radius * touch.motion.spin.cross(dn)
+            velocity - radius * spin.cross(n) - radius * near.motion.spin.cross(dn)
         };
-        let sliding = [(d1, t1), (d2, t2)].map(|(dt, t)| dt.dot(touch.touching) + t.dot(touching));
+        let sliding = [(d1, t1), (d2, t2)].map(|(dt, t)| dt.dot(near.touching) + t.dot(touching));
         let normal = self.by_gap[0] * gap + self.by_gap[1] * rate;
         let [first, second] = [0, 1].map(|i| self.by_normal[i] * normal + inner(self.by_sliding[i], sliding));
         let turned = self.normal * dn + self.friction[0] * d1 + self.friction[1] * d2;
@@ -184,7 +184,7 @@ impl Forces {
         if radius == 0.0 {
             return [force, Vec3([0.0; 3])];
         }
-        let turned = dn.cross(self.vector(&touch.surface));
+        let turned = dn.cross(self.vector(&near.surface));
         [force, -radius * n.cross(force) - radius * turned]
     }
 }
@@ -249,7 +249,7 @@ impl<S: Points + Dynamics + Events + Observed> Contacting<S> {
 
     /// The gap of each contact \[m\].
     pub fn gaps(&mut self, s: &State) -> Vec<f64> {
-        let gap = |placed: &Placed, model: &mut S| placed.touch(model, s).surface.gap;
+        let gap = |placed: &Placed, model: &mut S| placed.proximity(model, s).surface.gap;
         self.contacts.iter().map(|placed| gap(placed, &mut self.inner)).collect()
     }
 
@@ -259,10 +259,10 @@ impl<S: Points + Dynamics + Events + Observed> Contacting<S> {
     }
 
     /// Calls `f` for every contact with its point, surface and forces.
-    fn each(&mut self, s: &State, mut f: impl FnMut(&Placed, &Touch, &Forces)) {
+    fn each(&mut self, s: &State, mut f: impl FnMut(&Placed, &Proximity, &Forces)) {
         for placed in &self.contacts {
-            let touch = placed.touch(&mut self.inner, s);
-            f(placed, &touch, &placed.forces(&touch, s, self.memory));
+            let near = placed.proximity(&mut self.inner, s);
+            f(placed, &near, &placed.forces(&near, s, self.memory));
         }
     }
 
@@ -270,8 +270,8 @@ impl<S: Points + Dynamics + Events + Observed> Contacting<S> {
     fn set_forces(&mut self, s: &State) {
         self.inner.begin_forces();
         for placed in &self.contacts {
-            let touch = placed.touch(&mut self.inner, s);
-            let force = placed.forces(&touch, s, self.memory).vector(&touch.surface);
+            let near = placed.proximity(&mut self.inner, s);
+            let force = placed.forces(&near, s, self.memory).vector(&near.surface);
             self.inner.add_force(placed.contact.point, s, force);
         }
     }
@@ -279,9 +279,9 @@ impl<S: Points + Dynamics + Events + Observed> Contacting<S> {
     /// Energy stored in contacts.
     fn stored(&mut self, s: &State) -> f64 {
         let mut stored = 0.0;
-        self.each(s, |placed, touch, _| {
+        self.each(s, |placed, near, _| {
             if let Law::Force(law) = &placed.contact.law {
-                stored += law.stored(-touch.surface.gap);
+                stored += law.stored(-near.surface.gap);
             }
         });
         stored
@@ -289,10 +289,10 @@ impl<S: Points + Dynamics + Events + Observed> Contacting<S> {
 
     /// Adds the power of the contacts: moving obstacles and the prescribed motion of the model drive, friction and damping lose.
     fn add_power(&mut self, s: &State, power: &mut Power) {
-        self.each(s, |placed, touch, forces| {
-            let force = forces.vector(&touch.surface);
-            power.drive += force.dot(touch.surface.velocity - touch.motion.prescribed);
-            power.contact += placed.lost(touch, forces);
+        self.each(s, |placed, near, forces| {
+            let force = forces.vector(&near.surface);
+            power.drive += force.dot(near.surface.velocity - near.motion.prescribed);
+            power.contact += placed.lost(near, forces);
         });
     }
 }
@@ -370,12 +370,12 @@ impl<S: Points + Dynamics + Events + Observed> Dynamics for Contacting<S> {
     fn residual(&mut self, s: &State, r: &mut [f64]) {
         self.inner.residual(s, r);
         for placed in &self.contacts {
-            let touch = placed.touch(&mut self.inner, s);
-            let forces = placed.forces(&touch, s, self.memory);
+            let near = placed.proximity(&mut self.inner, s);
+            let forces = placed.forces(&near, s, self.memory);
             if forces.vanish() {
                 continue;
             }
-            let [force, moment] = touch.wrench(forces.vector(&touch.surface));
+            let [force, moment] = near.wrench(forces.vector(&near.surface));
             self.inner.variations(placed.contact.point, s, &mut self.variations);
             for by in &self.variations {
                 r[by.unknown] -= force.dot(by.position) + moment.dot(by.rotation);
@@ -387,10 +387,10 @@ impl<S: Points + Dynamics + Events + Observed> Dynamics for Contacting<S> {
         self.inner.constraint(s, c, &mut g[..self.rows]);
         for placed in &self.contacts {
             if let Law::Constraint { .. } = placed.contact.law {
-                let touch = placed.touch(&mut self.inner, s);
-                g[placed.place] = c.combine(touch.surface.gap, touch.rate, touch.acceleration());
+                let near = placed.proximity(&mut self.inner, s);
+                g[placed.place] = c.combine(near.surface.gap, near.rate, near.acceleration());
                 for (i, row) in placed.friction.clone().enumerate() {
-                    g[row] = c.combine(0.0, touch.sliding[i], touch.sliding_rate(i));
+                    g[row] = c.combine(0.0, near.sliding[i], near.sliding_rate(i));
                 }
             }
         }
@@ -408,13 +408,13 @@ impl<S: Points + Dynamics + Events + Observed> Dynamics for Contacting<S> {
         self.inner.jacobian(s, visit);
         for placed in &self.contacts {
             if let Law::Constraint { .. } = placed.contact.law {
-                let touch = placed.touch(&mut self.inner, s);
+                let near = placed.proximity(&mut self.inner, s);
                 self.inner.variations(placed.contact.point, s, &mut self.variations);
                 self.numbers.clear();
                 self.numbers.extend(self.variations.iter().map(|by| by.unknown));
-                let friction = placed.friction.clone().zip(touch.surface.tangents);
-                for (row, direction) in [(placed.place, touch.surface.normal)].into_iter().chain(friction) {
-                    let [force, moment] = touch.wrench(direction);
+                let friction = placed.friction.clone().zip(near.surface.tangents);
+                for (row, direction) in [(placed.place, near.surface.normal)].into_iter().chain(friction) {
+                    let [force, moment] = near.wrench(direction);
                     let entry = |by: &Variation| force.dot(by.position) + moment.dot(by.rotation);
                     self.entries.clear();
                     self.entries.extend(self.variations.iter().map(entry));
@@ -433,24 +433,24 @@ impl<S: Points + Dynamics + Events + Observed> Dynamics for Contacting<S> {
             return;
         }
         for placed in &self.contacts {
-            let touch = placed.touch(&mut self.inner, s);
-            let forces = placed.forces(&touch, s, self.memory);
+            let near = placed.proximity(&mut self.inner, s);
+            let forces = placed.forces(&near, s, self.memory);
             if forces.vanish() {
                 continue;
             }
             let point = placed.contact.point;
             self.inner.variations(point, s, &mut self.variations);
             let rigid = matches!(placed.contact.law, Law::Constraint { .. });
-            let wrench = touch.wrench(forces.vector(&touch.surface));
-            if !rigid || touch.surface.curvatures != [0.0; 2] {
-                let Curve { slope, slope_rate, .. } = touch.motion.curve.unwrap_or_default();
+            let wrench = near.wrench(forces.vector(&near.surface));
+            if !rigid || near.surface.curvatures != [0.0; 2] {
+                let Curve { slope, slope_rate, .. } = near.motion.curve.unwrap_or_default();
                 for column in &self.variations {
-                    let moved = touch.moved(column.position, column.slope);
+                    let moved = near.moved(column.position, column.slope);
                     let position = column.position + moved * slope;
                     let velocity = column.velocity + moved * slope_rate;
-                    let by_position = forces.change(&touch, [position, velocity, column.spin]);
+                    let by_position = forces.change(&near, [position, velocity, column.spin]);
                     let by_velocity =
-                        forces.change(&touch, [Vec3([0.0; 3]), column.position, column.rotation]);
+                        forces.change(&near, [Vec3([0.0; 3]), column.position, column.rotation]);
                     let [force, moment] = [0, 1].map(|i| w.q * by_position[i] + w.v * by_velocity[i]);
                     let on_slope = w.q * moved * wrench[0];
                     for row in &self.variations {
@@ -504,9 +504,9 @@ impl<S: Points + Dynamics + Events + Observed> Events for Contacting<S> {
     fn indicate(&mut self, s: &State, out: &mut [f64]) {
         let (own, gaps) = out.split_at_mut(self.indicators);
         self.inner.indicate(s, own);
-        self.each(s, |placed, touch, _| {
+        self.each(s, |placed, near, _| {
             if let Law::Force(_) = placed.contact.law {
-                gaps[placed.place] = touch.surface.gap;
+                gaps[placed.place] = near.surface.gap;
             }
         });
     }
@@ -514,9 +514,9 @@ impl<S: Points + Dynamics + Events + Observed> Events for Contacting<S> {
     fn indicator_rates(&mut self, s: &State, out: &mut [f64]) {
         let (own, rates) = out.split_at_mut(self.indicators);
         self.inner.indicator_rates(s, own);
-        self.each(s, |placed, touch, _| {
+        self.each(s, |placed, near, _| {
             if let Law::Force(_) = placed.contact.law {
-                rates[placed.place] = touch.rate;
+                rates[placed.place] = near.rate;
             }
         });
     }
@@ -525,9 +525,9 @@ impl<S: Points + Dynamics + Events + Observed> Events for Contacting<S> {
         let own: Vec<usize> = fired.iter().copied().filter(|k| *k < self.indicators).collect();
         let crossing = if own.is_empty() { Crossing::Restart } else { self.inner.cross(&own, s) };
         let mut closing = vec![0.0; self.forces()];
-        self.each(s, |placed, touch, _| {
+        self.each(s, |placed, near, _| {
             if let Law::Force(_) = placed.contact.law {
-                closing[placed.place] = (-touch.rate).max(0.0);
+                closing[placed.place] = (-near.rate).max(0.0);
             }
         });
         for &k in fired.iter().filter(|k| **k >= self.indicators) {

@@ -3,8 +3,8 @@
 use super::{Contact, Contacting, Law, Placed};
 use crate::contact::points::Points;
 use crate::system::{
-    Channel, Direction, Dynamics, Energy, Events, Frame, Kind, Limit, Mode, Observed, Power, Pressing, Role,
-    Sink, State, Touch,
+    Channel, ContactInfo, ContactSample, Direction, Dynamics, Energy, Events, Frame, Kind, Limit, Mode,
+    Observed, Power, Role, Sink, State,
 };
 
 impl<S: Points + Dynamics + Events + Observed> Observed for Contacting<S> {
@@ -35,33 +35,33 @@ impl<S: Points + Dynamics + Events + Observed> Observed for Contacting<S> {
         self.inner.observe(s, sink);
         let mut stored = None;
         let directions = self.inner.directions();
-        self.each(s, |placed, touch, forces| {
+        self.each(s, |placed, near, forces| {
             let Contact { name, law, .. } = &placed.contact;
             let channel = |quantity, unit: &'static str, what| {
                 let meaning = format!("{what} of the contact {name}");
                 Channel::new(Role::Secondary, format!("{name}.{quantity}"), unit, meaning)
             };
-            sink.put(touch.surface.gap, || channel("gap", "m", "gap").with_kind(Kind::Gap));
+            sink.put(near.surface.gap, || channel("gap", "m", "gap").with_kind(Kind::Gap));
             // −0 of a contact that is open becomes 0.
             sink.put(forces.normal + 0.0, || {
                 channel("force", "N", "normal force").with_kind(Kind::NonNegative)
             });
-            if law.rubs() {
+            if law.has_friction() {
                 let [first, second] = forces.friction;
                 if directions == 1 {
                     sink.put(first + 0.0, || channel("friction", "N", "friction force"));
                 } else {
-                    let [t1, t2] = touch.surface.tangents;
+                    let [t1, t2] = near.surface.tangents;
                     let force = [0, 1, 2].map(|k| first * t1[k] + second * t2[k] + 0.0);
                     let names = ["friction.x", "friction.y", "friction.z"];
                     sink.put_all(force, names, |name| channel(name, "N", "friction force"));
                 }
             }
-            if let Some(station) = touch.station {
+            if let Some(station) = near.station {
                 sink.put(station, || channel("station", "m", "arc length of the nearest point"));
             }
             if let Law::Force(force) = law {
-                *stored.get_or_insert(0.0) += force.stored(-touch.surface.gap);
+                *stored.get_or_insert(0.0) += force.stored(-near.surface.gap);
             }
         });
         if let Some(stored) = stored {
@@ -70,26 +70,26 @@ impl<S: Points + Dynamics + Events + Observed> Observed for Contacting<S> {
         }
     }
 
-    fn contacts(&mut self, s: &State) -> Vec<Touch> {
+    fn contacts(&mut self, s: &State) -> Vec<ContactInfo> {
         let (mut all, indicators) = (self.inner.contacts(s), self.indicators);
-        self.each(s, |placed, touch, _| {
+        self.each(s, |placed, near, _| {
             let (row, indicator) = match placed.contact.law {
                 Law::Constraint { .. } => (Some(placed.place), None),
                 Law::Force(_) => (None, Some(indicators + placed.place)),
             };
-            let (gap, rate) = (touch.surface.gap, touch.rate);
+            let (gap, rate) = (near.surface.gap, near.rate);
             let name = placed.contact.name.clone();
-            all.push(Touch { name, row, friction: placed.friction.clone(), indicator, gap, rate });
+            all.push(ContactInfo { name, row, friction: placed.friction.clone(), indicator, gap, rate });
         });
         all
     }
 
-    fn pressing(&mut self, s: &State, out: &mut Vec<Pressing>) {
-        self.inner.pressing(s, out);
-        self.each(s, |placed, touch, forces| {
-            let (place, gap) = (touch.motion.position, touch.surface.gap);
-            let lost = placed.lost(touch, forces);
-            out.push(Pressing { place, gap, rate: touch.rate, force: forces.normal + 0.0, lost });
+    fn contact_samples(&mut self, s: &State, out: &mut Vec<ContactSample>) {
+        self.inner.contact_samples(s, out);
+        self.each(s, |placed, near, forces| {
+            let (place, gap) = (near.motion.position, near.surface.gap);
+            let lost = placed.lost(near, forces);
+            out.push(ContactSample { place, gap, rate: near.rate, force: forces.normal + 0.0, lost });
         });
     }
 

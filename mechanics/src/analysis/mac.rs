@@ -70,7 +70,7 @@ fn norm(of: &Solved, i: usize) -> Option<f64> {
 }
 
 /// Likeness of mode `i` at one speed and mode `j` at another, from 0 to 1.
-pub(super) fn likeness(from: &Solved, i: usize, to: &Solved, j: usize) -> f64 {
+pub(super) fn mac(from: &Solved, i: usize, to: &Solved, j: usize) -> f64 {
     let (x, y) = (&from.modes[i], &to.modes[j]);
     let (Some(n), Some(m)) = (norm(from, i), norm(to, j)) else {
         return assurance(&x.vector, &to.massed[j]);

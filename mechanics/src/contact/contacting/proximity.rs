@@ -6,7 +6,7 @@ use crate::linalg::Vec3;
 use crate::system::State;
 
 /// A point and the surface before it.
-pub(super) struct Touch {
+pub(super) struct Proximity {
     pub motion: PointMotion,
     pub surface: Surface,
     /// w = ṗ − u
@@ -21,9 +21,9 @@ pub(super) struct Touch {
     pub sliding: [f64; 2],
 }
 
-impl Touch {
+impl Proximity {
     /// Of point `k` of a model before an obstacle.
-    pub fn new(model: &mut impl Points, k: usize, obstacle: &dyn Obstacle, s: &State) -> Touch {
+    pub fn new(model: &mut impl Points, k: usize, obstacle: &dyn Obstacle, s: &State) -> Proximity {
         model.approach(k, s, obstacle);
         let (motion, station) = (model.motion(k, s), model.station(k));
         let mut surface = obstacle.surface(motion.position, s.time());
@@ -32,38 +32,40 @@ impl Touch {
         let swept = motion.spin.cross(surface.normal);
         let touching = velocity - motion.radius * swept;
         let (rate, sliding) = (surface.normal.dot(velocity), surface.tangents.map(|t| t.dot(touching)));
-        Touch { motion, surface, velocity, station, rate, touching, sliding }
+        Proximity { motion, surface, velocity, station, rate, touching, sliding }
     }
 
     /// g̈
     pub fn acceleration(&self) -> f64 {
-        let (path, bend) = self.path();
-        self.surface.normal.dot(bend) + self.turned(path)[0].dot(self.velocity)
+        let (path, acceleration) = self.path();
+        self.surface.normal.dot(acceleration) + self.turned(path)[0].dot(self.velocity)
     }
 
     /// Rate of the sliding velocity along tangent `i`.
     pub fn sliding_rate(&self, i: usize) -> f64 {
         let PointMotion { radius, spin, spin_rate, .. } = self.motion;
-        let ((path, bend), normal) = (self.path(), self.surface.normal);
+        let ((path, acceleration), normal) = (self.path(), self.surface.normal);
         let turned = self.turned(path);
         let swept = spin_rate.cross(normal) + spin.cross(turned[0]);
-        let bend = bend - radius * swept;
-        self.surface.tangents[i].dot(bend) + turned[1 + i].dot(self.touching)
+        let acceleration = acceleration - radius * swept;
+        self.surface.tangents[i].dot(acceleration) + turned[1 + i].dot(self.touching)
     }
 
     /// w + p′ṡ, by which the point moves past the obstacle, and ẇ on that path.
     fn path(&self) -> (Vec3, Vec3) {
-        let bend = self.motion.acceleration - self.surface.acceleration;
-        let Some(Curve { slope, slope_rate, .. }) = self.motion.curve else { return (self.velocity, bend) };
+        let acceleration = self.motion.acceleration - self.surface.acceleration;
+        let Some(Curve { slope, slope_rate, .. }) = self.motion.curve else {
+            return (self.velocity, acceleration);
+        };
         let moved = self.moved(self.velocity, slope_rate);
-        (self.velocity + moved * slope, bend + moved * slope_rate)
+        (self.velocity + moved * slope, acceleration + moved * slope_rate)
     }
 
     /// By how much s of the nearest point changes when the material point there moves by `x` and p′ by `slope`.
     pub fn moved(&self, x: Vec3, slope: Vec3) -> f64 {
         let Some(curve) = self.motion.curve else { return 0.0 };
         let normal = self.surface.normal;
-        let stiffness = normal.dot(curve.bend) + self.turned(curve.slope)[0].dot(curve.slope);
+        let stiffness = normal.dot(curve.curvature) + self.turned(curve.slope)[0].dot(curve.slope);
         -(normal.dot(slope) + self.turned(x)[0].dot(curve.slope)) / stiffness
     }
 
