@@ -1,4 +1,5 @@
-//! What `expected.toml` says the runs of a folder of `verification` are held to.
+//! What `expected.toml` says the runs of a folder of `verification` are held to, and `measured.toml`: where a difference was less than
+//! 5 % of its tolerance, what it was. It may become [`GROWTH`] times as large, for a tolerance alone would let a mistake pass.
 
 #![allow(dead_code)] // each program uses its part
 
@@ -14,6 +15,11 @@ const KEYS: &[&str] = &["reference", "until", "columns", "figures", "failure", "
 const MODES: &[&str] = &["speed", "free-hub", "frequencies", "tolerance", "absolute", "moves"];
 /// Modes among which those that move one way are looked for, to each that is expected.
 const AMONG: usize = 4;
+/// Part of a tolerance below which a difference is held to what was measured.
+const PART: f64 = 0.05;
+/// By what it may grow, and the part of a tolerance that is rounding.
+const GROWTH: f64 = 5.0;
+const ROUNDING: f64 = 1e-3;
 const FIGURE: &[&str] = &["column", "of", "from", "to", "value", "tolerance"];
 
 /// One thing that was compared: what, how far it is off, how far it may be.
@@ -27,13 +33,28 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    pub fn good(&self) -> bool {
-        self.off <= self.tolerance
+    /// Within the tolerance, and not far more than was measured.
+    pub fn good(&self, measured: Option<f64>) -> bool {
+        let most = measured.map_or(self.tolerance, |off| (GROWTH * off).max(ROUNDING * self.tolerance));
+        self.off <= self.tolerance.min(most)
+    }
+
+    /// Whether the tolerance alone would let it grow much.
+    pub fn is_loose(&self) -> bool {
+        self.off < PART * self.tolerance && !self.regression
     }
 
     fn new(what: impl Into<String>, off: f64, tolerance: f64, note: String) -> Comparison {
         Comparison { what: what.into(), off, tolerance, note, regression: false }
     }
+}
+
+/// The differences of `measured.toml` of a variant, by what is compared.
+pub fn measured(variant: &str) -> Table {
+    let path = root().join("measured.toml");
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    let mut all: Table = text.parse().unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    all.remove(variant).map_or_else(Table::new, |table| table.as_table().unwrap().clone())
 }
 
 /// What the run of a variant is held to.
