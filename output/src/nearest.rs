@@ -1,40 +1,20 @@
 //! The nearest valid name to a misspelt one.
 
-/// The candidate within a small edit distance of `written`, the nearest first in order of `candidates`.
+use strsim::osa_distance;
+
+/// The candidate within a small edit distance of `written`, the nearest first in order of `candidates`. `_`, a space and `-` count as
+/// equal.
 pub fn nearest<'c>(written: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
-    let written: Vec<char> = written.chars().take(64).flat_map(char::to_lowercase).collect();
-    let limit = written.len().div_ceil(3);
+    let plain =
+        |text: &str| text.chars().map(|c| if matches!(c, '_' | ' ') { '-' } else { c }).collect::<String>();
+    let written: String = plain(written).chars().take(64).flat_map(char::to_lowercase).collect();
+    let limit = written.chars().count().div_ceil(3);
     candidates
         .into_iter()
-        .map(|candidate| (distance(&written, &candidate.chars().collect::<Vec<_>>()), candidate))
+        .map(|candidate| (osa_distance(&written, &plain(candidate)), candidate))
         .filter(|(distance, _)| *distance <= limit)
         .min_by_key(|(distance, _)| *distance)
         .map(|(_, candidate)| candidate)
-}
-
-/// Damerau–Levenshtein distance in the restricted form (optimal string alignment): insertions,
-/// deletions, substitutions and swaps of neighbours. `_` and `-` count as equal.
-fn distance(a: &[char], b: &[char]) -> usize {
-    let same = |a: char, b: char| a == b || (matches!(a, '_' | ' ') && b == '-');
-    let width = b.len() + 1;
-    let mut rows = vec![0; (a.len() + 1) * width];
-    for i in 0..=a.len() {
-        for j in 0..width {
-            rows[i * width + j] = if i == 0 || j == 0 {
-                i + j
-            } else {
-                let cost = usize::from(!same(a[i - 1], b[j - 1]));
-                let mut best = (rows[(i - 1) * width + j] + 1)
-                    .min(rows[i * width + j - 1] + 1)
-                    .min(rows[(i - 1) * width + j - 1] + cost);
-                if i > 1 && j > 1 && same(a[i - 1], b[j - 2]) && same(a[i - 2], b[j - 1]) {
-                    best = best.min(rows[(i - 2) * width + j - 2] + 1);
-                }
-                best
-            };
-        }
-    }
-    rows[rows.len() - 1]
 }
 
 #[cfg(test)]
