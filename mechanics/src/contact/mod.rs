@@ -5,7 +5,7 @@
 //! | `obstacle.rs` | rigid surfaces, at rest or moved |
 //! | `force.rs` | continuous contact forces |
 //! | `points.rs` | what a model says of its points |
-//! | `contacting.rs` | a model with contacts: rows, forces, energies |
+//! | `contacting/` | a model with contacts: rows, forces, energies |
 //! | `cone.rs` | multipliers in their sets: u = b + W Λ, u and Λ complementary |
 //! | `impact.rs` | velocities behind an impact, and the modes of the rows then |
 

@@ -11,25 +11,28 @@
 //! p ≥ 1, with half as much again in reserve for p ≥ 2. The factor 1.1 is for what y_x is off itself. Vibration modes converge more slowly than that when the beam
 //! rotates fast, and functions other than elements where a section jumps or a load or mass sits within them: S = 4.
 //!
-//! The errors of the smallest, largest and last value are S times the differences of these values, or of the columns
-//! at their times, or a quarter of the largest difference until then, whichever is largest: a difference that passes
-//! through zero is no small error. Where the largest difference d of all times is a part of the largest value y of the column, they are
-//! d²/(y/10) at least, and d from y/10 on: vibrations that the mesh does not resolve differ in their phases, at any time.
+//! Of the smallest, largest and last value, found at t*, the error is (`Pair::of_values`)
+//!
+//! ```text
+//! e = S max(|Δ value|, |Δy(t*)|, ¼ max_{t ≤ t*} |Δy(t)|, d min(1, d/(0.1 Y))),   Δy = y − y_f,   d = max_t |Δy|,   Y = max_t |y_f|
+//! ```
+//!
+//! The third term is for a difference that passes through zero at t*, the last for vibrations that the mesh does not resolve, whose phases
+//! differ.
 //!
 //! Half the step would not serve where vibrations are hardly resolved, for errors do not fall like hᵖ there. So `Radau`
 //! runs all companions: those of its own runs with a tenth of their tolerance, which makes the error 18 times smaller
 //! (h ∼ tol^(1/4), error ∼ h⁵), or 6 times where only the stages' order counts (error ∼ h³), and with steps
 //! below 0.9 of its longest, or half where there is no mesh to refine. Those of fixed steps have
 //! the tolerances 10⁻⁵, 10⁻⁷ and 10⁻⁹ in turn, until two of them differ by half of what the run differs from the
-//! second: a coarse step needs no fine companion, which would follow every wave that the mesh can carry.
+//! second: the companion need be no more accurate than that, and a tighter tolerance would resolve every frequency of the mesh.
 //!
 //! A run of a mesh with rigid contacts is compared until the first impact of both only: after it another mesh has other masses at its
 //! contacts, and between the two impacts one run has struck and the other has not. Bodies without a mesh have the same masses in both.
 //!
 //! Work is counted in steps times unknowns, not in seconds, so that the same motion gives the same figures everywhere.
 //!
-//! An estimate, not a bound: a mesh or a step so coarse that the run and its companion miss the same thing shows
-//! nothing.
+//! An estimate, not a bound: an error that the run and its companion have in common is not seen.
 
 use super::coarse::{Coarse, coarse};
 use super::impacts::{before_impacts, until_impact};

@@ -18,9 +18,9 @@
 //! ġ and F·∂p/∂q are those of the material point, for n·p′ = 0.
 //!
 //! In the plane t₁ alone counts, in space both tangents. A contact with the law [`Law::Constraint`] gives a row to the
-//! system, and with friction one more for each tangent, which make a disc in space: drivers and
-//! integrators do the rest. A [`Law::Force`] is a load; the closing speed is stored in the state's memory by the event
-//! at which the gap changes its sign.
+//! system, and with friction one more for each tangent: |λ_t| ≤ μ λ_n, in space with both components. Integrators
+//! impose the rows, `analysis::transient` locates and resolves impacts. A [`Law::Force`] is a load; its closing speed is written into
+//! `State::memory` by the event g = 0 at which a contact begins.
 
 mod observed;
 mod proximity;

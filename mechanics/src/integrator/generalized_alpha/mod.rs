@@ -7,8 +7,9 @@
 //! vₙ₊₁ = vₙ + h ((1 − γ) aₙ + γ aₙ₊₁)
 //! ```
 //!
-//! q̈ is the true acceleration, a an auxiliary one that lags behind it; with αm = αf = 0 they are the same.
-//! The unknowns of a step are q̈ₙ₊₁ and λₙ₊₁. With κ = (1 − αf)/(1 − αm) an increment Δq̈ moves v by hγκ Δq̈
+//! q̈ is the acceleration of the equations of motion (`State::a`), a the auxiliary one (`Auxiliary::a`); with αm = αf = 0 they are the
+//! same. As in Arnold & Brüls, and other than in Chung & Hulbert, the equations hold at tₙ₊₁ and not between tₙ and tₙ₊₁; for a linear
+//! system both forms have the same amplification matrix. The unknowns of a step are q̈ₙ₊₁ and λₙ₊₁. With κ = (1 − αf)/(1 − αm) an increment Δq̈ moves v by hγκ Δq̈
 //! and q by h²βκ Δq̈, so that Newton's method solves
 //!
 //! ```text
@@ -28,11 +29,12 @@
 //! ⎣ G                     0    0               ⎦ ⎣Δμ⎦     ⎣ ġ / (hγκ)  ⎦
 //! ```
 //!
-//! The tangent and its factors are kept from step to step until their age costs more iterations than new ones (`kept.rs`). An
-//! affine system is solved exactly by one iteration with the tangent of its step. With constraints a step goes on to the
-//! rounding errors.
-//! The predictor is q̈ₙ₊₁ = q̈ₙ + q̈ₙ₋₁ − q̈ₙ₋₂: exact for accelerations linear in time, and for those that change their
-//! sign from step to step, as vibrations far too fast for the step do for ever in a method without dissipation.
+//! Newton's method is modified: tangent and factors are kept from step to step, and made anew as soon as a step takes more
+//! iterations than the mean step since the last renewal, the cost of the renewal included (`kept.rs`). An iteration ends when the
+//! increments are small (`newton.rs`); with constraints or rotations, when they are rounding errors. An affine system is solved exactly
+//! by one iteration with the tangent of its step.
+//! The predictor is q̈ₙ₊₁ = q̈ₙ + q̈ₙ₋₁ − q̈ₙ₋₂: exact for accelerations linear in time, and for those of undamped frequencies far above
+//! 1/h, which change their sign at each step of a method without dissipation.
 //!
 //! Steps may change their size (`auxiliary.rs`).
 //!
