@@ -32,6 +32,7 @@ pub(super) fn leaves_the_plane(
                 check(couple[0] != 0.0 || couple[1] != 0.0, format!("{table}.couple"));
             }
             Acts::Along { force, .. } => check(force[2] != 0.0, format!("{table}.force-per-length")),
+            Acts::By { law, .. } => check(!law.is_isotropic(), format!("{table}.law")),
         }
     }
     for (i, spring) in springs.iter().enumerate() {

@@ -312,6 +312,12 @@ fn add_load(load: &Load, table: &str, [forces, couples, lines]: &mut [Vec<Acting
             let at = [load.stations(), vec![range.0, range.1]];
             lines.push(Acting::new(table.to_owned(), load, at, in_space(axes)));
         }
+        Acts::By { range, law, .. } => {
+            let fixed_in_space = (!law.is_isotropic()).then_some("force laws");
+            let load = acting::LineLaw { law: Arc::clone(law), range: *range };
+            let at = || vec![range.0, range.1];
+            lines.push(Acting::new(table.to_owned(), load, [at(), at()], fixed_in_space));
+        }
     }
     Ok(())
 }

@@ -8,7 +8,8 @@ use super::kinds::integrator::INTEGRATOR;
 use super::kinds::motion::MOTION;
 use super::kinds::section::SECTION;
 use super::kinds::{
-    amplitude, beam, blade, body, contact, damping, joint, load, mass, obstacle, rotation, spring, torque,
+    amplitude, beam, blade, body, contact, damping, force_law, joint, load, mass, obstacle, rotation, spring,
+    torque,
 };
 use super::tree::{Line, Raw};
 use super::units::{ACCELERATION, INERTIA, LENGTH, TIME};
@@ -23,6 +24,7 @@ pub(super) static CHOICES: &[&dyn Kinds] = &[
     &load::AXES,
     &amplitude::AMPLITUDE,
     &amplitude::DISTRIBUTION,
+    &force_law::FORCE_LAW,
     &obstacle::OBSTACLE,
     &contact::MOUNT,
     &contact::LAW,

@@ -169,6 +169,14 @@ fn add_load(model: &mut Model, parts: &Placed<'_>, load: &Load, number: usize) -
         }
     };
     let (name, amplitude) = (numbered(&load.name, "load", number), load.amplitude.clone());
+    let elements = |beam: usize, range: (f64, f64)| {
+        let (of, built) = &parts.beams[beam];
+        let node = |station: f64| {
+            let near = |node: &f64| (node - station).abs() <= 1e-9 * of.length;
+            built.nodes().iter().position(near).ok_or_else(Faults::default)
+        };
+        Ok::<_, Faults>(Some(node(range.0)?..node(range.1)?))
+    };
     match &load.acts {
         Acts::At { on, at, force, couple } => {
             let (part, own) = parts.at(*on);
@@ -180,21 +188,19 @@ fn add_load(model: &mut Model, parts: &Placed<'_>, load: &Load, number: usize) -
             model.load(multibody::Load { name, at, force: *force, moment: *couple, axes, amplitude });
         }
         Acts::Along { beam, range, force, distribution } => {
-            let (of, built) = &parts.beams[*beam];
-            let node = |station: f64| {
-                let near = |node: &f64| (node - station).abs() <= 1e-9 * of.length;
-                built.nodes().iter().position(near).ok_or_else(Faults::default)
-            };
-            let elements = Some(node(range.0)?..node(range.1)?);
             model.line_load(multibody::LineLoad {
                 name,
                 beam: *beam,
-                elements,
+                elements: elements(*beam, *range)?,
                 distribution: distribution.clone(),
                 force: *force,
                 axes,
                 amplitude,
             });
+        }
+        Acts::By { beam, range, law } => {
+            let (beam, law, elements) = (*beam, Arc::clone(law), elements(*beam, *range)?);
+            model.line_law(multibody::LineLaw { name, beam, elements, law });
         }
     }
     Ok(())
@@ -294,7 +300,7 @@ impl Named {
         for load in loads {
             match load.acts {
                 Acts::At { on, .. } => all.push(on),
-                Acts::Along { beam, range, .. } => {
+                Acts::Along { beam, range, .. } | Acts::By { beam, range, .. } => {
                     all.extend([range.0, range.1].map(|s| Place::Station { beam, s }));
                 }
             }

@@ -1,6 +1,7 @@
 //! Forces, couples and forces per length.
 
 use super::amplitude::{CHANGE, DISTRIBUTION, amplitude};
+use super::force_law::FORCE_LAW;
 use super::name::{NAME, name};
 use super::vector::{moment, optional_vector, vector};
 use crate::declaration::{Bound::*, Presence as Default, Presence::*, Type, Type::Quantity, key};
@@ -10,7 +11,9 @@ use crate::places::Place;
 use crate::units::{FORCE, FORCE_PER_LENGTH, LENGTH, TORQUE};
 use crate::values::Values;
 use flexion::hub_beam::load::{Amplitude, Axes};
+use flexion::law::ForceLaw;
 use flexion::linalg::Vec3;
+use std::sync::Arc;
 
 /// What the components of a load refer to.
 pub static AXES: Choice<Axes> = Choice {
@@ -83,6 +86,15 @@ pub enum Acts {
         /// Factor of it against the station.
         distribution: Amplitude,
     },
+    /// A force per length by a law along a beam.
+    By {
+        /// Number of the beam.
+        beam: usize,
+        /// First and last station \[m\].
+        range: (f64, f64),
+        /// The law.
+        law: Arc<dyn ForceLaw>,
+    },
 }
 
 /// The tables `[[load]]`.
@@ -119,6 +131,12 @@ pub static LOAD: Table<Load> = Table {
                 Optional,
                 "factor of a force per length against the arc length, 1 if left out",
             ),
+            key(
+                "law",
+                Type::Kind(&FORCE_LAW),
+                Optional,
+                "law by which a force per length follows from the motion, in the place of `force-per-length`",
+            ),
             key("axes", Type::Choice(&AXES), Default::Name("dead"), "what the components refer to"),
             CHANGE,
         ]),
@@ -149,7 +167,7 @@ fn without(v: &Values, keys: &[&str], message: &str, help: &str) -> Made<()> {
 fn at(v: &Values, on: Place) -> Made<Acts> {
     let message = "belongs to a force per length, and this place is a point";
     let help = "name the whole beam, `on = \"beam\"`, or give `force` in N";
-    without(v, &["force-per-length", "from", "to", "distribution"], message, help)?;
+    without(v, &["force-per-length", "from", "to", "distribution", "law"], message, help)?;
     if on == Place::Ground {
         return Err(Fault::new("on", "a load on the ground moves nothing").into());
     }
@@ -178,13 +196,34 @@ fn along(v: &Values, c: &Context<'_>, beam: usize) -> Made<Acts> {
         let message = format!("the load begins at {from} m and ends at {to} m: it has no length");
         return Err(Fault::new("from", message).into());
     }
+    if v.has("law") {
+        let law = by_law(v, c)?;
+        return Ok(Acts::By { beam, range: (from, to), law });
+    }
     let distribution = match v.optional("distribution")? {
         Some(_) => DISTRIBUTION.make(v, "distribution", c)?,
         None => None,
     };
     let Some(force) = optional_vector(v, "force-per-length")? else {
-        let message = "is no load: give `force-per-length`, or name a place for a `force` or a `couple`";
+        let message =
+            "is no load: give `force-per-length` or a `law`, or name a place for a `force` or a `couple`";
         return Err(Fault::new("", message).into());
     };
     Ok(Acts::Along { beam, range: (from, to), force, distribution })
+}
+
+/// The law of a load, which needs no more than the motion of the beam.
+fn by_law(v: &Values, c: &Context<'_>) -> Made<Arc<dyn ForceLaw>> {
+    let message = "is of a force per length that is given, and `law` says what this one is";
+    without(v, &["force-per-length", "distribution"], message, "leave it out, or write a second [[load]]")?;
+    for (key, other) in
+        [("axes", v.text("axes")? != "dead"), ("amplitude", v.kind("amplitude") != Some("constant"))]
+    {
+        if other {
+            let message =
+                "is of a force that is given, and the force of a `law` follows from the motion alone";
+            return Err(Fault::new(key, message).help("leave it out").into());
+        }
+    }
+    FORCE_LAW.make(v, "law", c)
 }

@@ -9,6 +9,7 @@ pub mod centreline;
 pub mod contact;
 pub mod coupling;
 pub mod damping;
+pub mod force_law;
 pub mod initial;
 pub mod integrator;
 pub mod joint;
