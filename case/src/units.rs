@@ -56,6 +56,7 @@ measures! {
     FORCE "force" "N" [1, 1, -2, 0] "`10 N`, `2 kN`, `5 lbf`";
     FORCE_PER_LENGTH "force per length" "N/m" [0, 1, -2, 0] "`10 N/m`, `2 kN/m`";
     DAMPING "force per velocity" "N*s/m" [0, 1, -1, 0] "`5 N*s/m`";
+    QUADRATIC_DRAG "force per length and square of velocity" "kg/m^2" [-2, 1, 0, 0] "`0.6 kg/m^2`";
     VISCOSITY "force per length and velocity" "N*s/m^2" [-1, 1, -1, 0] "`0.5 N*s/m^2`, `2 mPa*s`";
     ACCELERATION "acceleration" "m/s^2" [1, 0, -2, 0] "`9.81 m/s^2`";
     RATE "rate" "1/s" [0, 0, -1, 0] "`0.2 1/s`";
