@@ -62,6 +62,21 @@ impl Reading {
         resolved::resolved(&self.values, Some(&files))
     }
 
+    /// The long spelling of a system in space: what is written, in SI, without defaults. A short case is turned into it as it is computed.
+    ///
+    /// # Errors
+    /// At the coupling of a case in the plane, which has no other spelling.
+    pub fn long(&self) -> Result<String, Problems> {
+        if layout::is_spatial(self.values.keys) {
+            return Ok(resolved::resolved(&self.values.written(), None));
+        }
+        let message =
+            "is a model of one beam on a hub in the plane, and the long spelling is of systems in space";
+        let fault = Fault::new("model.coupling", message);
+        Err(self
+            .problems(fault.help("write `model.coupling = \"space\"` to compute the case in space").into()))
+    }
+
     /// The files that the case names: dotted path of the table and bytes.
     pub(super) fn tables(&self) -> Vec<(String, &[u8])> {
         let mut found = Vec::new();

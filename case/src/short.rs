@@ -183,6 +183,7 @@ pub(super) fn long(lines: &[Line], v: &Values, files: &Files<'_>) -> Made<Long> 
         ["title", "gravity", "spring", "mass", "load", "contact", "rotation", "initial", "integrator", "run"];
     let kept = |line: &&Line| kept.contains(&line.key.as_str());
     let mut kept: Vec<Line> = lines.iter().filter(kept).cloned().collect();
+    kept.iter_mut().filter(|line| line.key == "contact").for_each(orient);
     if start.rests {
         kept.iter_mut().for_each(|line| fix(line, v));
     }
@@ -280,6 +281,29 @@ pub(super) fn long(lines: &[Line], v: &Values, files: &Files<'_>) -> Made<Long> 
     let caution = "an obstacle of the hub, which is at rest, stands on the ground in space: `hub.torque` is without what pushes against it";
     let cautions = on_hub.then(|| caution.to_owned()).into_iter().collect();
     Ok(Long { lines: long.lines, renamed, cautions })
+}
+
+/// Writes the directions of obstacles that are left out, which are those of the plane of motion.
+fn orient(contacts: &mut Line) {
+    let Raw::List(tables) = &mut contacts.node.value else { return };
+    for table in tables {
+        let Raw::Table(lines) = &mut table.value else { continue };
+        let Some(Line { place, node: Node { value: Raw::Table(lines), .. }, .. }) =
+            lines.iter_mut().find(|line| line.key == "obstacle")
+        else {
+            continue;
+        };
+        let has = |key: &str| lines.iter().any(|line| line.key == key);
+        let of = |kind: &str| {
+            written(lines, "kind").is_some_and(|node| matches!(&node.value, Raw::Text(text) if text == kind))
+        };
+        let direction = Lines::at(place);
+        if of("plane") && !has("normal") && !has("angle") {
+            lines.extend(direction.vector("normal", [0.0, 1.0, 0.0]).lines);
+        } else if of("cylinder") && !has("axis") {
+            lines.extend(direction.vector("axis", [0.0, 0.0, 1.0]).lines);
+        }
+    }
 }
 
 /// Fixes to the ground what loads and contacts fix to a hub at rest: its axes are those of the ground.

@@ -259,6 +259,14 @@ fn points_of(contact: &Contact, parts: &Parts, beams: &[Beam], joints: &[Joint])
         let message = "a system in space has obstacles that are fixed to the ground, or moved";
         return Err(Fault::new(if contact.obstacle.stop { "obstacle" } else { "mount" }, message).into());
     }
+    if let Some(key) = contact.obstacle.assumed {
+        let message = "is left out, and a system in space has no plane of motion to take it from";
+        let help = match key {
+            "axis" => "write for example `axis = [0, 0, 1]`",
+            _ => "write for example `normal = [0, 0, 1]`, up, for a floor",
+        };
+        return Err(Fault::new(format!("obstacle.{key}"), message).help(help).into());
+    }
     let bulges = |surface: Surface| surface.curvatures.iter().any(|k| *k > 0.0);
     let held = match contact.on {
         Touching::Beam(_) if !bulges(contact.obstacle.obstacle.surface(Vec3::ZERO, 0.0)) => {

@@ -75,6 +75,20 @@ impl Values {
         self.get(name).is_some()
     }
 
+    /// The same without defaults.
+    pub(super) fn written(&self) -> Values {
+        let written = |filled: &Filled| {
+            let value = match &filled.value {
+                Value::Table(values) => Value::Table(values.written()),
+                Value::Tables(list) => Value::Tables(list.iter().map(Values::written).collect()),
+                Value::Kind(kind, values) => Value::Kind(*kind, values.written()),
+                value => value.clone(),
+            };
+            filled.place.is_some().then(|| Filled { value, ..filled.clone() })
+        };
+        Values { entries: self.entries.iter().filter_map(written).collect(), ..self.clone() }
+    }
+
     /// Whether a key is written, and not a default or an empty list.
     pub(super) fn is_written(&self, name: &str) -> bool {
         self.get(name).is_some_and(|filled| {

@@ -68,6 +68,7 @@ output = { step = 0.01 }
 [[beam]]
 length = 1
 damping = { stiffness = 1e-3 }
+up = [0, 0, 1]
 root = 'clamped'
 elements = 4
 section = { kind = 'rectangle', modulus = 1e10, density = 940, width = 0.1, height = 0.0106265857 }

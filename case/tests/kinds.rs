@@ -187,7 +187,7 @@ fn every_kind_makes_a_model_of_its_own() {
 /// The same of a system in space.
 const WRITTEN_IN_SPACE: &[&str] = &[
     "joint=[{kind='prismatic', between=['ground', 'bar'], travel={kind='table', file='tables/measured.csv', of='speed'}}]",
-    "beam=[{length=2, root='clamped', elements=2, section={kind='rectangle', modulus=7e10, density=2700, width=0.01, height=0.02}}]\nfibre=[{name='top', on='root', y=0.01}]",
+    "beam=[{length=2, up=[0, 0, 1], root='clamped', elements=2, section={kind='rectangle', modulus=7e10, density=2700, width=0.01, height=0.02}}]\nfibre=[{name='top', on='root', y=0.01}]",
     "output={vtk=true, vtk-step='10 ms'}",
 ];
 

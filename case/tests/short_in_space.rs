@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
 
-use crate::verification::run::{Run, all, case, integrate};
+use crate::verification::run::{Run, all, case, integrate, root};
 use crate::written::reading;
 use flexion::system::Role;
 use flexion_case::{Effort, Problems, Reading, parse};
@@ -113,11 +113,32 @@ fn both_spellings_give_the_same_bytes() {
     let short = run(&reading(SHORT, &[]));
     assert!(short.failure.is_none() && short.steps > 10);
     let resolved = reading(SHORT, &[]).resolved();
-    for (spelling, text) in [("resolved", resolved.as_str()), ("long", LONG)] {
+    let turned = reading(SHORT, &[]).long().unwrap();
+    for (spelling, text) in [("resolved", resolved.as_str()), ("turned", turned.as_str()), ("long", LONG)] {
         let other = run(&reading(text, &[]));
         assert_eq!(short.trajectory.channels(), other.trajectory.channels(), "{spelling}");
         assert_eq!(short.fingerprint(), other.fingerprint(), "{spelling}:\n{resolved}");
     }
+}
+
+/// What `flexion check --long` prints of each planar case that runs in space is read as the same case, value for value.
+#[test]
+fn the_long_spelling_of_a_short_case_is_the_same_case() {
+    let mut turned = 0;
+    for name in all().into_iter().map(|variant| variant.name) {
+        let planar = case(&name, &[]).unwrap();
+        if planar.case.hub_beam().is_none() {
+            continue;
+        }
+        assert!(planar.long().unwrap_err().to_string().contains("in the plane"), "{name}");
+        let Ok(space) = case(&name, &["model.coupling=space"]) else { continue };
+        let folder = root().join(name.split('/').next().unwrap());
+        let (long, file) = (space.long().unwrap(), folder.join("case.toml"));
+        let again = parse(long.clone(), &file, &[]).unwrap_or_else(|e| panic!("{name}: {e}\n{long}"));
+        assert_eq!(again.resolved(), space.resolved(), "{name}:\n{long}");
+        turned += 1;
+    }
+    assert!(turned >= 65, "{turned}");
 }
 
 /// Columns that tell of the integration or are differences of large numbers.
@@ -393,6 +414,41 @@ fn hostile_cases_are_refused_at_their_place() {
         (LONG, &["beam.name=ground"], &["beam[1].name", "meaning of its own"]),
         (LONG, &["beam.name=a.b"], &["beam[1].name", "cannot begin"]),
         (LONG, &["hub.radius=1"], &["hub", "unknown key"]),
+        (
+            LONG,
+            &["contact=[{on='tip', obstacle={kind='plane'}, law={kind='hertz', stiffness=1e4}}]"],
+            &["contact[1].obstacle.normal", "left out", "[0, 0, 1]"],
+        ),
+        (
+            LONG,
+            &[
+                "contact=[{on='tip', obstacle={kind='cylinder', radius=1}, law={kind='hertz', stiffness=1e4}}]",
+            ],
+            &["contact[1].obstacle.axis", "left out"],
+        ),
+        (
+            LONG,
+            &[
+                "beam.section={kind='rectangle', modulus=1e9, density=1e3, width=0.01, height=0.02}",
+                "beam.up=[]",
+            ],
+            &["beam[1].up", "left out", "stiffer"],
+        ),
+        (
+            SHORT,
+            &["load=[{on='tip', law={kind='linear-drag', coefficient=1}}]"],
+            &["load[1].law", "is a point"],
+        ),
+        (
+            SHORT,
+            &["load=[{on='beam', law={kind='linear-drag', coefficient=1}, axes='follower'}]"],
+            &["load[1].axes", "the motion alone"],
+        ),
+        (
+            SHORT,
+            &["load=[{on='beam', force-per-length=[0, 1], law={kind='linear-drag', coefficient=1}}]"],
+            &["load[1].force-per-length", "leave it out"],
+        ),
     ] {
         let message = refused(text, set);
         for word in words {

@@ -73,7 +73,7 @@ fn five_lines_make_a_cantilever_under_its_weight() {
         );
         last(&run(&text), "beam.tip.displacement.z")
     };
-    for (up, height, width) in [("[]", 0.04_f64, 0.02), ("[0, 1, 0]", 0.02, 0.04)] {
+    for (up, height, width) in [("[0, 0, 1]", 0.04_f64, 0.02), ("[0, 1, 0]", 0.02, 0.04)] {
         let stiffness = 70e9 * width * height.powi(3) / 12.0;
         let sag = -2700.0 * width * height * 9.81 / (8.0 * stiffness);
         assert!((case(up) / sag - 1.0).abs() < 1e-5, "{up}: {} for {sag}", case(up));
@@ -372,7 +372,10 @@ fn a_beam_is_struck_anywhere_by_what_bulges_alone() {
     let last = |column: &str| last(&run, column);
     assert!((last("stop.gap") - 0.04).abs() < 1e-6 && (last("stop.station") - 1.3).abs() < 1e-6);
     for (contact, word) in [
-        ("obstacle = { kind = \"plane\", point = [0, 0, -1] }", "let the beam touch by points"),
+        (
+            "obstacle = { kind = \"plane\", point = [0, 0, -1], normal = [0, 0, 1] }",
+            "let the beam touch by points",
+        ),
         ("obstacle = { kind = \"sphere\", radius = 5, inside = true }", "let the beam touch by points"),
         (
             "at = [1, 0, 0]\nobstacle = { kind = \"sphere\", centre = [0, 0, 1], radius = 0.5 }",

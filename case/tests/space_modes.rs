@@ -15,7 +15,7 @@ fn read(text: &str) -> Reading {
 /// A beam 1 m from the axis, with what else is said of it and of the case.
 fn beam(of_beam: &str, more: &str) -> String {
     format!(
-        "run = {{ duration = 0 }}\n[[beam]]\nlength = 1\nstart = [1, 0, 0]\nelements = 16\npolar-inertia = 1e-9\n{of_beam}\n\
+        "run = {{ duration = 0 }}\n[[beam]]\nlength = 1\nstart = [1, 0, 0]\nup = [0, 0, 1]\nelements = 16\npolar-inertia = 1e-9\n{of_beam}\n\
          section = {{ kind = \"general\", mass-per-length = 1, axial-stiffness = 1e6, torsional-stiffness = 1, \
          bending-stiffness = 1, bending-stiffness-across = 9 }}\n{more}"
     )
@@ -162,7 +162,7 @@ fn rounding_is_no_negative_damping() {
 /// A slender shaft on two bearings, with ρA = L = 1 and the bending stiffnesses 1 and `across`.
 fn shaft(across: f64, left: &str) -> Reading {
     read(&format!(
-        "[rotation]\naxis = [1, 0, 0]\n[[beam]]\nname = \"shaft\"\nlength = 1\nelements = 16\npolar-inertia = 1e-9\n\
+        "[rotation]\naxis = [1, 0, 0]\n[[beam]]\nname = \"shaft\"\nlength = 1\nup = [0, 0, 1]\nelements = 16\npolar-inertia = 1e-9\n\
          section = {{ kind = \"general\", mass-per-length = 1, axial-stiffness = 1e6, torsional-stiffness = 1, \
          bending-stiffness = 1, bending-stiffness-across = {across} }}\n\
          [[joint]]\nbetween = [\"ground\", \"shaft.root\"]\n{left}\n\

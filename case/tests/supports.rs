@@ -53,7 +53,7 @@ fn a_cantilever_rests_on_its_supports() {
     let end = format!("{gravity}contact=[{{{plane},law={{kind='massless'}}}}]\n");
     near(last(&end, "contact.force"), 0.375 * WEIGHT, 2e-3);
     let space = format!(
-        "run = {{ duration = 0 }}\ngravity = [0, 0, -9.81]\n[[beam]]\nlength = 1\nroot = 'clamped'\nelements = 4\n\
+        "run = {{ duration = 0 }}\ngravity = [0, 0, -9.81]\n[[beam]]\nlength = 1\nup = [0, 0, 1]\nroot = 'clamped'\nelements = 4\n\
          section = {{ kind = 'rectangle', modulus = 70e9, density = 2700, width = 0.02, height = 0.01 }}\n\
          [[contact]]\non = 'beam@0.5 m'\nobstacle = {{ kind = 'plane', normal = [0, 0, 1] }}\n{}\n",
         RIGID.replace('=', " = ")

@@ -88,7 +88,8 @@ fn sections_of_beams_in_space_have_the_sizes_of_their_cases() {
     let general = r#"section={kind="general", mass-per-length=1, axial-stiffness=12, torsional-stiffness=1, bending-stiffness=0.09, bending-stiffness-across=0.04, rotary-inertia=1}"#;
     let outline = "outline={y=[-0.1, 0, 0.1], z=[0, 0.2, 0]}";
     let beams = [shape.to_owned(), format!("{shape}, {outline}"), general.to_owned()];
-    let beams = (1..).zip(&beams).map(|(i, keys)| format!("{{name='beam{i}', length=2, {keys}}}"));
+    let beams =
+        (1..).zip(&beams).map(|(i, keys)| format!("{{name='beam{i}', length=2, up=[0, 0, 1], {keys}}}"));
     let text = format!("beam=[{}]\nrun.duration=1\n", beams.collect::<Vec<_>>().join(", "));
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("case.toml"), text).unwrap();

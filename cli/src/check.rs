@@ -19,7 +19,7 @@ const MASS_POINTS: usize = 4;
 /// The case to check.
 #[derive(clap::Args)]
 #[command(
-    after_help = "Examples:\n  flexion check verification/p1_spin_up_4\n  flexion check case.toml --set basis.elements=40\n  flexion check arm.toml --draw arm.svg"
+    after_help = "Examples:\n  flexion check verification/p1_spin_up_4\n  flexion check case.toml --set basis.elements=40\n  flexion check arm.toml --draw arm.svg\n  flexion check verification/p1_spin_up_4 --set model.coupling=space --long > long.toml"
 )]
 pub struct Arguments {
     #[command(flatten)]
@@ -27,12 +27,16 @@ pub struct Arguments {
     /// Draw a system in space in three views with the names of its parts, .svg or .png
     #[arg(long, value_name = "FILE")]
     draw: Option<PathBuf>,
+    /// Print nothing but the case in the long spelling of a system in space, which gives the same bytes
+    #[arg(long, conflicts_with = "draw")]
+    long: bool,
 }
 
 /// Validates a case and describes it.
 pub fn check(arguments: &Arguments) -> Outcome {
     let Some(reading) = arguments.case.read() else { return Outcome::Rejected };
-    match describe(&reading) {
+    let text = if arguments.long { reading.long() } else { describe(&reading) };
+    match text {
         Ok(text) => {
             screen::print(&text);
             match arguments.draw.as_ref().map_or(Ok(()), |file| assembly::draw(&reading, file)) {

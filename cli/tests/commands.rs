@@ -529,3 +529,23 @@ fn completions_and_manual_pages_name_every_command() {
         assert!(help.contains("Example"), "{command} --help has an example");
     }
 }
+
+#[test]
+fn the_long_spelling_of_a_case_gives_the_bytes_of_the_short_one() {
+    let folder = folder();
+    let space = ["--set", "model.coupling=space", "--set", "run.duration=0.1"];
+    let long = flexion(folder.path(), &[&["check", "spin-up", "--long"][..], &space].concat());
+    assert_eq!(long.status.code(), Some(0), "{}", text(&long.stderr));
+    std::fs::write(folder.path().join("long.toml"), &long.stdout).unwrap();
+    for run in
+        [&[&["run", "spin-up", "-o", "short"][..], &space].concat()[..], &["run", "long.toml", "-o", "long"]]
+    {
+        let output = flexion(folder.path(), run);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    }
+    let trajectory = |of: &str| std::fs::read(folder.path().join(of).join("trajectory.csv")).unwrap();
+    assert!(trajectory("short") == trajectory("long"), "{}", text(&long.stdout));
+    let planar = flexion(folder.path(), &["check", "spin-up", "--long"]);
+    assert_eq!(planar.status.code(), Some(1));
+    assert!(text(&planar.stderr).contains("model.coupling = \"space\""), "{}", text(&planar.stderr));
+}

@@ -16,6 +16,7 @@ inertia = { kind = "sphere", radius = 0.1 }
 name = "blade"
 length = 2
 elements = 4
+up = [0, 0, 1]
 section = { kind = "rectangle", modulus = "70 GPa", density = 2700, width = "4 cm", height = "1 cm" }
 [[joint]]
 name = "shaft"
@@ -123,7 +124,7 @@ fn a_buckled_column_has_the_modes_of_the_equilibrium_in_which_its_run_begins() {
     let folder = folder();
     let column = |initial: &str| {
         format!(
-            "run = {{ duration = 0 }}\n{initial}\n[[beam]]\nlength = 1\nroot = \"clamped\"\nelements = 8\n\
+            "run = {{ duration = 0 }}\n{initial}\n[[beam]]\nlength = 1\nup = [0, 0, 1]\nroot = \"clamped\"\nelements = 8\n\
              section = {{ kind = \"general\", mass-per-length = 1, axial-stiffness = 1e6, torsional-stiffness = 1, bending-stiffness = 1, \
              bending-stiffness-across = 2, rotary-inertia = 1e-5, rotary-inertia-across = 1e-5 }}\n\
              [[load]]\non = \"beam.tip\"\nforce = [-3, 0, 0.001]\n"

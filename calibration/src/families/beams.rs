@@ -96,7 +96,7 @@ pub(super) fn thin_segment_in_space(random: &mut Random) -> Posed {
     let elements = random.count(2..12);
     add!(
         case,
-        "initial = {{ kind = 'static' }}\nrun = {{ duration = 0 }}\n[[beam]]\nname = 'b'\nlength = {}\nroot = 'clamped'",
+        "initial = {{ kind = 'static' }}\nrun = {{ duration = 0 }}\n[[beam]]\nname = 'b'\nlength = {}\nup = [0, 0, 1]\nroot = 'clamped'",
         beam.length
     );
     add!(case, "elements = {elements}\nsection = {{ kind = 'blade', file = 'section.csv' }}");

@@ -352,7 +352,7 @@ pub static BEAMS: Table<Beam> = Table {
                 "up",
                 Type::Quantities(&FACTOR, Any),
                 Empty,
-                "direction of the height of the section, as far as the beam's allows; [0, 0, 1] if left out, for an upright beam [1, 0, 0]",
+                "direction of the height of the section, as far as the beam's allows; of a section as stiff along all axes [0, 0, 1] if left out, for an upright beam [1, 0, 0]",
             ),
             key("curve", Type::Kind(&CURVE), Default::Name("straight"), "centreline without stress"),
             key(
@@ -425,7 +425,7 @@ pub static BEAMS: Table<Beam> = Table {
         Empty,
         "slender beams",
     ),
-    example: "beam=[{name='arm', length=1, start=[0, 0, 1], direction=[1, 1, 0], twist='20 deg', root='clamped', elements=4, polar-inertia=1e-3, \
+    example: "beam=[{name='arm', length=1, start=[0, 0, 1], direction=[1, 1, 0], up=[0, 0, 1], twist='20 deg', root='clamped', elements=4, polar-inertia=1e-3, \
               section={kind='rectangle', modulus='70 GPa', density=2700, width='2 cm', height='1 cm', rotary-inertia=true}, \
               damping={mass=0.1, stiffness='1 ms'}, outline={y=['-5 mm', '5 mm', 0], z=[0, 0, '2 cm']}}]",
     make,
@@ -485,6 +485,15 @@ fn make(v: &Values, c: &Context<'_>) -> Made<Beam> {
     if up.is_some_and(|up| up.cross(tangent).dot(up.cross(tangent)) <= 1e-12 * up.dot(up)) {
         let message = "is along the beam: the height of a section lies across";
         return Err(Fault::new("up", message).into());
+    }
+    let differ = |s: f64| {
+        let r = blade.resultants(s);
+        (r.flap_stiffness - r.chord_stiffness).abs() > 1e-9 * r.flap_stiffness.max(r.chord_stiffness)
+    };
+    if up.is_none() && [0.0, length].into_iter().any(differ) {
+        let message = "is left out, and the section is stiffer along one of its axes than along the other";
+        let help = "write the direction of its height, for example `up = [0, 0, 1]`";
+        return Err(Fault::new("up", message).help(help).into());
     }
     let (start, twist) = (starts.unwrap_or_default(), v.number("twist")?);
     let bent: Curve = match bent {

@@ -21,6 +21,8 @@ pub struct Placed {
     pub planar: bool,
     /// Whether it is a stop beside the beam, which the hub carries.
     pub stop: bool,
+    /// The key of a direction that is left out, and then taken as in the plane of x and y.
+    pub assumed: Option<&'static str>,
 }
 
 /// The motion of an obstacle; `None` for one at rest.
@@ -66,9 +68,14 @@ const MOTION: Key = key(
 );
 
 /// An obstacle that is fixed where its mount is said.
-fn placed(obstacle: Arc<dyn Obstacle>, motion: &Option<Translation>, planar: bool) -> Placed {
+fn placed(
+    obstacle: Arc<dyn Obstacle>,
+    motion: &Option<Translation>,
+    planar: bool,
+    assumed: Option<&'static str>,
+) -> Placed {
     let stays = motion.as_ref().is_none_or(|motion| motion.direction[2] == 0.0);
-    Placed { obstacle, planar: planar && stays, stop: false }
+    Placed { obstacle, planar: planar && stays, stop: false, assumed }
 }
 
 const CENTRE: &str = "centre";
@@ -94,7 +101,7 @@ pub static OBSTACLE: Choice<Placed> = Choice {
                     "normal",
                     Type::Quantities(&FACTOR, Any),
                     Empty,
-                    "direction out of the obstacle, [0, 1, 0] if left out",
+                    "direction out of the obstacle; [0, 1, 0] if left out for a beam on a hub",
                 ),
                 key(
                     "angle",
@@ -116,7 +123,8 @@ pub static OBSTACLE: Choice<Placed> = Choice {
                     (None, angle) => Plane::inclined(point, angle.unwrap_or(0.0), motion.clone()),
                 };
                 let planar = plane.normal[2] == 0.0;
-                Ok(placed(Arc::new(plane), &motion, planar))
+                let assumed = !(v.is_written("normal") || v.has("angle"));
+                Ok(placed(Arc::new(plane), &motion, planar, assumed.then_some("normal")))
             },
         },
         Kind {
@@ -134,7 +142,7 @@ pub static OBSTACLE: Choice<Placed> = Choice {
                     "axis",
                     Type::Quantities(&FACTOR, Any),
                     Empty,
-                    "direction of its axis, [0, 0, 1] if left out",
+                    "direction of its axis; [0, 0, 1] if left out for a beam on a hub",
                 ),
                 key("radius", Quantity(&LENGTH, Positive), Required, "radius"),
                 key("inside", Type::Boolean, Default::Boolean(false), "the point is inside, in a hole"),
@@ -143,10 +151,11 @@ pub static OBSTACLE: Choice<Placed> = Choice {
             example: "contact=[{obstacle={kind='cylinder', centre=[2, '501 mm'], radius='500 mm'}, law={kind='hertz', stiffness=1e5}}]",
             make: |v, c| {
                 let ((centre, axis), motion) = both(both(vector(v, CENTRE), unit(v, "axis")), motion(v, c))?;
+                let assumed = axis.is_none().then_some("axis");
                 let axis = axis.unwrap_or(Vec3([0.0, 0.0, 1.0]));
                 let (radius, hollow) = (v.number("radius")?, v.boolean("inside")?);
                 let cylinder = Circle { centre, axis, radius, hollow, motion: motion.clone() };
-                Ok(placed(Arc::new(cylinder), &motion, axis[0] == 0.0 && axis[1] == 0.0))
+                Ok(placed(Arc::new(cylinder), &motion, axis[0] == 0.0 && axis[1] == 0.0, assumed))
             },
         },
         Kind {
@@ -164,7 +173,7 @@ pub static OBSTACLE: Choice<Placed> = Choice {
                 let (centre, motion) = both(vector(v, CENTRE), motion(v, c))?;
                 let (radius, hollow) = (v.number("radius")?, v.boolean("inside")?);
                 let sphere = Sphere { centre, radius, hollow, motion: motion.clone() };
-                Ok(placed(Arc::new(sphere), &motion, centre[2] == 0.0))
+                Ok(placed(Arc::new(sphere), &motion, centre[2] == 0.0, None))
             },
         },
         Kind {
@@ -191,7 +200,7 @@ pub static OBSTACLE: Choice<Placed> = Choice {
                     normal: Vec3([0.0, -offset.signum(), 0.0]),
                     motion: None,
                 };
-                Ok(Placed { obstacle: Arc::new(plane), planar: true, stop: true })
+                Ok(Placed { obstacle: Arc::new(plane), planar: true, stop: true, assumed: None })
             },
         },
     ],

@@ -188,6 +188,7 @@ position = ["1 m", 0, 0]
 [[beam]]
 name = "arm"
 length = "1 m"
+up = [0, 0, 1]
 section = { kind = "rectangle", modulus = "70 GPa", density = "2700 kg/m^3", width = "20 mm", height = "5 mm" }
 elements = 8
 [[joint]]
