@@ -81,7 +81,7 @@ fn run(law: &str, basis: &str, sample: f64) -> (Watch, usize, String) {
     let reading: Reading = read(&path, &set).unwrap();
     let mut live = reading.build().unwrap();
     let (mut state, mut watch) = (live.system.initial(), Watch::default());
-    let plan = Plan { end: 1.0, step: None, longest_step: None, contact_step: None, sample };
+    let plan = Plan { end: 1.0, step: None, longest_step: None, break_steps: 1, contact_step: None, sample };
     let ending = transient(live.system.as_mut(), live.integrator.as_mut(), &mut state, &plan, &mut watch);
     let why = if let Ending::Failed(error) = ending { error.to_string() } else { String::new() };
     (watch, live.system.size().v, why)

@@ -73,6 +73,7 @@ fn run((modes, law, mut method, steps): Run) -> History {
         step: Some(steps.0),
         contact_step: Some(steps.1),
         longest_step: None,
+        break_steps: 1,
         sample: SAMPLE,
     };
     let mut history = History::default();

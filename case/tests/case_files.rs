@@ -46,6 +46,7 @@ fn a_case_is_read_in_si_with_defaults() {
         first: None,
         longest: None,
         contact: None,
+        breaks: 1,
     };
     assert_eq!(case.steps, tolerances);
     assert_eq!((case.duration, case.output.step), (20.0, 0.02));

@@ -339,7 +339,14 @@ fn of_a_run(n: usize) -> [usize; 2] {
     let mut most = Most(held, 0);
     let method = GeneralizedAlpha::chung_hulbert(0.8).unwrap();
     let mut state = system.initial();
-    let plan = Plan { end: 4e-3, step: Some(1e-3), longest_step: None, contact_step: None, sample: 1e-3 };
+    let plan = Plan {
+        end: 4e-3,
+        step: Some(1e-3),
+        longest_step: None,
+        break_steps: 1,
+        contact_step: None,
+        sample: 1e-3,
+    };
     assert_eq!(transient(&mut system, &method, &mut state, &plan, &mut most), Ending::Finished);
     [built, most.1 - before]
 }

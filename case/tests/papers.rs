@@ -238,6 +238,7 @@ fn integrate_system(reading: &Reading, system: &mut dyn System, integrator: &dyn
         end: case.duration,
         step: case.steps.step(),
         longest_step: None,
+        break_steps: 1,
         contact_step: None,
         sample: case.output.step,
     };

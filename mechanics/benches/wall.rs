@@ -67,7 +67,8 @@ fn runs(c: &mut Criterion) {
         let mut system = spin_up::system(coupling, 10);
         let integrator = spin_up::integrator(name);
         let step = (name == "newmark").then_some(spin_up::STEP);
-        let plan = Plan { end: 20.0, step, longest_step: None, contact_step: None, sample: 0.01 };
+        let plan =
+            Plan { end: 20.0, step, longest_step: None, break_steps: 1, contact_step: None, sample: 0.01 };
         group.bench_function(format!("{coupling}, {name}"), |b| {
             b.iter(|| {
                 let mut state = State::zeros(system.size(), 0.0);

@@ -148,7 +148,7 @@ fn clock() -> f64 {
 fn plan(end: f64, steps: Option<(f64, f64)>, adaptive: bool) -> Plan {
     let (step, contact_step) = (steps.map(|s| s.0), steps.map(|s| s.1));
     let (step, longest_step) = if adaptive { (None, step) } else { (step, None) };
-    Plan { end, step, contact_step, longest_step, sample: 0.005 }
+    Plan { end, step, contact_step, longest_step, break_steps: 1, sample: 0.005 }
 }
 
 fn is_adaptive(method: &dyn Integrator) -> bool {

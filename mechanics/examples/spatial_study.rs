@@ -65,7 +65,7 @@ fn run(
 ) -> Run {
     let mut state = system.initial();
     let mut watch = Watch::new(names);
-    let plan = Plan { end, step, longest_step: None, contact_step: None, sample };
+    let plan = Plan { end, step, longest_step: None, break_steps: 1, contact_step: None, sample };
     let start = Instant::now();
     let (ending, checkpoint) = transient_to_checkpoint(system, method, &mut state, &plan, &mut watch);
     let (seconds, counters) = (start.elapsed().as_secs_f64(), checkpoint.counters().unwrap());

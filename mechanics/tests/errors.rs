@@ -8,9 +8,12 @@ use flexion::analysis::error::{
 use flexion::exact::pendulum::rod_angle;
 use flexion::integrator::InvalidParameter;
 use flexion::linalg::Vec3;
-use flexion::multibody::{Body, Kind, Model, Multibody, Part};
+use flexion::multibody::{Axes, Body, Kind, Load, Marker, Model, Multibody, Part};
 use flexion::prelude::*;
+use flexion::profile::Expression;
+use std::f64::consts::PI;
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 const GRAVITY: f64 = 9.81;
 const HEIGHT: &str = "rod.position.z";
@@ -71,12 +74,74 @@ impl Refinable for Spinning {
     }
 }
 
+/// A free body of 170 g that a force strikes for some tenths of a millisecond, in a run of a second.
+struct Struck {
+    force: &'static str,
+    tolerance: f64,
+}
+
+impl Refinable for Struck {
+    type Run = Record;
+    type Fault = InvalidParameter;
+
+    fn variant(&self) -> Variant {
+        let tolerance = Tolerance { relative: self.tolerance, absolute: 1e-8 };
+        Variant::new(Plan::new(1.0, 5e-3)).with_tolerance(tolerance)
+    }
+
+    fn run(&self, variant: &Variant, watch: &mut Watch<'_>) -> Result<Record, InvalidParameter> {
+        let mut model = Model::new();
+        let body = model.body(Body::new("ball", 0.17, [1e-3; 3]));
+        model.load(Load {
+            name: "blow".to_owned(),
+            at: Marker::new(body, [0.0; 3]),
+            force: Vec3([1.1, 0.0, 0.0]),
+            moment: Vec3::ZERO,
+            axes: Axes::Dead,
+            amplitude: Some(Arc::new(Expression::new(self.force, "t", 1.0).unwrap())),
+        });
+        variant.record(&mut Multibody::new(model).unwrap(), watch)
+    }
+
+    fn has_mesh(&self) -> bool {
+        false
+    }
+}
+
 fn errors<P: Refinable<Run = Record, Fault = InvalidParameter>>(
     problem: &P,
 ) -> (Record, Estimate<InvalidParameter>) {
     let run = problem.run(&problem.variant(), &mut on).unwrap();
     let errors = estimate(problem, &problem.variant(), &run, Effort::Full, &mut on).unwrap();
     (run, errors)
+}
+
+/// A Gauss pulse, which names its own times of resolution, and half a wave between two breaks, which three points see to a thousandth: the
+/// steps of every tolerance end at these times.
+#[test]
+fn the_error_of_a_short_blow_covers_its_error_and_is_of_its_size() {
+    const SPEED: &str = "ball.velocity.x";
+    let gauss = ("exp(-((t - 0.61)/1.4e-4)^2)", 1.4e-4 * PI.sqrt());
+    let half_wave = ("if(t < 0.5, 0, if(t < 0.5003, sin(pi*(t - 0.5)/3e-4), 0))", 3e-4 * 2.0 / PI);
+    for (force, integral) in [gauss, half_wave] {
+        let speed = 1.1 * integral / 0.17;
+        for tolerance in [1e-4, 1e-6, 1e-8] {
+            let struck = Struck { force, tolerance };
+            let (run, errors) = errors(&struck);
+            let off = (run.column(SPEED).unwrap().last().unwrap() - speed).abs();
+            let stated = errors.of(SPEED).unwrap().last;
+            let shown = format!("{force} {tolerance:e}: off by {off:e} of {speed:e}, stated {stated:e}");
+            assert!(off <= stated && stated < 4.0 * off, "{shown}");
+        }
+        let goals = |_: &Trajectory| -> Result<Vec<Goal>, InvalidParameter> {
+            Ok(vec![Goal { column: SPEED.to_owned(), part: Of::Final, bound: 1e-8 * speed }])
+        };
+        let struck = Struck { force, tolerance: 1e-6 };
+        let found = refine(&struck, &goals, &mut on, &mut |_| {}).unwrap();
+        let off = (found.run.column(SPEED).unwrap().last().unwrap() - speed).abs();
+        assert_eq!(found.ended, Ended::Reached);
+        assert!(off <= 1e-8 * speed, "{force}: {off:e} of {speed:e}");
+    }
 }
 
 #[test]

@@ -100,10 +100,6 @@ const FAMILIES: &[Family] = &[
 /// Number of the families.
 pub const COUNT: u64 = FAMILIES.len() as u64;
 
-/// Families that find a defect which is not mended. Steps that end where a force changes fast are of the same length in a run and in its
-/// finer companion, and no error is then stated of what both miss: a tenth of a percent of the momentum of a short blow.
-pub const KNOWN: [&str; 1] = ["a short blow"];
-
 /// The case of a number, in a sequence that a seed begins, with the name of its family: the families follow one another.
 pub fn pose(seed: u64, number: u64) -> Posed {
     let random = &mut Random::new(seed.wrapping_mul(1_000_003).wrapping_add(number));

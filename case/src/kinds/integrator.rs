@@ -40,6 +40,8 @@ pub enum Steps {
         longest: Option<f64>,
         /// Largest step while a contact is closed or comes near \[s\].
         contact: Option<f64>,
+        /// Least number of steps between two neighbouring breaks.
+        breaks: u32,
     },
 }
 
@@ -93,9 +95,10 @@ fn radau(v: &Values) -> Made<Method> {
     let integrator = Radau::new(Tolerance { relative: tolerance, absolute: absolute_tolerance });
     let (first, longest) = (v.optional_number("initial-step")?, v.optional_number("max-step")?);
     let contact = v.optional_number(CONTACT_STEP.name)?;
+    let breaks = v.count("break-steps")? as u32;
     Ok(Method {
         integrator: Box::new(checked(integrator)?),
-        steps: Steps::Controlled { tolerance, absolute_tolerance, first, longest, contact },
+        steps: Steps::Controlled { tolerance, absolute_tolerance, first, longest, contact, breaks },
     })
 }
 
@@ -156,6 +159,12 @@ pub static INTEGRATOR: Choice<Method> = Choice {
                     Quantity(&TIME, Positive),
                     Optional,
                     "largest step while a contact comes near and, in flight too, from the first impact on; no such limit if left out",
+                ),
+                key(
+                    "break-steps",
+                    Type::Integer(1, 1 << 16),
+                    Default::Integer(1),
+                    "least number of steps between two times at which a load or a motion jumps, has a kink or changes fast",
                 ),
             ],
             example: "integrator={kind='radau', tolerance=1e-8, max-step='20 ms'}",

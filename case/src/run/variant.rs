@@ -24,8 +24,14 @@ impl Refinable for Reading {
             Steps::Fixed { step, contact } => {
                 Variant::new(Plan { step: Some(step), contact_step: contact, ..plan })
             }
-            Steps::Controlled { tolerance, absolute_tolerance, first, longest, contact } => {
-                let plan = Plan { step: first, longest_step: longest, contact_step: contact, ..plan };
+            Steps::Controlled { tolerance, absolute_tolerance, first, longest, contact, breaks } => {
+                let plan = Plan {
+                    step: first,
+                    longest_step: longest,
+                    contact_step: contact,
+                    break_steps: breaks,
+                    ..plan
+                };
                 Variant::new(plan)
                     .with_tolerance(Tolerance { relative: tolerance, absolute: absolute_tolerance })
             }
@@ -105,6 +111,9 @@ impl Reading {
                 "integrator={{kind='radau',tolerance={relative:e},absolute-tolerance={absolute:e}}}"
             )),
         }
+        if plan.break_steps != own.plan.break_steps {
+            changes.push(format!("integrator.break-steps={}", plan.break_steps));
+        }
         Ok(changes)
     }
 
@@ -150,7 +159,15 @@ impl Reading {
         let mut changes: Vec<String> = self.case.finer().into_iter().filter_map(now).collect();
         changes.extend(match self.case.steps {
             Steps::Fixed { step, .. } => vec![format!("integrator.step={step:e}")],
-            Steps::Controlled { tolerance, .. } => vec![format!("integrator.tolerance={tolerance:e}")],
+            Steps::Controlled { tolerance, breaks: 1, .. } => {
+                vec![format!("integrator.tolerance={tolerance:e}")]
+            }
+            Steps::Controlled { tolerance, breaks, .. } => {
+                vec![
+                    format!("integrator.tolerance={tolerance:e}"),
+                    format!("integrator.break-steps={breaks}"),
+                ]
+            }
         });
         changes
     }

@@ -63,7 +63,8 @@ fn a_ball_comes_to_rest_at_the_limit_of_its_bounces() {
     let limit = first * (1.0 + e) / (1.0 - e);
     for (mut method, step) in event_driven() {
         let (mut system, start) = ball(e, height);
-        let plan = Plan { end: 2.0, step, longest_step: None, contact_step: None, sample: 0.02 };
+        let plan =
+            Plan { end: 2.0, step, longest_step: None, break_steps: 1, contact_step: None, sample: 0.02 };
         let (last, watch, counters) = run(&mut system, method.as_mut(), start, &plan);
         let mut exact = first;
         for (k, time) in watch.impacts.iter().enumerate() {
@@ -90,7 +91,14 @@ fn a_ball_comes_to_rest_at_the_limit_of_its_bounces() {
     }
     for mut method in methods(0.8) {
         let (mut system, start) = ball(e, height);
-        let plan = Plan { end: 2.0, step: Some(1e-3), longest_step: None, contact_step: None, sample: 0.02 };
+        let plan = Plan {
+            end: 2.0,
+            step: Some(1e-3),
+            longest_step: None,
+            break_steps: 1,
+            contact_step: None,
+            sample: 0.02,
+        };
         let (last, watch, _) = run(&mut system, method.as_mut(), start, &plan);
         // The losses of the impacts are counted; what is left is the error of steps in which gravity acts beside an impact.
         assert!(watch.imbalance < 5e-3 * GRAVITY * height, "{}", watch.imbalance);
@@ -124,7 +132,8 @@ fn a_rod_comes_to_rest_at_the_limit_of_its_impacts() {
         let mut start = system.initial();
         (start.q[0], start.mode[0]) = (start_angle, Mode::Open);
         let step = step.map(|h| 0.02 * h);
-        let plan = Plan { end: 2.0, step, longest_step: None, contact_step: None, sample: 0.02 };
+        let plan =
+            Plan { end: 2.0, step, longest_step: None, break_steps: 1, contact_step: None, sample: 0.02 };
         let (last, watch, _) = run(&mut system, method.as_mut(), start, &plan);
         // A gap touches at 1e-13 m, and the last impacts have some 1e-5 of the first speed.
         let allowed = if step.is_some() { 2e-7 } else { 1e-8 };
@@ -146,8 +155,14 @@ fn a_rod_comes_to_rest_at_the_limit_of_its_impacts() {
 fn steps_are_shorter_while_a_contact_is_closed_or_near() {
     let (mut system, start) = ball(0.0, 1.0);
     let fall = (2.0 / GRAVITY).sqrt();
-    let plan =
-        |contact_step| Plan { end: 0.6, step: Some(1e-2), longest_step: None, contact_step, sample: 1e-3 };
+    let plan = |contact_step| Plan {
+        end: 0.6,
+        step: Some(1e-2),
+        longest_step: None,
+        break_steps: 1,
+        contact_step,
+        sample: 1e-3,
+    };
     for mut method in methods(0.8) {
         let (last, watch, short) = run(&mut system, method.as_mut(), start.clone(), &plan(Some(1e-3)));
         assert!(last.q[0].abs() < 1e-13);
@@ -189,22 +204,35 @@ fn spinning_balls_bounce_with_friction() {
         (v, spin) = (v - impulse / m, spin - r * impulse / j);
     }
     for (mut method, step) in event_driven() {
-        let plan = Plan { end, step, longest_step: None, contact_step: None, sample: end };
+        let plan = Plan { end, step, longest_step: None, break_steps: 1, contact_step: None, sample: end };
         let (last, watch, _) = run(&mut system, method.as_mut(), start.clone(), &plan);
         assert_eq!(watch.impacts.len(), 3);
         assert!((last.v[0] - v).abs() < 1e-9 && (last.v[2] - spin).abs() < 1e-8, "{:?} {v} {spin}", last.v);
     }
     for mut method in methods(0.8) {
         let mut far = |count: f64| {
-            let plan =
-                Plan { end, step: Some(end / count), longest_step: None, contact_step: None, sample: end };
+            let plan = Plan {
+                end,
+                step: Some(end / count),
+                longest_step: None,
+                break_steps: 1,
+                contact_step: None,
+                sample: end,
+            };
             let (last, _, _) = run(&mut system, method.as_mut(), start.clone(), &plan);
             (last.v[0] - v).abs().max(r * (last.v[2] - spin).abs())
         };
         let (coarse, fine) = (far(500.0), far(8000.0));
         assert!(fine < 1e-3 && fine < 0.3 * coarse, "{coarse:e} {fine:e}");
         // At the end it rolls, whatever the bounces have been: angular momentum about the ground is kept.
-        let plan = Plan { end: 4.0, step: Some(1e-3), longest_step: None, contact_step: None, sample: 1.0 };
+        let plan = Plan {
+            end: 4.0,
+            step: Some(1e-3),
+            longest_step: None,
+            break_steps: 1,
+            contact_step: None,
+            sample: 1.0,
+        };
         let (last, _, _) = run(&mut system, method.as_mut(), start.clone(), &plan);
         let rolls = (m * 2.0 - j / r * 5.0) / (m + j / (r * r));
         assert!((last.v[0] - rolls).abs() < 1e-9 && (last.v[0] + r * last.v[2]).abs() < 1e-9, "{:?}", last.v);

@@ -61,7 +61,8 @@ fn the_rotating_bouncing_ball_slides_and_rolls() {
         assert!((exact[1] - rolls).abs() < 1e-12 && (exact[1] + 0.1 * exact[2]).abs() < 1e-12, "{exact:?}");
         let mut far = |method: &dyn Integrator, step: Option<f64>| {
             let mut last = state.clone();
-            let plan = Plan { end, step, longest_step: None, contact_step: None, sample: end };
+            let plan =
+                Plan { end, step, longest_step: None, break_steps: 1, contact_step: None, sample: end };
             assert_eq!(transient(&mut system, method, &mut last, &plan, &mut Blind), Ending::Finished);
             let found = [last.q[0], last.v[0], 0.1 * last.v[2]];
             let exact = [exact[0], exact[1], 0.1 * exact[2]];

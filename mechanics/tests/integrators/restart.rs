@@ -75,7 +75,8 @@ fn a_run_that_is_ended_at_any_time_is_continued_bit_by_bit() {
     let mut random = 0x9e37_79b9_7f4a_7c15_u64;
     for (method, step) in methods {
         let name = &method.info().name;
-        let plan = Plan { end: 0.5, step, longest_step: None, contact_step: None, sample: 7e-3 };
+        let plan =
+            Plan { end: 0.5, step, longest_step: None, break_steps: 1, contact_step: None, sample: 7e-3 };
         let original = pendulum_with_impacts();
         let (mut system, mut last) = (original.clone(), original.initial());
         let mut whole = Watch::until(f64::INFINITY);
@@ -111,7 +112,14 @@ fn a_run_that_is_ended_at_any_time_is_continued_bit_by_bit() {
 fn a_checkpoint_of_another_format_is_refused() {
     let original = pendulum_with_impacts();
     let method = GeneralizedAlpha::chung_hulbert(0.7).unwrap();
-    let plan = Plan { end: 0.1, step: Some(1e-3), longest_step: None, contact_step: None, sample: 7e-3 };
+    let plan = Plan {
+        end: 0.1,
+        step: Some(1e-3),
+        longest_step: None,
+        break_steps: 1,
+        contact_step: None,
+        sample: 7e-3,
+    };
     let (mut system, mut state) = (original.clone(), original.initial());
     let (_, checkpoint) =
         transient_to_checkpoint(&mut system, &method, &mut state, &plan, &mut Watch::until(0.05));

@@ -39,7 +39,8 @@ fn run(
     step: Option<f64>,
 ) -> (State, Watch) {
     let mut watch = Watch::default();
-    let plan = Plan { end, step, longest_step: None, contact_step: None, sample: end / 200.0 };
+    let plan =
+        Plan { end, step, longest_step: None, break_steps: 1, contact_step: None, sample: end / 200.0 };
     let ending = transient(system, method, &mut state, &plan, &mut watch);
     assert_eq!(ending, Ending::Finished);
     (state, watch)

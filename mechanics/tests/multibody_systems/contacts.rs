@@ -48,7 +48,7 @@ pub fn run(system: &mut dyn System, method: &dyn Integrator, end: f64, step: Opt
     state.mode.iter_mut().zip(system.rows()).for_each(|(mode, set)| {
         *mode = if *set == flexion::system::Set::Free { Mode::Closed } else { Mode::Open };
     });
-    let plan = Plan { end, step, longest_step: None, contact_step: None, sample: end / 50.0 };
+    let plan = Plan { end, step, longest_step: None, break_steps: 1, contact_step: None, sample: end / 50.0 };
     assert_eq!(transient(system, method, &mut state, &plan, &mut watch), Ending::Finished);
     (state, watch)
 }
@@ -230,7 +230,14 @@ fn a_body_thrown_across_a_slope_ends_downhill_with_half_its_speed() {
         }
         // Events find no direction of sliding that changes at every time.
         let mut state = system.initial();
-        let plan = Plan { end: 0.1, step: None, longest_step: None, contact_step: None, sample: 0.1 };
+        let plan = Plan {
+            end: 0.1,
+            step: None,
+            longest_step: None,
+            break_steps: 1,
+            contact_step: None,
+            sample: 0.1,
+        };
         let ending = transient(&mut system, &radau(1e-6), &mut state, &plan, &mut Watch::default());
         assert!(matches!(ending, Ending::Failed(_)), "{ending:?}");
     }

@@ -105,7 +105,8 @@ pub fn run(
 ) -> (State, f64) {
     let mut state = flexion::system::Dynamics::initial(system);
     let mut watch = Watch { each, imbalance: 0.0 };
-    let plan = Plan { end, step, longest_step: None, contact_step: None, sample: end / 100.0 };
+    let plan =
+        Plan { end, step, longest_step: None, break_steps: 1, contact_step: None, sample: end / 100.0 };
     let ending = transient(system, method, &mut state, &plan, &mut watch);
     assert_eq!(ending, Ending::Finished);
     (state, watch.imbalance)

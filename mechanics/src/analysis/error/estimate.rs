@@ -23,7 +23,8 @@
 //! Half the step would not serve where vibrations are hardly resolved, for errors do not fall like hᵖ there. So `Radau`
 //! runs all companions: those of its own runs with a tenth of their tolerance, which makes the error 18 times smaller
 //! (h ∼ tol^(1/4), error ∼ h⁵), or 6 times where only the stages' order counts (error ∼ h³), and with steps
-//! below 0.9 of its longest, or half where there is no mesh to refine. Those of fixed steps have
+//! below 0.9 of its longest, or half where there is no mesh to refine, and twice as many between two breaks: where a load acts
+//! for a short time, those of the run may all be as long as that, and within every tolerance. Those of fixed steps have
 //! the tolerances 10⁻⁵, 10⁻⁷ and 10⁻⁹ in turn, until two of them differ by half of what the run differs from the
 //! second: the companion need be no more accurate than that, and a tighter tolerance would resolve every frequency of the mesh.
 //!
@@ -276,7 +277,7 @@ fn finer_run<P: Refinable>(
         if fine.ending != Ending::Finished {
             break;
         }
-        let next = finer.by_radau(*rung);
+        let next = finer.by_radau(*rung).with_shorter_parts();
         let finest = until_impact(problem, &next, watch)?;
         let settled = settled(run, &fine, &finest);
         (finer, fine) = (next, finest);
@@ -297,7 +298,7 @@ fn refined<P: Refinable>(problem: &P, variant: &Variant, run: &Record) -> Varian
     let shorter = if problem.has_mesh() { SHORTER.0 } else { SHORTER.1 };
     let longest = longest_step(run).map(|longest| shorter * longest).or(variant.plan.longest_step);
     let plan = Plan { longest_step: longest, ..variant.plan.clone() };
-    Variant { plan, ..halved.with_tolerances(FINER, TIGHTEST, f64::INFINITY) }
+    Variant { plan, ..halved.with_tolerances(FINER, TIGHTEST, f64::INFINITY) }.with_shorter_parts()
 }
 
 /// The longest step of a run \[s\].

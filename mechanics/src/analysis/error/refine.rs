@@ -261,12 +261,12 @@ pub fn refine<P: Refinable, E: From<P::Fault>>(
     Ok(Refinement { variant, run, errors, rungs, ended })
 }
 
-/// The variant with twice the functions, and a tenth of the tolerance or half the step.
+/// The variant with twice the functions, and a tenth of the tolerance with twice the steps between breaks, or half the step.
 fn next<P: Refinable>(problem: &P, variant: &Variant) -> Variant {
     let halved = variant.halved(problem.has_mesh()).with_tolerances(FINER, TIGHTEST, f64::INFINITY);
     match variant.fixed_step() {
         Some(step) => Variant { plan: Plan { step: Some(0.5 * step), ..halved.plan.clone() }, ..halved },
-        None => halved,
+        None => halved.with_shorter_parts(),
     }
 }
 

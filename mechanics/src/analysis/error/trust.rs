@@ -42,7 +42,7 @@ pub(super) fn parting<P: Refinable>(
         return Ok(None);
     }
     let (finer, by) = match variant.fixed_step() {
-        None => (variant.with_tolerances(0.1, 1e-13, 1.0), Finer::Tolerance),
+        None => (variant.with_tolerances(0.1, 1e-13, 1.0).with_shorter_parts(), Finer::Tolerance),
         Some(_) => {
             let half = |step: Option<f64>| step.map(|step| 0.5 * step);
             let (step, contact_step) = (half(variant.plan.step), half(variant.plan.contact_step));

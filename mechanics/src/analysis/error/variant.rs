@@ -116,6 +116,12 @@ impl Variant {
         Variant { tolerance: self.tolerance.map(scaled), ..self.clone() }
     }
 
+    /// The same with twice as many steps under control between two neighbouring breaks.
+    pub(super) fn with_shorter_parts(self) -> Variant {
+        let break_steps = self.plan.break_steps.saturating_mul(2);
+        Variant { plan: Plan { break_steps, ..self.plan }, ..self }
+    }
+
     /// The same with twice the functions, where there is a mesh.
     pub(super) fn halved(&self, has_mesh: bool) -> Variant {
         Variant { mesh: if has_mesh { self.mesh.halved() } else { self.mesh }, ..self.clone() }

@@ -262,10 +262,7 @@ impl Run {
                 .step
                 .unwrap_or_else(|| StepControl::first_step(order, state, system.scales(), 1e-4, span));
             let control = StepControl::new(order, span, first);
-            // While the drive is constant, the error estimate cannot detect an event inside the step: what the
-            // recorded columns can show bounds the step.
-            let longest = plan.longest_step.unwrap_or((2.0 * plan.sample).min(0.01 * span));
-            control.with_limits(1e-14 * span, longest)
+            control.with_limits(1e-14 * span, longest_step(plan, self.origin))
         });
     }
 
@@ -295,10 +292,13 @@ impl Run {
     ) -> Result<Ending, RunError> {
         let mut next = state.clone();
         while state.t < plan.end {
-            let stop = stop(system, integrator.info(), state.t, plan.end);
+            let mut stop = stop(system, integrator.info(), state.t, plan.end);
             if stop.0 < plan.end && stop.0 - state.t <= INSTANT * (plan.end - self.origin) {
                 self.leap(system, integrator, state, stop, plan, observer)?;
                 continue;
+            }
+            if self.control.is_some() && plan.break_steps > 1 {
+                stop = self.part(system, state.t, stop, plan);
             }
             let (mut h, report) =
                 self.attempt(system, integrator, state, &mut next, stop, plan.contact_step)?;
@@ -403,6 +403,20 @@ impl Run {
         self.begins = true;
         self.divide(system, integrator, to, plan);
         Ok(())
+    }
+
+    /// Where a step under control after `t` must end, at `stop` or before, that as many lie between two breaks as the plan asks for.
+    fn part(&self, system: &dyn System, t: f64, stop: (f64, Side), plan: &Plan) -> (f64, Side) {
+        let breaks = system.breaks();
+        let last = breaks[..breaks.partition_point(|b| b.time <= t)].last();
+        let start = last.map_or(self.origin, |b| b.time.max(self.origin));
+        let part = (stop.0 - start) / f64::from(plan.break_steps);
+        // Where steps are shorter anyway, there is nothing to divide.
+        if part >= longest_step(plan, self.origin) {
+            return stop;
+        }
+        let next = (((t - start) / part + SLIVER).floor() + 1.0) * part + start;
+        if stop.0 - next <= SLIVER * part { stop } else { (next, Side::Right) }
     }
 
     /// Divides the time from `t` to the next break into fixed steps.
@@ -544,6 +558,12 @@ impl Run {
         }
         Ok(())
     }
+}
+
+/// Longest step under control of a run from `origin`. While the drive is constant, the error estimate cannot detect an event inside the
+/// step: what the recorded columns can show bounds it.
+fn longest_step(plan: &Plan, origin: f64) -> f64 {
+    plan.longest_step.unwrap_or((2.0 * plan.sample).min(0.01 * (plan.end - origin)))
 }
 
 fn is_fixed(info: &Info) -> bool {

@@ -16,6 +16,9 @@ pub struct Plan {
     /// the fewest equal ones not longer than it. A step under control is not longer than it from the first impact on: what
     /// impacts set vibrating is damped by longer steps, in flight too.
     pub contact_step: Option<f64>,
+    /// Least number of steps of an adaptive method between two neighbouring [breaks](crate::system::Events::breaks), 1 or more: what
+    /// is short beside the rest of a motion may be within every tolerance, and its steps then have the length of its breaks.
+    pub break_steps: u32,
     /// Interval of recording \[s\]; the end is recorded too.
     pub sample: f64,
 }
@@ -23,7 +26,7 @@ pub struct Plan {
 impl Plan {
     /// Runs to `end` \[s\] with the steps that the method chooses, and records at intervals of `sample` \[s\].
     pub fn new(end: f64, sample: f64) -> Plan {
-        Plan { end, step: None, longest_step: None, contact_step: None, sample }
+        Plan { end, step: None, longest_step: None, contact_step: None, break_steps: 1, sample }
     }
 
     /// The plan with fixed steps, or a first step of a method with step control \[s\].
@@ -42,5 +45,11 @@ impl Plan {
     #[must_use]
     pub fn with_contact_step(self, step: f64) -> Plan {
         Plan { contact_step: Some(step), ..self }
+    }
+
+    /// The plan with so many [steps between breaks](Plan::break_steps) at least.
+    #[must_use]
+    pub fn with_break_steps(self, steps: u32) -> Plan {
+        Plan { break_steps: steps, ..self }
     }
 }
