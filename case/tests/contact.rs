@@ -590,6 +590,17 @@ fn no_point_of_a_rotor_passes_an_obstacle_in_a_step_unseen() {
             assert!(warned || run.events.impacts().next().is_some(), "{kind} {speed}: {:?}", run.warnings);
         }
     }
+    // The end of one step lies within the ball, and no step finds it on its way.
+    let rotor = rotor("{ kind = 'moreau-jean', step = 8.944780596329235e-4 }", 161.63888793419412).replace(
+        "centre = [0, 1.005, 0], radius = 0.01",
+        "centre = [0.17781930615421235, -0.9732090940755899, 0], radius = 0.01439305013096359",
+    );
+    let run = finished(&reading(&rotor, &["run.duration=0.0588"]));
+    assert!(
+        run.warnings.iter().any(|w| w.contains("may have passed through its obstacle")),
+        "{:?}",
+        run.warnings
+    );
 }
 
 /// A ball that falls with v₁ onto the floor and comes to rest in a burst of impacts takes m v₁ + m g Δt from the first of them to the end of the

@@ -38,7 +38,7 @@ pub(super) fn record_before_impact(random: &mut Random) -> Posed {
     Posed { case, answer: Answer::Known(values) }
 }
 
-/// A point on the rim of a rotor strikes a small ball, however many turns a step is long, and the rotor turns back.
+/// A point on the rim of a rotor strikes a small ball, however long a step is, and the rotor turns back.
 pub(super) fn rotor_meets_obstacle(random: &mut Random) -> Posed {
     let (speed, e) = (random.scale(0.5..500.0), random.between(0.3..1.0));
     let (radius, place) = (random.scale(1e-3..0.1), random.between(0.5..6.0));
@@ -50,9 +50,15 @@ pub(super) fn rotor_meets_obstacle(random: &mut Random) -> Posed {
     let way = 2.0 * PI - 2.0 * (place - angle);
     let back = random.between(0.1..0.9) * way;
     let duration = angle / speed + back / (e * speed);
-    let step = random.scale(0.01..20.0) / speed;
+    let integrator = if random.coin() {
+        let step = (random.scale(0.01..20.0) / speed).min(duration);
+        method(random, step)
+    } else {
+        let kind = random.pick(&["moreau-jean", "nonsmooth-generalized-alpha"]);
+        format!("{{ kind = '{kind}', step = {:e} }}", (random.scale(0.1..3.0) / speed).min(duration))
+    };
     let mut case = Drawn { length: 1.0, ..Drawn::default() };
-    add!(case, "integrator = {}\nrun = {{ duration = {duration} }}", method(random, step));
+    add!(case, "integrator = {integrator}\nrun = {{ duration = {duration} }}");
     add!(case, "output = {{ step = {} }}", duration / random.scale(3.0..300.0));
     add!(
         case,

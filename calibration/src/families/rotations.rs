@@ -14,7 +14,7 @@ fn turning(random: &mut Random) -> (f64, f64, f64, f64) {
         if random.coin() { speed } else { -speed },
         duration,
         duration / random.scale(10.0..500.0),
-        random.scale(0.05..20.0) / speed,
+        (random.scale(0.05..20.0) / speed).min(duration),
     )
 }
 

@@ -73,12 +73,15 @@ pub(super) fn last_interval(random: &mut Random) -> Posed {
     let (mass, stiffness, g) = (random.scale(0.1..10.0), random.scale(1.0..1e4), random.scale(0.1..20.0));
     let frequency: f64 = (stiffness / mass).sqrt();
     // x = (g/ω²) (1 − cos ωt) has its peaks at odd multiples of half a period.
-    let peak = PI / frequency * (2.0 * random.count(0..4) as f64 + 1.0);
-    let records = random.count(10..200) as f64;
-    let behind = random.between(0.02..0.98);
+    // No record of an earlier one tells of the first.
+    let earlier = if random.coin() { 0 } else { random.count(1..4) };
+    let peak = PI / frequency * (2.0 * earlier as f64 + 1.0);
+    let records = random.count(10..60) as f64;
+    let behind = random.scale(0.01..0.98);
     // The peak lies that part of an interval before the end.
     let duration = peak / (1.0 - behind / records);
-    let integrator = method(random, 0.01 / frequency);
+    let step = random.scale(0.01..0.3) / frequency;
+    let integrator = method(random, step);
     let mut case = Drawn { length: 1.0, ..Drawn::default() };
     let free = random.coin();
     if free {

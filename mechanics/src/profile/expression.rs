@@ -96,6 +96,17 @@ mod tests {
     }
 
     #[test]
+    fn a_jump_is_a_break_however_near_to_the_start() {
+        for k in 0..200 {
+            let late = 10.0 * libm::pow(10.0, -13.0 + 0.05 * f64::from(k));
+            let found = Expression::new(&format!("if(t > {late:e}, 1, 0)"), "t", 10.0).unwrap();
+            let expected = late.next_up();
+            assert!(found.breaks().contains(&expected), "{late:e}: {:?}", found.breaks());
+            assert!((found.integral(10.0) - (10.0 - late)).abs() < 1e-8, "{late:e}");
+        }
+    }
+
+    #[test]
     fn signs_and_powers_bind_as_in_mathematics() {
         for (text, expected) in [
             ("-t^2", -9.0),

@@ -216,7 +216,8 @@ impl Scan<'_> {
             }
             return split(out);
         }
-        if !decided && let Some(found) = first_change(self.program, a, b.next_down()) {
+        // The bounds of a shortest panel leave out more than the edges that are searched.
+        if last && let Some(found) = first_change(self.program, a, b.next_down()) {
             self.panel(a, found, bounds, true, out)?;
             return self.panel(found, b, bounds, true, out).map(|_| ());
         }

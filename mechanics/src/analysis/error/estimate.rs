@@ -230,6 +230,11 @@ fn compared<P: Refinable>(
     }
     let (mut columns, mut trusted) = (Vec::new(), reach(&fine).min(run.state.t).min(grown));
     let mut distrusted = None;
+    // What moves only in joints has no principal column that is not zero.
+    let moves =
+        |(i, c): (usize, &Channel)| c.role == Role::Primary && !vanishes(&run.trajectory, i, problem.size());
+    let principal =
+        if run.trajectory.channels().iter().enumerate().any(moves) { Role::Primary } else { Role::Secondary };
     for channel in estimated(run) {
         let name = channel.name.as_str();
         let Some(pair) = Pair::new(&run.trajectory, &fine.trajectory, name) else { continue };
@@ -239,7 +244,7 @@ fn compared<P: Refinable>(
         let rounding = ROUNDING * pair.size();
         let error = |difference: f64| safety * difference + rounding;
         let [min, max, last] = pair.of_values().map(error);
-        if channel.role == Role::Primary && !vanishes(pair.ours, pair.index, problem.size()) {
+        if channel.role == principal && !vanishes(pair.ours, pair.index, problem.size()) {
             let until = pair.trusted(safety);
             if until < trusted {
                 (trusted, distrusted) = (until, Some(name.to_owned()));

@@ -75,9 +75,11 @@ impl Passing {
         let ends = state.side == Side::Left;
         let since = state.t - self.rows[3].0;
         let recorded = std::mem::take(&mut self.recorded);
-        if recorded && since <= SAME * self.interval {
-            // It was recorded, at this time but for rounding.
+        let same = recorded && since <= SAME * self.interval;
+        if same && !(ends && since > 0.0) {
+            // It was recorded, at this time but for rounding, and counts where an event follows.
             self.rows[3].0 = state.t;
+            self.skipped = since > 0.0;
             return;
         }
         if since == 0.0 && self.count > 0 {
@@ -87,7 +89,9 @@ impl Passing {
             return;
         }
         self.evaluate(system, state, trajectory);
-        self.find_vertices(trajectory);
+        if !same {
+            self.find_vertices(trajectory);
+        }
     }
 
     /// Makes a state a row, whose values `trajectory` learns.

@@ -205,6 +205,8 @@ pub(super) fn approaches(system: &mut dyn System, s: &State, h: f64, gaps: &mut 
 pub(super) struct Unseen {
     /// g and ġ of each row at the start and at the end of a step.
     values: [[Vec<f64>; 2]; 2],
+    /// Rows whose gap has become negative in a step without force.
+    entered: Vec<bool>,
     accelerations: Vec<f64>,
 }
 
@@ -213,12 +215,22 @@ impl Unseen {
     pub(super) fn new(system: &dyn System) -> Option<Unseen> {
         let zeros = || vec![0.0; system.rows().len()];
         let contacts = system.rows().iter().any(|set| matches!(set, Set::Unilateral { .. }));
-        contacts.then(|| Unseen { values: [(); 2].map(|()| [zeros(), zeros()]), accelerations: zeros() })
+        contacts.then(|| Unseen {
+            values: [(); 2].map(|()| [zeros(), zeros()]),
+            entered: vec![false; system.rows().len()],
+            accelerations: zeros(),
+        })
     }
 
-    /// The row of a contact whose gap has fallen and risen in a step without force, and may have been negative between: more
-    /// sharply than the accelerations at both ends tell, or over an [`ARC`] on which its ends tell nothing.
-    pub(super) fn find(&mut self, system: &mut dyn System, from: &State, to: &State) -> Option<usize> {
+    /// The row of a contact whose gap has fallen and risen in a step without force, and was negative between, as the gaps `within`
+    /// the step say, or may have been: more sharply than the accelerations at both ends tell, or over an [`ARC`] on which its ends tell
+    /// nothing. Also of one that was negative at the ends of steps before, all of them without force.
+    pub(super) fn find(
+        &mut self,
+        system: &mut dyn System,
+        (from, to): (&State, &State),
+        within: &mut dyn FnMut(&mut dyn System, f64, &mut [f64]),
+    ) -> Option<usize> {
         for (s, [gap, rate]) in [from, to].into_iter().zip(&mut self.values) {
             system.constraint(s, RowWeights::POSITION, gap);
             system.constraint(s, RowWeights::VELOCITY, rate);
@@ -230,13 +242,26 @@ impl Unseen {
             let free = |s: &State| s.lambda[i].max(0.0) == 0.0;
             let ([g0, v0], [g1, v1]) = (at(0, i), at(1, i));
             let contact = matches!(system.rows()[i], Set::Unilateral { .. });
+            let entered = self.entered[i] && free(to);
+            self.entered[i] = contact && g1 < 0.0 && (entered || free(from) && free(to) && g0 > 0.0);
+            if entered && g1 > 0.0 {
+                return Some(i);
+            }
             if !(contact && free(from) && free(to) && g0 > 0.0 && g1 > 0.0) {
                 continue;
             }
             if turns {
                 return Some(i);
             }
-            let Some([_, meet]) = lowest((0.0, [g0, v0]), (h, [g1, v1])) else { continue };
+            let Some(lows) = lowest((0.0, [g0, v0]), (h, [g1, v1])) else { continue };
+            let negative = |low: f64| {
+                within(system, from.t + low, &mut self.accelerations);
+                self.accelerations[i] < 0.0
+            };
+            if lows.into_iter().any(negative) {
+                return Some(i);
+            }
+            let [_, meet] = lows;
             let sharp = |s: &State, system: &mut dyn System, accelerations: &mut [f64]| {
                 system.constraint(s, RowWeights::ACCELERATION, accelerations);
                 h * accelerations[i] < 0.5 * (v1 - v0)

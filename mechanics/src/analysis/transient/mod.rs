@@ -24,7 +24,7 @@ use crate::integrator::{
     Checkpoint, Info, Integration, Integrator, NotResumed, Span, StepControl, StepReport,
 };
 use crate::quadrature::Gauss;
-use crate::system::{Crossing, Jump, Side, State, System};
+use crate::system::{Crossing, Jump, RowWeights, Side, State, System};
 use adaptive::adapt;
 use contacts::{ARC, Contacts, Unseen, approaches, loss, struck};
 use segment::Segment;
@@ -359,7 +359,13 @@ impl Run {
                 if let Some(event) = struck {
                     observer.event(&event);
                 }
-                if let Some(row) = self.unseen.as_mut().and_then(|unseen| unseen.find(system, state, &next)) {
+                let mut within = |system: &mut dyn System, t: f64, gaps: &mut [f64]| {
+                    integrator.interpolate(system, state, &next, t, &mut self.middle);
+                    system.constraint(&self.middle, RowWeights::POSITION, gaps);
+                };
+                let unseen = self.unseen.as_mut();
+                if let Some(row) = unseen.and_then(|unseen| unseen.find(system, (state, &next), &mut within))
+                {
                     observer.stepped_over(next.t, row);
                 }
             }
