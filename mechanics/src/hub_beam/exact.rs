@@ -42,6 +42,8 @@ use std::sync::Arc;
 
 /// Largest axial strain |ε| accepted for a linear-elastic beam.
 const LARGEST_STRAIN: f64 = 0.5;
+const LEAST_STRETCH: f64 = 1.0 - LARGEST_STRAIN;
+const MOST_STRETCH: f64 = 1.0 + LARGEST_STRAIN;
 /// Relative difference of lengths that are the same to rounding.
 const SAME_LENGTH: f64 = 1e-12;
 
@@ -258,8 +260,10 @@ impl Coupling for ExactCoupling {
     }
 
     fn placements(&self, s: &State, stations: &[Station], out: &mut [Placement]) {
-        // The angle of the tangent is followed from the root, so that it may pass π.
+        // The angle of the tangent is followed from the root, so that it may pass π. As long as the curve goes outward it lies within ±π/2,
+        // and is found where that ends.
         let (mut node, mut angle) = (0, 0.0);
+        let mut outward = Some((0.0, 0.0));
         let slope = |u: f64, v: f64| libm::atan2(v, 1.0 + u);
         let nearest = |angle: f64, to: f64| {
             angle + std::f64::consts::TAU * ((to - angle) / std::f64::consts::TAU).round()
@@ -267,9 +271,15 @@ impl Coupling for ExactCoupling {
         for (station, out) in stations.iter().zip(out) {
             while node < self.elements.len() && self.elements[node].end() <= station.point.x {
                 let (u, v) = self.elements[node].end_slopes(&s.q);
-                angle = nearest(slope(u, v), angle);
+                if outward.is_some() && 1.0 + u > 0.0 {
+                    outward = Some((u, v));
+                } else {
+                    let before = outward.take().map_or(angle, |(u, v)| slope(u, v));
+                    angle = nearest(slope(u, v), before);
+                }
                 node += 1;
             }
+            let angle = outward.map_or(angle, |(u, v)| slope(u, v));
             let [u, v, u1, v1, du, dv, du1, dv1] = station.fields(s);
             let square = (1.0 + u1) * (1.0 + u1) + v1 * v1;
             *out = Placement {
@@ -295,10 +305,10 @@ impl Coupling for ExactCoupling {
     fn admissible(&mut self, s: &State) -> Result<(), Limit> {
         for element in &*self.elements {
             let (u, v) = element.end_slopes(&s.q);
-            let strain = libm::hypot(1.0 + u, v) - 1.0;
+            let square = (1.0 + u) * (1.0 + u) + v * v;
             // NaN is refused too.
-            if !(strain.abs() <= LARGEST_STRAIN) {
-                let station = element.end();
+            if !(LEAST_STRETCH * LEAST_STRETCH..=MOST_STRETCH * MOST_STRETCH).contains(&square) {
+                let (strain, station) = (square.sqrt() - 1.0, element.end());
                 return Err(Limit::Strain { strain, station, largest: LARGEST_STRAIN });
             }
         }

@@ -187,9 +187,11 @@ impl Coupling for LinearCoupling {
                 while cell + 1 < cells.len() && cells[cell + 1] <= station.point.x {
                     for p in &self.slopes[cell * points..(cell + 1) * points] {
                         debug_assert!(p.x < cells[cell + 1]);
-                        let at =
-                            |u: &[f64]| -> f64 { p.index.iter().zip(&p.slope).map(|(&i, n)| n * u[i]).sum() };
-                        let (slope, rate) = (at(&s.q), at(&s.v));
+                        let (mut slope, mut rate) = (0.0, 0.0);
+                        for (&i, n) in p.index.iter().zip(&p.slope) {
+                            slope += n * s.q[i];
+                            rate += n * s.v[i];
+                        }
                         square += p.weight * slope * slope;
                         product += p.weight * slope * rate;
                     }

@@ -122,7 +122,7 @@ impl Bundle {
         }
     }
 
-    /// xᵀ Aₖ x for one of the matrices.
+    /// xᵀ Aₖ x for one of the matrices, which is symmetric.
     pub(super) fn form(&self, k: usize, x: &[f64]) -> f64 {
         if k >= self.terms {
             return 0.0;
@@ -130,19 +130,24 @@ impl Bundle {
         if let Some(isotropic) = self.isotropic.as_ref().filter(|_| k == 0) {
             return isotropic.mass_form(&x[..self.order]);
         }
-        if self.terms == TERMS { self.form_of::<TERMS>(k, x) } else { self.form_of::<2>(k, x) }
+        match (self.terms, self.width) {
+            (TERMS, 11) => self.form_of::<TERMS, 6>(k, x),
+            (TERMS, _) => self.form_of::<TERMS, 0>(k, x),
+            _ => self.form_of::<2, 0>(k, x),
+        }
     }
 
-    fn form_of<const T: usize>(&self, k: usize, x: &[f64]) -> f64 {
-        let mut sum = 0.0;
+    /// Σ xᵢ (2 Σⱼ Aᵢⱼ xⱼ − Aᵢᵢ xᵢ) over j ≥ i; `H` is the number of these entries of a row where it is known at compile time, or 0.
+    fn form_of<const T: usize, const H: usize>(&self, k: usize, x: &[f64]) -> f64 {
+        let (mut sum, k) = (0.0, k.min(T - 1));
         for (i, row) in self.rows().enumerate() {
-            let first = (self.advance * i).saturating_sub(self.lead);
-            let row = &row.as_chunks::<T>().0[first + self.lead - self.advance * i..];
-            let mut product = 0.0;
-            for (a, x) in row.iter().zip(&x[first..self.order]) {
-                product += a[k] * x;
-            }
-            sum += x[i] * product;
+            let row = &row.as_chunks::<T>().0[i + self.lead - self.advance * i..];
+            let x = &x[i..self.order];
+            let product: f64 = match (row.first_chunk::<H>(), x.first_chunk::<H>()) {
+                (Some(row), Some(x)) if H > 0 => row.iter().zip(x).map(|(a, x)| a[k] * x).sum(),
+                _ => row.iter().zip(x).map(|(a, x)| a[k] * x).sum(),
+            };
+            sum += x[0] * (2.0 * product - row[0][k] * x[0]);
         }
         sum
     }

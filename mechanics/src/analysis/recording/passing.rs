@@ -8,6 +8,9 @@ use std::f64::consts::TAU;
 const MOST: f64 = 20_000.0;
 /// Part of the shortest time between rows that is none.
 const SAME: f64 = 1e-3;
+/// Part of the largest acceleration by which the accelerations between two rows may be off the line through both; part of a radius by
+/// which an arc may be off its chord.
+const OFF_LINE: f64 = 1e-3;
 
 /// Follows the accepted steps of a run, and its records.
 pub(super) struct Passing {
@@ -19,9 +22,11 @@ pub(super) struct Passing {
     count: usize,
     /// Whether the last row is a record.
     recorded: bool,
+    /// From where the motion is a line of accelerations.
+    line: Line,
     /// Whether something has happened at the last row or behind it: no curve goes on through that.
     cut: bool,
-    /// Whether the last step's end was too near to the row before it to become one.
+    /// Whether the last step's end was too near to the row before it to become one, or told nothing that the rows do not tell.
     skipped: bool,
     /// Channels that are never negative.
     pressing: Vec<usize>,
@@ -35,7 +40,7 @@ pub(super) struct Passing {
 }
 
 impl Passing {
-    pub(super) fn new(channels: &[Channel], state: &State, span: f64) -> Passing {
+    pub(super) fn new(channels: &[Channel], scales: &[f64], state: &State, span: f64) -> Passing {
         let row = || (state.t, vec![0.0; channels.len()]);
         let pressing = channels.iter().enumerate().filter(|(_, c)| c.kind == Kind::NonNegative);
         Passing {
@@ -44,6 +49,7 @@ impl Passing {
             rows: [row(), row(), row(), row()],
             count: 0,
             recorded: false,
+            line: Line::new(scales, state),
             cut: false,
             skipped: false,
             pressing: pressing.map(|(i, _)| i).collect(),
@@ -54,19 +60,43 @@ impl Passing {
         }
     }
 
-    /// Takes the end of a step. The states before and behind an event count, however near to a row.
+    /// Takes the end of a step; it becomes a row where accelerations leave the [line](Line) through those of the last row, and the
+    /// end before it with it. The states before and behind an event count, however near to a row.
     pub(super) fn enter(&mut self, system: &mut dyn System, state: &State, trajectory: &mut Trajectory) {
-        if self.cut && self.skipped {
-            let before = std::mem::take(&mut self.last);
-            self.evaluate(system, &before, trajectory);
-            self.last = before;
-        }
+        let follows = self.catch_up(system, state, trajectory);
         self.measure(state);
-        self.show(system, state, trajectory);
+        self.offer(system, (state, follows), trajectory);
     }
 
     /// Takes a state; `trajectory` learns the extremes, also those of the parabola through three of them.
     pub(super) fn show(&mut self, system: &mut dyn System, state: &State, trajectory: &mut Trajectory) {
+        self.offer(system, (state, false), trajectory);
+    }
+
+    /// Makes the end of the last step a row where the motion until `state` needs it; gives whether it does without.
+    pub(super) fn catch_up(
+        &mut self,
+        system: &mut dyn System,
+        state: &State,
+        trajectory: &mut Trajectory,
+    ) -> bool {
+        let follows = self.line.holds(system, state) && self.count > 0 && !self.rough;
+        if self.skipped && (self.cut || self.last.t >= self.next && !follows) {
+            let before = std::mem::take(&mut self.last);
+            self.evaluate(system, &before, trajectory);
+            self.find_vertices(trajectory);
+            self.last = before;
+            self.skipped = false;
+        }
+        follows
+    }
+
+    fn offer(
+        &mut self,
+        system: &mut dyn System,
+        (state, follows): (&State, bool),
+        trajectory: &mut Trajectory,
+    ) {
         let behind = std::mem::take(&mut self.cut);
         if behind {
             (self.count, self.recorded) = (0, false);
@@ -84,7 +114,7 @@ impl Passing {
         }
         if since == 0.0 && self.count > 0 {
             self.count = 0;
-        } else if state.t < self.next && !ends && !behind {
+        } else if (state.t < self.next || follows) && !ends && !behind {
             self.skipped = true;
             return;
         }
@@ -96,7 +126,7 @@ impl Passing {
 
     /// Makes a state a row, whose values `trajectory` learns.
     fn evaluate(&mut self, system: &mut dyn System, state: &State, trajectory: &mut Trajectory) {
-        system.record(state, self.add(state.t));
+        system.record(state, self.add(state));
         let [.., (_, before), (_, now)] = &mut self.rows;
         continue_quaternions(&self.quaternions, before, now);
         for (i, y) in self.rows[3].1.iter().enumerate() {
@@ -111,21 +141,22 @@ impl Passing {
 
     /// Takes the row of a record, in which it chooses the signs of unit quaternions; [`Passing::find_vertices`] is to follow where it
     /// says so.
-    pub(super) fn take(&mut self, t: f64, row: &mut [f64]) -> bool {
+    pub(super) fn take(&mut self, state: &State, row: &mut [f64]) -> bool {
         continue_quaternions(&self.quaternions, &self.rows[3].1, row);
-        if t < self.next {
+        if state.t < self.next {
             return false;
         }
-        self.add(t).copy_from_slice(row);
+        self.add(state).copy_from_slice(row);
         self.recorded = true;
         true
     }
 
-    fn add(&mut self, t: f64) -> &mut [f64] {
-        self.next = t + self.interval;
+    fn add(&mut self, state: &State) -> &mut [f64] {
+        self.next = state.t + self.interval;
+        self.line.begin(state);
         self.rows.rotate_left(1);
         self.count += 1;
-        self.rows[3].0 = t;
+        self.rows[3].0 = state.t;
         &mut self.rows[3].1
     }
 
@@ -179,6 +210,49 @@ impl Passing {
     }
 }
 
+/// The motion from the last row on, as long as it turns little and its accelerations are those of a line between its ends.
+struct Line {
+    t: f64,
+    v: Vec<f64>,
+    a: Vec<f64>,
+    /// 1/w with the scales w.
+    weights: Vec<f64>,
+    /// Largest Σ (a/w)² so far.
+    largest: f64,
+}
+
+impl Line {
+    fn new(scales: &[f64], state: &State) -> Line {
+        let weights = scales.iter().map(|scale| 1.0 / scale).collect();
+        Line { t: state.t, v: state.v.clone(), a: state.a.clone(), weights, largest: 0.0 }
+    }
+
+    fn begin(&mut self, state: &State) {
+        self.t = state.t;
+        self.v.copy_from_slice(&state.v);
+        self.a.copy_from_slice(&state.a);
+    }
+
+    /// Whether the line holds until `state`. The trapezium between v₀ and v₁ leaves −h³ä/12 where the line is off by h²ä/8 in its
+    /// middle; a chord is off an arc α of radius 1 by α²/8. What has no unknowns may move as it likes.
+    fn holds(&mut self, system: &mut dyn System, state: &State) -> bool {
+        let h = state.t - self.t;
+        let (mut defect, mut size, mut rate) = (0.0, 0.0, 0.0_f64);
+        let before = self.v.iter().zip(&self.a);
+        let now = state.v.iter().zip(&state.a).zip(&self.weights);
+        for ((v0, a0), ((v, a), weight)) in before.zip(now) {
+            let left = weight * (v - v0 - 0.5 * h * (a0 + a));
+            defect += left * left;
+            size += (weight * a) * (weight * a);
+            rate = rate.max((weight * v).abs());
+        }
+        self.largest = self.largest.max(size);
+        let arc = h * (rate + system.turning(state));
+        let off = 1.5 * defect.sqrt();
+        !state.v.is_empty() && arc * arc <= 8.0 * OFF_LINE && off <= OFF_LINE * h * self.largest.sqrt()
+    }
+}
+
 /// The vertex of the parabola through three points, if it lies between them.
 pub(super) fn vertex([(t0, a), (t1, b), (t2, c)]: [(f64, f64); 3]) -> Option<(f64, f64)> {
     let (first, second) = ((b - a) / (t1 - t0), (c - b) / (t2 - t1));
@@ -211,6 +285,7 @@ mod tests {
             rows: std::array::from_fn(|_| (0.0, vec![0.0])),
             count: 0,
             recorded: false,
+            line: Line::new(&[], &State::default()),
             cut: false,
             skipped: false,
             pressing: Vec::new(),
@@ -221,7 +296,7 @@ mod tests {
         };
         for t in [0.0, 0.1, 0.1 + 1e-8, 0.4] {
             let y = 3.0 * t - 10.0 * t * t;
-            if passing.take(t, &mut [y]) {
+            if passing.take(&State { t, ..State::default() }, &mut [y]) {
                 passing.find_vertices(&mut trajectory);
             }
             if t == 0.0 || t == 0.4 {

@@ -127,7 +127,7 @@ impl<'a> Recorder<'a> {
             violation: (system.size().lambda > 0).then(|| Violation::new(system)),
             modes: (0..system.size().v).filter(across).collect(),
         };
-        let mut passing = Passing::new(&channels, state, plan.end - state.t);
+        let mut passing = Passing::new(&channels, system.scales(), state, plan.end - state.t);
         let own = channels.len();
         common.observe(state, &Step::default(), 0.0, &mut Sink::channels(&mut channels));
         let mut trajectory = Trajectory::new(channels);
@@ -215,12 +215,13 @@ impl Observer for Recorder<'_> {
         if self.trajectory.is_empty() {
             self.passing.enter(system, state, &mut self.trajectory);
         }
+        self.passing.catch_up(system, state, &mut self.trajectory);
         let passing = &mut self.passing;
         let mut taken = false;
         self.trajectory.push(state.t, |row| {
             let (own, common) = row.split_at_mut(self.own);
             system.record(state, own);
-            taken = passing.take(state.t, own);
+            taken = passing.take(state, own);
             let total = match self.energies.as_slice() {
                 [] => system.energy(state).total(),
                 recorded => recorded.iter().map(|&i| own[i]).sum(),

@@ -328,6 +328,7 @@ impl Run {
             let resolves = integrator.resolves_contacts();
             let struck = if resolves { struck(system, state, &next, &mut self.gaps) } else { None };
             let impact = struck.as_ref().is_some_and(|event| matches!(event.kind, EventKind::Impact { .. }));
+            let (sample, slack) = self.next_sample(plan);
             if let Some(balance) = &mut self.balance {
                 let mut at_end = 0.0;
                 if resolves {
@@ -338,7 +339,8 @@ impl Run {
                         balance.add_impulse(0.0, lost - counted);
                     }
                 }
-                balance.enter(system, integrator, (state, &next), at_end);
+                let recorded = next.t >= sample - slack;
+                balance.enter(system, integrator, (state, &next), at_end, recorded);
             }
             let at_break = jump_at(system, integrator.info(), next.t);
             let ends = event || at_break.is_some() || next.t >= plan.end;

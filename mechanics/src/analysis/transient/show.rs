@@ -12,6 +12,16 @@ const BEGINNING: [f64; 3] = [1.0 / 16.0, 0.25, 0.5];
 const CLOSING: [f64; 3] = [0.5, 0.75, 15.0 / 16.0];
 
 impl Run {
+    fn interval(&self, plan: &Plan) -> f64 {
+        plan.sample.max(SMALLEST_SAMPLE * (plan.end - self.origin))
+    }
+
+    /// Time of the next sample, and by how much the end of a step may miss it \[s\].
+    pub(super) fn next_sample(&self, plan: &Plan) -> (f64, f64) {
+        let interval = self.interval(plan);
+        ((self.origin + multiple(self.samples, interval)).min(plan.end), 1e-9 * interval)
+    }
+
     /// Shows the observer the samples in the step, and what it passes between the ends of a step that begins or `ends` a smooth motion.
     /// Velocities and forces inside a step of a nonsmooth method with an `impact` at its end are those before it.
     pub(super) fn show(
@@ -30,10 +40,8 @@ impl Run {
             (false, false) => &[],
         };
         let mut passed = parts.iter().map(|part| from.t + part * (to.t - from.t)).peekable();
-        let interval = plan.sample.max(SMALLEST_SAMPLE * (plan.end - self.origin));
-        let slack = 1e-9 * interval;
         loop {
-            let t = (self.origin + multiple(self.samples, interval)).min(plan.end);
+            let (t, slack) = self.next_sample(plan);
             while let Some(t) = passed.next_if(|x| *x < t) {
                 integrator.interpolate(system, from, to, t, &mut self.middle);
                 observer.between(system, &self.middle);
@@ -60,7 +68,8 @@ impl Run {
             self.middle.t = t;
             observer.sample(system, &self.middle, &Step { balance, ..self.last });
             // An end that is no multiple is not counted: a run that goes on records the next multiple.
-            self.samples += u64::from(self.origin + multiple(self.samples, interval) <= plan.end + slack);
+            let due = self.origin + multiple(self.samples, self.interval(plan));
+            self.samples += u64::from(due <= plan.end + slack);
             if t >= plan.end {
                 return;
             }
