@@ -22,8 +22,12 @@ pub(super) struct Passing {
     count: usize,
     /// Whether the last row is a record.
     recorded: bool,
-    /// From where the motion is a line of accelerations.
+    /// From where the motion is a line of accelerations, and the interval of the records \[s\].
     line: Line,
+    ahead: f64,
+    /// Least and largest value of each channel in the rows so far, and whether one may turn there before the next record.
+    seen: Vec<[f64; 2]>,
+    turns: bool,
     /// Whether something has happened at the last row or behind it: no curve goes on through that.
     cut: bool,
     /// Whether the last step's end was too near to the row before it to become one, or told nothing that the rows do not tell.
@@ -40,7 +44,12 @@ pub(super) struct Passing {
 }
 
 impl Passing {
-    pub(super) fn new(channels: &[Channel], scales: &[f64], state: &State, span: f64) -> Passing {
+    pub(super) fn new(
+        channels: &[Channel],
+        scales: &[f64],
+        state: &State,
+        [span, ahead]: [f64; 2],
+    ) -> Passing {
         let row = || (state.t, vec![0.0; channels.len()]);
         let pressing = channels.iter().enumerate().filter(|(_, c)| c.kind == Kind::NonNegative);
         Passing {
@@ -50,6 +59,9 @@ impl Passing {
             count: 0,
             recorded: false,
             line: Line::new(scales, state),
+            ahead,
+            seen: vec![[f64::INFINITY, f64::NEG_INFINITY]; channels.len()],
+            turns: true,
             cut: false,
             skipped: false,
             pressing: pressing.map(|(i, _)| i).collect(),
@@ -60,8 +72,9 @@ impl Passing {
         }
     }
 
-    /// Takes the end of a step; it becomes a row where accelerations leave the [line](Line) through those of the last row, and the
-    /// end before it with it. The states before and behind an event count, however near to a row.
+    /// Takes the end of a step; it becomes a row where a channel may turn near its extremes, and where accelerations leave the
+    /// [line](Line) through those of the last row: there the end before it is one, too. The states before and behind an event count, however near to
+    /// a row.
     pub(super) fn enter(&mut self, system: &mut dyn System, state: &State, trajectory: &mut Trajectory) {
         let follows = self.catch_up(system, state, trajectory);
         self.measure(state);
@@ -80,7 +93,7 @@ impl Passing {
         state: &State,
         trajectory: &mut Trajectory,
     ) -> bool {
-        let follows = self.line.holds(system, state) && self.count > 0 && !self.rough;
+        let follows = self.line.holds(system, state) && !self.turns && !self.rough;
         if self.skipped && (self.cut || self.last.t >= self.next && !follows) {
             let before = std::mem::take(&mut self.last);
             self.evaluate(system, &before, trajectory);
@@ -132,6 +145,25 @@ impl Passing {
         for (i, y) in self.rows[3].1.iter().enumerate() {
             trajectory.pass(i, state.t, *y);
         }
+        self.look_ahead();
+    }
+
+    /// Finds whether a channel may turn before the next record and become smaller or larger than it was: by the parabola through the last three rows,
+    /// to half its slope.
+    fn look_ahead(&mut self) {
+        let [_, (t0, a), (t1, b), (t2, c)] = &self.rows;
+        self.turns = self.count < 3;
+        for (seen, ((a, b), c)) in self.seen.iter_mut().zip(a.iter().zip(b).zip(c)) {
+            let [least, most] = seen;
+            (*least, *most) = (least.min(*c), most.max(*c));
+            let (first, second) = ((b - a) / (t1 - t0), (c - b) / (t2 - t1));
+            let bend = (second - first) / (t2 - t0);
+            let now = second + bend * (t2 - t1);
+            let change = 2.0 * bend * self.ahead;
+            let reach = (now.abs() + change.abs()) * self.ahead;
+            let flattens = (now + change) * now < 0.5 * now * now;
+            self.turns |= flattens && (c + reach > *most || c - reach < *least);
+        }
     }
 
     /// An event has happened: the row of its time is the last of a smooth motion.
@@ -147,6 +179,7 @@ impl Passing {
             return false;
         }
         self.add(state).copy_from_slice(row);
+        self.look_ahead();
         self.recorded = true;
         true
     }
@@ -286,6 +319,9 @@ mod tests {
             count: 0,
             recorded: false,
             line: Line::new(&[], &State::default()),
+            ahead: 0.1,
+            seen: vec![[f64::INFINITY, f64::NEG_INFINITY]],
+            turns: true,
             cut: false,
             skipped: false,
             pressing: Vec::new(),

@@ -127,7 +127,7 @@ impl<'a> Recorder<'a> {
             violation: (system.size().lambda > 0).then(|| Violation::new(system)),
             modes: (0..system.size().v).filter(across).collect(),
         };
-        let mut passing = Passing::new(&channels, system.scales(), state, plan.end - state.t);
+        let mut passing = Passing::new(&channels, system.scales(), state, [plan.end - state.t, plan.sample]);
         let own = channels.len();
         common.observe(state, &Step::default(), 0.0, &mut Sink::channels(&mut channels));
         let mut trajectory = Trajectory::new(channels);
