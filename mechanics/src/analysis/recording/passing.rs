@@ -97,7 +97,9 @@ impl Passing {
         if self.skipped && (self.cut || self.last.t >= self.next && !follows) {
             let before = std::mem::take(&mut self.last);
             self.evaluate(system, &before, trajectory);
-            self.find_vertices(trajectory);
+            if !self.cut {
+                self.find_vertices(trajectory);
+            }
             self.last = before;
             self.skipped = false;
         }
