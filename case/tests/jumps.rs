@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
 
-use crate::written::P1_BEAM as BEAM;
+use crate::written::{P1_BEAM as BEAM, finished, outcome, reading, reading_of};
 use flexion_case::{Run, parse};
 use flexion_results::Status;
 use std::ops::ControlFlow;
@@ -145,5 +145,65 @@ fn the_balance_closes_at_step_loads_and_at_smooth_ones() {
         assert_eq!(run.status, Status::Finished, "{integrator}: {:?}", run.message);
         let imbalance = peak(&run, "energy.balance") / peak(&run, "energy.total");
         assert!(imbalance < allowed, "{integrator}: {imbalance:e}");
+    }
+}
+
+/// A controller turns a flexible arm: its reference begins to move at once, and stops at 0.52 s.
+const ARM: &str = "
+[[beam]]
+name = 'arm'
+length = 1
+section = { kind = 'tube', modulus = 70e9, density = 2700, outer-radius = 15e-3, inner-radius = 13e-3 }
+[[joint]]
+name = 'motor'
+kind = 'revolute'
+between = ['ground', 'arm.root']
+[joint.motion]
+kind = 'free'
+controller = { kind = 'pd', proportional = 400, derivative = 20, target = '45 deg', rate = 1.5 }
+[run]
+duration = 1
+";
+
+/// The torque of the controller jumps by 30 N·m on the root of the beam, whose mass is next to nothing: ½ h² q̈ is several radians. Methods of
+/// the second order follow it, and keep their order.
+#[test]
+fn a_torque_that_jumps_on_little_mass_is_followed() {
+    let angles = |integrator: &str| {
+        let run = finished(&reading(ARM, &[&format!("integrator={integrator}")]));
+        run.trajectory.column("motor.angle").unwrap()
+    };
+    let exact = angles("{kind='radau',tolerance=1e-9}");
+    let off = |kind: &str, step: f64| {
+        let found = angles(&format!("{{kind='{kind}',step={step}}}"));
+        assert_eq!(found.len(), exact.len());
+        found.iter().zip(&exact).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()))
+    };
+    for kind in ["generalized-alpha", "hht", "newmark"] {
+        let errors = [2e-3, 1e-3, 5e-4].map(|step| off(kind, step));
+        eprintln!("{kind}: {errors:?}");
+        assert!(
+            errors[2] < 1e-3 && errors[2] < 0.3 * errors[1] && errors[1] < 0.4 * errors[0],
+            "{kind}: {errors:?}"
+        );
+    }
+}
+
+/// P1 in space: rounding errors of the velocities of its hub grow from step to step where positions alone are held by a method without
+/// dissipation, and the run ends. The message says so; what it recommends, runs.
+#[test]
+fn joints_that_come_loose_are_said_to() {
+    let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("../verification/p1_spin_up_4/case.toml");
+    let run = |integrator: &str| {
+        outcome(&reading_of(&case, &["model.coupling=space", &format!("integrator={integrator}")]))
+    };
+    let loose = run("{kind='newmark',step=2e-3}");
+    assert_eq!(loose.status, Status::Failed);
+    let message = loose.message.unwrap();
+    assert!(message.contains("`stabilized`") && !message.contains("smaller step"), "{message}");
+    for held in ["{kind='newmark',step=2e-3,stabilized=true}", "{kind='generalized-alpha',step=2e-3}"] {
+        let held = run(held);
+        assert_eq!(held.status, Status::Finished, "{:?}", held.message);
+        assert!((last(&held, "hub.speed") - 4.0).abs() < 1e-4);
     }
 }

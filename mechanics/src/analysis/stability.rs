@@ -111,12 +111,12 @@ pub(super) fn judge(system: &mut dyn System, state: &State) -> Result<(Stability
     Ok((Stability { divergent: grows(false), fluttering: grows(true) }, saddle))
 }
 
-/// Number of directions in which a symmetric K is negative but for rounding.
+/// Number of directions in which a symmetric K is negative but for rounding. A direction that rounding decides need not be the softest: next
+/// to a critical speed a free spin is not.
 fn saddle(all: &[Matrix; 3], multipliers: usize) -> Result<usize, EigenError> {
     match negative_directions(&all[2], multipliers) {
         0 => Ok(0),
-        saddle if rounds(all.clone(), multipliers) => certain_directions(all, multipliers, saddle),
-        saddle => Ok(saddle),
+        negative => certain_directions(all, multipliers, negative),
     }
 }
 

@@ -87,11 +87,10 @@ pub(super) fn quintic(
     finish(from, to, s, t, out);
 }
 
-/// Writes what is linear between both ends: for steps in which velocities may jump. `out.v` holds the increment D.
-pub(super) fn linear(system: &dyn Dynamics, from: &State, to: &State, t: f64, out: &mut State) {
+/// Writes velocities and accelerations that are linear between both ends, with all but the configuration: for steps in which velocities
+/// may jump.
+pub(super) fn linear(from: &State, to: &State, t: f64, out: &mut State) {
     let s = fraction(from, to, t);
-    out.v.iter_mut().for_each(|d| *d *= s);
-    system.retract(&from.q, &out.v, &mut out.q);
     for i in 0..out.v.len() {
         out.v[i] = from.v[i] + s * (to.v[i] - from.v[i]);
         out.a[i] = from.a[i] + s * (to.a[i] - from.a[i]);
@@ -116,7 +115,7 @@ fn quintic_weights(s: f64) -> [[f64; 5]; 3] {
 }
 
 /// (t − t₀)/h, 1 for an empty step.
-fn fraction(from: &State, to: &State, t: f64) -> f64 {
+pub(super) fn fraction(from: &State, to: &State, t: f64) -> f64 {
     let h = to.t - from.t;
     if h > 0.0 { (t - from.t) / h } else { 1.0 }
 }

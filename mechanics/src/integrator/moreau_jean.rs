@@ -239,11 +239,12 @@ impl Stepper for MoreauSteps {
     fn accept(&mut self, _from: &State, _to: &State) {}
 
     fn interpolate(&self, system: &dyn Dynamics, from: &State, to: &State, t: f64, out: &mut State) {
-        let h = to.t - from.t;
+        let (h, s) = (to.t - from.t, hermite::fraction(from, to, t));
         for (d, (v0, v1)) in out.v.iter_mut().zip(from.v.iter().zip(&to.v)) {
-            *d = h * ((1.0 - self.theta) * v0 + self.theta * v1);
+            *d = s * (h * ((1.0 - self.theta) * v0 + self.theta * v1));
         }
-        hermite::linear(system, from, to, t, out);
+        system.retract(&from.q, &out.v, &mut out.q);
+        hermite::linear(from, to, t, out);
     }
 
     /// Impulses decide about contacts, not modes.

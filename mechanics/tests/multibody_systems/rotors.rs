@@ -210,6 +210,27 @@ fn a_shaft_of_two_stiffnesses_is_unstable_between_its_two_critical_speeds() {
     }
 }
 
+/// The same shaft, of which nothing holds the rotation about its axis: next to a critical speed the deflection is softer than the rotation, and
+/// rounding alone gives that a stiffness, of either sign by the mesh.
+#[test]
+fn a_free_spin_is_no_critical_speed() {
+    for elements in [4, 8, 12, 16] {
+        let shaft = Shaft {
+            elements,
+            discs: vec![(elements / 2, 3.0, [1e-6; 3])],
+            ends: [Some(Kind::Spherical); 2],
+            ..jeffcott([140.0, 100.0])
+        };
+        let diagram = shaft.campbell((0..=6).map(|i| 9.0 * f64::from(i)).collect(), 2);
+        let found: Vec<f64> = diagram.criticals.iter().map(|c| c.speed).collect();
+        let expected = [100.0, 140.0].map(|e| (48.0 * e / 3.0_f64).sqrt());
+        assert_eq!(found.len(), 2, "{elements} elements: {found:?}");
+        for (found, expected) in found.iter().zip(expected) {
+            assert!((found / expected - 1.0).abs() < 5e-6, "{elements} elements: {found} for {expected}");
+        }
+    }
+}
+
 /// Damping c_i that rotates with the shaft and c_e that does not: in the rotating frame
 /// m λ² + (c_e + c_i + 2iΩm) λ + k − mΩ² + iΩ c_e = 0, unstable beyond Ω = (1 + c_e/c_i) √(k/m).
 #[test]

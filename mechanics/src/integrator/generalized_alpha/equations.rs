@@ -64,6 +64,11 @@ impl Equations {
         self.accelerations.complete_in(memory, system, state, place, counters)
     }
 
+    /// Whether velocities are held too.
+    pub(super) fn is_stabilized(&self) -> bool {
+        self.stiffness.is_some()
+    }
+
     /// Stores Gₙ of a step from `from`, where μ acts along it.
     pub(super) fn begin(&mut self, system: &mut dyn Dynamics, from: &State) {
         if self.stiffness.is_some() {

@@ -113,6 +113,8 @@ impl GeneralizedAlpha {
             affine: system.is_affine() && size.lambda == 0,
             renewals: 0,
             constant: false,
+            begins: true,
+            euler: 0,
         }
     }
 }

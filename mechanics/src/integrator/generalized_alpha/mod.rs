@@ -36,6 +36,16 @@
 //! The predictor is q̈ₙ₊₁ = q̈ₙ + q̈ₙ₋₁ − q̈ₙ₋₂: exact for accelerations linear in time, and for those of undamped frequencies far above
 //! 1/h, which change their sign at each step of a method without dissipation.
 //!
+//! Behind a jump of a force on little mass h² q̈ₙ is no displacement of a step. Where in the first step behind a restart Newton's method
+//! fails, or ½h² (q̈ₙ₊₁ − q̈ₙ) is more than the scale of an unknown, three steps are those of the implicit Euler method,
+//!
+//! ```text
+//! vₙ₊₁ = vₙ + h q̈ₙ₊₁,   d = h vₙ₊₁
+//! ```
+//!
+//! in which position, velocity and acceleration of what is far faster than the step come to rest, one after the other (Rannacher's start).
+//! Their errors of h² do not add up: the method keeps its order.
+//!
 //! Steps may change their size (`auxiliary.rs`).
 //!
 //! Order: 2 in q, v and λ for γ = ½ + αf − αm (measured 2.00, also for constraints of index 3 and in the stabilized
@@ -45,7 +55,7 @@
 //! Sources: Newmark (1959, doi 10.1061/JMCEA3.0000098); Hilber, Hughes & Taylor (1977,
 //! doi 10.1002/eqe.4290050306); Chung & Hulbert (1993, doi 10.1115/1.2900803); Arnold & Brüls (2007,
 //! doi 10.1007/s11044-007-9084-0); Gear, Gupta & Leimkuhler (1985, doi 10.1016/0377-0427(85)90008-1); Arnold, Brüls &
-//! Cardona (2015, doi 10.1007/s00211-014-0633-1).
+//! Cardona (2015, doi 10.1007/s00211-014-0633-1); Rannacher (1984, doi 10.1007/BF01390130).
 
 mod equations;
 mod family;
@@ -56,7 +66,7 @@ use super::{
     Attempt, Checkpoint, Convergence, Counters, NotResumed, Progress, Span, StepError, StepReport, Stepper,
     failure, hermite,
 };
-use crate::system::{Dynamics, State};
+use crate::system::{Dynamics, RowWeights, Set, State};
 use equations::Equations;
 pub use family::GeneralizedAlpha;
 
@@ -73,6 +83,9 @@ const ROWS_TOLERANCE: f64 = 1e-16;
 
 /// Largest size of increments that may be rounding errors.
 const NOISE: f64 = 1e-7;
+
+/// Steps of the implicit Euler method behind a jump that the method itself does not follow.
+const EULER_STEPS: u8 = 3;
 
 /// Which tangent an iteration has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -101,6 +114,9 @@ pub(in crate::integrator) struct AlphaSteps {
     affine: bool,
     renewals: u32,
     constant: bool,
+    /// Whether no step has been taken since the restart, and steps of the implicit Euler method that are left, with that of the attempt.
+    begins: bool,
+    euler: u8,
 }
 
 /// Accelerations q̈ₙ₋₁ and q̈ₙ₋₂, and how many of them are known.
@@ -122,20 +138,54 @@ impl AlphaSteps {
         counters: &mut Counters,
     ) -> Result<StepReport, StepError> {
         self.equations.begin(system, from);
+        if self.euler > 0 {
+            return self.solve_euler(system, from, h, to, counters);
+        }
         // To renew a constant tangent costs nothing, and makes the step exact.
         let free = self.affine && (self.constant || self.renewals == 1);
         let kept = !self.kept.due && !free && self.kept.serves(self.auxiliary.parameters.weights(h));
         let order = [Tangents::Kept, Tangents::New, Tangents::Newton];
         let mut iterations = None;
         for tangents in order.into_iter().skip(usize::from(!kept)) {
-            iterations = self.iterate(system, (from, to), h, tangents, counters)?;
+            iterations = match self.iterate(system, (from, to), h, tangents, counters) {
+                Err(failed) if self.begins => {
+                    self.euler = EULER_STEPS;
+                    return self.solve_euler(system, from, h, to, counters).map_err(|_| failed);
+                }
+                other => other?,
+            };
             if iterations.is_some() {
                 break;
             }
         }
+        if self.begins && !self.affine && jumps(system, from, to, h) {
+            self.euler = EULER_STEPS;
+            return self.solve_euler(system, from, h, to, counters);
+        }
         let iterations = iterations.unwrap_or_default();
         self.kept.age(iterations);
         Ok(StepReport { iterations, ..StepReport::default() })
+    }
+
+    /// A step of the implicit Euler method, by Newton's method proper.
+    fn solve_euler(
+        &mut self,
+        system: &mut dyn Dynamics,
+        from: &State,
+        h: f64,
+        to: &mut State,
+        counters: &mut Counters,
+    ) -> Result<StepReport, StepError> {
+        let result = self.iterate(system, (from, to), h, Tangents::Newton, counters);
+        if result.is_err() {
+            self.euler = 0;
+        }
+        Ok(StepReport { iterations: result?.unwrap_or_default(), ..StepReport::default() })
+    }
+
+    /// What an increment of q̈ₙ₊₁ moves v and q by.
+    fn weights(&self, h: f64) -> [f64; 2] {
+        if self.euler > 0 { [h, h * h] } else { self.auxiliary.parameters.weights(h) }
     }
 
     /// Predicts and iterates; gives the number of iterations, none where they do not converge with one tangent.
@@ -147,7 +197,7 @@ impl AlphaSteps {
         tangents: Tangents,
         counters: &mut Counters,
     ) -> Result<Option<u32>, StepError> {
-        let weights = self.auxiliary.parameters.weights(h);
+        let weights = self.weights(h);
         self.predict(system, from, h, to);
         self.begin(system, to, tangents);
         for iterations in 1.. {
@@ -164,7 +214,10 @@ impl AlphaSteps {
                 Progress::Continue => {}
                 Progress::Diverged if tangents == Tangents::Newton => {
                     self.kept.weights = [f64::NAN; 2];
-                    return Err(self.diverged(system, (from.t, h), size, to));
+                    return Err(match self.loose(system, from, h) {
+                        Some(rate) => StepError::Loose { time: from.t, step: h, rate },
+                        None => self.diverged(system, (from.t, h), size, to),
+                    });
                 }
                 Progress::Diverged => break,
             }
@@ -172,7 +225,7 @@ impl AlphaSteps {
         Ok(None)
     }
 
-    /// Starting values: the accelerations of the last three steps, continued.
+    /// Starting values: the accelerations of the last three steps, continued, or none.
     fn predict(&mut self, system: &dyn Dynamics, from: &State, h: f64, to: &mut State) {
         let n = from.v.len();
         let formulas = self.auxiliary.attempt(h);
@@ -185,9 +238,15 @@ impl AlphaSteps {
             _ => (&before[..n], &earlier[..n]),
         };
         let (d, out_a, out_v) = (&mut self.d[..n], &mut to.a[..n], &mut to.v[..n]);
-        for i in 0..n {
-            out_a[i] = from_a[i] + (later[i] - sooner[i]);
-            [out_v[i], d[i]] = formulas.motion(a[i], from_v[i], from_a[i], out_a[i]);
+        if self.euler > 0 {
+            out_a.fill(0.0);
+            out_v.copy_from_slice(from_v);
+            d.iter_mut().zip(from_v).for_each(|(d, v)| *d = h * v);
+        } else {
+            for i in 0..n {
+                out_a[i] = from_a[i] + (later[i] - sooner[i]);
+                [out_v[i], d[i]] = formulas.motion(a[i], from_v[i], from_a[i], out_a[i]);
+            }
         }
         to.lambda.copy_from_slice(&from.lambda);
         to.copy_modes(from);
@@ -215,7 +274,7 @@ impl AlphaSteps {
         h: f64,
         counters: &mut Counters,
     ) -> Result<(), StepError> {
-        let weights = self.auxiliary.parameters.weights(h);
+        let weights = self.weights(h);
         let factored = self
             .equations
             .assemble(system, to, &self.d, h, weights)
@@ -236,7 +295,7 @@ impl AlphaSteps {
     /// Subtracts the solution from the unknowns; gives the size of the increment of q.
     fn update(&mut self, system: &dyn Dynamics, from: &State, h: f64, to: &mut State) -> f64 {
         let n = from.v.len();
-        let [to_v, to_q] = self.auxiliary.parameters.weights(h);
+        let [to_v, to_q] = self.weights(h);
         let (x, multipliers) = self.equations.rhs.split_at(n);
         let d = &mut self.d[..n];
         let (out_a, out_v, scale) = (&mut to.a[..n], &mut to.v[..n], &system.scales()[..n]);
@@ -278,12 +337,39 @@ impl AlphaSteps {
         Progress::Converged
     }
 
+    /// The largest rate at `from` of a row that is held by its position alone, in a method without dissipation, if a step at this rate goes
+    /// farther than rounding.
+    fn loose(&self, system: &mut dyn Dynamics, from: &State, h: f64) -> Option<f64> {
+        let undamped = self.auxiliary.parameters.gamma == 0.5;
+        if !undamped || self.equations.is_stabilized() || from.lambda.is_empty() {
+            return None;
+        }
+        let mut rates = vec![0.0; from.lambda.len()];
+        system.constraint(from, RowWeights::VELOCITY, &mut rates);
+        let held = rates.iter().zip(system.rows()).filter(|(_, set)| **set == Set::Free);
+        let largest = held.fold(0.0_f64, |most, (rate, _)| most.max(rate.abs()));
+        (largest * h > NOISE).then_some(largest)
+    }
+
     fn diverged(&self, system: &dyn Dynamics, place: (f64, f64), size: f64, to: &State) -> StepError {
         if !size.is_finite() {
             return failure::not_finite(system, place.0, place.1, to);
         }
         let x = &self.equations.rhs[..to.v.len()];
         failure::not_converged(system, place, &self.full, size / ITERATION_TOLERANCE, x)
+    }
+}
+
+/// Whether the change of an acceleration in a step h moves its unknown by more than its scale.
+fn jumps(system: &dyn Dynamics, from: &State, to: &State, h: f64) -> bool {
+    let changes = from.a.iter().zip(&to.a).map(|(before, now)| 0.5 * h * h * (now - before).abs());
+    changes.zip(system.scales()).any(|(change, scale)| change > *scale)
+}
+
+impl AlphaSteps {
+    /// Increment d of the attempt.
+    pub(in crate::integrator) fn increment(&self) -> &[f64] {
+        &self.d
     }
 }
 
@@ -300,6 +386,13 @@ impl Stepper for AlphaSteps {
     }
 
     fn accept(&mut self, from: &State, to: &State) {
+        self.begins = false;
+        if self.euler > 0 {
+            self.euler -= 1;
+            self.auxiliary.restart(&to.a);
+            self.kept.forget(false);
+            return;
+        }
         self.auxiliary.accept(&from.a, &to.a);
         let Trend { before, earlier, known } = &mut self.trend;
         std::mem::swap(before, earlier);
@@ -320,7 +413,7 @@ impl Stepper for AlphaSteps {
         self.trend.known = 0;
         self.simplified.forget();
         self.kept.forget(false);
-        self.renewals = 0;
+        (self.renewals, self.begins, self.euler) = (0, true, 0);
         self.equations.complete(system, state, counters)?;
         self.auxiliary.restart(&state.a);
         Ok(())
@@ -330,8 +423,9 @@ impl Stepper for AlphaSteps {
         self.auxiliary.save(out);
         out.put("before", &self.trend.before);
         out.put("earlier", &self.trend.earlier);
-        let constant = f64::from(u8::from(self.constant));
+        let [constant, begins] = [self.constant, self.begins].map(|flag| f64::from(u8::from(flag)));
         out.put("history", &[f64::from(self.trend.known), f64::from(self.renewals), constant]);
+        out.put("start", &[begins, f64::from(self.euler)]);
         out.put("convergence", &self.simplified.memory());
         self.kept.save(out);
         self.equations.save(out);
@@ -342,6 +436,8 @@ impl Stepper for AlphaSteps {
         from.fill("before", &mut self.trend.before)?;
         from.fill("earlier", &mut self.trend.earlier)?;
         let [known, renewals, constant] = from.numbers("history")?;
+        let [begins, euler] = from.numbers("start")?;
+        (self.begins, self.euler) = (begins != 0.0, euler as u8);
         (self.trend.known, self.renewals, self.constant) = (known as u8, renewals as u32, constant != 0.0);
         self.simplified.recall(from.numbers("convergence")?);
         self.kept.resume(from)?;

@@ -119,6 +119,7 @@ impl Work {
         }
         if level == Level::Position {
             system.retract(&self.smooth.q, &self.increment, &mut to.q);
+            self.correction.copy_from_slice(&self.increment);
             system.constraint(to, RowWeights::POSITION, &mut self.gaps);
         }
         Ok(self.convergence.iterations())

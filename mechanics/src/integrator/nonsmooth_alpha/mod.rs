@@ -55,6 +55,7 @@ use crate::contact::Unresolved;
 use crate::linalg::Matrix;
 use crate::system::{Dynamics, Mode, Set, State};
 use memory::Coupled;
+use std::cell::Cell;
 
 /// Name as in a case file.
 const NAME: &str = "nonsmooth-generalized-alpha";
@@ -93,7 +94,6 @@ enum Level {
 }
 
 /// Memory that both schemes need.
-#[derive(Debug)]
 struct Work {
     convergence: Convergence,
     /// Whether a contact acted in the last step.
@@ -109,6 +109,9 @@ struct Work {
     /// α, ½h²α, and the multipliers of the contacts.
     alpha: Vec<f64>,
     increment: Vec<f64>,
+    /// U of the step, and memory for q₀ ⊞ s d.
+    correction: Vec<f64>,
+    uncorrected: Cell<Vec<f64>>,
     forces: Vec<f64>,
     rhs: Vec<f64>,
     gaps: Vec<f64>,
@@ -158,6 +161,8 @@ impl Work {
             trial: state(),
             alpha: zeros(n),
             increment: zeros(n),
+            correction: zeros(n),
+            uncorrected: Cell::new(zeros(state().q.len())),
             forces: zeros(m),
             rhs: zeros(n + m),
             gaps: zeros(m),
@@ -166,6 +171,17 @@ impl Work {
             takes_part: vec![false; m],
             scale: system.scales().to_vec(),
         }
+    }
+
+    /// Writes (q₀ ⊞ s d) ⊞ s U: of an increment d that may be of several turns, and not of the rotation that the ends show.
+    fn follow(&self, system: &dyn Dynamics, from: &State, d: &[f64], s: f64, out: &mut State) {
+        let mut q = self.uncorrected.take();
+        out.v.iter_mut().zip(d).for_each(|(part, d)| *part = s * d);
+        system.retract(&from.q, &out.v, &mut q);
+        let part = if self.corrected { s } else { 0.0 };
+        out.v.iter_mut().zip(&self.correction).for_each(|(v, u)| *v = part * u);
+        system.retract(&q, &out.v, &mut out.q);
+        self.uncorrected.set(q);
     }
 
     /// The start of a step: `from` with all contacts open and the accelerations of the smooth motion.
@@ -331,9 +347,16 @@ impl Stepper for NonsmoothSteps {
         let mut contacts = from.lambda.iter().zip(system.rows()).filter(|(_, set)| **set != Set::Free);
         let behind = contacts.any(|(force, _)| *force != 0.0);
         match &self.scheme {
-            _ if self.work.corrected || behind => {
-                system.difference(&from.q, &to.q, &mut out.v);
-                hermite::linear(system, from, to, t, out);
+            scheme if self.work.corrected || behind => {
+                let s = hermite::fraction(from, to, t);
+                match scheme {
+                    Scheme::Coupled(coupled) => {
+                        out.v.iter_mut().zip(&coupled.accepted).for_each(|(part, d)| *part = s * d);
+                        system.retract(&from.q, &out.v, &mut out.q);
+                    }
+                    Scheme::Decoupled(smooth) => self.work.follow(system, from, smooth.increment(), s, out),
+                }
+                hermite::linear(from, to, t, out);
             }
             Scheme::Coupled(coupled) => hermite::cubic(system, from, to, &coupled.accepted, t, out),
             Scheme::Decoupled(smooth) => smooth.interpolate(system, from, to, t, out),
