@@ -671,7 +671,7 @@ fn a_body_that_turns_by_more_than_half_a_turn_in_a_step_bounces() {
     let speed = 400.0;
     for scheme in ["true", "false"] {
         for (joint, column) in [
-            ("", "b.quaternion.z"),
+            ("", "b.rotation.z"),
             ("[[joint]]\nname = 'j'\nkind = 'cylindrical'\nbetween = ['ground', 'b']", "j.angle"),
         ] {
             let case = format!(

@@ -181,7 +181,6 @@ fn a_torque_that_jumps_on_little_mass_is_followed() {
     };
     for kind in ["generalized-alpha", "hht", "newmark"] {
         let errors = [2e-3, 1e-3, 5e-4].map(|step| off(kind, step));
-        eprintln!("{kind}: {errors:?}");
         assert!(
             errors[2] < 2e-3 && errors.windows(2).all(|pair| pair[1] < 0.6 * pair[0]),
             "{kind}: {errors:?}"
