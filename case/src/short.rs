@@ -166,9 +166,14 @@ pub(super) fn long(lines: &[Line], v: &Values, files: &Files<'_>) -> Made<Long> 
     }
     if let Some(start) = &start {
         found.part(turning(v, start));
-        found.check(start.sets_off && v.kind("initial") == Some("static"), "initial.kind", || {
-            "the hub sets off with an acceleration, which the static equilibrium of a system in space leaves out".to_owned()
-        });
+        found.check(
+            start.sets_off && matches!(v.kind("initial"), Some("static" | "steady-rotation")),
+            "initial.kind",
+            || {
+                "the hub sets off with an acceleration, which the equilibrium of a system in space leaves out"
+                    .to_owned()
+            },
+        );
     }
     found.part(carried(v));
     let (Some(section), Some(start)) = (section, start) else { return Err(found.0) };

@@ -556,8 +556,10 @@ fn settings(v: &Values) -> Made<(bool, usize, bool)> {
 
 /// The initial states that a system in space can have.
 fn initial(v: &Values, found: &mut Found) {
-    let kind = v.kind("initial").unwrap_or("undeformed");
-    found.check(matches!(kind, "steady-rotation" | "modes"), "initial.kind", || {
-        format!("`{kind}` is for a beam on a hub: a system in space begins as its parts are written, or in `static` equilibrium")
-    });
+    if v.kind("initial") == Some("modes") {
+        let message = "is of a beam on a hub in the plane: a system in space begins as its parts are written, in `static` equilibrium or \
+                       in `steady-rotation`";
+        let help = "take a planar model, `model.coupling = \"exact\"`";
+        found.0.0.push(Fault::new("initial.kind", message).help(help));
+    }
 }

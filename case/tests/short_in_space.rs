@@ -5,6 +5,7 @@
 use crate::verification::run::{Run, all, case, integrate, root};
 use crate::written::reading;
 use flexion::system::Role;
+use flexion_case::kinds::integrator::Steps;
 use flexion_case::{Effort, Problems, Reading, parse};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -202,10 +203,11 @@ const SHORTER: [(&str, f64); 5] = [
 
 const BASIS: &str = "is a basis of the planar models";
 const OFFSET: &str = "off the axis, and in space the axis goes through the centres of mass";
-const STARTS: &str = "a system in space begins as its parts are written, or in `static` equilibrium";
+const STARTS: &str = "is of a beam on a hub in the plane: a system in space begins";
 
-/// Cases that run in space and are not compared: the companions that tell the errors of regularised friction take minutes.
-const LEFT_OUT: [&str; 1] = ["contact_friction/regularised"];
+/// A case and what it is run with. Its friction is regularised over 1e-7 m/s, and rounding leaves 3e-9 m/s of velocities along a beam in space:
+/// the steps follow friction that rounding shakes, and become so small that a second takes minutes.
+const WIDER: (&str, &str) = ("contact_friction/regularised", "contact.law.slip-speed=1e-5");
 
 /// Why planar cases are refused in space, and which.
 const REFUSED: &[(&str, &[&str])] = &[
@@ -252,9 +254,9 @@ const REFUSED: &[(&str, &[&str])] = &[
         ],
     ),
     ("beams in space and blades do without", &["p3_spin_up/n0", "p3_spin_up/soft_ceramic"]),
-    (STARTS, &["modes_cantilever", "modes_chordwise_gyroscopic", "steady_rotation", "steady_rotation/first"]),
+    (STARTS, &["drag/vibration"]),
     ("the state is one of another model", &["steady_rotation/restart"]),
-    ("which the static equilibrium of a system in space leaves out", &["initial_static"]),
+    ("which the equilibrium of a system in space leaves out", &["initial_static"]),
     (
         "is of the small vibrations of a beam on a hub",
         &[
@@ -275,17 +277,17 @@ const REFUSED: &[(&str, &[&str])] = &[
 const OTHERWISE: &[(&str, &str, &str)] = &[
     ("beam_on_stop", "hub.torque", "the ground, and not the hub, carries the obstacle"),
     ("contact_friction", "hub.torque", "the ground, and not the hub, carries the obstacle"),
-    ("free_hub_flexible_beam", "tip.rotation_velocity", UNRESOLVED),
-    ("free_hub_stiff_beam/controlled", "tip.axial_velocity", UNRESOLVED),
-    ("motion_ramp", "tip.deflection_velocity", UNRESOLVED),
-    ("motion_ramp", "tip.rotation_velocity", UNRESOLVED),
-    ("pendulum_", "tip.axial", UNRESOLVED),
-    ("pendulum_", "tip.axial_velocity", UNRESOLVED),
-    ("pendulum_", "energy.strain", UNRESOLVED),
+    ("free_hub_stiff_beam/controlled", "tip.axial_velocity", ROUNDING),
 ];
 
-/// The error that both state of such a column is a half to a seventh of their difference.
-const UNRESOLVED: &str = "vibrations by one in a thousand to one in two that the steps do not resolve, and damp as their sizes will";
+/// The beam stretches by 1e-12 of its length, and neither finer steps nor a finer mesh change the difference.
+const ROUNDING: &str = "positions in space of a metre, of which the displacement is a difference";
+
+/// Cases with columns that the steps of their own tolerance do not resolve in space: jumps of an acceleration excite all frequencies. Between
+/// the tolerances 1e-8 and 1e-12 of both models the differences fall with those of the run in space from itself, of the velocity along
+/// the pendulum from 0.7 of it to 1e-3; on four times as fine a mesh they are the same. They are compared at this tolerance.
+const FINER: ([&str; 4], f64) =
+    (["contact_friction/regularised", "free_hub_flexible_beam", "motion_ramp", "pendulum_"], 1e-12);
 
 fn differs(name: &str, column: &str) -> bool {
     OTHERWISE.iter().any(|(cases, of, _)| name.starts_with(cases) && *of == column)
@@ -298,9 +300,6 @@ enum Outcome {
 }
 
 fn outcome(name: &str, seen: &Mutex<Vec<String>>) -> Option<Outcome> {
-    if LEFT_OUT.contains(&name) {
-        return None;
-    }
     let planar = case(name, &[]).unwrap();
     planar.case.hub_beam()?;
     let refused = |problems: &Problems| {
@@ -309,8 +308,20 @@ fn outcome(name: &str, seen: &Mutex<Vec<String>>) -> Option<Outcome> {
     };
     let shorter =
         SHORTER.iter().find(|(cases, _)| name.starts_with(cases)).map_or(LONGEST, |(_, duration)| *duration);
-    let duration = format!("run.duration={}", planar.case.duration.min(shorter));
-    let space = match case(name, &["model.coupling=space", &duration]) {
+    let mut set = vec![format!("run.duration={}", planar.case.duration.min(shorter))];
+    if name == WIDER.0 {
+        set.push(WIDER.1.to_owned());
+    }
+    let controlled = matches!(planar.case.steps, Steps::Controlled { .. });
+    if controlled && FINER.0.iter().any(|cases| name.starts_with(cases)) {
+        set.push(format!("integrator.tolerance={}", FINER.1));
+        set.push(format!("integrator.absolute-tolerance={}", 1e-2 * FINER.1));
+    }
+    let with = |coupling: &'static str| {
+        let set: Vec<&str> = [coupling].into_iter().chain(set.iter().map(String::as_str)).collect();
+        case(name, &set)
+    };
+    let space = match with("model.coupling=space") {
         Ok(space) => space,
         Err(problems) => return refused(&problems),
     };
@@ -327,7 +338,7 @@ fn outcome(name: &str, seen: &Mutex<Vec<String>>) -> Option<Outcome> {
     if known {
         return None;
     }
-    let plane = case(name, &["model.coupling=exact", &duration]).unwrap_or(planar);
+    let plane = with("model.coupling=exact").unwrap_or(planar);
     match differences(name, &space, &plane) {
         Ok(found) => Some(Outcome::Differs(found)),
         Err(problems) => refused(&problems),
@@ -404,7 +415,11 @@ fn hostile_cases_are_refused_at_their_place() {
         (SHORT, &["contact=[{obstacle={kind='plane', point=[0, -3]}}]"], &["contact[1].law", "without mass"]),
         (SHORT, &["basis={kind='modes'}"], &["basis", "`modes`"]),
         (SHORT, &["blade={}"], &["blade"]),
-        (SHORT, &["initial.kind=steady-rotation"], &["initial.kind"]),
+        (
+            SHORT,
+            &["initial={kind='modes', amplitudes=['1 mm']}"],
+            &["initial.kind", "`model.coupling = \"exact\"`"],
+        ),
         (SHORT, &["output.section-forces=true"], &["output.section-forces"]),
         (SHORT, &["section.bending-stiffness='20 kg'"], &["section.bending-stiffness"]),
         (SHORT, &["integrator={kind='runge-kutta-4', step='1 us'}"], &["integrator.kind", "explicit"]),

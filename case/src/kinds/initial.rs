@@ -52,7 +52,7 @@ pub static INITIAL: Choice<Initial> = Choice {
         },
         Kind {
             name: "steady-rotation",
-            summary: "equilibrium of steady rotation at the initial speed of the hub",
+            summary: "equilibrium of steady rotation at the initial speed of the hub, or of all parts about one axis",
             source: "",
             keys: &[],
             example: "initial.kind=steady-rotation\nhub.motion={kind='constant', speed='4 rad/s'}",

@@ -1,14 +1,18 @@
-//! The axis about which `modes` and `campbell` rotate a system in space.
+//! The axis about which a system in space rotates steadily: in `modes` and `campbell`, and at the start of a run.
 
 use super::vector::optional_vector;
 use crate::declaration::{Bound::*, Presence::*, Type, key};
 use crate::fault::{Fault, Made};
 use crate::kind::Table;
 use crate::units::{FACTOR, LENGTH};
+use flexion::analysis::rotation::rotate_stably;
 use flexion::linalg::Vec3;
 use flexion::multibody::{Axis, Model, Multibody, Rotating};
-use flexion::system::Fork;
+use flexion::system::{Dynamics, Fork, Parameter, State, Steady};
 use flexion_results::nearest;
+
+/// Differences of velocities, over the largest, that are rounding.
+const SAME: f64 = 1e-9;
 
 /// What a case says of the axis.
 #[derive(Clone, Debug, PartialEq)]
@@ -143,6 +147,35 @@ impl Rotation {
         }
         let multibody = Multibody::new(model).map_err(|error| error.to_string())?;
         Ok((Rotating::new(multibody, self.axis), left_out))
+    }
+
+    /// The state of a model in steady rotation at the speed with which the state `s` rotates.
+    ///
+    /// # Errors
+    /// Why there is none: its parts move otherwise, loads that do not rotate with it, an equilibrium that is lost on the way to the speed.
+    pub(crate) fn turning(&self, model: &Model, s: &State) -> Result<State, String> {
+        let mut model = model.clone();
+        if let Some(joint) = &self.keeps {
+            model.keep_angle(joint);
+        }
+        let multibody = Multibody::new(model).map_err(|error| error.to_string())?;
+        let mut rotating = Rotating::new(multibody, self.axis);
+        let mut at = rotating.initial();
+        // The velocities are Ω times those at 1 rad/s.
+        rotating.set(Parameter::Speed, 1.0).map_err(|error| error.to_string())?;
+        let unit = rotating.in_space(&at).v;
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let speed = dot(&s.v, &unit) / dot(&unit, &unit);
+        let largest = s.v.iter().fold(0.0_f64, |largest, v| largest.max(v.abs()));
+        if s.v.iter().zip(&unit).any(|(v, unit)| !((v - speed * unit).abs() <= SAME * largest)) {
+            return Err(format!(
+                "the parts do not begin as one that rotates about {}: give them the velocities of such a rotation, or leave out \
+                 `velocity` and `spin`",
+                self.described(false)
+            ));
+        }
+        rotate_stably(&mut rotating, &mut at, 0.0, speed).map_err(|error| error.to_string())?;
+        Ok(rotating.in_space(&at))
     }
 
     /// As it is said: direction, the point of the axis that is next to the origin, and the joint that keeps its angle, or is free.

@@ -201,7 +201,19 @@ impl Reading {
         match &self.case.initial {
             Initial::Undeformed => {}
             Initial::Restart(earlier) => return Ok((restart::begin(earlier, self, state)?, None)),
-            Initial::SteadyRotation => warning = self.equilibrium(system, state, watch)?,
+            Initial::SteadyRotation => {
+                match self.case.space().filter(|_| state.v.iter().any(|v| *v != 0.0)) {
+                    Some(space) => {
+                        let rotation = space.rotation.as_ref().map_err(Clone::clone);
+                        let turning =
+                            rotation.and_then(|rotation| rotation.turning(space.multibody.model(), state));
+                        let turning = turning.map_err(|why| self.problem("initial.kind", why))?;
+                        state.q.copy_from_slice(&turning.q);
+                        state.v.copy_from_slice(&turning.v);
+                    }
+                    None => warning = self.equilibrium(system, state, watch)?,
+                }
+            }
             Initial::Static => {
                 self.at_rest(&state.v, "initial.kind", "use `steady-rotation`")?;
                 warning = self.equilibrium(system, state, watch)?;
