@@ -19,7 +19,10 @@ const STIFFNESS: Key = key(
 );
 
 /// The keys of the damping of a beam of its own.
-pub(super) static DAMPED: [Key; 2] = [mass("force over mass and velocity, β"), STIFFNESS];
+pub(super) static DAMPED: [Key; 2] = [
+    mass("force over mass and velocity against the ground, β: it brakes a beam that rotates too"),
+    STIFFNESS,
+];
 
 /// The keys of the damping of a body.
 pub(super) static RIGID: [Key; 1] =
