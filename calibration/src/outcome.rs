@@ -167,7 +167,7 @@ fn judged(drawn: &Drawn, outcome: &mut Outcome) -> Result<Ending, Problems> {
         Status::Stopped => return Ok(Ending::Unknown("the run itself takes too long".to_owned())),
         Status::Failed => return Ok(Ending::Failed(ours.message.unwrap_or_default())),
     }
-    let errors = reading.estimate_errors(&ours, Effort::Auto, &mut |_| ControlFlow::Continue(()))?;
+    let errors = reading.estimate_errors(&ours, Effort::Auto, &mut |_| ControlFlow::Continue(()));
     // What the case contains and a run does not use is said of the right answer too.
     let facts = reading.case.unused_by_run();
     let doubts = ours.warnings.iter().filter(|warning| !facts.contains(warning));

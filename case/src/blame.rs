@@ -3,12 +3,11 @@
 use super::fault::{Fault, Faults, Made};
 use super::kinds::contact::Contact;
 use super::kinds::load::{Acts, Load};
-use super::kinds::name::numbered;
 use super::kinds::spring::{Joins, Spring};
 use super::layout::GRAVITY;
-use super::values::{Value, Values, item};
+use super::values::item;
 use flexion::linalg::Vec3;
-use flexion::multibody::ModelError;
+use flexion::multibody::{DependentRow, ModelError};
 
 /// Refuses what acts out of the plane of x and y: gravity, loads, springs and contacts.
 pub(super) fn leaves_the_plane(
@@ -48,47 +47,58 @@ pub(super) fn leaves_the_plane(
     if faults.0.is_empty() { Ok(()) } else { Err(faults) }
 }
 
-/// A fault of the model at the table that is to blame.
-pub(super) fn blamed(error: &ModelError, v: &Values, joints: &[String]) -> Faults {
-    let joint = |name: &str| joints.iter().position(|known| known == name).map(|i| item("joint", i));
-    let named = |table: &str, name: &str| {
-        if let Some(name) = name.strip_suffix("-root").or_else(|| name.strip_suffix("-tip"))
-            && table == "joint"
-            && let Ok(Some(Value::Tables(list))) = v.optional("beam")
-            && let Some(i) = list.iter().position(|values| values.text("name") == Ok(name))
-        {
-            return Some(item("beam", i));
-        }
-        let list = if let Ok(Some(Value::Tables(list))) = v.optional(table) { list.as_slice() } else { &[] };
-        let same = |(i, values): &(usize, &Values)| {
-            let written = values.optional_text("name").ok().flatten().unwrap_or_default();
-            numbered(written, table, *i) == name
+/// The tables of which the parts of a model are made, in the order of the model.
+#[derive(Default)]
+pub(super) struct Tables {
+    /// Bodies, and behind them those of masses.
+    pub bodies: Vec<String>,
+    /// The ends of beams, joints, and what fixes masses.
+    pub joints: Vec<String>,
+    /// Loads at points, behind them those along beams, and behind these force laws.
+    pub loads: Vec<String>,
+}
+
+impl Tables {
+    fn of(&self, kind: &str, number: usize) -> String {
+        let own = match kind {
+            "body" => &self.bodies,
+            "joint" => &self.joints,
+            "load" => &self.loads,
+            "beam" | "spring" => return item(kind, number),
+            _ => return String::new(),
         };
-        list.iter().enumerate().rfind(same).map(|(i, _)| item(table, i))
-    };
+        own.get(number).cloned().unwrap_or_default()
+    }
+
+    /// Of the last joint among rows.
+    fn of_last(&self, rows: &[DependentRow]) -> String {
+        rows.iter().map(|row| row.joint).max().map_or(String::new(), |joint| self.of("joint", joint))
+    }
+}
+
+/// A fault of the model at the table that is to blame.
+pub(super) fn blamed(error: &ModelError, tables: &Tables) -> Faults {
     let help = |fault: Fault, help: &str| Faults::from(fault.help(help));
-    // The last joint of which a row is named.
-    let last = |rows: &[String]| {
-        let named = |name: &String| rows.iter().any(|row| row.contains(&format!("in joint `{name}`")));
-        joints.iter().rposition(named).map_or(String::new(), |i| item("joint", i))
+    let texts = |rows: &[DependentRow], text: fn(&DependentRow) -> String| {
+        rows.iter().map(text).collect::<Vec<_>>().join(", ")
     };
     match error {
-        ModelError::Part { kind, name, fault } => {
-            Fault::new(named(kind, name).unwrap_or_default(), format!("{kind} `{name}` {fault}")).into()
+        ModelError::Part { kind, number, name, fault } => {
+            Fault::new(tables.of(kind, *number), format!("{kind} `{name}` {fault}")).into()
         }
         ModelError::Empty => Fault::new("body", "a system in space has at least one body or beam").into(),
         ModelError::Positions { violations } => {
-            let worst = violations.first().and_then(|violation| joint(&violation.joint));
+            let worst = violations.first().map(|violation| tables.of("joint", violation.number));
             let message = "the parts do not fit this joint at the start";
             let off = violations.iter().map(|violation| violation.to_string()).collect::<Vec<_>>().join(", ");
             let message = format!("{message}: {off}");
             help(Fault::new(worst.unwrap_or_default(), message), "move the parts or the joints")
         }
         ModelError::Redundant { rows, freedoms } => {
-            let key = last(rows);
+            let key = tables.of_last(rows);
             let message = format!(
                 "{} redundant: the joints of a loop hold a motion twice, and {freedoms} degrees of freedom are left",
-                rows.join(", ")
+                texts(rows, DependentRow::following)
             );
             help(
                 Fault::new(key, message),
@@ -97,12 +107,18 @@ pub(super) fn blamed(error: &ModelError, v: &Values, joints: &[String]) -> Fault
             )
         }
         ModelError::Contradictory { rows } => help(
-            Fault::new(last(rows), format!("joints that contradict each other: {}", rows.join(", "))),
+            Fault::new(
+                tables.of_last(rows),
+                format!("joints that contradict each other: {}", texts(rows, DependentRow::opposed)),
+            ),
             "what they prescribe at the start differs in velocity or acceleration: take away a prescribed motion, let them agree, \
              or give a joint more freedom",
         ),
         ModelError::Singular { rows } => help(
-            Fault::new(last(rows), format!("the start is a singular configuration of {}", rows.join(", "))),
+            Fault::new(
+                tables.of_last(rows),
+                format!("the start is a singular configuration of {}", texts(rows, DependentRow::opposed)),
+            ),
             "bars that are stretched out or folded flat may move on in more than one way or in none: begin elsewhere, or give a \
              joint more freedom",
         ),

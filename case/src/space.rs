@@ -1,6 +1,6 @@
 //! A system in space: the model that is made of its parts.
 
-use super::blame::{blamed, leaves_the_plane};
+use super::blame::{Tables, blamed, leaves_the_plane};
 use super::fault::{Fault, Faults, Found, Made};
 use super::kind::Context;
 use super::kinds::beam::{BEAMS, Beam, End, FIBRES, Fibre};
@@ -356,6 +356,40 @@ fn add_ends(model: &mut Model, number: usize, (beam, built): &(Beam, slender::Be
     Ok(())
 }
 
+/// The tables of what a model has, in its order.
+fn tables(
+    bodies: &[Body],
+    beams: &[(Beam, slender::Beam)],
+    joints: &[Joint],
+    masses: &[Mass],
+    loads: &[Load],
+) -> Tables {
+    let all = |table: &'static str, count: usize| (0..count).map(move |i| item(table, i));
+    let held = |(i, (beam, _)): (usize, &(Beam, slender::Beam))| {
+        let ends = beam.ends.iter().filter(|end| **end != End::Free).count();
+        std::iter::repeat_n(item("beam", i), ends)
+    };
+    // The order of loads in a model.
+    let order = |load: &Load| match load.acts {
+        Acts::At { .. } => 0,
+        Acts::Along { .. } => 1,
+        Acts::By { .. } => 2,
+    };
+    let mut by_order: Vec<usize> = (0..loads.len()).collect();
+    by_order.sort_by_key(|i| order(&loads[*i]));
+    Tables {
+        bodies: all("body", bodies.len()).chain(all("mass", masses.len())).collect(),
+        joints: beams
+            .iter()
+            .enumerate()
+            .flat_map(held)
+            .chain(all("joint", joints.len()))
+            .chain(all("mass", masses.len()))
+            .collect(),
+        loads: by_order.into_iter().map(|i| item("load", i)).collect(),
+    }
+}
+
 /// The names of the bodies and beams, each of which is one.
 fn parts(bodies: &[Body], beams: &[Beam], found: &mut Found) -> Parts {
     let of_bodies = bodies.iter().enumerate().map(|(i, body)| (item("body", i), &body.name));
@@ -498,7 +532,8 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     }
     let named = |(i, joint): (usize, &Joint)| numbered(&joint.name, "joint", i);
     let names_of_joints: Vec<String> = joints.iter().enumerate().map(named).collect();
-    let multibody = Multibody::new(model).map_err(|error| blamed(&error, v, &names_of_joints))?;
+    let tables = tables(&bodies, &beams, &joints, &masses, &loads);
+    let multibody = Multibody::new(model).map_err(|error| blamed(&error, &tables))?;
     let rotation =
         match rotation.first() {
             Some(about) => Ok(Rotation::given(about, multibody.model())

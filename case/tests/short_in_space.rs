@@ -172,8 +172,7 @@ fn differences(name: &str, space: &Reading, plane: &Reading) -> Result<Vec<Strin
         let errors = stated.get_or_insert_with(|| {
             [(space, &ours), (plane, &theirs)].map(|(reading, run)| {
                 let errors = reading.estimate_errors(run, Effort::Full, &mut |_| ControlFlow::Continue(()));
-                let columns = errors.map_or(Vec::new(), |errors| errors.columns);
-                columns.into_iter().map(|of| (of.column, of.discretization)).collect()
+                errors.columns.into_iter().map(|of| (of.column, of.discretization)).collect()
             })
         });
         let [s, p] = [0, 1].map(|i| errors[i].get(column).copied().unwrap_or(0.0));

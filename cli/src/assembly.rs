@@ -103,7 +103,7 @@ pub fn described(space: &Space) -> Vec<Vec<String>> {
         rows.push(row("steady rotation", rotation.described(false)));
     }
     for dropped in system.dropped() {
-        rows.push(row("left out", dropped.to_owned()));
+        rows.push(row("left out", dropped.following()));
     }
     if system.size().v <= COUNTED {
         rows.push(row(

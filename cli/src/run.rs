@@ -132,15 +132,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let effort = arguments.error.effort();
     // What a run that was stopped holds has no end to compare.
     if let Some(effort) = effort.filter(|_| run.status == Status::Finished) {
-        match reading.estimate_errors(&run, effort, &mut |state| progress.show(state.t)) {
-            Ok(errors) => run.errors = Some(errors),
-            Err(problems) => {
-                progress.finish();
-                screen::report(&problems.render(screen::colour()));
-                directory.discard();
-                return Outcome::Rejected;
-            }
-        }
+        run.errors = Some(reading.estimate_errors(&run, effort, &mut |state| progress.show(state.t)));
     }
     progress.finish();
     write(&reading, &run, &directory, reached, None)
@@ -286,6 +278,8 @@ fn refined(rung: &Rung) -> String {
 fn trust(errors: &Errors, trajectory: &Trajectory) -> String {
     let end = trajectory.times().last().copied().unwrap_or(0.0);
     match &errors.unknown {
+        // A warning says it.
+        Some(_) if !errors.warnings.is_empty() => String::new(),
         Some(why) => format!("  errors are not known: {why}\n\n"),
         None if errors.trusted < end => match (&errors.distrusted, &errors.unstable) {
             (Some(column), _) => format!(

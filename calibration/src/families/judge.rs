@@ -32,7 +32,7 @@ impl Answered {
             Status::Stopped => return Ok(Err(Ending::Unknown("the run takes too long".to_owned()))),
             Status::Failed => return Ok(Err(Ending::Failed(ours.message.unwrap_or_default()))),
         }
-        let errors = reading.estimate_errors(&ours, Effort::Auto, &mut |_| ControlFlow::Continue(()))?;
+        let errors = reading.estimate_errors(&ours, Effort::Auto, &mut |_| ControlFlow::Continue(()));
         let facts = reading.case.unused_by_run();
         let said = ours.warnings.iter().chain(&errors.warnings);
         // Of right answers too it is said what a run does not use and that a part moves freely; a coarse mesh is one of a column, whose

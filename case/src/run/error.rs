@@ -12,23 +12,12 @@ use flexion::analysis::recording::Watch;
 use flexion_results::Errors;
 
 impl Reading {
-    /// Runs the companions of a run of this case, and compares. `watch` is shown their progress. With [`Effort::Auto`]
-    /// a run whose companions would be costly, or cannot be run, has no estimate, and [`Errors::unknown`] says why.
-    ///
-    /// # Errors
-    /// [`Problems`] when the case cannot be refined: it goes on from the state of an earlier run.
-    pub fn estimate_errors(
-        &self,
-        run: &Run,
-        effort: Effort,
-        watch: &mut Watch<'_>,
-    ) -> Result<Errors, Problems> {
-        if let Err(problems) = self.has_errors() {
-            return if effort == Effort::Full { Err(problems) } else { Ok(Errors::none(problems.reason())) };
-        }
-        match estimate(self, &self.variant(), run.as_ref(), effort, watch) {
-            Err(NoEstimate::Refused(problems)) if effort == Effort::Full => Err(problems),
-            estimated => Ok(self.errors(estimated)),
+    /// Runs the companions of a run of this case, and compares. `watch` is shown their progress. Where a companion cannot be run, or, with
+    /// [`Effort::Auto`], would be costly, there is no estimate, and [`Errors::unknown`] says why.
+    pub fn estimate_errors(&self, run: &Run, effort: Effort, watch: &mut Watch<'_>) -> Errors {
+        match self.has_errors() {
+            Err(problems) => unknown(problems.reason(), effort),
+            Ok(()) => self.errors(estimate(self, &self.variant(), run.as_ref(), effort, watch), effort),
         }
     }
 
@@ -41,7 +30,11 @@ impl Reading {
     }
 
     /// The errors as they are written.
-    pub(super) fn errors(&self, estimated: Result<Estimate<Problems>, NoEstimate<Problems>>) -> Errors {
+    pub(super) fn errors(
+        &self,
+        estimated: Result<Estimate<Problems>, NoEstimate<Problems>>,
+        effort: Effort,
+    ) -> Errors {
         match estimated {
             Ok(estimate) => {
                 let unstable = estimate.unstable().cloned();
@@ -54,9 +47,9 @@ impl Reading {
             )),
             Err(NoEstimate::Refused(problems)) => {
                 // The case itself is sound: it has run.
-                Errors::none(format!("there is no finer run: {}", problems.reason()))
+                unknown(format!("there is no finer run: {}", problems.reason()), effort)
             }
-            Err(_) => Errors::none("the first impact comes within the first step or record".to_owned()),
+            Err(_) => unknown("the first impact comes within the first step or record".to_owned(), effort),
         }
     }
 
@@ -86,20 +79,24 @@ impl Reading {
                     )
                 }
             }
-            Doubt::NoReference(problems) => format!(
-                "the difference to the exact coupling is not known, for there is no run of it: {}",
-                problems.reason()
-            ),
+            Doubt::Refused { companion, fault } => {
+                let what = match companion {
+                    Companion::Reference => {
+                        "the difference to the exact coupling is not known, for there is no run of it"
+                    }
+                    Companion::SmallerSteps => "until when gaps and impacts are right is not known",
+                    Companion::Disturbed => "whether the motion is unstable is not known",
+                    Companion::Finer => "the errors are not known",
+                };
+                format!("{what}: {}", fault.reason())
+            }
             Doubt::Unstable(Unstable { size, column, from, until }) => format!(
                 "a disturbance of {size:e} of the amplitudes grows from t = {from:.6} s to {until:.6} s to a hundredth of \
                  the motion, first in {column}: the motion is unstable; a small force written into the \
                  case shows where it leads"
             ),
             Doubt::Unfinished { companion, time, why } => {
-                let what = match companion {
-                    Companion::Finer => "finer",
-                    Companion::Reference => "exact",
-                };
+                let what = if *companion == Companion::Reference { "exact" } else { "finer" };
                 let stopped = || format!("it was given up at t = {time:.6} s");
                 let why = why.as_ref().map_or_else(stopped, ToString::to_string);
                 format!(
@@ -131,6 +128,12 @@ impl Reading {
             ),
         }
     }
+}
+
+/// No estimate, and why. Someone who has asked for it is warned.
+fn unknown(why: String, effort: Effort) -> Errors {
+    let warning = (effort == Effort::Full).then(|| format!("the errors could not be estimated: {why}"));
+    Errors { warnings: warning.into_iter().collect(), ..Errors::none(why) }
 }
 
 /// How large a part of a value is, in words.

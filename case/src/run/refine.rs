@@ -4,7 +4,7 @@ use super::Run;
 use crate::problem::Problems;
 use crate::reading::Reading;
 use crate::units;
-use flexion::analysis::error::{self, Ended, GivenUp, Goal, Part, principal, refine};
+use flexion::analysis::error::{self, Effort, Ended, GivenUp, Goal, Part, principal, refine};
 use flexion::analysis::recording::Watch;
 use flexion_results::{ResultsError, Rung, Status, Trajectory, nearest};
 
@@ -139,7 +139,7 @@ impl Reading {
         let found = refine(self, &goals, watch, &mut |rung| said(&self.rung(rung)))?;
         let refused = refused(&found.ended, found.rungs.last());
         let mut run = found.run;
-        run.errors = found.errors.map(|errors| self.errors(errors));
+        run.errors = found.errors.map(|errors| self.errors(errors, Effort::Full));
         if let Some(errors) = &mut run.errors {
             errors.sequence = found.rungs.iter().map(|rung| self.rung(rung)).collect();
         }
@@ -166,6 +166,7 @@ fn refused(ended: &Ended<Problems>, last: Option<&error::Rung>) -> Option<String
     let better = "ask for less, or begin with a finer mesh";
     let why = match ended {
         Ended::Reached => return None,
+        Ended::Unknown => return Some("whether the tolerance is held is not known: the errors could not be estimated".to_owned()),
         Ended::Failed(error) => return Some(format!("a refined run failed: {error}")),
         Ended::Refused(problems) => {
             format!(", and the case cannot be refined further: {}", problems.reason())

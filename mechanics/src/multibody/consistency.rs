@@ -1,7 +1,7 @@
 //! The start: whether the bodies fit their joints, which rows follow from others, and velocities that obey the rows.
 
 use super::constants::Constants;
-use super::error::{ModelError, Violation};
+use super::error::{DependentRow, ModelError, Violation};
 use crate::linalg::vector::{axpy, dot};
 use crate::linalg::{Matrix, Vec3};
 use crate::system::{Dynamics, RowWeights, State, Weights};
@@ -24,14 +24,14 @@ pub(super) fn positions(
     system.constraint(s, RowWeights::POSITION, &mut g);
     let scale = system.scales().first().copied().unwrap_or(1.0);
     let mut violations = Vec::new();
-    for (joint, rows) in constants.model.joints.iter().zip(&constants.of_joint) {
+    for (number, (joint, rows)) in constants.model.joints.iter().zip(&constants.of_joint).enumerate() {
         let (mut length, mut angle) = (0.0_f64, 0.0_f64);
         for i in rows.clone() {
             let largest = if constants.rows[i].1.is_length() { &mut length } else { &mut angle };
             *largest = largest.max(g[i].abs());
         }
         if !(length <= FITTING * scale.max(1.0) && angle <= FITTING) {
-            violations.push(Violation { joint: joint.name.clone(), length, angle });
+            violations.push(Violation { number, joint: joint.name.clone(), length, angle });
         }
     }
     violations.sort_by(|a, b| (b.length + b.angle).total_cmp(&(a.length + a.angle)));
@@ -50,18 +50,10 @@ pub(super) fn rows(system: &mut dyn Dynamics, s: &State) -> Vec<Vec<(usize, f64)
 /// A row that follows from others.
 pub(super) struct Redundant {
     pub(super) row: usize,
-    /// Its name, and the joints that it follows from.
-    name: String,
-    others: String,
+    /// What it is, and the joints that it follows from.
+    pub(super) of: DependentRow,
     /// c with c G = 0.
     combination: Vec<f64>,
-}
-
-impl Redundant {
-    /// For people.
-    pub(super) fn describe(&self) -> String {
-        format!("{} (which follows from {})", self.name, self.others)
-    }
 }
 
 /// The rows that follow from others.
@@ -125,8 +117,7 @@ pub(super) fn redundant(
             basis.push((x, combination));
             continue;
         }
-        let others = constants.joint_names(&combination, 1e-6, Some(constants.rows[i].0));
-        found.push(Redundant { row: i, name: constants.row_name(i), others, combination });
+        found.push(Redundant { row: i, of: constants.dependent_row(i, &combination), combination });
     }
     // Velocities that the rows allow: of the tree, and then of the loops.
     let mut allowed = |s: &mut State, rates: &mut [f64]| {
@@ -165,12 +156,11 @@ pub(super) fn redundant(
         let speed = SAME * sum(&|k| rates[k].abs() + unit(k) * fastest);
         let acceleration =
             SAME * sum(&|k| accelerations[k].abs() + other[k].abs() + unit(k) * faster * faster);
-        let text = || format!("{} against {}", of.name, of.others);
         let differs = (dot(c, &other) - dot(c, &accelerations)).abs() > acceleration;
         if dot(c, &rates).abs() > speed || (!differs && dot(c, &accelerations).abs() > acceleration) {
-            contradictory.push(text());
+            contradictory.push(of.of.clone());
         } else if differs {
-            singular.push(text());
+            singular.push(of.of.clone());
         }
     }
     match (contradictory.is_empty(), singular.is_empty()) {

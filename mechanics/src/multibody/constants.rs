@@ -1,6 +1,7 @@
 //! What does not change in a run: the model, the order of its unknowns, and what follows from both.
 
 use super::body::Twist;
+use super::error::DependentRow;
 use super::force::angle_between;
 use super::joint::Coordinate;
 use super::layout::{Link, layout};
@@ -13,6 +14,9 @@ use crate::drive::force_breaks;
 use crate::linalg::{Mat3, Structure, Vec3};
 use crate::system::{Break, Frame, Set, Size, State, ordered};
 use std::ops::Range;
+
+/// Part of a row in a combination of rows that counts.
+const COUNTS: f64 = 1e-6;
 
 /// What does not change in a run.
 #[derive(Debug)]
@@ -40,8 +44,8 @@ pub(super) struct Constants {
     pub(super) scales: Vec<f64>,
     pub(super) structures: [Structure; 3],
     pub(super) breaks: Vec<Break>,
-    /// Rows that are left out: names, joints and constraints.
-    pub(super) dropped: Vec<(String, (usize, Row))>,
+    /// Rows that are left out.
+    pub(super) dropped: Vec<(DependentRow, (usize, Row))>,
     pub(super) size: Size,
 }
 
@@ -50,7 +54,7 @@ impl Constants {
     pub(super) fn new(
         model: Model,
         rows: Vec<(usize, Row)>,
-        dropped: Vec<(String, (usize, Row))>,
+        dropped: Vec<(DependentRow, (usize, Row))>,
     ) -> (Constants, Vec<bool>) {
         let mut model = model;
         let bodies = model.bodies.len();
@@ -197,14 +201,20 @@ impl Constants {
         State { q, ..s }
     }
 
-    /// The joints whose rows have more than `least` in a combination of rows, but for one joint, for messages.
-    pub(super) fn joint_names(&self, combination: &[f64], least: f64, but: Option<usize>) -> String {
+    /// The joints whose rows have more than `least` in a combination of rows.
+    pub(super) fn joints_in(&self, combination: &[f64], least: f64) -> Vec<usize> {
         let parts = self.rows.iter().zip(combination).filter(|(_, c)| c.abs() > least);
-        let mut joints: Vec<usize> =
-            parts.map(|((joint, _), _)| *joint).filter(|joint| Some(*joint) != but).collect();
+        let mut joints: Vec<usize> = parts.map(|((joint, _), _)| *joint).collect();
         joints.dedup();
-        let names = joints.iter().map(|joint| format!("`{}`", self.model.joints[*joint].name));
-        names.collect::<Vec<_>>().join(", ")
+        joints
+    }
+
+    /// A row that a combination of rows makes.
+    pub(super) fn dependent_row(&self, i: usize, combination: &[f64]) -> DependentRow {
+        let ((joint, row), name) = (self.rows[i], |joint: usize| self.model.joints[joint].name.clone());
+        let others = self.joints_in(combination, COUNTS).into_iter().filter(|other| *other != joint);
+        let others = others.map(|other| (other, name(other))).collect();
+        DependentRow { joint, name: name(joint), keeps: row.describe(), others }
     }
 
     /// A row, for messages.

@@ -86,6 +86,8 @@ pub enum PartFault {
 /// A joint whose markers do not fit together at the start.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Violation {
+    /// Number of the joint in the model.
+    pub number: usize,
     /// Name of the joint.
     pub joint: String,
     /// Largest displacement that it forbids \[m\].
@@ -100,6 +102,41 @@ impl fmt::Display for Violation {
     }
 }
 
+/// A row of a joint that the rows of other joints make.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DependentRow {
+    /// Number of its joint in the model.
+    pub joint: usize,
+    /// Name of its joint.
+    pub name: String,
+    /// What it keeps: `displacement along the first axis`.
+    pub keeps: String,
+    /// Numbers and names of the other joints.
+    pub others: Vec<(usize, String)>,
+}
+
+impl DependentRow {
+    fn names(&self) -> String {
+        list(&self.others.iter().map(|(_, name)| format!("`{name}`")).collect::<Vec<_>>())
+    }
+
+    /// With the joints that it follows from, for messages.
+    pub fn following(&self) -> String {
+        format!("{self} (which follows from {})", self.names())
+    }
+
+    /// With the joints that are against it, for messages.
+    pub fn opposed(&self) -> String {
+        format!("{self} against {}", self.names())
+    }
+}
+
+impl fmt::Display for DependentRow {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} in joint `{}`", self.keeps, self.name)
+    }
+}
+
 /// Why a model has no equations of motion.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -109,6 +146,8 @@ pub enum ModelError {
     Part {
         /// Body, beam, joint, spring or load.
         kind: &'static str,
+        /// Which of its kind in the model: loads at points come before those along beams, and these before force laws.
+        number: usize,
         /// Its name.
         name: String,
         /// What is wrong with it.
@@ -131,11 +170,11 @@ pub enum ModelError {
         "{} redundant: the joints of a loop hold a motion twice, and {freedoms} degrees of freedom are left. Give a joint of the loop more freedom \
          (spherical, universal or cylindrical in the place of revolute), take away the prescribed motion of what is locked, or drop the rows \
          (`Model::drop_redundant_rows`): their forces are then zero",
-        list(rows)
+        list(&rows.iter().map(DependentRow::following).collect::<Vec<_>>())
     )]
     Redundant {
         /// Each row with the joints that it follows from.
-        rows: Vec<String>,
+        rows: Vec<DependentRow>,
         /// Degrees of freedom.
         freedoms: usize,
     },
@@ -143,21 +182,21 @@ pub enum ModelError {
     #[error(
         "joints that contradict each other: {}: what they prescribe at the start differs in velocity or acceleration; take away a prescribed motion, \
          let them agree, or give a joint more freedom",
-        list(rows)
+        list(&rows.iter().map(DependentRow::opposed).collect::<Vec<_>>())
     )]
     Contradictory {
         /// Each row with the joints that it contradicts.
-        rows: Vec<String>,
+        rows: Vec<DependentRow>,
     },
     /// Rows that follow from others at the start only.
     #[error(
         "the start is a singular configuration of {}: bars that are stretched out or folded flat, which the joints let move on in more than one \
          way or in none; begin elsewhere, or give a joint more freedom",
-        list(rows)
+        list(&rows.iter().map(DependentRow::opposed).collect::<Vec<_>>())
     )]
     Singular {
         /// Each row with the joints that it depends on.
-        rows: Vec<String>,
+        rows: Vec<DependentRow>,
     },
     /// No velocities obey the joints.
     #[error("the joints allow no velocities at the start: {0}")]

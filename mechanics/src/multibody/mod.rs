@@ -70,7 +70,7 @@ mod system;
 
 pub use axis::Axis;
 pub use body::Body;
-pub use error::{ModelError, PartFault, Violation};
+pub use error::{DependentRow, ModelError, PartFault, Violation};
 pub use flexible::{Fibre, Flexible, LineLoad};
 pub use force::{Axes, Directions, Load, Spring};
 pub use joint::{Drive, Joint, Kind};

@@ -117,7 +117,8 @@ impl Model {
         point: impl Into<Vec3>,
         (axis, first): (impl Into<Vec3>, Option<Vec3>),
     ) -> Result<&mut Joint, ModelError> {
-        let fault = |fault| ModelError::Part { kind: "joint", name: name.to_owned(), fault };
+        let number = self.joints.len();
+        let fault = |fault| ModelError::Part { kind: "joint", number, name: name.to_owned(), fault };
         let rotation = frame(axis.into(), first).ok_or_else(|| fault(PartFault::NoDirection))?;
         let space = Frame { position: point.into(), rotation };
         let marker = |part| self.marker(part, space).ok_or_else(|| fault(PartFault::NoPart));
@@ -159,51 +160,51 @@ impl Model {
             return Err(ModelError::Empty);
         }
         let mut names = BTreeSet::new();
-        for body in &self.bodies {
-            self.examine("body", &body.name, body.fault(), &[], &mut names)?;
+        for (i, body) in self.bodies.iter().enumerate() {
+            self.examine(("body", i), &body.name, body.fault(), &[], &mut names)?;
         }
-        for beam in &self.beams {
-            self.examine("beam", &beam.name, beam.fault(), &[], &mut names)?;
+        for (i, beam) in self.beams.iter().enumerate() {
+            self.examine(("beam", i), &beam.name, beam.fault(), &[], &mut names)?;
         }
-        for joint in &self.joints {
-            self.examine("joint", &joint.name, joint.fault(), &[joint.from, joint.to], &mut names)?;
+        for (i, joint) in self.joints.iter().enumerate() {
+            self.examine(("joint", i), &joint.name, joint.fault(), &[joint.from, joint.to], &mut names)?;
         }
-        for spring in &self.springs {
+        for (i, spring) in self.springs.iter().enumerate() {
             let Spring { stiffness, damping, length, .. } = spring;
             let sound = [stiffness, damping, length].iter().all(|x| **x >= 0.0 && x.is_finite());
             let fault = (!sound).then_some(PartFault::Spring).or_else(|| {
                 let long = spring.directions == Directions::All && *length != 0.0;
                 long.then_some(PartFault::Length(*length))
             });
-            self.examine("spring", &spring.name, fault, &[spring.from, spring.to], &mut names)?;
+            self.examine(("spring", i), &spring.name, fault, &[spring.from, spring.to], &mut names)?;
         }
-        for load in &self.loads {
+        for (i, load) in self.loads.iter().enumerate() {
             let sound = load.force.is_finite() && load.moment.is_finite();
             let fault = (!sound).then_some(PartFault::NotFinite("component"));
-            self.examine("load", &load.name, fault, &[load.at], &mut names)?;
+            self.examine(("load", i), &load.name, fault, &[load.at], &mut names)?;
         }
-        for load in &self.line_loads {
+        for (i, load) in (self.loads.len()..).zip(&self.line_loads) {
             let finite = load.force.is_finite();
             let fault = (!finite).then_some(PartFault::NotFinite("component"));
             let missing = (load.beam >= self.beams.len()).then_some(PartFault::NoBeam);
-            self.examine("load", &load.name, fault.or(missing), &[], &mut names)?;
+            self.examine(("load", i), &load.name, fault.or(missing), &[], &mut names)?;
         }
-        for law in &self.line_laws {
+        for (i, law) in (self.loads.len() + self.line_loads.len()..).zip(&self.line_laws) {
             let missing = (law.beam >= self.beams.len()).then_some(PartFault::NoBeam);
-            self.examine("load", &law.name, missing, &[], &mut names)?;
+            self.examine(("load", i), &law.name, missing, &[], &mut names)?;
         }
         for (k, point) in self.points.iter().enumerate() {
             let sound = point.radius >= 0.0 && point.radius.is_finite();
             let fault =
                 (!sound).then_some(PartFault::Negative { what: "radius", value: point.radius, unit: "m" });
-            self.examine("contact point", &format!("contact point {k}"), fault, &[point.at], &mut names)?;
+            self.examine(("contact point", k), &format!("contact point {k}"), fault, &[point.at], &mut names)?;
         }
         Ok(())
     }
 
     fn examine(
         &self,
-        kind: &'static str,
+        (kind, number): (&'static str, usize),
         name: &str,
         fault: Option<PartFault>,
         markers: &[Marker],
@@ -221,7 +222,7 @@ impl Model {
             })
             .or_else(|| (!names.insert(name.to_owned())).then_some(PartFault::NameTaken));
         match fault {
-            Some(fault) => Err(ModelError::Part { kind, name: name.to_owned(), fault }),
+            Some(fault) => Err(ModelError::Part { kind, number, name: name.to_owned(), fault }),
             None => Ok(()),
         }
     }

@@ -212,11 +212,11 @@ impl Observed for Multibody {
             }
         }
         let unit = |row: Row| if row.is_length() { self.constants.scales[0] } else { 1.0 };
-        for (name, row, value) in self.values_of_dropped() {
+        for (of, row, value) in self.values_of_dropped() {
             let size = value.g.abs() / unit(row);
             if size > DEPARTED[0] && size > DEPARTED[1] * self.largest_of_kept(unit) {
                 let unit = if row.is_length() { "m" } else { "rad" };
-                return Err(Limit::LeftOut { row: name.to_owned(), violation: value.g.abs(), unit });
+                return Err(Limit::LeftOut { row: of.following(), violation: value.g.abs(), unit });
             }
         }
         for (k, spring) in self.constants.model.springs.iter().enumerate() {

@@ -108,6 +108,8 @@ pub(super) fn singular(system: &mut Multibody, s: &State) -> Option<Limit> {
         }
     }
     let (part, Some((row, combination))) = least else { return None };
-    let joints = constants.joint_names(&combination, 1e-3, None);
+    let joints = constants.joints_in(&combination, 1e-3).into_iter();
+    let joints: Vec<String> = joints.map(|k| format!("`{}`", constants.model.joints[k].name)).collect();
+    let joints = joints.join(", ");
     Some(Limit::Singular { joints, row: constants.row_name(row), part })
 }

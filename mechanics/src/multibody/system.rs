@@ -14,7 +14,7 @@
 use super::body::Placed;
 use super::constants::Constants;
 use super::contact_point::ContactPoint;
-use super::error::ModelError;
+use super::error::{DependentRow, ModelError};
 use super::force::Interaction;
 use super::joint::Drive;
 use super::line_law::Sampled;
@@ -94,12 +94,12 @@ impl Multibody {
         if !found.is_empty() {
             if !constants.model.drop_redundant {
                 let freedoms = constants.size.v + found.len() - constants.size.lambda;
-                let rows = found.iter().map(|of| of.describe()).collect();
+                let rows = found.into_iter().map(|found| found.of).collect();
                 return Err(ModelError::Redundant { rows, freedoms });
             }
             let kept = constants.rows.iter().enumerate();
             let kept = kept.filter(|(i, _)| found.iter().all(|of| of.row != *i)).map(|(_, row)| *row);
-            let dropped = found.iter().map(|of| (of.describe(), constants.rows[of.row])).collect();
+            let dropped = found.iter().map(|found| (found.of.clone(), constants.rows[found.row])).collect();
             let (constants, _) = Constants::new(constants.model.clone(), kept.collect(), dropped);
             system = Multibody::with(constants);
         }
@@ -144,15 +144,15 @@ impl Multibody {
     }
 
     /// Rows that were left out because they follow from others, each with the joints that it follows from.
-    pub fn dropped(&self) -> impl ExactSizeIterator<Item = &str> {
-        self.constants.dropped.iter().map(|(name, _)| name.as_str())
+    pub fn dropped(&self) -> impl ExactSizeIterator<Item = &DependentRow> {
+        self.constants.dropped.iter().map(|(of, _)| of)
     }
 
     /// The rows that were left out, with their values at the state for which markers are placed.
-    pub(super) fn values_of_dropped(&self) -> impl Iterator<Item = (&str, Row, Value)> {
-        self.constants.dropped.iter().map(|(name, (joint, row))| {
+    pub(super) fn values_of_dropped(&self) -> impl Iterator<Item = (&DependentRow, Row, Value)> {
+        self.constants.dropped.iter().map(|(of, (joint, row))| {
             let (a, b) = self.ends(*joint);
-            (name.as_str(), *row, row.value(a, b, &self.motions[*joint]))
+            (of, *row, row.value(a, b, &self.motions[*joint]))
         })
     }
 

@@ -83,6 +83,10 @@ pub enum Companion {
     Finer,
     /// With the reference model.
     Reference,
+    /// On the same mesh, with a tenth of the tolerance or half the step.
+    SmallerSteps,
+    /// With a disturbance.
+    Disturbed,
 }
 
 /// What makes a motion, or the errors that are stated for it, doubtful.
@@ -98,8 +102,14 @@ pub enum Doubt<F> {
     },
     /// From some time on gaps and impacts are others in a more accurate run.
     Parting(Parting),
-    /// The difference to the reference model is not known, for there is no run of it.
-    NoReference(F),
+    /// There is no run of a companion, and what it shows is not known: the difference to the reference model, until when contacts are
+    /// right, or whether the motion is unstable.
+    Refused {
+        /// Which.
+        companion: Companion,
+        /// Why.
+        fault: F,
+    },
     /// A small disturbance leads elsewhere.
     Unstable(Unstable),
     /// A companion did not finish, and errors are known until then only.
@@ -206,19 +216,15 @@ fn compared<P: Refinable>(
     let shortened = Variant { plan: Plan { end, ..variant.plan.clone() }, ..variant.clone() };
     let (finer, fine) = finer_run(problem, &shortened, run, watch)?;
     // Before the companion of the reference model, which may use up what work is allowed.
-    let parting = parting(problem, variant, run, watch)?;
+    let parting = parting(problem, variant, run, watch);
     doubts.extend(until.map(|_| Doubt::BeforeImpact { time: reach(&fine) }));
+    let parting = found(parting, Companion::SmallerSteps, &mut doubts);
     doubts.extend(parting.map(Doubt::Parting));
     let safety = problem.safety();
-    let reference = match problem.has_reference().then(|| reference(problem, variant, &finer, watch)) {
-        Some(Ok(reference)) => Some(reference),
-        Some(Err(fault)) => {
-            doubts.push(Doubt::NoReference(fault));
-            None
-        }
-        None => None,
-    };
-    let unstable = instability(problem, variant, run, &fine, watch)?;
+    let reference = problem.has_reference().then(|| reference(problem, variant, &finer, watch)).transpose();
+    let reference = found(reference, Companion::Reference, &mut doubts);
+    let unstable = instability(problem, variant, run, &fine, watch);
+    let unstable = found(unstable, Companion::Disturbed, &mut doubts);
     let grown = unstable.as_ref().map_or(f64::INFINITY, |unstable| unstable.until);
     doubts.extend(unstable.map(Doubt::Unstable));
     let other = reference.as_ref().map(|run| (Companion::Reference, run));
@@ -260,6 +266,14 @@ fn compared<P: Refinable>(
     Ok(Estimate { columns, doubts, trusted, distrusted })
 }
 
+/// What a companion shows; where there is no run of it, a doubt says why.
+fn found<T, F>(shown: Result<Option<T>, F>, companion: Companion, doubts: &mut Vec<Doubt<F>>) -> Option<T> {
+    shown.unwrap_or_else(|fault| {
+        doubts.push(Doubt::Refused { companion, fault });
+        None
+    })
+}
+
 /// The last time recorded.
 fn reach(run: &Record) -> f64 {
     run.trajectory.times().last().copied().unwrap_or(0.0)
@@ -283,7 +297,7 @@ fn finer_run<P: Refinable>(
             break;
         }
         let next = finer.by_radau(*rung).with_shorter_parts();
-        let finest = until_impact(problem, &next, watch)?;
+        let Ok(finest) = until_impact(problem, &next, watch) else { break };
         let settled = settled(run, &fine, &finest);
         (finer, fine) = (next, finest);
         if settled {

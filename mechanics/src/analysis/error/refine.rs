@@ -133,8 +133,10 @@ pub enum Ended<F> {
     Failed(RunError),
     /// The errors cannot be brought down.
     GivenUp(GivenUp),
-    /// There is no finer variant, or none to estimate errors by.
+    /// There is no finer variant, or none to estimate its errors by.
     Refused(F),
+    /// The errors of a run are not known; where it is the result, they say why.
+    Unknown,
 }
 
 /// The best run of a sequence.
@@ -166,7 +168,7 @@ struct Best<R, F> {
 /// asked, and of every other anew, since a bound may be a part of the largest value. `said` is shown each run.
 ///
 /// # Errors
-/// Those of `goals`, and of a motion that cannot be run as it is asked for, or of which there is no finer run.
+/// Those of `goals`, and of a motion that cannot be run as it is asked for.
 pub fn refine<P: Refinable, E: From<P::Fault>>(
     problem: &P,
     goals: &dyn Fn(&Trajectory) -> Result<Vec<Goal>, E>,
@@ -209,9 +211,9 @@ pub fn refine<P: Refinable, E: From<P::Fault>>(
                 errors
             }
             (Err(NoEstimate::Refused(fault)), Some(best)) => break (best, Ended::Refused(fault)),
-            (Err(NoEstimate::Refused(fault)), None) => return Err(fault.into()),
-            (Err(unknown), _) => {
-                break (Best { variant, run, errors: Some(Err(unknown)), ratio: 0.0 }, Ended::Reached);
+            (Err(_), Some(best)) => break (best, Ended::Unknown),
+            (Err(unknown), None) => {
+                break (Best { variant, run, errors: Some(Err(unknown)), ratio: 0.0 }, Ended::Unknown);
             }
         };
         let reached =
