@@ -57,7 +57,7 @@ pub use hub_beam::HubBeam;
 pub use kind::{Choice, Context, Kind, Table};
 pub use problem::{Place, Problem, Problems, Source};
 pub use reading::{Live, Reading, parse, parse_with, read};
-pub use run::advise::{Advice, AdviseError, Tried};
+pub use run::advise::{Advice, AdviseError, Tried, Trusted, Untried};
 pub use run::refine::{RefineError, Refinement, Target};
 pub use run::{Prepared, Run};
 pub use schema::schema;

@@ -170,13 +170,17 @@ impl Reading {
         self.problems(Fault::new(key, message).into())
     }
 
+    /// The values as they are spelled.
+    pub(super) fn written(&self) -> &Values {
+        self.short.as_ref().map_or(&self.values, |(values, _)| values)
+    }
+
     /// What a run needs and the case leaves out, which modes and diagrams do without: none, if it can be run.
     ///
     /// # Errors
     /// [`Problems`] at the tables in which the keys are missing.
     pub fn missing_for_run(&self) -> Result<(), Problems> {
-        let values = self.short.as_ref().map_or(&self.values, |(values, _)| values);
-        let tables = values.entries.iter().filter_map(|filled| match &filled.value {
+        let tables = self.written().entries.iter().filter_map(|filled| match &filled.value {
             Value::Table(values) => Some((filled.key.name, values)),
             _ => None,
         });

@@ -1,4 +1,4 @@
-//! Advice on the cheapest coupling, basis and integrator.
+//! Advice on the cheapest coupling, basis and integrator, over the whole ladder of couplings.
 
 #![allow(clippy::unwrap_used)] // in helpers of tests
 
@@ -18,8 +18,12 @@ fn advice_on_p1_is_cheap_and_keeps_what_is_asked() {
     let reading = read(&root().join("p1_spin_up_4"), &[]).unwrap();
     let advice = advice(&reading, "1e-3", "tip.deflection.min");
     let cheapest = &advice.tried[advice.cheapest.unwrap()];
-    // The deflection is small: the linear coupling does, and with few functions.
+    // The deflection is small: the linear coupling does, and with few functions. Without foreshortening it does not.
     assert_eq!(cheapest.coupling, "first", "{cheapest:?}");
+    assert!(advice.tried.iter().all(|tried| tried.coupling != "zeroth" || !tried.holds()));
+    // The case gives EA and EI alone: no motion in space can be trusted.
+    let untried: Vec<_> = advice.untried.iter().map(|of| (of.coupling, of.key.as_str())).collect();
+    assert_eq!((advice.trusted.coupling, &untried[..]), ("exact", &[("space", "section")][..]));
     let run = finished(&reading.with(&cheapest.changes).unwrap());
     let found = run.trajectory.extremes(run.trajectory.index("tip.deflection").unwrap()).min;
     assert!((found + 0.400_34).abs() < 1e-3 * 0.400_34, "{found}");
@@ -45,7 +49,9 @@ fn advice_on_a_large_deflection_is_the_exact_coupling() {
     let advice = advice(&reading, "1e-3", "tip.deflection");
     let cheapest = &advice.tried[advice.cheapest.unwrap()];
     assert_eq!(cheapest.coupling, "exact", "{cheapest:?}");
-    for coupling in ["first", "high"] {
+    // The section says all that a motion in space depends on.
+    assert!(advice.trusted.coupling == "space" && advice.untried.is_empty(), "{:?}", advice.untried);
+    for coupling in ["zeroth", "first", "high"] {
         let mut others = advice.tried.iter().filter(|tried| tried.coupling == coupling);
         assert!(others.all(|tried| !tried.holds()), "{coupling}");
     }
@@ -64,8 +70,8 @@ fn advice_is_refused_where_there_is_none() {
     let refused = |reading: &Reading| {
         reading.advise(&target, &mut |_| ControlFlow::Continue(())).unwrap_err().to_string()
     };
-    let space = read(&root().join("space_free_body"), &[]).unwrap();
-    assert!(refused(&space).contains("beams on a hub without contacts"));
+    let bouncing = read(&root().join("falling_pendulum"), &[]).unwrap();
+    assert!(refused(&bouncing).contains("without contacts"));
     let p1 = read(&root().join("p1_spin_up_4"), &[]).unwrap();
     let unknown = Target::new("1e-3".to_owned(), Some("tip.defelction".to_owned()));
     let error = p1.advise(&unknown, &mut |_| ControlFlow::Continue(())).unwrap_err();
@@ -88,6 +94,28 @@ fn advice_that_is_stopped_says_so() {
         .unwrap();
     assert!(advice.stopped && !advice.bounded && !advice.tried.is_empty(), "{:?}", advice.tried.len());
     assert!(
-        advice.tried.iter().all(|tried| tried.error.as_ref().err().is_none_or(|why| !why.contains("user")))
+        advice.tried.iter().all(|tried| tried
+            .difference
+            .as_ref()
+            .err()
+            .is_none_or(|why| !why.contains("user")))
     );
+}
+
+/// A case with bodies by name is that of one coupling, and the others are listed with the reason. By 1e-4 of the largest value of each
+/// column some method of its ladder follows a free body.
+#[test]
+fn advice_on_a_system_in_space_is_of_space_alone() {
+    let reading =
+        read(&root().join("space_free_body"), &["run.duration=1", "output.step=0.01"].map(str::to_owned))
+            .unwrap();
+    let advice =
+        reading.advise(&Target::new("1e-4".to_owned(), None), &mut |_| ControlFlow::Continue(())).unwrap();
+    let untried: Vec<&str> = advice.untried.iter().map(|of| of.coupling).collect();
+    assert_eq!((advice.trusted.coupling, &untried[..]), ("space", &["zeroth", "first", "high", "exact"][..]));
+    assert!(advice.untried.iter().all(|of| of.key == "model.coupling" && of.why.contains("by name")));
+    let cheapest = &advice.tried[advice.cheapest.unwrap()];
+    let run = finished(&reading.with(&cheapest.changes).unwrap());
+    let work = run.counters.residuals as f64 * run.size.unknowns as f64;
+    assert!((work - cheapest.work).abs() < 0.5, "{work} {cheapest:?}");
 }

@@ -152,8 +152,7 @@ fn the_true_error_lies_within_the_reported_one() {
         coarse_set.insert(0, &coarse);
         let reading = reading(&coarse_set);
         let run_here = run(&coarse_set);
-        let errors =
-            reading.estimate_errors(&run_here, Effort::Full, &mut |_| ControlFlow::Continue(()));
+        let errors = reading.estimate_errors(&run_here, Effort::Full, &mut |_| ControlFlow::Continue(()));
         let fine = elements(24);
         let mut fine_set = set.to_vec();
         fine_set

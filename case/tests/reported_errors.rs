@@ -134,7 +134,10 @@ fn a_run_without_a_finer_one_says_so() {
     // Someone who asks for them is warned.
     assert!(errors.warnings.is_empty(), "{:?}", errors.warnings);
     let errors = reading.estimate_errors(&ours, Effort::Full, &mut |_| ControlFlow::Continue(()));
-    let warned = errors.warnings.iter().any(|warning| warning.contains("could not be estimated: there is no finer run"));
+    let warned = errors
+        .warnings
+        .iter()
+        .any(|warning| warning.contains("could not be estimated: there is no finer run"));
     assert!(warned && errors.columns.is_empty(), "{:?}", errors.warnings);
 }
 

@@ -2,7 +2,7 @@
 
 use crate::run::Progress;
 use crate::{Outcome, case, screen};
-use flexion_case::{Advice, AdviseError, RefineError, Target, Tried};
+use flexion_case::{Advice, AdviseError, RefineError, Target, Tried, Trusted, Untried};
 use flexion_results::{Artifact, Directory, OutputError};
 use serde_json::{Value, json};
 use std::io::Write as _;
@@ -17,9 +17,9 @@ const PRINTED: usize = 12;
   flexion advise case.toml --tolerance 1e-3
   flexion advise case.toml --tolerance \"0.1 mm\" --quantity tip.deflection.min
 
-First the case is run with the exact coupling, refined to a fifth of the tolerance: that is the trusted answer. Then couplings,
-bases of growing size and integrators of shrinking steps are tried on the case, and held against it; the cheapest that holds is
-named, by evaluations of the residual times unknowns, with what to pass to `flexion run`. The ladder takes 3e8 steps times unknowns
+First the case is run with the highest coupling whose data it gives, refined to a fifth of the tolerance: that is the trusted answer.
+Then couplings from `zeroth` to that one, bases of growing size and integrators of shrinking steps are tried on the case, and held
+against it; couplings that are not tried are listed with the key that is missing or refused. The cheapest run that holds is named, by evaluations of the residual times unknowns, with what to pass to `flexion run`. The ladder takes 3e8 steps times unknowns
 at most, two minutes or so; the same case has the same advice everywhere.
 
 Exit codes: 0 finished, 1 case or command line rejected, 2 stopped, nothing holds the tolerance, or there is no trusted
@@ -95,17 +95,22 @@ pub fn advise(arguments: &Arguments) -> Outcome {
         return Outcome::Finished;
     }
     screen::report(
-        "error: nothing on the ladder holds the tolerance: `flexion run --tolerance` with the exact coupling refines further\n",
+        "error: nothing on the ladder holds the tolerance: `flexion run --tolerance` with the trusted coupling refines further\n",
     );
     Outcome::Incomplete
 }
 
-/// Error over what is asked, or why there is none.
-fn error(tried: &Tried) -> String {
-    match &tried.error {
-        Ok(error) => format!("{error:.2}"),
+/// Difference over what is asked, or why there is none.
+fn difference(tried: &Tried) -> String {
+    match &tried.difference {
+        Ok(difference) => format!("{difference:.2}"),
         Err(why) => why.clone(),
     }
+}
+
+/// Changes of a case as they are passed on.
+fn set(changes: &[String]) -> String {
+    changes.iter().map(|change| format!("--set \"{change}\"")).collect::<Vec<_>>().join(" ")
 }
 
 fn described(advice: &Advice) -> String {
@@ -113,28 +118,36 @@ fn described(advice: &Advice) -> String {
     let asked =
         advice.asked.iter().map(|(name, bound, unit)| vec![name.clone(), format!("± {bound:.3e} {unit}")]);
     out += &screen::table(&asked.collect::<Vec<_>>());
-    let (changes, part) = &advice.trusted;
+    let Trusted { coupling, changes, error } = &advice.trusted;
     out += &format!(
-        "\nThe trusted answer is that of the exact coupling with {}, whose error is {part:.2} of what is asked.\n\n",
-        changes.join(", ")
+        "\nThe trusted answer is that of the coupling {coupling}, whose error is {error:.2} of what is asked:\n  {}\n\n",
+        set(changes)
     );
-    let mut those: Vec<&Tried> = advice.tried.iter().filter(|tried| tried.error.is_ok()).collect();
+    if !advice.untried.is_empty() {
+        out += "Not tried:\n";
+        let why = |of: &Untried| vec![of.coupling.to_owned(), of.key.clone(), of.why.clone()];
+        out += &screen::table(&advice.untried.iter().map(why).collect::<Vec<_>>());
+        out.push('\n');
+    }
+    let mut those: Vec<&Tried> = advice.tried.iter().filter(|tried| tried.difference.is_ok()).collect();
     those.sort_by(|a, b| b.holds().cmp(&a.holds()).then(a.work.total_cmp(&b.work)));
-    let mut rows =
-        vec![["coupling", "basis", "integrator", "work", "error over asked"].map(str::to_owned).to_vec()];
+    let mut rows = vec![
+        ["coupling", "basis", "integrator", "work", "difference over asked"].map(str::to_owned).to_vec(),
+    ];
     for tried in those.into_iter().take(PRINTED) {
         rows.push(vec![
             tried.coupling.to_owned(),
             tried.basis.clone(),
             tried.integrator.clone(),
             format!("{:.2e}", tried.work),
-            error(tried),
+            difference(tried),
         ]);
     }
     out += &screen::table(&rows);
+    out += "\nA difference is that from the trusted answer, with the error of that added: of another coupling it is that of the models too.\n";
     if let Some(tried) = advice.cheapest.and_then(|index| advice.tried.get(index)) {
-        let set: Vec<String> = tried.changes.iter().map(|change| format!("--set \"{change}\"")).collect();
-        out += &format!("\nThe cheapest of {} runs that holds:\n  {}\n", advice.tried.len(), set.join(" "));
+        let (count, set) = (advice.tried.len(), set(&tried.changes));
+        out += &format!("\nThe cheapest of {count} runs that holds:\n  {set}\n");
     }
     out.push('\n');
     out
@@ -144,13 +157,13 @@ fn write(directory: &Directory, case: &str, advice: &Advice) -> Result<(), Outpu
     directory
         .write(Artifact::ResolvedCase, |f| f.write_all(flexion_results::resolved_case(case).as_bytes()))?;
     directory.write(Artifact::AdviceCsv, |f| {
-        writeln!(f, "coupling,basis,integrator,work,error-over-asked,holds")?;
+        writeln!(f, "coupling,basis,integrator,work,difference-over-asked,holds")?;
         for tried in &advice.tried {
-            let error = tried.error.as_ref().map_or(f64::NAN, |error| *error);
+            let difference = tried.difference.as_ref().map_or(f64::NAN, |difference| *difference);
             let quoted = [&tried.basis, &tried.integrator].map(|text| format!("\"{text}\""));
             writeln!(
                 f,
-                "{},{},{:e},{error:e},{}",
+                "{},{},{:e},{difference:e},{}",
                 tried.coupling,
                 quoted.join(","),
                 tried.work,
@@ -162,7 +175,8 @@ fn write(directory: &Directory, case: &str, advice: &Advice) -> Result<(), Outpu
     let row = |tried: &Tried| {
         json!({
             "coupling": tried.coupling, "basis": tried.basis, "integrator": tried.integrator, "set": tried.changes,
-            "work": tried.work, "error": tried.error.as_ref().ok(), "why": tried.error.as_ref().err(), "holds": tried.holds(),
+            "work": tried.work, "difference": tried.difference.as_ref().ok(), "why": tried.difference.as_ref().err(),
+            "holds": tried.holds(),
         })
     };
     let asked: Value = advice
@@ -170,9 +184,13 @@ fn write(directory: &Directory, case: &str, advice: &Advice) -> Result<(), Outpu
         .iter()
         .map(|(name, bound, unit)| json!({ "quantity": name, "error": bound, "unit": unit }))
         .collect();
+    let trusted = &advice.trusted;
+    let why = |of: &Untried| json!({ "coupling": of.coupling, "key": of.key, "why": of.why });
+    let untried: Value = advice.untried.iter().map(why).collect();
     let summary = json!({
         "asked": asked,
-        "trusted": { "case": advice.trusted.0, "error": advice.trusted.1 },
+        "trusted": { "coupling": trusted.coupling, "set": trusted.changes, "error": trusted.error },
+        "untried": untried,
         "cheapest": advice.cheapest.and_then(|index| advice.tried.get(index)).map(row),
         "bounded": advice.bounded,
         "stopped": advice.stopped,

@@ -484,7 +484,10 @@ fn advice_is_written_the_same_each_time_and_has_an_exit_code() {
     };
     let (code, printed, message) = advise("a", "1e-2");
     assert_eq!(code, Some(0), "{message}");
-    assert!(printed.contains("--set \"model.coupling=") && printed.contains("error over asked"), "{printed}");
+    assert!(
+        printed.contains("--set \"model.coupling=") && printed.contains("difference over asked"),
+        "{printed}"
+    );
     advise("b", "1e-2");
     for file in ["advice.json", "advice.csv"] {
         let read = |name: &str| std::fs::read_to_string(folder.path().join(name).join(file)).unwrap();
@@ -493,7 +496,8 @@ fn advice_is_written_the_same_each_time_and_has_an_exit_code() {
     let json: serde_json::Value =
         serde_json::from_str(&std::fs::read_to_string(folder.path().join("a/advice.json")).unwrap()).unwrap();
     assert!(
-        json["cheapest"]["error"].as_f64().unwrap() <= 1.0 && json["tried"].as_array().unwrap().len() > 5
+        json["cheapest"]["difference"].as_f64().unwrap() <= 1.0
+            && json["tried"].as_array().unwrap().len() > 5
     );
     let (code, _, message) = advise("c", "much");
     assert!(code == Some(1) && message.contains("much"), "{message}");

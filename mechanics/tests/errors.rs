@@ -3,12 +3,14 @@
 #![allow(clippy::unwrap_used)]
 
 use flexion::analysis::error::{
-    Effort, Ended, Estimate, Goal, Mesh, Part as Of, Refinable, Variant, estimate, refine,
+    Advice, Effort, Ended, Estimate, Goal, Ladder, Mesh, Part as Of, Refinable, Variant, advise, estimate,
+    refine,
 };
 use flexion::exact::pendulum::rod_angle;
 use flexion::integrator::InvalidParameter;
 use flexion::linalg::Vec3;
-use flexion::multibody::{Axes, Body, Kind, Load, Marker, Model, Multibody, Part};
+use flexion::multibody::slender::{Beam, Properties, Station};
+use flexion::multibody::{Axes, Body, Flexible, Joint, Kind, Load, Marker, Model, Multibody, Part};
 use flexion::prelude::*;
 use flexion::profile::Expression;
 use std::f64::consts::PI;
@@ -188,4 +190,108 @@ fn a_mesh_has_twice_the_cells_for_every_halving() {
     assert_eq!(Mesh::default().cells(3), 3);
     assert_eq!(Mesh::default().halved().halved().cells(3), 12);
     assert_eq!(Mesh { halvings: 2, factor: Some(1.3) }.cells(3), 16);
+}
+
+/// A rod of 1 m on a ball joint that falls from the horizontal, by one of three models: rigid, as a beam, and as one with shear, of which the
+/// data are missing.
+struct Falling {
+    model: usize,
+    /// Elements of its coarsest mesh.
+    elements: usize,
+    controlled: bool,
+}
+
+const TIP: &str = "rod.tip.position.z";
+
+impl Refinable for Falling {
+    type Run = Record;
+    type Fault = InvalidParameter;
+
+    fn variant(&self) -> Variant {
+        let variant = Variant::new(Plan::new(0.6, 0.01).with_step(0.01));
+        if self.controlled { variant.with_tolerance(Tolerance::uniform(1e-6)) } else { variant }
+    }
+
+    fn run(&self, variant: &Variant, watch: &mut Watch<'_>) -> Result<Record, InvalidParameter> {
+        let mut model = Model::new().with_gravity([0.0, 0.0, -GRAVITY]);
+        if self.model == 0 {
+            let mut rod = Body::new("rod.tip", 0.8, [1e-4, 0.8 / 12.0, 0.8 / 12.0]).at([1.0, 0.0, 0.0]);
+            rod.centre = [-0.5, 0.0, 0.0].into();
+            let rod = model.body(rod);
+            let z = [0.0, 0.0, 1.0];
+            model.join("ball", Kind::Spherical, [Part::Ground, rod], [0.0; 3], (z, None)).unwrap();
+        } else {
+            let section = Properties::principal([1e7, 800.0, 1e3, 1e3], 0.8, [1e-4, 0.0, 0.0]);
+            let root = Station {
+                position: [0.0; 3].into(),
+                tangent: [1.0, 0.0, 0.0].into(),
+                normal: [0.0, 1.0, 0.0].into(),
+            };
+            let beam = Beam::straight(root, 1.0, variant.mesh.cells(self.elements), section).unwrap();
+            let beam = model.beam(Flexible::new("rod", beam));
+            let ends = [Part::Ground, Part::Section { beam, node: 0 }];
+            let [ground, end] = ends.map(|part| Marker::new(part, [0.0; 3]));
+            model.joint(Joint::new("ball", Kind::Spherical, ground, end));
+        }
+        let alpha = GeneralizedAlpha::chung_hulbert(0.8)?;
+        variant.record_by(&alpha, &mut Multibody::new(model).unwrap(), watch)
+    }
+
+    fn has_mesh(&self) -> bool {
+        self.model > 0
+    }
+}
+
+struct Rods;
+
+impl Ladder for Rods {
+    type Motion = Falling;
+
+    fn models(&self) -> usize {
+        3
+    }
+
+    fn model(&self, model: usize) -> Result<Falling, InvalidParameter> {
+        // The shear stiffness is not given.
+        let missing = || GeneralizedAlpha::chung_hulbert(f64::NAN).map(|_| ()).unwrap_err();
+        if model == 2 { Err(missing()) } else { Ok(Falling { model, elements: 4, controlled: true }) }
+    }
+
+    fn families(&self, model: usize) -> Vec<Result<Falling, InvalidParameter>> {
+        vec![Ok(Falling { model, elements: 1, controlled: true })]
+    }
+
+    fn methods(&self, model: usize, _: usize) -> Vec<Result<Falling, InvalidParameter>> {
+        vec![Ok(Falling { model, elements: 1, controlled: false })]
+    }
+}
+
+/// The beam gives way by about m g L³/(EI) parts of its length: that is a difference of the models, and the rigid rod does where more is
+/// allowed.
+#[test]
+fn the_cheapest_model_of_a_rod_depends_on_what_is_asked() {
+    let ask = |bound: f64| -> Advice<InvalidParameter> {
+        let goals = |_: &Trajectory| -> Result<Vec<Goal>, InvalidParameter> {
+            Ok(vec![Goal { column: TIP.to_owned(), part: Of::History, bound }])
+        };
+        advise(&Rods, &goals, &mut on).unwrap_or_else(|_| panic!("no advice"))
+    };
+    let coarse = ask(1e-2);
+    assert_eq!((coarse.trusted, coarse.untried.len(), coarse.untried[0].0), (1, 1, 2));
+    let cheapest = &coarse.tried[coarse.cheapest.unwrap()];
+    assert!(cheapest.choice.model == 0 && cheapest.difference.as_ref().unwrap() <= &1.0, "{cheapest:?}");
+    // That of the trusted answer is added to what a run is off by.
+    let own = Falling { model: 0, elements: 1, controlled: true }.run(&cheapest.variant, &mut on).unwrap();
+    let (ours, theirs) = (own.column(TIP).unwrap(), coarse.record.column(TIP).unwrap());
+    let off = ours.iter().zip(&theirs).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    assert!((cheapest.difference.as_ref().unwrap() - (off / 1e-2 + coarse.error)).abs() < 1e-9, "{off}");
+    let least = coarse.tried.iter().filter(|tried| tried.holds()).map(|tried| tried.work);
+    assert_eq!(least.fold(f64::INFINITY, f64::min), cheapest.work);
+    // What gives way is asked for: no step makes the rigid rod bend.
+    let apart = coarse.tried.iter().find(|tried| tried.choice.model == 0 && tried.choice.family.is_none());
+    let apart = 1e-2 * apart.unwrap().difference.as_ref().unwrap();
+    let fine = ask(0.3 * apart);
+    let mut rigid = fine.tried.iter().filter(|tried| tried.choice.model == 0);
+    assert!(rigid.all(|tried| !tried.holds()));
+    assert_eq!(fine.tried[fine.cheapest.unwrap()].choice.model, 1);
 }

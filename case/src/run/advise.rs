@@ -1,47 +1,41 @@
-//! Advice: the cheapest model and method with which a case is as accurate as is asked.
+//! Advice on a case: the couplings, bases and integrators of its ladder, and what is said of them.
 //!
-//! The trusted answer is that of the exact coupling, refined until its estimated error is a fifth of what is asked. Then the ladder is
-//! climbed: each coupling on the trusted mesh; of those that hold, each basis with more and more functions, integrated
-//! accurately; of those that hold, each integrator with smaller and smaller steps. The error of a run is its difference from
-//! the trusted answer, and the error of that is added. Work is counted, evaluations of the residual times unknowns, so that the
-//! advice is the same everywhere; a run that becomes costlier than the cheapest that holds is given up.
+//! [`flexion::analysis::error::advise`](fn@advise) climbs it.
 
-use super::Run;
-use super::refine::{RefineError, Target};
+use super::refine::{RefineError, Target, refused};
+use crate::layout;
 use crate::problem::Problems;
 use crate::reading::Reading;
-use flexion::analysis::error::{Goal, Pair};
+use flexion::analysis::error::{
+    Choice, Goal, Ladder, Mesh, NoAdvice, NoDifference, NotTrusted, Variant, advise,
+};
 use flexion::analysis::recording::Watch;
-use flexion::system::State;
-use flexion_results::Status;
+use flexion::integrator::Tolerance;
+use flexion::system::Channel;
 use std::borrow::Cow;
-use std::ops::ControlFlow;
 
-/// Error of the trusted answer over what is asked.
-const TRUSTED: f64 = 0.2;
-/// Steps times unknowns of all runs of the ladder, about two minutes of computing.
-const MOST_WORK: f64 = 3e8;
-/// Tolerance of runs that tell the errors of meshes, over what is asked of the largest value.
-const ACCURATE: f64 = 1e-2;
-
-/// The couplings, the cheapest first; `zeroth` is for comparison only.
-const COUPLINGS: [&str; 3] = ["first", "high", "exact"];
-/// The bases with what they are refined by.
-const BASES: [(&str, &[&str]); 6] = [
-    ("finite-elements", &["elements=2", "elements=4", "elements=8", "elements=16", "elements=32"]),
-    (
-        "modes",
-        &["axial=1,transverse=1", "axial=2,transverse=2", "axial=4,transverse=4", "axial=8,transverse=8"],
-    ),
-    ("b-spline", &["elements=2", "elements=4", "elements=8", "elements=16"]),
-    ("bezier", &["degree=4", "degree=6", "degree=8", "degree=12"]),
-    ("polynomial", &["nodes=5", "nodes=9", "nodes=17"]),
-    ("radial", &["nodes=6", "nodes=9", "nodes=17"]),
+/// The couplings: the first leaves out most, the last least.
+const COUPLINGS: [&str; 5] = ["zeroth", "first", "high", "exact", SPACE];
+/// The coupling of systems in space.
+const SPACE: &str = "space";
+/// The coupling that describes the whole curve of the beam, by finite elements, as [`SPACE`] does.
+const EXACT: &str = "exact";
+/// The bases with the keys of their coarsest meshes; finite elements come first.
+const BASES: [(&str, &[(&str, usize)]); 6] = [
+    (ELEMENTS, &[("elements", 2)]),
+    ("modes", &[("axial", 1), ("transverse", 1)]),
+    ("b-spline", &[("elements", 2)]),
+    ("bezier", &[("degree", 4)]),
+    ("polynomial", &[("nodes", 5)]),
+    ("radial", &[("nodes", 6)]),
 ];
-/// The methods with control of their steps, and their tolerances; those with fixed steps, and how many make the run.
-const TOLERANCES: [f64; 5] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7];
+const ELEMENTS: &str = "finite-elements";
+/// Elements from which the trusted answer is refined where the case has none.
+const OWN: usize = 10;
+/// The methods with fixed steps.
 const FIXED: [&str; 4] = ["newmark", "generalized-alpha", "runge-kutta-4", "adams-4"];
-const STEPS: [f64; 7] = [50.0, 200.0, 800.0, 3200.0, 12_800.0, 51_200.0, 204_800.0];
+/// Tolerance from which the trusted answer is refined.
+const TOLERANCE: Tolerance = Tolerance { relative: 1e-6, absolute: 1e-7 };
 
 /// A run of the ladder.
 #[derive(Clone, Debug)]
@@ -56,24 +50,49 @@ pub struct Tried {
     pub changes: Vec<String>,
     /// Evaluations of the residual times unknowns.
     pub work: f64,
-    /// Its error over the bound, the largest of all quantities; `None` where there is none, and why.
-    pub error: Result<f64, String>,
+    /// Its difference from the trusted answer over the bound, the largest of all quantities, with the error of that answer; or why there is
+    /// none. That of another coupling than the trusted one is a difference of the models too.
+    pub difference: Result<f64, String>,
 }
 
 impl Tried {
-    /// Whether the error is below what is asked.
+    /// Whether the difference is below what is asked.
     pub fn holds(&self) -> bool {
-        self.error.as_ref().is_ok_and(|error| *error <= 1.0)
+        self.difference.as_ref().is_ok_and(|difference| *difference <= 1.0)
     }
+}
+
+/// The answer that runs are held against.
+#[derive(Clone, Debug)]
+pub struct Trusted {
+    /// The coupling.
+    pub coupling: &'static str,
+    /// What makes its run of the case.
+    pub changes: Vec<String>,
+    /// Its estimated error over the bound.
+    pub error: f64,
+}
+
+/// A coupling that was not tried.
+#[derive(Clone, Debug)]
+pub struct Untried {
+    /// The coupling.
+    pub coupling: &'static str,
+    /// The key whose value is missing, or is not carried by the coupling.
+    pub key: String,
+    /// Why.
+    pub why: String,
 }
 
 /// What came of a ladder.
 #[derive(Clone, Debug)]
 pub struct Advice {
-    /// The case of the trusted answer, as changes, and its estimated error over the bound.
-    pub trusted: (Vec<String>, f64),
+    /// The trusted answer.
+    pub trusted: Trusted,
     /// The quantities with their bounds: name, bound, unit.
     pub asked: Vec<(String, f64, Cow<'static, str>)>,
+    /// The couplings that were not tried.
+    pub untried: Vec<Untried>,
     /// All runs, in the order in which they were tried.
     pub tried: Vec<Tried>,
     /// The number of the cheapest that holds among them.
@@ -101,209 +120,205 @@ impl From<Problems> for AdviseError {
     }
 }
 
-/// The climb of one ladder.
-struct Climb<'a, 'b> {
-    reading: &'a Reading,
-    target: &'a Target,
-    trusted: Run,
-    error: f64,
-    tried: Vec<Tried>,
-    /// Work of the cheapest run that holds.
-    least: f64,
-    left: f64,
-    /// Whether `watch` has asked for the end.
-    stopped: bool,
-    watch: &'a mut Watch<'b>,
+/// The ladder of a case.
+struct Rungs<'r> {
+    reading: &'r Reading,
+    /// Whether its spelling is that of a beam on a hub, which every coupling knows.
+    short: bool,
 }
 
-/// The change of a basis or an integrator of this kind and keys.
-fn kind(table: &str, kind: &str, keys: &str) -> String {
+impl Rungs<'_> {
+    /// The basis of a coupling on a mesh that begins a family, or on that from which the trusted answer is refined.
+    fn basis(&self, family: Option<usize>) -> (&'static str, Vec<(String, usize)>) {
+        let own = || self.reading.written().inner("basis").filter(|_| self.short);
+        match family {
+            Some(family) => {
+                let (basis, keys) = BASES[family];
+                (basis, keys.iter().map(|(key, n)| ((*key).to_owned(), *n)).collect())
+            }
+            None => {
+                let elements = own().and_then(|basis| basis.count("elements").ok()).unwrap_or(OWN);
+                (ELEMENTS, vec![("elements".to_owned(), elements)])
+            }
+        }
+    }
+
+    /// What makes a run of the case: coupling, basis and integrator. The functions are those of the basis and of `mesh`, changes that make
+    /// its mesh of that.
+    fn changes(&self, choice: Choice, mesh: &[String], integrator: &str) -> Vec<String> {
+        let mut changes = Vec::new();
+        if self.short {
+            let (basis, mut keys) = self.basis(choice.family);
+            for (key, n) in mesh.iter().filter_map(|change| functions(change)) {
+                match keys.iter_mut().find(|(known, _)| *known == key) {
+                    Some((_, before)) => *before = n,
+                    None => keys.push((key, n)),
+                }
+            }
+            let keys: Vec<String> = keys.into_iter().map(|(key, n)| format!("{key}={n}")).collect();
+            changes.push(format!("model.coupling={}", COUPLINGS[choice.model]));
+            changes.push(table("basis", basis, &keys.join(",")));
+        } else if choice.family.is_some() {
+            changes.push("model.refine=1".to_owned());
+        }
+        changes.extend(mesh.iter().filter(|change| functions(change).is_none()).cloned());
+        changes.push(integrator.to_owned());
+        changes
+    }
+
+    /// The case by a choice, on the coarsest mesh.
+    fn at(&self, choice: Choice) -> Result<Reading, Problems> {
+        let step = self.reading.case.duration / 100.0;
+        let integrator = match choice.method {
+            None => radau(TOLERANCE),
+            Some(method) => table("integrator", FIXED[method], &format!("step={step:e}")),
+        };
+        self.reading.with(&self.changes(choice, &[], &integrator))
+    }
+
+    /// A run as it is told.
+    fn tried(&self, of: flexion::analysis::error::Tried<Problems>) -> Tried {
+        let (changes, basis, integrator) = self.told(of.choice, &of.variant);
+        let difference = of.difference.map_err(|why| match why {
+            NoDifference::Costlier => "costlier than the cheapest that holds".to_owned(),
+            NoDifference::Failed(error) => error.to_string(),
+            NoDifference::Refused(problems) => problems.reason(),
+            NoDifference::NoColumn(column) => format!("it has no column `{column}`"),
+            _ => "it was not compared".to_owned(),
+        });
+        Tried { coupling: COUPLINGS[of.choice.model], basis, integrator, changes, work: of.work, difference }
+    }
+
+    /// What makes a run of the case, its basis and its integrator in words.
+    fn told(&self, choice: Choice, variant: &Variant) -> (Vec<String>, String, String) {
+        let mesh = if variant.mesh == Mesh::default() { Ok(Vec::new()) } else { self.mesh(choice, variant) };
+        let integrator = match (variant.tolerance, choice.method) {
+            (None, Some(method)) => {
+                let step = variant.plan.step.unwrap_or(f64::NAN);
+                table("integrator", FIXED[method], &format!("step={step:e}"))
+            }
+            (tolerance, _) => radau(tolerance.unwrap_or(TOLERANCE)),
+        };
+        let changes = self.changes(choice, &mesh.unwrap_or_default(), &integrator);
+        let of_mesh: Vec<String> = changes.iter().filter_map(|change| words(change, "basis")).collect();
+        let refined = changes.iter().filter(|change| change.starts_with("model.refine")).cloned();
+        let basis = of_mesh.into_iter().chain(refined).collect::<Vec<_>>().join(" ");
+        let basis = if basis.is_empty() { "its own".to_owned() } else { basis };
+        (changes, basis, words(&integrator, "integrator").unwrap_or_default())
+    }
+
+    fn mesh(&self, choice: Choice, variant: &Variant) -> Result<Vec<String>, Problems> {
+        self.at(Choice { method: None, ..choice })?.mesh_changes(variant.mesh)
+    }
+}
+
+impl Ladder for Rungs<'_> {
+    type Motion = Reading;
+
+    fn models(&self) -> usize {
+        COUPLINGS.len()
+    }
+
+    fn model(&self, model: usize) -> Result<Reading, Problems> {
+        if !self.short {
+            // Says which couplings there are not.
+            self.reading.with(&[format!("model.coupling={}", COUPLINGS[model])])?;
+        }
+        let reading = self.at(Choice { model, family: None, method: None })?;
+        let silent = |space: &crate::space::Space| space.beams.iter().any(|(beam, _)| beam.planar);
+        if self.short && reading.case.space().is_some_and(silent) {
+            let message = "says nothing of torsion and of bending across, on which a motion in space depends";
+            return Err(self.reading.problem("section", message));
+        }
+        Ok(reading)
+    }
+
+    fn families(&self, model: usize) -> Vec<Result<Reading, Problems>> {
+        let count = if [EXACT, SPACE].contains(&COUPLINGS[model]) { 1 } else { BASES.len() };
+        (0..count).map(|k| self.at(Choice { model, family: Some(k), method: None })).collect()
+    }
+
+    fn methods(&self, model: usize, family: usize) -> Vec<Result<Reading, Problems>> {
+        let of = |method| Choice { model, family: Some(family), method: Some(method) };
+        (0..FIXED.len()).map(|method| self.at(of(method))).collect()
+    }
+}
+
+/// The change of a basis or an integrator to this kind and keys.
+fn table(table: &str, kind: &str, keys: &str) -> String {
     format!("{table}={{kind='{kind}',{keys}}}")
 }
 
-fn radau(tolerance: f64) -> String {
-    kind(
-        "integrator",
-        "radau",
-        &format!("tolerance={tolerance:.0e},absolute-tolerance={:.0e}", 0.1 * tolerance),
-    )
+/// Kind and keys of such a change, in words.
+fn words(change: &str, table: &str) -> Option<String> {
+    let (kind, keys) = change.strip_prefix(table)?.strip_prefix("={kind='")?.split_once("',")?;
+    Some(format!("{kind} {}", keys.trim_end_matches('}')))
+}
+
+/// The key of a basis and its number that a change `basis.KEY=NUMBER` gives.
+fn functions(change: &str) -> Option<(String, usize)> {
+    let (key, n) = change.strip_prefix("basis.")?.split_once('=')?;
+    Some((key.to_owned(), n.parse().ok()?))
+}
+
+fn radau(Tolerance { relative, absolute }: Tolerance) -> String {
+    table("integrator", "radau", &format!("tolerance={relative:e},absolute-tolerance={absolute:e}"))
 }
 
 impl Reading {
     /// Climbs the ladder of couplings, bases and integrators for the cheapest run with which what is asked holds.
     ///
     /// # Errors
-    /// [`AdviseError`]: what is asked cannot be read, or the exact coupling cannot be refined to a fifth of it.
+    /// [`AdviseError`]: what is asked cannot be read, or the highest coupling whose data are given cannot be refined to a fifth of it.
     pub fn advise(&self, target: &Target, watch: &mut Watch<'_>) -> Result<Advice, AdviseError> {
-        if self.case.hub_beam().is_none() || self.case.has_contacts() {
-            let message = "advice is for beams on a hub without contacts: couplings and bases are theirs alone, and impacts amplify \
-                           every difference";
-            return Err(self.problem("", message).into());
+        if self.case.has_contacts() {
+            let message = "advice is for cases without contacts: impacts amplify every difference";
+            return Err(self.problem("contact", message).into());
         }
-        let elements = self.case.hub_beam().and_then(|beam| beam.bases.elements).map_or(10, |(n, _)| n);
+        self.has_errors()?;
+        self.missing_for_run()?;
         let plain = self.with(&["output.vtk=false".to_owned(), "output.plots=false".to_owned()])?;
-        let begin = plain.with(&[
-            "model.coupling=exact".to_owned(),
-            kind("basis", "finite-elements", &format!("elements={elements}")),
-            radau(1e-6),
-        ])?;
-        let found = begin.refine(&target.times(TRUSTED), watch, &mut |_| {})?;
-        let goals = target.goals(&found.run.trajectory, self.case.size())?;
-        if found.run.status != Status::Finished {
-            return Err(AdviseError::NoAnswer(found.run.message.unwrap_or_default()));
-        }
-        let errors = found.run.errors.as_ref();
-        let part = |goal: &Goal| Some(goal.reached(&found.run.trajectory, &errors?.columns)?.1 / goal.bound);
-        let error = goals.iter().filter_map(part).fold(0.0, f64::max);
-        if !(error <= 0.5) {
-            return Err(AdviseError::NoAnswer(found.refused.unwrap_or_else(|| {
-                format!("the error of the exact coupling is {error:.1} of what is asked")
-            })));
-        }
-        let trajectory = &found.run.trajectory;
-        let unit =
-            |goal: &Goal| trajectory.index(&goal.column).map(|i| trajectory.channels()[i].unit.clone());
-        let asked = |goal: &Goal| Some((goal.quantity(), goal.bound, unit(goal)?));
-        let asked = goals.iter().filter_map(asked).collect();
-        let trusted = found.reading.mesh_and_steps();
-        let mut climb = Climb {
-            reading: &plain,
-            target,
-            trusted: found.run,
-            error,
-            tried: Vec::new(),
-            least: f64::INFINITY,
-            left: MOST_WORK,
-            stopped: false,
-            watch,
+        let rungs = Rungs { reading: &plain, short: !layout::is_spatial(self.written().keys) };
+        let goals = |trajectory: &flexion_results::Trajectory| target.goals(trajectory, self.case.size());
+        let found = advise(&rungs, &goals, watch).map_err(|why| match why {
+            NoAdvice::Asked(error) => AdviseError::Refine(error),
+            NoAdvice::NoModel(mut untried) => match untried.pop() {
+                Some((_, problems)) => problems.into(),
+                None => AdviseError::NoAnswer("there is no coupling".to_owned()),
+            },
+            NoAdvice::NotTrusted(why) => AdviseError::NoAnswer(not_trusted(&why)),
+            _ => AdviseError::NoAnswer("the ladder ended".to_owned()),
+        })?;
+        let choice = Choice { model: found.trusted, family: None, method: None };
+        let (changes, ..) = rungs.told(choice, &found.variant);
+        let trajectory = &found.record.trajectory;
+        let channel = |goal: &Goal| trajectory.index(&goal.column).map(|i| &trajectory.channels()[i]);
+        let asked = |goal: &Goal| {
+            channel(goal).map(|Channel { unit, .. }| (goal.quantity(), goal.bound, unit.clone()))
         };
-        climb.couplings(&found.reading);
-        let holds = climb.tried.iter().enumerate().filter(|(_, tried)| tried.holds());
-        let cheapest = holds.min_by(|a, b| a.1.work.total_cmp(&b.1.work)).map(|(index, _)| index);
+        let untried = found.untried.into_iter().map(|(model, problems)| Untried {
+            coupling: COUPLINGS[model],
+            key: problems.list.first().map_or(String::new(), |problem| problem.key.clone()),
+            why: problems.reason(),
+        });
         Ok(Advice {
-            trusted: (trusted, error),
-            asked,
-            cheapest,
-            bounded: climb.left < 0.0,
-            stopped: climb.stopped,
-            tried: climb.tried,
+            trusted: Trusted { coupling: COUPLINGS[found.trusted], changes, error: found.error },
+            asked: found.goals.iter().filter_map(asked).collect(),
+            untried: untried.collect(),
+            tried: found.tried.into_iter().map(|of| rungs.tried(of)).collect(),
+            cheapest: found.cheapest,
+            bounded: found.bounded,
+            stopped: found.stopped,
         })
     }
 }
 
-impl Climb<'_, '_> {
-    fn couplings(&mut self, trusted: &Reading) {
-        let elements = trusted.case.hub_beam().and_then(|beam| beam.bases.elements).map_or(10, |(n, _)| n);
-        let accurate = self.accurate();
-        for coupling in COUPLINGS {
-            let mesh = ("finite-elements", format!("elements={elements}"));
-            if !self.run(coupling, (mesh.0, &mesh.1), ("radau", radau(accurate))) {
-                continue;
-            }
-            let bases = if coupling == "exact" { &BASES[..1] } else { &BASES[..] };
-            for (basis, sizes) in bases {
-                let enough = |climb: &mut Self, size: &str| {
-                    let integrator = ("radau", radau(accurate));
-                    climb.run(coupling, (basis, size), integrator)
-                };
-                let Some(size) = sizes.iter().copied().find(|size| enough(self, size)) else { continue };
-                self.integrators(coupling, (basis, size));
-            }
-        }
-    }
-
-    /// Each integrator with smaller and smaller steps, until it holds or becomes too costly.
-    fn integrators(&mut self, coupling: &'static str, basis: (&str, &str)) {
-        for tolerance in TOLERANCES {
-            if self.run(coupling, basis, ("radau", radau(tolerance))) {
-                break;
-            }
-        }
-        for method in FIXED {
-            for count in STEPS {
-                let step = self.reading.case.duration / count;
-                let integrator = (method, kind("integrator", method, &format!("step={step:e}")));
-                if self.run(coupling, basis, integrator) || self.costlier() {
-                    break;
-                }
-            }
-        }
-    }
-
-    /// A tolerance at which the error of the steps does not count.
-    fn accurate(&self) -> f64 {
-        let of = &self.trusted.trajectory;
-        let largest = |goal: &Goal| of.index(&goal.column).map_or(f64::NAN, |i| of.extremes(i).largest());
-        let bound = |goal: &Goal| goal.bound / largest(goal);
-        let goals = self.target.goals(&self.trusted.trajectory, self.reading.case.size()).unwrap_or_default();
-        (ACCURATE * goals.iter().map(bound).fold(1.0, f64::min)).clamp(1e-10, 1e-5)
-    }
-
-    /// Whether the last run was given up for its work.
-    fn costlier(&self) -> bool {
-        self.tried.last().is_some_and(|tried| tried.work >= self.least)
-    }
-
-    /// Runs one rung, unless the work is used up: whether it holds.
-    fn run(&mut self, coupling: &'static str, basis: (&str, &str), integrator: (&str, String)) -> bool {
-        if self.left < 0.0 || self.stopped {
-            return false;
-        }
-        let (method, integrator) = integrator;
-        let changes =
-            vec![format!("model.coupling={coupling}"), kind("basis", basis.0, basis.1), integrator.clone()];
-        let keys = integrator.split_once(',').map_or("", |(_, keys)| keys.trim_end_matches('}'));
-        let (least, mut steps) = (self.least, 0.0);
-        let run = self.reading.with(&changes).and_then(|reading| reading.prepare()).map(|prepared| {
-            prepared.run(&mut |state: &State| {
-                steps += state.v.len() as f64;
-                self.stopped |= (self.watch)(state).is_break();
-                if steps > least || self.stopped { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-            })
-        });
-        self.left -= steps;
-        if self.stopped {
-            return false;
-        }
-        let work = run.as_ref().map_or(0.0, |run| run.counters.residuals as f64 * run.size.unknowns as f64);
-        let error = match &run {
-            Ok(run) if run.status == Status::Finished => Ok(self.error_of(run)),
-            Ok(run) if run.status == Status::Stopped => {
-                Err("costlier than the cheapest that holds".to_owned())
-            }
-            Ok(run) => Err(run.message.clone().unwrap_or_default()),
-            Err(problems) => {
-                Err(problems.list.first().map_or(String::new(), |problem| problem.message.clone()))
-            }
-        };
-        let tried = Tried {
-            coupling,
-            basis: format!("{} {}", basis.0, basis.1),
-            integrator: format!("{method} {keys}"),
-            changes,
-            work: work.max(steps),
-            error,
-        };
-        let holds = tried.holds();
-        if holds {
-            self.least = self.least.min(tried.work);
-        }
-        self.tried.push(tried);
-        holds
-    }
-
-    /// The largest error over its bound.
-    fn error_of(&self, run: &Run) -> f64 {
-        let goals = self.target.goals(&self.trusted.trajectory, self.reading.case.size()).unwrap_or_default();
-        let part = |goal: &Goal| {
-            let pair = Pair::new(&run.trajectory, &self.trusted.trajectory, &goal.column);
-            // What stands still has a bound of zero.
-            let off = pair.map_or(f64::NAN, |pair| goal.off(&pair));
-            if off == 0.0 { 0.0 } else { off / goal.bound }
-        };
-        // Written so that NaN is kept.
-        let worse = |a: f64, b: f64| if a.is_nan() || b <= a { a } else { b };
-        let largest = goals.iter().map(part).fold(0.0, worse);
-        largest + self.error
+/// Why an answer is not trusted.
+fn not_trusted(why: &NotTrusted<Problems>) -> String {
+    let NotTrusted { model, error, last, ended, .. } = why;
+    let coupling = COUPLINGS[*model];
+    match refused(ended, last.as_ref()) {
+        Some(reason) => format!("that of the coupling `{coupling}` is not refined: {reason}"),
+        None => format!("the error of the coupling `{coupling}` is {error:.1} of what is asked"),
     }
 }

@@ -13,8 +13,6 @@ use flexion_results::{ResultsError, Rung, Status, Trajectory, nearest};
 pub struct Target {
     tolerance: String,
     quantity: Option<String>,
-    /// Factor on the tolerance.
-    factor: f64,
 }
 
 /// A refined case and its run.
@@ -50,12 +48,7 @@ impl Target {
     /// A tolerance of the largest value of each quantity, `1e-4`, or with a unit, `0.1 mm`; and a quantity, `tip.deflection`,
     /// `tip.deflection.min`, `.max` or `.final`. Without one all principal columns are meant, or those of that kind of unit.
     pub fn new(tolerance: String, quantity: Option<String>) -> Target {
-        Target { tolerance, quantity, factor: 1.0 }
-    }
-
-    /// The same with a factor on the tolerance.
-    pub(super) fn times(&self, factor: f64) -> Target {
-        Target { factor: factor * self.factor, ..self.clone() }
+        Target { tolerance, quantity }
     }
 
     /// The columns with their bounds. Of all principal ones those that vanish have none; `size` \[m\] is that of the model.
@@ -101,7 +94,7 @@ impl Target {
                 channel.name
             )));
         }
-        Ok(Goal { column: channel.name.clone(), part, bound: self.factor * bound })
+        Ok(Goal { column: channel.name.clone(), part, bound })
     }
 }
 
@@ -158,7 +151,7 @@ impl Reading {
 }
 
 /// Why a sequence ended before its goal, of which `last` is the last run, if it did.
-fn refused(ended: &Ended<Problems>, last: Option<&error::Rung>) -> Option<String> {
+pub(super) fn refused(ended: &Ended<Problems>, last: Option<&error::Rung>) -> Option<String> {
     let found = last.map_or(String::new(), |rung| {
         let (quantity, bound) = (rung.goal.quantity(), rung.goal.bound);
         format!("the error of {quantity} is {:.1e} and not below {bound:.1e}", rung.error)

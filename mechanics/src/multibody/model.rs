@@ -197,7 +197,13 @@ impl Model {
             let sound = point.radius >= 0.0 && point.radius.is_finite();
             let fault =
                 (!sound).then_some(PartFault::Negative { what: "radius", value: point.radius, unit: "m" });
-            self.examine(("contact point", k), &format!("contact point {k}"), fault, &[point.at], &mut names)?;
+            self.examine(
+                ("contact point", k),
+                &format!("contact point {k}"),
+                fault,
+                &[point.at],
+                &mut names,
+            )?;
         }
         Ok(())
     }

@@ -158,7 +158,10 @@ fn motions_that_contradict_each_other_are_refused_with_their_names() {
             let ModelError::Contradictory { rows } = &error else { panic!("{error}") };
             assert_eq!(rows.len(), 1, "{rows:?}");
             assert!(rows[0].opposed().starts_with("prescribed angle in joint `motor 1` against"), "{rows:?}");
-            assert!(rows[0].opposed().contains("`motor 0`") && !error.to_string().contains("drop"), "{error}");
+            assert!(
+                rows[0].opposed().contains("`motor 0`") && !error.to_string().contains("drop"),
+                "{error}"
+            );
         }
     }
     assert!(Multibody::new(two_motors(["t", "t"]).drop_redundant_rows()).is_ok());

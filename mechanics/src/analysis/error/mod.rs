@@ -2,10 +2,12 @@
 //!
 //! Whoever can run the [variants](Variant) of a motion implements [`Refinable`]: for a system of its own, or for a case read from a file.
 //! [`estimate`] then gives every recorded value its error, and says what makes it doubtful; [`refine`] refines mesh and steps until what is
-//! asked is accurate enough. Both return data: what is said of them, and in what words, is left to the program.
+//! asked is accurate enough. Who has several models, meshes and methods for it implements [`Ladder`], and [`advise()`] finds the cheapest that are
+//! accurate enough. All return data: what is said of them, and in what words, is left to the program.
 //!
 //! The [front page](crate) has an example.
 
+mod advise;
 mod coarse;
 mod estimate;
 mod impacts;
@@ -15,6 +17,7 @@ mod refine;
 mod trust;
 mod variant;
 
+pub use advise::{Advice, Choice, Fault, Ladder, NoAdvice, NoDifference, NotTrusted, Tried, advise};
 pub use coarse::{COARSE, Coarse, Remedy};
 pub use estimate::{Companion, Doubt, Effort, Estimate, NoEstimate, ROUNDING, estimate};
 pub use impacts::before_impacts;
