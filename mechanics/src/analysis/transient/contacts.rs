@@ -6,6 +6,9 @@ use super::{Event, EventKind};
 use crate::contact::{Bounds, Impact, ImpactMap, Neglected};
 use crate::system::{Mode, RowWeights, Set, State, System};
 
+/// Writes the gaps, or what is asked of them, at a time within a step.
+type Within<'a> = dyn FnMut(&mut dyn System, f64, &mut [f64]) + 'a;
+
 /// Arc over which a gap falls and rises no more than once \[rad\]: steps between which contacts are looked for are not longer.
 pub(super) const ARC: f64 = 0.5;
 /// Closing speed, over the largest met in the run, below which an impact is taken without restitution: bounces that
@@ -229,7 +232,7 @@ impl Unseen {
         &mut self,
         system: &mut dyn System,
         (from, to): (&State, &State),
-        within: &mut dyn FnMut(&mut dyn System, f64, &mut [f64]),
+        within: &mut Within<'_>,
     ) -> Option<usize> {
         for (s, [gap, rate]) in [from, to].into_iter().zip(&mut self.values) {
             system.constraint(s, RowWeights::POSITION, gap);
