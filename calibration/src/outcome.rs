@@ -231,7 +231,7 @@ fn admitted(drawn: &Drawn) -> Result<Reading, Problems> {
 fn finer(reading: &Reading, doublings: usize, further: &[String]) -> Result<Run, String> {
     let mut finer = reading.with(further).map_err(|problems| problems.to_string())?;
     for _ in 0..doublings {
-        finer = finer.with(&finer.case.finer()).map_err(|problems| problems.to_string())?;
+        finer = finer.changed(&finer.case.finer()).map_err(|problems| problems.to_string())?;
     }
     let tightest = if doublings > 2 { 1e-9 } else { 1e-8 };
     let tolerance = 0.01 * reading.variant().tolerance.map_or(1e-6, |tolerance| tolerance.relative);

@@ -22,7 +22,7 @@ pub(super) fn leaves_the_plane(
             faults.0.push(Fault::new(key, message).help(help));
         }
     };
-    check(gravity[2] != 0.0, GRAVITY.name.to_owned());
+    check(gravity[2] != 0.0, GRAVITY.key.name.to_owned());
     for (i, load) in loads.iter().enumerate() {
         let table = item("load", i);
         match &load.acts {

@@ -4,9 +4,11 @@ use super::declaration::Type;
 use super::fault::{Fault, Faults, Found, Made};
 use super::hub_beam::HubBeam;
 use super::kind::Context;
-use super::kinds::initial::{INITIAL, Initial};
-use super::kinds::integrator::{INTEGRATOR, Method, Steps};
-use super::layout;
+use super::kinds::initial::Initial;
+use super::kinds::integrator::{Method, Steps};
+use super::layout::{
+    self, BASIS, BEAM, INITIAL, INTEGRATOR, OUTPUT, OUTPUT_IN_SPACE, RUN, Recorded, Run, TITLE,
+};
 use super::places::Parts;
 use super::space::{self, Space};
 use super::stations::stations;
@@ -77,40 +79,38 @@ const MOST_RECORDS: f64 = 1e7;
 const SHAPES: f64 = 200.0;
 const MOST_SHAPES: f64 = 1e4;
 
-/// The number at `key` of the table at `table`.
-fn number(v: &Values, table: &str, key: &str) -> Made<f64> {
-    v.table(table)?.number(key)
-}
-
 /// Makes the parts of a case of its values, and checks them across their keys.
 ///
 /// # Errors
 /// All faults of all parts, at dotted paths of the case.
 pub(super) fn case(v: &mut Values, files: &super::sources::Files<'_>) -> Made<Case> {
     let mut found = Found::default();
-    let duration = v.table("run").and_then(duration).ok();
+    let cautions = RefCell::default();
+    let c = &Context { length: None, duration: None, parts: None, files, cautions: &cautions };
+    let run = RUN.read(v, c);
+    // A case that gives no duration has no run.
+    let duration = run.as_ref().ok().map(|run| run.duration.unwrap_or(0.0));
     fill_output_step(v, duration);
     let v = &*v;
     let in_space = layout::is_spatial(v.keys);
-    let length = if in_space { None } else { number(v, "beam", "length").ok() };
+    let length = if in_space { None } else { BEAM.read(v, c).ok().map(|beam| beam.length) };
     let parts = length.map(|length| Parts { bodies: Vec::new(), beams: vec![("beam".to_owned(), length)] });
-    let cautions = RefCell::default();
-    let c = &Context { length, duration, parts: parts.as_ref(), files, cautions: &cautions };
-    let method = found.part(INTEGRATOR.make(v, "integrator", c));
+    let c = &Context { length, duration, parts: parts.as_ref(), ..*c };
+    let method = found.part(INTEGRATOR.read(v, c));
     let subject = found.part(if in_space {
         space::make(v, c, method.as_ref()).map(|space| Subject::Space(Box::new(space)))
     } else {
         super::hub_beam::make(v, c, method.as_ref()).map(|beam| Subject::HubBeam(Box::new(beam)))
     });
-    let initial = found.part(INITIAL.make(v, "initial", c));
+    let initial = found.part(INITIAL.read(v, c));
     let output = found.part(output(v, c));
     if let Some(method) = &method {
         check_steps(method, duration, &mut found);
     }
-    let accuracy = found.part(v.table("run").and_then(accuracy));
+    let accuracy = found.part(run.and_then(accuracy));
     let parts = || {
         Some(Case {
-            title: v.text("title").ok()?.to_owned(),
+            title: TITLE.read(v, c).ok()?,
             subject: subject?,
             initial: initial?,
             steps: method?.steps,
@@ -126,19 +126,9 @@ pub(super) fn case(v: &mut Values, files: &super::sources::Files<'_>) -> Made<Ca
     }
 }
 
-/// The duration of the run, 0 where the case gives none and so has no run.
-fn duration(run: &Values) -> Made<f64> {
-    match run.optional_number("duration")? {
-        None if run.sound => Ok(0.0),
-        None => Err(Faults::default()),
-        Some(duration) => Ok(duration),
-    }
-}
-
 /// What `[run]` asks of the accuracy.
-fn accuracy(run: &Values) -> Made<Option<(f64, Option<String>)>> {
-    let quantity = run.optional_text("quantity")?.map(str::to_owned);
-    match (run.optional_number("tolerance")?, quantity) {
+fn accuracy(run: Run) -> Made<Option<(f64, Option<String>)>> {
+    match (run.tolerance, run.quantity) {
         (None, Some(_)) => Err(Fault::new("run.quantity", "is of no use without `run.tolerance`").into()),
         (tolerance, quantity) => Ok(tolerance.map(|tolerance| (tolerance, quantity))),
     }
@@ -165,18 +155,30 @@ fn check_steps(method: &Method, duration: Option<f64>, found: &mut Found) {
 
 /// What is recorded, within the run and on the beam.
 fn output(v: &Values, c: &Context<'_>) -> Made<Output> {
-    let output = v.table("output")?;
-    let in_space = layout::is_spatial(v.keys);
-    // Stations belong to the beams of a system in space.
-    let list = |name| if in_space { Ok(&[][..]) } else { output.numbers(name) };
-    let said = |name| if in_space { Ok(false) } else { output.boolean(name) };
+    let of = if layout::is_spatial(v.keys) {
+        let of = OUTPUT_IN_SPACE.read(v, c)?;
+        // Stations belong to the beams of a system in space.
+        Recorded {
+            step: of.step,
+            stations: Vec::new(),
+            section_forces: false,
+            strain_heights: Vec::new(),
+            energy_balance: of.energy_balance,
+            modal_shares: false,
+            plots: of.plots,
+            vtk: of.vtk,
+            vtk_step: of.vtk_step,
+        }
+    } else {
+        OUTPUT.read(v, c)?
+    };
     let mut found = Found::default();
-    let stations = if in_space { Some(Vec::new()) } else { found.part(stations(output, c)) };
-    let heights = list("strain-heights").unwrap_or_default();
+    let stations = found.part(stations(&of.stations, c));
+    let heights = &of.strain_heights;
     let twice = heights.iter().enumerate().find(|(i, height)| heights[..*i].contains(height));
     found.check(twice.is_some(), "strain-heights", || "a height is given twice".to_owned());
-    let (step, duration) = (output.optional_number("step")?, c.duration.unwrap_or(f64::NAN));
-    if let Some(step) = step {
+    let duration = c.duration.unwrap_or(f64::NAN);
+    if let Some(step) = of.step {
         found.check(step > duration && duration > 0.0, "step", || {
             format!("the output step {step} s is longer than the run of {duration} s")
         });
@@ -185,14 +187,13 @@ fn output(v: &Values, c: &Context<'_>) -> Made<Output> {
             format!("the output step {step} s makes {records:.1e} records in {duration} s; at most {MOST_RECORDS:.0e} are kept")
         });
     }
-    let modal_shares = said("modal-shares")?;
-    found.check(modal_shares && v.kind("basis") != Some("modes"), "modal-shares", || {
+    found.check(of.modal_shares && BASIS.chosen_in(v) != Some("modes"), "modal-shares", || {
         "only the functions of the basis `modes` are modes: choose it, or leave the shares out".to_owned()
     });
     let mut vtk = None;
-    if output.boolean("vtk") == Ok(true) {
+    if of.vtk {
         let usual = if duration > 0.0 { duration / SHAPES } else { ONE };
-        let interval = output.optional_number("vtk-step")?.unwrap_or(usual);
+        let interval = of.vtk_step.unwrap_or(usual);
         found.check(interval > duration && duration > 0.0, "vtk-step", || {
             format!("the interval {interval} s between shapes is longer than the run of {duration} s")
         });
@@ -206,13 +207,13 @@ fn output(v: &Values, c: &Context<'_>) -> Made<Output> {
         return Err(found.0.within("output"));
     }
     Ok(Output {
-        step: step.ok_or_else(Faults::default)?,
+        step: of.step.ok_or_else(Faults::default)?,
         stations: stations.unwrap_or_default().into_iter().map(|(_, station)| station).collect(),
-        section_forces: said("section-forces")?,
-        strain_heights: list("strain-heights")?.to_vec(),
-        energy_balance: output.boolean("energy-balance")?,
-        modal_shares,
-        plots: output.boolean("plots")?,
+        section_forces: of.section_forces,
+        strain_heights: of.strain_heights,
+        energy_balance: of.energy_balance,
+        modal_shares: of.modal_shares,
+        plots: of.plots,
         vtk,
     })
 }

@@ -1,6 +1,6 @@
-//! The language in which keys and kinds are declared, each exactly once.
+//! What a declaration of a key or a kind says.
 //!
-//! From one declaration come the reading with its messages, the listing, the JSON Schema and the
+//! From it come the reading with its messages, the listing, the JSON Schema and the
 //! resolved case.
 
 use super::units::Measure;
@@ -122,11 +122,6 @@ pub struct Key {
     pub presence: Presence,
     /// One line on what it means.
     pub doc: &'static str,
-}
-
-/// Declares a key.
-pub const fn key(name: &'static str, takes: Type, presence: Presence, doc: &'static str) -> Key {
-    Key { name, takes, presence, doc }
 }
 
 /// A kind as declared, without its maker.

@@ -87,16 +87,16 @@ impl std::error::Error for Faults {}
 
 /// What is wrong with a case, as it is found.
 #[derive(Default)]
-pub(super) struct Found(pub(super) Faults);
+pub(crate) struct Found(pub(crate) Faults);
 
 impl Found {
     /// The part, or `None`, with its faults noted.
-    pub(super) fn part<T>(&mut self, made: Made<T>) -> Option<T> {
+    pub(crate) fn part<T>(&mut self, made: Made<T>) -> Option<T> {
         made.map_err(|faults| self.0.0.extend(faults.0)).ok()
     }
 
     /// Notes a fault if there is one.
-    pub(super) fn check(&mut self, wrong: bool, key: &str, message: impl FnOnce() -> String) {
+    pub(crate) fn check(&mut self, wrong: bool, key: &str, message: impl FnOnce() -> String) {
         if wrong {
             self.0.0.push(Fault::new(key, message()));
         }

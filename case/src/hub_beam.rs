@@ -2,20 +2,18 @@
 
 use super::fault::{At, Fault, Faults, Found, Made};
 use super::features;
-use super::kind::{Choice, Context};
+use super::kind::Context;
 use super::kinds::basis::{self, Bases};
 use super::kinds::blade::{BLADE, Blade};
 use super::kinds::contact::{Contact, OnBeam, Touching, contacts};
-use super::kinds::coupling::{COUPLING, Coupling, fits_whole_curve};
+use super::kinds::coupling::{Coupling, fits_whole_curve};
 use super::kinds::damping::DAMPING;
 use super::kinds::integrator::Method;
 use super::kinds::load::{Acts, LOAD, Load};
 use super::kinds::mass::MASS;
-use super::kinds::motion::MOTION;
-use super::kinds::section::{SECTION, Section};
+use super::kinds::section::Section;
 use super::kinds::spring::{Joins, SPRING, Spring};
-use super::kinds::vector::vector;
-use super::layout::{GRAVITY, SPATIAL_TABLES};
+use super::layout::{self, GRAVITY, HUB, MODEL_ON_HUB, ModelOnHub, SPATIAL_TABLES};
 use super::places::Place;
 use super::values::{Values, item, join};
 use flexion::contact::Law;
@@ -88,12 +86,15 @@ const THICKEST: f64 = 5.0;
 /// Makes the beam of the values of its case, for a method of integration.
 pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made<HubBeam> {
     let mut found = Found::default();
-    let coupling = found.part(model(v, &COUPLING, c)).flatten();
-    found.part(planar(v));
-    let section = found.part(SECTION.make(v, "section", c));
+    let coupling = found.part(MODEL_ON_HUB.read(v, c)).and_then(|model| {
+        found.part(planar(v, &model));
+        model.coupling.made
+    });
+    let section = found.part(layout::SECTION.read(v, c));
     if let Some(section) = &section {
         // Stiffnesses that are given as such may stand for a beam that does not stretch.
-        let fastest = if v.kind("section") == Some("resultants") { f64::INFINITY } else { FASTEST };
+        let fastest =
+            if layout::SECTION.chosen_in(v) == Some("resultants") { f64::INFINITY } else { FASTEST };
         implausible(section.planar.resultants(0.0), fastest, c);
     }
     let hub = found.part(hub(v, c));
@@ -104,7 +105,7 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
             c.length.zip(section.as_ref()).map(|(length, section)| section.planar.ends(length, h));
         of_section.into_iter().flatten().chain(acting.iter().copied()).collect::<Vec<_>>()
     };
-    let bases = found.part(basis::make(v, c, &ends));
+    let bases = found.part(layout::BASIS.read(v, c).and_then(|basis| basis::make(&basis, c, &ends)));
     if let (Some(length), Some(section)) = (c.length, &section) {
         found.part(features::apart(section.planar.jumps(), length));
         let width = bases.as_ref().and_then(|bases| bases.width);
@@ -126,7 +127,7 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     if let (Some(coupling), Some(bases)) = (coupling, &bases)
         && coupling.whole_curve
     {
-        let name = v.kind("basis").unwrap_or_default();
+        let name = layout::BASIS.chosen_in(v).unwrap_or_default();
         found.part(fits_whole_curve(bases, name));
     }
     if let (Some(coupling), Some(bases), Some(section), Some(loads), Some(contacts), Some(length)) =
@@ -168,14 +169,17 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
 }
 
 /// Refuses what only a model in space carries.
-fn planar(v: &Values) -> Made<()> {
-    let model = v.table("model")?;
-    let coupling = model.text("coupling")?;
-    let of_model = ["refine", "drop-redundant-rows"].iter().map(|key| (model, *key, join("model", key)));
-    let tables = SPATIAL_TABLES.iter().map(|key| (v, key.name, key.name.to_owned()));
-    let refused = tables.chain(of_model).filter(|(values, key, _)| values.is_written(key));
-    let faults: Vec<Fault> = refused
-        .map(|(_, _, path)| {
+fn planar(v: &Values, model: &ModelOnHub) -> Made<()> {
+    let coupling = model.coupling.name;
+    let of_model = [
+        (model.refine.is_some(), ModelOnHub::refine.key.name),
+        (model.drop_redundant_rows.is_some(), ModelOnHub::drop_redundant_rows.key.name),
+    ];
+    let of_model = of_model.iter().filter(|(written, _)| *written).map(|(_, key)| join("model", key));
+    let tables = SPATIAL_TABLES.iter().filter(|key| v.is_written(key.name)).map(|key| key.name.to_owned());
+    let faults: Vec<Fault> = tables
+        .chain(of_model)
+        .map(|path| {
             let message =
                 format!("`{coupling}` is a model of one beam on a hub in the plane, and does not carry this");
             Fault::new(path, message).help("write `model.coupling = \"space\"`, or leave it out")
@@ -213,21 +217,17 @@ fn overdamped(method: &Method, damping: Damping, found: &mut Found) {
     });
 }
 
-fn model<T>(v: &Values, choice: &Choice<T>, c: &Context<'_>) -> Made<T> {
-    choice.make(v.table("model")?, choice.name, c).map_err(|faults| faults.within("model"))
-}
-
 fn hub(v: &Values, c: &Context<'_>) -> Made<Hub> {
-    let hub = v.table("hub")?;
-    let drive = match hub.optional("motion")? {
+    let layout::Hub { radius, inertia, motion } = HUB.read(v, c)?;
+    let drive = match motion {
         // A case without a motion has no run: its hub is at rest until a speed is given.
-        None if hub.sound => Drive::Prescribed(Motion::Speed {
+        None => Drive::Prescribed(Motion::Speed {
             profile: Arc::new(Constant::new(0.0).at("hub")?),
             initial_angle: 0.0,
         }),
-        _ => MOTION.make(hub, "motion", c).map_err(|faults| faults.within("hub"))?,
+        Some(drive) => drive,
     };
-    Ok(Hub { radius: hub.number("radius")?, inertia: hub.number("inertia")?, drive })
+    Ok(Hub { radius, inertia, drive })
 }
 
 /// The components along x and y of what lies in the plane of motion.
@@ -246,7 +246,7 @@ fn in_space(axes: Axes) -> Option<&'static str> {
 
 /// Everything that acts on the beam and that it carries: the weight, masses, forces, couples, forces per length and springs.
 fn loads(v: &Values, c: &Context<'_>, found: &mut Found) -> Option<Vec<Acting>> {
-    let gravity = found.part(gravity(v));
+    let gravity = found.part(GRAVITY.read(v, c).and_then(gravity));
     let masses = found.part(MASS.make(v, c));
     let loads = found.part(LOAD.make(v, c));
     let springs = found.part(SPRING.make(v, c));
@@ -275,10 +275,10 @@ fn loads(v: &Values, c: &Context<'_>, found: &mut Found) -> Option<Vec<Acting>> 
     whole.then_some(all)
 }
 
-fn gravity(v: &Values) -> Made<Option<Acting>> {
-    let [x, y] = in_plane(vector(v, GRAVITY.name)?, GRAVITY.name)?;
+fn gravity(acceleration: Vec3) -> Made<Option<Acting>> {
+    let [x, y] = in_plane(acceleration, GRAVITY.key.name)?;
     let gravity = acting::Gravity { acceleration: libm::hypot(x, y), direction: libm::atan2(y, x) };
-    let acting = Acting::new(GRAVITY.name.to_owned(), gravity, Default::default(), Some("gravity"));
+    let acting = Acting::new(GRAVITY.key.name.to_owned(), gravity, Default::default(), Some("gravity"));
     Ok((gravity.acceleration != 0.0).then_some(acting))
 }
 

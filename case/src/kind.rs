@@ -1,13 +1,12 @@
 //! Kinds and their makers: what a case may choose, and how the part of a model is made of it.
 
-use super::declaration::{Entry, Key, Kinds};
-use super::fault::{At, Fault, Faults, Made};
-use super::places::{Parts, Place};
+use super::declaration::{Entry, Key, Kinds, Presence, Type};
+use super::fault::{Fault, Faults, Made};
+use super::places::Parts;
 use super::sources::Files;
 use super::values::{Value, Values};
 use std::cell::RefCell;
 use std::fmt;
-use std::sync::Arc;
 
 /// What a maker knows of the rest of the case.
 #[derive(Clone, Copy)]
@@ -35,21 +34,9 @@ impl Context<'_> {
         self.duration.ok_or_else(Faults::default)
     }
 
-    /// Name and bytes of the file at `key`.
-    pub fn file<'v>(&self, v: &'v Values, key: &str) -> Made<(&'v str, Arc<[u8]>)> {
-        let name = v.text(key)?;
-        Ok((name, self.files.bytes(name).at(key)?))
-    }
-
     /// The bodies and beams of the case.
     pub fn parts(&self) -> Made<&Parts> {
         self.parts.ok_or_else(Faults::default)
-    }
-
-    /// The place at `key`.
-    pub fn place(&self, v: &Values, key: &str) -> Made<Place> {
-        let found = self.parts()?.find(v.text(key)?);
-        found.map_err(|fault| Faults::from(fault).within(key))
     }
 
     /// Whether a station lies on the beam.
@@ -65,8 +52,66 @@ impl Context<'_> {
     }
 }
 
-/// Makes a part of the model of the values of a table, whose own keys have no problem.
-pub type Make<T> = fn(&Values, &Context<'_>) -> Made<T>;
+/// A table whose keys are the fields of a type.
+pub trait Keys: Sized {
+    /// The keys.
+    const KEYS: &'static [Key];
+
+    /// The fields of the values of a table.
+    ///
+    /// # Errors
+    /// The faults of all fields.
+    fn read(v: &Values, c: &Context<'_>) -> Made<Self>;
+}
+
+/// Makes a part of the model of a table, whose own keys have no problem.
+pub trait Maker<T>: Sync {
+    /// The keys of the table.
+    fn keys(&self) -> &'static [Key];
+
+    /// The part.
+    ///
+    /// # Errors
+    /// What is wrong with the table, at paths within it.
+    fn make(&self, v: &Values, c: &Context<'_>) -> Made<T>;
+}
+
+/// Makes a part of the keys of a table.
+pub struct Of<K, T>(pub fn(K, &Context<'_>) -> Made<T>);
+
+impl<K: Keys, T> Maker<T> for Of<K, T> {
+    fn keys(&self) -> &'static [Key] {
+        K::KEYS
+    }
+
+    fn make(&self, v: &Values, c: &Context<'_>) -> Made<T> {
+        K::read(v, c).and_then(|keys| (self.0)(keys, c))
+    }
+}
+
+/// No keys.
+pub struct Nothing;
+
+impl Keys for Nothing {
+    const KEYS: &'static [Key] = &[];
+
+    fn read(_: &Values, _: &Context<'_>) -> Made<Nothing> {
+        Ok(Nothing)
+    }
+}
+
+/// A part that needs no keys.
+pub struct Is<T>(pub T);
+
+impl<T: Clone + Sync> Maker<T> for Is<T> {
+    fn keys(&self) -> &'static [Key] {
+        &[]
+    }
+
+    fn make(&self, _: &Values, _: &Context<'_>) -> Made<T> {
+        Ok(self.0.clone())
+    }
+}
 
 /// One of the kinds of a choice: all that a case file, its documentation and the model need to know of it.
 pub struct Kind<T: 'static> {
@@ -76,12 +121,10 @@ pub struct Kind<T: 'static> {
     pub summary: &'static str,
     /// Where it comes from: authors, year, DOI; empty for what needs no source.
     pub source: &'static str,
-    /// Its keys, besides `kind`.
-    pub keys: &'static [Key],
     /// How a case may choose it: changes `KEY=VALUE` of a case, one a line, as on the command line.
     pub example: &'static str,
-    /// Makes the part.
-    pub make: Make<T>,
+    /// Makes the part, of its keys besides `kind`.
+    pub make: &'static dyn Maker<T>,
 }
 
 /// A place in a case where one of several kinds is chosen.
@@ -116,11 +159,11 @@ impl<T> Kinds for Choice<T> {
     }
 
     fn kinds(&self) -> Vec<Entry> {
-        let entry = |&Kind { name, summary, source, keys, example, .. }: &Kind<T>| Entry {
+        let entry = |&Kind { name, summary, source, example, make }: &Kind<T>| Entry {
             name,
             summary,
             source,
-            keys,
+            keys: make.keys(),
             example,
         };
         self.kinds.iter().map(entry).collect()
@@ -128,21 +171,30 @@ impl<T> Kinds for Choice<T> {
 }
 
 impl<T> Choice<T> {
-    /// The part that the key of a table chooses.
-    pub fn make(&self, v: &Values, key: &str, c: &Context<'_>) -> Made<T> {
+    /// The part that a value chooses.
+    ///
+    /// # Errors
+    /// What its maker refuses, at paths within the value; nothing, if the value has a problem that is reported already.
+    pub fn make(&self, value: &Value, c: &Context<'_>) -> Made<T> {
         let none = Values { sound: true, ..Values::default() };
-        let (name, values) = match v.value(key)? {
+        let (name, values) = match value {
             Value::Kind(entry, values) => (entry.name, values),
             Value::Text(name) => (name.as_str(), &none),
-            _ => return Err(Values::misused(key, "no choice")),
+            _ => return Err(Faults::default()),
         };
-        let Some(kind) = self.kinds.iter().find(|kind| kind.name == name) else {
-            return Err(Values::misused(key, "a choice among other kinds"));
-        };
-        if !values.sound {
-            return Err(Faults::default());
+        let kind = self.kinds.iter().find(|kind| kind.name == name).ok_or_else(Faults::default)?;
+        kind.make.make(values, c)
+    }
+
+    /// The name of what a value chooses.
+    pub fn named(&self, value: &Value) -> &'static str {
+        match value {
+            Value::Kind(entry, _) => entry.name,
+            Value::Text(name) => {
+                self.kinds.iter().find(|kind| kind.name == name).map_or("", |kind| kind.name)
+            }
+            _ => "",
         }
-        (kind.make)(values, c).map_err(|faults| faults.within(key))
     }
 }
 
@@ -153,25 +205,53 @@ pub struct Table<T: 'static> {
     /// How a case may write it: changes `KEY=VALUE` of a case, one a line, as on the command line.
     pub example: &'static str,
     /// Makes the part.
-    pub make: Make<T>,
+    pub make: &'static dyn Maker<T>,
 }
 
 impl<T> Table<T> {
-    /// The parts of all tables of this name: none, one, or those of a list.
-    pub fn make(&self, v: &Values, c: &Context<'_>) -> Made<Vec<T>> {
+    /// A list of tables.
+    pub const fn list<K: Keys>(
+        name: &'static str,
+        doc: &'static str,
+        example: &'static str,
+        make: &'static Of<K, T>,
+    ) -> Table<T> {
+        let key = Key { name, takes: Type::Tables(K::KEYS), presence: Presence::Empty, doc };
+        Table { key, example, make }
+    }
+
+    /// One table, which may be left out.
+    pub const fn one<K: Keys>(
+        name: &'static str,
+        doc: &'static str,
+        example: &'static str,
+        make: &'static Of<K, T>,
+    ) -> Table<T> {
+        let key = Key { name, takes: Type::Table(K::KEYS), presence: Presence::Optional, doc };
+        Table { key, example, make }
+    }
+
+    /// The values of all tables of this name, and what each is called: none, one, or those of a list.
+    pub fn tables_in<'v>(&self, v: &'v Values) -> Vec<(String, &'v Values)> {
         let name = self.key.name;
-        let tables = match v.optional(name)? {
-            None => return Ok(Vec::new()),
+        match v.get(name).map(|filled| &filled.value) {
             Some(Value::Table(values)) => vec![(name.to_owned(), values)],
             Some(Value::Tables(list)) => {
                 list.iter().enumerate().map(|(i, values)| (super::values::item(name, i), values)).collect()
             }
-            Some(_) => return Err(Values::misused(name, "no table")),
-        };
+            _ => Vec::new(),
+        }
+    }
+
+    /// The parts of all tables of this name.
+    ///
+    /// # Errors
+    /// The faults of all makers, at paths of the case.
+    pub fn make(&self, v: &Values, c: &Context<'_>) -> Made<Vec<T>> {
         let (mut parts, mut faults) = (Vec::new(), Faults::default());
         let mut whole = true;
-        for (path, values) in tables {
-            let made = if values.sound { (self.make)(values, c) } else { Err(Faults::default()) };
+        for (path, values) in self.tables_in(v) {
+            let made = self.make.make(values, c);
             match made {
                 Ok(part) => parts.push(part),
                 Err(more) => {

@@ -1,23 +1,29 @@
 //! The layout of a case file: its keys, and the choices in them.
 
-use super::declaration::{Bound::*, Key, Kinds, Presence as Default, Presence::*, Type, Type::Quantity, key};
-use super::kinds::basis::{BASIS, FIELD};
-use super::kinds::coupling::COUPLING;
-use super::kinds::initial::INITIAL;
-use super::kinds::integrator::INTEGRATOR;
+use super::declaration::{Bound::*, Key, Kinds};
+use super::keys::{
+    Field, Named, boolean, choice, integer, keys, kind, number, places, quantities, quantity, table, text,
+    vector,
+};
+use super::kinds::basis::{self, Either, FIELD};
+use super::kinds::coupling::{COUPLING, Coupling};
+use super::kinds::initial::{self, Initial};
+use super::kinds::integrator::{self, Method};
 use super::kinds::motion::MOTION;
-use super::kinds::section::SECTION;
+use super::kinds::section::{self, Section};
 use super::kinds::{
     amplitude, beam, blade, body, contact, damping, force_law, joint, load, mass, obstacle, rotation, spring,
     torque,
 };
 use super::tree::{Line, Raw};
 use super::units::{ACCELERATION, INERTIA, LENGTH, TIME};
+use flexion::hub_beam::Drive;
+use flexion::linalg::Vec3;
 use std::sync::LazyLock;
 
 /// The choices, in the order of a case file.
 pub(super) static CHOICES: &[&dyn Kinds] = &[
-    &SECTION,
+    &section::SECTION,
     &MOTION,
     &torque::TORQUE_ON_HUB,
     &torque::CONTROLLER,
@@ -31,10 +37,10 @@ pub(super) static CHOICES: &[&dyn Kinds] = &[
     &spring::SPRING_KIND,
     &blade::STRAIN_ENERGY,
     &COUPLING,
-    &BASIS,
+    &basis::BASIS,
     &FIELD,
-    &INITIAL,
-    &INTEGRATOR,
+    &initial::INITIAL,
+    &integrator::INTEGRATOR,
     &body::INERTIA,
     &beam::CURVE,
     &beam::END,
@@ -67,7 +73,7 @@ pub(super) const SPATIAL_TABLES: [Key; 4] =
 
 /// What both have: what acts, what is carried, and what may be touched.
 static ACTING: [&Key; 5] =
-    [&GRAVITY, &mass::MASS.key, &spring::SPRING.key, &load::LOAD.key, &contact::CONTACT.key];
+    [&GRAVITY.key, &mass::MASS.key, &spring::SPRING.key, &load::LOAD.key, &contact::CONTACT.key];
 
 /// The tables of a system in space, in the order of a case file.
 static TABLES: [&Key; 3] = [&body::BODY.key, &beam::BEAMS.key, &joint::JOINTS.key];
@@ -76,8 +82,9 @@ static TABLES: [&Key; 3] = [&body::BODY.key, &beam::BEAMS.key, &joint::JOINTS.ke
 pub(super) fn spatial_keys() -> &'static [Key] {
     static KEYS: LazyLock<Vec<Key>> = LazyLock::new(|| {
         let (parts, acting) = (TABLES.map(|key| *key), ACTING.map(|key| *key));
-        let more = [beam::FIBRES.key, rotation::ROTATION.key, MODEL];
-        [&[TITLE][..], &acting[..1], &parts, &acting[1..], &more, RUN, &[SPATIAL_OUTPUT]].concat()
+        let more = [beam::FIBRES.key, rotation::ROTATION.key, MODEL.key];
+        let output = [OUTPUT_IN_SPACE.key];
+        [&[TITLE.key][..], &acting[..1], &parts, &acting[1..], &more, &OF_RUN, &output].concat()
     });
     &KEYS
 }
@@ -88,183 +95,144 @@ pub(super) fn keys() -> &'static [Key] {
         let acting = ACTING.map(|key| *key);
         let damping = &[damping::DAMPING.key];
         let (all, one) = (&acting[1..], &acting[..1]);
-        [&[TITLE], one, PLANAR, all, damping, &SPATIAL_TABLES, RUN, &[OUTPUT]].concat()
+        [&[TITLE.key], one, &PLANAR, all, damping, &SPATIAL_TABLES, &OF_RUN, &[OUTPUT.key]].concat()
     });
     &KEYS
 }
 
 /// Gravity, at the top of a case.
-pub(super) const GRAVITY: Key = key(
-    "gravity",
-    Type::Quantities(&ACCELERATION, Any),
-    Empty,
-    "acceleration of gravity along x, y and z, none if left out; z may be left out",
-);
+pub(super) const GRAVITY: Field<Vec3> = vector(&ACCELERATION)
+    .called("gravity", "acceleration of gravity along x, y and z, none if left out; z may be left out");
 
-const fn coupling(default: &'static str) -> Key {
-    key("coupling", Type::Choice(&COUPLING), Default::Name(default), "kinematic model")
+const COUPLED: Field<Named<Option<Coupling>>> = choice(&COUPLING).called("coupling", "kinematic model");
+const REDUNDANT: &str = "rows of joints that follow from others are left out, in place of an error, and have no forces; a run ends where they no \
+                         longer follow";
+const REFINE: &str = "into how many each element of beams in space is cut";
+
+keys! {
+    /// What is kept of the equations of a system in space.
+    pub(super) struct Model {
+        coupling: Named<Option<Coupling>> = COUPLED.or_name("space");
+        drop_redundant_rows: bool = boolean().or_false().called("", REDUNDANT);
+        refine: usize = integer(1, 1000).or_count(1).called("", REFINE);
+    }
+
+    /// What is kept of the equations of a beam on a hub.
+    pub(super) struct ModelOnHub {
+        coupling: Named<Option<Coupling>> = COUPLED.or_name("first");
+        drop_redundant_rows: Option<bool> = boolean().called("", REDUNDANT);
+        refine: Option<usize> = integer(1, 1000).called("", REFINE);
+    }
 }
 
-const fn redundant(presence: Default) -> Key {
-    key(
-        "drop-redundant-rows",
-        Type::Boolean,
-        presence,
-        "rows of joints that follow from others are left out, in place of an error, and have no forces; a run ends where they no \
-         longer follow",
-    )
+/// The model of a system in space.
+pub(super) const MODEL: Field<Model> = table().called("model", "model of the system");
+/// The model of a beam on a hub.
+pub(super) const MODEL_ON_HUB: Field<ModelOnHub> = table().called("model", "model of the beam");
+
+/// The title.
+pub(super) const TITLE: Field<String> = text().or_name("").called("title", "title for plots and reports");
+
+keys! {
+    /// The beam on a hub.
+    pub(super) struct OneBeam {
+        /// length L of the beam
+        length: f64 = quantity(&LENGTH, Positive);
+    }
+
+    /// The hub.
+    pub(super) struct Hub {
+        /// radius a, where the beam is clamped
+        radius: f64 = quantity(&LENGTH, NotNegative).or(0.0);
+        /// moment of inertia of the hub about its axis
+        inertia: f64 = quantity(&INERTIA, NotNegative).or(0.0);
+        /// rotation of the hub: prescribed, or free
+        motion: Option<Drive> = kind(&MOTION).for_run();
+    }
 }
 
-const fn refine(presence: Default) -> Key {
-    key("refine", Type::Integer(1, 1000), presence, "into how many each element of beams in space is cut")
-}
-
-static MODEL_KEYS: [Key; 3] =
-    [coupling("space"), redundant(Default::Boolean(false)), refine(Default::Integer(1))];
-static MODEL_KEYS_ON_HUB: [Key; 3] = [coupling("first"), redundant(Optional), refine(Optional)];
-
-/// What is kept of the equations.
-pub(super) const MODEL: Key = key("model", Type::Table(&MODEL_KEYS), Empty, "model of the system");
-
-const TITLE: Key = key("title", Type::Text, Default::Name(""), "title for plots and reports");
+/// The table `[beam]`.
+pub(super) const BEAM: Field<OneBeam> = table().required().called("beam", "beam itself");
+/// The table `[section]`.
+pub(super) const SECTION: Field<Section> = kind(&section::SECTION).called("section", "cross-section");
+/// The table `[hub]`.
+pub(super) const HUB: Field<Hub> = table().called("hub", "hub and its motion");
+/// The table `[basis]`.
+pub(super) const BASIS: Field<Either> =
+    kind(&basis::BASIS).or_name("finite-elements").called("basis", "basis of the displacements");
 
 /// Keys of the beam, its hub and its model.
-static PLANAR: &[Key] = &[
-    key(
-        "beam",
-        Type::Table(&[key("length", Quantity(&LENGTH, Positive), Required, "length L of the beam")]),
-        Required,
-        "beam itself",
-    ),
-    key("section", Type::Kind(&SECTION), Required, "cross-section"),
-    key(
-        "hub",
-        Type::Table(&[
-            key(
-                "radius",
-                Quantity(&LENGTH, NotNegative),
-                Default::Number(0.0),
-                "radius a, where the beam is clamped",
-            ),
-            key(
-                "inertia",
-                Quantity(&INERTIA, NotNegative),
-                Default::Number(0.0),
-                "moment of inertia of the hub about its axis",
-            ),
-            key("motion", Type::Kind(&MOTION), Default::Run, "rotation of the hub: prescribed, or free"),
-        ]),
-        Default::Empty,
-        "hub and its motion",
-    ),
-    blade::BLADE.key,
-    key("model", Type::Table(&MODEL_KEYS_ON_HUB), Default::Empty, "model of the beam"),
-    key("basis", Type::Kind(&BASIS), Default::Name("finite-elements"), "basis of the displacements"),
-];
+static PLANAR: [Key; 6] = [BEAM.key, SECTION.key, HUB.key, blade::BLADE.key, MODEL_ON_HUB.key, BASIS.key];
+
+keys! {
+    /// The extent of a run.
+    pub(super) struct Run {
+        /// simulated time; 0 for the initial state alone
+        duration: Option<f64> = quantity(&TIME, NotNegative).for_run();
+        /// largest error of `quantity` over its largest value: mesh and steps are refined until it is reached
+        tolerance: Option<f64> = number(Between(1e-12, 1.0));
+        /// column of `tolerance`, also its `.min`, `.max` or `.final`; all principal columns if left out
+        quantity: Option<String> = text();
+    }
+}
+
+/// The table `[initial]`.
+pub(super) const INITIAL: Field<Initial> =
+    kind(&initial::INITIAL).or_name("undeformed").called("initial", "state at the start");
+/// The table `[integrator]`.
+pub(super) const INTEGRATOR: Field<Method> =
+    kind(&integrator::INTEGRATOR).or_name("radau").called("integrator", "integrator");
+/// The table `[run]`.
+pub(super) const RUN: Field<Run> = table().called("run", "extent of the run");
 
 /// Keys of a run.
-static RUN: &[Key] = &[
-    key("initial", Type::Kind(&INITIAL), Default::Name("undeformed"), "state at the start"),
-    key("integrator", Type::Kind(&INTEGRATOR), Default::Name("radau"), "integrator"),
-    key(
-        "run",
-        Type::Table(&[
-            key(
-                "duration",
-                Quantity(&TIME, NotNegative),
-                Default::Run,
-                "simulated time; 0 for the initial state alone",
-            ),
-            key(
-                "tolerance",
-                Type::Number(Between(1e-12, 1.0)),
-                Optional,
-                "largest error of `quantity` over its largest value: mesh and steps are refined until it is reached",
-            ),
-            key(
-                "quantity",
-                Type::Text,
-                Optional,
-                "column of `tolerance`, also its `.min`, `.max` or `.final`; all principal columns if left out",
-            ),
-        ]),
-        Default::Empty,
-        "extent of the run",
-    ),
-];
+static OF_RUN: [Key; 3] = [INITIAL.key, INTEGRATOR.key, RUN.key];
 
-const SAMPLE: Key = key(
-    "step",
-    Quantity(&TIME, Positive),
-    Optional,
-    "interval between records, a thousandth of the duration if left out",
-);
-const STATIONS: Key =
-    key("stations", Type::Places, Default::Empty, "stations of beams that are recorded besides the tip");
-const BALANCE: Key = key(
+const SAMPLE: Field<Option<f64>> = quantity(&TIME, Positive)
+    .called("step", "interval between records, a thousandth of the duration if left out");
+const STATIONS: Field<Vec<String>> =
+    places().or_empty().called("stations", "stations of beams that are recorded besides the tip");
+const BALANCE: Field<bool> = boolean().or_true().called(
     "energy-balance",
-    Type::Boolean,
-    Default::Boolean(true),
     "work, losses and the balance of energy are recorded, for an evaluation or more of the power a step",
 );
-const PLOTS: Key =
-    key("plots", Type::Boolean, Default::Boolean(true), "the run is drawn: plot.svg and plot.png");
-const VTK: Key = key(
-    "vtk",
-    Type::Boolean,
-    Default::Boolean(false),
-    "the shape of the beam is written too, for ParaView: beam.pvd",
-);
-const VTK_STEP: Key = key(
-    "vtk-step",
-    Quantity(&TIME, Positive),
-    Optional,
-    "interval between shapes, rounded to records, 200 shapes if left out",
-);
+const PLOTS: Field<bool> = boolean().or_true().called("plots", "the run is drawn: plot.svg and plot.png");
+const VTK: Field<bool> =
+    boolean().or_false().called("vtk", "the shape of the beam is written too, for ParaView: beam.pvd");
+const VTK_STEP: Field<Option<f64>> = quantity(&TIME, Positive)
+    .called("vtk-step", "interval between shapes, rounded to records, 200 shapes if left out");
 
-/// What is recorded of a beam on a hub.
-static RECORDED: [Key; 9] = [
-    SAMPLE,
-    STATIONS,
-    key(
-        "section-forces",
-        Type::Boolean,
-        Default::Boolean(false),
-        "axial force, shear force and bending moment are recorded at the stations",
-    ),
-    key(
-        "strain-heights",
-        Type::Quantities(&LENGTH, Any),
-        Default::Empty,
-        "heights over the axis at which the strain is recorded at the stations",
-    ),
-    BALANCE,
-    key(
-        "modal-shares",
-        Type::Boolean,
-        Default::Boolean(false),
-        "the shares B²/ΣB² of the transverse modes are recorded, for the basis `modes`",
-    ),
-    PLOTS,
-    VTK,
-    VTK_STEP,
-];
-const OUTPUT: Key = key("output", Type::Table(&RECORDED), Default::Empty, "recording of results");
+keys! {
+    /// What is recorded of a beam on a hub.
+    pub(super) struct Recorded {
+        step: Option<f64> = SAMPLE;
+        stations: Vec<String> = STATIONS;
+        /// axial force, shear force and bending moment are recorded at the stations
+        section_forces: bool = boolean().or_false();
+        /// heights over the axis at which the strain is recorded at the stations
+        strain_heights: Vec<f64> = quantities(&LENGTH, Any).or_empty();
+        energy_balance: bool = BALANCE;
+        /// the shares B²/ΣB² of the transverse modes are recorded, for the basis `modes`
+        modal_shares: bool = boolean().or_false();
+        plots: bool = PLOTS;
+        vtk: bool = VTK;
+        vtk_step: Option<f64> = VTK_STEP;
+    }
 
-/// What is recorded of a system in space.
-static RECORDED_IN_SPACE: [Key; 7] = [
-    SAMPLE,
-    STATIONS,
-    key(
-        "root-axes",
-        Type::Boolean,
-        Default::Boolean(false),
-        "stations are recorded in the axes of their root too, as those of a beam in the plane: deflection, axial, across, rotation",
-    ),
-    BALANCE,
-    PLOTS,
-    VTK,
-    VTK_STEP,
-];
-const SPATIAL_OUTPUT: Key =
-    key("output", Type::Table(&RECORDED_IN_SPACE), Default::Empty, "recording of results");
+    /// What is recorded of a system in space.
+    pub(super) struct RecordedInSpace {
+        step: Option<f64> = SAMPLE;
+        stations: Vec<String> = STATIONS;
+        /// stations are recorded in the axes of their root too, as those of a beam in the plane: deflection, axial, across, rotation
+        root_axes: bool = boolean().or_false();
+        energy_balance: bool = BALANCE;
+        plots: bool = PLOTS;
+        vtk: bool = VTK;
+        vtk_step: Option<f64> = VTK_STEP;
+    }
+}
+
+/// The table `[output]` of a beam on a hub.
+pub(super) const OUTPUT: Field<Recorded> = table().called("output", "recording of results");
+/// The table `[output]` of a system in space.
+pub(super) const OUTPUT_IN_SPACE: Field<RecordedInSpace> = table().called("output", "recording of results");

@@ -4,7 +4,7 @@
 //! text ─▶ tree (spanned TOML) ─▶ values (by the declarations, in SI) ─▶ parts (by the makers) ─▶ systems and runs
 //! ```
 //!
-//! A kind is one entry: its name, its keys, an example and the function that makes the part of a model of it. Reading,
+//! A kind is one entry: its name, an example and the function that makes the part of a model of its [keys](mod@keys). Reading,
 //! messages, the listing ([`choices`]), the JSON Schema ([`schema`]) and the resolved case ([`Reading::resolved`]) follow
 //! from the entries. Reading runs every maker whose own keys have no problem; what a maker refuses is reported at the
 //! key that it names, and what it makes is the part that is used. All problems of a case are reported at once, as
@@ -21,11 +21,13 @@ pub struct Book;
 mod blame;
 mod campbell;
 mod case;
+pub mod change;
 pub mod declaration;
 mod fault;
 mod features;
 mod files;
 mod hub_beam;
+pub mod keys;
 mod kind;
 pub mod kinds;
 mod layout;

@@ -1,13 +1,16 @@
 //! The models of a case: what is made of its parts.
 
 use super::case::{Case, Output, Subject};
+use super::change::Change;
 use super::fault::{Fault, Faults, Made};
 use super::hub_beam::{Acting, HubBeam};
+use super::kinds::basis::Bases;
 use super::kinds::coupling::Assembly;
 use super::kinds::initial::Initial;
 use super::kinds::rotation::vibrating;
+use super::layout::{BASIS, MODEL, Model};
 use super::space::Space;
-use super::values::item;
+use super::values::{item, join};
 use flexion::blade::{Blade, Body, Tip};
 use flexion::hub_beam::{Beam, Mass, load as acting};
 use flexion::system::Fork;
@@ -128,28 +131,33 @@ impl Case {
     }
 
     /// Changes that give the case twice the functions; none for a system without a mesh.
-    pub fn finer(&self) -> Vec<String> {
-        match &self.subject {
-            Subject::HubBeam(beam) => changes(&beam.bases.finer),
-            Subject::Space(space) if space.beams.is_empty() => Vec::new(),
-            Subject::Space(space) => vec![format!("model.refine={}", 2 * space.refine)],
-        }
+    pub fn finer(&self) -> Vec<Change> {
+        self.doubled(|bases| &bases.finer).map(|(key, count)| Change::count(key, count)).collect()
     }
 
     /// Changes that give the case about `factor` times the functions, rounded up.
-    pub(super) fn with_functions(&self, factor: f64) -> Vec<String> {
-        let changed = |change: String| {
-            let (key, doubled) = change.split_once('=')?;
-            let doubled: f64 = doubled.parse().ok()?;
+    pub(super) fn with_functions(&self, factor: f64) -> Vec<Change> {
+        let changed = |(key, doubled): (String, usize)| {
             // Between n equally spaced nodes are n − 1 spaces.
             let ends = if key.ends_with("nodes") { 1.0 } else { 0.0 };
-            Some(format!("{key}={}", (0.5 * factor * (doubled - ends) - 1e-9).ceil() + ends))
+            let count = (0.5 * factor * (doubled as f64 - ends) - 1e-9).ceil() + ends;
+            Change::count(key, count as usize)
         };
+        self.doubled(|bases| &bases.more).map(changed).collect()
+    }
+
+    /// Dotted paths of the numbers of functions, and twice these.
+    fn doubled(&self, of: fn(&Bases) -> &[(String, usize)]) -> impl Iterator<Item = (String, usize)> {
         let doubled = match &self.subject {
-            Subject::HubBeam(beam) => changes(&beam.bases.more),
-            Subject::Space(_) => self.finer(),
+            Subject::HubBeam(beam) => {
+                of(&beam.bases).iter().map(|(key, n)| (join(BASIS.key.name, key), *n)).collect()
+            }
+            Subject::Space(space) if space.beams.is_empty() => Vec::new(),
+            Subject::Space(space) => {
+                vec![(join(MODEL.key.name, Model::refine.key.name), 2 * space.refine)]
+            }
         };
-        doubled.into_iter().filter_map(changed).collect()
+        doubled.into_iter()
     }
 
     /// What vibrates: the blade, the hub–beam of a case without `[blade]`, or the system in space, in any case without contacts;
@@ -175,9 +183,4 @@ impl Case {
             }
         }
     }
-}
-
-/// Values of keys of the basis as changes.
-fn changes(keys: &[(String, usize)]) -> Vec<String> {
-    keys.iter().map(|(key, value)| format!("basis.{key}={value}")).collect()
 }

@@ -1,11 +1,12 @@
 //! A case that was read: how it was written, and the parts made of it.
 
 use super::case::{self, Case};
+use super::change::Change;
 use super::declaration::Presence;
 use super::fault::{Fault, Faults};
 use super::kind::Context;
-use super::kinds::integrator::{INTEGRATOR, Method};
-use super::layout;
+use super::kinds::integrator::Method;
+use super::layout::{self, INTEGRATOR};
 use super::problem::{Problem, Problems, Source, inside};
 use super::reader;
 use super::resolved;
@@ -102,11 +103,25 @@ impl Reading {
     /// # Errors
     /// Everything that is wrong with the changes.
     pub fn with(&self, changes: &[String]) -> Result<Reading, Problems> {
+        self.after(changes, |root, change, problems| tree::lay_over(root, change, problems))
+    }
+
+    /// The same case with changes of the program's own.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the changes.
+    pub fn changed(&self, changes: &[Change]) -> Result<Reading, Problems> {
+        self.after(changes, tree::change)
+    }
+
+    fn after<C>(
+        &self,
+        changes: &[C],
+        make: impl Fn(&mut Node, &C, &mut Problems),
+    ) -> Result<Reading, Problems> {
         let mut problems = Problems { sources: self.sources.clone(), list: Vec::new() };
         let mut root = self.root.clone();
-        for change in changes {
-            tree::lay_over(&mut root, change, &mut problems);
-        }
+        changes.iter().for_each(|change| make(&mut root, change, &mut problems));
         interpreted(root, &self.file, &self.files, problems)
     }
 
@@ -161,7 +176,7 @@ impl Reading {
             files: &files,
             cautions: &cautions,
         };
-        let method = INTEGRATOR.make(&self.values, "integrator", &context);
+        let method = INTEGRATOR.read(&self.values, &context);
         method.map(|Method { integrator, .. }| integrator).map_err(|faults| self.problems(faults))
     }
 
@@ -185,8 +200,10 @@ impl Reading {
             _ => None,
         });
         let missing = tables.flat_map(|(name, values)| {
-            let left_out =
-                values.keys.iter().filter(|key| key.presence == Presence::Run && !values.has(key.name));
+            let left_out = values
+                .keys
+                .iter()
+                .filter(|key| key.presence == Presence::Run && values.get(key.name).is_none());
             left_out
                 .map(move |key| reader::missing(key, &format!("{name}.{}", key.name), values.place.clone()))
         });

@@ -12,13 +12,19 @@
 //! refused at its key.
 
 use super::fault::{Fault, Faults, Found, Made};
-use super::kind::Context;
-use super::kinds::motion::MOTION;
-use super::kinds::section::{SECTION, Section};
+use super::kind::{Context, Keys};
+use super::kinds::basis::FiniteElements;
+use super::kinds::blade::BLADE;
+use super::kinds::contact::{self, CONTACT};
+use super::kinds::damping::DAMPING;
+use super::kinds::load::{self, LOAD};
+use super::kinds::obstacle::Stop;
+use super::kinds::section::Section;
+use super::layout::{self, BASIS, INITIAL, MODEL_ON_HUB, ModelOnHub, OUTPUT, RUN, Recorded, SECTION};
 use super::problem::Place;
 use super::sources::Files;
 use super::tree::{Line, Node, Raw};
-use super::values::{Value, Values, item};
+use super::values::{Values, item};
 use flexion::hub_beam::Drive;
 use flexion::profile::HubKinematics;
 use std::cell::RefCell;
@@ -49,7 +55,7 @@ pub(super) struct Long {
 
 /// Whether a case of a beam on a hub asks for space.
 pub(super) fn asks_for_space(v: &Values) -> bool {
-    v.inner("model").is_some_and(|model| model.text("coupling") == Ok("space"))
+    MODEL_ON_HUB.values_in(v).and_then(|model| ModelOnHub::coupling.chosen_in(model)) == Some("space")
 }
 
 /// The lines of a table that take the place of one that was written at a place.
@@ -131,23 +137,16 @@ struct Start {
     sets_off: bool,
 }
 
-fn start(v: &Values, c: &Context<'_>) -> Made<Start> {
-    let hub = v.table("hub")?;
-    if hub.optional("motion")?.is_none() {
-        return Ok(Start { angle: 0.0, speed: 0.0, rests: true, sets_off: false });
-    }
-    let drive = MOTION.make(hub, "motion", c).map_err(|faults| faults.within("hub"))?;
-    let still = || {
-        let Ok(Some(Value::Kind(kind, motion))) = hub.optional("motion") else { return false };
-        kind.name == "constant" && motion.number("speed") == Ok(0.0)
-    };
-    Ok(match drive {
-        Drive::Prescribed(motion) => {
-            let HubKinematics { angle, acceleration, .. } = motion.at(0.0);
-            Start { angle, speed: 0.0, rests: still(), sets_off: acceleration != 0.0 }
+/// The start of a hub with this motion, which may be of a constant speed.
+fn start(motion: Option<&Drive>, is_constant: bool) -> Start {
+    match motion {
+        None => Start { angle: 0.0, speed: 0.0, rests: true, sets_off: false },
+        Some(Drive::Prescribed(motion)) => {
+            let HubKinematics { angle, speed, acceleration } = motion.at(0.0);
+            Start { angle, speed: 0.0, rests: is_constant && speed == 0.0, sets_off: acceleration != 0.0 }
         }
-        Drive::Free(hub) => Start { angle: hub.angle, speed: hub.speed, rests: false, sets_off: false },
-    })
+        Some(Drive::Free(hub)) => Start { angle: hub.angle, speed: hub.speed, rests: false, sets_off: false },
+    }
 }
 
 /// The long spelling of a case whose short one is `lines`, with the values `v`.
@@ -156,18 +155,23 @@ fn start(v: &Values, c: &Context<'_>) -> Made<Start> {
 /// Faults at the keys of what space does not carry.
 pub(super) fn long(lines: &[Line], v: &Values, files: &Files<'_>) -> Made<Long> {
     let mut found = Found::default();
-    let (length, cautions) = (v.table("beam")?.number("length")?, RefCell::default());
-    let duration = Some(v.table("run")?.optional_number("duration")?.unwrap_or(0.0));
-    let c = &Context { length: Some(length), duration, parts: None, files, cautions: &cautions };
-    let section = found.part(SECTION.make(v, "section", c));
-    let start = found.part(start(v, c));
+    let cautions = RefCell::default();
+    let c = &Context { length: None, duration: None, parts: None, files, cautions: &cautions };
+    let (length, duration) = (layout::BEAM.read(v, c)?.length, RUN.read(v, c)?.duration.unwrap_or(0.0));
+    let c = &Context { length: Some(length), duration: Some(duration), ..*c };
+    let section = found.part(SECTION.read(v, c));
+    let hub = found.part(layout::HUB.read(v, c));
+    let constant =
+        layout::HUB.values_in(v).and_then(|hub| layout::Hub::motion.chosen_in(hub)) == Some("constant");
+    let start = hub.as_ref().map(|hub| start(hub.motion.as_ref(), constant));
+    let output = found.part(OUTPUT.read(v, c));
     if let Some(section) = &section {
         found.part(centred(section));
     }
     if let Some(start) = &start {
-        found.part(turning(v, start));
+        found.part(turning(v, start, c));
         found.check(
-            start.sets_off && matches!(v.kind("initial"), Some("static" | "steady-rotation")),
+            start.sets_off && matches!(INITIAL.chosen_in(v), Some("static" | "steady-rotation")),
             "initial.kind",
             || {
                 "the hub sets off with an acceleration, which the equilibrium of a system in space leaves out"
@@ -175,13 +179,16 @@ pub(super) fn long(lines: &[Line], v: &Values, files: &Files<'_>) -> Made<Long> 
             },
         );
     }
-    found.part(carried(v));
-    let (Some(section), Some(start)) = (section, start) else { return Err(found.0) };
+    if let Some(output) = &output {
+        found.part(carried(v, output));
+    }
+    let (Some(section), Some(start), Some(hub), Some(output)) = (section, start, hub, output) else {
+        return Err(found.0);
+    };
     if !found.0.0.is_empty() {
         return Err(found.0);
     }
-    let hub = v.table("hub")?;
-    let (radius, inertia) = (hub.number("radius")?, hub.number("inertia")?);
+    let layout::Hub { radius, inertia, .. } = hub;
     let place = |key: &str| v.find(key).0.unwrap_or_default();
     let (sin, cos) = libm::sincos(start.angle);
     let kept =
@@ -190,7 +197,7 @@ pub(super) fn long(lines: &[Line], v: &Values, files: &Files<'_>) -> Made<Long> 
     let mut kept: Vec<Line> = lines.iter().filter(kept).cloned().collect();
     kept.iter_mut().filter(|line| line.key == "contact").for_each(orient);
     if start.rests {
-        kept.iter_mut().for_each(|line| fix(line, v));
+        kept.iter_mut().for_each(|line| fix(line, v, c));
     }
     let mut long = Lines { place: Place::default(), lines: kept };
 
@@ -208,8 +215,8 @@ pub(super) fn long(lines: &[Line], v: &Values, files: &Files<'_>) -> Made<Long> 
     ];
 
     let silent = is_silent(&section);
-    let basis = v.inner("basis");
-    let count = |key: &str| basis.and_then(|basis| basis.integer(key).ok());
+    let basis = BASIS.values_in(v).ok_or_else(Faults::default)?;
+    let FiniteElements { elements, refine: parts, .. } = FiniteElements::read(basis, c)?;
     let mut beam = Lines::at(&place("beam"))
         .text("name", BEAM)
         .node("length", written(lines, "beam.length"))
@@ -217,7 +224,7 @@ pub(super) fn long(lines: &[Line], v: &Values, files: &Files<'_>) -> Made<Long> 
         .vector("direction", [cos, sin, 0.0])
         .vector("up", [-sin, cos, 0.0])
         .node("section", written(lines, "section"))
-        .raw("elements", Raw::Integer(count("elements").unwrap_or(1)))
+        .raw("elements", Raw::Integer(elements as i64))
         .raw("planar", Raw::Boolean(silent))
         .node("damping", written(lines, "damping"));
     let spin = [0.0, 0.0, start.speed];
@@ -262,17 +269,16 @@ pub(super) fn long(lines: &[Line], v: &Values, files: &Files<'_>) -> Made<Long> 
         joints.push(clamp);
     }
 
-    let model = v.table("model")?;
-    let refine = model.optional("refine")?.map_or(Ok(1), |_| model.integer("refine"))?;
+    let refine = MODEL_ON_HUB.read(v, c)?.refine.unwrap_or(1);
     let model = Lines::at(&place("model"))
         .text("coupling", "space")
         .node("drop-redundant-rows", written(lines, "model.drop-redundant-rows"))
-        .raw("refine", Raw::Integer(refine.saturating_mul(count("refine").unwrap_or(1))));
+        .raw("refine", Raw::Integer(refine.saturating_mul(parts) as i64));
+    let fibres = fibres(lines, v, &output);
     let mut output = Lines::at(&place("output")).raw("root-axes", Raw::Boolean(true));
     for key in ["step", "stations", "energy-balance", "plots", "vtk", "vtk-step"] {
         output = output.node(key, written(lines, &format!("output.{key}")));
     }
-    let fibres = fibres(lines, v)?;
     let list = |nodes: Vec<Node>| Raw::List(nodes);
     long = long.raw("beam", list(vec![beam.table()])).raw("joint", list(joints));
     if !bodies.is_empty() {
@@ -282,7 +288,7 @@ pub(super) fn long(lines: &[Line], v: &Values, files: &Files<'_>) -> Made<Long> 
         long = long.raw("fibre", list(fibres));
     }
     let long = long.node("model", Some(&model.table())).node("output", Some(&output.table()));
-    let on_hub = (0..tables(lines, "contact").len()).any(|i| is_on_hub(v, i));
+    let on_hub = CONTACT.tables_in(v).iter().any(|(_, contact)| is_on_hub(contact));
     let caution = "an obstacle of the hub, which is at rest, stands on the ground in space: `hub.torque` is without what pushes against it";
     let cautions = on_hub.then(|| caution.to_owned()).into_iter().collect();
     Ok(Long { lines: long.lines, renamed, cautions })
@@ -312,12 +318,12 @@ fn orient(contacts: &mut Line) {
 }
 
 /// Fixes to the ground what loads and contacts fix to a hub at rest: its axes are those of the ground.
-fn fix(line: &mut Line, v: &Values) {
+fn fix(line: &mut Line, v: &Values, c: &Context<'_>) {
     let Raw::List(tables) = &mut line.node.value else { return };
     for (i, table) in tables.iter_mut().enumerate() {
         let Raw::Table(lines) = &mut table.value else { continue };
-        let offset =
-            v.inner(&item(&line.key, i)).and_then(|values| values.inner("obstacle")?.number("offset").ok());
+        let obstacle = v.inner(&item(&line.key, i)).and_then(|v| contact::Written::obstacle.values_in(v));
+        let offset = obstacle.and_then(|obstacle| Stop::offset.read(obstacle, c).ok());
         for Line { key, node, .. } in lines {
             match (key.as_str(), &mut node.value, offset) {
                 ("axes", Raw::Text(axes), _) if axes == HUB => *axes = "dead".to_owned(),
@@ -365,41 +371,37 @@ fn centred(section: &Section) -> Made<()> {
 }
 
 /// Whether the hub carries the obstacle of a contact.
-fn is_on_hub(v: &Values, contact: usize) -> bool {
-    v.inner(&item("contact", contact)).is_some_and(|contact| {
-        contact.optional_text("mount") == Ok(Some(HUB)) || contact.kind("obstacle") == Some("stop")
-    })
+fn is_on_hub(contact: &Values) -> bool {
+    contact::Written::mount.chosen_in(contact) == Some(HUB)
+        || contact::Written::obstacle.chosen_in(contact) == Some("stop")
 }
 
 /// What turns with the hub is carried by a hub that stays at the angle 0 alone.
-fn turning(v: &Values, start: &Start) -> Made<()> {
+fn turning(v: &Values, start: &Start, c: &Context<'_>) -> Made<()> {
     if start.rests {
         return Ok(());
     }
     let mut faults = Faults::default();
     let mut refuse = |key: String, message: &str| faults.0.push(Fault::new(key, message).help(PLANAR));
-    if v.inner("damping").is_some_and(|damping| damping.number("mass").is_ok_and(|mass| mass > 0.0)) {
+    if DAMPING.make(v, c)?.iter().any(|damping| damping.mass > 0.0) {
         let message =
             "acts on velocities relative to the hub, which turns, and in space on those against the ground";
         refuse("damping.mass".to_owned(), message);
     }
-    let tables = |key: &str| match v.optional(key) {
-        Ok(Some(Value::Tables(list))) => list.as_slice(),
-        _ => &[],
-    };
-    for (i, load) in tables("load").iter().enumerate() {
-        if load.text("axes") == Ok(HUB) {
+    for (table, load) in LOAD.tables_in(v) {
+        if load::Written::axes.chosen_in(load) == Some(HUB) {
             refuse(
-                format!("{}.axes", item("load", i)),
+                format!("{table}.axes"),
                 "turns with the hub, and loads in space are `dead` or follow their section",
             );
         }
     }
-    for (i, contact) in tables("contact").iter().enumerate() {
-        if is_on_hub(v, i) {
-            let key = if contact.has("mount") { "mount" } else { "obstacle" };
+    for (table, contact) in CONTACT.tables_in(v) {
+        if is_on_hub(contact) {
+            let mount = contact::Written::mount.chosen_in(contact);
+            let key = if mount.is_some() { "mount" } else { "obstacle" };
             refuse(
-                format!("{}.{key}", item("contact", i)),
+                format!("{table}.{key}"),
                 "turns with the hub, and obstacles in space are fixed to the ground, or moved",
             );
         }
@@ -408,24 +410,23 @@ fn turning(v: &Values, start: &Start) -> Made<()> {
 }
 
 /// Refuses what belongs to the plane alone.
-fn carried(v: &Values) -> Made<()> {
+fn carried(v: &Values, output: &Recorded) -> Made<()> {
     let mut faults = Faults::default();
     let mut refuse =
         |key: &str, message: String, help: &str| faults.0.push(Fault::new(key, message).help(help));
-    if v.has("blade") {
+    if !BLADE.tables_in(v).is_empty() {
         let message = "is of the small vibrations of a beam on a hub; in space pitch, precone and twist are those of the beam".to_owned();
         refuse("blade", message, "write `direction`, `up` and `twist` of a [[beam]], or take a planar model");
     }
-    if let Some(kind) = v.kind("basis").filter(|kind| *kind != "finite-elements") {
+    if let Some(kind) = BASIS.chosen_in(v).filter(|kind| *kind != "finite-elements") {
         let message =
             format!("`{kind}` is a basis of the planar models, and beams in space are of finite elements");
         refuse("basis", message, "write `kind = \"finite-elements\"` and the number of elements");
     }
-    let output = v.table("output")?;
-    if output.boolean("modal-shares")? {
+    if output.modal_shares {
         refuse("output.modal-shares", "is of the basis `modes` of the planar models".to_owned(), PLANAR);
     }
-    if output.boolean("section-forces")? {
+    if output.section_forces {
         let message = "is of the planar models: in space axial force, torque and bending moments are recorded at every station, and the \
                        shear force is not";
         refuse("output.section-forces", message.to_owned(), "leave it out");
@@ -434,17 +435,15 @@ fn carried(v: &Values) -> Made<()> {
 }
 
 /// The fibres that were written, and those at the stations and the tip at each height of `output.strain-heights`.
-fn fibres(lines: &[Line], v: &Values) -> Made<Vec<Node>> {
+fn fibres(lines: &[Line], v: &Values, output: &Recorded) -> Vec<Node> {
     let mut all = tables(lines, "fibre");
-    let output = v.table("output")?;
-    let heights = output.numbers("strain-heights")?;
     let place = v.find("output.strain-heights").0.unwrap_or_default();
-    let mut stations = output.texts("stations")?.to_vec();
+    let mut stations = output.stations.clone();
     if !stations.iter().any(|station| station == "tip") {
         stations.push("tip".to_owned());
     }
     for (i, station) in stations.iter().enumerate() {
-        for (k, height) in heights.iter().enumerate() {
+        for (k, height) in output.strain_heights.iter().enumerate() {
             let fibre = Lines::at(&place)
                 .text("name", &format!("fibre{}-{}", i + 1, k + 1))
                 .text("on", station)
@@ -452,5 +451,5 @@ fn fibres(lines: &[Line], v: &Values) -> Made<Vec<Node>> {
             all.push(fibre.table());
         }
     }
-    Ok(all)
+    all
 }

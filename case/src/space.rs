@@ -13,8 +13,7 @@ use super::kinds::mass::{MASS, Mass};
 use super::kinds::name::numbered;
 use super::kinds::rotation::{ROTATION, Rotation};
 use super::kinds::spring::{Joins, SPRING, Spring};
-use super::kinds::vector::vector;
-use super::layout::{GRAVITY, MODEL};
+use super::layout::{GRAVITY, INITIAL, MODEL, OUTPUT_IN_SPACE};
 use super::places::{Parts, Place};
 use super::stations::stations;
 use super::values::{Values, item};
@@ -431,16 +430,17 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     let masses = found.part(MASS.make(v, c));
     let loads = found.part(LOAD.make(v, c));
     let contacts = found.part(contacts(v, c));
+    let output = OUTPUT_IN_SPACE.read(v, c);
     let stations =
-        v.table("output").and_then(|output| stations(output, c).map_err(|faults| faults.within("output")));
+        output.and_then(|output| stations(&output.stations, c).map_err(|faults| faults.within("output")));
     if let (Some(stations), Some(fibres), Some(beams)) =
         (found.part(stations), found.part(FIBRES.make(v, c)), &mut beams)
     {
         record(beams, &stations, fibres);
     }
     let rotation = found.part(ROTATION.make(v, c));
-    let gravity = found.part(vector(v, GRAVITY.name));
-    let settings = found.part(settings(v));
+    let gravity = found.part(GRAVITY.read(v, c));
+    let settings = found.part(settings(v, c));
     initial(v, &mut found);
     let (Some(bodies), Some(beams), Some(names), Some(joints)) = (bodies, beams, &names, joints) else {
         return Err(found.0);
@@ -575,9 +575,9 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
 }
 
 /// Whether redundant rows are left out, into how many each element is cut, and whether stations are recorded in the axes of their root.
-fn settings(v: &Values) -> Made<(bool, usize, bool)> {
-    let model = v.table(MODEL.name)?;
-    let coupling = model.text("coupling")?;
+fn settings(v: &Values, c: &Context<'_>) -> Made<(bool, usize, bool)> {
+    let model = MODEL.read(v, c)?;
+    let coupling = model.coupling.name;
     if coupling != "space" {
         let message = format!(
             "`{coupling}` is a model of one beam on a hub in the plane, and this case has bodies, joints or beams by name"
@@ -585,13 +585,12 @@ fn settings(v: &Values) -> Made<(bool, usize, bool)> {
         let help = "leave it out, or describe the beam by [beam], [section] and [hub]";
         return Err(Fault::new("model.coupling", message).help(help).into());
     }
-    let in_root_axes = v.table("output")?.boolean("root-axes")?;
-    Ok((model.boolean("drop-redundant-rows")?, model.count("refine")?, in_root_axes))
+    Ok((model.drop_redundant_rows, model.refine, OUTPUT_IN_SPACE.read(v, c)?.root_axes))
 }
 
 /// The initial states that a system in space can have.
 fn initial(v: &Values, found: &mut Found) {
-    if v.kind("initial") == Some("modes") {
+    if INITIAL.chosen_in(v) == Some("modes") {
         let message = "is of a beam on a hub in the plane: a system in space begins as its parts are written, in `static` equilibrium or \
                        in `steady-rotation`";
         let help = "take a planar model, `model.coupling = \"exact\"`";

@@ -76,7 +76,7 @@ impl Reading {
                 None => Ok(path),
             }
         };
-        let twice = |of: &Reading| of.with(&of.case.finer()).map_err(|_| "it is too fine".to_owned());
+        let twice = |of: &Reading| of.changed(&of.case.finer()).map_err(|_| "it is too fine".to_owned());
         let finer = twice(self).and_then(|finer| Ok((followed(&finer)?, finer)));
         let (fine, finer) = match why.map_or(finer, Err) {
             Ok(found) => found,
@@ -92,7 +92,7 @@ impl Reading {
         let said = format!("the mesh is coarse: the error of {column} {} of its largest value", much(part));
         let finest = twice(&finer).and_then(|finest| followed(&finest)).ok()?;
         let enough = Coarse::of(&fine, &finest, safety, self.case.size()).is_none();
-        let changes = changes.join("` and `").replace('=', " = ");
+        let changes = crate::run::variant::said(&changes);
         Some(if enough {
             format!("{said}; with `{changes}` it is below 1 %")
         } else {

@@ -3,10 +3,12 @@
 use super::fault::{Fault, Faults, Made};
 use super::kind::Context;
 use super::places::Place;
-use super::values::Values;
 
-/// The stations of beams that are recorded besides their tips: number of the beam and arc length \[m\].
-pub(super) fn stations(output: &Values, c: &Context<'_>) -> Made<Vec<(usize, f64)>> {
+/// The stations of these names, which are recorded besides the tips of beams: number of the beam and arc length \[m\].
+pub(super) fn stations(names: &[String], c: &Context<'_>) -> Made<Vec<(usize, f64)>> {
+    if names.is_empty() {
+        return Ok(Vec::new());
+    }
     let parts = c.parts()?;
     let station = |name: &String| match parts.find(name) {
         Ok(Place::Station { beam, s }) => Ok((beam, s)),
@@ -16,5 +18,5 @@ pub(super) fn stations(output: &Values, c: &Context<'_>) -> Made<Vec<(usize, f64
         }
         Err(fault) => Err(Faults::from(fault).within("stations")),
     };
-    output.texts("stations")?.iter().map(station).collect()
+    names.iter().map(station).collect()
 }

@@ -1,5 +1,6 @@
 //! The raw case: a TOML tree that knows where each key and value was written.
 
+use super::change::{Change, Setting};
 use super::problem::{Place, Problem, Problems, Source};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -136,6 +137,38 @@ pub(super) fn lay_over(root: &mut Node, argument: &str, problems: &mut Problems)
     if !errors.is_empty() {
         node.place = Place::new(source, start..start + value.len());
     }
+    put(root, path, node, &all, problems);
+}
+
+/// Makes a change of the program's own.
+pub(super) fn change(root: &mut Node, change: &Change, problems: &mut Problems) {
+    let (source, text) = (problems.sources.len(), change.to_string());
+    let all = Place::new(source, 0..text.len());
+    let node = set(&change.to, &Place::new(source, change.path.len() + 1..text.len()));
+    problems.sources.push(Source { name: "--set".to_owned(), text });
+    put(root, &change.path, node, &all, problems);
+}
+
+/// The value of a setting at a place.
+fn set(to: &Setting, place: &Place) -> Node {
+    let line =
+        |key: &str, to: &Setting| Line { key: key.to_owned(), place: place.clone(), node: set(to, place) };
+    let value = match to {
+        Setting::Number(x) => Raw::Number(*x),
+        Setting::Integer(n) => Raw::Integer(*n),
+        Setting::Boolean(value) => Raw::Boolean(*value),
+        Setting::Name(name) => Raw::Text((*name).to_owned()),
+        Setting::Kind(kind, keys) => {
+            let kind = line("kind", &Setting::Name(kind));
+            Raw::Table([kind].into_iter().chain(keys.iter().map(|(key, to)| line(key, to))).collect())
+        }
+    };
+    Node { place: place.clone(), value }
+}
+
+/// Puts a node at a dotted path, which is written at the beginning of `all`.
+fn put(root: &mut Node, path: &str, node: Node, all: &Place, problems: &mut Problems) {
+    let source = all.source;
     let mut at = 0;
     let mut target = root;
     for part in path.split('.') {
@@ -143,7 +176,7 @@ pub(super) fn lay_over(root: &mut Node, argument: &str, problems: &mut Problems)
         let place = Place::new(source, at..at + part.len());
         at += part.len() + 1;
         if name.is_empty() {
-            problems.push(Problem::new("", Some(all), "the key of an override is empty"));
+            problems.push(Problem::new("", Some(all.clone()), "the key of an override is empty"));
             return;
         }
         if let Raw::Text(_) = target.value {

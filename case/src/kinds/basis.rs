@@ -1,9 +1,10 @@
 //! The bases of a case: kinds, keys and makers.
 
-use crate::declaration::{Bound::*, Key, Presence as Default, Presence::Required, Type, key};
+use crate::declaration::Bound::*;
 use crate::fault::{At, Fault, Made, both};
-use crate::kind::{Choice, Context, Kind};
-use crate::values::{Values, join};
+use crate::keys::{integer, keys, kind, number};
+use crate::kind::{Choice, Context, Kind, Of};
+use crate::values::join;
 use flexion::analysis::error::SAFETY;
 use flexion::basis::{
     self, BSpline, BasisError, Bezier, Field, Hermite, Lagrange, Modes, Polynomial, PolynomialParameters,
@@ -101,9 +102,8 @@ fn shared<B: basis::Basis + 'static>(
     basis.map(|basis| Arc::new(basis) as Arc<dyn basis::Basis>)
 }
 
-/// The bases that the key `basis` of a case chooses; finite elements also end at `stations`.
-pub fn make(v: &Values, c: &Context<'_>, stations: &Stations<'_>) -> Made<Bases> {
-    let Either(functions) = BASIS.make(v, "basis", c)?;
+/// The bases of what the key `basis` of a case chooses; finite elements also end at `stations`.
+pub fn make(Either(functions): &Either, c: &Context<'_>, stations: &Stations<'_>) -> Made<Bases> {
     built([functions(Field::Axial), functions(Field::Transverse)], c, stations)
         .map_err(|faults| faults.within("basis"))
 }
@@ -159,16 +159,15 @@ fn built(fields: [Functions; 2], c: &Context<'_>, stations: &Stations<'_>) -> Ma
 }
 
 /// Another basis for each field.
-fn mixed(v: &Values, c: &Context<'_>) -> Made<Either> {
-    let (axial, transverse) = both(FIELD.make(v, "axial", c), FIELD.make(v, "transverse", c))?;
+fn mixed(Mixed { axial, transverse }: Mixed, _: &Context<'_>) -> Made<Either> {
     Either::new(move |field| match field {
         Field::Axial => Functions { table: "axial", ..(axial.0)(field) },
         Field::Transverse => Functions { table: "transverse", ..(transverse.0)(field) },
     })
 }
 
-fn finite_elements(v: &Values, _: &Context<'_>) -> Made<Either> {
-    let (elements, degree, parts) = (v.count("elements")?, v.count("axial-degree")?, v.count("refine")?);
+fn finite_elements(k: FiniteElements, _: &Context<'_>) -> Made<Either> {
+    let FiniteElements { elements, refine: parts, axial_degree: degree } = k;
     Either::new(move |field| {
         let each = if field == Field::Axial { degree } else { 2 };
         let all = elements * parts;
@@ -197,9 +196,8 @@ fn cut(cells: &[f64], parts: usize) -> Vec<f64> {
     (0..=(cells.len() - 1) * parts).map(part).collect()
 }
 
-/// Vibration modes; `axial` and `transverse` are the keys of their numbers.
-fn modes(v: &Values, axial: &'static str, transverse: &'static str) -> Made<Either> {
-    let counts = [(axial, v.count(axial)?), (transverse, v.count(transverse)?)];
+/// Vibration modes, with the keys and values of the numbers of axial and transverse ones.
+fn modes(counts: [(&'static str, usize); 2]) -> Made<Either> {
     Either::new(move |field| {
         let (key, count) = counts[usize::from(field == Field::Transverse)];
         let build: Build = Box::new(move |length, _| shared(Modes::new(length, count, field)));
@@ -215,30 +213,25 @@ fn on_nodes(nodes: usize, support: f64, build: Build) -> Functions {
     Functions::new(extent, ("nodes", 2 * nodes - 1), build)
 }
 
-fn radial(v: &Values, _: &Context<'_>) -> Made<Either> {
-    let parameters = RadialParameters {
-        nodes: v.count("nodes")?,
-        shape: v.number("shape")?,
-        exponent: v.number("exponent")?,
-        support: v.number("support")?,
-        degree: usize::try_from(v.integer("degree")?).ok(),
-    };
+fn radial(k: Multiquadrics, _: &Context<'_>) -> Made<Either> {
+    let Multiquadrics { nodes, shape, exponent, support, degree } = k;
+    let parameters =
+        RadialParameters { nodes, shape, exponent, support, degree: usize::try_from(degree).ok() };
     Either::new(move |field| {
         let build: Build = Box::new(move |length, _| shared(Radial::new(length, parameters, field)));
         Functions { blame: "shape", ..on_nodes(parameters.nodes, parameters.support, build) }
     })
 }
 
-fn polynomial(v: &Values, _: &Context<'_>) -> Made<Either> {
-    let parameters = PolynomialParameters { nodes: v.count("nodes")?, support: v.number("support")? };
+fn polynomial(Points { nodes, support }: Points, _: &Context<'_>) -> Made<Either> {
+    let parameters = PolynomialParameters { nodes, support };
     Either::new(move |field| {
         let build: Build = Box::new(move |length, _| shared(Polynomial::new(length, parameters, field)));
         Functions { blame: "support", ..on_nodes(parameters.nodes, parameters.support, build) }
     })
 }
 
-fn b_spline(v: &Values, _: &Context<'_>) -> Made<Either> {
-    let (elements, degree) = (v.count("elements")?, v.count("degree")?);
+fn b_spline(Spans { elements, degree }: Spans, _: &Context<'_>) -> Made<Either> {
     let extent = ((elements + degree) as f64, (degree + 1) as f64 / elements as f64);
     Either::new(move |field| {
         let build: Build = Box::new(move |length, _| shared(BSpline::new(length, elements, degree, field)));
@@ -246,8 +239,7 @@ fn b_spline(v: &Values, _: &Context<'_>) -> Made<Either> {
     })
 }
 
-fn bezier(v: &Values, _: &Context<'_>) -> Made<Either> {
-    let (elements, degree) = (v.count("elements")?, v.count("degree")?);
+fn bezier(Joined { degree, elements }: Joined, _: &Context<'_>) -> Made<Either> {
     let extent = ((elements * degree) as f64, 2.0 / elements as f64);
     Either::new(move |field| {
         let build: Build = Box::new(move |length, _| shared(Bezier::new(length, elements, degree, field)));
@@ -257,63 +249,96 @@ fn bezier(v: &Values, _: &Context<'_>) -> Made<Either> {
 
 const MOST: i64 = 1_000_000;
 
-const ELEMENTS: Key =
-    key("elements", Type::Integer(1, MOST), Default::Integer(10), "number of equal elements over the length");
-const CUT_ELEMENTS: Key = key(
-    "elements",
-    Type::Integer(1, MOST),
-    Default::Integer(10),
-    "number of equal elements over the length; they are cut where loads and masses are and the section jumps",
-);
-const REFINE: Key = key(
-    "refine",
-    Type::Integer(1, 1000),
-    Default::Integer(1),
-    "into how many equal parts each element is cut, those beside loads, masses and jumps too",
-);
-const AXIAL_DEGREE: Key = key(
-    "axial-degree",
-    Type::Integer(1, 2),
-    Default::Integer(1),
-    "degree of the axial elements (the exact coupling is cubic and does without it)",
-);
-const NODES: Key = key(
-    "nodes",
-    Type::Integer(2, MOST),
-    Default::Integer(11),
-    "number of equally spaced nodes, ends included",
-);
+/// Largest number of modes.
+const MOST_MODES: i64 = 200;
+
+const NODES: crate::keys::Field<usize> =
+    integer(2, MOST).or_count(11).called("nodes", "number of equally spaced nodes, ends included");
+
+keys! {
+    pub(crate) struct FiniteElements {
+        /// number of equal elements over the length; they are cut where loads and masses are and the section jumps
+        elements: usize = integer(1, MOST).or_count(10);
+        /// into how many equal parts each element is cut, those beside loads, masses and jumps too
+        refine: usize = integer(1, 1000).or_count(1);
+        /// degree of the axial elements (the exact coupling is cubic and does without it)
+        axial_degree: usize = integer(1, 2).or_count(1);
+    }
+
+    struct Numbers {
+        /// number of axial modes
+        axial: usize = integer(1, MOST_MODES).or_count(4);
+        /// number of bending modes
+        transverse: usize = integer(1, MOST_MODES).or_count(4);
+    }
+
+    struct Number {
+        /// number of modes
+        count: usize = integer(1, MOST_MODES);
+    }
+
+    struct Multiquadrics {
+        nodes: usize = NODES;
+        /// shape parameter α_c; 2 to 7 is accurate, above that the moment matrix becomes singular
+        shape: f64 = number(Positive).or(4.0);
+        /// exponent q; not an integer
+        exponent: f64 = number(Positive).or(1.03);
+        /// half width α_s of the support domain over the node spacing
+        support: f64 = number(Positive).or(2.5);
+        /// degree of the added polynomials, -1 for none
+        degree: i64 = integer(-1, 9).or_integer(3);
+    }
+
+    struct Points {
+        nodes: usize = NODES;
+        /// half width α_s of the support domain over the node spacing; 0.5 gives finite elements
+        support: f64 = number(Positive).or(1.5);
+    }
+
+    struct Spans {
+        /// number of equal elements over the length
+        elements: usize = integer(1, MOST).or_count(10);
+        /// degree p; at least 2 for the transverse field
+        degree: usize = integer(1, 15).or_count(3);
+    }
+
+    struct Joined {
+        /// degree n; at least 2 for the transverse field
+        degree: usize = integer(1, 27).or_count(10);
+        /// number of equal elements, joined smoothly
+        elements: usize = integer(1, MOST).or_count(1);
+    }
+
+    struct Mixed {
+        /// basis of the axial displacement
+        axial: Either = kind(&FIELD);
+        /// basis of the transverse displacement
+        transverse: Either = kind(&FIELD);
+    }
+}
+
 const DU: &str = "Du, Zhang & Hong 2015, doi:10.6052/0459-1879-14-334";
 
 const FINITE_ELEMENTS: Kind<Either> = Kind {
     name: "finite-elements",
     summary: "Lagrange elements (axial) and cubic Hermite elements (transverse)",
     source: DU,
-    keys: &[CUT_ELEMENTS, REFINE, AXIAL_DEGREE],
     example: "basis={kind='finite-elements', elements=7, axial-degree=2}",
-    make: finite_elements,
+    make: &Of(finite_elements),
 };
-
-/// Largest number of modes.
-const MOST_MODES: i64 = 200;
 
 const MODES: Kind<Either> = Kind {
     name: "modes",
     summary: "vibration modes of the beam at rest (assumed modes)",
     source: DU,
-    keys: &[
-        key("axial", Type::Integer(1, MOST_MODES), Default::Integer(4), "number of axial modes"),
-        key("transverse", Type::Integer(1, MOST_MODES), Default::Integer(4), "number of bending modes"),
-    ],
     example: "basis={kind='modes', axial=2}",
-    make: |v, _| modes(v, "axial", "transverse"),
+    make: &Of(|k: Numbers, _| modes([("axial", k.axial), ("transverse", k.transverse)])),
 };
 
 /// Modes of one field.
 const MODES_OF_FIELD: Kind<Either> = Kind {
-    keys: &[key("count", Type::Integer(1, MOST_MODES), Required, "number of modes")],
     example: "basis={kind='mixed', axial={kind='modes', count=2}, transverse={kind='radial'}}",
-    make: |v, _| modes(v, "count", "count"),
+    make: &Of(|k: Number, _| modes([("count", k.count); 2])),
     ..MODES
 };
 
@@ -321,98 +346,40 @@ const RADIAL: Kind<Either> = Kind {
     name: "radial",
     summary: "radial point interpolation (RPIM) with multiquadrics",
     source: DU,
-    keys: &[
-        NODES,
-        key(
-            "shape",
-            Type::Number(Positive),
-            Default::Number(4.0),
-            "shape parameter α_c; 2 to 7 is accurate, above that the moment matrix becomes singular",
-        ),
-        key("exponent", Type::Number(Positive), Default::Number(1.03), "exponent q; not an integer"),
-        key(
-            "support",
-            Type::Number(Positive),
-            Default::Number(2.5),
-            "half width α_s of the support domain over the node spacing",
-        ),
-        key(
-            "degree",
-            Type::Integer(-1, 9),
-            Default::Integer(3),
-            "degree of the added polynomials, -1 for none",
-        ),
-    ],
     example: "basis={kind='radial', nodes=9, degree=-1}",
-    make: radial,
+    make: &Of(radial),
 };
 
 const POLYNOMIAL: Kind<Either> = Kind {
     name: "polynomial",
     summary: "meshfree point interpolation (PIM) with polynomials",
     source: "Du & Zhang 2015, doi:10.7498/aps.64.034501",
-    keys: &[
-        NODES,
-        key(
-            "support",
-            Type::Number(Positive),
-            Default::Number(1.5),
-            "half width α_s of the support domain over the node spacing; 0.5 gives finite elements",
-        ),
-    ],
     example: "basis={kind='polynomial', nodes=9, support=2.5}",
-    make: polynomial,
+    make: &Of(polynomial),
 };
 
 const B_SPLINE: Kind<Either> = Kind {
     name: "b-spline",
     summary: "B-splines of any degree on equal spans",
     source: "Fan & Zhang 2012, doi:10.3901/JME.2012.23.059",
-    keys: &[
-        ELEMENTS,
-        key(
-            "degree",
-            Type::Integer(1, 15),
-            Default::Integer(3),
-            "degree p; at least 2 for the transverse field",
-        ),
-    ],
     example: "basis={kind='b-spline', elements=8, degree=4}",
-    make: b_spline,
+    make: &Of(b_spline),
 };
 
 const BEZIER: Kind<Either> = Kind {
     name: "bezier",
     summary: "Bézier curve over the whole beam, or smoothly joined ones",
     source: "Fan & Zhang 2014, doi:10.7498/aps.63.154501",
-    keys: &[
-        key(
-            "degree",
-            Type::Integer(1, 27),
-            Default::Integer(10),
-            "degree n; at least 2 for the transverse field",
-        ),
-        key(
-            "elements",
-            Type::Integer(1, MOST),
-            Default::Integer(1),
-            "number of equal elements, joined smoothly",
-        ),
-    ],
     example: "basis={kind='bezier', degree=6, elements=2}",
-    make: bezier,
+    make: &Of(bezier),
 };
 
 const MIXED: Kind<Either> = Kind {
     name: "mixed",
     summary: "another basis for each field",
     source: "",
-    keys: &[
-        key("axial", Type::Kind(&FIELD), Required, "basis of the axial displacement"),
-        key("transverse", Type::Kind(&FIELD), Required, "basis of the transverse displacement"),
-    ],
     example: "basis={kind='mixed', axial={kind='b-spline', degree=1}, transverse={kind='bezier', degree=5, elements=2}}",
-    make: mixed,
+    make: &Of(mixed),
 };
 
 /// The kinds of basis for one field.

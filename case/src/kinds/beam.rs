@@ -1,16 +1,16 @@
 //! Slender beams in space.
 
-use super::centreline::Centreline;
-use super::damping::{DAMPED, damping};
-use super::mass::station;
+use super::centreline::{Centreline, Points};
+use super::damping::Damped;
 use super::name::name;
 use super::section::{SECTION, Section};
-use super::vector::optional_vector;
-use crate::declaration::{Bound::*, Key, Presence as Default, Presence::*, Type, Type::Quantity, key};
-use crate::fault::{At, Fault, Made, both};
-use crate::kind::{Choice, Context, Kind, Table};
+use crate::declaration::Bound::*;
+use crate::fault::{At, Fault, Faults, Made};
+use crate::keys::{
+    Later, boolean, choice, integer, keys, kind, number, place, quantities, quantity, table, text, vector,
+};
+use crate::kind::{Choice, Context, Is, Kind, Nothing, Of, Table};
 use crate::units::{ANGLE, ANGULAR_SPEED, BENDING_STIFFNESS, FACTOR, LENGTH, ROTARY_INERTIA, VELOCITY};
-use crate::values::Values;
 use flexion::linalg::Vec3;
 use flexion::multibody::rotation::{about, frame};
 use flexion::multibody::slender::{self, Properties, Station};
@@ -39,6 +39,22 @@ fn straight(_: f64, tangent: Vec3, normal: Vec3) -> Curve {
     Arc::new(move |s| Station { position: s * tangent, tangent, normal })
 }
 
+keys! {
+    struct Turn {
+        /// angle of the arc
+        angle: f64 = quantity(&ANGLE, Any);
+        /// direction to which it bends at the root, `up` if left out
+        towards: Option<Vec3> = vector(&FACTOR);
+    }
+
+    struct Helix {
+        /// radius of the centreline
+        radius: f64 = quantity(&LENGTH, Positive);
+        /// advance along the axis in a turn
+        pitch: f64 = quantity(&LENGTH, Any);
+    }
+}
+
 /// The kinds of centreline.
 pub static CURVE: Choice<Bent> = Choice {
     name: "curve",
@@ -49,26 +65,15 @@ pub static CURVE: Choice<Bent> = Choice {
             name: "straight",
             summary: "a straight line",
             source: "",
-            keys: &[],
             example: "beam=[{length=1, section={kind='circle', modulus='70 GPa', density=2700, radius='1 cm'}, curve={kind='straight'}, root='clamped'}]",
-            make: |_, _| Ok(Bent::Along(Box::new(straight))),
+            make: &Of(|_: Nothing, _| Ok(Bent::Along(Box::new(straight)))),
         },
         Kind {
             name: "arc",
             summary: "an arc of a circle",
             source: "",
-            keys: &[
-                key("angle", Quantity(&ANGLE, Any), Required, "angle of the arc"),
-                key(
-                    "towards",
-                    Type::Quantities(&FACTOR, Any),
-                    Empty,
-                    "direction to which it bends at the root, `up` if left out",
-                ),
-            ],
             example: "beam=[{length=1, section={kind='circle', modulus='70 GPa', density=2700, radius='1 cm'}, curve={kind='arc', angle='45 deg', towards=[0, 1, 0]}, root='clamped'}]",
-            make: |v, _| {
-                let (angle, towards) = (v.number("angle")?, optional_vector(v, "towards")?);
+            make: &Of(|Turn { angle, towards }, _| {
                 if angle == 0.0 {
                     return Err(Fault::new("angle", "an arc of the angle 0 is straight").into());
                 }
@@ -85,19 +90,14 @@ pub static CURVE: Choice<Bent> = Choice {
                         Station { position, tangent: turned * tangent, normal: turned * normal }
                     })
                 })))
-            },
+            }),
         },
         Kind {
             name: "helix",
             summary: "a helix about `direction`, that begins on the side of `up` of its axis; the height points outwards",
             source: "",
-            keys: &[
-                key("radius", Quantity(&LENGTH, Positive), Required, "radius of the centreline"),
-                key("pitch", Quantity(&LENGTH, Any), Required, "advance along the axis in a turn"),
-            ],
             example: "beam=[{length=1, section={kind='circle', modulus='70 GPa', density=2700, radius='1 cm'}, curve={kind='helix', radius='20 cm', pitch='10 cm'}, root='clamped'}]",
-            make: |v, _| {
-                let (radius, pitch) = (v.number("radius")?, v.number("pitch")?);
+            make: &Of(|Helix { radius, pitch }, _| {
                 Ok(Bent::Along(Box::new(move |_, axis, out| {
                     let (side, rise) = (axis.cross(out), pitch / std::f64::consts::TAU);
                     let scale = radius.hypot(rise);
@@ -111,26 +111,15 @@ pub static CURVE: Choice<Bent> = Choice {
                         Station { position, tangent, normal }
                     })
                 })))
-            },
+            }),
         },
         Kind {
             name: "points",
             summary: "a cubic spline through points of space, which says the length and the direction of the beam; the height \
                       follows it without turning about it",
             source: "",
-            keys: &[
-                key("x", Type::Quantities(&LENGTH, Any), Empty, "x of the points, from the root to the tip"),
-                key("y", Type::Quantities(&LENGTH, Any), Empty, "their y"),
-                key("z", Type::Quantities(&LENGTH, Any), Empty, "their z"),
-                key(
-                    "file",
-                    Type::Text,
-                    Optional,
-                    "CSV file of x, y and z [m] of the points, in place of the lists",
-                ),
-            ],
             example: "beam=[{section={kind='circle', modulus='70 GPa', density=2700, radius='1 cm'}, curve={kind='points', x=[0, '20 cm', '50 cm'], y=[0, '1 cm', '8 cm'], z=[0, 0, '5 cm']}, root='clamped'}]",
-            make: |v, c| Ok(Bent::Through(Box::new(Centreline::of(v, c)?))),
+            make: &Of(|k: Points, _| Ok(Bent::Through(Box::new(Centreline::of(k)?)))),
         },
     ],
 };
@@ -156,25 +145,22 @@ pub static END: Choice<End> = Choice {
             name: "free",
             summary: "nothing",
             source: "",
-            keys: &[],
             example: "beam=[{length=1, section={kind='circle', modulus='70 GPa', density=2700, radius='1 cm'}, root='free'}]",
-            make: |_, _| Ok(End::Free),
+            make: &Is(End::Free),
         },
         Kind {
             name: "clamped",
             summary: "a fixed joint with the ground",
             source: "",
-            keys: &[],
             example: "beam=[{length=1, section={kind='circle', modulus='70 GPa', density=2700, radius='1 cm'}, root='clamped', tip='free'}]",
-            make: |_, _| Ok(End::Clamped),
+            make: &Is(End::Clamped),
         },
         Kind {
             name: "hinged",
             summary: "a spherical joint with the ground",
             source: "",
-            keys: &[],
             example: "beam=[{length=1, section={kind='circle', modulus='70 GPa', density=2700, radius='1 cm'}, root='hinged'}]",
-            make: |_, _| Ok(End::Hinged),
+            make: &Is(End::Hinged),
         },
     ],
 };
@@ -319,121 +305,76 @@ impl Beam {
     }
 }
 
-static OUTLINE: [Key; 2] = [
-    key("y", Type::Quantities(&LENGTH, Any), Empty, "places of its corners along the height of the section"),
-    key("z", Type::Quantities(&LENGTH, Any), Empty, "places across, along tangent × height"),
-];
+keys! {
+    /// What a case says of the outline of a section.
+    struct Outline {
+        /// places of its corners along the height of the section
+        y: Vec<f64> = quantities(&LENGTH, Any).or_empty();
+        /// places across, along tangent × height
+        z: Vec<f64> = quantities(&LENGTH, Any).or_empty();
+    }
+
+    /// What a case says of a beam.
+    struct Written {
+        /// name, which begins the names of its columns
+        name: String = text().or_name("beam");
+        /// length of its centreline, which a curve through points says by itself
+        length: Option<f64> = quantity(&LENGTH, Positive);
+        /// its root at the start, the origin if left out
+        start: Option<Vec3> = vector(&LENGTH);
+        /// direction from root to tip, [1, 0, 0] if left out
+        direction: Option<Vec3> = vector(&FACTOR);
+        /// direction of the height of the section, as far as the beam's allows; of a section as stiff along all axes
+        /// [0, 0, 1] if left out, for an upright beam [1, 0, 0]
+        up: Option<Vec3> = vector(&FACTOR);
+        /// centreline without stress
+        curve: Bent = kind(&CURVE).or_name("straight");
+        /// angle of the tip section against the root without stress, linear between
+        twist: f64 = quantity(&ANGLE, Any).or(0.0);
+        /// cross-section
+        section: Later<Section> = kind(&SECTION).required();
+        /// outline of its root section, for pictures; that of the shape if left out
+        outline: Outline = table();
+        /// it stays in the plane of x and y: a section that says nothing of torsion is as stiff in torsion and across as in the plane,
+        /// and nothing acts out of it
+        planar: bool = boolean().or_false();
+        /// Poisson's ratio, for the torsional stiffness of a shape
+        poisson_ratio: f64 = number(Between(-0.99, 0.5)).or(0.3);
+        /// moment of inertia per length about the axis, that of the section if left out
+        polar_inertia: Option<f64> = quantity(&ROTARY_INERTIA, Positive);
+        /// place of the section's tension centre, [along the height, across], against the centreline, which goes through the centres of mass;
+        /// bending stiffnesses are about axes through it
+        tension_centre: Option<[f64; 2]> = quantities(&LENGTH, Any);
+        /// stiffnesses that couple [torsion and bending across, torsion and bending along the height, the two bendings]
+        coupling: Option<[f64; 3]> = quantities(&BENDING_STIFFNESS, Any);
+        /// number of elements, if none end at other stations
+        elements: usize = integer(1, 100_000).or_count(10);
+        /// what holds the root, beside its joints
+        root: End = choice(&END).or_name("free");
+        /// what holds the tip, beside its joints
+        tip: End = choice(&END).or_name("free");
+        /// velocity of the root at the start; what joints and spin ask for, if left out
+        velocity: Option<Vec3> = vector(&VELOCITY);
+        /// angular velocity at the start, in the axes of space; what the joints ask for, if left out
+        spin: Option<Vec3> = vector(&ANGULAR_SPEED);
+        /// damping against the ground
+        damping: Damped = table();
+    }
+}
 
 /// The tables `[[beam]]`.
-pub static BEAMS: Table<Beam> = Table {
-    key: key(
-        "beam",
-        Type::Tables(&[
-            key("name", Type::Text, Default::Name("beam"), "name, which begins the names of its columns"),
-            key(
-                "length",
-                Quantity(&LENGTH, Positive),
-                Optional,
-                "length of its centreline, which a curve through points says by itself",
-            ),
-            key(
-                "start",
-                Type::Quantities(&LENGTH, Any),
-                Empty,
-                "its root at the start, the origin if left out",
-            ),
-            key(
-                "direction",
-                Type::Quantities(&FACTOR, Any),
-                Empty,
-                "direction from root to tip, [1, 0, 0] if left out",
-            ),
-            key(
-                "up",
-                Type::Quantities(&FACTOR, Any),
-                Empty,
-                "direction of the height of the section, as far as the beam's allows; of a section as stiff along all axes [0, 0, 1] if left out, for an upright beam [1, 0, 0]",
-            ),
-            key("curve", Type::Kind(&CURVE), Default::Name("straight"), "centreline without stress"),
-            key(
-                "twist",
-                Quantity(&ANGLE, Any),
-                Default::Number(0.0),
-                "angle of the tip section against the root without stress, linear between",
-            ),
-            key("section", Type::Kind(&SECTION), Required, "cross-section"),
-            key(
-                "outline",
-                Type::Table(&OUTLINE),
-                Empty,
-                "outline of its root section, for pictures; that of the shape if left out",
-            ),
-            key(
-                "planar",
-                Type::Boolean,
-                Default::Boolean(false),
-                "it stays in the plane of x and y: a section that says nothing of torsion is as stiff in torsion and across as in the plane, \
-                 and nothing acts out of it",
-            ),
-            key(
-                "poisson-ratio",
-                Type::Number(Between(-0.99, 0.5)),
-                Default::Number(0.3),
-                "Poisson's ratio, for the torsional stiffness of a shape",
-            ),
-            key(
-                "polar-inertia",
-                Quantity(&ROTARY_INERTIA, Positive),
-                Optional,
-                "moment of inertia per length about the axis, that of the section if left out",
-            ),
-            key(
-                "tension-centre",
-                Type::Quantities(&LENGTH, Any),
-                Empty,
-                "place of the section's tension centre, [along the height, across], against the centreline, which goes through the centres of mass; \
-                 bending stiffnesses are about axes through it",
-            ),
-            key(
-                "coupling",
-                Type::Quantities(&BENDING_STIFFNESS, Any),
-                Empty,
-                "stiffnesses that couple [torsion and bending across, torsion and bending along the height, the two bendings]",
-            ),
-            key(
-                "elements",
-                Type::Integer(1, 100_000),
-                Default::Integer(10),
-                "number of elements, if none end at other stations",
-            ),
-            key("root", Type::Choice(&END), Default::Name("free"), "what holds the root, beside its joints"),
-            key("tip", Type::Choice(&END), Default::Name("free"), "what holds the tip, beside its joints"),
-            key(
-                "velocity",
-                Type::Quantities(&VELOCITY, Any),
-                Empty,
-                "velocity of the root at the start; what joints and spin ask for, if left out",
-            ),
-            key(
-                "spin",
-                Type::Quantities(&ANGULAR_SPEED, Any),
-                Empty,
-                "angular velocity at the start, in the axes of space; what the joints ask for, if left out",
-            ),
-            key("damping", Type::Table(&DAMPED), Empty, "damping against the ground"),
-        ]),
-        Empty,
-        "slender beams",
-    ),
-    example: "beam=[{name='arm', length=1, start=[0, 0, 1], direction=[1, 1, 0], up=[0, 0, 1], twist='20 deg', root='clamped', elements=4, polar-inertia=1e-3, \
-              section={kind='rectangle', modulus='70 GPa', density=2700, width='2 cm', height='1 cm', rotary-inertia=true}, \
-              damping={mass=0.1, stiffness='1 ms'}, outline={y=['-5 mm', '5 mm', 0], z=[0, 0, '2 cm']}}]",
-    make,
-};
+pub static BEAMS: Table<Beam> = Table::list(
+    "beam",
+    "slender beams",
+    "beam=[{name='arm', length=1, start=[0, 0, 1], direction=[1, 1, 0], up=[0, 0, 1], twist='20 deg', root='clamped', elements=4, polar-inertia=1e-3, \
+     section={kind='rectangle', modulus='70 GPa', density=2700, width='2 cm', height='1 cm', rotary-inertia=true}, \
+     damping={mass=0.1, stiffness='1 ms'}, outline={y=['-5 mm', '5 mm', 0], z=[0, 0, '2 cm']}}]",
+    &Of(make),
+);
 
-fn make(v: &Values, c: &Context<'_>) -> Made<Beam> {
-    let bent = CURVE.make(v, "curve", c)?;
-    let length = match (v.optional_number("length")?, &bent) {
+fn make(k: Written, c: &Context<'_>) -> Made<Beam> {
+    let bent = k.curve;
+    let length = match (k.length, &bent) {
         (Some(length), Bent::Along(_)) => length,
         (None, Bent::Through(points)) => points.length(),
         (None, Bent::Along(_)) => return Err(Fault::new("", "a beam needs a `length`").into()),
@@ -444,14 +385,11 @@ fn make(v: &Values, c: &Context<'_>) -> Made<Beam> {
         }
     };
     let c = &Context { length: Some(length), ..*c };
-    let section = SECTION.make(v, "section", c)?;
-    let ends = both(END.make(v, "root", c), END.make(v, "tip", c))?;
-    let mut blade: Arc<dyn BladeSection> =
-        Arc::from(section.blade(v.number("poisson-ratio")?).at("section")?);
+    let section = k.section.make("section", c)?.ok_or_else(Faults::default)?;
+    let mut blade: Arc<dyn BladeSection> = Arc::from(section.blade(k.poisson_ratio).at("section")?);
     let along = |s: f64| blade.resultants(s).torsional_stiffness > 0.0;
-    let planar = v.boolean("planar")?;
     if !(along(0.0) && along(length)) {
-        if !planar {
+        if !k.planar {
             let message = "this section says nothing of torsion, and a beam in space twists";
             let help = "give a shape (`rectangle`, `circle`, `tube`, `ellipse`), `general`, or a `blade` with GJ; for a motion in the plane \
                         of x and y write `planar = true` in [[beam]]";
@@ -461,24 +399,23 @@ fn make(v: &Values, c: &Context<'_>) -> Made<Beam> {
         c.cautions.borrow_mut().push(format!(
             "the section of beam `{}` says nothing of torsion and of bending across: GJ and the stiffness across are taken as EI, which no \
              motion in the plane of x and y depends on",
-            v.text("name")?
+            k.name
         ));
     }
-    let name = name(v, &["ground", "hub"])?;
-    let (given, starts) = (optional_vector(v, "direction")?, optional_vector(v, "start")?);
+    let name = name(Some(k.name), &["ground", "hub"])?;
     if let Bent::Through(_) = bent
-        && let Some(key) =
-            [(given, "direction"), (starts, "start")].iter().find_map(|(v, key)| v.map(|_| *key))
+        && let Some((_, key)) =
+            [(k.direction, "direction"), (k.start, "start")].iter().find(|(given, _)| given.is_some())
     {
-        return Err(Fault::new(key, "the points of the curve say it: leave it out").into());
+        return Err(Fault::new(*key, "the points of the curve say it: leave it out").into());
     }
     let direction = match &bent {
         Bent::Through(points) => points.tangent(),
-        Bent::Along(_) => given.unwrap_or(Vec3([1.0, 0.0, 0.0])),
+        Bent::Along(_) => k.direction.unwrap_or(Vec3([1.0, 0.0, 0.0])),
     };
     let upright = direction[0] == 0.0 && direction[1] == 0.0;
     let usual = if upright { [1.0, 0.0, 0.0] } else { [0.0, 0.0, 1.0] };
-    let up = optional_vector(v, "up")?;
+    let up = k.up;
     let no_direction = |key| Fault::new(key, "has no direction: one of its components must not be zero");
     let axes = frame(direction, Some(up.unwrap_or(Vec3(usual)))).ok_or_else(|| no_direction("direction"))?;
     let (tangent, normal) = (axes.column(2), axes.column(0));
@@ -495,7 +432,7 @@ fn make(v: &Values, c: &Context<'_>) -> Made<Beam> {
         let help = "write the direction of its height, for example `up = [0, 0, 1]`";
         return Err(Fault::new("up", message).help(help).into());
     }
-    let (start, twist) = (starts.unwrap_or_default(), v.number("twist")?);
+    let (start, twist) = (k.start.unwrap_or_default(), k.twist);
     let bent: Curve = match bent {
         Bent::Along(curve) => curve(length, tangent, normal),
         Bent::Through(points) => Arc::new(points.stations(normal)),
@@ -513,33 +450,22 @@ fn make(v: &Values, c: &Context<'_>) -> Made<Beam> {
         curve,
         section,
         blade,
-        polar: v.optional_number("polar-inertia")?,
-        tension_centre: components(v, "tension-centre")?,
-        coupling: components(v, "coupling")?,
-        outline: outline(v.table("outline")?)?,
-        elements: v.count("elements")?,
-        ends: [ends.0, ends.1],
-        motion: [optional_vector(v, "velocity")?, optional_vector(v, "spin")?],
-        damping: damping(v)?,
-        planar,
+        polar: k.polar_inertia,
+        tension_centre: k.tension_centre.unwrap_or_default(),
+        coupling: k.coupling.unwrap_or_default(),
+        outline: outline(&k.outline)?,
+        elements: k.elements,
+        ends: [k.root, k.tip],
+        motion: [k.velocity, k.spin],
+        damping: [k.damping.mass, k.damping.stiffness],
+        planar: k.planar,
         stations: vec![length],
         fibres: Vec::new(),
     })
 }
 
-/// As many numbers as asked for, or zeros where the key is left out.
-fn components<const N: usize>(v: &Values, key: &str) -> Made<[f64; N]> {
-    let given = v.numbers(key)?;
-    if given.is_empty() {
-        return Ok([0.0; N]);
-    }
-    let counted = <[f64; N]>::try_from(given);
-    counted.map_err(|_| Fault::new(key, format!("has {N} numbers, not {}", given.len())).into())
-}
-
 /// The polygon through the corners that a case gives.
-fn outline(v: &Values) -> Made<Option<Contour>> {
-    let (y, z) = (v.numbers("y")?, v.numbers("z")?);
+fn outline(Outline { y, z }: &Outline) -> Made<Option<Contour>> {
     if y.is_empty() && z.is_empty() {
         return Ok(None);
     }
@@ -563,23 +489,26 @@ pub struct Fibre {
     pub place: [f64; 2],
 }
 
+keys! {
+    /// What a case says of a fibre.
+    struct Point {
+        /// name, which ends the name of its column
+        name: String = text();
+        /// station of a beam
+        on: (usize, f64) = place();
+        /// place along the height of the section
+        y: f64 = quantity(&LENGTH, Any).or(0.0);
+        /// place across, along tangent × height
+        z: f64 = quantity(&LENGTH, Any).or(0.0);
+    }
+}
+
 /// The tables `[[fibre]]`.
-pub static FIBRES: Table<Fibre> = Table {
-    key: key(
-        "fibre",
-        Type::Tables(&[
-            key("name", Type::Text, Required, "name, which ends the name of its column"),
-            key("on", Type::Place, Required, "station of a beam"),
-            key("y", Quantity(&LENGTH, Any), Default::Number(0.0), "place along the height of the section"),
-            key("z", Quantity(&LENGTH, Any), Default::Number(0.0), "place across, along tangent × height"),
-        ]),
-        Empty,
-        "points of sections of beams in space whose strain is recorded",
-    ),
-    example: "beam=[{length=1, section={kind='circle', modulus='70 GPa', density=2700, radius='1 cm'}, root='clamped'}]\n\
-              load=[{on='tip', force=[0, 0, 1]}]\n\
-              fibre=[{name='top', on='root', z='5 mm'}]",
-    make: |v, c| {
-        Ok(Fibre { name: name(v, &[])?, on: station(v, "on", c)?, place: [v.number("y")?, v.number("z")?] })
-    },
-};
+pub static FIBRES: Table<Fibre> = Table::list(
+    "fibre",
+    "points of sections of beams in space whose strain is recorded",
+    "beam=[{length=1, section={kind='circle', modulus='70 GPa', density=2700, radius='1 cm'}, root='clamped'}]\n\
+     load=[{on='tip', force=[0, 0, 1]}]\n\
+     fibre=[{name='top', on='root', z='5 mm'}]",
+    &Of(|k: Point, _| Ok(Fibre { name: name(Some(k.name), &[])?, on: k.on, place: [k.y, k.z] })),
+);

@@ -1,11 +1,11 @@
 //! The blade of a case: a beam that also bends out of the plane and twists.
 
 use super::section::Section;
-use crate::declaration::{Bound::*, Key, Presence as Default, Presence::Optional, Type, Type::Quantity, key};
+use crate::declaration::Bound::*;
 use crate::fault::{At, Fault, Faults, Made};
-use crate::kind::{Choice, Context, Kind, Table};
+use crate::keys::{boolean, choice, integer, keys, number, quantity};
+use crate::kind::{Choice, Context, Is, Kind, Of, Table};
 use crate::units::{ANGLE, INERTIA, MASS};
-use crate::values::Values;
 use flexion::blade::{self, Body, Model, Setting, StrainEnergy, Terms, Tip};
 use flexion::section::{BladeResultants, BladeSection, Twisted};
 
@@ -95,102 +95,74 @@ pub static STRAIN_ENERGY: Choice<StrainEnergy> = Choice {
             name: "linear",
             summary: "quadratic in stretch and curvature, with foreshortening: the blade stays straight",
             source: "",
-            keys: &[],
             example: "blade={pitch='5 deg', twist='-20 deg', strain-energy='linear', tip-mass='10 g'}",
-            make: |_, _| Ok(StrainEnergy::Linear),
+            make: &Is(StrainEnergy::Linear),
         },
         Kind {
             name: "coupled",
             summary: "linear, with the terms of the Green strain that couple stretch and bending, for comparison only",
             source: "Zhao & Wu 2015, doi:10.6052/0459-1879-14-207",
-            keys: &[],
             example: "blade={strain-energy='coupled', bending-second=false, stretched-inertia=false}",
-            make: |_, _| Ok(StrainEnergy::Coupled(Terms::ALL)),
+            make: &Is(StrainEnergy::Coupled(Terms::ALL)),
         },
         Kind {
             name: "exact",
             summary: "geometrically exact, about its own steady state",
             source: "Meier, Popp & Wall 2014, doi:10.1016/j.cma.2014.05.017",
-            keys: &[],
             example: "blade={precone='2 deg', strain-energy='exact', torsion=false}",
-            make: |_, _| Ok(StrainEnergy::Exact),
+            make: &Is(StrainEnergy::Exact),
         },
     ],
 };
 
-/// Keys of the terms of the strain energy `coupled`, e being the steady stretch w₁′.
-static TERMS: [&str; 5] =
-    ["bending-first", "bending-second", "axial-first", "axial-second", "stretched-inertia"];
-
-/// The keys of `[blade]`.
-static KEYS: &[Key] = &[
-    key(
-        "pitch",
-        Quantity(&ANGLE, Any),
-        Default::Number(0.0),
-        "angle of the root section about the axis towards the tip; at 0 its height lies in the plane of rotation",
-    ),
-    key(
-        "precone",
-        Quantity(&ANGLE, Between(-1.5, 1.5)),
-        Default::Number(0.0),
-        "angle of the axis out of the plane of rotation, towards the vector of rotation",
-    ),
-    key(
-        "twist",
-        Quantity(&ANGLE, Any),
-        Default::Number(0.0),
-        "angle of the tip section against the root, linear between, added to a twist in the section's file",
-    ),
-    key("tip-mass", Quantity(&MASS, NotNegative), Default::Number(0.0), "mass of a body at the tip"),
-    key(
-        "tip-inertia",
-        Quantity(&INERTIA, NotNegative),
-        Default::Number(0.0),
-        "moment of inertia of the body at the tip, the same about every axis",
-    ),
-    key("strain-energy", Type::Choice(&STRAIN_ENERGY), Default::Name("exact"), "strain energy"),
-    key(TERMS[0], Type::Boolean, Optional, "of `coupled`, the term 3e of EI w″²; kept if left out"),
-    key(TERMS[1], Type::Boolean, Optional, "of `coupled`, the term (3/2)e² of EI w″²; kept if left out"),
-    key(TERMS[2], Type::Boolean, Optional, "of `coupled`, the term −e² of EA w′²; kept if left out"),
-    key(TERMS[3], Type::Boolean, Optional, "of `coupled`, the term −½e³ of EA w′²; kept if left out"),
-    key(
-        TERMS[4],
-        Type::Boolean,
-        Optional,
-        "of `coupled`, the centrifugal force of the stretched blade; kept if left out",
-    ),
-    key("gyroscopic", Type::Boolean, Default::Boolean(true), "gyroscopic (Coriolis) terms are kept"),
-    key(
-        "rotary-inertia",
-        Type::Boolean,
-        Default::Boolean(true),
-        "rotary inertia of sections is kept where it is known",
-    ),
-    key("torsion", Type::Boolean, Optional, "torsion is kept; if left out, where the section says enough"),
-    key(
-        "poisson-ratio",
-        Type::Number(Between(-0.99, 0.5)),
-        Default::Number(0.3),
-        "Poisson's ratio, for the torsional stiffness of a section of one material",
-    ),
-    key("elements", Type::Integer(1, 100_000), Default::Integer(40), "number of equal elements"),
-];
+keys! {
+    /// What a case says of a blade; e is the steady stretch w₁′.
+    struct Written {
+        /// angle of the root section about the axis towards the tip; at 0 its height lies in the plane of rotation
+        pitch: f64 = quantity(&ANGLE, Any).or(0.0);
+        /// angle of the axis out of the plane of rotation, towards the vector of rotation
+        precone: f64 = quantity(&ANGLE, Between(-1.5, 1.5)).or(0.0);
+        /// angle of the tip section against the root, linear between, added to a twist in the section's file
+        twist: f64 = quantity(&ANGLE, Any).or(0.0);
+        /// mass of a body at the tip
+        tip_mass: f64 = quantity(&MASS, NotNegative).or(0.0);
+        /// moment of inertia of the body at the tip, the same about every axis
+        tip_inertia: f64 = quantity(&INERTIA, NotNegative).or(0.0);
+        /// strain energy
+        strain_energy: StrainEnergy = choice(&STRAIN_ENERGY).or_name("exact");
+        /// of `coupled`, the term 3e of EI w″²; kept if left out
+        bending_first: Option<bool> = boolean();
+        /// of `coupled`, the term (3/2)e² of EI w″²; kept if left out
+        bending_second: Option<bool> = boolean();
+        /// of `coupled`, the term −e² of EA w′²; kept if left out
+        axial_first: Option<bool> = boolean();
+        /// of `coupled`, the term −½e³ of EA w′²; kept if left out
+        axial_second: Option<bool> = boolean();
+        /// of `coupled`, the centrifugal force of the stretched blade; kept if left out
+        stretched_inertia: Option<bool> = boolean();
+        /// gyroscopic (Coriolis) terms are kept
+        gyroscopic: bool = boolean().or_true();
+        /// rotary inertia of sections is kept where it is known
+        rotary_inertia: bool = boolean().or_true();
+        /// torsion is kept; if left out, where the section says enough
+        torsion: Option<bool> = boolean();
+        /// Poisson's ratio, for the torsional stiffness of a section of one material
+        poisson_ratio: f64 = number(Between(-0.99, 0.5)).or(0.3);
+        /// number of equal elements
+        elements: usize = integer(1, 100_000).or_count(40);
+    }
+}
 
 /// The table `[blade]`.
-pub static BLADE: Table<Blade> = Table {
-    key: key(
-        "blade",
-        Type::Table(KEYS),
-        Optional,
-        "makes the beam a blade, which also bends out of the plane and twists",
-    ),
-    example: "blade={pitch='5 deg', tip-mass='10 g'}",
-    make,
-};
+pub static BLADE: Table<Blade> = Table::one(
+    "blade",
+    "makes the beam a blade, which also bends out of the plane and twists",
+    "blade={pitch='5 deg', tip-mass='10 g'}",
+    &Of(make),
+);
 
-fn make(v: &Values, c: &Context<'_>) -> Made<Blade> {
-    let pitch = v.number("pitch")?;
+fn make(k: Written, c: &Context<'_>) -> Made<Blade> {
+    let pitch = k.pitch;
     if pitch.abs() > LARGEST_PITCH {
         c.cautions.borrow_mut().push(format!(
             "the blade is pitched by {:.1}°: where degrees are meant, write `pitch = \"{pitch} deg\"`",
@@ -201,43 +173,47 @@ fn make(v: &Values, c: &Context<'_>) -> Made<Blade> {
         setting: Setting {
             length: c.length()?,
             hub_radius: 0.0,
-            precone: v.number("precone")?,
+            precone: k.precone,
             pitch,
-            tip: Tip { mass: v.number("tip-mass")?, inertia: v.number("tip-inertia")? },
+            tip: Tip { mass: k.tip_mass, inertia: k.tip_inertia },
         },
-        twist: v.number("twist")?,
+        twist: k.twist,
         model: Model {
-            strain_energy: strain_energy(v, c)?,
-            gyroscopic: v.boolean("gyroscopic")?,
-            rotary_inertia: v.boolean("rotary-inertia")?,
+            strain_energy: strain_energy(&k)?,
+            gyroscopic: k.gyroscopic,
+            rotary_inertia: k.rotary_inertia,
             torsion: false,
             tension_torsion: true,
         },
-        torsion: v.optional_boolean("torsion")?,
-        poisson_ratio: v.number("poisson-ratio")?,
-        elements: v.count("elements")?,
+        torsion: k.torsion,
+        poisson_ratio: k.poisson_ratio,
+        elements: k.elements,
     })
 }
 
 /// The strain energy, with the terms that are kept of the coupled one.
-fn strain_energy(v: &Values, c: &Context<'_>) -> Made<StrainEnergy> {
-    let mut written = [None; TERMS.len()];
-    for (written, term) in written.iter_mut().zip(TERMS) {
-        *written = v.optional_boolean(term)?;
-    }
-    let kept = |term: usize| written[term].unwrap_or(true);
-    match STRAIN_ENERGY.make(v, "strain-energy", c)? {
+fn strain_energy(k: &Written) -> Made<StrainEnergy> {
+    let terms = [
+        ("bending-first", k.bending_first),
+        ("bending-second", k.bending_second),
+        ("axial-first", k.axial_first),
+        ("axial-second", k.axial_second),
+        ("stretched-inertia", k.stretched_inertia),
+    ];
+    let [bending_first, bending_second, axial_first, axial_second, stretched_inertia] =
+        terms.map(|(_, written)| written.unwrap_or(true));
+    match k.strain_energy {
         StrainEnergy::Coupled(_) => Ok(StrainEnergy::Coupled(Terms {
-            bending_first: kept(0),
-            bending_second: kept(1),
-            axial_first: kept(2),
-            axial_second: kept(3),
-            stretched_inertia: kept(4),
+            bending_first,
+            bending_second,
+            axial_first,
+            axial_second,
+            stretched_inertia,
         })),
         energy => {
             let message = "a term of the strain energy `coupled`, which the blade does not have; write \
                            `strain-energy = \"coupled\"`, or leave the term out";
-            let given = TERMS.iter().zip(written).filter(|(_, written)| written.is_some());
+            let given = terms.iter().filter(|(_, written)| written.is_some());
             let faults: Vec<Fault> = given.map(|(term, _)| Fault::new(*term, message)).collect();
             if faults.is_empty() { Ok(energy) } else { Err(Faults(faults)) }
         }

@@ -11,10 +11,11 @@
 //!
 //! Source of the double reflection, of order 4: Wang, Jüttler, Zheng & Liu (2008, doi 10.1145/1330511.1330513).
 
+use crate::declaration::Bound::Any;
 use crate::fault::{At, Fault, Made};
 use crate::files;
-use crate::kind::Context;
-use crate::values::Values;
+use crate::keys::{File, keys, quantities, text};
+use crate::units::LENGTH;
 use flexion::linalg::Vec3;
 use flexion::multibody::slender::Station;
 use flexion::profile::{End, Profile, Table};
@@ -27,6 +28,20 @@ const GAUSS: usize = 6;
 /// Corrections of Newton's method for the place of an arc length.
 const CORRECTIONS: usize = 50;
 
+keys! {
+    /// What a case says of the points of a curve.
+    pub(super) struct Points {
+        /// x of the points, from the root to the tip
+        x: Vec<f64> = quantities(&LENGTH, Any).or_empty();
+        /// their y
+        y: Vec<f64> = quantities(&LENGTH, Any).or_empty();
+        /// their z
+        z: Vec<f64> = quantities(&LENGTH, Any).or_empty();
+        /// CSV file of x, y and z [m] of the points, in place of the lists
+        file: Option<File> = text();
+    }
+}
+
 /// A curve through points, which begins in the first of them.
 #[derive(Clone, Debug)]
 pub struct Centreline {
@@ -37,16 +52,16 @@ pub struct Centreline {
 
 impl Centreline {
     /// The curve through the points of a case: `x`, `y` and `z`, or those of `file`.
-    pub(super) fn of(v: &Values, c: &Context<'_>) -> Made<Centreline> {
-        let lists = [v.numbers("x")?, v.numbers("y")?, v.numbers("z")?];
+    pub(super) fn of(Points { x, y, z, file }: Points) -> Made<Centreline> {
+        let lists = [x, y, z];
         let written = lists.iter().any(|list| !list.is_empty());
-        let (points, key) = match (v.optional_text("file")?, written) {
+        let (points, key) = match (file, written) {
             (Some(_), true) => {
                 return Err(Fault::new("file", "the points are written as `x`, `y` and `z` too").into());
             }
-            (Some(_), false) => {
-                let (name, bytes) = c.file(v, "file")?;
-                let rows = files::rows::read(&bytes, name, "three numbers: x, y and z in m").at("file")?;
+            (Some(file), false) => {
+                let what = "three numbers: x, y and z in m";
+                let rows = files::rows::read(&file.bytes, &file.name, what).at("file")?;
                 (rows.into_iter().map(Vec3).collect::<Vec<_>>(), "file")
             }
             (None, _) => {
@@ -56,7 +71,7 @@ impl Centreline {
                     let message = format!("there are {} values for {count} points", list.len());
                     return Err(Fault::new(key, message).into());
                 }
-                ((0..count).map(|i| Vec3(lists.map(|list| list[i]))).collect(), "x")
+                ((0..count).map(|i| Vec3([0, 1, 2].map(|k| lists[k][i]))).collect(), "x")
             }
         };
         Centreline::through(&points).at(key)

@@ -2,10 +2,10 @@
 
 use super::name::{NAME, name, numbered};
 use super::obstacle::{OBSTACLE, Placed};
-use super::vector::optional_vector;
-use crate::declaration::{Bound::*, Key, Presence as Default, Presence::*, Type, Type::Quantity, key};
-use crate::fault::{Fault, Made, both};
-use crate::kind::{Choice, Context, Kind, Table};
+use crate::declaration::Bound::*;
+use crate::fault::{Fault, Made};
+use crate::keys::{Field, choice, integer, keys, kind, number, places, quantity, vector};
+use crate::kind::{Choice, Context, Is, Kind, Of, Table};
 use crate::places::{Parts, Place};
 use crate::units::{LENGTH, VELOCITY};
 use crate::values::Values;
@@ -99,53 +99,68 @@ pub static MOUNT: Choice<Mount> = Choice {
             name: "ground",
             summary: "axes of space",
             source: "",
-            keys: &[],
             example: "contact=[{mount='ground', obstacle={kind='plane', point=[0, '-1 mm']}, law={kind='hertz', stiffness=1e4}}]\n\
                       hub.motion={kind='constant', speed='-0.1 rad/s'}",
-            make: |_, _| Ok(Mount::Ground),
+            make: &Is(Mount::Ground),
         },
         Kind {
             name: "hub",
             summary: "radial and transverse axis of the hub, from its axis: the obstacle turns with it",
             source: "",
-            keys: &[],
             example: "contact=[{mount='hub', obstacle={kind='plane', point=[0, '-1 um']}, law={kind='hertz', stiffness=1e5}}]",
-            make: |_, _| Ok(Mount::Hub),
+            make: &Is(Mount::Hub),
         },
     ],
 };
 
-const RESTITUTION: Key =
-    key("restitution", Type::Number(Between(0.0, 1.0)), Required, "nominal coefficient of restitution e");
-const STIFFNESS: Key =
-    key("stiffness", Type::Number(Positive), Required, "K in N/mⁿ, with `points` that of a length of 1 m");
-const EXPONENT: Key = key("exponent", Type::Number(Between(1.0, 4.0)), Default::Number(1.5), "n");
-const FRICTION: Key =
-    key("friction", Type::Number(NotNegative), Default::Number(0.0), "coefficient of friction μ");
-const SLIP_SPEED: Key = key(
-    "slip-speed",
-    Quantity(&VELOCITY, Positive),
-    Default::Number(0.01),
-    "sliding speed v_s of the regularised friction, −μ F tanh(v/v_s)",
-);
-const DAMPED: &[Key] = &[STIFFNESS, EXPONENT, RESTITUTION, FRICTION, SLIP_SPEED];
+const RESTITUTION: Field<f64> =
+    number(Between(0.0, 1.0)).called("restitution", "nominal coefficient of restitution e");
+const STIFFNESS: Field<f64> =
+    number(Positive).called("stiffness", "K in N/mⁿ, with `points` that of a length of 1 m");
+const EXPONENT: Field<f64> = number(Between(1.0, 4.0)).or(1.5).called("exponent", "n");
+const FRICTION: Field<f64> = number(NotNegative).or(0.0).called("friction", "coefficient of friction μ");
+const SLIP_SPEED: Field<f64> = quantity(&VELOCITY, Positive)
+    .or(0.01)
+    .called("slip-speed", "sliding speed v_s of the regularised friction, −μ F tanh(v/v_s)");
+
+keys! {
+    struct Rigid {
+        restitution: f64 = RESTITUTION;
+        friction: f64 = FRICTION;
+    }
+
+    struct Elastic {
+        stiffness: f64 = STIFFNESS;
+        exponent: f64 = EXPONENT;
+        friction: f64 = FRICTION;
+        slip_speed: f64 = SLIP_SPEED;
+    }
+
+    struct Damped {
+        stiffness: f64 = STIFFNESS;
+        exponent: f64 = EXPONENT;
+        restitution: f64 = RESTITUTION;
+        friction: f64 = FRICTION;
+        slip_speed: f64 = SLIP_SPEED;
+    }
+}
 
 /// A continuous force K δⁿ (1 + χ δ̇/v₀).
-fn force(v: &Values, dissipation: Dissipation) -> Made<(Law, bool)> {
-    let restitution = if dissipation == Dissipation::Hertz { 1.0 } else { v.number("restitution")? };
+fn force(k: &Elastic, restitution: f64, dissipation: Dissipation) -> (Law, bool) {
+    let &Elastic { stiffness, exponent, friction, slip_speed } = k;
+    let factor = dissipation.factor(restitution);
+    (Law::Force(ContactForce { stiffness, exponent, factor, friction, slip_speed }), false)
+}
+
+/// The same of a law that dissipates.
+fn damped(k: Damped, dissipation: Dissipation) -> Made<(Law, bool)> {
+    let Damped { stiffness, exponent, restitution, friction, slip_speed } = k;
     if restitution == 0.0 && dissipation.needs_rebound() {
         let message = "with e = 0 this law has no finite damping";
         let help = "take `hunt-crossley` or `lankarani-nikravesh`, or a `constraint`";
         return Err(Fault::new("restitution", message).help(help).into());
     }
-    let law = Law::Force(ContactForce {
-        stiffness: v.number("stiffness")?,
-        exponent: v.number("exponent")?,
-        factor: dissipation.factor(restitution),
-        friction: v.number("friction")?,
-        slip_speed: v.number("slip-speed")?,
-    });
-    Ok((law, false))
+    Ok(force(&Elastic { stiffness, exponent, friction, slip_speed }, restitution, dissipation))
 }
 
 /// The laws of contact, and whether the point has no mass for them.
@@ -158,80 +173,70 @@ pub static LAW: Choice<(Law, bool)> = Choice {
             name: "massless",
             summary: "the tip has no mass of its own: it is stopped without impulse and loss, and no restitution is needed",
             source: "Khenous, Laborde & Renard 2008, doi:10.1016/j.euromechsol.2008.01.001; arXiv 2207.00795",
-            keys: &[],
             example: "contact=[{obstacle={kind='stop', offset='-1 um'}, law={kind='massless'}}]",
-            make: |_, _| Ok((Law::Constraint { restitution: 0.0, friction: 0.0 }, true)),
+            make: &Is((Law::Constraint { restitution: 0.0, friction: 0.0 }, true)),
         },
         Kind {
             name: "constraint",
             summary: "impulse with Newton's restitution, then a constraint until it would pull; Coulomb friction",
             source: "Pfeiffer & Glocker 1996, doi:10.1002/9783527618385",
-            keys: &[RESTITUTION, FRICTION],
             example: "contact=[{obstacle={kind='stop', offset='-1 um'}, law={kind='constraint', restitution=0.5}}]",
-            make: |v, _| {
-                let (restitution, friction) = (v.number("restitution")?, v.number("friction")?);
+            make: &Of(|Rigid { restitution, friction }, _| {
                 Ok((Law::Constraint { restitution, friction }, false))
-            },
+            }),
         },
         Kind {
             name: "hertz",
             summary: "elastic force K δⁿ of the indentation δ",
             source: "Hertz 1881, doi:10.1515/crll.1882.92.156",
-            keys: &[STIFFNESS, EXPONENT, FRICTION, SLIP_SPEED],
             example: "contact=[{obstacle={kind='stop', offset='-1 um'}, law={kind='hertz', stiffness=1e5}}]",
-            make: |v, _| force(v, Dissipation::Hertz),
+            make: &Of(|k: Elastic, _| Ok(force(&k, 1.0, Dissipation::Hertz))),
         },
         Kind {
             name: "hunt-crossley",
             summary: "the same damped by χ = 3(1 − e)/2 in K δⁿ (1 + χ δ̇/v₀)",
             source: "Hunt & Crossley 1975, doi:10.1115/1.3423596",
-            keys: DAMPED,
             example: "contact=[{obstacle={kind='stop', offset='-1 um'}, law={kind='hunt-crossley', stiffness=1e5, restitution=0.5}}]",
-            make: |v, _| force(v, Dissipation::HuntCrossley),
+            make: &Of(|k: Damped, _| damped(k, Dissipation::HuntCrossley)),
         },
         Kind {
             name: "lankarani-nikravesh",
             summary: "the same with χ = 3(1 − e²)/4",
             source: "Lankarani & Nikravesh 1990, doi:10.1115/1.2912617",
-            keys: DAMPED,
             example: "contact=[{obstacle={kind='stop', offset='-1 um'}, law={kind='lankarani-nikravesh', stiffness=1e5, restitution=0.5}}]",
-            make: |v, _| force(v, Dissipation::LankaraniNikravesh),
+            make: &Of(|k: Damped, _| damped(k, Dissipation::LankaraniNikravesh)),
         },
         Kind {
             name: "flores",
             summary: "the same with χ = 8(1 − e)/(5e)",
             source: "Flores et al. 2011, doi:10.1007/s11044-010-9237-4",
-            keys: DAMPED,
             example: "contact=[{obstacle={kind='stop', offset='-1 um'}, law={kind='flores', stiffness=1e5, restitution=0.5}}]",
-            make: |v, _| force(v, Dissipation::Flores),
+            make: &Of(|k: Damped, _| damped(k, Dissipation::Flores)),
         },
         Kind {
             name: "gonthier",
             summary: "the same with χ = (1 − e²)/e",
             source: "Gonthier et al. 2004, doi:10.1023/B:MUBO.0000029392.21648.bc",
-            keys: DAMPED,
             example: "contact=[{obstacle={kind='stop', offset='-1 um'}, law={kind='gonthier', stiffness=1e5, restitution=0.5}}]",
-            make: |v, _| force(v, Dissipation::Gonthier),
+            make: &Of(|k: Damped, _| damped(k, Dissipation::Gonthier)),
         },
         Kind {
             name: "matched",
             summary: "the same with the χ that gives back e itself to a single mass",
             source: "χ (1 + e) = ln[(1 + χ)/(1 − χ e)], the exact rebound of that force",
-            keys: DAMPED,
             example: "contact=[{obstacle={kind='stop', offset='-1 um'}, law={kind='matched', stiffness=1e5, restitution=0.5}}]",
-            make: |v, _| force(v, Dissipation::Matched),
+            make: &Of(|k: Damped, _| damped(k, Dissipation::Matched)),
         },
     ],
 };
 
-/// What may touch: the places of `on`, the whole beam that it names, or the tip of the only beam.
-fn touching(v: &Values, c: &Context<'_>) -> Made<Touching> {
+/// What may touch: the places of these names, the whole beam that they are, or the tip of the only beam; the whole beam by so many points.
+fn touching(names: Option<&[String]>, points: Option<usize>, c: &Context<'_>) -> Made<Touching> {
     let parts = c.parts()?;
     let tip = ["tip".to_owned()];
-    let names = if v.is_written("on") { v.texts("on")? } else { &tip };
+    let names = names.unwrap_or(&tip);
     let find = |name: &String| parts.find(name).map_err(|fault| Fault { key: "on".to_owned(), ..fault });
     let places = names.iter().map(find).collect::<Result<Vec<_>, _>>()?;
-    let points = if v.optional("points")?.is_some() { Some(v.count("points")?) } else { None };
     match (&places[..], points) {
         ([], _) => Err(Fault::new("on", "names no place").into()),
         ([Place::Beam(beam)], Some(parts)) => Ok(Touching::Points { beam: *beam, parts }),
@@ -258,73 +263,50 @@ fn touching(v: &Values, c: &Context<'_>) -> Made<Touching> {
     }
 }
 
+keys! {
+    /// What a case says of a contact.
+    pub(crate) struct Written {
+        name: Option<String> = NAME;
+        /// what may touch: a body, a place of a beam, a list of them, or a whole beam, where it is nearest to the obstacle or by
+        /// `points`; the tip of the only beam if left out
+        on: Option<Vec<String>> = places();
+        /// point of a body that may touch, in space at the start; its centre of mass if left out
+        at: Option<Vec3> = vector(&LENGTH);
+        /// radius of the ball about the point, which slides and rolls on the obstacle, or of a beam that is round
+        radius: f64 = quantity(&LENGTH, NotNegative).or(0.0);
+        /// number of equidistant points, the last at the tip, by which a whole beam may touch, and one more at the root where
+        /// nothing holds it
+        points: Option<usize> = integer(1, MOST_POINTS);
+        /// rigid obstacle
+        obstacle: Placed = kind(&OBSTACLE);
+        /// what the obstacle is fixed to, in whose axes it is given: the ground if left out, the hub of a stop
+        mount: Option<Mount> = choice(&MOUNT);
+        /// what happens at a touch
+        law: (Law, bool) = kind(&LAW).or_name("massless");
+    }
+}
+
 /// The tables `[[contact]]`.
-pub static CONTACT: Table<Contact> = Table {
-    key: key(
-        "contact",
-        Type::Tables(&[
-            NAME,
-            key(
-                "on",
-                Type::Places,
-                Optional,
-                "what may touch: a body, a place of a beam, a list of them, or a whole beam, where it is nearest to the obstacle or by \
-                 `points`; the tip of the only beam if left out",
-            ),
-            key(
-                "at",
-                Type::Quantities(&LENGTH, Any),
-                Empty,
-                "point of a body that may touch, in space at the start; its centre of mass if left out",
-            ),
-            key(
-                "radius",
-                Quantity(&LENGTH, NotNegative),
-                Default::Number(0.0),
-                "radius of the ball about the point, which slides and rolls on the obstacle, or of a beam that is round",
-            ),
-            key(
-                "points",
-                Type::Integer(1, MOST_POINTS),
-                Optional,
-                "number of equidistant points, the last at the tip, by which a whole beam may touch, and one more at the root where \
-                 nothing holds it",
-            ),
-            key("obstacle", Type::Kind(&OBSTACLE), Required, "rigid obstacle"),
-            key(
-                "mount",
-                Type::Choice(&MOUNT),
-                Optional,
-                "what the obstacle is fixed to, in whose axes it is given: the ground if left out, the hub of a stop",
-            ),
-            key("law", Type::Kind(&LAW), Default::Name("massless"), "what happens at a touch"),
-        ]),
-        Empty,
-        "contacts with obstacles",
-    ),
-    example: "contact=[{name='floor', on='beam', points=4, obstacle={kind='plane', point=[0, '-2 mm']}, law={kind='constraint', restitution=0, friction=0.3}}]",
-    make: |v, c| {
-        let (on, (obstacle, (law, massless))) =
-            both(touching(v, c), both(OBSTACLE.make(v, "obstacle", c), LAW.make(v, "law", c)))?;
-        let mount = match v.optional("mount")? {
-            None if obstacle.stop => Mount::Hub,
-            None => Mount::Ground,
-            Some(_) => MOUNT.make(v, "mount", c)?,
-        };
+pub static CONTACT: Table<Contact> = Table::list(
+    "contact",
+    "contacts with obstacles",
+    "contact=[{name='floor', on='beam', points=4, obstacle={kind='plane', point=[0, '-2 mm']}, law={kind='constraint', restitution=0, friction=0.3}}]",
+    &Of(|k: Written, c| {
+        let Written { at, radius, obstacle, law: (law, massless), .. } = k;
+        let on = touching(k.on.as_deref(), k.points, c)?;
+        let mount = k.mount.unwrap_or(if obstacle.stop { Mount::Hub } else { Mount::Ground });
         if obstacle.stop && mount == Mount::Ground {
             let help = "leave the mount out, or take a `plane`";
             return Err(Fault::new("mount", "a stop is fixed to the hub").help(help).into());
         }
-        let at = optional_vector(v, "at")?;
         if at.is_some() && !matches!(&on, Touching::Places(places) if matches!(places[..], [Place::Body(_)]))
         {
             let help = "write `on = \"beam@2 m\"` for one place of a beam";
             return Err(Fault::new("at", "is a point of a body, and `on` names none").help(help).into());
         }
-        let (name, radius) = (name(v, &["hub"])?, v.number("radius")?);
-        Ok(Contact { name, on, at, radius, mount, obstacle, law, massless })
-    },
-};
+        Ok(Contact { name: name(k.name, &["hub"])?, on, at, radius, mount, obstacle, law, massless })
+    }),
+);
 
 /// All contacts with their names: `contact`, `contact2`, … where none is given.
 ///

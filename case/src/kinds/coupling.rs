@@ -3,7 +3,7 @@
 use super::basis::Bases;
 use super::contact::{Contact, OnBeam};
 use crate::fault::{At, Fault, Made};
-use crate::kind::{Choice, Kind};
+use crate::kind::{Choice, Is, Kind};
 use flexion::basis::Basis;
 use flexion::contact::{self as touch, Contacting, Law};
 use flexion::hub_beam::load::Load;
@@ -115,67 +115,58 @@ pub static COUPLING: Choice<Option<Coupling>> = Choice {
             name: "zeroth",
             summary: "no foreshortening: softens falsely and diverges at high speed, for comparison only",
             source: "the conventional model of Kane, Ryan & Banerjee 1987, doi:10.2514/3.20195",
-            keys: &[],
             example: "model.coupling=zeroth",
-            make: |_, _| {
-                Ok(Some(Coupling {
-                    whole_curve: false,
-                    assemble: |parts| parts.linear(Foreshortening::None),
-                }))
-            },
+            make: &Is(Some(Coupling {
+                whole_curve: false,
+                assemble: |parts| parts.linear(Foreshortening::None),
+            })),
         },
         Kind {
             name: "first",
             summary: "foreshortening to first order: linear with dynamic stiffening, small deflections",
             source: "Kane, Ryan & Banerjee 1987, doi:10.2514/3.20195",
-            keys: &[],
             example: "model.coupling=first",
-            make: |_, _| {
-                Ok(Some(Coupling {
-                    whole_curve: false,
-                    assemble: |parts| parts.linear(Foreshortening::First),
-                }))
-            },
+            make: &Is(Some(Coupling {
+                whole_curve: false,
+                assemble: |parts| parts.linear(Foreshortening::First),
+            })),
         },
         Kind {
             name: "high",
             summary: "foreshortening to every order in the kinetic energy: nonlinear, moderate deflections",
             source: "Li, Zhang & Hong 2013, Journal of Mechanical Engineering 49(13) 77–84",
-            keys: &[],
             example: "model.coupling=high",
-            make: |_, _| {
-                let assemble = |parts: &Assembly<'_>| {
+            make: &Is(Some(Coupling {
+                whole_curve: false,
+                assemble: |parts| {
                     let coupling = HighCoupling::new(parts.fields()?, parts.beam, &parts.hub);
                     Ok(parts.system(coupling.at("basis")?, parts.sampling()))
-                };
-                Ok(Some(Coupling { whole_curve: false, assemble }))
-            },
+                },
+            })),
         },
         Kind {
             name: "exact",
             summary: "geometrically exact, without shear: any deflection",
             source: "Simo & Vu-Quoc 1986, doi:10.1115/1.3171870",
-            keys: &[],
             example: "model.coupling=exact",
-            make: |_, _| {
-                let assemble = |parts: &Assembly<'_>| {
+            make: &Is(Some(Coupling {
+                whole_curve: true,
+                assemble: |parts| {
                     if parts.bases.elements.is_none() {
                         return Err(Fault::new("basis", "the exact coupling needs finite elements").into());
                     }
                     let nodes = parts.bases.transverse.cells().to_vec();
                     let coupling = ExactCoupling::on(nodes, parts.beam, &parts.hub);
                     Ok(parts.system(coupling.at("section")?, Sampling::Curve))
-                };
-                Ok(Some(Coupling { whole_curve: true, assemble }))
-            },
+                },
+            })),
         },
         Kind {
             name: "space",
             summary: "geometrically exact in space, without shear, of bodies, joints and beams: any motion",
             source: "Meier, Popp & Wall 2014, doi:10.1016/j.cma.2014.05.017",
-            keys: &[],
             example: "model.coupling=space",
-            make: |_, _| Ok(None),
+            make: &Is(None),
         },
     ],
 };

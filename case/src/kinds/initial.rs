@@ -1,10 +1,10 @@
 //! The state at the start of a run: kinds, keys and makers.
 
-use crate::declaration::{Bound::*, Presence as Default, Presence::*, Type, key};
+use crate::declaration::Bound::*;
 use crate::fault::{Fault, Made};
-use crate::kind::{Choice, Context, Kind};
+use crate::keys::{keys, path, quantities};
+use crate::kind::{Choice, Context, Is, Kind, Of};
 use crate::units::{LENGTH, VELOCITY};
-use crate::values::Values;
 use flexion::analysis::superposition::Vibration;
 use flexion::integrator::Checkpoint;
 use flexion_results::read_state;
@@ -36,6 +36,20 @@ pub struct Earlier {
     pub identity: String,
 }
 
+keys! {
+    struct Restart {
+        /// state.npz of the earlier run, or the folder of its results
+        file: String = path();
+    }
+
+    struct InModes {
+        /// displacement of the tip in each mode, the lowest mode first
+        amplitudes: Vec<f64> = quantities(&LENGTH, Any).or_empty();
+        /// velocity of the tip in each mode, the lowest mode first
+        velocities: Vec<f64> = quantities(&VELOCITY, Any).or_empty();
+    }
+}
+
 /// The kinds of initial state.
 pub static INITIAL: Choice<Initial> = Choice {
     name: "initial",
@@ -46,67 +60,43 @@ pub static INITIAL: Choice<Initial> = Choice {
             name: "undeformed",
             summary: "undeformed, moving with the hub",
             source: "",
-            keys: &[],
             example: "initial.kind=undeformed",
-            make: |_, _| Ok(Initial::Undeformed),
+            make: &Is(Initial::Undeformed),
         },
         Kind {
             name: "steady-rotation",
             summary: "equilibrium of steady rotation at the initial speed of the hub, or of all parts about one axis",
             source: "",
-            keys: &[],
             example: "initial.kind=steady-rotation\nhub.motion={kind='constant', speed='4 rad/s'}",
-            make: |_, _| Ok(Initial::SteadyRotation),
+            make: &Is(Initial::SteadyRotation),
         },
         Kind {
             name: "static",
             summary: "static equilibrium under the loads of the start, the hub at rest and held",
             source: "",
-            keys: &[],
             example: "initial.kind=static\ngravity=[0, -9.81]",
-            make: |_, _| Ok(Initial::Static),
+            make: &Is(Initial::Static),
         },
         Kind {
             name: "restart",
             summary: "last state of an earlier run of the same model, whose time goes on",
             source: "",
-            keys: &[key(
-                "file",
-                Type::Path,
-                Required,
-                "state.npz of the earlier run, or the folder of its results",
-            )],
             example: "initial={kind='restart', file='state.npz'}",
-            make: restart,
+            make: &Of(restart),
         },
         Kind {
             name: "modes",
             summary: "vibrating in given modes about the equilibrium of the start",
             source: "",
-            keys: &[
-                key(
-                    "amplitudes",
-                    Type::Quantities(&LENGTH, Any),
-                    Default::Empty,
-                    "displacement of the tip in each mode, the lowest mode first",
-                ),
-                key(
-                    "velocities",
-                    Type::Quantities(&VELOCITY, Any),
-                    Default::Empty,
-                    "velocity of the tip in each mode, the lowest mode first",
-                ),
-            ],
             example: "initial={kind='modes', amplitudes=['1 mm', 0], velocities=[0, '3 mm/s']}",
-            make: modes,
+            make: &Of(modes),
         },
     ],
 };
 
-fn restart(v: &Values, c: &Context<'_>) -> Made<Initial> {
-    let name = v.text("file")?;
+fn restart(Restart { file: name }: Restart, c: &Context<'_>) -> Made<Initial> {
     let refuse = |message: String| Fault::new("file", message);
-    let bytes = c.files.bytes(name).map_err(|reason| {
+    let bytes = c.files.bytes(&name).map_err(|reason| {
         refuse(format!("{reason}; a path begins at the folder of the case, unless it is absolute"))
     })?;
     let (checkpoint, identity) = read_state(Cursor::new(&*bytes))
@@ -116,8 +106,7 @@ fn restart(v: &Values, c: &Context<'_>) -> Made<Initial> {
 }
 
 /// A list that is left out is one of zeros.
-fn modes(v: &Values, _: &Context<'_>) -> Made<Initial> {
-    let (amplitudes, velocities) = (v.numbers("amplitudes")?, v.numbers("velocities")?);
+fn modes(InModes { amplitudes, velocities }: InModes, _: &Context<'_>) -> Made<Initial> {
     match (amplitudes.len(), velocities.len()) {
         (0, 0) => {
             let message = "no mode is given an amplitude or a velocity; write `amplitudes`, `velocities` or both, one \
@@ -133,6 +122,6 @@ fn modes(v: &Values, _: &Context<'_>) -> Made<Initial> {
         _ => {}
     }
     let at = |list: &[f64], mode: usize| list.get(mode).copied().unwrap_or(0.0);
-    let vibration = |mode| Vibration { displacement: at(amplitudes, mode), velocity: at(velocities, mode) };
+    let vibration = |mode| Vibration { displacement: at(&amplitudes, mode), velocity: at(&velocities, mode) };
     Ok(Initial::Modes((0..amplitudes.len().max(velocities.len())).map(vibration).collect()))
 }

@@ -2,15 +2,15 @@
 
 use super::motion::MOTION;
 use super::name::{NAME, name};
-use super::profile::{self, Shared};
+use super::profile::{self, INTERPOLATION, Shared, Through};
 use super::spring::between;
-use super::vector::{MARKED, direction, optional_vector};
-use crate::declaration::{Bound::*, Key, Presence as Default, Presence::*, Type, Type::Quantity, key};
+use super::vector::{ACROSS, AXIS, direction};
+use crate::declaration::Bound::*;
 use crate::fault::{Fault, Made};
-use crate::kind::{Choice, Context, Kind, Table};
+use crate::keys::{Field, File, Named, choice, keys, kind, path, quantity, text, texts, vector};
+use crate::kind::{Choice, Context, Is, Kind, Of, Table};
 use crate::places::Place;
 use crate::units::{DAMPING, FORCE, FORCE_PER_LENGTH, LENGTH, VELOCITY};
-use crate::values::Values;
 use flexion::drive::Actuator;
 use flexion::hub_beam;
 use flexion::linalg::{Mat3, Vec3};
@@ -28,64 +28,61 @@ pub static JOINT: Choice<Freedom> = Choice {
             name: "fixed",
             summary: "nothing: six rows",
             source: "",
-            keys: &[],
             example: "joint=[{kind='fixed', between=['ground', 'bar'], at=[0, 0, 0]}]",
-            make: |_, _| Ok(Freedom::Fixed),
+            make: &Is(Freedom::Fixed),
         },
         Kind {
             name: "revolute",
             summary: "a rotation about its axis: five rows",
             source: "",
-            keys: &[],
             example: "joint=[{kind='revolute', between=['ground', 'bar'], at=[0, 0, 0], axis=[0, 1, 0]}]",
-            make: |_, _| Ok(Freedom::Revolute),
+            make: &Is(Freedom::Revolute),
         },
         Kind {
             name: "prismatic",
             summary: "a displacement along its axis: five rows",
             source: "",
-            keys: &[],
             example: "joint=[{kind='prismatic', between=['ground', 'bar'], axis=[0, 1, -1]}]",
-            make: |_, _| Ok(Freedom::Prismatic),
+            make: &Is(Freedom::Prismatic),
         },
         Kind {
             name: "cylindrical",
             summary: "a rotation about its axis and a displacement along it: four rows",
             source: "",
-            keys: &[],
             example: "joint=[{kind='cylindrical', between=['ground', 'bar'], at=[0, 0, 0], axis=[0, 1, -1]}]",
-            make: |_, _| Ok(Freedom::Cylindrical),
+            make: &Is(Freedom::Cylindrical),
         },
         Kind {
             name: "universal",
             summary: "rotations about both arms of a cross: `across` on the first part, and normal to it and to `axis` on the \
                       second: four rows",
             source: "",
-            keys: &[],
             example: "joint=[{kind='universal', between=['ground', 'bar'], at=[0, 0, 0], axis=[1, 0, 0], across=[0, 1, 1]}]",
-            make: |_, _| Ok(Freedom::Universal),
+            make: &Is(Freedom::Universal),
         },
         Kind {
             name: "spherical",
             summary: "all rotations about its point: three rows",
             source: "",
-            keys: &[],
             example: "joint=[{kind='spherical', between=['ground', 'bar'], at=[0, '5 cm', 0]}]",
-            make: |_, _| Ok(Freedom::Spherical),
+            make: &Is(Freedom::Spherical),
         },
         Kind {
             name: "planar",
             summary: "displacements across its axis, and rotations about it: three rows",
             source: "",
-            keys: &[],
             example: "joint=[{kind='planar', between=['ground', 'bar'], axis=[0, 1, 0.3]}]",
-            make: |_, _| Ok(Freedom::Planar),
+            make: &Is(Freedom::Planar),
         },
     ],
 };
 
 /// Makes a motion of the profile of the quantity that a table or a formula gives.
 type Given = fn(Shared) -> Motion;
+
+fn speed(profile: Shared) -> Motion {
+    Motion::Speed { profile, initial_angle: 0.0 }
+}
 
 /// Which quantity of a displacement a table or a formula gives.
 pub static TRAVEL_OF: Choice<Given> = Choice {
@@ -97,25 +94,53 @@ pub static TRAVEL_OF: Choice<Given> = Choice {
             name: "speed",
             summary: "the speed [m/s]",
             source: "",
-            keys: &[],
             example: "joint=[{kind='prismatic', between=['ground', 'bar'], travel={kind='expression', formula='sin(t)^2', of='speed'}}]",
-            make: |_, _| Ok(|profile| Motion::Speed { profile, initial_angle: 0.0 }),
+            make: &Is(speed as Given),
         },
         Kind {
             name: "displacement",
             summary: "the displacement [m]",
             source: "",
-            keys: &[],
             example: "joint=[{kind='prismatic', between=['ground', 'bar'], travel={kind='expression', formula='sin(t)^2', of='displacement'}}]",
-            make: |_, _| Ok(Motion::Angle),
+            make: &Is(Motion::Angle as Given),
         },
     ],
 };
 
-const GIVES: Key = key("of", Type::Choice(&TRAVEL_OF), Required, "quantity that is given");
+const OF_TRAVEL: Field<Given> = choice(&TRAVEL_OF).called("of", "quantity that is given");
 
-fn given(profile: Shared, v: &Values, c: &Context<'_>, key: &str) -> Made<Drive> {
-    let motion = TRAVEL_OF.make(v, "of", c)?(profile);
+keys! {
+    struct Steady {
+        /// speed
+        speed: f64 = quantity(&VELOCITY, Any);
+    }
+
+    struct Rows {
+        /// CSV file with the columns t [s] and value
+        file: File = path();
+        interpolation: Through = INTERPOLATION;
+        of: Given = OF_TRAVEL;
+    }
+
+    struct Formula {
+        /// formula in t, in m/s or m
+        formula: String = text();
+        of: Given = OF_TRAVEL;
+    }
+
+    struct Free {
+        /// force on the second part
+        force: f64 = quantity(&FORCE, Any).or(0.0);
+        /// force over speed
+        damping: f64 = quantity(&DAMPING, NotNegative).or(0.0);
+        /// force over displacement
+        stiffness: f64 = quantity(&FORCE_PER_LENGTH, NotNegative).or(0.0);
+        /// displacement at which the spring is at rest
+        rest: f64 = quantity(&LENGTH, Any).or(0.0);
+    }
+}
+
+fn prescribed(motion: Motion, c: &Context<'_>, key: &str) -> Made<Drive> {
     profile::checked(motion.validate(c.duration()?), key)?;
     Ok(Drive::Prescribed(motion))
 }
@@ -130,60 +155,37 @@ pub static TRAVEL: Choice<Drive> = Choice {
             name: "constant",
             summary: "constant speed",
             source: "",
-            keys: &[key("speed", Quantity(&VELOCITY, Any), Required, "speed")],
             example: "joint=[{kind='prismatic', between=['ground', 'bar'], travel={kind='constant', speed='2 m/s'}}]",
-            make: |v, _| {
-                let profile = profile::checked(Constant::new(v.number("speed")?), "speed")?;
-                Ok(Drive::Prescribed(Motion::Speed { profile: Arc::new(profile), initial_angle: 0.0 }))
-            },
+            make: &Of(|k: Steady, _| {
+                let profile = profile::checked(Constant::new(k.speed), "speed")?;
+                Ok(Drive::Prescribed(speed(Arc::new(profile))))
+            }),
         },
         Kind {
             name: "table",
             summary: "table of time and speed or displacement",
             source: "",
-            keys: &[
-                key("file", Type::Path, Required, "CSV file with the columns t [s] and value"),
-                profile::INTERPOLATION,
-                GIVES,
-            ],
             example: "joint=[{kind='prismatic', between=['ground', 'bar'], travel={kind='table', file='measured.csv', of='displacement'}}]",
-            make: |v, c| given(profile::table(v, c)?, v, c, "file"),
+            make: &Of(|k: Rows, c| {
+                prescribed((k.of)(profile::table(&k.file, k.interpolation, c)?), c, "file")
+            }),
         },
         Kind {
             name: "expression",
             summary: "formula of time t [s] for the speed or the displacement",
             source: "",
-            keys: &[key("formula", Type::Text, Required, "formula in t, in m/s or m"), GIVES],
             example: "joint=[{kind='prismatic', between=['ground', 'bar'], travel={kind='expression', formula='4*t', of='speed'}}]",
-            make: |v, c| given(profile::of_time(v, c)?, v, c, "formula"),
+            make: &Of(|k: Formula, c| prescribed((k.of)(profile::of_time(&k.formula, c)?), c, "formula")),
         },
         Kind {
             name: "free",
             summary: "free to slide, with a force, a spring and a damper",
             source: "",
-            keys: &[
-                key("force", Quantity(&FORCE, Any), Default::Number(0.0), "force on the second part"),
-                key("damping", Quantity(&DAMPING, NotNegative), Default::Number(0.0), "force over speed"),
-                key(
-                    "stiffness",
-                    Quantity(&FORCE_PER_LENGTH, NotNegative),
-                    Default::Number(0.0),
-                    "force over displacement",
-                ),
-                key(
-                    "rest",
-                    Quantity(&LENGTH, Any),
-                    Default::Number(0.0),
-                    "displacement at which the spring is at rest",
-                ),
-            ],
             example: "joint=[{kind='prismatic', between=['ground', 'bar'], travel={kind='free', force=3, damping=2, stiffness='100 N/m', rest='1 cm'}}]",
-            make: |v, _| {
-                let torque = Arc::new(profile::checked(Constant::new(v.number("force")?), "force")?);
-                let (damping, stiffness) = (v.number("damping")?, v.number("stiffness")?);
-                let rest_angle = v.number("rest")?;
+            make: &Of(|Free { force, damping, stiffness, rest: rest_angle }, _| {
+                let torque = Arc::new(profile::checked(Constant::new(force), "force")?);
                 Ok(Drive::Actuated(Actuator { torque, damping, stiffness, rest_angle, controller: None }))
-            },
+            }),
         },
     ],
 };
@@ -209,90 +211,65 @@ pub struct Joint {
     pub start: f64,
 }
 
+keys! {
+    /// What a case says of a joint.
+    struct Written {
+        name: Option<String> = NAME;
+        /// what it leaves free
+        kind: Named<Freedom> = choice(&JOINT);
+        /// the two parts: `ground`, bodies, or places of beams such as `blade.root` and `blade.tip`
+        between: Vec<String> = texts();
+        /// its point in space at the start; the second part's own if left out
+        at: Option<Vec3> = vector(&LENGTH);
+        axis: Option<Vec3> = AXIS;
+        across: Option<Vec3> = ACROSS;
+        /// rotation of a revolute or cylindrical joint: prescribed, or driven by a torque
+        motion: Option<hub_beam::Drive> = kind(&MOTION);
+        /// displacement of a prismatic joint: prescribed, or driven by a force
+        travel: Option<Drive> = kind(&TRAVEL);
+    }
+}
+
 /// The tables `[[joint]]`.
-pub static JOINTS: Table<Joint> = Table {
-    key: key(
-        "joint",
-        Type::Tables(&[
-            NAME,
-            key("kind", Type::Choice(&JOINT), Required, "what it leaves free"),
-            key(
-                "between",
-                Type::Texts,
-                Required,
-                "the two parts: `ground`, bodies, or places of beams such as `blade.root` and `blade.tip`",
-            ),
-            key(
-                "at",
-                Type::Quantities(&LENGTH, Any),
-                Empty,
-                "its point in space at the start; the second part's own if left out",
-            ),
-            MARKED[0],
-            MARKED[1],
-            key(
-                "motion",
-                Type::Kind(&MOTION),
-                Optional,
-                "rotation of a revolute or cylindrical joint: prescribed, or driven by a torque",
-            ),
-            key(
-                "travel",
-                Type::Kind(&TRAVEL),
-                Optional,
-                "displacement of a prismatic joint: prescribed, or driven by a force",
-            ),
-        ]),
-        Empty,
-        "joints between two parts",
-    ),
-    example: "joint=[{name='hinge', kind='revolute', between=['ground', 'bar'], at=[0, 0, 0], axis=[0, 1, 0], \
-              motion={kind='free', angle='10 deg', stiffness=2, damping='0.1 N*m*s/rad'}}]",
-    make: |v, c| {
-        let kind = JOINT.make(v, "kind", c)?;
-        let (drive, start) = drive(v, c, kind)?;
-        let (name, between) = (name(v, &["ground"])?, between(v, c)?);
-        let parts = v.texts("between")?;
-        let written = [v.text("kind")?.to_owned(), parts[0].clone(), parts[1].clone()];
-        Ok(Joint {
-            name,
-            kind,
-            written,
-            between,
-            at: optional_vector(v, "at")?,
-            axes: direction(v)?,
-            drive,
-            start,
-        })
-    },
-};
+pub static JOINTS: Table<Joint> = Table::list(
+    "joint",
+    "joints between two parts",
+    "joint=[{name='hinge', kind='revolute', between=['ground', 'bar'], at=[0, 0, 0], axis=[0, 1, 0], \
+     motion={kind='free', angle='10 deg', stiffness=2, damping='0.1 N*m*s/rad'}}]",
+    &Of(|k: Written, c| {
+        let (drive, start) = drive(k.motion, k.travel, &k.kind)?;
+        let (name, between) = (name(k.name, &["ground"])?, between(&k.between, c)?);
+        let written = [k.kind.name.to_owned(), k.between[0].clone(), k.between[1].clone()];
+        let axes = direction(k.axis, k.across)?;
+        Ok(Joint { name, kind: k.kind.made, written, between, at: k.at, axes, drive, start })
+    }),
+);
 
 /// What moves a joint, and its coordinate at the start.
-fn drive(v: &Values, c: &Context<'_>, kind: Freedom) -> Made<(Drive, f64)> {
-    let (turns, slides) = (v.optional("motion")?.is_some(), v.optional("travel")?.is_some());
-    let name = v.text("kind")?;
-    if slides && kind != Freedom::Prismatic {
+fn drive(
+    motion: Option<hub_beam::Drive>,
+    travel: Option<Drive>,
+    Named { name, made: kind }: &Named<Freedom>,
+) -> Made<(Drive, f64)> {
+    if travel.is_some() && *kind != Freedom::Prismatic {
         let message = format!("`travel` moves a prismatic joint, and this one is {name}");
         return Err(Fault::new("travel", message).into());
     }
-    if turns && !matches!(kind, Freedom::Revolute | Freedom::Cylindrical) {
+    if motion.is_some() && !matches!(kind, Freedom::Revolute | Freedom::Cylindrical) {
         let message = format!("`motion` rotates a revolute or cylindrical joint, and this one is {name}");
         let help = "a prismatic joint is moved by `travel`";
         let fault = Fault::new("motion", message);
-        return Err(if kind == Freedom::Prismatic { fault.help(help) } else { fault }.into());
+        return Err(if *kind == Freedom::Prismatic { fault.help(help) } else { fault }.into());
     }
-    let drive = match (turns, slides) {
-        (true, _) => match MOTION.make(v, "motion", c)? {
-            hub_beam::Drive::Prescribed(motion) => Drive::Prescribed(motion),
-            hub_beam::Drive::Free(hub) if hub.speed != 0.0 => {
-                let message = "the speed of a joint at the start is that of its parts";
-                let help = "give `velocity` and `spin` to the bodies instead";
-                return Err(Fault::new("motion.speed", message).help(help).into());
-            }
-            hub_beam::Drive::Free(hub) => return Ok((Drive::Actuated(hub.actuator), hub.angle)),
-        },
-        (_, true) => TRAVEL.make(v, "travel", c)?,
-        _ => Drive::None,
+    let drive = match motion {
+        Some(hub_beam::Drive::Prescribed(motion)) => Drive::Prescribed(motion),
+        Some(hub_beam::Drive::Free(hub)) if hub.speed != 0.0 => {
+            let message = "the speed of a joint at the start is that of its parts";
+            let help = "give `velocity` and `spin` to the bodies instead";
+            return Err(Fault::new("motion.speed", message).help(help).into());
+        }
+        Some(hub_beam::Drive::Free(hub)) => return Ok((Drive::Actuated(hub.actuator), hub.angle)),
+        None => travel.unwrap_or(Drive::None),
     };
     let start = if let Drive::Prescribed(motion) = &drive { motion.at(0.0).angle } else { 0.0 };
     Ok((drive, start))

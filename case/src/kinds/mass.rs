@@ -1,12 +1,10 @@
 //! Lumped masses on beams.
 
 use super::name::{NAME, name};
-use crate::declaration::{Bound::*, Presence as Default, Presence::*, Type, Type::Quantity, key};
-use crate::fault::{Fault, Made};
-use crate::kind::{Context, Table};
-use crate::places::Place;
-use crate::units;
-use crate::values::Values;
+use crate::declaration::Bound::*;
+use crate::keys::{keys, place, quantity};
+use crate::kind::{Of, Table};
+use crate::units::{INERTIA, MASS as MASSES};
 
 /// A mass on a beam.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,49 +21,26 @@ pub struct Mass {
     pub inertia: f64,
 }
 
-/// The station of a beam that `key` names.
-pub(super) fn station(v: &Values, key: &str, c: &Context<'_>) -> Made<(usize, f64)> {
-    match c.place(v, key)? {
-        Place::Station { beam, s } => Ok((beam, s)),
-        place => {
-            let what = match place {
-                Place::Ground => "the ground",
-                Place::Body(_) => "a body",
-                _ => "a whole beam",
-            };
-            let message = format!("is {what}, and not a station of a beam");
-            Err(Fault::new(key, message).help("write for example `on = \"tip\"` or `on = \"2 m\"`").into())
-        }
+keys! {
+    /// What a case says of a mass.
+    struct Written {
+        name: Option<String> = NAME;
+        /// station of a beam
+        on: (usize, f64) = place();
+        /// mass
+        mass: f64 = quantity(&MASSES, Positive);
+        /// moment of inertia about its centre, which lies on the axis of the beam
+        inertia: f64 = quantity(&INERTIA, NotNegative).or(0.0);
     }
 }
 
 /// The tables `[[mass]]`.
-pub static MASS: Table<Mass> = Table {
-    key: key(
-        "mass",
-        Type::Tables(&[
-            NAME,
-            key("on", Type::Place, Required, "station of a beam"),
-            key("mass", Quantity(&units::MASS, Positive), Required, "mass"),
-            key(
-                "inertia",
-                Quantity(&units::INERTIA, NotNegative),
-                Default::Number(0.0),
-                "moment of inertia about its centre, which lies on the axis of the beam",
-            ),
-        ]),
-        Empty,
-        "lumped masses on beams",
-    ),
-    example: "mass=[{on='tip', mass='300 g', inertia=2e-3}]",
-    make: |v, c| {
-        let (beam, station) = station(v, "on", c)?;
-        Ok(Mass {
-            name: name(v, &[])?,
-            beam,
-            station,
-            mass: v.number("mass")?,
-            inertia: v.number("inertia")?,
-        })
-    },
-};
+pub static MASS: Table<Mass> = Table::list(
+    "mass",
+    "lumped masses on beams",
+    "mass=[{on='tip', mass='300 g', inertia=2e-3}]",
+    &Of(|k: Written, _| {
+        let (beam, station) = k.on;
+        Ok(Mass { name: name(k.name, &[])?, beam, station, mass: k.mass, inertia: k.inertia })
+    }),
+);

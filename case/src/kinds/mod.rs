@@ -21,7 +21,6 @@ pub mod obstacle;
 mod profile;
 pub mod rotation;
 pub mod section;
-mod shape;
 pub mod spring;
 pub mod torque;
 pub mod vector;

@@ -1,12 +1,12 @@
 //! The motion of the hub: kinds, keys and makers.
 
-use super::profile::{self, Shared};
+use super::profile::{self, INTERPOLATION, Shared, Through};
 use super::torque;
-use crate::declaration::{Bound::*, Key, Presence::Required, Type, Type::Quantity, key};
-use crate::fault::{Faults, Made};
-use crate::kind::{Choice, Context, Kind};
+use crate::declaration::Bound::*;
+use crate::fault::Made;
+use crate::keys::{Field, File, choice, keys, path, quantity, text};
+use crate::kind::{Choice, Context, Is, Kind, Of};
 use crate::units::{ANGULAR_SPEED, TIME};
-use crate::values::Values;
 use flexion::hub_beam::Drive;
 use flexion::profile::{Constant, Motion, Profile, ProfileError, Ramp, SpinUp};
 use std::sync::Arc;
@@ -28,24 +28,49 @@ pub static OF: Choice<Given> = Choice {
             name: "speed",
             summary: "the angular speed of the hub [rad/s]",
             source: "",
-            keys: &[],
             example: "hub.motion={kind='expression', formula='sin(t)^2', of='speed'}",
-            make: |_, _| Ok(speed),
+            make: &Is(speed as Given),
         },
         Kind {
             name: "angle",
             summary: "the angle of the hub [rad]",
             source: "",
-            keys: &[],
             example: "hub.motion={kind='expression', formula='sin(t)^2', of='angle'}",
-            make: |_, _| Ok(Motion::Angle),
+            make: &Is(Motion::Angle as Given),
         },
     ],
 };
 
-const SPEED: Key = key("speed", Quantity(&ANGULAR_SPEED, Any), Required, "angular speed Ω reached");
-const DURATION: Key = key("time", Quantity(&TIME, Positive), Required, "time T in which it is reached");
-const GIVES: Key = key("of", Type::Choice(&OF), Required, "quantity that is given");
+keys! {
+    struct Reached {
+        /// angular speed Ω reached
+        speed: f64 = quantity(&ANGULAR_SPEED, Any);
+        /// time T in which it is reached
+        time: f64 = quantity(&TIME, Positive);
+    }
+
+    struct Steady {
+        /// angular speed Ω
+        speed: f64 = quantity(&ANGULAR_SPEED, Any);
+    }
+}
+
+const OF_MOTION: Field<Given> = choice(&OF).called("of", "quantity that is given");
+
+keys! {
+    struct Table {
+        /// CSV file with the columns t [s] and value
+        file: File = path();
+        of: Given = OF_MOTION;
+        interpolation: Through = INTERPOLATION;
+    }
+
+    struct Formula {
+        /// formula in t, in rad/s or rad
+        formula: String = text();
+        of: Given = OF_MOTION;
+    }
+}
 
 /// A motion that is validated over the run, with what is wrong with it at `key`.
 fn prescribed(motion: Motion, c: &Context<'_>, key: &str) -> Made<Drive> {
@@ -58,12 +83,6 @@ fn of_speed<P: Profile + 'static>(profile: Result<P, ProfileError>, c: &Context<
     prescribed(speed(Arc::new(profile::checked(profile, "kind")?)), c, "kind")
 }
 
-/// The motion by the profile of the quantity that `of` names.
-fn given(profile: Made<Shared>, v: &Values, c: &Context<'_>, key: &str) -> Made<Drive> {
-    let motion: Result<_, Faults> = OF.make(v, "of", c);
-    prescribed(motion?(profile?), c, key)
-}
-
 /// The kinds of motion.
 pub static MOTION: Choice<Drive> = Choice {
     name: "motion",
@@ -74,53 +93,45 @@ pub static MOTION: Choice<Drive> = Choice {
             name: "spin-up",
             summary: "smooth spin-up from rest: Ω t/T − Ω/(2π) sin(2πt/T), then Ω",
             source: "Kane, Ryan & Banerjee 1987, doi:10.2514/3.20195",
-            keys: &[SPEED, DURATION],
             example: "hub.motion={kind='spin-up', speed='3000 rpm', time='1 min'}",
-            make: |v, c| of_speed(SpinUp::new(v.number("speed")?, v.number("time")?), c),
+            make: &Of(|k: Reached, c| of_speed(SpinUp::new(k.speed, k.time), c)),
         },
         Kind {
             name: "constant",
             summary: "constant angular speed",
             source: "",
-            keys: &[key("speed", Quantity(&ANGULAR_SPEED, Any), Required, "angular speed Ω")],
             example: "hub.motion={kind='constant', speed='-90 deg/s'}",
-            make: |v, c| of_speed(Constant::new(v.number("speed")?), c),
+            make: &Of(|k: Steady, c| of_speed(Constant::new(k.speed), c)),
         },
         Kind {
             name: "ramp",
             summary: "angular speed growing linearly from rest, then constant",
             source: "",
-            keys: &[SPEED, DURATION],
             example: "hub.motion={kind='ramp', speed='0.1 rev/s', time=3}",
-            make: |v, c| of_speed(Ramp::new(0.0, v.number("speed")?, v.number("time")?), c),
+            make: &Of(|k: Reached, c| of_speed(Ramp::new(0.0, k.speed, k.time), c)),
         },
         Kind {
             name: "table",
             summary: "table of time and angular speed or angle",
             source: "",
-            keys: &[
-                key("file", Type::Path, Required, "CSV file with the columns t [s] and value"),
-                GIVES,
-                profile::INTERPOLATION,
-            ],
             example: "hub.motion={kind='table', file='measured.csv', of='speed'}",
-            make: |v, c| given(profile::table(v, c), v, c, "file"),
+            make: &Of(|k: Table, c| {
+                prescribed((k.of)(profile::table(&k.file, k.interpolation, c)?), c, "file")
+            }),
         },
         Kind {
             name: "expression",
             summary: "formula of time t [s] for the angular speed or the angle",
             source: "",
-            keys: &[key("formula", Type::Text, Required, "formula in t, in rad/s or rad"), GIVES],
             example: "hub.motion={kind='expression', formula='4*sin(t)', of='speed'}",
-            make: |v, c| given(profile::of_time(v, c), v, c, "formula"),
+            make: &Of(|k: Formula, c| prescribed((k.of)(profile::of_time(&k.formula, c)?), c, "formula")),
         },
         Kind {
             name: "free",
             summary: "free to rotate, driven by torques, restrained or controlled",
             source: "",
-            keys: torque::KEYS,
             example: "hub={inertia=5, motion={kind='free', angle='10 deg', speed='1 rad/s', damping='0.1 N*m*s/rad', stiffness=2, rest-angle=0.1}}",
-            make: |v, c| torque::free_hub(v, c).map(Drive::Free),
+            make: &Of(|k, _| torque::free_hub(k).map(Drive::Free)),
         },
     ],
 };

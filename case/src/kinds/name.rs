@@ -1,30 +1,29 @@
 //! Names of parts, which begin the names of their columns.
 
-use crate::declaration::{Key, Presence::Optional, Type, key};
 use crate::fault::{Fault, Made};
-use crate::values::Values;
+use crate::keys::{Field, text};
 
 /// Names that columns, places and messages use otherwise.
 const TAKEN: [&str; 8] =
     ["root", "tip", "energy", "step", "time", "constraint", "momentum", "angular_momentum"];
 
 /// The key of a name that may be left out.
-pub(super) const NAME: Key =
-    key("name", Type::Text, Optional, "name, for messages and columns; that of its number if left out");
+pub(super) const NAME: Field<Option<String>> =
+    text().called("name", "name, for messages and columns; that of its number if left out");
 
 /// The name of a part that is written, empty where it is left out; `also` are names that parts of this sort cannot have.
-pub(super) fn name(v: &Values, also: &[&str]) -> Made<String> {
-    let Some(name) = v.optional_text("name")? else { return Ok(String::new()) };
+pub(super) fn name(written: Option<String>, also: &[&str]) -> Made<String> {
+    let Some(name) = written else { return Ok(String::new()) };
     let plain = |c: char| c.is_alphanumeric() || c == '-' || c == '_';
     if !name.starts_with(char::is_alphabetic) || !name.chars().all(plain) {
         let message = format!("`{name}` cannot begin the name of a column");
         let help = "begin with a letter, and go on with letters, digits, `-` and `_`";
         return Err(Fault::new("name", message).help(help).into());
     }
-    if TAKEN.contains(&name) || also.contains(&name) {
+    if TAKEN.contains(&name.as_str()) || also.contains(&name.as_str()) {
         return Err(Fault::new("name", format!("`{name}` has a meaning of its own")).into());
     }
-    Ok(name.to_owned())
+    Ok(name)
 }
 
 /// `name`, or that of its number, from 0: `joint`, `joint2`, ….

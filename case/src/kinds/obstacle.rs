@@ -1,13 +1,14 @@
 //! Rigid obstacles.
 
-use super::amplitude::{CHANGE, amplitude};
-use super::vector::{unit, vector};
-use crate::declaration::{Bound::*, Key, Presence as Default, Presence::*, Type, Type::Quantity, key};
-use crate::fault::{Fault, Faults, Made, both};
-use crate::kind::{Choice, Context, Kind};
+use super::amplitude::CHANGE;
+use super::vector::unit;
+use crate::declaration::Bound::*;
+use crate::fault::{Fault, Made, both};
+use crate::keys::{Field, boolean, keys, quantity, table, vector};
+use crate::kind::{Choice, Context, Kind, Of};
 use crate::units::{ANGLE, FACTOR, LENGTH};
-use crate::values::Values;
 use flexion::contact::{Circle, Obstacle, Plane, Sphere, Translation};
+use flexion::hub_beam::load::Amplitude;
 use flexion::linalg::Vec3;
 use flexion::profile::jumping_derivative;
 use std::sync::Arc;
@@ -25,47 +26,36 @@ pub struct Placed {
     pub assumed: Option<&'static str>,
 }
 
-/// The motion of an obstacle; `None` for one at rest.
-fn motion(v: &Values, c: &Context<'_>) -> Made<Option<Translation>> {
-    let Some(_) = v.optional("motion")? else { return Ok(None) };
-    let v = v.table("motion")?;
-    let made = || {
-        let (direction, profile) = both(vector(v, "displacement"), amplitude(v, c))?;
-        let Some(displacement) = profile else {
-            let message = "a constant amplitude is no motion: the obstacle keeps its place";
-            let help =
-                "give the amplitude as a `ramp`, a `table` or an `expression`, or leave the motion out";
-            return Err(Fault::new(CHANGE.name, message).help(help).into());
-        };
-        let duration = c.duration()?;
-        let within = |t: &&f64| **t > 0.0 && **t <= duration;
-        let jumps = |t: &&f64| jumping_derivative(displacement.as_ref(), **t) == 0;
-        if let Some(time) = displacement.breaks().iter().filter(within).find(jumps) {
-            let message =
-                format!("the displacement of the obstacle jumps at t = {time} s, which no motion does");
-            return Err(Fault::new(CHANGE.name, message).into());
-        }
-        Ok(Some(Translation { direction, displacement }))
-    };
-    made().map_err(|faults: Faults| faults.within("motion"))
+keys! {
+    /// What a case says of the motion of an obstacle.
+    struct Moved {
+        /// components of the displacement at the amplitude 1
+        displacement: Vec3 = vector(&LENGTH).required();
+        amplitude: Amplitude = CHANGE;
+    }
 }
 
-/// Keys of the motion of an obstacle.
-static MOVED: [Key; 2] = [
-    key(
-        "displacement",
-        Type::Quantities(&LENGTH, Any),
-        Required,
-        "components of the displacement at the amplitude 1",
-    ),
-    CHANGE,
-];
-const MOTION: Key = key(
-    "motion",
-    Type::Table(&MOVED),
-    Optional,
-    "prescribed translation of the obstacle, at rest if left out",
-);
+const MOTION: Field<Option<Moved>> =
+    table().called("motion", "prescribed translation of the obstacle, at rest if left out");
+
+/// The motion of an obstacle; `None` for one at rest.
+fn motion(moved: Option<Moved>, c: &Context<'_>) -> Made<Option<Translation>> {
+    let Some(Moved { displacement: direction, amplitude }) = moved else { return Ok(None) };
+    let key = "motion.amplitude";
+    let Some(displacement) = amplitude else {
+        let message = "a constant amplitude is no motion: the obstacle keeps its place";
+        let help = "give the amplitude as a `ramp`, a `table` or an `expression`, or leave the motion out";
+        return Err(Fault::new(key, message).help(help).into());
+    };
+    let duration = c.duration()?;
+    let within = |t: &&f64| **t > 0.0 && **t <= duration;
+    let jumps = |t: &&f64| jumping_derivative(displacement.as_ref(), **t) == 0;
+    if let Some(time) = displacement.breaks().iter().filter(within).find(jumps) {
+        let message = format!("the displacement of the obstacle jumps at t = {time} s, which no motion does");
+        return Err(Fault::new(key, message).into());
+    }
+    Ok(Some(Translation { direction, displacement }))
+}
 
 /// An obstacle that is fixed where its mount is said.
 fn placed(
@@ -78,7 +68,44 @@ fn placed(
     Placed { obstacle, planar: planar && stays, stop: false, assumed }
 }
 
-const CENTRE: &str = "centre";
+keys! {
+    struct Flat {
+        /// a point of the plane, the origin if left out
+        point: Vec3 = vector(&LENGTH);
+        /// direction out of the obstacle; [0, 1, 0] if left out for a beam on a hub
+        normal: Option<Vec3> = vector(&FACTOR);
+        /// angle about z from the x axis to the plane, in the place of `normal`; the free side is to its left
+        angle: Option<f64> = quantity(&ANGLE, Any);
+        motion: Option<Moved> = MOTION;
+    }
+
+    struct Cylinder {
+        /// a point of its axis, the origin if left out
+        centre: Vec3 = vector(&LENGTH);
+        /// direction of its axis; [0, 0, 1] if left out for a beam on a hub
+        axis: Option<Vec3> = vector(&FACTOR);
+        /// radius
+        radius: f64 = quantity(&LENGTH, Positive);
+        /// the point is inside, in a hole
+        inside: bool = boolean().or_false();
+        motion: Option<Moved> = MOTION;
+    }
+
+    struct Ball {
+        /// its centre, the origin if left out
+        centre: Vec3 = vector(&LENGTH);
+        /// radius
+        radius: f64 = quantity(&LENGTH, Positive);
+        /// the point is inside
+        inside: bool = boolean().or_false();
+        motion: Option<Moved> = MOTION;
+    }
+
+    pub(crate) struct Stop {
+        /// height of the stop over the axis of the undeformed beam: positive on the side of y, negative on the other
+        offset: f64 = quantity(&LENGTH, Any);
+    }
+}
 
 /// The kinds of obstacle.
 pub static OBSTACLE: Choice<Placed> = Choice {
@@ -90,31 +117,10 @@ pub static OBSTACLE: Choice<Placed> = Choice {
             name: "plane",
             summary: "half-space behind a plane",
             source: "",
-            keys: &[
-                key(
-                    "point",
-                    Type::Quantities(&LENGTH, Any),
-                    Empty,
-                    "a point of the plane, the origin if left out",
-                ),
-                key(
-                    "normal",
-                    Type::Quantities(&FACTOR, Any),
-                    Empty,
-                    "direction out of the obstacle; [0, 1, 0] if left out for a beam on a hub",
-                ),
-                key(
-                    "angle",
-                    Quantity(&ANGLE, Any),
-                    Optional,
-                    "angle about z from the x axis to the plane, in the place of `normal`; the free side is to its left",
-                ),
-                MOTION,
-            ],
             example: "contact=[{obstacle={kind='plane', point=[0, '1 mm'], angle='180 deg'}, law={kind='hertz', stiffness=1e5}}]",
-            make: |v, c| {
-                let (point, motion) = both(vector(v, "point"), motion(v, c))?;
-                let plane = match (unit(v, "normal")?, v.optional_number("angle")?) {
+            make: &Of(|Flat { point, normal, angle, motion: moved }, c| {
+                let (motion, assumed) = (motion(moved, c)?, normal.is_none() && angle.is_none());
+                let plane = match (unit(normal, "normal")?, angle) {
                     (Some(_), Some(_)) => {
                         let fault = Fault::new("angle", "says the same as `normal`: leave one of them out");
                         return Err(fault.into());
@@ -123,72 +129,39 @@ pub static OBSTACLE: Choice<Placed> = Choice {
                     (None, angle) => Plane::inclined(point, angle.unwrap_or(0.0), motion.clone()),
                 };
                 let planar = plane.normal[2] == 0.0;
-                let assumed = !(v.is_written("normal") || v.has("angle"));
                 Ok(placed(Arc::new(plane), &motion, planar, assumed.then_some("normal")))
-            },
+            }),
         },
         Kind {
             name: "cylinder",
             summary: "circular cylinder, or the outside of a hole; in the plane a disc",
             source: "",
-            keys: &[
-                key(
-                    CENTRE,
-                    Type::Quantities(&LENGTH, Any),
-                    Empty,
-                    "a point of its axis, the origin if left out",
-                ),
-                key(
-                    "axis",
-                    Type::Quantities(&FACTOR, Any),
-                    Empty,
-                    "direction of its axis; [0, 0, 1] if left out for a beam on a hub",
-                ),
-                key("radius", Quantity(&LENGTH, Positive), Required, "radius"),
-                key("inside", Type::Boolean, Default::Boolean(false), "the point is inside, in a hole"),
-                MOTION,
-            ],
             example: "contact=[{obstacle={kind='cylinder', centre=[2, '501 mm'], radius='500 mm'}, law={kind='hertz', stiffness=1e5}}]",
-            make: |v, c| {
-                let ((centre, axis), motion) = both(both(vector(v, CENTRE), unit(v, "axis")), motion(v, c))?;
+            make: &Of(|Cylinder { centre, axis, radius, inside: hollow, motion: moved }, c| {
+                let (axis, motion) = both(unit(axis, "axis"), motion(moved, c))?;
                 let assumed = axis.is_none().then_some("axis");
                 let axis = axis.unwrap_or(Vec3([0.0, 0.0, 1.0]));
-                let (radius, hollow) = (v.number("radius")?, v.boolean("inside")?);
                 let cylinder = Circle { centre, axis, radius, hollow, motion: motion.clone() };
                 Ok(placed(Arc::new(cylinder), &motion, axis[0] == 0.0 && axis[1] == 0.0, assumed))
-            },
+            }),
         },
         Kind {
             name: "sphere",
             summary: "ball, or the inside of a hollow one",
             source: "",
-            keys: &[
-                key(CENTRE, Type::Quantities(&LENGTH, Any), Empty, "its centre, the origin if left out"),
-                key("radius", Quantity(&LENGTH, Positive), Required, "radius"),
-                key("inside", Type::Boolean, Default::Boolean(false), "the point is inside"),
-                MOTION,
-            ],
             example: "contact=[{obstacle={kind='sphere', centre=[1.9, '-51 mm'], radius='50 mm'}, law={kind='hertz', stiffness=1e4}}]",
-            make: |v, c| {
-                let (centre, motion) = both(vector(v, CENTRE), motion(v, c))?;
-                let (radius, hollow) = (v.number("radius")?, v.boolean("inside")?);
+            make: &Of(|Ball { centre, radius, inside: hollow, motion: moved }, c| {
+                let motion = motion(moved, c)?;
                 let sphere = Sphere { centre, radius, hollow, motion: motion.clone() };
                 Ok(placed(Arc::new(sphere), &motion, centre[2] == 0.0, None))
-            },
+            }),
         },
         Kind {
             name: "stop",
             summary: "stop beside the beam, fixed to the hub: bounds the deflection of the station",
             source: "",
-            keys: &[key(
-                "offset",
-                Quantity(&LENGTH, Any),
-                Required,
-                "height of the stop over the axis of the undeformed beam: positive on the side of y, negative on the other",
-            )],
             example: "contact=[{obstacle={kind='stop', offset='-1 um'}, law={kind='hertz', stiffness=1e5}}]",
-            make: |v, _| {
-                let offset = v.number("offset")?;
+            make: &Of(|Stop { offset }, _| {
                 if offset == 0.0 {
                     let message = "a stop at the offset 0 is on neither side of the beam";
                     let help =
@@ -201,7 +174,7 @@ pub static OBSTACLE: Choice<Placed> = Choice {
                     motion: None,
                 };
                 Ok(Placed { obstacle: Arc::new(plane), planar: true, stop: true, assumed: None })
-            },
+            }),
         },
     ],
 };

@@ -1,10 +1,9 @@
 //! Profiles of a case: tables in files and formulas, for whatever changes with time or along the beam.
 
-use crate::declaration::{Key, Presence as Default, Type, key};
 use crate::fault::{At, Fault, Made};
 use crate::files;
-use crate::kind::{Choice, Context, Kind};
-use crate::values::Values;
+use crate::keys::{Field, File, choice};
+use crate::kind::{Choice, Context, Is, Kind};
 use flexion::profile::{End, Expression, Pieces, Profile, ProfileError, Table, covers};
 use std::sync::Arc;
 
@@ -29,10 +28,18 @@ pub(super) fn checked<T>(result: Result<T, ProfileError>, key: &str) -> Made<T> 
 }
 
 /// A curve through rows, and a caution.
-type Through = fn(&[(f64, f64)]) -> Result<(Shared, Option<String>), ProfileError>;
+pub(super) type Through = fn(&[(f64, f64)]) -> Result<(Shared, Option<String>), ProfileError>;
 
 /// Part of the range of its rows by which a spline may leave it without a word.
 const OVERSHOOT: f64 = 0.05;
+
+fn linear(rows: &[(f64, f64)]) -> Result<(Shared, Option<String>), ProfileError> {
+    Ok((Arc::new(Pieces::linear(rows)?), None))
+}
+
+fn monotone(rows: &[(f64, f64)]) -> Result<(Shared, Option<String>), ProfileError> {
+    Ok((Arc::new(Pieces::monotone(rows)?), None))
+}
 
 fn spline(rows: &[(f64, f64)]) -> Result<(Shared, Option<String>), ProfileError> {
     let table = Table::new(rows, End::default())?;
@@ -57,63 +64,59 @@ pub static THROUGH: Choice<Through> = Choice {
             name: "linear",
             summary: "straight lines",
             source: "",
-            keys: &[],
             example: "load=[{on='2 m', force=[0, 3], amplitude={kind='table', times=[0, 1], factors=[0, 1], interpolation='linear'}}]",
-            make: |_, _| Ok(|rows| Ok((Arc::new(Pieces::linear(rows)?), None))),
+            make: &Is(linear as Through),
         },
         Kind {
             name: "monotone",
             summary: "monotone cubics, with continuous slopes, which never leave the values of neighbouring rows",
             source: "Fritsch & Butland 1984, doi:10.1137/0905021",
-            keys: &[],
             example: "load=[{on='2 m', force=[0, 3], amplitude={kind='table', times=[0, 1], factors=[0, 1], interpolation='monotone'}}]",
-            make: |_, _| Ok(|rows| Ok((Arc::new(Pieces::monotone(rows)?), None))),
+            make: &Is(monotone as Through),
         },
         Kind {
             name: "spline",
             summary: "a cubic spline, with continuous curvatures, for smooth and dense rows: it overshoots where rows change abruptly",
             source: "de Boor 2001, chapter IV",
-            keys: &[],
             example: "load=[{on='2 m', force=[0, 3], amplitude={kind='table', times=[0, 1, 2], factors=[0, 1, 4], interpolation='spline'}}]",
-            make: |_, _| Ok(spline),
+            make: &Is(spline as Through),
         },
     ],
 };
 
-const fn between(default: &'static str) -> Key {
-    key("interpolation", Type::Choice(&THROUGH), Default::Name(default), "values between the rows")
+const fn between(default: &'static str) -> Field<Through> {
+    choice(&THROUGH).or_name(default).called("interpolation", "values between the rows")
 }
 
 /// The key of the curve through a table of a motion, which must be smooth, and of a load, which is what its rows and straight lines between
 /// them say.
-pub(super) const INTERPOLATION: Key = between("monotone");
-pub(super) const OF_LOADS: Key = between("linear");
+pub(super) const INTERPOLATION: Field<Through> = between("monotone");
+pub(super) const OF_LOADS: Field<Through> = between("linear");
 
 /// The curve through rows of times [s] and values that are at `key`.
-pub(super) fn through(rows: &[(f64, f64)], v: &Values, c: &Context<'_>, key: &str) -> Made<Shared> {
-    let (profile, caution) = checked(THROUGH.make(v, "interpolation", c)?(rows), key)?;
+pub(super) fn through(rows: &[(f64, f64)], curve: Through, c: &Context<'_>, key: &str) -> Made<Shared> {
+    let (profile, caution) = checked(curve(rows), key)?;
     c.cautions.borrow_mut().extend(caution);
     Ok(profile)
 }
 
 /// The curve through the rows of the file at `file`: times [s] and values.
-pub(super) fn table(v: &Values, c: &Context<'_>) -> Made<Shared> {
-    let (name, bytes) = c.file(v, "file")?;
+pub(super) fn table(file: &File, curve: Through, c: &Context<'_>) -> Made<Shared> {
     let what = "two numbers with a comma between: a time in s and a value";
-    let rows = files::rows::read(&bytes, name, what).at("file")?;
-    through(&rows.into_iter().map(<(f64, f64)>::from).collect::<Vec<_>>(), v, c, "file")
+    let rows = files::rows::read(&file.bytes, &file.name, what).at("file")?;
+    through(&rows.into_iter().map(<(f64, f64)>::from).collect::<Vec<_>>(), curve, c, "file")
 }
 
 /// The formula at `formula` in time t [s].
-pub(super) fn of_time(v: &Values, c: &Context<'_>) -> Made<Shared> {
+pub(super) fn of_time(text: &str, c: &Context<'_>) -> Made<Shared> {
     let duration = c.duration()?;
     // Of a run without duration, its start and what follows at once.
-    formula(v, "t", if duration > 0.0 { duration } else { 1e-3 })
+    formula(text, "t", if duration > 0.0 { duration } else { 1e-3 })
 }
 
 /// The formula at `formula` in a variable, which goes from 0 to `extent`.
-pub(super) fn formula(v: &Values, variable: &str, extent: f64) -> Made<Shared> {
-    Ok(Arc::new(checked(Expression::new(v.text("formula")?, variable, extent), "formula")?))
+pub(super) fn formula(text: &str, variable: &str, extent: f64) -> Made<Shared> {
+    Ok(Arc::new(checked(Expression::new(text, variable, extent), "formula")?))
 }
 
 /// The profile, if it covers the run.
@@ -123,8 +126,7 @@ pub(super) fn covering(profile: Shared, c: &Context<'_>, key: &str) -> Made<Shar
 }
 
 /// Rows of a place or time, and a factor.
-pub(super) fn factors(v: &Values, places: &str) -> Made<Vec<(f64, f64)>> {
-    let (places, factors) = (v.numbers(places)?, v.numbers("factors")?);
+pub(super) fn factors(places: &[f64], factors: &[f64]) -> Made<Vec<(f64, f64)>> {
     if places.len() != factors.len() {
         let message = format!("there are {} factors for {} rows", factors.len(), places.len());
         return Err(Fault::new("factors", message).into());

@@ -1,9 +1,8 @@
 //! The axis about which a system in space rotates steadily: in `modes` and `campbell`, and at the start of a run.
 
-use super::vector::optional_vector;
-use crate::declaration::{Bound::*, Presence::*, Type, key};
 use crate::fault::{Fault, Made};
-use crate::kind::Table;
+use crate::keys::{keys, text, vector};
+use crate::kind::{Of, Table};
 use crate::units::{FACTOR, LENGTH};
 use flexion::analysis::rotation::rotate_stably;
 use flexion::linalg::Vec3;
@@ -23,60 +22,43 @@ pub enum About {
     Line(Axis),
 }
 
+keys! {
+    /// What a case says of the axis.
+    struct Written {
+        /// name of a revolute or cylindrical joint with the ground: the system rotates about its axis
+        about: Option<String> = text();
+        /// direction of the axis, in the place of a joint
+        axis: Option<Vec3> = vector(&FACTOR);
+        /// a point of the axis, the origin if left out
+        point: Option<Vec3> = vector(&LENGTH);
+    }
+}
+
 /// The table `[rotation]`.
-pub static ROTATION: Table<About> = Table {
-    key: key(
-        "rotation",
-        Type::Table(&[
-            key(
-                "about",
-                Type::Text,
-                Optional,
-                "name of a revolute or cylindrical joint with the ground: the system rotates about its axis",
-            ),
-            key(
-                "axis",
-                Type::Quantities(&FACTOR, Any),
-                Empty,
-                "direction of the axis, in the place of a joint",
-            ),
-            key(
-                "point",
-                Type::Quantities(&LENGTH, Any),
-                Empty,
-                "a point of the axis, the origin if left out",
-            ),
-        ]),
-        Optional,
-        "axis about which `modes` and `campbell` rotate the system, and the ground with it; that of the joint with the ground if \
-         left out",
-    ),
-    example: "rotation={axis=[0, 0.1, 1], point=[0, 0, '5 cm']}",
-    make: |v, _| {
-        let (about, axis, point) =
-            (v.optional_text("about")?, optional_vector(v, "axis")?, optional_vector(v, "point")?);
-        match (about, axis) {
-            (Some(_), Some(_)) => {
-                let help = "leave `axis` and `point` out, or `about`";
-                Err(Fault::new("axis", "`about` already says the axis: that of the joint").help(help).into())
-            }
-            (Some(_), None) if point.is_some() => {
-                Err(Fault::new("point", "belongs to `axis`, and the axis is that of a joint").into())
-            }
-            (Some(name), None) => Ok(About::Joint(name.to_owned())),
-            (None, Some(axis)) => {
-                let message = "has no direction: one of its components must not be zero";
-                let axis =
-                    Axis::new(point.unwrap_or_default(), axis).ok_or_else(|| Fault::new("axis", message));
-                Ok(About::Line(axis?))
-            }
-            (None, None) => {
-                let help = "write `axis = [0, 0, 1]`, or `about` with the name of a joint";
-                Err(Fault::new("", "says no axis").help(help).into())
-            }
+pub static ROTATION: Table<About> = Table::one(
+    "rotation",
+    "axis about which `modes` and `campbell` rotate the system, and the ground with it; that of the joint with the ground if left out",
+    "rotation={axis=[0, 0.1, 1], point=[0, 0, '5 cm']}",
+    &Of(|Written { about, axis, point }, _| match (about, axis) {
+        (Some(_), Some(_)) => {
+            let help = "leave `axis` and `point` out, or `about`";
+            Err(Fault::new("axis", "`about` already says the axis: that of the joint").help(help).into())
         }
-    },
-};
+        (Some(_), None) if point.is_some() => {
+            Err(Fault::new("point", "belongs to `axis`, and the axis is that of a joint").into())
+        }
+        (Some(name), None) => Ok(About::Joint(name)),
+        (None, Some(axis)) => {
+            let message = "has no direction: one of its components must not be zero";
+            let axis = Axis::new(point.unwrap_or_default(), axis).ok_or_else(|| Fault::new("axis", message));
+            Ok(About::Line(axis?))
+        }
+        (None, None) => {
+            let help = "write `axis = [0, 0, 1]`, or `about` with the name of a joint";
+            Err(Fault::new("", "says no axis").help(help).into())
+        }
+    }),
+);
 
 /// A steady rotation of a system in space.
 #[derive(Clone, Debug, PartialEq)]

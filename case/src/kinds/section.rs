@@ -1,19 +1,11 @@
 //! The section of a case: kinds, keys and makers.
 
-use super::shape::{self, Read};
-use crate::declaration::{
-    Bound::*,
-    Key, Presence as Default,
-    Presence::Required,
-    Type,
-    Type::{Boolean, Quantities, Quantity},
-    key,
-};
+use crate::declaration::Bound::*;
 use crate::fault::{At, Fault, Faults, Made};
 use crate::files;
-use crate::kind::{Choice, Context, Kind};
+use crate::keys::{Field, File, boolean, choice, keys, number, path, quantities, quantity};
+use crate::kind::{Choice, Context, Is, Kind, Of};
 use crate::units::*;
-use crate::values::Values;
 use flexion::section::{
     self, BladeSection, Graded, HomogeneousBlade, Inertia, Material, Piecewise, PlanarBlade, Resultants,
     SectionError, Segment, Shape, Tapered, Uniform,
@@ -62,41 +54,213 @@ impl Section {
     }
 }
 
-const E: Key = key("modulus", Quantity(&MODULUS, Positive), Required, "Young's modulus E");
-const RHO: Key = key("density", Quantity(&DENSITY, Positive), Required, "density ρ");
-const ROTARY: Key =
-    key("rotary-inertia", Boolean, Default::Boolean(false), "rotary inertia of the section, ρI, is kept");
+const E: Field<f64> = quantity(&MODULUS, Positive).called("modulus", "Young's modulus E");
+const RHO: Field<f64> = quantity(&DENSITY, Positive).called("density", "density ρ");
+const ROTARY: Field<bool> =
+    boolean().or_false().called("rotary-inertia", "rotary inertia of the section, ρI, is kept");
+const MASS_OF_LENGTH: Field<f64> =
+    quantity(&MASS_PER_LENGTH, Positive).called("mass-per-length", "mass per length ρA");
+const AXIAL: Field<f64> =
+    quantity(&AXIAL_STIFFNESS, Positive).called("axial-stiffness", "axial stiffness EA");
+const DIMENSION: Field<f64> = quantity(&LENGTH, Positive);
+const EI: Field<f64> = quantity(&BENDING_STIFFNESS, Positive);
 
-const fn dimension(name: &'static str, doc: &'static str) -> Key {
-    key(name, Quantity(&LENGTH, Positive), Required, doc)
+keys! {
+    struct General {
+        modulus: f64 = E;
+        density: f64 = RHO;
+        /// area A
+        area: f64 = quantity(&AREA, Positive);
+        /// second moment of area I for bending in the plane of motion
+        second_moment: f64 = quantity(&SECOND_MOMENT, Positive);
+        rotary_inertia: bool = ROTARY;
+    }
+
+    struct Rectangle {
+        modulus: f64 = E;
+        density: f64 = RHO;
+        /// width, normal to the plane of motion
+        width: f64 = DIMENSION;
+        /// height, in the plane of motion
+        height: f64 = DIMENSION;
+        rotary_inertia: bool = ROTARY;
+    }
+
+    struct Circle {
+        modulus: f64 = E;
+        density: f64 = RHO;
+        /// radius
+        radius: f64 = DIMENSION;
+        rotary_inertia: bool = ROTARY;
+    }
+
+    struct Tube {
+        modulus: f64 = E;
+        density: f64 = RHO;
+        /// outer radius
+        outer_radius: f64 = DIMENSION;
+        /// inner radius, less than the outer
+        inner_radius: f64 = DIMENSION;
+        rotary_inertia: bool = ROTARY;
+    }
+
+    struct Ellipse {
+        modulus: f64 = E;
+        density: f64 = RHO;
+        /// semi-axis a, normal to the plane of motion
+        semi_width: f64 = DIMENSION;
+        /// semi-axis b, in the plane of motion
+        semi_height: f64 = DIMENSION;
+        rotary_inertia: bool = ROTARY;
+    }
+
+    struct InPlane {
+        mass_per_length: f64 = MASS_OF_LENGTH;
+        axial_stiffness: f64 = AXIAL;
+        /// bending stiffness EI in the plane of motion
+        bending_stiffness: f64 = EI;
+        /// rotary inertia per length ρI
+        rotary_inertia: f64 = quantity(&ROTARY_INERTIA, NotNegative).or(0.0);
+    }
+
+    struct InTwoPlanes {
+        mass_per_length: f64 = MASS_OF_LENGTH;
+        axial_stiffness: f64 = AXIAL;
+        /// torsional stiffness GJ
+        torsional_stiffness: f64 = EI;
+        /// bending stiffness EI in the direction of the height
+        bending_stiffness: f64 = EI;
+        /// bending stiffness EI in the direction across
+        bending_stiffness_across: f64 = EI;
+        /// rotary inertia per length in bending in the direction of the height
+        rotary_inertia: f64 = quantity(&ROTARY_INERTIA, NotNegative).or(0.0);
+        /// rotary inertia per length in bending in the direction across
+        rotary_inertia_across: f64 = quantity(&ROTARY_INERTIA, NotNegative).or(0.0);
+    }
+
+    struct PowerLaw {
+        /// Young's modulus Eh of the ceramic
+        ceramic_modulus: f64 = quantity(&MODULUS, Positive);
+        /// Young's modulus Et of the metal
+        metal_modulus: f64 = quantity(&MODULUS, Positive);
+        /// density ρh of the ceramic
+        ceramic_density: f64 = quantity(&DENSITY, Positive);
+        /// density ρt of the metal
+        metal_density: f64 = quantity(&DENSITY, Positive);
+        /// width b, normal to the plane of motion
+        width: f64 = DIMENSION;
+        /// height h, in the plane of motion
+        height: f64 = DIMENSION;
+        /// exponent N of the power law
+        exponent: f64 = number(NotNegative);
+        /// first mass moment of the section, ρS, is kept
+        first_moment: bool = boolean().or_false();
+        rotary_inertia: bool = ROTARY;
+    }
+
+    struct TaperedRectangle {
+        modulus: f64 = E;
+        density: f64 = RHO;
+        /// width at the root, normal to the plane of motion
+        root_width: f64 = DIMENSION;
+        /// width at the tip
+        tip_width: f64 = DIMENSION;
+        /// height at the root, in the plane of motion
+        root_height: f64 = DIMENSION;
+        /// height at the tip
+        tip_height: f64 = DIMENSION;
+        rotary_inertia: bool = ROTARY;
+    }
+
+    struct TaperedCircle {
+        modulus: f64 = E;
+        density: f64 = RHO;
+        /// radius at the root
+        root_radius: f64 = DIMENSION;
+        /// radius at the tip
+        tip_radius: f64 = DIMENSION;
+        rotary_inertia: bool = ROTARY;
+    }
+
+    struct TaperedTube {
+        modulus: f64 = E;
+        density: f64 = RHO;
+        /// outer radius at the root
+        root_outer_radius: f64 = DIMENSION;
+        /// inner radius at the root, less than the outer
+        root_inner_radius: f64 = DIMENSION;
+        /// outer radius at the tip
+        tip_outer_radius: f64 = DIMENSION;
+        /// inner radius at the tip, less than the outer
+        tip_inner_radius: f64 = DIMENSION;
+        rotary_inertia: bool = ROTARY;
+    }
+
+    struct Segments {
+        /// stations at which the segments end
+        ends: Vec<f64> = quantities(&LENGTH, Positive);
+        /// Young's moduli E
+        modulus: Vec<f64> = quantities(&MODULUS, Positive);
+        /// densities ρ
+        density: Vec<f64> = quantities(&DENSITY, Positive);
+        /// areas A
+        area: Vec<f64> = quantities(&AREA, Positive);
+        /// second moments of area I for bending in the plane of motion
+        second_moment: Vec<f64> = quantities(&SECOND_MOMENT, Positive);
+        rotary_inertia: bool = ROTARY;
+    }
+
+    struct Rows {
+        /// CSV file whose first line names the columns x, mass, EA, EI and, if wanted, ES, first-moment, rotary-inertia, in SI or as `x [mm]`
+        file: File = path();
+        /// values between the rows
+        interpolation: section::Interpolation = choice(&INTERPOLATION).or_name("linear");
+    }
+
+    struct OfBlade {
+        /// file of the properties
+        file: File = path();
+        /// format of the file
+        format: files::blade::Format = choice(&FORMAT).or_name("csv");
+        /// what couples stretch, bending and torsion in the file is left out: each stiffness is that at zero force of the others
+        ignore_coupling: bool = boolean().or_false();
+    }
 }
 
-fn kept(v: &Values) -> Made<Inertia> {
-    Ok(if v.boolean("rotary-inertia")? { Inertia::Rotary } else { Inertia::Translation })
+fn kept(rotary: bool) -> Inertia {
+    if rotary { Inertia::Rotary } else { Inertia::Translation }
 }
 
 /// One material and one shape all along the beam.
-fn homogeneous(v: &Values, c: &Context<'_>, shape: Read) -> Made<Section> {
-    let (modulus, density, shape) = (v.number("modulus")?, v.number("density")?, shape(v, "")?);
-    let planar = Uniform::from_material(modulus, density, shape).at("")?.with_inertia(kept(v)?);
+fn homogeneous(of: Material, rotary: bool, shape: Shape, c: &Context<'_>) -> Made<Section> {
+    let planar = Uniform::from_material(of.modulus, of.density, shape).at("")?.with_inertia(kept(rotary));
     Ok(Section {
         height: height(shape),
         shapes: Some([shape; 2]),
-        spatial: blade_of_shapes(v, c, shape, shape)?,
+        spatial: blade_of_shapes(of, c, [shape; 2])?,
         ..Section::planar(planar)
     })
 }
 
 /// One material, and a shape whose dimensions change linearly from root to tip.
-fn tapered(v: &Values, c: &Context<'_>, shape: Read) -> Made<Section> {
-    let (root, tip) = (shape(v, "root-")?, shape(v, "tip-")?);
-    let planar = Tapered::new(v.number("modulus")?, v.number("density")?, c.length()?, root, tip).at("")?;
+fn tapered(of: Material, rotary: bool, shapes: [Shape; 2], c: &Context<'_>) -> Made<Section> {
+    let [root, tip] = shapes;
+    let planar = Tapered::new(of.modulus, of.density, c.length()?, root, tip).at("")?;
     Ok(Section {
         height: height(root),
-        shapes: Some([root, tip]),
-        spatial: blade_of_shapes(v, c, root, tip)?,
-        ..Section::planar(planar.with_inertia(kept(v)?))
+        shapes: Some(shapes),
+        spatial: blade_of_shapes(of, c, shapes)?,
+        ..Section::planar(planar.with_inertia(kept(rotary)))
     })
+}
+
+/// A tube whose inner radius is that of `key`.
+fn tube(outer_radius: f64, inner_radius: f64, key: &str) -> Made<Shape> {
+    if inner_radius >= outer_radius {
+        let message = format!("must be less than the outer radius {outer_radius} m, but is {inner_radius} m");
+        return Err(Fault::new(key, message).into());
+    }
+    Ok(Shape::Tube { outer_radius, inner_radius })
 }
 
 fn height(shape: Shape) -> Option<f64> {
@@ -104,9 +268,9 @@ fn height(shape: Shape) -> Option<f64> {
     Some(upper - lower)
 }
 
-/// The blade whose shape changes from `root` to `tip`: it is stiff out of the plane as its shape says.
-fn blade_of_shapes(v: &Values, c: &Context<'_>, root: Shape, tip: Shape) -> Made<Spatial> {
-    let (modulus, density, length) = (v.number("modulus")?, v.number("density")?, c.length()?);
+/// The blade whose shape changes from root to tip: it is stiff out of the plane as its shape says.
+fn blade_of_shapes(of: Material, c: &Context<'_>, [root, tip]: [Shape; 2]) -> Made<Spatial> {
+    let (Material { modulus, density }, length) = (of, c.length()?);
     Ok(Arc::new(move |poisson_ratio| {
         let along = Tapered::new(modulus, density, length, root, tip)?;
         Ok(Box::new(HomogeneousBlade::new(modulus, density, poisson_ratio, move |x| along.shape(x))?))
@@ -134,17 +298,15 @@ pub static INTERPOLATION: Choice<section::Interpolation> = Choice {
             name: "linear",
             summary: "straight lines",
             source: "",
-            keys: &[],
             example: r#"section={kind="table", file="section.csv", interpolation="linear"}"#,
-            make: |_, _| Ok(section::Interpolation::Linear),
+            make: &Is(section::Interpolation::Linear),
         },
         Kind {
             name: "cubic",
             summary: "monotone cubics, with continuous slopes",
             source: "Fritsch & Butland 1984, doi:10.1137/0905021",
-            keys: &[],
             example: r#"section={kind="table", file="section.csv", interpolation="cubic"}"#,
-            make: |_, _| Ok(section::Interpolation::Cubic),
+            make: &Is(section::Interpolation::Cubic),
         },
     ],
 };
@@ -159,25 +321,22 @@ pub static FORMAT: Choice<files::blade::Format> = Choice {
             name: "csv",
             summary: "SI, first line x, mass, EA, EI-flap, EI-chord and, if wanted, GJ, inertia-flap, inertia-chord, twist",
             source: "",
-            keys: &[],
             example: r#"section={kind="blade", file="blade.csv", format="csv"}"#,
-            make: |_, _| Ok(files::blade::csv),
+            make: &Is(files::blade::csv as files::blade::Format),
         },
         Kind {
             name: "elastodyn",
             summary: "blade input file of ElastoDyn; without axial stiffness, one of slenderness 100 is taken",
             source: "OpenFAST",
-            keys: &[],
             example: r#"section={kind="blade", file="elastodyn.dat", format="elastodyn"}"#,
-            make: |_, _| Ok(files::blade::elastodyn),
+            make: &Is(files::blade::elastodyn as files::blade::Format),
         },
         Kind {
             name: "beamdyn",
             summary: "blade input file of BeamDyn; offsets of the mass centre are left out",
             source: "OpenFAST",
-            keys: &[],
             example: r#"section={kind="blade", file="beamdyn.dat", format="beamdyn"}"#,
-            make: |_, _| Ok(files::blade::beamdyn),
+            make: &Is(files::blade::beamdyn as files::blade::Format),
         },
     ],
 };
@@ -192,311 +351,156 @@ pub static SECTION: Choice<Section> = Choice {
             name: "uniform",
             summary: "one material; area and second moment given",
             source: "",
-            keys: &[
-                E,
-                RHO,
-                key("area", Quantity(&AREA, Positive), Required, "area A"),
-                key(
-                    "second-moment",
-                    Quantity(&SECOND_MOMENT, Positive),
-                    Required,
-                    "second moment of area I for bending in the plane of motion",
-                ),
-                ROTARY,
-            ],
             example: r#"section={kind="uniform", modulus="7 GPa", density=2700, area="4 cm^2", second-moment="2e-8 m^4", rotary-inertia=true}"#,
-            make: uniform,
+            make: &Of(uniform),
         },
         Kind {
             name: "rectangle",
             summary: "one material; a rectangle",
             source: "",
-            keys: &[
-                E,
-                RHO,
-                key("width", Quantity(&LENGTH, Positive), Required, "width, normal to the plane of motion"),
-                key("height", Quantity(&LENGTH, Positive), Required, "height, in the plane of motion"),
-                ROTARY,
-            ],
             example: r#"section={kind="rectangle", modulus="70 GPa", density="2.7 g/cm^3", width="1 in", height="2 cm"}"#,
-            make: |v, c| homogeneous(v, c, shape::rectangle),
+            make: &Of(|Rectangle { modulus, density, width, height, rotary_inertia }, c| {
+                homogeneous(
+                    Material { modulus, density },
+                    rotary_inertia,
+                    Shape::Rectangle { width, height },
+                    c,
+                )
+            }),
         },
         Kind {
             name: "circle",
             summary: "one material; a full circle",
             source: "",
-            keys: &[E, RHO, key("radius", Quantity(&LENGTH, Positive), Required, "radius"), ROTARY],
             example: r#"section={kind="circle", modulus="70 GPa", density=2700, radius="1 cm"}"#,
-            make: |v, c| homogeneous(v, c, shape::circle),
+            make: &Of(|Circle { modulus, density, radius, rotary_inertia }, c| {
+                homogeneous(Material { modulus, density }, rotary_inertia, Shape::Circle { radius }, c)
+            }),
         },
         Kind {
             name: "tube",
             summary: "one material; a circular tube",
             source: "",
-            keys: &[
-                E,
-                RHO,
-                key("outer-radius", Quantity(&LENGTH, Positive), Required, "outer radius"),
-                key(
-                    "inner-radius",
-                    Quantity(&LENGTH, Positive),
-                    Required,
-                    "inner radius, less than the outer",
-                ),
-                ROTARY,
-            ],
             example: r#"section={kind="tube", modulus="70 GPa", density=2700, outer-radius="2 cm", inner-radius="1 cm"}"#,
-            make: |v, c| homogeneous(v, c, shape::tube),
+            make: &Of(|Tube { modulus, density, outer_radius, inner_radius, rotary_inertia }, c| {
+                let shape = tube(outer_radius, inner_radius, "inner-radius")?;
+                homogeneous(Material { modulus, density }, rotary_inertia, shape, c)
+            }),
         },
         Kind {
             name: "ellipse",
             summary: "one material; a full ellipse",
             source: "",
-            keys: &[
-                E,
-                RHO,
-                dimension("semi-width", "semi-axis a, normal to the plane of motion"),
-                dimension("semi-height", "semi-axis b, in the plane of motion"),
-                ROTARY,
-            ],
             example: r#"section={kind="ellipse", modulus="70 GPa", density=2700, semi-width="2 cm", semi-height="1 cm"}"#,
-            make: |v, c| {
-                homogeneous(v, c, |v, _| {
-                    let (semi_width, semi_height) = (v.number("semi-width")?, v.number("semi-height")?);
-                    Ok(Shape::Ellipse { semi_width, semi_height })
-                })
-            },
+            make: &Of(|Ellipse { modulus, density, semi_width, semi_height, rotary_inertia }, c| {
+                let shape = Shape::Ellipse { semi_width, semi_height };
+                homogeneous(Material { modulus, density }, rotary_inertia, shape, c)
+            }),
         },
         Kind {
             name: "resultants",
             summary: "mass and stiffnesses per length given directly",
             source: "",
-            keys: &[
-                key("mass-per-length", Quantity(&MASS_PER_LENGTH, Positive), Required, "mass per length ρA"),
-                key("axial-stiffness", Quantity(&AXIAL_STIFFNESS, Positive), Required, "axial stiffness EA"),
-                key(
-                    "bending-stiffness",
-                    Quantity(&BENDING_STIFFNESS, Positive),
-                    Required,
-                    "bending stiffness EI in the plane of motion",
-                ),
-                key(
-                    "rotary-inertia",
-                    Quantity(&ROTARY_INERTIA, NotNegative),
-                    Default::Number(0.0),
-                    "rotary inertia per length ρI",
-                ),
-            ],
             example: r#"section={kind="resultants", mass-per-length="1.2 kg/m", axial-stiffness="28 MN", bending-stiffness="930 N m²", rotary-inertia=6e-4}"#,
-            make: resultants,
+            make: &Of(resultants),
         },
         Kind {
             name: "general",
             summary: "mass and stiffnesses per length for bending in two planes and torsion",
             source: "",
-            keys: &[
-                key("mass-per-length", Quantity(&MASS_PER_LENGTH, Positive), Required, "mass per length ρA"),
-                key("axial-stiffness", Quantity(&AXIAL_STIFFNESS, Positive), Required, "axial stiffness EA"),
-                key(
-                    "torsional-stiffness",
-                    Quantity(&BENDING_STIFFNESS, Positive),
-                    Required,
-                    "torsional stiffness GJ",
-                ),
-                key(
-                    "bending-stiffness",
-                    Quantity(&BENDING_STIFFNESS, Positive),
-                    Required,
-                    "bending stiffness EI in the direction of the height",
-                ),
-                key(
-                    "bending-stiffness-across",
-                    Quantity(&BENDING_STIFFNESS, Positive),
-                    Required,
-                    "bending stiffness EI in the direction across",
-                ),
-                key(
-                    "rotary-inertia",
-                    Quantity(&ROTARY_INERTIA, NotNegative),
-                    Default::Number(0.0),
-                    "rotary inertia per length in bending in the direction of the height",
-                ),
-                key(
-                    "rotary-inertia-across",
-                    Quantity(&ROTARY_INERTIA, NotNegative),
-                    Default::Number(0.0),
-                    "rotary inertia per length in bending in the direction across",
-                ),
-            ],
             example: r#"section={kind="general", mass-per-length="1.2 kg/m", axial-stiffness="28 MN", torsional-stiffness="700 N m²", bending-stiffness="930 N m²", bending-stiffness-across="800 N m²", rotary-inertia=1e-4}"#,
-            make: general_section,
+            make: &Of(general_section),
         },
         Kind {
             name: "graded",
             summary: "a rectangle graded over its height by a power law, from metal (bottom) to ceramic (top)",
             source: "Reddy 2000, doi:10.1002/(SICI)1097-0207(20000110/30)47:1/3<663::AID-NME787>3.0.CO;2-8",
-            keys: &[
-                key(
-                    "ceramic-modulus",
-                    Quantity(&MODULUS, Positive),
-                    Required,
-                    "Young's modulus Eh of the ceramic",
-                ),
-                key(
-                    "metal-modulus",
-                    Quantity(&MODULUS, Positive),
-                    Required,
-                    "Young's modulus Et of the metal",
-                ),
-                key("ceramic-density", Quantity(&DENSITY, Positive), Required, "density ρh of the ceramic"),
-                key("metal-density", Quantity(&DENSITY, Positive), Required, "density ρt of the metal"),
-                key("width", Quantity(&LENGTH, Positive), Required, "width b, normal to the plane of motion"),
-                key("height", Quantity(&LENGTH, Positive), Required, "height h, in the plane of motion"),
-                key("exponent", Type::Number(NotNegative), Required, "exponent N of the power law"),
-                key(
-                    "first-moment",
-                    Boolean,
-                    Default::Boolean(false),
-                    "first mass moment of the section, ρS, is kept",
-                ),
-                ROTARY,
-            ],
             example: r#"section={kind="graded", ceramic-modulus="151 GPa", metal-modulus="70 GPa", ceramic-density=3000, metal-density=2707, width="2 cm", height="2 cm", exponent=1.5}"#,
-            make: graded,
+            make: &Of(graded),
         },
         Kind {
             name: "tapered-rectangle",
             summary: "one material; a rectangle whose width and height change linearly from root to tip",
             source: "",
-            keys: &[
-                E,
-                RHO,
-                dimension("root-width", "width at the root, normal to the plane of motion"),
-                dimension("tip-width", "width at the tip"),
-                dimension("root-height", "height at the root, in the plane of motion"),
-                dimension("tip-height", "height at the tip"),
-                ROTARY,
-            ],
             example: r#"section={kind="tapered-rectangle", modulus="70 GPa", density=2700, root-width="2 cm", tip-width="1 cm", root-height="3 cm", tip-height="1 cm"}"#,
-            make: |v, c| tapered(v, c, shape::rectangle),
+            make: &Of(|k: TaperedRectangle, c| {
+                let root = Shape::Rectangle { width: k.root_width, height: k.root_height };
+                let tip = Shape::Rectangle { width: k.tip_width, height: k.tip_height };
+                let material = Material { modulus: k.modulus, density: k.density };
+                tapered(material, k.rotary_inertia, [root, tip], c)
+            }),
         },
         Kind {
             name: "tapered-circle",
             summary: "one material; a full circle whose radius changes linearly from root to tip",
             source: "",
-            keys: &[
-                E,
-                RHO,
-                dimension("root-radius", "radius at the root"),
-                dimension("tip-radius", "radius at the tip"),
-                ROTARY,
-            ],
             example: r#"section={kind="tapered-circle", modulus="70 GPa", density=2700, root-radius="2 cm", tip-radius="1 cm", rotary-inertia=true}"#,
-            make: |v, c| tapered(v, c, shape::circle),
+            make: &Of(|k: TaperedCircle, c| {
+                let shapes = [k.root_radius, k.tip_radius].map(|radius| Shape::Circle { radius });
+                tapered(Material { modulus: k.modulus, density: k.density }, k.rotary_inertia, shapes, c)
+            }),
         },
         Kind {
             name: "tapered-tube",
             summary: "one material; a circular tube whose radii change linearly from root to tip",
             source: "",
-            keys: &[
-                E,
-                RHO,
-                dimension("root-outer-radius", "outer radius at the root"),
-                dimension("root-inner-radius", "inner radius at the root, less than the outer"),
-                dimension("tip-outer-radius", "outer radius at the tip"),
-                dimension("tip-inner-radius", "inner radius at the tip, less than the outer"),
-                ROTARY,
-            ],
             example: r#"section={kind="tapered-tube", modulus="70 GPa", density=2700, root-outer-radius="2 cm", root-inner-radius="1 cm", tip-outer-radius="15 mm", tip-inner-radius="1 cm"}"#,
-            make: |v, c| tapered(v, c, shape::tube),
+            make: &Of(|k: TaperedTube, c| {
+                let root = tube(k.root_outer_radius, k.root_inner_radius, "root-inner-radius")?;
+                let tip = tube(k.tip_outer_radius, k.tip_inner_radius, "tip-inner-radius")?;
+                let material = Material { modulus: k.modulus, density: k.density };
+                tapered(material, k.rotary_inertia, [root, tip], c)
+            }),
         },
         Kind {
             name: "piecewise",
             summary: "uniform segments from the root to the tip: one entry a segment in every list",
             source: "",
-            keys: &[
-                key("ends", Quantities(&LENGTH, Positive), Required, "stations at which the segments end"),
-                key("modulus", Quantities(&MODULUS, Positive), Required, "Young's moduli E"),
-                key("density", Quantities(&DENSITY, Positive), Required, "densities ρ"),
-                key("area", Quantities(&AREA, Positive), Required, "areas A"),
-                key(
-                    "second-moment",
-                    Quantities(&SECOND_MOMENT, Positive),
-                    Required,
-                    "second moments of area I for bending in the plane of motion",
-                ),
-                ROTARY,
-            ],
             example: r#"section={kind="piecewise", ends=["1 m", 2], modulus=["70 GPa", "60 GPa"], density=[2700, 2600], area=["4 cm^2", "3 cm^2"], second-moment=["2e-8 m^4", "1e-8 m^4"]}"#,
-            make: piecewise,
+            make: &Of(piecewise),
         },
         Kind {
             name: "table",
             summary: "mass and stiffnesses tabulated along the beam",
             source: "",
-            keys: &[
-                key(
-                    "file",
-                    Type::Path,
-                    Required,
-                    "CSV file whose first line names the columns x, mass, EA, EI and, if wanted, ES, first-moment, rotary-inertia, in SI or as `x [mm]`",
-                ),
-                key(
-                    "interpolation",
-                    Type::Choice(&INTERPOLATION),
-                    Default::Name("linear"),
-                    "values between the rows",
-                ),
-            ],
             example: r#"section={kind="table", file="section.csv"}"#,
-            make: table,
+            make: &Of(table),
         },
         Kind {
             name: "blade",
             summary: "properties of a blade for bending in two planes and torsion, tabulated along its span",
             source: "",
-            keys: &[
-                key("file", Type::Path, Required, "file of the properties"),
-                key("format", Type::Choice(&FORMAT), Default::Name("csv"), "format of the file"),
-                key(
-                    "ignore-coupling",
-                    Boolean,
-                    Default::Boolean(false),
-                    "what couples stretch, bending and torsion in the file is left out: each stiffness is that at zero force of the others",
-                ),
-            ],
             example: r#"section={kind="blade", file="blade.csv", ignore-coupling=true}"#,
-            make: blade,
+            make: &Of(blade),
         },
     ],
 };
 
-fn uniform(v: &Values, _: &Context<'_>) -> Made<Section> {
-    let (area, second_moment) = (v.number("area")?, v.number("second-moment")?);
-    let section = general(v.number("modulus")?, v.number("density")?, area, second_moment).at("")?;
-    Ok(Section::planar(section.with_inertia(kept(v)?)))
+fn uniform(k: General, _: &Context<'_>) -> Made<Section> {
+    let section = general(k.modulus, k.density, k.area, k.second_moment).at("")?;
+    Ok(Section::planar(section.with_inertia(kept(k.rotary_inertia))))
 }
 
-fn resultants(v: &Values, _: &Context<'_>) -> Made<Section> {
+fn resultants(k: InPlane, _: &Context<'_>) -> Made<Section> {
     let section = Uniform::from_resultants(Resultants {
-        mass: v.number("mass-per-length")?,
-        rotary_inertia: v.number("rotary-inertia")?,
-        axial_stiffness: v.number("axial-stiffness")?,
-        bending_stiffness: v.number("bending-stiffness")?,
+        mass: k.mass_per_length,
+        rotary_inertia: k.rotary_inertia,
+        axial_stiffness: k.axial_stiffness,
+        bending_stiffness: k.bending_stiffness,
         ..Resultants::default()
     });
     Ok(Section::planar(section.at("")?))
 }
 
-fn general_section(v: &Values, c: &Context<'_>) -> Made<Section> {
+fn general_section(k: InTwoPlanes, c: &Context<'_>) -> Made<Section> {
     let resultants = section::BladeResultants {
-        mass: v.number("mass-per-length")?,
-        axial_stiffness: v.number("axial-stiffness")?,
-        torsional_stiffness: v.number("torsional-stiffness")?,
-        chord_stiffness: v.number("bending-stiffness")?,
-        flap_stiffness: v.number("bending-stiffness-across")?,
-        chord_inertia: v.number("rotary-inertia")?,
-        flap_inertia: v.number("rotary-inertia-across")?,
+        mass: k.mass_per_length,
+        axial_stiffness: k.axial_stiffness,
+        torsional_stiffness: k.torsional_stiffness,
+        chord_stiffness: k.bending_stiffness,
+        flap_stiffness: k.bending_stiffness_across,
+        chord_inertia: k.rotary_inertia,
+        flap_inertia: k.rotary_inertia_across,
         twist: 0.0,
         twist_rate: 0.0,
     };
@@ -506,21 +510,20 @@ fn general_section(v: &Values, c: &Context<'_>) -> Made<Section> {
     Ok(Section { spatial, ..Section::planar(section::PlanarProjection(table)) })
 }
 
-fn graded(v: &Values, _: &Context<'_>) -> Made<Section> {
-    let inertia = match (v.boolean("first-moment")?, v.boolean("rotary-inertia")?) {
+fn graded(k: PowerLaw, _: &Context<'_>) -> Made<Section> {
+    let inertia = match (k.first_moment, k.rotary_inertia) {
         (true, false) => {
             let message = "the first mass moment cannot be kept without the rotary inertia: the kinetic energy of short waves would be negative";
             return Err(Fault::new("first-moment", message).help("add `rotary-inertia = true`").into());
         }
         (true, true) => Inertia::Full,
-        (false, _) => kept(v)?,
+        (false, rotary) => kept(rotary),
     };
-    let ceramic = Material { modulus: v.number("ceramic-modulus")?, density: v.number("ceramic-density")? };
-    let metal = Material { modulus: v.number("metal-modulus")?, density: v.number("metal-density")? };
-    let (width, height) = (v.number("width")?, v.number("height")?);
-    let section = Graded::new(ceramic, metal, v.number("exponent")?, width, height).at("")?;
+    let ceramic = Material { modulus: k.ceramic_modulus, density: k.ceramic_density };
+    let metal = Material { modulus: k.metal_modulus, density: k.metal_density };
+    let section = Graded::new(ceramic, metal, k.exponent, k.width, k.height).at("")?;
     Ok(Section {
-        height: Some(height),
+        height: Some(k.height),
         spatial: Arc::new(|_| {
             let message = "a `graded` section, which bends and stretches together, belongs to the planar hub and beam: beams in space and \
                            blades do without; take `general` with the stiffnesses about its tension centre";
@@ -531,45 +534,43 @@ fn graded(v: &Values, _: &Context<'_>) -> Made<Section> {
 }
 
 /// Segments from lists of equal length.
-fn piecewise(v: &Values, c: &Context<'_>) -> Made<Section> {
-    let ends = v.numbers("ends")?;
-    let names = ["modulus", "density", "area", "second-moment"];
+fn piecewise(k: Segments, c: &Context<'_>) -> Made<Section> {
+    let lists = [
+        ("modulus", &k.modulus),
+        ("density", &k.density),
+        ("area", &k.area),
+        ("second-moment", &k.second_moment),
+    ];
     let mut faults = Faults::default();
-    for name in names {
-        let count = v.numbers(name)?.len();
-        if count != ends.len() {
-            let message = format!("has {count} entries for the {} segments in `ends`", ends.len());
+    for (name, count) in lists.map(|(name, list)| (name, list.len())) {
+        if count != k.ends.len() {
+            let message = format!("has {count} entries for the {} segments in `ends`", k.ends.len());
             faults.0.push(Fault::new(name, message));
         }
     }
     if !faults.0.is_empty() {
         return Err(faults);
     }
-    let inertia = kept(v)?;
-    let mut segments = Vec::with_capacity(ends.len());
-    for (i, &end) in ends.iter().enumerate() {
-        let at = |name: &str| v.numbers(name).map(|list| list[i]);
-        let section = general(at("modulus")?, at("density")?, at("area")?, at("second-moment")?);
-        segments.push(Segment { end, section: section.at("ends")?.with_inertia(inertia) });
+    let mut segments = Vec::with_capacity(k.ends.len());
+    for (i, &end) in k.ends.iter().enumerate() {
+        let section = general(k.modulus[i], k.density[i], k.area[i], k.second_moment[i]);
+        segments.push(Segment { end, section: section.at("ends")?.with_inertia(kept(k.rotary_inertia)) });
     }
     let section = Piecewise::new(c.length()?, segments).at("ends")?;
     Ok(Section::planar(section))
 }
 
-fn table(v: &Values, c: &Context<'_>) -> Made<Section> {
-    let (name, bytes) = c.file(v, "file")?;
-    let rows = files::section::read(&bytes, name).at("file")?;
-    let interpolation = INTERPOLATION.make(v, "interpolation", c)?;
+fn table(Rows { file, interpolation }: Rows, c: &Context<'_>) -> Made<Section> {
+    let rows = files::section::read(&file.bytes, &file.name).at("file")?;
     let section = section::Table::new(c.length()?, &rows, interpolation).at("file")?;
     Ok(Section::planar(section))
 }
 
-fn blade(v: &Values, c: &Context<'_>) -> Made<Section> {
-    let (name, bytes) = c.file(v, "file")?;
+fn blade(OfBlade { file, format, ignore_coupling }: OfBlade, c: &Context<'_>) -> Made<Section> {
     let length = c.length()?;
-    let file = files::blade::read(&bytes, name, FORMAT.make(v, "format", c)?, length).at("file")?;
+    let file = files::blade::read(&file.bytes, &file.name, format, length).at("file")?;
     match file.coupled {
-        Some(coupled) if !v.boolean("ignore-coupling")? => {
+        Some(coupled) if !ignore_coupling => {
             let help = "with `ignore-coupling = true` it is left out, and named among the warnings";
             return Err(Fault::new("file", coupled).help(help).into());
         }

@@ -1,14 +1,12 @@
 //! Springs and dampers: along the line between two points, or towards one point in all directions.
 
-use super::mass::station;
 use super::name::{NAME, name};
-use super::vector::optional_vector;
-use crate::declaration::{Bound::*, Key, Presence as Default, Presence::*, Type, Type::Quantity, key};
-use crate::fault::{Fault, Made, both};
-use crate::kind::{Choice, Context, Kind, Table};
+use crate::declaration::Bound::*;
+use crate::fault::{Fault, Made};
+use crate::keys::{choice, keys, place, quantity, texts, vector};
+use crate::kind::{Choice, Context, Is, Kind, Of, Table};
 use crate::places::Place;
 use crate::units::{DAMPING, FORCE_PER_LENGTH, LENGTH};
-use crate::values::Values;
 use flexion::linalg::Vec3;
 
 /// A spring and a damper.
@@ -46,7 +44,7 @@ pub enum Joins {
 }
 
 /// Makes what a spring joins.
-type Make = fn(&Values, &Context<'_>) -> Made<Joins>;
+type Make = fn(&Written, &Context<'_>) -> Made<Joins>;
 
 /// The kinds of spring.
 pub static SPRING_KIND: Choice<Make> = Choice {
@@ -59,24 +57,22 @@ pub static SPRING_KIND: Choice<Make> = Choice {
             summary: "the station `on` of a beam and the point `to` fixed in space, with the same stiffness and damping in all \
                       directions and no force where both coincide",
             source: "",
-            keys: &[],
             example: "spring=[{kind='point', on='tip', stiffness='200 N/m', damping='2 N s/m', to=['2.1 m', 0]}]",
-            make: |_, _| Ok(point as Make),
+            make: &Is(point as Make),
         },
         Kind {
             name: "line",
             summary: "two parts, `between`, with a force along the line from one point to the other",
             source: "",
-            keys: &[],
             example: "spring=[{kind='line', between=['ground', 'bar'], from=[0, 0, '1 m'], to=[1, 0, 0], stiffness='200 N/m'}]",
-            make: |_, _| Ok(line as Make),
+            make: &Is(line as Make),
         },
     ],
 };
 
-/// The two places that a table joins.
-pub(super) fn between(v: &Values, c: &Context<'_>) -> Made<[Place; 2]> {
-    let (names, parts) = (v.texts("between")?, c.parts()?);
+/// The two places of these names, which a table joins.
+pub(super) fn between(names: &[String], c: &Context<'_>) -> Made<[Place; 2]> {
+    let parts = c.parts()?;
     let [a, b] = names else {
         let message = format!("takes two parts, not {}", names.len());
         let help = "write for example `between = [\"ground\", \"hub\"]`";
@@ -100,16 +96,10 @@ pub(super) fn between(v: &Values, c: &Context<'_>) -> Made<[Place; 2]> {
 }
 
 /// Refuses keys that a spring of this kind does not have.
-fn without(v: &Values, keys: &[&str], kind: &str) -> Made<()> {
-    for key in keys {
-        if v.is_written(key) {
-            let other = if kind == "point" { "line" } else { "point" };
-            let message =
-                format!("is a key of a spring of the kind `{other}`, and this one is of the kind `{kind}`");
-            return Err(Fault::new(*key, message).into());
-        }
-    }
-    Ok(())
+fn without(written: &[(bool, &str)], kind: &str, other: &str) -> Made<()> {
+    let Some((_, key)) = written.iter().find(|(written, _)| *written) else { return Ok(()) };
+    let message = format!("is a key of a spring of the kind `{other}`, and this one is of the kind `{kind}`");
+    Err(Fault::new(*key, message).into())
 }
 
 /// That a key is missing.
@@ -117,63 +107,50 @@ fn missing(key: &str, kind: &str) -> Fault {
     Fault::new("", format!("a spring of the kind `{kind}` needs `{key}`"))
 }
 
-fn point(v: &Values, c: &Context<'_>) -> Made<Joins> {
-    without(v, &["between", "from", "length"], "point")?;
-    if v.optional("on")?.is_none() {
-        return Err(missing("on", "point").into());
-    }
-    let (on, to) = both(station(v, "on", c), optional_vector(v, "to"))?;
-    Ok(Joins::Point { on, to: to.ok_or_else(|| missing("to", "point"))? })
+fn point(k: &Written, _: &Context<'_>) -> Made<Joins> {
+    let of_line =
+        [(k.between.is_some(), "between"), (k.from.is_some(), "from"), (k.length.is_some(), "length")];
+    without(&of_line, "point", "line")?;
+    let on = k.on.ok_or_else(|| missing("on", "point"))?;
+    Ok(Joins::Point { on, to: k.to.ok_or_else(|| missing("to", "point"))? })
 }
 
-fn line(v: &Values, c: &Context<'_>) -> Made<Joins> {
-    without(v, &["on"], "line")?;
-    if v.optional("between")?.is_none() {
-        return Err(missing("between", "line").into());
-    }
-    let ends = [optional_vector(v, "from")?, optional_vector(v, "to")?];
-    Ok(Joins::Line { between: between(v, c)?, ends, length: v.optional_number("length")? })
+fn line(k: &Written, c: &Context<'_>) -> Made<Joins> {
+    without(&[(k.on.is_some(), "on")], "line", "point")?;
+    let names = k.between.as_ref().ok_or_else(|| missing("between", "line"))?;
+    Ok(Joins::Line { between: between(names, c)?, ends: [k.from, k.to], length: k.length })
 }
 
-const fn place(name: &'static str, doc: &'static str) -> Key {
-    key(name, Type::Quantities(&LENGTH, Any), Empty, doc)
+keys! {
+    /// What a case says of a spring.
+    pub struct Written {
+        name: Option<String> = NAME;
+        /// what it joins
+        kind: Make = choice(&SPRING_KIND);
+        /// station of a beam, of a spring of the kind `point`
+        on: Option<(usize, f64)> = place();
+        /// the two parts, of a spring of the kind `line`
+        between: Option<Vec<String>> = texts();
+        /// point of space where it is fixed to the first part at the start; the part's own if left out
+        from: Option<Vec3> = vector(&LENGTH);
+        /// the same of the second part; of the kind `point`, the point fixed in space
+        to: Option<Vec3> = vector(&LENGTH);
+        /// stiffness k
+        stiffness: f64 = quantity(&FORCE_PER_LENGTH, NotNegative);
+        /// force over velocity, c: over the rate of the length in the kind `line`
+        damping: f64 = quantity(&DAMPING, NotNegative).or(0.0);
+        /// length without force, that at the start if left out, of the kind `line`
+        length: Option<f64> = quantity(&LENGTH, NotNegative);
+    }
 }
 
 /// The tables `[[spring]]`.
-pub static SPRING: Table<Spring> = Table {
-    key: key(
-        "spring",
-        Type::Tables(&[
-            NAME,
-            key("kind", Type::Choice(&SPRING_KIND), Required, "what it joins"),
-            key("on", Type::Place, Optional, "station of a beam, of a spring of the kind `point`"),
-            key("between", Type::Texts, Optional, "the two parts, of a spring of the kind `line`"),
-            place(
-                "from",
-                "point of space where it is fixed to the first part at the start; the part's own if left out",
-            ),
-            place("to", "the same of the second part; of the kind `point`, the point fixed in space"),
-            key("stiffness", Quantity(&FORCE_PER_LENGTH, NotNegative), Required, "stiffness k"),
-            key(
-                "damping",
-                Quantity(&DAMPING, NotNegative),
-                Default::Number(0.0),
-                "force over velocity, c: over the rate of the length in the kind `line`",
-            ),
-            key(
-                "length",
-                Quantity(&LENGTH, NotNegative),
-                Optional,
-                "length without force, that at the start if left out, of the kind `line`",
-            ),
-        ]),
-        Empty,
-        "springs and dampers",
-    ),
-    example: "spring=[{name='cord', kind='point', on='tip', stiffness='200 N/m', damping='2 N s/m', to=['2.1 m', 0]}]",
-    make: |v, c| {
-        let joins = SPRING_KIND.make(v, "kind", c)?(v, c)?;
-        let (name, stiffness, damping) = (name(v, &[])?, v.number("stiffness")?, v.number("damping")?);
-        Ok(Spring { name, stiffness, damping, joins })
-    },
-};
+pub static SPRING: Table<Spring> = Table::list(
+    "spring",
+    "springs and dampers",
+    "spring=[{name='cord', kind='point', on='tip', stiffness='200 N/m', damping='2 N s/m', to=['2.1 m', 0]}]",
+    &Of(|k: Written, c| {
+        let joins = (k.kind)(&k, c)?;
+        Ok(Spring { name: name(k.name, &[])?, stiffness: k.stiffness, damping: k.damping, joins })
+    }),
+);

@@ -6,6 +6,7 @@ use super::refine::{RefineError, Target, refused};
 use crate::layout;
 use crate::problem::Problems;
 use crate::reading::Reading;
+use crate::values::Value;
 use flexion::analysis::error::{
     Choice, Goal, Ladder, Mesh, NoAdvice, NoDifference, NotTrusted, Variant, advise,
 };
@@ -137,7 +138,11 @@ impl Rungs<'_> {
                 (basis, keys.iter().map(|(key, n)| ((*key).to_owned(), *n)).collect())
             }
             None => {
-                let elements = own().and_then(|basis| basis.count("elements").ok()).unwrap_or(OWN);
+                let elements = match own().and_then(|basis| basis.get("elements")).map(|filled| &filled.value)
+                {
+                    Some(Value::Integer(n)) => usize::try_from(*n).unwrap_or(OWN),
+                    _ => OWN,
+                };
                 (ELEMENTS, vec![("elements".to_owned(), elements)])
             }
         }
@@ -208,7 +213,8 @@ impl Rungs<'_> {
     }
 
     fn mesh(&self, choice: Choice, variant: &Variant) -> Result<Vec<String>, Problems> {
-        self.at(Choice { method: None, ..choice })?.mesh_changes(variant.mesh)
+        let changes = self.at(Choice { method: None, ..choice })?.mesh_changes(variant.mesh)?;
+        Ok(changes.iter().map(ToString::to_string).collect())
     }
 }
 

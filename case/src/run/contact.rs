@@ -88,7 +88,7 @@ impl Reading {
             Some(contacts.into_iter().filter_map(|touch| Some((touch.name, masses[touch.row?]))).collect())
         };
         let doubled = || {
-            let mut system = self.with(&self.case.finer()).ok()?.case.system().ok()?;
+            let mut system = self.changed(&self.case.finer()).ok()?.case.system().ok()?;
             let state = State { t: state.t, ..system.initial() };
             masses(system.as_mut(), &state)
         };

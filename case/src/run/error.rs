@@ -115,8 +115,7 @@ impl Reading {
         match remedy {
             Remedy::MeshAndSteps => format!("{said}; `--tolerance {COARSE}` refines them"),
             Remedy::Mesh(mesh, order) => {
-                let changes =
-                    self.mesh_changes(*mesh).unwrap_or_default().join("` and `").replace('=', " = ");
+                let changes = super::variant::said(&self.mesh_changes(*mesh).unwrap_or_default());
                 format!("{said}; with `{changes}` it is below 1 % (observed order {order:.1})")
             }
             Remedy::None => format!(

@@ -8,7 +8,7 @@ pub(crate) mod error;
 pub mod refine;
 mod restart;
 mod scene;
-mod variant;
+pub(crate) mod variant;
 
 use super::case::Output;
 use super::kinds::initial::Initial;

@@ -1,6 +1,7 @@
 //! Refinement of a case until what is asked of it is accurate enough: what is asked, and what is said.
 
 use super::Run;
+use crate::change::Change;
 use crate::problem::Problems;
 use crate::reading::Reading;
 use crate::units;
@@ -145,6 +146,7 @@ impl Reading {
     /// A run of a sequence as it is written.
     fn rung(&self, rung: &error::Rung) -> Rung {
         let changes = self.at(&rung.variant).map_or_else(|_| Vec::new(), |reading| reading.mesh_and_steps());
+        let changes = changes.iter().map(Change::to_string).collect();
         let error::Rung { goal, value, error, order, .. } = rung;
         Rung { changes, quantity: goal.quantity(), value: *value, error: *error, order: *order }
     }

@@ -1,9 +1,14 @@
 //! A case, computed in several ways: what the [variants](Variant) of its run change in it.
 
 use super::Run;
-use crate::kinds::integrator::Steps;
+use crate::change::{Change, Settable, Setting};
+use crate::keys::Field;
+use crate::kinds::basis::FiniteElements;
+use crate::kinds::integrator::{CONTACT_STEP, Controlled, STEP, Steps};
+use crate::layout::{self, BASIS, INTEGRATOR, MODEL_ON_HUB, ModelOnHub, OUTPUT, RUN, Recorded};
 use crate::problem::Problems;
 use crate::reading::Reading;
+use crate::values::Value;
 use flexion::analysis::disturb;
 use flexion::analysis::error::{Disturbance, Mesh, Refinable, SAFETY, Variant};
 use flexion::analysis::recording::{Record, Watch};
@@ -44,8 +49,9 @@ impl Refinable for Reading {
 
     fn record(&self, variant: &Variant, watch: &mut Watch<'_>) -> Result<Record, Problems> {
         // Shapes are those of the run itself.
-        let changes = [self.changes(variant)?, vec!["output.vtk=false".to_owned()]].concat();
-        let mut prepared = self.with(&changes)?.prepare()?;
+        let mut changes = self.changes(variant)?;
+        changes.push(OUTPUT.change(Recorded::vtk.to(false)));
+        let mut prepared = self.changed(&changes)?.prepare()?;
         if let Some(Disturbance { energy, period }) = variant.disturbance {
             // What cannot be disturbed moves as it did.
             let _ = disturb(prepared.live.system.as_mut(), &mut prepared.state, energy, period);
@@ -73,64 +79,61 @@ impl Refinable for Reading {
 impl Reading {
     /// The case of a variant.
     pub(super) fn at(&self, variant: &Variant) -> Result<Reading, Problems> {
-        self.with(&self.changes(variant)?)
+        self.changed(&self.changes(variant)?)
     }
 
     /// What a variant changes in the case. The exact coupling has the elements of the mesh, or elements of its own in place of another
     /// basis.
-    fn changes(&self, variant: &Variant) -> Result<Vec<String>, Problems> {
+    fn changes(&self, variant: &Variant) -> Result<Vec<Change>, Problems> {
         let (own, plan) = (self.variant(), &variant.plan);
         let mut changes = self.mesh_changes(variant.mesh)?;
         if variant.reference {
-            let elements = self.changed(&changes)?.case.hub_beam().and_then(|beam| beam.bases.elements);
+            let elements = self.altered(&changes)?.case.hub_beam().and_then(|beam| beam.bases.elements);
             let elements = elements.map_or(ELEMENTS, |(elements, _)| elements);
-            changes.push("model.coupling=exact".to_owned());
-            changes.push(format!("basis={{kind='finite-elements',elements={elements}}}"));
+            changes.push(MODEL_ON_HUB.change((ModelOnHub::coupling.key.name, Setting::Name("exact"))));
+            changes.push(BASIS.change_kind("finite-elements", vec![FiniteElements::elements.to(elements)]));
         }
         if plan.end != own.plan.end {
             // The recording interval that is left out is a part of the duration.
-            changes.push(format!("run.duration={:e}", plan.end));
-            changes.push(format!("output.step={:e}", plan.sample));
+            changes.push(RUN.change(layout::Run::duration.to(plan.end)));
+            changes.push(OUTPUT.change(Recorded::step.to(plan.sample)));
         }
-        let mut set = |key: &str, value: Option<f64>, before: Option<f64>| {
-            let other = value.filter(|_| value != before);
-            changes.extend(other.map(|value| format!("integrator.{key}={value:e}")));
-        };
         let Some(Tolerance { relative, absolute }) = variant.tolerance else {
-            set("step", plan.step, own.plan.step);
-            set("contact-step", plan.contact_step, own.plan.contact_step);
+            changes.extend(other(&STEP, plan.step, own.plan.step));
+            changes.extend(other(&CONTACT_STEP, plan.contact_step, own.plan.contact_step));
             return Ok(changes);
         };
         match own.tolerance {
             Some(before) => {
-                set("tolerance", Some(relative), Some(before.relative));
-                set("absolute-tolerance", Some(absolute), Some(before.absolute));
-                set("max-step", plan.longest_step, own.plan.longest_step);
+                changes.extend(other(&Controlled::tolerance, Some(relative), Some(before.relative)));
+                changes.extend(other(&Controlled::absolute_tolerance, Some(absolute), Some(before.absolute)));
+                changes.extend(other(&Controlled::max_step, plan.longest_step, own.plan.longest_step));
             }
-            None => changes.push(format!(
-                "integrator={{kind='radau',tolerance={relative:e},absolute-tolerance={absolute:e}}}"
+            None => changes.push(INTEGRATOR.change_kind(
+                "radau",
+                vec![Controlled::tolerance.to(relative), Controlled::absolute_tolerance.to(absolute)],
             )),
         }
         if plan.break_steps != own.plan.break_steps {
-            changes.push(format!("integrator.break-steps={}", plan.break_steps));
+            changes.push(INTEGRATOR.change(Controlled::break_steps.to(plan.break_steps as usize)));
         }
         Ok(changes)
     }
 
     /// The changes that make a mesh.
-    pub(super) fn mesh_changes(&self, mesh: Mesh) -> Result<Vec<String>, Problems> {
+    pub(super) fn mesh_changes(&self, mesh: Mesh) -> Result<Vec<Change>, Problems> {
         let mut changes = Vec::new();
         for _ in 0..mesh.halvings {
-            changes = self.changed(&changes)?.case.finer();
+            changes = self.altered(&changes)?.case.finer();
         }
         if let Some(factor) = mesh.factor {
-            changes.extend(self.changed(&changes)?.case.with_functions(factor));
+            changes.extend(self.altered(&changes)?.case.with_functions(factor));
         }
         Ok(changes)
     }
 
-    fn changed(&self, changes: &[String]) -> Result<Cow<'_, Reading>, Problems> {
-        if changes.is_empty() { Ok(Cow::Borrowed(self)) } else { self.with(changes).map(Cow::Owned) }
+    fn altered(&self, changes: &[Change]) -> Result<Cow<'_, Reading>, Problems> {
+        if changes.is_empty() { Ok(Cow::Borrowed(self)) } else { self.changed(changes).map(Cow::Owned) }
     }
 
     /// The case with twice the functions: of the blade, or else of the bases.
@@ -139,36 +142,47 @@ impl Reading {
     /// [`Problems`] when there are too many.
     pub fn with_finer_mesh(&self) -> Result<Reading, Problems> {
         let changes = match self.case.hub_beam().and_then(|beam| beam.blade.as_ref()) {
-            Some(blade) => vec![format!("blade.elements={}", 2 * blade.elements())],
+            Some(blade) => vec![Change::count("blade.elements".to_owned(), 2 * blade.elements())],
             None => self.case.finer(),
         };
-        self.with(&changes)
+        self.changed(&changes)
     }
 
     /// The mesh and the steps of the case, as changes.
-    pub(super) fn mesh_and_steps(&self) -> Vec<String> {
-        let now = |change: String| {
-            let (key, _) = change.split_once('=')?;
-            let (tables, name) = key.rsplit_once('.')?;
+    pub(super) fn mesh_and_steps(&self) -> Vec<Change> {
+        let now = |Change { path, .. }: Change| {
+            let (tables, name) = path.rsplit_once('.')?;
             let mut within = &self.values;
             for table in tables.split('.') {
                 within = within.inner(table)?;
             }
-            Some(format!("{key}={}", within.to_json().get(name)?))
+            let Value::Integer(count) = within.get(name)?.value else { return None };
+            Some(Change { to: Setting::Integer(count), path })
         };
-        let mut changes: Vec<String> = self.case.finer().into_iter().filter_map(now).collect();
-        changes.extend(match self.case.steps {
-            Steps::Fixed { step, .. } => vec![format!("integrator.step={step:e}")],
-            Steps::Controlled { tolerance, breaks: 1, .. } => {
-                vec![format!("integrator.tolerance={tolerance:e}")]
-            }
+        let mut changes: Vec<Change> = self.case.finer().into_iter().filter_map(now).collect();
+        let steps = match self.case.steps {
+            Steps::Fixed { step, .. } => vec![STEP.to(step)],
+            Steps::Controlled { tolerance, breaks: 1, .. } => vec![Controlled::tolerance.to(tolerance)],
             Steps::Controlled { tolerance, breaks, .. } => {
-                vec![
-                    format!("integrator.tolerance={tolerance:e}"),
-                    format!("integrator.break-steps={breaks}"),
-                ]
+                vec![Controlled::tolerance.to(tolerance), Controlled::break_steps.to(breaks as usize)]
             }
-        });
+        };
+        changes.extend(steps.into_iter().map(|key| INTEGRATOR.change(key)));
         changes
     }
+}
+
+/// The change of a key of the integrator, if it is to have another value.
+fn other<T: Settable<Value = f64>>(
+    field: &Field<T>,
+    value: Option<f64>,
+    before: Option<f64>,
+) -> Option<Change> {
+    value.filter(|_| value != before).map(|value| INTEGRATOR.change(field.to(value)))
+}
+
+/// Changes as a case says them, between backticks but for the first and the last.
+pub(crate) fn said(changes: &[Change]) -> String {
+    let texts: Vec<String> = changes.iter().map(Change::to_string).collect();
+    texts.join("` and `").replace('=', " = ")
 }
