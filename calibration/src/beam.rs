@@ -233,6 +233,17 @@ fn loads(random: &mut Random, drawn: &mut Drawn, beam: Beam) -> Option<String> {
         let station = place(random);
         add!(drawn, "[[load]]\non = '{station} m'\ncouple = {couple}\namplitude = {amplitude}");
     }
+    if random.one_in(6) {
+        // Of a tip that goes a length in the duration.
+        let speed = length / duration;
+        let (kind, power) = if random.coin() { ("linear-drag", 1) } else { ("quadratic-drag", 2) };
+        let coefficient = size(random, force / length) / speed.powi(power);
+        add!(
+            drawn,
+            "[[load]]\non = \"beam\"\nlaw = {{ kind = \"{kind}\", coefficient = {coefficient} }}\nfrom = {}",
+            length * random.between(0.0..0.5)
+        );
+    }
     if random.one_in(4) {
         let across = size(random, force / length);
         add!(

@@ -5,6 +5,7 @@
 //! every break and also ends steps where a load or a motion changes fast, one with fixed steps those of velocities and accelerations, for a kink costs it less than its own error.
 
 mod adaptive;
+mod breaks;
 mod contacts;
 mod ending;
 mod locate;
@@ -26,6 +27,7 @@ use crate::integrator::{
 use crate::quadrature::Gauss;
 use crate::system::{Crossing, Jump, RowWeights, Side, State, System};
 use adaptive::adapt;
+use breaks::{is_fixed, jump_at, next_break, stop};
 use contacts::{ARC, Contacts, Unseen, approaches, loss, struck};
 use segment::Segment;
 
@@ -572,35 +574,4 @@ impl Run {
 /// step: what the recorded columns can show bounds it.
 fn longest_step(plan: &Plan, origin: f64) -> f64 {
     plan.longest_step.unwrap_or((2.0 * plan.sample).min(0.01 * (plan.end - origin)))
-}
-
-fn is_fixed(info: &Info) -> bool {
-    info.estimate_order.is_none()
-}
-
-/// Whether steps of this method end at a jump.
-fn sees(info: &Info, jump: Jump) -> bool {
-    !is_fixed(info) || jump <= Jump::Acceleration
-}
-
-/// The first break after `t` that the method sees, or the end of the run.
-fn next_break(system: &dyn System, info: &Info, t: f64, end: f64) -> f64 {
-    let breaks = system.breaks();
-    let later = &breaks[breaks.partition_point(|b| b.time <= t)..];
-    let found = later.iter().find(|b| sees(info, b.jump));
-    found.map_or(end, |b| b.time.min(end))
-}
-
-/// Where a step after `t` must end, and the side of that time: the left one of a break.
-fn stop(system: &dyn System, info: &Info, t: f64, end: f64) -> (f64, Side) {
-    let stop = next_break(system, info, t, end);
-    let side = if jump_at(system, info, stop).is_some() { Side::Left } else { Side::Right };
-    (stop, side)
-}
-
-/// What jumps at `t`, if the method sees it.
-fn jump_at(system: &dyn System, info: &Info, t: f64) -> Option<Jump> {
-    let breaks = system.breaks();
-    let at = breaks.get(breaks.partition_point(|b| b.time < t))?;
-    (at.time == t && at.jump != Jump::Nothing && sees(info, at.jump)).then_some(at.jump)
 }
