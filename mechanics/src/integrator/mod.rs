@@ -112,7 +112,7 @@ pub struct StepReport {
 pub enum StepError {
     /// Newton's method did not converge.
     #[error(
-        "no convergence at t = {time:.6} s with a step of {step:.3e} s: after {iterations} iterations the increment is {size:.2e} times the tolerance, largest in the {worst}; try a smaller step"
+        "no convergence at t = {time:.6} s with a step of {step:.3e} s: after {iterations} iterations the increment is {size:.2e} times the tolerance, largest in the {worst}; try a smaller step, or Radau's method, whose steps adapt"
     )]
     NotConverged {
         /// Time at the start of the step \[s\].
@@ -157,7 +157,7 @@ pub enum StepError {
     },
     /// A number that is not finite appeared.
     #[error(
-        "the solution is no longer finite at t = {time:.6} s with a step of {step:.3e} s (first in the {worst}); try a smaller step"
+        "the solution is no longer finite at t = {time:.6} s with a step of {step:.3e} s (first in the {worst}); try a smaller step, or Radau's method, whose steps adapt"
     )]
     NotFinite {
         /// Time at the start of the step \[s\].
