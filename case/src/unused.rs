@@ -33,6 +33,17 @@ impl Case {
     /// Cautions of modes and diagrams.
     pub fn unused_by_modes(&self) -> Vec<String> {
         let mut cautions = self.cautions.clone();
+        for (beam, _) in
+            self.space().filter(|space| space.rotation.is_ok()).iter().flat_map(|space| &space.beams)
+        {
+            if beam.leaves_out_torsion() {
+                cautions.push(format!(
+                    "in rotation the frequencies of torsion of `{}` are wrong without its rotary inertia, which differs in both planes \
+                     of bending: write `rotary-inertia = true` in its section",
+                    beam.name
+                ));
+            }
+        }
         let Some(beam) = self.hub_beam() else { return cautions };
         if beam.blade.is_none() {
             if beam.section.is_blade {

@@ -140,6 +140,25 @@ fn a_campbell_diagram_knows_the_errors_of_its_mesh() {
     assert!(diagram.coarsest().is_some_and(|(_, _, error)| error > 0.0));
 }
 
+/// A flat strip that rotates: (I₂ − I₃) Ω² is most of its stiffness of torsion, and is lost with its rotary inertia. Without that a caution
+/// says so; with it the frequency is that of the model of a blade.
+#[test]
+fn a_strip_without_rotary_inertia_is_warned_of_its_torsion_in_rotation() {
+    let strip = |rotary: bool| {
+        read(&format!(
+            "run = {{ duration = 0 }}\n[[beam]]\nlength = 2\nup = [0, 0, 1]\nelements = 16\nsection = {{ kind = \"rectangle\", \
+             modulus = 70e9, density = 2700, width = 0.1, height = 5e-4, rotary-inertia = {rotary} }}\n{HINGE}"
+        ))
+    };
+    let warned = |reading: &Reading| {
+        reading.case.unused_by_modes().iter().any(|w| w.contains("`rotary-inertia = true`"))
+    };
+    let (without, with) = (strip(false), strip(true));
+    assert!(warned(&without) && !warned(&with));
+    let frequencies = frequencies(&with.case, 100.0).0;
+    assert!(frequencies.iter().any(|x| (x / 143.931 - 1.0).abs() < 1e-4), "{frequencies:?}");
+}
+
 /// An overhung disc on an undamped shaft: its motions neither grow nor decay.
 #[test]
 fn rounding_is_no_negative_damping() {

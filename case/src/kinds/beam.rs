@@ -254,6 +254,14 @@ impl Beam {
         }
     }
 
+    /// Whether its rotary inertia in bending is left out though it differs in both planes: in rotation Ω that leaves (I₂ − I₃) Ω² out of
+    /// the stiffness of torsion.
+    pub fn leaves_out_torsion(&self) -> bool {
+        let of = self.blade.resultants(0.5 * self.length);
+        let differ = (of.chord_inertia - of.flap_inertia).abs() > 0.01 * (of.chord_inertia + of.flap_inertia);
+        differ && !self.planar && self.section.planar.resultants(0.5 * self.length).rotary_inertia == 0.0
+    }
+
     /// Stiffness and inertia at a station.
     fn properties(&self, s: f64) -> Properties {
         let mut of = Properties::from(&self.blade.resultants(s));
