@@ -13,7 +13,7 @@ use super::kinds::load::{Acts, LOAD, Load};
 use super::kinds::mass::MASS;
 use super::kinds::section::Section;
 use super::kinds::spring::{Joins, SPRING, Spring};
-use super::layout::{self, GRAVITY, HUB, MODEL_ON_HUB, ModelOnHub, SPATIAL_TABLES};
+use super::layout::{self, GRAVITY, HUB, MODEL_ON_HUB, ModelOnHub, OneBeam, SPATIAL_TABLES};
 use super::places::Place;
 use super::values::{Values, item, join};
 use flexion::contact::Law;
@@ -87,7 +87,7 @@ const THICKEST: f64 = 5.0;
 pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made<HubBeam> {
     let mut found = Found::default();
     let coupling = found.part(MODEL_ON_HUB.read(v, c)).and_then(|model| {
-        found.part(planar(v, &model));
+        found.part(planar(v, &model, layout::BEAM.read(v, c).ok()));
         model.coupling.made
     });
     let section = found.part(layout::SECTION.read(v, c));
@@ -169,16 +169,22 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
 }
 
 /// Refuses what only a model in space carries.
-fn planar(v: &Values, model: &ModelOnHub) -> Made<()> {
+fn planar(v: &Values, model: &ModelOnHub, beam: Option<OneBeam>) -> Made<()> {
     let coupling = model.coupling.name;
+    if model.coupling.made.is_none() {
+        return Ok(());
+    }
     let of_model = [
         (model.refine.is_some(), ModelOnHub::refine.key.name),
         (model.drop_redundant_rows.is_some(), ModelOnHub::drop_redundant_rows.key.name),
     ];
     let of_model = of_model.iter().filter(|(written, _)| *written).map(|(_, key)| join("model", key));
+    let polar = beam.and_then(|beam| beam.polar_inertia);
+    let of_beam = polar.map(|_| join(layout::BEAM.key.name, OneBeam::polar_inertia.key.name));
     let tables = SPATIAL_TABLES.iter().filter(|key| v.is_written(key.name)).map(|key| key.name.to_owned());
     let faults: Vec<Fault> = tables
         .chain(of_model)
+        .chain(of_beam)
         .map(|path| {
             let message =
                 format!("`{coupling}` is a model of one beam on a hub in the plane, and does not carry this");

@@ -16,7 +16,7 @@ use super::kinds::{
     torque,
 };
 use super::tree::{Line, Raw};
-use super::units::{ACCELERATION, INERTIA, LENGTH, TIME};
+use super::units::{ACCELERATION, INERTIA, LENGTH, ROTARY_INERTIA, TIME};
 use flexion::hub_beam::Drive;
 use flexion::linalg::Vec3;
 use std::sync::LazyLock;
@@ -138,6 +138,8 @@ keys! {
     pub(super) struct OneBeam {
         /// length L of the beam
         length: f64 = quantity(&LENGTH, Positive);
+        /// moment of inertia per length about the axis, for the coupling `space`; that of the section if left out
+        polar_inertia: Option<f64> = quantity(&ROTARY_INERTIA, Positive);
     }
 
     /// The hub.

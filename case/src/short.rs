@@ -226,6 +226,7 @@ pub(super) fn long(lines: &[Line], v: &Values, files: &Files<'_>) -> Made<Long> 
         .node("section", written(lines, "section"))
         .raw("elements", Raw::Integer(elements as i64))
         .raw("planar", Raw::Boolean(silent))
+        .node("polar-inertia", written(lines, "beam.polar-inertia"))
         .node("damping", written(lines, "damping"));
     let spin = [0.0, 0.0, start.speed];
     if start.speed != 0.0 {

@@ -67,7 +67,11 @@ pub(super) fn read(text: &str, overrides: &[String], problems: &mut Problems) ->
 
 fn syntax(source: usize, message: &str, span: Option<std::ops::Range<usize>>) -> Problem {
     let place = span.map(|span| Place::new(source, span));
-    Problem::new("", place, format!("not valid TOML: {message}"))
+    let problem = Problem::new("", place, format!("not valid TOML: {message}"));
+    if message != "duplicate key" {
+        return problem;
+    }
+    problem.help("a key is written once: `[beam]` is one table, and `[[beam]]`, each time it is written, one of several")
 }
 
 fn convert(value: &Spanned<DeValue<'_>>, source: usize, depth: usize, problems: &mut Problems) -> Node {

@@ -13,6 +13,7 @@ impl Case {
     /// Cautions of a run.
     pub fn unused_by_run(&self) -> Vec<String> {
         let mut cautions = self.cautions.clone();
+        cautions.extend(self.space().filter(|space| !space.flat).into_iter().flat_map(Space::torsion));
         let Some(beam) = self.hub_beam() else { return cautions };
         if beam.blade.is_some() {
             cautions.push(
@@ -33,17 +34,7 @@ impl Case {
     /// Cautions of modes and diagrams.
     pub fn unused_by_modes(&self) -> Vec<String> {
         let mut cautions = self.cautions.clone();
-        for (beam, _) in
-            self.space().filter(|space| space.rotation.is_ok()).iter().flat_map(|space| &space.beams)
-        {
-            if beam.leaves_out_torsion() {
-                cautions.push(format!(
-                    "in rotation the frequencies of torsion of `{}` are wrong without its rotary inertia, which differs in both planes \
-                     of bending: write `rotary-inertia = true` in its section",
-                    beam.name
-                ));
-            }
-        }
+        cautions.extend(self.space().into_iter().flat_map(Space::torsion));
         let Some(beam) = self.hub_beam() else { return cautions };
         if beam.blade.is_none() {
             if beam.section.is_blade {
@@ -74,6 +65,18 @@ impl Case {
 type Given = (String, Vec3, [Option<Vec3>; 2]);
 
 impl Space {
+    /// Cautions for beams whose torsion is wrong in rotation.
+    fn torsion(&self) -> impl Iterator<Item = String> {
+        let wrong = self.beams.iter().filter(|(beam, _)| self.rotation.is_ok() && beam.leaves_out_torsion());
+        wrong.map(|(beam, _)| {
+            format!(
+                "in rotation the torsion of `{}` is wrong without its rotary inertia, which differs in both planes of bending: write \
+                 `rotary-inertia = true` in its section",
+                beam.name
+            )
+        })
+    }
+
     fn given(&self) -> Vec<Given> {
         let bodies = self.bodies.iter().enumerate();
         let bodies = bodies.map(|(i, b)| (item("body", i), b.frame.position, [b.velocity, b.spin]));

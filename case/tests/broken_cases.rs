@@ -101,6 +101,20 @@ const CHANGES: &[Change] = &[
     (r#"length = "10 m""#, "length = \"10 m\"\nlength = 3", r#""#, Some(3), r#"duplicate key"#),
     (
         "[beam]\nlength = \"10 m\"",
+        "[beam]\nlength = \"10 m\"\n[[beam]]\nname = \"arm\"",
+        r#""#,
+        Some(3),
+        r#"duplicate key"#,
+    ),
+    (
+        "[beam]\nlength = \"10 m\"",
+        "[beam]\nlength = \"10 m\"\npolar-inertia = 1e-3",
+        r#"beam.polar-inertia"#,
+        Some(3),
+        r#"does not carry this"#,
+    ),
+    (
+        "[beam]\nlength = \"10 m\"",
         r#"beam = 10"#,
         r#"beam"#,
         Some(1),

@@ -470,5 +470,5 @@ fn hostile_cases_are_refused_at_their_place() {
         }
     }
     let twice = refused(&format!("{SHORT}\n[[beam]]\nlength = 1\n"), &[]);
-    assert!(twice.contains("TOML"), "{twice}");
+    assert!(twice.contains("TOML") && twice.contains("`[beam]` is one table"), "{twice}");
 }

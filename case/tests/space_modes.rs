@@ -155,8 +155,51 @@ fn a_strip_without_rotary_inertia_is_warned_of_its_torsion_in_rotation() {
     };
     let (without, with) = (strip(false), strip(true));
     assert!(warned(&without) && !warned(&with));
+    // A run in the plane of rotation, in which nothing twists, is not warned; one that leaves it is.
+    let run = |reading: &Reading| {
+        reading.case.unused_by_run().iter().any(|w| w.contains("`rotary-inertia = true`"))
+    };
+    let pushed = without.with(&["load=[{on='beam.tip', force=[0, 0, 1]}]".to_owned()]).unwrap();
+    assert!(run(&pushed) && !run(&without) && !run(&with));
     let frequencies = frequencies(&with.case, 100.0).0;
     assert!(frequencies.iter().any(|x| (x / 143.931 - 1.0).abs() < 1e-4), "{frequencies:?}");
+}
+
+/// What a section leaves unsaid vibrates in no model: the modes in space are those of the exact coupling in the plane, all of them and no
+/// others, at any angle and with a hub that is free.
+#[test]
+fn a_section_silent_on_torsion_has_the_modes_in_the_plane_alone() {
+    let short = |more: &str| {
+        read(&format!(
+            "run = {{ duration = 1 }}\nbeam.length = 1\nbasis.elements = 6\nsection = {{ kind = \"resultants\", mass-per-length = 1, \
+             axial-stiffness = 1e4, bending-stiffness = 1 }}\n{more}"
+        ))
+    };
+    let all = |reading: &Reading, coupling: &str, speed: f64| {
+        let case = reading.with(&[format!("model.coupling={coupling}")]).unwrap().case;
+        let (mut system, _) = case.vibrating(speed > 0.0).unwrap();
+        let mut state = system.initial();
+        rotate_stably(system.as_mut(), &mut state, 0.0, speed).unwrap();
+        modes(system.as_mut(), &state, 1000, &[]).unwrap().modes
+    };
+    for (more, speed) in [
+        ("hub.radius = 0.2\nhub.motion = { kind = \"constant\", speed = 0 }", 0.0),
+        ("hub.motion = { kind = \"constant\", speed = 0 }", 3.0),
+        ("[[mass]]\non = \"tip\"\nmass = 0.5", 2.0),
+    ] {
+        let reading = short(more);
+        let (plane, space) = (all(&reading, "exact", speed), all(&reading, "space", speed));
+        assert_eq!(plane.len(), space.len(), "{more}");
+        for (a, b) in plane.iter().zip(&space) {
+            let (a, b) = (a.frequency(), b.frequency());
+            // Elements of another form: their frequencies differ as their errors do.
+            assert!((a / b - 1.0).abs() < 1e-5, "{more}: {a} and {b}");
+        }
+    }
+    let free = short("[hub]\ninertia = 2\nmotion = { kind = \"free\", angle = 0.7 }");
+    let found = all(&free, "space", 0.0);
+    assert!(found.iter().all(|mode| mode.shares.flap + mode.shares.torsion + mode.shares.z < 1e-12));
+    assert_eq!(found.iter().filter(|mode| mode.frequency() == 0.0).count(), 1);
 }
 
 /// An overhung disc on an undamped shaft: its motions neither grow nor decay.

@@ -303,7 +303,7 @@ impl Beam {
             let fault = Fault::new(key, format!("beam `{}`: {error}", self.name));
             match (&error, self.properties(0.5 * self.length).inertia) {
                 (slender::BeamError::Section { .. }, [polar, ..]) if !(polar > 0.0) => {
-                    let help = "give `polar-inertia` in [[beam]], the moment of inertia per length about the tangent [kg·m], which \
+                    let help = "give `polar-inertia` of the beam, the moment of inertia per length about the tangent [kg·m], which \
                                 the section does not say: ρ (I₂ + I₃) of its shape";
                     fault.help(help).into()
                 }
@@ -357,9 +357,9 @@ keys! {
         coupling: Option<[f64; 3]> = quantities(&BENDING_STIFFNESS, Any);
         /// number of elements, if none end at other stations
         elements: usize = integer(1, 100_000).or_count(10);
-        /// what holds the root, beside its joints
+        /// hold of the root, beside its joints
         root: End = choice(&END).or_name("free");
-        /// what holds the tip, beside its joints
+        /// hold of the tip, beside its joints
         tip: End = choice(&END).or_name("free");
         /// velocity of the root at the start; what joints and spin ask for, if left out
         velocity: Option<Vec3> = vector(&VELOCITY);

@@ -267,7 +267,7 @@ keys! {
     /// What a case says of a contact.
     pub(crate) struct Written {
         name: Option<String> = NAME;
-        /// what may touch: a body, a place of a beam, a list of them, or a whole beam, where it is nearest to the obstacle or by
+        /// parts that may touch: a body, a place of a beam, a list of them, or a whole beam, where it is nearest to the obstacle or by
         /// `points`; the tip of the only beam if left out
         on: Option<Vec<String>> = places();
         /// point of a body that may touch, in space at the start; its centre of mass if left out
@@ -279,9 +279,9 @@ keys! {
         points: Option<usize> = integer(1, MOST_POINTS);
         /// rigid obstacle
         obstacle: Placed = kind(&OBSTACLE);
-        /// what the obstacle is fixed to, in whose axes it is given: the ground if left out, the hub of a stop
+        /// part that the obstacle is fixed to, in whose axes it is given: the ground if left out, the hub of a stop
         mount: Option<Mount> = choice(&MOUNT);
-        /// what happens at a touch
+        /// law of the contact
         law: (Law, bool) = kind(&LAW).or_name("massless");
     }
 }

@@ -215,7 +215,7 @@ keys! {
     /// What a case says of a joint.
     struct Written {
         name: Option<String> = NAME;
-        /// what it leaves free
+        /// motions that it leaves free
         kind: Named<Freedom> = choice(&JOINT);
         /// the two parts: `ground`, bodies, or places of beams such as `blade.root` and `blade.tip`
         between: Vec<String> = texts();

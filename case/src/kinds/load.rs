@@ -115,7 +115,7 @@ keys! {
         distribution: Later<Amplitude> = kind(&DISTRIBUTION);
         /// law by which a force per length follows from the motion, in the place of `force-per-length`
         law: Option<Arc<dyn ForceLaw>> = kind(&FORCE_LAW);
-        /// what the components refer to
+        /// axes of the components
         axes: Axes = choice(&AXES).or_name("dead");
         amplitude: Amplitude = CHANGE;
     }

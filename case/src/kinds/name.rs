@@ -21,7 +21,10 @@ pub(super) fn name(written: Option<String>, also: &[&str]) -> Made<String> {
         return Err(Fault::new("name", message).help(help).into());
     }
     if TAKEN.contains(&name.as_str()) || also.contains(&name.as_str()) {
-        return Err(Fault::new("name", format!("`{name}` has a meaning of its own")).into());
+        let message = format!("`{name}` has a meaning of its own in places and columns");
+        return Err(Fault::new("name", message)
+            .help(format!("write another, for example `{name}-1`"))
+            .into());
     }
     Ok(name)
 }

@@ -125,7 +125,7 @@ keys! {
     /// What a case says of a spring.
     pub struct Written {
         name: Option<String> = NAME;
-        /// what it joins
+        /// parts that it joins
         kind: Make = choice(&SPRING_KIND);
         /// station of a beam, of a spring of the kind `point`
         on: Option<(usize, f64)> = place();

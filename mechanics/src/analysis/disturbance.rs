@@ -5,7 +5,8 @@ use super::stiffness::mass;
 use crate::linalg::{Matrix, Singular};
 use crate::system::{State, System, Weights};
 
-/// Adds to v a disturbance δ in all directions that joints allow, with the kinetic energy `energy` \[J\]:
+/// Adds to v a disturbance δ in all directions that joints and the [plane](crate::system::Dynamics::across) of a system allow, with
+/// the kinetic energy `energy` \[J\]:
 ///
 /// ```text
 /// (M + τ² K) δ = M ρ + Gᵀ Λ,     G δ = 0
@@ -18,7 +19,9 @@ use crate::system::{State, System, Weights};
 /// [`Singular`] where M + τ² K is, with the joints.
 pub fn disturb(system: &mut dyn System, state: &mut State, energy: f64, time: f64) -> Result<bool, Singular> {
     let n = state.v.len();
-    let random: Vec<f64> = system.scales().iter().enumerate().map(|(i, scale)| random(i) * scale).collect();
+    let mut random: Vec<f64> =
+        system.scales().iter().enumerate().map(|(i, scale)| random(i) * scale).collect();
+    system.across().into_iter().for_each(|i| random[i] = 0.0);
     let mut x = vec![0.0; n + state.lambda.len()];
     mass(system, state).multiply(&random, &mut x[..n]);
     let mut matrix = Matrix::new(&system.structure(1));

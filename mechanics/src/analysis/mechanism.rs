@@ -23,8 +23,7 @@ pub(super) fn driven_motion(system: &mut dyn System, state: &State) -> Option<St
     apply(system, 0.0);
     let mut without = vec![0.0; size.v];
     system.residual(&state, &mut without);
-    let count = MOTIONS.min(size.v.saturating_sub(size.lambda));
-    let free = modes(system, &state, count, &[]);
+    let free = modes(system, &state, MOTIONS, &[]);
     apply(system, 1.0);
     let mut loads = vec![0.0; size.v];
     system.residual(&state, &mut loads);

@@ -9,7 +9,7 @@
 
 use super::rigid::{BELOW, RIGID, RIGID_MOTIONS, elastic_frequency};
 use super::stability::GROWTH;
-use super::stiffness::matrices;
+use super::stiffness::{freedoms, matrices};
 use crate::linalg::eigen::{EigenError, Kind, Pair, Pencil, UNCERTAIN};
 use crate::linalg::vector::dot;
 use crate::system::{Direction, Frame, State, System};
@@ -17,8 +17,8 @@ use num_complex::Complex64;
 
 /// Residual above which a mode is refused, unless the rounding of the stiffness explains it.
 const RESIDUAL: f64 = 1e-7;
-/// The same where the frequency is corrected by the strains of the mode: its error is the square of that of the vector.
-const CORRECTED: f64 = 1e-5;
+/// The same of a conservative pencil: the error of its frequencies is the square of that of the vectors.
+const CONSERVATIVE: f64 = 1e-5;
 
 /// One mode.
 #[derive(Clone, Debug, PartialEq)]
@@ -172,7 +172,8 @@ pub enum NoModes {
     Eigen(#[from] EigenError),
     /// A pair is not what it should be.
     #[error(
-        "mode {number} at {frequency:.6} rad/s has a residual of {residual:.1e}, more than {allowed:.0e}; the matrices are too ill-conditioned, coarsen the basis"
+        "mode {number} at {frequency:.6} rad/s has a residual of {residual:.1e}, more than {allowed:.0e}: the matrices are too ill-conditioned; ask for \
+         fewer modes than {number}, or coarsen the basis"
     )]
     Inaccurate {
         /// Number of the mode, from 1.
@@ -227,7 +228,7 @@ pub(super) fn modes_near(
 ) -> Result<Modes, NoModes> {
     let size = system.size();
     let (all, multipliers) = matrices(system, state);
-    let there = size.v.saturating_sub(multipliers);
+    let there = freedoms(system, &all[2]);
     let count = count.min(there);
     let corrects = system.stiffness_forms(state, &[]).is_some();
     let mut rigid = 0.0;
@@ -253,6 +254,7 @@ pub(super) fn modes_near(
     let (mut modes, mut overdamped) = (Vec::with_capacity(count), Vec::new());
     let mut refused =
         accept([&mut modes, &mut overdamped], pairs, count, &pencil, system, state, rigid).err();
+    let first = refused.clone();
     // Q(σ)⁻¹ magnifies the rounding of far softer modes. From a shift among the others it does not.
     while let Some(NoModes::Inaccurate { frequency, .. }) = refused {
         let shift = modes.last().map_or(0.0, Mode::frequency).max(BELOW * frequency);
@@ -265,8 +267,10 @@ pub(super) fn modes_near(
         let pairs = pencil.pairs(asked, &[])?;
         refused = accept([&mut modes, &mut overdamped], pairs, count, &pencil, system, state, rigid).err();
     }
-    if let Some(refused) = refused {
-        return Err(refused);
+    match (first, refused) {
+        (Some(first), Some(_)) => return Err(first),
+        (_, Some(refused)) => return Err(refused),
+        _ => {}
     }
     let counted = match complete(&pencil, &modes) {
         // Vectors to begin with may have nothing of a mode that is new among the lowest.
@@ -294,8 +298,7 @@ fn accept(
     state: &State,
     rigid: f64,
 ) -> Result<(), NoModes> {
-    let corrected = pencil.kind() != Kind::General && system.stiffness_forms(state, &[]).is_some();
-    let residual = if corrected { CORRECTED } else { RESIDUAL };
+    let residual = if pencil.kind() == Kind::General { RESIDUAL } else { CONSERVATIVE };
     let scale: Vec<f64> = system.scales().to_vec();
     for mut pair in pairs {
         let number = modes.len() + 1;

@@ -9,7 +9,7 @@
 //! N. Gould, *Math. Program.* 32 (1985) 90–99, doi:10.1007/BF01585660 (inertia of matrices with multipliers).
 
 use super::rigid::{BELOW, certain_directions, elastic_frequency};
-use super::stiffness::matrices;
+use super::stiffness::{freedoms, matrices};
 use crate::linalg::Matrix;
 use crate::linalg::eigen::{EigenError, Pencil, UNCERTAIN, each, is_symmetric, negative_directions};
 use crate::system::{State, System};
@@ -94,7 +94,7 @@ pub(super) fn judge(system: &mut dyn System, state: &State) -> Result<(Stability
     if symmetric && (saddle == 0 || !gyroscopic) {
         return Ok((Stability { divergent: saddle, fluttering: 0 }, saddle));
     }
-    let count = EIGENVALUES.min(state.v.len().saturating_sub(multipliers));
+    let count = EIGENVALUES.min(freedoms(system, &all[2]));
     let direct = Pencil::new(all.clone(), multipliers, 0.0);
     let mut pencil = match direct.map(|mut pencil| (!pencil.doubts()[0]).then_some(pencil)) {
         Ok(Some(pencil)) => pencil,

@@ -17,6 +17,8 @@ use std::ops::Range;
 
 /// Part of a row in a combination of rows that counts.
 const COUNTS: f64 = 1e-6;
+/// How far the cosine of two axes that count as one may be from one.
+const ALIGNED: f64 = 1e-12;
 
 /// What does not change in a run.
 #[derive(Debug)]
@@ -50,6 +52,29 @@ pub(super) struct Constants {
 }
 
 impl Constants {
+    /// The velocities across the plane of x and y, in which the model stays: along z, and about the tangents and the axes of bodies that
+    /// lie in it. None of a model that is not in the plane, or has a body of which no axis is that of z.
+    pub(super) fn across(&self) -> Vec<usize> {
+        let mut across = Vec::new();
+        if !self.model.in_plane {
+            return across;
+        }
+        for (body, place) in self.model.bodies.iter().zip(&self.place) {
+            let normal = body.frame.rotation[2];
+            let Some(about) = (0..3).find(|k| normal[*k].abs() > 1.0 - ALIGNED) else { return Vec::new() };
+            across.push(6 * place + 2);
+            across.extend((0..3).filter(|k| *k != about).map(|k| 6 * place + 3 + k));
+        }
+        for (of, [_, first]) in self.model.beams.iter().zip(&self.beams) {
+            for node in 0..of.beam.nodes().len() {
+                let at = first + ELEMENT_VELOCITIES * node;
+                let end = (at + ELEMENT_VELOCITIES).min(first + of.beam.velocities());
+                across.extend([at + 2, at + 5].into_iter().chain(at + 6..end));
+            }
+        }
+        across
+    }
+
     /// Of a model with the given rows; and which joints belong to the tree.
     pub(super) fn new(
         model: Model,

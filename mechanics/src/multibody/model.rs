@@ -26,6 +26,7 @@ pub struct Model {
     pub(super) line_laws: Vec<LineLaw>,
     pub(super) points: Vec<ContactPoint>,
     pub(super) drop_redundant: bool,
+    pub(super) in_plane: bool,
 }
 
 impl Model {
@@ -45,6 +46,14 @@ impl Model {
     /// they no longer follow.
     pub fn drop_redundant_rows(mut self) -> Model {
         self.drop_redundant = true;
+        self
+    }
+
+    /// The same model, all of which stays in the plane of x and y: its modes are those in the plane, and no disturbance leads out
+    /// of it. A body counts as one of the plane where one of its axes is that of z.
+    #[must_use]
+    pub fn in_plane(mut self) -> Model {
+        self.in_plane = true;
         self
     }
 

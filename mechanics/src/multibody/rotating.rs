@@ -223,6 +223,10 @@ impl Dynamics for Rotating {
         s
     }
 
+    fn across(&self) -> Vec<usize> {
+        self.inner.across()
+    }
+
     fn is_vector_space(&self) -> bool {
         false
     }

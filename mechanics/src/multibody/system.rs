@@ -356,6 +356,10 @@ impl Dynamics for Multibody {
         State { v: self.velocities.clone(), ..self.constants.start(&[]) }
     }
 
+    fn across(&self) -> Vec<usize> {
+        self.constants.across()
+    }
+
     fn is_vector_space(&self) -> bool {
         false
     }

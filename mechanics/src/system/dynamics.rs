@@ -54,6 +54,11 @@ pub trait Dynamics: Send {
         State::zeros(self.size(), 0.0)
     }
 
+    /// The velocities across the plane in which a system stays: modes, stability and disturbances leave them out.
+    fn across(&self) -> Vec<usize> {
+        Vec::new()
+    }
+
     /// Whether r is affine in (q, v, a) at fixed t: Newton's method then needs one iteration.
     fn is_affine(&self) -> bool {
         false

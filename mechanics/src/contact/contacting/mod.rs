@@ -351,6 +351,10 @@ impl<S: Points + Dynamics + Events + Observed> Dynamics for Contacting<S> {
         state
     }
 
+    fn across(&self) -> Vec<usize> {
+        self.inner.across()
+    }
+
     fn is_vector_space(&self) -> bool {
         self.inner.is_vector_space()
     }

@@ -1,31 +1,36 @@
 //! A system in space: the model that is made of its parts.
 
-use super::blame::{Tables, blamed, leaves_the_plane};
-use super::fault::{Fault, Faults, Found, Made};
-use super::kind::Context;
-use super::kinds::beam::{BEAMS, Beam, End, FIBRES, Fibre};
-use super::kinds::body::BODY;
-use super::kinds::contact::{Contact, Point, Touching, contacts};
-use super::kinds::integrator::Method;
-use super::kinds::joint::{JOINTS, Joint};
-use super::kinds::load::{Acts, LOAD, Load};
-use super::kinds::mass::{MASS, Mass};
-use super::kinds::name::numbered;
-use super::kinds::rotation::{ROTATION, Rotation};
-use super::kinds::spring::{Joins, SPRING, Spring};
-use super::layout::{GRAVITY, INITIAL, MODEL, OUTPUT_IN_SPACE};
-use super::places::{Parts, Place};
-use super::stations::stations;
-use super::values::{Values, item};
+mod named;
+mod placed;
+
+use crate::blame::{Tables, blamed, leaves_the_plane};
+use crate::fault::{Fault, Found, Made};
+use crate::kind::Context;
+use crate::kinds::beam::{BEAMS, Beam, End, FIBRES, Fibre};
+use crate::kinds::body::BODY;
+use crate::kinds::contact::{Contact, Point, Touching, contacts};
+use crate::kinds::integrator::Method;
+use crate::kinds::joint::{JOINTS, Joint};
+use crate::kinds::load::{Acts, LOAD, Load};
+use crate::kinds::mass::{MASS, Mass};
+use crate::kinds::name::numbered;
+use crate::kinds::rotation::{ROTATION, Rotation};
+use crate::kinds::spring::SPRING;
+use crate::layout::{GRAVITY, INITIAL, MODEL, OUTPUT_IN_SPACE};
+use crate::places::{Parts, Place};
+use crate::stations::stations;
+use crate::values::{Values, item};
 use flexion::contact::{self as touch, Contacting, Surface};
 use flexion::hub_beam::Mount;
-use flexion::hub_beam::load::Axes;
-use flexion::linalg::{Mat3, Vec3};
-use flexion::multibody::rotation::about;
+use flexion::linalg::Vec3;
 use flexion::multibody::slender;
-use flexion::multibody::{self, Body, Directions, Flexible, Marker, Model, Multibody, Part};
-use flexion::system::{Fork, Frame};
-use std::sync::Arc;
+use flexion::multibody::{Body, Model, Multibody};
+use flexion::system::Fork;
+use named::Named;
+use placed::{Placed, add_beam, add_ends, add_joint, add_load, add_mass, add_point, add_spring};
+
+/// Component of a unit vector, against 0 or 1, that is rounding.
+const LEVEL: f64 = 1e-9;
 
 /// Bodies, joints and beams in space.
 #[derive(Clone, Debug)]
@@ -46,6 +51,8 @@ pub struct Space {
     pub joints: Vec<Link>,
     /// How it rotates steadily, or why it does not.
     pub rotation: Result<Rotation, String>,
+    /// Whether beams lie in the plane of x and y with one axis of their sections, and nothing leads out of it.
+    pub flat: bool,
     /// Into how many each element of the beams is cut.
     pub refine: usize,
     /// Largest distance between its parts \[m\].
@@ -73,178 +80,6 @@ impl Space {
         }
         Box::new(Contacting::new(self.multibody.clone(), self.contacts.clone()))
     }
-}
-
-/// The parts of a model, and where they stand.
-struct Placed<'b> {
-    bodies: Vec<(Part, Vec3)>,
-    beams: &'b [(Beam, slender::Beam)],
-}
-
-impl Placed<'_> {
-    /// The part at a place, and its own point if it has one.
-    fn at(&self, place: Place) -> (Part, Option<Vec3>) {
-        match place {
-            Place::Ground | Place::Beam(_) => (Part::Ground, None),
-            Place::Body(i) => (self.bodies[i].0, Some(self.bodies[i].1)),
-            Place::Station { beam, s } => {
-                let built = &self.beams[beam].1;
-                let apart = |node: &usize| (built.nodes()[*node] - s).abs();
-                let nearest = (0..built.nodes().len()).min_by(|a, b| apart(a).total_cmp(&apart(b)));
-                let node = nearest.unwrap_or(0);
-                (Part::Section { beam, node }, Some(built.node(node, built.initial()).0))
-            }
-        }
-    }
-}
-
-/// The marker of a part with the axes of space at a point.
-fn marker(model: &Model, part: Part, position: Vec3) -> Made<Marker> {
-    let space = Frame { position, rotation: Mat3::IDENTITY };
-    model.marker(part, space).ok_or_else(|| Fault::new("", "is on a part that is not there").into())
-}
-
-/// The point given, or that of the part.
-fn point(given: Option<Vec3>, own: Option<Vec3>, key: &str) -> Made<Vec3> {
-    let message = "the ground has no point of its own: give one";
-    given.or(own).ok_or_else(|| Faults::from(Fault::new(key, message)))
-}
-
-fn add_joint(model: &mut Model, parts: &Placed<'_>, joint: &Joint, number: usize) -> Made<()> {
-    let [(from, first), (to, second)] = joint.between.map(|place| parts.at(place));
-    let point = joint.at.or(second).or(first).ok_or_else(Faults::default)?;
-    let space = Frame { position: point, rotation: joint.axes };
-    let [a, mut b] = [from, to].map(|part| model.marker(part, space));
-    if let Some(b) = &mut b {
-        // The joint begins with its coordinate of the start.
-        if matches!(joint.kind, multibody::Kind::Prismatic) {
-            let along = joint.start * b.frame.rotation.column(2);
-            b.frame.position += along;
-        } else {
-            b.frame.rotation = b.frame.rotation * about([0.0, 0.0, joint.start]);
-        }
-    }
-    let (Some(a), Some(b)) = (a, b) else { return Err(Faults::default()) };
-    let name = numbered(&joint.name, "joint", number);
-    model.joint(multibody::Joint::new(&name, joint.kind, a, b).driven(joint.drive.clone()));
-    Ok(())
-}
-
-fn add_spring(model: &mut Model, parts: &Placed<'_>, spring: &Spring, number: usize) -> Made<()> {
-    let ((from, a), (to, b), length, directions) = match &spring.joins {
-        Joins::Line { between, ends, length } => {
-            let [(from, first), (to, second)] = between.map(|place| parts.at(place));
-            let (a, b) = (point(ends[0], first, "from")?, point(ends[1], second, "to")?);
-            let apart = (b - a).norm();
-            if apart == 0.0 {
-                return Err(Fault::new("", "has both ends at one point, and its force no direction").into());
-            }
-            ((from, a), (to, b), length.unwrap_or(apart), Directions::Line)
-        }
-        Joins::Point { on: (beam, s), to } => {
-            let (part, own) = parts.at(Place::Station { beam: *beam, s: *s });
-            ((Part::Ground, *to), (part, own.unwrap_or_default()), 0.0, Directions::All)
-        }
-    };
-    model.spring(multibody::Spring {
-        name: numbered(&spring.name, "spring", number),
-        from: marker(model, from, a)?,
-        to: marker(model, to, b)?,
-        stiffness: spring.stiffness,
-        damping: spring.damping,
-        length,
-        directions,
-    });
-    Ok(())
-}
-
-fn add_load(model: &mut Model, parts: &Placed<'_>, load: &Load, number: usize) -> Made<()> {
-    let axes = match load.axes {
-        Axes::Dead => multibody::Axes::Dead,
-        Axes::Follower => multibody::Axes::Follower,
-        Axes::Hub => {
-            let fault = Fault::new("axes", "a system in space has loads with the axes `dead` or `follower`");
-            return Err(fault.into());
-        }
-    };
-    let (name, amplitude) = (numbered(&load.name, "load", number), load.amplitude.clone());
-    let elements = |beam: usize, range: (f64, f64)| {
-        let (of, built) = &parts.beams[beam];
-        let node = |station: f64| {
-            let near = |node: &f64| (node - station).abs() <= 1e-9 * of.length;
-            built.nodes().iter().position(near).ok_or_else(Faults::default)
-        };
-        Ok::<_, Faults>(Some(node(range.0)?..node(range.1)?))
-    };
-    match &load.acts {
-        Acts::At { on, at, force, couple } => {
-            let (part, own) = parts.at(*on);
-            let mut at = marker(model, part, point(*at, own, "at")?)?;
-            if axes == multibody::Axes::Follower {
-                // The components are those in the axes of the part.
-                at.frame.rotation = Mat3::IDENTITY;
-            }
-            model.load(multibody::Load { name, at, force: *force, moment: *couple, axes, amplitude });
-        }
-        Acts::Along { beam, range, force, distribution } => {
-            model.line_load(multibody::LineLoad {
-                name,
-                beam: *beam,
-                elements: elements(*beam, *range)?,
-                distribution: distribution.clone(),
-                force: *force,
-                axes,
-                amplitude,
-            });
-        }
-        Acts::By { beam, range, law } => {
-            let (beam, law, elements) = (*beam, Arc::clone(law), elements(*beam, *range)?);
-            model.line_law(multibody::LineLaw { name, beam, elements, law });
-        }
-    }
-    Ok(())
-}
-
-/// Radius, over the length of its beam, of the ball that a mass without inertia of its own is: its inertia is below rounding.
-const POINT: f64 = 1e-7;
-
-/// Adds a mass as a body that is fixed to its station.
-fn add_mass(model: &mut Model, parts: &Placed<'_>, mass: &Mass, number: usize) -> Made<()> {
-    let (part, own) = parts.at(Place::Station { beam: mass.beam, s: mass.station });
-    let at = own.unwrap_or_default();
-    let name = numbered(&mass.name, "mass", number);
-    let radius = POINT * parts.beams[mass.beam].0.length;
-    let inertia = mass.inertia.max(0.4 * mass.mass * radius * radius);
-    let body = Body::new(&name, mass.mass, [inertia; 3]).at(at);
-    let body = model.body(body);
-    let ends = [part, body];
-    model
-        .join(&format!("{name}-joint"), multibody::Kind::Fixed, ends, at, (Vec3([0.0, 0.0, 1.0]), None))
-        .map_err(|error| Fault::new("", error.to_string()))?;
-    Ok(())
-}
-
-/// Adds a point that may touch; gives it with the number of its body, beams behind bodies, and its station \[m\].
-fn add_point(
-    model: &mut Model,
-    parts: &Placed<'_>,
-    contact: &Contact,
-    (name, place, law): &Point,
-) -> Made<(touch::Contact, (usize, f64))> {
-    let obstacle = Arc::clone(&contact.obstacle.obstacle);
-    let made = |point: usize| touch::Contact { name: name.clone(), point, obstacle, law: *law };
-    if let Place::Beam(beam) = *place {
-        let middle = 0.5 * parts.beams[beam].0.length;
-        return Ok((made(model.contact_beam(beam, contact.radius)), (parts.bodies.len() + beam, middle)));
-    }
-    let (part, own) = parts.at(*place);
-    let marker = marker(model, part, point(contact.at, own, "at")?)?;
-    let place = match part {
-        Part::Section { beam, node } => (parts.bodies.len() + beam, parts.beams[beam].1.nodes()[node]),
-        Part::Body(body) => (body, 0.0),
-        Part::Ground => (0, 0.0),
-    };
-    Ok((made(model.contact_ball(marker, contact.radius)), place))
 }
 
 /// The points of a contact. Forces along a beam are summed up by the trapezium rule.
@@ -280,79 +115,6 @@ fn points_of(contact: &Contact, parts: &Parts, beams: &[Beam], joints: &[Joint])
         _ => false,
     };
     Ok(contact.points(parts, held))
-}
-
-/// What places the parts of a case name.
-#[derive(Default)]
-struct Named(Vec<Place>);
-
-impl Named {
-    /// Of joints, springs, loads, masses and points that may touch.
-    fn of(
-        joints: &[Joint],
-        springs: &[Spring],
-        loads: &[Load],
-        masses: &[Mass],
-        points: &[Vec<Point>],
-    ) -> Named {
-        let mut all: Vec<Place> = points.iter().flatten().map(|(_, place, _)| *place).collect();
-        all.extend(joints.iter().flat_map(|joint| joint.between));
-        for spring in springs {
-            match spring.joins {
-                Joins::Line { between, .. } => all.extend(between),
-                Joins::Point { on: (beam, s), .. } => all.push(Place::Station { beam, s }),
-            }
-        }
-        all.extend(masses.iter().map(|mass| Place::Station { beam: mass.beam, s: mass.station }));
-        for load in loads {
-            match load.acts {
-                Acts::At { on, .. } => all.push(on),
-                Acts::Along { beam, range, .. } | Acts::By { beam, range, .. } => {
-                    all.extend([range.0, range.1].map(|s| Place::Station { beam, s }));
-                }
-            }
-        }
-        Named(all)
-    }
-
-    /// The stations on a beam \[m\].
-    fn on(&self, number: usize) -> Vec<f64> {
-        let station = |place: &Place| match *place {
-            Place::Station { beam, s } if beam == number => Some(s),
-            _ => None,
-        };
-        self.0.iter().filter_map(station).collect()
-    }
-}
-
-/// Adds a beam and the joints of its ends.
-fn add_beam(model: &mut Model, (beam, built): &(Beam, slender::Beam), in_root_axes: bool) {
-    let [velocity, spin] = beam.motion;
-    let [damping, viscosity] = beam.damping;
-    let flexible = Flexible::new(&beam.name, built.clone()).damped(damping).viscous(viscosity);
-    let mut flexible = Flexible { velocity, spin, in_root_axes, ..flexible.recorded_at(&beam.stations) };
-    for (name, station, place) in &beam.fibres {
-        flexible = flexible.with_fibre(name, *station, *place);
-    }
-    model.beam(flexible);
-}
-
-/// Adds the joints of a beam's ends.
-fn add_ends(model: &mut Model, number: usize, (beam, built): &(Beam, slender::Beam)) -> Made<()> {
-    for (end, name, node) in [(beam.ends[0], "root", 0), (beam.ends[1], "tip", built.nodes().len() - 1)] {
-        let kind = match end {
-            End::Free => continue,
-            End::Clamped => multibody::Kind::Fixed,
-            End::Hinged => multibody::Kind::Spherical,
-        };
-        let point = built.node(node, built.initial()).0;
-        let parts = [Part::Ground, Part::Section { beam: number, node }];
-        let name = format!("{}-{name}", beam.name);
-        model
-            .join(&name, kind, parts, point, (Vec3([0.0, 0.0, 1.0]), None))
-            .map_err(|error| Fault::new("", error.to_string()))?;
-    }
-    Ok(())
 }
 
 /// The tables of what a model has, in its order.
@@ -453,8 +215,10 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
         return Err(found.0);
     };
     let acting = (gravity, &loads[..], &springs[..], &contacts[..]);
+    let in_plane = leaves_the_plane(acting);
+    let mut flat = in_plane.is_ok();
     if beams.iter().any(|beam| beam.planar) {
-        found.part(leaves_the_plane(acting));
+        found.part(in_plane);
     }
     let along = |(i, contact): (usize, &Contact)| {
         let points = points_of(contact, names, &beams, &joints);
@@ -469,9 +233,13 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     };
     let beams: Vec<Option<(Beam, slender::Beam)>> = beams.into_iter().enumerate().map(build).collect();
     let Some(beams) = beams.into_iter().collect::<Option<Vec<_>>>() else { return Err(found.0) };
+    flat &= beams.iter().all(|(_, built)| is_flat(built));
     let mut model = Model::new().with_gravity(gravity);
     if drop {
         model = model.drop_redundant_rows();
+    }
+    if !beams.is_empty() && beams.iter().all(|(beam, _)| beam.planar) {
+        model = model.in_plane();
     }
     let place = |body: &Body| (model.body(body.clone()), body.frame.position);
     let parts = Placed { bodies: bodies.iter().map(place).collect(), beams: &beams };
@@ -569,9 +337,20 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
         beams,
         joints,
         rotation,
+        flat,
         refine,
         size,
     })
+}
+
+/// Whether a beam lies in the plane of x and y, with one axis of its sections.
+fn is_flat(beam: &slender::Beam) -> bool {
+    let flat = |node| {
+        let (_, triad) = beam.node(node, beam.initial());
+        let up = triad.normal[2].abs();
+        triad.tangent[2].abs() <= LEVEL && (up <= LEVEL || up >= 1.0 - LEVEL)
+    };
+    (0..beam.nodes().len()).all(flat)
 }
 
 /// Whether redundant rows are left out, into how many each element is cut, and whether stations are recorded in the axes of their root.
