@@ -6,6 +6,7 @@ mod blade;
 mod broken_cases;
 mod case_files;
 mod contact;
+mod contact_in_space;
 mod convergence;
 mod disturbance;
 mod docs;

@@ -91,14 +91,7 @@ fn a_ball_comes_to_rest_at_the_limit_of_its_bounces() {
     }
     for mut method in methods(0.8) {
         let (mut system, start) = ball(e, height);
-        let plan = Plan {
-            end: 2.0,
-            step: Some(1e-3),
-            longest_step: None,
-            break_steps: 1,
-            contact_step: None,
-            sample: 0.02,
-        };
+        let plan = Plan::new(2.0, 0.02).with_step(1e-3);
         let (last, watch, _) = run(&mut system, method.as_mut(), start, &plan);
         // The losses of the impacts are counted; what is left is the error of steps in which gravity acts beside an impact.
         assert!(watch.imbalance < 5e-3 * GRAVITY * height, "{}", watch.imbalance);
@@ -211,28 +204,14 @@ fn spinning_balls_bounce_with_friction() {
     }
     for mut method in methods(0.8) {
         let mut far = |count: f64| {
-            let plan = Plan {
-                end,
-                step: Some(end / count),
-                longest_step: None,
-                break_steps: 1,
-                contact_step: None,
-                sample: end,
-            };
+            let plan = Plan::new(end, end).with_step(end / count);
             let (last, _, _) = run(&mut system, method.as_mut(), start.clone(), &plan);
             (last.v[0] - v).abs().max(r * (last.v[2] - spin).abs())
         };
         let (coarse, fine) = (far(500.0), far(8000.0));
         assert!(fine < 1e-3 && fine < 0.3 * coarse, "{coarse:e} {fine:e}");
         // At the end it rolls, whatever the bounces have been: angular momentum about the ground is kept.
-        let plan = Plan {
-            end: 4.0,
-            step: Some(1e-3),
-            longest_step: None,
-            break_steps: 1,
-            contact_step: None,
-            sample: 1.0,
-        };
+        let plan = Plan::new(4.0, 1.0).with_step(1e-3);
         let (last, _, _) = run(&mut system, method.as_mut(), start.clone(), &plan);
         let rolls = (m * 2.0 - j / r * 5.0) / (m + j / (r * r));
         assert!((last.v[0] - rolls).abs() < 1e-9 && (last.v[0] + r * last.v[2]).abs() < 1e-9, "{:?}", last.v);

@@ -42,14 +42,7 @@ fn seconds_of_bouncing_keep_the_balance_of_energy_to_a_millionth() {
     for (mut method, step) in methods {
         let mut system = pendulum(2, Law::Constraint { restitution: 0.0, friction: 0.0 });
         let mut state = Dynamics::initial(&system);
-        let plan = Plan {
-            end: 2.0,
-            step: Some(step),
-            contact_step: None,
-            longest_step: None,
-            break_steps: 1,
-            sample: 0.005,
-        };
+        let plan = Plan::new(2.0, 0.005).with_step(step);
         let mut balance = Balance::default();
         let ending = transient(&mut system, method.as_mut(), &mut state, &plan, &mut balance);
         assert_eq!(ending, Ending::Finished);
@@ -72,14 +65,7 @@ fn with_friction_the_balance_of_nonsmooth_steps_closes_with_the_step() {
             let mut method = make();
             let mut system = pendulum(2, Law::Constraint { restitution: 0.0, friction: 0.3 });
             let mut state = Dynamics::initial(&system);
-            let plan = Plan {
-                end: 0.45,
-                step: Some(step),
-                contact_step: None,
-                longest_step: None,
-                break_steps: 1,
-                sample: 1e-3,
-            };
+            let plan = Plan::new(0.45, 1e-3).with_step(step);
             let mut balance = Balance::default();
             let ending = transient(&mut system, method.as_mut(), &mut state, &plan, &mut balance);
             assert_eq!(ending, Ending::Finished);

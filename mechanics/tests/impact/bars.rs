@@ -133,14 +133,7 @@ impl Observer for Watch {
 fn a_bar_whose_contact_node_has_no_mass_keeps_its_energy() {
     let (mut bar, mut state) = bouncing(true);
     let mut watch = Watch { phases: Phases::default(), energies: [f64::INFINITY, f64::NEG_INFINITY] };
-    let plan = Plan {
-        end: 5.0,
-        step: Some(5e-4),
-        longest_step: None,
-        break_steps: 1,
-        contact_step: None,
-        sample: 1e-3,
-    };
+    let plan = Plan::new(5.0, 1e-3).with_step(5e-4);
     let method = GeneralizedAlpha::newmark(0.25, 0.5).unwrap();
     let ending = transient(&mut bar, &method, &mut state, &plan, &mut watch);
     assert_eq!(ending, Ending::Finished);
@@ -209,14 +202,7 @@ fn a_cantilever_is_released_above_a_stop() {
         let mut beam = make();
         let mut state = moving(&beam, 0.0);
         let mut watch = Tip { unknown: tip, ..Tip::default() };
-        let plan = Plan {
-            end: 0.75,
-            step: Some(h),
-            longest_step: None,
-            break_steps: 1,
-            contact_step: None,
-            sample: 0.25,
-        };
+        let plan = Plan::new(0.75, 0.25).with_step(h);
         assert_eq!(transient(&mut beam, method, &mut state, &plan, &mut watch), Ending::Finished);
         watch
     };

@@ -14,7 +14,7 @@ use std::ops::ControlFlow;
 fn events(modes: usize, restitution: f64, tolerance: f64, end: f64) -> (Vec<[f64; 3]>, Vec<f64>) {
     let mut system = pendulum(modes, Law::Constraint { restitution, friction: 0.0 });
     let method = Radau::new(Tolerance::uniform(tolerance)).unwrap();
-    let plan = Plan { end, step: None, contact_step: None, longest_step: None, break_steps: 1, sample: 0.01 };
+    let plan = Plan::new(end, 0.01);
     let (watch, _, ending) = run(&mut system, &method, &plan);
     assert_eq!(ending, Ending::Finished, "{:?}", watch.events);
     let (mut strikes, mut openings) = (Vec::new(), Vec::new());
@@ -138,8 +138,7 @@ fn iteration_errors_of_loose_tolerances_neither_stop_a_run_nor_add_energy() {
         let coupling = ExactCoupling::new(1.0, 4, &section(), &hub()).unwrap();
         let mut system = with_ground(coupling, Law::Constraint { restitution: 0.0, friction: 0.0 });
         let method = Radau::new(Tolerance::uniform(tolerance)).unwrap();
-        let plan =
-            Plan { end, step: None, contact_step: None, longest_step: None, break_steps: 1, sample: 0.005 };
+        let plan = Plan::new(end, 0.005);
         let (watch, _, ending) = run(&mut system, &method, &plan);
         assert_eq!(ending, Ending::Finished, "{tolerance} {end}");
         let most = watch.energies[80..].iter().map(|energy| energy.total()).fold(0.0, f64::max);
@@ -160,14 +159,7 @@ fn second_touch_and_second_burst_with_restitution_in_steps_that_resolve_the_axia
     for tolerance in [1e-8, 1e-10] {
         let mut system = pendulum(2, Law::Constraint { restitution: 0.5, friction: 0.0 });
         let method = Radau::new(Tolerance::uniform(tolerance)).unwrap();
-        let plan = Plan {
-            end: 0.7717,
-            step: None,
-            contact_step: None,
-            longest_step: Some(1e-5),
-            break_steps: 1,
-            sample: 0.01,
-        };
+        let plan = Plan::new(0.7717, 0.01).with_longest_step(1e-5);
         let (watch, _, ending) = run(&mut system, &method, &plan);
         assert_eq!(ending, Ending::Finished, "{:?}", watch.events);
         let second = watch.events.iter().filter(|event| event.time > 0.6);

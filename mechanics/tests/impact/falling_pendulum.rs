@@ -87,14 +87,7 @@ pub fn run(system: &mut dyn System, method: &dyn Integrator, plan: &Plan) -> (Wa
 fn the_first_touch_is_that_of_an_independent_program() {
     let mut system = pendulum(2, Law::Constraint { restitution: 0.0, friction: 0.0 });
     let method = Radau::new(Tolerance::uniform(1e-9)).unwrap();
-    let plan = Plan {
-        end: 0.3701,
-        step: None,
-        contact_step: None,
-        longest_step: None,
-        break_steps: 1,
-        sample: 0.01,
-    };
+    let plan = Plan::new(0.3701, 0.01);
     let (watch, _, ending) = run(&mut system, &method, &plan);
     assert_eq!(ending, Ending::Finished, "{:?}", watch.events);
     let first = watch.events.first().unwrap();

@@ -34,14 +34,7 @@ fn elements(count: usize) -> Box<dyn System> {
 fn a_tip_without_mass_bounces_without_impulses_and_keeps_the_energy() {
     for (name, mut system, bound) in [("3 modes", modes(3), 1e-6), ("6 elements", elements(6), 1e-5)] {
         let method = Radau::new(Tolerance { relative: 1e-10, absolute: 1e-11 }).unwrap();
-        let plan = Plan {
-            end: 0.41,
-            step: None,
-            contact_step: None,
-            longest_step: None,
-            break_steps: 1,
-            sample: 0.001,
-        };
+        let plan = Plan::new(0.41, 0.001);
         let (watch, _, ending) = run(system.as_mut(), &method, &plan);
         assert_eq!(ending, Ending::Finished, "{name}");
         let mut touches = 0;

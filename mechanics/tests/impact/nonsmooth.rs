@@ -140,8 +140,7 @@ fn a_ball_on_a_moving_plate_comes_to_the_event_driven_solution() {
     let mut start = system.initial();
     (start.q[0], start.mode[0]) = (0.25, Mode::Open);
     let mut state = start.clone();
-    let plan =
-        Plan { end: 0.8, step: None, longest_step: None, break_steps: 1, contact_step: None, sample: 0.1 };
+    let plan = Plan::new(0.8, 0.1);
     let radau = Radau::new(Tolerance::uniform(1e-10)).unwrap();
     rest(&mut system, &radau, &mut state, &plan);
     let exact = state.q[0];
@@ -204,14 +203,7 @@ fn a_run_goes_on_bit_by_bit() {
     for (mut method, mut again) in methods(0.8).into_iter().zip(methods(0.8)) {
         let (mut system, mut start) = ball(0.6, 0.5);
         start.v[0] = -1.0;
-        let plan = |end| Plan {
-            end,
-            step: Some(1e-3),
-            longest_step: None,
-            break_steps: 1,
-            contact_step: None,
-            sample: 0.1,
-        };
+        let plan = |end| Plan::new(end, 0.1).with_step(1e-3);
         let mut whole = start.clone();
         rest(&mut system, method.as_mut(), &mut whole, &plan(1.0));
         let mut half = start.clone();
@@ -254,14 +246,7 @@ fn violations_are_those_of_active_rows() {
 fn two_rows_of_friction_are_a_disc_or_refused() {
     let slope: f64 = 0.5;
     let incline = || Block::new(slope, 0.3).with_sideways();
-    let plan = Plan {
-        end: 0.5,
-        step: Some(1e-3),
-        longest_step: None,
-        break_steps: 1,
-        contact_step: None,
-        sample: 0.5,
-    };
+    let plan = Plan::new(0.5, 0.5).with_step(1e-3);
     let mut state = incline().initial();
     let radau = Radau::new(Tolerance::uniform(1e-8)).unwrap();
     let ending = transient(&mut incline(), &radau, &mut state, &plan, &mut super::models::Blind);
@@ -331,14 +316,7 @@ fn events_of_the_model_are_found_beside_contacts() {
         let mut system = Gate { ball: ball(0.5, 1.0).0, height: 0.8 };
         let mut state = State::zeros(system.size(), 0.0);
         (state.q[0], state.mode[0]) = (1.0, Mode::Open);
-        let plan = Plan {
-            end: 2.0,
-            step: Some(1e-3),
-            longest_step: None,
-            break_steps: 1,
-            contact_step: None,
-            sample: 0.5,
-        };
+        let plan = Plan::new(2.0, 0.5).with_step(1e-3);
         rest(&mut system, method.as_mut(), &mut state, &plan);
         // It rebounds to a quarter of the height only.
         let exact = -f64::sqrt(2.0 * GRAVITY * 0.2);

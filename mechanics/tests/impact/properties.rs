@@ -217,14 +217,7 @@ fn a_stop_that_is_held_begins_with_the_root_of_time() {
         let n = s.v.len();
         (s.q[n - 1], s.v[n - 1]) = (speed * start, -speed);
         let method = Radau::new(Tolerance::uniform(1e-10)).unwrap();
-        let plan = Plan {
-            end: start + time,
-            step: None,
-            contact_step: None,
-            longest_step: None,
-            break_steps: 1,
-            sample: 1e-6,
-        };
+        let plan = Plan::new(start + time, 1e-6);
         let mut impulse = Impulse::default();
         assert_eq!(transient(&mut system, &method, &mut s, &plan, &mut impulse), Ending::Finished);
         let (ei, mass) = (6.8952e10_f64 * 7.85e-9, 2766.7_f64 * 3.14e-4);

@@ -91,8 +91,7 @@ fn error(method: &dyn Integrator, h: f64) -> [f64; 2] {
     let mut system = StepLoad::new();
     let mut state = system.initial();
     let end = 2.0;
-    let plan =
-        Plan { end, step: Some(h), longest_step: Some(h), break_steps: 1, contact_step: None, sample: end };
+    let plan = Plan::new(end, end).with_step(h).with_longest_step(h);
     let mut watch = Watch::default();
     assert_eq!(transient(&mut system, method, &mut state, &plan, &mut watch), Ending::Finished);
     let [q, v] = system.exact(end);

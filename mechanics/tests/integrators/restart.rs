@@ -112,14 +112,7 @@ fn a_run_that_is_ended_at_any_time_is_continued_bit_by_bit() {
 fn a_checkpoint_of_another_format_is_refused() {
     let original = pendulum_with_impacts();
     let method = GeneralizedAlpha::chung_hulbert(0.7).unwrap();
-    let plan = Plan {
-        end: 0.1,
-        step: Some(1e-3),
-        longest_step: None,
-        break_steps: 1,
-        contact_step: None,
-        sample: 7e-3,
-    };
+    let plan = Plan::new(0.1, 7e-3).with_step(1e-3);
     let (mut system, mut state) = (original.clone(), original.initial());
     let (_, checkpoint) =
         transient_to_checkpoint(&mut system, &method, &mut state, &plan, &mut Watch::until(0.05));

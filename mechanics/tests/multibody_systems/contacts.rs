@@ -230,14 +230,7 @@ fn a_body_thrown_across_a_slope_ends_downhill_with_half_its_speed() {
         }
         // Events find no direction of sliding that changes at every time.
         let mut state = system.initial();
-        let plan = Plan {
-            end: 0.1,
-            step: None,
-            longest_step: None,
-            break_steps: 1,
-            contact_step: None,
-            sample: 0.1,
-        };
+        let plan = Plan::new(0.1, 0.1);
         let ending = transient(&mut system, &radau(1e-6), &mut state, &plan, &mut Watch::default());
         assert!(matches!(ending, Ending::Failed(_)), "{ending:?}");
     }

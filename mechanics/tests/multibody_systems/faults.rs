@@ -172,8 +172,7 @@ fn motions_that_contradict_each_other_are_refused_with_their_names() {
 fn a_run_ends_where_a_dropped_row_is_violated() {
     let mut system = Multibody::new(two_motors(["t", "t + 0.1*t^3"]).drop_redundant_rows()).unwrap();
     let mut state = system.initial();
-    let plan =
-        Plan { end: 1.0, step: None, longest_step: None, break_steps: 1, contact_step: None, sample: 0.01 };
+    let plan = Plan::new(1.0, 0.01);
     let mut watch = Watch { each: |_: &mut dyn System, _: &State| (), imbalance: 0.0 };
     let ending = transient(&mut system, &radau(1e-10), &mut state, &plan, &mut watch);
     let Ending::Failed(error) = ending else { panic!("{ending:?}") };
@@ -335,14 +334,7 @@ fn a_run_that_cannot_go_on_names_the_loop_or_the_body() {
     let fails = |model: Model, end: f64| {
         let mut system = Multibody::new(model).unwrap();
         let mut s = system.initial();
-        let plan = Plan {
-            end,
-            step: None,
-            longest_step: None,
-            break_steps: 1,
-            contact_step: None,
-            sample: end / 10.0,
-        };
+        let plan = Plan::new(end, end / 10.0);
         let mut watch = Watch { each: |_: &mut dyn System, _: &State| {}, imbalance: 0.0 };
         let Ending::Failed(error) = transient(&mut system, &radau(1e-6), &mut s, &plan, &mut watch) else {
             panic!("no failure")

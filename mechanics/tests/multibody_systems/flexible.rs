@@ -51,8 +51,7 @@ fn a_beam_in_a_plane_moves_as_the_planar_program_says() {
     let joint = Joint::new("hub", Kind::Revolute, grounded([0.0; 3]), node(beam, 0));
     model.joint(joint.driven(Drive::Prescribed(motion.clone())));
     let mut spatial = Multibody::new(model).unwrap();
-    let plan =
-        Plan { end: 20.0, step: None, longest_step: None, break_steps: 1, contact_step: None, sample: 0.1 };
+    let plan = Plan::new(20.0, 0.1);
     let value = |system: &mut dyn System, s: &State, name: &str| {
         let mut values = vec![0.0; system.channels().len()];
         system.record(s, &mut values);
@@ -150,14 +149,7 @@ fn an_elbow_swings_as_published() {
     let (mut highest, mut lowest) = ((0.0_f64, 0.0), (0.0_f64, 0.0));
     let method = GeneralizedAlpha::chung_hulbert(0.8).unwrap();
     let mut path = Tip(Vec::new(), |_: &mut dyn System, s: &State| [s.t, s.q[s.q.len() - 7]]);
-    let plan = Plan {
-        end: 18.0,
-        step: Some(0.01),
-        longest_step: None,
-        break_steps: 1,
-        contact_step: None,
-        sample: 0.01,
-    };
+    let plan = Plan::new(18.0, 0.01).with_step(0.01);
     let mut start = system.initial();
     transient(&mut system, &method, &mut start, &plan, &mut path);
     for [t, z] in path.0 {
@@ -198,8 +190,7 @@ fn a_spinning_shaft_whirls_by_its_closed_form() {
     let root = (gyro * gyro + inertia * k2 * k2).sqrt();
     let (forward, backward) = ((root + gyro) / inertia, (root - gyro) / inertia);
     assert!(forward > 2.0 * backward);
-    let plan =
-        Plan { end: 3.0, step: None, longest_step: None, break_steps: 1, contact_step: None, sample: 0.05 };
+    let plan = Plan::new(3.0, 0.05);
     let mut path = Tip(Vec::new(), |system: &mut dyn System, s: &State| {
         let mut values = vec![0.0; system.channels().len()];
         system.record(s, &mut values);
@@ -267,14 +258,7 @@ fn a_whip_keeps_its_balance_of_energy() {
         });
         let mut system = Multibody::new(model).unwrap();
         let mut watch = Balance::default();
-        let plan = Plan {
-            end: 1.5,
-            step: None,
-            longest_step: None,
-            break_steps: 1,
-            contact_step: None,
-            sample: 0.05,
-        };
+        let plan = Plan::new(1.5, 0.05);
         let mut state = system.initial();
         let ending = transient(&mut system, &radau(1e-6), &mut state, &plan, &mut watch);
         assert_eq!(ending, Ending::Finished, "{elements} elements");

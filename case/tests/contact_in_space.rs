@@ -1,0 +1,205 @@
+//! Contacts of bodies and beams in space: several points, steps of many radians, and whole bursts of impacts.
+
+#![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
+
+use crate::written::{finished, outcome, reading};
+use flexion_case::{Reading, Run};
+use flexion_results::Status;
+use std::f64::consts::PI;
+
+/// A rod in space falls with its tip onto a floor: the mass that takes part there is one of the mesh, that of a body is not.
+#[test]
+fn restitution_of_a_point_of_a_beam_in_space_is_one_of_the_mesh() {
+    let case = |more: &str, on: &str| {
+        let text = format!(
+            "run={{duration=0.01}}\ngravity=[0,0,-9.81]\n[[beam]]\nname='rod'\nlength=1\nroot='hinged'\nelements=4\n\
+             section={{kind='circle',modulus=70e9,density=2700,radius=0.01}}\ndirection=[1,0,1]\n{more}\
+             [[contact]]\nname='floor'\non='{on}'\nobstacle={{kind='plane',normal=[0,0,1]}}\nlaw={{kind='constraint',restitution=0.5}}\n"
+        );
+        let run = finished(&reading(&text, &[]));
+        run.warnings
+            .iter()
+            .any(|w| w.contains("effective mass at floor") && w.contains("parameter of the mesh"))
+    };
+    assert!(case("", "rod.tip"));
+    let ball = "[[body]]\nname='ball'\nmass=5\nposition=[0.7071067811865476,0,0.7071067811865476]\n\
+                inertia={kind='sphere',radius=0.03}\n[[joint]]\nkind='fixed'\nbetween=['rod.tip','ball']\n";
+    assert!(!case(ball, "ball"));
+}
+
+/// A box that falls flat on its four corners: the fourth force follows from the others.
+#[test]
+fn contacts_whose_forces_follow_from_each_other_are_named() {
+    let mut text = "run={duration=1.5}\ngravity=[0,0,-9.81]\nintegrator={kind='generalized-alpha',step=1e-3}\n[[body]]\n\
+                    name='brick'\nmass=2\ninertia={kind='box',size=[0.2,0.4,0.2]}\nposition=[0,0,0.5]\n"
+        .to_owned();
+    for [x, y] in [[-1, -2], [-1, 2], [1, -2], [1, 2]] {
+        text += &format!(
+            "[[contact]]\non='brick'\nat=[{}e-1,{}e-1,0.4]\nobstacle={{kind='plane',normal=[0,0,1]}}\nlaw={{kind='constraint',restitution=0.5}}\n",
+            x, y
+        );
+    }
+    let message = outcome(&reading(&text, &[])).message.unwrap();
+    assert!(
+        message.contains("contact, contact2, contact3, contact4 are closed at once")
+            && message.contains("use a nonsmooth method (Moreau–Jean"),
+        "{message}"
+    );
+    assert_eq!(
+        outcome(&reading(&text, &["integrator={kind='moreau-jean',step=1e-3}"])).status,
+        Status::Finished
+    );
+}
+
+/// A point on the rim of a rotor, a ball of 1 cm in its way, and steps of many radians: it touches where 1 + d² − 2d sin θ = r². A method that
+/// locates events finds it; one that locates none says that it may have stepped over.
+#[test]
+fn no_point_of_a_rotor_passes_an_obstacle_in_a_step_unseen() {
+    let rotor = |integrator: &str, speed: f64| {
+        format!(
+            "integrator = {integrator}\nrun = {{ duration = 0.4 }}\noutput = {{ step = 0.05 }}\n\
+             [[body]]\nname = 'b'\nmass = 1\ninertia = {{ kind = 'box', size = [1, 1, 0.1] }}\nspin = [0, 0, {speed}]\n\
+             [[joint]]\nname = 'j'\nkind = 'revolute'\nbetween = ['ground', 'b']\nat = [0, 0, 0]\n\
+             [[contact]]\nname = 'k'\non = 'b'\nat = [1, 0, 0]\n\
+             obstacle = {{ kind = 'sphere', centre = [0, 1.005, 0], radius = 0.01 }}\n\
+             law = {{ kind = 'constraint', restitution = 1 }}\n"
+        )
+    };
+    let sine: f64 = (1.0 + 1.005_f64.powi(2) - 1e-4) / 2.01;
+    for speed in [400.0, -400.0, 37.0] {
+        // Backwards it arrives from the other side, at π − θ.
+        let angle = if speed > 0.0 { sine.asin() } else { PI + sine.asin() };
+        for integrator in [
+            "{ kind = 'hht', step = 0.1, alpha = 0 }",
+            "{ kind = 'generalized-alpha', step = 0.013 }",
+            "{ kind = 'radau' }",
+        ] {
+            let run = finished(&reading(&rotor(integrator, speed), &[]));
+            let found = run.events.impacts().next().map_or(f64::NAN, |first| first.time);
+            let expected = angle / speed.abs();
+            assert!(
+                (found - expected).abs() < 1e-6 * expected,
+                "{integrator} {speed}: {found} for {expected}"
+            );
+        }
+        for kind in ["nonsmooth-generalized-alpha", "moreau-jean"] {
+            let integrator = format!("{{ kind = '{kind}', step = 0.1 }}");
+            let run = outcome(&reading(&rotor(&integrator, speed), &[]));
+            if let Status::Failed = run.status {
+                // Steps of six turns diverge at the impact: that is told.
+                continue;
+            }
+            let warned = run.warnings.iter().any(|w| w.contains("may have passed through its obstacle"));
+            assert!(warned || run.events.impacts().next().is_some(), "{kind} {speed}: {:?}", run.warnings);
+        }
+    }
+    // The end of one step lies within the ball, and no step finds it on its way.
+    let rotor = rotor("{ kind = 'moreau-jean', step = 8.944780596329235e-4 }", 161.63888793419412).replace(
+        "centre = [0, 1.005, 0], radius = 0.01",
+        "centre = [0.17781930615421235, -0.9732090940755899, 0], radius = 0.01439305013096359",
+    );
+    let run = finished(&reading(&rotor, &["run.duration=0.0588"]));
+    assert!(
+        run.warnings.iter().any(|w| w.contains("may have passed through its obstacle")),
+        "{:?}",
+        run.warnings
+    );
+}
+
+/// A ball that falls from rest for 0.5 s to 5 m/s onto the floor, in a run of 2 s.
+fn ball(integrator: &str, restitution: f64) -> Reading {
+    let case = format!(
+        "gravity = [0, 0, -10]\nintegrator = {integrator}\nrun = {{ duration = 2 }}\noutput = {{ step = 0.9 }}\n\
+         [[body]]\nname = 'b'\nmass = 3\ninertia = {{ kind = 'box', size = [1, 1, 1] }}\nposition = [0, 0, 1.25]\n\
+         [[contact]]\nname = 'k'\non = 'b'\nobstacle = {{ kind = 'plane', normal = [0, 0, 1] }}\n\
+         law = {{ kind = 'constraint', restitution = {restitution} }}\n"
+    );
+    reading(&case, &[])
+}
+
+/// The momentum that it then takes from the floor, until the end of the run \[N·s\].
+fn taken(run: &Run) -> f64 {
+    3.0 * (5.0 + 10.0 * (2.0 - run.events.impacts().next().unwrap().time))
+}
+
+/// A ball that falls with v₁ onto the floor and comes to rest in a burst of impacts takes m v₁ + m g Δt from the first of them to the end of the
+/// run: the impulses of its impacts and ∫λ dt while it rests.
+#[test]
+fn the_impulse_of_a_whole_burst_is_the_change_of_momentum() {
+    // With e = ½ it bounces for another second.
+    for restitution in [0.0, 0.5] {
+        for (integrator, allowed) in [
+            ("{ kind = 'radau' }", 1e-6),
+            // Of the second order in the step: see below.
+            ("{ kind = 'generalized-alpha', step = 0.01 }", 4.1e-5),
+            ("{ kind = 'moreau-jean', step = 1e-3 }", 5e-3),
+            ("{ kind = 'nonsmooth-generalized-alpha', step = 1e-3 }", 5e-3),
+        ] {
+            let run = finished(&ball(integrator, restitution));
+            let (first, expected) = (run.events.impacts().next().unwrap().time, taken(&run));
+            let found: Vec<f64> = run.events.impulses().map(|(_, impulse)| impulse).collect();
+            assert!((found[0] / expected - 1.0).abs() < allowed, "{integrator}: {found:?} for {expected}");
+            let bursts: Vec<_> = run.events.list.iter().filter(|entry| entry.what == "burst").collect();
+            let last = bursts.last().unwrap();
+            assert!((last.impulse.unwrap() / expected - 1.0).abs() < allowed, "{integrator}: {last:?}");
+            assert!((last.time - 2.0).abs() < 1e-9 && (last.duration.unwrap() - 2.0 + first).abs() < 1e-9);
+        }
+    }
+}
+
+/// The impulse of a whole burst by methods with dissipation: 4.0e-5 and 9.7e-5 of it with steps of 10 ms, and of order 2 in the step. Without
+/// dissipation q̈ and the multipliers of a constant force are exact.
+#[test]
+fn the_impulse_of_a_whole_burst_is_of_order_two_in_the_step() {
+    let off = |kind: &str, step: f64| {
+        let run = finished(&ball(&format!("{{ kind = '{kind}', step = {step} }}"), 0.5));
+        let burst = run.events.list.iter().rfind(|entry| entry.what == "burst").unwrap();
+        (burst.impulse.unwrap() / taken(&run) - 1.0).abs()
+    };
+    for (kind, coarse) in [("generalized-alpha", 4.1e-5), ("hht", 9.8e-5)] {
+        let errors = [0.01, 0.005, 0.0025].map(|step| off(kind, step));
+        assert!(errors[0] < coarse, "{kind}: {errors:?}");
+        for pair in errors.windows(2) {
+            let order = (pair[0] / pair[1]).log2();
+            assert!((order - 2.0).abs() < 0.03, "{kind}: order {order}, {errors:?}");
+        }
+    }
+    assert!(off("newmark", 0.01) < 1e-8);
+}
+
+/// A ball falls, bounces and comes to rest while it turns by 4 rad in a step, alone or on an axis without friction: in the steps of an
+/// impact too its rotation is ω t.
+#[test]
+fn a_body_that_turns_by_more_than_half_a_turn_in_a_step_bounces() {
+    let speed = 400.0;
+    for scheme in ["true", "false"] {
+        for (joint, column) in [
+            ("", "b.rotation.z"),
+            ("[[joint]]\nname = 'j'\nkind = 'cylindrical'\nbetween = ['ground', 'b']", "j.angle"),
+        ] {
+            let case = format!(
+                "gravity = [0, 0, -10]\nrun = {{ duration = 1.5 }}\noutput = {{ step = 2.5e-3 }}\n\
+                 integrator = {{ kind = 'nonsmooth-generalized-alpha', step = 0.01, decoupled = {scheme} }}\n\
+                 [[body]]\nname = 'b'\nmass = 3\ninertia = {{ kind = 'box', size = [1, 1, 1] }}\nposition = [0, 0, 1.25]\n\
+                 spin = [0, 0, {speed}]\n{joint}\n\
+                 [[contact]]\nname = 'k'\non = 'b'\nobstacle = {{ kind = 'plane', normal = [0, 0, 1] }}\n\
+                 law = {{ kind = 'constraint', restitution = 0.5 }}\n"
+            );
+            let run = finished(&reading(&case, &[]));
+            assert!(run.events.impacts().count() > 2);
+            let times = run.trajectory.times();
+            for (t, found) in times.iter().zip(run.trajectory.column(column).unwrap()) {
+                let turned = speed * t;
+                // The sign of a quaternion is free.
+                let off = match joint {
+                    "" => (found.abs() - (0.5 * turned).sin().abs()).abs(),
+                    _ => (found - turned).abs(),
+                };
+                assert!(
+                    off < 1e-8 * (1.0 + turned),
+                    "{scheme} {column}: {found} at {t} s, turned by {turned}"
+                );
+            }
+        }
+    }
+}
