@@ -24,7 +24,7 @@ use super::layout::{self, BASIS, INITIAL, MODEL_ON_HUB, ModelOnHub, OUTPUT, RUN,
 use super::problem::Place;
 use super::sources::Files;
 use super::tree::{Line, Node, Raw};
-use super::values::{Values, item};
+use super::values::{Values, item, join};
 use flexion::hub_beam::Drive;
 use flexion::profile::HubKinematics;
 use std::cell::RefCell;
@@ -182,6 +182,7 @@ pub(super) fn long(lines: &[Line], v: &Values, files: &Files<'_>) -> Made<Long> 
     if let Some(output) = &output {
         found.part(carried(v, output));
     }
+    found.part(apart(lines));
     let (Some(section), Some(start), Some(hub), Some(output)) = (section, start, hub, output) else {
         return Err(found.0);
     };
@@ -405,6 +406,23 @@ fn turning(v: &Values, start: &Start, c: &Context<'_>) -> Made<()> {
                 format!("{table}.{key}"),
                 "turns with the hub, and obstacles in space are fixed to the ground, or moved",
             );
+        }
+    }
+    if faults.0.is_empty() { Ok(()) } else { Err(faults) }
+}
+
+/// Refuses bodies and joints with the names of the beam, of its hub and of what it is fixed to.
+fn apart(lines: &[Line]) -> Made<()> {
+    let mut faults = Faults::default();
+    for key in ["body", "joint"] {
+        for (i, table) in tables(lines, key).iter().enumerate() {
+            let Raw::Table(lines) = &table.value else { continue };
+            let Some(Node { value: Raw::Text(name), .. }) = written(lines, "name") else { continue };
+            if [BEAM, HUB, BODY, CLAMP].contains(&name.as_str()) {
+                let message = format!("`{name}` is a name that [beam] and [hub] give to a part of theirs");
+                let fault = Fault::new(join(&item(key, i), "name"), message);
+                faults.0.push(fault.help(format!("write another, for example `{name}-1`")));
+            }
         }
     }
     if faults.0.is_empty() { Ok(()) } else { Err(faults) }

@@ -397,11 +397,20 @@ fn hostile_cases_are_refused_at_their_place() {
         (SHORT, &["load=[{on='beam@2 m', force=[0, 1]}]"], &["load[1].on", "ends at 1 m"]),
         (SHORT, &["load=[{on='tip', force=[0, 0, 1]}]"], &["load[1].force", "out of the plane"]),
         (SHORT, &["gravity=[0, 0, -9.81]"], &["gravity", "out of the plane"]),
-        (SHORT, &["joint=[{name='hub', kind='fixed', between=['ground', 'beam.tip']}]"], &["hub", "name"]),
+        (
+            SHORT,
+            &["joint=[{name='hub', kind='fixed', between=['ground', 'beam.tip']}]"],
+            &["joint[1].name", "`hub-1`"],
+        ),
         (
             SHORT,
             &["body=[{name='ball', mass=1, inertia={kind='sphere', radius=1}}]", "model.coupling=first"],
             &["body", "space"],
+        ),
+        (
+            SHORT,
+            &["body=[{name='hub-body', mass=1, inertia={kind='sphere', radius=1}}]"],
+            &["body[1].name", "[hub]"],
         ),
         (SHORT, &["model.coupling=exact", "model.refine=2"], &["model.refine", "space"]),
         (SHORT, &["damping.mass=1"], &["damping.mass", "relative to the hub", "exact"]),

@@ -25,6 +25,8 @@ pub struct Directory {
     path: PathBuf,
     /// Whether there are former results.
     replaces: bool,
+    /// Whether it was not there before.
+    made: bool,
     /// Holds the lock.
     _lock: Option<File>,
 }
@@ -54,6 +56,7 @@ impl Directory {
         if path.exists() && !path.is_dir() {
             return Err(OutputError::NotADirectory { path });
         }
+        let made = !path.exists();
         fs::create_dir_all(&path).map_err(OutputError::io("make the directory", &path))?;
         let lock = lock(&path)?;
         staging::recover(&path).map_err(OutputError::io("finish the interrupted replacement in", &path))?;
@@ -62,7 +65,7 @@ impl Directory {
         }
         staging::clear(&path).and_then(|()| probe(&path)).map_err(OutputError::io("write to", &path))?;
         let replaces = own.iter().any(|artifact| path.join(&*artifact.file_name()).exists());
-        Ok(Directory { path, replaces, _lock: lock })
+        Ok(Directory { path, replaces, made, _lock: lock })
     }
 
     /// Where it is, as it was asked for.
@@ -129,9 +132,12 @@ impl Directory {
         }
     }
 
-    /// Removes what was written and not published.
+    /// Removes what was written and not published, and the directory if it was made for that and is empty.
     pub fn discard(&self) {
         let _ = staging::clear(&self.path);
+        if self.made {
+            let _ = fs::remove_dir(&self.path);
+        }
     }
 }
 
@@ -331,5 +337,27 @@ mod tests {
         assert!(matches!(e, OutputError::Busy { .. }), "{e}");
         drop(first);
         Directory::create(dir.path(), true).unwrap();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of what was never published nothing is left: no directory that was not there, and one that was as it was.
+    #[test]
+    fn what_is_discarded_leaves_no_trace() {
+        let folder = tempfile::tempdir().unwrap();
+        for (name, was_there) in [("new", false), ("old", true)] {
+            let path = folder.path().join(name);
+            if was_there {
+                fs::create_dir(&path).unwrap();
+            }
+            let directory = Directory::create(&path, false).unwrap();
+            directory.write(Artifact::TrajectoryCsv, |file| file.write_all(b"t")).unwrap();
+            directory.discard();
+            assert_eq!(path.exists(), was_there);
+            assert!(!was_there || fs::read_dir(&path).unwrap().next().is_none());
+        }
     }
 }
