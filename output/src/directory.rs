@@ -338,11 +338,6 @@ mod tests {
         drop(first);
         Directory::create(dir.path(), true).unwrap();
     }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
 
     /// Of what was never published nothing is left: no directory that was not there, and one that was as it was.
     #[test]
