@@ -473,6 +473,11 @@ fn every_change_is_refused_at_its_key_and_line() {
         ("section.modulus", "", "an override is KEY=VALUE"),
         ("basis.elements.x=1", "basis.elements", "is an integer and has no keys"),
         ("basis=RPIM", "basis", "unknown basis `RPIM`"),
+        (
+            "load=[{on='beam', force-per-length=[0, 1], distribution={kind='table', stations=[2, 8], factors=[1, 1]}}]",
+            "load[1].distribution",
+            "covers the stations from 2 m to 8 m, and the load acts from 0 m to 10 m",
+        ),
     ] {
         let problems = read(SOUND.to_owned(), &[set.to_owned()]).unwrap_err();
         assert!(problems.list[0].key == key && problems.list[0].message.contains(words), "{set}\n{problems}");

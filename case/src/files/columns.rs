@@ -28,12 +28,12 @@ pub const fn column(
 const IN_DEGREES: &str = "strctwst";
 
 /// Letters and digits of a title, in lower case.
-fn plain(title: &str) -> String {
+pub(super) fn plain(title: &str) -> String {
     title.chars().filter(char::is_ascii_alphanumeric).map(|c| c.to_ascii_lowercase()).collect()
 }
 
 /// A title without its unit, and the unit: `twist [deg]`, `EA (kN)`.
-fn parts(title: &str) -> (&str, Option<&str>) {
+pub(super) fn parts(title: &str) -> (&str, Option<&str>) {
     match title.find(['[', '(']) {
         Some(at) => (title[..at].trim(), Some(title[at + 1..].trim_end_matches([']', ')']).trim())),
         None => (title, None),
@@ -42,13 +42,18 @@ fn parts(title: &str) -> (&str, Option<&str>) {
 
 /// The number of SI units in one of a column's.
 fn factor(title: &str, unit: Option<&str>, column: &Column, name: &str) -> Result<f64, String> {
-    let unit = match unit {
-        Some(unit) => unit.replace("Nm", "N*m").replace("kgm", "kg*m"),
-        None if plain(title) == IN_DEGREES => "deg".to_owned(),
-        None => return Ok(1.0),
-    };
-    units::parse(&format!("1 {unit}"), column.measure)
-        .map_err(|error| format!("the column `{}` of {name}: {}; {}", column.name, error.message, error.help))
+    match unit {
+        None if plain(title) == IN_DEGREES => in_si("deg", column.measure, column.name, name),
+        None => Ok(1.0),
+        Some(unit) => in_si(unit, column.measure, column.name, name),
+    }
+}
+
+/// The number of SI units in the `unit` of the column `title` of the file `name`.
+pub(super) fn in_si(unit: &str, measure: &Measure, title: &str, name: &str) -> Result<f64, String> {
+    let unit = unit.replace("Nm", "N*m").replace("kgm", "kg*m");
+    units::parse(&format!("1 {unit}"), measure)
+        .map_err(|error| format!("the column `{title}` of {name}: {}; {}", error.message, error.help))
 }
 
 /// The rows of a file that the case calls `name`, in SI and in the order of `columns`, zero where one is left out. Lines

@@ -7,7 +7,7 @@ use crate::keys::{Field, keys, kind, quantities, quantity, text};
 use crate::kind::{Choice, Context, Is, Kind, Of};
 use crate::units::{FACTOR, LENGTH, TIME};
 use flexion::hub_beam::load::Amplitude;
-use flexion::profile::{Polyline, Ramp};
+use flexion::profile::{Pieces, Ramp};
 use std::sync::Arc;
 
 keys! {
@@ -90,8 +90,8 @@ keys! {
     }
 }
 
-fn polyline(k: Stations, _: &Context<'_>) -> Made<Amplitude> {
-    let line = Polyline::new(&profile::factors(&k.stations, &k.factors)?);
+fn lines(k: Stations, _: &Context<'_>) -> Made<Amplitude> {
+    let line = Pieces::linear(&profile::factors(&k.stations, &k.factors)?);
     Ok(Some(Arc::new(profile::checked(line, "stations")?)))
 }
 
@@ -113,7 +113,7 @@ pub static DISTRIBUTION: Choice<Amplitude> = Choice {
             summary: "straight lines through stations and factors",
             source: "",
             example: "load=[{on='beam', force-per-length=[0, 3], distribution={kind='table', stations=[0, 1, 2], factors=[0, 1, 0]}}]",
-            make: &Of(polyline),
+            make: &Of(lines),
         },
         Kind {
             name: "expression",

@@ -37,7 +37,7 @@ keys! {
         y: Vec<f64> = quantities(&LENGTH, Any).or_empty();
         /// their z
         z: Vec<f64> = quantities(&LENGTH, Any).or_empty();
-        /// CSV file of x, y and z [m] of the points, in place of the lists
+        /// CSV file of x, y and z of the points, in m or with the units in their titles, in place of the lists
         file: Option<File> = text();
     }
 }
@@ -60,8 +60,9 @@ impl Centreline {
                 return Err(Fault::new("file", "the points are written as `x`, `y` and `z` too").into());
             }
             (Some(file), false) => {
-                let what = "three numbers: x, y and z in m";
-                let rows = files::rows::read(&file.bytes, &file.name, what).at("file")?;
+                let what = "three numbers: x, y and z";
+                let columns = [["x"], ["y"], ["z"]].each_ref().map(|name| (&name[..], &LENGTH));
+                let rows = files::rows::read(&file.bytes, &file.name, what, columns).at("file")?;
                 (rows.into_iter().map(Vec3).collect::<Vec<_>>(), "file")
             }
             (None, _) => {

@@ -2,13 +2,13 @@
 
 use super::motion::MOTION;
 use super::name::{NAME, name};
-use super::profile::{self, INTERPOLATION, Shared, Through};
+use super::profile::{self, Given, INTERPOLATION, Through, speed};
 use super::spring::between;
 use super::vector::{ACROSS, AXIS, direction};
 use crate::declaration::Bound::*;
 use crate::fault::{Fault, Made};
 use crate::keys::{Field, File, Named, choice, keys, kind, path, quantity, text, texts, vector};
-use crate::kind::{Choice, Context, Is, Kind, Of, Table};
+use crate::kind::{Choice, Is, Kind, Of, Table};
 use crate::places::Place;
 use crate::units::{DAMPING, FORCE, FORCE_PER_LENGTH, LENGTH, VELOCITY};
 use flexion::drive::Actuator;
@@ -77,13 +77,6 @@ pub static JOINT: Choice<Freedom> = Choice {
     ],
 };
 
-/// Makes a motion of the profile of the quantity that a table or a formula gives.
-type Given = fn(Shared) -> Motion;
-
-fn speed(profile: Shared) -> Motion {
-    Motion::Speed { profile, initial_angle: 0.0 }
-}
-
 /// Which quantity of a displacement a table or a formula gives.
 pub static TRAVEL_OF: Choice<Given> = Choice {
     name: "travel quantity",
@@ -95,14 +88,14 @@ pub static TRAVEL_OF: Choice<Given> = Choice {
             summary: "the speed [m/s]",
             source: "",
             example: "joint=[{kind='prismatic', between=['ground', 'bar'], travel={kind='expression', formula='sin(t)^2', of='speed'}}]",
-            make: &Is(speed as Given),
+            make: &Is(Given { motion: speed, measure: &VELOCITY }),
         },
         Kind {
             name: "displacement",
             summary: "the displacement [m]",
             source: "",
             example: "joint=[{kind='prismatic', between=['ground', 'bar'], travel={kind='expression', formula='sin(t)^2', of='displacement'}}]",
-            make: &Is(Motion::Angle as Given),
+            make: &Is(Given { motion: Motion::Angle, measure: &LENGTH }),
         },
     ],
 };
@@ -116,7 +109,7 @@ keys! {
     }
 
     struct Rows {
-        /// CSV file with the columns t [s] and value
+        /// CSV file with the columns t and value, in SI or with the units in their titles
         file: File = path();
         interpolation: Through = INTERPOLATION;
         of: Given = OF_TRAVEL;
@@ -140,11 +133,6 @@ keys! {
     }
 }
 
-fn prescribed(motion: Motion, c: &Context<'_>, key: &str) -> Made<Drive> {
-    profile::checked(motion.validate(c.duration()?), key)?;
-    Ok(Drive::Prescribed(motion))
-}
-
 /// What moves a prismatic joint.
 pub static TRAVEL: Choice<Drive> = Choice {
     name: "travel",
@@ -166,16 +154,14 @@ pub static TRAVEL: Choice<Drive> = Choice {
             summary: "table of time and speed or displacement",
             source: "",
             example: "joint=[{kind='prismatic', between=['ground', 'bar'], travel={kind='table', file='measured.csv', of='displacement'}}]",
-            make: &Of(|k: Rows, c| {
-                prescribed((k.of)(profile::table(&k.file, k.interpolation, c)?), c, "file")
-            }),
+            make: &Of(|k: Rows, c| profile::tabled(&k.file, k.of, k.interpolation, c).map(Drive::Prescribed)),
         },
         Kind {
             name: "expression",
             summary: "formula of time t [s] for the speed or the displacement",
             source: "",
             example: "joint=[{kind='prismatic', between=['ground', 'bar'], travel={kind='expression', formula='4*t', of='speed'}}]",
-            make: &Of(|k: Formula, c| prescribed((k.of)(profile::of_time(&k.formula, c)?), c, "formula")),
+            make: &Of(|k: Formula, c| profile::formulated(&k.formula, k.of, c).map(Drive::Prescribed)),
         },
         Kind {
             name: "free",

@@ -187,6 +187,14 @@ fn along(k: &Written, c: &Context<'_>, beam: usize) -> Made<Acts> {
         return Ok(Acts::By { beam, range: (from, to), law: Arc::clone(law) });
     }
     let distribution = k.distribution.make("distribution", c)?.flatten();
+    let known = distribution.as_ref().map(|of| of.range());
+    if let Some((first, last)) = known.filter(|(first, last)| *first > from || *last < to) {
+        let message = format!(
+            "covers the stations from {first} m to {last} m, and the load acts from {from} m to {to} m"
+        );
+        let help = "extend it with factors of the rest, or write `from` and `to`";
+        return Err(Fault::new("distribution", message).help(help).into());
+    }
     let Some(force) = k.force_per_length else {
         let message =
             "is no load: give `force-per-length` or a `law`, or name a place for a `force` or a `couple`";

@@ -1,22 +1,15 @@
 //! The motion of the hub: kinds, keys and makers.
 
-use super::profile::{self, INTERPOLATION, Shared, Through};
+use super::profile::{self, Given, INTERPOLATION, Through, speed};
 use super::torque;
 use crate::declaration::Bound::*;
 use crate::fault::Made;
 use crate::keys::{Field, File, choice, keys, path, quantity, text};
 use crate::kind::{Choice, Context, Is, Kind, Of};
-use crate::units::{ANGULAR_SPEED, TIME};
+use crate::units::{ANGLE, ANGULAR_SPEED, TIME};
 use flexion::hub_beam::Drive;
 use flexion::profile::{Constant, Motion, Profile, ProfileError, Ramp, SpinUp};
 use std::sync::Arc;
-
-/// Makes a motion of the profile of the quantity that a table or a formula gives.
-type Given = fn(Shared) -> Motion;
-
-fn speed(profile: Shared) -> Motion {
-    Motion::Speed { profile, initial_angle: 0.0 }
-}
 
 /// Which quantity a table or a formula gives.
 pub static OF: Choice<Given> = Choice {
@@ -29,14 +22,14 @@ pub static OF: Choice<Given> = Choice {
             summary: "the angular speed of the hub [rad/s]",
             source: "",
             example: "hub.motion={kind='expression', formula='sin(t)^2', of='speed'}",
-            make: &Is(speed as Given),
+            make: &Is(Given { motion: speed, measure: &ANGULAR_SPEED }),
         },
         Kind {
             name: "angle",
             summary: "the angle of the hub [rad]",
             source: "",
             example: "hub.motion={kind='expression', formula='sin(t)^2', of='angle'}",
-            make: &Is(Motion::Angle as Given),
+            make: &Is(Given { motion: Motion::Angle, measure: &ANGLE }),
         },
     ],
 };
@@ -59,7 +52,7 @@ const OF_MOTION: Field<Given> = choice(&OF).called("of", "quantity that is given
 
 keys! {
     struct Table {
-        /// CSV file with the columns t [s] and value
+        /// CSV file with the columns t and value, in SI or with the units in their titles
         file: File = path();
         of: Given = OF_MOTION;
         interpolation: Through = INTERPOLATION;
@@ -72,15 +65,10 @@ keys! {
     }
 }
 
-/// A motion that is validated over the run, with what is wrong with it at `key`.
-fn prescribed(motion: Motion, c: &Context<'_>, key: &str) -> Made<Drive> {
-    profile::checked(motion.validate(c.duration()?), key)?;
-    Ok(Drive::Prescribed(motion))
-}
-
 /// A motion whose speed is one of the profiles of closed form.
 fn of_speed<P: Profile + 'static>(profile: Result<P, ProfileError>, c: &Context<'_>) -> Made<Drive> {
-    prescribed(speed(Arc::new(profile::checked(profile, "kind")?)), c, "kind")
+    let motion = speed(Arc::new(profile::checked(profile, "kind")?));
+    profile::validated(motion, c, "kind").map(Drive::Prescribed)
 }
 
 /// The kinds of motion.
@@ -116,7 +104,7 @@ pub static MOTION: Choice<Drive> = Choice {
             source: "",
             example: "hub.motion={kind='table', file='measured.csv', of='speed'}",
             make: &Of(|k: Table, c| {
-                prescribed((k.of)(profile::table(&k.file, k.interpolation, c)?), c, "file")
+                profile::tabled(&k.file, k.of, k.interpolation, c).map(Drive::Prescribed)
             }),
         },
         Kind {
@@ -124,7 +112,7 @@ pub static MOTION: Choice<Drive> = Choice {
             summary: "formula of time t [s] for the angular speed or the angle",
             source: "",
             example: "hub.motion={kind='expression', formula='4*sin(t)', of='speed'}",
-            make: &Of(|k: Formula, c| prescribed((k.of)(profile::of_time(&k.formula, c)?), c, "formula")),
+            make: &Of(|k: Formula, c| profile::formulated(&k.formula, k.of, c).map(Drive::Prescribed)),
         },
         Kind {
             name: "free",

@@ -4,11 +4,42 @@ use crate::fault::{At, Fault, Made};
 use crate::files;
 use crate::keys::{Field, File, choice};
 use crate::kind::{Choice, Context, Is, Kind};
-use flexion::profile::{End, Expression, Pieces, Profile, ProfileError, Table, covers};
+use crate::units::{Measure, TIME};
+use flexion::profile::{End, Expression, Motion, Pieces, Profile, ProfileError, Table, covers};
 use std::sync::Arc;
 
 /// Whatever changes with one variable.
 pub(super) type Shared = Arc<dyn Profile>;
+
+/// The quantity of a motion that a table or a formula gives.
+#[derive(Clone, Copy)]
+pub struct Given {
+    /// Makes the motion of its profile.
+    pub motion: fn(Shared) -> Motion,
+    /// What it measures.
+    pub measure: &'static Measure,
+}
+
+/// The motion with a speed in time.
+pub(super) fn speed(profile: Shared) -> Motion {
+    Motion::Speed { profile, initial_angle: 0.0 }
+}
+
+/// The motion that a table in a file gives.
+pub(super) fn tabled(file: &File, of: Given, curve: Through, c: &Context<'_>) -> Made<Motion> {
+    validated((of.motion)(table(file, of.measure, curve, c)?), c, "file")
+}
+
+/// The motion that a formula in time gives.
+pub(super) fn formulated(text: &str, of: Given, c: &Context<'_>) -> Made<Motion> {
+    validated((of.motion)(of_time(text, c)?), c, "formula")
+}
+
+/// A motion that is validated over the run, with what is wrong with it at `key`.
+pub(super) fn validated(motion: Motion, c: &Context<'_>, key: &str) -> Made<Motion> {
+    checked(motion.validate(c.duration()?), key)?;
+    Ok(motion)
+}
 
 /// The value, or what is wrong with the profile at `key`: in a formula at the character that is to blame.
 pub(super) fn checked<T>(result: Result<T, ProfileError>, key: &str) -> Made<T> {
@@ -100,10 +131,11 @@ pub(super) fn through(rows: &[(f64, f64)], curve: Through, c: &Context<'_>, key:
     Ok(profile)
 }
 
-/// The curve through the rows of the file at `file`: times [s] and values.
-pub(super) fn table(file: &File, curve: Through, c: &Context<'_>) -> Made<Shared> {
-    let what = "two numbers with a comma between: a time in s and a value";
-    let rows = files::rows::read(&file.bytes, &file.name, what).at("file")?;
+/// The curve through the rows of the file at `file`: times and values of a measure, in SI or with the units of their titles.
+pub(super) fn table(file: &File, measure: &'static Measure, curve: Through, c: &Context<'_>) -> Made<Shared> {
+    let what = "two numbers with a comma between: a time and a value";
+    let columns = [(&["t", "time"][..], &TIME), (&[][..], measure)];
+    let rows = files::rows::read(&file.bytes, &file.name, what, columns).at("file")?;
     through(&rows.into_iter().map(<(f64, f64)>::from).collect::<Vec<_>>(), curve, c, "file")
 }
 

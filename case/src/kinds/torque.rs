@@ -28,7 +28,7 @@ keys! {
     }
 
     struct Table {
-        /// CSV file with the columns t [s] and torque [N·m]
+        /// CSV file with the columns t and torque, in SI or with the units in their titles
         file: File = path();
         interpolation: Through = OF_LOADS;
     }
@@ -65,7 +65,7 @@ pub static TORQUE_ON_HUB: Choice<Shared> = Choice {
             source: "",
             example: "hub={inertia=5, motion={kind='free', torque={kind='table', file='measured.csv'}}}",
             make: &Of(|k: Table, c| {
-                profile::covering(profile::table(&k.file, k.interpolation, c)?, c, "file")
+                profile::covering(profile::table(&k.file, &TORQUE, k.interpolation, c)?, c, "file")
             }),
         },
         Kind {

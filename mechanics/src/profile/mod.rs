@@ -7,7 +7,6 @@ mod motion;
 mod number;
 mod panels;
 mod pieces;
-mod polyline;
 mod program;
 mod simple;
 mod table;
@@ -15,7 +14,6 @@ mod table;
 pub use expression::Expression;
 pub use motion::{HubKinematics, Motion};
 pub use pieces::Pieces;
-pub use polyline::Polyline;
 pub use simple::{Constant, Ramp, SpinUp};
 pub use table::{End, Table};
 
@@ -86,7 +84,7 @@ pub enum ProfileError {
         needed: &'static str,
     },
     /// The rows make no table.
-    #[error("row {row} of the table (t = {time} s, value {value}) {fault}")]
+    #[error("row {row} of the table, {time} with the value {value}, {fault}")]
     Row {
         /// Row, from 1.
         row: usize,
