@@ -64,22 +64,27 @@ pub(super) fn quintic(
     }
     let h = to.t - from.t;
     let s = fraction(from, to, t);
-    let [value, slope, bend] = quintic_weights(s);
     let (by_time, by_square) = if h > 0.0 { (1.0 / h, 1.0 / (h * h)) } else { (0.0, 0.0) };
     // In the order of the weights: increment, then v and a of both ends.
-    let sum = |w: &[f64; 5], scale: f64, i: usize| {
-        let (speeds, accelerations) = (w[1] * from.v[i] + w[2] * to.v[i], w[3] * from.a[i] + w[4] * to.a[i]);
-        scale * (w[0] * increment[i] + h * (speeds + h * accelerations))
+    let scaled = |scale: f64, w: [f64; 5]| {
+        let (v, a) = (scale * h, scale * h * h);
+        [scale * w[0], v * w[1], v * w[2], a * w[3], a * w[4]]
     };
-    for i in 0..increment.len() {
-        // The acceleration's slot holds the increment until the configuration is retracted.
-        out.a[i] = sum(&value, 1.0, i);
-        out.v[i] = sum(&slope, by_time, i);
-    }
+    let [value, slope, bend] = quintic_weights(s);
+    let weights = [scaled(1.0, value), scaled(by_time, slope), scaled(by_square, bend)];
+    let n = increment.len();
+    let ends = [increment, &from.v[..n], &to.v[..n], &from.a[..n], &to.a[..n]];
+    let sum = |w: &[f64; 5], out: &mut [f64]| {
+        let [d, v0, v1, a0, a1] = ends;
+        for (i, out) in out[..n].iter_mut().enumerate() {
+            *out = w[0] * d[i] + (w[1] * v0[i] + w[2] * v1[i]) + (w[3] * a0[i] + w[4] * a1[i]);
+        }
+    };
+    // The acceleration's slot holds the increment until the configuration is retracted.
+    sum(&weights[0], &mut out.a);
     system.retract(&from.q, &out.a, &mut out.q);
-    for i in 0..increment.len() {
-        out.a[i] = sum(&bend, by_square, i);
-    }
+    sum(&weights[1], &mut out.v);
+    sum(&weights[2], &mut out.a);
     if h <= 0.0 {
         out.v.copy_from_slice(&to.v);
         out.a.copy_from_slice(&to.a);

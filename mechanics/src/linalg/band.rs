@@ -358,19 +358,30 @@ impl<T: Scalar> Band<T> {
 
     /// Row by row up to the first exchange; `LOWER` is the half-bandwidth, or 0.
     fn forward_by_rows<const LOWER: usize>(&self, b: &mut [T]) {
-        let l = if LOWER > 0 { LOWER } else { self.lower };
-        for (i, row) in self.data[..self.first_exchange * self.width].chunks_exact(self.width).enumerate() {
-            let sum = if LOWER > 0
-                && i >= LOWER
-                && let Some(row) = row.first_chunk::<LOWER>()
-                && let Some(x) = b[i - LOWER..].first_chunk::<LOWER>()
-            {
-                forward_products(b[i], row, x)
-            } else {
-                let first = i.saturating_sub(l);
-                forward_products(b[i], &row[l + first - i..l], &b[first..i])
+        let (width, l) = (self.width, if LOWER > 0 { LOWER } else { self.lower });
+        let short = if self.first_exchange < l { self.first_exchange } else { l };
+        if short == LOWER && let Some(x) = b.first_chunk_mut::<LOWER>() {
+            for i in 1..LOWER {
+                let row = &self.data[i * width..][..LOWER];
+                let mut sum = x[i];
+                for j in 0..i {
+                    sum -= row[LOWER - i + j] * x[j];
+                }
+                x[i] = sum;
+            }
+        } else {
+            for i in 0..short {
+                b[i] = forward_products(b[i], &self.data[i * width + l - i..i * width + l], &b[..i]);
+            }
+        }
+        let rows = self.data[short * width..self.first_exchange * width].chunks_exact(width);
+        for (i, row) in rows.enumerate() {
+            let (x, b) = b[i..].split_at_mut(l);
+            let sum = match (row.first_chunk::<LOWER>(), x.first_chunk::<LOWER>()) {
+                (Some(row), Some(x)) if LOWER > 0 => forward_products(b[0], row, x),
+                _ => forward_products(b[0], &row[..l], x),
             };
-            b[i] = sum;
+            b[0] = sum;
         }
     }
 
@@ -414,10 +425,22 @@ impl<T: Scalar> Band<T> {
     fn backward_by_rows<const UPPER: usize>(&self, b: &mut [T]) {
         let (n, l, width) = (self.n, self.lower, self.width);
         let common = if UPPER > 0 { self.first_exchange.min(n.saturating_sub(UPPER)) } else { 0 };
-        for k in (common..n).rev() {
-            let longest = if k < self.first_exchange { self.upper } else { width - l - 1 };
-            let row = &self.data[k * width + l..k * width + l + 1 + longest.min(n - 1 - k)];
-            b[k] = backward_products(b[k], &row[1..], &b[k + 1..k + row.len()]) * row[0];
+        let short = &self.data[common * width..];
+        if self.first_exchange == n && common + UPPER == n && let Some(x) = b.last_chunk_mut::<UPPER>() {
+            for k in (0..UPPER).rev() {
+                let row = &short[k * width + l..][..UPPER + 1];
+                let mut sum = x[k];
+                for j in (k + 1..UPPER).rev() {
+                    sum -= row[j - k] * x[j];
+                }
+                x[k] = sum * row[0];
+            }
+        } else {
+            for k in (common..n).rev() {
+                let longest = if k < self.first_exchange { self.upper } else { width - l - 1 };
+                let row = &self.data[k * width + l..k * width + l + 1 + longest.min(n - 1 - k)];
+                b[k] = backward_products(b[k], &row[1..], &b[k + 1..k + row.len()]) * row[0];
+            }
         }
         for (k, row) in self.data[..common * width].chunks_exact(width).enumerate().rev() {
             let (x, tail) = b[k..].split_at_mut(1);
