@@ -140,14 +140,16 @@ impl ExactCoupling {
             if strain == 0.0 && !viscous && !element.has_section_inertia() {
                 continue;
             }
-            let local = element.gather(s, self.radius);
             let mut tangent = [[0.0; 8]; 8];
             if strain != 0.0 {
-                element.strain_tangent(rule, &local, strain, &mut tangent);
+                element.strain_tangent(rule, &element.part(&s.q), strain, &mut tangent);
             }
-            element.section_tangent(rule, &local, hub, w, &mut tangent);
-            if viscous {
-                element.viscous_tangent(rule, &local, self.viscosity, w, &mut tangent);
+            if viscous || element.has_section_inertia() {
+                let local = element.gather(s, self.radius);
+                element.section_tangent(rule, &local, hub, w, &mut tangent);
+                if viscous {
+                    element.viscous_tangent(rule, &local, self.viscosity, w, &mut tangent);
+                }
             }
             element.assemble(&tangent, out);
         }
@@ -176,12 +178,14 @@ impl Coupling for ExactCoupling {
 
     fn add_forces(&mut self, s: &State, hub: &HubKinematics, r: &mut [f64]) {
         for (element, rule) in self.each() {
-            let local = element.gather(s, self.radius);
             let mut force = [0.0; 8];
-            element.strain_force(rule, &local, &mut force);
-            element.section_force(rule, &local, hub, &mut force);
-            if self.viscosity > 0.0 {
-                element.viscous_force(rule, &local, self.viscosity, &mut force);
+            element.strain_force(rule, &element.part(&s.q), &mut force);
+            if self.viscosity > 0.0 || element.has_section_inertia() {
+                let local = element.gather(s, self.radius);
+                element.section_force(rule, &local, hub, &mut force);
+                if self.viscosity > 0.0 {
+                    element.viscous_force(rule, &local, self.viscosity, &mut force);
+                }
             }
             element.scatter(&force, r);
         }
@@ -196,7 +200,7 @@ impl Coupling for ExactCoupling {
 
     fn strain_forms(&mut self, s: &State, vectors: &[Vec<f64>], out: &mut [f64]) {
         for (element, rule) in self.each() {
-            element.strain_forms(rule, &element.gather(s, self.radius), vectors, out);
+            element.strain_forms(rule, &element.part(&s.q), vectors, out);
         }
     }
 
@@ -212,8 +216,7 @@ impl Coupling for ExactCoupling {
     }
 
     fn strain(&mut self, s: &State) -> f64 {
-        let local = |e: &Element| e.gather(s, self.radius);
-        self.each().map(|(e, rule)| e.strain_energy(rule, &local(e))).sum()
+        self.each().map(|(e, rule)| e.strain_energy(rule, &e.part(&s.q))).sum()
     }
 
     fn extra_totals(&mut self, s: &State, hub: &HubKinematics) -> Totals {
@@ -224,7 +227,7 @@ impl Coupling for ExactCoupling {
     }
 
     fn add_border(&mut self, s: &State, hub: &HubKinematics, w: &Weights<'_>, out: &mut Border) {
-        for (element, rule) in self.each() {
+        for (element, rule) in self.each().filter(|(element, _)| element.has_section_inertia()) {
             let (mut column, mut row) = ([0.0; 8], [0.0; 8]);
             let local = element.gather(s, self.radius);
             out.corner += element.section_border(rule, &local, hub, w, (&mut column, &mut row));
@@ -243,9 +246,6 @@ impl Coupling for ExactCoupling {
     fn damp(&mut self, damping: Damping) {
         Arc::make_mut(&mut self.inertia).damp(damping);
         self.viscosity = damping.stiffness;
-        for element in Arc::make_mut(&mut self.elements) {
-            element.set_viscous(damping.stiffness > 0.0);
-        }
     }
 
     fn dissipated(&mut self, s: &State) -> f64 {

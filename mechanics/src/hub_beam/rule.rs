@@ -12,8 +12,9 @@ pub(super) const POINTS: usize = 3;
 pub struct Rule {
     pub(super) length: f64,
     pub(super) points: [RulePoint; POINTS],
-    /// N′ in the middle of the element.
+    /// N′ in the middle of the element, and its [`Relative`] part.
     pub(super) middle: [f64; 4],
+    pub(super) middle_relative: Relative,
     pub(super) middle_product: Block,
 }
 
@@ -27,8 +28,19 @@ pub(super) struct RulePoint {
     pub(super) n1: [f64; 4],
     pub(super) n2: [f64; 4],
     pub(super) l: [f64; 3],
+    /// The [`Relative`] parts of N′ and N″.
+    pub(super) relative: [Relative; 2],
     /// Products of N′ and N″, by rows.
     pub(super) products: Products,
+}
+
+/// Derivatives of the Hermite functions for the difference of the displacements of both ends, and for the slopes there: N₁ + N₃ = 1,
+/// and a translation leaves no strain.
+pub(super) type Relative = [f64; 3];
+
+/// The relative part of a derivative of the functions.
+fn relative([_, first, chord, last]: [f64; 4]) -> Relative {
+    [chord, first, last]
 }
 
 /// N′ᵢN′ⱼ, N′ᵢN″ⱼ, N″ᵢN′ⱼ and N″ᵢN″ⱼ at a quadrature point.
@@ -60,10 +72,12 @@ impl Rule {
                 n21: outer(&n2, &n1),
                 n22: outer(&n2, &n2),
             };
-            *point = RulePoint { s, weight: weight * length, n, n1, n2, l: lagrange(s), products };
+            let relative = [n1, n2].map(relative);
+            *point = RulePoint { s, weight: weight * length, n, n1, n2, l: lagrange(s), relative, products };
         }
         let middle = hermite(0.5, length).1;
-        Rule { length, points, middle, middle_product: outer(&middle, &middle) }
+        let middle_product = outer(&middle, &middle);
+        Rule { length, points, middle, middle_relative: relative(middle), middle_product }
     }
 
     /// N′ in the middle of the element.

@@ -1,6 +1,6 @@
 //! Strain energy of an element, its force and its tangent.
 
-use super::{CLAMPED, Element, Local, components};
+use super::{CLAMPED, Element, components};
 use crate::hub_beam::rule::{Block, POINTS, Products, Rule};
 use crate::linalg::vector::inner;
 
@@ -37,13 +37,14 @@ impl Element {
         out
     }
 
-    #[inline]
+    #[inline(always)]
     fn strains(&self, rule: &Rule, d: &[f64; 8]) -> Strains {
-        let [du, dv] = components(d);
+        // Difference of the displacements of both ends, and the slopes there.
+        let [du, dv] = components(d).map(|[first, slope, last, end]| [last - first, slope, end]);
         let slopes = [
             [1.0 + du[1], dv[1]],
-            [1.0 + inner(rule.middle, du), inner(rule.middle, dv)],
-            [1.0 + du[3], dv[3]],
+            [1.0 + inner(rule.middle_relative, du), inner(rule.middle_relative, dv)],
+            [1.0 + du[2], dv[2]],
         ];
         let mut out = Strains {
             tangent: [[0.0; 2]; 3],
@@ -68,8 +69,9 @@ impl Element {
             out.axial[i] = (0..3).map(|j| self.axial[i][j] * out.strain[j]).sum();
         }
         for (g, p) in rule.points.iter().enumerate() {
-            let (x1, y1) = (1.0 + inner(p.n1, du), inner(p.n1, dv));
-            let (x2, y2) = (inner(p.n2, du), inner(p.n2, dv));
+            let [n1, n2] = p.relative;
+            let (x1, y1) = (1.0 + inner(n1, du), inner(n1, dv));
+            let (x2, y2) = (inner(n2, du), inner(n2, dv));
             let inverse = 1.0 / (x1 * x1 + y1 * y1);
             let k = (x1 * y2 - y1 * x2) * inverse;
             out.curvature[g] = k;
@@ -89,8 +91,8 @@ impl Element {
     }
 
     /// ½ ∫ EA ε̄² − 2 ES ε̄ κ + EI κ² dx.
-    pub fn strain_energy(&self, rule: &Rule, local: &Local) -> f64 {
-        let s = self.strains(rule, &local.q);
+    pub fn strain_energy(&self, rule: &Rule, d: &[f64; 8]) -> f64 {
+        let s = self.strains(rule, d);
         let axial: f64 = s.axial.iter().zip(&s.strain).map(|(n, e)| n * e).sum();
         let bending: f64 = s.moment.iter().zip(&s.curvature).map(|(m, k)| m * k).sum();
         // Both sums hold one half of the coupling term −ES ε̄ κ.
@@ -99,29 +101,31 @@ impl Element {
 
     /// Adds ∂U/∂d to `f`.
     #[inline]
-    pub fn strain_force(&self, rule: &Rule, local: &Local, f: &mut [f64; 8]) {
-        let s = self.strains(rule, &local.q);
-        for c in 0..2 {
-            f[4 * c + 1] += s.axial[0] * s.tangent[0][c];
-            f[4 * c + 3] += s.axial[2] * s.tangent[2][c];
-            let middle = s.axial[1] * s.tangent[1][c];
-            for k in 0..4 {
-                f[4 * c + k] += middle * rule.middle[k];
+    pub fn strain_force(&self, rule: &Rule, d: &[f64; 8], f: &mut [f64; 8]) {
+        let s = self.strains(rule, d);
+        for (c, f) in f.as_chunks_mut::<4>().0.iter_mut().enumerate() {
+            // On the difference of the displacements of both ends, and on the slopes there.
+            let mut force = rule.middle_relative.map(|n| s.axial[1] * s.tangent[1][c] * n);
+            force[1] += s.axial[0] * s.tangent[0][c];
+            force[2] += s.axial[2] * s.tangent[2][c];
+            for (g, p) in rule.points.iter().enumerate() {
+                let [n1, n2] = p.relative;
+                let (first, second) = (s.gradient[g][c] * s.moment[g], s.gradient[g][2 + c] * s.moment[g]);
+                for k in 0..3 {
+                    force[k] += first * n1[k] + second * n2[k];
+                }
             }
-        }
-        for (g, p) in rule.points.iter().enumerate() {
-            let [x1, y1, x2, y2] = s.gradient[g].map(|k| k * s.moment[g]);
-            for k in 0..4 {
-                f[k] += x1 * p.n1[k] + x2 * p.n2[k];
-                f[4 + k] += y1 * p.n1[k] + y2 * p.n2[k];
-            }
+            f[0] -= force[0];
+            f[1] += force[1];
+            f[2] += force[0];
+            f[3] += force[2];
         }
     }
 
     /// Adds w ∂²U/∂d² to `out`.
     #[inline]
-    pub fn strain_tangent(&self, rule: &Rule, local: &Local, w: f64, out: &mut [[f64; 8]; 8]) {
-        let s = self.strains(rule, &local.q);
+    pub fn strain_tangent(&self, rule: &Rule, d: &[f64; 8], w: f64, out: &mut [[f64; 8]; 8]) {
+        let s = self.strains(rule, d);
         // The blocks ∂²U/∂U∂U, ∂²U/∂U∂V and ∂²U/∂V∂V.
         let mut blocks = [[0.0; 16]; 3];
         self.axial_tangent(rule, &s, w, &mut blocks);
@@ -231,8 +235,8 @@ impl Element {
 
     /// Adds dᵀ(∂²U/∂q²)d of the unknowns d that each of the vectors has here, with δε and δκ the first variations and δ²ε and
     /// δ²κ the second ones: ∫ EA δε² − 2 ES δε δκ + EI δκ² + N δ²ε + M δ²κ dx.
-    pub fn strain_forms(&self, rule: &Rule, local: &Local, vectors: &[Vec<f64>], out: &mut [f64]) {
-        let s = self.strains(rule, &local.q);
+    pub fn strain_forms(&self, rule: &Rule, state: &[f64; 8], vectors: &[Vec<f64>], out: &mut [f64]) {
+        let s = self.strains(rule, state);
         for (x, out) in vectors.iter().zip(out) {
             let d: [f64; 8] =
                 self.unknowns.map(|i| if i == CLAMPED { 0.0 } else { x.get(i).copied().unwrap_or(0.0) });

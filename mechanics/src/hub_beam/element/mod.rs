@@ -40,8 +40,6 @@ pub struct Element {
     first: [f64; POINTS],
     has_coupling: bool,
     has_section_inertia: bool,
-    /// Whether forces depend on the rates of the strains.
-    is_viscous: bool,
 }
 
 /// Unknowns, velocities and accelerations of an element.
@@ -99,13 +97,7 @@ impl Element {
             first,
             has_coupling: coupling.iter().any(|x| *x != 0.0),
             has_section_inertia: rotary.iter().chain(&first).any(|x| *x != 0.0),
-            is_viscous: false,
         }
-    }
-
-    /// Whether the forces depend on velocities, for damping.
-    pub fn set_viscous(&mut self, viscous: bool) {
-        self.is_viscous = viscous;
     }
 
     /// Station of the far node \[m\].
@@ -138,21 +130,22 @@ impl Element {
         out.push([du, dv], along * scale, across * scale);
     }
 
-    /// The element's part of a state; `radius` is the hub's.
+    /// The element's part of a vector.
     #[inline]
-    pub fn gather(&self, s: &State, radius: f64) -> Local {
-        let pick = |x: &[f64]| match self.first_unknown {
+    pub fn part(&self, x: &[f64]) -> [f64; 8] {
+        match self.first_unknown {
             Some(first) => {
                 let x = &x[first..first + 8];
                 ORDER.map(|p| x[p])
             }
             None => self.unknowns.map(|i| if i == CLAMPED { 0.0 } else { x[i] }),
-        };
-        let (mut v, mut a) = ([0.0; 8], [0.0; 8]);
-        if self.has_section_inertia || self.is_viscous {
-            (v, a) = (pick(&s.v), pick(&s.a));
         }
-        Local { q: pick(&s.q), v, a, origin: radius + self.start }
+    }
+
+    /// The element's part of a state; `radius` is the hub's.
+    pub fn gather(&self, s: &State, radius: f64) -> Local {
+        let [q, v, a] = [&s.q, &s.v, &s.a].map(|x| self.part(x));
+        Local { q, v, a, origin: radius + self.start }
     }
 
     /// Adds a local vector to a global one.

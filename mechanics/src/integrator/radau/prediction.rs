@@ -46,8 +46,9 @@ impl Stages {
     /// The polynomial through the stages of a step at those of one that is `steps` times as long and begins at the part `start` of it.
     fn continue_polynomial(&mut self, start: f64, steps: f64) {
         let weights = C.map(|c| lagrange(start + c * steps));
-        let [a1, a2, a3] = &mut self.a;
-        for i in 0..a1.len() {
+        let n = self.a[0].len();
+        let [a1, a2, a3] = self.a.each_mut().map(|a| &mut a[..n]);
+        for i in 0..n {
             let old = [a1[i], a2[i], a3[i]];
             [a1[i], a2[i], a3[i]] = weights.map(|l| l[0] * old[0] + l[1] * old[1] + l[2] * old[2]);
         }

@@ -252,11 +252,12 @@ impl Stages {
             self.mix_rows(from, h);
             let [r1, r2, r3] = &self.r;
             let (r1, r2, r3) = (&r1[..n], &r2[..n], &r3[..n]);
+            let (real, complex) = (&mut self.rhs[..n], &mut self.z[..n]);
             let [p, q, s] = &T_INVERSE;
             for i in 0..n {
                 let (x, y, z) = (r1[i], r2[i], r3[i]);
-                self.rhs[i] = real_part * (p[0] * x + p[1] * y + p[2] * z);
-                self.z[i] = complex_part
+                real[i] = real_part * (p[0] * x + p[1] * y + p[2] * z);
+                complex[i] = complex_part
                     * Complex64::new(q[0] * x + q[1] * y + q[2] * z, s[0] * x + s[1] * y + s[2] * z);
             }
             self.real.solve(&mut self.rhs);
@@ -303,14 +304,13 @@ impl Stages {
     /// Sets the velocity and the increment of stage `i`. Off a vector space Dᵢ = h Σ Aᵢⱼ Ḋⱼ, with the rates of the last iteration.
     pub(super) fn set_motion(&mut self, system: &dyn Dynamics, from: &State, h: f64, i: usize) {
         let n = from.v.len();
-        let [a1, a2, a3] = &self.a;
-        let (a1, a2, a3) = (&a1[..n], &a2[..n], &a3[..n]);
+        let [a1, a2, a3] = self.a.each_ref().map(|a| &a[..n]);
         let (row, row2) = (A[i].map(|x| h * x), A2[i].map(|x| h * h * x));
         let elapsed = h * C[i];
-        let (v, d) = (&mut self.stage.v[..n], &mut self.increment[..n]);
+        let (v0, v, d) = (&from.v[..n], &mut self.stage.v[..n], &mut self.increment[..n]);
         for k in 0..n {
-            v[k] = from.v[k] + row[0] * a1[k] + row[1] * a2[k] + row[2] * a3[k];
-            d[k] = elapsed * from.v[k] + row2[0] * a1[k] + row2[1] * a2[k] + row2[2] * a3[k];
+            v[k] = v0[k] + row[0] * a1[k] + row[1] * a2[k] + row[2] * a3[k];
+            d[k] = elapsed * v0[k] + row2[0] * a1[k] + row2[1] * a2[k] + row2[2] * a3[k];
         }
         if !self.is_vector_space {
             system.rate(&from.q, &self.increments[i][..n], &self.stage.v, &mut self.rates[i][..n]);
@@ -338,9 +338,10 @@ impl Stages {
     /// ΔQ = −T w, rotated with its stage, and Δa = (hA)⁻² ΔQ; gives the size of ΔQ and of h ΔV = A⁻¹ ΔQ.
     fn update(&mut self, h: f64) -> f64 {
         let n = self.rhs.len();
-        let [d1, d2, d3] = &mut self.r;
+        let [d1, d2, d3] = self.r.each_mut().map(|d| &mut d[..n]);
+        let (real, complex) = (&self.rhs[..n], &self.z[..n]);
         for i in 0..n {
-            let (x, z) = (self.rhs[i], self.z[i]);
+            let (x, z) = (real[i], complex[i]);
             d1[i] = T[0][0] * x + T[0][1] * z.re + T[0][2] * z.im;
             d2[i] = T[1][0] * x + T[1][1] * z.re + T[1][2] * z.im;
             d3[i] = T[2][0] * x + z.re;
@@ -357,7 +358,7 @@ impl Stages {
             |a: &[[f64; 3]; 3], d: [f64; 3]| a.map(|row| row[0] * d[0] + row[1] * d[1] + row[2] * d[2]);
         let squares = |d: [f64; 3]| d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
         let inverse = 1.0 / (h * h);
-        let [a1, a2, a3] = &mut self.a;
+        let [a1, a2, a3] = self.a.each_mut().map(|a| &mut a[..n]);
         let mut square = self.shift;
         let velocities = self.inverse_weight.len();
         let (mut change, mut largest) = (0.0_f64, f64::MIN_POSITIVE);
@@ -372,19 +373,22 @@ impl Stages {
             }
             largest = largest.max(a1[i].abs()).max(a2[i].abs()).max(a3[i].abs());
         }
-        for i in 0..velocities {
+        if !self.is_vector_space {
+            // The rates of later stages are not yet those of the new velocities.
+            for i in 0..velocities {
+                let speed = rows(&A_INVERSE, [d1[i], d2[i], d3[i]]);
+                self.rates.iter_mut().zip(speed).for_each(|(rate, x)| rate[i] -= x / h);
+            }
+        }
+        let weights = &self.inverse_weight;
+        let [d1, d2, d3, a1, a2, a3] = [d1, d2, d3, a1, a2, a3].map(|x| &mut x[..velocities]);
+        for (i, w) in weights.iter().enumerate() {
             let d = [d1[i], d2[i], d3[i]];
             let [x, y, z] = rows(&A2_INVERSE, d);
             a1[i] -= inverse * x;
             a2[i] -= inverse * y;
             a3[i] -= inverse * z;
-            let speed = rows(&A_INVERSE, d);
-            if !self.is_vector_space {
-                // The rates of later stages are not yet those of the new velocities.
-                self.rates.iter_mut().zip(speed).for_each(|(rate, x)| rate[i] -= x / h);
-            }
-            let w = self.inverse_weight[i];
-            square += (squares(d) + squares(speed)) * (w * w);
+            square += (squares(d) + squares(rows(&A_INVERSE, d))) * (w * w);
         }
         self.forces = change / largest;
         (square / (6 * velocities.max(1)) as f64).sqrt()
@@ -494,10 +498,11 @@ impl Stages {
     ) -> f64 {
         let n = from.v.len();
         let h_gamma = h * GAMMA;
-        let [a1, a2, a3] = &self.a;
+        let [a1, a2, a3] = self.a.each_ref().map(|a| &a[..n]);
+        let (a0, error_q, error_v) = (&from.a[..n], &mut self.error_q[..n], &mut self.error_v[..n]);
         for i in 0..n {
-            self.error_q[i] = h * h * (E_Q[0] * a1[i] + E_Q[1] * a2[i] + E_Q[2] * a3[i]);
-            self.error_v[i] = h * (GAMMA * from.a[i] + E_V[0] * a1[i] + E_V[1] * a2[i] + E_V[2] * a3[i]);
+            error_q[i] = h * h * (E_Q[0] * a1[i] + E_Q[1] * a2[i] + E_Q[2] * a3[i]);
+            error_v[i] = h * (GAMMA * a0[i] + E_V[0] * a1[i] + E_V[1] * a2[i] + E_V[2] * a3[i]);
         }
         self.mass.multiply(&self.error_v, &mut self.source);
         counters.solves += 1;
