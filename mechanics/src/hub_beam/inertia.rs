@@ -34,6 +34,7 @@ use super::beam::Beam;
 use super::damping::Damping;
 use super::fields::{Fields, Point, Shapes, add_outer, add_vector};
 use super::hub::Hub;
+use super::isotropic::{Isotropic, Plane};
 use super::product::Bundle;
 use super::vectors::{Entry, Vectors};
 use crate::linalg::{Matrix, Storage};
@@ -62,6 +63,8 @@ pub enum Foreshortening {
 pub struct Inertia {
     /// M, Pᵀ − P and, unless both vanish, K and N.
     bundle: Bundle,
+    /// M and Pᵀ − P again, where they are those of fields of one basis along both axes, and K and N vanish.
+    isotropic: Option<Isotropic>,
     /// S, unless it vanishes.
     symmetric: Option<Bundle>,
     /// M
@@ -123,6 +126,7 @@ impl Border {
 pub struct Scratch {
     vectors: [Vectors; 2],
     symmetric: Option<Vectors>,
+    plane: Option<Plane>,
     /// Their products, row after row.
     products: [Vec<Entry>; 2],
     /// S q and S v; empty where S vanishes.
@@ -221,7 +225,11 @@ impl Inertia {
         }
         let bundle = |matrices| Bundle::new(&structure, n, matrices);
         let (elastic, stiffened) = (unless_zero(&k, 0.0), unless_zero(&stiffening, largest(&m)));
+        let isotropic = (elastic.is_none() && stiffened.is_none())
+            .then(|| Isotropic::of(n, half, &m, &gyroscopic))
+            .flatten();
         Inertia {
+            isotropic,
             bundle: bundle([Some(&m), Some(&gyroscopic), elastic, stiffened]),
             symmetric: unless_zero(&symmetric, largest(&p)).map(|s| bundle([Some(s), Some(s), None, None])),
             mass: m,
@@ -262,6 +270,7 @@ impl Inertia {
             vectors: [self.bundle.vectors(), self.bundle.vectors()],
             products: [vec![[0.0; 4]; self.len()], vec![[0.0; 4]; self.len()]],
             symmetric: self.symmetric.as_ref().map(Bundle::vectors),
+            plane: self.isotropic.as_ref().map(Isotropic::scratch),
             of_symmetric: self.symmetric.as_ref().map_or(Vec::new(), |_| vec![[0.0; 2]; self.len()]),
         }
     }
@@ -279,13 +288,20 @@ impl Inertia {
         let (q, v, a) = (&s.q[..n], &s.v[..n], &s.a[..n]);
         let (sx, sy, r) = (&self.axial_moment[..n], &self.transverse_moment[..n], &mut r[..n]);
         let Damping { mass, stiffness } = self.damping;
-        x.vectors[0].set(|i| {
-            let (q, v) = (q[i], v[i]);
-            [a[i] + mass * v - w2 * q, w * v + 0.5 * w1 * q, q + stiffness * v, w2 * q]
-        });
-        self.bundle.products(&x.vectors[0], &mut x.products[0]);
-        for (i, [m, g, k, n]) in x.products[0].iter().enumerate() {
-            r[i] = (m + k) + (g + n) + (w1 * sy[i] - w2 * sx[i]);
+        if let Some((isotropic, plane)) = self.isotropic.as_ref().zip(x.plane.as_mut()) {
+            isotropic.inertia_forces(s, hub, mass, plane, r);
+            for i in 0..n {
+                r[i] += w1 * sy[i] - w2 * sx[i];
+            }
+        } else {
+            x.vectors[0].set(|i| {
+                let (q, v) = (q[i], v[i]);
+                [a[i] + mass * v - w2 * q, w * v + 0.5 * w1 * q, q + stiffness * v, w2 * q]
+            });
+            self.bundle.products(&x.vectors[0], &mut x.products[0]);
+            for (i, [m, g, k, n]) in x.products[0].iter().enumerate() {
+                r[i] = (m + k) + (g + n) + (w1 * sy[i] - w2 * sx[i]);
+            }
         }
         if let Some((symmetric, y)) = self.symmetric.as_ref().zip(x.symmetric.as_mut()) {
             y.set(|i| [w1 * q[i], 0.0, 0.0, 0.0]);
@@ -301,6 +317,10 @@ impl Inertia {
     /// r = M (a + β v) + ω (Pᵀ − P) v + K (q + η v) + ω̇ e − ω² d,   d = D q + s_x,   e = Pᵀq + s_y
     /// ```
     pub fn residual_and_torque(&self, s: &State, hub: &HubKinematics, x: &mut Scratch, r: &mut [f64]) -> f64 {
+        if self.isotropic.is_some() {
+            self.residual(s, hub, x, r);
+            return self.torque(s, hub, x);
+        }
         let n = self.len();
         let (w, w1, w2) = (hub.speed, hub.acceleration, hub.speed * hub.speed);
         let (v, a, r) = (&s.v[..n], &s.a[..n], &mut r[..n]);
@@ -346,8 +366,13 @@ impl Inertia {
         let w = hub.speed;
         let sums = self.each(s, x, |_, _, _| {});
         let HubSums { moment, relative, .. } = sums;
+        let v = &s.v[..self.len()];
+        let form = match self.isotropic.as_ref().zip(x.plane.as_mut()) {
+            Some((isotropic, plane)) => isotropic.form(v, plane),
+            None => self.bundle.form(0, v),
+        };
         Totals {
-            kinetic: 0.5 * self.bundle.form(0, &s.v[..self.len()]) + w * relative + 0.5 * w * w * moment,
+            kinetic: 0.5 * form + w * relative + 0.5 * w * w * moment,
             momentum: w * moment + relative,
             torque: sums.torque(hub),
         }
@@ -372,14 +397,12 @@ impl Inertia {
         let (v, a) = (&s.v[..n], &s.a[..n]);
         let (column, row) = (&mut out.column, &mut out.row);
         // D = M − N; P = S − G/2 with G = Pᵀ − P.
-        x.vectors[1].set(|i| [v[i]; 4]);
-        self.bundle.products(&x.vectors[1], &mut x.products[1]);
+        self.multiply(v, x, 1);
         let sums = self.each(s, x, |i, [d, e, _], [mv, gv, _, nv]| {
             column[i] = w.v * (gv - 2.0 * om * d) + w.a * e;
             row[i] = 2.0 * (w.q * al + w.v * om) * d + w.a * e + 2.0 * w.q * om * (mv - nv);
         });
-        x.vectors[1].set(|i| [0.0, a[i], 0.0, 0.0]);
-        self.bundle.products(&x.vectors[1], &mut x.products[0]);
+        self.multiply(a, x, 0);
         row.iter_mut().zip(&x.products[0]).for_each(|(row, [_, ga, ..])| *row -= 0.5 * w.q * ga);
         if let Some((symmetric, y)) = self.symmetric.as_ref().zip(x.symmetric.as_mut()) {
             y.set(|i| [2.0 * w.v * v[i] + w.q * a[i], 0.0, 0.0, 0.0]);
@@ -389,15 +412,30 @@ impl Inertia {
         out.corner = 2.0 * w.v * sums.coriolis + w.a * sums.moment;
     }
 
-    /// Sets the first of the vectors to q, that of K to q + η v, and the products with S.
+    /// Writes the products of all matrices with `y`.
+    fn multiply(&self, y: &[f64], x: &mut Scratch, to: usize) {
+        if let Some((isotropic, plane)) = self.isotropic.as_ref().zip(x.plane.as_mut()) {
+            isotropic.products(y, plane, &mut x.products[to]);
+        } else {
+            x.vectors[to].set(|i| [y[i]; 4]);
+            self.bundle.products(&x.vectors[to], &mut x.products[to]);
+        }
+    }
+
+    /// Writes the products with q, of K with q + η v, and those of S.
     fn prepare(&self, s: &State, x: &mut Scratch) {
         let n = self.len();
         let (q, v) = (&s.q[..n], &s.v[..n]);
-        x.vectors[0].set(|i| [q[i], q[i], q[i] + self.damping.stiffness * v[i], q[i]]);
         if let Some((symmetric, y)) = self.symmetric.as_ref().zip(x.symmetric.as_mut()) {
             y.set(|i| [q[i], v[i], 0.0, 0.0]);
             symmetric.products(y, &mut x.products[0]);
             x.of_symmetric.iter_mut().zip(&x.products[0]).for_each(|(out, [sq, sv, ..])| *out = [*sq, *sv]);
+        }
+        if self.isotropic.is_some() {
+            self.multiply(q, x, 0);
+        } else {
+            x.vectors[0].set(|i| [q[i], q[i], q[i] + self.damping.stiffness * v[i], q[i]]);
+            self.bundle.products(&x.vectors[0], &mut x.products[0]);
         }
     }
 
@@ -405,7 +443,6 @@ impl Inertia {
     #[inline(always)]
     fn each(&self, s: &State, x: &mut Scratch, mut f: impl FnMut(usize, [f64; 3], Entry)) -> HubSums {
         self.prepare(s, x);
-        self.bundle.products(&x.vectors[0], &mut x.products[0]);
         let n = self.len();
         let (q, v, a) = (&s.q[..n], &s.v[..n], &s.a[..n]);
         let (sx, sy) = (&self.axial_moment[..n], &self.transverse_moment[..n]);

@@ -4,7 +4,6 @@
 //! them with as many vectors, and any weighted sum of them. Row i of a band meets the entries i − l … i + u of a vector;
 //! with l zeros in front of the vector and u behind it every row meets a full window, the first and last rows too.
 
-use super::isotropic::Isotropic;
 use super::vectors::{Entry, TERMS, Vectors};
 use crate::linalg::{Matrix, Storage, Structure};
 use std::sync::Arc;
@@ -23,8 +22,6 @@ pub(super) struct Bundle {
     lead: usize,
     /// Term k of the entry at position j of row i is at (i·width + j)·terms + k.
     data: Arc<[f64]>,
-    /// The first two matrices, where they are those of fields of one basis along both axes and the others are not there.
-    isotropic: Option<Arc<Isotropic>>,
 }
 
 impl Bundle {
@@ -39,7 +36,7 @@ impl Bundle {
         };
         let terms = if matrices[2].is_none() && matrices[3].is_none() { 2 } else { TERMS };
         let mut data = Vec::with_capacity(order * width * terms);
-        let bundle = Bundle { order, terms, width, advance, lead, data: Arc::new([]), isotropic: None };
+        let bundle = Bundle { order, terms, width, advance, lead, data: Arc::new([]) };
         for i in 0..order {
             for j in 0..width {
                 let column = bundle.column(i, j);
@@ -47,14 +44,7 @@ impl Bundle {
                 data.extend(matrices[..terms].iter().map(entry));
             }
         }
-        let isotropic = match matrices {
-            [Some(mass), Some(gyroscopic), None, None] => {
-                let reach = if advance == 0 { order } else { lead };
-                Isotropic::of(order, reach, mass, gyroscopic).map(Arc::new)
-            }
-            _ => None,
-        };
-        Bundle { data: data.into(), isotropic, ..bundle }
+        Bundle { data: data.into(), ..bundle }
     }
 
     /// Column of the entry at position `j` of row `i`, if it is one of the matrix.
@@ -70,11 +60,8 @@ impl Bundle {
     /// Vectors of zeros to multiply with.
     pub(super) fn vectors(&self) -> Vectors {
         let terms = self.terms;
-        let [lead, behind] = match &self.isotropic {
-            Some(isotropic) => isotropic.padding(),
-            None => [self.lead, self.advance * (self.width - self.lead.min(self.width))],
-        };
-        let range = lead * terms..(lead + self.order) * terms;
+        let behind = self.advance * (self.width - self.lead.min(self.width));
+        let range = self.lead * terms..(self.lead + self.order) * terms;
         Vectors { terms, data: vec![0.0; range.end + behind * terms], range }
     }
 
@@ -84,9 +71,6 @@ impl Bundle {
 
     /// Writes the products (Aₖ xₖ)ᵢ, row after row; zero for terms that are not stored.
     pub(super) fn products(&self, x: &Vectors, out: &mut [Entry]) {
-        if let Some(isotropic) = &self.isotropic {
-            return isotropic.products(x, out);
-        }
         match (self.terms, self.width) {
             // Hermite functions with linear ones, and with Hermite ones.
             (TERMS, 11) => self.sums::<TERMS, TERMS, 11>(x, out),
@@ -126,9 +110,6 @@ impl Bundle {
     pub(super) fn form(&self, k: usize, x: &[f64]) -> f64 {
         if k >= self.terms {
             return 0.0;
-        }
-        if let Some(isotropic) = self.isotropic.as_ref().filter(|_| k == 0) {
-            return isotropic.mass_form(&x[..self.order]);
         }
         match (self.terms, self.width) {
             (TERMS, 11) => self.form_of::<TERMS, 6>(k, x),
@@ -202,78 +183,5 @@ impl Bundle {
             }
             fill.fill(0.0);
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const HALF: usize = 2;
-    const NODE: usize = 2 * HALF;
-
-    /// M and Pᵀ − P of three nodes, with U′ of the root or without it, and an entry that is of another form.
-    fn matrices(root: usize, odd: f64) -> (Structure, [Matrix; 2]) {
-        let (order, structure) = (12 + root, Structure::band(12 + root, 7, 7, 0));
-        let [mut mass, mut gyroscopic] = [(); 2].map(|()| Matrix::new(&structure));
-        // U and U′ node after node, beginning with the U′ of the root.
-        let unknown = |k: usize, second: bool| {
-            if k < root {
-                k
-            } else {
-                root + NODE * ((k - root) / HALF) + (k - root) % HALF + HALF * usize::from(second)
-            }
-        };
-        for i in 0..6 + root {
-            for j in 0..6 + root {
-                let node = |k: usize| if k < root { 0 } else { 1 + (k - root) / HALF };
-                if node(i).abs_diff(node(j)) > 1 {
-                    continue;
-                }
-                let m = 1.0 / (1 + i + j) as f64 + if i == j { 3.0 } else { 0.0 };
-                let there = |k: usize, second: bool| (k >= root || !second).then(|| unknown(k, second));
-                for (second, sign) in [(false, -2.0), (true, 2.0)] {
-                    if let (Some(row), Some(column)) = (there(i, second), there(j, second)) {
-                        mass.add(row, column, m);
-                    }
-                    if let (Some(row), Some(column)) = (there(i, second), there(j, !second)) {
-                        gyroscopic.add(row, column, sign * m);
-                    }
-                }
-            }
-        }
-        mass.add(order - 1, order - 1, odd);
-        (structure, [mass, gyroscopic])
-    }
-
-    #[test]
-    fn products_and_forms_are_those_of_the_matrices() {
-        for root in [0, 1] {
-            let (structure, [mass, gyroscopic]) = matrices(root, 0.0);
-            let order = 12 + root;
-            assert!(Isotropic::of(order, 7, &mass, &gyroscopic).is_some(), "{root}");
-            let bundle = Bundle::new(&structure, order, [Some(&mass), Some(&gyroscopic), None, None]);
-            let [x, y]: [Vec<f64>; 2] =
-                [2.3, 0.7].map(|w| (0..order).map(|i| libm::sin(1.0 + w * i as f64)).collect());
-            let mut vectors = bundle.vectors();
-            vectors.set(|i| [x[i], y[i], 0.0, 0.0]);
-            let mut products = vec![Entry::default(); order];
-            bundle.products(&vectors, &mut products);
-            let [mut mx, mut gy] = [vec![0.0; order], vec![0.0; order]];
-            mass.multiply(&x, &mut mx);
-            gyroscopic.multiply(&y, &mut gy);
-            for i in 0..order {
-                let [m, g, ..] = products[i];
-                assert!((m - mx[i]).abs() < 1e-14 && (g - gy[i]).abs() < 1e-14, "{root} {i}: {m} {g}");
-            }
-            let form: f64 = x.iter().zip(&mx).map(|(a, b)| a * b).sum();
-            assert!((bundle.form(0, &x) - form).abs() < 1e-13 * form, "{root}");
-        }
-    }
-
-    #[test]
-    fn a_mass_that_is_another_along_the_second_axis_is_not_isotropic() {
-        let (_, [mass, gyroscopic]) = matrices(1, 1e-9);
-        assert!(Isotropic::of(13, 7, &mass, &gyroscopic).is_none());
     }
 }

@@ -15,12 +15,6 @@ pub(super) struct Vectors {
 }
 
 impl Vectors {
-    /// `N` entries of two vectors, from this one on, the zeros in front counted.
-    #[inline(always)]
-    pub(super) fn window<const N: usize>(&self, start: usize) -> &[[f64; 2]] {
-        &self.data.as_chunks::<2>().0[start..][..N]
-    }
-
     /// Sets entry i of the vectors to `of(i)`.
     #[inline]
     pub(super) fn set(&mut self, of: impl Fn(usize) -> Entry) {
