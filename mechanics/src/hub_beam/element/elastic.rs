@@ -1,7 +1,7 @@
 //! Strain energy of an element, its force and its tangent.
 
 use super::{CLAMPED, Element, components};
-use crate::hub_beam::rule::{Block, POINTS, Products, Rule};
+use crate::hub_beam::rule::{Block, POINTS, Products, Relative, Rule};
 use crate::linalg::vector::inner;
 
 /// Strains of an element and the forces they cause.
@@ -40,12 +40,10 @@ impl Element {
     #[inline(always)]
     fn strains(&self, rule: &Rule, d: &[f64; 8]) -> Strains {
         // Difference of the displacements of both ends, and the slopes there.
-        let [du, dv] = components(d).map(|[first, slope, last, end]| [last - first, slope, end]);
-        let slopes = [
-            [1.0 + du[1], dv[1]],
-            [1.0 + inner(rule.middle_relative, du), inner(rule.middle_relative, dv)],
-            [1.0 + du[2], dv[2]],
-        ];
+        let [u0, du0, u1, du1, v0, dv0, v1, dv1] = *d;
+        let d = [[u1 - u0, v1 - v0], [du0, dv0], [du1, dv1]];
+        let [x, y] = combined(rule.middle_relative, d);
+        let slopes = [[1.0 + du0, dv0], [1.0 + x, y], [1.0 + du1, dv1]];
         let mut out = Strains {
             tangent: [[0.0; 2]; 3],
             inverse_stretch: [0.0; 3],
@@ -69,9 +67,8 @@ impl Element {
             out.axial[i] = (0..3).map(|j| self.axial[i][j] * out.strain[j]).sum();
         }
         for (g, p) in rule.points.iter().enumerate() {
-            let [n1, n2] = p.relative;
-            let (x1, y1) = (1.0 + inner(n1, du), inner(n1, dv));
-            let (x2, y2) = (inner(n2, du), inner(n2, dv));
+            let [[x1, y1], [x2, y2]] = p.relative.map(|n| combined(n, d));
+            let x1 = 1.0 + x1;
             let inverse = 1.0 / (x1 * x1 + y1 * y1);
             let k = (x1 * y2 - y1 * x2) * inverse;
             out.curvature[g] = k;
@@ -103,22 +100,29 @@ impl Element {
     #[inline]
     pub fn strain_force(&self, rule: &Rule, d: &[f64; 8], f: &mut [f64; 8]) {
         let s = self.strains(rule, d);
-        for (c, f) in f.as_chunks_mut::<4>().0.iter_mut().enumerate() {
-            // On the difference of the displacements of both ends, and on the slopes there.
-            let mut force = rule.middle_relative.map(|n| s.axial[1] * s.tangent[1][c] * n);
-            force[1] += s.axial[0] * s.tangent[0][c];
-            force[2] += s.axial[2] * s.tangent[2][c];
-            for (g, p) in rule.points.iter().enumerate() {
-                let [n1, n2] = p.relative;
-                let (first, second) = (s.gradient[g][c] * s.moment[g], s.gradient[g][2 + c] * s.moment[g]);
-                for k in 0..3 {
-                    force[k] += first * n1[k] + second * n2[k];
+        // On the difference of the displacements of both ends, and on the slopes there.
+        let along = s.tangent[1].map(|t| s.axial[1] * t);
+        let mut force = rule.middle_relative.map(|n| along.map(|x| x * n));
+        for c in 0..2 {
+            force[1][c] += s.axial[0] * s.tangent[0][c];
+            force[2][c] += s.axial[2] * s.tangent[2][c];
+        }
+        for (g, p) in rule.points.iter().enumerate() {
+            let [n1, n2] = p.relative;
+            let [x1, y1, x2, y2] = s.gradient[g].map(|k| k * s.moment[g]);
+            let (first, second) = ([x1, y1], [x2, y2]);
+            for k in 0..3 {
+                for c in 0..2 {
+                    force[k][c] += first[c] * n1[k] + second[c] * n2[k];
                 }
             }
-            f[0] -= force[0];
-            f[1] += force[1];
-            f[2] += force[0];
-            f[3] += force[2];
+        }
+        let [chord, first, last] = force;
+        for c in 0..2 {
+            f[4 * c] -= chord[c];
+            f[4 * c + 1] += first[c];
+            f[4 * c + 2] += chord[c];
+            f[4 * c + 3] += last[c];
         }
     }
 
@@ -268,6 +272,12 @@ impl Element {
             }
         }
     }
+}
+
+/// Σ nₖ dₖ of vectors of the plane.
+#[inline(always)]
+fn combined(n: Relative, d: [[f64; 2]; 3]) -> [f64; 2] {
+    [0, 1].map(|c| n[0] * d[0][c] + n[1] * d[1][c] + n[2] * d[2][c])
 }
 
 /// out += a bᵀ
