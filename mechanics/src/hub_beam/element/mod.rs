@@ -22,6 +22,12 @@ const CLAMPED: usize = usize::MAX;
 /// U, U′, V, V′ node after node.
 const ORDER: [usize; 8] = [0, 1, 4, 5, 2, 3, 6, 7];
 
+/// A vector of an element in the order of [`ORDER`], which is its own inverse.
+#[inline(always)]
+fn ordered([a, b, c, d, e, f, g, h]: &[f64; 8]) -> [f64; 8] {
+    [*a, *b, *e, *f, *c, *d, *g, *h]
+}
+
 /// An element: its unknowns and its section.
 #[derive(Clone, Debug)]
 pub struct Element {
@@ -133,11 +139,8 @@ impl Element {
     /// The element's part of a vector.
     #[inline]
     pub fn part(&self, x: &[f64]) -> [f64; 8] {
-        match self.first_unknown {
-            Some(first) => {
-                let x = &x[first..first + 8];
-                ORDER.map(|p| x[p])
-            }
+        match self.first_unknown.and_then(|first| x[first..].first_chunk()) {
+            Some(x) => ordered(x),
             None => self.unknowns.map(|i| if i == CLAMPED { 0.0 } else { x[i] }),
         }
     }
@@ -151,10 +154,10 @@ impl Element {
     /// Adds a local vector to a global one.
     #[inline]
     pub fn scatter(&self, local: &[f64; 8], out: &mut [f64]) {
-        if let Some(first) = self.first_unknown {
-            let out = &mut out[first..first + 8];
-            for (p, x) in ORDER.into_iter().zip(local) {
-                out[p] += x;
+        if let Some(out) = self.first_unknown.and_then(|first| out[first..].first_chunk_mut::<8>()) {
+            let local: [f64; 8] = ordered(local);
+            for k in 0..8 {
+                out[k] += local[k];
             }
             return;
         }
