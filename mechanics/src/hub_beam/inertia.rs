@@ -51,19 +51,26 @@ pub enum Foreshortening {
     First,
 }
 
+/// Numbers of M and K among the four matrices of an [`Inertia`].
+const MASS: usize = 2;
+const STIFFNESS: usize = 3;
+
 /// Constant matrices of a beam on a hub; their formulas head the source file.
 ///
-/// Most models have D close to M, and P antisymmetric or nearly so. With N = M − D and the symmetric part S
-/// of P, whose zeros are not multiplied, the equations for q are
+/// P is antisymmetric in most models, or nearly so. With its symmetric part S, whose zeros are not multiplied, the equations for q are
 ///
 /// ```text
-/// M (a − ω² q) + (Pᵀ − P)(ω v + ½ω̇ q) + (K + ω² N + ω̇ S) q + ω̇ s_y − ω² s_x = 0
+/// M a − ω² D q + (Pᵀ − P)(ω v + ½ω̇ q) + (K + ω̇ S) q + ω̇ s_y − ω² s_x = 0
 /// ```
+///
+/// The torque takes products with D and Pᵀ − P alone: they are the first two.
 #[derive(Clone, Debug)]
 pub struct Inertia {
-    /// M, Pᵀ − P and, unless both vanish, K and N.
+    /// D, Pᵀ − P, M and K; the first two alone where D is M and K vanishes.
     bundle: Bundle,
-    /// M and Pᵀ − P again, where they are those of fields of one basis along both axes, and K and N vanish.
+    /// Whether there are four.
+    four: bool,
+    /// M and Pᵀ − P again, where they are those of fields of one basis along both axes, and the only two.
     isotropic: Option<Isotropic>,
     /// S, unless it vanishes.
     symmetric: Option<Bundle>,
@@ -225,12 +232,13 @@ impl Inertia {
         }
         let bundle = |matrices| Bundle::new(&structure, n, matrices);
         let (elastic, stiffened) = (unless_zero(&k, 0.0), unless_zero(&stiffening, largest(&m)));
-        let isotropic = (elastic.is_none() && stiffened.is_none())
-            .then(|| Isotropic::of(n, half, &m, &gyroscopic))
-            .flatten();
+        let four = elastic.is_some() || stiffened.is_some();
+        let isotropic = if four { None } else { Isotropic::of(n, half, &m, &gyroscopic) };
+        let [centrifugal, inertial] = if four { [&d, &m].map(Some) } else { [Some(&m), None] };
         Inertia {
+            bundle: bundle([centrifugal, Some(&gyroscopic), inertial, elastic]),
+            four,
             isotropic,
-            bundle: bundle([Some(&m), Some(&gyroscopic), elastic, stiffened]),
             symmetric: unless_zero(&symmetric, largest(&p)).map(|s| bundle([Some(s), Some(s), None, None])),
             mass: m,
             centrifugal: d,
@@ -251,7 +259,12 @@ impl Inertia {
     pub fn dissipated(&self, v: &[f64]) -> f64 {
         let Damping { mass, stiffness } = self.damping;
         let form = |factor: f64, term| if factor > 0.0 { factor * self.bundle.form(term, v) } else { 0.0 };
-        form(mass, 0) + form(stiffness, 2)
+        form(mass, self.mass_term()) + form(stiffness, STIFFNESS)
+    }
+
+    /// Number of M among the matrices.
+    fn mass_term(&self) -> usize {
+        if self.four { MASS } else { 0 }
     }
 
     /// Number of unknowns of the fields.
@@ -295,12 +308,13 @@ impl Inertia {
             }
         } else {
             x.vectors[0].set(|i| {
-                let (q, v) = (q[i], v[i]);
-                [a[i] + mass * v - w2 * q, w * v + 0.5 * w1 * q, q + stiffness * v, w2 * q]
+                let (q, v, a) = (q[i], v[i], a[i] + mass * v[i]);
+                let with_d = if self.four { -w2 * q } else { a - w2 * q };
+                [with_d, w * v + 0.5 * w1 * q, a, q + stiffness * v]
             });
             self.bundle.products(&x.vectors[0], &mut x.products[0]);
-            for (i, [m, g, k, n]) in x.products[0].iter().enumerate() {
-                r[i] = (m + k) + (g + n) + (w1 * sy[i] - w2 * sx[i]);
+            for (i, [d, g, m, k]) in x.products[0].iter().enumerate() {
+                r[i] = (m + k) + (g + d) + (w1 * sy[i] - w2 * sx[i]);
             }
         }
         if let Some((symmetric, y)) = self.symmetric.as_ref().zip(x.symmetric.as_mut()) {
@@ -323,12 +337,15 @@ impl Inertia {
         }
         let n = self.len();
         let (w, w1, w2) = (hub.speed, hub.acceleration, hub.speed * hub.speed);
-        let (v, a, r) = (&s.v[..n], &s.a[..n], &mut r[..n]);
-        let Damping { mass, .. } = self.damping;
+        let (q, v, a, r) = (&s.q[..n], &s.v[..n], &s.a[..n], &mut r[..n]);
+        let Damping { mass, stiffness } = self.damping;
+        self.multiply_symmetric(s, x);
+        x.vectors[0].set(|i| [q[i], q[i], a[i] + mass * v[i], q[i] + stiffness * v[i]]);
         x.vectors[1].set(|i| [a[i] + mass * v[i], v[i], 0.0, 0.0]);
+        self.bundle.products(&x.vectors[0], &mut x.products[0]);
         self.bundle.first_products(&x.vectors[1], &mut x.products[1]);
-        let sums = self.each(s, x, |i, [d, e, k], [ma, gv, ..]| {
-            r[i] = (ma + k) + w * gv + (w1 * e - w2 * d);
+        let sums = self.sums(s, x, |i, [d, e], [[_, _, ma, k], [m, gv, ..]]| {
+            r[i] = (if self.four { ma } else { m } + k) + w * gv + (w1 * e - w2 * d);
         });
         sums.torque(hub)
     }
@@ -344,9 +361,10 @@ impl Inertia {
     /// Writes (w.a + β w.v) M + w.v (ω (Pᵀ − P) + η K) + w.q (K − ω² D + ω̇ Pᵀ) over the content of `out`, border aside.
     pub fn tangent(&self, w: &Weights<'_>, hub: &HubKinematics, out: &mut Storage<f64>) {
         let (w1, w2) = (hub.acceleration, hub.speed * hub.speed);
-        let (wm, wg) = (w.a - w.q * w2, w.v * hub.speed + 0.5 * w.q * w1);
         let Damping { mass, stiffness } = self.damping;
-        self.bundle.write_sum([wm + mass * w.v, wg, w.q + stiffness * w.v, w.q * w2], out);
+        let (wm, wg) = (w.a + mass * w.v, w.v * hub.speed + 0.5 * w.q * w1);
+        let wd = if self.four { -w.q * w2 } else { wm - w.q * w2 };
+        self.bundle.write_sum([wd, wg, wm, w.q + stiffness * w.v], out);
         if let Some(symmetric) = &self.symmetric {
             symmetric.add_sum([w.q * w1, 0.0, 0.0, 0.0], out);
         }
@@ -355,7 +373,7 @@ impl Inertia {
     /// Writes −ω² D + ω̇ Pᵀ over the content of `out`, border aside: ∂r/∂q without K.
     pub fn tangent_without_strain(&self, hub: &HubKinematics, out: &mut Storage<f64>) {
         let (w1, w2) = (hub.acceleration, hub.speed * hub.speed);
-        self.bundle.write_sum([-w2, 0.5 * w1, 0.0, w2], out);
+        self.bundle.write_sum([-w2, 0.5 * w1, 0.0, 0.0], out);
         if let Some(symmetric) = &self.symmetric {
             symmetric.add_sum([w1, 0.0, 0.0, 0.0], out);
         }
@@ -364,12 +382,12 @@ impl Inertia {
     /// Kinetic energy T, angular momentum ∂T/∂ω and the torque τ of the equation of motion of the hub.
     pub fn totals(&self, s: &State, hub: &HubKinematics, x: &mut Scratch) -> Totals {
         let w = hub.speed;
-        let sums = self.each(s, x, |_, _, _| {});
+        let sums = self.hub_sums(s, x);
         let HubSums { moment, relative, .. } = sums;
         let v = &s.v[..self.len()];
         let form = match self.isotropic.as_ref().zip(x.plane.as_mut()) {
             Some((isotropic, plane)) => isotropic.form(v, plane),
-            None => self.bundle.form(0, v),
+            None => self.bundle.form(self.mass_term(), v),
         };
         Totals {
             kinetic: 0.5 * form + w * relative + 0.5 * w * w * moment,
@@ -380,7 +398,7 @@ impl Inertia {
 
     /// The torque τ of [`Inertia::totals`] alone.
     pub fn torque(&self, s: &State, hub: &HubKinematics, x: &mut Scratch) -> f64 {
-        self.each(s, x, |_, _, _| {}).torque(hub)
+        self.hub_sums(s, x).torque(hub)
     }
 
     /// The tangent's row and column of a free hub, and their corner: derivatives of the residual by θ, θ̇, θ̈
@@ -396,11 +414,13 @@ impl Inertia {
         let (om, al) = (hub.speed, hub.acceleration);
         let (v, a) = (&s.v[..n], &s.a[..n]);
         let (column, row) = (&mut out.column, &mut out.row);
-        // D = M − N; P = S − G/2 with G = Pᵀ − P.
+        // P = S − G/2 with G = Pᵀ − P.
         self.multiply(v, x, 1);
-        let sums = self.each(s, x, |i, [d, e, _], [mv, gv, _, nv]| {
+        self.multiply_symmetric(s, x);
+        self.multiply(&s.q[..n], x, 0);
+        let sums = self.sums(s, x, |i, [d, e], [_, [dv, gv, ..]]| {
             column[i] = w.v * (gv - 2.0 * om * d) + w.a * e;
-            row[i] = 2.0 * (w.q * al + w.v * om) * d + w.a * e + 2.0 * w.q * om * (mv - nv);
+            row[i] = 2.0 * (w.q * al + w.v * om) * d + w.a * e + 2.0 * w.q * om * dv;
         });
         self.multiply(a, x, 0);
         row.iter_mut().zip(&x.products[0]).for_each(|(row, [_, ga, ..])| *row -= 0.5 * w.q * ga);
@@ -412,18 +432,18 @@ impl Inertia {
         out.corner = 2.0 * w.v * sums.coriolis + w.a * sums.moment;
     }
 
-    /// Writes the products of all matrices with `y`.
+    /// Writes D y and (Pᵀ − P) y.
     fn multiply(&self, y: &[f64], x: &mut Scratch, to: usize) {
         if let Some((isotropic, plane)) = self.isotropic.as_ref().zip(x.plane.as_mut()) {
             isotropic.products(y, plane, &mut x.products[to]);
         } else {
-            x.vectors[to].set(|i| [y[i]; 4]);
-            self.bundle.products(&x.vectors[to], &mut x.products[to]);
+            x.vectors[to].set(|i| [y[i], y[i], 0.0, 0.0]);
+            self.bundle.first_products(&x.vectors[to], &mut x.products[to]);
         }
     }
 
-    /// Writes the products with q, of K with q + η v, and those of S.
-    fn prepare(&self, s: &State, x: &mut Scratch) {
+    /// Writes S q and S v.
+    fn multiply_symmetric(&self, s: &State, x: &mut Scratch) {
         let n = self.len();
         let (q, v) = (&s.q[..n], &s.v[..n]);
         if let Some((symmetric, y)) = self.symmetric.as_ref().zip(x.symmetric.as_mut()) {
@@ -431,18 +451,18 @@ impl Inertia {
             symmetric.products(y, &mut x.products[0]);
             x.of_symmetric.iter_mut().zip(&x.products[0]).for_each(|(out, [sq, sv, ..])| *out = [*sq, *sv]);
         }
-        if self.isotropic.is_some() {
-            self.multiply(q, x, 0);
-        } else {
-            x.vectors[0].set(|i| [q[i], q[i], q[i] + self.damping.stiffness * v[i], q[i]]);
-            self.bundle.products(&x.vectors[0], &mut x.products[0]);
-        }
     }
 
-    /// The sums of a state. Calls `f` with i, (d, e, K (q + η v))ᵢ, and the second of the products.
+    /// The sums of a state.
+    fn hub_sums(&self, s: &State, x: &mut Scratch) -> HubSums {
+        self.multiply_symmetric(s, x);
+        self.multiply(&s.q[..self.len()], x, 0);
+        self.sums(s, x, |_, _, _| {})
+    }
+
+    /// The sums of a state of which D q and (Pᵀ − P) q are the first products. Calls `f` with i, (d, e)ᵢ, and both products.
     #[inline(always)]
-    fn each(&self, s: &State, x: &mut Scratch, mut f: impl FnMut(usize, [f64; 3], Entry)) -> HubSums {
-        self.prepare(s, x);
+    fn sums(&self, s: &State, x: &Scratch, mut f: impl FnMut(usize, [f64; 2], [Entry; 2])) -> HubSums {
         let n = self.len();
         let (q, v, a) = (&s.q[..n], &s.v[..n], &s.a[..n]);
         let (sx, sy) = (&self.axial_moment[..n], &self.transverse_moment[..n]);
@@ -450,21 +470,21 @@ impl Inertia {
         let (of_q, of_others) = (&of_q[..n], &of_others[..n]);
         let mut sums = HubSums { moment: self.moment, ..HubSums::default() };
         for i in 0..n {
-            let [mq, gq, kq, nq] = of_q[i];
+            let [dq, gq, ..] = of_q[i];
             let [sq, sv] = x.of_symmetric.get(i).copied().unwrap_or_default();
-            let (d, e) = (mq - nq + sx[i], 0.5 * gq + sq + sy[i]);
+            let (d, e) = (dq + sx[i], 0.5 * gq + sq + sy[i]);
             sums.moment += q[i] * (d + sx[i]);
             sums.relative += v[i] * e;
             sums.coriolis += v[i] * d;
             sums.rest += a[i] * e + v[i] * sv;
-            f(i, [d, e, kq], of_others[i]);
+            f(i, [d, e], [of_q[i], of_others[i]]);
         }
         sums
     }
 
     /// ½ qᵀK q.
     pub fn strain(&self, q: &[f64]) -> f64 {
-        0.5 * self.bundle.form(2, q)
+        0.5 * self.bundle.form(STIFFNESS, q)
     }
 }
 

@@ -25,7 +25,7 @@ fn inertial() -> Weights<'static> {
 pub struct HubInertia {
     /// M, factored.
     mass: Matrix,
-    /// Σ_j |N_ij|: qᵀN q ≤ Σ bound_i q_i².
+    /// Σ_j |N_ij| with N = M − D: qᵀN q ≤ Σ bound_i q_i².
     bounds: Vec<f64>,
     /// Inertia of the hub alone [kg·m²].
     hub: f64,

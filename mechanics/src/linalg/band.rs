@@ -360,7 +360,9 @@ impl<T: Scalar> Band<T> {
     fn forward_by_rows<const LOWER: usize>(&self, b: &mut [T]) {
         let (width, l) = (self.width, if LOWER > 0 { LOWER } else { self.lower });
         let short = if self.first_exchange < l { self.first_exchange } else { l };
-        if short == LOWER && let Some(x) = b.first_chunk_mut::<LOWER>() {
+        if short == LOWER
+            && let Some(x) = b.first_chunk_mut::<LOWER>()
+        {
             for i in 1..LOWER {
                 let row = &self.data[i * width..][..LOWER];
                 let mut sum = x[i];
@@ -426,7 +428,10 @@ impl<T: Scalar> Band<T> {
         let (n, l, width) = (self.n, self.lower, self.width);
         let common = if UPPER > 0 { self.first_exchange.min(n.saturating_sub(UPPER)) } else { 0 };
         let short = &self.data[common * width..];
-        if self.first_exchange == n && common + UPPER == n && let Some(x) = b.last_chunk_mut::<UPPER>() {
+        if self.first_exchange == n
+            && common + UPPER == n
+            && let Some(x) = b.last_chunk_mut::<UPPER>()
+        {
             for k in (0..UPPER).rev() {
                 let row = &short[k * width + l..][..UPPER + 1];
                 let mut sum = x[k];
