@@ -40,6 +40,13 @@ impl Recent {
     }
 }
 
+/// The absolute acceleration p̈ + 2ωJṗ + ω̇Jp − ω²p of a point at p in the frame of the hub.
+#[inline(always)]
+pub(super) fn absolute(p: [f64; 2], v: [f64; 2], a: [f64; 2], hub: &HubKinematics) -> [f64; 2] {
+    let (w, w1) = (hub.speed, hub.acceleration);
+    [a[0] - 2.0 * w * v[1] - w1 * p[1] - w * w * p[0], a[1] + 2.0 * w * v[0] + w1 * p[0] - w * w * p[1]]
+}
+
 /// The drive of the hub.
 #[derive(Clone, Debug)]
 pub enum Drive {

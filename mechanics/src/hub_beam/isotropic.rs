@@ -18,7 +18,7 @@
 //! M a + (Pᵀ − P)(ω v + ½ω̇ q) − ω² M q = m A,   A = p̈ + 2ωJṗ + ω̇Jp − ω²p
 //! ```
 
-use super::section_rotation::absolute;
+use super::hub::absolute;
 use super::vectors::Entry;
 use crate::linalg::Matrix;
 use crate::linalg::vector::inner;

@@ -2,6 +2,7 @@
 //! at one point of the axis, as forces on p and p′, as a torque on the hub, and their tangents. Symbols and
 //! equations as in [`super::exact`].
 
+use super::hub::absolute;
 use super::inertia::Totals;
 use crate::linalg::vector::inner;
 use crate::profile::HubKinematics;
@@ -31,13 +32,6 @@ pub struct SectionRotation {
 /// c₁ a + c₂ b
 fn sum(c1: f64, a: [f64; 2], c2: f64, b: [f64; 2]) -> [f64; 2] {
     [c1 * a[0] + c2 * b[0], c1 * a[1] + c2 * b[1]]
-}
-
-/// p̈ + 2ωJṗ + ω̇Jp − ω²p
-#[inline(always)]
-pub(super) fn absolute(p: [f64; 2], v: [f64; 2], a: [f64; 2], hub: &HubKinematics) -> [f64; 2] {
-    let (w, w1) = (hub.speed, hub.acceleration);
-    [a[0] - 2.0 * w * v[1] - w1 * p[1] - w * w * p[0], a[1] + 2.0 * w * v[0] + w1 * p[0] - w * w * p[1]]
 }
 
 impl SectionRotation {

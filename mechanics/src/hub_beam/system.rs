@@ -199,13 +199,16 @@ impl<C: Coupling> HubBeam<C> {
 
     /// Angle, speed and acceleration of the hub.
     pub(super) fn kinematics(&mut self, s: &State) -> HubKinematics {
-        let n = self.coupling.fields().len();
+        let n = || self.coupling.fields().len();
         match (&self.hub.drive, self.steady) {
             (Drive::Free(free), steady) if self.held => {
                 let speed = steady.unwrap_or(free.speed);
-                HubKinematics { angle: s.q[n], speed, acceleration: 0.0 }
+                HubKinematics { angle: s.q[n()], speed, acceleration: 0.0 }
             }
-            (Drive::Free(_), _) => HubKinematics { angle: s.q[n], speed: s.v[n], acceleration: s.a[n] },
+            (Drive::Free(_), _) => {
+                let n = n();
+                HubKinematics { angle: s.q[n], speed: s.v[n], acceleration: s.a[n] }
+            }
             (Drive::Prescribed(_), Some(speed)) => {
                 HubKinematics { angle: speed * s.t, speed, acceleration: 0.0 }
             }

@@ -380,14 +380,17 @@ impl Stages {
                 self.rates.iter_mut().zip(speed).for_each(|(rate, x)| rate[i] -= x / h);
             }
         }
-        let weights = &self.inverse_weight;
-        let [d1, d2, d3, a1, a2, a3] = [d1, d2, d3, a1, a2, a3].map(|x| &mut x[..velocities]);
-        for (i, w) in weights.iter().enumerate() {
-            let d = [d1[i], d2[i], d3[i]];
-            let [x, y, z] = rows(&A2_INVERSE, d);
+        let weights = &self.inverse_weight[..velocities];
+        let (d1, d2, d3) = (&d1[..velocities], &d2[..velocities], &d3[..velocities]);
+        let (a1, a2, a3) = (&mut a1[..velocities], &mut a2[..velocities], &mut a3[..velocities]);
+        for i in 0..velocities {
+            let [x, y, z] = rows(&A2_INVERSE, [d1[i], d2[i], d3[i]]);
             a1[i] -= inverse * x;
             a2[i] -= inverse * y;
             a3[i] -= inverse * z;
+        }
+        for i in 0..velocities {
+            let (d, w) = ([d1[i], d2[i], d3[i]], weights[i]);
             square += (squares(d) + squares(rows(&A_INVERSE, d))) * (w * w);
         }
         self.forces = change / largest;
