@@ -9,7 +9,7 @@ use std::thread;
 /// Computes the diagram of `system` on `threads` threads, 0 for as many as the machine has, each with a fork of it: the same
 /// diagram for any number of them. With a finer mesh of the same system, whose differences times `safety` estimate the errors of
 /// the frequencies, these are computed too.
-/// `progress` is called with the number of speeds that are done, and stops by `false`.
+/// `progress` is called with the number of speeds that are done, and stops by `false`: the diagram ends there.
 ///
 /// # Errors
 /// [`NoCampbell`].
@@ -23,11 +23,18 @@ pub fn campbell(
     threads: usize,
     progress: &(dyn Fn(usize) -> bool + Sync),
 ) -> Result<Campbell, NoCampbell> {
-    let (mut speeds, blocks) = computed(system, plan, threads, progress)?;
+    let stop = AtomicBool::new(false);
+    let next = |done: usize| {
+        if !progress(done) {
+            stop.store(true, Ordering::Relaxed);
+        }
+        !stop.load(Ordering::Relaxed)
+    };
+    let (mut speeds, blocks) = computed(system, plan, threads, &next)?;
     let mut diagram = assemble(&mut speeds, blocks)?;
-    if let Some((finer, safety)) = finer.filter(|_| diagram.speeds.len() > 1) {
+    if let Some((finer, safety)) = finer.filter(|_| diagram.speeds.len() > 1 && next(plan.speeds.len())) {
         let plan = Plan { speeds: diagram.speeds.clone(), ..plan.clone() };
-        let (_, blocks) = computed(finer, &plan, threads, &|_| progress(plan.speeds.len()))?;
+        let (_, blocks) = computed(finer, &plan, threads, &|_| next(plan.speeds.len()))?;
         let frequencies: Vec<Vec<f64>> = blocks.iter().flat_map(Block::frequencies).collect();
         diagram.compare(&frequencies, safety);
     }
@@ -46,22 +53,17 @@ fn computed<'p>(
         0 => thread::available_parallelism().map_or(1, usize::from),
         n => n,
     };
-    let (next, done, stop) = (AtomicUsize::new(0), AtomicUsize::new(0), AtomicBool::new(false));
+    let (next, done) = (AtomicUsize::new(0), AtomicUsize::new(0));
     // Nothing is computed beyond a block that ends.
     let end = AtomicUsize::new(count);
     let blocks: Vec<Mutex<Option<Block>>> = (0..count).map(|_| Mutex::new(None)).collect();
-    let work = |speeds: &mut Speeds<'_>| -> Result<(), NoCampbell> {
+    let work = |speeds: &mut Speeds<'_>| {
         loop {
             let number = next.fetch_add(1, Ordering::Relaxed);
             let Some(slot) = blocks.get(number).filter(|_| number < end.load(Ordering::Relaxed)) else {
-                return Ok(());
+                return;
             };
-            let block = speeds.block(number, || {
-                if !progress(1 + done.fetch_add(1, Ordering::Relaxed)) {
-                    stop.store(true, Ordering::Relaxed);
-                }
-                !stop.load(Ordering::Relaxed)
-            })?;
+            let block = speeds.block(number, || progress(1 + done.fetch_add(1, Ordering::Relaxed)));
             if block.ends() {
                 end.fetch_min(number, Ordering::Relaxed);
             }
@@ -77,12 +79,11 @@ fn computed<'p>(
         let work = &work;
         let others = others.into_iter().map(|mut speeds| scope.spawn(move || work(&mut speeds)));
         let others: Vec<_> = others.collect();
-        let mut outcome = work(&mut speeds);
+        work(&mut speeds);
         for other in others {
-            outcome = outcome.and(other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
+            other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         }
-        outcome
-    })?;
+    });
     let blocks = blocks.into_iter().map_while(|slot| slot.into_inner().ok().flatten()).collect();
     Ok((speeds, blocks))
 }

@@ -1,5 +1,6 @@
 //! `flexion campbell`: modes of vibration over a range of speeds.
 
+use crate::run::stop_on_ctrl_c;
 use crate::vibration::{self, Options, Speed, report, speed, stations};
 use crate::{Outcome, case, screen};
 use flexion::analysis::campbell::{Branch, Campbell, Crossing, Instability, NoCampbell, Plan};
@@ -7,6 +8,7 @@ use flexion_case::Reading;
 use flexion_results::{Artifact, Directory, Frequencies, Resonance, Units, resonances, write_campbell};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
 
 /// The case and the speeds.
 #[derive(clap::Args)]
@@ -30,7 +32,7 @@ pub struct Arguments {
     #[command(flatten)]
     case: case::Selection,
     /// Range of speeds, e.g. 0:50:100 or '0 rpm:20 rpm:100'
-    #[arg(long, value_name = "FROM:TO:NUMBER", value_parser = range)]
+    #[arg(long, value_name = "FROM:TO:NUMBER", value_parser = range, allow_hyphen_values = true)]
     speeds: Range,
     /// Number of modes, the lowest at any of the speeds
     #[arg(long, value_name = "N", default_value = "6", value_parser = vibration::count)]
@@ -153,9 +155,10 @@ fn diagram(arguments: &Arguments, reading: &Reading) -> Result<bool, String> {
     if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos}/{len} speeds  {eta} left") {
         bar.set_style(style);
     }
+    let stop = stop_on_ctrl_c();
     let progress = |done: usize| {
         bar.set_position(done as u64);
-        true
+        !stop.load(Ordering::Relaxed)
     };
     let finer = reading.with_finer_mesh().ok().and_then(|finer| vibration::system(&finer.case, true).ok());
     let finer = finer.map(|(finer, _)| (finer, vibration::safety(case)));

@@ -24,7 +24,7 @@ pub struct Arguments {
     #[command(flatten)]
     case: case::Selection,
     /// Load factor to which the path is followed
-    #[arg(long, value_name = "FACTOR", default_value = "1", value_parser = positive)]
+    #[arg(long, value_name = "FACTOR", default_value = "1", value_parser = positive, allow_hyphen_values = true)]
     to: f64,
     /// Longest step: of displacements over the length of the beam, and of the load factor
     #[arg(long, value_name = "STEP", default_value = "0.05", value_parser = positive)]

@@ -53,12 +53,26 @@ fn blocks_computed_apart_and_in_any_order_make_the_same_diagram() {
     let speeds = || Speeds::new(beam(70.0, Foreshortening::First), &plan).unwrap();
     let (mut one, mut other) = (speeds(), speeds());
     assert_eq!(Speeds::blocks(&plan), 3);
-    let last = one.block(2, || true).unwrap();
-    let blocks = vec![one.block(0, || true).unwrap(), other.block(1, || true).unwrap(), last];
+    let last = one.block(2, || true);
+    let blocks = vec![one.block(0, || true), other.block(1, || true), last];
     assert_eq!(alone, assemble(&mut other, blocks).unwrap());
     assert_eq!(alone.branches.len(), 4);
     assert!(alone.branches.iter().all(|b| b.points.len() == alone.speeds.len()));
-    assert_eq!(one.block(1, || false).unwrap_err(), NoCampbell::Stopped);
+    assert!(one.block(1, || false).ends());
+}
+
+/// What was found before a stop is kept, and the diagram says that it was stopped; a single speed makes none.
+#[test]
+fn a_diagram_that_is_stopped_keeps_the_speeds_that_are_done() {
+    let plan = plan(20.0, 60, 4);
+    let whole = diagram(70.0, &plan);
+    let stopped = campbell(beam(70.0, Foreshortening::First), &plan, |done| done < 37).unwrap();
+    let last = stopped.speeds.last().copied().unwrap();
+    assert_eq!(last, plan.speeds[36]);
+    assert!(stopped.speeds.iter().eq(whole.speeds.iter().filter(|speed| **speed <= last)));
+    assert!(
+        matches!(&stopped.instabilities[..], [Instability::Lost { reason, .. }] if reason.contains("stopped"))
+    );
 }
 
 #[test]

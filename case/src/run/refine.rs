@@ -7,6 +7,7 @@ use crate::reading::Reading;
 use crate::units;
 use flexion::analysis::error::{self, Effort, Ended, GivenUp, Goal, Part, principal, refine};
 use flexion::analysis::recording::Watch;
+use flexion::system::Role;
 use flexion_results::{ResultsError, Rung, Status, Trajectory, nearest};
 
 /// What is to be how accurate.
@@ -56,7 +57,8 @@ impl Target {
     pub(super) fn goals(&self, trajectory: &Trajectory, size: f64) -> Result<Vec<Goal>, RefineError> {
         if let Some(quantity) = &self.quantity {
             let (column, part) = split(quantity);
-            let index = trajectory.index(column).ok_or_else(|| unknown(column, trajectory))?;
+            let moves = |index: &usize| trajectory.channels()[*index].role != Role::Integration;
+            let index = trajectory.index(column).filter(moves).ok_or_else(|| unknown(column, trajectory))?;
             return Ok(vec![self.goal(trajectory, index, part)?]);
         }
         let principal = principal(trajectory, size);
@@ -107,7 +109,8 @@ fn split(quantity: &str) -> (&str, Part) {
 }
 
 fn unknown(column: &str, trajectory: &Trajectory) -> ResultsError {
-    let names: Vec<&str> = trajectory.channels().iter().map(|channel| channel.name.as_str()).collect();
+    let moving = trajectory.channels().iter().filter(|channel| channel.role != Role::Integration);
+    let names: Vec<&str> = moving.map(|channel| channel.name.as_str()).collect();
     ResultsError::NoColumn {
         pattern: column.to_owned(),
         of: "this run".to_owned(),

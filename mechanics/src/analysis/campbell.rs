@@ -33,8 +33,8 @@ const CROSSING: f64 = 1.0 / 8192.0;
 /// Computes the diagram of a system. `progress` is called with the number of speeds that are done, and stops by `false`.
 ///
 /// # Errors
-/// [`NoCampbell`]. Instability is no error. Neither is the end of steady rotation beyond the first speed: the diagram ends there and
-/// says so.
+/// [`NoCampbell`]. Instability is no error. Neither is the end of steady rotation, or a stop, beyond the first speed: the diagram ends there
+/// and says so.
 pub fn campbell(
     system: Box<dyn System>,
     plan: &Plan,
@@ -46,7 +46,7 @@ pub fn campbell(
         let block = speeds.block(number, || {
             done += 1;
             progress(done)
-        })?;
+        });
         let ends = block.ends();
         blocks.push(block);
         if ends {
@@ -70,7 +70,9 @@ pub fn assemble(system: &mut Speeds<'_>, blocks: Vec<Block>) -> Result<Campbell,
             None => continue,
             Some(NoCampbell::Rotation(NoRotation::DoesNotTurn)) => return Err(NoRotation::DoesNotTurn.into()),
             Some(failure) if solved.is_empty() => return Err(failure),
-            Some(failure @ (NoCampbell::Rotation(_) | NoCampbell::Modes { .. })) => ended = Some(failure),
+            Some(failure @ (NoCampbell::Rotation(_) | NoCampbell::Modes { .. } | NoCampbell::Stopped)) => {
+                ended = Some(failure);
+            }
             Some(failure) => return Err(failure),
         }
         break;

@@ -157,6 +157,6 @@ pub enum NoCampbell {
         source: NoModes,
     },
     /// It was stopped.
-    #[error("stopped")]
+    #[error("stopped before the last speed")]
     Stopped,
 }

@@ -69,27 +69,23 @@ impl<'a> Speeds<'a> {
     }
 
     /// The modes at the speeds of block `number`, up to the first failure. `next` is called after each speed and stops by
-    /// `false`. The result does not depend on what was computed before.
-    ///
-    /// # Errors
-    /// [`NoCampbell::Stopped`].
-    pub fn block(&mut self, number: usize, mut next: impl FnMut() -> bool) -> Result<Block, NoCampbell> {
+    /// `false`, which counts as one. The result does not depend on what was computed before.
+    pub fn block(&mut self, number: usize, mut next: impl FnMut() -> bool) -> Block {
         self.rest();
         let mut block = Block { solved: Vec::with_capacity(BLOCK), failure: None };
         for &speed in self.plan.speeds.chunks(BLOCK).nth(number).unwrap_or_default() {
-            let result = self.solve(speed, self.plan.count + SPARE, block.solved.last());
-            if !next() {
-                return Err(NoCampbell::Stopped);
-            }
-            match result {
+            match self.solve(speed, self.plan.count + SPARE, block.solved.last()) {
                 Ok(solved) => block.solved.push(solved),
-                Err(failure) => {
-                    block.failure = Some(failure);
-                    break;
-                }
+                Err(failure) => block.failure = Some(failure),
+            }
+            if !next() {
+                block.failure.get_or_insert(NoCampbell::Stopped);
+            }
+            if block.ends() {
+                break;
             }
         }
-        Ok(block)
+        block
     }
 
     pub(super) fn plan(&self) -> &'a Plan {
