@@ -12,6 +12,7 @@ mod kept_tangents;
 mod linear_cost;
 mod modes;
 mod multibody_systems;
+mod shear;
 mod slender;
 mod surroundings;
 mod tapered_beam;

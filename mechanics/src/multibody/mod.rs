@@ -30,6 +30,7 @@
 //! | `consistency` | positions, ranks and velocities at the start |
 //! | `constants` | what does not change in a run |
 //! | `slender` | the geometrically exact slender beam |
+//! | `shear` | the geometrically exact beam with shear; no part of a [`Model`] |
 //! | `system` | the equations of motion |
 //! | `events` | breaks, and the jumps of prescribed speeds |
 //! | `axis` | axes of rotation, and what on the ground allows it |
@@ -64,6 +65,7 @@ mod rotating;
 pub mod rotation;
 mod row;
 mod shares;
+pub mod shear;
 pub mod slender;
 mod start;
 mod system;
