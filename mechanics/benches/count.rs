@@ -1,6 +1,7 @@
 //! `count COUPLING INTEGRATOR ELEMENTS STEPS`: so many steps of the spin-up, for `benches/count.sh`.
 //! With COUPLING = `solver`, so many factorisations and solutions. With INTEGRATOR = `modes`, so often the ten lowest modes at
-//! 4 rad/s; with `campbell`, so many speeds up to that of a diagram of ten modes, on one thread.
+//! 4 rad/s; with `campbell`, so many speeds up to that of a diagram of ten modes, on one thread. With `slender` or `shear` so often the
+//! forces of a beam in space of so many elements, with INTEGRATOR = `forces`, or its tangent, with `tangent`.
 #![allow(missing_docs, clippy::unwrap_used)]
 
 mod spin_up;
@@ -17,7 +18,9 @@ fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
     let [coupling, integrator, elements, steps] = arguments.as_slice() else { return };
     let (elements, steps): (usize, usize) = (elements.parse().unwrap(), steps.parse().unwrap());
-    if coupling == "solver" {
+    if ["slender", "shear"].contains(&coupling.as_str()) {
+        spin_up::evaluate(coupling == "shear", integrator == "tangent", elements, steps);
+    } else if coupling == "solver" {
         let (tangent, rhs) = spin_up::equations(elements);
         // As many copies whatever the number of steps: the difference of two counts is free of the copying.
         let mut copies: Vec<_> = (0..COPIES.max(steps)).map(|_| (tangent.clone(), rhs.clone())).collect();

@@ -8,12 +8,13 @@ use flexion::hub_beam::{
     Drive, ExactCoupling, Fields, Foreshortening, FreeHub, HighCoupling, Hub, HubBeam, LinearCoupling,
 };
 use flexion::integrator::{GeneralizedAlpha, Integration, Integrator, Radau, Span, Tolerance};
-use flexion::linalg::{Matrix, Vec3};
+use flexion::linalg::{Mat3, Matrix, Vec3};
 use flexion::multibody::slender::{Beam, ELEMENT_VELOCITIES, Properties, Station};
-use flexion::multibody::{self, Flexible, Joint, Kind, Marker, Model, Multibody, Part};
+use flexion::multibody::{self, Flexible, Joint, Kind, Marker, Model, Multibody, Part, shear};
 use flexion::profile::{Expression, Motion, SpinUp};
 use flexion::section::{Resultants, Uniform};
-use flexion::system::{State, System, Weights};
+use flexion::system::{Frame, State, System, Weights};
+use std::hint::black_box;
 use std::sync::Arc;
 
 /// Step of the fixed-step runs [s].
@@ -142,4 +143,48 @@ pub fn equations(elements: usize) -> (Matrix, Vec<f64>) {
     let mut rhs = vec![0.0; state.v.len()];
     system.residual(&state, &mut rhs);
     (tangent, rhs)
+}
+
+/// Evaluates the forces of a straight beam in space, slender or with shear, or its tangent, `count` times at a bent configuration with
+/// velocities.
+pub fn evaluate(has_shear: bool, differentiate: bool, elements: usize, count: usize) {
+    let w = Weights::new(1.0, 0.5 * STEP, 0.25 * STEP * STEP);
+    let wave = |n: usize| -> Vec<f64> { (0..n).map(|i| 0.01 * (0.3 * i as f64).sin()).collect() };
+    let length = elements as f64;
+    if has_shear {
+        let root = Frame { position: Vec3([0.0; 3]), rotation: Mat3::IDENTITY };
+        let stiffness = [2.8e7, 1e7, 1e7, 1.1e4, 1.4e4, 1.4e4];
+        let section = shear::Properties::principal(stiffness, 1.2, [1.2e-3, 6e-4, 6e-4]);
+        let beam = shear::Beam::straight(root, length, elements, section).unwrap();
+        let (d, mut q) = (wave(beam.velocities()), beam.initial().to_vec());
+        beam.retract(beam.initial(), &d, &mut q);
+        let (mut r, mut sum) = (vec![0.0; d.len()], 0.0);
+        for _ in 0..count {
+            if differentiate {
+                beam.add_tangent(&q, &d, &d, &w, |_, block| sum += block[7][11]);
+            } else {
+                beam.add_forces(&q, &d, &d, &mut r);
+            }
+        }
+        black_box((r, sum));
+    } else {
+        let root = Station {
+            position: Vec3([0.0; 3]),
+            tangent: Vec3([1.0, 0.0, 0.0]),
+            normal: Vec3([0.0, 1.0, 0.0]),
+        };
+        let section = Properties::principal([2.8e7, 1.1e4, 1.4e4, 1.4e4], 1.2, [1.2e-3, 6e-4, 6e-4]);
+        let beam = Beam::straight(root, length, elements, section).unwrap();
+        let (d, mut q) = (wave(beam.velocities()), beam.initial().to_vec());
+        beam.retract(beam.initial(), &d, &mut q);
+        let (mut r, mut sum) = (vec![0.0; d.len()], 0.0);
+        for _ in 0..count {
+            if differentiate {
+                beam.add_tangent(&q, &d, &d, &w, |_, block| sum += block[7][11]);
+            } else {
+                beam.add_forces(&q, &d, &d, &mut r);
+            }
+        }
+        black_box((r, sum));
+    }
 }

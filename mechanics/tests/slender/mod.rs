@@ -11,7 +11,7 @@ mod dynamics;
 mod frequencies;
 mod helix;
 mod invariance;
-mod newton;
+pub mod newton;
 mod plane;
 mod princeton;
 mod refusals;
