@@ -309,13 +309,7 @@ impl Element {
             add_nodal(&relative.rotation, &tangent::by_velocity(&relative, at, damping, w.v), out);
         }
         for (i, turn) in turns.iter().enumerate() {
-            let at = NODE_VELOCITIES * i;
-            self.moving(m, i).add_tangent(turn, [w.q, w.v, w.a], |column, [force, moment]| {
-                for k in 0..3 {
-                    out[at + k][at + column] += force[k];
-                    out[at + 3 + k][at + column] += moment[k];
-                }
-            });
+            add_blocks(&self.moving(m, i).tangent(turn, [w.q, w.v, w.a]), [i, i], out);
         }
     }
 
@@ -367,14 +361,19 @@ fn add_nodal(rotation: &Mat3, nodal: &Nodal, out: &mut Tangent) {
     for (i, row) in nodal.iter().enumerate() {
         for (j, block) in row.iter().enumerate() {
             let [[rr, rf], [fr, ff]] = *block;
-            let turned = [[*rotation * rr * back, *rotation * rf], [fr * back, ff]];
-            for (k, row) in turned.iter().enumerate() {
-                for (l, part) in row.iter().enumerate() {
-                    let (top, left) = (NODE_VELOCITIES * i + 3 * k, NODE_VELOCITIES * j + 3 * l);
-                    for a in 0..3 {
-                        (0..3).for_each(|b| out[top + a][left + b] += part[a][b]);
-                    }
-                }
+            add_blocks(&[[*rotation * rr * back, *rotation * rf], [fr * back, ff]], [i, j], out);
+        }
+    }
+}
+
+/// Adds the matrix of the displacement and the rotation of two nodes.
+#[inline(always)]
+fn add_blocks(blocks: &Blocks, [i, j]: [usize; 2], out: &mut Tangent) {
+    for (k, row) in blocks.iter().enumerate() {
+        for (l, part) in row.iter().enumerate() {
+            let (top, left) = (NODE_VELOCITIES * i + 3 * k, NODE_VELOCITIES * j + 3 * l);
+            for a in 0..3 {
+                (0..3).for_each(|b| out[top + a][left + b] += part[a][b]);
             }
         }
     }

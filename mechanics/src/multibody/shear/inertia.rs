@@ -56,30 +56,25 @@ impl<'a> Moving<'a> {
         [self.rotation * self.force[0], self.force[1]]
     }
 
-    /// Hands the columns of the derivative of force and moment to `add`, by number: by `w[0]` turn·δφ in the configuration,
+    /// The derivative of force and moment, by rows, by displacement and rotation: by `w[0]` (0, turn·δφ) in the configuration, by
     /// `w[1]` of the velocity and `w[2]` of the acceleration.
-    #[inline]
-    pub fn add_tangent(&self, turn: &Mat3, [wq, wv, wa]: [f64; 3], mut add: impl FnMut(usize, [Vec3; 2])) {
-        let inward = self.rotation.transpose();
-        let none = Vec3::ZERO;
-        for k in 0..3 {
-            let (along, axis) = (inward.column(k), Vec3::AXES[k]);
-            add(k, self.derivative(none, [wv * along, none], [wa * along, none]));
-            add(3 + k, self.derivative(wq * turn.column(k), [none, wv * axis], [none, wa * axis]));
-        }
-    }
-
-    /// How force and moment change with a rotation δφ and with Λᵀδṙ, δΩ, Λᵀδr̈ and δΩ̇.
     #[inline(always)]
-    fn derivative(&self, turn: Vec3, v: [Vec3; 2], a: [Vec3; 2]) -> [Vec3; 2] {
-        let ([u, spin], [p, h]) = (self.velocity, self.momentum);
-        let du = v[0] + u.cross(turn);
-        let dspin = v[1];
-        let da = a[0] + self.acceleration.cross(turn) - dspin.cross(u) - spin.cross(du);
-        let [dp, dh] = product(self.mass, &[du, dspin]);
-        let change = product(self.mass, &[da, a[1]]);
-        let dforce = change[0] + dspin.cross(p) + spin.cross(dp) + turn.cross(self.force[0]);
-        let dmoment = change[1] + dspin.cross(h) + spin.cross(dh) + du.cross(p) + u.cross(dp);
-        [self.rotation * dforce, dmoment]
+    pub fn tangent(&self, turn: &Mat3, [wq, wv, wa]: [f64; 3]) -> Blocks {
+        let ([u, spin], [p, h], [force, _]) = (self.velocity, self.momentum, self.force);
+        let [[m11, m12], [m21, m22]] = *self.mass;
+        let [u, spin, acceleration] = [u, spin, self.acceleration].map(Mat3::skew);
+        let [p, h, force] = [p, h, force].map(Mat3::skew);
+        // By u: δu = Λᵀδṙ + u × δφ, δu̇ = Λᵀδr̈ + Λᵀr̈ × δφ − δΩ × u − Ω × δu.
+        let by_velocity = [spin * m11 - m11 * spin, spin * m21 - m21 * spin + u * m11 - p];
+        let by_spin = [m11 * u + spin * m12 - p, m21 * u + spin * m22 + u * m12 - h];
+        let by_turn =
+            [by_velocity[0] * u + m11 * acceleration - force, by_velocity[1] * u + m21 * acceleration];
+        let inward = self.rotation.transpose();
+        let of = |k: usize, [by_rate, by_spin_rate]: [Mat3; 2]| {
+            let by_place = (wa * by_rate + wv * by_velocity[k]) * inward;
+            [by_place, wq * (by_turn[k] * *turn) + wv * by_spin[k] + wa * by_spin_rate]
+        };
+        let [by_place, by_rotation] = of(0, [m11, m12]);
+        [[self.rotation * by_place, self.rotation * by_rotation], of(1, [m21, m22])]
     }
 }
