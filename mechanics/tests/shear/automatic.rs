@@ -9,13 +9,19 @@ use super::nilpotent::{
 use flexion::multibody::shear::{Beam, Element, Matrix6, Motion};
 use flexion::system::Weights;
 
-/// Unknowns of an element of three nodes.
-const N: usize = 18;
+/// Unknowns of an element of four nodes.
+const N: usize = 24;
+
+/// Places and weights of Lobatto's rule of four points on [0, 1].
+fn lobatto() -> [(f64, f64); 4] {
+    let inner = 0.5 * (1.0 - 0.2_f64.sqrt());
+    [(0.0, 1.0 / 12.0), (inner, 5.0 / 12.0), (1.0 - inner, 5.0 / 12.0), (1.0, 1.0 / 12.0)]
+}
 
 type Strain = [Number; 6];
 
 /// Position and axes of the nodes, moved by d.
-fn moved(q: &[f64], d: &[Number; N]) -> [(Vector, Matrix); 3] {
+fn moved(q: &[f64], d: &[Number; N]) -> [(Vector, Matrix); 4] {
     std::array::from_fn(|i| {
         let (q, d) = (&q[7 * i..], &d[6 * i..]);
         let place = sum(vector([q[0], q[1], q[2]]), number(1.0), [d[0], d[1], d[2]]);
@@ -24,28 +30,29 @@ fn moved(q: &[f64], d: &[Number; N]) -> [(Vector, Matrix); 3] {
     })
 }
 
-/// The two Gauss points.
-fn gauss() -> [f64; 2] {
-    let outer = 0.5 * (1.0 - (1.0 / 3.0_f64).sqrt());
-    [outer, 1.0 - outer]
+/// Places and weights of Gauss' rule of three points on [0, 1].
+fn gauss() -> [(f64, f64); 3] {
+    let outer = 0.5 * (1.0 - 0.6_f64.sqrt());
+    [(outer, 5.0 / 18.0), (0.5, 8.0 / 18.0), (1.0 - outer, 5.0 / 18.0)]
 }
 
 /// Γ and κ at the place z of an element of the length h.
-fn strain(nodes: &[(Vector, Matrix); 3], z: f64, h: f64) -> Strain {
+fn strain(nodes: &[(Vector, Matrix); 4], z: f64, h: f64) -> Strain {
     // z + e₃/h: the coefficient of e₃ is the derivative by the arc length.
     let mut z = number(z);
     z.0[4] = 1.0 / h;
-    let (one, two) = (number(1.0), number(2.0));
-    let shapes = [(one - z) * (one - two * z), number(4.0) * z * (one - z), z * (two * z - one)];
-    let back = transpose(nodes[1].1);
+    let back = transpose(nodes[2].1);
     let (mut place, mut turn) = ([number(0.0); 3], [number(0.0); 3]);
-    for (i, l) in shapes.into_iter().enumerate() {
+    for (i, (own, _)) in lobatto().into_iter().enumerate() {
+        let others = lobatto().into_iter().filter(|(other, _)| *other != own);
+        let l =
+            others.fold(number(1.0), |l, (other, _)| l * (z - number(other)) * number(1.0 / (own - other)));
         place = sum(place, l, nodes[i].0);
-        if i != 1 {
+        if i != 2 {
             turn = sum(turn, l, logarithm(product(back, nodes[i].1)));
         }
     }
-    let axes = product(nodes[1].1, rotation(turn));
+    let axes = product(nodes[2].1, rotation(turn));
     let inward = transpose(axes).map(|row| row.map(plain));
     let slope = apply(inward, place.map(Number::third));
     let change = product(inward, axes.map(|row| row.map(Number::third)));
@@ -68,20 +75,20 @@ fn form(a: &Matrix6, x: &Strain, y: &Strain) -> Number {
     out
 }
 
-fn initial(beam: &Beam) -> [Strain; 2] {
+fn initial(beam: &Beam) -> [Strain; 3] {
     let nodes = moved(beam.initial(), &[number(0.0); N]);
-    gauss().map(|z| strain(&nodes, z, beam.elements()[0].length()))
+    gauss().map(|(z, _)| strain(&nodes, z, beam.elements()[0].length()))
 }
 
 /// The strain energy at q ⊞ d.
-fn energy(beam: &Beam, q: &[f64], d: &[Number; N], initial: &[Strain; 2]) -> Number {
+fn energy(beam: &Beam, q: &[f64], d: &[Number; N], initial: &[Strain; 3]) -> Number {
     let h = beam.elements()[0].length();
     let nodes = moved(q, d);
     let mut out = number(0.0);
-    for (z, rest) in gauss().into_iter().zip(initial) {
+    for ((z, weight), rest) in gauss().into_iter().zip(initial) {
         let now = strain(&nodes, z, h);
         let e: Strain = std::array::from_fn(|k| now[k] - rest[k]);
-        out = out + number(0.25 * h) * form(&stiffness(z * h), &e, &e);
+        out = out + number(0.5 * weight * h) * form(&stiffness(z * h), &e, &e);
     }
     out
 }
@@ -159,11 +166,11 @@ fn damping_has_the_stresses_of_the_rates_of_the_strains() {
         let nodes = moved(&q, &d);
         let mut expected = 0.0;
         dissipated = 0.0;
-        for z in gauss() {
+        for (z, weight) in gauss() {
             let now = strain(&nodes, z, h);
             let (rate, change) = (now.map(|e| number(e.0[1])), now.map(|e| number(e.0[2])));
-            expected += 0.5 * h * form(&damping(z * h), &rate, &change).0[0];
-            dissipated += 0.5 * h * form(&damping(z * h), &rate, &rate).0[0];
+            expected += weight * h * form(&damping(z * h), &rate, &change).0[0];
+            dissipated += weight * h * form(&damping(z * h), &rate, &rate).0[0];
         }
         let found = with[i] - without[i];
         assert!((found - expected).abs() < 1e-12 * (1.0 + with[i].abs()), "{i}: {found} for {expected}");
@@ -172,7 +179,7 @@ fn damping_has_the_stresses_of_the_rates_of_the_strains() {
     assert!((power - dissipated).abs() < 1e-12 * dissipated && dissipated > 0.0);
 }
 
-/// The kinetic energy at q ⊞ d and the rates ḋ, of the sections at the nodes: Simpson's rule.
+/// The kinetic energy at q ⊞ d and the rates ḋ, of the sections at the nodes by Lobatto's rule.
 fn kinetic(beam: &Beam, q: &[f64], d: &[Number; N], rates: &[Number; N]) -> Number {
     let h = beam.elements()[0].length();
     let mut out = number(0.0);
@@ -186,8 +193,8 @@ fn kinetic(beam: &Beam, q: &[f64], d: &[Number; N], rates: &[Number; N]) -> Numb
         let w = product(back, change);
         let u = apply(transpose(axes), rate);
         let velocities = [u[0], u[1], u[2], w[2][1], w[0][2], w[1][0]];
-        let weight = [1.0, 4.0, 1.0][i] / 6.0;
-        let of = mass(0.5 * h * i as f64);
+        let (z, weight) = lobatto()[i];
+        let of = mass(z * h);
         out = out + number(0.5 * weight * h) * form(&of, &velocities, &velocities);
     }
     out

@@ -29,15 +29,15 @@ fn a_couple_rolls_the_cantilever_up_to_a_circle() {
         // A constant bending is exact, and with it the rotation: to the rounding of angles and of strains that are small
         // against the axial stiffness, a part 10⁻¹⁶ of which is slenderness² of the bending stiffness.
         let rounding = 1e-14 * (10.0 + slenderness);
-        for n in [4, 8, 16] {
+        for n in [2, 4, 8] {
             let Frame { position, rotation } = tip(n, 2.0 * PI);
             assert!((rotation.column(0) - Vec3::AXES[0]).norm() < rounding, "{slenderness} {n}");
             // All chords of the elements of a whole circle add up to nothing.
             assert!(position.norm() < rounding, "{slenderness} {n}: {position:?}");
         }
-        let errors = [4, 8, 16].map(|n| (tip(n, PI).position - Vec3([0.0, 2.0 / PI, 0.0])).norm());
+        let errors = [2, 4, 8].map(|n| (tip(n, PI).position - Vec3([0.0, 2.0 / PI, 0.0])).norm());
         println!("half a circle, slenderness {slenderness:e}: {errors:?} {:?}", orders(&errors));
-        assert!(orders(&errors).iter().all(|order| (3.9..4.1).contains(order)), "{errors:?}");
+        assert!(orders(&errors).iter().all(|order| (5.9..6.1).contains(order)), "{errors:?}");
     }
 }
 
@@ -77,15 +77,15 @@ fn elements_do_not_lock_however_slender_the_beam() {
                 println!("{name} {n} {slenderness:e}: {count} iterations");
                 chain.tip().position
             };
-            let exact = tip(64);
-            let errors = [4, 8, 16].map(|n| (tip(n) - exact).norm());
+            let exact = tip(32);
+            let errors = [3, 6, 12].map(|n| (tip(n) - exact).norm());
             println!("{name}, slenderness {slenderness:e}: {errors:?} {:?}", orders(&errors));
-            assert!(orders(&errors).iter().all(|order| *order > 3.7), "{name} {slenderness}: {errors:?}");
+            assert!(orders(&errors).iter().all(|order| *order > 5.7), "{name} {slenderness}: {errors:?}");
             coarse.push(errors[1]);
         }
         // From 100 on slenderness has no influence.
         assert!(coarse[1..].iter().all(|error| (error / coarse[1] - 1.0).abs() < 0.05), "{name}: {coarse:?}");
-        assert!(coarse[1] < 1.5 * coarse[0] && coarse[1] < 1e-4, "{name}: {coarse:?}");
+        assert!(coarse[1] < 1.5 * coarse[0] && coarse[1] < 1e-6, "{name}: {coarse:?}");
     }
 }
 
@@ -112,7 +112,7 @@ fn the_tip_of_the_bend_is_that_of_the_literature() {
         chain.load(6);
         chain.tip().position
     };
-    let tips = [4, 8, 16, 32].map(tip);
+    let tips = [2, 4, 8, 16].map(tip);
     println!("bend: {tips:?}");
     // The axes of the literature: y along the root, x towards the centre.
     let Vec3([along, inwards, out]) = tips[3];
@@ -123,14 +123,14 @@ fn the_tip_of_the_bend_is_that_of_the_literature() {
         }
     }
     let differences: Vec<f64> = tips.windows(2).map(|t| (t[0] - t[1]).norm()).collect();
-    assert!(orders(&differences).iter().all(|order| *order > 3.7), "{differences:?}");
+    assert!(orders(&differences).iter().all(|order| *order > 5.5), "{differences:?}");
 }
 
 /// Without shear it is the slender beam, whose element has nothing in common with this one.
 #[test]
 fn a_beam_stiff_in_shear_is_the_slender_beam() {
     use flexion::multibody::slender;
-    let mut chain = bend(32, 1e9);
+    let mut chain = bend(16, 1e9);
     chain.load(6);
     let inertia = 1e7 / 12.0;
     let section = slender::Properties::principal([1e7, inertia, inertia, inertia], 1.0, [1.0; 3]);

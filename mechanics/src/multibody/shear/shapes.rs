@@ -1,13 +1,13 @@
 //! Nodes, quadrature points and shape functions of an element.
 //!
-//! The nodes are those of Lobatto's rule, with which the inertia is integrated; the strain energy is integrated with Gauss' rule of
-//! one point less. L are Lagrange's functions of the nodes. What is seen from the reference section needs those of the other
+//! The four nodes are those of Lobatto's rule, with which the inertia is integrated; the strain energy is integrated with Gauss' rule
+//! of three points. L are Lagrange's functions of the nodes. What is seen from the reference section needs those of the other
 //! nodes alone.
 
 use crate::quadrature::Gauss;
 
 /// Nodes of an element.
-pub const NODES: usize = 3;
+pub const NODES: usize = 4;
 /// Quadrature points of the strain energy, and nodes beside the reference section.
 pub const POINTS: usize = NODES - 1;
 /// The reference section.
@@ -21,8 +21,13 @@ pub(super) const OTHERS: [usize; POINTS] = {
     }
     out
 };
-/// Places of the nodes on [0, 1], and their weights in Lobatto's rule.
-pub(super) const LOBATTO: [(f64, f64); NODES] = [(0.0, 1.0 / 6.0), (0.5, 2.0 / 3.0), (1.0, 1.0 / 6.0)];
+/// Places of the nodes on [0, 1], the inner ones at ½ ∓ √5/10, and their weights in Lobatto's rule.
+pub(super) const LOBATTO: [(f64, f64); NODES] = [
+    (0.0, 1.0 / 12.0),
+    (0.276_393_202_250_021, 5.0 / 12.0),
+    (0.723_606_797_749_979, 5.0 / 12.0),
+    (1.0, 1.0 / 12.0),
+];
 
 /// Shape functions at a point.
 #[derive(Clone, Copy, Debug, Default)]
