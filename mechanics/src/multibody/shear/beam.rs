@@ -38,7 +38,7 @@ pub enum BeamError {
     },
     /// The sections of an element are too far apart in orientation.
     #[error(
-        "the beam turns by {angle:.0}° within half of the element from s = {at} m: it must stay below 90°; take more elements"
+        "the beam turns by {angle:.0}° within the element from s = {at} m: it must stay below 90°; take more elements"
     )]
     Turned {
         /// Arc length of the element's begin \[m\].

@@ -122,8 +122,7 @@ struct Stressed {
 
 impl Element {
     /// An element of the length `length` \[m\] without stress at the coordinates `q`, whose section at the place 0 ≤ z ≤ 1 is
-    /// `section(z)`. C and D are evaluated at the quadrature points, M at the nodes. The nodes are at the
-    /// places [`Element::places`]. It shares the constants of the element `like` if they are the same but for rounding.
+    /// `section(z)`. C and D are evaluated at the quadrature points, M at the nodes, which are at the places [`Element::places`]. It shares the constants of the element `like` if they are the same but for rounding.
     pub fn new(
         length: f64,
         q: &[f64; COORDINATES],

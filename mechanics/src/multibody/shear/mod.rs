@@ -14,20 +14,22 @@
 //! **Unknowns.** A node is a frame: position r and unit quaternion p, velocities ṙ in space and Ω in the axes of the section,
 //! increments r + d_r and p exp d_φ, as those of a [body](super).
 //!
-//! **Interpolation.** Positions are interpolated by Lagrange's quadratic functions. Rotations are interpolated by the rotation vectors
-//! of the nodes against the section in the middle of the element (Crisfield & Jelenić 1999, doi 10.1098/rspa.1999.0352): the
-//! strains are functions of the relative positions and rotations of the three sections, and therefore the same after any rigid
-//! motion; they are functions of the present configuration alone, and a way to it does not matter.
+//! **Interpolation.** Positions are interpolated by Lagrange's cubic functions of four nodes. Rotations are interpolated by the rotation
+//! vectors of the nodes against one of them, the reference section (Crisfield & Jelenić 1999, doi 10.1098/rspa.1999.0352): the
+//! strains are functions of the relative positions and rotations of the four sections, and therefore the same after any rigid
+//! motion; they are functions of the present configuration alone, so that the way to it does not matter.
 //!
-//! **No locking, and order 4.** The strain energy is integrated with two Gauss points: 12 strains, as many as 18 unknowns of
-//! an element have beside the six of a rigid motion. Displacements and rotations of the nodes at the ends of elements, forces and frequencies converge
-//! with h⁴, for every slenderness.
+//! **No locking, and order 6.** The strain energy is integrated with three Gauss points: 18 strains, as many as the 24 unknowns of
+//! an element have beside the six of a rigid motion. Displacements and rotations of the ends of elements and frequencies
+//! converge with h⁶, for every slenderness.
 //!
-//! **Inertia.** T is integrated by Lobatto's rule, whose points are the nodes. A node is then a rigid section with the mass matrix of its part of the beam, the
-//! mass matrix is block diagonal, and gyroscopic and centrifugal forces are those of a rigid body. The order of frequencies stays 4.
+//! **Inertia.** T is integrated by Lobatto's rule, whose points are the nodes. A node is then a rigid section with the mass matrix
+//! of its part of the beam, the mass matrix of all is block diagonal, and gyroscopic and centrifugal forces are those of a rigid
+//! body. The order of frequencies stays 6.
 //!
-//! **Range.** Sections of an element must not turn by half a turn against its middle ([`BeamError::Turned`] holds the beam without
-//! stress to a quarter). Strains are small where C is constant; rotations are of any size. Cross-sections do not warp.
+//! **Range.** Rotations are of any size; strains are as small as C is constant for. The sections of an element turn by less than half a turn against
+//! the reference section ([`BeamError::Turned`] holds the beam without stress to a quarter). Sections do not warp, and no
+//! strain is quadratic in the torsion: a tension does not stiffen torsion, as it does in the [slender beam](super::slender).
 //!
 //! | file | content |
 //! |---|---|
