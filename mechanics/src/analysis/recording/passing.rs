@@ -8,9 +8,11 @@ use std::f64::consts::TAU;
 const MOST: f64 = 20_000.0;
 /// Part of the shortest time between rows that is none.
 const SAME: f64 = 1e-3;
-/// Part of the largest acceleration by which the accelerations between two rows may be off the line through both; part of a radius by
-/// which an arc may be off its chord.
+/// Part of the largest acceleration by which the accelerations between two rows may be off the line through both, and of the largest velocity
+/// by which velocities may be off what that line makes of them; part of a radius by which an arc may be off its chord.
 const OFF_LINE: f64 = 1e-3;
+/// What is left at each row of the square of the largest acceleration before it: what a jump set vibrating fast is soon forgotten.
+const REMEMBERED: f64 = 0.5;
 
 /// Follows the accepted steps of a run, and its records.
 pub(super) struct Passing {
@@ -252,39 +254,46 @@ struct Line {
     a: Vec<f64>,
     /// 1/w with the scales w.
     weights: Vec<f64>,
-    /// Largest Σ (a/w)² so far.
+    /// Largest Σ (a/w)² of late, and largest |v/w| so far.
     largest: f64,
+    fastest: f64,
 }
 
 impl Line {
     fn new(scales: &[f64], state: &State) -> Line {
         let weights = scales.iter().map(|scale| 1.0 / scale).collect();
-        Line { t: state.t, v: state.v.clone(), a: state.a.clone(), weights, largest: 0.0 }
+        Line { t: state.t, v: state.v.clone(), a: state.a.clone(), weights, largest: 0.0, fastest: 0.0 }
     }
 
     fn begin(&mut self, state: &State) {
         self.t = state.t;
         self.v.copy_from_slice(&state.v);
         self.a.copy_from_slice(&state.a);
+        self.largest *= REMEMBERED;
     }
 
     /// Whether the line holds until `state`. The trapezium between v₀ and v₁ leaves −h³ä/12 where the line is off by h²ä/8 in its
     /// middle; a chord is off an arc α of radius 1 by α²/8. What has no unknowns may move as it likes.
     fn holds(&mut self, system: &mut dyn System, state: &State) -> bool {
         let h = state.t - self.t;
-        let (mut defect, mut size, mut rate) = (0.0, 0.0, 0.0_f64);
+        let (mut defect, mut size, mut rate, mut most) = (0.0, 0.0, 0.0_f64, 0.0_f64);
         let before = self.v.iter().zip(&self.a);
         let now = state.v.iter().zip(&state.a).zip(&self.weights);
         for ((v0, a0), ((v, a), weight)) in before.zip(now) {
             let left = weight * (v - v0 - 0.5 * h * (a0 + a));
             defect += left * left;
+            most = most.max(left * left);
             size += (weight * a) * (weight * a);
             rate = rate.max((weight * v).abs());
         }
         self.largest = self.largest.max(size);
+        self.fastest = self.fastest.max(rate);
         let arc = h * (rate + system.turning(state));
         let off = 1.5 * defect.sqrt();
-        !state.v.is_empty() && arc * arc <= 8.0 * OFF_LINE && off <= OFF_LINE * h * self.largest.sqrt()
+        !state.v.is_empty()
+            && arc * arc <= 8.0 * OFF_LINE
+            && off <= OFF_LINE * h * self.largest.sqrt()
+            && 1.5 * most.sqrt() <= OFF_LINE * self.fastest
     }
 }
 
