@@ -285,3 +285,20 @@ duration = 1
         }
     }
 }
+
+/// Where elements end at the rows of a table, twice as many equal ones are the same: the finer mesh cuts each of them.
+#[test]
+fn the_finer_mesh_of_a_blade_is_finer_between_the_rows_of_its_table() {
+    let folder = tempfile::tempdir().unwrap();
+    let rows: String = (0..=50)
+        .map(|i| format!("{},1,1e6,{},2\n", f64::from(i) / 50.0, [1.0, 0.2][i as usize % 2]))
+        .collect();
+    std::fs::write(folder.path().join("rows.csv"), format!("x,mass,EA,EI-flap,EI-chord\n{rows}")).unwrap();
+    let text =
+        "beam.length = 1\nsection = { kind = \"blade\", file = \"rows.csv\" }\nblade = { elements = 5 }\n";
+    let reading = flexion_case::parse(text.to_owned(), &folder.path().join("case.toml"), &[])
+        .unwrap_or_else(|p| panic!("{p}"));
+    let size = |reading: &flexion_case::Reading| reading.case.vibrating(false).unwrap().0.size().v;
+    let finer = reading.with_finer_mesh().unwrap();
+    assert!(10 * size(&finer) >= 19 * size(&reading), "{} and {}", size(&finer), size(&reading));
+}

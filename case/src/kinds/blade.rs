@@ -27,12 +27,19 @@ pub struct Blade {
     poisson_ratio: f64,
     /// Number of elements.
     elements: usize,
+    /// Into how many parts each is cut.
+    refine: usize,
 }
 
 impl Blade {
-    /// Number of elements.
+    /// Number of elements, if none end at other stations.
     pub fn elements(&self) -> usize {
-        self.elements
+        self.elements * self.refine
+    }
+
+    /// Into how many parts each element is cut.
+    pub fn refine(&self) -> usize {
+        self.refine
     }
 
     /// The section with the twist of the table.
@@ -81,7 +88,7 @@ impl Blade {
         let blade = self.section(section)?;
         let model = Model { torsion: self.torsion(&blade).0, ..self.model };
         let setting = Setting { hub_radius, ..self.setting };
-        blade::Blade::carrying(setting, &blade, model, self.elements, bodies).at("")
+        blade::Blade::carrying(setting, &blade, model, (self.elements, self.refine), bodies).at("")
     }
 }
 
@@ -150,6 +157,8 @@ keys! {
         poisson_ratio: f64 = number(Between(-0.99, 0.5)).or(0.3);
         /// number of equal elements
         elements: usize = integer(1, 100_000).or_count(40);
+        /// into how many equal parts each element is cut, those between the rows of its section too
+        refine: usize = integer(1, 1000).or_count(1);
     }
 }
 
@@ -188,6 +197,7 @@ fn make(k: Written, c: &Context<'_>) -> Made<Blade> {
         torsion: k.torsion,
         poisson_ratio: k.poisson_ratio,
         elements: k.elements,
+        refine: k.refine,
     })
 }
 

@@ -142,7 +142,7 @@ impl Reading {
     /// [`Problems`] when there are too many.
     pub fn with_finer_mesh(&self) -> Result<Reading, Problems> {
         let changes = match self.case.hub_beam().and_then(|beam| beam.blade.as_ref()) {
-            Some(blade) => vec![Change::count("blade.elements".to_owned(), 2 * blade.elements())],
+            Some(blade) => vec![Change::count("blade.refine".to_owned(), 2 * blade.refine())],
             None => self.case.finer(),
         };
         self.changed(&changes)

@@ -98,19 +98,20 @@ pub fn quadratic(s: f64, h: f64) -> [[f64; 3]; 2] {
 pub const SAMPLES: [f64; 3] = [0.0, 1.0, 0.5];
 
 impl Mesh {
-    /// `elements` equal elements, cut once more where the section [asks for it](BladeSection::ends) and where bodies are.
+    /// So many equal elements, cut once more where the section [asks for it](BladeSection::ends) and where bodies are, and each of these into
+    /// so many parts.
     ///
     /// # Errors
     /// [`BladeError::Invalid`] if the length is not positive, if there is no element, or if a section makes none.
     pub fn new(
         setting: &Setting,
-        elements: usize,
+        (elements, parts): (usize, usize),
         section: &dyn BladeSection,
         torsion: bool,
         bodies: &[Body],
     ) -> Result<Mesh, BladeError> {
         let length = setting.length;
-        if !(length.is_finite() && length > 0.0) || elements == 0 {
+        if !(length.is_finite() && length > 0.0) || elements == 0 || parts == 0 {
             let message = format!(
                 "a blade needs a positive length and at least one element, and has {length} m and {elements}"
             );
@@ -138,6 +139,14 @@ impl Mesh {
             }
         }
         nodes.sort_by(f64::total_cmp);
+        let mut cut = vec![0.0];
+        for ends in nodes.windows(2) {
+            let part = |k: usize| {
+                if k == parts { ends[1] } else { ends[0] + (ends[1] - ends[0]) * k as f64 / parts as f64 }
+            };
+            cut.extend((1..=parts).map(part));
+        }
+        let nodes = cut;
         let (elements, components, places) = (Vec::new(), Vec::new(), Vec::new());
         let mut mesh = Mesh { elements, components, places, length, half: 0 };
         let mut node = mesh.node(0.0, torsion, true, false);

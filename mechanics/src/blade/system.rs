@@ -40,10 +40,10 @@ impl Blade {
         model: Model,
         elements: usize,
     ) -> Result<Blade, BladeError> {
-        Blade::carrying(setting, section, model, elements, &[])
+        Blade::carrying(setting, section, model, (elements, 1), &[])
     }
 
-    /// The same with bodies along it, besides that at its tip; elements end where they are.
+    /// The same with bodies along it, besides that at its tip; elements end where they are, and each is cut into so many parts.
     ///
     /// # Errors
     /// As [`Blade::new`], and [`BladeError::Invalid`] for a body that is not between the clamp and the tip.
@@ -51,7 +51,7 @@ impl Blade {
         setting: Setting,
         section: &dyn BladeSection,
         model: Model,
-        elements: usize,
+        elements: (usize, usize),
         bodies: &[Body],
     ) -> Result<Blade, BladeError> {
         let invalid = |message: &str| Err(BladeError::Invalid(message.to_owned()));
