@@ -193,7 +193,7 @@ fn files_that_may_not_grow_end_with_2_and_the_former_results_stay() {
         assert!(message.contains("trajectory") && message.contains("record less often"), "{message}");
     }
     assert!(content(&folder.path().join("out")) == before);
-    assert_eq!(content(&folder.path().join("fresh")), []);
+    assert!(!folder.path().join("fresh").exists());
     // 8 kB at most: what was computed is printed at least.
     for command in ["modes case.toml --speed 1", "campbell case.toml --speeds 0:4:3", "compare out out"] {
         let run =
@@ -201,7 +201,7 @@ fn files_that_may_not_grow_end_with_2_and_the_former_results_stay() {
         let message = text(&run.stderr);
         assert_eq!(run.status.code(), Some(2), "{command}: {message}");
         assert!(message.contains("cannot write") && !run.stdout.is_empty(), "{command}: {message}");
-        assert_eq!(content(&folder.path().join("fresh")), [], "{command}");
+        assert!(!folder.path().join("fresh").exists(), "{command}");
     }
     assert_eq!(flexion(folder.path(), &["run", "case.toml", "-o", "out", "--force"]).status.code(), Some(0));
     let names = |files: &[(PathBuf, Vec<u8>)]| files.iter().map(|file| file.0.clone()).collect::<Vec<_>>();
