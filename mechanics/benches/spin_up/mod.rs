@@ -12,7 +12,7 @@ use flexion::linalg::{Mat3, Matrix, Vec3};
 use flexion::multibody::slender::{Beam, ELEMENT_VELOCITIES, Properties, Station};
 use flexion::multibody::{self, Flexible, Joint, Kind, Marker, Model, Multibody, Part, shear};
 use flexion::profile::{Expression, Motion, SpinUp};
-use flexion::section::{Resultants, Uniform};
+use flexion::section::{Matrices, Resultants, Uniform};
 use flexion::system::{Frame, State, System, Weights};
 use std::hint::black_box;
 use std::sync::Arc;
@@ -154,7 +154,7 @@ pub fn evaluate(has_shear: bool, differentiate: bool, elements: usize, count: us
     if has_shear {
         let root = Frame { position: Vec3([0.0; 3]), rotation: Mat3::IDENTITY };
         let stiffness = [2.8e7, 1e7, 1e7, 1.1e4, 1.4e4, 1.4e4];
-        let section = shear::Properties::principal(stiffness, 1.2, [1.2e-3, 6e-4, 6e-4]);
+        let section = Matrices::principal(stiffness, 1.2, [1.2e-3, 6e-4, 6e-4]);
         let beam = shear::Beam::straight(root, length, elements, section).unwrap();
         let (d, mut q) = (wave(beam.velocities()), beam.initial().to_vec());
         beam.retract(beam.initial(), &d, &mut q);

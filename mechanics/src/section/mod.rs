@@ -3,6 +3,8 @@
 mod blade;
 mod ends;
 mod graded;
+mod matrices;
+mod matrix_table;
 mod piecewise;
 mod shape;
 mod table;
@@ -14,6 +16,8 @@ pub use blade::{
     PlanarProjection, Twisted,
 };
 pub use graded::{Graded, Material};
+pub use matrices::{Matrices, Matrix6};
+pub use matrix_table::MatrixTable;
 pub use piecewise::{Piecewise, Segment};
 pub use shape::Shape;
 pub use table::{Interpolation, Table};

@@ -6,7 +6,8 @@ use super::nilpotent::{
     Matrix, Number, Vector, apply, logarithm, number, of_quaternion, product, rotation, skew, small_rotation,
     sum, transpose, vector,
 };
-use flexion::multibody::shear::{Beam, Element, Matrix6, Motion};
+use flexion::multibody::shear::{Beam, Element, Motion};
+use flexion::section::Matrix6;
 use flexion::system::Weights;
 
 /// Unknowns of an element of four nodes.

@@ -2,7 +2,8 @@
 
 use flexion::linalg::vector::noise;
 use flexion::linalg::{Mat3, Matrix, Structure, Vec3};
-use flexion::multibody::shear::{Beam, NODE_VELOCITIES, Properties, VELOCITIES};
+use flexion::multibody::shear::{Beam, NODE_VELOCITIES, VELOCITIES};
+use flexion::section::Matrices;
 use flexion::system::{Frame, Weights};
 use nalgebra::DMatrix;
 
@@ -20,7 +21,7 @@ pub fn equal(length: f64, n: usize) -> Vec<f64> {
 }
 
 /// A straight beam along x with its height along y, clamped at its root.
-pub fn cantilever(length: f64, elements: usize, section: Properties) -> Chain {
+pub fn cantilever(length: f64, elements: usize, section: Matrices) -> Chain {
     let root = Frame { position: Vec3::ZERO, rotation: Mat3::IDENTITY };
     Chain::clamped(Beam::straight(root, length, elements, section).unwrap())
 }

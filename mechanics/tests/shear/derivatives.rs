@@ -3,7 +3,8 @@
 use flexion::linalg::vector::noise;
 use flexion::linalg::{Mat3, Matrix, Structure, Vec3};
 use flexion::multibody::rotation::about;
-use flexion::multibody::shear::{Beam, Matrix6, NODE_VELOCITIES, Properties, VELOCITIES};
+use flexion::multibody::shear::{Beam, NODE_VELOCITIES, VELOCITIES};
+use flexion::section::{Matrices, Matrix6};
 use flexion::system::{Dynamics, Energy, Events, Frame, Observed, Power, Size, State, Steady, Weights};
 use flexion::verify;
 
@@ -28,7 +29,7 @@ pub fn damping(s: f64) -> Matrix6 {
 }
 
 pub fn mass(s: f64) -> Matrix6 {
-    let mut of = Properties::principal([1.0; 6], 1.3 + 0.1 * s, [0.05, 0.03, 0.04]);
+    let mut of = Matrices::principal([1.0; 6], 1.3 + 0.1 * s, [0.05, 0.03, 0.04]);
     of = of.with_mass_centre([0.08, -0.05]).rolled(0.3);
     // A centre of mass before the section, and products of inertia.
     (of.mass[1][5], of.mass[2][4], of.mass[5][1], of.mass[4][2]) = (0.06, -0.06, 0.06, -0.06);
@@ -48,7 +49,7 @@ pub fn general(damped: bool) -> Beam {
         let axes = Mat3::columns([t, normal, t.cross(normal)]);
         Frame { position: Vec3([root * cos, root * sin, root * s]), rotation: axes * about([0.1, -0.2, 0.3]) }
     };
-    let section = |s: f64| Properties {
+    let section = |s: f64| Matrices {
         stiffness: stiffness(s),
         damping: if damped { damping(s) } else { [[0.0; 6]; 6] },
         mass: mass(s),

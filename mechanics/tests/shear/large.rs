@@ -3,15 +3,16 @@
 use super::chain::{Chain, cantilever, equal, orders};
 use flexion::linalg::{Mat3, Vec3};
 use flexion::multibody::rotation::about;
-use flexion::multibody::shear::{Beam, Properties};
+use flexion::multibody::shear::Beam;
+use flexion::section::Matrices;
 use flexion::system::Frame;
 use std::f64::consts::PI;
 
 /// A square section of the side `depth` with E = 12/depth⁴, that is EI = 1, and ν = 0, shear factor 5/6.
-fn square(depth: f64) -> Properties {
+fn square(depth: f64) -> Matrices {
     let axial = 12.0 / (depth * depth);
     let shear = 5.0 / 6.0 * 0.5 * axial;
-    Properties::principal([axial, shear, shear, 0.846, 1.0, 1.0], 1.0, [2e-3, 1e-3, 1e-3])
+    Matrices::principal([axial, shear, shear, 0.846, 1.0, 1.0], 1.0, [2e-3, 1e-3, 1e-3])
 }
 
 /// A name, and the loaded beam of so many elements and a slenderness.
@@ -99,7 +100,7 @@ fn bend(elements: usize, shear: f64) -> Chain {
         Frame { position: Vec3([100.0 * sin, -100.0 * (1.0 - cos), 0.0]), rotation: axes }
     };
     let inertia = 1e7 / 12.0;
-    let section = Properties::principal([1e7, shear, shear, inertia, inertia, inertia], 1.0, [1.0; 3]);
+    let section = Matrices::principal([1e7, shear, shear, inertia, inertia, inertia], 1.0, [1.0; 3]);
     let mut chain = Chain::clamped(Beam::new(&equal(25.0 * PI, elements), curve, |_| section).unwrap());
     chain.load_tip(Vec3([0.0, 0.0, 600.0]), Vec3::ZERO);
     chain

@@ -3,7 +3,8 @@
 use super::chain::{Chain, cantilever, coupled, orders};
 use flexion::linalg::{Mat3, Vec3};
 use flexion::multibody::rotation::Quaternion;
-use flexion::multibody::shear::{Beam, Properties};
+use flexion::multibody::shear::Beam;
+use flexion::section::Matrices;
 use flexion::system::Frame;
 use nalgebra::DMatrix;
 use std::f64::consts::PI;
@@ -42,7 +43,7 @@ fn timoshenko() -> Vec<f64> {
 fn frequencies_on_two_hinges_are_those_of_timoshenkos_closed_form() {
     let exact = timoshenko();
     let errors = [4, 8, 16].map(|n| {
-        let mut chain = cantilever(LENGTH, n, Properties::principal(STIFFNESS, MASS, INERTIA));
+        let mut chain = cantilever(LENGTH, n, Matrices::principal(STIFFNESS, MASS, INERTIA));
         chain.fixed.fill(false);
         let last = chain.fixed.len() - 6;
         for at in [0, last] {
@@ -63,8 +64,8 @@ fn frequencies_on_two_hinges_are_those_of_timoshenkos_closed_form() {
 }
 
 /// A section with all couplings, and a mass with an offset.
-fn general() -> Properties {
-    let mut of = Properties::principal(STIFFNESS, MASS, INERTIA).with_mass_centre([0.06, -0.04]);
+fn general() -> Matrices {
+    let mut of = Matrices::principal(STIFFNESS, MASS, INERTIA).with_mass_centre([0.06, -0.04]);
     of.stiffness = coupled(STIFFNESS, 0.3);
     of
 }
@@ -72,7 +73,7 @@ fn general() -> Properties {
 /// The displacements and rotations (u, θ) at the tip of a clamped straight beam by a small force and couple there: with the
 /// constant forces F and the moments M + (L − s) e₁ × F, the strains are e = C⁻¹ (F, M) and θ′ = κ, u′ = Γ − e₁ − e₁ × θ … in
 /// closed form, since e is linear in s.
-fn deflection(section: &Properties, force: Vec3, couple: Vec3) -> [Vec3; 2] {
+fn deflection(section: &Matrices, force: Vec3, couple: Vec3) -> [Vec3; 2] {
     let c = DMatrix::from_fn(6, 6, |i, j| section.stiffness[i][j]).try_inverse().unwrap();
     let axis = Vec3::AXES[0];
     let strain = |s: f64| {
@@ -115,7 +116,7 @@ fn small_deflections_with_all_couplings_are_those_of_the_closed_form() {
 
 /// The determinant of the forces at the free end by those at the clamp: of the transfer matrix exp(A L) of
 /// e = C⁻¹ σ, u′ = Γ + θ × e₁ …, σ′ = −ω² M (u, θ) − (0, e₁ × N).
-fn free_end(section: &Properties, omega: f64) -> f64 {
+fn free_end(section: &Matrices, omega: f64) -> f64 {
     let c = DMatrix::from_fn(6, 6, |i, j| section.stiffness[i][j]).try_inverse().unwrap();
     let mut a = DMatrix::zeros(12, 12);
     for i in 0..6 {
@@ -167,7 +168,7 @@ fn damping_times_are_those_of_the_strains() {
     let largest = stiffness.amax();
     assert!((damping - 0.02 * stiffness).amax() < 1e-15 * largest);
     // The damping of torsion alone leaves an uncoupled bending alone.
-    let section = Properties::principal(STIFFNESS, MASS, INERTIA);
+    let section = Matrices::principal(STIFFNESS, MASS, INERTIA);
     let chain = cantilever(LENGTH, 3, section.with_damping_times([0.0, 0.0, 0.0, 0.1, 0.0, 0.0]));
     let [_, damping, stiffness] = chain.matrices();
     for i in 0..damping.nrows() {
@@ -181,7 +182,7 @@ fn damping_times_are_those_of_the_strains() {
 fn forces_through_the_centres_do_not_bend_or_twist() {
     let [tension, shear] = [[0.1, -0.3], [0.25, 0.15]];
     let section =
-        Properties::principal(STIFFNESS, MASS, INERTIA).with_tension_centre(tension).with_shear_centre(shear);
+        Matrices::principal(STIFFNESS, MASS, INERTIA).with_tension_centre(tension).with_shear_centre(shear);
     let arm = |[y, z]: [f64; 2]| Vec3([0.0, y, z]);
     for (centre, force, kept) in
         [(tension, Vec3([1e-6, 0.0, 0.0]), [3, 4, 5].as_slice()), (shear, Vec3([0.0, 1e-6, 2e-6]), &[3])]
@@ -203,7 +204,7 @@ fn forces_through_the_centres_do_not_bend_or_twist() {
 /// A rod that rotates steadily about its root: μ Ω² (s + u) + EA u″ = 0, s + u = sin ks/(k cos kL), k² = μΩ²/EA.
 #[test]
 fn a_rotating_rod_stretches_as_in_closed_form() {
-    let section = Properties::principal(STIFFNESS, MASS, INERTIA);
+    let section = Matrices::principal(STIFFNESS, MASS, INERTIA);
     let spin = 3.0;
     let k = (MASS * spin * spin / STIFFNESS[0]).sqrt();
     let exact = (k * LENGTH).sin() / (k * (k * LENGTH).cos());

@@ -2,11 +2,12 @@
 
 use flexion::linalg::{Mat3, Vec3};
 use flexion::multibody::rotation::about;
-use flexion::multibody::shear::{Beam, BeamError, Properties};
+use flexion::multibody::shear::{Beam, BeamError};
+use flexion::section::Matrices;
 use flexion::system::Frame;
 
-fn section(_: f64) -> Properties {
-    Properties::principal([1.0; 6], 1.0, [1.0; 3])
+fn section(_: f64) -> Matrices {
+    Matrices::principal([1.0; 6], 1.0, [1.0; 3])
 }
 
 fn straight(s: f64) -> Frame {
@@ -38,7 +39,7 @@ fn meshes_axes_and_sections_that_make_no_beam_are_refused() {
 /// Where sections jump at the end of an element, each side has its own.
 #[test]
 fn sections_may_jump_between_elements() {
-    let jump = |s: f64| Properties::principal([1.0; 6], if s < 1.0 { 1.0 } else { 3.0 }, [1.0; 3]);
+    let jump = |s: f64| Matrices::principal([1.0; 6], if s < 1.0 { 1.0 } else { 3.0 }, [1.0; 3]);
     let beam = Beam::new(&[0.0, 1.0, 2.0], straight, jump).unwrap();
     assert!((beam.mass() - 4.0).abs() < 1e-14);
     assert!((beam.first_moment(beam.initial())[0] - 5.0).abs() < 1e-14);

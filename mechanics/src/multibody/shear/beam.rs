@@ -10,10 +10,10 @@
 //! An increment d = (d_r, d_φ | …) moves a node to r + d_r and p exp d_φ, so that Ω = T(d_φ) ḋ_φ.
 
 use super::element::{Element, Motion, NODE_COORDINATES, NODE_VELOCITIES, Tangent, VELOCITIES};
-use super::properties::Properties;
 use super::shapes::POINTS;
 use crate::linalg::{Mat3, Vec3};
 use crate::multibody::rotation::{Quaternion, rate};
+use crate::section::Matrices;
 use crate::system::{Frame, Weights};
 
 /// Why no beam can be made.
@@ -75,7 +75,7 @@ impl Beam {
     pub fn new(
         ends: &[f64],
         curve: impl Fn(f64) -> Frame,
-        section: impl Fn(f64) -> Properties,
+        section: impl Fn(f64) -> Matrices,
     ) -> Result<Beam, BeamError> {
         if ends.len() < 2 {
             return Err(BeamError::Ends { number: ends.len(), at: ends.first().copied().unwrap_or(0.0) });
@@ -124,12 +124,7 @@ impl Beam {
     ///
     /// # Errors
     /// See [`Beam::new`].
-    pub fn straight(
-        root: Frame,
-        length: f64,
-        elements: usize,
-        section: Properties,
-    ) -> Result<Beam, BeamError> {
+    pub fn straight(root: Frame, length: f64, elements: usize, section: Matrices) -> Result<Beam, BeamError> {
         let ends: Vec<f64> = (0..=elements).map(|i| length * i as f64 / elements.max(1) as f64).collect();
         let at = |s: f64| Frame { position: root.position + s * root.rotation.column(0), ..root };
         Beam::new(&ends, at, |_| section)

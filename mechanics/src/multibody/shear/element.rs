@@ -1,7 +1,6 @@
 //! One element: its energies, forces and their derivatives.
 
 use super::inertia::Moving;
-use super::properties::Properties;
 use super::rotation_map::RotationMap;
 use super::shapes::{LOBATTO, NODES, OTHERS, POINTS, Point, REFERENCE, gauss, lagrange};
 use super::strain::{
@@ -10,6 +9,7 @@ use super::strain::{
 use super::tangent::{self, Nodal};
 use crate::linalg::{Mat3, Vec3};
 use crate::multibody::rotation::{self, Quaternion};
+use crate::section::Matrices;
 use crate::system::{Frame, Weights};
 use std::sync::Arc;
 
@@ -70,7 +70,7 @@ struct Constants {
 const SAME: f64 = 1e-11;
 
 impl Constants {
-    fn new(length: f64, section: impl Fn(f64) -> Properties) -> Constants {
+    fn new(length: f64, section: impl Fn(f64) -> Matrices) -> Constants {
         let points = gauss(length);
         let at = points.map(|point| section(point.place));
         let is_damped = at.iter().any(|of| of.damping.as_flattened().iter().any(|d| *d != 0.0));
@@ -126,7 +126,7 @@ impl Element {
     pub fn new(
         length: f64,
         q: &[f64; COORDINATES],
-        section: impl Fn(f64) -> Properties,
+        section: impl Fn(f64) -> Matrices,
         like: Option<&Element>,
     ) -> Element {
         let own = Constants::new(length, section);

@@ -8,7 +8,7 @@
 //! U = ½ ∫ (e − e₀)ᵀ C (e − e₀) ds,   e = (Γ, κ),      T = ½ ∫ (u, Ω)ᵀ M (u, Ω) ds,   u = Λᵀ ṙ
 //! ```
 //!
-//! with any symmetric C and M (see [`Properties`]) and the strains e₀ of a curved, twisted and swept beam without stress, of any size
+//! with any symmetric C and M (see [`Matrices`](crate::section::Matrices)) and the strains e₀ of a curved, twisted and swept beam without stress, of any size
 //! of displacement and rotation. Damping adds D ė to the stresses C (e − e₀).
 //!
 //! **Unknowns.** A node is a frame: position r and unit quaternion p, velocities ṙ in space and Ω in the axes of the section,
@@ -33,7 +33,6 @@
 //!
 //! | file | content |
 //! |---|---|
-//! | `properties` | matrices of a section, offsets of its centres |
 //! | `rotation_map` | rotation, tangent and inverse tangent of a rotation vector, with two derivatives |
 //! | `shapes` | nodes, quadrature points, shape functions |
 //! | `strain`, `tangent` | strains and forces, and their derivatives |
@@ -43,7 +42,6 @@
 mod beam;
 mod element;
 mod inertia;
-mod properties;
 mod rotation_map;
 mod shapes;
 mod strain;
@@ -53,5 +51,4 @@ pub use beam::{Beam, BeamError};
 pub use element::{
     COORDINATES, Element, Motion, NODE_COORDINATES, NODE_VELOCITIES, Sample, Tangent, VELOCITIES,
 };
-pub use properties::{Matrix6, Properties};
 pub use shapes::{NODES, POINTS};

@@ -9,7 +9,7 @@ pub type Matrix6 = [[f64; 6]; 6];
 /// The strains are e = (ε, γ₂, γ₃, κ₁, κ₂, κ₃): axial strain, two shears, torsion and two bendings, about the second and the third
 /// axis; forces and moments are (N, Q₂, Q₃, M₁, M₂, M₃) = C e + D ė. All refer to the point of the section on the axis of the beam.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Properties {
+pub struct Matrices {
     /// C, symmetric and positive definite. Entries \[N\], \[N·m\] and \[N·m²\].
     pub stiffness: Matrix6,
     /// D, symmetric and without negative eigenvalue. Entries \[N·s\], \[N·m·s\] and \[N·m²·s\].
@@ -20,20 +20,20 @@ pub struct Properties {
     pub mass: Matrix6,
 }
 
-impl Properties {
+impl Matrices {
     /// A section without couplings: C = diag(EA, GA₂, GA₃, GJ, EI₂, EI₃) with the shear stiffnesses GA₂ and GA₃ along the second
     /// and the third axis, I₂ = ∫z² dA and I₃ = ∫y² dA for the places (y, z) along them; the mass per length and the moments of
     /// inertia about the three axes. There is no damping.
-    pub fn principal(stiffness: [f64; 6], mass: f64, inertia: [f64; 3]) -> Properties {
+    pub fn principal(stiffness: [f64; 6], mass: f64, inertia: [f64; 3]) -> Matrices {
         let [first, second, third] = inertia;
         let mass = [mass, mass, mass, first, second, third];
-        Properties { stiffness: diagonal(stiffness), damping: [[0.0; 6]; 6], mass: diagonal(mass) }
+        Matrices { stiffness: diagonal(stiffness), damping: [[0.0; 6]; 6], mass: diagonal(mass) }
     }
 
     /// The section whose tension centre, where a tension does not bend, is at the place (y, z) \[m\], and whose stiffnesses in
     /// bending are those about it: the axial strain there is ε + z κ₂ − y κ₃.
     #[must_use]
-    pub fn with_tension_centre(mut self, [y, z]: [f64; 2]) -> Properties {
+    pub fn with_tension_centre(mut self, [y, z]: [f64; 2]) -> Matrices {
         let mut shift = identity();
         (shift[0][4], shift[0][5]) = (z, -y);
         self.stiffness = congruent(&self.stiffness, &shift);
@@ -43,7 +43,7 @@ impl Properties {
     /// The section whose shear centre, where a transverse force does not twist, is at the place (y, z) \[m\], and whose stiffness
     /// in torsion is that about it: the shears there are γ₂ − z κ₁ and γ₃ + y κ₁.
     #[must_use]
-    pub fn with_shear_centre(mut self, [y, z]: [f64; 2]) -> Properties {
+    pub fn with_shear_centre(mut self, [y, z]: [f64; 2]) -> Matrices {
         let mut shift = identity();
         (shift[1][3], shift[2][3]) = (-z, y);
         self.stiffness = congruent(&self.stiffness, &shift);
@@ -53,7 +53,7 @@ impl Properties {
     /// The section whose centre of mass is at the place (y, z) \[m\], and whose moments of inertia are those about it: its
     /// velocity is u + Ω × (0, y, z).
     #[must_use]
-    pub fn with_mass_centre(mut self, [y, z]: [f64; 2]) -> Properties {
+    pub fn with_mass_centre(mut self, [y, z]: [f64; 2]) -> Matrices {
         let mut shift = identity();
         (shift[0][4], shift[0][5]) = (z, -y);
         (shift[1][3], shift[2][3]) = (-z, y);
@@ -64,14 +64,14 @@ impl Properties {
     /// The section with the damping D = H C H of its stiffness, H = diag(√η): a strain alone has the stress Cₖₖ (eₖ + ηₖ ėₖ),
     /// and equal times η \[s\] ≥ 0 are Kelvin's and Voigt's damping η C. D is positive for any C.
     #[must_use]
-    pub fn with_damping_times(mut self, times: [f64; 6]) -> Properties {
+    pub fn with_damping_times(mut self, times: [f64; 6]) -> Matrices {
         self.damping = congruent(&self.stiffness, &diagonal(times.map(f64::sqrt)));
         self
     }
 
     /// The section rotated by `angle` \[rad\] about the axis of the beam: all three matrices in axes that are not rotated.
     #[must_use]
-    pub fn rolled(self, angle: f64) -> Properties {
+    pub fn rolled(self, angle: f64) -> Matrices {
         let (sin, cos) = libm::sincos(angle);
         let mut turn = identity();
         for at in [0, 3] {
@@ -79,11 +79,25 @@ impl Properties {
             (turn[at + 2][at + 1], turn[at + 2][at + 2]) = (-sin, cos);
         }
         let of = |matrix: &Matrix6| congruent(matrix, &turn);
-        Properties { stiffness: of(&self.stiffness), damping: of(&self.damping), mass: of(&self.mass) }
+        Matrices { stiffness: of(&self.stiffness), damping: of(&self.damping), mass: of(&self.mass) }
+    }
+
+    /// The stiffness \[N\], \[N·m\] and \[N·m²\] for (ε, κ₁, κ₂, κ₃) at zero shear force, C_rr − C_rs C_ss⁻¹ C_sr with the shears s and
+    /// the other strains r: that of a beam whose sections stay square to its axis.
+    pub fn condensed(&self) -> [[f64; 4]; 4] {
+        const KEPT: [usize; 4] = [0, 3, 4, 5];
+        let c = &self.stiffness;
+        let determinant = c[1][1] * c[2][2] - c[1][2] * c[2][1];
+        let entry = |i: usize, j: usize| {
+            let (a, b) = (c[1][j], c[2][j]);
+            let shears = [c[2][2] * a - c[1][2] * b, c[1][1] * b - c[2][1] * a];
+            c[i][j] - (c[i][1] * shears[0] + c[i][2] * shears[1]) / determinant
+        };
+        KEPT.map(|i| KEPT.map(|j| entry(i, j)))
     }
 
     /// What is wrong with the numbers, if anything.
-    pub(super) fn fault(&self) -> Option<&'static str> {
+    pub fn fault(&self) -> Option<&'static str> {
         if !is_positive(&self.stiffness, false) {
             return Some("the stiffness matrix must be symmetric and positive definite");
         }
@@ -158,8 +172,8 @@ fn is_positive(matrix: &Matrix6, singular: bool) -> bool {
 mod tests {
     use super::*;
 
-    fn section() -> Properties {
-        Properties::principal([9.0, 4.0, 3.0, 0.7, 1.1, 2.3], 1.5, [0.3, 0.1, 0.2])
+    fn section() -> Matrices {
+        Matrices::principal([9.0, 4.0, 3.0, 0.7, 1.1, 2.3], 1.5, [0.3, 0.1, 0.2])
     }
 
     fn form(a: &Matrix6, x: [f64; 6]) -> f64 {
@@ -190,10 +204,32 @@ mod tests {
         }
     }
 
+    /// The energy for given (ε, κ) is least where the shear forces vanish.
+    #[test]
+    fn condensed_stiffness_is_that_without_shear_force() {
+        let mut of = section().with_shear_centre([0.25, 0.15]).with_tension_centre([0.1, -0.3]);
+        for (i, j, x) in [(1, 2, 0.9), (0, 1, 0.7), (2, 5, -0.4)] {
+            of.stiffness[i][j] += x;
+            of.stiffness[j][i] += x;
+        }
+        assert_eq!(of.fault(), None);
+        let (c, least) = (of.stiffness, of.condensed());
+        let kept = [0.4, -0.8, 0.5, 0.3];
+        let mut e = [kept[0], 0.0, 0.0, kept[1], kept[2], kept[3]];
+        // Relaxation of both shears in turn.
+        for _ in 0..200 {
+            for k in [1, 2] {
+                e[k] -= (0..6).map(|j| c[k][j] * e[j]).sum::<f64>() / c[k][k];
+            }
+        }
+        let energy: f64 = (0..4).map(|i| (0..4).map(|j| kept[i] * least[i][j] * kept[j]).sum::<f64>()).sum();
+        assert!((energy - form(&c, e)).abs() < 1e-13, "{energy}");
+    }
+
     #[test]
     fn matrices_that_no_section_has_are_refused() {
         assert_eq!(section().fault(), None);
-        let with = |change: &dyn Fn(&mut Properties)| {
+        let with = |change: &dyn Fn(&mut Matrices)| {
             let mut of = section();
             change(&mut of);
             of.fault().is_some()
