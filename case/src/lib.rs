@@ -54,6 +54,7 @@ mod values;
 pub use campbell::campbell;
 pub use case::{Case, Output, Subject};
 pub use fault::{Fault, Faults, Made};
+pub use files::deck;
 pub use flexion::analysis::error::Effort;
 pub use hub_beam::HubBeam;
 pub use kind::{Choice, Context, Kind, Table};

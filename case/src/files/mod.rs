@@ -2,5 +2,6 @@
 
 pub mod blade;
 pub mod columns;
+pub mod deck;
 pub mod rows;
 pub mod section;

@@ -54,14 +54,24 @@ impl MatrixTable {
 
     /// The matrices at arc length `s` \[m\]; at a jump those behind it, at the tip those before it.
     pub fn at(&self, s: f64) -> Matrices {
+        let i = self.interval(s);
+        let (start, h) = (self.rows[i].0, self.rows[i + 1].0 - self.rows[i].0);
+        self.between(i, if h > 0.0 { ((s - start) / h).clamp(0.0, 1.0) } else { 1.0 })
+    }
+
+    /// The number of the row before arc length `s` \[m\]; behind a jump where `s` is at one.
+    pub fn interval(&self, s: f64) -> usize {
         let last = self.rows.len() - 2;
         let mut i = self.rows[1..=last].partition_point(|row| row.0 <= s);
         while i > 0 && self.rows[i + 1].0 == self.rows[i].0 {
             i -= 1;
         }
-        let ((start, a), (end, b)) = (&self.rows[i], &self.rows[i + 1]);
-        let h = end - start;
-        let x = if h > 0.0 { ((s - start) / h).clamp(0.0, 1.0) } else { 1.0 };
+        i
+    }
+
+    /// The matrices a share x, 0 to 1, of the way from row `i` to the next.
+    pub fn between(&self, i: usize, x: f64) -> Matrices {
+        let (a, b) = (&self.rows[i].1, &self.rows[i + 1].1);
         let line = |a: &Matrix6, b: &Matrix6| {
             std::array::from_fn(|i| std::array::from_fn(|j| a[i][j] + x * (b[i][j] - a[i][j])))
         };

@@ -1,0 +1,168 @@
+//! The reference line of a blade, with the axes of its sections.
+//!
+//! The coordinates are natural cubic splines of a parameter u, the twist is linear in u between its rows, and s = ∫ |r′| du is the arc length.
+//! In the axes of the blade, x to the suction side, y edgewise, z along it, with the unit tangent t of the line, the axes of a section without
+//! twist are those of BeamDyn: the first is square to t and has no component along y, the second is t × the first. The twist φ turns both about
+//! t by −φ:
+//!
+//! ```text
+//! e = (t_z, 0, −t_x)/√(t_x² + t_z²),   g = t × e,   height = cos φ g + sin φ e,   across = t × height = sin φ g − cos φ e
+//! ```
+
+use flexion::linalg::{Mat3, Vec3};
+use flexion::profile::{End, Profile, Table};
+use flexion::quadrature::Gauss;
+use flexion::system::Frame;
+
+/// Points of Gauss's rule between two points of the line.
+const GAUSS: usize = 20;
+/// Corrections of Newton's method for the place of an arc length.
+const CORRECTIONS: usize = 50;
+/// Least part of the tangent in the plane of x and z.
+const LEAST: f64 = 1e-3;
+
+/// A reference line. See the [module documentation](self).
+#[derive(Clone, Debug)]
+pub struct Line {
+    coordinates: [Table; 3],
+    /// Parameter and arc length of the points.
+    arcs: Vec<[f64; 2]>,
+    /// Parameter and angle \[rad\].
+    twist: Vec<[f64; 2]>,
+    gauss: Gauss,
+}
+
+impl Line {
+    /// The line through points (u, place \[m\]) of ascending u, with the twist at rows (u, angle \[rad\]) of ascending u.
+    pub(super) fn through(points: &[(f64, Vec3)], twist: &[[f64; 2]]) -> Result<Line, String> {
+        let mut points = points.to_vec();
+        if let [(u, a), (v, b)] = points[..] {
+            points.insert(1, (0.5 * (u + v), 0.5 * (a + b)));
+        }
+        let table = |k: usize| {
+            let rows: Vec<(f64, f64)> = points.iter().map(|(u, place)| (*u, place[k])).collect();
+            Table::new(&rows, End::Natural).map_err(|error| error.to_string())
+        };
+        let coordinates = [table(0)?, table(1)?, table(2)?];
+        let arcs = vec![[points[0].0, 0.0]];
+        let mut line = Line { coordinates, arcs, twist: twist.to_vec(), gauss: Gauss::new(GAUSS) };
+        let mut s = 0.0;
+        for (number, pair) in points.windows(2).enumerate() {
+            s += line.between(pair[0].0, pair[1].0);
+            line.arcs.push([pair[1].0, s]);
+            for u in [pair[0].0, 0.5 * (pair[0].0 + pair[1].0), pair[1].0] {
+                let slope = line.slope(u);
+                let size = slope.norm();
+                if !(size > 0.0 && slope[0].hypot(slope[2]) > LEAST * size) {
+                    return Err(format!(
+                        "between its points {} and {} the line goes along y, or nowhere, where the axes of sections are not defined",
+                        number + 1,
+                        number + 2
+                    ));
+                }
+            }
+        }
+        Ok(line)
+    }
+
+    /// A straight line along z of a length, with the twist at rows (s, angle \[rad\]).
+    pub(super) fn straight(length: f64, twist: &[[f64; 2]]) -> Result<Line, String> {
+        Line::through(&[(0.0, Vec3::ZERO), (length, Vec3([0.0, 0.0, length]))], twist)
+    }
+
+    fn slope(&self, u: f64) -> Vec3 {
+        Vec3([0, 1, 2].map(|k| self.coordinates[k].rate(u)))
+    }
+
+    fn between(&self, from: f64, to: f64) -> f64 {
+        self.gauss.integrate(from, to, |u| self.slope(u).norm())
+    }
+
+    /// Its length \[m\].
+    pub fn length(&self) -> f64 {
+        self.arcs.last().map_or(0.0, |[_, s]| *s)
+    }
+
+    /// The interval of points in which the k-th number of `arcs` is.
+    fn interval(&self, k: usize, x: f64) -> usize {
+        self.arcs.partition_point(|arc| arc[k] <= x).clamp(1, self.arcs.len() - 1) - 1
+    }
+
+    /// Arc length \[m\] of a parameter.
+    pub(super) fn arc(&self, u: f64) -> f64 {
+        let [[from, s], [to, end]] = self.ends(self.interval(0, u));
+        if u == to { end } else { s + self.between(from, u) }
+    }
+
+    fn ends(&self, interval: usize) -> [[f64; 2]; 2] {
+        [self.arcs[interval], self.arcs[interval + 1]]
+    }
+
+    /// Parameter of an arc length \[m\].
+    pub(super) fn parameter(&self, s: f64) -> f64 {
+        let [[from, before], [to, behind]] = self.ends(self.interval(1, s));
+        let mut u = from + (to - from) * ((s - before) / (behind - before)).clamp(0.0, 1.0);
+        for _ in 0..CORRECTIONS {
+            let step = (before + self.between(from, u) - s) / self.slope(u).norm().max(f64::MIN_POSITIVE);
+            u = (u - step).clamp(from, to);
+            if step.abs() <= 4.0 * f64::EPSILON * to.abs() {
+                break;
+            }
+        }
+        u
+    }
+
+    /// The twist \[rad\] at a parameter, in the sense of BeamDyn: positive about −z.
+    fn twist_at(&self, u: f64) -> f64 {
+        match &self.twist[..] {
+            [] => 0.0,
+            [[_, only]] => *only,
+            rows => {
+                let i = rows.partition_point(|row| row[0] <= u).clamp(1, rows.len() - 1) - 1;
+                let ([a, f], [b, g]) = (rows[i], rows[i + 1]);
+                f + (g - f) * ((u - a) / (b - a)).clamp(0.0, 1.0)
+            }
+        }
+    }
+
+    /// The twist \[rad\] at an arc length, in the sense of BeamDyn: positive about −z.
+    pub fn twist(&self, s: f64) -> f64 {
+        self.twist_at(self.parameter(s))
+    }
+
+    /// Place \[m\] and axes of the section at an arc length \[m\], in the axes of the blade: the columns are tangent, height, and
+    /// across = tangent × height.
+    pub fn frame(&self, s: f64) -> Frame {
+        let u = self.parameter(s);
+        let position = Vec3([0, 1, 2].map(|k| self.coordinates[k].value(u)));
+        let slope = self.slope(u);
+        let t = slope / slope.norm();
+        let square = t[0].hypot(t[2]);
+        let e = Vec3([t[2] / square, 0.0, -t[0] / square]);
+        let g = t.cross(e);
+        let (sin, cos) = libm::sincos(self.twist_at(u));
+        let height = cos * g + sin * e;
+        Frame { position, rotation: Mat3::columns([t, height, t.cross(height)]) }
+    }
+
+    /// Arc lengths of its points and of the rows of its twist, inside it: what is smooth ends there.
+    pub fn breaks(&self) -> Vec<f64> {
+        let length = self.length();
+        let rows = self.twist.iter().map(|[u, _]| self.arc(*u));
+        let mut breaks: Vec<f64> = self.arcs.iter().map(|[_, s]| *s).chain(rows).collect();
+        breaks.retain(|s| *s > 0.0 && *s < length);
+        breaks.sort_by(f64::total_cmp);
+        breaks.dedup_by(|a, b| *a - *b <= 1e-9 * length);
+        breaks
+    }
+
+    /// Largest magnitude of the twist \[rad\].
+    pub(super) fn largest_twist(&self) -> f64 {
+        self.twist.iter().fold(0.0, |most, [_, angle]| most.max(angle.abs()))
+    }
+
+    /// Its points: parameter, place \[m\].
+    pub(super) fn points(&self) -> impl Iterator<Item = (f64, Vec3)> + '_ {
+        self.arcs.iter().map(|[u, _]| (*u, Vec3([0, 1, 2].map(|k| self.coordinates[k].value(*u)))))
+    }
+}

@@ -1,0 +1,141 @@
+//! Blade decks: a reference line with 6 × 6 sections along it.
+//!
+//! Each format is read into [`Row`]s in its own axes and order, which its [`Convention`] turns into those of this program. What no section
+//! can be is refused ([`rows`]), what no blade is likely to be is a caution ([`plausible`]).
+//!
+//! | file | content |
+//! |---|---|
+//! | `beamdyn` | primary and blade file of BeamDyn, read and written |
+//! | `fortran` | list-directed input |
+//! | `line` | the reference line |
+//! | `rows` | matrices of a format into those of a section, and what makes none |
+//! | `plausible` | cautions by physics |
+
+mod beamdyn;
+mod fortran;
+mod line;
+mod plausible;
+mod rows;
+
+use flexion::section::{Matrices, MatrixTable};
+use flexion::system::Frame;
+use std::sync::Arc;
+
+pub use beamdyn::write as write_beamdyn;
+pub use line::Line;
+use rows::{Convention, Row};
+
+/// The bytes of a file by its name, as a case gives it.
+pub type Find<'a> = &'a dyn Fn(&str) -> Result<Arc<[u8]>, String>;
+
+/// A blade as a deck has it.
+#[derive(Clone, Debug)]
+pub struct Deck {
+    /// Length of the line \[m\].
+    pub length: f64,
+    /// The line, in the axes of the blade: x to the suction side, y edgewise, z along it.
+    pub line: Line,
+    /// The sections at the stations of the deck, by arc length, in axes tangent, height, across.
+    pub table: MatrixTable,
+    /// Damping times η \[s\] of the strains (see [`Matrices::with_damping_times`]); `None` where the format says nothing of damping.
+    pub damping: Option<[f64; 6]>,
+    /// What is unlikely of a blade, each in one sentence.
+    pub cautions: Vec<String>,
+    /// What the deck says and is not used, each in one sentence.
+    pub notes: Vec<String>,
+    /// Parameters of the line at the rows of the table, by which matrices are linear.
+    places: Vec<f64>,
+}
+
+impl Deck {
+    /// Place \[m\] and axes of the section at an arc length \[m\], in the axes of the blade.
+    pub fn frame(&self, s: f64) -> Frame {
+        self.line.frame(s)
+    }
+
+    /// The matrices at an arc length \[m\]: entries are linear in the coordinate by which the deck gives its stations, for BeamDyn z.
+    pub fn matrices(&self, s: f64) -> Matrices {
+        let i = self.table.interval(s);
+        let (a, b) = (self.places[i], self.places[i + 1]);
+        let share = if b > a { (self.line.parameter(s) - a) / (b - a) } else { 1.0 };
+        self.table.between(i, share.clamp(0.0, 1.0))
+    }
+
+    /// Arc lengths \[m\] inside the blade at which elements end: stations, points of the line, rows of the twist.
+    pub fn breaks(&self) -> Vec<f64> {
+        let mut breaks = self.line.breaks();
+        breaks.extend(self.table.breaks());
+        breaks.sort_by(f64::total_cmp);
+        breaks.dedup_by(|a, b| *a - *b <= 1e-7 * self.length);
+        breaks
+    }
+
+    /// Mass \[kg\] and centre of mass \[m\] in the axes of the blade.
+    pub fn mass(&self) -> (f64, flexion::linalg::Vec3) {
+        let gauss = flexion::quadrature::Gauss::new(10);
+        let mut ends = vec![0.0, self.length];
+        ends.splice(1..1, self.breaks());
+        let (mut mass, mut moment) = (0.0, flexion::linalg::Vec3::ZERO);
+        for range in ends.windows(2) {
+            for (s, weight) in gauss.on(range[0], range[1]) {
+                let (m, frame) = (self.matrices(s).mass, self.frame(s));
+                // M₁₆ = −μ y, M₁₅ = μ z of the centre (y, z).
+                let first = -m[0][5] * frame.rotation.column(1) + m[0][4] * frame.rotation.column(2);
+                mass += weight * m[0][0];
+                moment += weight * (m[0][0] * frame.position + first);
+            }
+        }
+        (mass, moment / mass)
+    }
+}
+
+/// A format of decks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// The primary file of BeamDyn, which names a blade file.
+    BeamDyn,
+}
+
+/// Reads the deck that the case calls `name`; `find` gives its bytes, and those of a file that it names.
+///
+/// # Errors
+/// What is wrong with it, in one sentence, with file and line.
+pub fn read(find: Find<'_>, name: &str, format: Format) -> Result<Deck, String> {
+    match format {
+        Format::BeamDyn => beamdyn::read(find, name),
+    }
+}
+
+/// A deck in the axes and the order of its format.
+struct Raw<'a> {
+    /// The file of the stations.
+    name: &'a str,
+    convention: &'static Convention,
+    line: Line,
+    rows: Vec<Row>,
+    /// Damping times \[s\] in the order of the format.
+    damping: Option<[f64; 6]>,
+    cautions: Vec<String>,
+    notes: Vec<String>,
+}
+
+impl Raw<'_> {
+    /// The deck, or what is wrong with it.
+    fn deck(self) -> Result<Deck, String> {
+        let Raw { name, convention, line, rows, damping, mut cautions, notes } = self;
+        let length = line.length();
+        let damping = damping.map(|times| convention.place.map(|i| times[i]));
+        let mut table = Vec::with_capacity(rows.len());
+        for row in &rows {
+            let mut section = row.section(name, convention)?;
+            if let Some(times) = damping {
+                section = section.with_damping_times(times);
+            }
+            table.push((line.arc(row.place), section));
+        }
+        let places = rows.iter().map(|row| row.place).collect();
+        cautions.extend(plausible::cautions(name, convention, &line, &rows, &table, damping));
+        let table = MatrixTable::new(length, &table).map_err(|error| format!("{name}: {error}"))?;
+        Ok(Deck { length, line, table, damping, cautions, notes, places })
+    }
+}

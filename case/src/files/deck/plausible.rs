@@ -1,0 +1,392 @@
+//! What is unlikely of a blade: a section or a line in other units, with exchanged or permuted axes, or with a slip in one number.
+//!
+//! The checks hold for anything slender of materials that are in use, and have room: a wave along a bar has the speed √(EA/m), 5,100 m/s in
+//! steel and 3,000 to 8,000 m/s in fibre composites; masses and stiffnesses of a section have radii √(J/m) and √(EI/EA) of one size; a blade is
+//! stiffer edgewise than flapwise; the shear stiffness of a section is smaller than EA, and GJ smaller than EI₂ + EI₃ but for laminates of
+//! ±45°, for an isotropic section it is at most half of that.
+
+use super::line::Line;
+use super::rows::{Convention, Row};
+use flexion::section::Matrices;
+
+/// Speeds of waves along the beam \[m/s\].
+const SPEED: [f64; 2] = [500.0, 13_000.0];
+/// Ratio of the larger radius of gyration of the stiffness anywhere to the length of the blade.
+const SLENDER: [f64; 2] = [5e-4, 0.1];
+/// Largest ratio of the radii of gyration of mass and stiffness, or its inverse.
+const RADII: f64 = 2.5;
+/// Least ratio of the edgewise to the flapwise bending stiffness over the larger part of the span.
+const EDGEWISE: f64 = 0.8;
+/// Distance of the centre of mass or tension from the line over the larger radius of gyration.
+const OFFSET: f64 = 4.0;
+/// Factor by which one station may leave both its neighbours, and in torsion, where closed and open sections differ.
+const OUTLIER: [f64; 2] = [8.0, 30.0];
+/// Factor by which the tip may be stiffer than the root.
+const GROWING: f64 = 3.0;
+/// Difference of the polar moment of inertia from the sum of the other two, over that.
+const POLAR: f64 = 0.02;
+/// Lengths \[m\].
+const LENGTHS: [f64; 2] = [0.01, 300.0];
+/// Angles of the twist \[°\], and of a twist that may be in radians.
+const TWIST: [f64; 2] = [0.6, 90.0];
+/// Largest inclination of the line against z \[°\].
+const INCLINED: f64 = 70.0;
+/// Part of the length by which a line is swept that is not prebent.
+const SWEPT: f64 = 0.01;
+/// Largest damping ratio of the first flapwise bending.
+const DAMPED: f64 = 0.2;
+/// Difference of the two senses of damping times over √(Dᵢᵢ Dⱼⱼ).
+const BY_ROWS: f64 = 0.01;
+
+/// What a station is like.
+struct Measures {
+    axial: f64,
+    mass: f64,
+    shear: [f64; 2],
+    torsion: f64,
+    /// Edgewise and flapwise, about the tension centre and the centre of mass.
+    bending: [f64; 2],
+    inertia: [f64; 2],
+    /// Products of both.
+    products: [f64; 2],
+    /// Places of both centres along height and across.
+    centres: [[f64; 2]; 2],
+    polar: f64,
+}
+
+impl Measures {
+    fn of(section: &Matrices) -> Measures {
+        let (k, m) = (&section.stiffness, &section.mass);
+        let centre = |of: &[[f64; 6]; 6]| [-of[0][5] / of[0][0], of[0][4] / of[0][0]];
+        let about = |of: &[[f64; 6]; 6], [y, z]: [f64; 2]| {
+            [of[5][5] - of[0][0] * y * y, of[4][4] - of[0][0] * z * z].map(|x| x.max(0.0))
+        };
+        let centres = [centre(k), centre(m)];
+        let product = |of: &[[f64; 6]; 6], [y, z]: [f64; 2]| of[4][5] + of[0][0] * y * z;
+        Measures {
+            axial: k[0][0],
+            mass: m[0][0],
+            shear: [k[1][1], k[2][2]],
+            torsion: k[3][3],
+            bending: about(k, centres[0]),
+            inertia: about(m, centres[1]),
+            products: [product(k, centres[0]), product(m, centres[1])],
+            centres,
+            polar: m[3][3] / (m[4][4] + m[5][5]),
+        }
+    }
+
+    /// Larger and smaller principal radius of gyration: of the stiffness, and of the mass.
+    fn radii(&self) -> [[f64; 2]; 2] {
+        let of = |[a, b]: [f64; 2], product: f64, by: f64| {
+            let (mean, apart) = (0.5 * (a + b), (0.5 * (a - b)).hypot(product));
+            [mean + apart, mean - apart].map(|x| (x.max(0.0) / by).sqrt())
+        };
+        let [stiff, heavy] = self.products;
+        [of(self.bending, stiff, self.axial), of(self.inertia, heavy, self.mass)]
+    }
+}
+
+/// What is unlikely of the deck.
+pub(super) fn cautions(
+    name: &str,
+    c: &Convention,
+    line: &Line,
+    rows: &[Row],
+    table: &[(f64, Matrices)],
+    damping: Option<[f64; 6]>,
+) -> Vec<String> {
+    let mut out = of_line(name, line);
+    let length = line.length();
+    let measures: Vec<Measures> = table.iter().map(|(_, section)| Measures::of(section)).collect();
+    let all = || rows.iter().zip(&measures);
+    // The station at which a number is farthest from what is likely, in its logarithm.
+    let worst = |of: &dyn Fn(&Measures) -> f64, [least, most]: [f64; 2]| {
+        let excess = |m: &Measures| (of(m) / most).ln().max((least / of(m)).ln());
+        all().filter(|(_, m)| !(excess(m) <= 0.0)).max_by(|a, b| excess(a.1).total_cmp(&excess(b.1)))
+    };
+
+    if let Some((row, m)) = worst(&|m| (m.axial / m.mass).sqrt(), SPEED) {
+        out.push(format!(
+            "{}: a wave along the blade would have the speed √(EA/m) = {:.4} m/s, with {} = EA = {:.3e} N and M11 = m = {:.3e} kg/m; \
+             solids in use have {} to {} m/s: is one of both in other units, or is the order of the rows another?",
+            row.at(name, c, 0, c.place[0]),
+            (m.axial / m.mass).sqrt(),
+            c.entry('K', 0, 0),
+            m.axial,
+            m.mass,
+            SPEED[0],
+            SPEED[1]
+        ));
+    }
+    // By the length of the intervals, so that a fine mesh at a round root does not outvote the blade.
+    let span = |of: &dyn Fn(&Measures) -> bool| -> f64 {
+        let ends = table.windows(2).zip(measures.windows(2));
+        ends.map(|(s, m)| 0.5 * (s[1].0 - s[0].0) * f64::from(u8::from(of(&m[0])) + u8::from(of(&m[1]))))
+            .sum()
+    };
+    for (k, which) in ["larger", "smaller"].into_iter().enumerate() {
+        let (ratio, limits) = (|m: &Measures| m.radii()[1][k] / m.radii()[0][k], [1.0 / RADII, RADII]);
+        let part = span(&|m| !(limits[0]..=limits[1]).contains(&ratio(m))) / length;
+        if let Some((row, m)) = worst(&ratio, limits).filter(|_| part > 0.5) {
+            let [stiff, heavy] = m.radii();
+            out.push(format!(
+                "{}: the {which} radius of gyration of the mass is {:.4} m, from M11, {} and {}, and that of the stiffness {:.4} m, from \
+                 {}, {} and {}; as little alike over {:.0} % of the span; they are of one size in a section: are units or order of one of them others?",
+                row.at(name, c, 0, c.place[5 - k]),
+                heavy[k],
+                c.entry('M', 5, 5),
+                c.entry('M', 4, 4),
+                stiff[k],
+                c.entry('K', 0, 0),
+                c.entry('K', 5, 5),
+                c.entry('K', 4, 4),
+                100.0 * part
+            ));
+        }
+    }
+    let largest = measures.iter().flat_map(|m| m.radii()[0]).fold(0.0, f64::max);
+    if !(largest >= SLENDER[0] * length && largest <= SLENDER[1] * length) {
+        out.push(format!(
+            "{name}: the largest radius of gyration √(EI/EA) is {largest:.4} m and the blade {length:.4} m long, a ratio of {:.2e} where \
+             slender beams have {} to {}: is the length, or a stiffness, in other units?",
+            largest / length,
+            SLENDER[0],
+            SLENDER[1]
+        ));
+    }
+    let stiffer = all().filter(|(_, m)| m.shear.iter().any(|shear| *shear > m.axial));
+    if let Some((row, m)) = stiffer.clone().next().filter(|_| 2 * stiffer.count() > rows.len()) {
+        let k = if m.shear[0] > m.axial { 1 } else { 2 };
+        out.push(format!(
+            "{}: {} = {:.3e} N is a shear stiffness and larger than the axial {} = {:.3e} N, here and at most stations: the order of rows \
+             and columns is shear, shear, axial, bend, bend, torsion",
+            row.at(name, c, 0, c.place[k]),
+            c.entry('K', k, k),
+            m.shear[k - 1],
+            c.entry('K', 0, 0),
+            m.axial
+        ));
+    }
+    let twisting = all().filter(|(_, m)| m.torsion > m.bending[0] + m.bending[1]);
+    if let Some((row, m)) = twisting.clone().next().filter(|_| 2 * twisting.count() > rows.len()) {
+        out.push(format!(
+            "{}: {} = GJ = {:.3e} N·m² is more than both bending stiffnesses together, {:.3e} N·m², here and at most stations: is the order \
+             of the rows another?",
+            row.at(name, c, 0, c.place[3]),
+            c.entry('K', 3, 3),
+            m.torsion,
+            m.bending[0] + m.bending[1]
+        ));
+    }
+    for (letter, exchanged, values) in [
+        (
+            'K',
+            span(&|m| m.bending[0] < EDGEWISE * m.bending[1]),
+            (|m| m.bending) as fn(&Measures) -> [f64; 2],
+        ),
+        ('M', span(&|m| m.inertia[0] < EDGEWISE * m.inertia[1]), |m| m.inertia),
+    ] {
+        if exchanged > 0.5 * length
+            && let Some((row, m)) = all().find(|(_, m)| values(m)[0] < EDGEWISE * values(m)[1])
+        {
+            let [edge, flap] = values(m);
+            out.push(format!(
+                "{}: {} = {edge:.3e} is edgewise and smaller than {} = {flap:.3e} flapwise, so over {:.0} % of the span; a blade is stiffer \
+                 along its chord: are x and y exchanged? (offsets of the centres are taken off)",
+                row.at(name, c, usize::from(letter == 'M'), c.place[5]),
+                c.entry(letter, 5, 5),
+                c.entry(letter, 4, 4),
+                100.0 * exchanged / length
+            ));
+        }
+    }
+    for (k, (centre, letter)) in [("tension centre", 'K'), ("centre of mass", 'M')].into_iter().enumerate() {
+        let share = |m: &Measures| {
+            let [y, z] = m.centres[k];
+            y.hypot(z) / m.radii().as_flattened().iter().fold(0.0, |a: f64, b| a.max(*b))
+        };
+        if let Some((row, m)) = worst(&share, [0.0, OFFSET]) {
+            let [y, z] = m.centres[k];
+            out.push(format!(
+                "{}: the {centre} is {:.4} m off the line, {:.1} times the radius of gyration of the section, from {}, {} and {}",
+                row.at(name, c, k, c.place[0]),
+                y.hypot(z),
+                share(m),
+                c.upper(letter, 0, 4),
+                c.upper(letter, 0, 5),
+                c.entry(letter, 0, 0)
+            ));
+        }
+    }
+    if let Some((row, m)) = worst(&|m| m.polar, [1.0 - POLAR, 1.0 + POLAR]) {
+        out.push(format!(
+            "{}: {} is {:.4} times {} + {}, and in a plane section equal to the sum of both",
+            row.at(name, c, 1, c.place[3]),
+            c.entry('M', 3, 3),
+            m.polar,
+            c.entry('M', 4, 4),
+            c.entry('M', 5, 5)
+        ));
+    }
+    outliers(name, c, rows, &measures, &mut out);
+    if let (Some(first), Some(last)) = (measures.first(), measures.last())
+        && (0..2).all(|k| last.bending[k] > GROWING * first.bending[k])
+    {
+        out.push(format!(
+            "{name}: the bending stiffnesses at the tip are {:.1} and {:.1} times those at the root: do the stations begin at the tip?",
+            last.bending[0] / first.bending[0],
+            last.bending[1] / first.bending[1]
+        ));
+    }
+    if let Some(times) = damping {
+        damped(name, c, (rows, table, &measures), times, &mut out);
+    }
+    out
+}
+
+/// One station that leaves both its neighbours.
+fn outliers(name: &str, c: &Convention, rows: &[Row], measures: &[Measures], out: &mut Vec<String>) {
+    let quantities: [(char, usize, fn(&Measures) -> f64); 7] = [
+        ('K', 0, |m| m.axial),
+        ('M', 0, |m| m.mass),
+        ('K', 5, |m| m.bending[0]),
+        ('K', 4, |m| m.bending[1]),
+        ('M', 5, |m| m.inertia[0]),
+        ('M', 4, |m| m.inertia[1]),
+        ('K', 3, |m| m.torsion),
+    ];
+    for (letter, i, of) in quantities {
+        for (k, three) in measures.windows(3).enumerate() {
+            let [before, here, after] = [of(&three[0]), of(&three[1]), of(&three[2])];
+            let most = OUTLIER[usize::from(i == 3)];
+            if here > most * before.max(after) || most * here < before.min(after) {
+                out.push(format!(
+                    "{}: {} belongs to {here:.3e}, and to {before:.3e} and {after:.3e} at the stations before and behind it: is a digit or an \
+                     exponent wrong?",
+                    rows[k + 1].at(name, c, usize::from(letter == 'M'), c.place[i]),
+                    c.entry(letter, i, i),
+                ));
+                break;
+            }
+        }
+    }
+}
+
+/// What is unlikely of a line.
+fn of_line(name: &str, line: &Line) -> Vec<String> {
+    let mut out = Vec::new();
+    let length = line.length();
+    if !(length >= LENGTHS[0] && length <= LENGTHS[1]) {
+        out.push(format!("{name}: the line is {length:.4} m long; are its coordinates in metres?"));
+    }
+    let mut inclined = (0.0, 0);
+    let mut reach = [0.0_f64; 2];
+    let mut last = None;
+    for (number, (_, place)) in line.points().enumerate() {
+        if let Some(before) = last {
+            let step: flexion::linalg::Vec3 = place - before;
+            let angle = (step[2] / step.norm()).clamp(-1.0, 1.0).acos().to_degrees();
+            if angle > inclined.0 {
+                inclined = (angle, number + 1);
+            }
+        }
+        (0..2).for_each(|k| reach[k] = reach[k].max(place[k].abs()));
+        last = Some(place);
+    }
+    let (angle, number) = inclined;
+    if angle > INCLINED {
+        out.push(format!(
+            "{name}: before point {number} the line is inclined by {angle:.0}° against z, which goes along the blade: are x and y in the \
+             units of z?"
+        ));
+    }
+    if reach[0] == 0.0 && reach[1] > SWEPT * length {
+        out.push(format!(
+            "{name}: the line is swept by {:.3} m along y, edgewise, and not prebent along x: are both exchanged?",
+            reach[1]
+        ));
+    }
+    let twist = line.largest_twist().to_degrees();
+    if twist > TWIST[1] {
+        out.push(format!("{name}: the twist reaches {twist:.4}°, where it is given in degrees"));
+    } else if twist > 0.0 && twist < TWIST[0] {
+        out.push(format!(
+            "{name}: the twist reaches only {twist:.4}°; it is in degrees: was it written in radians?"
+        ));
+    }
+    out
+}
+
+/// What is unlikely of damping times, and where the two senses of them differ.
+fn damped(
+    name: &str,
+    c: &Convention,
+    (rows, table, measures): (&[Row], &[(f64, Matrices)], &[Measures]),
+    times: [f64; 6],
+    out: &mut Vec<String>,
+) {
+    let omega = first_flapwise(table, measures);
+    for (k, time) in times.into_iter().enumerate() {
+        let ratio = 0.5 * time * omega;
+        if ratio > DAMPED {
+            out.push(format!(
+                "{name}: mu{} = {time} s would damp the first flapwise bending, of about {:.2} Hz, by ζ = μω/2 = {ratio:.2}: mu is in seconds; was \
+                 it written in per cent?",
+                c.number(k),
+                omega / std::f64::consts::TAU
+            ));
+            break;
+        }
+    }
+    let mut most = (BY_ROWS, None);
+    for (row, (_, section)) in rows.iter().zip(table) {
+        let k = &section.stiffness;
+        for (i, j) in (0..36).map(|n| (n / 6, n % 6)).filter(|(i, j)| i != j) {
+            let share = (k[i][j] / (k[i][i] * k[j][j]).sqrt()).abs();
+            let differs = if times[i] == times[j] { 0.0 } else { ((times[i] / times[j]).sqrt() - 1.0).abs() };
+            if share > 0.0 && share * differs > most.0 {
+                most = (share * differs, Some((row, i, j)));
+            }
+        }
+    }
+    if let (part, Some((row, i, j))) = most {
+        out.push(format!(
+            "{}: the damping of {} is √(mu{}·mu{})·K here, so that no motion gains energy, and mu{}·K by rows, as the format has it: they \
+             differ by {} of √(D{}{}·D{}{})",
+            row.at(name, c, 0, c.place[i]),
+            c.entry('K', i, j),
+            c.number(i),
+            c.number(j),
+            c.number(i),
+            if part.is_finite() { format!("{:.1} %", 100.0 * part) } else { "more than the whole".to_owned() },
+            c.number(i),
+            c.number(i),
+            c.number(j),
+            c.number(j),
+        ));
+    }
+}
+
+/// Angular frequency \[rad/s\] of the first flapwise bending by Rayleigh's quotient, with the deflection under a load m s²: a few per cent too high.
+fn first_flapwise(table: &[(f64, Matrices)], measures: &[Measures]) -> f64 {
+    let n = table.len();
+    let h = |i: usize| table[i + 1].0 - table[i].0;
+    let load: Vec<f64> = table.iter().zip(measures).map(|((s, _), m)| m.mass * s * s).collect();
+    let (mut force, mut moment) = (vec![0.0; n], vec![0.0; n]);
+    for i in (0..n - 1).rev() {
+        force[i] = force[i + 1] + 0.5 * h(i) * (load[i] + load[i + 1]);
+        moment[i] = moment[i + 1] + 0.5 * h(i) * (force[i] + force[i + 1]);
+    }
+    let (mut slope, mut place) = (0.0, 0.0);
+    let (mut potential, mut kinetic) = (0.0, 0.0);
+    for i in 0..n - 1 {
+        let bend = |i: usize| moment[i] / measures[i].bending[1];
+        let next = slope + 0.5 * h(i) * (bend(i) + bend(i + 1));
+        let there = place + 0.5 * h(i) * (slope + next);
+        potential += 0.5 * h(i) * (load[i] * place + load[i + 1] * there);
+        kinetic += 0.5 * h(i) * (measures[i].mass * place * place + measures[i + 1].mass * there * there);
+        (slope, place) = (next, there);
+    }
+    if kinetic > 0.0 { (potential / kinetic).sqrt() } else { 0.0 }
+}
