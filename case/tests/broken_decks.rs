@@ -108,7 +108,7 @@ static BROKEN: [Broken; 82] = [
     }),
     ("stations in thousandths", "must run from 0 to 1", |d| d.eta.iter_mut().for_each(|eta| *eta *= 1000.0)),
     ("no station at the root", "must run from 0 to 1", |d| d.eta[0] = 0.002),
-    ("no station at the tip", "must run from 0 to 1", |d| *d.eta.last_mut().unwrap() = 0.995),
+    ("no station at the tip", "must run from 0 to 1", |d| *d.eta.last_mut().unwrap() = 0.9995),
     ("keypoints exchanged", "kp_zr of keypoint 12", |d| d.keypoints.swap(AT, AT + 1)),
     ("a keypoint twice", "kp_zr of keypoint 12", |d| d.keypoints[AT + 1] = d.keypoints[AT]),
     ("keypoints from the tip", "keypoints ascend", |d| d.keypoints.reverse()),
@@ -160,7 +160,7 @@ static BROKEN: [Broken; 82] = [
         turned(&mut d.mass)
     }),
     ("K with the axial row first", "shear stiffness", |d| reordered(&mut d.stiffness, [2, 0, 1, 5, 3, 4])),
-    ("K and M with the axial row first", "shear stiffness", |d| {
+    ("K and M with the axial row first", "M24|shear stiffness", |d| {
         reordered(&mut d.stiffness, [2, 0, 1, 5, 3, 4]);
         reordered(&mut d.mass, [2, 0, 1, 5, 3, 4])
     }),
@@ -170,9 +170,9 @@ static BROKEN: [Broken; 82] = [
     ("K with the axial row first, torsion last", "shear stiffness", |d| {
         reordered(&mut d.stiffness, [2, 0, 1, 3, 4, 5])
     }),
-    ("M with the polar moment first", "M44", |d| reordered(&mut d.mass, [0, 1, 2, 5, 3, 4])),
+    ("M with the polar moment first", "M14|M66 is", |d| reordered(&mut d.mass, [0, 1, 2, 5, 3, 4])),
     ("bending and torsion exchanged, K44 and K66", "K", |d| reordered(&mut d.stiffness, [0, 1, 2, 5, 4, 3])),
-    ("bending and torsion exchanged, K55 and K66", "radius of gyration", |d| {
+    ("bending and torsion exchanged, K55 and K66", "is large beside the bending", |d| {
         reordered(&mut d.stiffness, [0, 1, 2, 3, 5, 4])
     }),
     ("axial and torsion exchanged", "K", |d| reordered(&mut d.stiffness, [0, 1, 5, 3, 4, 2])),
@@ -185,7 +185,7 @@ static BROKEN: [Broken; 82] = [
     ("one exponent of K33", "K33 belongs to", |d| d.stiffness[AT][2][2] *= 100.0),
     ("one exponent of K55", "K55 belongs to", |d| d.stiffness[AT][4][4] *= 100.0),
     ("one exponent of K66", "K66 belongs to", |d| d.stiffness[AT][5][5] *= 100.0),
-    ("one exponent of M", "M11 belongs to", |d| scaled(&mut d.mass[AT], [10.0; 6])),
+    ("one exponent of M", "M33 belongs to", |d| scaled(&mut d.mass[AT], [10.0; 6])),
     ("sections from the tip", "begin at the tip?", |d| {
         d.stiffness.reverse();
         d.mass.reverse()
@@ -209,7 +209,7 @@ fn no_broken_deck_is_silent() {
                 Err(message) => vec![message],
                 Ok(deck) => deck.cautions.into_iter().filter(|caution| !is_true(caution)).collect(),
             };
-            if !messages.iter().any(|message| message.contains(says)) {
+            if !says.split('|').any(|says| messages.iter().any(|message| message.contains(says))) {
                 silent.push(format!("{blade}, {name}: {messages:#?}"));
             }
         }
@@ -256,7 +256,11 @@ fn broken_texts_are_refused_at_their_line() {
                 "too few numbers",
             ),
             ("a number too much", with(&sections, first + 3, &format!("{row} 7.0")), "has 7 numbers"),
-            ("a decimal comma", with(&sections, first + 3, &row.replace('.', ",")), "numbers for row 3"),
+            (
+                "a decimal comma",
+                with(&sections, first + 3, &row.replace('.', ",")),
+                "write decimals with a point",
+            ),
             ("two points", with(&sections, first + 3, &row.replacen('.', "..", 1)), "is not a number"),
             ("stars", with(&sections, first + 3, "********** 0 0 0 0 0"), "|"),
             (

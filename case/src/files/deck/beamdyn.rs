@@ -110,7 +110,8 @@ fn keypoints(text: &Text<'_>, cautions: &mut Vec<String>) -> Result<Vec<(usize, 
     }
     let mut points: Vec<(usize, Vec3, f64)> = Vec::with_capacity(count);
     for number in 1..=count {
-        let found = text.numbers(&mut at, 4, &format!("keypoint {number} of {count}: x, y, z, twist"))?;
+        let what = format!("keypoint {number} of {count}: x, y, z, twist");
+        let found = if number == 1 { text.numbers(&mut at, 4, &what)? } else { text.row(&mut at, 4, &what)? };
         if found.surplus > 0 {
             cautions.push(format!(
                 "line {} of {name}: keypoint {number} has {} numbers, of which x, y, z and twist are read",
@@ -188,7 +189,17 @@ fn stations(
         for (matrix, letter) in [(0, "stiffness"), (1, "mass")] {
             for i in 0..6 {
                 let what = format!("row {} of the {letter} matrix of station {number}", i + 1);
-                let row = text.numbers(&mut at, 6, &what)?;
+                // A comment may stand between the two matrices.
+                let is_free = (matrix, i) == (1, 0);
+                let row =
+                    if is_free { text.numbers(&mut at, 6, &what)? } else { text.row(&mut at, 6, &what)? };
+                if row.surplus >= 6 {
+                    return Err(format!(
+                        "line {} of {name} has {} numbers for {what}, which has six: write decimals with a point, for a comma separates numbers",
+                        row.line,
+                        6 + row.surplus
+                    ));
+                }
                 if row.surplus > 0 {
                     cautions.push(format!(
                         "line {} of {name} has {} numbers for {what}, of which six are read",

@@ -75,6 +75,20 @@ impl<'a> Text<'a> {
         (from..=self.len()).find(|i| words(self.line(*i)).first().is_some_and(|word| begins_number(word)))
     }
 
+    /// As [`Text::numbers`], where no comment may stand before them.
+    ///
+    /// # Errors
+    /// Where there are too few.
+    pub fn row(&self, at: &mut usize, count: usize, what: &str) -> Result<Numbers, String> {
+        let next = (*at..=self.len()).find(|i| !words(self.line(*i)).is_empty());
+        if let Some((i, word)) = next.and_then(|i| Some((i, words(self.line(i)).into_iter().next()?)))
+            && !begins_number(&word)
+        {
+            return Err(format!("line {i} of {}: `{word}` is not a number, where {what} begins", self.name));
+        }
+        self.numbers(at, count, what)
+    }
+
     /// So many numbers from line `*at` on, which moves behind them; lines before them that begin with no number are comments.
     ///
     /// # Errors

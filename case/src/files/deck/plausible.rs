@@ -15,12 +15,14 @@ const SPEED: [f64; 2] = [500.0, 13_000.0];
 const SLENDER: [f64; 2] = [5e-4, 0.1];
 /// Largest ratio of the radii of gyration of mass and stiffness, or its inverse.
 const RADII: f64 = 2.5;
+/// Largest ratio of GJ to the smaller bending stiffness over the larger part of the span: 1.5 for an isotropic strip.
+const TWISTING: f64 = 5.0;
 /// Least ratio of the edgewise to the flapwise bending stiffness over the larger part of the span.
 const EDGEWISE: f64 = 0.8;
 /// Distance of the centre of mass or tension from the line over the larger radius of gyration.
 const OFFSET: f64 = 4.0;
 /// Factor by which one station may leave both its neighbours, and in torsion, where closed and open sections differ.
-const OUTLIER: [f64; 2] = [8.0, 30.0];
+const OUTLIER: [f64; 2] = [5.0, 30.0];
 /// Factor by which the tip may be stiffer than the root.
 const GROWING: f64 = 3.0;
 /// Difference of the polar moment of inertia from the sum of the other two, over that.
@@ -108,12 +110,13 @@ pub(super) fn cautions(
 
     if let Some((row, m)) = worst(&|m| (m.axial / m.mass).sqrt(), SPEED) {
         out.push(format!(
-            "{}: a wave along the blade would have the speed √(EA/m) = {:.4} m/s, with {} = EA = {:.3e} N and M11 = m = {:.3e} kg/m; \
+            "{}: a wave along the blade would have the speed √(EA/m) = {:.4} m/s, with {} = EA = {:.3e} N and {} = m = {:.3e} kg/m; \
              solids in use have {} to {} m/s: is one of both in other units, or is the order of the rows another?",
             row.at(name, c, 0, c.place[0]),
             (m.axial / m.mass).sqrt(),
             c.entry('K', 0, 0),
             m.axial,
+            c.entry('M', 0, 0),
             m.mass,
             SPEED[0],
             SPEED[1]
@@ -131,10 +134,11 @@ pub(super) fn cautions(
         if let Some((row, m)) = worst(&ratio, limits).filter(|_| part > 0.5) {
             let [stiff, heavy] = m.radii();
             out.push(format!(
-                "{}: the {which} radius of gyration of the mass is {:.4} m, from M11, {} and {}, and that of the stiffness {:.4} m, from \
+                "{}: the {which} radius of gyration of the mass is {:.4} m, from {}, {} and {}, and that of the stiffness {:.4} m, from \
                  {}, {} and {}; as little alike over {:.0} % of the span; they are of one size in a section: are units or order of one of them others?",
                 row.at(name, c, 0, c.place[5 - k]),
                 heavy[k],
+                c.entry('M', 0, 0),
                 c.entry('M', 5, 5),
                 c.entry('M', 4, 4),
                 stiff[k],
@@ -168,15 +172,20 @@ pub(super) fn cautions(
             m.axial
         ));
     }
-    let twisting = all().filter(|(_, m)| m.torsion > m.bending[0] + m.bending[1]);
-    if let Some((row, m)) = twisting.clone().next().filter(|_| 2 * twisting.count() > rows.len()) {
+    let most = |m: &Measures| (m.bending[0] + m.bending[1]).min(TWISTING * m.radii()[0][1].powi(2) * m.axial);
+    if span(&|m| m.torsion > most(m)) > 0.5 * length
+        && let Some((row, m)) = all().find(|(_, m)| m.torsion > most(m))
+    {
         out.push(format!(
-            "{}: {} = GJ = {:.3e} N·m² is more than both bending stiffnesses together, {:.3e} N·m², here and at most stations: is the order \
-             of the rows another?",
+            "{}: {} = GJ = {:.3e} N·m² is large beside the bending stiffnesses {} = {:.3e} and {} = {:.3e} N·m² (about the tension centre), as \
+             over most of the span: is the order of the rows another?",
             row.at(name, c, 0, c.place[3]),
             c.entry('K', 3, 3),
             m.torsion,
-            m.bending[0] + m.bending[1]
+            c.entry('K', 5, 5),
+            m.bending[0],
+            c.entry('K', 4, 4),
+            m.bending[1]
         ));
     }
     for (letter, exchanged, values) in [

@@ -8,6 +8,9 @@ pub(super) struct Convention {
     pub sign: [f64; 6],
     /// What the format calls its stations.
     pub station: &'static str,
+    /// What it calls mass, moments of inertia about tangent, height and across, and offsets along height and across, where it has no mass
+    /// matrix.
+    pub inertia: Option<[&'static str; 6]>,
 }
 
 /// Shear x, shear y, axial z, bend x, bend y, torsion z with x to the suction side and y edgewise: (tangent, height, across) = (z, y, −x).
@@ -39,7 +42,14 @@ impl Convention {
 
     /// The name in the format of the entry (i, j) of this program of a matrix `k`.
     pub fn entry(&self, k: char, i: usize, j: usize) -> String {
-        format!("{k}{}{}", self.number(i), self.number(j))
+        let named = self.inertia.filter(|_| k == 'M').and_then(|names| match (i.min(j), i.max(j)) {
+            (0, 0) | (1, 1) | (2, 2) => Some(names[0]),
+            (a, b) if a == b => Some(names[a - 2]),
+            (0, 5) | (2, 3) => Some(names[4]),
+            (0, 4) | (1, 3) => Some(names[5]),
+            _ => None,
+        });
+        named.map_or_else(|| format!("{k}{}{}", self.number(i), self.number(j)), str::to_owned)
     }
 
     /// The same, of the upper triangle.
