@@ -9,6 +9,7 @@ mod case_files;
 mod contact;
 mod contact_in_space;
 mod convergence;
+mod deck_formats;
 mod decks;
 mod disturbance;
 mod docs;

@@ -6,22 +6,30 @@
 //! | file | content |
 //! |---|---|
 //! | `beamdyn` | primary and blade file of BeamDyn, read and written |
+//! | `hawc2` | structural data of HAWC2 (st), read and written |
+//! | `windio`, `yaml` | blades of windIO |
+//! | `csv` | tables with titles and units |
 //! | `fortran` | list-directed input |
 //! | `line` | the reference line |
 //! | `rows` | matrices of a format into those of a section, and what makes none |
 //! | `plausible` | cautions by physics |
 
 mod beamdyn;
+mod csv;
 mod fortran;
+mod hawc2;
 mod line;
 mod plausible;
 mod rows;
+mod windio;
+mod yaml;
 
 use flexion::section::{Matrices, MatrixTable};
 use flexion::system::Frame;
 use std::sync::Arc;
 
 pub use beamdyn::write as write_beamdyn;
+pub use hawc2::write as write_hawc2;
 pub use line::Line;
 use rows::{Convention, Row};
 
@@ -94,6 +102,17 @@ impl Deck {
 pub enum Format {
     /// The primary file of BeamDyn, which names a blade file.
     BeamDyn,
+    /// A st file of HAWC2.
+    Hawc2 {
+        /// Number of the set; the first if not given.
+        set: Option<usize>,
+        /// Number of the subset; the first of the set if not given.
+        subset: Option<usize>,
+    },
+    /// A turbine of windIO, versions 2 and 1.
+    WindIo,
+    /// A table in CSV.
+    Csv,
 }
 
 /// Reads the deck that the case calls `name`; `find` gives its bytes, and those of a file that it names.
@@ -103,6 +122,9 @@ pub enum Format {
 pub fn read(find: Find<'_>, name: &str, format: Format) -> Result<Deck, String> {
     match format {
         Format::BeamDyn => beamdyn::read(find, name),
+        Format::Hawc2 { set, subset } => hawc2::read(&find(name)?, name, set, subset),
+        Format::WindIo => windio::read(&find(name)?, name),
+        Format::Csv => csv::read(&find(name)?, name),
     }
 }
 

@@ -14,8 +14,12 @@ pub(super) struct Convention {
 }
 
 /// Shear x, shear y, axial z, bend x, bend y, torsion z with x to the suction side and y edgewise: (tangent, height, across) = (z, y, −x).
-pub(super) static BEAMDYN: Convention =
-    Convention { place: [2, 1, 0, 5, 4, 3], sign: [1.0, 1.0, -1.0, 1.0, 1.0, -1.0], station: "eta" };
+pub(super) static BEAMDYN: Convention = Convention {
+    place: [2, 1, 0, 5, 4, 3],
+    sign: [1.0, 1.0, -1.0, 1.0, 1.0, -1.0],
+    station: "eta",
+    inertia: None,
+};
 
 impl Convention {
     /// The matrix in the axes and the order of this program.

@@ -1,0 +1,256 @@
+//! Decks of HAWC2, windIO and CSV, held to the decks of BeamDyn of the same blades.
+
+use super::decks::{Matrix, Plain, read_texts, texts};
+use flexion_case::deck::{self, Deck, Format};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+const HAWC2: Format = Format::Hawc2 { set: None, subset: None };
+
+fn file(name: &str) -> String {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../verification/blades");
+    std::fs::read_to_string(folder.join(name)).unwrap()
+}
+
+fn read(text: &str, format: Format) -> Result<Deck, String> {
+    let find = |_: &str| Ok(Arc::from(text.as_bytes()));
+    deck::read(&find, "f", format)
+}
+
+fn product(a: &Matrix, b: &Matrix) -> Matrix {
+    std::array::from_fn(|i| std::array::from_fn(|j| (0..6).map(|k| a[i][k] * b[k][j]).sum()))
+}
+
+/// K about the point (y, z) of the section.
+fn about(k: &Matrix, [y, z]: [f64; 2]) -> Matrix {
+    let mut w: Matrix = std::array::from_fn(|i| std::array::from_fn(|j| f64::from(u8::from(i == j))));
+    (w[0][4], w[0][5], w[1][3], w[2][3]) = (-z, y, z, -y);
+    let transposed: Matrix = std::array::from_fn(|i| std::array::from_fn(|j| w[j][i]));
+    product(&transposed, &product(k, &w))
+}
+
+/// About the centre of the first moments K₁₅ and K₁₆.
+fn centred(k: &Matrix) -> Matrix {
+    about(k, [-k[0][5] / k[0][0], k[0][4] / k[0][0]])
+}
+
+fn assert_near(found: &Matrix, expected: &Matrix, part: f64, what: &str) {
+    for i in 0..6 {
+        for j in 0..6 {
+            let size = (expected[i][i] * expected[j][j]).sqrt();
+            assert!(
+                (found[i][j] - expected[i][j]).abs() <= part * size,
+                "{what} {i} {j}: {:e} {:e}",
+                found[i][j],
+                expected[i][j]
+            );
+        }
+    }
+}
+
+/// The data for HAWC2 are those of another computation of the sections, from the half chord and by another length. About their centres they are the same
+/// to 1 % of √(Kᵢᵢ Kⱼⱼ) with all couplings, their signs and the pitch; a centre on the other side, or a turn the other way, is off by more.
+#[test]
+fn full_matrices_of_hawc2_are_those_of_beamdyn_about_their_centres() {
+    let beamdyn = read_texts(0, &texts(0)).unwrap();
+    let hawc2 = read(&file("IEA_15MW_RWT_Blade_st_FPM.st"), HAWC2).unwrap();
+    assert_eq!(hawc2.cautions, Vec::<String>::new());
+    assert!((hawc2.length / beamdyn.length - 1.0).abs() < 1e-3, "{}", hawc2.length);
+    let rows = beamdyn.table.rows().iter().zip(hawc2.table.rows()).enumerate();
+    assert_eq!(rows.len(), 26);
+    for (n, ((_, a), (_, b))) in rows {
+        assert_near(&centred(&b.stiffness), &centred(&a.stiffness), 0.01, &format!("K {n}"));
+        // Radii of gyration are about the axes of bending, and have no product there.
+        assert_near(&centred(&b.mass), &centred(&a.mass), 0.1, &format!("M {n}"));
+        let polar = |m: &Matrix| centred(m)[3][3];
+        assert!((polar(&b.mass) / polar(&a.mass) - 1.0).abs() < 0.01, "{n}");
+    }
+}
+
+/// The classical columns have no couplings; bending about the elastic centre and masses are those of the full matrices.
+#[test]
+fn classical_columns_of_hawc2_have_the_bending_of_the_full_matrices() {
+    let full = read(&file("IEA_15MW_RWT_Blade_st_FPM.st"), HAWC2).unwrap();
+    let text = file("IEA_15MW_RWT_Blade_st_noFPM.st");
+    let classical = read(&text, Format::Hawc2 { set: Some(1), subset: Some(1) }).unwrap();
+    for (n, ((_, a), (_, b))) in full.table.rows().iter().zip(classical.table.rows()).enumerate() {
+        let [k, l] = [centred(&a.stiffness), centred(&b.stiffness)];
+        for (i, j) in [(4, 4), (4, 5), (5, 5)] {
+            assert!((k[i][j] - l[i][j]).abs() < 1e-6 * (k[i][i] * k[j][j]).sqrt(), "{n} {i} {j}");
+        }
+        assert_near(&a.mass, &b.mass, 1e-9, &format!("M {n}"));
+    }
+    assert!(read(&text, Format::Hawc2 { set: Some(2), subset: None }).is_ok());
+    let message = read(&text, Format::Hawc2 { set: Some(3), subset: None }).unwrap_err();
+    assert!(message.contains("it has 1 1, 2 1"), "{message}");
+}
+
+#[test]
+fn a_deck_written_for_hawc2_is_read_as_itself() {
+    for deck in
+        [read_texts(0, &texts(0)).unwrap(), read(&file("IEA_15MW_RWT_Blade_st_FPM.st"), HAWC2).unwrap()]
+    {
+        let again = read(&deck::write_hawc2(&deck, "a title"), HAWC2).unwrap();
+        assert!((deck.length - again.length).abs() < 1e-10 * deck.length);
+        for (n, ((_, a), (_, b))) in deck.table.rows().iter().zip(again.table.rows()).enumerate() {
+            assert_near(&b.stiffness, &a.stiffness, 1e-9, &format!("K {n}"));
+            // The product of inertia about the axes x_e and y_e has no column: the moments about the mass centre keep their sum.
+            let [m, of] = [centred(&a.mass), centred(&b.mass)];
+            assert!(
+                (a.mass[0][4] - b.mass[0][4]).abs().max((a.mass[0][5] - b.mass[0][5]).abs())
+                    < 1e-9 * a.mass[0][0],
+                "M {n}"
+            );
+            assert!(
+                (of[3][3] / m[3][3] - 1.0).abs() < 1e-9 && (of[4][4] / m[4][4] - 1.0).abs() < 0.15,
+                "M {n}"
+            );
+        }
+    }
+}
+
+/// The example of windIO has the sections of the deck of BeamDyn at the same stations.
+#[test]
+fn windio_has_the_line_and_the_sections_of_beamdyn() {
+    let beamdyn = read_texts(0, &texts(0)).unwrap();
+    let text = file("IEA-15-240-RWT_windIO.yaml");
+    let windio = read(&text, Format::WindIo).unwrap();
+    let [caution] = &windio.cautions[..] else { panic!("{:?}", windio.cautions) };
+    assert!(caution.contains("gives no damping"), "{caution}");
+    assert!((windio.length - beamdyn.length).abs() < 1e-3 && windio.damping.is_none());
+    for (n, ((s, a), (t, b))) in beamdyn.table.rows().iter().zip(windio.table.rows()).enumerate() {
+        assert!((s - t).abs() < 1e-3, "{n}: {s} {t}");
+        assert_near(&b.stiffness, &a.stiffness, 1e-9, &format!("K {n}"));
+        assert_near(&b.mass, &a.mass, 1e-9, &format!("M {n}"));
+    }
+    for k in 0..=20 {
+        let s = 117.0 * f64::from(k) / 20.0;
+        let (a, b) = (beamdyn.frame(s), windio.frame(s));
+        // The deck of BeamDyn has been made of it with another interpolation.
+        assert!((a.position - b.position).norm() < 2e-3, "{s}");
+        assert!((a.rotation - b.rotation).0.as_flattened().iter().all(|x| x.abs() < 2e-3), "{s}");
+    }
+    // The words of the schema turn the blade by a right angle.
+    let renamed = |text: &str, names: &[(&str, &str)]| {
+        let first = names
+            .iter()
+            .fold(text.to_owned(), |text, (a, b)| text.replace(&format!("{a}:"), &format!("<{b}>:")));
+        first.replace('<', "").replace(">:", ":")
+    };
+    let exchanged =
+        renamed(&text, &[("K44", "K55"), ("K55", "K44"), ("i_edge", "i_flap"), ("i_flap", "i_edge")]);
+    let message = read(&exchanged, Format::WindIo).unwrap_err();
+    for says in ["K44 is smaller than K55", "chord, of up to 5.76", "exchange the rows"] {
+        assert!(message.contains(says), "{message}");
+    }
+    for (from, to, says) in [
+        ("elastic_properties:", "other:", "no `components.blade` with `elastic_properties`"),
+        ("K66: [87489183048.03288", "K66: [x", "value 1 of `K66` is not a number"),
+        ("K66: [87489183048.03288,", "K66: [", "`K66` has 25 values and its grid 26"),
+        ("K33: [46051081603.60474", "K33: [-46051081603.60474", "K33 = -"),
+        ("mass: [3127", "mass: [-3127", "mass = -"),
+        ("reference_axis:", "axis:", "no `reference_axis`"),
+        (
+            "inertia_matrix:\n                    grid: [0.0, 0.01,",
+            "inertia_matrix:\n                    grid: [0.0, 1.00,",
+            "ascend from 0 to 1",
+        ),
+        ("mu: [0.0, 0.0,", "mu: [0.0,", "`mu` has 5 numbers"),
+        ("mu: [0.0,", "mu: [-0.1,", "negative"),
+        ("components:", "components: [", "is not YAML"),
+    ] {
+        assert!(text.contains(from), "{from}");
+        let message = read(&text.replacen(from, to, 1), Format::WindIo).unwrap_err();
+        assert!(message.contains(says), "{from}: {message}");
+    }
+    let damped = text.replace("mu: [0.0, 0.0, 0.0, 0.0, 0.0, 0.0]", "mu: [1.0e-3, 0, 0, 0, 2e-3, 0]");
+    assert_eq!(read(&damped, Format::WindIo).unwrap().damping, Some([0.0, 0.0, 1e-3, 0.0, 2e-3, 0.0]));
+}
+
+/// Version 1 of windIO: lists of 21 numbers, the twist in radians.
+#[test]
+fn older_windio_is_read_too() {
+    let of = Plain::of(0);
+    let list =
+        |values: &[f64]| format!("[{}]", values.iter().map(f64::to_string).collect::<Vec<_>>().join(", "));
+    let upper = |of: &Matrix| list(&(0..6).flat_map(|i| (i..6).map(move |j| of[i][j])).collect::<Vec<_>>());
+    let rows = |of: &[Matrix]| of.iter().map(|k| format!("            - {}\n", upper(k))).collect::<String>();
+    let grid = list(&of.eta);
+    let along: Vec<f64> = of.keypoints.iter().map(|point| point[2] / 117.0).collect();
+    let column = |k: usize| list(&of.keypoints.iter().map(|point| point[k]).collect::<Vec<_>>());
+    let twist: Vec<f64> = of.keypoints.iter().map(|point| point[3].to_radians()).collect();
+    let text = format!(
+        "components:\n  blade:\n    outer_shape_bem:\n      twist: &t {{grid: &g {}, values: {}}}\n      reference_axis: &a\n        x: {{grid: *g, values: {}}}\n        \
+         y: {{grid: [0, 1], values: [0, 0]}}\n        z: {{grid: *g, values: {}}}\n    elastic_properties_mb:\n      six_x_six:\n        reference_axis: *a\n        \
+         twist: *t\n        stiff_matrix:\n          grid: {grid}\n          values:\n{}        inertia_matrix:\n          grid: {grid}\n          values:\n{}",
+        list(&along),
+        list(&twist),
+        column(0),
+        column(2),
+        rows(&of.stiffness),
+        rows(&of.mass),
+    );
+    let (found, expected) = (read(&text, Format::WindIo).unwrap(), read_texts(0, &texts(0)).unwrap());
+    assert!((found.length - expected.length).abs() < 1e-9);
+    for k in 0..=20 {
+        let s = expected.length * f64::from(k) / 20.0;
+        assert!((found.frame(s).position - expected.frame(s).position).norm() < 1e-8, "{s}");
+        assert!(
+            (found.frame(s).rotation - expected.frame(s).rotation)
+                .0
+                .as_flattened()
+                .iter()
+                .all(|x| x.abs() < 1e-8),
+            "{s}"
+        );
+        assert_near(&found.matrices(s).stiffness, &expected.matrices(s).stiffness, 1e-8, "K");
+    }
+}
+
+/// Tables in CSV: matrices in other units, and places of centres, of one section.
+#[test]
+fn tables_give_matrices_or_centres() {
+    use flexion::section::Matrices;
+    let plain = Matrices::principal([9e8, 4e7, 3e7, 7e6, 1.1e7, 2.3e7], 40.0, [1.5, 0.5, 1.0]);
+    let of = plain
+        .with_shear_centre([0.05, 0.01])
+        .with_tension_centre([0.04, -0.02])
+        .with_mass_centre([-0.03, 0.02]);
+    let centres = "x,mass,mass-y [mm],mass-z,inertia-flap,inertia-chord,EA [MN],GA-chord,GA-flap,GJ,EI-flap [kN m^2],EI-chord,tension-y,tension-z,shear-y,\
+        shear-z,twist [deg]\n0,40,-30,0.02,0.5,1,900,4e7,3e7,7e6,11000,2.3e7,0.04,-0.02,0.05,0.01,0\n\
+        10,40,-30,0.02,0.5,1,900,4e7,3e7,7e6,11000,2.3e7,0.04,-0.02,0.05,0.01,90\n";
+    let deck = read(centres, Format::Csv).unwrap();
+    assert_eq!(deck.cautions, Vec::<String>::new());
+    assert_near(&deck.matrices(3.0).stiffness, &of.stiffness, 1e-12, "K");
+    assert_near(&deck.matrices(3.0).mass, &of.mass, 1e-12, "M");
+    // Without twist the height is y of the blade; positive about z it turns towards −x.
+    for (s, height) in [(0.0, [0.0, 1.0, 0.0]), (10.0, [-1.0, 0.0, 0.0])] {
+        let found = deck.frame(s).rotation.column(1);
+        assert!((0..3).all(|k| (found[k] - height[k]).abs() < 1e-12), "{s}: {found:?}");
+    }
+    let k = of.stiffness;
+    let (mut titles, mut values) =
+        ("x,mass,mass-y,mass-z,inertia-flap,inertia-chord".to_owned(), String::new());
+    for i in 0..6 {
+        for j in i..6 {
+            let (unit, factor) =
+                [("kN", 1e-3), ("kN*m", 1e-3), ("kN*m^2", 1e-3)][usize::from(i > 2) + usize::from(j > 2)];
+            titles += &format!(",K{}{} [{unit}]", i + 1, j + 1);
+            values += &format!(",{:e}", factor * k[i][j]);
+        }
+    }
+    let row = format!(",40,-0.03,0.02,0.5,1{values}\n");
+    let full = read(&format!("{titles}\n0{row}10{row}"), Format::Csv).unwrap();
+    assert_near(&full.matrices(3.0).stiffness, &k, 1e-12, "K");
+    assert_near(&full.matrices(3.0).mass, &of.mass, 1e-12, "M");
+    for (text, says) in [
+        (centres.replace("GA-flap", "GA"), "a column `GA`"),
+        (centres.replace("x,mass,", "x [kg],mass,"), "`kg` is a unit of"),
+        (centres.replace("\n10,", "\n-10,"), "must begin at 0"),
+        (centres.replace("900", "-900"), "K11 = -"),
+        (centres.lines().take(2).collect::<Vec<_>>().join("\n"), "has 1 rows"),
+    ] {
+        let message = read(&text, Format::Csv).unwrap_err();
+        assert!(message.contains(says), "{message}");
+    }
+}
