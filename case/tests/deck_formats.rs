@@ -60,8 +60,9 @@ fn full_matrices_of_hawc2_are_those_of_beamdyn_about_their_centres() {
     assert_eq!(rows.len(), 26);
     for (n, ((_, a), (_, b))) in rows {
         assert_near(&centred(&b.stiffness), &centred(&a.stiffness), 0.01, &format!("K {n}"));
-        // Radii of gyration are about the axes of bending, and have no product there.
-        assert_near(&centred(&b.mass), &centred(&a.mass), 0.1, &format!("M {n}"));
+        // The radii of gyration of the file are the principal ones, of axes that it does not give; read about the axes of bending they miss
+        // up to 13 % of the larger moment.
+        assert_near(&centred(&b.mass), &centred(&a.mass), 0.35, &format!("M {n}"));
         let polar = |m: &Matrix| centred(m)[3][3];
         assert!((polar(&b.mass) / polar(&a.mass) - 1.0).abs() < 0.01, "{n}");
     }

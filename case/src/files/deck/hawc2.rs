@@ -8,8 +8,9 @@
 //! W:  γ_x − y_s κ_z,  γ_y + x_s κ_z,  ε + y_e κ_x − x_e κ_y;      T: a rotation of (x, y) by the pitch;      K = Wᵀ Tᵀ K_e T W
 //! ```
 //!
-//! Radii of gyration are about the centre of mass and the axes x_e and y_e: so they are in the decks of the IEA 15 MW turbine (to 0.2 %, where the
-//! elastic centre would give up to 6 % more), though the manual says elastic centre.
+//! Radii of gyration are about the centre of mass and the axes x_e and y_e. The manual gives these axes and the elastic centre; in the decks of the IEA
+//! 15 MW turbine they are the principal radii about the centre of mass (to 0.2 %; about the elastic centre they would be up to 6 % larger), of axes
+//! that the format does not give: its moments about x_e and y_e are up to 13 % of the larger one off, and their sum is right.
 //!
 //! Columns: HAWC2's manual, *How 2 HAWC2* (Larsen & Hansen, DTU R-1597), as `wetb` of DTU has them; axes by comparison of both decks of the IEA
 //! 15 MW turbine.
