@@ -1,5 +1,7 @@
 //! Broken decks: none is silent. Each is one of the two real decks with one thing wrong, and the message or the caution says what speaks for it.
 
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
 use super::decks::{BLADES, Matrix, Plain, is_true, read, read_texts, texts};
 
 /// A name, what its message has, and how it is broken; the first station that is touched is the 11th.
@@ -307,10 +309,11 @@ fn broken_texts_are_refused_at_their_line() {
             ),
             (
                 "a negative order",
-                primary
-                    .replace("order_elem", "order_elem")
-                    .replacen("         10   order_elem", "-3 order_elem", 1)
-                    .replacen("          5   order_elem", "-3 order_elem", 1),
+                primary.replacen("         10   order_elem", "-3 order_elem", 1).replacen(
+                    "          5   order_elem",
+                    "-3 order_elem",
+                    1,
+                ),
                 "`order_elem`",
             ),
             ("a word for the quadrature", primary.replacen(" 2 ", " two ", 1), "`quadrature`"),
@@ -328,4 +331,52 @@ fn broken_texts_are_refused_at_their_line() {
         assert!(message.contains("give the primary file"), "{message}");
     }
     assert!(silent.is_empty(), "{}", silent.join("\n"));
+}
+
+/// Bytes of a deck changed, left out, doubled and exchanged at random: something is read or refused, and never a panic.
+#[test]
+fn no_bytes_make_a_panic() {
+    use flexion_case::deck::{self, Format};
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../verification/blades");
+    let mut random = fastrand::Rng::with_seed(23);
+    let csv = "x,mass,inertia-flap,inertia-chord,EA,GA-chord,GA-flap,GJ,EI-flap,EI-chord,twist [deg]\n0,40,1,1,9e8,4e7,3e7,7e6,1e7,2e7,0\n\
+               9,40,1,1,9e8,4e7,3e7,7e6,1e7,2e7,5\n";
+    let hawc2 = Format::Hawc2 { set: None, subset: None };
+    let texts = [
+        (BLADES[0][0], Format::BeamDyn),
+        (BLADES[0][1], Format::BeamDyn),
+        ("IEA_15MW_RWT_Blade_st_FPM.st", hawc2),
+        ("IEA-15-240-RWT_windIO.yaml", Format::WindIo),
+        ("", Format::Csv),
+    ];
+    for (name, format) in texts {
+        let whole =
+            if name.is_empty() { csv.as_bytes().to_vec() } else { std::fs::read(folder.join(name)).unwrap() };
+        for _ in 0..400 {
+            let mut bytes = whole.clone();
+            for _ in 0..random.usize(1..6) {
+                let at = random.usize(0..bytes.len());
+                let end = (at + random.usize(1..40)).min(bytes.len());
+                match random.u8(0..5) {
+                    0 => bytes[at] = random.u8(..),
+                    1 => bytes[at] = *random.choice(b"0123456789eE+-.,*/'\"#$[]{}&: \n\t").unwrap(),
+                    2 => drop(bytes.drain(at..end)),
+                    3 => {
+                        let part = bytes[at..end].to_vec();
+                        drop(bytes.splice(at..at, part));
+                    }
+                    _ => bytes.truncate(end),
+                }
+            }
+            let find = |asked: &str| {
+                let other = std::fs::read(folder.join(asked)).map_err(|error| error.to_string());
+                if asked == name || asked == "f" { Ok(bytes.clone().into()) } else { other.map(Into::into) }
+            };
+            let first = if format == Format::BeamDyn { BLADES[0][0] } else { "f" };
+            if let Ok(deck) = deck::read(&find, first, format) {
+                let at = deck.frame(0.3 * deck.length);
+                assert!(at.position.is_finite() && deck.matrices(0.3 * deck.length).fault().is_none());
+            }
+        }
+    }
 }

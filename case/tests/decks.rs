@@ -1,5 +1,7 @@
 //! Decks of blades: what is read of them, held to numbers of another program.
 
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
 use flexion_case::deck::{self, Deck, Format};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -265,6 +267,10 @@ fn one_deck_in_many_spellings_is_one_deck() {
     same("no blank lines between matrices", both(&|text| text.replace("\n\n", "\n")));
     let words = |text: &str| text.replace("\n\n", "\nmass matrix or the next station\n");
     same("words between matrices", [plain[0].clone().into_bytes(), words(&plain[1]).into_bytes()]);
+    let modal = "---- Modal Damping\n4 n_modes - number\n0.01 0.02 0.03 0.04 zeta\n ---------------------- DISTRIBUTED";
+    let newer = plain[1].replace(" ---------------------- DISTRIBUTED", modal);
+    assert!(newer.contains("n_modes"));
+    same("modal damping beside it", [plain[0].clone().into_bytes(), newer.into_bytes()]);
     // A row over two lines.
     let halves = |text: &str| {
         text.replace("E+00    0.000000E+00    0.000000E+00\n", "E+00\n 0.000000E+00    0.000000E+00\n")

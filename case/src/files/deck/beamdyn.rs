@@ -2,7 +2,7 @@
 //!
 //! The line is a natural cubic spline in z through the keypoints and the twist linear in z between them; OpenFAST fits a polynomial instead. The
 //! stations η are fractions of z, which is what OpenFAST does for a blade of one member, and not of the arc length, as its manual says.
-//! Formats: OpenFAST 4 (`BeamDyn_IO.f90`, Apache 2.0).
+//! Formats: OpenFAST 4 and 5 (`BeamDyn_IO.f90`, Apache 2.0).
 
 use super::fortran::{Text, number};
 use super::rows::{BEAMDYN, Row};
@@ -108,7 +108,7 @@ fn keypoints(text: &Text<'_>, cautions: &mut Vec<String>) -> Result<Vec<(usize, 
             member.line, member.values[1]
         ));
     }
-    let mut points: Vec<(usize, Vec3, f64)> = Vec::with_capacity(count);
+    let mut points: Vec<(usize, Vec3, f64)> = Vec::new();
     for number in 1..=count {
         let what = format!("keypoint {number} of {count}: x, y, z, twist");
         let found = if number == 1 { text.numbers(&mut at, 4, &what)? } else { text.row(&mut at, 4, &what)? };
@@ -164,8 +164,18 @@ fn stations(
             found.values[k]
         ));
     }
+    // OpenFAST 5 has the ratios of modal damping behind them, for damp_type 2.
+    if let Some((line, _)) = text.keyword(&["n_modes"]) {
+        let (modes, _) = text.count(&["n_modes"], 0, "the number of modes")?;
+        at = line + 1;
+        if modes > 0 {
+            text.numbers(&mut at, modes, "zeta of the modes")?;
+        } else if text.keyword(&["zeta"]).is_some_and(|(zeta, _)| zeta == at) {
+            at += 1;
+        }
+    }
     let damping = (damped == 1).then(|| std::array::from_fn(|k| found.values[k]));
-    let mut rows: Vec<Row> = Vec::with_capacity(count);
+    let mut rows: Vec<Row> = Vec::new();
     for number in 1..=count {
         let found = text.numbers(&mut at, 1, &format!("the place of station {number} of {count}"))?;
         let eta = found.values[0];

@@ -135,12 +135,15 @@ fn begins_number(word: &str) -> bool {
     word.len() - rest.len() <= 2 && (is_name || rest.starts_with(|c: char| c.is_ascii_digit()))
 }
 
+/// Values of a line that are looked at.
+const LONGEST: usize = 1000;
+
 /// The values of a line, as texts.
 pub(super) fn words(line: &str) -> Vec<String> {
     let mut out = Vec::new();
     let mut rest = line.trim_start_matches([' ', '\t', ',']);
     while let Some(first) = rest.chars().next() {
-        if first == '/' {
+        if first == '/' || out.len() >= LONGEST {
             break;
         }
         if let '"' | '\'' = first {
@@ -152,7 +155,7 @@ pub(super) fn words(line: &str) -> Vec<String> {
             let end = rest.find([' ', '\t', ',', ';']).unwrap_or(rest.len()).max(1);
             let word = &rest[..end];
             match word.split_once('*') {
-                Some((times, value)) if times.parse::<usize>().is_ok_and(|n| n <= 10_000) => {
+                Some((times, value)) if times.parse::<usize>().is_ok_and(|n| n <= LONGEST) => {
                     let times = times.parse().unwrap_or(1);
                     out.extend(std::iter::repeat_n(value.to_owned(), times));
                 }

@@ -110,7 +110,7 @@ pub(super) fn cautions(
 
     if let Some((row, m)) = worst(&|m| (m.axial / m.mass).sqrt(), SPEED) {
         out.push(format!(
-            "{}: a wave along the blade would have the speed √(EA/m) = {:.4} m/s, with {} = EA = {:.3e} N and {} = m = {:.3e} kg/m; \
+            "{}: a wave along the blade would have the speed √(EA/m) = {:.4} m/s, with EA from {} = {:.3e} N and m from {} = {:.3e} kg/m; \
              solids in use have {} to {} m/s: is one of both in other units, or is the order of the rows another?",
             row.at(name, c, 0, c.place[0]),
             (m.axial / m.mass).sqrt(),
@@ -150,7 +150,7 @@ pub(super) fn cautions(
         }
     }
     let largest = measures.iter().flat_map(|m| m.radii()[0]).fold(0.0, f64::max);
-    if !(largest >= SLENDER[0] * length && largest <= SLENDER[1] * length) {
+    if !(SLENDER[0] * length..=SLENDER[1] * length).contains(&largest) {
         out.push(format!(
             "{name}: the largest radius of gyration √(EI/EA) is {largest:.4} m and the blade {length:.4} m long, a ratio of {:.2e} where \
              slender beams have {} to {}: is the length, or a stiffness, in other units?",
@@ -254,9 +254,12 @@ pub(super) fn cautions(
     out
 }
 
+/// A matrix, the row of the diagonal entry that tells most of it, and its value.
+type Quantity = (char, usize, fn(&Measures) -> f64);
+
 /// One station that leaves both its neighbours.
 fn outliers(name: &str, c: &Convention, rows: &[Row], measures: &[Measures], out: &mut Vec<String>) {
-    let quantities: [(char, usize, fn(&Measures) -> f64); 7] = [
+    let quantities: [Quantity; 7] = [
         ('K', 0, |m| m.axial),
         ('M', 0, |m| m.mass),
         ('K', 5, |m| m.bending[0]),
@@ -286,7 +289,7 @@ fn outliers(name: &str, c: &Convention, rows: &[Row], measures: &[Measures], out
 fn of_line(name: &str, line: &Line) -> Vec<String> {
     let mut out = Vec::new();
     let length = line.length();
-    if !(length >= LENGTHS[0] && length <= LENGTHS[1]) {
+    if !(LENGTHS[0]..=LENGTHS[1]).contains(&length) {
         out.push(format!("{name}: the line is {length:.4} m long; are its coordinates in metres?"));
     }
     let mut inclined = (0.0, 0);

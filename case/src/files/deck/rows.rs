@@ -97,8 +97,10 @@ impl Row {
             let at = |i: usize| self.at(name, c, which, c.place[i]);
             for i in 0..6 {
                 if !(of[i][i] > 0.0 && of[i][i].is_finite()) {
+                    let help =
+                        if which == 1 { ", which a deck for equilibria alone needs here, too" } else { "" };
                     return Err(format!(
-                        "{}: {} = {:.4e} must be positive; it is {}",
+                        "{}: {} = {:.4e} must be positive; it is {}{help}",
                         at(i),
                         c.entry(letter, i, i),
                         of[i][i],

@@ -146,12 +146,13 @@ mod tests {
             let message = read(text, "f").unwrap().get("a").unwrap().numbers("f", "a").unwrap_err();
             assert!(message.contains(says), "{message}");
         }
-        let deep = "[".repeat(100_000);
+        let [deep, deeper] = [100, 100_000].map(|n| "[".repeat(n));
         for (text, says) in [
             ("", "is empty"),
             ("a: [1", "is not YAML"),
             ("a: *x", "is not YAML"),
             (&*deep, "nested more than"),
+            (&*deeper, "is not YAML"),
         ] {
             let message = read(text, "f").unwrap_err();
             assert!(message.contains(says), "{message}");
