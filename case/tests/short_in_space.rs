@@ -433,6 +433,7 @@ fn hostile_cases_are_refused_at_their_place() {
         (SHORT, &["integrator={kind='runge-kutta-4', step='1 us'}"], &["integrator.kind", "explicit"]),
         (LONG, &["model.coupling=exact"], &["model.coupling", "[beam]"]),
         (LONG, &["beam.planar=false"], &["beam[1].section", "torsion", "planar = true"]),
+        (LONG, &["beam.direction=[0, 0, 1]"], &["beam[1].planar", "does not lie in the plane"]),
         (LONG, &["beam.name=hub"], &["beam[1].name", "meaning of its own"]),
         (LONG, &["beam.name=ground"], &["beam[1].name", "meaning of its own"]),
         (LONG, &["beam.name=a.b"], &["beam[1].name", "cannot begin"]),

@@ -23,8 +23,7 @@ use crate::values::{Values, item};
 use flexion::contact::{self as touch, Contacting, Surface};
 use flexion::hub_beam::Mount;
 use flexion::linalg::Vec3;
-use flexion::multibody::slender;
-use flexion::multibody::{Body, Model, Multibody};
+use flexion::multibody::{self, Body, Model, Multibody};
 use flexion::system::Fork;
 use named::Named;
 use placed::{Placed, add_beam, add_ends, add_joint, add_load, add_mass, add_point, add_spring};
@@ -46,7 +45,7 @@ pub struct Space {
     /// The bodies.
     pub bodies: Vec<Body>,
     /// The beams, and as they are built.
-    pub beams: Vec<(Beam, slender::Beam)>,
+    pub beams: Vec<(Beam, multibody::Beam)>,
     /// The joints.
     pub joints: Vec<Link>,
     /// How it rotates steadily, or why it does not.
@@ -120,13 +119,13 @@ fn points_of(contact: &Contact, parts: &Parts, beams: &[Beam], joints: &[Joint])
 /// The tables of what a model has, in its order.
 fn tables(
     bodies: &[Body],
-    beams: &[(Beam, slender::Beam)],
+    beams: &[(Beam, multibody::Beam)],
     joints: &[Joint],
     masses: &[Mass],
     loads: &[Load],
 ) -> Tables {
     let all = |table: &'static str, count: usize| (0..count).map(move |i| item(table, i));
-    let held = |(i, (beam, _)): (usize, &(Beam, slender::Beam))| {
+    let held = |(i, (beam, _)): (usize, &(Beam, multibody::Beam))| {
         let ends = beam.ends.iter().filter(|end| **end != End::Free).count();
         std::iter::repeat_n(item("beam", i), ends)
     };
@@ -231,14 +230,23 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
         let built = beam.built(&named.on(i), refine).map_err(|faults| faults.within(&item("beam", i)));
         found.part(built).map(|built| (beam, built))
     };
-    let beams: Vec<Option<(Beam, slender::Beam)>> = beams.into_iter().enumerate().map(build).collect();
+    let beams: Vec<Option<(Beam, multibody::Beam)>> = beams.into_iter().enumerate().map(build).collect();
     let Some(beams) = beams.into_iter().collect::<Option<Vec<_>>>() else { return Err(found.0) };
-    flat &= beams.iter().all(|(_, built)| is_flat(built));
+    for (i, (beam, built)) in beams.iter().enumerate() {
+        let lies = is_flat(built);
+        flat &= lies;
+        found.check(beam.planar && !lies, &format!("{}.planar", item("beam", i)), || {
+            "the beam does not lie in the plane of x and y with one axis of its section".to_owned()
+        });
+    }
     let mut model = Model::new().with_gravity(gravity);
     if drop {
         model = model.drop_redundant_rows();
     }
-    if !beams.is_empty() && beams.iter().all(|(beam, _)| beam.planar) {
+    let turns_in_plane = |joint: &Joint| {
+        matches!(joint.kind, multibody::Kind::Prismatic) || joint.axes.column(2)[2].abs() >= 1.0 - LEVEL
+    };
+    if flat && beams.iter().any(|(beam, _)| beam.planar) && joints.iter().all(turns_in_plane) {
         model = model.in_plane();
     }
     let place = |body: &Body| (model.body(body.clone()), body.frame.position);
@@ -344,11 +352,10 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
 }
 
 /// Whether a beam lies in the plane of x and y, with one axis of its sections.
-fn is_flat(beam: &slender::Beam) -> bool {
+fn is_flat(beam: &multibody::Beam) -> bool {
     let flat = |node| {
-        let (_, triad) = beam.node(node, beam.initial());
-        let up = triad.normal[2].abs();
-        triad.tangent[2].abs() <= LEVEL && (up <= LEVEL || up >= 1.0 - LEVEL)
+        let [tangent, up, _] = beam.node(node, beam.initial()).rotation[2].map(f64::abs);
+        tangent <= LEVEL && (up <= LEVEL || up >= 1.0 - LEVEL)
     };
     (0..beam.nodes().len()).all(flat)
 }
