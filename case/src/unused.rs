@@ -81,9 +81,9 @@ impl Space {
         let bodies = self.bodies.iter().enumerate();
         let bodies = bodies.map(|(i, b)| (item("body", i), b.frame.position, [b.velocity, b.spin]));
         let beams = self.beams.iter().enumerate();
-        let root = |(i, (beam, built)): (usize, &(_, flexion::multibody::slender::Beam))| {
+        let root = |(i, (beam, built)): (usize, &(_, flexion::multibody::Beam))| {
             let beam: &super::kinds::beam::Beam = beam;
-            (item("beam", i), built.node(0, built.initial()).0, beam.motion)
+            (item("beam", i), built.node(0, built.initial()).position, beam.motion)
         };
         bodies.chain(beams.map(root)).collect()
     }

@@ -90,7 +90,7 @@ pub fn described(space: &Space) -> Vec<Vec<String>> {
         rows.push(row(&body.name, format!("{:.6} kg at ({x:.6}, {y:.6}, {z:.6}) m", body.mass)));
     }
     for (beam, built) in &space.beams {
-        let (elements, length, mass) = (built.elements().len(), beam.length, beam.mass());
+        let (elements, length, mass) = (built.elements(), beam.length, beam.mass());
         rows.push(row(&beam.name, format!("{mass:.6} kg, {length} m, {elements} elements")));
     }
     let bodies = space.bodies.iter().map(|body| body.mass);

@@ -13,7 +13,8 @@ use crate::kind::{Choice, Context, Is, Kind, Nothing, Of, Table};
 use crate::units::{ANGLE, ANGULAR_SPEED, BENDING_STIFFNESS, FACTOR, LENGTH, ROTARY_INERTIA, VELOCITY};
 use flexion::linalg::Vec3;
 use flexion::multibody::rotation::{about, frame};
-use flexion::multibody::slender::{self, Properties, Station};
+use flexion::multibody::slender::{Properties, Station};
+use flexion::multibody::{self, slender};
 use flexion::quadrature::Gauss;
 use flexion::section::{AsStiffAcross, BladeSection, Shape};
 use flexion_results::Contour;
@@ -273,7 +274,7 @@ impl Beam {
     }
 
     /// The beam with elements that end where its section asks for it and at these stations \[m\], each cut into `parts`.
-    pub fn built(&self, stations: &[f64], parts: usize) -> Made<slender::Beam> {
+    pub fn built(&self, stations: &[f64], parts: usize) -> Made<multibody::Beam> {
         crate::features::apart(self.blade.jumps(), self.length)?;
         let mut ends = vec![0.0, self.length];
         // The sections of an element are seen at few points: it ends at every row, but for tables of very many.
@@ -294,7 +295,8 @@ impl Beam {
         }
         // A little inside its element, so that a section that jumps has the value of that element.
         let middle = |s: f64| s.clamp(1e-12 * self.length, (1.0 - 1e-12) * self.length);
-        slender::Beam::new(&nodes, |s| (self.curve)(s), |s| self.properties(middle(s))).map_err(|error| {
+        let built = slender::Beam::new(&nodes, |s| (self.curve)(s), |s| self.properties(middle(s)));
+        built.map(multibody::Beam::from).map_err(|error| {
             let key = match error {
                 slender::BeamError::Turned { .. } => "elements",
                 slender::BeamError::Section { .. } => "section",

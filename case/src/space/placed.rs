@@ -13,7 +13,6 @@ use flexion::contact as touch;
 use flexion::hub_beam::load::Axes;
 use flexion::linalg::{Mat3, Vec3};
 use flexion::multibody::rotation::about;
-use flexion::multibody::slender;
 use flexion::multibody::{self, Body, Directions, Flexible, Marker, Model, Part};
 use flexion::system::Frame;
 use std::sync::Arc;
@@ -21,7 +20,7 @@ use std::sync::Arc;
 /// The parts of a model, and where they stand.
 pub(super) struct Placed<'b> {
     pub(super) bodies: Vec<(Part, Vec3)>,
-    pub(super) beams: &'b [(Beam, slender::Beam)],
+    pub(super) beams: &'b [(Beam, multibody::Beam)],
 }
 
 impl Placed<'_> {
@@ -35,7 +34,7 @@ impl Placed<'_> {
                 let apart = |node: &usize| (built.nodes()[*node] - s).abs();
                 let nearest = (0..built.nodes().len()).min_by(|a, b| apart(a).total_cmp(&apart(b)));
                 let node = nearest.unwrap_or(0);
-                (Part::Section { beam, node }, Some(built.node(node, built.initial()).0))
+                (Part::Section { beam, node }, Some(built.node(node, built.initial()).position))
             }
         }
     }
@@ -113,11 +112,11 @@ pub(super) fn add_load(model: &mut Model, parts: &Placed<'_>, load: &Load, numbe
     let (name, amplitude) = (numbered(&load.name, "load", number), load.amplitude.clone());
     let elements = |beam: usize, range: (f64, f64)| {
         let (of, built) = &parts.beams[beam];
-        let node = |station: f64| {
-            let near = |node: &f64| (node - station).abs() <= 1e-9 * of.length;
-            built.nodes().iter().position(near).ok_or_else(Faults::default)
+        let end = |station: f64| {
+            let near = |i: &usize| (built.end(*i) - station).abs() <= 1e-9 * of.length;
+            (0..=built.elements()).find(near).ok_or_else(Faults::default)
         };
-        Ok::<_, Faults>(Some(node(range.0)?..node(range.1)?))
+        Ok::<_, Faults>(Some(end(range.0)?..end(range.1)?))
     };
     match &load.acts {
         Acts::At { on, at, force, couple } => {
@@ -191,7 +190,7 @@ pub(super) fn add_point(
 }
 
 /// Adds a beam and the joints of its ends.
-pub(super) fn add_beam(model: &mut Model, (beam, built): &(Beam, slender::Beam), in_root_axes: bool) {
+pub(super) fn add_beam(model: &mut Model, (beam, built): &(Beam, multibody::Beam), in_root_axes: bool) {
     let [velocity, spin] = beam.motion;
     let [damping, viscosity] = beam.damping;
     let flexible = Flexible::new(&beam.name, built.clone()).damped(damping).viscous(viscosity);
@@ -203,14 +202,18 @@ pub(super) fn add_beam(model: &mut Model, (beam, built): &(Beam, slender::Beam),
 }
 
 /// Adds the joints of a beam's ends.
-pub(super) fn add_ends(model: &mut Model, number: usize, (beam, built): &(Beam, slender::Beam)) -> Made<()> {
+pub(super) fn add_ends(
+    model: &mut Model,
+    number: usize,
+    (beam, built): &(Beam, multibody::Beam),
+) -> Made<()> {
     for (end, name, node) in [(beam.ends[0], "root", 0), (beam.ends[1], "tip", built.nodes().len() - 1)] {
         let kind = match end {
             End::Free => continue,
             End::Clamped => multibody::Kind::Fixed,
             End::Hinged => multibody::Kind::Spherical,
         };
-        let point = built.node(node, built.initial()).0;
+        let point = built.node(node, built.initial()).position;
         let parts = [Part::Ground, Part::Section { beam: number, node }];
         let name = format!("{}-{name}", beam.name);
         model

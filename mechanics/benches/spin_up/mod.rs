@@ -161,9 +161,9 @@ pub fn evaluate(has_shear: bool, differentiate: bool, elements: usize, count: us
         let (mut r, mut sum) = (vec![0.0; d.len()], 0.0);
         for _ in 0..count {
             if differentiate {
-                beam.add_tangent(&q, &d, &d, &w, |_, block| sum += block[7][11]);
+                beam.add_tangent([&q, &d, &d], Vec3::ZERO, &w, |_, block| sum += block[7][11]);
             } else {
-                beam.add_forces(&q, &d, &d, &mut r);
+                beam.add_forces([&q, &d, &d], Vec3::ZERO, &mut r);
             }
         }
         black_box((r, sum));

@@ -119,14 +119,14 @@ fn put_station(of: &Flexible, station: f64, [q, v]: [&[f64]; 2], sink: &mut Sink
     let displacement = frame.position - start.position;
     let role = if of.in_root_axes { Role::Detail } else { Role::Primary };
     put(displacement, role, "displacement", "m", "displacement since the state without stress");
-    put(of.velocity(v, station), Role::Detail, "velocity", "m/s", "velocity");
+    put(of.beam.velocity(v, station), Role::Detail, "velocity", "m/s", "velocity");
     sink.put_all(Quaternion::from(frame.rotation).0, PARTS, |part| {
         let meaning = format!("rotation of the section {}: component {part} of the unit quaternion", at());
         Channel::new(Role::Detail, name(&format!("rotation.{part}")), "", meaning).with_kind(Kind::Quaternion)
     });
-    let sample = of.sample(q, station);
-    let [strain, torsion, about_n, about_b] = sample.strain;
-    let [force, torque, moment_n, moment_b] = sample.stress;
+    let sample = of.beam.sample(q, station);
+    let [strain, shear_n, shear_b, torsion, about_n, about_b] = sample.strain;
+    let [force, force_n, force_b, torque, moment_n, moment_b] = sample.stress;
     let mut put = |value, quantity: &str, unit: &'static str, what: &str| {
         sink.put(value, || Channel::new(Role::Detail, name(quantity), unit, format!("{what} {}", at())));
     };
@@ -138,6 +138,12 @@ fn put_station(of: &Flexible, station: f64, [q, v]: [&[f64]; 2], sink: &mut Sink
     put(torsion, "torsion", "1/m", "torsion κ₁");
     put(about_n, "curvature.n", "1/m", "curvature κ₂ about the second axis of the section");
     put(about_b, "curvature.b", "1/m", "curvature κ₃ about the third axis of the section");
+    if of.beam.has_shear() {
+        put(force_n, "shear_force.n", "N", "shear force Q₂ along the second axis of the section");
+        put(force_b, "shear_force.b", "N", "shear force Q₃ along the third axis of the section");
+        put(shear_n, "shear.n", "", "shear strain γ₂ along the second axis of the section");
+        put(shear_b, "shear.b", "", "shear strain γ₃ along the third axis of the section");
+    }
 }
 
 fn put_joint(joint: &Joint, [force, moment]: [Vec3; 2], sink: &mut Sink<'_>) {

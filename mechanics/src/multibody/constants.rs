@@ -5,11 +5,11 @@ use super::error::DependentRow;
 use super::force::angle_between;
 use super::joint::Coordinate;
 use super::layout::{Link, layout};
+use super::line_load::LineDistribution;
 use super::marker::Part;
 use super::model::Model;
 use super::rotation::Quaternion;
 use super::row::Row;
-use super::slender::{ELEMENT_VELOCITIES, LineDistribution};
 use crate::drive::force_breaks;
 use crate::linalg::{Mat3, Structure, Vec3};
 use crate::system::{Break, Frame, Set, Size, State, ordered};
@@ -66,10 +66,8 @@ impl Constants {
             across.extend((0..3).filter(|k| *k != about).map(|k| 6 * place + 3 + k));
         }
         for (of, [_, first]) in self.model.beams.iter().zip(&self.beams) {
-            for node in 0..of.beam.nodes().len() {
-                let at = first + ELEMENT_VELOCITIES * node;
-                let end = (at + ELEMENT_VELOCITIES).min(first + of.beam.velocities());
-                across.extend([at + 2, at + 5].into_iter().chain(at + 6..end));
+            if !of.beam.put_across(*first, &mut across) {
+                return Vec::new();
             }
         }
         across
@@ -87,16 +85,11 @@ impl Constants {
         let (mut sizes, mut chains, mut elements) = (vec![6; bodies], Vec::new(), Vec::new());
         let (mut q, mut v, mut beams) = (7 * bodies, 6 * bodies, Vec::new());
         for of in &mut model.beams {
-            of.beam.damp(of.damping);
-            of.beam.make_viscous(of.viscosity);
+            of.beam.damp(of.damping, of.viscosity);
             chains.push(sizes.len());
             beams.push([q, v]);
-            for _ in of.beam.elements() {
-                let nodes = [Some(sizes.len()), Some(sizes.len() + 1)];
-                elements.push(Link { nodes, rows: 0 });
-                sizes.push(ELEMENT_VELOCITIES);
-            }
-            sizes.push(ELEMENT_VELOCITIES - 1);
+            elements.extend(of.beam.links(sizes.len()));
+            sizes.extend(of.beam.sizes());
             (q, v) = (q + of.beam.coordinates(), v + of.beam.velocities());
         }
         let body = |part| match part {
@@ -110,13 +103,10 @@ impl Constants {
         };
         let of_joint: Vec<Range<usize>> = (0..model.joints.len()).map(range).collect();
         let joints = model.joints.iter().zip(&of_joint);
-        let mut links: Vec<Link> = joints
-            .map(|(j, rows)| Link { nodes: [body(j.from.part), body(j.to.part)], rows: rows.len() })
-            .collect();
+        let mut links: Vec<Link> =
+            joints.map(|(j, rows)| Link::new([body(j.from.part), body(j.to.part)], rows.len())).collect();
         links.extend(elements);
-        links.extend(
-            model.springs.iter().map(|s| Link { nodes: [body(s.from.part), body(s.to.part)], rows: 0 }),
-        );
+        links.extend(model.springs.iter().map(|s| Link::new([body(s.from.part), body(s.to.part)], 0)));
         let plan = layout(&sizes, bodies, &links);
         let place: Vec<usize> = plan.first[..bodies].iter().map(|first| first / 6).collect();
         let coordinates: Vec<_> = model.joints.iter().map(|joint| joint.kind.coordinate()).collect();
@@ -148,7 +138,7 @@ impl Constants {
             .collect();
         let arms = markers.iter().filter(|(part, _)| *part != Part::Ground);
         let length = arms.map(|(_, f)| f.position.dot(f.position).sqrt());
-        let spans = model.beams.iter().map(|of| of.beam.elements().iter().map(|e| e.length()).sum());
+        let spans = model.beams.iter().map(|of| (0..of.beam.elements()).map(|e| of.beam.length(e)).sum());
         let length = length.chain(spans).fold(0.0, f64::max);
         let length = if length > 0.0 { length } else { 1.0 };
         let mut breaks: Vec<Break> = model.joints.iter().flat_map(|joint| joint.breaks()).collect();
@@ -157,25 +147,23 @@ impl Constants {
         breaks.extend(amplitudes.flatten().flat_map(|amplitude| force_breaks(amplitude.as_ref())));
         let mut weight = vec![0.0; v];
         for (of, [_, at]) in model.beams.iter().zip(&beams) {
-            for (e, element) in of.beam.elements().iter().enumerate() {
-                add_centreline(
-                    &element.body_force(model.gravity),
-                    &mut weight[at + ELEMENT_VELOCITIES * e..],
-                );
-            }
+            of.beam.add_weight(model.gravity, &mut weight[*at..]);
         }
         let joints = model.joints.len();
         let mut scales: Vec<f64> = (0..6 * bodies).map(|i| if i % 6 < 3 { length } else { 1.0 }).collect();
         for of in &model.beams {
-            let of_node = |i| if i % ELEMENT_VELOCITIES < 3 { length } else { 1.0 };
-            scales.extend((0..of.beam.velocities()).map(of_node));
+            scales.extend(of.beam.scales(length));
         }
         let constants = Constants {
             size: Size { q, v, lambda: rows.len(), memory: 0 },
             sets: [true, false].map(|held| sets(&model, &rows, held)),
             scales,
             beams,
-            lines: model.line_loads.iter().map(|load| load.along(&model.beams[load.beam].beam)).collect(),
+            lines: model
+                .line_loads
+                .iter()
+                .map(|load| model.beams[load.beam].beam.distribution(load))
+                .collect(),
             weight,
             structures: plan.structures,
             breaks: ordered(breaks),
@@ -213,7 +201,8 @@ impl Constants {
         for (i, (of, &[q, v])) in self.model.beams.iter().zip(&self.beams).enumerate() {
             let n = of.beam.coordinates();
             s.q[q..q + n].copy_from_slice(of.beam.initial());
-            of.set_twist(twist(bodies + i, of.velocity, of.spin), &s.q[q..q + n], &mut s.v[v..]);
+            let [velocity, spin] = twist(bodies + i, of.velocity, of.spin);
+            of.beam.move_rigidly(velocity, spin, &s.q[q..q + n], &mut s.v[v..]);
         }
         let mut q = s.q.clone();
         self.count_angles(&s.q, &vec![0.0; s.v.len()], &mut q);
@@ -271,15 +260,14 @@ impl Constants {
         match part {
             Part::Ground => frame.rotation,
             Part::Section { beam, node } => {
-                let triad = self.model.beams[*beam].beam.node(*node, &q[self.beams[*beam][0]..]).1;
-                triad.rotation() * frame.rotation
+                let section = self.model.beams[*beam].beam.node(*node, &q[self.beams[*beam][0]..]);
+                section.rotation * frame.rotation
             }
             Part::Body(i) => Quaternion::at(q, 7 * self.place[*i] + 3).matrix() * frame.rotation,
         }
     }
 
-    /// a·(δθ_B − δθ_A) of a joint, 0 where less than a radian. The rotation of a section is the smallest one of its tangent, which is no
-    /// more than half a turn, and a twist about it.
+    /// a·(δθ_B − δθ_A) of a joint, 0 where less than a radian.
     fn turned(&self, k: usize, from: &[f64], d: &[f64], to: &[f64]) -> f64 {
         let increment = |marker: usize| match self.markers[marker].0 {
             Part::Ground => None,
@@ -290,9 +278,7 @@ impl Constants {
             }
             Part::Section { beam, node } => {
                 let [q, v] = self.beams[beam];
-                let twist = d[v + ELEMENT_VELOCITIES * node + 6];
-                let tangent = || self.model.beams[beam].beam.node(node, &to[q..]).1.tangent;
-                (twist.abs() > 1.0).then(|| twist * tangent())
+                self.model.beams[beam].beam.turned(node, &from[q..], &d[v..], &to[q..])
             }
         };
         let (a, b) = (increment(2 * k), increment(2 * k + 1));
@@ -312,13 +298,6 @@ fn sets(model: &Model, rows: &[(usize, Row)], held: bool) -> Vec<Set> {
     let friction = |normal| Set::Friction { coefficient: 0.0, normal };
     let set = |(i, row)| if is_free(row) { friction(i) } else { Set::Free };
     rows.iter().enumerate().map(set).collect()
-}
-
-/// Adds forces on r₁, r′₁, r₂, r′₂ of an element to those from its first velocity on.
-pub(super) fn add_centreline(forces: &[Vec3; 4], out: &mut [f64]) {
-    for (at, force) in [0, 3, ELEMENT_VELOCITIES, ELEMENT_VELOCITIES + 3].into_iter().zip(forces) {
-        (0..3).for_each(|k| out[at + k] += force[k]);
-    }
 }
 
 /// `angle` with the number of turns that brings it nearest to `to`.

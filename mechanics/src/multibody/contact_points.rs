@@ -1,7 +1,7 @@
 //! Points of bodies and beams that may touch obstacles.
 
+use super::beam::Beam;
 use super::marker::MOST;
-use super::slender::Beam;
 use super::system::Multibody;
 use crate::contact::{Curve, Obstacle, PointMotion, Points, Variation};
 use crate::linalg::{Matrix, Vec3};

@@ -1,6 +1,5 @@
 //! Known times, prescribed speeds that jump, and how fast parts rotate.
 
-use super::slender::ELEMENT_VELOCITIES;
 use super::system::Multibody;
 use crate::system::{Break, Events, State};
 
@@ -17,11 +16,8 @@ impl Events for Multibody {
         let square = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>();
         let bodies = (0..self.placed.len()).map(|i| square(&s.v[6 * i + 3..6 * i + 6]));
         let beams = self.constants.model.beams.iter().zip(&self.constants.beams);
-        let nodes = beams.flat_map(|(of, &[_, j])| {
-            let node = move |k: usize| square(&s.v[j + ELEMENT_VELOCITIES * k..][3..7]);
-            (0..of.beam.nodes().len()).map(node)
-        });
-        bodies.chain(nodes).fold(0.0, f64::max).sqrt()
+        let nodes = beams.map(|(of, &[_, j])| of.beam.turning(&s.v[j..]));
+        nodes.fold(bodies.fold(0.0, f64::max).sqrt(), f64::max)
     }
 
     /// ∂g/∂t of a prescribed motion is −ω.

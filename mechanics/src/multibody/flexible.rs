@@ -1,24 +1,16 @@
-//! A slender beam as a part of a model, and loads along it.
+//! A beam as a part of a model.
 
-use super::body::Twist;
+use super::beam::Beam;
 use super::error::PartFault;
-use super::force::Axes;
-use super::slender::{
-    Beam, COORDINATES, ELEMENT_COORDINATES, ELEMENT_VELOCITIES, LineDistribution, Sample, Triad,
-    distributed_weights, uniform_weights,
-};
-use crate::linalg::{Mat3, Vec3};
-use crate::profile::Profile;
+use crate::linalg::Vec3;
 use crate::system::Frame;
-use std::ops::Range;
-use std::sync::Arc;
 
-/// A slender beam as it stands at the start: without stress, and moving as a rigid body.
+/// A beam as it stands at the start: without stress, and moving as a rigid body.
 #[derive(Clone, Debug)]
 pub struct Flexible {
     /// Name, unique in its model.
     pub name: String,
-    /// Centreline without stress, mesh and sections. Its own damping is replaced.
+    /// Axis without stress, mesh and sections. The damping of a slender one is replaced.
     pub beam: Beam,
     /// Velocity of its first node at the start, inertial axes \[m/s\].
     pub velocity: Option<Vec3>,
@@ -49,7 +41,8 @@ pub struct Fibre {
 
 impl Flexible {
     /// A beam at rest and without damping, of which the last node is recorded.
-    pub fn new(name: &str, beam: Beam) -> Flexible {
+    pub fn new(name: &str, beam: impl Into<Beam>) -> Flexible {
+        let beam = beam.into();
         let end = beam.nodes().last().copied().unwrap_or(0.0);
         Flexible {
             name: name.to_owned(),
@@ -116,149 +109,20 @@ impl Flexible {
         Some(PartFault::Fibres(twice[0].to_owned()))
     }
 
-    /// Writes the velocities of a rigid motion: the velocity of the root and the angular velocity.
-    pub(super) fn set_twist(&self, [velocity, spin]: Twist, q: &[f64], v: &mut [f64]) {
-        let (origin, _) = self.beam.node(0, q);
-        for node in 0..self.beam.nodes().len() {
-            let (position, triad) = self.beam.node(node, q);
-            let at = ELEMENT_VELOCITIES * node;
-            let slope = triad.length * triad.tangent;
-            let velocity = velocity + spin.cross(position - origin);
-            velocity.put(v, at);
-            spin.cross(slope).put(v, at + 3);
-            v[at + 6] = spin.dot(triad.tangent);
-            if let Some(element) = self.beam.elements().get(node) {
-                v[at + 7] = spin.dot(element.section(&coordinates(q, node), 0.5).1.tangent);
-            }
-        }
-    }
-
-    /// The element of the arc length `s` and the place 0 … 1 in it.
-    pub(super) fn place(&self, s: f64) -> (usize, f64) {
-        let nodes = self.beam.nodes();
-        let element = nodes.partition_point(|node| *node <= s).clamp(1, nodes.len() - 1) - 1;
-        (element, (s - nodes[element]) / (nodes[element + 1] - nodes[element]))
-    }
-
-    /// The rotation of node `i` from one configuration to another.
-    pub(super) fn rotation(&self, node: usize, before: &[f64], now: &[f64]) -> Mat3 {
-        let [before, now] = [before, now].map(|q| self.beam.node(node, q).1);
-        now.rotation() * before.rotation().transpose()
-    }
-
     /// Position and axes at the arc length `s`.
     pub(super) fn frame(&self, q: &[f64], s: f64) -> Frame {
-        let (position, triad) = self.section(q, s);
-        Frame { position, rotation: triad.rotation() }
-    }
-
-    /// Position and axes at the arc length `s`.
-    pub(super) fn section(&self, q: &[f64], s: f64) -> (Vec3, Triad) {
-        let (element, z) = self.place(s);
-        self.beam.elements()[element].section(&coordinates(q, element), z)
-    }
-
-    /// Velocity of the centreline at the arc length `s`.
-    pub(super) fn velocity(&self, v: &[f64], s: f64) -> Vec3 {
-        let (element, z) = self.place(s);
-        let v = std::array::from_fn(|k| v[ELEMENT_VELOCITIES * element + k]);
-        self.beam.elements()[element].velocity(&v, z)
-    }
-
-    /// Strains and stress resultants at the arc length `s`: the cubic through the quadrature points of the two elements next to it,
-    /// where their errors are of higher order than elsewhere. The place is the arc length.
-    pub(super) fn sample(&self, q: &[f64], s: f64) -> Sample {
-        let ((element, z), nodes) = (self.place(s), self.beam.nodes());
-        let first =
-            if z < 0.5 { element.saturating_sub(1) } else { element }.min(nodes.len().saturating_sub(3));
-        let mut values = [Sample::default(); 4];
-        let mut count = 0;
-        for (e, element) in self.beam.elements().iter().enumerate().skip(first).take(2) {
-            for sample in element.samples(&coordinates(q, e)) {
-                values[count] = Sample { place: nodes[e] + sample.place * element.length(), ..sample };
-                count += 1;
-            }
-        }
-        let mut out = Sample { place: s, ..Sample::default() };
-        for (k, value) in values[..count].iter().enumerate() {
-            let others = values[..count].iter().enumerate().filter(|(j, _)| *j != k);
-            let part: f64 =
-                others.map(|(_, other)| (s - other.place) / (value.place - other.place)).product();
-            for i in 0..4 {
-                out.strain[i] += part * value.strain[i];
-                out.stress[i] += part * value.stress[i];
-            }
-            out.winding += part * value.winding;
-        }
-        out
+        self.beam.frame(q, s)
     }
 
     /// The strain ε + z κ₂ − y κ₃ + ½ (y² + z²) (κ₁² − κ₁₀²) of a fibre.
     pub(super) fn fibre_strain(&self, q: &[f64], fibre: &Fibre) -> f64 {
-        let (of, [y, z]) = (self.sample(q, fibre.station), fibre.place);
-        let [axial, _, second, third] = of.strain;
+        let (of, [y, z]) = (self.beam.sample(q, fibre.station), fibre.place);
+        let [axial, _, _, _, second, third] = of.strain;
         axial + z * second - y * third + (y * y + z * z) * of.winding
-    }
-
-    /// The ends of an element that is twisted by more than half a turn.
-    pub(super) fn twisted(&self, q: &[f64]) -> Option<[f64; 2]> {
-        let mut elements = self.beam.elements().iter().enumerate();
-        let (number, _) = elements.find(|(e, element)| element.is_wound(&coordinates(q, *e)))?;
-        Some([self.beam.nodes()[number], self.beam.nodes()[number + 1]])
     }
 
     /// The name of a station in the names of its columns.
     pub(super) fn station_name(&self, s: f64) -> String {
         if self.beam.nodes().last() == Some(&s) { "tip".to_owned() } else { format!("s={s}") }
-    }
-}
-
-/// The coordinates of an element.
-fn coordinates(q: &[f64], element: usize) -> [f64; COORDINATES] {
-    std::array::from_fn(|k| q[ELEMENT_COORDINATES * element + k])
-}
-
-/// A force per length along a beam.
-#[derive(Clone, Debug)]
-pub struct LineLoad {
-    /// Name, unique in its model.
-    pub name: String,
-    /// Number of the beam.
-    pub beam: usize,
-    /// Elements on which it acts; `None` for all.
-    pub elements: Option<Range<usize>>,
-    /// Factor f(s) of the force by the arc length s \[m\]; 1 where there is none.
-    pub distribution: Option<Arc<dyn Profile>>,
-    /// Force per length without stress [N/m].
-    pub force: Vec3,
-    /// What the components refer to: inertial axes, or the axes of each section.
-    pub axes: Axes,
-    /// Factor f(t); 1 where there is none.
-    pub amplitude: Option<Arc<dyn Profile>>,
-}
-
-impl LineLoad {
-    /// Its weights on its beam.
-    pub(super) fn along(&self, beam: &Beam) -> LineDistribution {
-        let count = beam.elements().len();
-        let on = self.elements.clone().map_or(0..count, |on| on.start.min(count)..on.end.min(count));
-        let weights = |element: usize| {
-            let (start, end, h) =
-                (beam.nodes()[element], beam.nodes()[element + 1], beam.elements()[element].length());
-            let Some(f) = &self.distribution else { return uniform_weights(h) };
-            let within = f.breaks().iter().copied().filter(|s| *s > start && *s < end);
-            let cuts: Vec<f64> = [start].into_iter().chain(within).chain([end]).collect();
-            distributed_weights(h, start, &cuts, |s| f.value(s))
-        };
-        LineDistribution { first: on.start, weights: on.map(weights).collect() }
-    }
-
-    /// The components at the time `t` when `part` of the loads acts.
-    pub(super) fn at(&self, t: f64, part: f64) -> Vec3 {
-        part * self.amplitude.as_ref().map_or(1.0, |f| f.value(t)) * self.force
-    }
-
-    pub(super) fn follows(&self) -> bool {
-        self.axes == Axes::Follower
     }
 }

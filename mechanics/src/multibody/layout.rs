@@ -21,6 +21,15 @@ use crate::linalg::Structure;
 pub(super) struct Link {
     pub(super) nodes: [Option<usize>; 2],
     pub(super) rows: usize,
+    /// Whether the tree may lead along it: not along those of an element but from node to node.
+    pub(super) along: bool,
+}
+
+impl Link {
+    /// A link that the tree may lead along.
+    pub(super) fn new(nodes: [Option<usize>; 2], rows: usize) -> Link {
+        Link { nodes, rows, along: true }
+    }
 }
 
 /// Order of the nodes and structure of the matrices.
@@ -68,7 +77,7 @@ struct Tree {
 impl Tree {
     fn new(nodes: usize, links: &[Link]) -> Tree {
         // Joints before mere forces.
-        let mut sorted: Vec<usize> = (0..links.len()).collect();
+        let mut sorted: Vec<usize> = (0..links.len()).filter(|k| links[*k].along).collect();
         sorted.sort_by_key(|k| links[*k].rows == 0);
         let mut neighbours: Vec<Vec<(usize, usize)>> = vec![Vec::new(); nodes];
         let mut roots = Vec::new();
@@ -284,7 +293,7 @@ mod tests {
     use super::*;
 
     fn joint(a: usize, b: Option<usize>) -> Link {
-        Link { nodes: [Some(a), b], rows: 5 }
+        Link::new([Some(a), b], 5)
     }
 
     fn pieces(structure: &Structure) -> [usize; 3] {
@@ -351,9 +360,7 @@ mod tests {
     fn every_unknown_has_a_place_of_its_own() {
         let links = [joint(2, Some(0)), joint(1, Some(2)), joint(0, Some(1)), joint(3, Some(1))];
         let many: Vec<Link> = (0..30)
-            .flat_map(|k| {
-                links.iter().map(move |l| Link { nodes: l.nodes.map(|n| n.map(|n| n + 4 * k)), rows: l.rows })
-            })
+            .flat_map(|k| links.iter().map(move |l| Link::new(l.nodes.map(|n| n.map(|n| n + 4 * k)), l.rows)))
             .collect();
         let plan = layout(&[6; 120], 120, &many);
         for (k, structure) in plan.structures.iter().enumerate().skip(1) {

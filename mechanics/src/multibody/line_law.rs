@@ -1,12 +1,12 @@
 //! Force laws along beams in space.
 //!
-//! In each element at Gauss points, with the shape functions N of the cubic centreline:
+//! In each element at Gauss points, with the [functions](super::beam) N of the axis:
 //!
 //! ```text
 //! Q = ∫ Nᵀ f(t, N q, N q̇) ds,   ∂Q/∂q = ∫ Nᵀ D_r N ds,   ∂Q/∂q̇ = ∫ Nᵀ D_v N ds
 //! ```
 
-use super::slender::{Beam, ELEMENT_COORDINATES, ELEMENT_VELOCITIES};
+use super::beam::Beam;
 use crate::law::{ForceLaw, Place, Response};
 use crate::linalg::{Matrix, Vec3};
 use crate::system::Weights;
@@ -37,15 +37,18 @@ pub struct LineLaw {
 /// A force law at the points of its beam.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Sampled {
-    /// Of each point: number of its element, and shape functions of r₁, r′₁, r₂, r′₂, with the weight of the quadrature.
-    points: Arc<[(usize, [f64; 4], f64)]>,
+    points: Arc<[Point]>,
     places: Vec<Place>,
     responses: Vec<Response>,
 }
 
-/// Where r₁, r′₁, r₂, r′₂ of an element begin, of `step` numbers an element.
-fn places(element: usize, step: usize) -> [usize; 4] {
-    [0, 3, step, step + 3].map(|at| step * element + at)
+/// A point of a beam: where the four vectors of its element begin among coordinates and velocities, their functions N, and the weight
+/// of the quadrature \[m\].
+#[derive(Clone, Debug)]
+struct Point {
+    supports: [[usize; 2]; 4],
+    shapes: [f64; 4],
+    weight: f64,
 }
 
 impl Sampled {
@@ -53,13 +56,10 @@ impl Sampled {
     pub(super) fn new(law: &LineLaw, beam: &Beam) -> Sampled {
         let on = law.elements.clone().unwrap_or(0..usize::MAX);
         let mut points = Vec::new();
-        for (e, element) in beam.elements().iter().enumerate().filter(|(e, _)| on.contains(e)) {
-            let h = element.length();
+        for e in (0..beam.elements()).filter(|e| on.contains(e)) {
             for (z, weight) in GAUSS {
-                let (square, cube) = (z * z, z * z * z);
-                let first = 1.0 - 3.0 * square + 2.0 * cube;
-                let shapes = [first, h * (z - 2.0 * square + cube), 1.0 - first, h * (cube - square)];
-                points.push((e, shapes, h * weight));
+                let [shapes, ..] = beam.shapes(e, z);
+                points.push(Point { supports: beam.supports(e), shapes, weight: beam.length(e) * weight });
             }
         }
         let count = points.len();
@@ -72,15 +72,15 @@ impl Sampled {
 
     /// Evaluates the law at the time `t`, with q and v of the beam.
     fn evaluate(&mut self, law: &dyn ForceLaw, t: f64, [q, v]: [&[f64]; 2]) {
-        for ((element, shapes, _), place) in self.points.iter().zip(&mut self.places) {
-            let at = |x: &[f64], step: usize| {
+        for (Point { supports, shapes, .. }, place) in self.points.iter().zip(&mut self.places) {
+            let at = |x: &[f64], k: usize| {
                 let mut sum = Vec3::ZERO;
-                for (n, at) in shapes.iter().zip(places(*element, step)) {
-                    sum += *n * Vec3::at(x, at);
+                for (n, at) in shapes.iter().zip(supports) {
+                    sum += *n * Vec3::at(x, at[k]);
                 }
                 sum.0
             };
-            let (position, velocity) = (at(q, ELEMENT_COORDINATES), at(v, ELEMENT_VELOCITIES));
+            let (position, velocity) = (at(q, 0), at(v, 1));
             *place = Place { time: t, position, velocity };
         }
         law.responses(&self.places, &mut self.responses);
@@ -94,9 +94,9 @@ impl Sampled {
         r: &mut [f64],
     ) {
         self.evaluate(law, t, state);
-        for ((element, shapes, weight), response) in self.points.iter().zip(&self.responses) {
-            for (n, at) in shapes.iter().zip(places(*element, ELEMENT_VELOCITIES)) {
-                (c * weight * n * Vec3(response.force)).add_to(r, at);
+        for (Point { supports, shapes, weight }, response) in self.points.iter().zip(&self.responses) {
+            for (n, [_, at]) in shapes.iter().zip(supports) {
+                (c * weight * n * Vec3(response.force)).add_to(r, *at);
             }
         }
     }
@@ -110,8 +110,8 @@ impl Sampled {
         (first, out): (usize, &mut Matrix),
     ) {
         self.evaluate(law, t, state);
-        for ((element, shapes, weight), response) in self.points.iter().zip(&self.responses) {
-            let at = places(*element, ELEMENT_VELOCITIES).map(|at| first + at);
+        for (Point { supports, shapes, weight }, response) in self.points.iter().zip(&self.responses) {
+            let at = supports.map(|[_, at]| first + at);
             for i in 0..3 {
                 for j in 0..3 {
                     let by = w.q * response.by_position[i][j] + w.v * response.by_velocity[i][j];
@@ -131,10 +131,8 @@ impl Sampled {
     /// ∫ f·ṙ ds \[W\]
     pub(super) fn power(&mut self, law: &dyn ForceLaw, t: f64, state: [&[f64]; 2]) -> f64 {
         self.evaluate(law, t, state);
-        let of = |(((_, _, weight), place), response): (((_, _, &f64), &Place), &Response)| {
-            weight * response.power(place)
-        };
-        let points = self.points.iter().map(|(e, n, w)| (e, n, w));
-        points.zip(&self.places).zip(&self.responses).map(of).sum()
+        let of =
+            |((point, place), response): ((&Point, &Place), &Response)| point.weight * response.power(place);
+        self.points.iter().zip(&self.places).zip(&self.responses).map(of).sum()
     }
 }

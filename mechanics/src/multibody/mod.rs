@@ -9,7 +9,7 @@
 //! m r̈ = F,     J Ω̇ + Ω × J Ω = Rᵀ L
 //! ```
 //!
-//! A [beam](slender) adds its own unknowns. Joints, springs and loads act between [markers](Marker): frames that are fixed to bodies
+//! A beam, [slender] or with [shear], adds its own unknowns. Joints, springs and loads act between [markers](Marker): frames that are fixed to bodies
 //! or to the sections of beams at their nodes, of which a joint knows
 //! position, axes, velocities, accelerations and their derivatives by the velocities of the part, and nothing else.
 //! Constraints use the axes of markers, a·b = 0 and a·(x_B − x_A) = 0, so that no angle is singular.
@@ -18,7 +18,9 @@
 //! |---|---|
 //! | `rotation` | quaternions, rotation vectors |
 //! | `body` | a rigid body |
-//! | `flexible` | a slender beam as a part, and loads along it |
+//! | `beam` | a beam of either kind: its unknowns, and what the others need of it |
+//! | `flexible` | a beam as a part |
+//! | `line_load` | loads along beams |
 //! | `marker` | frames of parts, and their kinematics |
 //! | `row` | scalar constraints between two markers |
 //! | `joint` | joints as lists of rows, with their drives |
@@ -30,7 +32,7 @@
 //! | `consistency` | positions, ranks and velocities at the start |
 //! | `constants` | what does not change in a run |
 //! | `slender` | the geometrically exact slender beam |
-//! | `shear` | the geometrically exact beam with shear; no part of a [`Model`] |
+//! | `shear` | the geometrically exact beam with shear |
 //! | `system` | the equations of motion |
 //! | `events` | breaks, and the jumps of prescribed speeds |
 //! | `axis` | axes of rotation, and what on the ground allows it |
@@ -42,6 +44,7 @@
 //! | `reason` | why a run may have failed |
 
 mod axis;
+mod beam;
 mod body;
 mod channels;
 mod consistency;
@@ -55,6 +58,7 @@ mod force;
 mod joint;
 mod layout;
 mod line_law;
+mod line_load;
 mod marker;
 mod model;
 mod nearest;
@@ -71,12 +75,14 @@ mod start;
 mod system;
 
 pub use axis::Axis;
+pub use beam::Beam;
 pub use body::Body;
 pub use error::{DependentRow, ModelError, PartFault, Violation};
-pub use flexible::{Fibre, Flexible, LineLoad};
+pub use flexible::{Fibre, Flexible};
 pub use force::{Axes, Directions, Load, Spring};
 pub use joint::{Drive, Joint, Kind};
 pub use line_law::LineLaw;
+pub use line_load::LineLoad;
 pub use marker::{Marker, Part};
 pub use model::Model;
 pub use rotating::Rotating;

@@ -3,10 +3,11 @@
 use super::body::Body;
 use super::contact_point::ContactPoint;
 use super::error::{ModelError, PartFault};
-use super::flexible::{Flexible, LineLoad};
+use super::flexible::Flexible;
 use super::force::{Directions, Load, Spring};
 use super::joint::{Joint, Kind};
 use super::line_law::LineLaw;
+use super::line_load::LineLoad;
 use super::marker::{Marker, Part};
 use super::rotation::frame;
 use crate::linalg::{Mat3, Vec3};
@@ -156,9 +157,7 @@ impl Model {
             Part::Body(i) => self.bodies.get(i).map(|body| body.frame),
             Part::Section { beam, node } => {
                 let beam = &self.beams.get(beam)?.beam;
-                let (position, triad) =
-                    (node < beam.nodes().len()).then(|| beam.node(node, beam.initial()))?;
-                Some(Frame { position, rotation: triad.rotation() })
+                (node < beam.nodes().len()).then(|| beam.node(node, beam.initial()))
             }
         }
     }

@@ -7,10 +7,10 @@
 //! ```
 //!
 //! The least φ of the nodes and the middles of elements begins Newton's method for φ′ = 0 between its neighbours, with bisection where
-//! it leaves them; φ′ is continuous where elements meet. Beyond an end of the beam, the end is nearest. Nothing is kept from state
+//! it leaves them; φ′ is continuous where elements meet, but for the kink that an axis with shear may have there. Beyond an end of the beam, the end is nearest. Nothing is kept from state
 //! to state: the point depends on the configuration alone.
 
-use super::slender::{Beam, ELEMENT_COORDINATES, ELEMENT_VELOCITIES, combined, hermite};
+use super::beam::Beam;
 use crate::contact::Obstacle;
 use crate::linalg::Vec3;
 
@@ -29,39 +29,32 @@ pub(super) struct Nearest {
     samples: Vec<Vec3>,
 }
 
-/// r₁, r′₁, r₂, r′₂ of an element, or their rates, whose nodes have `stride` entries in `x`.
-fn ends(x: &[f64], stride: usize, element: usize) -> [Vec3; 4] {
-    let (first, second) = (stride * element, stride * (element + 1));
-    [first, first + 3, second, second + 3].map(|at| Vec3::at(x, at))
-}
-
-/// r, r′ and r″ at the place z of an element of the length h \[m\], by its coordinates.
-fn curve(q: &[f64], element: usize, z: f64, h: f64) -> [Vec3; 3] {
-    hermite(z, h).map(|n| combined(&n, &ends(q, ELEMENT_COORDINATES, element)))
+/// r, r′ and r″ at the place z of an element, by the coordinates of its beam.
+fn curve(beam: &Beam, q: &[f64], element: usize, z: f64) -> [Vec3; 3] {
+    beam.shapes(element, z).map(|n| beam.on_axis(&n, q, element))
 }
 
 impl Nearest {
     /// With memory for the samples of a beam.
     pub fn of(beam: &Beam) -> Nearest {
-        Nearest { samples: vec![Vec3::ZERO; 2 * beam.elements().len() + 1], ..Nearest::default() }
+        Nearest { samples: vec![Vec3::ZERO; 2 * beam.elements() + 1], ..Nearest::default() }
     }
 
     /// Finds the point of `beam` with the coordinates `q`.
     pub fn find(&mut self, beam: &Beam, q: &[f64], obstacle: &dyn Obstacle, t: f64) {
-        let elements = beam.elements();
-        let count = elements.len();
+        let count = beam.elements();
         for (j, sample) in self.samples.iter_mut().enumerate() {
             let element = (j / 2).min(count - 1);
             let z = 0.5 * j as f64 - element as f64;
-            *sample = curve(q, element, z, elements[element].length())[0];
+            *sample = curve(beam, q, element, z)[0];
         }
         // In numbers of elements from the first node.
         let mut at = 0.5 * obstacle.nearest(&self.samples, t) as f64;
         let (mut low, mut high) = ((at - 0.5).max(0.0), (at + 0.5).min(count as f64));
         for _ in 0..ITERATIONS {
             (self.element, self.place) = split(at, count);
-            let h = elements[self.element].length();
-            let [r, slope, curvature] = curve(q, self.element, self.place, h);
+            let h = beam.length(self.element);
+            let [r, slope, curvature] = curve(beam, q, self.element, self.place);
             let surface = obstacle.surface(r, t);
             let gradient = surface.normal.dot(slope);
             let across = [0, 1].map(|i| surface.curvatures[i] * surface.tangents[i].dot(slope).powi(2));
@@ -77,11 +70,10 @@ impl Nearest {
         }
     }
 
-    /// Hands the numbers of the velocities ṙ₁, ṙ′₁, ṙ₂, ṙ′₂ in those of the beam to `visit`, each with N, N′ and its direction.
+    /// Hands the numbers of the velocities of the four vectors in those of the beam to `visit`, each with N, N′ and its direction.
     pub fn unknowns(&self, beam: &Beam, mut visit: impl FnMut(usize, Vec3, Vec3)) {
-        let [value, slope, _] = hermite(self.place, beam.elements()[self.element].length());
-        for i in 0..4 {
-            let first = ELEMENT_VELOCITIES * (self.element + i / 2) + 3 * (i % 2);
+        let [value, slope, _] = beam.shapes(self.element, self.place);
+        for (i, [_, first]) in beam.supports(self.element).into_iter().enumerate() {
             for (k, axis) in Vec3::AXES.into_iter().enumerate() {
                 visit(first + k, value[i] * axis, slope[i] * axis);
             }
@@ -90,18 +82,18 @@ impl Nearest {
 
     /// r, r′, r″ there by the coordinates of the beam.
     pub fn shape(&self, beam: &Beam, q: &[f64]) -> [Vec3; 3] {
-        curve(q, self.element, self.place, beam.elements()[self.element].length())
+        curve(beam, q, self.element, self.place)
     }
 
     /// The rates of r and r′ by those of the coordinates.
     pub fn rates(&self, beam: &Beam, v: &[f64]) -> [Vec3; 2] {
-        let [value, slope, _] = hermite(self.place, beam.elements()[self.element].length());
-        [value, slope].map(|n| combined(&n, &ends(v, ELEMENT_VELOCITIES, self.element)))
+        let [value, slope, _] = beam.shapes(self.element, self.place);
+        [value, slope].map(|n| beam.rate_on_axis(&n, v, self.element))
     }
 
     /// Its arc length \[m\].
     pub fn station(&self, beam: &Beam) -> f64 {
-        beam.nodes()[self.element] + self.place * beam.elements()[self.element].length()
+        beam.end(self.element) + self.place * beam.length(self.element)
     }
 }
 

@@ -13,8 +13,6 @@ use crate::system::{Direction, Energy, Frame, Limit, Observed, Power, Sink, Stat
 /// Size of a row that was left out, over the length of the system, at which it no longer follows from the others; and over the
 /// largest of the rows that are kept.
 const DEPARTED: [f64; 2] = [1e-6, 100.0];
-/// |r′| below which a beam has no direction.
-const LEAST_STRETCH: f64 = 0.05;
 
 impl Multibody {
     /// Momentum and angular momentum about the origin of all bodies and beams, inertial axes [kg·m/s, kg·m²/s].
@@ -105,14 +103,12 @@ impl Multibody {
         for (of, &[i, j]) in model.beams.iter().zip(&constants.beams) {
             // −β M v does the power −2 β T.
             power.dissipated += 2.0 * of.damping * of.beam.kinetic_energy(&s.q[i..], &s.v[j..]);
-            if of.viscosity != 0.0 {
-                power.dissipated += of.beam.viscous_power(&s.q[i..], &s.v[j..]);
-            }
+            power.dissipated += of.beam.viscous_power(&s.q[i..], &s.v[j..]);
         }
         for (load, on) in model.line_loads.iter().zip(&constants.lines) {
             let [i, j] = constants.beams[load.beam];
             let (beam, force) = (&model.beams[load.beam].beam, load.at(s.time(), self.part));
-            power.loads += beam.line_power(on, &s.q[i..], &s.v[j..], force, load.follows());
+            power.loads += beam.line_power(on, [&s.q[i..], &s.v[j..]], force, load.follows());
         }
         for (i, (joint, row)) in constants.rows.iter().enumerate() {
             let (a, b) = self.ends(*joint);
@@ -189,14 +185,10 @@ impl Observed for Multibody {
     fn admissible(&mut self, s: &State) -> Result<(), Limit> {
         self.place(s);
         for (of, &[i, _]) in self.constants.model.beams.iter().zip(&self.constants.beams) {
-            for node in 0..of.beam.nodes().len() {
-                let length = of.beam.node(node, &s.q[i..]).1.length;
-                if !(length > LEAST_STRETCH) {
-                    let (beam, stretch) = (of.name.clone(), length);
-                    return Err(Limit::Compressed { beam, stretch, node });
-                }
+            if let Some((node, stretch)) = of.beam.compressed(&s.q[i..]) {
+                return Err(Limit::Compressed { beam: of.name.clone(), stretch, node });
             }
-            if let Some([from, to]) = of.twisted(&s.q[i..]) {
+            if let Some([from, to]) = of.beam.twisted(&s.q[i..]) {
                 return Err(Limit::Twisted { beam: of.name.clone(), from, to });
             }
         }

@@ -6,13 +6,12 @@
 //! (u, v, w) = Λ₀ᵀ (r − r₀) − the same without stress,     d/dt = Λ₀ᵀ (ṙ − ṙ₀ − ω₀ × (r − r₀))
 //! ```
 //!
-//! and its section is rotated in the plane of t and n by the angle of the tangent r′, less that without stress. The angle is followed
+//! and its section is rotated in the plane of t and n by the angle of its first axis, less that without stress. The angle is followed
 //! from node to node along the beam, so that it may pass π.
 
 use super::flexible::Flexible;
-use super::slender::ELEMENT_VELOCITIES;
 use crate::linalg::Vec3;
-use crate::system::{Channel, Role, Sink};
+use crate::system::{Channel, Frame, Role, Sink};
 use std::f64::consts::TAU;
 
 /// What the root sees of a section.
@@ -34,43 +33,39 @@ fn nearest(angle: f64, to: f64) -> f64 {
 impl Flexible {
     /// Place of the station at the arc length `s` and angle of its tangent, in the axes of the root.
     fn placed(&self, q: &[f64], s: f64) -> (Vec3, f64) {
-        let (origin, root) = self.beam.node(0, q);
-        let angle = |slope: Vec3| libm::atan2(root.normal.dot(slope), root.tangent.dot(slope));
+        let Frame { position: origin, rotation } = self.beam.node(0, q);
+        let root = rotation.transpose();
+        let angle = |tangent: Vec3| {
+            let Vec3([along, across, _]) = root * tangent;
+            libm::atan2(across, along)
+        };
         let (mut followed, frame) = (0.0, self.frame(q, s));
         for (node, at) in self.beam.nodes().iter().enumerate().skip(1) {
             if *at > s {
                 break;
             }
-            followed = nearest(angle(self.beam.node(node, q).1.tangent), followed);
+            followed = nearest(angle(self.beam.node(node, q).rotation.column(0)), followed);
         }
         let tangent = frame.rotation.column(0);
-        (root.inward(frame.position - origin), nearest(angle(tangent), followed))
+        (root * (frame.position - origin), nearest(angle(tangent), followed))
     }
 
     /// What the root sees of the station at the arc length `s`.
     fn seen(&self, [q, v]: [&[f64]; 2], s: f64) -> Seen {
-        let (origin, root) = self.beam.node(0, q);
-        let [spin, _] = root.angular_motion([v[3], v[4], v[5], v[6]], [0.0; 4]);
+        let Frame { position: origin, rotation } = self.beam.node(0, q);
+        let (root, spin) = (rotation.transpose(), self.beam.root_spin(q, v));
         let (place, angle) = self.placed(q, s);
         let (straight, without) = self.placed(self.beam.initial(), s);
         let frame = self.frame(q, s);
-        let relative = self.velocity(v, s) - Vec3::at(v, 0) - spin.cross(frame.position - origin);
-        let [slope, rate] = self.slopes([q, v], s);
-        let (slope, rate) = (root.inward(slope), root.inward(rate - spin.cross(slope)));
+        let relative = self.beam.velocity(v, s) - Vec3::at(v, 0) - spin.cross(frame.position - origin);
+        let [slope, rate] = self.beam.direction([q, v], s);
+        let (slope, rate) = (root * slope, root * (rate - spin.cross(slope)));
         let square = slope[0] * slope[0] + slope[1] * slope[1];
         Seen {
             displacement: place - straight,
-            velocity: root.inward(relative),
+            velocity: root * relative,
             rotation: [angle - without, (slope[0] * rate[1] - slope[1] * rate[0]) / square],
         }
-    }
-
-    /// r′ and its rate at the arc length `s`.
-    fn slopes(&self, [q, v]: [&[f64]; 2], s: f64) -> [Vec3; 2] {
-        let (element, z) = self.place(s);
-        let (_, triad) = self.section(q, s);
-        let v = std::array::from_fn(|k| v[ELEMENT_VELOCITIES * element + k]);
-        [triad.length * triad.tangent, self.beam.elements()[element].slope_rate(&v, z)]
     }
 }
 

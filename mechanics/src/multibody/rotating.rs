@@ -4,10 +4,12 @@
 //! axes are the inertial ones, the motion in inertial axes is
 //!
 //! ```text
-//! bodies    ṙ = ṙ′ + Ω e × (r − c),   r̈ = r̈′ + 2Ω e × ṙ′ + Ω² e × (e × (r − c))
-//!           ω = ω′ + Ω Rᵀe,           ω̇ = ω̇′ + Ω Rᵀe × ω′        (body axes)
-//! beams     r and r′ alike, c = 0 for r′;   w = w′ + Ω e·t,   ẇ = ẇ′ + Ω e·ṫ′
+//! frames    ṙ = ṙ′ + Ω e × (r − c),   r̈ = r̈′ + 2Ω e × ṙ′ + Ω² e × (e × (r − c))
+//!           ω = ω′ + Ω Rᵀe,           ω̇ = ω̇′ + Ω Rᵀe × ω′        (own axes)
+//! slender   r and r′ alike, c = 0 for r′;   w = w′ + Ω e·t,   ẇ = ẇ′ + Ω e·ṫ′
 //! ```
+//!
+//! for the frames of bodies and of the sections of beams with shear, and for slender beams,
 //!
 //! so that the forces of inertia, centrifugal and Coriolis forces among them, are those of the model in inertial axes. Their
 //! derivatives follow by the chain rule: with v = v′ + A(q) and a = a′ + B(q, v′),
@@ -19,8 +21,9 @@
 //! The ground rotates with the frame, and so do loads whose components are given in fixed axes: they must lie along the axis.
 
 use super::axis::Axis;
+use super::beam::Beam;
 use super::force::Axes;
-use super::slender::{ELEMENT_COORDINATES, ELEMENT_VELOCITIES, Triad};
+use super::slender::{self, Triad};
 use super::system::Multibody;
 use crate::linalg::{Mat3, Matrix, Structure, Vec3};
 use crate::system::{
@@ -93,20 +96,20 @@ impl Rotating {
                 out.a[v + k] += speed * change[k];
             }
         };
-        for (i, placed) in self.inner.placed.iter().enumerate() {
-            point(&mut out, 7 * i, 6 * i, self.axis.point);
-            let own = self.own_axis(&placed.rotation);
-            let change = own.cross(Vec3::at(&s.v, 6 * i + 3));
+        self.frames(s, |q, v, rotation| {
+            point(&mut out, q, v, self.axis.point);
+            let own = self.own_axis(&rotation);
+            let change = own.cross(Vec3::at(&s.v, v + 3));
             for k in 0..3 {
-                out.v[6 * i + 3 + k] += speed * own[k];
-                out.a[6 * i + 3 + k] += speed * change[k];
+                out.v[v + 3 + k] += speed * own[k];
+                out.a[v + 3 + k] += speed * change[k];
             }
-        }
-        self.nodes(|q, v| {
+        });
+        self.slender_nodes(|q, v| {
             point(&mut out, q, v, self.axis.point);
             point(&mut out, q + 3, v + 3, Vec3::ZERO);
         });
-        self.sections(s, |unknown, triad, slope_of| {
+        self.slender_sections(s, |unknown, triad, slope_of| {
             let along = across_tangent(e, &triad);
             let rate: Vec3 = slope_of.iter().fold(Vec3::ZERO, |sum, (c, v)| sum + *c * Vec3::at(&s.v, *v));
             out.v[unknown] += speed * e.dot(triad.tangent);
@@ -120,35 +123,58 @@ impl Rotating {
         rotation.transpose() * self.axis.direction
     }
 
-    /// Calls `visit` with the first coordinate and the first velocity of every node.
-    fn nodes(&self, mut visit: impl FnMut(usize, usize)) {
+    /// Calls `visit` with the first coordinate, the first velocity and the axes of every body and of every section of a beam with shear.
+    fn frames(&self, s: &State, mut visit: impl FnMut(usize, usize, Mat3)) {
+        for (i, placed) in self.inner.placed.iter().enumerate() {
+            visit(7 * i, 6 * i, placed.rotation);
+        }
         let constants = &self.inner.constants;
-        for (of, [q, v]) in constants.model.beams.iter().zip(&constants.beams) {
-            (0..of.beam.nodes().len())
-                .for_each(|node| visit(q + ELEMENT_COORDINATES * node, v + ELEMENT_VELOCITIES * node));
+        for (of, &[first_q, first_v]) in constants.model.beams.iter().zip(&constants.beams) {
+            if of.beam.has_shear() {
+                for node in 0..of.beam.nodes().len() {
+                    let [q, v] = of.beam.place(node);
+                    visit(first_q + q, first_v + v, of.beam.node(node, &s.q[first_q..]).rotation);
+                }
+            }
+        }
+    }
+
+    /// The slender beams, and where their coordinates and velocities begin.
+    fn slender(&self) -> impl Iterator<Item = (&slender::Beam, &Beam, [usize; 2])> {
+        let constants = &self.inner.constants;
+        constants.model.beams.iter().zip(&constants.beams).filter_map(|(of, first)| match &of.beam {
+            Beam::Slender(beam) => Some((beam, &of.beam, *first)),
+            Beam::Shear(_) => None,
+        })
+    }
+
+    /// Calls `visit` with the first coordinate and the first velocity of every node of a slender beam.
+    fn slender_nodes(&self, mut visit: impl FnMut(usize, usize)) {
+        for (beam, of, [q, v]) in self.slender() {
+            (0..beam.nodes().len()).for_each(|node| visit(q + of.place(node)[0], v + of.place(node)[1]));
         }
     }
 
     /// Calls `visit` for every section with a spin: its unknown, its axes, and r′ there as a sum of three velocities each, with
     /// the factors and the numbers of the first.
-    fn sections(&self, s: &State, mut visit: impl FnMut(usize, Triad, &[(f64, usize)])) {
-        let constants = &self.inner.constants;
-        for (of, &[first_q, first_v]) in constants.model.beams.iter().zip(&constants.beams) {
-            for node in 0..of.beam.nodes().len() {
-                let (q, v) = (first_q + ELEMENT_COORDINATES * node, first_v + ELEMENT_VELOCITIES * node);
+    fn slender_sections(&self, s: &State, mut visit: impl FnMut(usize, Triad, &[(f64, usize)])) {
+        for (beam, of, [first_q, first_v]) in self.slender() {
+            for node in 0..beam.nodes().len() {
+                let [q, v] = of.place(node);
+                let (q, v) = (first_q + q, first_v + v);
                 let triad = Triad::new(Vec3::at(&s.q, q + 3), Vec3::at(&s.q, q + 6));
                 visit(v + 6, triad, &[(1.0, v + 3)]);
-                let Some(element) = of.beam.elements().get(node) else { continue };
+                let Some(element) = beam.elements().get(node) else { continue };
                 // The slope in the middle is linear in r and r′ of both nodes.
-                let numbers = [v, v + 3, v + ELEMENT_VELOCITIES, v + ELEMENT_VELOCITIES + 3];
+                let supports = of.supports(node);
+                let numbers = supports.map(|[_, v]| first_v + v);
                 let factor = |k: usize| {
                     let mut unit = [Vec3::ZERO; 4];
                     unit[k][0] = 1.0;
                     element.middle_slope(&unit)[0]
                 };
                 let slope_of = [0, 1, 2, 3].map(|k| (factor(k), numbers[k]));
-                let places = [q, q + 3, q + ELEMENT_COORDINATES, q + ELEMENT_COORDINATES + 3];
-                let slope = element.middle_slope(&places.map(|place| Vec3::at(&s.q, place)));
+                let slope = element.middle_slope(&supports.map(|[q, _]| Vec3::at(&s.q, first_q + q)));
                 visit(v + 7, Triad::new(slope, Vec3::at(&s.q, q + 9)), &slope_of);
             }
         }
@@ -166,19 +192,19 @@ impl Rotating {
                 rows.push((v + i, (0..3).map(|j| (v + j, entry(j))).collect()));
             }
         };
-        for (k, placed) in self.inner.placed.iter().enumerate() {
-            point(&mut rows, 6 * k);
-            let own = Mat3::skew(speed * self.own_axis(&placed.rotation));
+        self.frames(s, |_, v, rotation| {
+            point(&mut rows, v);
+            let own = Mat3::skew(speed * self.own_axis(&rotation));
             for i in 0..3 {
-                let entry = |j: usize| (6 * k + 3 + j, [own[i][j], 0.0, own[i][j]]);
-                rows.push((6 * k + 3 + i, (0..3).map(entry).collect()));
+                let entry = |j: usize| (v + 3 + j, [own[i][j], 0.0, own[i][j]]);
+                rows.push((v + 3 + i, (0..3).map(entry).collect()));
             }
-        }
-        self.nodes(|_, v| {
+        });
+        self.slender_nodes(|_, v| {
             point(&mut rows, v);
             point(&mut rows, v + 3);
         });
-        self.sections(s, |unknown, triad, slope_of| {
+        self.slender_sections(s, |unknown, triad, slope_of| {
             let along = speed * across_tangent(self.axis.direction, &triad);
             let entries = slope_of
                 .iter()

@@ -1,11 +1,10 @@
 //! What a small motion moves: for the shares of a mode.
 //!
 //! Seen without an axis of rotation displacements are along x, y and z. About an axis those of a beam are along its tangent, across it
-//! towards the axis of rotation (flap), and across both (chord); those of a body are along the radius, the axis and the
-//! circumference.
+//! towards the axis of rotation (flap), and across both (chord), and rotations of its sections count by how they move their direction; those of
+//! a body are along the radius, the axis and the circumference.
 
 use super::axis::Axis;
-use super::slender::ELEMENT_VELOCITIES;
 use super::system::Multibody;
 use crate::linalg::Vec3;
 use crate::system::{Direction, State};
@@ -22,8 +21,7 @@ impl Multibody {
         [x, mx]: [&[f64]; 2],
         add: &mut dyn FnMut(Direction, f64),
     ) {
-        let mut point = |at: usize, along: Vec3| {
-            let (u, mu) = (Vec3::at(x, at), Vec3::at(mx, at));
+        let mut vector = |[u, mu]: [Vec3; 2], along: Vec3| {
             let Some(axis) = axis else {
                 let names = [Direction::X, Direction::Y, Direction::Z];
                 names.into_iter().enumerate().for_each(|(k, direction)| add(direction, u[k] * mu[k]));
@@ -38,6 +36,7 @@ impl Multibody {
             add(Direction::Flap, part(flap));
             add(Direction::Chord, u.dot(mu) - part(along) - part(flap));
         };
+        let both = |at: usize| [Vec3::at(x, at), Vec3::at(mx, at)];
         for i in 0..self.placed.len() {
             let radial = axis.map_or(Vec3::ZERO, |axis| {
                 let arm = Vec3::at(&s.q, 7 * i) - axis.point;
@@ -45,14 +44,20 @@ impl Multibody {
                 let length = arm.dot(arm).sqrt();
                 if length > 0.0 { 1.0 / length * arm } else { Vec3::ZERO }
             });
-            point(6 * i, radial);
+            vector(both(6 * i), radial);
         }
         for (of, &[q, v]) in self.constants.model.beams.iter().zip(&self.constants.beams) {
             for node in 0..of.beam.nodes().len() {
-                let tangent = of.beam.node(node, &s.q[q..]).1.tangent;
-                let at = v + ELEMENT_VELOCITIES * node;
-                point(at, tangent);
-                point(at + 3, tangent);
+                let axes = of.beam.node(node, &s.q[q..]).rotation;
+                let (tangent, at) = (axes.column(0), v + of.beam.place(node)[1]);
+                vector(both(at), tangent);
+                if of.beam.has_shear() {
+                    // A rotation φ moves the direction of the section by φ × t.
+                    let swing = |of: Vec3| axes * of.cross(Vec3::AXES[0]);
+                    vector(both(at + 3).map(swing), tangent);
+                } else {
+                    vector(both(at + 3), tangent);
+                }
             }
         }
         for i in 0..self.placed.len() {
@@ -60,9 +65,13 @@ impl Multibody {
         }
         for (of, &[_, v]) in self.constants.model.beams.iter().zip(&self.constants.beams) {
             for node in 0..of.beam.nodes().len() {
-                let at = v + ELEMENT_VELOCITIES * node;
-                let end = (at + 8).min(v + of.beam.velocities());
-                (at + 6..end).for_each(|i| add(Direction::Torsion, x[i] * mx[i]));
+                let at = v + of.beam.place(node)[1];
+                let about = if of.beam.has_shear() {
+                    at + 3..at + 4
+                } else {
+                    at + 6..(v + of.beam.place(node + 1)[1]).min(v + of.beam.velocities())
+                };
+                about.for_each(|i| add(Direction::Torsion, x[i] * mx[i]));
             }
         }
     }

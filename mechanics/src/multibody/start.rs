@@ -99,14 +99,14 @@ fn weighted(body: &Body) -> Body {
 /// A beam as a rigid body with its frame at the root, in the axes of space. What is given is of the root, and so are then mass and inertia.
 fn as_body(of: &Flexible) -> Body {
     let q = of.beam.initial();
-    let (root, _) = of.beam.node(0, q);
+    let root = of.beam.node(0, q).position;
     let mass = of.beam.mass();
     let given = of.velocity.is_some() || of.spin.is_some();
     let centre = if given { root } else { 1.0 / mass * of.beam.first_moment(q) };
     let arm = root - centre;
     let mut v = vec![0.0; of.beam.velocities()];
     let inertia = Mat3(Vec3::AXES.map(|spin| {
-        of.set_twist([spin.cross(arm), spin], q, &mut v);
+        of.beam.move_rigidly(spin.cross(arm), spin, q, &mut v);
         let [momentum, angular] = of.beam.momenta(q, &v);
         (angular - centre.cross(momentum)).0
     }));

@@ -1,7 +1,7 @@
 //! The equations of motion of bodies, beams and joints.
 //!
 //! Unknowns: (ṙ, Ω) of the bodies, in the order of the tree of joints, and behind them the velocities of the
-//! [beams](super::slender::Beam); multipliers in the order of the joints. The configuration holds (r, p) of the bodies in the same order,
+//! [beams](super::Beam); multipliers in the order of the joints. The configuration holds (r, p) of the bodies in the same order,
 //! q of the beams, and behind them the angle of every revolute and cylindrical joint, counted on beyond a turn.
 //!
 //! ```text
@@ -23,7 +23,6 @@ use super::model::Model;
 use super::nearest::Nearest;
 use super::rotation::{Quaternion, rate};
 use super::row::{Row, Value, Wrench};
-use super::slender::{ELEMENT_COORDINATES, ELEMENT_VELOCITIES};
 use super::{consistency, start};
 use crate::linalg::{Mat3, Matrix, Structure, Vec3};
 use crate::profile::HubKinematics;
@@ -112,7 +111,8 @@ impl Multibody {
             Part::Ground => Pose::grounded(*frame),
             Part::Body(i) => Pose::moved(6 * constants.place[*i], 6),
             Part::Section { beam, node } => {
-                Pose::moved(constants.beams[*beam][1] + ELEMENT_VELOCITIES * node, MOST)
+                let of = &constants.model.beams[*beam].beam;
+                of.pose(constants.beams[*beam][1] + of.place(*node)[1])
             }
         });
         let poses = poses.collect();
@@ -173,8 +173,8 @@ impl Multibody {
                 Part::Body(i) => pose.place(&placed[constants.place[*i]], frame),
                 Part::Section { beam, node } => {
                     let [q, v] = constants.beams[*beam];
-                    let (q, v) = (q + ELEMENT_COORDINATES * node, v + ELEMENT_VELOCITIES * node);
-                    pose.place_on_section([&s.q[q..], &s.v[v..], &s.a[v..]], frame);
+                    let of = &constants.model.beams[*beam].beam;
+                    of.place_marker(*node, [&s.q[q..], &s.v[v..], &s.a[v..]], frame, pose);
                 }
             }
         }
@@ -332,16 +332,8 @@ impl Dynamics for Multibody {
         }
         let axis = ["x", "y", "z"][i % 3];
         if let Some(k) = self.constants.beams.iter().rposition(|[_, first]| *first <= i) {
-            let (node, at) =
-                ((i - self.constants.beams[k][1]) / ELEMENT_VELOCITIES, self.constants.beams[k][1]);
-            let axis = |i: usize| ["x", "y", "z"][i % 3];
-            let what = match (i - at) % ELEMENT_VELOCITIES {
-                k @ 0..3 => format!("velocity along {} of", axis(k)),
-                k @ 3..6 => format!("rate of the slope along {} of", axis(k)),
-                6 => "spin of".to_owned(),
-                _ => "spin of the middle behind".to_owned(),
-            };
-            return format!("{what} node {node} of `{}`", model.beams[k].name);
+            let (of, first) = (&model.beams[k], self.constants.beams[k][1]);
+            return format!("{} of `{}`", of.beam.unknown(i - first), of.name);
         }
         let body = place.iter().position(|place| *place == i / 6).map_or("", |k| &model.bodies[k].name);
         let what = if i % 6 < 3 {
@@ -416,7 +408,8 @@ impl Dynamics for Multibody {
             *r = -self.part * weight;
         }
         for (of, &[i, j]) in model.beams.iter().zip(&self.constants.beams) {
-            of.beam.add_forces(&s.q[i..], &s.v[j..], &s.a[j..], &mut r[j..]);
+            let motion = [&s.q[i..], &s.v[j..], &s.a[j..]];
+            of.beam.add_forces(motion, self.part * model.gravity, &mut r[j..]);
         }
         for (load, on) in model.line_loads.iter().zip(&self.constants.lines) {
             let [i, j] = self.constants.beams[load.beam];
@@ -447,10 +440,7 @@ impl Dynamics for Multibody {
             out.push_vectors::<1>(6 * i, turned.matrix().0);
         }
         for (of, &[q, v]) in constants.model.beams.iter().zip(&constants.beams) {
-            for node in 0..of.beam.nodes().len() {
-                let turned = of.rotation(node, &before.q[q..], &now.q[q..]);
-                out.push_vectors::<2>(v + ELEMENT_VELOCITIES * node, turned.0);
-            }
+            of.beam.corotate([&before.q[q..], &now.q[q..]], v, out);
         }
         for (joint, rows) in constants.model.joints.iter().zip(&constants.of_joint) {
             let in_a_point = |k: usize| {
@@ -469,7 +459,7 @@ impl Dynamics for Multibody {
                 }
                 Part::Section { beam, node } => {
                     let q = constants.beams[beam][0];
-                    constants.model.beams[beam].rotation(node, &before.q[q..], &now.q[q..])
+                    constants.model.beams[beam].beam.rotation(node, &before.q[q..], &now.q[q..])
                 }
             };
             out.push_vectors::<1>(constants.size.v + rows.start, turned.0);
@@ -539,9 +529,8 @@ impl Dynamics for Multibody {
         }
         for (of, &[i, j]) in model.beams.iter().zip(&constants.beams) {
             let within = Weights { increment: w.increment.map(|d| &d[j..]), ..w };
-            of.beam.add_tangent(&s.q[i..], &s.v[j..], &s.a[j..], &within, |at, block| {
-                out.add_block(j + at, block);
-            });
+            let motion = [&s.q[i..], &s.v[j..], &s.a[j..]];
+            of.beam.add_tangent(motion, self.part * model.gravity, &within, (j, out));
         }
         if w.q == 0.0 && w.v == 0.0 {
             return;
@@ -552,9 +541,7 @@ impl Dynamics for Multibody {
             let (force, d) = (load.at(s.time(), self.part), w.increment.map(|d| &d[j..]));
             let force = -w.q * force;
             let beam = &model.beams[load.beam].beam;
-            beam.add_line_tangent(on, &s.q[i..], force, d, |at, block| {
-                out.add_block(j + at, block);
-            });
+            beam.add_line_tangent(on, &s.q[i..], force, d, (j, out));
         }
         for (law, sampled) in model.line_laws.iter().zip(&mut self.sampled) {
             let [i, j] = constants.beams[law.beam];

@@ -1,11 +1,11 @@
-//! Slender beams as parts: conformance with every joint and load, and the layout of chains.
+//! Beams as parts, slender and with shear: conformance with every joint and load, and the layout of chains.
 
 use super::conformance::{profile, tangent_follows_the_increment};
 use super::{GRAVITY, odd_body, odd_rotation, radau, run, wave};
 use flexion::linalg::Vec3;
 use flexion::multibody::slender::{Beam, Properties, Station};
 use flexion::multibody::{
-    Axes, Flexible, Joint, Kind, LineLoad, Load, Marker, Model, Multibody, Part, Spring,
+    self, Axes, Flexible, Joint, Kind, LineLoad, Load, Marker, Model, Multibody, Part, Spring, shear,
 };
 use flexion::system::{Dynamics, Frame, State};
 use flexion::verify::dynamics;
@@ -30,22 +30,52 @@ pub fn arc(elements: usize, root: Frame) -> Beam {
     Beam::new(&nodes, curve, |_| section).unwrap()
 }
 
+/// The same arc as a beam with shear, all of whose strains and motions are coupled.
+fn sheared_arc(elements: usize, root: Frame) -> shear::Beam {
+    let slender = multibody::Beam::from(arc(4 * elements, root));
+    let curve = |s: f64| {
+        let at = slender.node(0, slender.initial());
+        let (sin, cos) = (0.7 * s).sin_cos();
+        let (sine, cosine) = (0.3 * s).sin_cos();
+        let place = at.rotation * Vec3([sin / 0.7, (1.0 - cos) / 0.7, 0.0]);
+        let axes = [[cos, sin, 0.0], [-sin * cosine, cos * cosine, sine], [sin * sine, -cos * sine, cosine]];
+        let rotation = at.rotation * flexion::linalg::Mat3(axes).transpose();
+        Frame { position: at.position + place, rotation }
+    };
+    let section = flexion::section::Matrices::principal([400.0, 90.0, 70.0, 1.1, 0.9, 1.6], 1.2, [0.03, 0.012, 0.018])
+        .with_tension_centre([0.02, -0.03])
+        .with_shear_centre([-0.01, 0.02])
+        .with_mass_centre([0.05, 0.03])
+        .with_damping_times([0.01, 0.02, 0.03, 0.01, 0.005, 0.02])
+        .rolled(0.4);
+    let ends: Vec<f64> = (0..=elements).map(|i| 1.1 * i as f64 / elements as f64).collect();
+    shear::Beam::new(&ends, curve, |_| section).unwrap()
+}
+
 fn somewhere(k: f64) -> Frame {
     Frame { position: Vec3([wave(1, k), wave(2, k), wave(3, k)]), rotation: odd_rotation(k) }
 }
 
 /// Ground – body – beam – beam – body, with a spring, loads of every kind and damping.
-fn system(kind: Kind) -> Multibody {
+fn system(kind: Kind, has_shear: [bool; 2]) -> Multibody {
     let mut model = Model::new().with_gravity([1.0, 2.0, -GRAVITY]);
     let body = model.body(odd_body("hub", 0.3));
     let end = model.body(odd_body("end", 1.7));
     let root = Frame { position: Vec3([0.4, -0.2, 0.3]), rotation: odd_rotation(0.8) };
-    let mut first = Flexible::new("first", arc(3, root)).damped(0.4);
+    let beam = |name, elements, root, has_shear: bool| {
+        if has_shear {
+            Flexible::new(name, sheared_arc(elements, root))
+        } else {
+            Flexible::new(name, arc(elements, root))
+        }
+    };
+    let mut first = beam("first", 3, root, has_shear[0]).damped(0.4);
+    let last = first.beam.nodes().len() - 1;
     (first.velocity, first.spin) = (Some(Vec3([0.3, -0.2, 0.5])), Some(Vec3([0.7, -0.4, 0.9])));
-    let (at, triad) = first.beam.node(3, first.beam.initial());
+    let next = first.beam.node(last, first.beam.initial());
+    let at = next.position;
     let first = model.beam(first);
-    let next = Frame { position: at, rotation: triad.rotation() };
-    let second = model.beam(Flexible::new("second", arc(2, next)).viscous(0.02));
+    let second = model.beam(beam("second", 2, next, has_shear[1]).viscous(0.02));
     let section = |beam, node| Part::Section { beam, node };
     let mut join = |name: &str, kind, parts, point, k: usize| {
         let axis = ([wave(k, 0.1), wave(k, 1.2), wave(k, 2.3)], Some(Vec3([0.3, 1.0, 0.2])));
@@ -53,7 +83,7 @@ fn system(kind: Kind) -> Multibody {
     };
     join("hinge", Kind::Revolute, [Part::Ground, body], Vec3([0.1, 0.2, 0.3]), 1);
     join("clamp", Kind::Fixed, [body, section(first, 0)], root.position, 2);
-    join("elbow", kind, [section(first, 3), section(second, 0)], at, 3);
+    join("elbow", kind, [section(first, last), section(second, 0)], at, 3);
     // Off the centreline, at a node within.
     join("tail", kind, [section(second, 1), end], Vec3([0.2, 0.9, -0.4]), 4);
     let marker = |part, k| Marker {
@@ -102,23 +132,26 @@ fn disturb(s: &mut State) {
     s.lambda.iter_mut().enumerate().for_each(|(i, x)| *x = 2.0 * wave(i, 5.0));
 }
 
+/// Which of the two beams have shear.
+const SHEARS: [[bool; 2]; 3] = [[false, false], [true, true], [true, false]];
+
 const KINDS: [Kind; 5] = [Kind::Fixed, Kind::Revolute, Kind::Universal, Kind::Spherical, Kind::Cylindrical];
 
 /// Deformed and moving, but where the constraints hold, so that the power is compared too.
 #[test]
 fn a_system_of_beams_and_bodies_conforms_in_motion() {
-    for kind in KINDS {
-        let mut system = system(kind);
+    for (kind, has_shear) in KINDS.into_iter().flat_map(|kind| SHEARS.map(|shears| (kind, shears))) {
+        let mut system = system(kind, has_shear);
         let (mut s, _) = run(&mut system, &radau(1e-7), 0.1, None, |_, _| {});
         disturb(&mut s);
-        assert_eq!(dynamics(&mut system, &s), [], "{kind:?}");
+        assert_eq!(dynamics(&mut system, &s), [], "{kind:?} {has_shear:?}");
     }
 }
 
 #[test]
 fn a_system_of_beams_and_bodies_conforms_anywhere() {
-    for kind in KINDS {
-        let mut system = system(kind);
+    for (kind, has_shear) in KINDS.into_iter().flat_map(|kind| SHEARS.map(|shears| (kind, shears))) {
+        let mut system = system(kind, has_shear);
         let mut s = system.initial();
         let d: Vec<f64> = (0..s.v.len()).map(|i| 0.2 * wave(i, 0.7)).collect();
         let q = s.q.clone();
@@ -127,17 +160,19 @@ fn a_system_of_beams_and_bodies_conforms_anywhere() {
         disturb(&mut s);
         let mut defects = dynamics(&mut system, &s);
         defects.retain(|d| d.check != "dE/dt");
-        assert_eq!(defects, [], "{kind:?}");
+        assert_eq!(defects, [], "{kind:?} {has_shear:?}");
     }
 }
 
 /// Newton's tangent by the increment of a step: ∂r/∂d at q₀ ⊞ d, d not small.
 #[test]
 fn the_tangent_of_beams_follows_the_increment_of_a_step() {
-    let mut system = system(Kind::Revolute);
-    let mut from = system.initial();
-    disturb(&mut from);
-    tangent_follows_the_increment(&mut system, &from, 0.25, 3e-6);
+    for has_shear in SHEARS {
+        let mut system = system(Kind::Revolute, has_shear);
+        let mut from = system.initial();
+        disturb(&mut from);
+        tangent_follows_the_increment(&mut system, &from, 0.25, 3e-6);
+    }
 }
 
 /// A clamp holds a motion of its body alone, and lets r′ grow.

@@ -53,7 +53,7 @@ impl Chain {
     pub fn residual(&self, factor: f64) -> Vec<f64> {
         let n = self.beam.velocities();
         let (rest, mut r) = (vec![0.0; n], vec![0.0; n]);
-        self.beam.add_forces(&self.q, &rest, &rest, &mut r);
+        self.beam.add_forces([&self.q, &rest, &rest], Vec3::ZERO, &mut r);
         r.iter_mut().zip(&self.forces).for_each(|(r, f)| *r -= factor * f);
         r.iter_mut().zip(&self.fixed).filter(|(_, fixed)| **fixed).for_each(|(r, _)| *r = 0.0);
         r
@@ -64,13 +64,18 @@ impl Chain {
         let (n, width) = (self.beam.velocities(), self.beam.half_bandwidth());
         let mut matrix = Matrix::new(&Structure::band(n, width, width, 0).cheaper());
         let rest = vec![0.0; n];
-        self.beam.add_tangent(&self.q, &rest, &rest, &Weights::new(0.0, 0.0, 1.0), |at, block| {
-            for i in (0..VELOCITIES).filter(|i| !self.fixed[at + i]) {
-                for j in (0..VELOCITIES).filter(|j| !self.fixed[at + j]) {
-                    matrix.add(at + i, at + j, block[i][j]);
+        self.beam.add_tangent(
+            [&self.q, &rest, &rest],
+            Vec3::ZERO,
+            &Weights::new(0.0, 0.0, 1.0),
+            |at, block| {
+                for i in (0..VELOCITIES).filter(|i| !self.fixed[at + i]) {
+                    for j in (0..VELOCITIES).filter(|j| !self.fixed[at + j]) {
+                        matrix.add(at + i, at + j, block[i][j]);
+                    }
                 }
-            }
-        });
+            },
+        );
         (0..n).filter(|i| self.fixed[*i]).for_each(|i| matrix.add(i, i, 1.0));
         matrix
     }
@@ -125,11 +130,16 @@ impl Chain {
         let rest = vec![0.0; n];
         [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|[a, v, q]| {
             let mut full = DMatrix::zeros(n, n);
-            self.beam.add_tangent(&self.q, &rest, &rest, &Weights::new(a, v, q), |at, block| {
-                for i in 0..VELOCITIES {
-                    (0..VELOCITIES).for_each(|j| full[(at + i, at + j)] += block[i][j]);
-                }
-            });
+            self.beam.add_tangent(
+                [&self.q, &rest, &rest],
+                Vec3::ZERO,
+                &Weights::new(a, v, q),
+                |at, block| {
+                    for i in 0..VELOCITIES {
+                        (0..VELOCITIES).for_each(|j| full[(at + i, at + j)] += block[i][j]);
+                    }
+                },
+            );
             DMatrix::from_fn(free.len(), free.len(), |i, j| full[(free[i], free[j])])
         })
     }

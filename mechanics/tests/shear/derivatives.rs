@@ -108,11 +108,11 @@ impl Dynamics for Free {
     }
     fn residual(&mut self, s: &State, r: &mut [f64]) {
         r.fill(0.0);
-        self.beam.add_forces(&s.q, &s.v, &s.a, r);
+        self.beam.add_forces([&s.q, &s.v, &s.a], Vec3::ZERO, r);
     }
     fn tangent(&mut self, s: &State, w: Weights<'_>, out: &mut Matrix) {
         out.clear();
-        self.beam.add_tangent(&s.q, &s.v, &s.a, &w, |at, block| {
+        self.beam.add_tangent([&s.q, &s.v, &s.a], Vec3::ZERO, &w, |at, block| {
             for i in 0..VELOCITIES {
                 (0..VELOCITIES).for_each(|j| out.add(at + i, at + j, block[i][j]));
             }
@@ -152,7 +152,7 @@ fn the_beam_is_what_the_integrators_take_it_for() {
 fn tangent(beam: &Beam, [q, v, a]: [&[f64]; 3], w: &Weights<'_>) -> Vec<Vec<f64>> {
     let n = beam.velocities();
     let mut out = vec![vec![0.0; n]; n];
-    beam.add_tangent(q, v, a, w, |at, block| {
+    beam.add_tangent([q, v, a], Vec3::ZERO, w, |at, block| {
         for i in 0..VELOCITIES {
             (0..VELOCITIES).for_each(|j| out[at + i][at + j] += block[i][j]);
         }
@@ -174,7 +174,7 @@ fn the_tangent_by_an_increment_is_that_of_the_forces_by_differences() {
         };
         let forces = |d: &[f64]| {
             let mut r = vec![0.0; n];
-            beam.add_forces(&at(d), &v, &a, &mut r);
+            beam.add_forces([&at(d), &v, &a], Vec3::ZERO, &mut r);
             r
         };
         let there = at(&d);

@@ -34,7 +34,7 @@ fn strains_are_the_same_after_any_rigid_motion() {
     let rest = vec![0.0; n];
     let forces = |q: &[f64]| {
         let mut r = vec![0.0; n];
-        beam.add_forces(q, &rest, &rest, &mut r);
+        beam.add_forces([q, &rest, &rest], Vec3::ZERO, &mut r);
         r
     };
     let force = forces(&q);

@@ -222,12 +222,12 @@ fn a_rotating_rod_stretches_as_in_closed_form() {
                 (-spin * spin * chain.beam.node(i, &chain.q).position).put(&mut a, 6 * i);
             }
             let mut r = vec![0.0; size];
-            chain.beam.add_forces(&chain.q, &v, &a, &mut r);
+            chain.beam.add_forces([&chain.q, &v, &a], Vec3::ZERO, &mut r);
             // By the axial unknowns: r̈ = −Ω² r.
             let rows = size / 6 - 1;
             let mut matrix = DMatrix::zeros(rows, rows);
             let w = flexion::system::Weights::new(-spin * spin, 0.0, 1.0);
-            chain.beam.add_tangent(&chain.q, &v, &a, &w, |at, block| {
+            chain.beam.add_tangent([&chain.q, &v, &a], Vec3::ZERO, &w, |at, block| {
                 for i in (0..block.len()).step_by(6).filter(|i| at + i > 0) {
                     for j in (0..block.len()).step_by(6).filter(|j| at + j > 0) {
                         matrix[((at + i) / 6 - 1, (at + j) / 6 - 1)] += block[i][j];

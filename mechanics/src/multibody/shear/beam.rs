@@ -9,10 +9,11 @@
 //!
 //! An increment d = (d_r, d_φ | …) moves a node to r + d_r and p exp d_φ, so that Ω = T(d_φ) ḋ_φ.
 
-use super::element::{Element, Motion, NODE_COORDINATES, NODE_VELOCITIES, Tangent, VELOCITIES};
-use super::shapes::POINTS;
+use super::element::{Element, Motion, NODE_COORDINATES, NODE_VELOCITIES, Sample, Tangent, VELOCITIES};
+use super::shapes::{NODES, POINTS};
 use crate::linalg::{Mat3, Vec3};
-use crate::multibody::rotation::{Quaternion, rate};
+use crate::multibody::line_load::LineDistribution;
+use crate::multibody::rotation::{Quaternion, rate, tangent};
 use crate::section::Matrices;
 use crate::system::{Frame, Weights};
 
@@ -63,6 +64,8 @@ pub struct Beam {
     initial: Vec<f64>,
     /// Arc lengths of the nodes \[m\].
     nodes: Vec<f64>,
+    /// β [1/s]
+    damping: f64,
 }
 
 impl Beam {
@@ -117,7 +120,7 @@ impl Beam {
             }
             elements.push(element);
         }
-        Ok(Beam { elements, initial, nodes })
+        Ok(Beam { elements, initial, nodes, damping: 0.0 })
     }
 
     /// A straight beam of equal sections and `elements` elements of equal length along the first axis of `root`.
@@ -210,11 +213,33 @@ impl Beam {
         }
     }
 
-    /// Adds the forces of strain, damping and inertia to `r`. A field of acceleration b, as gravity, acts as the accelerations
-    /// r̈ − b.
-    pub fn add_forces(&self, q: &[f64], v: &[f64], a: &[f64], r: &mut [f64]) {
+    /// Sets the damping β [1/s] in proportion to the mass, forces −β M v, and adds to that of the sections one of η \[s\] in proportion to the
+    /// stiffness, D + η C.
+    pub fn damp(&mut self, mass: f64, stiffness: f64) {
+        self.damping = mass;
+        if stiffness != 0.0 {
+            let mut last: Option<(Element, Element)> = None;
+            for element in &mut self.elements {
+                let like = last.as_ref().filter(|(before, _)| before.is_like(element)).map(|(_, now)| now);
+                let damped = element.damped(stiffness, like);
+                last = Some((std::mem::replace(element, damped.clone()), damped));
+            }
+        }
+    }
+
+    /// r̈ − b + β ṙ and Ω̇ + β Ω of an element in a field of acceleration b: the forces of inertia are then those of field and damping too.
+    fn accelerations(&self, v: &[f64; VELOCITIES], a: &[f64; VELOCITIES], field: Vec3) -> [f64; VELOCITIES] {
+        std::array::from_fn(|k| {
+            let along = k % NODE_VELOCITIES;
+            a[k] + self.damping * v[k] - if along < 3 { field[along] } else { 0.0 }
+        })
+    }
+
+    /// Adds the forces of strain, damping and inertia, and those of a field of acceleration b, as gravity, to `r`.
+    pub fn add_forces(&self, [q, v, a]: [&[f64]; 3], field: Vec3, r: &mut [f64]) {
         for (element, i, j) in self.places() {
-            let motion = Motion { q: part(q, i), v: part(v, j), a: part(a, j) };
+            let a = self.accelerations(part(v, j), part(a, j), field);
+            let motion = Motion { q: part(q, i), v: part(v, j), a: &a };
             let mut forces = [0.0; VELOCITIES];
             element.add_forces(&motion, &mut forces);
             r[j..].iter_mut().zip(forces).for_each(|(r, force)| *r += force);
@@ -225,19 +250,111 @@ impl Beam {
     /// ∂r/∂d is that by the increment d since the configuration that was retracted, `w.increment`.
     pub fn add_tangent(
         &self,
-        q: &[f64],
-        v: &[f64],
-        a: &[f64],
+        [q, v, a]: [&[f64]; 3],
+        field: Vec3,
         w: &Weights<'_>,
         mut add: impl FnMut(usize, &Tangent),
     ) {
         for (element, i, j) in self.places() {
-            let motion = Motion { q: part(q, i), v: part(v, j), a: part(a, j) };
+            let a = self.accelerations(part(v, j), part(a, j), field);
+            let motion = Motion { q: part(q, i), v: part(v, j), a: &a };
             let mut tangent = [[0.0; VELOCITIES]; VELOCITIES];
-            let w = Weights { increment: w.increment.map(|d| &d[j..]), ..*w };
+            let w = Weights { increment: w.increment.map(|d| &d[j..]), a: w.a + self.damping * w.v, ..*w };
             element.add_tangent(&motion, &w, &mut tangent);
             add(j, &tangent);
         }
+    }
+
+    /// The place z, 0 to 1, of an element: position and axes.
+    pub fn section(&self, q: &[f64], element: usize, z: f64) -> Frame {
+        self.elements[element].section(part(q, NODE_COORDINATES * POINTS * element), z)
+    }
+
+    /// Strains and stress resultants of an element at its quadrature points.
+    pub fn samples(&self, q: &[f64], element: usize) -> [Sample; POINTS] {
+        self.elements[element].samples(part(q, NODE_COORDINATES * POINTS * element))
+    }
+
+    /// Largest angle \[rad\] by which a section of an element is rotated against its reference section.
+    pub fn turn(&self, q: &[f64], element: usize) -> f64 {
+        self.elements[element].turn(part(q, NODE_COORDINATES * POINTS * element))
+    }
+
+    /// Calls `visit` with the forces of a load per length: the number of the first velocity of a node, and its force.
+    fn line_forces(
+        &self,
+        on: &LineDistribution,
+        q: &[f64],
+        load: Vec3,
+        follows: bool,
+        mut visit: impl FnMut(usize, Vec3),
+    ) {
+        for (e, rows) in (on.first..).zip(on.rows.as_chunks::<NODES>().0) {
+            let first = POINTS * e;
+            for (k, row) in rows.iter().enumerate() {
+                let force = if follows { self.node(first + k, q).rotation * load } else { load };
+                for (i, weight) in row.iter().enumerate() {
+                    visit(NODE_VELOCITIES * (first + i), *weight * force);
+                }
+            }
+        }
+    }
+
+    /// Adds the forces of a load per length [N/m], with components in fixed axes or in those of the sections.
+    pub(in crate::multibody) fn add_line_load(
+        &self,
+        on: &LineDistribution,
+        q: &[f64],
+        load: Vec3,
+        follows: bool,
+        r: &mut [f64],
+    ) {
+        self.line_forces(on, q, load, follows, |at, force| force.add_to(r, at));
+    }
+
+    /// Hands the derivative of the forces of a load that follows the sections to `add`, element by element, with the number of its
+    /// first velocity: by the increment d since the configuration that was retracted, or by variations.
+    pub(in crate::multibody) fn add_line_tangent(
+        &self,
+        on: &LineDistribution,
+        q: &[f64],
+        load: Vec3,
+        increment: Option<&[f64]>,
+        mut add: impl FnMut(usize, &Tangent),
+    ) {
+        for (e, rows) in (on.first..).zip(on.rows.as_chunks::<NODES>().0) {
+            let (first, mut out) = (POINTS * e, [[0.0; VELOCITIES]; VELOCITIES]);
+            for (k, row) in rows.iter().enumerate() {
+                // δ(Λ p) = −Λ p̃ δφ
+                let rotation = self.node(first + k, q).rotation;
+                let at = NODE_VELOCITIES * (first + k) + 3;
+                let turn = increment.map_or(Mat3::IDENTITY, |d| tangent(Vec3::at(d, at)));
+                let change = -1.0 * (rotation * Mat3::skew(load) * turn);
+                for (i, weight) in row.iter().enumerate() {
+                    for a in 0..3 {
+                        for b in 0..3 {
+                            out[NODE_VELOCITIES * i + a][NODE_VELOCITIES * k + 3 + b] +=
+                                weight * change[a][b];
+                        }
+                    }
+                }
+            }
+            add(NODE_VELOCITIES * first, &out);
+        }
+    }
+
+    /// Power \[W\] of a load per length.
+    pub(in crate::multibody) fn line_power(
+        &self,
+        on: &LineDistribution,
+        q: &[f64],
+        v: &[f64],
+        load: Vec3,
+        follows: bool,
+    ) -> f64 {
+        let mut power = 0.0;
+        self.line_forces(on, q, load, follows, |at, force| power += force.dot(Vec3::at(v, at)));
+        power
     }
 
     /// Strain energy \[J\].

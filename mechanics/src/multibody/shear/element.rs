@@ -56,7 +56,7 @@ pub struct Element {
 }
 
 /// What elements of one length and one section have in common.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Constants {
     length: f64,
     points: [Point; POINTS],
@@ -137,6 +137,31 @@ impl Element {
         let relative = Relative::new(q);
         let rest = constants.points.map(|point| Section::new(&point, &relative.variables).strain());
         Element { constants, rest }
+    }
+
+    /// Whether it shares its constants with another one.
+    pub(super) fn is_like(&self, other: &Element) -> bool {
+        Arc::ptr_eq(&self.constants, &other.constants)
+    }
+
+    /// The same element with the damping D + η C; it shares its constants with the element `like`.
+    pub(super) fn damped(&self, viscosity: f64, like: Option<&Element>) -> Element {
+        if let Some(like) = like {
+            return Element { constants: Arc::clone(&like.constants), rest: self.rest };
+        }
+        let own = &*self.constants;
+        let none = [[[Mat3::ZERO; 2]; 2]; POINTS];
+        let mut damping = own.damping.unwrap_or(none);
+        for (d, c) in damping
+            .as_flattened_mut()
+            .as_flattened_mut()
+            .iter_mut()
+            .zip(own.stiffness.as_flattened().as_flattened())
+        {
+            *d = *d + viscosity * *c;
+        }
+        let constants = Constants { damping: Some(damping), ..own.clone() };
+        Element { constants: Arc::new(constants), rest: self.rest }
     }
 
     /// Places z of the nodes, 0 to 1: those of Lobatto's rule.
@@ -315,7 +340,7 @@ impl Element {
     /// Position and axes at the place z, 0 to 1.
     pub fn section(&self, q: &[f64; COORDINATES], z: f64) -> Frame {
         let relative = Relative::new(q);
-        let [value, _] = lagrange(z);
+        let [value, ..] = lagrange(z);
         let (mut place, mut turn) = (Vec3::ZERO, Vec3::ZERO);
         for (k, i) in OTHERS.into_iter().enumerate() {
             let [x, of] = relative.variables[k];
@@ -330,7 +355,7 @@ impl Element {
 
     /// ṙ at the place z.
     pub fn velocity(&self, v: &[f64; VELOCITIES], z: f64) -> Vec3 {
-        let [value, _] = lagrange(z);
+        let [value, ..] = lagrange(z);
         (0..NODES).map(|i| value[i] * pair(v, i)[0]).sum()
     }
 

@@ -47,6 +47,8 @@ mod shapes;
 mod strain;
 mod tangent;
 
+pub(super) use shapes::lagrange;
+
 pub use beam::{Beam, BeamError};
 pub use element::{
     COORDINATES, Element, Motion, NODE_COORDINATES, NODE_VELOCITIES, Sample, Tangent, VELOCITIES,

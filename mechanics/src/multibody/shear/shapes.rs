@@ -44,7 +44,7 @@ pub(super) struct Point {
 impl Point {
     /// The functions at the place `place` of an element of the length `length`.
     pub fn at(place: f64, weight: f64, length: f64) -> Point {
-        let [value, slope] = lagrange(place);
+        let [value, slope, _] = lagrange(place);
         let (value, slope) = (OTHERS.map(|i| value[i]), OTHERS.map(|i| slope[i] / length));
         Point { place, weight, value, slope }
     }
@@ -59,18 +59,19 @@ pub(super) fn gauss(length: f64) -> [Point; POINTS] {
     points
 }
 
-/// L and its derivatives at the place z.
-pub(super) fn lagrange(z: f64) -> [[f64; NODES]; 2] {
-    let mut out = [[0.0; NODES]; 2];
+/// L and its first and second derivatives at the place z.
+pub(in crate::multibody) fn lagrange(z: f64) -> [[f64; NODES]; 3] {
+    let mut out = [[0.0; NODES]; 3];
     for (i, (own, _)) in LOBATTO.into_iter().enumerate() {
-        let (mut value, mut slope) = (1.0, 0.0);
+        let (mut value, mut slope, mut curvature) = (1.0, 0.0, 0.0);
         for (j, (other, _)) in LOBATTO.into_iter().enumerate() {
             if j != i {
+                curvature = (curvature * (z - other) + 2.0 * slope) / (own - other);
                 slope = (slope * (z - other) + value) / (own - other);
                 value *= (z - other) / (own - other);
             }
         }
-        (out[0][i], out[1][i]) = (value, slope);
+        (out[0][i], out[1][i], out[2][i]) = (value, slope, curvature);
     }
     out
 }

@@ -11,14 +11,16 @@
 //! rotates about it by φ. Of this motion the spin is w = φ̇ − c·ṙ′/|r′|, with c of the tangents before and now
 //! ([`Pair`]): that is v = T(d) ḋ.
 
-use super::element::{Element, Motion, Tangent};
-use super::loads::{LineDistribution, LineWeights};
+use super::element::{Element, Motion, Sample, Tangent};
+use super::loads::LineWeights;
 use super::pair::{Pair, spin_by_slope};
 use super::properties::Properties;
+use super::shapes::POINTS;
 use super::strain::{COORDINATES, VELOCITIES, centreline, positions};
 use super::triad::Triad;
 use crate::linalg::Vec3;
 use crate::linalg::vector::inner;
+use crate::multibody::line_load::LineDistribution;
 use crate::system::Weights;
 
 /// Coordinates of an element that the next one does not share.
@@ -215,12 +217,43 @@ impl Beam {
         (Vec3::at(q, at), Triad::new(Vec3::at(q, at + 3), Vec3::at(q, at + 6)))
     }
 
+    /// The place z, 0 to 1, of an element: position and axes.
+    pub fn section(&self, q: &[f64], element: usize, z: f64) -> (Vec3, Triad) {
+        self.elements[element].section(part(q, ELEMENT_COORDINATES * element), z)
+    }
+
+    /// Strains and stress resultants of an element at its quadrature points.
+    pub fn samples(&self, q: &[f64], element: usize) -> [Sample; POINTS] {
+        self.elements[element].samples(part(q, ELEMENT_COORDINATES * element))
+    }
+
+    /// Whether an element is twisted by more than half a turn.
+    pub fn is_wound(&self, q: &[f64], element: usize) -> bool {
+        self.elements[element].is_wound(part(q, ELEMENT_COORDINATES * element))
+    }
+
+    /// Writes the velocities of a rigid motion: the velocity of the first node and the angular velocity, both in space.
+    pub fn move_rigidly(&self, velocity: Vec3, spin: Vec3, q: &[f64], v: &mut [f64]) {
+        let (origin, _) = self.node(0, q);
+        for node in 0..self.nodes.len() {
+            let (position, triad) = self.node(node, q);
+            let at = ELEMENT_VELOCITIES * node;
+            let slope = triad.length * triad.tangent;
+            (velocity + spin.cross(position - origin)).put(v, at);
+            spin.cross(slope).put(v, at + 3);
+            v[at + 6] = spin.dot(triad.tangent);
+            if node < self.elements.len() {
+                v[at + 7] = spin.dot(self.section(q, node, 0.5).1.tangent);
+            }
+        }
+    }
+
     /// The elements under a load, with the begin of their coordinates and velocities and the weights of the load.
     fn under<'a>(
         &'a self,
         on: &'a LineDistribution,
     ) -> impl Iterator<Item = ((&'a Element, usize, usize), &'a LineWeights)> {
-        self.middles().skip(on.first).zip(&on.weights)
+        self.middles().skip(on.first).zip(on.rows.as_chunks().0)
     }
 
     /// The middle sections of the elements: element, its coordinates' and velocities' begin.
@@ -312,7 +345,14 @@ impl Beam {
 
     /// Adds the forces of a load per length [N/m], with components in fixed axes or in those of the sections, and with its weights
     /// element by element.
-    pub fn add_line_load(&self, on: &LineDistribution, q: &[f64], load: Vec3, follows: bool, r: &mut [f64]) {
+    pub(in crate::multibody) fn add_line_load(
+        &self,
+        on: &LineDistribution,
+        q: &[f64],
+        load: Vec3,
+        follows: bool,
+        r: &mut [f64],
+    ) {
         for ((element, i, j), weights) in self.under(on) {
             element.add_line_load(part(q, i), weights, load, follows, &mut r[j..]);
         }
@@ -320,7 +360,7 @@ impl Beam {
 
     /// Hands the derivative of the forces of a load that follows the sections to `add`, element by element, with the number of its
     /// first velocity: by the increment d since the configuration that was retracted, or by variations.
-    pub fn add_line_tangent(
+    pub(in crate::multibody) fn add_line_tangent(
         &self,
         on: &LineDistribution,
         q: &[f64],
@@ -337,7 +377,14 @@ impl Beam {
     }
 
     /// Power \[W\] of a load per length.
-    pub fn line_power(&self, on: &LineDistribution, q: &[f64], v: &[f64], load: Vec3, follows: bool) -> f64 {
+    pub(in crate::multibody) fn line_power(
+        &self,
+        on: &LineDistribution,
+        q: &[f64],
+        v: &[f64],
+        load: Vec3,
+        follows: bool,
+    ) -> f64 {
         let of = |((element, i, j), weights): ((&Element, usize, usize), &LineWeights)| {
             let mut forces = [0.0; VELOCITIES];
             element.add_line_load(part(q, i), weights, load, follows, &mut forces);

@@ -227,6 +227,9 @@ impl Element {
 
     /// Power \[W\] that the damping in proportion to the stiffness takes, η ∫γ̇ᵀ C γ̇ ds.
     pub fn viscous_power(&self, q: &[f64; COORDINATES], v: &[f64; VELOCITIES]) -> f64 {
+        if self.viscosity == 0.0 {
+            return 0.0;
+        }
         let sections = self.sections(q);
         let points = sections.points(&self.shapes);
         let (rates, rest) = stiffness::rates(&self.shapes, &sections, &points, &variables(v));

@@ -15,10 +15,8 @@ use super::inertia::{Rate, Rotation};
 use super::triad::Triad;
 use crate::linalg::vector::inner;
 use crate::linalg::{Mat3, Vec3};
-use crate::quadrature::Gauss;
 
 use super::element::{Element, Tangent};
-use super::shapes::{hermite, sample};
 use super::strain::{CENTRELINE, COORDINATES, SPINS, VELOCITIES, centreline, chord, combined, shares};
 
 /// The variations (δr′, δΘ) of a section.
@@ -131,38 +129,10 @@ impl Load {
 /// Weights \[m\] with which a load per length at the three sections of an element acts on r₁, r′₁, r₂, r′₂.
 pub type LineWeights = [[f64; 4]; 3];
 
-/// The weights of a load along a beam, from the element `first` on.
-#[derive(Clone, Debug, Default)]
-pub struct LineDistribution {
-    /// Number of the first element on which it acts.
-    pub first: usize,
-    /// Of each element from there on.
-    pub weights: Vec<LineWeights>,
-}
-
-/// Points of Gauss' rule for a distribution, which is integrated between its breaks.
-const DISTRIBUTION_POINTS: usize = 6;
-
 /// Those of a uniform load on an element of the length h: shape functions at the sections, times the weights of Simpson's rule.
-pub fn uniform_weights(h: f64) -> LineWeights {
+pub(in crate::multibody) fn uniform_weights(h: f64) -> LineWeights {
     let (sixth, third, twelfth) = (h / 6.0, h / 3.0, h * h / 12.0);
     [[sixth, 0.0, 0.0, 0.0], [third, twelfth, third, -twelfth], [0.0, 0.0, sixth, 0.0]]
-}
-
-/// Those of a load f(s) times that of the sections, interpolated quadratically, on an element from the arc length s₀ on: ∫f Lₖ Nᵢ ds between the
-/// ascending arc lengths `cuts` \[m\].
-pub fn distributed_weights(h: f64, start: f64, cuts: &[f64], f: impl Fn(f64) -> f64) -> LineWeights {
-    let (mut out, gauss) = ([[0.0; 4]; 3], Gauss::new(DISTRIBUTION_POINTS));
-    for piece in cuts.windows(2) {
-        for (s, weight) in gauss.on(piece[0], piece[1]) {
-            let z = (s - start) / h;
-            let ([n, ..], l) = (hermite(z, h), sample(z));
-            for (out, l) in out.iter_mut().zip(l) {
-                out.iter_mut().zip(n).for_each(|(out, n)| *out += weight * f(s) * l * n);
-            }
-        }
-    }
-    out
 }
 
 impl Element {

@@ -66,12 +66,13 @@ mod stiffness;
 mod strain;
 mod triad;
 
-pub(super) use shapes::hermite;
+pub(super) use loads::uniform_weights;
+pub(super) use shapes::{hermite, sample};
 pub(super) use strain::combined;
 
 pub use beam::{Beam, BeamError, ELEMENT_COORDINATES, ELEMENT_VELOCITIES, Station};
 pub use element::{Element, Motion, Sample, Tangent};
-pub use loads::{LineDistribution, LineWeights, Load, SectionForces, distributed_weights, uniform_weights};
+pub use loads::{LineWeights, Load, SectionForces};
 pub use pair::Pair;
 pub use properties::Properties;
 pub use strain::{COORDINATES, VELOCITIES};

@@ -81,7 +81,7 @@ pub(in crate::multibody) fn hermite(z: f64, h: f64) -> [[f64; 4]; 3] {
 }
 
 /// L at the place z.
-pub(super) fn sample(z: f64) -> [f64; 3] {
+pub(in crate::multibody) fn sample(z: f64) -> [f64; 3] {
     [(1.0 - z) * (1.0 - 2.0 * z), 4.0 * z * (1.0 - z), z * (2.0 * z - 1.0)]
 }
 
