@@ -6,14 +6,14 @@ use super::keys::{
     vector,
 };
 use super::kinds::basis::{self, Either, FIELD};
-use super::kinds::coupling::{COUPLING, Coupling};
+use super::kinds::coupling::{COUPLING, Coupling, SPACE};
 use super::kinds::initial::{self, Initial};
 use super::kinds::integrator::{self, Method};
 use super::kinds::motion::MOTION;
 use super::kinds::section::{self, Section};
 use super::kinds::{
-    amplitude, beam, blade, body, contact, damping, force_law, joint, load, mass, obstacle, rotation, spring,
-    torque,
+    amplitude, beam, blade, body, contact, curve, damping, force_law, joint, load, mass, obstacle, rotation,
+    spring, torque,
 };
 use super::tree::{Line, Raw};
 use super::units::{ACCELERATION, INERTIA, LENGTH, ROTARY_INERTIA, TIME};
@@ -42,7 +42,7 @@ pub(super) static CHOICES: &[&dyn Kinds] = &[
     &initial::INITIAL,
     &integrator::INTEGRATOR,
     &body::INERTIA,
-    &beam::CURVE,
+    &curve::CURVE,
     &beam::END,
     &joint::JOINT,
     &joint::TRAVEL,
@@ -112,7 +112,7 @@ const REFINE: &str = "into how many each element of beams in space is cut";
 keys! {
     /// What is kept of the equations of a system in space.
     pub(super) struct Model {
-        coupling: Named<Option<Coupling>> = COUPLED.or_name("space");
+        coupling: Named<Option<Coupling>> = COUPLED.or_name(SPACE);
         drop_redundant_rows: bool = boolean().or_false().called("", REDUNDANT);
         refine: usize = integer(1, 1000).or_count(1).called("", REFINE);
     }

@@ -16,10 +16,11 @@ use super::kind::{Context, Keys};
 use super::kinds::basis::FiniteElements;
 use super::kinds::blade::BLADE;
 use super::kinds::contact::{self, CONTACT};
+use super::kinds::coupling::{SPACE, SPACE_WITH_SHEAR};
 use super::kinds::damping::DAMPING;
 use super::kinds::load::{self, LOAD};
 use super::kinds::obstacle::Stop;
-use super::kinds::section::Section;
+use super::kinds::section::{Assumed, Section};
 use super::layout::{self, BASIS, INITIAL, MODEL_ON_HUB, ModelOnHub, OUTPUT, RUN, Recorded, SECTION};
 use super::problem::Place;
 use super::sources::Files;
@@ -53,9 +54,14 @@ pub(super) struct Long {
     pub cautions: Vec<String>,
 }
 
-/// Whether a case of a beam on a hub asks for space.
+/// The coupling that a case of a beam on a hub asks for.
+fn coupling(v: &Values) -> Option<&str> {
+    MODEL_ON_HUB.values_in(v).and_then(|model| ModelOnHub::coupling.chosen_in(model))
+}
+
+/// Whether it asks for space.
 pub(super) fn asks_for_space(v: &Values) -> bool {
-    MODEL_ON_HUB.values_in(v).and_then(|model| ModelOnHub::coupling.chosen_in(model)) == Some("space")
+    coupling(v).is_some_and(|name| [SPACE, SPACE_WITH_SHEAR].contains(&name))
 }
 
 /// The lines of a table that take the place of one that was written at a place.
@@ -273,7 +279,7 @@ pub(super) fn long(lines: &[Line], v: &Values, files: &Files<'_>) -> Made<Long> 
 
     let refine = MODEL_ON_HUB.read(v, c)?.refine.unwrap_or(1);
     let model = Lines::at(&place("model"))
-        .text("coupling", "space")
+        .text("coupling", coupling(v).unwrap_or(SPACE))
         .node("drop-redundant-rows", written(lines, "model.drop-redundant-rows"))
         .raw("refine", Raw::Integer(refine.saturating_mul(parts) as i64));
     let fibres = fibres(lines, v, &output);
@@ -354,7 +360,8 @@ fn without(node: &Node, key: &str, drop: bool) -> Node {
 
 /// Whether a section says nothing of torsion.
 fn is_silent(section: &Section) -> bool {
-    section.blade(0.0).is_ok_and(|blade| !(blade.resultants(0.0).torsional_stiffness > 0.0))
+    let assumed = Assumed { poisson_ratio: 0.0, shear_factor: None };
+    section.blade(assumed).is_ok_and(|blade| !(blade.resultants(0.0).torsional_stiffness > 0.0))
 }
 
 /// Whether centre of mass and tension centre are on the axis, which is that of the centres of mass in space.

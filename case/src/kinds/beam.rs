@@ -1,129 +1,26 @@
-//! Slender beams in space.
+//! Beams in space.
 
-use super::centreline::{Centreline, Points};
+use super::curve::{Bent, CURVE, Curve};
 use super::damping::Damped;
 use super::name::name;
-use super::section::{SECTION, Section};
+use super::section::{Assumed, SECTION, Section};
 use crate::declaration::Bound::*;
 use crate::fault::{At, Fault, Faults, Made};
 use crate::keys::{
     Later, boolean, choice, integer, keys, kind, number, place, quantities, quantity, table, text, vector,
 };
-use crate::kind::{Choice, Context, Is, Kind, Nothing, Of, Table};
+use crate::kind::{Choice, Context, Is, Kind, Of, Table};
 use crate::units::{ANGLE, ANGULAR_SPEED, BENDING_STIFFNESS, FACTOR, LENGTH, ROTARY_INERTIA, VELOCITY};
-use flexion::linalg::Vec3;
-use flexion::multibody::rotation::{about, frame};
+use flexion::linalg::{Mat3, Vec3};
+use flexion::multibody::rotation::frame;
 use flexion::multibody::slender::{Properties, Station};
-use flexion::multibody::{self, slender};
+use flexion::multibody::{self, shear, slender};
 use flexion::quadrature::Gauss;
-use flexion::section::{AsStiffAcross, BladeSection, Shape};
+use flexion::section::{AsStiffAcross, BladeSection, Matrices, Shape};
+use flexion::system::Frame;
 use flexion_results::Contour;
 use std::fmt;
 use std::sync::Arc;
-
-/// The centreline without stress by its arc length, for one that begins at the origin along `direction` with the height of its
-/// section along `up`.
-pub type Curve = Arc<dyn Fn(f64) -> Station + Send + Sync>;
-
-/// Makes the curve of a length, a direction and the direction of the height.
-type Along = Box<dyn Fn(f64, Vec3, Vec3) -> Curve>;
-
-/// A kind of centreline.
-pub enum Bent {
-    /// Of the length and direction that its beam has.
-    Along(Along),
-    /// Through points.
-    Through(Box<Centreline>),
-}
-
-fn straight(_: f64, tangent: Vec3, normal: Vec3) -> Curve {
-    Arc::new(move |s| Station { position: s * tangent, tangent, normal })
-}
-
-keys! {
-    struct Turn {
-        /// angle of the arc
-        angle: f64 = quantity(&ANGLE, Any);
-        /// direction to which it bends at the root, `up` if left out
-        towards: Option<Vec3> = vector(&FACTOR);
-    }
-
-    struct Helix {
-        /// radius of the centreline
-        radius: f64 = quantity(&LENGTH, Positive);
-        /// advance along the axis in a turn
-        pitch: f64 = quantity(&LENGTH, Any);
-    }
-}
-
-/// The kinds of centreline.
-pub static CURVE: Choice<Bent> = Choice {
-    name: "curve",
-    path: "beam.curve",
-    summary: "centreline of a beam in space without stress",
-    kinds: &[
-        Kind {
-            name: "straight",
-            summary: "a straight line",
-            source: "",
-            example: "beam=[{length=1, section={kind='circle', modulus='70 GPa', density=2700, radius='1 cm'}, curve={kind='straight'}, root='clamped'}]",
-            make: &Of(|_: Nothing, _| Ok(Bent::Along(Box::new(straight)))),
-        },
-        Kind {
-            name: "arc",
-            summary: "an arc of a circle",
-            source: "",
-            example: "beam=[{length=1, section={kind='circle', modulus='70 GPa', density=2700, radius='1 cm'}, curve={kind='arc', angle='45 deg', towards=[0, 1, 0]}, root='clamped'}]",
-            make: &Of(|Turn { angle, towards }, _| {
-                if angle == 0.0 {
-                    return Err(Fault::new("angle", "an arc of the angle 0 is straight").into());
-                }
-                Ok(Bent::Along(Box::new(move |length, tangent, normal| {
-                    let towards = towards.unwrap_or(normal);
-                    let side = towards - towards.dot(tangent) * tangent;
-                    let size = side.dot(side).sqrt();
-                    let side = if size > 0.0 { 1.0 / size * side } else { normal };
-                    let (axis, radius) = (tangent.cross(side), length / angle);
-                    Arc::new(move |s| {
-                        let turned = about(s / radius * axis);
-                        let (sin, cos) = (s / radius).sin_cos();
-                        let position = radius * sin * tangent + radius * (1.0 - cos) * side;
-                        Station { position, tangent: turned * tangent, normal: turned * normal }
-                    })
-                })))
-            }),
-        },
-        Kind {
-            name: "helix",
-            summary: "a helix about `direction`, that begins on the side of `up` of its axis; the height points outwards",
-            source: "",
-            example: "beam=[{length=1, section={kind='circle', modulus='70 GPa', density=2700, radius='1 cm'}, curve={kind='helix', radius='20 cm', pitch='10 cm'}, root='clamped'}]",
-            make: &Of(|Helix { radius, pitch }, _| {
-                Ok(Bent::Along(Box::new(move |_, axis, out| {
-                    let (side, rise) = (axis.cross(out), pitch / std::f64::consts::TAU);
-                    let scale = radius.hypot(rise);
-                    Arc::new(move |s| {
-                        let (sin, cos) = (s / scale).sin_cos();
-                        let normal = cos * out + sin * side;
-                        let along = -sin * out + cos * side;
-                        let radial = radius * normal - radius * out;
-                        let position = radial + rise * s / scale * axis;
-                        let tangent = radius / scale * along + rise / scale * axis;
-                        Station { position, tangent, normal }
-                    })
-                })))
-            }),
-        },
-        Kind {
-            name: "points",
-            summary: "a cubic spline through points of space, which says the length and the direction of the beam; the height \
-                      follows it without turning about it",
-            source: "",
-            example: "beam=[{section={kind='circle', modulus='70 GPa', density=2700, radius='1 cm'}, curve={kind='points', x=[0, '20 cm', '50 cm'], y=[0, '1 cm', '8 cm'], z=[0, 0, '5 cm']}, root='clamped'}]",
-            make: &Of(|k: Points, _| Ok(Bent::Through(Box::new(Centreline::of(k)?)))),
-        },
-    ],
-};
 
 /// What holds an end of a beam.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -183,6 +80,8 @@ pub struct Beam {
     pub polar: Option<f64>,
     /// Number of elements.
     pub elements: usize,
+    /// Whether it has shear strains.
+    pub shear: bool,
     /// Place of the tension centre along n and b \[m\].
     pub tension_centre: [f64; 2],
     /// Stiffnesses that couple torsion and bending \[N·m²\].
@@ -260,13 +159,43 @@ impl Beam {
     pub fn leaves_out_torsion(&self) -> bool {
         let of = self.blade.resultants(0.5 * self.length);
         let differ = (of.chord_inertia - of.flap_inertia).abs() > 0.01 * (of.chord_inertia + of.flap_inertia);
-        differ && !self.planar && self.section.planar.resultants(0.5 * self.length).rotary_inertia == 0.0
+        differ
+            && !self.planar
+            && !self.shear
+            && self.section.planar.resultants(0.5 * self.length).rotary_inertia == 0.0
     }
 
-    /// Stiffness and inertia at a station.
+    /// Stiffness and mass with shear at a station, of a section that says them.
+    fn matrices(&self, s: f64) -> Option<Matrices> {
+        let mut of = self.blade.matrices(s)?.with_tension_centre(self.tension_centre);
+        for ([i, j], c) in [[3, 4], [3, 5], [4, 5]].into_iter().zip(self.coupling) {
+            of.stiffness[i][j] += c;
+            of.stiffness[j][i] += c;
+        }
+        of.mass[3][3] = self.polar.unwrap_or(of.mass[3][3]);
+        Some(of)
+    }
+
+    /// What a beam without shear leaves out of its section.
+    pub fn left_out(&self) -> Option<String> {
+        let table = self.section.matrices.as_ref().filter(|_| !self.shear)?;
+        let offset =
+            |(_, of): &(f64, Matrices)| of.mass_centre().map(f64::abs).into_iter().fold(0.0, f64::max);
+        let offset = table.rows().iter().map(offset).fold(0.0, f64::max);
+        Some(format!(
+            "the 6 × 6 sections of beam `{}` are condensed at zero shear force, and their centres of mass, up to {offset:.4} m beside the axis, \
+             are put on it: write `shear = true` to keep both",
+            self.name
+        ))
+    }
+
+    /// Stiffness and inertia without shear at a station.
     fn properties(&self, s: f64) -> Properties {
-        let mut of = Properties::from(&self.blade.resultants(s));
-        if self.section.planar.resultants(s).rotary_inertia == 0.0 {
+        let mut of = match &self.section.matrices {
+            Some(table) => Properties::from(&table.at(s)),
+            None => Properties::from(&self.blade.resultants(s)),
+        };
+        if self.section.matrices.is_none() && self.section.planar.resultants(s).rotary_inertia == 0.0 {
             of.inertia = [of.inertia[0], 0.0, 0.0];
         }
         of.inertia[0] = self.polar.unwrap_or(of.inertia[0]);
@@ -277,8 +206,8 @@ impl Beam {
     pub fn built(&self, stations: &[f64], parts: usize) -> Made<multibody::Beam> {
         crate::features::apart(self.blade.jumps(), self.length)?;
         let mut ends = vec![0.0, self.length];
-        // The sections of an element are seen at few points: it ends at every row, but for tables of very many.
-        if self.blade.breaks().len() <= MOST_ROWS * self.elements {
+        // The sections of an element are seen at few points: it ends at every row, but for tables of very many rows of single numbers.
+        if self.section.matrices.is_some() || self.blade.breaks().len() <= MOST_ROWS * self.elements {
             ends.extend(self.blade.breaks());
         }
         ends.extend(self.blade.ends(self.length, self.length / self.elements as f64));
@@ -295,6 +224,9 @@ impl Beam {
         }
         // A little inside its element, so that a section that jumps has the value of that element.
         let middle = |s: f64| s.clamp(1e-12 * self.length, (1.0 - 1e-12) * self.length);
+        if self.shear {
+            return self.sheared(&nodes, middle);
+        }
         let built = slender::Beam::new(&nodes, |s| (self.curve)(s), |s| self.properties(middle(s)));
         built.map(multibody::Beam::from).map_err(|error| {
             let key = match error {
@@ -307,6 +239,40 @@ impl Beam {
                 (slender::BeamError::Section { .. }, [polar, ..]) if !(polar > 0.0) => {
                     let help = "give `polar-inertia` of the beam, the moment of inertia per length about the tangent [kg·m], which \
                                 the section does not say: ρ (I₂ + I₃) of its shape";
+                    fault.help(help).into()
+                }
+                _ => fault.into(),
+            }
+        })
+    }
+
+    /// The beam with shear of elements that end at these stations \[m\].
+    fn sheared(&self, ends: &[f64], middle: impl Fn(f64) -> f64) -> Made<multibody::Beam> {
+        if self.blade.matrices(0.5 * self.length).is_none() {
+            let message =
+                format!("the section of beam `{}` does not say how stiff it is in shear", self.name);
+            let help = "give a shape (`rectangle`, `circle`, `tube`, `ellipse`), `general` with `shear-stiffness` and \
+                        `shear-stiffness-across`, or matrices of 6 × 6; without shear, leave `shear` out";
+            return Err(Fault::new("section", message).help(help).into());
+        }
+        let axes = |s: f64| {
+            let Station { position, tangent, normal } = (self.curve)(s);
+            Frame { position, rotation: Mat3::columns([tangent, normal, tangent.cross(normal)]) }
+        };
+        // The section says its matrices all along, or nowhere.
+        let nothing = Matrices::principal([0.0; 6], 0.0, [0.0; 3]);
+        let built = shear::Beam::new(ends, axes, |s| self.matrices(middle(s)).unwrap_or(nothing));
+        built.map(multibody::Beam::from).map_err(|error| {
+            let key = match error {
+                shear::BeamError::Turned { .. } => "elements",
+                shear::BeamError::Section { .. } => "section",
+                _ => "",
+            };
+            let fault = Fault::new(key, format!("beam `{}`: {error}", self.name));
+            let of = self.blade.resultants(0.5 * self.length);
+            let help = "a section of a beam with shear has rotary inertia: give `rotary-inertia` and `rotary-inertia-across` of `general`";
+            match error {
+                shear::BeamError::Section { .. } if !(of.flap_inertia > 0.0 && of.chord_inertia > 0.0) => {
                     fault.help(help).into()
                 }
                 _ => fault.into(),
@@ -348,8 +314,12 @@ keys! {
         /// it stays in the plane of x and y: a section that says nothing of torsion is as stiff in torsion and across as in the plane,
         /// and nothing acts out of it
         planar: bool = boolean().or_false();
-        /// Poisson's ratio, for the torsional stiffness of a shape
+        /// Poisson's ratio, for the stiffness of a shape in torsion and in shear
         poisson_ratio: f64 = number(Between(-0.99, 0.5)).or(0.3);
+        /// it has shear strains, by the stiffness GA of its section, and rotary inertia
+        shear: bool = boolean().or_false();
+        /// shear factor of a shape, Cowper's if left out
+        shear_factor: Option<f64> = number(Positive);
         /// moment of inertia per length about the axis, that of the section if left out
         polar_inertia: Option<f64> = quantity(&ROTARY_INERTIA, Positive);
         /// place of the section's tension centre, [along the height, across], against the centreline, which goes through the centres of mass;
@@ -375,7 +345,7 @@ keys! {
 /// The tables `[[beam]]`.
 pub static BEAMS: Table<Beam> = Table::list(
     "beam",
-    "slender beams",
+    "beams",
     "beam=[{name='arm', length=1, start=[0, 0, 1], direction=[1, 1, 0], up=[0, 0, 1], twist='20 deg', root='clamped', elements=4, polar-inertia=1e-3, \
      section={kind='rectangle', modulus='70 GPa', density=2700, width='2 cm', height='1 cm', rotary-inertia=true}, \
      damping={mass=0.1, stiffness='1 ms'}, outline={y=['-5 mm', '5 mm', 0], z=[0, 0, '2 cm']}}]",
@@ -396,7 +366,8 @@ fn make(k: Written, c: &Context<'_>) -> Made<Beam> {
     };
     let c = &Context { length: Some(length), ..*c };
     let section = k.section.make("section", c)?.ok_or_else(Faults::default)?;
-    let mut blade: Arc<dyn BladeSection> = Arc::from(section.blade(k.poisson_ratio).at("section")?);
+    let assumed = Assumed { poisson_ratio: k.poisson_ratio, shear_factor: k.shear_factor };
+    let mut blade: Arc<dyn BladeSection> = Arc::from(section.blade(assumed).at("section")?);
     let along = |s: f64| blade.resultants(s).torsional_stiffness > 0.0;
     if !(along(0.0) && along(length)) {
         if !k.planar {
@@ -465,6 +436,7 @@ fn make(k: Written, c: &Context<'_>) -> Made<Beam> {
         coupling: k.coupling.unwrap_or_default(),
         outline: outline(&k.outline)?,
         elements: k.elements,
+        shear: k.shear,
         ends: [k.root, k.tip],
         motion: [k.velocity, k.spin],
         damping: [k.damping.mass, k.damping.stiffness],

@@ -1,6 +1,6 @@
 //! The blade of a case: a beam that also bends out of the plane and twists.
 
-use super::section::Section;
+use super::section::{Assumed, Section};
 use crate::declaration::Bound::*;
 use crate::fault::{At, Fault, Faults, Made};
 use crate::keys::{boolean, choice, integer, keys, number, quantity};
@@ -47,7 +47,8 @@ impl Blade {
     /// # Errors
     /// A fault when the section makes no blade.
     pub fn section(&self, section: &Section) -> Made<Twisted> {
-        let blade = section.blade(self.poisson_ratio).at("")?;
+        let blade =
+            section.blade(Assumed { poisson_ratio: self.poisson_ratio, shear_factor: None }).at("")?;
         Ok(Twisted { blade, rate: self.twist / self.setting.length })
     }
 

@@ -105,6 +105,11 @@ impl Assembly<'_> {
     }
 }
 
+/// The coupling of systems in space.
+pub const SPACE: &str = "space";
+/// The same, all of whose beams have shear.
+pub const SPACE_WITH_SHEAR: &str = "space-shear";
+
 /// The kinds of coupling; `None` is a system in space, which is no model of a beam on a hub alone.
 pub static COUPLING: Choice<Option<Coupling>> = Choice {
     name: "coupling",
@@ -162,10 +167,17 @@ pub static COUPLING: Choice<Option<Coupling>> = Choice {
             })),
         },
         Kind {
-            name: "space",
+            name: SPACE,
             summary: "geometrically exact in space, without shear, of bodies, joints and beams: any motion",
             source: "Meier, Popp & Wall 2014, doi:10.1016/j.cma.2014.05.017",
             example: "model.coupling=space",
+            make: &Is(None),
+        },
+        Kind {
+            name: SPACE_WITH_SHEAR,
+            summary: "the same with shear of every beam, by the shear stiffness of its section",
+            source: "Simo 1985, doi:10.1016/0045-7825(85)90050-7; Crisfield & Jelenić 1999, doi:10.1098/rspa.1999.0352",
+            example: "model.coupling=space-shear",
             make: &Is(None),
         },
     ],

@@ -8,6 +8,7 @@ pub mod body;
 pub mod centreline;
 pub mod contact;
 pub mod coupling;
+pub mod curve;
 pub mod damping;
 pub mod force_law;
 pub mod initial;

@@ -7,14 +7,23 @@ use crate::keys::{Field, File, boolean, choice, keys, number, path, quantities, 
 use crate::kind::{Choice, Context, Is, Kind, Of};
 use crate::units::*;
 use flexion::section::{
-    self, BladeSection, Graded, HomogeneousBlade, Inertia, Material, Piecewise, PlanarBlade, Resultants,
-    SectionError, Segment, Shape, Tapered, Uniform,
+    self, BladeSection, Graded, HomogeneousBlade, Inertia, Material, MatrixTable, Piecewise, PlanarBlade,
+    Resultants, SectionError, Segment, Shape, Tapered, Uniform, UniformBlade,
 };
 use std::fmt;
 use std::sync::Arc;
 
-/// Makes the section of a blade: of the share that a material's Poisson's ratio has in it.
-type Spatial = Arc<dyn Fn(f64) -> Result<Box<dyn BladeSection>, SectionError> + Send + Sync>;
+/// What a beam assumes of the material of its section.
+#[derive(Clone, Copy, Debug)]
+pub struct Assumed {
+    /// Poisson's ratio.
+    pub poisson_ratio: f64,
+    /// The shear factor of a shape; its own if left out.
+    pub shear_factor: Option<f64>,
+}
+
+/// Makes the section of a blade.
+type Spatial = Arc<dyn Fn(Assumed) -> Result<Box<dyn BladeSection>, SectionError> + Send + Sync>;
 
 /// The cross-section of a beam.
 #[derive(Clone)]
@@ -27,6 +36,8 @@ pub struct Section {
     pub shapes: Option<[Shape; 2]>,
     /// Whether it is known out of the plane, too.
     pub is_blade: bool,
+    /// Its matrices where it is given by them.
+    pub matrices: Option<Arc<MatrixTable>>,
     spatial: Spatial,
 }
 
@@ -42,15 +53,15 @@ impl Section {
         let planar: Arc<dyn section::Section> = Arc::new(section);
         let blade = Arc::clone(&planar);
         let spatial: Spatial = Arc::new(move |_| Ok(Box::new(PlanarBlade(Box::new(Arc::clone(&blade))))));
-        Section { planar, height: None, shapes: None, is_blade: false, spatial }
+        Section { planar, height: None, shapes: None, is_blade: false, matrices: None, spatial }
     }
 
-    /// The section of a blade, of a material with this Poisson's ratio.
+    /// The section of a blade, of a material of which this is assumed.
     ///
     /// # Errors
     /// [`SectionError`] when the section makes no blade.
-    pub fn blade(&self, poisson_ratio: f64) -> Result<Box<dyn BladeSection>, SectionError> {
-        (self.spatial)(poisson_ratio)
+    pub fn blade(&self, assumed: Assumed) -> Result<Box<dyn BladeSection>, SectionError> {
+        (self.spatial)(assumed)
     }
 }
 
@@ -136,6 +147,10 @@ keys! {
         rotary_inertia: f64 = quantity(&ROTARY_INERTIA, NotNegative).or(0.0);
         /// rotary inertia per length in bending in the direction across
         rotary_inertia_across: f64 = quantity(&ROTARY_INERTIA, NotNegative).or(0.0);
+        /// shear stiffness GA in the direction of the height, for beams with shear
+        shear_stiffness: Option<f64> = quantity(&AXIAL_STIFFNESS, Positive);
+        /// shear stiffness GA in the direction across
+        shear_stiffness_across: Option<f64> = quantity(&AXIAL_STIFFNESS, Positive);
     }
 
     struct PowerLaw {
@@ -271,9 +286,10 @@ fn height(shape: Shape) -> Option<f64> {
 /// The blade whose shape changes from root to tip: it is stiff out of the plane as its shape says.
 fn blade_of_shapes(of: Material, c: &Context<'_>, [root, tip]: [Shape; 2]) -> Made<Spatial> {
     let (Material { modulus, density }, length) = (of, c.length()?);
-    Ok(Arc::new(move |poisson_ratio| {
+    Ok(Arc::new(move |Assumed { poisson_ratio, shear_factor }| {
         let along = Tapered::new(modulus, density, length, root, tip)?;
-        Ok(Box::new(HomogeneousBlade::new(modulus, density, poisson_ratio, move |x| along.shape(x))?))
+        let blade = HomogeneousBlade::new(modulus, density, poisson_ratio, move |x| along.shape(x))?;
+        Ok(Box::new(blade.with_shear_factor(shear_factor)))
     }))
 }
 
@@ -408,7 +424,7 @@ pub static SECTION: Choice<Section> = Choice {
             name: "general",
             summary: "mass and stiffnesses per length for bending in two planes and torsion",
             source: "",
-            example: r#"section={kind="general", mass-per-length="1.2 kg/m", axial-stiffness="28 MN", torsional-stiffness="700 N m²", bending-stiffness="930 N m²", bending-stiffness-across="800 N m²", rotary-inertia=1e-4}"#,
+            example: r#"section={kind="general", mass-per-length="1.2 kg/m", axial-stiffness="28 MN", torsional-stiffness="700 N m²", bending-stiffness="930 N m²", bending-stiffness-across="800 N m²", rotary-inertia=1e-4, rotary-inertia-across=1e-4, shear-stiffness="10 MN", shear-stiffness-across="10 MN"}"#,
             make: &Of(general_section),
         },
         Kind {
@@ -506,7 +522,19 @@ fn general_section(k: InTwoPlanes, c: &Context<'_>) -> Made<Section> {
     };
     let length = c.length()?;
     let table = section::BladeTable::new(length, &[(0.0, resultants), (length, resultants)]).at("")?;
-    let spatial = Arc::new(move |_| Ok(Box::new(resultants) as Box<dyn BladeSection>));
+    let shear = match (k.shear_stiffness, k.shear_stiffness_across) {
+        (None, None) => None,
+        (Some(along), Some(across)) => Some([along, across]),
+        (Some(_), None) | (None, Some(_)) => {
+            let [given, other] = match k.shear_stiffness {
+                Some(_) => ["shear-stiffness", "shear-stiffness-across"],
+                None => ["shear-stiffness-across", "shear-stiffness"],
+            };
+            return Err(Fault::new(given, format!("needs `{other}` beside it")).into());
+        }
+    };
+    let blade = UniformBlade { resultants, shear };
+    let spatial = Arc::new(move |_| Ok(Box::new(blade) as Box<dyn BladeSection>));
     Ok(Section { spatial, ..Section::planar(section::PlanarProjection(table)) })
 }
 

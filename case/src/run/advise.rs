@@ -3,6 +3,7 @@
 //! [`flexion::analysis::error::advise`](fn@advise) climbs it.
 
 use super::refine::{RefineError, Target, refused};
+use crate::kinds::coupling::SPACE;
 use crate::layout;
 use crate::problem::Problems;
 use crate::reading::Reading;
@@ -17,8 +18,6 @@ use std::borrow::Cow;
 
 /// The couplings: the first leaves out most, the last least.
 const COUPLINGS: [&str; 5] = ["zeroth", "first", "high", "exact", SPACE];
-/// The coupling of systems in space.
-const SPACE: &str = "space";
 /// The coupling that describes the whole curve of the beam, by finite elements, as [`SPACE`] does.
 const EXACT: &str = "exact";
 /// The bases with the keys of their coarsest meshes; finite elements come first.

@@ -9,6 +9,7 @@ use crate::kind::Context;
 use crate::kinds::beam::{BEAMS, Beam, End, FIBRES, Fibre};
 use crate::kinds::body::BODY;
 use crate::kinds::contact::{Contact, Point, Touching, contacts};
+use crate::kinds::coupling::{SPACE, SPACE_WITH_SHEAR};
 use crate::kinds::integrator::Method;
 use crate::kinds::joint::{JOINTS, Joint};
 use crate::kinds::load::{Acts, LOAD, Load};
@@ -209,7 +210,8 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     let (Some(springs), Some(masses), Some(loads), Some(gravity)) = (springs, masses, loads, gravity) else {
         return Err(found.0);
     };
-    let (Some(contacts), Some((drop, refine, in_root_axes)), Some(rotation)) = (contacts, settings, rotation)
+    let (Some(contacts), Some(Settings { drop, refine, in_root_axes, shear }), Some(rotation)) =
+        (contacts, settings, rotation)
     else {
         return Err(found.0);
     };
@@ -226,7 +228,9 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     let points: Option<Vec<Vec<Point>>> = contacts.iter().enumerate().map(along).collect();
     let Some(points) = points else { return Err(found.0) };
     let named = Named::of(&joints, &springs, &loads, &masses, &points);
-    let build = |(i, beam): (usize, Beam)| {
+    let build = |(i, mut beam): (usize, Beam)| {
+        beam.shear |= shear;
+        c.cautions.borrow_mut().extend(beam.left_out());
         let built = beam.built(&named.on(i), refine).map_err(|faults| faults.within(&item("beam", i)));
         found.part(built).map(|built| (beam, built))
     };
@@ -360,18 +364,34 @@ fn is_flat(beam: &multibody::Beam) -> bool {
     (0..beam.nodes().len()).all(flat)
 }
 
-/// Whether redundant rows are left out, into how many each element is cut, and whether stations are recorded in the axes of their root.
-fn settings(v: &Values, c: &Context<'_>) -> Made<(bool, usize, bool)> {
+/// What holds for the whole system.
+struct Settings {
+    /// Whether redundant rows are left out.
+    drop: bool,
+    /// Into how many each element is cut.
+    refine: usize,
+    /// Whether stations are recorded in the axes of their root.
+    in_root_axes: bool,
+    /// Whether every beam has shear.
+    shear: bool,
+}
+
+fn settings(v: &Values, c: &Context<'_>) -> Made<Settings> {
     let model = MODEL.read(v, c)?;
     let coupling = model.coupling.name;
-    if coupling != "space" {
+    if ![SPACE, SPACE_WITH_SHEAR].contains(&coupling) {
         let message = format!(
             "`{coupling}` is a model of one beam on a hub in the plane, and this case has bodies, joints or beams by name"
         );
         let help = "leave it out, or describe the beam by [beam], [section] and [hub]";
         return Err(Fault::new("model.coupling", message).help(help).into());
     }
-    Ok((model.drop_redundant_rows, model.refine, OUTPUT_IN_SPACE.read(v, c)?.root_axes))
+    Ok(Settings {
+        drop: model.drop_redundant_rows,
+        refine: model.refine,
+        in_root_axes: OUTPUT_IN_SPACE.read(v, c)?.root_axes,
+        shear: coupling == SPACE_WITH_SHEAR,
+    })
 }
 
 /// The initial states that a system in space can have.

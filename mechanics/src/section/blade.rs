@@ -1,7 +1,7 @@
 //! Sections of a blade: stiffness and inertia for extension, bending in two planes and torsion.
 
 use super::ends::ends;
-use super::{Resultants, Section, SectionError, Shape, positive};
+use super::{Matrices, MatrixTable, Resultants, Section, SectionError, Shape, positive};
 use std::sync::Arc;
 
 /// Stiffness and inertia per length of a blade at a station, about its principal axes: η along the chord (at no
@@ -60,6 +60,20 @@ impl BladeResultants {
         Ok(())
     }
 
+    /// The matrices of the section with the shear stiffnesses GA \[N\] along η and ζ.
+    pub fn with_shear(&self, [along_chord, along_flap]: [f64; 2]) -> Matrices {
+        let stiffness = [
+            self.axial_stiffness,
+            along_chord,
+            along_flap,
+            self.torsional_stiffness,
+            self.flap_stiffness,
+            self.chord_stiffness,
+        ];
+        let inertia = [self.flap_inertia + self.chord_inertia, self.flap_inertia, self.chord_inertia];
+        Matrices::principal(stiffness, self.mass, inertia)
+    }
+
     /// Whether there is what torsion needs: GJ and a polar inertia.
     pub fn has_torsion(&self) -> bool {
         self.torsional_stiffness > 0.0 && self.flap_inertia + self.chord_inertia > 0.0
@@ -70,6 +84,11 @@ impl BladeResultants {
 pub trait BladeSection: Send + Sync + std::fmt::Debug {
     /// Resultants at station `x` \[m\].
     fn resultants(&self, x: f64) -> BladeResultants;
+
+    /// Stiffness, damping and mass with shear, of a section that says how stiff it is there; its twist is not applied.
+    fn matrices(&self, _x: f64) -> Option<Matrices> {
+        None
+    }
 
     /// Stations inside (0, L) at which the resultants jump or kink, ascending.
     fn breaks(&self) -> &[f64] {
@@ -108,11 +127,50 @@ impl BladeSection for BladeResultants {
     }
 }
 
+/// The section at zero shear force, bending about its tension centre and its inertia about its centre of mass: what a section has by itself, without what couples
+/// its strains.
+impl From<&Matrices> for BladeResultants {
+    fn from(of: &Matrices) -> BladeResultants {
+        let (c, [_, flap_inertia, chord_inertia]) = (of.condensed(), of.central_inertia());
+        let about_centre = |k: usize| c[k][k] - c[0][k] * c[0][k] / c[0][0];
+        BladeResultants {
+            mass: of.mass[0][0],
+            axial_stiffness: c[0][0],
+            torsional_stiffness: c[1][1],
+            flap_stiffness: about_centre(2),
+            chord_stiffness: about_centre(3),
+            flap_inertia,
+            chord_inertia,
+            twist: 0.0,
+            twist_rate: 0.0,
+        }
+    }
+}
+
+impl BladeSection for MatrixTable {
+    fn resultants(&self, x: f64) -> BladeResultants {
+        BladeResultants::from(&self.at(x))
+    }
+
+    fn matrices(&self, x: f64) -> Option<Matrices> {
+        Some(self.at(x))
+    }
+
+    fn breaks(&self) -> &[f64] {
+        self.breaks()
+    }
+
+    fn jumps(&self) -> &[f64] {
+        self.jumps()
+    }
+}
+
 /// A homogeneous blade: a shape at every station, of one material.
 pub struct HomogeneousBlade<F> {
     modulus: f64,
     density: f64,
-    shear_modulus: f64,
+    poisson_ratio: f64,
+    shear_factor: Option<f64>,
     shape: F,
 }
 
@@ -138,8 +196,17 @@ impl<F: Fn(f64) -> Shape + Send + Sync> HomogeneousBlade<F> {
                 needed: "more than −1 and at most 0.5",
             });
         }
-        let shear_modulus = modulus / (2.0 * (1.0 + poisson_ratio));
-        Ok(HomogeneousBlade { modulus, density, shear_modulus, shape })
+        Ok(HomogeneousBlade { modulus, density, poisson_ratio, shear_factor: None, shape })
+    }
+
+    /// The same blade with this shear factor in both directions, in place of those of its [shape](Shape::shear_factors).
+    #[must_use]
+    pub fn with_shear_factor(self, shear_factor: Option<f64>) -> HomogeneousBlade<F> {
+        HomogeneousBlade { shear_factor, ..self }
+    }
+
+    fn shear_modulus(&self) -> f64 {
+        self.modulus / (2.0 * (1.0 + self.poisson_ratio))
     }
 }
 
@@ -148,7 +215,7 @@ impl<F> std::fmt::Debug for HomogeneousBlade<F> {
         f.debug_struct("HomogeneousBlade")
             .field("modulus", &self.modulus)
             .field("density", &self.density)
-            .field("shear_modulus", &self.shear_modulus)
+            .field("poisson_ratio", &self.poisson_ratio)
             .finish_non_exhaustive()
     }
 }
@@ -164,12 +231,38 @@ impl<F: Fn(f64) -> Shape + Send + Sync> BladeSection for HomogeneousBlade<F> {
             axial_stiffness: self.modulus * area,
             flap_stiffness: self.modulus * flap,
             chord_stiffness: self.modulus * chord,
-            torsional_stiffness: self.shear_modulus * shape.torsion_constant(),
+            torsional_stiffness: self.shear_modulus() * shape.torsion_constant(),
             flap_inertia: self.density * flap,
             chord_inertia: self.density * chord,
             twist: 0.0,
             twist_rate: 0.0,
         }
+    }
+
+    fn matrices(&self, x: f64) -> Option<Matrices> {
+        let shape = (self.shape)(x);
+        let factors = shape.shear_factors(self.poisson_ratio);
+        let factors = self.shear_factor.map_or(factors, |factor| [factor; 2]);
+        Some(self.resultants(x).with_shear(factors.map(|k| k * self.shear_modulus() * shape.area())))
+    }
+}
+
+/// The same section all along a blade, with its shear stiffnesses GA \[N\] along η and ζ.
+#[derive(Clone, Copy, Debug)]
+pub struct UniformBlade {
+    /// The resultants.
+    pub resultants: BladeResultants,
+    /// The shear stiffnesses, if they are known.
+    pub shear: Option<[f64; 2]>,
+}
+
+impl BladeSection for UniformBlade {
+    fn resultants(&self, _x: f64) -> BladeResultants {
+        self.resultants
+    }
+
+    fn matrices(&self, _x: f64) -> Option<Matrices> {
+        self.shear.map(|shear| self.resultants.with_shear(shear))
     }
 }
 

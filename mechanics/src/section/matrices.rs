@@ -96,6 +96,19 @@ impl Matrices {
         KEPT.map(|i| KEPT.map(|j| entry(i, j)))
     }
 
+    /// Place (y, z) of the centre of mass \[m\].
+    pub fn mass_centre(&self) -> [f64; 2] {
+        let m = &self.mass;
+        [-m[0][5] / m[0][0], m[0][4] / m[0][0]]
+    }
+
+    /// Moments of inertia about the three axes, through the centre of mass [kg·m].
+    pub fn central_inertia(&self) -> [f64; 3] {
+        let (m, [y, z]) = (&self.mass, self.mass_centre());
+        let mass = m[0][0];
+        [m[3][3] - mass * (y * y + z * z), m[4][4] - mass * z * z, m[5][5] - mass * y * y]
+    }
+
     /// What is wrong with the numbers, if anything.
     pub fn fault(&self) -> Option<&'static str> {
         if !is_positive(&self.stiffness, false) {

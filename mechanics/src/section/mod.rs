@@ -13,7 +13,7 @@ mod uniform;
 
 pub use blade::{
     AsStiffAcross, BladeResultants, BladeSection, BladeTable, HomogeneousBlade, PlanarBlade,
-    PlanarProjection, Twisted,
+    PlanarProjection, Twisted, UniformBlade,
 };
 pub use graded::{Graded, Material};
 pub use matrices::{Matrices, Matrix6};

@@ -95,6 +95,36 @@ impl Shape {
         }
     }
 
+    /// Shear factors k along the height and across, GA of a section being k G A, of a material with Poisson's ratio ν (Cowper 1966,
+    /// doi 10.1115/1.3625046): those for which a long beam has the mean deflection and the mean rotation of its sections.
+    ///
+    /// ```text
+    /// rectangle   10 (1 + ν)/(12 + 11 ν)
+    /// circle      6 (1 + ν)/(7 + 6 ν)
+    /// tube        6 (1 + ν)(1 + m²)²/((7 + 6 ν)(1 + m²)² + (20 + 12 ν) m²),   m = r/R
+    /// ellipse     12 (1 + ν) a² (3 a² + b²)/((40 + 37 ν) a⁴ + (16 + 10 ν) a² b² + ν b⁴),   a along the force
+    /// ```
+    pub fn shear_factors(&self, poisson_ratio: f64) -> [f64; 2] {
+        let nu = poisson_ratio;
+        let ellipse = |a: f64, b: f64| {
+            let (a, b) = (a * a, b * b);
+            let below = (40.0 + 37.0 * nu) * a * a + (16.0 + 10.0 * nu) * a * b + nu * b * b;
+            12.0 * (1.0 + nu) * a * (3.0 * a + b) / below
+        };
+        match *self {
+            Shape::Rectangle { .. } => [10.0 * (1.0 + nu) / (12.0 + 11.0 * nu); 2],
+            Shape::Circle { .. } => [6.0 * (1.0 + nu) / (7.0 + 6.0 * nu); 2],
+            Shape::Tube { outer_radius, inner_radius } => {
+                let square = (inner_radius / outer_radius).powi(2);
+                let sum = (1.0 + square).powi(2);
+                [6.0 * (1.0 + nu) * sum / ((7.0 + 6.0 * nu) * sum + (20.0 + 12.0 * nu) * square); 2]
+            }
+            Shape::Ellipse { semi_width, semi_height } => {
+                [ellipse(semi_height, semi_width), ellipse(semi_width, semi_height)]
+            }
+        }
+    }
+
     /// The shape whose dimensions lie between those of this one (s = 0) and of `other` (s = 1), d + s (d′ − d); `None`
     /// if the two are not of one kind.
     pub fn between(self, other: Shape, s: f64) -> Option<Shape> {

@@ -42,12 +42,13 @@ fn sheared_arc(elements: usize, root: Frame) -> shear::Beam {
         let rotation = at.rotation * flexion::linalg::Mat3(axes).transpose();
         Frame { position: at.position + place, rotation }
     };
-    let section = flexion::section::Matrices::principal([400.0, 90.0, 70.0, 1.1, 0.9, 1.6], 1.2, [0.03, 0.012, 0.018])
-        .with_tension_centre([0.02, -0.03])
-        .with_shear_centre([-0.01, 0.02])
-        .with_mass_centre([0.05, 0.03])
-        .with_damping_times([0.01, 0.02, 0.03, 0.01, 0.005, 0.02])
-        .rolled(0.4);
+    let section =
+        flexion::section::Matrices::principal([400.0, 90.0, 70.0, 1.1, 0.9, 1.6], 1.2, [0.03, 0.012, 0.018])
+            .with_tension_centre([0.02, -0.03])
+            .with_shear_centre([-0.01, 0.02])
+            .with_mass_centre([0.05, 0.03])
+            .with_damping_times([0.01, 0.02, 0.03, 0.01, 0.005, 0.02])
+            .rolled(0.4);
     let ends: Vec<f64> = (0..=elements).map(|i| 1.1 * i as f64 / elements as f64).collect();
     shear::Beam::new(&ends, curve, |_| section).unwrap()
 }

@@ -1,6 +1,6 @@
 //! Stiffness and inertia of a section of a slender beam.
 
-use crate::section::BladeResultants;
+use crate::section::{BladeResultants, Matrices};
 
 /// Stiffness and inertia per length of a section, in its axes [t, n, b]. The centreline goes through the centres of mass,
 /// and n and b are principal axes of the section's inertia.
@@ -63,6 +63,13 @@ impl Properties {
             (0..4).map(|i| (0..4).map(|j| q[i][a] * self.stiffness[i][j] * q[j][b]).sum::<f64>()).sum()
         };
         Properties { stiffness: std::array::from_fn(|a| std::array::from_fn(|b| product(a, b))), ..self }
+    }
+}
+
+/// The section at zero shear force. Its centre of mass is put on the axis, with the moments of inertia about it.
+impl From<&Matrices> for Properties {
+    fn from(of: &Matrices) -> Properties {
+        Properties { stiffness: of.condensed(), mass: of.mass[0][0], inertia: of.central_inertia() }
     }
 }
 
