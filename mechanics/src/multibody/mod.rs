@@ -19,6 +19,7 @@
 //! | `rotation` | quaternions, rotation vectors |
 //! | `body` | a rigid body |
 //! | `beam` | a beam of either kind: its unknowns, and what the others need of it |
+//! | `station` | what is at a station of a beam |
 //! | `flexible` | a beam as a part |
 //! | `line_load` | loads along beams |
 //! | `marker` | frames of parts, and their kinematics |
@@ -72,6 +73,7 @@ mod shares;
 pub mod shear;
 pub mod slender;
 mod start;
+mod station;
 mod system;
 
 pub use axis::Axis;
