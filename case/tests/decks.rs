@@ -20,7 +20,7 @@ pub struct Plain {
     pub mu: [f64; 6],
 }
 
-fn root() -> PathBuf {
+pub fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
@@ -79,7 +79,7 @@ impl Plain {
     }
 
     /// One of the random decks of `references/section_beam`.
-    fn random(of: &Value) -> Plain {
+    pub fn random(of: &Value) -> Plain {
         let list =
             |of: &Value| -> Vec<f64> { of.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect() };
         let rows = |key: &str| -> Vec<Vec<f64>> { of[key].as_array().unwrap().iter().map(list).collect() };

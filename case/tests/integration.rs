@@ -10,6 +10,7 @@ mod contact;
 mod contact_in_space;
 mod convergence;
 mod deck_formats;
+mod deck_frequencies;
 mod decks;
 mod disturbance;
 mod docs;

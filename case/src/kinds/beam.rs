@@ -1,7 +1,8 @@
 //! Beams in space.
 
-use super::curve::{Bent, CURVE, Curve};
+use super::curve::{Bent, CURVE, Curve, straight};
 use super::damping::Damped;
+use super::deck;
 use super::name::name;
 use super::section::{Assumed, SECTION, Section};
 use crate::declaration::Bound::*;
@@ -178,7 +179,7 @@ impl Beam {
 
     /// What a beam without shear leaves out of its section.
     pub fn left_out(&self) -> Option<String> {
-        let table = self.section.matrices.as_ref().filter(|_| !self.shear)?;
+        let table = &self.section.deck.as_ref().filter(|_| !self.shear)?.table;
         let offset =
             |(_, of): &(f64, Matrices)| of.mass_centre().map(f64::abs).into_iter().fold(0.0, f64::max);
         let offset = table.rows().iter().map(offset).fold(0.0, f64::max);
@@ -191,11 +192,11 @@ impl Beam {
 
     /// Stiffness and inertia without shear at a station.
     fn properties(&self, s: f64) -> Properties {
-        let mut of = match &self.section.matrices {
-            Some(table) => Properties::from(&table.at(s)),
+        let mut of = match &self.section.deck {
+            Some(deck) => Properties::from(&deck.matrices(s)),
             None => Properties::from(&self.blade.resultants(s)),
         };
-        if self.section.matrices.is_none() && self.section.planar.resultants(s).rotary_inertia == 0.0 {
+        if self.section.deck.is_none() && self.section.planar.resultants(s).rotary_inertia == 0.0 {
             of.inertia = [of.inertia[0], 0.0, 0.0];
         }
         of.inertia[0] = self.polar.unwrap_or(of.inertia[0]);
@@ -207,7 +208,7 @@ impl Beam {
         crate::features::apart(self.blade.jumps(), self.length)?;
         let mut ends = vec![0.0, self.length];
         // The sections of an element are seen at few points: it ends at every row, but for tables of very many rows of single numbers.
-        if self.section.matrices.is_some() || self.blade.breaks().len() <= MOST_ROWS * self.elements {
+        if self.section.deck.is_some() || self.blade.breaks().len() <= MOST_ROWS * self.elements {
             ends.extend(self.blade.breaks());
         }
         ends.extend(self.blade.ends(self.length, self.length / self.elements as f64));
@@ -294,7 +295,7 @@ keys! {
     struct Written {
         /// name, which begins the names of its columns
         name: String = text().or_name("beam");
-        /// length of its centreline, which a curve through points says by itself
+        /// length of its axis, which a curve through points and a deck say by themselves
         length: Option<f64> = quantity(&LENGTH, Positive);
         /// its root at the start, the origin if left out
         start: Option<Vec3> = vector(&LENGTH);
@@ -303,8 +304,8 @@ keys! {
         /// direction of the height of the section, as far as the beam's allows; of a section as stiff along all axes
         /// [0, 0, 1] if left out, for an upright beam [1, 0, 0]
         up: Option<Vec3> = vector(&FACTOR);
-        /// centreline without stress
-        curve: Bent = kind(&CURVE).or_name("straight");
+        /// axis without stress, straight if left out; a deck has its own
+        curve: Option<Bent> = kind(&CURVE);
         /// angle of the tip section against the root without stress, linear between
         twist: f64 = quantity(&ANGLE, Any).or(0.0);
         /// cross-section
@@ -353,19 +354,25 @@ pub static BEAMS: Table<Beam> = Table::list(
 );
 
 fn make(k: Written, c: &Context<'_>) -> Made<Beam> {
-    let bent = k.curve;
-    let length = match (k.length, &bent) {
-        (Some(length), Bent::Along(_)) => length,
-        (None, Bent::Through(points)) => points.length(),
-        (None, Bent::Along(_)) => return Err(Fault::new("", "a beam needs a `length`").into()),
-        (Some(_), Bent::Through(points)) => {
-            let message =
-                format!("the points make a curve of {:.6} m: leave the length out", points.length());
-            return Err(Fault::new("length", message).into());
-        }
+    let of_points = match &k.curve {
+        Some(Bent::Through(points)) => Some(points.length()),
+        _ => None,
     };
-    let c = &Context { length: Some(length), ..*c };
-    let section = k.section.make("section", c)?.ok_or_else(Faults::default)?;
+    let c = &Context { length: of_points.or(k.length), ..*c };
+    let missing = || Fault::new("", "a beam needs a `length`");
+    let section = match k.section.make("section", c) {
+        // Sections that need a length have nothing else to say.
+        Err(faults) if faults.0.is_empty() && c.length.is_none() => return Err(missing().into()),
+        made => made?.ok_or_else(Faults::default)?,
+    };
+    if let (Some(_), Some(length)) = (k.length, of_points) {
+        let message = format!("the points make a curve of {length:.6} m: leave the length out");
+        return Err(Fault::new("length", message).into());
+    }
+    if let (Some(_), Some(_)) = (&section.deck, &k.curve) {
+        return Err(Fault::new("curve", "the deck has a line of its own: leave the curve out").into());
+    }
+    let length = section.deck.as_ref().map(|deck| deck.length).or(c.length).ok_or_else(missing)?;
     let assumed = Assumed { poisson_ratio: k.poisson_ratio, shear_factor: k.shear_factor };
     let mut blade: Arc<dyn BladeSection> = Arc::from(section.blade(assumed).at("section")?);
     let along = |s: f64| blade.resultants(s).torsional_stiffness > 0.0;
@@ -384,15 +391,15 @@ fn make(k: Written, c: &Context<'_>) -> Made<Beam> {
         ));
     }
     let name = name(Some(k.name), &["ground", "hub"])?;
-    if let Bent::Through(_) = bent
+    if of_points.is_some()
         && let Some((_, key)) =
             [(k.direction, "direction"), (k.start, "start")].iter().find(|(given, _)| given.is_some())
     {
         return Err(Fault::new(*key, "the points of the curve say it: leave it out").into());
     }
-    let direction = match &bent {
-        Bent::Through(points) => points.tangent(),
-        Bent::Along(_) => k.direction.unwrap_or(Vec3([1.0, 0.0, 0.0])),
+    let direction = match &k.curve {
+        Some(Bent::Through(points)) => points.tangent(),
+        _ => k.direction.unwrap_or(Vec3([1.0, 0.0, 0.0])),
     };
     let upright = direction[0] == 0.0 && direction[1] == 0.0;
     let usual = if upright { [1.0, 0.0, 0.0] } else { [0.0, 0.0, 1.0] };
@@ -414,9 +421,11 @@ fn make(k: Written, c: &Context<'_>) -> Made<Beam> {
         return Err(Fault::new("up", message).help(help).into());
     }
     let (start, twist) = (k.start.unwrap_or_default(), k.twist);
-    let bent: Curve = match bent {
-        Bent::Along(curve) => curve(length, tangent, normal),
-        Bent::Through(points) => Arc::new(points.stations(normal)),
+    let bent: Curve = match (k.curve, &section.deck) {
+        (_, Some(deck)) => deck::curve(deck, tangent, normal),
+        (None, None) => straight(tangent, normal),
+        (Some(Bent::Along(curve)), None) => curve(length, tangent, normal),
+        (Some(Bent::Through(points)), None) => Arc::new(points.stations(normal)),
     };
     let of = Arc::clone(&blade);
     let curve: Curve = Arc::new(move |s| {

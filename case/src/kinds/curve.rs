@@ -26,7 +26,8 @@ pub enum Bent {
     Through(Box<Centreline>),
 }
 
-fn straight(_: f64, tangent: Vec3, normal: Vec3) -> Curve {
+/// A straight line.
+pub fn straight(tangent: Vec3, normal: Vec3) -> Curve {
     Arc::new(move |s| Station { position: s * tangent, tangent, normal })
 }
 
@@ -57,7 +58,9 @@ pub static CURVE: Choice<Bent> = Choice {
             summary: "a straight line",
             source: "",
             example: "beam=[{length=1, section={kind='circle', modulus='70 GPa', density=2700, radius='1 cm'}, curve={kind='straight'}, root='clamped'}]",
-            make: &Of(|_: Nothing, _| Ok(Bent::Along(Box::new(straight)))),
+            make: &Of(|_: Nothing, _| {
+                Ok(Bent::Along(Box::new(|_, tangent, normal| straight(tangent, normal))))
+            }),
         },
         Kind {
             name: "arc",

@@ -1,14 +1,17 @@
 //! The section of a case: kinds, keys and makers.
 
+use super::blade_file;
+use super::deck;
 use crate::declaration::Bound::*;
 use crate::fault::{At, Fault, Faults, Made};
 use crate::files;
+use crate::files::deck::Deck;
 use crate::keys::{Field, File, boolean, choice, keys, number, path, quantities, quantity};
 use crate::kind::{Choice, Context, Is, Kind, Of};
 use crate::units::*;
 use flexion::section::{
-    self, BladeSection, Graded, HomogeneousBlade, Inertia, Material, MatrixTable, Piecewise, PlanarBlade,
-    Resultants, SectionError, Segment, Shape, Tapered, Uniform, UniformBlade,
+    self, BladeSection, Graded, HomogeneousBlade, Inertia, Material, Piecewise, PlanarBlade, Resultants,
+    SectionError, Segment, Shape, Tapered, Uniform, UniformBlade,
 };
 use std::fmt;
 use std::sync::Arc;
@@ -36,9 +39,9 @@ pub struct Section {
     pub shapes: Option<[Shape; 2]>,
     /// Whether it is known out of the plane, too.
     pub is_blade: bool,
-    /// Its matrices where it is given by them.
-    pub matrices: Option<Arc<MatrixTable>>,
-    spatial: Spatial,
+    /// The deck that it is of.
+    pub deck: Option<Arc<Deck>>,
+    pub(super) spatial: Spatial,
 }
 
 impl fmt::Debug for Section {
@@ -49,11 +52,11 @@ impl fmt::Debug for Section {
 
 impl Section {
     /// A section known by its resultants in the plane: as that of a blade it is as stiff out of it.
-    fn planar(section: impl section::Section + 'static) -> Section {
+    pub(super) fn planar(section: impl section::Section + 'static) -> Section {
         let planar: Arc<dyn section::Section> = Arc::new(section);
         let blade = Arc::clone(&planar);
         let spatial: Spatial = Arc::new(move |_| Ok(Box::new(PlanarBlade(Box::new(Arc::clone(&blade))))));
-        Section { planar, height: None, shapes: None, is_blade: false, matrices: None, spatial }
+        Section { planar, height: None, shapes: None, is_blade: false, deck: None, spatial }
     }
 
     /// The section of a blade, of a material of which this is assumed.
@@ -231,15 +234,6 @@ keys! {
         /// values between the rows
         interpolation: section::Interpolation = choice(&INTERPOLATION).or_name("linear");
     }
-
-    struct OfBlade {
-        /// file of the properties
-        file: File = path();
-        /// format of the file
-        format: files::blade::Format = choice(&FORMAT).or_name("csv");
-        /// what couples stretch, bending and torsion in the file is left out: each stiffness is that at zero force of the others
-        ignore_coupling: bool = boolean().or_false();
-    }
 }
 
 fn kept(rotary: bool) -> Inertia {
@@ -323,36 +317,6 @@ pub static INTERPOLATION: Choice<section::Interpolation> = Choice {
             source: "Fritsch & Butland 1984, doi:10.1137/0905021",
             example: r#"section={kind="table", file="section.csv", interpolation="cubic"}"#,
             make: &Is(section::Interpolation::Cubic),
-        },
-    ],
-};
-
-/// Formats of blade files.
-pub static FORMAT: Choice<files::blade::Format> = Choice {
-    name: "format",
-    path: "section.format",
-    summary: "format of a blade's file",
-    kinds: &[
-        Kind {
-            name: "csv",
-            summary: "SI, first line x, mass, EA, EI-flap, EI-chord and, if wanted, GJ, inertia-flap, inertia-chord, twist",
-            source: "",
-            example: r#"section={kind="blade", file="blade.csv", format="csv"}"#,
-            make: &Is(files::blade::csv as files::blade::Format),
-        },
-        Kind {
-            name: "elastodyn",
-            summary: "blade input file of ElastoDyn; without axial stiffness, one of slenderness 100 is taken",
-            source: "OpenFAST",
-            example: r#"section={kind="blade", file="elastodyn.dat", format="elastodyn"}"#,
-            make: &Is(files::blade::elastodyn as files::blade::Format),
-        },
-        Kind {
-            name: "beamdyn",
-            summary: "blade input file of BeamDyn; offsets of the mass centre are left out",
-            source: "OpenFAST",
-            example: r#"section={kind="blade", file="beamdyn.dat", format="beamdyn"}"#,
-            make: &Is(files::blade::beamdyn as files::blade::Format),
         },
     ],
 };
@@ -487,7 +451,14 @@ pub static SECTION: Choice<Section> = Choice {
             summary: "properties of a blade for bending in two planes and torsion, tabulated along its span",
             source: "",
             example: r#"section={kind="blade", file="blade.csv", ignore-coupling=true}"#,
-            make: &Of(blade),
+            make: &Of(blade_file::section),
+        },
+        Kind {
+            name: "deck",
+            summary: "a blade deck: 6 × 6 stiffness and mass of sections along a reference line, which is the axis of its beam",
+            source: "",
+            example: r#"beam=[{up=[0, 0, 1], section={kind="deck", file="beamdyn_primary.dat"}, root="clamped", shear=true}]"#,
+            make: &Of(deck::section),
         },
     ],
 };
@@ -592,23 +563,4 @@ fn table(Rows { file, interpolation }: Rows, c: &Context<'_>) -> Made<Section> {
     let rows = files::section::read(&file.bytes, &file.name).at("file")?;
     let section = section::Table::new(c.length()?, &rows, interpolation).at("file")?;
     Ok(Section::planar(section))
-}
-
-fn blade(OfBlade { file, format, ignore_coupling }: OfBlade, c: &Context<'_>) -> Made<Section> {
-    let length = c.length()?;
-    let file = files::blade::read(&file.bytes, &file.name, format, length).at("file")?;
-    match file.coupled {
-        Some(coupled) if !ignore_coupling => {
-            let help = "with `ignore-coupling = true` it is left out, and named among the warnings";
-            return Err(Fault::new("file", coupled).help(help).into());
-        }
-        coupled => c.cautions.borrow_mut().extend(file.cautions.into_iter().chain(coupled)),
-    }
-    let table = section::BladeTable::new(length, &file.rows).at("file")?;
-    let spatial = table.clone();
-    Ok(Section {
-        spatial: Arc::new(move |_| Ok(Box::new(spatial.clone()))),
-        is_blade: true,
-        ..Section::planar(section::PlanarProjection(table))
-    })
 }

@@ -1,0 +1,99 @@
+//! The section and the axis of a blade by a deck.
+
+use super::curve::Curve;
+use super::section::Section;
+use crate::fault::{At, Fault, Made};
+use crate::files::deck::{self, Deck, Format};
+use crate::keys::{File, choice, keys, path};
+use crate::kind::{Choice, Context, Is, Kind};
+use flexion::linalg::{Mat3, Vec3};
+use flexion::multibody::slender::Station;
+use flexion::section::{BladeResultants, BladeSection, Matrices, PlanarProjection};
+use flexion::system::Frame;
+use std::sync::Arc;
+
+keys! {
+    /// What a case says of a deck.
+    pub struct OfDeck {
+        /// file of the deck; of BeamDyn the primary file, which names that of the sections
+        file: File = path();
+        /// format of the deck
+        format: Format = choice(&FORMAT).or_name("beamdyn");
+    }
+}
+
+/// Formats of decks.
+pub static FORMAT: Choice<Format> = Choice {
+    name: "deck-format",
+    path: "section.format",
+    summary: "format of a blade deck",
+    kinds: &[Kind {
+        name: "beamdyn",
+        summary: "primary file of BeamDyn, which names its blade file",
+        source: "OpenFAST",
+        example: r#"beam=[{up=[0, 0, 1], section={kind="deck", file="beamdyn_primary.dat", format="beamdyn"}, root="clamped", shear=true}]"#,
+        make: &Is(Format::BeamDyn),
+    }],
+};
+
+/// The sections of a deck.
+#[derive(Clone, Debug)]
+struct Sections {
+    deck: Arc<Deck>,
+    breaks: Vec<f64>,
+}
+
+impl BladeSection for Sections {
+    fn resultants(&self, s: f64) -> BladeResultants {
+        BladeResultants::from(&self.deck.matrices(s))
+    }
+
+    fn matrices(&self, s: f64) -> Option<Matrices> {
+        Some(self.deck.matrices(s))
+    }
+
+    fn breaks(&self) -> &[f64] {
+        &self.breaks
+    }
+
+    fn jumps(&self) -> &[f64] {
+        self.deck.table.jumps()
+    }
+}
+
+/// The section of a deck.
+pub fn section(OfDeck { file, format }: OfDeck, c: &Context<'_>) -> Made<Section> {
+    let find = |name: &str| c.files.bytes(name);
+    let deck = Arc::new(deck::read(&find, &file.name, format).at("file")?);
+    if let Some(length) = c.length {
+        let message = format!(
+            "the line of the deck is {:.6} m long, and the length of the beam {length} m",
+            deck.length
+        );
+        if (length - deck.length).abs() > 1e-6 * deck.length {
+            return Err(Fault::new("file", message).help("leave the length out").into());
+        }
+    }
+    c.cautions.borrow_mut().extend(deck.cautions.iter().chain(&deck.notes).cloned());
+    let sections = Sections { breaks: deck.breaks(), deck: Arc::clone(&deck) };
+    let spatial = sections.clone();
+    Ok(Section {
+        spatial: Arc::new(move |_| Ok(Box::new(spatial.clone()))),
+        is_blade: true,
+        deck: Some(deck),
+        ..Section::planar(PlanarProjection(sections))
+    })
+}
+
+/// The axis of a deck whose z is along `tangent` and whose y along `normal`, by its arc length; it begins at the origin.
+pub fn curve(deck: &Arc<Deck>, tangent: Vec3, normal: Vec3) -> Curve {
+    // The axes x, y, z of the deck: x lies opposite to across.
+    let axes = Mat3::columns([normal.cross(tangent), normal, tangent]);
+    let deck = Arc::clone(deck);
+    let root = deck.frame(0.0).position;
+    Arc::new(move |s| {
+        let Frame { position, rotation } = deck.frame(s);
+        let (tangent, normal) = (axes * rotation.column(0), axes * rotation.column(1));
+        Station { position: axes * (position - root), tangent, normal }
+    })
+}
