@@ -97,6 +97,15 @@ fn written(folder: &Path) -> Vec<(String, Vec<u8>)> {
     all
 }
 
+/// A file of a real blade.
+fn blade(name: &str) -> Vec<u8> {
+    fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("../verification/blades").join(name)).unwrap()
+}
+
+/// A strip whose centre of mass lies beside its axis.
+const SECTIONS: &str = "x, mass, EA, EI-flap, EI-chord, GJ, GA-chord, GA-flap, inertia-flap, inertia-chord, mass-y\n\
+    0, 2, 5e6, 100, 900, 80, 1e6, 1e6, 1e-3, 9e-3, 0.01\n1, 1, 3e6, 60, 500, 50, 1e6, 1e6, 6e-4, 5e-3, 0.005\n";
+
 /// The files that examples name, but the state of an earlier run.
 fn files() -> Vec<(&'static str, Vec<u8>)> {
     vec![
@@ -105,6 +114,11 @@ fn files() -> Vec<(&'static str, Vec<u8>)> {
         ("blade.csv", BLADE.into()),
         ("elastodyn.dat", ELASTODYN.into()),
         ("beamdyn.dat", beamdyn().into()),
+        ("beamdyn_primary.dat", blade("IEA-15-240-RWT_BeamDyn.dat")),
+        ("IEA-15-240-RWT_BeamDyn_blade.dat", blade("IEA-15-240-RWT_BeamDyn_blade.dat")),
+        ("hawc2.st", blade("IEA_15MW_RWT_Blade_st_FPM.st")),
+        ("windio.yaml", blade("IEA-15-240-RWT_windIO.yaml")),
+        ("sections.csv", SECTIONS.into()),
     ]
 }
 

@@ -179,7 +179,7 @@ impl Beam {
 
     /// What a beam without shear leaves out of its section.
     pub fn left_out(&self) -> Option<String> {
-        let table = &self.section.deck.as_ref().filter(|_| !self.shear)?.table;
+        let table = &self.section.deck.as_ref().filter(|_| !self.shear)?.0.table;
         let offset =
             |(_, of): &(f64, Matrices)| of.mass_centre().map(f64::abs).into_iter().fold(0.0, f64::max);
         let offset = table.rows().iter().map(offset).fold(0.0, f64::max);
@@ -193,7 +193,7 @@ impl Beam {
     /// Stiffness and inertia without shear at a station.
     fn properties(&self, s: f64) -> Properties {
         let mut of = match &self.section.deck {
-            Some(deck) => Properties::from(&deck.matrices(s)),
+            Some((deck, _)) => Properties::from(&deck.matrices(s)),
             None => Properties::from(&self.blade.resultants(s)),
         };
         if self.section.deck.is_none() && self.section.planar.resultants(s).rotary_inertia == 0.0 {
@@ -369,10 +369,10 @@ fn make(k: Written, c: &Context<'_>) -> Made<Beam> {
         let message = format!("the points make a curve of {length:.6} m: leave the length out");
         return Err(Fault::new("length", message).into());
     }
-    if let (Some(_), Some(_)) = (&section.deck, &k.curve) {
+    if let (Some((_, true)), Some(_)) = (&section.deck, &k.curve) {
         return Err(Fault::new("curve", "the deck has a line of its own: leave the curve out").into());
     }
-    let length = section.deck.as_ref().map(|deck| deck.length).or(c.length).ok_or_else(missing)?;
+    let length = section.deck.as_ref().map(|(deck, _)| deck.length).or(c.length).ok_or_else(missing)?;
     let assumed = Assumed { poisson_ratio: k.poisson_ratio, shear_factor: k.shear_factor };
     let mut blade: Arc<dyn BladeSection> = Arc::from(section.blade(assumed).at("section")?);
     let along = |s: f64| blade.resultants(s).torsional_stiffness > 0.0;
@@ -422,10 +422,10 @@ fn make(k: Written, c: &Context<'_>) -> Made<Beam> {
     }
     let (start, twist) = (k.start.unwrap_or_default(), k.twist);
     let bent: Curve = match (k.curve, &section.deck) {
-        (_, Some(deck)) => deck::curve(deck, tangent, normal),
-        (None, None) => straight(tangent, normal),
-        (Some(Bent::Along(curve)), None) => curve(length, tangent, normal),
-        (Some(Bent::Through(points)), None) => Arc::new(points.stations(normal)),
+        (_, Some((deck, true))) => deck::curve(deck, tangent, normal),
+        (None, _) => straight(tangent, normal),
+        (Some(Bent::Along(curve)), _) => curve(length, tangent, normal),
+        (Some(Bent::Through(points)), _) => Arc::new(points.stations(normal)),
     };
     let of = Arc::clone(&blade);
     let curve: Curve = Arc::new(move |s| {

@@ -4,7 +4,7 @@ use super::curve::Curve;
 use super::section::Section;
 use crate::fault::{At, Fault, Made};
 use crate::files::deck::{self, Deck, Format};
-use crate::keys::{File, choice, keys, path};
+use crate::keys::{File, choice, integer, keys, path};
 use crate::kind::{Choice, Context, Is, Kind};
 use flexion::linalg::{Mat3, Vec3};
 use flexion::multibody::slender::Station;
@@ -19,6 +19,10 @@ keys! {
         file: File = path();
         /// format of the deck
         format: Format = choice(&FORMAT).or_name("beamdyn");
+        /// number of the set of a HAWC2 file, the first if left out
+        set: Option<usize> = integer(1, 1000);
+        /// number of the subset of a HAWC2 file, the first if left out
+        subset: Option<usize> = integer(1, 1000);
     }
 }
 
@@ -27,13 +31,36 @@ pub static FORMAT: Choice<Format> = Choice {
     name: "deck-format",
     path: "section.format",
     summary: "format of a blade deck",
-    kinds: &[Kind {
-        name: "beamdyn",
-        summary: "primary file of BeamDyn, which names its blade file",
-        source: "OpenFAST",
-        example: r#"beam=[{up=[0, 0, 1], section={kind="deck", file="beamdyn_primary.dat", format="beamdyn"}, root="clamped", shear=true}]"#,
-        make: &Is(Format::BeamDyn),
-    }],
+    kinds: &[
+        Kind {
+            name: "beamdyn",
+            summary: "primary file of BeamDyn, which names its blade file",
+            source: "OpenFAST",
+            example: r#"beam=[{up=[0, 0, 1], section={kind="deck", file="beamdyn_primary.dat", format="beamdyn"}, root="clamped", shear=true}]"#,
+            make: &Is(Format::BeamDyn),
+        },
+        Kind {
+            name: "hawc2",
+            summary: "structural data (st) of HAWC2, with 6 × 6 stiffness or its classical columns; the axis is straight",
+            source: "HAWC2",
+            example: r#"beam=[{up=[0, 0, 1], section={kind="deck", file="hawc2.st", format="hawc2", set=1, subset=1}, root="clamped", shear=true}]"#,
+            make: &Is(Format::Hawc2 { set: None, subset: None }),
+        },
+        Kind {
+            name: "windio",
+            summary: "the blade of a turbine of windIO",
+            source: "IEA Wind Task 37 and 55",
+            example: r#"beam=[{up=[0, 0, 1], section={kind="deck", file="windio.yaml", format="windio"}, root="clamped", shear=true}]"#,
+            make: &Is(Format::WindIo),
+        },
+        Kind {
+            name: "csv",
+            summary: "a table with titles and units: 6 × 6 matrices, or stiffnesses with the places of centres; the axis is straight",
+            source: "",
+            example: r#"beam=[{up=[0, 0, 1], section={kind="deck", file="sections.csv", format="csv"}, root="clamped", shear=true}]"#,
+            make: &Is(Format::Csv),
+        },
+    ],
 };
 
 /// The sections of a deck.
@@ -41,11 +68,15 @@ pub static FORMAT: Choice<Format> = Choice {
 struct Sections {
     deck: Arc<Deck>,
     breaks: Vec<f64>,
+    /// Whether the axes of the line have the twist in them.
+    has_line: bool,
 }
 
 impl BladeSection for Sections {
     fn resultants(&self, s: f64) -> BladeResultants {
-        BladeResultants::from(&self.deck.matrices(s))
+        // The twist of a deck is about the axis towards the root.
+        let twist = if self.has_line { 0.0 } else { -self.deck.line.twist(s) };
+        BladeResultants { twist, ..BladeResultants::from(&self.deck.matrices(s)) }
     }
 
     fn matrices(&self, s: f64) -> Option<Matrices> {
@@ -61,8 +92,22 @@ impl BladeSection for Sections {
     }
 }
 
+/// Whether decks of a format have a line of their own.
+fn has_line(format: Format) -> bool {
+    matches!(format, Format::BeamDyn | Format::WindIo)
+}
+
 /// The section of a deck.
-pub fn section(OfDeck { file, format }: OfDeck, c: &Context<'_>) -> Made<Section> {
+pub fn section(OfDeck { file, format, set, subset }: OfDeck, c: &Context<'_>) -> Made<Section> {
+    let format = match format {
+        Format::Hawc2 { .. } => Format::Hawc2 { set, subset },
+        other => {
+            if let Some((key, _)) = [("set", set), ("subset", subset)].iter().find(|(_, n)| n.is_some()) {
+                return Err(Fault::new(*key, "belongs to the format `hawc2`").into());
+            }
+            other
+        }
+    };
     let find = |name: &str| c.files.bytes(name);
     let deck = Arc::new(deck::read(&find, &file.name, format).at("file")?);
     if let Some(length) = c.length {
@@ -75,17 +120,18 @@ pub fn section(OfDeck { file, format }: OfDeck, c: &Context<'_>) -> Made<Section
         }
     }
     c.cautions.borrow_mut().extend(deck.cautions.iter().chain(&deck.notes).cloned());
-    let sections = Sections { breaks: deck.breaks(), deck: Arc::clone(&deck) };
+    let has_line = has_line(format);
+    let sections = Sections { breaks: deck.breaks(), deck: Arc::clone(&deck), has_line };
     let spatial = sections.clone();
     Ok(Section {
         spatial: Arc::new(move |_| Ok(Box::new(spatial.clone()))),
         is_blade: true,
-        deck: Some(deck),
+        deck: Some((deck, has_line)),
         ..Section::planar(PlanarProjection(sections))
     })
 }
 
-/// The axis of a deck whose z is along `tangent` and whose y along `normal`, by its arc length; it begins at the origin.
+/// The axis of a deck with a line of its own whose z is along `tangent` and whose y along `normal`, by its arc length; it begins at the origin.
 pub fn curve(deck: &Arc<Deck>, tangent: Vec3, normal: Vec3) -> Curve {
     // The axes x, y, z of the deck: x lies opposite to across.
     let axes = Mat3::columns([normal.cross(tangent), normal, tangent]);

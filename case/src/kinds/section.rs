@@ -39,8 +39,8 @@ pub struct Section {
     pub shapes: Option<[Shape; 2]>,
     /// Whether it is known out of the plane, too.
     pub is_blade: bool,
-    /// The deck that it is of.
-    pub deck: Option<Arc<Deck>>,
+    /// The deck that it is of, and whether that has a line of its own.
+    pub deck: Option<(Arc<Deck>, bool)>,
     pub(super) spatial: Spatial,
 }
 
