@@ -184,8 +184,8 @@ impl Beam {
             |(_, of): &(f64, Matrices)| of.mass_centre().map(f64::abs).into_iter().fold(0.0, f64::max);
         let offset = table.rows().iter().map(offset).fold(0.0, f64::max);
         Some(format!(
-            "the 6 × 6 sections of beam `{}` are condensed at zero shear force, and their centres of mass, up to {offset:.4} m beside the axis, \
-             are put on it: write `shear = true` to keep both",
+            "the 6 × 6 sections of beam `{}` are condensed at zero shear force, their damping is left out, and their centres of mass, up to \
+             {offset:.4} m beside the axis, are put on it: write `shear = true` to keep all three",
             self.name
         ))
     }
