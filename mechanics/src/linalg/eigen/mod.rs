@@ -27,10 +27,12 @@ mod operators;
 mod pairs;
 mod pencil;
 mod small;
+mod sparse;
 
 pub use krylov::largest;
 pub use operators::Operator;
 pub use pencil::{Kind, Pencil, UNCERTAIN, each, is_symmetric, negative_directions};
+pub use sparse::Sparse;
 
 use super::Singular;
 use num_complex::Complex64;

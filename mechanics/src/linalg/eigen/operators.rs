@@ -1,7 +1,6 @@
 //! The inverse operators whose largest eigenvalues are computed. The dual of a vector gives the inner product.
 
-use super::{Pencil, each};
-use crate::linalg::Matrix;
+use super::{Pencil, Sparse};
 use crate::linalg::vector::{axpy, dot, noise, scale};
 
 /// A linear operator with an inner product ⟨z, z′⟩ = z · dual(z′).
@@ -67,7 +66,7 @@ impl Operator for Gyroscopic<'_> {
 /// part of C where its diagonal is not negative: M alone does not bound C x of directions that are damped and have little mass.
 pub(super) struct General<'a> {
     pencil: &'a mut Pencil,
-    dissipation: Option<Matrix>,
+    dissipation: Option<Sparse>,
     /// s², about the square of the lowest frequency: makes both halves of a vector comparable.
     scale: f64,
 }
@@ -86,7 +85,7 @@ impl<'a> General<'a> {
             scale = (before / dot(&x, &mx)).sqrt();
         }
         let scale = if scale.is_finite() && scale > 0.0 { scale } else { 1.0 };
-        let dissipation = if pencil.is_conservative() { None } else { symmetric_part(pencil.damping()) };
+        let dissipation = if pencil.is_conservative() { None } else { pencil.dissipation() };
         General { pencil, dissipation, scale }
     }
 
@@ -101,14 +100,6 @@ impl<'a> General<'a> {
         }
         self.pencil.mass().multiply(&w[n..], dual_y);
     }
-}
-
-/// ½ (C + Cᵀ), unless its diagonal has a negative entry.
-fn symmetric_part(c: &Matrix) -> Option<Matrix> {
-    let mut out = c.clone();
-    out.clear();
-    each(c, |i, j| out.add(i, j, 0.5 * (c.get(i, j) + c.get(j, i))));
-    (0..c.order()).all(|i| out.get(i, i) >= 0.0).then_some(out)
 }
 
 impl Operator for General<'_> {

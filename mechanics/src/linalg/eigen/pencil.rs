@@ -1,6 +1,6 @@
 //! The three matrices of an eigenproblem, their kind, and counts of its eigenvalues.
 
-use super::{EigenError, Pair};
+use super::{EigenError, Pair, Sparse};
 use crate::linalg::inertia::{negative_pivots_of, shape};
 use crate::linalg::vector::{dot, noise};
 use crate::linalg::{Matrix, Storage};
@@ -28,6 +28,8 @@ pub struct Pencil {
     stiffness: Matrix,
     /// |K|, entry by entry.
     sizes: Matrix,
+    /// The entries of M and C.
+    entries: [Sparse; 2],
     /// Q(σ), factored.
     factor: Matrix,
     shift: f64,
@@ -73,8 +75,10 @@ impl Pencil {
         sizes.clear();
         each(&stiffness, |i, j| sizes.add(i, j, stiffness.get(i, j).abs()));
         let (kind, conservative, solutions) = (Kind::General, false, 0);
+        let entries = [&mass, &damping].map(Sparse::of);
         let mut pencil = Pencil {
             sizes,
+            entries,
             mass,
             damping,
             stiffness,
@@ -95,13 +99,22 @@ impl Pencil {
     }
 
     /// The mass matrix M.
-    pub fn mass(&self) -> &Matrix {
-        &self.mass
+    pub fn mass(&self) -> &Sparse {
+        &self.entries[0]
     }
 
     /// The matrix C of damping and gyroscopic forces.
-    pub fn damping(&self) -> &Matrix {
-        &self.damping
+    pub fn damping(&self) -> &Sparse {
+        &self.entries[1]
+    }
+
+    /// ½ (C + Cᵀ), unless its diagonal has a negative entry.
+    pub(super) fn dissipation(&self) -> Option<Sparse> {
+        let c = &self.damping;
+        let mut out = c.clone();
+        out.clear();
+        each(c, |i, j| out.add(i, j, 0.5 * (c.get(i, j) + c.get(j, i))));
+        (0..c.order()).all(|i| out.get(i, i) >= 0.0).then(|| Sparse::of(&out))
     }
 
     /// The shift σ.
@@ -136,7 +149,7 @@ impl Pencil {
         let n = self.order();
         let (mut x, mut b, mut product) = (noise(n, 1), vec![0.0; n], vec![0.0; n]);
         for _ in 0..INVERSE_ITERATIONS {
-            self.mass.multiply(&x, &mut b);
+            self.mass().multiply(&x, &mut b);
             x.copy_from_slice(&b);
             self.solve(&mut x);
             let size = x.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
@@ -162,7 +175,7 @@ impl Pencil {
         let mut product = size.clone();
         self.sizes.multiply(&size, &mut product);
         let energy = dot(&size, &product);
-        let mass = self.hermitian_form(&self.mass, x).re;
+        let mass = hermitian_form(self.mass(), x).re;
         0.5 * f64::EPSILON * energy / (value.norm_sqr() * mass)
     }
 
@@ -170,27 +183,18 @@ impl Pencil {
     /// `energy` = xᴴKx is given: the root of ω² xᴴMx − ω xᴴ(iC)x − xᴴKx = 0, right to the square of the error of x.
     /// `None` for other pencils.
     pub fn rayleigh(&self, energy: f64, x: &[Complex64]) -> Option<Complex64> {
-        let mass = self.hermitian_form(&self.mass, x).re;
+        let mass = hermitian_form(self.mass(), x).re;
         let square = energy / mass;
         match self.kind {
             Kind::General => None,
             Kind::Symmetric if square < 0.0 => Some((-square).sqrt().into()),
             Kind::Symmetric => Some(Complex64::new(0.0, square.sqrt())),
             Kind::Gyroscopic => {
-                let c = -self.hermitian_form(&self.damping, x).im / mass;
+                let c = -hermitian_form(self.damping(), x).im / mass;
                 let root = 0.5 * (c + (c * c + 4.0 * square).sqrt());
                 Some(Complex64::new(0.0, root)).filter(|root| root.im.is_finite())
             }
         }
-    }
-
-    /// xᴴ A x
-    fn hermitian_form(&self, a: &Matrix, x: &[Complex64]) -> Complex64 {
-        let [re, im] = parts(x);
-        let (mut a_re, mut a_im) = (re.clone(), im.clone());
-        a.multiply(&re, &mut a_re);
-        a.multiply(&im, &mut a_im);
-        Complex64::new(dot(&re, &a_re) + dot(&im, &a_im), dot(&re, &a_im) - dot(&im, &a_re))
     }
 
     fn find_kind(&self) -> (Kind, bool) {
@@ -246,7 +250,7 @@ impl Pencil {
     /// doi:10.1090/S0025-5718-1987-0878698-1 (purification).
     pub(super) fn purified(&mut self, value: Complex64, vector: Vec<Complex64>) -> Pair {
         self.solutions += 2;
-        let matrices = [&self.mass, &self.damping];
+        let matrices = self.entries.each_ref();
         let (off, residual) = residual(matrices, &mut self.factor, self.shift, value, &vector);
         let pair = Pair { value, vector, residual };
         if residual <= PURE { pair.less(&off) } else { pair }
@@ -260,7 +264,7 @@ impl Pencil {
         if factor.factor().is_err() {
             return Pair { value, vector, residual: f64::NAN };
         }
-        let (off, residual) = residual([&self.mass, &self.damping], &mut factor, shift, value, &vector);
+        let (off, residual) = residual(self.entries.each_ref(), &mut factor, shift, value, &vector);
         Pair { value, vector, residual }.less(&off)
     }
 }
@@ -323,9 +327,18 @@ pub fn is_symmetric(matrix: &Matrix) -> bool {
     parts.is_symmetric()
 }
 
+/// xᴴ A x
+fn hermitian_form(a: &Sparse, x: &[Complex64]) -> Complex64 {
+    let [re, im] = parts(x);
+    let (mut a_re, mut a_im) = (re.clone(), im.clone());
+    a.multiply(&re, &mut a_re);
+    a.multiply(&im, &mut a_im);
+    Complex64::new(dot(&re, &a_re) + dot(&im, &a_im), dot(&re, &a_im) - dot(&im, &a_re))
+}
+
 /// r = x + Q(σ)⁻¹ (λ − σ)((λ + σ) M + C) x, and |r|/|x|, since Q(λ) = Q(σ) + (λ − σ)((λ + σ) M + C).
 fn residual(
-    [mass, damping]: [&Matrix; 2],
+    [mass, damping]: [&Sparse; 2],
     factor: &mut Matrix,
     shift: f64,
     value: Complex64,
