@@ -91,7 +91,10 @@ pub fn described(space: &Space) -> Vec<Vec<String>> {
     }
     for (beam, built) in &space.beams {
         let (elements, length, mass) = (built.elements(), beam.length, beam.mass());
-        rows.push(row(&beam.name, format!("{mass:.6} kg, {length} m, {elements} elements")));
+        rows.push(row(
+            &beam.name,
+            format!("{mass:.6} kg, {} m, {elements} elements", (1e9 * length).round() / 1e9),
+        ));
     }
     let bodies = space.bodies.iter().map(|body| body.mass);
     let total: f64 = bodies.chain(space.beams.iter().map(|(beam, _)| beam.mass())).sum();
