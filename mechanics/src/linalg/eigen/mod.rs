@@ -31,8 +31,8 @@ mod sparse;
 
 pub use krylov::largest;
 pub use operators::Operator;
-pub use pencil::{Kind, Pencil, UNCERTAIN, each, is_symmetric, negative_directions};
-pub use sparse::Sparse;
+pub use pencil::{Kind, Pencil, UNCERTAIN, is_symmetric, negative_directions};
+pub use sparse::{Sparse, each};
 
 use super::Singular;
 use num_complex::Complex64;

@@ -1,9 +1,10 @@
 //! The three matrices of an eigenproblem, their kind, and counts of its eigenvalues.
 
-use super::{EigenError, Pair, Sparse};
+use super::sparse::{Sparse, each};
+use super::{EigenError, Pair};
+use crate::linalg::Matrix;
 use crate::linalg::inertia::{negative_pivots_of, shape};
 use crate::linalg::vector::{dot, noise};
-use crate::linalg::{Matrix, Storage};
 use num_complex::Complex64;
 
 /// Form of the matrices.
@@ -293,23 +294,6 @@ impl Parts {
 
     fn is_symmetric(&self) -> bool {
         self.skew <= ZERO * self.largest
-    }
-}
-
-/// Calls `f` for every entry that the structure of a matrix stores, by the numbers of its unknowns.
-pub fn each(matrix: &Matrix, mut f: impl FnMut(usize, usize)) {
-    let n = matrix.order();
-    let mut f = |i, j| f(matrix.unknown(i), matrix.unknown(j));
-    match matrix.storage() {
-        Storage::Dense(_) => (0..n * n).for_each(|k| f(k / n, k % n)),
-        Storage::Band(a) => {
-            let (band, lower, upper) = (a.band().order(), a.band().lower(), a.band().upper());
-            for i in 0..n {
-                let within =
-                    if i < band { i.saturating_sub(lower)..(i + upper + 1).min(band) } else { 0..band };
-                within.chain(band..n).for_each(|j| f(i, j));
-            }
-        }
     }
 }
 
