@@ -7,10 +7,11 @@ use super::keys::{
 };
 use super::kinds::basis::{self, Either, FIELD};
 use super::kinds::coupling::{COUPLING, Coupling, SPACE};
+use super::kinds::cross_section::Section;
 use super::kinds::initial::{self, Initial};
 use super::kinds::integrator::{self, Method};
 use super::kinds::motion::MOTION;
-use super::kinds::section::{self, Section};
+use super::kinds::section;
 use super::kinds::{
     amplitude, beam, blade, body, contact, curve, damping, force_law, joint, load, mass, obstacle, rotation,
     spring, torque,

@@ -1,10 +1,11 @@
 //! Beams in space.
 
+use super::cross_section::{Assumed, Section};
 use super::curve::{Bent, CURVE, Curve, straight};
 use super::damping::Damped;
 use super::deck;
 use super::name::name;
-use super::section::{Assumed, SECTION, Section};
+use super::section::SECTION;
 use crate::declaration::Bound::*;
 use crate::fault::{At, Fault, Faults, Made};
 use crate::keys::{

@@ -1,6 +1,6 @@
 //! The blade of a case: a beam that also bends out of the plane and twists.
 
-use super::section::{Assumed, Section};
+use super::cross_section::{Assumed, Section};
 use crate::declaration::Bound::*;
 use crate::fault::{At, Fault, Faults, Made};
 use crate::keys::{boolean, choice, integer, keys, number, quantity};

@@ -1,6 +1,6 @@
 //! The section of a blade by a file of numbers along its span.
 
-use super::section::Section;
+use super::cross_section::Section;
 use crate::fault::{At, Fault, Made};
 use crate::files;
 use crate::keys::{File, boolean, choice, keys, path};

@@ -1,7 +1,7 @@
 //! The section and the axis of a blade by a deck.
 
+use super::cross_section::Section;
 use super::curve::Curve;
-use super::section::Section;
 use crate::fault::{At, Fault, Made};
 use crate::files::deck::{self, Deck, Format};
 use crate::keys::{File, choice, integer, keys, path};

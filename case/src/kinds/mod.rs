@@ -9,6 +9,7 @@ pub mod body;
 pub mod centreline;
 pub mod contact;
 pub mod coupling;
+pub mod cross_section;
 pub mod curve;
 pub mod damping;
 pub mod deck;

@@ -1,72 +1,19 @@
 //! The section of a case: kinds, keys and makers.
 
 use super::blade_file;
+use super::cross_section::{Assumed, Section, Spatial};
 use super::deck;
 use crate::declaration::Bound::*;
 use crate::fault::{At, Fault, Faults, Made};
 use crate::files;
-use crate::files::deck::Deck;
 use crate::keys::{Field, File, boolean, choice, keys, number, path, quantities, quantity};
 use crate::kind::{Choice, Context, Is, Kind, Of};
 use crate::units::*;
 use flexion::section::{
-    self, BladeSection, Graded, HomogeneousBlade, Inertia, Material, Piecewise, PlanarBlade, Resultants,
-    SectionError, Segment, Shape, Tapered, Uniform, UniformBlade,
+    self, BladeSection, Graded, HomogeneousBlade, Inertia, Material, Piecewise, Resultants, SectionError,
+    Segment, Shape, Tapered, Uniform, UniformBlade,
 };
-use std::fmt;
 use std::sync::Arc;
-
-/// What a beam assumes of the material of its section.
-#[derive(Clone, Copy, Debug)]
-pub struct Assumed {
-    /// Poisson's ratio.
-    pub poisson_ratio: f64,
-    /// The shear factor of a shape; its own if left out.
-    pub shear_factor: Option<f64>,
-}
-
-/// Makes the section of a blade.
-type Spatial = Arc<dyn Fn(Assumed) -> Result<Box<dyn BladeSection>, SectionError> + Send + Sync>;
-
-/// The cross-section of a beam.
-#[derive(Clone)]
-pub struct Section {
-    /// For bending in the plane of motion.
-    pub planar: Arc<dyn section::Section>,
-    /// Height in the plane of motion \[m\], at the root if it tapers; `None` when only resultants are known.
-    pub height: Option<f64>,
-    /// Shape at root and tip, linear between; `None` when only resultants are known.
-    pub shapes: Option<[Shape; 2]>,
-    /// Whether it is known out of the plane, too.
-    pub is_blade: bool,
-    /// The deck that it is of, and whether that has a line of its own.
-    pub deck: Option<(Arc<Deck>, bool)>,
-    pub(super) spatial: Spatial,
-}
-
-impl fmt::Debug for Section {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.planar.fmt(f)
-    }
-}
-
-impl Section {
-    /// A section known by its resultants in the plane: as that of a blade it is as stiff out of it.
-    pub(super) fn planar(section: impl section::Section + 'static) -> Section {
-        let planar: Arc<dyn section::Section> = Arc::new(section);
-        let blade = Arc::clone(&planar);
-        let spatial: Spatial = Arc::new(move |_| Ok(Box::new(PlanarBlade(Box::new(Arc::clone(&blade))))));
-        Section { planar, height: None, shapes: None, is_blade: false, deck: None, spatial }
-    }
-
-    /// The section of a blade, of a material of which this is assumed.
-    ///
-    /// # Errors
-    /// [`SectionError`] when the section makes no blade.
-    pub fn blade(&self, assumed: Assumed) -> Result<Box<dyn BladeSection>, SectionError> {
-        (self.spatial)(assumed)
-    }
-}
 
 const E: Field<f64> = quantity(&MODULUS, Positive).called("modulus", "Young's modulus E");
 const RHO: Field<f64> = quantity(&DENSITY, Positive).called("density", "density ρ");

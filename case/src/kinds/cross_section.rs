@@ -1,0 +1,58 @@
+//! The cross-section of a beam, of whatever kind.
+
+use crate::files::deck::Deck;
+use flexion::section::{self, BladeSection, PlanarBlade, SectionError, Shape};
+use std::fmt;
+use std::sync::Arc;
+
+/// What a beam assumes of the material of its section.
+#[derive(Clone, Copy, Debug)]
+pub struct Assumed {
+    /// Poisson's ratio.
+    pub poisson_ratio: f64,
+    /// The shear factor of a shape; its own if left out.
+    pub shear_factor: Option<f64>,
+}
+
+/// Makes the section of a blade.
+pub(super) type Spatial = Arc<dyn Fn(Assumed) -> Result<Box<dyn BladeSection>, SectionError> + Send + Sync>;
+
+/// The cross-section of a beam.
+#[derive(Clone)]
+pub struct Section {
+    /// For bending in the plane of motion.
+    pub planar: Arc<dyn section::Section>,
+    /// Height in the plane of motion \[m\], at the root if it tapers; `None` when only resultants are known.
+    pub height: Option<f64>,
+    /// Shape at root and tip, linear between; `None` when only resultants are known.
+    pub shapes: Option<[Shape; 2]>,
+    /// Whether it is known out of the plane, too.
+    pub is_blade: bool,
+    /// The deck that it is of, and whether that has a line of its own.
+    pub deck: Option<(Arc<Deck>, bool)>,
+    pub(super) spatial: Spatial,
+}
+
+impl fmt::Debug for Section {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.planar.fmt(f)
+    }
+}
+
+impl Section {
+    /// A section known by its resultants in the plane: as that of a blade it is as stiff out of it.
+    pub(super) fn planar(section: impl section::Section + 'static) -> Section {
+        let planar: Arc<dyn section::Section> = Arc::new(section);
+        let blade = Arc::clone(&planar);
+        let spatial: Spatial = Arc::new(move |_| Ok(Box::new(PlanarBlade(Box::new(Arc::clone(&blade))))));
+        Section { planar, height: None, shapes: None, is_blade: false, deck: None, spatial }
+    }
+
+    /// The section of a blade, of a material of which this is assumed.
+    ///
+    /// # Errors
+    /// [`SectionError`] when the section makes no blade.
+    pub fn blade(&self, assumed: Assumed) -> Result<Box<dyn BladeSection>, SectionError> {
+        (self.spatial)(assumed)
+    }
+}
