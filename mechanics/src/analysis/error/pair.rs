@@ -1,6 +1,6 @@
 //! The difference of a column of two runs, and what is none.
 
-use crate::analysis::recording::Trajectory;
+use crate::analysis::recording::{COMPONENTS, Trajectory};
 use crate::system::Role;
 
 /// Part of the largest difference until then that a value may be off by at least: differences pass through zero.
@@ -49,26 +49,46 @@ pub struct ColumnError {
 }
 
 /// A column of two runs over their common records.
+///
+/// A component of a unit quaternion is compared with that of the nearer of q and −q, which are one rotation.
 #[derive(Clone, Copy, Debug)]
 pub struct Pair<'a> {
     pub(super) ours: &'a Trajectory,
     pub(super) index: usize,
     theirs: &'a Trajectory,
     other: usize,
+    /// The first columns of the unit quaternion that the column belongs to, in both.
+    quaternion: Option<[usize; 2]>,
 }
 
 impl<'a> Pair<'a> {
     /// The column called `column` of `ours` and of the more accurate `theirs`; `None` where one of them has none.
     pub fn new(ours: &'a Trajectory, theirs: &'a Trajectory, column: &str) -> Option<Pair<'a>> {
-        Some(Pair { ours, index: ours.index(column)?, theirs, other: theirs.index(column)? })
+        let (index, other) = (ours.index(column)?, theirs.index(column)?);
+        let quaternion = ours.quaternion_of(index).zip(theirs.quaternion_of(other)).map(<[_; 2]>::from);
+        Some(Pair { ours, index, theirs, other, quaternion })
     }
 
     /// The common records. Where one run ends between two records of the other, its last row has no partner.
+    fn common(&self) -> impl Iterator<Item = (f64, &'a [f64], &'a [f64])> {
+        let both = self.ours.rows().zip(self.theirs.rows());
+        let common = both.filter(|((t, _), (other, _))| (t - other).abs() <= SAME_TIME * t.abs());
+        common.map(|((t, ours), (_, theirs))| (t, ours, theirs))
+    }
+
+    /// q · q_f of a record; 1 for what is no component of a quaternion.
+    fn cosine(&self, ours: &[f64], theirs: &[f64]) -> f64 {
+        let Some([q, other]) = self.quaternion else { return 1.0 };
+        ours[q..].iter().zip(&theirs[other..]).take(COMPONENTS).map(|(a, b)| a * b).sum()
+    }
+
+    /// t, y and y_f of the common records.
     fn rows(&self) -> impl Iterator<Item = (f64, f64, f64)> {
-        let values = self.ours.values(self.index).zip(self.theirs.values(self.other));
-        let times = self.ours.times().iter().zip(self.theirs.times());
-        let common = times.zip(values).filter(|((t, other), _)| (*t - *other).abs() <= SAME_TIME * t.abs());
-        common.map(|((t, _), (x, y))| (*t, x, y))
+        let one = |(t, ours, theirs): (f64, &[f64], &[f64])| {
+            let y = theirs[self.other];
+            (t, ours[self.index], if self.cosine(ours, theirs) < 0.0 { -y } else { y })
+        };
+        self.common().map(one)
     }
 
     /// The values y and y_f at the common records.
@@ -89,6 +109,9 @@ impl<'a> Pair<'a> {
     /// Differences of the smallest, largest and last value; NaN where the other run ends before them.
     pub fn of_values(&self) -> [f64; 3] {
         let (ours, theirs) = (self.ours.extremes(self.index), self.theirs.extremes(self.other));
+        let other_sign = self.quaternion.is_some()
+            && self.common().map(|(_, ours, theirs)| self.cosine(ours, theirs)).sum::<f64>() < 0.0;
+        let [low, high] = if other_sign { [-theirs.max, -theirs.min] } else { [theirs.min, theirs.max] };
         let last = |of: &Trajectory| of.times().last().copied().unwrap_or(0.0);
         let (end, reach) = (last(self.ours), last(self.theirs));
         let largest = self.largest();
@@ -102,11 +125,7 @@ impl<'a> Pair<'a> {
             let (earlier, now) = until.fold((0.0, 0.0), |(largest, _), d| (worse(largest, d), d));
             worse(worse(now, EARLIER * earlier), unresolved)
         };
-        [
-            worse(value(ours.min, theirs.min), at(ours.t_min)),
-            worse(value(ours.max, theirs.max), at(ours.t_max)),
-            at(end),
-        ]
+        [worse(value(ours.min, low), at(ours.t_min)), worse(value(ours.max, high), at(ours.t_max)), at(end)]
     }
 
     /// The time until which the error stays a small part of the largest value.
@@ -126,7 +145,7 @@ fn worse(a: f64, b: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::system::Channel;
+    use crate::system::{Channel, Kind};
 
     fn column(values: [f64; 3]) -> Trajectory {
         let mut out = Trajectory::new(vec![Channel::new(Role::Detail, "y", "m", "")]);
@@ -154,5 +173,36 @@ mod tests {
         let differences = Pair::new(&b, &small, "y").unwrap().of_values();
         assert!((differences[2] - 0.0025).abs() < 1e-15, "{differences:?}");
         assert_eq!(pair.trusted(1.0), 1.0);
+    }
+
+    /// One run continues q = (cos θ/2, 0, 0, sin θ/2) from the sign that the other leaves out: each component differs by what the angles do.
+    #[test]
+    fn a_quaternion_and_its_negative_are_one_rotation() {
+        let turning = |sign: f64, off: f64| {
+            let names = ["w", "x", "y", "z"];
+            let mut out = Trajectory::new(
+                names
+                    .map(|name| Channel::new(Role::Detail, name, "", "").with_kind(Kind::Quaternion))
+                    .to_vec(),
+            );
+            for i in 0..10 {
+                let half = 0.2 * f64::from(i) + 0.5 * off;
+                out.push(f64::from(i), |row| {
+                    row.copy_from_slice(&[sign * libm::cos(half), 0.0, 0.0, sign * libm::sin(half)]);
+                });
+            }
+            out
+        };
+        let ours = turning(1.0, 0.0);
+        let [same, negative] = [1.0, -1.0].map(|sign| turning(sign, 1e-3));
+        for name in ["w", "x", "z"] {
+            let of = |theirs| {
+                let pair = Pair::new(&ours, theirs, name).unwrap();
+                (pair.largest(), pair.of_values(), pair.trusted(1.0))
+            };
+            assert_eq!(of(&negative), of(&same), "{name}");
+            assert!(of(&negative).0 <= 5.01e-4, "{name}");
+        }
+        assert!(Pair::new(&ours, &negative, "z").unwrap().of_values().iter().all(|off| *off < 1e-3));
     }
 }

@@ -12,6 +12,7 @@ mod warning;
 
 pub use events::{Entry, Events};
 pub use recorder::{Columns, Recorder, Sampled, Watch};
+pub(super) use trajectory::COMPONENTS;
 pub use trajectory::{Extremes, Trajectory};
 pub use warning::Warning;
 

@@ -4,7 +4,7 @@ use crate::system::{Channel, Kind, Role};
 use std::ops::Range;
 
 /// Components of a quaternion.
-const COMPONENTS: usize = 4;
+pub(in crate::analysis) const COMPONENTS: usize = 4;
 /// No value between the rows.
 const NOTHING_PASSED: [(f64, f64); 2] = [(0.0, f64::INFINITY), (0.0, f64::NEG_INFINITY)];
 /// Component of a unit quaternion that is no rounding.
@@ -103,6 +103,12 @@ impl Trajectory {
             }
         }
         first
+    }
+
+    /// First column of the unit quaternion that the column at `index` is a component of.
+    pub(in crate::analysis) fn quaternion_of(&self, index: usize) -> Option<usize> {
+        let first = (self.channels[index].kind == Kind::Quaternion).then(|| self.quaternions())?;
+        first.into_iter().find(|first| (*first..first + COMPONENTS).contains(&index))
     }
 
     /// Chooses between the signs of unit quaternions, which mean the same rotation, in some rows: each is continued from
