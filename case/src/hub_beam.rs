@@ -16,6 +16,7 @@ use super::kinds::spring::{Joins, SPRING, Spring};
 use super::layout::{self, GRAVITY, HUB, MODEL_ON_HUB, ModelOnHub, OneBeam, SPATIAL_TABLES};
 use super::places::Place;
 use super::values::{Values, item, join};
+use flexion::basis::mesh;
 use flexion::contact::Law;
 use flexion::hub_beam::load::{self as acting, Axes};
 use flexion::hub_beam::{Damping, Drive, Hub, Mass};
@@ -100,10 +101,21 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     let hub = found.part(hub(v, c));
     let loads = loads(v, c, &mut found);
     let acting: Vec<f64> = loads.iter().flatten().flat_map(|load| load.nodes.iter().copied()).collect();
-    let ends = |h: f64| {
-        let of_section =
-            c.length.zip(section.as_ref()).map(|(length, section)| section.planar.ends(length, h));
-        of_section.into_iter().flatten().chain(acting.iter().copied()).collect::<Vec<_>>()
+    let ends = |elements: usize| {
+        let mut ends = acting.clone();
+        let Some((length, section)) = c.length.zip(section.as_ref()) else { return ends };
+        // An end found may take the place of one of the equal elements' that did for another: until there is nothing to add.
+        while let Ok(cells) = mesh(length, elements, &ends) {
+            let of_section = section.planar.ends(&cells, length / elements as f64);
+            let found = ends.len();
+            ends.extend(of_section.into_iter().filter(|x| !acting.contains(x)));
+            ends.sort_by(f64::total_cmp);
+            ends.dedup();
+            if ends.len() == found {
+                break;
+            }
+        }
+        ends
     };
     let bases = found.part(layout::BASIS.read(v, c).and_then(|basis| basis::make(&basis, c, &ends)));
     if let (Some(length), Some(section)) = (c.length, &section) {

@@ -43,7 +43,9 @@ impl Reading {
         };
         let end = follow(system.as_mut(), &start, plan, visit).err().map(|end| end.to_string());
         let end = if stopped { Some("stopped by the user".to_owned()) } else { end };
-        Ok(LoadPath { channels, points, to: plan.to, end, unknown: None })
+        let largest = |i: usize| points.iter().fold(0.0_f64, |most, point| most.max(point.values[i].abs()));
+        let cautions = system.cautions(&(0..channels.len()).map(largest).collect::<Vec<_>>());
+        Ok(LoadPath { channels, points, to: plan.to, end, unknown: None, cautions })
     }
 
     /// Estimates the errors of a path of this case by the same path on a mesh of twice the functions: S = 2 times the difference of the

@@ -135,3 +135,64 @@ axes = 'follower'
     // Hundreds of equilibria of 66 unknowns take milliseconds at least.
     assert!(run.wall_time > 1e-3, "{}", run.wall_time);
 }
+
+/// Two kinks of a table beside an end of equal elements, which makes room for one of them and was at the other: a notch of a tenth with flanks of a
+/// hundredth, and one of a thousandth with flanks of a tenth of that. The tip's deflection under a small force is F ∫ (L − x)²/EI dx.
+#[test]
+fn a_notch_is_as_flexible_as_its_table_says_wherever_elements_end() {
+    for [width, flank] in [[1e-1, 1e-2], [1e-3, 1e-4]] {
+        let rows = [
+            (0.0, 200.0),
+            (0.5 - flank, 200.0),
+            (0.5, 4.0),
+            (0.5 + width, 4.0),
+            (0.5 + width + flank, 200.0),
+            (1.0, 200.0),
+        ];
+        let table: String = rows.iter().map(|(x, ei)| format!("{x},1,1e6,{ei}\n")).collect();
+        let files: flexion_case::Contents =
+            [("notch.csv".to_owned(), format!("x,mass,EA,EI\n{table}").into_bytes().into())]
+                .into_iter()
+                .collect();
+        let gauss = flexion::quadrature::Gauss::new(8);
+        let flexibility: f64 = rows
+            .windows(2)
+            .flat_map(|pair| (0..100).map(move |k| (pair[0], pair[1], f64::from(k))))
+            .map(|((a, f), (b, g), k)| {
+                let at = |k: f64| a + (b - a) * k / 100.0;
+                gauss.integrate(at(k), at(k + 1.0), |x| (1.0 - x).powi(2) / (f + (g - f) * (x - a) / (b - a)))
+            })
+            .sum();
+        for coupling in ["first", "exact", "space"] {
+            for force in [0.01, 1.0] {
+                let text = format!(
+                    "[beam]\nlength=1\n[section]\nkind='table'\nfile='notch.csv'\ninterpolation='linear'\n[hub]\n\
+                     motion={{kind='constant',speed=0}}\n[model]\ncoupling='{coupling}'\n[basis]\nkind='finite-elements'\nelements=10\n\
+                     [[load]]\non='tip'\nforce=[0,{force}]\n[run]\nduration=0\n"
+                );
+                let reading = flexion_case::parse_with(text, std::path::Path::new("case.toml"), &[], &files);
+                let reading = reading.unwrap_or_else(|problems| panic!("{problems}"));
+                let mut path = reading.load_path(&Plan::to(1.0), |_, _| true).unwrap();
+                assert_eq!(path.end, None, "{coupling}");
+                reading.estimate_path_errors(&mut path, &Plan::to(1.0), Effort::Full, |_, _| true);
+                let tip = path.channels.iter().position(|c| c.name == "tip.deflection").unwrap();
+                let last = path.points.last().unwrap();
+                let (found, error) = (last.values[tip], last.error.as_ref().unwrap().values[tip]);
+                let off = (found - force * flexibility).abs();
+                let rounds = path
+                    .cautions
+                    .iter()
+                    .any(|caution| caution.contains("rounding of the assembled stiffness"));
+                assert_eq!(rounds, coupling == "first" && width < 1e-2, "{coupling} {:?}", path.cautions);
+                // What bends by a thousandth is shorter along its axis by a millionth.
+                // The caution says up to 4.7e-3.
+                let allowed = if rounds { 4.7e-3 * found } else { error + 1e-5 * found };
+                assert!(
+                    off <= allowed,
+                    "{coupling} {width} {force}: {found} ± {error} for {}",
+                    force * flexibility
+                );
+            }
+        }
+    }
+}

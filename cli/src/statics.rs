@@ -91,7 +91,7 @@ fn followed(arguments: &Arguments, reading: &Reading) -> Result<bool, Refused> {
         directory.discard();
         Refused::Case(problems)
     })?;
-    let mut cautions = Vec::new();
+    let mut cautions = path.cautions.clone();
     if let Some(effort) = arguments.error.effort() {
         let show = |points, factor| progress.show_points(points, factor).is_continue();
         cautions.extend(reading.estimate_path_errors(&mut path, &plan, effort, show));

@@ -17,6 +17,8 @@ pub struct LoadPath {
     pub end: Option<String>,
     /// Why its errors are not known, where they are not.
     pub unknown: Option<String>,
+    /// What its reader should know about the validity of the model.
+    pub cautions: Vec<String>,
 }
 
 /// An equilibrium on a path.

@@ -66,8 +66,8 @@ struct Functions {
 /// Builds a basis of the length of the beam \[m\] and the stations at which elements should end.
 type Build = Box<dyn Fn(f64, &Stations<'_>) -> Result<Arc<dyn basis::Basis>, BasisError>>;
 
-/// The stations at which elements of a length \[m\] should end \[m\].
-type Stations<'a> = dyn Fn(f64) -> Vec<f64> + 'a;
+/// The stations at which so many equal elements should end, too \[m\].
+type Stations<'a> = dyn Fn(usize) -> Vec<f64> + 'a;
 
 /// What a kind gives: the functions of either field.
 pub struct Either(Box<dyn Fn(Field) -> Functions>);
@@ -143,7 +143,7 @@ fn built(fields: [Functions; 2], c: &Context<'_>, stations: &Stations<'_>) -> Ma
         keys.dedup();
         keys
     };
-    let within = stations(0.1 * length).iter().any(|station| 0.0 < *station && *station < length);
+    let within = stations(10).iter().any(|station| 0.0 < *station && *station < length);
     let safety = |f: &Functions| if within && f.elements.is_none() { SAFETY_OF_SLOW } else { f.safety };
     let safety = safety(&fields[0]).max(safety(&fields[1]));
     Ok(Bases {
@@ -173,7 +173,7 @@ fn finite_elements(k: FiniteElements, _: &Context<'_>) -> Made<Either> {
         let all = elements * parts;
         let extent = (all as f64 * each as f64, 2.0 / all as f64);
         let build: Build = Box::new(move |length, stations| {
-            let ends = stations(length / elements as f64);
+            let ends = stations(elements);
             let cells = cut(&mesh(length, elements, &ends)?, parts);
             match field {
                 Field::Axial => shared(Lagrange::on(cells, degree)),

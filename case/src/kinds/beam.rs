@@ -212,7 +212,9 @@ impl Beam {
         if self.section.deck.is_some() || self.blade.breaks().len() <= MOST_ROWS * self.elements {
             ends.extend(self.blade.breaks());
         }
-        ends.extend(self.blade.ends(self.length, self.length / self.elements as f64));
+        let equal: Vec<f64> =
+            (0..=self.elements).map(|i| self.length * (i as f64 / self.elements as f64)).collect();
+        ends.extend(self.blade.ends(&equal, self.length / self.elements as f64));
         ends.extend(stations);
         ends.sort_by(f64::total_cmp);
         ends.dedup_by(|a, b| (*a - *b).abs() <= 1e-9 * self.length);

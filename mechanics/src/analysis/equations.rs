@@ -29,6 +29,11 @@ const CHANGES: usize = 4;
 /// Scaled size of an increment at which the iteration has converged.
 const TOLERANCE: f64 = 1e-11;
 
+/// Scaled size of increments that are rounding if so many of them are not halved: an element that is far shorter than the beam takes digits of
+/// its deflection.
+const ROUNDING: f64 = 1e-5;
+const STALLED: u32 = 3;
+
 /// Why an iteration has ended.
 pub(super) struct Failure {
     pub what: String,
@@ -172,7 +177,7 @@ impl<'a> Equations<'a> {
         path: Option<&Direction>,
     ) -> Result<u32, Failure> {
         let allowed = ITERATIONS[usize::from(path.is_some())];
-        let mut last = f64::INFINITY;
+        let (mut least, mut stalled) = (f64::INFINITY, 0);
         for iteration in 0..=allowed {
             self.residual(state, *part);
             if self.r.iter().all(|r| *r == 0.0) {
@@ -196,8 +201,12 @@ impl<'a> Equations<'a> {
             self.iterations += 1;
             let (worst, size) = largest(&d, &self.scales);
             let size = if change.abs() <= size { size } else { change.abs() };
+            stalled += u32::from(size > 0.5 * least);
             // Converged, or as far as rounding lets it come.
-            if size <= TOLERANCE || (size < 1e-7 && size > 0.3 * last) {
+            if size <= TOLERANCE
+                || (size < 1e-7 && size > 0.3 * least)
+                || (size < ROUNDING && stalled >= STALLED)
+            {
                 apply(self.system, *part);
                 return self.system.admissible(state).map(|()| iteration + 1).map_err(|limit| Failure {
                     what: limit.to_string(),
@@ -209,7 +218,7 @@ impl<'a> Equations<'a> {
                 let what = format!("Newton's method does not converge (increment {size:.1e})");
                 return Err(Failure { what, singular: false, worst });
             }
-            last = size;
+            least = size.min(least);
         }
         Ok(allowed)
     }

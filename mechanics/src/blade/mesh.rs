@@ -127,7 +127,7 @@ impl Mesh {
             );
             return Err(BladeError::Invalid(message));
         }
-        for end in section.ends(length, length / elements as f64) {
+        for end in section.ends(&nodes.clone(), length / elements as f64) {
             match nodes.iter_mut().find(|node| (**node - end).abs() < near) {
                 Some(node) => *node = end,
                 None => nodes.push(end),

@@ -124,6 +124,27 @@ impl LinearCoupling {
         LinearCoupling { name, ..self }
     }
 
+    /// Rounding error of the deflection, over the deflection: the terms of K for elements of length h cancel in rigid motions to
+    /// ε EI/h³ only, which holds the beam like springs from outside.
+    ///
+    /// ```text
+    /// ε Σ (L/h)³ EI · (1/L) Σ h/EI,     n⁴ε for n equal elements
+    /// ```
+    ///
+    /// Measured: 0.6 of this with 640 equal elements, 0.9 with 1280, 0.6 with 2560.
+    fn rounding(&self) -> f64 {
+        let length = self.fields.length();
+        let cells = self.fields.cells().windows(2).map(|ends| ends[1] - ends[0]);
+        let points = self.stiffnesses.chunks(self.fields.gauss().len());
+        let (mut springs, mut flexibility) = (0.0, 0.0);
+        for (h, points) in cells.zip(points) {
+            let stiffness = points.iter().map(|p| p.bending).sum::<f64>() / h;
+            springs += (length / h).powi(3) * stiffness;
+            flexibility += h / stiffness;
+        }
+        f64::EPSILON * springs * flexibility / length
+    }
+
     /// Whether K − ω² D is positive definite.
     fn is_stable(&self, speed: f64) -> bool {
         let (_, centrifugal, stiffness) = self.inertia.matrices();
@@ -249,13 +270,13 @@ impl Coupling for LinearCoupling {
                 100.0 * SMALL
             )
         });
-        // Measured: 0.6 of this at 640 elements, 0.9 at 1280, 0.6 at 2560.
-        let elements = self.fields.cells().len().saturating_sub(1) as f64;
-        let rounding = elements.powi(4) * f64::EPSILON;
+        let rounding = self.rounding();
         let fine = (rounding > ROUNDING).then(|| {
+            let lengths = self.fields.cells().windows(2).map(|ends| ends[1] - ends[0]);
+            let (elements, shortest) = (lengths.len(), lengths.fold(f64::INFINITY, f64::min));
             format!(
-                "with {elements} elements, rounding of the assembled stiffness is up to n⁴ε = {rounding:.1e} of the \
-                 deflection in a run (frequencies are not affected): use fewer elements, or the exact coupling"
+                "with {elements} elements, the shortest {shortest:.1e} m long, rounding of the assembled stiffness is up to {rounding:.1e} of \
+                 the deflection (frequencies are not affected): use fewer elements, or the exact coupling"
             )
         });
         large.into_iter().chain(fine).collect()

@@ -100,9 +100,8 @@ pub trait BladeSection: Send + Sync + std::fmt::Debug {
         &[]
     }
 
-    /// Stations inside (0, `length`) at which elements of the length `h` \[m\] should end, as [`Section::ends`] has them; the twist counts by
-    /// the directions of the axes.
-    fn ends(&self, length: f64, h: f64) -> Vec<f64> {
+    /// Stations inside the beam at which its elements should end, as [`Section::ends`] has them; the twist counts by the directions of the axes.
+    fn ends(&self, cells: &[f64], h: f64) -> Vec<f64> {
         let values = |x: f64| {
             let r = self.resultants(x);
             [
@@ -116,7 +115,7 @@ pub trait BladeSection: Send + Sync + std::fmt::Debug {
                 1.0 + r.twist,
             ]
         };
-        ends(length, h, (self.breaks(), self.jumps()), values)
+        ends(cells, h, (self.breaks(), self.jumps()), values)
     }
 }
 

@@ -13,9 +13,9 @@ const LEAST: f64 = 2e-5;
 /// Part of an interval by which the sides of a jump are told apart.
 const INSIDE: f64 = 1e-9;
 
-/// Stations inside (0, `length`) at which elements of the length `h` \[m\] should end: all jumps, and of the other breaks those without
-/// which the section in an element would be far from a straight line. The interval between two jumps or ends of equal elements is divided
-/// at the break that is farthest from the straight line through its ends, and its parts in turn, until for every resultant f
+/// Stations inside a beam at which its elements with the ends `cells` should end where elements of the length `h` \[m\] were asked for: all
+/// jumps, and of the other breaks those without which the section in an element would be far from a straight line. An element is divided at
+/// the break that is farthest from the straight line through its ends, and its parts in turn, until for every resultant f
 ///
 /// ```text
 /// ∫ |f − line| / min(f, line) dx ≤ 1e-4 h
@@ -26,18 +26,16 @@ const INSIDE: f64 = 1e-9;
 /// A notch that is far shorter than an element changes the flexibility by this area, and twice the elements would not show it; the many rows
 /// of a smooth table have next to none and divide nothing. `values` are the resultants at a station; both lists ascend.
 pub(crate) fn ends<const N: usize>(
-    length: f64,
+    cells: &[f64],
     h: f64,
     (breaks, jumps): (&[f64], &[f64]),
     values: impl Fn(f64) -> [f64; N],
 ) -> Vec<f64> {
+    let length = cells.last().copied().unwrap_or_default();
     let mut ends: Vec<f64> = jumps.iter().copied().filter(|x| 0.0 < *x && *x < length).collect();
     if breaks.len() > jumps.len() {
-        let count = (length / h).round().max(1.0);
-        let mut borders = vec![0.0];
-        borders.extend((1..count as usize).map(|i| length * (i as f64 / count)));
+        let mut borders = cells.to_vec();
         borders.extend(&ends);
-        borders.push(length);
         borders.sort_by(f64::total_cmp);
         borders.dedup_by(|b, a| *b - *a <= INSIDE * length);
         let stations = || breaks.iter().copied().chain([0.0, length]);
@@ -125,7 +123,8 @@ mod tests {
             let ((a, f), (b, g)) = (rows[i - 1], rows[i]);
             [f + (x - a) / (b - a) * (g - f)]
         };
-        ends(10.0, h, (&breaks, &[]), line)
+        let cells: Vec<f64> = (0..=(10.0 / h) as usize).map(|i| h * i as f64).collect();
+        ends(&cells, h, (&breaks, &[]), line)
     }
 
     /// A notch of 6 cm, of a hundredth or to a hundredth of the section; one of a millionth is none.

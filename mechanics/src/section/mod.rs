@@ -208,9 +208,9 @@ pub trait Section: Send + Sync + std::fmt::Debug {
         &[]
     }
 
-    /// Stations inside (0, `length`) at which elements of the length `h` \[m\] should end: the jumps, and of the other breaks those
-    /// without which the section within an element would be far from a straight line.
-    fn ends(&self, length: f64, h: f64) -> Vec<f64> {
+    /// Stations inside the beam at which its elements should end that have the ends `cells`, or do already, where elements of the length `h` \[m\]
+    /// were asked for: the jumps, and of the other breaks those without which the section within an element would be far from a straight line.
+    fn ends(&self, cells: &[f64], h: f64) -> Vec<f64> {
         let values = |x: f64| {
             let r = self.resultants(x);
             [
@@ -222,7 +222,7 @@ pub trait Section: Send + Sync + std::fmt::Debug {
                 r.bending_stiffness,
             ]
         };
-        ends::ends(length, h, (self.breaks(), self.jumps()), values)
+        ends::ends(cells, h, (self.breaks(), self.jumps()), values)
     }
 
     /// Heights of the lower and upper fibre \[m\] if the shape of the section is known.
@@ -244,8 +244,8 @@ impl Section for std::sync::Arc<dyn Section> {
         (**self).jumps()
     }
 
-    fn ends(&self, length: f64, h: f64) -> Vec<f64> {
-        (**self).ends(length, h)
+    fn ends(&self, cells: &[f64], h: f64) -> Vec<f64> {
+        (**self).ends(cells, h)
     }
 
     fn fibres(&self, x: f64) -> Option<(f64, f64)> {
