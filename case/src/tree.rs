@@ -55,7 +55,11 @@ impl Raw {
 pub(super) fn read(text: &str, overrides: &[String], problems: &mut Problems) -> Node {
     let (table, errors) = DeTable::parse_recoverable(text);
     for error in errors {
-        problems.push(syntax(0, error.message(), error.span()));
+        problems.push(match (error.span(), deep_key(text)) {
+            // The parser does not say where.
+            (None, Some(key)) => too_deep(Place::new(0, key)),
+            (span, _) => syntax(0, error.message(), span),
+        });
     }
     let place = Place::default();
     let mut root = Node { place, value: convert_table(table.get_ref(), 0, 0, problems) };
@@ -74,10 +78,25 @@ fn syntax(source: usize, message: &str, span: Option<std::ops::Range<usize>>) ->
     problem.help("a key is written once: `[beam]` is one table, and `[[beam]]`, each time it is written, one of several")
 }
 
+/// Where the first key with too many parts stands.
+fn deep_key(text: &str) -> Option<std::ops::Range<usize>> {
+    let key = |line: &str| line.split('=').next().unwrap_or_default().trim_end().len();
+    let mut keys = text.split_inclusive('\n').scan(0, |end, line| {
+        let start = *end;
+        *end += line.len();
+        Some(start..start + key(line))
+    });
+    keys.find(|span| text[span.clone()].matches('.').count() > DEEPEST)
+}
+
+fn too_deep(place: Place) -> Problem {
+    Problem::new("", Some(place), format!("nested deeper than {DEEPEST} levels"))
+}
+
 fn convert(value: &Spanned<DeValue<'_>>, source: usize, depth: usize, problems: &mut Problems) -> Node {
     let place = Place::new(source, value.span());
     if depth > DEEPEST {
-        problems.push(Problem::new("", Some(place.clone()), format!("nested deeper than {DEEPEST} levels")));
+        problems.push(too_deep(place.clone()));
         return Node { place, value: Raw::Other("a nested value") };
     }
     let value = match value.get_ref() {

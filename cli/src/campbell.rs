@@ -187,6 +187,18 @@ fn diagram(arguments: &Arguments, reading: &Reading) -> Result<bool, String> {
             100.0 * error
         ));
     }
+    let lost = diagram.instabilities.iter().any(|of| matches!(of, Instability::Lost { .. }));
+    if stop.load(Ordering::Relaxed) && !lost {
+        whole = false;
+        let known = |branch: &Branch| {
+            branch.points.iter().take_while(|point| point.mode.mesh.is_some()).last().map(|p| p.speed)
+        };
+        let until = diagram.branches.iter().filter_map(known).reduce(f64::max);
+        let until = until.map_or("at no speed".to_owned(), |speed| format!("up to {}", unit.text(speed)));
+        screen::report(&format!(
+            "error: stopped by the user: errors of the frequencies by the mesh are known {until}, the frequencies at all speeds\n"
+        ));
+    }
     for instability in &diagram.instabilities {
         let range = |from: f64, until: Option<f64>| {
             let until = until.map_or("the last speed".to_owned(), |until| unit.text(until));

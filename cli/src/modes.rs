@@ -11,6 +11,8 @@ use flexion_case::{Case, Reading};
 use flexion_results::{Artifact, Directory, Scene, Units, write_film, write_modes};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Displacement of a mode in the files of its scene, over the scale of the unknowns.
 const DISPLACED: f64 = 1e-3;
@@ -74,8 +76,14 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
     let hub = arguments.options.hub(case)?;
     let directory =
         arguments.output.as_ref().map(|path| Directory::create_for(Artifact::MODES, path, arguments.force));
-    let directory = directory.transpose().map_err(|error| error.to_string())?;
-    let Found { mut modes, scene, film, mut cautions } = compute(arguments, case, speed, hub)?;
+    let directory = directory.transpose().map_err(|error| error.to_string())?.map(Arc::new);
+    let stopped = discarded_on_ctrl_c(directory.clone());
+    let found = compute(arguments, case, speed, hub).inspect_err(|_| {
+        directory.iter().for_each(|directory| directory.discard());
+    });
+    let Found { mut modes, scene, film, mut cautions } = found?;
+    // From here on files are written.
+    stopped.store(false, Ordering::Relaxed);
     cautions.extend(vibration::without_contacts(case));
     cautions.extend(case.unused_by_modes());
     if let Some(given) = case.rotates_at().filter(|_| speed == 0.0) {
@@ -148,6 +156,19 @@ struct Found {
     scene: Scene,
     film: Option<Scene>,
     cautions: Vec<String>,
+}
+
+/// Ends the program on Ctrl-C; a directory that was made for results is gone then, as long as what is given back is set.
+fn discarded_on_ctrl_c(directory: Option<Arc<Directory>>) -> Arc<AtomicBool> {
+    let discards = Arc::new(AtomicBool::new(true));
+    let asked = Arc::clone(&discards);
+    let _ = ctrlc::set_handler(move || {
+        if let Some(directory) = directory.as_ref().filter(|_| asked.load(Ordering::Relaxed)) {
+            directory.discard();
+        }
+        std::process::exit(2);
+    });
+    discards
 }
 
 fn compute(arguments: &Arguments, case: &Case, speed: f64, hub: HubState) -> Result<Found, String> {

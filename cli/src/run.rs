@@ -173,8 +173,10 @@ fn finish(status: Status, reached: bool, reading: &Reading, run: &Run, directory
     let wall_time = run.wall_time;
     let end = format!("{:.6}", trajectory.times().last().copied().unwrap_or(0.0));
     let mut out = format!("{} at t = {end} s in {wall_time:.3} s of wall time\n\n", status.word());
-    out.push_str(&extremes(trajectory, run.errors.as_ref()));
-    out.push('\n');
+    if !trajectory.is_empty() {
+        out.push_str(&extremes(trajectory, run.errors.as_ref()));
+        out.push('\n');
+    }
     if !run.events.is_empty() {
         out.push_str(&impacts(&run.events));
     }
@@ -198,7 +200,12 @@ fn finish(status: Status, reached: bool, reading: &Reading, run: &Run, directory
         (None, Some((channel, t))) => format!("{} is not finite at t = {t} s", channel.name),
         (None, None) => status.word().to_owned(),
     };
-    screen::report(&format!("error: {reason}\nWhat was computed until t = {end} s is kept.\n"));
+    let kept = if trajectory.is_empty() {
+        "Nothing was recorded.".to_owned()
+    } else {
+        format!("What was computed until t = {end} s is kept.")
+    };
+    screen::report(&format!("error: {reason}\n{kept}\n"));
     Outcome::Incomplete
 }
 
