@@ -105,7 +105,7 @@ pub fn rounding_energy(system: &mut dyn System, state: &State) -> f64 {
 }
 
 /// Steps from one in which the energy is weighed to the next, at most: a gain stays.
-const WEIGHED: u64 = 10;
+const WEIGHED: u64 = 100;
 
 /// Integrates the energy balance along a run.
 #[derive(Clone, Debug)]
@@ -196,7 +196,7 @@ impl Integral {
     }
 
     /// Enters the accepted step from `from` to `to`, at the end of which impacts have `lost` an energy \[J\]. The energy itself is weighed
-    /// where a row is `recorded` in the step, and in every tenth step.
+    /// where a row is `recorded` in the step, and in every hundredth step.
     pub(super) fn enter(
         &mut self,
         system: &mut dyn System,

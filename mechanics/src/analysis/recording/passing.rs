@@ -14,6 +14,9 @@ const OFF_LINE: f64 = 1e-3;
 /// What is left at each row of the square of the largest acceleration before it: what a jump set vibrating fast is soon forgotten.
 const REMEMBERED: f64 = 0.5;
 
+/// Unknowns that are looked at together.
+const LANES: usize = 4;
+
 /// Follows the accepted steps of a run, and its records.
 pub(super) struct Passing {
     /// Shortest time between rows, and the time of the next \[s\].
@@ -74,9 +77,9 @@ impl Passing {
         }
     }
 
-    /// Takes the end of a step; it becomes a row where a channel may turn near its extremes, and where accelerations leave the
-    /// [line](Line) through those of the last row: there the end before it is one, too. The states before and behind an event count, however near to
-    /// a row.
+    /// Takes the end of a step; it becomes a row where a channel may turn near its extremes. Where accelerations leave the [line](Line) through
+    /// those of the last row, the end before it does, and this one if it is off the line from there. The states before and behind an event count,
+    /// however near to a row.
     pub(super) fn enter(&mut self, system: &mut dyn System, state: &State, trajectory: &mut Trajectory) {
         let follows = self.catch_up(system, state, trajectory);
         self.measure(state);
@@ -88,14 +91,14 @@ impl Passing {
         self.offer(system, (state, false), trajectory);
     }
 
-    /// Makes the end of the last step a row where the motion until `state` needs it; gives whether it does without.
+    /// Makes the end of the last step a row where the motion until `state` leaves the line; gives whether it needs no row here.
     pub(super) fn catch_up(
         &mut self,
         system: &mut dyn System,
         state: &State,
         trajectory: &mut Trajectory,
     ) -> bool {
-        let follows = self.line.holds(system, state) && !self.turns && !self.rough;
+        let mut follows = self.line.holds(system, state) && !self.rough;
         if self.skipped && (self.cut || self.last.t >= self.next && !follows) {
             let before = std::mem::take(&mut self.last);
             self.evaluate(system, &before, trajectory);
@@ -104,8 +107,9 @@ impl Passing {
             }
             self.last = before;
             self.skipped = false;
+            follows = self.line.holds(system, state) && !self.rough;
         }
-        follows
+        follows && !self.turns
     }
 
     fn offer(
@@ -239,9 +243,8 @@ impl Passing {
     fn measure(&mut self, state: &State) {
         let h = state.t - self.last.t;
         if h > 0.0 && state.q.len() == state.v.len() {
-            let square = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
-            self.sums[0] += h * h * square(&state.v, &self.last.v);
-            self.sums[1] += square(&state.q, &self.last.q);
+            self.sums[0] += h * h * distance_squared(&state.v, &self.last.v);
+            self.sums[1] += distance_squared(&state.q, &self.last.q);
         }
         self.last.copy_from(state);
     }
@@ -269,32 +272,101 @@ impl Line {
         self.t = state.t;
         self.v.copy_from_slice(&state.v);
         self.a.copy_from_slice(&state.a);
-        self.largest *= REMEMBERED;
+        self.largest = (REMEMBERED * self.largest).max(self.size(&state.a));
     }
 
     /// Whether the line holds until `state`. The trapezium between v₀ and v₁ leaves −h³ä/12 where the line is off by h²ä/8 in its
     /// middle; a chord is off an arc α of radius 1 by α²/8. What has no unknowns may move as it likes.
     fn holds(&mut self, system: &mut dyn System, state: &State) -> bool {
         let h = state.t - self.t;
-        let (mut defect, mut size, mut rate, mut most) = (0.0, 0.0, 0.0_f64, 0.0_f64);
-        let before = self.v.iter().zip(&self.a);
-        let now = state.v.iter().zip(&state.a).zip(&self.weights);
-        for ((v0, a0), ((v, a), weight)) in before.zip(now) {
-            let left = weight * (v - v0 - 0.5 * h * (a0 + a));
-            defect += left * left;
-            most = most.max(left * left);
-            size += (weight * a) * (weight * a);
-            rate = rate.max((weight * v).abs());
-        }
-        self.largest = self.largest.max(size);
+        let mut rates = [0.0; LANES];
+        scaled(&self.weights, &state.v, |k, rate| rates[k] = larger(rates[k], rate.abs()));
+        let rate = rates.into_iter().fold(0.0, larger);
         self.fastest = self.fastest.max(rate);
         let arc = h * (rate + system.turning(state));
-        let off = 1.5 * defect.sqrt();
-        !state.v.is_empty()
-            && arc * arc <= 8.0 * OFF_LINE
-            && off <= OFF_LINE * h * self.largest.sqrt()
-            && 1.5 * most.sqrt() <= OFF_LINE * self.fastest
+        if state.v.is_empty() || arc * arc > 8.0 * OFF_LINE {
+            return false;
+        }
+        let off = 1.5 * self.defects(h, state).sqrt();
+        // What is dear is computed where the rest does not tell.
+        if !(off <= OFF_LINE * h * self.largest.sqrt()) {
+            self.largest = self.largest.max(self.size(&state.a));
+        }
+        off <= OFF_LINE * h * self.largest.sqrt()
+            && (off <= OFF_LINE * self.fastest
+                || 1.5 * self.largest_defect(h, state) <= OFF_LINE * self.fastest)
     }
+
+    /// Σ (a/w)²
+    fn size(&self, a: &[f64]) -> f64 {
+        let mut sums = [0.0; LANES];
+        scaled(&self.weights, a, |k, a| sums[k] += a * a);
+        sums.iter().sum()
+    }
+
+    /// Σ of the squares of what the line leaves of the velocities, over their scales.
+    fn defects(&self, h: f64, state: &State) -> f64 {
+        let all = [&self.v, &self.a, &state.v, &state.a, &self.weights].map(|x| x.as_chunks::<LANES>());
+        let [(v0, rest0), (a0, rest1), (v, rest2), (a, rest3), (w, rest4)] = all;
+        let mut sums = [0.0; LANES];
+        for ((((v0, a0), v), a), w) in v0.iter().zip(a0).zip(v).zip(a).zip(w) {
+            for k in 0..LANES {
+                let left = defect(h, [v0[k], a0[k], v[k], a[k], w[k]]);
+                sums[k] += left * left;
+            }
+        }
+        for ((((v0, a0), v), a), w) in rest0.iter().zip(rest1).zip(rest2).zip(rest3).zip(rest4) {
+            let left = defect(h, [*v0, *a0, *v, *a, *w]);
+            sums[0] += left * left;
+        }
+        sums.iter().sum()
+    }
+
+    /// The largest of them.
+    fn largest_defect(&self, h: f64, state: &State) -> f64 {
+        let before = self.v.iter().zip(&self.a);
+        let now = state.v.iter().zip(&state.a).zip(&self.weights);
+        let each = before.zip(now).map(|((v0, a0), ((v, a), w))| defect(h, [*v0, *a0, *v, *a, *w]).abs());
+        each.fold(0.0, larger)
+    }
+}
+
+/// What a line of accelerations leaves of a velocity, (v − v₀ − ½h (a₀ + a))/w.
+#[inline(always)]
+fn defect(h: f64, [v0, a0, v, a, weight]: [f64; 5]) -> f64 {
+    weight * (v - v0 - 0.5 * h * (a0 + a))
+}
+
+/// The larger of two numbers, of which a NaN is none.
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
+}
+
+/// Enters the products of weights and numbers, in lanes: each with its own chain of additions or comparisons.
+#[inline(always)]
+fn scaled(weights: &[f64], x: &[f64], mut enter: impl FnMut(usize, f64)) {
+    let ((w, rest_w), (x, rest_x)) = (weights.as_chunks::<LANES>(), x.as_chunks::<LANES>());
+    for (w, x) in w.iter().zip(x) {
+        for k in 0..LANES {
+            enter(k, w[k] * x[k]);
+        }
+    }
+    for (k, (w, x)) in rest_w.iter().zip(rest_x).enumerate() {
+        enter(k, w * x);
+    }
+}
+
+/// Σ (aᵢ − bᵢ)²
+fn distance_squared(a: &[f64], b: &[f64]) -> f64 {
+    let ((a, rest_a), (b, rest_b)) = (a.as_chunks::<LANES>(), b.as_chunks::<LANES>());
+    let mut sums = [0.0; LANES];
+    for (a, b) in a.iter().zip(b) {
+        for k in 0..LANES {
+            sums[k] += (a[k] - b[k]) * (a[k] - b[k]);
+        }
+    }
+    sums.iter().sum::<f64>() + rest_a.iter().zip(rest_b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>()
 }
 
 /// The vertex of the parabola through three points, if it lies between them.
