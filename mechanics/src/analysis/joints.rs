@@ -46,7 +46,7 @@ pub(super) fn change_contact(system: &mut dyn Dynamics, s: &mut State) -> bool {
         return false;
     }
     system.constraint(s, RowWeights::POSITION, &mut g);
-    let rounding = DEPTH * system.scales().iter().fold(0.0_f64, |x, scale| x.max(*scale));
+    let rounding = DEPTH * system.length();
     let least = |mode: Mode, x: &[f64]| {
         let contact = |i: &usize| matches!(system.rows()[*i], Set::Unilateral { .. }) && s.mode[*i] == mode;
         (0..x.len()).filter(contact).min_by(|i, j| x[*i].total_cmp(&x[*j]))

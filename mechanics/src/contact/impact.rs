@@ -191,7 +191,7 @@ impl ImpactMap {
         let closed: Vec<bool> = state.mode.iter().map(|mode| *mode != Mode::Open).collect();
         let part = self.part(|i| gaps[i] <= touching || closed[i], |_| None);
         system.constraint(state, RowWeights::VELOCITY, &mut self.rates);
-        let largest = self.rates.iter().chain(&state.v).fold(0.0_f64, |x, v| x.max(v.abs()));
+        let largest = self.largest(&self.rates).max(system.fastest(&state.v));
         // Rounding is no impact.
         let rounded = |rate: &f64| if rate.abs() <= RESTING * largest { 0.0 } else { *rate };
         let before: Vec<f64> = self.rates.iter().map(rounded).collect();
@@ -237,6 +237,12 @@ impl ImpactMap {
         }
         impact.rates = before;
         Ok(impact)
+    }
+
+    /// The largest rate of a contact.
+    fn largest(&self, rates: &[f64]) -> f64 {
+        let contacts = rates.iter().zip(&self.sets).filter(|(_, set)| **set != Set::Free);
+        contacts.fold(0.0_f64, |most, (rate, _)| most.max(rate.abs()))
     }
 
     /// Work −½ Λ (∂g/∂t⁺ + ∂g/∂t⁻) of the joints, whose ∂g/∂t jumps by `jumps`, with `v` before the impact; rates up to `least` are
@@ -311,7 +317,7 @@ impl ImpactMap {
         let (mut gaps, mut rates, mut accelerations) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
         system.constraint(state, RowWeights::POSITION, &mut gaps);
         system.constraint(state, RowWeights::VELOCITY, &mut rates);
-        let largest = rates.iter().chain(&state.v).fold(before, |x, v| x.max(v.abs()));
+        let largest = before.max(self.largest(&rates)).max(system.fastest(&state.v));
         let resting = RESTING * largest;
         let slip = |i: usize| match self.sets[i] {
             Set::Friction { coefficient, .. } if rates[i].abs() > resting => {
@@ -341,7 +347,7 @@ impl ImpactMap {
         self.pressing.fill(0.0);
         part.rows.iter().zip(&b).for_each(|(&i, b)| self.pressing[i] = -b);
         let massless = |k: usize| self.weight > 0.0 && w[k * part.rows.len() + k] * self.inertia > MASSLESS;
-        let largest_acceleration = a.iter().chain(&accelerations).fold(0.0_f64, |x, a| x.max(a.abs()));
+        let largest_acceleration = self.largest(&accelerations).max(system.fastest(&a));
         let mut forces = vec![0.0; part.rows.len()];
         solve(&part.laws, &w, &b, &mut forces)?;
         for (mode, set) in state.mode.iter_mut().zip(&self.sets) {

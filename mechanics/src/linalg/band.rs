@@ -9,7 +9,7 @@
 //! of the matrix that is scaled to a unit diagonal. Otherwise the largest entry of the column is.
 
 use super::vector::weighted_sum;
-use super::{Scalar, Singular};
+use super::{NOTHING, Scalar, Singular};
 
 /// Largest number of vanishing pivots of the band that are moved to the border.
 pub const DEFLATIONS: usize = 4;
@@ -262,8 +262,6 @@ impl<T: Scalar> Band<T> {
     fn eliminate_from(&mut self, start: usize, deflate: bool) -> Result<(), Singular> {
         let (n, l, u) = (self.n, self.lower, self.upper);
         let mut width = self.width;
-        let largest = self.data[start * width..].iter().map(|x| x.size()).fold(0.0, f64::max);
-        let floor = largest * f64::EPSILON * f64::EPSILON;
         // Columns up to which earlier interchanges have filled the rows.
         let mut filled = 0;
         for k in start..n {
@@ -280,7 +278,7 @@ impl<T: Scalar> Band<T> {
             }
             // Compared with its own column, so that unknowns in different units do not make a sound
             // band look singular. A NaN pivot is refused too.
-            let small = if deflate { floor.max(VANISHING * self.column_size[k]) } else { floor };
+            let small = if deflate { NOTHING.max(VANISHING * self.column_size[k]) } else { NOTHING };
             // What vanishes is replaced where it stands, on the diagonal.
             if sound && diagonal > small || !(best > small) {
                 (p, best) = (k, diagonal);
@@ -294,6 +292,7 @@ impl<T: Scalar> Band<T> {
             self.pivots[k] = (p - k) as u32;
             if !(best > small) {
                 if !deflate || !best.is_finite() || self.deflated.len() == DEFLATIONS {
+                    let largest = self.data.iter().map(|x| x.size()).fold(0.0, f64::max);
                     return Err(Singular { index: k, pivot: best / largest });
                 }
                 let delta = if self.column_size[k] > 0.0 { self.column_size[k] } else { 1.0 };

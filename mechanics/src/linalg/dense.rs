@@ -1,6 +1,6 @@
 //! Dense matrix with LU by partial pivoting.
 
-use super::{Scalar, Singular};
+use super::{NOTHING, Scalar, Singular};
 
 /// Dense square matrix, stored by rows; factored in place.
 #[derive(Clone, Debug)]
@@ -68,8 +68,6 @@ impl<T: Scalar> Dense<T> {
     /// LU factorisation in place with row interchanges.
     pub fn factor(&mut self) -> Result<(), Singular> {
         let n = self.n;
-        let largest = self.data.iter().map(|x| x.size()).fold(0.0, f64::max);
-        let floor = largest * f64::EPSILON * f64::EPSILON;
         for k in 0..n {
             let mut p = k;
             let mut best = self.get(k, k).size();
@@ -80,7 +78,8 @@ impl<T: Scalar> Dense<T> {
                 }
             }
             // A NaN pivot is refused too.
-            if !(best > floor) {
+            if !(best > NOTHING) {
+                let largest = self.data.iter().map(|x| x.size()).fold(0.0, f64::max);
                 return Err(Singular { index: k, pivot: best / largest });
             }
             self.pivots[k] = p;

@@ -23,8 +23,11 @@ pub use matrix::{Matrix, Stamp, Storage, Structure};
 pub use scalar::Scalar;
 pub use space::{Mat3, Vec3};
 
-/// A matrix that cannot be factored: its pivot `pivot` (relative to the largest entry) is too small
-/// at unknown `index`.
+/// A pivot that is none: the inverse of a smaller number is infinite. Entries of one matrix have different units, and none is small beside
+/// another: a beam of 1 µm has masses of 1e-19 kg and inertias of sections of 1e-33 kg·m² beside rows of joints of one.
+const NOTHING: f64 = f64::MIN_POSITIVE;
+
+/// A matrix that cannot be factored: its pivot is zero, or no number, at unknown `index`.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error("matrix is singular to working precision at unknown {index} (relative pivot {pivot:.1e})")]
 pub struct Singular {

@@ -22,7 +22,7 @@ pub(super) fn positions(
 ) -> Result<(), ModelError> {
     let mut g = vec![0.0; s.lambda.len()];
     system.constraint(s, RowWeights::POSITION, &mut g);
-    let scale = system.scales().first().copied().unwrap_or(1.0);
+    let scale = system.length();
     let mut violations = Vec::new();
     for (number, (joint, rows)) in constants.model.joints.iter().zip(&constants.of_joint).enumerate() {
         let (mut length, mut angle) = (0.0_f64, 0.0_f64);
@@ -30,7 +30,7 @@ pub(super) fn positions(
             let largest = if constants.rows[i].1.is_length() { &mut length } else { &mut angle };
             *largest = largest.max(g[i].abs());
         }
-        if !(length <= FITTING * scale.max(1.0) && angle <= FITTING) {
+        if !(length <= FITTING * scale && angle <= FITTING) {
             violations.push(Violation { number, joint: joint.name.clone(), length, angle });
         }
     }

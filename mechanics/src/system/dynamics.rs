@@ -44,6 +44,19 @@ pub trait Dynamics: Send {
     /// length in metres for displacements, 1 for angles and slopes.
     fn scales(&self) -> &[f64];
 
+    /// The length by which displacements are measured \[m\]: the largest of the [scales](Dynamics::scales) but those of angles, which are 1.
+    fn length(&self) -> f64 {
+        let lengths = self.scales().iter().filter(|scale| **scale != 1.0);
+        lengths.copied().reduce(f64::max).unwrap_or(1.0)
+    }
+
+    /// The largest of the velocities `v` [m/s], angular ones and those of slopes as at the [length](Dynamics::length): what velocities of any unit
+    /// are measured by. Likewise of accelerations.
+    fn fastest(&self, v: &[f64]) -> f64 {
+        self.length()
+            * v.iter().zip(self.scales()).fold(0.0_f64, |most, (v, scale)| most.max((v / scale).abs()))
+    }
+
     /// Name of unknown `i` for messages: a velocity, or behind them a multiplier.
     fn unknown(&self, i: usize) -> String {
         format!("unknown {i}")

@@ -116,8 +116,9 @@ impl Values {
         let lambda = forces.at(system, s, sets);
         system.constraint(s, RowWeights::POSITION, &mut self.gap);
         system.constraint(s, RowWeights::VELOCITY, &mut self.rate[..m]);
-        let largest = |x: &[f64]| x.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-        let (force, rate) = (VANISHING * strongest, VANISHING * largest(&s.v).max(largest(&self.rate[..m])));
+        let rates = self.rate[..m].iter().zip(sets).filter(|(_, set)| **set != Set::Free);
+        let fastest = rates.fold(system.fastest(&s.v), |most, (rate, _)| most.max(rate.abs()));
+        let (force, rate) = (VANISHING * strongest, VANISHING * fastest);
         for (i, set) in sets.iter().enumerate() {
             let (value, zero) = match (*set, s.mode[i]) {
                 (Set::Free, _) => (f64::INFINITY, 0.0),
@@ -145,7 +146,7 @@ impl Locator {
         if own == 0 && sets.iter().all(|set| *set == Set::Free) {
             return None;
         }
-        let length = system.scales().iter().fold(0.0_f64, |m, x| m.max(*x));
+        let length = system.length();
         let values = || Values::new(sets.len(), own);
         let (start, end, far, signs) = (values(), values(), values(), vec![1.0; own]);
         let leaving = vec![false; sets.len()];
