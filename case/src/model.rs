@@ -115,6 +115,14 @@ impl Case {
         }
     }
 
+    /// The largest damping in proportion to the stiffness of its beams \[s\].
+    pub fn damping_of_stiffness(&self) -> f64 {
+        match &self.subject {
+            Subject::HubBeam(beam) => beam.damping.stiffness,
+            Subject::Space(space) => space.beams.iter().map(|(beam, _)| beam.damping[1]).fold(0.0, f64::max),
+        }
+    }
+
     /// Whether anything may touch an obstacle.
     pub fn has_contacts(&self) -> bool {
         !self.contact_keys().is_empty()

@@ -317,15 +317,22 @@ duration = 1.3
     let told = |set: &[&str]| finished(&reading(text, set)).warnings.iter().filter(names).count();
     assert_eq!([told(&[]), told(&["run.duration=0.5"])], [1, 0]);
     // A continuous force lets it in.
-    let run = finished(&reading(
-        text,
-        &[
-            "contact=[{name='wall',obstacle={kind='plane',point=[0,-1e-3]},law={kind='hertz',stiffness=10}}]",
-            "load=[{on='1 m',force=[0,-50]}]",
-            "run.duration=0.3",
-        ],
-    ));
-    assert!(run.warnings.iter().any(|w| w.contains("inside its obstacle")), "{:?}", run.warnings);
+    for coupling in ["exact", "space"] {
+        let run = finished(&reading(
+            text,
+            &[
+                "contact=[{name='wall',obstacle={kind='plane',point=[0,-1e-3],normal=[0,1]},law={kind='hertz',stiffness=10}}]",
+                "load=[{on='1 m',force=[0,-50]}]",
+                "run.duration=0.3",
+                &format!("model.coupling={coupling}"),
+            ],
+        ));
+        assert!(
+            run.warnings.iter().any(|w| w.contains("inside its obstacle")),
+            "{coupling}: {:?}",
+            run.warnings
+        );
+    }
 }
 
 /// Obstacles of a millimetre in the way of the tip, which moves by several centimetres in a step.

@@ -82,6 +82,30 @@ fn a_speed_that_jumps_strikes_the_beam() {
     }
 }
 
+/// Kelvin and Voigt's damping answers a jump of the root's speed with a torque in proportion to the number of elements, and the run says so.
+#[test]
+fn a_damped_beam_that_is_struck_says_that_its_torque_is_one_of_the_mesh() {
+    let damping = "damping={stiffness=0.02}";
+    let struck = |set: &[&str]| run(&jump("if(t<1,0,0.5)", "speed"), &[set, &["output.step=1"]].concat());
+    for coupling in ["first", "exact", "space"] {
+        let model = format!("model.coupling={coupling}");
+        let torque = |elements: u32| {
+            let run =
+                struck(&[damping, &model, &format!("basis={{kind='finite-elements',elements={elements}}}")]);
+            let told = |w: &String| {
+                w.contains("jumps at t = 1.000000 s") && w.contains("grow with the number of elements")
+            };
+            assert!(run.warnings.iter().any(told), "{coupling}: {:?}", run.warnings);
+            run.trajectory.extremes(run.trajectory.index("hub.torque").unwrap()).max
+        };
+        let ratio = torque(20) / torque(10);
+        assert!((ratio - 2.0).abs() < 0.02, "{coupling}: {ratio}");
+    }
+    let told = |run: &Run| run.warnings.iter().any(|w| w.contains("grow with the number of elements"));
+    assert!(!told(&struck(&[])));
+    assert!(!told(&run(&jump("0.25*(1+tanh((t-1)/0.1))", "speed"), &[damping])));
+}
+
 /// The blow is an angular impulse: before it nothing moves, and behind it the beam has the momentum M v of a beam that
 /// stands still in space while the hub rotates, J Δω.
 #[test]

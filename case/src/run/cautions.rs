@@ -9,11 +9,23 @@ pub(super) fn of_run(warning: &Warning, fixed: bool) -> String {
         Warning::EnergyGained { .. } if fixed => "; use a smaller step or the adaptive method `radau`",
         Warning::EnergyGained { .. } => "; use a tighter tolerance",
         Warning::EnergyImbalance { .. } => "; use smaller steps or a tighter tolerance",
+        Warning::EnergyLost { .. } => "; use smaller steps or a tighter tolerance",
         Warning::SteppedOver { .. } => "; use smaller steps, or `radau`",
         Warning::FewStepsAPeriod { .. } => ": use smaller steps or the adaptive method `radau`",
         _ => "",
     };
     format!("{warning}{advice}")
+}
+
+/// A caution where a prescribed speed jumps and beams have damping in proportion to their stiffness: behind the jump the root moves and the beam does
+/// not yet, with a rate of strain as the inverse of the first element's length.
+pub(super) fn struck(system: &dyn System, damping: f64, duration: f64) -> Option<String> {
+    let mut jumps = system.breaks().iter().filter(|b| b.jump == Jump::Velocity && b.time < duration);
+    let time = jumps.next().filter(|_| damping > 0.0)?.time;
+    Some(format!(
+        "a velocity jumps at t = {time:.6} s, and damping in proportion to the stiffness answers a jump with a force without bound: forces and \
+         torques right behind it grow with the number of elements, their impulses do not; let the speed rise within some time"
+    ))
 }
 
 /// A caution if a fixed step \[s\] is longer than the time in which a load or a motion changes.

@@ -1,11 +1,12 @@
 //! Contacts of a case: before its run nothing begins inside an obstacle, and masses at contacts are those of the beam; behind it
 //! nothing was pressed further than a beam bears.
 
-use crate::hub_beam::HubBeam;
 use crate::kinds::contact::OnBeam;
 use crate::kinds::initial::Initial;
+use crate::kinds::section::Section;
 use crate::problem::Problems;
 use crate::reading::Reading;
+use crate::run::scene::drawn_height;
 use flexion::contact::{ImpactMap, Law};
 use flexion::system::{ContactInfo, Mode, State, System};
 use flexion_results::Trajectory;
@@ -25,7 +26,7 @@ impl Reading {
         let tolerance = TOUCHING * self.case.size();
         // An equilibrium may rest on elastic contacts.
         let at_rest = !matches!(self.case.initial, Initial::Undeformed);
-        let fastest = state.v.iter().fold(0.0_f64, |x, v| x.max(v.abs()));
+        let fastest = system.fastest(&state.v);
         for (touch, key) in system.contacts(state).iter().zip(self.case.contact_keys()) {
             let ContactInfo { name, row, gap, rate, .. } = touch;
             if at_rest && row.is_none() {
@@ -39,7 +40,7 @@ impl Reading {
                 return Err(self.problem(&format!("{key}.obstacle"), message));
             }
             if row.is_some_and(|row| state.mode[row] == Mode::Closed) {
-                if rate.abs() > STILL * self.case.size() * fastest {
+                if rate.abs() > STILL * fastest {
                     let message = format!(
                         "the equilibrium presses on the obstacle of the contact `{name}`, which it leaves or enters with {:.3e} m/s: \
                          what rests on it must move with it",
@@ -60,17 +61,25 @@ impl Reading {
         Ok(())
     }
 
-    /// What the beam bears at its contacts.
+    /// What beams bear at their contacts.
     pub(super) fn limits(&self) -> Vec<Limit> {
-        let limits = |beam: &HubBeam| {
-            let limit = |(name, station, law): &(String, f64, Law)| Limit {
-                name: name.clone(),
-                stiffness: beam.section.planar.resultants(*station).axial_stiffness,
-                depth: if let Law::Force(_) = law { beam.height() } else { f64::INFINITY },
-            };
-            beam.contacts.iter().flat_map(|of| &of.points).map(limit).collect()
+        let limit = |name: &str, (section, length): (&Section, f64), station: f64, law: &Law| Limit {
+            name: name.to_owned(),
+            stiffness: section.planar.resultants(station).axial_stiffness,
+            depth: if let Law::Force(_) = law { drawn_height(section, length) } else { f64::INFINITY },
         };
-        self.case.hub_beam().map_or_else(Vec::new, limits)
+        if let Some(beam) = self.case.hub_beam() {
+            let points = beam.contacts.iter().flat_map(|of| &of.points);
+            return points
+                .map(|(name, station, law)| limit(name, (&beam.section, beam.length), *station, law))
+                .collect();
+        }
+        let Some(space) = self.case.space() else { return Vec::new() };
+        let on_beams = space.contacts.iter().zip(&space.touching).filter_map(|(contact, (part, station))| {
+            let (beam, _) = space.beams.get(part.checked_sub(space.bodies.len())?)?;
+            Some(limit(&contact.name, (&beam.section, beam.length), *station, &contact.law))
+        });
+        on_beams.collect()
     }
 
     /// A warning where twice the functions have another effective mass at a contact with restitution.

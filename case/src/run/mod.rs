@@ -145,6 +145,7 @@ impl Reading {
         warnings.extend(self.effective_masses(live.system.as_mut(), &state));
         warnings.extend(unstable);
         let case = &self.case;
+        warnings.extend(cautions::struck(live.system.as_ref(), case.damping_of_stiffness(), case.duration));
         if let Some(step) = case.steps.step() {
             warnings.extend(cautions::unseen(live.system.as_ref(), step, case.duration));
         }

@@ -4,6 +4,7 @@ use crate::case::{Case, Subject};
 use crate::hub_beam::HubBeam;
 use crate::kinds::beam::Beam;
 use crate::kinds::contact::OnBeam;
+use crate::kinds::section::Section;
 use crate::space::Space;
 use flexion::hub_beam::Mount;
 use flexion::multibody::{self, Body, Marker};
@@ -41,10 +42,15 @@ impl Case {
     }
 }
 
+/// Height of a beam, as it is drawn \[m\].
+pub(super) fn drawn_height(section: &Section, length: f64) -> f64 {
+    section.height.unwrap_or(length / SLENDERNESS)
+}
+
 impl HubBeam {
     /// Height of the beam, as it is drawn \[m\].
     pub(super) fn height(&self) -> f64 {
-        self.section.height.unwrap_or(self.length / SLENDERNESS)
+        drawn_height(&self.section, self.length)
     }
 
     /// The obstacles, as they are drawn.

@@ -13,6 +13,8 @@ use crate::system::Role;
 
 /// Error over the largest value of a column from which a mesh is coarse.
 pub const COARSE: f64 = 0.01;
+/// The same of a column that is not among the principal ones: derived values are less accurate.
+const DERIVED: f64 = 0.5;
 /// Part of that bound which is aimed at.
 const AIM: f64 = 0.7;
 /// Lowest order at which errors are said to fall, and highest that is trusted.
@@ -22,7 +24,8 @@ const MOST: f64 = 16.0;
 /// Factors on the functions that are tried, one after the other.
 const TRIED: [f64; 2] = [1.0, 1.5];
 
-/// A mesh, or steps, with which a principal column is off by more than [a hundredth](COARSE) of its largest value.
+/// A mesh, or steps, with which a principal column is off by more than [a hundredth](COARSE) of its largest value, or a secondary one by more
+/// than half of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coarse {
     /// The column that is off by the largest part of its largest value.
@@ -57,17 +60,23 @@ pub(super) fn coarse<P: Refinable>(
     watch: &mut Watch<'_>,
 ) -> Option<Coarse> {
     let channels = run.trajectory.channels();
-    let principal = |name: &str| channels.iter().any(|c| c.name == name && c.role == Role::Primary);
-    let columns: Vec<&ColumnError> = columns.iter().filter(|error| principal(&error.column)).collect();
+    let with = |role: Role| {
+        let named = move |name: &str| channels.iter().any(|c| c.name == name && c.role == role);
+        columns.iter().filter(move |error| named(&error.column))
+    };
     let relative = |error: &ColumnError| {
         let index = fine.trajectory.index(&error.column)?;
         let part = error.discretization / fine.trajectory.extremes(index).largest();
         (part.is_finite() && !vanishes(&fine.trajectory, index, problem.size())).then_some(part)
     };
-    let parts = columns.iter().filter_map(|error| Some((error.column.as_str(), relative(error)?)));
-    let (column, part) = parts.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|worst| worst.1 > COARSE)?;
-    let remedy = remedy(problem, variant, run, &columns, (finer, fine), (column, part), watch);
-    Some(Coarse { column: column.to_owned(), part, remedy })
+    let worst = |role: Role, bound: f64| {
+        let parts = with(role).filter_map(|error| Some((error, relative(error)?)));
+        parts.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|worst| worst.1 > bound)
+    };
+    let (worst, part) = worst(Role::Primary, COARSE).or_else(|| worst(Role::Secondary, DERIVED))?;
+    let judged: Vec<&ColumnError> = with(Role::Primary).chain([worst]).collect();
+    let remedy = remedy(problem, variant, run, &judged, (finer, fine), (&worst.column, part), watch);
+    Some(Coarse { column: worst.column.clone(), part, remedy })
 }
 
 /// What would do where `column` is off by a `part` of its largest value.

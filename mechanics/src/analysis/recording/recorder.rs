@@ -14,6 +14,8 @@ use std::ops::ControlFlow;
 
 /// Relative imbalance of the energy that a run may show without a warning.
 const IMBALANCE: f64 = 0.2;
+/// The same of energy lost in a run with impacts.
+const LOST: f64 = 0.01;
 /// Fewest steps a period of a vibration whose amplitude and phase are followed.
 const STEPS_A_PERIOD: f64 = 10.0;
 
@@ -172,18 +174,33 @@ impl<'a> Recorder<'a> {
     /// a point may have stepped over an obstacle, or fixed steps do not resolve a vibration.
     fn warnings(&self, system: &mut dyn System, state: &State) -> Vec<Warning> {
         let gain = self.gain.map(|excess| Warning::EnergyGained { excess });
-        let imbalance = || {
-            let balances = self.trajectory.with_role(Role::Imbalance);
-            let largest = balances.map(|i| self.trajectory.extremes(i).largest()).fold(0.0, f64::max);
-            let relative = self.trajectory.relative_imbalance().filter(|imbalance| *imbalance > IMBALANCE)?;
-            let certain = largest > rounding_energy(system, state);
-            certain.then_some(Warning::EnergyImbalance { relative })
-        };
+        let doubtful = self.imbalance().or_else(|| self.lost());
+        let doubtful =
+            doubtful.filter(|(size, _)| *size > rounding_energy(system, state)).map(|(_, warning)| warning);
         let stepped_over = self.stepped_over.clone();
         let stepped_over = stepped_over.map(|(time, contact)| Warning::SteppedOver { time, contact });
         let coarse = self.passing.steps_a_period().filter(|steps| self.fixed && *steps < STEPS_A_PERIOD);
         let coarse = coarse.map(|steps| Warning::FewStepsAPeriod { steps, wanted: STEPS_A_PERIOD });
-        gain.or_else(imbalance).into_iter().chain(stepped_over).chain(coarse).collect()
+        gain.or(doubtful).into_iter().chain(stepped_over).chain(coarse).collect()
+    }
+
+    /// An energy balance that does not close, with its largest value \[J\].
+    fn imbalance(&self) -> Option<(f64, Warning)> {
+        let balances = self.trajectory.with_role(Role::Imbalance);
+        let largest = balances.map(|i| self.trajectory.extremes(i).largest()).fold(0.0, f64::max);
+        let relative = self.trajectory.relative_imbalance().filter(|imbalance| *imbalance > IMBALANCE)?;
+        Some((largest, Warning::EnergyImbalance { relative }))
+    }
+
+    /// Energy \[J\] that is lost behind the first impact and that nothing explains: what is lost before it is the damping of the method.
+    fn lost(&self) -> Option<(f64, Warning)> {
+        let first = self.events.impacts().next()?.time;
+        let balance = self.trajectory.with_role(Role::Imbalance).next()?;
+        let rows = || self.trajectory.times().iter().zip(self.trajectory.values(balance));
+        let before = rows().take_while(|(t, _)| **t <= first).last().map_or(0.0, |(_, y)| y);
+        let lost = rows().filter(|(t, _)| **t > first).map(|(_, y)| before - y).fold(0.0, f64::max);
+        let relative = lost / self.trajectory.largest_energy();
+        (relative > LOST).then_some((lost, Warning::EnergyLost { lost, relative }))
     }
 
     /// The record of a run that has ended at `state`.

@@ -23,6 +23,18 @@ pub enum Warning {
         /// Its largest value over the largest energy or work of the run.
         relative: f64,
     },
+    /// Steps lose energy of the vibrations that impacts excite.
+    #[error(
+        "{lost:.3e} J of energy have been lost since the first impact that impacts, dampers and loads do not explain, {:.1} % of the largest \
+         energy or work of the run: the steps damp the vibrations that impacts excite",
+        100.0 * relative
+    )]
+    EnergyLost {
+        /// Energy lost \[J\].
+        lost: f64,
+        /// The same over the largest energy or work of the run.
+        relative: f64,
+    },
     /// A point may have passed through an obstacle within a step of a method that locates no events.
     #[error(
         "the contact `{contact}` may have passed through its obstacle in the step that ends at t = {time:.6} s: this method \
