@@ -335,6 +335,46 @@ duration = 1.3
     }
 }
 
+/// Steps of a loose tolerance damp the vibrations that impacts of a beam in space excite.
+#[test]
+fn energy_that_steps_lose_behind_impacts_is_told() {
+    let text = "
+gravity = [0, -9.81]
+[beam]
+length = 1
+[section]
+kind = 'uniform'
+modulus = '68.952 GPa'
+density = 2766.7
+area = '3.14 cm^2'
+second-moment = '7.85e-9 m^4'
+[hub]
+motion = { kind = 'free', angle = '45 deg' }
+[[contact]]
+name = 'ground'
+obstacle = { kind = 'plane', point = [0, 0], normal = [0, 1] }
+law = { kind = 'constraint', restitution = 0 }
+[model]
+coupling = 'space'
+[basis]
+kind = 'finite-elements'
+elements = 4
+[run]
+duration = 0.371
+[output]
+step = '1 ms'
+";
+    let told = |tolerance: &str| {
+        let run = finished(&reading(text, &[&format!("integrator={{kind='radau',tolerance={tolerance}}}")]));
+        let index = run.trajectory.index("energy.balance").unwrap();
+        let part = -run.trajectory.extremes(index).min / run.trajectory.largest_energy();
+        (part, run.warnings.iter().any(|w| w.contains("of energy have been lost since the first impact")))
+    };
+    let (loose, tight) = (told("1e-3"), told("1e-6"));
+    assert!(loose.0 > 0.01 && loose.1, "{loose:?}");
+    assert!(tight.0 < 1e-3 && !tight.1, "{tight:?}");
+}
+
 /// Obstacles of a millimetre in the way of the tip, which moves by several centimetres in a step.
 #[test]
 fn thin_obstacles_are_found_by_steps_that_are_many_times_their_size() {

@@ -58,23 +58,28 @@ fn body(s: f64, name: &str, [x, y]: [f64; 2]) -> String {
 }
 
 /// Smallest, largest and last values of the recorded displacements and angles, and the last of velocities, whose waves of the mesh are fast.
-fn values(run: &Run, s: f64) -> Vec<(String, [f64; 3])> {
+fn values(run: &Run, s: f64) -> Vec<(String, String, [f64; 3])> {
     let channels = run.trajectory.channels().iter().enumerate();
     let scaled = channels.filter_map(|(i, channel)| {
         let unit = match channel.unit.as_ref() {
             "m" => s,
             "rad" => 1.0,
-            "m/s" => return Some((channel.name.clone(), [run.trajectory.extremes(i).last; 3])),
+            "m/s" => {
+                let last = run.trajectory.extremes(i).last;
+                return Some((channel.name.clone(), channel.unit.to_string(), [last; 3]));
+            }
             _ => return None,
         };
         let of = run.trajectory.extremes(i);
         let moves = !channel.name.starts_with("constraint");
-        moves.then(|| (channel.name.clone(), [of.min, of.max, of.last].map(|x| x / unit)))
+        moves.then(|| {
+            (channel.name.clone(), channel.unit.to_string(), [of.min, of.max, of.last].map(|x| x / unit))
+        })
     });
     scaled.collect()
 }
 
-/// Whether the case of any size has the values of that of one metre, but for a part of the largest.
+/// Whether the case of any size has the values of that of one metre, but for a part of the largest of their unit.
 fn same(what: &str, case: &dyn Fn(f64) -> String, part: f64) {
     same_at(&SCALES, what, case, part);
 }
@@ -84,8 +89,9 @@ fn same_at(scales: &[f64], what: &str, case: &dyn Fn(f64) -> String, part: f64) 
     let expected = of(1.0);
     assert!(expected.len() > 2, "{what}");
     for &s in scales {
-        for ((name, x), (_, y)) in of(s).iter().zip(&expected) {
-            let largest = y.iter().fold(1e-9_f64, |most, y| most.max(y.abs()));
+        for ((name, unit, x), (.., y)) in of(s).iter().zip(&expected) {
+            let alike = expected.iter().filter(|(_, other, _)| other == unit).flat_map(|(.., y)| y);
+            let largest = alike.fold(1e-9_f64, |most, y| most.max(y.abs()));
             let parts = [CRESTS, CRESTS, part];
             for ((x, y), part) in x.iter().zip(y).zip(parts) {
                 assert!((x - y).abs() <= part * largest, "{what}, {s} m: {name} is {x} and not {y}");
