@@ -447,3 +447,35 @@ fn systems_in_space_that_cannot_be_are_refused_at_their_line() {
         assert!(message.contains("case.toml:") || expected[0] == "joint[3]", "{message}");
     }
 }
+
+#[cfg(target_os = "linux")]
+#[test]
+fn modes_that_are_stopped_or_not_found_leave_no_folder() {
+    let folder = folder();
+    let set = "--set basis.elements=100000 --count 300 -o out";
+    let stopped = shell(folder.path(), &format!("timeout -s INT 1 \"$1\" modes case.toml {set}"));
+    assert!(!stopped.status.success() && !folder.path().join("out").exists(), "{}", text(&stopped.stderr));
+    let message = refused(
+        folder.path(),
+        &["modes", "case.toml", "--speed", "50 rad/s", "--set", "model.coupling=zeroth", "-o", "out"],
+    );
+    assert!(!folder.path().join("out").exists(), "{message}");
+}
+
+/// Four corners of a box that lies on the floor: no force of the fourth follows, and no step begins.
+#[test]
+fn a_run_that_does_not_begin_says_that_nothing_was_recorded() {
+    let folder = folder();
+    let corners = [[-0.1, -0.2], [-0.1, 0.2], [0.1, -0.2], [0.1, 0.2]].map(|[x, y]| {
+        format!(
+            "[[contact]]\non='brick'\nat=[{x},{y},0]\nobstacle={{kind='plane',normal=[0,0,1]}}\nlaw={{kind='constraint',restitution=0.5}}\n"
+        )
+    });
+    let case = "run={duration=1}\ngravity=[0,0,-9.81]\n[[body]]\nname='brick'\nmass=2\ninertia={kind='box',size=[0.2,0.4,0.2]}\n\
+                position=[0,0,0.1]\n";
+    std::fs::write(folder.path().join("brick.toml"), case.to_owned() + &corners.concat()).unwrap();
+    let output = flexion(folder.path(), &["run", "brick.toml", "-o", "out"]);
+    let (out, err) = (text(&output.stdout), text(&output.stderr));
+    assert_eq!(output.status.code(), Some(2), "{err}");
+    assert!(err.ends_with("Nothing was recorded.\n") && !out.contains("NaN"), "{out}{err}");
+}
