@@ -2,8 +2,8 @@
 //! nothing was pressed further than a beam bears.
 
 use crate::kinds::contact::OnBeam;
+use crate::kinds::cross_section::Section;
 use crate::kinds::initial::Initial;
-use crate::kinds::section::Section;
 use crate::problem::Problems;
 use crate::reading::Reading;
 use crate::run::scene::drawn_height;

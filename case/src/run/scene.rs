@@ -4,7 +4,7 @@ use crate::case::{Case, Subject};
 use crate::hub_beam::HubBeam;
 use crate::kinds::beam::Beam;
 use crate::kinds::contact::OnBeam;
-use crate::kinds::section::Section;
+use crate::kinds::cross_section::Section;
 use crate::space::Space;
 use flexion::hub_beam::Mount;
 use flexion::multibody::{self, Body, Marker};
