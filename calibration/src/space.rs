@@ -91,7 +91,8 @@ fn part(random: &mut Random, drawn: &mut Drawn, k: usize, from: &End) -> End {
         add!(
             drawn,
             "[[beam]]\nname = \"beam{k}\"\nlength = {length}\nstart = {at:?}\ndirection = {way:?}\nup = {up:?}\n\
-             elements = {elements}\nsection = {section}"
+             elements = {elements}\nshear = {}\nsection = {section}",
+            (elements + k).is_multiple_of(2)
         );
         let tip = [0, 1, 2].map(|i| at[i] + way[i] / size * length);
         End { part: format!("beam{k}.tip"), at: tip, centre: tip }

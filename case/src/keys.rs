@@ -424,6 +424,15 @@ impl<T> Later<T> {
         self.value.is_some()
     }
 
+    /// The name of the kind that is chosen.
+    pub fn chosen(&self) -> Option<&str> {
+        match self.value.as_ref()? {
+            Value::Kind(entry, _) => Some(entry.name),
+            Value::Text(name) => Some(name),
+            _ => None,
+        }
+    }
+
     /// What is chosen, if it is not left out.
     ///
     /// # Errors

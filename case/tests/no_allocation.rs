@@ -16,11 +16,15 @@ use flexion::integrator::{
     Adams, GeneralizedAlpha, Integrator, MoreauJean, NonsmoothAlpha, Radau, RungeKutta, Span, StepControl,
     Tolerance,
 };
-use flexion::linalg::Vec3;
-use flexion::multibody::slender::{Beam, Properties, Station};
-use flexion::multibody::{Body, Drive, Flexible, Kind, Marker, Model, Multibody, Part, Spring};
+use flexion::law::LinearDrag;
+use flexion::linalg::{Mat3, Vec3};
+use flexion::multibody::slender::{self, Beam, Properties, Station};
+use flexion::multibody::{
+    Axes, Body, Drive, Flexible, Kind, LineLaw, LineLoad, Marker, Model, Multibody, Part, Spring, shear,
+};
 use flexion::profile::Constant;
-use flexion::system::{Dynamics, Mode, NotSet, Parameter, State, System};
+use flexion::section::Matrices;
+use flexion::system::{Dynamics, Frame, Mode, NotSet, Parameter, State, System};
 use std::alloc::{GlobalAlloc, Layout, System as Heap};
 use std::cell::Cell;
 use std::sync::Arc;
@@ -177,6 +181,51 @@ fn no_step_of_joined_bodies_allocates() {
         Box::new(Radau::new(Tolerance::uniform(1e-6)).unwrap()),
     ];
     assert_no_allocation("joined bodies", &mut system, &start, 1e-3, methods);
+}
+
+/// A beam without shear and one with it, hinged to each other, with loads along both and damping.
+#[test]
+fn no_step_of_beams_in_space_allocates() {
+    let mut model = Model::new().with_gravity([0.0, 0.0, -9.81]);
+    let along = Station {
+        position: [0.0; 3].into(),
+        tangent: [1.0, 0.0, 0.0].into(),
+        normal: [0.0, 1.0, 0.0].into(),
+    };
+    let section = slender::Properties::principal([1e4, 20.0, 30.0, 40.0], 1.3, [0.02, 0.01, 0.01]);
+    let first = slender::Beam::straight(along, 1.0, 4, section).unwrap();
+    let section = Matrices::principal([1e4, 4e3, 3e3, 20.0, 30.0, 40.0], 1.3, [0.02, 0.01, 0.01]);
+    let root = Frame { position: [1.0, 0.0, 0.0].into(), rotation: Mat3::IDENTITY };
+    let second = shear::Beam::straight(root, 1.0, 3, section.with_mass_centre([0.02, 0.01])).unwrap();
+    let beams = [
+        Flexible::new("first", first).viscous(1e-4),
+        Flexible::new("second", second).damped(0.2).viscous(1e-4),
+    ];
+    for (number, beam) in beams.into_iter().enumerate() {
+        let beam = model.beam(beam);
+        model.line_load(LineLoad {
+            name: format!("load {number}"),
+            beam,
+            elements: None,
+            distribution: None,
+            force: [0.0, 1.0, 2.0].into(),
+            axes: Axes::Follower,
+            amplitude: None,
+        });
+        let law = Arc::new(LinearDrag { coefficient: 0.3 });
+        model.line_law(LineLaw { name: format!("drag {number}"), beam, elements: None, law });
+    }
+    let section = |beam, node| Part::Section { beam, node };
+    let axis = ([0.0, 1.0, 0.0], None);
+    model.join("hinge", Kind::Revolute, [Part::Ground, section(0, 0)], [0.0; 3], axis).unwrap();
+    model.join("elbow", Kind::Universal, [section(0, 4), section(1, 0)], [1.0, 0.0, 0.0], axis).unwrap();
+    let mut system = Multibody::new(model).unwrap();
+    let start = system.initial();
+    let methods: Vec<Box<dyn Integrator>> = vec![
+        Box::new(GeneralizedAlpha::chung_hulbert(0.5).unwrap()),
+        Box::new(Radau::new(Tolerance::uniform(1e-6)).unwrap()),
+    ];
+    assert_no_allocation("beams in space", &mut system, &start, 1e-4, methods);
 }
 
 /// Two balls that fall, strike, bounce and slide, with a rod between them.

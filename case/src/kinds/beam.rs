@@ -84,6 +84,8 @@ pub struct Beam {
     pub elements: usize,
     /// Whether it has shear strains.
     pub shear: bool,
+    /// The shear factor that is given.
+    pub shear_factor: Option<f64>,
     /// Place of the tension centre along n and b \[m\].
     pub tension_centre: [f64; 2],
     /// Stiffnesses that couple torsion and bending \[N·m²\].
@@ -228,6 +230,15 @@ impl Beam {
         }
         // A little inside its element, so that a section that jumps has the value of that element.
         let middle = |s: f64| s.clamp(1e-12 * self.length, (1.0 - 1e-12) * self.length);
+        if self.shear_factor.is_some() && !(self.shear && self.section.shapes.is_some()) {
+            let message = if self.shear {
+                "is of a shape, which this section has not"
+            } else {
+                "is of a beam with shear"
+            };
+            let help = if self.shear { "leave it out" } else { "write `shear = true`, or leave it out" };
+            return Err(Fault::new("shear-factor", message).help(help).into());
+        }
         if self.shear {
             return self.sheared(&nodes, middle);
         }
@@ -235,6 +246,7 @@ impl Beam {
         built.map(multibody::Beam::from).map_err(|error| {
             let key = match error {
                 slender::BeamError::Turned { .. } => "elements",
+                slender::BeamError::Section { .. } if self.coupling != [0.0; 3] => "coupling",
                 slender::BeamError::Section { .. } => "section",
                 _ => "",
             };
@@ -269,6 +281,7 @@ impl Beam {
         built.map(multibody::Beam::from).map_err(|error| {
             let key = match error {
                 shear::BeamError::Turned { .. } => "elements",
+                shear::BeamError::Section { .. } if self.coupling != [0.0; 3] => "coupling",
                 shear::BeamError::Section { .. } => "section",
                 _ => "",
             };
@@ -365,7 +378,9 @@ fn make(k: Written, c: &Context<'_>) -> Made<Beam> {
     let missing = || Fault::new("", "a beam needs a `length`");
     let section = match k.section.make("section", c) {
         // Sections that need a length have nothing else to say.
-        Err(faults) if faults.0.is_empty() && c.length.is_none() => return Err(missing().into()),
+        Err(faults) if faults.0.is_empty() && c.length.is_none() && k.section.chosen() != Some("deck") => {
+            return Err(missing().into());
+        }
         made => made?.ok_or_else(Faults::default)?,
     };
     if let (Some(_), Some(length)) = (k.length, of_points) {
@@ -449,6 +464,7 @@ fn make(k: Written, c: &Context<'_>) -> Made<Beam> {
         outline: outline(&k.outline)?,
         elements: k.elements,
         shear: k.shear,
+        shear_factor: k.shear_factor,
         ends: [k.root, k.tip],
         motion: [k.velocity, k.spin],
         damping: [k.damping.mass, k.damping.stiffness],

@@ -72,6 +72,14 @@ impl Beam {
         }
     }
 
+    /// Part of a deflection that rounding may take from a beam with shear.
+    pub(super) fn rounding(&self) -> f64 {
+        match self {
+            Beam::Slender(_) => 0.0,
+            Beam::Shear(beam) => beam.rounding(),
+        }
+    }
+
     /// Whether its sections have shear strains.
     pub fn has_shear(&self) -> bool {
         matches!(self, Beam::Shear(_))

@@ -226,7 +226,9 @@ impl Observed for Multibody {
 
     fn cautions(&self, _peaks: &[f64]) -> Vec<String> {
         let parts = reason::without_inertia(&self.constants).into_iter();
-        let parts = parts.chain(reason::not_held(&self.constants.model));
+        let parts = parts
+            .chain(reason::not_held(&self.constants.model))
+            .chain(reason::rounded(&self.constants.model));
         self.changes.iter().cloned().chain(parts).collect()
     }
 }

@@ -2,6 +2,7 @@
 
 use super::consistency::rows;
 use super::constants::Constants;
+use super::joint::{Joint, Kind};
 use super::marker::Part;
 use super::model::Model;
 use super::system::Multibody;
@@ -15,12 +16,18 @@ const DEPENDENT: f64 = 0.1;
 /// Most operations that are worth an explanation.
 const COSTLY: usize = 1_000_000_000;
 
-/// A body that has almost no mass or no moment of inertia.
+/// A body that has almost no mass or no moment of inertia, and is not fixed to another part.
 pub(super) fn without_inertia(constants: &Constants) -> Option<String> {
     let bodies = &constants.model.bodies;
     let (size, largest) = (constants.scales.first()?, bodies.iter().map(|b| b.mass).fold(0.0, f64::max));
     let cure = "give it that of its shape, or join it to a body by `fixed`";
-    bodies.iter().find_map(|body| {
+    let fixed = |i: usize| {
+        let of = |joint: &Joint| {
+            joint.kind == Kind::Fixed && [joint.from.part, joint.to.part].contains(&Part::Body(i))
+        };
+        constants.model.joints.iter().any(of)
+    };
+    bodies.iter().enumerate().filter(|(i, _)| !fixed(*i)).find_map(|(_, body)| {
         let least = (0..3).map(|i| body.inertia[i][i]).fold(f64::INFINITY, f64::min);
         let name = &body.name;
         if body.mass < LIGHT * largest {
@@ -38,6 +45,21 @@ pub(super) fn without_inertia(constants: &Constants) -> Option<String> {
             )
         })
     })
+}
+
+/// Part of a deflection that rounding may take, from which on it is told.
+const ROUNDED: f64 = 1e-2;
+
+/// A beam with shear that is too slender for its elements: rounding of their stiffness in shear hides that in bending.
+pub(super) fn rounded(model: &Model) -> Option<String> {
+    let worst = model.beams.iter().map(|of| (of.beam.rounding(), of));
+    let (part, of) = worst.max_by(|a, b| a.0.total_cmp(&b.0)).filter(|(part, _)| *part > ROUNDED)?;
+    Some(format!(
+        "beam `{}` is so slender that rounding of its stiffness in shear may take up to {part:.1e} of a deflection with {} elements: take fewer, or leave \
+         the shear out",
+        of.name,
+        of.beam.elements()
+    ))
 }
 
 /// Parts that no chain of joints and springs leads to the ground from, and that touch nothing: in a model in which others are held, one was

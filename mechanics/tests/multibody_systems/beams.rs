@@ -31,7 +31,7 @@ pub fn arc(elements: usize, root: Frame) -> Beam {
 }
 
 /// The same arc as a beam with shear, all of whose strains and motions are coupled.
-fn sheared_arc(elements: usize, root: Frame) -> shear::Beam {
+pub fn sheared_arc(elements: usize, root: Frame) -> shear::Beam {
     let slender = multibody::Beam::from(arc(4 * elements, root));
     let curve = |s: f64| {
         let at = slender.node(0, slender.initial());

@@ -162,9 +162,16 @@ fn force_laws_along_beams_conform() {
     };
     let section = Properties::principal([1e3, 20.0, 30.0, 40.0], 1.3, [0.2, 0.1, 0.1]);
     let laws: [Arc<dyn ForceLaw>; 2] = [Arc::new(LinearDrag { coefficient: 0.7 }), Arc::new(Swirl)];
-    for law in laws {
+    let place = Frame { position: root.position, rotation: super::odd_rotation(0.8) };
+    let beams = [
+        Flexible::new("beam", Beam::straight(root, 2.0, 3, section).unwrap()),
+        Flexible::new("beam", super::beams::sheared_arc(3, place)),
+    ];
+    for (law, beam) in
+        laws.iter().flat_map(|law| beams.iter().map(move |beam| (Arc::clone(law), beam.clone())))
+    {
         let mut model = Model::new().with_gravity([0.0, 0.0, -9.81]);
-        let beam = model.beam(Flexible::new("beam", Beam::straight(root, 2.0, 3, section).unwrap()));
+        let beam = model.beam(beam);
         model.line_law(LineLaw { name: "law".into(), beam, elements: Some(1..3), law });
         let mut system = Multibody::new(model).unwrap();
         let mut s = anywhere(&system);

@@ -7,11 +7,12 @@ use flexion::contact::{
     Circle, Contact, ContactForce, Contacting, Law, Obstacle, Plane, Sphere, Translation,
 };
 use flexion::integrator::{Integrator, MoreauJean, NonsmoothAlpha};
-use flexion::linalg::Vec3;
+use flexion::linalg::{Mat3, Vec3};
 use flexion::multibody::slender::{Beam, Properties, Station};
-use flexion::multibody::{Body, Flexible, Kind, Marker, Model, Multibody, Part};
+use flexion::multibody::{Body, Flexible, Kind, Marker, Model, Multibody, Part, shear};
 use flexion::profile::Expression;
-use flexion::system::{Dynamics, State};
+use flexion::section::Matrices;
+use flexion::system::{Dynamics, Frame, State};
 use flexion::verify::dynamics;
 use std::sync::Arc;
 
@@ -92,8 +93,17 @@ fn flexible(elements: usize) -> Flexible {
 
 #[test]
 fn an_obstacle_that_touches_anywhere_conforms() {
+    let section = Matrices::principal([2e3, 400.0, 300.0, 20.0, 30.0, 40.0], 1.2, [0.02, 0.01, 0.01]);
+    let root = Frame { position: Vec3::ZERO, rotation: Mat3::IDENTITY };
+    let sheared = shear::Beam::straight(root, 2.0, 3, section.with_mass_centre([0.1, -0.05])).unwrap();
+    for beam in [flexible(3), Flexible::new("beam", sheared)] {
+        touches_anywhere(beam);
+    }
+}
+
+fn touches_anywhere(beam: Flexible) {
     let mut model = Model::new().with_gravity([0.0, 0.0, -GRAVITY]);
-    let beam = model.beam(flexible(3));
+    let beam = model.beam(beam);
     assert_eq!(beam, 0);
     model.contact_beam(0, 0.02);
     let axis = [0.0, 0.8, 0.6];

@@ -153,6 +153,17 @@ impl Beam {
         NODE_VELOCITIES * self.nodes.len()
     }
 
+    /// Part of a deflection that rounding may take: ε of the stiffness in shear GA/h of an element, over that of the beam in bending EI/L³.
+    pub fn rounding(&self) -> f64 {
+        let length: f64 = self.elements.iter().map(Element::length).sum();
+        let (mut shear, mut bending) = (0.0_f64, f64::INFINITY);
+        for element in &self.elements {
+            let [stiff, soft] = element.shear_and_bending();
+            (shear, bending) = (shear.max(stiff / element.length()), bending.min(soft));
+        }
+        0.5 * f64::EPSILON * shear * length.powi(3) / bending
+    }
+
     /// Half-bandwidth of the tangent.
     pub fn half_bandwidth(&self) -> usize {
         VELOCITIES - 1

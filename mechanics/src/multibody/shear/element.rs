@@ -174,6 +174,13 @@ impl Element {
         self.constants.length
     }
 
+    /// Largest stiffness in shear, and least in bending, at the quadrature points \[N, N·m²\].
+    pub(super) fn shear_and_bending(&self) -> [f64; 2] {
+        let all = |f: fn(&Blocks) -> [f64; 2]| self.constants.stiffness.iter().flat_map(f);
+        let shear = all(|c| [c[0][0][1][1], c[0][0][2][2]]).fold(0.0, f64::max);
+        [shear, all(|c| [c[1][1][1][1], c[1][1][2][2]]).fold(f64::INFINITY, f64::min)]
+    }
+
     /// Weights \[m\] with which a force p per length acts on the nodes: the force on node i is wᵢ p(zᵢ).
     pub fn weights(&self) -> [f64; NODES] {
         LOBATTO.map(|(_, weight)| weight * self.constants.length)
