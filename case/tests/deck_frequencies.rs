@@ -132,19 +132,25 @@ fn random_decks_have_the_equilibria_of_another_formulation() {
         let number = row[0] as usize;
         let [primary, blade] = Plain::random(&decks[number]).texts();
         let files: &[(&str, &[u8])] = &[("primary.dat", primary.as_bytes()), ("blade.dat", blade.as_bytes())];
-        let loads = format!(
-            "elements = 40\n[[load]]\non = \"tip\"\nforce = {:?}\ncouple = {:?}\n[[load]]\nname = \"along\"\non = \"beam\"\nforce-per-length = {:?}",
-            &row[1..4],
-            &row[4..7],
-            &row[7..10]
-        );
-        let case = Mounted { files, hub: 0.0, precone: 0.0, pitch: 0.0 }.case(&loads);
-        let length = case.space().unwrap().beams[0].0.length;
-        let [place, turn] = equilibrium_of(&case);
-        let off = [
-            (place - 1.0 / length * Vec3([row[10], row[11], row[12]])).norm(),
-            (turn - Vec3([row[13], row[14], row[15]])).norm(),
-        ];
+        // Where the tip is hardly stiff its rotation takes more elements than its place.
+        let off = [40, 160].iter().find_map(|elements| {
+            let loads = format!(
+                "elements = {elements}\n[[load]]\non = \"tip\"\nforce = {:?}\ncouple = {:?}\n[[load]]\nname = \"along\"\non = \"beam\"\n\
+                 force-per-length = {:?}",
+                &row[1..4],
+                &row[4..7],
+                &row[7..10]
+            );
+            let case = Mounted { files, hub: 0.0, precone: 0.0, pitch: 0.0 }.case(&loads);
+            let length = case.space().unwrap().beams[0].0.length;
+            let [place, turn] = equilibrium_of(&case);
+            let off = [
+                (place - 1.0 / length * Vec3([row[10], row[11], row[12]])).norm(),
+                (turn - Vec3([row[13], row[14], row[15]])).norm(),
+            ];
+            (off[0] < 2e-5 && off[1] < 2e-4 || *elements == 160).then_some(off)
+        });
+        let off = off.unwrap();
         // The tip of deck 81 is hardly stiff: two resolutions of the reference differ by 1.5e-5 there.
         assert!(off[0] < 2e-5 && off[1] < 2e-4, "deck {number}: {off:?}");
         worst = [0, 1].map(|k| worst[k].max(off[k]));

@@ -67,7 +67,10 @@ impl Line {
 
     /// A straight line along z of a length, with the twist at rows (s, angle \[rad\]).
     pub(super) fn straight(length: f64, twist: &[[f64; 2]]) -> Result<Line, String> {
-        Line::through(&[(0.0, Vec3::ZERO), (length, Vec3([0.0, 0.0, length]))], twist)
+        let mut line = Line::through(&[(0.0, Vec3::ZERO), (length, Vec3([0.0, 0.0, length]))], twist)?;
+        // The length to the last digit, as stations are given.
+        line.arcs.iter_mut().for_each(|arc| arc[1] = arc[0]);
+        Ok(line)
     }
 
     fn slope(&self, u: f64) -> Vec3 {
