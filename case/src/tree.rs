@@ -55,10 +55,11 @@ impl Raw {
 pub(super) fn read(text: &str, overrides: &[String], problems: &mut Problems) -> Node {
     let (table, errors) = DeTable::parse_recoverable(text);
     for error in errors {
-        problems.push(match (error.span(), deep_key(text)) {
-            // The parser does not say where.
-            (None, Some(key)) => too_deep(Place::new(0, key)),
-            (span, _) => syntax(0, error.message(), span),
+        // Of a key that is too deep the parser does not say where it is.
+        let deep = if error.span().is_none() { deep_key(text) } else { None };
+        problems.push(match deep {
+            Some(key) => too_deep(Place::new(0, key)),
+            None => syntax(0, error.message(), error.span()),
         });
     }
     let place = Place::default();
