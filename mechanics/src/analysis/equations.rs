@@ -29,7 +29,7 @@ const CHANGES: usize = 4;
 /// Scaled size of an increment at which the iteration has converged.
 const TOLERANCE: f64 = 1e-11;
 
-/// Scaled size of increments that are rounding if so many of them are not halved: an element that is far shorter than the beam takes digits of
+/// Scaled size of increments that are rounding if so many of them in a row are not halved: an element that is far shorter than the beam takes digits of
 /// its deflection.
 const ROUNDING: f64 = 1e-5;
 const STALLED: u32 = 3;
@@ -201,7 +201,7 @@ impl<'a> Equations<'a> {
             self.iterations += 1;
             let (worst, size) = largest(&d, &self.scales);
             let size = if change.abs() <= size { size } else { change.abs() };
-            stalled += u32::from(size < ROUNDING && size > 0.5 * least);
+            stalled = if size > 0.5 * least { stalled + 1 } else { 0 };
             // Converged, or as far as rounding lets it come.
             if size <= TOLERANCE
                 || (size < 1e-7 && size > 0.3 * least)
