@@ -126,9 +126,10 @@ def main(program):
     rng = random.Random(SEED)
     counts = dict.fromkeys(["both", "neither", "the program for its parts", "the program beyond a schema"], 0)
     with tempfile.TemporaryDirectory() as work:
+        # With the files beside the cases, which they name.
+        shutil.copytree(ROOT / "verification", work, dirs_exist_ok=True)
         for folder in folders:
             place = Path(work) / folder.name
-            shutil.copytree(folder, place)
             (place / "case.toml").write_text(toml(cases[folder]))
             if not checked(place)[0]:
                 wrong.append(f"{folder.name} written anew does not pass the program")

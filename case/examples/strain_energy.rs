@@ -1,59 +1,19 @@
-//! The first bending frequency against the speed for every strain energy of the blade: draws the figure of
+//! The first bending frequency against the speed for every strain energy of a rotating beam: draws the figure of
 //! `docs/src/theory/strain_energy.md` and prints its table.
 //!
 //! `cargo run --release --example strain_energy [FOLDER]`
 
 #![allow(clippy::print_stdout)] // what it is for
 
-use flexion::blade::{Blade, BladeError, Model, Setting, StrainEnergy, Terms};
-use flexion::linalg::{Matrix, negative_pivots};
-use flexion::section::BladeResultants;
-use flexion::system::{Dynamics, State, Weights};
+use flexion::strain_energy::{RotatingBeam, StrainEnergy, Terms};
 use flexion_results::plot::{Axis, Figure, Line, Panel, Series};
-
-/// Elements of the blade.
-const ELEMENTS: usize = 60;
 
 /// Speeds of a curve.
 const SPEEDS: usize = 24;
 
-/// First flapwise frequency [rad/s] of a blade with ρA = EI = L = 1 and the slenderness L√(A/I), by bisection
-/// on the number of negative eigenvalues of K − ω²M.
-fn frequency(slenderness: f64, strain_energy: StrainEnergy, speed: f64) -> Result<f64, BladeError> {
-    let section = BladeResultants {
-        mass: 1.0,
-        axial_stiffness: slenderness * slenderness,
-        flap_stiffness: 1.0,
-        // Far above: the first frequency is the flapwise one.
-        chord_stiffness: 1e3,
-        ..BladeResultants::default()
-    };
-    let model = Model {
-        strain_energy,
-        gyroscopic: false,
-        rotary_inertia: false,
-        torsion: false,
-        tension_torsion: false,
-    };
-    let mut blade = Blade::new(Setting { length: 1.0, ..Setting::default() }, &section, model, ELEMENTS)?;
-    blade.set_speed(speed)?;
-    let state = State::zeros(blade.size(), 0.0);
-    let [m, k] = [(1.0, 0.0), (0.0, 1.0)].map(|(a, q)| {
-        let mut matrix = Matrix::new(&blade.structure(0));
-        blade.tangent(&state, Weights::new(a, 0.0, q), &mut matrix);
-        matrix
-    });
-    let (mut low, mut high) = (0.0, 50.0 + 2.0 * speed);
-    while high - low > 1e-9 * high {
-        let middle = 0.5 * (low + high);
-        if negative_pivots(&k, &m, -middle * middle) > 0 { high = middle } else { low = middle }
-    }
-    Ok(low)
-}
-
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let folder = std::env::args().nth(1).unwrap_or_else(|| "docs/src/theory".to_owned());
-    let none = Terms::NONE;
+    let none = Terms::default();
     let options = [
         ("exact", StrainEnergy::Exact, Line::Solid),
         ("linear", StrainEnergy::Linear, Line::Dashed),
@@ -82,6 +42,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut panels = Vec::new();
     // Slenderness and largest strain at the root, ½(Ω L)² ρ/E.
     for (slenderness, largest, range) in [(100.0, 0.002, (-0.06, 0.18)), (20.0, 0.08, (-3.0, 3.0))] {
+        let beam = RotatingBeam {
+            length: 1.0,
+            hub_radius: 0.0,
+            mass: 1.0,
+            axial_stiffness: slenderness * slenderness,
+            bending_stiffness: 1.0,
+        };
         let mut panel = Panel {
             x: Axis { tight: true, ..Axis::new("Strain at the root ε₀", "%") },
             y: Axis { range: Some(range), ..Axis::new("ω₁ over that of linear, less one", "%") },
@@ -93,9 +60,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         for i in 0..=SPEEDS {
             let strain = largest * i as f64 / SPEEDS as f64;
             let speed = slenderness * (2.0 * strain).sqrt();
-            let reference = frequency(slenderness, StrainEnergy::Linear, speed)?;
-            let found: Vec<f64> =
-                options.iter().map(|o| frequency(slenderness, o.1, speed)).collect::<Result<_, _>>()?;
+            let frequency = |energy| beam.flapwise(energy, speed, 1).map(|found| found[0]);
+            let reference = frequency(StrainEnergy::Linear)?;
+            let found: Vec<f64> = options.iter().map(|o| frequency(o.1)).collect::<Result<_, _>>()?;
             for (curve, found) in curves.iter_mut().zip(&found) {
                 curve.push((100.0 * strain, 100.0 * (found / reference - 1.0)));
             }

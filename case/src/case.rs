@@ -39,7 +39,7 @@ pub struct Case {
 /// What moves.
 #[derive(Clone, Debug)]
 pub enum Subject {
-    /// A beam on a hub, in the plane of its rotation or as a blade.
+    /// A beam on a hub, in the plane of its rotation.
     HubBeam(Box<HubBeam>),
     /// Bodies, joints and beams in space.
     Space(Box<Space>),

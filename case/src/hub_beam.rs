@@ -1,10 +1,10 @@
 //! A beam on a hub: its parts, and what is checked across them.
 
+use super::declaration::Key;
 use super::fault::{At, Fault, Faults, Found, Made};
 use super::features;
-use super::kind::Context;
+use super::kind::{Context, Keys};
 use super::kinds::basis::{self, Bases};
-use super::kinds::blade::{BLADE, Blade};
 use super::kinds::contact::{Contact, OnBeam, Touching, contacts};
 use super::kinds::coupling::{Coupling, fits_whole_curve};
 use super::kinds::cross_section::Section;
@@ -25,7 +25,7 @@ use flexion::profile::{Constant, Motion};
 use flexion::section::Resultants;
 use std::sync::Arc;
 
-/// A beam on a hub, in the plane of its rotation or as a blade.
+/// A beam on a hub, in the plane of its rotation.
 #[derive(Clone, Debug)]
 pub struct HubBeam {
     /// Length L of the beam \[m\].
@@ -34,8 +34,6 @@ pub struct HubBeam {
     pub section: Section,
     /// The hub.
     pub hub: Hub,
-    /// What makes the beam a blade; `None` for a beam in the plane of rotation.
-    pub blade: Option<Blade>,
     /// The kinematic model.
     pub coupling: Coupling,
     /// The bases of the two displacement fields.
@@ -88,7 +86,7 @@ const THICKEST: f64 = 5.0;
 pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made<HubBeam> {
     let mut found = Found::default();
     let coupling = found.part(MODEL_ON_HUB.read(v, c)).and_then(|model| {
-        found.part(planar(v, &model, layout::BEAM.read(v, c).ok()));
+        found.part(planar(v, &model));
         model.coupling.made
     });
     let section = found.part(layout::SECTION.read(v, c));
@@ -132,7 +130,6 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     };
     let contacts = found.part(contacts(v, c).and_then(on_beam));
     let damping = found.part(DAMPING.make(v, c)).map(|list| list.first().copied().unwrap_or_default());
-    let blade = found.part(BLADE.make(v, c)).map(|list| list.into_iter().next());
     if let (Some(method), Some(damping)) = (method, damping) {
         overdamped(method, damping, &mut found);
     }
@@ -158,15 +155,11 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
         let why_not = has_mass.iter().find(|(has, _)| *has).map(|(_, why)| *why);
         found.part(fits_massless(contacts, why_not));
     }
-    if let (Some(Some(blade)), Some(section)) = (&blade, &section) {
-        found.part(blade.built(section, 0.0, &[]).map_err(|faults| faults.within("blade")));
-    }
     let parts = || {
         Some(HubBeam {
             length: c.length?,
             section: section?,
             hub: hub?,
-            blade: blade?,
             coupling: coupling?,
             bases: bases?,
             loads: loads?,
@@ -181,7 +174,7 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
 }
 
 /// Refuses what only a model in space carries.
-fn planar(v: &Values, model: &ModelOnHub, beam: Option<OneBeam>) -> Made<()> {
+fn planar(v: &Values, model: &ModelOnHub) -> Made<()> {
     let coupling = model.coupling.name;
     if model.coupling.made.is_none() {
         return Ok(());
@@ -191,8 +184,11 @@ fn planar(v: &Values, model: &ModelOnHub, beam: Option<OneBeam>) -> Made<()> {
         (model.drop_redundant_rows.is_some(), ModelOnHub::drop_redundant_rows.key.name),
     ];
     let of_model = of_model.iter().filter(|(written, _)| *written).map(|(_, key)| join("model", key));
-    let polar = beam.and_then(|beam| beam.polar_inertia);
-    let of_beam = polar.map(|_| join(layout::BEAM.key.name, OneBeam::polar_inertia.key.name));
+    let beam = layout::BEAM.values_in(v);
+    let spatial = |key: &&Key| key.name != OneBeam::length.key.name;
+    let written = |key: &&Key| beam.is_some_and(|beam| beam.is_written(key.name));
+    let of_beam = OneBeam::KEYS.iter().filter(spatial).filter(written);
+    let of_beam = of_beam.map(|key| join(layout::BEAM.key.name, key.name));
     let tables = SPATIAL_TABLES.iter().filter(|key| v.is_written(key.name)).map(|key| key.name.to_owned());
     let faults: Vec<Fault> = tables
         .chain(of_model)

@@ -13,11 +13,11 @@ use super::kinds::integrator::{self, Method};
 use super::kinds::motion::MOTION;
 use super::kinds::section;
 use super::kinds::{
-    amplitude, beam, blade, body, contact, curve, damping, force_law, joint, load, mass, obstacle, rotation,
-    spring, torque,
+    amplitude, beam, body, contact, curve, damping, force_law, joint, load, mass, obstacle, rotation, spring,
+    torque,
 };
 use super::tree::{Line, Raw};
-use super::units::{ACCELERATION, INERTIA, LENGTH, ROTARY_INERTIA, TIME};
+use super::units::{ACCELERATION, ANGLE, INERTIA, LENGTH, ROTARY_INERTIA, TIME};
 use flexion::hub_beam::Drive;
 use flexion::linalg::Vec3;
 use std::sync::LazyLock;
@@ -36,7 +36,6 @@ pub(super) static CHOICES: &[&dyn Kinds] = &[
     &contact::MOUNT,
     &contact::LAW,
     &spring::SPRING_KIND,
-    &blade::STRAIN_ENERGY,
     &COUPLING,
     &basis::BASIS,
     &FIELD,
@@ -53,12 +52,16 @@ pub(super) static CHOICES: &[&dyn Kinds] = &[
 /// The table that only a case of a beam on a hub has.
 const ON_HUB: &str = "hub";
 
+/// The lists of which a system in space has one, that of beams first.
+pub(super) const IN_SPACE: [&str; 3] = [beam::BEAMS.key.name, body::BODY.key.name, joint::JOINTS.key.name];
+
 /// The keys of the case with these lines: those of a beam on a hub where `[beam]` is one table, and of a system in space where bodies,
 /// joints and beams are lists.
 pub(super) fn keys_of(entries: &[Line]) -> &'static [Key] {
     let is_list = |entry: &Line| matches!(entry.node.value, Raw::List(_));
-    let beam = entries.iter().find(|entry| entry.key == beam::BEAMS.key.name);
-    let named = |entry: &Line| [body::BODY.key.name, joint::JOINTS.key.name].contains(&entry.key.as_str());
+    let [beam, others @ ..] = IN_SPACE;
+    let beam = entries.iter().find(|entry| entry.key == beam);
+    let named = |entry: &Line| others.contains(&entry.key.as_str());
     let in_space = beam.map_or_else(|| entries.iter().any(named), is_list);
     if in_space { spatial_keys() } else { keys() }
 }
@@ -135,11 +138,26 @@ pub(super) const MODEL_ON_HUB: Field<ModelOnHub> = table().called("model", "mode
 pub(super) const TITLE: Field<String> = text().or_name("").called("title", "title for plots and reports");
 
 keys! {
-    /// The beam on a hub.
+    /// The beam on a hub; what space alone carries is handed on as it is written.
+    #[allow(dead_code)]
     pub(super) struct OneBeam {
         /// length L of the beam
         length: f64 = quantity(&LENGTH, Positive);
-        /// moment of inertia per length about the axis, for the coupling `space`; that of the section if left out
+        /// in space, angle of the root section about the axis towards the tip; at 0 its height lies in the plane of rotation
+        pitch: Option<f64> = quantity(&ANGLE, Any);
+        /// in space, angle of the axis out of the plane of rotation, towards the vector of rotation
+        precone: Option<f64> = quantity(&ANGLE, Between(-1.5, 1.5));
+        /// in space, angle of the tip section against the root without stress, linear between, added to that of a deck
+        twist: Option<f64> = quantity(&ANGLE, Any);
+        /// in space, it has shear strains, by the stiffness GA of its section, and rotary inertia
+        shear: Option<bool> = boolean();
+        /// in space, shear factor of a shape, Cowper's if left out
+        shear_factor: Option<f64> = number(Positive);
+        /// in space, it twists; if left out, where its section says enough
+        torsion: Option<bool> = boolean();
+        /// in space, Poisson's ratio, for the stiffness of a shape in torsion and in shear
+        poisson_ratio: Option<f64> = number(Between(-0.99, 0.5));
+        /// in space, moment of inertia per length about the axis; that of the section if left out
         polar_inertia: Option<f64> = quantity(&ROTARY_INERTIA, Positive);
     }
 
@@ -165,7 +183,7 @@ pub(super) const BASIS: Field<Either> =
     kind(&basis::BASIS).or_name("finite-elements").called("basis", "basis of the displacements");
 
 /// Keys of the beam, its hub and its model.
-static PLANAR: [Key; 6] = [BEAM.key, SECTION.key, HUB.key, blade::BLADE.key, MODEL_ON_HUB.key, BASIS.key];
+static PLANAR: [Key; 5] = [BEAM.key, SECTION.key, HUB.key, MODEL_ON_HUB.key, BASIS.key];
 
 keys! {
     /// The extent of a run.

@@ -81,9 +81,9 @@ pub fn keys() -> [(&'static str, &'static [declaration::Key]); 2] {
 
 /// Examples of the tables that a case may have and need not: `KEY = VALUE`, as on the command line.
 pub fn examples_of_tables() -> Vec<&'static str> {
-    use kinds::{beam, blade, body, contact, damping, joint, load, mass, rotation, spring};
+    use kinds::{beam, body, contact, damping, joint, load, mass, rotation, spring};
     let parts = [body::BODY.example, beam::BEAMS.example, joint::JOINTS.example, beam::FIBRES.example];
     let acting = [mass::MASS.example, spring::SPRING.example, load::LOAD.example, contact::CONTACT.example];
-    let others = [damping::DAMPING.example, blade::BLADE.example, rotation::ROTATION.example];
+    let others = [damping::DAMPING.example, rotation::ROTATION.example];
     parts.into_iter().chain(acting).chain(others).collect()
 }

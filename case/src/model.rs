@@ -2,7 +2,7 @@
 
 use super::case::{Case, Output, Subject};
 use super::change::Change;
-use super::fault::{Fault, Faults, Made};
+use super::fault::{Fault, Made};
 use super::hub_beam::{Acting, HubBeam};
 use super::kinds::basis::Bases;
 use super::kinds::coupling::Assembly;
@@ -11,8 +11,7 @@ use super::kinds::rotation::vibrating;
 use super::layout::{BASIS, MODEL, Model};
 use super::space::Space;
 use super::values::{item, join};
-use flexion::blade::{Blade, Body, Tip};
-use flexion::hub_beam::{Beam, Mass, load as acting};
+use flexion::hub_beam::{Beam, load as acting};
 use flexion::system::Fork;
 
 impl HubBeam {
@@ -41,35 +40,6 @@ impl HubBeam {
         };
         (self.coupling.assemble)(&parts)
     }
-
-    /// The blade at rest.
-    fn blade(&self) -> Made<Option<Blade>> {
-        // A mass at the clamp belongs to the hub.
-        let masses = self.loads.iter().filter_map(|load| load.mass).filter(|mass| mass.station > 0.0);
-        let of = |mass: Mass| Tip { mass: mass.mass, inertia: mass.inertia };
-        let bodies: Vec<Body> = masses.map(|mass| Body { station: mass.station, of: of(mass) }).collect();
-        let built = self.blade.as_ref().map(|blade| blade.built(&self.section, self.hub.radius, &bodies));
-        built.transpose().map_err(|faults| faults.within("blade"))
-    }
-}
-
-impl HubBeam {
-    /// Refuses what the vibrations of a blade leave out, at its keys; gravity, whose mean over a revolution is zero, is named instead.
-    pub(super) fn loads_of_blade(&self) -> Made<()> {
-        let message = "the vibrations of a [blade] are about its steady rotation alone: it carries masses, but no loads, springs or \
-                       damping";
-        let help = "leave it out, or leave [blade] out for the beam in the plane with all of them";
-        let refused = |load: &&Acting| load.mass.is_none() && load.fixed_in_space != Some("gravity");
-        let mut tables: Vec<String> =
-            self.loads.iter().filter(refused).map(|load| load.table.clone()).collect();
-        tables.dedup();
-        if self.damping.mass != 0.0 || self.damping.stiffness != 0.0 {
-            tables.push("damping".to_owned());
-        }
-        let faults: Vec<Fault> =
-            tables.into_iter().map(|table| Fault::new(table, message).help(help)).collect();
-        if faults.is_empty() { Ok(()) } else { Err(Faults(faults)) }
-    }
 }
 
 impl Case {
@@ -97,14 +67,6 @@ impl Case {
             Subject::HubBeam(beam) => beam.system(&self.output),
             Subject::Space(space) => Ok(space.system()),
         }
-    }
-
-    /// The blade at rest: `None` if the case has no `[blade]`.
-    ///
-    /// # Errors
-    /// Faults at dotted paths of the case.
-    pub fn blade(&self) -> Made<Option<Blade>> {
-        self.hub_beam().map_or(Ok(None), HubBeam::blade)
     }
 
     /// A length by which distances are measured: that of the beam, or the extent of a system in space \[m\].
@@ -168,16 +130,14 @@ impl Case {
         doubled.into_iter()
     }
 
-    /// What vibrates: the blade, the hub–beam of a case without `[blade]`, or the system in space, in any case without contacts;
-    /// and what is left out of it. Where it rotates steadily, its motion is replaced by that rotation, and loads of a direction that
+    /// What vibrates: the beam on its hub or the system in space, without contacts; and what is left out of it. Where it rotates steadily, its motion is replaced by that rotation, and loads of a direction that
     /// is fixed in space are left out.
     ///
     /// # Errors
     /// Faults at dotted paths of the case.
     pub fn vibrating(&self, rotates: bool) -> Made<(Box<dyn Fork>, Vec<String>)> {
-        match (&self.subject, self.blade()?) {
-            (_, Some(blade)) => Ok((Box::new(blade), Vec::new())),
-            (Subject::HubBeam(beam), None) => {
+        match &self.subject {
+            Subject::HubBeam(beam) => {
                 let mut beam = HubBeam { contacts: Vec::new(), ..(**beam).clone() };
                 let fixed = |load: &Acting| load.fixed_in_space.filter(|_| rotates);
                 let mut names: Vec<String> = beam.loads.iter().filter_map(fixed).map(str::to_owned).collect();
@@ -185,7 +145,7 @@ impl Case {
                 beam.loads.retain(|load| fixed(load).is_none());
                 Ok((beam.system(&self.output)?, names))
             }
-            (Subject::Space(space), None) => {
+            Subject::Space(space) => {
                 let Space { multibody, rotation, .. } = &**space;
                 vibrating(multibody, rotation, rotates).map_err(|why| Fault::new("rotation", why).into())
             }

@@ -12,6 +12,7 @@ use super::reader;
 use super::resolved;
 use super::short;
 use super::sources::{Contents, Files, Folder, Sources};
+use super::space::Space;
 use super::tree::{self, Node, Raw};
 use super::values::{Value, Values};
 use flexion::integrator::Integrator;
@@ -150,17 +151,12 @@ impl Reading {
         Ok(Live { system, integrator: self.integrator()? })
     }
 
-    /// Whether the vibrations of the case are those of all that it contains: a blade carries masses, and nothing else acts on it; a system
-    /// in space is at rest or rotates as a whole.
+    /// Whether the vibrations of the case are those of all that it contains: a system in space is at rest or rotates as a whole.
     ///
     /// # Errors
     /// [`Problems`] at the tables that are to blame.
     pub fn fits_modes(&self) -> Result<(), Problems> {
-        let fits = match (self.case.hub_beam().filter(|beam| beam.blade.is_some()), self.case.space()) {
-            (Some(beam), _) => beam.loads_of_blade(),
-            (None, Some(space)) => space.moves_steadily(),
-            (None, None) => Ok(()),
-        };
+        let fits = self.case.space().map_or(Ok(()), Space::moves_steadily);
         fits.map_err(|faults| self.problems(faults))
     }
 

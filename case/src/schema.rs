@@ -1,6 +1,7 @@
 //! The JSON Schema (draft 2020-12) of case files, for editors.
 
 use super::declaration::{Bound, Entry, Key, Kinds, Presence, Type};
+use super::layout;
 use super::units::{self, Measure};
 use serde_json::{Map, Value, json};
 
@@ -19,6 +20,10 @@ pub fn schema() -> String {
             let mut layout = table(keys, None, false);
             if let Some(layout) = layout.as_object_mut() {
                 layout.insert("description".to_owned(), json!(what));
+                if layout::is_spatial(keys) {
+                    let some = layout::IN_SPACE.map(|key| json!({ "required": [key] }));
+                    layout.insert("anyOf".to_owned(), json!(some));
+                }
             }
             layout
         });

@@ -14,19 +14,21 @@
 use super::fault::{Fault, Faults, Found, Made};
 use super::kind::{Context, Keys};
 use super::kinds::basis::FiniteElements;
-use super::kinds::blade::BLADE;
 use super::kinds::contact::{self, CONTACT};
 use super::kinds::coupling::{SPACE, SPACE_WITH_SHEAR};
 use super::kinds::cross_section::{Assumed, Section};
 use super::kinds::damping::DAMPING;
 use super::kinds::load::{self, LOAD};
 use super::kinds::obstacle::Stop;
-use super::layout::{self, BASIS, INITIAL, MODEL_ON_HUB, ModelOnHub, OUTPUT, RUN, Recorded, SECTION};
+use super::layout::{
+    self, BASIS, INITIAL, MODEL_ON_HUB, ModelOnHub, OUTPUT, OneBeam, RUN, Recorded, SECTION,
+};
 use super::problem::Place;
 use super::sources::Files;
 use super::tree::{Line, Node, Raw};
 use super::values::{Values, item, join};
 use flexion::hub_beam::Drive;
+use flexion::linalg::Vec3;
 use flexion::profile::HubKinematics;
 use std::cell::RefCell;
 
@@ -163,7 +165,8 @@ pub(super) fn long(lines: &[Line], v: &Values, files: &Files<'_>) -> Made<Long> 
     let mut found = Found::default();
     let cautions = RefCell::default();
     let c = &Context { length: None, duration: None, parts: None, files, cautions: &cautions };
-    let (length, duration) = (layout::BEAM.read(v, c)?.length, RUN.read(v, c)?.duration.unwrap_or(0.0));
+    let OneBeam { length, pitch, precone, .. } = layout::BEAM.read(v, c)?;
+    let duration = RUN.read(v, c)?.duration.unwrap_or(0.0);
     let c = &Context { length: Some(length), duration: Some(duration), ..*c };
     let section = found.part(SECTION.read(v, c));
     let hub = found.part(layout::HUB.read(v, c));
@@ -197,7 +200,8 @@ pub(super) fn long(lines: &[Line], v: &Values, files: &Files<'_>) -> Made<Long> 
     }
     let layout::Hub { radius, inertia, .. } = hub;
     let place = |key: &str| v.find(key).0.unwrap_or_default();
-    let (sin, cos) = libm::sincos(start.angle);
+    let axes = axes(start.angle, precone.unwrap_or(0.0), pitch.unwrap_or(0.0));
+    let root_place = radius * axes[0];
     let kept =
         ["title", "gravity", "spring", "mass", "load", "contact", "rotation", "initial", "integrator", "run"];
     let kept = |line: &&Line| kept.contains(&line.key.as_str());
@@ -227,18 +231,20 @@ pub(super) fn long(lines: &[Line], v: &Values, files: &Files<'_>) -> Made<Long> 
     let mut beam = Lines::at(&place("beam"))
         .text("name", BEAM)
         .node("length", written(lines, "beam.length"))
-        .vector("start", [radius * cos, radius * sin, 0.0])
-        .vector("direction", [cos, sin, 0.0])
-        .vector("up", [-sin, cos, 0.0])
+        .vector("start", root_place.0)
+        .vector("direction", axes[0].0)
+        .vector("up", axes[1].0)
         .node("section", written(lines, "section"))
         .raw("elements", Raw::Integer(elements as i64))
         .raw("planar", Raw::Boolean(silent))
-        .node("polar-inertia", written(lines, "beam.polar-inertia"))
         .node("damping", written(lines, "damping"));
+    let turned = [OneBeam::length.key.name, OneBeam::pitch.key.name, OneBeam::precone.key.name];
+    for key in OneBeam::KEYS.iter().filter(|key| !turned.contains(&key.name)) {
+        beam = beam.node(key.name, written(lines, &join("beam", key.name)));
+    }
     let spin = [0.0, 0.0, start.speed];
     if start.speed != 0.0 {
-        let velocity = [-start.speed * radius * sin, start.speed * radius * cos, 0.0];
-        beam = beam.vector("velocity", velocity).vector("spin", spin);
+        beam = beam.vector("velocity", Vec3(spin).cross(root_place).0).vector("spin", spin);
     }
 
     let at_hub = place("hub");
@@ -358,8 +364,20 @@ fn without(node: &Node, key: &str, drop: bool) -> Node {
     node
 }
 
-/// Whether a section says nothing of torsion.
+/// Direction of a beam whose hub has turned by `angle`, and of the height of its root section \[rad\].
+fn axes(angle: f64, precone: f64, pitch: f64) -> [Vec3; 2] {
+    let ((sin, cos), (out, along)) = (libm::sincos(angle), libm::sincos(precone));
+    let tangent = Vec3([along * cos, along * sin, out]);
+    let ahead = Vec3([-sin, cos, 0.0]);
+    let (sin, cos) = libm::sincos(pitch);
+    [tangent, cos * ahead + sin * tangent.cross(ahead)]
+}
+
+/// Whether a section says nothing of bending across and of torsion.
 fn is_silent(section: &Section) -> bool {
+    if section.is_blade {
+        return false;
+    }
     let assumed = Assumed { poisson_ratio: 0.0, shear_factor: None };
     section.blade(assumed).is_ok_and(|blade| !(blade.resultants(0.0).torsional_stiffness > 0.0))
 }
@@ -440,10 +458,6 @@ fn carried(v: &Values, output: &Recorded) -> Made<()> {
     let mut faults = Faults::default();
     let mut refuse =
         |key: &str, message: String, help: &str| faults.0.push(Fault::new(key, message).help(help));
-    if !BLADE.tables_in(v).is_empty() {
-        let message = "is of the small vibrations of a beam on a hub; in space pitch, precone and twist are those of the beam".to_owned();
-        refuse("blade", message, "write `direction`, `up` and `twist` of a [[beam]], or take a planar model");
-    }
     if let Some(kind) = BASIS.chosen_in(v).filter(|kind| *kind != "finite-elements") {
         let message =
             format!("`{kind}` is a basis of the planar models, and beams in space are of finite elements");

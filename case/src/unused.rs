@@ -15,16 +15,10 @@ impl Case {
         let mut cautions = self.cautions.clone();
         cautions.extend(self.space().filter(|space| !space.flat).into_iter().flat_map(Space::torsion));
         let Some(beam) = self.hub_beam() else { return cautions };
-        if beam.blade.is_some() {
+        if beam.section.is_blade {
             cautions.push(
-                "[blade] is for `modes` and `campbell`: a run is of the beam in the plane of rotation, without its pitch, \
-                 precone, twist and tip mass"
-                    .to_owned(),
-            );
-        } else if beam.section.is_blade {
-            cautions.push(
-                "a run is of the beam in the plane of rotation: the section's stiffness out of it is used through its twist \
-                 alone"
+                "the beam moves in the plane of rotation: the section's stiffness out of it is used through its twist alone; \
+                 `model.coupling = \"space\"` uses all of it"
                     .to_owned(),
             );
         }
@@ -36,19 +30,10 @@ impl Case {
         let mut cautions = self.cautions.clone();
         cautions.extend(self.space().into_iter().flat_map(Space::torsion));
         let Some(beam) = self.hub_beam() else { return cautions };
-        if beam.blade.is_none() {
-            if beam.section.is_blade {
-                cautions.push(
-                    "the section is one of a blade and the case has no [blade]: half of its modes are missing, those out of \
-                     the plane of rotation and of torsion; write [blade] for all of them"
-                        .to_owned(),
-                );
-            }
-            return cautions;
-        }
-        if beam.loads.iter().any(|load| load.fixed_in_space == Some("gravity")) {
+        if beam.section.is_blade {
             cautions.push(
-                "without `gravity`: the blade is about its steady rotation alone, and undeformed at rest"
+                "the section is one of a blade and the model one in the plane: half of its modes are missing, those out of the \
+                 plane of rotation and of torsion; write `model.coupling = \"space\"` for all of them"
                     .to_owned(),
             );
         }

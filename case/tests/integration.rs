@@ -1,7 +1,6 @@
 //! Cases as a whole, from the file to the results. `verification` and `no_allocation` are programs of their own.
 
 mod advice;
-mod beamdyn;
 mod blade;
 mod broken_cases;
 mod broken_decks;
@@ -14,6 +13,7 @@ mod deck_frequencies;
 mod decks;
 mod disturbance;
 mod docs;
+mod elastodyn;
 mod energy;
 mod first_look;
 mod four_bar;

@@ -52,7 +52,7 @@ fn tip(case: &str, at: &std::path::Path, column: &str, changes: &[&str]) -> f64 
 const PLANE: &str = "[beam]\nlength = 10\n[hub]\nmotion = { kind = 'constant', speed = 0 }\n[[load]]\non = 'tip'\nforce = [0, 1]\n\
                      [initial]\nkind = 'static'\n[run]\nduration = 0\n[section]\n";
 const SPACE: &str = "initial = { kind = 'static' }\nrun = { duration = 0 }\n[[beam]]\nname = 'b'\nlength = 10\nroot = 'clamped'\n\
-                     section = { kind = 'blade', file = 't.csv' }\n[[load]]\non = 'b.tip'\nforce = [0, 0, 1]\n";
+                     section = { kind = 'deck', format = 'csv', file = 't.csv' }\n[[load]]\non = 'b.tip'\nforce = [0, 0, 1]\n";
 const WHOLE: f64 = 14_000.0;
 
 /// 2 cm of 10 m with a thousandth of the bending stiffness: a hinge with a spring, 64 % of the deflection of the tip.

@@ -257,16 +257,6 @@ const REFUSED: &[(&str, &[&str])] = &[
     ("the state is one of another model", &["steady_rotation/restart"]),
     ("which the equilibrium of a system in space leaves out", &["initial_static"]),
     (
-        "is of the small vibrations of a beam on a hub",
-        &[
-            "modes_blade_flapwise",
-            "modes_blade_nrel_5mw",
-            "modes_blade_stretched",
-            "modes_blade_stretched/exact",
-            "modes_blade_twisted",
-        ],
-    ),
-    (
         "friction of a rigid contact in space has a direction of its own at every time",
         &["contact_friction", "contact_friction/sticks", "contact_friction/radau"],
     ),
@@ -422,7 +412,7 @@ fn hostile_cases_are_refused_at_their_place() {
         ),
         (SHORT, &["contact=[{obstacle={kind='plane', point=[0, -3]}}]"], &["contact[1].law", "without mass"]),
         (SHORT, &["basis={kind='modes'}"], &["basis", "`modes`"]),
-        (SHORT, &["blade={}"], &["blade"]),
+        (SHORT, &["model.coupling=exact", "beam.pitch='2 deg'"], &["beam.pitch", "space"]),
         (
             SHORT,
             &["initial={kind='modes', amplitudes=['1 mm']}"],

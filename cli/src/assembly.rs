@@ -3,7 +3,9 @@
 use crate::screen::row;
 use crate::vibration::title;
 use flexion::linalg::Matrix;
+use flexion::section::BladeResultants;
 use flexion::system::{Dynamics, Parameter, State, Steady, Weights};
+use flexion_case::kinds::beam::Beam;
 use flexion_case::{Link, Reading, Space};
 use flexion_results::plot::assembly_figure;
 use flexion_results::write_file;
@@ -95,6 +97,9 @@ pub fn described(space: &Space) -> Vec<Vec<String>> {
             &beam.name,
             format!("{mass:.6} kg, {} m, {elements} elements", (1e9 * length).round() / 1e9),
         ));
+        if beam.section.is_blade {
+            rows.extend(of_blade(beam));
+        }
     }
     let bodies = space.bodies.iter().map(|body| body.mass);
     let total: f64 = bodies.chain(space.beams.iter().map(|(beam, _)| beam.mass())).sum();
@@ -114,6 +119,24 @@ pub fn described(space: &Space) -> Vec<Vec<String>> {
             format!("{} of them, at the start and without loads", free(space)),
         ));
     }
+    rows
+}
+
+/// What the deck of a beam says of its ends.
+fn of_blade(beam: &Beam) -> Vec<Vec<String>> {
+    let [root, tip] = [0.0, beam.length].map(|s| beam.blade.resultants(s));
+    let stiffness = |of: fn(&BladeResultants) -> f64| {
+        format!("{:.6e} N·m² at the root, {:.6e} at the tip", of(&root), of(&tip))
+    };
+    let mut rows = vec![
+        row("flapwise stiffness", stiffness(|r| r.flap_stiffness)),
+        row("edgewise stiffness", stiffness(|r| r.chord_stiffness)),
+    ];
+    if beam.section.deck.as_ref().is_none_or(|(_, has_line)| !has_line) {
+        let [root, tip] = [root, tip].map(|of| of.twist.to_degrees());
+        rows.push(row("twist", format!("{root:.3}° at the root, {tip:.3}° at the tip")));
+    }
+    rows.push(row("torsion", if beam.torsion { "as its section says" } else { "held" }.to_owned()));
     rows
 }
 

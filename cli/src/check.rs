@@ -6,15 +6,9 @@ use flexion::basis::Basis;
 use flexion::hub_beam::Drive;
 use flexion::integrator::{Adams, Integrator, RungeKutta, StabilityLimit, StepError};
 use flexion::linalg::Structure;
-use flexion::quadrature::Gauss;
-use flexion::section::{BladeResultants, BladeSection};
-use flexion::system::{Dynamics, State, System};
-use flexion_case::kinds::blade::Blade;
-use flexion_case::{Faults, HubBeam, Live, Problems, Reading, Subject};
+use flexion::system::{State, System};
+use flexion_case::{HubBeam, Live, Problems, Reading, Subject};
 use std::path::PathBuf;
-
-/// Points of the quadrature of a mass between breaks of the section, where it is linear.
-const MASS_POINTS: usize = 4;
 
 /// The case to check.
 #[derive(clap::Args)]
@@ -68,9 +62,6 @@ fn describe(reading: &Reading) -> Result<String, Problems> {
     }
     let mut rows = Vec::new();
     match &case.subject {
-        Subject::HubBeam(of) if incomplete.is_some() && of.blade.is_some() => {
-            rows.push(row("length", format!("{} m", of.length)));
-        }
         Subject::HubBeam(of) => {
             rows.extend(beam(of, case.duration));
             rows.extend(equations(system.as_mut(), integrator.as_ref()));
@@ -91,22 +82,10 @@ fn describe(reading: &Reading) -> Result<String, Problems> {
         let keys: Vec<String> = missing.list.iter().map(|problem| format!("`{}`", problem.key)).collect();
         rows.push(row("run", format!("not without {}, which modes do not need", keys.join(" and "))));
     }
-    let is_blade = case.hub_beam().is_some_and(|beam| beam.blade.is_some());
-    let of_modes = if is_blade { case.unused_by_modes() } else { Vec::new() };
-    let of_modes = of_modes.into_iter().skip(case.cautions.len());
     let of_run = if incomplete.is_none() { case.unused_by_run() } else { case.cautions.clone() };
-    let cautions = of_run.into_iter().chain(of_modes).chain(system.cautions(&[]));
+    let cautions = of_run.into_iter().chain(system.cautions(&[]));
     rows.extend(cautions.map(|caution| row("caution", caution)));
     out.push_str(&screen::table(&rows));
-    if let Some(of) = case.hub_beam()
-        && let Some(blade) = &of.blade
-    {
-        let key = |faults: Faults| reading.problem("blade", faults.to_string());
-        let section = blade.section(&of.section).map_err(key)?;
-        let unknowns = case.blade().map_err(key)?.map_or(0, |built| built.size().v);
-        out.push_str("\nthe blade of modes and campbell\n");
-        out.push_str(&screen::table(&of_blade(blade, &section, of.length, unknowns)));
-    }
     // An empty list says nothing.
     let defaults: Vec<_> = reading.defaults().into_iter().filter(|(_, value)| value != "[]").collect();
     if !defaults.is_empty() {
@@ -135,41 +114,6 @@ fn beam(of: &HubBeam, duration: f64) -> Vec<Vec<String>> {
         rows.push(row("largest hub speed", format!("{:.6} rad/s", motion.max_speed(duration))));
     }
     rows
-}
-
-/// Mass, stiffnesses and unknowns of a blade.
-fn of_blade(blade: &Blade, section: &dyn BladeSection, length: f64, unknowns: usize) -> Vec<Vec<String>> {
-    let [root, tip] = [0.0, length].map(|x| section.resultants(x));
-    let ends = |of: fn(&BladeResultants) -> f64| {
-        format!("{:.6e} N·m² at the root, {:.6e} at the tip", of(&root), of(&tip))
-    };
-    let (torsion, why) = blade.torsion(section);
-    let [pitch, precone] = blade.angles().map(f64::to_degrees);
-    let mut rows = vec![
-        row("mass", format!("{:.3} kg", mass(section, length))),
-        row("flapwise stiffness", ends(|r| r.flap_stiffness)),
-        row("edgewise stiffness", ends(|r| r.chord_stiffness)),
-        row(
-            "twist",
-            format!("{:.3}° at the root, {:.3}° at the tip", root.twist.to_degrees(), tip.twist.to_degrees()),
-        ),
-        row("pitch, precone", format!("{pitch:.3}°, {precone:.3}°")),
-        row("torsion", format!("{}: {why}", if torsion { "yes" } else { "no" })),
-        row("unknowns", format!("{unknowns} in {} elements", blade.elements())),
-    ];
-    if blade.tip_mass() > 0.0 {
-        rows.insert(1, row("mass at the tip", format!("{:.3} kg", blade.tip_mass())));
-    }
-    rows
-}
-
-/// Mass of a blade of the length \[m\], without the body at its tip \[kg\].
-fn mass(section: &dyn BladeSection, length: f64) -> f64 {
-    let mut ends = vec![0.0];
-    ends.extend(section.breaks());
-    ends.push(length);
-    let gauss = Gauss::new(MASS_POINTS);
-    ends.windows(2).map(|w| gauss.integrate(w[0], w[1], |x| section.resultants(x).mass)).sum()
 }
 
 /// Sizes and structure.

@@ -77,10 +77,6 @@ enum Refused {
 fn followed(arguments: &Arguments, reading: &Reading) -> Result<bool, Refused> {
     let named = format!("{}-statics", arguments.case.name());
     let output = arguments.output.clone().unwrap_or_else(|| Path::new("results").join(named));
-    if reading.case.hub_beam().is_some_and(|beam| beam.blade.is_some()) {
-        let message = "statics are those of a beam, but the case has a [blade]: leave it out";
-        return Err(Refused::Request(message.to_owned()));
-    }
     let plan = Plan { points: arguments.points as usize, longest: arguments.step, ..Plan::to(arguments.to) };
     let directory = Directory::create_for(Artifact::STATICS, &output, arguments.force)
         .map_err(|error| Refused::Request(error.to_string()))?;

@@ -94,11 +94,6 @@ impl Options {
                     .to_owned()),
             };
         };
-        if beam.blade.is_some() {
-            return Err("--free-hub is for a beam in the plane of rotation, but the case has a [blade]: its hub keeps its \
-                        speed; leave one of the two out"
-                .to_owned());
-        }
         match beam.hub.drive {
             Drive::Free(_) => Ok(HubState::Free),
             Drive::Prescribed(_) => {

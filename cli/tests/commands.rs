@@ -216,16 +216,18 @@ fn blade() -> tempfile::TempDir {
 title = "blade"
 [beam]
 length = "10 m"
+twist = "30 deg"
 [section]
-kind = "blade"
+kind = "deck"
 file = "stations.csv"
 format = "csv"
 [hub]
 radius = "1 m"
 motion = { kind = "constant", speed = "4 rad/s" }
-[blade]
+[model]
+coupling = "space"
+[basis]
 elements = 12
-twist = "30 deg"
 [integrator]
 kind = "radau"
 [run]
@@ -273,17 +275,14 @@ fn modes_of_a_blade_say_how_it_moves_and_what_is_wrong_with_it() {
     for (arguments, expected) in [
         // Ω L √(ρA/EA) > π/2: the strain would be infinite.
         (&["modes", "blade", "--speed", "300"][..], &["300 rad/s", "too soft"][..]),
-        (&["modes", "blade", "--free-hub"], &["[blade]"]),
+        (&["modes", "blade", "--free-hub"], &["--free-hub"]),
         (
             &["modes", "blade", "--set", "section.file=unsorted.csv"],
             &["section.file", "unsorted.csv", "4 m", "6 m"],
         ),
         (&["modes", "blade", "--set", "section.file=empty.csv"], &["section.file", "empty.csv"]),
         (&["modes", "blade", "--set", "section.file=short.csv"], &["section.file"]),
-        (
-            &["campbell", "blade", "--speeds", "0:1:3", "--set", "blade.axial-first=false"],
-            &["blade.axial-first", "coupled"],
-        ),
+        (&["modes", "blade", "--set", "blade.pitch=1"], &["blade"]),
     ] {
         let output = flexion(folder.path(), arguments);
         assert_eq!(output.status.code(), Some(1), "{arguments:?}");

@@ -84,8 +84,7 @@
 //! | prescribe a motion, a torque or a load in time | [`profile`] | [`profile::Profile`] |
 //! | make a beam on a rotating hub, with its loads | [`hub_beam`] | [`hub_beam::Coupling`] |
 //! | let forces depend on place and velocity | [`law`] | [`law::ForceLaw`] |
-//! | find the small vibrations of a rotating blade in space | [`blade`] | [`section::BladeSection`] |
-//! | join and drive bodies and slender beams in space | [`multibody`] | |
+//! | join and drive bodies and beams in space | [`multibody`] | [`section::BladeSection`] |
 //! | write a model of one's own | [`system`] | [`system::Dynamics`], [`system::Events`], [`system::Steady`], [`system::Observed`] |
 //! | integrate in time | [`integrator`] | [`integrator::Integrator`], [`integrator::Stepper`] |
 //! | run, find equilibria, modes and Campbell diagrams | [`analysis`] | [`analysis::transient::Observer`] |
@@ -93,17 +92,17 @@
 //! | have the error of every value, and refine to a tolerance | [`analysis::error`] | [`analysis::error::Refinable`] |
 //! | check what one has written | [`verify`] | |
 //! | compare with closed forms | [`exact`] | |
+//! | compare strain energies of a rotating beam by its frequencies | [`strain_energy`] | |
 //! | compute impulses of contacts with friction | [`contact`] | |
 //! | solve band matrices and eigenproblems, integrate over a cell | [`linalg`], [`quadrature`] | |
 //!
-//! What the library does not do: beams have no shear; a beam on a hub moves in one plane; a blade has only small vibrations about
-//! its steady rotation; materials are linear and elastic. Nothing here reads a case, writes a file, asks for the time or starts a
+//! What the library does not do: a beam on a hub moves in one plane, and beams there have no shear; sections keep their shape; materials are
+//! linear and elastic. Nothing here reads a case, writes a file, asks for the time or starts a
 //! thread: that is left to the
 //! program.
 
 pub mod analysis;
 pub mod basis;
-pub mod blade;
 pub mod contact;
 pub mod drive;
 pub mod exact;
@@ -115,6 +114,7 @@ pub mod multibody;
 pub mod profile;
 pub mod quadrature;
 pub mod section;
+pub mod strain_energy;
 pub mod system;
 pub mod verify;
 

@@ -5,7 +5,6 @@
 use flexion::analysis::modes::{Mode, Modes, modes};
 use flexion::analysis::rotation::{NoRotation, rotate_stably};
 use flexion::basis::{Basis, Field, Hermite, Lagrange};
-use flexion::blade::{Blade, Model, Setting, StrainEnergy, Terms, Tip};
 use flexion::drive::Actuator;
 use flexion::hub_beam::{
     Damping, Drive, ExactCoupling, Fields, Foreshortening, FreeHub, HighCoupling, Hub, HubBeam,
@@ -15,7 +14,7 @@ use flexion::linalg::Matrix;
 use flexion::linalg::eigen::Kind;
 use flexion::linalg::vector::dot;
 use flexion::profile::{Constant, Motion};
-use flexion::section::{BladeResultants, Resultants, Uniform};
+use flexion::section::{Resultants, Uniform};
 use flexion::system::{Dynamics, Parameter, State, Steady, System, Weights};
 use std::sync::Arc;
 
@@ -101,79 +100,6 @@ fn hermite_elements_give_frequencies_to_order_four() {
     }
 }
 
-/// A uniform blade, bent by its own precone if it has one.
-fn blade(elements: usize, precone: f64) -> Blade {
-    let resultants = BladeResultants {
-        mass: 1.0,
-        axial_stiffness: 1e4,
-        flap_stiffness: 1.0,
-        chord_stiffness: 16.0,
-        torsional_stiffness: 0.8,
-        flap_inertia: 1e-4,
-        chord_inertia: 1e-3,
-        twist: 0.3,
-        twist_rate: 0.0,
-    };
-    let setting = Setting { length: 1.0, hub_radius: 0.1, precone, ..Setting::default() };
-    let model = Model { rotary_inertia: false, ..Model::default() };
-    Blade::new(setting, &resultants, model, elements).unwrap()
-}
-
-#[test]
-fn a_torsional_mode_has_the_shape_of_the_torsion() {
-    let section = BladeResultants {
-        mass: 1.0,
-        axial_stiffness: 1e6,
-        flap_stiffness: 1.0,
-        chord_stiffness: 4.0,
-        torsional_stiffness: 0.5,
-        flap_inertia: 1e-3,
-        chord_inertia: 4e-3,
-        ..BladeResultants::default()
-    };
-    let setting = Setting { length: 2.0, ..Setting::default() };
-    let mut blade = Blade::new(setting, &section, Model { torsion: true, ..Model::default() }, 24).unwrap();
-    let stations: Vec<f64> = (0..=20).map(|i| 0.1 * f64::from(i)).collect();
-    let initial = blade.initial();
-    let found = modes(&mut blade, &initial, 10, &stations).unwrap();
-    let torsional: Vec<&Mode> = found.modes.iter().filter(|m| m.shares.torsion > 0.999).collect();
-    assert!(!torsional.is_empty());
-    for (number, mode) in torsional.iter().enumerate() {
-        assert_eq!(mode.nodes, number);
-        for (x, u) in stations.iter().zip(&mode.shape.movement) {
-            let expected = ((f64::from(number as u8) + 0.5) * std::f64::consts::PI * x / 2.0).sin();
-            assert!((u[3].norm() - expected.abs()).abs() < 1e-3, "{x}: {u:?} for {expected}");
-            assert!(u[..3].iter().all(|u| u.norm() < 1e-6), "{x}: {u:?}");
-        }
-    }
-}
-
-#[test]
-fn a_tip_mass_that_is_huge_leaves_the_modes_of_a_beam_clamped_and_pinned() {
-    // A million times as heavy as the beam: the tip alone moves at √(3EI/m) and √(EA/m), and stands in the others.
-    let tip = Tip { mass: 1e6, inertia: 0.0 };
-    let setting = Setting { length: 1.0, tip, ..Setting::default() };
-    let section = BladeResultants {
-        mass: 1.0,
-        axial_stiffness: 1e6,
-        flap_stiffness: 1.0,
-        chord_stiffness: 1.0,
-        ..BladeResultants::default()
-    };
-    let model = Model { rotary_inertia: false, torsion: false, ..Model::default() };
-    for elements in [12, 80] {
-        let mut blade = Blade::new(setting, &section, model, elements).unwrap();
-        let found = at(&mut blade, 0.0, 8);
-        let tan_is_tanh: [f64; 2] = [3.926602312, 7.068582746];
-        let bending = tan_is_tanh.map(|z| z * z);
-        let expected =
-            [3e-6_f64.sqrt(), 3e-6_f64.sqrt(), 1.0, bending[0], bending[0], bending[1], bending[1]];
-        for (found, expected) in frequencies(&found).iter().zip(expected) {
-            assert!((found / expected - 1.0).abs() < 2e-4, "{elements} elements: {found} for {expected}");
-        }
-    }
-}
-
 #[test]
 fn frequencies_of_cantilevers_are_right_to_1e_8_up_to_a_thousand_elements() {
     let mut systems: Vec<(&str, Box<dyn System>)> = Vec::new();
@@ -184,17 +110,10 @@ fn frequencies_of_cantilevers_are_right_to_1e_8_up_to_a_thousand_elements() {
             systems.push(("high", high(n, 1000.0, 0.0)));
         }
         systems.push(("exact", exact(n, 1000.0, 0.0)));
-        systems.push(("blade", Box::new(blade(n, 0.0))));
     }
     for (name, mut system) in systems {
         for (number, mode) in at(system.as_mut(), 0.0, 4).modes.iter().enumerate() {
-            if name == "blade" && number > 1 {
-                continue;
-            }
-            // The first chordwise mode of the blade, of four times the stiffness, is its second.
-            let expected =
-                if name == "blade" { [1.0, 4.0][number] * CANTILEVER[0] } else { CANTILEVER[number] };
-            let off = mode.frequency() / expected - 1.0;
+            let off = mode.frequency() / CANTILEVER[number] - 1.0;
             assert!(off.abs() < 1e-8, "mode {number} of {name}: {off:e}, bound {:e}", mode.rounding);
         }
     }
@@ -203,12 +122,10 @@ fn frequencies_of_cantilevers_are_right_to_1e_8_up_to_a_thousand_elements() {
 #[test]
 fn frequencies_of_turning_beams_are_right_to_1e_8_up_to_a_thousand_elements() {
     type Make<'a> = &'a dyn Fn(usize) -> Box<dyn System>;
-    let makes: [(&str, f64, Make<'_>); 5] = [
+    let makes: [(&str, f64, Make<'_>); 3] = [
         ("zeroth", 2.0, &|n| beam(n, 1000.0, 0.1, Foreshortening::None)),
         ("first", 3.0, &|n| first(n, 1000.0, 0.1)),
         ("exact", 3.0, &|n| exact(n, 1000.0, 0.1)),
-        ("blade", 3.0, &|n| Box::new(blade(n, 0.0))),
-        ("blade with precone", 3.0, &|n| Box::new(blade(n, 0.1))),
     ];
     for (name, speed, make) in makes {
         // A mesh whose rounding and discretisation errors are both below 1e-8.
@@ -224,33 +141,12 @@ fn frequencies_of_turning_beams_are_right_to_1e_8_up_to_a_thousand_elements() {
 /// The stiffness of bent systems, on which every term of the second variation of the strain energy acts.
 #[test]
 fn the_strains_of_a_vector_make_the_form_of_the_stiffness() {
-    let coupled = || {
-        let terms = StrainEnergy::Coupled(Terms::ALL);
-        let model = Model { strain_energy: terms, torsion: false, ..Model::default() };
-        let section = BladeResultants {
-            mass: 1.0,
-            axial_stiffness: 1e4,
-            flap_stiffness: 1.0,
-            chord_stiffness: 16.0,
-            twist: 0.4,
-            ..BladeResultants::default()
-        };
-        Blade::new(Setting { length: 1.0, ..Setting::default() }, &section, model, 5).unwrap()
-    };
-    let systems: [Box<dyn System>; 5] = [
-        Box::new(blade(5, 0.2)),
-        Box::new(coupled()),
-        exact(5, 20.0, 0.1),
-        high(5, 20.0, 0.1),
-        first(5, 20.0, 0.1),
-    ];
+    let systems: [Box<dyn System>; 3] = [exact(5, 20.0, 0.1), high(5, 20.0, 0.1), first(5, 20.0, 0.1)];
     for (number, mut system) in systems.into_iter().enumerate() {
         system.set(Parameter::Speed, 5.0).unwrap();
         let mut state = system.initial();
         let n = state.v.len();
-        if number > 1 {
-            (0..n).for_each(|i| state.q[i] += 0.1 * (i as f64).sin());
-        }
+        (0..n).for_each(|i| state.q[i] += 0.1 * (i as f64).sin());
         let mut stiffness = Matrix::new(&system.structure(0));
         system.tangent(&state, Weights::new(0.0, 0.0, 1.0), &mut stiffness);
         let vectors: Vec<Vec<f64>> =
@@ -269,13 +165,23 @@ fn the_strains_of_a_vector_make_the_form_of_the_stiffness() {
 
 #[test]
 fn chordwise_frequencies_with_gyroscopic_forces_are_those_of_the_literature() {
-    // Hamza-cherif & Houmat 2004: slenderness 70, no hub.
-    let published = [(2.0, 3.6195), (4.0, 3.888), (6.0, 4.2393), (8.0, 4.6105), (10.0, 4.97), (50.0, 7.3362)];
-    for (speed, expected) in published {
+    // Hamza-cherif & Houmat 2004: slenderness 70, no hub; and the same by collocation of both equations of motion. The published digits are
+    // cut, not rounded, and their last one is not converged.
+    for (speed, published, collocation) in [
+        (2.0, 3.6195, 3.619566),
+        (4.0, 3.888, 3.888068),
+        (6.0, 4.2393, 4.239333),
+        (8.0, 4.6105, 4.610583),
+        (10.0, 4.97, 4.970022),
+        (50.0, 7.3362, 7.333589),
+    ] {
         let modes = at(first(40, 70.0, 0.0).as_mut(), speed, 4);
         assert_eq!((modes.kind, modes.counted), (Kind::Gyroscopic, Some(4)));
         let found = modes.modes[0].frequency();
-        assert!((found / expected - 1.0).abs() < 2e-4, "{found} for {expected} at {speed}");
+        assert!((found / published - 1.0).abs() < 5e-4, "{found} for {published} at {speed}");
+        // The layer at the root in which a fast beam bends is 1/γ long.
+        let tolerance = if speed > 10.0 { 3e-4 } else { 2e-5 };
+        assert!((found / collocation - 1.0).abs() < tolerance, "{found} for {collocation} at {speed}");
     }
 }
 
@@ -368,76 +274,4 @@ fn a_free_hub_without_inertia_makes_a_pinned_beam() {
             assert!((mode.frequency() / expected - 1.0).abs() < tolerance, "{} {expected}", mode.frequency());
         }
     }
-}
-
-/// A round cantilever with a mass at its tip a hundred times its own: soft modes far below the others, each twice. With z⁴ = ω² and
-/// μ = 100 they are the roots of 1 + cos z cosh z + μ z (cos z sinh z − sin z cosh z) = 0.
-#[test]
-fn modes_far_apart_are_all_found_twice() {
-    let equation = |z: f64| 1.0 + z.cos() * z.cosh() + 100.0 * z * (z.cos() * z.sinh() - z.sin() * z.cosh());
-    let pi = std::f64::consts::PI;
-    // One root below 1, and one in each interval (nπ, nπ + π/2).
-    let root = |(mut low, mut high): (f64, f64)| {
-        let sign = equation(low) > 0.0;
-        while high - low > 1e-14 * high {
-            let middle = 0.5 * (low + high);
-            if (equation(middle) > 0.0) == sign { low = middle } else { high = middle }
-        }
-        low * low
-    };
-    let expected = [(0.1, 1.0), (pi, 1.5 * pi), (2.0 * pi, 2.5 * pi), (3.0 * pi, 3.5 * pi)].map(root);
-    let resultants = BladeResultants {
-        mass: 1.0,
-        axial_stiffness: 1e8,
-        flap_stiffness: 1.0,
-        chord_stiffness: 1.0,
-        ..BladeResultants::default()
-    };
-    let setting = Setting { length: 1.0, tip: Tip { mass: 100.0, inertia: 0.0 }, ..Setting::default() };
-    let model = Model { torsion: false, tension_torsion: false, rotary_inertia: false, ..Model::default() };
-    for elements in [20, 32, 36, 40, 44, 48, 64] {
-        let mut blade = Blade::new(setting, &resultants, model, elements).unwrap();
-        for count in 1..=8 {
-            let found = at(&mut blade, 0.0, count);
-            assert_eq!(found.counted, Some(count));
-            for (i, mode) in found.modes.iter().enumerate() {
-                let off = mode.frequency() / expected[i / 2] - 1.0;
-                // Cubic elements miss (z/n)⁴/720 of ω², and rounding of K some more.
-                let missed = expected[i / 2].powi(2) / (elements as f64).powi(4) / 720.0;
-                assert!(
-                    off.abs() < missed + 1e-6,
-                    "{elements} elements, mode {}: {}",
-                    i + 1,
-                    mode.frequency()
-                );
-            }
-        }
-    }
-}
-
-#[test]
-fn equal_frequencies_of_a_round_blade_are_both_found() {
-    let resultants = BladeResultants {
-        mass: 1.0,
-        axial_stiffness: 1e6,
-        flap_stiffness: 1.0,
-        chord_stiffness: 1.0,
-        ..BladeResultants::default()
-    };
-    let setting = Setting { length: 1.0, ..Setting::default() };
-    let model = Model { torsion: false, tension_torsion: false, rotary_inertia: false, ..Model::default() };
-    let mut blade = Blade::new(setting, &resultants, model, 20).unwrap();
-    let still = at(&mut blade, 0.0, 4);
-    assert_eq!(still.counted, Some(4));
-    for (mode, expected) in
-        still.modes.iter().zip([CANTILEVER[0], CANTILEVER[0], CANTILEVER[1], CANTILEVER[1]])
-    {
-        assert!((mode.frequency() / expected - 1.0).abs() < 1e-4, "{} {expected}", mode.frequency());
-    }
-    // Turning, the direction of motion is softer: ω_chord² = ω_flap² − Ω² (up to the gyroscopic coupling).
-    let turning = at(&mut blade, 2.0, 2);
-    let [chord, flap] = [&turning.modes[0], &turning.modes[1]];
-    assert_eq!((chord.shares.dominant(), flap.shares.dominant()), ("chord", "flap"));
-    let softer = (flap.frequency().powi(2) - 4.0).sqrt();
-    assert!((chord.frequency() / softer - 1.0).abs() < 1e-4, "{} {softer}", chord.frequency());
 }

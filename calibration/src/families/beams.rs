@@ -99,7 +99,7 @@ pub(super) fn thin_segment_in_space(random: &mut Random) -> Posed {
         "initial = {{ kind = 'static' }}\nrun = {{ duration = 0 }}\n[[beam]]\nname = 'b'\nlength = {}\nup = [0, 0, 1]\nroot = 'clamped'",
         beam.length
     );
-    add!(case, "elements = {elements}\nsection = {{ kind = 'blade', file = 'section.csv' }}");
+    add!(case, "elements = {elements}\nsection = {{ kind = 'deck', format = 'csv', file = 'section.csv' }}");
     add!(case, "[[load]]\non = 'b.tip'\nforce = [0, 0, {force}]");
     Posed { case, answer: tip("b.tip.displacement.z", value, within) }
 }

@@ -1,6 +1,5 @@
 //! Tables in files that a case names: each format a file.
 
-pub mod blade;
 pub mod columns;
 pub mod deck;
 pub mod rows;

@@ -18,7 +18,7 @@ use flexion::multibody::rotation::frame;
 use flexion::multibody::slender::{Properties, Station};
 use flexion::multibody::{self, shear, slender};
 use flexion::quadrature::Gauss;
-use flexion::section::{AsStiffAcross, BladeSection, Matrices, Shape};
+use flexion::section::{AsStiffAcross, BladeResultants, BladeSection, Matrices, Shape};
 use flexion::system::Frame;
 use flexion_results::Contour;
 use std::fmt;
@@ -84,6 +84,8 @@ pub struct Beam {
     pub elements: usize,
     /// Whether it has shear strains.
     pub shear: bool,
+    /// Whether it twists.
+    pub torsion: bool,
     /// The shear factor that is given.
     pub shear_factor: Option<f64>,
     /// Place of the tension centre along n and b \[m\].
@@ -165,6 +167,7 @@ impl Beam {
         let differ = (of.chord_inertia - of.flap_inertia).abs() > 0.01 * (of.chord_inertia + of.flap_inertia);
         differ
             && !self.planar
+            && self.torsion
             && !self.shear
             && self.section.planar.resultants(0.5 * self.length).rotary_inertia == 0.0
     }
@@ -203,7 +206,8 @@ impl Beam {
             of.inertia = [of.inertia[0], 0.0, 0.0];
         }
         of.inertia[0] = self.polar.unwrap_or(of.inertia[0]);
-        of.with_tension_centre(self.tension_centre).with_coupling(self.coupling)
+        let of = of.with_tension_centre(self.tension_centre).with_coupling(self.coupling);
+        if self.torsion { of } else { of.without_torsion() }
     }
 
     /// The beam with elements that end where its section asks for it and at these stations \[m\], each cut into `parts`.
@@ -337,6 +341,8 @@ keys! {
         shear: bool = boolean().or_false();
         /// shear factor of a shape, Cowper's if left out
         shear_factor: Option<f64> = number(Positive);
+        /// it twists; without, it is held so stiff in torsion that it hardly does; if left out, a deck that says too little of torsion is held
+        torsion: Option<bool> = boolean();
         /// moment of inertia per length about the axis, that of the section if left out
         polar_inertia: Option<f64> = quantity(&ROTARY_INERTIA, Positive);
         /// place of the section's tension centre, [along the height, across], against the centreline, which goes through the centres of mass;
@@ -390,14 +396,32 @@ fn make(k: Written, c: &Context<'_>) -> Made<Beam> {
     if let (Some((_, true)), Some(_)) = (&section.deck, &k.curve) {
         return Err(Fault::new("curve", "the deck has a line of its own: leave the curve out").into());
     }
-    let length = section.deck.as_ref().map(|(deck, _)| deck.length).or(c.length).ok_or_else(missing)?;
+    let length = section.length.or(c.length).ok_or_else(missing)?;
     let assumed = Assumed { poisson_ratio: k.poisson_ratio, shear_factor: k.shear_factor };
     let mut blade: Arc<dyn BladeSection> = Arc::from(section.blade(assumed).at("section")?);
-    let along = |s: f64| blade.resultants(s).torsional_stiffness > 0.0;
-    if !(along(0.0) && along(length)) {
+    let along =
+        |of: &dyn Fn(&BladeResultants) -> bool| [0.0, length].iter().all(|s| of(&blade.resultants(*s)));
+    let (stiff, heavy) = (
+        along(&|of| of.torsional_stiffness > 0.0),
+        k.polar_inertia.is_some() || along(&|of| of.flap_inertia + of.chord_inertia > 0.0),
+    );
+    let torsion = k.torsion.unwrap_or(!section.is_blade || (stiff && heavy));
+    if !torsion && k.shear {
+        return Err(Fault::new("torsion", "a beam with shear twists")
+            .help("leave `torsion` or `shear` out")
+            .into());
+    }
+    if !torsion && k.torsion.is_none() {
+        let lacks = if stiff { "rotary inertia about the axis" } else { "torsional stiffness GJ" };
+        c.cautions.borrow_mut().push(format!(
+            "the section of beam `{}` gives no {lacks}: its torsion is held, `torsion = false`",
+            k.name
+        ));
+    }
+    if !stiff && (torsion || !section.is_blade) {
         if !k.planar {
             let message = "this section says nothing of torsion, and a beam in space twists";
-            let help = "give a shape (`rectangle`, `circle`, `tube`, `ellipse`), `general`, or a `blade` with GJ; for a motion in the plane \
+            let help = "give a shape (`rectangle`, `circle`, `tube`, `ellipse`), `general`, or a `deck` with GJ; for a motion in the plane \
                         of x and y write `planar = true` in [[beam]]";
             return Err(Fault::new("section", message).help(help).into());
         }
@@ -464,6 +488,7 @@ fn make(k: Written, c: &Context<'_>) -> Made<Beam> {
         outline: outline(&k.outline)?,
         elements: k.elements,
         shear: k.shear,
+        torsion,
         shear_factor: k.shear_factor,
         ends: [k.root, k.tip],
         motion: [k.velocity, k.spin],

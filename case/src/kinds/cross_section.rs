@@ -28,7 +28,9 @@ pub struct Section {
     pub shapes: Option<[Shape; 2]>,
     /// Whether it is known out of the plane, too.
     pub is_blade: bool,
-    /// The deck that it is of, and whether that has a line of its own.
+    /// Length of the blade that it is of, where its deck says it \[m\].
+    pub length: Option<f64>,
+    /// The deck of matrices that it is of, and whether that has a line of its own.
     pub deck: Option<(Arc<Deck>, bool)>,
     pub(super) spatial: Spatial,
 }
@@ -45,7 +47,7 @@ impl Section {
         let planar: Arc<dyn section::Section> = Arc::new(section);
         let blade = Arc::clone(&planar);
         let spatial: Spatial = Arc::new(move |_| Ok(Box::new(PlanarBlade(Box::new(Arc::clone(&blade))))));
-        Section { planar, height: None, shapes: None, is_blade: false, deck: None, spatial }
+        Section { planar, height: None, shapes: None, is_blade: false, length: None, deck: None, spatial }
     }
 
     /// The section of a blade, of a material of which this is assumed.

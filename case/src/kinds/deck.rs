@@ -2,7 +2,7 @@
 
 use super::cross_section::Section;
 use super::curve::Curve;
-use crate::fault::{At, Fault, Made};
+use crate::fault::{At, Fault, Faults, Made};
 use crate::files::deck::{self, Deck, Format};
 use crate::keys::{File, choice, integer, keys, path};
 use crate::kind::{Choice, Context, Is, Kind};
@@ -54,8 +54,15 @@ pub static FORMAT: Choice<Format> = Choice {
             make: &Is(Format::WindIo),
         },
         Kind {
+            name: "elastodyn",
+            summary: "blade file of ElastoDyn: bending alone; the axis is straight, and hardly stretches where the file has no axial stiffness",
+            source: "OpenFAST",
+            example: r#"beam=[{length=10, up=[0, 0, 1], section={kind="deck", file="elastodyn.dat", format="elastodyn"}, root="clamped"}]"#,
+            make: &Is(Format::ElastoDyn),
+        },
+        Kind {
             name: "csv",
-            summary: "a table with titles and units: 6 × 6 matrices, or stiffnesses with the places of centres; the axis is straight",
+            summary: "a table with titles and units: 6 × 6 matrices, or stiffnesses with the places of centres or without; the axis is straight",
             source: "",
             example: r#"beam=[{up=[0, 0, 1], section={kind="deck", file="sections.csv", format="csv"}, root="clamped", shear=true}]"#,
             make: &Is(Format::Csv),
@@ -109,16 +116,28 @@ pub fn section(OfDeck { file, format, set, subset }: OfDeck, c: &Context<'_>) ->
         }
     };
     let find = |name: &str| c.files.bytes(name);
-    let deck = Arc::new(deck::read(&find, &file.name, format).at("file")?);
-    if let Some(length) = c.length {
-        let message = format!(
-            "the line of the deck is {:.6} m long, and the length of the beam {length} m",
-            deck.length
-        );
-        if (length - deck.length).abs() > 1e-6 * deck.length {
-            return Err(Fault::new("file", message).help("leave the length out").into());
+    let fits = |of_deck: f64| match c.length.filter(|length| (length - of_deck).abs() > 1e-6 * of_deck) {
+        Some(length) => {
+            let message =
+                format!("the line of the deck is {of_deck:.6} m long, and the length of the beam {length} m");
+            Err(Faults::from(Fault::new("file", message).help("leave the length out")))
         }
+        None => Ok(()),
+    };
+    if let Some(found) = deck::principal(&find, &file.name, format, c.length).at("file")? {
+        fits(found.length)?;
+        c.cautions.borrow_mut().extend(found.cautions);
+        let table = found.table;
+        let spatial = table.clone();
+        return Ok(Section {
+            spatial: Arc::new(move |_| Ok(Box::new(spatial.clone()))),
+            is_blade: true,
+            length: Some(found.length),
+            ..Section::planar(PlanarProjection(table))
+        });
     }
+    let deck = Arc::new(deck::read(&find, &file.name, format).at("file")?);
+    fits(deck.length)?;
     c.cautions.borrow_mut().extend(deck.cautions.iter().chain(&deck.notes).cloned());
     let has_line = has_line(format);
     let sections = Sections { breaks: deck.breaks(), deck: Arc::clone(&deck), has_line };
@@ -126,6 +145,7 @@ pub fn section(OfDeck { file, format, set, subset }: OfDeck, c: &Context<'_>) ->
     Ok(Section {
         spatial: Arc::new(move |_| Ok(Box::new(spatial.clone()))),
         is_blade: true,
+        length: Some(deck.length),
         deck: Some((deck, has_line)),
         ..Section::planar(PlanarProjection(sections))
     })

@@ -3,8 +3,6 @@
 pub mod amplitude;
 pub mod basis;
 pub mod beam;
-pub mod blade;
-pub mod blade_file;
 pub mod body;
 pub mod centreline;
 pub mod contact;

@@ -1,6 +1,5 @@
 //! The section of a case: kinds, keys and makers.
 
-use super::blade_file;
 use super::cross_section::{Assumed, Section, Spatial};
 use super::deck;
 use crate::declaration::Bound::*;
@@ -394,15 +393,9 @@ pub static SECTION: Choice<Section> = Choice {
             make: &Of(table),
         },
         Kind {
-            name: "blade",
-            summary: "properties of a blade for bending in two planes and torsion, tabulated along its span",
-            source: "",
-            example: r#"section={kind="blade", file="blade.csv", ignore-coupling=true}"#,
-            make: &Of(blade_file::section),
-        },
-        Kind {
             name: "deck",
-            summary: "a blade deck: 6 × 6 stiffness and mass of sections along a reference line, which is the axis of its beam",
+            summary: "a blade deck: sections of a blade along its span, by 6 × 6 matrices along a reference line, which is the axis of its beam, \
+                      or by stiffnesses about principal axes",
             source: "",
             example: r#"beam=[{up=[0, 0, 1], section={kind="deck", file="beamdyn_primary.dat"}, root="clamped", shear=true}]"#,
             make: &Of(deck::section),

@@ -136,16 +136,12 @@ impl Reading {
         if changes.is_empty() { Ok(Cow::Borrowed(self)) } else { self.changed(changes).map(Cow::Owned) }
     }
 
-    /// The case with twice the functions: of the blade, or else of the bases.
+    /// The case with twice the functions.
     ///
     /// # Errors
     /// [`Problems`] when there are too many.
     pub fn with_finer_mesh(&self) -> Result<Reading, Problems> {
-        let changes = match self.case.hub_beam().and_then(|beam| beam.blade.as_ref()) {
-            Some(blade) => vec![Change::count("blade.refine".to_owned(), 2 * blade.refine())],
-            None => self.case.finer(),
-        };
-        self.changed(&changes)
+        self.changed(&self.case.finer())
     }
 
     /// The mesh and the steps of the case, as changes.

@@ -55,10 +55,10 @@ output = { step = "5 ms", stations = ["1 m"] }
         summary: "a blade from a table along its span, for its modes and its Campbell diagram",
         text: r#"
 title = "A blade"
-beam = { length = "20 m" }
-section = { kind = "blade", file = "blade.csv" }
+beam = { length = "20 m", pitch = "2 deg", precone = "2.5 deg" }
+section = { kind = "deck", file = "blade.csv", format = "csv" }
 hub = { radius = "0.5 m" }
-blade = { pitch = "2 deg", precone = "2.5 deg" }
+model = { coupling = "space" }
 "#,
         file: Some(("blade.csv", BLADE)),
     },

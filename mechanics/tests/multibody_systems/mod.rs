@@ -4,6 +4,7 @@
 
 mod beam_statics;
 mod beams;
+mod blades;
 mod chain;
 mod conformance;
 mod contacts;

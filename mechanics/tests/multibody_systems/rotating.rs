@@ -1,12 +1,12 @@
 //! Beams in a frame that rotates: their modes against series, the planar beam, and the blade.
 
+use super::blades::{Setting, blade, frequencies};
 use super::{odd_body, odd_rotation, wave};
 use crate::integrators::drive::fixed;
 use flexion::analysis::campbell::{HubState, Plan, campbell};
 use flexion::analysis::modes::modes;
 use flexion::analysis::rotation::{NoRotation, rotate_stably};
 use flexion::analysis::superposition::{Vibration, superpose};
-use flexion::blade::{Blade, Model as BladeModel, Setting, Tip};
 use flexion::drive::Actuator;
 use flexion::exact::rotating::flapwise_frequency;
 use flexion::hub_beam::{self, ExactCoupling, FreeHub, Hub, HubBeam};
@@ -23,40 +23,6 @@ use num_complex::Complex64;
 use std::sync::Arc;
 
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
-
-/// A blade on the ground, which rotates about z with the frame.
-fn blade(setting: Setting, section: &dyn BladeSection, elements: usize) -> Rotating {
-    let (sin, cos) = setting.precone.sin_cos();
-    let (axis, out) = ([cos, 0.0, sin], [-sin, 0.0, cos]);
-    let curve = |s: f64| {
-        let (sine, cosine) = (setting.pitch + section.resultants(s).twist).sin_cos();
-        Station {
-            position: Vec3(axis.map(|t| (setting.hub_radius + s) * t)),
-            tangent: Vec3(axis),
-            normal: Vec3([sine * out[0], cosine, sine * out[2]]),
-        }
-    };
-    let nodes: Vec<f64> = (0..=elements).map(|i| setting.length * i as f64 / elements as f64).collect();
-    let beam = Beam::new(&nodes, curve, |s| Properties::from(&section.resultants(s))).unwrap();
-    let mut model = Model::new();
-    let beam = model.beam(Flexible::new("blade", beam));
-    let section = |node| Part::Section { beam, node };
-    let root = axis.map(|t| setting.hub_radius * t);
-    model.join("root", Kind::Fixed, [Part::Ground, section(0)], Vec3(root), (Vec3(Z), None)).unwrap();
-    if setting.tip.mass > 0.0 {
-        let end = axis.map(|t| (setting.hub_radius + setting.length) * t);
-        let tip = model.body(Body::new("tip", setting.tip.mass, [setting.tip.inertia; 3]).at(end));
-        model.join("hold", Kind::Fixed, [section(elements), tip], Vec3(end), (Vec3(Z), None)).unwrap();
-    }
-    Rotating::new(Multibody::new(model).unwrap(), Axis::new([0.0; 3], Z).unwrap())
-}
-
-fn frequencies(system: &mut dyn System, speed: f64, count: usize) -> Vec<f64> {
-    let mut s = system.initial();
-    rotate_stably(system, &mut s, 0.0, speed).unwrap();
-    let found = modes(system, &s, count, &[]).unwrap();
-    found.modes.iter().map(|mode| mode.frequency()).collect()
-}
 
 /// ρA = EI₂ = L = 1, slender, and far stiffer in the plane of rotation and in torsion.
 fn flat() -> BladeResultants {
@@ -208,21 +174,23 @@ impl BladeSection for General {
     }
 }
 
+/// By cubic elements for small vibrations about the steady state of a blade, coded apart with another energy and other unknowns: 48 of
+/// them, which leave 1e-6 of the fifth frequency.
 #[test]
-fn a_general_blade_agrees_with_the_room_of_blades() {
-    let model = BladeModel::default();
-    for (precone, tip) in [(0.0, Tip::default()), (0.05, Tip { mass: 0.3, inertia: 0.004 })] {
+fn a_general_blade_has_the_frequencies_of_another_formulation() {
+    for (precone, tip, speed, expected) in [
+        (0.0, [0.0; 2], 0.0, [3.9341659, 11.1897221, 22.1725833, 51.0667430, 69.2095960]),
+        (0.0, [0.0; 2], 6.0, [7.6883661, 12.6690327, 27.3955861, 55.5313311, 72.3743586]),
+        (0.05, [0.3, 0.004], 0.0, [2.28370259, 6.37891747, 12.4514615, 14.3666756, 28.7862921]),
+        (0.05, [0.3, 0.004], 6.0, [6.28024329, 8.74961035, 12.1942860, 22.0428341, 34.8930267]),
+    ] {
         let setting = Setting { length: 1.0, hub_radius: 0.2, precone, pitch: 0.1, tip };
-        for speed in [0.0, 6.0] {
-            let mut expected = Blade::new(setting, &General, model, 48).unwrap();
-            let expected = frequencies(&mut expected, speed, 5);
-            let found = frequencies(&mut blade(setting, &General, 48), speed, 5);
-            for (found, expected) in found.iter().zip(&expected) {
-                assert!(
-                    (found / expected - 1.0).abs() < 1e-6,
-                    "precone {precone}, Ω {speed}: {found} for {expected}"
-                );
-            }
+        let found = frequencies(&mut blade(setting, &General, 48), speed, 5);
+        for (found, expected) in found.iter().zip(&expected) {
+            assert!(
+                (found / expected - 1.0).abs() < 1e-6,
+                "precone {precone}, Ω {speed}: {found} for {expected}"
+            );
         }
     }
 }

@@ -53,6 +53,21 @@ impl Properties {
         self
     }
 
+    /// The section with its torsion held: nothing couples it and GJ = 100 (EI₂ + EI₃). Where rotary inertia is left out in bending, so it is
+    /// about t but for a ten thousandth of ρA (EI₂ + EI₃)/EA: torsion is a thousand times as fast as axial vibration.
+    #[must_use]
+    pub fn without_torsion(mut self) -> Properties {
+        let bending = self.stiffness[2][2] + self.stiffness[3][3];
+        for k in 0..4 {
+            (self.stiffness[1][k], self.stiffness[k][1]) = (0.0, 0.0);
+        }
+        self.stiffness[1][1] = 100.0 * bending;
+        if self.inertia[1..] == [0.0; 2] {
+            self.inertia[0] = 1e-4 * self.mass * bending / self.stiffness[0][0];
+        }
+        self
+    }
+
     /// The section rotated by `angle` about t against the axes [t, n, b], so that a beam with a pretwist need not twist
     /// its axes: C and ρI of the section in the axes of the beam, and fibres along them, which tension does not untwist. The moments of inertia about n and b must be equal or
     /// zero where the angle is not zero: their product of inertia is left out.
