@@ -394,10 +394,10 @@ const CHANGES: &[Change] = &[
     ),
     (
         "[beam]",
-        "blade = { strain-energy = 'linear', bending-first = true }\n[beam]",
-        r#"blade.bending-first"#,
-        Some(1),
-        r#"a term of the strain energy `coupled`"#,
+        "[beam]\npitch = '2 deg'",
+        r#"beam.pitch"#,
+        Some(2),
+        r#"does not carry this"#,
     ),
 ];
 

@@ -105,7 +105,7 @@ fn each_table_of_a_case_can_be_listed() {
         ("output", "strain-heights"),
         ("beam", "[[beam]] of a system in space"),
         ("body", "[[body]] of a system in space"),
-        ("deck", "elastodyn"),
+        ("section", "elastodyn"),
         ("run", "duration"),
         ("joint", "revolute"),
         ("contact.law", "hertz"),

@@ -3,7 +3,7 @@
 //! [`flexion::analysis::error::advise`](fn@advise) climbs it.
 
 use super::refine::{RefineError, Target, refused};
-use crate::kinds::coupling::SPACE;
+use crate::kinds::coupling::{SPACE, SPACE_WITH_SHEAR};
 use crate::layout;
 use crate::problem::Problems;
 use crate::reading::Reading;
@@ -17,8 +17,8 @@ use flexion::system::Channel;
 use std::borrow::Cow;
 
 /// The couplings: the first leaves out most, the last least.
-const COUPLINGS: [&str; 5] = ["zeroth", "first", "high", "exact", SPACE];
-/// The coupling that describes the whole curve of the beam, by finite elements, as [`SPACE`] does.
+const COUPLINGS: [&str; 6] = ["zeroth", "first", "high", "exact", SPACE, SPACE_WITH_SHEAR];
+/// The coupling that describes the whole curve of the beam, by finite elements, as those in space do.
 const EXACT: &str = "exact";
 /// The bases with the keys of their coarsest meshes; finite elements come first.
 const BASES: [(&str, &[(&str, usize)]); 6] = [
@@ -162,8 +162,9 @@ impl Rungs<'_> {
             let keys: Vec<String> = keys.into_iter().map(|(key, n)| format!("{key}={n}")).collect();
             changes.push(format!("model.coupling={}", COUPLINGS[choice.model]));
             changes.push(table("basis", basis, &keys.join(",")));
-        } else if choice.family.is_some() {
-            changes.push("model.refine=1".to_owned());
+        } else {
+            changes.push(format!("model.coupling={}", COUPLINGS[choice.model]));
+            changes.extend(choice.family.is_some().then(|| "model.refine=1".to_owned()));
         }
         changes.extend(mesh.iter().filter(|change| functions(change).is_none()).cloned());
         changes.push(integrator.to_owned());
@@ -235,11 +236,19 @@ impl Ladder for Rungs<'_> {
             let message = "says nothing of torsion and of bending across, on which a motion in space depends";
             return Err(self.reading.problem("section", message));
         }
+        if COUPLINGS[model] == SPACE_WITH_SHEAR {
+            let without = self.at(Choice { model: model - 1, family: None, method: None })?;
+            let adds = |space: &crate::space::Space| space.beams.iter().any(|(beam, _)| !beam.shear);
+            if !without.case.space().is_some_and(adds) {
+                let message = format!("no beam is without shear, and `{SPACE}` is the same");
+                return Err(self.reading.problem("model.coupling", message));
+            }
+        }
         Ok(reading)
     }
 
     fn families(&self, model: usize) -> Vec<Result<Reading, Problems>> {
-        let count = if [EXACT, SPACE].contains(&COUPLINGS[model]) { 1 } else { BASES.len() };
+        let count = if [EXACT, SPACE, SPACE_WITH_SHEAR].contains(&COUPLINGS[model]) { 1 } else { BASES.len() };
         (0..count).map(|k| self.at(Choice { model, family: Some(k), method: None })).collect()
     }
 

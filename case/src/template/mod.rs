@@ -45,7 +45,7 @@ impl Template {
              # be set: its default, or an example.\n\n",
             self.name, self.summary
         );
-        let values = &reading.values;
+        let values = reading.written();
         Writer { texts: [self.text, ""] }.table(values, values.keys, None, "", &mut out);
         if !layout::is_spatial(values.keys) {
             out.push_str(&self.further(values));
@@ -62,7 +62,8 @@ impl Template {
                 continue;
             }
             // A table that does not go with the others, as a blade with a graded section, is left out.
-            let Ok(Reading { values: with, .. }) = self.read(&[example.to_owned()]) else { continue };
+            let Ok(reading) = self.read(&[example.to_owned()]) else { continue };
+            let with = reading.written();
             let mut table = String::new();
             for filled in with.entries.iter().filter(|filled| filled.key.name == name) {
                 Writer { texts: [self.text, example] }.nested(filled, "", &mut table);
