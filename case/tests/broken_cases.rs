@@ -392,13 +392,7 @@ const CHANGES: &[Change] = &[
         Some(1),
         r#"`y` is not known"#,
     ),
-    (
-        "[beam]",
-        "[beam]\npitch = '2 deg'",
-        r#"beam.pitch"#,
-        Some(2),
-        r#"does not carry this"#,
-    ),
+    ("[beam]", "[beam]\npitch = '2 deg'", r#"beam.pitch"#, Some(2), r#"does not carry this"#),
 ];
 
 #[test]

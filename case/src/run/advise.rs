@@ -248,7 +248,8 @@ impl Ladder for Rungs<'_> {
     }
 
     fn families(&self, model: usize) -> Vec<Result<Reading, Problems>> {
-        let count = if [EXACT, SPACE, SPACE_WITH_SHEAR].contains(&COUPLINGS[model]) { 1 } else { BASES.len() };
+        let count =
+            if [EXACT, SPACE, SPACE_WITH_SHEAR].contains(&COUPLINGS[model]) { 1 } else { BASES.len() };
         (0..count).map(|k| self.at(Choice { model, family: Some(k), method: None })).collect()
     }
 
