@@ -196,3 +196,32 @@ fn a_notch_is_as_flexible_as_its_table_says_wherever_elements_end() {
         }
     }
 }
+
+/// A cantilever with shear of slenderness S under a force that bends it by a part of its length, F L³/(3 EI) for small ones.
+fn slender_with_shear(slenderness: f64, elements: usize, part: f64) -> flexion_case::Reading {
+    let height = 12_f64.sqrt() / slenderness;
+    let force = 0.25 * 12e9 * height.powi(3) * part;
+    let case = format!(
+        "initial = {{ kind = 'static' }}\nrun = {{ duration = 0 }}\n[[beam]]\nlength = 1\nroot = 'clamped'\nup = [0, 1, 0]\nshear = true\n\
+         elements = {elements}\nsection = {{ kind = 'rectangle', modulus = 12e12, density = 1000, width = '1 mm', height = {height:e} }}\n[[load]]\n\
+         on = 'tip'\nforce = [0, {force:e}, 0]\n"
+    );
+    written::reading(&case, &[])
+}
+
+/// Increments that rounding keeps from falling, or that fall slowly because a motion is held that is taken for free, are no equilibrium while they are as
+/// large as what the loads make: the tip went 2.9 times too far by the first, and not at all by the second.
+#[test]
+fn what_rounding_hides_is_no_equilibrium() {
+    for (slenderness, elements, part, expected) in [(1e6, 400, 1e-6, 1.0), (2e6, 200, 0.1, 0.989907)] {
+        let run = written::finished(&slender_with_shear(slenderness, elements, part));
+        let tip = run.trajectory.column("beam.tip.displacement.y").unwrap()[0] / part;
+        assert!((tip / expected - 1.0).abs() < 0.02, "{slenderness:e} {elements}: {tip}");
+    }
+    let path = slender_with_shear(1e7, 100, 1e-6).load_path(&Plan::to(1.0), |_, _| true).unwrap();
+    let end = path.end.unwrap();
+    assert!(
+        end.contains("rounding of the stiffness hides the loads") && end.contains("take fewer elements"),
+        "{end}"
+    );
+}

@@ -33,6 +33,11 @@ const TOLERANCE: f64 = 1e-11;
 /// its deflection.
 const ROUNDING: f64 = 1e-5;
 const STALLED: u32 = 3;
+/// Largest increment at the end of an iteration over that by which all of the loads would move the system.
+const UNBALANCED: f64 = 1e-2;
+/// Scaled size below which an increment is small whatever the loads are, for rounding may bend a beam by more than loads along it shorten it; and where
+/// motions are held: the held part of an increment shrinks slowly however small it is.
+const SMALL: [f64; 2] = [1e-9, 1e-13];
 
 /// Why an iteration has ended.
 pub(super) struct Failure {
@@ -203,10 +208,17 @@ impl<'a> Equations<'a> {
             let size = if change.abs() <= size { size } else { change.abs() };
             stalled = if size > 0.5 * least { stalled + 1 } else { 0 };
             // Converged, or as far as rounding lets it come.
-            if size <= TOLERANCE
+            let ended = size <= TOLERANCE
                 || (size < 1e-7 && size > 0.3 * least)
-                || (size < ROUNDING && stalled >= STALLED)
-            {
+                || (size < ROUNDING && stalled >= STALLED);
+            let mut response = f64::INFINITY;
+            if ended && size > SMALL[usize::from(self.hold > 0.0)] {
+                if path.is_none() {
+                    self.solve_by_part(state, *part);
+                }
+                response = largest(&self.by_part, &self.scales).1;
+            }
+            if ended && (size <= UNBALANCED * response || response == 0.0) {
                 apply(self.system, *part);
                 return self.system.admissible(state).map(|()| iteration + 1).map_err(|limit| Failure {
                     what: limit.to_string(),
@@ -215,7 +227,14 @@ impl<'a> Equations<'a> {
                 });
             }
             if !(size < 1e3) || iteration == allowed {
-                let what = format!("Newton's method does not converge (increment {size:.1e})");
+                let what = if ended {
+                    format!(
+                        "rounding of the stiffness hides the loads: increments stay at {size:.1e} of the size of the system, and all of the loads make \
+                         one of {response:.1e}; take fewer elements, or leave the shear out of a beam that is so slender"
+                    )
+                } else {
+                    format!("Newton's method does not converge (increment {size:.1e})")
+                };
                 return Err(Failure { what, singular: false, worst });
             }
             least = size.min(least);
