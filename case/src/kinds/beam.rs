@@ -16,7 +16,7 @@ use crate::units::{ANGLE, ANGULAR_SPEED, BENDING_STIFFNESS, FACTOR, LENGTH, ROTA
 use flexion::linalg::{Mat3, Vec3};
 use flexion::multibody::rotation::frame;
 use flexion::multibody::slender::{Properties, Station};
-use flexion::multibody::{self, shear, slender};
+use flexion::multibody::{self, BeamError, shear, slender};
 use flexion::quadrature::Gauss;
 use flexion::section::{AsStiffAcross, BladeResultants, BladeSection, Matrices, Shape};
 use flexion::system::Frame;
@@ -243,62 +243,56 @@ impl Beam {
             let help = if self.shear { "leave it out" } else { "write `shear = true`, or leave it out" };
             return Err(Fault::new("shear-factor", message).help(help).into());
         }
-        if self.shear {
-            return self.sheared(&nodes, middle);
-        }
-        let built = slender::Beam::new(&nodes, |s| (self.curve)(s), |s| self.properties(middle(s)));
-        built.map(multibody::Beam::from).map_err(|error| {
-            let key = match error {
-                slender::BeamError::Turned { .. } => "elements",
-                slender::BeamError::Section { .. } if self.coupling != [0.0; 3] => "coupling",
-                slender::BeamError::Section { .. } => "section",
-                _ => "",
+        let built = if self.shear {
+            self.says_shear()?;
+            let axes = |s: f64| {
+                let Station { position, tangent, normal } = (self.curve)(s);
+                Frame { position, rotation: Mat3::columns([tangent, normal, tangent.cross(normal)]) }
             };
-            let fault = Fault::new(key, format!("beam `{}`: {error}", self.name));
-            match (&error, self.properties(0.5 * self.length).inertia) {
-                (slender::BeamError::Section { .. }, [polar, ..]) if !(polar > 0.0) => {
-                    let help = "give `polar-inertia` of the beam, the moment of inertia per length about the tangent [kg·m], which \
-                                the section does not say: ρ (I₂ + I₃) of its shape";
-                    fault.help(help).into()
-                }
-                _ => fault.into(),
-            }
-        })
+            // The section says its matrices all along, or nowhere.
+            let nothing = Matrices::principal([0.0; 6], 0.0, [0.0; 3]);
+            let matrices = |s: f64| self.matrices(middle(s)).unwrap_or(nothing);
+            shear::Beam::new(&nodes, axes, matrices).map(multibody::Beam::from)
+        } else {
+            let properties = |s: f64| self.properties(middle(s));
+            slender::Beam::new(&nodes, |s| (self.curve)(s), properties).map(multibody::Beam::from)
+        };
+        built.map_err(|error| self.blamed(&error))
     }
 
-    /// The beam with shear of elements that end at these stations \[m\].
-    fn sheared(&self, ends: &[f64], middle: impl Fn(f64) -> f64) -> Made<multibody::Beam> {
-        if self.blade.matrices(0.5 * self.length).is_none() {
-            let message =
-                format!("the section of beam `{}` does not say how stiff it is in shear", self.name);
-            let help = "give a shape (`rectangle`, `circle`, `tube`, `ellipse`), `general` with `shear-stiffness` and \
-                        `shear-stiffness-across`, or matrices of 6 × 6; without shear, leave `shear` out";
-            return Err(Fault::new("section", message).help(help).into());
+    /// Refuses a section that does not say how stiff it is in shear.
+    fn says_shear(&self) -> Made<()> {
+        if self.blade.matrices(0.5 * self.length).is_some() {
+            return Ok(());
         }
-        let axes = |s: f64| {
-            let Station { position, tangent, normal } = (self.curve)(s);
-            Frame { position, rotation: Mat3::columns([tangent, normal, tangent.cross(normal)]) }
+        let message = format!("the section of beam `{}` does not say how stiff it is in shear", self.name);
+        let help = "give a shape (`rectangle`, `circle`, `tube`, `ellipse`), `general` with `shear-stiffness` and \
+                    `shear-stiffness-across`, or matrices of 6 × 6; without shear, leave `shear` out";
+        Err(Fault::new("section", message).help(help).into())
+    }
+
+    /// Why no beam can be made, at the key that is to blame.
+    fn blamed(&self, error: &BeamError) -> Faults {
+        let key = match error {
+            BeamError::Turned { .. } => "elements",
+            BeamError::Section { .. } if self.coupling != [0.0; 3] => "coupling",
+            BeamError::Section { .. } => "section",
+            _ => "",
         };
-        // The section says its matrices all along, or nowhere.
-        let nothing = Matrices::principal([0.0; 6], 0.0, [0.0; 3]);
-        let built = shear::Beam::new(ends, axes, |s| self.matrices(middle(s)).unwrap_or(nothing));
-        built.map(multibody::Beam::from).map_err(|error| {
-            let key = match error {
-                shear::BeamError::Turned { .. } => "elements",
-                shear::BeamError::Section { .. } if self.coupling != [0.0; 3] => "coupling",
-                shear::BeamError::Section { .. } => "section",
-                _ => "",
-            };
-            let fault = Fault::new(key, format!("beam `{}`: {error}", self.name));
-            let of = self.blade.resultants(0.5 * self.length);
-            let help = "a section of a beam with shear has rotary inertia: give `rotary-inertia` and `rotary-inertia-across` of `general`";
-            match error {
-                shear::BeamError::Section { .. } if !(of.flap_inertia > 0.0 && of.chord_inertia > 0.0) => {
-                    fault.help(help).into()
-                }
-                _ => fault.into(),
+        let fault = Fault::new(key, format!("beam `{}`: {error}", self.name));
+        let middle = 0.5 * self.length;
+        let of = self.blade.resultants(middle);
+        match error {
+            BeamError::Section { .. } if self.shear && !(of.flap_inertia > 0.0 && of.chord_inertia > 0.0) => {
+                fault.help("a section of a beam with shear has rotary inertia: give `rotary-inertia` and `rotary-inertia-across` of `general`")
             }
-        })
+            BeamError::Section { .. } if !self.shear && !(self.properties(middle).inertia[0] > 0.0) => fault.help(
+                "give `polar-inertia` of the beam, the moment of inertia per length about the tangent [kg·m], which the section does not \
+                 say: ρ (I₂ + I₃) of its shape",
+            ),
+            _ => fault,
+        }
+        .into()
     }
 }
 

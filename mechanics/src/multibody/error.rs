@@ -1,6 +1,65 @@
-//! What is wrong with a model.
+//! What is wrong with a model or with a beam of it.
 
 use std::fmt;
+
+/// Why no beam can be made.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum BeamError {
+    /// The ends of the elements are not ascending, or fewer than two.
+    #[error(
+        "the elements of a beam must end at two or more ascending arc lengths: number {number} is {at} m"
+    )]
+    Ends {
+        /// Number of the end.
+        number: usize,
+        /// Its arc length \[m\].
+        at: f64,
+    },
+    /// The axes of a section are no rotation, or its position is not finite.
+    #[error("the axes of the section at s = {at} m must be unit vectors at right angles, right-handed")]
+    Axes {
+        /// Arc length \[m\].
+        at: f64,
+    },
+    /// The sections of an element are too far apart in orientation.
+    #[error(
+        "the beam turns by {angle:.0}° within the element from s = {at} m: it must stay below 90°; take more elements"
+    )]
+    Turned {
+        /// Arc length of the element's begin \[m\].
+        at: f64,
+        /// Angle \[°\].
+        angle: f64,
+    },
+    /// A quantity of a section is out of range.
+    #[error("the section at s = {at} m: {what}")]
+    Section {
+        /// Arc length \[m\].
+        at: f64,
+        /// What is wrong.
+        what: &'static str,
+    },
+}
+
+impl BeamError {
+    /// Refuses ends of elements \[m\] that do not ascend, or are fewer than two.
+    pub(super) fn of_ends(ends: &[f64]) -> Result<(), BeamError> {
+        let wrong = |i: &usize| !ends[*i].is_finite() || *i > 0 && !(ends[*i] > ends[i - 1]);
+        match (0..ends.len()).find(wrong) {
+            Some(number) => Err(BeamError::Ends { number, at: ends[number] }),
+            None if ends.len() < 2 => {
+                Err(BeamError::Ends { number: ends.len(), at: ends.first().copied().unwrap_or(0.0) })
+            }
+            None => Ok(()),
+        }
+    }
+}
+
+/// The ends of so many elements of equal length \[m\].
+pub(super) fn equal_ends(length: f64, elements: usize) -> Vec<f64> {
+    (0..=elements).map(|i| length * i as f64 / elements.max(1) as f64).collect()
+}
 
 /// What is wrong with a part of a model.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

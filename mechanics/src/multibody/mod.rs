@@ -79,7 +79,7 @@ mod system;
 pub use axis::Axis;
 pub use beam::Beam;
 pub use body::Body;
-pub use error::{DependentRow, ModelError, PartFault, Violation};
+pub use error::{BeamError, DependentRow, ModelError, PartFault, Violation};
 pub use flexible::{Fibre, Flexible};
 pub use force::{Axes, Directions, Load, Spring};
 pub use joint::{Drive, Joint, Kind};

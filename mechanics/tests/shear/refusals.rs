@@ -1,8 +1,9 @@
 //! Beams that cannot be made.
 
 use flexion::linalg::{Mat3, Vec3};
+use flexion::multibody::BeamError;
 use flexion::multibody::rotation::about;
-use flexion::multibody::shear::{Beam, BeamError};
+use flexion::multibody::shear::Beam;
 use flexion::section::Matrices;
 use flexion::system::Frame;
 

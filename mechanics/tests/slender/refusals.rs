@@ -2,7 +2,8 @@
 
 use super::newton::equal;
 use flexion::linalg::Vec3;
-use flexion::multibody::slender::{Beam, BeamError, Properties, Station};
+use flexion::multibody::BeamError;
+use flexion::multibody::slender::{Beam, Properties, Station};
 
 fn section() -> Properties {
     Properties::principal([1e4, 1.0, 1.0, 2.0], 1.0, [0.1, 0.0, 0.0])
@@ -16,7 +17,7 @@ fn straight(s: f64) -> Station {
 fn nodes_must_ascend() {
     for (nodes, number) in [(vec![], 0), (vec![0.0], 1), (vec![0.0, 1.0, 1.0], 2), (vec![0.0, f64::NAN], 1)] {
         let error = Beam::new(&nodes, straight, |_| section()).unwrap_err();
-        assert!(matches!(error, BeamError::Nodes { node, .. } if node == number), "{error}");
+        assert!(matches!(error, BeamError::Ends { number: n, .. } if n == number), "{error}");
     }
 }
 

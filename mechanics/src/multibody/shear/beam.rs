@@ -12,50 +12,11 @@
 use super::element::{Element, Motion, NODE_COORDINATES, NODE_VELOCITIES, Sample, Tangent, VELOCITIES};
 use super::shapes::{NODES, POINTS};
 use crate::linalg::{Mat3, Vec3};
+use crate::multibody::error::{BeamError, equal_ends};
 use crate::multibody::line_load::LineDistribution;
 use crate::multibody::rotation::{Quaternion, rate, tangent};
 use crate::section::Matrices;
 use crate::system::{Frame, Weights};
-
-/// Why no beam can be made.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum BeamError {
-    /// The ends of the elements are not ascending, or fewer than two.
-    #[error(
-        "the elements of a beam must end at two or more ascending arc lengths: number {number} is {at} m"
-    )]
-    Ends {
-        /// Number of the end.
-        number: usize,
-        /// Its arc length \[m\].
-        at: f64,
-    },
-    /// The axes of a section are no rotation, or its position is not finite.
-    #[error("the axes of the section at s = {at} m must be unit vectors at right angles, right-handed")]
-    Axes {
-        /// Arc length \[m\].
-        at: f64,
-    },
-    /// The sections of an element are too far apart in orientation.
-    #[error(
-        "the beam turns by {angle:.0}° within the element from s = {at} m: it must stay below 90°; take more elements"
-    )]
-    Turned {
-        /// Arc length of the element's begin \[m\].
-        at: f64,
-        /// Angle \[°\].
-        angle: f64,
-    },
-    /// A quantity of a section is out of range.
-    #[error("the section at s = {at} m: {what}")]
-    Section {
-        /// Arc length \[m\].
-        at: f64,
-        /// What is wrong.
-        what: &'static str,
-    },
-}
 
 /// A beam with shear. See the [module documentation](super).
 #[derive(Clone, Debug)]
@@ -80,14 +41,7 @@ impl Beam {
         curve: impl Fn(f64) -> Frame,
         section: impl Fn(f64) -> Matrices,
     ) -> Result<Beam, BeamError> {
-        if ends.len() < 2 {
-            return Err(BeamError::Ends { number: ends.len(), at: ends.first().copied().unwrap_or(0.0) });
-        }
-        for (number, &at) in ends.iter().enumerate() {
-            if !at.is_finite() || number > 0 && !(at > ends[number - 1]) {
-                return Err(BeamError::Ends { number, at });
-            }
-        }
+        BeamError::of_ends(ends)?;
         let mut nodes = vec![ends[0]];
         for ends in ends.windows(2) {
             nodes.extend(Element::places()[1..].iter().map(|z| ends[0] + z * (ends[1] - ends[0])));
@@ -128,7 +82,7 @@ impl Beam {
     /// # Errors
     /// See [`Beam::new`].
     pub fn straight(root: Frame, length: f64, elements: usize, section: Matrices) -> Result<Beam, BeamError> {
-        let ends: Vec<f64> = (0..=elements).map(|i| length * i as f64 / elements.max(1) as f64).collect();
+        let ends = equal_ends(length, elements);
         let at = |s: f64| Frame { position: root.position + s * root.rotation.column(0), ..root };
         Beam::new(&ends, at, |_| section)
     }

@@ -28,7 +28,7 @@
 //! body. The order of frequencies stays 6.
 //!
 //! **Range.** Rotations are of any size; strains are as small as C is constant for. The sections of an element turn by less than half a turn against
-//! the reference section ([`BeamError::Turned`] holds the beam without stress to a quarter). Sections do not warp, and no
+//! the reference section ([`BeamError::Turned`](super::BeamError::Turned) holds the beam without stress to a quarter). Sections do not warp, and no
 //! strain is quadratic in the torsion: a tension does not stiffen torsion, as it does in the [slender beam](super::slender).
 //!
 //! | file | content |
@@ -49,7 +49,7 @@ mod tangent;
 
 pub(super) use shapes::lagrange;
 
-pub use beam::{Beam, BeamError};
+pub use beam::Beam;
 pub use element::{
     COORDINATES, Element, Motion, NODE_COORDINATES, NODE_VELOCITIES, Sample, Tangent, VELOCITIES,
 };

@@ -20,6 +20,7 @@ use super::strain::{COORDINATES, VELOCITIES, centreline, positions};
 use super::triad::Triad;
 use crate::linalg::Vec3;
 use crate::linalg::vector::inner;
+use crate::multibody::error::{BeamError, equal_ends};
 use crate::multibody::line_load::LineDistribution;
 use crate::system::Weights;
 
@@ -37,44 +38,6 @@ pub struct Station {
     pub tangent: Vec3,
     /// n, a unit vector across t.
     pub normal: Vec3,
-}
-
-/// Why no beam can be made.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum BeamError {
-    /// The nodes are not ascending, or fewer than two.
-    #[error("the nodes of a beam must be two or more ascending arc lengths: node {node} is at {at} m")]
-    Nodes {
-        /// Number of the node.
-        node: usize,
-        /// Its arc length \[m\].
-        at: f64,
-    },
-    /// Tangent and normal are no axes.
-    #[error("tangent and normal at s = {at} m must be unit vectors, one across the other")]
-    Axes {
-        /// Arc length \[m\].
-        at: f64,
-    },
-    /// Two sections of an element that are too far apart in orientation.
-    #[error(
-        "the beam turns by {angle:.0}° within the element from s = {at} m: it must stay below 90°; take more elements"
-    )]
-    Turned {
-        /// Arc length of the element's begin \[m\].
-        at: f64,
-        /// Angle \[°\].
-        angle: f64,
-    },
-    /// A quantity of a section is out of range.
-    #[error("the section at s = {at} m: {what}")]
-    Section {
-        /// Arc length \[m\].
-        at: f64,
-        /// What is wrong.
-        what: &'static str,
-    },
 }
 
 /// A slender beam. See the [module documentation](super).
@@ -97,9 +60,7 @@ impl Beam {
         curve: impl Fn(f64) -> Station,
         section: impl Fn(f64) -> Properties,
     ) -> Result<Beam, BeamError> {
-        if nodes.len() < 2 {
-            return Err(BeamError::Nodes { node: nodes.len(), at: nodes.first().copied().unwrap_or(0.0) });
-        }
+        BeamError::of_ends(nodes)?;
         let mut initial = Vec::with_capacity(ELEMENT_COORDINATES * nodes.len());
         let station = |s: f64| {
             let at = curve(s);
@@ -113,14 +74,10 @@ impl Beam {
             }
         };
         for (i, &s) in nodes.iter().enumerate() {
-            let last = nodes[i.saturating_sub(1)];
-            if !s.is_finite() || i > 0 && !(s > last) {
-                return Err(BeamError::Nodes { node: i, at: s });
-            }
             let now = station(s)?;
             if i > 0 {
                 // n in the middle is placed when both ends are known.
-                let at = station(0.5 * (last + s))?;
+                let at = station(0.5 * (nodes[i - 1] + s))?;
                 initial.extend(at.normal);
             }
             initial.extend([now.position, now.tangent, now.normal].into_iter().flatten());
@@ -161,7 +118,7 @@ impl Beam {
         elements: usize,
         section: Properties,
     ) -> Result<Beam, BeamError> {
-        let nodes: Vec<f64> = (0..=elements).map(|i| length * i as f64 / elements.max(1) as f64).collect();
+        let nodes = equal_ends(length, elements);
         let at = |s: f64| Station { position: root.position + s * root.tangent, ..root };
         Beam::new(&nodes, at, |_| section)
     }

@@ -43,7 +43,7 @@
 //!
 //! **Errors.** Displacements, rotations and frequencies converge with h⁴. The orientation within an element is found from that of
 //! its middle: tangents in an element must not turn by half a turn against it, nor sections twist by as much
-//! ([`BeamError::Turned`] holds the beam without stress to a quarter).
+//! ([`BeamError::Turned`](super::BeamError::Turned) holds the beam without stress to a quarter).
 //!
 //! | file | content |
 //! |---|---|
@@ -70,7 +70,7 @@ pub(super) use loads::uniform_weights;
 pub(super) use shapes::{hermite, sample};
 pub(super) use strain::combined;
 
-pub use beam::{Beam, BeamError, ELEMENT_COORDINATES, ELEMENT_VELOCITIES, Station};
+pub use beam::{Beam, ELEMENT_COORDINATES, ELEMENT_VELOCITIES, Station};
 pub use element::{Element, Motion, Sample, Tangent};
 pub use loads::{LineWeights, Load, SectionForces};
 pub use pair::Pair;
