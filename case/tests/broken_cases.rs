@@ -479,6 +479,15 @@ fn every_change_is_refused_at_its_key_and_line() {
 }
 
 #[test]
+fn shear_of_a_beam_on_a_hub_is_a_key_of_its_model() {
+    let case = SOUND.replace("length = \"10 m\"", "length = \"10 m\"\nshear = true");
+    let problems = flexion_case::parse(case, Path::new("case.toml"), &[]).unwrap_err();
+    let [problem] = &problems.list[..] else { panic!("{problems}") };
+    assert_eq!(problem.key, "beam.shear");
+    assert!(problem.help.iter().any(|help| help.contains("`model.coupling = \"space-shear\"`")), "{problems}");
+}
+
+#[test]
 fn tables_in_lists_are_changed_by_number_by_name_and_the_only_one_by_its_keys() {
     let beam = |name: &str| {
         format!(
