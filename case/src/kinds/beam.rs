@@ -116,6 +116,8 @@ impl fmt::Debug for Beam {
 
 /// Rows of a table for each element asked for up to which elements end at all of them.
 const MOST_ROWS: usize = 4;
+/// Poisson's ratio of a shape, if it is left out: that of most metals.
+const POISSON_RATIO: f64 = 0.3;
 
 impl Beam {
     /// The joints of its ends: name, kind, and the places that they join.
@@ -329,8 +331,8 @@ keys! {
         /// it stays in the plane of x and y: a section that says nothing of torsion is as stiff in torsion and across as in the plane,
         /// and nothing acts out of it
         planar: bool = boolean().or_false();
-        /// Poisson's ratio, for the stiffness of a shape in torsion and in shear
-        poisson_ratio: f64 = number(Between(-0.99, 0.5)).or(0.3);
+        /// Poisson's ratio, for the stiffness of a shape in torsion and in shear, 0.3 if left out
+        poisson_ratio: Option<f64> = number(Between(-0.99, 0.5));
         /// it has shear strains, by the stiffness GA of its section, and rotary inertia
         shear: bool = boolean().or_false();
         /// shear factor of a shape, Cowper's if left out
@@ -391,7 +393,12 @@ fn make(k: Written, c: &Context<'_>) -> Made<Beam> {
         return Err(Fault::new("curve", "the deck has a line of its own: leave the curve out").into());
     }
     let length = section.length.or(c.length).ok_or_else(missing)?;
-    let assumed = Assumed { poisson_ratio: k.poisson_ratio, shear_factor: k.shear_factor };
+    if k.poisson_ratio.is_some() && section.shapes.is_none() {
+        let message = "is of a shape, which this section has not: it has no effect";
+        return Err(Fault::new("poisson-ratio", message).help("leave it out").into());
+    }
+    let assumed =
+        Assumed { poisson_ratio: k.poisson_ratio.unwrap_or(POISSON_RATIO), shear_factor: k.shear_factor };
     let mut blade: Arc<dyn BladeSection> = Arc::from(section.blade(assumed).at("section")?);
     let along =
         |of: &dyn Fn(&BladeResultants) -> bool| [0.0, length].iter().all(|s| of(&blade.resultants(*s)));
