@@ -1,6 +1,7 @@
 //! CSV files whose first line names the columns: `EI-flap`, `EI_flap` or `FlpStff`, with a unit or in SI.
 
 use crate::units::{self, Measure};
+use flexion_results::nearest;
 
 /// A column that a file may have.
 pub struct Column {
@@ -62,6 +63,18 @@ pub(super) fn in_si(unit: &str, measure: &Measure, title: &str, name: &str) -> R
 /// # Errors
 /// What is wrong with it, in one sentence.
 pub fn read<const N: usize>(text: &str, name: &str, columns: &[Column; N]) -> Result<Vec<[f64; N]>, String> {
+    Ok(with_lines(text, name, columns)?.into_iter().map(|(_, row)| row).collect())
+}
+
+/// The rows as [`read`] gives them, each with its line.
+///
+/// # Errors
+/// As [`read`].
+pub(super) fn with_lines<const N: usize>(
+    text: &str,
+    name: &str,
+    columns: &[Column; N],
+) -> Result<Vec<(usize, [f64; N])>, String> {
     let failed = |error: csv::Error| format!("cannot read {name}: {error}");
     let mut reader =
         csv::ReaderBuilder::new().comment(Some(b'#')).trim(csv::Trim::All).from_reader(text.as_bytes());
@@ -82,7 +95,12 @@ pub fn read<const N: usize>(text: &str, name: &str, columns: &[Column; N]) -> Re
             plain(column.name) == plain(title) || column.aliases.contains(&plain(title).as_str())
         };
         let Some(number) = columns.iter().position(is) else {
-            return Err(format!("{name} has a column `{whole}`; {}", known()));
+            let lower: Vec<String> = columns.iter().map(|column| column.name.to_lowercase()).collect();
+            let free = |lower: &&String| !header.iter().any(|other| plain(parts(other).0) == plain(lower));
+            let near = nearest(title, lower.iter().filter(free).map(String::as_str));
+            let near = columns.iter().find(|column| near == Some(&column.name.to_lowercase()));
+            let near = near.map_or(String::new(), |near| format!(" (did you mean `{}`?)", near.name));
+            return Err(format!("{name} has a column `{whole}`{near}; {}", known()));
         };
         let column = &columns[number];
         if places[number].is_some() {
@@ -98,17 +116,18 @@ pub fn read<const N: usize>(text: &str, name: &str, columns: &[Column; N]) -> Re
     let mut rows = Vec::new();
     for record in reader.records() {
         let record = record.map_err(failed)?;
+        let line = record.position().map_or(0, |at| at.line() as usize);
         let mut row = [0.0; N];
         for (value, place) in row.iter_mut().zip(places) {
             let Some((place, factor)) = place else { continue };
             let text = record.get(place).unwrap_or("");
-            let number: f64 = text.parse().map_err(|_| {
-                let line = record.position().map_or(0, csv::Position::line);
+            let finite = text.parse().ok().filter(|x: &f64| x.is_finite());
+            let number = finite.ok_or_else(|| {
                 format!("line {line} of {name}: `{text}` under `{}` is not a number", &header[place])
             })?;
             *value = factor * number;
         }
-        rows.push(row);
+        rows.push((line, row));
     }
     Ok(rows)
 }
@@ -146,6 +165,12 @@ mod tests {
             ("x,EA,span\n0,1,2\n", "two columns `x`"),
             ("x,EA [m]\n0,1\n", "the column `EA` of f: `m` is a unit of length"),
             ("x,EA,chord\n0,1,2\n", "a column `chord`; the columns are named x, EA"),
+            (
+                "x,EA,ei_flp [N m^2]\n0,1,2\n",
+                "a column `ei_flp [N m^2]` (did you mean `EI-flap`?); the columns",
+            ),
+            ("x,EA\n# comment\n0,1\n1,inf\n", "line 4 of f: `inf` under `EA` is not a number"),
+            ("x,EA\n0,NaN\n", "line 2 of f: `NaN` under `EA` is not a number"),
         ] {
             let message = read(text).unwrap_err();
             assert!(message.contains(says), "{message}");

@@ -201,7 +201,12 @@ impl Beam {
     /// Stiffness and inertia without shear at a station.
     fn properties(&self, s: f64) -> Properties {
         let mut of = match &self.section.deck {
-            Some((deck, _)) => Properties::from(&deck.matrices(s)),
+            Some((deck, _)) => {
+                let (of, [polar, second, third]) = (Properties::from(&deck.matrices(s)), deck.inertia(s));
+                // What turns about the axis leaves the plane: any inertia does.
+                let polar = if self.planar { of.inertia[0] } else { polar };
+                Properties { inertia: [polar, second, third], ..of }
+            }
             None => Properties::from(&self.blade.resultants(s)),
         };
         if self.section.deck.is_none() && self.section.planar.resultants(s).rotary_inertia == 0.0 {

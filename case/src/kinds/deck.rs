@@ -82,12 +82,19 @@ struct Sections {
 impl BladeSection for Sections {
     fn resultants(&self, s: f64) -> BladeResultants {
         // The twist of a deck is about the axis towards the root.
-        let twist = if self.has_line { 0.0 } else { -self.deck.line.twist(s) };
-        BladeResultants { twist, ..BladeResultants::from(&self.deck.matrices(s)) }
+        let line = &self.deck.line;
+        let [twist, twist_rate] =
+            if self.has_line { [0.0; 2] } else { [-line.twist(s), -line.twist_rate(s)] };
+        let [_, flap_inertia, chord_inertia] = self.deck.inertia(s);
+        let of = BladeResultants::from(&self.deck.matrices(s));
+        let torsional_stiffness = if self.deck.silent.torsion { 0.0 } else { of.torsional_stiffness };
+        BladeResultants { torsional_stiffness, flap_inertia, chord_inertia, twist, twist_rate, ..of }
     }
 
     fn matrices(&self, s: f64) -> Option<Matrices> {
-        Some(self.deck.matrices(s))
+        let (mut of, silent) = (self.deck.matrices(s), self.deck.silent);
+        (0..3).filter(|k| silent.inertia[*k]).for_each(|k| of.mass[3 + k][3 + k] = 0.0);
+        (!silent.shear).then_some(of)
     }
 
     fn breaks(&self) -> &[f64] {

@@ -1,10 +1,13 @@
 //! Tables of sections in CSV, with titles and units: 6 × 6 matrices, or stiffnesses with places of centres.
 //!
 //! Components are those of this program: axes tangent, height, across, and strains axial, shear along the height, shear across, torsion, bending
-//! about the height (flapwise) and about across (edgewise). The blade is straight; its twist is positive about the axis towards the tip.
+//! about the height (flapwise) and about across (edgewise). The blade is straight; its twist is positive about the axis from root to tip.
+//!
+//! What a table of centres leaves out, or gives as 0 in all rows, of the stiffness in shear and torsion and the moments of inertia, it is
+//! [silent](Silent) on. For these its sections have GA = EA, GJ the smaller EI, and the radii of gyration √(EI/EA).
 
 use super::rows::{Convention, Row};
-use super::{Deck, Line, Raw};
+use super::{Deck, Line, Raw, Silent};
 use crate::files::columns::{self, Column, column};
 use crate::units::{
     ANGLE, AXIAL_STIFFNESS, BENDING_STIFFNESS, COUPLING_STIFFNESS, LENGTH, MASS_PER_LENGTH, ROTARY_INERTIA,
@@ -40,14 +43,14 @@ const fn bend(name: &'static str, required: bool) -> Column {
 /// The upper triangle by rows.
 static FULL: [Column; 30] = [
     column("x", &["s", "span", "station"], &LENGTH, true),
-    column("mass", &["massperlength", "rhoa"], &MASS_PER_LENGTH, true),
+    column("mass", &["massperlength", "bmassden", "rhoa"], &MASS_PER_LENGTH, true),
     column("mass-y", &[], &LENGTH, false),
     column("mass-z", &[], &LENGTH, false),
     column("inertia-flap", &["flpiner", "flapinertia"], &ROTARY_INERTIA, true),
     column("inertia-chord", &["edginer", "inertiaedge", "edgeinertia"], &ROTARY_INERTIA, true),
     column("inertia-product", &[], &ROTARY_INERTIA, false),
     column("polar-inertia", &[], &ROTARY_INERTIA, false),
-    column("twist", &[], &ANGLE, false),
+    column("twist", &["strctwst"], &ANGLE, false),
     force("K11", true),
     force("K12", false),
     force("K13", false),
@@ -73,18 +76,18 @@ static FULL: [Column; 30] = [
 
 static CENTRES: [Column; 19] = [
     column("x", &["s", "span", "station"], &LENGTH, true),
-    column("mass", &["massperlength", "rhoa"], &MASS_PER_LENGTH, true),
+    column("mass", &["massperlength", "bmassden", "rhoa"], &MASS_PER_LENGTH, true),
     column("mass-y", &[], &LENGTH, false),
     column("mass-z", &[], &LENGTH, false),
-    column("inertia-flap", &["flpiner", "flapinertia"], &ROTARY_INERTIA, true),
-    column("inertia-chord", &["edginer", "inertiaedge", "edgeinertia"], &ROTARY_INERTIA, true),
+    column("inertia-flap", &["flpiner", "flapinertia"], &ROTARY_INERTIA, false),
+    column("inertia-chord", &["edginer", "inertiaedge", "edgeinertia"], &ROTARY_INERTIA, false),
     column("inertia-product", &[], &ROTARY_INERTIA, false),
     column("polar-inertia", &[], &ROTARY_INERTIA, false),
-    column("twist", &[], &ANGLE, false),
+    column("twist", &["strctwst"], &ANGLE, false),
     column("EA", &["eastff", "axialstiffness"], &AXIAL_STIFFNESS, true),
-    column("GA-chord", &["gaedge"], &AXIAL_STIFFNESS, true),
-    column("GA-flap", &[], &AXIAL_STIFFNESS, true),
-    column("GJ", &["gjstff", "torsionalstiffness"], &BENDING_STIFFNESS, true),
+    column("GA-chord", &["gaedge"], &AXIAL_STIFFNESS, false),
+    column("GA-flap", &[], &AXIAL_STIFFNESS, false),
+    column("GJ", &["gjstff", "torsionalstiffness"], &BENDING_STIFFNESS, false),
     column("EI-flap", &["flpstff", "flapstiffness", "flapwisestiffness"], &BENDING_STIFFNESS, true),
     column(
         "EI-chord",
@@ -98,64 +101,123 @@ static CENTRES: [Column; 19] = [
     column("shear-z", &[], &LENGTH, false),
 ];
 
+/// Largest twist \[rad\] of a column without a unit, and that above which there is a caution: blades have less than 0.5.
+const TWIST: [f64; 2] = [std::f64::consts::PI, 1.0];
+
+/// A row of a table.
+struct Given {
+    line: usize,
+    /// The columns that both kinds of table begin with: x to twist.
+    values: [f64; 9],
+    stiffness: Matrix6,
+}
+
 /// Reads a table; one with a column `K11` has matrices.
 pub(super) fn read(bytes: &[u8], name: &str) -> Result<Deck, String> {
     let text = super::fortran::decoded(bytes);
-    let header = text.lines().find(|line| !line.trim_start().starts_with('#')).unwrap_or("");
-    let is_full = header.split(',').any(|title| columns::plain(columns::parts(title.trim()).0) == "k11");
-    // Values before those of the stiffness are the same in both.
-    let made: Vec<([f64; 9], Matrix6)> = if is_full {
-        let full = |row: [f64; 30]| {
-            let (mut k, mut values) = ([[0.0; 6]; 6], row[9..].iter());
+    let is_title = |line: &&str| !line.trim_start().starts_with('#') && !line.trim().is_empty();
+    let titles =
+        text.lines().find(is_title).unwrap_or("").split(',').map(|title| columns::parts(title.trim()));
+    let titles: Vec<(String, Option<&str>)> =
+        titles.map(|(title, unit)| (columns::plain(title), unit)).collect();
+    let is_full = titles.iter().any(|(title, _)| title == "k11");
+    let mut silent = Silent::default();
+    let made: Vec<Given> = if is_full {
+        let full = |(line, row): (usize, [f64; 30])| {
+            let (mut stiffness, mut values) = ([[0.0; 6]; 6], row[9..].iter());
             for (i, j) in (0..6).flat_map(|i| (i..6).map(move |j| (i, j))) {
                 let value = values.next().copied().unwrap_or(0.0);
-                (k[i][j], k[j][i]) = (value, value);
+                (stiffness[i][j], stiffness[j][i]) = (value, value);
             }
-            (std::array::from_fn(|i| row[i]), k)
+            Given { line, values: std::array::from_fn(|i| row[i]), stiffness }
         };
-        columns::read(&text, name, &FULL)?.into_iter().map(full).collect()
+        columns::with_lines(&text, name, &FULL)?.into_iter().map(full).collect()
     } else {
-        let centres = |row: [f64; 19]| {
-            let stiffness = [row[9], row[10], row[11], row[12], row[13], row[14]];
-            let of = Matrices::principal(stiffness, 1.0, [1.0; 3]);
-            let of = of.with_shear_centre([row[17], row[18]]).with_tension_centre([row[15], row[16]]);
-            (std::array::from_fn(|i| row[i]), of.stiffness)
+        let rows = columns::with_lines(&text, name, &CENTRES)?;
+        let none = |i: usize| rows.iter().all(|(_, row)| row[i] == 0.0);
+        silent = Silent {
+            shear: none(10) && none(11),
+            torsion: none(12),
+            inertia: [none(4) && none(5) && none(7), none(4), none(5)],
         };
-        columns::read(&text, name, &CENTRES)?.into_iter().map(centres).collect()
+        rows.into_iter().map(|(line, row)| centres(line, row, silent)).collect()
     };
     let [first, .., last] = &made[..] else {
         return Err(format!("{name} has {} rows, and a blade two or more", made.len()));
     };
-    let (from, to) = (first.0[0], last.0[0]);
+    let (from, to) = (first.values[0], last.values[0]);
     if !(from == 0.0 && to > 0.0) {
         return Err(format!(
             "the rows of {name} run from x = {from} m to {to} m, and must begin at 0 and ascend"
         ));
     }
-    let twist: Vec<[f64; 2]> = made.iter().map(|(v, _)| [v[0], -v[8]]).collect();
-    if let Some(i) = made.windows(2).position(|pair| !(pair[0].0[0] <= pair[1].0[0])) {
+    if let Some(pair) = made.windows(2).find(|pair| !(pair[0].values[0] <= pair[1].values[0])) {
         return Err(format!(
-            "row {} of {name}: x = {} m comes behind {} m; rows ascend",
-            i + 2,
-            made[i + 1].0[0],
-            made[i].0[0]
+            "line {} of {name}: x = {} m comes behind {} m; rows ascend",
+            pair[1].line, pair[1].values[0], pair[0].values[0]
         ));
     }
-    let line = Line::straight(to, &twist)?;
-    let row = |(i, (v, stiffness)): (usize, ([f64; 9], Matrix6))| {
-        let [x, m, y, z, flap, chord, product, polar, _] = v;
-        let mut mass = [[0.0; 6]; 6];
-        (0..3).for_each(|i| mass[i][i] = m);
-        let polar = if polar > 0.0 { polar } else { flap + chord };
-        (mass[3][3], mass[4][4], mass[5][5]) =
-            (polar + m * (y * y + z * z), flap + m * z * z, chord + m * y * y);
-        for (i, j, value) in
-            [(0, 4, m * z), (0, 5, -m * y), (1, 3, -m * z), (2, 3, m * y), (4, 5, -product - m * y * z)]
-        {
-            (mass[i][j], mass[j][i]) = (value, value);
+    let mut cautions = Vec::new();
+    if silent.inertia[0] && !silent.torsion {
+        cautions.push(format!(
+            "{name} gives a torsional stiffness without moments of inertia: a [blade] has no torsion then, and a beam in space asks for `polar-inertia`"
+        ));
+    }
+    if titles.iter().any(|(title, unit)| title == "twist" && unit.is_none()) {
+        let most =
+            made.iter().max_by(|a, b| a.values[8].abs().total_cmp(&b.values[8].abs())).unwrap_or(first);
+        let (line, twist) = (most.line, most.values[8]);
+        if twist.abs() > TWIST[0] {
+            return Err(format!(
+                "line {line} of {name}: the twist is {twist} rad, more than half a revolution: for degrees name the column `twist [deg]`"
+            ));
         }
-        Row { number: i + 1, written: x, place: x, lines: [[i + 2; 6]; 2], stiffness, mass }
-    };
-    let rows = made.into_iter().enumerate().map(row).collect();
-    Raw { name, convention: &CSV, line, rows, damping: None, cautions: Vec::new(), notes: Vec::new() }.deck()
+        if twist.abs() > TWIST[1] {
+            cautions.push(format!(
+                "line {line} of {name}: the twist is {twist} rad, {:.1}°: where it is given in degrees, name the column `twist [deg]`",
+                twist.to_degrees()
+            ));
+        }
+    }
+    let twist: Vec<[f64; 2]> = made.iter().map(|of| [of.values[0], -of.values[8]]).collect();
+    let line = Line::straight(to, &twist)?;
+    let rows = made.into_iter().enumerate().map(|(i, of)| row(i, &of)).collect();
+    let raw = Raw { name, convention: &CSV, line, rows, damping: None, cautions, notes: Vec::new() };
+    Ok(Deck { silent, ..raw.deck()? })
+}
+
+/// A row of a table of centres.
+fn centres(line: usize, mut row: [f64; 19], silent: Silent) -> Given {
+    let [mass, axial, flap, chord] = [row[1], row[9], row[13], row[14]];
+    if silent.shear {
+        (row[10], row[11]) = (axial, axial);
+    }
+    if row[7] == 0.0 && !silent.inertia[0] {
+        row[7] = row[4] + row[5];
+    }
+    if silent.torsion {
+        row[12] = flap.min(chord);
+    }
+    for (k, bending) in [(1, flap), (2, chord)] {
+        if silent.inertia[k] {
+            row[3 + k] = mass * bending / axial;
+        }
+    }
+    let of = Matrices::principal([row[9], row[10], row[11], row[12], row[13], row[14]], 1.0, [1.0; 3]);
+    let of = of.with_shear_centre([row[17], row[18]]).with_tension_centre([row[15], row[16]]);
+    Given { line, values: std::array::from_fn(|i| row[i]), stiffness: of.stiffness }
+}
+
+fn row(i: usize, of: &Given) -> Row {
+    let [x, m, y, z, flap, chord, product, polar, _] = of.values;
+    let mut mass = [[0.0; 6]; 6];
+    (0..3).for_each(|i| mass[i][i] = m);
+    let polar = if polar > 0.0 { polar } else { flap + chord };
+    (mass[3][3], mass[4][4], mass[5][5]) = (polar + m * (y * y + z * z), flap + m * z * z, chord + m * y * y);
+    for (i, j, value) in
+        [(0, 4, m * z), (0, 5, -m * y), (1, 3, -m * z), (2, 3, m * y), (4, 5, -product - m * y * z)]
+    {
+        (mass[i][j], mass[j][i]) = (value, value);
+    }
+    Row { number: i + 1, written: x, place: x, lines: [[of.line; 6]; 2], stiffness: of.stiffness, mass }
 }

@@ -36,6 +36,7 @@ impl Line {
     /// The line through points (u, place \[m\]) of ascending u, with the twist at rows (u, angle \[rad\]) of ascending u.
     pub(super) fn through(points: &[(f64, Vec3)], twist: &[[f64; 2]]) -> Result<Line, String> {
         let mut points = points.to_vec();
+        let is_straight = points.len() == 2;
         if let [(u, a), (v, b)] = points[..] {
             points.insert(1, (0.5 * (u + v), 0.5 * (a + b)));
         }
@@ -61,6 +62,10 @@ impl Line {
                     ));
                 }
             }
+        }
+        if is_straight {
+            // The point in the middle is for the spline alone: no element ends there.
+            line.arcs.remove(1);
         }
         Ok(line)
     }
@@ -115,22 +120,32 @@ impl Line {
         u
     }
 
+    /// The rows of the twist on both sides of a parameter.
+    fn twist_rows(&self, u: f64) -> Option<[[f64; 2]; 2]> {
+        let last = self.twist.len().checked_sub(1).filter(|last| *last > 0)?;
+        let i = self.twist.partition_point(|row| row[0] <= u).clamp(1, last) - 1;
+        Some([self.twist[i], self.twist[i + 1]])
+    }
+
     /// The twist \[rad\] at a parameter, in the sense of BeamDyn: positive about −z.
     fn twist_at(&self, u: f64) -> f64 {
-        match &self.twist[..] {
-            [] => 0.0,
-            [[_, only]] => *only,
-            rows => {
-                let i = rows.partition_point(|row| row[0] <= u).clamp(1, rows.len() - 1) - 1;
-                let ([a, f], [b, g]) = (rows[i], rows[i + 1]);
-                f + (g - f) * ((u - a) / (b - a)).clamp(0.0, 1.0)
-            }
+        match self.twist_rows(u) {
+            None => self.twist.first().map_or(0.0, |[_, only]| *only),
+            Some([[a, f], [b, g]]) => f + (g - f) * ((u - a) / (b - a)).clamp(0.0, 1.0),
         }
     }
 
     /// The twist \[rad\] at an arc length, in the sense of BeamDyn: positive about −z.
     pub fn twist(&self, s: f64) -> f64 {
         self.twist_at(self.parameter(s))
+    }
+
+    /// Rate [rad/m] of the twist along the line at an arc length \[m\], in the same sense; at a row of the twist that behind it.
+    pub fn twist_rate(&self, s: f64) -> f64 {
+        let u = self.parameter(s);
+        let inside = |[a, b]: &[[f64; 2]; 2]| a[0] < b[0] && (a[0]..=b[0]).contains(&u);
+        let rate = |[a, b]: [[f64; 2]; 2]| (b[1] - a[1]) / (b[0] - a[0]) / self.slope(u).norm();
+        self.twist_rows(u).filter(inside).map_or(0.0, rate)
     }
 
     /// Place \[m\] and axes of the section at an arc length \[m\], in the axes of the blade: the columns are tangent, height, and

@@ -54,8 +54,21 @@ pub struct Deck {
     pub cautions: Vec<String>,
     /// What the deck says and is not used, each in one sentence.
     pub notes: Vec<String>,
+    /// What the deck does not say of its sections.
+    pub silent: Silent,
     /// Parameters of the line at the rows of the table, by which matrices are linear.
     places: Vec<f64>,
+}
+
+/// What a table in CSV may leave out: numbers of an ordinary size stand for it in [`Deck::table`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Silent {
+    /// The stiffness in shear.
+    pub shear: bool,
+    /// The stiffness in torsion.
+    pub torsion: bool,
+    /// The moments of inertia about tangent, height and across.
+    pub inertia: [bool; 3],
 }
 
 impl Deck {
@@ -70,6 +83,12 @@ impl Deck {
         let (a, b) = (self.places[i], self.places[i + 1]);
         let share = if b > a { (self.line.parameter(s) - a) / (b - a) } else { 1.0 };
         self.table.between(i, share.clamp(0.0, 1.0))
+    }
+
+    /// Moments of inertia [kg·m] about the three axes of the section at an arc length \[m\], through its centre of mass; 0 where the deck is silent.
+    pub fn inertia(&self, s: f64) -> [f64; 3] {
+        let of = self.matrices(s).central_inertia();
+        std::array::from_fn(|k| if self.silent.inertia[k] { 0.0 } else { of[k] })
     }
 
     /// Arc lengths \[m\] inside the blade at which elements end: stations, points of the line, rows of the twist.
@@ -187,6 +206,6 @@ impl Raw<'_> {
         let places = rows.iter().map(|row| row.place).collect();
         cautions.extend(plausible::cautions(name, convention, &line, &rows, &table, damping));
         let table = MatrixTable::new(length, &table).map_err(|error| format!("{name}: {error}"))?;
-        Ok(Deck { length, line, table, damping, cautions, notes, places })
+        Ok(Deck { length, line, table, damping, cautions, notes, silent: Silent::default(), places })
     }
 }

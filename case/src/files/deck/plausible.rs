@@ -321,11 +321,9 @@ fn of_line(name: &str, line: &Line) -> Vec<String> {
     }
     let twist = line.largest_twist().to_degrees();
     if twist > TWIST[1] {
-        out.push(format!("{name}: the twist reaches {twist:.4}°, where it is given in degrees"));
+        out.push(format!("{name}: the twist reaches {twist:.4}°: is it in another unit?"));
     } else if twist > 0.0 && twist < TWIST[0] {
-        out.push(format!(
-            "{name}: the twist reaches only {twist:.4}°; it is in degrees: was it written in radians?"
-        ));
+        out.push(format!("{name}: the twist reaches only {twist:.4}°: were radians taken for degrees?"));
     }
     out
 }
