@@ -258,9 +258,120 @@ fn tables_give_matrices_or_centres() {
         (centres.replace("x,mass,", "x [kg],mass,"), "`kg` is a unit of"),
         (centres.replace("\n10,", "\n-10,"), "must begin at 0"),
         (centres.replace("900", "-900"), "K11 = -"),
+        (centres.replacen("900", "inf", 1), "line 2 of f: `inf` under `EA [MN]` is not a number"),
+        (centres.replace("tension-y", "tensiony2"), "a column `tensiony2` (did you mean `tension-y`?)"),
+        (
+            centres.replace("\n10,", "\n# tip\n\n-10,").replace("\n0,40", "\n-20,40"),
+            "run from x = -20 m to -10 m",
+        ),
+        (centres.replacen("11000", "-11000", 1), "line 2: K55 = -"),
+        (format!("# a blade\n\n{}", centres.replacen("7e6", "-7e6", 1)), "line 4: K44 = -"),
+        (
+            centres.replace("twist [deg]", "twist"),
+            "line 3 of f: the twist is 90 rad, more than half a revolution: for degrees name the column `twist [deg]`",
+        ),
         (centres.lines().take(2).collect::<Vec<_>>().join("\n"), "has 1 rows"),
     ] {
         let message = read(&text, Format::Csv).unwrap_err();
         assert!(message.contains(says), "{message}");
     }
+}
+
+/// A table with neither GA nor GJ nor moments of inertia, as those of blades without shear are.
+const OLDER: &str = "# a blade\nStation [m], BMassDen, EA, EI_flap, EdgStff, StrcTwst\n0, 1, 2e6, 300, 400, 20\n4, 1, 2e6, 300, 400, 0\n";
+
+#[test]
+fn what_a_table_leaves_out_it_is_silent_on() {
+    let deck = read(OLDER, Format::Csv).unwrap();
+    assert_eq!(deck.silent, deck::Silent { shear: true, torsion: true, inertia: [true; 3] });
+    let c = deck.matrices(1.0).condensed();
+    assert_eq!([c[0][0], c[2][2], c[3][3], deck.matrices(1.0).mass[0][0]], [2e6, 300.0, 400.0, 1.0]);
+    assert_eq!(deck.inertia(1.0), [0.0; 3]);
+    // Positive about the axis from root to tip: at the root the height, y without twist, is turned by 20° towards −x.
+    let (angle, height) = (20_f64.to_radians(), deck.frame(0.0).rotation.column(1));
+    assert!((height[0] + angle.sin()).abs() < 1e-12 && (height[1] - angle.cos()).abs() < 1e-12, "{height:?}");
+    assert!((deck.line.twist_rate(1.0) - angle / 4.0).abs() < 1e-12);
+    // Two rows of a straight blade make one element.
+    assert_eq!(deck.breaks(), Vec::<f64>::new());
+    // Moments of inertia about one axis alone, and GJ.
+    let chord = OLDER.replace("StrcTwst", "StrcTwst, inertia-chord, GJ");
+    let chord =
+        read(&chord.replace(", 20\n", ", 20, 0.5, 70\n").replace(", 0\n", ", 0, 0.5, 70\n"), Format::Csv)
+            .unwrap();
+    assert_eq!((chord.inertia(2.0), chord.silent.torsion), ([0.5, 0.0, 0.5], false));
+    assert!((chord.matrices(2.0).condensed()[1][1] - 70.0).abs() < 1e-12);
+    let radians = OLDER.replace("StrcTwst", "twist").replace(", 20\n", ", 1.2\n");
+    let cautions = read(&radians, Format::Csv).unwrap().cautions;
+    assert!(
+        cautions.iter().any(|text| text.contains("line 3 of f: the twist is 1.2 rad, 68.8°")),
+        "{cautions:?}"
+    );
+    assert!(
+        read(&OLDER.replace("StrcTwst", "twist [deg]").replace(", 20\n", ", 200\n"), Format::Csv).is_ok()
+    );
+}
+
+/// A cantilever by a deck, under a small force across at its tip, with more keys of its beam.
+fn cantilever(deck: &str, keys: &str) -> Result<flexion_case::Reading, String> {
+    let files: flexion_case::Contents = [("deck.csv".to_owned(), deck.as_bytes().to_vec().into())].into();
+    let text = format!(
+        "initial = {{ kind = 'static' }}\nrun = {{ duration = 0 }}\n[[beam]]\nname = 'b'\nroot = 'clamped'\nup = [0, 1, 0]\n{keys}\n\
+         section = {{ kind = 'deck', file = 'deck.csv', format = 'csv' }}\n[[load]]\non = 'b.tip'\nforce = [0, 1e-3, 0]\n"
+    );
+    flexion_case::parse_with(text, std::path::Path::new("case.toml"), &[], &files)
+        .map_err(|problems| problems.to_string())
+}
+
+#[test]
+fn a_beam_asks_a_deck_for_what_it_needs_and_no_more() {
+    let straight = OLDER.replace(", 20\n", ", 0\n");
+    let with = |title: &str, value: &str| {
+        straight
+            .replace("StrcTwst", &format!("StrcTwst, {title}"))
+            .replace(", 0\n", &format!(", 0, {value}\n"))
+    };
+    let torsion = with("GJ", "70");
+    for (deck, keys, says) in [
+        (&straight, "", "says nothing of torsion"),
+        (&torsion, "", "give `polar-inertia` of the beam"),
+        (&torsion, "shear = true", "does not say how stiff it is in shear"),
+        (&with("GJ, GA-chord, GA-flap", "70, 5e5, 5e5"), "shear = true", "has rotary inertia"),
+        (&torsion, "polar-inertia = 1\npoisson-ratio = 0.3", "is of a shape, which this section has not"),
+    ] {
+        let message = cantilever(deck, keys).map(|_| ()).unwrap_err();
+        assert!(message.contains(says), "{keys}: {message}");
+    }
+    // F L³/(3 EI) with the stiffness along the height.
+    for (deck, keys) in [(&straight, "planar = true"), (&torsion, "polar-inertia = 1")] {
+        let run = crate::written::finished(&cantilever(deck, keys).unwrap());
+        let tip = run.trajectory.column("b.tip.displacement.y").unwrap()[0];
+        assert!((tip / (1e-3 * 64.0 / 1200.0) - 1.0).abs() < 1e-6, "{keys}: {tip}");
+    }
+}
+
+/// Without shear a caution names what is left out of a deck, and nothing that it has not.
+#[test]
+fn a_beam_without_shear_says_what_it_leaves_out_of_a_deck() {
+    let plain = "x,mass,mass-y,inertia-flap,inertia-chord,EA,GA-chord,GA-flap,GJ,EI-flap,EI-chord\n0,1,0,1e-4,1e-4,2e6,5e5,5e5,70,300,400\n\
+                 4,1,0,1e-4,1e-4,2e6,5e5,5e5,70,300,400\n";
+    let off = plain.replace(",1,0,", ",1,0.03,");
+    let silent = off.replace("GA-chord,GA-flap,", "").replace("5e5,5e5,", "");
+    let said = |deck: &str, keys: &str| {
+        let cautions = cantilever(deck, keys).unwrap().case.unused_by_run();
+        cautions.into_iter().filter(|text| text.contains("is without shear")).collect::<Vec<_>>().join("\n")
+    };
+    assert_eq!(
+        said(plain, ""),
+        "beam `b` is without shear: the 6 × 6 sections of its deck are condensed at zero shear force; write `shear = true` to keep all of it"
+    );
+    assert!(said(&off, "").contains(
+        "at zero shear force; the centres of mass, up to 0.0300 m beside the axis, are put on it; write"
+    ));
+    let silent = said(&silent, "");
+    assert!(
+        silent.contains("shear: the centres of mass")
+            && silent.contains("give the deck its stiffness in shear"),
+        "{silent}"
+    );
+    assert_eq!(said(&off, "shear = true"), "");
 }

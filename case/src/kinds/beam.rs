@@ -118,6 +118,8 @@ impl fmt::Debug for Beam {
 const MOST_ROWS: usize = 4;
 /// Poisson's ratio of a shape, if it is left out: that of most metals.
 const POISSON_RATIO: f64 = 0.3;
+/// Distance of a centre of mass from the axis, over the length, that is rounding.
+const CENTRED: f64 = 1e-9;
 
 impl Beam {
     /// The joints of its ends: name, kind, and the places that they join.
@@ -187,15 +189,28 @@ impl Beam {
 
     /// What a beam without shear leaves out of its section.
     pub fn left_out(&self) -> Option<String> {
-        let table = &self.section.deck.as_ref().filter(|_| !self.shear)?.0.table;
+        let deck = &self.section.deck.as_ref().filter(|_| !self.shear)?.0;
         let offset =
             |(_, of): &(f64, Matrices)| of.mass_centre().map(f64::abs).into_iter().fold(0.0, f64::max);
-        let offset = table.rows().iter().map(offset).fold(0.0, f64::max);
-        Some(format!(
-            "the 6 × 6 sections of beam `{}` are condensed at zero shear force, their damping is left out, and their centres of mass, up to \
-             {offset:.4} m beside the axis, are put on it: write `shear = true` to keep all three",
-            self.name
-        ))
+        let offset = deck.table.rows().iter().map(offset).fold(0.0, f64::max);
+        let mut said = Vec::new();
+        if !deck.silent.shear {
+            said.push("the 6 × 6 sections of its deck are condensed at zero shear force".to_owned());
+        }
+        if deck.damping.is_some_and(|times| times.iter().any(|time| *time > 0.0)) {
+            said.push("their damping is left out".to_owned());
+        }
+        if offset > CENTRED * deck.length {
+            said.push(format!("the centres of mass, up to {offset:.4} m beside the axis, are put on it"));
+        }
+        let needed = if deck.silent.shear { "give the deck its stiffness in shear and " } else { "" };
+        (!said.is_empty()).then(|| {
+            let said = said.join("; ");
+            format!(
+                "beam `{}` is without shear: {said}; {needed}write `shear = true` to keep all of it",
+                self.name
+            )
+        })
     }
 
     /// Stiffness and inertia without shear at a station.
