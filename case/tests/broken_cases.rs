@@ -484,7 +484,10 @@ fn shear_of_a_beam_on_a_hub_is_a_key_of_its_model() {
     let problems = flexion_case::parse(case, Path::new("case.toml"), &[]).unwrap_err();
     let [problem] = &problems.list[..] else { panic!("{problems}") };
     assert_eq!(problem.key, "beam.shear");
-    assert!(problem.help.iter().any(|help| help.contains("`model.coupling = \"space-shear\"`")), "{problems}");
+    assert!(
+        problem.help.iter().any(|help| help.contains("`model.coupling = \"space-shear\"`")),
+        "{problems}"
+    );
 }
 
 #[test]
