@@ -6,7 +6,7 @@ use super::features;
 use super::kind::{Context, Keys};
 use super::kinds::basis::{self, Bases};
 use super::kinds::contact::{Contact, OnBeam, Touching, contacts};
-use super::kinds::coupling::{Coupling, fits_whole_curve};
+use super::kinds::coupling::{Coupling, SPACE, SPACE_WITH_SHEAR, fits_whole_curve};
 use super::kinds::cross_section::Section;
 use super::kinds::damping::DAMPING;
 use super::kinds::integrator::Method;
@@ -196,7 +196,8 @@ fn planar(v: &Values, model: &ModelOnHub) -> Made<()> {
         .map(|path| {
             let message =
                 format!("`{coupling}` is a model of one beam on a hub in the plane, and does not carry this");
-            Fault::new(path, message).help("write `model.coupling = \"space\"`, or leave it out")
+            let carries = if path.ends_with(".shear") { SPACE_WITH_SHEAR } else { SPACE };
+            Fault::new(path, message).help(format!("write `model.coupling = \"{carries}\"`, or leave it out"))
         })
         .collect();
     if faults.is_empty() { Ok(()) } else { Err(Faults(faults)) }

@@ -1,7 +1,6 @@
 //! Suggestions for an unknown key: where else in a case a key of its name belongs.
 
 use super::declaration::{Entry, Key, Kinds, Presence, Type};
-use super::kinds::coupling::SPACE_WITH_SHEAR;
 use super::layout;
 use super::values::join;
 
@@ -49,9 +48,6 @@ pub(super) fn synonym<'k>(name: &str, keys: impl Iterator<Item = &'k str>) -> Op
 /// What to write instead of `name`, a key that does not belong in the table `path`: the places at which a key of this
 /// name does.
 pub(super) fn advice(name: &str, path: &str) -> Option<String> {
-    if (path, name) == (layout::BEAM.key.name, "shear") {
-        return Some(format!("a beam on a hub has shear with `model.coupling = \"{SPACE_WITH_SHEAR}\"`"));
-    }
     let mut places = Vec::new();
     search(name, layout::keys(), "", 0, &mut places);
     if places.is_empty() {

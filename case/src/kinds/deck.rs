@@ -2,7 +2,7 @@
 
 use super::cross_section::Section;
 use super::curve::Curve;
-use crate::fault::{At, Fault, Faults, Made};
+use crate::fault::{At, Fault, Made};
 use crate::files::deck::{self, Deck, Format};
 use crate::keys::{File, choice, integer, keys, path};
 use crate::kind::{Choice, Context, Is, Kind};
@@ -58,7 +58,7 @@ pub static FORMAT: Choice<Format> = Choice {
             summary: "blade file of ElastoDyn: bending alone; the axis is straight, and hardly stretches where the file has no axial stiffness",
             source: "OpenFAST",
             example: r#"beam=[{length=10, up=[0, 0, 1], section={kind="deck", file="elastodyn.dat", format="elastodyn"}, root="clamped"}]"#,
-            make: &Is(Format::ElastoDyn),
+            make: &Is(Format::ElastoDyn { length: None }),
         },
         Kind {
             name: "csv",
@@ -119,32 +119,23 @@ pub fn section(OfDeck { file, format, set, subset }: OfDeck, c: &Context<'_>) ->
             if let Some((key, _)) = [("set", set), ("subset", subset)].iter().find(|(_, n)| n.is_some()) {
                 return Err(Fault::new(*key, "belongs to the format `hawc2`").into());
             }
-            other
+            match other {
+                Format::ElastoDyn { .. } => Format::ElastoDyn { length: c.length },
+                other => other,
+            }
         }
     };
     let find = |name: &str| c.files.bytes(name);
-    let fits = |of_deck: f64| match c.length.filter(|length| (length - of_deck).abs() > 1e-6 * of_deck) {
-        Some(length) => {
-            let message =
-                format!("the line of the deck is {of_deck:.6} m long, and the length of the beam {length} m");
-            Err(Faults::from(Fault::new("file", message).help("leave the length out")))
-        }
-        None => Ok(()),
-    };
-    if let Some(found) = deck::principal(&find, &file.name, format, c.length).at("file")? {
-        fits(found.length)?;
-        c.cautions.borrow_mut().extend(found.cautions);
-        let table = found.table;
-        let spatial = table.clone();
-        return Ok(Section {
-            spatial: Arc::new(move |_| Ok(Box::new(spatial.clone()))),
-            is_blade: true,
-            length: Some(found.length),
-            ..Section::planar(PlanarProjection(table))
-        });
-    }
     let deck = Arc::new(deck::read(&find, &file.name, format).at("file")?);
-    fits(deck.length)?;
+    if let Some(length) = c.length {
+        let message = format!(
+            "the line of the deck is {:.6} m long, and the length of the beam {length} m",
+            deck.length
+        );
+        if (length - deck.length).abs() > 1e-6 * deck.length {
+            return Err(Fault::new("file", message).help("leave the length out").into());
+        }
+    }
     c.cautions.borrow_mut().extend(deck.cautions.iter().chain(&deck.notes).cloned());
     let has_line = has_line(format);
     let sections = Sections { breaks: deck.breaks(), deck: Arc::clone(&deck), has_line };

@@ -419,7 +419,7 @@ fn resultants(k: InPlane, _: &Context<'_>) -> Made<Section> {
     Ok(Section::planar(section.at("")?))
 }
 
-fn general_section(k: InTwoPlanes, c: &Context<'_>) -> Made<Section> {
+fn general_section(k: InTwoPlanes, _: &Context<'_>) -> Made<Section> {
     let resultants = section::BladeResultants {
         mass: k.mass_per_length,
         axial_stiffness: k.axial_stiffness,
@@ -431,8 +431,7 @@ fn general_section(k: InTwoPlanes, c: &Context<'_>) -> Made<Section> {
         twist: 0.0,
         twist_rate: 0.0,
     };
-    let length = c.length()?;
-    let table = section::BladeTable::new(length, &[(0.0, resultants), (length, resultants)]).at("")?;
+    resultants.validate().at("")?;
     let shear = match (k.shear_stiffness, k.shear_stiffness_across) {
         (None, None) => None,
         (Some(along), Some(across)) => Some([along, across]),
@@ -446,7 +445,7 @@ fn general_section(k: InTwoPlanes, c: &Context<'_>) -> Made<Section> {
     };
     let blade = UniformBlade { resultants, shear };
     let spatial = Arc::new(move |_| Ok(Box::new(blade) as Box<dyn BladeSection>));
-    Ok(Section { spatial, ..Section::planar(section::PlanarProjection(table)) })
+    Ok(Section { spatial, ..Section::planar(section::PlanarProjection(resultants)) })
 }
 
 fn graded(k: PowerLaw, _: &Context<'_>) -> Made<Section> {

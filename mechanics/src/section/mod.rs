@@ -12,8 +12,8 @@ mod tapered;
 mod uniform;
 
 pub use blade::{
-    AsStiffAcross, BladeResultants, BladeSection, BladeTable, HomogeneousBlade, PlanarBlade,
-    PlanarProjection, Twisted, UniformBlade,
+    AsStiffAcross, BladeResultants, BladeSection, HomogeneousBlade, PlanarBlade, PlanarProjection,
+    UniformBlade,
 };
 pub use graded::{Graded, Material};
 pub use matrices::{Matrices, Matrix6};

@@ -121,27 +121,62 @@ pub(super) fn read(bytes: &[u8], name: &str) -> Result<Deck, String> {
     let titles: Vec<(String, Option<&str>)> =
         titles.map(|(title, unit)| (columns::plain(title), unit)).collect();
     let is_full = titles.iter().any(|(title, _)| title == "k11");
-    let mut silent = Silent::default();
-    let made: Vec<Given> = if is_full {
-        let full = |(line, row): (usize, [f64; 30])| {
-            let (mut stiffness, mut values) = ([[0.0; 6]; 6], row[9..].iter());
-            for (i, j) in (0..6).flat_map(|i| (i..6).map(move |j| (i, j))) {
-                let value = values.next().copied().unwrap_or(0.0);
-                (stiffness[i][j], stiffness[j][i]) = (value, value);
-            }
-            Given { line, values: std::array::from_fn(|i| row[i]), stiffness }
-        };
-        columns::with_lines(&text, name, &FULL)?.into_iter().map(full).collect()
-    } else {
-        let rows = columns::with_lines(&text, name, &CENTRES)?;
-        let none = |i: usize| rows.iter().all(|(_, row)| row[i] == 0.0);
-        silent = Silent {
-            shear: none(10) && none(11),
-            torsion: none(12),
-            inertia: [none(4) && none(5) && none(7), none(4), none(5)],
-        };
-        rows.into_iter().map(|(line, row)| centres(line, row, silent)).collect()
+    let mut cautions = Vec::new();
+    let mut twisted = |line: usize, twist: f64| {
+        if !titles.iter().any(|(title, unit)| title == "twist" && unit.is_none()) || twist.abs() <= TWIST[1] {
+            return Ok(());
+        }
+        if twist.abs() > TWIST[0] {
+            return Err(format!(
+                "line {line} of {name}: the twist is {twist} rad, more than half a revolution: for degrees name the column `twist [deg]`"
+            ));
+        }
+        cautions.push(format!(
+            "line {line} of {name}: the twist is {twist} rad, {:.1}°: where it is given in degrees, name the column `twist [deg]`",
+            twist.to_degrees()
+        ));
+        Ok(())
     };
+    let most =
+        |rows: &mut dyn Iterator<Item = (usize, f64)>| rows.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+    if !is_full {
+        let rows = columns::with_lines(&text, name, &CENTRES)?;
+        let (line, twist) = most(&mut rows.iter().map(|(line, row)| (*line, row[8]))).unwrap_or_default();
+        twisted(line, twist)?;
+        return of_centres(name, rows, cautions);
+    }
+    let full = |(line, row): (usize, [f64; 30])| {
+        let (mut stiffness, mut values) = ([[0.0; 6]; 6], row[9..].iter());
+        for (i, j) in (0..6).flat_map(|i| (i..6).map(move |j| (i, j))) {
+            let value = values.next().copied().unwrap_or(0.0);
+            (stiffness[i][j], stiffness[j][i]) = (value, value);
+        }
+        Given { line, values: std::array::from_fn(|i| row[i]), stiffness }
+    };
+    let made: Vec<Given> = columns::with_lines(&text, name, &FULL)?.into_iter().map(full).collect();
+    let (line, twist) = most(&mut made.iter().map(|of| (of.line, of.values[8]))).unwrap_or_default();
+    twisted(line, twist)?;
+    deck(name, made, Silent::default(), cautions)
+}
+
+/// The deck of the rows of a table of centres, each with its line.
+pub(super) fn of_centres(
+    name: &str,
+    rows: Vec<(usize, [f64; 19])>,
+    cautions: Vec<String>,
+) -> Result<Deck, String> {
+    let none = |i: usize| rows.iter().all(|(_, row)| row[i] == 0.0);
+    let silent = Silent {
+        shear: none(10) && none(11),
+        torsion: none(12),
+        inertia: [none(4) && none(5) && none(7), none(4), none(5)],
+    };
+    let made = rows.into_iter().map(|(line, row)| centres(line, row, silent)).collect();
+    deck(name, made, silent, cautions)
+}
+
+/// The deck of rows by their places.
+fn deck(name: &str, made: Vec<Given>, silent: Silent, cautions: Vec<String>) -> Result<Deck, String> {
     let [first, .., last] = &made[..] else {
         return Err(format!("{name} has {} rows, and a blade two or more", made.len()));
     };
@@ -157,31 +192,9 @@ pub(super) fn read(bytes: &[u8], name: &str) -> Result<Deck, String> {
             pair[1].line, pair[1].values[0], pair[0].values[0]
         ));
     }
-    let mut cautions = Vec::new();
-    if silent.inertia[0] && !silent.torsion {
-        cautions.push(format!(
-            "{name} gives a torsional stiffness without moments of inertia: a [blade] has no torsion then, and a beam in space asks for `polar-inertia`"
-        ));
-    }
-    if titles.iter().any(|(title, unit)| title == "twist" && unit.is_none()) {
-        let most =
-            made.iter().max_by(|a, b| a.values[8].abs().total_cmp(&b.values[8].abs())).unwrap_or(first);
-        let (line, twist) = (most.line, most.values[8]);
-        if twist.abs() > TWIST[0] {
-            return Err(format!(
-                "line {line} of {name}: the twist is {twist} rad, more than half a revolution: for degrees name the column `twist [deg]`"
-            ));
-        }
-        if twist.abs() > TWIST[1] {
-            cautions.push(format!(
-                "line {line} of {name}: the twist is {twist} rad, {:.1}°: where it is given in degrees, name the column `twist [deg]`",
-                twist.to_degrees()
-            ));
-        }
-    }
     let twist: Vec<[f64; 2]> = made.iter().map(|of| [of.values[0], -of.values[8]]).collect();
     let line = Line::straight(to, &twist)?;
-    let rows = made.into_iter().enumerate().map(|(i, of)| row(i, &of)).collect();
+    let rows = made.iter().enumerate().map(|(i, of)| row(i, of)).collect();
     let raw = Raw { name, convention: &CSV, line, rows, damping: None, cautions, notes: Vec::new() };
     Ok(Deck { silent, ..raw.deck()? })
 }

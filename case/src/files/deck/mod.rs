@@ -9,7 +9,7 @@
 //! | `hawc2` | structural data of HAWC2 (st), read and written |
 //! | `windio`, `yaml` | blades of windIO |
 //! | `csv` | tables with titles and units |
-//! | `principal` | sections about principal axes alone: blade files of ElastoDyn, and CSV without the columns of matrices |
+//! | `elastodyn` | blade files of ElastoDyn |
 //! | `fortran` | list-directed input |
 //! | `line` | the reference line |
 //! | `rows` | matrices of a format into those of a section, and what makes none |
@@ -17,11 +17,11 @@
 
 mod beamdyn;
 mod csv;
+mod elastodyn;
 mod fortran;
 mod hawc2;
 mod line;
 mod plausible;
-mod principal;
 mod rows;
 mod windio;
 mod yaml;
@@ -33,7 +33,6 @@ use std::sync::Arc;
 pub use beamdyn::write as write_beamdyn;
 pub use hawc2::write as write_hawc2;
 pub use line::Line;
-pub use principal::Principal;
 use rows::{Convention, Row};
 
 /// The bytes of a file by its name, as a case gives it.
@@ -60,7 +59,7 @@ pub struct Deck {
     places: Vec<f64>,
 }
 
-/// What a table in CSV may leave out: numbers of an ordinary size stand for it in [`Deck::table`].
+/// What a table may leave out: numbers of an ordinary size stand for it in [`Deck::table`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Silent {
     /// The stiffness in shear.
@@ -120,7 +119,7 @@ impl Deck {
 }
 
 /// A format of decks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Format {
     /// The primary file of BeamDyn, which names a blade file.
     BeamDyn,
@@ -136,33 +135,13 @@ pub enum Format {
     /// A table in CSV.
     Csv,
     /// A blade file of ElastoDyn.
-    ElastoDyn,
+    ElastoDyn {
+        /// Length of the blade without the hub \[m\].
+        length: Option<f64>,
+    },
 }
 
-/// Reads the sections of a deck that has no matrices, for a beam of the length \[m\] where it is given; `None` for one that has.
-///
-/// # Errors
-/// What is wrong with it, in one sentence, with file and line.
-pub fn principal(
-    find: Find<'_>,
-    name: &str,
-    format: Format,
-    length: Option<f64>,
-) -> Result<Option<Principal>, String> {
-    match (format, length) {
-        (Format::ElastoDyn, Some(length)) => principal::elastodyn(&find(name)?, name, length).map(Some),
-        (Format::ElastoDyn, None) => Err(format!(
-            "{name} gives its stations as parts of the blade: give the `length` of the beam, without the hub"
-        )),
-        (Format::Csv, _) => {
-            let bytes = find(name)?;
-            principal::is_principal(&bytes).then(|| principal::csv(&bytes, name)).transpose()
-        }
-        _ => Ok(None),
-    }
-}
-
-/// Reads the deck with matrices that the case calls `name`; `find` gives its bytes, and those of a file that it names.
+/// Reads the deck that the case calls `name`; `find` gives its bytes, and those of a file that it names.
 ///
 /// # Errors
 /// What is wrong with it, in one sentence, with file and line.
@@ -172,7 +151,7 @@ pub fn read(find: Find<'_>, name: &str, format: Format) -> Result<Deck, String> 
         Format::Hawc2 { set, subset } => hawc2::read(&find(name)?, name, set, subset),
         Format::WindIo => windio::read(&find(name)?, name),
         Format::Csv => csv::read(&find(name)?, name),
-        Format::ElastoDyn => Err(format!("{name} has no matrices")),
+        Format::ElastoDyn { length } => elastodyn::read(&find(name)?, name, length),
     }
 }
 
