@@ -1,5 +1,5 @@
 //! Writes by how much each property of a blade changes its frequencies, as Markdown: what a model that leaves it out has, in per cent.
-//! `cargo run --release --example blade_terms > docs/src/blade_terms.md`.
+//! `cargo run --release --example blade_terms > docs/src/blade_terms.md`; draws `docs/src/blade_terms.png`, too.
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
@@ -10,6 +10,7 @@ use flexion::multibody::{Axis, Flexible, Kind, Model, Multibody, Part, Rotating,
 use flexion::section::{Matrices, Matrix6};
 use flexion::system::{Dynamics, Frame};
 use flexion_case::deck::{self, Deck, Format};
+use flexion_results::plot::{Axis as Scale, Figure, Line, Marker, Panel, Series, Words};
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 use std::sync::Arc;
@@ -112,8 +113,12 @@ fn main() {
         "# What each property of a blade does to its frequencies\n\n\
          What a model has that leaves one of them out, in per cent of the frequency that it should have; at rest and at the rated speed. `cargo run --release --example blade_terms` writes \
          this page. The decks are [those of BeamDyn](guide/decks.md), without damping; the straight blade has the length of the line, and the one without offsets of the mass the moments of inertia about the \
-         centres of mass."
+         centres of mass.\n\n\
+         ![Change of each frequency by each property that is left out](blade_terms.png)\n\n\
+         The frequencies at the rated speed: along, what they are; up, what they are off by without that property."
     );
+    let markers = [Marker::Circle, Marker::Square, Marker::Triangle, Marker::Diamond, Marker::Cross];
+    let mut panels = Vec::new();
     for (title, file, hub, rated) in BLADES {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../verification/blades");
         let find =
@@ -136,6 +141,12 @@ fn main() {
             ),
         ];
         println!("\n## {title}");
+        let mut panel = Panel {
+            words: vec![Words { text: format!("{title}, {rated} rpm"), ..Words::default() }],
+            x: Scale::new("Frequency", "Hz"),
+            y: Scale::new("Error without it", "%"),
+            ..Panel::default()
+        };
         for speed in [0.0, rated] {
             let of = |blade: &Blade<'_>| blade.frequencies(hub, speed * PI / 30.0);
             let right = of(&whole);
@@ -143,13 +154,24 @@ fn main() {
             println!("\n| {speed} rpm | {} |\n|---|{}", names.join(" | "), "---|".repeat(COUNT));
             let hertz: Vec<String> = right.iter().map(|f| format!("{f:.4} Hz")).collect();
             println!("| everything | {} |", hertz.join(" | "));
-            for (name, blade) in &variants {
-                let cells = of(blade)
-                    .into_iter()
-                    .zip(&right)
-                    .map(|(f, right)| format!("{:+.2}", 100.0 * (f / right - 1.0)));
-                println!("| without {name} | {} |", cells.collect::<Vec<_>>().join(" | "));
+            for (number, (name, blade)) in variants.iter().enumerate() {
+                let off = of(blade).into_iter().zip(&right).map(|(f, right)| 100.0 * (f / right - 1.0));
+                let off: Vec<f64> = off.collect();
+                let cells: Vec<String> = off.iter().map(|off| format!("{off:+.2}")).collect();
+                println!("| without {name} | {} |", cells.join(" | "));
+                if let (true, Some(marker)) = (speed > 0.0, markers.get(number)) {
+                    let points = right.iter().copied().zip(off).collect();
+                    // One legend for both panels.
+                    let name = panels.is_empty().then_some(*name);
+                    let series =
+                        Series { line: Line::None, marker: Some(*marker), ..Series::line(name, points) };
+                    panel.series.push(series);
+                }
             }
         }
+        panels.push(panel);
     }
+    let figure = Figure { title: None, panels, columns: 2, share_x: false };
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/src/blade_terms.png");
+    std::fs::write(file, figure.draw().png().unwrap()).unwrap();
 }

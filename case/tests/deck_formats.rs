@@ -332,8 +332,8 @@ fn a_beam_asks_a_deck_for_what_it_needs_and_no_more() {
     };
     let torsion = with("GJ", "70");
     for (deck, keys, says) in [
-        (&straight, "", "says nothing of torsion"),
-        (&torsion, "", "give `polar-inertia` of the beam"),
+        (&straight, "torsion = true", "says nothing of torsion"),
+        (&torsion, "torsion = true", "give `polar-inertia` of the beam"),
         (&torsion, "shear = true", "does not say how stiff it is in shear"),
         (&with("GJ, GA-chord, GA-flap", "70, 5e5, 5e5"), "shear = true", "has rotary inertia"),
         (&torsion, "polar-inertia = 1\npoisson-ratio = 0.3", "is of a shape, which this section has not"),
@@ -342,7 +342,9 @@ fn a_beam_asks_a_deck_for_what_it_needs_and_no_more() {
         assert!(message.contains(says), "{keys}: {message}");
     }
     // F L³/(3 EI) with the stiffness along the height.
-    for (deck, keys) in [(&straight, "planar = true"), (&torsion, "polar-inertia = 1")] {
+    let both =
+        [(&straight, "planar = true"), (&straight, ""), (&torsion, ""), (&torsion, "polar-inertia = 1")];
+    for (deck, keys) in both {
         let run = crate::written::finished(&cantilever(deck, keys).unwrap());
         let tip = run.trajectory.column("b.tip.displacement.y").unwrap()[0];
         assert!((tip / (1e-3 * 64.0 / 1200.0) - 1.0).abs() < 1e-6, "{keys}: {tip}");

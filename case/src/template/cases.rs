@@ -59,6 +59,7 @@ beam = { length = "20 m", pitch = "2 deg", precone = "2.5 deg" }
 section = { kind = "deck", file = "blade.csv", format = "csv" }
 hub = { radius = "0.5 m" }
 model = { coupling = "space" }
+basis = { elements = 20 }
 "#,
         file: Some(("blade.csv", BLADE)),
     },

@@ -209,11 +209,11 @@ fn centres(line: usize, mut row: [f64; 19], silent: Silent) -> Given {
         row[7] = row[4] + row[5];
     }
     if silent.torsion {
-        row[12] = flap.min(chord);
+        row[12] = flap.abs().min(chord.abs());
     }
     for (k, bending) in [(1, flap), (2, chord)] {
         if silent.inertia[k] {
-            row[3 + k] = mass * bending / axial;
+            row[3 + k] = (mass * bending / axial).abs();
         }
     }
     let of = Matrices::principal([row[9], row[10], row[11], row[12], row[13], row[14]], 1.0, [1.0; 3]);
