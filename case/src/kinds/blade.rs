@@ -9,7 +9,9 @@ use flexion::section::Matrices;
 use flexion::system::Frame;
 
 /// Part of the length by which a section before a jump lies before it.
-const BEFORE: f64 = 1e-12;
+const BEFORE: f64 = 2e-12;
+/// Part of the length within which stations are one.
+const SAME: f64 = 1e-9;
 
 /// How far a deck is from its beam at most, between its stations.
 #[derive(Clone, Copy, Debug, Default)]
@@ -65,15 +67,17 @@ impl Beam {
         stations.iter().map(section).collect()
     }
 
-    /// The deck of the beam, with stations where its elements end, at `ends` \[m\], and keypoints there too; a deck with a line keeps its own stations. A
+    /// The deck of the beam, with stations and keypoints where its elements end, at `ends` \[m\]; that of a deck with a line keeps its own. A
     /// `straight` one has neither line nor twist.
     ///
     /// # Errors
     /// What of the beam no deck has, in one sentence.
     pub fn deck(&self, ends: &[f64], straight: bool) -> Result<(Deck, Between), String> {
         let own = self.section.deck.as_ref().filter(|(_, has_line)| *has_line);
-        let stations =
-            own.map_or(ends.to_vec(), |(deck, _)| [&[0.0][..], &deck.breaks(), &[self.length]].concat());
+        let with_ends = |breaks: &[f64]| [&[0.0], breaks, &[self.length]].concat();
+        let [points, stations] = own.map_or([ends.to_vec(), ends.to_vec()], |(deck, _)| {
+            [with_ends(&deck.line.breaks()), with_ends(deck.table.breaks())]
+        });
         let matrices = |s: f64| {
             self.matrices(s).map(|of| Matrices { damping: [[0.0; 6]; 6], ..of }).ok_or_else(|| {
                 format!(
@@ -83,31 +87,30 @@ impl Beam {
                 )
             })
         };
-        let sections = self.twisted(&stations);
-        let place = |k: usize| if straight { stations[k] } else { sections[k].0.position[2] };
         let line = if straight {
             Line::straight(self.length, &[])?
         } else {
-            if let Some(k) = (1..stations.len()).find(|k| !(place(*k) > place(k - 1))) {
+            let sections = self.twisted(&points);
+            let z: Vec<f64> = sections.iter().map(|(of, _)| of.position[2]).collect();
+            if let Some(k) = (1..z.len()).find(|k| !(z[*k] > z[k - 1])) {
                 return Err(format!(
                     "z of beam `{}` does not ascend at {:.4} m along it, as keypoints of BeamDyn do",
-                    self.name, stations[k]
+                    self.name, points[k]
                 ));
             }
-            let points: Vec<(f64, Vec3)> =
-                sections.iter().map(|(of, _)| (of.position[2], of.position)).collect();
-            let twist: Vec<[f64; 2]> = sections.iter().map(|(of, twist)| [of.position[2], *twist]).collect();
-            Line::through(&points, &twist).map_err(|error| format!("beam `{}`: {error}", self.name))?
+            let places: Vec<(f64, Vec3)> = z.iter().zip(&sections).map(|(z, (of, _))| (*z, of.position)).collect();
+            let twist: Vec<[f64; 2]> = z.iter().zip(&sections).map(|(z, (_, twist))| [*z, *twist]).collect();
+            Line::through(&places, &twist).map_err(|error| format!("beam `{}`: {error}", self.name))?
         };
         let mut rows = Vec::with_capacity(stations.len());
         let near = BEFORE * self.length;
-        for (k, s) in stations.iter().enumerate() {
-            let jumps = self.blade.jumps().iter().any(|jump| (jump - s).abs() <= near);
-            if jumps {
-                rows.push((place(k), matrices(s - 2.0 * near)?));
+        for (s, (of, _)) in stations.iter().zip(self.twisted(&stations)) {
+            let place = if straight { *s } else { of.position[2] };
+            let jump = self.blade.jumps().iter().find(|jump| (*jump - s).abs() <= SAME * self.length);
+            if let Some(jump) = jump {
+                rows.push((place, matrices(jump - near)?));
             }
-            let inside = if jumps { s + 2.0 * near } else { s.clamp(near, self.length - near) };
-            rows.push((place(k), matrices(inside)?));
+            rows.push((place, matrices(jump.map_or(s.clamp(near, self.length - near), |jump| jump + near))?));
         }
         let times = match self.section.deck.as_ref().and_then(|(deck, _)| deck.damping) {
             Some(times) => Some(times),
@@ -117,7 +120,10 @@ impl Beam {
             let help = "a section of a deck has rotary inertia about all axes (`rotary-inertia`, `rotary-inertia-across`, `polar-inertia`)";
             format!("beam `{}`: {error}; {help}", self.name)
         })?;
-        let between = self.between(&deck, &stations, straight);
+        let mut all = [points, stations].concat();
+        all.sort_by(f64::total_cmp);
+        all.dedup_by(|a, b| *a - *b <= SAME * self.length);
+        let between = self.between(&deck, &all, straight);
         Ok((deck, between))
     }
 

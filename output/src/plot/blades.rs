@@ -23,6 +23,8 @@ const OUTER: f64 = 0.75;
 const TIP: f64 = 0.5;
 /// Part of a direction in a view below which it is drawn as seen from its end.
 const END_ON: f64 = 0.5;
+/// Where the arrows of motion and axis begin, beside sections whose chords are 1 at the root.
+const FOOT: (f64, f64) = (-0.8, -0.45);
 /// Size of a head over its arrow.
 const HEAD: f64 = 0.25;
 /// Line and twist over the length, and directions, that count as none.
@@ -83,6 +85,10 @@ impl Blade {
         if self.is_deck { -section.rotation.column(2) } else { section.rotation.column(2) }
     }
 
+    fn edge(&self) -> &'static str {
+        if self.is_deck { "leading edge" } else { "end of the height" }
+    }
+
     fn outer(&self) -> Frame {
         let s = OUTER * self.length();
         let i = self.stations.iter().position(|of| *of >= s).unwrap_or(0);
@@ -116,7 +122,7 @@ impl Marks {
             let drawn: Vec<[Vec3; 2]> = blade.some(SECTIONS).iter().map(ends).collect();
             edges.push((
                 drawn.iter().map(|[end, _]| *end).collect(),
-                if blade.is_deck { "leading edge" } else { "end of the height" },
+                blade.edge(),
             ));
             if let (0, [first, .., last]) = (number, &drawn[..]) {
                 words.extend([(first[1], "root"), (last[1], "tip")]);
@@ -157,8 +163,8 @@ impl Marks {
                 color: Some(color),
                 ..Series::line(name, points.into_iter().map(flat).collect())
             };
-            for pair in &self.chords {
-                panel.series.push(line(pair.to_vec(), BETWEEN, None));
+            for (k, pair) in self.chords.iter().enumerate() {
+                panel.series.push(line(pair.to_vec(), BETWEEN, named("chords, not to scale", k == 0)));
             }
             let mut seen: Vec<&str> = Vec::new();
             let mut first = |name: &'static str| {
@@ -258,7 +264,7 @@ pub(super) fn panels(
         if let (false, Some(along), Some(across)) = (panel.equal, panel.x.range, panel.y.range) {
             let factor = (along.1 - along.0) / PANEL_WIDTH[1] * height / (across.1 - across.0);
             let words = panel.words.iter_mut().filter(|words| words.points.is_empty());
-            words.for_each(|words| words.text += &format!(", drawn {factor:.2} times as large across"));
+            words.for_each(|words| words.text += &format!(", drawn {factor:.1} times as large across"));
         }
     }
     out
@@ -279,7 +285,7 @@ fn heading(text: &str) -> Words {
 }
 
 fn of_blade(blade: &Blade, turning: Option<Turning>) -> Vec<Panel> {
-    let mut out = vec![from_root(blade, turning)];
+    let mut out = vec![along(blade, turning)];
     if blade.twist.iter().any(|twist| twist.abs() > SMALL) {
         let (sign, sense) = if blade.is_deck { (1.0, "Twist about −z") } else { (-1.0, "Twist about z") };
         let points =
@@ -324,20 +330,56 @@ fn of_blade(blade: &Blade, turning: Option<Turning>) -> Vec<Panel> {
     out
 }
 
-/// The sections seen from the root along z: y to the right, x up, chords shorter towards the tip.
-fn from_root(blade: &Blade, turning: Option<Turning>) -> Panel {
-    let inward = blade.axes.transpose();
-    let flat = |direction: Vec3| {
-        let of = inward * direction;
-        (of[1], of[0])
-    };
+/// What is to the right and what is up where sections are looked at, with the names of both, and from where that is.
+struct Seen {
+    right: Vec3,
+    up: Vec3,
+    names: [&'static str; 3],
+    /// Whether that is the motion, to the left, and the axis of rotation.
+    turns: bool,
+}
+
+impl Seen {
+    /// Of a blade that turns along the axis and against the motion, from its root; of any other along its own axes, so that its twist is positive to the left.
+    fn new(blade: &Blade, turning: Option<Turning>) -> Seen {
+        let out = turning.map_or(Vec3::ZERO, |(point, direction)| {
+            let out = blade.outer().position - point;
+            out - out.dot(direction) * direction
+        });
+        let [x, y] = [0, 1].map(|k| blade.axes.column(k));
+        match turning {
+            Some((_, up)) if out.norm() > SMALL * blade.length() => {
+                let right = out.cross(up) / out.norm();
+                let names = ["against the motion", "along the axis of rotation", "seen from the root"];
+                Seen { right, up, names, turns: true }
+            }
+            _ if blade.is_deck => {
+                let names = ["y, to the trailing edge", "x, to the suction side", "seen from the root"];
+                Seen { right: y, up: x, names, turns: false }
+            }
+            _ => {
+                let names = ["along the height of the root", "across", "seen from the tip"];
+                Seen { right: y, up: -x, names, turns: false }
+            }
+        }
+    }
+
+    fn flat(&self, direction: Vec3) -> (f64, f64) {
+        (direction.dot(self.right), direction.dot(self.up))
+    }
+}
+
+/// The sections, looked at along the blade, with chords shorter towards the tip.
+fn along(blade: &Blade, turning: Option<Turning>) -> Panel {
+    let seen = Seen::new(blade, turning);
     let times = |size: f64, (x, y): (f64, f64)| (size * x, size * y);
-    let (mut series, mut words) = (Vec::new(), vec![heading("seen from the root, chords not to scale")]);
+    let [right, up, from] = seen.names;
+    let (mut series, mut words) = (Vec::new(), vec![heading(from)]);
     let numbers = blade.some(SEEN);
     let mut edge = Vec::new();
     for (k, i) in numbers.iter().enumerate() {
         let part = k as f64 / (numbers.len().max(2) - 1) as f64;
-        let end = times(0.5 * (1.0 - (1.0 - TIP) * part), flat(blade.marked(&blade.sections[*i])));
+        let end = times(0.5 * (1.0 - (1.0 - TIP) * part), seen.flat(blade.marked(&blade.sections[*i])));
         let (color, name) = match k {
             0 => (ROOT, Some("root")),
             _ if k + 1 == numbers.len() => (LAST, Some("tip")),
@@ -346,38 +388,25 @@ fn from_root(blade: &Blade, turning: Option<Turning>) -> Panel {
         series.push(Series { color: Some(color), ..Series::line(name, vec![end, times(-1.0, end)]) });
         edge.push(end);
     }
-    let name = if blade.is_deck { "leading edge" } else { "end of the height" };
     series.push(Series {
-        name: Some(name.to_owned()),
+        name: Some(blade.edge().to_owned()),
         points: edge,
         line: Line::None,
         marker: Some(Marker::Circle),
         color: Some(EDGE),
     });
-    let mut pointer = |from: (f64, f64), to: (f64, f64), color: usize, text: &str| {
+    let mut pointer = |from: (f64, f64), by: (f64, f64), color: usize, text: &str| {
+        let to = (from.0 + by.0, from.1 + by.1);
         series.push(Series { color: Some(color), ..Series::line(None, arrow(from, to)) });
         words.push(Words { points: vec![to], text: text.to_owned(), leader: true, ..Words::default() });
     };
-    let outer = blade.outer();
-    pointer((0.0, 0.0), times(0.4, flat(blade.flap(&outer))), GREEN, "flap");
-    if let Some((point, direction)) = turning {
-        let velocity = direction.cross(outer.position - point);
-        let size = velocity.norm();
-        if size > SMALL * blade.length() {
-            let motion = flat(velocity / size);
-            pointer(times(0.62, motion), times(1.05, motion), TURNS, "motion");
-            let foot = times(-0.85, motion);
-            let axis = times(0.4, flat(direction));
-            pointer(foot, (foot.0 + axis.0, foot.1 + axis.1), TURNS, "axis");
-        }
+    pointer((0.0, 0.0), times(0.4, seen.flat(blade.flap(&blade.outer()))), GREEN, "flap");
+    if seen.turns {
+        pointer(FOOT, (-0.35, 0.0), TURNS, "motion");
+        pointer(FOOT, (0.0, 0.35), TURNS, "axis");
     }
     let axis = |name: &str, half: f64| Axis { range: Some((-half, half)), ..Axis::new(name, "") };
-    let names = if blade.is_deck {
-        ["y, to the trailing edge", "x, to the suction side"]
-    } else {
-        ["y, along the height", "x, opposite to across"]
-    };
-    Panel { x: axis(names[0], 1.35), y: axis(names[1], 0.62), series, words, equal: true }
+    Panel { x: axis(right, 1.35), y: axis(up, 0.62), series, words, equal: true }
 }
 
 #[cfg(test)]
@@ -442,18 +471,22 @@ mod tests {
         }
     }
 
-    /// Against the other sense the same blade goes ahead with its trailing edge; turned by 90° its chords stand across its motion.
+    /// Against the other sense the same blade goes ahead with its trailing edge; turned by 90° its chords stand across its motion, and its flap direction along it.
     #[test]
     fn a_blade_mounted_wrong_is_seen() {
-        let motion = |blade: &Blade, direction: Vec3| {
-            let panel = from_root(blade, Some((Vec3::ZERO, direction)));
-            panel.series.iter().find(|series| series.color == Some(TURNS)).unwrap().points[1]
-        };
         let of = blade(0.0, 0.0);
-        let (right, back) = (motion(&of, -Vec3::AXES[2]), motion(&of, Vec3::AXES[2]));
-        let quarter = motion(&of, Vec3::AXES[1]);
-        assert!(right.0 < -1.0 && back.0 > 1.0 && right.1.abs() < 1e-9, "{right:?} {back:?}");
-        assert!(quarter.0.abs() < 1e-9 && quarter.1.abs() > 1.0, "{quarter:?}");
+        let edge = |direction: Vec3| {
+            let panel = along(&of, Some((Vec3::ZERO, direction)));
+            let motion = panel.series.iter().find(|series| series.color == Some(TURNS)).unwrap();
+            assert!(motion.points[1].0 < motion.points[0].0, "{motion:?}");
+            let flap = panel.series.iter().find(|series| series.color == Some(GREEN)).unwrap();
+            (named(&panel, "leading edge").points[0], flap.points[1])
+        };
+        let near = |a: (f64, f64), b: (f64, f64)| (a.0 - b.0).abs().max((a.1 - b.1).abs()) < 1e-9;
+        let [right, back, quarter] = [-Vec3::AXES[2], Vec3::AXES[2], Vec3::AXES[1]].map(edge);
+        assert!(near(right.0, (-0.5, 0.0)) && near(right.1, (0.0, 0.4)), "{right:?}");
+        assert!(near(back.0, (0.5, 0.0)) && near(back.1, (0.0, -0.4)), "{back:?}");
+        assert!(near(quarter.0, (0.0, -0.5)) && near(quarter.1, (-0.4, 0.0)), "{quarter:?}");
     }
 
     #[test]
@@ -468,6 +501,6 @@ mod tests {
         let line = &two.panels[5];
         let (along, across) = (line.x.range.unwrap(), line.y.range.unwrap());
         let factor = (along.1 - along.0) / 250.0 * 125.0 / (across.1 - across.0);
-        assert!(line.words[0].text.contains(&format!("{factor:.2} times")), "{:?}", line.words);
+        assert!(line.words[0].text.contains(&format!("{factor:.1} times")), "{:?}", line.words);
     }
 }
