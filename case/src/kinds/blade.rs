@@ -98,7 +98,8 @@ impl Beam {
                     self.name, points[k]
                 ));
             }
-            let places: Vec<(f64, Vec3)> = z.iter().zip(&sections).map(|(z, (of, _))| (*z, of.position)).collect();
+            let places: Vec<(f64, Vec3)> =
+                z.iter().zip(&sections).map(|(z, (of, _))| (*z, of.position)).collect();
             let twist: Vec<[f64; 2]> = z.iter().zip(&sections).map(|(z, (_, twist))| [*z, *twist]).collect();
             Line::through(&places, &twist).map_err(|error| format!("beam `{}`: {error}", self.name))?
         };
@@ -165,7 +166,7 @@ impl Beam {
         if straight {
             say(!is_straight, "line and twist, which HAWC2 has in `c2_def`");
             say(has_times || stiffness > 0.0, "damping, which HAWC2 has in the file of the turbine");
-            say(true, "the product of inertia about the axes of bending, for which a st file has no column");
+            say(true, "any product of inertia about the axes of bending: a st file has no column for it");
         } else {
             say(
                 has_times && stiffness > 0.0,

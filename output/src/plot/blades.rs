@@ -120,10 +120,7 @@ impl Marks {
                 [of.position + half, of.position - half]
             };
             let drawn: Vec<[Vec3; 2]> = blade.some(SECTIONS).iter().map(ends).collect();
-            edges.push((
-                drawn.iter().map(|[end, _]| *end).collect(),
-                blade.edge(),
-            ));
+            edges.push((drawn.iter().map(|[end, _]| *end).collect(), blade.edge()));
             if let (0, [first, .., last]) = (number, &drawn[..]) {
                 words.extend([(first[1], "root"), (last[1], "tip")]);
             }
