@@ -24,7 +24,7 @@ const TIP: f64 = 0.5;
 /// Part of a direction in a view below which it is drawn as seen from its end.
 const END_ON: f64 = 0.5;
 /// Where the arrows of motion and axis begin, beside sections whose chords are 1 at the root.
-const FOOT: (f64, f64) = (-0.8, -0.45);
+const FOOT: (f64, f64) = (-0.75, -0.4);
 /// Size of a head over its arrow.
 const HEAD: f64 = 0.25;
 /// Line and twist over the length, and directions, that count as none.
@@ -347,7 +347,7 @@ impl Seen {
         match turning {
             Some((_, up)) if out.norm() > SMALL * blade.length() => {
                 let right = out.cross(up) / out.norm();
-                let names = ["against the motion", "along the axis of rotation", "seen from the root"];
+                let names = ["against the motion", "along the axis", "seen from the root"];
                 Seen { right, up, names, turns: true }
             }
             _ if blade.is_deck => {
@@ -395,12 +395,14 @@ fn along(blade: &Blade, turning: Option<Turning>) -> Panel {
     let mut pointer = |from: (f64, f64), by: (f64, f64), color: usize, text: &str| {
         let to = (from.0 + by.0, from.1 + by.1);
         series.push(Series { color: Some(color), ..Series::line(None, arrow(from, to)) });
-        words.push(Words { points: vec![to], text: text.to_owned(), leader: true, ..Words::default() });
+        let middle = (from.0 + 0.5 * by.0, from.1 + 0.5 * by.1);
+        let points = if color == TURNS { vec![middle, to] } else { vec![to] };
+        words.push(Words { points, text: text.to_owned(), leader: true, ..Words::default() });
     };
     pointer((0.0, 0.0), times(0.4, seen.flat(blade.flap(&blade.outer()))), GREEN, "flap");
     if seen.turns {
-        pointer(FOOT, (-0.35, 0.0), TURNS, "motion");
-        pointer(FOOT, (0.0, 0.35), TURNS, "axis");
+        pointer(FOOT, (-0.4, 0.0), TURNS, "motion");
+        pointer(FOOT, (0.0, 0.4), TURNS, "axis");
     }
     let axis = |name: &str, half: f64| Axis { range: Some((-half, half)), ..Axis::new(name, "") };
     Panel { x: axis(right, 1.35), y: axis(up, 0.62), series, words, equal: true }
