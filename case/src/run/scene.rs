@@ -132,7 +132,7 @@ impl Space {
                 twist,
                 stations,
                 axes: beam.axes(),
-                is_deck: beam.section.length.is_some(),
+                is_deck: beam.section.deck.is_some(),
             }
         };
         self.beams.iter().map(|(beam, _)| beam).filter(|beam| beam.is_blade()).map(blade).collect()
