@@ -1,5 +1,7 @@
 //! Blade files of ElastoDyn: the same blade as a table of matrices has the same Campbell diagram.
 
+#![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
+
 use flexion::analysis::campbell::{Campbell, HubState, Plan};
 use flexion_case::parse;
 use std::f64::consts::TAU;

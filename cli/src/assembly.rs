@@ -74,7 +74,8 @@ pub fn draw(reading: &Reading, file: &Path) -> Result<(), String> {
     let mut scene = reading.case.scene();
     scene.finish(system.as_mut(), &state);
     let joints: Vec<_> = space.joints.iter().map(|joint| (joint.name.as_str(), joint.point)).collect();
-    let drawing = assembly_figure(&scene, &joints, title(reading)).draw();
+    let turning = space.rotation.as_ref().ok().map(|of| (of.axis.point, of.axis.direction));
+    let drawing = assembly_figure(&scene, &joints, &space.blades(), turning, title(reading)).draw();
     let extension = file.extension().map(|text| text.to_string_lossy().to_lowercase());
     let bytes = match extension.as_deref() {
         Some("svg") => drawing.svg().into_bytes(),

@@ -10,6 +10,7 @@ mod case;
 mod check;
 mod compare;
 mod completions;
+mod deck;
 mod list;
 mod man;
 mod modes;
@@ -57,6 +58,8 @@ enum Command {
     Campbell(campbell::Arguments),
     /// Follow the equilibrium of a case at rest as its loads grow
     Statics(statics::Arguments),
+    /// Write a beam of a case as a blade deck for BeamDyn or HAWC2
+    Deck(deck::Arguments),
     /// Plot columns of one or several runs
     Plot(plot::Arguments),
     /// Write a page that plays the motion or the modes of a result
@@ -106,6 +109,7 @@ fn main() -> ExitCode {
         Command::Modes(arguments) => modes::modes(&arguments),
         Command::Campbell(arguments) => campbell::campbell(&arguments),
         Command::Statics(arguments) => statics::statics(&arguments),
+        Command::Deck(arguments) => deck::deck(&arguments),
         Command::Plot(arguments) => plot::plot(&arguments),
         Command::Advise(arguments) => advise::advise(&arguments),
         Command::View(arguments) => view::view(&arguments),

@@ -275,7 +275,6 @@ fn modes_of_a_blade_say_how_it_moves_and_what_is_wrong_with_it() {
     for (arguments, expected) in [
         // Ω L √(ρA/EA) > π/2: the strain would be infinite.
         (&["modes", "blade", "--speed", "300"][..], &["300 rad/s", "followed up to 157.0"][..]),
-        (&["modes", "blade", "--free-hub"], &["--free-hub"]),
         (
             &["modes", "blade", "--set", "section.file=unsorted.csv"],
             &["section.file", "unsorted.csv", "4 m", "6 m"],

@@ -91,6 +91,15 @@ artifacts! {
         StaticsSvg "statics.svg" "the plot of load and displacement",
         StaticsPng "statics.png" "the plot as pixels",
     }
+    /// A deck for BeamDyn; the first marks the directory as complete.
+    BEAMDYN {
+        BeamDynPrimary "beamdyn_primary.dat" "the line of a blade, for BeamDyn",
+        BeamDynBlade "beamdyn_blade.dat" "its sections",
+    }
+    /// A deck for HAWC2.
+    HAWC2 {
+        Hawc2Sections "hawc2.st" "the sections of a blade, for HAWC2",
+    }
     /// The files of advice; the first marks the directory as complete.
     ADVICE {
         AdviceJson "advice.json" "the cheapest run that holds a tolerance, and all that were tried",

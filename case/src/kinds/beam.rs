@@ -13,13 +13,12 @@ use crate::keys::{
 };
 use crate::kind::{Choice, Context, Is, Kind, Of, Table};
 use crate::units::{ANGLE, ANGULAR_SPEED, BENDING_STIFFNESS, FACTOR, LENGTH, ROTARY_INERTIA, VELOCITY};
-use flexion::linalg::{Mat3, Vec3};
+use flexion::linalg::Vec3;
 use flexion::multibody::rotation::frame;
 use flexion::multibody::slender::{Properties, Station};
 use flexion::multibody::{self, BeamError, shear, slender};
 use flexion::quadrature::Gauss;
 use flexion::section::{AsStiffAcross, BladeResultants, BladeSection, Matrices, Shape};
-use flexion::system::Frame;
 use flexion_results::Contour;
 use std::fmt;
 use std::sync::Arc;
@@ -74,6 +73,8 @@ pub struct Beam {
     pub length: f64,
     /// Centreline.
     pub curve: Curve,
+    /// Angle of the tip section against the root that the case asks for \[rad\].
+    pub twist: f64,
     /// The section.
     pub section: Section,
     /// The same with its stiffness out of the plane and in torsion.
@@ -177,7 +178,7 @@ impl Beam {
     }
 
     /// Stiffness and mass with shear at a station, of a section that says them.
-    fn matrices(&self, s: f64) -> Option<Matrices> {
+    pub(super) fn matrices(&self, s: f64) -> Option<Matrices> {
         let mut of = self.blade.matrices(s)?.with_tension_centre(self.tension_centre);
         for ([i, j], c) in [[3, 4], [3, 5], [4, 5]].into_iter().zip(self.coupling) {
             of.stiffness[i][j] += c;
@@ -267,14 +268,10 @@ impl Beam {
         }
         let built = if self.shear {
             self.says_shear()?;
-            let axes = |s: f64| {
-                let Station { position, tangent, normal } = (self.curve)(s);
-                Frame { position, rotation: Mat3::columns([tangent, normal, tangent.cross(normal)]) }
-            };
             // The section says its matrices all along, or nowhere.
             let nothing = Matrices::principal([0.0; 6], 0.0, [0.0; 3]);
             let matrices = |s: f64| self.matrices(middle(s)).unwrap_or(nothing);
-            shear::Beam::new(&nodes, axes, matrices).map(multibody::Beam::from)
+            shear::Beam::new(&nodes, |s| self.frame(s), matrices).map(multibody::Beam::from)
         } else {
             let properties = |s: f64| self.properties(middle(s));
             slender::Beam::new(&nodes, |s| (self.curve)(s), properties).map(multibody::Beam::from)
@@ -501,6 +498,7 @@ fn make(k: Written, c: &Context<'_>) -> Made<Beam> {
         name,
         length,
         curve,
+        twist,
         section,
         blade,
         polar: k.polar_inertia,

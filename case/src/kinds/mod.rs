@@ -3,6 +3,7 @@
 pub mod amplitude;
 pub mod basis;
 pub mod beam;
+pub mod blade;
 pub mod body;
 pub mod centreline;
 pub mod contact;

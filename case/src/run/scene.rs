@@ -9,11 +9,14 @@ use crate::space::Space;
 use flexion::hub_beam::Mount;
 use flexion::multibody::{self, Body, Marker};
 use flexion::section::Shape;
+use flexion_results::plot::Blade;
 use flexion_results::{Contour, Drawn, Part, Scene, Spring};
 use std::sync::Arc;
 
 /// Length over height of a beam drawn without knowing its height.
 const SLENDERNESS: f64 = 50.0;
+/// Equal intervals between the sections of a blade that are drawn, beside those at which it breaks.
+const SECTIONS: usize = 40;
 /// Least edge of the box of a body over its largest.
 const THINNEST: f64 = 0.02;
 
@@ -113,6 +116,26 @@ impl Space {
         };
         let springs = self.multibody.model().springs().iter();
         springs.map(|s| Spring { name: s.name.clone(), ends: [end(&s.from), end(&s.to)] }).collect()
+    }
+
+    /// Its blades, as they are drawn.
+    pub fn blades(&self) -> Vec<Blade> {
+        let blade = |beam: &Beam| {
+            let mut stations: Vec<f64> =
+                (0..=SECTIONS).map(|k| beam.length * k as f64 / SECTIONS as f64).collect();
+            stations.extend(beam.blade.breaks());
+            stations.sort_by(f64::total_cmp);
+            let twist = beam.twisted(&stations).into_iter().map(|(_, twist)| twist).collect();
+            Blade {
+                name: beam.name.clone(),
+                sections: stations.iter().map(|s| beam.frame(*s)).collect(),
+                twist,
+                stations,
+                axes: beam.axes(),
+                is_deck: beam.section.deck.is_some(),
+            }
+        };
+        self.beams.iter().map(|(beam, _)| beam).filter(|beam| beam.is_blade()).map(blade).collect()
     }
 
     /// Its bodies as boxes, and its beams.

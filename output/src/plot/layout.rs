@@ -22,6 +22,8 @@ const RISE: f64 = 9.0;
 const KEY: f64 = 27.0;
 const GAP: f64 = 5.0;
 const BETWEEN: f64 = 12.0;
+/// Size of the circle of a direction over that of a mark.
+const DIRECTION: f64 = 1.5;
 /// Steps in which a free place is sought [px].
 const STEP: f64 = 4.0;
 
@@ -260,6 +262,13 @@ pub(super) fn lines(text: &str, length: f64, font: &Font) -> Vec<String> {
     out
 }
 
+/// An open circle.
+fn ring(mut corners: Vec<Point>, ink: usize) -> Vec<Shape> {
+    let filled = Shape::Area { points: corners.clone(), ink: style::WHITE };
+    corners.extend(corners.first().copied());
+    vec![filled, Shape::Line { points: corners, ink, width: style::FRAME_WIDTH, dash: &[] }]
+}
+
 /// A mark at a place.
 pub(super) fn mark(marker: Marker, (x, y): Point, ink: usize) -> Vec<Shape> {
     let m = style::MARK;
@@ -273,11 +282,15 @@ pub(super) fn mark(marker: Marker, (x, y): Point, ink: usize) -> Vec<Shape> {
         Marker::Square => area(corners(4, 0.5, 1.25 * m), ink),
         Marker::Triangle => area(corners(3, 0.0, 1.3 * m), ink),
         Marker::Diamond => area(corners(4, 0.0, 1.3 * m), ink),
-        Marker::Ring => {
-            let mut ring = corners(16, 0.0, m);
-            let filled = Shape::Area { points: ring.clone(), ink: style::WHITE };
-            ring.extend(ring.first().copied());
-            vec![filled, Shape::Line { points: ring, ink, width: style::FRAME_WIDTH, dash: &[] }]
+        Marker::Ring => ring(corners(16, 0.0, m), ink),
+        Marker::Toward => {
+            [ring(corners(24, 0.0, DIRECTION * m), ink), area(corners(12, 0.0, 0.5 * m), ink)].concat()
+        }
+        Marker::Away => {
+            let cross = corners(4, 0.5, DIRECTION * m);
+            let lines =
+                [(0, 2), (1, 3)].map(|(i, j)| Shape::line(cross[i], cross[j], ink, style::FRAME_WIDTH));
+            [ring(corners(24, 0.0, DIRECTION * m), ink), lines.to_vec()].concat()
         }
         Marker::Cross => vec![
             Shape::line((x - m, y - m), (x + m, y + m), ink, style::LINE_WIDTH),

@@ -5,6 +5,7 @@
 //! convergence plot) is a [`Figure`] built from its own [`Panel`]s. The same figure gives the same bytes.
 
 mod axis;
+mod blades;
 mod contact;
 mod dash;
 mod decimate;
@@ -25,6 +26,7 @@ mod tests;
 mod vibration;
 mod views;
 
+pub use self::blades::{Blade, Turning};
 pub use self::contact::contact_figure;
 pub use self::draw::Drawing;
 pub use self::panels::{compare_figure, difference_figure, trajectory_figure};
@@ -190,4 +192,8 @@ pub enum Marker {
     Diamond,
     /// Diagonal cross.
     Cross,
+    /// Circle with a point: a direction towards the viewer.
+    Toward,
+    /// Circle with a cross: a direction away from the viewer.
+    Away,
 }

@@ -1,5 +1,6 @@
 //! A system in space in three views, at several times.
 
+use super::blades::{self, Blade, Marks, Turning};
 use super::contact::contact_panels;
 use super::panels::{energies, panel};
 use super::style::{PANEL_HEIGHT, PANEL_WIDTH};
@@ -26,7 +27,7 @@ const FRONT: f64 = 0.99;
 /// How far a plane is drawn beyond its outline, over that.
 const BEYOND: f64 = 10.0;
 /// The coordinates of the views.
-const VIEWS: [[usize; 2]; 3] = [[0, 1], [0, 2], [1, 2]];
+pub(super) const VIEWS: [[usize; 2]; 3] = [[0, 1], [0, 2], [1, 2]];
 const NAMES: [&str; 3] = ["x", "y", "z"];
 
 /// The figure of a run in space: three views at several times, and the first columns against time; with contacts their gaps, forces and
@@ -70,10 +71,22 @@ pub fn spatial_figure(
     Figure { title: title.map(String::from), panels, columns: 2, share_x: false }
 }
 
-/// Three views of a system at one time, with the names of its parts and of its joints, which stand at the given points \[m\].
-pub fn assembly_figure(scene: &Scene, joints: &[(&str, Vec3)], title: Option<&str>) -> Figure {
-    let points: Vec<Vec3> = joints.iter().map(|(_, point)| *point).collect();
-    let mut panels = views(scene, &points, PANEL_HEIGHT[1], AROUND_NAMES);
+/// Three views of a system at one time, with the names of its parts and of its joints, which stand at the given points \[m\]; of blades
+/// also their sections, their twist and their line, and what the system rotates about.
+pub fn assembly_figure(
+    scene: &Scene,
+    joints: &[(&str, Vec3)],
+    blades: &[Blade],
+    turning: Option<Turning>,
+    title: Option<&str>,
+) -> Figure {
+    let rows = |more: usize| (VIEWS.len() + more).div_ceil(2);
+    let of_blades = blades::panels(blades, turning, rows);
+    let marks = Marks::new(blades, turning);
+    let points: Vec<Vec3> = joints.iter().map(|(_, point)| *point).chain(marks.points()).collect();
+    let height = PANEL_HEIGHT[(rows(of_blades.len()) - 1).min(2)];
+    let mut panels = views(scene, &points, height, AROUND_NAMES);
+    marks.draw(&mut panels);
     for (panel, [i, j]) in panels.iter_mut().zip(VIEWS) {
         for (name, lines) in scene.lines(0) {
             let middle = |pair: &[Vec3]| (0.5 * (pair[0][i] + pair[1][i]), 0.5 * (pair[0][j] + pair[1][j]));
@@ -98,6 +111,7 @@ pub fn assembly_figure(scene: &Scene, joints: &[(&str, Vec3)], title: Option<&st
             panel.words.push(Words { points, text, leader: true, ..Words::default() });
         }
     }
+    panels.extend(of_blades);
     Figure { title: title.map(String::from), panels, columns: 2, share_x: false }
 }
 

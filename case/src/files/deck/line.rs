@@ -34,7 +34,7 @@ pub struct Line {
 
 impl Line {
     /// The line through points (u, place \[m\]) of ascending u, with the twist at rows (u, angle \[rad\]) of ascending u.
-    pub(super) fn through(points: &[(f64, Vec3)], twist: &[[f64; 2]]) -> Result<Line, String> {
+    pub(crate) fn through(points: &[(f64, Vec3)], twist: &[[f64; 2]]) -> Result<Line, String> {
         let mut points = points.to_vec();
         let is_straight = points.len() == 2;
         if let [(u, a), (v, b)] = points[..] {
@@ -71,7 +71,7 @@ impl Line {
     }
 
     /// A straight line along z of a length, with the twist at rows (s, angle \[rad\]).
-    pub(super) fn straight(length: f64, twist: &[[f64; 2]]) -> Result<Line, String> {
+    pub(crate) fn straight(length: f64, twist: &[[f64; 2]]) -> Result<Line, String> {
         let mut line = Line::through(&[(0.0, Vec3::ZERO), (length, Vec3([0.0, 0.0, length]))], twist)?;
         // The length to the last digit, as stations are given.
         line.arcs.iter_mut().for_each(|arc| arc[1] = arc[0]);
@@ -148,6 +148,13 @@ impl Line {
         self.twist_rows(u).filter(inside).map_or(0.0, rate)
     }
 
+    /// The axes e and g of a section without twist, of the unit tangent of the line.
+    pub(crate) fn untwisted(t: Vec3) -> (Vec3, Vec3) {
+        let square = t[0].hypot(t[2]);
+        let e = Vec3([t[2] / square, 0.0, -t[0] / square]);
+        (e, t.cross(e))
+    }
+
     /// Place \[m\] and axes of the section at an arc length \[m\], in the axes of the blade: the columns are tangent, height, and
     /// across = tangent × height.
     pub fn frame(&self, s: f64) -> Frame {
@@ -155,9 +162,7 @@ impl Line {
         let position = Vec3([0, 1, 2].map(|k| self.coordinates[k].value(u)));
         let slope = self.slope(u);
         let t = slope / slope.norm();
-        let square = t[0].hypot(t[2]);
-        let e = Vec3([t[2] / square, 0.0, -t[0] / square]);
-        let g = t.cross(e);
+        let (e, g) = Line::untwisted(t);
         let (sin, cos) = libm::sincos(self.twist_at(u));
         let height = cos * g + sin * e;
         Frame { position, rotation: Mat3::columns([t, height, t.cross(height)]) }

@@ -71,6 +71,29 @@ pub struct Silent {
 }
 
 impl Deck {
+    /// The deck of a line and of sections without damping at ascending parameters of it.
+    pub(crate) fn through(
+        line: Line,
+        rows: &[(f64, Matrices)],
+        damping: Option<[f64; 6]>,
+    ) -> Result<Deck, String> {
+        let length = line.length();
+        let damped = |of: &Matrices| damping.map_or(*of, |times| of.with_damping_times(times));
+        let table: Vec<_> = rows.iter().map(|(place, of)| (line.arc(*place), damped(of))).collect();
+        let table = MatrixTable::new(length, &table).map_err(|error| error.to_string())?;
+        let places = rows.iter().map(|(place, _)| *place).collect();
+        Ok(Deck {
+            length,
+            line,
+            table,
+            damping,
+            cautions: Vec::new(),
+            notes: Vec::new(),
+            silent: Silent::default(),
+            places,
+        })
+    }
+
     /// Place \[m\] and axes of the section at an arc length \[m\], in the axes of the blade.
     pub fn frame(&self, s: f64) -> Frame {
         self.line.frame(s)
