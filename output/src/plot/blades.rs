@@ -1,8 +1,7 @@
 //! Blades in the figure of an assembly: chords, leading edge, flap direction and the axis of rotation in the three views; sections seen
 //! from the root, twist and line in panels of their own.
 
-use super::style::{PANEL_HEIGHT, PANEL_WIDTH};
-use super::views::VIEWS;
+use super::style::{PANEL_HEIGHT, PANEL_WIDTH, VIEWS};
 use super::{Axis, Line, Marker, Panel, Series, Words};
 use flexion::linalg::{Mat3, Vec3};
 use flexion::multibody::rotation::about;

@@ -17,6 +17,9 @@ pub(super) const INKS: [[u8; 3]; 11] = [
     [0xE4, 0xE4, 0xE4],
     [0xFF, 0xFF, 0xFF],
 ];
+/// The coordinates of the three views of a system in space.
+pub(super) const VIEWS: [[usize; 2]; 3] = [[0, 1], [0, 2], [1, 2]];
+
 /// Number of colours of curves.
 pub(super) const COLORS: usize = 8;
 /// Axes and text.

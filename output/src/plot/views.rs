@@ -3,7 +3,7 @@
 use super::blades::{self, Blade, Marks, Turning};
 use super::contact::contact_panels;
 use super::panels::{energies, panel};
-use super::style::{PANEL_HEIGHT, PANEL_WIDTH};
+use super::style::{PANEL_HEIGHT, PANEL_WIDTH, VIEWS};
 use super::{Axis, Figure, Line, Marker, Panel, Series, Words};
 use crate::{Events, Scene, Trajectory};
 use flexion::linalg::Vec3;
@@ -26,8 +26,6 @@ const SMALL: f64 = 0.02;
 const FRONT: f64 = 0.99;
 /// How far a plane is drawn beyond its outline, over that.
 const BEYOND: f64 = 10.0;
-/// The coordinates of the views.
-pub(super) const VIEWS: [[usize; 2]; 3] = [[0, 1], [0, 2], [1, 2]];
 const NAMES: [&str; 3] = ["x", "y", "z"];
 
 /// The figure of a run in space: three views at several times, and the first columns against time; with contacts their gaps, forces and
