@@ -20,7 +20,7 @@ pub use super::diagram::{
 use super::rotation::NoRotation;
 use super::solved::Solved;
 pub use super::speeds::{Block, Speeds};
-use super::tracking::{Match, Tracker, changes_order, match_shapes};
+use super::tracking::{Match, Tracker, changes_order, crossing, match_shapes};
 use crate::system::System;
 
 /// Relative distance of critical speeds that count as one.
@@ -29,6 +29,10 @@ const ONE: f64 = 1e-5;
 const HALVINGS: u32 = 8;
 /// Interval of speed, over the range, in which modes that change their order cross: in a wider one they may veer.
 const CROSSING: f64 = 1.0 / 8192.0;
+/// Part of that interval on either side of the place at which a change of order is expected.
+const SIDE: f64 = 0.4;
+/// Speeds that are inserted between two by such an expectation, before intervals are halved.
+const EXPECTED: u32 = 8;
 
 /// Computes the diagram of a system. `progress` is called with the number of speeds that are done, and stops by `false`.
 ///
@@ -143,7 +147,7 @@ fn refine(
         };
         let smallest = (next.speed - before.speed) * 0.5_f64.powi(HALVINGS as i32);
         // Speeds still to be passed, the nearest last.
-        let mut ahead = vec![next];
+        let (mut ahead, mut expected) = (vec![next], 0);
         // Degenerate modes are like those before; at the first speed, like those behind.
         if let ([first], Some(to)) = (out.as_mut_slice(), ahead.last()) {
             align(to, first);
@@ -158,12 +162,24 @@ fn refine(
                 all.push(matches);
                 out.extend(ahead.pop());
             } else {
+                let place =
+                    if clear && expected < EXPECTED { crossing(from, to, &matches, count) } else { None };
+                let beside = place.and_then(|place| beside([from.speed, to.speed], place, CROSSING * range));
+                expected += u32::from(beside.is_some());
                 let middle = 0.5 * (from.speed + to.speed);
-                ahead.push(system.between(middle, from)?);
+                ahead.push(system.between(beside.unwrap_or(middle), from)?);
             }
         }
     }
     Ok((out, all))
+}
+
+/// A speed next to the `place` in an interval at which modes are expected to change their order, before it or else behind it: with both,
+/// the change is within an interval of the length `width`.
+fn beside([from, to]: [f64; 2], place: f64, width: f64) -> Option<f64> {
+    let [before, behind] = [place - SIDE * width, place + SIDE * width];
+    let side = if before - from > 0.5 * SIDE * width { before } else { behind };
+    (from < side && side < to).then_some(side)
 }
 
 /// The branches that begin as the lowest `count` modes.

@@ -1,9 +1,7 @@
 //! Crossings of the modes with the lines of whole revolutions.
 //!
-//! Between two speeds of the diagram f(Ω) = ω(Ω) − k Ω changes its sign. Its zero is enclosed by regula falsi with
-//! halved ordinates (Illinois), with the modes computed at each speed.
-//!
-//! Source: M. Dowell & P. Jarratt, *BIT* 11 (1971) 168–174, doi:10.1007/BF01934364.
+//! Between two speeds of the diagram f(Ω) = ω(Ω) − k Ω changes its sign. Its zero is that of the polynomial through the points of the
+//! branch around it, to which the modes computed at each zero are added.
 
 use super::diagram::{Branch, Crossing, Point};
 use super::solved::Solved;
@@ -25,11 +23,11 @@ pub(super) fn crossings(
     let mut out = Vec::new();
     for (branch, b) in branches.iter().enumerate() {
         for k in 1..=revolutions {
-            for (w, at) in b.points.windows(2).zip(solved) {
+            for (i, (w, at)) in b.points.windows(2).zip(solved).enumerate() {
                 let (a, c) = (above(&w[0], k), above(&w[1], k));
                 // At rest the lines all begin: a rigid motion crosses none of them there.
                 if (a > 0.0) != (c > 0.0) && w[0].mode.frequency().max(w[1].mode.frequency()) > 0.0 {
-                    let speed = located(system, at, [&w[0], &w[1]], k)
+                    let speed = located(system, at, &b.points, i, k)
                         .unwrap_or_else(|| w[0].speed + (w[1].speed - w[0].speed) * a / (a - c));
                     out.push(Crossing { branch, revolutions: k, speed });
                 }
@@ -45,16 +43,58 @@ fn above(point: &Point, k: u32) -> f64 {
     point.mode.frequency() - f64::from(k) * point.speed
 }
 
-/// The speed at which a mode crosses a line between two points of its branch, of which the first is among those `at`.
-fn located(system: &mut Speeds<'_>, at: &Solved, ends: [&Point; 2], k: u32) -> Option<f64> {
+/// The polynomial through some points, in Newton's form.
+struct Polynomial {
+    places: Vec<f64>,
+    differences: Vec<f64>,
+}
+
+impl Polynomial {
+    fn through(points: &[(f64, f64)]) -> Polynomial {
+        let places: Vec<f64> = points.iter().map(|p| p.0).collect();
+        let mut differences: Vec<f64> = points.iter().map(|p| p.1).collect();
+        for order in 1..places.len() {
+            for i in (order..places.len()).rev() {
+                differences[i] = (differences[i] - differences[i - 1]) / (places[i] - places[i - order]);
+            }
+        }
+        Polynomial { places, differences }
+    }
+
+    fn at(&self, x: f64) -> f64 {
+        let terms = self.places.iter().zip(&self.differences).rev();
+        terms.fold(0.0, |sum, (place, difference)| sum * (x - place) + difference)
+    }
+
+    /// A zero between two places at which the signs differ, by bisection.
+    fn zero(&self, mut low: f64, mut high: f64) -> f64 {
+        let rises = self.at(high) > 0.0;
+        loop {
+            let middle = 0.5 * (low + high);
+            if !(low < middle && middle < high) {
+                return middle;
+            }
+            if (self.at(middle) > 0.0) == rises {
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+    }
+}
+
+/// The speed at which a mode crosses a line between the point `i` of its branch and the next, of which the first is among those `at`.
+fn located(system: &mut Speeds<'_>, at: &Solved, points: &[Point], i: usize, k: u32) -> Option<f64> {
+    let ends = [&points[i], &points[i + 1]];
     let x = &ends[0].mode.vector;
     let number = at.modes.iter().position(|m| m.vector == *x)?;
     let mx = at.massed.get(number)?;
-    let mut low = (ends[0].speed, above(ends[0], k));
-    let mut high = (ends[1].speed, above(ends[1], k));
-    let mut last_side = 0;
+    let mut known: Vec<(f64, f64)> = (i.saturating_sub(1)..(i + 3).min(points.len()))
+        .map(|j| (points[j].speed, above(&points[j], k)))
+        .collect();
+    let (mut low, mut high) = (ends[0].speed, ends[1].speed);
+    let mut speed = Polynomial::through(&known).zero(low, high);
     for _ in 0..EVALUATIONS {
-        let speed = low.0 - low.1 * (high.0 - low.0) / (high.1 - low.1);
         let part = (speed - ends[0].speed) / (ends[1].speed - ends[0].speed);
         let near = blend(x, mx, &ends[1].mode.vector, part)?;
         // Some modes beyond it, so that it may cross them.
@@ -63,22 +103,22 @@ fn located(system: &mut Speeds<'_>, at: &Solved, ends: [&Point; 2], k: u32) -> O
             return None;
         }
         let value = mode.frequency() - f64::from(k) * speed;
-        if value.abs() <= ACCURACY * f64::from(k) * speed || high.0 - low.0 <= ACCURACY * high.0 {
+        if value.abs() <= ACCURACY * f64::from(k) * speed || high - low <= ACCURACY * high {
             return Some(speed);
         }
-        if (value > 0.0) == (low.1 > 0.0) {
-            low = (speed, value);
-            if last_side == -1 {
-                high.1 *= 0.5;
-            }
-            last_side = -1;
+        if (value > 0.0) == (above(ends[0], k) > 0.0) {
+            low = speed;
         } else {
-            high = (speed, value);
-            if last_side == 1 {
-                low.1 *= 0.5;
-            }
-            last_side = 1;
+            high = speed;
         }
+        let distance = known.iter().map(|(place, _)| (place - speed).abs()).fold(f64::INFINITY, f64::min);
+        known.push((speed, value));
+        let next = Polynomial::through(&known).zero(low, high);
+        // The slope there is wrong by about the same part as the value was, over the distance of the points.
+        if (next - speed).powi(2) <= ACCURACY * speed * distance {
+            return Some(next);
+        }
+        speed = next;
     }
     None
 }

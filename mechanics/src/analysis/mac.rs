@@ -16,7 +16,7 @@
 
 use super::solved::Solved;
 use crate::linalg::Matrix;
-use crate::linalg::eigen::each;
+use crate::linalg::eigen::Sparse;
 use num_complex::Complex64;
 
 /// Size of n over that of its terms, below which it counts as zero.
@@ -42,22 +42,8 @@ pub(super) fn gyroscopic<'a>(
     damping: &Matrix,
     vectors: impl Iterator<Item = &'a [Complex64]>,
 ) -> Vec<Vec<Complex64>> {
-    let mut entries = Vec::new();
-    each(damping, |i, j| {
-        let skew = 0.5 * (damping.get(i, j) - damping.get(j, i));
-        if skew != 0.0 {
-            entries.push((i, j, skew));
-        }
-    });
-    if entries.is_empty() {
-        return Vec::new();
-    }
-    let times = |z: &[Complex64]| {
-        let mut out = vec![Complex64::ZERO; z.len()];
-        entries.iter().filter(|(i, j, _)| *i.max(j) < z.len()).for_each(|(i, j, g)| out[*i] += z[*j] * *g);
-        out
-    };
-    vectors.map(times).collect()
+    let of = Sparse::of(&damping.skew());
+    if of.is_zero() { Vec::new() } else { vectors.map(|z| of.times(z)).collect() }
 }
 
 /// n of mode `i`, unless it vanishes.

@@ -10,6 +10,7 @@
 use super::rigid::{BELOW, RIGID, RIGID_MOTIONS, elastic_frequency};
 use super::stability::GROWTH;
 use super::stiffness::{freedoms, matrices};
+use crate::linalg::Matrix;
 use crate::linalg::eigen::{EigenError, Kind, Pair, Pencil, UNCERTAIN};
 use crate::linalg::vector::dot;
 use crate::system::{Direction, Frame, State, System};
@@ -215,19 +216,20 @@ pub fn modes(
     count: usize,
     stations: &[f64],
 ) -> Result<Modes, NoModes> {
-    modes_near(system, state, count, stations, &[])
+    let (all, multipliers) = matrices(system, state);
+    modes_near(system, state, (&all, multipliers), count, stations, &[])
 }
 
-/// As [`modes`], from approximate eigenvalues and vectors.
+/// As [`modes`], with the [matrices] of the state, from approximate eigenvalues and vectors.
 pub(super) fn modes_near(
     system: &mut dyn System,
     state: &State,
+    (all, multipliers): (&[Matrix; 3], usize),
     count: usize,
     stations: &[f64],
     near: &[(Complex64, &[Complex64])],
 ) -> Result<Modes, NoModes> {
     let size = system.size();
-    let (all, multipliers) = matrices(system, state);
     let there = freedoms(system, &all[2]);
     let count = count.min(there);
     let corrects = system.stiffness_forms(state, &[]).is_some();
@@ -242,7 +244,7 @@ pub(super) fn modes_near(
             let held = if unsound.is_err() { held_frequency(system, state) } else { None };
             let lowest = match held {
                 Some(held) => held,
-                None => elastic_frequency(&all, multipliers, count.min(there))?,
+                None => elastic_frequency(all, multipliers, count.min(there))?,
             };
             rigid = RIGID * lowest;
             Pencil::new(all.clone(), multipliers, BELOW * lowest)?
@@ -275,7 +277,7 @@ pub(super) fn modes_near(
     let counted = match complete(&pencil, &modes) {
         // Vectors to begin with may have nothing of a mode that is new among the lowest.
         Err(NoModes::Missed { .. }) if !near.is_empty() => {
-            return modes_near(system, state, count, stations, &[]);
+            return modes_near(system, state, (all, multipliers), count, stations, &[]);
         }
         counted => counted?,
     };

@@ -5,9 +5,10 @@ use super::mac::{assurance, gyroscopic};
 use super::modes::{Mode, NoModes, describe, modes_near, shares};
 use super::rotation::{NoRotation, rotate};
 use super::solved::Solved;
-use super::stability::{Stability, judge};
-use super::stiffness::{damping, mass};
+use super::stability::{Stability, judge, judge_by};
+use super::stiffness::matrices;
 use crate::linalg::Matrix;
+use crate::linalg::eigen::Sparse;
 use crate::system::{Parameter, State, System};
 use num_complex::Complex64;
 
@@ -118,44 +119,63 @@ impl<'a> Speeds<'a> {
     ) -> Option<(Mode, f64)> {
         self.state.copy_from(&from.equilibrium);
         self.speed = from.speed;
-        let solved = self.solve(speed, number + 1, Some(from)).ok()?;
-        let mac: Vec<f64> = solved.massed.iter().map(|massed| assurance(near, massed)).collect();
+        let held = self.turn(speed).ok()?;
+        let (modes, mass, _) = self.vibrate(speed, held, number + 1, Some(from)).ok()?;
+        let mac: Vec<f64> = modes.iter().map(|m| assurance(near, &mass.times(&m.vector))).collect();
         let most = mac.iter().fold(0.0_f64, |most, x| most.max(*x));
-        let alike = solved.modes.into_iter().zip(mac).filter(|(_, x)| *x > most - AMBIGUOUS);
+        let alike = modes.into_iter().zip(mac).filter(|(_, x)| *x > most - AMBIGUOUS);
         let off = |mode: &Mode| (mode.frequency() - frequency).abs();
         alike.min_by(|a, b| off(&a.0).total_cmp(&off(&b.0)))
     }
 
     /// The lowest modes at a speed, from those at another.
     fn solve(&mut self, speed: f64, count: usize, from: Option<&Solved>) -> Result<Solved, NoCampbell> {
-        let system = self.system.as_mut();
-        rotate(system, &mut self.state, self.speed, speed)?;
-        self.speed = speed;
-        let judged = judge(system, &self.state);
+        let held = self.turn(speed)?;
+        let judged = judge_by(self.system.as_ref(), &held.0, held.1);
         let (stability, negative) =
             judged.map_err(|source| NoRotation::Undecided { asked: speed, source })?;
-        let mut state = self.state.clone();
+        let (modes, mass, damping) = self.vibrate(speed, held, count, from)?;
+        let massed = modes.iter().map(|m| mass.times(&m.vector)).collect();
+        let gyroscopic = gyroscopic(&damping, modes.iter().map(|m| m.vector.as_slice()));
+        Ok(Solved { speed, modes, massed, gyroscopic, equilibrium: self.state.clone(), stability, negative })
+    }
+
+    /// Brings the system to a speed, with its hub held: its [matrices].
+    fn turn(&mut self, speed: f64) -> Result<([Matrix; 3], usize), NoCampbell> {
+        rotate(self.system.as_mut(), &mut self.state, self.speed, speed)?;
+        self.speed = speed;
+        Ok(matrices(self.system.as_mut(), &self.state))
+    }
+
+    /// The lowest modes about the state, with M and C, from the [matrices] of the system with its hub held.
+    fn vibrate(
+        &mut self,
+        speed: f64,
+        held: ([Matrix; 3], usize),
+        count: usize,
+        from: Option<&Solved>,
+    ) -> Result<(Vec<Mode>, Sparse, Matrix), NoCampbell> {
+        let system = self.system.as_mut();
+        let (mut state, (mut all, mut multipliers)) = (self.state.clone(), held);
         if self.plan.hub == HubState::Free {
             system.hold(false);
             state.v = system.initial().v;
+            (all, multipliers) = matrices(system, &state);
         }
         let near: Vec<_> = from.map_or(&[][..], |s| &s.modes).iter().take(count).collect();
         let near: Vec<_> = near.iter().map(|m| (m.eigenvalue, m.vector.as_slice())).collect();
-        let mut modes = modes_near(system, &state, count, &[], &near);
+        let mut modes = modes_near(system, &state, (&all, multipliers), count, &[], &near);
         if let Err(NoModes::Inaccurate { number, .. }) = modes
             && number > self.plan.count
         {
             // A mode that was not asked for.
             let near = &near[..near.len().min(number - 1)];
-            modes = modes_near(system, &state, number - 1, &[], near);
+            modes = modes_near(system, &state, (&all, multipliers), number - 1, &[], near);
         }
-        let modes = modes.map_err(|source| NoCampbell::Modes { speed, source })?.modes;
-        let mass = mass(system, &state);
-        let damping = damping(system, &state);
         system.hold(true);
-        let massed = modes.iter().map(|m| times(&mass, &m.vector)).collect();
-        let gyroscopic = gyroscopic(&damping, modes.iter().map(|m| m.vector.as_slice()));
-        Ok(Solved { speed, modes, massed, gyroscopic, equilibrium: self.state.clone(), stability, negative })
+        let modes = modes.map_err(|source| NoCampbell::Modes { speed, source })?.modes;
+        let [mass, damping, _] = all;
+        Ok((modes, Sparse::of(&mass), damping))
     }
 
     /// The speeds between those of two solutions at which a number that depends on the equilibrium changes, each with the numbers below
@@ -205,15 +225,4 @@ impl<'a> Speeds<'a> {
             }
         }
     }
-}
-
-/// A z
-fn times(a: &Matrix, z: &[Complex64]) -> Vec<Complex64> {
-    let mut product = vec![0.0; z.len()];
-    let mut part = |of: fn(&Complex64) -> f64| {
-        a.multiply(&z.iter().map(of).collect::<Vec<f64>>(), &mut product);
-        product.clone()
-    };
-    let (re, im) = (part(|z| z.re), part(|z| z.im));
-    re.into_iter().zip(im).map(|(re, im)| Complex64::new(re, im)).collect()
 }

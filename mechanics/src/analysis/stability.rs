@@ -11,7 +11,7 @@
 use super::rigid::{BELOW, certain_directions, elastic_frequency};
 use super::stiffness::{freedoms, matrices};
 use crate::linalg::Matrix;
-use crate::linalg::eigen::{EigenError, Pencil, UNCERTAIN, each, is_symmetric, negative_directions};
+use crate::linalg::eigen::{EigenError, Pencil, UNCERTAIN, is_symmetric, negative_directions};
 use crate::system::{State, System};
 use std::fmt;
 
@@ -85,12 +85,20 @@ pub fn stability(system: &mut dyn System, state: &State) -> Result<Stability, Ei
 /// The stability of an equilibrium, and the number of directions in which the symmetric part of K is negative.
 pub(super) fn judge(system: &mut dyn System, state: &State) -> Result<(Stability, usize), EigenError> {
     let (all, multipliers) = matrices(system, state);
+    judge_by(system, &all, multipliers)
+}
+
+/// The same by the [matrices] of the equilibrium.
+pub(super) fn judge_by(
+    system: &dyn System,
+    all: &[Matrix; 3],
+    multipliers: usize,
+) -> Result<(Stability, usize), EigenError> {
     let (damping, stiffness) = (&all[1], &all[2]);
     let symmetric = is_symmetric(stiffness);
-    let saddle =
-        if symmetric { saddle(&all, multipliers)? } else { saddle(&symmetrized(&all), multipliers)? };
+    let saddle = if symmetric { saddle(all, multipliers)? } else { saddle(&symmetrized(all), multipliers)? };
     let mut gyroscopic = false;
-    each(damping, |i, j| gyroscopic |= damping.get(i, j) * damping.get(j, i) < 0.0);
+    damping.mirrored(|a, b| gyroscopic |= a * b < 0.0);
     if symmetric && (saddle == 0 || !gyroscopic) {
         return Ok((Stability { divergent: saddle, fluttering: 0 }, saddle));
     }
@@ -99,7 +107,7 @@ pub(super) fn judge(system: &mut dyn System, state: &State) -> Result<(Stability
     let mut pencil = match direct.map(|mut pencil| (!pencil.doubts()[0]).then_some(pencil)) {
         Ok(Some(pencil)) => pencil,
         Err(error) if !matches!(error, EigenError::Singular(_)) => return Err(error),
-        _ => Pencil::new(all.clone(), multipliers, BELOW * elastic_frequency(&all, multipliers, count)?)?,
+        _ => Pencil::new(all.clone(), multipliers, BELOW * elastic_frequency(all, multipliers, count)?)?,
     };
     let pairs = pencil.pairs(count, &[])?;
     let grows = |vibrates: bool| {
@@ -122,8 +130,5 @@ fn saddle(all: &[Matrix; 3], multipliers: usize) -> Result<usize, EigenError> {
 
 /// M, C and the symmetric part of K.
 fn symmetrized([mass, damping, stiffness]: &[Matrix; 3]) -> [Matrix; 3] {
-    let mut symmetric = stiffness.clone();
-    symmetric.clear();
-    each(stiffness, |i, j| symmetric.add(i, j, 0.5 * (stiffness.get(i, j) + stiffness.get(j, i))));
-    [mass.clone(), damping.clone(), symmetric]
+    [mass.clone(), damping.clone(), stiffness.symmetrized()]
 }

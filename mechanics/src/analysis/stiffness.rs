@@ -12,11 +12,6 @@ pub fn mass(system: &mut dyn System, state: &State) -> Matrix {
     tangent(system, state, Weights::new(1.0, 0.0, 0.0), 0)
 }
 
-/// The damping ∂r/∂v at a state.
-pub(super) fn damping(system: &mut dyn System, state: &State) -> Matrix {
-    tangent(system, state, Weights::new(0.0, 1.0, 0.0), 0)
-}
-
 /// The stiffness ∂r/∂q at a state.
 pub(super) fn stiffness(system: &mut dyn System, state: &State) -> Matrix {
     tangent(system, state, Weights::new(0.0, 0.0, 1.0), 0)

@@ -31,10 +31,27 @@ impl Match {
     }
 }
 
+/// The first `count` modes whose continuation is certain, each with its number at the next speed.
+fn certain(matches: &[Match], count: usize) -> Vec<(usize, usize)> {
+    let certain = matches.iter().take(count).enumerate().filter(|(_, m)| m.is_certain());
+    certain.filter_map(|(i, m)| Some((i, m.to?))).collect()
+}
+
 /// Whether two of the first `count` modes change their order: they cross, or veer so far that the step passes over it.
 pub(super) fn changes_order(matches: &[Match], count: usize) -> bool {
-    let to: Vec<usize> = matches.iter().take(count).filter(|m| m.is_certain()).filter_map(|m| m.to).collect();
-    to.windows(2).any(|pair| pair[0] > pair[1])
+    certain(matches, count).windows(2).any(|pair| pair[0].1 > pair[1].1)
+}
+
+/// The lowest speed at which two of the first `count` modes are expected to change their order, if their eigenvalues are linear in between.
+pub(super) fn crossing(from: &Solved, to: &Solved, matches: &[Match], count: usize) -> Option<f64> {
+    let size = |of: &Solved, i: usize| of.modes[i].eigenvalue.norm();
+    let part = |pair: &[(usize, usize)]| {
+        let [(a, c), (b, d)] = [pair[0], pair[1]];
+        let [before, behind] = [size(from, b) - size(from, a), size(to, d) - size(to, c)];
+        (c > d).then_some(before / (before - behind)).filter(|part| part.is_finite())
+    };
+    let first = certain(matches, count).windows(2).filter_map(part).reduce(f64::min)?;
+    Some(from.speed + first * (to.speed - from.speed))
 }
 
 /// For each mode at one speed, its continuation at the next: largest assurance first.

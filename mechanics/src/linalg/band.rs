@@ -217,6 +217,7 @@ impl<T: Scalar> Band<T> {
             (7, 7) if self.width == 15 => self.eliminate::<7, 15>(deflate),
             (9, 9) if self.width == 19 => self.eliminate::<9, 19>(deflate),
             (15, 15) if self.width == 31 => self.eliminate::<15, 31>(deflate),
+            (23, 23) if self.width == 47 => self.eliminate::<23, 47>(deflate),
             _ => self.eliminate_from(0, deflate),
         }
     }
@@ -348,6 +349,7 @@ impl<T: Scalar> Band<T> {
             7 => self.forward_by_rows::<7>(b),
             9 => self.forward_by_rows::<9>(b),
             15 => self.forward_by_rows::<15>(b),
+            23 => self.forward_by_rows::<23>(b),
             _ => self.forward_by_rows::<0>(b),
         }
         if self.first_exchange < self.n {
@@ -418,6 +420,7 @@ impl<T: Scalar> Band<T> {
             7 => self.backward_by_rows::<7>(b),
             9 => self.backward_by_rows::<9>(b),
             15 => self.backward_by_rows::<15>(b),
+            23 => self.backward_by_rows::<23>(b),
             _ => self.backward_by_rows::<0>(b),
         }
     }

@@ -34,63 +34,12 @@ pub fn negative_pivots_of<T>(shape: [usize; 3], entry: impl Fn(usize, usize) -> 
 where
     T: Scalar + ComplexField<RealField = f64>,
 {
-    if (0..shape[0]).all(|i| entry(i, i).size() > 0.0) {
-        return pivots(shape, entry);
+    let mut rows = Rows::new(shape, entry);
+    if !rows.diagonal_is_full() {
+        rows.scale();
     }
-    let s = scales(shape, &entry);
-    pivots(shape, |i, j| entry(i, j).times(s[i] * s[j]))
-}
-
-/// The diagonal of S, by sweeps over all rows at once.
-///
-/// Source: D. Ruiz, *A scaling algorithm to equilibrate both rows and columns norms in matrices*, RAL-TR-2001-034.
-fn scales<T: Scalar>([n, half, border]: [usize; 3], entry: &impl Fn(usize, usize) -> T) -> Vec<f64> {
-    let band = n - border;
-    let mut s = vec![1.0; n];
-    for _ in 0..SWEEPS {
-        let mut largest = vec![0.0_f64; n];
-        for i in 0..n {
-            let near = i..if i < band { (i + half + 1).min(band) } else { n };
-            for j in near.chain(if i < band { band..n } else { n..n }) {
-                let size = entry(i, j).size() * s[i] * s[j];
-                largest[i] = largest[i].max(size);
-                largest[j] = largest[j].max(size);
-            }
-        }
-        s.iter_mut().zip(&largest).filter(|(_, x)| **x > 0.0).for_each(|(s, x)| *s /= x.sqrt());
-    }
-    s
-}
-
-fn pivots<T>([n, half, border]: [usize; 3], entry: impl Fn(usize, usize) -> T) -> usize
-where
-    T: Scalar + ComplexField<RealField = f64>,
-{
-    let mut window = Window::new([n, half, border], entry);
-    let (mut k, mut count) = (0, 0);
-    while k < n - border {
-        let most = (half + 1).min(n - border - k);
-        window.load(k + most + half);
-        let mut best: Option<Pivot<T>> = None;
-        for size in 1..=most {
-            let pivot = window.pivot(k, size);
-            let good = pivot.growth <= GROWTH;
-            if good || best.as_ref().is_none_or(|best| pivot.growth < best.growth) {
-                best = Some(pivot);
-            }
-            if good {
-                break;
-            }
-        }
-        let Some(pivot) = best else { break };
-        window.subtract(k, &pivot);
-        count += pivot.negative;
-        k += pivot.size;
-    }
-    if border > 0 {
-        count += window.corner.symmetric_eigen().eigenvalues.iter().filter(|x| **x < 0.0).count();
-    }
-    count
+    rows.measure();
+    rows.eliminate()
 }
 
 /// A block D of unknowns, and what its elimination does to those behind it that it is coupled with.
@@ -103,51 +52,158 @@ struct Pivot<T: Scalar> {
     solved: DMatrix<T>,
 }
 
-/// The rows of the upper triangle around the next pivot.
-struct Window<T: Scalar, F> {
-    entry: F,
+/// The rows of the upper triangle, of which those before the next pivot have been eliminated.
+struct Rows<T: Scalar> {
     band: usize,
     half: usize,
     border: usize,
-    /// Rows from the diagonal on and, behind their band, in the columns of the border; a ring.
-    rows: Vec<Vec<T>>,
-    /// Largest entry of each row.
+    /// Rows of the band from the diagonal on and, behind their band, in the columns of the border.
+    data: Vec<T>,
+    /// Largest entry of each row of the matrix.
     sizes: Vec<f64>,
-    loaded: usize,
     corner: DMatrix<T>,
-    corner_sizes: Vec<f64>,
 }
 
-impl<T: Scalar + ComplexField<RealField = f64>, F: Fn(usize, usize) -> T> Window<T, F> {
-    fn new([n, half, border]: [usize; 3], entry: F) -> Window<T, F> {
-        let (band, ring) = (n - border, 2 * half + 2);
+impl<T: Scalar + ComplexField<RealField = f64>> Rows<T> {
+    fn new([n, half, border]: [usize; 3], entry: impl Fn(usize, usize) -> T) -> Rows<T> {
+        let band = n - border;
+        let mut data = Vec::with_capacity(band * (half + 1 + border));
+        for i in 0..band {
+            let end = (i + half + 1).min(band);
+            data.extend((i..end).map(|j| entry(i, j)));
+            data.resize(data.len() + i + half + 1 - end, T::ZERO);
+            data.extend((band..n).map(|j| entry(i, j)));
+        }
         let corner = DMatrix::from_fn(border, border, |i, j| {
             let x = entry(band + i.min(j), band + i.max(j));
             if i <= j { x } else { Scalar::conj(x) }
         });
-        let largest =
-            |b: usize| (0..n).map(|i| entry(i.min(band + b), i.max(band + b)).size()).fold(0.0, f64::max);
-        let corner_sizes = (0..border).map(largest).collect();
-        let rows = vec![vec![T::ZERO; half + 1 + border]; ring];
-        Window { entry, band, half, border, rows, sizes: vec![0.0; ring], loaded: 0, corner, corner_sizes }
+        Rows { band, half, border, data, sizes: Vec::new(), corner }
     }
 
-    /// Loads the rows in front of `end`.
-    fn load(&mut self, end: usize) {
-        let (ring, entry) = (self.rows.len(), &self.entry);
-        for i in self.loaded..end.min(self.band) {
-            let row = &mut self.rows[i % ring];
-            for (j, x) in row.iter_mut().enumerate() {
-                *x = match j {
-                    j if j > self.half => entry(i, self.band + j - self.half - 1),
-                    j if i + j < self.band => entry(i, i + j),
-                    _ => T::ZERO,
-                };
+    fn width(&self) -> usize {
+        self.half + 1 + self.border
+    }
+
+    fn row(&self, i: usize) -> &[T] {
+        &self.data[i * self.width()..][..self.width()]
+    }
+
+    fn diagonal_is_full(&self) -> bool {
+        (0..self.band).all(|i| self.row(i)[0].size() > 0.0)
+            && self.corner.diagonal().iter().all(|x| x.size() > 0.0)
+    }
+
+    /// Unknowns of the entries of a row of the band, within it and in the border.
+    fn unknowns(&self, i: usize) -> [std::ops::Range<usize>; 2] {
+        [i..(i + self.half + 1).min(self.band), self.band..self.band + self.border]
+    }
+
+    /// The largest entry of each row of S A S.
+    fn largest(&self, s: &[f64]) -> Vec<f64> {
+        let mut largest = vec![0.0_f64; self.band + self.border];
+        for i in 0..self.band {
+            let (row, [within, behind]) = (self.row(i), self.unknowns(i));
+            let (near, far) = (&row[..within.len()], &row[self.half + 1..]);
+            let mut own = largest[i];
+            for (j, x) in within.zip(near).chain(behind.zip(far)) {
+                let size = x.size() * s[i] * s[j];
+                own = own.max(size);
+                largest[j] = largest[j].max(size);
             }
-            let above = (i.saturating_sub(self.half)..i).map(|j| entry(j, i).size());
-            self.sizes[i % ring] = row.iter().map(|x| x.size()).chain(above).fold(0.0, f64::max);
-            self.loaded = i + 1;
+            largest[i] = largest[i].max(own);
         }
+        for i in 0..self.border {
+            for j in 0..self.border {
+                let size = self.corner[(i, j)].size() * s[self.band + i] * s[self.band + j];
+                largest[self.band + i] = largest[self.band + i].max(size);
+            }
+        }
+        largest
+    }
+
+    fn measure(&mut self) {
+        self.sizes = self.largest(&vec![1.0; self.band + self.border]);
+    }
+
+    /// Replaces A by S A S, with S by sweeps over all rows at once.
+    ///
+    /// Source: D. Ruiz, *A scaling algorithm to equilibrate both rows and columns norms in matrices*, RAL-TR-2001-034.
+    fn scale(&mut self) {
+        let mut s = vec![1.0; self.band + self.border];
+        for _ in 0..SWEEPS {
+            let largest = self.largest(&s);
+            s.iter_mut().zip(&largest).filter(|(_, x)| **x > 0.0).for_each(|(s, x)| *s /= x.sqrt());
+        }
+        let width = self.width();
+        for i in 0..self.band {
+            let [within, behind] = self.unknowns(i);
+            let (near, far) = self.data[i * width..(i + 1) * width].split_at_mut(self.half + 1);
+            for (j, x) in within.zip(near).chain(behind.zip(far)) {
+                *x = x.times(s[i] * s[j]);
+            }
+        }
+        for i in 0..self.border {
+            for j in 0..self.border {
+                self.corner[(i, j)] = self.corner[(i, j)].times(s[self.band + i] * s[self.band + j]);
+            }
+        }
+    }
+
+    fn eliminate(mut self) -> usize {
+        let (mut k, mut count) = (0, 0);
+        let mut solved = Vec::with_capacity(self.width());
+        while k < self.band {
+            if let Some(negative) = self.eliminate_one(k, &mut solved) {
+                count += usize::from(negative);
+                k += 1;
+                continue;
+            }
+            let mut best: Option<Pivot<T>> = None;
+            for size in 1..=(self.half + 1).min(self.band - k) {
+                let pivot = self.pivot(k, size);
+                let good = pivot.growth <= GROWTH;
+                if good || best.as_ref().is_none_or(|best| pivot.growth < best.growth) {
+                    best = Some(pivot);
+                }
+                if good {
+                    break;
+                }
+            }
+            let Some(pivot) = best else { break };
+            self.subtract(k, &pivot);
+            count += pivot.negative;
+            k += pivot.size;
+        }
+        if self.border > 0 {
+            count += self.corner.symmetric_eigen().eigenvalues.iter().filter(|x| **x < 0.0).count();
+        }
+        count
+    }
+
+    /// Eliminates one unknown of a matrix without border, if its pivot is large enough: whether it is negative.
+    fn eliminate_one(&mut self, k: usize, solved: &mut Vec<T>) -> Option<bool> {
+        let (width, reach) = (self.width(), self.reach(k + 1));
+        let (head, behind) = self.data.split_at_mut((k + 1) * width);
+        let row = &head[k * width..][..reach + 1];
+        let d = row[0].re();
+        if self.border > 0 || d == 0.0 {
+            return None;
+        }
+        let (coupling, inverse) = (&row[1..], 1.0 / d);
+        solved.clear();
+        solved.extend(coupling.iter().map(|b| b.times(inverse)));
+        let changes = coupling.iter().zip(&*solved).map(|(b, x)| b.size() * x.size());
+        if !changes.zip(&self.sizes[k + 1..]).all(|(change, size)| change <= GROWTH * size) {
+            return None;
+        }
+        for (i, (row, b)) in behind.chunks_exact_mut(width).zip(coupling).enumerate() {
+            if *b != T::ZERO {
+                let b = Scalar::conj(*b);
+                row.iter_mut().zip(&solved[i..]).for_each(|(x, y)| *x -= b * *y);
+            }
+        }
+        Some(d < 0.0)
     }
 
     /// The unknowns behind a block that it may be coupled with: those of the band, and behind them the border.
@@ -157,7 +213,7 @@ impl<T: Scalar + ComplexField<RealField = f64>, F: Fn(usize, usize) -> T> Window
 
     /// Entry of row i with neighbour number `j` of a block that ends at `end`.
     fn coupled(&self, i: usize, end: usize, j: usize) -> T {
-        let row = &self.rows[i % self.rows.len()];
+        let row = self.row(i);
         match j.checked_sub(self.reach(end)) {
             Some(b) => row[self.half + 1 + b],
             None if end + j - i <= self.half => row[end + j - i],
@@ -166,20 +222,20 @@ impl<T: Scalar + ComplexField<RealField = f64>, F: Fn(usize, usize) -> T> Window
     }
 
     fn pivot(&self, k: usize, size: usize) -> Pivot<T> {
-        let (end, ring) = (k + size, self.rows.len());
+        let end = k + size;
         let others = self.reach(end) + self.border;
         let coupling = DMatrix::from_fn(size, others, |i, j| self.coupled(k + i, end, j));
         // An eigenvalue that vanishes is counted as positive and kept from dividing.
         let inverse = |x: f64| 1.0 / if x == 0.0 { f64::MIN_POSITIVE.sqrt() } else { x };
         // What a pivot changes is Bᴴ D⁻¹ B, whose entries are at most √(c_i c_j) with c_j = b_jᴴ |D|⁻¹ b_j.
         let (negative, solved, changes): (usize, DMatrix<T>, Vec<f64>) = if size == 1 {
-            let d = self.rows[k % ring][0].re();
+            let d = self.row(k)[0].re();
             let solved = coupling.map(|b| b.times(inverse(d)));
             let changes = coupling.iter().zip(&solved).map(|(b, x)| b.size() * x.size()).collect();
             (usize::from(d < 0.0), solved, changes)
         } else {
             let block = DMatrix::from_fn(size, size, |i, j| {
-                let x = self.rows[(k + i.min(j)) % ring][i.abs_diff(j).min(self.half)];
+                let x = self.row(k + i.min(j))[i.abs_diff(j).min(self.half)];
                 if i <= j { x } else { Scalar::conj(x) }
             });
             let parts = block.symmetric_eigen();
@@ -197,7 +253,7 @@ impl<T: Scalar + ComplexField<RealField = f64>, F: Fn(usize, usize) -> T> Window
         };
         let reach = others - self.border;
         let growth = changes.iter().enumerate().map(|(j, change)| {
-            let largest = if j < reach { self.sizes[(end + j) % ring] } else { self.corner_sizes[j - reach] };
+            let largest = self.sizes[if j < reach { end + j } else { self.band + j - reach }];
             if *change == 0.0 { 0.0 } else { change / largest }
         });
         let growth = growth.fold(0.0, |worst: f64, x| if x <= worst { worst } else { x });
@@ -206,7 +262,7 @@ impl<T: Scalar + ComplexField<RealField = f64>, F: Fn(usize, usize) -> T> Window
 
     /// Subtracts Bᴴ D⁻¹ B from what is behind a block.
     fn subtract(&mut self, k: usize, pivot: &Pivot<T>) {
-        let (end, ring) = (k + pivot.size, self.rows.len());
+        let (end, width) = (k + pivot.size, self.width());
         let reach = self.reach(end);
         for j in 0..reach + self.border {
             for i in 0..=j {
@@ -221,7 +277,7 @@ impl<T: Scalar + ComplexField<RealField = f64>, F: Fn(usize, usize) -> T> Window
                     }
                 } else {
                     let at = if j >= reach { self.half + 1 + j - reach } else { j - i };
-                    self.rows[(end + i) % ring][at] -= x;
+                    self.data[(end + i) * width + at] -= x;
                 }
             }
         }

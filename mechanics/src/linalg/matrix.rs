@@ -4,6 +4,9 @@ use super::vector::weighted_sum;
 use super::{Bordered, Dense, Scalar, Singular};
 use std::sync::Arc;
 
+/// Part of two entries that mirror each other by which rounding makes them differ.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
+
 /// Shape of a system's tangent.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Structure {
@@ -167,6 +170,18 @@ impl<T: Scalar> Storage<T> {
         match self {
             Storage::Dense(a) => a.get(i, j),
             Storage::Band(a) => a.get(i, j),
+        }
+    }
+
+    /// Calls `visit` with the places (i, j), j ≥ i, of all entries that it or its mirror image may hold.
+    fn mirrors(&self, mut visit: impl FnMut(usize, usize)) {
+        let (n, band, half) = match self {
+            Storage::Dense(a) => (a.order(), a.order(), a.order()),
+            Storage::Band(a) => (a.order(), a.band().order(), a.band().lower().max(a.band().upper())),
+        };
+        for i in 0..n {
+            let end = if i < band { (i + half + 1).min(band) } else { i };
+            (i..end).chain(band.max(i)..n).for_each(|j| visit(i, j));
         }
     }
 
@@ -364,6 +379,66 @@ impl<T: Scalar> Matrix<T> {
                 visit(i, x);
             }
         }
+    }
+
+    /// Calls `visit` with row, column and value of every entry that is not zero.
+    pub fn visit(&self, mut visit: impl FnMut(usize, usize, T)) {
+        let mut entry = |i: usize, j: usize, x: T| {
+            if x != T::ZERO {
+                visit(self.unknown(i), self.unknown(j), x);
+            }
+        };
+        match &self.storage {
+            Storage::Dense(a) => {
+                for (i, row) in a.data().chunks_exact(a.order().max(1)).enumerate() {
+                    row.iter().enumerate().for_each(|(j, x)| entry(i, j, *x));
+                }
+            }
+            Storage::Band(a) => {
+                let (band, n) = (a.band().order(), a.order());
+                for i in 0..band {
+                    let (first, row) = a.band().row(i);
+                    row.iter().enumerate().for_each(|(k, x)| entry(i, first + k, *x));
+                    (band..n).for_each(|j| entry(i, j, a.get(i, j)));
+                }
+                (band..n).for_each(|i| (0..n).for_each(|j| entry(i, j, a.get(i, j))));
+            }
+        }
+    }
+
+    /// Calls `visit` with every entry on and above the diagonal of the storage that it may hold, and with the one that mirrors it.
+    pub fn mirrored(&self, mut visit: impl FnMut(T, T)) {
+        self.storage.mirrors(|i, j| visit(self.storage.get(i, j), self.storage.get(j, i)));
+    }
+
+    /// ½ (A − Aᵀ), but for what rounding leaves of it.
+    pub fn skew(&self) -> Matrix<T> {
+        let mut out = self.clone();
+        let (half, to) = (T::real(0.5), out.begin());
+        to.clear();
+        self.storage.mirrors(|i, j| {
+            let [a, b] = [self.storage.get(i, j), self.storage.get(j, i)];
+            if (a - b).size() > ROUNDING * (a.size() + b.size()) {
+                to.add(i, j, half * (a - b));
+                to.add(j, i, half * (b - a));
+            }
+        });
+        out
+    }
+
+    /// ½ (A + Aᵀ)
+    pub fn symmetrized(&self) -> Matrix<T> {
+        let mut out = self.clone();
+        let half = T::real(0.5);
+        let to = out.begin();
+        self.storage.mirrors(|i, j| {
+            let off = half * (self.storage.get(j, i) - self.storage.get(i, j));
+            if off != T::ZERO {
+                to.add(i, j, off);
+                to.add(j, i, -off);
+            }
+        });
+        out
     }
 
     /// Adds `x` to entry (i, j). For hot loops use the [storage](Matrix::begin) itself.

@@ -35,6 +35,36 @@ pub fn axpy(c: f64, x: &[f64], y: &mut [f64]) {
     }
 }
 
+/// aᵢᵀ x of four vectors, which are read side by side.
+#[inline]
+pub(super) fn dots(a: [&[f64]; 4], x: &[f64]) -> [f64; 4] {
+    let [a0, a1, a2, a3] = a.map(|a| a[..x.len()].as_chunks::<2>());
+    let (pairs, rest) = x.as_chunks::<2>();
+    let mut sums = [[0.0; 2]; 4];
+    for ((((x, a0), a1), a2), a3) in pairs.iter().zip(a0.0).zip(a1.0).zip(a2.0).zip(a3.0) {
+        for k in 0..2 {
+            sums[0][k] += a0[k] * x[k];
+            sums[1][k] += a1[k] * x[k];
+            sums[2][k] += a2[k] * x[k];
+            sums[3][k] += a3[k] * x[k];
+        }
+    }
+    let last = [a0.1, a1.1, a2.1, a3.1];
+    std::array::from_fn(|i| {
+        let rest: f64 = last[i].iter().zip(rest).map(|(a, x)| a * x).sum();
+        sums[i][0] + sums[i][1] + rest
+    })
+}
+
+/// y ← y + Σ cᵢ aᵢ of four vectors.
+#[inline]
+pub(super) fn add_four(c: [f64; 4], a: [&[f64]; 4], y: &mut [f64]) {
+    let [a0, a1, a2, a3] = a.map(|a| &a[..y.len()]);
+    for ((((y, a0), a1), a2), a3) in y.iter_mut().zip(a0).zip(a1).zip(a2).zip(a3) {
+        *y += (c[0] * a0 + c[1] * a1) + (c[2] * a2 + c[3] * a3);
+    }
+}
+
 /// x ← c x
 pub fn scale(c: f64, x: &mut [f64]) {
     x.iter_mut().for_each(|x| *x *= c);

@@ -299,12 +299,17 @@ impl Dynamics for Rotating {
             self.inner.tangent(&moved, Weights::new(a, v, 0.0), &mut matrix);
             matrix
         };
-        let (mass, damping) = (of(1.0, 0.0), of(0.0, 1.0));
-        for (j, entries) in &rows {
-            for (k, [a, by_q, by_v]) in entries {
-                mass.column(*j, |i, m| out.add(i, *k, m * (w.q * by_q + w.v * by_v)));
-                damping.column(*j, |i, c| out.add(i, *k, c * w.q * a));
-            }
+        let mut of_unknown: Vec<&[(usize, [f64; 3])]> = vec![&[]; s.v.len()];
+        rows.iter().for_each(|(j, entries)| of_unknown[*j] = entries);
+        of(1.0, 0.0).visit(|i, j, m| {
+            of_unknown[j]
+                .iter()
+                .for_each(|(k, [_, by_q, by_v])| out.add(i, *k, m * (w.q * by_q + w.v * by_v)));
+        });
+        if w.q != 0.0 {
+            of(0.0, 1.0).visit(|i, j, c| {
+                of_unknown[j].iter().for_each(|(k, [a, ..])| out.add(i, *k, c * w.q * a));
+            });
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::EigenError;
 use super::operators::Operator;
 use super::small::{Ritz, hessenberg, skew, symmetric};
-use crate::linalg::vector::{axpy, dot, noise, scale};
+use crate::linalg::vector::{add_four, axpy, dot, dots, noise, scale};
 use num_complex::Complex64;
 
 /// Relative error estimate at which an eigenvalue has converged. The error of the eigenvalue of a symmetric or
@@ -11,6 +11,9 @@ use num_complex::Complex64;
 pub(super) const TOLERANCE: f64 = 1e-12;
 /// Share of a vector left by orthogonalisation below which the space is invariant.
 const INVARIANT: f64 = 1e-13;
+
+/// Share of noise in a vector to begin with of which nothing is counted: no eigenvector is missing in it.
+const STRAY: f64 = 1e-3;
 
 /// Form of the projected operator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,29 +48,39 @@ impl Space {
             let part: Vec<f64> = ritz.coefficients.iter().map(of).collect();
             let (mut z, mut dual) = (combine(&other.vectors, &part), combine(&other.duals, &part));
             let before = norm(&z, &dual);
-            self.remove(&mut z, &mut dual, None);
+            self.remove(&mut z, Some(&mut dual), &mut []);
             if norm(&z, &dual) > 1e-3 * before {
                 self.push(z, dual);
             }
         }
     }
 
-    /// The vector with these coefficients.
-    pub(super) fn vector(&self, ritz: &Ritz) -> Vec<Complex64> {
-        let [re, im] = [|c: &Complex64| c.re, |c: &Complex64| c.im]
-            .map(|of| combine(&self.vectors, &ritz.coefficients.iter().map(of).collect::<Vec<f64>>()));
+    /// The first `n` entries of the vector with these coefficients.
+    pub(super) fn vector(&self, ritz: &Ritz, n: usize) -> Vec<Complex64> {
+        let [re, im] = [|c: &Complex64| c.re, |c: &Complex64| c.im].map(|of| {
+            let mut out = vec![0.0; n];
+            let coefficients: Vec<f64> = ritz.coefficients.iter().map(of).collect();
+            add(&self.vectors, &coefficients, &mut out);
+            out
+        });
         re.into_iter().zip(im).map(|(re, im)| Complex64::new(re, im)).collect()
     }
 
-    /// Removes the part of w in the space; adds the coefficients to `h`.
-    fn remove(&self, w: &mut [f64], dual_w: &mut [f64], mut h: Option<&mut [f64]>) {
-        for (j, (z, dual)) in self.vectors.iter().zip(&self.duals).enumerate() {
-            let c = dot(w, dual);
-            if let Some(h) = h.as_deref_mut() {
-                h[j] += c;
-            }
-            axpy(-c, z, w);
-            axpy(-c, dual, dual_w);
+    /// Removes the part of w in the space, from its dual too if that is given; adds the coefficients to `h`, as far as it reaches.
+    ///
+    /// All coefficients are those of w as it comes (classical Gram–Schmidt): done twice it leaves working precision.
+    ///
+    /// Source: L. Giraud, J. Langou, M. Rozložník & J. van den Eshof, *Numer. Math.* 101 (2005) 87–100, doi:10.1007/s00211-005-0615-4.
+    fn remove(&self, w: &mut [f64], dual_w: Option<&mut [f64]>, h: &mut [f64]) {
+        let (fours, rest) = self.duals.as_chunks::<4>();
+        let mut c: Vec<f64> = Vec::with_capacity(self.duals.len());
+        fours.iter().for_each(|duals| c.extend(dots(duals.each_ref().map(Vec::as_slice), w)));
+        c.extend(rest.iter().map(|dual| dot(w, dual)));
+        h.iter_mut().zip(&c).for_each(|(h, c)| *h += c);
+        c.iter_mut().for_each(|c| *c = -*c);
+        add(&self.vectors, &c, w);
+        if let Some(dual_w) = dual_w {
+            add(&self.duals, &c, dual_w);
         }
     }
 }
@@ -76,12 +89,19 @@ fn norm(z: &[f64], dual: &[f64]) -> f64 {
     dot(z, dual).max(0.0).sqrt()
 }
 
+/// y ← y + Σ c z, as many entries as y has.
+fn add(vectors: &[Vec<f64>], coefficients: &[f64], y: &mut [f64]) {
+    let ((fours, rest), (of_fours, of_rest)) = (vectors.as_chunks::<4>(), coefficients.as_chunks::<4>());
+    for (vectors, c) in fours.iter().zip(of_fours) {
+        add_four(*c, vectors.each_ref().map(Vec::as_slice), y);
+    }
+    rest.iter().zip(of_rest).for_each(|(z, c)| axpy(*c, z, y));
+}
+
 /// Σ c z
 fn combine(vectors: &[Vec<f64>], coefficients: &[f64]) -> Vec<f64> {
     let mut out = vec![0.0; vectors.first().map_or(0, Vec::len)];
-    for (&c, z) in coefficients.iter().zip(vectors).filter(|(c, _)| **c != 0.0) {
-        axpy(c, z, &mut out);
-    }
+    add(vectors, coefficients, &mut out);
     out
 }
 
@@ -134,6 +154,8 @@ pub(super) fn krylov(
     let copies = if projection == Projection::Symmetric { 1 } else { 2 };
     let limit = (copies * (8 * wanted + 120)).min(n);
     let first_look = if start.is_some() { 2 * copies * wanted } else { copies * (2 * wanted + 6) };
+    // The fewer steps are expected to be missing, the sooner the next look.
+    let part = if projection == Projection::Hessenberg && start.is_some() { 8 } else { 4 };
     let mut next_look = first_look.min(limit);
     let mut space = Space::default();
     // Columns of the projected matrix, each with the entry below.
@@ -142,47 +164,57 @@ pub(super) fn krylov(
     let mut seeds = (0..u64::MAX).map(|k| 1 + 1000 * seed + k);
     // A new vector, orthogonal to everything, or none if everything is spanned.
     let mut begin = |operator: &mut dyn Operator, space: &Space, w: &mut [f64], dual_w: &mut [f64]| {
-        let r = match start.filter(|_| space.vectors.is_empty()) {
-            Some(start) => start.to_vec(),
-            None => noise(n, seeds.next().unwrap_or(1)),
-        };
         let mut dual = vec![0.0; n];
-        operator.dual(&r, &mut dual);
-        operator.apply(&r, &dual, w, dual_w);
-        let before = norm(w, dual_w);
+        let mut image = |r: &[f64], w: &mut [f64], dual_w: &mut [f64]| {
+            operator.dual(r, &mut dual);
+            operator.apply(r, &dual, w, dual_w);
+            operator.dual(w, dual_w);
+            norm(w, dual_w)
+        };
+        let mut random = noise(n, seeds.next().unwrap_or(1));
+        // Of what is spanned A may make so much more than of the rest that the rest would count as rounding.
+        for _ in 0..2 {
+            locked.remove(&mut random, None, &mut []);
+            space.remove(&mut random, None, &mut []);
+        }
+        let mut before = image(&random, w, dual_w);
+        if let Some(start) = start.filter(|_| space.vectors.is_empty()) {
+            let (stray, dual_stray, size) = (w.to_vec(), dual_w.to_vec(), before);
+            before = image(start, w, dual_w);
+            if projection == Projection::Hessenberg && size > 0.0 {
+                axpy(STRAY * before / size, &stray, w);
+                axpy(STRAY * before / size, &dual_stray, dual_w);
+            }
+        }
         for _ in 0..3 {
-            locked.remove(w, dual_w, None);
-            space.remove(w, dual_w, None);
+            locked.remove(w, Some(dual_w), &mut []);
+            space.remove(w, Some(dual_w), &mut []);
         }
         norm(w, dual_w) > 1e-10 * before
     };
     if !begin(operator, &space, &mut w, &mut dual_w) {
         return Ok(Found { space, pairs: Vec::new(), counting: 0, converged: wanted });
     }
-    let (mut largest, mut last): (f64, Option<(Vec<Ritz>, usize, usize)>) = (0.0, None);
+    let carries = !operator.knows_duals();
+    let mut last: Option<(Vec<Ritz>, usize, usize)> = None;
     loop {
         space.push(w.clone(), dual_w.clone());
         let m = space.vectors.len();
         operator.apply(&space.vectors[m - 1], &space.duals[m - 1], &mut w, &mut dual_w);
-        let before = norm(&w, &dual_w);
-        largest = largest.max(before);
         let mut h = vec![0.0; m + 1];
-        // Twice, unless little was removed.
         for _ in 0..2 {
-            locked.remove(&mut w, &mut dual_w, None);
-            space.remove(&mut w, &mut dual_w, Some(&mut h[..m]));
-            h[m] = norm(&w, &dual_w);
-            if h[m] > 0.1 * before {
-                break;
-            }
-            // Cancellation leaves rounding errors of the dual that are not those of the vector.
-            operator.dual(&w, &mut dual_w);
+            locked.remove(&mut w, carries.then_some(&mut dual_w), &mut []);
+            space.remove(&mut w, carries.then_some(&mut dual_w), &mut h[..m]);
         }
-        if !before.is_finite() {
+        operator.dual(&w, &mut dual_w);
+        h[m] = norm(&w, &dual_w);
+        let size = dot(&h, &h).sqrt();
+        if !size.is_finite() {
             return Err(EigenError::Projection(m));
         }
         let mut exhausted = m == limit && limit == n;
-        if h[m] <= INVARIANT * largest {
+        // Over what this vector becomes: next to a critical speed others become larger by more than the digits there are.
+        if h[m] <= INVARIANT * size {
             h[m] = 0.0;
             exhausted |= !begin(operator, &space, &mut w, &mut dual_w);
         }
@@ -190,7 +222,7 @@ pub(super) fn krylov(
         if m < next_look && !exhausted {
             continue;
         }
-        next_look = (m + m / 4 + 2).min(limit);
+        next_look = (m + m / part + 2).min(limit);
         let ritz = match projection {
             Projection::Symmetric => symmetric(&columns),
             Projection::Skew => skew(&columns),

@@ -13,6 +13,9 @@
 //! its eigenvalues stay on the imaginary axis to the last digit. The dual K x of a vector is known before x is, so
 //! that K itself multiplies nothing.
 //!
+//! **Near pairs.** A space may begin with a sum of approximate eigenvectors. What it finds is counted by inertia; of damped vibrations, which no
+//! inertia counts, the start has a share of noise too, and those of the system without the symmetric part of C are counted.
+//!
 //! **Fine meshes.** The condition number of the stiffness of n bending elements is of the order of n⁴, and a rounding
 //! of its entries, K + δK with |δK| ≤ ε|K|, moves an eigenvalue by |δλ|/|λ| ≤ ½ε |x|ᵀ|K||x|/|λ|², which
 //! [`Pencil::rounding`] gives. Residuals and counts are right to that bound.

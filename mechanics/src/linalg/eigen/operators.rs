@@ -8,11 +8,16 @@ pub trait Operator {
     /// Length of its vectors.
     fn dimension(&self) -> usize;
 
-    /// w = A z, and the dual of w.
+    /// w = A z, and what [`Operator::dual`] does not give of the dual of w.
     fn apply(&mut self, z: &[f64], dual: &[f64], w: &mut [f64], dual_w: &mut [f64]);
 
     /// The dual of z, as far as [`Operator::apply`] needs it.
     fn dual(&mut self, z: &[f64], dual: &mut [f64]);
+
+    /// Whether that is the whole dual.
+    fn knows_duals(&self) -> bool {
+        true
+    }
 }
 
 /// x ↦ K⁻¹ M x with the dual M x.
@@ -23,10 +28,9 @@ impl Operator for Symmetric<'_> {
         self.0.order()
     }
 
-    fn apply(&mut self, _z: &[f64], dual: &[f64], w: &mut [f64], dual_w: &mut [f64]) {
+    fn apply(&mut self, _z: &[f64], dual: &[f64], w: &mut [f64], _dual_w: &mut [f64]) {
         w.copy_from_slice(dual);
         self.0.solve(w);
-        self.0.mass().multiply(w, dual_w);
     }
 
     fn dual(&mut self, z: &[f64], dual: &mut [f64]) {
@@ -45,7 +49,7 @@ impl Operator for Gyroscopic<'_> {
     fn apply(&mut self, z: &[f64], dual: &[f64], w: &mut [f64], dual_w: &mut [f64]) {
         let n = self.0.order();
         let (wx, wy) = w.split_at_mut(n);
-        let (kx, my) = dual_w.split_at_mut(n);
+        let kx = &mut dual_w[..n];
         self.0.damping().multiply(&z[..n], kx);
         for (f, my) in kx.iter_mut().zip(&dual[n..]) {
             *f = -*f - my;
@@ -53,7 +57,10 @@ impl Operator for Gyroscopic<'_> {
         wx.copy_from_slice(kx);
         self.0.solve(wx);
         wy.copy_from_slice(&z[..n]);
-        self.0.mass().multiply(wy, my);
+    }
+
+    fn knows_duals(&self) -> bool {
+        false
     }
 
     fn dual(&mut self, z: &[f64], dual: &mut [f64]) {
@@ -107,7 +114,7 @@ impl Operator for General<'_> {
         2 * self.pencil.order()
     }
 
-    fn apply(&mut self, z: &[f64], dual: &[f64], w: &mut [f64], dual_w: &mut [f64]) {
+    fn apply(&mut self, z: &[f64], dual: &[f64], w: &mut [f64], _dual_w: &mut [f64]) {
         let n = self.pencil.order();
         let shift = self.pencil.shift();
         let (wx, wy) = w.split_at_mut(n);
@@ -123,7 +130,6 @@ impl Operator for General<'_> {
         for ((wy, wx), x) in wy.iter_mut().zip(wx.iter()).zip(&z[..n]) {
             *wy = x + shift * wx;
         }
-        self.duals(w, dual_w);
     }
 
     fn dual(&mut self, z: &[f64], dual: &mut [f64]) {

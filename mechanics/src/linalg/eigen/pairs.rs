@@ -15,8 +15,9 @@ const EQUAL: f64 = 1e-6;
 impl Pencil {
     /// At least `count` eigenpairs next to the shift (fewer if there are fewer), ascending in |λ|, Im λ ≥ 0. Of a real
     /// pair ±λ of a conservative pencil the growing one is given. With damping, real λ < 0 are not counted and given too, as far as they
-    /// are nearer to the shift than the last that counts. `near` are approximate pairs, with which a conservative
-    /// pencil begins: the Krylov space of a sum of eigenvectors is spanned by them.
+    /// are nearer to the shift than the last that counts. `near` are approximate pairs, with which it begins: the Krylov space of a sum of
+    /// eigenvectors is spanned by them. The pairs found are then counted, those of damped vibrations as if without their damping, and if the
+    /// numbers differ they are looked for anew.
     ///
     /// # Errors
     /// [`EigenError`] when they do not converge.
@@ -27,7 +28,14 @@ impl Pencil {
     ) -> Result<Vec<Pair>, EigenError> {
         let found = match self.kind() {
             Kind::Symmetric | Kind::Gyroscopic => self.conservative(count, near)?,
-            Kind::General => self.general(count)?,
+            Kind::General => {
+                let warm = (!near.is_empty() && self.can_count()).then(|| self.sum(near));
+                let found = warm.and_then(|start| self.general(count, Some(&start)).ok());
+                match found.filter(|found| self.counts(found)) {
+                    Some(found) => found,
+                    None => self.general(count, None)?,
+                }
+            }
         };
         let snaps = self.kind() == Kind::General && self.is_conservative();
         let mut pairs: Vec<Pair> =
@@ -87,9 +95,7 @@ impl Pencil {
                 } else {
                     Complex64::new(0.0, (1.0 / pair.value).im)
                 };
-                let mut vector = ritz.space.vector(pair);
-                vector.truncate(n);
-                found.push((value, vector));
+                found.push((value, ritz.space.vector(pair, n)));
             }
             found.sort_by(|a, b| a.0.norm().total_cmp(&b.0.norm()));
             if found.len() == before || self.is_complete(&found, count) {
@@ -126,7 +132,20 @@ impl Pencil {
         self.count_below(limit).is_none_or(|counted| counted <= below)
     }
 
-    fn general(&mut self, count: usize) -> Result<Vec<(Complex64, Vec<Complex64>)>, EigenError> {
+    /// Whether the number of vibrations below the widest gap among the upper half of those found is that without damping.
+    fn counts(&self, found: &[(Complex64, Vec<Complex64>)]) -> bool {
+        let mut sizes: Vec<f64> = found.iter().map(|(value, _)| value.norm()).collect();
+        sizes.sort_by(f64::total_cmp);
+        let gaps = (sizes.len() / 2..sizes.len().saturating_sub(1)).map(|i| (i + 1, sizes[i], sizes[i + 1]));
+        let widest = gaps.max_by(|a, b| (a.2 / a.1).total_cmp(&(b.2 / b.1)));
+        widest.is_some_and(|(number, low, high)| self.count_undamped((low * high).sqrt()) == number)
+    }
+
+    fn general(
+        &mut self,
+        count: usize,
+        start: Option<&[f64]>,
+    ) -> Result<Vec<(Complex64, Vec<Complex64>)>, EigenError> {
         let (n, shift, conservative) = (self.order(), self.shift(), self.is_conservative());
         let value = |theta: Complex64| {
             let value = 1.0 / theta + shift;
@@ -139,7 +158,7 @@ impl Pencil {
             counts: &|theta| theta.norm() > 0.0 && !decays(value(theta)),
             projection: Projection::Hessenberg,
             tolerance: TOLERANCE,
-            start: None,
+            start,
             seed: 0,
         };
         let found = krylov(&mut operator, &Space::default(), search)?;
@@ -152,8 +171,7 @@ impl Pencil {
         let mut pairs = Vec::with_capacity(found.pairs.len());
         for r in found.pairs.iter().filter(|r| r.value.norm() > 0.0) {
             let value = value(r.value);
-            let mut vector = found.space.vector(r);
-            vector.truncate(n);
+            let vector = found.space.vector(r, n);
             if decays(value) {
                 // The other of a pair ±λ, unless it is zero but for rounding.
                 if conservative && self.rounding(value, &vector) < UNCERTAIN {

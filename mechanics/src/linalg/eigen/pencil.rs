@@ -1,6 +1,6 @@
 //! The three matrices of an eigenproblem, their kind, and counts of its eigenvalues.
 
-use super::sparse::{Sparse, each};
+use super::sparse::Sparse;
 use super::{EigenError, Pair};
 use crate::linalg::Matrix;
 use crate::linalg::inertia::{negative_pivots_of, shape};
@@ -28,7 +28,7 @@ pub struct Pencil {
     damping: Matrix,
     stiffness: Matrix,
     /// |K|, entry by entry.
-    sizes: Matrix,
+    sizes: Sparse,
     /// The entries of M and C.
     entries: [Sparse; 2],
     /// Q(σ), factored.
@@ -39,6 +39,8 @@ pub struct Pencil {
     kind: Kind,
     /// Whether M and K are symmetric and C is skew.
     conservative: bool,
+    /// Whether M and K are symmetric.
+    symmetric: bool,
     solutions: usize,
 }
 
@@ -72,10 +74,8 @@ impl Pencil {
             factor.combine([&stiffness, &damping, &mass], [1.0, shift, shift * shift]);
         }
         factor.factor()?;
-        let mut sizes = stiffness.clone();
-        sizes.clear();
-        each(&stiffness, |i, j| sizes.add(i, j, stiffness.get(i, j).abs()));
-        let (kind, conservative, solutions) = (Kind::General, false, 0);
+        let sizes = Sparse::of(&stiffness).sizes();
+        let (kind, conservative, symmetric, solutions) = (Kind::General, false, false, 0);
         let entries = [&mass, &damping].map(Sparse::of);
         let mut pencil = Pencil {
             sizes,
@@ -88,9 +88,10 @@ impl Pencil {
             multipliers,
             kind,
             conservative,
+            symmetric,
             solutions,
         };
-        (pencil.kind, pencil.conservative) = pencil.find_kind();
+        (pencil.kind, pencil.conservative, pencil.symmetric) = pencil.find_kind();
         Ok(pencil)
     }
 
@@ -111,11 +112,8 @@ impl Pencil {
 
     /// ½ (C + Cᵀ), unless its diagonal has a negative entry.
     pub(super) fn dissipation(&self) -> Option<Sparse> {
-        let c = &self.damping;
-        let mut out = c.clone();
-        out.clear();
-        each(c, |i, j| out.add(i, j, 0.5 * (c.get(i, j) + c.get(j, i))));
-        (0..c.order()).all(|i| out.get(i, i) >= 0.0).then(|| Sparse::of(&out))
+        let out = self.damping.symmetrized();
+        (0..out.order()).all(|i| out.get(i, i) >= 0.0).then(|| Sparse::of(&out))
     }
 
     /// The shift σ.
@@ -198,14 +196,13 @@ impl Pencil {
         }
     }
 
-    fn find_kind(&self) -> (Kind, bool) {
+    fn find_kind(&self) -> (Kind, bool, bool) {
         let (mut m, mut c, mut k) = (Parts::default(), Parts::default(), Parts::default());
-        each(&self.mass, |i, j| {
-            m.include(self.mass.get(i, j), self.mass.get(j, i));
-            c.include(self.damping.get(i, j), self.damping.get(j, i));
-            k.include(self.stiffness.get(i, j), self.stiffness.get(j, i));
-        });
-        let conservative = m.is_symmetric() && k.is_symmetric() && c.symmetric <= ZERO * c.largest;
+        self.mass.mirrored(|a, b| m.include(a, b));
+        self.damping.mirrored(|a, b| c.include(a, b));
+        self.stiffness.mirrored(|a, b| k.include(a, b));
+        let symmetric = m.is_symmetric() && k.is_symmetric();
+        let conservative = symmetric && c.symmetric <= ZERO * c.largest;
         let kind = if !conservative {
             Kind::General
         } else if c.largest == 0.0 {
@@ -215,7 +212,7 @@ impl Pencil {
         } else {
             Kind::General
         };
-        (kind, conservative)
+        (kind, conservative, symmetric)
     }
 
     /// Number of eigenfrequencies below `frequency` [rad/s], from the inertia of K − ω² M + iω C, without computing
@@ -224,17 +221,31 @@ impl Pencil {
     ///
     /// The eigenvalues of the Hermitian matrix fall with ω > 0 through zero once each, since M ≥ 0 and K > 0.
     pub fn count_below(&self, frequency: f64) -> Option<usize> {
-        let [mass, damping, stiffness] = [&self.mass, &self.damping, &self.stiffness].map(Matrix::storage);
-        let entry = |i: usize, j: usize| stiffness.get(i, j) - frequency * frequency * mass.get(i, j);
+        let [mass, stiffness] = [&self.mass, &self.stiffness].map(Matrix::storage);
         let negative = match self.kind {
-            Kind::Symmetric => negative_pivots_of(shape(&self.stiffness), entry),
-            Kind::General => return None,
-            Kind::Gyroscopic => negative_pivots_of(shape(&self.stiffness), |i, j| {
-                let skew = 0.5 * (damping.get(i, j) - damping.get(j, i));
-                Complex64::new(entry(i, j), frequency * skew)
+            Kind::Symmetric => negative_pivots_of(shape(&self.stiffness), |i, j| {
+                stiffness.get(i, j) - frequency * frequency * mass.get(i, j)
             }),
+            Kind::General => return None,
+            Kind::Gyroscopic => return Some(self.count_undamped(frequency)),
         };
         Some(negative.saturating_sub(self.multipliers))
+    }
+
+    /// Whether the frequencies that the pencil has without the symmetric part of C can be counted: M and K are symmetric, K is positive.
+    pub(super) fn can_count(&self) -> bool {
+        self.shift == 0.0 && self.symmetric && negative_directions(&self.stiffness, self.multipliers) == 0
+    }
+
+    /// Number of these frequencies below `frequency` [rad/s].
+    pub(super) fn count_undamped(&self, frequency: f64) -> usize {
+        let [mass, damping, stiffness] = [&self.mass, &self.damping, &self.stiffness].map(Matrix::storage);
+        let negative = negative_pivots_of(shape(&self.stiffness), |i, j| {
+            let skew = 0.5 * (damping.get(i, j) - damping.get(j, i));
+            let re = stiffness.get(i, j) - frequency * frequency * mass.get(i, j);
+            Complex64::new(re, frequency * skew)
+        });
+        negative.saturating_sub(self.multipliers)
     }
 
     /// A frequency below that of a pair by more than its rounding, for [`Pencil::count_below`].
@@ -307,7 +318,7 @@ pub fn negative_directions(stiffness: &Matrix, multipliers: usize) -> usize {
 /// Whether a matrix is symmetric but for rounding.
 pub fn is_symmetric(matrix: &Matrix) -> bool {
     let mut parts = Parts::default();
-    each(matrix, |i, j| parts.include(matrix.get(i, j), matrix.get(j, i)));
+    matrix.mirrored(|a, b| parts.include(a, b));
     parts.is_symmetric()
 }
 

@@ -1,40 +1,55 @@
 //! The entries of a matrix that are not zero, row by row: for its products with many vectors.
 
 use crate::linalg::{Matrix, Storage};
+use num_complex::Complex64;
 
 /// A matrix by rows. The mass matrix of a system in space has a tenth of the entries that the band of its stiffness has room for.
 #[derive(Clone, Debug)]
 pub struct Sparse {
-    /// Where each row begins among the entries, and where the last ends.
-    starts: Vec<usize>,
+    /// The entries of each row.
+    rows: Vec<std::ops::Range<usize>>,
     /// Column and value.
     entries: Vec<(u32, f64)>,
 }
 
 impl Sparse {
     /// The entries of a matrix, which is not factored.
-    pub(super) fn of(matrix: &Matrix) -> Sparse {
-        let n = matrix.order();
-        let mut all = Vec::new();
-        each(matrix, |i, j| {
-            let x = matrix.get(i, j);
-            if x != 0.0 {
-                all.push((i, j as u32, x));
-            }
+    pub fn of(matrix: &Matrix) -> Sparse {
+        let (mut rows, mut entries) = (vec![0..0; matrix.order()], Vec::new());
+        matrix.visit(|i, j, x| {
+            let at = entries.len();
+            let begin = if rows[i].is_empty() { at } else { rows[i].start };
+            rows[i] = begin..at + 1;
+            entries.push((j as u32, x));
         });
-        all.sort_unstable_by_key(|(i, j, _)| (*i, *j));
-        let mut starts = vec![0; n + 1];
-        all.iter().for_each(|(i, ..)| starts[i + 1] += 1);
-        (0..n).for_each(|i| starts[i + 1] += starts[i]);
-        Sparse { starts, entries: all.into_iter().map(|(_, j, x)| (j, x)).collect() }
+        Sparse { rows, entries }
+    }
+
+    /// |A|, entry by entry.
+    pub(super) fn sizes(mut self) -> Sparse {
+        self.entries.iter_mut().for_each(|(_, x)| *x = x.abs());
+        self
     }
 
     /// y = A x
     pub fn multiply(&self, x: &[f64], y: &mut [f64]) {
-        for (y, range) in y.iter_mut().zip(self.starts.windows(2)) {
-            let row = &self.entries[range[0]..range[1]];
+        for (y, row) in y.iter_mut().zip(&self.rows) {
+            let row = &self.entries[row.clone()];
             *y = row.iter().fold(0.0, |sum, (j, a)| sum + a * x[*j as usize]);
         }
+    }
+
+    /// A z, as many entries as z has: beyond them are the multipliers, whose columns hold nothing.
+    pub fn times(&self, z: &[Complex64]) -> Vec<Complex64> {
+        let row = |row: &std::ops::Range<usize>| {
+            self.entries[row.clone()].iter().map(|(j, a)| z[*j as usize] * *a).sum()
+        };
+        self.rows.iter().take(z.len()).map(row).collect()
+    }
+
+    /// Whether it has no entries.
+    pub fn is_zero(&self) -> bool {
+        self.entries.is_empty()
     }
 }
 

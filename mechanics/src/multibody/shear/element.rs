@@ -312,13 +312,20 @@ impl Element {
     /// Adds w.q ∂r/∂d + w.v ∂r/∂v + w.a ∂r/∂a to `out`: by the increment d of the element since the configuration that was
     /// retracted, or by variations (δr, δφ) where `w.increment` is `None`.
     pub fn add_tangent(&self, m: &Motion<'_>, w: &Weights<'_>, out: &mut Tangent) {
-        let relative = Relative::new(m.q);
         let mut turns = [Mat3::IDENTITY; NODES];
         let increment: Option<&[f64; VELOCITIES]> = w.increment.and_then(|d| d.first_chunk());
         if let Some(d) = increment {
             turns = std::array::from_fn(|i| rotation::tangent(Vec3::at(d, NODE_VELOCITIES * i + 3)));
         }
+        for (i, turn) in turns.iter().enumerate() {
+            add_blocks(&self.moving(m, i).tangent(turn, [w.q, w.v, w.a]), [i, i], out);
+        }
         let Constants { points, stiffness, damping, .. } = &*self.constants;
+        let damping = damping.as_ref().filter(|_| w.v != 0.0);
+        if w.q == 0.0 && damping.is_none() {
+            return;
+        }
+        let relative = Relative::new(m.q);
         let sections = self.sections(&relative);
         let at = (points, &sections);
         if w.q != 0.0 {
@@ -336,11 +343,8 @@ impl Element {
             }
             add_nodal(&relative.rotation, &nodal, out);
         }
-        if let Some(damping) = damping.as_ref().filter(|_| w.v != 0.0) {
+        if let Some(damping) = damping {
             add_nodal(&relative.rotation, &tangent::by_velocity(&relative, at, damping, w.v), out);
-        }
-        for (i, turn) in turns.iter().enumerate() {
-            add_blocks(&self.moving(m, i).tangent(turn, [w.q, w.v, w.a]), [i, i], out);
         }
     }
 

@@ -25,6 +25,9 @@ type Jet = [f64; 3];
 
 /// Terms of a series: the rest is below rounding for x ≤ π².
 const TERMS: usize = 11;
+/// As many are enough for x up to this, a quarter of a radian: within most elements.
+const FEW: usize = 5;
+const SMALL: f64 = 0.0625;
 
 /// 1/k!
 const INVERSE_FACTORIALS: [f64; 9] = {
@@ -57,9 +60,14 @@ struct Stumpff([f64; 9]);
 impl Stumpff {
     #[inline(always)]
     fn at(x: f64) -> Stumpff {
+        if x <= SMALL { Stumpff::summed::<FEW>(x) } else { Stumpff::summed::<TERMS>(x) }
+    }
+
+    #[inline(always)]
+    fn summed<const COUNT: usize>(x: f64) -> Stumpff {
         let mut c = [0.0; 9];
         (c[7], c[8]) = (1.0, 1.0);
-        for j in (0..TERMS).rev() {
+        for j in (0..COUNT).rev() {
             c[7] = 1.0 - x * OF_SEVEN[j] * c[7];
             c[8] = 1.0 - x * OF_EIGHT[j] * c[8];
         }
