@@ -162,41 +162,44 @@ pub(super) fn krylov(
     let mut columns: Vec<Vec<f64>> = Vec::new();
     let (mut w, mut dual_w) = (vec![0.0; n], vec![0.0; n]);
     let mut seeds = (0..u64::MAX).map(|k| 1 + 1000 * seed + k);
-    // A new vector, orthogonal to everything, or none if everything is spanned.
-    let mut begin = |operator: &mut dyn Operator, space: &Space, w: &mut [f64], dual_w: &mut [f64]| {
-        let mut dual = vec![0.0; n];
-        let mut image = |r: &[f64], w: &mut [f64], dual_w: &mut [f64]| {
-            operator.dual(r, &mut dual);
-            operator.apply(r, &dual, w, dual_w);
-            operator.dual(w, dual_w);
-            norm(w, dual_w)
-        };
-        let mut random = noise(n, seeds.next().unwrap_or(1));
-        // Of what is spanned A may make so much more than of the rest that the rest would count as rounding.
-        for _ in 0..2 {
-            locked.remove(&mut random, None, &mut []);
-            space.remove(&mut random, None, &mut []);
-        }
-        let mut before = image(&random, w, dual_w);
-        if let Some(start) = start.filter(|_| space.vectors.is_empty()) {
-            let (stray, dual_stray, size) = (w.to_vec(), dual_w.to_vec(), before);
-            before = image(start, w, dual_w);
-            if projection == Projection::Hessenberg && size > 0.0 {
-                axpy(STRAY * before / size, &stray, w);
-                axpy(STRAY * before / size, &dual_stray, dual_w);
+    // A new vector, orthogonal to everything, or none if what is left of noise is what rounding makes of the largest that A has made.
+    let mut begin =
+        |operator: &mut dyn Operator, space: &Space, largest: f64, w: &mut [f64], dual_w: &mut [f64]| {
+            let mut dual = vec![0.0; n];
+            let mut random = noise(n, seeds.next().unwrap_or(1));
+            operator.dual(&random, &mut dual);
+            let rounding = INVARIANT * largest * norm(&random, &dual);
+            // Of what is spanned A may make so much more than of the rest that the rest would be lost in its rounding.
+            for _ in 0..2 {
+                locked.remove(&mut random, None, &mut []);
+                space.remove(&mut random, None, &mut []);
             }
-        }
-        for _ in 0..3 {
-            locked.remove(w, Some(dual_w), &mut []);
-            space.remove(w, Some(dual_w), &mut []);
-        }
-        norm(w, dual_w) > 1e-10 * before
-    };
-    if !begin(operator, &space, &mut w, &mut dual_w) {
+            let mut image = |r: &[f64], w: &mut [f64], dual_w: &mut [f64]| {
+                operator.dual(r, &mut dual);
+                operator.apply(r, &dual, w, dual_w);
+                operator.dual(w, dual_w);
+                norm(w, dual_w)
+            };
+            let size = image(&random, w, dual_w);
+            if let Some(start) = start.filter(|_| space.vectors.is_empty()) {
+                let (stray, dual_stray) = (w.to_vec(), dual_w.to_vec());
+                let part = STRAY * image(start, w, dual_w) / size;
+                if projection == Projection::Hessenberg && size > 0.0 {
+                    axpy(part, &stray, w);
+                    axpy(part, &dual_stray, dual_w);
+                }
+            }
+            for _ in 0..3 {
+                locked.remove(w, Some(dual_w), &mut []);
+                space.remove(w, Some(dual_w), &mut []);
+            }
+            norm(w, dual_w) > rounding
+        };
+    if !begin(operator, &space, 0.0, &mut w, &mut dual_w) {
         return Ok(Found { space, pairs: Vec::new(), counting: 0, converged: wanted });
     }
     let carries = !operator.knows_duals();
-    let mut last: Option<(Vec<Ritz>, usize, usize)> = None;
+    let (mut largest, mut last): (f64, Option<(Vec<Ritz>, usize, usize)>) = (0.0, None);
     loop {
         space.push(w.clone(), dual_w.clone());
         let m = space.vectors.len();
@@ -209,14 +212,14 @@ pub(super) fn krylov(
         operator.dual(&w, &mut dual_w);
         h[m] = norm(&w, &dual_w);
         let size = dot(&h, &h).sqrt();
+        largest = largest.max(size);
         if !size.is_finite() {
             return Err(EigenError::Projection(m));
         }
         let mut exhausted = m == limit && limit == n;
-        // Over what this vector becomes: next to a critical speed others become larger by more than the digits there are.
-        if h[m] <= INVARIANT * size {
+        if h[m] <= INVARIANT * largest {
             h[m] = 0.0;
-            exhausted |= !begin(operator, &space, &mut w, &mut dual_w);
+            exhausted |= !begin(operator, &space, largest, &mut w, &mut dual_w);
         }
         columns.push(h);
         if m < next_look && !exhausted {
