@@ -192,9 +192,11 @@ fn section(random: &mut Random, drawn: &mut Drawn, material: Material, [length, 
                 file += &if blade { format!(",{bending:e},{bending:e}\n") } else { "\n".to_owned() };
             }
             drawn.file("section.csv", file);
-            let kind = if blade { "blade" } else { "table" };
+            let kind = if blade { "deck" } else { "table" };
             add!(drawn, "kind = \"{kind}\"\nfile = \"section.csv\"");
-            if !blade {
+            if blade {
+                add!(drawn, "format = \"csv\"");
+            } else {
                 add!(drawn, "interpolation = \"{}\"", random.pick(&["linear", "cubic"]));
             }
         }
