@@ -423,7 +423,7 @@ fn make(k: Written, c: &Context<'_>) -> Made<Beam> {
         along(&|of| of.torsional_stiffness > 0.0),
         k.polar_inertia.is_some() || along(&|of| of.flap_inertia + of.chord_inertia > 0.0),
     );
-    let torsion = k.torsion.unwrap_or(!section.is_blade || (stiff && heavy));
+    let torsion = k.torsion.unwrap_or(k.shear || !section.is_blade || (stiff && heavy));
     if !torsion && k.shear {
         return Err(Fault::new("torsion", "a beam with shear twists")
             .help("leave `torsion` or `shear` out")
@@ -436,7 +436,8 @@ fn make(k: Written, c: &Context<'_>) -> Made<Beam> {
             k.name
         ));
     }
-    if !stiff && (torsion || !section.is_blade) {
+    // One that is silent on torsion too is refused for its shear.
+    if !stiff && !k.shear && (torsion || !section.is_blade) {
         if !k.planar {
             let message = "this section says nothing of torsion, and a beam in space twists";
             let help = "give a shape (`rectangle`, `circle`, `tube`, `ellipse`), `general`, or a `deck` with GJ; for a motion in the plane \
