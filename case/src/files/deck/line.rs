@@ -21,7 +21,7 @@ const CORRECTIONS: usize = 50;
 /// Least part of the tangent in the plane of x and z.
 const LEAST: f64 = 1e-3;
 
-/// A reference line. See the [module documentation](self).
+/// A reference line.
 #[derive(Clone, Debug)]
 pub struct Line {
     coordinates: [Table; 3],

@@ -1,7 +1,7 @@
 //! Blade decks: a reference line with 6 × 6 sections along it.
 //!
-//! Each format is read into [`Row`]s in its own axes and order, which its [`Convention`] turns into those of this program. What no section
-//! can be is refused ([`rows`]), what no blade is likely to be is a caution ([`plausible`]).
+//! Each format is read into rows in its own axes and order, which its convention turns into those of this program. What no section
+//! can be is refused (`rows`), what no blade is likely to be is a caution (`plausible`).
 //!
 //! | file | content |
 //! |---|---|
