@@ -332,3 +332,32 @@ fn a_motion_that_is_no_rotation_of_the_whole_system_is_refused_at_its_key() {
     let problems = parse(about, Path::new("case.toml"), &[]).unwrap_err().to_string();
     assert!(problems.contains("`main` is not a joint with the ground"), "{problems}");
 }
+
+/// ζ = ½ η ω at rest, of beams with and without shear, with an axis of rotation and with joints that say a thing twice: a system that is
+/// made anew from its model has its damping once.
+#[test]
+fn damping_of_the_stiffness_counts_once_however_often_a_system_is_made() {
+    let ratios = |shear: bool, more: &str| {
+        let case = read(&format!(
+            "run = {{ duration = 0 }}\nmodel.drop-redundant-rows = true\n[[beam]]\nlength = 2\nup = [0, 0, 1]\nroot = \"clamped\"\nshear = {shear}
+            poisson-ratio = 0.3\ndamping = {{ stiffness = 1e-3 }}
+            section = {{ kind = \"rectangle\", modulus = 70e9, density = 2700, width = 0.01, height = 0.02, rotary-inertia = true }}\n{more}"
+        ))
+        .case;
+        let (mut system, _) = case.vibrating(false).unwrap();
+        let mut state = system.initial();
+        if more.contains("axis") {
+            rotate_stably(system.as_mut(), &mut state, 0.0, 0.0).unwrap();
+        }
+        let found = modes(system.as_mut(), &state, 4, &[]).unwrap().modes;
+        found.iter().map(|mode| mode.damping_ratio() / (0.5e-3 * mode.eigenvalue.norm())).collect::<Vec<_>>()
+    };
+    let again = "[[joint]]\nname = \"again\"\nkind = \"fixed\"\nbetween = [\"ground\", \"beam.root\"]\n";
+    let axis = "[rotation]\naxis = [0, 0, 1]\n";
+    for shear in [false, true] {
+        for more in ["", axis, again, &format!("{again}{axis}")] {
+            let found = ratios(shear, more);
+            assert!(found.iter().all(|ratio| (ratio - 1.0).abs() < 1e-6), "{shear} {more}: {found:?}");
+        }
+    }
+}

@@ -25,8 +25,9 @@ pub struct Beam {
     initial: Vec<f64>,
     /// Arc lengths of the nodes \[m\].
     nodes: Vec<f64>,
-    /// β [1/s]
+    /// β [1/s], and the η \[s\] that the elements have beside the damping of their sections.
     damping: f64,
+    viscosity: f64,
 }
 
 impl Beam {
@@ -74,7 +75,7 @@ impl Beam {
             }
             elements.push(element);
         }
-        Ok(Beam { elements, initial, nodes, damping: 0.0 })
+        Ok(Beam { elements, initial, nodes, damping: 0.0, viscosity: 0.0 })
     }
 
     /// A straight beam of equal sections and `elements` elements of equal length along the first axis of `root`.
@@ -178,15 +179,17 @@ impl Beam {
         }
     }
 
-    /// Sets the damping β [1/s] in proportion to the mass, forces −β M v, and adds to that of the sections one of η \[s\] in proportion to the
-    /// stiffness, D + η C.
+    /// Sets the damping β [1/s] in proportion to the mass, forces −β M v, and one of η \[s\] in proportion to the
+    /// stiffness beside that of the sections, D + η C.
     pub fn damp(&mut self, mass: f64, stiffness: f64) {
         self.damping = mass;
-        if stiffness != 0.0 {
+        // The elements of a model that is built anew have η C already.
+        let more = stiffness - std::mem::replace(&mut self.viscosity, stiffness);
+        if more != 0.0 {
             let mut last: Option<(Element, Element)> = None;
             for element in &mut self.elements {
                 let like = last.as_ref().filter(|(before, _)| before.is_like(element)).map(|(_, now)| now);
-                let damped = element.damped(stiffness, like);
+                let damped = element.damped(more, like);
                 last = Some((std::mem::replace(element, damped.clone()), damped));
             }
         }
