@@ -3,7 +3,7 @@
 use crate::system::{Mode, Side, State};
 
 /// The format of what methods and drivers keep: it changes when they keep something else.
-const FORMAT: f64 = 3.0;
+const FORMAT: f64 = 4.0;
 
 /// Named lists of numbers, in the order in which they were put.
 ///

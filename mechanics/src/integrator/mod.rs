@@ -20,6 +20,7 @@ mod generalized_alpha;
 mod hermite;
 mod impulses;
 mod integration;
+mod joint_forces;
 mod kept;
 mod moreau_jean;
 mod newton;

@@ -1,7 +1,7 @@
 //! Joints as lists of scalar constraints, with their drives.
 
 use super::error::PartFault;
-use super::marker::Marker;
+use super::marker::{Marker, Part};
 use super::row::Row;
 use crate::drive::{Actuator, motion_breaks};
 use crate::profile::Motion;
@@ -71,12 +71,12 @@ impl Kind {
         use Row::{Across, Along, Point};
         match self {
             Kind::Fixed => &[Point(0), Point(1), Point(2), Across(0, 1), Across(1, 2), Across(2, 0)],
-            Kind::Revolute => &[Point(0), Point(1), Point(2), Across(0, 2), Across(1, 2)],
+            Kind::Revolute => &[Point(0), Point(1), Point(2), Across(2, 0), Across(2, 1)],
             Kind::Prismatic => &[Along(0), Along(1), Across(0, 1), Across(1, 2), Across(2, 0)],
-            Kind::Cylindrical => &[Along(0), Along(1), Across(0, 2), Across(1, 2)],
+            Kind::Cylindrical => &[Along(0), Along(1), Across(2, 0), Across(2, 1)],
             Kind::Universal => &[Point(0), Point(1), Point(2), Across(0, 1)],
             Kind::Spherical => &[Point(0), Point(1), Point(2)],
-            Kind::Planar => &[Along(2), Across(0, 2), Across(1, 2)],
+            Kind::Planar => &[Along(2), Across(2, 0), Across(2, 1)],
         }
     }
 
@@ -101,9 +101,14 @@ impl Joint {
         Joint { drive, ..self }
     }
 
-    /// Its rows.
+    /// Its rows. The axes that are square to the common third one are those of the part that moves: about a joint with the ground the
+    /// multipliers of a steady rotation are constant, and kept tangents stay right.
     pub(super) fn rows(&self) -> Vec<Row> {
         let mut rows = self.kind.rows().to_vec();
+        if self.to.part == Part::Ground {
+            let turned = |row: &Row| if let Row::Across(2, j) = *row { Row::Across(j, 2) } else { *row };
+            rows = rows.iter().map(turned).collect();
+        }
         if self.prescribed().is_some() {
             rows.extend(self.kind.coordinate().map(|coordinate| match coordinate {
                 Coordinate::Angle => Row::Angle,

@@ -1,7 +1,9 @@
 //! The members of the family: Newmark, HHT-α, Chung–Hulbert.
 
-use super::{AlphaSteps, Auxiliary, Equations, KEPT_TOLERANCE, NOISE, Parameters, ROWS_TOLERANCE, Trend};
-use super::{Convergence, Counters, ITERATION_TOLERANCE, KeptTangent, StepError, Stepper};
+use super::{
+    AlphaSteps, Auxiliary, Equations, FORCES, KEPT_TOLERANCE, NOISE, Parameters, ROWS_TOLERANCE, Trend,
+};
+use super::{Convergence, Counters, ITERATION_TOLERANCE, JointForces, KeptTangent, StepError, Stepper};
 use crate::integrator::{Info, Integrator, InvalidParameter};
 use crate::system::{Dynamics, State};
 
@@ -109,6 +111,7 @@ impl GeneralizedAlpha {
             equations: Equations::new(system, state, self.stabilized),
             kept: KeptTangent::new(system, state),
             simplified,
+            forces: JointForces::new(FORCES),
             full: Convergence::full(ITERATION_TOLERANCE, 0.0),
             affine: system.is_affine() && size.lambda == 0,
             renewals: 0,

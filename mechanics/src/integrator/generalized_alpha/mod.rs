@@ -61,6 +61,7 @@ mod equations;
 mod family;
 
 use super::auxiliary::{Auxiliary, Parameters};
+use super::joint_forces::JointForces;
 use super::kept::KeptTangent;
 use super::{
     Attempt, Checkpoint, Convergence, Counters, NotResumed, Progress, Span, StepError, StepReport, Stepper,
@@ -80,6 +81,9 @@ const KEPT_TOLERANCE: f64 = 1e-13;
 
 /// The same for systems with constraints or rotations: the rounding error of a position, for an error δ of g is an error δ/(h²βκ) of λ.
 const ROWS_TOLERANCE: f64 = 1e-16;
+
+/// Part of the largest force of a joint by which forces of joints may change in the last iteration.
+const FORCES: f64 = 1e-6;
 
 /// Largest size of increments that may be rounding errors.
 const NOISE: f64 = 1e-7;
@@ -110,6 +114,7 @@ pub(in crate::integrator) struct AlphaSteps {
     /// Of iterations with one tangent, and of Newton's method proper.
     simplified: Convergence,
     full: Convergence,
+    forces: JointForces,
     /// An affine system without rows: its tangents since the restart, and whether the last one was found unchanged.
     affine: bool,
     renewals: u32,
@@ -200,6 +205,7 @@ impl AlphaSteps {
         let weights = self.weights(h);
         self.predict(system, from, h, to);
         self.begin(system, to, tangents);
+        let mut moved = Progress::Continue;
         for iterations in 1.. {
             self.equations.residual(system, to, weights);
             if tangents == Tangents::Newton || (tangents == Tangents::New && iterations == 1) {
@@ -207,9 +213,15 @@ impl AlphaSteps {
             }
             let Equations { tangent, rhs, .. } = &mut self.equations;
             self.kept.solve(tangent, rhs);
+            self.forces.begin(iterations == 1);
             let size = self.update(system, from, h, to);
             counters.add_iteration();
-            match self.judge(tangents, size) {
+            // Increments that have converged are rounding errors from then on.
+            if moved != Progress::Converged {
+                moved = self.judge(tangents, size);
+            }
+            let held = moved == Progress::Converged && tangents != Tangents::Newton;
+            match if held { self.forces.judge_and_learn(tangents == Tangents::New) } else { moved } {
                 Progress::Converged => return Ok(Some(iterations)),
                 Progress::Continue => {}
                 Progress::Diverged if tangents == Tangents::Newton => {
@@ -308,7 +320,10 @@ impl AlphaSteps {
             square += scaled * scaled;
         }
         let (lambda, mu) = multipliers.split_at(to.lambda.len());
-        to.lambda.iter_mut().zip(lambda).for_each(|(lambda, x)| *lambda -= x);
+        for ((set, value), x) in system.rows().iter().zip(&mut to.lambda).zip(lambda) {
+            *value -= x;
+            self.forces.enter(*set, *x, *value);
+        }
         if !mu.is_empty() {
             self.equations.mu.iter_mut().zip(mu).for_each(|(mu, x)| *mu -= x);
             self.equations.rows.add_transposed(-h, mu, d);
@@ -412,6 +427,7 @@ impl Stepper for AlphaSteps {
     ) -> Result<(), StepError> {
         self.trend.known = 0;
         self.simplified.forget();
+        self.forces.learn(0.0);
         self.kept.forget(false);
         (self.renewals, self.begins, self.euler) = (0, true, 0);
         self.equations.complete(system, state, counters)?;
@@ -427,6 +443,7 @@ impl Stepper for AlphaSteps {
         out.put("history", &[f64::from(self.trend.known), f64::from(self.renewals), constant]);
         out.put("start", &[begins, f64::from(self.euler)]);
         out.put("convergence", &self.simplified.memory());
+        out.put("forces", &[self.forces.rounding()]);
         self.kept.save(out);
         self.equations.save(out);
     }
@@ -440,6 +457,8 @@ impl Stepper for AlphaSteps {
         (self.begins, self.euler) = (begins != 0.0, euler as u8);
         (self.trend.known, self.renewals, self.constant) = (known as u8, renewals as u32, constant != 0.0);
         self.simplified.recall(from.numbers("convergence")?);
+        let [rounding] = from.numbers("forces")?;
+        self.forces.learn(rounding);
         self.kept.resume(from)?;
         self.equations.resume(from)?;
         if self.kept.weights.iter().all(|weight| weight.is_finite()) {

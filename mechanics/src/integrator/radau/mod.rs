@@ -192,7 +192,7 @@ impl Stepper for RadauSteps {
             let (progress, size) = work.iterate(system, (from, to), h, &mut self.convergence, counters);
             if progress == Progress::Converged {
                 let few = self.convergence.iterations() <= FEW;
-                let rate = self.convergence.rate().max(work.force_rate);
+                let rate = self.convergence.rate().max(work.forces.rate());
                 work.kept.judge_rate(if few { 0.0 } else { rate });
                 self.tried = Some(h);
                 break;

@@ -1,6 +1,7 @@
 //! The stages of one Radau step: starting values, iteration, end, error estimate.
 
 use super::super::acceleration::Accelerations;
+use super::super::joint_forces::JointForces;
 use super::super::kept::{KeptTangent, corotation};
 use super::super::rows::Rows;
 use super::super::{Checkpoint, Convergence, Counters, NotResumed, Progress, StepError, failure};
@@ -46,12 +47,7 @@ pub(super) struct Stages {
     complex: Matrix<Complex64>,
     scale: Vec<f64>,
     inverse_weight: Vec<f64>,
-    /// Largest change of a joint's multiplier in an iteration, over the largest multiplier, and what it may be. (Those of several
-    /// contacts of one body may not be determined.)
-    forces: f64,
-    allowed_forces: f64,
-    /// How fast they converge, where this counts.
-    pub(super) force_rate: f64,
+    pub(super) forces: JointForces,
     stage: State,
     increment: Vec<f64>,
     /// Stage accelerations of the attempt and of the accepted step; q₁ ⊟ q₀ likewise.
@@ -93,9 +89,7 @@ impl Stages {
             complex: Matrix::new(&structure),
             scale: system.scales().to_vec(),
             inverse_weight: vec![0.0; size.v],
-            forces: 0.0,
-            force_rate: 0.0,
-            allowed_forces: tolerance.size().sqrt(),
+            forces: JointForces::new(tolerance.size().sqrt()),
             stage: State::zeros(size, 0.0),
             increment: vec![0.0; size.v],
             a: three(),
@@ -236,7 +230,6 @@ impl Stages {
         };
         loop {
             self.shift = 0.0;
-            let before = self.forces;
             for i in 0..3 {
                 self.set_stage(system, (from, to), h, i);
                 if convergence.iterations() == 0 {
@@ -262,12 +255,10 @@ impl Stages {
             }
             self.real.solve(&mut self.rhs);
             self.complex.solve(&mut self.z);
-            let size = self.update(h);
+            let size = self.update(h, convergence.iterations() == 0);
             counters.iterations += 1;
             counters.residuals += 3;
             counters.solves += 2;
-            let slow = convergence.iterations() > 0 && before > self.allowed_forces;
-            self.force_rate = if slow { self.forces / before } else { 0.0 };
             match convergence.judge(size) {
                 Progress::Continue => {}
                 // The rate of the last step does not know how far this one rotates.
@@ -275,15 +266,11 @@ impl Stages {
                     if convergence.iterations() == 1
                         && size > 0.0
                         && (!self.is_vector_space || convergence.eta() > STABLE) => {}
-                // What a joint takes up moves nothing: its forces converge on their own, or not where they have turned away from
-                // the tangents. With new ones they do, down to rounding errors.
-                Progress::Converged if self.forces > self.allowed_forces => {
-                    if self.force_rate > 0.5 {
-                        let verdict = if self.kept.fresh { Progress::Converged } else { Progress::Diverged };
-                        return (verdict, size);
-                    }
-                }
-                other => return (other, size),
+                Progress::Converged => match self.forces.judge(self.kept.fresh) {
+                    Progress::Continue => {}
+                    verdict => return (verdict, size),
+                },
+                Progress::Diverged => return (Progress::Diverged, size),
             }
         }
     }
@@ -336,7 +323,7 @@ impl Stages {
     }
 
     /// ΔQ = −T w, rotated with its stage, and Δa = (hA)⁻² ΔQ; gives the size of ΔQ and of h ΔV = A⁻¹ ΔQ.
-    fn update(&mut self, h: f64) -> f64 {
+    fn update(&mut self, h: f64, first: bool) -> f64 {
         let n = self.rhs.len();
         let [d1, d2, d3] = self.r.each_mut().map(|d| &mut d[..n]);
         let (real, complex) = (&self.rhs[..n], &self.z[..n]);
@@ -361,17 +348,16 @@ impl Stages {
         let [a1, a2, a3] = self.a.each_mut().map(|a| &mut a[..n]);
         let mut square = self.shift;
         let velocities = self.inverse_weight.len();
-        let (mut change, mut largest) = (0.0_f64, f64::MIN_POSITIVE);
+        self.forces.begin(first);
         for i in velocities..n {
             let [x, y, z] = rows(&A2_INVERSE, [d1[i], d2[i], d3[i]]).map(|x| inverse * x);
             a1[i] -= x;
             a2[i] -= y;
             a3[i] -= z;
             square += 0.0 * (x + y + z); // a multiplier that is not finite is found
-            if self.rows.sets()[i - velocities] == Set::Free {
-                change = change.max(x.abs()).max(y.abs()).max(z.abs());
+            for (change, value) in [(x, a1[i]), (y, a2[i]), (z, a3[i])] {
+                self.forces.enter(self.rows.sets()[i - velocities], change, value);
             }
-            largest = largest.max(a1[i].abs()).max(a2[i].abs()).max(a3[i].abs());
         }
         if !self.is_vector_space {
             // The rates of later stages are not yet those of the new velocities.
@@ -393,7 +379,6 @@ impl Stages {
             let (d, w) = ([d1[i], d2[i], d3[i]], weights[i]);
             square += (squares(d) + squares(rows(&A_INVERSE, d))) * (w * w);
         }
-        self.forces = change / largest;
         (square / (6 * velocities.max(1)) as f64).sqrt()
     }
 
