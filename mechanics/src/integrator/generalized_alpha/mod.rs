@@ -83,7 +83,7 @@ const KEPT_TOLERANCE: f64 = 1e-13;
 const ROWS_TOLERANCE: f64 = 1e-16;
 
 /// Part of the largest force of a joint by which forces of joints may change in the last iteration.
-const FORCES: f64 = 1e-6;
+const FORCES: f64 = 1e-5;
 
 /// Largest size of increments that may be rounding errors.
 const NOISE: f64 = 1e-7;
