@@ -368,3 +368,58 @@ fn a_crest_between_records_is_found_behind_a_start_that_was_far_faster() {
         );
     }
 }
+
+/// The records bound the steps of this run in space: they are twice the interval of recording, whether its tolerance is 1e-6 or 1e-7, and damp
+/// the axial waves that gravity sets off, of some 1e-7 m. What is true is told by the planar equations, with steps that follow those waves.
+#[test]
+fn an_error_of_steps_that_records_bound_is_stated_and_refined() {
+    const SPUN: &str = "
+gravity = [-2, -0.4]
+[beam]
+length = 0.19
+[section]
+kind = 'resultants'
+mass-per-length = 0.0144
+axial-stiffness = 1626
+bending-stiffness = 0.0196
+[hub]
+radius = 0.0127
+motion = { kind = 'spin-up', speed = 27.3, time = 0.16 }
+[run]
+duration = 0.161
+";
+    let exact = "integrator={kind='radau',tolerance=1e-10,absolute-tolerance=1e-11}";
+    let exact = finished(&reading(SPUN, &["model.coupling=exact", "basis.elements=20", exact]));
+    let last = |run: &Run, name: &str| *run.trajectory.column(name).unwrap().last().unwrap();
+    let run_of = |tolerance: &str| {
+        let reading = reading(SPUN, &["model.coupling=space", tolerance]);
+        let (run, errors, _) = run(&reading);
+        let off = |name: &str| {
+            let stated = errors.columns.iter().find(|error| error.column == name).unwrap();
+            let largest = run.trajectory.rows().zip(exact.trajectory.rows());
+            let [ours, theirs] = [&run, &exact].map(|run| run.trajectory.index(name).unwrap());
+            let largest = largest.map(|((_, x), (_, y))| (x[ours] - y[theirs]).abs()).fold(0.0, f64::max);
+            ((last(&run, name) - last(&exact, name)).abs() / stated.last, largest / stated.discretization)
+        };
+        (run.counters.steps, off("tip.axial"), off("tip.axial_velocity"))
+    };
+    let [loose, tight] = ["integrator.tolerance=1e-6", "integrator.tolerance=1e-7"].map(run_of);
+    assert!(tight.0 < loose.0 * 11 / 10, "the tolerance decides about steps: {} and {}", loose.0, tight.0);
+    for (_, axial, velocity) in [loose, tight] {
+        // Waves that steps damp converge with an order below one: the difference of two runs is no more than a part of the error.
+        for off in [axial.0, axial.1, velocity.0, velocity.1] {
+            assert!(off < 2.0, "{axial:?} {velocity:?}");
+        }
+    }
+    let target = Target::new("1e-4".to_owned(), Some("tip.axial.final".to_owned()));
+    let refined = reading(SPUN, &["model.coupling=space"]).refine(
+        &target,
+        &mut |_| ControlFlow::Continue(()),
+        &mut |_| (),
+    );
+    let refined = refined.unwrap();
+    assert_eq!(refined.refused, None);
+    let off = (last(&refined.run, "tip.axial") - last(&exact, "tip.axial")).abs();
+    let largest = exact.trajectory.extremes(exact.trajectory.index("tip.axial").unwrap()).largest();
+    assert!(off < 1e-4 * largest, "{off:e} of {largest:e}");
+}

@@ -3,9 +3,11 @@
 #![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
 
 use crate::written::{SQUARE_BAR, reading_of as reading};
+use flexion::analysis::recording::Entry;
 use flexion_case::{Reading, Run};
 use flexion_results::{Directory, Status};
 use std::ops::ControlFlow;
+use std::path::Path;
 
 const REST: &str = r#"
 [hub]
@@ -127,6 +129,39 @@ fn a_stopped_run_goes_on_as_if_it_had_never_stopped() {
     }
 }
 
+/// What happened at contacts after `since`, with all its quantities.
+fn later(run: &Run, since: f64) -> Vec<(&'static str, Vec<Option<u64>>)> {
+    let later = run.events.list.iter().filter(|entry| entry.time > since);
+    let numbers = |e: &Entry| {
+        let place = e.place.map_or([None; 3], |place| place.0.map(Some));
+        let known = [e.impulse, e.friction, e.speed, e.mass, e.lost, e.duration, e.force, e.indentation];
+        [Some(e.time)].into_iter().chain(known).chain(place).map(|x| x.map(f64::to_bits)).collect()
+    };
+    later.map(|entry| (entry.what, numbers(entry))).collect()
+}
+
+/// Stops the case at these parts of its duration, goes on from each, and compares with the complete run, which it returns.
+fn assert_goes_on(case: &Path, set: &[&str], parts: &[f64]) -> Run {
+    let whole = reading(case, set);
+    let complete = run(&whole, f64::INFINITY);
+    assert_eq!(complete.status, Status::Finished, "{set:?}: {:?}", complete.message);
+    for part in parts {
+        let what = format!("{set:?} from {part}");
+        let first = run(&whole, part * whole.case.duration);
+        let directory = Directory::create(case.with_file_name("first"), true).unwrap();
+        whole.write(&first, &directory).unwrap();
+        drop(directory);
+        let on = [set, &["initial={kind='restart',file='first'}"]].concat();
+        let rest = run(&reading(case, &on), f64::INFINITY);
+        assert_eq!(rest.status, Status::Finished, "{what}: {:?}", rest.message);
+        assert_same(&complete, &rest, first.state.t, &what);
+        let (known, found) = (later(&complete, first.state.t), later(&rest, first.state.t));
+        known.iter().zip(&found).for_each(|(known, found)| assert_eq!(known, found, "{what}"));
+        assert_eq!(known.len(), found.len(), "{what}: numbers of events");
+    }
+    complete
+}
+
 /// Pieces that end while contacts are closed: a rigid one at the tip, and an elastic one in the middle.
 #[test]
 fn a_run_that_is_stopped_in_contact_goes_on_as_if_it_had_never_stopped() {
@@ -136,29 +171,76 @@ fn a_run_that_is_stopped_in_contact_goes_on_as_if_it_had_never_stopped() {
     let contacts = "contact=[{obstacle={kind='stop',offset='-1 mm'},law={kind='constraint',restitution=0.4,friction=0.1}},\
                     {on='1 m',obstacle={kind='stop',offset='-0.2 mm'},law={kind='hunt-crossley',stiffness=1e6,restitution=0.5}}]";
     for integrator in ["integrator={kind='radau'}", "integrator={kind='generalized-alpha',step='1 ms'}"] {
-        let whole = reading(&case, &[contacts, integrator]);
-        let complete = run(&whole, f64::INFINITY);
-        assert_eq!(complete.status, Status::Finished, "{:?}", complete.message);
-        for part in [0.2, 0.43, 0.6] {
-            let first = run(&whole, part * whole.case.duration);
-            let since = first.state.t;
-            let directory = Directory::create(folder.path().join("first"), true).unwrap();
-            whole.write(&first, &directory).unwrap();
-            drop(directory);
-            let from = "initial={kind='restart',file='first'}";
-            let rest = run(&reading(&case, &[contacts, integrator, from]), f64::INFINITY);
-            assert_eq!(rest.status, Status::Finished, "{:?}", rest.message);
-            assert_same(&complete, &rest, since, integrator);
-            let later = |run: &Run| {
-                // A burst that began before is known to the whole run alone.
-                let later =
-                    run.events.list.iter().filter(|entry| entry.time > since && entry.what != "burst");
-                later.map(|entry| (entry.what, entry.time.to_bits())).collect::<Vec<_>>()
-            };
-            assert_eq!(later(&complete), later(&rest), "{integrator} {part}");
-        }
+        let complete = assert_goes_on(&case, &[contacts, integrator], &[0.2, 0.43, 0.6]);
         let closed = |name: &str| complete.trajectory.column(name).unwrap().iter().any(|force| *force > 0.0);
         assert!(closed("contact.force") && closed("contact2.force"));
+    }
+}
+
+/// Every method, in plane and in space, stopped at times that are not special: within bursts of impacts, and while a contact presses.
+#[test]
+fn every_method_goes_on_bit_by_bit_in_the_plane_and_in_space() {
+    const FALLING: &str = "
+gravity = [0, -9.81]
+[beam]
+length = 1
+[section]
+kind = 'resultants'
+mass-per-length = 0.54
+axial-stiffness = 1e5
+bending-stiffness = 11.6
+[hub]
+inertia = 0.1
+motion = { kind = 'free', angle = 0.1 }
+[[mass]]
+on = 'tip'
+mass = 0.2
+[basis]
+elements = 3
+[run]
+duration = 0.2
+[output]
+step = 1e-3
+";
+    const HARD: &str =
+        "contact=[{on='tip',obstacle={kind='plane',point=[0,0.05]},law={kind='constraint',restitution=0.5}}]";
+    const RUBBED: &str = "contact=[{on='tip',obstacle={kind='plane',point=[0,0.05]},law={kind='constraint',restitution=0,friction=0.3}}]";
+    const SOFT: &str = "contact=[{on='tip',obstacle={kind='plane',point=[0,0.05]},law={kind='hunt-crossley',stiffness=1e5,restitution=0.6}}]";
+    let folder = tempfile::tempdir().unwrap();
+    let case = folder.path().join("case.toml");
+    std::fs::write(&case, FALLING).unwrap();
+    let mut random = 2025_u64;
+    let mut part = || {
+        random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        0.1 + 0.8 * (random >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    for coupling in ["model.coupling=exact", "model.coupling=space"] {
+        for (integrator, contacts) in [
+            ("integrator={kind='radau'}", [HARD, SOFT].as_slice()),
+            ("integrator={kind='newmark',step=3e-4}", &[SOFT]),
+            ("integrator={kind='hht',step=3e-4}", &[SOFT]),
+            ("integrator={kind='generalized-alpha',step=3e-4}", &[HARD, SOFT]),
+            ("integrator={kind='generalized-alpha',step=3e-4,stabilized=true}", &[HARD, SOFT]),
+            ("integrator={kind='nonsmooth-generalized-alpha',step=3e-4}", &[HARD, RUBBED, SOFT]),
+            ("integrator={kind='moreau-jean',step=3e-4}", &[HARD, RUBBED, SOFT]),
+            ("integrator={kind='runge-kutta-4',step=1e-5}", &[]),
+            ("integrator={kind='adams-4',step=5e-6}", &[]),
+        ] {
+            for contact in ["contact=[]"].iter().chain(contacts) {
+                let explicit = contacts.is_empty();
+                if explicit && coupling.ends_with("space") {
+                    continue; // They have no way to hold joints.
+                }
+                let times = if explicit {
+                    ["run.duration=0.02", "output.step=1e-4"]
+                } else {
+                    ["run.duration=0.2", "output.step=1e-3"]
+                };
+                let set = [coupling, integrator, contact, times[0], times[1]];
+                let complete = assert_goes_on(&case, &set, &[part(), part(), part()]);
+                assert!(contact.len() < 20 || !complete.events.list.is_empty(), "{set:?}");
+            }
+        }
     }
 }
 

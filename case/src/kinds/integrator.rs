@@ -67,9 +67,13 @@ fn fixed<I: Integrator + 'static>(
 /// A generalized-α method, which may be stabilized.
 fn alpha(
     integrator: Result<GeneralizedAlpha, InvalidParameter>,
-    stabilized: bool,
+    stabilized: Option<bool>,
 ) -> Result<GeneralizedAlpha, InvalidParameter> {
-    integrator.map(|method| if stabilized { method.stabilized() } else { method })
+    integrator.map(|method| match stabilized {
+        Some(true) => method.stabilized(),
+        Some(false) => method.positions_only(),
+        None => method,
+    })
 }
 
 /// An explicit method, with the constants by which it holds contacts.
@@ -93,9 +97,9 @@ fn checked<I>(integrator: Result<I, InvalidParameter>) -> Made<I> {
 pub(crate) const STEP: Field<f64> = quantity(&TIME, Positive).called("step", "time step");
 pub(crate) const CONTACT_STEP: Field<Option<f64>> = quantity(&TIME, Positive)
     .called("contact-step", "time step while a contact is closed or comes near, that of flight if left out");
-const STABILIZED: Field<bool> = boolean().or_false().called(
+const STABILIZED: Field<Option<bool>> = boolean().called(
     "stabilized",
-    "joints and closed contacts hold their velocities too, by a second multiplier (Gear, Gupta & Leimkuhler)",
+    "joints and closed contacts hold their velocities too, by a second multiplier (Gear, Gupta & Leimkuhler); if left out, where there are rigid contacts",
 );
 const SPECTRAL_RADIUS: Field<f64> = number(Between(0.0, 1.0))
     .or(0.8)
@@ -120,7 +124,7 @@ keys! {
     struct Newmark {
         step: f64 = STEP;
         contact_step: Option<f64> = CONTACT_STEP;
-        stabilized: bool = STABILIZED;
+        stabilized: Option<bool> = STABILIZED;
         /// β, at least γ/2
         beta: f64 = number(Between(0.01, 1.0)).or(0.25);
         /// γ; above 1/2 it dissipates
@@ -130,7 +134,7 @@ keys! {
     struct Hht {
         step: f64 = STEP;
         contact_step: Option<f64> = CONTACT_STEP;
-        stabilized: bool = STABILIZED;
+        stabilized: Option<bool> = STABILIZED;
         /// α, from 0 (no dissipation) to 1/3 (most)
         alpha: f64 = number(Between(0.0, 1.0 / 3.0)).or(0.05);
     }
@@ -138,7 +142,7 @@ keys! {
     struct ChungHulbert {
         step: f64 = STEP;
         contact_step: Option<f64> = CONTACT_STEP;
-        stabilized: bool = STABILIZED;
+        stabilized: Option<bool> = STABILIZED;
         spectral_radius: f64 = SPECTRAL_RADIUS;
     }
 

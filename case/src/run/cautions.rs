@@ -1,7 +1,7 @@
 //! What the reader of a run should know of its steps.
 
 use flexion::analysis::recording::Warning;
-use flexion::system::{Jump, System};
+use flexion::system::{Jump, Set, System};
 
 /// A warning of a run with fixed or controlled steps, with what to do.
 pub(super) fn of_run(warning: &Warning, fixed: bool) -> String {
@@ -26,6 +26,16 @@ pub(super) fn struck(system: &dyn System, damping: f64, duration: f64) -> Option
         "a velocity jumps at t = {time:.6} s, and damping in proportion to the stiffness answers a jump with a force without bound: forces and \
          torques right behind it grow with the number of elements, their impulses do not; let the speed rise within some time"
     ))
+}
+
+/// A caution where a method that holds positions alone has contacts that may open.
+pub(super) fn positions_only(system: &dyn System) -> Option<String> {
+    let mut sets = system.rows().iter();
+    sets.any(|set| matches!(set, Set::Unilateral { .. })).then(|| {
+        "with `stabilized = false` nothing holds the velocities of closed contacts: where they close and open within a step their forces may \
+         grow without bound; leave the key out"
+            .to_owned()
+    })
 }
 
 /// A caution if a fixed step \[s\] is longer than the time in which a load or a motion changes.

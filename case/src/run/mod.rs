@@ -146,6 +146,9 @@ impl Reading {
         warnings.extend(unstable);
         let case = &self.case;
         warnings.extend(cautions::struck(live.system.as_ref(), case.damping_of_stiffness(), case.duration));
+        if self.values.inner("integrator").and_then(|of| of.get("stabilized")).is_some_and(|of| of.value == Value::Boolean(false)) {
+            warnings.extend(cautions::positions_only(live.system.as_ref()));
+        }
         if let Some(step) = case.steps.step() {
             warnings.extend(cautions::unseen(live.system.as_ref(), step, case.duration));
         }

@@ -158,9 +158,10 @@ impl Reading {
         let mut changes: Vec<Change> = self.case.finer().into_iter().filter_map(now).collect();
         let steps = match self.case.steps {
             Steps::Fixed { step, .. } => vec![STEP.to(step)],
-            Steps::Controlled { tolerance, breaks: 1, .. } => vec![Controlled::tolerance.to(tolerance)],
-            Steps::Controlled { tolerance, breaks, .. } => {
-                vec![Controlled::tolerance.to(tolerance), Controlled::break_steps.to(breaks as usize)]
+            Steps::Controlled { tolerance, longest, breaks, .. } => {
+                let longest = longest.map(|longest| Controlled::max_step.to(longest));
+                let breaks = (breaks != 1).then(|| Controlled::break_steps.to(breaks as usize));
+                [Controlled::tolerance.to(tolerance)].into_iter().chain(longest).chain(breaks).collect()
             }
         };
         changes.extend(steps.into_iter().map(|key| INTEGRATOR.change(key)));

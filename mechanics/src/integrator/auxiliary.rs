@@ -29,11 +29,6 @@ impl Parameters {
     pub(super) fn weights(&self, h: f64) -> [f64; 2] {
         [h * self.gamma * self.kappa(), h * h * self.beta * self.kappa()]
     }
-
-    /// h of the first weight.
-    pub(super) fn step_of(&self, [to_v, _]: [f64; 2]) -> f64 {
-        to_v / (self.gamma * (1.0 - self.alpha_f) / (1.0 - self.alpha_m))
-    }
 }
 
 /// The auxiliary acceleration aₙ, and the sizes of the steps accepted last and attempted.

@@ -127,19 +127,20 @@ pub enum StepError {
         /// Label of the worst unknown.
         worst: String,
     },
-    /// Newton's method did not converge, for the velocities of the joints have come loose: a method without dissipation that holds positions
-    /// alone multiplies their rounding errors (Cardona & Géradin, Computers & Structures 33 (1989) 801–820).
+    /// Newton's method did not converge, for the velocities of joints or closed contacts have come loose: a method without dissipation that
+    /// holds positions alone multiplies their rounding errors (Cardona & Géradin, Computers & Structures 33 (1989) 801–820), and every method
+    /// does in steps that events shorten.
     #[error(
-        "no convergence at t = {time:.6} s with a step of {step:.3e} s: a method without dissipation holds the positions of joints and not their \
-         velocities, which are off by {rate:.2e} m/s or rad/s, and grow from rounding errors; hold them too by the stabilized form (`stabilized`), or take a \
-         method with dissipation"
+        "no convergence at t = {time:.6} s with a step of {step:.3e} s: the method holds the positions of joints and closed contacts and not their \
+         velocities, which are off by {rate:.2e} m/s or rad/s, and grow from rounding errors; hold them too by the stabilized form (`stabilized`), or, \
+         without contacts, take a method with dissipation"
     )]
     Loose {
         /// Time at the start of the step \[s\].
         time: f64,
         /// Step \[s\].
         step: f64,
-        /// Largest rate at which a joint that holds moves, in the units of its row a second.
+        /// Largest rate at which a joint or a closed contact moves, in the units of its row a second.
         rate: f64,
     },
     /// The iteration matrix is singular.

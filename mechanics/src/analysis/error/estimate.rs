@@ -23,8 +23,9 @@
 //! Half the step would not serve where vibrations are hardly resolved, for errors do not fall like hᵖ there. So `Radau`
 //! runs all companions: those of its own runs with a tenth of their tolerance, which makes the error 18 times smaller
 //! (h ∼ tol^(1/4), error ∼ h⁵), or 6 times where only the stages' order counts (error ∼ h³), and with steps
-//! below 0.9 of its longest, or half where there is no mesh to refine, and twice as many between two breaks: where a load acts
-//! for a short time, those of the run may all be as long as that, and within every tolerance. Those of fixed steps have
+//! below half of its longest, and twice as many between two breaks: where the interval of recording bounds the steps, or a load acts
+//! for a short time, those of the run may all be as long as that, and within every tolerance. Vibrations far smaller than the tolerance
+//! are damped by such steps, by slightly shorter ones too: a companion with 0.9 of the step has nearly the same error. Those of fixed steps have
 //! the tolerances 10⁻⁵, 10⁻⁷ and 10⁻⁹ in turn, until two of them differ by half of what the run differs from the
 //! second: the companion need be no more accurate than that, and a tighter tolerance would resolve every frequency of the mesh.
 //!
@@ -40,6 +41,7 @@ use super::impacts::{before_impacts, until_impact};
 use super::instability::{Unstable, instability};
 use super::pair::{ColumnError, Pair, vanishes};
 use super::trust::{Parting, parting};
+use super::variant::SHORTER;
 use super::{Refinable, Variant};
 use crate::analysis::recording::{Record, Watch};
 use crate::analysis::transient::{Ending, Plan, RunError};
@@ -51,12 +53,6 @@ const LADDER: [f64; 3] = [1e-5, 1e-7, 1e-9];
 /// Difference of two companions over that of the run and the second, with which the second is accurate enough: its own
 /// error is a thirtieth of the difference or less (100^(3/4), see above).
 const SETTLED: f64 = 0.5;
-/// Tolerance of a companion over that of a run under control.
-pub(super) const FINER: f64 = 0.1;
-/// Longest step of a companion over that of the run: with a finer mesh, which most of the difference is of, and without.
-const SHORTER: (f64, f64) = (0.9, 0.5);
-/// Smallest tolerance that is asked of `Radau`.
-pub(super) const TIGHTEST: f64 = 1e-13;
 /// Factor on the difference to the reference model, for the error of its own run.
 const OWN_ERROR: f64 = 1.1;
 /// Steps times unknowns of a run beyond which its companions are not run unasked: about a second of computing.
@@ -307,24 +303,10 @@ fn finer_run<P: Refinable>(
     Ok((finer, fine))
 }
 
-/// The variant with twice the functions and a far more accurate integration. Steps of `run` may be as long as they are for another reason
-/// than its tolerance: those of the companion are shorter.
+/// The variant with twice the functions and a far more accurate integration.
 fn refined<P: Refinable>(problem: &P, variant: &Variant, run: &Record) -> Variant {
     let halved = variant.halved(problem.has_mesh());
-    if variant.fixed_step().is_some() {
-        return halved.by_radau(LADDER[0]);
-    }
-    let shorter = if problem.has_mesh() { SHORTER.0 } else { SHORTER.1 };
-    let longest = longest_step(run).map(|longest| shorter * longest).or(variant.plan.longest_step);
-    let plan = Plan { longest_step: longest, ..variant.plan.clone() };
-    Variant { plan, ..halved.with_tolerances(FINER, TIGHTEST, f64::INFINITY) }.with_shorter_parts()
-}
-
-/// The longest step of a run \[s\].
-fn longest_step(run: &Record) -> Option<f64> {
-    let of_steps = |c: &Channel| c.role == Role::Integration && c.unit == "s";
-    let index = run.trajectory.channels().iter().position(of_steps)?;
-    Some(run.trajectory.extremes(index).max).filter(|longest| *longest > 0.0)
+    if variant.fixed_step().is_some() { halved.by_radau(LADDER[0]) } else { halved.more_accurate(run) }
 }
 
 /// The run of the reference model on the mesh of `variant`, to its tolerance.
@@ -334,7 +316,7 @@ fn reference<P: Refinable>(
     finer: &Variant,
     watch: &mut Watch<'_>,
 ) -> Result<Record, P::Fault> {
-    let longest = finer.plan.longest_step.map(|longest| longest / SHORTER.0);
+    let longest = finer.plan.longest_step.map(|longest| longest / SHORTER);
     let plan = Plan { longest_step: longest, ..finer.plan.clone() };
     let tolerance = variant.tolerance.or(finer.tolerance);
     until_impact(problem, &Variant { reference: true, plan, tolerance, ..variant.clone() }, watch)

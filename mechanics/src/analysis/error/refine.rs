@@ -1,14 +1,15 @@
 //! Refinement of mesh and steps until what is asked is accurate enough.
 //!
-//! Run k has twice the elements (functions) of run k − 1, and a tenth of its tolerance or half its step. Its error is
+//! Run k has twice the elements (functions) of run k − 1, and a tenth of its tolerance with steps below half of its longest, or half its
+//! step. Its error is
 //! [estimated](super::estimate()) from a finer companion. The order p of a sequence is that of its errors against the
 //! elements, log₂(e_{k−1}/e_k): mesh and steps together, as they are refined. The run with the smallest error is the result: rounding
 //! grows with the mesh, and the last run need not be the best.
 
-use super::estimate::{Effort, Estimate, FINER, NoEstimate, TIGHTEST, estimate};
+use super::estimate::{Effort, Estimate, NoEstimate, estimate};
 use super::pair::{ColumnError, Pair, vanishes};
 use super::{Refinable, Variant};
-use crate::analysis::recording::{Trajectory, Watch};
+use crate::analysis::recording::{Record, Trajectory, Watch};
 use crate::analysis::transient::{Ending, Plan, RunError};
 use crate::system::{Role, State};
 use std::cell::Cell;
@@ -241,7 +242,7 @@ pub fn refine<P: Refinable, E: From<P::Fault>>(
         rungs.push(rung);
         ratios.push(ratio);
         let amplified = errors.unstable().is_some() || errors.trusted < record.state.t;
-        let next = next(problem, &variant);
+        let next = next(problem, &variant, record);
         let kept = match best.take() {
             Some(best) if best.ratio <= ratio => best,
             _ => Best { variant, run, errors: Some(Ok(errors)), ratio },
@@ -263,12 +264,13 @@ pub fn refine<P: Refinable, E: From<P::Fault>>(
     Ok(Refinement { variant, run, errors, rungs, ended })
 }
 
-/// The variant with twice the functions, and a tenth of the tolerance with twice the steps between breaks, or half the step.
-fn next<P: Refinable>(problem: &P, variant: &Variant) -> Variant {
-    let halved = variant.halved(problem.has_mesh()).with_tolerances(FINER, TIGHTEST, f64::INFINITY);
+/// The variant with twice the functions, and a tenth of the tolerance with half the longest step of its `run` and twice the steps between
+/// breaks, or half the step.
+fn next<P: Refinable>(problem: &P, variant: &Variant, run: &Record) -> Variant {
+    let halved = variant.halved(problem.has_mesh());
     match variant.fixed_step() {
         Some(step) => Variant { plan: Plan { step: Some(0.5 * step), ..halved.plan.clone() }, ..halved },
-        None => halved.with_shorter_parts(),
+        None => halved.more_accurate(run),
     }
 }
 

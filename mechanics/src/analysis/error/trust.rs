@@ -1,7 +1,7 @@
 //! Until when the contacts of a run are those of a more accurate one.
 //!
 //! Impacts of a beam are chaotic: a difference in the last digits grows from burst to burst, and no tolerance makes all of
-//! a long run right. A companion on the same mesh, with a tenth of the tolerance or half the step, says how far it is.
+//! a long run right. A companion on the same mesh, with a tenth of the tolerance and half the longest step, or half the step, says how far it is.
 
 use super::{Refinable, Variant};
 use crate::analysis::recording::{Record, Watch};
@@ -42,7 +42,7 @@ pub(super) fn parting<P: Refinable>(
         return Ok(None);
     }
     let (finer, by) = match variant.fixed_step() {
-        None => (variant.with_tolerances(0.1, 1e-13, 1.0).with_shorter_parts(), Finer::Tolerance),
+        None => (variant.more_accurate(run), Finer::Tolerance),
         Some(_) => {
             let half = |step: Option<f64>| step.map(|step| 0.5 * step);
             let (step, contact_step) = (half(variant.plan.step), half(variant.plan.contact_step));

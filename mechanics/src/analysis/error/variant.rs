@@ -4,7 +4,14 @@ use crate::analysis::disturb;
 use crate::analysis::recording::{Record, Watch, record_watched};
 use crate::analysis::transient::Plan;
 use crate::integrator::{Integrator, InvalidParameter, Radau, Tolerance};
-use crate::system::System;
+use crate::system::{Channel, Role, System};
+
+/// Tolerance of a companion over that of a run under control.
+const FINER: f64 = 0.1;
+/// Longest step of a companion over that of the run.
+pub(super) const SHORTER: f64 = 0.5;
+/// Smallest tolerance that is asked of `Radau`.
+const TIGHTEST: f64 = 1e-13;
 
 /// The functions of a mesh, against those of the mesh that is asked for.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -116,6 +123,14 @@ impl Variant {
         Variant { tolerance: self.tolerance.map(scaled), ..self.clone() }
     }
 
+    /// The same, of which `run` is, more accurate in time where steps are under control: with a tenth of the tolerance, half the longest step,
+    /// and twice as many steps between breaks. Steps of `run` may be as long as they are for another reason than its tolerance.
+    pub(super) fn more_accurate(&self, run: &Record) -> Variant {
+        let longest = longest_step(run).map(|longest| SHORTER * longest).or(self.plan.longest_step);
+        let plan = Plan { longest_step: longest, ..self.plan.clone() };
+        Variant { plan, ..self.with_tolerances(FINER, TIGHTEST, f64::INFINITY) }.with_shorter_parts()
+    }
+
     /// The same with twice as many steps under control between two neighbouring breaks.
     pub(super) fn with_shorter_parts(self) -> Variant {
         let break_steps = self.plan.break_steps.saturating_mul(2);
@@ -126,4 +141,11 @@ impl Variant {
     pub(super) fn halved(&self, has_mesh: bool) -> Variant {
         Variant { mesh: if has_mesh { self.mesh.halved() } else { self.mesh }, ..self.clone() }
     }
+}
+
+/// The longest step of a run \[s\].
+fn longest_step(run: &Record) -> Option<f64> {
+    let of_steps = |c: &Channel| c.role == Role::Integration && c.unit == "s";
+    let index = run.trajectory.channels().iter().position(of_steps)?;
+    Some(run.trajectory.extremes(index).max).filter(|longest| *longest > 0.0)
 }

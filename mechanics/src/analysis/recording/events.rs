@@ -4,6 +4,7 @@ use super::passing::vertex;
 use super::rigid::{Burst, Closed, Rigid};
 use crate::analysis::transient::{Event, EventKind};
 use crate::contact::Neglected;
+use crate::integrator::{Checkpoint, NotResumed};
 use crate::linalg::Vec3;
 use crate::system::{ContactInfo, ContactSample, Mode, State, System};
 
@@ -69,6 +70,16 @@ struct Largest {
 }
 
 impl Largest {
+    fn memory(&self) -> [f64; 8] {
+        let [(t0, y0), (t1, y1), (t2, y2)] = self.last;
+        [self.value, self.count.min(3) as f64, t0, y0, t1, y1, t2, y2]
+    }
+
+    fn of_memory(memory: &[f64]) -> Largest {
+        let last = [2, 4, 6].map(|k| (memory[k], memory[k + 1]));
+        Largest { value: memory[0], last, count: memory[1] as usize }
+    }
+
     fn enter(&mut self, t: f64, y: f64) {
         self.value = self.value.max(y);
         if self.count > 0 && t <= self.last[2].0 {
@@ -316,6 +327,43 @@ impl Events {
         ended.into_iter().for_each(|(i, burst)| self.close(i, &burst));
     }
 
+    /// Adds what later events depend on to a checkpoint.
+    pub(super) fn save(&self, out: &mut Checkpoint) {
+        if self.is_empty() {
+            return;
+        }
+        let modes: Vec<f64> = self.modes.iter().map(|mode| f64::from(*mode as u8)).collect();
+        out.put("events.modes", &modes);
+        out.put("events.strongest", &[self.strongest]);
+        let gaps: Vec<f64> = self.contacts.iter().map(|contact| contact.gap).collect();
+        out.put("events.gaps", &gaps);
+        let rigid: Vec<f64> = self.rigid.iter().flat_map(Rigid::memory).collect();
+        out.put("events.rigid", &rigid);
+        let pressed: Vec<f64> = self.pressed.iter().flat_map(Pressed::memory).collect();
+        out.put("events.pressed", &pressed);
+    }
+
+    /// Takes up what [`Events::save`] wrote, if anything: the events of a run that goes on are those of one that has never stopped.
+    pub(super) fn resume(&mut self, from: &Checkpoint) -> Result<(), NotResumed> {
+        if self.is_empty() || from.list("events.modes").is_err() {
+            return Ok(());
+        }
+        let mut modes = vec![0.0; self.modes.len()];
+        from.fill("events.modes", &mut modes)?;
+        self.modes = modes.into_iter().map(Mode::from_number).collect();
+        [self.strongest] = from.finite("events.strongest")?;
+        let mut gaps = vec![0.0; self.contacts.len()];
+        from.fill("events.gaps", &mut gaps)?;
+        self.contacts.iter_mut().zip(gaps).for_each(|(contact, gap)| contact.gap = gap);
+        let mut memories = vec![[0.0; 9]; self.rigid.len()];
+        from.fill("events.rigid", memories.as_flattened_mut())?;
+        self.rigid.iter_mut().zip(memories).for_each(|(rigid, memory)| rigid.recall(memory));
+        let mut memories = vec![[0.0; 19]; self.pressed.len()];
+        from.fill("events.pressed", memories.as_flattened_mut())?;
+        self.pressed = memories.into_iter().map(Pressed::of_memory).collect();
+        Ok(())
+    }
+
     /// Closes the bursts that go on at the end `time` of a run.
     pub(super) fn end(&mut self, time: f64) {
         for i in 0..self.contacts.len() {
@@ -354,6 +402,22 @@ impl Events {
 }
 
 impl Pressed {
+    /// All of it, as numbers; NaN stands for what is not known.
+    fn memory(&self) -> [f64; 19] {
+        let mut out = [0.0; 19];
+        out[..3].copy_from_slice(&[self.since.unwrap_or(f64::NAN), self.impulse, self.lost]);
+        out[3..11].copy_from_slice(&self.force.memory());
+        out[11..].copy_from_slice(&self.indentation.memory());
+        out
+    }
+
+    fn of_memory(memory: [f64; 19]) -> Pressed {
+        let [since, impulse, lost, largest @ ..] = memory;
+        let since = Some(since).filter(|since| !since.is_nan());
+        let [force, indentation] = [&largest[..8], &largest[8..]].map(Largest::of_memory);
+        Pressed { since, impulse, lost, force, indentation }
+    }
+
     fn enter(&mut self, t: f64, now: &ContactSample) {
         self.force.enter(t, now.force);
         self.indentation.enter(t, -now.gap);

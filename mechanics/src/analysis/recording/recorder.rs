@@ -8,7 +8,7 @@ use super::warning::Warning;
 use crate::analysis::energy_balance::rounding_energy;
 use crate::analysis::transient::{Ending, Event, Observer, Plan, Step};
 use crate::analysis::violation::Violation;
-use crate::integrator::Counters;
+use crate::integrator::{Checkpoint, Counters, NotResumed};
 use crate::system::{Channel, Direction, Role, Sink, State, System};
 use std::ops::ControlFlow;
 
@@ -286,6 +286,14 @@ impl Observer for Recorder<'_> {
 
     fn within(&mut self, system: &mut dyn System, state: &State, weight: f64) {
         self.events.within(system, state, weight);
+    }
+
+    fn save(&self, out: &mut Checkpoint) {
+        self.events.save(out);
+    }
+
+    fn resume(&mut self, from: &Checkpoint) -> Result<(), NotResumed> {
+        self.events.resume(from)
     }
 
     fn step(&mut self, state: &State) -> ControlFlow<()> {

@@ -69,6 +69,26 @@ impl Rigid {
         }
     }
 
+    /// What later events depend on: whether it is closed, since when, impulse and largest force, and of the burst beginning, end, impulse and
+    /// number of parts; λ. NaN stands for what is not known.
+    pub(super) fn memory(&self) -> [f64; 9] {
+        let Closed { since, impulse, force } = self.closed.clone().unwrap_or_default();
+        let Burst { range, impulse: whole, parts } = self.burst.clone().unwrap_or_default();
+        let closed = f64::from(u8::from(self.closed.is_some()));
+        let since = since.unwrap_or(f64::NAN);
+        [closed, since, impulse, force, range[0], range[1], whole, parts as f64, self.lambda]
+    }
+
+    /// From the [memory](Rigid::memory) of a run.
+    pub(super) fn recall(&mut self, memory: [f64; 9]) {
+        let [closed, since, impulse, force, start, end, whole, parts, lambda] = memory;
+        let since = Some(since).filter(|since| !since.is_nan());
+        self.closed = (closed != 0.0).then_some(Closed { since, impulse, force });
+        let burst = Burst { range: [start, end], impulse: whole, parts: parts as usize };
+        self.burst = (parts > 0.0).then_some(burst);
+        self.lambda = lambda;
+    }
+
     /// The burst that goes on at the end of a run.
     pub(super) fn end(&mut self) -> Option<Burst> {
         self.burst.take()

@@ -62,9 +62,9 @@ pub fn transient_to_checkpoint(
     match run.begin(system, integrator, state, plan, observer) {
         Ok(mut integration) => {
             let ending = run.go_on(system, &mut integration, state, plan, observer);
-            (ending, run.checkpoint(Some(&integration), state, plan.sample))
+            (ending, run.checkpoint(Some(&integration), state, plan.sample, observer))
         }
-        Err(error) => (Ending::Failed(error), run.checkpoint(None, state, plan.sample)),
+        Err(error) => (Ending::Failed(error), run.checkpoint(None, state, plan.sample, observer)),
     }
 }
 
@@ -85,7 +85,7 @@ pub fn resume(
     let mut run = Run::new(system, state);
     let mut integration = run.resume(system, integrator, from, state, plan, observer)?;
     let ending = run.go_on(system, &mut integration, state, plan, observer);
-    Ok((ending, run.checkpoint(Some(&integration), state, plan.sample)))
+    Ok((ending, run.checkpoint(Some(&integration), state, plan.sample, observer)))
 }
 
 /// The moving parts of one run.
@@ -168,15 +168,15 @@ impl Run {
         from: &Checkpoint,
         state: &mut State,
         plan: &Plan,
-        observer: &dyn Observer,
+        observer: &mut dyn Observer,
     ) -> Result<Integration, NotResumed> {
         from.check_format()?;
         from.fill_state("", state)?;
-        let [origin, samples] = from.finite("run")?;
+        let [origin, samples, begins] = from.finite("run")?;
         if !(origin <= state.t && samples >= 0.0) {
             return Err(NotResumed::Invalid("run".to_owned()));
         }
-        (self.origin, self.samples) = (origin, samples as u64);
+        (self.origin, self.samples, self.begins) = (origin, samples as u64, begins != 0.0);
         let [size, iterations] = from.finite("last")?;
         self.last = Step { size, iterations: iterations as u32, ..Step::default() };
         let [sample] = from.finite("sample")?;
@@ -229,14 +229,21 @@ impl Run {
             self.balance = Some(balance);
         }
         integration.resume(system, from)?;
+        observer.resume(from)?;
         Ok(integration)
     }
 
     /// What [`Run::resume`] needs.
-    fn checkpoint(&self, integration: Option<&Integration>, state: &State, sample: f64) -> Checkpoint {
+    fn checkpoint(
+        &self,
+        integration: Option<&Integration>,
+        state: &State,
+        sample: f64,
+        observer: &dyn Observer,
+    ) -> Checkpoint {
         let mut out = Checkpoint::of_this_format();
         out.put_state("", state);
-        out.put("run", &[self.origin, self.samples as f64]);
+        out.put("run", &[self.origin, self.samples as f64, f64::from(u8::from(self.begins))]);
         out.put("sample", &[sample]);
         out.put("last", &[self.last.size, f64::from(self.last.iterations)]);
         if let Some(segment) = &self.segment {
@@ -254,6 +261,7 @@ impl Run {
         if let Some(integration) = integration {
             integration.save(&mut out);
         }
+        observer.save(&mut out);
         out
     }
 

@@ -2,6 +2,7 @@
 
 use crate::analysis::EnergyBalance;
 use crate::contact::Neglected;
+use crate::integrator::{Checkpoint, NotResumed};
 use crate::system::{Mode, State, System};
 use std::ops::ControlFlow;
 
@@ -96,4 +97,15 @@ pub trait Observer {
     /// The gap of the row `row` has fallen and risen in the step that ends at `time`, and may have been negative inside: the
     /// method locates no events, and a point may have passed through an obstacle.
     fn stepped_over(&mut self, _time: f64, _row: usize) {}
+
+    /// Adds to the checkpoint of the run what it depends on later of what it has seen.
+    fn save(&self, _out: &mut Checkpoint) {}
+
+    /// Takes up what an observer of the earlier run [saved](Observer::save), if one did.
+    ///
+    /// # Errors
+    /// [`NotResumed`] when it is not of such a run.
+    fn resume(&mut self, _from: &Checkpoint) -> Result<(), NotResumed> {
+        Ok(())
+    }
 }

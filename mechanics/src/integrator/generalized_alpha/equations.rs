@@ -16,9 +16,10 @@ pub(super) struct Equations {
     pub(super) mu: Vec<f64>,
     stiffness: Option<Matrix>,
     jacobian_columns: Vec<Vec<(usize, f64)>>,
-    /// The start of the step of the kept tangent, with Gₙ, and its increment.
+    /// The start of the step of the kept tangent, with Gₙ, its increment, and its size.
     start: State,
     increment: Vec<f64>,
+    step: f64,
     accelerations: Accelerations,
 }
 
@@ -46,6 +47,7 @@ impl Equations {
             jacobian_columns,
             start: State::zeros(if stabilized { size } else { Size::default() }, state.t),
             increment: vec![0.0; size.v],
+            step: 0.0,
         }
     }
 
@@ -91,8 +93,9 @@ impl Equations {
         }
     }
 
-    /// The tangent assembled last is of the step from `from` with the increment `d`.
-    pub(super) fn remember(&mut self, from: &State, d: &[f64]) {
+    /// The tangent assembled last is of the step `h` from `from` with the increment `d`.
+    pub(super) fn remember(&mut self, from: &State, d: &[f64], h: f64) {
+        self.step = h;
         if self.stiffness.is_some() {
             self.start.copy_from(from);
         }
@@ -104,22 +107,23 @@ impl Equations {
         &mut self,
         system: &mut dyn Dynamics,
         place: &State,
-        h: f64,
         weights: [f64; 2],
     ) -> Result<bool, Singular> {
         let (start, d) = (self.start.clone(), self.increment.clone());
         self.begin(system, &start);
-        self.assemble(system, place, &d, h, weights)
+        self.assemble(system, place, &d, self.step, weights)
     }
 
     pub(super) fn save(&self, out: &mut Checkpoint) {
         out.put_state("tangent.start.", &self.start);
         out.put("tangent.increment", &self.increment);
+        out.put("tangent.step", &[self.step]);
     }
 
     pub(super) fn resume(&mut self, from: &Checkpoint) -> Result<(), NotResumed> {
         from.fill_state("tangent.start.", &mut self.start)?;
-        from.fill("tangent.increment", &mut self.increment)
+        from.fill("tangent.increment", &mut self.increment)?;
+        from.fill("tangent.step", std::slice::from_mut(&mut self.step))
     }
 
     /// Assembles and factors the tangent at `to`.

@@ -5,14 +5,15 @@ use super::{
 };
 use super::{Convergence, Counters, ITERATION_TOLERANCE, JointForces, KeptTangent, StepError, Stepper};
 use crate::integrator::{Info, Integrator, InvalidParameter};
-use crate::system::{Dynamics, State};
+use crate::system::{Dynamics, Set, State};
 
 /// The generalized-α method. Its formulas and sources head the source file.
 #[derive(Clone, Debug)]
 pub struct GeneralizedAlpha {
     info: Info,
     parameters: Parameters,
-    stabilized: bool,
+    /// Whether ġ = 0 holds beside g = 0; where nothing is said, with contacts that may open.
+    stabilized: Option<bool>,
 }
 
 impl GeneralizedAlpha {
@@ -70,13 +71,19 @@ impl GeneralizedAlpha {
         GeneralizedAlpha {
             info: Info { name, order, estimate_order: None, implicit: true },
             parameters: Parameters { alpha_m, alpha_f, beta, gamma },
-            stabilized: false,
+            stabilized: None,
         }
     }
 
-    /// The same method on the stabilized form of index 2, in which ġ = 0 holds beside g = 0.
+    /// The same method on the stabilized form of index 2, in which ġ = 0 holds beside g = 0: that of systems with contacts that may open.
     pub fn stabilized(self) -> GeneralizedAlpha {
-        GeneralizedAlpha { stabilized: true, ..self }
+        GeneralizedAlpha { stabilized: Some(true), ..self }
+    }
+
+    /// The same method on the form of index 3, in which g = 0 alone holds: that of systems without such contacts. Where events shorten steps
+    /// its forces may grow without bound.
+    pub fn positions_only(self) -> GeneralizedAlpha {
+        GeneralizedAlpha { stabilized: Some(false), ..self }
     }
 
     /// The auxiliary acceleration of `n` unknowns.
@@ -94,6 +101,7 @@ impl GeneralizedAlpha {
     pub(in crate::integrator) fn memory(&self, system: &mut dyn Dynamics, state: &State) -> AlphaSteps {
         let size = system.size();
         let vector = || vec![0.0; size.v];
+        let opens = system.rows().iter().any(|set| matches!(set, Set::Unilateral { .. }));
         // Iteration errors leave the momentum of a system whose tangent is rotated section by section.
         let exactly = size.lambda > 0 || !system.is_vector_space();
         let simplified = if exactly {
@@ -108,7 +116,7 @@ impl GeneralizedAlpha {
             auxiliary: self.auxiliary(size.v),
             trend: Trend { before: vector(), earlier: vector(), known: 0 },
             d: vector(),
-            equations: Equations::new(system, state, self.stabilized),
+            equations: Equations::new(system, state, self.stabilized.unwrap_or(opens)),
             kept: KeptTangent::new(system, state),
             simplified,
             forces: JointForces::new(FORCES),

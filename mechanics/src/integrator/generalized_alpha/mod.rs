@@ -29,6 +29,10 @@
 //! ⎣ G                     0    0               ⎦ ⎣Δμ⎦     ⎣ ġ / (hγκ)  ⎦
 //! ```
 //!
+//! This is the form of systems with contacts that may open. Events shorten steps, from h to h′, and behind one of them the form of index 3
+//! asks for the acceleration of size ġ h/h′² that brings back g, which its ġ, held by no equation, has moved: forces of contacts would grow
+//! without bound.
+//!
 //! Newton's method is modified: tangent and factors are kept from step to step, and made anew as soon as a step takes more
 //! iterations than the mean step since the last renewal, the cost of the renewal included (`kept.rs`). An iteration ends when the
 //! increments are small (`newton.rs`); with constraints or rotations, when they are rounding errors. An affine system is solved exactly
@@ -67,7 +71,7 @@ use super::{
     Attempt, Checkpoint, Convergence, Counters, NotResumed, Progress, Span, StepError, StepReport, Stepper,
     failure, hermite,
 };
-use crate::system::{Dynamics, RowWeights, Set, State};
+use crate::system::{Dynamics, Mode, RowWeights, Set, State};
 use equations::Equations;
 pub use family::GeneralizedAlpha;
 
@@ -299,7 +303,7 @@ impl AlphaSteps {
         self.constant = !factored;
         if factored {
             self.kept.place.copy_from(to);
-            self.equations.remember(from, &self.d);
+            self.equations.remember(from, &self.d, h);
         }
         Ok(())
     }
@@ -352,17 +356,24 @@ impl AlphaSteps {
         Progress::Converged
     }
 
-    /// The largest rate at `from` of a row that is held by its position alone, in a method without dissipation, if a step at this rate goes
-    /// farther than rounding.
+    /// The largest rate at `from` of a row that is held by its position alone, if a step at this rate goes farther than rounding: of joints
+    /// in a method without dissipation, and of closed contacts, behind steps that events have shortened.
     fn loose(&self, system: &mut dyn Dynamics, from: &State, h: f64) -> Option<f64> {
         let undamped = self.auxiliary.parameters.gamma == 0.5;
-        if !undamped || self.equations.is_stabilized() || from.lambda.is_empty() {
+        if self.equations.is_stabilized() || from.lambda.is_empty() {
             return None;
         }
         let mut rates = vec![0.0; from.lambda.len()];
         system.constraint(from, RowWeights::VELOCITY, &mut rates);
-        let held = rates.iter().zip(system.rows()).filter(|(_, set)| **set == Set::Free);
-        let largest = held.fold(0.0_f64, |most, (rate, _)| most.max(rate.abs()));
+        let mut largest = 0.0_f64;
+        for ((rate, set), mode) in rates.iter().zip(system.rows()).zip(&from.mode) {
+            let held = match set {
+                Set::Free => undamped,
+                Set::Unilateral { .. } => *mode == Mode::Closed,
+                Set::Friction { .. } => false,
+            };
+            largest = largest.max(if held { rate.abs() } else { 0.0 });
+        }
         (largest * h > NOISE).then_some(largest)
     }
 
@@ -462,8 +473,7 @@ impl Stepper for AlphaSteps {
         self.kept.resume(from)?;
         self.equations.resume(from)?;
         if self.kept.weights.iter().all(|weight| weight.is_finite()) {
-            let h = self.auxiliary.parameters.step_of(self.kept.weights);
-            let made = self.equations.reassemble(system, &self.kept.place, h, self.kept.weights);
+            let made = self.equations.reassemble(system, &self.kept.place, self.kept.weights);
             made.map_err(|error| NotResumed::Failed(error.to_string()))?;
         }
         Ok(())

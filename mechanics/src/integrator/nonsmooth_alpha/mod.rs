@@ -305,7 +305,8 @@ impl Integrator for NonsmoothAlpha {
         open(system.rows(), state);
         // Without joints nothing is to be stabilized.
         let joints = system.rows().contains(&Set::Free);
-        let smooth = if joints { self.smooth.clone().stabilized() } else { self.smooth.clone() };
+        let smooth = self.smooth.clone();
+        let smooth = if joints { smooth.stabilized() } else { smooth.positions_only() };
         let scheme = if self.coupled {
             Scheme::Coupled(Box::new(Coupled::new(system, state, &smooth)))
         } else {
