@@ -87,6 +87,12 @@ impl Reading {
         found.into_iter().filter_map(bytes).collect()
     }
 
+    /// The files that the case is read from: its own and all that it names.
+    pub fn inputs(&self) -> Vec<PathBuf> {
+        let folder = Folder::of(&self.file);
+        std::iter::once(self.file.clone()).chain(self.files.keys().map(|name| folder.file(name))).collect()
+    }
+
     /// The defaults in force: dotted path and value.
     pub fn defaults(&self) -> Vec<(String, String)> {
         let mut out = Vec::new();
@@ -207,7 +213,7 @@ impl Reading {
         if list.is_empty() { Ok(()) } else { Err(Problems { sources: self.sources.clone(), list }) }
     }
 
-    fn problems(&self, faults: Faults) -> Problems {
+    pub(super) fn problems(&self, faults: Faults) -> Problems {
         let mut problems = Problems { sources: self.sources.clone(), list: Vec::new() };
         let renamed = self.short.as_ref().map_or(&[][..], |(_, renamed)| renamed);
         report(faults, &self.values, renamed, &mut problems);
@@ -259,7 +265,7 @@ pub fn read(path: &Path, overrides: &[String]) -> Result<Reading, Problems> {
 /// # Errors
 /// Everything that is wrong with the case or the overrides.
 pub fn parse(text: String, file: &Path, overrides: &[String]) -> Result<Reading, Problems> {
-    parse_with(text, file, overrides, &Folder(file.parent().unwrap_or(Path::new("")).to_owned()))
+    parse_with(text, file, overrides, &Folder::of(file))
 }
 
 /// As [`parse`]; the files that the case names are those of `sources`.

@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::io::Read;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Largest file that is read [bytes].
@@ -31,15 +31,25 @@ impl Sources for Contents {
 #[derive(Clone, Debug)]
 pub struct Folder(pub PathBuf);
 
+impl Folder {
+    /// The folder of a case, to which the names in it are relative.
+    pub fn of(case: &Path) -> Folder {
+        Folder(case.parent().unwrap_or(Path::new("")).to_owned())
+    }
+
+    /// The file that a name stands for.
+    pub fn file(&self, name: &str) -> PathBuf {
+        let path = self.0.join(name);
+        let state = path.join(&*flexion_results::Artifact::State.file_name());
+        if path.is_dir() && state.is_file() { state } else { path }
+    }
+}
+
 impl Sources for Folder {
     fn bytes(&self, name: &str) -> Result<Arc<[u8]>, String> {
-        let mut path = self.0.join(name);
-        let state = path.join(&*flexion_results::Artifact::State.file_name());
+        let path = self.file(name);
         if path.is_dir() {
-            if !state.is_file() {
-                return Err(format!("{} is a folder, not a file", path.display()));
-            }
-            path = state;
+            return Err(format!("{} is a folder, not a file", path.display()));
         }
         if path.exists() && !path.is_file() {
             return Err(format!("{} is not a regular file", path.display()));

@@ -27,6 +27,7 @@ mod papers;
 mod pendulum;
 mod reported_errors;
 mod restart;
+mod rotor;
 mod scales;
 mod section_forces;
 mod short_features;

@@ -47,7 +47,8 @@ pub fn advise(arguments: &Arguments) -> Outcome {
     let Some(reading) = arguments.case.read() else { return Outcome::Rejected };
     let named = format!("{}-advice", arguments.case.name());
     let output = arguments.output.clone().unwrap_or_else(|| Path::new("results").join(named));
-    let directory = match Directory::create_for(Artifact::ADVICE, &output, arguments.force) {
+    let directory = match Directory::create_for(Artifact::ADVICE, &output, arguments.force, &reading.inputs())
+    {
         Ok(directory) => directory,
         Err(error) => {
             screen::report(&format!("error: {error}\n"));

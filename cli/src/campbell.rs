@@ -149,7 +149,7 @@ fn diagram(arguments: &Arguments, reading: &Reading) -> Result<bool, String> {
     };
     let named = format!("{}-campbell", arguments.case.name());
     let output = arguments.output.clone().unwrap_or_else(|| Path::new("results").join(named));
-    let directory = Directory::create_for(Artifact::CAMPBELL, &output, arguments.force)
+    let directory = Directory::create_for(Artifact::CAMPBELL, &output, arguments.force, &reading.inputs())
         .map_err(|error| error.to_string())?;
     let bar = ProgressBar::new(plan.speeds.len() as u64);
     if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos}/{len} speeds  {eta} left") {

@@ -74,7 +74,8 @@ pub fn compare(arguments: &Arguments) -> Outcome {
         screen::report(&format!("warning: {caution}\n"));
     }
     if let Some(path) = &arguments.output {
-        let directory = match Directory::create_for(Artifact::COMPARISON, path, arguments.force) {
+        let inputs: Vec<PathBuf> = results.iter().map(|results| results.path.clone()).collect();
+        let directory = match Directory::create_for(Artifact::COMPARISON, path, arguments.force, &inputs) {
             Ok(directory) => directory,
             Err(error) => {
                 screen::report(&format!("error: {error}\n"));

@@ -96,8 +96,8 @@ fn written(arguments: &Arguments, reading: &Reading) -> Result<bool, String> {
         }
         Format::Hawc2 => (Artifact::HAWC2, vec![deck::write_hawc2(&made, &title)]),
     };
-    let directory =
-        Directory::create_for(own, &arguments.output, arguments.force).map_err(|error| error.to_string())?;
+    let directory = Directory::create_for(own, &arguments.output, arguments.force, &reading.inputs())
+        .map_err(|error| error.to_string())?;
     let write = |(artifact, text): (&Artifact, &String)| {
         directory.write(*artifact, |to| to.write_all(text.as_bytes()))
     };

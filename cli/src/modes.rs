@@ -74,8 +74,10 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
         return Err(format!("the speed is {} and must be zero or positive", units.speed.text(speed)));
     }
     let hub = arguments.options.hub(case)?;
-    let directory =
-        arguments.output.as_ref().map(|path| Directory::create_for(Artifact::MODES, path, arguments.force));
+    let directory = arguments
+        .output
+        .as_ref()
+        .map(|path| Directory::create_for(Artifact::MODES, path, arguments.force, &reading.inputs()));
     let directory = directory.transpose().map_err(|error| error.to_string())?.map(Arc::new);
     let stopped = discarded_on_ctrl_c(directory.clone());
     let found = compute(arguments, case, speed, hub).inspect_err(|_| {

@@ -91,7 +91,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
             return Outcome::Rejected;
         }
     };
-    let directory = match Directory::create(&output, arguments.force) {
+    let directory = match Directory::create_for(Artifact::RUN, &output, arguments.force, &reading.inputs()) {
         Ok(directory) => directory,
         Err(error) => {
             progress.finish();
@@ -184,7 +184,8 @@ fn finish(status: Status, reached: bool, reading: &Reading, run: &Run, directory
     out.push_str(&run.errors.as_ref().map(|errors| trust(errors, trajectory)).unwrap_or_default());
     screen::print(&out);
     let mut files = vec![("summary", Artifact::Summary)];
-    files.extend(reading.case.output.plots.then_some(("plot", Artifact::PlotSvg)));
+    let plot = directory.file(Artifact::PlotSvg).is_file();
+    files.extend((reading.case.output.plots && plot).then_some(("plot", Artifact::PlotSvg)));
     files.extend((!run.events.is_empty()).then_some(("events", Artifact::Events)));
     let solid = reading.case.space().is_some() && reading.case.output.vtk.is_some();
     files.extend((run.shapes.is_some() || solid).then_some(("shapes", Artifact::ShapeSeries)));

@@ -78,7 +78,7 @@ fn followed(arguments: &Arguments, reading: &Reading) -> Result<bool, Refused> {
     let named = format!("{}-statics", arguments.case.name());
     let output = arguments.output.clone().unwrap_or_else(|| Path::new("results").join(named));
     let plan = Plan { points: arguments.points as usize, longest: arguments.step, ..Plan::to(arguments.to) };
-    let directory = Directory::create_for(Artifact::STATICS, &output, arguments.force)
+    let directory = Directory::create_for(Artifact::STATICS, &output, arguments.force, &reading.inputs())
         .map_err(|error| Refused::Request(error.to_string()))?;
     let mut progress = Progress::new(arguments.to);
     let path = reading.load_path(&plan, |points, factor| progress.show_points(points, factor).is_continue());

@@ -20,7 +20,7 @@ pub struct Arguments {
     /// Directory of results of `flexion run`, or of `flexion modes --output`
     #[arg(value_name = "RESULT")]
     result: PathBuf,
-    /// Columns of a run shown at first, e.g. tip.deflection,hub.speed or 'tip.*' [default: those of the plot of a run]
+    /// Columns of a run shown at first, e.g. tip.deflection,hub.speed or 'tip.*' [default: those of the plot of a run, energies and contacts aside]
     #[arg(long, short, value_name = "NAMES", value_delimiter = ',')]
     columns: Vec<String>,
     /// File to write, .html

@@ -174,6 +174,53 @@ fn shell(folder: &Path, script: &str) -> Output {
 }
 
 #[cfg(unix)]
+/// Files with names of results that no run wrote, and those that a case reads, in the folder of the results.
+#[test]
+fn force_touches_neither_foreign_files_nor_what_the_case_reads() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = [SPIN_UP, REST].concat().replace(
+        r#"{ kind = "spin-up", speed = "4 rad/s", time = "15 s" }"#,
+        r#"{ kind = "table", of = "speed", file = "turning.csv" }"#,
+    );
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    write("case.toml", &case);
+    write("turning.csv", "t,value\n0,0\n40,1\n");
+    let run = ["run", "case.toml", "-o", ".", "--force", "--no-plots", "--error", "off"];
+    for (name, of_result) in
+        [("plot.svg", true), ("beam.pvd", true), ("table99.csv", true), ("modes.csv", false)]
+    {
+        write(name, "mine");
+        if of_result {
+            let before = content(folder.path());
+            let message = refused(folder.path(), &run);
+            assert!(message.contains(name) && message.contains("move it away"), "{message}");
+            assert_eq!(content(folder.path()), before);
+            std::fs::remove_file(folder.path().join(name)).unwrap();
+        }
+    }
+    for _ in 0..2 {
+        let output = flexion(folder.path(), &run);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    }
+    assert_eq!(std::fs::read_to_string(folder.path().join("modes.csv")).unwrap(), "mine");
+    assert_eq!(std::fs::read_to_string(folder.path().join("case.toml")).unwrap(), case);
+    // The same motion by the copy that the run wrote, and the run in its own folder from its own case or state.
+    let of = |arguments: &[&str]| refused(folder.path(), &[&run[..1], arguments, &run[2..]].concat());
+    for (arguments, name) in [
+        (&["case.toml", "--set", "hub.motion.file=motion.csv"][..], "motion.csv"),
+        (&["case.resolved.toml"], "case.resolved.toml"),
+        (
+            &["case.toml", "--set", "run.duration=30", "--set", "initial={kind='restart',file='.'}"],
+            "state.npz",
+        ),
+    ] {
+        let before = content(folder.path());
+        let message = of(arguments);
+        assert!(message.contains(name) && message.contains("is read by the case"), "{message}");
+        assert_eq!(content(folder.path()), before);
+    }
+}
+
 #[test]
 fn files_that_may_not_grow_end_with_2_and_the_former_results_stay() {
     let folder = folder();
@@ -220,7 +267,7 @@ fn on_a_full_or_read_only_disk_the_former_results_stay() {
         cp -r disk/out before
         "$1" run case.toml -o disk/out --force --set 'output.step=1 ms' 2>message; code=$?
         diff -r disk/out before >&2 || exit 71
-        ls -A disk/out | grep '^\.' >&2 && exit 72
+        ls -A disk/out | grep '^\.' | grep -v -x .flexion-files >&2 && exit 72
         "$1" run case.toml -o disk/out --force --set "$set" >/dev/null || exit 73
         mount -o remount,ro disk || exit $code
         "$1" run case.toml -o disk/out --force 2>>message; [ $? = 1 ] || exit 74

@@ -8,8 +8,7 @@ pub(super) const SHAPES: &str = "vtk";
 /// Declares the files: for each kind of result, variant, file name and description.
 macro_rules! artifacts {
     ($($(#[$doc:meta])* $set:ident { $($variant:ident $file:literal $what:literal,)* })*) => {
-        /// The files that results are made of. Their names belong to the program: `--force` replaces them
-        /// and no other file.
+        /// The files that results are made of. `--force` replaces those that the program wrote, and no other file.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum Artifact {
             $($(#[doc = concat!("`", $file, "`: ", $what, ".")] $variant,)*)*
@@ -124,15 +123,33 @@ impl Artifact {
         Artifact::SETS.iter().filter_map(|set| set.first().copied())
     }
 
+    /// Whether results of the kind `own` may have a file of this name.
+    pub(super) fn may_be_of(own: &[Artifact], name: &str) -> bool {
+        let without_case = [Artifact::COMPARISON, Artifact::BEAMDYN, Artifact::HAWC2].contains(&own);
+        let case = (!without_case).then_some(&Artifact::ResolvedCase);
+        let fixed = own.iter().chain(case).any(|artifact| artifact.file_name() == name);
+        let shape = name.strip_prefix(SHAPES).and_then(|rest| rest.strip_prefix('/'));
+        let of = |series| own.contains(&series);
+        fixed
+            || (of(Artifact::SectionTable) && Artifact::is_table(name))
+            || ((of(Artifact::ShapeSeries) || of(Artifact::ModesSeries))
+                && shape.is_some_and(Artifact::is_shape))
+    }
+
+    /// Whether results of any kind may have a file of this name.
+    pub(super) fn is_name(name: &str) -> bool {
+        Artifact::SETS.iter().any(|own| Artifact::may_be_of(own, name))
+    }
+
     /// Whether a file of this name is a [table](Artifact::Table).
-    pub(super) fn is_table(name: &str) -> bool {
+    fn is_table(name: &str) -> bool {
         let number = name.strip_prefix("table").and_then(|rest| rest.strip_suffix(".csv"));
         let digits = number.filter(|digits| !digits.starts_with(['0', '+']));
         digits.is_some_and(|digits| digits.parse::<u32>().is_ok())
     }
 
     /// Whether a file of this name in the folder of the shapes is one of them.
-    pub(super) fn is_shape(name: &str) -> bool {
+    fn is_shape(name: &str) -> bool {
         let between = |first, last| name.strip_prefix(first).and_then(|rest| rest.strip_suffix(last));
         let number = between("frame_", ".vtu").or_else(|| between("obstacles_", ".vtp"));
         number.is_some_and(|digits| digits.len() >= 5 && digits.bytes().all(|b| b.is_ascii_digit()))

@@ -1,5 +1,6 @@
 //! The directory of results: all files appear together, when they are whole.
 
+use std::borrow::Cow;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, BufWriter, Write as _};
 use std::path::{Path, PathBuf};
@@ -7,6 +8,7 @@ use std::path::{Path, PathBuf};
 use super::OutputError;
 use super::artifact::Artifact;
 use super::staging::{self, NEW};
+use super::written::{LIST, Written};
 
 /// A directory known to be writable that results of one kind will fill.
 ///
@@ -19,10 +21,13 @@ use super::staging::{self, NEW};
 /// After a loss of power that holds for former results, which go only when the new files are on the disk; a first run into
 /// a directory may then have to be repeated.
 ///
+/// A hidden list says which files the program wrote. Only these are ever replaced or removed.
+///
 /// As long as the value lives no other run can take the same directory, where the file system has locks.
 #[derive(Debug)]
 pub struct Directory {
     path: PathBuf,
+    own: &'static [Artifact],
     /// Whether there are former results.
     replaces: bool,
     /// Whether it was not there before.
@@ -32,25 +37,28 @@ pub struct Directory {
 }
 
 impl Directory {
-    /// [`Directory::create_for`] a run.
+    /// [`Directory::create_for`] a run that reads no files.
     ///
     /// # Errors
     /// Those of [`Directory::create_for`].
     pub fn create(path: impl AsRef<Path>, force: bool) -> Result<Directory, OutputError> {
-        Directory::create_for(Artifact::RUN, path, force)
+        Directory::create_for(Artifact::RUN, path, force, &[])
     }
 
     /// Makes the directory of one kind of results, e.g. [`Artifact::MODES`], with its parents, or takes an empty
     /// one, and checks that it can be written to: call it before a long run. With `force` a directory that is not
-    /// empty is taken too; former files of this kind will be replaced in the end, and other files are left alone.
+    /// empty is taken too; former files of this kind that the program wrote will be replaced in the end, and other files are
+    /// left alone. `inputs` are the files that the results are computed from.
     ///
     /// # Errors
     /// [`OutputError::NotADirectory`], [`OutputError::HoldsResults`], [`OutputError::NotEmpty`] and
-    /// [`OutputError::Busy`] as their names say; [`OutputError::Io`] when the system refuses.
+    /// [`OutputError::Busy`] as their names say; [`OutputError::Foreign`] and [`OutputError::Input`] where a file has the name
+    /// of a result and is none, or is one of the inputs; [`OutputError::Io`] when the system refuses.
     pub fn create_for(
         own: &'static [Artifact],
         path: impl AsRef<Path>,
         force: bool,
+        inputs: &[PathBuf],
     ) -> Result<Directory, OutputError> {
         let path = path.as_ref().to_path_buf();
         if path.exists() && !path.is_dir() {
@@ -63,9 +71,14 @@ impl Directory {
         if !force {
             refuse_contents(&path)?;
         }
+        let there = staging::names(&path).map_err(OutputError::io("read the directory", &path))?;
+        let taken: Vec<&str> =
+            there.iter().map(String::as_str).filter(|name| Artifact::may_be_of(own, name)).collect();
+        refuse_inputs(&path, &taken, inputs)?;
+        refuse_foreign(&path, &taken)?;
         staging::clear(&path).and_then(|()| probe(&path)).map_err(OutputError::io("write to", &path))?;
         let replaces = own.iter().any(|artifact| path.join(&*artifact.file_name()).exists());
-        Ok(Directory { path, replaces, made, _lock: lock })
+        Ok(Directory { path, own, replaces, made, _lock: lock })
     }
 
     /// Where it is, as it was asked for.
@@ -111,8 +124,25 @@ impl Directory {
     ///
     /// # Errors
     /// [`OutputError::Io`] with the system's reason; the next run into this directory finishes the work.
+    /// [`OutputError::Foreign`] where a file has come meanwhile that has the name of a result.
     pub fn publish(&self) -> Result<(), OutputError> {
-        staging::publish(&self.path).map_err(OutputError::io("move the results into", &self.path))
+        self.refuse_what_came()?;
+        let published = staging::publish(&self.path, &self.closing());
+        published.map_err(OutputError::io("move the results into", &self.path))
+    }
+
+    /// Name of the closing file.
+    fn closing(&self) -> Cow<'static, str> {
+        self.own.first().map_or(Cow::Borrowed(""), |artifact| artifact.file_name())
+    }
+
+    /// Refuses to replace files that have come since the directory was made.
+    fn refuse_what_came(&self) -> Result<(), OutputError> {
+        let new = staging::names(&self.path.join(NEW));
+        let new = new.map_err(OutputError::io("read the directory", &self.path))?;
+        let there: Vec<&str> =
+            new.iter().map(String::as_str).filter(|name| self.path.join(name).exists()).collect();
+        refuse_foreign(&self.path, &there)
     }
 
     /// Saves what was written whole before something failed, and says where it is: under its names, without
@@ -125,7 +155,8 @@ impl Directory {
             self.discard();
             return None;
         }
-        if !self.replaces && staging::place(&self.path).is_ok() {
+        let free = !self.replaces && self.refuse_what_came().is_ok();
+        if free && staging::place(&self.path, &self.closing()).is_ok() {
             Some(self.path.clone())
         } else {
             Some(staged)
@@ -149,8 +180,35 @@ fn refuse_contents(path: &Path) -> Result<(), OutputError> {
     let entries = fs::read_dir(path).and_then(Iterator::collect::<io::Result<Vec<_>>>);
     let entries = entries.map_err(OutputError::io("read the directory", path))?;
     let names = entries.into_iter().map(|entry| entry.file_name().to_string_lossy().into_owned());
-    match names.filter(|name| name != NEW).min() {
+    match names.filter(|name| name != NEW && name != LIST).min() {
         Some(found) => Err(OutputError::NotEmpty { path: path.to_path_buf(), found }),
+        None => Ok(()),
+    }
+}
+
+/// Refuses `names` of which no former run wrote the file.
+fn refuse_foreign(path: &Path, names: &[&str]) -> Result<(), OutputError> {
+    let written = Written::read(path);
+    match names.iter().find(|name| !written.holds(name)) {
+        Some(name) => Err(OutputError::Foreign { path: path.join(name) }),
+        None => Ok(()),
+    }
+}
+
+/// Refuses `names` that are files of `inputs`, by the path that was given or by where it leads.
+fn refuse_inputs(path: &Path, names: &[&str], inputs: &[PathBuf]) -> Result<(), OutputError> {
+    let named = |file: &Path| {
+        let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        Some(folder.canonicalize().ok()?.join(file.file_name()?))
+    };
+    let read: Vec<PathBuf> =
+        inputs.iter().flat_map(|file| [named(file), file.canonicalize().ok()]).flatten().collect();
+    match names
+        .iter()
+        .map(|name| path.join(name))
+        .find(|file| named(file).is_some_and(|file| read.contains(&file)))
+    {
+        Some(path) => Err(OutputError::Input { path }),
         None => Ok(()),
     }
 }
@@ -202,9 +260,10 @@ fn lock(path: &Path) -> Result<Option<File>, OutputError> {
 mod tests {
     use super::*;
 
+    /// What is in a folder but the list of what the program wrote.
     fn names(path: &Path) -> Vec<String> {
-        let mut names: Vec<String> =
-            fs::read_dir(path).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+        let all = fs::read_dir(path).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap());
+        let mut names: Vec<String> = all.filter(|name| name != LIST).collect();
         names.sort();
         names
     }
@@ -213,9 +272,12 @@ mod tests {
     fn former() -> tempfile::TempDir {
         let dir = tempfile::tempdir().unwrap();
         fs::create_dir(dir.path().join("vtk")).unwrap();
+        let mut names = std::collections::BTreeSet::new();
         for a in Artifact::RUN.iter().copied().chain((0..3).map(Artifact::Shape)) {
             fs::write(dir.path().join(&*a.file_name()), "old").unwrap();
+            names.insert(a.file_name().into_owned());
         }
+        Written::default().with("summary.json", names).write(dir.path()).unwrap();
         fs::write(dir.path().join("notes.txt"), "mine").unwrap();
         dir
     }
@@ -238,7 +300,7 @@ mod tests {
         fs::write(dir.path().join("summary.json"), "{}").unwrap();
         for refused in [
             Directory::create(dir.path(), false),
-            Directory::create_for(Artifact::COMPARISON, dir.path(), false),
+            Directory::create_for(Artifact::COMPARISON, dir.path(), false, &[]),
         ] {
             let e = refused.unwrap_err();
             assert!(matches!(e, OutputError::HoldsResults { .. }), "{e}");
@@ -264,9 +326,57 @@ mod tests {
     }
 
     #[test]
+    fn files_with_the_names_of_results_that_no_run_wrote_are_left_alone() {
+        for name in ["plot.svg", "beam.pvd", "table99.csv", "vtk/frame_00007.vtu", "case.resolved.toml"] {
+            for dir in [tempfile::tempdir().unwrap(), former()] {
+                fs::create_dir_all(dir.path().join("vtk")).unwrap();
+                // Whatever the list says of the other files.
+                let names =
+                    Written::read(dir.path()).of("summary.json").map(str::to_owned).collect::<Vec<_>>();
+                let others = names.into_iter().filter(|other| other != name).collect();
+                Written::default().with("summary.json", others).write(dir.path()).unwrap();
+                fs::write(dir.path().join(name), "mine").unwrap();
+                let before = names_within(dir.path());
+                let e = Directory::create(dir.path(), true).unwrap_err();
+                assert!(matches!(&e, OutputError::Foreign { path } if path.ends_with(name)), "{e}");
+                assert_eq!(names_within(dir.path()), before);
+            }
+        }
+        // A name that results of another kind have is free.
+        let dir = tempfile::tempdir().unwrap();
+        fs::write(dir.path().join("modes.csv"), "mine").unwrap();
+        let out = Directory::create(dir.path(), true).unwrap();
+        out.write(Artifact::Summary, |f| f.write_all(b"{}")).unwrap();
+        // One that comes during the run is left alone too, and the results are kept.
+        out.write(Artifact::TrajectoryCsv, |f| f.write_all(b"new")).unwrap();
+        fs::write(dir.path().join("trajectory.csv"), "mine").unwrap();
+        let e = out.publish().unwrap_err();
+        assert!(matches!(&e, OutputError::Foreign { path } if path.ends_with("trajectory.csv")), "{e}");
+        let saved = out.salvage().unwrap();
+        assert_eq!(fs::read_to_string(saved.join("trajectory.csv")).unwrap(), "new");
+        assert_eq!(fs::read_to_string(dir.path().join("trajectory.csv")).unwrap(), "mine");
+    }
+
+    fn names_within(path: &Path) -> Vec<String> {
+        staging::names(path).unwrap()
+    }
+
+    #[test]
+    fn what_a_run_reads_is_never_replaced_even_if_a_run_wrote_it() {
+        let dir = former();
+        let inputs = |name: &str| [dir.path().join("vtk/..").join(name)];
+        for name in ["state.npz", "case.resolved.toml", "section.csv"] {
+            let e = Directory::create_for(Artifact::RUN, dir.path(), true, &inputs(name)).unwrap_err();
+            assert!(matches!(&e, OutputError::Input { path } if path.ends_with(name)), "{e}");
+        }
+        drop(Directory::create_for(Artifact::RUN, dir.path(), true, &inputs("notes.txt")).unwrap());
+        drop(Directory::create_for(Artifact::COMPARISON, dir.path(), true, &inputs("state.npz")).unwrap());
+    }
+
+    #[test]
     fn a_comparison_replaces_no_file_of_a_run() {
         let dir = former();
-        let out = Directory::create_for(Artifact::COMPARISON, dir.path(), true).unwrap();
+        let out = Directory::create_for(Artifact::COMPARISON, dir.path(), true, &[]).unwrap();
         out.write(Artifact::CompareJson, |f| f.write_all(b"{}")).unwrap();
         out.publish().unwrap();
         assert_eq!(names(dir.path()).len(), Artifact::RUN.len() + 3);

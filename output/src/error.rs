@@ -32,6 +32,26 @@ pub enum OutputError {
         /// Name of one of the things found in it.
         found: String,
     },
+    /// A file of the directory has the name of a result, and no run wrote it.
+    #[error(
+        "no run is known to have written {}, and the new results may have a file of that name: move it away or choose another \
+         output directory",
+        path.display()
+    )]
+    Foreign {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A file of the directory that the case is read from has the name of a result.
+    #[error(
+        "{} is read by the case, and the new results may have a file of that name: what a case reads is never replaced; choose \
+         another output directory",
+        path.display()
+    )]
+    Input {
+        /// The file.
+        path: PathBuf,
+    },
     /// Another program is writing into the directory.
     #[error(
         "another run is writing its results into {}; wait for its end or choose another output directory",

@@ -36,6 +36,7 @@ mod statics;
 mod summary;
 mod vibration;
 mod vtk;
+mod written;
 
 pub use self::artifact::Artifact;
 pub use self::compare::{Comparison, Difference, compare, compare_csv, compare_json};

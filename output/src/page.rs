@@ -12,9 +12,9 @@ use base64::engine::general_purpose::STANDARD;
 use serde_json::{Map, Value, json};
 
 use super::artifact::Artifact;
+use super::plot::shown_columns;
 use super::staging::current;
 use super::{Results, ResultsError, VERSION, archive, select};
-use flexion::system::Role;
 
 /// The page without results.
 const PAGE: &str = include_str!("page.html");
@@ -48,9 +48,11 @@ fn motion(path: &Path, columns: &[String]) -> Result<Value, ResultsError> {
     let results = Results::read(path)?;
     let trajectory = &results.trajectory;
     let names: Vec<&str> = trajectory.channels().iter().map(|c| c.name.as_str()).collect();
+    let scene = arrays(path, Artifact::Scene)?;
     let shown = if columns.is_empty() {
-        let primary = trajectory.channels().iter().filter(|c| c.role == Role::Primary);
-        primary.map(|c| c.name.as_str()).collect()
+        // Only a beam in the plane has a hub.
+        let on_hub = scene.as_object().is_some_and(|arrays| arrays.keys().any(|name| name.ends_with(".hub")));
+        shown_columns(trajectory, !on_hub).into_iter().map(|i| names[i]).collect()
     } else {
         select(&names, columns, "these results")?
     };
@@ -68,7 +70,7 @@ fn motion(path: &Path, columns: &[String]) -> Result<Value, ResultsError> {
         "name": results.name,
         "version": VERSION,
         "caution": results.caution,
-        "scene": arrays(path, Artifact::Scene)?,
+        "scene": scene,
         "curves": { "times": double(&times), "columns": list.collect::<Vec<_>>() },
     }))
 }

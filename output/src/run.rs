@@ -93,6 +93,7 @@ mod tests {
     use crate::plot::trajectory_figure;
     use crate::samples::sample;
     use crate::summary::tests::report;
+    use crate::written::LIST;
 
     fn with_figure(figure: &Figure) -> Attachments<'_> {
         Attachments { figure: Some(figure), ..Attachments::default() }
@@ -112,6 +113,8 @@ mod tests {
                 (e.file_name().into_string().unwrap(), std::fs::read(e.path()).unwrap())
             })
             .collect();
+        // What the program wrote is listed.
+        files.retain(|(name, _)| name != LIST);
         files.sort();
         files
     }

@@ -5,11 +5,13 @@
 //! removed, the folder is renamed to [`MOVING`], and its files are moved to their names, the closing file last.
 //! The name of the folder thus says what remains to be done, and [`recover`] does it.
 
+use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
 use super::artifact::{Artifact, SHAPES};
+use super::written::{LIST, Written};
 
 /// Files being written.
 pub(super) const NEW: &str = ".flexion-new";
@@ -18,8 +20,9 @@ const COMPLETE: &str = ".flexion-complete";
 /// Files being moved, former ones gone.
 const MOVING: &str = ".flexion-moving";
 
-/// Makes the new files the results.
-pub(super) fn publish(path: &Path) -> io::Result<()> {
+/// Makes the new files, whose closing file has this name, the results.
+pub(super) fn publish(path: &Path, closing: &str) -> io::Result<()> {
+    list(path, closing)?;
     fs::rename(path.join(NEW), path.join(COMPLETE))?;
     // Not every system can bring a folder to disk; the files are there anyway.
     let _ = File::open(path).and_then(|folder| folder.sync_all());
@@ -27,22 +30,32 @@ pub(super) fn publish(path: &Path) -> io::Result<()> {
 }
 
 /// Moves the new files to their names beside whatever is there.
-pub(super) fn place(path: &Path) -> io::Result<()> {
+pub(super) fn place(path: &Path, closing: &str) -> io::Result<()> {
+    list(path, closing)?;
     fs::rename(path.join(NEW), path.join(MOVING))?;
     recover(path)
+}
+
+/// Lists the new files among those that the folder then holds of the program.
+fn list(path: &Path, closing: &str) -> io::Result<()> {
+    let names = names(&path.join(NEW))?.into_iter().filter(|name| name != LIST).collect::<BTreeSet<_>>();
+    Written::read(path).with(closing, names).write(&path.join(NEW))
 }
 
 /// Finishes what was interrupted, if anything was.
 pub(super) fn recover(path: &Path) -> io::Result<()> {
     let (complete, moving) = (path.join(COMPLETE), path.join(MOVING));
     if complete.is_dir() {
-        let closes =
-            |set: &&&[Artifact]| set.first().is_some_and(|a| complete.join(&*a.file_name()).exists());
-        let own = Artifact::SETS.iter().find(closes).copied().unwrap_or(Artifact::RUN);
-        let closing = own.first().map(|artifact| PathBuf::from(&*artifact.file_name()));
-        for file in held(path, own)?.into_iter().rev() {
-            if !complete.join(&file).exists() || closing.as_ref() == Some(&file) {
-                fs::remove_file(path.join(file))?;
+        let closing =
+            Artifact::closing().map(Artifact::file_name).find(|name| complete.join(&**name).exists());
+        let written = Written::read(path);
+        if let Some(closing) = closing {
+            // The closing file first: without it the others are no results.
+            let others =
+                written.of(&closing).filter(|name| *name != closing && !complete.join(name).exists());
+            let former = written.holds(&closing).then_some(&*closing);
+            for name in former.into_iter().chain(others) {
+                remove(&path.join(name))?;
             }
         }
         // Only if nothing else is in it.
@@ -50,14 +63,25 @@ pub(super) fn recover(path: &Path) -> io::Result<()> {
         fs::rename(&complete, &moving)?;
     }
     if moving.is_dir() {
-        for file in held(&moving, &Artifact::SETS.concat())? {
-            let target = path.join(&file);
+        let closes = |name: &String| Artifact::closing().any(|closing| closing.file_name() == **name);
+        let (last, mut first): (Vec<String>, Vec<String>) = names(&moving)?.into_iter().partition(closes);
+        first.extend(last);
+        for name in first {
+            let target = path.join(&name);
             target.parent().map_or(Ok(()), fs::create_dir_all)?;
-            fs::rename(moving.join(&file), target)?;
+            fs::rename(moving.join(&name), target)?;
         }
         fs::remove_dir_all(&moving)?;
     }
     Ok(())
+}
+
+/// Removes a file that may have gone before.
+fn remove(file: &Path) -> io::Result<()> {
+    match fs::remove_file(file) {
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(error),
+        _ => Ok(()),
+    }
 }
 
 /// Removes what an interrupted run had begun to write.
@@ -75,25 +99,23 @@ pub(super) fn current(path: &Path, artifact: Artifact) -> PathBuf {
     hidden.into_iter().find(|file| file.is_file()).unwrap_or_else(|| path.join(&*name))
 }
 
-/// The files of `set`, their tables and shapes that a folder holds, relative to it, the closing file last.
-fn held(folder: &Path, set: &[Artifact]) -> io::Result<Vec<PathBuf>> {
+/// The files in a folder and in that of the shapes in it, relative to it; none where there is no folder.
+pub(super) fn names(folder: &Path) -> io::Result<Vec<String>> {
     let mut found = Vec::new();
-    let shapes = folder.join(SHAPES);
-    if set.contains(&Artifact::ShapeSeries) && shapes.is_dir() {
-        for entry in fs::read_dir(shapes)? {
-            let name = entry?.file_name();
-            found
-                .extend(name.to_str().is_some_and(Artifact::is_shape).then(|| Path::new(SHAPES).join(&name)));
+    for (inside, prefix) in [(folder.to_path_buf(), ""), (folder.join(SHAPES), "vtk/")] {
+        let entries = match fs::read_dir(&inside) {
+            Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => continue,
+            entries => entries?,
+        };
+        for entry in entries {
+            let entry = entry?;
+            let name = entry.file_name();
+            if let (Some(name), false) = (name.to_str(), entry.file_type()?.is_dir()) {
+                found.push(format!("{prefix}{name}"));
+            }
         }
     }
-    if set.contains(&Artifact::SectionTable) && folder.is_dir() {
-        for entry in fs::read_dir(folder)? {
-            let name = entry?.file_name();
-            found.extend(name.to_str().is_some_and(Artifact::is_table).then(|| PathBuf::from(&name)));
-        }
-    }
-    let names = set.iter().rev().map(|artifact| PathBuf::from(&*artifact.file_name()));
-    found.extend(names.filter(|name| folder.join(name).is_file()));
+    found.sort();
     Ok(found)
 }
 
@@ -110,17 +132,25 @@ mod tests {
         fs::write(folder.join(name), text).unwrap();
     }
 
-    /// Results whose replacement was killed after so many removals or moves, beside a file of the user.
+    /// Results whose replacement was killed after so many removals or moves, beside files of the user, one with the name of
+    /// a result.
     fn interrupted(folder: &str, removed: usize, moved: usize) -> tempfile::TempDir {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path();
         write(path, "notes.txt", "mine");
-        for (i, name) in ["summary.json"].iter().chain(&STALE).chain(&FILES[..3]).enumerate() {
+        write(path, "plot.png", "mine");
+        let former = ["summary.json"].iter().chain(&STALE).chain(&FILES[..3]);
+        let list = |names: &mut dyn Iterator<Item = &&str>| {
+            Written::default().with("summary.json", names.map(|name| (*name).to_owned()).collect())
+        };
+        list(&mut former.clone()).write(path).unwrap();
+        for (i, name) in former.enumerate() {
             if i >= removed {
                 write(path, name, "old");
             }
         }
         fs::create_dir(path.join(folder)).unwrap();
+        list(&mut FILES.iter()).write(&path.join(folder)).unwrap();
         for (i, name) in FILES.iter().enumerate() {
             write(&if i < moved { path.to_owned() } else { path.join(folder) }, name, "new");
         }
@@ -139,8 +169,10 @@ mod tests {
             for name in FILES {
                 assert_eq!(fs::read_to_string(path.join(name)).unwrap(), "new", "{folder} {removed} {moved}");
             }
-            assert_eq!(fs::read_to_string(path.join("notes.txt")).unwrap(), "mine");
-            assert_eq!(fs::read_dir(path).unwrap().count(), 5, "{folder} {removed} {moved}");
+            for name in ["notes.txt", "plot.png"] {
+                assert_eq!(fs::read_to_string(path.join(name)).unwrap(), "mine");
+            }
+            assert_eq!(fs::read_dir(path).unwrap().count(), 7, "{folder} {removed} {moved}");
             assert_eq!(fs::read_dir(path.join("vtk")).unwrap().count(), 1, "{folder} {removed} {moved}");
         }
     }

@@ -16,7 +16,7 @@ use std::sync::Arc;
 pub enum Initial {
     /// Undeformed, moving with the hub.
     Undeformed,
-    /// In the equilibrium of steady rotation at the initial speed of the hub.
+    /// In steady rotation at the initial speed of the hub: in equilibrium, or in periodic motion under loads that keep their direction in space.
     SteadyRotation,
     /// In static equilibrium under the loads at t = 0, the hub held.
     Static,
@@ -65,7 +65,7 @@ pub static INITIAL: Choice<Initial> = Choice {
         },
         Kind {
             name: "steady-rotation",
-            summary: "equilibrium of steady rotation at the initial speed of the hub, or of all parts about one axis",
+            summary: "steady rotation at the initial speed of the hub, or of all parts about one axis: in equilibrium, and under gravity across the axis in the motion that repeats itself",
             source: "",
             example: "initial.kind=steady-rotation\nhub.motion={kind='constant', speed='4 rad/s'}",
             make: &Is(Initial::SteadyRotation),

@@ -3,7 +3,9 @@
 use crate::fault::{Fault, Made};
 use crate::keys::{keys, text, vector};
 use crate::kind::{Of, Table};
+use crate::run::cautions;
 use crate::units::{FACTOR, LENGTH};
+use flexion::analysis::periodic::{NoPeriodicMotion, circulate};
 use flexion::analysis::rotation::rotate_stably;
 use flexion::linalg::Vec3;
 use flexion::multibody::{Axis, Model, Multibody, Rotating};
@@ -131,21 +133,18 @@ impl Rotation {
         Ok((Rotating::new(multibody, self.axis), left_out))
     }
 
-    /// The state of a model in steady rotation at the speed with which the state `s` rotates.
+    /// The state of a model in steady rotation at the speed with which the state `s` rotates, under loads of a fixed direction in their
+    /// periodic motion, and what is to be said of these.
     ///
     /// # Errors
-    /// Why there is none: its parts move otherwise, loads that do not rotate with it, an equilibrium that is lost on the way to the speed.
-    pub(crate) fn turning(&self, model: &Model, s: &State) -> Result<State, String> {
-        let mut model = model.clone();
-        if let Some(joint) = &self.keeps {
-            model.keep_angle(joint);
-        }
-        let multibody = Multibody::new(model).map_err(|error| error.to_string())?;
-        let mut rotating = Rotating::new(multibody, self.axis);
-        let mut at = rotating.initial();
+    /// Why there is none: its parts move otherwise, an equilibrium that is lost on the way to the speed.
+    pub(crate) fn turning(&self, model: &Model, s: &State) -> Result<(State, Option<String>), String> {
+        let (mean, left_out) = self.of(model, true)?;
+        let mut mean = mean.at_an_instant();
+        let mut at = mean.initial();
         // The velocities are Ω times those at 1 rad/s.
-        rotating.set(Parameter::Speed, 1.0).map_err(|error| error.to_string())?;
-        let unit = rotating.in_space(&at).v;
+        mean.set(Parameter::Speed, 1.0).map_err(|error| error.to_string())?;
+        let unit = mean.in_space(&at).v;
         let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
         let speed = dot(&s.v, &unit) / dot(&unit, &unit);
         let largest = s.v.iter().fold(0.0_f64, |largest, v| largest.max(v.abs()));
@@ -156,8 +155,37 @@ impl Rotation {
                 self.described(false)
             ));
         }
-        rotate_stably(&mut rotating, &mut at, 0.0, speed).map_err(|error| error.to_string())?;
-        Ok(rotating.in_space(&at))
+        let mut loaded = self.loaded(model)?;
+        let unsteady = if left_out.is_empty() { loaded.unsteady() } else { Some(left_out.join(" and ")) };
+        let turned = rotate_stably(&mut mean, &mut at, 0.0, speed).map_err(|error| error.to_string());
+        let Some(what) = unsteady.filter(|_| speed != 0.0) else {
+            turned?;
+            return Ok((mean.in_space(&at), None));
+        };
+        let periodic = match turned {
+            Ok(_) => {
+                loaded.set(Parameter::Speed, speed).map_err(|error| error.to_string())?;
+                circulate([&mut mean, &mut loaded], &mut at, speed)
+            }
+            Err(_) => Err(NoPeriodicMotion::Far),
+        };
+        let said = cautions::unsteady(&what, &periodic);
+        if periodic.is_err() {
+            at = loaded.initial();
+            rotate_stably(&mut loaded, &mut at, 0.0, speed).map_err(|error| error.to_string())?;
+            return Ok((loaded.in_space(&at), Some(said)));
+        }
+        Ok((mean.in_space(&at), Some(said)))
+    }
+
+    /// A model that rotates with its loads across the axis as they stand at the start.
+    fn loaded(&self, model: &Model) -> Result<Rotating, String> {
+        let mut model = model.clone();
+        if let Some(joint) = &self.keeps {
+            model.keep_angle(joint);
+        }
+        let multibody = Multibody::new(model).map_err(|error| error.to_string())?;
+        Ok(Rotating::new(multibody, self.axis).at_an_instant())
     }
 
     /// As it is said: direction, the point of the axis that is next to the origin, and the joint that keeps its angle, or is free.

@@ -1,5 +1,6 @@
 //! What the reader of a run should know of its steps.
 
+use flexion::analysis::periodic::NoPeriodicMotion;
 use flexion::analysis::recording::Warning;
 use flexion::system::{Jump, Set, System};
 
@@ -48,4 +49,18 @@ pub(super) fn unseen(system: &dyn System, step: f64, duration: f64) -> Option<St
         "a load or a motion changes within {gap:.1e} s near t = {time:.6} s, and steps of {step} s do not see it: use steps \
          of {gap:.1e} s, or the adaptive method `radau`"
     ))
+}
+
+/// What is said of a start in steady rotation under `what`, which does not rotate.
+pub(crate) fn unsteady(what: &str, periodic: &Result<(), NoPeriodicMotion>) -> String {
+    let begins = match periodic {
+        Ok(()) => "the run begins in the periodic motion under them, as that is to first order".to_owned(),
+        Err(why) => format!(
+            "the run begins in the equilibrium under them as they stand at the start, and vibrates until damping has ended that: \
+             {why}"
+        ),
+    };
+    format!(
+        "loads of a direction that is fixed in space ({what}) change with every revolution, seen from what rotates: {begins}"
+    )
 }

@@ -1,7 +1,7 @@
 //! A case, run: from its reading to its results.
 
 pub mod advise;
-mod cautions;
+pub(crate) mod cautions;
 mod clock;
 mod contact;
 pub(crate) mod error;
@@ -18,10 +18,10 @@ use super::resolved;
 use clock::Clock;
 use flexion::analysis::equilibrium::stable_equilibrium;
 use flexion::analysis::error::Refinable;
+use flexion::analysis::periodic::{NoPeriodicMotion, circulate};
 use flexion::analysis::recording::{Columns, Record, Recorder, Watch};
 use flexion::analysis::superposition::superpose;
 use flexion::analysis::transient::{Ending, Plan, resume, transient_to_checkpoint};
-use flexion::hub_beam::Drive;
 use flexion::integrator::{Checkpoint, Info};
 use flexion::system::{State, System};
 use flexion_results::plot::{contact_figure, spatial_figure, trajectory_figure};
@@ -211,11 +211,12 @@ impl Reading {
                         let rotation = space.rotation.as_ref().map_err(Clone::clone);
                         let turning =
                             rotation.and_then(|rotation| rotation.turning(space.multibody.model(), state));
-                        let turning = turning.map_err(|why| self.problem("initial.kind", why))?;
+                        let (turning, unsteady) = turning.map_err(|why| self.problem("initial.kind", why))?;
+                        warning = unsteady;
                         state.q.copy_from_slice(&turning.q);
                         state.v.copy_from_slice(&turning.v);
                     }
-                    None => warning = self.equilibrium(system, state, watch)?,
+                    None => warning = self.turning(system, state, watch)?,
                 }
             }
             Initial::Static => {
@@ -238,10 +239,7 @@ impl Reading {
 
     /// Refuses what moves at the start with the velocities `v`, at a key and with what to do.
     pub(super) fn at_rest(&self, v: &[f64], key: &str, advice: &str) -> Result<(), Problems> {
-        let speed = self.case.hub_beam().map_or(0.0, |beam| match &beam.hub.drive {
-            Drive::Prescribed(motion) => motion.at(0.0).speed,
-            Drive::Free(hub) => hub.speed,
-        });
+        let speed = self.case.hub_beam().map_or(0.0, |beam| beam.hub.speed_at_start());
         if speed != 0.0 {
             let message = format!(
                 "the hub rotates at {speed} rad/s at the start, and a rotating beam is not in static equilibrium: {advice}"
@@ -254,6 +252,41 @@ impl Reading {
             return Err(self.problem(key, message));
         }
         Ok(())
+    }
+
+    /// Brings the state of a beam on a hub into steady rotation, under loads of a fixed direction in their periodic motion. Returns
+    /// what is to be said of these, or of the equilibrium.
+    fn turning(
+        &self,
+        system: &mut dyn System,
+        state: &mut State,
+        watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> Result<Option<String>, Problems> {
+        let speed = self.case.hub_beam().map_or(0.0, |beam| beam.hub.speed_at_start());
+        let (mut mean, what) = self.case.vibrating(speed != 0.0).map_err(|faults| self.problems(faults))?;
+        if what.is_empty() {
+            return self.equilibrium(system, state, watch);
+        }
+        let mut at = mean.initial();
+        let turned = self.equilibrium(mean.as_mut(), &mut at, watch);
+        let periodic = match turned {
+            // Contacts may be closed.
+            Ok(None) if !self.case.has_contacts() => {
+                mean.hold(true);
+                system.hold(true);
+                let found = circulate([mean.as_mut(), system], &mut at, speed);
+                system.hold(false);
+                found
+            }
+            _ => Err(NoPeriodicMotion::Far),
+        };
+        let said = cautions::unsteady(&what.join(" and "), &periodic);
+        if periodic.is_err() {
+            return Ok(self.equilibrium(system, state, watch)?.or(Some(said)));
+        }
+        state.q.copy_from_slice(&at.q);
+        state.v.copy_from_slice(&at.v);
+        Ok(Some(said))
     }
 
     /// Brings `state` into the equilibrium at the speed that the hub has. Returns a warning of one that is unstable, or that
@@ -324,7 +357,9 @@ impl Reading {
         };
         let identity = self.identity();
         let title = (!self.case.title.is_empty()).then_some(self.case.title.as_str());
-        let figure = self.case.output.plots.then(|| match &run.events {
+        // Of a beam at one time there is nothing to be drawn against it.
+        let moves = run.trajectory.times().len() > 1 || self.case.space().is_some();
+        let figure = (self.case.output.plots && moves).then(|| match &run.events {
             events if self.case.space().is_some() => {
                 spatial_figure(&run.scene, &run.trajectory, events, title)
             }

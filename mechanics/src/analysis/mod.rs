@@ -14,6 +14,7 @@ mod mac;
 mod mechanism;
 pub mod modes;
 pub mod path;
+pub mod periodic;
 pub mod recording;
 mod rigid;
 pub mod rotation;

@@ -169,7 +169,7 @@ pub fn superpose(
 }
 
 /// Moves an equilibrium to that under the forces of a linear displacement, with the velocities that belong to it.
-fn displace(
+pub(super) fn displace(
     system: &mut dyn System,
     state: &mut State,
     displacement: &[f64],

@@ -73,6 +73,14 @@ impl Hub {
         Hub { radius, inertia, drive: Drive::Prescribed(motion) }
     }
 
+    /// Its speed at t = 0 [rad/s].
+    pub fn speed_at_start(&self) -> f64 {
+        match &self.drive {
+            Drive::Prescribed(motion) => motion.at(0.0).speed,
+            Drive::Free(free) => free.speed,
+        }
+    }
+
     /// The angle that its controller wants at time `t` \[s\], if it has one \[rad\].
     pub(super) fn target(&self, t: f64) -> Option<f64> {
         let Drive::Free(free) = &self.drive else { return None };

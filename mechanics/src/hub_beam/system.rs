@@ -42,6 +42,8 @@ pub struct HubBeam<C> {
     /// Speed of a steady rotation instead of the drive's [rad/s], and whether the hub is held.
     steady: Option<f64>,
     pub(super) held: bool,
+    /// Angle by which the hub is turned further against loads of a fixed direction \[rad\].
+    azimuth: f64,
     loads: Loads,
     /// Stations that may touch obstacles, and the torque of the contact forces on the hub [N·m].
     pub(super) contact_points: Vec<ContactPoint>,
@@ -98,6 +100,7 @@ impl<C: Coupling> HubBeam<C> {
             breaks: breaks.into(),
             steady: None,
             held: false,
+            azimuth: 0.0,
             loads: Loads::default(),
             contact_points: Vec::new(),
             contact_torque: 0.0,
@@ -200,7 +203,7 @@ impl<C: Coupling> HubBeam<C> {
     /// Angle, speed and acceleration of the hub.
     pub(super) fn kinematics(&mut self, s: &State) -> HubKinematics {
         let n = || self.coupling.fields().len();
-        match (&self.hub.drive, self.steady) {
+        let mut hub = match (&self.hub.drive, self.steady) {
             (Drive::Free(free), steady) if self.held => {
                 let speed = steady.unwrap_or(free.speed);
                 HubKinematics { angle: s.q[n()], speed, acceleration: 0.0 }
@@ -213,7 +216,9 @@ impl<C: Coupling> HubBeam<C> {
                 HubKinematics { angle: speed * s.t, speed, acceleration: 0.0 }
             }
             (Drive::Prescribed(motion), None) => self.recent.at(motion, s.time()),
-        }
+        };
+        hub.angle += self.azimuth;
+        hub
     }
 
     /// Kinetic energy, angular momentum and torque of beam and hub.
@@ -396,6 +401,7 @@ impl<C: Coupling> Steady for HubBeam<C> {
         match parameter {
             Parameter::Speed => self.steady = Some(value),
             Parameter::LoadFactor => self.loads.set_part(value),
+            Parameter::Azimuth => self.azimuth = value,
         }
         Ok(())
     }
@@ -405,7 +411,7 @@ impl<C: Coupling> Steady for HubBeam<C> {
     }
 
     fn release(&mut self) {
-        (self.steady, self.held) = (None, false);
+        (self.steady, self.held, self.azimuth) = (None, false, 0.0);
         self.loads.set_part(1.0);
     }
 }

@@ -4,6 +4,7 @@ use super::force::Axes;
 use super::joint::{Drive, Joint, Kind};
 use super::marker::{Marker, Part};
 use super::model::Model;
+use super::rotation::about;
 use crate::linalg::{Mat3, Vec3};
 use crate::profile::{Constant, Motion};
 use crate::system::Frame;
@@ -151,6 +152,18 @@ impl Model {
             keep(&format!("`{}`", load.name), &mut [&mut load.force]);
         }
         names
+    }
+
+    /// Turns gravity and the loads of a fixed direction about an axis.
+    pub(super) fn turn_loads(&mut self, axis: &Axis, angle: f64) {
+        let turn = about(angle * axis.direction);
+        self.gravity = turn * self.gravity;
+        for load in self.loads.iter_mut().filter(|load| load.axes == Axes::Dead) {
+            (load.force, load.moment) = (turn * load.force, turn * load.moment);
+        }
+        for load in self.line_loads.iter_mut().filter(|load| load.axes == Axes::Dead) {
+            load.force = turn * load.force;
+        }
     }
 
     /// A marker at the start, in the axes of space.

@@ -18,7 +18,8 @@
 //! M′ = M,    C′ = C + M ∂B/∂v′,    K′ = K + C ∂A/∂q + M ∂B/∂q
 //! ```
 //!
-//! The ground rotates with the frame, and so do loads whose components are given in fixed axes: they must lie along the axis.
+//! The ground rotates with the frame, and so do loads whose components are given in fixed axes: they must lie along the axis, or are
+//! taken as they stand at one [instant](Rotating::at_an_instant).
 
 use super::axis::Axis;
 use super::beam::Beam;
@@ -40,6 +41,10 @@ pub struct Rotating {
     inner: Multibody,
     axis: Axis,
     speed: f64,
+    /// Whether loads across the axis are taken as they stand.
+    instant: bool,
+    /// Angle by which it has rotated against loads of a fixed direction \[rad\].
+    azimuth: f64,
 }
 
 /// A row of the derivatives of v and a: the unknown, and for others ∂A/∂q, ∂B/∂q and ∂B/∂v′.
@@ -48,7 +53,15 @@ type Row = (usize, Vec<(usize, [f64; 3])>);
 impl Rotating {
     /// The model in a frame that rotates about an axis, at rest to begin with.
     pub fn new(inner: Multibody, axis: Axis) -> Rotating {
-        Rotating { inner, axis, speed: 0.0 }
+        Rotating { inner, axis, speed: 0.0, instant: false, azimuth: 0.0 }
+    }
+
+    /// The model with the loads across the axis that a frame sees at the instant at which its axes are the inertial ones. An equilibrium
+    /// under them is none of the motion, in which they rotate against the frame: it is what a slow rotation passes through.
+    #[must_use]
+    pub fn at_an_instant(mut self) -> Rotating {
+        self.instant = true;
+        self
     }
 
     /// The model.
@@ -63,24 +76,19 @@ impl Rotating {
         self.inertial(s)
     }
 
-    /// A load that the frame would see rotate.
-    fn unsteady(&self) -> Option<String> {
+    /// The name of a load that the frame sees rotate, for a message: it keeps its direction in space, across the axis.
+    pub fn unsteady(&self) -> Option<String> {
         let across = |x: Vec3| self.axis.direction.cross(x).norm() > ACROSS * x.norm();
         let model = &self.inner.constants.model;
         let fixed = model.loads.iter().filter(|load| load.axes == Axes::Dead);
         let load = fixed.filter(|load| across(load.force) || across(load.moment)).map(|load| &load.name);
         let lines = model.line_loads.iter().filter(|load| load.axes == Axes::Dead && across(load.force));
-        let named = load.chain(lines.map(|load| &load.name)).next();
-        let what = match named {
-            Some(name) => format!("the load `{name}`"),
-            None if model.line_laws.iter().any(|of| !of.law.is_isotropic()) => "a force law".to_owned(),
-            None if across(model.gravity) => "gravity".to_owned(),
-            None => return None,
-        };
-        Some(format!(
-            "{what} keeps its direction in space, across the axis: seen from a frame that rotates it changes with every \
-             revolution, and there is no steady state; leave it out, let it act along the axis, or let it follow its part"
-        ))
+        match load.chain(lines.map(|load| &load.name)).next() {
+            Some(name) => Some(format!("the load `{name}`")),
+            None if model.line_laws.iter().any(|of| !of.law.is_isotropic()) => Some("a force law".to_owned()),
+            None if across(model.gravity) => Some("gravity".to_owned()),
+            None => None,
+        }
     }
 
     /// The state in inertial axes.
@@ -320,8 +328,21 @@ impl Steady for Rotating {
     fn set(&mut self, parameter: Parameter, value: f64) -> Result<(), NotSet> {
         match parameter {
             Parameter::LoadFactor => self.inner.set(parameter, value),
-            Parameter::Speed => match self.unsteady().filter(|_| value != 0.0) {
-                Some(why) => Err(NotSet::Lost(why)),
+            Parameter::Azimuth
+                if self.inner.constants.model.line_laws.iter().any(|of| !of.law.is_isotropic()) =>
+            {
+                Err(NotSet::Lost("a force law is no load that could be turned".to_owned()))
+            }
+            Parameter::Azimuth => {
+                self.inner.turn_loads(&self.axis, self.azimuth - value);
+                self.azimuth = value;
+                Ok(())
+            }
+            Parameter::Speed => match self.unsteady().filter(|_| value != 0.0 && !self.instant) {
+                Some(what) => Err(NotSet::Lost(format!(
+                    "{what} keeps its direction in space, across the axis: seen from a frame that rotates it changes with every \
+                     revolution, and there is no steady state; leave it out, let it act along the axis, or let it follow its part"
+                ))),
                 None => {
                     self.speed = value;
                     Ok(())
@@ -336,6 +357,10 @@ impl Steady for Rotating {
 
     fn release(&mut self) {
         self.speed = 0.0;
+        if self.azimuth != 0.0 {
+            self.inner.turn_loads(&self.axis, self.azimuth);
+            self.azimuth = 0.0;
+        }
         self.inner.release();
     }
 }

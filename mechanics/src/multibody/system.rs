@@ -11,6 +11,7 @@
 //! ∂(Jᵀ w) = Jᵀ (∂w/∂x J + ∂w/∂ẋ B) + ∂Jᵀ w
 //! ```
 
+use super::axis::Axis;
 use super::body::Placed;
 use super::constants::Constants;
 use super::contact_point::ContactPoint;
@@ -103,6 +104,15 @@ impl Multibody {
             system = Multibody::with(constants);
         }
         Ok(system)
+    }
+
+    /// Turns gravity and the loads of a fixed direction about an axis, and all else not.
+    pub(super) fn turn_loads(&mut self, axis: &Axis, angle: f64) {
+        let old = &self.constants;
+        let mut model = old.model.clone();
+        model.turn_loads(axis, angle);
+        let (constants, _) = Constants::new(model, old.rows.clone(), old.dropped.clone());
+        self.constants = Arc::new(constants);
     }
 
     /// The system with these constants.
@@ -560,7 +570,7 @@ impl Steady for Multibody {
     fn set(&mut self, parameter: Parameter, value: f64) -> Result<(), NotSet> {
         match parameter {
             Parameter::LoadFactor => self.part = value,
-            Parameter::Speed => return Err(NotSet::Unknown(parameter)),
+            Parameter::Speed | Parameter::Azimuth => return Err(NotSet::Unknown(parameter)),
         }
         Ok(())
     }

@@ -8,6 +8,8 @@ pub enum Parameter {
     Speed,
     /// Part of the loads that acts, 0 … 1.
     LoadFactor,
+    /// Angle φ \[rad\] by which the frame has rotated against loads of a direction that is fixed in space, with all else as it is.
+    Azimuth,
 }
 
 /// Why a parameter does not take a value.
@@ -16,7 +18,7 @@ pub enum Parameter {
 pub enum NotSet {
     /// The model has no such parameter.
     #[error("the model has no {}", match .0 {
-        Parameter::Speed => "frame that could rotate steadily",
+        Parameter::Speed | Parameter::Azimuth => "frame that could rotate steadily",
         Parameter::LoadFactor => "loads",
     })]
     Unknown(Parameter),

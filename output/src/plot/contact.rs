@@ -1,6 +1,6 @@
 //! The figure of a run with contacts: gaps, forces, energies, and the first burst of impacts.
 
-use super::panels::{energies, figure_of, panel, points};
+use super::panels::{column, energies, figure_of, panel, points, shown_columns};
 use super::{Axis, Figure, Line, Marker, Panel, Series, Words};
 use crate::{Drawn, Entry, Events, Scene, Trajectory};
 
@@ -16,7 +16,7 @@ const MARGIN: f64 = 0.15;
 /// Part of the largest energy below which a loss, or the work of an impulse, is rounding: that of a point without mass.
 const ROUNDING: f64 = 1e-9;
 
-/// The figure of a run with contacts against time. Without events, as of a method that steps over them, it has no
+/// The figure of a run with contacts against time: the first columns, gaps, forces, energies, and the first burst. Without events, as of a method that steps over them, it has no
 /// enlarged panels.
 pub fn contact_figure(
     scene: &Scene,
@@ -24,7 +24,12 @@ pub fn contact_figure(
     events: &Events,
     title: Option<&str>,
 ) -> Figure {
-    figure_of(contact_panels(scene, trajectory, events), title)
+    let mut panels: Vec<Panel> = Vec::new();
+    let contacts = contact_panels(scene, trajectory, events);
+    let beside = shown_columns(trajectory, false).into_iter().filter_map(|i| column(trajectory, i));
+    panels.extend(beside.take(1 + (contacts.len() + 1) % 2));
+    panels.extend(contacts);
+    figure_of(panels, title)
 }
 
 /// Its panels.

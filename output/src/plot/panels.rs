@@ -2,12 +2,13 @@
 
 use super::{Axis, Figure, Panel, Series};
 use crate::{Comparison, Results, Trajectory};
-use flexion::system::{Channel, Role};
+use flexion::system::{Channel, Kind, Role};
 
 /// Quantities of axes that are not the name of their column; nothing else depends on these names.
-const QUANTITIES: [(&str, &str); 14] = [
+const QUANTITIES: [(&str, &str); 15] = [
     ("tip.deflection", "Tip deflection w₂"),
     ("tip.axial", "Axial displacement"),
+    ("tip.across", "Tip displacement across"),
     ("hub.speed", "Hub speed"),
     ("hub.torque", "Hub torque τ"),
     ("hub.angle", "Hub angle θ"),
@@ -25,19 +26,74 @@ const QUANTITIES: [(&str, &str); 14] = [
 /// Primary columns that the figure of a run shows in any case; further ones fill its last row.
 const SHOWN: usize = 4;
 
+/// The same of a run in space, beside three views.
+const SHOWN_IN_SPACE: usize = 2;
+
+/// Change of a coordinate over the largest of its kind below which it is not drawn.
+const SMALL: f64 = 0.02;
+
+/// Change of a column of a run, over its size or that of its unit, that the integration leaves of what is constant.
+const NOISE: f64 = 1e-7;
+
 /// Energies below this fraction of the largest cannot be read in the same panel.
 const READABLE: f64 = 0.05;
 
 /// From this number on, panels stand in two columns.
 const PANELS: usize = 4;
 
+/// The columns that the figure of a run shows against time, energies and contacts aside: of a beam on a hub the first primary ones, and of a
+/// system in space the first that change, a primary one before the secondary ones.
+pub fn shown_columns(trajectory: &Trajectory, in_space: bool) -> Vec<usize> {
+    let primary = trajectory.with_role(Role::Primary);
+    if !in_space {
+        return primary.take(SHOWN).collect();
+    }
+    let mut found = moving(trajectory);
+    found.truncate(SHOWN_IN_SPACE);
+    found
+}
+
+/// The columns of a run in space that change, by the order in which they are drawn; a principal one in any case.
+pub(super) fn moving(trajectory: &Trajectory) -> Vec<usize> {
+    let channels = trajectory.channels();
+    let sizes: Vec<(f64, f64)> = (0..channels.len())
+        .map(|i| {
+            let extremes = trajectory.extremes(i);
+            let (change, size) = (extremes.max - extremes.min, extremes.largest());
+            (if change > NOISE * size { change } else { 0.0 }, size)
+        })
+        .collect();
+    let most = |alike: &dyn Fn(&Channel) -> bool, size: fn(&(f64, f64)) -> f64| {
+        let pairs = channels.iter().zip(&sizes).filter(|(channel, _)| alike(channel));
+        pairs.map(|(_, pair)| size(pair)).fold(0.0, f64::max)
+    };
+    // A coordinate that does not change, or little beside others, says nothing.
+    let moves = |i: &usize| {
+        let (own, change) = (&channels[*i], sizes[*i].0);
+        change > 0.0
+            && change >= SMALL * most(&|c| c.role == own.role && c.unit == own.unit, |of| of.0)
+            && change >= NOISE * most(&|c| c.unit == own.unit, |of| of.1)
+    };
+    // Those of contacts have panels of their own.
+    let gaps = || channels.iter().filter(|channel| channel.kind == Kind::Gap);
+    let contact = |i: &usize| {
+        gaps().any(|gap| {
+            gap.name.strip_suffix("gap").is_some_and(|contact| channels[*i].name.starts_with(contact))
+        })
+    };
+    let all = |role| trajectory.with_role(role).filter(|i| !contact(i));
+    let of = |role| all(role).filter(moves);
+    let first = of(Role::Primary).next().or_else(|| all(Role::Primary).find(|i| sizes[*i].1 > 0.0));
+    let others = of(Role::Secondary).chain(of(Role::Primary)).filter(|i| Some(*i) != first);
+    first.into_iter().chain(others).collect()
+}
+
 /// The figure of one run against time: the first primary columns and the parts of the energy; the first columns
 /// there are where there are none of these.
 pub fn trajectory_figure(trajectory: &Trajectory, title: Option<&str>) -> Figure {
     let all = |role| trajectory.with_role(role);
-    let panel =
-        |i: usize| with_target(panel(&[(None, trajectory)], &trajectory.channels()[i].name), trajectory, i);
-    let mut panels: Vec<Panel> = all(Role::Primary).take(SHOWN).filter_map(panel).collect();
+    let panel = |i: usize| with_target(column(trajectory, i), trajectory, i);
+    let mut panels: Vec<Panel> = shown_columns(trajectory, false).into_iter().filter_map(panel).collect();
     panels.extend(energies(trajectory));
     let others = [Role::Secondary, Role::Work, Role::Detail, Role::Imbalance, Role::Integration];
     for i in all(Role::Primary).skip(SHOWN).chain(others.into_iter().flat_map(all)) {
@@ -123,6 +179,23 @@ pub(super) fn panel(runs: &[(Option<&str>, &Trajectory)], name: &str) -> Option<
     Some(Panel { x: Axis::time(), y: y?, series, ..Panel::default() })
 }
 
+/// A column of a run. One that varies by no more than the integration leaves of what is constant is level.
+pub(super) fn column(trajectory: &Trajectory, index: usize) -> Option<Panel> {
+    panel(&[(None, trajectory)], &trajectory.channels()[index].name).map(level)
+}
+
+/// A panel whose curves are all constant, but for what the integration leaves of that, shows them so.
+fn level(mut panel: Panel) -> Panel {
+    let values = panel.series.iter().flat_map(|series| &series.points).map(|(_, y)| *y);
+    let (lo, hi) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), y| (lo.min(y), hi.max(y)));
+    let size = lo.abs().max(hi.abs());
+    if hi > lo && hi - lo <= NOISE * size {
+        let middle = lo.midpoint(hi);
+        panel.y.range = Some((middle - 0.5 * size, middle + 0.5 * size));
+    }
+    panel
+}
+
 /// The parts of the energy: in one panel, or in two where some are small.
 pub(super) fn energies(trajectory: &Trajectory) -> Vec<Panel> {
     let found: Vec<(usize, f64)> =
@@ -139,7 +212,7 @@ pub(super) fn energies(trajectory: &Trajectory) -> Vec<Panel> {
             let name = trajectory.channels()[*i].name.rsplit('.').next().filter(|_| group.len() > 1);
             Series::line(name, points(trajectory, *i)).numbered(if group.len() > 1 { *color } else { 0 })
         };
-        Panel { x: Axis::time(), y, series: group.iter().map(curve).collect(), ..Panel::default() }
+        level(Panel { x: Axis::time(), y, series: group.iter().map(curve).collect(), ..Panel::default() })
     };
     [large, small].into_iter().filter(|group| !group.is_empty()).map(panel).collect()
 }

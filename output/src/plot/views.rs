@@ -2,25 +2,20 @@
 
 use super::blades::{self, Blade, Marks, Turning};
 use super::contact::contact_panels;
-use super::panels::{energies, panel};
+use super::panels::{column, energies, moving, shown_columns};
 use super::style::{PANEL_HEIGHT, PANEL_WIDTH, VIEWS};
 use super::{Axis, Figure, Line, Marker, Panel, Series, Words};
 use crate::{Events, Scene, Trajectory};
 use flexion::linalg::Vec3;
-use flexion::system::Role;
 
 /// Most times that are drawn.
 const TIMES: usize = 9;
-/// Panels of columns beside the three views.
-const BESIDE: usize = 3;
 /// Colours of the first time, of those between, and of the last.
 const COLORS: [usize; 3] = [6, 7, 0];
 /// Space around what is drawn, over its size.
 const MARGIN: f64 = 0.06;
 /// The same around parts with their names.
 const AROUND_NAMES: f64 = 0.2;
-/// Change of a coordinate over the largest of its kind below which it is not drawn.
-const SMALL: f64 = 0.02;
 /// Part of its area that a plane shows from which on it is seen from the front; it is seen from its edge where it shows no more than
 /// the rest.
 const FRONT: f64 = 0.99;
@@ -28,8 +23,8 @@ const FRONT: f64 = 0.99;
 const BEYOND: f64 = 10.0;
 const NAMES: [&str; 3] = ["x", "y", "z"];
 
-/// The figure of a run in space: three views at several times, and the first columns against time; with contacts their gaps, forces and
-/// first burst.
+/// The figure of a run in space: three views at several times, and the [first columns](super::shown_columns) against time; with contacts their
+/// gaps, forces and first burst. Of a run of one time it is the views.
 pub fn spatial_figure(
     scene: &Scene,
     trajectory: &Trajectory,
@@ -37,33 +32,18 @@ pub fn spatial_figure(
     title: Option<&str>,
 ) -> Figure {
     let mut panels = views(scene, &[], PANEL_HEIGHT[2], MARGIN);
-    let column = |i: usize| panel(&[(None, trajectory)], &trajectory.channels()[i].name);
-    // A coordinate that does not change, or little beside others, says nothing.
-    let change = |i: usize| {
-        let extremes = trajectory.extremes(i);
-        let change = extremes.max - extremes.min;
-        if change > 1e-9 * extremes.largest() { change } else { 0.0 }
-    };
-    let channels = trajectory.channels();
-    let changes: Vec<f64> = (0..channels.len()).map(change).collect();
-    let moves = |i: &usize| {
-        let kind = |k: usize| (channels[k].role, &channels[k].unit);
-        let alike = (0..channels.len()).filter(|k| kind(*k) == kind(*i)).map(|k| changes[k]);
-        changes[*i] > 0.0 && changes[*i] >= SMALL * alike.fold(0.0, f64::max)
-    };
-    let of = |role| trajectory.with_role(role).filter(moves);
-    // Those of contacts have panels of their own.
-    let contact = |i: &usize| {
-        events.names().any(|name| trajectory.channels()[*i].name.starts_with(&format!("{name}.")))
-    };
-    let columns = of(Role::Secondary).chain(of(Role::Primary)).filter(|i| !contact(i)).filter_map(column);
+    // What has one time is at rest.
+    if trajectory.times().len() < 2 {
+        return Figure { title: title.map(String::from), panels, columns: 2, share_x: false };
+    }
+    let column = |i: usize| column(trajectory, i);
     if events.is_empty() {
-        let energies = energies(trajectory);
-        panels.extend(columns.take(BESIDE - energies.len().min(1)));
-        panels.extend(energies.into_iter().take(1));
+        panels.extend(shown_columns(trajectory, true).into_iter().filter_map(column));
+        panels.extend(energies(trajectory).into_iter().take(1));
     } else {
         let contacts = contact_panels(scene, trajectory, events);
-        panels.extend(columns.take((panels.len() + contacts.len()) % 2));
+        let columns = 1 + (panels.len() + contacts.len() + 1) % 2;
+        panels.extend(moving(trajectory).into_iter().filter_map(column).take(columns));
         panels.extend(contacts);
     }
     Figure { title: title.map(String::from), panels, columns: 2, share_x: false }

@@ -5,7 +5,7 @@
 //! functions. A mesh is named only when a run with it has shown that it does; where it does not, steps are to blame too.
 
 use super::impacts::until_impact;
-use super::pair::{ColumnError, Pair, vanishes};
+use super::pair::{ColumnError, Pair, is_small, vanishes};
 use super::{Mesh, Refinable, Variant};
 use crate::analysis::recording::{Record, Watch};
 use crate::analysis::transient::Ending;
@@ -67,7 +67,10 @@ pub(super) fn coarse<P: Refinable>(
     let relative = |error: &ColumnError| {
         let index = fine.trajectory.index(&error.column)?;
         let part = error.discretization / fine.trajectory.extremes(index).largest();
-        (part.is_finite() && !vanishes(&fine.trajectory, index, problem.size())).then_some(part)
+        // A derived value that is small beside others of its unit is what the integration leaves.
+        let primary = fine.trajectory.channels()[index].role == Role::Primary;
+        let nothing = if primary { vanishes } else { is_small };
+        (part.is_finite() && !nothing(&fine.trajectory, index, problem.size())).then_some(part)
     };
     let worst = |role: Role, bound: f64| {
         let parts = with(role).filter_map(|error| Some((error, relative(error)?)));

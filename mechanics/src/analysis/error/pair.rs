@@ -12,23 +12,58 @@ const SAME_TIME: f64 = 1e-9;
 /// Part of the largest value of a column beyond which it is no longer trusted.
 const DISTRUSTED: f64 = 0.1;
 
-/// Largest value of a column, over the largest of its unit, that counts as zero.
+/// Largest value of a column, over the size of its unit, that counts as zero.
 const VANISHING: f64 = 1e-9;
 /// The same over the length of the model, or over one radian or a strain of one: what rounding leaves.
 const ROUNDING: f64 = 1e-12;
+/// The same of a secondary column: what the tolerances of an integration leave.
+const SMALL: f64 = 1e-5;
 
 /// Whether a column never differs from zero by more than rounding may: it has no relative error. Zero is judged by the
-/// size of its kind, the principal columns of the same unit and the length `size` \[m\] of the model.
+/// size of its kind: displacements and angles by the principal columns of their unit and the length `size` \[m\] of the model, others by the size of
+/// their unit.
 pub(super) fn vanishes(of: &Trajectory, index: usize, size: f64) -> bool {
-    let unit = &of.channels()[index].unit;
-    let alike = of.channels().iter().enumerate().filter(|(_, c)| c.unit == *unit && c.role == Role::Primary);
-    let largest = alike.fold(0.0_f64, |most, (i, _)| most.max(of.extremes(i).largest()));
-    let natural = match unit.as_ref() {
+    let channels = of.channels();
+    let unit = channels[index].unit.as_ref();
+    let principal = || largest(of, |i| channels[i].unit == unit && channels[i].role == Role::Primary);
+    let zero = match unit {
+        "m" => (VANISHING * principal()).max(ROUNDING * size),
+        "rad" | "" => (VANISHING * principal()).max(ROUNDING),
+        _ => VANISHING * size_of(unit, of, size),
+    };
+    of.extremes(index).largest() <= zero
+}
+
+/// Whether a column is small beside all others of its unit.
+pub(super) fn is_small(of: &Trajectory, index: usize, size: f64) -> bool {
+    of.extremes(index).largest() <= SMALL * size_of(&of.channels()[index].unit, of, size)
+}
+
+/// The size of a unit: the largest value that it has in any column; of a length that of the model, of a velocity also that which covers it in the time of
+/// the run or at the largest angular velocity, and of a moment also the largest energy.
+fn size_of(unit: &str, of: &Trajectory, size: f64) -> f64 {
+    let channels = of.channels();
+    let counts = |i: usize| !matches!(channels[i].role, Role::Integration | Role::Imbalance);
+    let own = |unit: &str| largest(of, |i| channels[i].unit == unit && counts(i));
+    let times = of.times();
+    let lasts = times.last().zip(times.first()).map_or(0.0, |(last, first)| last - first);
+    let rate = |x: f64| if lasts > 0.0 { x / lasts } else { 0.0 };
+    let other = match unit {
         "m" => size,
         "rad" | "" => 1.0,
+        "m/s" => rate(size).max(size * own("rad/s")),
+        "rad/s" => rate(1.0),
+        "N*m" => own("J"),
         _ => 0.0,
     };
-    of.extremes(index).largest() <= (VANISHING * largest).max(ROUNDING * natural)
+    own(unit).max(other)
+}
+
+/// The largest value of these columns.
+fn largest(of: &Trajectory, which: impl Fn(usize) -> bool) -> f64 {
+    (0..of.channels().len())
+        .filter(|i| which(*i))
+        .fold(0.0, |most: f64, i| most.max(of.extremes(i).largest()))
 }
 
 /// Estimated errors of one column, in its unit.

@@ -1,0 +1,79 @@
+//! Rotors that begin under gravity.
+
+use crate::written::{finished, reading};
+use flexion_case::Run;
+
+/// A bar of the first frequency 6.28 rad/s; its hub rotates at Ω = 0.8 rad/s.
+const ROTOR: &str = "
+run = { duration = 15.71 }
+beam = { length = 10 }
+section = { kind = 'rectangle', height = 0.4, width = 0.05, modulus = 7e9, density = 3000 }
+hub = { radius = 1, motion = { kind = 'constant', speed = 0.8 } }
+initial.kind = 'steady-rotation'
+gravity = [0, -1]
+output.energy-balance = false
+";
+
+/// Deflection of a cantilever of this kind by 1 m/s² across, ρA L⁴/8EI.
+const STATIC: f64 = 3000.0 * 1e4 / (8.0 * 7e9 * 0.4 * 0.4 / 12.0);
+
+fn rotor(set: &[&str]) -> Run {
+    finished(&reading(ROTOR, set))
+}
+
+#[test]
+fn a_rotor_under_gravity_begins_in_the_motion_that_repeats_itself() {
+    for coupling in ["first", "high", "exact", "space", "space-shear"] {
+        for gravity in [[0.0, -1.0], [-1.0, 0.0], [0.6, 0.8]] {
+            let [x, y] = gravity;
+            let third = if coupling.starts_with("space") { ", 0" } else { "" };
+            let coupling = format!("model.coupling={coupling}");
+            let gravity = format!("gravity=[{x}, {y}{third}]");
+            let run = |initial: &str| rotor(&[&coupling, &gravity, initial]);
+            // A revolution is half of the run.
+            let repeats = |run: &Run| {
+                let w = run.trajectory.column("tip.deflection").unwrap();
+                let half = w.len() / 2;
+                let size = w.iter().fold(0.0_f64, |most, w| most.max(w.abs()));
+                w.iter().zip(&w[half..]).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs())) / size
+            };
+            let begun = run("initial.kind=steady-rotation");
+            assert!(repeats(&begun) < 5e-3, "{coupling}, {gravity}: {:e}", repeats(&begun));
+            let said = begun
+                .warnings
+                .iter()
+                .any(|text| text.contains("gravity") && text.contains("periodic motion"));
+            assert!(said, "{:?}", begun.warnings);
+            let undeformed = run("initial.kind=undeformed");
+            assert!(repeats(&undeformed) > 0.1, "{coupling}, {gravity}: {:e}", repeats(&undeformed));
+        }
+    }
+}
+
+/// Of a slow rotation, Ω/ω = 0.016, the deflection is that under the weight, and its velocity Ω times that a quarter of a revolution later.
+#[test]
+fn a_slow_rotor_follows_its_weight() {
+    for coupling in ["model.coupling=first", "model.coupling=space"] {
+        let third = if coupling.ends_with("space") { ", 0" } else { "" };
+        for (x, y) in [(0, -1), (-1, 0)] {
+            // So small that nothing of second order shows.
+            let gravity = format!("gravity=[{}, {}{third}]", 0.1 * f64::from(x), 0.1 * f64::from(y));
+            let run = rotor(&[coupling, &gravity, "hub.motion.speed=0.1", "run.duration=0"]);
+            let of = |column: &str| run.trajectory.column(column).unwrap()[0];
+            // In the hub's axes gravity rotates by −Ωt.
+            let weight = 0.1 * STATIC;
+            let (expected, rate) = (f64::from(y) * weight, -f64::from(x) * 0.1 * weight);
+            let (w, v) = (of("tip.deflection"), of("tip.deflection_velocity"));
+            assert!((w - expected).abs() < 2e-3 * weight, "{coupling}: {w} and not {expected}");
+            assert!((v - rate).abs() < 2e-3 * 0.1 * weight, "{coupling}: {v} and not {rate}");
+        }
+    }
+}
+
+#[test]
+fn a_rotor_on_a_spring_to_the_ground_begins_in_the_equilibrium_of_the_start_and_says_so() {
+    let spring = "spring=[{kind='point',on='10 m',stiffness=100,to=[20, 0]}]";
+    let run = rotor(&[spring, "run.duration=0", "gravity=[0, 0]"]);
+    let text = run.warnings.join("\n");
+    assert!(text.contains("springs to the ground") && text.contains("as they stand at the start"), "{text}");
+}

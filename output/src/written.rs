@@ -1,0 +1,87 @@
+//! What the program wrote into a folder of results: only these files may a later run replace or remove.
+//!
+//! A hidden file lists them by the closing file of their results, for one folder may hold results of several kinds.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::io;
+use std::path::Path;
+
+use super::artifact::Artifact;
+
+/// The list.
+pub(super) const LIST: &str = ".flexion-files";
+
+/// Files that the program wrote: closing file and names, with `/` between folder and file.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) struct Written(BTreeMap<String, BTreeSet<String>>);
+
+impl Written {
+    /// What the list in `folder` says; nothing where there is none. Names that no result has are left out, so that no list leads
+    /// out of its folder.
+    pub fn read(folder: &Path) -> Written {
+        let text = fs::read_to_string(folder.join(LIST)).unwrap_or_default();
+        let mut all: BTreeMap<String, BTreeSet<String>> = serde_json::from_str(&text).unwrap_or_default();
+        all.values_mut().for_each(|names| names.retain(|name| Artifact::is_name(name)));
+        Written(all)
+    }
+
+    /// Whether one of its results has the file.
+    pub fn holds(&self, name: &str) -> bool {
+        self.0.values().any(|names| names.contains(name))
+    }
+
+    /// The files of the results with this closing file.
+    pub fn of(&self, closing: &str) -> impl Iterator<Item = &str> {
+        self.0.get(closing).into_iter().flatten().map(String::as_str)
+    }
+
+    /// The list when the results with this closing file consist of `names`.
+    pub fn with(mut self, closing: &str, names: BTreeSet<String>) -> Written {
+        self.0.values_mut().for_each(|of| of.retain(|name| !names.contains(name)));
+        self.0.insert(closing.to_owned(), names);
+        self.0.retain(|_, names| !names.is_empty());
+        self
+    }
+
+    /// Writes the list into `folder`.
+    pub fn write(&self, folder: &Path) -> io::Result<()> {
+        let text = serde_json::to_string_pretty(&self.0)?;
+        let mut file = fs::File::create(folder.join(LIST))?;
+        io::Write::write_all(&mut file, text.as_bytes())?;
+        file.sync_all()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn set(names: &[&str]) -> BTreeSet<String> {
+        names.iter().map(|name| (*name).to_owned()).collect()
+    }
+
+    #[test]
+    fn a_file_belongs_to_the_results_that_wrote_it_last() {
+        let folder = tempfile::tempdir().unwrap();
+        assert_eq!(Written::read(folder.path()), Written::default());
+        let first = Written::default().with("summary.json", set(&["summary.json", "case.resolved.toml"]));
+        let both = first.with("modes.json", set(&["modes.json", "case.resolved.toml"]));
+        both.write(folder.path()).unwrap();
+        let read = Written::read(folder.path());
+        assert_eq!(read, both);
+        assert_eq!(read.of("summary.json").collect::<Vec<_>>(), ["summary.json"]);
+        assert!(read.holds("case.resolved.toml") && !read.holds("plot.svg"));
+    }
+
+    #[test]
+    fn no_list_leads_out_of_its_folder() {
+        let folder = tempfile::tempdir().unwrap();
+        let text =
+            r#"{ "summary.json": ["../case.toml", "/etc/hosts", "vtk/../../x", "notes.txt", "plot.svg"] }"#;
+        fs::write(folder.path().join(LIST), text).unwrap();
+        assert_eq!(Written::read(folder.path()).of("summary.json").collect::<Vec<_>>(), ["plot.svg"]);
+        fs::write(folder.path().join(LIST), "no list").unwrap();
+        assert_eq!(Written::read(folder.path()), Written::default());
+    }
+}
