@@ -189,7 +189,7 @@ keys! {
     /// The extent of a run.
     pub(super) struct Run {
         /// simulated time; 0 for the initial state alone
-        duration: Option<f64> = quantity(&TIME, NotNegative).for_run();
+        duration: Option<f64> = quantity(&TIME, Between(0.0, 1e12)).for_run();
         /// largest error of `quantity` over its largest value: mesh and steps are refined until it is reached
         tolerance: Option<f64> = number(Between(1e-12, 1.0));
         /// column of `tolerance`, also its `.min`, `.max` or `.final`; all principal columns if left out

@@ -19,8 +19,8 @@ use std::time::{Duration, Instant};
   flexion run case.toml --tolerance 1e-4 --quantity tip.deflection.min
   flexion run case.toml --set section.modulus=\"30 GPa\" --output results/soft --force
 
-Exit codes: 0 finished, or stopped where --until asks for it; 1 case rejected; 2 stopped or failed (what was computed is
-kept).")]
+Exit codes: 0 finished, or stopped where --until asks for it; 1 case rejected; 2 stopped or failed, the estimate of errors
+too (what was computed is kept).")]
 pub struct Arguments {
     #[command(flatten)]
     case: case::Selection,
@@ -131,14 +131,21 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
     let effort = arguments.error.effort();
     // What a run that was stopped holds has no end to compare.
+    let mut stopped = None;
     if let Some(effort) = effort.filter(|_| run.status == Status::Finished) {
-        run.errors = Some(reading.estimate_errors(&run, effort, &mut |state| progress.show(state.t)));
+        run.errors = Some(reading.estimate_errors(&run, effort, &mut |state| {
+            let flow = progress.show(state.t);
+            if flow.is_break() {
+                stopped = Some("stopped by the user while errors were estimated: the run is finished, its errors are not known");
+            }
+            flow
+        }));
     }
     progress.finish();
-    write(&reading, &run, &directory, reached, None)
+    write(&reading, &run, &directory, reached, stopped.map(str::to_owned))
 }
 
-/// Writes the results and says how the run went; `refused` is why a tolerance was not reached.
+/// Writes the results and says how the run went; `refused` is why a tolerance was not reached, or errors are not known.
 fn write(
     reading: &Reading,
     run: &Run,

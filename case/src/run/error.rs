@@ -13,7 +13,7 @@ use flexion_results::Errors;
 
 impl Reading {
     /// Runs the companions of a run of this case, and compares. `watch` is shown their progress. Where a companion cannot be run, or, with
-    /// [`Effort::Auto`], would be costly, there is no estimate, and [`Errors::unknown`] says why.
+    /// [`Effort::Auto`], would be costly, or where `watch` stops one, there is no estimate, and [`Errors::unknown`] says why.
     pub fn estimate_errors(&self, run: &Run, effort: Effort, watch: &mut Watch<'_>) -> Errors {
         match self.has_errors() {
             Err(problems) => unknown(problems.reason(), effort),
@@ -49,6 +49,7 @@ impl Reading {
                 // The case itself is sound: it has run.
                 unknown(format!("there is no finer run: {}", problems.reason()), effort)
             }
+            Err(NoEstimate::Stopped) => Errors::none("the runs that estimate them were stopped by the user".to_owned()),
             Err(_) => unknown("the first impact comes within the first step or record".to_owned(), effort),
         }
     }

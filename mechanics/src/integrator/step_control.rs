@@ -69,10 +69,10 @@ const MAX_ITERATIONS: f64 = 10.0;
 
 impl StepControl {
     /// Control by the filter H211b for an error estimate of order `estimate_order` (p̂), over runs of length `span`
-    /// \[s\]: steps between 1e-14 and 1 times the span, beginning with `first`.
+    /// \[s\]: steps between 1e-18 and 1 times the span, beginning with `first`.
     pub fn new(estimate_order: usize, span: f64, first: f64) -> StepControl {
         let longest = span.abs();
-        let shortest = 1e-14 * longest;
+        let shortest = 1e-18 * longest;
         StepControl {
             law: Law::Filter,
             exponent: 1.0 / (estimate_order as f64 + 1.0),
@@ -92,11 +92,10 @@ impl StepControl {
         self
     }
 
-    /// Other limits of the step \[s\]. An upper limit keeps step control from passing over short events.
+    /// Another longest step \[s\]: it keeps step control from passing over short events.
     #[must_use]
-    pub fn with_limits(mut self, shortest: f64, longest: f64) -> StepControl {
-        self.shortest = shortest;
-        self.longest = longest.max(shortest);
+    pub fn with_longest(mut self, longest: f64) -> StepControl {
+        self.longest = longest.max(self.shortest);
         self.next = self.next.clamp(self.shortest, self.longest);
         self
     }

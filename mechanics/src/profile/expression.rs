@@ -10,7 +10,8 @@ use super::{Profile, ProfileError, positive};
 /// tanh exp ln log10 sqrt abs sign step floor min max if`. Value and derivatives are exact (automatic
 /// differentiation); the integral is composite Gauss quadrature on panels that are halved until the formula is
 /// integrated to 10⁻¹³ of ∫|f|, and so a pure function of time. Bounds by interval arithmetic see to it that nothing is
-/// missed between samples: neither a short pulse nor a branch that opens and closes, down to 10⁻⁹ of the range.
+/// missed between samples: neither a short pulse nor a branch that opens and closes, down to 10⁻⁹ of the time at which it does; what
+/// is shorter is refused where it counts.
 #[derive(Clone, Debug)]
 pub struct Expression {
     program: Program,
@@ -23,7 +24,8 @@ impl Expression {
     ///
     /// # Errors
     /// [`ProfileError::Expression`] says where the text is no formula; [`ProfileError::NotFinite`] and
-    /// [`ProfileError::Pole`] where it has no finite value or grows beyond all bounds; [`ProfileError::TooFast`].
+    /// [`ProfileError::Pole`] where it has no finite value or grows beyond all bounds; [`ProfileError::TooShort`] and
+    /// [`ProfileError::TooFast`] where it cannot be followed.
     pub fn new(text: &str, variable: &str, extent: f64) -> Result<Expression, ProfileError> {
         positive("duration over which an expression is needed [s]", extent)?;
         let program = Program::parse(text, variable)?;
@@ -34,6 +36,9 @@ impl Expression {
                 Err(ProfileError::NotFinite { text, variable, value, at, extent })
             }
             Err(Refused::Pole(at)) => Err(ProfileError::Pole { text, variable, at, extent }),
+            Err(Refused::TooShort { at, within }) => {
+                Err(ProfileError::TooShort { text, variable, at, within, extent })
+            }
             Err(Refused::TooFast) => Err(ProfileError::TooFast { text, variable, extent }),
         }
     }
@@ -236,6 +241,46 @@ mod tests {
         }
         let message = Expression::new("sin(1e7*t)", "t", 100.0).unwrap_err().to_string();
         assert!(message.contains("too fast"), "{message}");
+    }
+
+    /// A triangle of 2 s in ages, and pulses whose integrals are next to nothing of that of the rest.
+    #[test]
+    fn a_short_pulse_is_seen_however_long_the_range_is() {
+        for extent in [10.0, 1e8, 1e9, 1e10, 1e11, 1e12] {
+            let found =
+                Expression::new("max(0, 1 - abs(t - 1))", "t", extent).unwrap_or_else(|e| panic!("{e}"));
+            assert!(found.breaks().iter().filter(|t| **t > 1e-9).eq(&[1.0, 2.0]), "{:?}", found.breaks());
+            assert!((found.integral(extent) - 1.0).abs() < 1e-12, "{extent}");
+        }
+        for (start, width) in [(3e4, 1e-3), (3e4 + 7.0, 1e-3), (3.0, 1e-7)] {
+            let text = format!("1 + 5*exp(-((t - {start})/{width})^2)");
+            let found = Expression::new(&text, "t", 6e4).unwrap_or_else(|e| panic!("{e}"));
+            let near = found.resolution().iter().filter(|t| (*t - start).abs() < 10.0 * width).count();
+            let area =
+                found.integral(start + 10.0 * width) - found.integral(start - 10.0 * width) - 20.0 * width;
+            let exact = 5.0 * width * std::f64::consts::PI.sqrt();
+            assert!(
+                near > 4 && (area - exact).abs() < 1e-4 * exact.max(1e-7),
+                "{text}: {near}, {area} for {exact}"
+            );
+        }
+        // A crest between two panels.
+        let found =
+            Expression::new("1 + 5*exp(-((t - 5)/1e-4)^2)", "t", 10.0).unwrap_or_else(|e| panic!("{e}"));
+        assert!((found.integral(10.0) - 10.0 - 5e-4 * std::f64::consts::PI.sqrt()).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_pulse_that_is_too_short_to_be_seen_is_refused() {
+        for text in [
+            "exp(-((t - 0.3)/1e-12)^2)",
+            "1 - tanh((t - 0.7)/1e-14)^2",
+            "if(abs(t - 0.5) < 1e-14, 1e10, 0)",
+            "if(t < 0.5, 0, if(t < 0.5 + 1e-12, 1e10, 0))",
+        ] {
+            let message = Expression::new(text, "t", 1.0).map(|_| ()).unwrap_err().to_string();
+            assert!(message.contains("too short to be followed"), "{text}: {message}");
+        }
     }
 
     #[test]

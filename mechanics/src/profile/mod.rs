@@ -142,6 +142,23 @@ pub enum ProfileError {
         /// Largest value of the variable.
         extent: f64,
     },
+    /// The expression rises and falls in a time that is too short to be seen.
+    #[error(
+        "the expression `{text}` changes within less than {within:.1e} near {variable} = {at:.9}, which is too short to be \
+         followed from {variable} = 0 to {extent}: let it change in a longer time, or shorten the range"
+    )]
+    TooShort {
+        /// The whole text.
+        text: String,
+        /// Its variable.
+        variable: String,
+        /// Where.
+        at: f64,
+        /// What is too short.
+        within: f64,
+        /// Largest value of the variable.
+        extent: f64,
+    },
     /// The expression has too many waves or branches.
     #[error(
         "the expression `{text}` varies too fast to be followed from {variable} = 0 to {extent}: more than 131072 pieces \

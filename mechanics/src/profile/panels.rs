@@ -6,8 +6,8 @@
 //!   that over the whole range, and decide all comparisons in one way;
 //! - two Gauss rules, over the panel and over its halves, differ by less than 10⁻¹³ of these, or by rounding.
 //!
-//! Changes of branch are located by bisection. Halving ends at 10⁻⁹ of the range: what is still not integrated there is a
-//! pole, and refused, if it counts; infinite slopes and kinks that no comparison shows do not.
+//! Changes of branch are located by bisection. Halving ends at 10⁻⁹ of the time itself, however long the range is: what counts there and is
+//! not integrated is a pole, or shorter than that, and refused; infinite slopes and kinks that no comparison shows do not count.
 
 use super::interval::Interval;
 use super::jet::Jet;
@@ -20,18 +20,23 @@ const POINTS: usize = 12;
 const LEAST_DEPTH: u32 = 6;
 /// Number of halvings before a change of branch is sought by bisection.
 const BISECTION_DEPTH: u32 = 10;
-/// Shortest panel, and what is left out at its ends where comparisons are decided, over the range.
+/// Shortest panel, and what is left out at its ends where comparisons are decided, over its time, or over `EARLIEST` of the range.
 const SHORTEST: f64 = 1e-9;
 const EDGE: f64 = 1e-10;
-/// Largest number of panels.
+const EARLIEST: f64 = 1e-9;
+/// Largest numbers of panels, and of times at which steps end.
 const MOST: usize = 1 << 17;
+const MOST_TIMES: usize = 1 << 18;
 /// Tolerance of the integral, over ∫|f|.
 const TOLERANCE: f64 = 1e-13;
-/// Room for values that samples have not shown: over ∫|f| in the panel, and over the whole range.
+/// Room for values that samples have not shown: over ∫|f| in the panel, and over the whole range; part of the range in which the latter falls
+/// with the time.
 const ROOM: (f64, f64) = (0.1, 1e-7);
-/// Part of ∫|f| that is left in a shortest panel by a pole.
-const POLE: f64 = 1e-3;
-/// What three points may miss between two neighbouring times of the resolution: of ∫|f| there, and of the whole.
+const EARLY: f64 = 1e-3;
+/// Part of ∫|f| that counts where a shortest panel does not show it.
+const COUNTS: f64 = 1e-3;
+/// What three points may miss between two neighbouring times of the resolution: of ∫|f| there, and of the whole, or of f there where it is
+/// what f′ and f″ change there.
 const SEEN: (f64, f64) = (0.05, 1e-6);
 
 /// Why a formula is refused.
@@ -41,6 +46,8 @@ pub(super) enum Refused {
     NotFinite(f64, f64),
     /// It grows beyond all bounds near this time.
     Pole(f64),
+    /// It varies within less than the shortest panel, `within`, near the time `at`.
+    TooShort { at: f64, within: f64 },
     /// It varies too fast for so long a range.
     TooFast,
 }
@@ -58,8 +65,18 @@ pub(super) struct Panels {
     sums: Vec<f64>,
     sizes: Vec<[f64; 3]>,
     gauss: Gauss,
-    /// Shortest panels that are not integrated to the tolerance: start and ∫|f|.
-    doubtful: Vec<(f64, f64)>,
+    /// Shortest panels that are not integrated to the tolerance.
+    doubtful: Vec<Doubtful>,
+}
+
+/// A shortest panel that is not integrated to the tolerance.
+#[derive(Clone, Copy, Debug)]
+struct Doubtful {
+    start: f64,
+    width: f64,
+    /// ∫|f| as far as samples or bounds show it.
+    size: f64,
+    bounded: bool,
 }
 
 impl Panels {
@@ -82,7 +99,7 @@ impl Panels {
         ends.push(extent);
         let mut resolution = Vec::new();
         for part in ends.windows(2) {
-            panels.resolve(&scan, part[0], part[1], &mut resolution);
+            panels.resolve(&scan, part[0], part[1], &mut resolution)?;
         }
         panels.resolution = resolution;
         Ok(panels)
@@ -100,18 +117,22 @@ impl Panels {
     }
 
     /// Adds times between a and b until three points see the formula and its derivatives in between.
-    fn resolve(&self, scan: &Scan<'_>, a: f64, b: f64, out: &mut Vec<f64>) {
-        let middle = 0.5 * (a + b);
-        if b - a > SHORTEST * scan.extent && out.len() < MOST && !self.are_seen(scan, a, b, 2) {
-            self.resolve(scan, a, middle, out);
+    fn resolve(&self, scan: &Scan<'_>, a: f64, b: f64, out: &mut Vec<f64>) -> Result<(), Refused> {
+        if b - a > scan.shortest(b) && !self.are_seen(scan, a, b, 2) {
+            if out.len() >= MOST_TIMES {
+                return Err(Refused::TooFast);
+            }
+            let middle = middle(a, b);
+            self.resolve(scan, a, middle, out)?;
             out.push(middle);
-            self.resolve(scan, middle, b, out);
+            self.resolve(scan, middle, b, out)?;
         }
+        Ok(())
     }
 
     /// Whether three points see it from a to b, and in the halves of that: fast waves may seem to be seen by chance.
     fn are_seen(&self, scan: &Scan<'_>, a: f64, b: f64, depth: u32) -> bool {
-        let middle = 0.5 * (a + b);
+        let middle = middle(a, b);
         let halves = |depth| self.are_seen(scan, a, middle, depth) && self.are_seen(scan, middle, b, depth);
         self.is_seen(scan, a, b) && (depth == 0 || halves(depth - 1))
     }
@@ -136,14 +157,23 @@ impl Panels {
             found.iter_mut().zip(values).for_each(|(found, y)| *found += w * y);
         }
         let found_sizes = scan.sizes(0, a, b);
+        let mut change = 1.0;
         (0..3).all(|k| {
             let size = sizes[k].max(found_sizes[k]);
             let (local, global) = SEEN;
+            let of_value = k > 0 && change * size <= global * sizes[0];
+            change *= b - a;
             size <= global * whole[k]
+                || of_value
                 || !(size.is_finite() && exact[k].is_finite())
                 || (found[k] - exact[k]).abs() <= local * size && found_sizes[k] >= 0.3 * size
         })
     }
+}
+
+/// ½ (a + b), also where the sum is no double.
+fn middle(a: f64, b: f64) -> f64 {
+    0.5 * a + 0.5 * b
 }
 
 /// f, f′ and f″.
@@ -173,55 +203,80 @@ impl Scan<'_> {
         };
         self.visit(0.0, self.extent, 0, &mut panels)?;
         // What lies in the edges between panels.
-        let edge = EDGE * self.extent;
-        for t in &mut panels.grid[1..] {
+        for t in &mut panels.grid {
+            let edge = self.edge(*t);
             let mut from = (*t - edge).max(0.0);
             let to = (*t + edge).min(self.extent);
+            panels.doubtful.extend(self.hidden(from, to));
             while let Some(found) = first_change(self.program, from, to) {
                 panels.breaks.push(found);
-                (*t, from) = (found, found);
+                from = found;
+                if *t > 0.0 {
+                    *t = found;
+                }
             }
         }
-        panels.breaks.extend(first_change(self.program, 0.0, edge));
         panels.breaks.sort_by(f64::total_cmp);
         panels.breaks.dedup();
         let whole = panels.sizes[panels.sizes.len() - 1][0];
-        match panels.doubtful.iter().find(|(_, size)| *size > POLE * whole) {
-            Some((at, _)) => Err(Refused::Pole(*at)),
+        match panels.doubtful.iter().find(|panel| panel.size > COUNTS * whole) {
+            Some(Doubtful { start, bounded: false, .. }) => Err(Refused::Pole(*start)),
+            Some(Doubtful { start, width, .. }) => Err(Refused::TooShort { at: *start, within: *width }),
             None => Ok(panels),
         }
     }
 
+    /// What bounds allow between two times, and the values there do not show.
+    fn hidden(&self, from: f64, to: f64) -> Option<Doubtful> {
+        let Interval { low, high } = self.program.bounds(from, to).0;
+        let [a, b] = [from, to].map(|t| self.program.value(t));
+        let size = (to - from) * (high - a.max(b)).max(a.min(b) - low);
+        let found = Doubtful { start: from, width: to - from, size, bounded: true };
+        (size > 0.0 && low.is_finite() && high.is_finite()).then_some(found)
+    }
+
+    /// The shortest panel that ends at t.
+    fn shortest(&self, t: f64) -> f64 {
+        SHORTEST * t.max(EARLIEST * self.extent)
+    }
+
+    /// What is left out at t.
+    fn edge(&self, t: f64) -> f64 {
+        EDGE * t.max(EARLIEST * self.extent)
+    }
+
     fn visit(&self, a: f64, b: f64, depth: u32, out: &mut Panels) -> Result<(), Refused> {
-        let (width, edge) = (b - a, EDGE * self.extent);
+        let (width, shortest) = (b - a, self.shortest(b));
         let split = |out: &mut Panels| {
-            let middle = 0.5 * (a + b);
+            let middle = middle(a, b);
             self.visit(a, middle, depth + 1, out)?;
             self.visit(middle, b, depth + 1, out)
         };
-        let last = width <= SHORTEST * self.extent;
+        let last = width <= shortest;
         if depth < LEAST_DEPTH {
             return split(out);
         }
-        let inside = if last { 0.25 * width } else { edge };
-        let (bounds, decided) = self.program.bounds(a + inside, b - inside);
-        if !(decided || last) {
+        if last {
+            // No more than the ends are searched for a change of branch here.
+            let found = first_change(self.program, a, b.next_down()).unwrap_or(a);
+            for (a, b) in [(a, found), (found, b)] {
+                self.panel(a, b, self.program.bounds(a, b.next_down()).0, true, out)?;
+            }
+            return Ok(());
+        }
+        let (bounds, decided) = self.program.bounds(a + self.edge(a), b - self.edge(b));
+        if !decided {
             if depth >= BISECTION_DEPTH
                 && let Some(found) = first_change(self.program, a, b.next_down())
-                && found - a > SHORTEST * self.extent
-                && b - found > SHORTEST * self.extent
+                && found - a > shortest
+                && b - found > shortest
             {
                 self.visit(a, found, depth + 1, out)?;
                 return self.visit(found, b, depth + 1, out);
             }
             return split(out);
         }
-        // The bounds of a shortest panel leave out more than the edges that are searched.
-        if last && let Some(found) = first_change(self.program, a, b.next_down()) {
-            self.panel(a, found, bounds, true, out)?;
-            return self.panel(found, b, bounds, true, out).map(|_| ());
-        }
-        if self.panel(a, b, bounds, last, out)? { Ok(()) } else { split(out) }
+        if self.panel(a, b, bounds, false, out)? { Ok(()) } else { split(out) }
     }
 
     /// Adds the panel, if samples show all of it or it is the `last` one.
@@ -229,17 +284,21 @@ impl Scan<'_> {
         if a >= b {
             return Ok(true);
         }
-        let middle = 0.5 * (a + b);
+        let middle = middle(a, b);
         let ends = [self.finite(a)?.value, self.finite(b.next_down())?.value];
         let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
-        let beyond = |low: f64, high: f64, (least, largest): (f64, f64)| {
-            (b - a) * (high - largest).max(least - low).max(0.0)
+        let beyond =
+            |least: f64, largest: f64| (b - a) * (bounds.high - largest).max(least - bounds.low).max(0.0);
+        let noise = || {
+            let noise = self.program.bounds(middle.next_down(), middle.next_up()).0;
+            (b - a) * (noise.high - noise.low)
         };
         // What three values leave open decides most panels.
         let y = self.program.value(middle);
-        let open = beyond(bounds.low, bounds.high, (low.min(y), high.max(y)));
+        let open = beyond(low.min(y), high.max(y));
+        let little = ROOM.1 * self.total * (b / (EARLY * self.extent)).min(1.0);
         let most = (b - a) * bounds.high.abs().max(bounds.low.abs());
-        if !last && open > 3.0 * (ROOM.0 * most + ROOM.1 * self.total) {
+        if !last && open > 3.0 * (ROOM.0 * most + little) && open > 3.0 * noise() {
             return Ok(false);
         }
         let rule = &self.rules[1];
@@ -254,17 +313,18 @@ impl Scan<'_> {
             (least, largest) = (least.min(jet.value), largest.max(jet.value));
         }
         let whole = rule.integrate(a, b, |t| self.program.value(t));
-        let room = 0.01 * beyond(low, high, (least, largest))
-            + beyond(bounds.low, bounds.high, (least.min(low), largest.max(high)));
-        let noise = self.program.bounds(middle.next_down(), middle.next_up()).0;
-        let noise = (b - a) * (noise.high - noise.low);
-        let good = room <= ROOM.0 * sizes[0] + ROOM.1 * self.total + noise
+        // The ends do not count: a pulse may have its crest there.
+        let (room, noise) = (beyond(least, largest), noise());
+        let good = room <= ROOM.0 * sizes[0] + little + noise
             && (whole - halves).abs() <= TOLERANCE * sizes[0].max(self.total / 64.0) + noise;
         if !(good || last) {
             return Ok(false);
         }
         if !good {
-            out.doubtful.push((a, sizes[0]));
+            let Interval { low, high } = self.program.bounds(a, b).0;
+            let bounded = low.is_finite() && high.is_finite();
+            let size = if bounded { sizes[0].max(room) } else { sizes[0] };
+            out.doubtful.push(Doubtful { start: a, width: b - a, size, bounded });
         }
         if out.grid.len() > MOST {
             return Err(Refused::TooFast);
@@ -300,7 +360,7 @@ fn first_change(program: &Program, from: f64, to: f64) -> Option<f64> {
     }
     let (mut same, mut other) = (from, to);
     loop {
-        let middle = 0.5 * (same + other);
+        let middle = middle(same, other);
         if middle <= same || middle >= other {
             return Some(other);
         }

@@ -162,9 +162,12 @@ pub enum NoEstimate<F> {
     /// There is no finer run.
     #[error("there is no finer run: {0}")]
     Refused(F),
+    /// The companions were stopped before they had finished.
+    #[error("the companions of the run were stopped")]
+    Stopped,
 }
 
-/// Estimates the errors of `run`, which is that of `variant`; `watch` is shown the steps of the companions.
+/// Estimates the errors of `run`, which is that of `variant`; `watch` is shown the steps of the companions, and `Break` ends the estimate.
 ///
 /// # Errors
 /// [`NoEstimate`]
@@ -189,11 +192,17 @@ pub fn estimate<P: Refinable>(
         Effort::Full => f64::INFINITY,
     };
     // Counts the work of companions, and gives them up when it exceeds what is allowed.
+    let mut stopped = false;
     let mut counted = |state: &State| {
         left -= state.v.len() as f64;
-        if left < 0.0 { ControlFlow::Break(()) } else { watch(state) }
+        stopped |= watch(state).is_break();
+        if left < 0.0 || stopped { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     };
-    let mut estimate = compared(problem, variant, run, &mut counted).map_err(NoEstimate::Refused)?;
+    let estimate = compared(problem, variant, run, &mut counted);
+    if stopped {
+        return Err(NoEstimate::Stopped);
+    }
+    let mut estimate = estimate.map_err(NoEstimate::Refused)?;
     if left < 0.0 {
         estimate.doubts.insert(0, Doubt::GivenUp);
     }

@@ -118,7 +118,7 @@ impl<'a> Pair<'a> {
     }
 
     /// t, y and y_f of the common records.
-    fn rows(&self) -> impl Iterator<Item = (f64, f64, f64)> {
+    pub(super) fn rows(&self) -> impl Iterator<Item = (f64, f64, f64)> {
         let one = |(t, ours, theirs): (f64, &[f64], &[f64])| {
             let y = theirs[self.other];
             (t, ours[self.index], if self.cosine(ours, theirs) < 0.0 { -y } else { y })

@@ -176,12 +176,10 @@ pub fn refine<P: Refinable, E: From<P::Fault>>(
     watch: &mut Watch<'_>,
     said: &mut dyn FnMut(&Rung),
 ) -> Result<Refinement<P::Run, P::Fault>, E> {
-    let (work, stopped) = (Cell::new(0.0), Cell::new(false));
+    let work = Cell::new(0.0);
     let mut watch = |state: &State| {
         work.set(work.get() + state.v.len() as f64);
-        let flow = watch(state);
-        stopped.set(stopped.get() || flow.is_break());
-        flow
+        watch(state)
     };
     let (mut rungs, mut ratios) = (Vec::<Rung>::new(), Vec::new());
     let (mut variant, mut before) = (problem.variant(), 0.0);
@@ -212,9 +210,10 @@ pub fn refine<P: Refinable, E: From<P::Fault>>(
                 errors
             }
             (Err(NoEstimate::Refused(fault)), Some(best)) => break (best, Ended::Refused(fault)),
-            (Err(_), Some(best)) => break (best, Ended::Unknown),
-            (Err(unknown), None) => {
-                break (Best { variant, run, errors: Some(Err(unknown)), ratio: 0.0 }, Ended::Unknown);
+            (Err(unknown), kept) => {
+                let ended = if let NoEstimate::Stopped = unknown { Ended::Stopped } else { Ended::Unknown };
+                let first = || Best { variant, run, errors: Some(Err(unknown)), ratio: 0.0 };
+                break (kept.unwrap_or_else(first), ended);
             }
         };
         let reached =
@@ -224,11 +223,6 @@ pub fn refine<P: Refinable, E: From<P::Fault>>(
         let Some((goal, (value, error))) = farthest else {
             break (Best { variant, run, errors: Some(Ok(errors)), ratio: 0.0 }, Ended::Reached);
         };
-        if stopped.get()
-            && let Some(best) = best
-        {
-            break (best, Ended::Stopped);
-        }
         let ratio = error / goal.bound;
         let largest = record
             .trajectory
@@ -249,9 +243,6 @@ pub fn refine<P: Refinable, E: From<P::Fault>>(
         };
         if error <= goal.bound {
             break (kept, Ended::Reached);
-        }
-        if stopped.get() {
-            break (kept, Ended::Stopped);
         }
         let last = std::mem::replace(&mut before, work.get());
         let works = (work.get(), work.get() - last);

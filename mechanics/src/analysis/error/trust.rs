@@ -3,6 +3,7 @@
 //! Impacts of a beam are chaotic: a difference in the last digits grows from burst to burst, and no tolerance makes all of
 //! a long run right. A companion on the same mesh, with a tenth of the tolerance and half the longest step, or half the step, says how far it is.
 
+use super::pair::Pair;
 use super::{Refinable, Variant};
 use crate::analysis::recording::{Record, Watch};
 use crate::analysis::transient::{Ending, Plan};
@@ -56,11 +57,10 @@ pub(super) fn parting<P: Refinable>(
     let (ours, theirs) = (&run.trajectory, &companion.trajectory);
     let mut time = f64::INFINITY;
     for (index, channel) in ours.channels().iter().enumerate().filter(|(_, c)| c.kind == Kind::Gap) {
-        let Some(other) = theirs.index(&channel.name) else { continue };
+        let Some(pair) = Pair::new(ours, theirs, &channel.name) else { continue };
         let bound = APART * ours.extremes(index).largest();
-        let rows = ours.times().iter().zip(ours.values(index).zip(theirs.values(other)));
-        let apart = rows.into_iter().find(|(_, (a, b))| (a - b).abs() > bound);
-        time = apart.map_or(time, |(t, _)| time.min(*t));
+        let apart = pair.rows().find(|(_, a, b)| (a - b).abs() > bound);
+        time = apart.map_or(time, |(t, ..)| time.min(t));
     }
     if time.is_finite() {
         return Ok(Some(Parting { time, given_up: false, by }));

@@ -4,9 +4,8 @@ use super::trajectory::{Trajectory, continue_quaternions};
 use crate::system::{Channel, Kind, Side, State, System};
 use std::f64::consts::TAU;
 
-/// Most rows that are evaluated besides the records.
-const MOST: f64 = 20_000.0;
-/// Part of the shortest time between rows that is none.
+/// Part of a step below which rows in it are too near to each other for a parabola, and of that the part that is no time at all.
+const NEAR: f64 = 1.0 / 32.0;
 const SAME: f64 = 1e-3;
 /// Part of the largest acceleration by which the accelerations between two rows may be off the line through both, and of the largest velocity
 /// by which velocities may be off what that line makes of them; part of a radius by which an arc may be off its chord.
@@ -19,9 +18,8 @@ const LANES: usize = 4;
 
 /// Follows the accepted steps of a run, and its records.
 pub(super) struct Passing {
-    /// Shortest time between rows, and the time of the next \[s\].
-    interval: f64,
-    next: f64,
+    /// Shortest time between rows in the present step \[s\].
+    apart: f64,
     /// The last four rows with their times, and how many of them belong to one smooth motion.
     rows: [(f64, Vec<f64>); 4],
     count: usize,
@@ -49,17 +47,11 @@ pub(super) struct Passing {
 }
 
 impl Passing {
-    pub(super) fn new(
-        channels: &[Channel],
-        scales: &[f64],
-        state: &State,
-        [span, ahead]: [f64; 2],
-    ) -> Passing {
+    pub(super) fn new(channels: &[Channel], scales: &[f64], state: &State, ahead: f64) -> Passing {
         let row = || (state.t, vec![0.0; channels.len()]);
         let pressing = channels.iter().enumerate().filter(|(_, c)| c.kind == Kind::NonNegative);
         Passing {
-            interval: span / MOST,
-            next: f64::NEG_INFINITY,
+            apart: 0.0,
             rows: [row(), row(), row(), row()],
             count: 0,
             recorded: false,
@@ -77,12 +69,21 @@ impl Passing {
         }
     }
 
+    /// What follows is in a step of this size \[s\].
+    pub(super) fn begin(&mut self, step: f64) {
+        self.apart = NEAR * step;
+    }
+
     /// Takes the end of a step; it becomes a row where a channel may turn near its extremes. Where accelerations leave the [line](Line) through
     /// those of the last row, the end before it does, and this one if it is off the line from there. The states before and behind an event count,
     /// however near to a row.
     pub(super) fn enter(&mut self, system: &mut dyn System, state: &State, trajectory: &mut Trajectory) {
+        let h = state.t - self.last.t;
+        if h > 0.0 {
+            self.begin(h);
+        }
         let follows = self.catch_up(system, state, trajectory);
-        self.measure(state);
+        self.measure(h, state);
         self.offer(system, (state, follows), trajectory);
     }
 
@@ -99,7 +100,7 @@ impl Passing {
         trajectory: &mut Trajectory,
     ) -> bool {
         let mut follows = self.line.holds(system, state) && !self.rough;
-        if self.skipped && (self.cut || self.last.t >= self.next && !follows) {
+        if self.skipped && (self.cut || !follows && !self.is_near(self.last.t)) {
             let before = std::mem::take(&mut self.last);
             self.evaluate(system, &before, trajectory);
             if !self.cut {
@@ -110,6 +111,11 @@ impl Passing {
             follows = self.line.holds(system, state) && !self.rough;
         }
         follows && !self.turns
+    }
+
+    /// Whether the last row is too near to `t` for another one.
+    fn is_near(&self, t: f64) -> bool {
+        self.count > 0 && t - self.rows[3].0 < self.apart
     }
 
     fn offer(
@@ -126,7 +132,7 @@ impl Passing {
         let ends = state.side == Side::Left;
         let since = state.t - self.rows[3].0;
         let recorded = std::mem::take(&mut self.recorded);
-        let same = recorded && since <= SAME * self.interval;
+        let same = recorded && since <= SAME * self.apart;
         if same && !(ends && since > 0.0) {
             // It was recorded, at this time but for rounding, and counts where an event follows.
             self.rows[3].0 = state.t;
@@ -135,7 +141,7 @@ impl Passing {
         }
         if since == 0.0 && self.count > 0 {
             self.count = 0;
-        } else if (state.t < self.next || follows) && !ends && !behind {
+        } else if (follows || self.is_near(state.t)) && !ends && !behind {
             self.skipped = true;
             return;
         }
@@ -183,7 +189,7 @@ impl Passing {
     /// says so.
     pub(super) fn take(&mut self, state: &State, row: &mut [f64]) -> bool {
         continue_quaternions(&self.quaternions, &self.rows[3].1, row);
-        if state.t < self.next {
+        if self.is_near(state.t) {
             return false;
         }
         self.add(state).copy_from_slice(row);
@@ -193,7 +199,6 @@ impl Passing {
     }
 
     fn add(&mut self, state: &State) -> &mut [f64] {
-        self.next = state.t + self.interval;
         self.line.begin(state);
         self.rows.rotate_left(1);
         self.count += 1;
@@ -240,8 +245,7 @@ impl Passing {
         (!self.rough && ratio.is_finite() && ratio > 0.0).then(|| TAU * ratio.sqrt())
     }
 
-    fn measure(&mut self, state: &State) {
-        let h = state.t - self.last.t;
+    fn measure(&mut self, h: f64, state: &State) {
         if h > 0.0 && state.q.len() == state.v.len() {
             self.sums[0] += h * h * distance_squared(&state.v, &self.last.v);
             self.sums[1] += distance_squared(&state.q, &self.last.q);
@@ -396,8 +400,7 @@ mod tests {
     fn a_crest_within_the_first_step_is_found_by_the_records() {
         let mut trajectory = Trajectory::new(vec![super::super::trajectory::tests::channel("y", "m")]);
         let mut passing = Passing {
-            interval: 1e-6,
-            next: f64::NEG_INFINITY,
+            apart: 1e-6,
             rows: std::array::from_fn(|_| (0.0, vec![0.0])),
             count: 0,
             recorded: false,

@@ -129,7 +129,7 @@ impl<'a> Recorder<'a> {
             violation: (system.size().lambda > 0).then(|| Violation::new(system)),
             modes: (0..system.size().v).filter(across).collect(),
         };
-        let mut passing = Passing::new(&channels, system.scales(), state, [plan.end - state.t, plan.sample]);
+        let mut passing = Passing::new(&channels, system.scales(), state, plan.sample);
         let own = channels.len();
         common.observe(state, &Step::default(), 0.0, &mut Sink::channels(&mut channels));
         let mut trajectory = Trajectory::new(channels);
@@ -232,6 +232,7 @@ impl Observer for Recorder<'_> {
         if self.trajectory.is_empty() {
             self.passing.enter(system, state, &mut self.trajectory);
         }
+        self.passing.begin(step.size);
         self.passing.catch_up(system, state, &mut self.trajectory);
         let passing = &mut self.passing;
         let mut taken = false;
@@ -275,7 +276,8 @@ impl Observer for Recorder<'_> {
         self.events.pass(system, state);
     }
 
-    fn between(&mut self, system: &mut dyn System, state: &State) {
+    fn between(&mut self, system: &mut dyn System, state: &State, step: &Step) {
+        self.passing.begin(step.size);
         self.passing.show(system, state, &mut self.trajectory);
         self.events.look(system, state);
     }

@@ -33,13 +33,12 @@ use segment::Segment;
 
 /// Part of a fixed step that is not taken as a step of its own.
 const SLIVER: f64 = 1e-6;
-/// Part of a run that is too short for a step: what a step divides by its square would be rounding.
-const INSTANT: f64 = 1e-12;
+/// What is too short for a step, over the step that is due and over the time: what a step divides by its square would be rounding.
+const INSTANT: f64 = 1e-10;
+const MOMENT: f64 = 1e-12;
 
 /// Integrates `system` from `state`, which is left at the last accepted step, and shows the observer the
-/// start, every multiple of the recording interval, and the end.
-///
-/// A run that fails or is stopped has shown everything up to its last accepted step.
+/// start, every multiple of the recording interval, and the end: that of a run that fails or is stopped is its last accepted step.
 pub fn transient(
     system: &mut dyn System,
     integrator: &dyn Integrator,
@@ -271,8 +270,7 @@ impl Run {
             let first = plan
                 .step
                 .unwrap_or_else(|| StepControl::first_step(order, state, system.scales(), 1e-4, span));
-            let control = StepControl::new(order, span, first);
-            control.with_limits(1e-14 * span, longest_step(plan, self.origin))
+            StepControl::new(order, span, first).with_longest(longest_step(plan, self.origin))
         });
     }
 
@@ -285,11 +283,14 @@ impl Run {
         plan: &Plan,
         observer: &mut dyn Observer,
     ) -> Ending {
-        let ending = self.integrate(system, integrator, state, plan, observer);
+        let ending = self.integrate(system, integrator, state, plan, observer).unwrap_or_else(Ending::Failed);
+        if ending != Ending::Finished {
+            self.show_last(system, state, plan, observer);
+        }
         if let Some(excess) = self.balance.as_ref().and_then(|balance| balance.gain(system, state)) {
             observer.gained_energy(excess);
         }
-        ending.unwrap_or_else(Ending::Failed)
+        ending
     }
 
     fn integrate(
@@ -303,7 +304,7 @@ impl Run {
         let mut next = state.clone();
         while state.t < plan.end {
             let mut stop = stop(system, integrator.info(), state.t, plan.end);
-            if stop.0 < plan.end && stop.0 - state.t <= INSTANT * (plan.end - self.origin) {
+            if stop.0 < plan.end && self.is_instant(state.t, stop.0, plan) {
                 self.leap(system, integrator, state, stop, plan, observer)?;
                 continue;
             }
@@ -397,6 +398,13 @@ impl Run {
             }
         }
         Ok(Ending::Finished)
+    }
+
+    /// Whether the time until `stop` is too short for a step.
+    fn is_instant(&self, t: f64, stop: f64, plan: &Plan) -> bool {
+        let asked = || plan.step.unwrap_or(plan.end - self.origin);
+        let due = self.control.as_ref().map_or_else(asked, |control| control.propose(f64::INFINITY));
+        stop - t <= (INSTANT * due).max(MOMENT * stop)
     }
 
     /// Goes on to a break that is next to nothing away, q ⊞ h v and v + h a, and across it.

@@ -72,7 +72,7 @@ pub trait Observer {
     fn passing(&mut self, _system: &mut dyn System, _state: &State) {}
 
     /// A state between the ends of a step that is the first or the last of a smooth motion, in order of time with the samples.
-    fn between(&mut self, _system: &mut dyn System, _state: &State) {}
+    fn between(&mut self, _system: &mut dyn System, _state: &State, _step: &Step) {}
 
     /// Whether states [within](Observer::within) the steps are shown.
     fn wants_within(&self) -> bool {

@@ -22,6 +22,21 @@ impl Run {
         ((self.origin + multiple(self.samples, interval)).min(plan.end), 1e-9 * interval)
     }
 
+    /// Shows the observer the last state of a run that ends before the end of its plan, where it is none that was shown.
+    pub(super) fn show_last(
+        &self,
+        system: &mut dyn System,
+        state: &State,
+        plan: &Plan,
+        observer: &mut dyn Observer,
+    ) {
+        let interval = self.interval(plan);
+        if state.t > self.origin + multiple(self.samples - 1, interval) + 1e-9 * interval {
+            let balance = self.balance.as_ref().map(Integral::balance);
+            observer.sample(system, state, &Step { balance, ..self.last });
+        }
+    }
+
     /// Shows the observer the samples in the step, and what it passes between the ends of a step that begins or `ends` a smooth motion.
     /// Velocities and forces inside a step of a nonsmooth method with an `impact` at its end are those before it.
     pub(super) fn show(
@@ -44,7 +59,7 @@ impl Run {
             let (t, slack) = self.next_sample(plan);
             while let Some(t) = passed.next_if(|x| *x < t) {
                 integrator.interpolate(system, from, to, t, &mut self.middle);
-                observer.between(system, &self.middle);
+                observer.between(system, &self.middle, &self.last);
             }
             if t > to.t + slack {
                 return;
