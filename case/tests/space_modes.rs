@@ -5,6 +5,9 @@
 use flexion::analysis::campbell::{HubState, Plan};
 use flexion::analysis::modes::modes;
 use flexion::analysis::rotation::rotate_stably;
+use flexion::linalg::Matrix;
+use flexion::linalg::vector::dot;
+use flexion::system::{Dynamics, Weights};
 use flexion_case::{Case, Reading, campbell, parse};
 use std::path::Path;
 
@@ -358,6 +361,115 @@ fn damping_of_the_stiffness_counts_once_however_often_a_system_is_made() {
         for more in ["", axis, again, &format!("{again}{axis}")] {
             let found = ratios(shear, more);
             assert!(found.iter().all(|ratio| (ratio - 1.0).abs() < 1e-6), "{shear} {more}: {found:?}");
+        }
+    }
+}
+
+/// xᵀKx of bent beams with and without shear in rotation, with joints, springs and loads: K as it is assembled, and with its strains summed one by one.
+#[test]
+fn the_strains_of_a_motion_make_the_form_of_the_stiffness_in_space() {
+    let case = read(
+        "run = { duration = 0 }\ngravity = [0, 0, -9.81]\n[rotation]\naxis = [0, 0, 1]\n\
+         [[beam]]\nname = \"slender\"\nlength = 1\nstart = [0.1, 0, 0]\nup = [0, 0, 1]\nelements = 4\npolar-inertia = 1e-3\nroot = \"clamped\"\n\
+         damping = { stiffness = 1e-3 }\n\
+         section = { kind = \"general\", mass-per-length = 1, axial-stiffness = 1e3, torsional-stiffness = 1, bending-stiffness = 1, bending-stiffness-across = 9 }\n\
+         [[beam]]\nname = \"sheared\"\nlength = 1\nstart = [1.1, 0, 0]\ndirection = [1, 1, 0.5]\nup = [0, 0, 1]\nelements = 2\nshear = true\nroot = \"free\"\n\
+         damping = { stiffness = 1e-3 }\n\
+         section = { kind = \"general\", mass-per-length = 1, axial-stiffness = 1e3, torsional-stiffness = 1, bending-stiffness = 1, bending-stiffness-across = 9, \
+         shear-stiffness = 200, shear-stiffness-across = 300, rotary-inertia = 1e-3, rotary-inertia-across = 1e-3 }\n\
+         [[joint]]\nkind = \"fixed\"\nbetween = [\"slender.tip\", \"sheared.root\"]\n\
+         [[spring]]\nkind = \"line\"\nbetween = [\"slender@0.5 m\", \"sheared.tip\"]\nstiffness = 20\nlength = 0.3\n\
+         [[load]]\non = \"sheared.tip\"\nforce = [0, 0.3, 0]\naxes = \"follower\"\n",
+    )
+    .case;
+    let (mut system, _) = case.vibrating(true).unwrap();
+    let mut state = system.initial();
+    rotate_stably(system.as_mut(), &mut state, 0.0, 1.5).unwrap();
+    let n = state.v.len();
+    // Bent further, so that every term of the second variation of the strain energy counts.
+    let bent: Vec<f64> = (0..n).map(|i| 0.1 * (i as f64).sin()).collect();
+    let from = state.q.clone();
+    system.retract(&from, &bent, &mut state.q);
+    let mut stiffness = Matrix::new(&system.structure(0));
+    system.tangent(&state, Weights::new(0.0, 0.0, 1.0), &mut stiffness);
+    let vectors: Vec<Vec<f64>> = (1..5).map(|k| (0..n).map(|i| ((k * i) as f64).cos()).collect()).collect();
+    let forms = system.stiffness_forms(&state, &vectors).unwrap();
+    let mut product = vec![0.0; n];
+    for (x, form) in vectors.iter().zip(forms) {
+        stiffness.multiply(x, &mut product);
+        let (expected, size) = (dot(x, &product), x.iter().zip(&product).map(|(x, p)| (x * p).abs()).sum::<f64>());
+        assert!((form.value - expected).abs() < 1e-12 * size, "{form:?} for {expected}");
+    }
+}
+
+/// A wire of steel of 1 mm, 100 m long: L²GA/EI is 10¹¹ and hides bending in an assembled stiffness, but not in its strains.
+#[test]
+fn the_frequencies_of_a_wire_with_shear_are_those_of_bending() {
+    for (radius, elements, tolerance) in [(5e-4, 12, 1e-4), (5e-4, 60, 1e-3), (1e-4, 12, 1e-3)] {
+        let case = read(&format!(
+            "run = {{ duration = 0 }}\n[[beam]]\nlength = 100\nup = [0, 1, 0]\nroot = \"clamped\"\nshear = true\nelements = {elements}\n\
+             section = {{ kind = \"circle\", modulus = 200e9, density = 7850, radius = {radius} }}\n[rotation]\naxis = [0, 0, 1]\n"
+        ))
+        .case;
+        let (mut system, _) = case.vibrating(false).unwrap();
+        let state = system.initial();
+        let found = modes(system.as_mut(), &state, 3, &[]).unwrap().modes;
+        let unit = radius / 2.0 * (200e9_f64 / 7850.0).sqrt() / 1e4;
+        for (mode, root) in found.iter().zip([3.516015268500612, 3.516015268500612, 22.034491564668223]) {
+            let expected = root * unit;
+            assert!((mode.frequency() / expected - 1.0).abs() < tolerance, "{radius} {elements}: {} for {expected}", mode.frequency());
+            assert!(mode.rounding < 0.1);
+        }
+    }
+}
+
+/// Where rounding leaves nothing of a frequency, it is no motion without stiffness: the slenderness is the cause, and without shear it is computed.
+#[test]
+fn a_beam_too_slender_for_its_shear_is_refused_with_the_cause() {
+    let found = |shear: bool| {
+        let case = read(&format!(
+            "run = {{ duration = 0 }}\n[[beam]]\nname = \"wire\"\nlength = 100\nup = [0, 1, 0]\nroot = \"clamped\"\nshear = {shear}\nelements = 12\n\
+             section = {{ kind = \"circle\", modulus = 200e9, density = 7850, radius = 1e-5 }}\n"
+        ))
+        .case;
+        let (mut system, _) = case.vibrating(false).unwrap();
+        let state = system.initial();
+        modes(system.as_mut(), &state, 3, &[])
+    };
+    let refused = found(true).unwrap_err().to_string();
+    assert!(refused.contains("beam `wire` is so slender") && refused.contains("`shear = false`"), "{refused}");
+    let unit = 1e-5 / 2.0 * (200e9_f64 / 7850.0).sqrt() / 1e4;
+    let first = found(false).unwrap().modes[0].frequency();
+    assert!((first / (3.516015268500612 * unit) - 1.0).abs() < 1e-5, "{first}");
+}
+
+/// C = ηK damps the vibration ω by ηω/2 and lets those beyond 2/η only decay, λ = −ηω²/2 ± iω√(1 − η²ω²/4), most with rates next to 1/η: the
+/// vibrations that are left are found, as many as there are.
+#[test]
+fn of_strongly_damped_beams_the_vibrations_that_are_left_are_found() {
+    let found = |shear: bool, eta: f64, count: usize| {
+        let case = read(&format!(
+            "run = {{ duration = 0 }}\n[[beam]]\nlength = 5\nup = [0, 1, 0]\nroot = \"clamped\"\nshear = {shear}\npoisson-ratio = 0.3\n\
+             damping = {{ stiffness = {eta} }}\n\
+             section = {{ kind = \"rectangle\", modulus = 70e9, density = 2700, width = 0.1, height = 0.2 }}\n"
+        ))
+        .case;
+        let (mut system, _) = case.vibrating(false).unwrap();
+        let state = system.initial();
+        modes(system.as_mut(), &state, count, &[]).unwrap()
+    };
+    for shear in [true, false] {
+        let undamped: Vec<f64> = found(shear, 0.0, 12).modes.iter().map(|mode| mode.frequency()).collect();
+        for (eta, count) in [(3e-3, 6), (1e-2, 6), (0.03, 4), (0.03, 10), (0.3, 6), (1.0, 6)] {
+            let left: Vec<f64> = undamped.iter().copied().filter(|omega| eta * omega < 2.0).collect();
+            let damped = found(shear, eta, count).modes;
+            assert_eq!(damped.len(), left.len(), "shear {shear}, η = {eta}: {left:?}");
+            for (mode, omega) in damped.iter().zip(left) {
+                let zeta = 0.5 * eta * omega;
+                let expected = omega * (1.0 - zeta * zeta).sqrt();
+                assert!((mode.frequency() / expected - 1.0).abs() < 1e-5, "{} for {expected}", mode.frequency());
+                assert!((mode.damping_ratio() / zeta - 1.0).abs() < 1e-5, "{} for {zeta}", mode.damping_ratio());
+            }
         }
     }
 }

@@ -137,6 +137,7 @@ fn diagram(arguments: &Arguments, reading: &Reading) -> Result<bool, String> {
     let (system, mut cautions) = vibration::system(case, true)?;
     cautions.extend(vibration::without_contacts(case));
     cautions.extend(case.unused_by_modes());
+    let slender = system.slender();
     let units = arguments.options.units(case, arguments.speeds.to)?;
     let unit = &units.speed;
     let plan = Plan {
@@ -169,6 +170,10 @@ fn diagram(arguments: &Arguments, reading: &Reading) -> Result<bool, String> {
         error.to_string()
     })?;
     keep_lowest(&mut diagram, arguments.modes);
+    let errors = diagram.branches.iter().enumerate().flat_map(|(number, branch)| {
+        branch.points.iter().map(move |point| (number + 1, point.mode.rounding))
+    });
+    cautions.extend(vibration::rounded(errors, slender.as_ref()));
     let resonances = resonances(&diagram, plan.revolutions, arguments.margin / 100.0);
     let (resolved, title) = (reading.resolved(), arguments.options.title(reading));
     let shown = (&diagram, plan.revolutions, resonances.as_slice());

@@ -6,9 +6,9 @@ use flexion::analysis::campbell::HubState;
 use flexion::analysis::equilibrium::{equilibrium, stable_equilibrium};
 use flexion::analysis::modes::{Mode, Modes, modes as find};
 use flexion::analysis::rotation::rotate_stably;
-use flexion::system::{State, System};
+use flexion::system::{Slender, State, System};
 use flexion_case::{Case, Reading};
-use flexion_results::{Artifact, Directory, Scene, Units, write_film, write_modes};
+use flexion_results::{Artifact, Directory, Frequencies, Scene, Units, write_film, write_modes};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -83,7 +83,7 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
     let found = compute(arguments, case, speed, hub).inspect_err(|_| {
         directory.iter().for_each(|directory| directory.discard());
     });
-    let Found { mut modes, scene, film, mut cautions } = found?;
+    let Found { mut modes, scene, film, slender, mut cautions } = found?;
     // From here on files are written.
     stopped.store(false, Ordering::Relaxed);
     cautions.extend(vibration::without_contacts(case));
@@ -105,6 +105,8 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
             moved.join("; ")
         ));
     }
+    let errors = modes.modes.iter().enumerate().map(|(number, mode)| (number + 1, mode.rounding));
+    cautions.extend(vibration::rounded(errors, slender.as_ref()));
     cautions.iter().for_each(|caution| screen::report(&format!("warning: {caution}\n")));
     compare(arguments, reading, &mut modes, speed, hub);
     let about = match case.space().map(|space| &space.rotation) {
@@ -123,14 +125,6 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
         screen::report(&format!(
             "warning: by the mesh the frequency of mode {number} may be off by {:.1} %: use more elements or functions\n",
             100.0 * error
-        ));
-    }
-    for (number, mode) in modes.modes.iter().enumerate().filter(|(_, mode)| mode.rounding > 1e-6) {
-        screen::report(&format!(
-            "warning: the frequency of mode {} may be off by {:.1e} by rounding: the mesh is too fine for this coupling; \
-             use fewer elements\n",
-            number + 1,
-            mode.rounding
         ));
     }
     screen::print(&out);
@@ -152,11 +146,12 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
     Ok(if whole { Outcome::Finished } else { Outcome::Incomplete })
 }
 
-/// The modes, the equilibrium that they vibrate about, and warnings.
+/// The modes, the equilibrium that they vibrate about, a beam that is too slender, and warnings.
 struct Found {
     modes: Modes,
     scene: Scene,
     film: Option<Scene>,
+    slender: Option<Slender>,
     cautions: Vec<String>,
 }
 
@@ -201,7 +196,7 @@ fn compute(arguments: &Arguments, case: &Case, speed: f64, hub: HubState) -> Res
     let modes = modes.map_err(|error| error.to_string())?;
     let scene = displaced(case, &modes, system.as_mut(), &state);
     let film = arguments.vtk.then(|| film(case, &modes, system.as_mut(), &state));
-    Ok(Found { modes, scene, film, cautions })
+    Ok(Found { modes, scene, film, slender: system.slender(), cautions })
 }
 
 /// Every mode at the phases of a cycle.
@@ -266,7 +261,7 @@ fn described(modes: &Modes, asked: usize, units: &Units, about: &str) -> String 
     for (number, mode) in modes.modes.iter().enumerate() {
         rows.push(vec![
             format!("{}", number + 1),
-            format!("{:.6}", mode.frequency() * unit.factor),
+            unit.number(mode.frequency()),
             mode.mesh.map_or("-".to_owned(), |error| format!("{:.1e}", error * unit.factor)),
             format!("{:.4e}", mode.damping_ratio()),
             mode.nodes.to_string(),
@@ -289,7 +284,7 @@ fn described(modes: &Modes, asked: usize, units: &Units, about: &str) -> String 
     }
     if !modes.overdamped.is_empty() {
         let rates: Vec<String> =
-            modes.overdamped.iter().map(|mode| format!("{:.6}", -mode.eigenvalue.re)).collect();
+            modes.overdamped.iter().map(|mode| Frequencies::RADIANS.number(-mode.eigenvalue.re)).collect();
         out.push_str(&format!(
             "\nOverdamped motions, which decay without vibrating, by their rates [1/s]: {}\n",
             rates.join(", ")

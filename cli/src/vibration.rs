@@ -3,7 +3,7 @@
 use crate::screen;
 use flexion::analysis::campbell::HubState;
 use flexion::hub_beam::Drive;
-use flexion::system::Fork;
+use flexion::system::{Fork, Slender};
 use flexion_case::{Case, Reading, units};
 use flexion_results::{Frequencies, Units};
 
@@ -126,6 +126,34 @@ pub fn system(case: &Case, rotates: bool) -> Result<(Box<dyn Fork>, Vec<String>)
 
 /// Relative error of a frequency by the mesh above which there is a warning.
 pub const COARSE: f64 = 0.01;
+
+/// Relative error of a frequency by rounding above which there is a warning.
+const ROUNDED: f64 = 1e-6;
+
+/// A warning that frequencies may be off by rounding, of the numbers of modes and their errors, with the beam that is to blame.
+pub fn rounded(modes: impl Iterator<Item = (usize, f64)>, slender: Option<&Slender>) -> Option<String> {
+    let (mut numbers, mut largest): (Vec<usize>, f64) = (Vec::new(), 0.0);
+    for (number, error) in modes.filter(|(_, error)| *error > ROUNDED) {
+        largest = largest.max(error);
+        if numbers.last() != Some(&number) {
+            numbers.push(number);
+        }
+    }
+    let (first, last) = (numbers.first()?, numbers.last()?);
+    let which = match numbers.len() {
+        1 => format!("the frequency of mode {first}"),
+        n if last - first + 1 == n => format!("the frequencies of modes {first} to {last}"),
+        _ => {
+            let numbers: Vec<String> = numbers.iter().map(usize::to_string).collect();
+            format!("the frequencies of modes {}", numbers.join(", "))
+        }
+    };
+    let why = slender.map_or_else(
+        || "the mesh is too fine for this coupling; use fewer elements".to_owned(),
+        Slender::to_string,
+    );
+    Some(format!("{which} may be off by {largest:.1e} of it by rounding: {why}"))
+}
 
 /// The error of a frequency by the mesh over its difference to that of twice the elements or functions.
 pub fn safety(case: &Case) -> f64 {

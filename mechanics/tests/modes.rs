@@ -158,7 +158,7 @@ fn the_strains_of_a_vector_make_the_form_of_the_stiffness() {
             let expected = dot(x, &product);
             sizes.iter_mut().zip(&product).for_each(|(s, p)| *s = p.abs());
             let size: f64 = x.iter().zip(&sizes).map(|(x, p)| x.abs() * p).sum();
-            assert!((form - expected).abs() < 1e-12 * size, "system {number}: {form} for {expected}");
+            assert!((form.value - expected).abs() < 1e-12 * size, "system {number}: {form:?} for {expected}");
         }
     }
 }

@@ -1,5 +1,8 @@
 //! Units of frequencies and speeds.
 
+/// Most decimals of a number.
+const MOST: usize = 20;
+
 /// In what frequencies and speeds are written.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frequencies {
@@ -31,9 +34,17 @@ impl Frequencies {
         Frequencies { name: "", factor: time }
     }
 
-    /// A frequency in rad/s with its unit.
+    /// A frequency in rad/s: six decimals, and six digits of a small one.
+    pub fn number(&self, frequency: f64) -> String {
+        let value = frequency * self.factor;
+        let whole = value.abs().log10().floor();
+        let decimals = if whole < -1.0 && whole.is_finite() { 5 - whole as i32 } else { 6 };
+        format!("{value:.*}", usize::try_from(decimals).unwrap_or(6).min(MOST))
+    }
+
+    /// The same with its unit.
     pub fn text(&self, frequency: f64) -> String {
-        format!("{:.6} {}", frequency * self.factor, self.name).trim_end().to_owned()
+        format!("{} {}", self.number(frequency), self.name).trim_end().to_owned()
     }
 
     /// The same with five digits, for headings and messages.

@@ -7,19 +7,22 @@
 //! Rows of constraints that hold are part of K, [K −Gᵀ; −G 0], in which K has the multipliers of the equilibrium: a solution
 //! with it is a motion that G allows, and the cost stays linear in the unknowns where the multipliers stand in the band.
 
-use super::rigid::{BELOW, RIGID, RIGID_MOTIONS, elastic_frequency};
+use super::rigid::{BELOW, RIGID, RIGID_MOTIONS, elastic_frequency, has_rigid_motions, is_without_form};
 use super::stability::GROWTH;
 use super::stiffness::{freedoms, matrices};
 use crate::linalg::Matrix;
 use crate::linalg::eigen::{EigenError, Kind, Pair, Pencil, UNCERTAIN};
 use crate::linalg::vector::dot;
-use crate::system::{Direction, Frame, State, System};
+use crate::system::{Direction, Frame, Slender, State, System};
 use num_complex::Complex64;
 
 /// Residual above which a mode is refused, unless the rounding of the stiffness explains it.
 const RESIDUAL: f64 = 1e-7;
 /// The same of a conservative pencil: the error of its frequencies is the square of that of the vectors.
 const CONSERVATIVE: f64 = 1e-5;
+
+/// Distance, over the shift, of an eigenvalue from the same one as it is seen from another shift.
+const AGAIN: f64 = 1e-4;
 
 /// One mode.
 #[derive(Clone, Debug, PartialEq)]
@@ -186,6 +189,24 @@ pub enum NoModes {
         /// The largest that is accepted.
         allowed: f64,
     },
+    /// Rounding of the stiffness decides a frequency.
+    #[error("mode {number} at {frequency:.3e} rad/s may be off by {:.0} % by rounding of the stiffness", 100.0 * rounding)]
+    Rounded {
+        /// Number of the mode, from 1.
+        number: usize,
+        /// Its frequency [rad/s].
+        frequency: f64,
+        /// Bound of its relative error.
+        rounding: f64,
+    },
+    /// A beam is too slender for its stiffness.
+    #[error("{slender} ({source})")]
+    Slender {
+        /// The beam.
+        slender: Slender,
+        /// What was not found.
+        source: Box<NoModes>,
+    },
     /// The count of frequencies found more.
     #[error(
         "{counted} modes lie below {frequency:.6} rad/s, but {found} were found; ask for a few more modes"
@@ -224,6 +245,20 @@ pub fn modes(
 pub(super) fn modes_near(
     system: &mut dyn System,
     state: &State,
+    matrices: (&[Matrix; 3], usize),
+    count: usize,
+    stations: &[f64],
+    near: &[(Complex64, &[Complex64])],
+) -> Result<Modes, NoModes> {
+    find(system, state, matrices, count, stations, near).map_err(|source| match system.slender() {
+        Some(slender) => NoModes::Slender { slender, source: Box::new(source) },
+        None => source,
+    })
+}
+
+fn find(
+    system: &mut dyn System,
+    state: &State,
     (all, multipliers): (&[Matrix; 3], usize),
     count: usize,
     stations: &[f64],
@@ -232,10 +267,10 @@ pub(super) fn modes_near(
     let size = system.size();
     let there = freedoms(system, &all[2]);
     let count = count.min(there);
-    let corrects = system.stiffness_forms(state, &[]).is_some();
     let mut rigid = 0.0;
     let direct = Pencil::new(all.clone(), multipliers, 0.0);
-    let direct = direct.map(|mut pencil| (corrects || pencil.doubts() == [false; 2]).then_some(pencil));
+    let direct =
+        direct.map(|mut pencil| (!has_rigid_motions(&mut pencil, system, state)).then_some(pencil));
     let mut pencil = match direct {
         Ok(Some(pencil)) => pencil,
         Err(error) if !matches!(error, EigenError::Singular(_)) => return Err(error.into()),
@@ -264,10 +299,16 @@ pub(super) fn modes_near(
             break;
         }
         pencil = Pencil::new(all.clone(), multipliers, shift)?;
-        modes.clear();
+        let before = std::mem::take(&mut modes);
         overdamped.clear();
         let pairs = pencil.pairs(asked, &[])?;
         refused = accept([&mut modes, &mut overdamped], pairs, count, &pencil, system, state, rigid).err();
+        let there = |x: &Mode| modes.iter().any(|m| (m.eigenvalue - x.eigenvalue).norm() <= AGAIN * shift);
+        // A shift far above the lowest no longer sees them.
+        if !before.iter().all(there) {
+            refused = first.clone();
+            break;
+        }
     }
     match (first, refused) {
         (Some(first), Some(_)) => return Err(first),
@@ -277,12 +318,17 @@ pub(super) fn modes_near(
     let counted = match complete(&pencil, &modes) {
         // Vectors to begin with may have nothing of a mode that is new among the lowest.
         Err(NoModes::Missed { .. }) if !near.is_empty() => {
-            return modes_near(system, state, (all, multipliers), count, stations, &[]);
+            return find(system, state, (all, multipliers), count, stations, &[]);
         }
         counted => counted?,
     };
     modes.iter_mut().chain(&mut overdamped).for_each(|mode| mode.vector.truncate(size.v));
     correct(system, state, &pencil, &mut modes);
+    let rounded = |(_, mode): &(usize, &Mode)| mode.rounding > UNCERTAIN;
+    if let Some((number, mode)) = modes.iter().enumerate().find(rounded) {
+        let (frequency, rounding) = (mode.eigenvalue.norm(), mode.rounding);
+        return Err(NoModes::Rounded { number: number + 1, frequency, rounding });
+    }
     let scale: Vec<f64> = system.scales().to_vec();
     for mode in modes.iter_mut().chain(&mut overdamped) {
         describe(mode, system, state, &scale, stations);
@@ -362,14 +408,15 @@ fn correct(system: &mut dyn System, state: &State, pencil: &Pencil, modes: &mut 
     if pencil.kind() == Kind::General {
         return;
     }
-    let parts = |m: &Mode| [m.vector.iter().map(|x| x.re).collect(), m.vector.iter().map(|x| x.im).collect()];
-    let vectors: Vec<Vec<f64>> = modes.iter().flat_map(parts).collect();
+    let vectors: Vec<Vec<f64>> = modes.iter().flat_map(|mode| parts(&mode.vector)).collect();
     let Some(forms) = system.stiffness_forms(state, &vectors) else { return };
     let (pairs, _) = forms.as_chunks::<2>();
     for (mode, [re, im]) in modes.iter_mut().zip(pairs).filter(|(m, _)| m.eigenvalue != Complex64::ZERO) {
-        if let Some(eigenvalue) = pencil.rayleigh(re + im, &mode.vector) {
+        if let Some(eigenvalue) = pencil.rayleigh(re.value + im.value, &mode.vector) {
             mode.eigenvalue = eigenvalue;
-            mode.rounding *= mode.rounding;
+            // The modal mass is 1.
+            let rest = 0.5 * (re.rounding + im.rounding) / eigenvalue.norm_sqr();
+            mode.rounding = mode.rounding * mode.rounding + rest;
         }
     }
 }
@@ -406,10 +453,18 @@ pub(super) fn shares(system: &dyn System, state: &State, x: &[Complex64], mx: &[
 }
 
 /// A mode from its eigenpair, without its shape.
-fn mode(system: &dyn System, state: &State, pencil: &Pencil, pair: Pair, scale: &[f64], rigid: f64) -> Mode {
+fn mode(
+    system: &mut dyn System,
+    state: &State,
+    pencil: &Pencil,
+    pair: Pair,
+    scale: &[f64],
+    rigid: f64,
+) -> Mode {
     let Pair { value: mut eigenvalue, mut vector, residual } = pair;
     let n = vector.len();
-    if eigenvalue.norm() < rigid || rigid > 0.0 && pencil.rounding(eigenvalue, &vector) > UNCERTAIN {
+    let soft = eigenvalue.norm() < rigid || rigid > 0.0 && pencil.rounding(eigenvalue, &vector) > UNCERTAIN;
+    if soft && is_without_form(system, state, pencil, &vector, rigid) {
         eigenvalue = Complex64::ZERO;
     }
     // Phase by the largest entry, size by the modal mass.

@@ -2,6 +2,8 @@
 
 use crate::linalg::Matrix;
 use crate::linalg::eigen::{EigenError, Pencil, UNCERTAIN};
+use crate::system::{State, StiffnessForm, System};
+use num_complex::Complex64;
 
 /// A rigid motion has |λ| below this part of the lowest frequency of the held system.
 pub(super) const RIGID: f64 = 1e-4;
@@ -14,6 +16,37 @@ pub(super) const RIGID_MOTIONS: usize = 6;
 
 /// Eigenvalues next to zero among which rigid motions are looked for where there are negative ones.
 const NEAREST: usize = 6;
+
+/// Energy of the strains of a motion, over the rounding of the energy by an assembled stiffness, up to which it is rigid.
+const STRAINED: f64 = 1e-3;
+
+/// Whether the pencil of K, which was factored, has a motion that rounding alone decides, by the strains where the system sums them; or whether the
+/// elimination makes rounding errors grow.
+pub(super) fn has_rigid_motions(pencil: &mut Pencil, system: &mut dyn System, state: &State) -> bool {
+    let Some(softest) = pencil.softest() else { return true };
+    if softest.unstable || !softest.is_uncertain() {
+        return softest.unstable;
+    }
+    let motion = softest.motion[..state.v.len()].to_vec();
+    let forms = system.stiffness_forms(state, &[motion]);
+    let form = forms.and_then(|forms| forms.first().copied());
+    form.is_none_or(|form| form.value.abs() <= STRAINED * softest.rounding + 0.5 * form.rounding / UNCERTAIN)
+}
+
+/// Whether a motion has no stiffness by the strains, or a frequency below `rigid` [rad/s]; true where the system has its stiffness as a matrix only.
+pub(super) fn is_without_form(
+    system: &mut dyn System,
+    state: &State,
+    pencil: &Pencil,
+    x: &[Complex64],
+    rigid: f64,
+) -> bool {
+    let of = |part: fn(&Complex64) -> f64| x[..state.v.len()].iter().map(part).collect::<Vec<f64>>();
+    let Some(forms) = system.stiffness_forms(state, &[of(|x| x.re), of(|x| x.im)]) else { return true };
+    let sum = |part: fn(&StiffnessForm) -> f64| forms.iter().map(part).sum::<f64>();
+    let (value, rounding) = (sum(|form| form.value), sum(|form| form.rounding));
+    value.abs() <= rigid * rigid * pencil.modal_mass(x) + 0.5 * rounding / UNCERTAIN
+}
 
 /// Pencil whose shift is far above rounding and below most frequencies; `None` without masses or stiffness.
 fn shifted(all: &[Matrix; 3], multipliers: usize) -> Result<Option<Pencil>, EigenError> {

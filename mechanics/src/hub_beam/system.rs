@@ -12,12 +12,11 @@ use super::positive::HubInertia;
 use super::section_forces::{Sampling, SectionForces};
 use super::station::{Placement, Station};
 use crate::drive::motion_breaks;
-use crate::linalg::vector::dot;
 use crate::linalg::{Mat3, Matrix, Storage, Structure, Vec3};
 use crate::profile::HubKinematics;
 use crate::system::{
     Break, Channel, Corotation, Direction, Dynamics, Energy, Events, Frame, Kind, Limit, NotSet, Observed,
-    Parameter, Power, Role, Sink, Size, State, Steady, Weights, ordered,
+    Parameter, Power, Role, Sink, Size, State, Steady, StiffnessForm, Weights, ordered,
 };
 use std::sync::Arc;
 
@@ -347,7 +346,7 @@ impl<C: Coupling> Dynamics for HubBeam<C> {
         self.coupling.corotate(before, now, out);
     }
 
-    fn stiffness_forms(&mut self, s: &State, vectors: &[Vec<f64>]) -> Option<Vec<f64>> {
+    fn stiffness_forms(&mut self, s: &State, vectors: &[Vec<f64>]) -> Option<Vec<StiffnessForm>> {
         let (hub, w) = (self.kinematics(s), Weights::new(0.0, 0.0, 1.0));
         let mut rest = Matrix::new(&self.structure(0));
         let storage = rest.begin();
@@ -355,13 +354,9 @@ impl<C: Coupling> Dynamics for HubBeam<C> {
         self.coupling.add_unstrained_stiffness(s, &hub, storage);
         self.loads.subtract_tangent(s, &hub, &w, storage);
         self.write_border(s, &hub, &w, storage);
-        let mut product = vec![0.0; s.v.len()];
-        let mut form = |x: &Vec<f64>| {
-            rest.multiply(x, &mut product);
-            dot(x, &product)
-        };
-        let mut forms = vectors.iter().map(&mut form).collect::<Vec<f64>>();
-        self.coupling.strain_forms(s, vectors, &mut forms);
+        let (mut forms, mut strains) = (StiffnessForm::of(&rest, vectors), vec![0.0; vectors.len()]);
+        self.coupling.strain_forms(s, vectors, &mut strains);
+        forms.iter_mut().zip(strains).for_each(|(form, strain)| form.value += strain);
         Some(forms)
     }
 }

@@ -80,6 +80,18 @@ impl Beam {
         }
     }
 
+    /// Largest stiffness in shear, or along the axis without shear, and least in bending \[N, N·m²\].
+    pub(super) fn stiffest_and_bending(&self) -> [f64; 2] {
+        let most = |[a, b]: [f64; 2], [x, y]: [f64; 2]| [a.max(x), b.min(y)];
+        let none = [0.0, f64::INFINITY];
+        match self {
+            Beam::Slender(beam) => {
+                beam.elements().iter().map(slender::Element::axial_and_bending).fold(none, most)
+            }
+            Beam::Shear(beam) => beam.elements().iter().map(shear::Element::shear_and_bending).fold(none, most),
+        }
+    }
+
     /// Whether its sections have shear strains.
     pub fn has_shear(&self) -> bool {
         matches!(self, Beam::Shear(_))
@@ -303,6 +315,33 @@ impl Beam {
             Beam::Shear(beam) => {
                 beam.add_tangent([q, v, a], field, w, |at, block| out.add_block(first + at, block));
             }
+        }
+    }
+
+    /// Adds their ∂r/∂q without the part of which the [forms](Beam::strain_form) are summed strain by strain.
+    pub(super) fn add_unstrained_stiffness(
+        &self,
+        [q, v, a]: [&[f64]; 3],
+        field: Vec3,
+        (first, out): (usize, &mut Matrix),
+    ) {
+        match self {
+            Beam::Slender(beam) => {
+                beam.add_unstrained_stiffness(q, v, a, |at, block| out.add_block(first + at, block));
+            }
+            Beam::Shear(beam) => {
+                beam.add_unstrained_stiffness([q, v, a], field, |at, block| {
+                    out.add_block(first + at, block)
+                });
+            }
+        }
+    }
+
+    /// ∫ δγᵀ C δγ ds of the strains δγ of a motion x.
+    pub(super) fn strain_form(&self, q: &[f64], x: &[f64]) -> f64 {
+        match self {
+            Beam::Slender(beam) => beam.strain_form(q, x),
+            Beam::Shear(beam) => beam.strain_form(q, x),
         }
     }
 

@@ -74,6 +74,7 @@ pub mod shear;
 pub mod slender;
 mod start;
 mod station;
+mod strain_forms;
 mod system;
 
 pub use axis::Axis;

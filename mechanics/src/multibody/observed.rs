@@ -8,7 +8,7 @@ use super::row::Row;
 use super::system::Multibody;
 use crate::linalg::Vec3;
 use crate::profile::HubKinematics;
-use crate::system::{Direction, Energy, Frame, Limit, Observed, Power, Sink, State};
+use crate::system::{Direction, Energy, Frame, Limit, Observed, Power, Sink, Slender, State};
 
 /// Size of a row that was left out, over the length of the system, at which it no longer follows from the others; and over the
 /// largest of the rows that are kept.
@@ -222,6 +222,10 @@ impl Observed for Multibody {
 
     fn explain(&mut self, s: &State) -> Option<Limit> {
         reason::singular(self, s)
+    }
+
+    fn slender(&self) -> Option<Slender> {
+        reason::slender(&self.constants.model)
     }
 
     fn cautions(&self, _peaks: &[f64]) -> Vec<String> {

@@ -1,13 +1,14 @@
 //! What makes a run fail or go astray: bodies almost without inertia, parts that nothing holds, loops close to a singular configuration.
 
 use super::consistency::rows;
+use super::beam::Beam;
 use super::constants::Constants;
 use super::joint::{Joint, Kind};
 use super::marker::Part;
 use super::model::Model;
 use super::system::Multibody;
 use crate::linalg::vector::{axpy, dot};
-use crate::system::{Dynamics, Limit, State};
+use crate::system::{Dynamics, Limit, Slender, State};
 
 /// Mass over the largest, and moment of inertia over m L² with the size L of the system, below which a body counts as one without.
 const LIGHT: f64 = 1e-14;
@@ -60,6 +61,22 @@ pub(super) fn rounded(model: &Model) -> Option<String> {
         of.name,
         of.beam.elements()
     ))
+}
+
+/// L² times the stiffness in shear or along the axis over that in bending, from which on rounding of the larger one is looked for in frequencies.
+const SLENDER: f64 = 1e10;
+
+/// The most slender beam of those that are so slender that rounding counts.
+pub(super) fn slender(model: &Model) -> Option<Slender> {
+    let ratio = |beam: &Beam| {
+        let [stiff, bending] = beam.stiffest_and_bending();
+        let nodes = beam.nodes();
+        let length = nodes.last().unwrap_or(&0.0) - nodes.first().unwrap_or(&0.0);
+        length * length * stiff / bending
+    };
+    let worst = model.beams.iter().map(|of| (ratio(&of.beam), of));
+    let (ratio, of) = worst.max_by(|a, b| a.0.total_cmp(&b.0)).filter(|(ratio, _)| *ratio > SLENDER)?;
+    Some(Slender { beam: of.name.clone(), ratio, shear: of.beam.has_shear() })
 }
 
 /// Parts that no chain of joints and springs leads to the ground from, and that touch nothing: in a model in which others are held, one was

@@ -29,7 +29,7 @@ use super::system::Multibody;
 use crate::linalg::{Mat3, Matrix, Structure, Vec3};
 use crate::system::{
     Direction, Dynamics, Energy, Events, Frame, Limit, NotSet, Observed, Parameter, RowWeights, Set, Sink,
-    Size, State, Steady, VisitRow, Weights,
+    Size, Slender, State, Steady, StiffnessForm, VisitRow, Weights,
 };
 
 /// Part of a load across the axis, over the load, that counts as rounding.
@@ -296,15 +296,29 @@ impl Dynamics for Rotating {
     }
 
     fn tangent(&mut self, s: &State, w: Weights<'_>, out: &mut Matrix) {
-        self.place(s);
-        let (moved, rows) = (self.inertial(s), self.derivatives(s));
+        let moved = self.in_space(s);
         self.inner.tangent(&moved, w, out);
+        self.add_carried([s, &moved], w, out);
+    }
+
+    fn stiffness_forms(&mut self, s: &State, vectors: &[Vec<f64>]) -> Option<Vec<StiffnessForm>> {
+        let moved = self.in_space(s);
+        let mut rest = self.inner.unstrained_stiffness(&moved);
+        self.add_carried([s, &moved], Weights::new(0.0, 0.0, 1.0), &mut rest);
+        Some(self.inner.forms(s, &rest, vectors))
+    }
+}
+
+impl Rotating {
+    /// Adds w.v M ∂B/∂v′ + w.q (C ∂A/∂q + M ∂B/∂q) of a state and the same in inertial axes.
+    fn add_carried(&mut self, [s, moved]: [&State; 2], w: Weights<'_>, out: &mut Matrix) {
         if self.speed == 0.0 || w.q == 0.0 && w.v == 0.0 {
             return;
         }
+        let rows = self.derivatives(s);
         let mut of = |a, v| {
             let mut matrix = Matrix::new(&self.inner.structure(0));
-            self.inner.tangent(&moved, Weights::new(a, v, 0.0), &mut matrix);
+            self.inner.tangent(moved, Weights::new(a, v, 0.0), &mut matrix);
             matrix
         };
         let mut of_unknown: Vec<&[(usize, [f64; 3])]> = vec![&[]; s.v.len()];
@@ -390,5 +404,9 @@ impl Observed for Rotating {
 
     fn admissible(&mut self, s: &State) -> Result<(), Limit> {
         self.inner.admissible(s)
+    }
+
+    fn slender(&self) -> Option<Slender> {
+        self.inner.slender()
     }
 }

@@ -28,7 +28,8 @@ use super::{consistency, start};
 use crate::linalg::{Mat3, Matrix, Structure, Vec3};
 use crate::profile::HubKinematics;
 use crate::system::{
-    Corotation, Dynamics, NotSet, Parameter, RowWeights, Set, Size, State, Steady, VisitRow, Weights,
+    Corotation, Dynamics, NotSet, Parameter, RowWeights, Set, Size, State, Steady,
+    StiffnessForm, VisitRow, Weights,
 };
 use std::sync::Arc;
 
@@ -520,6 +521,18 @@ impl Dynamics for Multibody {
     }
 
     fn tangent(&mut self, s: &State, w: Weights<'_>, out: &mut Matrix) {
+        self.assemble(s, w, true, out);
+    }
+
+    fn stiffness_forms(&mut self, s: &State, vectors: &[Vec<f64>]) -> Option<Vec<StiffnessForm>> {
+        let rest = self.unstrained_stiffness(s);
+        Some(self.forms(s, &rest, vectors))
+    }
+}
+
+impl Multibody {
+    /// Writes the tangent, with the stiffness of the strains of beams or without.
+    pub(super) fn assemble(&mut self, s: &State, w: Weights<'_>, strains: bool, out: &mut Matrix) {
         out.clear();
         self.place(s);
         let constants = self.constants.clone();
@@ -539,8 +552,12 @@ impl Dynamics for Multibody {
         }
         for (of, &[i, j]) in model.beams.iter().zip(&constants.beams) {
             let within = Weights { increment: w.increment.map(|d| &d[j..]), ..w };
-            let motion = [&s.q[i..], &s.v[j..], &s.a[j..]];
-            of.beam.add_tangent(motion, self.part * model.gravity, &within, (j, out));
+            let (motion, field) = ([&s.q[i..], &s.v[j..], &s.a[j..]], self.part * model.gravity);
+            if strains {
+                of.beam.add_tangent(motion, field, &within, (j, out));
+            } else {
+                of.beam.add_unstrained_stiffness(motion, field, (j, out));
+            }
         }
         if w.q == 0.0 && w.v == 0.0 {
             return;

@@ -1,6 +1,8 @@
 //! What an integrator sees of a model.
 
 use super::{Corotation, RowWeights, Set, Size, State};
+use crate::linalg::eigen::Sparse;
+use crate::linalg::vector::dot;
 use crate::linalg::{Matrix, Structure};
 
 /// Scalar weights of the tangent w.a M + w.v C + w.q K.
@@ -21,6 +23,33 @@ impl Weights<'_> {
     /// Weights without an increment.
     pub fn new(a: f64, v: f64, q: f64) -> Weights<'static> {
         Weights { q, v, a, increment: None }
+    }
+}
+
+/// xᵀ (∂r/∂q) x of a motion x, its strain energy summed strain by strain.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StiffnessForm {
+    /// The form.
+    pub value: f64,
+    /// Bound of its error by the rounding of what is no strain, ε |x|ᵀ|K||x| with that part K of the stiffness.
+    pub rounding: f64,
+}
+
+impl StiffnessForm {
+    /// Those of the part of a stiffness that is no strain.
+    pub fn of(rest: &Matrix, vectors: &[Vec<f64>]) -> Vec<StiffnessForm> {
+        let entries = Sparse::of(rest);
+        let sizes = entries.clone().sizes();
+        let form = |of: &Sparse, x: &[f64]| {
+            let mut product = vec![0.0; x.len()];
+            of.multiply(x, &mut product);
+            dot(x, &product)
+        };
+        let of = |x: &Vec<f64>| {
+            let size: Vec<f64> = x.iter().map(|x| x.abs()).collect();
+            StiffnessForm { value: form(&entries, x), rounding: f64::EPSILON * form(&sizes, &size) }
+        };
+        vectors.iter().map(of).collect()
     }
 }
 
@@ -135,9 +164,9 @@ pub trait Dynamics: Send {
     /// xᵀ (∂r/∂q) x of each of the vectors, the strain energy summed strain by strain, Σ w (bᵀx)². `None` for a model that
     /// has its stiffness as a matrix only.
     ///
-    /// The condition number of the stiffness of n bending elements grows like n⁴: its entries, rounded to doubles, lose
-    /// the lowest frequencies, but not the strains, which lose n²ε.
-    fn stiffness_forms(&mut self, _s: &State, _vectors: &[Vec<f64>]) -> Option<Vec<f64>> {
+    /// The condition number of the stiffness of n bending elements grows like n⁴, and with the square of the slenderness where shear or the axis is stiff:
+    /// its entries, rounded to doubles, lose the lowest frequencies, but not the strains, which lose n²ε.
+    fn stiffness_forms(&mut self, _s: &State, _vectors: &[Vec<f64>]) -> Option<Vec<StiffnessForm>> {
         None
     }
 }

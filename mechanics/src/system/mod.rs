@@ -33,10 +33,10 @@ mod state;
 mod steady;
 
 pub use corotation::Corotation;
-pub use dynamics::{Dynamics, VisitRow, Weights};
+pub use dynamics::{Dynamics, StiffnessForm, VisitRow, Weights};
 pub use events::{Break, Crossing, Events, Jump, ordered};
 pub use limit::Limit;
-pub use observed::{ContactInfo, ContactSample, Direction, Energy, Frame, Observed, Power};
+pub use observed::{ContactInfo, ContactSample, Direction, Energy, Frame, Observed, Power, Slender};
 pub use rows::{RowWeights, Set, is_active, replace_inactive, slip};
 pub use sink::{Channel, Kind, Role, Sink};
 pub use state::{Mode, Side, Size, State};

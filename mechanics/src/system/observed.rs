@@ -78,6 +78,32 @@ pub struct Frame {
     pub rotation: Mat3,
 }
 
+/// A beam so slender that rounding of its largest stiffness may hide that in bending.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Slender {
+    /// Its name.
+    pub beam: String,
+    /// L²GA/EI with shear, else L²EA/EI.
+    pub ratio: f64,
+    /// Whether it has shear.
+    pub shear: bool,
+}
+
+impl std::fmt::Display for Slender {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Slender { beam, ratio, shear } = self;
+        let (of, stiffness, cure) = if *shear {
+            ("in shear", "GA", "leave the shear out, `shear = false` in a case")
+        } else {
+            ("along its axis", "EA", "use fewer elements, or lay it along an axis of space")
+        };
+        write!(
+            f,
+            "beam `{beam}` is so slender, L²{stiffness}/EI = {ratio:.1e}, that rounding of its stiffness {of} hides that in bending; {cure}"
+        )
+    }
+}
+
 /// A contact at a state.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ContactInfo {
@@ -180,6 +206,11 @@ pub trait Observed: Dynamics {
 
     /// What the model knows about why a run may break down at this state, for messages.
     fn explain(&mut self, _s: &State) -> Option<Limit> {
+        None
+    }
+
+    /// The most slender beam, where it is so slender that rounding of its stiffness counts.
+    fn slender(&self) -> Option<Slender> {
         None
     }
 

@@ -32,7 +32,7 @@ use crate::linalg::vector::inner;
 use crate::linalg::{Matrix, Structure, Vec3};
 use crate::system::{
     Break, Corotation, Crossing, Dynamics, Events, Jump, Mode, NotSet, Observed, Parameter, Power,
-    RowWeights, Set, Size, State, Steady, VisitRow, Weights, ordered,
+    RowWeights, Set, Size, State, Steady, StiffnessForm, VisitRow, Weights, ordered,
 };
 use proximity::Proximity;
 use std::ops::Range;
@@ -473,7 +473,7 @@ impl<S: Points + Dynamics + Events + Observed> Dynamics for Contacting<S> {
         self.inner.corotate(before, now, out);
     }
 
-    fn stiffness_forms(&mut self, s: &State, vectors: &[Vec<f64>]) -> Option<Vec<f64>> {
+    fn stiffness_forms(&mut self, s: &State, vectors: &[Vec<f64>]) -> Option<Vec<StiffnessForm>> {
         let mut free = true;
         self.each(s, |_, _, forces| free &= forces.vanish());
         if free { self.inner.stiffness_forms(s, vectors) } else { None }

@@ -4,7 +4,7 @@ use super::{Contact, Contacting, Law, Placed};
 use crate::contact::points::Points;
 use crate::system::{
     Channel, ContactInfo, ContactSample, Direction, Dynamics, Energy, Events, Frame, Kind, Limit, Mode,
-    Observed, Power, Role, Sink, State,
+    Observed, Power, Role, Sink, Slender, State,
 };
 
 impl<S: Points + Dynamics + Events + Observed> Observed for Contacting<S> {
@@ -107,6 +107,10 @@ impl<S: Points + Dynamics + Events + Observed> Observed for Contacting<S> {
 
     fn admissible(&mut self, s: &State) -> Result<(), Limit> {
         self.inner.admissible(s)
+    }
+
+    fn slender(&self) -> Option<Slender> {
+        self.inner.slender()
     }
 
     fn explain(&mut self, s: &State) -> Option<Limit> {

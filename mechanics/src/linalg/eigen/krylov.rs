@@ -12,6 +12,13 @@ pub(super) const TOLERANCE: f64 = 1e-12;
 /// Share of a vector left by orthogonalisation below which the space is invariant.
 const INVARIANT: f64 = 1e-13;
 
+/// Size of an eigenvalue of a matrix that is not symmetric, over the largest product of the operator with a unit vector, that rounding may make
+/// of zero.
+const ROUNDING: f64 = 1e-11;
+
+/// |Im θ|/|θ| of vibrations that are damped so strongly, by ζ > 0.99, that rounding may make them of two motions that only decay.
+const FLAT: f64 = 0.15;
+
 /// Share of noise in a vector to begin with of which nothing is counted: no eigenvector is missing in it.
 const STRAY: f64 = 1e-3;
 
@@ -168,7 +175,8 @@ pub(super) fn krylov(
             let mut dual = vec![0.0; n];
             let mut random = noise(n, seeds.next().unwrap_or(1));
             operator.dual(&random, &mut dual);
-            let rounding = INVARIANT * largest * norm(&random, &dual);
+            let part = if projection == Projection::Hessenberg { ROUNDING } else { INVARIANT };
+            let rounding = part * largest * norm(&random, &dual);
             // Of what is spanned A may make so much more than of the rest that the rest would be lost in its rounding.
             for _ in 0..2 {
                 locked.remove(&mut random, None, &mut []);
@@ -199,7 +207,7 @@ pub(super) fn krylov(
         return Ok(Found { space, pairs: Vec::new(), counting: 0, converged: wanted });
     }
     let carries = !operator.knows_duals();
-    let (mut largest, mut last): (f64, Option<(Vec<Ritz>, usize, usize)>) = (0.0, None);
+    let (mut largest, mut last): (f64, Option<Vec<Ritz>>) = (0.0, None);
     loop {
         space.push(w.clone(), dual_w.clone());
         let m = space.vectors.len();
@@ -226,40 +234,53 @@ pub(super) fn krylov(
             continue;
         }
         next_look = (m + m / part + 2).min(limit);
+        let mut ends = exhausted || m >= limit;
         let ritz = match projection {
             Projection::Symmetric => symmetric(&columns),
             Projection::Skew => skew(&columns),
             Projection::Hessenberg => match (hessenberg(&columns), last.take()) {
                 (Ok(ritz), _) => ritz,
                 // The iteration for the eigenvalues of a projected matrix may fail where the last one was solved.
-                (Err(_), Some((pairs, counting, converged))) => {
-                    return Ok(Found { space, pairs, counting, converged });
+                (Err(_), Some(ritz)) => {
+                    ends = true;
+                    ritz
                 }
                 (Err(error), None) => return Err(error),
             },
         };
-        // Of a conjugate pair the one in the upper half plane of λ, that is below the real axis of θ, counts.
-        let upper = ritz.into_iter().filter(|r| projection == Projection::Symmetric || r.value.im <= 0.0);
         let good = |r: &Ritz| r.error <= tolerance * r.value.norm();
-        let mut pairs: Vec<Ritz> = Vec::new();
+        // What rounding makes of zero; what by its error may be a real eigenvalue that does not count, as next to a cluster of overdamped motions; and at
+        // the end what may be zero, or has no digit.
+        let nothing = |r: &Ritz| {
+            let (size, across) = (r.value.norm(), r.value.im.abs());
+            let real = across < r.error && (ends || across < FLAT * size) && !counts(r.value.re.into());
+            projection == Projection::Hessenberg && (real || ends && size < r.error || size <= ROUNDING * largest)
+        };
+        // Of a conjugate pair the one in the upper half plane of λ, that is below the real axis of θ, counts.
+        let upper = |r: &Ritz| projection == Projection::Symmetric || r.value.im <= 0.0;
         let (mut number, mut converged) = (0, 0);
-        for r in upper {
-            if counts(r.value) {
-                if number == wanted {
-                    break;
-                }
-                converged += usize::from(converged == number && good(&r));
-                number += 1;
-            } else if !good(&r) {
-                continue;
+        let mut among = |r: &Ritz| {
+            if number > wanted || !upper(r) || nothing(r) {
+                return false;
             }
-            pairs.push(r);
+            if !counts(r.value) {
+                return good(r);
+            }
+            number += 1;
+            converged += usize::from(converged + 1 == number && number <= wanted && good(r));
+            number <= wanted
+        };
+        let there: Vec<bool> = ritz.iter().map(&mut among).collect();
+        if std::env::var("DBG").is_ok() {
+            eprintln!("m={m} limit={limit} n={n} exhausted={exhausted} ends={ends} wanted={wanted} number={number} converged={converged} largest={largest:e}");
+            let mut k = 0; for (r,_) in ritz.iter().zip(&there).filter(|(_,t)| **t) { let l = 1.0 / r.value; if !counts(r.value) || good(r) { k+= usize::from(counts(r.value)); continue; }  eprintln!("   behind {k} theta {:e} {:e}  lambda {:.6e} {:.6e} err {:e}", r.value.re, r.value.im, l.re, l.im, r.error / r.value.norm()); }
         }
-        if converged >= wanted || exhausted || m >= limit {
+        if converged >= wanted || ends {
+            let pairs = ritz.into_iter().zip(there).filter_map(|(r, there)| there.then_some(r)).collect();
             let converged = if exhausted { wanted } else { converged };
-            return Ok(Found { space, pairs, counting: number, converged });
+            return Ok(Found { space, pairs, counting: number.min(wanted), converged });
         }
-        last = Some((pairs, number, converged));
+        last = Some(ritz);
     }
 }
 

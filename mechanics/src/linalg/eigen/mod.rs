@@ -34,7 +34,7 @@ mod sparse;
 
 pub use krylov::largest;
 pub use operators::Operator;
-pub use pencil::{Kind, Pencil, UNCERTAIN, is_symmetric, negative_directions};
+pub use pencil::{Kind, Pencil, Softest, UNCERTAIN, is_symmetric, negative_directions};
 pub use sparse::{Sparse, each};
 
 use super::Singular;

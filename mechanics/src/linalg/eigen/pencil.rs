@@ -44,6 +44,26 @@ pub struct Pencil {
     solutions: usize,
 }
 
+/// The softest motion x of a stiffness K.
+#[derive(Clone, Debug)]
+pub struct Softest {
+    /// x, with multipliers.
+    pub motion: Vec<f64>,
+    /// |xᵀKx|
+    pub energy: f64,
+    /// ½ε |x|ᵀ|K||x|
+    pub rounding: f64,
+    /// Whether the elimination makes rounding errors grow, as it does where only a border of rows stiffens the band.
+    pub unstable: bool,
+}
+
+impl Softest {
+    /// Whether rounding alone decides its energy.
+    pub fn is_uncertain(&self) -> bool {
+        self.rounding > UNCERTAIN * self.energy
+    }
+}
+
 /// Relative size at which an entry counts as zero.
 const ZERO: f64 = 1e-12;
 /// Bound of the relative error by rounding above which an eigenvalue is one of a rigid motion.
@@ -143,8 +163,13 @@ impl Pencil {
     }
 
     /// Whether rounding alone decides the softest motion of Q(0) = K, which was factored: a rigid motion; and whether the elimination
-    /// makes rounding errors grow, as it does where only a border of rows stiffens the band. Inverse iterations; O(n).
+    /// makes rounding errors grow.
     pub fn doubts(&mut self) -> [bool; 2] {
+        self.softest().map_or([true; 2], |softest| [softest.is_uncertain(), softest.unstable])
+    }
+
+    /// The softest motion of Q(0) = K, which was factored; `None` where there are no finite ones. Inverse iterations; O(n).
+    pub fn softest(&mut self) -> Option<Softest> {
         let n = self.order();
         let (mut x, mut b, mut product) = (noise(n, 1), vec![0.0; n], vec![0.0; n]);
         for _ in 0..INVERSE_ITERATIONS {
@@ -153,7 +178,7 @@ impl Pencil {
             self.solve(&mut x);
             let size = x.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
             if !(size > 0.0 && size.is_finite()) {
-                return [true; 2];
+                return None;
             }
             [&mut x, &mut b].into_iter().flatten().for_each(|x| *x /= size);
         }
@@ -164,7 +189,12 @@ impl Pencil {
         self.sizes.multiply(&sizes, &mut product);
         let largest = dot(&sizes, &product);
         let rounding = 0.5 * f64::EPSILON * largest;
-        [rounding > UNCERTAIN * energy, off > UNSTABLE * energy + GROWTH * rounding]
+        Some(Softest { motion: x, energy, rounding, unstable: off > UNSTABLE * energy + GROWTH * rounding })
+    }
+
+    /// xᴴMx
+    pub fn modal_mass(&self, x: &[Complex64]) -> f64 {
+        hermitian_form(self.mass(), x).re
     }
 
     /// Bound of the relative error of an eigenvalue λ ≠ 0 with the vector x by the rounding of the entries of K,
@@ -174,7 +204,7 @@ impl Pencil {
         let mut product = size.clone();
         self.sizes.multiply(&size, &mut product);
         let energy = dot(&size, &product);
-        let mass = hermitian_form(self.mass(), x).re;
+        let mass = self.modal_mass(x);
         0.5 * f64::EPSILON * energy / (value.norm_sqr() * mass)
     }
 
@@ -182,7 +212,7 @@ impl Pencil {
     /// `energy` = xᴴKx is given: the root of ω² xᴴMx − ω xᴴ(iC)x − xᴴKx = 0, right to the square of the error of x.
     /// `None` for other pencils.
     pub fn rayleigh(&self, energy: f64, x: &[Complex64]) -> Option<Complex64> {
-        let mass = hermitian_form(self.mass(), x).re;
+        let mass = self.modal_mass(x);
         let square = energy / mass;
         match self.kind {
             Kind::General => None,

@@ -26,7 +26,7 @@ impl Sparse {
     }
 
     /// |A|, entry by entry.
-    pub(super) fn sizes(mut self) -> Sparse {
+    pub(crate) fn sizes(mut self) -> Sparse {
         self.entries.iter_mut().for_each(|(_, x)| *x = x.abs());
         self
     }

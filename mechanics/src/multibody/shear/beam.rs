@@ -233,6 +233,27 @@ impl Beam {
         }
     }
 
+    /// The same of ∂r/∂q without the part of which the [forms](Beam::strain_form) are summed strain by strain.
+    pub fn add_unstrained_stiffness(
+        &self,
+        [q, v, a]: [&[f64]; 3],
+        field: Vec3,
+        mut add: impl FnMut(usize, &Tangent),
+    ) {
+        for (element, i, j) in self.places() {
+            let a = self.accelerations(part(v, j), part(a, j), field);
+            let motion = Motion { q: part(q, i), v: part(v, j), a: &a };
+            let mut tangent = [[0.0; VELOCITIES]; VELOCITIES];
+            element.add_unstrained_stiffness(&motion, &mut tangent);
+            add(j, &tangent);
+        }
+    }
+
+    /// ∫ δeᵀ C δe ds of the strains δe of a motion x.
+    pub fn strain_form(&self, q: &[f64], x: &[f64]) -> f64 {
+        self.places().map(|(element, i, j)| element.strain_form(part(q, i), part(x, j))).sum()
+    }
+
     /// The place z, 0 to 1, of an element: position and axes.
     pub fn section(&self, q: &[f64], element: usize, z: f64) -> Frame {
         self.elements[element].section(part(q, NODE_COORDINATES * POINTS * element), z)

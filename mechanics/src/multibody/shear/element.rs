@@ -175,7 +175,7 @@ impl Element {
     }
 
     /// Largest stiffness in shear, and least in bending, at the quadrature points \[N, N·m²\].
-    pub(super) fn shear_and_bending(&self) -> [f64; 2] {
+    pub(in crate::multibody) fn shear_and_bending(&self) -> [f64; 2] {
         let all = |f: fn(&Blocks) -> [f64; 2]| self.constants.stiffness.iter().flat_map(f);
         let shear = all(|c| [c[0][0][1][1], c[0][0][2][2]]).fold(0.0, f64::max);
         [shear, all(|c| [c[1][1][1][1], c[1][1][2][2]]).fold(f64::INFINITY, f64::min)]
@@ -252,16 +252,26 @@ impl Element {
 
     /// Power \[W\] that the damping takes, ∫ ėᵀ D ė ds.
     pub fn viscous_power(&self, q: &[f64; COORDINATES], v: &[f64; VELOCITIES]) -> f64 {
+        self.constants.damping.as_ref().map_or(0.0, |damping| self.form_of_rates(damping, q, v))
+    }
+
+    /// ∫ δeᵀ C δe ds of the strains δe of a motion x, point by point.
+    pub fn strain_form(&self, q: &[f64; COORDINATES], x: &[f64; VELOCITIES]) -> f64 {
+        self.form_of_rates(&self.constants.stiffness, q, x)
+    }
+
+    /// ∫ ėᵀ A ė ds
+    fn form_of_rates(&self, a: &[Blocks; POINTS], q: &[f64; COORDINATES], v: &[f64; VELOCITIES]) -> f64 {
         let relative = Relative::new(q);
-        let Some((damping, rates)) = self.viscous(&relative, v) else { return 0.0 };
-        let mut power = 0.0;
+        let rates = relative.rates(v);
+        let mut form = 0.0;
         for (k, section) in self.sections(&relative).iter().enumerate() {
             let point = &self.constants.points[k];
             let rate = section.rate(interpolated(point, &rates.variables));
-            let [force, moment] = product(&damping[k], &rate);
-            power += point.weight * (force.dot(rate[0]) + moment.dot(rate[1]));
+            let [force, moment] = product(&a[k], &rate);
+            form += point.weight * (force.dot(rate[0]) + moment.dot(rate[1]));
         }
-        power
+        form
     }
 
     /// Kinetic energy \[J\].
@@ -312,6 +322,16 @@ impl Element {
     /// Adds w.q ∂r/∂d + w.v ∂r/∂v + w.a ∂r/∂a to `out`: by the increment d of the element since the configuration that was
     /// retracted, or by variations (δr, δφ) where `w.increment` is `None`.
     pub fn add_tangent(&self, m: &Motion<'_>, w: &Weights<'_>, out: &mut Tangent) {
+        self.add_part(m, w, true, out);
+    }
+
+    /// Adds ∂r/∂q without the part of which the [form](Element::strain_form) is summed strain by strain.
+    pub fn add_unstrained_stiffness(&self, m: &Motion<'_>, out: &mut Tangent) {
+        self.add_part(m, &Weights::new(0.0, 0.0, 1.0), false, out);
+    }
+
+    #[inline(always)]
+    fn add_part(&self, m: &Motion<'_>, w: &Weights<'_>, strains: bool, out: &mut Tangent) {
         let mut turns = [Mat3::IDENTITY; NODES];
         let increment: Option<&[f64; VELOCITIES]> = w.increment.and_then(|d| d.first_chunk());
         if let Some(d) = increment {
@@ -332,6 +352,7 @@ impl Element {
             let viscous = self.viscous(&relative, m.v);
             let viscous = viscous.as_ref().map(|(damping, rates)| (*damping, rates));
             let Stressed { stresses, forces } = self.stressed(&sections, viscous);
+            let stiffness = strains.then_some(stiffness);
             let mut nodal =
                 tangent::by_configuration(&relative, at, stiffness, (&stresses, &forces), viscous, w.q);
             if increment.is_some() {

@@ -186,11 +186,11 @@ fn add_rotation_of_forces(relative: &Relative, forces: &Variables, weight: f64, 
 }
 
 /// weight · ∂(forces)/∂q, in nodal displacements along the axes of the reference section, at the forces of the stresses at the
-/// points times their weights. `viscous` are D and the rates, where there is damping.
+/// points times their weights. `viscous` are D and the rates, where there is damping; without `stiffness` the stresses are kept.
 pub(super) fn by_configuration(
     relative: &Relative,
     at: Sections<'_>,
-    stiffness: &[Blocks; POINTS],
+    stiffness: Option<&[Blocks; POINTS]>,
     (stresses, forces): (&[Strain; POINTS], &Variables),
     viscous: Option<(&[Blocks; POINTS], &Rates)>,
     weight: f64,
@@ -198,9 +198,11 @@ pub(super) fn by_configuration(
     let (points, sections) = at;
     let mut reduced = [[ZERO; POINTS]; POINTS];
     for k in 0..POINTS {
-        let j = sections[k].jacobian();
-        let p = weighted(weight * points[k].weight, &stiffness[k], &j);
-        let mut matrix = congruent(&j, &p);
+        let mut matrix = [[Mat3::ZERO; 3]; 3];
+        if let Some(stiffness) = stiffness {
+            let j = sections[k].jacobian();
+            matrix = congruent(&j, &weighted(weight * points[k].weight, &stiffness[k], &j));
+        }
         sections[k].add_geometric(stresses[k].map(|x| weight * x), &mut matrix);
         add_point(&points[k], &matrix, &mut reduced);
     }

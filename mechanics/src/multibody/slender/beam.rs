@@ -300,6 +300,27 @@ impl Beam {
         }
     }
 
+    /// The same of ∂r/∂q without the part of which the [forms](Beam::strain_form) are summed strain by strain.
+    pub fn add_unstrained_stiffness(
+        &self,
+        q: &[f64],
+        v: &[f64],
+        a: &[f64],
+        mut add: impl FnMut(usize, &Tangent),
+    ) {
+        for (element, i, j) in self.middles() {
+            let motion = Motion { q: part(q, i), v: part(v, j), a: part(a, j) };
+            let mut tangent = [[0.0; VELOCITIES]; VELOCITIES];
+            element.add_unstrained_stiffness(&motion, &mut tangent);
+            add(j, &tangent);
+        }
+    }
+
+    /// ∫ δγᵀ C δγ ds of the strains δγ of a motion x.
+    pub fn strain_form(&self, q: &[f64], x: &[f64]) -> f64 {
+        self.middles().map(|(element, i, j)| element.strain_form(part(q, i), part(x, j))).sum()
+    }
+
     /// Adds the forces of a load per length [N/m], with components in fixed axes or in those of the sections, and with its weights
     /// element by element.
     pub(in crate::multibody) fn add_line_load(

@@ -179,6 +179,13 @@ impl Element {
         self.shapes.length
     }
 
+    /// Largest stiffness along the axis, and least in bending, at the quadrature points \[N, N·m²\].
+    pub(in crate::multibody) fn axial_and_bending(&self) -> [f64; 2] {
+        let axial = self.stiffness.iter().map(|c| c.0[0][0]).fold(0.0, f64::max);
+        let bending = self.stiffness.iter().flat_map(|c| [c.0[2][2], c.0[3][3]]);
+        [axial, bending.fold(f64::INFINITY, f64::min)]
+    }
+
     /// r′ in the middle, or its rate, by r₁, r′₁, r₂, r′₂ or theirs.
     #[inline]
     pub(in crate::multibody) fn middle_slope(&self, centreline: &[Vec3; 4]) -> Vec3 {
@@ -227,20 +234,21 @@ impl Element {
 
     /// Power \[W\] that the damping in proportion to the stiffness takes, η ∫γ̇ᵀ C γ̇ ds.
     pub fn viscous_power(&self, q: &[f64; COORDINATES], v: &[f64; VELOCITIES]) -> f64 {
-        if self.viscosity == 0.0 {
-            return 0.0;
-        }
+        if self.viscosity == 0.0 { 0.0 } else { self.viscosity * self.strain_form(q, v) }
+    }
+
+    /// ∫ δγᵀ C δγ ds of the strains δγ of a motion x, point by point.
+    pub fn strain_form(&self, q: &[f64; COORDINATES], x: &[f64; VELOCITIES]) -> f64 {
         let sections = self.sections(q);
         let points = sections.points(&self.shapes);
-        let (rates, rest) = stiffness::rates(&self.shapes, &sections, &points, &variables(v));
+        let (rates, rest) = stiffness::rates(&self.shapes, &sections, &points, &variables(x));
         let zero = [0.0; 4];
-        let mut power = 0.0;
+        let mut form = 0.0;
         for (k, rate) in rates.iter().enumerate() {
-            power += inner(self.stiffness[k].stress(rate, &zero, self.shapes.points[k].weight), *rate);
+            form += inner(self.stiffness[k].stress(rate, &zero, self.shapes.points[k].weight), *rate);
         }
         let rest = [rest[0], rest[1], 0.0, 0.0];
-        power += inner(self.middle.stress(&rest, &zero, self.shapes.rest.weight), rest);
-        self.viscosity * power
+        form + inner(self.middle.stress(&rest, &zero, self.shapes.rest.weight), rest)
     }
 
     /// Adds `weight` times the part η Bᵀ C ∂(B v)/∂q of the tangent: strain by strain, its forces for a unit of strain and the
@@ -369,6 +377,17 @@ impl Element {
     /// Adds w.q ∂r/∂d + w.v ∂r/∂v + w.a ∂r/∂a to `out`: by the increment d of the element since the configuration that was
     /// retracted, or by variations (δr, δr′, δΘ) where `w.increment` is `None`.
     pub fn add_tangent(&self, m: &Motion<'_>, w: &Weights<'_>, out: &mut Tangent) {
+        self.add_part(m, w, 1.0, out);
+    }
+
+    /// Adds ∂r/∂q without the part of which the [form](Element::strain_form) is summed strain by strain.
+    pub fn add_unstrained_stiffness(&self, m: &Motion<'_>, out: &mut Tangent) {
+        self.add_part(m, &Weights::new(0.0, 0.0, 1.0), 0.0, out);
+    }
+
+    /// Adds the tangent with so much of that part.
+    #[inline(always)]
+    fn add_part(&self, m: &Motion<'_>, w: &Weights<'_>, strains: f64, out: &mut Tangent) {
         let sections = self.sections(m.q);
         let parts = shares(&self.shapes);
         // δΘ = δφ + turn·δr′ at the three sections.
@@ -386,7 +405,7 @@ impl Element {
             let (at, stiffness) = ((&sections, &points), (&self.stiffness, &self.middle));
             let stress = self.stress(&sections, &points, m.v);
             if w.q != 0.0 {
-                tangent = stiffness::tangent(&self.shapes, stiffness, &stress, at, [w.q; 2]);
+                tangent = stiffness::tangent(&self.shapes, stiffness, &stress, at, [w.q, strains * w.q]);
                 if self.viscosity != 0.0 {
                     self.add_change_of_rates(at, m.v, w.q * self.viscosity, &mut tangent);
                 }
