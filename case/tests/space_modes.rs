@@ -7,7 +7,7 @@ use flexion::analysis::modes::modes;
 use flexion::analysis::rotation::rotate_stably;
 use flexion::linalg::Matrix;
 use flexion::linalg::vector::dot;
-use flexion::system::{Dynamics, Weights};
+use flexion::system::Weights;
 use flexion_case::{Case, Reading, campbell, parse};
 use std::path::Path;
 
@@ -397,7 +397,8 @@ fn the_strains_of_a_motion_make_the_form_of_the_stiffness_in_space() {
     let mut product = vec![0.0; n];
     for (x, form) in vectors.iter().zip(forms) {
         stiffness.multiply(x, &mut product);
-        let (expected, size) = (dot(x, &product), x.iter().zip(&product).map(|(x, p)| (x * p).abs()).sum::<f64>());
+        let (expected, size) =
+            (dot(x, &product), x.iter().zip(&product).map(|(x, p)| (x * p).abs()).sum::<f64>());
         assert!((form.value - expected).abs() < 1e-12 * size, "{form:?} for {expected}");
     }
 }
@@ -417,7 +418,11 @@ fn the_frequencies_of_a_wire_with_shear_are_those_of_bending() {
         let unit = radius / 2.0 * (200e9_f64 / 7850.0).sqrt() / 1e4;
         for (mode, root) in found.iter().zip([3.516015268500612, 3.516015268500612, 22.034491564668223]) {
             let expected = root * unit;
-            assert!((mode.frequency() / expected - 1.0).abs() < tolerance, "{radius} {elements}: {} for {expected}", mode.frequency());
+            assert!(
+                (mode.frequency() / expected - 1.0).abs() < tolerance,
+                "{radius} {elements}: {} for {expected}",
+                mode.frequency()
+            );
             assert!(mode.rounding < 0.1);
         }
     }
@@ -437,7 +442,10 @@ fn a_beam_too_slender_for_its_shear_is_refused_with_the_cause() {
         modes(system.as_mut(), &state, 3, &[])
     };
     let refused = found(true).unwrap_err().to_string();
-    assert!(refused.contains("beam `wire` is so slender") && refused.contains("`shear = false`"), "{refused}");
+    assert!(
+        refused.contains("beam `wire` is so slender") && refused.contains("`shear = false`"),
+        "{refused}"
+    );
     let unit = 1e-5 / 2.0 * (200e9_f64 / 7850.0).sqrt() / 1e4;
     let first = found(false).unwrap().modes[0].frequency();
     assert!((first / (3.516015268500612 * unit) - 1.0).abs() < 1e-5, "{first}");
@@ -467,8 +475,16 @@ fn of_strongly_damped_beams_the_vibrations_that_are_left_are_found() {
             for (mode, omega) in damped.iter().zip(left) {
                 let zeta = 0.5 * eta * omega;
                 let expected = omega * (1.0 - zeta * zeta).sqrt();
-                assert!((mode.frequency() / expected - 1.0).abs() < 1e-5, "{} for {expected}", mode.frequency());
-                assert!((mode.damping_ratio() / zeta - 1.0).abs() < 1e-5, "{} for {zeta}", mode.damping_ratio());
+                assert!(
+                    (mode.frequency() / expected - 1.0).abs() < 1e-5,
+                    "{} for {expected}",
+                    mode.frequency()
+                );
+                assert!(
+                    (mode.damping_ratio() / zeta - 1.0).abs() < 1e-5,
+                    "{} for {zeta}",
+                    mode.damping_ratio()
+                );
             }
         }
     }

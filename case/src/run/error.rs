@@ -49,7 +49,9 @@ impl Reading {
                 // The case itself is sound: it has run.
                 unknown(format!("there is no finer run: {}", problems.reason()), effort)
             }
-            Err(NoEstimate::Stopped) => Errors::none("the runs that estimate them were stopped by the user".to_owned()),
+            Err(NoEstimate::Stopped) => {
+                Errors::none("the runs that estimate them were stopped by the user".to_owned())
+            }
             Err(_) => unknown("the first impact comes within the first step or record".to_owned(), effort),
         }
     }

@@ -15,6 +15,7 @@ use super::kinds::initial::Initial;
 use super::problem::Problems;
 use super::reading::{Live, Reading};
 use super::resolved;
+use super::values::Value;
 use clock::Clock;
 use flexion::analysis::equilibrium::stable_equilibrium;
 use flexion::analysis::error::Refinable;
@@ -146,7 +147,8 @@ impl Reading {
         warnings.extend(unstable);
         let case = &self.case;
         warnings.extend(cautions::struck(live.system.as_ref(), case.damping_of_stiffness(), case.duration));
-        if self.values.inner("integrator").and_then(|of| of.get("stabilized")).is_some_and(|of| of.value == Value::Boolean(false)) {
+        let stabilized = self.values.inner("integrator").and_then(|of| of.get("stabilized"));
+        if stabilized.is_some_and(|of| matches!(of.value, Value::Boolean(false))) {
             warnings.extend(cautions::positions_only(live.system.as_ref()));
         }
         if let Some(step) = case.steps.step() {

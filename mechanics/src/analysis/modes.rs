@@ -269,8 +269,7 @@ fn find(
     let count = count.min(there);
     let mut rigid = 0.0;
     let direct = Pencil::new(all.clone(), multipliers, 0.0);
-    let direct =
-        direct.map(|mut pencil| (!has_rigid_motions(&mut pencil, system, state)).then_some(pencil));
+    let direct = direct.map(|mut pencil| (!has_rigid_motions(&mut pencil, system, state)).then_some(pencil));
     let mut pencil = match direct {
         Ok(Some(pencil)) => pencil,
         Err(error) if !matches!(error, EigenError::Singular(_)) => return Err(error.into()),

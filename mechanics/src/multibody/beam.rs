@@ -88,7 +88,9 @@ impl Beam {
             Beam::Slender(beam) => {
                 beam.elements().iter().map(slender::Element::axial_and_bending).fold(none, most)
             }
-            Beam::Shear(beam) => beam.elements().iter().map(shear::Element::shear_and_bending).fold(none, most),
+            Beam::Shear(beam) => {
+                beam.elements().iter().map(shear::Element::shear_and_bending).fold(none, most)
+            }
         }
     }
 
@@ -330,9 +332,7 @@ impl Beam {
                 beam.add_unstrained_stiffness(q, v, a, |at, block| out.add_block(first + at, block));
             }
             Beam::Shear(beam) => {
-                beam.add_unstrained_stiffness([q, v, a], field, |at, block| {
-                    out.add_block(first + at, block)
-                });
+                beam.add_unstrained_stiffness([q, v, a], field, |at, block| out.add_block(first + at, block));
             }
         }
     }

@@ -1,7 +1,7 @@
 //! What makes a run fail or go astray: bodies almost without inertia, parts that nothing holds, loops close to a singular configuration.
 
-use super::consistency::rows;
 use super::beam::Beam;
+use super::consistency::rows;
 use super::constants::Constants;
 use super::joint::{Joint, Kind};
 use super::marker::Part;

@@ -28,8 +28,8 @@ use super::{consistency, start};
 use crate::linalg::{Mat3, Matrix, Structure, Vec3};
 use crate::profile::HubKinematics;
 use crate::system::{
-    Corotation, Dynamics, NotSet, Parameter, RowWeights, Set, Size, State, Steady,
-    StiffnessForm, VisitRow, Weights,
+    Corotation, Dynamics, NotSet, Parameter, RowWeights, Set, Size, State, Steady, StiffnessForm, VisitRow,
+    Weights,
 };
 use std::sync::Arc;
 

@@ -254,7 +254,8 @@ pub(super) fn krylov(
         let nothing = |r: &Ritz| {
             let (size, across) = (r.value.norm(), r.value.im.abs());
             let real = across < r.error && (ends || across < FLAT * size) && !counts(r.value.re.into());
-            projection == Projection::Hessenberg && (real || ends && size < r.error || size <= ROUNDING * largest)
+            projection == Projection::Hessenberg
+                && (real || ends && size < r.error || size <= ROUNDING * largest)
         };
         // Of a conjugate pair the one in the upper half plane of λ, that is below the real axis of θ, counts.
         let upper = |r: &Ritz| projection == Projection::Symmetric || r.value.im <= 0.0;
@@ -271,10 +272,6 @@ pub(super) fn krylov(
             number <= wanted
         };
         let there: Vec<bool> = ritz.iter().map(&mut among).collect();
-        if std::env::var("DBG").is_ok() {
-            eprintln!("m={m} limit={limit} n={n} exhausted={exhausted} ends={ends} wanted={wanted} number={number} converged={converged} largest={largest:e}");
-            let mut k = 0; for (r,_) in ritz.iter().zip(&there).filter(|(_,t)| **t) { let l = 1.0 / r.value; if !counts(r.value) || good(r) { k+= usize::from(counts(r.value)); continue; }  eprintln!("   behind {k} theta {:e} {:e}  lambda {:.6e} {:.6e} err {:e}", r.value.re, r.value.im, l.re, l.im, r.error / r.value.norm()); }
-        }
         if converged >= wanted || ends {
             let pairs = ritz.into_iter().zip(there).filter_map(|(r, there)| there.then_some(r)).collect();
             let converged = if exhausted { wanted } else { converged };
