@@ -401,8 +401,11 @@ fn bounded(
         "must be a finite number".to_owned()
     } else if !bound.admits(value) {
         let space = if unit.is_empty() { "" } else { " " };
-        let value =
-            if (1e-9..1e16).contains(&value.abs()) { value.to_string() } else { format!("{value:e}") };
+        let value = if value == 0.0 || (1e-9..1e16).contains(&value.abs()) {
+            value.to_string()
+        } else {
+            format!("{value:e}")
+        };
         format!("must be {}, but is {value}{space}{unit}", bound.words())
     } else {
         return Some(value);

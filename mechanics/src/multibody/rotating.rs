@@ -23,6 +23,7 @@
 
 use super::axis::Axis;
 use super::beam::Beam;
+use super::constants::Constants;
 use super::force::Axes;
 use super::slender::{self, Triad};
 use super::system::Multibody;
@@ -31,6 +32,7 @@ use crate::system::{
     Direction, Dynamics, Energy, Events, Frame, Limit, NotSet, Observed, Parameter, RowWeights, Set, Sink,
     Size, Slender, State, Steady, StiffnessForm, VisitRow, Weights,
 };
+use std::sync::Arc;
 
 /// Part of a load across the axis, over the load, that counts as rounding.
 const ACROSS: f64 = 1e-9;
@@ -43,8 +45,8 @@ pub struct Rotating {
     speed: f64,
     /// Whether loads across the axis are taken as they stand.
     instant: bool,
-    /// Angle by which it has rotated against loads of a fixed direction \[rad\].
-    azimuth: f64,
+    /// What it stands on before loads of a fixed direction are turned.
+    level: Option<Arc<Constants>>,
 }
 
 /// A row of the derivatives of v and a: the unknown, and for others ∂A/∂q, ∂B/∂q and ∂B/∂v′.
@@ -53,7 +55,7 @@ type Row = (usize, Vec<(usize, [f64; 3])>);
 impl Rotating {
     /// The model in a frame that rotates about an axis, at rest to begin with.
     pub fn new(inner: Multibody, axis: Axis) -> Rotating {
-        Rotating { inner, axis, speed: 0.0, instant: false, azimuth: 0.0 }
+        Rotating { inner, axis, speed: 0.0, instant: false, level: None }
     }
 
     /// The model with the loads across the axis that a frame sees at the instant at which its axes are the inertial ones. An equilibrium
@@ -74,6 +76,15 @@ impl Rotating {
     pub fn in_space(&mut self, s: &State) -> State {
         self.place(s);
         self.inertial(s)
+    }
+
+    /// Turns gravity and loads of a fixed direction to where the frame sees them at an azimuth \[rad\], and all else not.
+    fn turn_loads(&mut self, azimuth: f64) {
+        let level = self.level.get_or_insert_with(|| self.inner.constants.clone());
+        let mut model = level.model.clone();
+        model.turn_loads(&self.axis, -azimuth);
+        let (constants, _) = Constants::new(model, level.rows.clone(), level.dropped.clone());
+        self.inner.constants = Arc::new(constants);
     }
 
     /// The name of a load that the frame sees rotate, for a message: it keeps its direction in space, across the axis.
@@ -348,8 +359,7 @@ impl Steady for Rotating {
                 Err(NotSet::Lost("a force law is no load that could be turned".to_owned()))
             }
             Parameter::Azimuth => {
-                self.inner.turn_loads(&self.axis, self.azimuth - value);
-                self.azimuth = value;
+                self.turn_loads(value);
                 Ok(())
             }
             Parameter::Speed => match self.unsteady().filter(|_| value != 0.0 && !self.instant) {
@@ -371,9 +381,8 @@ impl Steady for Rotating {
 
     fn release(&mut self) {
         self.speed = 0.0;
-        if self.azimuth != 0.0 {
-            self.inner.turn_loads(&self.axis, self.azimuth);
-            self.azimuth = 0.0;
+        if let Some(level) = self.level.take() {
+            self.inner.constants = level;
         }
         self.inner.release();
     }

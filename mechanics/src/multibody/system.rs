@@ -11,7 +11,6 @@
 //! ∂(Jᵀ w) = Jᵀ (∂w/∂x J + ∂w/∂ẋ B) + ∂Jᵀ w
 //! ```
 
-use super::axis::Axis;
 use super::body::Placed;
 use super::constants::Constants;
 use super::contact_point::ContactPoint;
@@ -105,15 +104,6 @@ impl Multibody {
             system = Multibody::with(constants);
         }
         Ok(system)
-    }
-
-    /// Turns gravity and the loads of a fixed direction about an axis, and all else not.
-    pub(super) fn turn_loads(&mut self, axis: &Axis, angle: f64) {
-        let old = &self.constants;
-        let mut model = old.model.clone();
-        model.turn_loads(axis, angle);
-        let (constants, _) = Constants::new(model, old.rows.clone(), old.dropped.clone());
-        self.constants = Arc::new(constants);
     }
 
     /// The system with these constants.

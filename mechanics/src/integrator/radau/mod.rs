@@ -174,7 +174,7 @@ impl Stepper for RadauSteps {
         }
         self.attempt = h;
         work.set_error_weights(from, self.tolerance);
-        let again = self.accepted.map_or(Prediction::Constant, |last| Prediction::Extrapolated { last });
+        let again = self.accepted.map_or(Prediction::Uniform, |last| Prediction::Extrapolated { last });
         let tried = self.tried.take().filter(|last| h < 2.0 * last);
         let mut prediction = tried.map_or(again, |last| Prediction::Tried { last });
         let mut renew = work.kept.due;

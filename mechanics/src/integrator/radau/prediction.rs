@@ -7,8 +7,9 @@ use crate::system::{Dynamics, State};
 /// What the starting values of a step are made of.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Prediction {
-    /// The acceleration at the start.
-    Constant,
+    /// The velocity at the start. (Its acceleration may decay within the step, as behind a blow on a damped beam: the tangents are those of the
+    /// place that it leads to.)
+    Uniform,
     /// The last step, of this size.
     Extrapolated { last: f64 },
     /// The last attempt from the same start, of this size.
@@ -16,13 +17,13 @@ pub(super) enum Prediction {
 }
 
 impl Stages {
-    /// Starting values: the polynomial of the last attempt from here, or of the last step, or the acceleration at the start.
+    /// Starting values: the polynomial of the last attempt from here, or of the last step, or the velocity at the start.
     pub(super) fn predict(&mut self, system: &dyn Dynamics, from: &State, h: f64, start: Prediction) {
         match start {
-            Prediction::Constant => {
+            Prediction::Uniform => {
                 for x in &mut self.a {
                     let (a, lambda) = x.split_at_mut(from.a.len());
-                    a.copy_from_slice(&from.a);
+                    a.fill(0.0);
                     lambda.copy_from_slice(&from.lambda);
                 }
             }
