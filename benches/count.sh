@@ -26,7 +26,7 @@ done
 for what in "first modes" "exact modes" "first campbell" "exact campbell"; do
     count $what 40 100
 done
-# A beam of many elements in space, doubled.
-for elements in 2000 4000; do
-    count waves alpha "$elements" 10
+# A beam of many elements in space, doubled: over enough steps for as many new tangents whenever they come.
+for elements in 1000 2000; do
+    count waves alpha "$elements" 40
 done
