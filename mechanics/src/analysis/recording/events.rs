@@ -114,6 +114,8 @@ pub struct Events {
     pub(super) by_step: bool,
     /// End of the step passed last \[s\].
     passed: f64,
+    /// Whether a state has been shown, or the run goes on from one.
+    begun: bool,
     /// Largest impulse [N·s].
     strongest: f64,
     /// What happened, in order of time.
@@ -177,9 +179,9 @@ impl Events {
         contacts.map(|(contact, rigid)| (contact.name.as_str(), rigid.impulse))
     }
 
-    /// Takes the modes of a state before the first event.
+    /// Takes modes and forces of the first state that is shown.
     pub(super) fn begin(&mut self, state: &State) {
-        if self.list.is_empty() && self.passed == state.t {
+        if !std::mem::replace(&mut self.begun, true) {
             self.modes.copy_from_slice(&state.mode);
             for (contact, rigid) in self.contacts.iter().zip(&mut self.rigid) {
                 let closed = contact.row.is_some_and(|row| state.mode[row] != Mode::Open);
@@ -345,6 +347,7 @@ impl Events {
 
     /// Takes up what [`Events::save`] wrote, if anything: the events of a run that goes on are those of one that has never stopped.
     pub(super) fn resume(&mut self, from: &Checkpoint) -> Result<(), NotResumed> {
+        self.begun = true;
         if self.is_empty() || from.list("events.modes").is_err() {
             return Ok(());
         }
