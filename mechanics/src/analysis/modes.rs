@@ -302,17 +302,15 @@ fn find(
         overdamped.clear();
         let pairs = pencil.pairs(asked, &[])?;
         refused = accept([&mut modes, &mut overdamped], pairs, count, &pencil, system, state, rigid).err();
-        let there = |x: &Mode| modes.iter().any(|m| (m.eigenvalue - x.eigenvalue).norm() <= AGAIN * shift);
+        let is_seen = |x: &Mode| modes.iter().any(|m| (m.eigenvalue - x.eigenvalue).norm() <= AGAIN * shift);
         // A shift far above the lowest no longer sees them.
-        if !before.iter().all(there) {
+        if !before.iter().all(is_seen) {
             refused = first.clone();
             break;
         }
     }
-    match (first, refused) {
-        (Some(first), Some(_)) => return Err(first),
-        (_, Some(refused)) => return Err(refused),
-        _ => {}
+    if let (Some(first), Some(_)) = (first, refused) {
+        return Err(first);
     }
     let counted = match complete(&pencil, &modes) {
         // Vectors to begin with may have nothing of a mode that is new among the lowest.

@@ -27,9 +27,7 @@ pub(super) fn has_rigid_motions(pencil: &mut Pencil, system: &mut dyn System, st
     if softest.unstable || !softest.is_uncertain() {
         return softest.unstable;
     }
-    let motion = softest.motion[..state.v.len()].to_vec();
-    let forms = system.stiffness_forms(state, &[motion]);
-    let form = forms.and_then(|forms| forms.first().copied());
+    let form = strain_form(system, state, vec![softest.motion[..state.v.len()].to_vec()]);
     form.is_none_or(|form| form.value.abs() <= STRAINED * softest.rounding + 0.5 * form.rounding / UNCERTAIN)
 }
 
@@ -42,10 +40,26 @@ pub(super) fn is_without_form(
     rigid: f64,
 ) -> bool {
     let of = |part: fn(&Complex64) -> f64| x[..state.v.len()].iter().map(part).collect::<Vec<f64>>();
-    let Some(forms) = system.stiffness_forms(state, &[of(|x| x.re), of(|x| x.im)]) else { return true };
+    let form = strain_form(system, state, vec![of(|x| x.re), of(|x| x.im)]);
+    form.is_none_or(|form| {
+        form.value.abs() <= rigid * rigid * pencil.modal_mass(x) + 0.5 * form.rounding / UNCERTAIN
+    })
+}
+
+/// Sum of the forms xᵀKx of motions, by the strains; `None` where the system has its stiffness as a matrix only.
+///
+/// Its bound of rounding has a part by the forces r that an equilibrium found in doubles leaves: along a rotation by an angle ϑ what is at a distance s
+/// moves by ϑ²s/2 to second order, so that the form is zero but for Σ|r| s ϑ².
+fn strain_form(system: &mut dyn System, state: &State, motions: Vec<Vec<f64>>) -> Option<StiffnessForm> {
+    let forms = system.stiffness_forms(state, &motions)?;
+    let mut left = vec![0.0; state.v.len()];
+    system.residual(state, &mut left);
+    let scales = system.scales();
+    let work: f64 = left.iter().zip(scales).map(|(r, s)| r.abs() * s).sum();
+    let angle = |x: &Vec<f64>| x.iter().zip(scales).map(|(x, s)| (x / s).abs()).fold(0.0, f64::max);
+    let second: f64 = motions.iter().map(|x| angle(x).powi(2)).sum();
     let sum = |part: fn(&StiffnessForm) -> f64| forms.iter().map(part).sum::<f64>();
-    let (value, rounding) = (sum(|form| form.value), sum(|form| form.rounding));
-    value.abs() <= rigid * rigid * pencil.modal_mass(x) + 0.5 * rounding / UNCERTAIN
+    Some(StiffnessForm { value: sum(|form| form.value), rounding: sum(|form| form.rounding) + work * second })
 }
 
 /// Pencil whose shift is far above rounding and below most frequencies; `None` without masses or stiffness.

@@ -12,12 +12,12 @@ pub(super) const TOLERANCE: f64 = 1e-12;
 /// Share of a vector left by orthogonalisation below which the space is invariant.
 const INVARIANT: f64 = 1e-13;
 
-/// Size of an eigenvalue of a matrix that is not symmetric, over the largest product of the operator with a unit vector, that rounding may make
-/// of zero.
+/// Size of an eigenvalue of a matrix that is not symmetric, over the largest product of the operator with a unit vector, up to which it may be zero but for
+/// rounding.
 const ROUNDING: f64 = 1e-11;
 
-/// |Im θ|/|θ| of vibrations that are damped so strongly, by ζ > 0.99, that rounding may make them of two motions that only decay.
-const FLAT: f64 = 0.15;
+/// |Im θ|/|θ| = √(1 − ζ²) at a damping ratio of 0.99, below which a vibration that has not converged may be two motions that only decay.
+const OVERDAMPED: f64 = 0.15;
 
 /// Share of noise in a vector to begin with of which nothing is counted: no eigenvector is missing in it.
 const STRAY: f64 = 1e-3;
@@ -156,7 +156,7 @@ pub(super) fn krylov(
     locked: &Space,
     search: Search<'_>,
 ) -> Result<Found, EigenError> {
-    let Search { wanted, counts, projection, tolerance, start, seed } = search;
+    let Search { wanted, projection, start, seed, .. } = search;
     let n = operator.dimension();
     let copies = if projection == Projection::Symmetric { 1 } else { 2 };
     let limit = (copies * (8 * wanted + 120)).min(n);
@@ -234,7 +234,7 @@ pub(super) fn krylov(
             continue;
         }
         next_look = (m + m / part + 2).min(limit);
-        let mut ends = exhausted || m >= limit;
+        let mut is_last = exhausted || m >= limit;
         let ritz = match projection {
             Projection::Symmetric => symmetric(&columns),
             Projection::Skew => skew(&columns),
@@ -242,43 +242,64 @@ pub(super) fn krylov(
                 (Ok(ritz), _) => ritz,
                 // The iteration for the eigenvalues of a projected matrix may fail where the last one was solved.
                 (Err(_), Some(ritz)) => {
-                    ends = true;
+                    is_last = true;
                     ritz
                 }
                 (Err(error), None) => return Err(error),
             },
         };
-        let good = |r: &Ritz| r.error <= tolerance * r.value.norm();
-        // What rounding makes of zero; what by its error may be a real eigenvalue that does not count, as next to a cluster of overdamped motions; and at
-        // the end what may be zero, or has no digit.
-        let nothing = |r: &Ritz| {
-            let (size, across) = (r.value.norm(), r.value.im.abs());
-            let real = across < r.error && (ends || across < FLAT * size) && !counts(r.value.re.into());
-            projection == Projection::Hessenberg
-                && (real || ends && size < r.error || size <= ROUNDING * largest)
-        };
-        // Of a conjugate pair the one in the upper half plane of λ, that is below the real axis of θ, counts.
-        let upper = |r: &Ritz| projection == Projection::Symmetric || r.value.im <= 0.0;
-        let (mut number, mut converged) = (0, 0);
-        let mut among = |r: &Ritz| {
-            if number > wanted || !upper(r) || nothing(r) {
-                return false;
-            }
-            if !counts(r.value) {
-                return good(r);
-            }
-            number += 1;
-            converged += usize::from(converged + 1 == number && number <= wanted && good(r));
-            number <= wanted
-        };
-        let there: Vec<bool> = ritz.iter().map(&mut among).collect();
-        if converged >= wanted || ends {
-            let pairs = ritz.into_iter().zip(there).filter_map(|(r, there)| there.then_some(r)).collect();
+        let Selected { places, counting, converged } = select(&ritz, &search, largest, is_last);
+        if converged >= wanted || is_last {
+            let is_selected = |(k, _): &(usize, Ritz)| places.binary_search(k).is_ok();
+            let pairs = ritz.into_iter().enumerate().filter(is_selected).map(|(_, r)| r).collect();
             let converged = if exhausted { wanted } else { converged };
-            return Ok(Found { space, pairs, counting: number.min(wanted), converged });
+            return Ok(Found { space, pairs, counting, converged });
         }
         last = Some(ritz);
     }
+}
+
+/// What is taken of the eigenpairs of a projected matrix.
+struct Selected {
+    /// Places of the largest, ascending: those that count, and those that do not as far as they have converged.
+    places: Vec<usize>,
+    /// Number of those that count.
+    counting: usize,
+    /// Number of those that have converged, up to the first that has not.
+    converged: usize,
+}
+
+/// Takes of eigenpairs in descending order so many as are wanted, and what lies between them.
+fn select(ritz: &[Ritz], search: &Search<'_>, largest: f64, is_last: bool) -> Selected {
+    let has_converged = |r: &Ritz| r.error <= search.tolerance * r.value.norm();
+    // Of a conjugate pair the one in the upper half plane of λ, that is below the real axis of θ, counts.
+    let is_upper = |r: &Ritz| search.projection == Projection::Symmetric || r.value.im <= 0.0;
+    let is_known =
+        |r: &Ritz| search.projection != Projection::Hessenberg || !is_unknown(r, search, largest, is_last);
+    let (mut places, mut counting, mut converged) = (Vec::new(), 0, 0);
+    for (k, r) in ritz.iter().enumerate().filter(|(_, r)| is_upper(r) && is_known(r)) {
+        if (search.counts)(r.value) {
+            if counting == search.wanted {
+                break;
+            }
+            converged += usize::from(converged == counting && has_converged(r));
+            counting += 1;
+        } else if !has_converged(r) {
+            continue;
+        }
+        places.push(k);
+    }
+    Selected { places, counting, converged }
+}
+
+/// Whether an eigenvalue of a matrix that is not symmetric says too little to be counted or waited for.
+fn is_unknown(r: &Ritz, search: &Search<'_>, largest: f64, is_last: bool) -> bool {
+    let (size, across) = (r.value.norm(), r.value.im.abs());
+    let is_zero = size <= ROUNDING * largest;
+    let has_no_digit = size < r.error;
+    // As many are next to a cluster of overdamped motions.
+    let may_be_real = across < r.error && !(search.counts)(r.value.re.into());
+    is_zero || is_last && (has_no_digit || may_be_real) || may_be_real && across < OVERDAMPED * size
 }
 
 /// The largest eigenvalue θ of a symmetric operator, from a Krylov space in which |A z − θ z| ≤ `tolerance`·θ, or of
