@@ -365,6 +365,27 @@ fn damping_of_the_stiffness_counts_once_however_often_a_system_is_made() {
     }
 }
 
+/// A strip pitched by 30° vibrates across its flat side: wholly so in the axes of its sections, sin² 30° of it in the plane of rotation, and the rest out
+/// of it.
+#[test]
+fn the_shares_of_a_pitched_strip_are_those_of_its_sections_and_of_the_rotor() {
+    for shear in [false, true] {
+        let case = read(&format!(
+            "run = {{ duration = 0 }}\n[rotation]\naxis = [0, 0, 1]\n[[beam]]\nlength = 5\nup = [0, {}, {}]\nroot = \"clamped\"\nshear = {shear}\npoisson-ratio = 0.3\n\
+             section = {{ kind = \"rectangle\", modulus = 70e9, density = 2700, width = 0.02, height = 0.2 }}\n",
+            30_f64.to_radians().cos(),
+            30_f64.to_radians().sin(),
+        ))
+        .case;
+        let (mut system, _) = case.vibrating(true).unwrap();
+        let state = system.initial();
+        let shares = modes(system.as_mut(), &state, 1, &[]).unwrap().modes[0].shares;
+        let [tangent, height, across] = shares.section;
+        assert!((across - 1.0).abs() < 1e-9 && tangent.abs().max(height.abs()) < 1e-9, "{shares:?}");
+        assert!((shares.chord - 0.25).abs() < 1e-9 && (shares.flap - 0.75).abs() < 1e-9, "{shares:?}");
+    }
+}
+
 /// xᵀKx of bent beams with and without shear in rotation, with joints, springs and loads: K as it is assembled, and with its strains summed one by one.
 #[test]
 fn the_strains_of_a_motion_make_the_form_of_the_stiffness_in_space() {

@@ -99,7 +99,7 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
     let still: Vec<&Mode> = modes.modes.iter().take_while(|mode| mode.eigenvalue.norm() == 0.0).collect();
     if case.space().is_some() && speed == 0.0 && !still.is_empty() {
         let which = if still.len() == 1 { "mode 1 has" } else { &format!("modes 1 to {} have", still.len()) };
-        let moved: Vec<String> = still.iter().map(|mode| moves(mode)).collect();
+        let moved: Vec<String> = still.iter().map(|mode| moves(&mode.shares.named())).collect();
         cautions.push(format!(
             "{which} no stiffness ({}): the equilibrium is one of many, of which that near the parts as they are written was taken",
             moved.join("; ")
@@ -255,6 +255,7 @@ fn described(modes: &Modes, asked: usize, units: &Units, about: &str) -> String 
         "damping",
         "nodes",
         "moves",
+        "in axes of the section",
         "residual",
     ];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
@@ -265,9 +266,15 @@ fn described(modes: &Modes, asked: usize, units: &Units, about: &str) -> String 
             mode.mesh.map_or("-".to_owned(), |error| format!("{:.1e}", error * unit.factor)),
             format!("{:.4e}", mode.damping_ratio()),
             mode.nodes.to_string(),
-            moves(mode),
+            moves(&mode.shares.named()),
+            moves(&mode.shares.in_section()),
             format!("{:.0e}", mode.residual),
         ]);
+    }
+    // Of a beam on a hub these are those of the plane.
+    let section = head.len() - 2;
+    if rows.iter().skip(1).all(|row| row[section].is_empty()) {
+        rows.iter_mut().for_each(|row| drop(row.remove(section)));
     }
     out.push_str(&screen::table(&rows));
     if modes.counted.is_some() {
@@ -294,8 +301,8 @@ fn described(modes: &Modes, asked: usize, units: &Units, about: &str) -> String 
 }
 
 /// Shares above one in a hundred.
-fn moves(mode: &Mode) -> String {
-    let mut shares: Vec<(&str, f64)> = mode.shares.named().into_iter().filter(|s| s.1.abs() > 0.01).collect();
+fn moves(shares: &[(&str, f64)]) -> String {
+    let mut shares: Vec<(&str, f64)> = shares.iter().copied().filter(|s| s.1.abs() > 0.01).collect();
     shares.sort_by(|a, b| b.1.total_cmp(&a.1));
     let words: Vec<String> =
         shares.iter().map(|(name, share)| format!("{name} {:.0} %", 100.0 * share)).collect();

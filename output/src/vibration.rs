@@ -51,7 +51,6 @@ pub fn write_modes(
         let names = ["frequency", "residual"]
             .map(|name| if name == "frequency" { unit.column(name) } else { name.into() });
         write!(f, "mode,{},{},damping-ratio,nodes,{}", names[0], unit.column("mesh-error"), names[1])?;
-        let shares = |mode: &Mode| mode.shares.named();
         for (name, _) in modes.modes.first().map(shares).into_iter().flatten() {
             write!(f, ",{name}")?;
         }
@@ -245,21 +244,28 @@ impl Curve {
             ("damping-ratio".to_owned(), values(&Mode::damping_ratio)),
             ("mesh-error".to_owned(), values(&|m| m.mesh.map_or(f64::NAN, |error| error * unit.factor))),
         ];
-        let first = branch.points.first().map(|point| point.mode.shares);
-        for (i, (name, _)) in first.iter().flat_map(|shares| shares.named()).enumerate() {
-            let share: Vec<(f64, f64)> = values(&|m| m.shares.named()[i].1);
+        let first = branch.points.first().map(|point| &point.mode);
+        for (i, (name, _)) in first.into_iter().flat_map(shares).enumerate() {
+            let share: Vec<(f64, f64)> = values(&|m| shares(m)[i].1);
             // What never moves is left out.
             if share.iter().any(|(_, share)| share.abs() > 1e-12) {
                 columns.push((format!("share.{name}"), share));
             }
         }
-        Curve { number, moves: first.map_or("", |shares| shares.dominant()), columns }
+        Curve { number, moves: first.map_or("", |mode| mode.shares.dominant()), columns }
     }
+}
+
+/// Names and values of what a mode moves, that of beams also along the axes of their sections.
+fn shares(mode: &Mode) -> Vec<(String, f64)> {
+    let named = mode.shares.named().map(|(name, share)| (name.to_owned(), share));
+    let section = mode.shares.in_section().map(|(name, share)| (format!("section-{name}"), share));
+    named.into_iter().chain(section).collect()
 }
 
 fn mode_json(m: &Mode, unit: &Frequencies) -> Value {
     let shares: serde_json::Map<String, Value> =
-        m.shares.named().into_iter().map(|(name, share)| (name.to_owned(), json!(share))).collect();
+        shares(m).into_iter().map(|(name, share)| (name, json!(share))).collect();
     json!({
         "frequency": m.frequency() * unit.factor,
         "mesh-error": m.mesh.map(|error| error * unit.factor),

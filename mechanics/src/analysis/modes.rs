@@ -72,7 +72,8 @@ impl Mode {
     }
 }
 
-/// Shares of the modal mass by what moves, Re(x_gᴴ (M x)_g) / xᴴ M x: their sum is one.
+/// Shares of the modal mass by what moves, Re(x_gᴴ (M x)_g) / xᴴ M x: their sum is one, but for [`Shares::section`], where what beams move
+/// is told a second time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Shares {
     /// Along the axis.
@@ -95,6 +96,8 @@ pub struct Shares {
     pub rotation: f64,
     /// What the model does not distinguish.
     pub other: f64,
+    /// Of beams in space, along the axes of the section: tangent, height, across. These and torsion sum to what beams move.
+    pub section: [f64; 3],
 }
 
 impl Shares {
@@ -112,6 +115,12 @@ impl Shares {
             ("rotation", self.rotation),
             ("other", self.other),
         ]
+    }
+
+    /// Names and values in the axes of the section.
+    pub fn in_section(&self) -> [(&'static str, f64); 3] {
+        let [tangent, height, across] = self.section;
+        [("tangent", tangent), ("height", height), ("across", across)]
     }
 
     /// Name of the largest share.
@@ -139,6 +148,7 @@ impl Shares {
             Direction::Z => &mut self.z,
             Direction::Rotation => &mut self.rotation,
             Direction::Other => &mut self.other,
+            Direction::Section(axis) => &mut self.section[axis.min(2)],
         }
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! Seen without an axis of rotation displacements are along x, y and z. About an axis those of a beam are along its tangent, across it
 //! towards the axis of rotation (flap), and across both (chord), and rotations of its sections count by how they move their direction; those of
-//! a body are along the radius, the axis and the circumference.
+//! a body are along the radius, the axis and the circumference. What a beam moves is also told along the axes of its sections.
 
 use super::axis::Axis;
 use super::system::Multibody;
@@ -46,20 +46,22 @@ impl Multibody {
             });
             vector(both(6 * i), radial);
         }
+        let mut section = [0.0; 3];
         for (of, &[q, v]) in self.constants.model.beams.iter().zip(&self.constants.beams) {
             for node in 0..of.beam.nodes().len() {
                 let axes = of.beam.node(node, &s.q[q..]).rotation;
-                let (tangent, at) = (axes.column(0), v + of.beam.place(node)[1]);
-                vector(both(at), tangent);
-                if of.beam.has_shear() {
-                    // A rotation φ moves the direction of the section by φ × t.
-                    let swing = |of: Vec3| axes * of.cross(Vec3::AXES[0]);
-                    vector(both(at + 3).map(swing), tangent);
-                } else {
-                    vector(both(at + 3), tangent);
+                let at = v + of.beam.place(node)[1];
+                // A rotation φ moves the direction of the section by φ × t.
+                let swing = |of: Vec3| axes * of.cross(Vec3::AXES[0]);
+                let slope = if of.beam.has_shear() { both(at + 3).map(swing) } else { both(at + 3) };
+                for moved in [both(at), slope] {
+                    vector(moved, axes.column(0));
+                    let local = moved.map(|u| axes.transpose() * u);
+                    (0..3).for_each(|k| section[k] += local[0][k] * local[1][k]);
                 }
             }
         }
+        section.into_iter().enumerate().for_each(|(axis, part)| add(Direction::Section(axis), part));
         for i in 0..self.placed.len() {
             add(Direction::Rotation, Vec3::at(x, 6 * i + 3).dot(Vec3::at(mx, 6 * i + 3)));
         }

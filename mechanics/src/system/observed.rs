@@ -27,6 +27,8 @@ pub enum Direction {
     Rotation,
     /// Something else, or several of these.
     Other,
+    /// The beam along an axis of its section (tangent, height, across), beside the direction among the others.
+    Section(usize),
 }
 
 /// Energies of a state, in joules.
