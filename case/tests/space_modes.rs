@@ -489,3 +489,30 @@ fn of_strongly_damped_beams_the_vibrations_that_are_left_are_found() {
         }
     }
 }
+
+/// A strip of EI₃/GJ ≫ 1 that rotates: the tension stiffens its torsion without shear, by about as much as the caution with shear says.
+#[test]
+fn a_thin_strip_with_shear_is_warned_of_the_trapeze_effect_that_it_lacks() {
+    let case = |shear: bool, width: f64| {
+        read(&format!(
+            "run = {{ duration = 0 }}\n[rotation]\naxis = [0, 0, 1]\n[[beam]]\nname = \"strip\"\nlength = 10\nup = [0, 0, 1]\nroot = \"clamped\"\n\
+             shear = {shear}\nelements = 20\nsection = {{ kind = \"rectangle\", modulus = 70e9, density = 2700, width = 0.01, height = {width}, \
+             rotary-inertia = true }}\n"
+        ))
+        .case
+    };
+    assert_eq!(case(true, 1.0).without_trapeze(0.0), Vec::<String>::new());
+    assert_eq!(case(true, 0.02).without_trapeze(5.0), Vec::<String>::new());
+    assert_eq!(case(false, 1.0).without_trapeze(5.0), Vec::<String>::new());
+    let [caution] = &case(true, 1.0).without_trapeze(5.0)[..] else { panic!() };
+    let said: f64 = caution.split("lie about ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
+    let torsion = |shear: bool| {
+        let (mut system, _) = case(shear, 1.0).vibrating(true).unwrap();
+        let mut state = system.initial();
+        rotate_stably(system.as_mut(), &mut state, 0.0, 5.0).unwrap();
+        let found = modes(system.as_mut(), &state, 8, &[]).unwrap().modes;
+        found.iter().find(|mode| mode.shares.torsion > 0.5).unwrap().frequency()
+    };
+    let off = 100.0 * (torsion(false) / torsion(true) - 1.0);
+    assert!(said > 2.0 && (0.5..2.0).contains(&(said / off)), "{said} {off}: {caution}");
+}
