@@ -428,6 +428,28 @@ fn the_frequencies_of_a_wire_with_shear_are_those_of_bending() {
     }
 }
 
+/// A thread of 40 µm × 10 µm that rotates slowly: what the forces of its equilibrium leave makes no rigid motion of its bending.
+#[test]
+fn a_thread_with_shear_that_rotates_bends_and_is_no_rigid_body() {
+    let found = |shear: bool| {
+        let case = read(&format!(
+            "run = {{ duration = 0 }}\n[[beam]]\nlength = 10\nup = [0, 1, 0]\nroot = \"clamped\"\nshear = {shear}\nelements = 12\n\
+             section = {{ kind = \"rectangle\", modulus = 70e9, density = 2700, width = 1e-5, height = 4e-5, rotary-inertia = true }}\n\
+             [rotation]\naxis = [0, 0, 1]\n"
+        ))
+        .case;
+        let (mut system, _) = case.vibrating(true).unwrap();
+        let mut state = system.initial();
+        rotate_stably(system.as_mut(), &mut state, 0.0, 2e-4).unwrap();
+        modes(system.as_mut(), &state, 3, &[]).map(|found| found.modes[0].frequency())
+    };
+    let (slender, shear) = (found(false).unwrap(), found(true));
+    assert!(
+        shear.clone().is_err() || (shear.clone().unwrap() / slender - 1.0).abs() < 0.02,
+        "{slender} {shear:?}"
+    );
+}
+
 /// Where rounding leaves nothing of a frequency, it is no motion without stiffness: the slenderness is the cause, and without shear it is computed.
 #[test]
 fn a_beam_too_slender_for_its_shear_is_refused_with_the_cause() {
