@@ -6,9 +6,7 @@ use super::hub_beam::HubBeam;
 use super::kind::Context;
 use super::kinds::initial::Initial;
 use super::kinds::integrator::{Method, Steps};
-use super::layout::{
-    self, BASIS, BEAM, INITIAL, INTEGRATOR, OUTPUT, OUTPUT_IN_SPACE, RUN, Recorded, Run, TITLE,
-};
+use super::layout::{self, BASIS, INITIAL, INTEGRATOR, OUTPUT, OUTPUT_IN_SPACE, RUN, Recorded, Run, TITLE};
 use super::places::Parts;
 use super::space::{self, Space};
 use super::stations::stations;
@@ -93,7 +91,7 @@ pub(super) fn case(v: &mut Values, files: &super::sources::Files<'_>) -> Made<Ca
     fill_output_step(v, duration);
     let v = &*v;
     let in_space = layout::is_spatial(v.keys);
-    let length = if in_space { None } else { BEAM.read(v, c).ok().map(|beam| beam.length) };
+    let length = if in_space { None } else { found.part(layout::length(v, c)) };
     let parts = length.map(|length| Parts { bodies: Vec::new(), beams: vec![("beam".to_owned(), length)] });
     let c = &Context { length, duration, parts: parts.as_ref(), ..*c };
     let method = found.part(INTEGRATOR.read(v, c));

@@ -1,6 +1,7 @@
 //! Reads the raw tree by the declarations: every problem is collected, nothing stops at the first.
 
 use super::declaration::{Bound, Entry, Key, Kinds, Presence, Type, listed};
+use super::fault::Fault;
 use super::problem::{Place, Problem, Problems, inside};
 use super::suggestion;
 use super::tree::{Line, Node, Raw};
@@ -104,6 +105,11 @@ pub(super) fn missing(key: &Key, path: &str, place: Option<Place>) -> Problem {
     problem.label(format!("`{}` belongs here", key.name)).help(advice(key))
 }
 
+/// The same for a key that only some cases may leave out.
+pub(super) fn left_out(key: &Key, path: &str) -> Fault {
+    Fault::new(path, "this key is missing").help(advice(key))
+}
+
 fn is_table(takes: &Type) -> bool {
     matches!(takes, Type::Table(_) | Type::Kind(_))
 }
@@ -117,7 +123,10 @@ fn advice(key: &Key) -> String {
         Type::Kind(choice) => format!("a table whose kind is one of {}", choice.names()),
         Type::Table(keys) => {
             let required = keys.iter().filter(|key| key.presence == Presence::Required);
-            format!("a table with {}", listed(required.map(|key| key.name)))
+            let mut names: Vec<&str> = required.map(|key| key.name).collect();
+            // A length that a deck may say is what a beam has first.
+            names.extend(keys.first().filter(|_| names.is_empty()).map(|key| key.name));
+            format!("a table with {}", listed(names.into_iter()))
         }
         other => expected(other),
     };
@@ -401,11 +410,8 @@ fn bounded(
         "must be a finite number".to_owned()
     } else if !bound.admits(value) {
         let space = if unit.is_empty() { "" } else { " " };
-        let value = if value == 0.0 || (1e-9..1e16).contains(&value.abs()) {
-            value.to_string()
-        } else {
-            format!("{value:e}")
-        };
+        let is_plain = value == 0.0 || (1e-9..1e16).contains(&value.abs());
+        let value = if is_plain { value.to_string() } else { format!("{value:e}") };
         format!("must be {}, but is {value}{space}{unit}", bound.words())
     } else {
         return Some(value);

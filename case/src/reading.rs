@@ -4,6 +4,7 @@ use super::case::{self, Case};
 use super::change::Change;
 use super::declaration::Presence;
 use super::fault::{Fault, Faults};
+use super::files::deck;
 use super::kind::Context;
 use super::kinds::integrator::Method;
 use super::layout::{self, INTEGRATOR};
@@ -17,6 +18,7 @@ use super::tree::{self, Node, Raw};
 use super::values::{Value, Values};
 use flexion::integrator::Integrator;
 use flexion::system::{Jump, State, System};
+use flexion_results::Artifact;
 use std::cell::RefCell;
 use std::fs::File;
 use std::io::Read;
@@ -79,12 +81,39 @@ impl Reading {
             .problems(fault.help("write `model.coupling = \"space\"` to compute the case in space").into()))
     }
 
-    /// The files that the case names: dotted path of the table and bytes.
+    /// The files that the case names: dotted path of the table and bytes. Behind the primary file of a deck of BeamDyn stands the blade file that it names.
     pub(super) fn tables(&self) -> Vec<(String, &[u8])> {
         let mut found = Vec::new();
         resolved::paths(&self.values, "", &mut found);
+        let found = found.into_iter().flat_map(|(key, name)| {
+            let blade = self.blade_file(&key, &name).map(|blade| (resolved::of_blade(&key), blade));
+            std::iter::once((key, name)).chain(blade)
+        });
         let bytes = |(key, name): (String, String)| self.files.get(&name).map(|bytes| (key, &**bytes));
-        found.into_iter().filter_map(bytes).collect()
+        found.filter_map(bytes).collect()
+    }
+
+    /// The name of the blade file that a file names, which the table at a dotted path gives as a deck of BeamDyn.
+    fn blade_file(&self, table: &str, name: &str) -> Option<String> {
+        let table = table.split('.').try_fold(&self.values, |table, part| table.inner(part))?;
+        let is_beamdyn = matches!(&table.get("format")?.value, Value::Text(format) if format == "beamdyn");
+        if is_beamdyn { deck::blade_file(self.files.get(name)?, name) } else { None }
+    }
+
+    /// Copies of these files, which name each other by their names among the results.
+    pub(super) fn copies(&self) -> Vec<(Artifact, Vec<u8>)> {
+        let tables = self.tables();
+        let keys: Vec<String> = tables.iter().map(|(key, _)| key.clone()).collect();
+        let copy = |(key, bytes): (String, &[u8])| {
+            let blade = resolved::of_blade(&key);
+            let blade = if keys.contains(&blade) { resolved::copy(&blade, &keys) } else { None };
+            let bytes = blade.map_or_else(
+                || bytes.to_vec(),
+                |blade| deck::with_blade_file(bytes, &blade.file_name()).into_bytes(),
+            );
+            Some((resolved::copy(&key, &keys)?, bytes))
+        };
+        tables.into_iter().filter_map(copy).collect()
     }
 
     /// The files that the case is read from: its own and all that it names.

@@ -60,10 +60,19 @@ fn heading(path: &str) -> String {
     path.split('.').map(|part| part.split('[').next().unwrap_or(part)).collect::<Vec<_>>().join(".")
 }
 
+/// Key that stands for the blade file of a deck of BeamDyn.
+const BLADE_FILE: &str = "BldFile";
+
+/// The path that stands for the blade file that the file of the table at `path` names.
+pub(super) fn of_blade(path: &str) -> String {
+    join(path, BLADE_FILE)
+}
+
 /// The copy, among the results, of the file named in the table at `path`; `all` are the tables that name files.
 pub(super) fn copy(path: &str, all: &[String]) -> Option<Artifact> {
-    if path.contains('[') {
-        let place = all.iter().filter(|other| other.contains('[')).position(|other| other == path)?;
+    let is_numbered = |path: &str| path.contains('[') || path.ends_with(BLADE_FILE);
+    if is_numbered(path) {
+        let place = all.iter().filter(|other| is_numbered(other)).position(|other| other == path)?;
         return u32::try_from(place).ok().map(Artifact::Table);
     }
     Artifact::table(path.rsplit('.').next().unwrap_or(path))

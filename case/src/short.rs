@@ -2,7 +2,7 @@
 //!
 //! | short | long |
 //! |---|---|
-//! | `[beam]`, `[section]`, `basis.elements`, `[damping]` | the beam `beam`, which begins at the radius of the hub, with the height of its section in the plane of motion |
+//! | `[beam]`, `[section]`, `basis.elements`, `[damping]` | the beam `beam`, which begins at the radius of the hub, with the height of its section along the motion, and against it for a deck, whose height points to the trailing edge |
 //! | `[hub]` | the revolute joint `hub` about z, between the ground and the root |
 //! | `hub.inertia` J | the body `hub-body` on the axis, to which the root is fixed; its mass J/L² moves nothing |
 //! | `output.stations`, `.strain-heights` | stations in the axes of the root, and fibres |
@@ -165,9 +165,10 @@ pub(super) fn long(lines: &[Line], v: &Values, files: &Files<'_>) -> Made<Long> 
     let mut found = Found::default();
     let cautions = RefCell::default();
     let c = &Context { length: None, duration: None, parts: None, files, cautions: &cautions };
-    let OneBeam { length, pitch, precone, .. } = layout::BEAM.read(v, c)?;
+    let OneBeam { pitch, precone, .. } = layout::BEAM.read(v, c)?;
     let duration = RUN.read(v, c)?.duration.unwrap_or(0.0);
-    let c = &Context { length: Some(length), duration: Some(duration), ..*c };
+    let length = found.part(layout::length(v, c));
+    let c = &Context { length, duration: Some(duration), ..*c };
     let section = found.part(SECTION.read(v, c));
     let hub = found.part(layout::HUB.read(v, c));
     let constant =
@@ -192,7 +193,9 @@ pub(super) fn long(lines: &[Line], v: &Values, files: &Files<'_>) -> Made<Long> 
         found.part(carried(v, output));
     }
     found.part(apart(lines));
-    let (Some(section), Some(start), Some(hub), Some(output)) = (section, start, hub, output) else {
+    let (Some(length), Some(section), Some(start), Some(hub), Some(output)) =
+        (length, section, start, hub, output)
+    else {
         return Err(found.0);
     };
     if !found.0.0.is_empty() {
@@ -201,6 +204,8 @@ pub(super) fn long(lines: &[Line], v: &Values, files: &Files<'_>) -> Made<Long> 
     let layout::Hub { radius, inertia, .. } = hub;
     let place = |key: &str| v.find(key).0.unwrap_or_default();
     let axes = axes(start.angle, precone.unwrap_or(0.0), pitch.unwrap_or(0.0));
+    // A deck's height points to its trailing edge.
+    let height = if section.deck.is_some() { -1.0 * axes[1] } else { axes[1] };
     let root_place = radius * axes[0];
     let kept =
         ["title", "gravity", "spring", "mass", "load", "contact", "rotation", "initial", "integrator", "run"];
@@ -233,7 +238,7 @@ pub(super) fn long(lines: &[Line], v: &Values, files: &Files<'_>) -> Made<Long> 
         .node("length", written(lines, "beam.length"))
         .vector("start", root_place.0)
         .vector("direction", axes[0].0)
-        .vector("up", axes[1].0)
+        .vector("up", height.0)
         .node("section", written(lines, "section"))
         .raw("elements", Raw::Integer(elements as i64))
         .raw("planar", Raw::Boolean(silent))

@@ -14,6 +14,7 @@ impl Case {
     pub fn unused_by_run(&self) -> Vec<String> {
         let mut cautions = self.cautions.clone();
         cautions.extend(self.space().filter(|space| !space.flat).into_iter().flat_map(Space::torsion));
+        cautions.extend(self.rotates_at().into_iter().flat_map(|speed| self.without_trapeze(speed)));
         let Some(beam) = self.hub_beam() else { return cautions };
         if beam.section.is_blade {
             cautions.push(
@@ -38,6 +39,11 @@ impl Case {
             );
         }
         cautions
+    }
+
+    /// Cautions for beams with shear whose torsion the tension of a rotation [rad/s] would stiffen.
+    pub fn without_trapeze(&self, speed: f64) -> Vec<String> {
+        self.space().map_or_else(Vec::new, |space| space.without_trapeze(speed))
     }
 
     /// The speed [rad/s] of the rotation about the axis of the case that its bodies and beams have at the start, where they have one.

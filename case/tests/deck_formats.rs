@@ -287,7 +287,15 @@ fn what_a_table_leaves_out_it_is_silent_on() {
     let c = deck.matrices(1.0).condensed();
     assert_eq!([c[0][0], c[2][2], c[3][3], deck.matrices(1.0).mass[0][0]], [2e6, 300.0, 400.0, 1.0]);
     assert_eq!(deck.inertia(1.0), [0.0; 3]);
-    // Positive about the axis from root to tip: at the root the height, y without twist, is turned by 20° towards −x.
+    // ElastoDyn's is positive about the axis from tip to root: at the root the height, y without twist, is turned by 20° towards x; `twist` the other way.
+    let named = |title: &str| read(&OLDER.replace("StrcTwst", title), Format::Csv).unwrap();
+    let root = |deck: &Deck| deck.frame(0.0).rotation.column(1);
+    let turned = 20_f64.to_radians().sin();
+    assert!(
+        (root(&deck)[0] - turned).abs() < 1e-12
+            && (root(&named("strc_twst (deg)"))[0] - turned).abs() < 1e-12
+    );
+    let deck = named("twist [deg]");
     let (angle, height) = (20_f64.to_radians(), deck.frame(0.0).rotation.column(1));
     assert!((height[0] + angle.sin()).abs() < 1e-12 && (height[1] - angle.cos()).abs() < 1e-12, "{height:?}");
     assert!((deck.line.twist_rate(1.0) - angle / 4.0).abs() < 1e-12);
@@ -376,4 +384,21 @@ fn a_beam_without_shear_says_what_it_leaves_out_of_a_deck() {
         "{silent}"
     );
     assert_eq!(said(&off, "shear = true"), "");
+}
+
+/// A number that is left out is no zero: of the 21 entries of the stiffness and the seven of the mass each is asked for by its name.
+#[test]
+fn windio_without_one_of_its_entries_is_refused() {
+    let text = file("IEA-15-240-RWT_windIO.yaml");
+    for (from, to, says) in [
+        ("K16:", "K_16:", "`stiffness_matrix` has no `K16` (is `K_16` meant for it?)"),
+        ("K16:", "other:", "`stiffness_matrix` has no `K16`; it has K11, K12"),
+        ("cm_x:", "cm_z:", "`inertia_matrix` has no `cm_x` (is `cm_z` meant for it?)"),
+        ("i_plr:", "K11:", "`inertia_matrix` has no `i_plr`"),
+        ("K16:", "K15:", "the key `K15` stands twice"),
+    ] {
+        assert!(text.contains(from));
+        let message = read(&text.replacen(from, to, 1), Format::WindIo).unwrap_err();
+        assert!(message.contains(says) && message.contains("line "), "{message}");
+    }
 }

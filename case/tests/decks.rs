@@ -330,3 +330,45 @@ fn a_deck_written_for_beamdyn_is_read_as_itself() {
         }
     }
 }
+
+/// A blade whose x is along the axis of rotation goes ahead with its leading edge, −y; turned by 180° with the trailing edge, by 90° with its flat side.
+#[test]
+fn a_blade_that_is_mounted_wrong_has_a_caution() {
+    let deck = "{ kind = \"deck\", file = \"IEA-15-240-RWT_BeamDyn.dat\", format = \"beamdyn\" }";
+    let read = |text: String| {
+        let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../verification/blades/case.toml");
+        flexion_case::parse(text, &file, &[]).unwrap().case.cautions
+    };
+    let of = |up: &str, axis: &str| {
+        read(format!(
+            "run.duration = 0\n[rotation]\naxis = {axis}\n[[beam]]\nstart = [4, 0, 0]\nup = {up}\nroot = \"clamped\"\nshear = true\nsection = {deck}\n"
+        ))
+    };
+    let mounted = |all: &[String]| {
+        all.iter().filter(|caution| caution.contains("the blade `")).cloned().collect::<Vec<_>>()
+    };
+    for (up, axis, says) in [
+        ("[0, 1, 0]", "[0, 0, -1]", None),
+        ("[0, -1, 0]", "[0, 0, 1]", None),
+        ("[0, 1, 0]", "[0, 0, 1]", Some("goes ahead with its trailing edge")),
+        ("[0, 0, 1]", "[0, 0, 1]", Some("has its chord across its motion")),
+        ("[0, 1, 0]", "[1, 0, 0]", Some("rotates about its own axis")),
+    ] {
+        let found = mounted(&of(up, axis));
+        match (says, &found[..]) {
+            (None, []) => {}
+            (Some(says), [caution]) if caution.contains(says) => {}
+            _ => panic!("{up} {axis}: {found:?}"),
+        }
+    }
+    // The hub of the short spelling carries it with its leading edge ahead, whatever the format.
+    for section in [deck, "{ kind = \"deck\", file = \"IEA-15-240-RWT_windIO.yaml\", format = \"windio\" }"] {
+        let short = |pitch: &str| {
+            read(format!(
+                "run.duration = 0\nbeam = {{ shear = true, pitch = {pitch} }}\nsection = {section}\nhub.radius = 4\nmodel.coupling = \"space-shear\"\n"
+            ))
+        };
+        assert_eq!(mounted(&short("0")), Vec::<String>::new());
+        assert!(mounted(&short("3.14159"))[0].contains("trailing edge"));
+    }
+}

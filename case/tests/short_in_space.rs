@@ -472,3 +472,42 @@ fn hostile_cases_are_refused_at_their_place() {
     let twice = refused(&format!("{SHORT}\n[[beam]]\nlength = 1\n"), &[]);
     assert!(twice.contains("TOML") && twice.contains("`[beam]` is one table"), "{twice}");
 }
+
+/// A deck says the length of its line, and the short spelling leaves it out as the long one does; in the plane too.
+#[test]
+fn a_deck_says_the_length_of_a_beam_on_a_hub() {
+    let of = |beam: &str, section: &str, coupling: &str| {
+        let text = format!(
+            "run.duration = 0\nbeam = {{ {beam} }}\nsection = {section}\nmodel.coupling = \"{coupling}\"\n"
+        );
+        parse(text, &root().join("blades/case.toml"), &[])
+    };
+    let deck = "{ kind = \"deck\", file = \"IEA-15-240-RWT_BeamDyn.dat\", format = \"beamdyn\" }";
+    let read = of("shear = true", deck, "space-shear").unwrap();
+    let beam = &read.case.space().unwrap().beams[0].0;
+    assert!((beam.length - 117.149).abs() < 1e-3, "{}", beam.length);
+    let planar = of("", deck, "first").unwrap();
+    assert_eq!(planar.case.hub_beam().unwrap().length, beam.length);
+    for (beam, section, coupling, says) in [
+        (
+            "",
+            "{ kind = \"circle\", modulus = 7e10, density = 2700, radius = 0.1 }",
+            "space",
+            "beam.length: this key is missing",
+        ),
+        (
+            "",
+            "{ kind = \"circle\", modulus = 7e10, density = 2700, radius = 0.1 }",
+            "first",
+            "beam.length: this key is missing",
+        ),
+        ("", "{ kind = \"deck\", file = \"none.dat\", format = \"beamdyn\" }", "space", "cannot read"),
+        ("length = 117", deck, "space-shear", "leave the length out"),
+    ] {
+        let message = of(beam, section, coupling).unwrap_err().to_string();
+        assert!(
+            message.contains(says) && !(says == "cannot read" && message.contains("missing")),
+            "{message}"
+        );
+    }
+}

@@ -449,6 +449,28 @@ fn the_frequencies_of_a_wire_with_shear_are_those_of_bending() {
     }
 }
 
+/// A thread of 40 µm × 10 µm that rotates slowly: what the forces of its equilibrium leave makes no rigid motion of its bending.
+#[test]
+fn a_thread_with_shear_that_rotates_bends_and_is_no_rigid_body() {
+    let found = |shear: bool| {
+        let case = read(&format!(
+            "run = {{ duration = 0 }}\n[[beam]]\nlength = 10\nup = [0, 1, 0]\nroot = \"clamped\"\nshear = {shear}\nelements = 12\n\
+             section = {{ kind = \"rectangle\", modulus = 70e9, density = 2700, width = 1e-5, height = 4e-5, rotary-inertia = true }}\n\
+             [rotation]\naxis = [0, 0, 1]\n"
+        ))
+        .case;
+        let (mut system, _) = case.vibrating(true).unwrap();
+        let mut state = system.initial();
+        rotate_stably(system.as_mut(), &mut state, 0.0, 2e-4).unwrap();
+        modes(system.as_mut(), &state, 3, &[]).map(|found| found.modes[0].frequency())
+    };
+    let (slender, shear) = (found(false).unwrap(), found(true));
+    assert!(
+        shear.clone().is_err() || (shear.clone().unwrap() / slender - 1.0).abs() < 0.02,
+        "{slender} {shear:?}"
+    );
+}
+
 /// Where rounding leaves nothing of a frequency, it is no motion without stiffness: the slenderness is the cause, and without shear it is computed.
 #[test]
 fn a_beam_too_slender_for_its_shear_is_refused_with_the_cause() {
@@ -509,4 +531,31 @@ fn of_strongly_damped_beams_the_vibrations_that_are_left_are_found() {
             }
         }
     }
+}
+
+/// A strip of EI₃/GJ ≫ 1 that rotates: the tension stiffens its torsion without shear, by about as much as the caution with shear says.
+#[test]
+fn a_thin_strip_with_shear_is_warned_of_the_trapeze_effect_that_it_lacks() {
+    let case = |shear: bool, width: f64| {
+        read(&format!(
+            "run = {{ duration = 0 }}\n[rotation]\naxis = [0, 0, 1]\n[[beam]]\nname = \"strip\"\nlength = 10\nup = [0, 0, 1]\nroot = \"clamped\"\n\
+             shear = {shear}\nelements = 20\nsection = {{ kind = \"rectangle\", modulus = 70e9, density = 2700, width = 0.01, height = {width}, \
+             rotary-inertia = true }}\n"
+        ))
+        .case
+    };
+    assert_eq!(case(true, 1.0).without_trapeze(0.0), Vec::<String>::new());
+    assert_eq!(case(true, 0.02).without_trapeze(5.0), Vec::<String>::new());
+    assert_eq!(case(false, 1.0).without_trapeze(5.0), Vec::<String>::new());
+    let [caution] = &case(true, 1.0).without_trapeze(5.0)[..] else { panic!() };
+    let said: f64 = caution.split("lie about ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
+    let torsion = |shear: bool| {
+        let (mut system, _) = case(shear, 1.0).vibrating(true).unwrap();
+        let mut state = system.initial();
+        rotate_stably(system.as_mut(), &mut state, 0.0, 5.0).unwrap();
+        let found = modes(system.as_mut(), &state, 8, &[]).unwrap().modes;
+        found.iter().find(|mode| mode.shares.torsion > 0.5).unwrap().frequency()
+    };
+    let off = 100.0 * (torsion(false) / torsion(true) - 1.0);
+    assert!(said > 2.0 && (0.5..2.0).contains(&(said / off)), "{said} {off}: {caution}");
 }

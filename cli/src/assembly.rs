@@ -134,7 +134,7 @@ fn of_blade(beam: &Beam) -> Vec<Vec<String>> {
         row("edgewise stiffness", stiffness(|r| r.chord_stiffness)),
     ];
     if beam.section.deck.as_ref().is_none_or(|(_, has_line)| !has_line) {
-        let [root, tip] = [root, tip].map(|of| of.twist.to_degrees() + 0.0);
+        let [root, tip] = [root, tip].map(|of| (1e3 * of.twist.to_degrees()).round() / 1e3 + 0.0);
         let twist = format!("{root:.3}° at the root, {tip:.3}° at the tip, about the axis towards the tip");
         rows.push(row("twist", twist));
     }

@@ -140,8 +140,10 @@ fn diagram(arguments: &Arguments, reading: &Reading) -> Result<bool, String> {
     let slender = system.slender();
     let units = arguments.options.units(case, arguments.speeds.to)?;
     let unit = &units.speed;
+    let speeds = arguments.speeds.speeds(unit)?;
+    cautions.extend(speeds.last().into_iter().flat_map(|speed| case.without_trapeze(*speed)));
     let plan = Plan {
-        speeds: arguments.speeds.speeds(unit)?,
+        speeds,
         // Those that enter from above are among them.
         count: arguments.modes.max((arguments.modes + ABOVE).min(system.size().v)),
         stations: stations(case, STATIONS),

@@ -88,6 +88,7 @@ fn found(arguments: &Arguments, reading: &Reading) -> Result<Outcome, String> {
     stopped.store(false, Ordering::Relaxed);
     cautions.extend(vibration::without_contacts(case));
     cautions.extend(case.unused_by_modes());
+    cautions.extend(case.without_trapeze(speed));
     if let Some(given) = case.rotates_at().filter(|_| speed == 0.0) {
         let given = units.speed.text(given.abs());
         cautions.push(format!("the modes are those at rest, without the rotation at {given} with which the case begins: give it by --speed"));

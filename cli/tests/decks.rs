@@ -199,3 +199,35 @@ fn the_blade_that_is_drawn_is_that_of_its_deck() {
     }
     assert!(blade.is_deck && keypoints[0][3] > 15.0 && last[0] < -3.9, "{keypoints:?}");
 }
+
+/// The copy of a primary file among the results names the copy of its blade file: the resolved case runs by itself, with the same results, and goes on
+/// from the state of the run.
+#[test]
+fn the_resolved_case_of_a_blade_of_beamdyn_runs_by_itself() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = root().join("verification/space_blade");
+    let case = case.to_str().unwrap();
+    for coupling in ["", "[beam]\nlength = 1"] {
+        assert_eq!(coupling.is_empty(), coupling != "[beam]\nlength = 1");
+    }
+    let run = |arguments: &[&str]| {
+        let output = flexion(folder.path(), &[&["run"], arguments].concat());
+        assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", text(&output.stderr));
+    };
+    let motion = ["--set", "run.duration=0.01", "--set", "output.step=0.01", "--error", "off", "--no-plots"];
+    run(&[&[case, "-o", "first"], &motion[..]].concat());
+    std::fs::create_dir(folder.path().join("alone")).unwrap();
+    for name in ["case.resolved.toml", "table1.csv", "table2.csv"] {
+        std::fs::copy(folder.path().join("first").join(name), folder.path().join("alone").join(name))
+            .unwrap();
+    }
+    run(&["alone/case.resolved.toml", "-o", "second", "--error", "off", "--no-plots"]);
+    let read = |name: &str| std::fs::read(folder.path().join(name)).unwrap();
+    assert!(read("first/trajectory.csv") == read("second/trajectory.csv"));
+    assert!(
+        read("first/table1.csv") == read("second/table1.csv")
+            && read("first/table2.csv") == read("second/table2.csv")
+    );
+    let on = ["--set", "initial={kind='restart', file='../first'}", "--set", "run.duration=0.02"];
+    run(&[&["alone/case.resolved.toml", "-o", "third", "--error", "off", "--no-plots"], &on[..]].concat());
+}

@@ -60,7 +60,7 @@ fn the_template_of_a_blade_says_what_it_is() {
         "beam                1904.500000 kg",
         "flapwise stiffness  3.800000e8 N·m² at the root, 6.000000e4 at the tip",
         "edgewise stiffness  4.200000e8 N·m² at the root, 9.000000e5 at the tip",
-        "twist               12.000° at the root, 0.000° at the tip",
+        "twist               -12.000° at the root, 0.000° at the tip",
         "torsion             as its section says",
         "not without `hub.motion` and `run.duration`",
     ] {

@@ -25,8 +25,8 @@ pub const fn column(
     Column { name, aliases, measure, required }
 }
 
-/// ElastoDyn's twist, which is in degrees without saying so.
-const IN_DEGREES: &str = "strctwst";
+/// ElastoDyn's twist, which is in degrees without saying so, and positive about the axis towards the root.
+const OF_ELASTODYN: &str = "strctwst";
 
 /// Letters and digits of a title, in lower case.
 pub(super) fn plain(title: &str) -> String {
@@ -43,17 +43,19 @@ pub(super) fn parts(title: &str) -> (&str, Option<&str>) {
 
 /// The number of SI units in one of a column's.
 fn factor(title: &str, unit: Option<&str>, column: &Column, name: &str) -> Result<f64, String> {
-    match unit {
-        None if plain(title) == IN_DEGREES => in_si("deg", column.measure, column.name, name),
-        None => Ok(1.0),
-        Some(unit) => in_si(unit, column.measure, column.name, name),
-    }
+    let is_of_elastodyn = plain(title) == OF_ELASTODYN;
+    let unit = unit.or(is_of_elastodyn.then_some("deg"));
+    let size = unit.map_or(Ok(1.0), |unit| in_si(unit, column.measure, column.name, name))?;
+    Ok(if is_of_elastodyn { -size } else { size })
 }
 
 /// The number of SI units in the `unit` of the column `title` of the file `name`.
 pub(super) fn in_si(unit: &str, measure: &Measure, title: &str, name: &str) -> Result<f64, String> {
     let unit = unit.replace("Nm", "N*m").replace("kgm", "kg*m");
-    units::parse(&format!("1 {unit}"), measure)
+    let of = |unit: &str| units::parse(&format!("1 {unit}"), measure);
+    // A title in capitals has its unit in capitals.
+    of(&unit)
+        .or_else(|error| of(&unit.to_lowercase()).map_err(|_| error))
         .map_err(|error| format!("the column `{title}` of {name}: {}; {}", error.message, error.help))
 }
 
@@ -157,7 +159,13 @@ mod tests {
             let near = |a: &f64, b: &f64| (a - b).abs() <= 1e-12 * b.abs();
             assert!(rows[0].iter().zip(&si[0]).all(|(a, b)| near(a, b)), "{text}: {rows:?}");
         }
-        for text in ["x,EA,twist [deg]\n0,1,180\n", "x,EA,StrcTwst\n0,1,180\n"] {
+        // That of ElastoDyn is about the axis towards the root.
+        for text in [
+            "x,EA,twist [deg]\n0,1,180\n",
+            "X,ea,TWIST [DEG]\n0,1,180\n",
+            "x,EA,StrcTwst\n0,1,-180\n",
+            "x,EA,StrcTwst (deg)\n0,1,-180\n",
+        ] {
             assert!((read(text).unwrap()[0][3] - std::f64::consts::PI).abs() < 1e-15, "{text}");
         }
         for (text, says) in [

@@ -285,8 +285,12 @@ impl Beam {
             return Ok(());
         }
         let message = format!("the section of beam `{}` does not say how stiff it is in shear", self.name);
-        let help = "give a shape (`rectangle`, `circle`, `tube`, `ellipse`), `general` with `shear-stiffness` and \
-                    `shear-stiffness-across`, or matrices of 6 × 6; without shear, leave `shear` out";
+        let help = if self.section.deck.is_some() {
+            "give its table the columns `GA-chord` and `GA-flap`, or take a deck of 6 × 6 matrices; without shear, leave `shear` out"
+        } else {
+            "give a shape (`rectangle`, `circle`, `tube`, `ellipse`), `general` with `shear-stiffness` and \
+             `shear-stiffness-across`, or matrices of 6 × 6; without shear, leave `shear` out"
+        };
         Err(Fault::new("section", message).help(help).into())
     }
 
@@ -303,7 +307,12 @@ impl Beam {
         let of = self.blade.resultants(middle);
         match error {
             BeamError::Section { .. } if self.shear && !(of.flap_inertia > 0.0 && of.chord_inertia > 0.0) => {
-                fault.help("a section of a beam with shear has rotary inertia: give `rotary-inertia` and `rotary-inertia-across` of `general`")
+                let keys = if self.section.deck.is_some() {
+                    "the columns `inertia-flap` and `inertia-chord` of its table"
+                } else {
+                    "`rotary-inertia` and `rotary-inertia-across` of `general`"
+                };
+                fault.help(format!("a section of a beam with shear has rotary inertia: give {keys}"))
             }
             BeamError::Section { .. } if !self.shear && !(self.properties(middle).inertia[0] > 0.0) => fault.help(
                 "give `polar-inertia` of the beam, the moment of inertia per length about the tangent [kg·m], which the section does not \

@@ -14,7 +14,6 @@ use super::case::Output;
 use super::kinds::initial::Initial;
 use super::problem::Problems;
 use super::reading::{Live, Reading};
-use super::resolved;
 use super::values::Value;
 use clock::Clock;
 use flexion::analysis::equilibrium::stable_equilibrium;
@@ -156,10 +155,7 @@ impl Reading {
         }
         self.check_memory(live.system.as_mut())?;
         let plan = self.variant().plan;
-        let tables = self.tables();
-        let keys: Vec<String> = tables.iter().map(|(key, _)| key.clone()).collect();
-        let copy = |(key, bytes): (String, &[u8])| Some((resolved::copy(&key, &keys)?, bytes.to_vec()));
-        let tables = tables.into_iter().filter_map(copy).collect();
+        let tables = self.copies();
         let Output { energy_balance, modal_shares, .. } = case.output;
         let (shapes, scene) = (self.shapes(), self.case.scene());
         Ok(Prepared {

@@ -1,9 +1,10 @@
 //! Beginning with the state of an earlier run.
 
+use crate::files::deck::with_blade_file;
 use crate::kinds::initial::Earlier;
 use crate::problem::Problems;
 use crate::reading::Reading;
-use crate::resolved::flat;
+use crate::resolved::{flat, of_blade};
 use flexion::integrator::Checkpoint;
 use flexion::system::State;
 use std::fmt::Write as _;
@@ -23,8 +24,18 @@ impl Reading {
             if BESIDES.contains(&key.split('.').next().unwrap_or(&key)) {
                 continue;
             }
-            let named = tables.iter().find(|(table, _)| key == format!("{table}.file"));
-            let value = named.map_or(value, |(_, bytes)| format!("contents {:016x}", digest(bytes)));
+            let contents =
+                |table: &str| tables.iter().find(|(other, _)| table == other).map(|(_, bytes)| *bytes);
+            let table = key.strip_suffix(".file").unwrap_or_default();
+            let value = match (contents(table), contents(&of_blade(table))) {
+                // Whatever the blade file is called.
+                (Some(primary), Some(blade)) => {
+                    let primary = with_blade_file(primary, "");
+                    format!("contents {:016x} {:016x}", digest(primary.as_bytes()), digest(blade))
+                }
+                (Some(bytes), None) => format!("contents {:016x}", digest(bytes)),
+                (None, _) => value,
+            };
             let _ = writeln!(out, "{key} = {value}");
         }
         out

@@ -1,7 +1,9 @@
 //! A system in space: the model that is made of its parts.
 
+mod mounted;
 mod named;
 mod placed;
+mod trapeze;
 
 use crate::blame::{Tables, blamed, leaves_the_plane};
 use crate::fault::{Fault, Found, Made};
@@ -320,6 +322,10 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
                 .map_err(|faults| faults.within(ROTATION.key.name))?),
             None => Rotation::found(multibody.model()),
         };
+    if let Ok(rotation) = &rotation {
+        let all = beams.iter().filter_map(|(beam, _)| mounted::caution(beam, &rotation.axis));
+        c.cautions.borrow_mut().extend(all);
+    }
     let of_ends = beams.iter().flat_map(|(beam, _)| beam.held());
     let own = |place: Place| parts.at(place).1;
     let link = |(name, joint): (String, &Joint)| {

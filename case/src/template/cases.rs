@@ -5,7 +5,7 @@ use super::Template;
 /// A blade of 20 m, invented: its mass and stiffness fall towards the tip as those of real blades do.
 const BLADE: &str = "\
 # An invented blade of 20 m. Columns have the units of their names; without one a column is in SI.
-x [m],  mass [kg/m], EA [MN], EI-flap [kN*m^2], EI-chord [kN*m^2], GJ [kN*m^2], inertia-flap [kg*m], inertia-chord [kg*m], twist [deg]
+x [m],  mass [kg/m], EA [MN], EI-flap [kN*m^2], EI-chord [kN*m^2], GJ [kN*m^2], inertia-flap [kg*m], inertia-chord [kg*m], StrcTwst [deg]
 0,      320,         4500,    380000,           420000,            150000,      25,                  30,                   12
 2,      180,         2200,    130000,           240000,            40000,       9,                   20,                   12
 5,      120,         1400,    45000,            120000,            9000,        3,                   12,                   8
@@ -55,7 +55,7 @@ output = { step = "5 ms", stations = ["1 m"] }
         summary: "a blade from a table along its span, for its modes and its Campbell diagram",
         text: r#"
 title = "A blade"
-beam = { length = "20 m", pitch = "2 deg", precone = "2.5 deg" }
+beam = { length = "20 m", pitch = "-2 deg", precone = "2.5 deg" }
 section = { kind = "deck", file = "blade.csv", format = "csv" }
 hub = { radius = "0.5 m" }
 model = { coupling = "space" }

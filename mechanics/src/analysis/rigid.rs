@@ -20,6 +20,9 @@ const NEAREST: usize = 6;
 /// Energy of the strains of a motion, over the rounding of the energy by an assembled stiffness, up to which it is rigid.
 const STRAINED: f64 = 1e-3;
 
+/// Standard deviations of a sum of random signs within which it is.
+const DEVIATIONS: f64 = 3.0;
+
 /// Whether the pencil of K, which was factored, has a motion that rounding alone decides, by the strains where the system sums them; or whether the
 /// elimination makes rounding errors grow.
 pub(super) fn has_rigid_motions(pencil: &mut Pencil, system: &mut dyn System, state: &State) -> bool {
@@ -28,7 +31,7 @@ pub(super) fn has_rigid_motions(pencil: &mut Pencil, system: &mut dyn System, st
         return softest.unstable;
     }
     let form = strain_form(system, state, vec![softest.motion[..state.v.len()].to_vec()]);
-    form.is_none_or(|form| form.value.abs() <= STRAINED * softest.rounding + 0.5 * form.rounding / UNCERTAIN)
+    form.is_none_or(|form| form.is_zero_but_for(STRAINED * softest.rounding))
 }
 
 /// Whether a motion has no stiffness by the strains, or a frequency below `rigid` [rad/s]; true where the system has its stiffness as a matrix only.
@@ -41,25 +44,38 @@ pub(super) fn is_without_form(
 ) -> bool {
     let of = |part: fn(&Complex64) -> f64| x[..state.v.len()].iter().map(part).collect::<Vec<f64>>();
     let form = strain_form(system, state, vec![of(|x| x.re), of(|x| x.im)]);
-    form.is_none_or(|form| {
-        form.value.abs() <= rigid * rigid * pencil.modal_mass(x) + 0.5 * form.rounding / UNCERTAIN
-    })
+    form.is_none_or(|form| form.is_zero_but_for(rigid * rigid * pencil.modal_mass(x)))
 }
 
-/// Sum of the forms xᵀKx of motions, by the strains; `None` where the system has its stiffness as a matrix only.
+/// The form xᵀKx of a motion by the strains.
+struct StrainForm {
+    of: StiffnessForm,
+    /// What the forces that an equilibrium leaves make of the form of a rigid motion.
+    left: f64,
+}
+
+impl StrainForm {
+    /// Whether it is zero but for rounding and for so much.
+    fn is_zero_but_for(&self, small: f64) -> bool {
+        self.of.value.abs() <= small + 0.5 * self.of.rounding / UNCERTAIN + self.left
+    }
+}
+
+/// Sum of the forms of motions; `None` where the system has its stiffness as a matrix only.
 ///
-/// Its bound of rounding has a part by the forces r that an equilibrium found in doubles leaves: along a rotation by an angle ϑ what is at a distance s
-/// moves by ϑ²s/2 to second order, so that the form is zero but for Σ|r| s ϑ².
-fn strain_form(system: &mut dyn System, state: &State, motions: Vec<Vec<f64>>) -> Option<StiffnessForm> {
+/// Along a rotation by an angle ϑ what is at a distance s moves by ϑ²s/2 to second order, and forces r that an equilibrium leaves work on it: the form of a
+/// rigid motion is not zero but Σ r s ϑ², a sum of numbers of random signs where r is rounding.
+fn strain_form(system: &mut dyn System, state: &State, motions: Vec<Vec<f64>>) -> Option<StrainForm> {
     let forms = system.stiffness_forms(state, &motions)?;
-    let mut left = vec![0.0; state.v.len()];
-    system.residual(state, &mut left);
+    let mut forces = vec![0.0; state.v.len()];
+    system.residual(state, &mut forces);
     let scales = system.scales();
-    let work: f64 = left.iter().zip(scales).map(|(r, s)| r.abs() * s).sum();
+    let moment = forces.iter().zip(scales).map(|(r, s)| (r * s).powi(2)).sum::<f64>().sqrt();
     let angle = |x: &Vec<f64>| x.iter().zip(scales).map(|(x, s)| (x / s).abs()).fold(0.0, f64::max);
-    let second: f64 = motions.iter().map(|x| angle(x).powi(2)).sum();
+    let square: f64 = motions.iter().map(|x| angle(x).powi(2)).sum();
     let sum = |part: fn(&StiffnessForm) -> f64| forms.iter().map(part).sum::<f64>();
-    Some(StiffnessForm { value: sum(|form| form.value), rounding: sum(|form| form.rounding) + work * second })
+    let of = StiffnessForm { value: sum(|form| form.value), rounding: sum(|form| form.rounding) };
+    Some(StrainForm { of, left: DEVIATIONS * moment * square })
 }
 
 /// Pencil whose shift is far above rounding and below most frequencies; `None` without masses or stiffness.

@@ -49,7 +49,7 @@ pub struct Blade {
     pub twist: Vec<f64>,
     /// Its axes x, y, z, as columns.
     pub axes: Mat3,
-    /// Whether it is that of a deck with matrices: the height of its sections points to the trailing edge, and across away from the suction side.
+    /// Whether it is that of a deck: the height of its sections points to the trailing edge, and across away from the suction side.
     pub is_deck: bool,
 }
 

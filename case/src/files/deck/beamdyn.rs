@@ -54,6 +54,24 @@ pub(super) fn read(find: Find<'_>, name: &str) -> Result<Deck, String> {
     Raw { name: &file, convention: &BEAMDYN, line, rows, damping, cautions, notes }.deck()
 }
 
+/// The name of the blade file that the text of a primary file names.
+pub fn blade_file(bytes: &[u8], name: &str) -> Option<String> {
+    Text::new(bytes, name).keyword(&["BldFile"]).map(|(_, file)| beside(name, &file))
+}
+
+/// The text of a primary file with another name for its blade file.
+pub fn with_blade_file(bytes: &[u8], file: &str) -> String {
+    let text = Text::new(bytes, "");
+    let line = text.keyword(&["BldFile"]).map(|(line, _)| line);
+    let lines = (1..=text.len()).map(|i| match line {
+        Some(line) if line == i => {
+            format!("\"{file}\"    BldFile - Name of file containing properties for blade\n")
+        }
+        _ => format!("{}\n", text.line(i)),
+    });
+    lines.collect()
+}
+
 /// The name of a file that is written in another.
 fn beside(name: &str, file: &str) -> String {
     let file = file.replace('\\', "/");

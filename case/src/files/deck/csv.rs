@@ -18,14 +18,7 @@ static CSV: Convention = Convention {
     place: [0, 1, 2, 3, 4, 5],
     sign: [1.0; 6],
     station: "x",
-    inertia: Some([
-        "mass",
-        "inertia-flap and inertia-chord",
-        "inertia-flap",
-        "inertia-chord",
-        "mass-y",
-        "mass-z",
-    ]),
+    inertia: Some(["mass", "polar-inertia", "inertia-flap", "inertia-chord", "mass-y", "mass-z"]),
 };
 
 const fn force(name: &'static str, required: bool) -> Column {

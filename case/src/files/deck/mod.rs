@@ -31,6 +31,7 @@ use flexion::system::Frame;
 use std::sync::Arc;
 
 pub use beamdyn::write as write_beamdyn;
+pub(crate) use beamdyn::{blade_file, with_blade_file};
 pub use hawc2::write as write_hawc2;
 pub use line::Line;
 use rows::{Convention, Row};

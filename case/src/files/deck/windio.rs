@@ -14,6 +14,7 @@ use super::{Deck, Line, Raw};
 use flexion::linalg::Vec3;
 use flexion::profile::{End, Profile, Table};
 use flexion::section::Matrix6;
+use flexion_results::nearest;
 
 /// BeamDyn's order with the names of windIO.
 static WINDIO: Convention = Convention {
@@ -74,6 +75,39 @@ fn values(node: &Node, key: &str, grid: &[f64], name: &str) -> Result<Option<Dis
         ));
     }
     Ok(Some(Distribution { line: found.line, grid: grid.to_vec(), values }))
+}
+
+/// The entries of a matrix of version 2: without one of them it is not known.
+static STIFFNESS: [&str; 21] = [
+    "K11", "K12", "K13", "K14", "K15", "K16", "K22", "K23", "K24", "K25", "K26", "K33", "K34", "K35", "K36",
+    "K44", "K45", "K46", "K55", "K56", "K66",
+];
+static INERTIA: [&str; 7] = ["mass", "cm_x", "cm_y", "i_edge", "i_flap", "i_plr", "i_cp"];
+
+/// The entries under their keys, all of which are there.
+fn entries<const N: usize>(
+    node: &Node,
+    keys: &[&str; N],
+    grid: &[f64],
+    (name, what): (&str, &str),
+) -> Result<[Distribution; N], String> {
+    let mut found = Vec::with_capacity(N);
+    for key in keys {
+        let missing = || {
+            let is_other = |other: &&str| *other != "grid" && !keys.contains(other);
+            let others: Vec<String> = node.keys().filter(is_other).map(str::to_lowercase).collect();
+            let near = nearest(key, others.iter().map(String::as_str));
+            let near = node.keys().find(|other| near == Some(&other.to_lowercase()));
+            let near = near.map_or_else(String::new, |near| format!(" (is `{near}` meant for it?)"));
+            format!(
+                "line {} of {name}: `{what}` has no `{key}`{near}; it has {}, of which what is zero is written as zeros",
+                node.line,
+                keys.join(", ")
+            )
+        };
+        found.push(values(node, key, grid, name)?.ok_or_else(missing)?);
+    }
+    found.try_into().map_err(|_| String::new())
 }
 
 /// `grid` and `values` under a key.
@@ -139,8 +173,8 @@ impl Matrices {
 fn stiffness(node: &Node, name: &str) -> Result<Matrices, String> {
     let grid = grid(node, name, "stiffness_matrix")?;
     let (mut all, mut lines) = (vec![[[0.0; 6]; 6]; grid.len()], [node.line; 6]);
-    for (i, j) in (0..6).flat_map(|i| (i..6).map(move |j| (i, j))) {
-        let Some(entry) = values(node, &format!("K{}{}", i + 1, j + 1), &grid, name)? else { continue };
+    let found = entries(node, &STIFFNESS, &grid, (name, "stiffness_matrix"))?;
+    for ((i, j), entry) in (0..6).flat_map(|i| (i..6).map(move |j| (i, j))).zip(found) {
         if i == j {
             lines[i] = entry.line;
         }
@@ -154,17 +188,10 @@ fn stiffness(node: &Node, name: &str) -> Result<Matrices, String> {
 /// Mass of version 2: mass, its centre and moments of inertia.
 fn inertia(node: &Node, name: &str) -> Result<Matrices, String> {
     let grid = grid(node, name, "inertia_matrix")?;
-    let (mut all, mut lines) = (vec![[[0.0; 6]; 6]; grid.len()], [node.line; 6]);
-    let mut of = |key: &str, rows: &[usize]| -> Result<Vec<f64>, String> {
-        let found = values(node, key, &grid, name)?;
-        if let Some(found) = &found {
-            rows.iter().for_each(|row| lines[*row] = found.line);
-        }
-        Ok(found.map_or_else(|| vec![0.0; grid.len()], |found| found.values))
-    };
-    let (mass, x, y) = (of("mass", &[0, 1, 2])?, of("cm_x", &[])?, of("cm_y", &[])?);
-    let (edge, flap) = (of("i_edge", &[3])?, of("i_flap", &[4])?);
-    let (polar, cross) = (of("i_plr", &[5])?, of("i_cp", &[])?);
+    let mut all = vec![[[0.0; 6]; 6]; grid.len()];
+    let [mass, x, y, edge, flap, polar, cross] = entries(node, &INERTIA, &grid, (name, "inertia_matrix"))?;
+    let lines = [mass.line, mass.line, mass.line, edge.line, flap.line, polar.line];
+    let [mass, x, y, edge, flap, polar, cross] = [mass, x, y, edge, flap, polar, cross].map(|of| of.values);
     for (k, out) in all.iter_mut().enumerate() {
         let (m, x, y) = (mass[k], x[k], y[k]);
         (0..3).for_each(|i| out[i][i] = m);

@@ -1,7 +1,7 @@
 //! Texts in YAML as a tree with lines. Aliases share what they stand for.
 
 use saphyr_parser::{Event, Parser};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 
 /// Depth of nesting that is read.
@@ -21,10 +21,11 @@ pub(super) enum Value {
     Map(Vec<(String, Rc<Node>)>),
 }
 
-/// A list or a map that is not yet closed, with its anchor and, in a map, the key that waits for its value.
+/// A list or a map that is not yet closed, with its anchor and, in a map, its keys and the one that waits for its value.
 struct Open {
     node: Node,
     anchor: usize,
+    keys: HashSet<String>,
     key: Option<String>,
 }
 
@@ -34,7 +35,10 @@ pub(super) fn read(text: &str, name: &str) -> Result<Rc<Node>, String> {
     for event in Parser::new_from_str(text) {
         let (event, span) = event.map_err(|error| format!("{name} is not YAML: {error}"))?;
         let line = span.start.line();
-        let begun = |value: Value, anchor: usize| Open { node: Node { line, value }, anchor, key: None };
+        let begun = |value: Value, anchor: usize| {
+            let (keys, key) = (HashSet::new(), None);
+            Open { node: Node { line, value }, anchor, keys, key }
+        };
         let (done, anchor) = match event {
             Event::SequenceStart(anchor, _) => {
                 open.push(begun(Value::List(Vec::new()), anchor));
@@ -73,6 +77,9 @@ pub(super) fn read(text: &str, name: &str) -> Result<Rc<Node>, String> {
             (Value::List(items), _) => items.push(node),
             (Value::Map(entries), Some(key)) => entries.push((key, node)),
             (Value::Map(_), None) => match &node.value {
+                Value::Scalar(key) if !outer.keys.insert(key.clone()) => {
+                    return Err(format!("line {line} of {name}: the key `{key}` stands twice in one table"));
+                }
                 Value::Scalar(key) => outer.key = Some(key.clone()),
                 _ => return Err(format!("line {line} of {name}: a key is a word")),
             },
@@ -89,6 +96,15 @@ impl Node {
             Value::Map(entries) => entries.iter().find(|(k, _)| k == key).map(|(_, node)| &**node),
             _ => None,
         }
+    }
+
+    /// Its keys.
+    pub fn keys(&self) -> impl Iterator<Item = &str> {
+        let entries = match &self.value {
+            Value::Map(entries) => &entries[..],
+            _ => &[],
+        };
+        entries.iter().map(|(key, _)| key.as_str())
     }
 
     /// What stands under keys, one within the other.
@@ -151,6 +167,7 @@ mod tests {
             ("", "is empty"),
             ("a: [1", "is not YAML"),
             ("a: *x", "is not YAML"),
+            ("a: 1\nb: {a: 2, c: 3, a: 4}", "line 2 of f: the key `a` stands twice"),
             (&*deep, "nested more than"),
             (&*deeper, "is not YAML"),
         ] {
