@@ -7,6 +7,7 @@ use super::kind::Context;
 use super::kinds::initial::Initial;
 use super::kinds::integrator::{Method, Steps};
 use super::layout::{self, BASIS, INITIAL, INTEGRATOR, OUTPUT, OUTPUT_IN_SPACE, RUN, Recorded, Run, TITLE};
+use super::length::length;
 use super::places::Parts;
 use super::space::{self, Space};
 use super::stations::stations;
@@ -91,7 +92,7 @@ pub(super) fn case(v: &mut Values, files: &super::sources::Files<'_>) -> Made<Ca
     fill_output_step(v, duration);
     let v = &*v;
     let in_space = layout::is_spatial(v.keys);
-    let length = if in_space { None } else { found.part(layout::length(v, c)) };
+    let length = if in_space { None } else { found.part(length(v, c)) };
     let parts = length.map(|length| Parts { bodies: Vec::new(), beams: vec![("beam".to_owned(), length)] });
     let c = &Context { length, duration, parts: parts.as_ref(), ..*c };
     let method = found.part(INTEGRATOR.read(v, c));

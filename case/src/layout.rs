@@ -1,12 +1,10 @@
 //! The layout of a case file: its keys, and the choices in them.
 
 use super::declaration::{Bound::*, Key, Kinds};
-use super::fault::{Faults, Made};
 use super::keys::{
     Field, Named, boolean, choice, integer, keys, kind, number, places, quantities, quantity, table, text,
     vector,
 };
-use super::kind::Context;
 use super::kinds::basis::{self, Either, FIELD};
 use super::kinds::coupling::{COUPLING, Coupling, SPACE};
 use super::kinds::cross_section::Section;
@@ -18,13 +16,10 @@ use super::kinds::{
     amplitude, beam, body, contact, curve, damping, force_law, joint, load, mass, obstacle, rotation, spring,
     torque,
 };
-use super::reader;
 use super::tree::{Line, Raw};
 use super::units::{ACCELERATION, ANGLE, INERTIA, LENGTH, ROTARY_INERTIA, TIME};
-use super::values::Values;
 use flexion::hub_beam::Drive;
 use flexion::linalg::Vec3;
-use std::cell::RefCell;
 use std::sync::LazyLock;
 
 /// The choices, in the order of a case file.
@@ -179,23 +174,6 @@ keys! {
 
 /// The table `[beam]`.
 pub(super) const BEAM: Field<OneBeam> = table().required().called("beam", "beam itself");
-/// The length of the beam \[m\]: as it is written, or as its deck has it.
-///
-/// # Errors
-/// Where neither says it; none of a deck that cannot be read, which is reported where the section is made.
-pub(super) fn length(v: &Values, c: &Context<'_>) -> Made<f64> {
-    if let Some(length) = BEAM.read(v, c)?.length {
-        return Ok(length);
-    }
-    let of_deck = if SECTION.chosen_in(v) == Some("deck") {
-        let cautions = RefCell::default();
-        SECTION.read(v, &Context { cautions: &cautions, ..*c }).map_err(|_| Faults::default())?.length
-    } else {
-        None
-    };
-    of_deck.ok_or_else(|| reader::left_out(&OneBeam::length.key, "beam.length").into())
-}
-
 /// The table `[section]`.
 pub(super) const SECTION: Field<Section> = kind(&section::SECTION).called("section", "cross-section");
 /// The table `[hub]`.

@@ -31,6 +31,7 @@ pub mod keys;
 mod kind;
 pub mod kinds;
 mod layout;
+mod length;
 mod model;
 pub mod places;
 mod problem;

@@ -23,6 +23,7 @@ use super::kinds::obstacle::Stop;
 use super::layout::{
     self, BASIS, INITIAL, MODEL_ON_HUB, ModelOnHub, OUTPUT, OneBeam, RUN, Recorded, SECTION,
 };
+use super::length::length;
 use super::problem::Place;
 use super::sources::Files;
 use super::tree::{Line, Node, Raw};
@@ -167,7 +168,7 @@ pub(super) fn long(lines: &[Line], v: &Values, files: &Files<'_>) -> Made<Long> 
     let c = &Context { length: None, duration: None, parts: None, files, cautions: &cautions };
     let OneBeam { pitch, precone, .. } = layout::BEAM.read(v, c)?;
     let duration = RUN.read(v, c)?.duration.unwrap_or(0.0);
-    let length = found.part(layout::length(v, c));
+    let length = found.part(length(v, c));
     let c = &Context { length, duration: Some(duration), ..*c };
     let section = found.part(SECTION.read(v, c));
     let hub = found.part(layout::HUB.read(v, c));

@@ -40,12 +40,12 @@ fn stiffening(beam: &Beam, axis: &Axis, speed: f64) -> f64 {
         let (of, section) = (beam.frame(s), beam.blade.resultants(s));
         let half =
             0.5 * step * section.mass * speed * speed * (of.position - axis.point).across(axis.direction);
-        force = force + half;
+        force += half;
         let weight = (std::f64::consts::FRAC_PI_2 * s / beam.length).cos().powi(2);
         let square = (section.flap_stiffness + section.chord_stiffness) / section.axial_stiffness;
         added += weight * force.dot(of.rotation.column(0)) * square;
         stiffness += weight * section.torsional_stiffness;
-        force = force + half;
+        force += half;
     }
     added / stiffness
 }

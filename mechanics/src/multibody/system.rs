@@ -252,6 +252,57 @@ impl Multibody {
             visit(None, b, &work);
         }
     }
+
+    /// Writes the tangent, with the stiffness of the strains of beams or without.
+    pub(super) fn assemble(&mut self, s: &State, w: Weights<'_>, strains: bool, out: &mut Matrix) {
+        out.clear();
+        self.place(s);
+        let constants = self.constants.clone();
+        let model = &constants.model;
+        for (body, &place) in model.bodies.iter().zip(&constants.place) {
+            let (at, spin) = (6 * place, self.placed[place].spin);
+            let gyro = Mat3::skew(spin) * body.inertia;
+            let momentum = Mat3::skew(body.inertia * spin);
+            let inertia = w.a + w.v * body.damping;
+            for i in 0..3 {
+                out.add(at + i, at + i, inertia * body.mass);
+                for j in 0..3 {
+                    let x = inertia * body.inertia[i][j] + w.v * (gyro[i][j] - momentum[i][j]);
+                    out.add(at + 3 + i, at + 3 + j, x);
+                }
+            }
+        }
+        for (of, &[i, j]) in model.beams.iter().zip(&constants.beams) {
+            let within = Weights { increment: w.increment.map(|d| &d[j..]), ..w };
+            let (motion, field) = ([&s.q[i..], &s.v[j..], &s.a[j..]], self.part * model.gravity);
+            if strains {
+                of.beam.add_tangent(motion, field, &within, (j, out));
+            } else {
+                of.beam.add_unstrained_stiffness(motion, field, (j, out));
+            }
+        }
+        if w.q == 0.0 && w.v == 0.0 {
+            return;
+        }
+        let lines = model.line_loads.iter().zip(&constants.lines);
+        for (load, on) in lines.filter(|(load, _)| load.follows()) {
+            let [i, j] = constants.beams[load.beam];
+            let (force, d) = (load.at(s.time(), self.part), w.increment.map(|d| &d[j..]));
+            let force = -w.q * force;
+            let beam = &model.beams[load.beam].beam;
+            beam.add_line_tangent(on, &s.q[i..], force, d, (j, out));
+        }
+        for (law, sampled) in model.line_laws.iter().zip(&mut self.sampled) {
+            let [i, j] = constants.beams[law.beam];
+            let acting = (law.law.as_ref(), s.time(), -self.part);
+            sampled.add_tangent(acting, [&s.q[i..], &s.v[j..]], &w, (j, out));
+        }
+        self.poses.iter_mut().for_each(|pose| pose.transport());
+        let ground = Pose::default();
+        self.interactions(s, true, |a, b, interaction| {
+            add_tangent((a.unwrap_or(&ground), b), interaction, &w, out);
+        });
+    }
 }
 
 /// Adds c Jᵀ w of one marker.
@@ -517,59 +568,6 @@ impl Dynamics for Multibody {
     fn stiffness_forms(&mut self, s: &State, vectors: &[Vec<f64>]) -> Option<Vec<StiffnessForm>> {
         let rest = self.unstrained_stiffness(s);
         Some(self.forms(s, &rest, vectors))
-    }
-}
-
-impl Multibody {
-    /// Writes the tangent, with the stiffness of the strains of beams or without.
-    pub(super) fn assemble(&mut self, s: &State, w: Weights<'_>, strains: bool, out: &mut Matrix) {
-        out.clear();
-        self.place(s);
-        let constants = self.constants.clone();
-        let model = &constants.model;
-        for (body, &place) in model.bodies.iter().zip(&constants.place) {
-            let (at, spin) = (6 * place, self.placed[place].spin);
-            let gyro = Mat3::skew(spin) * body.inertia;
-            let momentum = Mat3::skew(body.inertia * spin);
-            let inertia = w.a + w.v * body.damping;
-            for i in 0..3 {
-                out.add(at + i, at + i, inertia * body.mass);
-                for j in 0..3 {
-                    let x = inertia * body.inertia[i][j] + w.v * (gyro[i][j] - momentum[i][j]);
-                    out.add(at + 3 + i, at + 3 + j, x);
-                }
-            }
-        }
-        for (of, &[i, j]) in model.beams.iter().zip(&constants.beams) {
-            let within = Weights { increment: w.increment.map(|d| &d[j..]), ..w };
-            let (motion, field) = ([&s.q[i..], &s.v[j..], &s.a[j..]], self.part * model.gravity);
-            if strains {
-                of.beam.add_tangent(motion, field, &within, (j, out));
-            } else {
-                of.beam.add_unstrained_stiffness(motion, field, (j, out));
-            }
-        }
-        if w.q == 0.0 && w.v == 0.0 {
-            return;
-        }
-        let lines = model.line_loads.iter().zip(&constants.lines);
-        for (load, on) in lines.filter(|(load, _)| load.follows()) {
-            let [i, j] = constants.beams[load.beam];
-            let (force, d) = (load.at(s.time(), self.part), w.increment.map(|d| &d[j..]));
-            let force = -w.q * force;
-            let beam = &model.beams[load.beam].beam;
-            beam.add_line_tangent(on, &s.q[i..], force, d, (j, out));
-        }
-        for (law, sampled) in model.line_laws.iter().zip(&mut self.sampled) {
-            let [i, j] = constants.beams[law.beam];
-            let acting = (law.law.as_ref(), s.time(), -self.part);
-            sampled.add_tangent(acting, [&s.q[i..], &s.v[j..]], &w, (j, out));
-        }
-        self.poses.iter_mut().for_each(|pose| pose.transport());
-        let ground = Pose::default();
-        self.interactions(s, true, |a, b, interaction| {
-            add_tangent((a.unwrap_or(&ground), b), interaction, &w, out);
-        });
     }
 }
 
