@@ -343,7 +343,13 @@ fn a_beam_asks_a_deck_for_what_it_needs_and_no_more() {
         (&straight, "torsion = true", "says nothing of torsion"),
         (&torsion, "torsion = true", "give `polar-inertia` of the beam"),
         (&torsion, "shear = true", "does not say how stiff it is in shear"),
+        (&torsion, "shear = true", "the columns `GA-chord` and `GA-flap`"),
         (&with("GJ, GA-chord, GA-flap", "70, 5e5, 5e5"), "shear = true", "has rotary inertia"),
+        (
+            &with("GJ, GA-chord, GA-flap", "70, 5e5, 5e5"),
+            "shear = true",
+            "the columns `inertia-flap` and `inertia-chord` of its table",
+        ),
         (&torsion, "polar-inertia = 1\npoisson-ratio = 0.3", "is of a shape, which this section has not"),
     ] {
         let message = cantilever(deck, keys).map(|_| ()).unwrap_err();
@@ -401,4 +407,17 @@ fn windio_without_one_of_its_entries_is_refused() {
         let message = read(&text.replacen(from, to, 1), Format::WindIo).unwrap_err();
         assert!(message.contains(says) && message.contains("line "), "{message}");
     }
+}
+
+/// The moment of inertia about the axis is named by its own column.
+#[test]
+fn a_polar_moment_of_inertia_that_is_no_sum_is_named() {
+    let text = "x,mass,inertia-flap,inertia-chord,polar-inertia,EA,EI-flap,EI-chord\n0,1,1e-4,1e-4,4e-4,2e6,300,400\n4,1,1e-4,1e-4,4e-4,2e6,300,400\n";
+    let cautions = read(text, Format::Csv).unwrap().cautions;
+    assert!(
+        cautions
+            .iter()
+            .any(|text| text.contains("polar-inertia is 2.0000 times inertia-flap + inertia-chord")),
+        "{cautions:?}"
+    );
 }
