@@ -12,6 +12,7 @@
 //! ```
 
 use super::axis::Axis;
+use super::bending::Bending;
 use super::body::Placed;
 use super::constants::Constants;
 use super::contact_point::ContactPoint;
@@ -56,6 +57,8 @@ pub struct Multibody {
     pub(super) nearest: Vec<Nearest>,
     /// Force laws at the points of their beams.
     pub(super) sampled: Vec<Sampled>,
+    /// Of the states that were judged.
+    pub(super) bending: Bending,
     time: f64,
 }
 
@@ -145,6 +148,7 @@ impl Multibody {
             motions: vec![HubKinematics::default(); joints],
             nearest,
             sampled,
+            bending: Bending::default(),
             time: f64::NAN,
         }
     }
@@ -261,17 +265,6 @@ impl Multibody {
             load.interact(b, (s.time(), self.part), &mut work);
             visit(None, b, &work);
         }
-    }
-}
-
-/// Adds c Jᵀ w of one marker.
-#[inline]
-fn add_force(c: f64, pose: &Pose, force: Vec3, moment: Vec3, r: &mut [f64]) {
-    for k in 0..pose.count {
-        let column = |i: usize| pose.jacobian[i][k];
-        let sum = force[0] * column(0) + force[1] * column(1) + force[2] * column(2);
-        let turn = moment[0] * column(3) + moment[1] * column(4) + moment[2] * column(5);
-        r[pose.numbers[k]] += c * (sum + turn);
     }
 }
 
@@ -436,9 +429,9 @@ impl Dynamics for Multibody {
         self.interactions(s, false, |a, b, interaction| {
             let [f_a, m_a, f_b, m_b] = interaction.wrench;
             if let Some(a) = a {
-                add_force(-1.0, a, f_a, m_a, r);
+                a.add_force(-1.0, f_a, m_a, r);
             }
-            add_force(-1.0, b, f_b, m_b, r);
+            b.add_force(-1.0, f_b, m_b, r);
         });
     }
 
