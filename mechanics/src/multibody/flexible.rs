@@ -105,7 +105,7 @@ impl Flexible {
         }
         let length = last - first;
         for fibre in &self.fibres {
-            let distance = fibre.place[0].hypot(fibre.place[1]);
+            let distance = libm::hypot(fibre.place[0], fibre.place[1]);
             if !(distance <= length) {
                 return Some(PartFault::Fibre { name: fibre.name.clone(), distance, length });
             }
