@@ -1,6 +1,6 @@
 //! Dense matrix with LU by partial pivoting.
 //!
-//! Where a row has no diagonal, as of a constraint, entries of different rows are compared in the scaling to a unit diagonal (`weights.rs`).
+//! Entries of different rows are compared in the scaling to a unit diagonal (`weights.rs`).
 
 use super::weights::weigh;
 use super::{NOTHING, Scalar, Singular};
@@ -75,11 +75,7 @@ impl<T: Scalar> Dense<T> {
         let n = self.n;
         let data = &self.data;
         self.weights.iter_mut().enumerate().for_each(|(i, weight)| *weight = data[i * n + i].size());
-        if self.weights.iter().all(|size| *size > 0.0) {
-            self.weights.fill(1.0);
-        } else {
-            weigh(0, &mut self.weights, |i| (0, &data[i * n..(i + 1) * n]));
-        }
+        weigh(0, &mut self.weights, |i| (0, &data[i * n..(i + 1) * n]));
         for k in 0..n {
             let (mut p, mut best) = (k, self.get(k, k).size());
             let mut largest = best * self.weights[k];
