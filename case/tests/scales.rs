@@ -8,11 +8,9 @@
 use crate::written::{finished, reading};
 use flexion_case::Run;
 
-/// Parts of the largest value by which last values may differ: of motions whose steps have a tolerance of 1e-6, of those with
-/// one of 1e-8, and of equilibria. Crests between records
+/// Parts of the largest value by which last values may differ: of motions whose steps have a tolerance of 1e-6, and of equilibria. Crests between records
 /// are those of parabolas through ends of steps, of which rounding chooses others.
 const MOVING: f64 = 1e-4;
-const CLOSE: f64 = 1e-5;
 const STILL: f64 = 1e-6;
 const CRESTS: f64 = 1e-3;
 
@@ -171,30 +169,6 @@ fn systems_in_space_move_alike_in_any_size() {
             + &joint("spherical", ["arm.tip", "weight"], s, "")
     };
     same("joints", &jointed, MOVING);
-    // A body in the middle of a driven beam, and a mass without inertia: rows of joints of one beside masses of any size.
-    let carried = |s: f64| {
-        let joint = |kind: &str, between: [&str; 2], more: &str| {
-            format!("[[joint]]\nkind='{kind}'\nbetween={between:?}\n{more}")
-        };
-        let middle = format!("arm@{:e} m", 0.5 * s);
-        gravity(s)
-            + "integrator={tolerance=1e-8}\n"
-            + &run(s)
-            + &beam(s)
-            + &body(s, "weight", [0.5, 0.0])
-            + &joint("fixed", [&middle, "weight"], "")
-            + &joint(
-                "revolute",
-                ["ground", "arm.root"],
-                &format!("motion={{kind='constant',speed={:e}}}\n", 0.3 / s),
-            )
-    };
-    same("carried", &carried, CLOSE);
-    let weighted = |s: f64| {
-        let hub = "[hub]\nmotion={kind='constant',speed=0}\n[model]\ncoupling='space'\n[integrator]\ntolerance=1e-8\n";
-        planar(s, hub) + &format!("[[mass]]\non='{:e} m'\nmass={:e}\n", 0.5 * s, 0.3 * s.powi(3)) + &run(s)
-    };
-    same("mass", &weighted, CLOSE);
     // A four-bar chain, whose rows follow from each other in part: which pivots vanish is judged against rows of other units.
     let chain = |s: f64| {
         let bodies = [("left", [0.0, 0.5]), ("top", [0.5, 1.0]), ("right", [1.0, 0.5])]
@@ -214,7 +188,7 @@ fn systems_in_space_move_alike_in_any_size() {
         });
         gravity(s) + "model={drop-redundant-rows=true}\n" + &run(s) + &bodies.concat() + &joints.concat()
     };
-    same("chain", &chain, MOVING);
+    same_at(&SCALES[1..4], "chain", &chain, MOVING);
     // A ball that falls onto a floor and rebounds.
     let falling = |s: f64| {
         let floor = "[[contact]]\nname='floor'\non='ball'\nat=[AT]\nobstacle={kind='plane',normal=[0,1,0]}\nlaw={kind='constraint',restitution=0.5}\n";

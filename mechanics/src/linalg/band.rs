@@ -6,10 +6,9 @@
 //!
 //! The diagonal is the pivot as long as |aᵢₖ|² ≤ τ⁻² |aₖₖ| |aᵢᵢ| for the rows i below it, which holds for
 //! every positive definite matrix, and for any units of the unknowns: it bounds by 1/τ the multipliers
-//! of the matrix that is scaled to a unit diagonal. Otherwise the largest entry of the column in this scaling is (`weights.rs`).
+//! of the matrix that is scaled to a unit diagonal. Otherwise the largest entry of the column is.
 
 use super::vector::weighted_sum;
-use super::weights::weigh;
 use super::{NOTHING, Scalar, Singular};
 
 /// Largest number of vanishing pivots of the band that are moved to the border.
@@ -35,10 +34,8 @@ pub struct Band<T> {
     first_exchange: usize,
     /// Pivots that were too small and were replaced: see [`Band::factor`].
     deflated: Vec<(usize, f64)>,
-    /// Largest entry of each column in the weights of the rows, before elimination, for [deflation](Band::deflatable).
+    /// Largest entry of each column before elimination, for [deflation](Band::deflatable).
     column_size: Vec<f64>,
-    /// By which entries of different rows are compared.
-    weights: Vec<f64>,
 }
 
 impl<T: Scalar> Band<T> {
@@ -57,7 +54,6 @@ impl<T: Scalar> Band<T> {
             first_exchange: n,
             deflated: Vec::with_capacity(DEFLATIONS),
             column_size: Vec::new(),
-            weights: vec![0.0; n],
         }
     }
 
@@ -211,10 +207,7 @@ impl<T: Scalar> Band<T> {
     pub fn factor(&mut self, deflate: bool) -> Result<(), Singular> {
         self.deflated.clear();
         self.first_exchange = self.n;
-        let rows = self.data.chunks_exact(self.width);
-        self.weights.iter_mut().zip(rows).for_each(|(weight, row)| *weight = row[self.lower].size());
         if deflate {
-            self.weigh(0);
             self.measure_columns();
         }
         // The common bands are given to the compiler as constants: it unrolls the loops over them.
@@ -239,7 +232,7 @@ impl<T: Scalar> Band<T> {
             let Some((pivot_row, below)) = rows.split_first_mut() else { break };
             let pivot = pivot_row[HALF];
             let limit = GROWTH * pivot.size();
-            let mut sound = pivot.size() * self.weights[k] > small;
+            let mut sound = pivot.size() > small;
             for r in 0..HALF {
                 let size = below[r][HALF - 1 - r].size();
                 sound &= size * size <= limit * below[r][HALF].size();
@@ -272,36 +265,23 @@ impl<T: Scalar> Band<T> {
         let mut width = self.width;
         // Columns up to which earlier interchanges have filled the rows.
         let mut filled = 0;
-        let mut weighed = deflate;
         for k in start..n {
             let last_row = (k + l).min(n - 1);
             let diagonal = self.data[k * width + l].size();
             let limit = GROWTH * diagonal;
-            let mut sound = true;
+            let (mut p, mut best, mut sound) = (k, diagonal, true);
             for i in k + 1..=last_row {
                 let size = self.data[i * width + k + l - i].size();
                 sound &= size * size <= limit * self.data[i * width + l].size();
+                if size > best {
+                    (p, best) = (i, size);
+                }
             }
             // Compared with its own column, so that unknowns in different units do not make a sound
             // band look singular. A NaN pivot is refused too.
-            let small = if deflate { VANISHING * self.column_size[k] } else { 0.0 };
-            let vanishes = |size: f64, weight: f64| !(size > NOTHING && size * weight > small);
-            let (mut p, mut best) = (k, diagonal);
-            if !sound || vanishes(diagonal, self.weights[k]) {
-                if !std::mem::replace(&mut weighed, true) {
-                    self.weigh(k);
-                }
-                let mut largest = diagonal * self.weights[k];
-                for i in k + 1..=last_row {
-                    let size = self.data[i * width + k + l - i].size();
-                    if size * self.weights[i] > largest {
-                        (p, best, largest) = (i, size, size * self.weights[i]);
-                    }
-                }
-            }
-            let vanishes = vanishes(best, self.weights[p]);
-            if vanishes {
-                // It is replaced where it stands, on the diagonal.
+            let small = if deflate { NOTHING.max(VANISHING * self.column_size[k]) } else { NOTHING };
+            // What vanishes is replaced where it stands, on the diagonal.
+            if sound && diagonal > small || !(best > small) {
                 (p, best) = (k, diagonal);
             }
             filled = filled.max((p + u).min(n - 1)).max(k);
@@ -311,20 +291,18 @@ impl<T: Scalar> Band<T> {
                 width = self.width;
             }
             self.pivots[k] = (p - k) as u32;
-            if vanishes {
+            if !(best > small) {
                 if !deflate || !best.is_finite() || self.deflated.len() == DEFLATIONS {
                     let largest = self.data.iter().map(|x| x.size()).fold(0.0, f64::max);
                     return Err(Singular { index: k, pivot: best / largest });
                 }
-                let size = self.column_size[k] / self.weights[k];
-                let delta = if size > 0.0 && size.is_finite() { size } else { 1.0 };
+                let delta = if self.column_size[k] > 0.0 { self.column_size[k] } else { 1.0 };
                 self.data[k * width + l] += T::real(delta);
                 self.deflated.push((k, delta));
             }
             let rows = &mut self.data[k * width..(last_row + 1) * width];
             if p != k {
                 self.first_exchange = self.first_exchange.min(k);
-                self.weights.swap(k, p);
                 // Entry (k, k + j) against entry (p, k + j).
                 let (head, tail) = rows.split_at_mut((p - k) * width);
                 let start = l - (p - k);
@@ -346,26 +324,14 @@ impl<T: Scalar> Band<T> {
         Ok(())
     }
 
-    /// Makes weights of the sizes of the diagonal. Rows `start`.. without a diagonal are those of the matrix still: the first that is eliminated
-    /// from asks for weights.
-    fn weigh(&mut self, start: usize) {
-        let Band { n, lower: l, width, data, weights, .. } = self;
-        let (n, l, width) = (*n, *l, *width);
-        weigh(start, weights, |i| {
-            let first = start.max(i.saturating_sub(l));
-            (first, &data[i * width + l + first - i..i * width + l + (width - l).min(n - i)])
-        });
-    }
-
     fn measure_columns(&mut self) {
         self.column_size.fill(0.0);
-        let rows = self.data.chunks_exact(self.width).zip(&self.weights);
-        for (i, (row, weight)) in rows.enumerate() {
+        for (i, row) in self.data.chunks_exact(self.width).enumerate() {
             let first = i.saturating_sub(self.lower);
             let last = (i + self.upper + 1).min(self.n);
             let sizes = &mut self.column_size[first..last];
             for (size, a) in sizes.iter_mut().zip(&row[first + self.lower - i..]) {
-                *size = size.max(a.size() * weight);
+                *size = size.max(a.size());
             }
         }
     }

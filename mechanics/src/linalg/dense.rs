@@ -1,8 +1,5 @@
 //! Dense matrix with LU by partial pivoting.
-//!
-//! Entries of different rows are compared in the scaling to a unit diagonal (`weights.rs`).
 
-use super::weights::weigh;
 use super::{NOTHING, Scalar, Singular};
 
 /// Dense square matrix, stored by rows; factored in place.
@@ -11,14 +8,12 @@ pub struct Dense<T> {
     n: usize,
     data: Vec<T>,
     pivots: Vec<usize>,
-    /// By which entries of different rows are compared.
-    weights: Vec<f64>,
 }
 
 impl<T: Scalar> Dense<T> {
     /// The n × n zero matrix.
     pub fn new(n: usize) -> Dense<T> {
-        Dense { n, data: vec![T::ZERO; n * n], pivots: vec![0; n], weights: vec![0.0; n] }
+        Dense { n, data: vec![T::ZERO; n * n], pivots: vec![0; n] }
     }
 
     /// Order of the matrix.
@@ -73,16 +68,13 @@ impl<T: Scalar> Dense<T> {
     /// LU factorisation in place with row interchanges.
     pub fn factor(&mut self) -> Result<(), Singular> {
         let n = self.n;
-        let data = &self.data;
-        self.weights.iter_mut().enumerate().for_each(|(i, weight)| *weight = data[i * n + i].size());
-        weigh(0, &mut self.weights, |i| (0, &data[i * n..(i + 1) * n]));
         for k in 0..n {
-            let (mut p, mut best) = (k, self.get(k, k).size());
-            let mut largest = best * self.weights[k];
+            let mut p = k;
+            let mut best = self.get(k, k).size();
             for i in k + 1..n {
                 let size = self.get(i, k).size();
-                if size * self.weights[i] > largest {
-                    (p, best, largest) = (i, size, size * self.weights[i]);
+                if size > best {
+                    (p, best) = (i, size);
                 }
             }
             // A NaN pivot is refused too.
@@ -92,7 +84,6 @@ impl<T: Scalar> Dense<T> {
             }
             self.pivots[k] = p;
             if p != k {
-                self.weights.swap(k, p);
                 let (head, tail) = self.data.split_at_mut(p * n);
                 head[k * n..k * n + n].swap_with_slice(&mut tail[..n]);
             }

@@ -14,7 +14,6 @@ mod space;
 #[cfg(test)]
 mod tests;
 pub mod vector;
-mod weights;
 
 pub use band::Band;
 pub use bordered::Bordered;
