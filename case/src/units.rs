@@ -244,9 +244,16 @@ fn wrong_dimension(scale: &Scale, measure: &Measure, written: &str) -> String {
         "kg" => "mass",
         _ => m.name,
     });
+    // Of a column only the unit is known.
+    let wanted = match measure.name {
+        "quantity" => {
+            format!("what is measured in `{}`", if measure.unit.is_empty() { "1" } else { &measure.unit })
+        }
+        name => name.to_owned(),
+    };
     match name {
-        Some(name) => format!("`{written}` is a unit of {name}, not of {}", measure.name),
-        None => format!("`{written}` is not a unit of {}", measure.name),
+        Some(name) => format!("`{written}` is a unit of {name}, not of {wanted}"),
+        None => format!("`{written}` is not a unit of {wanted}"),
     }
 }
 

@@ -312,12 +312,9 @@ fn another_model_is_refused_and_another_integrator_begins_anew() {
     let directory = Directory::create(folder.path().join("fixed"), true).unwrap();
     reading(&case, &set).write(&fixed, &directory).unwrap();
     drop(directory);
-    let uneven = run(
-        &reading(&case, &[set[0], "initial={kind='restart',file='fixed'}", "run.duration=0.6011"]),
-        f64::INFINITY,
-    );
-    assert_eq!(uneven.status, Status::Failed);
-    assert!(uneven.message.as_ref().is_some_and(|m| m.contains("multiple")), "{:?}", uneven.message);
+    let uneven = reading(&case, &[set[0], "initial={kind='restart',file='fixed'}", "run.duration=0.6011"]);
+    let refused = uneven.prepare().err().map(|problems| problems.render(false)).unwrap_or_default();
+    assert!(refused.contains("multiple"), "{refused}");
 }
 
 /// Numbers that no run has are refused, and nothing panics.
@@ -356,5 +353,50 @@ fn a_state_with_numbers_that_no_run_has_is_refused() {
                 }
             }
         }
+    }
+}
+
+/// With a folder of results or without: a case whose state lacks something is refused before anything is written.
+#[test]
+fn a_state_that_lacks_a_list_or_a_number_is_refused_at_its_key() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = folder.path().join("case.toml");
+    std::fs::write(&case, [SQUARE_BAR, REST].concat()).unwrap();
+    for integrator in ["integrator={kind='radau'}", "integrator={kind='generalized-alpha',step='2 ms'}"] {
+        let whole = reading(&case, &[integrator]);
+        let first = run(&whole, 0.2);
+        let directory = Directory::create(folder.path().join("first"), true).unwrap();
+        whole.write(&first, &directory).unwrap();
+        drop(directory);
+        let file = folder.path().join("first/state.npz");
+        let (good, text) = flexion_results::read_state(std::fs::File::open(&file).unwrap()).unwrap();
+        let refusal = |bad: &flexion::integrator::Checkpoint| {
+            flexion_results::write_state(bad, &text, std::fs::File::create(&file).unwrap()).unwrap();
+            let set = [integrator, "initial={kind='restart',file='first'}"].map(str::to_owned);
+            let read = flexion_case::read(&case, &set).and_then(|reading| reading.prepare().map(drop));
+            read.err().map(|problems| problems.render(false))
+        };
+        assert_eq!(refusal(&good), None);
+        let mut seen = 0;
+        for (name, list) in good.entries() {
+            if name.starts_with("events") || name.starts_with("energy") && name != "energy.gain" {
+                continue;
+            }
+            let mut without = flexion::integrator::Checkpoint::default();
+            good.entries()
+                .filter(|(other, _)| *other != name)
+                .for_each(|(name, list)| without.put(name, list));
+            let said = refusal(&without).unwrap_or_else(|| panic!("{integrator}: without {name}"));
+            assert!(said.contains(name) || name == "format", "{said}");
+            if !list.is_empty() && !["accepted", "control"].contains(&name) {
+                let mut bad = good.clone();
+                let mut numbers = list.to_vec();
+                numbers[list.len() - 1] = f64::NAN;
+                bad.put(name, &numbers);
+                assert!(refusal(&bad).is_some(), "{integrator}: {name} with NaN");
+                seen += 1;
+            }
+        }
+        assert!(seen > 10, "{seen}");
     }
 }

@@ -443,3 +443,20 @@ fn a_spring_is_drawn_between_its_ends() {
     assert!(drawn.len() == 9 && drawn.iter().all(|x| near(*x)), "{drawn:?} {ball:?}");
     assert!(drawn.iter().any(|x| *x < 0.8), "{drawn:?}");
 }
+
+#[test]
+fn a_fibre_outside_of_all_sections_is_refused() {
+    let text = |y: &str| {
+        format!(
+            "run={{duration=0}}\n[[beam]]\nlength=1\nroot='clamped'\nsection={{kind='circle',modulus='70 GPa',density=2700,radius='1 cm'}}\n\
+             [[fibre]]\nname='top'\non='root'\ny='{y}'\n"
+        )
+    };
+    let read = |y: &str| {
+        let read = flexion_case::parse(text(y), std::path::Path::new("case.toml"), &[]);
+        read.and_then(|reading| reading.prepare().map(drop)).map_err(|problems| problems.render(false))
+    };
+    assert_eq!(read("5 mm"), Ok(()));
+    let said = read("1e308 mm").unwrap_err();
+    assert!(said.contains("has the fibre `top` 1.000e305 m from its axis"), "{said}");
+}

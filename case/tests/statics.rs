@@ -225,3 +225,34 @@ fn what_rounding_hides_is_no_equilibrium() {
         "{end}"
     );
 }
+
+/// Of a bar under a couple with the radius of gyration ρ and the curvature κ, a strain inside the elements has the energy 1 − 10 κ²ρ² times its own
+/// (theory of beams in space): at κρ = √0.1 it has none left. The pure couple has the curvature M/EI everywhere.
+#[test]
+fn a_caution_says_where_bending_makes_the_axial_strain_of_a_beam_in_space_inaccurate() {
+    let (axial, bending) = (5600.0_f64, 7.49e-3_f64);
+    let part = |of: f64| of * (axial * bending).sqrt();
+    let reading = |of: f64, set: &[&str]| {
+        let text = format!(
+            "[beam]\nlength='20 mm'\n[section]\nkind='uniform'\nmodulus=7e7\ndensity=2700\narea=8e-5\nsecond-moment=1.07e-10\n\
+             [basis]\nelements=10\n[[load]]\non='tip'\ncouple={:e}\n[model]\ncoupling='space'\n[hub]\nmotion={{kind='constant',speed=0}}\n",
+            part(of)
+        );
+        written::reading(&text, set)
+    };
+    let statics = |of: f64| reading(of, &[]).load_path(&Plan::to(1.0), |_, _| true).unwrap();
+    let of = |cautions: &[String]| cautions.iter().find(|caution| caution.contains("is bent to")).cloned();
+    assert_eq!(of(&statics(0.09).cautions), None);
+    let caution = of(&statics(0.2).cautions).unwrap();
+    assert!(caution.contains("beam `beam` is bent to κ·√(EI/EA) = 0.20 at 0.0"), "{caution}");
+    let limit = statics(0.35);
+    let critical = limit.points.iter().find(|point| point.critical.is_some()).unwrap();
+    assert!((0.35 * critical.factor - 0.1_f64.sqrt()).abs() < 2e-3, "{}", 0.35 * critical.factor);
+    // A run sees what is bent on the way too, and the plane coupling has no such limit.
+    let run = |coupling: &str| {
+        let set = ["initial={kind='static'}", "run.duration=0", coupling];
+        written::finished(&reading(0.2, &set)).warnings
+    };
+    assert!(of(&run("model.coupling=space")).is_some());
+    assert!(of(&run("model.coupling=exact")).is_none());
+}

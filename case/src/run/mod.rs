@@ -21,7 +21,7 @@ use flexion::analysis::error::Refinable;
 use flexion::analysis::periodic::{NoPeriodicMotion, circulate};
 use flexion::analysis::recording::{Columns, Record, Recorder, Watch};
 use flexion::analysis::superposition::superpose;
-use flexion::analysis::transient::{Ending, Plan, resume, transient_to_checkpoint};
+use flexion::analysis::transient::{Ending, Plan, resumable, resume, transient_to_checkpoint};
 use flexion::integrator::{Checkpoint, Info};
 use flexion::system::{State, System};
 use flexion_results::plot::{contact_figure, spatial_figure, trajectory_figure};
@@ -155,6 +155,11 @@ impl Reading {
         }
         self.check_memory(live.system.as_mut())?;
         let plan = self.variant().plan;
+        if let Some(history) = &history {
+            let parts = (live.system.as_mut(), live.integrator.as_ref());
+            resumable(parts.0, parts.1, history, &state, &plan, case.output.energy_balance)
+                .map_err(|error| self.problem("initial.file", error.to_string()))?;
+        }
         let tables = self.copies();
         let Output { energy_balance, modal_shares, .. } = case.output;
         let (shapes, scene) = (self.shapes(), self.case.scene());

@@ -100,3 +100,10 @@ fn no_text_makes_the_parser_panic() {
         }
     }
 }
+
+#[test]
+fn a_unit_of_another_kind_than_a_column_is_refused_with_its_unit() {
+    let said = |text: &str, unit: &str| parse_in(text, unit).unwrap_err().message;
+    assert_eq!(said("1 kg", "m"), "`kg` is a unit of mass, not of what is measured in `m`");
+    assert_eq!(said("1 kg", ""), "`kg` is a unit of mass, not of what is measured in `1`");
+}

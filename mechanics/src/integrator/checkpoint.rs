@@ -5,6 +5,10 @@ use crate::system::{Mode, Side, State};
 /// The format of what methods and drivers keep: it changes when they keep something else.
 const FORMAT: f64 = 4.0;
 
+/// Lists in which NaN stands for what is not known yet: a step that was accepted, one before, factors; and what observers have seen.
+const UNKNOWN: [&str; 3] = ["accepted", "control", "tangent"];
+const OBSERVED: &str = "events.";
+
 /// Named lists of numbers, in the order in which they were put.
 ///
 /// A run that goes on from a checkpoint takes the very steps it would have taken without it, bit by bit: counts are
@@ -67,6 +71,17 @@ impl Checkpoint {
     pub fn check_format(&self) -> Result<(), NotResumed> {
         let [found] = self.numbers("format").unwrap_or([1.0]);
         if found == FORMAT { Ok(()) } else { Err(NotResumed::Format { found, needed: FORMAT }) }
+    }
+
+    /// Whether all numbers are some: only lists that say so hold NaN for what is not known.
+    ///
+    /// # Errors
+    /// [`NotResumed::Invalid`].
+    pub fn check_numbers(&self) -> Result<(), NotResumed> {
+        let may_lack = |name: &str| UNKNOWN.contains(&name) || name.starts_with(OBSERVED);
+        let wrong = |(name, list): &(&str, &[f64])| !may_lack(name) && list.iter().any(|x| x.is_nan());
+        let found = self.entries().find(wrong);
+        found.map_or(Ok(()), |(name, _)| Err(NotResumed::Invalid(name.to_owned())))
     }
 
     /// Adds a list, or replaces it in its place.

@@ -109,6 +109,9 @@ impl KeptTangent {
     /// What [`KeptTangent::save`] wrote; matrix and factors are to be made at the place.
     pub(super) fn resume(&mut self, from: &Checkpoint) -> Result<(), NotResumed> {
         let [v, q, cost, steps, due] = from.numbers("tangent")?;
+        if ![cost, steps, due].iter().all(|x| x.is_finite()) || v.is_nan() != q.is_nan() {
+            return Err(NotResumed::Invalid("tangent".to_owned()));
+        }
         (self.weights, self.cost, self.steps, self.due) = ([v, q], cost, steps, due != 0.0);
         self.fresh = false;
         from.fill_state("tangent.", &mut self.place)

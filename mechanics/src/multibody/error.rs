@@ -116,6 +116,18 @@ pub enum PartFault {
     /// Two fibres have one name.
     #[error("has two fibres with the name `{0}`")]
     Fibres(String),
+    /// A fibre lies farther from the axis than the beam is long.
+    #[error(
+        "has the fibre `{name}` {distance:.3e} m from its axis, which is more than its length, {length} m: a fibre lies in the section"
+    )]
+    Fibre {
+        /// Its name.
+        name: String,
+        /// Its distance from the axis \[m\].
+        distance: f64,
+        /// Length of the beam \[m\].
+        length: f64,
+    },
     /// A number of a spring is negative or not finite.
     #[error("has a stiffness, damping or length that is not a number ≥ 0")]
     Spring,

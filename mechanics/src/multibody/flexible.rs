@@ -103,6 +103,13 @@ impl Flexible {
                 return Some(PartFault::Station { station: *station, first: *first, last: *last });
             }
         }
+        let length = last - first;
+        for fibre in &self.fibres {
+            let distance = libm::hypot(fibre.place[0], fibre.place[1]);
+            if !(distance <= length) {
+                return Some(PartFault::Fibre { name: fibre.name.clone(), distance, length });
+            }
+        }
         let mut names: Vec<&str> = self.fibres.iter().map(|fibre| fibre.name.as_str()).collect();
         names.sort_unstable();
         let twice = names.windows(2).find(|pair| pair[0] == pair[1])?;

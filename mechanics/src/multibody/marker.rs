@@ -223,6 +223,17 @@ impl Pose {
         self.axes.column(j)
     }
 
+    /// Adds c Jᵀ w of the force and moment w.
+    #[inline]
+    pub(super) fn add_force(&self, c: f64, force: Vec3, moment: Vec3, r: &mut [f64]) {
+        for k in 0..self.count {
+            let column = |i: usize| self.jacobian[i][k];
+            let sum = force[0] * column(0) + force[1] * column(1) + force[2] * column(2);
+            let turn = moment[0] * column(3) + moment[1] * column(4) + moment[2] * column(5);
+            r[self.numbers[k]] += c * (sum + turn);
+        }
+    }
+
     /// Adds c ∂(Jᵀ w)/∂δ of the force and moment w, held fixed, to the block of a matrix at (`at`, `at`).
     pub(super) fn add_curvature<const N: usize>(
         &self,

@@ -46,6 +46,7 @@
 
 mod axis;
 mod beam;
+mod bending;
 mod body;
 mod channels;
 mod consistency;

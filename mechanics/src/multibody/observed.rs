@@ -184,7 +184,10 @@ impl Observed for Multibody {
 
     fn admissible(&mut self, s: &State) -> Result<(), Limit> {
         self.place(s);
-        for (of, &[i, _]) in self.constants.model.beams.iter().zip(&self.constants.beams) {
+        for (number, (of, &[i, _])) in
+            self.constants.model.beams.iter().zip(&self.constants.beams).enumerate()
+        {
+            self.bending.enter(number, &of.beam, &s.q[i..]);
             if let Some((node, stretch)) = of.beam.compressed(&s.q[i..]) {
                 return Err(Limit::Compressed { beam: of.name.clone(), stretch, node });
             }
@@ -233,6 +236,7 @@ impl Observed for Multibody {
         let parts = parts
             .chain(reason::not_held(&self.constants.model))
             .chain(reason::rounded(&self.constants.model));
-        self.changes.iter().cloned().chain(parts).collect()
+        let bending = self.bending.caution(|beam| &self.constants.model.beams[beam].name);
+        self.changes.iter().cloned().chain(parts).chain(bending).collect()
     }
 }

@@ -11,6 +11,7 @@
 //! ∂(Jᵀ w) = Jᵀ (∂w/∂x J + ∂w/∂ẋ B) + ∂Jᵀ w
 //! ```
 
+use super::bending::Bending;
 use super::body::Placed;
 use super::constants::Constants;
 use super::contact_point::ContactPoint;
@@ -55,6 +56,8 @@ pub struct Multibody {
     pub(super) nearest: Vec<Nearest>,
     /// Force laws at the points of their beams.
     pub(super) sampled: Vec<Sampled>,
+    /// Of the states that were judged.
+    pub(super) bending: Bending,
     time: f64,
 }
 
@@ -135,6 +138,7 @@ impl Multibody {
             motions: vec![HubKinematics::default(); joints],
             nearest,
             sampled,
+            bending: Bending::default(),
             time: f64::NAN,
         }
     }
@@ -305,17 +309,6 @@ impl Multibody {
     }
 }
 
-/// Adds c Jᵀ w of one marker.
-#[inline]
-fn add_force(c: f64, pose: &Pose, force: Vec3, moment: Vec3, r: &mut [f64]) {
-    for k in 0..pose.count {
-        let column = |i: usize| pose.jacobian[i][k];
-        let sum = force[0] * column(0) + force[1] * column(1) + force[2] * column(2);
-        let turn = moment[0] * column(3) + moment[1] * column(4) + moment[2] * column(5);
-        r[pose.numbers[k]] += c * (sum + turn);
-    }
-}
-
 /// Adds to `out` −w.q ∂(Jᵀ w)/∂q − w.v ∂(Jᵀ w)/∂v of a pair of markers.
 fn add_tangent((a, b): (&Pose, &Pose), interaction: &Interaction, w: &Weights<'_>, out: &mut Matrix) {
     let count = a.count + b.count;
@@ -477,9 +470,9 @@ impl Dynamics for Multibody {
         self.interactions(s, false, |a, b, interaction| {
             let [f_a, m_a, f_b, m_b] = interaction.wrench;
             if let Some(a) = a {
-                add_force(-1.0, a, f_a, m_a, r);
+                a.add_force(-1.0, f_a, m_a, r);
             }
-            add_force(-1.0, b, f_b, m_b, r);
+            b.add_force(-1.0, f_b, m_b, r);
         });
     }
 

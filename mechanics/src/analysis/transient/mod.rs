@@ -11,6 +11,7 @@ mod ending;
 mod locate;
 mod observer;
 mod plan;
+mod resumable;
 mod segment;
 mod show;
 
@@ -18,6 +19,7 @@ use ending::failed;
 pub use ending::{Ending, RunError};
 pub use observer::{Event, EventKind, Observer, Step};
 pub use plan::Plan;
+pub use resumable::resumable;
 
 use super::energy_balance::Integral;
 use crate::contact::{Bounds, Impact, ImpactMap};
@@ -170,6 +172,7 @@ impl Run {
         observer: &mut dyn Observer,
     ) -> Result<Integration, NotResumed> {
         from.check_format()?;
+        from.check_numbers()?;
         from.fill_state("", state)?;
         let [origin, samples, begins] = from.finite("run")?;
         if !(origin <= state.t && samples >= 0.0) {

@@ -184,6 +184,11 @@ impl Beam {
         self.elements[element].samples(part(q, ELEMENT_COORDINATES * element))
     }
 
+    /// The larger κ·M/EA of an element with its place z, where it is `least` or more.
+    pub fn bending(&self, q: &[f64], element: usize, least: f64) -> Option<(f64, f64)> {
+        self.elements[element].bending(part(q, ELEMENT_COORDINATES * element), least)
+    }
+
     /// Whether an element is twisted by more than half a turn.
     pub fn is_wound(&self, q: &[f64], element: usize) -> bool {
         self.elements[element].is_wound(part(q, ELEMENT_COORDINATES * element))

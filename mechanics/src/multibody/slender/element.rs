@@ -507,6 +507,23 @@ impl Element {
         })
     }
 
+    /// The larger κ·M/EA at the quadrature points, M of κ and what is bent without stress, with its place z; `None` where r′ turns so little
+    /// that it is less than `least`.
+    pub fn bending(&self, q: &[f64; COORDINATES], least: f64) -> Option<(f64, f64)> {
+        let [_, before, behind] = chord(&positions(q));
+        let (turn, length) = (behind - before, self.shapes.length);
+        if turn.dot(turn) * self.polar[1] < 0.25 * least * length * length {
+            return None;
+        }
+        let points = self.sections(q).points(&self.shapes).into_iter().enumerate();
+        let of = points.map(|(k, point)| {
+            let [.., m2, m3] = self.stiffness[k].stress(&point.strain, &self.initial[k], 1.0);
+            let [.., k2, k3] = point.strain;
+            ((k2 * m2 + k3 * m3) / self.stiffness[k].0[0][0], self.shapes.points[k].place)
+        });
+        of.max_by(|a, b| a.0.total_cmp(&b.0)).filter(|(bending, _)| *bending >= least)
+    }
+
     /// ṙ at the place z.
     pub fn velocity(&self, v: &[f64; VELOCITIES], z: f64) -> Vec3 {
         combined(&hermite(z, self.shapes.length)[0], &centreline(v))
