@@ -31,8 +31,8 @@ OF_KEYS = re.compile(
     r"|a kind is a text|: unknown [a-z -]+ `|must be (from|positive|zero or positive|finite|a finite number)| is not an? [a-z ]+$",
     re.MULTILINE,
 )
-# Unit and bound of a text such as "-3 kg": a pattern knows no dimensions.
-BEYOND = re.compile(r"unit|measures|must be (positive|zero or positive|from)")
+# Unit and bound of a text such as "-3 kg": a pattern knows no dimensions; a length that a deck may say.
+BEYOND = re.compile(r"unit|measures|must be (positive|zero or positive|from)|a deck that has a length says it")
 
 
 def written(value):
