@@ -160,7 +160,10 @@ class Flexion:
             header, rows = table(out / "trajectory.csv")
         columns = [header.index("time [s]"), header.index("tip.deflection [m]")]
         t, transverse = ([float(row[c]) for row in rows] for c in columns)
-        return summary["wall_time"], summary.get("cpu_time", cpu), reference.error(t, transverse)
+        wall = summary["wall_time"] - summary.get("preparation_wall_time", 0.0)
+        if summary.get("cpu_time") is not None:
+            cpu = summary["cpu_time"] - (summary.get("preparation_cpu_time") or 0.0)
+        return wall, cpu, reference.error(t, transverse)
 
 
 def children_cpu():

@@ -80,10 +80,12 @@ pub struct RunReport<'a> {
     pub counters: Counters,
     /// Size of the equations.
     pub size: ProblemSize,
-    /// Wall time of the run \[s\]; it and the processor time are the entries that differ between two runs of one case.
+    /// Wall time of the run \[s\], preparation included; times are the entries that differ between two runs of one case.
     pub wall_time: f64,
     /// Processor time of the run \[s\], where the system reports it.
     pub cpu_time: Option<f64>,
+    /// The part of both in which the model was built and its start found \[s\].
+    pub preparation: (f64, Option<f64>),
 }
 
 /// A summary: keys in the order in which they were added, no number that is not finite (`null` instead).
@@ -157,6 +159,8 @@ impl Summary {
         );
         s.insert("wall_time", report.wall_time);
         s.insert("cpu_time", report.cpu_time);
+        s.insert("preparation_wall_time", report.preparation.0);
+        s.insert("preparation_cpu_time", report.preparation.1);
         s
     }
 
@@ -236,6 +240,7 @@ pub(super) mod tests {
             size: ProblemSize { unknowns: 33, half_bandwidth: 5, border: 1 },
             wall_time: 0.25,
             cpu_time: None,
+            preparation: (0.05, None),
         }
     }
 
@@ -258,7 +263,9 @@ pub(super) mod tests {
                 "integrator",
                 "work",
                 "wall_time",
-                "cpu_time"
+                "cpu_time",
+                "preparation_wall_time",
+                "preparation_cpu_time"
             ]
         );
         assert_eq!(value["status"], "finished");

@@ -80,10 +80,12 @@ pub struct Run {
     pub info: Info,
     /// Size of the equations solved in each iteration.
     pub size: ProblemSize,
-    /// Time of computing, preparation included \[s\]. It and `cpu_time` are the figures that differ from run to run.
+    /// Time of computing, preparation included \[s\]. Times are the figures that differ from run to run.
     pub wall_time: f64,
     /// Time of computing of the processor \[s\], where the system gives it.
     pub cpu_time: Option<f64>,
+    /// The part of both that preparation took \[s\].
+    pub preparation: (f64, Option<f64>),
 }
 
 /// A run is its record, and more.
@@ -357,6 +359,7 @@ impl Reading {
             size: run.size,
             wall_time: run.wall_time,
             cpu_time: run.cpu_time,
+            preparation: run.preparation,
         };
         let identity = self.identity();
         let title = (!self.case.title.is_empty()).then_some(self.case.title.as_str());
@@ -451,6 +454,7 @@ impl Prepared {
             errors: None,
             wall_time,
             cpu_time,
+            preparation: taken,
         }
     }
 }
