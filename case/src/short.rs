@@ -178,6 +178,7 @@ pub(super) fn long(lines: &[Line], v: &Values, files: &Files<'_>) -> Made<Long> 
     let output = found.part(OUTPUT.read(v, c));
     if let Some(section) = &section {
         found.part(centred(section));
+        found.part(turned(section, lines, output.as_ref()));
     }
     if let Some(start) = &start {
         found.part(turning(v, start, c));
@@ -401,6 +402,35 @@ fn centred(section: &Section) -> Made<()> {
     }
     let message = "has its centre of mass or its tension centre off the axis, and in space the axis goes through the centres of mass";
     Err(Fault::new("section", message).help(PLANAR).into())
+}
+
+/// Refuses what is given along the height of a deck, which in the plane points ahead and in space to the trailing edge.
+fn turned(section: &Section, lines: &[Line], output: Option<&Recorded>) -> Made<()> {
+    let mut faults = Faults::default();
+    if section.deck.is_none() {
+        return Ok(());
+    }
+    let follows = |node: &Node| match &node.value {
+        Raw::Table(lines) => {
+            matches!(written(lines, "axes"), Some(Node { value: Raw::Text(axes), .. }) if axes == "follower")
+        }
+        _ => false,
+    };
+    let mut refuse = |key: String| {
+        let message = "is along the height of a deck, which points ahead in the plane and to the trailing edge in space";
+        let help = "write the beam as one of [[beam]], whose section has the axes of the deck";
+        faults.0.push(Fault::new(key, message).help(help));
+    };
+    let loads = tables(lines, "load");
+    loads
+        .iter()
+        .enumerate()
+        .filter(|(_, load)| follows(load))
+        .for_each(|(i, _)| refuse(join(&item("load", i), "axes")));
+    if output.is_some_and(|output| !output.strain_heights.is_empty()) {
+        refuse("output.strain-heights".to_owned());
+    }
+    if faults.0.is_empty() { Ok(()) } else { Err(faults) }
 }
 
 /// Whether the hub carries the obstacle of a contact.

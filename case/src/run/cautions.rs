@@ -1,6 +1,6 @@
 //! What the reader of a run should know of its steps.
 
-use flexion::analysis::periodic::NoPeriodicMotion;
+use flexion::analysis::periodic::{NoPeriodicMotion, Periodic};
 use flexion::analysis::recording::Warning;
 use flexion::system::{Jump, Set, System};
 
@@ -51,10 +51,17 @@ pub(super) fn unseen(system: &dyn System, step: f64, duration: f64) -> Option<St
     ))
 }
 
+/// Amplitude of a periodic motion, over the size of the model, from which on its first order is no good approximation.
+const LARGE: f64 = 0.1;
+
 /// What is said of a start in steady rotation under `what`, which does not rotate.
-pub(crate) fn unsteady(what: &str, periodic: &Result<(), NoPeriodicMotion>) -> String {
+pub(crate) fn unsteady(what: &str, periodic: &Result<Periodic, NoPeriodicMotion>) -> String {
     let begins = match periodic {
-        Ok(()) => "the run begins in the periodic motion under them, as that is to first order".to_owned(),
+        Ok(Periodic { amplitude }) if *amplitude > LARGE => format!(
+            "the run begins in the periodic motion under them, as that is to first order, which is no good approximation here: its amplitude is \
+             {amplitude:.2} of the size of the model, near a resonance or under loads too large; let damping end what is left"
+        ),
+        Ok(_) => "the run begins in the periodic motion under them, as that is to first order".to_owned(),
         Err(why) => format!(
             "the run begins in the equilibrium under them as they stand at the start, and vibrates until damping has ended that: \
              {why}"

@@ -194,7 +194,9 @@ pub(super) fn add_beam(model: &mut Model, (beam, built): &(Beam, multibody::Beam
     let [velocity, spin] = beam.motion;
     let [damping, viscosity] = beam.damping;
     let flexible = Flexible::new(&beam.name, built.clone()).damped(damping).viscous(viscosity);
-    let mut flexible = Flexible { velocity, spin, in_root_axes, ..flexible.recorded_at(&beam.stations) };
+    let turned = beam.section.deck.is_some();
+    let mut flexible =
+        Flexible { velocity, spin, in_root_axes, turned, ..flexible.recorded_at(&beam.stations) };
     for (name, station, place) in &beam.fibres {
         flexible = flexible.with_fibre(name, *station, *place);
     }

@@ -27,6 +27,13 @@ use std::f64::consts::{FRAC_PI_2, PI};
 /// Part of the loads by which they may differ from their first harmonic.
 const HARMONIC: f64 = 1e-6;
 
+/// The motion of a periodic start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Periodic {
+    /// Largest amplitude of an unknown, over its scale: what is left out is about the square of it.
+    pub amplitude: f64,
+}
+
 /// Why there is no periodic motion to begin with.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -56,15 +63,19 @@ pub fn circulate(
     [mean, loaded]: [&mut dyn System; 2],
     state: &mut State,
     speed: f64,
-) -> Result<(), NoPeriodicMotion> {
+) -> Result<Periodic, NoPeriodicMotion> {
     let n = state.v.len();
     let mut still = state.clone();
     still.v.fill(0.0);
     still.a.fill(0.0);
+    // What the equilibrium leaves.
+    let mut left = vec![0.0; n];
+    mean.residual(&still, &mut left);
     let mut residual_at = |azimuth: f64| {
         let mut r = vec![0.0; n];
         let set = loaded.set(Parameter::Azimuth, azimuth);
         loaded.residual(&still, &mut r);
+        r.iter_mut().zip(&left).for_each(|(r, left)| *r -= left);
         set.map(|()| r).map_err(|_| NoPeriodicMotion::NotHarmonic)
     };
     let (quarter, half) = (residual_at(FRAC_PI_2)?, residual_at(PI)?);
@@ -90,10 +101,12 @@ pub fn circulate(
     moved.resize(n + multipliers, Complex64::ZERO);
     impedance.factor().map_err(|_| NoPeriodicMotion::Far)?;
     impedance.solve(&mut moved);
+    let amplitude =
+        moved[..n].iter().zip(mean.scales()).fold(0.0, |most: f64, (x, scale)| most.max(x.norm() / scale));
     let displacement: Vec<f64> = moved[..n].iter().map(|moved| moved.re).collect();
     let velocity: Vec<f64> = moved[..n].iter().map(|moved| -speed * moved.im).collect();
     let mut found = state.clone();
     displace(mean, &mut found, &displacement, &velocity)?;
     state.copy_from(&found);
-    Ok(())
+    Ok(Periodic { amplitude })
 }

@@ -24,6 +24,8 @@ pub struct Flexible {
     pub stations: Vec<f64>,
     /// Whether they are recorded in the axes of the root too, as those of a beam in the plane.
     pub in_root_axes: bool,
+    /// Whether the root sees the other side of its section, as of a blade whose height points to its trailing edge: along −n and −b.
+    pub turned: bool,
     /// Fibres whose strain is recorded.
     pub fibres: Vec<Fibre>,
 }
@@ -53,6 +55,7 @@ impl Flexible {
             viscosity: 0.0,
             stations: vec![end],
             in_root_axes: false,
+            turned: false,
             fibres: Vec::new(),
         }
     }

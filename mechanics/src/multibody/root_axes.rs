@@ -10,7 +10,7 @@
 //! from node to node along the beam, so that it may pass π.
 
 use super::flexible::Flexible;
-use crate::linalg::Vec3;
+use crate::linalg::{Mat3, Vec3};
 use crate::system::{Channel, Frame, Role, Sink};
 use std::f64::consts::TAU;
 
@@ -31,10 +31,17 @@ fn nearest(angle: f64, to: f64) -> f64 {
 }
 
 impl Flexible {
+    /// Place of the root, and Λ₀ᵀ, of which the axes across are turned by half a turn where the root sees the other side of its section.
+    fn root(&self, q: &[f64]) -> (Vec3, Mat3) {
+        let Frame { position, rotation } = self.beam.node(0, q);
+        let [t, n, b] = [0, 1, 2].map(|k| rotation.column(k));
+        let side = if self.turned { -1.0 } else { 1.0 };
+        (position, Mat3::columns([t, side * n, side * b]).transpose())
+    }
+
     /// Place of the station at the arc length `s` and angle of its tangent, in the axes of the root.
     fn placed(&self, q: &[f64], s: f64) -> (Vec3, f64) {
-        let Frame { position: origin, rotation } = self.beam.node(0, q);
-        let root = rotation.transpose();
+        let (origin, root) = self.root(q);
         let angle = |tangent: Vec3| {
             let Vec3([along, across, _]) = root * tangent;
             libm::atan2(across, along)
@@ -52,8 +59,7 @@ impl Flexible {
 
     /// What the root sees of the station at the arc length `s`.
     fn seen(&self, [q, v]: [&[f64]; 2], s: f64) -> Seen {
-        let Frame { position: origin, rotation } = self.beam.node(0, q);
-        let (root, spin) = (rotation.transpose(), self.beam.root_spin(q, v));
+        let ((origin, root), spin) = (self.root(q), self.beam.root_spin(q, v));
         let (place, angle) = self.placed(q, s);
         let (straight, without) = self.placed(self.beam.initial(), s);
         let frame = self.frame(q, s);
