@@ -77,3 +77,37 @@ fn a_rotor_on_a_spring_to_the_ground_begins_in_the_equilibrium_of_the_start_and_
     let text = run.warnings.join("\n");
     assert!(text.contains("springs to the ground") && text.contains("as they stand at the start"), "{text}");
 }
+
+/// What the equilibrium leaves is none of the loads: the motion under a weight is in proportion to it, on any mesh.
+#[test]
+fn a_small_weight_and_a_fine_mesh_begin_in_the_periodic_motion() {
+    for coupling in ["model.coupling=exact", "model.coupling=space"] {
+        let third = if coupling.ends_with("space") { ", 0" } else { "" };
+        let begun = |weight: f64, elements: u32| {
+            let gravity = format!("gravity=[0, {weight}{third}]");
+            let run = rotor(&[coupling, &gravity, &format!("basis.elements={elements}"), "run.duration=0"]);
+            assert!(run.warnings.join("\n").contains("begins in the periodic motion"), "{:?}", run.warnings);
+            run.trajectory.column("tip.deflection").unwrap()[0] / weight
+        };
+        let expected = begun(-0.1, 10);
+        for (weight, elements) in [(-1e-3, 10), (-1e-5, 10), (-0.1, 60)] {
+            let found = begun(weight, elements);
+            assert!(
+                (found / expected - 1.0).abs() < 2e-3,
+                "{coupling} {weight} {elements}: {found} for {expected}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_periodic_motion_that_is_too_large_for_its_first_order_says_so() {
+    let said = |speed: f64| {
+        rotor(&["model.coupling=exact", &format!("hub.motion.speed={speed}"), "run.duration=0"])
+            .warnings
+            .join("\n")
+    };
+    assert!(!said(0.8).contains("no good approximation"));
+    // Its first frequency grows with the speed: 7.06 rad/s is on the line.
+    assert!((60..90).map(|k| said(0.1 * f64::from(k))).any(|text| text.contains("no good approximation")));
+}

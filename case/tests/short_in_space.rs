@@ -511,3 +511,27 @@ fn a_deck_says_the_length_of_a_beam_on_a_hub() {
         );
     }
 }
+
+/// A deck's height points to its trailing edge: seen from the hub its deflection has the sign of the plane, and what follows that height is refused.
+#[test]
+fn a_deck_deflects_to_the_same_side_in_the_plane_and_in_space() {
+    let of = |coupling: &str, more: &str| {
+        let text = format!(
+            "run.duration = 0.5\nbeam = {{}}\nsection = {{ kind = \"deck\", file = \"IEA-15-240-RWT_BeamDyn.dat\", format = \"beamdyn\" }}\nmodel.coupling = \"{coupling}\"\n\
+             hub = {{ radius = 4, motion = {{ kind = \"spin-up\", speed = 0.1, time = 1 }} }}\nbasis.elements = 10\n{more}\n"
+        );
+        parse(text, &root().join("blades/case.toml"), &[])
+    };
+    let last = |coupling: &str| {
+        let run = of(coupling, "").unwrap().prepare().unwrap().run(&mut |_| ControlFlow::Continue(()));
+        *run.trajectory.column("tip.deflection").unwrap().last().unwrap()
+    };
+    let (plane, space) = (last("exact"), last("space"));
+    assert!(plane < 0.0 && (space / plane - 1.0).abs() < 0.5, "{plane} and {space}");
+    for more in
+        ["load = [{ on = \"tip\", force = [0, 1], axes = \"follower\" }]", "output.strain-heights = [0.1]"]
+    {
+        let message = of("space", more).unwrap_err().to_string();
+        assert!(message.contains("to the trailing edge in space"), "{message}");
+    }
+}
