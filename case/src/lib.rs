@@ -19,7 +19,6 @@
 pub struct Book;
 
 mod blame;
-mod campbell;
 mod case;
 pub mod change;
 pub mod declaration;
@@ -51,8 +50,8 @@ mod tree;
 pub mod units;
 mod unused;
 mod values;
+mod vibration;
 
-pub use campbell::campbell;
 pub use case::{Case, Output, Subject};
 pub use fault::{Fault, Faults, Made};
 pub use files::deck;
@@ -62,6 +61,7 @@ pub use kind::{Choice, Context, Kind, Table};
 pub use problem::{Place, Problem, Problems, Source};
 pub use reading::{Live, Reading, parse, parse_with, read};
 pub use run::advise::{Advice, AdviseError, Tried, Trusted, Untried};
+pub use run::calculation::{Calculation, Request, Stage};
 pub use run::refine::{RefineError, Refinement, Target};
 pub use run::{Prepared, Run};
 pub use schema::schema;
@@ -69,6 +69,7 @@ pub use sources::{Contents, Files, Folder, Sources};
 pub use space::{Link, Space};
 pub use template::{TEMPLATES, Template};
 pub use values::Values;
+pub use vibration::{Diagram, DiagramRequest, FoundModes, ModesRequest, VibrationError, campbell, moves};
 
 /// Every place in a case where a kind is chosen, with the kinds.
 pub fn choices() -> &'static [&'static dyn declaration::Kinds] {

@@ -1,7 +1,6 @@
 //! A system in space in words: the tree of its parts, its masses and its freedoms.
 
 use crate::screen::row;
-use crate::vibration::title;
 use flexion::linalg::Matrix;
 use flexion::section::BladeResultants;
 use flexion::system::{Dynamics, Parameter, State, Steady, Weights};
@@ -75,7 +74,7 @@ pub fn draw(reading: &Reading, file: &Path) -> Result<(), String> {
     scene.finish(system.as_mut(), &state);
     let joints: Vec<_> = space.joints.iter().map(|joint| (joint.name.as_str(), joint.point)).collect();
     let turning = space.rotation.as_ref().ok().map(|of| (of.axis.point, of.axis.direction));
-    let drawing = assembly_figure(&scene, &joints, &space.blades(), turning, title(reading)).draw();
+    let drawing = assembly_figure(&scene, &joints, &space.blades(), turning, reading.title()).draw();
     let extension = file.extension().map(|text| text.to_string_lossy().to_lowercase());
     let bytes = match extension.as_deref() {
         Some("svg") => drawing.svg().into_bytes(),

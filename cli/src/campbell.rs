@@ -1,11 +1,11 @@
 //! `flexion campbell`: modes of vibration over a range of speeds.
 
 use crate::run::stop_on_ctrl_c;
-use crate::vibration::{self, Options, Speed, report, speed, stations};
+use crate::vibration::{self, Options, Speed, report, speed};
 use crate::{Outcome, case, screen};
-use flexion::analysis::campbell::{Branch, Campbell, Crossing, Instability, NoCampbell, Plan};
-use flexion_case::Reading;
-use flexion_results::{Artifact, Directory, Frequencies, Resonance, Units, resonances, write_campbell};
+use flexion::analysis::campbell::Crossing;
+use flexion_case::{Diagram, DiagramRequest, Reading, VibrationError};
+use flexion_results::{Artifact, Directory, Frequencies, Resonance};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
@@ -66,13 +66,8 @@ pub struct Range {
 
 /// Most lines ω = kΩ.
 const MOST_REVOLUTIONS: i64 = 1000;
-/// Modes above those asked for that are followed, for they may come down.
-const ABOVE: usize = 3;
 /// Most speeds of a diagram.
 const MOST: usize = 100_000;
-
-/// Parts of the beam at whose ends shapes are given.
-const STATIONS: u32 = 50;
 
 fn margin(text: &str) -> Result<f64, String> {
     match text.trim_end_matches('%').trim().parse::<f64>() {
@@ -106,55 +101,36 @@ fn range(text: &str) -> Result<Range, String> {
 
 impl Range {
     /// The speeds [rad/s].
-    fn speeds(&self, unit: &Frequencies) -> Result<Vec<f64>, String> {
+    fn speeds(&self, unit: &Frequencies) -> Vec<f64> {
         let (from, to) = (self.from.in_radians(unit), self.to.in_radians(unit));
-        if !(from.is_finite() && to.is_finite() && 0.0 <= from && from < to) {
-            let (from, to) = (unit.text(from), unit.text(to));
-            return Err(format!("speeds ascend from at least zero, but {from} is followed by {to}"));
-        }
         let last = self.count - 1;
         let at = |i: usize| if i == last { to } else { from + (to - from) * i as f64 / last as f64 };
-        Ok((0..self.count).map(at).collect())
+        (0..self.count).map(at).collect()
     }
 }
 
 /// Computes the diagram of a case.
 pub fn campbell(arguments: &Arguments) -> Outcome {
-    let Some(reading) = arguments.case.read().filter(vibration::fits) else { return Outcome::Rejected };
-    match diagram(arguments, &reading) {
-        Ok(true) => Outcome::Finished,
-        Ok(false) => Outcome::Incomplete,
-        Err(message) => {
-            report(&message);
-            Outcome::Rejected
-        }
-    }
+    let Some(reading) = arguments.case.read() else { return Outcome::Rejected };
+    diagram(arguments, &reading).unwrap_or_else(|error| vibration::refused(&error))
 }
 
-/// Whether the diagram is whole, and written.
-fn diagram(arguments: &Arguments, reading: &Reading) -> Result<bool, String> {
-    let case = &reading.case;
-    let (system, mut cautions) = vibration::system(case, true)?;
-    cautions.extend(vibration::without_contacts(case));
-    cautions.extend(case.unused_by_modes());
-    let slender = system.slender();
-    let units = arguments.options.units(case, arguments.speeds.to)?;
-    let unit = &units.speed;
-    let speeds = arguments.speeds.speeds(unit)?;
-    cautions.extend(speeds.last().into_iter().flat_map(|speed| case.without_trapeze(*speed)));
-    let plan = Plan {
-        speeds,
-        // Those that enter from above are among them.
-        count: arguments.modes.max((arguments.modes + ABOVE).min(system.size().v)),
-        stations: stations(case, STATIONS),
-        hub: arguments.options.hub(case)?,
+fn diagram(arguments: &Arguments, reading: &Reading) -> Result<Outcome, VibrationError> {
+    let units = arguments.options.units(&reading.case, arguments.speeds.to)?;
+    let request = DiagramRequest {
+        speeds: arguments.speeds.speeds(&units.speed),
+        count: arguments.modes,
         revolutions: arguments.revolutions,
+        margin: arguments.margin,
+        free_hub: arguments.options.free_hub,
+        threads: arguments.threads,
+        units,
     };
     let named = format!("{}-campbell", arguments.case.name());
     let output = arguments.output.clone().unwrap_or_else(|| Path::new("results").join(named));
     let directory = Directory::create_for(Artifact::CAMPBELL, &output, arguments.force, &reading.inputs())
-        .map_err(|error| error.to_string())?;
-    let bar = ProgressBar::new(plan.speeds.len() as u64);
+        .map_err(|error| VibrationError::Request(error.to_string()))?;
+    let bar = ProgressBar::new(request.speeds.len() as u64);
     if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos}/{len} speeds  {eta} left") {
         bar.set_style(style);
     }
@@ -163,101 +139,23 @@ fn diagram(arguments: &Arguments, reading: &Reading) -> Result<bool, String> {
         bar.set_position(done as u64);
         !stop.load(Ordering::Relaxed)
     };
-    let finer = reading.with_finer_mesh().ok().and_then(|finer| vibration::system(&finer.case, true).ok());
-    let finer = finer.map(|(finer, _)| (finer, vibration::safety(case)));
-    let diagram = flexion_case::campbell(system, finer, &plan, arguments.threads, &progress);
+    let found = reading.campbell(&request, &progress);
     bar.finish_and_clear();
-    let mut diagram = diagram.map_err(|error: NoCampbell| {
-        directory.discard();
-        error.to_string()
-    })?;
-    keep_lowest(&mut diagram, arguments.modes);
-    let errors = diagram.branches.iter().enumerate().flat_map(|(number, branch)| {
-        branch.points.iter().map(move |point| (number + 1, point.mode.rounding))
-    });
-    cautions.extend(vibration::rounded(errors, slender.as_ref()));
-    let resonances = resonances(&diagram, plan.revolutions, arguments.margin / 100.0);
-    let (resolved, title) = (reading.resolved(), arguments.options.title(reading));
-    let shown = (&diagram, plan.revolutions, resonances.as_slice());
-    let written = write_campbell(&directory, shown, &units, &plan.stations, &resolved, title, &cautions);
-    screen::print(&described(&diagram, &resonances, arguments.margin, &units));
+    let found = found.inspect_err(|_| directory.discard())?;
+    let written = reading.write_campbell(&found, arguments.options.title(reading), &directory);
+    screen::print(&described(&found));
     let files = [("curves", Artifact::CampbellCsv), ("diagram", Artifact::CampbellSvg)];
-    let mut whole = screen::files(&directory, written, &files);
-    cautions.iter().for_each(|caution| screen::report(&format!("warning: {caution}\n")));
-    if let Some((branch, point, error)) = diagram.coarsest()
-        && error > vibration::COARSE
-    {
-        screen::report(&format!(
-            "warning: by the mesh the frequency of mode {} at {} may be off by {:.1} %: use more elements or functions\n",
-            branch + 1,
-            unit.short(point.speed),
-            100.0 * error
-        ));
-    }
-    let lost = diagram.instabilities.iter().any(|of| matches!(of, Instability::Lost { .. }));
-    if stop.load(Ordering::Relaxed) && !lost {
-        whole = false;
-        let known = |branch: &Branch| {
-            branch.points.iter().take_while(|point| point.mode.mesh.is_some()).last().map(|p| p.speed)
-        };
-        let until = diagram.branches.iter().filter_map(known).reduce(f64::max);
-        let until = until.map_or("at no speed".to_owned(), |speed| format!("up to {}", unit.text(speed)));
-        screen::report(&format!(
-            "error: stopped by the user: errors of the frequencies by the mesh are known {until}, the frequencies at all speeds\n"
-        ));
-    }
-    for instability in &diagram.instabilities {
-        let range = |from: f64, until: Option<f64>| {
-            let until = until.map_or("the last speed".to_owned(), |until| unit.text(until));
-            format!("from {} to {until}", unit.text(from))
-        };
-        match instability {
-            Instability::Divergence { speed, until } => screen::report(&format!(
-                "warning: the steady rotation is unstable {}: motions diverge without vibrating\n",
-                range(*speed, *until)
-            )),
-            Instability::Lost { reason, .. } => {
-                whole = false;
-                screen::report(&format!("error: {reason}\nWhat lies below is kept.\n"));
-            }
-            Instability::Flutter { branch, from, to, until } => screen::report(&format!(
-                "warning: the damping of mode {} is negative {}; it becomes so beyond {}\n",
-                branch + 1,
-                range(*to, *until),
-                unit.text(*from)
-            )),
-        }
-    }
-    Ok(whole)
-}
-
-/// Leaves out the modes that are at no speed among the lowest `count` and at none grow.
-fn keep_lowest(diagram: &mut Campbell, count: usize) {
-    let frequency = |b: &Branch, i: usize| b.points.get(i).map(|p| p.mode.frequency());
-    let low = |b: &Branch| {
-        b.points.iter().any(|point| point.mode.grows())
-            || (0..b.points.len()).any(|i| {
-                let below = |other: &&Branch| frequency(other, i).is_some_and(|f| Some(f) < frequency(b, i));
-                diagram.branches.iter().filter(below).count() < count
-            })
-    };
-    let low: Vec<bool> = diagram.branches.iter().map(low).collect();
-    let renumbered = |branch: &mut usize| {
-        let kept = low.get(*branch) == Some(&true);
-        *branch = low.iter().take(*branch).filter(|low| **low).count();
-        kept
-    };
-    diagram.crossings.retain_mut(|c| renumbered(&mut c.branch));
-    diagram.instabilities.retain_mut(|i| match i {
-        Instability::Flutter { branch, .. } => renumbered(branch),
-        Instability::Divergence { .. } | Instability::Lost { .. } => true,
-    });
-    let mut kept = low.iter();
-    diagram.branches.retain(|_| kept.next() == Some(&true));
+    let whole = screen::files(&directory, written, &files);
+    found.warnings.iter().for_each(|warning| screen::report(&format!("warning: {warning}\n")));
+    found.incomplete.iter().for_each(|what| report(what));
+    let whole = whole && found.incomplete.is_empty();
+    Ok(if whole { Outcome::Finished } else { Outcome::Incomplete })
 }
 
 /// Modes at both ends, and speeds near crossings.
-fn described(diagram: &Campbell, near: &[Resonance], margin: f64, units: &Units) -> String {
+fn described(found: &Diagram) -> String {
+    let Diagram { request, campbell: diagram, resonances: near, .. } = found;
+    let (margin, units) = (request.margin, &request.units);
     let mut out = format!("{} modes at {} speeds\n\n", diagram.branches.len(), diagram.speeds.len());
     let head = ["mode", "moves", "first", "last", "± mesh", "followed to"];
     let mut rows = vec![head.map(str::to_owned).to_vec()];

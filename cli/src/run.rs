@@ -2,7 +2,7 @@
 
 use crate::{Outcome, case, screen};
 use flexion::system::{Channel, Role};
-use flexion_case::{Effort, Reading, RefineError, Refinement, Run, Target, units};
+use flexion_case::{Calculation, Effort, Reading, RefineError, Request, Run, Stage, Target, units};
 use flexion_results::{Artifact, ColumnError, Directory, Errors, Events, Rung, Status, Trajectory};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::ops::ControlFlow;
@@ -99,63 +99,39 @@ pub fn run(arguments: &Arguments) -> Outcome {
             return Outcome::Rejected;
         }
     };
-    let of_case = reading.case.accuracy.clone();
-    let of_case = of_case.map(|(tolerance, quantity)| (format!("{tolerance:e}"), quantity));
-    let asked = arguments.tolerance.clone().map(|tolerance| (tolerance, arguments.quantity.clone()));
-    if let Some((tolerance, quantity)) = asked.or(of_case) {
-        let target = Target::new(tolerance, quantity);
-        let lines = progress.lines();
-        let refined = reading
-            .refine(&target, &mut |state| progress.show(state.t), &mut |rung| lines.say(&refined(rung)));
-        progress.finish();
-        return match refined {
-            Ok(Refinement { reading, run, refused }) => write(&reading, &run, &directory, false, refused),
-            Err(error) => {
-                match error {
-                    RefineError::Case(problems) => screen::report(&problems.render(screen::colour())),
-                    other => screen::report(&format!("error: {other}\n")),
-                }
-                directory.discard();
-                Outcome::Rejected
-            }
-        };
-    }
-    let until = arguments.until.unwrap_or(f64::INFINITY);
-    let mut reached = false;
-    let mut run = prepared.run(&mut |state| {
-        reached = state.t >= until;
-        if reached { ControlFlow::Break(()) } else { progress.show(state.t) }
+    let request = Request {
+        until: arguments.until.unwrap_or(f64::INFINITY),
+        effort: arguments.error.effort(),
+        target: arguments.tolerance.clone().map(|of| Target::new(of, arguments.quantity.clone())),
+    };
+    let lines = progress.lines();
+    let calculated = reading.calculate(prepared, &request, &mut |stage| match stage {
+        Stage::Search(factor) => progress.show_search(factor),
+        Stage::Time(t) => progress.show(t),
+        Stage::Refined(rung) => {
+            lines.say(&refined(rung));
+            ControlFlow::Continue(())
+        }
     });
-    if reached && run.status == Status::Stopped {
-        run.message = Some(format!("stopped at t = {:.6} s, as asked", run.state.t));
-    }
-    let effort = arguments.error.effort();
-    // What a run that was stopped holds has no end to compare.
-    let mut stopped = None;
-    if let Some(effort) = effort.filter(|_| run.status == Status::Finished) {
-        run.errors = Some(reading.estimate_errors(&run, effort, &mut |state| {
-            let flow = progress.show(state.t);
-            if flow.is_break() {
-                stopped = Some("stopped by the user while errors were estimated: the run is finished, its errors are not known");
-            }
-            flow
-        }));
-    }
     progress.finish();
-    write(&reading, &run, &directory, reached, stopped.map(str::to_owned))
+    match calculated {
+        Ok(calculation) => write(&calculation, &directory),
+        Err(error) => {
+            match error {
+                RefineError::Case(problems) => screen::report(&problems.render(screen::colour())),
+                other => screen::report(&format!("error: {other}\n")),
+            }
+            directory.discard();
+            Outcome::Rejected
+        }
+    }
 }
 
-/// Writes the results and says how the run went; `refused` is why a tolerance was not reached, or errors are not known.
-fn write(
-    reading: &Reading,
-    run: &Run,
-    directory: &Directory,
-    reached: bool,
-    refused: Option<String>,
-) -> Outcome {
+/// Writes the results and says how the run went.
+fn write(Calculation { reading, run, reached, refused }: &Calculation<'_>, directory: &Directory) -> Outcome {
     match reading.write(run, directory) {
         Ok(status) => {
-            let outcome = finish(status, reached, reading, run, directory);
+            let outcome = finish(status, *reached, reading, run, directory);
             match refused {
                 Some(why) => {
                     screen::report(&format!("error: {why}\n"));

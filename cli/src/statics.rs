@@ -1,7 +1,7 @@
 //! `flexion statics`: the path of equilibria as the loads grow.
 
 use crate::run::{ErrorEffort, Progress};
-use crate::vibration::{report, title};
+use crate::vibration::report;
 use crate::{Outcome, case, screen};
 use flexion::analysis::path::Plan;
 use flexion_case::{Problems, Reading};
@@ -109,7 +109,7 @@ fn followed(arguments: &Arguments, reading: &Reading) -> Result<bool, Refused> {
     {
         cautions.push(format!("the last equilibrium is {last}"));
     }
-    let written = write_statics(&directory, &path, &reading.resolved(), title(reading), &cautions);
+    let written = write_statics(&directory, &path, &reading.resolved(), reading.title(), &cautions);
     let files = [("path", Artifact::StaticsCsv), ("figure", Artifact::StaticsSvg)];
     let whole = screen::files(&directory, written, &files);
     cautions.iter().for_each(|caution| screen::report(&format!("warning: {caution}\n")));

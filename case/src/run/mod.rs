@@ -1,6 +1,7 @@
 //! A case, run: from its reading to its results.
 
 pub mod advise;
+pub(crate) mod calculation;
 pub(crate) mod cautions;
 mod clock;
 mod contact;
