@@ -67,6 +67,7 @@ pub use run::{Prepared, Run};
 pub use schema::schema;
 pub use sources::{Contents, Files, Folder, Sources};
 pub use space::{Link, Space};
+pub use statics::{StaticsError, StaticsRequest};
 pub use template::{TEMPLATES, Template};
 pub use values::Values;
 pub use vibration::{Diagram, DiagramRequest, FoundModes, ModesRequest, VibrationError, campbell, moves};

@@ -59,6 +59,21 @@ impl Reading {
         resolved::resolved(&self.values, None)
     }
 
+    /// The case as it is written, in SI and without defaults, which reads back as the same case beside the same files.
+    pub fn stated(&self) -> String {
+        resolved::resolved(&self.written().written(), None)
+    }
+
+    /// The files that the case names, by their names in it.
+    pub fn contents(&self) -> &Contents {
+        &self.files
+    }
+
+    /// Whether both are the same case: the same values in SI, defaults included, and the same bytes of files.
+    pub fn means(&self, other: &Reading) -> bool {
+        self.resolved() == other.resolved() && self.files == other.files
+    }
+
     /// As [`Reading::resolved`], beside copies of the tables that the case names: `motion.csv`, `torque.csv` and
     /// `section.csv`.
     pub fn resolved_with_copies(&self) -> String {

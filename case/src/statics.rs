@@ -8,7 +8,58 @@ use flexion::analysis::path::{Plan, Point, follow};
 use flexion::system::{Role, System};
 use flexion_results::{LoadPath, LoadPoint, PointError};
 
+/// What is asked of a path.
+#[derive(Clone, Debug)]
+pub struct StaticsRequest {
+    /// Load factor to which it is followed, its longest step, and the most equilibria.
+    pub plan: Plan,
+    /// What the estimate of its errors may cost; `None` estimates none.
+    pub effort: Option<Effort>,
+}
+
+/// Why there is no path.
+#[derive(Debug, thiserror::Error)]
+pub enum StaticsError {
+    /// The case is to blame, at its lines.
+    #[error(transparent)]
+    Case(#[from] Problems),
+    /// No equilibrium was found, or no load moves anything.
+    #[error("{0}")]
+    NotFound(String),
+}
+
+const NO_LOAD: &str = "no load moves the system: those of t = 0 are zero, or there are none; give it a force, a couple, a distributed load or \
+                       gravity";
+
 impl Reading {
+    /// Follows the equilibrium of the case, its hub at rest and held, as the loads of t = 0 grow, and estimates its errors. `progress` gets the
+    /// number of points and the load factor, and stops by `false`. Its warnings are the cautions of the path.
+    ///
+    /// # Errors
+    /// [`StaticsError`]. A path that ends early is no error.
+    pub fn statics(
+        &self,
+        StaticsRequest { plan, effort }: &StaticsRequest,
+        progress: &mut dyn FnMut(usize, f64) -> bool,
+    ) -> Result<LoadPath, StaticsError> {
+        let mut path = self.load_path(plan, &mut *progress)?;
+        if let Some(effort) = effort {
+            let caution = self.estimate_path_errors(&mut path, plan, *effort, &mut *progress);
+            path.cautions.extend(caution);
+        }
+        if let (Some(end), []) = (&path.end, path.points.as_slice()) {
+            return Err(StaticsError::NotFound(end.clone()));
+        }
+        if path.end.is_none() && path.points.iter().all(|point| point.values == path.points[0].values) {
+            return Err(StaticsError::NotFound(NO_LOAD.to_owned()));
+        }
+        let last = path.points.last().and_then(|point| point.stability);
+        if let Some(last) = last.filter(|found| !found.is_stable()) {
+            path.cautions.push(format!("the last equilibrium is {last}"));
+        }
+        Ok(path)
+    }
+
     /// Follows the equilibrium of the case, its hub at rest and held, under the loads of t = 0 times a factor that grows from
     /// zero, to the load factor of the plan. `progress` gets the number of points and the load factor, and stops by `false`.
     ///

@@ -4,7 +4,6 @@ use crate::run::Progress;
 use crate::{Outcome, case, screen};
 use flexion_case::{Advice, AdviseError, RefineError, Target, Tried, Trusted, Untried};
 use flexion_results::{Artifact, Directory, OutputError};
-use serde_json::{Value, json};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -173,30 +172,6 @@ fn write(directory: &Directory, case: &str, advice: &Advice) -> Result<(), Outpu
         }
         Ok(())
     })?;
-    let row = |tried: &Tried| {
-        json!({
-            "coupling": tried.coupling, "basis": tried.basis, "integrator": tried.integrator, "set": tried.changes,
-            "work": tried.work, "difference": tried.difference.as_ref().ok(), "why": tried.difference.as_ref().err(),
-            "holds": tried.holds(),
-        })
-    };
-    let asked: Value = advice
-        .asked
-        .iter()
-        .map(|(name, bound, unit)| json!({ "quantity": name, "error": bound, "unit": unit }))
-        .collect();
-    let trusted = &advice.trusted;
-    let why = |of: &Untried| json!({ "coupling": of.coupling, "key": of.key, "why": of.why });
-    let untried: Value = advice.untried.iter().map(why).collect();
-    let summary = json!({
-        "asked": asked,
-        "trusted": { "coupling": trusted.coupling, "set": trusted.changes, "error": trusted.error },
-        "untried": untried,
-        "cheapest": advice.cheapest.and_then(|index| advice.tried.get(index)).map(row),
-        "bounded": advice.bounded,
-        "stopped": advice.stopped,
-        "tried": advice.tried.iter().map(row).collect::<Value>(),
-    });
-    directory.write(Artifact::AdviceJson, |f| writeln!(f, "{summary:#}"))?;
+    directory.write(Artifact::AdviceJson, |f| writeln!(f, "{:#}", advice.to_json()))?;
     directory.publish()
 }

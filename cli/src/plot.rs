@@ -1,9 +1,8 @@
 //! `flexion plot`: results of one or several runs in one figure.
 
 use crate::{Outcome, screen};
-use flexion::system::Role;
-use flexion_results::plot::{Figure, Scale, compare_figure, trajectory_figure};
-use flexion_results::{Results, ResultsError, Trajectory, select, write_file};
+use flexion_results::plot::{Figure, Scale, runs_figure};
+use flexion_results::{Results, Trajectory, write_file};
 use std::path::PathBuf;
 
 /// The results to plot.
@@ -43,14 +42,9 @@ pub struct Arguments {
     force: bool,
 }
 
-/// Most columns of several runs when none are asked for.
-const USUAL: usize = 4;
 /// Widths of a figure [mm].
 const NARROWEST: f64 = 50.0;
 const WIDEST: f64 = 1000.0;
-/// Most panels of a figure.
-const MOST: usize = 24;
-
 fn range(text: &str) -> Result<(f64, f64), String> {
     let ends = text.split_once(':').map(|(from, to)| (from.trim().parse::<f64>(), to.trim().parse::<f64>()));
     match ends {
@@ -106,7 +100,9 @@ fn plotted(arguments: &Arguments) -> Result<(), String> {
                 .to_owned(),
         );
     }
-    let mut figure = figure(&results, arguments)?;
+    let runs: Vec<(&str, &Trajectory)> = results.iter().map(|r| (r.name.as_str(), &r.trajectory)).collect();
+    let mut figure = runs_figure(&runs, &arguments.columns, arguments.title.as_deref())
+        .map_err(|error| error.to_string())?;
     let cautions = left_out(&figure, arguments, results.len());
     for panel in &mut figure.panels {
         panel.x.range = arguments.xlim.or(panel.x.range);
@@ -144,47 +140,4 @@ fn left_out(figure: &Figure, arguments: &Arguments, runs: usize) -> Vec<String> 
         }
     }
     cautions
-}
-
-fn figure(results: &[Results], arguments: &Arguments) -> Result<Figure, String> {
-    let title = arguments.title.as_deref();
-    if let ([one], true) = (results, arguments.columns.is_empty()) {
-        return Ok(trajectory_figure(&one.trajectory, title));
-    }
-    // The columns of all runs, each once, those of the first run first.
-    let mut names: Vec<&str> = Vec::new();
-    let mut usual: Vec<&str> = Vec::new();
-    for channel in results.iter().flat_map(|r| r.trajectory.channels()) {
-        if !names.contains(&channel.name.as_str()) {
-            names.push(&channel.name);
-            usual.extend((channel.role == Role::Primary).then_some(channel.name.as_str()));
-        }
-    }
-    let of = if results.len() == 1 { "these results" } else { "any of these results" };
-    let columns = if arguments.columns.is_empty() {
-        let columns = if usual.is_empty() { names } else { usual };
-        columns.into_iter().take(USUAL).collect()
-    } else {
-        select(&names, &arguments.columns, of).map_err(|error: ResultsError| error.to_string())?
-    };
-    if columns.len() > MOST {
-        let count = columns.len();
-        return Err(format!(
-            "{count} columns are too many for one figure; choose at most {MOST} with --columns"
-        ));
-    }
-    if let [one] = results {
-        return Ok(Figure { title: title.map(String::from), ..single(&one.trajectory, &columns) });
-    }
-    let runs: Vec<(&str, &Trajectory)> = results.iter().map(|r| (r.name.as_str(), &r.trajectory)).collect();
-    Ok(compare_figure(&runs, &columns, title))
-}
-
-/// The columns of one run, without a legend.
-fn single(trajectory: &Trajectory, columns: &[&str]) -> Figure {
-    let mut figure = compare_figure(&[("", trajectory)], columns, None);
-    for series in figure.panels.iter_mut().flat_map(|panel| &mut panel.series) {
-        series.name = None;
-    }
-    figure
 }

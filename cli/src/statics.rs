@@ -4,7 +4,7 @@ use crate::run::{ErrorEffort, Progress};
 use crate::vibration::report;
 use crate::{Outcome, case, screen};
 use flexion::analysis::path::Plan;
-use flexion_case::{Problems, Reading};
+use flexion_case::{Reading, StaticsError, StaticsRequest};
 use flexion_results::{Artifact, Directory, LoadPath, write_statics};
 use std::path::{Path, PathBuf};
 
@@ -53,70 +53,36 @@ fn positive(text: &str) -> Result<f64, String> {
 /// Follows and writes a path.
 pub fn statics(arguments: &Arguments) -> Outcome {
     let Some(reading) = arguments.case.read() else { return Outcome::Rejected };
-    match followed(arguments, &reading) {
-        Ok(true) => Outcome::Finished,
-        Ok(false) => Outcome::Incomplete,
-        Err(Refused::Case(problems)) => {
-            screen::report(&problems.render(screen::colour()));
-            Outcome::Rejected
+    followed(arguments, &reading).unwrap_or_else(|error| {
+        match error {
+            StaticsError::Case(problems) => screen::report(&problems.render(screen::colour())),
+            error => report(&error.to_string()),
         }
-        Err(Refused::Request(message)) => {
-            report(&message);
-            Outcome::Rejected
-        }
-    }
+        Outcome::Rejected
+    })
 }
 
-/// Why there is no path.
-enum Refused {
-    Request(String),
-    Case(Problems),
-}
-
-/// Whether the path is whole, and written.
-fn followed(arguments: &Arguments, reading: &Reading) -> Result<bool, Refused> {
+fn followed(arguments: &Arguments, reading: &Reading) -> Result<Outcome, StaticsError> {
     let named = format!("{}-statics", arguments.case.name());
     let output = arguments.output.clone().unwrap_or_else(|| Path::new("results").join(named));
     let plan = Plan { points: arguments.points as usize, longest: arguments.step, ..Plan::to(arguments.to) };
     let directory = Directory::create_for(Artifact::STATICS, &output, arguments.force, &reading.inputs())
-        .map_err(|error| Refused::Request(error.to_string()))?;
+        .map_err(|error| StaticsError::NotFound(error.to_string()))?;
     let mut progress = Progress::new(arguments.to);
-    let path = reading.load_path(&plan, |points, factor| progress.show_points(points, factor).is_continue());
-    let mut path = path.map_err(|problems| {
-        progress.finish();
-        directory.discard();
-        Refused::Case(problems)
-    })?;
-    let mut cautions = path.cautions.clone();
-    if let Some(effort) = arguments.error.effort() {
-        let show = |points, factor| progress.show_points(points, factor).is_continue();
-        cautions.extend(reading.estimate_path_errors(&mut path, &plan, effort, show));
-    }
+    let request = StaticsRequest { plan, effort: arguments.error.effort() };
+    let path =
+        reading.statics(&request, &mut |points, factor| progress.show_points(points, factor).is_continue());
     progress.finish();
-    if let (Some(end), []) = (&path.end, path.points.as_slice()) {
-        directory.discard();
-        return Err(Refused::Request(end.clone()));
-    }
-    if path.end.is_none() && path.points.iter().all(|point| point.values == path.points[0].values) {
-        directory.discard();
-        let message = "no load moves the system: those of t = 0 are zero, or there are none; give it a force, a couple, a \
-                       distributed load or gravity";
-        return Err(Refused::Request(message.to_owned()));
-    }
+    let path = path.inspect_err(|_| directory.discard())?;
     screen::print(&described(&path));
-    if let Some(last) =
-        path.points.last().and_then(|point| point.stability).filter(|found| !found.is_stable())
-    {
-        cautions.push(format!("the last equilibrium is {last}"));
-    }
-    let written = write_statics(&directory, &path, &reading.resolved(), reading.title(), &cautions);
+    let written = write_statics(&directory, &path, &reading.resolved(), reading.title(), &path.cautions);
     let files = [("path", Artifact::StaticsCsv), ("figure", Artifact::StaticsSvg)];
     let whole = screen::files(&directory, written, &files);
-    cautions.iter().for_each(|caution| screen::report(&format!("warning: {caution}\n")));
+    path.cautions.iter().for_each(|caution| screen::report(&format!("warning: {caution}\n")));
     if let Some(end) = &path.end {
         screen::report(&format!("error: {end}\nWhat lies before it is kept.\n"));
     }
-    Ok(whole && path.end.is_none())
+    Ok(if whole && path.end.is_none() { Outcome::Finished } else { Outcome::Incomplete })
 }
 
 /// Critical states and the last equilibrium.

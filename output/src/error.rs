@@ -130,6 +130,14 @@ pub enum ResultsError {
         /// What is wrong with it.
         reason: String,
     },
+    /// More columns are asked for than a figure shows.
+    #[error("{count} columns are too many for one figure; choose at most {most} with --columns")]
+    Columns {
+        /// Columns asked for.
+        count: usize,
+        /// Columns that a figure shows.
+        most: usize,
+    },
     /// There is nothing to be seen in motion.
     #[error(
         "{} holds no motion and no modes; give the directory of results of `flexion run`, or of `flexion modes --output`",

@@ -14,6 +14,7 @@ use flexion::analysis::error::{
 use flexion::analysis::recording::Watch;
 use flexion::integrator::Tolerance;
 use flexion::system::Channel;
+use serde_json::{Value as Json, json};
 use std::borrow::Cow;
 
 /// The couplings: the first leaves out most, the last least.
@@ -101,6 +102,36 @@ pub struct Advice {
     pub bounded: bool,
     /// Whether it was stopped.
     pub stopped: bool,
+}
+
+impl Advice {
+    /// All of it for programs to read, as `advice.json` states it.
+    pub fn to_json(&self) -> Json {
+        let row = |tried: &Tried| {
+            json!({
+                "coupling": tried.coupling, "basis": tried.basis, "integrator": tried.integrator, "set": tried.changes,
+                "work": tried.work, "difference": tried.difference.as_ref().ok(), "why": tried.difference.as_ref().err(),
+                "holds": tried.holds(),
+            })
+        };
+        let asked: Json = self
+            .asked
+            .iter()
+            .map(|(name, bound, unit)| json!({ "quantity": name, "error": bound, "unit": unit }))
+            .collect();
+        let trusted = &self.trusted;
+        let why = |of: &Untried| json!({ "coupling": of.coupling, "key": of.key, "why": of.why });
+        let untried: Json = self.untried.iter().map(why).collect();
+        json!({
+            "asked": asked,
+            "trusted": { "coupling": trusted.coupling, "set": trusted.changes, "error": trusted.error },
+            "untried": untried,
+            "cheapest": self.cheapest.and_then(|index| self.tried.get(index)).map(row),
+            "bounded": self.bounded,
+            "stopped": self.stopped,
+            "tried": self.tried.iter().map(row).collect::<Json>(),
+        })
+    }
 }
 
 /// Why there is no advice.

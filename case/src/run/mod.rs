@@ -6,6 +6,7 @@ pub(crate) mod cautions;
 mod clock;
 mod contact;
 pub(crate) mod error;
+mod files;
 pub mod refine;
 mod restart;
 mod scene;
@@ -25,11 +26,7 @@ use flexion::analysis::superposition::superpose;
 use flexion::analysis::transient::{Ending, Plan, resumable, resume, transient_to_checkpoint};
 use flexion::integrator::{Checkpoint, Info};
 use flexion::system::{State, System};
-use flexion_results::plot::{contact_figure, spatial_figure, trajectory_figure};
-use flexion_results::{
-    Artifact, Attachments, Directory, Errors, Integration, OutputError, ProblemSize, RunReport, Scene,
-    Shapes, Status, write_run,
-};
+use flexion_results::{Artifact, Errors, ProblemSize, Scene, Shapes, Status};
 use std::ops::{ControlFlow, Deref};
 
 /// Most memory for records [bytes], and columns that every run may have.
@@ -337,56 +334,14 @@ impl Reading {
         let shapes = Shapes::new(beam.length, &case.output.stations, beam.height(), every);
         Some(shapes.with_obstacles(beam.drawn()))
     }
-
-    /// Writes the results of a run of this case and publishes them.
-    ///
-    /// # Errors
-    /// [`OutputError`] for whatever goes wrong on disk or in drawing.
-    pub fn write(&self, run: &Run, directory: &Directory) -> Result<Status, OutputError> {
-        let file = self.file.file_name().map(|name| name.to_string_lossy());
-        let warnings: Vec<String> = run.all_warnings().map(str::to_owned).collect();
-        let report = RunReport {
-            status: run.status,
-            message: run.message.as_deref(),
-            title: &self.case.title,
-            file: file.as_deref(),
-            duration: self.case.duration,
-            end_time: run.state.t,
-            warnings: &warnings,
-            integrator: Integration { info: &run.info, settings: self.settings("integrator") },
-            errors: run.errors.as_ref(),
-            events: (!run.events.is_empty()).then_some(&run.events),
-            counters: run.counters,
-            size: run.size,
-            wall_time: run.wall_time,
-            cpu_time: run.cpu_time,
-            preparation: run.preparation,
-        };
-        let identity = self.identity();
-        let title = (!self.case.title.is_empty()).then_some(self.case.title.as_str());
-        // Of a beam at one time there is nothing to be drawn against it.
-        let moves = run.trajectory.times().len() > 1 || self.case.space().is_some();
-        let figure = (self.case.output.plots && moves).then(|| match &run.events {
-            events if self.case.space().is_some() => {
-                spatial_figure(&run.scene, &run.trajectory, events, title)
-            }
-            events if events.is_empty() => trajectory_figure(&run.trajectory, title),
-            events => contact_figure(&run.scene, &run.trajectory, events, title),
-        });
-        let attachments = Attachments {
-            figure: figure.as_ref(),
-            tables: &run.tables,
-            state: Some((&run.checkpoint, &identity)),
-            shapes: run.shapes.as_ref(),
-            scene: Some(&run.scene),
-            solids: self.case.space().is_some() && self.case.output.vtk.is_some(),
-        };
-        let case = self.resolved_with_copies();
-        write_run(directory, &report, &run.trajectory, &case, attachments)
-    }
 }
 
 impl Prepared {
+    /// What its reader should know about the model before it runs.
+    pub fn warnings(&self) -> &[String] {
+        &self.warnings
+    }
+
     /// Integrates to the end, or to where `watch` stops it or the integration fails: what was computed
     /// until then is in the run.
     pub fn run(self, watch: &mut Watch<'_>) -> Run {

@@ -42,6 +42,8 @@ pub struct FoundModes {
     pub modes: Modes,
     /// Stations of their shapes along the beam \[m\].
     pub stations: Vec<f64>,
+    /// What the three directions of the shapes are called.
+    pub axes: [&'static str; 3],
     /// The equilibrium that they vibrate about, and each displaced a little.
     pub scene: Scene,
     /// Every mode in motion, where it was asked.
@@ -111,14 +113,10 @@ impl Reading {
         title: Option<&str>,
         directory: &Directory,
     ) -> Result<(), OutputError> {
-        let axes = match self.case.space() {
-            Some(_) => ["along the tangent", "along the height", "across"],
-            None => ["axial", "chordwise", "flapwise"],
-        };
-        let FoundModes { request, modes, stations, scene, film, warnings, .. } = found;
+        let FoundModes { request, modes, stations, axes, scene, film, warnings, .. } = found;
         film.iter().try_for_each(|film| write_film(directory, film, Artifact::ModesSeries))?;
         directory.write(Artifact::ModesScene, |f| scene.write(f))?;
-        let shown = (modes, request.speed, axes);
+        let shown = (modes, request.speed, *axes);
         write_modes(directory, shown, stations, &request.units, &self.resolved(), title, warnings)
     }
 }
@@ -172,8 +170,12 @@ fn compute(case: &Case, request: &ModesRequest, hub: HubState) -> Result<FoundMo
     let modes = find(system.as_mut(), &state, request.count, &stations).map_err(VibrationError::not_found)?;
     let scene = displaced(case, &modes, system.as_mut(), &state);
     let film = request.film.then(|| film(case, &modes, system.as_mut(), &state));
+    let axes = match case.space() {
+        Some(_) => ["along the tangent", "along the height", "across"],
+        None => ["axial", "chordwise", "flapwise"],
+    };
     let (request, slender) = (request.clone(), system.slender());
-    Ok(FoundModes { request, modes, stations, scene, film, about: String::new(), warnings, slender })
+    Ok(FoundModes { request, modes, stations, axes, scene, film, about: String::new(), warnings, slender })
 }
 
 /// Every mode at the phases of a cycle.

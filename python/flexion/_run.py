@@ -1,0 +1,375 @@
+"""Runs: columns, values with errors, events."""
+
+from __future__ import annotations
+
+import html
+import json
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._figure import Figure
+from ._value import Value
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+    from ._case import Case
+
+Array = npt.NDArray[np.float64]
+
+
+class Column:
+    """A recorded quantity: its values at the times of the run, and its smallest, largest and last value with their errors."""
+
+    __slots__ = ("_data", "_index", "_run", "kind", "name", "role", "unit")
+
+    name: str
+    """Its name, ``tip.deflection``."""
+    unit: str
+    """Its unit in SI, empty for a number."""
+    role: str
+    """What it is for: ``primary``, ``secondary``, ``detail``, ``energy``, ``work``, ``imbalance`` or ``integration``."""
+    kind: str
+    """What its values are: ``real`` numbers, an ``angle``, a part of a ``quaternion``."""
+
+    def __init__(self, run: Run, index: int, described: tuple[str, str, str, str]) -> None:
+        self.name, self.unit, self.role, self.kind = described
+        self._run, self._index = run, index
+        self._data: Array | None = None
+
+    @property
+    def data(self) -> Array:
+        """Its values, one at each of ``run.times``; the array cannot be written to and outlives the run."""
+        if self._data is None:
+            self._data = self._run._source.column(self._index)
+        return self._data
+
+    @property
+    def min(self) -> Value:
+        """Its smallest value, over all steps, with its time and error."""
+        return self._value("min")
+
+    @property
+    def max(self) -> Value:
+        """Its largest value, over all steps, with its time and error."""
+        return self._value("max")
+
+    @property
+    def final(self) -> Value:
+        """Its last value with its error."""
+        return self._value("final")
+
+    def _value(self, part: str) -> Value:
+        stated = self._run.summary["columns"][self.name]
+        value = stated[part]
+        time = self._run.end_time if part == "final" else stated[f"t_{part}"]
+        error = (stated.get("error") or {}).get(part)
+        model = (stated.get("error") or {}).get("model")
+        return Value(np.nan if value is None else value, error, self.unit, time, model)
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> npt.NDArray[Any]:
+        if dtype is None and not copy:
+            return self.data
+        return np.array(self.data, dtype=dtype)
+
+    def __len__(self) -> int:
+        return len(self.data)
+
+    def __getitem__(self, index: Any) -> Any:
+        return self.data[index]
+
+    def __repr__(self) -> str:
+        unit = f" [{self.unit}]" if self.unit else ""
+        return f"<{self.name}{unit}: min {self.min}, max {self.max}, final {self.final}>"
+
+
+@dataclass(frozen=True)
+class Event:
+    """What happened at a contact."""
+
+    time: float
+    """Time [s]."""
+    contact: str
+    """Name of the contact."""
+    what: str
+    """``impact``, ``closes``, ``opens``, ``slips``, ``sticks`` …"""
+    impulse: float | None
+    """Normal impulse [N s]."""
+    friction: float | None
+    """Impulse of friction [N s]."""
+    closing_speed: float | None
+    """Speed of approach before it [m/s]."""
+    effective_mass: float | None
+    """Effective mass of the impact [kg]."""
+    energy_lost: float | None
+    """Energy lost [J]."""
+    duration: float | None
+    """Duration of a contact by continuous forces [s]."""
+    largest_force: float | None
+    """Largest force [N]."""
+    largest_indentation: float | None
+    """Largest indentation [m]."""
+    place: tuple[float, float, float] | None
+    """Where it happened [m]."""
+
+
+@dataclass(frozen=True)
+class Trust:
+    """What the estimate of errors says of a run as a whole."""
+
+    estimated: bool
+    """Whether errors were estimated."""
+    reason: str | None
+    """Why not, where they were not."""
+    until: float | None
+    """Time up to which errors of the principal columns stay below a tenth of their largest values [s]."""
+
+
+class Run(Mapping[str, Column]):
+    """A run: its columns by name, ``run["tip.deflection"].min``."""
+
+    _source: _core.Run | _core.Stored
+
+    def __init__(
+        self, source: _core.Run | _core.Stored, summary: dict[str, Any], name: str, folder: Path | None
+    ) -> None:
+        self._source = source
+        self.summary: dict[str, Any] = summary
+        """What ``summary.json`` states."""
+        self.name = name
+        """Name in legends."""
+        self._folder = folder
+        described = source.described()
+        self._columns = {of[0]: Column(self, i, of) for i, of in enumerate(described)}
+
+    def __getitem__(self, name: str) -> Column:
+        try:
+            return self._columns[name]
+        except KeyError:
+            import difflib
+
+            near = difflib.get_close_matches(str(name), self._columns, n=3, cutoff=0.4)
+            there = f"; near are {', '.join(near)}" if near else f": {', '.join(self._columns)}"
+            raise KeyError(f"the run has no column `{name}`{there}") from None
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._columns)
+
+    def __len__(self) -> int:
+        return len(self._columns)
+
+    __hash__ = object.__hash__
+
+    def __eq__(self, other: object) -> bool:
+        return self is other
+
+    @cached_property
+    def times(self) -> Array:
+        """Recorded times [s]."""
+        return self._source.times()
+
+    @property
+    def columns(self) -> Mapping[str, Column]:
+        """The columns by name."""
+        return self
+
+    @property
+    def status(self) -> str:
+        """``finished``, ``stopped`` or ``failed``."""
+        return str(self.summary["status"])
+
+    @property
+    def message(self) -> str | None:
+        """Why it ended early, where it did."""
+        message: str | None = self.summary["message"]
+        return message
+
+    @property
+    def end_time(self) -> float:
+        """Time reached [s]."""
+        return float(self.summary["end_time"])
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What a reader should know of it."""
+        return tuple(self.summary.get("warnings", ()))
+
+    @property
+    def trust(self) -> Trust:
+        """What the estimate of errors says of it as a whole."""
+        of = self.summary.get("trust")
+        if of is None:
+            return Trust(False, "no errors were asked for", None)
+        return Trust(bool(of["estimated"]), of["reason"], of["until"])
+
+    @property
+    def case(self) -> Case:
+        """Its case, refined where a tolerance was asked."""
+        from ._case import Case
+
+        if isinstance(self._source, _core.Run):
+            return Case._of(self._source.case())
+        assert self._folder is not None
+        return Case(self._folder / "case.resolved.toml")
+
+    @cached_property
+    def events(self) -> tuple[Event, ...]:
+        """What happened at its contacts."""
+        if isinstance(self._source, _core.Run):
+            listed = self._source.events()
+            return tuple(Event(t, contact, what, *numbers, place) for t, contact, what, numbers, place in listed)
+        assert self._folder is not None
+        return _events(self._folder / "events.csv")
+
+    def save(self, folder: str | os.PathLike[str], *, force: bool = False) -> Path:
+        """Writes the files that the program writes into a folder, which is whole then, or absent.
+
+        ``force`` replaces what a run wrote there before.
+        """
+        if not isinstance(self._source, _core.Run):
+            raise ValueError(f"the run was read from {self._folder}, where its files are")
+        self._source.save(folder, force)
+        return Path(folder)
+
+    def to_pandas(self, columns: Sequence[str] | None = None) -> pandas.DataFrame:
+        """The columns as a frame over the times [s], whose ``attrs["units"]`` are their units."""
+        import pandas
+
+        chosen = [self[name] for name in (columns if columns is not None else self)]
+        index = pandas.Index(self.times, name="time")
+        frame = pandas.DataFrame({column.name: column.data for column in chosen}, index=index)
+        frame.attrs["units"] = {column.name: column.unit for column in chosen}
+        return frame
+
+    def to_xarray(self, columns: Sequence[str] | None = None) -> xarray.Dataset:
+        """The columns as a data set over the times [s], each with its unit."""
+        import xarray
+
+        chosen = [self[name] for name in (columns if columns is not None else self)]
+        data = {column.name: ("time", column.data, {"units": column.unit}) for column in chosen}
+        coordinates = {"time": ("time", self.times, {"units": "s"})}
+        return xarray.Dataset(data, coords=coordinates, attrs={"title": self.name})
+
+    def plot(self, *columns: str, title: str | None = None) -> Figure:
+        """The figure that the program draws, or one of columns by patterns: ``run.plot("tip.*")``."""
+        if not columns and title is None and isinstance(self._source, _core.Run):
+            return Figure(self._source.figure())
+        return Figure(_core.runs_figure([(self.name, self._source)], list(columns), title))
+
+    def view(self, *columns: str) -> View:
+        """The motion, to be played in a notebook or saved as a page."""
+        if isinstance(self._source, _core.Run):
+            return View(self._source.page(list(columns)))
+        assert self._folder is not None
+        return View(_core.view(self._folder, list(columns)))
+
+    def _principal(self) -> list[Column]:
+        return [column for column in self._columns.values() if column.role in ("primary", "secondary")]
+
+    def __repr__(self) -> str:
+        head = f"<flexion.Run {self.name}: {self.status} at t = {self.end_time:g} s, {len(self)} columns"
+        return f"{head}, {len(self.times)} times>"
+
+    def __str__(self) -> str:
+        rows = [("", "unit", "min", "at t [s]", "max", "at t [s]", "last")]
+        for column in self._principal():
+            least, most = column.min, column.max
+            rows.append(
+                (
+                    column.name,
+                    column.unit or "1",
+                    least._short(),
+                    f"{least.time:.4f}",
+                    most._short(),
+                    f"{most.time:.4f}",
+                    column.final._short(),
+                )
+            )
+        widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+        lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
+        return "\n".join([repr(self)[1:-1], "", *lines])
+
+    def _repr_html_(self) -> str:
+        head = "".join(f"<th>{cell}</th>" for cell in ("", "unit", "min", "at t [s]", "max", "at t [s]", "last"))
+        body = ""
+        for column in self._principal():
+            least, most = column.min, column.max
+            cells = [
+                html.escape(column.name),
+                html.escape(column.unit or "1"),
+                least._short(),
+                f"{least.time:.4f}",
+                most._short(),
+                f"{most.time:.4f}",
+                column.final._short(),
+            ]
+            body += "<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>"
+        said = "".join(f"<div><b>Warning:</b> {html.escape(text)}</div>" for text in self.warnings)
+        return f"<div>{html.escape(repr(self)[1:-1])}</div><table><tr>{head}</tr>{body}</table>{said}"
+
+
+class View:
+    """A page that plays a motion; a notebook shows it in a frame that can run its script and nothing else."""
+
+    __slots__ = ("html",)
+
+    def __init__(self, html: str) -> None:
+        self.html = html
+        """The page, which needs no server and no network."""
+
+    def save(self, path: str | os.PathLike[str]) -> Path:
+        """Writes the page to a file."""
+        path = Path(path)
+        path.write_text(self.html, encoding="utf-8")
+        return path
+
+    def _repr_html_(self) -> str:
+        page = html.escape(self.html, quote=True)
+        style = "width:100%;height:560px;border:0"
+        return f'<iframe sandbox="allow-scripts" style="{style}" srcdoc="{page}"></iframe>'
+
+    def __repr__(self) -> str:
+        return "<flexion.View: show it in a notebook, or save it by .save(path)>"
+
+
+def _events(path: Path) -> tuple[Event, ...]:
+    import csv
+
+    if not path.is_file():
+        return ()
+    with path.open(newline="", encoding="utf-8") as file:
+        rows = list(csv.reader(file))[1:]
+    found = []
+    for time, contact, what, *rest in rows:
+        numbers = [float(text) if text else None for text in rest]
+        place = tuple(numbers[8:11])
+        where = None if None in place else place
+        found.append(Event(float(time), contact, what, *numbers[:8], where))  # type: ignore[arg-type]
+    return tuple(found)
+
+
+def load(folder: str | os.PathLike[str]) -> Run:
+    """A run from the folder that the program or ``Run.save`` wrote."""
+    path = Path(folder)
+    stored = _core.Stored(path)
+    summary = path / "summary.json"
+    if not summary.is_file():
+        raise FileNotFoundError(f"{path} holds no summary.json: give the folder of a run")
+    stated = json.loads(summary.read_text(encoding="utf-8"))
+    if "columns" not in stated:
+        raise ValueError(f"{summary} is not the summary of a run")
+    run = Run(stored, stated, path.resolve().name, path)
+    if stored.caution is not None:
+        from ._errors import warn
+
+        warn([stored.caution])
+    return run

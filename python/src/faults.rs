@@ -1,0 +1,71 @@
+//! Errors of the engine as exceptions of `flexion._errors`.
+
+use flexion_case::{AdviseError, Problems, RefineError, VibrationError};
+use flexion_results::{OutputError, ResultsError};
+use pyo3::call::PyCallArgs;
+use pyo3::exceptions::{PyKeyError, PyOSError};
+use pyo3::prelude::*;
+
+/// An exception made by a function or a class of `flexion._errors`.
+fn raise<'py>(py: Python<'py>, maker: &str, arguments: impl PyCallArgs<'py>) -> PyErr {
+    let made = py.import("flexion._errors").and_then(|module| module.getattr(maker)?.call1(arguments));
+    made.map_or_else(|error| error, PyErr::from_value)
+}
+
+/// Everything that is wrong with a case.
+pub fn problems(py: Python<'_>, problems: &Problems) -> PyErr {
+    let each = problems.list.iter().map(|problem| {
+        let place = problems.line_and_column(problem);
+        let source = problem.place.as_ref().and_then(|place| problems.sources.get(place.source));
+        let source = source.or(problems.sources.first()).map_or("", |source| source.name.as_str());
+        let (line, column) = (place.map(|place| place.0), place.map(|place| place.1));
+        (problem.message.as_str(), problem.key.as_str(), source, line, column, problem.help.clone())
+    });
+    let each: Vec<_> = each.collect();
+    raise(py, "case_error", (problems.render(false), each))
+}
+
+/// An analysis without result.
+pub fn analysis(py: Python<'_>, message: &str) -> PyErr {
+    raise(py, "AnalysisError", (message,))
+}
+
+/// A fault of the program.
+pub fn internal(py: Python<'_>, message: &str) -> PyErr {
+    raise(py, "InternalError", (message,))
+}
+
+/// Results that cannot be read or compared.
+pub fn results(py: Python<'_>, error: &ResultsError) -> PyErr {
+    match error {
+        ResultsError::NoColumn { .. } => PyKeyError::new_err(error.to_string()),
+        error => analysis(py, &error.to_string()),
+    }
+}
+
+/// Files that cannot be written.
+pub fn output(error: &OutputError) -> PyErr {
+    PyOSError::new_err(error.to_string())
+}
+
+/// A refinement that is not possible.
+pub fn refine(py: Python<'_>, error: &RefineError) -> PyErr {
+    match error {
+        RefineError::Case(of) => problems(py, of),
+        RefineError::Column(error) => results(py, error),
+        error @ RefineError::Tolerance { .. } => pyo3::exceptions::PyValueError::new_err(error.to_string()),
+    }
+}
+
+/// A case without modes.
+pub fn vibration(py: Python<'_>, error: &VibrationError) -> PyErr {
+    match error {
+        VibrationError::Case(of) => problems(py, of),
+        error => analysis(py, &error.to_string()),
+    }
+}
+
+/// A case without advice.
+pub fn advise(py: Python<'_>, error: &AdviseError) -> PyErr {
+    analysis(py, &error.to_string())
+}
