@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 
@@ -37,6 +38,15 @@ class Value(float):
         self.time = time
         self.model = model
         return self
+
+    def _short(self) -> str:
+        """The digits that its error leaves, and the error."""
+        if self.error is None or not math.isfinite(self) or not math.isfinite(self.error):
+            return f"{float(self):.6e}"
+        if self.error == 0.0 or self == 0.0:
+            return f"{float(self):.6g} ± {self.error:.0e}"
+        digits = math.floor(math.log10(abs(self))) - math.floor(math.log10(self.error)) + 1
+        return f"{float(self):.{min(max(digits, 1), 15)}g} ± {self.error:.0e}"
 
     def __repr__(self) -> str:
         parts = [float.__repr__(self)]

@@ -49,7 +49,7 @@ class Mode:
         return Value(self.frequency / math.tau, None if error is None else error / math.tau, "Hz")
 
     @classmethod
-    def _of(cls, row: _core.ModeRow) -> Mode:
+    def _of(cls, row: _core._ModeRow) -> Mode:
         eigenvalue, mesh, nodes, residual, moves, in_section = row
         size = abs(eigenvalue)
         damping = -eigenvalue.real / size if size > 0 else 0.0

@@ -1,0 +1,62 @@
+"""Flexion: dynamics of rotating and slender flexible beams.
+
+>>> import flexion
+>>> run = flexion.Case("case.toml").run()          # doctest: +SKIP
+>>> run["tip.deflection"].min                      # doctest: +SKIP
+-0.0115 ± 2e-06 m
+"""
+
+from ._case import Advice, Case
+from ._compare import Comparison, Difference, compare, plot
+from ._core import schema, version
+from ._errors import (
+    AnalysisError,
+    CaseError,
+    FlexionError,
+    FlexionWarning,
+    InternalError,
+    Interrupted,
+    Problem,
+    RunError,
+)
+from ._figure import Figure
+from ._run import Column, Event, Run, Trust, View, load
+from ._statics import LoadPath
+from ._value import Value
+from ._vibration import Branch, Crossing, Diagram, Mode, Modes, Resonance
+
+__version__ = version()
+
+__all__ = [
+    "Advice",
+    "AnalysisError",
+    "Branch",
+    "Case",
+    "CaseError",
+    "Column",
+    "Comparison",
+    "Crossing",
+    "Diagram",
+    "Difference",
+    "Event",
+    "Figure",
+    "FlexionError",
+    "FlexionWarning",
+    "InternalError",
+    "Interrupted",
+    "LoadPath",
+    "Mode",
+    "Modes",
+    "Problem",
+    "Resonance",
+    "Run",
+    "RunError",
+    "Trust",
+    "Value",
+    "View",
+    "__version__",
+    "compare",
+    "load",
+    "plot",
+    "schema",
+]

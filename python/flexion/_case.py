@@ -1,0 +1,273 @@
+"""Cases: what is there, how it moves, and how it is computed."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, TypeAlias
+
+from . import _core
+from ._errors import Interrupted, RunError, warn
+from ._progress import Event, Progress
+from ._run import Run
+from ._statics import LoadPath
+from ._vibration import Diagram, Modes
+
+Stop: TypeAlias = Event | Callable[[], bool] | None
+"""What ends a computation: an event that is set, or a function that returns true."""
+
+
+class Case:
+    """A case: it does not change; what would change it makes another.
+
+    It is read from a file (or a folder that holds a ``case.toml``), from a TOML text, or from nested dicts of the same keys. Quantities are
+    numbers in SI or texts with a unit:
+
+    >>> import flexion
+    >>> case = flexion.Case({
+    ...     "beam": {"length": "10 m"},
+    ...     "section": {"kind": "uniform", "modulus": "70 GPa", "density": 3000, "area": 4e-4, "second-moment": 2e-7},
+    ...     "hub": {"motion": {"kind": "spin-up", "speed": "4 rad/s", "time": 15}},
+    ...     "run": {"duration": 20},
+    ... })
+    >>> stiff = case.with_("section.modulus", "140 GPa")
+    >>> stiff == case | {"section.modulus": 140e9}
+    True
+
+    What is wrong with it is raised at once, as :class:`flexion.CaseError`.
+    """
+
+    __slots__ = ("_case",)
+    _case: _core.Case
+
+    def __init__(self, source: str | os.PathLike[str] | Mapping[str, Any]) -> None:
+        if isinstance(source, Mapping):
+            text = _core.Case.toml(source)
+            self._case = _core.Case.parse(text, Path("case.toml"))
+        elif isinstance(source, str) and ("\n" in source or "=" in source and not os.path.exists(source)):
+            self._case = _core.Case.parse(source, Path("case.toml"))
+        elif isinstance(source, str | os.PathLike):
+            self._case = _core.Case.read(os.fspath(source))
+        else:
+            kind = type(source).__name__
+            raise TypeError(f"a case is a path, a TOML text or nested dicts, and {kind} is none of them")
+
+    @classmethod
+    def _of(cls, core: _core.Case) -> Case:
+        case = cls.__new__(cls)
+        case._case = core
+        return case
+
+    # Changes.
+
+    def with_(self, key: str, value: Any) -> Case:
+        """The same case with another value at a dotted key; a dict replaces a whole table."""
+        return self._of(self._case.changed({key: value}))
+
+    def __or__(self, changes: Mapping[str, Any]) -> Case:
+        if not isinstance(changes, Mapping):
+            return NotImplemented
+        return self._of(self._case.changed(dict(changes)))
+
+    # What it is.
+
+    @property
+    def title(self) -> str:
+        """Its title."""
+        return self._case.title
+
+    @property
+    def file(self) -> Path:
+        """The file from which it was read, or ``case.toml``."""
+        return Path(self._case.file)
+
+    def to_toml(self, *, defaults: bool = False) -> str:
+        """The case as TOML in SI: what is written, or with every default."""
+        return self._case.resolved() if defaults else self._case.stated()
+
+    def __str__(self) -> str:
+        return self.to_toml()
+
+    def __repr__(self) -> str:
+        return f"<flexion.Case {self.title or self.file}>"
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Case):
+            return NotImplemented
+        return self._case.means(other._case)
+
+    def __hash__(self) -> int:
+        return hash(self._case.resolved())
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        core = self._case
+        return _unpickled, (_core.version(), core.stated(), os.fspath(core.file), core.contents())
+
+    # What it gives.
+
+    def check(self) -> tuple[str, ...]:
+        """Builds all that a run needs, and returns what a reader of its results should know.
+
+        Raises :class:`flexion.CaseError` where it cannot be run.
+        """
+        return tuple(self._case.check())
+
+    def run(
+        self,
+        *,
+        until: float | None = None,
+        errors: str = "auto",
+        tolerance: float | str | None = None,
+        quantity: str | None = None,
+        progress: bool | None = None,
+        stop: Stop = None,
+    ) -> Run:
+        """Runs the case.
+
+        ``until`` stops it behind the step that reaches this time [s]. ``errors`` estimates the errors of all columns: ``"off"``,
+        ``"auto"`` (where that costs a few times the run) or ``"full"``. ``tolerance`` refines mesh and steps until the error is
+        below it, a part of the largest value or a text with a unit, of ``quantity``, ``"tip.deflection.min"``, or of all principal columns.
+        ``progress`` shows a bar, by default on a terminal and in a notebook. ``stop`` ends the run: an event or a function.
+
+        Ctrl-C raises :class:`flexion.Interrupted`, a run that breaks down :class:`flexion.RunError`; both have what was computed as ``.result``.
+        """
+        bar = Progress(progress, stop)
+        asked = None if tolerance is None else str(tolerance)
+        try:
+            core, raised = self._case.run(until, errors, asked, quantity, bar)
+        finally:
+            bar.close()
+        run = Run(core, json.loads(core.summary()), self.title or self.file.stem, None)
+        _raise(raised, run)
+        warn(run.warnings)
+        if run.status == "failed":
+            raise RunError(run.message or "the run failed", run)
+        if core.refused is not None and run.status != "stopped":
+            raise RunError(core.refused, run)
+        return run
+
+    def modes(self, speed: float = 0.0, count: int = 10, *, free_hub: bool = False, unit: str = "rad/s") -> Modes:
+        """The modes of small vibrations about the equilibrium in steady rotation at a speed [rad/s].
+
+        The hub keeps its speed, or rotates with the beam where it is free. ``unit`` is that of texts and figures: ``"rad/s"``, ``"Hz"`` or ``"rpm"``.
+        """
+        modes = Modes(self._case.modes(float(speed), _count(count), free_hub, unit))
+        warn(modes.warnings)
+        return modes
+
+    def campbell(
+        self,
+        speeds: Sequence[float],
+        count: int = 6,
+        *,
+        free_hub: bool = False,
+        revolutions: int = 4,
+        margin: float = 5.0,
+        threads: int = 0,
+        unit: str = "rad/s",
+        progress: bool | None = None,
+        stop: Stop = None,
+    ) -> Diagram:
+        """The modes over speeds of rotation [rad/s], which ascend from at least zero.
+
+        Resonances are speeds at which a frequency is within ``margin`` percent of kΩ, k = 1 … ``revolutions``. ``threads`` is 0 for
+        one a processor; the results do not depend on it.
+        """
+        bar = Progress(progress, stop)
+        listed = [float(speed) for speed in speeds]
+        try:
+            core, raised = self._case.campbell(
+                listed, _count(count), free_hub, revolutions, margin, threads, unit, bar
+            )
+        finally:
+            bar.close()
+        diagram = Diagram(core)
+        _raise(raised, diagram)
+        warn([*diagram.warnings, *core.incomplete])
+        return diagram
+
+    def statics(
+        self,
+        to: float = 1.0,
+        *,
+        step: float = 0.05,
+        points: int = 1000,
+        errors: str = "auto",
+        progress: bool | None = None,
+        stop: Stop = None,
+    ) -> LoadPath:
+        """The equilibria as the loads grow from zero to ``to`` times those of the case, past limit points.
+
+        ``step`` is the longest step, of displacements over the length of the beam and of the load factor; ``points`` the most equilibria.
+        """
+        bar = Progress(progress, stop)
+        try:
+            core, raised = self._case.statics(to, step, points, errors, bar)
+        finally:
+            bar.close()
+        path = LoadPath(core)
+        _raise(raised, path)
+        warn([*path.warnings, *([] if path.end is None else [path.end])])
+        return path
+
+    def advise(
+        self,
+        tolerance: float | str,
+        quantity: str | None = None,
+        *,
+        progress: bool | None = None,
+        stop: Stop = None,
+    ) -> Advice:
+        """The cheapest coupling, basis and integrator with which the case holds a tolerance."""
+        bar = Progress(progress, stop)
+        try:
+            text, raised = self._case.advise(str(tolerance), quantity, bar)
+        finally:
+            bar.close()
+        advice = Advice(self, json.loads(text))
+        _raise(raised, advice)
+        return advice
+
+
+class Advice:
+    """What came of a ladder of models, bases and integrators."""
+
+    def __init__(self, case: Case, stated: dict[str, Any]) -> None:
+        self._case = case
+        self.stated = stated
+        """All of it, as ``advice.json`` states it."""
+
+    @property
+    def changes(self) -> tuple[str, ...] | None:
+        """What makes the cheapest case that holds of the given one, ``KEY=VALUE``; ``None`` where none holds."""
+        cheapest = self.stated["cheapest"]
+        return None if cheapest is None else tuple(cheapest["set"])
+
+    def __repr__(self) -> str:
+        tried = len(self.stated["tried"])
+        cheapest = self.stated["cheapest"]
+        if cheapest is None:
+            return f"<flexion.Advice: none of {tried} holds>"
+        return f"<flexion.Advice: of {tried}, {cheapest['coupling']}, {cheapest['basis']}, {cheapest['integrator']}>"
+
+
+def _count(count: int) -> int:
+    if not 1 <= count <= 1000:
+        raise ValueError(f"the number of modes is {count} and must be from 1 to 1000")
+    return count
+
+
+def _raise(raised: BaseException | None, result: Any) -> None:
+    if isinstance(raised, KeyboardInterrupt):
+        raise Interrupted("interrupted: `.result` is what was computed", result) from raised
+    if raised is not None:
+        raise raised
+
+
+def _unpickled(version: str, text: str, file: str, contents: list[tuple[str, bytes]]) -> Case:
+    here = _core.version()
+    if version != here:
+        raise ValueError(f"the case was pickled by flexion {version}, and this is {here}: their results may differ")
+    return Case._of(_core.Case.parse(text, Path(file), contents))

@@ -1,0 +1,45 @@
+"""Cases that the tests share."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Any
+
+import flexion
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+"""The repository."""
+
+ARM: dict[str, Any] = {
+    "beam": {"length": "10 m"},
+    "section": {"kind": "uniform", "modulus": "70 GPa", "density": 3000, "area": 4e-4, "second-moment": 2e-7},
+    "hub": {"motion": {"kind": "spin-up", "speed": "4 rad/s", "time": 15}},
+    "run": {"duration": 20},
+}
+
+
+@pytest.fixture(autouse=True)
+def elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Tests run outside of the sources, whose folder would hide the package that is built."""
+    monkeypatch.chdir(tmp_path)
+
+
+@pytest.fixture
+def arm() -> flexion.Case:
+    return flexion.Case(ARM)
+
+
+@pytest.fixture(scope="session")
+def verification() -> Path:
+    return ROOT / "verification"
+
+
+@pytest.fixture(scope="session")
+def program() -> str:
+    """The program, built of the same sources."""
+    found = os.environ.get("FLEXION_PROGRAM")
+    if found is None:
+        pytest.skip("FLEXION_PROGRAM names no program to hold the package to")
+    return found
