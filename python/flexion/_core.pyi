@@ -12,6 +12,22 @@ _Extremes: TypeAlias = tuple[float, float, float, float, float]
 _ModeRow: TypeAlias = tuple[complex, float | None, int, float, str, str]
 _Path: TypeAlias = str | os.PathLike[str]
 
+__all__ = [
+    "Case",
+    "Diagram",
+    "Figure",
+    "LoadPath",
+    "Modes",
+    "Run",
+    "Stored",
+    "compare",
+    "program",
+    "runs_figure",
+    "schema",
+    "version",
+    "view",
+]
+
 @final
 class Case:
     @staticmethod
