@@ -61,7 +61,7 @@ impl Reading {
 
     /// The case as it is written, in SI and without defaults, which reads back as the same case beside the same files.
     pub fn stated(&self) -> String {
-        resolved::resolved(&self.written().written(), None)
+        resolved::resolved(&self.written().written(), None).trim_start().to_owned()
     }
 
     /// The files that the case names, by their names in it.
