@@ -70,7 +70,10 @@ pub use space::{Link, Space};
 pub use statics::{StaticsError, StaticsRequest};
 pub use template::{TEMPLATES, Template};
 pub use values::Values;
-pub use vibration::{Diagram, DiagramRequest, FoundModes, ModesRequest, VibrationError, campbell, moves};
+pub use vibration::{
+    Diagram, DiagramRequest, FoundModes, Linear, LinearRequest, ModesRequest, PlaceStiffness, VibrationError,
+    campbell, moves,
+};
 
 /// Every place in a case where a kind is chosen, with the kinds.
 pub fn choices() -> &'static [&'static dyn declaration::Kinds] {

@@ -165,6 +165,11 @@ impl Reading {
         self.after(changes, tree::change)
     }
 
+    /// The same case with further loads, tables of TOML, of which some have the amplitude zero.
+    pub(super) fn with_loads(&self, loads: &[(String, bool)]) -> Result<Reading, Problems> {
+        self.after(loads, |root, (load, silent), problems| tree::push_load(root, load, *silent, problems))
+    }
+
     fn after<C>(
         &self,
         changes: &[C],

@@ -173,6 +173,36 @@ pub(super) fn change(root: &mut Node, change: &Change, problems: &mut Problems) 
     put(root, &change.path, node, &all, problems);
 }
 
+/// Adds a load, a table of TOML, to those of a case; a silent one has the amplitude zero.
+pub(super) fn push_load(root: &mut Node, load: &str, silent: bool, problems: &mut Problems) {
+    let source = problems.sources.len();
+    problems.sources.push(Source { name: "load of an input".to_owned(), text: load.to_owned() });
+    let all = Place::new(source, 0..load.len());
+    let (parsed, errors) = DeValue::parse_recoverable(load);
+    if let Some(error) = errors.first() {
+        problems.push(syntax(source, error.message(), error.span()));
+        return;
+    }
+    let mut node = convert(&parsed, source, 0, problems);
+    let line = |key: &str, node: Node| Line { key: key.to_owned(), place: all.clone(), node };
+    if let (Raw::Table(entries), true) = (&mut node.value, silent) {
+        let text =
+            |key: &str, text: &str| line(key, Node { place: all.clone(), value: Raw::Text(text.to_owned()) });
+        let zero = Raw::Table(vec![text("kind", "expression"), text("formula", "0")]);
+        entries.push(line("amplitude", Node { place: all.clone(), value: zero }));
+    }
+    let Raw::Table(entries) = &mut root.value else { return };
+    match entries.iter_mut().find(|entry| entry.key == "load").map(|entry| &mut entry.node.value) {
+        Some(Raw::List(list)) => list.push(node),
+        // One that is no list is refused at its own line.
+        Some(_) => {}
+        None => {
+            let list = Node { place: all.clone(), value: Raw::List(vec![node]) };
+            entries.push(line("load", list));
+        }
+    }
+}
+
 /// The value of a setting at a place.
 fn set(to: &Setting, place: &Place) -> Node {
     let line =

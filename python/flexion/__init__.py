@@ -20,6 +20,7 @@ from ._errors import (
     RunError,
 )
 from ._figure import Figure
+from ._linear import Linear, Stiffness
 from ._run import Column, Event, Run, Trust, View, load
 from ._statics import LoadPath
 from ._value import Value
@@ -44,6 +45,7 @@ __all__ = [
     "FlexionWarning",
     "InternalError",
     "Interrupted",
+    "Linear",
     "LoadPath",
     "Mode",
     "Modes",
@@ -51,6 +53,7 @@ __all__ = [
     "Resonance",
     "Run",
     "RunError",
+    "Stiffness",
     "Trust",
     "Value",
     "View",

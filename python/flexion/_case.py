@@ -8,8 +8,11 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeAlias
 
+import numpy as np
+
 from . import _core
 from ._errors import Interrupted, RunError, warn
+from ._linear import Linear, Stiffness
 from ._progress import Event, Progress
 from ._run import Run
 from ._statics import LoadPath
@@ -211,6 +214,36 @@ class Case:
         _raise(raised, path)
         warn([*path.warnings, *([] if path.end is None else [path.end])])
         return path
+
+    def stiffness_at(self, place: str) -> Stiffness:
+        """The stiffness of a place, ``"tip"`` or ``"arm@2 m"``, about the equilibrium at rest under the loads of the case, the hub held.
+
+        In space it is 6 × 6, forces and couples by displacements and rotations; in the plane 3 × 3.
+        """
+        components, matrix, warnings = self._case.stiffness_at(place)
+        warn(warnings)
+        return Stiffness(place, tuple(components), matrix, tuple(warnings))
+
+    def linearize(
+        self,
+        speed: float = 0.0,
+        *,
+        inputs: Mapping[str, Mapping[str, Any] | None] | None = None,
+        outputs: Sequence[str] = (),
+        free_hub: bool = False,
+    ) -> Linear:
+        """The equations of small motions about the equilibrium in steady rotation at a speed [rad/s], for control.
+
+        An input is the amplitude of a load, ``inputs={"push": {"on": "tip", "force": [0, 1], "axes": "hub"}}``; ``"hub.torque": None`` is that
+        of a free hub of a beam. Outputs are columns of a run that are functions of the motion.
+        """
+        given = dict(inputs or {})
+        found = self._case.linearize(float(speed), free_hub, list(given.items()), list(outputs))
+        names, (m, d, g, k, b, j, z), (p, v, a), units, at, warnings = found
+        warn(warnings)
+        return Linear(
+            tuple(names), tuple(given), tuple(outputs), m, d, g, k, b, j, z, p, v, a, tuple(units), np.array(at), tuple(warnings)
+        )
 
     def advise(
         self,

@@ -69,6 +69,14 @@ class Case:
     def statics(
         self, to: float, step: float, points: int, errors: str, notify: _Notify
     ) -> tuple[LoadPath, BaseException | None]: ...
+    def linearize(
+        self,
+        speed: float,
+        free_hub: bool,
+        inputs: list[tuple[str, Mapping[str, Any] | None]],
+        outputs: list[str],
+    ) -> tuple[list[str], list[_Array], list[_Array], list[str], list[float], list[str]]: ...
+    def stiffness_at(self, place: str) -> tuple[list[str], _Array, list[str]]: ...
     def advise(self, tolerance: str, quantity: str | None, notify: _Notify) -> tuple[str, BaseException | None]: ...
 
 @final

@@ -4,7 +4,7 @@ use super::path::LoadPath;
 use super::run::Run;
 use super::vibration::{Diagram, Modes, units};
 use super::watch::{Watch, guarded};
-use super::{faults, value};
+use super::{faults, linear, value};
 use flexion_case::{Contents, DiagramRequest, Effort, Reading, Target};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -183,6 +183,21 @@ impl Case {
         notify: Option<Py<PyAny>>,
     ) -> PyResult<(LoadPath, Option<PyErr>)> {
         LoadPath::of(py, &self.reading, (to, step, points), effort(errors)?, Watch::new(notify))
+    }
+
+    fn linearize<'py>(
+        &self,
+        py: Python<'py>,
+        speed: f64,
+        free_hub: bool,
+        inputs: Vec<(String, Option<Bound<'py, PyMapping>>)>,
+        outputs: Vec<String>,
+    ) -> PyResult<linear::Linearized<'py>> {
+        linear::linearize(py, &self.reading, speed, free_hub, inputs, outputs)
+    }
+
+    fn stiffness_at<'py>(&self, py: Python<'py>, place: &str) -> PyResult<linear::Held<'py>> {
+        linear::stiffness_at(py, &self.reading, place)
     }
 
     /// What is advised, as JSON.

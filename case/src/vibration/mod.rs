@@ -1,11 +1,15 @@
 //! Vibrations of a case, at rest or in steady rotation: modes at one speed, and their diagram over speeds.
 
 mod diagram;
+mod linear;
 mod modes;
+mod place_stiffness;
 mod threads;
 
 pub use diagram::{Diagram, DiagramRequest};
+pub use linear::{Linear, LinearRequest};
 pub use modes::{FoundModes, ModesRequest};
+pub use place_stiffness::PlaceStiffness;
 pub use threads::campbell;
 
 use super::case::Case;

@@ -10,6 +10,7 @@ mod equations;
 pub mod equilibrium;
 pub mod error;
 mod joints;
+pub mod linearization;
 mod mac;
 mod mechanism;
 pub mod modes;

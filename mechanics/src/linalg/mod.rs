@@ -9,6 +9,7 @@ mod dense;
 pub mod eigen;
 mod inertia;
 mod matrix;
+mod null_space;
 mod scalar;
 mod space;
 #[cfg(test)]
@@ -20,6 +21,7 @@ pub use bordered::Bordered;
 pub use dense::Dense;
 pub use inertia::{negative_pivots, negative_pivots_of};
 pub use matrix::{Matrix, Stamp, Storage, Structure};
+pub use null_space::NullSpace;
 pub use scalar::Scalar;
 pub use space::{Mat3, Vec3};
 
