@@ -12,9 +12,9 @@ use std::sync::Arc;
 type Matrix<'py> = Bound<'py, PyArray2<f64>>;
 
 fn matrix<'py>(py: Python<'py>, table: &Table) -> Matrix<'py> {
-    let array = PyArray2::zeros(py, [table.rows(), table.columns], false);
+    let array = PyArray2::zeros(py, [table.rows, table.columns], false);
     let mut written = array.readwrite();
-    for i in 0..table.rows() {
+    for i in 0..table.rows {
         for j in 0..table.columns {
             if let Some(entry) = written.get_mut([i, j]) {
                 *entry = table.get(i, j);

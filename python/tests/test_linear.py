@@ -125,3 +125,8 @@ def test_what_is_no_input_or_output_is_refused(arm: flexion.Case) -> None:
         arm.linearize(math.nan)
     with pytest.raises(TypeError):
         arm.linearize(0.0, inputs={"push": 3})  # type: ignore[dict-item]
+
+
+def test_without_inputs_and_outputs_the_poles_remain(arm: flexion.Case) -> None:
+    a, b, c, d = arm.linearize(4.0).state_space()
+    assert b.shape == (len(a), 0) and c.shape == (0, len(a)) and d.shape == (0, 0)

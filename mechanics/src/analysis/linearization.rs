@@ -34,6 +34,8 @@ const DEPENDS: f64 = 1e-9;
 /// A matrix, row by row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
+    /// Number of rows.
+    pub rows: usize,
     /// Number of columns.
     pub columns: usize,
     /// Entries.
@@ -44,12 +46,7 @@ impl Table {
     /// Of the entries at row i and column j.
     pub fn from_fn(rows: usize, columns: usize, entry: impl Fn(usize, usize) -> f64) -> Table {
         let entries = (0..rows).flat_map(|i| (0..columns).map(move |j| [i, j])).map(|[i, j]| entry(i, j));
-        Table { columns, entries: entries.collect() }
-    }
-
-    /// Number of rows.
-    pub fn rows(&self) -> usize {
-        if self.columns == 0 { 0 } else { self.entries.len() / self.columns }
+        Table { rows, columns, entries: entries.collect() }
     }
 
     /// The entry at row i and column j.
