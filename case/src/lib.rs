@@ -46,6 +46,7 @@ mod space;
 mod statics;
 mod stations;
 mod suggestion;
+pub mod sweep;
 mod template;
 mod tree;
 pub mod units;

@@ -2,7 +2,7 @@
 
 pub mod advise;
 pub(crate) mod cautions;
-mod clock;
+pub(crate) mod clock;
 mod contact;
 pub(crate) mod error;
 pub mod refine;
