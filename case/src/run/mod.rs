@@ -386,6 +386,11 @@ impl Reading {
 }
 
 impl Prepared {
+    /// The same without shapes and scene, for those who look at the columns alone.
+    pub(crate) fn without_pictures(self) -> Prepared {
+        Prepared { shapes: None, scene: Scene::default(), ..self }
+    }
+
     /// Integrates to the end, or to where `watch` stops it or the integration fails: what was computed
     /// until then is in the run.
     pub fn run(self, watch: &mut Watch<'_>) -> Run {

@@ -158,11 +158,12 @@ mod tests {
             let found: Vec<_> = order.iter().map(|i| keeping.add(*i, &parts[*i], 30)).collect();
             assert_eq!(found[2], Some((3, 20)));
         }
-        // 3 of 30 are not.
+        // 3 of 30 are not, where they come last.
+        let late: Vec<bool> = bad.into_iter().rev().collect();
         let mut keeping = Keeping::default();
         assert_eq!(keeping.add(0, &rows(&good), 30), None);
         assert_eq!(keeping.add(1, &rows(&good), 30), None);
-        assert_eq!(keeping.add(2, &rows(&bad), 30), None);
+        assert_eq!(keeping.add(2, &rows(&late), 30), None);
         // Of few rows all are waited for.
         let mut few = Keeping::default();
         assert_eq!(few.add(0, &rows(&[true]), 5), None);

@@ -311,7 +311,7 @@ impl Sweep {
             }
         };
         count = Count { limit, taken: 0, ended: None };
-        let mut run = prepared.run(&mut |_| count.go_on(watch));
+        let mut run = prepared.without_pictures().run(&mut |_| count.go_on(watch));
         row.steps = run.counters.steps;
         row.warnings = run.all_warnings().count();
         if run.status != flexion_results::Status::Finished {
