@@ -1,5 +1,7 @@
 //! Sweeps: what is run, what is kept, and what is refused.
 
+#![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
+
 use flexion_case::sweep::{
     Chunk, Errors, How, Inputs, Method, Options, Outcome, Point, Row, Sample, Shard, Status, Stop, Sweep,
     SweepError, Table,

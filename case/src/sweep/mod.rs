@@ -6,6 +6,21 @@
 //!
 //! A row depends on its inputs alone: it has the same bits on any thread, in any order, and beside any other row. Its wall time is the one
 //! value that differs.
+//!
+//! ```
+//! use flexion_case::sweep::{Chunk, Inputs, Options, Sweep};
+//! use std::ops::ControlFlow;
+//!
+//! # let text = include_str!("../../../verification/p1_spin_up_4/case.toml").to_owned();
+//! let case = flexion_case::parse(text, "case.toml".as_ref(), &["run.duration=1 s".to_owned()])?;
+//! let inputs = Inputs { vary: vec!["section.modulus=60 GPa:80 GPa:3".to_owned()], ..Inputs::default() };
+//! let sweep = Sweep::new(case, inputs, &["tip.deflection.min".to_owned()], Options::default())?;
+//! let rows = sweep.run(Chunk { first: 0, count: sweep.rows() }, &mut || ControlFlow::Continue(()));
+//! let deflection = |i: usize| rows[i].quantities[0].map(|of| of.value);
+//! // A stiffer beam bends less.
+//! assert!(deflection(0) < deflection(2));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod csv_file;
 mod distribution;
