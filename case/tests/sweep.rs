@@ -202,6 +202,15 @@ fn what_is_wrong_with_inputs_is_said_at_once_before_anything_runs() {
     assert!(refused(&["basis.elements=3:10:3"]).contains("takes integers"));
     assert!(refused(&["model.coupling=1:2:3"]).contains("is not what this key takes"));
     assert!(refused(&[]).contains("nothing is varied"));
+    let Err(SweepError::Case(problems)) = made(table("model.coupling\nfirst\nfrist\n"), PLAIN) else {
+        panic!()
+    };
+    assert!(problems.to_string().contains("inputs.csv, row 2"), "{problems}");
+    let refined =
+        parse(CASE.replace("duration =", "tolerance = 1e-4\nduration ="), Path::new("case.toml"), &[])
+            .unwrap();
+    let refined = Sweep::new(refined, vary(&["section.area=4 cm^2"]), &["tip.deflection".to_owned()], PLAIN);
+    assert!(refined.unwrap_err().to_string().contains("does not refine"));
     let both = Inputs { vary: vec!["section.area=1:2:3".to_owned()], ..table("section.area\n1\n") };
     assert!(matches!(made(both, PLAIN), Err(SweepError::Case(_))));
     let Err(SweepError::Column(column)) =

@@ -169,6 +169,9 @@ impl Sweep {
         said: &(dyn Fn(Progress) + Sync),
     ) {
         loop {
+            if shared.stop.load(Ordering::Relaxed) {
+                return;
+            }
             let next = shared.next.fetch_add(1, Ordering::Relaxed);
             let Some((place, part)) = shared.missing.get(next).copied() else { return };
             let mut asked = false;
@@ -201,9 +204,6 @@ impl Sweep {
                     keeping.2 = Some(error);
                     shared.stop.store(true, Ordering::Relaxed);
                 }
-            }
-            if shared.stop.load(Ordering::Relaxed) {
-                return;
             }
         }
     }

@@ -171,6 +171,10 @@ impl Sweep {
         quantities: &[String],
         options: Options,
     ) -> Result<Sweep, SweepError> {
+        if reading.case.accuracy.is_some() {
+            let message = "a sweep does not refine mesh and steps: leave the tolerance out, and choose them for all rows";
+            return Err(SweepError::Case(reading.problem("run.tolerance", message)));
+        }
         let (inputs, levels): (Vec<Input>, Vec<_>) = read::read(&reading, &given)?.into_iter().unzip();
         let levels: Vec<_> = inputs.iter().map(|input| input.key.clone()).zip(levels).collect();
         let rows = points::count(&given, &levels).map_err(SweepError::Asked)?;
@@ -234,6 +238,11 @@ impl Sweep {
     /// The quantities.
     pub fn quantities(&self) -> &[Quantity] {
         &self.quantities
+    }
+
+    /// Number of parts in which all rows are kept: as a [`Shard`] of so many, each is one part, for whoever hands them out one by one.
+    pub fn parts(&self) -> usize {
+        self.rows.div_ceil(self.part())
     }
 
     /// The seed of the sample, where there is one.

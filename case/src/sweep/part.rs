@@ -27,7 +27,7 @@ impl<'a> Parts<'a> {
 
     /// How many there are.
     pub(super) fn count(&self) -> usize {
-        self.sweep.rows.div_ceil(self.rows)
+        self.sweep.parts()
     }
 
     /// The rows of a part.

@@ -12,6 +12,8 @@ use crate::values::{Filled, Value};
 
 /// Rows that are read to find out what the keys take.
 const TRIED: usize = 8;
+/// Different texts of a key that are read.
+const MOST_TEXTS: usize = 1000;
 /// Problems with values that are looked for.
 const MOST_PROBLEMS: usize = 60;
 
@@ -254,7 +256,10 @@ impl<'a> Reader<'a> {
             let key = self.asked[number].0.clone();
             let name = key.rsplit('.').next().unwrap_or(&key).trim();
             let filled = read.set_by(before + place, name);
-            out[number] = filled.map(Takes::of);
+            // Of a vector a sweep knows no more than its text.
+            let asked = &self.asked[number].1;
+            let is_list = (0..asked.count()).any(|index| asked.text(index).starts_with('['));
+            out[number] = filled.map(|filled| if is_list { Takes::Text } else { Takes::of(filled) });
             if filled.is_none() {
                 // A table of a list by its number, or a key that another one has set again.
                 let again = (0..read.sources().len() - before).any(|other| {
@@ -413,14 +418,17 @@ impl<'a> Reader<'a> {
     fn texts(&mut self, number: usize, texts: Vec<String>) -> Option<Levels> {
         let before = self.problems.list.len();
         let key = self.asked[number].0.clone();
-        if self.inputs.table.is_none() {
-            for index in 1..texts.len() {
-                if let Err(mut problems) =
-                    self.reading.with(&self.changes(|other| if other == number { index } else { 0 }))
-                {
-                    problems.list.retain(|problem| problem.key.starts_with(&key));
-                    self.merge(problems, index);
-                }
+        let is_table = self.inputs.table.is_some();
+        let mut seen = std::collections::BTreeSet::new();
+        for (index, text) in texts.iter().enumerate() {
+            // Each is read once, in its row or beside the first values of the other keys.
+            if !seen.insert(text) || seen.len() > MOST_TEXTS {
+                continue;
+            }
+            let changes = self.changes(|other| if is_table || other == number { index } else { 0 });
+            if let Err(mut problems) = self.reading.with(&changes) {
+                problems.list.retain(|problem| problem.key.starts_with(&key));
+                self.merge(problems, index);
             }
         }
         (self.problems.list.len() == before).then_some(Levels::Texts(texts))
