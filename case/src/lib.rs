@@ -45,6 +45,7 @@ mod space;
 mod statics;
 mod stations;
 mod suggestion;
+pub mod sweep;
 mod template;
 mod tree;
 pub mod units;

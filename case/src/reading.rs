@@ -15,7 +15,7 @@ use super::short;
 use super::sources::{Contents, Files, Folder, Sources};
 use super::space::Space;
 use super::tree::{self, Node, Raw};
-use super::values::{Value, Values};
+use super::values::{Filled, Value, Values};
 use flexion::integrator::Integrator;
 use flexion::system::{Jump, State, System};
 use flexion_results::Artifact;
@@ -36,6 +36,15 @@ pub struct Live {
     pub system: Box<dyn System>,
     /// The integrator, not yet started.
     pub integrator: Box<dyn Integrator>,
+}
+
+/// A value of a sweep, laid over a case.
+#[derive(Clone, Debug)]
+pub(super) enum Laid {
+    /// A number.
+    Typed(Change),
+    /// `KEY=VALUE`.
+    Text(String),
 }
 
 /// A case that was read, with all that is known about how it was written.
@@ -168,6 +177,27 @@ impl Reading {
     /// The same case with further loads, tables of TOML, of which some have the amplitude zero.
     pub(super) fn with_loads(&self, loads: &[(String, bool)]) -> Result<Reading, Problems> {
         self.after(loads, |root, (load, silent), problems| tree::push_load(root, load, *silent, problems))
+    }
+
+    /// The same case with values of a sweep.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the changes.
+    pub(super) fn laid(&self, values: &[Laid]) -> Result<Reading, Problems> {
+        self.after(values, |root, value, problems| match value {
+            Laid::Typed(change) => tree::change(root, change, problems),
+            Laid::Text(text) => tree::lay_over(root, text, problems),
+        })
+    }
+
+    /// The texts that the case was read from: a further change is the next one.
+    pub(super) fn sources(&self) -> &[Source] {
+        &self.sources
+    }
+
+    /// The key of this name that a change, a source by its number, has set.
+    pub(super) fn set_by(&self, source: usize, name: &str) -> Option<&Filled> {
+        self.written().set_by(source, name)
     }
 
     fn after<C>(

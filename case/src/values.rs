@@ -95,6 +95,19 @@ impl Values {
         }
     }
 
+    /// The key of this name whose value was written in a source.
+    pub(super) fn set_by(&self, source: usize, name: &str) -> Option<&Filled> {
+        self.entries.iter().find_map(|filled| {
+            let within = match &filled.value {
+                Value::Table(values) | Value::Kind(_, values) => values.set_by(source, name),
+                Value::Tables(list) => list.iter().find_map(|values| values.set_by(source, name)),
+                _ => None,
+            };
+            let is_set = filled.place.as_ref().is_some_and(|place| place.source == source);
+            within.or((is_set && filled.key.name == name).then_some(filled))
+        })
+    }
+
     /// Where the value at a dotted path was written, or else the innermost table around it; with the text, if it is one.
     pub(super) fn find(&self, path: &str) -> (Option<Place>, Option<&str>) {
         let (mut place, mut text, mut table) = (self.place.clone(), None, Some(self));

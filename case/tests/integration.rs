@@ -37,6 +37,7 @@ mod space_modes;
 mod spring;
 mod statics;
 mod supports;
+mod sweep;
 mod twenty_seconds;
 mod verification {
     pub mod run;

@@ -19,6 +19,7 @@ mod plot;
 mod run;
 mod screen;
 mod statics;
+mod sweep;
 mod vibration;
 mod view;
 
@@ -48,6 +49,8 @@ enum Command {
     New(new::Arguments),
     /// Run a case and write its trajectory, summary and plot
     Run(run::Arguments),
+    /// Run a case with many values of some of its keys, one row a run
+    Sweep(sweep::Arguments),
     /// Validate a case and show what would be run
     Check(check::Arguments),
     /// Show how far runs are apart
@@ -106,6 +109,7 @@ pub fn program(words: Vec<OsString>) -> u8 {
     };
     let outcome = match arguments.command {
         Command::Run(arguments) => run::run(&arguments),
+        Command::Sweep(arguments) => sweep::sweep(&arguments),
         Command::New(arguments) => new::new(&arguments),
         Command::Compare(arguments) => compare::compare(&arguments),
         Command::Modes(arguments) => modes::modes(&arguments),

@@ -217,6 +217,9 @@ impl Scene {
 
     /// Call it with every recorded state: it keeps some of them. [`Scene::draw`] takes those that it keeps.
     pub fn sample(&mut self, system: &mut dyn System, state: &State) {
+        if self.shows_nothing() {
+            return;
+        }
         if self.seen.is_multiple_of(self.every.max(1)) {
             self.waiting.push(state.clone());
             if self.waiting.len() * (state.q.len() + 2 * state.v.len()) > MOST_WAITING {
@@ -224,6 +227,11 @@ impl Scene {
             }
         }
         self.seen += 1;
+    }
+
+    /// Whether there is nothing to be seen, as in `Scene::default()`.
+    fn shows_nothing(&self) -> bool {
+        self.parts.is_empty() && self.obstacles.is_empty()
     }
 
     /// Takes the sampled states that it has not taken yet.
@@ -236,7 +244,7 @@ impl Scene {
     /// Takes the sampled states and the last one of a run, unless it was sampled.
     pub fn finish(&mut self, system: &mut dyn System, state: &State) {
         self.draw(system);
-        if self.times.last() != Some(&state.t) {
+        if self.times.last() != Some(&state.t) && !self.shows_nothing() {
             self.take(state.t, system, state);
         }
     }

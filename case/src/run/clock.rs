@@ -3,19 +3,19 @@
 use std::time::Instant;
 
 /// A clock that runs.
-pub(super) struct Clock {
+pub(crate) struct Clock {
     start: Instant,
     processor: Option<f64>,
 }
 
 impl Clock {
     /// Starts a clock.
-    pub(super) fn start() -> Clock {
+    pub(crate) fn start() -> Clock {
         Clock { start: Instant::now(), processor: processor_time() }
     }
 
     /// Time since the start [s], and that of the processor, where the system gives it.
-    pub(super) fn elapsed(&self) -> (f64, Option<f64>) {
+    pub(crate) fn elapsed(&self) -> (f64, Option<f64>) {
         let processor = processor_time().zip(self.processor).map(|(end, start)| end - start);
         (self.start.elapsed().as_secs_f64(), processor)
     }

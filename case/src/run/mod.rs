@@ -3,7 +3,7 @@
 pub mod advise;
 pub(crate) mod calculation;
 pub(crate) mod cautions;
-mod clock;
+pub(crate) mod clock;
 mod contact;
 pub(crate) mod error;
 mod files;
@@ -340,6 +340,11 @@ impl Prepared {
     /// What its reader should know about the model before it runs.
     pub fn warnings(&self) -> &[String] {
         &self.warnings
+    }
+
+    /// The same without shapes and scene, for those who look at the columns alone.
+    pub(crate) fn without_pictures(self) -> Prepared {
+        Prepared { shapes: None, scene: Scene::default(), ..self }
     }
 
     /// Integrates to the end, or to where `watch` stops it or the integration fails: what was computed

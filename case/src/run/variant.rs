@@ -48,10 +48,9 @@ impl Refinable for Reading {
     }
 
     fn record(&self, variant: &Variant, watch: &mut Watch<'_>) -> Result<Record, Problems> {
-        // Shapes are those of the run itself.
-        let mut changes = self.changes(variant)?;
-        changes.push(OUTPUT.change(Recorded::vtk.to(false)));
-        let mut prepared = self.changed(&changes)?.prepare()?;
+        // Pictures are those of the run itself.
+        let changes = self.changes(variant)?;
+        let mut prepared = self.changed(&changes)?.prepare()?.without_pictures();
         if let Some(Disturbance { energy, period }) = variant.disturbance {
             // What cannot be disturbed moves as it did.
             let _ = disturb(prepared.live.system.as_mut(), &mut prepared.state, energy, period);

@@ -221,7 +221,7 @@ impl Fields {
     /// Both fields at `x`, with a quadrature weight.
     pub fn point(&self, x: f64, weight: f64) -> Point {
         let mut point = Point { x, weight, ..Point::default() };
-        self.fill(x, x, &mut point);
+        self.fill(x, self.locate(x), &mut point);
         point
     }
 
@@ -229,17 +229,21 @@ impl Fields {
     pub fn cell_end(&self, cell: usize) -> Point {
         let (start, end) = (self.cells[cell], self.cells[cell + 1]);
         let mut point = Point { x: end, ..Point::default() };
-        self.fill(end, 0.5 * (start + end), &mut point);
+        self.fill(end, self.locate(0.5 * (start + end)), &mut point);
         point
     }
 
-    /// Fills the shapes of `point` at `x`; `inside` is a point strictly inside the same cell.
-    fn fill(&self, x: f64, inside: f64, point: &mut Point) {
-        for (basis, numbers, shapes) in [
-            (&self.axial, &self.axial_index, &mut point.axial),
-            (&self.transverse, &self.transverse_index, &mut point.transverse),
+    /// The cells of both bases in which `x` lies.
+    fn locate(&self, x: f64) -> [usize; 2] {
+        [self.axial.locate(x), self.transverse.locate(x)]
+    }
+
+    /// Fills the shapes of `point` at `x`, by the functions of these cells of both bases.
+    fn fill(&self, x: f64, [axial, transverse]: [usize; 2], point: &mut Point) {
+        for (basis, numbers, shapes, cell) in [
+            (&self.axial, &self.axial_index, &mut point.axial, axial),
+            (&self.transverse, &self.transverse_index, &mut point.transverse, transverse),
         ] {
-            let cell = basis.locate(inside);
             let support = basis.support(cell);
             shapes.index.clear();
             shapes.index.extend_from_slice(&numbers[support.clone()]);
@@ -259,9 +263,10 @@ impl Fields {
     pub fn integrate_over(&self, cells: &[f64], mut f: impl FnMut(&Point)) {
         let mut point = Point::default();
         for ends in cells.windows(2) {
+            let within = self.locate(0.5 * (ends[0] + ends[1]));
             for (x, weight) in self.gauss.on(ends[0], ends[1]) {
                 (point.x, point.weight) = (x, weight);
-                self.fill(x, 0.5 * (ends[0] + ends[1]), &mut point);
+                self.fill(x, within, &mut point);
                 f(&point);
             }
         }

@@ -42,6 +42,11 @@ pub trait Profile: Send + Sync + std::fmt::Debug {
         &[]
     }
 
+    /// Equal parts of a run at whose ends f is looked at for its largest value, and for numbers that are not finite.
+    fn parts(&self) -> usize {
+        4096
+    }
+
     /// First and last time at which f is given \[s\]: a run lies between them.
     fn range(&self) -> (f64, f64) {
         (f64::NEG_INFINITY, f64::INFINITY)

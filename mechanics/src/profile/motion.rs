@@ -28,9 +28,6 @@ pub enum Motion {
     Angle(Arc<dyn Profile>),
 }
 
-/// Times at which a run is sampled for its largest speed and for validation.
-const SAMPLES: usize = 4096;
-
 impl Motion {
     /// Angle, speed and acceleration at time `t` \[s\].
     pub fn at(&self, t: f64) -> HubKinematics {
@@ -132,7 +129,8 @@ impl Motion {
     }
 
     fn samples(&self, duration: f64) -> impl Iterator<Item = f64> {
-        (0..=SAMPLES).map(move |k| duration * (k as f64 / SAMPLES as f64))
+        let parts = self.profile().parts();
+        (0..=parts).map(move |k| duration * (k as f64 / parts as f64))
     }
 }
 

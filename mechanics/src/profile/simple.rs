@@ -3,6 +3,9 @@
 use super::{Profile, ProfileError, finite, positive};
 use std::f64::consts::{PI, TAU};
 
+/// Parts of a run at whose ends these are looked at: they are largest at the ends of their pieces, or in the middle.
+const PARTS: usize = 64;
+
 /// f(t) = c.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Constant {
@@ -35,6 +38,10 @@ impl Profile for Constant {
 
     fn integral(&self, t: f64) -> f64 {
         self.value * t
+    }
+
+    fn parts(&self) -> usize {
+        PARTS
     }
 }
 
@@ -83,6 +90,10 @@ impl Profile for Ramp {
 
     fn breaks(&self) -> &[f64] {
         &self.breaks
+    }
+
+    fn parts(&self) -> usize {
+        PARTS
     }
 }
 
@@ -139,6 +150,10 @@ impl Profile for SpinUp {
 
     fn breaks(&self) -> &[f64] {
         &self.breaks
+    }
+
+    fn parts(&self) -> usize {
+        PARTS
     }
 }
 
