@@ -18,11 +18,13 @@ from ._errors import (
     Interrupted,
     Problem,
     RunError,
+    SweepError,
 )
 from ._figure import Figure
 from ._linear import Linear, Stiffness
 from ._run import Column, Event, Run, Trust, View, load
 from ._statics import LoadPath
+from ._sweep import Sweep, sweep
 from ._value import Value
 from ._vibration import Branch, Crossing, Diagram, Mode, Modes, Resonance
 
@@ -54,6 +56,8 @@ __all__ = [
     "Run",
     "RunError",
     "Stiffness",
+    "Sweep",
+    "SweepError",
     "Trust",
     "Value",
     "View",
@@ -62,4 +66,5 @@ __all__ = [
     "load",
     "plot",
     "schema",
+    "sweep",
 ]

@@ -20,7 +20,9 @@ __all__ = [
     "Modes",
     "Run",
     "Stored",
+    "Sweep",
     "compare",
+    "item",
     "program",
     "runs_figure",
     "schema",
@@ -155,6 +157,33 @@ class LoadPath:
     def figure(self) -> Figure: ...
     def save(self, path: _Path, force: bool) -> None: ...
 
+@final
+class Sweep:
+    def __new__(
+        cls,
+        case: Case,
+        vary: list[str],
+        table: tuple[str, str] | None,
+        sample: tuple[str, int, int] | None,
+        quantities: list[str],
+        errors: str,
+        limit: int | None,
+        part: int | None,
+    ) -> Sweep: ...
+    @property
+    def rows(self) -> int: ...
+    @property
+    def parts(self) -> int: ...
+    @property
+    def seed(self) -> int | None: ...
+    def open(self, folder: _Path) -> None: ...
+    def kept_parts(self, folder: _Path) -> list[int]: ...
+    def run(
+        self, folder: _Path, threads: int, part: int | None, keep_going: bool, notify: _Notify
+    ) -> tuple[tuple[int, int, int, int, float | None, str | None], BaseException | None]: ...
+    def columns(self, folder: _Path) -> list[tuple[str, list[Any]]]: ...
+
+def item(given: Any) -> str: ...
 def compare(
     first: tuple[str, Run | Stored], second: tuple[str, Run | Stored], patterns: list[str]
 ) -> tuple[str, Figure]: ...

@@ -63,6 +63,17 @@ class AnalysisError(FlexionError):
     """An analysis without result: no modes, no diagram, no advice, no equilibrium."""
 
 
+class SweepError(FlexionError):
+    """A sweep that is refused, or that stopped because more than a tenth of its rows failed."""
+
+    result: Any
+    """The rows that are kept, where there are any."""
+
+    def __init__(self, message: str, result: Any = None) -> None:
+        super().__init__(message)
+        self.result = result
+
+
 class InternalError(FlexionError, RuntimeError):
     """A fault of the program, which no case should reach: please report it."""
 

@@ -1,5 +1,6 @@
 //! Errors of the engine as exceptions of `flexion._errors`.
 
+use flexion_case::sweep::SweepError;
 use flexion_case::{AdviseError, Problems, RefineError, VibrationError};
 use flexion_results::{OutputError, ResultsError};
 use pyo3::call::PyCallArgs;
@@ -68,4 +69,14 @@ pub fn vibration(py: Python<'_>, error: &VibrationError) -> PyErr {
 /// A case without advice.
 pub fn advise(py: Python<'_>, error: &AdviseError) -> PyErr {
     analysis(py, &error.to_string())
+}
+
+/// A sweep that is refused.
+pub fn sweep(py: Python<'_>, error: &SweepError) -> PyErr {
+    match error {
+        SweepError::Case(of) => problems(py, of),
+        SweepError::Column(error) => results(py, error),
+        SweepError::Io { .. } => PyOSError::new_err(error.to_string()),
+        error => raise(py, "SweepError", (error.to_string(),)),
+    }
 }

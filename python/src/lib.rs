@@ -9,6 +9,7 @@ mod figure;
 mod linear;
 mod path;
 mod run;
+mod sweep;
 mod value;
 mod vibration;
 mod watch;
@@ -27,6 +28,8 @@ mod _core {
     use super::path::LoadPath;
     #[pymodule_export]
     use super::run::Run;
+    #[pymodule_export]
+    use super::sweep::{Sweep, item};
     #[pymodule_export]
     use super::vibration::{Diagram, Modes};
     #[pymodule_export]

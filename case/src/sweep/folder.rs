@@ -4,6 +4,7 @@ use super::identity::{self, difference};
 use super::keeping::{Keeping, Totals};
 use super::part::Parts;
 use super::row::{Row, Status};
+use super::table::Named;
 use super::{Sweep, SweepError, csv_file, table};
 use flexion_results::resolved_case;
 use serde_json::{Map, Value};
@@ -158,6 +159,33 @@ impl Sweep {
         }
         let csv = if stop == Some(Stop::Asked) { None } else { self.merge(folder, &parts)? };
         Ok(Outcome { totals: keeping.totals, rows, found, stop, csv })
+    }
+
+    /// Makes a folder one of this sweep: it holds the case and what is varied, and parts may be added.
+    ///
+    /// # Errors
+    /// A folder that holds something else, with what differs; whatever the system says.
+    pub fn open(&self, folder: &Path) -> Result<(), SweepError> {
+        let identity = self.identity();
+        let parts = Parts::new(self, folder, identity::name(&identity));
+        self.take(folder, &parts, &identity)
+    }
+
+    /// The rows that a folder holds, in their order.
+    pub fn kept(&self, folder: &Path) -> Vec<Row> {
+        let parts = Parts::new(self, folder, identity::name(&self.identity()));
+        (0..parts.count()).filter_map(|part| parts.read(part)).flatten().collect()
+    }
+
+    /// Numbers of the parts that a folder holds, torn ones aside.
+    pub fn kept_parts(&self, folder: &Path) -> Vec<usize> {
+        let parts = Parts::new(self, folder, identity::name(&self.identity()));
+        (0..parts.count()).filter(|part| parts.read(*part).is_some()).collect()
+    }
+
+    /// Rows as columns, as they stand in files.
+    pub fn table(&self, rows: &[Row]) -> Vec<Named> {
+        table::columns(self, rows)
     }
 
     /// Computes part after part until none is missing, or the sweep stops.

@@ -46,6 +46,7 @@ pub use keeping::Totals;
 pub use quantity::{Collected, Quantity, Value};
 pub use read::Input;
 pub use row::{Point, Row, Status};
+pub use table::{Data, Named};
 
 use crate::change::{Change, Setting};
 use crate::problem::Problems;

@@ -5,12 +5,16 @@ use super::quantity::Collected;
 use super::row::{Point, Row, Status};
 use flexion_results::VERSION;
 
-/// The values of a column.
+/// The values of a column, one a row.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Data {
+pub enum Data {
+    /// Whole numbers.
     Whole(Vec<i64>),
+    /// Numbers, where there are any.
     Numbers(Vec<Option<f64>>),
+    /// Texts, where there are any.
     Texts(Vec<Option<String>>),
+    /// Truths, where they are known.
     Booleans(Vec<Option<bool>>),
 }
 
@@ -26,7 +30,7 @@ impl Data {
 }
 
 /// A column with its name, and its unit between brackets where it has one.
-pub(super) type Named = (String, Data);
+pub type Named = (String, Data);
 
 /// A name with its unit.
 fn with_unit(name: &str, unit: &str) -> String {

@@ -1,0 +1,309 @@
+"""One case with many values of some of its keys: on all cores, in processes, or on a cluster."""
+
+from __future__ import annotations
+
+import csv
+import functools
+import html
+import io
+import os
+import tempfile
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import FIRST_COMPLETED, CancelledError, Future, wait
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._case import Case, Stop
+from ._errors import Interrupted, SweepError, warn
+from ._progress import Progress
+
+if TYPE_CHECKING:
+    import pandas
+
+Vary = Mapping[str, Any]
+"""Of each dotted key its values: a sequence, a range ``"60 GPa:80 GPa:21"``, or a distribution ``"normal(70 GPa, 1 GPa)"``."""
+
+_TRIES = 3
+"""How often a part is given to a cluster that loses it."""
+
+
+class Executor(Protocol):
+    """What computes elsewhere: ``concurrent.futures``, MPI's pool, or what ``get_executor`` of a client of Dask gives."""
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any) -> Future[Any]: ...
+
+
+class _Plan(NamedTuple):
+    """All that the rows of a sweep depend on; it is pickled whole."""
+
+    case: Case
+    vary: tuple[str, ...]
+    table: tuple[str, str] | None
+    sample: tuple[str, int, int] | None
+    quantities: tuple[str, ...]
+    errors: str
+    limit: int | None
+    part: int | None
+
+    def made(self) -> _core.Sweep:
+        case, vary, table, sample, quantities, errors, limit, part = self
+        return _core.Sweep(case._case, list(vary), table, sample, list(quantities), errors, limit, part)
+
+
+class Sweep(Mapping[str, npt.NDArray[Any]]):
+    """The rows of a sweep: its columns by name, with or without the unit, as arrays in the order of the rows.
+
+    Beside the inputs and the quantities there are ``status``, ``reason``, ``trusted_until``, ``warnings``, ``steps`` and ``wall_time``; of a
+    quantity ``q`` there are ``q.error``, ``q.time`` and ``q.trusted``. A number that is not known is NaN.
+    """
+
+    def __init__(self, columns: Iterable[tuple[str, list[Any]]], folder: Path | None) -> None:
+        self._columns: dict[str, npt.NDArray[Any]] = {}
+        self.units: dict[str, str] = {}
+        """Unit of each column, where it has one."""
+        for name, values in columns:
+            name, _, unit = name.partition(" [")
+            self.units[name] = unit.rstrip("]")
+            texts = any(isinstance(value, str) for value in values) or name in ("reason", "status", "version")
+            truths = any(isinstance(value, bool) for value in values) or name.endswith(".trusted")
+            kind = object if texts or truths else int if name in ("row", "warnings", "steps") else float
+            self._columns[name] = np.array(values, dtype=kind)
+            self._columns[name].flags.writeable = False
+        self.folder = folder
+        """Where its parts are kept, or ``None``."""
+
+    def __getitem__(self, name: str) -> npt.NDArray[Any]:
+        found = self._columns.get(name.partition(" [")[0])
+        if found is None:
+            raise KeyError(f"the sweep has no column `{name}`: {', '.join(self._columns)}")
+        return found
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._columns)
+
+    def __len__(self) -> int:
+        return len(self._columns)
+
+    @property
+    def rows(self) -> int:
+        """Number of rows."""
+        return len(self._columns["row"])
+
+    @property
+    def failures(self) -> int:
+        """Number of rows that did not finish."""
+        return int((self._columns["status"] != "finished").sum())
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """The rows as a frame, whose ``attrs["units"]`` are the units."""
+        import pandas
+
+        frame = pandas.DataFrame(dict(self._columns)).set_index("row")
+        frame.attrs["units"] = self.units
+        return frame
+
+    def __repr__(self) -> str:
+        failed = f", {self.failures} did not finish" if self.failures else ""
+        return f"<flexion.Sweep: {self.rows} rows{failed}, columns {', '.join(self._columns)}>"
+
+    def _repr_html_(self) -> str:
+        shown = [name for name in self if not name.endswith((".time", ".trusted")) and name not in ("reason", "version")]
+        head = "".join(f"<th>{html.escape(name)}</th>" for name in shown)
+        body = "".join(
+            "<tr>" + "".join(f"<td>{html.escape(_cell(self[name][i]))}</td>" for name in shown) + "</tr>"
+            for i in range(min(self.rows, 20))
+        )
+        more = "" if self.rows <= 20 else f"<div>… {self.rows} rows</div>"
+        return f"<table><tr>{head}</tr>{body}</table>{more}"
+
+
+def _cell(value: Any) -> str:
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def sweep(
+    case: Case,
+    vary: Vary | None = None,
+    quantities: Sequence[str] | str = (),
+    *,
+    table: Any = None,
+    sample: str | None = None,
+    runs: int | None = None,
+    seed: int = 0,
+    errors: str = "sample",
+    limit: int | None = None,
+    keep_going: bool = False,
+    folder: str | os.PathLike[str] | None = None,
+    part: int | None = None,
+    threads: int = 0,
+    client: Any = None,
+    progress: bool | None = None,
+    stop: Stop = None,
+) -> Sweep:
+    """Runs a case with many values of some of its keys and collects ``quantities``, ``"tip.deflection.min"``, one row a run.
+
+    ``vary`` holds the values of dotted keys, run in all combinations, the last key changing fastest; ``table`` instead a row a run, as a frame, a
+    list of dicts, a dict of columns, or the path of a CSV file. With ``sample``, ``"lhs"`` or ``"sobol"``, ``runs`` points of ranges
+    ``"9.9 m:10.1 m"`` and distributions are drawn with ``seed``.
+
+    ``errors`` are estimated of ``"each"`` row, of a ``"sample"`` of 20, or of ``"none"``. A run of more than ``limit`` steps is given up. More than a tenth
+    of failed rows stop the sweep, unless ``keep_going``.
+
+    With a ``folder`` the rows are kept there as Parquet parts of ``part`` rows: the same call goes on with what is missing, however it was ended.
+    ``threads`` is 0 for one a processor. ``client``, a client of Dask or any ``concurrent.futures`` executor, computes the parts elsewhere, each with
+    one thread. A row has the same bits anywhere.
+    """
+    asked = (quantities,) if isinstance(quantities, str) else tuple(quantities)
+    drawn = None if sample is None else (sample, _runs(runs), seed)
+    written = tuple(f"{key}={_values(values)}" for key, values in (vary or {}).items())
+    plan = _Plan(case, written, _table(table), drawn, asked, errors, limit, part)
+    made = plan.made()
+    bar = Progress(progress, stop)
+    with tempfile.TemporaryDirectory() as scratch:
+        place = Path(scratch) / "sweep" if folder is None else Path(folder)
+        try:
+            if client is not None:
+                _elsewhere(plan, made, place, client, bar)
+            outcome, raised = made.run(place, threads, None, keep_going, bar)
+        except KeyboardInterrupt as interrupt:
+            raised, outcome = interrupt, None
+        finally:
+            bar.close()
+        result = Sweep(made.columns(place), None if folder is None else place)
+    if isinstance(raised, KeyboardInterrupt):
+        raise Interrupted("interrupted: `.result` has the rows that are kept", result) from raised
+    if raised is not None:
+        raise raised
+    assert outcome is not None
+    kept, asked_rows, _, _, _, why = outcome
+    if why is not None and kept == asked_rows:
+        warn([why])
+    elif why is not None and "failures" not in why and why.startswith("stopped"):
+        warn([why])
+    elif why is not None:
+        raise SweepError(why, result)
+    return result
+
+
+def _runs(runs: int | None) -> int:
+    if runs is None:
+        raise ValueError("a sample needs its number of runs, `runs=`")
+    return runs
+
+
+def _values(values: Any) -> str:
+    """Values as the program takes them."""
+    if isinstance(values, str):
+        return values
+    listed = values.tolist() if isinstance(values, np.ndarray) else values
+    if not isinstance(listed, Iterable) or isinstance(listed, Mapping):
+        listed = [listed]
+    return ",".join(_item(value) for value in listed)
+
+
+def _item(value: Any) -> str:
+    plain = isinstance(value, str) and value and not any(c in value for c in ",\"'[]{}:()\n")
+    return value if plain else _core.item(value)
+
+
+def _table(table: Any) -> tuple[str, str] | None:
+    """A table as the text of a CSV file, with its name."""
+    if table is None:
+        return None
+    if isinstance(table, str | os.PathLike):
+        return os.fspath(table), Path(table).read_text(encoding="utf-8")
+    if hasattr(table, "to_dict") and hasattr(table, "columns"):
+        table = {str(name): table[name].tolist() for name in table.columns}
+    if isinstance(table, Mapping):
+        names = [str(name) for name in table]
+        rows = list(zip(*table.values(), strict=True))
+    else:
+        listed = [dict(row) for row in table]
+        names = list(listed[0]) if listed else []
+        if any(list(row) != names for row in listed):
+            raise ValueError("the rows of a table have the same keys in the same order")
+        rows = [tuple(row.values()) for row in listed]
+    text = io.StringIO()
+    writer = csv.writer(text)
+    writer.writerow(names)
+    writer.writerows([value if isinstance(value, str) else _core.item(value) for value in row] for row in rows)
+    return "table", text.getvalue()
+
+
+# Elsewhere.
+
+
+@functools.lru_cache(maxsize=4)
+def _made(packed: bytes) -> _core.Sweep:
+    import pickle
+
+    plan: _Plan = pickle.loads(packed)
+    return plan.made()
+
+
+def _compute(packed: bytes, part: int, folder: str, manifest: bytes) -> list[tuple[str, bytes]]:
+    """Computes a part where it is called: into the folder, where that is the same there, or else as what is given back."""
+    made = _made(packed)
+    stated = Path(folder) / "sweep.json"
+    if stated.is_file() and stated.read_bytes() == manifest:
+        made.run(folder, 1, part, True, None)
+        return []
+    with tempfile.TemporaryDirectory() as scratch:
+        made.run(scratch, 1, part, True, None)
+        return [(path.name, path.read_bytes()) for path in Path(scratch).glob("part-*.parquet")]
+
+
+def _elsewhere(plan: _Plan, made: _core.Sweep, folder: Path, client: Any, bar: Progress) -> None:
+    """Gives the parts that a folder lacks to an executor. What it loses too often is left for whoever called."""
+    import pickle
+
+    executor: Executor = client.get_executor(pure=False) if hasattr(client, "get_executor") else client
+    if not hasattr(executor, "submit"):
+        raise TypeError(f"a client is one of Dask or an executor, and {type(client).__name__} is neither")
+    made.open(folder)
+    packed, where = pickle.dumps(plan), str(folder.resolve())
+    manifest = (folder / "sweep.json").read_bytes()
+    kept = set(made.kept_parts(folder))
+    missing = [part for part in range(made.parts) if part not in kept]
+    done = len(kept)
+    waiting: dict[Future[Any], tuple[int, int]] = {}
+
+    def submit(part: int, tries: int) -> None:
+        try:
+            waiting[executor.submit(_compute, packed, part, where, manifest)] = (part, tries)
+        except RuntimeError:
+            # An executor that is broken takes no more: the rest is computed here.
+            waiting.clear()
+
+    try:
+        for part in missing:
+            submit(part, 1)
+        while waiting:
+            ended, _ = wait(waiting, timeout=0.2, return_when=FIRST_COMPLETED)
+            for future in ended:
+                if future not in waiting:
+                    continue
+                part, tries = waiting.pop(future)
+                try:
+                    for name, data in future.result():
+                        _write(folder / name, data)
+                    done += 1
+                except (Exception, CancelledError):
+                    if tries < _TRIES:
+                        submit(part, tries + 1)
+            if bar(done / made.parts, f"{done} of {made.parts} parts"):
+                return
+    finally:
+        for future in waiting:
+            future.cancel()
+
+
+def _write(path: Path, data: bytes) -> None:
+    """Writes a file whole or not at all."""
+    new = path.with_name(f".{path.name}-{os.getpid()}.new")
+    new.write_bytes(data)
+    os.replace(new, path)
