@@ -29,6 +29,7 @@ use flexion_results::{
     Artifact, Attachments, Directory, Errors, Integration, OutputError, ProblemSize, RunReport, Scene,
     Shapes, Status, write_run,
 };
+use std::f64::consts::TAU;
 use std::ops::{ControlFlow, Deref};
 
 /// Most memory for records [bytes], and columns that every run may have.
@@ -274,7 +275,11 @@ impl Reading {
         }
         let mut at = mean.initial();
         let turned = self.equilibrium(mean.as_mut(), &mut at, watch);
+        let revolution = TAU / speed.abs();
         let periodic = match turned {
+            Ok(None) if self.case.hub_beam().is_some_and(|beam| beam.load_changes(revolution)) => {
+                Err(NoPeriodicMotion::Changing)
+            }
             // Contacts may be closed.
             Ok(None) if !self.case.has_contacts() => {
                 mean.hold(true);
