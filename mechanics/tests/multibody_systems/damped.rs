@@ -98,3 +98,19 @@ fn modes_of_a_strongly_damped_rotating_beam_are_those_of_a_dense_solution() {
         }
     }
 }
+
+/// A finer mesh has more motions that decay alike, and the same vibrations.
+#[test]
+fn a_finer_mesh_of_a_strongly_damped_beam_has_the_same_vibrations() {
+    let found = |elements: usize| {
+        let mut system = bar(elements, true, 0.02);
+        let mut s = system.initial();
+        rotate_stably(&mut system, &mut s, 0.0, 3.0).unwrap();
+        modes(&mut system, &s, 6, &[]).unwrap().modes
+    };
+    let [coarse, fine] = [4, 10].map(found);
+    assert_eq!((coarse.len(), fine.len()), (4, 4));
+    for (a, b) in coarse.iter().zip(&fine) {
+        assert!((a.eigenvalue - b.eigenvalue).norm() < 1e-3 * b.eigenvalue.norm());
+    }
+}

@@ -22,6 +22,9 @@ const OVERDAMPED: f64 = 0.15;
 /// Share of noise in a vector to begin with of which nothing is counted: no eigenvector is missing in it.
 const STRAY: f64 = 1e-3;
 
+/// Dimension up to which a space of a matrix that is not symmetric may become the whole one.
+const WHOLE: usize = 600;
+
 /// Form of the projected operator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Projection {
@@ -159,7 +162,9 @@ pub(super) fn krylov(
     let Search { wanted, projection, start, seed, .. } = search;
     let n = operator.dimension();
     let copies = if projection == Projection::Symmetric { 1 } else { 2 };
-    let limit = (copies * (8 * wanted + 120)).min(n);
+    let most = copies * (8 * wanted + 120);
+    // A whole space of moderate size tells vibrations from many motions that decay alike.
+    let limit = if projection == Projection::Hessenberg { most.max(WHOLE) } else { most }.min(n);
     let first_look = if start.is_some() { 2 * copies * wanted } else { copies * (2 * wanted + 6) };
     // The fewer steps are expected to be missing, the sooner the next look.
     let part = if projection == Projection::Hessenberg && start.is_some() { 8 } else { 4 };
@@ -305,7 +310,8 @@ fn is_unknown(r: &Ritz, search: &Search<'_>, [largest, noise]: [f64; 2], is_last
     let error = if is_last && counts { r.condition * r.error + rounding } else { r.error };
     let has_no_digit = size < error;
     // As many are next to a cluster of overdamped motions.
-    let may_be_real = across < error && !(search.counts)(r.value.re.into());
+    let decays = |sign: f64| !(search.counts)((r.value.re + sign * error).into());
+    let may_be_real = across < error && decays(-1.0) && decays(1.0);
     is_zero || is_last && (has_no_digit || may_be_real) || may_be_real && across < OVERDAMPED * size
 }
 

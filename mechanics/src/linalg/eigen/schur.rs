@@ -280,16 +280,16 @@ impl Schur {
         // The difference of both eigenvalues from d, without cancellation.
         let half = 0.5 * (a - d);
         let product = half * half + b * c;
-        let root = Complex64::from(product).sqrt();
+        let root = product.abs().sqrt();
         let (first, second) = if product >= 0.0 {
-            let far = half + root.re.copysign(half);
+            let far = half + root.copysign(half);
             let near = if far == 0.0 { 0.0 } else { -b * c / far };
             (Complex64::from(far), Complex64::from(near))
         } else {
-            (half + root, half - root)
+            (Complex64::new(half, root), Complex64::new(half, -root))
         };
         // An eigenvector of the first is (d + first − d, c).
-        let size = first.norm().hypot(c);
+        let size = libm::hypot(first.norm(), c);
         let (cosine, sine) = (first / size, c / size);
         for column in self.t.entries.chunks_exact_mut(n).skip(k - 1) {
             let [x, y] = [column[k - 1], column[k]];
@@ -361,7 +361,7 @@ mod tests {
             let mut h = Square::zeros(n);
             for j in 0..n {
                 for i in 0..(j + 2).min(n) {
-                    h.set(i, j, noise[i + n * j] * 0.1_f64.powi((power * i.max(j) / 3) as i32));
+                    h.set(i, j, noise[i + n * j] * libm::pow(0.1, f64::from(power) * (i.max(j) / 3) as f64));
                 }
             }
             check(&h);
