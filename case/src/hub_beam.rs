@@ -21,7 +21,7 @@ use flexion::contact::Law;
 use flexion::hub_beam::load::{self as acting, Axes};
 use flexion::hub_beam::{Damping, Drive, Hub, Mass};
 use flexion::linalg::Vec3;
-use flexion::profile::{Constant, Motion};
+use flexion::profile::{Constant, Motion, changes};
 use flexion::section::Resultants;
 use std::sync::Arc;
 
@@ -62,6 +62,16 @@ pub struct Acting {
     /// What it is called, if its direction is fixed in space: seen from a hub that rotates, it changes with every
     /// revolution.
     pub fixed_in_space: Option<&'static str>,
+    /// How it changes with time.
+    pub amplitude: acting::Amplitude,
+}
+
+impl HubBeam {
+    /// Whether a load of a fixed direction changes its size up to the time `until` \[s\].
+    pub fn load_changes(&self, until: f64) -> bool {
+        let fixed = self.loads.iter().filter(|load| load.fixed_in_space.is_some());
+        fixed.filter_map(|load| load.amplitude.as_deref()).any(|profile| changes(profile, until))
+    }
 }
 
 impl Acting {
@@ -72,7 +82,8 @@ impl Acting {
         [stations, nodes]: [Vec<f64>; 2],
         fixed_in_space: Option<&'static str>,
     ) -> Acting {
-        Acting { table, load: Some(Arc::new(load)), mass: None, stations, nodes, fixed_in_space }
+        let load = Some(Arc::new(load) as Arc<dyn acting::Load + Send + Sync>);
+        Acting { table, load, stations, nodes, fixed_in_space, ..Acting::default() }
     }
 }
 
@@ -312,7 +323,8 @@ fn add_load(load: &Load, table: &str, [forces, couples, lines]: &mut [Vec<Acting
             let at = || [vec![s], vec![s]];
             if force != [0.0; 2] || couple[2] == 0.0 {
                 let load = acting::Force { station: s, force, axes, amplitude: amplitude() };
-                forces.push(Acting::new(table.to_owned(), load, at(), in_space(axes)));
+                let acting = Acting::new(table.to_owned(), load, at(), in_space(axes));
+                forces.push(Acting { amplitude: amplitude(), ..acting });
             }
             if couple[2] != 0.0 {
                 let load = acting::Couple { station: s, couple: couple[2], amplitude: amplitude() };
@@ -325,7 +337,8 @@ fn add_load(load: &Load, table: &str, [forces, couples, lines]: &mut [Vec<Acting
             let load =
                 acting::DistributedForce { force, axes, distribution, range: *range, amplitude: amplitude() };
             let at = [load.stations(), vec![range.0, range.1]];
-            lines.push(Acting::new(table.to_owned(), load, at, in_space(axes)));
+            let acting = Acting::new(table.to_owned(), load, at, in_space(axes));
+            lines.push(Acting { amplitude: amplitude(), ..acting });
         }
         Acts::By { range, law, .. } => {
             let fixed_in_space = (!law.is_isotropic()).then_some("force laws");

@@ -225,8 +225,9 @@ fn put(root: &mut Node, path: &str, node: Node, all: &Place, problems: &mut Prob
     let source = all.source;
     let mut at = 0;
     let mut target = root;
-    for part in path.split('.') {
-        let name = part.trim();
+    // Of a list, `load[1]` as messages write it is `load.1`.
+    for part in path.split(['.', '[']) {
+        let name = part.trim().trim_end_matches(']');
         let place = Place::new(source, at..at + part.len());
         at += part.len() + 1;
         if name.is_empty() {
@@ -272,28 +273,33 @@ fn put(root: &mut Node, path: &str, node: Node, all: &Place, problems: &mut Prob
     *target = node;
 }
 
-/// The item of a list that a part of a path means, and whether the part is its number, from 0, or its name: the only table of a list
+/// The item of a list that a part of a path means, and whether the part is its number, from 1, or its name: the only table of a list
 /// needs neither.
 ///
 /// # Errors
 /// Of several tables none is meant: what is wrong, and what to write.
 fn choose(items: &[Node], part: &str) -> Result<Option<(usize, bool)>, [String; 2]> {
-    let numbered = part.parse().ok().filter(|i| *i < items.len());
+    let number = part.parse::<usize>().ok();
+    let numbered = number.and_then(|n| n.checked_sub(1)).filter(|i| *i < items.len());
     let named = || items.iter().position(|item| name_of(item) == Some(part));
     if let Some(i) = numbered.or_else(named) {
         return Ok(Some((i, true)));
     }
     match items.iter().filter(|item| matches!(item.value, Raw::Table(_))).count() {
-        1 if items.len() == 1 => Ok(Some((0, false))),
+        1 if items.len() == 1 && number.is_none() => Ok(Some((0, false))),
         tables @ 2.. => {
             let names: Vec<String> =
                 items.iter().filter_map(name_of).map(|name| format!("`{name}`")).collect();
             let names = if names.is_empty() { "none has one".to_owned() } else { names.join(", ") };
             Err([
                 format!("is a list of {tables} tables, of which none has the name `{part}`"),
-                format!("write a number from 0 to {}, or a name: {names}", tables - 1),
+                format!("write a number from 1 to {tables}, or a name: {names}"),
             ])
         }
+        _ if number.is_some() && !items.is_empty() => Err([
+            format!("is a list of {}, and has no number {part}", items.len()),
+            format!("write a number from 1 to {}", items.len()),
+        ]),
         _ => Ok(None),
     }
 }

@@ -83,7 +83,7 @@ impl Space {
     ///
     /// # Errors
     /// The key of a velocity that is not that of a rotation of the whole system about the axis.
-    fn rotates_at(&self) -> Made<Option<f64>> {
+    pub(super) fn rotates_at(&self) -> Made<Option<f64>> {
         let mut speed: Option<f64> = None;
         for (table, place, motion) in self.given() {
             for (key, given) in ["velocity", "spin"].into_iter().zip(motion) {

@@ -502,22 +502,30 @@ fn tables_in_lists_are_changed_by_number_by_name_and_the_only_one_by_its_keys() 
     let read = |text: &str, set: &str| {
         flexion_case::parse(text.to_owned(), Path::new("case.toml"), &[set.to_owned()])
     };
-    for set in ["beam.elements=7", "beam.0.elements=7", "beam.0.section.radius=0.02"] {
+    for set in ["beam.elements=7", "beam.1.elements=7", "beam[1].elements=7", "beam.1.section.radius=0.02"] {
         assert!(read(&one, set).is_ok(), "{set}");
     }
-    for set in ["beam.1.elements=7", "beam.right.elements=7", "beam.left.section.radius='2 cm'"] {
+    for set in [
+        "beam.2.elements=7",
+        "beam[2].elements=7",
+        "beam.right.elements=7",
+        "beam.left.section.radius='2 cm'",
+    ] {
         assert!(read(&two, set).is_ok(), "{set}");
     }
     for (text, set, words) in [
         (&one, "beam.elements=-7", "elements"),
         (&two, "beam.elements=7", "2 tables, of which none has the name `elements`"),
-        (&two, "beam.2.elements=7", "none has the name `2`"),
+        (&one, "beam.0.elements=7", "has no number 0"),
+        (&two, "beam.0.elements=7", "none has the name `0`"),
+        (&two, "beam.3.elements=7", "none has the name `3`"),
+        (&two, "beam[2].elements=-7", "beam[2].elements"),
     ] {
         let problems = read(text, set).map(|_| ()).unwrap_err().to_string();
         assert!(problems.contains(words), "{set}: {problems}");
     }
     let problems = read(&two, "beam.middle.elements=7").map(|_| ()).unwrap_err().to_string();
-    assert!(problems.contains("`left`, `right`") && problems.contains("from 0 to 1"), "{problems}");
+    assert!(problems.contains("`left`, `right`") && problems.contains("from 1 to 2"), "{problems}");
 }
 
 #[test]

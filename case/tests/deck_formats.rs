@@ -402,6 +402,8 @@ fn windio_without_one_of_its_entries_is_refused() {
         ("cm_x:", "cm_z:", "`inertia_matrix` has no `cm_x` (is `cm_z` meant for it?)"),
         ("i_plr:", "K11:", "`inertia_matrix` has no `i_plr`"),
         ("K16:", "K15:", "the key `K15` stands twice"),
+        ("twist:", "torsion:", "the blade has no `outer_shape.twist`"),
+        ("outer_shape:", "outer:", "the blade has no `outer_shape.twist`"),
     ] {
         assert!(text.contains(from));
         let message = read(&text.replacen(from, to, 1), Format::WindIo).unwrap_err();

@@ -363,12 +363,32 @@ fn a_blade_that_is_mounted_wrong_has_a_caution() {
     }
     // The hub of the short spelling carries it with its leading edge ahead, whatever the format.
     for section in [deck, "{ kind = \"deck\", file = \"IEA-15-240-RWT_windIO.yaml\", format = \"windio\" }"] {
-        let short = |pitch: &str| {
+        let short = |pitch: &str, motion: &str| {
+            let motion = if motion.is_empty() { String::new() } else { format!(", motion = {motion}") };
             read(format!(
-                "run.duration = 0\nbeam = {{ shear = true, pitch = {pitch} }}\nsection = {section}\nhub.radius = 4\nmodel.coupling = \"space-shear\"\n"
+                "run.duration = 2\nbeam = {{ shear = true, pitch = {pitch} }}\nsection = {section}\nhub = {{ radius = 4{motion} }}\nmodel.coupling = \"space-shear\"\n"
             ))
         };
-        assert_eq!(mounted(&short("0")), Vec::<String>::new());
-        assert!(mounted(&short("3.14159"))[0].contains("trailing edge"));
+        for (sense, motions) in [
+            (
+                "positive",
+                ["", "{ kind = \"constant\", speed = 0.8 }", "{ kind = \"spin-up\", speed = 0.8, time = 1 }"],
+            ),
+            (
+                "negative",
+                [
+                    "{ kind = \"constant\", speed = -0.8 }",
+                    "{ kind = \"spin-up\", speed = -0.8, time = 1 }",
+                    "{ kind = \"ramp\", speed = -0.8, time = 1 }",
+                ],
+            ),
+        ] {
+            for motion in motions {
+                let [ahead, behind] = if sense == "positive" { ["0", "3.14159"] } else { ["3.14159", "0"] };
+                assert_eq!(mounted(&short(ahead, motion)), Vec::<String>::new(), "{motion}");
+                let said = mounted(&short(behind, motion));
+                assert!(said[0].contains("trailing edge") && said[0].contains(sense), "{motion}: {said:?}");
+            }
+        }
     }
 }

@@ -78,6 +78,29 @@ fn a_rotor_on_a_spring_to_the_ground_begins_in_the_equilibrium_of_the_start_and_
     assert!(text.contains("springs to the ground") && text.contains("as they stand at the start"), "{text}");
 }
 
+/// A force of a fixed direction that changes its size has no motion that repeats itself with every revolution; one that changes later has.
+#[test]
+fn a_rotor_under_a_force_that_changes_with_time_does_not_begin_in_a_periodic_motion() {
+    for coupling in ["model.coupling=exact", "model.coupling=space"] {
+        let third = if coupling.ends_with("space") { ", 0" } else { "" };
+        let said = |amplitude: &str| {
+            let load = format!("load=[{{on='tip',force=[5, 0{third}],amplitude={amplitude}}}]");
+            let gravity = format!("gravity=[0, -1{third}]");
+            rotor(&[coupling, &load, &gravity, "run.duration=0"]).warnings.join("\n")
+        };
+        for changing in ["{kind='expression',formula='1+0.5*sin(5*t)'}", "{kind='ramp',time=100}"] {
+            let said = said(changing);
+            assert!(said.contains("changes its size within a revolution"), "{coupling} {changing}: {said}");
+            assert!(said.contains("as they stand at the start"), "{coupling} {changing}: {said}");
+        }
+        // A revolution takes 7.85 s.
+        for kept in ["'constant'", "{kind='table',times=[0, 10, 11],factors=[1, 1, 0]}"] {
+            let said = said(kept);
+            assert!(said.contains("begins in the periodic motion"), "{coupling} {kept}: {said}");
+        }
+    }
+}
+
 /// What the equilibrium leaves is none of the loads: the motion under a weight is in proportion to it, on any mesh.
 #[test]
 fn a_small_weight_and_a_fine_mesh_begin_in_the_periodic_motion() {

@@ -11,6 +11,7 @@ use flexion::linalg::Vec3;
 use flexion::multibody::{Axis, Model, Multibody, Rotating};
 use flexion::system::{Dynamics, Fork, Parameter, State, Steady};
 use flexion_results::nearest;
+use std::f64::consts::TAU;
 
 /// Differences of velocities, over the largest, that are rounding.
 const SAME: f64 = 1e-9;
@@ -163,6 +164,7 @@ impl Rotation {
             return Ok((mean.in_space(&at), None));
         };
         let periodic = match turned {
+            Ok(_) if model.load_changes(TAU / speed.abs()) => Err(NoPeriodicMotion::Changing),
             Ok(_) => {
                 loaded.set(Parameter::Speed, speed).map_err(|error| error.to_string())?;
                 circulate([&mut mean, &mut loaded], &mut at, speed)

@@ -27,6 +27,7 @@ use flexion::analysis::transient::{Ending, Plan, resumable, resume, transient_to
 use flexion::integrator::{Checkpoint, Info};
 use flexion::system::{State, System};
 use flexion_results::{Artifact, Errors, ProblemSize, Scene, Shapes, Status};
+use std::f64::consts::TAU;
 use std::ops::{ControlFlow, Deref};
 
 /// Most memory for records [bytes], and columns that every run may have.
@@ -272,7 +273,11 @@ impl Reading {
         }
         let mut at = mean.initial();
         let turned = self.equilibrium(mean.as_mut(), &mut at, watch);
+        let revolution = TAU / speed.abs();
         let periodic = match turned {
+            Ok(None) if self.case.hub_beam().is_some_and(|beam| beam.load_changes(revolution)) => {
+                Err(NoPeriodicMotion::Changing)
+            }
             // Contacts may be closed.
             Ok(None) if !self.case.has_contacts() => {
                 mean.hold(true);

@@ -322,10 +322,6 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
                 .map_err(|faults| faults.within(ROTATION.key.name))?),
             None => Rotation::found(multibody.model()),
         };
-    if let Ok(rotation) = &rotation {
-        let all = beams.iter().filter_map(|(beam, _)| mounted::caution(beam, &rotation.axis));
-        c.cautions.borrow_mut().extend(all);
-    }
     let of_ends = beams.iter().flat_map(|(beam, _)| beam.held());
     let own = |place: Place| parts.at(place).1;
     let link = |(name, joint): (String, &Joint)| {
@@ -346,7 +342,7 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     }
     extent = beams.iter().fold(extent, |extent, (beam, _)| extent.max(beam.length));
     let size = if extent > 0.0 { extent } else { 1.0 };
-    Ok(Space {
+    let space = Space {
         multibody,
         contacts: touching,
         points,
@@ -358,7 +354,9 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
         flat,
         refine,
         size,
-    })
+    };
+    c.cautions.borrow_mut().extend(space.mounted(c.duration.unwrap_or(0.0)));
+    Ok(space)
 }
 
 /// Whether a beam lies in the plane of x and y, with one axis of its sections.

@@ -21,6 +21,9 @@ const RESIDUAL: f64 = 1e-7;
 /// The same of a conservative pencil: the error of its frequencies is the square of that of the vectors.
 const CONSERVATIVE: f64 = 1e-5;
 
+/// Residual from which on a pair has no digit.
+const NOTHING: f64 = 0.1;
+
 /// Distance, over the shift, of an eigenvalue from the same one as it is seen from another shift.
 const AGAIN: f64 = 1e-4;
 
@@ -307,10 +310,12 @@ fn find(
         if shift <= 2.0 * pencil.shift() {
             break;
         }
-        pencil = Pencil::new(all.clone(), multipliers, shift)?;
+        let again = Pencil::new(all.clone(), multipliers, shift);
+        let again = again.and_then(|mut pencil| pencil.pairs(asked, &[]).map(|pairs| (pencil, pairs)));
+        let Ok((shifted, pairs)) = again else { break };
+        pencil = shifted;
         let before = std::mem::take(&mut modes);
         overdamped.clear();
-        let pairs = pencil.pairs(asked, &[])?;
         refused = accept([&mut modes, &mut overdamped], pairs, count, &pencil, system, state, rigid).err();
         let is_seen = |x: &Mode| modes.iter().any(|m| (m.eigenvalue - x.eigenvalue).norm() <= AGAIN * shift);
         // A shift far above the lowest no longer sees them.
@@ -384,6 +389,10 @@ fn accept(
             let Pair { vector, residual, .. } =
                 pencil.purified_at_its_size(mode.eigenvalue, std::mem::take(&mut mode.vector));
             (mode.vector, mode.residual) = (vector, residual);
+        }
+        // Behind the vibrations of a damped system are overdamped motions, and what rounding makes of motions without mass.
+        if !overdamped.is_empty() && !pencil.is_conservative() && !(mode.residual <= NOTHING) {
+            continue;
         }
         // Written so that NaN is refused too.
         if !(mode.residual <= allowed) {

@@ -41,6 +41,9 @@ pub enum NoPeriodicMotion {
     /// A spring to the ground, for one.
     #[error("what acts changes with the angle otherwise than a force of a fixed direction")]
     NotHarmonic,
+    /// The size of a load, for one.
+    #[error("a load of a fixed direction changes its size within a revolution")]
+    Changing,
     /// Near a resonance, for one.
     #[error("no periodic motion was found near the steady rotation")]
     Far,

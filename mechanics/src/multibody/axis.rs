@@ -6,7 +6,7 @@ use super::marker::{Marker, Part};
 use super::model::Model;
 use super::rotation::about;
 use crate::linalg::{Mat3, Vec3};
-use crate::profile::{Constant, Motion};
+use crate::profile::{Constant, Motion, changes};
 use crate::system::Frame;
 use std::sync::Arc;
 
@@ -106,6 +106,25 @@ impl Model {
         self.joints.iter().filter(moves).map(|joint| joint.name.as_str()).collect()
     }
 
+    /// Speed about an axis with which the prescribed motion of a joint of this axis begins or, where it begins at rest, its mean speed up to
+    /// the time `until` \[s\] [rad/s]; zero for other joints.
+    pub fn prescribed_speed(&self, joint: &str, axis: &Axis, until: f64) -> f64 {
+        let found = self.joints.iter().find(|j| j.name == joint);
+        let (Some(Drive::Prescribed(motion)), Some(own)) = (found.map(|j| &j.drive), self.axis_of(joint))
+        else {
+            return 0.0;
+        };
+        let start = motion.at(0.0);
+        let speed = if start.speed == 0.0 && until > 0.0 {
+            (motion.at(until).angle - start.angle) / until
+        } else {
+            start.speed
+        };
+        // The joint turns its second part against its first.
+        let ground_turns = found.is_some_and(|j| j.to.part == Part::Ground);
+        own.direction.dot(axis.direction) * if ground_turns { -speed } else { speed }
+    }
+
     /// Whether the motion of a joint is prescribed.
     pub fn prescribes(&self, joint: &str) -> bool {
         self.joints.iter().any(|j| j.name == joint && matches!(j.drive, Drive::Prescribed(_)))
@@ -152,6 +171,14 @@ impl Model {
             keep(&format!("`{}`", load.name), &mut [&mut load.force]);
         }
         names
+    }
+
+    /// Whether a load of a fixed direction changes its size up to the time `until` \[s\].
+    pub fn load_changes(&self, until: f64) -> bool {
+        let loads = self.loads.iter().map(|load| (load.axes, &load.amplitude));
+        let lines = self.line_loads.iter().map(|load| (load.axes, &load.amplitude));
+        let dead = loads.chain(lines).filter(|(axes, _)| *axes == Axes::Dead);
+        dead.filter_map(|(_, amplitude)| amplitude.as_deref()).any(|profile| changes(profile, until))
     }
 
     /// Turns gravity and the loads of a fixed direction about an axis.

@@ -270,6 +270,21 @@ mod tests {
         assert!((found.integral(10.0) - 10.0 - 5e-4 * std::f64::consts::PI.sqrt()).abs() < 1e-12);
     }
 
+    /// ∫ sin(ωt) e^(−t/τ) = ω/(ω² + 1/τ²), and that of a bell.
+    #[test]
+    fn a_vibration_that_decays_is_followed_as_long_as_it_counts() {
+        let exact = 2000.0 / (4e6 + 1e4);
+        let bell = 0.01 * std::f64::consts::PI.sqrt();
+        for extent in [1.0, 1e3, 1e5, 1e6] {
+            for (text, exact) in [("sin(2000*t)*exp(-t/0.01)", exact), ("exp(-((t-0.5)/0.01)^2)", bell)] {
+                let found =
+                    Expression::new(text, "t", extent).unwrap_or_else(|e| panic!("{text} {extent}: {e}"));
+                let off = found.integral(extent) / exact - 1.0;
+                assert!(off.abs() < 1e-6, "{text}, {extent} s: {off:e}");
+            }
+        }
+    }
+
     #[test]
     fn a_pulse_that_is_too_short_to_be_seen_is_refused() {
         for text in [

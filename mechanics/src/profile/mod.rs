@@ -53,6 +53,25 @@ pub trait Profile: Send + Sync + std::fmt::Debug {
     }
 }
 
+/// Differences of the values of a profile, over the largest, that are rounding.
+const SAME: f64 = 1e-12;
+/// Equal intervals whose ends are looked at for a change.
+const LOOKS: u32 = 64;
+
+/// Whether a profile has other values than f(0) up to the time `until` \[s\]: at the ends of 64 equal intervals, at the breaks, and where the
+/// resolution sees it.
+pub fn changes(profile: &dyn Profile, until: f64) -> bool {
+    let until = until.min(profile.range().1);
+    let start = profile.value(0.0);
+    let differs = |t: f64| {
+        let value = profile.value(t);
+        (value - start).abs() > SAME * f64::max(value.abs(), start.abs())
+    };
+    let within = |t: &&f64| (0.0..=until).contains(*t);
+    let marked = profile.breaks().iter().chain(profile.resolution()).filter(within).copied();
+    (1..=LOOKS).map(|k| until * f64::from(k) / f64::from(LOOKS)).chain(marked).any(differs)
+}
+
 /// The lowest derivative of a profile that jumps at time `t` \[s\]: 0 for f itself, 1 for f′, 2 for f″, 3 if none of them
 /// does. Limits are compared to rounding: to 10⁻⁹ of what is found near t.
 pub fn jumping_derivative(profile: &dyn Profile, t: f64) -> usize {

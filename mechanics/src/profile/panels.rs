@@ -284,6 +284,8 @@ impl Scan<'_> {
         if a >= b {
             return Ok(true);
         }
+        // As far as it is known: a function that has decayed counts as nothing from here on.
+        let total = self.total.max(out.sizes[out.sizes.len() - 1][0]);
         let middle = middle(a, b);
         let ends = [self.finite(a)?.value, self.finite(b.next_down())?.value];
         let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
@@ -296,7 +298,7 @@ impl Scan<'_> {
         // What three values leave open decides most panels.
         let y = self.program.value(middle);
         let open = beyond(low.min(y), high.max(y));
-        let little = ROOM.1 * self.total * (b / (EARLY * self.extent)).min(1.0);
+        let little = ROOM.1 * total * (b / (EARLY * self.extent)).min(1.0);
         let most = (b - a) * bounds.high.abs().max(bounds.low.abs());
         if !last && open > 3.0 * (ROOM.0 * most + little) && open > 3.0 * noise() {
             return Ok(false);
@@ -316,7 +318,7 @@ impl Scan<'_> {
         // The ends do not count: a pulse may have its crest there.
         let (room, noise) = (beyond(least, largest), noise());
         let good = room <= ROOM.0 * sizes[0] + little + noise
-            && (whole - halves).abs() <= TOLERANCE * sizes[0].max(self.total / 64.0) + noise;
+            && (whole - halves).abs() <= TOLERANCE * sizes[0].max(total / 64.0) + noise;
         if !(good || last) {
             return Ok(false);
         }

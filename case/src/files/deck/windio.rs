@@ -120,6 +120,17 @@ fn distribution(node: &Node, path: &[&str], name: &str) -> Result<Option<Distrib
         .ok_or_else(|| format!("line {} of {name}: `{what}` has no `values`", found.line))
 }
 
+/// The twist under a key: the matrices do not tell it, and few blades have none.
+fn twist(node: &Node, path: &[&str], name: &str) -> Result<Distribution, String> {
+    distribution(node, path, name)?.ok_or_else(|| {
+        format!(
+            "line {} of {name}: the blade has no `{}`, which turns the axes of its sections; of a blade without twist it is written as zeros",
+            node.line,
+            path.join(".")
+        )
+    })
+}
+
 /// The 21 entries of the upper triangles along the blade: line, grid, values by entry.
 struct Matrices {
     lines: [usize; 6],
@@ -246,7 +257,7 @@ pub(super) fn read(bytes: &[u8], name: &str) -> Result<Deck, String> {
                 );
                 return Err(message);
             };
-            let twist = distribution(blade, &["outer_shape", "twist"], name)?;
+            let twist = twist(blade, &["outer_shape", "twist"], name)?;
             (of, blade.get("reference_axis"), twist, stiffness(k, name)?, inertia(m, name)?, true)
         }
         (None, Some(old)) => {
@@ -263,12 +274,11 @@ pub(super) fn read(bytes: &[u8], name: &str) -> Result<Deck, String> {
                 ));
             };
             let axis = of.get("reference_axis").or_else(|| blade.at(&["outer_shape_bem", "reference_axis"]));
-            let path = if of.get("twist").is_some() {
-                (of, &["twist"][..])
+            let twist = if of.get("twist").is_some() {
+                twist(of, &["twist"], name)?
             } else {
-                (blade, &["outer_shape_bem", "twist"][..])
+                twist(blade, &["outer_shape_bem", "twist"], name)?
             };
-            let twist = distribution(path.0, path.1, name)?;
             let (k, m) = (
                 Matrices::of_lists(k, name, "stiff_matrix")?,
                 Matrices::of_lists(m, name, "inertia_matrix")?,
@@ -283,13 +293,12 @@ pub(super) fn read(bytes: &[u8], name: &str) -> Result<Deck, String> {
         }
     };
     let axis = axis.ok_or_else(|| format!("{name}: the blade has no `reference_axis`"))?;
-    let twist: Vec<[f64; 2]> = twist.map_or_else(Vec::new, |of| {
-        of.grid
-            .iter()
-            .zip(&of.values)
-            .map(|(u, angle)| [*u, if degrees { angle.to_radians() } else { *angle }])
-            .collect()
-    });
+    let twist: Vec<[f64; 2]> = twist
+        .grid
+        .iter()
+        .zip(&twist.values)
+        .map(|(u, angle)| [*u, if degrees { angle.to_radians() } else { *angle }])
+        .collect();
     let line = line(axis, &twist, name)?;
     let mut cautions = Vec::new();
     let mu = of

@@ -2,7 +2,7 @@
 
 use super::EigenError;
 use super::operators::Operator;
-use super::small::{Ritz, hessenberg, skew, symmetric};
+use super::small::{Ritz, Spectrum, skew, symmetric};
 use crate::linalg::vector::{add_four, axpy, dot, dots, noise, scale};
 use num_complex::Complex64;
 
@@ -21,6 +21,9 @@ const OVERDAMPED: f64 = 0.15;
 
 /// Share of noise in a vector to begin with of which nothing is counted: no eigenvector is missing in it.
 const STRAY: f64 = 1e-3;
+
+/// Dimension up to which a space of a matrix that is not symmetric may become the whole one.
+const WHOLE: usize = 600;
 
 /// Form of the projected operator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -159,7 +162,9 @@ pub(super) fn krylov(
     let Search { wanted, projection, start, seed, .. } = search;
     let n = operator.dimension();
     let copies = if projection == Projection::Symmetric { 1 } else { 2 };
-    let limit = (copies * (8 * wanted + 120)).min(n);
+    let most = copies * (8 * wanted + 120);
+    // A whole space of moderate size tells vibrations from many motions that decay alike.
+    let limit = if projection == Projection::Hessenberg { most.max(WHOLE) } else { most }.min(n);
     let first_look = if start.is_some() { 2 * copies * wanted } else { copies * (2 * wanted + 6) };
     // The fewer steps are expected to be missing, the sooner the next look.
     let part = if projection == Projection::Hessenberg && start.is_some() { 8 } else { 4 };
@@ -207,7 +212,7 @@ pub(super) fn krylov(
         return Ok(Found { space, pairs: Vec::new(), counting: 0, converged: wanted });
     }
     let carries = !operator.knows_duals();
-    let (mut largest, mut last): (f64, Option<Vec<Ritz>>) = (0.0, None);
+    let (mut largest, mut last): (f64, Option<Spectrum>) = (0.0, None);
     loop {
         space.push(w.clone(), dual_w.clone());
         let m = space.vectors.len();
@@ -235,27 +240,26 @@ pub(super) fn krylov(
         }
         next_look = (m + m / part + 2).min(limit);
         let mut is_last = exhausted || m >= limit;
-        let ritz = match projection {
-            Projection::Symmetric => symmetric(&columns),
-            Projection::Skew => skew(&columns),
-            Projection::Hessenberg => match (hessenberg(&columns), last.take()) {
-                (Ok(ritz), _) => ritz,
+        let spectrum = match (projection, last.take()) {
+            (Projection::Symmetric, _) => Spectrum::from(symmetric(&columns)),
+            (Projection::Skew, _) => Spectrum::from(skew(&columns)),
+            (Projection::Hessenberg, last) => match (Spectrum::of(&columns), last) {
+                (Ok(spectrum), _) => spectrum,
                 // The iteration for the eigenvalues of a projected matrix may fail where the last one was solved.
-                (Err(_), Some(ritz)) => {
+                (Err(_), Some(spectrum)) => {
                     is_last = true;
-                    ritz
+                    spectrum
                 }
                 (Err(error), None) => return Err(error),
             },
         };
-        let Selected { places, counting, converged } = select(&ritz, &search, largest, is_last);
+        let Selected { places, counting, converged } = select(&spectrum.ritz, &search, largest, is_last);
         if converged >= wanted || is_last {
-            let is_selected = |(k, _): &(usize, Ritz)| places.binary_search(k).is_ok();
-            let pairs = ritz.into_iter().enumerate().filter(is_selected).map(|(_, r)| r).collect();
+            let pairs = spectrum.take(&places);
             let converged = if exhausted { wanted } else { converged };
             return Ok(Found { space, pairs, counting, converged });
         }
-        last = Some(ritz);
+        last = Some(spectrum);
     }
 }
 
@@ -274,8 +278,10 @@ fn select(ritz: &[Ritz], search: &Search<'_>, largest: f64, is_last: bool) -> Se
     let has_converged = |r: &Ritz| r.error <= search.tolerance * r.value.norm();
     // Of a conjugate pair the one in the upper half plane of λ, that is below the real axis of θ, counts.
     let is_upper = |r: &Ritz| search.projection == Projection::Symmetric || r.value.im <= 0.0;
-    let is_known =
-        |r: &Ritz| search.projection != Projection::Hessenberg || !is_unknown(r, search, largest, is_last);
+    let noise = f64::EPSILON * ritz.len() as f64 * largest;
+    let is_known = |r: &Ritz| {
+        search.projection != Projection::Hessenberg || !is_unknown(r, search, [largest, noise], is_last)
+    };
     let (mut places, mut counting, mut converged) = (Vec::new(), 0, 0);
     for (k, r) in ritz.iter().enumerate().filter(|(_, r)| is_upper(r) && is_known(r)) {
         if (search.counts)(r.value) {
@@ -293,12 +299,19 @@ fn select(ritz: &[Ritz], search: &Search<'_>, largest: f64, is_last: bool) -> Se
 }
 
 /// Whether an eigenvalue of a matrix that is not symmetric says too little to be counted or waited for.
-fn is_unknown(r: &Ritz, search: &Search<'_>, largest: f64, is_last: bool) -> bool {
+///
+/// Errors of the matrix are magnified by the condition number of the eigenvalue: where directions have no mass, or damping leaves many motions that decay
+/// alike, what is real or zero comes out as a pair anywhere within them.
+fn is_unknown(r: &Ritz, search: &Search<'_>, [largest, noise]: [f64; 2], is_last: bool) -> bool {
     let (size, across) = (r.value.norm(), r.value.im.abs());
-    let is_zero = size <= ROUNDING * largest;
-    let has_no_digit = size < r.error;
+    let counts = (search.counts)(r.value);
+    let rounding = if counts { r.condition * noise } else { 0.0 };
+    let is_zero = size <= f64::max(ROUNDING * largest, rounding);
+    let error = if is_last && counts { r.condition * r.error + rounding } else { r.error };
+    let has_no_digit = size < error;
     // As many are next to a cluster of overdamped motions.
-    let may_be_real = across < r.error && !(search.counts)(r.value.re.into());
+    let decays = |sign: f64| !(search.counts)((r.value.re + sign * error).into());
+    let may_be_real = across < error && decays(-1.0) && decays(1.0);
     is_zero || is_last && (has_no_digit || may_be_real) || may_be_real && across < OVERDAMPED * size
 }
 

@@ -29,6 +29,7 @@ mod krylov;
 mod operators;
 mod pairs;
 mod pencil;
+mod schur;
 mod small;
 mod sparse;
 
@@ -73,4 +74,7 @@ pub enum EigenError {
         "the eigenvalues of the projected matrix of order {0} were not found: it holds numbers that are not finite"
     )]
     Projection(usize),
+    /// The iteration for the projected problem did not end.
+    #[error("the iteration for the eigenvalues of the projected matrix of order {0} does not end")]
+    Iterations(usize),
 }
