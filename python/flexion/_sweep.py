@@ -179,13 +179,13 @@ def sweep(
     if raised is not None:
         raise raised
     assert outcome is not None
-    kept, asked_rows, _, _, _, why = outcome
-    if why is not None and kept == asked_rows:
-        warn([why])
-    elif why is not None and "failures" not in why and why.startswith("stopped"):
+    _, _, failures, _, _, why = outcome
+    if why is not None and why.startswith("stopped"):
         warn([why])
     elif why is not None:
         raise SweepError(why, result)
+    elif failures:
+        warn([f"{failures} of {result.rows} rows did not finish: look at their `reason`"])
     return result
 
 
