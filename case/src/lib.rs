@@ -63,6 +63,7 @@ pub use problem::{Place, Problem, Problems, Source};
 pub use reading::{Live, Reading, parse, parse_with, read};
 pub use run::advise::{Advice, AdviseError, Tried, Trusted, Untried};
 pub use run::calculation::{Calculation, Request, Stage};
+pub use run::quantity::{Collected, Quantity};
 pub use run::refine::{RefineError, Refinement, Target};
 pub use run::{Prepared, Run};
 pub use schema::schema;

@@ -2,7 +2,9 @@
 
 use crate::{Outcome, case, screen};
 use flexion::system::{Channel, Role};
-use flexion_case::{Calculation, Effort, Reading, RefineError, Request, Run, Stage, Target, units};
+use flexion_case::{
+    Calculation, Collected, Effort, Quantity, Reading, RefineError, Request, Run, Stage, Target, units,
+};
 use flexion_results::{Artifact, ColumnError, Directory, Errors, Events, Rung, Status, Trajectory};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::ops::ControlFlow;
@@ -17,6 +19,7 @@ use std::time::{Duration, Instant};
   flexion run verification/p1_spin_up_4
   flexion run case.toml --vtk --output results/film
   flexion run case.toml --tolerance 1e-4 --quantity tip.deflection.min
+  flexion run case.toml --print tip.deflection.min | cut -f2
   flexion run case.toml --set section.modulus=\"30 GPa\" --output results/soft --force
 
 Exit codes: 0 finished, or stopped where --until asks for it; 1 case rejected; 2 stopped or failed, the estimate of errors
@@ -48,6 +51,10 @@ pub struct Arguments {
     /// principal columns]
     #[arg(long, value_name = "COLUMN", requires = "tolerance")]
     quantity: Option<String>,
+    /// Print nothing but these values, a line each, for scripts: name, value, unit, ± and time, with tabs between them; a column
+    /// alone stands for its min, max and final value
+    #[arg(long, value_name = "COLUMN", value_delimiter = ',')]
+    print: Vec<String>,
     /// Replace the results of a former run
     #[arg(long)]
     force: bool,
@@ -83,11 +90,19 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let output = arguments.output.clone().unwrap_or_else(|| Path::new("results").join(arguments.case.name()));
     let mut progress = Progress::new(reading.case.duration);
     // The case is checked, and the directory tried, before anything is computed.
-    let prepared = match reading.prepare_watched(&mut |factor| progress.show_search(factor)) {
+    let mut prepared = match reading.prepare_watched(&mut |factor| progress.show_search(factor)) {
         Ok(prepared) => prepared,
         Err(problems) => {
             progress.finish();
             screen::report(&problems.render(screen::colour()));
+            return Outcome::Rejected;
+        }
+    };
+    let printed = match prepared.quantities(&arguments.print) {
+        Ok(quantities) => quantities,
+        Err(error) => {
+            progress.finish();
+            screen::report(&format!("error: {error}\n"));
             return Outcome::Rejected;
         }
     };
@@ -115,7 +130,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     });
     progress.finish();
     match calculated {
-        Ok(calculation) => write(&calculation, &directory),
+        Ok(calculation) => write(&calculation, &directory, &printed),
         Err(error) => {
             match error {
                 RefineError::Case(problems) => screen::report(&problems.render(screen::colour())),
@@ -128,10 +143,14 @@ pub fn run(arguments: &Arguments) -> Outcome {
 }
 
 /// Writes the results and says how the run went.
-fn write(Calculation { reading, run, reached, refused }: &Calculation<'_>, directory: &Directory) -> Outcome {
+fn write(
+    Calculation { reading, run, reached, refused }: &Calculation<'_>,
+    directory: &Directory,
+    printed: &[Quantity],
+) -> Outcome {
     match reading.write(run, directory) {
         Ok(status) => {
-            let outcome = finish(status, *reached, reading, run, directory);
+            let outcome = finish(status, *reached, reading, run, directory, printed);
             match refused {
                 Some(why) => {
                     screen::report(&format!("error: {why}\n"));
@@ -151,28 +170,21 @@ fn write(Calculation { reading, run, reached, refused }: &Calculation<'_>, direc
 }
 
 /// Says how the run went and where its files are.
-fn finish(status: Status, reached: bool, reading: &Reading, run: &Run, directory: &Directory) -> Outcome {
+fn finish(
+    status: Status,
+    reached: bool,
+    reading: &Reading,
+    run: &Run,
+    directory: &Directory,
+    printed: &[Quantity],
+) -> Outcome {
     let trajectory = &run.trajectory;
-    let wall_time = run.wall_time;
     let end = format!("{:.6}", trajectory.times().last().copied().unwrap_or(0.0));
-    let mut out = format!("{} at t = {end} s in {wall_time:.3} s of wall time\n\n", status.word());
-    if !trajectory.is_empty() {
-        out.push_str(&extremes(trajectory, run.errors.as_ref()));
-        out.push('\n');
+    if printed.is_empty() {
+        describe(status, reading, run, directory);
+    } else {
+        screen::print(&values(run, printed));
     }
-    if !run.events.is_empty() {
-        out.push_str(&impacts(&run.events));
-    }
-    out.push_str(&run.errors.as_ref().map(|errors| sequence(&errors.sequence)).unwrap_or_default());
-    out.push_str(&run.errors.as_ref().map(|errors| trust(errors, trajectory)).unwrap_or_default());
-    screen::print(&out);
-    let mut files = vec![("summary", Artifact::Summary)];
-    let plot = directory.file(Artifact::PlotSvg).is_file();
-    files.extend((reading.case.output.plots && plot).then_some(("plot", Artifact::PlotSvg)));
-    files.extend((!run.events.is_empty()).then_some(("events", Artifact::Events)));
-    let solid = reading.case.space().is_some() && reading.case.output.vtk.is_some();
-    files.extend((run.shapes.is_some() || solid).then_some(("shapes", Artifact::ShapeSeries)));
-    screen::files(directory, Ok(()), &files);
     for warning in run.all_warnings() {
         screen::report(&format!("warning: {warning}\n"));
     }
@@ -191,6 +203,44 @@ fn finish(status: Status, reached: bool, reading: &Reading, run: &Run, directory
     };
     screen::report(&format!("error: {reason}\n{kept}\n"));
     Outcome::Incomplete
+}
+
+/// Says what a run gave and where its files are.
+fn describe(status: Status, reading: &Reading, run: &Run, directory: &Directory) {
+    let trajectory = &run.trajectory;
+    let end = format!("{:.6}", trajectory.times().last().copied().unwrap_or(0.0));
+    let wall_time = run.wall_time;
+    let mut out = format!("{} at t = {end} s in {wall_time:.3} s of wall time\n\n", status.word());
+    if !trajectory.is_empty() {
+        out.push_str(&extremes(trajectory, run.errors.as_ref()));
+        out.push('\n');
+    }
+    if !run.events.is_empty() {
+        out.push_str(&impacts(&run.events));
+    }
+    out.push_str(&run.errors.as_ref().map(|errors| sequence(&errors.sequence)).unwrap_or_default());
+    out.push_str(&run.errors.as_ref().map(|errors| trust(errors, trajectory)).unwrap_or_default());
+    screen::print(&out);
+    let mut files = vec![("summary", Artifact::Summary)];
+    let plot = directory.file(Artifact::PlotSvg).is_file();
+    files.extend((reading.case.output.plots && plot).then_some(("plot", Artifact::PlotSvg)));
+    files.extend((!run.events.is_empty()).then_some(("events", Artifact::Events)));
+    let solid = reading.case.space().is_some() && reading.case.output.vtk.is_some();
+    files.extend((run.shapes.is_some() || solid).then_some(("shapes", Artifact::ShapeSeries)));
+    screen::files(directory, Ok(()), &files);
+}
+
+/// A line for each quantity: name, value, unit, ±, time.
+fn values(run: &Run, printed: &[Quantity]) -> String {
+    let line = |quantity: &Quantity| match quantity.collect(run) {
+        Ok(Collected { value, time, error, .. }) => {
+            let error = error.map_or_else(String::new, |error| format!("{error:?}"));
+            format!("{}\t{value:?}\t{}\t{error}\t{time:?}\n", quantity.name(), quantity.unit)
+        }
+        // What is not finite is said as an error.
+        Err(_) => format!("{}\tNaN\t{}\t\t\n", quantity.name(), quantity.unit),
+    };
+    printed.iter().map(line).collect()
 }
 
 /// Number of impacts, the first of them, and the energy lost.

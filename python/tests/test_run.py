@@ -273,3 +273,19 @@ def test_the_package_carries_the_program(tmp_path: Path, verification: Path) -> 
     assert program("check", str(tmp_path / "nothing.toml")).returncode == 1
     assert "Exit codes" in program("run", "--help").stdout
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+def test_the_program_prints_values_for_scripts(program: str, verification: Path, tmp_path: Path) -> None:
+    case = verification / "p1_spin_up_4"
+    words = [program, "run", str(case), "--output", str(tmp_path / "run")]
+    asked = ["--print", "tip.deflection.min,hub.speed.final"]
+    printed = subprocess.run([*words, *asked], capture_output=True, text=True, check=True).stdout
+    rows = [line.split("\t") for line in printed.splitlines()]
+    run = flexion.load(tmp_path / "run")
+    least, last = run["tip.deflection"].min, run["hub.speed"].final
+    assert [row[0] for row in rows] == ["tip.deflection.min", "hub.speed.final"]
+    assert [float(row[1]) for row in rows] == [least, last] and [row[2] for row in rows] == ["m", "rad/s"]
+    assert [float(row[3]) for row in rows] == [least.error, last.error]
+    assert float(rows[0][4]) == least.time
+    refused = subprocess.run([*words, "--force", "--print", "tip.deflektion"], capture_output=True, text=True)
+    assert refused.returncode == 1 and "did you mean `tip.deflection`" in refused.stderr

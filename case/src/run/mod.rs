@@ -7,6 +7,7 @@ pub(crate) mod clock;
 mod contact;
 pub(crate) mod error;
 mod files;
+pub(crate) mod quantity;
 pub mod refine;
 mod restart;
 mod scene;
@@ -25,7 +26,7 @@ use flexion::analysis::recording::{Columns, Record, Recorder, Watch};
 use flexion::analysis::superposition::superpose;
 use flexion::analysis::transient::{Ending, Plan, resumable, resume, transient_to_checkpoint};
 use flexion::integrator::{Checkpoint, Info};
-use flexion::system::{State, System};
+use flexion::system::{Channel, State, System};
 use flexion_results::{Artifact, Errors, ProblemSize, Scene, Shapes, Status};
 use std::f64::consts::TAU;
 use std::ops::{ControlFlow, Deref};
@@ -345,6 +346,13 @@ impl Prepared {
     /// What its reader should know about the model before it runs.
     pub fn warnings(&self) -> &[String] {
         &self.warnings
+    }
+
+    /// The columns that the run will record.
+    pub(crate) fn channels(&mut self) -> Vec<Channel> {
+        let columns = Columns { energy_balance: self.energy_balance, modal_shares: self.modal_shares };
+        let recorder = Recorder::new(self.live.system.as_mut(), &self.state, &self.plan, columns);
+        recorder.channels().to_vec()
     }
 
     /// The same without shapes and scene, for those who look at the columns alone.

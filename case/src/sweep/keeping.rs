@@ -1,7 +1,7 @@
 //! What the rows of a sweep say together, and whether it goes on.
 
-use super::quantity::Collected;
 use super::row::{Row, Status};
+use crate::run::quantity::Collected;
 use std::collections::BTreeMap;
 
 /// Part of the rows that may fail.

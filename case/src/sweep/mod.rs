@@ -31,7 +31,6 @@ mod keeping;
 mod parquet_file;
 mod part;
 mod points;
-mod quantity;
 mod random;
 mod read;
 mod row;
@@ -39,11 +38,11 @@ mod spread;
 mod table;
 mod written;
 
+pub use crate::run::quantity::{Collected, Quantity, Value};
 pub use distribution::Distribution;
 pub use folder::{How, Outcome, Progress, Shard, Stop};
 pub use inputs::{Cell, Inputs, Method, Sample, Table};
 pub use keeping::Totals;
-pub use quantity::{Collected, Quantity, Value};
 pub use read::Input;
 pub use row::{Point, Row, Status};
 pub use table::{Data, Named};
@@ -216,10 +215,7 @@ impl Sweep {
         let mut refused = None;
         for row in [0, self.rows / 2, self.rows.saturating_sub(1)] {
             match self.case(row).and_then(|reading| reading.prepare()) {
-                Ok(prepared) => {
-                    let run = prepared.run(&mut |_| ControlFlow::Break(()));
-                    return Ok(Quantity::read(quantities, run.trajectory.channels())?);
-                }
+                Ok(mut prepared) => return Ok(prepared.quantities(quantities)?),
                 Err(problems) => refused = refused.or(Some(problems)),
             }
         }

@@ -1,6 +1,6 @@
 //! A row of a sweep: what one run gave.
 
-use super::quantity::Collected;
+use crate::run::quantity::Collected;
 
 /// How a run of a sweep ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,8 +1,8 @@
 //! The columns of the rows of a sweep, whatever the format of their file.
 
 use super::Sweep;
-use super::quantity::Collected;
 use super::row::{Point, Row, Status};
+use crate::run::quantity::Collected;
 use flexion_results::VERSION;
 
 /// The values of a column, one a row.

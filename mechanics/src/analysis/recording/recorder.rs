@@ -150,6 +150,11 @@ impl<'a> Recorder<'a> {
         }
     }
 
+    /// The columns that it records.
+    pub fn channels(&self) -> &[Channel] {
+        self.trajectory.channels()
+    }
+
     /// The recorder, calling `watch` after every step.
     #[must_use]
     pub fn with_watch(self, watch: &'a mut Watch<'a>) -> Recorder<'a> {

@@ -1,6 +1,6 @@
 //! What is collected of a run: a value of a column.
 
-use crate::run::Run;
+use super::{Prepared, Run};
 use flexion::system::Channel;
 use flexion_results::{ColumnError, ResultsError, Trajectory, nearest};
 
@@ -53,7 +53,7 @@ impl Quantity {
     ///
     /// # Errors
     /// A name that is none.
-    pub(super) fn read(texts: &[String], channels: &[Channel]) -> Result<Vec<Quantity>, ResultsError> {
+    pub fn read(texts: &[String], channels: &[Channel]) -> Result<Vec<Quantity>, ResultsError> {
         let mut out: Vec<Quantity> = Vec::new();
         for text in texts {
             let text = text.trim();
@@ -89,7 +89,7 @@ impl Quantity {
     ///
     /// # Errors
     /// Why there is none.
-    pub(super) fn collect(&self, run: &Run) -> Result<Collected, String> {
+    pub fn collect(&self, run: &Run) -> Result<Collected, String> {
         let trajectory: &Trajectory = &run.trajectory;
         let index = trajectory
             .index(&self.column)
@@ -113,5 +113,15 @@ impl Quantity {
         };
         let error = column.map(of_value).filter(|error| error.is_finite());
         Ok(Collected { value, time, error, trusted: known.map(|errors| time <= errors.trusted) })
+    }
+}
+
+impl Prepared {
+    /// The quantities that these texts name among the columns that the run will record, as [`Quantity::read`].
+    ///
+    /// # Errors
+    /// A name that is none.
+    pub fn quantities(&mut self, texts: &[String]) -> Result<Vec<Quantity>, ResultsError> {
+        Quantity::read(texts, &self.channels())
     }
 }
