@@ -6,9 +6,10 @@ import json
 import os
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _core
 from ._errors import Interrupted, RunError, warn
@@ -17,6 +18,9 @@ from ._progress import Event, Progress
 from ._run import Run
 from ._statics import LoadPath
 from ._vibration import Diagram, Modes
+
+if TYPE_CHECKING:
+    from . import keys
 
 Stop: TypeAlias = Event | Callable[[], bool] | None
 """What ends a computation: an event that is set, or a function that returns true."""
@@ -45,7 +49,7 @@ class Case:
     __slots__ = ("_case",)
     _case: _core.Case
 
-    def __init__(self, source: str | os.PathLike[str] | Mapping[str, Any]) -> None:
+    def __init__(self, source: str | os.PathLike[str] | keys.Case | Mapping[str, Any]) -> None:
         if isinstance(source, Mapping):
             text = _core.Case.toml(source)
             self._case = _core.Case.parse(text, Path("case.toml"))
@@ -162,7 +166,7 @@ class Case:
 
     def campbell(
         self,
-        speeds: Sequence[float],
+        speeds: Sequence[float] | npt.NDArray[np.floating[Any]],
         count: int = 6,
         *,
         free_hub: bool = False,

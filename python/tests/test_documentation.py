@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import runpy
 import warnings
 from pathlib import Path
 
@@ -27,4 +28,10 @@ def test_an_example_runs(example: Path, monkeypatch: pytest.MonkeyPatch) -> None
     monkeypatch.setenv("FLEXION_VERIFICATION", str(ROOT / "verification"))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        exec(compile(example.read_text(encoding="utf-8"), str(example), "exec"), {"__name__": "__main__"})
+        runpy.run_path(str(example), run_name="__main__")
+
+
+def test_the_types_of_keys_are_those_of_the_declarations() -> None:
+    made = runpy.run_path(str(ROOT / "python/generate/keys.py"))["text"]()
+    written = (ROOT / "python/flexion/keys.py").read_text(encoding="utf-8")
+    assert written == made, "run `python generate/keys.py` in python/"
