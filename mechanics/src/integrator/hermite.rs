@@ -92,6 +92,20 @@ pub(super) fn quintic(
     finish(from, to, s, t, out);
 }
 
+/// Writes a step so short that its increment tells nothing of its accelerations, which are what is left of D over h²: the cubic through q and v of
+/// both ends, the cubic through v and a, and a linear.
+pub(super) fn short(
+    system: &dyn Dynamics,
+    from: &State,
+    to: &State,
+    increment: &[f64],
+    t: f64,
+    out: &mut State,
+) {
+    cubic(system, from, to, increment, t, out);
+    velocities(from, to, to.t - from.t, fraction(from, to, t), out);
+}
+
 /// Writes velocities and accelerations that are linear between both ends, with all but the configuration: for steps in which velocities
 /// may jump.
 pub(super) fn linear(from: &State, to: &State, t: f64, out: &mut State) {

@@ -75,6 +75,9 @@ const FEW: u32 = 2;
 const LARGEST_KAPPA: f64 = 1e-3;
 const LARGEST_ITERATION_ERROR: f64 = 1e-5;
 
+/// Part of a step of good accuracy below which one from the same start is short: its accelerations are a line.
+const SHORT: f64 = 1.0 / 32.0;
+
 /// The 3-stage Radau IIA method. Its formulas head the source file.
 #[derive(Clone, Debug)]
 pub struct Radau {
@@ -94,6 +97,9 @@ struct RadauSteps {
     accepted: Option<f64>,
     /// Size of an attempt from the same start that has converged.
     tried: Option<f64>,
+    /// Size of the largest attempt of good accuracy from the same start, and whether the accepted step is short against it.
+    good: f64,
+    short: bool,
     stages: Stages,
 }
 
@@ -151,6 +157,8 @@ impl Integrator for Radau {
             attempt: 0.0,
             accepted: None,
             tried: None,
+            good: 0.0,
+            short: false,
             stages: Stages::new(system, state, self.tolerance),
         };
         steps.restart(system, state, counters)?;
@@ -220,17 +228,23 @@ impl Stepper for RadauSteps {
         if !error.is_finite() {
             return Err(StepError::NotFinite { time: from.t, step: h, worst: system.unknown(worst) });
         }
+        if error <= 1.0 {
+            self.good = self.good.max(h);
+        }
         Ok(StepReport { iterations: self.convergence.iterations(), error: Some(error), worst })
     }
 
     fn accept(&mut self, _from: &State, _to: &State) {
         self.convergence.aim(self.kappa[0]);
         (self.accepted, self.tried) = (Some(self.attempt), None);
+        (self.short, self.good) = (self.attempt < SHORT * self.good, 0.0);
         self.stages.accept();
     }
 
     fn interpolate(&self, system: &dyn Dynamics, from: &State, to: &State, t: f64, out: &mut State) {
-        if !self.stages.write_stage(system, (from, to), t, out) {
+        if self.short {
+            hermite::short(system, from, to, &self.stages.end_accepted, t, out);
+        } else if !self.stages.write_stage(system, (from, to), t, out) {
             hermite::quintic(system, from, to, &self.stages.end_accepted, t, out);
             self.stages.interpolate_forces((t - from.t) / (to.t - from.t), out);
         }
@@ -242,7 +256,7 @@ impl Stepper for RadauSteps {
         state: &mut State,
         counters: &mut Counters,
     ) -> Result<(), StepError> {
-        (self.accepted, self.tried) = (None, None);
+        (self.accepted, self.tried, self.good) = (None, None, 0.0);
         self.convergence.forget();
         self.stages.restart(system, state, counters)
     }
