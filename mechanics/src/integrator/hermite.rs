@@ -92,9 +92,9 @@ pub(super) fn quintic(
     finish(from, to, s, t, out);
 }
 
-/// Writes a step so short that its increment tells nothing of its accelerations, which are what is left of D over h²: the cubic through q and v of
-/// both ends, the cubic through v and a, and a linear.
-pub(super) fn short(
+/// Writes a step whose increment tells nothing of its velocities and accelerations, or whose accelerations tell nothing of its velocities: they are
+/// linear between both ends, and the configuration is the cubic through q and v.
+pub(super) fn line(
     system: &dyn Dynamics,
     from: &State,
     to: &State,
@@ -103,7 +103,7 @@ pub(super) fn short(
     out: &mut State,
 ) {
     cubic(system, from, to, increment, t, out);
-    velocities(from, to, to.t - from.t, fraction(from, to, t), out);
+    linear(from, to, t, out);
 }
 
 /// Writes velocities and accelerations that are linear between both ends, with all but the configuration: for steps in which velocities

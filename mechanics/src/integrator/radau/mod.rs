@@ -44,7 +44,8 @@
 //! estimate 3. Stability: A- and L-stable; frequencies far above 1/h are annihilated, those below are
 //! integrated with a dissipation of O((hω)⁶). Dense output: quintic Hermite through q, v, a at both ends;
 //! measured four to eight times as accurate as the collocation polynomial; forces of joints by this polynomial. At the times of the
-//! stages it is the stages.
+//! stages it is the stages. In steps that an event has cut to a small part velocities and accelerations are lines, and in those behind a blow on a
+//! damped beam, whose first accelerations decay within a part of the step.
 //!
 //! Sources: Hairer & Wanner, *Solving Ordinary Differential Equations II*, sections IV.5 and IV.8
 //! (doi 10.1007/978-3-642-05221-7); Hairer & Wanner (1999, doi 10.1016/S0377-0427(99)00134-X).
@@ -75,8 +76,11 @@ const FEW: u32 = 2;
 const LARGEST_KAPPA: f64 = 1e-3;
 const LARGEST_ITERATION_ERROR: f64 = 1e-5;
 
-/// Part of a step of good accuracy below which one from the same start is short: its accelerations are a line.
+/// Part of a step of good accuracy below which one from the same start is short: what iteration and rounding leave of its increment is divided by h².
 const SHORT: f64 = 1.0 / 32.0;
+
+/// Part of ½h (|a₀| + |a₁|) by which v₁ − v₀ may be off the trapezium in a step that resolves its accelerations: (hω)²/12 of a vibration.
+const RESOLVED: f64 = 0.5;
 
 /// The 3-stage Radau IIA method. Its formulas head the source file.
 #[derive(Clone, Debug)]
@@ -97,9 +101,10 @@ struct RadauSteps {
     accepted: Option<f64>,
     /// Size of an attempt from the same start that has converged.
     tried: Option<f64>,
-    /// Size of the largest attempt of good accuracy from the same start, and whether the accepted step is short against it.
+    /// Size of the largest attempt of good accuracy from the same start.
     good: f64,
-    short: bool,
+    /// Whether the accepted step is short against it, or goes over accelerations faster than itself: its dense output is a line.
+    line: bool,
     stages: Stages,
 }
 
@@ -158,7 +163,7 @@ impl Integrator for Radau {
             accepted: None,
             tried: None,
             good: 0.0,
-            short: false,
+            line: false,
             stages: Stages::new(system, state, self.tolerance),
         };
         steps.restart(system, state, counters)?;
@@ -234,16 +239,17 @@ impl Stepper for RadauSteps {
         Ok(StepReport { iterations: self.convergence.iterations(), error: Some(error), worst })
     }
 
-    fn accept(&mut self, _from: &State, _to: &State) {
+    fn accept(&mut self, from: &State, to: &State) {
         self.convergence.aim(self.kappa[0]);
         (self.accepted, self.tried) = (Some(self.attempt), None);
-        (self.short, self.good) = (self.attempt < SHORT * self.good, 0.0);
+        let short = self.attempt < SHORT * self.good;
+        (self.line, self.good) = (short || !self.stages.resolve(from, to), 0.0);
         self.stages.accept();
     }
 
     fn interpolate(&self, system: &dyn Dynamics, from: &State, to: &State, t: f64, out: &mut State) {
-        if self.short {
-            hermite::short(system, from, to, &self.stages.end_accepted, t, out);
+        if self.line {
+            hermite::line(system, from, to, &self.stages.end_accepted, t, out);
         } else if !self.stages.write_stage(system, (from, to), t, out) {
             hermite::quintic(system, from, to, &self.stages.end_accepted, t, out);
             self.stages.interpolate_forces((t - from.t) / (to.t - from.t), out);

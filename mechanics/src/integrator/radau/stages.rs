@@ -6,6 +6,7 @@ use super::super::kept::{KeptTangent, corotation};
 use super::super::rows::Rows;
 use super::super::{Checkpoint, Convergence, Counters, NotResumed, Progress, StepError, failure};
 use super::coefficients::{A, A_INVERSE, A2, A2_INVERSE, C, E_Q, E_V, GAMMA, MU, T, T_INVERSE, lagrange};
+use super::RESOLVED;
 use super::tolerance::Tolerance;
 use crate::linalg::Matrix;
 use crate::system::{Corotation, Dynamics, Mode, RowWeights, Set, Side, State, Weights, is_active};
@@ -428,6 +429,18 @@ impl Stages {
                 }
             }
         }
+    }
+
+    /// Whether the accelerations at both ends of a step tell its change of velocity.
+    pub(super) fn resolve(&self, from: &State, to: &State) -> bool {
+        let half = 0.5 * (to.t - from.t);
+        let ends = from.v.iter().zip(&to.v).zip(from.a.iter().zip(&to.a));
+        let [mut off, mut size] = [0.0_f64; 2];
+        for (((v0, v1), (a0, a1)), scale) in ends.zip(&self.scale) {
+            off = off.max((v1 - v0 - half * (a0 + a1)).abs() / scale);
+            size = size.max(half * (a0.abs() + a1.abs()) / scale);
+        }
+        off <= RESOLVED * size
     }
 
     /// Writes the stage of the accepted step at the time `t`, if there is one inside it: its state as it was found, and not one of the dense
