@@ -329,7 +329,13 @@ impl Locator {
     }
 
     fn trial_value(&mut self, system: &mut dyn System) -> f64 {
-        self.end.evaluate(system, &self.trial, &mut self.forces, &self.sets, (self.length, &mut self.strongest));
+        self.end.evaluate(
+            system,
+            &self.trial,
+            &mut self.forces,
+            &self.sets,
+            (self.length, &mut self.strongest),
+        );
         self.least(&self.end)
     }
 

@@ -95,6 +95,11 @@ const NOISE: f64 = 1e-7;
 /// Steps of the implicit Euler method behind a jump that the method itself does not follow.
 const EULER_STEPS: u8 = 3;
 
+/// Steps behind a blow that are judged, of which the first may be as short as an event leaves it, and the part of the accelerations at both
+/// ends by which they may change in one.
+const JUDGED: u8 = 3;
+const RESOLVED: f64 = 0.5;
+
 /// Which tangent an iteration has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Tangents {
@@ -126,6 +131,10 @@ pub(in crate::integrator) struct AlphaSteps {
     /// Whether no step has been taken since the restart, and steps of the implicit Euler method that are left, with that of the attempt.
     begins: bool,
     euler: u8,
+    /// Whether the accepted step is one of them.
+    line: bool,
+    /// Steps behind a blow that are still to be judged.
+    struck: u8,
 }
 
 /// Accelerations q̈ₙ₋₁ and q̈ₙ₋₂, and how many of them are known.
@@ -167,7 +176,8 @@ impl AlphaSteps {
                 break;
             }
         }
-        if self.begins && !self.affine && jumps(system, from, to, h) {
+        let begins = self.begins && !self.affine && jumps(system, from, to, h);
+        if begins || self.struck > 0 && !resolves(system, from, to) {
             self.euler = EULER_STEPS;
             return self.solve_euler(system, from, h, to, counters);
         }
@@ -392,6 +402,16 @@ fn jumps(system: &dyn Dynamics, from: &State, to: &State, h: f64) -> bool {
     changes.zip(system.scales()).any(|(change, scale)| change > *scale)
 }
 
+/// Whether the acceleration changes in a step by less than what it is at both ends together.
+fn resolves(system: &dyn Dynamics, from: &State, to: &State) -> bool {
+    let [mut change, mut size] = [0.0_f64; 2];
+    for ((before, now), scale) in from.a.iter().zip(&to.a).zip(system.scales()) {
+        change = change.max((now - before).abs() / scale);
+        size = size.max((now.abs() + before.abs()) / scale);
+    }
+    change <= RESOLVED * size
+}
+
 impl AlphaSteps {
     /// Increment d of the attempt.
     pub(in crate::integrator) fn increment(&self) -> &[f64] {
@@ -413,6 +433,8 @@ impl Stepper for AlphaSteps {
 
     fn accept(&mut self, from: &State, to: &State) {
         self.begins = false;
+        self.struck = self.struck.saturating_sub(1);
+        self.line = self.euler > 0;
         if self.euler > 0 {
             self.euler -= 1;
             self.auxiliary.restart(&to.a);
@@ -427,7 +449,10 @@ impl Stepper for AlphaSteps {
     }
 
     fn interpolate(&self, system: &dyn Dynamics, from: &State, to: &State, t: f64, out: &mut State) {
-        hermite::cubic(system, from, to, &self.d, t, out);
+        match self.line {
+            true => hermite::line(system, from, to, &self.d, t, out),
+            false => hermite::cubic(system, from, to, &self.d, t, out),
+        }
     }
 
     fn restart(
@@ -440,10 +465,14 @@ impl Stepper for AlphaSteps {
         self.simplified.forget();
         self.forces.learn(0.0);
         self.kept.forget(false);
-        (self.renewals, self.begins, self.euler) = (0, true, 0);
+        (self.renewals, self.begins, self.euler, self.struck) = (0, true, 0, 0);
         self.equations.complete(system, state, counters)?;
         self.auxiliary.restart(&state.a);
         Ok(())
+    }
+
+    fn struck(&mut self) {
+        self.struck = JUDGED;
     }
 
     fn save(&self, out: &mut Checkpoint) {
@@ -452,7 +481,7 @@ impl Stepper for AlphaSteps {
         out.put("earlier", &self.trend.earlier);
         let [constant, begins] = [self.constant, self.begins].map(|flag| f64::from(u8::from(flag)));
         out.put("history", &[f64::from(self.trend.known), f64::from(self.renewals), constant]);
-        out.put("start", &[begins, f64::from(self.euler)]);
+        out.put("start", &[begins, f64::from(self.euler), f64::from(self.struck)]);
         out.put("convergence", &self.simplified.memory());
         out.put("forces", &[self.forces.rounding()]);
         self.kept.save(out);
@@ -464,8 +493,8 @@ impl Stepper for AlphaSteps {
         from.fill("before", &mut self.trend.before)?;
         from.fill("earlier", &mut self.trend.earlier)?;
         let [known, renewals, constant] = from.numbers("history")?;
-        let [begins, euler] = from.numbers("start")?;
-        (self.begins, self.euler) = (begins != 0.0, euler as u8);
+        let [begins, euler, struck] = from.numbers("start")?;
+        (self.begins, self.euler, self.struck) = (begins != 0.0, euler as u8, struck as u8);
         (self.trend.known, self.renewals, self.constant) = (known as u8, renewals as u32, constant != 0.0);
         self.simplified.recall(from.numbers("convergence")?);
         let [rounding] = from.numbers("forces")?;

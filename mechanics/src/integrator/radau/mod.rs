@@ -80,7 +80,10 @@ const LARGEST_ITERATION_ERROR: f64 = 1e-5;
 const SHORT: f64 = 1.0 / 32.0;
 
 /// Part of ½h (|a₀| + |a₁|) by which v₁ − v₀ may be off the trapezium in a step that resolves its accelerations: (hω)²/12 of a vibration.
-const RESOLVED: f64 = 0.5;
+const RESOLVED: f64 = 0.02;
+
+/// Most steps behind a blow that go over what decays faster than themselves.
+const SETTLING: u8 = 8;
 
 /// The 3-stage Radau IIA method. Its formulas head the source file.
 #[derive(Clone, Debug)]
@@ -105,6 +108,8 @@ struct RadauSteps {
     good: f64,
     /// Whether the accepted step is short against it, or goes over accelerations faster than itself: its dense output is a line.
     line: bool,
+    /// Steps that may be of the kind behind a blow.
+    settling: u8,
     stages: Stages,
 }
 
@@ -164,6 +169,7 @@ impl Integrator for Radau {
             tried: None,
             good: 0.0,
             line: false,
+            settling: 0,
             stages: Stages::new(system, state, self.tolerance),
         };
         steps.restart(system, state, counters)?;
@@ -243,7 +249,9 @@ impl Stepper for RadauSteps {
         self.convergence.aim(self.kappa[0]);
         (self.accepted, self.tried) = (Some(self.attempt), None);
         let short = self.attempt < SHORT * self.good;
-        (self.line, self.good) = (short || !self.stages.resolve(from, to), 0.0);
+        let settles = self.settling > 0 && !self.stages.resolve(from, to);
+        self.settling = if settles || short { self.settling.saturating_sub(1) } else { 0 };
+        (self.line, self.good) = (short || settles, 0.0);
         self.stages.accept();
     }
 
@@ -262,19 +270,24 @@ impl Stepper for RadauSteps {
         state: &mut State,
         counters: &mut Counters,
     ) -> Result<(), StepError> {
-        (self.accepted, self.tried, self.good) = (None, None, 0.0);
+        (self.accepted, self.tried, self.good, self.settling) = (None, None, 0.0, 0);
         self.convergence.forget();
         self.stages.restart(system, state, counters)
     }
 
+    fn struck(&mut self) {
+        self.settling = SETTLING;
+    }
+
     fn save(&self, out: &mut Checkpoint) {
-        out.put("accepted", &[self.accepted.unwrap_or(f64::NAN)]);
+        out.put("accepted", &[self.accepted.unwrap_or(f64::NAN), f64::from(self.settling)]);
         out.put("convergence", &self.convergence.memory());
         self.stages.save(out);
     }
 
     fn resume(&mut self, system: &mut dyn Dynamics, from: &Checkpoint) -> Result<(), NotResumed> {
-        let [accepted] = from.numbers("accepted")?;
+        let [accepted, settling] = from.numbers("accepted")?;
+        self.settling = settling as u8;
         self.accepted = Some(accepted).filter(|step| step.is_finite());
         self.convergence.recall(from.numbers("convergence")?);
         self.stages.resume(system, from)
