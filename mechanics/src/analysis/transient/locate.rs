@@ -12,7 +12,8 @@
 //!
 //! λ is not the multiplier of the method, which differs from that of the accelerations by the method's error (without
 //! bound in steps that are next to nothing): what is closed behind an event is decided by the latter, and the same contact
-//! would close and open in turn, for no time. Where unknowns have no mass, the multipliers of the method are taken.
+//! would close and open in turn, for no time. With an implicit method accelerations and multipliers of accepted steps are these too. Where unknowns
+//! have no mass, the multipliers of the method are taken.
 //!
 //! A gap that is positive at both ends of a step may have been negative inside: where it first falls and then rises, its
 //! least value is sought by steps to times inside, ġ there saying on which side of them it is, until a bound from below is

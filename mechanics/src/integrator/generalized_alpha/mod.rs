@@ -47,7 +47,10 @@
 //! vₙ₊₁ = vₙ + h q̈ₙ₊₁,   d = h vₙ₊₁
 //! ```
 //!
-//! in which position, velocity and acceleration of what is far faster than the step come to rest, one after the other (Rannacher's start).
+//! in which position, velocity and acceleration of what is far faster than the step come to rest, one after the other (Rannacher's start). So
+//! they are where one of the first three steps behind an event of contacts, or a jump of velocities, does not resolve its accelerations, of which the
+//! largest change is more than half of the largest sum |q̈ₙ| + |q̈ₙ₊₁|: the trapezium would let them change their sign from step to step, and forces of
+//! contacts with them. The first of these steps may be as short as the event leaves it, and tell nothing.
 //! Their errors of h² do not add up: the method keeps its order.
 //!
 //! Steps may change their size (`auxiliary.rs`).
