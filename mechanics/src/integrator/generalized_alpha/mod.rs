@@ -48,9 +48,11 @@
 //! ```
 //!
 //! in which position, velocity and acceleration of what is far faster than the step come to rest, one after the other (Rannacher's start). So
-//! they are where one of the first three steps behind an event of contacts, or a jump of velocities, does not resolve its accelerations, of which the
-//! largest change is more than half of the largest sum |q̈ₙ| + |q̈ₙ₊₁|: the trapezium would let them change their sign from step to step, and forces of
-//! contacts with them. The first of these steps may be as short as the event leaves it, and tell nothing.
+//! they are where one of the first three steps behind an event of contacts, or a jump of velocities, has an acceleration at its end that is nothing like
+//! that at its start, with a change of more than half of |q̈ₙ| + |q̈ₙ₊₁|: what begins there is over within a part of the step, and the trapezium would let
+//! it ring, and forces of contacts with it. The first of these steps may be as short as the event leaves it, and tell nothing. A method without
+//! dissipation keeps the energy of undamped vibrations, which an impact begins without accelerations: there h q̈ₙ must be more than half of the velocity
+//! too, as that of damped strains is.
 //! Their errors of h² do not add up: the method keeps its order.
 //!
 //! Steps may change their size (`auxiliary.rs`).
@@ -98,10 +100,13 @@ const NOISE: f64 = 1e-7;
 /// Steps of the implicit Euler method behind a jump that the method itself does not follow.
 const EULER_STEPS: u8 = 3;
 
-/// Steps behind a blow that are judged, of which the first may be as short as an event leaves it, and the part of the accelerations at both
-/// ends by which they may change in one.
+/// Steps behind a blow that are judged: the first of them may be as short as an event leaves it.
 const JUDGED: u8 = 3;
-const RESOLVED: f64 = 0.5;
+
+/// Part of the velocity that accelerations change in a step where they count, and the part of the accelerations at both ends by which those that ring
+/// change, and of those at its end that they are at its start.
+const FELT: f64 = 0.5;
+const RINGING: f64 = 0.5;
 
 /// Which tangent an iteration has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -180,7 +185,7 @@ impl AlphaSteps {
             }
         }
         let begins = self.begins && !self.affine && jumps(system, from, to, h);
-        if begins || self.struck > 0 && !resolves(system, from, to) {
+        if begins || self.struck > 0 && self.rings(system, from, to, h) {
             self.euler = EULER_STEPS;
             return self.solve_euler(system, from, h, to, counters);
         }
@@ -390,6 +395,22 @@ impl AlphaSteps {
         (largest * h > NOISE).then_some(largest)
     }
 
+    /// Whether q̈ₙ₊₁ is nothing like q̈ₙ: what begins in the step is over within a part of it. A method without dissipation keeps the energy of undamped
+    /// vibrations, which a blow begins without accelerations: with it hq̈ₙ must be no small part of the velocity, and q̈ₙ₊₁ not have grown
+    /// from next to nothing.
+    fn rings(&self, system: &dyn Dynamics, from: &State, to: &State, h: f64) -> bool {
+        let [mut change, mut sum, mut start, mut end, mut speed] = [0.0_f64; 5];
+        let scales = system.scales();
+        for i in 0..scales.len() {
+            let [before, now, v] = [from.a[i], to.a[i], from.v[i]].map(|x| x / scales[i]);
+            change = change.max((now - before).abs());
+            sum = sum.max(now.abs() + before.abs());
+            (start, end, speed) = (start.max(before.abs()), end.max(now.abs()), speed.max(v.abs()));
+        }
+        let decays = h * start > FELT * speed && start > RINGING * end;
+        change > RINGING * sum && (decays || self.auxiliary.parameters.gamma > 0.5)
+    }
+
     fn diverged(&self, system: &dyn Dynamics, place: (f64, f64), size: f64, to: &State) -> StepError {
         if !size.is_finite() {
             return failure::not_finite(system, place.0, place.1, to);
@@ -403,16 +424,6 @@ impl AlphaSteps {
 fn jumps(system: &dyn Dynamics, from: &State, to: &State, h: f64) -> bool {
     let changes = from.a.iter().zip(&to.a).map(|(before, now)| 0.5 * h * h * (now - before).abs());
     changes.zip(system.scales()).any(|(change, scale)| change > *scale)
-}
-
-/// Whether the acceleration changes in a step by less than what it is at both ends together.
-fn resolves(system: &dyn Dynamics, from: &State, to: &State) -> bool {
-    let [mut change, mut size] = [0.0_f64; 2];
-    for ((before, now), scale) in from.a.iter().zip(&to.a).zip(system.scales()) {
-        change = change.max((now - before).abs() / scale);
-        size = size.max((now.abs() + before.abs()) / scale);
-    }
-    change <= RESOLVED * size
 }
 
 impl AlphaSteps {

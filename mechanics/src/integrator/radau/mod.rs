@@ -79,9 +79,6 @@ const LARGEST_ITERATION_ERROR: f64 = 1e-5;
 /// Part of a step of good accuracy below which one from the same start is short: what iteration and rounding leave of its increment is divided by h².
 const SHORT: f64 = 1.0 / 32.0;
 
-/// Part of ½h (|a₀| + |a₁|) by which v₁ − v₀ may be off the trapezium in a step that resolves its accelerations: (hω)²/12 of a vibration.
-const RESOLVED: f64 = 0.02;
-
 /// Most steps behind a blow that go over what decays faster than themselves.
 const SETTLING: u8 = 8;
 

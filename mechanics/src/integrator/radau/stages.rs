@@ -5,7 +5,6 @@ use super::super::joint_forces::JointForces;
 use super::super::kept::{KeptTangent, corotation};
 use super::super::rows::Rows;
 use super::super::{Checkpoint, Convergence, Counters, NotResumed, Progress, StepError, failure};
-use super::RESOLVED;
 use super::coefficients::{A, A_INVERSE, A2, A2_INVERSE, C, E_Q, E_V, GAMMA, MU, T, T_INVERSE, lagrange};
 use super::tolerance::Tolerance;
 use crate::linalg::Matrix;
@@ -15,6 +14,9 @@ use num_complex::Complex64;
 /// Largest η with which one iteration is enough: extrapolation multiplies what is left of the error of the starting values by
 /// 22 from step to step, and it must not grow. Control would take it for an error of the step, the same in every shorter one.
 const STABLE: f64 = 0.02;
+
+/// Part of ½h (|a₀| + |a₁|) by which v₁ − v₀ may be off the trapezium in a step that resolves its accelerations: (hω)²/12 of a vibration.
+const RESOLVED: f64 = 0.02;
 
 /// Names of the stages' accelerations in a checkpoint.
 const NAMES: [&str; 3] = ["stage.1", "stage.2", "stage.3"];
