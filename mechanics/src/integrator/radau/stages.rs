@@ -16,7 +16,8 @@ use num_complex::Complex64;
 const STABLE: f64 = 0.02;
 
 /// Part of ½h (|a₀| + |a₁|) by which v₁ − v₀ may be off the trapezium in a step that resolves its accelerations: (hω)²/12 of a vibration.
-const RESOLVED: f64 = 0.02;
+/// A reaction is a small difference of the forces of inertia and strain, of which the quintic must hold more digits than of either.
+const RESOLVED: f64 = 0.002;
 
 /// Names of the stages' accelerations in a checkpoint.
 const NAMES: [&str; 3] = ["stage.1", "stage.2", "stage.3"];
