@@ -52,7 +52,7 @@
 //! that at its start, with a change of more than half of |q̈ₙ| + |q̈ₙ₊₁|: what begins there is over within a part of the step, and the trapezium would let
 //! it ring, and forces of contacts with it. The first of these steps may be as short as the event leaves it, and tell nothing. A method without
 //! dissipation keeps the energy of undamped vibrations, which an impact begins without accelerations: there h q̈ₙ must be more than half of the velocity
-//! too, as that of damped strains is.
+//! too, as that of damped strains is. Unknowns without mass have no accelerations that tell.
 //! Their errors of h² do not add up: the method keeps its order.
 //!
 //! Steps may change their size (`auxiliary.rs`).
@@ -185,7 +185,8 @@ impl AlphaSteps {
             }
         }
         let begins = self.begins && !self.affine && jumps(system, from, to, h);
-        if begins || self.struck > 0 && self.rings(system, from, to, h) {
+        let struck = self.struck > 0 && !self.equations.is_massless();
+        if begins || struck && self.rings(system, from, to, h) {
             self.euler = EULER_STEPS;
             return self.solve_euler(system, from, h, to, counters);
         }
