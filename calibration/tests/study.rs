@@ -44,9 +44,8 @@ fn no_case_of_a_family_is_wrong_in_silence() {
         assert!(!matches!(outcome.ending, Ending::Refused(_)), "{}: {:?}", outcome.subject, outcome.ending);
     }
     let judged = outcomes.iter().filter(|o| o.warnings.is_empty() && !o.values.is_empty()).count();
-    // Warned are the rounding of short elements at kinks, forces of a rigid contact by an α method, a rotor that a method without events may let
-    // through, and a companion that takes long.
-    assert!(judged + 4 >= outcomes.len(), "{judged} of {}", outcomes.len());
+    // Warned are the rounding of short elements at kinks, a rotor that a method without events may let through, and a companion that takes long.
+    assert!(judged + 3 >= outcomes.len(), "{judged} of {}", outcomes.len());
 }
 
 /// All kinds are drawn that a case may choose, but those that a run cannot be judged by.

@@ -549,18 +549,3 @@ step = 0.005
     let time = 2.0 * 0.3 * v / (b * 0.7);
     assert!(v > 1e-5 && (neglected.time / time - 1.0).abs() < 1e-3, "{neglected:?} for {time:e}");
 }
-
-/// What steps that events cut do not hold is said for each kind of method, and only where there were events of rigid contacts.
-#[test]
-fn what_is_uncertain_behind_events_of_rigid_contacts_is_said() {
-    let said = |set: &[&str]| finished(&pendulum(set)).warnings.join("\n");
-    let (forces, reactions) = ("largest forces of contacts", "extremes of the torque of a hub");
-    let long = "run.duration=1";
-    for (method, text) in [("radau'", reactions), ("hht',step=1e-4", forces), ("newmark',step=1e-4", forces)]
-    {
-        let method = format!("integrator={{kind='{method}}}");
-        assert!(said(&[&method, long]).contains(text), "{method}");
-        assert!(!said(&[&method, "run.duration=0.01"]).contains("steps cut at events"), "{method}");
-    }
-    assert!(!said(&["integrator={kind='moreau-jean',step=1e-4}", long]).contains("cut at events"));
-}

@@ -1,6 +1,7 @@
 //! Cases as a whole, from the file to the results. `verification` and `no_allocation` are programs of their own.
 
 mod advice;
+mod behind_events;
 mod blade;
 mod broken_cases;
 mod broken_decks;

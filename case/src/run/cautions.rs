@@ -1,8 +1,7 @@
 //! What the reader of a run should know of its steps.
 
 use flexion::analysis::periodic::{NoPeriodicMotion, Periodic};
-use flexion::analysis::recording::{Events, Warning};
-use flexion::integrator::Info;
+use flexion::analysis::recording::Warning;
 use flexion::system::{Jump, Set, System};
 
 /// A warning of a run with fixed or controlled steps, with what to do.
@@ -38,23 +37,6 @@ pub(super) fn positions_only(system: &dyn System) -> Option<String> {
          grow without bound; leave the key out"
             .to_owned()
     })
-}
-
-/// A caution where a method that cuts its steps at events has followed rigid contacts.
-pub(super) fn behind_events(events: &Events, system: &dyn System, method: &Info) -> Option<String> {
-    let controlled = method.estimate_order.is_some();
-    // Reactions of systems in space are multipliers, which are judged.
-    if events.list.is_empty() || !events.is_rigid() || controlled && !system.is_vector_space() {
-        return None;
-    }
-    let text = if controlled {
-        "steps cut at events of rigid contacts may be so short that accelerations there are rounding errors: extremes of the torque of a hub and of \
-         other reactions may be far off right behind events; displacements, velocities and forces of contacts are not"
-    } else {
-        "in steps cut at events of rigid contacts largest forces of contacts, friction and velocities along them may be several times too large with \
-         this method: hold them against `radau` or half the step, or take a nonsmooth method"
-    };
-    Some(text.to_owned())
 }
 
 /// A caution if a fixed step \[s\] is longer than the time in which a load or a motion changes.

@@ -402,9 +402,6 @@ impl Prepared {
         warnings.extend(system.cautions(&record.trajectory.peaks()));
         warnings.extend(limits.iter().filter_map(|limit| limit.exceeded(&record.trajectory)));
         warnings.extend(record.warnings.iter().map(|warning| cautions::of_run(warning, plan.step.is_some())));
-        if !integrator.resolves_contacts() {
-            warnings.extend(cautions::behind_events(&record.events, system.as_ref(), integrator.info()));
-        }
         scene.draw(system.as_mut());
         if let Ending::Finished = record.ending {
             shapes.iter_mut().for_each(|shapes| shapes.finish(system.as_mut(), &record.state));

@@ -92,6 +92,20 @@ pub(super) fn quintic(
     finish(from, to, s, t, out);
 }
 
+/// Writes a step whose increment tells nothing of its velocities and accelerations, or whose accelerations tell nothing of its velocities: they are
+/// linear between both ends, and the configuration is the cubic through q and v.
+pub(super) fn line(
+    system: &dyn Dynamics,
+    from: &State,
+    to: &State,
+    increment: &[f64],
+    t: f64,
+    out: &mut State,
+) {
+    cubic(system, from, to, increment, t, out);
+    linear(from, to, t, out);
+}
+
 /// Writes velocities and accelerations that are linear between both ends, with all but the configuration: for steps in which velocities
 /// may jump.
 pub(super) fn linear(from: &State, to: &State, t: f64, out: &mut State) {

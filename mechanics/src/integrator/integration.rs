@@ -88,6 +88,11 @@ impl Integration {
         self.stepper.restart(system, state, &mut self.counters)
     }
 
+    /// At the state of the last restart contacts have struck, opened, stuck or slipped, or velocities have jumped.
+    pub fn struck(&mut self) {
+        self.stepper.struck();
+    }
+
     /// Adds to `out` all that later steps depend on besides the state.
     pub fn save(&self, out: &mut Checkpoint) {
         out.put("counters", &self.counters.to_numbers());

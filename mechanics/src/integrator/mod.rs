@@ -318,6 +318,9 @@ pub trait Stepper: Send {
         counters: &mut Counters,
     ) -> Result<(), StepError>;
 
+    /// At the state of the last restart contacts have struck, opened, stuck or slipped, or velocities have jumped.
+    fn struck(&mut self) {}
+
     /// Adds the history to `out`.
     fn save(&self, out: &mut Checkpoint);
 

@@ -12,7 +12,8 @@
 //!
 //! λ is not the multiplier of the method, which differs from that of the accelerations by the method's error (without
 //! bound in steps that are next to nothing): what is closed behind an event is decided by the latter, and the same contact
-//! would close and open in turn, for no time. Where unknowns have no mass, the multipliers of the method are taken.
+//! would close and open in turn, for no time. With an implicit method accelerations and multipliers of accepted steps are these too. Where unknowns
+//! have no mass, the multipliers of the method are taken.
 //!
 //! A gap that is positive at both ends of a step may have been negative inside: where it first falls and then rises, its
 //! least value is sought by steps to times inside, ġ there saying on which side of them it is, until a bound from below is
@@ -68,6 +69,8 @@ pub(super) struct Locator {
 struct Forces {
     accelerations: Accelerations,
     state: State,
+    /// Whether `state` is the last one that was asked for.
+    known: bool,
     counters: Counters,
 }
 
@@ -75,12 +78,13 @@ impl Forces {
     /// The multipliers at `s`: the method's own if no contact is closed or an unknown has no mass.
     fn at<'a>(&'a mut self, system: &mut dyn System, s: &'a State, sets: &[Set]) -> &'a [f64] {
         let closed = |(set, mode): (&Set, &Mode)| *set != Set::Free && is_active(*set, *mode);
-        if !sets.iter().zip(&s.mode).any(closed) || self.accelerations.is_massless() {
-            return &s.lambda;
+        self.known = sets.iter().zip(&s.mode).any(closed) && !self.accelerations.is_massless();
+        if self.known {
+            self.state.copy_from(s);
+            let done = self.accelerations.complete(system, &mut self.state, (s.t, 0.0), &mut self.counters);
+            self.known = done.is_ok() && !self.accelerations.is_massless();
         }
-        self.state.copy_from(s);
-        let done = self.accelerations.complete(system, &mut self.state, (s.t, 0.0), &mut self.counters);
-        if done.is_err() || self.accelerations.is_massless() { &s.lambda } else { &self.state.lambda }
+        if self.known { &self.state.lambda } else { &s.lambda }
     }
 }
 
@@ -110,15 +114,16 @@ impl Values {
         s: &State,
         forces: &mut Forces,
         sets: &[Set],
-        [length, strongest]: [f64; 2],
+        (length, strongest): (f64, &mut f64),
     ) {
         let m = sets.len();
         let lambda = forces.at(system, s, sets);
+        *strongest = lambda.iter().fold(*strongest, |most, x| most.max(x.abs()));
         system.constraint(s, RowWeights::POSITION, &mut self.gap);
         system.constraint(s, RowWeights::VELOCITY, &mut self.rate[..m]);
         let rates = self.rate[..m].iter().zip(sets).filter(|(_, set)| **set != Set::Free);
         let fastest = rates.fold(system.fastest(&s.v), |most, (rate, _)| most.max(rate.abs()));
-        let (force, rate) = (VANISHING * strongest, VANISHING * fastest);
+        let (force, rate) = (VANISHING * *strongest, VANISHING * fastest);
         for (i, set) in sets.iter().enumerate() {
             let (value, zero) = match (*set, s.mode[i]) {
                 (Set::Free, _) => (f64::INFINITY, 0.0),
@@ -164,6 +169,7 @@ impl Locator {
             forces: Forces {
                 accelerations: Accelerations::new(system, state, RowWeights::ACCELERATION),
                 state: state.clone(),
+                known: false,
                 counters: Counters::default(),
             },
             sets,
@@ -186,12 +192,11 @@ impl Locator {
         h: f64,
         to: &mut State,
     ) -> Result<(f64, bool), RunError> {
-        let largest = from.lambda.iter().chain(&to.lambda).fold(0.0_f64, |m, x| m.max(x.abs()));
-        self.strongest = self.strongest.max(largest);
         self.begin(system, from);
         self.whole = (to.t, to.side);
+        let implicit = integrator.info().implicit;
         let mut value = self.value(system, to);
-        self.press(to);
+        self.complete(to, implicit);
         let (mut low, mut high) = (0.0, h);
         if value > 0.0 {
             let Some(dip) = self.dip(system, integrator, from, h, to)? else { return Ok((h, false)) };
@@ -216,7 +221,7 @@ impl Locator {
                         self.extrapolate(system, from, size);
                     }
                     to.copy_from(&self.trial);
-                    self.press(to);
+                    self.complete(to, implicit);
                     return Ok((size, true));
                 }
                 (high, value) = (size, found);
@@ -257,13 +262,19 @@ impl Locator {
             self.trial_value(system);
         }
         to.copy_from(&self.trial);
-        self.press(to);
+        self.complete(to, implicit);
         Ok((size, true))
     }
 
-    /// Gives closed contacts that the method's own multipliers pull at `to`, by their error, the force of the accelerations
-    /// there.
-    fn press(&self, to: &mut State) {
+    /// Gives `to`, whose indicators were evaluated last, accelerations and multipliers that are consistent with its position and velocity, where
+    /// contacts are closed. Those of an implicit method are what its formulas ask for to end on the constraints: with what rounding, and steps before,
+    /// leave of ġ in the start of a step h they are off by ġ/h. Explicit methods have their own, which draw g to zero. Closed contacts that
+    /// are pulled, by an error, have the force of the consistent ones.
+    fn complete(&self, to: &mut State, implicit: bool) {
+        if self.forces.known && implicit {
+            to.a.copy_from_slice(&self.forces.state.a);
+            to.lambda.copy_from_slice(&self.forces.state.lambda);
+        }
         for (i, set) in self.sets.iter().enumerate() {
             let closed = matches!(set, Set::Unilateral { .. }) && to.mode[i] != Mode::Open;
             if closed && to.lambda[i] < 0.0 {
@@ -296,7 +307,7 @@ impl Locator {
     }
 
     fn begin(&mut self, system: &mut dyn System, from: &State) {
-        self.start.evaluate(system, from, &mut self.forces, &self.sets, [self.length, self.strongest]);
+        self.start.evaluate(system, from, &mut self.forces, &self.sets, (self.length, &mut self.strongest));
         let m = self.sets.len();
         for (sign, x) in self.signs.iter_mut().zip(&self.start.indicator[m..]) {
             if *x != 0.0 {
@@ -314,12 +325,18 @@ impl Locator {
 
     /// The least indicator at `s`, scaled.
     fn value(&mut self, system: &mut dyn System, s: &State) -> f64 {
-        self.end.evaluate(system, s, &mut self.forces, &self.sets, [self.length, self.strongest]);
+        self.end.evaluate(system, s, &mut self.forces, &self.sets, (self.length, &mut self.strongest));
         self.least(&self.end)
     }
 
     fn trial_value(&mut self, system: &mut dyn System) -> f64 {
-        self.end.evaluate(system, &self.trial, &mut self.forces, &self.sets, [self.length, self.strongest]);
+        self.end.evaluate(
+            system,
+            &self.trial,
+            &mut self.forces,
+            &self.sets,
+            (self.length, &mut self.strongest),
+        );
         self.least(&self.end)
     }
 
@@ -428,6 +445,8 @@ impl Locator {
             let span = Span { step: h, end: self.whole.0, side: self.whole.1 };
             integrator.discard();
             integrator.step(system, from, span, to).map_err(|error| failed(system, from, error))?;
+            self.value(system, to);
+            self.complete(to, integrator.info().implicit);
         }
         Ok(found)
     }

@@ -577,10 +577,14 @@ impl Run {
         happened: Vec<EventKind>,
         observer: &mut dyn Observer,
     ) -> Result<(), RunError> {
+        let struck = !happened.is_empty();
         for kind in happened {
             observer.event(&Event { time: state.t, kind, modes: state.mode.clone() });
         }
         integrator.restart(system, state).map_err(|error| failed(system, state, error))?;
+        if struck {
+            integrator.struck();
+        }
         if let Some(balance) = &mut self.balance {
             balance.add_impulse(work, lost);
             balance.restart(system, state);

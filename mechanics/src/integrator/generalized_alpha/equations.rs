@@ -66,6 +66,11 @@ impl Equations {
         self.accelerations.complete_in(memory, system, state, place, counters)
     }
 
+    /// Whether unknowns without mass have been found.
+    pub(super) fn is_massless(&self) -> bool {
+        self.accelerations.is_massless()
+    }
+
     /// Whether velocities are held too.
     pub(super) fn is_stabilized(&self) -> bool {
         self.stiffness.is_some()

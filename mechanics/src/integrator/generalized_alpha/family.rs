@@ -126,6 +126,8 @@ impl GeneralizedAlpha {
             constant: false,
             begins: true,
             euler: 0,
+            line: false,
+            struck: 0,
         }
     }
 }

@@ -47,7 +47,12 @@
 //! vₙ₊₁ = vₙ + h q̈ₙ₊₁,   d = h vₙ₊₁
 //! ```
 //!
-//! in which position, velocity and acceleration of what is far faster than the step come to rest, one after the other (Rannacher's start).
+//! in which position, velocity and acceleration of what is far faster than the step come to rest, one after the other (Rannacher's start). So
+//! they are where one of the first three steps behind an event of contacts, or a jump of velocities, has an acceleration at its end that is nothing like
+//! that at its start, with a change of more than half of |q̈ₙ| + |q̈ₙ₊₁|: what begins there is over within a part of the step, and the trapezium would let
+//! it ring, and forces of contacts with it. The first of these steps may be as short as the event leaves it, and tell nothing. A method without
+//! dissipation keeps the energy of undamped vibrations, which an impact begins without accelerations: there h q̈ₙ must be more than half of the velocity
+//! too, as that of damped strains is. Unknowns without mass have no accelerations that tell.
 //! Their errors of h² do not add up: the method keeps its order.
 //!
 //! Steps may change their size (`auxiliary.rs`).
@@ -95,6 +100,14 @@ const NOISE: f64 = 1e-7;
 /// Steps of the implicit Euler method behind a jump that the method itself does not follow.
 const EULER_STEPS: u8 = 3;
 
+/// Steps behind a blow that are judged: the first of them may be as short as an event leaves it.
+const JUDGED: u8 = 3;
+
+/// Part of the velocity that accelerations change in a step where they count, and the part of the accelerations at both ends by which those that ring
+/// change, and of those at its end that they are at its start.
+const FELT: f64 = 0.5;
+const RINGING: f64 = 0.5;
+
 /// Which tangent an iteration has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Tangents {
@@ -126,6 +139,10 @@ pub(in crate::integrator) struct AlphaSteps {
     /// Whether no step has been taken since the restart, and steps of the implicit Euler method that are left, with that of the attempt.
     begins: bool,
     euler: u8,
+    /// Whether the accepted step is one of them.
+    line: bool,
+    /// Steps behind a blow that are still to be judged.
+    struck: u8,
 }
 
 /// Accelerations q̈ₙ₋₁ and q̈ₙ₋₂, and how many of them are known.
@@ -167,7 +184,9 @@ impl AlphaSteps {
                 break;
             }
         }
-        if self.begins && !self.affine && jumps(system, from, to, h) {
+        let begins = self.begins && !self.affine && jumps(system, from, to, h);
+        let struck = self.struck > 0 && !self.equations.is_massless();
+        if begins || struck && self.rings(system, from, to, h) {
             self.euler = EULER_STEPS;
             return self.solve_euler(system, from, h, to, counters);
         }
@@ -377,6 +396,22 @@ impl AlphaSteps {
         (largest * h > NOISE).then_some(largest)
     }
 
+    /// Whether q̈ₙ₊₁ is nothing like q̈ₙ: what begins in the step is over within a part of it. A method without dissipation keeps the energy of undamped
+    /// vibrations, which a blow begins without accelerations: with it hq̈ₙ must be no small part of the velocity, and q̈ₙ₊₁ not have grown
+    /// from next to nothing.
+    fn rings(&self, system: &dyn Dynamics, from: &State, to: &State, h: f64) -> bool {
+        let [mut change, mut sum, mut start, mut end, mut speed] = [0.0_f64; 5];
+        let scales = system.scales();
+        for i in 0..scales.len() {
+            let [before, now, v] = [from.a[i], to.a[i], from.v[i]].map(|x| x / scales[i]);
+            change = change.max((now - before).abs());
+            sum = sum.max(now.abs() + before.abs());
+            (start, end, speed) = (start.max(before.abs()), end.max(now.abs()), speed.max(v.abs()));
+        }
+        let decays = h * start > FELT * speed && start > RINGING * end;
+        change > RINGING * sum && (decays || self.auxiliary.parameters.gamma > 0.5)
+    }
+
     fn diverged(&self, system: &dyn Dynamics, place: (f64, f64), size: f64, to: &State) -> StepError {
         if !size.is_finite() {
             return failure::not_finite(system, place.0, place.1, to);
@@ -413,6 +448,8 @@ impl Stepper for AlphaSteps {
 
     fn accept(&mut self, from: &State, to: &State) {
         self.begins = false;
+        self.struck = self.struck.saturating_sub(1);
+        self.line = self.euler > 0;
         if self.euler > 0 {
             self.euler -= 1;
             self.auxiliary.restart(&to.a);
@@ -427,7 +464,10 @@ impl Stepper for AlphaSteps {
     }
 
     fn interpolate(&self, system: &dyn Dynamics, from: &State, to: &State, t: f64, out: &mut State) {
-        hermite::cubic(system, from, to, &self.d, t, out);
+        match self.line {
+            true => hermite::line(system, from, to, &self.d, t, out),
+            false => hermite::cubic(system, from, to, &self.d, t, out),
+        }
     }
 
     fn restart(
@@ -440,10 +480,14 @@ impl Stepper for AlphaSteps {
         self.simplified.forget();
         self.forces.learn(0.0);
         self.kept.forget(false);
-        (self.renewals, self.begins, self.euler) = (0, true, 0);
+        (self.renewals, self.begins, self.euler, self.struck) = (0, true, 0, 0);
         self.equations.complete(system, state, counters)?;
         self.auxiliary.restart(&state.a);
         Ok(())
+    }
+
+    fn struck(&mut self) {
+        self.struck = JUDGED;
     }
 
     fn save(&self, out: &mut Checkpoint) {
@@ -452,7 +496,7 @@ impl Stepper for AlphaSteps {
         out.put("earlier", &self.trend.earlier);
         let [constant, begins] = [self.constant, self.begins].map(|flag| f64::from(u8::from(flag)));
         out.put("history", &[f64::from(self.trend.known), f64::from(self.renewals), constant]);
-        out.put("start", &[begins, f64::from(self.euler)]);
+        out.put("start", &[begins, f64::from(self.euler), f64::from(self.struck)]);
         out.put("convergence", &self.simplified.memory());
         out.put("forces", &[self.forces.rounding()]);
         self.kept.save(out);
@@ -464,8 +508,8 @@ impl Stepper for AlphaSteps {
         from.fill("before", &mut self.trend.before)?;
         from.fill("earlier", &mut self.trend.earlier)?;
         let [known, renewals, constant] = from.numbers("history")?;
-        let [begins, euler] = from.numbers("start")?;
-        (self.begins, self.euler) = (begins != 0.0, euler as u8);
+        let [begins, euler, struck] = from.numbers("start")?;
+        (self.begins, self.euler, self.struck) = (begins != 0.0, euler as u8, struck as u8);
         (self.trend.known, self.renewals, self.constant) = (known as u8, renewals as u32, constant != 0.0);
         self.simplified.recall(from.numbers("convergence")?);
         let [rounding] = from.numbers("forces")?;

@@ -44,7 +44,8 @@
 //! estimate 3. Stability: A- and L-stable; frequencies far above 1/h are annihilated, those below are
 //! integrated with a dissipation of O((hω)⁶). Dense output: quintic Hermite through q, v, a at both ends;
 //! measured four to eight times as accurate as the collocation polynomial; forces of joints by this polynomial. At the times of the
-//! stages it is the stages.
+//! stages it is the stages. In steps that an event has cut to a small part velocities and accelerations are lines, and in those behind a blow on a
+//! damped beam, whose first accelerations decay within a part of the step.
 //!
 //! Sources: Hairer & Wanner, *Solving Ordinary Differential Equations II*, sections IV.5 and IV.8
 //! (doi 10.1007/978-3-642-05221-7); Hairer & Wanner (1999, doi 10.1016/S0377-0427(99)00134-X).
@@ -75,6 +76,12 @@ const FEW: u32 = 2;
 const LARGEST_KAPPA: f64 = 1e-3;
 const LARGEST_ITERATION_ERROR: f64 = 1e-5;
 
+/// Part of a step of good accuracy below which one from the same start is short: what iteration and rounding leave of its increment is divided by h².
+const SHORT: f64 = 1.0 / 32.0;
+
+/// Most steps behind a blow that go over what decays faster than themselves.
+const SETTLING: u8 = 8;
+
 /// The 3-stage Radau IIA method. Its formulas head the source file.
 #[derive(Clone, Debug)]
 pub struct Radau {
@@ -94,6 +101,12 @@ struct RadauSteps {
     accepted: Option<f64>,
     /// Size of an attempt from the same start that has converged.
     tried: Option<f64>,
+    /// Size of the largest attempt of good accuracy from the same start.
+    good: f64,
+    /// Whether the accepted step is short against it, or goes over accelerations faster than itself: its dense output is a line.
+    line: bool,
+    /// Steps that may be of the kind behind a blow.
+    settling: u8,
     stages: Stages,
 }
 
@@ -151,6 +164,9 @@ impl Integrator for Radau {
             attempt: 0.0,
             accepted: None,
             tried: None,
+            good: 0.0,
+            line: false,
+            settling: 0,
             stages: Stages::new(system, state, self.tolerance),
         };
         steps.restart(system, state, counters)?;
@@ -220,17 +236,26 @@ impl Stepper for RadauSteps {
         if !error.is_finite() {
             return Err(StepError::NotFinite { time: from.t, step: h, worst: system.unknown(worst) });
         }
+        if error <= 1.0 {
+            self.good = self.good.max(h);
+        }
         Ok(StepReport { iterations: self.convergence.iterations(), error: Some(error), worst })
     }
 
-    fn accept(&mut self, _from: &State, _to: &State) {
+    fn accept(&mut self, from: &State, to: &State) {
         self.convergence.aim(self.kappa[0]);
         (self.accepted, self.tried) = (Some(self.attempt), None);
+        let short = self.attempt < SHORT * self.good;
+        let settles = self.settling > 0 && !self.stages.resolve(from, to);
+        self.settling = if settles || short { self.settling.saturating_sub(1) } else { 0 };
+        (self.line, self.good) = (short || settles, 0.0);
         self.stages.accept();
     }
 
     fn interpolate(&self, system: &dyn Dynamics, from: &State, to: &State, t: f64, out: &mut State) {
-        if !self.stages.write_stage(system, (from, to), t, out) {
+        if self.line {
+            hermite::line(system, from, to, &self.stages.end_accepted, t, out);
+        } else if !self.stages.write_stage(system, (from, to), t, out) {
             hermite::quintic(system, from, to, &self.stages.end_accepted, t, out);
             self.stages.interpolate_forces((t - from.t) / (to.t - from.t), out);
         }
@@ -242,19 +267,24 @@ impl Stepper for RadauSteps {
         state: &mut State,
         counters: &mut Counters,
     ) -> Result<(), StepError> {
-        (self.accepted, self.tried) = (None, None);
+        (self.accepted, self.tried, self.good, self.settling) = (None, None, 0.0, 0);
         self.convergence.forget();
         self.stages.restart(system, state, counters)
     }
 
+    fn struck(&mut self) {
+        self.settling = SETTLING;
+    }
+
     fn save(&self, out: &mut Checkpoint) {
-        out.put("accepted", &[self.accepted.unwrap_or(f64::NAN)]);
+        out.put("accepted", &[self.accepted.unwrap_or(f64::NAN), f64::from(self.settling)]);
         out.put("convergence", &self.convergence.memory());
         self.stages.save(out);
     }
 
     fn resume(&mut self, system: &mut dyn Dynamics, from: &Checkpoint) -> Result<(), NotResumed> {
-        let [accepted] = from.numbers("accepted")?;
+        let [accepted, settling] = from.numbers("accepted")?;
+        self.settling = settling as u8;
         self.accepted = Some(accepted).filter(|step| step.is_finite());
         self.convergence.recall(from.numbers("convergence")?);
         self.stages.resume(system, from)

@@ -15,6 +15,10 @@ use num_complex::Complex64;
 /// 22 from step to step, and it must not grow. Control would take it for an error of the step, the same in every shorter one.
 const STABLE: f64 = 0.02;
 
+/// Part of ½h (|a₀| + |a₁|) by which v₁ − v₀ may be off the trapezium in a step that resolves its accelerations: (hω)²/12 of a vibration.
+/// A reaction is a small difference of the forces of inertia and strain, of which the quintic must hold more digits than of either.
+const RESOLVED: f64 = 0.002;
+
 /// Names of the stages' accelerations in a checkpoint.
 const NAMES: [&str; 3] = ["stage.1", "stage.2", "stage.3"];
 
@@ -428,6 +432,18 @@ impl Stages {
                 }
             }
         }
+    }
+
+    /// Whether the accelerations at both ends of a step tell its change of velocity.
+    pub(super) fn resolve(&self, from: &State, to: &State) -> bool {
+        let half = 0.5 * (to.t - from.t);
+        let ends = from.v.iter().zip(&to.v).zip(from.a.iter().zip(&to.a));
+        let [mut off, mut size] = [0.0_f64; 2];
+        for (((v0, v1), (a0, a1)), scale) in ends.zip(&self.scale) {
+            off = off.max((v1 - v0 - half * (a0 + a1)).abs() / scale);
+            size = size.max(half * (a0.abs() + a1.abs()) / scale);
+        }
+        off <= RESOLVED * size
     }
 
     /// Writes the stage of the accepted step at the time `t`, if there is one inside it: its state as it was found, and not one of the dense
