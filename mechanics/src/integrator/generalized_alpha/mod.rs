@@ -49,10 +49,9 @@
 //!
 //! in which position, velocity and acceleration of what is far faster than the step come to rest, one after the other (Rannacher's start). So
 //! they are where one of the first three steps behind an event of contacts, or a jump of velocities, has an acceleration at its end that is nothing like
-//! that at its start, with a change of more than half of |q̈ₙ| + |q̈ₙ₊₁|: what begins there is over within a part of the step, and the trapezium would let
-//! it ring, and forces of contacts with it. The first of these steps may be as short as the event leaves it, and tell nothing. A method without
-//! dissipation keeps the energy of undamped vibrations, which an impact begins without accelerations: there h q̈ₙ must be more than half of the velocity
-//! too, as that of damped strains is. Unknowns without mass have no accelerations that tell.
+//! that at its start, with a change w of more than half of |q̈ₙ| + |q̈ₙ₊₁|, and damping brings w to rest within the step, h wᵀCw > wᵀMw: the trapezium would let
+//! it ring, and forces of contacts with it. The first of these steps may be as short as the event leaves it, and tell nothing. Vibrations without damping keep their
+//! energy. Unknowns without mass have no accelerations that tell.
 //! Their errors of h² do not add up: the method keeps its order.
 //!
 //! Steps may change their size (`auxiliary.rs`).
@@ -103,10 +102,14 @@ const EULER_STEPS: u8 = 3;
 /// Steps behind a blow that are judged: the first of them may be as short as an event leaves it.
 const JUDGED: u8 = 3;
 
-/// Part of the velocity that accelerations change in a step where they count, and the part of the accelerations at both ends by which those that ring
-/// change, and of those at its end that they are at its start.
-const FELT: f64 = 0.5;
+/// Part of the accelerations at both ends of a step by which those change that ring.
 const RINGING: f64 = 0.5;
+
+/// Rate of decay of what rings, over 1/h.
+const DAMPED: f64 = 1.0;
+
+/// Part of the velocities by which they are moved to find what damping does.
+const PROBED: f64 = 1e-3;
 
 /// Which tangent an iteration has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -396,20 +399,36 @@ impl AlphaSteps {
         (largest * h > NOISE).then_some(largest)
     }
 
-    /// Whether q̈ₙ₊₁ is nothing like q̈ₙ: what begins in the step is over within a part of it. A method without dissipation keeps the energy of undamped
-    /// vibrations, which a blow begins without accelerations: with it hq̈ₙ must be no small part of the velocity, and q̈ₙ₊₁ not have grown
-    /// from next to nothing.
-    fn rings(&self, system: &dyn Dynamics, from: &State, to: &State, h: f64) -> bool {
-        let [mut change, mut sum, mut start, mut end, mut speed] = [0.0_f64; 5];
+    /// Whether q̈ₙ₊₁ is nothing like q̈ₙ, for damping brings to rest within the step what begins in it: with w = q̈ₙ₊₁ − q̈ₙ it does so at
+    /// the rate wᵀCw / wᵀMw. What vibrates without damping is not meant: its energy is kept.
+    fn rings(&self, system: &mut dyn Dynamics, from: &State, to: &State, h: f64) -> bool {
+        let [mut change, mut sum, mut speed] = [0.0_f64; 3];
         let scales = system.scales();
         for i in 0..scales.len() {
-            let [before, now, v] = [from.a[i], to.a[i], from.v[i]].map(|x| x / scales[i]);
+            let [before, now, v] = [from.a[i], to.a[i], to.v[i]].map(|x| x / scales[i]);
             change = change.max((now - before).abs());
             sum = sum.max(now.abs() + before.abs());
-            (start, end, speed) = (start.max(before.abs()), end.max(now.abs()), speed.max(v.abs()));
+            speed = speed.max(v.abs());
         }
-        let decays = h * start > FELT * speed && start > RINGING * end;
-        change > RINGING * sum && (decays || self.auxiliary.parameters.gamma > 0.5)
+        if !(change > RINGING * sum) {
+            return false;
+        }
+        // M w is exact, for r is linear in q̈; C w is a central difference over a part of the velocities.
+        let w: Vec<f64> = to.a.iter().zip(&from.a).map(|(now, before)| now - before).collect();
+        let part = PROBED * speed.max(h * change) / change;
+        let mut probe = to.clone();
+        let mut power = |state: &State, sign: f64| {
+            let mut r = vec![0.0; w.len()];
+            system.residual(state, &mut r);
+            sign * r.iter().zip(&w).map(|(r, w)| r * w).sum::<f64>()
+        };
+        let inertia = power(to, 1.0) - power(&State { a: from.a.clone(), ..to.clone() }, 1.0);
+        let mut damping = 0.0;
+        for sign in [1.0, -1.0] {
+            probe.v.iter_mut().zip(&to.v).zip(&w).for_each(|((v, at), w)| *v = at + sign * part * w);
+            damping += power(&probe, sign);
+        }
+        h * damping / (2.0 * part) > DAMPED * inertia
     }
 
     fn diverged(&self, system: &dyn Dynamics, place: (f64, f64), size: f64, to: &State) -> StepError {
