@@ -68,12 +68,16 @@ mod tests {
             vec![0.0, 1.0, 0.0, 0.5, 0.0],
             vec![2.0, -3.0, -2e-3, -1.5, 4.0],
         ];
-        let found = NullSpace::of(&rows, &[1.0, 1.0, 1e3, 1.0, 1e-2]);
+        let scales = [1.0, 1.0, 1e3, 1.0, 1e-2];
+        let found = NullSpace::of(&rows, &scales);
         assert_eq!(found.vectors.len(), 3);
         for (k, (own, x)) in found.independent.iter().zip(&found.vectors).enumerate() {
             for row in &rows {
                 let g: f64 = row.iter().zip(x).map(|(a, x)| a * x).sum();
-                let size: f64 = row.iter().zip(x).map(|(a, x)| (a * x).abs()).sum();
+                // Rounding is of the sizes of rows and vectors of unknowns of one size.
+                let norm = |of: &mut dyn Iterator<Item = f64>| of.map(|x| x * x).sum::<f64>().sqrt();
+                let size = norm(&mut row.iter().zip(scales).map(|(a, s)| a * s))
+                    * norm(&mut x.iter().zip(scales).map(|(x, s)| x / s));
                 assert!(g.abs() <= 1e-13 * size, "{g:e}");
             }
             for (l, other) in found.independent.iter().enumerate() {
