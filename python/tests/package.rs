@@ -77,22 +77,14 @@ fn environment() -> Result<PathBuf, String> {
     Ok(python)
 }
 
-/// Builds the package, and runs its tests and what holds its types: the number of tests that passed.
+/// Runs the tests of the package and what holds its types: the number of tests that passed.
 fn tests(python: &Path) -> Result<u32, String> {
-    let release = std::env::current_exe().is_ok_and(|path| path.starts_with(target().join("release")));
-    let profile = if release { "release" } else { "debug" };
-    let mut build = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    build.args(["build", "--quiet", "-p", "flexion-python", "-p", "flexion-cli"]);
-    build.args(release.then_some("--release")).arg("--target-dir").arg(target()).current_dir(sources());
-    run(&mut build)?;
-    let built = target().join(profile);
     let site = target().join("python/site");
     let package = site.join("flexion");
-    installed(&package, &built).map_err(|error| format!("{}: {error}", package.display()))?;
-    let program = built.join(format!("flexion{}", std::env::consts::EXE_SUFFIX));
+    installed(&package).map_err(|error| format!("{}: {error}", package.display()))?;
     let with = |words: &[&str]| {
         let mut command = Command::new(python);
-        command.args(words).env("PYTHONPATH", &site).env("FLEXION_PROGRAM", &program).current_dir(&site);
+        command.args(words).env("PYTHONPATH", &site).current_dir(&site);
         command
     };
     let tests = sources().join("tests");
@@ -109,8 +101,8 @@ fn tests(python: &Path) -> Result<u32, String> {
     count.ok_or_else(|| format!("no number of tests was said:\n{said}"))
 }
 
-/// Copies the sources of the package and the library that was built to where Python finds them.
-fn installed(package: &Path, built: &Path) -> std::io::Result<()> {
+/// Copies the sources of the package, and the library that was built beside this test, to where Python finds them.
+fn installed(package: &Path) -> std::io::Result<()> {
     if package.exists() {
         std::fs::remove_dir_all(package)?;
     }
@@ -126,5 +118,7 @@ fn installed(package: &Path, built: &Path) -> std::io::Result<()> {
         "macos" => ("lib_core.dylib", "_core.abi3.so"),
         _ => ("lib_core.so", "_core.abi3.so"),
     };
+    let test = std::env::current_exe()?;
+    let built = test.parent().unwrap_or(&test);
     std::fs::copy(built.join(library), package.join(extension)).map(drop)
 }

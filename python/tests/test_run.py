@@ -27,7 +27,7 @@ def without_times(summary: dict[str, object]) -> dict[str, object]:
 
 @pytest.mark.parametrize("name", ["p1_spin_up_4", "falling_pendulum", "space_joints"])
 def test_the_numbers_are_those_of_the_program(
-    name: str, verification: Path, program: str, tmp_path: Path
+    name: str, verification: Path, program: list[str], tmp_path: Path
 ) -> None:
     case = verification / name
     if not case.exists():
@@ -35,7 +35,7 @@ def test_the_numbers_are_those_of_the_program(
     run = flexion.Case(case).run(errors="off")
     run.save(tmp_path / "package")
     options = ["--error", "off", "--output", str(tmp_path / "program")]
-    subprocess.run([program, "run", str(case), *options], check=True, capture_output=True)
+    subprocess.run([*program, "run", str(case), *options], check=True, capture_output=True)
     for theirs in sorted((tmp_path / "program").iterdir()):
         ours = tmp_path / "package" / theirs.name
         if theirs.name == "summary.json":
@@ -275,9 +275,9 @@ def test_the_package_carries_the_program(tmp_path: Path, verification: Path) -> 
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
-def test_the_program_prints_values_for_scripts(program: str, verification: Path, tmp_path: Path) -> None:
+def test_the_program_prints_values_for_scripts(program: list[str], verification: Path, tmp_path: Path) -> None:
     case = verification / "p1_spin_up_4"
-    words = [program, "run", str(case), "--output", str(tmp_path / "run")]
+    words = [*program, "run", str(case), "--output", str(tmp_path / "run")]
     asked = ["--print", "tip.deflection.min,hub.speed.final"]
     printed = subprocess.run([*words, *asked], capture_output=True, text=True, check=True).stdout
     rows = [line.split("\t") for line in printed.splitlines()]

@@ -32,18 +32,18 @@ def test_modes_at_rest_are_those_of_the_cantilever(arm: flexion.Case) -> None:
 
 
 def test_modes_and_diagrams_are_those_of_the_program(
-    verification: Path, program: str, tmp_path: Path
+    verification: Path, program: list[str], tmp_path: Path
 ) -> None:
     path = verification / "modes_blade_nrel_5mw"
     case = flexion.Case(path)
     case.modes(1.2, 4).save(tmp_path / "ours")
     words = ["modes", str(path), "--speed", "1.2", "--count", "4", "--output", str(tmp_path / "theirs")]
-    subprocess.run([program, *words], check=True, capture_output=True)
+    subprocess.run([*program, *words], check=True, capture_output=True)
     for theirs in (tmp_path / "theirs").iterdir():
         assert (tmp_path / "ours" / theirs.name).read_bytes() == theirs.read_bytes(), theirs.name
     diagram = case.campbell(np.linspace(0, 1.2, 5), 3, unit="rad/s")
     words = ["campbell", str(path), "--speeds", "0:1.2:5", "--modes", "3", "--output", str(tmp_path / "diagram")]
-    subprocess.run([program, *words], check=True, capture_output=True)
+    subprocess.run([*program, *words], check=True, capture_output=True)
     stated = json.loads((tmp_path / "diagram" / "campbell.json").read_text())
     assert len(diagram) == len(stated["modes"])
     diagram.save(tmp_path / "saved")
