@@ -423,3 +423,23 @@ fn a_polar_moment_of_inertia_that_is_no_sum_is_named() {
         "{cautions:?}"
     );
 }
+
+/// A row more than the line of `$` announces would be dropped, and the tip with it.
+#[test]
+fn rows_of_hawc2_are_as_many_as_announced() {
+    let text = file("IEA_15MW_RWT_Blade_st_FPM.st");
+    let announces = |count: usize| {
+        let line = text.lines().find(|line| line.trim_start().starts_with('$')).unwrap();
+        let words: Vec<&str> = line.split_whitespace().collect();
+        assert!(words[1].parse::<usize>().is_ok(), "{line}");
+        let other = line.replacen(words[1], &count.to_string(), 1);
+        read(&text.replacen(line, &other, 1), HAWC2)
+    };
+    let rows = read(&text, HAWC2).unwrap().table.rows().len();
+    assert!(announces(rows).is_ok());
+    for count in [rows - 1, rows - 6] {
+        let message = announces(count).unwrap_err();
+        assert!(message.contains(&format!("behind the {count} rows")), "{message}");
+    }
+    assert!(announces(rows + 1).is_err());
+}

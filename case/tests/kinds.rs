@@ -49,7 +49,7 @@ const TABLE: &str = "# measured\ntime,speed\n0, 0\n0.02, 0.3\n0.05,1.1\n0.1, 4\n
 
 const SECTION: &str = "x,mass,EA,EI\n0,1.1,2.8e7,930\n1,1.0,2.6e7,900\n2,0.8,2.1e7,700\n";
 
-const ELASTODYN: &str = "--- blade\n2 NBlInpSt\nBlFract StrcTwst BMassDen FlpStff EdgStff\n(-) (deg) (kg/m) (Nm^2) (Nm^2)\n0 5 1.1 930 1200\n1 0 0.8 700 800\n";
+const ELASTODYN: &str = "--- blade\n2 NBlInpSt\n1 AdjBlMs\n1 AdjFlSt\n1 AdjEdSt\nBlFract StrcTwst BMassDen FlpStff EdgStff\n(-) (deg) (kg/m) (Nm^2) (Nm^2)\n0 5 1.1 930 1200\n1 0 0.8 700 800\n";
 
 fn run(case: &Path, set: &[&str], output: &Path) -> Reading {
     let set: Vec<String> = set.iter().map(|text| (*text).to_owned()).collect();

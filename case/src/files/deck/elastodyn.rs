@@ -37,7 +37,8 @@ pub(super) fn read(bytes: &[u8], name: &str, length: Option<f64>) -> Result<Deck
         Some(factor) if !(factor > 0.0) => {
             Err(format!("`{key}` of {name} is {factor}, and must be positive"))
         }
-        factor => Ok(factor.unwrap_or(1.0)),
+        Some(factor) => Ok(factor),
+        None => Err(format!("{name} has no line with `{key}`, a factor of its table")),
     };
     let (mass, flap, edge) = (factor("AdjBlMs")?, factor("AdjFlSt")?, factor("AdjEdSt")?);
     let first =
@@ -133,6 +134,8 @@ mod tests {
             ("678.9", "67x8", "line 13 of f: `67x8`"),
             (" 5e6", "", "station 2"),
             ("1.5 AdjBlMs", "-1.5 AdjBlMs", "must be positive"),
+            ("1.5 AdjBlMs - mass\n", "", "no line with `AdjBlMs`"),
+            ("2.0D0 AdjEdSt -\n", "", "no line with `AdjEdSt`"),
             ("1.8E+10", "-1.8E+10", "the bending stiffness flapwise"),
         ] {
             let message = read(&ELASTODYN.replacen(from, to, 1)).unwrap_err();

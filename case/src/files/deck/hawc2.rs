@@ -40,15 +40,17 @@ fn table(text: &Text<'_>, mut at: usize, count: usize) -> Result<Vec<(usize, Vec
     let Some(first) = text.next_with_number(at) else {
         return Err(format!("{name} ends behind line {}, which announces {count} rows", at - 1));
     };
-    let width =
-        words(text.line(first)).iter().take_while(|word| super::fortran::number(word).is_some()).count();
+    let numbers = |line: usize| {
+        words(text.line(line)).iter().take_while(|word| super::fortran::number(word).is_some()).count()
+    };
+    let width = numbers(first);
     if !COLUMNS.contains(&width) {
         return Err(format!(
             "line {first} of {name} has {width} numbers; a row has 30 with full matrices (r, m, x_cg, y_cg, ri_x, ri_y, pitch, x_e, y_e, K11 … \
              K66) and 19 without"
         ));
     }
-    (1..=count)
+    let rows = (1..=count)
         .map(|number| {
             let row = text.row(&mut at, width, &format!("row {number} of {count}"))?;
             if row.surplus > 0 {
@@ -59,7 +61,17 @@ fn table(text: &Text<'_>, mut at: usize, count: usize) -> Result<Vec<(usize, Vec
             }
             Ok((row.line, row.values))
         })
-        .collect()
+        .collect::<Result<Vec<_>, String>>()?;
+    // Another subset has a line of its own.
+    let of_this = |line: &usize| {
+        numbers(*line) == width && (at..*line).all(|i| !text.line(i).trim_start().starts_with(['$', '#']))
+    };
+    if let Some(further) = text.next_with_number(at).filter(of_this) {
+        return Err(format!(
+            "line {further} of {name} is a row behind the {count} rows that the line of `$` announces"
+        ));
+    }
+    Ok(rows)
 }
 
 /// K in the axes of the half chord, of K in axes rotated by an angle about z at the centres.
