@@ -24,7 +24,7 @@ pub struct LinearRequest {
     /// Whether the hub is free to rotate with the beam under its torques; otherwise it keeps its speed.
     pub free_hub: bool,
     /// Names of the inputs, and of each the load that it is the amplitude of, as a table of TOML: `{on = "tip", force = [0, 1], axes = "hub"}`.
-    /// The input [`hub.torque`](HUB) of a free hub needs none.
+    /// The input `hub.torque` of a free hub needs none.
     pub inputs: Vec<(String, Option<String>)>,
     /// Columns that are the outputs.
     pub outputs: Vec<String>,
