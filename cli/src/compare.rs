@@ -1,11 +1,9 @@
 //! `flexion compare`: how far runs are apart.
 
 use crate::{Outcome, screen};
-use flexion::system::Role;
 use flexion_results::plot::difference_figure;
 use flexion_results::{
-    Artifact, Comparison, Directory, OutputError, Results, ResultsError, compare as compare_two, compare_csv,
-    compare_json, select,
+    Artifact, Comparison, Directory, OutputError, Results, ResultsError, compare_csv, compare_json,
 };
 use std::io::Write;
 use std::path::PathBuf;
@@ -42,11 +40,6 @@ pub struct Arguments {
     #[arg(long, requires = "output")]
     force: bool,
 }
-
-/// Most primary columns that are drawn when none are asked for.
-const USUAL: usize = 2;
-/// Most columns that are drawn.
-const MOST_DRAWN: usize = 12;
 
 fn tolerance(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
@@ -108,16 +101,7 @@ fn compared(arguments: &Arguments) -> Result<(Vec<Results>, Vec<Comparison>), Re
     let mut comparisons = Vec::new();
     if let Some((reference, runs)) = results.split_first() {
         for run in runs {
-            let channels = reference.trajectory.channels().iter();
-            let common = channels.filter(|c| run.trajectory.index(&c.name).is_some());
-            let columns = if arguments.columns.is_empty() {
-                common.filter(|c| c.role != Role::Integration).map(|c| c.name.as_str()).collect()
-            } else {
-                let common: Vec<&str> = common.map(|c| c.name.as_str()).collect();
-                let of = format!("both {} and {}", reference.name, run.name);
-                select(&common, &arguments.columns, &of)?
-            };
-            comparisons.push(compare_two(reference, run, &columns)?);
+            comparisons.push(Comparison::of(reference, run, &arguments.columns)?);
         }
     }
     Ok((results, comparisons))
@@ -160,13 +144,10 @@ fn fill(
     comparisons: &[Comparison],
 ) -> Result<(), OutputError> {
     let compared = comparisons.first().map_or(&[][..], |c| c.trajectory.channels());
-    let mut drawn: Vec<_> = compared.iter().filter(|c| c.role == Role::Primary).take(USUAL).collect();
-    if drawn.is_empty() || !arguments.columns.is_empty() {
-        drawn = compared.iter().take(MOST_DRAWN).collect();
-    }
-    let drawn: Vec<&str> = drawn.into_iter().map(|c| c.name.as_str()).collect();
+    let are_chosen = !arguments.columns.is_empty();
+    let drawn = comparisons.first().map_or_else(Vec::new, |c| c.drawn(are_chosen));
     let mut warning = String::new();
-    if !arguments.columns.is_empty() && drawn.len() < compared.len() {
+    if are_chosen && drawn.len() < compared.len() {
         warning =
             format!("warning: the figure shows the first {} of {} columns\n", drawn.len(), compared.len());
     }

@@ -6,7 +6,7 @@ use std::io::{self, Write};
 use serde_json::{Map, Value, json};
 
 use super::csv::io_error;
-use super::{Results, ResultsError, Trajectory};
+use super::{Results, ResultsError, Trajectory, select};
 use flexion::system::{Channel, Role};
 use std::borrow::Cow;
 
@@ -61,7 +61,38 @@ pub struct Comparison {
     pub trajectory: Trajectory,
 }
 
+/// Most primary columns that are drawn when none are asked for.
+const USUAL: usize = 2;
+/// Most columns that are drawn.
+const MOST_DRAWN: usize = 12;
+
 impl Comparison {
+    /// Compares the second run with the first in the columns that both have and one of the patterns matches; without a pattern in all but those of the integration.
+    ///
+    /// # Errors
+    /// [`ResultsError`]: a pattern that matches nothing, runs without times in common.
+    pub fn of(first: &Results, second: &Results, patterns: &[String]) -> Result<Comparison, ResultsError> {
+        let common = first.trajectory.channels().iter();
+        let common = common.filter(|channel| second.trajectory.index(&channel.name).is_some());
+        let columns: Vec<&str> = if patterns.is_empty() {
+            common.filter(|channel| channel.role != Role::Integration).map(|c| c.name.as_str()).collect()
+        } else {
+            let common: Vec<&str> = common.map(|channel| channel.name.as_str()).collect();
+            select(&common, patterns, &format!("both {} and {}", first.name, second.name))?
+        };
+        compare(first, second, &columns)
+    }
+
+    /// The columns of a figure: those that were chosen, or the first principal ones.
+    pub fn drawn(&self, are_chosen: bool) -> Vec<&str> {
+        let channels = || self.trajectory.channels().iter();
+        let mut drawn: Vec<_> = channels().filter(|c| c.role == Role::Primary).take(USUAL).collect();
+        if drawn.is_empty() || are_chosen {
+            drawn = channels().take(MOST_DRAWN).collect();
+        }
+        drawn.into_iter().map(|channel| channel.name.as_str()).collect()
+    }
+
     /// The columns with a value that is not a finite number.
     pub fn not_finite(&self) -> Vec<String> {
         let first = |d: &Difference| {

@@ -18,6 +18,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._figure import Figure
+from ._shown import html_table, text_table
 from ._value import Value
 
 if TYPE_CHECKING:
@@ -284,42 +285,19 @@ class Run(Mapping[str, Column]):
         head = f"<flexion.Run {self.name}: {self.status} at t = {self.end_time:g} s, {len(self)} columns"
         return f"{head}, {len(self.times)} times>"
 
-    def __str__(self) -> str:
-        rows = [("", "unit", "min", "at t [s]", "max", "at t [s]", "last")]
+    def _table(self) -> list[tuple[str, ...]]:
+        rows: list[tuple[str, ...]] = [("", "unit", "min", "at t [s]", "max", "at t [s]", "last")]
         for column in self._principal():
             least, most = column.min, column.max
-            rows.append(
-                (
-                    column.name,
-                    column.unit or "1",
-                    least._short(),
-                    f"{least.time:.4f}",
-                    most._short(),
-                    f"{most.time:.4f}",
-                    column.final._short(),
-                )
-            )
-        widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-        lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
-        return "\n".join([repr(self)[1:-1], "", *lines])
+            ends = (least._short(), f"{least.time:.4f}", most._short(), f"{most.time:.4f}", column.final._short())
+            rows.append((column.name, column.unit or "1", *ends))
+        return rows
+
+    def __str__(self) -> str:
+        return f"{repr(self)[1:-1]}\n\n{text_table(self._table())}"
 
     def _repr_html_(self) -> str:
-        head = "".join(f"<th>{cell}</th>" for cell in ("", "unit", "min", "at t [s]", "max", "at t [s]", "last"))
-        body = ""
-        for column in self._principal():
-            least, most = column.min, column.max
-            cells = [
-                html.escape(column.name),
-                html.escape(column.unit or "1"),
-                least._short(),
-                f"{least.time:.4f}",
-                most._short(),
-                f"{most.time:.4f}",
-                column.final._short(),
-            ]
-            body += "<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>"
-        said = "".join(f"<div><b>Warning:</b> {html.escape(text)}</div>" for text in self.warnings)
-        return f"<div>{html.escape(repr(self)[1:-1])}</div><table><tr>{head}</tr>{body}</table>{said}"
+        return html_table(self._table(), repr(self)[1:-1], self.warnings)
 
 
 _UNPACK = """<!doctype html><meta charset="utf-8"><script>

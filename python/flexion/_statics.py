@@ -2,25 +2,25 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator, Mapping
 from functools import cached_property
-from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
 
-from . import _core
-from ._figure import Figure
+from . import _core as _core_
+from ._shown import Shown
 from ._value import Value
 
 Array = npt.NDArray[np.float64]
 
 
-class LoadPath(Mapping[str, Array]):
+class LoadPath(Shown, Mapping[str, Array]):
     """Equilibria in their order along the path; its columns by name."""
 
-    def __init__(self, core: _core.LoadPath) -> None:
+    _core: _core_.LoadPath
+
+    def __init__(self, core: _core_.LoadPath) -> None:
         self._core = core
         self._described = core.described()
         self._points = core.points()
@@ -73,20 +73,6 @@ class LoadPath(Mapping[str, Array]):
     def end(self) -> str | None:
         """Why the path ends early, where it does."""
         return self._core.end
-
-    @property
-    def warnings(self) -> tuple[str, ...]:
-        """What a reader should know of it."""
-        return tuple(self._core.warnings)
-
-    def plot(self) -> Figure:
-        """Load factor over the principal columns."""
-        return Figure(self._core.figure())
-
-    def save(self, folder: str | os.PathLike[str], *, force: bool = False) -> Path:
-        """Writes the files that the program writes into a folder."""
-        self._core.save(folder, force)
-        return Path(folder)
 
     def __repr__(self) -> str:
         last = self.factors[-1] if len(self.factors) else float("nan")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import functools
-import html
 import io
 import os
 import tempfile
@@ -20,12 +19,16 @@ from . import _core
 from ._case import Case, Stop
 from ._errors import Interrupted, SweepError, warn
 from ._progress import Progress
+from ._shown import html_table
 
 if TYPE_CHECKING:
     import pandas
 
 Vary = Mapping[str, Any]
 """Of each dotted key its values: a sequence, a range ``"60 GPa:80 GPa:21"``, or a distribution ``"normal(70 GPa, 1 GPa)"``."""
+
+_SHOWN = 20
+"""Rows that a notebook shows."""
 
 _TRIES = 3
 """How often a part is given to a cluster that loses it."""
@@ -112,13 +115,9 @@ class Sweep(Mapping[str, npt.NDArray[Any]]):
 
     def _repr_html_(self) -> str:
         shown = [name for name in self if not name.endswith((".time", ".trusted")) and name not in ("reason", "version")]
-        head = "".join(f"<th>{html.escape(name)}</th>" for name in shown)
-        body = "".join(
-            "<tr>" + "".join(f"<td>{html.escape(_cell(self[name][i]))}</td>" for name in shown) + "</tr>"
-            for i in range(min(self.rows, 20))
-        )
-        more = "" if self.rows <= 20 else f"<div>… {self.rows} rows</div>"
-        return f"<table><tr>{head}</tr>{body}</table>{more}"
+        rows = [shown, *([_cell(self[name][i]) for name in shown] for i in range(min(self.rows, _SHOWN)))]
+        more = "" if self.rows <= _SHOWN else f"<div>… {self.rows} rows</div>"
+        return html_table(rows) + more
 
 
 def _cell(value: Any) -> str:

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import html
 import math
-import os
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, overload
 
 import numpy as np
 import numpy.typing as npt
 
-from . import _core
-from ._figure import Figure
+from . import _core as _core_
+from ._shown import Shown, html_table, text_table
 from ._value import Value
 
 if TYPE_CHECKING:
@@ -49,17 +46,19 @@ class Mode:
         return Value(self.frequency / math.tau, None if error is None else error / math.tau, "Hz")
 
     @classmethod
-    def _of(cls, row: _core._ModeRow) -> Mode:
+    def _of(cls, row: _core_._ModeRow) -> Mode:
         eigenvalue, mesh, nodes, residual, moves, in_section = row
         size = abs(eigenvalue)
         damping = -eigenvalue.real / size if size > 0 else 0.0
         return cls(eigenvalue, Value(size, mesh, "rad/s"), damping, nodes, residual, moves, in_section)
 
 
-class Modes(Sequence[Mode]):
+class Modes(Shown, Sequence[Mode]):
     """Modes at one speed of rotation, the lowest first."""
 
-    def __init__(self, core: _core.Modes) -> None:
+    _core: _core_.Modes
+
+    def __init__(self, core: _core_.Modes) -> None:
         self._core = core
         self._modes = tuple(Mode._of(row) for row in core.rows())
 
@@ -102,20 +101,6 @@ class Modes(Sequence[Mode]):
         """The state that they are of, in words."""
         return self._core.about
 
-    @property
-    def warnings(self) -> tuple[str, ...]:
-        """What a reader should know of them."""
-        return tuple(self._core.warnings)
-
-    def plot(self) -> Figure:
-        """Their shapes."""
-        return Figure(self._core.figure())
-
-    def save(self, folder: str | os.PathLike[str], *, force: bool = False) -> Path:
-        """Writes the files that the program writes into a folder."""
-        self._core.save(folder, force)
-        return Path(folder)
-
     def to_pandas(self) -> pandas.DataFrame:
         """Their table, numbered from 1."""
         import pandas
@@ -143,20 +128,13 @@ class Modes(Sequence[Mode]):
         return rows
 
     def __str__(self) -> str:
-        rows = self._table()
-        widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-        lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
-        return "\n".join([f"{len(self)} modes {self.about}", "", *lines])
+        return f"{len(self)} modes {self.about}\n\n{text_table(self._table())}"
 
     def __repr__(self) -> str:
         return f"<flexion.Modes: {len(self)} modes {self.about}>"
 
     def _repr_html_(self) -> str:
-        head, *rows = self._table()
-        body = "".join("<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row) + "</tr>" for row in rows)
-        said = "".join(f"<div><b>Warning:</b> {html.escape(text)}</div>" for text in self.warnings)
-        columns = "".join(f"<th>{cell}</th>" for cell in head)
-        return f"<div>{html.escape(repr(self)[1:-1])}</div><table><tr>{columns}</tr>{body}</table>{said}"
+        return html_table(self._table(), repr(self)[1:-1], self.warnings)
 
 
 @dataclass(frozen=True)
@@ -207,10 +185,12 @@ class Resonance:
     """Its last speed [rad/s]."""
 
 
-class Diagram(Sequence[Branch]):
+class Diagram(Shown, Sequence[Branch]):
     """A Campbell diagram: branches of modes over speeds of rotation."""
 
-    def __init__(self, core: _core.Diagram) -> None:
+    _core: _core_.Diagram
+
+    def __init__(self, core: _core_.Diagram) -> None:
         self._core = core
         self._branches = tuple(
             Branch(name, np.array([speed for speed, _ in points]), tuple(Mode._of(row) for _, row in points))
@@ -249,20 +229,6 @@ class Diagram(Sequence[Branch]):
     def criticals(self) -> tuple[float, ...]:
         """Critical speeds, at which a forward whirl has the speed of rotation [rad/s]."""
         return tuple(self._core.criticals())
-
-    @property
-    def warnings(self) -> tuple[str, ...]:
-        """What a reader should know of it."""
-        return tuple(self._core.warnings)
-
-    def plot(self) -> Figure:
-        """The diagram."""
-        return Figure(self._core.figure())
-
-    def save(self, folder: str | os.PathLike[str], *, force: bool = False) -> Path:
-        """Writes the files that the program writes into a folder."""
-        self._core.save(folder, force)
-        return Path(folder)
 
     def to_pandas(self) -> pandas.DataFrame:
         """All points: branch from 1, speed, frequency, its error, damping."""

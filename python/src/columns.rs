@@ -3,9 +3,9 @@
 use super::faults;
 use super::figure::Figure;
 use super::run::Run;
-use flexion::system::{Channel, Role};
+use flexion::system::Channel;
 use flexion_results::plot;
-use flexion_results::{Results, Trajectory, select};
+use flexion_results::{Comparison, Results, Trajectory};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::{PyIndexError, PyTypeError};
 use pyo3::prelude::*;
@@ -128,23 +128,8 @@ pub fn compare(
     patterns: Vec<String>,
 ) -> PyResult<(String, Figure)> {
     let runs = [results(&first.0, &first.1)?, results(&second.0, &second.1)?];
-    let [reference, run] = &runs;
-    let of_reference = reference.trajectory.channels().iter();
-    let common = of_reference.filter(|c| run.trajectory.index(&c.name).is_some());
-    let moving = common.filter(|c| !patterns.is_empty() || c.role != Role::Integration);
-    let names: Vec<&str> = moving.map(|c| c.name.as_str()).collect();
-    let columns = if patterns.is_empty() {
-        Ok(names.clone())
-    } else {
-        select(&names, &patterns, &format!("both {} and {}", reference.name, run.name))
-    };
-    let compared = columns.and_then(|columns| flexion_results::compare(reference, run, &columns));
+    let compared = Comparison::of(&runs[0], &runs[1], &patterns);
     let compared = [compared.map_err(|error| faults::results(py, &error))?];
-    let primary = compared[0].trajectory.channels().iter().filter(|c| c.role == Role::Primary);
-    let mut drawn: Vec<&str> = primary.map(|c| c.name.as_str()).take(2).collect();
-    if drawn.is_empty() || !patterns.is_empty() {
-        drawn = compared[0].trajectory.channels().iter().map(|c| c.name.as_str()).take(12).collect();
-    }
-    let figure = plot::difference_figure(&runs, &compared, &drawn, None);
+    let figure = plot::difference_figure(&runs, &compared, &compared[0].drawn(!patterns.is_empty()), None);
     Ok((flexion_results::compare_json(&compared, None), Figure(figure)))
 }

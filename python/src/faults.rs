@@ -68,7 +68,10 @@ pub fn vibration(py: Python<'_>, error: &VibrationError) -> PyErr {
 
 /// A case without advice.
 pub fn advise(py: Python<'_>, error: &AdviseError) -> PyErr {
-    analysis(py, &error.to_string())
+    match error {
+        AdviseError::Refine(error) => refine(py, error),
+        error @ AdviseError::NoAnswer(_) => analysis(py, &error.to_string()),
+    }
 }
 
 /// A sweep that is refused.

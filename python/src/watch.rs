@@ -42,6 +42,8 @@ impl Watch {
         if self.last.elapsed() < INTERVAL {
             return ControlFlow::Continue(());
         }
+        // Of a run without duration.
+        let part = if part.is_finite() { part } else { 0.0 };
         let asked = Python::attach(|py| {
             // Signals reach the main thread alone.
             py.check_signals()?;

@@ -130,3 +130,12 @@ def test_what_is_no_input_or_output_is_refused(arm: flexion.Case) -> None:
 def test_without_inputs_and_outputs_the_poles_remain(arm: flexion.Case) -> None:
     a, b, c, d = arm.linearize(4.0).state_space()
     assert b.shape == (len(a), 0) and c.shape == (0, len(a)) and d.shape == (0, 0)
+
+
+def test_a_hub_that_is_held_is_no_coordinate(arm: flexion.Case) -> None:
+    free = arm | {"hub": {"inertia": 50, "motion": {"kind": "free", "speed": 0}}}
+    linear = free.linearize(0.0)
+    assert not any("hub" in name for name in linear.coordinates)
+    poles = np.abs(np.linalg.eigvals(linear.state_space()[0]))
+    assert np.sort(poles)[0] == pytest.approx(float(free.modes(0.0, 1)[0].frequency), rel=1e-9)
+    assert len(linear.coordinates) + 1 == len(free.linearize(0.0, free_hub=True).coordinates)

@@ -11,6 +11,7 @@ from pathlib import Path
 import flexion
 import numpy as np
 import pytest
+from conftest import ARM
 
 
 def test_modes_at_rest_are_those_of_the_cantilever(arm: flexion.Case) -> None:
@@ -107,3 +108,12 @@ def test_advice_is_a_change_of_the_case(arm: flexion.Case) -> None:
     advice = arm.advise(1e-2)
     assert advice.changes is not None
     assert advice.stated["cheapest"]["holds"]
+
+
+def test_advice_that_cannot_be_given_says_why(arm: flexion.Case) -> None:
+    with pytest.raises(KeyError, match="tip.nothing"):
+        arm.advise(1e-2, "tip.nothing")
+    with pytest.raises(ValueError, match="furlong"):
+        arm.advise("1 furlong", "tip.deflection")
+    with pytest.raises(flexion.CaseError, match="duration"):
+        flexion.Case({k: v for k, v in ARM.items() if k != "run"}).advise(1e-2)

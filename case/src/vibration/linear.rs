@@ -7,7 +7,7 @@ use flexion::analysis::campbell::HubState;
 use flexion::analysis::equilibrium::equilibrium;
 use flexion::analysis::linearization::{Linearization, Outputs, Table, linearize};
 use flexion::analysis::rotation::rotate_stably;
-use flexion::system::{Fork, Parameter, State};
+use flexion::system::{Fork, Parameter, State, System};
 use flexion_results::nearest;
 
 /// Part of the largest entry of the forces below which an input does not act.
@@ -45,6 +45,17 @@ pub struct Linear {
     pub at: Vec<f64>,
     /// Warnings.
     pub warnings: Vec<String>,
+}
+
+/// The forces of a load on the velocities at a state: r of the system without it, less r of the same system with it.
+pub(super) fn forces_of_load([without, with]: [&mut dyn System; 2], state: &State) -> Vec<f64> {
+    let residual = |system: &mut dyn System| {
+        let mut r = vec![0.0; state.v.len()];
+        system.residual(state, &mut r);
+        r
+    };
+    let (without, with) = (residual(without), residual(with));
+    without.iter().zip(&with).map(|(a, b)| a - b).collect()
 }
 
 impl Reading {
@@ -86,11 +97,7 @@ impl Reading {
                     let (mut acted, _) = self.acted_on(request, Some(number))?.case.vibrates(speed > 0.0)?;
                     acted.set(Parameter::Speed, speed).map_err(VibrationError::not_found)?;
                     acted.hold(!free);
-                    let mut r = [vec![0.0; state.v.len()], vec![0.0; state.v.len()]];
-                    system.residual(&state, &mut r[0]);
-                    acted.residual(&state, &mut r[1]);
-                    let [without, with] = r;
-                    without.iter().zip(&with).map(|(a, b)| a - b).collect::<Vec<f64>>()
+                    forces_of_load([system.as_mut(), acted.as_mut()], &state)
                 }
             };
             let column = motions.force(&forces);

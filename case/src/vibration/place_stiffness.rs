@@ -1,6 +1,7 @@
 //! The stiffness of a place: forces and couples that hold it, by its displacements and rotations.
 
 use super::VibrationError;
+use super::linear::forces_of_load;
 use crate::reading::Reading;
 use flexion::analysis::equilibrium::stable_equilibrium;
 use flexion::analysis::linearization::{Table, linearize};
@@ -60,11 +61,7 @@ impl Reading {
         for i in 0..loads.len() {
             let mut acted = acted_on(Some(i))?.build()?.system;
             acted.hold(true);
-            let mut r = [vec![0.0; state.v.len()], vec![0.0; state.v.len()]];
-            system.residual(&state, &mut r[0]);
-            acted.residual(&state, &mut r[1]);
-            let [without, with] = r;
-            forces.push(motions.force(&without.iter().zip(&with).map(|(a, b)| a - b).collect::<Vec<f64>>()));
+            forces.push(motions.force(&forces_of_load([system.as_mut(), acted.as_mut()], &state)));
         }
         let matrix = motions.stiffness_against(&forces).map_err(|error| {
             VibrationError::NotFound(format!("the place `{place}` has no stiffness: {error}"))

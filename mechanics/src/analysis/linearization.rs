@@ -121,9 +121,10 @@ pub fn linearize(system: &mut dyn System, state: &State) -> Result<Linearization
     }
     let (all, multipliers) = matrices(system, state);
     let rows = held_rows(&all[2], n, multipliers);
-    // What moves across the plane of a system has no coordinate.
+    // What moves across the plane of a system has no coordinate, nor has what is held.
     let unit = |i: usize| (0..n).map(|k| f64::from(u8::from(k == i))).collect();
-    let all_rows: Vec<Vec<f64>> = rows.iter().cloned().chain(system.across().into_iter().map(unit)).collect();
+    let still = system.across().into_iter().chain(held(&all, n));
+    let all_rows: Vec<Vec<f64>> = rows.iter().cloned().chain(still.map(unit)).collect();
     let space = NullSpace::of(&all_rows, system.scales());
     let z = &space.vectors;
     let [damping, gyroscopic] = [all[1].symmetrized(), all[1].skew()];
@@ -140,6 +141,20 @@ pub fn linearize(system: &mut dyn System, state: &State) -> Result<Linearization
     let tables = [&out.mass, &out.damping, &out.gyroscopic, &out.stiffness, &out.basis];
     let finite = tables.iter().all(|table| table.entries.iter().all(|x| x.is_finite()));
     if finite { Ok(out) } else { Err(NoLinearization::NotFinite) }
+}
+
+/// Unknowns that are [held](crate::system::Steady::hold): their equation is that they do not change, and stands in no other.
+fn held([mass, damping, stiffness]: &[Matrix; 3], n: usize) -> Vec<usize> {
+    let mut moves = vec![false; n];
+    let mut touch = |i: usize, j: usize, x: f64| {
+        for k in [i, j].into_iter().filter(|k| *k < n && x != 0.0) {
+            moves[k] = true;
+        }
+    };
+    mass.visit(&mut touch);
+    damping.visit(&mut touch);
+    stiffness.visit(|i, j, x| touch(i, j, if i == j { 0.0 } else { x }));
+    (0..n).filter(|i| !moves[*i]).collect()
 }
 
 /// The rows of J that hold, dense: those of −J in the stiffness that are not those of a multiplier alone.
