@@ -8,11 +8,11 @@ import flexion
 VERIFICATION = Path(os.environ.get("FLEXION_VERIFICATION", "verification"))
 
 case = flexion.Case(VERIFICATION / "p1_spin_up_4")
-exact = case.with_("model.coupling", "exact").run()
+exact = case.with_("model.coupling", "exact").run(name="exact")
 print("exact", exact["tip.deflection"].min)
 runs = [exact]
 for coupling in ("first", "high"):
-    run = case.with_("model.coupling", coupling).run()
+    run = case.with_("model.coupling", coupling).run(name=coupling)
     apart = flexion.compare(exact, run)["tip.deflection"]
     print(f"{coupling}: {run['tip.deflection'].min}, at most {apart.relative:.1%} from the exact one")
     runs.append(run)

@@ -128,6 +128,7 @@ class Case:
         errors: str = "auto",
         tolerance: float | str | None = None,
         quantity: str | None = None,
+        name: str | None = None,
         progress: bool | None = None,
         stop: Stop = None,
     ) -> Run:
@@ -136,7 +137,8 @@ class Case:
         ``until`` stops it behind the step that reaches this time [s]. ``errors`` estimates the errors of all columns: ``"off"``,
         ``"auto"`` (where that costs a few times the run) or ``"full"``. ``tolerance`` refines mesh and steps until the error is
         below it, a part of the largest value or a text with a unit, of ``quantity``, ``"tip.deflection.min"``, or of all principal columns.
-        ``progress`` shows a bar, by default on a terminal and in a notebook. ``stop`` ends the run: an event or a function.
+        ``name`` stands in legends, by default the title of the case. ``progress`` shows a bar, by default on a terminal and in a notebook. ``stop`` ends
+        the run: an event or a function.
 
         Ctrl-C raises :class:`flexion.Interrupted`, a run that breaks down :class:`flexion.RunError`; both have what was computed as ``.result``.
         """
@@ -146,7 +148,7 @@ class Case:
             core, raised = self._case.run(until, errors, asked, quantity, bar)
         finally:
             bar.close()
-        run = Run(core, json.loads(core.summary()), self.title or self.file.stem, None)
+        run = Run(core, json.loads(core.summary()), name or self.title or self.file.stem, None)
         _raise(raised, run)
         warn(run.warnings)
         if run.status == "failed":

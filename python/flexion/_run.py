@@ -149,7 +149,7 @@ class Run(Mapping[str, Column]):
         self.summary: dict[str, Any] = summary
         """What ``summary.json`` states."""
         self.name = name
-        """Name in legends."""
+        """Its name in legends, which may be changed."""
         self._folder = folder
         described = source.described()
         self._columns = {of[0]: Column(self, i, of) for i, of in enumerate(described)}

@@ -144,7 +144,8 @@ def test_frames_and_figures(arm: flexion.Case, tmp_path: Path) -> None:
     assert "<table>" in run._repr_html_() and run.plot()._repr_svg_().startswith("<svg")
     view = run.view()
     assert "<html" in view.html and 'sandbox="allow-scripts"' in view._repr_html_()
-    other = arm.with_("model.coupling", "exact").run(errors="off")
+    other = arm.with_("model.coupling", "exact").run(errors="off", name="exact one")
+    assert other.name == "exact one" and "exact one" in flexion.plot(run, other)._repr_svg_()
     assert flexion.plot(run, other, columns=["tip.deflection"])._repr_svg_().startswith("<svg")
     difference = flexion.compare(run, other)["tip.deflection"]
     assert 0 < difference.relative < 1e-2 and difference.unit == "m"
