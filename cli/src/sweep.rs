@@ -242,7 +242,7 @@ fn quantities(sweep: &Sweep, swept: &Swept) -> String {
         let unit = if quantity.unit.is_empty() { "1" } else { &quantity.unit };
         let error = |x: Option<f64>| x.map_or("-".to_owned(), |x| format!("{x:.1e}"));
         rows.push(vec![
-            quantity.name(),
+            quantity.name().to_owned(),
             unit.to_owned(),
             format!("{:.6e}", of.min),
             format!("{:.6e}", of.max),

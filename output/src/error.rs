@@ -159,6 +159,14 @@ pub enum ResultsError {
         /// The names there are.
         there: String,
     },
+    /// Something is no quantity.
+    #[error("`{quantity}` is no quantity: {reason}")]
+    Quantity {
+        /// What was asked for.
+        quantity: String,
+        /// Why it is none.
+        reason: String,
+    },
     /// Something is no pattern.
     #[error("`{pattern}` is no pattern for columns ({reason}); write for example `tip.*`")]
     Pattern {

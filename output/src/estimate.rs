@@ -1,6 +1,7 @@
 //! Estimated errors of the columns of a run.
 
 use flexion::analysis::error::{ColumnError, Unstable};
+use flexion::analysis::recording::Trajectory;
 use serde_json::{Map, Value, json};
 
 /// A run of a sequence that is refined until its error is small enough.
@@ -31,6 +32,10 @@ pub struct Errors {
     pub distrusted: Option<String>,
     /// How a small disturbance grows, where it does.
     pub unstable: Option<Unstable>,
+    /// What the finer companion recorded, until the first impact at the latest.
+    pub finer: Trajectory,
+    /// By how much the difference from it is multiplied.
+    pub safety: f64,
     /// The runs that led to this one, which is the last, where the case was refined.
     pub sequence: Vec<Rung>,
     /// Why there is no estimate, where there is none.

@@ -39,8 +39,17 @@ impl Reading {
             Ok(estimate) => {
                 let unstable = estimate.unstable().cloned();
                 let warnings = estimate.doubts.iter().map(|doubt| self.doubt(doubt)).collect();
-                let Estimate { columns, trusted, distrusted, .. } = estimate;
-                Errors { columns, warnings, trusted, distrusted, unstable, ..Errors::default() }
+                let Estimate { columns, trusted, distrusted, finer, safety, .. } = estimate;
+                Errors {
+                    columns,
+                    warnings,
+                    trusted,
+                    distrusted,
+                    unstable,
+                    finer,
+                    safety,
+                    ..Errors::default()
+                }
             }
             Err(NoEstimate::Costly(work)) => Errors::none(format!(
                 "the run took {work:.1e} steps times unknowns, and its companions several times as many: `--error full` runs them"

@@ -30,7 +30,8 @@ impl Sweep {
             }
         }
         let keys: Vec<&str> = self.inputs.iter().map(|input| input.key.as_str()).collect();
-        let quantities: Vec<String> = self.quantities.iter().map(|quantity| quantity.name()).collect();
+        let quantities: Vec<String> =
+            self.quantities.iter().map(|quantity| quantity.name().to_owned()).collect();
         let mut out = Map::new();
         let mut put = |key: &str, value: Value| out.insert(key.to_owned(), value);
         put("version", VERSION.into());

@@ -43,7 +43,7 @@ use super::pair::{ColumnError, Pair, vanishes};
 use super::trust::{Parting, parting};
 use super::variant::SHORTER;
 use super::{Refinable, Variant};
-use crate::analysis::recording::{Record, Watch};
+use crate::analysis::recording::{Record, Trajectory, Watch};
 use crate::analysis::transient::{Ending, Plan, RunError};
 use crate::system::{Channel, Role, State};
 use std::ops::ControlFlow;
@@ -133,6 +133,10 @@ pub struct Estimate<F> {
     pub trusted: f64,
     /// The column whose error exceeds that first, where one does.
     pub distrusted: Option<String>,
+    /// What the finer companion recorded, until the first impact at the latest.
+    pub finer: Trajectory,
+    /// By how much the difference from it is multiplied.
+    pub safety: f64,
 }
 
 impl<F> Estimate<F> {
@@ -268,7 +272,7 @@ fn compared<P: Refinable>(
         let coarse = coarse(problem, variant, run, &columns, (&finer, &fine), watch);
         doubts.extend(coarse.map(Doubt::Coarse));
     }
-    Ok(Estimate { columns, doubts, trusted, distrusted })
+    Ok(Estimate { columns, doubts, trusted, distrusted, finer: fine.trajectory, safety })
 }
 
 /// What a companion shows; where there is no run of it, a doubt says why.

@@ -1,5 +1,6 @@
 //! What a run recorded: one row of channel values for each recorded time.
 
+use super::passing::vertex;
 use crate::system::{Channel, Kind, Role};
 use std::ops::Range;
 
@@ -225,6 +226,39 @@ impl Trajectory {
             }
         }
         e
+    }
+
+    /// Extremes of the channel at `index` over the records from one time to another \[s\], with the vertices of the parabolas through three of them.
+    pub fn extremes_within(&self, index: usize, from: f64, to: f64) -> Extremes {
+        let inside = |(_, t): &(usize, &f64)| (from..=to).contains(*t);
+        let rows = self.times.iter().enumerate().filter(inside).map(|(row, _)| row);
+        let mut part = Trajectory::new(vec![self.channels[index].clone()]);
+        let at = |row: usize| (self.times[row], self.rows[row * self.channels.len() + index]);
+        for row in rows {
+            let (t, y) = at(row);
+            part.push(t, |of| of[0] = y);
+            if row > 0
+                && row + 1 < self.times.len()
+                && let Some((t, y)) = vertex([at(row - 1), (t, y), at(row + 1)])
+                && (from..=to).contains(&t)
+            {
+                part.pass(0, t, y);
+            }
+        }
+        part.extremes(0)
+    }
+
+    /// The value of the channel at `index` at a time \[s\], on the line between two records; `None` outside of the records.
+    pub fn at(&self, index: usize, time: f64) -> Option<f64> {
+        let value = |row: usize| self.rows[row * self.channels.len() + index];
+        let above = self.times.partition_point(|t| *t < time);
+        let next = *self.times.get(above)?;
+        if next == time {
+            return Some(value(above));
+        }
+        let below = above.checked_sub(1)?;
+        let part = (time - self.times[below]) / (next - self.times[below]);
+        Some((1.0 - part) * value(below) + part * value(above))
     }
 
     /// The largest absolute value of each channel.

@@ -1,0 +1,115 @@
+//! The value of a quantity in a run.
+
+use super::super::Run;
+use super::{Of, OfContact, Quantity, Value, Work};
+use flexion::analysis::recording::{Entry, Events};
+use flexion_results::Trajectory;
+
+/// A value, and its time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Measured {
+    /// In the unit of the quantity.
+    pub value: f64,
+    /// When the run first has it, or the last time that it is of \[s\].
+    pub time: f64,
+}
+
+impl Quantity {
+    /// Its value in a run.
+    pub(super) fn measure_run(&self, run: &Run) -> Result<Measured, String> {
+        let last = run.trajectory.times().last().copied().unwrap_or(f64::NAN);
+        let at_end = |value: f64| Ok(Measured { value, time: last });
+        match &self.of {
+            Of::Column(column, value) => self.measure_column(&run.trajectory, column, *value),
+            Of::Contact(contact, what) => self.measure_contact(&run.events, contact, *what, run.state.t),
+            Of::Work(work) => at_end(match work {
+                Work::Steps => run.counters.steps as f64,
+                Work::Rejected => run.counters.rejected as f64,
+                Work::Residuals => run.counters.residuals as f64,
+                Work::Factorisations => run.counters.factorizations as f64,
+                Work::Seconds => run.cpu_time.unwrap_or(run.wall_time),
+            }),
+            Of::End => at_end(run.state.t),
+            Of::Trusted => {
+                let errors = run.errors.as_ref().ok_or("the errors of the run were not estimated")?;
+                match &errors.unknown {
+                    Some(why) => Err(why.clone()),
+                    None => at_end(errors.trusted),
+                }
+            }
+        }
+    }
+
+    pub(super) fn measure_column(
+        &self,
+        of: &Trajectory,
+        column: &str,
+        value: Value,
+    ) -> Result<Measured, String> {
+        let index = of.index(column).ok_or_else(|| format!("the run has no column `{column}`"))?;
+        let last = of.times().last().copied().unwrap_or(f64::NAN);
+        if let Value::At(time) = value {
+            let value = of.at(index, time).ok_or_else(|| format!("the run ends at t = {last} s"))?;
+            return Ok(Measured { value, time });
+        }
+        let (from, to) = self.within.unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
+        if to.is_finite() && !(last >= to * (1.0 - 1e-9)) {
+            return Err(format!("the run ends at t = {last} s"));
+        }
+        let extremes =
+            if self.within.is_some() { of.extremes_within(index, from, to) } else { of.extremes(index) };
+        if let Some(time) = extremes.not_finite {
+            return Err(format!("{column} is not finite at t = {time} s"));
+        }
+        if extremes.min.is_nan() {
+            return Err(format!("the run ends at t = {last} s, and has no record from t = {from} s on"));
+        }
+        let end = last.min(to);
+        let (value, time) = match value {
+            Value::Min => (extremes.min, extremes.t_min),
+            Value::Max => (extremes.max, extremes.t_max),
+            Value::Final | Value::At(_) => (extremes.last, end),
+            Value::TimeOfMin => (extremes.t_min, extremes.t_min),
+            Value::TimeOfMax => (extremes.t_max, extremes.t_max),
+            Value::Amplitude => (0.5 * extremes.range(), end),
+            Value::Middle => (0.5 * (extremes.max + extremes.min), end),
+            Value::Largest if extremes.max.abs() >= extremes.min.abs() => {
+                (extremes.max.abs(), extremes.t_max)
+            }
+            Value::Largest => (extremes.min.abs(), extremes.t_min),
+        };
+        Ok(Measured { value, time })
+    }
+
+    fn measure_contact(
+        &self,
+        events: &Events,
+        contact: &str,
+        what: OfContact,
+        end: f64,
+    ) -> Result<Measured, String> {
+        let (from, to) = self.within.unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
+        let within =
+            |entry: &&Entry| (from..=to).contains(&entry.time) && events.name(entry.contact) == contact;
+        if to.is_finite() && end < to {
+            return Err(format!("the run ends at t = {end} s"));
+        }
+        let of = |kinds: &'static [&'static str]| {
+            events.list.iter().filter(within).filter(move |entry| kinds.contains(&entry.what))
+        };
+        let sum = |kinds, value: fn(&Entry) -> Option<f64>| of(kinds).filter_map(value).sum::<f64>();
+        let at_end = |value: f64| Ok(Measured { value, time: end.min(to) });
+        match what {
+            OfContact::FirstTouch => {
+                let first = of(&["impact", "touched", "closed"]).next();
+                let time = first
+                    .map(|entry| entry.time)
+                    .ok_or_else(|| format!("{contact} is not touched until t = {end} s"))?;
+                Ok(Measured { value: time, time })
+            }
+            OfContact::Impulse => at_end(sum(&["burst", "left"], |entry| entry.impulse)),
+            OfContact::Impacts => at_end(of(&["impact", "touched"]).count() as f64),
+            OfContact::Loss => at_end(sum(&["impact", "left"], |entry| entry.lost)),
+        }
+    }
+}
