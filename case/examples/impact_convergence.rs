@@ -150,7 +150,14 @@ fn convergence() {
         for (k, panel) in panels.iter_mut().enumerate() {
             let name = (k == 2 && line == Line::Solid).then(|| law.to_owned());
             let points = points.iter().map(|(unknowns, values)| (*unknowns as f64, values[k])).collect();
-            panel.series.push(Series { name, points, line, marker: Some(marker), color: Some(color) });
+            panel.series.push(Series {
+                name,
+                points,
+                line,
+                marker: Some(marker),
+                color: Some(color),
+                ..Series::default()
+            });
         }
     }
     let title = "Solid: modes. Dashed: finite elements".to_owned();

@@ -390,6 +390,7 @@ fn along(blade: &Blade, turning: Option<Turning>) -> Panel {
         line: Line::None,
         marker: Some(Marker::Circle),
         color: Some(EDGE),
+        band: Vec::new(),
     });
     let mut pointer = |from: (f64, f64), by: (f64, f64), color: usize, text: &str| {
         let to = (from.0 + by.0, from.1 + by.1);

@@ -210,6 +210,7 @@ fn enlarged(
             line: Line::None,
             marker: Some(Marker::Circle),
             color: Some(*color),
+            band: Vec::new(),
         }
     };
     let series: Vec<Series> = shown.iter().map(impulses).collect();

@@ -251,6 +251,14 @@ impl Drawing {
             self.front.push(Shape::Text { at, text, anchor: 0.5, upright: true, ink: style::INK });
         }
         for (number, series) in p.panel.series.iter().enumerate() {
+            let ink = style::TINT + series.ink(number);
+            let moved = |(x, y): Point| (left + x, top + y);
+            let areas = p.bands(series).into_iter();
+            self.curves.extend(
+                areas.map(|points| Shape::Area { points: points.into_iter().map(moved).collect(), ink }),
+            );
+        }
+        for (number, series) in p.panel.series.iter().enumerate() {
             let (ink, dash) = (series.ink(number), style::dash(series.line));
             let place = |(x, y): Point| (left + x, top + y);
             let strokes = if series.line == Line::None { Vec::new() } else { p.strokes(series) };

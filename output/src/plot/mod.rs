@@ -136,6 +136,8 @@ pub struct Series {
     pub marker: Option<Marker>,
     /// Which colour of the palette; `None` for the position of the series in its panel.
     pub color: Option<usize>,
+    /// Half the height of a band about each point, in the unit of the vertical axis, as of an error; none where it is empty.
+    pub band: Vec<f64>,
 }
 
 impl Series {

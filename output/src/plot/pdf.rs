@@ -83,6 +83,6 @@ fn path(out: &mut String, points: &[Point]) {
 }
 
 fn color(ink: usize) -> String {
-    let [r, g, b] = style::INKS[ink].map(|c| f64::from(c) / 255.0);
+    let [r, g, b] = style::color(ink).map(|c| f64::from(c) / 255.0);
     format!("{r:.3} {g:.3} {b:.3}")
 }

@@ -38,6 +38,35 @@ impl Placed<'_> {
         out
     }
 
+    /// The outlines of the band about a curve, piece by piece, within the frame.
+    pub(super) fn bands(&self, series: &Series) -> Vec<Vec<Point>> {
+        let end = |(x, y): (f64, f64)| self.pixel((x, y)).map(|(x, y)| (x, y.clamp(0.0, self.size.1)));
+        let limits = |((x, y), half): (&(f64, f64), &f64)| {
+            let (high, low) = (end((*x, y + half))?, end((*x, y - half))?);
+            (0.0..=self.size.0).contains(&high.0).then_some((high, low))
+        };
+        let limits: Vec<Option<(Point, Point)>> =
+            series.points.iter().zip(&series.band).map(limits).collect();
+        let mut out = Vec::new();
+        for piece in limits.split(Option::is_none) {
+            // The widest of those of one half of a pixel.
+            let mut columns: Vec<(Point, Point)> = Vec::new();
+            for (high, low) in piece.iter().flatten() {
+                match columns.last_mut() {
+                    Some((top, bottom)) if high.0 - top.0 < 0.5 => {
+                        (top.1, bottom.1) = (top.1.min(high.1), bottom.1.max(low.1));
+                    }
+                    _ => columns.push((*high, *low)),
+                }
+            }
+            if columns.len() > 1 {
+                let upper = columns.iter().map(|(high, _)| *high);
+                out.push(upper.chain(columns.iter().rev().map(|(_, low)| *low)).collect());
+            }
+        }
+        out
+    }
+
     /// The points of a series that are in the frame.
     pub(super) fn marks(&self, series: &Series) -> Vec<Point> {
         let inside = |(x, y): &Point| {

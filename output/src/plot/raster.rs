@@ -103,6 +103,8 @@ impl Raster {
     }
 
     fn blend(pixel: &mut u8, ink: usize, part: f64) {
+        let (ink, part) =
+            if ink < style::TINT { (ink, part) } else { (ink - style::TINT, style::TINTED * part) };
         let tint = (part * f64::from(TINTS)).round().min(f64::from(TINTS)) as u8;
         if tint == 0 {
             return;

@@ -44,7 +44,14 @@ fn series(path: &LoadPath, i: usize) -> Vec<Series> {
         let name = (!named.contains(&stable)).then(|| if stable { "stable" } else { "unstable" }.to_owned());
         named.push(stable);
         let line = if stable { Line::Solid } else { Line::Dashed };
-        curves.push(Series { name, points: piece, line, color: Some(usize::from(!stable)), marker: None });
+        curves.push(Series {
+            name,
+            points: piece,
+            line,
+            color: Some(usize::from(!stable)),
+            marker: None,
+            band: Vec::new(),
+        });
     }
     for (kind, marker) in [
         (Critical::Limit, Marker::Circle),
@@ -55,7 +62,14 @@ fn series(path: &LoadPath, i: usize) -> Vec<Series> {
             path.critical().filter(|(_, critical)| *critical == kind).map(|(point, _)| at(point)).collect();
         if !points.is_empty() {
             let name = Some(kind.name().to_owned());
-            curves.push(Series { name, points, line: Line::None, marker: Some(marker), color: Some(2) });
+            curves.push(Series {
+                name,
+                points,
+                line: Line::None,
+                marker: Some(marker),
+                color: Some(2),
+                band: Vec::new(),
+            });
         }
     }
     curves

@@ -17,6 +17,12 @@ pub(super) const INKS: [[u8; 3]; 11] = [
     [0xE4, 0xE4, 0xE4],
     [0xFF, 0xFF, 0xFF],
 ];
+/// A colour on white paper.
+pub(super) fn color(ink: usize) -> [u8; 3] {
+    let part = if ink < TINT { 1.0 } else { TINTED };
+    INKS[ink % TINT].map(|c| (255.0 - part * (255.0 - f64::from(c))).round() as u8)
+}
+
 /// The coordinates of the three views of a system in space.
 pub(super) const VIEWS: [[usize; 2]; 3] = [[0, 1], [0, 2], [1, 2]];
 
@@ -28,6 +34,9 @@ pub(super) const INK: usize = 8;
 pub(super) const GRID: usize = 9;
 /// Paper.
 pub(super) const WHITE: usize = 10;
+/// A colour with this added is a tint of it, of which this part covers the paper: that of a band about a curve.
+pub(super) const TINT: usize = 16;
+pub(super) const TINTED: f64 = 0.25;
 
 /// Fonts of the SVG; the first is that of the other formats.
 pub(super) const FONTS: &str = "DejaVu Sans, Helvetica, Arial, sans-serif";

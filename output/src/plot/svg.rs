@@ -54,7 +54,7 @@ pub(super) fn svg<'a>(size: (f64, f64), shapes: impl Iterator<Item = &'a Shape>)
 }
 
 fn color(ink: usize) -> String {
-    let [r, g, b] = style::INKS[ink];
+    let [r, g, b] = style::color(ink);
     format!("#{r:02X}{g:02X}{b:02X}")
 }
 

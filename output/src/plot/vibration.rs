@@ -126,6 +126,7 @@ pub fn campbell_figure(campbell: &Campbell, revolutions: u32, units: &Units, tit
             line: Line::None,
             marker: Some(Marker::Ring),
             color: Some(BLACK),
+            band: Vec::new(),
         });
     }
     if !campbell.criticals.is_empty() {
@@ -135,6 +136,7 @@ pub fn campbell_figure(campbell: &Campbell, revolutions: u32, units: &Units, tit
             line: Line::None,
             marker: Some(Marker::Circle),
             color: Some(BLACK),
+            band: Vec::new(),
         });
     }
     series.extend(instabilities(campbell, top, &place));
@@ -210,6 +212,7 @@ fn instabilities(campbell: &Campbell, top: f64, place: &dyn Fn(f64, f64) -> (f64
             line: Line::None,
             marker: Some(Marker::Triangle),
             color: Some(BLACK),
+            band: Vec::new(),
         });
     }
     series
